@@ -1,0 +1,45 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <vector>
+
+#include "concave_distance/distance/triangle_distance.h"
+#include "concave_distance/mesh/body_mesh.h"
+
+namespace concave_distance {
+
+/// A pair of witness points on the original surfaces. Both points in body A's frame.
+struct WitnessPair {
+  double squared_distance = 0.0;
+  Eigen::Vector3d point_a_in_a = Eigen::Vector3d::Zero();
+  Eigen::Vector3d point_b_in_a = Eigen::Vector3d::Zero();
+  TriangleIndex triangle_a;  ///< original triangles that carry the points
+  TriangleIndex triangle_b;
+  Feature feature_a = Feature::Face;
+  Feature feature_b = Feature::Face;
+};
+
+struct WitnessRefinement {
+  WitnessPair witness;
+  /// No triangle that touches either witness offers a closer point: a proven local minimum of |p - q| up to
+  /// the stated tolerance. False only when `iterations` reached the limit.
+  bool proven = false;
+  std::uint32_t iterations = 0;        ///< triangle pair distances computed
+  std::uint32_t triangles_opened = 0;  ///< triangles looked at by the proof
+};
+
+/// Buffers of one thread; cleared, never freed.
+struct RefinementWorkspace {
+  std::vector<TriangleIndex> ring;
+};
+
+/// Polishes a pair of original triangles to the exact local minimum of the distance around them.
+/// Why the proof is cheap: (p, q) minimises |p - q| over the convex product tA x tB if and only if p is the
+/// point of tA closest to q and q that of tB closest to p (the variational inequality of a product of convex
+/// sets separates), so it is enough to look at the triangles around p and those around q one side at a time.
+/// Terminates: every step strictly decreases the distance and the triangle pairs are finitely many.
+WitnessRefinement refineWitness(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
+                                TriangleIndex start_a, TriangleIndex start_b, RefinementWorkspace& workspace);
+
+}  // namespace concave_distance

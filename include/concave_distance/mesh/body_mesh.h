@@ -1,0 +1,65 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "concave_distance/mesh/mesh_metric.h"
+#include "concave_distance/mesh/mesh_topology.h"
+#include "concave_distance/mesh/node_graph.h"
+#include "concave_distance/mesh/refine_mesh.h"
+#include "concave_distance/mesh/surface_mesh.h"
+#include "concave_distance/mesh/triangle_tree.h"
+
+namespace concave_distance {
+
+struct BodyMeshOptions {
+  /// Grid size of the search, metres: the longest edge between nodes. Empty: automaticEdgeLength().
+  std::optional<double> max_edge_length;
+  MeshMetricOptions metric;
+};
+
+/// The grid the search needs, chosen for recall and not for accuracy (the exact levels use the original
+/// triangles): a stated fraction of the body's diameter, not below what keeps the node count within a few
+/// thousand.
+double automaticEdgeLength(const SurfaceMesh& surface);
+
+/// One body, ready for queries: the original surface with its topology and tree for the exact levels, the
+/// refined grid with its graph and metric for the search. Immutable; shared between pairs and threads.
+class BodyMesh {
+ public:
+  /// @param surface repaired, original triangles, body frame, metres
+  /// @throws Error (naming the body) for options out of range
+  BodyMesh(std::string name, SurfaceMesh surface, const BodyMeshOptions& options);
+  BodyMesh(const BodyMesh&) = delete;
+  BodyMesh& operator=(const BodyMesh&) = delete;
+
+  const std::string& name() const { return name_; }
+  const SurfaceMesh& surface() const { return surface_; }
+  const MeshTopology& topology() const { return topology_; }
+  const TriangleTree& tree() const { return tree_; }
+  const SurfaceMesh& grid() const { return refined_.mesh; }
+  const NodeGraph& graph() const { return graph_; }
+  const MeshMetric& metric() const { return *metric_; }
+  double maxEdgeLength() const { return max_edge_length_; }
+  double diameter() const { return surface_.diameter(); }
+  /// An original triangle that the grid node lies on.
+  TriangleIndex originalTriangle(NodeIndex grid_node) const {
+    return original_triangle_of_node_[grid_node.value];
+  }
+  std::size_t memoryBytes() const;
+
+ private:
+  std::string name_;
+  SurfaceMesh surface_;
+  MeshTopology topology_;
+  TriangleTree tree_;
+  double max_edge_length_;
+  RefinedMesh refined_;
+  NodeGraph graph_;
+  std::vector<TriangleIndex> original_triangle_of_node_;
+  std::unique_ptr<MeshMetric> metric_;
+};
+
+}  // namespace concave_distance

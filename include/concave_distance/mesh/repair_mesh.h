@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "concave_distance/mesh/surface_mesh.h"
+
+namespace concave_distance {
+
+struct RepairOptions {
+  /// Vertices closer than this, relative to the bounding box's diagonal, become one. 0 welds equal ones only.
+  double weld_tolerance = 0.0;
+  bool orient = true;  ///< turn triangles so that neighbours agree, and closed shells outwards
+};
+
+/// What repairMesh found and changed; counts refer to the input unless they say otherwise.
+struct RepairReport {
+  std::size_t vertices_in = 0;
+  std::size_t triangles_in = 0;
+  std::size_t welded_vertices = 0;
+  std::size_t unused_vertices = 0;
+  std::size_t zero_area_triangles = 0;  ///< dropped
+  std::size_t duplicate_triangles = 0;  ///< dropped; same three vertices, either winding
+  std::size_t turned_triangles = 0;
+  std::size_t shells = 0;  ///< of the result, as the rest
+  std::size_t closed_shells = 0;
+  std::size_t holes = 0;  ///< loops of border edges
+  std::size_t border_edges = 0;
+  std::size_t non_manifold_edges = 0;
+  /// One short line for a log: empty when nothing was found or changed.
+  std::string summary() const;
+};
+
+struct RepairedMesh {
+  SurfaceMesh mesh;
+  RepairReport report;
+};
+
+/// Welds, drops what has no area and what is there twice, and orients. No vertex moves but by welding, so
+/// distances between surfaces stay right. Dropping a zero-area triangle whose segment is covered by no other
+/// triangle would change the surface; such triangles are kept out of the surface and counted.
+/// O(n log n). @throws Error when nothing with an area is left (`where` names the file)
+RepairedMesh repairMesh(const TriangleSoup& soup, const RepairOptions& options, const std::string& where);
+
+}  // namespace concave_distance

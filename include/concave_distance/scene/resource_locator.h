@@ -1,0 +1,20 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+namespace concave_distance {
+
+/// Gives a package's folder, empty when it is not known. The node passes rospack's, tools search
+/// ROS_PACKAGE_PATH (packagePathFromEnvironment): so the core links no ROS library.
+using PackageLocator = std::function<std::string(const std::string& package)>;
+
+/// Looks for `<package>/package.xml` under each folder of ROS_PACKAGE_PATH and CMAKE_PREFIX_PATH's share.
+std::string packagePathFromEnvironment(const std::string& package);
+
+/// Turns package://, file:// and paths relative to `base_folder` into a path of this machine.
+/// @throws Error naming the resource: unknown package or scheme, empty, missing file
+std::string locateResource(const std::string& resource, const std::string& base_folder,
+                           const PackageLocator& package_locator);
+
+}  // namespace concave_distance

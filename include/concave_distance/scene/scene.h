@@ -1,0 +1,60 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "concave_distance/mesh/body_mesh.h"
+#include "concave_distance/mesh/repair_mesh.h"
+#include "concave_distance/tracking/tracker_parameters.h"
+
+namespace concave_distance {
+
+/// One rigid piece of a scene. Its frame is a tf frame; the mesh is expressed in it.
+struct SceneBody {
+  std::string name;   ///< unique in the scene; a robot's link is `<prefix><link>`
+  std::string frame;  ///< tf frame the body is fixed to
+  std::shared_ptr<const BodyMesh> mesh;
+  RepairReport repair;
+  std::string source;           ///< file or URDF element it came from, for messages
+  bool in_robot_model = false;  ///< rviz can draw it from robot_description; no mesh marker needed
+  Eigen::Vector4d colour = Eigen::Vector4d(0.6, 0.6, 0.65, 1.0);  ///< red, green, blue, opacity in [0, 1]
+};
+
+/// Per pair, from the scene file: defaults, then the groups in order, then the pair's own entry.
+struct PairSettings {
+  TrackerParameters tracker;
+  /// An alert is raised below this, metres; infinite negative: never.
+  std::optional<double> warning_distance;
+  /// ... and taken back above warning_distance + hysteresis, metres.
+  double warning_hysteresis = 0.01;
+};
+
+struct ScenePair {
+  std::string name;        ///< `<body_a>/<body_b>` unless the scene file names it; letters, digits, _ and /
+  std::size_t body_a = 0;  ///< index into Scene::bodies
+  std::size_t body_b = 0;
+  bool enabled = true;
+  PairSettings settings;
+};
+
+/// A body or element that could not be loaded: the rest of the scene is served without it.
+struct SceneProblem {
+  std::string where;
+  std::string message;
+};
+
+struct Scene {
+  std::vector<SceneBody> bodies;
+  std::vector<ScenePair> pairs;  ///< enabled ones and those disabled by name; filtered pairs are not listed
+  std::vector<SceneProblem> problems;
+  std::vector<std::string> notes;  ///< repairs and filters applied, one line each
+
+  std::optional<std::size_t> findBody(const std::string& name) const;
+  std::optional<std::size_t> findPair(const std::string& name_a, const std::string& name_b) const;
+};
+
+}  // namespace concave_distance

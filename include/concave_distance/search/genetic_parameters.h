@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace concave_distance {
+
+enum class SelectionMethod : std::uint8_t { StochasticUniversalSampling, Roulette };
+enum class MatingMethod : std::uint8_t { Mesh, Phenotypic, Genotypic };
+enum class NichingMethod : std::uint8_t {
+  None,
+  Sharing,
+  DynamicSharing,
+  DeterministicCrowding,
+  SimpleCrowding
+};
+
+/// Every parameter of the combinatorial genetic algorithm (Carretero, ch. 3 and 4). Lengths in metres.
+struct GeneticParameters {
+  std::uint32_t population_size = 100;         ///< N_pop, even, >= 2
+  std::uint32_t max_generations = 30;          ///< G_max
+  double crossover_probability = 0.6;          ///< p_x
+  std::optional<double> mutation_probability;  ///< p_m per individual; empty: 1 / N_pop (Table 5.22)
+  double final_mutation_probability_factor =
+      1.0;                                 ///< variable mutation rate: p_m is scaled linearly to this factor
+  std::optional<double> mutation_radius;   ///< r_max, mesh distance; empty: anywhere on the shell
+  bool shrinking_mutation_radius = false;  ///< r_max decays over the generations as exp(-5 g / G_max)
+  SelectionMethod selection = SelectionMethod::StochasticUniversalSampling;
+  MatingMethod mating = MatingMethod::Mesh;
+  NichingMethod niching = NichingMethod::Sharing;
+  bool local_optimization = true;        ///< Lamarckian descent of every new individual (-wl / -nl)
+  std::optional<double> sharing_radius;  ///< sigma_s; empty: automaticRadii()
+  double sharing_exponent = 1.0;         ///< alpha_s
+  std::optional<double> mating_radius;   ///< sigma_m; empty: 1.25 sigma_s
+  bool mating_restriction = true;
+  std::optional<double> niche_radius;  ///< sigma_n; empty: sigma_s
+  std::uint32_t crowding_factor = 3;   ///< C_f of simple crowding
+  double generation_gap = 1.0;         ///< share of the population replaced a generation, (0, 1]
+  std::uint32_t elite_count = 1;       ///< best individuals that always survive
+  /// Stop when the best and the set of niches have not changed for this many generations; 0: never early.
+  std::uint32_t convergence_generations = 0;
+
+  /// @throws Error naming the parameter, the value seen and the allowed range
+  void validate(const std::string& where) const;
+};
+
+/// The three radii of niching, mesh distance over both bodies (Delta, Carretero eq. (4.5)), metres.
+struct NicheRadii {
+  double sharing;
+  double mating;
+  double niche;
+};
+
+}  // namespace concave_distance

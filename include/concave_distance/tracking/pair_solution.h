@@ -1,0 +1,74 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <limits>
+#include <string_view>
+#include <vector>
+
+#include "concave_distance/distance/niche_properties.h"
+#include "concave_distance/search/trial_point.h"
+
+namespace concave_distance {
+
+/// How exact an answer is (DESIGN.md, "Accuracy is a dial").
+enum class AccuracyLevel : std::uint8_t { Nodes, Refined };
+std::string_view toString(AccuracyLevel level);
+
+/// What became of a solve; a solve never throws.
+enum class SolveStatus : std::uint8_t { Ok, Penetrating, InvalidPose, BudgetExhausted };
+std::string_view toString(SolveStatus status);
+
+inline constexpr double kNotComputed = std::numeric_limits<double>::quiet_NaN();
+
+/// A local minimum of a pair's distance, followed over time.
+struct TrackedNiche {
+  std::uint64_t id = 0;            ///< persistent while the niche lives, never used again afterwards
+  double distance = kNotComputed;  ///< metres
+  Eigen::Vector3d point_a_in_a = Eigen::Vector3d::Constant(kNotComputed);
+  Eigen::Vector3d point_b_in_a = Eigen::Vector3d::Constant(kNotComputed);
+  /// Unit vector in A's frame from A's witness to B's; where they touch, A's pseudonormal.
+  Eigen::Vector3d normal_in_a = Eigen::Vector3d::Constant(kNotComputed);
+  double closing_speed = kNotComputed;  ///< m/s, positive when approaching; from the last cycle's distance
+  NicheKind kind = NicheKind::Point;
+  double extent = 0.0;  ///< metres, see NicheExtent::length
+  Outwardness outward = Outwardness::Outward;
+  bool visible = true;
+  /// Lower value of (pass level / distance - 1) to any deeper niche found so far; infinite for the deepest.
+  double prominence = kNotComputed;
+  bool proven_local_minimum = false;
+  std::uint64_t birth_cycle = 0;
+  WitnessPair witness;   ///< triangles and features, for warm starts
+  TrialPoint node_pair;  ///< where the search grid has it
+};
+
+struct NicheEvent {
+  enum class Kind : std::uint8_t { Birth, Death, Merge };
+  Kind kind;
+  std::uint64_t id;
+  std::uint64_t into_id;  ///< of a merge: the older niche that lives on
+};
+
+/// One pair's answer at one time. Not-computed numbers are NaN, never 0 or a sentinel.
+struct PairSolution {
+  SolveStatus status = SolveStatus::Ok;
+  AccuracyLevel accuracy = AccuracyLevel::Refined;
+  double distance = kNotComputed;     ///< metres; 0 when penetrating
+  double lower_bound = kNotComputed;  ///< proven; NaN at levels that prove none
+  Eigen::Vector3d point_a_in_a = Eigen::Vector3d::Constant(kNotComputed);
+  Eigen::Vector3d point_b_in_a = Eigen::Vector3d::Constant(kNotComputed);
+  /// Distance of the surfaces where a closed body has swallowed the other (status penetrating).
+  double surface_distance = kNotComputed;
+  std::vector<TrackedNiche> niches;  ///< ascending by distance; capacity is kept
+  std::vector<NicheEvent> events;
+  bool niches_cut = false;  ///< more niches were known than the largest count allows
+  std::uint32_t niches_beyond_cutoff = 0;
+  std::uint64_t cycle = 0;
+  bool warm = false;
+  bool search_miss = false;  ///< this cycle found a niche closer than the last cycle could have moved to
+  std::uint64_t seed = 0;
+  SearchCost cost;
+  double solve_seconds = kNotComputed;
+};
+
+}  // namespace concave_distance

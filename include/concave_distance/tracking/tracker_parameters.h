@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <string>
+
+#include "concave_distance/search/genetic_parameters.h"
+#include "concave_distance/tracking/pair_solution.h"
+
+namespace concave_distance {
+
+/// How one pair is solved and followed. Lengths in metres.
+struct TrackerParameters {
+  AccuracyLevel accuracy = AccuracyLevel::Refined;
+  GeneticParameters cold;            ///< first cycle, service calls, after a reset
+  GeneticParameters warm;            ///< every further cycle; usually a small population and few generations
+  double inherited_per_niche = 3.0;  ///< alpha_Gamma (Carretero, eq. (6.8))
+  std::uint32_t inherited_limit = 30;  ///< N_popGamma_max (6.8)
+  std::uint32_t immigrants = 8;        ///< random individuals a warm cycle descends besides
+  bool extrapolate = true;             ///< start from where the relative velocity has carried the witnesses
+  double least_prominence = 1e-2;      ///< niches with less are merged into their deeper neighbour
+  double cutoff = std::numeric_limits<double>::infinity();  ///< niches farther than this are not reported
+  std::uint32_t largest_niche_count = 64;                   ///< of the report; a cut is always reported
+  bool niches_wanted = true;                                ///< false: only the distance is asked for
+  bool keep_through_material = false;  ///< report niches of the dark side, flagged, instead of dropping them
+  std::uint64_t seed = 1;
+
+  TrackerParameters();
+  /// @throws Error naming the parameter, the value seen and the allowed range
+  void validate(const std::string& where) const;
+};
+
+}  // namespace concave_distance
