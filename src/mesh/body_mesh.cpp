@@ -1,0 +1,73 @@
+#include "concave_distance/mesh/body_mesh.h"
+
+#include <cmath>
+
+#include "concave_distance/base/error.h"
+
+namespace concave_distance {
+namespace {
+
+// Nodes that the automatic grid aims at when the mesh itself has fewer.
+constexpr double kTargetNodeCount = 1200.0;
+
+double edgeLengthOf(const std::string& name, const SurfaceMesh& surface, const BodyMeshOptions& options) {
+  if (!options.max_edge_length) {
+    return automaticEdgeLength(surface);
+  }
+  const double length = *options.max_edge_length;
+  if (!(length > 0.0) || !std::isfinite(length)) {
+    throw Error(name, "max_edge_length is " + std::to_string(length),
+                "give a positive, finite length in metres or leave it out");
+  }
+  return length;
+}
+
+}  // namespace
+
+double automaticEdgeLength(const SurfaceMesh& surface) {
+  double area = 0.0;
+  for (const TriangleNodes& t : surface.triangles()) {
+    area += 0.5 * (surface.vertex(t[1]) - surface.vertex(t[0]))
+                      .cross(surface.vertex(t[2]) - surface.vertex(t[0]))
+                      .norm();
+  }
+  // Bisection leaves about one node per half a squared edge length; a body that is long and thin would get
+  // edges longer than it is thick, hence the second term.
+  return std::min(std::sqrt(2.0 * area / kTargetNodeCount), surface.diameter() / 8.0);
+}
+
+BodyMesh::BodyMesh(std::string name, SurfaceMesh surface, const BodyMeshOptions& options)
+    : name_(std::move(name)),
+      surface_(std::move(surface)),
+      topology_(buildMeshTopology(surface_)),
+      tree_(surface_),
+      max_edge_length_(edgeLengthOf(name_, surface_, options)),
+      refined_(refineToEdgeLength(surface_, max_edge_length_)),
+      graph_(buildNodeGraph(refined_.mesh)),
+      original_triangle_of_node_(graph_.nodeCount()),
+      metric_(std::make_unique<MeshMetric>(graph_, options.metric)) {
+  // Descending, so that the triangle of least index wins and the answer does not depend on the container.
+  for (std::size_t t = refined_.mesh.triangleCount(); t-- > 0;) {
+    for (const NodeIndex node : refined_.mesh.triangles()[t]) {
+      original_triangle_of_node_[node.value] = refined_.original_triangle[t];
+    }
+  }
+}
+
+std::size_t BodyMesh::memoryBytes() const {
+  const auto meshBytes = [](const SurfaceMesh& mesh) {
+    return mesh.vertexCount() * sizeof(Eigen::Vector3d) + mesh.triangleCount() * sizeof(TriangleNodes);
+  };
+  const std::size_t topology = topology_.triangles_of_vertex.values.size() * sizeof(TriangleIndex) +
+                               topology_.neighbours_of_vertex.values.size() * sizeof(NodeIndex) +
+                               surface_.triangleCount() * (3 * sizeof(TriangleIndex) + sizeof(std::uint32_t) +
+                                                           sizeof(Eigen::Vector3d)) +
+                               surface_.vertexCount() * (3 * sizeof(std::uint32_t) + sizeof(Eigen::Vector3d));
+  const std::size_t graph = graph_.edges.values.size() * sizeof(NodeGraph::Edge) +
+                            graph_.nodeCount() * (sizeof(Eigen::Vector3d) + 3 * sizeof(std::uint32_t));
+  return meshBytes(surface_) + meshBytes(refined_.mesh) +
+         refined_.original_triangle.size() * sizeof(TriangleIndex) + topology + graph + tree_.memoryBytes() +
+         metric_->memoryBytes();
+}
+
+}  // namespace concave_distance
