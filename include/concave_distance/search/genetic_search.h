@@ -27,6 +27,8 @@ struct SearchWorkspace {
   std::vector<std::uint64_t> trail;
   std::vector<NodeIndex> path;
   std::vector<IdentifiedNiche> niches;
+
+  std::size_t memoryBytes() const;  ///< of all buffers, the metric's cache included
 };
 
 /// Watches a run, for figures and tables; called after each generation (0 is the initial population).
@@ -48,7 +50,9 @@ struct GeneticResult {
 
 /// comb-GA (Carretero, ch. 3 and 4): initial population = `inherited`, the rest random; block order of fig.
 /// 4.3 (sharing between evaluation and selection) or fig. 4.4 (crowding between mating and mutation). The
-/// final population stays in workspace.population, every local minimum met in workspace.basins.minima()
+/// final population stays in workspace.population, every local minimum met is added to workspace.basins, which
+/// the caller clears once a cycle: basins descended before the call are not descended again.
+/// workspace.basins.minima() is
 /// (the archive's food) when local optimisation is on. `radii` from automaticRadii().
 /// @param observer called once a generation when not empty; the only call that may allocate in a warm run
 /// Otherwise allocates only while the workspace warms up. Never throws: parameters were validated.
