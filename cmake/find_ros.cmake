@@ -1,0 +1,37 @@
+# Looks for catkin and for the ROS packages that the node needs.
+# Sets CONCAVE_DISTANCE_ROS_FOUND; when it is OFF the core, the tools and their tests are built alone.
+set(CONCAVE_DISTANCE_ROS_PACKAGES
+  diagnostic_updater
+  dynamic_reconfigure
+  geometry_msgs
+  interactive_markers
+  message_generation
+  nodelet
+  pluginlib
+  roscpp
+  roslib
+  std_msgs
+  std_srvs
+  tf2
+  tf2_eigen
+  tf2_ros
+  visualization_msgs)
+
+set(CONCAVE_DISTANCE_ROS_FOUND OFF)
+find_package(catkin QUIET)
+if(catkin_FOUND)
+  find_package(catkin QUIET COMPONENTS ${CONCAVE_DISTANCE_ROS_PACKAGES})
+  set(CONCAVE_DISTANCE_ROS_MISSING "")
+  foreach(ros_package IN LISTS CONCAVE_DISTANCE_ROS_PACKAGES)
+    if(NOT ${ros_package}_FOUND)
+      list(APPEND CONCAVE_DISTANCE_ROS_MISSING ${ros_package})
+    endif()
+  endforeach()
+  if(CONCAVE_DISTANCE_ROS_MISSING)
+    message(STATUS "No node is built: these ROS packages were not found: ${CONCAVE_DISTANCE_ROS_MISSING}")
+  else()
+    set(CONCAVE_DISTANCE_ROS_FOUND ON)
+  endif()
+else()
+  message(STATUS "No node is built: catkin was not found")
+endif()

@@ -1,0 +1,38 @@
+# What is installed, and the exported target, for the devel space (or build tree) and for the install space.
+set(concave_distance_config_destination ${CATKIN_PACKAGE_SHARE_DESTINATION}/cmake)
+
+install(TARGETS concave_distance_core EXPORT concave_distance-targets
+  ARCHIVE DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
+  LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
+  RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+export(EXPORT concave_distance-targets NAMESPACE concave_distance::
+  FILE ${CATKIN_DEVEL_PREFIX}/${concave_distance_config_destination}/concave_distance-targets.cmake)
+install(EXPORT concave_distance-targets NAMESPACE concave_distance::
+  DESTINATION ${concave_distance_config_destination})
+install(DIRECTORY include/concave_distance/ DESTINATION ${CATKIN_PACKAGE_INCLUDE_DESTINATION})
+
+# Without catkin the config file is the extras file itself.
+if(NOT CONCAVE_DISTANCE_WITH_ROS)
+  include(CMakePackageConfigHelpers)
+  set(concave_distance_config_directory ${CATKIN_DEVEL_PREFIX}/${concave_distance_config_destination})
+  configure_file(cmake/concave_distance-extras.cmake.in
+    ${concave_distance_config_directory}/concave_distanceConfig.cmake @ONLY)
+  write_basic_package_version_file(${concave_distance_config_directory}/concave_distanceConfigVersion.cmake
+    COMPATIBILITY SameMinorVersion)
+  install(FILES
+    ${concave_distance_config_directory}/concave_distanceConfig.cmake
+    ${concave_distance_config_directory}/concave_distanceConfigVersion.cmake
+    DESTINATION ${concave_distance_config_destination})
+  install(FILES package.xml DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
+endif()
+
+foreach(program distance_query mesh_tool)
+  if(TARGET ${program})
+    install(TARGETS ${program} RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+  endif()
+endforeach()
+foreach(folder config launch meshes rviz urdf)
+  if(IS_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/${folder})
+    install(DIRECTORY ${folder} DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
+  endif()
+endforeach()

@@ -1,0 +1,20 @@
+# The messages, services and dynamic_reconfigure files of the package; called before catkin_package().
+set(CONCAVE_DISTANCE_MESSAGES
+)
+set(CONCAVE_DISTANCE_SERVICES
+)
+set(CONCAVE_DISTANCE_DYNAMIC_RECONFIGURE
+)
+
+if(CONCAVE_DISTANCE_MESSAGES)
+  add_message_files(FILES ${CONCAVE_DISTANCE_MESSAGES})
+endif()
+if(CONCAVE_DISTANCE_SERVICES)
+  add_service_files(FILES ${CONCAVE_DISTANCE_SERVICES})
+endif()
+if(CONCAVE_DISTANCE_MESSAGES OR CONCAVE_DISTANCE_SERVICES)
+  generate_messages(DEPENDENCIES geometry_msgs std_msgs)
+endif()
+if(CONCAVE_DISTANCE_DYNAMIC_RECONFIGURE)
+  generate_dynamic_reconfigure_options(${CONCAVE_DISTANCE_DYNAMIC_RECONFIGURE})
+endif()
