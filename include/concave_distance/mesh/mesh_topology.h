@@ -21,7 +21,9 @@ struct MeshTopology {
   std::vector<std::array<TriangleIndex, 3>> triangle_across_edge;
   std::vector<std::uint32_t> shell_of_vertex;  ///< connected component; isolated vertices have their own
   std::vector<std::uint32_t> shell_of_triangle;
-  std::vector<bool> shell_is_closed;  ///< every edge of the shell has two triangles of opposite winding
+  /// Every edge of the shell has two triangles of opposite winding (where solids touch along an edge: as many
+  /// one way as the other).
+  std::vector<bool> shell_is_closed;
   std::vector<Eigen::Vector3d> triangle_normals;  ///< unit; zero for a triangle without area
   /// Angle-weighted sum of the incident normals, unit (Baerentzen and Aanaes 2005): its sign against the
   /// direction to a nearby point tells inside from outside.
