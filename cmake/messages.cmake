@@ -1,9 +1,29 @@
 # The messages, services and dynamic_reconfigure files of the package; called before catkin_package().
 set(CONCAVE_DISTANCE_MESSAGES
+  Alert.msg
+  BodyInfo.msg
+  DistanceQuery.msg
+  Distances.msg
+  Niche.msg
+  NicheEvent.msg
+  Niches.msg
+  PairDistance.msg
+  PairInfo.msg
+  PairNiches.msg
+  PairStatus.msg
+  Problem.msg
 )
 set(CONCAVE_DISTANCE_SERVICES
+  AddBody.srv
+  GetDistance.srv
+  GetDistances.srv
+  ListBodies.srv
+  RemoveBody.srv
+  ResetTracking.srv
+  SetPairEnabled.srv
 )
 set(CONCAVE_DISTANCE_DYNAMIC_RECONFIGURE
+  config/ConcaveDistance.cfg
 )
 
 if(CONCAVE_DISTANCE_MESSAGES)
