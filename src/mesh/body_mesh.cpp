@@ -63,11 +63,9 @@ std::size_t BodyMesh::memoryBytes() const {
                                surface_.triangleCount() * (3 * sizeof(TriangleIndex) + sizeof(std::uint32_t) +
                                                            sizeof(Eigen::Vector3d)) +
                                surface_.vertexCount() * (3 * sizeof(std::uint32_t) + sizeof(Eigen::Vector3d));
-  const std::size_t graph = graph_.edges.values.size() * sizeof(NodeGraph::Edge) +
-                            graph_.nodeCount() * (sizeof(Eigen::Vector3d) + 3 * sizeof(std::uint32_t));
   return meshBytes(surface_) + meshBytes(refined_.mesh) +
-         refined_.original_triangle.size() * sizeof(TriangleIndex) + topology + graph + tree_.memoryBytes() +
-         metric_->memoryBytes();
+         refined_.original_triangle.size() * sizeof(TriangleIndex) + topology + graph_.memoryBytes() +
+         tree_.memoryBytes() + metric_->memoryBytes();
 }
 
 }  // namespace concave_distance

@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <utility>
 #include <vector>
 
 #include "concave_distance/mesh/node_graph.h"
@@ -11,25 +10,29 @@
 namespace concave_distance {
 
 struct MeshMetricOptions {
-  /// Up to this many nodes the distance and predecessor matrices are kept (4 + 2 bytes an entry); beyond,
-  /// bounded searches on demand with a cache, memory linear in nodes.
+  /// Up to this many nodes (at most 65535, the range of a predecessor) the distance and predecessor matrices
+  /// are kept, 4 + 2 bytes an entry; beyond, bounded searches on demand with a cache, memory linear in nodes.
   std::size_t matrix_node_limit = 4096;
 };
 
 /// The mesh distance delta and its shortest paths (Carretero, sec. 3.1.2; Dijkstra 1959). Immutable, shared
 /// between threads; queries go through a MeshMetricQuery, one per thread.
-/// Symmetric and obeys the triangle inequality up to float rounding: relative error at most
-/// (edges on the path + 1) * 2^-24.
+/// Path lengths are summed exactly (NodeGraph::Edge), so a distance is the exact minimum rounded once to
+/// float: exactly symmetric, the same with matrices and without, never below the straight distance by more
+/// than 2^-24 relative, and d(a,c) <= (d(a,b) + d(b,c)) (1 + 2^-22).
 class MeshMetric {
  public:
-  MeshMetric(const NodeGraph& graph, const MeshMetricOptions& options);  ///< the graph must outlive it
-  bool hasMatrices() const { return !distance_.empty(); }
+  /// Builds the matrices in parallel, O(n^2 log n), when the graph is small enough.
+  /// @param graph must outlive the metric
+  MeshMetric(const NodeGraph& graph, const MeshMetricOptions& options);
+  bool hasMatrices() const { return has_matrices_; }
   const NodeGraph& graph() const { return *graph_; }
   /// Matrix entry, metres; infinity between shells. Only when hasMatrices().
   float matrixDistance(NodeIndex from, NodeIndex to) const {
     return distance_[from.value * node_count_ + to.value];
   }
-  /// Last node before `to` on the path from `from` (the matrix P). Only when hasMatrices().
+  /// Last node before `to` on the path from `from` (the matrix P); `from` itself when they are equal.
+  /// Only when hasMatrices() and both lie on one shell.
   NodeIndex matrixPredecessor(NodeIndex from, NodeIndex to) const {
     return NodeIndex{std::uint32_t{predecessor_[from.value * node_count_ + to.value]}};
   }
@@ -38,36 +41,69 @@ class MeshMetric {
  private:
   const NodeGraph* graph_;
   std::size_t node_count_;
+  bool has_matrices_;
   std::vector<float> distance_;
   std::vector<std::uint16_t> predecessor_;
 };
 
-/// Buffers and cache for one thread's queries; allocates only while warming up.
+/// Buffers and cache for one thread's queries. With matrices it holds nothing; without, less than 250 bytes
+/// a node, allocated by the first query.
 class MeshMetricQuery {
  public:
   explicit MeshMetricQuery(const MeshMetric& metric);
+  const MeshMetric& metric() const { return *metric_; }
 
   /// delta(from, to) when it is at most `bound`, else infinity (also between shells). Metres.
+  /// O(1) with matrices; else O(log n) when a ball around either node is cached, O(b log b) for the b nodes
+  /// within `bound` of `from` when not. Balls are dropped in the order they came.
   double distanceWithin(NodeIndex from, NodeIndex to, double bound);
 
-  /// Nodes of a shortest path, `from` and `to` included; empty between shells. `path` keeps its capacity.
-  /// Beyond the matrices the search is guided and bounded; the path is still a shortest one.
-  void shortestPath(NodeIndex from, NodeIndex to, std::vector<NodeIndex>& path);
+  /// Nodes of a shortest path, `from` and `to` included; empty between shells and when it is longer than
+  /// `bound`, metres. `path` keeps its capacity. Beyond the matrices a search guided by the straight
+  /// distance (A*, Hart, Nilsson and Raphael 1968).
+  void shortestPath(NodeIndex from, NodeIndex to, std::vector<NodeIndex>& path,
+                    double bound = std::numeric_limits<double>::infinity());
+
+  std::size_t memoryBytes() const;
 
  private:
-  struct CachedSource {
-    NodeIndex source;
-    double radius = -1.0;  ///< everything within is settled
-    std::uint64_t last_use = 0;
-    std::vector<std::pair<NodeIndex, float>> settled;  ///< ascending by node
+  struct BallEntry {
+    NodeIndex node;
+    float distance;
   };
+  /// What one bounded search settled: ball_entries_[first, first + count), ascending by node.
+  struct Ball {
+    NodeIndex source;
+    double radius;
+    std::size_t first;
+    std::size_t count;
+  };
+  struct OpenNode {
+    double key;
+    double path_length;
+    NodeIndex node;
+  };
+  void allocate();
+  void clearSearch();
+  void open(NodeIndex node, double path_length, double key, NodeIndex predecessor);
+  bool takeNearest(OpenNode& nearest);
+  const Ball* cachedBall(NodeIndex source, double radius) const;
+  const Ball& searchBall(NodeIndex source, double radius);
+  const Ball& storeBall(NodeIndex source, double radius);
+  void dropOldestBall();
+  float ballDistance(const Ball& ball, NodeIndex node) const;
+
   const MeshMetric* metric_;
-  std::vector<CachedSource> cache_;
-  std::uint64_t clock_ = 0;
-  std::vector<float> tentative_;
+  std::vector<BallEntry> ball_entries_;  ///< ring: the next ball overwrites the oldest ones
+  std::vector<Ball> balls_;              ///< ring as well, in the same order
+  std::size_t oldest_ball_ = 0;
+  std::size_t ball_count_ = 0;
+  std::size_t next_entry_ = 0;
+  std::vector<std::uint32_t> ball_of_node_;  ///< slot in balls_ or kNoBall
+  std::vector<double> path_length_;          ///< of the running search; infinity where not reached
   std::vector<NodeIndex> predecessor_;
-  std::vector<NodeIndex> touched_;
-  std::vector<std::pair<float, NodeIndex>> heap_;
+  std::vector<NodeIndex> reached_;
+  std::vector<OpenNode> heap_;
 };
 
 }  // namespace concave_distance

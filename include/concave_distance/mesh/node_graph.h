@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -12,17 +13,25 @@ namespace concave_distance {
 struct NodeGraph {
   struct Edge {
     NodeIndex to;
-    float length;  ///< metres, rounded to nearest from double; used by the mesh metric only
+    /// Metres; used by the mesh metric only. Rounded up to a float that is a multiple of `length_quantum`,
+    /// so never below the straight distance, and sums along any path are exact in double.
+    float length;
   };
   std::vector<Eigen::Vector3d> positions;  ///< body frame, metres
   CompressedRows<Edge> edges;              ///< the adjacency Pi, ascending by node
-  std::vector<std::uint32_t> shell;        ///< connected component of each node
+  /// Entry k is the position of edges.values[k].to: a descent reads all neighbours from one place.
+  std::vector<Eigen::Vector3d> neighbour_positions;
+  std::vector<std::uint32_t> shell;  ///< connected component of each node
   std::uint32_t shell_count = 0;
+  /// Power of two, metres: at most 2^-50 of the sum of all edge lengths.
+  double length_quantum = 0.0;
 
   std::size_t nodeCount() const { return positions.size(); }
+  std::size_t memoryBytes() const;
 };
 
-/// Nodes that no triangle uses are left without edges and form shells of their own. O(n log n).
+/// Nodes that no triangle uses are left without edges and form shells of their own; shells are numbered by
+/// their first node. O(n log n).
 NodeGraph buildNodeGraph(const SurfaceMesh& grid);
 
 }  // namespace concave_distance
