@@ -1,0 +1,105 @@
+#!/usr/bin/env bash
+# Installs what the package needs from the distribution's packages, only what is missing.
+#   scripts/install_dependencies.sh [build] [test] [demo] [format] [lint]      (default: build test demo)
+# Debian 12 has everything in its main archive. Ubuntu 20.04 needs the ROS Noetic archive set up beforehand.
+set -euo pipefail
+# shellcheck source=scripts/common.sh
+. "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+
+# shellcheck disable=SC2034  # the arrays are used by name
+{
+  debian_build=(
+    g++ cmake ninja-build
+    libassimp-dev libeigen3-dev libtbb-dev liburdfdom-dev libyaml-cpp-dev libcli11-dev zlib1g-dev
+    catkin python3-dynamic-reconfigure ros-message-generation ros-message-runtime
+    libdiagnostic-updater-dev libdynamic-reconfigure-config-init-mutex-dev libgeometry-msgs-dev
+    libinteractive-markers-dev libnodelet-dev libnodeletlib-dev libroscpp-dev libroslib-dev libstd-msgs-dev
+    libstd-srvs-dev libtf2-dev libtf2-eigen-dev libtf2-ros-dev libvisualization-msgs-dev pluginlib-dev
+    ros-geometry-msgs ros-std-msgs ros-std-srvs ros-visualization-msgs
+  )
+  debian_test=(
+    libgtest-dev librapidcheck-dev libfcl-dev libboost-dev libbenchmark-dev
+    librostest-dev python3-rostest libnodeletlib-tools
+  )
+  debian_demo=(
+    python3-roslaunch python3-rospy python3-rostopic rosbash rviz ros-robot-state-publisher
+  )
+  debian_format=(clang-format)
+  debian_lint=(clang-format clang-tidy catkin-lint)
+
+  noetic_build=(
+    g++ cmake ninja-build
+    libassimp-dev libeigen3-dev libtbb-dev liburdfdom-dev libyaml-cpp-dev zlib1g-dev
+    ros-noetic-catkin ros-noetic-diagnostic-updater ros-noetic-dynamic-reconfigure ros-noetic-geometry-msgs
+    ros-noetic-interactive-markers ros-noetic-message-generation ros-noetic-nodelet ros-noetic-pluginlib
+    ros-noetic-roscpp ros-noetic-roslib ros-noetic-std-msgs ros-noetic-std-srvs ros-noetic-tf2
+    ros-noetic-tf2-eigen ros-noetic-tf2-ros ros-noetic-visualization-msgs
+  )
+  noetic_test=(libgtest-dev libfcl-dev libboost-dev libbenchmark-dev ros-noetic-rostest)
+  noetic_demo=(
+    ros-noetic-roslaunch ros-noetic-rospy ros-noetic-rostopic ros-noetic-rosbash ros-noetic-rviz
+    ros-noetic-robot-state-publisher
+  )
+  noetic_format=(clang-format)
+  noetic_lint=(clang-format clang-tidy)
+}
+
+# shellcheck disable=SC1091
+distribution="$(. /etc/os-release 2>/dev/null && echo "${ID:-unknown} ${VERSION_ID:-unknown}")"
+case "$distribution" in
+  "debian 12") family=debian ;;
+  "ubuntu 20.04") family=noetic ;;
+  *)
+    die "this script knows Debian 12 and Ubuntu 20.04 (ROS Noetic), not '$distribution'.
+Install by hand what package.xml lists, then build with: cmake -S . -B build && cmake --build build"
+    ;;
+esac
+
+groups=("$@")
+[ ${#groups[@]} -gt 0 ] || groups=(build test demo)
+wanted=()
+for group in "${groups[@]}"; do
+  case "$group" in
+    build | test | demo | format | lint)
+      declare -n packages="${family}_${group}"
+      wanted+=("${packages[@]}")
+      ;;
+    *) die "unknown group '$group': expected build, test, demo, format or lint" ;;
+  esac
+done
+
+is_installed() {
+  [[ "$(dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null)" == installed* ]]
+}
+missing=()
+for package in "${wanted[@]}"; do
+  is_installed "$package" || missing+=("$package")
+done
+if [ ${#missing[@]} -eq 0 ]; then
+  say "dependencies (${groups[*]}): all ${#wanted[@]} packages are installed"
+  exit 0
+fi
+
+as_root=()
+if [ "$(id -u)" -ne 0 ]; then
+  command -v sudo >/dev/null || die "packages are missing and neither root nor sudo is at hand; run as root:
+  apt-get update && apt-get install --no-install-recommends ${missing[*]}"
+  as_root=(sudo)
+  [ -t 0 ] || as_root=(sudo -n)  # nobody can type a password
+fi
+
+apt() {
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -q -y -o Acquire::Retries=3 \
+    -o DPkg::Lock::Timeout=300 -o Dpkg::Options::=--force-confold "$@"
+}
+say "installing ${#missing[@]} missing package(s): ${missing[*]}"
+apt update || say "apt-get update failed; trying with the package lists that are here"
+for package in "${missing[@]}"; do
+  apt-cache show "$package" >/dev/null 2>&1 && continue
+  case "$package" in
+    ros-noetic-*) die "apt does not know $package: set up the ROS Noetic archive first (wiki.ros.org/noetic/Installation/Ubuntu)" ;;
+    *) die "apt does not know $package: are main (Debian) or universe (Ubuntu) enabled below /etc/apt?" ;;
+  esac
+done
+apt install --no-install-recommends "${missing[@]}"
+say "dependencies (${groups[*]}): installed"

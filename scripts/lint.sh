@@ -1,0 +1,43 @@
+#!/usr/bin/env bash
+# Static checks.
+#   scripts/lint.sh [format] [tidy] [catkin] [shell]     (default: all of them)
+# format: clang-format on every source file. tidy: clang-tidy over the whole package (many minutes; needs a
+# configured build). catkin: catkin_lint with all notices. shell: shellcheck on the scripts, where it is installed.
+set -euo pipefail
+# shellcheck source=scripts/common.sh
+. "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+cd "$package_dir"
+
+checks=("$@")
+[ ${#checks[@]} -gt 0 ] || checks=(format tidy catkin shell)
+if [ "${checks[*]}" = format ]; then
+  scripts/install_dependencies.sh format
+else
+  scripts/install_dependencies.sh build test lint
+fi
+
+check_format() {
+  find include src test -name '*.h' -print0 -o -name '*.cpp' -print0 | xargs -0 clang-format --dry-run --Werror
+}
+check_tidy() {
+  [ -f "$build_dir/compile_commands.json" ] || scripts/build.sh all
+  find src test -path test/consumer -prune -o -name '*.cpp' -print0 |
+    xargs -0 -n 1 -P "$(job_count)" clang-tidy --quiet -p "$build_dir"
+}
+check_catkin() {
+  catkin_lint -W2 --strict --offline .
+}
+check_shell() {
+  if ! command -v shellcheck >/dev/null; then
+    say "shellcheck is not installed: the scripts are not checked"
+    return
+  fi
+  shellcheck -x scripts/*.sh .ci/run
+}
+
+failed=()
+for check in "${checks[@]}"; do
+  declare -F "check_$check" >/dev/null || die "unknown check '$check': expected format, tidy, catkin or shell"
+  if "check_$check"; then say "$check: clean"; else failed+=("$check"); fi
+done
+[ ${#failed[@]} -eq 0 ] || die "not clean: ${failed[*]}"

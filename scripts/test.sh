@@ -1,0 +1,63 @@
+#!/usr/bin/env bash
+# Installs what is missing, builds everything and runs every test: unit tests, consumer package, rostests.
+#   scripts/test.sh [--format]        --format: check the source formatting too
+# The last line is `N passed, N failed`, counted in test cases; the exit status is 0 only when none failed.
+set -euo pipefail
+# shellcheck source=scripts/common.sh
+. "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+exec </dev/null
+
+format=
+case "${1:-}" in
+  "") ;;
+  --format) format=1 ;;
+  *) die "unknown option '$1'" ;;
+esac
+
+count_arguments=()
+finish_without_tests() {
+  say "$1"
+  echo "0 passed, 1 failed"
+  exit 1
+}
+
+started=$SECONDS
+"$package_dir/scripts/install_dependencies.sh" build test demo ||
+  finish_without_tests "the dependencies could not be installed"
+if [ -n "$format" ]; then
+  if "$package_dir/scripts/lint.sh" format; then
+    count_arguments+=(--success "source formatting")
+  else
+    count_arguments+=(--failure "source formatting")
+  fi
+fi
+say "dependencies are there after $((SECONDS - started)) s"
+
+source_ros
+"$package_dir/scripts/build.sh" all -DCONCAVE_DISTANCE_BUILD_TESTS=ON ||
+  count_arguments+=(--failure "the build (see the first error above)")
+[ -f "$build_dir/CTestTestfile.cmake" ] || finish_without_tests "the build could not be configured"
+say "built after $((SECONDS - started)) s"
+
+# Names that need no resolver, and logs that do not end in the home directory.
+export ROS_HOSTNAME=localhost ROS_LOG_DIR="$build_dir/ros_logs" ROS_HOME="$build_dir/ros_home"
+unset ROS_IP ROS_MASTER_URI
+rm -rf "$build_dir/test_results"
+mkdir -p "$build_dir/test_results" "$ROS_LOG_DIR"
+
+# run_tests <name> <ctest arguments ...>: what failed is kept in failed-<name>.log.
+run_tests() {
+  local name="$1" kept="$build_dir/test_results/failed-$1.log"
+  shift
+  rm -f "$build_dir/Testing/Temporary/LastTestsFailed.log"
+  (cd "$build_dir" && ctest --timeout 300 --output-on-failure "$@") || true
+  if [ -f "$build_dir/Testing/Temporary/LastTestsFailed.log" ]; then
+    cp "$build_dir/Testing/Temporary/LastTestsFailed.log" "$kept"
+  fi
+  count_arguments+=(--failed-log "$kept")
+  say "$name tests are through after $((SECONDS - started)) s"
+}
+run_tests unit --exclude-regex _rostest_ --parallel "$(job_count)"
+run_tests node --tests-regex _rostest_  # one at a time: they measure time
+
+/usr/bin/python3 "$package_dir/scripts/count_test_results.py" "$build_dir" "${count_arguments[@]}"
