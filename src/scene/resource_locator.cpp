@@ -1,0 +1,202 @@
+#include "concave_distance/scene/resource_locator.h"
+
+#include <tinyxml2.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <optional>
+#include <sstream>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+#include "concave_distance/base/error.h"
+
+namespace concave_distance {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Workspaces nest packages in repositories, seldom deeper than this.
+constexpr int kDeepestPackageFolder = 5;
+
+int hexDigit(char c) {
+  if (c >= '0' && c <= '9') return c - '0';
+  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
+  return -1;
+}
+
+// RFC 3986, sec. 2.1; a % that no two hexadecimal digits follow stands for itself, as people write it.
+std::string decodePercent(std::string_view text) {
+  std::string decoded;
+  decoded.reserve(text.size());
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '%' && i + 2 < text.size()) {
+      const int high = hexDigit(text[i + 1]);
+      const int low = hexDigit(text[i + 2]);
+      if (high >= 0 && low >= 0) {
+        decoded.push_back(static_cast<char>(16 * high + low));
+        i += 2;
+        continue;
+      }
+    }
+    decoded.push_back(text[i]);
+  }
+  return decoded;
+}
+
+bool startsWith(std::string_view text, std::string_view beginning) {
+  return text.substr(0, beginning.size()) == beginning;
+}
+
+// A scheme as in RFC 3986, sec. 3.1, followed by "://".
+std::optional<std::string> schemeOf(std::string_view resource) {
+  const std::size_t end = resource.find("://");
+  if (end == std::string_view::npos || end == 0) return std::nullopt;
+  for (const char c : resource.substr(0, end)) {
+    const bool allowed = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                         c == '+' || c == '-' || c == '.';
+    if (!allowed) return std::nullopt;
+  }
+  return std::string(resource.substr(0, end));
+}
+
+// The first candidate that is a file. Nothing else serves: a folder or a socket has no triangles.
+std::string firstFile(const std::string& resource, const std::vector<std::string>& candidates) {
+  for (const std::string& candidate : candidates) {
+    if (candidate.find('\0') != std::string::npos) {
+      throw Error(resource, "the file name holds a zero byte", "remove %00 from it");
+    }
+    std::error_code error;
+    if (fs::is_regular_file(candidate, error)) return candidate;
+  }
+  std::error_code error;
+  if (fs::is_directory(candidates.front(), error)) {
+    throw Error(resource, "'" + candidates.front() + "' is a folder", "name a file");
+  }
+  if (fs::exists(candidates.front(), error)) {
+    throw Error(resource, "'" + candidates.front() + "' is no regular file", "name a file");
+  }
+  throw Error(resource, "file '" + candidates.front() + "' does not exist",
+              "check the path and its upper and lower case letters");
+}
+
+std::string locateInPackage(const std::string& resource, const PackageLocator& package_locator) {
+  const std::string rest = resource.substr(std::string_view("package://").size());
+  const std::size_t slash = rest.find('/');
+  const std::string package = decodePercent(std::string_view(rest).substr(0, slash));
+  if (package.empty() || slash == std::string::npos || slash + 1 == rest.size()) {
+    throw Error(resource, "a package and a file in it are expected", "write package://<package>/<path>");
+  }
+  const std::string folder = package_locator ? package_locator(package) : std::string();
+  if (folder.empty()) {
+    throw Error(resource, "package '" + package + "' is not known",
+                "install it or source the workspace that has it (ROS_PACKAGE_PATH)");
+  }
+  const std::string path = rest.substr(slash + 1);
+  return firstFile(resource, {(fs::path(folder) / fs::path(decodePercent(path)).relative_path()).string(),
+                              (fs::path(folder) / fs::path(path).relative_path()).string()});
+}
+
+// RFC 8089: file:///path, file://localhost/path.
+std::string locateFileUri(const std::string& resource) {
+  const std::string rest = resource.substr(std::string_view("file://").size());
+  const std::size_t slash = rest.find('/');
+  const std::string host = rest.substr(0, slash);
+  if (slash == std::string::npos || !(host.empty() || host == "localhost")) {
+    throw Error(resource, "'" + host + "' stands where a host name is expected",
+                "write file:///<absolute path>, or a path without file:// for a relative one");
+  }
+  const std::string path = rest.substr(slash);
+  return firstFile(resource, {decodePercent(path), path});
+}
+
+std::string packageNameIn(const fs::path& package_xml) {
+  tinyxml2::XMLDocument document;
+  if (document.LoadFile(package_xml.c_str()) != tinyxml2::XML_SUCCESS) return {};
+  const tinyxml2::XMLElement* root = document.FirstChildElement("package");
+  const tinyxml2::XMLElement* name = root != nullptr ? root->FirstChildElement("name") : nullptr;
+  const char* text = name != nullptr ? name->GetText() : nullptr;
+  return text != nullptr ? text : std::string();
+}
+
+// Depth first, in the order of names, not below a package and not where CATKIN_IGNORE says so.
+std::string crawl(const fs::path& folder, const std::string& package, int depth) {
+  std::error_code error;
+  if (fs::exists(folder / "CATKIN_IGNORE", error)) return {};
+  if (fs::is_regular_file(folder / "package.xml", error)) {
+    return packageNameIn(folder / "package.xml") == package ? folder.string() : std::string();
+  }
+  if (depth == 0) return {};
+  std::vector<fs::path> children;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+    std::error_code entry_error;
+    if (entry.is_directory(entry_error) && entry.path().filename().string().front() != '.') {
+      children.push_back(entry.path());
+    }
+  }
+  std::sort(children.begin(), children.end());
+  for (const fs::path& child : children) {
+    std::string found = crawl(child, package, depth - 1);
+    if (!found.empty()) return found;
+  }
+  return {};
+}
+
+std::vector<std::string> pathsIn(const char* variable) {
+  std::vector<std::string> paths;
+  const char* value = std::getenv(variable);
+  if (value == nullptr) return paths;
+  std::istringstream stream(value);
+  for (std::string path; std::getline(stream, path, ':');) {
+    if (!path.empty()) paths.push_back(path);
+  }
+  return paths;
+}
+
+}  // namespace
+
+std::string packagePathFromEnvironment(const std::string& package) {
+  if (package.empty() || package.find('/') != std::string::npos || package.front() == '.') return {};
+  const std::vector<std::string> workspaces = pathsIn("ROS_PACKAGE_PATH");
+  std::vector<std::string> shares = workspaces;
+  for (const std::string& prefix : pathsIn("CMAKE_PREFIX_PATH")) shares.push_back(prefix + "/share");
+  // Where Debian's own ROS packages are; they come without a setup file that would say so.
+  shares.emplace_back("/usr/share");
+  for (const std::string& share : shares) {
+    const fs::path folder = fs::path(share) / package;
+    std::error_code error;
+    if (fs::is_regular_file(folder / "package.xml", error)) return folder.string();
+  }
+  for (const std::string& workspace : workspaces) {
+    std::string found = crawl(workspace, package, kDeepestPackageFolder);
+    if (!found.empty()) return found;
+  }
+  return {};
+}
+
+std::string locateResource(const std::string& resource, const std::string& base_folder,
+                           const PackageLocator& package_locator) {
+  if (resource.empty()) {
+    throw Error("resource", "the file name is empty",
+                "give package://<package>/<path>, file:///<path> or a path");
+  }
+  if (startsWith(resource, "package://")) return locateInPackage(resource, package_locator);
+  if (startsWith(resource, "file://")) return locateFileUri(resource);
+  if (const std::optional<std::string> scheme = schemeOf(resource)) {
+    throw Error(resource, "scheme '" + *scheme + "' is not known",
+                "use package://, file:// or a path of this machine");
+  }
+  const fs::path path(resource);
+  if (path.is_absolute()) return firstFile(resource, {resource, decodePercent(resource)});
+  if (base_folder.empty()) {
+    throw Error(resource, "a relative path, and the text it stands in comes from no file",
+                "write package://<package>/<path> or an absolute path");
+  }
+  const fs::path base(base_folder);
+  return firstFile(resource, {(base / path).string(), (base / decodePercent(resource)).string()});
+}
+
+}  // namespace concave_distance
