@@ -2,10 +2,15 @@
 # except Eigen). Older distributions name the same things by variables instead of targets.
 find_package(Eigen3 REQUIRED)
 find_package(Threads REQUIRED)
+#catkin_lint: ignore_once missing_cmake_modules
 find_package(TBB REQUIRED)
 find_package(yaml-cpp REQUIRED)
 find_package(assimp REQUIRED)
-find_package(urdfdom REQUIRED)
+if(NOT TARGET urdfdom::urdfdom_model)
+  # Its rosdep key is liburdfdom-dev; catkin_lint expects the name of the CMake package.
+  #catkin_lint: skip
+  find_package(urdfdom REQUIRED)
+endif()
 find_package(console_bridge REQUIRED)
 find_package(tinyxml2 REQUIRED)
 

@@ -1,20 +1,21 @@
 # What is installed, and the exported target, for the devel space (or build tree) and for the install space.
-set(concave_distance_config_destination ${CATKIN_PACKAGE_SHARE_DESTINATION}/cmake)
+set(concave_distance_config_destination ${CONCAVE_DISTANCE_SHARE_DESTINATION}/cmake)
 
 install(TARGETS concave_distance_core EXPORT concave_distance-targets
-  ARCHIVE DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
-  LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
-  RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+  ARCHIVE DESTINATION ${CONCAVE_DISTANCE_LIB_DESTINATION}
+  LIBRARY DESTINATION ${CONCAVE_DISTANCE_LIB_DESTINATION}
+  RUNTIME DESTINATION ${CONCAVE_DISTANCE_BIN_DESTINATION})
 export(EXPORT concave_distance-targets NAMESPACE concave_distance::
-  FILE ${CATKIN_DEVEL_PREFIX}/${concave_distance_config_destination}/concave_distance-targets.cmake)
+  FILE ${CONCAVE_DISTANCE_DEVEL_SPACE}/${concave_distance_config_destination}/concave_distance-targets.cmake)
 install(EXPORT concave_distance-targets NAMESPACE concave_distance::
   DESTINATION ${concave_distance_config_destination})
-install(DIRECTORY include/concave_distance/ DESTINATION ${CATKIN_PACKAGE_INCLUDE_DESTINATION})
+install(DIRECTORY include/concave_distance/ DESTINATION ${CONCAVE_DISTANCE_INCLUDE_DESTINATION})
 
 # Without catkin the config file is the extras file itself.
 if(NOT CONCAVE_DISTANCE_WITH_ROS)
+  #catkin_lint: ignore missing_file
   include(CMakePackageConfigHelpers)
-  set(concave_distance_config_directory ${CATKIN_DEVEL_PREFIX}/${concave_distance_config_destination})
+  set(concave_distance_config_directory ${CONCAVE_DISTANCE_DEVEL_SPACE}/${concave_distance_config_destination})
   configure_file(cmake/concave_distance-extras.cmake.in
     ${concave_distance_config_directory}/concave_distanceConfig.cmake @ONLY)
   write_basic_package_version_file(${concave_distance_config_directory}/concave_distanceConfigVersion.cmake
@@ -23,16 +24,16 @@ if(NOT CONCAVE_DISTANCE_WITH_ROS)
     ${concave_distance_config_directory}/concave_distanceConfig.cmake
     ${concave_distance_config_directory}/concave_distanceConfigVersion.cmake
     DESTINATION ${concave_distance_config_destination})
-  install(FILES package.xml DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
+  install(FILES package.xml DESTINATION ${CONCAVE_DISTANCE_SHARE_DESTINATION})
 endif()
 
 foreach(program distance_query mesh_tool)
   if(TARGET ${program})
-    install(TARGETS ${program} RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+    install(TARGETS ${program} RUNTIME DESTINATION ${CONCAVE_DISTANCE_BIN_DESTINATION})
   endif()
 endforeach()
 foreach(folder config launch meshes rviz urdf)
-  if(IS_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/${folder})
-    install(DIRECTORY ${folder} DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
+  if(IS_DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}/${folder}")
+    install(DIRECTORY ${folder} DESTINATION ${CONCAVE_DISTANCE_SHARE_DESTINATION})
   endif()
 endforeach()

@@ -10,7 +10,8 @@ set -euo pipefail
 {
   debian_build=(
     g++ cmake ninja-build
-    libassimp-dev libeigen3-dev libtbb-dev liburdfdom-dev libyaml-cpp-dev libcli11-dev zlib1g-dev
+    libassimp-dev libeigen3-dev libtbb-dev liburdfdom-dev libyaml-cpp-dev libcli11-dev
+    libconsole-bridge-dev libtinyxml2-dev zlib1g-dev
     catkin python3-dynamic-reconfigure ros-message-generation ros-message-runtime
     libdiagnostic-updater-dev libdynamic-reconfigure-config-init-mutex-dev libgeometry-msgs-dev
     libinteractive-markers-dev libnodelet-dev libnodeletlib-dev libroscpp-dev libroslib-dev libstd-msgs-dev
@@ -29,7 +30,8 @@ set -euo pipefail
 
   noetic_build=(
     g++ cmake ninja-build
-    libassimp-dev libeigen3-dev libtbb-dev liburdfdom-dev libyaml-cpp-dev zlib1g-dev
+    libassimp-dev libeigen3-dev libtbb-dev liburdfdom-dev libyaml-cpp-dev
+    libconsole-bridge-dev libtinyxml2-dev zlib1g-dev
     ros-noetic-catkin ros-noetic-diagnostic-updater ros-noetic-dynamic-reconfigure ros-noetic-geometry-msgs
     ros-noetic-interactive-markers ros-noetic-message-generation ros-noetic-nodelet ros-noetic-pluginlib
     ros-noetic-roscpp ros-noetic-roslib ros-noetic-std-msgs ros-noetic-std-srvs ros-noetic-tf2
