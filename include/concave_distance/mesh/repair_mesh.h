@@ -24,9 +24,10 @@ struct RepairReport {
   std::size_t turned_triangles = 0;
   std::size_t shells = 0;  ///< of the result, as the rest
   std::size_t closed_shells = 0;
-  std::size_t holes = 0;  ///< loops of border edges
+  std::size_t holes = 0;  ///< loops of border edges, each followed along the rim of the triangles it bounds
   std::size_t border_edges = 0;
-  std::size_t non_manifold_edges = 0;
+  std::size_t non_manifold_edges = 0;  ///< used by more than two triangles
+  std::size_t inconsistent_edges = 0;  ///< two triangles in the same direction; left over by a Moebius strip
   /// One short line for a log: empty when nothing was found or changed.
   std::string summary() const;
 };

@@ -1,0 +1,219 @@
+#include "concave_distance/mesh/repair_mesh.h"
+
+#include <algorithm>
+#include <limits>
+#include <sstream>
+
+#include "concave_distance/base/error.h"
+#include "edge_table.h"
+#include "orient_triangles.h"
+#include "union_find.h"
+#include "weld_vertices.h"
+
+namespace concave_distance {
+namespace {
+
+void checkSoup(const TriangleSoup& soup, const RepairOptions& options, const std::string& where) {
+  if (!(options.weld_tolerance >= 0.0) || !(options.weld_tolerance < 1.0)) {
+    std::ostringstream seen;
+    seen << "the weld tolerance is " << options.weld_tolerance;
+    throw Error(where, seen.str(), "give a fraction of the size, from 0 to below 1");
+  }
+  for (std::size_t i = 0; i < soup.vertices.size(); ++i) {
+    if (!soup.vertices[i].allFinite()) {
+      throw Error(where, "vertex " + std::to_string(i) + " has a coordinate that is not finite",
+                  "export the mesh again");
+    }
+  }
+  for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
+    for (const std::uint32_t vertex : soup.triangles[t]) {
+      if (vertex >= soup.vertices.size()) {
+        throw Error(where,
+                    "triangle " + std::to_string(t) + " refers to vertex " + std::to_string(vertex) + " of " +
+                        std::to_string(soup.vertices.size()),
+                    "export the mesh again");
+      }
+    }
+  }
+}
+
+/// No area beyond what the rounding of its edge vectors may feign: the height over the longest edge is at
+/// most four units of rounding of that edge.
+bool hasNoArea(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
+  const Eigen::Vector3d ab = b - a;
+  const Eigen::Vector3d ac = c - a;
+  const double longest = std::max({ab.squaredNorm(), ac.squaredNorm(), (c - b).squaredNorm()});
+  constexpr double kRounding = 4.0 * std::numeric_limits<double>::epsilon();
+  return ab.cross(ac).norm() <= kRounding * longest;
+}
+
+/// Drops every triangle that has the same three corners as an earlier one; returns how many.
+std::size_t dropDuplicates(std::vector<TriangleNodes>& triangles) {
+  struct Keyed {
+    TriangleNodes nodes;  ///< ascending
+    std::size_t triangle;
+  };
+  std::vector<Keyed> keyed(triangles.size());
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    keyed[t] = {triangles[t], t};
+    std::sort(keyed[t].nodes.begin(), keyed[t].nodes.end());
+  }
+  std::sort(keyed.begin(), keyed.end(), [](const Keyed& l, const Keyed& r) {
+    return l.nodes != r.nodes ? l.nodes < r.nodes : l.triangle < r.triangle;
+  });
+  std::vector<bool> keep(triangles.size(), true);
+  for (std::size_t i = 1; i < keyed.size(); ++i) {
+    keep[keyed[i].triangle] = keyed[i].nodes != keyed[i - 1].nodes;
+  }
+  std::size_t kept = 0;
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    if (keep[t]) {
+      triangles[kept++] = triangles[t];
+    }
+  }
+  const std::size_t dropped = triangles.size() - kept;
+  triangles.resize(kept);
+  return dropped;
+}
+
+/// Keeps the vertices that a triangle uses, in their order; returns how many fell.
+std::size_t dropUnused(std::vector<Eigen::Vector3d>& vertices, std::vector<TriangleNodes>& triangles) {
+  std::vector<bool> used(vertices.size(), false);
+  for (const TriangleNodes& nodes : triangles) {
+    for (const NodeIndex node : nodes) {
+      used[node.value] = true;
+    }
+  }
+  std::vector<NodeIndex> renumbered(vertices.size());
+  std::size_t kept = 0;
+  for (std::size_t v = 0; v < vertices.size(); ++v) {
+    if (used[v]) {
+      renumbered[v] = NodeIndex{kept};
+      vertices[kept++] = vertices[v];
+    }
+  }
+  for (TriangleNodes& nodes : triangles) {
+    for (NodeIndex& node : nodes) {
+      node = renumbered[node.value];
+    }
+  }
+  const std::size_t dropped = vertices.size() - kept;
+  vertices.resize(kept);
+  return dropped;
+}
+
+/// Counts shells, borders and edges of more than two triangles.
+void inspect(const std::vector<TriangleNodes>& triangles, std::size_t vertex_count, RepairReport& report) {
+  const detail::EdgeTable edges = detail::buildEdgeTable(triangles);
+  detail::UnionFind shells(vertex_count);
+  for (const TriangleNodes& nodes : triangles) {
+    shells.unite(nodes[0].value, nodes[1].value);
+    shells.unite(nodes[1].value, nodes[2].value);
+  }
+  // A hole is a chain of border edges that follow one another around the same fans of triangles. Corners are
+  // half-edge starts; the corners of one vertex that are joined by edges are one fan.
+  detail::UnionFind fans(3 * triangles.size());
+  std::vector<bool> shell_is_open(vertex_count, false);
+  std::vector<detail::HalfEdge> border;
+  const auto cornerAt = [&](detail::HalfEdge h, NodeIndex node) {
+    return detail::startOf(triangles, h) == node ? h : h - h % 3 + (h % 3 + 1) % 3;
+  };
+  for (std::size_t e = 0; e < edges.edgeCount(); ++e) {
+    const detail::HalfEdge first = edges.half_edges[edges.first[e]];
+    const std::uint32_t uses = edges.first[e + 1] - edges.first[e];
+    const NodeIndex a = detail::startOf(triangles, first);
+    const NodeIndex b = detail::endOf(triangles, first);
+    int balance = 1;
+    for (std::uint32_t i = 1; i < uses; ++i) {
+      const detail::HalfEdge other = edges.half_edges[edges.first[e] + i];
+      balance += detail::startOf(triangles, other) == a ? 1 : -1;
+      fans.unite(cornerAt(first, a), cornerAt(other, a));
+      fans.unite(cornerAt(first, b), cornerAt(other, b));
+    }
+    if (balance != 0) {
+      shell_is_open[shells.find(a.value)] = true;
+    }
+    if (uses == 1) {
+      border.push_back(first);
+    }
+    report.non_manifold_edges += uses > 2 ? 1U : 0U;
+    report.inconsistent_edges += uses == 2 && balance != 0 ? 1U : 0U;
+  }
+  report.border_edges = border.size();
+  for (const detail::HalfEdge h : border) {
+    fans.unite(cornerAt(h, detail::startOf(triangles, h)), cornerAt(h, detail::endOf(triangles, h)));
+  }
+  std::vector<std::uint32_t> loops;
+  for (const detail::HalfEdge h : border) {
+    loops.push_back(fans.find(h));
+  }
+  std::sort(loops.begin(), loops.end());
+  report.holes = static_cast<std::size_t>(std::unique(loops.begin(), loops.end()) - loops.begin());
+  for (std::uint32_t v = 0; v < vertex_count; ++v) {
+    if (shells.find(v) == v) {
+      ++report.shells;
+      report.closed_shells += shell_is_open[v] ? 0U : 1U;
+    }
+  }
+}
+
+}  // namespace
+
+std::string RepairReport::summary() const {
+  std::ostringstream text;
+  const auto add = [&](std::size_t count, const char* one, const char* many) {
+    if (count != 0) {
+      text << (text.tellp() > 0 ? ", " : "") << count << ' ' << (count == 1 ? one : many);
+    }
+  };
+  add(welded_vertices, "vertex welded", "vertices welded");
+  add(unused_vertices, "unused vertex dropped", "unused vertices dropped");
+  add(zero_area_triangles, "zero-area triangle dropped", "zero-area triangles dropped");
+  add(duplicate_triangles, "duplicate triangle dropped", "duplicate triangles dropped");
+  add(turned_triangles, "triangle turned", "triangles turned");
+  add(shells > 1 ? shells : 0, "shell", "shells");
+  add(shells - closed_shells, "open shell", "open shells");
+  add(holes, "hole", "holes");
+  add(border_edges, "border edge", "border edges");
+  add(non_manifold_edges, "edge of more than two triangles", "edges of more than two triangles");
+  add(inconsistent_edges, "edge with inconsistent winding", "edges with inconsistent winding");
+  return text.str();
+}
+
+RepairedMesh repairMesh(const TriangleSoup& soup, const RepairOptions& options, const std::string& where) {
+  checkSoup(soup, options, where);
+  RepairReport report;
+  report.vertices_in = soup.vertices.size();
+  report.triangles_in = soup.triangles.size();
+
+  detail::WeldedVertices welded = detail::weldVertices(soup.vertices, options.weld_tolerance);
+  report.welded_vertices = soup.vertices.size() - welded.vertices.size();
+
+  std::vector<TriangleNodes> triangles;
+  for (const auto& corners : soup.triangles) {
+    const NodeIndex a = welded.node_of_vertex[corners[0]];
+    const NodeIndex b = welded.node_of_vertex[corners[1]];
+    const NodeIndex c = welded.node_of_vertex[corners[2]];
+    if (hasNoArea(welded.vertices[a.value], welded.vertices[b.value], welded.vertices[c.value])) {
+      ++report.zero_area_triangles;
+    } else {
+      triangles.push_back({a, b, c});
+    }
+  }
+  if (triangles.empty()) {
+    throw Error(where,
+                soup.triangles.empty() ? std::string("the mesh has no triangle")
+                                       : "none of the mesh's " + std::to_string(soup.triangles.size()) +
+                                             " triangles has an area",
+                "give a mesh with at least one triangle of non-zero area");
+  }
+  report.duplicate_triangles = dropDuplicates(triangles);
+  report.unused_vertices = dropUnused(welded.vertices, triangles);
+  if (options.orient) {
+    report.turned_triangles = detail::orientTriangles(welded.vertices, triangles);
+  }
+  inspect(triangles, welded.vertices.size(), report);
+  return {SurfaceMesh(std::move(welded.vertices), std::move(triangles), where), report};
+}
+
+}  // namespace concave_distance

@@ -1,0 +1,195 @@
+#include "concave_distance/mesh/refine_mesh.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <set>
+#include <vector>
+
+#include "concave_distance/base/error.h"
+#include "concave_distance/mesh/primitives.h"
+#include "concave_distance/mesh/repair_mesh.h"
+#include "mesh/mesh_measures.h"
+
+namespace concave_distance {
+namespace {
+
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+
+SurfaceMesh surfaceOf(std::vector<Eigen::Vector3d> vertices,
+                      const std::vector<std::array<std::uint32_t, 3>>& corners) {
+  std::vector<TriangleNodes> triangles;
+  for (const auto& c : corners) triangles.push_back({NodeIndex{c[0]}, NodeIndex{c[1]}, NodeIndex{c[2]}});
+  return SurfaceMesh(std::move(vertices), std::move(triangles), "test surface");
+}
+
+/// Any triangles over few vertices: borders, edges of many triangles, slivers and shells all occur.
+rc::Gen<SurfaceMesh> anySurface() {
+  return rc::gen::exec([] {
+    const auto vertex_count = *rc::gen::inRange<std::uint32_t>(4, 12);
+    std::vector<Eigen::Vector3d> vertices;
+    for (std::uint32_t i = 0; i < vertex_count; ++i) {
+      const auto coordinate = [] { return *rc::gen::inRange(-1000, 1001) / 1000.0; };
+      const double x = coordinate();
+      const double y = coordinate();
+      vertices.emplace_back(x, y, coordinate());
+    }
+    TriangleSoup soup{vertices, {}};
+    const auto triangle_count = *rc::gen::inRange(1, 20);
+    for (int i = 0; i < triangle_count; ++i) {
+      const auto corner = [&] { return *rc::gen::inRange<std::uint32_t>(0, vertex_count); };
+      const std::uint32_t a = corner();
+      const std::uint32_t b = corner();
+      soup.triangles.push_back({a, b, corner()});
+    }
+    soup.triangles.push_back({0, 1, 2});
+    soup.vertices[0] = {0.0, 0.0, 0.0};  // at least one with an area
+    soup.vertices[1] = {1.0, 0.0, 0.0};
+    soup.vertices[2] = {0.0, 1.0, 0.0};
+    return repairMesh(soup, {}, "generated surface").mesh;
+  });
+}
+
+rc::Gen<double> anyLimit() {
+  return rc::gen::map(rc::gen::inRange(8, 300), [](int i) { return i / 100.0; });
+}
+
+RC_GTEST_PROP(RefineMesh, LeavesNoEdgeAboveTheLimit, ()) {
+  const SurfaceMesh surface = *anySurface();
+  const double limit = *anyLimit();
+  RC_ASSERT(test::longestEdge(refineToEdgeLength(surface, limit).mesh) <= limit * (1.0 + 2.0 * kEpsilon));
+}
+
+RC_GTEST_PROP(RefineMesh, MovesNoVertex, ()) {
+  const SurfaceMesh surface = *anySurface();
+  const RefinedMesh refined = refineToEdgeLength(surface, *anyLimit());
+  RC_ASSERT(refined.mesh.vertexCount() >= surface.vertexCount());
+  for (std::size_t v = 0; v < surface.vertexCount(); ++v) {
+    RC_ASSERT(refined.mesh.vertices()[v] == surface.vertices()[v]);
+  }
+}
+
+RC_GTEST_PROP(RefineMesh, KeepsEveryCornerOnItsOriginalTriangle, ()) {
+  const SurfaceMesh surface = *anySurface();
+  const RefinedMesh refined = refineToEdgeLength(surface, *anyLimit());
+  RC_ASSERT(refined.original_triangle.size() == refined.mesh.triangleCount());
+  for (std::size_t t = 0; t < refined.mesh.triangleCount(); ++t) {
+    const TriangleIndex original = refined.original_triangle[t];
+    for (int k = 0; k < 3; ++k) {
+      // A bisection adds half a unit of rounding of the largest coordinate (2 here); at most 20 deep.
+      RC_ASSERT(test::distanceToTriangle(refined.mesh.corner(TriangleIndex{t}, k),
+                                         surface.corner(original, 0), surface.corner(original, 1),
+                                         surface.corner(original, 2)) <= 20.0 * 2.0 * kEpsilon);
+    }
+  }
+}
+
+RC_GTEST_PROP(RefineMesh, TilesEachOriginalTriangleInItsWinding, ()) {
+  const SurfaceMesh surface = *anySurface();
+  const RefinedMesh refined = refineToEdgeLength(surface, *anyLimit());
+  std::vector<double> area(surface.triangleCount(), 0.0);
+  std::vector<std::size_t> pieces(surface.triangleCount(), 0);
+  for (std::size_t t = 0; t < refined.mesh.triangleCount(); ++t) {
+    const std::size_t original = refined.original_triangle[t].value;
+    // Signed along the original's normal: a turned or overlapping piece would break the sum.
+    area[original] += test::areaVector(refined.mesh, t).dot(test::areaVector(surface, original).normalized());
+    ++pieces[original];
+  }
+  for (std::size_t t = 0; t < surface.triangleCount(); ++t) {
+    // Corners off by 40 epsilon change a piece's area by that times its perimeter (at most 12 here).
+    const double tolerance = static_cast<double>(pieces[t]) * 12.0 * 40.0 * kEpsilon;
+    RC_ASSERT(std::abs(area[t] - test::areaVector(surface, t).norm()) <= tolerance);
+  }
+}
+
+RC_GTEST_PROP(RefineMesh, ConformsAndKeepsTheTopology, ()) {
+  const SurfaceMesh surface = *anySurface();
+  const SurfaceMesh refined = refineToEdgeLength(surface, *anyLimit()).mesh;
+  RC_ASSERT(test::eulerCharacteristic(refined) == test::eulerCharacteristic(surface));
+  // A hanging node would leave an edge with fewer triangles on one side than its original edge has: count
+  // length by number of uses, which only edges on original edges can have other than (1, 1).
+  const auto odd_length = [](const SurfaceMesh& mesh) {
+    std::map<std::pair<int, int>, double> length;
+    for (const auto& [nodes, use] : test::edgeUses(mesh)) {
+      const std::pair<int, int> either_way = std::minmax(use.first, use.second);
+      if (either_way != std::pair<int, int>{1, 1}) {
+        length[either_way] +=
+            (mesh.vertex(NodeIndex{nodes.first}) - mesh.vertex(NodeIndex{nodes.second})).norm();
+      }
+    }
+    return length;
+  };
+  const auto before = odd_length(surface);
+  const auto after = odd_length(refined);
+  RC_ASSERT(before.size() == after.size());
+  for (const auto& [use, length] : before) {
+    RC_ASSERT(after.count(use) == 1U);
+    RC_ASSERT(std::abs(after.at(use) - length) <= 1e-10);
+  }
+}
+
+RC_GTEST_PROP(RefineMesh, HalvesNoAngleMoreThanOnce, ()) {
+  // Rosenberg and Stenger 1975: longest-edge bisection keeps every angle at least half the smallest one.
+  const SurfaceMesh surface = *anySurface();
+  const double before = test::smallestAngle(surface);
+  RC_PRE(before > 1e-3);
+  RC_ASSERT(test::smallestAngle(refineToEdgeLength(surface, *anyLimit()).mesh) >=
+            0.5 * before * (1.0 - 1e-9));
+}
+
+TEST(RefineMesh, LeavesAMeshAloneThatIsFineEnough) {
+  const SurfaceMesh box = makeBox({1.0, 1.0, 1.0});
+  const RefinedMesh refined = refineToEdgeLength(box, std::sqrt(2.0) * (1.0 + kEpsilon));
+  EXPECT_EQ(refined.mesh.vertices().size(), 8U);
+  EXPECT_EQ(refined.mesh.triangles(), box.triangles());
+}
+
+TEST(RefineMesh, SharesTheNewNodesOfAnEdgeOfThreeTriangles) {
+  const SurfaceMesh book = surfaceOf({{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {-1, 1, 0}, {-1, -1, 0}},
+                                     {{0, 1, 2}, {0, 1, 3}, {0, 1, 4}});
+  const SurfaceMesh refined = refineToEdgeLength(book, 0.3).mesh;
+  std::set<double> heights;
+  for (const Eigen::Vector3d& v : refined.vertices()) {
+    if (v.x() == 0.0 && v.y() == 0.0) {
+      EXPECT_TRUE(heights.insert(v.z()).second) << "two nodes at height " << v.z();
+    }
+  }
+  EXPECT_EQ(heights.size(), 5U);  // a spine of 1 m in four
+  std::size_t spine_edges = 0;
+  for (const auto& [nodes, use] : test::edgeUses(refined))
+    spine_edges += use.first + use.second == 3 ? 1U : 0U;
+  EXPECT_EQ(spine_edges, 4U);
+}
+
+TEST(RefineMesh, GivesTheSameMeshEveryTime) {
+  const SurfaceMesh ball = makeSphere(1.0, 0.05);
+  const RefinedMesh one = refineToEdgeLength(ball, 0.1);
+  const RefinedMesh two = refineToEdgeLength(ball, 0.1);
+  EXPECT_EQ(one.mesh.vertices(), two.mesh.vertices());
+  EXPECT_EQ(one.mesh.triangles(), two.mesh.triangles());
+}
+
+TEST(RefineMesh, RefusesALengthThatIsNotPositiveAndFinite) {
+  const SurfaceMesh box = makeBox({1.0, 1.0, 1.0});
+  for (const double bad :
+       {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    EXPECT_THROW(refineToEdgeLength(box, bad), Error);
+  }
+}
+
+TEST(RefineMesh, RefusesMoreNodesThanTheLimit) {
+  const SurfaceMesh box = makeBox({1.0, 1.0, 1.0});
+  EXPECT_THROW(refineToEdgeLength(box, 0.1, 500), Error);  // found while refining
+  EXPECT_THROW(refineToEdgeLength(box, 1e-12), Error);     // found at once, from the area
+  EXPECT_NO_THROW(refineToEdgeLength(box, 0.1, 5000));
+}
+
+TEST(RefineMesh, RefusesATriangleWithARepeatedCorner) {
+  const SurfaceMesh folded = surfaceOf({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 1, 1}});
+  EXPECT_THROW(refineToEdgeLength(folded, 0.1), Error);
+}
+
+}  // namespace
+}  // namespace concave_distance
