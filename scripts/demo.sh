@@ -1,0 +1,88 @@
+#!/usr/bin/env bash
+# Shows the package at work: installs what is missing, builds, starts a scene, prints what it measures.
+#   scripts/demo.sh [insertion|robot|interactive] [--seconds N] [--headless]
+#   insertion (default): a battery goes into its fixture; robot: an arm moves beside a shelf and a hook;
+#   interactive: move a body with the mouse. In rviz when there is a display, as printed lines in any case.
+#   Ends with Ctrl-C, or by itself after N seconds (status 1 when no distance came).
+set -euo pipefail
+# shellcheck source=scripts/common.sh
+. "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+
+scene=insertion
+seconds=0
+headless=
+while [ $# -gt 0 ]; do
+  case "$1" in
+    insertion | robot | interactive) scene="$1" ;;
+    --seconds)
+      [[ "${2:-}" =~ ^[1-9][0-9]*$ ]] || die "--seconds needs a whole number of seconds, not '${2:-}'"
+      seconds="$2" && shift
+      ;;
+    --headless) headless=1 ;;
+    -h | --help) sed -n '2,/^set/s/^# \{0,1\}//p' "${BASH_SOURCE[0]}" && exit 0 ;;
+    *) die "unknown argument '$1': expected insertion, robot, interactive, --seconds N or --headless" ;;
+  esac
+  shift
+done
+
+"$package_dir/scripts/install_dependencies.sh" build demo </dev/null
+source_ros
+say "building (some minutes the first time)"
+"$package_dir/scripts/build.sh" programs </dev/null || die "the build failed: see the first error above"
+set +u
+# shellcheck disable=SC1091
+. "$build_dir/devel/setup.bash"
+set -u
+
+display_works() {
+  [ -n "${DISPLAY:-}" ] && /usr/bin/python3 -c '
+import ctypes, sys
+x11 = ctypes.CDLL("libX11.so.6")
+x11.XOpenDisplay.restype = ctypes.c_void_p
+sys.exit(0 if x11.XOpenDisplay(None) else 1)' 2>/dev/null
+}
+rviz=false
+if [ -n "$headless" ]; then
+  say "headless, as asked for"
+elif display_works; then
+  rviz=true
+else
+  say "no display: rviz is not started, the distances are printed"
+fi
+
+export ROS_LOG_DIR="$build_dir/ros_logs"
+[ -n "${ROS_MASTER_URI:-}" ] || export ROS_MASTER_URI=http://localhost:11311 ROS_HOSTNAME=localhost
+mkdir -p "$ROS_LOG_DIR"
+launch_log="$ROS_LOG_DIR/demo_$scene.log"
+
+say "starting the scene '$scene' (its log: ${launch_log#"$package_dir"/}); Ctrl-C ends it"
+setsid roslaunch concave_distance "$scene.launch" rviz:="$rviz" </dev/null >"$launch_log" 2>&1 &
+launch_pid=$!
+# shellcheck disable=SC2317  # called by the traps
+end_scene() {
+  trap - EXIT INT TERM
+  kill -INT "$launch_pid" 2>/dev/null || true
+  wait "$launch_pid" 2>/dev/null || true
+}
+trap end_scene EXIT
+trap 'end_scene; exit 130' INT TERM
+
+printer=(rosrun concave_distance show_distances.py _topic:=/concave_distance/niches)
+if [ "$seconds" -gt 0 ]; then printer+=(_seconds:="$seconds" _least_messages:=1); fi
+until rosparam get /run_id >/dev/null 2>&1; do
+  kill -0 "$launch_pid" 2>/dev/null || { tail -n 30 "$launch_log" >&2 && die "the scene did not start"; }
+  sleep 0.2
+done
+"${printer[@]}" &
+printer_pid=$!
+status=0
+while kill -0 "$printer_pid" 2>/dev/null; do
+  if ! kill -0 "$launch_pid" 2>/dev/null; then
+    kill "$printer_pid" 2>/dev/null || true
+    tail -n 30 "$launch_log" >&2
+    die "the scene ended by itself"
+  fi
+  sleep 0.2
+done
+wait "$printer_pid" || status=$?
+exit "$status"

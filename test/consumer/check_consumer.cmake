@@ -1,0 +1,36 @@
+# Configures, builds and runs the consumer package against a devel space or against an installed copy; any failure
+# is fatal. cmake -D<name>=<value> ... -P check_consumer.cmake with
+#   BUILD_DIRECTORY     of concave_distance, built
+#   WORK_DIRECTORY      emptied first; everything is done inside it
+#   SPACE               devel or install
+#   DEVEL_SPACE         the devel space's directory
+#   USES_CATKIN         ON or OFF
+#   GENERATOR, CXX_COMPILER, PYTHON: as concave_distance was configured
+function(run_or_fail)
+  execute_process(COMMAND ${ARGV} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  message(STATUS "${ARGV}\n${output}")
+  if(NOT result EQUAL 0)
+    message(FATAL_ERROR "failed with ${result}: ${ARGV}")
+  endif()
+endfunction()
+
+file(REMOVE_RECURSE ${WORK_DIRECTORY})
+file(MAKE_DIRECTORY ${WORK_DIRECTORY})
+if(SPACE STREQUAL "install")
+  set(prefix ${WORK_DIRECTORY}/prefix)
+  run_or_fail(${CMAKE_COMMAND} --install ${BUILD_DIRECTORY} --prefix ${prefix})
+else()
+  set(prefix ${DEVEL_SPACE})
+endif()
+
+set(consumer_build ${WORK_DIRECTORY}/build)
+run_or_fail(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR}/package -B ${consumer_build} -G ${GENERATOR}
+  -DCMAKE_CXX_COMPILER=${CXX_COMPILER} -DCMAKE_PREFIX_PATH=${prefix} -DPYTHON_EXECUTABLE=${PYTHON}
+  -DPython3_EXECUTABLE=${PYTHON} -DCONSUMER_USES_CATKIN=${USES_CATKIN})
+# A concave_distance found elsewhere on the machine would prove nothing.
+file(STRINGS ${consumer_build}/CMakeCache.txt found REGEX "^concave_distance_DIR:")
+if(NOT found MATCHES "=${prefix}/")
+  message(FATAL_ERROR "the consumer found another concave_distance: ${found}, expected one below ${prefix}")
+endif()
+run_or_fail(${CMAKE_COMMAND} --build ${consumer_build})
+run_or_fail(${consumer_build}/bin/consumer)
