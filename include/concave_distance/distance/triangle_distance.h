@@ -19,10 +19,16 @@ struct TrianglePairDistance {
   Feature feature_b;
 };
 
+/// Error bounds of the two functions below, relative to the largest magnitude of a coordinate of either
+/// argument (recentre where that is much larger than the triangles and their gap): of the distance, and of
+/// how far a witness may lie off the feature that is named for it. Worst errors observed: doc/numerics.md.
+inline constexpr double kTriangleDistanceError = 0x1.0p-47;  // 32 machine epsilons
+inline constexpr double kTriangleWitnessError = 0x1.0p-50;   // 4 machine epsilons
+
 /// Distance of two triangles with a pair of witness points, right for triangles that are segments or points,
 /// for parallel, coplanar, touching and crossing ones. Allocates nothing, never fails on finite input.
-/// Error bound: stated in the source and in doc/numerics.md, in units of the larger coordinate's magnitude
-/// after the caller has recentred.
+/// Error: kTriangleDistanceError, kTriangleWitnessError. About 0.1 us for triangles apart, 0.5 us for such as
+/// touch or cross.
 TrianglePairDistance triangleDistance(const TrianglePoints& a, const TrianglePoints& b);
 
 struct PointTriangleDistance {
