@@ -10,6 +10,7 @@ set(CONCAVE_DISTANCE_ROS_PACKAGES
   pluginlib
   roscpp
   roslib
+  sensor_msgs
   std_msgs
   std_srvs
   tf2

@@ -1,0 +1,54 @@
+#include "demo_parameters.h"
+
+#include <ros/package.h>
+
+#include "concave_distance/base/error.h"
+#include "concave_distance/scene/resource_locator.h"
+
+namespace concave_distance::demo {
+
+std::string requireParameter(const ros::NodeHandle& node, const std::string& name) {
+  std::string value;
+  if (!node.getParam(name, value) || value.empty()) {
+    throw Error(node.resolveName(name), "is not set", "set it to a text");
+  }
+  return value;
+}
+
+double numberParameter(const ros::NodeHandle& node, const std::string& name, double fallback, double least,
+                       double most) {
+  double value = fallback;
+  if (node.hasParam(name) && !node.getParam(name, value)) {
+    throw Error(node.resolveName(name), "is no number", "set it to a number");
+  }
+  if (!(value >= least && value <= most)) {
+    throw Error(node.resolveName(name), "is " + std::to_string(value),
+                "set it from " + std::to_string(least) + " to " + std::to_string(most));
+  }
+  return value;
+}
+
+std::string fileParameter(const ros::NodeHandle& node, const std::string& name) {
+  return locateResource(requireParameter(node, name), "",
+                        [](const std::string& package) { return ros::package::getPath(package); });
+}
+
+geometry_msgs::TransformStamped toTransform(const Eigen::Isometry3d& parent_from_child,
+                                            const ros::Time& stamp, const std::string& parent,
+                                            const std::string& child) {
+  geometry_msgs::TransformStamped message;
+  message.header.stamp = stamp;
+  message.header.frame_id = parent;
+  message.child_frame_id = child;
+  const Eigen::Quaterniond rotation(parent_from_child.linear());
+  message.transform.translation.x = parent_from_child.translation().x();
+  message.transform.translation.y = parent_from_child.translation().y();
+  message.transform.translation.z = parent_from_child.translation().z();
+  message.transform.rotation.x = rotation.x();
+  message.transform.rotation.y = rotation.y();
+  message.transform.rotation.z = rotation.z();
+  message.transform.rotation.w = rotation.w();
+  return message;
+}
+
+}  // namespace concave_distance::demo

@@ -1,0 +1,52 @@
+/// Plays a poses.csv on tf, forwards and backwards without end: the insertion demo.
+///
+/// Private parameters: `poses` (resource), `parent` and `child` (frames), `rate` (Hz, 200), `speed` (1),
+/// `pause` (seconds of rest at either end, 1), `start` (seconds into the path, 0).
+
+#include <ros/ros.h>
+#include <tf2_ros/transform_broadcaster.h>
+
+#include "concave_distance/base/error.h"
+#include "demo_parameters.h"
+#include "pose_path.h"
+
+namespace {
+
+using namespace concave_distance;
+
+void run() {
+  const ros::NodeHandle node("~");
+  const demo::PosePath path = demo::readPosePath(demo::fileParameter(node, "poses"));
+  const std::string parent = demo::requireParameter(node, "parent");
+  const std::string child = demo::requireParameter(node, "child");
+  const double rate = demo::numberParameter(node, "rate", 200.0, 0.1, 2000.0);
+  const double speed = demo::numberParameter(node, "speed", 1.0, 0.0, 100.0);
+  const double pause = demo::numberParameter(node, "pause", 1.0, 0.0, 3600.0);
+  const double start = demo::numberParameter(node, "start", 0.0, 0.0, 3600.0);
+
+  tf2_ros::TransformBroadcaster broadcaster;
+  ros::NodeHandle public_node;
+  ros::Time first;
+  const ros::Timer timer = public_node.createTimer(ros::Duration(1.0 / rate), [&](const ros::TimerEvent&) {
+    const ros::Time now = ros::Time::now();
+    // A clock that jumps back starts the path anew.
+    if (first.isZero() || now < first) first = now;
+    const double elapsed = start + speed * (now - first).toSec();
+    const double time = path.startTime() + demo::pingPong(elapsed, path.duration(), pause);
+    broadcaster.sendTransform(demo::toTransform(path.at(time), now, parent, child));
+  });
+  ros::spin();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "pose_player");
+  try {
+    run();
+  } catch (const Error& error) {
+    ROS_FATAL_STREAM(error.what());
+    return 1;
+  }
+  return 0;
+}
