@@ -1,0 +1,46 @@
+#include "concave_distance/distance/surface_walk.h"
+
+namespace concave_distance {
+namespace {
+
+bool isVertex(Feature feature) {
+  return feature <= Feature::Vertex2;
+}
+
+}  // namespace
+
+SurfacePoint walkTowards(const BodyMesh& body, TriangleIndex start, const Eigen::Vector3d& target) {
+  const SurfaceMesh& surface = body.surface();
+  const MeshTopology& topology = body.topology();
+  const auto closestOn = [&](TriangleIndex triangle) {
+    const PointTriangleDistance d = pointTriangleDistance(target, trianglePoints(surface, triangle));
+    return SurfacePoint{triangle, d.feature, d.point, d.squared_distance};
+  };
+  SurfacePoint best = closestOn(start);
+  for (bool moved = true; moved && best.feature != Feature::Face;) {
+    moved = false;
+    const SurfacePoint from = best;
+    const auto tryTriangle = [&](TriangleIndex triangle) {
+      const SurfacePoint candidate = closestOn(triangle);
+      if (candidate.squared_distance < best.squared_distance) {
+        best = candidate;
+        moved = true;
+      }
+    };
+    if (isVertex(from.feature)) {
+      const NodeIndex vertex = surface.triangle(from.triangle)[static_cast<std::size_t>(from.feature)];
+      for (const TriangleIndex triangle : topology.triangles_of_vertex.row(vertex.value)) {
+        tryTriangle(triangle);
+      }
+    } else {
+      const auto edge = static_cast<std::size_t>(from.feature) - static_cast<std::size_t>(Feature::Edge0);
+      const TriangleIndex across = topology.triangle_across_edge[from.triangle.value][edge];
+      if (across != kNoTriangle) {
+        tryTriangle(across);
+      }
+    }
+  }
+  return best;
+}
+
+}  // namespace concave_distance
