@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 #include <assimp/Importer.hpp>
+#include <cmath>
 #include <cstdint>
 #include <sstream>
 #include <string>
@@ -32,39 +33,52 @@ Eigen::Affine3d toEigen(const aiMatrix4x4& m) {
   return Eigen::Affine3d(matrix);
 }
 
+/// Assimp's later steps trust the indices of a file, so this comes before them.
+void checkMeshes(const aiScene& scene, const std::string& path) {
+  for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
+    const aiMesh& mesh = *scene.mMeshes[m];
+    const std::string name = " of mesh '" + std::string(mesh.mName.C_Str()) + "'";
+    for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
+      const aiVector3D& p = mesh.mVertices[v];
+      if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
+        throw Error(path, "vertex " + std::to_string(v) + name + " has a coordinate that is not finite",
+                    kExportAgain);
+      }
+    }
+    for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
+      const aiFace& face = mesh.mFaces[f];
+      for (unsigned k = 0; k < face.mNumIndices; ++k) {
+        if (face.mIndices[k] >= mesh.mNumVertices) {
+          throw Error(path,
+                      "face " + std::to_string(f) + name + " refers to vertex " +
+                          std::to_string(face.mIndices[k]) + " of " + std::to_string(mesh.mNumVertices),
+                      kExportAgain);
+        }
+      }
+    }
+  }
+}
+
 void appendMesh(TriangleSoup& soup, const aiMesh& mesh, const Eigen::Affine3d& body_from_mesh,
                 const std::string& path) {
-  const auto first = static_cast<std::uint32_t>(soup.vertices.size());
-  if (std::uint64_t{first} + mesh.mNumVertices > 0xffffffffU) {
+  if (soup.vertices.size() + mesh.mNumVertices > 0xffffffffU) {
     throw Error(path, "the file has more than 2^32 vertices", "simplify the mesh");
   }
+  const auto first = static_cast<std::uint32_t>(soup.vertices.size());
   for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
     const aiVector3D& p = mesh.mVertices[v];
-    const Eigen::Vector3d vertex = body_from_mesh * Eigen::Vector3d(p.x, p.y, p.z);
-    if (!vertex.allFinite()) {
-      throw Error(path,
-                  "vertex " + std::to_string(v) + " of mesh '" + mesh.mName.C_Str() +
-                      "' has a coordinate that is not finite",
-                  kExportAgain);
+    soup.vertices.emplace_back(body_from_mesh * Eigen::Vector3d(p.x, p.y, p.z));
+    if (!soup.vertices.back().allFinite()) {
+      throw Error(path, "a node's transform or the scale is too large or not a number", kExportAgain);
     }
-    soup.vertices.push_back(vertex);
   }
   const bool mirrored = body_from_mesh.linear().determinant() < 0.0;
   for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
     const aiFace& face = mesh.mFaces[f];
-    if (face.mNumIndices != 3) {
-      continue;  // points and lines have no surface; polygons have been cut into triangles
+    if (face.mNumIndices == 3) {  // points and lines have no surface; polygons have been cut into triangles
+      soup.triangles.push_back({first + face.mIndices[0], first + face.mIndices[mirrored ? 2 : 1],
+                                first + face.mIndices[mirrored ? 1 : 2]});
     }
-    for (unsigned k = 0; k < 3; ++k) {
-      if (face.mIndices[k] >= mesh.mNumVertices) {
-        throw Error(path,
-                    "face " + std::to_string(f) + " refers to vertex " + std::to_string(face.mIndices[k]) +
-                        " of " + std::to_string(mesh.mNumVertices),
-                    kExportAgain);
-      }
-    }
-    soup.triangles.push_back({first + face.mIndices[0], first + face.mIndices[mirrored ? 2 : 1],
-                              first + face.mIndices[mirrored ? 1 : 2]});
   }
 }
 
@@ -90,7 +104,11 @@ TriangleSoup importMesh(const std::string& path, const Eigen::Vector3d& scale) {
   // file's own axes whatever its <up_axis> says, and so do we.
   importer.SetPropertyInteger(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, 1);
   importer.SetPropertyInteger(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, 1);
-  const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate);
+  const aiScene* scene = importer.ReadFile(path, 0);
+  if (scene != nullptr) {
+    checkMeshes(*scene, path);
+    scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
+  }
   if (scene == nullptr || scene->mRootNode == nullptr) {
     throw Error(path, std::string("the file cannot be read as a mesh: ") + importer.GetErrorString(),
                 "give a whole STL, OBJ, PLY or DAE file");

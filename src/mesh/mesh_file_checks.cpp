@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 #include <utility>
 #include <vector>
@@ -172,6 +173,34 @@ void checkPlyIsWhole(const std::string& path, std::ifstream& stream) {
   }
 }
 
+/// Assimp's COLLADA reader never returns from an index list with something other than numbers in it, and
+/// reads out of bounds when an array does not state its length.
+void checkDaeLists(const std::string& path, std::ifstream& stream) {
+  const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  for (std::size_t open = text.find('<'); open != std::string::npos; open = text.find('<', open + 1)) {
+    if (text.compare(open, 4, "<!--") == 0) {
+      open = text.find("-->", open);
+      if (open == std::string::npos) {
+        break;
+      }
+      continue;
+    }
+    const std::size_t close = text.find('>', open);
+    if (close == std::string::npos) {
+      break;  // malformed: assimp says so
+    }
+    const std::string tag = text.substr(open + 1, text.find_first_of(" \t\r\n/>", open + 1) - open - 1);
+    if ((tag == "float_array" || tag == "accessor") &&
+        text.substr(open, close - open).find("count=") == std::string::npos) {
+      throw Error(path, "a <" + tag + "> does not state its count", kExportAgain);
+    }
+    const std::size_t end = std::min(text.find('<', close), text.size());
+    if ((tag == "p" || tag == "vcount") && text.find_first_not_of("0123456789 \t\r\n", close + 1) < end) {
+      throw Error(path, "a <" + tag + "> holds something other than indices", kExportAgain);
+    }
+  }
+}
+
 }  // namespace
 
 std::string lowerCaseExtension(const std::string& path) {
@@ -200,6 +229,8 @@ void checkMeshFile(const std::string& path) {
     checkStlIsWhole(path, stream, size);
   } else if (extension == ".ply") {
     checkPlyIsWhole(path, stream);
+  } else if (extension == ".dae") {
+    checkDaeLists(path, stream);
   }
 }
 

@@ -230,6 +230,15 @@ TEST(ImportMesh, RefusesCorruptFiles) {
     errorOf(folder.write(name, noise));
   }
   errorOf(folder.write("index.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n"));
+  errorOf(
+      folder.write("index.ply", replaced(contentOf(fixture("tetrahedron.ply")), "3 0 1 3", "3 0 1 353983")));
+  errorOf(
+      folder.write("polygon.ply", replaced(contentOf(fixture("tetrahedron.ply")), "3 0 1 3", "4 0 1 3 999")));
+  const std::string dae = contentOf(fixture("tetrahedron.dae"));
+  errorOf(folder.write("letter.dae", replaced(dae, "<p>0 2 1", "<p>0 2 x")));
+  errorOf(folder.write("index.dae", replaced(dae, "<p>0 2 1", "<p>0 2 1000")));
+  errorOf(folder.write("count.dae", replaced(dae, "count=\"12\"", "")));
+  errorOf(folder.write("number.dae", replaced(dae, "-250 0 0", "-250 0 $")));
   errorOf(folder.write("nan.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n"));
   errorOf(folder.write("words.dae", "<?xml version=\"1.0\"?><COLLADA version=\"1.4.1\"><asset/></COLLADA>"));
 }
