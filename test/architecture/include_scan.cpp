@@ -86,7 +86,7 @@ std::vector<std::string> faultsOfRooms(const std::filesystem::path& package, std
       const std::string room = fs::relative(file, root).begin()->string();
       const std::string header_name = file.stem().string() + ".h";
       const bool has_header = file.extension() == ".cpp" && fs::exists(headers / room / header_name);
-      const std::string own_header = has_header ? kPackage + "/" + room + "/" + header_name : "";
+      const std::string own_header = has_header ? (fs::path(kPackage) / room / header_name).string() : "";
       for (const std::string& fault : faultsOfIncludes(contentOf(file), room, own_header))
         faults.push_back(file.string() + ": " + fault);
       ++files_seen;
