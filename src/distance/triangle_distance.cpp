@@ -13,8 +13,8 @@
 // not too large because each kernel below is stable on its own (the reasons stand beside the formulas). An
 // edge pair whose direction separates the triangles ends the search at once (Larsen et al. 1999, PQP).
 //
-// In the comments eps is the machine epsilon, w a vector from one triangle to the other, and "wrong by" leaves
-// out small factors; the constants of the header are tested as they are stated
+// In the comments eps is the machine epsilon, w a vector from one triangle to the other, and "wrong by"
+// leaves out small factors; the constants of the header are tested as they are stated
 // (test/distance/triangle_distance_accuracy_test.cpp).
 
 namespace concave_distance {

@@ -11,6 +11,8 @@ namespace concave_distance {
 
 /// A pair of witness points on the original surfaces. Both points in body A's frame.
 struct WitnessPair {
+  /// Of the two points before they were moved from local coordinates to A's origin: what the points
+  /// themselves give, but for the rounding of their coordinates.
   double squared_distance = 0.0;
   Eigen::Vector3d point_a_in_a = Eigen::Vector3d::Zero();
   Eigen::Vector3d point_b_in_a = Eigen::Vector3d::Zero();
@@ -32,6 +34,7 @@ struct WitnessRefinement {
 /// Buffers of one thread; cleared, never freed.
 struct RefinementWorkspace {
   std::vector<TriangleIndex> ring;
+  std::vector<NodeIndex> ring_vertices;
 };
 
 /// Polishes a pair of original triangles to the exact local minimum of the distance around them.
@@ -39,6 +42,9 @@ struct RefinementWorkspace {
 /// point of tA closest to q and q that of tB closest to p (the variational inequality of a product of convex
 /// sets separates), so it is enough to look at the triangles around p and those around q one side at a time.
 /// Terminates: every step strictly decreases the distance and the triangle pairs are finitely many.
+/// Witnesses that touch (distance within the kernel's error of 0) end it at once.
+/// Error: that of triangleDistance in coordinates relative to the start triangles, once more for what the
+/// proof lets pass, and the rounding of a_from_b's translation. a_from_b must be rigid to rounding.
 WitnessRefinement refineWitness(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
                                 TriangleIndex start_a, TriangleIndex start_b, RefinementWorkspace& workspace);
 

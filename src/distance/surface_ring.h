@@ -1,0 +1,46 @@
+#pragma once
+
+#include "concave_distance/distance/triangle_distance.h"
+#include "concave_distance/distance/witness_refinement.h"
+#include "concave_distance/mesh/mesh_topology.h"
+#include "concave_distance/mesh/surface_mesh.h"
+
+namespace concave_distance::detail {
+
+/// A triangle of a surface, in coordinates relative to `centre`.
+struct LocalTriangle {
+  const SurfaceMesh& mesh;
+  const MeshTopology& topology;
+  const Eigen::Vector3d& centre;
+  TriangleIndex triangle;
+};
+
+/// A witness on that triangle and the vector from it to the other body's witness, same coordinates.
+struct LocalWitness {
+  Eigen::Vector3d point;
+  Feature feature;
+  Eigen::Vector3d to_other;
+};
+
+struct RingTolerances {
+  double on_feature;   ///< metres; a point as near as this to an edge or vertex may lie on it
+  double first_order;  ///< square metres; bound on to_other . (corner - point) that still counts as level
+};
+
+struct RingLook {
+  TriangleIndex
+      triangle;  ///< the one whose point is closest to the other witness; the own one if none is closer
+  std::uint32_t opened = 0;
+};
+
+/// All triangles that hold the witness, the own one first: across its edge, around its vertex, and whatever
+/// else is connected to them within the tolerance, where triangles are as thin as rounding.
+void collectRing(const LocalTriangle& own, const LocalWitness& witness, double on_feature,
+                 RefinementWorkspace& workspace);
+
+/// Looks for a triangle around the witness that comes closer to the other witness. A triangle none of whose
+/// corners lies beyond the plane through the point, across the direction to the other, cannot.
+RingLook lookAround(const LocalTriangle& own, const LocalWitness& witness, const RingTolerances& tolerances,
+                    RefinementWorkspace& workspace);
+
+}  // namespace concave_distance::detail
