@@ -97,10 +97,40 @@ void setShells(NodeGraph& graph) {
   }
 }
 
+void setNeighbourhoods(NodeGraph& graph, const Eigen::Vector3d& origin) {
+  using Neighbourhood = NodeGraph::Neighbourhood;
+  Neighbourhood empty{};
+  empty.x.fill(Neighbourhood::kFarAway);
+  empty.y.fill(Neighbourhood::kFarAway);
+  empty.z.fill(Neighbourhood::kFarAway);
+  empty.more = Neighbourhood::kNoMore;
+  graph.neighbourhood_origin = origin;
+  graph.neighbourhoods.assign(graph.nodeCount(), empty);
+  for (std::size_t node = 0; node < graph.nodeCount(); ++node) {
+    const auto row = graph.edges.row(node);
+    std::size_t current = node;
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      const std::size_t seat = i % Neighbourhood::kSize;
+      if (i > 0 && seat == 0) {
+        graph.neighbourhoods[current].more = static_cast<std::uint32_t>(graph.neighbourhoods.size());
+        current = graph.neighbourhoods.size();
+        graph.neighbourhoods.push_back(empty);
+      }
+      const Eigen::Vector3f position = (graph.positions[row[i].to.value] - origin).cast<float>();
+      Neighbourhood& part = graph.neighbourhoods[current];
+      part.x[seat] = position.x();
+      part.y[seat] = position.y();
+      part.z[seat] = position.z();
+      part.to[seat] = row[i].to.value;
+      ++part.count;
+    }
+  }
+}
+
 }  // namespace
 
 std::size_t NodeGraph::memoryBytes() const {
-  return (positions.size() + neighbour_positions.size()) * sizeof(Eigen::Vector3d) +
+  return positions.size() * sizeof(Eigen::Vector3d) + neighbourhoods.size() * sizeof(Neighbourhood) +
          edges.values.size() * sizeof(Edge) + (edges.offsets.size() + shell.size()) * sizeof(std::uint32_t);
 }
 
@@ -110,10 +140,7 @@ NodeGraph buildNodeGraph(const SurfaceMesh& grid) {
   graph.edges = collectEdges(grid);
   setLengths(graph);
   setShells(graph);
-  graph.neighbour_positions.reserve(graph.edges.values.size());
-  for (const NodeGraph::Edge& edge : graph.edges.values) {
-    graph.neighbour_positions.push_back(graph.positions[edge.to.value]);
-  }
+  setNeighbourhoods(graph, grid.boundingBox().center());
   return graph;
 }
 

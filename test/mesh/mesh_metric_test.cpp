@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <rapidcheck/gtest.h>
+#include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "concave_distance/base/random_engine.h"
 #include "support/concave_shapes.h"
@@ -182,17 +184,64 @@ TEST(MeshMetric, TheCacheSurvivesBeingOverwrittenManyTimes) {
 }
 
 TEST(MeshMetric, MemoryOfQueriesBeyondTheMatricesIsLinearInNodes) {
-  for (const std::uint32_t n : {40U, 160U}) {
+  for (const std::uint32_t n : {30U, 120U, 240U}) {
     const NodeGraph graph = buildNodeGraph(test::makeSheet(n, n));
     const MeshMetric metric(graph, kOnDemand);
     MeshMetricQuery query(metric);
     std::vector<NodeIndex> path;
-    for (std::uint32_t i = 0; i < 40; ++i) {
+    for (std::uint32_t i = 0; i < 25; ++i) {  // more full balls than there is room for
       query.distanceWithin(NodeIndex{i * 13}, NodeIndex{graph.nodeCount() - 1}, kInfinity);
       query.shortestPath(NodeIndex{i * 13}, NodeIndex{graph.nodeCount() - 1}, path);
     }
-    EXPECT_LE(query.memoryBytes(), 250 * graph.nodeCount());
+    EXPECT_LE(query.memoryBytes(), std::max<std::size_t>(260 * graph.nodeCount(), 4'000'000));
   }
+}
+
+TEST(MeshMetric, NodeTowardsIsTheLastNodeWithinTheDistanceOnAShortestPath) {
+  const NodeGraph graph = buildNodeGraph(wavySheet());
+  const MeshMetric matrices(graph, {});
+  const MeshMetric bounded(graph, kOnDemand);
+  MeshMetricQuery with_matrices(matrices);
+  MeshMetricQuery on_demand(bounded);
+  RandomEngine engine(3);
+  for (int i = 0; i < 3000; ++i) {
+    const NodeIndex from{uniformIndex(engine, static_cast<std::uint32_t>(graph.nodeCount()))};
+    const NodeIndex to{uniformIndex(engine, static_cast<std::uint32_t>(graph.nodeCount()))};
+    const auto length = static_cast<double>(matrices.matrixDistance(from, to));
+    const double distance = 1.2 * length * uniformUnit(engine);
+    for (MeshMetricQuery* query : {&with_matrices, &on_demand}) {
+      const NodeIndex node = query->nodeTowards(from, to, distance, kInfinity);
+      const auto before = static_cast<double>(matrices.matrixDistance(from, node));
+      const auto after = static_cast<double>(matrices.matrixDistance(node, to));
+      EXPECT_NEAR(before + after, length, length * 0x1.0p-22);
+      EXPECT_LE(before, distance + length * 0x1.0p-22);
+      if (node != to) {
+        // One edge farther would be beyond the distance; no edge here is longer than 0.2.
+        EXPECT_GE(before, distance - 0.2);
+      }
+    }
+    EXPECT_EQ(on_demand.nodeTowards(from, to, 0.5 * length, 0.5 * length), from)
+        << "no path within the bound";
+  }
+}
+
+TEST(MeshMetric, NodeInBallStaysWithinTheRadiusAndReachesEveryNodeOfIt) {
+  const NodeGraph graph = buildNodeGraph(twoShells());
+  const MeshMetric matrices(graph, {});
+  const MeshMetric bounded(graph, kOnDemand);
+  MeshMetricQuery query(bounded);
+  const NodeIndex centre{12};
+  std::set<std::uint32_t> expected;
+  for (std::uint32_t i = 0; i < graph.nodeCount(); ++i) {
+    if (matrices.matrixDistance(centre, NodeIndex{i}) <= 0.25F) {
+      expected.insert(i);
+    }
+  }
+  std::set<std::uint32_t> found;
+  for (int i = 0; i < 1000; ++i) {
+    found.insert(query.nodeInBall(centre, 0.25, i / 1000.0).value);
+  }
+  EXPECT_EQ(found, expected);
 }
 
 }  // namespace

@@ -29,16 +29,31 @@ TEST(NodeGraph, HasEveryMeshEdgeOnceInBothDirections) {
   EXPECT_EQ(found, expected);
 }
 
-TEST(NodeGraph, NeighboursAscendAndTheirPositionsStandBesideThem) {
-  const NodeGraph graph = buildNodeGraph(test::makeSheet(7, 5, 0.1, 0.05));
-  ASSERT_EQ(graph.neighbour_positions.size(), graph.edges.values.size());
-  for (std::size_t i = 0; i < graph.nodeCount(); ++i) {
-    for (std::size_t k = graph.edges.offsets[i]; k < graph.edges.offsets[i + 1]; ++k) {
-      const NodeGraph::Edge& edge = graph.edges.values[k];
-      EXPECT_TRUE(k == graph.edges.offsets[i] || graph.edges.values[k - 1].to < edge.to);
-      EXPECT_EQ(graph.neighbour_positions[k], graph.positions[edge.to.value]);
+TEST(NodeGraph, NeighbourhoodsHoldEveryNeighbourInAscendingOrder) {
+  const NodeGraph graph = buildNodeGraph(test::makeComb(5));  // its fans have more than eight neighbours
+  std::size_t largest = 0;
+  for (std::uint32_t i = 0; i < graph.nodeCount(); ++i) {
+    const auto row = graph.edges.row(i);
+    largest = std::max(largest, row.size());
+    std::uint32_t part = i;
+    for (std::size_t k = 0; k < row.size(); ++k) {
+      if (k > 0 && k % NodeGraph::Neighbourhood::kSize == 0) {
+        part = graph.neighbourhoods[part].more;
+        ASSERT_LT(part, graph.neighbourhoods.size());
+      }
+      EXPECT_TRUE(k == 0 || row[k - 1].to < row[k].to);
+      const NodeGraph::Neighbourhood& seats = graph.neighbourhoods[part];
+      const std::size_t seat = k % NodeGraph::Neighbourhood::kSize;
+      EXPECT_EQ(seats.to[seat], row[k].to.value);
+      const Eigen::Vector3d position =
+          graph.neighbourhood_origin + Eigen::Vector3d(static_cast<double>(seats.x[seat]),
+                                                       static_cast<double>(seats.y[seat]),
+                                                       static_cast<double>(seats.z[seat]));
+      EXPECT_LE((position - graph.positions[row[k].to.value]).norm(), 1e-7);  // 1 m across, 24 bits
     }
+    EXPECT_EQ(graph.neighbourhoods[part].more, NodeGraph::Neighbourhood::kNoMore);
   }
+  EXPECT_GT(largest, NodeGraph::Neighbourhood::kSize);
 }
 
 TEST(NodeGraph, LengthsAreWholeQuantaJustAboveTheStraightDistance) {

@@ -46,16 +46,16 @@ class MeshMetric {
   std::vector<std::uint16_t> predecessor_;
 };
 
-/// Buffers and cache for one thread's queries. With matrices it holds nothing; without, less than 250 bytes
-/// a node, allocated by the first query.
+/// Buffers and cache for one thread's queries. With matrices it holds nothing; without, the first query
+/// allocates it: 250 bytes a node, for small meshes up to 3 MB.
 class MeshMetricQuery {
  public:
   explicit MeshMetricQuery(const MeshMetric& metric);
   const MeshMetric& metric() const { return *metric_; }
 
   /// delta(from, to) when it is at most `bound`, else infinity (also between shells). Metres.
-  /// O(1) with matrices; else O(log n) when a ball around either node is cached, O(b log b) for the b nodes
-  /// within `bound` of `from` when not. Balls are dropped in the order they came.
+  /// O(1) with matrices and when a ball around either node is cached; else O(b log b) for the b nodes within
+  /// `bound` of `from`. Balls are dropped in the order they came.
   double distanceWithin(NodeIndex from, NodeIndex to, double bound);
 
   /// Nodes of a shortest path, `from` and `to` included; empty between shells and when it is longer than
@@ -64,34 +64,49 @@ class MeshMetricQuery {
   void shortestPath(NodeIndex from, NodeIndex to, std::vector<NodeIndex>& path,
                     double bound = std::numeric_limits<double>::infinity());
 
+  /// The last node within `distance` of `from`, metres, on a shortest path to `to`; `from` itself when there
+  /// is no path or none within `bound`. O(nodes walked) where distanceWithin() is O(1).
+  NodeIndex nodeTowards(NodeIndex from, NodeIndex to, double distance, double bound);
+
+  /// Beyond the matrices only: a node within `radius` of `from`, all about equally likely when `fraction` is
+  /// uniform in [0, 1).
+  NodeIndex nodeInBall(NodeIndex from, double radius, double fraction);
+
   std::size_t memoryBytes() const;
 
  private:
+  /// A seat in a ball's hash table.
   struct BallEntry {
-    NodeIndex node;
+    std::uint32_t node;  ///< kNoNode where the seat is free
     float distance;
+    std::uint32_t predecessor;  ///< next node on the way to the ball's source
   };
-  /// What one bounded search settled: ball_entries_[first, first + count), ascending by node.
+  /// What one bounded search settled: the hash table ball_entries_[first, first + seats).
   struct Ball {
     NodeIndex source;
     double radius;
     std::size_t first;
-    std::size_t count;
+    std::size_t seats;
   };
-  struct OpenNode {
+  struct Reached {
+    float key;
+    std::uint32_t node;
+  };
+  struct GuidedNode {
     double key;
     double path_length;
     NodeIndex node;
   };
   void allocate();
   void clearSearch();
-  void open(NodeIndex node, double path_length, double key, NodeIndex predecessor);
-  bool takeNearest(OpenNode& nearest);
+  void reach(NodeIndex node, double path_length, NodeIndex predecessor);
   const Ball* cachedBall(NodeIndex source, double radius) const;
   const Ball& searchBall(NodeIndex source, double radius);
   const Ball& storeBall(NodeIndex source, double radius);
+  std::size_t makeRoom(std::size_t seats);
   void dropOldestBall();
-  float ballDistance(const Ball& ball, NodeIndex node) const;
+  bool cannotReach(NodeIndex from, NodeIndex to, double bound) const;
+  const BallEntry* find(const Ball& ball, NodeIndex node) const;
 
   const MeshMetric* metric_;
   std::vector<BallEntry> ball_entries_;  ///< ring: the next ball overwrites the oldest ones
@@ -103,7 +118,8 @@ class MeshMetricQuery {
   std::vector<double> path_length_;          ///< of the running search; infinity where not reached
   std::vector<NodeIndex> predecessor_;
   std::vector<NodeIndex> reached_;
-  std::vector<OpenNode> heap_;
+  std::vector<Reached> open_;
+  std::vector<GuidedNode> guided_open_;
 };
 
 }  // namespace concave_distance
