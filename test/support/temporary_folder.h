@@ -1,46 +1,44 @@
 #pragma once
 
-#include <cstdlib>
+#include <stdlib.h>
+
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <stdexcept>
 #include <string>
 
 namespace concave_distance::test {
 
-/// A folder of its own for each instance, removed with it.
+/// A folder of its own for one test, gone with it.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
     std::string name = (std::filesystem::temp_directory_path() / "concave_distance_XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) {
-      throw std::runtime_error("no temporary folder could be made at " + name);
-    }
-    folder_ = name;
+    if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder " + name);
+    path_ = name;
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
   }
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(folder_, ignored);
-  }
 
-  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  std::string path() const { return path_.string(); }
+  std::string path(const std::string& file) const { return (path_ / file).string(); }
 
-  /// Writes a file and returns its path.
-  std::string write(const std::string& name, const std::string& content) const {
-    std::ofstream(path(name), std::ios::binary) << content;
-    return path(name);
+  /// Writes a file, folders on the way included, and returns its path.
+  std::string write(const std::string& file, const std::string& content) const {
+    const std::filesystem::path target = path_ / file;
+    std::filesystem::create_directories(target.parent_path());
+    std::ofstream stream(target, std::ios::binary);
+    stream << content;
+    if (!stream) throw std::runtime_error("cannot write " + target.string());
+    return target.string();
   }
 
  private:
-  std::filesystem::path folder_;
+  std::filesystem::path path_;
 };
-
-inline std::string contentOf(const std::string& path) {
-  std::ifstream stream(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
 
 }  // namespace concave_distance::test

@@ -12,7 +12,8 @@ enum class NichingMethod : std::uint8_t {
   None,
   Sharing,
   DynamicSharing,
-  DeterministicCrowding,
+  DeterministicCrowding,               ///< Mahfoud's: no selection but the contest with the parents
+  DeterministicCrowdingWithSelection,  ///< the thesis's: parents are selected as without niching
   SimpleCrowding
 };
 
@@ -32,12 +33,19 @@ struct GeneticParameters {
   bool local_optimization = true;        ///< Lamarckian descent of every new individual (-wl / -nl)
   std::optional<double> sharing_radius;  ///< sigma_s; empty: automaticRadii()
   double sharing_exponent = 1.0;         ///< alpha_s
-  std::optional<double> mating_radius;   ///< sigma_m; empty: 1.25 sigma_s
+  /// epsilon of the potential fitness 1 / (d^2 + epsilon^2), as a share of the longer of both grids' maximum
+  /// edge lengths: differences of distance below it are the grid's. 0 for the thesis's tables.
+  double fitness_epsilon = 1.0;
+  std::uint32_t dynamic_niche_limit = 20;  ///< most peaks of dynamic sharing
+  std::optional<double> mating_radius;     ///< sigma_m; empty: 1.25 sigma_s
   bool mating_restriction = true;
   std::optional<double> niche_radius;  ///< sigma_n; empty: sigma_s
   std::uint32_t crowding_factor = 3;   ///< C_f of simple crowding
   double generation_gap = 1.0;         ///< share of the population replaced a generation, (0, 1]
   std::uint32_t elite_count = 1;       ///< best individuals that always survive
+  /// The best of every niche (greedy identification with sigma_n) survives too, as long as these take no more
+  /// than half of the population: species conservation (Li, Balazs, Parks and Clarkson 2002).
+  bool conserve_niches = false;
   /// Stop when the best and the set of niches have not changed for this many generations; 0: never early.
   std::uint32_t convergence_generations = 0;
 

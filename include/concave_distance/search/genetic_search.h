@@ -6,30 +6,10 @@
 
 #include "concave_distance/base/random_engine.h"
 #include "concave_distance/search/genetic_parameters.h"
-#include "concave_distance/search/local_descent.h"
-#include "concave_distance/search/niche_identification.h"
-#include "concave_distance/search/pair_metric.h"
 #include "concave_distance/search/pair_objective.h"
+#include "concave_distance/search/search_workspace.h"
 
 namespace concave_distance {
-
-/// Every buffer of one pair's search; bound to the two bodies, cleared and never freed.
-struct SearchWorkspace {
-  SearchWorkspace(const BodyMesh& a, const BodyMesh& b) : metric(a, b) {}
-  PairMetric metric;
-  BasinMemory basins;
-  std::vector<TrialPoint> population;
-  std::vector<TrialPoint> offspring;
-  std::vector<double> fitness;
-  std::vector<double> niche_counts;
-  std::vector<std::uint32_t> selected;
-  std::vector<std::uint32_t> order;
-  std::vector<std::uint64_t> trail;
-  std::vector<NodeIndex> path;
-  std::vector<IdentifiedNiche> niches;
-
-  std::size_t memoryBytes() const;  ///< of all buffers, the metric's cache included
-};
 
 /// Watches a run, for figures and tables; called after each generation (0 is the initial population).
 struct GenerationRecord {
@@ -49,13 +29,16 @@ struct GeneticResult {
 };
 
 /// comb-GA (Carretero, ch. 3 and 4): initial population = `inherited`, the rest random; block order of fig.
-/// 4.3 (sharing between evaluation and selection) or fig. 4.4 (crowding between mating and mutation). The
-/// final population stays in workspace.population, every local minimum met is added to workspace.basins, which
-/// the caller clears once a cycle: basins descended before the call are not descended again.
-/// workspace.basins.minima() is
-/// (the archive's food) when local optimisation is on. `radii` from automaticRadii().
+/// 4.3 (sharing between evaluation and selection) or fig. 4.4 (crowding between mating and mutation; children
+/// are descended before they compete). The final population stays in workspace.population. With local
+/// optimisation every local minimum met is added to workspace.basins (its minima() are the archive's food),
+/// which the caller clears once a cycle: basins descended before the call are not descended again.
+/// @param parameters validated
+/// @param radii from automaticRadii()
+/// @param inherited node pairs to start from, evaluated and descended anew; what exceeds the population is
+///        left out
 /// @param observer called once a generation when not empty; the only call that may allocate in a warm run
-/// Otherwise allocates only while the workspace warms up. Never throws: parameters were validated.
+/// Otherwise allocates only while the workspace warms up. Never throws.
 GeneticResult geneticSearch(const PairObjective& objective, const GeneticParameters& parameters,
                             const NicheRadii& radii, const std::vector<TrialPoint>& inherited,
                             RandomEngine& engine, SearchWorkspace& workspace,

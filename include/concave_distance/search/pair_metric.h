@@ -13,6 +13,7 @@ class PairMetric {
   double distanceWithin(const TrialPoint& x, const TrialPoint& y, double bound);
   MeshMetricQuery& onA() { return a_; }
   MeshMetricQuery& onB() { return b_; }
+  std::size_t memoryBytes() const { return a_.memoryBytes() + b_.memoryBytes(); }
 
  private:
   MeshMetricQuery a_;

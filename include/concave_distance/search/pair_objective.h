@@ -7,9 +7,17 @@
 
 namespace concave_distance {
 
+/// Written out, so that every place that compares node distances rounds them in the same way.
+inline double squaredDistanceBetween(const Eigen::Vector3d& p, const Eigen::Vector3d& q) {
+  const double x = p.x() - q.x();
+  const double y = p.y() - q.y();
+  const double z = p.z() - q.z();
+  return x * x + y * y + z * z;
+}
+
 /// Two bodies at one relative pose: what every search operator works on. The genes are nodes of the search
-/// grids; distances are measured in A's frame, or in B's while a descent moves B's node, so that no node is
-/// ever transformed twice.
+/// grids; distances are those in A's frame. A descent that moves B's node may look in B's frame, so that it
+/// transforms once and not once a neighbour, but compares in A's frame what it has found.
 class PairObjective {
  public:
   PairObjective(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b)
@@ -22,8 +30,8 @@ class PairObjective {
 
   /// Carretero, eq. (3.2); square metres.
   double squaredDistance(NodeIndex node_a, NodeIndex node_b) const {
-    return (a_->graph().positions[node_a.value] - a_from_b_ * b_->graph().positions[node_b.value])
-        .squaredNorm();
+    return squaredDistanceBetween(a_->graph().positions[node_a.value],
+                                  a_from_b_ * b_->graph().positions[node_b.value]);
   }
   TrialPoint evaluate(NodeIndex node_a, NodeIndex node_b, SearchCost& cost) const {
     ++cost.evaluations;

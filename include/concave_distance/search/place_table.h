@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "concave_distance/search/node_pair_map.h"
+#include "concave_distance/search/pair_metric.h"
+#include "concave_distance/search/trial_point.h"
+
+namespace concave_distance {
+
+/// The distinct trial points ("places") of one run, numbered in the order they came, and the mesh distances
+/// between them. After Lamarckian descent most individuals stand on few places: operators that compare all
+/// with all work on places, and look up each distance once a run.
+class PlaceTable {
+ public:
+  /// Forgets all. Distances beyond `bound` (metres) will be infinite.
+  void reset(double bound);
+  std::uint32_t placeOf(const TrialPoint& point);
+  const TrialPoint& point(std::uint32_t place) const { return points_[place]; }
+  std::size_t size() const { return points_.size(); }
+  /// Delta of two places (Carretero, eq. (4.5)), metres; infinite beyond the bound and between shells.
+  double delta(std::uint32_t i, std::uint32_t j, PairMetric& metric);
+  std::size_t memoryBytes() const;
+
+ private:
+  NodePairMap place_of_pair_;
+  std::vector<TrialPoint> points_;
+  std::vector<float> delta_;  ///< lower triangle, row by row; negative: not computed yet
+  double bound_ = 0.0;
+};
+
+/// How many individuals stand where: the places present in a population, in order of their first individual.
+struct Census {
+  std::vector<std::uint32_t> places;          ///< the distinct ones
+  std::vector<std::uint32_t> counts;          ///< beside them
+  std::vector<std::uint32_t> entry_of_place;  ///< index into the two above; kNone where nobody stands
+
+  static constexpr std::uint32_t kNone = 0xffffffffU;
+  /// @param population_places the place of each individual
+  void take(const std::vector<std::uint32_t>& population_places, std::size_t place_count);
+  std::size_t memoryBytes() const;
+};
+
+/// Greedy niche identification (Carretero, sec. 4.6.4) on places: the best one, all within `niche_radius`
+/// (metres) of it stripped, repeat. O(places * niches) distances.
+/// @param order buffer
+/// @param peaks the place of each niche's best point, best first; keeps its capacity
+void nichePeaks(const Census& census, double niche_radius, PlaceTable& places, PairMetric& metric,
+                std::vector<std::uint32_t>& order, std::vector<std::uint32_t>& peaks);
+
+}  // namespace concave_distance

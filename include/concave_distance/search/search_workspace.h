@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "concave_distance/search/basin_memory.h"
+#include "concave_distance/search/convergence.h"
+#include "concave_distance/search/niche_identification.h"
+#include "concave_distance/search/pair_metric.h"
+#include "concave_distance/search/place_table.h"
+#include "concave_distance/search/sharing.h"
+
+namespace concave_distance {
+
+/// Every buffer of one pair's search; bound to the two bodies, cleared and never freed.
+struct SearchWorkspace {
+  SearchWorkspace(const BodyMesh& a, const BodyMesh& b) : metric(a, b) {}
+  PairMetric metric;
+  BasinMemory basins;
+  std::vector<TrialPoint> population;
+  std::vector<std::uint64_t> trail;
+  std::vector<std::uint32_t> order;
+  std::vector<IdentifiedNiche> niches;
+
+  PlaceTable places;
+  std::vector<std::uint32_t> population_places;  ///< of each individual
+  Census census;                                 ///< of the population
+  std::vector<TrialPoint> offspring;
+  std::vector<std::uint32_t> offspring_places;
+  std::vector<bool> offspring_is_new;
+  std::vector<double> niche_counts;
+  std::vector<double> weights;
+  std::vector<double> wheel;
+  std::vector<std::uint32_t> selected;
+  std::vector<std::uint32_t> seats;
+  std::vector<std::uint32_t> elites;
+  DynamicNicheBuffers dynamic_niches;
+  ConvergenceCheck convergence;
+
+  std::size_t memoryBytes() const;  ///< of all buffers, the metric's cache included
+};
+
+}  // namespace concave_distance

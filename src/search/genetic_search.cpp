@@ -1,0 +1,298 @@
+#include "concave_distance/search/genetic_search.h"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+#include "concave_distance/search/crowding.h"
+#include "concave_distance/search/local_descent.h"
+#include "concave_distance/search/mating.h"
+#include "concave_distance/search/mating_restriction.h"
+#include "concave_distance/search/mutation.h"
+#include "concave_distance/search/replacement.h"
+#include "concave_distance/search/selection.h"
+#include "concave_distance/search/sharing.h"
+
+namespace concave_distance {
+namespace {
+
+/// Mesh distances that the operators need: all of them where looking one up costs nothing, else those within
+/// the largest radius.
+double distanceBound(const PairObjective& objective, const NicheRadii& radii) {
+  const bool has_matrices =
+      objective.bodyA().metric().hasMatrices() && objective.bodyB().metric().hasMatrices();
+  return has_matrices ? std::numeric_limits<double>::infinity()
+                      : std::max({radii.sharing, radii.mating, radii.niche});
+}
+
+class GeneticRun {
+ public:
+  GeneticRun(const PairObjective& objective, const GeneticParameters& parameters, const NicheRadii& radii,
+             RandomEngine& engine, SearchWorkspace& workspace)
+      : objective_(objective),
+        parameters_(parameters),
+        radii_(radii),
+        engine_(engine),
+        work_(workspace),
+        epsilon_(parameters.fitness_epsilon *
+                 std::max(objective.bodyA().maxEdgeLength(), objective.bodyB().maxEdgeLength())),
+        offspring_count_(offspringCount(parameters.population_size, parameters.generation_gap)) {
+    work_.places.reset(distanceBound(objective, radii));
+    work_.convergence.reset(parameters.convergence_generations);
+  }
+
+  GeneticResult run(const std::vector<TrialPoint>& inherited, const GenerationObserver& observer) {
+    startPopulation(inherited);
+    noteBest(0);
+    observe(0, observer);
+    for (std::uint32_t generation = 1; generation <= parameters_.max_generations; ++generation) {
+      mutation_probability_ = mutationProbability(parameters_, generation);
+      mutation_radius_ = mutationRadius(parameters_, generation);
+      chooseElites();
+      step();
+      work_.census.take(work_.population_places, work_.places.size());
+      restoreElites(work_.elites, work_.places, work_.census, work_.population, work_.population_places);
+      noteBest(generation);
+      observe(generation, observer);
+      if (work_.convergence.update(work_.census, radii_.niche, work_.places, work_.metric)) {
+        result_.converged = true;
+        break;
+      }
+    }
+    return result_;
+  }
+
+ private:
+  void startPopulation(const std::vector<TrialPoint>& inherited) {
+    const std::size_t kept = std::min<std::size_t>(inherited.size(), parameters_.population_size);
+    work_.population.assign(inherited.begin(), inherited.begin() + static_cast<std::ptrdiff_t>(kept));
+    while (work_.population.size() < parameters_.population_size) {
+      work_.population.push_back(randomTrialPoint(objective_, engine_));
+    }
+    work_.population_places.resize(work_.population.size());
+    for (std::size_t i = 0; i < work_.population.size(); ++i) {
+      settle(work_.population[i], work_.population_places[i]);
+    }
+    work_.census.take(work_.population_places, work_.places.size());
+  }
+
+  /// A new individual's distance; with local optimisation it goes where its descent ends (Lamarck).
+  void settle(TrialPoint& point, std::uint32_t& place) {
+    point = parameters_.local_optimization
+                ? descend(objective_, point, &work_.basins, work_.trail, result_.cost)
+                : objective_.evaluate(point.node_a, point.node_b, result_.cost);
+    place = work_.places.placeOf(point);
+  }
+
+  void step() {
+    switch (parameters_.niching) {
+      case NichingMethod::None:
+      case NichingMethod::Sharing:
+      case NichingMethod::DynamicSharing:
+        selectParents();
+        mateCouples();
+        mutateOffspring();
+        settleOffspring();
+        seatOffspring();
+        return;
+      case NichingMethod::SimpleCrowding:
+        selectParents();
+        mateCouples();
+        mutateOffspring();
+        settleOffspring();
+        crowdIn();
+        return;
+      case NichingMethod::DeterministicCrowding:
+        drawParents();
+        mateCouples();
+        mutateOffspring();
+        settleOffspring();
+        compete();
+        std::copy(work_.selected.begin(), work_.selected.end(), work_.seats.begin());
+        takeSeats();
+        return;
+      case NichingMethod::DeterministicCrowdingWithSelection:
+        selectParents();
+        mateCouples();
+        settleOffspring();  // a child that has not been descended would lose to any parent that has
+        compete();
+        mutateOffspring();
+        settleOffspring();
+        seatOffspring();
+        return;
+    }
+  }
+
+  /// Fitness of every individual, shared among its niche where the method says so.
+  void weigh() {
+    const Census& census = work_.census;
+    std::vector<double>& counts = work_.niche_counts;
+    if (parameters_.niching == NichingMethod::Sharing) {
+      nicheCounts(census, work_.places, work_.metric, radii_.sharing, parameters_.sharing_exponent, counts);
+    } else if (parameters_.niching == NichingMethod::DynamicSharing) {
+      dynamicNicheCounts(census, work_.places, work_.metric, radii_.sharing, parameters_.sharing_exponent,
+                         parameters_.dynamic_niche_limit, work_.dynamic_niches, counts);
+    } else {
+      counts.assign(census.places.size(), 1.0);
+    }
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+      const double squared_distance = work_.places.point(census.places[i]).squared_distance;
+      counts[i] = potentialFitness(squared_distance, epsilon_) / counts[i];
+    }
+    work_.weights.clear();
+    for (const std::uint32_t place : work_.population_places) {
+      work_.weights.push_back(counts[census.entry_of_place[place]]);
+    }
+  }
+
+  void selectParents() {
+    weigh();
+    select(parameters_.selection, work_.weights, offspring_count_, engine_, work_.wheel, work_.selected);
+    shuffle(work_.selected, engine_);
+  }
+
+  /// Mahfoud: everybody mates, or of a generation gap's share each at most once.
+  void drawParents() {
+    drawSeats(parameters_.population_size, offspring_count_, engine_, work_.selected);
+    shuffle(work_.selected, engine_);
+    work_.seats.resize(work_.selected.size());
+  }
+
+  void mateCouples() {
+    if (parameters_.mating_restriction) {
+      restrictMating(work_.selected, work_.population_places, radii_.mating, work_.places, work_.metric,
+                     engine_);
+    }
+    work_.offspring.clear();
+    work_.offspring_places.clear();
+    for (const std::uint32_t parent : work_.selected) {
+      work_.offspring.push_back(work_.population[parent]);
+      work_.offspring_places.push_back(work_.population_places[parent]);
+    }
+    work_.offspring_is_new.assign(work_.offspring.size(), false);
+    for (std::size_t i = 0; i + 1 < work_.offspring.size(); i += 2) {
+      // Parents on one place have children on it: nothing to mate.
+      if (uniformUnit(engine_) < parameters_.crossover_probability &&
+          work_.offspring_places[i] != work_.offspring_places[i + 1]) {
+        const Children children = mate(parameters_.mating, objective_, work_.offspring[i],
+                                       work_.offspring[i + 1], work_.metric, radii_.mating, engine_);
+        work_.offspring[i] = children.first;
+        work_.offspring[i + 1] = children.second;
+        work_.offspring_is_new[i] = true;
+        work_.offspring_is_new[i + 1] = true;
+      }
+    }
+  }
+
+  void mutateOffspring() {
+    for (std::size_t i = 0; i < work_.offspring.size(); ++i) {
+      if (uniformUnit(engine_) < mutation_probability_) {
+        work_.offspring[i] = mutate(work_.offspring[i], mutation_radius_, work_.metric, engine_);
+        work_.offspring_is_new[i] = true;
+      }
+    }
+  }
+
+  void settleOffspring() {
+    for (std::size_t i = 0; i < work_.offspring.size(); ++i) {
+      if (work_.offspring_is_new[i]) {
+        settle(work_.offspring[i], work_.offspring_places[i]);
+        work_.offspring_is_new[i] = false;
+      }
+    }
+  }
+
+  /// The contest of deterministic crowding; afterwards the offspring are those who won.
+  void compete() {
+    const auto rules = parameters_.niching == NichingMethod::DeterministicCrowding ? &competePaired
+                                                                                   : &competeWithCloserParent;
+    for (std::size_t i = 0; i + 1 < work_.offspring.size(); i += 2) {
+      const auto parent = [&](std::size_t k) {
+        return Contestant{work_.population[work_.selected[k]], work_.population_places[work_.selected[k]]};
+      };
+      const auto child = [&](std::size_t k) {
+        return Contestant{work_.offspring[k], work_.offspring_places[k]};
+      };
+      Contestant first = parent(i);
+      Contestant second = parent(i + 1);
+      rules(first, second, child(i), child(i + 1), work_.places, work_.metric);
+      work_.offspring[i] = first.point;
+      work_.offspring_places[i] = first.place;
+      work_.offspring[i + 1] = second.point;
+      work_.offspring_places[i + 1] = second.place;
+    }
+  }
+
+  void seatOffspring() {
+    drawSeats(parameters_.population_size, offspring_count_, engine_, work_.seats);
+    takeSeats();
+  }
+
+  void takeSeats() {
+    for (std::size_t i = 0; i < work_.offspring.size(); ++i) {
+      work_.population[work_.seats[i]] = work_.offspring[i];
+      work_.population_places[work_.seats[i]] = work_.offspring_places[i];
+    }
+  }
+
+  void crowdIn() {
+    for (std::size_t i = 0; i < work_.offspring.size(); ++i) {
+      const std::uint32_t seat = crowdedOut(work_.population_places, work_.offspring_places[i],
+                                            parameters_.crowding_factor, work_.places, work_.metric, engine_);
+      work_.population[seat] = work_.offspring[i];
+      work_.population_places[seat] = work_.offspring_places[i];
+    }
+  }
+
+  void chooseElites() {
+    findElites(work_.census, work_.places, parameters_.elite_count, work_.elites);
+    if (!parameters_.conserve_niches) {
+      return;
+    }
+    std::vector<std::uint32_t>& peaks = work_.dynamic_niches.peaks;
+    nichePeaks(work_.census, radii_.niche, work_.places, work_.metric, work_.order, peaks);
+    for (const std::uint32_t peak : peaks) {
+      if (2 * work_.elites.size() < parameters_.population_size &&
+          std::find(work_.elites.begin(), work_.elites.end(), peak) == work_.elites.end()) {
+        work_.elites.push_back(peak);
+      }
+    }
+  }
+
+  void noteBest(std::uint32_t generation) {
+    const TrialPoint& best = *std::min_element(work_.population.begin(), work_.population.end());
+    if (generation == 0 || best < result_.best) {
+      result_.best = best;
+      result_.best_generation = generation;
+    }
+    result_.generations = generation;
+  }
+
+  void observe(std::uint32_t generation, const GenerationObserver& observer) const {
+    if (observer) {
+      observer({generation, &work_.population, &result_.best});
+    }
+  }
+
+  const PairObjective& objective_;
+  const GeneticParameters& parameters_;
+  const NicheRadii& radii_;
+  RandomEngine& engine_;
+  SearchWorkspace& work_;
+  double epsilon_;
+  std::uint32_t offspring_count_;
+  double mutation_probability_ = 0.0;
+  double mutation_radius_ = 0.0;
+  GeneticResult result_;
+};
+
+}  // namespace
+
+GeneticResult geneticSearch(const PairObjective& objective, const GeneticParameters& parameters,
+                            const NicheRadii& radii, const std::vector<TrialPoint>& inherited,
+                            RandomEngine& engine, SearchWorkspace& workspace,
+                            const GenerationObserver& observer) {
+  return GeneticRun(objective, parameters, radii, engine, workspace).run(inherited, observer);
+}
+
+}  // namespace concave_distance

@@ -1,0 +1,20 @@
+#include "concave_distance/search/genetic_search.h"
+#include "concave_distance/search/local_descent.h"
+#include "concave_distance/search/mutation.h"
+
+namespace concave_distance {
+
+GeneticResult multiStartDescent(const PairObjective& objective, std::uint32_t descents, RandomEngine& engine,
+                                SearchWorkspace& workspace) {
+  GeneticResult result;
+  for (std::uint32_t i = 0; i < descents; ++i) {
+    const TrialPoint minimum = descend(objective, randomTrialPoint(objective, engine), &workspace.basins,
+                                       workspace.trail, result.cost);
+    if (i == 0 || minimum < result.best) {
+      result.best = minimum;
+    }
+  }
+  return result;
+}
+
+}  // namespace concave_distance

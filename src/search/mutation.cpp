@@ -1,0 +1,70 @@
+#include "concave_distance/search/mutation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace concave_distance {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNotComputed = std::numeric_limits<double>::quiet_NaN();
+// The decay of the radius over a run: e^-5 is 0.7 %.
+constexpr double kRadiusDecay = 5.0;
+
+NodeIndex randomNode(const NodeGraph& graph, RandomEngine& engine) {
+  return NodeIndex{uniformIndex(engine, static_cast<std::uint32_t>(graph.nodeCount()))};
+}
+
+NodeIndex moveGene(NodeIndex node, double radius, MeshMetricQuery& query, RandomEngine& engine) {
+  const NodeGraph& graph = query.metric().graph();
+  const NodeIndex goal = randomNode(graph, engine);
+  const double share = uniformUnit(engine);
+  if (graph.shell[goal.value] != graph.shell[node.value]) {
+    return goal;
+  }
+  if (!query.metric().hasMatrices()) {
+    return radius < kInfinity ? query.nodeInBall(node, radius, share) : goal;
+  }
+  const double length = query.distanceWithin(node, goal, kInfinity);
+  // 1 - share is never 0.
+  return query.nodeTowards(node, goal, (1.0 - share) * std::min(length, radius), kInfinity);
+}
+
+}  // namespace
+
+TrialPoint mutate(const TrialPoint& point, double radius, PairMetric& metric, RandomEngine& engine) {
+  TrialPoint moved = point;
+  moved.squared_distance = kNotComputed;
+  const std::uint32_t genes = uniformIndex(engine, 3);
+  if (genes != 1) {
+    moved.node_a = moveGene(point.node_a, radius, metric.onA(), engine);
+  }
+  if (genes != 0) {
+    moved.node_b = moveGene(point.node_b, radius, metric.onB(), engine);
+  }
+  return moved;
+}
+
+TrialPoint randomTrialPoint(const PairObjective& objective, RandomEngine& engine) {
+  const NodeIndex node_a = randomNode(objective.bodyA().graph(), engine);
+  return {node_a, randomNode(objective.bodyB().graph(), engine), kNotComputed};
+}
+
+double mutationRadius(const GeneticParameters& parameters, std::uint32_t generation) {
+  const double radius = parameters.mutation_radius.value_or(kInfinity);
+  if (!parameters.shrinking_mutation_radius) {
+    return radius;
+  }
+  return radius * std::exp(-kRadiusDecay * generation / std::max(1U, parameters.max_generations));
+}
+
+double mutationProbability(const GeneticParameters& parameters, std::uint32_t generation) {
+  const double first = parameters.mutation_probability.value_or(1.0 / parameters.population_size);
+  const double share = parameters.max_generations > 1
+                           ? static_cast<double>(generation - 1) / (parameters.max_generations - 1)
+                           : 0.0;
+  return std::min(1.0, first * (1.0 + share * (parameters.final_mutation_probability_factor - 1.0)));
+}
+
+}  // namespace concave_distance

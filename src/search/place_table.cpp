@@ -1,0 +1,98 @@
+#include "concave_distance/search/place_table.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace concave_distance {
+namespace {
+
+// Distances between the first places are kept: 2 MB. A run that meets more computes the others each time.
+constexpr std::uint32_t kPlacesWithDistances = 1024;
+
+}  // namespace
+
+void PlaceTable::reset(double bound) {
+  place_of_pair_.clear();
+  points_.clear();
+  delta_.clear();
+  bound_ = bound;
+}
+
+std::uint32_t PlaceTable::placeOf(const TrialPoint& point) {
+  const auto next = static_cast<std::uint32_t>(points_.size());
+  const std::uint32_t place = place_of_pair_.insert(point.node_a, point.node_b, next);
+  if (place == next) {
+    points_.push_back(point);
+    if (next < kPlacesWithDistances) {
+      delta_.resize(delta_.size() + next, -1.0F);
+    }
+  }
+  return place;
+}
+
+double PlaceTable::delta(std::uint32_t i, std::uint32_t j, PairMetric& metric) {
+  if (i == j) {
+    return 0.0;
+  }
+  if (i < j) {
+    std::swap(i, j);
+  }
+  // Measured from the younger place, which is usually compared with many older ones at once: without matrices
+  // one ball around it serves them all.
+  if (i >= kPlacesWithDistances) {
+    // Rounded as the kept ones are: a distance does not depend on the order in which places were met.
+    return static_cast<double>(static_cast<float>(metric.distanceWithin(points_[i], points_[j], bound_)));
+  }
+  float& kept = delta_[std::size_t{i} * (i - 1) / 2 + j];
+  if (kept < 0.0F) {
+    kept = static_cast<float>(metric.distanceWithin(points_[i], points_[j], bound_));
+  }
+  return static_cast<double>(kept);
+}
+
+std::size_t PlaceTable::memoryBytes() const {
+  return place_of_pair_.memoryBytes() + points_.capacity() * sizeof(TrialPoint) +
+         delta_.capacity() * sizeof(float);
+}
+
+void Census::take(const std::vector<std::uint32_t>& population_places, std::size_t place_count) {
+  for (const std::uint32_t place : places) {
+    if (place < entry_of_place.size()) {
+      entry_of_place[place] = kNone;
+    }
+  }
+  places.clear();
+  counts.clear();
+  entry_of_place.resize(place_count, kNone);
+  for (const std::uint32_t place : population_places) {
+    std::uint32_t& entry = entry_of_place[place];
+    if (entry == kNone) {
+      entry = static_cast<std::uint32_t>(places.size());
+      places.push_back(place);
+      counts.push_back(0);
+    }
+    ++counts[entry];
+  }
+}
+
+std::size_t Census::memoryBytes() const {
+  return (places.capacity() + counts.capacity() + entry_of_place.capacity()) * sizeof(std::uint32_t);
+}
+
+void nichePeaks(const Census& census, double niche_radius, PlaceTable& places, PairMetric& metric,
+                std::vector<std::uint32_t>& order, std::vector<std::uint32_t>& peaks) {
+  order.assign(census.places.begin(), census.places.end());
+  std::sort(order.begin(), order.end(),
+            [&](std::uint32_t l, std::uint32_t r) { return places.point(l) < places.point(r); });
+  peaks.clear();
+  for (const std::uint32_t place : order) {
+    const bool is_member = std::any_of(peaks.begin(), peaks.end(), [&](std::uint32_t peak) {
+      return places.delta(peak, place, metric) <= niche_radius;
+    });
+    if (!is_member) {
+      peaks.push_back(place);
+    }
+  }
+}
+
+}  // namespace concave_distance

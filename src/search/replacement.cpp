@@ -1,0 +1,85 @@
+#include "concave_distance/search/replacement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace concave_distance {
+namespace {
+
+bool contains(const std::vector<std::uint32_t>& values, std::uint32_t value) {
+  return std::find(values.begin(), values.end(), value) != values.end();
+}
+
+/// The individual whose seat an elite takes.
+std::size_t seatForElite(const std::vector<std::uint32_t>& elites, const Census& census,
+                         const std::vector<TrialPoint>& population,
+                         const std::vector<std::uint32_t>& population_places) {
+  const auto crowd = std::max_element(census.counts.begin(), census.counts.end());
+  if (*crowd > 1) {
+    const std::uint32_t place = census.places[static_cast<std::size_t>(crowd - census.counts.begin())];
+    return static_cast<std::size_t>(std::find(population_places.begin(), population_places.end(), place) -
+                                    population_places.begin());
+  }
+  std::size_t worst = population.size();
+  for (std::size_t i = 0; i < population.size(); ++i) {
+    if (!contains(elites, population_places[i]) &&
+        (worst == population.size() || population[worst] < population[i])) {
+      worst = i;
+    }
+  }
+  return worst;
+}
+
+}  // namespace
+
+std::uint32_t offspringCount(std::uint32_t population_size, double generation_gap) {
+  const auto couples = static_cast<std::uint32_t>(std::lround(0.5 * generation_gap * population_size));
+  return std::clamp(2 * couples, 2U, population_size);
+}
+
+void drawSeats(std::uint32_t population_size, std::uint32_t count, RandomEngine& engine,
+               std::vector<std::uint32_t>& seats) {
+  seats.resize(population_size);
+  std::iota(seats.begin(), seats.end(), 0U);
+  if (count == population_size) {
+    return;
+  }
+  for (std::uint32_t i = 0; i < count; ++i) {
+    std::swap(seats[i], seats[i + uniformIndex(engine, population_size - i)]);
+  }
+  seats.resize(count);
+}
+
+void findElites(const Census& census, const PlaceTable& places, std::uint32_t elite_count,
+                std::vector<std::uint32_t>& elites) {
+  elites.clear();
+  while (elites.size() < std::min<std::size_t>(elite_count, census.places.size())) {
+    const std::uint32_t* best = nullptr;
+    for (const std::uint32_t& place : census.places) {
+      if (!contains(elites, place) && (best == nullptr || places.point(place) < places.point(*best))) {
+        best = &place;
+      }
+    }
+    elites.push_back(*best);
+  }
+}
+
+void restoreElites(const std::vector<std::uint32_t>& elites, const PlaceTable& places, Census& census,
+                   std::vector<TrialPoint>& population, std::vector<std::uint32_t>& population_places) {
+  for (const std::uint32_t elite : elites) {
+    if (census.entry_of_place[elite] != Census::kNone) {
+      continue;
+    }
+    const std::size_t seat = seatForElite(elites, census, population, population_places);
+    if (seat == population.size()) {
+      return;  // more elites than seats
+    }
+    population[seat] = places.point(elite);
+    population_places[seat] = elite;
+    census.take(population_places, places.size());
+  }
+}
+
+}  // namespace concave_distance
