@@ -9,7 +9,9 @@ export(EXPORT concave_distance-targets NAMESPACE concave_distance::
   FILE ${CONCAVE_DISTANCE_DEVEL_SPACE}/${concave_distance_config_destination}/concave_distance-targets.cmake)
 install(EXPORT concave_distance-targets NAMESPACE concave_distance::
   DESTINATION ${concave_distance_config_destination})
-install(DIRECTORY include/concave_distance/ DESTINATION ${CONCAVE_DISTANCE_INCLUDE_DESTINATION})
+# The node's library is exported to nobody, and its headers are not installed.
+install(DIRECTORY include/concave_distance/ DESTINATION ${CONCAVE_DISTANCE_INCLUDE_DESTINATION}
+  PATTERN ros EXCLUDE)
 
 # Without catkin the config file is the extras file itself.
 if(NOT CONCAVE_DISTANCE_WITH_ROS)
@@ -32,8 +34,11 @@ foreach(program distance_query mesh_tool)
     install(TARGETS ${program} RUNTIME DESTINATION ${CONCAVE_DISTANCE_BIN_DESTINATION})
   endif()
 endforeach()
-foreach(folder config launch meshes rviz urdf)
+foreach(folder config launch meshes urdf)
   if(IS_DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}/${folder}")
     install(DIRECTORY ${folder} DESTINATION ${CONCAVE_DISTANCE_SHARE_DESTINATION})
   endif()
 endforeach()
+if(CONCAVE_DISTANCE_WITH_ROS)
+  catkin_install_python(PROGRAMS scripts/show_distances.py DESTINATION ${CONCAVE_DISTANCE_BIN_DESTINATION})
+endif()
