@@ -40,8 +40,8 @@ GUIDE_BOTTOM = 0.04
 GUIDE_TOP = 0.26
 
 # Fixture: a plate and eight convex protrusions.
-PLATE_LOWER = (-0.53, -0.56, -0.08)
-PLATE_UPPER = (0.53, 0.34, 0.0)
+PLATE_LOWER = (-0.48, -0.51, -0.06)
+PLATE_UPPER = (0.48, 0.21, 0.0)
 
 
 def hexagon(centre, radius, z):
