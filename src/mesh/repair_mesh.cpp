@@ -216,4 +216,16 @@ RepairedMesh repairMesh(const TriangleSoup& soup, const RepairOptions& options, 
   return {SurfaceMesh(std::move(welded.vertices), std::move(triangles), where), report};
 }
 
+SurfaceMesh weldEqualVertices(const TriangleSoup& soup, const std::string& where) {
+  checkSoup(soup, {}, where);
+  detail::WeldedVertices welded = detail::weldVertices(soup.vertices, 0.0);
+  std::vector<TriangleNodes> triangles;
+  triangles.reserve(soup.triangles.size());
+  for (const auto& corners : soup.triangles) {
+    triangles.push_back({welded.node_of_vertex[corners[0]], welded.node_of_vertex[corners[1]],
+                         welded.node_of_vertex[corners[2]]});
+  }
+  return SurfaceMesh(std::move(welded.vertices), std::move(triangles), where);
+}
+
 }  // namespace concave_distance

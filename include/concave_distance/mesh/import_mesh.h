@@ -7,12 +7,16 @@
 
 namespace concave_distance {
 
-/// Reads every mesh of a file (binary or ASCII STL, OBJ, PLY, DAE and what else assimp reads), with the node
-/// transforms of the file applied; for DAE its unit and up-axis too, so that the result is in metres in the
-/// frame that rviz would draw it in.
-/// @param scale the URDF's mesh scale, a factor per axis; a negative product mirrors, and the winding is
-///        turned so that normals keep pointing outwards
-/// @throws Error naming the file when it is missing, unreadable, empty, or the scale is zero or not finite
+/// Reads every mesh of a file (binary or ASCII STL, OBJ, PLY, DAE and what else assimp reads) into one soup,
+/// in metres and in the frame that rviz 1.14 draws the file in: with the transforms of its nodes, a DAE's
+/// <unit> applied and its <up_axis> ignored (assimp would turn y up), and outside DAE without the root node's
+/// transform for the nodes below it. STL, OBJ and PLY state no unit: their numbers are metres.
+/// Coordinates pass through assimp's single precision: 6e-8 of their size.
+/// @param scale the URDF's mesh scale, a factor per axis. Where it or a node's transform mirrors, the winding
+///        is turned, so that normals keep pointing outwards.
+/// @throws Error naming the file when it is missing, empty, unreadable or breaks off (an OBJ cut between two
+///         lines shows no sign of it), has no triangle or a coordinate that is not finite, or when the scale
+///         is zero or not finite
 TriangleSoup importMesh(const std::string& path, const Eigen::Vector3d& scale = Eigen::Vector3d::Ones());
 
 /// Appends `part`, transformed, to `body`: several collision elements of a link become one body.

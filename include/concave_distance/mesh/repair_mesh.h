@@ -43,4 +43,8 @@ struct RepairedMesh {
 /// O(n log n). @throws Error when nothing with an area is left (`where` names the file)
 RepairedMesh repairMesh(const TriangleSoup& soup, const RepairOptions& options, const std::string& where);
 
+/// Gives equal vertices one number and changes nothing else: triangles keep their order, winding and area or
+/// lack of it. O(n log n). @throws Error as SurfaceMesh does (`where` names the file)
+SurfaceMesh weldEqualVertices(const TriangleSoup& soup, const std::string& where);
+
 }  // namespace concave_distance
