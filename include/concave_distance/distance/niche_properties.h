@@ -18,35 +18,57 @@ enum class Outwardness : std::uint8_t {
   Unknown           ///< at least one witness lies on an open shell that it leaves against its winding
 };
 
-/// The set of all minimisers connected with a witness pair.
+/// The set of all minimisers connected with a witness pair. The vector from A's point to B's is the same for
+/// all of them, so that the set is the overlap, seen along it, of what both bodies have level there.
 struct NicheExtent {
-  NicheKind kind = NicheKind::Point;
+  NicheKind kind = NicheKind::Point;  ///< Segment: extended in one direction, Patch: in two
   double length = 0.0;  ///< metres, largest distance between two points of the set on A; 0 for a point
-  /// A stable representative of the set (its middle), with the same distance as the witness given.
+  /// A stable representative of the set: the point nearest to the centre of its smallest enclosing circle,
+  /// with the same distance as the witness given (up to the tolerance); the witness itself for a point.
   WitnessPair representative;
   bool cut = false;  ///< the set spans more triangle pairs than were looked at
+  /// The set is a terrace and no local minimum: the triangle pair (down_a, down_b) at its border comes
+  /// closer.
+  bool leads_down = false;
+  TriangleIndex down_a;
+  TriangleIndex down_b;
 };
 
+/// Buffers of one thread; cleared, never freed.
 struct ExtentWorkspace {
-  std::vector<std::pair<TriangleIndex, TriangleIndex>> open;
-  std::vector<std::pair<TriangleIndex, TriangleIndex>> seen;
-  std::vector<Eigen::Vector3d> polygon;
-  std::vector<Eigen::Vector3d> clipped;
-  std::vector<Eigen::Vector3d> points;
+  struct Piece {
+    std::uint32_t pair;   ///< of `open`
+    std::uint32_t first;  ///< of `points`
+    std::uint32_t count;
+  };
+  RefinementWorkspace ring;
+  std::vector<std::pair<TriangleIndex, TriangleIndex>> open;  ///< in order of discovery
+  std::vector<std::pair<TriangleIndex, TriangleIndex>> seen;  ///< the same, sorted
+  std::vector<Piece> pieces;
+  std::vector<Eigen::Vector2d> points;
+  std::vector<Eigen::Vector2d> polygon;
+  std::vector<Eigen::Vector2d> clipped;
+  std::vector<Eigen::Vector2d> hull;
 };
 
 /// Collects the triangle pairs around a refined witness that reach the same distance (up to `tolerance`,
-/// metres) and measures the set. Looks at no more than `pair_limit` triangle pairs and says when it cut.
+/// metres, and the kernel's error) and measures the set, whichever of its triangle pairs the witness is from.
+/// Sideways the tolerance goes as far as it lengthens the distance d by no more: sqrt(2 d tolerance).
+/// Looks at no more than `pair_limit` triangle pairs and says when it cut. A witness that is the only closest
+/// point of its own surroundings, on either body, costs no more than looking around it. Touching witnesses
+/// (distance 0) are points.
 NicheExtent measureExtent(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
                           const WitnessPair& witness, double tolerance, std::size_t pair_limit,
                           ExtentWorkspace& workspace);
 
-/// Sign of the witness direction against the pseudonormals at both witnesses (Baerentzen and Aanaes 2005).
-/// For touching witnesses (distance 0) Outward.
+/// Sign of the witness direction against the pseudonormals at both witnesses (Baerentzen and Aanaes 2005),
+/// which tells outside from inside where the witness is a local minimum. For touching witnesses (distance 0)
+/// Outward.
 Outwardness classifyOutwardness(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
                                 const WitnessPair& witness);
 
-/// True when no triangle of either body meets the open segment between the witness points.
+/// True when no triangle of either body meets the open segment between the witness points, but for 1e-12 of
+/// the bodies' size at its ends. O(log n) where nothing is near.
 bool isVisible(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
                const WitnessPair& witness);
 

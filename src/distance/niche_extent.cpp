@@ -1,0 +1,236 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+#include "concave_distance/distance/niche_properties.h"
+#include "local_frames.h"
+#include "planar_set.h"
+#include "surface_ring.h"
+
+namespace concave_distance {
+namespace {
+
+using detail::PlanarFeature;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+/// One body as the flood sees it: in coordinates relative to `centre`, turned into A's axes only through
+/// `normal` and the plane's two axes, which are given in the body's own.
+struct LevelSide {
+  const BodyMesh& body;
+  Vector3d centre;
+  Vector3d witness;   ///< relative to the centre
+  Vector3d outwards;  ///< unit, towards the other body
+  Vector3d axis_x;    ///< of the plane across it
+  Vector3d axis_y;
+
+  TrianglePoints corners(TriangleIndex t) const { return detail::localCorners(body.surface(), t, centre); }
+  Vector2d flat(const Vector3d& point) const {
+    return {axis_x.dot(point - witness), axis_y.dot(point - witness)};
+  }
+  Vector3d raised(const Vector2d& point) const { return witness + point.x() * axis_x + point.y() * axis_y; }
+  double height(const Vector3d& point) const { return outwards.dot(point - witness); }
+};
+
+struct Levels {
+  double tolerance;  ///< heights within this are level
+  double reach;      ///< sideways, lengthens the distance by no more than the tolerance
+  double slack;      ///< rounding
+};
+
+/// What of a triangle is level with the witness: all of it, an edge, a corner or nothing.
+PlanarFeature levelPart(const LevelSide& side, TriangleIndex t, double tolerance) {
+  PlanarFeature part;
+  for (const Vector3d& corner : side.corners(t)) {
+    if (std::abs(side.height(corner)) <= tolerance) part.corners[part.count++] = side.flat(corner);
+  }
+  return part;
+}
+
+bool isCornerOf(const TriangleNodes& nodes, NodeIndex node) {
+  return std::find(nodes.begin(), nodes.end(), node) != nodes.end();
+}
+
+class Flood {
+ public:
+  Flood(const LevelSide& a, const LevelSide& b, const Levels& levels, std::size_t pair_limit,
+        ExtentWorkspace& workspace, NicheExtent& extent)
+      : a_(a), b_(b), levels_(levels), pair_limit_(pair_limit), workspace_(workspace), extent_(extent) {}
+
+  void run(TriangleIndex start_a, TriangleIndex start_b) {
+    workspace_.open.clear();
+    workspace_.seen.clear();
+    workspace_.pieces.clear();
+    workspace_.points.clear();
+    open(start_a, start_b);
+    for (std::size_t i = 0; i < workspace_.open.size(); ++i) {
+      if (i == pair_limit_) {
+        extent_.cut = true;
+        return;
+      }
+      const auto [triangle_a, triangle_b] = workspace_.open[i];
+      PlanarFeature part_a = levelPart(a_, triangle_a, levels_.tolerance);
+      PlanarFeature part_b = levelPart(b_, triangle_b, levels_.tolerance);
+      snapOnto(part_b, levels_.reach, part_a);
+      snapOnto(part_a, levels_.reach, part_b);
+      intersect(part_a, part_b, levels_.slack, workspace_.polygon, workspace_.clipped);
+      if (workspace_.polygon.empty()) continue;
+      const auto first = static_cast<std::uint32_t>(workspace_.points.size());
+      const auto count = static_cast<std::uint32_t>(workspace_.polygon.size());
+      workspace_.pieces.push_back({static_cast<std::uint32_t>(i), first, count});
+      workspace_.points.insert(workspace_.points.end(), workspace_.polygon.begin(), workspace_.polygon.end());
+      for (std::uint32_t k = first; k < first + count; ++k) {
+        spread(a_, triangle_a, workspace_.points[k], [&](TriangleIndex other) {
+          return std::pair{other, triangle_b};
+        });
+        spread(b_, triangle_b, workspace_.points[k], [&](TriangleIndex other) {
+          return std::pair{triangle_a, other};
+        });
+      }
+    }
+  }
+
+ private:
+  void open(TriangleIndex triangle_a, TriangleIndex triangle_b) {
+    const std::pair pair{triangle_a, triangle_b};
+    const auto place = std::lower_bound(workspace_.seen.begin(), workspace_.seen.end(), pair);
+    if (place != workspace_.seen.end() && *place == pair) return;
+    workspace_.seen.insert(place, pair);
+    workspace_.open.push_back(pair);
+  }
+
+  /// To the triangles that share the set's corner `point`, one body at a time: a set that goes on across a
+  /// border of both bodies at once has that point in the two pairs in between as well. A triangle whose level
+  /// part belongs to the present one adds nothing.
+  template <typename PairWith>
+  void spread(const LevelSide& side, TriangleIndex triangle, const Vector2d& point, PairWith pairWith) {
+    const detail::LocalTriangle own{side.body.surface(), side.body.topology(), side.centre, triangle};
+    const TriangleNodes& own_nodes = own.mesh.triangle(triangle);
+    const PointTriangleDistance on_triangle =
+        pointTriangleDistance(side.raised(point), side.corners(triangle));
+    detail::collectRing(own, {on_triangle.point, on_triangle.feature, side.outwards},
+                        levels_.slack + levels_.reach, workspace_.ring);
+    for (std::size_t i = 1; i < workspace_.ring.ring.size(); ++i) {
+      const TriangleIndex other = workspace_.ring.ring[i];
+      const TriangleNodes& nodes = own.mesh.triangle(other);
+      bool adds = false;
+      for (const NodeIndex node : nodes) {
+        if (isCornerOf(own_nodes, node)) continue;
+        const double height = side.height(own.mesh.vertex(node) - side.centre);
+        if (height > levels_.tolerance && !extent_.leads_down && isOn(side, other, on_triangle.point)) {
+          extent_.leads_down = true;
+          std::tie(extent_.down_a, extent_.down_b) = pairWith(other);
+        }
+        adds = adds || std::abs(height) <= levels_.tolerance;
+      }
+      if (adds) {
+        const auto [triangle_a, triangle_b] = pairWith(other);
+        open(triangle_a, triangle_b);
+      }
+    }
+  }
+
+  /// The ring reaches as far as corners may have been snapped; downhill counts only at the set itself.
+  bool isOn(const LevelSide& side, TriangleIndex t, const Vector3d& point) const {
+    return pointTriangleDistance(point, side.corners(t)).squared_distance <= levels_.slack * levels_.slack;
+  }
+
+  const LevelSide& a_;
+  const LevelSide& b_;
+  const Levels& levels_;
+  std::size_t pair_limit_;
+  ExtentWorkspace& workspace_;
+  NicheExtent& extent_;
+};
+
+/// Whether every corner around the witness, but for one that the witness is on, lies clearly behind it.
+bool isPeak(const LevelSide& side, TriangleIndex triangle, Feature feature, const Levels& levels,
+            RefinementWorkspace& ring) {
+  const detail::LocalTriangle own{side.body.surface(), side.body.topology(), side.centre, triangle};
+  detail::collectRing(own, {side.witness, feature, side.outwards}, levels.slack, ring);
+  for (const TriangleIndex t : ring.ring) {
+    for (const Vector3d& corner : side.corners(t)) {
+      if (side.height(corner) >= -levels.tolerance &&
+          (corner - side.witness).squaredNorm() > levels.slack * levels.slack) {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+/// The pair of points at `middle` on the piece's two triangles.
+TrianglePairDistance pairAt(const detail::LocalFrames& frames, const LevelSide& a, const LevelSide& b,
+                            const Vector2d& middle, TriangleIndex triangle_a, TriangleIndex triangle_b) {
+  const PointTriangleDistance on_a =
+      pointTriangleDistance(a.raised(middle), frames.cornersOfA(a.body, triangle_a));
+  const PointTriangleDistance on_b = pointTriangleDistance(frames.rotation * b.raised(middle) + frames.offset,
+                                                           frames.cornersOfB(b.body, triangle_b));
+  return {(on_b.point - on_a.point).squaredNorm(), on_a.point, on_b.point, on_a.feature, on_b.feature};
+}
+
+void placeRepresentative(const detail::LocalFrames& frames, const LevelSide& a, const LevelSide& b,
+                         double tolerance, ExtentWorkspace& workspace, NicheExtent& extent) {
+  const Vector2d centre = detail::centreOfEnclosingCircle(workspace.hull);
+  double least = std::numeric_limits<double>::infinity();
+  Vector2d middle = Vector2d::Zero();
+  std::pair<TriangleIndex, TriangleIndex> carrier;
+  for (const ExtentWorkspace::Piece& piece : workspace.pieces) {
+    const Vector2d nearest = detail::nearestIn(&workspace.polygon[piece.first], piece.count, centre);
+    const double squared_distance = (nearest - centre).squaredNorm();
+    const auto& pair = workspace.open[piece.pair];
+    if (squared_distance < least || (squared_distance == least && pair < carrier)) {
+      least = squared_distance;
+      middle = nearest;
+      carrier = pair;
+    }
+  }
+  const TrianglePairDistance found = pairAt(frames, a, b, middle, carrier.first, carrier.second);
+  const double distance = std::sqrt(extent.representative.squared_distance);
+  if (std::abs(std::sqrt(found.squared_distance) - distance) > 4.0 * tolerance) return;
+  extent.representative = frames.toWitness(found, carrier.first, carrier.second);
+}
+
+}  // namespace
+
+NicheExtent measureExtent(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
+                          const WitnessPair& witness, double tolerance, std::size_t pair_limit,
+                          ExtentWorkspace& workspace) {
+  NicheExtent extent;
+  extent.representative = witness;
+  const detail::LocalFrames frames(a, b, a_from_b, witness.triangle_a, witness.triangle_b);
+  const double rounding =
+      kTriangleDistanceError * detail::largestMagnitude(frames.cornersOfA(a, witness.triangle_a),
+                                                        frames.cornersOfB(b, witness.triangle_b));
+  const Vector3d point_a = witness.point_a_in_a - frames.centre_a;
+  const Vector3d point_b = witness.point_b_in_a - frames.centre_a;
+  const double distance = (point_b - point_a).norm();
+  if (distance <= rounding) return extent;
+
+  const Vector3d normal = (point_b - point_a) / distance;
+  const Vector3d axis_x = normal.unitOrthogonal();
+  const Vector3d axis_y = normal.cross(axis_x);
+  const Eigen::Matrix3d b_from_a = frames.rotation.transpose();
+  const LevelSide side_a{a, frames.centre_a, point_a, normal, axis_x, axis_y};
+  const LevelSide side_b{
+      b, frames.centre_b, frames.pointInB(point_b), b_from_a * -normal, b_from_a * axis_x, b_from_a * axis_y};
+  const double height_tolerance = tolerance + 2.0 * rounding;
+  const Levels levels{height_tolerance, std::sqrt(height_tolerance * (2.0 * distance + height_tolerance)),
+                      2.0 * rounding};
+  if (isPeak(side_a, witness.triangle_a, witness.feature_a, levels, workspace.ring) ||
+      isPeak(side_b, witness.triangle_b, witness.feature_b, levels, workspace.ring)) {
+    return extent;
+  }
+  Flood(side_a, side_b, levels, pair_limit, workspace, extent).run(witness.triangle_a, witness.triangle_b);
+  workspace.polygon = workspace.points;  // the hull sorts its input
+  detail::convexHull(workspace.points, workspace.hull);
+  const double length = detail::diameterOf(workspace.hull);
+  if (length <= 2.0 * levels.reach) return extent;
+  extent.length = length;
+  extent.kind = detail::widthOf(workspace.hull) <= 2.0 * levels.reach ? NicheKind::Segment : NicheKind::Patch;
+  placeRepresentative(frames, side_a, side_b, height_tolerance, workspace, extent);
+  return extent;
+}
+
+}  // namespace concave_distance

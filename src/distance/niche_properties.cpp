@@ -1,0 +1,69 @@
+#include "concave_distance/distance/niche_properties.h"
+
+#include <algorithm>
+
+#include "concave_distance/mesh/triangle_tree.h"
+
+namespace concave_distance {
+namespace {
+
+using Eigen::Vector3d;
+
+/// Body frame; not unit. Every triangle at an edge counts, however many there are.
+Vector3d pseudonormal(const BodyMesh& body, TriangleIndex triangle, Feature feature) {
+  const MeshTopology& topology = body.topology();
+  const TriangleNodes& nodes = body.surface().triangle(triangle);
+  const auto code = static_cast<std::size_t>(feature);
+  if (code < 3) return topology.vertex_normals[nodes[code].value];
+  if (code >= 6) return topology.triangle_normals[triangle.value];
+  const NodeIndex to = nodes[(code - 2) % 3];
+  Vector3d sum = Vector3d::Zero();
+  for (const TriangleIndex t : topology.triangles_of_vertex.row(nodes[code - 3].value)) {
+    const TriangleNodes& corners = body.surface().triangle(t);
+    if (std::find(corners.begin(), corners.end(), to) != corners.end()) {
+      sum += topology.triangle_normals[t.value];
+    }
+  }
+  return sum;
+}
+
+/// `direction` away from the body's witness, body frame.
+Outwardness classifyOneSide(const BodyMesh& body, TriangleIndex triangle, Feature feature,
+                            const Vector3d& direction) {
+  // In the plane of a sheet's border either side is as good as the other.
+  constexpr double kInPlane = 1e-9;
+  const Vector3d normal = pseudonormal(body, triangle, feature);
+  if (normal.dot(direction) >= -kInPlane * normal.norm() * direction.norm()) return Outwardness::Outward;
+  const MeshTopology& topology = body.topology();
+  const bool closed = topology.shell_is_closed[topology.shell_of_triangle[triangle.value]];
+  return closed ? Outwardness::ThroughMaterial : Outwardness::Unknown;
+}
+
+}  // namespace
+
+Outwardness classifyOutwardness(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
+                                const WitnessPair& witness) {
+  const Vector3d direction = witness.point_b_in_a - witness.point_a_in_a;
+  if (witness.squared_distance == 0.0) return Outwardness::Outward;
+  const Outwardness of_a = classifyOneSide(a, witness.triangle_a, witness.feature_a, direction);
+  const Outwardness of_b =
+      classifyOneSide(b, witness.triangle_b, witness.feature_b, a_from_b.linear().transpose() * -direction);
+  if (of_a == Outwardness::ThroughMaterial || of_b == Outwardness::ThroughMaterial) {
+    return Outwardness::ThroughMaterial;
+  }
+  return of_a == Outwardness::Outward ? of_b : of_a;
+}
+
+bool isVisible(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
+               const WitnessPair& witness) {
+  constexpr double kMargin = 1e-12;
+  const auto isFree = [](const BodyMesh& body, const Vector3d& from, const Vector3d& to) {
+    const double size = body.diameter() + std::max(from.cwiseAbs().maxCoeff(), to.cwiseAbs().maxCoeff());
+    return !segmentHits(body.tree(), body.surface(), from, to, kMargin * size);
+  };
+  const Eigen::Isometry3d b_from_a = a_from_b.inverse(Eigen::Isometry);
+  return isFree(a, witness.point_a_in_a, witness.point_b_in_a) &&
+         isFree(b, b_from_a * witness.point_a_in_a, b_from_a * witness.point_b_in_a);
+}
+
+}  // namespace concave_distance
