@@ -1,10 +1,10 @@
 #include "concave_distance/mesh/repair_mesh.h"
 
 #include <algorithm>
-#include <limits>
 #include <sstream>
 
 #include "concave_distance/base/error.h"
+#include "drop_triangles.h"
 #include "edge_table.h"
 #include "orient_triangles.h"
 #include "union_find.h"
@@ -37,69 +37,22 @@ void checkSoup(const TriangleSoup& soup, const RepairOptions& options, const std
   }
 }
 
-/// No area beyond what the rounding of its edge vectors may feign: the height over the longest edge is at
-/// most four units of rounding of that edge.
-bool hasNoArea(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
-  const Eigen::Vector3d ab = b - a;
-  const Eigen::Vector3d ac = c - a;
-  const double longest = std::max({ab.squaredNorm(), ac.squaredNorm(), (c - b).squaredNorm()});
-  constexpr double kRounding = 4.0 * std::numeric_limits<double>::epsilon();
-  return ab.cross(ac).norm() <= kRounding * longest;
+std::vector<TriangleNodes> weldedTriangles(const TriangleSoup& soup, const detail::WeldedVertices& welded) {
+  std::vector<TriangleNodes> triangles;
+  triangles.reserve(soup.triangles.size());
+  for (const auto& corners : soup.triangles) {
+    triangles.push_back({welded.node_of_vertex[corners[0]], welded.node_of_vertex[corners[1]],
+                         welded.node_of_vertex[corners[2]]});
+  }
+  return triangles;
 }
 
-/// Drops every triangle that has the same three corners as an earlier one; returns how many.
-std::size_t dropDuplicates(std::vector<TriangleNodes>& triangles) {
-  struct Keyed {
-    TriangleNodes nodes;  ///< ascending
-    std::size_t triangle;
-  };
-  std::vector<Keyed> keyed(triangles.size());
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    keyed[t] = {triangles[t], t};
-    std::sort(keyed[t].nodes.begin(), keyed[t].nodes.end());
+double diagonal(const std::vector<Eigen::Vector3d>& vertices) {
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& vertex : vertices) {
+    box.extend(vertex);
   }
-  std::sort(keyed.begin(), keyed.end(), [](const Keyed& l, const Keyed& r) {
-    return l.nodes != r.nodes ? l.nodes < r.nodes : l.triangle < r.triangle;
-  });
-  std::vector<bool> keep(triangles.size(), true);
-  for (std::size_t i = 1; i < keyed.size(); ++i) {
-    keep[keyed[i].triangle] = keyed[i].nodes != keyed[i - 1].nodes;
-  }
-  std::size_t kept = 0;
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    if (keep[t]) {
-      triangles[kept++] = triangles[t];
-    }
-  }
-  const std::size_t dropped = triangles.size() - kept;
-  triangles.resize(kept);
-  return dropped;
-}
-
-/// Keeps the vertices that a triangle uses, in their order; returns how many fell.
-std::size_t dropUnused(std::vector<Eigen::Vector3d>& vertices, std::vector<TriangleNodes>& triangles) {
-  std::vector<bool> used(vertices.size(), false);
-  for (const TriangleNodes& nodes : triangles) {
-    for (const NodeIndex node : nodes) {
-      used[node.value] = true;
-    }
-  }
-  std::vector<NodeIndex> renumbered(vertices.size());
-  std::size_t kept = 0;
-  for (std::size_t v = 0; v < vertices.size(); ++v) {
-    if (used[v]) {
-      renumbered[v] = NodeIndex{kept};
-      vertices[kept++] = vertices[v];
-    }
-  }
-  for (TriangleNodes& nodes : triangles) {
-    for (NodeIndex& node : nodes) {
-      node = renumbered[node.value];
-    }
-  }
-  const std::size_t dropped = vertices.size() - kept;
-  vertices.resize(kept);
-  return dropped;
+  return box.diagonal().norm();
 }
 
 /// Counts shells, borders and edges of more than two triangles.
@@ -186,19 +139,20 @@ RepairedMesh repairMesh(const TriangleSoup& soup, const RepairOptions& options, 
   report.vertices_in = soup.vertices.size();
   report.triangles_in = soup.triangles.size();
 
-  detail::WeldedVertices welded = detail::weldVertices(soup.vertices, options.weld_tolerance);
-  report.welded_vertices = soup.vertices.size() - welded.vertices.size();
-
-  std::vector<TriangleNodes> triangles;
-  for (const auto& corners : soup.triangles) {
-    const NodeIndex a = welded.node_of_vertex[corners[0]];
-    const NodeIndex b = welded.node_of_vertex[corners[1]];
-    const NodeIndex c = welded.node_of_vertex[corners[2]];
-    if (hasNoArea(welded.vertices[a.value], welded.vertices[b.value], welded.vertices[c.value])) {
-      ++report.zero_area_triangles;
-    } else {
-      triangles.push_back({a, b, c});
-    }
+  detail::WeldedVertices welded = detail::weldVertices(soup.vertices, 0.0);
+  std::vector<TriangleNodes> triangles = weldedTriangles(soup, welded);
+  const auto drop = [&] {
+    report.zero_area_triangles += detail::dropWithoutArea(welded.vertices, triangles);
+    report.duplicate_triangles += detail::dropDuplicates(triangles);
+  };
+  drop();
+  std::size_t joined_vertices = 0;
+  if (options.weld_tolerance > 0.0) {
+    const double tolerance = options.weld_tolerance * diagonal(welded.vertices);
+    const detail::BorderWeld joined = detail::weldBorders(welded.vertices, triangles, tolerance);
+    joined_vertices = joined.joined_vertices;
+    report.largest_move = joined.farthest;
+    drop();
   }
   if (triangles.empty()) {
     throw Error(where,
@@ -207,8 +161,8 @@ RepairedMesh repairMesh(const TriangleSoup& soup, const RepairOptions& options, 
                                              " triangles has an area",
                 "give a mesh with at least one triangle of non-zero area");
   }
-  report.duplicate_triangles = dropDuplicates(triangles);
-  report.unused_vertices = dropUnused(welded.vertices, triangles);
+  report.welded_vertices = soup.vertices.size() - welded.vertices.size() + joined_vertices;
+  report.unused_vertices = detail::dropUnused(welded.vertices, triangles) - joined_vertices;
   if (options.orient) {
     report.turned_triangles = detail::orientTriangles(welded.vertices, triangles);
   }
@@ -219,12 +173,7 @@ RepairedMesh repairMesh(const TriangleSoup& soup, const RepairOptions& options, 
 SurfaceMesh weldEqualVertices(const TriangleSoup& soup, const std::string& where) {
   checkSoup(soup, {}, where);
   detail::WeldedVertices welded = detail::weldVertices(soup.vertices, 0.0);
-  std::vector<TriangleNodes> triangles;
-  triangles.reserve(soup.triangles.size());
-  for (const auto& corners : soup.triangles) {
-    triangles.push_back({welded.node_of_vertex[corners[0]], welded.node_of_vertex[corners[1]],
-                         welded.node_of_vertex[corners[2]]});
-  }
+  std::vector<TriangleNodes> triangles = weldedTriangles(soup, welded);
   return SurfaceMesh(std::move(welded.vertices), std::move(triangles), where);
 }
 

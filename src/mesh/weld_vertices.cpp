@@ -7,6 +7,8 @@
 #include <numeric>
 #include <unordered_map>
 
+#include "edge_table.h"
+
 namespace concave_distance::detail {
 namespace {
 
@@ -96,19 +98,61 @@ WeldedVertices weldNear(const std::vector<Eigen::Vector3d>& vertices, double tol
 
 }  // namespace
 
-WeldedVertices weldVertices(const std::vector<Eigen::Vector3d>& vertices, double relative_tolerance) {
+WeldedVertices weldVertices(const std::vector<Eigen::Vector3d>& vertices, double tolerance) {
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& vertex : vertices) {
     box.extend(vertex);
   }
-  const double tolerance = vertices.empty() ? 0.0 : relative_tolerance * box.diagonal().norm();
-  // Below the rounding of the coordinates no two different vertices are within the tolerance, and cell
-  // numbers would leave the range of whole numbers.
+  // Below this no two different vertices are within the tolerance, and cell numbers would leave the range of
+  // whole numbers.
   constexpr double kLeastFraction = 1e-17;
-  if (relative_tolerance < kLeastFraction || tolerance == 0.0) {
+  if (vertices.empty() || !(tolerance > kLeastFraction * box.diagonal().norm())) {
     return weldEqual(vertices);
   }
   return weldNear(vertices, tolerance, box.min());
+}
+
+BorderWeld weldBorders(const std::vector<Eigen::Vector3d>& vertices, std::vector<TriangleNodes>& triangles,
+                       double tolerance) {
+  const EdgeTable edges = buildEdgeTable(triangles);
+  std::vector<bool> at_border(vertices.size(), false);
+  for (std::size_t e = 0; e < edges.edgeCount(); ++e) {
+    if (edges.first[e + 1] - edges.first[e] == 1) {
+      const HalfEdge h = edges.half_edges[edges.first[e]];
+      at_border[startOf(triangles, h).value] = true;
+      at_border[endOf(triangles, h).value] = true;
+    }
+  }
+  std::vector<NodeIndex> border;
+  std::vector<Eigen::Vector3d> border_vertices;
+  for (std::size_t v = 0; v < vertices.size(); ++v) {
+    if (at_border[v]) {
+      border.emplace_back(v);
+      border_vertices.push_back(vertices[v]);
+    }
+  }
+  const WeldedVertices welded = weldVertices(border_vertices, tolerance);
+  std::vector<NodeIndex> first_of_group(welded.vertices.size());
+  for (std::size_t i = border.size(); i-- > 0;) {
+    first_of_group[welded.node_of_vertex[i].value] = border[i];
+  }
+  std::vector<NodeIndex> renumbered(vertices.size());
+  for (std::size_t v = 0; v < vertices.size(); ++v) {
+    renumbered[v] = NodeIndex{v};
+  }
+  BorderWeld result;
+  for (std::size_t i = 0; i < border.size(); ++i) {
+    const NodeIndex node = first_of_group[welded.node_of_vertex[i].value];
+    renumbered[border[i].value] = node;
+    result.joined_vertices += node != border[i] ? 1U : 0U;
+    result.farthest = std::max(result.farthest, (vertices[node.value] - border_vertices[i]).norm());
+  }
+  for (TriangleNodes& nodes : triangles) {
+    for (NodeIndex& node : nodes) {
+      node = renumbered[node.value];
+    }
+  }
+  return result;
 }
 
 }  // namespace concave_distance::detail

@@ -73,23 +73,45 @@ TEST(RepairMesh, WeldsZeroAndMinusZero) {
   EXPECT_EQ(repair(soup).mesh.vertexCount(), 4U);
 }
 
-TEST(RepairMesh, WeldsWithinTheToleranceAndMovesNoVertexFarther) {
-  TriangleSoup soup = unwelded(unitCube());
-  for (std::size_t i = 0; i < soup.vertices.size(); ++i) {
-    soup.vertices[i].x() += 1e-7 * static_cast<double>(i % 3);
+TEST(RepairMesh, ClosesTheSlitsOfRoundedCornersAndMovesNoVertexFartherThanTheTolerance) {
+  TriangleSoup soup = unwelded(makeSphere(0.3, 0.01));
+  for (std::size_t i = 0; i < soup.vertices.size(); i += 7) {  // some corners come out one unit off
+    const auto x = static_cast<float>(soup.vertices[i].x());
+    soup.vertices[i].x() = static_cast<double>(std::nextafter(x, 1.0F));
   }
-  const double diagonal = std::sqrt(3.0);
   EXPECT_GT(repair(soup).report.border_edges, 0U);
-  const RepairedMesh welded = repair(soup, 1e-6);
-  EXPECT_EQ(welded.mesh.vertexCount(), 8U);
+  EXPECT_EQ(repair(soup).report.largest_move, 0.0);
+  const RepairedMesh welded = repair(soup, kSinglePrecisionWeld);
   EXPECT_TRUE(test::isClosedManifold(welded.mesh));
-  for (const Eigen::Vector3d& vertex : soup.vertices) {
-    double nearest = std::numeric_limits<double>::infinity();
-    for (const Eigen::Vector3d& node : welded.mesh.vertices()) {
-      nearest = std::min(nearest, (node - vertex).norm());
+  EXPECT_EQ(test::eulerCharacteristic(welded.mesh), 2);
+  EXPECT_EQ(welded.report.unused_vertices, 0U);
+  EXPECT_EQ(welded.report.welded_vertices, soup.vertices.size() - welded.mesh.vertexCount());
+  double farthest = 0.0;
+  for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
+    for (int k = 0; k < 3; ++k) {
+      const Eigen::Vector3d& before = soup.vertices[soup.triangles[t][static_cast<std::size_t>(k)]];
+      farthest = std::max(farthest, (welded.mesh.corner(TriangleIndex{t}, k) - before).norm());
     }
-    EXPECT_LE(nearest, 1e-6 * diagonal * 1.001);
   }
+  EXPECT_EQ(welded.report.largest_move, farthest);
+  EXPECT_GT(farthest, 0.0);
+  EXPECT_LE(farthest, kSinglePrecisionWeld * 0.6 * std::sqrt(3.0));
+}
+
+TEST(RepairMesh, CollapsesNoDetailWithinASurfaceWhenWelding) {
+  // A strip a nanometre wide along the edge of a cube: its ends are far closer than the tolerance, but no
+  // border.
+  const SurfaceMesh cube = makeBox({1.0, 1.0, 1.0});
+  TriangleSoup soup = soupOf(cube);
+  const auto added = static_cast<std::uint32_t>(soup.vertices.size());
+  soup.vertices.push_back(soup.vertices[0] + Eigen::Vector3d(1e-9, 1e-9, 1e-9));
+  const auto first = soup.triangles.front();  // split into three at a point near its first corner
+  soup.triangles.front() = {first[0], first[1], added};
+  soup.triangles.push_back({first[1], first[2], added});
+  soup.triangles.push_back({first[2], first[0], added});
+  const RepairedMesh repaired = repair(soup, 1e-6);
+  EXPECT_EQ(repaired.report.welded_vertices, 0U);
+  EXPECT_EQ(repaired.mesh.triangleCount(), 14U);
 }
 
 TEST(RepairMesh, DropsDuplicatesOfEitherWinding) {

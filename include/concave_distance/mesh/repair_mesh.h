@@ -7,8 +7,15 @@
 
 namespace concave_distance {
 
+/// Single precision rounds a coordinate by up to 6e-8 of its size, so that one corner, written by two
+/// triangles of an STL file, may come out as two: many files of real robots have such slits. This tolerance
+/// closes them.
+inline constexpr double kSinglePrecisionWeld = 2e-7;
+
 struct RepairOptions {
-  /// Vertices closer than this, relative to the bounding box's diagonal, become one. 0 welds equal ones only.
+  /// Equal vertices always become one. Beyond that, vertices of border edges (used by one triangle only)
+  /// within this fraction of the bounding box's diagonal become one, and none moves farther. 0 moves no
+  /// vertex.
   double weld_tolerance = 0.0;
   bool orient = true;  ///< turn triangles so that neighbours agree, and closed shells outwards
 };
@@ -18,6 +25,7 @@ struct RepairReport {
   std::size_t vertices_in = 0;
   std::size_t triangles_in = 0;
   std::size_t welded_vertices = 0;
+  double largest_move = 0.0;  ///< of a vertex by welding, metres
   std::size_t unused_vertices = 0;
   std::size_t zero_area_triangles = 0;  ///< dropped
   std::size_t duplicate_triangles = 0;  ///< dropped; same three vertices, either winding

@@ -1,0 +1,114 @@
+#include <CLI/CLI.hpp>
+#include <Eigen/Core>
+#include <exception>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include "concave_distance/base/error.h"
+#include "mesh_tool_commands.h"
+
+namespace {
+
+using concave_distance::tools::MeshToolOptions;
+
+constexpr int kMeshProblem = 1;
+constexpr int kWrongCommandLine = 2;
+
+struct CommandLine {
+  MeshToolOptions options;
+  std::string scale = "1";
+};
+
+void addInput(CLI::App& command, CommandLine& line) {
+  command.add_option("input", line.options.input, "mesh to read (.stl, .obj, .ply, .dae)")->required();
+  command
+      .add_option("--scale", line.scale,
+                  "factor on the file's coordinates, or one for each axis (1,1,0.001); negative mirrors")
+      ->type_name("S[,S,S]");
+}
+
+/// One factor for all axes, or three with commas between them.
+Eigen::Vector3d parseScale(const std::string& text) {
+  std::vector<double> factors;
+  for (const std::string& factor : CLI::detail::split(text, ',')) {
+    double value = 0.0;
+    if (!CLI::detail::lexical_cast(factor, value)) {
+      throw CLI::ConversionError(text, "--scale");
+    }
+    factors.push_back(value);
+  }
+  if (factors.size() == 1) {
+    return Eigen::Vector3d::Constant(factors[0]);
+  }
+  if (factors.size() != 3) {
+    throw CLI::ValidationError("--scale", "takes one factor, or three with commas between them");
+  }
+  return {factors[0], factors[1], factors[2]};
+}
+
+void addOutput(CLI::App& command, CommandLine& line) {
+  command.add_option("output", line.options.output, "mesh to write (.stl, .obj, .ply)")->required();
+}
+
+void addRepair(CLI::App& command, CommandLine& line) {
+  command
+      .add_option("--weld-tolerance", line.options.weld_tolerance,
+                  "vertices closer than this fraction of the body's size become one; 0: equal ones only")
+      ->capture_default_str();
+  command.add_flag("--keep-winding{false}", line.options.orient, "turn no triangle");
+}
+
+int run(int argc, char** argv) {
+  CommandLine line;
+  CLI::App app("Looks at meshes and prepares them. Lengths are metres.", "mesh_tool");
+  app.footer("Exit status: 0 done, 1 the mesh or a file is at fault, 2 the command line is.");
+  app.require_subcommand(1);
+
+  CLI::App* inspect = app.add_subcommand("inspect", "Print size, shells, holes and what repair would change");
+  CLI::App* repair = app.add_subcommand(
+      "repair", "Weld vertices, drop zero-area and duplicate triangles, turn closed shells outwards");
+  CLI::App* refine =
+      app.add_subcommand("refine", "Repair, then split edges until none is longer than --max-edge");
+  CLI::App* convert =
+      app.add_subcommand("convert", "Write in another format or scale; equal vertices are welded, no more");
+  for (CLI::App* command : {inspect, repair, refine, convert}) {
+    addInput(*command, line);
+  }
+  for (CLI::App* command : {repair, refine, convert}) {
+    addOutput(*command, line);
+  }
+  for (CLI::App* command : {inspect, repair, refine}) {
+    addRepair(*command, line);
+  }
+  refine->add_option("--max-edge", line.options.max_edge_length, "longest edge to leave, metres")->required();
+
+  try {
+    app.parse(argc, argv);
+    line.options.scale = parseScale(line.scale);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : kWrongCommandLine;
+  }
+
+  if (inspect->parsed()) {
+    inspectMeshFile(line.options, std::cout);
+  } else if (repair->parsed()) {
+    repairMeshFile(line.options, std::cout);
+  } else if (refine->parsed()) {
+    refineMeshFile(line.options, std::cout);
+  } else {
+    convertMeshFile(line.options, std::cout);
+  }
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& error) {
+    std::cerr << "mesh_tool: " << error.what() << '\n';
+    return kMeshProblem;
+  }
+}
