@@ -1,0 +1,50 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "concave_distance/tracking/pair_solution.h"
+
+namespace concave_distance {
+
+/// A niche with what the next cycle needs of it.
+struct NicheRecord {
+  TrackedNiche niche;
+  Eigen::Vector3d point_b_in_b = Eigen::Vector3d::Zero();
+  Eigen::Vector3d velocity_a_in_a = Eigen::Vector3d::Zero();  ///< of the witness over A's surface, m/s
+  Eigen::Vector3d velocity_b_in_b = Eigen::Vector3d::Zero();
+  bool reported = false;  ///< users have seen its id: its end is an event
+};
+
+/// The niches of one pair, apart from the population (DESIGN.md: the population is not the memory). Ascending
+/// by distance after settle(). Ids are never used twice.
+class NicheArchive {
+ public:
+  std::vector<NicheRecord>& records() { return records_; }
+  const std::vector<NicheRecord>& records() const { return records_; }
+  std::uint64_t takeId() { return next_id_++; }
+
+  /// Forgets the niches, not the count of ids.
+  void clear() { records_.clear(); }
+
+  /// The record at the same place (both points within `tolerance`, metres), or null.
+  NicheRecord* findSamePlace(const Eigen::Vector3d& point_a_in_a, const Eigen::Vector3d& point_b_in_b,
+                             double tolerance);
+
+  /// Sorts by distance, then by id.
+  void settle();
+
+  /// Unites two records: the deeper place, the older id. Reports the younger id's merge if it was known.
+  /// `loser` is removed by swapping with the last record: references to records are void afterwards.
+  void unite(std::size_t survivor, std::size_t loser, std::vector<NicheEvent>& events);
+
+  /// Removes record i, reporting a death if it was known; the last record takes its place.
+  void remove(std::size_t i, std::vector<NicheEvent>& events);
+
+ private:
+  std::vector<NicheRecord> records_;
+  std::uint64_t next_id_ = 1;
+};
+
+}  // namespace concave_distance

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "concave_distance/search/pair_metric.h"
+#include "concave_distance/tracking/niche_admission.h"
+
+namespace concave_distance {
+
+/// Level `nodes`: a candidate within the niche radius (Delta, metres) of a record belongs to it, and becomes
+/// its place when closer; else it is born (greedy identification, Carretero sec. 4.6.4, over time).
+AdmissionResult admitNodePair(const NicheCandidate& candidate, const PairGeometry& geometry,
+                              double niche_radius, std::uint64_t cycle, PairMetric& metric,
+                              NicheArchive& archive);
+
+/// Strips records within the niche radius of a closer one, as greedy identification does; the older id lives
+/// on. The archive must be settled; it is again afterwards.
+void uniteWithinRadius(double niche_radius, PairMetric& metric, NicheArchive& archive,
+                       std::vector<NicheEvent>& events);
+
+}  // namespace concave_distance

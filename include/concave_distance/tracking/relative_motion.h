@@ -1,0 +1,17 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <optional>
+
+namespace concave_distance {
+
+/// The nearest rotation to a pose's linear part when that is orthonormal within 1e-3 and all is finite, else
+/// empty. Ros poses come with quaternions that are unit only up to rounding.
+std::optional<Eigen::Isometry3d> rigidPose(const Eigen::Isometry3d& pose);
+
+/// The largest way any point of a box has moved between two poses, metres: the norm of an affine map is
+/// convex, so its maximum over a box is at a corner. Bounds the change of every distance (THESIS.md, traps).
+double largestDisplacement(const Eigen::AlignedBox3d& box, const Eigen::Isometry3d& before,
+                           const Eigen::Isometry3d& after);
+
+}  // namespace concave_distance

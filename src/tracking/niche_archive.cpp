@@ -1,0 +1,54 @@
+#include "concave_distance/tracking/niche_archive.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace concave_distance {
+
+NicheRecord* NicheArchive::findSamePlace(const Eigen::Vector3d& point_a_in_a,
+                                         const Eigen::Vector3d& point_b_in_b, double tolerance) {
+  const double squared_tolerance = tolerance * tolerance;
+  for (NicheRecord& record : records_) {
+    if ((record.niche.point_a_in_a - point_a_in_a).squaredNorm() <= squared_tolerance &&
+        (record.point_b_in_b - point_b_in_b).squaredNorm() <= squared_tolerance) {
+      return &record;
+    }
+  }
+  return nullptr;
+}
+
+void NicheArchive::settle() {
+  std::sort(records_.begin(), records_.end(), [](const NicheRecord& l, const NicheRecord& r) {
+    return l.niche.distance != r.niche.distance ? l.niche.distance < r.niche.distance
+                                                : l.niche.id < r.niche.id;
+  });
+}
+
+void NicheArchive::unite(std::size_t survivor, std::size_t loser, std::vector<NicheEvent>& events) {
+  NicheRecord& kept = records_[survivor];
+  NicheRecord& lost = records_[loser];
+  if (lost.niche.distance < kept.niche.distance) {
+    std::swap(kept, lost);
+  }
+  // `kept` has the deeper place; give it the older identity.
+  if (lost.niche.id < kept.niche.id) {
+    std::swap(kept.niche.id, lost.niche.id);
+    std::swap(kept.niche.birth_cycle, lost.niche.birth_cycle);
+    std::swap(kept.reported, lost.reported);
+  }
+  if (lost.reported) {
+    events.push_back({NicheEvent::Kind::Merge, lost.niche.id, kept.niche.id});
+  }
+  lost = records_.back();
+  records_.pop_back();
+}
+
+void NicheArchive::remove(std::size_t i, std::vector<NicheEvent>& events) {
+  if (records_[i].reported) {
+    events.push_back({NicheEvent::Kind::Death, records_[i].niche.id, 0});
+  }
+  records_[i] = records_.back();
+  records_.pop_back();
+}
+
+}  // namespace concave_distance

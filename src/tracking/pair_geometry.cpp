@@ -1,0 +1,31 @@
+#include "concave_distance/tracking/pair_geometry.h"
+
+#include <cmath>
+
+#include "concave_distance/tracking/niche_archive.h"
+
+namespace concave_distance {
+
+WitnessPair PairGeometry::nodeWitness(const TrialPoint& pair) const {
+  WitnessPair witness;
+  witness.point_a_in_a = a->graph().positions[pair.node_a.value];
+  witness.point_b_in_a = a_from_b * b->graph().positions[pair.node_b.value];
+  witness.squared_distance = (witness.point_b_in_a - witness.point_a_in_a).squaredNorm();
+  witness.triangle_a = a->originalTriangle(pair.node_a);
+  witness.triangle_b = b->originalTriangle(pair.node_b);
+  return witness;
+}
+
+void placeRecord(NicheRecord& record, const PairGeometry& geometry, const WitnessPair& witness) {
+  TrackedNiche& niche = record.niche;
+  niche.witness = witness;
+  niche.distance = std::sqrt(witness.squared_distance);
+  niche.point_a_in_a = witness.point_a_in_a;
+  niche.point_b_in_a = witness.point_b_in_a;
+  record.point_b_in_b = geometry.b_from_a * witness.point_b_in_a;
+  niche.normal_in_a = niche.distance > 0.0
+                          ? Eigen::Vector3d((witness.point_b_in_a - witness.point_a_in_a) / niche.distance)
+                          : geometry.a->topology().triangle_normals[witness.triangle_a.value];
+}
+
+}  // namespace concave_distance

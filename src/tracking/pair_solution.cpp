@@ -1,0 +1,29 @@
+#include "concave_distance/tracking/pair_solution.h"
+
+namespace concave_distance {
+
+std::string_view toString(AccuracyLevel level) {
+  switch (level) {
+    case AccuracyLevel::Nodes:
+      return "nodes";
+    case AccuracyLevel::Refined:
+      return "refined";
+  }
+  return "unknown";
+}
+
+std::string_view toString(SolveStatus status) {
+  switch (status) {
+    case SolveStatus::Ok:
+      return "ok";
+    case SolveStatus::Penetrating:
+      return "penetrating";
+    case SolveStatus::InvalidPose:
+      return "invalid_pose";
+    case SolveStatus::BudgetExhausted:
+      return "budget";
+  }
+  return "unknown";
+}
+
+}  // namespace concave_distance

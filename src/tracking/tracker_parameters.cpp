@@ -1,0 +1,35 @@
+#include "concave_distance/tracking/tracker_parameters.h"
+
+#include <cmath>
+
+#include "concave_distance/base/error.h"
+
+namespace concave_distance {
+
+TrackerParameters::TrackerParameters() {
+  warm.population_size = 24;
+  warm.max_generations = 1;
+}
+
+void TrackerParameters::validate(const std::string& where) const {
+  cold.validate(where + ".cold");
+  warm.validate(where + ".warm");
+  const auto refuse = [&](const char* key, double value, const char* allowed) {
+    throw Error(where + "." + key, "the value is " + std::to_string(value),
+                std::string("allowed: ") + allowed);
+  };
+  if (!(inherited_per_niche >= 1.0) || !std::isfinite(inherited_per_niche)) {
+    refuse("inherited_per_niche", inherited_per_niche, "1 or more");
+  }
+  if (!(least_prominence >= 0.0) || !std::isfinite(least_prominence)) {
+    refuse("least_prominence", least_prominence, "0 or more");
+  }
+  if (!(cutoff > 0.0)) {
+    refuse("cutoff", cutoff, "a positive length in metres, or leave it out");
+  }
+  if (largest_niche_count == 0) {
+    refuse("largest_niche_count", 0, "1 or more");
+  }
+}
+
+}  // namespace concave_distance
