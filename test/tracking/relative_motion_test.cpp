@@ -1,0 +1,48 @@
+#include "concave_distance/tracking/relative_motion.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace concave_distance {
+namespace {
+
+TEST(RigidPose, RefusesWhatIsNoRotation) {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  EXPECT_TRUE(rigidPose(pose));
+  pose.translation().x() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(rigidPose(pose));
+  pose = Eigen::Isometry3d::Identity();
+  pose.linear() *= 1.01;
+  EXPECT_FALSE(rigidPose(pose));
+  pose.linear() = -Eigen::Matrix3d::Identity();
+  EXPECT_FALSE(rigidPose(pose));
+  pose.linear().setZero();
+  EXPECT_FALSE(rigidPose(pose));
+}
+
+TEST(RigidPose, MendsRounding) {
+  Eigen::Isometry3d pose(Eigen::AngleAxisd(0.7, Eigen::Vector3d(1.0, 2.0, 3.0).normalized()));
+  pose.linear() *= 1.0001;
+  const auto mended = rigidPose(pose);
+  ASSERT_TRUE(mended);
+  EXPECT_LE((mended->linear() * mended->linear().transpose() - Eigen::Matrix3d::Identity()).norm(), 1e-15);
+}
+
+TEST(LargestDisplacement, IsTheTranslationWithoutTurning) {
+  const Eigen::AlignedBox3d box(Eigen::Vector3d(-1.0, -2.0, -3.0), Eigen::Vector3d(1.0, 2.0, 3.0));
+  const Eigen::Isometry3d before = Eigen::Isometry3d::Identity();
+  const Eigen::Isometry3d after(Eigen::Translation3d(0.3, 0.0, 0.4));
+  EXPECT_DOUBLE_EQ(largestDisplacement(box, before, after), 0.5);
+}
+
+TEST(LargestDisplacement, IsTheChordOfTheFarthestCornerWhenTurning) {
+  const Eigen::AlignedBox3d box(Eigen::Vector3d(-1.0, -2.0, -3.0), Eigen::Vector3d(1.0, 2.0, 3.0));
+  const Eigen::Isometry3d before = Eigen::Isometry3d::Identity();
+  const Eigen::Isometry3d after(Eigen::AngleAxisd(0.2, Eigen::Vector3d::UnitZ()));
+  EXPECT_NEAR(largestDisplacement(box, before, after), 2.0 * std::sqrt(5.0) * std::sin(0.1), 1e-14);
+}
+
+}  // namespace
+}  // namespace concave_distance
