@@ -160,12 +160,12 @@ Eigen::Isometry3d combPose(double t) {
 
 const std::vector<Recipe>& recipes() {
   static const std::vector<Recipe> kRecipes = {
-      {"notched_boxes", files("meshes/thesis/notched_box_1.stl", "meshes/thesis/notched_box_2.stl"),
-       fromFile("meshes/thesis/notched_boxes_position_1.csv"), 0.1},
-      {"grooved_cylinder", files("meshes/thesis/grooved_cylinder.stl", "meshes/thesis/semi_extruded.stl"),
-       fromFile("meshes/thesis/grooved_cylinder_position_2.csv"), 0.1},
+      {"notched_boxes", files("meshes/thesis/box.stl", "meshes/thesis/notched_box.stl"),
+       fromFile("meshes/thesis/boxes_position_1.csv"), 0.1},
+      {"grooved_cylinder", files("meshes/thesis/semi_extruded.stl", "meshes/thesis/grooved_cylinder.stl"),
+       fromFile("meshes/thesis/cylinder_position_2.csv"), 0.1},
       {"battery_fixture", files("meshes/thesis/fixture.stl", "meshes/thesis/battery.stl"),
-       fromFile("meshes/thesis/battery_fixture_static.csv"), 0.05},
+       fromFile("meshes/thesis/battery_static.csv"), 0.05},
       {"battery_insertion", files("meshes/thesis/fixture.stl", "meshes/thesis/battery.stl"),
        fromFile("meshes/thesis/manoeuvre_200.csv"), 0.05},
       {"kr5_bicep_palm", files("meshes/kr5/bicep.STL", "meshes/kr5/palm.STL"), loop(11), {}},

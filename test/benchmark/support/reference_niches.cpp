@@ -1,0 +1,66 @@
+#include "benchmark/support/reference_niches.h"
+
+#include "concave_distance/distance/enumeration.h"
+#include "concave_distance/tracking/niche_admission.h"
+
+namespace concave_distance::benchmark {
+
+std::vector<ReferenceNiche> referenceNiches(const BenchmarkPair& pair, const Eigen::Isometry3d& pose,
+                                            double cutoff, double least_prominence) {
+  RefinementWorkspace workspace;
+  std::vector<ReferenceNiche> references;
+  for (const NodeNiche& niche : enumerateNodeNiches(*pair.a, *pair.b, pose, cutoff, least_prominence)) {
+    const WitnessRefinement refined =
+        refineWitness(*pair.a, *pair.b, pose, pair.a->originalTriangle(niche.node_a),
+                      pair.b->originalTriangle(niche.node_b), workspace);
+    if (classifyOutwardness(*pair.a, *pair.b, pose, refined.witness) == Outwardness::ThroughMaterial) {
+      continue;
+    }
+    bool known = false;
+    for (const ReferenceNiche& other : references) {
+      known = known || isSameNiche(pair, pose, refined.witness, other.witness, least_prominence);
+    }
+    if (!known) {
+      references.push_back({refined.witness, niche.distance, niche.prominence});
+    }
+  }
+  return references;
+}
+
+bool isSameNiche(const BenchmarkPair& pair, const Eigen::Isometry3d& pose, const WitnessPair& found,
+                 const WitnessPair& reference, double least_prominence) {
+  PairGeometry geometry(pair.a, pair.b);
+  geometry.setPose(pose);
+  const double tolerance = geometry.samePlaceTolerance();
+  if ((found.point_a_in_a - reference.point_a_in_a).norm() <= tolerance &&
+      (found.point_b_in_a - reference.point_b_in_a).norm() <= tolerance) {
+    return true;
+  }
+  const bool deeper = found.squared_distance < reference.squared_distance;
+  return prominenceBound(geometry, deeper ? reference : found, deeper ? found : reference, least_prominence) <
+         least_prominence;
+}
+
+RecallCount countRecall(const BenchmarkPair& pair, const Eigen::Isometry3d& pose,
+                        const std::vector<WitnessPair>& found, const std::vector<ReferenceNiche>& references,
+                        double cutoff, double least_prominence) {
+  std::vector<int> hits(references.size(), 0);
+  RecallCount count;
+  for (const WitnessPair& niche : found) {
+    bool met = false;
+    for (std::size_t i = 0; i < references.size() && !met; ++i) {
+      if (isSameNiche(pair, pose, niche, references[i].witness, least_prominence)) {
+        ++hits[i];
+        met = true;
+      }
+    }
+    count.others += !met && niche.squared_distance <= cutoff * cutoff ? 1 : 0;
+  }
+  for (const int hit : hits) {
+    count.recalled += hit > 0 ? 1 : 0;
+    count.duplicates += hit > 1 ? static_cast<std::size_t>(hit - 1) : 0;
+  }
+  return count;
+}
+
+}  // namespace concave_distance::benchmark
