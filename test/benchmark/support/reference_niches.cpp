@@ -1,5 +1,7 @@
 #include "benchmark/support/reference_niches.h"
 
+#include <algorithm>
+
 #include "concave_distance/distance/enumeration.h"
 #include "concave_distance/tracking/niche_admission.h"
 
@@ -39,6 +41,31 @@ bool isSameNiche(const BenchmarkPair& pair, const Eigen::Isometry3d& pose, const
   const bool deeper = found.squared_distance < reference.squared_distance;
   return prominenceBound(geometry, deeper ? reference : found, deeper ? found : reference, least_prominence) <
          least_prominence;
+}
+
+std::size_t countRecalled(const BenchmarkPair& pair, const Eigen::Isometry3d& pose,
+                          const std::vector<WitnessPair>& found,
+                          const std::vector<ReferenceNiche>& references, double least_prominence) {
+  constexpr std::size_t kNearest = 4;
+  std::size_t recalled = 0;
+  std::vector<std::pair<double, std::size_t>> by_gap;
+  for (const ReferenceNiche& reference : references) {
+    by_gap.clear();
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      by_gap.emplace_back((found[i].point_a_in_a - reference.witness.point_a_in_a).squaredNorm() +
+                              (found[i].point_b_in_a - reference.witness.point_b_in_a).squaredNorm(),
+                          i);
+    }
+    const std::size_t looked_at = std::min(kNearest, by_gap.size());
+    std::partial_sort(by_gap.begin(), by_gap.begin() + static_cast<std::ptrdiff_t>(looked_at), by_gap.end());
+    for (std::size_t k = 0; k < looked_at; ++k) {
+      if (isSameNiche(pair, pose, found[by_gap[k].second], reference.witness, least_prominence)) {
+        ++recalled;
+        break;
+      }
+    }
+  }
+  return recalled;
 }
 
 RecallCount countRecall(const BenchmarkPair& pair, const Eigen::Isometry3d& pose,

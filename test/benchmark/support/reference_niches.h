@@ -25,6 +25,12 @@ std::vector<ReferenceNiche> referenceNiches(const BenchmarkPair& pair, const Eig
 bool isSameNiche(const BenchmarkPair& pair, const Eigen::Isometry3d& pose, const WitnessPair& found,
                  const WitnessPair& reference, double least_prominence);
 
+/// References that some found witness is; looks at the found ones nearest to each reference only, so that
+/// lists of hundreds stay cheap.
+std::size_t countRecalled(const BenchmarkPair& pair, const Eigen::Isometry3d& pose,
+                          const std::vector<WitnessPair>& found,
+                          const std::vector<ReferenceNiche>& references, double least_prominence);
+
 /// How a list of found niches compares with the truth.
 struct RecallCount {
   std::size_t recalled = 0;    ///< references met at least once
