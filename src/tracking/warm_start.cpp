@@ -32,7 +32,7 @@ void inherit(const std::vector<TrialPoint>& niches, const Inheritance& inheritan
   std::size_t given = 0;
   for (const TrialPoint& niche : niches) {
     const double phi = 1.0 / std::max(niche.squared_distance + softening * softening, smallest);
-    const double share = static_cast<double>(to_share) * phi / sum;
+    const double share = static_cast<double>(to_share) * (phi / sum);  // phi alone may be near overflow
     const auto whole = static_cast<std::size_t>(share);
     population.insert(population.end(), std::min(whole, to_share - given), niche);
     given += std::min(whole, to_share - given);
