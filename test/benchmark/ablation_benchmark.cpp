@@ -23,6 +23,7 @@
 #include "concave_distance/distance/enumeration.h"
 #include "concave_distance/search/automatic_radii.h"
 #include "concave_distance/search/genetic_search.h"
+#include "concave_distance/search/local_descent.h"
 
 namespace concave_distance::benchmark {
 namespace {
