@@ -58,6 +58,9 @@ class GeneticRun {
         result_.converged = true;
         break;
       }
+      if (parameters_.evaluation_limit != 0 && result_.cost.evaluations >= parameters_.evaluation_limit) {
+        break;
+      }
     }
     return result_;
   }

@@ -48,6 +48,8 @@ struct GeneticParameters {
   bool conserve_niches = false;
   /// Stop when the best and the set of niches have not changed for this many generations; 0: never early.
   std::uint32_t convergence_generations = 0;
+  /// Stop after the generation in which this many node pairs have been evaluated; 0: no limit.
+  std::uint64_t evaluation_limit = 0;
 
   /// @throws Error naming the parameter, the value seen and the allowed range
   void validate(const std::string& where) const;
