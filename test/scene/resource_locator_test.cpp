@@ -14,26 +14,26 @@ namespace {
 class ResourceLocator : public ::testing::Test {
  protected:
   ResourceLocator() {
-    locator_ = [this](const std::string& package) {
-      return package == "arm" ? folder_.path("packages/arm") : std::string();
+    locator = [this](const std::string& package) {
+      return package == "arm" ? folder.path("packages/arm") : std::string();
     };
   }
 
   std::string locate(const std::string& resource) {
-    return locateResource(resource, folder_.path("urdf"), locator_);
+    return locateResource(resource, folder.path("urdf"), locator);
   }
 
   // The whole message of the error that locating the resource must end in.
   std::string refusal(const std::string& resource, const std::string& base = "/nowhere") {
     try {
-      return "found " + locateResource(resource, base, locator_);
+      return "found " + locateResource(resource, base, locator);
     } catch (const Error& error) {
       return error.what();
     }
   }
 
-  test::TemporaryFolder folder_;
-  PackageLocator locator_;
+  test::TemporaryFolder folder;
+  PackageLocator locator;
 };
 
 bool mentions(const std::string& text, const std::string& part) {
@@ -41,35 +41,35 @@ bool mentions(const std::string& text, const std::string& part) {
 }
 
 TEST_F(ResourceLocator, PackageUriIsLookedUpInThePackagesFolder) {
-  const std::string file = folder_.write("packages/arm/meshes/link.stl", "x");
+  const std::string file = folder.write("packages/arm/meshes/link.stl", "x");
   EXPECT_EQ(locate("package://arm/meshes/link.stl"), file);
 }
 
 TEST_F(ResourceLocator, FileUriIsAnAbsolutePath) {
-  const std::string file = folder_.write("a/link.stl", "x");
+  const std::string file = folder.write("a/link.stl", "x");
   EXPECT_EQ(locate("file://" + file), file);
   EXPECT_EQ(locate("file://localhost" + file), file);
 }
 
 TEST_F(ResourceLocator, PlainPathIsAbsoluteOrRelativeToTheBaseFolder) {
-  const std::string file = folder_.write("urdf/meshes/link.stl", "x");
+  const std::string file = folder.write("urdf/meshes/link.stl", "x");
   EXPECT_EQ(locate(file), file);
   EXPECT_EQ(locate("meshes/link.stl"), file);
 }
 
 TEST_F(ResourceLocator, SpacesMayBePlainOrPercentEncoded) {
-  const std::string file = folder_.write("packages/arm/my meshes/upper arm.stl", "x");
-  folder_.write("urdf/arm.urdf", "x");
+  const std::string file = folder.write("packages/arm/my meshes/upper arm.stl", "x");
+  folder.write("urdf/arm.urdf", "x");
   EXPECT_EQ(locate("package://arm/my meshes/upper arm.stl"), file);
   EXPECT_EQ(locate("package://arm/my%20meshes/upper%20arm.stl"), file);
-  EXPECT_EQ(locate("file://" + folder_.path("packages/arm/my%20meshes/upper%20arm.stl")), file);
+  EXPECT_EQ(locate("file://" + folder.path("packages/arm/my%20meshes/upper%20arm.stl")), file);
   EXPECT_EQ(locate("../packages/arm/my%20meshes/upper%20arm.stl"),
-            folder_.path("urdf/../packages/arm/my meshes/upper arm.stl"));
+            folder.path("urdf/../packages/arm/my meshes/upper arm.stl"));
 }
 
 TEST_F(ResourceLocator, PercentSignsThatNameTheFileAreTakenLiterally) {
-  const std::string coded = folder_.write("urdf/a%20b.stl", "x");
-  const std::string plain = folder_.write("urdf/50%.stl", "x");
+  const std::string coded = folder.write("urdf/a%20b.stl", "x");
+  const std::string plain = folder.write("urdf/50%.stl", "x");
   EXPECT_EQ(locate("a%20b.stl"), coded);
   EXPECT_EQ(locate("file://" + coded), coded);
   EXPECT_EQ(locate("50%.stl"), plain);
@@ -79,18 +79,18 @@ TEST_F(ResourceLocator, PercentSignsThatNameTheFileAreTakenLiterally) {
 TEST_F(ResourceLocator, MissingFileIsNamedWithThePathTried) {
   const std::string text = refusal("package://arm/meshes/gone.stl");
   EXPECT_TRUE(mentions(text, "package://arm/meshes/gone.stl")) << text;
-  EXPECT_TRUE(mentions(text, folder_.path("packages/arm/meshes/gone.stl"))) << text;
+  EXPECT_TRUE(mentions(text, folder.path("packages/arm/meshes/gone.stl"))) << text;
   EXPECT_TRUE(mentions(text, "does not exist")) << text;
 }
 
 TEST_F(ResourceLocator, UnknownPackageIsNamed) {
   EXPECT_TRUE(mentions(refusal("package://leg/a.stl"), "package 'leg' is not known"));
-  locator_ = nullptr;
+  locator = nullptr;
   EXPECT_TRUE(mentions(refusal("package://arm/a.stl"), "package 'arm' is not known"));
 }
 
 TEST_F(ResourceLocator, WhatIsNoFileIsRefused) {
-  folder_.write("packages/arm/meshes/link.stl", "x");
+  folder.write("packages/arm/meshes/link.stl", "x");
   EXPECT_TRUE(mentions(refusal("package://arm/meshes"), "is a folder"));
   EXPECT_TRUE(mentions(refusal("/dev/null"), "no regular file"));
   EXPECT_TRUE(mentions(refusal(""), "empty"));
@@ -107,16 +107,16 @@ TEST_F(ResourceLocator, RelativePathNeedsAFileToBeRelativeTo) {
 }
 
 TEST_F(ResourceLocator, EnvironmentGivesPackagesOfWorkspacesPrefixesAndNestedRepositories) {
-  folder_.write("direct/arm/package.xml", "<package><name>arm</name></package>");
-  folder_.write("prefix/share/hand/package.xml", "<package><name>hand</name></package>");
-  folder_.write("nested/repository-main/leg-1.0/package.xml", "<package><name>leg</name></package>");
-  folder_.write("nested/ignored/CATKIN_IGNORE", "");
-  folder_.write("nested/ignored/foot/package.xml", "<package><name>foot</name></package>");
-  ::setenv("ROS_PACKAGE_PATH", (folder_.path("direct") + "::" + folder_.path("nested")).c_str(), 1);
-  ::setenv("CMAKE_PREFIX_PATH", folder_.path("prefix").c_str(), 1);
-  EXPECT_EQ(packagePathFromEnvironment("arm"), folder_.path("direct/arm"));
-  EXPECT_EQ(packagePathFromEnvironment("hand"), folder_.path("prefix/share/hand"));
-  EXPECT_EQ(packagePathFromEnvironment("leg"), folder_.path("nested/repository-main/leg-1.0"));
+  folder.write("direct/arm/package.xml", "<package><name>arm</name></package>");
+  folder.write("prefix/share/hand/package.xml", "<package><name>hand</name></package>");
+  folder.write("nested/repository-main/leg-1.0/package.xml", "<package><name>leg</name></package>");
+  folder.write("nested/ignored/CATKIN_IGNORE", "");
+  folder.write("nested/ignored/foot/package.xml", "<package><name>foot</name></package>");
+  ::setenv("ROS_PACKAGE_PATH", (folder.path("direct") + "::" + folder.path("nested")).c_str(), 1);
+  ::setenv("CMAKE_PREFIX_PATH", folder.path("prefix").c_str(), 1);
+  EXPECT_EQ(packagePathFromEnvironment("arm"), folder.path("direct/arm"));
+  EXPECT_EQ(packagePathFromEnvironment("hand"), folder.path("prefix/share/hand"));
+  EXPECT_EQ(packagePathFromEnvironment("leg"), folder.path("nested/repository-main/leg-1.0"));
   EXPECT_EQ(packagePathFromEnvironment("foot"), "");
   EXPECT_EQ(packagePathFromEnvironment("no_such_package_anywhere"), "");
   EXPECT_EQ(packagePathFromEnvironment("../direct/arm"), "");

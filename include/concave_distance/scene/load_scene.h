@@ -1,7 +1,12 @@
 #pragma once
 
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "concave_distance/scene/resource_locator.h"
 #include "concave_distance/scene/scene.h"
@@ -10,12 +15,17 @@ namespace concave_distance {
 
 enum class GeometrySource : std::uint8_t { Collision, Visual };
 
+inline constexpr std::size_t kDefaultMetricMemoryLimit = 512'000'000;
+
 struct SceneLoadOptions {
   PackageLocator package_locator;
   GeometrySource geometry = GeometrySource::Collision;  ///< default; a scene file's robot may override
   /// URDF texts by parameter name, e.g. {"robot_description", ...}; a scene file refers to them by name.
   std::map<std::string, std::string> descriptions;
   PairSettings default_settings;
+  /// Bytes that the matrices of all mesh metrics may take together. Bodies get theirs in the order of the
+  /// scene while the rest of the limit holds them; the others search their mesh on demand.
+  std::size_t metric_memory_limit = kDefaultMetricMemoryLimit;
 };
 
 /// Loads a scene YAML (doc/scene_file.md): robots from descriptions or files, bodies, groups, pairs. A body
@@ -27,7 +37,14 @@ Scene loadSceneFile(const std::string& path, const SceneLoadOptions& options);
 Scene loadSceneText(const std::string& yaml, const std::string& where, const std::string& base_folder,
                     const SceneLoadOptions& options);
 
-/// A scene of one robot and nothing else, all pairs but adjacent links enabled.
+/// Names of the parameters that a scene file wants in SceneLoadOptions::descriptions, so that the caller can
+/// fetch them first. @throws Error as loadSceneFile
+std::vector<std::string> descriptionsOfSceneFile(const std::string& path);
+
+/// A scene of one robot and nothing else, all pairs but adjacent links enabled; those neither that an SRDF
+/// among the descriptions, `robot_description_semantic`, disables.
+/// @param where names the URDF in messages; relative mesh paths start at its folder when it is a file
+/// @throws Error when urdfdom cannot parse the text
 Scene loadRobotScene(const std::string& urdf, const std::string& where, const SceneLoadOptions& options);
 
 /// One body from a mesh file or primitive given by the fields below, as the scene file's `bodies` entries.
@@ -42,8 +59,11 @@ struct BodyDescription {
   std::optional<double> max_edge_length;
   std::optional<double> chord_error;  ///< metres; empty: 1 % of the radius
 };
+/// Loads one body as a scene does.
+/// @param metric_memory_limit bytes that the matrices of its mesh metric may take
 /// @throws Error naming the body
 SceneBody loadBody(const BodyDescription& description, const std::string& base_folder,
-                   const PackageLocator& package_locator);
+                   const PackageLocator& package_locator,
+                   std::size_t metric_memory_limit = kDefaultMetricMemoryLimit);
 
 }  // namespace concave_distance

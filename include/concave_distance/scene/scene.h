@@ -9,6 +9,7 @@
 
 #include "concave_distance/mesh/body_mesh.h"
 #include "concave_distance/mesh/repair_mesh.h"
+#include "concave_distance/scene/broad_phase.h"
 #include "concave_distance/tracking/tracker_parameters.h"
 
 namespace concave_distance {
@@ -18,6 +19,7 @@ struct SceneBody {
   std::string name;   ///< unique in the scene; a robot's link is `<prefix><link>`
   std::string frame;  ///< tf frame the body is fixed to
   std::shared_ptr<const BodyMesh> mesh;
+  BodyBounds bounds;  ///< of the mesh's surface
   RepairReport repair;
   std::string source;           ///< file or URDF element it came from, for messages
   bool in_robot_model = false;  ///< rviz can draw it from robot_description; no mesh marker needed
@@ -27,7 +29,7 @@ struct SceneBody {
 /// Per pair, from the scene file: defaults, then the groups in order, then the pair's own entry.
 struct PairSettings {
   TrackerParameters tracker;
-  /// An alert is raised below this, metres; infinite negative: never.
+  /// An alert is raised below this, metres; empty: never.
   std::optional<double> warning_distance;
   /// ... and taken back above warning_distance + hysteresis, metres.
   double warning_hysteresis = 0.01;
@@ -41,7 +43,8 @@ struct ScenePair {
   PairSettings settings;
 };
 
-/// A body or element that could not be loaded: the rest of the scene is served without it.
+/// A body or element that could not be loaded: the rest of the scene is served without it. The message names
+/// the pairs that are lost with it.
 struct SceneProblem {
   std::string where;
   std::string message;
@@ -53,7 +56,9 @@ struct Scene {
   std::vector<SceneProblem> problems;
   std::vector<std::string> notes;  ///< repairs and filters applied, one line each
 
+  /// Index of the body with this name.
   std::optional<std::size_t> findBody(const std::string& name) const;
+  /// Index of the pair of these bodies, in either order.
   std::optional<std::size_t> findPair(const std::string& name_a, const std::string& name_b) const;
 };
 

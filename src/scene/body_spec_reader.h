@@ -1,0 +1,26 @@
+#pragma once
+
+#include <optional>
+
+#include "scene_spec.h"
+#include "yaml_value.h"
+
+namespace concave_distance::detail {
+
+/// What a scene file's `defaults` say about bodies and robots.
+struct BodyDefaults {
+  GeometrySource geometry = GeometrySource::Collision;
+  std::optional<double> max_edge_length;
+  std::optional<double> chord_error;
+};
+
+/// Takes the keys about bodies from `defaults`; the caller calls finish().
+void readBodyDefaults(YamlMap& map, BodyDefaults& defaults);
+
+/// One entry of `robots`. @throws Error for what is wrong with it
+RobotSpec readRobotSpec(const YamlValue& value, const BodyDefaults& defaults);
+
+/// One entry of `bodies`. @throws Error for what is wrong with it
+BodySpec readBodySpec(const YamlValue& value, const BodyDefaults& defaults);
+
+}  // namespace concave_distance::detail

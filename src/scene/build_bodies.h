@@ -1,0 +1,38 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "concave_distance/scene/scene.h"
+#include "geometry_element.h"
+
+namespace concave_distance::detail {
+
+/// A body still to be loaded.
+struct BodySource {
+  std::string name;
+  std::string frame;
+  std::string source;  ///< file or URDF element, for messages
+  std::vector<GeometryElement> geometry;
+  std::string base_folder;  ///< where relative paths start; empty: none are allowed
+  std::optional<double> max_edge_length;
+  Eigen::Vector4d colour = SceneBody().colour;
+  bool in_robot_model = false;
+  std::string problem;  ///< known already: the body is not tried
+};
+
+struct BuiltBody {
+  std::optional<SceneBody> body;  ///< nothing when there is a problem
+  std::string problem;
+  std::vector<std::string> notes;
+};
+
+/// Loads all bodies, in parallel; one result a source, in their order and the same whatever the number of
+/// threads. Never throws for a body: its problem says what is wrong.
+std::vector<BuiltBody> buildBodies(std::vector<BodySource> sources, const PackageLocator& package_locator,
+                                   std::size_t metric_memory_limit);
+
+}  // namespace concave_distance::detail

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "concave_distance/mesh/repair_mesh.h"
+#include "concave_distance/scene/resource_locator.h"
+
+namespace concave_distance::detail {
+
+/// One shape of a body: a collision or visual element of a URDF link, or a scene file's body.
+struct GeometryElement {
+  std::string where;                                ///< what messages call it
+  std::string mesh_resource;                        ///< either this ...
+  Eigen::Vector3d scale = Eigen::Vector3d::Ones();  ///< of the mesh
+  std::string primitive;                            ///< ... or box, sphere, cylinder, capsule
+  std::vector<double> dimensions;                   ///< as BodyDescription::dimensions, metres
+  std::optional<double> chord_error;                ///< metres; empty: 1 % of the radius
+  Eigen::Isometry3d frame_from_geometry = Eigen::Isometry3d::Identity();
+};
+
+/// Puts the path of this machine in place of the element's resource; a primitive is left alone.
+/// @throws Error as locateResource, naming the element too
+void locateGeometry(GeometryElement& element, const std::string& base_folder,
+                    const PackageLocator& package_locator);
+
+/// Loads located elements and merges them into one repaired surface in the body's frame.
+/// @throws Error naming the element at fault: nothing of the body is served rather than a part of it
+RepairedMesh loadGeometry(const std::vector<GeometryElement>& elements, const std::string& where);
+
+/// One line for each element whose round surface became a mesh, with its chord error. May be empty.
+std::string describeApproximations(const std::vector<GeometryElement>& elements);
+
+}  // namespace concave_distance::detail

@@ -1,0 +1,186 @@
+#include "concave_distance/scene/load_scene.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <system_error>
+#include <utility>
+
+#include "build_bodies.h"
+#include "concave_distance/base/error.h"
+#include "scene_parts.h"
+#include "scene_spec.h"
+#include "select_pairs.h"
+#include "settings_reader.h"
+
+namespace concave_distance {
+namespace {
+
+using detail::BuiltBody;
+using detail::DescriptionText;
+using detail::PairSelection;
+using detail::RobotSpec;
+using detail::SceneParts;
+using detail::SceneSpec;
+using detail::SelectedPair;
+
+// Enough to see what is missing; a list cut short says so.
+constexpr std::size_t kMostPairsListed = 10;
+constexpr const char* kSemanticDescription = "robot_description_semantic";
+
+std::string readFile(const std::string& path, const std::string& where) {
+  std::error_code ignored;
+  std::ifstream stream;
+  // A folder can be opened, and fails only when it is read.
+  if (std::filesystem::is_regular_file(path, ignored)) stream.open(path, std::ios::binary);
+  std::ostringstream text;
+  if (stream.is_open()) text << stream.rdbuf();
+  if (!stream.is_open() || stream.bad()) {
+    throw Error(where, "'" + path + "' cannot be read", "check the path and its permissions");
+  }
+  return text.str();
+}
+
+std::string folderOf(const std::string& path) {
+  const std::string folder = std::filesystem::path(path).parent_path().string();
+  return folder.empty() ? "." : folder;
+}
+
+DescriptionText textOfParameter(const std::string& parameter, const std::string& where,
+                                const SceneLoadOptions& options) {
+  const auto found = options.descriptions.find(parameter);
+  if (found == options.descriptions.end()) {
+    throw Error(where, "there is no parameter '" + parameter + "'",
+                "set it to the text of the description, or name a file by urdf or srdf");
+  }
+  return {found->second, "parameter " + parameter, ""};
+}
+
+DescriptionText textOfFile(const std::string& resource, const std::string& where,
+                           const std::string& base_folder, const SceneLoadOptions& options) {
+  try {
+    const std::string path = locateResource(resource, base_folder, options.package_locator);
+    return {readFile(path, path), path, folderOf(path)};
+  } catch (const Error& error) {
+    throw Error(where + ", " + error.where(), error.whatIsWrong(), error.remedy());
+  }
+}
+
+void addRobot(const RobotSpec& robot, const std::string& base_folder, const SceneLoadOptions& options,
+              SceneParts& parts) {
+  const DescriptionText urdf = robot.urdf.empty() ? textOfParameter(robot.description, robot.where, options)
+                                                  : textOfFile(robot.urdf, robot.where, base_folder, options);
+  if (robot.srdf.empty() && robot.semantic_description.empty()) {
+    detail::addRobot(robot, urdf, nullptr, parts);
+    return;
+  }
+  const DescriptionText srdf = robot.srdf.empty()
+                                   ? textOfParameter(robot.semantic_description, robot.where, options)
+                                   : textOfFile(robot.srdf, robot.where, base_folder, options);
+  detail::addRobot(robot, urdf, &srdf, parts);
+}
+
+// "a/b, a/c and 3 more": the pairs that go with a body that could not be loaded.
+std::string lostPairs(const std::vector<SelectedPair>& pairs, std::size_t source) {
+  std::string text;
+  std::size_t count = 0;
+  for (const SelectedPair& pair : pairs) {
+    if (pair.source_a != source && pair.source_b != source) continue;
+    if (count < kMostPairsListed) text += (count == 0 ? "" : ", ") + pair.name;
+    ++count;
+  }
+  if (count > kMostPairsListed) text += " and " + std::to_string(count - kMostPairsListed) + " more";
+  return count == 0 ? "no pairs are lost with it" : "pairs not served: " + text;
+}
+
+Scene assemble(const SceneSpec& spec, SceneParts parts, const SceneLoadOptions& options) {
+  // Before the costly part, so that a mistake in the file is told at once.
+  PairSelection selection = detail::selectPairs(spec, parts);
+  std::vector<BuiltBody> built =
+      detail::buildBodies(parts.sources, options.package_locator, spec.metric_memory_limit);
+  Scene scene;
+  scene.notes = std::move(parts.notes);
+  scene.problems = std::move(selection.problems);
+  std::vector<std::optional<std::size_t>> body_of_source(built.size());
+  for (std::size_t i = 0; i < built.size(); ++i) {
+    for (const std::string& note : built[i].notes) scene.notes.push_back(parts.sources[i].name + ": " + note);
+    if (built[i].body) {
+      body_of_source[i] = scene.bodies.size();
+      scene.bodies.push_back(std::move(*built[i].body));
+    } else {
+      scene.problems.push_back({parts.sources[i].source, "body '" + parts.sources[i].name +
+                                                             "' is not served: " + built[i].problem + "; " +
+                                                             lostPairs(selection.pairs, i)});
+    }
+  }
+  for (SelectedPair& pair : selection.pairs) {
+    const std::optional<std::size_t> a = body_of_source[pair.source_a];
+    const std::optional<std::size_t> b = body_of_source[pair.source_b];
+    if (a && b) scene.pairs.push_back({pair.name, *a, *b, pair.enabled, pair.settings});
+  }
+  scene.notes.insert(scene.notes.end(), selection.notes.begin(), selection.notes.end());
+  return scene;
+}
+
+}  // namespace
+
+Scene loadSceneText(const std::string& yaml, const std::string& where, const std::string& base_folder,
+                    const SceneLoadOptions& options) {
+  const SceneSpec spec = detail::readSceneSpec(yaml, where, options);
+  SceneParts parts;
+  for (const RobotSpec& robot : spec.robots) addRobot(robot, base_folder, options, parts);
+  for (const detail::BodySpec& body : spec.bodies) detail::addBody(body, base_folder, parts);
+  return assemble(spec, std::move(parts), options);
+}
+
+Scene loadSceneFile(const std::string& path, const SceneLoadOptions& options) {
+  return loadSceneText(readFile(path, "scene file"), path, folderOf(path), options);
+}
+
+std::vector<std::string> descriptionsOfSceneFile(const std::string& path) {
+  const SceneSpec spec = detail::readSceneSpec(readFile(path, "scene file"), path, SceneLoadOptions{});
+  std::vector<std::string> names;
+  for (const RobotSpec& robot : spec.robots) {
+    for (const std::string& name : {robot.description, robot.semantic_description}) {
+      if (!name.empty() && std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    }
+  }
+  return names;
+}
+
+Scene loadRobotScene(const std::string& urdf, const std::string& where, const SceneLoadOptions& options) {
+  SceneSpec spec;
+  spec.defaults = options.default_settings;
+  spec.metric_memory_limit = options.metric_memory_limit;
+  detail::validatePairSettings(spec.defaults, where);
+  RobotSpec robot;
+  robot.where = where;
+  robot.geometry = options.geometry;
+  std::error_code ignored;
+  const bool is_file = std::filesystem::is_regular_file(where, ignored);
+  // A text that comes from no file is what the parameter robot_description holds, and rviz draws it.
+  if (!is_file) robot.description = where;
+  SceneParts parts;
+  const DescriptionText text{urdf, where, is_file ? folderOf(where) : std::string()};
+  const auto semantic = options.descriptions.find(kSemanticDescription);
+  if (semantic == options.descriptions.end()) {
+    detail::addRobot(robot, text, nullptr, parts);
+  } else {
+    const DescriptionText srdf{semantic->second, std::string("parameter ") + kSemanticDescription, ""};
+    detail::addRobot(robot, text, &srdf, parts);
+  }
+  return assemble(spec, std::move(parts), options);
+}
+
+SceneBody loadBody(const BodyDescription& description, const std::string& base_folder,
+                   const PackageLocator& package_locator, std::size_t metric_memory_limit) {
+  std::vector<BuiltBody> built =
+      detail::buildBodies({detail::sourceOf(description, base_folder)}, package_locator, metric_memory_limit);
+  if (!built.front().body) {
+    throw Error("body '" + description.name + "'", built.front().problem, "it is not added");
+  }
+  return std::move(*built.front().body);
+}
+
+}  // namespace concave_distance

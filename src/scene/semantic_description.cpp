@@ -1,0 +1,149 @@
+#include "semantic_description.h"
+
+#include <tinyxml2.h>
+
+#include <algorithm>
+
+#include "concave_distance/base/error.h"
+
+namespace concave_distance::detail {
+namespace {
+
+using tinyxml2::XMLElement;
+
+std::string attribute(const XMLElement& element, const char* name) {
+  const char* value = element.Attribute(name);
+  return value != nullptr ? value : std::string();
+}
+
+template <typename Visit>
+void forEachChild(const XMLElement& parent, const char* name, const Visit& visit) {
+  for (const auto* child = parent.FirstChildElement(name); child != nullptr;
+       child = child->NextSiblingElement(name)) {
+    visit(*child);
+  }
+}
+
+// Reads one SRDF against one robot; notes gather in the result.
+class Reader {
+ public:
+  Reader(const RobotDescription& robot, std::string where, SemanticDescription& result)
+      : robot_(robot), where_(std::move(where)), result_(result) {}
+
+  void readDisabledPairs(const XMLElement& root) {
+    forEachChild(root, "disable_collisions", [&](const XMLElement& element) {
+      const std::string a = attribute(element, "link1");
+      const std::string b = attribute(element, "link2");
+      if (isLink(a, element) && isLink(b, element)) result_.disabled.insert(linkPair(a, b));
+    });
+    for (const char* unread : {"enable_collisions", "disable_default_collisions"}) {
+      if (const XMLElement* element = root.FirstChildElement(unread)) {
+        note(*element, std::string(unread) + " is not read, only disable_collisions is");
+      }
+    }
+  }
+
+  void readGroups(const XMLElement& root) {
+    forEachChild(root, "group", [&](const XMLElement& group) {
+      const std::string name = attribute(group, "name");
+      if (name.empty()) return note(group, "a group without a name is left out");
+      if (findGroup(name) != nullptr) return note(group, "a second group '" + name + "' is left out");
+      std::vector<std::string> links;
+      forEachChild(group, "link", [&](const XMLElement& element) {
+        if (isLink(attribute(element, "name"), element)) add(links, attribute(element, "name"));
+      });
+      forEachChild(group, "joint", [&](const XMLElement& element) { addJoint(links, element); });
+      forEachChild(group, "chain", [&](const XMLElement& element) { addChain(links, element); });
+      forEachChild(group, "group", [&](const XMLElement& element) { addGroup(links, element); });
+      result_.groups.emplace_back(name, std::move(links));
+    });
+  }
+
+ private:
+  static void add(std::vector<std::string>& links, const std::string& link) {
+    if (std::find(links.begin(), links.end(), link) == links.end()) links.push_back(link);
+  }
+
+  void note(const XMLElement& element, const std::string& text) {
+    result_.notes.push_back(where_ + ":" + std::to_string(element.GetLineNum()) + ": " + text);
+  }
+
+  bool isLink(const std::string& link, const XMLElement& element) {
+    if (robot_.findLink(link) != nullptr) return true;
+    note(element, std::string(element.Name()) + " names '" + link + "', no link of robot '" + robot_.name +
+                      "'; left out");
+    return false;
+  }
+
+  const std::vector<std::string>* findGroup(const std::string& name) const {
+    for (const auto& group : result_.groups) {
+      if (group.first == name) return &group.second;
+    }
+    return nullptr;
+  }
+
+  void addJoint(std::vector<std::string>& links, const XMLElement& element) {
+    const std::string name = attribute(element, "name");
+    for (const RobotJoint& joint : robot_.joints) {
+      if (joint.name == name) return add(links, joint.child);
+    }
+    // A virtual joint moves the whole robot and has no link of its own.
+    note(element, "joint '" + name + "' is no joint of the URDF; left out of its group");
+  }
+
+  void addChain(std::vector<std::string>& links, const XMLElement& element) {
+    const std::string base = attribute(element, "base_link");
+    std::string link = attribute(element, "tip_link");
+    if (!isLink(base, element) || !isLink(link, element)) return;
+    std::vector<std::string> from_tip;
+    while (link != base) {
+      from_tip.push_back(link);
+      const auto joint = std::find_if(robot_.joints.begin(), robot_.joints.end(),
+                                      [&](const RobotJoint& candidate) { return candidate.child == link; });
+      if (joint == robot_.joints.end()) {
+        return note(element, "chain: '" + base + "' is not above '" + from_tip.front() + "'; left out");
+      }
+      link = joint->parent;
+    }
+    for (auto from_base = from_tip.rbegin(); from_base != from_tip.rend(); ++from_base) {
+      add(links, *from_base);
+    }
+  }
+
+  void addGroup(std::vector<std::string>& links, const XMLElement& element) {
+    const std::string name = attribute(element, "name");
+    const std::vector<std::string>* group = findGroup(name);
+    if (group == nullptr) {
+      return note(element, "group '" + name + "' is not above the group that names it; left out");
+    }
+    for (const std::string& link : std::vector<std::string>(*group)) add(links, link);
+  }
+
+  const RobotDescription& robot_;
+  std::string where_;
+  SemanticDescription& result_;
+};
+
+}  // namespace
+
+SemanticDescription readSemanticDescription(const std::string& srdf, const std::string& where,
+                                            const RobotDescription& robot) {
+  tinyxml2::XMLDocument document;
+  document.Parse(srdf.c_str(), srdf.size());
+  if (document.Error()) {
+    throw Error(where, std::string("the SRDF cannot be read; ") + document.ErrorStr(), "mend the XML");
+  }
+  const XMLElement* root = document.FirstChildElement("robot");
+  if (root == nullptr) throw Error(where, "the SRDF has no <robot> element", "give an SRDF");
+  SemanticDescription result;
+  const std::string name = attribute(*root, "name");
+  if (name != robot.name) {
+    result.notes.push_back(where + ": is for robot '" + name + "', read for '" + robot.name + "'");
+  }
+  Reader reader(robot, where, result);
+  reader.readDisabledPairs(*root);
+  reader.readGroups(*root);
+  return result;
+}
+
+}  // namespace concave_distance::detail

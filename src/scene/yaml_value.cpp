@@ -1,0 +1,189 @@
+#include "yaml_value.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <system_error>
+
+#include "concave_distance/base/error.h"
+
+namespace concave_distance::detail {
+namespace {
+
+constexpr std::size_t kLongestSeen = 60;
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+// yaml-cpp gives an empty value the place of what follows; the key's own line serves better.
+int lineOf(const YAML::Node& node, int line_of_key) {
+  return node.IsNull() || node.Mark().is_null() ? line_of_key : node.Mark().line + 1;
+}
+
+std::optional<double> parseNumber(const std::string& text) {
+  if (text == ".inf" || text == "+.inf" || text == ".Inf" || text == ".INF") {
+    return std::numeric_limits<double>::infinity();
+  }
+  if (text == "-.inf" || text == "-.Inf" || text == "-.INF") {
+    return -std::numeric_limits<double>::infinity();
+  }
+  const char* first = text.data() + (text.front() == '+' ? 1 : 0);
+  const char* last = text.data() + text.size();
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(first, last, value);
+  // "inf" and "nan" without the dot are texts in YAML.
+  if (error != std::errc() || end != last || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+}  // namespace
+
+YamlValue YamlValue::parse(const std::string& yaml, const std::string& file) {
+  std::vector<YAML::Node> documents;
+  try {
+    documents = YAML::LoadAll(yaml);
+  } catch (const YAML::Exception& exception) {
+    throw Error(file + ":" + std::to_string(exception.mark.line + 1), "no YAML: " + exception.msg,
+                "mend the syntax");
+  }
+  if (documents.size() > 1) {
+    throw Error(file, std::to_string(documents.size()) + " YAML documents", "one is expected");
+  }
+  const YAML::Node root = documents.empty() ? YAML::Node() : documents.front();
+  const int line = lineOf(root, 1);
+  return YamlValue(root, line, "", std::make_shared<const std::string>(file));
+}
+
+std::string YamlValue::where() const {
+  return *file_ + ":" + std::to_string(line_) + (key_.empty() ? "" : ", " + key_);
+}
+
+std::string YamlValue::seen() const {
+  if (!node_.IsDefined() || node_.IsNull()) return "empty";
+  if (node_.IsScalar()) {
+    std::string text = node_.Scalar();
+    if (text.size() > kLongestSeen) text = text.substr(0, kLongestSeen) + "...";
+    return "'" + text + "'" + (node_.Tag() == "!" ? " (quoted, so a text)" : "");
+  }
+  return (node_.IsSequence() ? "a list of " : "a map of ") + std::to_string(node_.size());
+}
+
+void YamlValue::fail(const std::string& what, const std::string& remedy) const {
+  throw Error(where(), what, remedy);
+}
+
+void YamlValue::refuse(const std::string& allowed) const {
+  fail("the value is " + seen(), "allowed: " + allowed);
+}
+
+bool YamlValue::isText(const char* text) const {
+  return node_.IsScalar() && node_.Scalar() == text;
+}
+
+double YamlValue::number(const std::string& allowed) const {
+  if (!node_.IsScalar() || node_.Tag() == "!" || node_.Scalar().empty()) refuse(allowed);
+  const std::optional<double> value = parseNumber(node_.Scalar());
+  if (!value) refuse(allowed);
+  return *value;
+}
+
+std::uint64_t YamlValue::count(std::uint64_t least, std::uint64_t most, const std::string& remark) const {
+  const std::string allowed =
+      "a whole number from " + std::to_string(least) +
+      (most == std::numeric_limits<std::uint64_t>::max() ? "" : " to " + std::to_string(most)) +
+      (remark.empty() ? "" : ", " + remark);
+  if (!node_.IsScalar() || node_.Tag() == "!") refuse(allowed);
+  const std::string& text = node_.Scalar();
+  std::uint64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || value < least || value > most) {
+    refuse(allowed);
+  }
+  return value;
+}
+
+bool YamlValue::boolean() const {
+  bool value = false;
+  if (!node_.IsScalar() || node_.Tag() == "!" || !YAML::convert<bool>::decode(node_, value)) {
+    refuse("true or false");
+  }
+  return value;
+}
+
+std::string YamlValue::text() const {
+  if (!node_.IsScalar() || node_.Scalar().empty()) refuse("a text");
+  return node_.Scalar();
+}
+
+std::vector<double> YamlValue::numbers(std::size_t size, const std::string& allowed) const {
+  if (!isList() || node_.size() != size) refuse(allowed);
+  std::vector<double> values;
+  for (const YamlValue& element : list(allowed)) {
+    values.push_back(element.number("a finite number", [](double v) { return std::isfinite(v); }));
+  }
+  return values;
+}
+
+Eigen::Vector3d YamlValue::vector3(const std::string& allowed) const {
+  const std::vector<double> values = numbers(3, allowed);
+  return {values[0], values[1], values[2]};
+}
+
+std::vector<YamlValue> YamlValue::list(const std::string& allowed) const {
+  if (!isList()) refuse(allowed);
+  std::vector<YamlValue> elements;
+  for (const YAML::Node& element : node_) {
+    const std::string key = key_ + "[" + std::to_string(elements.size()) + "]";
+    elements.push_back(YamlValue(element, lineOf(element, line_), key, file_));
+  }
+  return elements;
+}
+
+YamlMap::YamlMap(const YamlValue& value, const std::string& expected) : value_(value) {
+  if (!value.isMap()) value.refuse(expected);
+  for (const auto& entry : value.node_) {
+    const int line = lineOf(entry.first, value.line_);
+    if (!entry.first.IsScalar()) {
+      throw Error(*value.file_ + ":" + std::to_string(line), "a key that is no text", "write key: value");
+    }
+    const std::string& key = entry.first.Scalar();
+    const std::string path = value.key_.empty() ? key : value.key_ + "." + key;
+    YamlValue child(entry.second, lineOf(entry.second, line), path, value.file_);
+    const auto same =
+        std::find_if(entries_.begin(), entries_.end(), [&](const auto& other) { return other.first == key; });
+    if (same != entries_.end()) {
+      child.line_ = line;
+      child.fail("the key stands twice, first in line " + std::to_string(same->second.line_),
+                 "remove one of them");
+    }
+    entries_.emplace_back(key, std::move(child));
+  }
+}
+
+std::optional<YamlValue> YamlMap::take(const std::string& key) {
+  asked_.push_back(key);
+  for (const auto& [name, value] : entries_) {
+    if (name == key) return value;
+  }
+  return std::nullopt;
+}
+
+YamlValue YamlMap::require(const std::string& key, const std::string& remedy) {
+  std::optional<YamlValue> value = take(key);
+  if (!value) value_.fail("'" + key + "' is missing", remedy);
+  return *value;
+}
+
+void YamlMap::finish() const {
+  for (const auto& [name, value] : entries_) {
+    if (std::find(asked_.begin(), asked_.end(), name) == asked_.end()) {
+      value.fail("key '" + name + "' is not known", "allowed: " + joined(asked_));
+    }
+  }
+}
+
+}  // namespace concave_distance::detail

@@ -1,0 +1,417 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "scene/scene_fixture.h"
+
+namespace concave_distance {
+namespace {
+
+using test::bodyNames;
+using test::mentions;
+
+/// A body that nothing is wrong with, to hang something wrong on.
+const std::string kBall = "bodies:\n  - name: ball\n    sphere: {radius: 1}\n    max_edge_length: 100\n";
+
+class SceneFile : public test::SceneTest {
+ protected:
+  /// Expects the refusal to begin with the place and to hold what is said of the value and what is allowed.
+  void expectRefused(const std::string& yaml, const std::string& place, const std::string& seen,
+                     const std::string& allowed) const {
+    const std::string text = refusal(yaml);
+    EXPECT_EQ(text.substr(0, place.size() + 2), place + ": ") << text << "\n" << yaml;
+    EXPECT_TRUE(mentions(text, seen)) << text << "\n" << yaml;
+    EXPECT_TRUE(mentions(text, allowed)) << text << "\n" << yaml;
+  }
+  void expectBodyRefused(const std::string& key, const std::string& value, const std::string& seen,
+                         const std::string& allowed) const {
+    expectRefused("bodies:\n  - name: b\n    mesh: b.stl\n    " + key + ": " + value + "\n",
+                  "scene.yaml:4, bodies[0]." + key, seen, allowed);
+  }
+  void expectSettingRefused(const std::string& key, const std::string& value,
+                            const std::string& allowed) const {
+    expectRefused("defaults:\n  " + key + ": " + value + "\n" + kBall, "scene.yaml:2, defaults." + key,
+                  "the value is", allowed);
+    expectRefused(kBall + "pairs:\n  - between: ['*', '*']\n    " + key + ": " + value + "\n",
+                  "scene.yaml:7, pairs[0]." + key, "the value is", allowed);
+  }
+  void expectRefusedIn(const std::string& phase, const std::string& key, const std::string& value,
+                       const std::string& allowed) const {
+    expectRefused("defaults:\n  " + phase + ":\n    " + key + ": " + value + "\n",
+                  "scene.yaml:3, defaults." + phase + "." + key, "the value is", allowed);
+  }
+  void expectGeneticRefused(const std::string& key, const std::string& value,
+                            const std::string& allowed) const {
+    expectRefusedIn("cold", key, value, allowed);
+    expectRefusedIn("warm", key, value, allowed);
+  }
+};
+
+TEST_F(SceneFile, EmptySceneIsAScene) {
+  const Scene scene = load("bodies: []\n");
+  EXPECT_TRUE(scene.bodies.empty());
+  EXPECT_TRUE(scene.pairs.empty());
+  EXPECT_TRUE(scene.problems.empty());
+}
+
+TEST_F(SceneFile, WhatIsNoMapIsRefused) {
+  expectRefused("", "scene.yaml:1", "the value is empty", "a map with robots");
+  expectRefused("- 1\n", "scene.yaml:1", "a list of 1", "a map with robots");
+  expectRefused("bodies: []\n---\nbodies: []\n", "scene.yaml", "2 YAML documents", "one is expected");
+  expectRefused("? [a]\n: 1\n", "scene.yaml:1", "a key that is no text", "write key: value");
+}
+
+TEST_F(SceneFile, BrokenYamlIsRefusedWithItsLine) {
+  expectRefused("bodies:\n  - name: a\n   box: 3\n", "scene.yaml:3", "no YAML", "mend the syntax");
+  expectRefused("bodies: [1, 2\n", "scene.yaml:2", "no YAML", "mend the syntax");
+}
+
+TEST_F(SceneFile, UnknownKeysAreRefusedEverywhere) {
+  expectRefused("bodys: []\n", "scene.yaml:1, bodys", "key 'bodys' is not known", "robots, bodies, groups");
+  expectRefused("defaults:\n  cutof: 1\n", "scene.yaml:2, defaults.cutof", "not known", "cutoff");
+  expectRefused("defaults:\n  cold:\n    size: 1\n", "scene.yaml:3, defaults.cold.size", "not known",
+                "population_size");
+  expectRefused("bodies:\n  - name: a\n    box: {size: [1, 1, 1]}\n    color: [1, 1, 1]\n",
+                "scene.yaml:4, bodies[0].color", "not known", "colour");
+  expectRefused("bodies:\n  - name: a\n    box: {size: [1, 1, 1], radius: 1}\n",
+                "scene.yaml:3, bodies[0].box.radius", "not known", "size");
+  expectRefused("bodies:\n  - name: a\n    mesh: a.stl\n    pose: {xyz: [1, 1, 1], yaw: 1}\n",
+                "scene.yaml:4, bodies[0].pose.yaw", "not known", "xyz, rpy, quaternion");
+  expectRefused("robots:\n  - description: d\n    tf_prefix: a\n", "scene.yaml:3, robots[0].tf_prefix",
+                "not known", "prefix");
+  expectRefused(kBall + "pairs:\n  - between: [ball, ball]\n    effects: [contact]\n",
+                "scene.yaml:7, pairs[0].effects", "not known", "accuracy");
+  expectRefused(kBall + "pairs:\n  - between: ['*', '*']\n    max_edge_length: 1\n",
+                "scene.yaml:7, pairs[0].max_edge_length", "not known", "cutoff");
+}
+
+TEST_F(SceneFile, KeysThatStandTwiceAreRefused) {
+  expectRefused("bodies: []\ngroups: {}\nbodies: []\n", "scene.yaml:3, bodies",
+                "stands twice, first in line 1", "remove one");
+  expectRefused("groups:\n  a: []\n  a: []\n", "scene.yaml:3, groups.a", "stands twice", "remove one");
+}
+
+TEST_F(SceneFile, NamesThatStandTwiceAreRefused) {
+  const std::string other = "  - {name: ball, box: {size: [1, 1, 1]}}\n";
+  expectRefused(kBall + other, "scene.yaml:5, bodies[1]",
+                "the name 'ball' is taken by the body at scene.yaml:2, bodies[0]", "another name");
+  expectRefused(kBall + "groups:\n  ball: ['*']\n", "scene.yaml:6, groups.ball", "taken by the body",
+                "another name");
+  expectRefused("robots:\n  - {name: r, description: d}\n  - {name: r, description: e}\n",
+                "scene.yaml:3, robots[1]", "taken by the robot", "another name");
+  options.descriptions["d"] = test::robot(test::boxLink("ball"));
+  expectRefused("robots: [{description: d}]\n" + kBall, "scene.yaml:3, bodies[0]",
+                "the body name 'ball' is taken by parameter d, link 'ball'", "another name");
+  expectRefused("robots: [{description: d}, {description: d}]\n", "scene.yaml:1, robots[1]",
+                "'ball' is taken", "prefix");
+  expectRefused("robots: [{description: d}]\ngroups:\n  ball: []\n", "scene.yaml:3, groups.ball",
+                "taken by a body", "another name");
+  const std::string pair = "  - {between: [ball, box], name: p}\n";
+  expectRefused(kBall + "  - {name: box, box: {size: [1, 1, 1]}}\npairs:\n" + pair + pair,
+                "scene.yaml:8, pairs[1]", "taken by the pair", "another name");
+}
+
+TEST_F(SceneFile, BodyNeedsANameAndOneGeometry) {
+  expectRefused("bodies:\n  - box: {size: [1, 1, 1]}\n", "scene.yaml:2, bodies[0]", "'name' is missing",
+                "name");
+  expectRefused("bodies:\n  - name: a\n", "scene.yaml:2, bodies[0]", "no geometry", "mesh, box");
+  expectRefused("bodies:\n  - name: a\n    mesh: a.stl\n    sphere: {radius: 1}\n",
+                "scene.yaml:4, bodies[0].sphere", "a second geometry", "give one of");
+  expectRefused("bodies:\n  - name: 'a*'\n    mesh: a.stl\n", "scene.yaml:2, bodies[0].name", "'a*'",
+                "without *");
+  expectRefused("bodies:\n  - a\n", "scene.yaml:2, bodies[0]", "'a'", "a map with name");
+  expectRefused("bodies: {a: 1}\n", "scene.yaml:1, bodies", "a map of 1", "a list of bodies");
+  expectRefused("bodies:\n  - name:\n    mesh: a.stl\n", "scene.yaml:2, bodies[0].name", "empty", "a text");
+}
+
+TEST_F(SceneFile, ValuesOfBodiesAreChecked) {
+  expectBodyRefused("scale", "0", "'0'", "not 0");
+  expectBodyRefused("scale", "[1, 0, 1]", "a list of 3", "not 0");
+  expectBodyRefused("scale", "[1, 1]", "a list of 2", "a list of three");
+  expectBodyRefused("scale", ".inf", "'.inf'", "a number");
+  expectBodyRefused("scale", "big", "'big'", "a number");
+  expectBodyRefused("colour", "[1, 1]", "a list of 2", "three or four");
+  expectBodyRefused("colour", "red", "'red'", "three or four");
+  expectBodyRefused("max_edge_length", "0", "'0'", "greater than 0, metres, or auto");
+  expectBodyRefused("max_edge_length", "-1", "'-1'", "greater than 0");
+  expectBodyRefused("max_edge_length", "'0.1'", "quoted, so a text", "greater than 0");
+  expectBodyRefused("chord_error", ".nan", "'.nan'", "greater than 0");
+  expectBodyRefused("frame", "", "empty", "a text");
+  expectBodyRefused("frame", "[a]", "a list of 1", "a text");
+  const auto in_body = [&](const std::string& line, const std::string& place, const std::string& seen,
+                           const std::string& allowed) {
+    expectRefused("bodies:\n  - name: b\n    " + line + "\n", "scene.yaml:3, bodies[0]." + place, seen,
+                  allowed);
+  };
+  in_body("box: {size: [1, 1]}", "box.size", "a list of 2", "three lengths");
+  in_body("box: {size: [1, 1, 0]}", "box.size", "a list of 3", "greater than 0");
+  in_body("box: {size: [1, 1, x]}", "box.size[2]", "'x'", "a finite number");
+  in_body("box: {}", "box", "'size' is missing", "size: [x, y, z]");
+  in_body("box: [1, 1, 1]", "box", "a list of 3", "a map of dimensions");
+  in_body("sphere: {radius: -1}", "sphere.radius", "'-1'", "greater than 0");
+  in_body("cylinder: {radius: 1}", "cylinder", "'length' is missing", "metres");
+  in_body("capsule: {radius: 1, length: .inf}", "capsule.length", "'.inf'", "greater than 0");
+  const auto in_pose = [&](const std::string& pose, const std::string& place, const std::string& seen,
+                           const std::string& allowed) {
+    expectRefused("bodies:\n  - name: b\n    mesh: b.stl\n    pose: " + pose + "\n",
+                  "scene.yaml:4, bodies[0].pose" + place, seen, allowed);
+  };
+  in_pose("[1, 2, 3]", "", "a list of 3", "xyz and rpy");
+  in_pose("{xyz: [1, 2]}", ".xyz", "a list of 2", "three numbers");
+  in_pose("{xyz: [1, 2, .inf]}", ".xyz[2]", "'.inf'", "a finite number");
+  in_pose("{rpy: 3}", ".rpy", "'3'", "three angles");
+  in_pose("{rpy: [0, 0, 0], quaternion: [0, 0, 0, 1]}", ".quaternion", "both 'rpy' and 'quaternion'",
+          "give one");
+  in_pose("{quaternion: [0, 0, 0, 1.1]}", ".quaternion", "the norm is 1.1", "norm 1");
+  in_pose("{quaternion: [0, 0, 0]}", ".quaternion", "a list of 3", "four numbers");
+  expectRefused("bodies:\n  - name: b\n    sphere: {radius: 1}\n    scale: 2\n",
+                "scene.yaml:4, bodies[0].scale", "a primitive has no scale", "dimensions");
+}
+
+TEST_F(SceneFile, PoseScaleAndDimensionsAreApplied) {
+  folder.write("my meshes/t.stl", test::tetrahedronStl());
+  const Scene scene = load(
+      "bodies:\n"
+      "  - {name: t, frame: world, mesh: my meshes/t.stl, scale: 2, max_edge_length: 100,\n"
+      "     pose: {xyz: [10, 0, 0], rpy: [0, 0, 1.5707963267948966]}}\n"
+      "  - {name: u, mesh: my meshes/t.stl, scale: [1, -1, 1], max_edge_length: 100,\n"
+      "     pose: {quaternion: [0, 0, 0.7071067811865476, 0.7071067811865476]}, colour: [0.1, 0.2, 0.3, "
+      "0.4]}\n"
+      "  - {name: box, box: {size: [1, 2, 3]}, max_edge_length: 100, colour: [1, 0, 0]}\n"
+      "  - {name: capsule, capsule: {radius: 1, length: 2}, chord_error: 0.1, max_edge_length: 100}\n");
+  ASSERT_EQ(bodyNames(scene), (std::vector<std::string>{"t", "u", "box", "capsule"}));
+  const auto expect_box = [&](std::size_t body, const Eigen::Vector3d& low, const Eigen::Vector3d& high,
+                              double tolerance) {
+    const Eigen::AlignedBox3d& box = scene.bodies[body].mesh->surface().boundingBox();
+    EXPECT_LT((box.min() - low).norm(), tolerance) << box.min().transpose();
+    EXPECT_LT((box.max() - high).norm(), tolerance) << box.max().transpose();
+    EXPECT_GT(test::signedVolume(scene.bodies[body].mesh->surface()), 0.0);
+    EXPECT_TRUE(scene.bodies[body].bounds.centre.isApprox(box.center()));
+  };
+  expect_box(0, {6, 0, 0}, {10, 2, 6}, 1e-12);
+  expect_box(1, {0, 0, 0}, {2, 1, 3}, 1e-12);
+  expect_box(2, {-0.5, -1, -1.5}, {0.5, 1, 1.5}, 1e-12);
+  expect_box(3, {-1, -1, -2}, {1, 1, 2}, 0.2);
+  EXPECT_EQ(scene.bodies[0].frame, "world");
+  EXPECT_EQ(scene.bodies[1].frame, "u");
+  EXPECT_EQ(scene.bodies[1].colour, Eigen::Vector4d(0.1, 0.2, 0.3, 0.4));
+  EXPECT_EQ(scene.bodies[2].colour, Eigen::Vector4d(1, 0, 0, 1));
+  EXPECT_EQ(scene.bodies[0].mesh->maxEdgeLength(), 100.0);
+}
+
+TEST_F(SceneFile, EdgeLengthOfABodyGoesBeforeTheDefaultAndAutoTakesTheDefaultBack) {
+  const Scene scene = load(
+      "bodies:\n"
+      "  - {name: a, box: {size: [1, 1, 1]}}\n"
+      "  - {name: b, box: {size: [1, 1, 1]}, max_edge_length: 0.7}\n"
+      "  - {name: c, box: {size: [1, 1, 1]}, max_edge_length: auto}\n"
+      "defaults: {max_edge_length: 0.9}\n");
+  EXPECT_EQ(scene.bodies[0].mesh->maxEdgeLength(), 0.9);
+  EXPECT_EQ(scene.bodies[1].mesh->maxEdgeLength(), 0.7);
+  EXPECT_EQ(scene.bodies[2].mesh->maxEdgeLength(), automaticEdgeLength(scene.bodies[2].mesh->surface()));
+}
+
+TEST_F(SceneFile, RobotNeedsOneDescription) {
+  expectRefused("robots:\n  - {}\n", "scene.yaml:2, robots[0]", "neither of 'description' and 'urdf'", "one");
+  expectRefused("robots:\n  - description: d\n    urdf: a.urdf\n", "scene.yaml:3, robots[0].urdf",
+                "both 'description' and 'urdf'", "one");
+  expectRefused("robots:\n  - description: d\n    srdf: a\n    semantic_description: b\n",
+                "scene.yaml:3, robots[0].srdf", "both", "one");
+  expectRefused("robots:\n  - description: gone\n", "scene.yaml:2, robots[0]", "there is no parameter 'gone'",
+                "set it");
+  expectRefused("robots:\n  - urdf: gone.urdf\n", "scene.yaml:2, robots[0], gone.urdf", "does not exist",
+                "check");
+  expectRefused("robots:\n  - urdf: package://gone/a.urdf\n",
+                "scene.yaml:2, robots[0], package://gone/a.urdf", "package 'gone'", "source");
+  expectRefused("robots:\n  - description: d\n    geometry: hull\n", "scene.yaml:3, robots[0].geometry",
+                "'hull'", "collision, visual");
+  expectRefused("robots:\n  - description: d\n    skip_links: a\n", "scene.yaml:3, robots[0].skip_links",
+                "'a'", "a list");
+  expectRefused("robots:\n  - description: d\n    prefix: 'a*'\n", "scene.yaml:3, robots[0].prefix", "'a*'",
+                "without");
+  expectRefused("robots:\n  - description: d\n    name: 'a*'\n", "scene.yaml:3, robots[0].name", "'a*'",
+                "without");
+}
+
+TEST_F(SceneFile, SettingsOutOfRangeAreRefusedInDefaultsAndPairs) {
+  expectSettingRefused("accuracy", "exact", "nodes, refined");
+  expectSettingRefused("accuracy", "[nodes]", "nodes, refined");
+  expectSettingRefused("cutoff", "0", "greater than 0, metres; .inf for none");
+  expectSettingRefused("cutoff", "-.inf", "greater than 0");
+  expectSettingRefused("cutoff", ".nan", "greater than 0");
+  expectSettingRefused("cutoff", "1 m", "greater than 0");
+  expectSettingRefused("least_prominence", "-0.1", "0 or more");
+  expectSettingRefused("least_prominence", ".inf", "0 or more");
+  expectSettingRefused("largest_niche_count", "0", "a whole number from 1 to 4294967295");
+  expectSettingRefused("largest_niche_count", "2.5", "a whole number");
+  expectSettingRefused("largest_niche_count", "4294967296", "a whole number");
+  expectSettingRefused("keep_through_material", "2", "true or false");
+  expectSettingRefused("inherited_per_niche", "0.5", "1 or more");
+  expectSettingRefused("inherited_limit", "-1", "a whole number from 0");
+  expectSettingRefused("immigrants", "many", "a whole number from 0");
+  expectSettingRefused("extrapolate", "0", "true or false");
+  expectSettingRefused("seed", "-1", "a whole number from 0");
+  expectSettingRefused("seed", "18446744073709551616", "a whole number from 0");
+  expectSettingRefused("warning_distance", "-1", "0 or more, metres, or never");
+  expectSettingRefused("warning_hysteresis", "-0.1", "0 or more, metres");
+  expectSettingRefused("warning_hysteresis", "1e999", "0 or more, metres");
+  expectSettingRefused("sharing_radius", "0", "greater than 0, metres, or auto");
+  expectSettingRefused("mating_radius", "-1", "greater than 0, metres, or auto");
+  expectSettingRefused("niche_radius", "wide", "greater than 0, metres, or auto");
+  expectSettingRefused("cold", "3", "a map of parameters");
+  expectSettingRefused("warm", "[]", "a map of parameters");
+}
+
+TEST_F(SceneFile, DefaultsOfBodiesAreChecked) {
+  expectRefused("defaults:\n  max_edge_length: 0\n", "scene.yaml:2, defaults.max_edge_length", "'0'",
+                "greater than 0");
+  expectRefused("defaults:\n  chord_error: 0\n", "scene.yaml:2, defaults.chord_error", "'0'",
+                "greater than 0");
+  expectRefused("defaults:\n  geometry: x\n", "scene.yaml:2, defaults.geometry", "'x'", "collision, visual");
+  expectRefused("metric_memory_limit_mb: -1\n", "scene.yaml:1, metric_memory_limit_mb", "'-1'", "megabytes");
+}
+
+TEST_F(SceneFile, GeneticParametersOutOfRangeAreRefused) {
+  expectGeneticRefused("population_size", "51", "an even number from 2");
+  expectGeneticRefused("population_size", "0", "a whole number from 2");
+  expectGeneticRefused("max_generations", "-1", "a whole number from 0");
+  expectGeneticRefused("crossover_probability", "1.1", "from 0 to 1");
+  expectGeneticRefused("mutation_probability", "-0.1", "from 0 to 1, or auto");
+  expectGeneticRefused("final_mutation_probability_factor", "-1", "0 or more");
+  expectGeneticRefused("mutation_radius", "0", "greater than 0, metres, or anywhere");
+  expectGeneticRefused("shrinking_mutation_radius", "maybe", "true or false");
+  expectGeneticRefused("selection", "tournament", "stochastic_universal_sampling, roulette");
+  expectGeneticRefused("mating", "average", "mesh, phenotypic, genotypic");
+  expectGeneticRefused("niching", "clearing", "none, sharing, dynamic_sharing, deterministic_crowding");
+  expectGeneticRefused("local_optimization", "1", "true or false");
+  expectGeneticRefused("sharing_radius", "0", "greater than 0, metres, or auto");
+  expectGeneticRefused("sharing_exponent", "0", "greater than 0");
+  expectGeneticRefused("mating_radius", "0", "greater than 0, metres, or auto");
+  expectGeneticRefused("mating_restriction", "''", "true or false");
+  expectGeneticRefused("niche_radius", ".inf", "greater than 0, metres, or auto");
+  expectGeneticRefused("crowding_factor", "0", "a whole number from 1");
+  expectGeneticRefused("generation_gap", "0", "greater than 0, at most 1");
+  expectGeneticRefused("generation_gap", "1.5", "greater than 0, at most 1");
+  expectGeneticRefused("elite_count", "-1", "a whole number from 0");
+  expectGeneticRefused("fitness_epsilon", "-1", "0 or more");
+  expectGeneticRefused("dynamic_niche_limit", "0", "a whole number from 1");
+  expectGeneticRefused("conserve_niches", "2", "true or false");
+  expectGeneticRefused("convergence_generations", "x", "a whole number from 0");
+}
+
+TEST_F(SceneFile, SettingsThatDoNotGoTogetherAreRefused) {
+  expectRefused("defaults:\n  cutoff: 0.5\n  warning_distance: 1\n", "scene.yaml:2, defaults",
+                "warning_distance 1.000000 m is beyond the cutoff", "raise cutoff");
+  expectRefused(kBall +
+                    "  - {name: box, box: {size: [1, 1, 1]}}\ndefaults: {warning_distance: 1}\npairs:\n"
+                    "  - {between: [box, ball], cutoff: 0.5}\n",
+                "scene.yaml:8, pairs[0]", "beyond the cutoff", "raise cutoff");
+  EXPECT_TRUE(mentions(refusal("defaults: {cold: {population_size: 2, elite_count: 3}}\n"), "elite_count"));
+}
+
+TEST_F(SceneFile, EverySettingReachesItsParameter) {
+  const Scene scene =
+      load(kBall +
+           "  - {name: box, box: {size: [1, 1, 1]}, max_edge_length: 100}\n"
+           "pairs:\n"
+           "  - between: [box, ball]\n"
+           "    accuracy: nodes\n    cutoff: 2\n    least_prominence: 0.25\n"
+           "    largest_niche_count: 7\n    keep_through_material: true\n"
+           "    inherited_per_niche: 4.5\n    inherited_limit: 11\n    immigrants: 5\n"
+           "    extrapolate: false\n    seed: 18446744073709551615\n"
+           "    warning_distance: 0.125\n    warning_hysteresis: 0.5\n"
+           "    sharing_radius: 0.3\n    mating_radius: 0.4\n    niche_radius: 0.2\n"
+           "    cold:\n      population_size: 80\n      max_generations: 9\n"
+           "      crossover_probability: 0.75\n      mutation_probability: 0.0625\n"
+           "      final_mutation_probability_factor: 0.5\n      mutation_radius: 1.5\n"
+           "      shrinking_mutation_radius: true\n      selection: roulette\n"
+           "      mating: phenotypic\n      niching: simple_crowding\n"
+           "      local_optimization: false\n      sharing_exponent: 10\n"
+           "      mating_restriction: false\n      crowding_factor: 4\n"
+           "      generation_gap: 0.5\n      elite_count: 2\n      convergence_generations: 3\n"
+           "      sharing_radius: auto\n      fitness_epsilon: 0\n      dynamic_niche_limit: 6\n"
+           "      conserve_niches: true\n"
+           "    warm: {population_size: 10, niching: dynamic_sharing, mating: genotypic}\n");
+  ASSERT_EQ(scene.pairs.size(), 1U);
+  const PairSettings& settings = scene.pairs[0].settings;
+  const TrackerParameters& tracker = settings.tracker;
+  EXPECT_EQ(tracker.accuracy, AccuracyLevel::Nodes);
+  EXPECT_EQ(tracker.cutoff, 2.0);
+  EXPECT_EQ(tracker.least_prominence, 0.25);
+  EXPECT_EQ(tracker.largest_niche_count, 7U);
+  EXPECT_TRUE(tracker.keep_through_material);
+  EXPECT_EQ(tracker.inherited_per_niche, 4.5);
+  EXPECT_EQ(tracker.inherited_limit, 11U);
+  EXPECT_EQ(tracker.immigrants, 5U);
+  EXPECT_FALSE(tracker.extrapolate);
+  EXPECT_EQ(tracker.seed, 18446744073709551615ULL);
+  EXPECT_EQ(settings.warning_distance, 0.125);
+  EXPECT_EQ(settings.warning_hysteresis, 0.5);
+  const GeneticParameters& cold = tracker.cold;
+  EXPECT_EQ(cold.population_size, 80U);
+  EXPECT_EQ(cold.max_generations, 9U);
+  EXPECT_EQ(cold.crossover_probability, 0.75);
+  EXPECT_EQ(cold.mutation_probability, 0.0625);
+  EXPECT_EQ(cold.final_mutation_probability_factor, 0.5);
+  EXPECT_EQ(cold.mutation_radius, 1.5);
+  EXPECT_TRUE(cold.shrinking_mutation_radius);
+  EXPECT_EQ(cold.selection, SelectionMethod::Roulette);
+  EXPECT_EQ(cold.mating, MatingMethod::Phenotypic);
+  EXPECT_EQ(cold.niching, NichingMethod::SimpleCrowding);
+  EXPECT_FALSE(cold.local_optimization);
+  EXPECT_EQ(cold.sharing_exponent, 10.0);
+  EXPECT_FALSE(cold.mating_restriction);
+  EXPECT_EQ(cold.crowding_factor, 4U);
+  EXPECT_EQ(cold.generation_gap, 0.5);
+  EXPECT_EQ(cold.elite_count, 2U);
+  EXPECT_EQ(cold.convergence_generations, 3U);
+  EXPECT_EQ(cold.fitness_epsilon, 0.0);
+  EXPECT_EQ(cold.dynamic_niche_limit, 6U);
+  EXPECT_TRUE(cold.conserve_niches);
+  EXPECT_EQ(cold.sharing_radius, std::nullopt);
+  EXPECT_EQ(cold.mating_radius, 0.4);
+  EXPECT_EQ(tracker.warm.sharing_radius, 0.3);
+  EXPECT_EQ(tracker.warm.mating_radius, 0.4);
+  EXPECT_EQ(tracker.warm.niche_radius, 0.2);
+  EXPECT_EQ(tracker.warm.population_size, 10U);
+  EXPECT_EQ(tracker.warm.niching, NichingMethod::DynamicSharing);
+  EXPECT_EQ(tracker.warm.mating, MatingMethod::Genotypic);
+  EXPECT_EQ(tracker.warm.max_generations, TrackerParameters().warm.max_generations);
+}
+
+TEST_F(SceneFile, WordsStandForNothing) {
+  options.default_settings.warning_distance = 0.5;
+  options.default_settings.tracker.cold.mutation_probability = 0.5;
+  options.default_settings.tracker.cutoff = 3.0;
+  const Scene scene =
+      load(kBall +
+           "  - {name: box, box: {size: [1, 1, 1]}, max_edge_length: 100}\n"
+           "defaults: {warning_distance: never, cutoff: .inf, cold: {mutation_probability: auto, "
+           "mutation_radius: anywhere}}\n");
+  const PairSettings& settings = scene.pairs.at(0).settings;
+  EXPECT_EQ(settings.warning_distance, std::nullopt);
+  EXPECT_EQ(settings.tracker.cutoff, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(settings.tracker.cold.mutation_probability, std::nullopt);
+}
+
+TEST_F(SceneFile, IsReadFromItsOwnFolder) {
+  folder.write("scenes/t.stl", test::tetrahedronStl());
+  const std::string path =
+      folder.write("scenes/scene.yaml", "bodies: [{name: t, mesh: t.stl, max_edge_length: 9}]\n");
+  EXPECT_EQ(bodyNames(loadSceneFile(path, options)), std::vector<std::string>{"t"});
+  EXPECT_THROW(loadSceneFile(folder.path("gone.yaml"), options), Error);
+  EXPECT_THROW(loadSceneFile(folder.path("scenes"), options), Error);
+}
+
+TEST_F(SceneFile, NamesTheParametersItNeeds) {
+  const std::string path = folder.write("scene.yaml",
+                                        "robots:\n"
+                                        "  - {description: left, semantic_description: both, prefix: l_}\n"
+                                        "  - {description: right, semantic_description: both, prefix: r_}\n"
+                                        "  - {urdf: a.urdf, srdf: a.srdf}\n");
+  EXPECT_EQ(descriptionsOfSceneFile(path), (std::vector<std::string>{"left", "both", "right"}));
+}
+
+}  // namespace
+}  // namespace concave_distance

@@ -1,0 +1,191 @@
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <limits>
+
+#include "scene/scene_fixture.h"
+
+namespace concave_distance {
+namespace {
+
+using test::bodyNames;
+using test::hasNote;
+using test::mentions;
+
+class SceneLoading : public test::SceneTest {
+ protected:
+  static BodyDescription box(const std::string& name) {
+    BodyDescription description;
+    description.name = name;
+    description.frame = "world";
+    description.primitive = "box";
+    description.dimensions = {1.0, 2.0, 3.0};
+    description.max_edge_length = 0.5;
+    return description;
+  }
+  std::string bodyRefusal(const BodyDescription& description) const {
+    try {
+      loadBody(description, folder.path(), options.package_locator);
+      return "accepted";
+    } catch (const Error& error) {
+      return error.what();
+    }
+  }
+};
+
+// Everything of a scene that loading could leave to chance.
+std::string fingerprint(const Scene& scene) {
+  std::string text;
+  for (const SceneBody& body : scene.bodies) {
+    text += body.name + " " + body.source + " " + std::to_string(body.mesh->graph().nodeCount()) + " " +
+            (body.mesh->metric().hasMatrices() ? "matrices" : "on demand") + " " + body.repair.summary() +
+            "\n";
+    for (const Eigen::Vector3d& p : body.mesh->grid().vertices()) {
+      text.append(reinterpret_cast<const char*>(p.data()), 3 * sizeof(double));
+    }
+    for (const TriangleNodes& t : body.mesh->grid().triangles()) {
+      text.append(reinterpret_cast<const char*>(t.data()), sizeof(TriangleNodes));
+    }
+  }
+  for (const ScenePair& pair : scene.pairs) {
+    text += pair.name + " " + std::to_string(pair.body_a) + " " + std::to_string(pair.body_b) + "\n";
+  }
+  for (const SceneProblem& problem : scene.problems) text += problem.where + " " + problem.message + "\n";
+  for (const std::string& note : scene.notes) text += note + "\n";
+  return text;
+}
+
+TEST_F(SceneLoading, IsTheSameWhateverTheNumberOfThreads) {
+  std::string yaml = "metric_memory_limit_mb: 1\nbodies:\n";
+  for (int i = 0; i < 12; ++i) {
+    const std::string number = std::to_string(i);
+    yaml += i % 4 == 3 ? "  - {name: b" + number + ", mesh: missing" + number + ".stl}\n"
+                       : "  - {name: b" + number + ", sphere: {radius: 0." + std::to_string(i + 1) +
+                             "}, max_edge_length: 0.1}\n";
+  }
+  std::string alone;
+  {
+    const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+    alone = fingerprint(load(yaml));
+  }
+  for (int i = 0; i < 5; ++i) {
+    const tbb::global_control many(tbb::global_control::max_allowed_parallelism, 8);
+    EXPECT_EQ(fingerprint(load(yaml)), alone);
+  }
+  EXPECT_TRUE(mentions(alone, "on demand"));
+  EXPECT_TRUE(mentions(alone, "matrices"));
+}
+
+TEST_F(SceneLoading, MatricesGoToBodiesInOrderWhileTheLimitLasts) {
+  // Grids of one box: equal sizes, so that the limit can be set to hold exactly two.
+  const std::size_t nodes = loadBody(box("x"), "", nullptr).mesh->graph().nodeCount();
+  options.metric_memory_limit = 2 * nodes * nodes * 6;
+  std::string yaml = "bodies:\n";
+  for (const std::string name : {"a", "b", "c"}) {
+    yaml += "  - {name: " + name + ", box: {size: [1, 2, 3]}, max_edge_length: 0.5}\n";
+  }
+  yaml += "  - {name: tiny, box: {size: [1, 2, 3]}, max_edge_length: 10}\n";
+  const Scene exact = load(yaml);
+  ASSERT_EQ(exact.bodies.size(), 4U);
+  EXPECT_TRUE(exact.bodies[0].mesh->metric().hasMatrices());
+  EXPECT_TRUE(exact.bodies[1].mesh->metric().hasMatrices());
+  EXPECT_FALSE(exact.bodies[2].mesh->metric().hasMatrices());
+  EXPECT_TRUE(hasNote(exact, "c: mesh distances are searched on demand"));
+  EXPECT_FALSE(exact.bodies[3].mesh->metric().hasMatrices());  // nothing is left
+  options.metric_memory_limit += 8 * 8 * 6;
+  EXPECT_TRUE(load(yaml).bodies[3].mesh->metric().hasMatrices());  // what is left holds the small one
+  options.metric_memory_limit -= 8 * 8 * 6 + 1;
+  EXPECT_FALSE(load(yaml).bodies[1].mesh->metric().hasMatrices());
+}
+
+TEST_F(SceneLoading, LimitOfTheFileGoesBeforeTheCallers) {
+  const std::string bodies = "bodies: [{name: a, box: {size: [1, 1, 1]}, max_edge_length: 0.5}]\n";
+  EXPECT_TRUE(load(bodies).bodies[0].mesh->metric().hasMatrices());
+  EXPECT_FALSE(load("metric_memory_limit_mb: 0\n" + bodies).bodies[0].mesh->metric().hasMatrices());
+  options.metric_memory_limit = 0;
+  EXPECT_FALSE(load(bodies).bodies[0].mesh->metric().hasMatrices());
+  EXPECT_TRUE(load("metric_memory_limit_mb: 1\n" + bodies).bodies[0].mesh->metric().hasMatrices());
+}
+
+TEST_F(SceneLoading, BrokenFilesAreProblemsAndTheRestIsServed) {
+  folder.write("good.stl", test::tetrahedronStl());
+  folder.write("corrupt.obj", "v 0 0 zero\nf 1 2 3\n");
+  folder.write("truncated.stl", std::string(80, ' ') + std::string("\xff\xff\xff\x00", 4) + "abc");
+  folder.write("unknown.xyz", "what is this");
+  const Scene scene = load(
+      "defaults: {max_edge_length: 100}\n"
+      "bodies:\n"
+      "  - {name: corrupt, mesh: corrupt.obj}\n  - {name: truncated, mesh: truncated.stl}\n"
+      "  - {name: unknown, mesh: unknown.xyz}\n  - {name: folder, mesh: .}\n  - {name: good, mesh: "
+      "good.stl}\n"
+      "  - {name: box, box: {size: [1, 1, 1]}}\n");
+  EXPECT_EQ(bodyNames(scene), (std::vector<std::string>{"good", "box"}));
+  EXPECT_EQ(test::pairNames(scene), std::vector<std::string>{"good/box"});
+  ASSERT_EQ(scene.problems.size(), 4U);
+  EXPECT_EQ(scene.problems[1].where, "scene.yaml:4, bodies[1], body 'truncated'");
+  EXPECT_TRUE(mentions(scene.problems[1].message, "truncated.stl"));
+}
+
+TEST_F(SceneLoading, AGridTooFineForAnyMachineIsAProblem) {
+  const Scene scene = load(
+      "bodies:\n"
+      "  - {name: fine, box: {size: [1, 1, 1]}, max_edge_length: 1.0e-6}\n"
+      "  - {name: box, box: {size: [1, 1, 1]}, max_edge_length: 1}\n");
+  EXPECT_EQ(bodyNames(scene), std::vector<std::string>{"box"});
+  ASSERT_EQ(scene.problems.size(), 1U);
+}
+
+TEST_F(SceneLoading, SingleBodyIsLoadedAsASceneDoes) {
+  const SceneBody body = loadBody(box("crate"), "", nullptr);
+  EXPECT_EQ(body.name, "crate");
+  EXPECT_EQ(body.frame, "world");
+  EXPECT_EQ(body.mesh->name(), "crate");
+  EXPECT_NEAR(test::signedVolume(body.mesh->surface()), 6.0, 1e-12);
+  EXPECT_TRUE(body.mesh->metric().hasMatrices());
+  EXPECT_FALSE(body.in_robot_model);
+  EXPECT_FALSE(loadBody(box("crate"), "", nullptr, 100).mesh->metric().hasMatrices());
+}
+
+TEST_F(SceneLoading, SingleBodyWithAMeshIsPlacedInItsFrame) {
+  folder.write("t.stl", test::tetrahedronStl());
+  BodyDescription description;
+  description.name = "t";
+  description.mesh_resource = "package://arm_description/t.stl";
+  description.scale = Eigen::Vector3d(1, -1, 1);
+  description.frame_from_geometry.translation() = Eigen::Vector3d(5, 0, 0);
+  description.max_edge_length = 9.0;
+  const SceneBody body = loadBody(description, "", options.package_locator);
+  EXPECT_TRUE(body.mesh->surface().boundingBox().min().isApprox(Eigen::Vector3d(5, -2, 0)));
+  EXPECT_NEAR(test::signedVolume(body.mesh->surface()), 1.0, 1e-9);
+}
+
+TEST_F(SceneLoading, SingleBodyThatCannotBeLoadedIsRefusedByName) {
+  BodyDescription description = box("crate");
+  description.dimensions = {1.0, 2.0};
+  EXPECT_TRUE(mentions(bodyRefusal(description), "body 'crate'"));
+  EXPECT_TRUE(mentions(bodyRefusal(description), "a box with 2 dimensions"));
+  description.dimensions = {1.0, 2.0, -3.0};
+  EXPECT_TRUE(mentions(bodyRefusal(description), "body 'crate'"));
+  description.primitive = "cone";
+  EXPECT_TRUE(mentions(bodyRefusal(description), "primitive 'cone' is not known"));
+  description.primitive = "";
+  EXPECT_TRUE(mentions(bodyRefusal(description), "file name is empty"));
+  description.mesh_resource = "package://gone/a.stl";
+  EXPECT_TRUE(mentions(bodyRefusal(description), "package 'gone' is not known"));
+  description.primitive = "box";
+  EXPECT_TRUE(mentions(bodyRefusal(description), "both a mesh and a primitive"));
+  description = box("crate");
+  description.max_edge_length = -1.0;
+  EXPECT_TRUE(mentions(bodyRefusal(description), "body 'crate'"));
+  description = box("crate");
+  description.frame_from_geometry.translation().x() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(mentions(bodyRefusal(description), "the pose is not finite"));
+  description = box("crate");
+  description.primitive = "sphere";
+  description.dimensions = {1.0};
+  description.chord_error = 0.0;
+  EXPECT_TRUE(mentions(bodyRefusal(description), "body 'crate'"));
+}
+
+}  // namespace
+}  // namespace concave_distance
