@@ -62,14 +62,15 @@ Eigen::Isometry3d readStart(const ros::NodeHandle& node) {
   return pose;
 }
 
-/// A slow figure around the start, so that the scene lives before anybody touches it.
+/// A slow figure around the start, so that the scene lives before anybody touches it: low at the ends, high
+/// in the middle where the comb's longest tooth is.
 Eigen::Isometry3d sway(const Eigen::Isometry3d& start, double time) {
   Eigen::Isometry3d pose = start;
-  pose.translation() += Eigen::Vector3d(0.16 * std::sin(0.35 * time), 0.03 * std::sin(0.53 * time),
-                                        0.035 * std::cos(0.7 * time));
+  pose.translation() += Eigen::Vector3d(0.20 * std::sin(0.35 * time), 0.015 * std::sin(0.53 * time),
+                                        0.04 * std::cos(0.7 * time));
   pose.linear() =
       start.linear() *
-      Eigen::AngleAxisd(0.25 * std::sin(0.41 * time), Eigen::Vector3d::UnitZ()).toRotationMatrix();
+      Eigen::AngleAxisd(0.12 * std::sin(0.41 * time), Eigen::Vector3d::UnitZ()).toRotationMatrix();
   return pose;
 }
 

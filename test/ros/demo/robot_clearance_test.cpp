@@ -1,0 +1,172 @@
+#include <gtest/gtest.h>
+#include <urdf_parser/urdf_parser.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "concave_distance/scene/load_scene.h"
+#include "fcl_model.h"
+#include "joint_path.h"
+
+namespace concave_distance::demo {
+namespace {
+
+const std::string kPackage = CONCAVE_DISTANCE_SOURCE_DIR;
+
+std::string readText(const std::string& path) {
+  std::ifstream stream(path);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+// Loaded once for all tests: the meshes' metrics take seconds.
+const Scene& robotScene() {
+  static const Scene scene = [] {
+    SceneLoadOptions options;
+    options.package_locator = [](const std::string&) { return kPackage; };
+    options.descriptions["robot_description"] = readText(kPackage + "/urdf/wam.urdf");
+    return loadSceneFile(kPackage + "/config/robot.yaml", options);
+  }();
+  return scene;
+}
+
+/// Poses of the URDF's links in its root for joint positions given by name.
+class LinkPoses {
+ public:
+  explicit LinkPoses(const std::string& urdf) : model_(urdf::parseURDF(urdf)) {}
+
+  std::map<std::string, Eigen::Isometry3d> at(const std::map<std::string, double>& positions) const {
+    std::map<std::string, Eigen::Isometry3d> poses;
+    place(*model_->getRoot(), Eigen::Isometry3d::Identity(), positions, poses);
+    return poses;
+  }
+
+ private:
+  static void place(const urdf::Link& link, const Eigen::Isometry3d& pose,
+                    const std::map<std::string, double>& positions,
+                    std::map<std::string, Eigen::Isometry3d>& poses) {
+    poses[link.name] = pose;
+    for (const urdf::JointSharedPtr& joint : link.child_joints) {
+      const urdf::Pose& origin = joint->parent_to_joint_origin_transform;
+      Eigen::Isometry3d child = pose;
+      child.translate(Eigen::Vector3d(origin.position.x, origin.position.y, origin.position.z));
+      child.rotate(
+          Eigen::Quaterniond(origin.rotation.w, origin.rotation.x, origin.rotation.y, origin.rotation.z));
+      if (joint->type == urdf::Joint::REVOLUTE) {
+        child.rotate(Eigen::AngleAxisd(positions.at(joint->name),
+                                       Eigen::Vector3d(joint->axis.x, joint->axis.y, joint->axis.z)));
+      }
+      const auto next =
+          std::find_if(link.child_links.begin(), link.child_links.end(),
+                       [&](const urdf::LinkSharedPtr& l) { return l->name == joint->child_link_name; });
+      place(**next, child, positions, poses);
+    }
+  }
+
+  urdf::ModelInterfaceSharedPtr model_;
+};
+
+/// The robot demo in motion.
+class RobotDemo {
+ public:
+  RobotDemo()
+      : links_(readText(kPackage + "/urdf/wam.urdf")),
+        wam_(readJointPath(kPackage + "/config/wam_path.csv")) {
+    // How far a point of the arm can be from the axis of each joint, metres: shoulder to tip 0.927, the
+    // elbow's offset 0.045 and the links' radii of less than 0.1; from the wrist on 0.077 and 0.1.
+    const double reach[] = {1.1, 1.1, 1.1, 0.55, 0.5, 0.2, 0.1};
+    travel_.push_back(0.0);
+    for (double time = 0.0; time < wam_.path.period(); time += kStep) {
+      const Eigen::VectorXd change = wam_.path.at(time + kStep) - wam_.path.at(time);
+      double way = 0.0;
+      for (Eigen::Index joint = 0; joint < change.size(); ++joint) {
+        way += std::abs(change[joint]) * reach[joint];
+      }
+      travel_.push_back(travel_.back() + way);
+    }
+  }
+
+  double period() const { return wam_.path.period(); }
+
+  Eigen::Isometry3d poseOf(const std::string& frame, double time) const {
+    const Eigen::VectorXd positions = wam_.path.at(time);
+    std::map<std::string, double> by_name;
+    for (std::size_t joint = 0; joint < wam_.joints.size(); ++joint) {
+      by_name[wam_.joints[joint]] = positions[static_cast<Eigen::Index>(joint)];
+    }
+    return links_.at(by_name).at(frame);
+  }
+
+  /// The first time after `time` at which two bodies that are `distance` apart now could touch: no point of
+  /// the arm travels farther until then, and two of its points together not more than the sum over all
+  /// joints.
+  double earliestContact(double time, double distance) const {
+    const auto now = static_cast<std::size_t>(time / kStep);
+    const auto then = std::upper_bound(travel_.begin() + static_cast<std::ptrdiff_t>(now), travel_.end(),
+                                       travel_[now] + distance);
+    return static_cast<double>(then - travel_.begin() - 1) * kStep;
+  }
+
+  static constexpr double kStep = 1e-3;  // seconds
+
+ private:
+  LinkPoses links_;
+  NamedJointPath wam_;
+  std::vector<double> travel_;  ///< metres, bound, summed up to each step
+};
+
+std::shared_ptr<const FclModel> makeFclModel(const SurfaceMesh& surface) {
+  std::vector<fcl::Triangle> triangles;
+  for (const TriangleNodes& t : surface.triangles())
+    triangles.emplace_back(t[0].value, t[1].value, t[2].value);
+  auto model = std::make_shared<FclModel>();
+  model->beginModel();
+  model->addSubModel(surface.vertices(), triangles);
+  model->endModel();
+  return model;
+}
+
+TEST(RobotDemo, HasThirtyFivePairsAndTwelveOfThemBetweenBodiesOfFiveThousandTriangles) {
+  const Scene& scene = robotScene();
+  EXPECT_TRUE(scene.problems.empty());
+  int enabled = 0;
+  int large = 0;
+  for (const ScenePair& pair : scene.pairs) {
+    if (!pair.enabled) continue;
+    ++enabled;
+    const auto size = [&](std::size_t body) { return scene.bodies[body].mesh->surface().triangleCount(); };
+    if (size(pair.body_a) >= 5000 && size(pair.body_b) >= 5000) ++large;
+  }
+  EXPECT_EQ(enabled, 35);
+  EXPECT_EQ(large, 12);
+}
+
+TEST(RobotDemo, NeverComesNearerThanACentimetre) {
+  const Scene& scene = robotScene();
+  const RobotDemo demo;
+  std::vector<std::shared_ptr<const FclModel>> models;
+  for (const SceneBody& body : scene.bodies) models.push_back(makeFclModel(body.mesh->surface()));
+  constexpr double kLeast = 0.01;  // metres
+  for (const ScenePair& pair : scene.pairs) {
+    if (!pair.enabled) continue;
+    const SceneBody& a = scene.bodies[pair.body_a];
+    const SceneBody& b = scene.bodies[pair.body_b];
+    // From one time to the next at which the pair could have come within the limit.
+    for (double time = 0.0; time < demo.period();) {
+      const double distance = fclDistance(*models[pair.body_a], demo.poseOf(a.frame, time),
+                                          *models[pair.body_b], demo.poseOf(b.frame, time));
+      ASSERT_GT(distance, kLeast) << pair.name << " at " << time << " s";
+      time = std::max(demo.earliestContact(time, distance - kLeast), time + RobotDemo::kStep);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace concave_distance::demo
