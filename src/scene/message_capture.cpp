@@ -10,11 +10,20 @@ std::mutex& captureMutex() {
   return mutex;
 }
 
+// The handler that restorePreviousOutputHandler() would bring back: that function swaps, and twice is once.
+console_bridge::OutputHandler* handlerToRestore() {
+  console_bridge::restorePreviousOutputHandler();
+  console_bridge::OutputHandler* handler = console_bridge::getOutputHandler();
+  console_bridge::restorePreviousOutputHandler();
+  return handler;
+}
+
 }  // namespace
 
 MessageCapture::MessageCapture()
     : one_at_a_time_(captureMutex()),
       previous_handler_(console_bridge::getOutputHandler()),
+      handler_before_previous_(handlerToRestore()),
       previous_level_(console_bridge::getLogLevel()) {
   console_bridge::useOutputHandler(this);
   // A process that wants no messages (level NONE) must not keep them from us.
@@ -23,6 +32,8 @@ MessageCapture::MessageCapture()
 
 MessageCapture::~MessageCapture() {
   console_bridge::setLogLevel(previous_level_);
+  // Both places that console_bridge remembers, so that neither points at this object afterwards.
+  console_bridge::useOutputHandler(handler_before_previous_);
   console_bridge::useOutputHandler(previous_handler_);
 }
 

@@ -27,6 +27,7 @@ class MessageCapture : private console_bridge::OutputHandler {
 
   std::unique_lock<std::mutex> one_at_a_time_;
   console_bridge::OutputHandler* previous_handler_;
+  console_bridge::OutputHandler* handler_before_previous_;
   console_bridge::LogLevel previous_level_;
   std::thread::id thread_ = std::this_thread::get_id();
   std::vector<std::string> messages_;

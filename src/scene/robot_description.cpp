@@ -10,6 +10,7 @@
 
 #include "concave_distance/base/error.h"
 #include "message_capture.h"
+#include "wording.h"
 
 namespace concave_distance::detail {
 namespace {
@@ -209,7 +210,7 @@ RobotDescription readRobotDescription(const std::string& urdf, const std::string
   document.Parse(urdf.c_str(), urdf.size());
   if (!full.model || document.Error()) {
     std::string message = full.model ? std::string() : "urdfdom says: " + joined(full.messages);
-    if (document.Error()) message += (message.empty() ? "" : "; ") + std::string(document.ErrorStr());
+    if (document.Error()) message += (message.empty() ? "" : "; ") + xmlError(document);
     throw Error(where, "the URDF cannot be read; " + message,
                 "check it with check_urdf; a xacro file must be expanded first");
   }
@@ -250,7 +251,7 @@ RobotDescription readRobotDescription(const std::string& urdf, const std::string
   }
   for (const std::string& name : text.joints) {
     const urdf::JointConstSharedPtr joint = full.model->getJoint(name);
-    if (!joint) continue;  // under <transmission> or the like: no joint of the tree
+    if (!joint) continue;  // urdfdom refuses the whole text instead
     robot.joints.push_back(
         {name, joint->parent_link_name, joint->child_link_name, joint->type == urdf::Joint::FIXED});
   }

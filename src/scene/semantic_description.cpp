@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "concave_distance/base/error.h"
+#include "wording.h"
 
 namespace concave_distance::detail {
 namespace {
@@ -131,7 +132,7 @@ SemanticDescription readSemanticDescription(const std::string& srdf, const std::
   tinyxml2::XMLDocument document;
   document.Parse(srdf.c_str(), srdf.size());
   if (document.Error()) {
-    throw Error(where, std::string("the SRDF cannot be read; ") + document.ErrorStr(), "mend the XML");
+    throw Error(where, "the SRDF cannot be read; " + xmlError(document), "mend the XML");
   }
   const XMLElement* root = document.FirstChildElement("robot");
   if (root == nullptr) throw Error(where, "the SRDF has no <robot> element", "give an SRDF");
