@@ -100,6 +100,9 @@ void readGeneticParameters(const YamlValue& value, GeneticParameters& p) {
   if (auto v = map.take("elite_count")) p.elite_count = count32(*v, 0);
   if (auto v = map.take("conserve_niches")) p.conserve_niches = v->boolean();
   if (auto v = map.take("convergence_generations")) p.convergence_generations = count32(*v, 0);
+  if (auto v = map.take("evaluation_limit")) {
+    p.evaluation_limit = v->count(0, std::numeric_limits<std::uint64_t>::max());
+  }
   readOperators(map, p);
   readRadii(map, p);
   map.finish();

@@ -370,6 +370,7 @@ TEST(BrokenUrdf, InvalidMeshFileIsAProblemAndNoError) {
 
 TEST(RobotSceneAlone, ReadsTheSrdfBesideTheRobotDescription) {
   SceneLoadOptions options;
+  options.metric_memory_limit = 0;
   const std::string urdf = robot(boxLink("a") + bareLink("x") + boxLink("b") + joint("continuous", "a", "x") +
                                  joint("continuous", "x", "b"));
   EXPECT_EQ(loadRobotScene(urdf, "robot_description", options).pairs.size(), 1U);

@@ -1,7 +1,10 @@
 #include <gtest/gtest.h>
 
-#include <cmath>
+#include <algorithm>
+#include <fstream>
+#include <iterator>
 #include <limits>
+#include <regex>
 
 #include "scene/scene_fixture.h"
 
@@ -297,6 +300,7 @@ TEST_F(SceneFile, GeneticParametersOutOfRangeAreRefused) {
   expectGeneticRefused("fitness_epsilon", "-1", "0 or more");
   expectGeneticRefused("dynamic_niche_limit", "0", "a whole number from 1");
   expectGeneticRefused("conserve_niches", "2", "true or false");
+  expectGeneticRefused("evaluation_limit", "-1", "a whole number from 0");
   expectGeneticRefused("convergence_generations", "x", "a whole number from 0");
 }
 
@@ -331,7 +335,7 @@ TEST_F(SceneFile, EverySettingReachesItsParameter) {
            "      mating_restriction: false\n      crowding_factor: 4\n"
            "      generation_gap: 0.5\n      elite_count: 2\n      convergence_generations: 3\n"
            "      sharing_radius: auto\n      fitness_epsilon: 0\n      dynamic_niche_limit: 6\n"
-           "      conserve_niches: true\n"
+           "      conserve_niches: true\n      evaluation_limit: 5000000000\n"
            "    warm: {population_size: 10, niching: dynamic_sharing, mating: genotypic}\n");
   ASSERT_EQ(scene.pairs.size(), 1U);
   const PairSettings& settings = scene.pairs[0].settings;
@@ -369,6 +373,7 @@ TEST_F(SceneFile, EverySettingReachesItsParameter) {
   EXPECT_EQ(cold.fitness_epsilon, 0.0);
   EXPECT_EQ(cold.dynamic_niche_limit, 6U);
   EXPECT_TRUE(cold.conserve_niches);
+  EXPECT_EQ(cold.evaluation_limit, 5000000000U);
   EXPECT_EQ(cold.sharing_radius, std::nullopt);
   EXPECT_EQ(cold.mating_radius, 0.4);
   EXPECT_EQ(tracker.warm.sharing_radius, 0.3);
@@ -378,6 +383,60 @@ TEST_F(SceneFile, EverySettingReachesItsParameter) {
   EXPECT_EQ(tracker.warm.niching, NichingMethod::DynamicSharing);
   EXPECT_EQ(tracker.warm.mating, MatingMethod::Genotypic);
   EXPECT_EQ(tracker.warm.max_generations, TrackerParameters().warm.max_generations);
+}
+
+std::string textOf(const std::string& path) {
+  std::ifstream stream(path);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+// The members of a struct of plain parameters, read from its header.
+std::vector<std::string> membersOf(const std::string& header, const std::string& name) {
+  const std::string text =
+      textOf(std::string(CONCAVE_DISTANCE_SOURCE_DIR "/include/concave_distance/") + header);
+  const std::size_t begin = text.find("struct " + name + " {");
+  const std::string body = text.substr(begin, text.find("\n};", begin) - begin);
+  const std::regex member(R"(\n  [A-Za-z_:<>0-9]+ ([a-z_]+)( =[^;]*)?;)");
+  std::vector<std::string> members;
+  for (std::sregex_iterator it(body.begin(), body.end(), member), end; it != end; ++it)
+    members.push_back((*it)[1]);
+  return members;
+}
+
+TEST_F(SceneFile, EveryParameterHasAKeyAndALineInTheDocumentation) {
+  const std::string documentation = textOf(CONCAVE_DISTANCE_SOURCE_DIR "/doc/scene_file.md");
+  const std::vector<std::string> genetic = membersOf("search/genetic_parameters.h", "GeneticParameters");
+  std::vector<std::string> tracker = membersOf("tracking/tracker_parameters.h", "TrackerParameters");
+  // What is asked for follows from who listens, not from a file.
+  tracker.erase(std::remove(tracker.begin(), tracker.end(), "niches_wanted"), tracker.end());
+  ASSERT_GE(genetic.size(), 24U);
+  ASSERT_GE(tracker.size(), 12U);
+  for (const std::string& key : genetic) {
+    EXPECT_FALSE(mentions(refusal("defaults: {cold: {" + key + ": {}}}"), "is not known")) << key;
+    EXPECT_TRUE(mentions(documentation, "`" + key + "`")) << key;
+  }
+  for (const std::string& key : tracker) {
+    EXPECT_FALSE(mentions(refusal("defaults: {" + key + ": {x: 1}}"), "'" + key + "' is not known")) << key;
+    EXPECT_TRUE(mentions(documentation, "`" + key + "`")) << key;
+  }
+}
+
+// The YAML blocks of the documentation, each a file of its own.
+TEST_F(SceneFile, ExamplesOfTheDocumentationAreAccepted) {
+  const std::string documentation = textOf(CONCAVE_DISTANCE_SOURCE_DIR "/doc/scene_file.md");
+  options.descriptions["robot_description"] = test::robot(
+      test::boxLink("base_link") + test::boxLink("upper_arm") + test::boxLink("forearm") +
+      test::boxLink("gripper") + test::boxLink("camera_mount") +
+      test::joint("revolute", "base_link", "upper_arm") + test::joint("revolute", "upper_arm", "forearm") +
+      test::joint("revolute", "forearm", "gripper") + test::joint("fixed", "gripper", "camera_mount"));
+  options.descriptions["robot_description_semantic"] = "<robot name='arm'/>";
+  const std::regex block("```yaml\n([^`]*)```");
+  int blocks = 0;
+  for (std::sregex_iterator it(documentation.begin(), documentation.end(), block), end; it != end; ++it) {
+    EXPECT_EQ(refusal((*it)[1]), "accepted") << (*it)[1];
+    ++blocks;
+  }
+  EXPECT_GE(blocks, 2);
 }
 
 TEST_F(SceneFile, WordsStandForNothing) {
