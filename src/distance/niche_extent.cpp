@@ -69,7 +69,8 @@ class Flood {
         extent_.cut = true;
         return;
       }
-      const auto [triangle_a, triangle_b] = workspace_.open[i];
+      const TriangleIndex triangle_a = workspace_.open[i].first;
+      const TriangleIndex triangle_b = workspace_.open[i].second;
       PlanarFeature part_a = levelPart(a_, triangle_a, levels_.tolerance);
       PlanarFeature part_b = levelPart(b_, triangle_b, levels_.tolerance);
       snapOnto(part_b, levels_.reach, part_a);
@@ -104,7 +105,7 @@ class Flood {
   /// border of both bodies at once has that point in the two pairs in between as well. A triangle whose level
   /// part belongs to the present one adds nothing.
   template <typename PairWith>
-  void spread(const LevelSide& side, TriangleIndex triangle, const Vector2d& point, PairWith pairWith) {
+  void spread(const LevelSide& side, TriangleIndex triangle, const Vector2d& point, PairWith pair_with) {
     const detail::LocalTriangle own{side.body.surface(), side.body.topology(), side.centre, triangle};
     const TriangleNodes& own_nodes = own.mesh.triangle(triangle);
     const PointTriangleDistance on_triangle =
@@ -120,12 +121,12 @@ class Flood {
         const double height = side.height(own.mesh.vertex(node) - side.centre);
         if (height > levels_.tolerance && !extent_.leads_down && isOn(side, other, on_triangle.point)) {
           extent_.leads_down = true;
-          std::tie(extent_.down_a, extent_.down_b) = pairWith(other);
+          std::tie(extent_.down_a, extent_.down_b) = pair_with(other);
         }
         adds = adds || std::abs(height) <= levels_.tolerance;
       }
       if (adds) {
-        const auto [triangle_a, triangle_b] = pairWith(other);
+        const auto [triangle_a, triangle_b] = pair_with(other);
         open(triangle_a, triangle_b);
       }
     }

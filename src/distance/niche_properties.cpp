@@ -57,13 +57,13 @@ Outwardness classifyOutwardness(const BodyMesh& a, const BodyMesh& b, const Eige
 bool isVisible(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
                const WitnessPair& witness) {
   constexpr double kMargin = 1e-12;
-  const auto isFree = [](const BodyMesh& body, const Vector3d& from, const Vector3d& to) {
+  const auto is_free = [](const BodyMesh& body, const Vector3d& from, const Vector3d& to) {
     const double size = body.diameter() + std::max(from.cwiseAbs().maxCoeff(), to.cwiseAbs().maxCoeff());
     return !segmentHits(body.tree(), body.surface(), from, to, kMargin * size);
   };
   const Eigen::Isometry3d b_from_a = a_from_b.inverse(Eigen::Isometry);
-  return isFree(a, witness.point_a_in_a, witness.point_b_in_a) &&
-         isFree(b, b_from_a * witness.point_a_in_a, b_from_a * witness.point_b_in_a);
+  return is_free(a, witness.point_a_in_a, witness.point_b_in_a) &&
+         is_free(b, b_from_a * witness.point_a_in_a, b_from_a * witness.point_b_in_a);
 }
 
 }  // namespace concave_distance

@@ -146,7 +146,7 @@ void convexHull(PlanarPoints& points, PlanarPoints& hull) {
     hull.assign(points.begin(), points.end());
     return;
   }
-  const auto addChain = [&hull](auto first, auto last) {
+  const auto add_chain = [&hull](auto first, auto last) {
     const std::size_t start = hull.size();
     for (auto p = first; p != last; ++p) {
       while (hull.size() >= start + 2 &&
@@ -157,8 +157,8 @@ void convexHull(PlanarPoints& points, PlanarPoints& hull) {
     }
     hull.pop_back();  // the next chain starts there
   };
-  addChain(points.cbegin(), points.cend());
-  addChain(points.crbegin(), points.crend());
+  add_chain(points.cbegin(), points.cend());
+  add_chain(points.crbegin(), points.crend());
 }
 
 double diameterOf(const PlanarPoints& hull) {

@@ -57,7 +57,7 @@ void collectRing(const LocalTriangle& own, const LocalWitness& witness, double o
   workspace.ring.clear();
   workspace.ring_vertices.clear();
   workspace.ring.push_back(own.triangle);
-  const auto isDone = [&](NodeIndex vertex) {
+  const auto is_done = [&](NodeIndex vertex) {
     const std::vector<NodeIndex>& done = workspace.ring_vertices;
     return std::find(done.begin(), done.end(), vertex) != done.end();
   };
@@ -71,13 +71,13 @@ void collectRing(const LocalTriangle& own, const LocalWitness& witness, double o
       if (code >= 3 && code < 6) contact.edge[code - 3] = true;
     }
     for (std::size_t k = 0; k < 3; ++k) {
-      if (!contact.corner[k] || isDone(nodes[k])) continue;
+      if (!contact.corner[k] || is_done(nodes[k])) continue;
       workspace.ring_vertices.push_back(nodes[k]);
       addAround(own.topology, nodes[k], workspace);
     }
     for (std::size_t k = 0; k < 3; ++k) {
       const NodeIndex to = nodes[(k + 1) % 3];
-      if (!contact.edge[k] || isDone(nodes[k]) || isDone(to)) continue;  // those are all listed already
+      if (!contact.edge[k] || is_done(nodes[k]) || is_done(to)) continue;  // those are all listed already
       addAcross(own.mesh, own.topology, nodes[k], to, workspace);
     }
   }

@@ -12,16 +12,16 @@ bool isVertex(Feature feature) {
 SurfacePoint walkTowards(const BodyMesh& body, TriangleIndex start, const Eigen::Vector3d& target) {
   const SurfaceMesh& surface = body.surface();
   const MeshTopology& topology = body.topology();
-  const auto closestOn = [&](TriangleIndex triangle) {
+  const auto closest_on = [&](TriangleIndex triangle) {
     const PointTriangleDistance d = pointTriangleDistance(target, trianglePoints(surface, triangle));
     return SurfacePoint{triangle, d.feature, d.point, d.squared_distance};
   };
-  SurfacePoint best = closestOn(start);
+  SurfacePoint best = closest_on(start);
   for (bool moved = true; moved && best.feature != Feature::Face;) {
     moved = false;
     const SurfacePoint from = best;
-    const auto tryTriangle = [&](TriangleIndex triangle) {
-      const SurfacePoint candidate = closestOn(triangle);
+    const auto try_triangle = [&](TriangleIndex triangle) {
+      const SurfacePoint candidate = closest_on(triangle);
       if (candidate.squared_distance < best.squared_distance) {
         best = candidate;
         moved = true;
@@ -30,13 +30,13 @@ SurfacePoint walkTowards(const BodyMesh& body, TriangleIndex start, const Eigen:
     if (isVertex(from.feature)) {
       const NodeIndex vertex = surface.triangle(from.triangle)[static_cast<std::size_t>(from.feature)];
       for (const TriangleIndex triangle : topology.triangles_of_vertex.row(vertex.value)) {
-        tryTriangle(triangle);
+        try_triangle(triangle);
       }
     } else {
       const auto edge = static_cast<std::size_t>(from.feature) - static_cast<std::size_t>(Feature::Edge0);
       const TriangleIndex across = topology.triangle_across_edge[from.triangle.value][edge];
       if (across != kNoTriangle) {
-        tryTriangle(across);
+        try_triangle(across);
       }
     }
   }

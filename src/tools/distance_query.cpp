@@ -1,0 +1,109 @@
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <iostream>
+#include <string>
+
+#include "distance_query_run.h"
+
+namespace {
+
+using concave_distance::AccuracyLevel;
+using concave_distance::tools::DistanceQueryOptions;
+
+constexpr int kFileProblem = 1;
+constexpr int kWrongCommandLine = 2;
+
+struct CommandLine {
+  DistanceQueryOptions options;
+  std::string accuracy = "refined";
+  double tolerance = 0.0;
+  double time_budget = 0.0;
+};
+
+AccuracyLevel accuracyOf(const std::string& name) {
+  if (name == "nodes") return AccuracyLevel::Nodes;
+  if (name == "refined") return AccuracyLevel::Refined;
+  if (name == "certified" || name == "complete") {
+    throw CLI::ValidationError("--accuracy", name + " is not among this version's levels: nodes, refined");
+  }
+  throw CLI::ValidationError("--accuracy", "'" + name + "' is none of the levels: nodes, refined");
+}
+
+/// Stopping early only means something where a bound is proven.
+void refuseOnUnprovenLevels(const CLI::App& app, const char* option, const CommandLine& line) {
+  if (app.count(option) == 0) return;
+  throw CLI::ValidationError(option,
+                             std::string("stops a proof early, and --accuracy ") + line.accuracy +
+                                 " proves no bound; leave it out (levels of this version: nodes, refined)");
+}
+
+void addOptions(CLI::App& app, CommandLine& line) {
+  DistanceQueryOptions& options = line.options;
+  app.add_option("--mesh-a", options.mesh_a, "body A (.stl, .obj, .ply, .dae)")
+      ->required()
+      ->type_name("FILE");
+  app.add_option("--mesh-b", options.mesh_b, "body B")->required()->type_name("FILE");
+  app.add_option("--poses", options.poses,
+                 "header t,x,y,z,qx,qy,qz,qw; a query a line: pose of B in A's frame")
+      ->required()
+      ->type_name("FILE");
+  app.add_option("--scale-a", options.scale_a,
+                 "factor on A's coordinates (0.001: the file is in millimetres)")
+      ->capture_default_str();
+  app.add_option("--scale-b", options.scale_b, "the same for B")->capture_default_str();
+  app.add_option(
+         "--accuracy", line.accuracy,
+         "nodes: between the nodes of the search grids; refined: exact local minima over the triangles")
+      ->capture_default_str()
+      ->type_name("LEVEL");
+  app.add_option("--cutoff", options.cutoff, "niches farther than this are not listed, metres")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--tolerance", line.tolerance, "only for levels that prove a bound: none in this version");
+  app.add_option("--time-budget", line.time_budget,
+                 "only for levels that prove a bound: none in this version");
+  app.add_option("--max-edge", options.max_edge_length,
+                 "longest edge of the search grids, metres (automatic)")
+      ->check(CLI::PositiveNumber);
+  app.add_flag("--tracking", options.tracking,
+               "lines are successive instants of one motion: warm starts, persistent niche numbers");
+  app.add_option("--seed", options.seed, "of the random streams: one seed, one answer")
+      ->capture_default_str();
+  app.add_option("--output", options.output,
+                 "index,distance,lower_bound,ax,ay,az,bx,by,bz,niche_count,status,time_us")
+      ->required()
+      ->type_name("FILE");
+  app.add_option("--niches-output", options.niches_output,
+                 "index,niche,distance,ax,ay,az,bx,by,bz; without it no niches are computed")
+      ->type_name("FILE");
+}
+
+int run(int argc, char** argv) {
+  CommandLine line;
+  CLI::App app("Distance and niches of two meshes at a list of poses. Metres, seconds; points in A's frame.",
+               "distance_query");
+  app.footer(
+      "An empty cell was not computed. Status: ok, penetrating, invalid_pose.\n"
+      "Exit status: 0 done, 1 a file is at fault, 2 the command line is.");
+  addOptions(app, line);
+  try {
+    app.parse(argc, argv);
+    line.options.accuracy = accuracyOf(line.accuracy);
+    refuseOnUnprovenLevels(app, "--tolerance", line);
+    refuseOnUnprovenLevels(app, "--time-budget", line);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : kWrongCommandLine;
+  }
+  runDistanceQuery(line.options, std::cerr);
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& error) {
+    std::cerr << "distance_query: " << error.what() << '\n';
+    return kFileProblem;
+  }
+}

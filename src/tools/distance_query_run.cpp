@@ -1,0 +1,113 @@
+#include "distance_query_run.h"
+
+#include <chrono>
+#include <memory>
+#include <ostream>
+
+#include "concave_distance/mesh/body_mesh.h"
+#include "concave_distance/mesh/import_mesh.h"
+#include "concave_distance/mesh/repair_mesh.h"
+#include "concave_distance/tracking/pair_tracker.h"
+#include "query_poses.h"
+#include "query_report.h"
+
+namespace concave_distance::tools {
+namespace {
+
+/// Keys the random streams: fixed, so that an answer depends on the meshes, the pose and the seed alone.
+constexpr const char* kPairName = "distance_query";
+
+/// More than any scene of rigid bodies has shown; a cut is logged.
+constexpr std::uint32_t kLargestNicheCount = 1000;
+
+std::shared_ptr<const BodyMesh> loadBody(const std::string& path, double scale,
+                                         const DistanceQueryOptions& options, std::ostream& log) {
+  RepairedMesh repaired = repairMesh(importMesh(path, Eigen::Vector3d::Constant(scale)), {}, path);
+  if (const std::string summary = repaired.report.summary(); !summary.empty()) {
+    log << path << ": " << summary << '\n';
+  }
+  BodyMeshOptions body_options;
+  body_options.max_edge_length = options.max_edge_length;
+  return std::make_shared<const BodyMesh>(path, std::move(repaired.mesh), body_options);
+}
+
+/// Solves pose after pose: one tracker for all when tracking, a new one for each otherwise.
+class Solver {
+ public:
+  Solver(const DistanceQueryOptions& options, std::ostream& log)
+      : a_(loadBody(options.mesh_a, options.scale_a, options, log)),
+        b_(loadBody(options.mesh_b, options.scale_b, options, log)) {
+    parameters_.accuracy = options.accuracy;
+    parameters_.cutoff = options.cutoff;
+    parameters_.largest_niche_count = kLargestNicheCount;
+    parameters_.niches_wanted = !options.niches_output.empty();
+    parameters_.seed = options.seed;
+    if (options.tracking) tracker_ = std::make_unique<PairTracker>(kPairName, a_, b_, parameters_);
+  }
+
+  /// Microseconds of the query alone: everything between the loaded bodies and the answer.
+  double solve(const Eigen::Isometry3d& pose, double time) {
+    const auto start = std::chrono::steady_clock::now();
+    if (tracker_) {
+      tracker_->update(pose, time, solution_);
+    } else {
+      solution_ = solveOnce(kPairName, a_, b_, parameters_, pose);
+    }
+    return std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
+  }
+
+  const PairSolution& solution() const { return solution_; }
+
+ private:
+  std::shared_ptr<const BodyMesh> a_;
+  std::shared_ptr<const BodyMesh> b_;
+  TrackerParameters parameters_;
+  std::unique_ptr<PairTracker> tracker_;
+  PairSolution solution_;
+};
+
+}  // namespace
+
+void runDistanceQuery(const DistanceQueryOptions& options, std::ostream& log) {
+  const std::vector<QueryPose> poses = readQueryPoses(options.poses);
+  Solver solver(options, log);
+  AnswerWriter answers(options.output);
+  std::unique_ptr<NicheWriter> niches;
+  if (!options.niches_output.empty()) niches = std::make_unique<NicheWriter>(options.niches_output);
+  std::size_t cut_lists = 0;
+  for (std::size_t index = 0; index < poses.size(); ++index) {
+    QueryAnswer answer;
+    const std::optional<Eigen::Isometry3d> pose = poseOf(poses[index]);
+    if (!pose) {
+      answer.status = toString(SolveStatus::InvalidPose);
+      answers.write(index, answer);
+      continue;
+    }
+    answer.time_us = solver.solve(*pose, poses[index].time);
+    const PairSolution& solution = solver.solution();
+    answer.distance = solution.distance;
+    answer.lower_bound = solution.lower_bound;
+    answer.point_a_in_a = solution.point_a_in_a;
+    answer.point_b_in_a = solution.point_b_in_a;
+    answer.status = toString(solution.status);
+    if (niches && solution.status != SolveStatus::InvalidPose) {
+      answer.niche_count = solution.niches.size();
+      cut_lists += solution.niches_cut ? 1 : 0;
+      std::uint64_t rank = 0;
+      for (const TrackedNiche& niche : solution.niches) {
+        niches->write(index, options.tracking ? niche.id : rank, niche.distance, niche.point_a_in_a,
+                      niche.point_b_in_a);
+        ++rank;
+      }
+    }
+    answers.write(index, answer);
+  }
+  answers.finish();
+  if (niches) niches->finish();
+  if (cut_lists > 0) {
+    log << cut_lists << " queries have more niches than the " << kLargestNicheCount
+        << " that are listed; give a --cutoff\n";
+  }
+}
+
+}  // namespace concave_distance::tools

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace concave_distance::tools {
+
+/// A line of poses.csv as it stands there: pose of B in A's frame.
+struct QueryPose {
+  double time = 0.0;  ///< seconds
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  Eigen::Vector4d quaternion = Eigen::Vector4d::Zero();  ///< x, y, z, w, not normalised
+};
+
+/// Reads a file with the header t,x,y,z,qx,qy,qz,qw and one query a line. Empty lines are passed over, spaces
+/// around a value too; numbers that are not finite are left to poseOf().
+/// @throws Error naming file and line
+std::vector<QueryPose> readQueryPoses(const std::string& path);
+
+/// The pose with its quaternion normalised; empty when a number is not finite or the quaternion's norm is not
+/// within 1e-3 of 1.
+std::optional<Eigen::Isometry3d> poseOf(const QueryPose& query);
+
+}  // namespace concave_distance::tools

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <fstream>
+#include <limits>
+#include <optional>
+#include <string>
+
+namespace concave_distance::tools {
+
+/// A line of out.csv; NaN and empty optionals are cells left empty: not computed.
+struct QueryAnswer {
+  double distance = std::numeric_limits<double>::quiet_NaN();     ///< metres
+  double lower_bound = std::numeric_limits<double>::quiet_NaN();  ///< metres
+  Eigen::Vector3d point_a_in_a = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  Eigen::Vector3d point_b_in_a = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  std::optional<std::size_t> niche_count;
+  std::string status;
+  double time_us = std::numeric_limits<double>::quiet_NaN();  ///< of the query alone
+};
+
+/// Writes out.csv, 17 digits, a line per query.
+class AnswerWriter {
+ public:
+  explicit AnswerWriter(const std::string& path);  ///< @throws Error when the file cannot be written
+  void write(std::size_t index, const QueryAnswer& answer);
+  void finish();  ///< @throws Error when not everything could be written
+
+ private:
+  std::string path_;
+  std::ofstream stream_;
+};
+
+/// Writes niches.csv, 17 digits, a line per niche.
+class NicheWriter {
+ public:
+  explicit NicheWriter(const std::string& path);  ///< @throws Error when the file cannot be written
+  void write(std::size_t index, std::uint64_t niche, double distance, const Eigen::Vector3d& point_a_in_a,
+             const Eigen::Vector3d& point_b_in_a);
+  void finish();  ///< @throws Error when not everything could be written
+
+ private:
+  std::string path_;
+  std::ofstream stream_;
+};
+
+}  // namespace concave_distance::tools

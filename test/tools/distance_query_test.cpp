@@ -1,0 +1,228 @@
+// The program itself, as a user runs it.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <sstream>
+#include <vector>
+
+#include "concave_distance/mesh/export_mesh.h"
+#include "support/concave_shapes.h"
+#include "support/plain_shapes.h"
+#include "support/temporary_folder.h"
+
+namespace concave_distance {
+namespace {
+
+using Eigen::Vector3d;
+using Row = std::map<std::string, std::string>;
+
+/// A table by its header; every row has as many cells.
+std::vector<Row> readTable(const std::string& path) {
+  std::istringstream stream(test::contentOf(path));
+  const auto cellsOf = [](const std::string& line) {
+    std::vector<std::string> cells(1);
+    for (const char c : line) {
+      if (c == ',') {
+        cells.emplace_back();
+      } else {
+        cells.back() += c;
+      }
+    }
+    return cells;
+  };
+  std::string line;
+  std::getline(stream, line);
+  const std::vector<std::string> header = cellsOf(line);
+  std::vector<Row> rows;
+  while (std::getline(stream, line)) {
+    const std::vector<std::string> cells = cellsOf(line);
+    EXPECT_EQ(cells.size(), header.size()) << line;
+    Row row;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      row[header[i]] = cells[i];
+    }
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+double number(const Row& row, const std::string& column) {
+  return std::strtod(row.at(column).c_str(), nullptr);
+}
+
+Vector3d point(const Row& row, const std::string& body) {
+  return {number(row, body + "x"), number(row, body + "y"), number(row, body + "z")};
+}
+
+class DistanceQuery : public testing::Test {
+ protected:
+  void SetUp() override {
+    exportMesh(test::makeCuboid(Vector3d(-0.5, -0.5, -0.5), Vector3d(0.5, 0.5, 0.5)),
+               folder_.path("box.stl"));
+    exportMesh(test::makeCuboid(Vector3d(-100, -100, -100), Vector3d(100, 100, 100)),
+               folder_.path("small_box_in_mm.stl"));
+    exportMesh(test::makeComb(3), folder_.path("comb.stl"));
+    folder_.write("poses.csv",
+                  "t,x,y,z,qx,qy,qz,qw\n"
+                  "0,0,0,1,0,0,0,1\n"
+                  "0.1,1.5,0,0,0,0,0,1\n"
+                  "0.2,0,0,0.9,0,0,0,2\n"
+                  "0.3,nan,0,0.9,0,0,0,1\n"
+                  "0.4,0,0,0.55,0,0,0,1\n"
+                  "0.5,0.9,0.9,0.9,0,0,0,1.0005\n"
+                  "0.6,0,0,0.1,0,0,0,1\n");
+  }
+
+  /// Exit status; what it prints goes to the file "log".
+  int run(const std::string& arguments) {
+    const std::string command =
+        "cd " + folder_.path() + " && " + CONCAVE_DISTANCE_DISTANCE_QUERY + " " + arguments + " > log 2>&1";
+    const int status = std::system(command.c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+  int runBoxes(const std::string& further) {
+    return run(
+        "--mesh-a box.stl --mesh-b small_box_in_mm.stl --scale-b 0.001 --poses poses.csv --output out.csv " +
+        further);
+  }
+  std::string log() const { return test::contentOf(folder_.path("log")); }
+  std::vector<Row> answers() const { return readTable(folder_.path("out.csv")); }
+  std::vector<Row> niches() const { return readTable(folder_.path("niches.csv")); }
+
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(DistanceQuery, AnswersEveryLineInOrder) {
+  ASSERT_EQ(runBoxes(""), 0) << log();
+  const std::string text = test::contentOf(folder_.path("out.csv"));
+  EXPECT_EQ(text.substr(0, text.find('\n')),
+            "index,distance,lower_bound,ax,ay,az,bx,by,bz,niche_count,status,time_us");
+  const std::vector<Row> rows = answers();
+  ASSERT_EQ(rows.size(), 7U);
+  const double corner = std::sqrt(3.0 * 0.3 * 0.3);
+  // Half sides 0.5 and 0.1: gap along one axis, refused twice, crossing, corner to corner, swallowed.
+  const std::vector<std::string> status = {"ok",          "ok", "invalid_pose", "invalid_pose",
+                                           "penetrating", "ok", "penetrating"};
+  const std::vector<double> distance = {0.4, 0.9, NAN, NAN, 0.0, corner, 0.0};
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    EXPECT_EQ(rows[i].at("index"), std::to_string(i));
+    EXPECT_EQ(rows[i].at("status"), status[i]);
+    EXPECT_EQ(rows[i].at("lower_bound"), "");
+    EXPECT_EQ(rows[i].at("niche_count"), "");
+    if (std::isnan(distance[i])) {
+      EXPECT_EQ(rows[i].at("distance"), "");
+      EXPECT_EQ(rows[i].at("ax"), "");
+      EXPECT_EQ(rows[i].at("time_us"), "");
+      continue;
+    }
+    EXPECT_NEAR(number(rows[i], "distance"), distance[i], 1e-12);
+    EXPECT_GT(number(rows[i], "time_us"), 0.0);
+    if (status[i] == "ok") {
+      EXPECT_NEAR((point(rows[i], "b") - point(rows[i], "a")).norm(), distance[i], 1e-12);
+      EXPECT_NEAR(point(rows[i], "a").cwiseAbs().maxCoeff(), 0.5, 1e-12);
+    }
+  }
+}
+
+TEST_F(DistanceQuery, ListsNichesWhenAsked) {
+  folder_.write("poses.csv",
+                "t,x,y,z,qx,qy,qz,qw\n"
+                "0,0.72,0.75,0,0,0,1,0\n"
+                "1,0.72,0.75,0,0,0,1,0\n");
+  const std::string combs =
+      "--mesh-a comb.stl --mesh-b comb.stl --poses poses.csv --output out.csv --max-edge 0.05 ";
+  ASSERT_EQ(run(combs + "--niches-output niches.csv"), 0) << log();
+  const std::vector<Row> listed = niches();
+  const std::vector<Row> rows = answers();
+  ASSERT_EQ(rows.size(), 2U);
+  ASSERT_EQ(number(rows[0], "niche_count") + number(rows[1], "niche_count"),
+            static_cast<double>(listed.size()));
+  ASSERT_GT(listed.size(), 2U);
+  EXPECT_EQ(listed[0].at("index"), "0");
+  EXPECT_EQ(listed[0].at("niche"), "0");
+  EXPECT_EQ(listed[0].at("distance"), rows[0].at("distance"));
+  for (const Row& niche : listed) {
+    EXPECT_NEAR((point(niche, "b") - point(niche, "a")).norm(), number(niche, "distance"), 1e-8);
+  }
+  // Cold and independent: the same pose, the same answer.
+  EXPECT_EQ(rows[0].at("distance"), rows[1].at("distance"));
+  EXPECT_EQ(rows[0].at("ax"), rows[1].at("ax"));
+  EXPECT_EQ(rows[0].at("niche_count"), rows[1].at("niche_count"));
+
+  ASSERT_EQ(run(combs + "--niches-output niches.csv --cutoff 1e-6"), 0) << log();
+  EXPECT_TRUE(niches().empty());
+  EXPECT_EQ(answers()[0].at("niche_count"), "0");
+}
+
+TEST_F(DistanceQuery, TracksPersistentNiches) {
+  std::string poses = "t,x,y,z,qx,qy,qz,qw\n";
+  for (int i = 0; i < 30; ++i) {
+    poses += std::to_string(0.01 * i) + ",0.72," + std::to_string(0.8 - 0.002 * i) + ",0,0,0,1,0\n";
+  }
+  folder_.write("poses.csv", poses);
+  const std::string combs =
+      "--mesh-a comb.stl --mesh-b comb.stl --poses poses.csv --output out.csv --max-edge 0.05 ";
+  ASSERT_EQ(run(combs + "--tracking --niches-output niches.csv"), 0) << log();
+  const std::vector<Row> rows = answers();
+  ASSERT_EQ(rows.size(), 30U);
+  std::map<std::string, std::string> nearest;  // the id of the nearest niche of each line
+  for (const Row& niche : niches()) {
+    nearest.emplace(niche.at("index"), niche.at("niche"));
+  }
+  for (const auto& [index, id] : nearest) {
+    EXPECT_EQ(id, nearest.at("0")) << "line " << index;
+  }
+  for (const Row& row : rows) {
+    EXPECT_EQ(row.at("status"), "ok");
+  }
+}
+
+TEST_F(DistanceQuery, NodesOverestimateByNoMoreThanTheGridAllows) {
+  ASSERT_EQ(runBoxes("--accuracy nodes --max-edge 0.1"), 0) << log();
+  const std::vector<Row> nodes = answers();
+  EXPECT_GE(number(nodes[0], "distance"), 0.4 - 1e-12);
+  EXPECT_LE(number(nodes[0], "distance"), 0.4 + 0.2 / std::sqrt(3.0));
+}
+
+TEST_F(DistanceQuery, OneSeedGivesOneAnswer) {
+  ASSERT_EQ(runBoxes("--niches-output niches.csv --seed 7"), 0) << log();
+  const std::string first = test::contentOf(folder_.path("niches.csv"));
+  ASSERT_EQ(runBoxes("--niches-output niches.csv --seed 7"), 0) << log();
+  EXPECT_EQ(test::contentOf(folder_.path("niches.csv")), first);
+}
+
+TEST_F(DistanceQuery, RefusesWhatThisVersionCannotDo) {
+  for (const std::string level : {"certified", "complete"}) {
+    EXPECT_EQ(runBoxes("--accuracy " + level), 2);
+    EXPECT_NE(log().find(level + " is not among this version's levels: nodes, refined"), std::string::npos)
+        << log();
+  }
+  EXPECT_EQ(runBoxes("--accuracy exact"), 2);
+  EXPECT_NE(log().find("'exact' is none of the levels: nodes, refined"), std::string::npos) << log();
+  EXPECT_EQ(runBoxes("--tolerance 0.001"), 2);
+  EXPECT_NE(log().find("--tolerance"), std::string::npos) << log();
+  EXPECT_NE(log().find("proves no bound"), std::string::npos) << log();
+  EXPECT_EQ(runBoxes("--accuracy nodes --time-budget 0.1"), 2);
+  EXPECT_NE(log().find("--accuracy nodes proves no bound"), std::string::npos) << log();
+  EXPECT_EQ(runBoxes("--max-edge 0"), 2);
+  EXPECT_EQ(runBoxes("--cutoff -1"), 2);
+  EXPECT_EQ(run("--mesh-a box.stl"), 2);
+}
+
+TEST_F(DistanceQuery, NamesTheFileThatIsAtFault) {
+  EXPECT_EQ(run("--mesh-a missing.stl --mesh-b box.stl --poses poses.csv --output out.csv"), 1);
+  EXPECT_NE(log().find("missing.stl"), std::string::npos) << log();
+  EXPECT_EQ(run("--mesh-a box.stl --mesh-b box.stl --poses no.csv --output out.csv"), 1);
+  EXPECT_NE(log().find("no.csv"), std::string::npos) << log();
+  EXPECT_EQ(run("--mesh-a box.stl --mesh-b box.stl --poses poses.csv --output nowhere/out.csv"), 1);
+  EXPECT_NE(log().find("nowhere/out.csv"), std::string::npos) << log();
+  folder_.write("bad.csv", "t,x,y,z,qx,qy,qz,qw\n0,0,0,1,0,0,0,1\n0,0,0,1,0,0,0\n");
+  EXPECT_EQ(run("--mesh-a box.stl --mesh-b box.stl --poses bad.csv --output out.csv"), 1);
+  EXPECT_NE(log().find("bad.csv:3: it has 7 cells"), std::string::npos) << log();
+}
+
+}  // namespace
+}  // namespace concave_distance
