@@ -1,7 +1,7 @@
 #include "concave_distance/search/genetic_parameters.h"
 
 #include <cmath>
-#include <limits>
+#include <sstream>
 
 #include "concave_distance/base/error.h"
 
@@ -15,8 +15,9 @@ namespace {
 }
 
 std::string toText(double value) {
-  std::string text = std::to_string(value);
-  return text;
+  std::ostringstream text;
+  text << value;
+  return text.str();
 }
 
 void requireShare(const std::string& where, const std::string& parameter, double value) {

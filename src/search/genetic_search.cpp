@@ -249,7 +249,9 @@ class GeneticRun {
 
   void chooseElites() {
     findElites(work_.census, work_.places, parameters_.elite_count, work_.elites);
-    if (!parameters_.conserve_niches) {
+    const bool shares =
+        parameters_.niching == NichingMethod::Sharing || parameters_.niching == NichingMethod::DynamicSharing;
+    if (!shares || !parameters_.conserve_niches) {
       return;
     }
     std::vector<std::uint32_t>& peaks = work_.dynamic_niches.peaks;

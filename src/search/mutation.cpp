@@ -26,8 +26,12 @@ NodeIndex moveGene(NodeIndex node, double radius, MeshMetricQuery& query, Random
   if (!query.metric().hasMatrices()) {
     return radius < kInfinity ? query.nodeInBall(node, radius, share) : goal;
   }
-  const double length = query.distanceWithin(node, goal, kInfinity);
-  // 1 - share is never 0.
+  if (node == goal) {
+    return node;
+  }
+  // An edge longer than the way, so that its last node has its share of the draws too; 1 - share is never 0.
+  const double length = query.distanceWithin(node, goal, kInfinity) +
+                        static_cast<double>(graph.edges.row(goal.value)[0].length);
   return query.nodeTowards(node, goal, (1.0 - share) * std::min(length, radius), kInfinity);
 }
 

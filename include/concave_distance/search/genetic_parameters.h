@@ -43,9 +43,11 @@ struct GeneticParameters {
   std::uint32_t crowding_factor = 3;   ///< C_f of simple crowding
   double generation_gap = 1.0;         ///< share of the population replaced a generation, (0, 1]
   std::uint32_t elite_count = 1;       ///< best individuals that always survive
-  /// The best of every niche (greedy identification with sigma_n) survives too, as long as these take no more
-  /// than half of the population: species conservation (Li, Balazs, Parks and Clarkson 2002).
-  bool conserve_niches = false;
+  /// With sharing and dynamic sharing: the best of every niche (greedy identification with sigma_n) survives
+  /// too, as long as these take no more than half of the population: species conservation (Li, Balazs, Parks
+  /// and Clarkson 2002). Sampling loses niches that expect less than one individual. Off for the thesis's
+  /// own rows.
+  bool conserve_niches = true;
   /// Stop when the best and the set of niches have not changed for this many generations; 0: never early.
   std::uint32_t convergence_generations = 0;
   /// Stop after the generation in which this many node pairs have been evaluated; 0: no limit.

@@ -1,0 +1,92 @@
+#include "concave_distance/search/crowding.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "concave_distance/mesh/geodesic_extent.h"
+#include "search/search_scenes.h"
+
+namespace concave_distance {
+namespace {
+
+/// Places along the edge of one tooth: node k of A's path, always the same node of B, with distances given.
+class Crowding : public testing::Test {
+ protected:
+  Crowding() : metric_(*scene_.a, *scene_.b) {
+    places_.reset(std::numeric_limits<double>::infinity());
+    const std::vector<double> length = pathLengthsFrom(scene_.a->graph(), {NodeIndex{0}});
+    const auto farthest = std::max_element(length.begin(), length.end());
+    metric_.onA().shortestPath(NodeIndex{0}, NodeIndex{static_cast<std::size_t>(farthest - length.begin())},
+                               path_);
+  }
+
+  Contestant at(std::size_t step, double squared_distance) {
+    const TrialPoint point{path_.at(step), NodeIndex{3}, squared_distance};
+    return {point, places_.placeOf(point)};
+  }
+
+  test::PairScene scene_ = test::facingCombs();
+  PairMetric metric_;
+  PlaceTable places_;
+  std::vector<NodeIndex> path_;
+};
+
+TEST_F(Crowding, PairedContestTakesTheClosestPairing) {
+  Contestant first = at(0, 5.0);
+  Contestant second = at(6, 5.0);
+  // The children are near the other parent each: crossed they compete.
+  competePaired(first, second, at(5, 4.0), at(1, 6.0), places_, metric_);
+  EXPECT_EQ(first.point.squared_distance, 5.0) << "its rival (6) was worse";
+  EXPECT_EQ(second.point.squared_distance, 4.0) << "replaced by the child near it";
+  EXPECT_EQ(second.place, at(5, 4.0).place);
+}
+
+TEST_F(Crowding, PairedContestGivesEachParentOneRival) {
+  Contestant first = at(0, 5.0);
+  Contestant second = at(6, 5.0);
+  // Both children are near the first parent; only one may meet it.
+  competePaired(first, second, at(1, 1.0), at(2, 2.0), places_, metric_);
+  EXPECT_EQ(first.point.squared_distance, 1.0);
+  EXPECT_EQ(second.point.squared_distance, 2.0);
+}
+
+TEST_F(Crowding, CloserParentContestLeavesTheOtherParentAlone) {
+  Contestant first = at(0, 5.0);
+  Contestant second = at(6, 5.0);
+  competeWithCloserParent(first, second, at(1, 2.0), at(2, 1.0), places_, metric_);
+  EXPECT_EQ(first.point.squared_distance, 1.0) << "the better of both children holds the seat";
+  EXPECT_EQ(second.point.squared_distance, 5.0);
+}
+
+TEST_F(Crowding, EqualFitnessReplacesNobody) {
+  Contestant first = at(0, 5.0);
+  Contestant second = at(6, 5.0);
+  competePaired(first, second, at(1, 5.0), at(5, 5.0), places_, metric_);
+  EXPECT_EQ(first.place, at(0, 5.0).place);
+  EXPECT_EQ(second.place, at(6, 5.0).place);
+}
+
+TEST_F(Crowding, SimpleCrowdingTakesTheSeatOfTheClosestOfItsDraw) {
+  std::vector<std::uint32_t> population;
+  for (std::size_t step = 0; step < 6; ++step) {
+    population.push_back(at(step, 1.0).place);
+  }
+  const std::uint32_t child = at(5, 1.0).place;
+  RandomEngine engine(31);
+  // With a draw of 200 of six, everybody is in it but for a chance of 6 (5/6)^200 = 1e-15.
+  EXPECT_EQ(crowdedOut(population, child, 200, places_, metric_, engine), 5U);
+  // With a draw of one, every seat is as likely.
+  std::vector<int> taken(6, 0);
+  for (int i = 0; i < 6000; ++i) {
+    ++taken[crowdedOut(population, child, 1, places_, metric_, engine)];
+  }
+  for (const int count : taken) {
+    EXPECT_NEAR(count, 1000, 4.0 * std::sqrt(1000.0));
+  }
+}
+
+}  // namespace
+}  // namespace concave_distance

@@ -1,0 +1,60 @@
+#include "concave_distance/search/genetic_parameters.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+
+#include "concave_distance/base/error.h"
+
+namespace concave_distance {
+namespace {
+
+TEST(GeneticParameters, DefaultsAreValid) {
+  EXPECT_NO_THROW(GeneticParameters{}.validate("defaults"));
+}
+
+TEST(GeneticParameters, AreRefusedByNameWithTheValueSeen) {
+  static constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  struct Case {
+    const char* parameter;
+    const char* seen;
+    std::function<void(GeneticParameters&)> spoil;
+  };
+  const std::vector<Case> cases{
+      {"population_size", "7", [](auto& p) { p.population_size = 7; }},
+      {"population_size", "0", [](auto& p) { p.population_size = 0; }},
+      {"crossover_probability", "1.5", [](auto& p) { p.crossover_probability = 1.5; }},
+      {"mutation_probability", "-0.1", [](auto& p) { p.mutation_probability = -0.1; }},
+      {"final_mutation_probability_factor", "nan",
+       [](auto& p) { p.final_mutation_probability_factor = kNan; }},
+      {"mutation_radius", "0", [](auto& p) { p.mutation_radius = 0.0; }},
+      {"shrinking_mutation_radius", "true", [](auto& p) { p.shrinking_mutation_radius = true; }},
+      {"sharing_radius", "-1", [](auto& p) { p.sharing_radius = -1.0; }},
+      {"sharing_exponent", "0", [](auto& p) { p.sharing_exponent = 0.0; }},
+      {"fitness_epsilon", "-0.5", [](auto& p) { p.fitness_epsilon = -0.5; }},
+      {"dynamic_niche_limit", "0", [](auto& p) { p.dynamic_niche_limit = 0; }},
+      {"mating_radius", "nan", [](auto& p) { p.mating_radius = kNan; }},
+      {"niche_radius", "0", [](auto& p) { p.niche_radius = 0.0; }},
+      {"crowding_factor", "0", [](auto& p) { p.crowding_factor = 0; }},
+      {"generation_gap", "0", [](auto& p) { p.generation_gap = 0.0; }},
+      {"generation_gap", "1.1", [](auto& p) { p.generation_gap = 1.1; }},
+      {"elite_count", "101", [](auto& p) { p.elite_count = 101; }},
+  };
+  for (const Case& c : cases) {
+    GeneticParameters parameters;
+    c.spoil(parameters);
+    try {
+      parameters.validate("scene.yaml, pair 3");
+      ADD_FAILURE() << c.parameter << " was accepted";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.where(), "scene.yaml, pair 3");
+      EXPECT_EQ(error.whatIsWrong().find(std::string(c.parameter) + " is " + c.seen), 0U)
+          << error.whatIsWrong();
+      EXPECT_FALSE(error.remedy().empty());
+    }
+  }
+}
+
+}  // namespace
+}  // namespace concave_distance

@@ -1,0 +1,182 @@
+#include "concave_distance/search/mating.h"
+
+#include <gtest/gtest.h>
+
+#include <rapidcheck/gtest.h>
+#include <algorithm>
+#include <cmath>
+
+#include "concave_distance/search/mutation.h"
+#include "search/search_scenes.h"
+
+namespace concave_distance {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+// Delta of three nodes adds up along a shortest path but for the rounding of the matrices.
+constexpr double kRounding = 0x1.0p-21;
+
+TEST(Mating, FitterParentKeepsTheLargerShare) {
+  EXPECT_DOUBLE_EQ(fitterShare(1.0, 3.0), 0.25);
+  EXPECT_DOUBLE_EQ(fitterShare(2.0, 2.0), 0.5);
+  EXPECT_DOUBLE_EQ(fitterShare(0.0, 2.0), 0.0);
+  EXPECT_DOUBLE_EQ(fitterShare(0.0, 0.0), 0.5) << "0 / 0 of eq. (2.15) is defined";
+}
+
+struct MatingCase {
+  test::PairScene scene;
+  PairObjective objective;
+  PairMetric metric;
+  explicit MatingCase(test::PairScene made)
+      : scene(std::move(made)), objective(*scene.a, *scene.b, scene.a_from_b), metric(*scene.a, *scene.b) {}
+};
+
+TrialPoint drawPoint(const PairObjective& objective, RandomEngine& engine) {
+  SearchCost cost;
+  const TrialPoint point = randomTrialPoint(objective, engine);
+  return objective.evaluate(point.node_a, point.node_b, cost);
+}
+
+RC_GTEST_PROP(MeshMating, ChildrenLieOnShortestPathsWithinTheWeightedRadii, ()) {
+  static MatingCase with_matrices(test::facingCombs());
+  static MatingCase on_demand(test::facingCombs(0.1, 0));
+  MatingCase& c = **rc::gen::element(&with_matrices, &on_demand);
+  RandomEngine engine(*rc::gen::arbitrary<std::uint64_t>());
+  const TrialPoint x = drawPoint(c.objective, engine);
+  const TrialPoint y = drawPoint(c.objective, engine);
+  const auto [first, second] = mate(MatingMethod::Mesh, c.objective, x, y, c.metric, kInfinity, engine);
+  const TrialPoint& fitter = x < y ? x : y;
+  const TrialPoint& other = x < y ? y : x;
+  const double share = fitterShare(fitter.squared_distance, other.squared_distance);
+  const auto check = [&](MeshMetricQuery& query, NodeIndex from, NodeIndex to, NodeIndex child_1,
+                         NodeIndex child_2) {
+    const double length = query.distanceWithin(from, to, kInfinity);
+    for (const NodeIndex child : {child_1, child_2}) {
+      const double way =
+          query.distanceWithin(from, child, kInfinity) + query.distanceWithin(child, to, kInfinity);
+      RC_ASSERT(std::abs(way - length) <= kRounding * length);
+    }
+    RC_ASSERT(query.distanceWithin(from, child_1, kInfinity) <= share * length + kRounding * length);
+    RC_ASSERT(query.distanceWithin(to, child_2, kInfinity) <= (1.0 - share) * length + kRounding * length);
+  };
+  check(c.metric.onA(), fitter.node_a, other.node_a, first.node_a, second.node_a);
+  check(c.metric.onB(), fitter.node_b, other.node_b, first.node_b, second.node_b);
+}
+
+TEST(MeshMating, TheTwoChildrenTogetherReachTheWholePath) {
+  MatingCase c(test::hookAndStairs());
+  RandomEngine engine(11);
+  SearchCost cost;
+  const TrialPoint x = c.objective.evaluate(NodeIndex{0}, NodeIndex{0}, cost);
+  const TrialPoint y = c.objective.evaluate(NodeIndex{c.scene.a->graph().nodeCount() - 1},
+                                            NodeIndex{c.scene.b->graph().nodeCount() - 1}, cost);
+  std::vector<NodeIndex> path;
+  c.metric.onA().shortestPath(std::min(x, y).node_a, std::max(x, y).node_a, path);
+  ASSERT_GE(path.size(), 5U);
+  std::vector<bool> reached(path.size(), false);
+  for (int i = 0; i < 5000; ++i) {
+    const auto [first, second] = mate(MatingMethod::Mesh, c.objective, x, y, c.metric, kInfinity, engine);
+    for (const NodeIndex child : {first.node_a, second.node_a}) {
+      const auto found = std::find(path.begin(), path.end(), child);
+      if (found != path.end()) {
+        reached[static_cast<std::size_t>(found - path.begin())] = true;
+      }
+    }
+  }
+  // There may be several shortest paths; what is walked from either end covers at least two thirds of this.
+  EXPECT_GE(std::count(reached.begin(), reached.end(), true),
+            static_cast<std::ptrdiff_t>(2 * path.size() / 3));
+}
+
+TEST(MeshMating, ParentsOnDifferentShellsMateByCopying) {
+  MatingCase c(test::shellsAndShells());
+  const NodeGraph& graph_a = c.scene.a->graph();
+  const NodeGraph& graph_b = c.scene.b->graph();
+  ASSERT_GT(graph_a.shell_count, 1U);
+  SearchCost cost;
+  const TrialPoint x = c.objective.evaluate(NodeIndex{0}, NodeIndex{0}, cost);
+  const auto other_shell = [](const NodeGraph& graph) {
+    const auto found = std::find(graph.shell.begin(), graph.shell.end(), 1U);
+    return NodeIndex{static_cast<std::size_t>(found - graph.shell.begin())};
+  };
+  const TrialPoint y = c.objective.evaluate(other_shell(graph_a), other_shell(graph_b), cost);
+  const TrialPoint& fitter = std::min(x, y);
+  const TrialPoint& other = std::max(x, y);
+  RandomEngine engine(12);
+  for (int i = 0; i < 20; ++i) {
+    const auto [first, second] = mate(MatingMethod::Mesh, c.objective, x, y, c.metric, kInfinity, engine);
+    EXPECT_TRUE(samePlace(first, fitter));
+    EXPECT_TRUE(samePlace(second, other));
+  }
+}
+
+TEST(MeshMating, BeyondTheMatricesParentsFartherThanTheBoundMateByCopying) {
+  MatingCase c(test::facingCombs(0.1, 0));
+  RandomEngine engine(13);
+  int copied = 0;
+  for (int i = 0; i < 100; ++i) {
+    const TrialPoint x = drawPoint(c.objective, engine);
+    const TrialPoint y = drawPoint(c.objective, engine);
+    const auto [first, second] = mate(MatingMethod::Mesh, c.objective, x, y, c.metric, 0.2, engine);
+    if (!std::isfinite(c.metric.onA().distanceWithin(x.node_a, y.node_a, 0.2))) {
+      EXPECT_EQ(first.node_a, std::min(x, y).node_a);
+      EXPECT_EQ(second.node_a, std::max(x, y).node_a);
+      ++copied;
+    }
+  }
+  EXPECT_GT(copied, 50);
+}
+
+RC_GTEST_PROP(PhenotypicMating, ChildrenAreTheNodesNearestToTheLineBetweenTheParents, ()) {
+  static MatingCase c(test::facingCombs());
+  const std::uint64_t seed = *rc::gen::arbitrary<std::uint64_t>();
+  RandomEngine engine(seed);
+  const TrialPoint x = drawPoint(c.objective, engine);
+  const TrialPoint y = drawPoint(c.objective, engine);
+  const auto [first, second] = mate(MatingMethod::Phenotypic, c.objective, x, y, c.metric, kInfinity, engine);
+  const NodeGraph& graph = c.scene.a->graph();
+  const Eigen::Vector3d from = graph.positions[std::min(x, y).node_a.value];
+  const Eigen::Vector3d way = graph.positions[std::max(x, y).node_a.value] - from;
+  for (const NodeIndex child : {first.node_a, second.node_a}) {
+    // Some point of the segment has this node as its nearest: no other is nearer to the child's foot on it.
+    bool is_nearest_somewhere = false;
+    for (int i = 0; i <= 400 && !is_nearest_somewhere; ++i) {
+      const Eigen::Vector3d point = from + i / 400.0 * way;
+      const double reached = (graph.positions[child.value] - point).norm();
+      is_nearest_somewhere =
+          std::all_of(graph.positions.begin(), graph.positions.end(), [&](const Eigen::Vector3d& p) {
+            return (p - point).norm() >= reached - way.norm() / 400.0;  // points between the samples
+          });
+    }
+    RC_ASSERT(is_nearest_somewhere);
+  }
+}
+
+RC_GTEST_PROP(GenotypicMating, ChildrenHaveIndicesBetweenTheParents, ()) {
+  static MatingCase c(test::facingCombs());
+  RandomEngine engine(*rc::gen::arbitrary<std::uint64_t>());
+  const TrialPoint x = drawPoint(c.objective, engine);
+  const TrialPoint y = drawPoint(c.objective, engine);
+  const auto [first, second] = mate(MatingMethod::Genotypic, c.objective, x, y, c.metric, kInfinity, engine);
+  for (const TrialPoint& child : {first, second}) {
+    RC_ASSERT(std::min(x.node_a, y.node_a).value <= child.node_a.value);
+    RC_ASSERT(std::max(x.node_a, y.node_a).value >= child.node_a.value);
+    RC_ASSERT(std::min(x.node_b, y.node_b).value <= child.node_b.value);
+    RC_ASSERT(std::max(x.node_b, y.node_b).value >= child.node_b.value);
+  }
+}
+
+TEST(Mating, ParentsOnOnePlaceHaveTheirChildrenThere) {
+  MatingCase c(test::facingCombs());
+  RandomEngine engine(14);
+  const TrialPoint x = drawPoint(c.objective, engine);
+  for (const MatingMethod method : {MatingMethod::Mesh, MatingMethod::Phenotypic, MatingMethod::Genotypic}) {
+    const auto [first, second] = mate(method, c.objective, x, x, c.metric, kInfinity, engine);
+    EXPECT_TRUE(samePlace(first, x));
+    EXPECT_TRUE(samePlace(second, x));
+    EXPECT_TRUE(std::isnan(first.squared_distance)) << "a child's distance is not computed yet";
+  }
+}
+
+}  // namespace
+}  // namespace concave_distance

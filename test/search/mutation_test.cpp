@@ -1,0 +1,112 @@
+#include "concave_distance/search/mutation.h"
+
+#include <gtest/gtest.h>
+
+#include <rapidcheck/gtest.h>
+#include <cmath>
+
+#include "search/search_scenes.h"
+
+namespace concave_distance {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+RC_GTEST_PROP(Mutation, MovesWithinTheRadiusOnTheShell, ()) {
+  static const test::PairScene kMatrices = test::facingCombs();
+  static const test::PairScene kOnDemand = test::facingCombs(0.1, 0);
+  const test::PairScene& scene = **rc::gen::element(&kMatrices, &kOnDemand);
+  PairMetric metric(*scene.a, *scene.b);
+  const PairObjective objective(*scene.a, *scene.b, scene.a_from_b);
+  RandomEngine engine(*rc::gen::arbitrary<std::uint64_t>());
+  const double radius = *rc::gen::element(0.15, 0.3, 0.6);
+  for (int i = 0; i < 20; ++i) {
+    const TrialPoint point = randomTrialPoint(objective, engine);
+    const TrialPoint moved = mutate(point, radius, metric, engine);
+    RC_ASSERT(metric.onA().distanceWithin(point.node_a, moved.node_a, kInfinity) <= radius * (1.0 + 1e-6));
+    RC_ASSERT(metric.onB().distanceWithin(point.node_b, moved.node_b, kInfinity) <= radius * (1.0 + 1e-6));
+    RC_ASSERT(std::isnan(moved.squared_distance));
+  }
+}
+
+TEST(Mutation, MovesOneGeneOrTheOtherOrBoth) {
+  const test::PairScene scene = test::facingCombs();
+  const PairObjective objective(*scene.a, *scene.b, scene.a_from_b);
+  PairMetric metric(*scene.a, *scene.b);
+  RandomEngine engine(21);
+  int only_a = 0;
+  int only_b = 0;
+  int both = 0;
+  constexpr int kMutations = 3000;
+  for (int i = 0; i < kMutations; ++i) {
+    const TrialPoint point = randomTrialPoint(objective, engine);
+    const TrialPoint moved = mutate(point, kInfinity, metric, engine);
+    const bool a = moved.node_a != point.node_a;
+    const bool b = moved.node_b != point.node_b;
+    only_a += a && !b ? 1 : 0;
+    only_b += b && !a ? 1 : 0;
+    both += a && b ? 1 : 0;
+  }
+  // A move shorter than the first edge stays: the three shares are a little less than a third.
+  for (const int count : {only_a, only_b, both}) {
+    EXPECT_GT(count, kMutations / 4);
+    EXPECT_LT(count, kMutations / 3 + kMutations / 10);
+  }
+}
+
+TEST(Mutation, JumpsToOtherShellsWhateverTheRadius) {
+  const test::PairScene scene = test::shellsAndShells();
+  const PairObjective objective(*scene.a, *scene.b, scene.a_from_b);
+  PairMetric metric(*scene.a, *scene.b);
+  const std::vector<std::uint32_t>& shell = scene.a->graph().shell;
+  RandomEngine engine(22);
+  int jumps = 0;
+  for (int i = 0; i < 500; ++i) {
+    const TrialPoint point = randomTrialPoint(objective, engine);
+    const TrialPoint moved = mutate(point, 0.2, metric, engine);
+    jumps += shell[moved.node_a.value] != shell[point.node_a.value] ? 1 : 0;
+  }
+  EXPECT_GT(jumps, 50);
+}
+
+TEST(Mutation, ReachesTheWholeBodyWithoutARadius) {
+  const test::PairScene scene = test::hookAndStairs(0.3);
+  const PairObjective objective(*scene.a, *scene.b, scene.a_from_b);
+  PairMetric metric(*scene.a, *scene.b);
+  RandomEngine engine(23);
+  std::vector<bool> reached(scene.b->graph().nodeCount(), false);
+  for (int i = 0; i < 20000; ++i) {
+    reached[mutate({NodeIndex{0}, NodeIndex{0}, 0.0}, kInfinity, metric, engine).node_b.value] = true;
+  }
+  EXPECT_EQ(std::count(reached.begin(), reached.end(), false), 0);
+}
+
+TEST(Mutation, RadiusShrinksToLessThanAHundredthOverTheRun) {
+  GeneticParameters parameters;
+  parameters.max_generations = 20;
+  EXPECT_EQ(mutationRadius(parameters, 7), kInfinity);
+  parameters.mutation_radius = 0.4;
+  EXPECT_EQ(mutationRadius(parameters, 20), 0.4);
+  parameters.shrinking_mutation_radius = true;
+  EXPECT_DOUBLE_EQ(mutationRadius(parameters, 0), 0.4);
+  EXPECT_DOUBLE_EQ(mutationRadius(parameters, 10), 0.4 * std::exp(-2.5));
+  EXPECT_LT(mutationRadius(parameters, 20), 0.004);
+}
+
+TEST(Mutation, ProbabilityRunsLinearlyToItsFinalFactor) {
+  GeneticParameters parameters;
+  parameters.population_size = 50;
+  parameters.max_generations = 11;
+  EXPECT_DOUBLE_EQ(mutationProbability(parameters, 1), 0.02) << "Table 5.22: 1 / N_pop";
+  EXPECT_DOUBLE_EQ(mutationProbability(parameters, 11), 0.02);
+  parameters.mutation_probability = 0.1;
+  parameters.final_mutation_probability_factor = 0.2;
+  EXPECT_DOUBLE_EQ(mutationProbability(parameters, 1), 0.1);
+  EXPECT_DOUBLE_EQ(mutationProbability(parameters, 6), 0.06);
+  EXPECT_DOUBLE_EQ(mutationProbability(parameters, 11), 0.02);
+  parameters.final_mutation_probability_factor = 100.0;
+  EXPECT_DOUBLE_EQ(mutationProbability(parameters, 11), 1.0) << "a probability at most";
+}
+
+}  // namespace
+}  // namespace concave_distance

@@ -1,0 +1,248 @@
+#include <gtest/gtest.h>
+
+#include <rapidcheck/gtest.h>
+#include <algorithm>
+#include <limits>
+
+#include "concave_distance/search/convergence.h"
+#include "concave_distance/search/local_descent.h"
+#include "concave_distance/search/mating_restriction.h"
+#include "concave_distance/search/mutation.h"
+#include "concave_distance/search/niche_identification.h"
+#include "concave_distance/search/place_table.h"
+#include "concave_distance/search/selection.h"
+#include "search/search_scenes.h"
+
+namespace concave_distance {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+struct Niches {
+  test::PairScene scene;
+  PairObjective objective;
+  PairMetric metric;
+  explicit Niches(test::PairScene made)
+      : scene(std::move(made)), objective(*scene.a, *scene.b, scene.a_from_b), metric(*scene.a, *scene.b) {}
+
+  std::vector<TrialPoint> drawPopulation(std::uint32_t size, RandomEngine& engine) {
+    std::vector<TrialPoint> population;
+    std::vector<std::uint64_t> trail;
+    SearchCost cost;
+    while (population.size() < size) {
+      const TrialPoint point = randomTrialPoint(objective, engine);
+      population.push_back(uniformUnit(engine) < 0.5 ? descend(objective, point, nullptr, trail, cost)
+                                                     : objective.evaluate(point.node_a, point.node_b, cost));
+    }
+    return population;
+  }
+};
+
+RC_GTEST_PROP(PairMetric, AddsBothBodiesAndIsAMetric, ()) {
+  static Niches combs(test::facingCombs());
+  static Niches on_demand(test::facingCombs(0.1, 0));
+  RandomEngine engine(*rc::gen::arbitrary<std::uint64_t>());
+  const auto points = combs.drawPopulation(3, engine);
+  const auto delta = [&](std::size_t i, std::size_t j) {
+    return combs.metric.distanceWithin(points[i], points[j], kInfinity);
+  };
+  RC_ASSERT(delta(0, 1) ==
+            combs.metric.onA().distanceWithin(points[0].node_a, points[1].node_a, kInfinity) +
+                combs.metric.onB().distanceWithin(points[0].node_b, points[1].node_b, kInfinity));
+  RC_ASSERT(delta(0, 1) == delta(1, 0));
+  RC_ASSERT(delta(0, 2) <= (delta(0, 1) + delta(1, 2)) * (1.0 + 0x1.0p-22));
+  RC_ASSERT(delta(0, 0) == 0.0);
+  const double bound = *rc::gen::element(0.3, 1.0, delta(0, 1));
+  RC_ASSERT(combs.metric.distanceWithin(points[0], points[1], bound) ==
+            (delta(0, 1) <= bound ? delta(0, 1) : kInfinity));
+  RC_ASSERT(on_demand.metric.distanceWithin(points[0], points[1], bound) ==
+            (delta(0, 1) <= bound ? delta(0, 1) : kInfinity));
+}
+
+RC_GTEST_PROP(NicheIdentification, IsBestStripRepeat, ()) {
+  static Niches combs(test::facingCombs());
+  static Niches shells(test::shellsAndShells());
+  Niches& niches = **rc::gen::element(&combs, &shells);
+  RandomEngine engine(*rc::gen::arbitrary<std::uint64_t>());
+  const auto population = niches.drawPopulation(40, engine);
+  const double radius = *rc::gen::element(0.1, 0.4, 1.0, 3.0);
+
+  std::vector<IdentifiedNiche> expected;
+  std::vector<TrialPoint> left = population;
+  while (!left.empty()) {
+    const TrialPoint best = *std::min_element(left.begin(), left.end());
+    const auto stays = std::stable_partition(left.begin(), left.end(), [&](const TrialPoint& point) {
+      return niches.metric.distanceWithin(best, point, radius) > radius;
+    });
+    expected.push_back({best, static_cast<std::uint32_t>(left.end() - stays)});
+    left.erase(stays, left.end());
+  }
+
+  std::vector<IdentifiedNiche> found;
+  std::vector<std::uint32_t> order;
+  identifyNiches(population, radius, niches.metric, found, order);
+  RC_ASSERT(found.size() == expected.size());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    RC_ASSERT(samePlace(found[i].best, expected[i].best));
+    RC_ASSERT(found[i].member_count == expected[i].member_count);
+  }
+
+  PlaceTable places;
+  places.reset(kInfinity);
+  std::vector<std::uint32_t> where;
+  for (const TrialPoint& point : population) {
+    where.push_back(places.placeOf(point));
+  }
+  Census census;
+  census.take(where, places.size());
+  std::vector<std::uint32_t> peaks;
+  nichePeaks(census, radius, places, niches.metric, order, peaks);
+  RC_ASSERT(peaks.size() == found.size());
+  for (std::size_t i = 0; i < peaks.size(); ++i) {
+    RC_ASSERT(samePlace(places.point(peaks[i]), found[i].best));
+  }
+}
+
+TEST(PlaceTable, NumbersDistinctTrialPointsAndMeasuresThemOnce) {
+  Niches niches(test::facingCombs());
+  RandomEngine engine(51);
+  const auto population = niches.drawPopulation(200, engine);
+  PlaceTable places;
+  for (int run = 0; run < 2; ++run) {  // again after a reset
+    places.reset(0.8);
+    std::vector<std::uint32_t> where;
+    for (const TrialPoint& point : population) {
+      where.push_back(places.placeOf(point));
+    }
+    for (std::size_t i = 0; i < population.size(); ++i) {
+      for (std::size_t j = 0; j < population.size(); ++j) {
+        ASSERT_EQ(where[i] == where[j], samePlace(population[i], population[j]));
+        const double exact = niches.metric.distanceWithin(population[i], population[j], 0.8);
+        ASSERT_EQ(places.delta(where[i], where[j], niches.metric),
+                  static_cast<double>(static_cast<float>(exact)));
+      }
+    }
+  }
+}
+
+TEST(PlaceTable, MeasuresBeyondThePlacesItKeepsDistancesOf) {
+  Niches niches(test::facingCombs());
+  PlaceTable places;
+  places.reset(kInfinity);
+  const auto nodes = static_cast<std::uint32_t>(niches.scene.a->graph().nodeCount());
+  for (std::uint32_t i = 0; i < 1500; ++i) {
+    places.placeOf({NodeIndex{i % nodes}, NodeIndex{i / nodes}, 0.0});
+  }
+  ASSERT_EQ(places.size(), 1500U);
+  const double exact = niches.metric.distanceWithin(places.point(3), places.point(1400), kInfinity);
+  EXPECT_EQ(places.delta(3, 1400, niches.metric), static_cast<double>(static_cast<float>(exact)));
+  EXPECT_EQ(places.delta(1400, 3, niches.metric), places.delta(3, 1400, niches.metric));
+}
+
+TEST(Census, CountsWhoStandsWhere) {
+  Census census;
+  census.take({4, 2, 4, 4, 0}, 5);
+  EXPECT_EQ(census.places, (std::vector<std::uint32_t>{4, 2, 0}));
+  EXPECT_EQ(census.counts, (std::vector<std::uint32_t>{3, 1, 1}));
+  census.take({1}, 3);  // a new run with fewer places
+  EXPECT_EQ(census.entry_of_place, (std::vector<std::uint32_t>{Census::kNone, 0, Census::kNone}));
+}
+
+class MatingRestriction : public testing::Test {
+ protected:
+  MatingRestriction() : niches_(test::facingCombs()) {
+    RandomEngine engine(61);
+    const auto population = niches_.drawPopulation(40, engine);
+    places_.reset(kInfinity);
+    for (const TrialPoint& point : population) {
+      where_.push_back(places_.placeOf(point));
+    }
+  }
+
+  bool near(std::uint32_t i, std::uint32_t j) {
+    return places_.delta(where_[i], where_[j], niches_.metric) <= kRadius;
+  }
+
+  static constexpr double kRadius = 0.5;
+  Niches niches_;
+  PlaceTable places_;
+  std::vector<std::uint32_t> where_;
+};
+
+TEST_F(MatingRestriction, OnlyRearrangesThePoolAndKeepsFirstParentsTheirSeats) {
+  RandomEngine engine(62);
+  for (int run = 0; run < 100; ++run) {
+    std::vector<std::uint32_t> pool(40);
+    for (std::uint32_t i = 0; i < 40; ++i) {
+      pool[i] = i;
+    }
+    shuffle(pool, engine);
+    const std::vector<std::uint32_t> before = pool;
+    restrictMating(pool, where_, kRadius, places_, niches_.metric, engine);
+    EXPECT_EQ(pool[0], before[0]);
+    if (near(before[0], before[1])) {
+      EXPECT_EQ(pool[1], before[1]) << "a mate within the radius stays";
+    }
+    std::sort(pool.begin(), pool.end());
+    for (std::uint32_t i = 0; i < 40; ++i) {
+      ASSERT_EQ(pool[i], i);
+    }
+  }
+}
+
+TEST_F(MatingRestriction, MatesMoreNeighboursThanChanceAndStillSomeStrangers) {
+  RandomEngine engine(63);
+  int near_by_chance = 0;
+  int near_restricted = 0;
+  int couples = 0;
+  for (int run = 0; run < 200; ++run) {
+    std::vector<std::uint32_t> pool(40);
+    for (std::uint32_t i = 0; i < 40; ++i) {
+      pool[i] = i;
+    }
+    shuffle(pool, engine);
+    const auto countNear = [&] {
+      int count = 0;
+      for (std::size_t i = 0; i < pool.size(); i += 2) {
+        count += near(pool[i], pool[i + 1]) ? 1 : 0;
+      }
+      return count;
+    };
+    near_by_chance += countNear();
+    restrictMating(pool, where_, kRadius, places_, niches_.metric, engine);
+    near_restricted += countNear();
+    couples += 20;
+  }
+  EXPECT_GT(near_restricted, near_by_chance * 3 / 2);
+  EXPECT_LT(near_restricted, couples) << "two tries, then any";
+}
+
+TEST(Convergence, ComesAfterThatManyGenerationsWithoutANewBestOrNiche) {
+  Niches niches(test::facingCombs());
+  RandomEngine engine(64);
+  const auto population = niches.drawPopulation(10, engine);
+  PlaceTable places;
+  places.reset(kInfinity);
+  std::vector<std::uint32_t> where;
+  for (const TrialPoint& point : population) {
+    where.push_back(places.placeOf(point));
+  }
+  Census census;
+  census.take(where, places.size());
+  ConvergenceCheck check;
+  check.reset(3);
+  EXPECT_FALSE(check.update(census, 0.3, places, niches.metric));
+  EXPECT_FALSE(check.update(census, 0.3, places, niches.metric));
+  EXPECT_FALSE(check.update(census, 0.3, places, niches.metric));
+  EXPECT_TRUE(check.update(census, 0.3, places, niches.metric)) << "the third that is like the one before";
+  Census fewer;
+  fewer.take({where[0]}, places.size());
+  EXPECT_FALSE(check.update(fewer, 0.3, places, niches.metric)) << "niches have gone: it counts anew";
+  check.reset(0);
+  for (int i = 0; i < 10; ++i) {
+    EXPECT_FALSE(check.update(census, 0.3, places, niches.metric)) << "0: never";
+  }
+}
+
+}  // namespace
+}  // namespace concave_distance

@@ -1,0 +1,98 @@
+#include "concave_distance/search/replacement.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+namespace concave_distance {
+namespace {
+
+TEST(GenerationGap, TellsHowManyOffspringTakeASeat) {
+  EXPECT_EQ(offspringCount(100, 1.0), 100U);
+  EXPECT_EQ(offspringCount(100, 0.5), 50U);
+  EXPECT_EQ(offspringCount(100, 0.31), 32U) << "even, because couples mate: 15.5 couples round to 16";
+  EXPECT_EQ(offspringCount(100, 0.001), 2U) << "one couple at least";
+  EXPECT_EQ(offspringCount(2, 1.0), 2U);
+}
+
+TEST(GenerationGap, SeatsAreDistinctAndEachAsLikely) {
+  RandomEngine engine(41);
+  std::vector<std::uint32_t> seats;
+  drawSeats(10, 10, engine, seats);
+  EXPECT_EQ(std::set<std::uint32_t>(seats.begin(), seats.end()).size(), 10U);
+  std::vector<int> drawn(10, 0);
+  constexpr int kRuns = 10000;
+  for (int run = 0; run < kRuns; ++run) {
+    drawSeats(10, 4, engine, seats);
+    ASSERT_EQ(seats.size(), 4U);
+    ASSERT_EQ(std::set<std::uint32_t>(seats.begin(), seats.end()).size(), 4U);
+    for (const std::uint32_t seat : seats) {
+      ++drawn[seat];
+    }
+  }
+  for (const int count : drawn) {
+    EXPECT_NEAR(count, 0.4 * kRuns, 4.0 * std::sqrt(kRuns * 0.4 * 0.6));
+  }
+}
+
+/// A population over places with the squared distances 0, 1, 2, ...
+struct Population {
+  PlaceTable places;
+  std::vector<TrialPoint> points;
+  std::vector<std::uint32_t> where;
+  Census census;
+
+  explicit Population(const std::vector<std::uint32_t>& ranks, std::uint32_t place_count = 10) {
+    places.reset(std::numeric_limits<double>::infinity());
+    for (std::uint32_t i = 0; i < place_count; ++i) {
+      places.placeOf({NodeIndex{i}, NodeIndex{i}, static_cast<double>(i)});
+    }
+    for (const std::uint32_t rank : ranks) {
+      where.push_back(rank);
+      points.push_back(places.point(rank));
+    }
+    census.take(where, places.size());
+  }
+};
+
+TEST(Elites, AreTheBestDistinctPlacesInOrder) {
+  const Population population({7, 3, 3, 5, 9, 3});
+  std::vector<std::uint32_t> elites;
+  findElites(population.census, population.places, 3, elites);
+  EXPECT_EQ(elites, (std::vector<std::uint32_t>{3, 5, 7}));
+  findElites(population.census, population.places, 9, elites);
+  EXPECT_EQ(elites.size(), 4U) << "there are only four places";
+  findElites(population.census, population.places, 0, elites);
+  EXPECT_TRUE(elites.empty());
+}
+
+TEST(Elites, TakeTheirSeatFromTheMostCrowdedPlace) {
+  Population population({4, 6, 6, 6, 8, 9});
+  restoreElites({2, 4}, population.places, population.census, population.points, population.where);
+  EXPECT_EQ(population.where, (std::vector<std::uint32_t>{4, 2, 6, 6, 8, 9}))
+      << "4 is still there, 2 comes back, and no place is lost for it";
+  for (std::size_t i = 0; i < population.where.size(); ++i) {
+    EXPECT_TRUE(samePlace(population.points[i], population.places.point(population.where[i])));
+  }
+  EXPECT_EQ(population.census.counts[population.census.entry_of_place[6]], 2U) << "the census follows";
+  EXPECT_EQ(population.census.counts[population.census.entry_of_place[2]], 1U);
+}
+
+TEST(Elites, TakeTheSeatOfTheWorstWhenNobodySharesAPlace) {
+  Population population({4, 6, 9, 8});
+  restoreElites({1, 9}, population.places, population.census, population.points, population.where);
+  EXPECT_EQ(population.where, (std::vector<std::uint32_t>{4, 6, 9, 1})) << "9 is an elite itself";
+}
+
+TEST(Elites, MoreThanSeatsKeepTheBest) {
+  Population population({5, 6});
+  restoreElites({0, 1, 2, 3}, population.places, population.census, population.points, population.where);
+  EXPECT_EQ(std::set<std::uint32_t>(population.where.begin(), population.where.end()),
+            (std::set<std::uint32_t>{0, 1}));
+}
+
+}  // namespace
+}  // namespace concave_distance

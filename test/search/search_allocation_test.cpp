@@ -1,0 +1,97 @@
+// A program of its own: it replaces the global operator new to count.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+#include "concave_distance/search/automatic_radii.h"
+#include "concave_distance/search/genetic_search.h"
+#include "concave_distance/search/niche_identification.h"
+#include "search/search_scenes.h"
+
+namespace {
+std::atomic<std::size_t> allocations{0};
+}
+
+void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* memory = std::malloc(size == 0 ? 1 : size)) {
+    return memory;
+  }
+  throw std::bad_alloc();
+}
+void* operator new(std::size_t size, std::align_val_t alignment) {
+  ++allocations;
+  const auto step = static_cast<std::size_t>(alignment);
+  if (void* memory = std::aligned_alloc(step, (size + step - 1) / step * step)) {
+    return memory;
+  }
+  throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::align_val_t) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
+  std::free(memory);
+}
+
+namespace concave_distance {
+namespace {
+
+TEST(SearchAllocation, AWarmRunAllocatesNothing) {
+  ASSERT_GT(allocations.load(), 0U) << "the counter is not in place";
+  for (const std::size_t matrix_node_limit : {std::size_t{65535}, std::size_t{0}}) {
+    const test::PairScene scene = test::facingCombs(0.1, matrix_node_limit);
+    const PairObjective objective(*scene.a, *scene.b, scene.a_from_b);
+    SearchWorkspace workspace(*scene.a, *scene.b);
+    const NicheRadii radii = automaticRadii(*scene.a, *scene.b, {});
+    const std::vector<TrialPoint> inherited(10);
+    for (const NichingMethod niching :
+         {NichingMethod::None, NichingMethod::Sharing, NichingMethod::DynamicSharing,
+          NichingMethod::DeterministicCrowding, NichingMethod::DeterministicCrowdingWithSelection,
+          NichingMethod::SimpleCrowding}) {
+      for (const SelectionMethod selection :
+           {SelectionMethod::StochasticUniversalSampling, SelectionMethod::Roulette}) {
+        GeneticParameters parameters;
+        parameters.population_size = 60;
+        parameters.max_generations = 10;
+        parameters.niching = niching;
+        parameters.selection = selection;
+        parameters.convergence_generations = 50;
+        const auto solve = [&] {
+          workspace.basins.clear();
+          RandomEngine engine(99);
+          geneticSearch(objective, parameters, radii, inherited, engine, workspace);
+          identifyNiches(workspace.population, radii.niche, workspace.metric, workspace.niches,
+                         workspace.order);
+        };
+        solve();
+        const std::size_t before = allocations.load();
+        solve();
+        EXPECT_EQ(allocations.load() - before, 0U)
+            << "niching " << static_cast<int>(niching) << ", selection " << static_cast<int>(selection);
+      }
+    }
+  }
+}
+
+TEST(SearchAllocation, WorkspaceTellsItsMemory) {
+  const test::PairScene scene = test::facingCombs();
+  const PairObjective objective(*scene.a, *scene.b, scene.a_from_b);
+  SearchWorkspace workspace(*scene.a, *scene.b);
+  const std::size_t empty = workspace.memoryBytes();
+  RandomEngine engine(1);
+  geneticSearch(objective, {}, {0.4, 0.5, 0.4}, {}, engine, workspace);
+  EXPECT_GT(workspace.memoryBytes(), empty + 100 * sizeof(TrialPoint));
+  EXPECT_LT(workspace.memoryBytes(), 1'000'000U);
+}
+
+}  // namespace
+}  // namespace concave_distance

@@ -1,0 +1,136 @@
+#include "concave_distance/search/sharing.h"
+
+#include <gtest/gtest.h>
+
+#include <rapidcheck/gtest.h>
+#include <cmath>
+
+#include "concave_distance/search/mutation.h"
+#include "search/search_scenes.h"
+
+namespace concave_distance {
+namespace {
+
+TEST(Sharing, ValueIsThePowerLawOfTheThesis) {
+  EXPECT_DOUBLE_EQ(sharingValue(0.0, 0.6, 1.0), 1.0);
+  EXPECT_DOUBLE_EQ(sharingValue(0.3, 0.6, 1.0), 0.5);
+  EXPECT_DOUBLE_EQ(sharingValue(0.3, 0.6, 2.0), 0.75);
+  EXPECT_DOUBLE_EQ(sharingValue(0.3, 0.6, 0.5), 1.0 - std::sqrt(0.5));
+  EXPECT_DOUBLE_EQ(sharingValue(0.6, 0.6, 1.0), 0.0) << "the radius itself is outside";
+  EXPECT_DOUBLE_EQ(sharingValue(std::numeric_limits<double>::infinity(), 0.6, 1.0), 0.0) << "other shells";
+}
+
+TEST(Sharing, FitnessGrowsAsTheDistanceFalls) {
+  EXPECT_DOUBLE_EQ(potentialFitness(0.25, 0.0), 4.0);
+  EXPECT_DOUBLE_EQ(potentialFitness(0.25, 0.5), 2.0);
+  EXPECT_GT(potentialFitness(0.1, 0.05), potentialFitness(0.11, 0.05));
+  EXPECT_TRUE(std::isfinite(1000.0 * potentialFitness(0.0, 0.0)));
+  EXPECT_GT(potentialFitness(0.0, 0.0), potentialFitness(1e-12, 0.0));
+}
+
+// Table 5.19, alpha_s = 10, has 46.9/16.4/13.1/7.6/4.1 points in the first five niches of battery and
+// fixture; (4.4) with this potential fitness and the node distances of Table 4.6 predicts them.
+TEST(Sharing, FitnessPredictsTheNichesOfTheThesis) {
+  const std::vector<double> distances{0.0757, 0.1336, 0.1499, 0.2039, 0.2953, 0.2971, 0.3731, 0.3938, 0.4026};
+  double sum = 0.0;
+  for (const double d : distances) {
+    sum += potentialFitness(d * d, 0.0);
+  }
+  const std::vector<double> predicted{51.1, 16.4, 13.0, 7.0, 3.4};  // THESIS.md
+  for (std::size_t i = 0; i < predicted.size(); ++i) {
+    EXPECT_NEAR(100.0 * potentialFitness(distances[i] * distances[i], 0.0) / sum, predicted[i], 0.1);
+  }
+}
+
+/// Individuals on few places, as after descents.
+struct Population {
+  test::PairScene scene = test::shellsAndShells();
+  PairObjective objective{*scene.a, *scene.b, scene.a_from_b};
+  PairMetric metric{*scene.a, *scene.b};
+  PlaceTable places;
+  std::vector<std::uint32_t> where;
+  Census census;
+
+  void fill(std::uint32_t individuals, std::uint32_t distinct, RandomEngine& engine) {
+    places.reset(std::numeric_limits<double>::infinity());
+    where.clear();
+    SearchCost cost;
+    std::vector<TrialPoint> points;
+    for (std::uint32_t i = 0; i < distinct; ++i) {
+      const TrialPoint point = randomTrialPoint(objective, engine);
+      points.push_back(objective.evaluate(point.node_a, point.node_b, cost));
+    }
+    for (std::uint32_t i = 0; i < individuals; ++i) {
+      where.push_back(places.placeOf(points[uniformIndex(engine, distinct)]));
+    }
+    census.take(where, places.size());
+  }
+
+  double delta(std::uint32_t i, std::uint32_t j) {
+    return metric.distanceWithin(places.point(where[i]), places.point(where[j]),
+                                 std::numeric_limits<double>::infinity());
+  }
+};
+
+RC_GTEST_PROP(Sharing, NicheCountsEqualTheSumOverAllIndividuals, ()) {
+  static Population population;
+  RandomEngine engine(*rc::gen::arbitrary<std::uint64_t>());
+  population.fill(60, *rc::gen::inRange(1U, 40U), engine);
+  const double radius = *rc::gen::element(0.1, 0.5, 2.0);
+  const double exponent = *rc::gen::element(0.3, 1.0, 3.0);
+  std::vector<double> counts;
+  nicheCounts(population.census, population.places, population.metric, radius, exponent, counts);
+  for (std::uint32_t i = 0; i < population.where.size(); ++i) {
+    double expected = 0.0;
+    for (std::uint32_t j = 0; j < population.where.size(); ++j) {
+      expected += sharingValue(population.delta(i, j), radius, exponent);
+    }
+    const double found = counts[population.census.entry_of_place[population.where[i]]];
+    RC_ASSERT(std::abs(found - expected) <= 1e-6 * expected);  // the table keeps distances as floats
+    RC_ASSERT(found >= 1.0);
+  }
+}
+
+RC_GTEST_PROP(DynamicSharing, NicheMembersCountEverybodyInTheirNiche, ()) {
+  static Population population;
+  RandomEngine engine(*rc::gen::arbitrary<std::uint64_t>());
+  population.fill(60, *rc::gen::inRange(1U, 40U), engine);
+  const double radius = *rc::gen::element(0.2, 0.7, 2.0);
+  DynamicNicheBuffers buffers;
+  std::vector<double> counts;
+  const std::uint32_t limit = *rc::gen::element(1U, 3U, 100U);
+  dynamicNicheCounts(population.census, population.places, population.metric, radius, 1.0, limit, buffers,
+                     counts);
+
+  // Miller and Shaw's procedure, individual by individual.
+  std::vector<std::uint32_t> by_fitness(population.where.size());
+  for (std::uint32_t i = 0; i < by_fitness.size(); ++i) {
+    by_fitness[i] = i;
+  }
+  std::sort(by_fitness.begin(), by_fitness.end(), [&](std::uint32_t l, std::uint32_t r) {
+    return population.places.point(population.where[l]) < population.places.point(population.where[r]);
+  });
+  std::vector<std::uint32_t> peaks;
+  std::vector<int> niche(population.where.size(), -1);
+  for (const std::uint32_t i : by_fitness) {
+    for (std::size_t k = 0; k < peaks.size() && niche[i] < 0; ++k) {
+      niche[i] = population.delta(i, peaks[k]) < radius ? static_cast<int>(k) : -1;
+    }
+    if (niche[i] < 0 && peaks.size() < limit) {
+      niche[i] = static_cast<int>(peaks.size());
+      peaks.push_back(i);
+    }
+  }
+  for (std::uint32_t i = 0; i < population.where.size(); ++i) {
+    double expected = 0.0;
+    for (std::uint32_t j = 0; j < population.where.size(); ++j) {
+      expected += niche[i] >= 0 ? (niche[j] == niche[i] ? 1.0 : 0.0)
+                                : sharingValue(population.delta(i, j), radius, 1.0);
+    }
+    const double found = counts[population.census.entry_of_place[population.where[i]]];
+    RC_ASSERT(std::abs(found - expected) <= 1e-6 * expected);
+  }
+}
+
+}  // namespace
+}  // namespace concave_distance
