@@ -31,7 +31,9 @@ std::optional<double> parseNumber(const std::string& text) {
   if (text == "-.inf" || text == "-.Inf" || text == "-.INF") {
     return -std::numeric_limits<double>::infinity();
   }
-  const char* first = text.data() + (text.front() == '+' ? 1 : 0);
+  // from_chars reads no plus sign.
+  const bool has_plus = text.size() > 1 && text[0] == '+' && text[1] != '-';
+  const char* first = text.data() + (has_plus ? 1 : 0);
   const char* last = text.data() + text.size();
   double value = 0.0;
   const auto [end, error] = std::from_chars(first, last, value);

@@ -1,8 +1,6 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <fstream>
-#include <iterator>
 
 #include "scene/scene_fixture.h"
 
@@ -329,11 +327,6 @@ TEST_F(RobotScene, RelativeMeshInAParameterIsAProblem) {
   EXPECT_TRUE(mentions(onlyProblem(collision("<mesh filename='foo.stl'/>")), "comes from no file"));
 }
 
-std::string textOf(const std::string& path) {
-  std::ifstream stream(path);
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
-
 std::string robotRefusal(const std::string& urdf) {
   try {
     loadRobotScene(urdf, "robot_description", SceneLoadOptions{});
@@ -345,7 +338,7 @@ std::string robotRefusal(const std::string& urdf) {
 
 TEST(BrokenUrdf, IsRefusedWithItsNameAndWhatUrdfdomSays) {
   const std::string folder = CONCAVE_DISTANCE_TEST_DATA "/invalid";
-  EXPECT_EQ(robotRefusal(textOf(folder + "/invalid.urdf")).substr(0, 75),
+  EXPECT_EQ(robotRefusal(test::contentOfFile(folder + "/invalid.urdf")).substr(0, 75),
             "robot_description: the URDF cannot be read; urdfdom says: Error document em");
   EXPECT_TRUE(mentions(robotRefusal(""), "urdfdom says"));
   EXPECT_TRUE(mentions(robotRefusal("<robot name='r'>\n<link name='a'>\n</robot>"),
@@ -362,7 +355,7 @@ TEST(BrokenUrdf, InvalidMeshFileIsAProblemAndNoError) {
   const std::string file = CONCAVE_DISTANCE_TEST_DATA "/invalid/invalid_mesh.urdf";
   SceneLoadOptions options;
   options.geometry = GeometrySource::Visual;
-  const Scene scene = loadRobotScene(textOf(file), file, options);
+  const Scene scene = loadRobotScene(test::contentOfFile(file), file, options);
   EXPECT_TRUE(scene.bodies.empty());
   ASSERT_EQ(scene.problems.size(), 1U);
   EXPECT_TRUE(mentions(scene.problems[0].message, "invalid_mesh.stl")) << scene.problems[0].message;

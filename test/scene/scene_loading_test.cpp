@@ -135,6 +135,40 @@ TEST_F(SceneLoading, AGridTooFineForAnyMachineIsAProblem) {
   ASSERT_EQ(scene.problems.size(), 1U);
 }
 
+/// The scenes and robots that this package brings along; matrices are left out, for time.
+SceneLoadOptions packageOptions() {
+  SceneLoadOptions options;
+  options.metric_memory_limit = 0;
+  options.package_locator = [](const std::string& package) {
+    return package == "concave_distance" ? std::string(CONCAVE_DISTANCE_SOURCE_DIR) : std::string();
+  };
+  return options;
+}
+
+TEST(SceneOfThePackage, RobotsLoadWithoutProblemsAndWatchAllButNeighbours) {
+  SceneLoadOptions options = packageOptions();
+  for (const std::string robot : {"wam", "kr5"}) {
+    const std::string file = CONCAVE_DISTANCE_SOURCE_DIR "/urdf/" + robot + ".urdf";
+    const Scene scene = loadRobotScene(test::contentOfFile(file), file, options);
+    EXPECT_TRUE(scene.problems.empty()) << scene.problems.front().message;
+    // A row of n links has n (n - 1) / 2 pairs, n - 1 of them neighbours.
+    const std::size_t n = robot == "wam" ? 8 : 7;
+    EXPECT_EQ(scene.bodies.size(), n);
+    EXPECT_EQ(scene.pairs.size(), n * (n - 1) / 2 - (n - 1));
+  }
+}
+
+TEST(SceneOfThePackage, ConfiguredScenesLoadWithoutProblems) {
+  SceneLoadOptions options = packageOptions();
+  options.descriptions["robot_description"] =
+      test::contentOfFile(CONCAVE_DISTANCE_SOURCE_DIR "/urdf/wam.urdf");
+  for (const std::string name : {"insertion", "interactive", "robot"}) {
+    const Scene scene = loadSceneFile(CONCAVE_DISTANCE_SOURCE_DIR "/config/" + name + ".yaml", options);
+    EXPECT_TRUE(scene.problems.empty()) << scene.problems.front().message;
+    EXPECT_FALSE(scene.pairs.empty()) << name;
+  }
+}
+
 TEST_F(SceneLoading, SingleBodyIsLoadedAsASceneDoes) {
   const SceneBody body = loadBody(box("crate"), "", nullptr);
   EXPECT_EQ(body.name, "crate");
