@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "concave_distance/base/error.h"
+#include "concave_distance/mesh/thin_graph.h"
 
 namespace concave_distance {
 namespace {
@@ -43,15 +44,27 @@ BodyMesh::BodyMesh(std::string name, SurfaceMesh surface, const BodyMeshOptions&
       tree_(surface_),
       max_edge_length_(edgeLengthOf(name_, surface_, options)),
       refined_(refineToEdgeLength(surface_, max_edge_length_)),
-      graph_(buildNodeGraph(refined_.mesh)),
-      original_triangle_of_node_(graph_.nodeCount()),
-      metric_(std::make_unique<MeshMetric>(graph_, options.metric)) {
+      graph_(buildNodeGraph(refined_.mesh)) {
   // Descending, so that the triangle of least index wins and the answer does not depend on the container.
+  std::vector<TriangleIndex> triangle_of_vertex(refined_.mesh.vertexCount());
   for (std::size_t t = refined_.mesh.triangleCount(); t-- > 0;) {
     for (const NodeIndex node : refined_.mesh.triangles()[t]) {
-      original_triangle_of_node_[node.value] = refined_.original_triangle[t];
+      triangle_of_vertex[node.value] = refined_.original_triangle[t];
     }
   }
+  if (!options.max_edge_length && graph_.nodeCount() > options.search_node_limit) {
+    ThinnedGraph thinned = thinGraph(graph_, options.search_node_limit);
+    for (const NodeIndex node : thinned.original_node) {
+      original_triangle_of_node_.push_back(triangle_of_vertex[node.value]);
+    }
+    thinned.nearest.resize(surface_.vertexCount());  // the grid's first nodes are the surface's vertices
+    graph_node_of_vertex_ = std::move(thinned.nearest);
+    graph_ = std::move(thinned.graph);
+    max_edge_length_ = thinned.longest_edge;
+  } else {
+    original_triangle_of_node_ = std::move(triangle_of_vertex);
+  }
+  metric_ = std::make_unique<MeshMetric>(graph_, options.metric);
 }
 
 std::size_t BodyMesh::memoryBytes() const {

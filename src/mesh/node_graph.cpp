@@ -7,26 +7,22 @@
 namespace concave_distance {
 namespace {
 
-CompressedRows<NodeGraph::Edge> collectEdges(const SurfaceMesh& grid) {
+CompressedRows<NodeGraph::Edge> collectEdges(std::size_t node_count,
+                                             const std::vector<std::pair<NodeIndex, NodeIndex>>& neighbours) {
   // Every edge in both directions, packed so that one sort groups by source and orders by target.
   std::vector<std::uint64_t> directed;
-  directed.reserve(6 * grid.triangleCount());
-  const auto push = [&](NodeIndex from, NodeIndex to) {
+  directed.reserve(2 * neighbours.size());
+  for (const auto& [from, to] : neighbours) {
     if (from != to) {  // a degenerate triangle names a node twice
       directed.push_back((std::uint64_t{from.value} << 32U) | to.value);
       directed.push_back((std::uint64_t{to.value} << 32U) | from.value);
     }
-  };
-  for (const TriangleNodes& t : grid.triangles()) {
-    push(t[0], t[1]);
-    push(t[1], t[2]);
-    push(t[2], t[0]);
   }
   std::sort(directed.begin(), directed.end());
   directed.erase(std::unique(directed.begin(), directed.end()), directed.end());
 
   CompressedRows<NodeGraph::Edge> rows;
-  rows.offsets.assign(grid.vertexCount() + 1, 0);
+  rows.offsets.assign(node_count + 1, 0);
   rows.values.reserve(directed.size());
   for (const std::uint64_t pair : directed) {
     ++rows.offsets[(pair >> 32U) + 1];
@@ -135,12 +131,28 @@ std::size_t NodeGraph::memoryBytes() const {
 }
 
 NodeGraph buildNodeGraph(const SurfaceMesh& grid) {
+  std::vector<std::pair<NodeIndex, NodeIndex>> neighbours;
+  neighbours.reserve(3 * grid.triangleCount());
+  for (const TriangleNodes& t : grid.triangles()) {
+    neighbours.emplace_back(t[0], t[1]);
+    neighbours.emplace_back(t[1], t[2]);
+    neighbours.emplace_back(t[2], t[0]);
+  }
+  return buildNodeGraph(grid.vertices(), neighbours);
+}
+
+NodeGraph buildNodeGraph(std::vector<Eigen::Vector3d> positions,
+                         const std::vector<std::pair<NodeIndex, NodeIndex>>& neighbours) {
   NodeGraph graph;
-  graph.positions = grid.vertices();
-  graph.edges = collectEdges(grid);
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& position : positions) {
+    box.extend(position);
+  }
+  graph.positions = std::move(positions);
+  graph.edges = collectEdges(graph.nodeCount(), neighbours);
   setLengths(graph);
   setShells(graph);
-  setNeighbourhoods(graph, grid.boundingBox().center());
+  setNeighbourhoods(graph, box.center());
   return graph;
 }
 

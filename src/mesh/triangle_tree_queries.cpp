@@ -204,8 +204,8 @@ bool containsPoint(const TriangleTree& tree, const SurfaceMesh& mesh,
   if (!mesh.boundingBox().contains(point)) return false;
   // Slanted against the axes and their diagonals, where meshes like to have edges and faces.
   static const std::array<Eigen::Vector3d, 3> directions = {Eigen::Vector3d(0.8431, 0.2749, 0.4620),
-                                                             Eigen::Vector3d(-0.3573, 0.9011, 0.2459),
-                                                             Eigen::Vector3d(0.1867, -0.4403, -0.8782)};
+                                                            Eigen::Vector3d(-0.3573, 0.9011, 0.2459),
+                                                            Eigen::Vector3d(0.1867, -0.4403, -0.8782)};
   const double longest = 4.0 * mesh.diameter() + 1e-300;
   int inside = 0;
   for (const Eigen::Vector3d& direction : directions) {

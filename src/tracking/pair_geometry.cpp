@@ -1,6 +1,7 @@
 #include "concave_distance/tracking/pair_geometry.h"
 
 #include <cmath>
+#include <limits>
 
 #include "concave_distance/tracking/niche_archive.h"
 
@@ -14,6 +15,26 @@ WitnessPair PairGeometry::nodeWitness(const TrialPoint& pair) const {
   witness.triangle_a = a->originalTriangle(pair.node_a);
   witness.triangle_b = b->originalTriangle(pair.node_b);
   return witness;
+}
+
+TrialPoint PairGeometry::nodePairNear(const WitnessPair& witness) const {
+  const auto nearest = [](const BodyMesh& body, TriangleIndex triangle, const Eigen::Vector3d& point) {
+    NodeIndex best;
+    double least = std::numeric_limits<double>::infinity();
+    for (const NodeIndex corner : body.surface().triangle(triangle)) {
+      const NodeIndex node = body.graphNode(corner);
+      const double squared = (body.graph().positions[node.value] - point).squaredNorm();
+      if (squared < least) {
+        least = squared;
+        best = node;
+      }
+    }
+    return best;
+  };
+  const NodeIndex node_a = nearest(*a, witness.triangle_a, witness.point_a_in_a);
+  const NodeIndex node_b = nearest(*b, witness.triangle_b, b_from_a * witness.point_b_in_a);
+  return {node_a, node_b,
+          (a->graph().positions[node_a.value] - a_from_b * b->graph().positions[node_b.value]).squaredNorm()};
 }
 
 void placeRecord(NicheRecord& record, const PairGeometry& geometry, const WitnessPair& witness) {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "concave_distance/base/random_engine.h"
+#include "concave_distance/distance/closest_point.h"
 #include "concave_distance/distance/surface_walk.h"
 #include "concave_distance/search/automatic_radii.h"
 #include "concave_distance/search/genetic_search.h"
@@ -29,6 +30,8 @@ constexpr std::size_t kExtentPairLimit = 64;
 constexpr std::size_t kReviewsPerCycle = 1;
 // The archive holds this many times what is reported, for niches that come and go at the edge of the list.
 constexpr std::size_t kArchiveFactor = 4;
+// Rounds of projections in a cold cycle: each asks what the last one brought.
+constexpr std::size_t kColdProjectionRounds = 4;
 
 double seconds(std::chrono::steady_clock::duration duration) {
   return std::chrono::duration<double>(duration).count();
@@ -57,6 +60,9 @@ struct PairTracker::State {
   void follow(NicheRecord& record, double elapsed);
   void evolve(const PairObjective& objective, PairSolution& solution);
   void collectCandidates(std::size_t known_minima);
+  void projectNiches(PairSolution& solution);
+  void project(const NicheRecord& record);
+  void orderCandidates();
   void admitCandidates(std::vector<NicheEvent>& events);
   void report(double displacement, PairSolution& solution);
   void describe(TrackedNiche& niche);
@@ -81,6 +87,7 @@ struct PairTracker::State {
   double last_elapsed = 0.0;
   double last_distance = kNotComputed;
   std::size_t next_review = 0;
+  std::size_t next_projection = 0;
 };
 
 void PairTracker::State::update(const Eigen::Isometry3d& pose, double time, PairSolution& solution) {
@@ -121,8 +128,10 @@ void PairTracker::State::update(const Eigen::Isometry3d& pose, double time, Pair
   const std::size_t known_minima = search.basins.minima().size();
   evolve(objective, solution);
   collectCandidates(known_minima);
+  orderCandidates();
   admitCandidates(solution.events);
   archive.settle();
+  projectNiches(solution);
   if (parameters.accuracy == AccuracyLevel::Nodes) {
     uniteWithinRadius(warm ? warm_radii.niche : cold_radii.niche, search.metric, archive, solution.events);
   } else {
@@ -259,6 +268,59 @@ void PairTracker::State::collectCandidates(std::size_t known_minima) {
         geometry.refine(geometry.a->originalTriangle(pair.node_a), geometry.b->originalTriangle(pair.node_b));
     candidates.push_back({refined.witness, pair, refined.proven, 0});
   }
+}
+
+void PairTracker::State::projectNiches(PairSolution& solution) {
+  if (parameters.accuracy == AccuracyLevel::Nodes || parameters.projected_niches == 0) {
+    return;
+  }
+  next_projection = archive.records().empty() ? 0 : next_projection % archive.records().size();
+  // A warm cycle asks the nearest and the next ones in turn; a cold one all, and again what that brought.
+  std::size_t asked = 0;
+  std::uint64_t newest = 0;
+  do {
+    candidates.clear();
+    const std::size_t count = archive.records().size();
+    const std::size_t wanted = warm ? std::min<std::size_t>(parameters.projected_niches, count) : count;
+    for (std::size_t k = 0; k < wanted; ++k) {
+      if (warm && k > 0) {
+        next_projection = (next_projection + 1) % count;
+      }
+      const NicheRecord& record = archive.records()[warm && k > 0 ? next_projection : k];
+      if (warm || record.niche.id > newest) {
+        project(record);
+      }
+    }
+    for (const NicheRecord& record : archive.records()) {
+      newest = std::max(newest, record.niche.id);
+    }
+    orderCandidates();
+    admitCandidates(solution.events);
+    archive.settle();
+    ++asked;
+  } while (!warm && !candidates.empty() && asked < kColdProjectionRounds);
+}
+
+void PairTracker::State::project(const NicheRecord& record) {
+  const BodyMesh& a = *geometry.a;
+  const BodyMesh& b = *geometry.b;
+  const WitnessPair& witness = record.niche.witness;
+  const SurfacePoint b_to_a = closestPoint(b, geometry.b_from_a * witness.point_a_in_a, witness.triangle_b);
+  const SurfacePoint a_to_that = closestPoint(a, geometry.a_from_b * b_to_a.point, witness.triangle_a);
+  const SurfacePoint a_to_b = closestPoint(a, witness.point_b_in_a, witness.triangle_a);
+  const SurfacePoint b_to_that = closestPoint(b, geometry.b_from_a * a_to_b.point, witness.triangle_b);
+  const auto start = [&](TriangleIndex triangle_a, TriangleIndex triangle_b) {
+    if (triangle_a == witness.triangle_a && triangle_b == witness.triangle_b) {
+      return;
+    }
+    const WitnessRefinement refined = geometry.refine(triangle_a, triangle_b);
+    candidates.push_back({refined.witness, geometry.nodePairNear(refined.witness), refined.proven, 0});
+  };
+  start(a_to_that.triangle, b_to_a.triangle);
+  start(a_to_b.triangle, b_to_that.triangle);
+}
+
+void PairTracker::State::orderCandidates() {
   std::sort(candidates.begin(), candidates.end(), [](const NicheCandidate& l, const NicheCandidate& r) {
     return l.witness.squared_distance != r.witness.squared_distance
                ? l.witness.squared_distance < r.witness.squared_distance

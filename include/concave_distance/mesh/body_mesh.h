@@ -17,6 +17,9 @@ namespace concave_distance {
 struct BodyMeshOptions {
   /// Grid size of the search, metres: the longest edge between nodes. Empty: automaticEdgeLength().
   std::optional<double> max_edge_length;
+  /// With an automatic grid, nodes of the search graph at the most: a finer mesh is thinned to evenly spread
+  /// nodes (thinGraph). An explicit grid size is taken as it is.
+  std::size_t search_node_limit = 1500;
   MeshMetricOptions metric;
 };
 
@@ -40,13 +43,19 @@ class BodyMesh {
   const MeshTopology& topology() const { return topology_; }
   const TriangleTree& tree() const { return tree_; }
   const SurfaceMesh& grid() const { return refined_.mesh; }
+  /// What the search moves on: the grid's nodes or, where thinned() says so, an even choice of them.
   const NodeGraph& graph() const { return graph_; }
+  bool thinned() const { return graph_.nodeCount() < refined_.mesh.vertexCount(); }
   const MeshMetric& metric() const { return *metric_; }
   double maxEdgeLength() const { return max_edge_length_; }
   double diameter() const { return surface_.diameter(); }
-  /// An original triangle that the grid node lies on.
-  TriangleIndex originalTriangle(NodeIndex grid_node) const {
-    return original_triangle_of_node_[grid_node.value];
+  /// An original triangle that the graph's node lies on.
+  TriangleIndex originalTriangle(NodeIndex graph_node) const {
+    return original_triangle_of_node_[graph_node.value];
+  }
+  /// The graph's node that a vertex of the original surface is, or belongs to where the graph is thinned.
+  NodeIndex graphNode(NodeIndex surface_vertex) const {
+    return thinned() ? graph_node_of_vertex_[surface_vertex.value] : surface_vertex;
   }
   std::size_t memoryBytes() const;
 
@@ -59,6 +68,7 @@ class BodyMesh {
   RefinedMesh refined_;
   NodeGraph graph_;
   std::vector<TriangleIndex> original_triangle_of_node_;
+  std::vector<NodeIndex> graph_node_of_vertex_;  ///< empty unless thinned
   std::unique_ptr<MeshMetric> metric_;
 };
 

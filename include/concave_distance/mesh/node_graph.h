@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "concave_distance/mesh/compressed_rows.h"
@@ -48,5 +49,9 @@ struct NodeGraph {
 /// Nodes that no triangle uses are left without edges and form shells of their own; shells are numbered by
 /// their first node. O(n log n).
 NodeGraph buildNodeGraph(const SurfaceMesh& grid);
+
+/// The same from nodes and the pairs that are neighbours (either order, repeats allowed).
+NodeGraph buildNodeGraph(std::vector<Eigen::Vector3d> positions,
+                         const std::vector<std::pair<NodeIndex, NodeIndex>>& neighbours);
 
 }  // namespace concave_distance

@@ -35,6 +35,9 @@ struct PairGeometry {
   WitnessRefinement refine(TriangleIndex triangle_a, TriangleIndex triangle_b) {
     return refineWitness(*a, *b, a_from_b, triangle_a, triangle_b, refinement);
   }
+  /// The node nearest to each witness among those of its triangle's corners: where a search takes a refined
+  /// niche up again.
+  TrialPoint nodePairNear(const WitnessPair& witness) const;
   /// The node pair as a witness pair, for level `nodes`.
   WitnessPair nodeWitness(const TrialPoint& pair) const;
 };

@@ -17,8 +17,12 @@ struct TrackerParameters {
   double inherited_per_niche = 3.0;  ///< alpha_Gamma (Carretero, eq. (6.8))
   std::uint32_t inherited_limit = 30;  ///< N_popGamma_max (6.8)
   std::uint32_t immigrants = 8;        ///< random individuals a warm cycle descends besides
-  bool extrapolate = true;             ///< start from where the relative velocity has carried the witnesses
-  double least_prominence = 1e-2;      ///< niches with less are merged into their deeper neighbour
+  /// Niches of which a warm cycle asks, in turn, whether the body opposite has a closer place anywhere: the
+  /// closest point to each witness, and the closest to that one, start a refinement. The nearest niche is
+  /// always asked; a cold cycle asks all. 0: none.
+  std::uint32_t projected_niches = 3;
+  bool extrapolate = true;         ///< start from where the relative velocity has carried the witnesses
+  double least_prominence = 1e-2;  ///< niches with less are merged into their deeper neighbour
   double cutoff = std::numeric_limits<double>::infinity();  ///< niches farther than this are not reported
   std::uint32_t largest_niche_count = 64;                   ///< of the report; a cut is always reported
   bool niches_wanted = true;                                ///< false: only the distance is asked for

@@ -1,0 +1,55 @@
+#include "concave_distance/distance/closest_point.h"
+
+#include <array>
+
+namespace concave_distance {
+namespace {
+
+struct Waiting {
+  std::uint32_t node;
+  double squared_distance;
+};
+
+SurfacePoint closestOn(const BodyMesh& body, TriangleIndex triangle, const Eigen::Vector3d& target) {
+  const PointTriangleDistance d = pointTriangleDistance(target, trianglePoints(body.surface(), triangle));
+  return {triangle, d.feature, d.point, d.squared_distance};
+}
+
+}  // namespace
+
+SurfacePoint closestPoint(const BodyMesh& body, const Eigen::Vector3d& target, TriangleIndex hint) {
+  const TriangleTree& tree = body.tree();
+  SurfacePoint best = closestOn(body, hint, target);
+  const auto boxDistance = [&](std::uint32_t node) {
+    return tree.nodes()[node].box.squaredExteriorDistance(target);
+  };
+  std::array<Waiting, 96> stack;  // the builder keeps the depth below 80; one waiting child a level
+  std::size_t waiting = 0;
+  stack[waiting++] = {0, boxDistance(0)};
+  while (waiting > 0) {
+    const Waiting next = stack[--waiting];
+    if (next.squared_distance >= best.squared_distance) {
+      continue;
+    }
+    const TriangleTree::Node& node = tree.nodes()[next.node];
+    if (node.count == 0) {
+      Waiting near{next.node + 1, boxDistance(next.node + 1)};
+      Waiting far{node.first, boxDistance(node.first)};
+      if (far.squared_distance < near.squared_distance) {
+        std::swap(near, far);
+      }
+      stack[waiting++] = far;
+      stack[waiting++] = near;
+      continue;
+    }
+    for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+      const SurfacePoint candidate = closestOn(body, tree.order()[i], target);
+      if (candidate.squared_distance < best.squared_distance) {
+        best = candidate;
+      }
+    }
+  }
+  return best;
+}
+
+}  // namespace concave_distance
