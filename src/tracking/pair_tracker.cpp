@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "concave_distance/base/random_engine.h"
-#include "concave_distance/distance/closest_point.h"
 #include "concave_distance/distance/surface_walk.h"
 #include "concave_distance/search/automatic_radii.h"
 #include "concave_distance/search/genetic_search.h"
@@ -16,6 +15,7 @@
 #include "concave_distance/tracking/niche_archive.h"
 #include "concave_distance/tracking/node_niches.h"
 #include "concave_distance/tracking/pair_geometry.h"
+#include "concave_distance/tracking/projection.h"
 #include "concave_distance/tracking/relative_motion.h"
 #include "concave_distance/tracking/warm_start.h"
 
@@ -31,7 +31,13 @@ constexpr std::size_t kReviewsPerCycle = 1;
 // The archive holds this many times what is reported, for niches that come and go at the edge of the list.
 constexpr std::size_t kArchiveFactor = 4;
 // Rounds of projections in a cold cycle: each asks what the last one brought.
-constexpr std::size_t kColdProjectionRounds = 4;
+constexpr int kColdProjectionRounds = 4;
+// Steps along the nearest niche's valley in one cycle at the most.
+constexpr int kValleySteps = 8;
+// A cold cycle projects this many times the immigrants of a warm one.
+constexpr std::uint32_t kColdProjectionFactor = 16;
+// Tells the stream of the projections from that of the evolution.
+constexpr std::uint64_t kProjectionStream = 0x70726f6a656374ULL;
 
 double seconds(std::chrono::steady_clock::duration duration) {
   return std::chrono::duration<double>(duration).count();
@@ -61,7 +67,8 @@ struct PairTracker::State {
   void evolve(const PairObjective& objective, PairSolution& solution);
   void collectCandidates(std::size_t known_minima);
   void projectNiches(PairSolution& solution);
-  void project(const NicheRecord& record);
+  void walkValley(PairSolution& solution);
+  void settleCandidates(PairSolution& solution);
   void orderCandidates();
   void admitCandidates(std::vector<NicheEvent>& events);
   void report(double displacement, PairSolution& solution);
@@ -128,9 +135,7 @@ void PairTracker::State::update(const Eigen::Isometry3d& pose, double time, Pair
   const std::size_t known_minima = search.basins.minima().size();
   evolve(objective, solution);
   collectCandidates(known_minima);
-  orderCandidates();
-  admitCandidates(solution.events);
-  archive.settle();
+  settleCandidates(solution);
   projectNiches(solution);
   if (parameters.accuracy == AccuracyLevel::Nodes) {
     uniteWithinRadius(warm ? warm_radii.niche : cold_radii.niche, search.metric, archive, solution.events);
@@ -271,53 +276,68 @@ void PairTracker::State::collectCandidates(std::size_t known_minima) {
 }
 
 void PairTracker::State::projectNiches(PairSolution& solution) {
-  if (parameters.accuracy == AccuracyLevel::Nodes || parameters.projected_niches == 0) {
+  if (parameters.accuracy == AccuracyLevel::Nodes) {
     return;
   }
-  next_projection = archive.records().empty() ? 0 : next_projection % archive.records().size();
-  // A warm cycle asks the nearest and the next ones in turn; a cold one all, and again what that brought.
-  std::size_t asked = 0;
+  RandomEngine engine(streamSeed(parameters.seed ^ kProjectionStream, name, cycle));
+  const std::uint32_t immigrants =
+      warm ? parameters.projected_immigrants : kColdProjectionFactor * parameters.projected_immigrants;
+  candidates.clear();
+  for (std::uint32_t k = 0; k < immigrants; ++k) {
+    const Side side = k % 2 == 0 ? Side::A : Side::B;
+    const NodeGraph& graph = (side == Side::A ? geometry.a : geometry.b)->graph();
+    projectNode(geometry, side,
+                NodeIndex{uniformIndex(engine, static_cast<std::uint32_t>(graph.nodeCount()))}, candidates);
+  }
+  settleCandidates(solution);
+
+  // A warm cycle asks the nearest niche and the next ones in turn; a cold one all, and again what that
+  // brought.
   std::uint64_t newest = 0;
-  do {
-    candidates.clear();
+  for (int round = 0; round < (warm ? 1 : kColdProjectionRounds); ++round) {
     const std::size_t count = archive.records().size();
     const std::size_t wanted = warm ? std::min<std::size_t>(parameters.projected_niches, count) : count;
     for (std::size_t k = 0; k < wanted; ++k) {
-      if (warm && k > 0) {
-        next_projection = (next_projection + 1) % count;
-      }
+      next_projection = warm && k > 0 ? (next_projection + 1) % count : next_projection;
       const NicheRecord& record = archive.records()[warm && k > 0 ? next_projection : k];
       if (warm || record.niche.id > newest) {
-        project(record);
+        projectWitness(geometry, record, candidates);
       }
     }
     for (const NicheRecord& record : archive.records()) {
       newest = std::max(newest, record.niche.id);
     }
-    orderCandidates();
-    admitCandidates(solution.events);
-    archive.settle();
-    ++asked;
-  } while (!warm && !candidates.empty() && asked < kColdProjectionRounds);
+    if (candidates.empty()) {
+      break;
+    }
+    settleCandidates(solution);
+  }
+  walkValley(solution);
 }
 
-void PairTracker::State::project(const NicheRecord& record) {
-  const BodyMesh& a = *geometry.a;
-  const BodyMesh& b = *geometry.b;
-  const WitnessPair& witness = record.niche.witness;
-  const SurfacePoint b_to_a = closestPoint(b, geometry.b_from_a * witness.point_a_in_a, witness.triangle_b);
-  const SurfacePoint a_to_that = closestPoint(a, geometry.a_from_b * b_to_a.point, witness.triangle_a);
-  const SurfacePoint a_to_b = closestPoint(a, witness.point_b_in_a, witness.triangle_a);
-  const SurfacePoint b_to_that = closestPoint(b, geometry.b_from_a * a_to_b.point, witness.triangle_b);
-  const auto start = [&](TriangleIndex triangle_a, TriangleIndex triangle_b) {
-    if (triangle_a == witness.triangle_a && triangle_b == witness.triangle_b) {
-      return;
-    }
-    const WitnessRefinement refined = geometry.refine(triangle_a, triangle_b);
-    candidates.push_back({refined.witness, geometry.nodePairNear(refined.witness), refined.proven, 0});
-  };
-  start(a_to_that.triangle, b_to_a.triangle);
-  start(a_to_b.triangle, b_to_that.triangle);
+void PairTracker::State::walkValley(PairSolution& solution) {
+  if (parameters.projected_niches == 0) {
+    return;
+  }
+  // The global minimum of a tessellated valley is often the next ripple: from the nearest niche's
+  // surroundings on either body in turn, on as long as that comes nearer.
+  Side side = cycle % 2 == 0 ? Side::A : Side::B;
+  int fruitless = 0;
+  for (int step = 0; step < kValleySteps && fruitless < (warm ? 1 : 2) && !archive.records().empty();
+       ++step) {
+    const double before = archive.records().front().niche.distance;
+    projectNeighbours(geometry, side, archive.records().front(), candidates);
+    settleCandidates(solution);
+    fruitless = archive.records().front().niche.distance < before ? 0 : fruitless + 1;
+    side = side == Side::A ? Side::B : Side::A;
+  }
+}
+
+void PairTracker::State::settleCandidates(PairSolution& solution) {
+  orderCandidates();
+  admitCandidates(solution.events);
+  archive.settle();
+  candidates.clear();
 }
 
 void PairTracker::State::orderCandidates() {

@@ -17,10 +17,12 @@ struct TrackerParameters {
   double inherited_per_niche = 3.0;  ///< alpha_Gamma (Carretero, eq. (6.8))
   std::uint32_t inherited_limit = 30;  ///< N_popGamma_max (6.8)
   std::uint32_t immigrants = 8;        ///< random individuals a warm cycle descends besides
-  /// Niches of which a warm cycle asks, in turn, whether the body opposite has a closer place anywhere: the
-  /// closest point to each witness, and the closest to that one, start a refinement. The nearest niche is
-  /// always asked; a cold cycle asks all. 0: none.
+  /// Niches of which a warm cycle asks, the nearest always and the others in turn, whether the body opposite
+  /// has a closer place anywhere (projectWitness); of the nearest the surroundings are asked too. A cold
+  /// cycle asks all. 0: none.
   std::uint32_t projected_niches = 3;
+  /// Random nodes that a warm cycle projects onto the other body and back; a cold one 16 times as many.
+  std::uint32_t projected_immigrants = 4;
   bool extrapolate = true;         ///< start from where the relative velocity has carried the witnesses
   double least_prominence = 1e-2;  ///< niches with less are merged into their deeper neighbour
   double cutoff = std::numeric_limits<double>::infinity();  ///< niches farther than this are not reported
