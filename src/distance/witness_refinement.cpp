@@ -13,6 +13,10 @@ using Eigen::Vector3d;
 /// Far above any descent seen; only a broken surface could ask for more.
 constexpr std::uint32_t kIterationLimit = 10000;
 
+/// A triangle this many times thinner than what the proof tells apart cannot show which way leads down across
+/// it; what lies beyond it is looked at as if it touched the witness.
+constexpr double kThinnest = 16.0;
+
 }  // namespace
 
 WitnessRefinement refineWitness(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
@@ -33,7 +37,7 @@ WitnessRefinement refineWitness(const BodyMesh& a, const BodyMesh& b, const Eige
       refinement.proven = true;
       break;
     }
-    const detail::RingTolerances tolerances{2.0 * kTriangleWitnessError * largest,
+    const detail::RingTolerances tolerances{kThinnest * kTriangleDistanceError * largest,
                                             kTriangleDistanceError * largest * distance};
     const Vector3d direction = closest.point_b - closest.point_a;
     const detail::RingLook look_a =

@@ -165,6 +165,46 @@ TEST(RefineWitness, ShiftingABodyInItsOwnFrameCostsNoMoreThanThePosesRounding) {
   }
 }
 
+/// Every triangle split in three at a point within `height` of the middle of its first edge: one is a cap.
+SurfaceMesh withCaps(const SurfaceMesh& mesh, double height) {
+  std::vector<Vector3d> vertices = mesh.vertices();
+  std::vector<TriangleNodes> triangles;
+  for (std::uint32_t t = 0; t < mesh.triangleCount(); ++t) {
+    const TriangleIndex triangle{t};
+    const TriangleNodes nodes = mesh.triangle(triangle);
+    const Vector3d middle = 0.5 * (mesh.corner(triangle, 0) + mesh.corner(triangle, 1));
+    const Vector3d inwards = (mesh.corner(triangle, 2) - middle).normalized();
+    const NodeIndex added{vertices.size()};
+    vertices.emplace_back(middle + height * inwards);
+    for (std::size_t k = 0; k < 3; ++k) {
+      triangles.push_back({nodes[k], nodes[(k + 1) % 3], added});
+    }
+  }
+  return SurfaceMesh(vertices, triangles, "mesh with caps");
+}
+
+TEST(RefineWitness, CapsAndNeedlesHideNoWayDown) {
+  RandomEngine engine(6);
+  RefinementWorkspace workspace;
+  for (const double height : {1e-3, 1e-6, 1e-9, 1e-12, 1e-13, 3e-14, 1e-14, 3e-15, 1e-15, 1e-16, 1e-17}) {
+    for (std::uint32_t round = 0; round < 6; ++round) {
+      const auto a = makeBody(withCaps(test::concaveShape(round), height));
+      const auto b = makeBody(withCaps(withCaps(test::concaveShape(round + 1), 0.03), height));
+      const Isometry3d pose = test::randomPose(engine, 1.5);
+      for (int start = 0; start < 100; ++start) {
+        const TriangleIndex start_a{
+            uniformIndex(engine, static_cast<std::uint32_t>(a->surface().triangleCount()))};
+        const TriangleIndex start_b{
+            uniformIndex(engine, static_cast<std::uint32_t>(b->surface().triangleCount()))};
+        const WitnessRefinement refined = refineWitness(*a, *b, pose, start_a, start_b, workspace);
+        ASSERT_TRUE(refined.proven);
+        SCOPED_TRACE("caps " + std::to_string(height * 1e15) + " fm high, round " + std::to_string(round));
+        expectLocalMinimum(*a, *b, pose, refined.witness);
+      }
+    }
+  }
+}
+
 TEST(RefineWitness, SeesEveryPageOfABook) {
   // Three pages at one edge; only the third, which no triangle names as its neighbour, leads down.
   const SurfaceMesh book = test::makeSurface(
