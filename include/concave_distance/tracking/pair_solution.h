@@ -11,7 +11,7 @@
 
 namespace concave_distance {
 
-/// How exact an answer is (DESIGN.md, "Accuracy is a dial").
+/// How exact an answer is (README.md, "Accuracy").
 enum class AccuracyLevel : std::uint8_t { Nodes, Refined };
 std::string_view toString(AccuracyLevel level);
 
