@@ -149,7 +149,7 @@ TEST(GeneticSearch, GenerationGapReplacesThatManyAtMost) {
   Search search(test::hookAndStairs());
   GeneticParameters parameters = smallRun(NichingMethod::Sharing);
   parameters.local_optimization = false;  // individuals stay apart
-  parameters.elite_count = 0;  // elites and conserved niches take further seats
+  parameters.elite_count = 0;             // elites and conserved niches take further seats
   parameters.conserve_niches = false;
   parameters.generation_gap = 0.25;
   for (const NichingMethod niching :

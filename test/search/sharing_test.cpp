@@ -36,7 +36,7 @@ TEST(Sharing, FitnessPredictsTheNichesOfTheThesis) {
   for (const double d : distances) {
     sum += potentialFitness(d * d, 0.0);
   }
-  const std::vector<double> predicted{51.1, 16.4, 13.0, 7.0, 3.4};  // THESIS.md
+  const std::vector<double> predicted{51.1, 16.4, 13.0, 7.0, 3.4};  // (4.4) with 1 / d^2, Table 5.19
   for (std::size_t i = 0; i < predicted.size(); ++i) {
     EXPECT_NEAR(100.0 * potentialFitness(distances[i] * distances[i], 0.0) / sum, predicted[i], 0.1);
   }

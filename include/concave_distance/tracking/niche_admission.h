@@ -18,7 +18,7 @@ struct AdmissionResult {
 };
 
 /// Pass over which record `shallow` reaches a deeper place, relative to its own distance: an upper bound of
-/// its prominence (DESIGN.md). `distance_floor`, metres, keeps it finite near contact.
+/// its prominence (doc/algorithm.md). `distance_floor`, metres, keeps it finite near contact.
 double prominenceBound(const PairGeometry& geometry, const WitnessPair& shallow, const WitnessPair& deep,
                        double least_prominence);
 

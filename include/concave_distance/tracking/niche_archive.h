@@ -17,7 +17,7 @@ struct NicheRecord {
   bool reported = false;  ///< users have seen its id: its end is an event
 };
 
-/// The niches of one pair, apart from the population (DESIGN.md: the population is not the memory). Ascending
+/// The niches of one pair, apart from the population: the population is not the memory. Ascending
 /// by distance after settle(). Ids are never used twice.
 class NicheArchive {
  public:

@@ -10,7 +10,7 @@ namespace concave_distance {
 std::optional<Eigen::Isometry3d> rigidPose(const Eigen::Isometry3d& pose);
 
 /// The largest way any point of a box has moved between two poses, metres: the norm of an affine map is
-/// convex, so its maximum over a box is at a corner. Bounds the change of every distance (THESIS.md, traps).
+/// convex, so its maximum over a box is at a corner. Bounds the change of every distance.
 double largestDisplacement(const Eigen::AlignedBox3d& box, const Eigen::Isometry3d& before,
                            const Eigen::Isometry3d& after);
 

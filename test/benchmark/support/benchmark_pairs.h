@@ -37,7 +37,7 @@ std::vector<std::string> allPairs();
 BenchmarkPair loadBenchmarkPair(const std::string& name,
                                 std::optional<double> max_edge_length = std::nullopt);
 
-/// Poses of a `t,x,y,z,qx,qy,qz,qw` file (DESIGN.md), seconds and B in A's frame.
+/// Poses of a `t,x,y,z,qx,qy,qz,qw` file (doc/distance_query.md), seconds and B in A's frame.
 struct TimedPose {
   double time;
   Eigen::Isometry3d pose;
