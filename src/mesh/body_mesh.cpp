@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "concave_distance/base/error.h"
+#include "concave_distance/mesh/geodesic_extent.h"
 #include "concave_distance/mesh/thin_graph.h"
 
 namespace concave_distance {
@@ -44,7 +45,9 @@ BodyMesh::BodyMesh(std::string name, SurfaceMesh surface, const BodyMeshOptions&
       tree_(surface_),
       max_edge_length_(edgeLengthOf(name_, surface_, options)),
       refined_(refineToEdgeLength(surface_, max_edge_length_)),
-      graph_(buildNodeGraph(refined_.mesh)) {
+      graph_(buildNodeGraph(refined_.mesh)),
+      geodesic_extent_(0.0),
+      protrusion_spacing_(0.0) {
   // Descending, so that the triangle of least index wins and the answer does not depend on the container.
   std::vector<TriangleIndex> triangle_of_vertex(refined_.mesh.vertexCount());
   for (std::size_t t = refined_.mesh.triangleCount(); t-- > 0;) {
@@ -65,6 +68,8 @@ BodyMesh::BodyMesh(std::string name, SurfaceMesh surface, const BodyMeshOptions&
     original_triangle_of_node_ = std::move(triangle_of_vertex);
   }
   metric_ = std::make_unique<MeshMetric>(graph_, options.metric);
+  geodesic_extent_ = concave_distance::geodesicExtent(graph_);
+  protrusion_spacing_ = concave_distance::protrusionSpacing(*metric_, 0.5 * geodesic_extent_);
 }
 
 std::size_t BodyMesh::memoryBytes() const {

@@ -115,4 +115,19 @@ std::vector<Protrusion> findProtrusions(const NodeGraph& graph, double least_pro
   return found;
 }
 
+double protrusionSpacing(const MeshMetric& metric, double bound) {
+  constexpr double kLeastProminence = 0.05;
+  constexpr std::size_t kProtrusionLimit = 64;  // the most prominent are enough; the others only cost time
+  std::vector<Protrusion> protrusions = findProtrusions(metric.graph(), kLeastProminence);
+  protrusions.resize(std::min(protrusions.size(), kProtrusionLimit));
+  MeshMetricQuery query(metric);
+  double spacing = bound;
+  for (std::size_t i = 0; i < protrusions.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      spacing = std::min(spacing, query.distanceWithin(protrusions[i].node, protrusions[j].node, bound));
+    }
+  }
+  return spacing;
+}
+
 }  // namespace concave_distance

@@ -49,6 +49,10 @@ class BodyMesh {
   const MeshMetric& metric() const { return *metric_; }
   double maxEdgeLength() const { return max_edge_length_; }
   double diameter() const { return surface_.diameter(); }
+  /// How long the ways on the body are, and how near its protrusions come to each other along the mesh (at
+  /// most half as far), metres: what the radii of niching are chosen from (mesh/geodesic_extent.h).
+  double geodesicExtent() const { return geodesic_extent_; }
+  double protrusionSpacing() const { return protrusion_spacing_; }
   /// An original triangle that the graph's node lies on.
   TriangleIndex originalTriangle(NodeIndex graph_node) const {
     return original_triangle_of_node_[graph_node.value];
@@ -70,6 +74,8 @@ class BodyMesh {
   std::vector<TriangleIndex> original_triangle_of_node_;
   std::vector<NodeIndex> graph_node_of_vertex_;  ///< empty unless thinned
   std::unique_ptr<MeshMetric> metric_;
+  double geodesic_extent_;
+  double protrusion_spacing_;
 };
 
 }  // namespace concave_distance

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "concave_distance/mesh/mesh_metric.h"
 #include "concave_distance/mesh/node_graph.h"
 
 namespace concave_distance {
@@ -27,5 +28,9 @@ struct Protrusion {
 /// Protrusions that rise by at least `least_prominence` (a share of the greatest height), by flooding the
 /// graph from the top (0-dimensional persistence); the most prominent first. O(n log n).
 std::vector<Protrusion> findProtrusions(const NodeGraph& graph, double least_prominence);
+
+/// The least mesh distance between two of the body's most prominent protrusions (those of at least 5 % of the
+/// greatest height, 64 at the most) when it is below `bound`, else `bound`; metres.
+double protrusionSpacing(const MeshMetric& metric, double bound);
 
 }  // namespace concave_distance
