@@ -75,6 +75,7 @@ TEST_F(MessageCaptureTest, OneAtATimeInAProcess) {
   constexpr int kThreads = 4;
   std::vector<std::vector<std::string>> heard(kThreads);
   std::vector<std::thread> threads;
+  threads.reserve(kThreads);
   for (int i = 0; i < kThreads; ++i) {
     threads.emplace_back([&heard, i] {
       const MessageCapture capture;

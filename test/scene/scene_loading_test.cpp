@@ -55,14 +55,20 @@ std::string fingerprint(const Scene& scene) {
   return text;
 }
 
+std::string missingBody(int i) {
+  const std::string number = std::to_string(i);
+  return "  - {name: b" + number + ", mesh: missing" + number + ".stl}\n";
+}
+
+std::string ball(int i) {
+  const std::string number = std::to_string(i);
+  return "  - {name: b" + number + ", sphere: {radius: 0." + std::to_string(i + 1) +
+         "}, max_edge_length: 0.1}\n";
+}
+
 TEST_F(SceneLoading, IsTheSameWhateverTheNumberOfThreads) {
   std::string yaml = "metric_memory_limit_mb: 1\nbodies:\n";
-  for (int i = 0; i < 12; ++i) {
-    const std::string number = std::to_string(i);
-    yaml += i % 4 == 3 ? "  - {name: b" + number + ", mesh: missing" + number + ".stl}\n"
-                       : "  - {name: b" + number + ", sphere: {radius: 0." + std::to_string(i + 1) +
-                             "}, max_edge_length: 0.1}\n";
-  }
+  for (int i = 0; i < 12; ++i) yaml += i % 4 == 3 ? missingBody(i) : ball(i);
   std::string alone;
   {
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
@@ -92,9 +98,10 @@ TEST_F(SceneLoading, MatricesGoToBodiesInOrderWhileTheLimitLasts) {
   EXPECT_FALSE(exact.bodies[2].mesh->metric().hasMatrices());
   EXPECT_TRUE(hasNote(exact, "c: mesh distances are searched on demand"));
   EXPECT_FALSE(exact.bodies[3].mesh->metric().hasMatrices());  // nothing is left
-  options.metric_memory_limit += 8 * 8 * 6;
+  const std::size_t tiny = std::size_t{8} * 8 * 6;
+  options.metric_memory_limit += tiny;
   EXPECT_TRUE(load(yaml).bodies[3].mesh->metric().hasMatrices());  // what is left holds the small one
-  options.metric_memory_limit -= 8 * 8 * 6 + 1;
+  options.metric_memory_limit -= tiny + 1;
   EXPECT_FALSE(load(yaml).bodies[1].mesh->metric().hasMatrices());
 }
 
