@@ -3,6 +3,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <exception>
 #include <memory>
 #include <sstream>
@@ -16,12 +17,11 @@ namespace {
 // Per entry of the metric's matrices: a float and a 16-bit predecessor.
 constexpr std::size_t kBytesPerMatrixEntry = sizeof(float) + sizeof(std::uint16_t);
 
-// Between the two passes: the surface is there, the search grid's size known, its metric not yet built.
+// Between the two passes: the surface is there, the search graph's size known, its metric not yet built.
 struct PreparedBody {
   RepairedMesh repaired;
-  double max_edge_length = 0.0;
-  std::size_t grid_nodes = 0;
-  MeshMetricOptions metric;
+  std::size_t graph_nodes = 0;
+  BodyMeshOptions options;
 };
 
 // Runs `step` for every body without a problem; what it throws becomes that body's problem.
@@ -60,9 +60,15 @@ void locateAll(std::vector<BodySource>& sources, const PackageLocator& package_l
 PreparedBody prepare(const BodySource& source) {
   PreparedBody prepared;
   prepared.repaired = loadGeometry(source.geometry, source.source);
+  prepared.options.max_edge_length = source.max_edge_length;
   const SurfaceMesh& surface = prepared.repaired.mesh;
-  prepared.max_edge_length = source.max_edge_length.value_or(automaticEdgeLength(surface));
-  prepared.grid_nodes = refineToEdgeLength(surface, prepared.max_edge_length).mesh.vertexCount();
+  const double edge_length = source.max_edge_length.value_or(automaticEdgeLength(surface));
+  prepared.graph_nodes = refineToEdgeLength(surface, edge_length).mesh.vertexCount();
+  if (!source.max_edge_length) {
+    // BodyMesh thins an automatic grid, to one node a shell at least.
+    const std::size_t most = std::max(prepared.options.search_node_limit, prepared.repaired.report.shells);
+    prepared.graph_nodes = std::min(prepared.graph_nodes, most);
+  }
   return prepared;
 }
 
@@ -74,11 +80,11 @@ void shareMetricMemory(std::vector<PreparedBody>& prepared, std::size_t limit,
     PreparedBody& body = prepared[i];
     if (!built[i].problem.empty()) continue;
     std::ostringstream reason;
-    if (body.grid_nodes > body.metric.matrix_node_limit) {
-      reason << "more than " << body.metric.matrix_node_limit << " grid nodes";
-    } else if (const std::size_t wanted = body.grid_nodes * body.grid_nodes * kBytesPerMatrixEntry;
+    if (body.graph_nodes > body.options.metric.matrix_node_limit) {
+      reason << "more than " << body.options.metric.matrix_node_limit << " search nodes";
+    } else if (const std::size_t wanted = body.graph_nodes * body.graph_nodes * kBytesPerMatrixEntry;
                wanted > left) {
-      body.metric.matrix_node_limit = 0;
+      body.options.metric.matrix_node_limit = 0;
       reason << "matrices of " << static_cast<double>(wanted) * 1e-6 << " MB, "
              << static_cast<double>(left) * 1e-6 << " of " << static_cast<double>(limit) * 1e-6
              << " MB are left";
@@ -99,10 +105,8 @@ SceneBody finishBody(const BodySource& source, PreparedBody prepared) {
   body.in_robot_model = source.in_robot_model;
   body.repair = prepared.repaired.report;
   body.bounds = boundsOf(prepared.repaired.mesh);
-  BodyMeshOptions options;
-  options.max_edge_length = prepared.max_edge_length;
-  options.metric = prepared.metric;
-  body.mesh = std::make_shared<const BodyMesh>(source.name, std::move(prepared.repaired.mesh), options);
+  body.mesh =
+      std::make_shared<const BodyMesh>(source.name, std::move(prepared.repaired.mesh), prepared.options);
   return body;
 }
 

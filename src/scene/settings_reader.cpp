@@ -121,6 +121,8 @@ void readTrackerParameters(YamlMap& map, TrackerParameters& p) {
   }
   if (auto v = map.take("inherited_limit")) p.inherited_limit = count32(*v, 0);
   if (auto v = map.take("immigrants")) p.immigrants = count32(*v, 0);
+  if (auto v = map.take("projected_niches")) p.projected_niches = count32(*v, 0);
+  if (auto v = map.take("projected_immigrants")) p.projected_immigrants = count32(*v, 0);
   if (auto v = map.take("extrapolate")) p.extrapolate = v->boolean();
   if (auto v = map.take("seed")) p.seed = v->count(0, std::numeric_limits<std::uint64_t>::max());
   // Before cold and warm, whose own radii win.

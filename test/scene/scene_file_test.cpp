@@ -210,7 +210,9 @@ TEST_F(SceneFile, EdgeLengthOfABodyGoesBeforeTheDefaultAndAutoTakesTheDefaultBac
       "defaults: {max_edge_length: 0.9}\n");
   EXPECT_EQ(scene.bodies[0].mesh->maxEdgeLength(), 0.9);
   EXPECT_EQ(scene.bodies[1].mesh->maxEdgeLength(), 0.7);
-  EXPECT_EQ(scene.bodies[2].mesh->maxEdgeLength(), automaticEdgeLength(scene.bodies[2].mesh->surface()));
+  const BodyMesh automatic("c", scene.bodies[2].mesh->surface(), BodyMeshOptions{});
+  EXPECT_EQ(scene.bodies[2].mesh->maxEdgeLength(), automatic.maxEdgeLength());
+  EXPECT_EQ(scene.bodies[2].mesh->graph().nodeCount(), automatic.graph().nodeCount());
 }
 
 TEST_F(SceneFile, RobotNeedsOneDescription) {
@@ -251,6 +253,8 @@ TEST_F(SceneFile, SettingsOutOfRangeAreRefusedInDefaultsAndPairs) {
   expectSettingRefused("inherited_per_niche", "0.5", "1 or more");
   expectSettingRefused("inherited_limit", "-1", "a whole number from 0");
   expectSettingRefused("immigrants", "many", "a whole number from 0");
+  expectSettingRefused("projected_niches", "-1", "a whole number from 0");
+  expectSettingRefused("projected_immigrants", "1.5", "a whole number from 0");
   expectSettingRefused("extrapolate", "0", "true or false");
   expectSettingRefused("seed", "-1", "a whole number from 0");
   expectSettingRefused("seed", "18446744073709551616", "a whole number from 0");
@@ -337,6 +341,7 @@ TEST_F(SceneFile, EverySettingReachesItsParameter) {
            "    accuracy: nodes\n    cutoff: 2\n    least_prominence: 0.25\n"
            "    largest_niche_count: 7\n    keep_through_material: true\n"
            "    inherited_per_niche: 4.5\n    inherited_limit: 11\n    immigrants: 5\n"
+           "    projected_niches: 6\n    projected_immigrants: 13\n"
            "    extrapolate: false\n    seed: 18446744073709551615\n"
            "    warning_distance: 0.125\n    warning_hysteresis: 0.5\n"
            "    sharing_radius: 0.3\n    mating_radius: 0.4\n    niche_radius: 0.2\n"
@@ -349,7 +354,7 @@ TEST_F(SceneFile, EverySettingReachesItsParameter) {
            "      mating_restriction: false\n      crowding_factor: 4\n"
            "      generation_gap: 0.5\n      elite_count: 2\n      convergence_generations: 3\n"
            "      sharing_radius: auto\n      fitness_epsilon: 0\n      dynamic_niche_limit: 6\n"
-           "      conserve_niches: true\n      evaluation_limit: 5000000000\n"
+           "      conserve_niches: false\n      evaluation_limit: 5000000000\n"
            "    warm: {population_size: 10, niching: dynamic_sharing, mating: genotypic}\n");
   ASSERT_EQ(scene.pairs.size(), 1U);
   const PairSettings& settings = scene.pairs[0].settings;
@@ -362,6 +367,8 @@ TEST_F(SceneFile, EverySettingReachesItsParameter) {
   EXPECT_EQ(tracker.inherited_per_niche, 4.5);
   EXPECT_EQ(tracker.inherited_limit, 11U);
   EXPECT_EQ(tracker.immigrants, 5U);
+  EXPECT_EQ(tracker.projected_niches, 6U);
+  EXPECT_EQ(tracker.projected_immigrants, 13U);
   EXPECT_FALSE(tracker.extrapolate);
   EXPECT_EQ(tracker.seed, 18446744073709551615ULL);
   EXPECT_EQ(settings.warning_distance, 0.125);
@@ -386,7 +393,7 @@ TEST_F(SceneFile, EverySettingReachesItsParameter) {
   EXPECT_EQ(cold.convergence_generations, 3U);
   EXPECT_EQ(cold.fitness_epsilon, 0.0);
   EXPECT_EQ(cold.dynamic_niche_limit, 6U);
-  EXPECT_TRUE(cold.conserve_niches);
+  EXPECT_FALSE(cold.conserve_niches);
   EXPECT_EQ(cold.evaluation_limit, 5000000000U);
   EXPECT_EQ(cold.sharing_radius, std::nullopt);
   EXPECT_EQ(cold.mating_radius, 0.4);

@@ -105,6 +105,19 @@ TEST_F(SceneLoading, MatricesGoToBodiesInOrderWhileTheLimitLasts) {
   EXPECT_FALSE(load(yaml).bodies[1].mesh->metric().hasMatrices());
 }
 
+TEST_F(SceneLoading, AnAutomaticGridIsThinnedAsBodyMeshDoesAndCountedSo) {
+  BodyDescription ball = box("ball");
+  ball.primitive = "sphere";
+  ball.dimensions = {1.0};
+  ball.chord_error = 1e-3;
+  ball.max_edge_length.reset();
+  const SceneBody thinned = loadBody(ball, "", nullptr, 1500 * 1500 * 6);
+  EXPECT_GT(thinned.mesh->grid().vertexCount(), 1500U);
+  EXPECT_EQ(thinned.mesh->graph().nodeCount(), 1500U);
+  EXPECT_TRUE(thinned.mesh->metric().hasMatrices());
+  EXPECT_FALSE(loadBody(ball, "", nullptr, 1500 * 1500 * 6 - 1).mesh->metric().hasMatrices());
+}
+
 TEST_F(SceneLoading, LimitOfTheFileGoesBeforeTheCallers) {
   const std::string bodies = "bodies: [{name: a, box: {size: [1, 1, 1]}, max_edge_length: 0.5}]\n";
   EXPECT_TRUE(load(bodies).bodies[0].mesh->metric().hasMatrices());
