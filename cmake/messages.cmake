@@ -5,7 +5,7 @@ set(CONCAVE_DISTANCE_MESSAGES
   DistanceQuery.msg
   Distances.msg
   Niche.msg
-  NicheEvent.msg
+  NicheChange.msg
   Niches.msg
   PairDistance.msg
   PairInfo.msg

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <ros/callback_queue.h>
+#include <ros/node_handle.h>
+#include <ros/spinner.h>
+#include <ros/timer.h>
+#include <tf2_ros/buffer.h>
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "concave_distance/ros/cycle_statistics.h"
+#include "concave_distance/ros/distance_cycle.h"
+#include "concave_distance/ros/restart_requests.h"
+#include "concave_distance/ros/scene_keeper.h"
+#include "concave_distance/ros/topic_publishers.h"
+
+namespace concave_distance {
+
+/// Runs the cycle on a timer of its own queue and thread, so that no service delays it. The timer follows ROS
+/// time: with use_sim_time, the simulated rate.
+class CycleRunner {
+ public:
+  CycleRunner(const ros::NodeHandle& node, tf2_ros::Buffer& buffer, SceneKeeper& keeper,
+              TopicPublishers& publishers, RestartRequests& restarts, const CycleOptions& options);
+  ~CycleRunner();
+  CycleRunner(const CycleRunner&) = delete;
+  CycleRunner& operator=(const CycleRunner&) = delete;
+
+  void start(double rate);
+  /// Takes effect with the next cycle.
+  void setRates(double rate, double marker_rate, bool publish_markers);
+  double rate() const { return rate_; }
+  CycleStatistics& statistics() { return statistics_; }
+
+ private:
+  void onTimer(const ros::TimerEvent& event);
+  void adoptScene();
+  /// A clock that jumps back (a bag that starts over, a simulation that is reset) invalidates every transform
+  /// and every warm state.
+  void checkClock(ros::Time now);
+  CycleRecord runCycle(ros::Time now);
+
+  tf2_ros::Buffer& buffer_;
+  SceneKeeper& keeper_;
+  TopicPublishers& publishers_;
+  RestartRequests& restarts_;
+  CycleStatistics statistics_;
+  std::atomic<double> rate_{50.0};
+  std::atomic<double> marker_rate_{20.0};
+  std::atomic<bool> publish_markers_{true};
+
+  // Of the cycle's thread alone.
+  DistanceCycle cycle_;
+  std::shared_ptr<const ServedScene> served_;
+  std::vector<PairDemand> demand_;
+  ros::Time last_now_;
+  std::uint64_t cycles_until_markers_ = 0;
+
+  ros::CallbackQueue queue_;
+  ros::NodeHandle node_;
+  ros::AsyncSpinner spinner_;
+  ros::Timer timer_;
+};
+
+}  // namespace concave_distance

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <diagnostic_updater/diagnostic_updater.h>
+
+#include <string>
+
+#include "concave_distance/ros/cycle_statistics.h"
+#include "concave_distance/scene/scene.h"
+
+namespace concave_distance {
+
+/// Cycle time, rate against the wanted one, late cycles, processor time, latency. WARN when more than 1 % of
+/// the cycles were late or the rate fell below 90 %.
+void describeCycle(const CycleWindow& window, double wanted_rate,
+                   diagnostic_updater::DiagnosticStatusWrapper& status);
+/// Pairs watched and solved, pairs without transforms (WARN, each with its reason), search misses.
+void describePairs(const CycleWindow& window, diagnostic_updater::DiagnosticStatusWrapper& status);
+/// Bodies, pairs and what could not be loaded (WARN), or what is waited for (WARN).
+void describeScene(const Scene& scene, const std::string& waiting_for,
+                   diagnostic_updater::DiagnosticStatusWrapper& status);
+
+}  // namespace concave_distance

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <ros/time.h>
+#include <tbb/task_arena.h>
+#include <tf2/buffer_core.h>
+
+#include <atomic>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "concave_distance/ros/tracked_pair.h"
+#include "concave_distance/scene/scene.h"
+
+namespace concave_distance {
+
+struct CycleOptions {
+  std::string reference_frame;
+  double stale_after = 1.0;   ///< s
+  std::uint32_t threads = 0;  ///< that solve pairs; 0: one per core, 1: the caller's alone
+};
+
+/// What one run did, for the diagnostics.
+struct CycleReport {
+  std::uint32_t watched = 0;
+  std::uint32_t solved = 0;
+  std::uint32_t cold = 0;      ///< of the solved, those from nothing
+  std::uint32_t repeated = 0;  ///< no newer transforms
+  std::uint32_t beyond_cutoff = 0;
+  std::uint32_t without_transform = 0;  ///< missing or stale
+  std::uint32_t search_misses = 0;
+  double helper_cpu_seconds = 0.0;  ///< processor time of the threads that helped the caller's
+};
+
+/// Follows every pair of a scene: looks up transforms, leaves out what is beyond the cutoff, solves the rest
+/// in parallel, watches the warning distances. Knows tf2's buffer but no topic. One thread at a time.
+class DistanceCycle {
+ public:
+  DistanceCycle(const tf2::BufferCore& buffer, CycleOptions options);
+
+  /// Pairs that are in both scenes with the same meshes go on, warm. The order becomes that of scene.pairs.
+  void setScene(const Scene& scene);
+  /// @param demand one per pair, in their order. A pair that is not watched costs nothing and starts cold
+  /// when
+  ///        it is watched again; one that is watched but not due keeps its state.
+  CycleReport run(const std::vector<PairDemand>& demand, ros::Time now);
+
+  /// Every pair, or the one named, starts cold in its next cycle.
+  void restart();
+  void restart(const std::string& pair);
+
+  const std::vector<std::unique_ptr<TrackedPair>>& pairs() const { return pairs_; }
+  /// Pairs that left the scene with an alert raised, which setScene took back; they are told of once.
+  std::vector<std::unique_ptr<TrackedPair>> takeRetired();
+
+ private:
+  bool locate(TrackedPair& pair, ros::Time now);
+  void stopWatching(TrackedPair& pair);
+  void solveAll();
+  void solve(TrackedPair& pair);
+
+  const tf2::BufferCore& buffer_;
+  CycleOptions options_;
+  tbb::task_arena arena_;
+  std::vector<std::unique_ptr<TrackedPair>> pairs_;
+  std::vector<std::unique_ptr<TrackedPair>> retired_;
+  std::map<std::string, std::uint64_t> last_ids_;  ///< of pairs that are gone
+  std::vector<TrackedPair*> to_solve_;
+  std::atomic<std::int64_t> helper_cpu_nanoseconds_{0};
+};
+
+}  // namespace concave_distance

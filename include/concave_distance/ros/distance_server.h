@@ -1,0 +1,79 @@
+#pragma once
+
+#include <concave_distance/ConcaveDistanceConfig.h>
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <dynamic_reconfigure/server.h>
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
+#include <ros/wall_timer.h>
+#include <tf2_ros/buffer.h>
+#include <tf2_ros/transform_listener.h>
+
+#include <boost/thread/recursive_mutex.hpp>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "concave_distance/base/error.h"
+#include "concave_distance/ros/cycle_runner.h"
+#include "concave_distance/ros/distance_queries.h"
+#include "concave_distance/ros/node_parameters.h"
+#include "concave_distance/ros/restart_requests.h"
+#include "concave_distance/ros/scene_keeper.h"
+#include "concave_distance/ros/scene_services.h"
+#include "concave_distance/ros/topic_publishers.h"
+
+namespace concave_distance {
+
+/// All of the node, shared by the program and the nodelet: reads parameters, loads the scene as soon as it
+/// can be, and wires cycle, services, diagnostics and reconfiguration. Nothing in it waits.
+class DistanceServer {
+ public:
+  using FatalCallback = std::function<void(const Error&)>;
+
+  /// @param node for /tf and /diagnostics; its queue serves the services
+  /// @param private_node for parameters, topics and services
+  /// @param name of the node or nodelet, for the diagnostics
+  /// @param on_fatal called, from a callback of `private_node`, when the scene file is wrong: nothing of it
+  /// can
+  ///        be served
+  /// @throws Error for a wrong parameter
+  DistanceServer(const ros::NodeHandle& node, const ros::NodeHandle& private_node, std::string name,
+                 FatalCallback on_fatal);
+
+ private:
+  void tryToLoad(const ros::WallTimerEvent& event);
+  void onHousekeeping(const ros::WallTimerEvent& event);
+  void onReconfigure(ConcaveDistanceConfig& config, std::uint32_t level);
+  void reportMissingFrames();
+  void publishBodies();
+  void setUpDiagnostics();
+
+  ros::NodeHandle private_node_;
+  NodeParameters parameters_;
+  FatalCallback on_fatal_;
+  tf2_ros::Buffer buffer_;
+  tf2_ros::TransformListener listener_;
+  TopicPublishers publishers_;
+  SceneKeeper keeper_;
+  RestartRequests restarts_;
+  DistanceQueries queries_;
+  SceneServices scene_services_;
+  CycleRunner runner_;
+  diagnostic_updater::Updater updater_;
+  CycleWindow window_;  ///< of the diagnostics being published
+
+  boost::recursive_mutex reconfigure_mutex_;
+  ConcaveDistanceConfig config_;
+  std::unique_ptr<dynamic_reconfigure::Server<ConcaveDistanceConfig>> reconfigure_;
+
+  ros::Publisher body_markers_;
+  std::shared_ptr<const Scene> shown_scene_;  ///< by body_markers_
+  ros::WallTimer load_timer_;
+  ros::WallTimer housekeeping_timer_;
+  ros::WallTimer diagnostics_timer_;
+  ros::WallTime last_load_message_;
+  ros::WallTime last_frame_message_;
+};
+
+}  // namespace concave_distance

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <xmlrpcpp/XmlRpcValue.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "concave_distance/scene/load_scene.h"
+#include "concave_distance/scene/scene.h"
+
+namespace concave_distance {
+
+/// How niches are drawn. Lengths in metres.
+struct MarkerStyle {
+  double scale = 0.0;  ///< diameter of the nearest niche's points; 0: automaticMarkerScale()
+  double near = 0.0;   ///< distance drawn in the near colour
+  double far = 0.5;    ///< distance drawn in the far colour, and beyond
+};
+
+/// Every private parameter of the node, validated (doc/parameters.md). SI units.
+struct NodeParameters {
+  std::string scene_file;                               ///< empty: none
+  std::string robot_description = "robot_description";  ///< name of the parameter with the URDF; empty: none
+  std::string reference_frame = "world";                ///< tf frame of every output; a continuous one
+  GeometrySource geometry = GeometrySource::Collision;
+  double rate = 50.0;              ///< cycles per second
+  double marker_rate = 20.0;       ///< marker messages per second, at most `rate`
+  std::uint32_t threads = 0;       ///< that solve pairs in one cycle; 0: one per core
+  double transform_timeout = 0.2;  ///< s, that a service waits for a transform
+  double stale_after = 1.0;        ///< s, age of the newest common transform at which a pair is not solved
+  double tf_cache = 10.0;          ///< s, of transforms kept
+  PairSettings pair;               ///< what a scene file does not say otherwise
+  bool publish_markers = true;
+  bool show_bodies = true;
+  MarkerStyle marker;
+};
+
+/// @param values the node's private namespace as a struct, as ros::NodeHandle::getParam("") gives it; an
+///        invalid value (nothing set) counts as empty
+/// @param unknown receives the names in `values` that are no parameter of this node: spelling mistakes
+/// @throws Error naming the parameter, the value seen and what is allowed
+NodeParameters parseNodeParameters(XmlRpc::XmlRpcValue values, std::vector<std::string>& unknown);
+
+}  // namespace concave_distance

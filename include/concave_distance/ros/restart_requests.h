@@ -1,0 +1,26 @@
+#pragma once
+
+#include <mutex>
+#include <string>
+#include <vector>
+
+namespace concave_distance {
+
+/// Carries the wish to start pairs anew from a service to the cycle's thread. Thread-safe.
+class RestartRequests {
+ public:
+  struct Pending {
+    bool all = false;
+    std::vector<std::string> pairs;
+  };
+  void requestAll();
+  void request(const std::string& pair);
+  /// What has come in since the last call.
+  Pending take();
+
+ private:
+  std::mutex mutex_;
+  Pending pending_;
+};
+
+}  // namespace concave_distance

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "concave_distance/ros/node_parameters.h"
+#include "concave_distance/ros/topic_publishers.h"
+#include "concave_distance/scene/scene.h"
+
+namespace concave_distance {
+
+/// The scene that the cycle and the services read and that services change. A reader takes a snapshot and
+/// keeps it as long as it likes; an edit makes a new one (meshes are shared, so that is cheap). Thread-safe;
+/// readers never wait for an edit.
+class SceneKeeper {
+ public:
+  SceneKeeper(TopicPublishers& publishers, const PairSettings& defaults, const MarkerStyle& style);
+
+  std::shared_ptr<const ServedScene> served();
+  /// Settings of pairs that a service creates.
+  PairSettings defaults();
+
+  void replace(Scene scene);
+  /// Applies `change` to a copy and serves that; when `change` throws, nothing has happened.
+  void edit(const std::function<void(Scene&)>& change);
+  /// Applies `change` to every pair and to the defaults.
+  void changeSettings(const std::function<void(PairSettings&)>& change);
+
+  /// What the scene still waits for; empty once it is loaded.
+  std::string waitingFor();
+  void setWaitingFor(const std::string& what);
+
+ private:
+  void serve(Scene scene);
+
+  TopicPublishers& publishers_;
+  MarkerStyle style_;
+  std::mutex edit_mutex_;  ///< one edit at a time; it may talk to the master
+  std::mutex mutex_;       ///< guards what follows, held for a copy only
+  std::shared_ptr<const ServedScene> served_;
+  PairSettings defaults_;
+  std::string waiting_for_;
+};
+
+}  // namespace concave_distance

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <concave_distance/AddBody.h>
+#include <concave_distance/ListBodies.h>
+#include <concave_distance/RemoveBody.h>
+#include <concave_distance/ResetTracking.h>
+#include <concave_distance/SetPairEnabled.h>
+#include <ros/node_handle.h>
+#include <ros/service_server.h>
+
+#include <string>
+
+#include "concave_distance/ros/restart_requests.h"
+#include "concave_distance/ros/scene_keeper.h"
+#include "concave_distance/scene/resource_locator.h"
+
+namespace concave_distance {
+
+/// The services that tell and change what is watched: list_bodies, add_body, remove_body, set_pair_enabled,
+/// reset_tracking.
+class SceneServices {
+ public:
+  SceneServices(const ros::NodeHandle& node, SceneKeeper& keeper, RestartRequests& restarts,
+                std::string reference_frame, PackageLocator package_locator);
+
+ private:
+  bool listBodies(ListBodies::Request& request, ListBodies::Response& response);
+  bool addBody(AddBody::Request& request, AddBody::Response& response);
+  bool removeBody(RemoveBody::Request& request, RemoveBody::Response& response);
+  bool setPairEnabled(SetPairEnabled::Request& request, SetPairEnabled::Response& response);
+  bool resetTracking(ResetTracking::Request& request, ResetTracking::Response& response);
+  /// @throws Error while the scene is not loaded: it would replace what is edited now
+  void requireScene();
+
+  ros::NodeHandle node_;
+  SceneKeeper& keeper_;
+  RestartRequests& restarts_;
+  std::string reference_frame_;
+  PackageLocator package_locator_;
+  ros::ServiceServer list_bodies_;
+  ros::ServiceServer add_body_;
+  ros::ServiceServer remove_body_;
+  ros::ServiceServer set_pair_enabled_;
+  ros::ServiceServer reset_tracking_;
+};
+
+}  // namespace concave_distance

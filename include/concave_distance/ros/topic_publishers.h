@@ -1,0 +1,75 @@
+#pragma once
+
+#include <concave_distance/PairNiches.h>
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "concave_distance/ros/cycle_statistics.h"
+#include "concave_distance/ros/distance_cycle.h"
+#include "concave_distance/ros/niche_markers.h"
+#include "concave_distance/scene/scene.h"
+
+namespace concave_distance {
+
+/// A scene together with the topics of its pairs: what one cycle works on.
+struct ServedScene {
+  struct PairTopics {
+    ros::Publisher distance;
+    ros::Publisher niches;
+  };
+  std::shared_ptr<const Scene> scene;
+  std::vector<PairTopics> topics;  ///< one per scene->pairs
+  MarkerStyle marker_style;        ///< with its scale resolved
+};
+
+/// Every topic of the cycle: who listens to what, and one cycle's messages.
+class TopicPublishers {
+ public:
+  TopicPublishers(const ros::NodeHandle& node, std::string reference_frame);
+
+  /// Advertises the topics of pairs that have none yet; those of pairs that are gone end with the last
+  /// ServedScene that names them. Not from the cycle's thread: it talks to the master.
+  std::shared_ptr<const ServedScene> serve(const std::shared_ptr<const Scene>& scene,
+                                           const ServedScene* before, const MarkerStyle& style);
+
+  /// @param marker_cycle markers are sent in this cycle when somebody listens
+  void readDemand(const ServedScene& served, bool markers_wanted, bool marker_cycle,
+                  std::vector<PairDemand>& demand);
+
+  /// Publishes the pairs that are due. A message is built once and not touched after it was published.
+  /// @param marker_lifetime seconds
+  /// @return seconds from the transforms' time to the end of publishing, of each pair newly solved
+  Series publish(const ServedScene& served, const std::vector<std::unique_ptr<TrackedPair>>& pairs,
+                 double marker_lifetime, ros::Time now);
+
+  /// The alerts of pairs that left the scene (DistanceCycle::takeRetired).
+  void publishRetired(const std::vector<std::unique_ptr<TrackedPair>>& pairs);
+
+ private:
+  void publishAlerts(const std::vector<std::unique_ptr<TrackedPair>>& pairs);
+  void publishMarkers(const ServedScene& served, double lifetime, ros::Time now);
+  void publishLists(ros::Time now);
+
+  ros::NodeHandle node_;
+  std::string reference_frame_;
+  ros::Publisher distances_;
+  ros::Publisher niches_;
+  ros::Publisher markers_;
+  ros::Publisher alerts_;
+  std::atomic<bool> repeat_alerts_{false};  ///< somebody has subscribed to the alerts
+  // What readDemand found for this cycle.
+  bool distances_wanted_ = false;
+  bool niches_wanted_ = false;
+  bool markers_wanted_ = false;
+  bool markers_due_ = false;
+  ShownMarkers shown_;
+  std::vector<PairNiches> messages_;  ///< of the pairs that are due
+};
+
+}  // namespace concave_distance

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <concave_distance/PairStatus.h>
+#include <ros/time.h>
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "concave_distance/ros/conversions.h"
+#include "concave_distance/ros/tf_poses.h"
+#include "concave_distance/ros/warning_monitor.h"
+#include "concave_distance/scene/broad_phase.h"
+#include "concave_distance/scene/scene.h"
+#include "concave_distance/tracking/pair_tracker.h"
+
+namespace concave_distance {
+
+/// What the subscribers want of a pair in one cycle.
+struct PairDemand {
+  bool watched = false;  ///< some topic that carries the pair has a subscriber
+  bool due = false;      ///< one of them gets a message in this cycle
+  bool niches = false;   ///< some of them carries niches
+};
+
+/// One pair of the scene while it is followed; owned by the cycle's thread.
+struct TrackedPair {
+  TrackedPair(const Scene& scene, const ScenePair& pair, const std::string& reference_frame,
+              std::uint64_t first_id);
+
+  std::shared_ptr<const BodyMesh> mesh_a;
+  std::shared_ptr<const BodyMesh> mesh_b;
+  BodyBounds bounds_a;
+  BodyBounds bounds_b;
+  PairFrames frames;
+  std::string ancestor;  ///< of the two frames, see lookUpPair
+  PairSettings settings;
+  bool enabled = true;
+  PairDemand demand;
+
+  /// Names, stamp and pose of the last answer. Its id_offset keeps ids unused when a pair comes back under
+  /// its old name: a tracker begins to count at 1.
+  PairHeading heading;
+  PairStatus status;      ///< why there is no solution; OK when there is
+  bool solved = false;    ///< `solution` is of this stamp
+  bool repeated = false;  ///< no newer transforms: the last answer stands, nothing was computed
+  std::optional<double>
+      box_bound;       ///< m, with status BEYOND_CUTOFF: proven by boxes and spheres around the bodies
+  bool fixed = false;  ///< both bodies are connected by static transforms only
+  Eigen::Isometry3d solved_a_from_b = Eigen::Isometry3d::Identity();
+  PairSolution solution;
+  std::uint64_t largest_id = 0;  ///< told so far, with the offset
+
+  WarningMonitor warning;
+  bool warning_changed = false;
+
+  std::unique_ptr<PairTracker> tracker;  ///< made when the pair is first watched
+  bool stale_parameters = false;         ///< the tracker has to be given the settings again
+  bool must_solve = true;                ///< even when the transforms are the last ones
+
+  /// Forgets the niches; ids go on.
+  void restart();
+  /// Gives the tracker what the settings and the demand say; makes it when there is none.
+  void prepareTracker();
+};
+
+}  // namespace concave_distance

@@ -1,0 +1,312 @@
+#include "concave_distance/ros/conversions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "concave_distance/base/error.h"
+
+namespace concave_distance {
+namespace {
+
+// Departure of a quaternion's norm from 1 that is taken for rounding; the same as the command-line tools'.
+constexpr double kQuaternionTolerance = 1e-3;
+
+static_assert(PairStatus::OK == static_cast<int>(SolveStatus::Ok));
+static_assert(PairStatus::PENETRATING == static_cast<int>(SolveStatus::Penetrating));
+static_assert(PairStatus::INVALID_POSE == static_cast<int>(SolveStatus::InvalidPose));
+static_assert(PairStatus::BUDGET_EXHAUSTED == static_cast<int>(SolveStatus::BudgetExhausted));
+static_assert(Niche::KIND_POINT == static_cast<int>(NicheKind::Point));
+static_assert(Niche::KIND_SEGMENT == static_cast<int>(NicheKind::Segment));
+static_assert(Niche::KIND_PATCH == static_cast<int>(NicheKind::Patch));
+static_assert(Niche::OUTWARD == static_cast<int>(Outwardness::Outward));
+static_assert(Niche::THROUGH_MATERIAL == static_cast<int>(Outwardness::ThroughMaterial));
+static_assert(Niche::UNKNOWN == static_cast<int>(Outwardness::Unknown));
+static_assert(NicheChange::BIRTH == static_cast<int>(NicheEvent::Kind::Birth));
+static_assert(NicheChange::DEATH == static_cast<int>(NicheEvent::Kind::Death));
+static_assert(NicheChange::MERGE == static_cast<int>(NicheEvent::Kind::Merge));
+
+Niche toNiche(const PairHeading& heading, const TrackedNiche& niche) {
+  Niche message;
+  message.id = niche.id + heading.id_offset;
+  message.distance = niche.distance;
+  message.point_a = toPoint(heading.reference_from_a * niche.point_a_in_a);
+  message.point_b = toPoint(heading.reference_from_a * niche.point_b_in_a);
+  message.normal = toVector(heading.reference_from_a.linear() * niche.normal_in_a);
+  message.has_closing_speed = !std::isnan(niche.closing_speed);
+  message.closing_speed = niche.closing_speed;
+  message.kind = static_cast<std::uint8_t>(niche.kind);
+  message.extent = niche.extent;
+  message.outwardness = static_cast<std::uint8_t>(niche.outward);
+  message.visible = static_cast<std::uint8_t>(niche.visible);
+  message.has_prominence = !std::isnan(niche.prominence);
+  message.prominence = niche.prominence;
+  message.proven_local_minimum = static_cast<std::uint8_t>(niche.proven_local_minimum);
+  message.birth_cycle = niche.birth_cycle;
+  return message;
+}
+
+NicheChange toChange(const PairHeading& heading, const NicheEvent& event) {
+  NicheChange message;
+  message.kind = static_cast<std::uint8_t>(event.kind);
+  message.id = event.id + heading.id_offset;
+  message.into_id = event.kind == NicheEvent::Kind::Merge ? event.into_id + heading.id_offset : 0;
+  return message;
+}
+
+void checkFinite(double value, const std::string& where) {
+  if (!std::isfinite(value)) {
+    throw Error(where, "a number is " + std::to_string(value), "every number must be finite");
+  }
+}
+
+Eigen::Vector3d scaleFromMessage(const geometry_msgs::Vector3& scale) {
+  const Eigen::Vector3d given(scale.x, scale.y, scale.z);
+  return given.isZero(0.0) ? Eigen::Vector3d::Ones() : given;
+}
+
+}  // namespace
+
+geometry_msgs::Point toPoint(const Eigen::Vector3d& point) {
+  geometry_msgs::Point message;
+  message.x = point.x();
+  message.y = point.y();
+  message.z = point.z();
+  return message;
+}
+
+geometry_msgs::Vector3 toVector(const Eigen::Vector3d& vector) {
+  geometry_msgs::Vector3 message;
+  message.x = vector.x();
+  message.y = vector.y();
+  message.z = vector.z();
+  return message;
+}
+
+Eigen::Isometry3d poseFromMessage(const geometry_msgs::Pose& pose, const std::string& where) {
+  for (const double value : {pose.position.x, pose.position.y, pose.position.z}) {
+    checkFinite(value, where + ".position");
+  }
+  for (const double value :
+       {pose.orientation.x, pose.orientation.y, pose.orientation.z, pose.orientation.w}) {
+    checkFinite(value, where + ".orientation");
+  }
+  Eigen::Quaterniond rotation(pose.orientation.w, pose.orientation.x, pose.orientation.y, pose.orientation.z);
+  const double norm = rotation.norm();
+  if (std::abs(norm - 1.0) > kQuaternionTolerance) {
+    throw Error(where + ".orientation", "the quaternion's norm is " + std::to_string(norm),
+                "give a unit quaternion; no rotation is w: 1");
+  }
+  rotation.normalize();
+  Eigen::Isometry3d result = Eigen::Isometry3d::Identity();
+  result.linear() = rotation.toRotationMatrix();
+  result.translation() = Eigen::Vector3d(pose.position.x, pose.position.y, pose.position.z);
+  return result;
+}
+
+PairStatus toStatus(SolveStatus status) {
+  PairStatus message;
+  message.code = static_cast<std::uint8_t>(status);
+  if (status != SolveStatus::Ok) {
+    message.message = std::string(toString(status));
+  }
+  return message;
+}
+
+PairStatus toStatus(TransformStatus status, const std::string& text) {
+  PairStatus message;
+  message.message = text;
+  switch (status) {
+    case TransformStatus::Ok:
+      message.code = PairStatus::OK;
+      break;
+    case TransformStatus::Missing:
+      message.code = PairStatus::MISSING_TRANSFORM;
+      break;
+    case TransformStatus::Stale:
+      message.code = PairStatus::STALE_TRANSFORM;
+      break;
+  }
+  return message;
+}
+
+std::uint8_t toAccuracyCode(AccuracyLevel level) {
+  return level == AccuracyLevel::Nodes ? PairDistance::ACCURACY_NODES : PairDistance::ACCURACY_REFINED;
+}
+
+PairDistance emptyDistance(const PairHeading& heading, const PairStatus& status) {
+  PairDistance message;
+  message.header.stamp = heading.stamp;
+  message.header.frame_id = heading.reference_frame;
+  message.pair = heading.pair;
+  message.body_a = heading.body_a;
+  message.body_b = heading.body_b;
+  message.status = status;
+  message.accuracy = toAccuracyCode(heading.accuracy);
+  message.distance = message.lower_bound = message.closing_speed = kNotComputed;
+  message.point_a = message.point_b = toPoint(Eigen::Vector3d::Constant(kNotComputed));
+  message.normal = toVector(Eigen::Vector3d::Constant(kNotComputed));
+  message.warning = static_cast<std::uint8_t>(heading.warning);
+  return message;
+}
+
+PairDistance toDistance(const PairHeading& heading, const PairSolution& solution) {
+  PairDistance message = emptyDistance(heading, toStatus(solution.status));
+  if (std::isnan(solution.distance)) {
+    if (solution.status == SolveStatus::Ok) {
+      message.status.code = PairStatus::NOT_FOUND;
+      message.status.message = "the search met no minimum that leaves the bodies outwards";
+    }
+    return message;
+  }
+  message.has_distance = 1;
+  message.distance = solution.distance;
+  message.has_lower_bound = !std::isnan(solution.lower_bound);
+  message.lower_bound = solution.lower_bound;
+  message.has_points = solution.point_a_in_a.allFinite() && solution.point_b_in_a.allFinite();
+  if (message.has_points == 0) {
+    return message;
+  }
+  message.point_a = toPoint(heading.reference_from_a * solution.point_a_in_a);
+  message.point_b = toPoint(heading.reference_from_a * solution.point_b_in_a);
+  const Eigen::Vector3d between = solution.point_b_in_a - solution.point_a_in_a;
+  if (between.squaredNorm() > 0.0) {
+    message.normal = toVector(heading.reference_from_a.linear() * between.normalized());
+  }
+  if (!solution.niches.empty() && solution.niches.front().distance == solution.distance) {
+    const TrackedNiche& nearest = solution.niches.front();
+    message.normal = toVector(heading.reference_from_a.linear() * nearest.normal_in_a);
+    message.has_closing_speed = !std::isnan(nearest.closing_speed);
+    message.closing_speed = nearest.closing_speed;
+    message.nearest_niche_id = heading.with_niches ? nearest.id + heading.id_offset : 0;
+  }
+  return message;
+}
+
+PairNiches emptyNiches(const PairHeading& heading, const PairStatus& status) {
+  PairNiches message;
+  message.nearest = emptyDistance(heading, status);
+  message.header = message.nearest.header;
+  message.solve_time = kNotComputed;
+  return message;
+}
+
+PairNiches toNiches(const PairHeading& heading, const PairSolution& solution) {
+  PairNiches message;
+  message.nearest = toDistance(heading, solution);
+  message.header = message.nearest.header;
+  message.cycle = solution.cycle;
+  message.warm = static_cast<std::uint8_t>(solution.warm);
+  message.solve_time = solution.solve_seconds;
+  message.evaluations = solution.cost.evaluations;
+  if (!heading.with_niches) {
+    return message;
+  }
+  message.niches_cut = static_cast<std::uint8_t>(solution.niches_cut);
+  message.niches_beyond_cutoff = solution.niches_beyond_cutoff;
+  message.niches.reserve(solution.niches.size());
+  for (const TrackedNiche& niche : solution.niches) {
+    message.niches.push_back(toNiche(heading, niche));
+  }
+  message.changes.reserve(solution.events.size());
+  for (const NicheEvent& event : solution.events) {
+    message.changes.push_back(toChange(heading, event));
+  }
+  return message;
+}
+
+BodyInfo toBodyInfo(const SceneBody& body) {
+  BodyInfo message;
+  message.name = body.name;
+  message.frame_id = body.frame;
+  message.source = body.source;
+  message.vertices = static_cast<std::uint32_t>(body.mesh->surface().vertexCount());
+  message.triangles = static_cast<std::uint32_t>(body.mesh->surface().triangleCount());
+  message.grid_nodes = static_cast<std::uint32_t>(body.mesh->grid().vertexCount());
+  message.max_edge_length = body.mesh->maxEdgeLength();
+  message.diameter = body.mesh->diameter();
+  message.memory = body.mesh->memoryBytes();
+  message.closed = static_cast<std::uint8_t>(body.mesh->topology().allShellsClosed());
+  message.in_robot_model = static_cast<std::uint8_t>(body.in_robot_model);
+  message.repair = body.repair.summary();
+  return message;
+}
+
+PairInfo toPairInfo(const Scene& scene, const ScenePair& pair) {
+  PairInfo message;
+  message.name = pair.name;
+  message.body_a = scene.bodies[pair.body_a].name;
+  message.body_b = scene.bodies[pair.body_b].name;
+  message.enabled = static_cast<std::uint8_t>(pair.enabled);
+  message.accuracy = toAccuracyCode(pair.settings.tracker.accuracy);
+  message.cutoff = pair.settings.tracker.cutoff;
+  message.has_warning_distance = static_cast<std::uint8_t>(pair.settings.warning_distance.has_value());
+  message.warning_distance = pair.settings.warning_distance.value_or(kNotComputed);
+  message.warning_hysteresis = pair.settings.warning_hysteresis;
+  return message;
+}
+
+TrackerParameters queryParameters(const DistanceQuery& query, const TrackerParameters& configured) {
+  TrackerParameters parameters = configured;
+  switch (query.accuracy) {
+    case DistanceQuery::ACCURACY_DEFAULT:
+      break;
+    case DistanceQuery::ACCURACY_NODES:
+      parameters.accuracy = AccuracyLevel::Nodes;
+      break;
+    case DistanceQuery::ACCURACY_REFINED:
+      parameters.accuracy = AccuracyLevel::Refined;
+      break;
+    case DistanceQuery::ACCURACY_CERTIFIED:
+    case DistanceQuery::ACCURACY_COMPLETE:
+      throw Error(
+          "accuracy",
+          "this version answers at the levels nodes and refined, not at " +
+              std::string(query.accuracy == DistanceQuery::ACCURACY_CERTIFIED ? "certified" : "complete"),
+          "ask for ACCURACY_REFINED or leave it 0");
+    default:
+      throw Error("accuracy", "the value is " + std::to_string(query.accuracy), "allowed: 0, 1, 2");
+  }
+  const auto refuseUnlessZero = [](const char* name, double value) {
+    if (value != 0.0) {
+      throw Error(name, "the value is " + std::to_string(value) + ", but it belongs to the certified level",
+                  "this version answers at the levels nodes and refined: leave it 0");
+    }
+  };
+  refuseUnlessZero("absolute_tolerance", query.absolute_tolerance);
+  refuseUnlessZero("relative_tolerance", query.relative_tolerance);
+  refuseUnlessZero("time_budget", query.time_budget);
+  parameters.niches_wanted = query.with_niches != 0;
+  if (query.largest_niche_count != 0) {
+    parameters.largest_niche_count = query.largest_niche_count;
+  }
+  return parameters;
+}
+
+BodyDescription toBodyDescription(const AddBodyRequest& request) {
+  if (request.mesh_resource.empty() == request.primitive.empty()) {
+    throw Error("geometry",
+                request.primitive.empty() ? "neither a mesh nor a primitive" : "a mesh and a primitive",
+                "give mesh_resource or primitive, one of the two");
+  }
+  if (request.frame_id.empty()) {
+    throw Error("frame_id", "it is empty", "name the tf frame that the body is fixed to");
+  }
+  BodyDescription description;
+  description.name = request.name;
+  description.frame = withoutLeadingSlash(request.frame_id);
+  description.mesh_resource = request.mesh_resource;
+  description.scale = scaleFromMessage(request.scale);
+  description.primitive = request.primitive;
+  description.dimensions = request.dimensions;
+  description.frame_from_geometry = poseFromMessage(request.pose, "pose");
+  if (request.max_edge_length != 0.0) {
+    description.max_edge_length = request.max_edge_length;
+  }
+  if (request.chord_error != 0.0) {
+    description.chord_error = request.chord_error;
+  }
+  return description;
+}
+
+}  // namespace concave_distance

@@ -1,0 +1,129 @@
+#include "concave_distance/ros/cycle_runner.h"
+
+#include <ros/console.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "concave_distance/ros/thread_cpu.h"
+
+namespace concave_distance {
+namespace {
+
+// A marker lives for this many marker periods, but never shorter than the seconds below.
+constexpr double kMarkerPeriods = 5.0;
+constexpr double kShortestMarkerLife = 0.5;
+constexpr double kWarningPeriod = 5.0;  // s, between two warnings of the same kind
+
+std::vector<std::string> failingPairs(const std::vector<std::unique_ptr<TrackedPair>>& pairs) {
+  std::vector<std::string> failing;
+  for (const auto& pair : pairs) {
+    const bool failed = pair->status.code == PairStatus::MISSING_TRANSFORM ||
+                        pair->status.code == PairStatus::STALE_TRANSFORM;
+    if (pair->demand.due && failed) {
+      failing.push_back(pair->heading.pair + ": " + pair->status.message);
+    }
+  }
+  return failing;
+}
+
+ros::NodeHandle onQueue(const ros::NodeHandle& node, ros::CallbackQueue& queue) {
+  ros::NodeHandle handle(node);
+  handle.setCallbackQueue(&queue);
+  return handle;
+}
+
+}  // namespace
+
+CycleRunner::CycleRunner(const ros::NodeHandle& node, tf2_ros::Buffer& buffer, SceneKeeper& keeper,
+                         TopicPublishers& publishers, RestartRequests& restarts, const CycleOptions& options)
+    : buffer_(buffer),
+      keeper_(keeper),
+      publishers_(publishers),
+      restarts_(restarts),
+      cycle_(buffer, options),
+      node_(onQueue(node, queue_)),
+      spinner_(1, &queue_) {}
+
+CycleRunner::~CycleRunner() {
+  timer_.stop();
+  spinner_.stop();
+}
+
+void CycleRunner::start(double rate) {
+  rate_ = rate;
+  timer_ = node_.createTimer(ros::Duration(1.0 / rate), &CycleRunner::onTimer, this);
+  spinner_.start();
+}
+
+void CycleRunner::setRates(double rate, double marker_rate, bool publish_markers) {
+  marker_rate_ = marker_rate;
+  publish_markers_ = publish_markers;
+  if (rate != rate_.exchange(rate)) {
+    timer_.setPeriod(ros::Duration(1.0 / rate));
+  }
+}
+
+void CycleRunner::onTimer(const ros::TimerEvent& event) {
+  const std::int64_t cpu_start = threadCpuNanoseconds();
+  const ros::WallTime start = ros::WallTime::now();
+  const ros::Time now = ros::Time::now();
+  checkClock(now);
+  CycleRecord record = runCycle(now);
+  record.duration = (ros::WallTime::now() - start).toSec();
+  record.cpu =
+      1e-9 * static_cast<double>(threadCpuNanoseconds() - cpu_start) + record.report.helper_cpu_seconds;
+  record.late = ros::Time::now() > event.current_expected + ros::Duration(1.0 / rate_);
+  if (!record.failing.empty()) {
+    ROS_WARN_STREAM_THROTTLE(kWarningPeriod, record.failing.size()
+                                                 << " of " << record.report.watched
+                                                 << " watched pairs are not solved for want of transforms; "
+                                                 << record.failing.front());
+  }
+  statistics_.add(std::move(record));
+}
+
+void CycleRunner::checkClock(ros::Time now) {
+  if (now < last_now_) {
+    ROS_WARN("The clock jumped back by %.3f s: transforms and tracked niches are forgotten.",
+             (last_now_ - now).toSec());
+    buffer_.clear();
+    cycle_.restart();
+  }
+  last_now_ = now;
+}
+
+void CycleRunner::adoptScene() {
+  std::shared_ptr<const ServedScene> served = keeper_.served();
+  if (served != served_) {
+    served_ = std::move(served);
+    cycle_.setScene(*served_->scene);
+    publishers_.publishRetired(cycle_.takeRetired());
+  }
+  const RestartRequests::Pending pending = restarts_.take();
+  if (pending.all) {
+    cycle_.restart();
+  }
+  for (const std::string& pair : pending.pairs) {
+    cycle_.restart(pair);
+  }
+}
+
+CycleRecord CycleRunner::runCycle(ros::Time now) {
+  adoptScene();
+  const double marker_rate = std::min<double>(marker_rate_, rate_);
+  const bool marker_cycle = cycles_until_markers_ == 0;
+  cycles_until_markers_ = marker_cycle ? static_cast<std::uint64_t>(std::lround(rate_ / marker_rate)) - 1
+                                       : cycles_until_markers_ - 1;
+  publishers_.readDemand(*served_, publish_markers_, marker_cycle, demand_);
+  CycleRecord record;
+  record.report = cycle_.run(demand_, now);
+  record.latency = publishers_.publish(*served_, cycle_.pairs(),
+                                       std::max(kMarkerPeriods / marker_rate, kShortestMarkerLife), now);
+  record.failing = failingPairs(cycle_.pairs());
+  return record;
+}
+
+}  // namespace concave_distance

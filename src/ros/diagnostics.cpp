@@ -1,0 +1,89 @@
+#include "concave_distance/ros/diagnostics.h"
+
+#include <diagnostic_msgs/DiagnosticStatus.h>
+
+#include <algorithm>
+
+namespace concave_distance {
+namespace {
+
+using diagnostic_msgs::DiagnosticStatus;
+
+constexpr double kLateShare = 0.01;
+constexpr double kRateShare = 0.9;
+// Pairs and problems that are told one by one.
+constexpr std::size_t kListed = 20;
+
+void addSeries(const std::string& name, const Series& series,
+               diagnostic_updater::DiagnosticStatusWrapper& status) {
+  if (series.count == 0) {
+    return;
+  }
+  status.addf(name + " mean (ms)", "%.3f", 1e3 * series.mean());
+  status.addf(name + " max (ms)", "%.3f", 1e3 * series.largest);
+}
+
+}  // namespace
+
+void describeCycle(const CycleWindow& window, double wanted_rate,
+                   diagnostic_updater::DiagnosticStatusWrapper& status) {
+  const double rate = window.seconds > 0.0 ? static_cast<double>(window.cycles) / window.seconds : 0.0;
+  const auto cycles = static_cast<double>(std::max<std::uint64_t>(window.cycles, 1));
+  if (window.cycles == 0) {
+    status.summary(DiagnosticStatus::WARN, "no cycle ran (waiting for the scene, or the clock stands still)");
+  } else if (window.last.watched == 0) {
+    status.summary(DiagnosticStatus::OK, "nobody subscribes: nothing is computed");
+  } else if (static_cast<double>(window.late) > kLateShare * cycles) {
+    status.summaryf(DiagnosticStatus::WARN, "%.1f %% of the cycles were late",
+                    100.0 * static_cast<double>(window.late) / cycles);
+  } else if (window.seconds > 0.0 && rate < kRateShare * wanted_rate) {
+    status.summaryf(DiagnosticStatus::WARN, "%.1f cycles a second instead of %.1f", rate, wanted_rate);
+  } else {
+    status.summary(DiagnosticStatus::OK, "on time");
+  }
+  status.addf("rate wanted (Hz)", "%.3f", wanted_rate);
+  status.addf("rate achieved (Hz)", "%.3f", rate);
+  status.add("cycles", window.cycles);
+  status.add("late cycles", window.late);
+  addSeries("cycle time", window.duration, status);
+  addSeries("thread CPU time per cycle", window.cpu, status);
+  addSeries("latency from transform to message", window.latency, status);
+}
+
+void describePairs(const CycleWindow& window, diagnostic_updater::DiagnosticStatusWrapper& status) {
+  if (window.failing.empty()) {
+    status.summaryf(DiagnosticStatus::OK, "%u pairs watched", window.last.watched);
+  } else {
+    status.summaryf(DiagnosticStatus::WARN, "%zu of %u pairs have no or stale transforms",
+                    window.failing.size(), window.last.watched);
+  }
+  status.add("pairs watched", window.last.watched);
+  status.add("pairs beyond the cutoff", window.last.beyond_cutoff);
+  status.add("pairs without transforms", window.failing.size());
+  status.add("solves", window.solved);
+  status.add("cold solves", window.cold);
+  status.add("answers repeated without new transforms", window.repeated);
+  status.add("search misses", window.search_misses);
+  for (std::size_t index = 0; index < std::min(window.failing.size(), kListed); ++index) {
+    status.add("no transforms " + std::to_string(index + 1), window.failing[index]);
+  }
+}
+
+void describeScene(const Scene& scene, const std::string& waiting_for,
+                   diagnostic_updater::DiagnosticStatusWrapper& status) {
+  if (!waiting_for.empty()) {
+    status.summary(DiagnosticStatus::WARN, "waiting: " + waiting_for);
+  } else if (!scene.problems.empty()) {
+    status.summaryf(DiagnosticStatus::WARN, "%zu parts could not be loaded", scene.problems.size());
+  } else {
+    status.summary(DiagnosticStatus::OK, "loaded");
+  }
+  status.add("bodies", scene.bodies.size());
+  status.add("pairs", scene.pairs.size());
+  for (std::size_t index = 0; index < std::min(scene.problems.size(), kListed); ++index) {
+    status.add("problem " + std::to_string(index + 1),
+               scene.problems[index].where + ": " + scene.problems[index].message);
+  }
+}
+
+}  // namespace concave_distance

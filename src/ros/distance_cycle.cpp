@@ -1,0 +1,205 @@
+#include "concave_distance/ros/distance_cycle.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <thread>
+#include <utility>
+
+#include "concave_distance/ros/thread_count.h"
+#include "concave_distance/ros/thread_cpu.h"
+#include "concave_distance/scene/broad_phase.h"
+
+namespace concave_distance {
+namespace {
+
+void watchWarning(TrackedPair& pair) {
+  pair.warning_changed = false;
+  if (!pair.settings.warning_distance) {
+    pair.heading.warning = false;
+    return;
+  }
+  std::optional<double> distance;
+  if (pair.solved && !std::isnan(pair.solution.distance)) {
+    distance = pair.solution.distance;
+  } else if (pair.box_bound) {
+    distance = pair.box_bound;
+  }
+  pair.warning_changed =
+      pair.warning.update(distance, *pair.settings.warning_distance, pair.settings.warning_hysteresis);
+  pair.heading.warning = pair.warning.state() == WarningState::Warning;
+}
+
+}  // namespace
+
+DistanceCycle::DistanceCycle(const tf2::BufferCore& buffer, CycleOptions options)
+    : buffer_(buffer), options_(std::move(options)), arena_(arenaSize(options_.threads)) {}
+
+void DistanceCycle::setScene(const Scene& scene) {
+  std::map<std::string, std::unique_ptr<TrackedPair>> before;
+  for (auto& pair : pairs_) {
+    last_ids_[pair->heading.pair] = pair->largest_id;
+    before[pair->heading.pair] = std::move(pair);
+  }
+  pairs_.clear();
+  for (const ScenePair& wanted : scene.pairs) {
+    auto fresh =
+        std::make_unique<TrackedPair>(scene, wanted, options_.reference_frame, last_ids_[wanted.name]);
+    const auto found = before.find(wanted.name);
+    if (found != before.end() && found->second->mesh_a == fresh->mesh_a &&
+        found->second->mesh_b == fresh->mesh_b) {
+      found->second->settings = fresh->settings;
+      found->second->enabled = fresh->enabled;
+      found->second->stale_parameters = true;
+      fresh = std::move(found->second);
+    }
+    pairs_.push_back(std::move(fresh));
+  }
+  for (auto& [name, pair] : before) {
+    if (pair && pair->warning.state() != WarningState::Clear) {
+      pair->status.message = "the pair was removed with one of its bodies";
+      stopWatching(*pair);
+      retired_.push_back(std::move(pair));
+    }
+  }
+}
+
+std::vector<std::unique_ptr<TrackedPair>> DistanceCycle::takeRetired() {
+  return std::exchange(retired_, {});
+}
+
+// An alert that is raised when nobody watches the pair any more is taken back: it would never end.
+void DistanceCycle::stopWatching(TrackedPair& pair) {
+  pair.restart();
+  pair.status.code = PairStatus::DISABLED;
+  pair.warning_changed = pair.warning.state() != WarningState::Clear;
+  pair.warning.reset();
+  pair.heading.warning = false;
+}
+
+void DistanceCycle::restart() {
+  for (auto& pair : pairs_) {
+    pair->restart();
+  }
+}
+
+void DistanceCycle::restart(const std::string& name) {
+  for (auto& pair : pairs_) {
+    if (pair->heading.pair == name) {
+      pair->restart();
+    }
+  }
+}
+
+CycleReport DistanceCycle::run(const std::vector<PairDemand>& demand, ros::Time now) {
+  CycleReport report;
+  to_solve_.clear();
+  for (std::size_t index = 0; index < pairs_.size(); ++index) {
+    TrackedPair& pair = *pairs_[index];
+    const bool was_watched = pair.demand.watched;
+    pair.demand = pair.enabled ? demand[index] : PairDemand{};
+    if (!pair.demand.watched) {
+      pair.warning_changed = false;
+      if (was_watched) {
+        pair.status.message = pair.enabled ? "nobody subscribes" : "the pair was switched off";
+        stopWatching(pair);
+      }
+      continue;
+    }
+    ++report.watched;
+    if (pair.demand.due && locate(pair, now)) {
+      to_solve_.push_back(&pair);
+    }
+  }
+  helper_cpu_nanoseconds_ = 0;
+  solveAll();
+  for (auto& pair : pairs_) {
+    if (!pair->demand.due) {
+      continue;
+    }
+    watchWarning(*pair);
+    report.repeated += pair->repeated ? 1 : 0;
+    report.beyond_cutoff += pair->status.code == PairStatus::BEYOND_CUTOFF ? 1 : 0;
+    report.without_transform +=
+        pair->status.code == PairStatus::MISSING_TRANSFORM || pair->status.code == PairStatus::STALE_TRANSFORM
+            ? 1
+            : 0;
+  }
+  for (const TrackedPair* pair : to_solve_) {
+    ++report.solved;
+    report.cold += pair->solution.warm ? 0 : 1;
+    report.search_misses += pair->solution.search_miss ? 1 : 0;
+  }
+  report.helper_cpu_seconds = 1e-9 * static_cast<double>(helper_cpu_nanoseconds_.load());
+  return report;
+}
+
+// Fills status, stamp and poses; true when the pair has to be solved.
+bool DistanceCycle::locate(TrackedPair& pair, ros::Time now) {
+  PairTransforms transforms = lookUpPair(buffer_, pair.frames, now, options_.stale_after, pair.ancestor);
+  pair.repeated = false;
+  pair.box_bound.reset();
+  const ros::Time last_stamp = pair.heading.stamp;
+  pair.heading.with_niches = pair.demand.niches;
+  pair.heading.stamp = transforms.status == TransformStatus::Missing ? now : transforms.stamp;
+  pair.status = toStatus(transforms.status, transforms.message);
+  if (transforms.status != TransformStatus::Ok) {
+    pair.solved = false;
+    return false;
+  }
+  pair.heading.reference_from_a = transforms.reference_from_a;
+  pair.fixed = transforms.fixed;
+  const double cutoff = pair.settings.tracker.cutoff;
+  if (std::isfinite(cutoff)) {
+    const double bound = distanceLowerBound(pair.bounds_a, pair.bounds_b, transforms.a_from_b);
+    if (bound > cutoff) {
+      pair.restart();
+      pair.box_bound = bound;
+      pair.status.code = PairStatus::BEYOND_CUTOFF;
+      return false;
+    }
+  }
+  pair.prepareTracker();
+  const bool same_input = transforms.fixed ? pair.solved_a_from_b.matrix() == transforms.a_from_b.matrix()
+                                           : last_stamp == transforms.stamp;
+  pair.repeated = pair.solved && same_input && !pair.must_solve;
+  if (pair.repeated) {
+    return false;
+  }
+  pair.solved_a_from_b = transforms.a_from_b;
+  return true;
+}
+
+void DistanceCycle::solveAll() {
+  if (options_.threads == 1 || to_solve_.size() < 2) {
+    for (TrackedPair* pair : to_solve_) {
+      solve(*pair);
+    }
+    return;
+  }
+  const std::thread::id caller = std::this_thread::get_id();
+  arena_.execute([&] {
+    tbb::parallel_for(
+        std::size_t{0}, to_solve_.size(),
+        [&](std::size_t index) {
+          const std::int64_t start = threadCpuNanoseconds();
+          solve(*to_solve_[index]);
+          if (std::this_thread::get_id() != caller) {
+            helper_cpu_nanoseconds_ += threadCpuNanoseconds() - start;
+          }
+        },
+        tbb::simple_partitioner());
+  });
+}
+
+void DistanceCycle::solve(TrackedPair& pair) {
+  pair.tracker->update(pair.solved_a_from_b, pair.heading.stamp.toSec(), pair.solution);
+  pair.solved = true;
+  pair.must_solve = false;
+  for (const TrackedNiche& niche : pair.solution.niches) {
+    pair.largest_id = std::max(pair.largest_id, niche.id + pair.heading.id_offset);
+  }
+}
+
+}  // namespace concave_distance

@@ -1,0 +1,36 @@
+#include <ros/init.h>
+#include <ros/node_handle.h>
+#include <ros/spinner.h>
+
+#include <cstdlib>
+
+#include "concave_distance/base/error.h"
+#include "concave_distance/ros/distance_server.h"
+
+namespace {
+
+constexpr int kServiceThreads = 2;  // a long query does not hold up the others
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "concave_distance");
+  const ros::NodeHandle node;
+  const ros::NodeHandle private_node("~");
+  int exit_code = EXIT_SUCCESS;
+  try {
+    concave_distance::DistanceServer server(node, private_node, ros::this_node::getName(),
+                                            [&exit_code](const concave_distance::Error& problem) {
+                                              ROS_FATAL_STREAM(problem.what());
+                                              exit_code = EXIT_FAILURE;
+                                              ros::requestShutdown();
+                                            });
+    ros::AsyncSpinner spinner(kServiceThreads);
+    spinner.start();
+    ros::waitForShutdown();
+  } catch (const concave_distance::Error& problem) {
+    ROS_FATAL_STREAM(problem.what());
+    exit_code = EXIT_FAILURE;
+  }
+  return exit_code;
+}

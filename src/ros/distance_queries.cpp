@@ -1,0 +1,172 @@
+#include "concave_distance/ros/distance_queries.h"
+
+#include <tbb/parallel_for.h>
+
+#include <utility>
+
+#include "concave_distance/base/error.h"
+#include "concave_distance/ros/conversions.h"
+#include "concave_distance/ros/scene_edits.h"
+#include "concave_distance/ros/tf_poses.h"
+#include "concave_distance/ros/thread_count.h"
+#include "concave_distance/tracking/pair_tracker.h"
+
+namespace concave_distance {
+namespace {
+
+/// Where a body is: rigidly at `frame_from_body` in a tf frame.
+struct BodyPlace {
+  std::string frame;
+  Eigen::Isometry3d frame_from_body = Eigen::Isometry3d::Identity();
+};
+
+BodyPlace placeOf(const SceneBody& body, bool use_pose, const geometry_msgs::PoseStamped& pose,
+                  const std::string& reference_frame, const std::string& where) {
+  if (!use_pose) {
+    return {body.frame, Eigen::Isometry3d::Identity()};
+  }
+  const std::string frame = withoutLeadingSlash(pose.header.frame_id);
+  return {frame.empty() ? reference_frame : frame, poseFromMessage(pose.pose, where)};
+}
+
+PairTransforms locate(const BodyPlace& a, const BodyPlace& b, const QueryContext& context, ros::Time stamp,
+                      ros::Time now) {
+  const PairFrames frames{context.reference_frame, a.frame, b.frame};
+  waitForFrames(*context.buffer, frames.frame_a, frames.frame_b, stamp, context.transform_timeout);
+  waitForFrames(*context.buffer, frames.reference, frames.frame_a, stamp, context.transform_timeout);
+  std::string ancestor;
+  PairTransforms transforms = stamp.isZero()
+                                  ? lookUpPair(*context.buffer, frames, now, context.stale_after, ancestor)
+                                  : lookUpPairAt(*context.buffer, frames, stamp);
+  transforms.a_from_b = a.frame_from_body.inverse() * transforms.a_from_b * b.frame_from_body;
+  transforms.reference_from_a = transforms.reference_from_a * a.frame_from_body;
+  return transforms;
+}
+
+// Ids belong to what is tracked; an answer has none.
+void forgetIds(PairNiches& answer) {
+  answer.nearest.nearest_niche_id = 0;
+  answer.changes.clear();
+  for (Niche& niche : answer.niches) {
+    niche.id = 0;
+  }
+}
+
+PairNiches answer(const DistanceQuery& query, const Scene& scene, const QueryContext& context, ros::Time now,
+                  PairHeading& heading) {
+  const SceneBody& body_a = scene.bodies[requireBody(scene, query.body_a)];
+  const SceneBody& body_b = scene.bodies[requireBody(scene, query.body_b)];
+  if (&body_a == &body_b) {
+    throw Error("body_b", "both bodies are '" + query.body_a + "'", "name two different bodies");
+  }
+  const auto found = scene.findPair(query.body_a, query.body_b);
+  const PairSettings& settings = found ? scene.pairs[*found].settings : context.defaults;
+  heading.pair = found ? scene.pairs[*found].name : query.body_a + "/" + query.body_b;
+  const TrackerParameters parameters = queryParameters(query, settings.tracker);
+  heading.accuracy = parameters.accuracy;
+  heading.with_niches = parameters.niches_wanted;
+
+  const BodyPlace place_a =
+      placeOf(body_a, query.use_pose_a != 0, query.pose_a, context.reference_frame, "pose_a");
+  const BodyPlace place_b =
+      placeOf(body_b, query.use_pose_b != 0, query.pose_b, context.reference_frame, "pose_b");
+  const PairTransforms transforms = locate(place_a, place_b, context, query.stamp, now);
+  heading.stamp = transforms.status == TransformStatus::Missing ? now : transforms.stamp;
+  heading.reference_from_a = transforms.reference_from_a;
+  if (transforms.status != TransformStatus::Ok) {
+    return emptyNiches(heading, toStatus(transforms.status, transforms.message));
+  }
+  const PairSolution solution =
+      solveOnce(heading.pair, body_a.mesh, body_b.mesh, parameters, transforms.a_from_b);
+  if (settings.warning_distance && solution.distance < *settings.warning_distance) {
+    heading.warning = true;
+  }
+  return toNiches(heading, solution);
+}
+
+}  // namespace
+
+bool isAnswered(const PairNiches& answer) {
+  return answer.nearest.has_distance != 0;
+}
+
+PairNiches answerQuery(const DistanceQuery& query, const Scene& scene, const QueryContext& context,
+                       ros::Time now) {
+  PairHeading heading;
+  heading.body_a = query.body_a;
+  heading.body_b = query.body_b;
+  heading.reference_frame = context.reference_frame;
+  heading.stamp = now;
+  try {
+    PairNiches result = answer(query, scene, context, now, heading);
+    forgetIds(result);
+    return result;
+  } catch (const Error& problem) {
+    PairStatus status;
+    status.code = PairStatus::INVALID_REQUEST;
+    status.message = problem.what();
+    return emptyNiches(heading, status);
+  }
+}
+
+DistanceQueries::DistanceQueries(const ros::NodeHandle& node, SceneKeeper& keeper, QueryContext context,
+                                 std::uint32_t threads)
+    : node_(node),
+      keeper_(keeper),
+      context_(std::move(context)),
+      arena_(arenaSize(threads)),
+      get_distance_(node_.advertiseService("get_distance", &DistanceQueries::getDistance, this)),
+      get_distances_(node_.advertiseService("get_distances", &DistanceQueries::getDistances, this)) {}
+
+QueryContext DistanceQueries::currentContext() {
+  QueryContext context = context_;
+  context.defaults = keeper_.defaults();
+  return context;
+}
+
+bool DistanceQueries::getDistance(GetDistance::Request& request, GetDistance::Response& response) {
+  const auto served = keeper_.served();
+  response.result = answerQuery(request.query, *served->scene, currentContext(), ros::Time::now());
+  response.success = static_cast<std::uint8_t>(isAnswered(response.result));
+  response.message = response.result.nearest.status.message;
+  const std::string waiting = keeper_.waitingFor();
+  if (response.success == 0 && !waiting.empty()) {
+    response.message += "; the scene is not loaded yet: " + waiting;
+  }
+  return true;
+}
+
+bool DistanceQueries::getDistances(GetDistances::Request& request, GetDistances::Response& response) {
+  if (request.queries.empty()) {
+    response.success = 0;
+    response.message = "queries: the list is empty (name at least one pair; list_bodies tells what there is)";
+    return true;
+  }
+  const auto served = keeper_.served();
+  const QueryContext context = currentContext();
+  const ros::Time now = ros::Time::now();
+  response.results.resize(request.queries.size());
+  arena_.execute([&] {
+    tbb::parallel_for(std::size_t{0}, request.queries.size(), [&](std::size_t index) {
+      response.results[index] = answerQuery(request.queries[index], *served->scene, context, now);
+    });
+  });
+  std::size_t failed = 0;
+  for (const PairNiches& result : response.results) {
+    if (isAnswered(result)) {
+      continue;
+    }
+    if (++failed == 1) {
+      response.message =
+          result.nearest.body_a + " and " + result.nearest.body_b + ": " + result.nearest.status.message;
+    }
+  }
+  if (failed > 0) {
+    response.message = std::to_string(failed) + " of " + std::to_string(response.results.size()) +
+                       " queries have no distance; the first: " + response.message;
+  }
+  response.success = static_cast<std::uint8_t>(failed == 0);
+  return true;
+}
+
+}  // namespace concave_distance

@@ -1,0 +1,186 @@
+#include "concave_distance/ros/distance_server.h"
+
+#include <ros/console.h>
+
+#include <set>
+#include <sstream>
+#include <thread>
+#include <utility>
+
+#include "concave_distance/ros/body_markers.h"
+#include "concave_distance/ros/diagnostics.h"
+#include "concave_distance/ros/reconfiguration.h"
+#include "concave_distance/ros/scene_loading.h"
+
+namespace concave_distance {
+namespace {
+
+constexpr double kLoadPeriod = 0.1;          // s, between two looks for the robot description
+constexpr double kHousekeepingPeriod = 0.2;  // s
+constexpr double kMessagePeriod = 5.0;       // s, between two messages about what is missing
+
+NodeParameters readParameters(const ros::NodeHandle& node) {
+  XmlRpc::XmlRpcValue values;
+  node.getParam("", values);
+  std::vector<std::string> unknown;
+  NodeParameters parameters = parseNodeParameters(values, unknown);
+  for (const std::string& name : unknown) {
+    ROS_WARN_STREAM("The parameter '" << node.resolveName(name)
+                                      << "' is not known to this node: a spelling mistake?");
+  }
+  const std::uint32_t cores = std::thread::hardware_concurrency();
+  if (cores != 0 && parameters.threads > cores) {
+    ROS_WARN("~threads is %u, this machine has %u cores: no more threads than cores are used.",
+             parameters.threads, cores);
+  }
+  return parameters;
+}
+
+bool isDue(ros::WallTime& last, double period) {
+  const ros::WallTime now = ros::WallTime::now();
+  if (!last.isZero() && (now - last).toSec() < period) {
+    return false;
+  }
+  last = now;
+  return true;
+}
+
+void logScene(const Scene& scene) {
+  for (const std::string& note : scene.notes) {
+    ROS_INFO_STREAM(note);
+  }
+  for (const SceneProblem& problem : scene.problems) {
+    ROS_ERROR_STREAM("Not loaded: " << problem.where << ": " << problem.message);
+  }
+  ROS_INFO("The scene has %zu bodies and %zu pairs; %zu parts could not be loaded.", scene.bodies.size(),
+           scene.pairs.size(), scene.problems.size());
+}
+
+}  // namespace
+
+DistanceServer::DistanceServer(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
+                               std::string name, FatalCallback on_fatal)
+    : private_node_(private_node),
+      parameters_(readParameters(private_node)),
+      on_fatal_(std::move(on_fatal)),
+      buffer_(ros::Duration(parameters_.tf_cache)),
+      listener_(buffer_, node),
+      publishers_(private_node, parameters_.reference_frame),
+      keeper_(publishers_, parameters_.pair, parameters_.marker),
+      queries_(private_node, keeper_,
+               {&buffer_, parameters_.reference_frame, parameters_.transform_timeout, parameters_.stale_after,
+                parameters_.pair},
+               parameters_.threads),
+      scene_services_(private_node, keeper_, restarts_, parameters_.reference_frame, rosPackagePath),
+      runner_(private_node, buffer_, keeper_, publishers_, restarts_,
+              {parameters_.reference_frame, parameters_.stale_after, parameters_.threads}),
+      updater_(node, private_node, std::move(name)),
+      body_markers_(private_node_.advertise<visualization_msgs::MarkerArray>("body_markers", 1, true)) {
+  keeper_.setWaitingFor("loading");
+  setUpDiagnostics();
+  runner_.setRates(parameters_.rate, parameters_.marker_rate, parameters_.publish_markers);
+  runner_.start(parameters_.rate);
+  config_ = toConfig(parameters_);
+  reconfigure_ =
+      std::make_unique<dynamic_reconfigure::Server<ConcaveDistanceConfig>>(reconfigure_mutex_, private_node_);
+  reconfigure_->setCallback(
+      [this](ConcaveDistanceConfig& config, std::uint32_t level) { onReconfigure(config, level); });
+  load_timer_ =
+      private_node_.createWallTimer(ros::WallDuration(kLoadPeriod), &DistanceServer::tryToLoad, this);
+  housekeeping_timer_ = private_node_.createWallTimer(ros::WallDuration(kHousekeepingPeriod),
+                                                      &DistanceServer::onHousekeeping, this);
+}
+
+void DistanceServer::tryToLoad(const ros::WallTimerEvent& /*event*/) {
+  LoadAttempt attempt;
+  try {
+    attempt = tryLoadScene(parameters_, private_node_);
+  } catch (const Error& problem) {
+    load_timer_.stop();
+    keeper_.setWaitingFor(std::string("the scene cannot be loaded: ") + problem.what());
+    on_fatal_(problem);
+    return;
+  }
+  if (attempt.scene) {
+    load_timer_.stop();
+    logScene(*attempt.scene);
+    keeper_.replace(std::move(*attempt.scene));
+    keeper_.setWaitingFor("");
+    return;
+  }
+  keeper_.setWaitingFor(attempt.waiting_for);
+  if (isDue(last_load_message_, kMessagePeriod)) {
+    ROS_WARN_STREAM("Waiting: " << attempt.waiting_for);
+  }
+}
+
+void DistanceServer::setUpDiagnostics() {
+  updater_.setHardwareID("none");
+  updater_.add("cycle", [this](diagnostic_updater::DiagnosticStatusWrapper& status) {
+    window_ = runner_.statistics().take(ros::WallTime::now().toSec());
+    describeCycle(window_, runner_.rate(), status);
+  });
+  updater_.add("pairs", [this](diagnostic_updater::DiagnosticStatusWrapper& status) {
+    describePairs(window_, status);
+  });
+  updater_.add("scene", [this](diagnostic_updater::DiagnosticStatusWrapper& status) {
+    describeScene(*keeper_.served()->scene, keeper_.waitingFor(), status);
+  });
+  diagnostics_timer_ =
+      private_node_.createWallTimer(ros::WallDuration(updater_.getPeriod()),
+                                    [this](const ros::WallTimerEvent&) { updater_.force_update(); });
+}
+
+void DistanceServer::onHousekeeping(const ros::WallTimerEvent& /*event*/) {
+  publishBodies();
+  if (keeper_.waitingFor().empty() && isDue(last_frame_message_, kMessagePeriod)) {
+    reportMissingFrames();
+  }
+}
+
+void DistanceServer::publishBodies() {
+  const std::shared_ptr<const ServedScene> served = keeper_.served();
+  if (parameters_.show_bodies && served->scene != shown_scene_ && body_markers_.getNumSubscribers() > 0) {
+    body_markers_.publish(bodyMarkers(*served->scene));
+    shown_scene_ = served->scene;
+  }
+}
+
+void DistanceServer::reportMissingFrames() {
+  std::set<std::string> missing;
+  for (const SceneBody& body : keeper_.served()->scene->bodies) {
+    if (!buffer_.canTransform(parameters_.reference_frame, body.frame, ros::Time(0))) {
+      missing.insert(body.frame);
+    }
+  }
+  if (missing.empty()) {
+    return;
+  }
+  std::ostringstream list;
+  for (const std::string& frame : missing) {
+    list << (list.tellp() > 0 ? ", " : "") << frame;
+  }
+  ROS_WARN_STREAM("No transform to the reference frame '"
+                  << parameters_.reference_frame << "' from " << missing.size() << " frames of bodies: "
+                  << list.str() << ". Is somebody publishing them, and is ~reference_frame right?");
+}
+
+void DistanceServer::onReconfigure(ConcaveDistanceConfig& config, std::uint32_t /*level*/) {
+  if (concernsPairs(config_, config)) {
+    const ConcaveDistanceConfig before = config_;
+    try {
+      keeper_.changeSettings([&](PairSettings& settings) {
+        applyChanges(before, config, settings);
+        settings.tracker.validate("reconfigure");
+      });
+    } catch (const Error& problem) {
+      ROS_ERROR_STREAM("Reconfiguration refused: " << problem.what());
+      config = config_;
+      return;
+    }
+  }
+  runner_.setRates(config.rate, config.marker_rate, config.publish_markers);
+  config_ = config;
+}
+
+}  // namespace concave_distance

@@ -1,0 +1,93 @@
+#include "concave_distance/ros/node_parameters.h"
+
+#include <limits>
+#include <utility>
+
+#include "concave_distance/base/error.h"
+#include "concave_distance/ros/parameter_reader.h"
+#include "concave_distance/ros/tf_poses.h"
+
+namespace concave_distance {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+// Above any length of a scene; keeps a misplaced exponent out.
+constexpr double kLongest = 1e6;
+
+TrackerParameters readTracker(ParameterReader& reader, TrackerParameters tracker) {
+  const std::vector<std::string> levels = {std::string(toString(AccuracyLevel::Nodes)),
+                                           std::string(toString(AccuracyLevel::Refined))};
+  tracker.accuracy = reader.choice("accuracy", tracker.accuracy == AccuracyLevel::Nodes ? 0 : 1, levels) == 0
+                         ? AccuracyLevel::Nodes
+                         : AccuracyLevel::Refined;
+  const double cutoff = reader.number("cutoff", 0.0, 0.0, kLongest);
+  tracker.cutoff = cutoff == 0.0 ? kInfinity : cutoff;
+  tracker.least_prominence = reader.number("least_prominence", tracker.least_prominence, 0.0, 1e3);
+  tracker.largest_niche_count = reader.count("largest_niche_count", tracker.largest_niche_count, 1, 100'000);
+  tracker.keep_through_material = reader.flag("keep_through_material", tracker.keep_through_material);
+  tracker.extrapolate = reader.flag("extrapolate", tracker.extrapolate);
+  tracker.cold.population_size =
+      reader.count("cold_population_size", tracker.cold.population_size, 2, 1'000'000);
+  tracker.cold.max_generations = reader.count("cold_generations", tracker.cold.max_generations, 0, 1'000'000);
+  tracker.warm.population_size =
+      reader.count("warm_population_size", tracker.warm.population_size, 2, 10'000);
+  tracker.warm.max_generations = reader.count("warm_generations", tracker.warm.max_generations, 0, 10'000);
+  tracker.immigrants = reader.count("immigrants", tracker.immigrants, 0, 10'000);
+  tracker.seed = reader.count("seed", static_cast<std::uint32_t>(tracker.seed), 0, 2'147'483'647);
+  tracker.validate("~");
+  return tracker;
+}
+
+PairSettings readPair(ParameterReader& reader, PairSettings pair) {
+  pair.tracker = readTracker(reader, pair.tracker);
+  if (reader.has("warning_distance")) {
+    pair.warning_distance = reader.number("warning_distance", 0.0, 0.0, kLongest);
+  }
+  pair.warning_hysteresis = reader.number("warning_hysteresis", pair.warning_hysteresis, 0.0, kLongest);
+  return pair;
+}
+
+MarkerStyle readMarkers(ParameterReader& reader, MarkerStyle style) {
+  style.scale = reader.number("marker_scale", style.scale, 0.0, kLongest);
+  style.near = reader.number("marker_near", style.near, 0.0, kLongest);
+  style.far = reader.number("marker_far", style.far, 0.0, kLongest);
+  if (style.far <= style.near) {
+    throw Error("~marker_far", "the value is " + std::to_string(style.far),
+                "allowed: more than ~marker_near, which is " + std::to_string(style.near));
+  }
+  return style;
+}
+
+}  // namespace
+
+NodeParameters parseNodeParameters(XmlRpc::XmlRpcValue values, std::vector<std::string>& unknown) {
+  ParameterReader reader(std::move(values), "~");
+  NodeParameters parameters;
+  parameters.scene_file = reader.text("scene_file", parameters.scene_file);
+  parameters.robot_description = reader.text("robot_description", parameters.robot_description);
+  if (parameters.robot_description.find('<') != std::string::npos) {
+    // Not a name but the URDF itself, in the node's own namespace: it is found there under the usual name.
+    parameters.robot_description = NodeParameters().robot_description;
+  }
+  parameters.reference_frame =
+      withoutLeadingSlash(reader.text("reference_frame", parameters.reference_frame));
+  if (parameters.reference_frame.empty()) {
+    throw Error("~reference_frame", "it is empty", "name a tf frame that does not jump, e.g. world or odom");
+  }
+  parameters.geometry = reader.choice("geometry", 0, {"collision", "visual"}) == 0 ? GeometrySource::Collision
+                                                                                   : GeometrySource::Visual;
+  parameters.rate = reader.number("rate", parameters.rate, 0.1, 2000.0);
+  parameters.marker_rate = reader.number("marker_rate", parameters.marker_rate, 0.1, 200.0);
+  parameters.threads = reader.count("threads", parameters.threads, 0, 1024);
+  parameters.transform_timeout = reader.number("transform_timeout", parameters.transform_timeout, 0.0, 60.0);
+  parameters.stale_after = reader.number("stale_after", parameters.stale_after, 1e-3, 1e6);
+  parameters.tf_cache = reader.number("tf_cache", parameters.tf_cache, 0.1, 3600.0);
+  parameters.pair = readPair(reader, parameters.pair);
+  parameters.publish_markers = reader.flag("publish_markers", parameters.publish_markers);
+  parameters.show_bodies = reader.flag("show_bodies", parameters.show_bodies);
+  parameters.marker = readMarkers(reader, parameters.marker);
+  unknown = reader.unread({"diagnostic_period"});
+  return parameters;
+}
+
+}  // namespace concave_distance

@@ -1,0 +1,50 @@
+#include "concave_distance/ros/reconfiguration.h"
+
+#include <cmath>
+#include <limits>
+
+namespace concave_distance {
+
+ConcaveDistanceConfig toConfig(const NodeParameters& parameters) {
+  ConcaveDistanceConfig config = ConcaveDistanceConfig::__getDefault__();
+  const TrackerParameters& tracker = parameters.pair.tracker;
+  config.rate = parameters.rate;
+  config.marker_rate = parameters.marker_rate;
+  config.publish_markers = parameters.publish_markers;
+  config.cutoff = std::isfinite(tracker.cutoff) ? tracker.cutoff : 0.0;
+  config.least_prominence = tracker.least_prominence;
+  config.largest_niche_count = static_cast<int>(tracker.largest_niche_count);
+  config.warm_population_size = static_cast<int>(tracker.warm.population_size);
+  config.warm_generations = static_cast<int>(tracker.warm.max_generations);
+  config.immigrants = static_cast<int>(tracker.immigrants);
+  return config;
+}
+
+void applyChanges(const ConcaveDistanceConfig& before, const ConcaveDistanceConfig& after,
+                  PairSettings& settings) {
+  TrackerParameters& tracker = settings.tracker;
+  if (after.cutoff != before.cutoff) {
+    tracker.cutoff = after.cutoff == 0.0 ? std::numeric_limits<double>::infinity() : after.cutoff;
+  }
+  if (after.least_prominence != before.least_prominence) {
+    tracker.least_prominence = after.least_prominence;
+  }
+  const auto assign = [](int was, int is, std::uint32_t& value) {
+    if (is != was) {
+      value = static_cast<std::uint32_t>(is);
+    }
+  };
+  assign(before.largest_niche_count, after.largest_niche_count, tracker.largest_niche_count);
+  assign(before.warm_population_size, after.warm_population_size, tracker.warm.population_size);
+  assign(before.warm_generations, after.warm_generations, tracker.warm.max_generations);
+  assign(before.immigrants, after.immigrants, tracker.immigrants);
+}
+
+bool concernsPairs(const ConcaveDistanceConfig& before, const ConcaveDistanceConfig& after) {
+  return after.cutoff != before.cutoff || after.least_prominence != before.least_prominence ||
+         after.largest_niche_count != before.largest_niche_count ||
+         after.warm_population_size != before.warm_population_size ||
+         after.warm_generations != before.warm_generations || after.immigrants != before.immigrants;
+}
+
+}  // namespace concave_distance

@@ -1,0 +1,62 @@
+#include "concave_distance/ros/scene_keeper.h"
+
+#include <utility>
+
+namespace concave_distance {
+
+SceneKeeper::SceneKeeper(TopicPublishers& publishers, const PairSettings& defaults, const MarkerStyle& style)
+    : publishers_(publishers), style_(style), defaults_(defaults) {
+  serve(Scene());
+}
+
+std::shared_ptr<const ServedScene> SceneKeeper::served() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return served_;
+}
+
+PairSettings SceneKeeper::defaults() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return defaults_;
+}
+
+void SceneKeeper::replace(Scene scene) {
+  const std::lock_guard<std::mutex> edit_lock(edit_mutex_);
+  serve(std::move(scene));
+}
+
+void SceneKeeper::edit(const std::function<void(Scene&)>& change) {
+  const std::lock_guard<std::mutex> edit_lock(edit_mutex_);
+  Scene edited = *served()->scene;
+  change(edited);
+  serve(std::move(edited));
+}
+
+void SceneKeeper::changeSettings(const std::function<void(PairSettings&)>& change) {
+  edit([&](Scene& scene) {
+    for (ScenePair& pair : scene.pairs) {
+      change(pair.settings);
+    }
+  });
+  const std::lock_guard<std::mutex> lock(mutex_);
+  change(defaults_);
+}
+
+std::string SceneKeeper::waitingFor() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return waiting_for_;
+}
+
+void SceneKeeper::setWaitingFor(const std::string& what) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  waiting_for_ = what;
+}
+
+void SceneKeeper::serve(Scene scene) {
+  const std::shared_ptr<const ServedScene> before = served();
+  std::shared_ptr<const ServedScene> next =
+      publishers_.serve(std::make_shared<const Scene>(std::move(scene)), before.get(), style_);
+  const std::lock_guard<std::mutex> lock(mutex_);
+  served_ = std::move(next);
+}
+
+}  // namespace concave_distance

@@ -1,0 +1,73 @@
+#include "concave_distance/ros/scene_loading.h"
+
+#include <ros/package.h>
+
+#include <utility>
+#include <vector>
+
+#include "concave_distance/base/error.h"
+#include "concave_distance/scene/load_scene.h"
+
+namespace concave_distance {
+namespace {
+
+// Where loadRobotScene looks for the SRDF; a robot may have none.
+constexpr const char* kSemanticDescription = "robot_description_semantic";
+
+std::optional<std::string> findDescription(const ros::NodeHandle& node, const std::string& name) {
+  std::string key;
+  std::string urdf;
+  if (!node.searchParam(name, key) || !node.getParam(key, urdf)) {
+    return std::nullopt;
+  }
+  return urdf;
+}
+
+Scene loadRobot(const std::string& urdf, const std::string& name, const SceneLoadOptions& options) {
+  try {
+    return loadRobotScene(urdf, name, options);
+  } catch (const Error& problem) {
+    Scene scene;
+    scene.problems.push_back({problem.where(), problem.whatIsWrong() + " (" + problem.remedy() + ")"});
+    return scene;
+  }
+}
+
+}  // namespace
+
+std::string rosPackagePath(const std::string& package) {
+  return ros::package::getPath(package);
+}
+
+LoadAttempt tryLoadScene(const NodeParameters& parameters, const ros::NodeHandle& node) {
+  SceneLoadOptions options;
+  options.package_locator = rosPackagePath;
+  options.geometry = parameters.geometry;
+  options.default_settings = parameters.pair;
+  std::vector<std::string> names;
+  if (!parameters.scene_file.empty()) {
+    names = descriptionsOfSceneFile(parameters.scene_file);
+  } else if (!parameters.robot_description.empty()) {
+    names.push_back(parameters.robot_description);
+  }
+  for (const std::string& name : names) {
+    const std::optional<std::string> urdf = findDescription(node, name);
+    if (!urdf) {
+      return {std::nullopt, "there is no parameter '" + name + "' with the robot's URDF"};
+    }
+    options.descriptions[name] = *urdf;
+  }
+  if (!parameters.scene_file.empty()) {
+    return {loadSceneFile(parameters.scene_file, options), ""};
+  }
+  if (parameters.robot_description.empty()) {
+    return {Scene(), ""};
+  }
+  const std::string urdf = options.descriptions[parameters.robot_description];
+  if (const auto srdf = findDescription(node, kSemanticDescription)) {
+    options.descriptions[kSemanticDescription] = *srdf;
+  }
+  return {loadRobot(urdf, parameters.robot_description, options), ""};
+}
+
+}  // namespace concave_distance

@@ -1,0 +1,130 @@
+#include "concave_distance/ros/scene_services.h"
+
+#include <utility>
+
+#include "concave_distance/base/error.h"
+#include "concave_distance/ros/conversions.h"
+#include "concave_distance/ros/scene_edits.h"
+#include "concave_distance/scene/load_scene.h"
+
+namespace concave_distance {
+namespace {
+
+// Runs a request; an Error becomes the response's message.
+template <typename Response, typename Act>
+bool respond(Response& response, Act&& act) {
+  try {
+    act();
+    response.success = 1;
+  } catch (const Error& problem) {
+    response.success = 0;
+    response.message = problem.what();
+  }
+  return true;
+}
+
+PairSettings pairSettings(const AddBody::Request& request, PairSettings settings) {
+  if (request.has_warning_distance != 0) {
+    if (!(request.warning_distance >= 0.0) || !(request.warning_hysteresis >= 0.0)) {
+      throw Error("warning_distance", "a length is negative or no number", "give metres, 0 or more");
+    }
+    settings.warning_distance = request.warning_distance;
+    settings.warning_hysteresis = request.warning_hysteresis;
+  }
+  return settings;
+}
+
+Eigen::Vector4d toColour(const std_msgs::ColorRGBA& color, const Eigen::Vector4d& fallback) {
+  const Eigen::Vector4d given(color.r, color.g, color.b, color.a);
+  return given.isZero(0.0) ? fallback : given;
+}
+
+}  // namespace
+
+SceneServices::SceneServices(const ros::NodeHandle& node, SceneKeeper& keeper, RestartRequests& restarts,
+                             std::string reference_frame, PackageLocator package_locator)
+    : node_(node),
+      keeper_(keeper),
+      restarts_(restarts),
+      reference_frame_(std::move(reference_frame)),
+      package_locator_(std::move(package_locator)),
+      list_bodies_(node_.advertiseService("list_bodies", &SceneServices::listBodies, this)),
+      add_body_(node_.advertiseService("add_body", &SceneServices::addBody, this)),
+      remove_body_(node_.advertiseService("remove_body", &SceneServices::removeBody, this)),
+      set_pair_enabled_(node_.advertiseService("set_pair_enabled", &SceneServices::setPairEnabled, this)),
+      reset_tracking_(node_.advertiseService("reset_tracking", &SceneServices::resetTracking, this)) {}
+
+void SceneServices::requireScene() {
+  const std::string waiting = keeper_.waitingFor();
+  if (!waiting.empty()) {
+    throw Error("scene", "it is not loaded yet: " + waiting, "ask again later");
+  }
+}
+
+bool SceneServices::listBodies(ListBodies::Request& /*request*/, ListBodies::Response& response) {
+  const std::shared_ptr<const Scene> scene = keeper_.served()->scene;
+  response.message = keeper_.waitingFor();
+  response.ready = static_cast<std::uint8_t>(response.message.empty());
+  response.reference_frame = reference_frame_;
+  for (const SceneBody& body : scene->bodies) {
+    response.bodies.push_back(toBodyInfo(body));
+  }
+  for (const ScenePair& pair : scene->pairs) {
+    response.pairs.push_back(toPairInfo(*scene, pair));
+  }
+  for (const SceneProblem& problem : scene->problems) {
+    Problem message;
+    message.where = problem.where;
+    message.message = problem.message;
+    response.problems.push_back(message);
+  }
+  response.notes = scene->notes;
+  return true;
+}
+
+bool SceneServices::addBody(AddBody::Request& request, AddBody::Response& response) {
+  return respond(response, [&] {
+    requireScene();
+    const PairSettings settings = pairSettings(request, keeper_.defaults());
+    // Reading the mesh may take seconds: outside the edit.
+    SceneBody body = loadBody(toBodyDescription(request), "", package_locator_);
+    body.colour = toColour(request.color, body.colour);
+    keeper_.edit([&](Scene& scene) {
+      response.pairs = concave_distance::addBody(scene, body, request.pair_with, settings);
+    });
+  });
+}
+
+bool SceneServices::removeBody(RemoveBody::Request& request, RemoveBody::Response& response) {
+  return respond(response, [&] {
+    requireScene();
+    keeper_.edit([&](Scene& scene) { response.pairs = concave_distance::removeBody(scene, request.name); });
+  });
+}
+
+bool SceneServices::setPairEnabled(SetPairEnabled::Request& request, SetPairEnabled::Response& response) {
+  return respond(response, [&] {
+    requireScene();
+    const PairSettings defaults = keeper_.defaults();
+    keeper_.edit([&](Scene& scene) {
+      response.pair = concave_distance::setPairEnabled(scene, {request.pair, request.body_a, request.body_b},
+                                                       request.enabled != 0, defaults);
+    });
+  });
+}
+
+bool SceneServices::resetTracking(ResetTracking::Request& request, ResetTracking::Response& response) {
+  return respond(response, [&] {
+    const std::shared_ptr<const Scene> scene = keeper_.served()->scene;
+    if (request.pair.empty()) {
+      restarts_.requestAll();
+      response.count = static_cast<std::uint32_t>(scene->pairs.size());
+      return;
+    }
+    requirePair(*scene, request.pair);
+    restarts_.request(request.pair);
+    response.count = 1;
+  });
+}
+
+}  // namespace concave_distance

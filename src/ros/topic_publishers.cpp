@@ -1,0 +1,217 @@
+#include "concave_distance/ros/topic_publishers.h"
+
+#include <concave_distance/Alert.h>
+#include <concave_distance/Distances.h>
+#include <concave_distance/Niches.h>
+#include <visualization_msgs/MarkerArray.h>
+
+#include <algorithm>
+#include <boost/make_shared.hpp>
+#include <cctype>
+#include <iterator>
+#include <map>
+#include <utility>
+
+namespace concave_distance {
+namespace {
+
+constexpr std::uint32_t kQueueLength = 10;
+
+static_assert(Alert::CLEAR == static_cast<int>(WarningState::Clear));
+static_assert(Alert::WARNING == static_cast<int>(WarningState::Warning));
+static_assert(Alert::UNKNOWN == static_cast<int>(WarningState::Unknown));
+
+PairNiches toMessage(const TrackedPair& pair) {
+  if (pair.solved) {
+    return toNiches(pair.heading, pair.solution);
+  }
+  PairNiches message = emptyNiches(pair.heading, pair.status);
+  if (pair.box_bound) {
+    message.nearest.has_lower_bound = 1;
+    message.nearest.lower_bound = *pair.box_bound;
+  }
+  return message;
+}
+
+Alert toAlert(const TrackedPair& pair, const PairDistance& nearest) {
+  Alert alert;
+  alert.header = nearest.header;
+  alert.state = static_cast<std::uint8_t>(pair.warning.state());
+  alert.warning_distance = pair.settings.warning_distance.value_or(kNotComputed);
+  alert.hysteresis = pair.settings.warning_hysteresis;
+  alert.nearest = nearest;
+  return alert;
+}
+
+// The oldest time of the pairs that carry a distance; `now` when none does.
+std_msgs::Header commonHeader(const std::vector<PairNiches>& messages, ros::Time now,
+                              const std::string& frame) {
+  std_msgs::Header header;
+  header.frame_id = frame;
+  header.stamp = now;
+  for (const PairNiches& message : messages) {
+    if (message.nearest.has_distance != 0 && message.header.stamp < header.stamp) {
+      header.stamp = message.header.stamp;
+    }
+  }
+  return header;
+}
+
+// Links may be called `link-1` or `arm.2`; topics may not.
+std::string topicName(const std::string& pair) {
+  std::string name = pair;
+  for (char& c : name) {
+    const bool allowed = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '/';
+    c = allowed ? c : '_';
+  }
+  return "pairs/" + name;
+}
+
+bool hasSubscribers(const ros::Publisher& publisher) {
+  return publisher.getNumSubscribers() > 0;
+}
+
+}  // namespace
+
+TopicPublishers::TopicPublishers(const ros::NodeHandle& node, std::string reference_frame)
+    : node_(node),
+      reference_frame_(std::move(reference_frame)),
+      distances_(node_.advertise<Distances>("distances", kQueueLength)),
+      niches_(node_.advertise<Niches>("niches", kQueueLength)),
+      markers_(node_.advertise<visualization_msgs::MarkerArray>("markers", kQueueLength)),
+      alerts_(node_.advertise<Alert>(
+          "alerts", 100, [this](const ros::SingleSubscriberPublisher&) { repeat_alerts_ = true; })) {}
+
+std::shared_ptr<const ServedScene> TopicPublishers::serve(const std::shared_ptr<const Scene>& scene,
+                                                          const ServedScene* before,
+                                                          const MarkerStyle& style) {
+  std::map<std::string, ServedScene::PairTopics> known;
+  if (before != nullptr) {
+    for (std::size_t index = 0; index < before->topics.size(); ++index) {
+      known[before->scene->pairs[index].name] = before->topics[index];
+    }
+  }
+  auto served = std::make_shared<ServedScene>();
+  served->scene = scene;
+  served->marker_style = style;
+  if (style.scale == 0.0) {
+    served->marker_style.scale = automaticMarkerScale(*scene);
+  }
+  for (const ScenePair& pair : scene->pairs) {
+    ServedScene::PairTopics topics = known[pair.name];
+    if (!topics.distance) {
+      const std::string name = topicName(pair.name);
+      topics.distance = node_.advertise<PairDistance>(name + "/distance", kQueueLength);
+      topics.niches = node_.advertise<PairNiches>(name + "/niches", kQueueLength);
+    }
+    served->topics.push_back(std::move(topics));
+  }
+  return served;
+}
+
+void TopicPublishers::readDemand(const ServedScene& served, bool markers_wanted, bool marker_cycle,
+                                 std::vector<PairDemand>& demand) {
+  distances_wanted_ = hasSubscribers(distances_);
+  niches_wanted_ = hasSubscribers(niches_);
+  const bool alerts_wanted = hasSubscribers(alerts_);
+  const bool markers_watched = hasSubscribers(markers_);
+  if (!markers_watched) {
+    shown_.clear();
+  }
+  markers_wanted_ = markers_wanted && markers_watched;
+  // When markers are switched off, what is shown has to be deleted once more.
+  markers_due_ = marker_cycle && (markers_wanted_ || !shown_.empty());
+  demand.assign(served.topics.size(), PairDemand());
+  for (std::size_t index = 0; index < demand.size(); ++index) {
+    const bool own_niches = hasSubscribers(served.topics[index].niches);
+    const bool alert = alerts_wanted && served.scene->pairs[index].settings.warning_distance;
+    PairDemand& pair = demand[index];
+    pair.due = distances_wanted_ || niches_wanted_ || alert || own_niches ||
+               hasSubscribers(served.topics[index].distance) || (markers_wanted_ && marker_cycle);
+    pair.watched = pair.due || markers_wanted_;
+    pair.niches = niches_wanted_ || own_niches || markers_wanted_;
+  }
+}
+
+Series TopicPublishers::publish(const ServedScene& served,
+                                const std::vector<std::unique_ptr<TrackedPair>>& pairs,
+                                double marker_lifetime, ros::Time now) {
+  messages_.clear();
+  for (std::size_t index = 0; index < pairs.size(); ++index) {
+    const TrackedPair& pair = *pairs[index];
+    if (!pair.demand.due) {
+      continue;
+    }
+    messages_.push_back(toMessage(pair));
+    const ServedScene::PairTopics& topics = served.topics[index];
+    if (hasSubscribers(topics.distance)) {
+      topics.distance.publish(boost::make_shared<PairDistance>(messages_.back().nearest));
+    }
+    if (hasSubscribers(topics.niches)) {
+      topics.niches.publish(boost::make_shared<PairNiches>(messages_.back()));
+    }
+  }
+  publishAlerts(pairs);
+  if (markers_due_) {
+    publishMarkers(served, marker_lifetime, now);
+  }
+  publishLists(now);
+  Series latency;
+  const ros::Time end = ros::Time::now();
+  for (const auto& pair : pairs) {
+    if (pair->demand.due && pair->solved && !pair->repeated && !pair->fixed) {
+      latency.add((end - pair->heading.stamp).toSec());
+    }
+  }
+  return latency;
+}
+
+void TopicPublishers::publishAlerts(const std::vector<std::unique_ptr<TrackedPair>>& pairs) {
+  const bool repeat = repeat_alerts_.exchange(false);
+  for (const auto& pair : pairs) {
+    if (pair->warning_changed || (repeat && pair->warning.state() != WarningState::Clear)) {
+      alerts_.publish(boost::make_shared<Alert>(toAlert(*pair, toMessage(*pair).nearest)));
+    }
+  }
+}
+
+void TopicPublishers::publishRetired(const std::vector<std::unique_ptr<TrackedPair>>& pairs) {
+  for (const auto& pair : pairs) {
+    alerts_.publish(boost::make_shared<Alert>(toAlert(*pair, toMessage(*pair).nearest)));
+  }
+}
+
+void TopicPublishers::publishMarkers(const ServedScene& served, double lifetime, ros::Time now) {
+  std::vector<visualization_msgs::Marker> markers;
+  if (markers_wanted_) {
+    for (const PairNiches& message : messages_) {
+      std::vector<visualization_msgs::Marker> of_pair = nicheMarkers(message, served.marker_style, lifetime);
+      std::move(of_pair.begin(), of_pair.end(), std::back_inserter(markers));
+    }
+  }
+  std_msgs::Header header;
+  header.frame_id = reference_frame_;
+  header.stamp = now;
+  markers_.publish(
+      boost::make_shared<visualization_msgs::MarkerArray>(withDeletions(std::move(markers), header, shown_)));
+}
+
+void TopicPublishers::publishLists(ros::Time now) {
+  if (distances_wanted_) {
+    auto message = boost::make_shared<Distances>();
+    message->header = commonHeader(messages_, now, reference_frame_);
+    message->pairs.reserve(messages_.size());
+    for (const PairNiches& pair : messages_) {
+      message->pairs.push_back(pair.nearest);
+    }
+    distances_.publish(message);
+  }
+  if (niches_wanted_) {
+    auto message = boost::make_shared<Niches>();
+    message->header = commonHeader(messages_, now, reference_frame_);
+    message->pairs = std::move(messages_);
+    niches_.publish(message);
+  }
+}
+
+}  // namespace concave_distance
