@@ -1,0 +1,191 @@
+#include "concave_distance/ros/conversions.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "concave_distance/base/error.h"
+
+namespace concave_distance {
+namespace {
+
+geometry_msgs::Pose unitPose() {
+  geometry_msgs::Pose pose;
+  pose.orientation.w = 1.0;
+  return pose;
+}
+
+std::string refusalOf(const geometry_msgs::Pose& pose) {
+  try {
+    poseFromMessage(pose, "pose_a");
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+PairHeading quarterTurnHeading() {
+  PairHeading heading;
+  heading.pair = "a/b";
+  heading.body_a = "a";
+  heading.body_b = "b";
+  heading.reference_frame = "world";
+  heading.stamp = ros::Time(12, 5);
+  heading.reference_from_a =
+      Eigen::Translation3d(10.0, 0.0, 0.0) * Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitZ());
+  heading.with_niches = true;
+  return heading;
+}
+
+PairSolution solutionWithOneNiche() {
+  PairSolution solution;
+  solution.distance = 2.0;
+  solution.point_a_in_a = Eigen::Vector3d(1.0, 0.0, 0.0);
+  solution.point_b_in_a = Eigen::Vector3d(3.0, 0.0, 0.0);
+  TrackedNiche niche;
+  niche.id = 7;
+  niche.distance = 2.0;
+  niche.point_a_in_a = solution.point_a_in_a;
+  niche.point_b_in_a = solution.point_b_in_a;
+  niche.normal_in_a = Eigen::Vector3d::UnitX();
+  niche.closing_speed = 0.25;
+  niche.prominence = std::numeric_limits<double>::infinity();
+  solution.niches.push_back(niche);
+  solution.events.push_back({NicheEvent::Kind::Merge, 8, 7});
+  solution.events.push_back({NicheEvent::Kind::Death, 9, 0});
+  return solution;
+}
+
+TEST(PoseFromMessage, NormalisesRoundingAndRefusesTheRest) {
+  geometry_msgs::Pose pose = unitPose();
+  pose.position.y = 2.0;
+  pose.orientation.w = 1.0005;
+  EXPECT_NEAR((poseFromMessage(pose, "p").linear() - Eigen::Matrix3d::Identity()).norm(), 0.0, 1e-15);
+  EXPECT_EQ(poseFromMessage(pose, "p").translation().y(), 2.0);
+  pose.orientation.w = 1.01;
+  EXPECT_NE(refusalOf(pose).find("pose_a.orientation"), std::string::npos);
+  EXPECT_NE(refusalOf(pose).find("1.01"), std::string::npos);
+  pose.orientation.w = 0.0;
+  EXPECT_NE(refusalOf(pose).find("w: 1"), std::string::npos) << "the message tells the remedy";
+  pose = unitPose();
+  pose.position.z = std::nan("");
+  EXPECT_NE(refusalOf(pose).find("finite"), std::string::npos);
+  pose = unitPose();
+  pose.orientation.x = std::numeric_limits<double>::infinity();
+  EXPECT_NE(refusalOf(pose), "");
+}
+
+TEST(ToDistance, GivesPointsInTheReferenceFrameAtTheDistanceStated) {
+  const PairDistance message = toDistance(quarterTurnHeading(), solutionWithOneNiche());
+  EXPECT_EQ(message.header.frame_id, "world");
+  EXPECT_EQ(message.header.stamp, ros::Time(12, 5));
+  EXPECT_EQ(message.status.code, PairStatus::OK);
+  ASSERT_TRUE(message.has_distance && message.has_points);
+  EXPECT_NEAR(message.point_a.x, 10.0, 1e-12);
+  EXPECT_NEAR(message.point_a.y, 1.0, 1e-12);
+  EXPECT_NEAR(message.point_b.y, 3.0, 1e-12);
+  EXPECT_NEAR(message.normal.y, 1.0, 1e-12);
+  EXPECT_TRUE(message.has_closing_speed);
+  EXPECT_EQ(message.closing_speed, 0.25);
+  EXPECT_EQ(message.nearest_niche_id, 7U);
+  EXPECT_FALSE(message.has_lower_bound);
+  EXPECT_TRUE(std::isnan(message.lower_bound));
+}
+
+TEST(ToDistance, CarriesNoNumberWithoutItsFlag) {
+  PairSolution solution;
+  solution.status = SolveStatus::InvalidPose;
+  const PairDistance invalid = toDistance(quarterTurnHeading(), solution);
+  EXPECT_EQ(invalid.status.code, PairStatus::INVALID_POSE);
+  EXPECT_FALSE(invalid.status.message.empty());
+  EXPECT_FALSE(invalid.has_distance || invalid.has_points || invalid.has_lower_bound ||
+               invalid.has_closing_speed);
+  EXPECT_TRUE(std::isnan(invalid.distance) && std::isnan(invalid.point_a.x) && std::isnan(invalid.normal.z));
+
+  solution.status = SolveStatus::Ok;
+  const PairDistance nothing = toDistance(quarterTurnHeading(), solution);
+  EXPECT_EQ(nothing.status.code, PairStatus::NOT_FOUND) << "no distance without a status that says so";
+
+  solution = solutionWithOneNiche();
+  solution.niches.front().closing_speed = kNotComputed;
+  EXPECT_FALSE(toDistance(quarterTurnHeading(), solution).has_closing_speed);
+}
+
+TEST(ToNiches, AddsTheIdOffsetToEveryId) {
+  PairHeading heading = quarterTurnHeading();
+  heading.id_offset = 100;
+  const PairNiches message = toNiches(heading, solutionWithOneNiche());
+  ASSERT_EQ(message.niches.size(), 1U);
+  EXPECT_EQ(message.niches[0].id, 107U);
+  EXPECT_EQ(message.nearest.nearest_niche_id, 107U);
+  EXPECT_TRUE(message.niches[0].has_prominence);
+  ASSERT_EQ(message.changes.size(), 2U);
+  EXPECT_EQ(message.changes[0].kind, NicheChange::MERGE);
+  EXPECT_EQ(message.changes[0].id, 108U);
+  EXPECT_EQ(message.changes[0].into_id, 107U);
+  EXPECT_EQ(message.changes[1].into_id, 0U);
+}
+
+TEST(ToNiches, TellsNoNichesThatWereNotAskedFor) {
+  PairHeading heading = quarterTurnHeading();
+  heading.with_niches = false;
+  const PairNiches message = toNiches(heading, solutionWithOneNiche());
+  EXPECT_TRUE(message.niches.empty() && message.changes.empty());
+  EXPECT_EQ(message.nearest.nearest_niche_id, 0U);
+  EXPECT_TRUE(message.nearest.has_distance);
+}
+
+TEST(QueryParameters, TakeTheQuerysWishesAndRefuseTheCertifiedLevel) {
+  TrackerParameters configured;
+  configured.largest_niche_count = 5;
+  DistanceQuery query;
+  EXPECT_EQ(queryParameters(query, configured).accuracy, AccuracyLevel::Refined);
+  EXPECT_EQ(queryParameters(query, configured).largest_niche_count, 5U);
+  EXPECT_FALSE(queryParameters(query, configured).niches_wanted);
+  query.accuracy = DistanceQuery::ACCURACY_NODES;
+  query.with_niches = 1;
+  query.largest_niche_count = 2;
+  EXPECT_EQ(queryParameters(query, configured).accuracy, AccuracyLevel::Nodes);
+  EXPECT_EQ(queryParameters(query, configured).largest_niche_count, 2U);
+  EXPECT_TRUE(queryParameters(query, configured).niches_wanted);
+  for (const std::uint8_t accuracy : std::vector<std::uint8_t>{3, 4, 9}) {
+    query.accuracy = accuracy;
+    EXPECT_THROW(queryParameters(query, configured), Error) << static_cast<int>(accuracy);
+  }
+  for (double DistanceQuery::*field : {&DistanceQuery::absolute_tolerance, &DistanceQuery::relative_tolerance,
+                                       &DistanceQuery::time_budget}) {
+    query = DistanceQuery();
+    query.*field = 1e-3;
+    EXPECT_THROW(queryParameters(query, configured), Error);
+    query.*field = std::nan("");
+    EXPECT_THROW(queryParameters(query, configured), Error);
+  }
+}
+
+TEST(ToBodyDescription, WantsOneGeometryAndAFrame) {
+  AddBodyRequest request;
+  request.name = "cup";
+  request.frame_id = "/gripper";
+  request.pose = unitPose();
+  request.primitive = "sphere";
+  request.dimensions = {0.1};
+  const BodyDescription description = toBodyDescription(request);
+  EXPECT_EQ(description.frame, "gripper");
+  EXPECT_EQ(description.scale, Eigen::Vector3d::Ones()) << "0 0 0 counts as not given";
+  EXPECT_FALSE(description.max_edge_length.has_value());
+  request.mesh_resource = "cup.stl";
+  EXPECT_THROW(toBodyDescription(request), Error);
+  request.primitive.clear();
+  request.scale.x = request.scale.y = request.scale.z = 0.001;
+  EXPECT_EQ(toBodyDescription(request).scale.x(), 0.001);
+  request.mesh_resource.clear();
+  EXPECT_THROW(toBodyDescription(request), Error);
+  request.primitive = "box";
+  request.frame_id.clear();
+  EXPECT_THROW(toBodyDescription(request), Error);
+}
+
+}  // namespace
+}  // namespace concave_distance

@@ -1,0 +1,147 @@
+#include "concave_distance/ros/distance_queries.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "box_scene.h"
+
+namespace concave_distance {
+namespace {
+
+// Coordinates of order 1, a few operations: the distance of two boxes is right to this.
+constexpr double kRounding = 1e-12;
+
+class DistanceQueriesTest : public ::testing::Test {
+ protected:
+  DistanceQueriesTest() {
+    place(buffer, "a", 0.0, now);
+    place(buffer, "b", 2.0, now);
+    place(buffer, "c", -3.0, now);
+    query.body_a = "a";
+    query.body_b = "b";
+    query.pose_a.pose.orientation.w = query.pose_b.pose.orientation.w = 1.0;
+  }
+  PairNiches answer() { return answerQuery(query, scene, {&buffer, "world", 0.0, 1.0, {}}, now); }
+  void expectRefusal(const std::string& part) {
+    const PairNiches result = answer();
+    EXPECT_FALSE(isAnswered(result));
+    EXPECT_EQ(result.nearest.status.code, PairStatus::INVALID_REQUEST);
+    EXPECT_NE(result.nearest.status.message.find(part), std::string::npos) << result.nearest.status.message;
+    EXPECT_TRUE(std::isnan(result.nearest.distance));
+  }
+
+  const ros::Time now{100, 0};
+  tf2::BufferCore buffer;
+  Scene scene = threeBoxes();
+  DistanceQuery query;
+};
+
+TEST_F(DistanceQueriesTest, AnswerFromTransformsInTheReferenceFrame) {
+  const PairNiches result = answer();
+  ASSERT_TRUE(isAnswered(result)) << result.nearest.status.message;
+  EXPECT_NEAR(result.nearest.distance, 1.0, kRounding);
+  EXPECT_NEAR(result.nearest.point_a.x, 0.5, kRounding);
+  EXPECT_NEAR(result.nearest.point_b.x, 1.5, kRounding);
+  EXPECT_EQ(result.header.frame_id, "world");
+  EXPECT_EQ(result.header.stamp, now);
+  EXPECT_TRUE(result.niches.empty()) << "nobody asked for them";
+}
+
+TEST_F(DistanceQueriesTest, AnswerWithTheBodiesInTheOrderAskedFor) {
+  std::swap(query.body_a, query.body_b);
+  const PairNiches result = answer();
+  EXPECT_NEAR(result.nearest.point_a.x, 1.5, kRounding);
+  EXPECT_EQ(result.nearest.body_a, "b");
+}
+
+TEST_F(DistanceQueriesTest, TakePosesGivenInsteadOfTransforms) {
+  query.use_pose_b = 1;
+  query.pose_b.pose.position.x = 5.0;
+  EXPECT_NEAR(answer().nearest.distance, 4.0, kRounding) << "in the reference frame";
+  query.pose_b.header.frame_id = "b";
+  EXPECT_NEAR(answer().nearest.distance, 6.0, kRounding) << "in b's own frame";
+  query.pose_b.header.frame_id = "";
+  query.use_pose_a = 1;
+  query.pose_a.pose.position.x = -1.0;
+  const PairNiches both = answer();
+  EXPECT_NEAR(both.nearest.distance, 5.0, kRounding);
+  EXPECT_NEAR(both.nearest.point_a.x, -0.5, kRounding);
+}
+
+TEST_F(DistanceQueriesTest, NeedNoTransformWhenBothPosesAreGiven) {
+  tf2::BufferCore empty;
+  query.use_pose_a = query.use_pose_b = 1;
+  query.pose_b.pose.position.x = 3.0;
+  const PairNiches result = answerQuery(query, scene, {&empty, "world", 0.0, 1.0, {}}, now);
+  ASSERT_TRUE(isAnswered(result)) << result.nearest.status.message;
+  EXPECT_NEAR(result.nearest.distance, 2.0, kRounding);
+}
+
+TEST_F(DistanceQueriesTest, TellNichesOnRequestWithoutIds) {
+  query.with_niches = 1;
+  const PairNiches result = answer();
+  ASSERT_FALSE(result.niches.empty());
+  for (const Niche& niche : result.niches) {
+    EXPECT_EQ(niche.id, 0U);
+  }
+  EXPECT_EQ(result.nearest.nearest_niche_id, 0U);
+  EXPECT_TRUE(result.changes.empty());
+}
+
+TEST_F(DistanceQueriesTest, AnswerForBodiesThatAreNoPair) {
+  query.body_a = "c";
+  EXPECT_NEAR(answer().nearest.distance, 4.0, kRounding);
+}
+
+TEST_F(DistanceQueriesTest, RefuseWhatCannotBeAnsweredAndSayWhy) {
+  query.body_b = "nobody";
+  expectRefusal("nobody");
+  query.body_b = "a";
+  expectRefusal("two different bodies");
+  query.body_b = "b";
+  query.use_pose_b = 1;
+  query.pose_b.pose.position.x = std::numeric_limits<double>::quiet_NaN();
+  expectRefusal("pose_b.position");
+  query.pose_b.pose.position.x = 0.0;
+  query.pose_b.pose.orientation.w = 0.5;
+  expectRefusal("pose_b.orientation");
+  query.pose_b.pose.orientation.w = 1.0;
+  query.accuracy = DistanceQuery::ACCURACY_CERTIFIED;
+  expectRefusal("certified");
+  query.accuracy = DistanceQuery::ACCURACY_DEFAULT;
+  query.time_budget = 0.01;
+  expectRefusal("time_budget");
+}
+
+TEST_F(DistanceQueriesTest, SayWhichFrameIsMissing) {
+  query.use_pose_b = 1;
+  query.pose_b.header.frame_id = "atlantis";
+  const PairNiches result = answer();
+  EXPECT_EQ(result.nearest.status.code, PairStatus::MISSING_TRANSFORM);
+  EXPECT_NE(result.nearest.status.message.find("atlantis"), std::string::npos);
+  EXPECT_FALSE(isAnswered(result));
+}
+
+TEST_F(DistanceQueriesTest, AnswerAtTheStampGiven) {
+  place(buffer, "b", 4.0, now + ros::Duration(1.0));
+  place(buffer, "a", 0.0, now + ros::Duration(1.0));
+  query.stamp = now + ros::Duration(0.5);
+  EXPECT_NEAR(answer().nearest.distance, 2.0, 1e-9) << "tf2 keeps nanoseconds";
+  query.stamp = now + ros::Duration(5.0);
+  EXPECT_EQ(answer().nearest.status.code, PairStatus::MISSING_TRANSFORM);
+}
+
+TEST_F(DistanceQueriesTest, ReportOverlapAsPenetratingAtDistanceZero) {
+  query.use_pose_b = 1;
+  query.pose_b.pose.position.x = 0.5;
+  query.pose_b.pose.position.y = 0.3;
+  const PairNiches result = answer();
+  EXPECT_EQ(result.nearest.status.code, PairStatus::PENETRATING);
+  EXPECT_TRUE(isAnswered(result));
+  EXPECT_EQ(result.nearest.distance, 0.0);
+}
+
+}  // namespace
+}  // namespace concave_distance

@@ -1,0 +1,150 @@
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "concave_distance/mesh/primitives.h"
+#include "concave_distance/ros/body_markers.h"
+#include "concave_distance/ros/conversions.h"
+#include "concave_distance/ros/niche_markers.h"
+
+namespace concave_distance {
+namespace {
+
+using visualization_msgs::Marker;
+
+SceneBody boxBody(const std::string& name, double size) {
+  SceneBody body;
+  body.name = name;
+  body.frame = name + "_frame";
+  BodyMeshOptions options;
+  options.max_edge_length = size;
+  body.mesh = std::make_shared<const BodyMesh>(name, makeBox(Eigen::Vector3d::Constant(size)), options);
+  return body;
+}
+
+PairNiches pairWithNiches(const std::vector<std::uint64_t>& ids) {
+  PairHeading heading;
+  heading.pair = "a/b";
+  heading.reference_frame = "world";
+  heading.with_niches = true;
+  PairSolution solution;
+  solution.distance = 0.1;
+  solution.point_a_in_a.setZero();
+  solution.point_b_in_a = Eigen::Vector3d(0.1, 0.0, 0.0);
+  for (const std::uint64_t id : ids) {
+    TrackedNiche niche;
+    niche.id = id;
+    niche.distance = 0.1 + 0.1 * static_cast<double>(solution.niches.size());
+    niche.point_a_in_a.setZero();
+    niche.point_b_in_a = Eigen::Vector3d(niche.distance, 0.0, 0.0);
+    niche.normal_in_a = Eigen::Vector3d::UnitX();
+    solution.niches.push_back(niche);
+  }
+  return toNiches(heading, solution);
+}
+
+MarkerStyle style() {
+  MarkerStyle style;
+  style.scale = 0.02;
+  return style;
+}
+
+const Marker* find(const std::vector<Marker>& markers, const std::string& ns, int id) {
+  for (const Marker& marker : markers) {
+    if (marker.ns == ns && marker.id == id) {
+      return &marker;
+    }
+  }
+  return nullptr;
+}
+
+TEST(NicheMarkers, CarryTheNichesIdsAndEmphasiseTheNearest) {
+  const std::vector<Marker> markers = nicheMarkers(pairWithNiches({41, 7}), style(), 0.5);
+  const Marker* nearest = find(markers, "a/b/line", 41);
+  const Marker* other = find(markers, "a/b/line", 7);
+  ASSERT_TRUE(nearest != nullptr && other != nullptr);
+  EXPECT_GT(nearest->scale.x, other->scale.x);
+  EXPECT_GT(nearest->color.a, other->color.a);
+  EXPECT_EQ(nearest->points.size(), 2U);
+  EXPECT_EQ(nearest->lifetime, ros::Duration(0.5));
+  EXPECT_EQ(find(markers, "a/b/points", 41)->type, Marker::SPHERE_LIST);
+  ASSERT_NE(find(markers, "a/b/text", 41), nullptr);
+  EXPECT_EQ(find(markers, "a/b/text", 41)->text, "0.100 m");
+  EXPECT_EQ(find(markers, "a/b/text", 7), nullptr) << "one text a pair";
+}
+
+TEST(NicheMarkers, DrawAWarningRedAndAPairWithoutADistanceNotAtAll) {
+  PairNiches pair = pairWithNiches({1});
+  pair.nearest.warning = 1;
+  const std::vector<Marker> markers = nicheMarkers(pair, style(), 0.5);
+  const Marker* line = find(markers, "a/b/line", 1);
+  ASSERT_NE(line, nullptr);
+  EXPECT_EQ(line->color.r, 1.0F);
+  EXPECT_EQ(line->color.g, 0.0F);
+  PairStatus stale;
+  stale.code = PairStatus::STALE_TRANSFORM;
+  EXPECT_TRUE(nicheMarkers(emptyNiches(PairHeading(), stale), style(), 0.5).empty());
+}
+
+TEST(NicheMarkers, DrawTheClosestPointsWhenThereIsNoNiche) {
+  const std::vector<Marker> markers = nicheMarkers(pairWithNiches({}), style(), 0.5);
+  EXPECT_NE(find(markers, "a/b/line", 0), nullptr);
+}
+
+TEST(NicheMarkers, AreDeletedOnceWhenTheirNicheDies) {
+  ShownMarkers shown;
+  std_msgs::Header header;
+  header.frame_id = "world";
+  withDeletions(nicheMarkers(pairWithNiches({1, 2}), style(), 0.5), header, shown);
+  const auto second = withDeletions(nicheMarkers(pairWithNiches({1}), style(), 0.5), header, shown);
+  int deleted = 0;
+  for (const Marker& marker : second.markers) {
+    if (marker.action == Marker::DELETE) {
+      ++deleted;
+      EXPECT_EQ(marker.id, 2);
+      EXPECT_EQ(marker.header.frame_id, "world");
+    }
+  }
+  EXPECT_EQ(deleted, 2) << "its points and its line";
+  const auto third = withDeletions(nicheMarkers(pairWithNiches({1}), style(), 0.5), header, shown);
+  EXPECT_EQ(third.markers.size(), 3U) << "nothing is deleted twice";
+}
+
+TEST(DistanceColor, RunsFromOrangeToGreenWithoutRed) {
+  MarkerStyle wide = style();
+  wide.near = 0.1;
+  wide.far = 0.5;
+  const auto near = distanceColor(0.0, wide);
+  const auto far = distanceColor(2.0, wide);
+  EXPECT_EQ(near.r, 1.0F);
+  EXPECT_GT(near.g, 0.3F) << "red is kept for warnings";
+  EXPECT_EQ(far.r, 0.0F);
+  EXPECT_GT(far.g, 0.5F);
+  EXPECT_LT(distanceColor(0.2, wide).g, distanceColor(0.3, wide).g);
+}
+
+TEST(AutomaticMarkerScale, FollowsTheMedianBody) {
+  Scene scene;
+  EXPECT_GT(automaticMarkerScale(scene), 0.0);
+  for (const double size : {0.1, 1.0, 100.0}) {
+    scene.bodies.push_back(boxBody("box", size));
+  }
+  EXPECT_NEAR(automaticMarkerScale(scene), 0.02 * std::sqrt(3.0), 1e-12);
+}
+
+TEST(BodyMarkers, ShowWhatTheRobotModelDoesNot) {
+  Scene scene;
+  scene.bodies.push_back(boxBody("shelf", 1.0));
+  scene.bodies.push_back(boxBody("link", 1.0));
+  scene.bodies[1].in_robot_model = true;
+  const auto message = bodyMarkers(scene);
+  ASSERT_EQ(message.markers.size(), 2U);
+  EXPECT_EQ(message.markers[0].action, Marker::DELETEALL);
+  EXPECT_EQ(message.markers[1].type, Marker::TRIANGLE_LIST);
+  EXPECT_EQ(message.markers[1].header.frame_id, "shelf_frame");
+  EXPECT_TRUE(message.markers[1].frame_locked);
+  EXPECT_EQ(message.markers[1].points.size(), 36U) << "12 triangles";
+}
+
+}  // namespace
+}  // namespace concave_distance

@@ -1,0 +1,113 @@
+#include "concave_distance/ros/node_parameters.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "concave_distance/base/error.h"
+#include "concave_distance/ros/reconfiguration.h"
+
+namespace concave_distance {
+namespace {
+
+NodeParameters parse(const XmlRpc::XmlRpcValue& values) {
+  std::vector<std::string> unknown;
+  return parseNodeParameters(values, unknown);
+}
+
+// The message of the Error, empty when there was none.
+std::string refusal(const std::string& name, const XmlRpc::XmlRpcValue& value) {
+  XmlRpc::XmlRpcValue values;
+  values[name] = value;
+  try {
+    parse(values);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(NodeParameters, HaveDefaultsWhenNothingIsSet) {
+  const NodeParameters parameters = parse(XmlRpc::XmlRpcValue());
+  EXPECT_EQ(parameters.reference_frame, "world");
+  EXPECT_EQ(parameters.robot_description, "robot_description");
+  EXPECT_TRUE(std::isinf(parameters.pair.tracker.cutoff));
+  EXPECT_FALSE(parameters.pair.warning_distance.has_value());
+}
+
+TEST(NodeParameters, ReadWholeNumbersAsLengthsAndStripTheOldLeadingSlash) {
+  XmlRpc::XmlRpcValue values;
+  values["rate"] = 100;
+  values["cutoff"] = 2;
+  values["warning_distance"] = 0.25;
+  values["reference_frame"] = "/odom";
+  values["geometry"] = "visual";
+  values["accuracy"] = "nodes";
+  values["show_bodies"] = false;
+  const NodeParameters parameters = parse(values);
+  EXPECT_EQ(parameters.rate, 100.0);
+  EXPECT_EQ(parameters.pair.tracker.cutoff, 2.0);
+  EXPECT_EQ(parameters.pair.warning_distance, 0.25);
+  EXPECT_EQ(parameters.reference_frame, "odom");
+  EXPECT_EQ(parameters.geometry, GeometrySource::Visual);
+  EXPECT_EQ(parameters.pair.tracker.accuracy, AccuracyLevel::Nodes);
+  EXPECT_FALSE(parameters.show_bodies);
+}
+
+TEST(NodeParameters, RefuseWithNameValueAndRange) {
+  const std::string message = refusal("rate", 0.0);
+  EXPECT_NE(message.find("~rate"), std::string::npos) << message;
+  EXPECT_NE(message.find("0.1 to 2000"), std::string::npos) << message;
+  EXPECT_NE(refusal("rate", "fast").find("fast"), std::string::npos);
+  EXPECT_NE(refusal("rate", std::nan("")), "");
+  EXPECT_NE(refusal("threads", 1.5).find("whole number"), std::string::npos);
+  EXPECT_NE(refusal("threads", -1), "");
+  EXPECT_NE(refusal("geometry", "convex").find("collision visual"), std::string::npos);
+  EXPECT_NE(refusal("reference_frame", ""), "");
+  EXPECT_NE(refusal("reference_frame", 3), "");
+  EXPECT_NE(refusal("show_bodies", "yes"), "");
+  EXPECT_NE(refusal("warm_population_size", 21), "") << "the population is even";
+  EXPECT_NE(refusal("marker_far", 0.0), "") << "not above marker_near";
+}
+
+TEST(NodeParameters, TellNamesNobodyKnows) {
+  XmlRpc::XmlRpcValue values;
+  values["ratte"] = 5.0;
+  values["diagnostic_period"] = 1.0;
+  values["rate"] = 5.0;
+  std::vector<std::string> unknown;
+  parseNodeParameters(values, unknown);
+  EXPECT_EQ(unknown, std::vector<std::string>{"ratte"});
+}
+
+TEST(Reconfiguration, BeginsWithTheDefaultsOfTheNode) {
+  const ConcaveDistanceConfig ours = toConfig(NodeParameters());
+  const ConcaveDistanceConfig generated = ConcaveDistanceConfig::__getDefault__();
+  EXPECT_FALSE(concernsPairs(ours, generated));
+  EXPECT_EQ(ours.rate, generated.rate);
+  EXPECT_EQ(ours.marker_rate, generated.marker_rate);
+  EXPECT_EQ(ours.publish_markers, generated.publish_markers);
+}
+
+TEST(Reconfiguration, ChangesWhatDiffersAndNothingElse) {
+  ConcaveDistanceConfig before = ConcaveDistanceConfig::__getDefault__();
+  ConcaveDistanceConfig after = before;
+  after.cutoff = 0.5;
+  PairSettings settings;
+  settings.tracker.least_prominence = 0.123;  // of a scene file
+  applyChanges(before, after, settings);
+  EXPECT_EQ(settings.tracker.cutoff, 0.5);
+  EXPECT_EQ(settings.tracker.least_prominence, 0.123);
+  applyChanges(after, before, settings);
+  EXPECT_TRUE(std::isinf(settings.tracker.cutoff)) << "0 takes the cutoff away";
+  after = before;
+  after.rate = 10.0;
+  EXPECT_FALSE(concernsPairs(before, after));
+  after.immigrants = 1;
+  EXPECT_TRUE(concernsPairs(before, after));
+  applyChanges(before, after, settings);
+  EXPECT_EQ(settings.tracker.immigrants, 1U);
+}
+
+}  // namespace
+}  // namespace concave_distance

@@ -1,0 +1,99 @@
+// The node under a simulated clock: before it runs, while it runs, and when it jumps back.
+#include <concave_distance/GetDistance.h>
+#include <concave_distance/PairNiches.h>
+#include <gtest/gtest.h>
+#include <ros/init.h>
+#include <ros/spinner.h>
+#include <rosgraph_msgs/Clock.h>
+
+#include <algorithm>
+#include <atomic>
+#include <thread>
+
+#include "rostest_support.h"
+#include "tf_player.h"
+
+namespace concave_distance {
+namespace {
+
+const std::string kNode = "/concave_distance/";
+
+/// Publishes /clock in steps of 10 ms, in real time.
+class Clock {
+ public:
+  Clock() : publisher_(node_.advertise<rosgraph_msgs::Clock>("/clock", 10)), thread_([this] { run(); }) {}
+  ~Clock() {
+    running_ = false;
+    thread_.join();
+  }
+  void set(double seconds) { time_ = seconds; }
+
+ private:
+  void run() {
+    while (running_) {
+      ros::WallDuration(0.01).sleep();
+      if (time_ > 0.0) {
+        time_ = time_ + 0.01;
+        rosgraph_msgs::Clock message;
+        message.clock = ros::Time(time_);
+        publisher_.publish(message);
+      }
+    }
+  }
+  ros::NodeHandle node_;
+  ros::Publisher publisher_;
+  std::atomic<double> time_{0.0};  ///< 0: the clock does not run
+  std::atomic<bool> running_{true};
+  std::thread thread_;
+};
+
+TEST(SimulatedClock, IsWaitedForFollowedAndMayJumpBack) {
+  Clock clock;
+  TfPlayer player;
+  player.place("box_a", 0.0);
+  player.place("box_b", 2.0);
+  player.place("ball", 0.0, 3.0);
+  Collector<PairNiches> niches(kNode + "pairs/boxes/niches");
+
+  GetDistanceRequest request;
+  request.query.body_a = "box_a";
+  request.query.body_b = "box_b";
+  request.query.use_pose_a = request.query.use_pose_b = 1;
+  request.query.pose_a.pose.orientation.w = request.query.pose_b.pose.orientation.w = 1.0;
+  request.query.pose_b.pose.position.x = 3.0;
+  EXPECT_TRUE(eventually([&] { return call<GetDistance>(kNode + "get_distance", request).success != 0; }))
+      << "services answer before the first /clock";
+  request.query.use_pose_a = 0;
+  EXPECT_FALSE(call<GetDistance>(kNode + "get_distance", request).success)
+      << "there is no tf yet; the call returns all the same";
+  EXPECT_EQ(niches.count(), 0U);
+
+  clock.set(1000.0);
+  ASSERT_TRUE(niches.waitFor([](const PairNiches& message) { return message.warm && message.cycle > 20; }));
+  EXPECT_GT(niches.last()->header.stamp, ros::Time(1000.0));
+  const std::uint64_t id = niches.last()->nearest.nearest_niche_id;
+
+  clock.set(10.0);
+  EXPECT_TRUE(niches.waitFor([&](const PairNiches& message) {
+    return message.header.stamp < ros::Time(100.0) && message.warm && message.nearest.has_distance;
+  })) << "it goes on in the new time";
+  EXPECT_GT(niches.last()->nearest.nearest_niche_id, id) << "tracked niches of the other time are gone";
+  const std::vector<PairNiches> all = niches.all();
+  const auto jump = std::find_if(all.begin(), all.end(), [](const PairNiches& message) {
+    return message.header.stamp < ros::Time(100.0) && message.nearest.has_distance;
+  });
+  ASSERT_NE(jump, all.end());
+  EXPECT_FALSE(jump->warm);
+  EXPECT_FALSE(jump->nearest.has_closing_speed);
+}
+
+}  // namespace
+}  // namespace concave_distance
+
+int main(int argc, char** argv) {
+  ::testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "clock_rostest");
+  ros::AsyncSpinner spinner(2);
+  spinner.start();
+  return RUN_ALL_TESTS();
+}

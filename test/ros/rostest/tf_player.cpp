@@ -1,0 +1,53 @@
+#include "tf_player.h"
+
+#include <cmath>
+#include <vector>
+
+namespace concave_distance {
+
+TfPlayer::TfPlayer() : thread_([this] { play(); }) {}
+
+TfPlayer::~TfPlayer() {
+  running_ = false;
+  thread_.join();
+}
+
+void TfPlayer::place(const std::string& frame, double x, double y, double z, double angle) {
+  geometry_msgs::TransformStamped transform;
+  transform.header.frame_id = "world";
+  transform.child_frame_id = frame;
+  transform.transform.translation.x = x;
+  transform.transform.translation.y = y;
+  transform.transform.translation.z = z;
+  transform.transform.rotation.z = std::sin(angle / 2.0);
+  transform.transform.rotation.w = std::cos(angle / 2.0);
+  const std::lock_guard<std::mutex> lock(mutex_);
+  transforms_[frame] = transform;
+}
+
+void TfPlayer::drop(const std::string& frame) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  transforms_.erase(frame);
+}
+
+void TfPlayer::play() {
+  ros::Time last;
+  while (running_) {
+    ros::WallDuration(0.01).sleep();
+    const ros::Time now = ros::Time::now();
+    std::vector<geometry_msgs::TransformStamped> transforms;
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      for (auto& [frame, transform] : transforms_) {
+        transform.header.stamp = now;
+        transforms.push_back(transform);
+      }
+    }
+    if (!transforms.empty() && now != last && !now.isZero()) {
+      broadcaster_.sendTransform(transforms);
+    }
+    last = now;
+  }
+}
+
+}  // namespace concave_distance

@@ -1,0 +1,310 @@
+// Topics of a running node: contents, who gets what, dropouts of tf, alerts, markers, reconfiguration.
+#include <concave_distance/Alert.h>
+#include <concave_distance/Distances.h>
+#include <concave_distance/Niches.h>
+#include <concave_distance/PairNiches.h>
+#include <concave_distance/SetPairEnabled.h>
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <dynamic_reconfigure/Reconfigure.h>
+#include <gtest/gtest.h>
+#include <ros/init.h>
+#include <ros/spinner.h>
+#include <visualization_msgs/MarkerArray.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include "rostest_support.h"
+#include "tf_player.h"
+
+namespace concave_distance {
+namespace {
+
+constexpr double kRounding = 1e-12;  // lengths of order 1, a few operations
+const std::string kNode = "/concave_distance/";
+
+// The value of a key in the node's diagnostics; empty when there is none.
+std::string diagnosed(const diagnostic_msgs::DiagnosticArray& message, const std::string& key) {
+  for (const auto& status : message.status) {
+    for (const auto& value : status.values) {
+      if (status.name.find("concave_distance: ") == 0 && value.key == key) {
+        return value.value;
+      }
+    }
+  }
+  return "";
+}
+
+const PairDistance* find(const Distances& distances, const std::string& pair) {
+  for (const PairDistance& distance : distances.pairs) {
+    if (distance.pair == pair) {
+      return &distance;
+    }
+  }
+  return nullptr;
+}
+
+void reconfigure(const std::string& name, double value) {
+  dynamic_reconfigure::ReconfigureRequest request;
+  request.config.doubles.resize(1);
+  request.config.doubles[0].name = name;
+  request.config.doubles[0].value = value;
+  call<dynamic_reconfigure::Reconfigure>(kNode + "set_parameters", request);
+}
+
+class TopicsTest : public ::testing::Test {
+ protected:
+  TopicsTest() {
+    player.place("box_a", 0.0);
+    player.place("box_b", 2.0);
+    player.place("ball", 0.0, 3.0);
+  }
+  TfPlayer player;
+};
+
+TEST_F(TopicsTest, NothingIsComputedWithoutSubscribers) {
+  Collector<diagnostic_msgs::DiagnosticArray> diagnostics("/diagnostics");
+  ASSERT_TRUE(diagnostics.waitFor([](const auto& message) {
+    return diagnosed(message, "solves") == "0" && diagnosed(message, "pairs watched") == "0" &&
+           !diagnosed(message, "cycles").empty() && diagnosed(message, "cycles") != "0";
+  })) << "cycles run, nothing is solved";
+  Collector<PairDistance> one(kNode + "pairs/boxes/distance");
+  EXPECT_TRUE(diagnostics.waitFor([](const auto& message) {
+    return diagnosed(message, "pairs watched") == "1" && diagnosed(message, "solves") != "0";
+  })) << "the pair subscribed to and no other";
+}
+
+TEST_F(TopicsTest, DistancesCarryEveryPairAtTheTimeOfItsTransforms) {
+  Collector<Distances> distances(kNode + "distances");
+  ASSERT_TRUE(distances.waitFor([](const Distances& message) {
+    const PairDistance* pair = find(message, "box_ball");
+    return pair != nullptr && pair->has_distance != 0;
+  }));
+  const Distances message = *distances.last();
+  ASSERT_EQ(message.pairs.size(), 3U);
+  const PairDistance boxes = *find(message, "boxes");
+  EXPECT_NEAR(boxes.distance, 1.0, kRounding);
+  EXPECT_EQ(boxes.header.frame_id, "world");
+  EXPECT_LE(message.header.stamp, boxes.header.stamp);
+  EXPECT_LT(std::abs((ros::Time::now() - boxes.header.stamp).toSec()), 0.5);
+  EXPECT_NEAR(boxes.point_b.x - boxes.point_a.x, 1.0, kRounding);
+  EXPECT_EQ(boxes.nearest_niche_id, 0U) << "nobody asked for niches";
+}
+
+TEST_F(TopicsTest, DistanceFollowsTheMotionAndTellsTheClosingSpeed) {
+  Collector<PairDistance> distance(kNode + "pairs/boxes/distance");
+  ASSERT_TRUE(distance.waitFor([](const PairDistance& message) { return message.has_closing_speed != 0; }));
+  EXPECT_NEAR(distance.last()->closing_speed, 0.0, 1e-9) << "at rest";
+  for (int step = 1; step <= 60; ++step) {
+    player.place("box_b", 2.0 - 0.01 * step);
+    ros::WallDuration(0.01).sleep();
+  }
+  EXPECT_TRUE(
+      distance.waitFor([](const PairDistance& message) { return std::abs(message.distance - 0.4) < 1e-9; }));
+  const auto all = distance.all();
+  EXPECT_TRUE(std::any_of(all.begin(), all.end(), [](const PairDistance& message) {
+    return message.has_closing_speed != 0 && message.closing_speed > 0.5;
+  })) << "about 1 m/s in between";
+}
+
+TEST_F(TopicsTest, NichesKeepTheirIdsFromCycleToCycle) {
+  Collector<PairNiches> niches(kNode + "pairs/boxes/niches");
+  ASSERT_TRUE(niches.waitFor([](const PairNiches& message) {
+    return message.nearest.has_distance && std::abs(message.nearest.distance - 1.0) < kRounding;
+  }));
+  niches.clear();
+  ASSERT_TRUE(eventually([&] { return niches.count() > 20; }));
+  const std::vector<PairNiches> all = niches.all();
+  const std::uint64_t id = all.back().nearest.nearest_niche_id;
+  EXPECT_NE(id, 0U);
+  for (const PairNiches& message : all) {
+    ASSERT_FALSE(message.niches.empty());
+    EXPECT_EQ(message.niches[0].id, id);
+    EXPECT_EQ(message.niches[0].kind, Niche::KIND_PATCH) << "parallel faces";
+    EXPECT_NEAR(message.niches[0].distance, 1.0, kRounding);
+  }
+}
+
+TEST_F(TopicsTest, APairWithoutTransformsSaysSoAndTheOthersGoOn) {
+  Collector<Distances> distances(kNode + "distances");
+  Collector<diagnostic_msgs::DiagnosticArray> diagnostics("/diagnostics");
+  const auto statusOf = [&](const std::string& pair, std::uint8_t code) {
+    return distances.waitFor([&](const Distances& message) {
+      const PairDistance* distance = find(message, pair);
+      return distance != nullptr && distance->status.code == code;
+    });
+  };
+  ASSERT_TRUE(statusOf("box_ball", PairStatus::OK));
+  player.drop("ball");
+  ASSERT_TRUE(statusOf("box_ball", PairStatus::STALE_TRANSFORM)) << "after ~stale_after";
+  const Distances message = *distances.last();
+  EXPECT_FALSE(find(message, "box_ball")->has_distance);
+  EXPECT_TRUE(std::isnan(find(message, "box_ball")->distance));
+  EXPECT_EQ(find(message, "boxes")->status.code, PairStatus::OK);
+  EXPECT_TRUE(diagnostics.waitFor(
+      [](const auto& array) { return diagnosed(array, "pairs without transforms") == "2"; }));
+  player.place("ball", 0.0, 3.0);
+  EXPECT_TRUE(statusOf("box_ball", PairStatus::OK)) << "it comes back by itself";
+}
+
+TEST_F(TopicsTest, AlertsRiseAndClearWithHysteresis) {
+  Collector<Alert> alerts(kNode + "alerts");
+  player.place("box_b", 1.4);
+  ASSERT_TRUE(alerts.waitFor([](const Alert& alert) { return alert.state == Alert::WARNING; }));
+  EXPECT_EQ(alerts.last()->nearest.pair, "boxes");
+  EXPECT_TRUE(alerts.last()->nearest.warning);
+  alerts.clear();
+  Collector<PairDistance> distance(kNode + "pairs/boxes/distance");
+  player.place("box_b", 1.6);
+  ASSERT_TRUE(distance.waitFor([](const PairDistance& message) { return message.distance > 0.55; }));
+  EXPECT_TRUE(distance.last()->warning) << "0.6 is inside 0.5 + 0.2";
+  EXPECT_EQ(alerts.count(), 0U);
+  player.place("box_b", 1.8);
+  EXPECT_TRUE(alerts.waitFor([](const Alert& alert) { return alert.state == Alert::CLEAR; }));
+  EXPECT_GT(alerts.last()->nearest.distance, 0.7);
+  player.drop("box_b");
+  EXPECT_TRUE(alerts.waitFor([](const Alert& alert) { return alert.state == Alert::UNKNOWN; }))
+      << "a pair that cannot be watched is told";
+  EXPECT_EQ(alerts.last()->nearest.status.code, PairStatus::STALE_TRANSFORM);
+}
+
+TEST_F(TopicsTest, AlertsThatStandAreRepeatedForANewSubscriber) {
+  Collector<PairDistance> distance(kNode + "pairs/boxes/distance");
+  player.place("box_b", 1.4);
+  ASSERT_TRUE(distance.waitFor([](const PairDistance& message) { return message.warning != 0; }))
+      << "raised while nobody listened to the alerts";
+  Collector<Alert> newcomer(kNode + "alerts");
+  EXPECT_TRUE(newcomer.waitFor([](const Alert& alert) { return alert.state == Alert::WARNING; }));
+}
+
+TEST_F(TopicsTest, APairSwitchedOffTakesItsAlertBack) {
+  Collector<Alert> alerts(kNode + "alerts");
+  player.place("box_b", 1.2);
+  ASSERT_TRUE(alerts.waitFor([](const Alert& alert) { return alert.state == Alert::WARNING; }));
+  SetPairEnabledRequest request;
+  request.pair = "boxes";
+  call<SetPairEnabled>(kNode + "set_pair_enabled", request);
+  EXPECT_TRUE(alerts.waitFor([](const Alert& alert) {
+    return alert.state == Alert::CLEAR && alert.nearest.status.code == PairStatus::DISABLED;
+  }));
+  request.enabled = 1;
+  call<SetPairEnabled>(kNode + "set_pair_enabled", request);
+  EXPECT_TRUE(alerts.waitFor([](const Alert& alert) { return alert.state == Alert::WARNING; }));
+}
+
+TEST_F(TopicsTest, MarkersShowEveryNicheAndDeleteWhatVanished) {
+  Collector<visualization_msgs::MarkerArray> markers(kNode + "markers");
+  Collector<Niches> niches(kNode + "niches");
+  const auto shows = [](const visualization_msgs::MarkerArray& message, const std::string& ns, int action) {
+    return std::any_of(message.markers.begin(), message.markers.end(),
+                       [&](const auto& marker) { return marker.ns == ns && marker.action == action; });
+  };
+  using visualization_msgs::Marker;
+  for (const char* ns : {"boxes/points", "boxes/line", "boxes/text", "box_ball/line"}) {
+    EXPECT_TRUE(markers.waitFor([&](const auto& message) { return shows(message, ns, Marker::ADD); })) << ns;
+  }
+  const auto message = *markers.last();
+  for (const Marker& marker : message.markers) {
+    EXPECT_EQ(marker.header.frame_id, "world");
+    EXPECT_GT(marker.lifetime.toSec(), 0.0);
+  }
+  std::set<std::pair<std::string, std::uint64_t>> known;
+  ASSERT_TRUE(niches.waitFor([](const Niches& list) { return !list.pairs.empty(); }));
+  for (const Niches& list : niches.all()) {
+    for (const PairNiches& pair : list.pairs) {
+      for (const Niche& niche : pair.niches) {
+        known.emplace(pair.nearest.pair + "/line", niche.id);
+      }
+    }
+  }
+  for (const Marker& marker : message.markers) {
+    if (marker.ns == "boxes/line" && marker.action == Marker::ADD) {
+      EXPECT_EQ(known.count({marker.ns, static_cast<std::uint64_t>(marker.id)}), 1U) << marker.id;
+    }
+  }
+  SetPairEnabledRequest request;
+  request.pair = "boxes";
+  call<SetPairEnabled>(kNode + "set_pair_enabled", request);
+  EXPECT_TRUE(eventually([&] {
+    for (const auto& array : markers.all()) {
+      if (shows(array, "boxes/line", Marker::DELETE)) {
+        return true;
+      }
+    }
+    return false;
+  })) << "the pair is gone from the screen";
+  request.enabled = 1;
+  call<SetPairEnabled>(kNode + "set_pair_enabled", request);
+}
+
+TEST_F(TopicsTest, MarkersOfANicheThatVanishesAreDeleted) {
+  using visualization_msgs::Marker;
+  const std::string line = "ball_blocks/line";
+  Collector<visualization_msgs::MarkerArray> markers(kNode + "markers");
+  const auto idsWith = [&](const visualization_msgs::MarkerArray& message, int action) {
+    std::set<int> ids;
+    for (const Marker& marker : message.markers) {
+      if (marker.ns == line && marker.action == action) {
+        ids.insert(marker.id);
+      }
+    }
+    return ids;
+  };
+  player.place("ball", 0.0, 3.0, 11.0);
+  ASSERT_TRUE(markers.waitFor([&](const auto& message) { return idsWith(message, Marker::ADD).size() == 2; }))
+      << "one niche a block";
+  const std::set<int> both = idsWith(*markers.last(), Marker::ADD);
+  markers.clear();
+  player.place("ball", 2.0, 3.0, 11.0);  // one block is 2.3 m away now, beyond the pair's cutoff
+  ASSERT_TRUE(
+      markers.waitFor([&](const auto& message) { return idsWith(message, Marker::ADD).size() == 1; }));
+  const int kept = *idsWith(*markers.last(), Marker::ADD).begin();
+  EXPECT_EQ(both.count(kept), 1U) << "the niche that stays keeps its id";
+  std::set<int> deleted;
+  for (const auto& message : markers.all()) {
+    deleted.merge(idsWith(message, Marker::DELETE));
+  }
+  std::set<int> gone = both;
+  gone.erase(kept);
+  EXPECT_EQ(deleted, gone);
+}
+
+TEST_F(TopicsTest, BodyMarkersComeOnceWithEveryBody) {
+  Collector<visualization_msgs::MarkerArray> bodies(kNode + "body_markers");
+  ASSERT_TRUE(bodies.waitFor([](const auto& message) { return message.markers.size() == 5; }))
+      << "a DELETEALL and four bodies";
+  EXPECT_EQ(bodies.last()->markers[1].points.size(), 36U);
+}
+
+TEST_F(TopicsTest, ReconfigurationTakesEffectWhileRunning) {
+  Collector<PairDistance> distance(kNode + "pairs/boxes/distance");
+  ASSERT_TRUE(distance.waitFor([](const PairDistance& message) { return message.has_distance != 0; }));
+  reconfigure("cutoff", 0.8);
+  EXPECT_TRUE(distance.waitFor(
+      [](const PairDistance& message) { return message.status.code == PairStatus::BEYOND_CUTOFF; }));
+  EXPECT_TRUE(distance.last()->has_lower_bound);
+  EXPECT_GT(distance.last()->lower_bound, 0.8);
+  EXPECT_LE(distance.last()->lower_bound, 1.0);
+  reconfigure("cutoff", 0.0);
+  EXPECT_TRUE(distance.waitFor([](const PairDistance& message) { return message.has_distance != 0; }));
+  Collector<diagnostic_msgs::DiagnosticArray> diagnostics("/diagnostics");
+  reconfigure("rate", 20.0);
+  EXPECT_TRUE(diagnostics.waitFor([](const auto& array) {
+    const std::string rate = diagnosed(array, "rate achieved (Hz)");
+    return !rate.empty() && std::abs(std::stod(rate) - 20.0) < 2.0;
+  }));
+  reconfigure("rate", 100.0);
+}
+
+}  // namespace
+}  // namespace concave_distance
+
+int main(int argc, char** argv) {
+  ::testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "topics_rostest");
+  ros::AsyncSpinner spinner(2);
+  spinner.start();
+  return RUN_ALL_TESTS();
+}
