@@ -47,6 +47,15 @@ Neighbours nearestRecords(const NicheArchive& archive, const Eigen::Vector3d& po
 
 }  // namespace
 
+namespace {
+
+// Hysteresis: a niche that users know is given up only at half the least prominence.
+double leastProminence(const NicheRecord& record, const TrackerParameters& parameters) {
+  return (record.reported ? 0.5 : 1.0) * parameters.least_prominence;
+}
+
+}  // namespace
+
 double prominenceBound(const PairGeometry& geometry, const WitnessPair& shallow, const WitnessPair& deep,
                        double least_prominence) {
   const double distance =
@@ -122,11 +131,11 @@ AdmissionResult admitCandidate(const NicheCandidate& candidate, const PairGeomet
       break;
     }
     const std::size_t shallow = indexOf(shallow_id);
-    const double bound = prominenceBound(geometry, archive.records()[shallow].niche.witness, witness,
-                                         0.5 * parameters.least_prominence);
+    const double least = leastProminence(archive.records()[shallow], parameters);
+    const double bound = prominenceBound(geometry, archive.records()[shallow].niche.witness, witness, least);
     archive.records()[shallow].niche.prominence =
         std::min(archive.records()[shallow].niche.prominence, bound);
-    if (bound < 0.5 * parameters.least_prominence) {
+    if (bound < least) {
       const std::uint64_t older = std::min(living_id, shallow_id);
       archive.unite(indexOf(living_id), shallow, events);
       living_id = older;
@@ -138,7 +147,7 @@ AdmissionResult admitCandidate(const NicheCandidate& candidate, const PairGeomet
 bool reviewProminence(std::size_t i, const PairGeometry& geometry, const TrackerParameters& parameters,
                       NicheArchive& archive, std::vector<NicheEvent>& events) {
   NicheRecord& record = archive.records()[i];
-  const double least = 0.5 * parameters.least_prominence;
+  const double least = leastProminence(record, parameters);
   const Neighbours deeper = nearestRecords(archive, record.niche.point_a_in_a, record.point_b_in_b,
                                            [&](std::size_t k, const NicheRecord& other) {
                                              return k != i && other.niche.distance <= record.niche.distance;

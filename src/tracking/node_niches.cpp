@@ -1,8 +1,25 @@
 #include "concave_distance/tracking/node_niches.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace concave_distance {
+namespace {
+
+void collectTwoRings(const NodeGraph& graph, NodeIndex centre, std::vector<NodeIndex>& nodes) {
+  nodes.clear();
+  nodes.push_back(centre);
+  for (const NodeGraph::Edge& edge : graph.edges.row(centre.value)) {
+    nodes.push_back(edge.to);
+    for (const NodeGraph::Edge& further : graph.edges.row(edge.to.value)) {
+      nodes.push_back(further.to);
+    }
+  }
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+}
+
+}  // namespace
 
 AdmissionResult admitNodePair(const NicheCandidate& candidate, const PairGeometry& geometry,
                               double niche_radius, std::uint64_t cycle, PairMetric& metric,
@@ -25,6 +42,35 @@ AdmissionResult admitNodePair(const NicheCandidate& candidate, const PairGeometr
   placeRecord(newborn, geometry, candidate.witness);
   archive.records().push_back(newborn);
   return {Admission::Born, newborn.niche.id};
+}
+
+void improveNodePairs(const PairObjective& objective, std::size_t count, NicheArchive& archive,
+                      PairGeometry& geometry, SearchCost& cost) {
+  const NodeGraph& graph_a = objective.bodyA().graph();
+  const NodeGraph& graph_b = objective.bodyB().graph();
+  for (std::size_t i = 0; i < std::min(count, archive.records().size()); ++i) {
+    NicheRecord& record = archive.records()[i];
+    TrialPoint best = record.niche.node_pair;
+    best.squared_distance = objective.squaredDistance(best.node_a, best.node_b);
+    bool moved = true;
+    while (moved) {
+      moved = false;
+      collectTwoRings(graph_a, best.node_a, geometry.ring_a);
+      collectTwoRings(graph_b, best.node_b, geometry.ring_b);
+      for (const NodeIndex node_a : geometry.ring_a) {
+        for (const NodeIndex node_b : geometry.ring_b) {
+          const TrialPoint candidate = objective.evaluate(node_a, node_b, cost);
+          if (candidate.squared_distance < best.squared_distance) {
+            best = candidate;
+            moved = true;
+          }
+        }
+      }
+    }
+    record.niche.node_pair = best;
+    placeRecord(record, geometry, geometry.nodeWitness(best));
+  }
+  archive.settle();
 }
 
 void uniteWithinRadius(double niche_radius, PairMetric& metric, NicheArchive& archive,

@@ -69,6 +69,7 @@ struct PairTracker::State {
   void projectNiches(PairSolution& solution);
   void walkValley(PairSolution& solution);
   void settleCandidates(PairSolution& solution);
+  void reviewRecords(PairSolution& solution);
   void orderCandidates();
   void admitCandidates(std::vector<NicheEvent>& events);
   void report(double displacement, PairSolution& solution);
@@ -142,13 +143,10 @@ void PairTracker::State::update(const Eigen::Isometry3d& pose, double time, Pair
   } else {
     uniteSamePlaces(geometry, archive, solution.events);
   }
-  if (warm && parameters.niches_wanted && parameters.accuracy != AccuracyLevel::Nodes) {
-    for (std::size_t k = 0; k < kReviewsPerCycle && !archive.records().empty(); ++k) {
-      next_review = (next_review + 1) % archive.records().size();
-      if (reviewProminence(next_review, geometry, parameters, archive, solution.events)) {
-        archive.settle();
-      }
-    }
+  if (parameters.accuracy == AccuracyLevel::Nodes) {
+    improveNodePairs(objective, parameters.largest_niche_count, archive, geometry, solution.cost);
+  } else {
+    reviewRecords(solution);
   }
   report(displacement, solution);
 
@@ -338,6 +336,17 @@ void PairTracker::State::settleCandidates(PairSolution& solution) {
   admitCandidates(solution.events);
   archive.settle();
   candidates.clear();
+}
+
+void PairTracker::State::reviewRecords(PairSolution& solution) {
+  // A cold cycle looks at every record, once all are known: neighbours may have come in any order.
+  const std::size_t reviews = warm ? kReviewsPerCycle : archive.records().size();
+  for (std::size_t k = 0; k < reviews && !archive.records().empty(); ++k) {
+    next_review = (next_review + archive.records().size() - 1) % archive.records().size();
+    if (reviewProminence(next_review, geometry, parameters, archive, solution.events)) {
+      archive.settle();
+    }
+  }
 }
 
 void PairTracker::State::orderCandidates() {

@@ -28,6 +28,7 @@
 namespace concave_distance::benchmark {
 namespace {
 
+constexpr double kThesisGrid = 0.05;
 constexpr double kThesisNicheRadius = 0.6;
 constexpr double kLeastProminence = 1e-2;
 
@@ -47,8 +48,9 @@ GeneticParameters combGaWl() {
   return parameters;
 }
 
-GeneticParameters combGaWlSh() {
+GeneticParameters combGaWlSh(bool conserve_niches) {
   GeneticParameters parameters;  // Tables 4.1 and 5.8 with N_pop 100; radii automatic
+  parameters.conserve_niches = conserve_niches;
   parameters.population_size = 100;
   parameters.max_generations = 50;
   return parameters;
@@ -71,9 +73,10 @@ std::vector<WitnessPair> refinePopulation(const BenchmarkPair& pair, const Eigen
 }
 
 NicheRun nicheRun(const BenchmarkPair& pair, const Eigen::Isometry3d& pose,
-                  const std::vector<ReferenceNiche>& references, double cutoff, std::uint64_t seed) {
+                  const std::vector<ReferenceNiche>& references, double cutoff, std::uint64_t seed,
+                  bool conserve_niches) {
   NicheRun run;
-  const GeneticParameters parameters = combGaWlSh();
+  const GeneticParameters parameters = combGaWlSh(conserve_niches);
   const PairObjective objective(*pair.a, *pair.b, pose);
   SearchWorkspace workspace(*pair.a, *pair.b);
   RandomEngine engine(streamSeed(seed, "battery_benchmark", 0));
@@ -98,6 +101,66 @@ NicheRun nicheRun(const BenchmarkPair& pair, const Eigen::Isometry3d& pose,
   return run;
 }
 
+// Instants of the 20 s manoeuvre at which level `nodes` gives the enumeration's optimum (thesis: 197 of 200).
+struct Manoeuvre {
+  int instants = 0;
+  int optimal = 0;
+  double worst_excess = 0.0;  // metres
+};
+
+Manoeuvre runManoeuvre() {
+  const BenchmarkPair pair = loadBenchmarkPair("battery_insertion", kThesisGrid);
+  TrackerParameters parameters;
+  parameters.accuracy = AccuracyLevel::Nodes;
+  PairTracker tracker(pair.name, pair.a, pair.b, parameters);
+  PairSolution solution;
+  Manoeuvre manoeuvre;
+  for (const TimedPose& instant :
+       loadPoses(std::string(CONCAVE_DISTANCE_SOURCE_DIR) + "/meshes/thesis/manoeuvre_200.csv")) {
+    tracker.update(instant.pose, instant.time, solution);
+    const double optimum = std::sqrt(enumerateNodePairs(*pair.a, *pair.b, instant.pose).squared_distance);
+    const double excess = solution.distance - optimum;
+    ++manoeuvre.instants;
+    manoeuvre.optimal += excess <= 1e-12 ? 1 : 0;
+    manoeuvre.worst_excess = std::max(manoeuvre.worst_excess, excess);
+  }
+  return manoeuvre;
+}
+
+void reportNicheRuns(const std::vector<NicheRun>& niche_runs, std::size_t references, const char* variant,
+                     std::ofstream& csv) {
+  std::uint32_t population_all = 0;
+  std::uint32_t archive_all = 0;
+  std::uint32_t with_duplicates = 0;
+  std::uint32_t with_others = 0;
+  std::vector<double> counts;
+  std::vector<double> recalled;
+  for (const NicheRun& run : niche_runs) {
+    counts.push_back(static_cast<double>(run.population_niches));
+    recalled.push_back(static_cast<double>(run.population.recalled));
+    population_all += run.population.recalled == references ? 1U : 0U;
+    archive_all += run.archive.recalled == references ? 1U : 0U;
+    with_duplicates += run.archive.duplicates > 0 ? 1U : 0U;
+    with_others += run.archive.others > 0 ? 1U : 0U;
+  }
+  const std::size_t runs = niche_runs.size();
+  std::printf("comb-GA-wl-sh N_pop 100, %s, %zu runs\n", variant, runs);
+  std::printf("  final population: N_Gamma %.2f [%.0f-%.0f]; references met %.2f mean; all in %u runs\n",
+              mean(counts), percentile(counts, 0.0), percentile(counts, 1.0), mean(recalled), population_all);
+  std::printf("  archive: all references in %u runs; runs with a duplicate %u; with another niche %u\n",
+              archive_all, with_duplicates, with_others);
+  if (csv) {
+    csv << variant << "_population_niches_mean," << mean(counts) << ",\n"
+        << variant << "_population_niches_least," << percentile(counts, 0.0) << ",\n"
+        << variant << "_population_niches_most," << percentile(counts, 1.0) << ",\n"
+        << variant << "_population_references_mean," << mean(recalled) << ',' << references << '\n'
+        << variant << "_population_all_references," << population_all << ',' << runs << '\n'
+        << variant << "_archive_all_references," << archive_all << ',' << runs << '\n'
+        << variant << "_archive_runs_with_duplicate," << with_duplicates << ',' << runs << '\n'
+        << variant << "_archive_runs_with_other," << with_others << ',' << runs << '\n';
+  }
+}
+
 int main(int argc, char** argv) {
   CLI::App app("Robustness on the battery and fixture");
   std::uint32_t runs = 1000;
@@ -108,7 +171,7 @@ int main(int argc, char** argv) {
   app.add_option("--output", output, "CSV file to write");
   CLI11_PARSE(app, argc, argv);
 
-  const BenchmarkPair pair = loadBenchmarkPair("battery_fixture");
+  const BenchmarkPair pair = loadBenchmarkPair("battery_fixture", kThesisGrid);
   const Eigen::Isometry3d pose = pair.motion(0.0);
   const double cutoff = pair.b->diameter();
   const NodePairMinimum optimum = enumerateNodePairs(*pair.a, *pair.b, pose);
@@ -142,41 +205,24 @@ int main(int argc, char** argv) {
                 std::sqrt(reference.witness.squared_distance), reference.node_distance,
                 reference.node_prominence);
   }
-  std::vector<NicheRun> niche(niche_runs);
-  tbb::parallel_for(std::uint32_t{0}, niche_runs,
-                    [&](std::uint32_t run) { niche[run] = nicheRun(pair, pose, references, cutoff, run); });
-  std::uint32_t population_all = 0;
-  std::uint32_t archive_all = 0;
-  std::uint32_t with_duplicates = 0;
-  std::uint32_t with_others = 0;
-  std::vector<double> counts;
-  std::vector<double> population_recalled;
-  for (const NicheRun& run : niche) {
-    counts.push_back(static_cast<double>(run.population_niches));
-    population_recalled.push_back(static_cast<double>(run.population.recalled));
-    population_all += run.population.recalled == references.size() ? 1U : 0U;
-    archive_all += run.archive.recalled == references.size() ? 1U : 0U;
-    with_duplicates += run.archive.duplicates > 0 ? 1U : 0U;
-    with_others += run.archive.others > 0 ? 1U : 0U;
-  }
-  std::printf("comb-GA-wl-sh N_pop 100, %u runs\n", niche_runs);
-  std::printf("  final population: N_Gamma %.2f [%.0f-%.0f]; references met %.2f mean; all in %u runs\n",
-              mean(counts), percentile(counts, 0.0), percentile(counts, 1.0), mean(population_recalled),
-              population_all);
-  std::printf(
-      "  archive: all references in %u runs; runs with a duplicate %u; with another niche below the cutoff "
-      "%u\n",
-      archive_all, with_duplicates, with_others);
+  std::ofstream csv;
   if (!output.empty()) {
-    std::ofstream csv(output);
+    csv.open(output);
     csv << "quantity,value,of\ncomb_ga_wl_optimum," << successes << ',' << runs << "\nreferences,"
-        << references.size() << ",\npopulation_niches_mean," << mean(counts) << ",\npopulation_niches_least,"
-        << percentile(counts, 0.0) << ",\npopulation_niches_most," << percentile(counts, 1.0)
-        << ",\npopulation_references_mean," << mean(population_recalled) << ',' << references.size()
-        << "\npopulation_all_references," << population_all << ',' << niche_runs
-        << "\narchive_all_references," << archive_all << ',' << niche_runs << "\narchive_runs_with_duplicate,"
-        << with_duplicates << ',' << niche_runs << "\narchive_runs_with_other," << with_others << ','
-        << niche_runs << '\n';
+        << references.size() << ",\n";
+  }
+  for (const bool conserve : {false, true}) {
+    std::vector<NicheRun> niche(niche_runs);
+    tbb::parallel_for(std::uint32_t{0}, niche_runs, [&](std::uint32_t run) {
+      niche[run] = nicheRun(pair, pose, references, cutoff, run, conserve);
+    });
+    reportNicheRuns(niche, references.size(), conserve ? "conserved" : "plain", csv);
+  }
+  const Manoeuvre manoeuvre = runManoeuvre();
+  std::printf("manoeuvre, level nodes: the enumeration's optimum at %d of %d instants, worst excess %.3g\n",
+              manoeuvre.optimal, manoeuvre.instants, manoeuvre.worst_excess);
+  if (csv) {
+    csv << "manoeuvre_nodes_optimum," << manoeuvre.optimal << ',' << manoeuvre.instants << '\n';
   }
   return 0;
 }

@@ -29,8 +29,8 @@ AdmissionResult admitCandidate(const NicheCandidate& candidate, const PairGeomet
                                const TrackerParameters& parameters, double zero_distance_radius,
                                std::uint64_t cycle, NicheArchive& archive, std::vector<NicheEvent>& events);
 
-/// Looks again whether record i has become part of a deeper neighbour; unites them if its prominence fell
-/// below half the least (hysteresis). True when it did.
+/// Looks again whether record i is part of a deeper neighbour; unites them if its prominence is below the
+/// least, half the least where users know the niche (hysteresis). True when it did.
 bool reviewProminence(std::size_t i, const PairGeometry& geometry, const TrackerParameters& parameters,
                       NicheArchive& archive, std::vector<NicheEvent>& events);
 

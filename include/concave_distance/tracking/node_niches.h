@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "concave_distance/search/pair_metric.h"
+#include "concave_distance/search/pair_objective.h"
 #include "concave_distance/tracking/niche_admission.h"
 
 namespace concave_distance {
@@ -13,6 +14,13 @@ namespace concave_distance {
 AdmissionResult admitNodePair(const NicheCandidate& candidate, const PairGeometry& geometry,
                               double niche_radius, std::uint64_t cycle, PairMetric& metric,
                               NicheArchive& archive);
+
+/// Moves both nodes of a record at once, over two edges on either body, as long as that comes closer (the
+/// local search over more than one node that Carretero, sec. 7.1, names): between parallel walls one gene at
+/// a time ends on a staircase of shallow minima. For the nearest `count` records; the archive is settled
+/// afterwards.
+void improveNodePairs(const PairObjective& objective, std::size_t count, NicheArchive& archive,
+                      PairGeometry& geometry, SearchCost& cost);
 
 /// Strips records within the niche radius of a closer one, as greedy identification does; the older id lives
 /// on. The archive must be settled; it is again afterwards.

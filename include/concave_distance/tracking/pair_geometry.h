@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <memory>
+#include <vector>
 
 #include "concave_distance/distance/niche_properties.h"
 #include "concave_distance/distance/witness_refinement.h"
@@ -22,6 +23,8 @@ struct PairGeometry {
   Eigen::Isometry3d b_from_a = Eigen::Isometry3d::Identity();
   RefinementWorkspace refinement;
   ExtentWorkspace extent;
+  std::vector<NodeIndex> ring_a;  ///< nodes around a pair's genes, for level `nodes`
+  std::vector<NodeIndex> ring_b;
 
   void setPose(const Eigen::Isometry3d& pose) {
     a_from_b = pose;

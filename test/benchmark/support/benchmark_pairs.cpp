@@ -107,7 +107,6 @@ struct Recipe {
   const char* name;
   std::function<Surfaces()> surfaces;
   std::function<Motion(const BenchmarkPair&)> motion;
-  std::optional<double> edge_length;
 };
 
 std::function<Motion(const BenchmarkPair&)> loop(std::uint64_t seed) {
@@ -161,46 +160,42 @@ Eigen::Isometry3d combPose(double t) {
 const std::vector<Recipe>& recipes() {
   static const std::vector<Recipe> kRecipes = {
       {"notched_boxes", files("meshes/thesis/box.stl", "meshes/thesis/notched_box.stl"),
-       fromFile("meshes/thesis/boxes_position_1.csv"), 0.1},
+       fromFile("meshes/thesis/boxes_position_1.csv")},
       {"grooved_cylinder", files("meshes/thesis/semi_extruded.stl", "meshes/thesis/grooved_cylinder.stl"),
-       fromFile("meshes/thesis/cylinder_position_2.csv"), 0.1},
+       fromFile("meshes/thesis/cylinder_position_2.csv")},
       {"battery_fixture", files("meshes/thesis/fixture.stl", "meshes/thesis/battery.stl"),
-       fromFile("meshes/thesis/battery_static.csv"), 0.05},
+       fromFile("meshes/thesis/battery_static.csv")},
       {"battery_insertion", files("meshes/thesis/fixture.stl", "meshes/thesis/battery.stl"),
-       fromFile("meshes/thesis/manoeuvre_200.csv"), 0.05},
-      {"kr5_bicep_palm", files("meshes/kr5/bicep.stl", "meshes/kr5/palm.stl"), loop(11), {}},
-      {"kr5_base_forearm", files("meshes/kr5/base_link.stl", "meshes/kr5/forearm.stl"), loop(12), {}},
-      {"kr5_shoulder_elbow", files("meshes/kr5/shoulder.stl", "meshes/kr5/elbow.stl"), loop(13), {}},
-      {"wam3_wam5", files("meshes/wam/wam3.stl", "meshes/wam/wam5.stl"), loop(14), {}},
-      {"wam_base_wam4", files("meshes/wam/wam_base.stl", "meshes/wam/wam4.stl"), loop(15), {}},
-      {"wam1_wam6", files("meshes/wam/wam1.stl", "meshes/wam/wam6.stl"), loop(16), {}},
+       fromFile("meshes/thesis/manoeuvre_200.csv")},
+      {"kr5_bicep_palm", files("meshes/kr5/bicep.stl", "meshes/kr5/palm.stl"), loop(11)},
+      {"kr5_base_forearm", files("meshes/kr5/base_link.stl", "meshes/kr5/forearm.stl"), loop(12)},
+      {"kr5_shoulder_elbow", files("meshes/kr5/shoulder.stl", "meshes/kr5/elbow.stl"), loop(13)},
+      {"wam3_wam5", files("meshes/wam/wam3.stl", "meshes/wam/wam5.stl"), loop(14)},
+      {"wam_base_wam4", files("meshes/wam/wam_base.stl", "meshes/wam/wam4.stl"), loop(15)},
+      {"wam1_wam6", files("meshes/wam/wam1.stl", "meshes/wam/wam6.stl"), loop(16)},
       {"peg_in_hole",
        [] {
          return Surfaces{makeTube(0.3, 0.16, 0.8, 96),
                          makeCylinder(0.15, 1.0, 0.15 * (1.0 - std::cos(kPi / 96)))};
        },
-       always(pegPose),
-       {}},
+       always(pegPose)},
       {"linked_hooks",
        [] {
          return Surfaces{makeHook(0.5, 0.08, 0.2, 72, 24), makeHook(0.5, 0.08, 0.2, 72, 24)};
        },
-       always(hookPose),
-       {}},
+       always(hookPose)},
       {"comb_in_comb",
        [] {
          return Surfaces{test::makeComb(5), test::makeComb(5)};
        },
-       always(combPose),
-       {}},
+       always(combPose)},
       {"stairs_leg",
        [] {
          return Surfaces{test::makeStairs(7),
                          moved(test::makeComb(4, 0.08, 0.2, 0.5),
                                poseOf(Eigen::Vector3d::Zero(), Eigen::Quaterniond(0.9, 0.2, 0.3, 0.1)))};
        },
-       loop(21),
-       {}},
+       loop(21)},
       {"obstacle_field",
        [] {
          return Surfaces{makePyramidField(6, 8, 0.25, 5), makePyramidField(3, 4, 0.35, 9)};
@@ -210,8 +205,7 @@ const std::vector<Recipe>& recipes() {
          const Eigen::Quaterniond tilt(Eigen::AngleAxisd(0.15 * std::sin(3.0 * t), Eigen::Vector3d::UnitX()) *
                                        Eigen::AngleAxisd(0.5 + t, Eigen::Vector3d::UnitZ()));
          return poseOf({0.4 * std::cos(4.0 * t), 0.3 * std::sin(3.0 * t), 0.95}, tilt * over);
-       }),
-       {}},
+       })},
   };
   return kRecipes;
 }
@@ -246,7 +240,7 @@ BenchmarkPair loadBenchmarkPair(const std::string& name, std::optional<double> m
     }
     Surfaces surfaces = recipe.surfaces();
     BodyMeshOptions options;
-    options.max_edge_length = max_edge_length ? max_edge_length : recipe.edge_length;
+    options.max_edge_length = max_edge_length;
     BenchmarkPair pair;
     pair.name = name;
     pair.fcl_a = makeFclModel(surfaces.a);

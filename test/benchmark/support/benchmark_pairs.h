@@ -32,7 +32,7 @@ std::vector<std::string> interlockingPairs();
 std::vector<std::string> manyNichePairs();
 std::vector<std::string> allPairs();
 
-/// @param max_edge_length of both grids, metres; empty: automatic (the thesis's grid for its scenes)
+/// @param max_edge_length of both grids, metres; empty: automatic
 /// @throws Error for an unknown name or a file that is missing
 BenchmarkPair loadBenchmarkPair(const std::string& name,
                                 std::optional<double> max_edge_length = std::nullopt);
