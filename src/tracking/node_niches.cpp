@@ -6,17 +6,22 @@
 namespace concave_distance {
 namespace {
 
-void collectTwoRings(const NodeGraph& graph, NodeIndex centre, std::vector<NodeIndex>& nodes) {
+// Two bodies' neighbourhoods of this many edges around hold some forty nodes each.
+constexpr int kRings = 3;
+
+void collectRings(const NodeGraph& graph, NodeIndex centre, std::vector<NodeIndex>& nodes) {
   nodes.clear();
   nodes.push_back(centre);
-  for (const NodeGraph::Edge& edge : graph.edges.row(centre.value)) {
-    nodes.push_back(edge.to);
-    for (const NodeGraph::Edge& further : graph.edges.row(edge.to.value)) {
-      nodes.push_back(further.to);
+  for (int ring = 0; ring < kRings; ++ring) {
+    const std::size_t reached = nodes.size();
+    for (std::size_t i = 0; i < reached; ++i) {
+      for (const NodeGraph::Edge& edge : graph.edges.row(nodes[i].value)) {
+        nodes.push_back(edge.to);
+      }
     }
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   }
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
 }
 
 }  // namespace
@@ -55,8 +60,8 @@ void improveNodePairs(const PairObjective& objective, std::size_t count, NicheAr
     bool moved = true;
     while (moved) {
       moved = false;
-      collectTwoRings(graph_a, best.node_a, geometry.ring_a);
-      collectTwoRings(graph_b, best.node_b, geometry.ring_b);
+      collectRings(graph_a, best.node_a, geometry.ring_a);
+      collectRings(graph_b, best.node_b, geometry.ring_b);
       for (const NodeIndex node_a : geometry.ring_a) {
         for (const NodeIndex node_b : geometry.ring_b) {
           const TrialPoint candidate = objective.evaluate(node_a, node_b, cost);

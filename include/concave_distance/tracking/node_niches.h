@@ -15,7 +15,7 @@ AdmissionResult admitNodePair(const NicheCandidate& candidate, const PairGeometr
                               double niche_radius, std::uint64_t cycle, PairMetric& metric,
                               NicheArchive& archive);
 
-/// Moves both nodes of a record at once, over two edges on either body, as long as that comes closer (the
+/// Moves both nodes of a record at once, over three edges on either body, as long as that comes closer (the
 /// local search over more than one node that Carretero, sec. 7.1, names): between parallel walls one gene at
 /// a time ends on a staircase of shallow minima. For the nearest `count` records; the archive is settled
 /// afterwards.
