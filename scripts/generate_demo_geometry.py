@@ -18,7 +18,7 @@ def main():
         os.path.dirname(os.path.abspath(__file__)))
     folder = os.path.join(root, "meshes", "demo")
     os.makedirs(folder, exist_ok=True)
-    for make in (demo_solids.comb, demo_solids.eye, demo_solids.gantry, demo_solids.hook, demo_solids.pipe,
+    for make in (demo_solids.comb, demo_solids.crane, demo_solids.eye, demo_solids.hook, demo_solids.pipe,
                  demo_solids.shelf, demo_solids.vase):
         vertices, triangles = make()
         name = make.__name__

@@ -97,22 +97,20 @@ def pipe():
     return sweep("pipe", path, radii, 36)
 
 
-def gantry():
-    """A tube bent to a portal, with a round foot under either leg. Frame: on the floor, middle between the legs;
-    the legs stand at y = -0.95 and 0.95, the upper edge of the beam is at z = 1.30."""
-    tube, half, bend = 0.025, 0.95, 0.15
+def crane():
+    """A tube bent to a gallows, with a round foot and a ball at the free end. Frame: on the floor; the post stands
+    at y = -0.95, the beam reaches to y = 0.62, its upper edge is at z = 1.30."""
+    tube, post, bend = 0.025, -0.95, 0.15
     height = 1.30 - tube
-    foot = np.array([(0, -half, z) for z in (0.0, 0.006, 0.014, 0.02)])
+    foot = np.array([(0, post, z) for z in (0.0, 0.006, 0.014, 0.02)])
     foot_radii = np.array([0.080, 0.080, 0.075, tube])
-    left = _line((0, -half, 0.03), (0, -half, height - bend), 22)
-    corner = _arc((0, -half + bend, height - bend), bend, 180, 90, 9, "yz")[:-1]
-    beam = _line((0, -half + bend, height), (0, half - bend, height), 24)
-    other = _arc((0, half - bend, height - bend), bend, 90, 0, 9, "yz")[:-1]
-    right = _line((0, half, height - bend), (0, half, 0.03), 22)
-    foot_right = np.array([(0, half, z) for z in (0.02, 0.014, 0.006, 0.0)])
-    path = np.vstack([foot, left, corner, beam, other, right, foot_right])
-    radii = np.concatenate([foot_radii, np.full(len(path) - 8, tube), foot_radii[::-1]])
-    return sweep("gantry", path, radii, 30)
+    rise = _line((0, post, 0.03), (0, post, height - bend), 34)
+    corner = _arc((0, post + bend, height - bend), bend, 180, 90, 12, "yz")[:-1]
+    beam = _line((0, post + bend, height), (0, 0.62, height), 40)
+    path = np.vstack([foot, rise, corner, beam])
+    radii = np.concatenate([foot_radii, np.full(len(path) - len(foot), tube)])
+    path, radii = _ball_end(path, radii, 0.035)
+    return sweep("crane", path, radii, 30)
 
 
 def shelf():
