@@ -1,7 +1,9 @@
 #include "orient_triangles.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "edge_table.h"
 
@@ -31,18 +33,25 @@ std::vector<Patch> floodWinding(const EdgeTable& edges, const std::vector<Triang
     visited[seed] = true;
     for (std::size_t next = 0; next < patch.triangles.size(); ++next) {
       const std::uint32_t t = patch.triangles[next];
-      for (HalfEdge h = 3 * t; h < 3 * t + 3; ++h) {
+      // In the order of the triangles, not of the corners, which turning changes: what cannot be oriented is
+      // then left alone when it comes again.
+      std::array<std::pair<std::uint32_t, bool>, 3> neighbours;  // triangle, whether it runs the same way
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        const HalfEdge h = 3 * t + k;
         const std::uint32_t edge = edges.edge_of_half_edge[h];
-        if (edges.first[edge + 1] - edges.first[edge] != 2) {
-          continue;
+        neighbours[k] = {t, false};
+        if (edges.first[edge + 1] - edges.first[edge] == 2) {
+          const HalfEdge first = edges.half_edges[edges.first[edge]];
+          const HalfEdge other = first == h ? edges.half_edges[edges.first[edge] + 1] : first;
+          neighbours[k] = {other / 3, startOf(triangles, h) == startOf(triangles, other)};
         }
-        const HalfEdge first = edges.half_edges[edges.first[edge]];
-        const HalfEdge other = first == h ? edges.half_edges[edges.first[edge] + 1] : first;
-        if (!visited[other / 3]) {
-          visited[other / 3] = true;
-          const bool same_direction = startOf(triangles, h) == startOf(triangles, other);
-          turned[other / 3] = turned[t] != same_direction;
-          patch.triangles.push_back(other / 3);
+      }
+      std::sort(neighbours.begin(), neighbours.end());
+      for (const auto& [neighbour, same_direction] : neighbours) {
+        if (!visited[neighbour]) {
+          visited[neighbour] = true;
+          turned[neighbour] = turned[t] != same_direction;
+          patch.triangles.push_back(neighbour);
         }
       }
     }

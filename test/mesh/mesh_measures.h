@@ -64,6 +64,20 @@ inline bool isClosedManifold(const SurfaceMesh& mesh) {
   });
 }
 
+/// Length of the edges other than those with one triangle each way, by how many triangles they have: it can
+/// only lie on such edges of the original surface, whatever is refined.
+inline std::map<std::pair<int, int>, double> unpairedLength(const SurfaceMesh& mesh) {
+  std::map<std::pair<int, int>, double> length;
+  for (const auto& [nodes, use] : edgeUses(mesh)) {
+    const std::pair<int, int> either_way = std::minmax(use.first, use.second);
+    if (either_way != std::pair<int, int>{1, 1}) {
+      length[either_way] +=
+          (mesh.vertex(NodeIndex{nodes.first}) - mesh.vertex(NodeIndex{nodes.second})).norm();
+    }
+  }
+  return length;
+}
+
 /// Nodes in use - edges + triangles.
 inline long eulerCharacteristic(const SurfaceMesh& mesh) {
   std::set<std::uint32_t> used;

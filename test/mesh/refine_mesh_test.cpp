@@ -10,7 +10,7 @@
 
 #include "concave_distance/base/error.h"
 #include "concave_distance/mesh/primitives.h"
-#include "concave_distance/mesh/repair_mesh.h"
+#include "mesh/any_surface.h"
 #include "mesh/mesh_measures.h"
 
 namespace concave_distance {
@@ -25,45 +25,18 @@ SurfaceMesh surfaceOf(std::vector<Eigen::Vector3d> vertices,
   return SurfaceMesh(std::move(vertices), std::move(triangles), "test surface");
 }
 
-/// Any triangles over few vertices: borders, edges of many triangles, slivers and shells all occur.
-rc::Gen<SurfaceMesh> anySurface() {
-  return rc::gen::exec([] {
-    const auto vertex_count = *rc::gen::inRange<std::uint32_t>(4, 12);
-    std::vector<Eigen::Vector3d> vertices;
-    for (std::uint32_t i = 0; i < vertex_count; ++i) {
-      const auto coordinate = [] { return *rc::gen::inRange(-1000, 1001) / 1000.0; };
-      const double x = coordinate();
-      const double y = coordinate();
-      vertices.emplace_back(x, y, coordinate());
-    }
-    TriangleSoup soup{vertices, {}};
-    const auto triangle_count = *rc::gen::inRange(1, 20);
-    for (int i = 0; i < triangle_count; ++i) {
-      const auto corner = [&] { return *rc::gen::inRange<std::uint32_t>(0, vertex_count); };
-      const std::uint32_t a = corner();
-      const std::uint32_t b = corner();
-      soup.triangles.push_back({a, b, corner()});
-    }
-    soup.triangles.push_back({0, 1, 2});
-    soup.vertices[0] = {0.0, 0.0, 0.0};  // at least one with an area
-    soup.vertices[1] = {1.0, 0.0, 0.0};
-    soup.vertices[2] = {0.0, 1.0, 0.0};
-    return repairMesh(soup, {}, "generated surface").mesh;
-  });
-}
-
 rc::Gen<double> anyLimit() {
   return rc::gen::map(rc::gen::inRange(8, 300), [](int i) { return i / 100.0; });
 }
 
 RC_GTEST_PROP(RefineMesh, LeavesNoEdgeAboveTheLimit, ()) {
-  const SurfaceMesh surface = *anySurface();
+  const SurfaceMesh surface = *test::anySurface();
   const double limit = *anyLimit();
   RC_ASSERT(test::longestEdge(refineToEdgeLength(surface, limit).mesh) <= limit * (1.0 + 2.0 * kEpsilon));
 }
 
 RC_GTEST_PROP(RefineMesh, MovesNoVertex, ()) {
-  const SurfaceMesh surface = *anySurface();
+  const SurfaceMesh surface = *test::anySurface();
   const RefinedMesh refined = refineToEdgeLength(surface, *anyLimit());
   RC_ASSERT(refined.mesh.vertexCount() >= surface.vertexCount());
   for (std::size_t v = 0; v < surface.vertexCount(); ++v) {
@@ -72,7 +45,7 @@ RC_GTEST_PROP(RefineMesh, MovesNoVertex, ()) {
 }
 
 RC_GTEST_PROP(RefineMesh, KeepsEveryCornerOnItsOriginalTriangle, ()) {
-  const SurfaceMesh surface = *anySurface();
+  const SurfaceMesh surface = *test::anySurface();
   const RefinedMesh refined = refineToEdgeLength(surface, *anyLimit());
   RC_ASSERT(refined.original_triangle.size() == refined.mesh.triangleCount());
   for (std::size_t t = 0; t < refined.mesh.triangleCount(); ++t) {
@@ -87,7 +60,7 @@ RC_GTEST_PROP(RefineMesh, KeepsEveryCornerOnItsOriginalTriangle, ()) {
 }
 
 RC_GTEST_PROP(RefineMesh, TilesEachOriginalTriangleInItsWinding, ()) {
-  const SurfaceMesh surface = *anySurface();
+  const SurfaceMesh surface = *test::anySurface();
   const RefinedMesh refined = refineToEdgeLength(surface, *anyLimit());
   std::vector<double> area(surface.triangleCount(), 0.0);
   std::vector<std::size_t> pieces(surface.triangleCount(), 0);
@@ -105,24 +78,12 @@ RC_GTEST_PROP(RefineMesh, TilesEachOriginalTriangleInItsWinding, ()) {
 }
 
 RC_GTEST_PROP(RefineMesh, ConformsAndKeepsTheTopology, ()) {
-  const SurfaceMesh surface = *anySurface();
+  const SurfaceMesh surface = *test::anySurface();
   const SurfaceMesh refined = refineToEdgeLength(surface, *anyLimit()).mesh;
   RC_ASSERT(test::eulerCharacteristic(refined) == test::eulerCharacteristic(surface));
-  // A hanging node would leave an edge with fewer triangles on one side than its original edge has: count
-  // length by number of uses, which only edges on original edges can have other than (1, 1).
-  const auto odd_length = [](const SurfaceMesh& mesh) {
-    std::map<std::pair<int, int>, double> length;
-    for (const auto& [nodes, use] : test::edgeUses(mesh)) {
-      const std::pair<int, int> either_way = std::minmax(use.first, use.second);
-      if (either_way != std::pair<int, int>{1, 1}) {
-        length[either_way] +=
-            (mesh.vertex(NodeIndex{nodes.first}) - mesh.vertex(NodeIndex{nodes.second})).norm();
-      }
-    }
-    return length;
-  };
-  const auto before = odd_length(surface);
-  const auto after = odd_length(refined);
+  // A hanging node would leave an edge with fewer triangles on one side than its original edge has.
+  const auto before = test::unpairedLength(surface);
+  const auto after = test::unpairedLength(refined);
   RC_ASSERT(before.size() == after.size());
   for (const auto& [use, length] : before) {
     RC_ASSERT(after.count(use) == 1U);
@@ -132,7 +93,7 @@ RC_GTEST_PROP(RefineMesh, ConformsAndKeepsTheTopology, ()) {
 
 RC_GTEST_PROP(RefineMesh, HalvesNoAngleMoreThanOnce, ()) {
   // Rosenberg and Stenger 1975: longest-edge bisection keeps every angle at least half the smallest one.
-  const SurfaceMesh surface = *anySurface();
+  const SurfaceMesh surface = *test::anySurface();
   const double before = test::smallestAngle(surface);
   RC_PRE(before > 1e-3);
   RC_ASSERT(test::smallestAngle(refineToEdgeLength(surface, *anyLimit()).mesh) >=
