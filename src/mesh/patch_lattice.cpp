@@ -82,13 +82,13 @@ void findLatticePoints(const EditableMesh& mesh, const PatchTriangulation& trian
                        double max_edge_length, std::vector<LatticePoint>& points) {
   points.clear();
   const auto place = [&](NodeIndex node) { return frame.project(mesh.vertices()[node.value]); };
-  const auto cornersOf = [&](std::uint32_t t) -> PlaneTriangle {
+  const auto corners_of = [&](std::uint32_t t) -> PlaneTriangle {
     const TriangleNodes& nodes = mesh.triangles()[t];
     return {place(nodes[0]), place(nodes[1]), place(nodes[2])};
   };
   Eigen::AlignedBox2d box;
   for (const std::uint32_t t : triangles) {
-    for (const Eigen::Vector2d& corner : cornersOf(t)) {
+    for (const Eigen::Vector2d& corner : corners_of(t)) {
       box.extend(corner);
     }
   }
@@ -97,7 +97,7 @@ void findLatticePoints(const EditableMesh& mesh, const PatchTriangulation& trian
   const double row = box.sizes().y() / std::ceil(box.sizes().y() / (std::sqrt(0.75) * wanted));
   const double step = box.sizes().x() / std::ceil(box.sizes().x() / wanted);
   for (const std::uint32_t t : triangles) {
-    const PlaneTriangle corners = cornersOf(t);
+    const PlaneTriangle corners = corners_of(t);
     const auto [low, high] = std::minmax({corners[0].y(), corners[1].y(), corners[2].y()});
     for (double j = std::ceil((low - box.min().y()) / row); box.min().y() + j * row <= high; j += 1.0) {
       const double y = box.min().y() + j * row;

@@ -73,8 +73,12 @@ SurfaceMesh joinRings(const std::vector<Ring>& rings, const std::string& where) 
   for (std::size_t r = 0; r + 1 < rings.size(); ++r) {
     const std::uint64_t lower_count = rings[r].count;
     const std::uint64_t upper_count = rings[r + 1].count;
-    const auto lower = [&](std::uint64_t k) { return NodeIndex{first_corner[r] + k % lower_count}; };
-    const auto upper = [&](std::uint64_t k) { return NodeIndex{first_corner[r + 1] + k % upper_count}; };
+    const auto lower = [&](std::uint64_t k) {
+      return NodeIndex{first_corner[r] + (k == lower_count ? 0 : k)};
+    };
+    const auto upper = [&](std::uint64_t k) {
+      return NodeIndex{first_corner[r + 1] + (k == upper_count ? 0 : k)};
+    };
     std::uint64_t i = lower_count == 1 ? 1 : 0;  // a pole has no edges of its own to advance along
     std::uint64_t j = upper_count == 1 ? 1 : 0;
     while (i < lower_count || j < upper_count) {
@@ -124,7 +128,7 @@ double unitSphereError(std::uint32_t steps) {
   double least = 1.0;
   for (std::size_t t = 0; t < mesh.triangleCount(); ++t) {
     const TriangleIndex triangle{t};
-    const Eigen::Vector3d a = mesh.corner(triangle, 0);
+    const Eigen::Vector3d& a = mesh.corner(triangle, 0);
     const Eigen::Vector3d normal = (mesh.corner(triangle, 1) - a).cross(mesh.corner(triangle, 2) - a);
     least = std::min(least, normal.dot(a) / normal.norm());
   }

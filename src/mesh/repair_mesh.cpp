@@ -68,7 +68,7 @@ void inspect(const std::vector<TriangleNodes>& triangles, std::size_t vertex_cou
   detail::UnionFind fans(3 * triangles.size());
   std::vector<bool> shell_is_open(vertex_count, false);
   std::vector<detail::HalfEdge> border;
-  const auto cornerAt = [&](detail::HalfEdge h, NodeIndex node) {
+  const auto corner_at = [&](detail::HalfEdge h, NodeIndex node) {
     return detail::startOf(triangles, h) == node ? h : h - h % 3 + (h % 3 + 1) % 3;
   };
   for (std::size_t e = 0; e < edges.edgeCount(); ++e) {
@@ -80,8 +80,8 @@ void inspect(const std::vector<TriangleNodes>& triangles, std::size_t vertex_cou
     for (std::uint32_t i = 1; i < uses; ++i) {
       const detail::HalfEdge other = edges.half_edges[edges.first[e] + i];
       balance += detail::startOf(triangles, other) == a ? 1 : -1;
-      fans.unite(cornerAt(first, a), cornerAt(other, a));
-      fans.unite(cornerAt(first, b), cornerAt(other, b));
+      fans.unite(corner_at(first, a), corner_at(other, a));
+      fans.unite(corner_at(first, b), corner_at(other, b));
     }
     if (balance != 0) {
       shell_is_open[shells.find(a.value)] = true;
@@ -94,9 +94,10 @@ void inspect(const std::vector<TriangleNodes>& triangles, std::size_t vertex_cou
   }
   report.border_edges = border.size();
   for (const detail::HalfEdge h : border) {
-    fans.unite(cornerAt(h, detail::startOf(triangles, h)), cornerAt(h, detail::endOf(triangles, h)));
+    fans.unite(corner_at(h, detail::startOf(triangles, h)), corner_at(h, detail::endOf(triangles, h)));
   }
   std::vector<std::uint32_t> loops;
+  loops.reserve(border.size());
   for (const detail::HalfEdge h : border) {
     loops.push_back(fans.find(h));
   }

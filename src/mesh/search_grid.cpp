@@ -159,11 +159,11 @@ void splitLongEdges(const FlatPatches& patches, double max_edge_length, std::siz
 
 bool hasLongEdge(const SurfaceMesh& surface, double max_edge_length) {
   const double limit = max_edge_length * (1.0 + kLengthTolerance);
-  const auto isLong = [&](NodeIndex a, NodeIndex b) {
+  const auto is_long = [&](NodeIndex a, NodeIndex b) {
     return (surface.vertex(a) - surface.vertex(b)).squaredNorm() > limit * limit;
   };
   return std::any_of(surface.triangles().begin(), surface.triangles().end(), [&](const TriangleNodes& t) {
-    return isLong(t[0], t[1]) || isLong(t[1], t[2]) || isLong(t[2], t[0]);
+    return is_long(t[0], t[1]) || is_long(t[1], t[2]) || is_long(t[2], t[0]);
   });
 }
 

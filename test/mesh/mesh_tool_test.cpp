@@ -25,17 +25,16 @@ class MeshTool : public testing::Test {
  protected:
   Outcome run(const std::string& arguments) const {
     const std::string command = std::string(CONCAVE_DISTANCE_MESH_TOOL) + " " + arguments + " > " +
-                                folder_.path("out") + " 2> " + folder_.path("errors");
+                                folder.path("out") + " 2> " + folder.path("errors");
     const int status = std::system(command.c_str());
-    return {WEXITSTATUS(status), test::contentOf(folder_.path("out")),
-            test::contentOf(folder_.path("errors"))};
+    return {WEXITSTATUS(status), test::contentOf(folder.path("out")), test::contentOf(folder.path("errors"))};
   }
 
-  std::string path(const std::string& name) const { return folder_.path(name); }
+  std::string path(const std::string& name) const { return folder.path(name); }
 
   SurfaceMesh read(const std::string& name) const { return weldEqualVertices(importMesh(path(name)), name); }
 
-  test::TemporaryFolder folder_;
+  test::TemporaryFolder folder;
 };
 
 bool contains(const std::string& text, const std::string& part) {
@@ -56,8 +55,8 @@ TEST_F(MeshTool, InspectPrintsWhatTheMeshIs) {
 }
 
 TEST_F(MeshTool, RepairTurnsAndDropsAndSaysSo) {
-  folder_.write("bad.obj",
-                "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 4 2\nf 1 4 3\nf 2 3 4\nf 2 3 4\nf 1 1 2\n");
+  folder.write("bad.obj",
+               "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 4 2\nf 1 4 3\nf 2 3 4\nf 2 3 4\nf 1 1 2\n");
   const Outcome outcome = run("repair " + path("bad.obj") + " " + path("good.ply"));
   EXPECT_EQ(outcome.status, 0) << outcome.errors;
   EXPECT_TRUE(
@@ -67,7 +66,7 @@ TEST_F(MeshTool, RepairTurnsAndDropsAndSaysSo) {
 }
 
 TEST_F(MeshTool, RepairKeepsTheWindingWhenAskedTo) {
-  folder_.write("inside_out.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n");
+  folder.write("inside_out.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n");
   ASSERT_EQ(run("repair --keep-winding " + path("inside_out.obj") + " " + path("same.obj")).status, 0);
   EXPECT_LT(test::signedVolume(read("same.obj")), 0.0);
 }

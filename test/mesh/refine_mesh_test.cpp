@@ -21,6 +21,7 @@ constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 SurfaceMesh surfaceOf(std::vector<Eigen::Vector3d> vertices,
                       const std::vector<std::array<std::uint32_t, 3>>& corners) {
   std::vector<TriangleNodes> triangles;
+  triangles.reserve(corners.size());
   for (const auto& c : corners) triangles.push_back({NodeIndex{c[0]}, NodeIndex{c[1]}, NodeIndex{c[2]}});
   return SurfaceMesh(std::move(vertices), std::move(triangles), "test surface");
 }

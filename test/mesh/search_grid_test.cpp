@@ -116,15 +116,15 @@ RC_GTEST_PROP(SearchGrid, StaysWithinFlatnessOfTheSurfaceEverywhere, ()) {
   const SearchGrid grid = makeSearchGrid(surface, 0.2 * surface.diameter());
   RandomEngine engine(*rc::gen::arbitrary<std::uint64_t>());
   for (int i = 0; i < 20; ++i) {
-    const auto randomPoint = [&](const SurfaceMesh& mesh) -> Eigen::Vector3d {
+    const auto random_point = [&](const SurfaceMesh& mesh) -> Eigen::Vector3d {
       const TriangleIndex t{uniformIndex(engine, static_cast<std::uint32_t>(mesh.triangleCount()))};
       const double u = uniformUnit(engine);
       const double v = uniformUnit(engine) * (1.0 - u);
       return (1.0 - u - v) * mesh.corner(t, 0) + u * mesh.corner(t, 1) + v * mesh.corner(t, 2);
     };
     const double tolerance = kFlatness * surface.diameter();
-    RC_ASSERT(test::distanceToSurface(randomPoint(grid.mesh), surface) <= tolerance);
-    RC_ASSERT(test::distanceToSurface(randomPoint(surface), grid.mesh) <= tolerance);
+    RC_ASSERT(test::distanceToSurface(random_point(grid.mesh), surface) <= tolerance);
+    RC_ASSERT(test::distanceToSurface(random_point(surface), grid.mesh) <= tolerance);
   }
 }
 
