@@ -16,6 +16,7 @@
 #include "concave_distance/tracking/node_niches.h"
 #include "concave_distance/tracking/pair_geometry.h"
 #include "concave_distance/tracking/projection.h"
+#include "concave_distance/tracking/prominence_flood.h"
 #include "concave_distance/tracking/relative_motion.h"
 #include "concave_distance/tracking/warm_start.h"
 
@@ -32,6 +33,11 @@ constexpr std::size_t kReviewsPerCycle = 1;
 constexpr std::size_t kArchiveFactor = 4;
 // Rounds of projections in a cold cycle: each asks what the last one brought.
 constexpr int kColdProjectionRounds = 4;
+// States a flood looks at, at the most, before a newborn niche counts as one.
+constexpr std::uint32_t kColdFloodStates = 4000;
+constexpr std::uint32_t kWarmFloodStates = 400;
+// Cycles for which the outcome of a flood is believed without a new one.
+constexpr std::uint64_t kDrownedCycles = 16;
 // Steps along the nearest niche's valley in one cycle at the most.
 constexpr int kValleySteps = 8;
 // A cold cycle projects this many times the immigrants of a warm one.
@@ -70,6 +76,7 @@ struct PairTracker::State {
   void walkValley(PairSolution& solution);
   void settleCandidates(PairSolution& solution);
   void reviewRecords(PairSolution& solution);
+  void drownNewborns(const PairObjective& objective, PairSolution& solution);
   void orderCandidates();
   void admitCandidates(std::vector<NicheEvent>& events);
   void report(double displacement, PairSolution& solution);
@@ -88,6 +95,13 @@ struct PairTracker::State {
   std::vector<double> scratch;
   WitnessPair dark_side;  ///< the closest pair of this cycle that runs through material
   bool dark_side_met = false;
+  // Where floods have started that led on: their niches are not flooded again for some cycles.
+  struct Drowned {
+    TrialPoint start;
+    std::uint64_t cycle;
+  };
+  std::vector<Drowned> drowned;
+  FloodWorkspace flood;
   std::uint64_t cycle = 0;
   bool warm = false;
   Eigen::Isometry3d last_pose = Eigen::Isometry3d::Identity();
@@ -147,6 +161,7 @@ void PairTracker::State::update(const Eigen::Isometry3d& pose, double time, Pair
     improveNodePairs(objective, parameters.largest_niche_count, archive, geometry, solution.cost);
   } else {
     reviewRecords(solution);
+    drownNewborns(objective, solution);
   }
   report(displacement, solution);
 
@@ -378,6 +393,42 @@ void PairTracker::State::admitCandidates(std::vector<NicheEvent>& events) {
                               : NicheEvent{NicheEvent::Kind::Death, candidate.left_by, 0});
     }
   }
+}
+
+// A newborn niche that a flood of the grid leads out of below the least prominence is part of what it leads
+// to.
+void PairTracker::State::drownNewborns(const PairObjective& objective, PairSolution& solution) {
+  const std::uint32_t state_limit = warm ? kWarmFloodStates : kColdFloodStates;
+  drowned.erase(std::remove_if(drowned.begin(), drowned.end(),
+                               [&](const Drowned& entry) { return cycle - entry.cycle > kDrownedCycles; }),
+                drowned.end());
+  candidates.clear();
+  for (std::size_t i = archive.records().size(); i-- > 0;) {
+    const NicheRecord& record = archive.records()[i];
+    if (record.reported || record.niche.distance == 0.0 || i == 0) {
+      continue;  // the deepest has nowhere to lead to
+    }
+    const TrialPoint start = descend(objective, record.niche.node_pair, nullptr, search.trail, solution.cost);
+    const bool known = std::any_of(drowned.begin(), drowned.end(),
+                                   [&](const Drowned& entry) { return samePlace(entry.start, start); });
+    if (!known) {
+      const double level = (1.0 + parameters.least_prominence) * std::sqrt(start.squared_distance);
+      const auto deeper = floodForDeeper(objective, start, level, 0.0, state_limit, flood, solution.cost);
+      if (!deeper) {
+        continue;
+      }
+      const TrialPoint end = descend(objective, *deeper, nullptr, search.trail, solution.cost);
+      const WitnessRefinement refined =
+          geometry.refine(geometry.a->originalTriangle(end.node_a), geometry.b->originalTriangle(end.node_b));
+      if (!(std::sqrt(refined.witness.squared_distance) < record.niche.distance)) {
+        continue;  // deeper for the grid only
+      }
+      candidates.push_back({refined.witness, end, refined.proven, 0});
+      drowned.push_back({start, cycle});
+    }
+    archive.remove(i, solution.events);
+  }
+  settleCandidates(solution);
 }
 
 void PairTracker::State::report(double displacement, PairSolution& solution) {
