@@ -98,6 +98,7 @@ void readGeneticParameters(const YamlValue& value, GeneticParameters& p) {
   }
   if (auto v = map.take("max_generations")) p.max_generations = count32(*v, 0);
   if (auto v = map.take("elite_count")) p.elite_count = count32(*v, 0);
+  if (auto v = map.take("immigrants")) p.immigrants = count32(*v, 0);
   if (auto v = map.take("conserve_niches")) p.conserve_niches = v->boolean();
   if (auto v = map.take("convergence_generations")) p.convergence_generations = count32(*v, 0);
   if (auto v = map.take("evaluation_limit")) {

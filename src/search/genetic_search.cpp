@@ -52,6 +52,7 @@ class GeneticRun {
       step();
       work_.census.take(work_.population_places, work_.places.size());
       restoreElites(work_.elites, work_.places, work_.census, work_.population, work_.population_places);
+      admitImmigrants();
       noteBest(generation);
       observe(generation, observer);
       if (work_.convergence.update(work_.census, radii_.niche, work_.places, work_.metric)) {
@@ -261,6 +262,16 @@ class GeneticRun {
           std::find(work_.elites.begin(), work_.elites.end(), peak) == work_.elites.end()) {
         work_.elites.push_back(peak);
       }
+    }
+  }
+
+  void admitImmigrants() {
+    for (std::uint32_t i = 0; i < parameters_.immigrants; ++i) {
+      TrialPoint point = randomTrialPoint(objective_, engine_);
+      std::uint32_t place = 0;
+      settle(point, place);
+      seatNewcomer(place, work_.elites, work_.places, work_.census, work_.population,
+                   work_.population_places);
     }
   }
 

@@ -12,10 +12,10 @@ bool contains(const std::vector<std::uint32_t>& values, std::uint32_t value) {
   return std::find(values.begin(), values.end(), value) != values.end();
 }
 
-/// The individual whose seat an elite takes.
-std::size_t seatForElite(const std::vector<std::uint32_t>& elites, const Census& census,
-                         const std::vector<TrialPoint>& population,
-                         const std::vector<std::uint32_t>& population_places) {
+/// The individual whose seat a newcomer takes; the population's size when there is none.
+std::size_t seatToGive(const std::vector<std::uint32_t>& elites, const Census& census,
+                       const std::vector<TrialPoint>& population,
+                       const std::vector<std::uint32_t>& population_places) {
   const auto crowd = std::max_element(census.counts.begin(), census.counts.end());
   if (*crowd > 1) {
     const std::uint32_t place = census.places[static_cast<std::size_t>(crowd - census.counts.begin())];
@@ -66,19 +66,28 @@ void findElites(const Census& census, const PlaceTable& places, std::uint32_t el
   }
 }
 
+bool seatNewcomer(std::uint32_t place, const std::vector<std::uint32_t>& elites, const PlaceTable& places,
+                  Census& census, std::vector<TrialPoint>& population,
+                  std::vector<std::uint32_t>& population_places) {
+  if (place < census.entry_of_place.size() && census.entry_of_place[place] != Census::kNone) {
+    return true;
+  }
+  const std::size_t seat = seatToGive(elites, census, population, population_places);
+  if (seat == population.size()) {
+    return false;
+  }
+  population[seat] = places.point(place);
+  population_places[seat] = place;
+  census.take(population_places, places.size());
+  return true;
+}
+
 void restoreElites(const std::vector<std::uint32_t>& elites, const PlaceTable& places, Census& census,
                    std::vector<TrialPoint>& population, std::vector<std::uint32_t>& population_places) {
   for (const std::uint32_t elite : elites) {
-    if (census.entry_of_place[elite] != Census::kNone) {
-      continue;
-    }
-    const std::size_t seat = seatForElite(elites, census, population, population_places);
-    if (seat == population.size()) {
+    if (!seatNewcomer(elite, elites, places, census, population, population_places)) {
       return;  // more elites than seats
     }
-    population[seat] = places.point(elite);
-    population_places[seat] = elite;
-    census.take(population_places, places.size());
   }
 }
 

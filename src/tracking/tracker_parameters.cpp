@@ -9,6 +9,7 @@ namespace concave_distance {
 TrackerParameters::TrackerParameters() {
   warm.population_size = 24;
   warm.max_generations = 1;
+  warm.immigrants = 0;  // TrackerParameters::immigrants enter at the start of a warm cycle
 }
 
 void TrackerParameters::validate(const std::string& where) const {

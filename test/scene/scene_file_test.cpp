@@ -317,6 +317,7 @@ TEST_F(SceneFile, GeneticParametersOutOfRangeAreRefused) {
   expectGeneticRefused("elite_count", "-1", "a whole number from 0");
   expectGeneticRefused("fitness_epsilon", "-1", "0 or more");
   expectGeneticRefused("dynamic_niche_limit", "0", "a whole number from 1");
+  expectGeneticRefused("immigrants", "-1", "a whole number from 0");
   expectGeneticRefused("conserve_niches", "2", "true or false");
   expectGeneticRefused("evaluation_limit", "-1", "a whole number from 0");
   expectGeneticRefused("convergence_generations", "x", "a whole number from 0");
@@ -354,7 +355,7 @@ TEST_F(SceneFile, EverySettingReachesItsParameter) {
            "      mating_restriction: false\n      crowding_factor: 4\n"
            "      generation_gap: 0.5\n      elite_count: 2\n      convergence_generations: 3\n"
            "      sharing_radius: auto\n      fitness_epsilon: 0\n      dynamic_niche_limit: 6\n"
-           "      conserve_niches: false\n      evaluation_limit: 5000000000\n"
+           "      immigrants: 4\n      conserve_niches: false\n      evaluation_limit: 5000000000\n"
            "    warm: {population_size: 10, niching: dynamic_sharing, mating: genotypic}\n");
   ASSERT_EQ(scene.pairs.size(), 1U);
   const PairSettings& settings = scene.pairs[0].settings;
@@ -393,6 +394,7 @@ TEST_F(SceneFile, EverySettingReachesItsParameter) {
   EXPECT_EQ(cold.convergence_generations, 3U);
   EXPECT_EQ(cold.fitness_epsilon, 0.0);
   EXPECT_EQ(cold.dynamic_niche_limit, 6U);
+  EXPECT_EQ(cold.immigrants, 4U);
   EXPECT_FALSE(cold.conserve_niches);
   EXPECT_EQ(cold.evaluation_limit, 5000000000U);
   EXPECT_EQ(cold.sharing_radius, std::nullopt);

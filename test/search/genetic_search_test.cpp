@@ -149,7 +149,8 @@ TEST(GeneticSearch, GenerationGapReplacesThatManyAtMost) {
   Search search(test::hookAndStairs());
   GeneticParameters parameters = smallRun(NichingMethod::Sharing);
   parameters.local_optimization = false;  // individuals stay apart
-  parameters.elite_count = 0;             // elites and conserved niches take further seats
+  parameters.immigrants = 0;
+  parameters.elite_count = 0;  // elites, immigrants and conserved niches take further seats
   parameters.conserve_niches = false;
   parameters.generation_gap = 0.25;
   for (const NichingMethod niching :
@@ -175,6 +176,7 @@ TEST(GeneticSearch, StopsWhenNothingChangesAnyMore) {
   GeneticParameters parameters = smallRun(NichingMethod::None);
   parameters.max_generations = 500;
   parameters.mutation_probability = 0.0;
+  parameters.immigrants = 0;
   parameters.convergence_generations = 5;
   const GeneticResult result = search.run(parameters, 10);
   EXPECT_TRUE(result.converged);
@@ -245,6 +247,7 @@ TEST(GeneticSearch, SharingKeepsNichesThatPlainEvolutionLoses) {
   };
   GeneticParameters parameters = smallRun(NichingMethod::None);
   parameters.population_size = 100;
+  parameters.immigrants = 0;
   const double plain = recall(parameters);
   parameters.niching = NichingMethod::Sharing;
   parameters.conserve_niches = false;
@@ -255,6 +258,26 @@ TEST(GeneticSearch, SharingKeepsNichesThatPlainEvolutionLoses) {
   EXPECT_GT(shared, 1.3 * plain);
   EXPECT_GE(conserved, shared);
   EXPECT_GT(conserved, 0.95);
+}
+
+// A place that neither mating nor mutation reaches from a population gone to one niche.
+TEST(GeneticSearch, ImmigrantsFindWhatNoParentsLeadTo) {
+  Search search(test::shellsAndShells());
+  GeneticParameters parameters = smallRun(NichingMethod::Sharing);
+  parameters.mutation_probability = 0.0;
+  parameters.immigrants = 0;
+  parameters.max_generations = 0;
+  const TrialPoint somewhere = search.run(parameters, 13).best;
+  const std::vector<TrialPoint> inherited(parameters.population_size, somewhere);
+  parameters.max_generations = 30;
+  search.run(parameters, 13, inherited);
+  EXPECT_EQ(search.workspace.basins.minima().size(), 1U);
+  parameters.immigrants = 3;
+  search.run(parameters, 13, inherited);
+  EXPECT_GT(search.workspace.basins.minima().size(), 5U);
+  EXPECT_TRUE(std::any_of(search.workspace.population.begin(), search.workspace.population.end(),
+                          [&](const TrialPoint& point) { return !samePlace(point, somewhere); }))
+      << "and they are seated";
 }
 
 TEST(MultiStartDescent, MeetsMoreMinimaWithMoreStarts) {

@@ -81,6 +81,21 @@ TEST(Elites, TakeTheirSeatFromTheMostCrowdedPlace) {
   EXPECT_EQ(population.census.counts[population.census.entry_of_place[2]], 1U);
 }
 
+TEST(Newcomers, AreNotSeatedWhereSomebodyStands) {
+  Population population({4, 6, 6});
+  EXPECT_TRUE(seatNewcomer(6, {}, population.places, population.census, population.points, population.where));
+  EXPECT_EQ(population.where, (std::vector<std::uint32_t>{4, 6, 6}));
+  EXPECT_TRUE(seatNewcomer(9, {}, population.places, population.census, population.points, population.where));
+  EXPECT_EQ(population.where, (std::vector<std::uint32_t>{4, 9, 6}));
+}
+
+TEST(Newcomers, DoNotTakeAnElitesSeat) {
+  Population population({4, 6});
+  EXPECT_FALSE(
+      seatNewcomer(9, {4, 6}, population.places, population.census, population.points, population.where));
+  EXPECT_EQ(population.where, (std::vector<std::uint32_t>{4, 6}));
+}
+
 TEST(Elites, TakeTheSeatOfTheWorstWhenNobodySharesAPlace) {
   Population population({4, 6, 9, 8});
   restoreElites({1, 9}, population.places, population.census, population.points, population.where);

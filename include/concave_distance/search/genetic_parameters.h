@@ -42,7 +42,11 @@ struct GeneticParameters {
   std::optional<double> niche_radius;  ///< sigma_n; empty: sigma_s
   std::uint32_t crowding_factor = 3;   ///< C_f of simple crowding
   double generation_gap = 1.0;         ///< share of the population replaced a generation, (0, 1]
-  std::uint32_t elite_count = 1;       ///< best individuals that always survive
+  /// Random individuals tried in each generation; one that stands where nobody does takes a seat of the most
+  /// crowded place (random immigrants, Grefenstette 1992): what no parents lead to is found all the same.
+  /// 0 for the thesis's own rows.
+  std::uint32_t immigrants = 5;
+  std::uint32_t elite_count = 1;  ///< best individuals that always survive
   /// With sharing and dynamic sharing: the best of every niche (greedy identification with sigma_n) survives
   /// too, as long as these take no more than half of the population: species conservation (Li, Balazs, Parks
   /// and Clarkson 2002). Sampling loses niches that expect less than one individual. Off for the thesis's

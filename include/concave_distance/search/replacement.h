@@ -22,10 +22,15 @@ void drawSeats(std::uint32_t population_size, std::uint32_t count, RandomEngine&
 void findElites(const Census& census, const PlaceTable& places, std::uint32_t elite_count,
                 std::vector<std::uint32_t>& elites);
 
+/// Seats a newcomer where nobody stands yet; with somebody on its place nothing happens. The seat is taken
+/// from the most crowded place, so that no niche dies for it; when nobody shares a place, from the worst
+/// individual that is no elite. False when there is no such seat. `census` is kept up to date.
+bool seatNewcomer(std::uint32_t place, const std::vector<std::uint32_t>& elites, const PlaceTable& places,
+                  Census& census, std::vector<TrialPoint>& population,
+                  std::vector<std::uint32_t>& population_places);
+
 /// Puts every elite that nobody of the new population stands on back into it, because sampling of shared
-/// fitness can lose the best. Its seat is taken from the most crowded place, so that no niche dies for it;
-/// when nobody shares a place, from the worst individual that is no elite.
-/// `census` is of the new population and is kept up to date.
+/// fitness can lose the best.
 void restoreElites(const std::vector<std::uint32_t>& elites, const PlaceTable& places, Census& census,
                    std::vector<TrialPoint>& population, std::vector<std::uint32_t>& population_places);
 
