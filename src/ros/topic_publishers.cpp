@@ -16,6 +16,7 @@ namespace concave_distance {
 namespace {
 
 constexpr std::uint32_t kQueueLength = 10;
+constexpr std::uint32_t kAlertQueueLength = 100;  // none of them is to be lost
 
 static_assert(Alert::CLEAR == static_cast<int>(WarningState::Clear));
 static_assert(Alert::WARNING == static_cast<int>(WarningState::Warning));
@@ -67,20 +68,16 @@ std::string topicName(const std::string& pair) {
   return "pairs/" + name;
 }
 
-bool hasSubscribers(const ros::Publisher& publisher) {
-  return publisher.getNumSubscribers() > 0;
-}
-
 }  // namespace
 
 TopicPublishers::TopicPublishers(const ros::NodeHandle& node, std::string reference_frame)
     : node_(node),
       reference_frame_(std::move(reference_frame)),
-      distances_(node_.advertise<Distances>("distances", kQueueLength)),
-      niches_(node_.advertise<Niches>("niches", kQueueLength)),
-      markers_(node_.advertise<visualization_msgs::MarkerArray>("markers", kQueueLength)),
-      alerts_(node_.advertise<Alert>(
-          "alerts", 100, [this](const ros::SingleSubscriberPublisher&) { repeat_alerts_ = true; })) {}
+      distances_(WatchedTopic::advertise<Distances>(node_, "distances", kQueueLength)),
+      niches_(WatchedTopic::advertise<Niches>(node_, "niches", kQueueLength)),
+      markers_(WatchedTopic::advertise<visualization_msgs::MarkerArray>(node_, "markers", kQueueLength)),
+      alerts_(WatchedTopic::advertise<Alert>(node_, "alerts", kAlertQueueLength,
+                                             [this] { repeat_alerts_ = true; })) {}
 
 std::shared_ptr<const ServedScene> TopicPublishers::serve(const std::shared_ptr<const Scene>& scene,
                                                           const ServedScene* before,
@@ -101,8 +98,8 @@ std::shared_ptr<const ServedScene> TopicPublishers::serve(const std::shared_ptr<
     ServedScene::PairTopics topics = known[pair.name];
     if (!topics.distance) {
       const std::string name = topicName(pair.name);
-      topics.distance = node_.advertise<PairDistance>(name + "/distance", kQueueLength);
-      topics.niches = node_.advertise<PairNiches>(name + "/niches", kQueueLength);
+      topics.distance = WatchedTopic::advertise<PairDistance>(node_, name + "/distance", kQueueLength);
+      topics.niches = WatchedTopic::advertise<PairNiches>(node_, name + "/niches", kQueueLength);
     }
     served->topics.push_back(std::move(topics));
   }
@@ -111,10 +108,10 @@ std::shared_ptr<const ServedScene> TopicPublishers::serve(const std::shared_ptr<
 
 void TopicPublishers::readDemand(const ServedScene& served, bool markers_wanted, bool marker_cycle,
                                  std::vector<PairDemand>& demand) {
-  distances_wanted_ = hasSubscribers(distances_);
-  niches_wanted_ = hasSubscribers(niches_);
-  const bool alerts_wanted = hasSubscribers(alerts_);
-  const bool markers_watched = hasSubscribers(markers_);
+  distances_wanted_ = distances_.isWatched();
+  niches_wanted_ = niches_.isWatched();
+  const bool alerts_wanted = alerts_.isWatched();
+  const bool markers_watched = markers_.isWatched();
   if (!markers_watched) {
     shown_.clear();
   }
@@ -123,11 +120,11 @@ void TopicPublishers::readDemand(const ServedScene& served, bool markers_wanted,
   markers_due_ = marker_cycle && (markers_wanted_ || !shown_.empty());
   demand.assign(served.topics.size(), PairDemand());
   for (std::size_t index = 0; index < demand.size(); ++index) {
-    const bool own_niches = hasSubscribers(served.topics[index].niches);
+    const bool own_niches = served.topics[index].niches.isWatched();
     const bool alert = alerts_wanted && served.scene->pairs[index].settings.warning_distance;
     PairDemand& pair = demand[index];
     pair.due = distances_wanted_ || niches_wanted_ || alert || own_niches ||
-               hasSubscribers(served.topics[index].distance) || (markers_wanted_ && marker_cycle);
+               served.topics[index].distance.isWatched() || (markers_wanted_ && marker_cycle);
     pair.watched = pair.due || markers_wanted_;
     pair.niches = niches_wanted_ || own_niches || markers_wanted_;
   }
@@ -144,10 +141,10 @@ Series TopicPublishers::publish(const ServedScene& served,
     }
     messages_.push_back(toMessage(pair));
     const ServedScene::PairTopics& topics = served.topics[index];
-    if (hasSubscribers(topics.distance)) {
+    if (topics.distance.isWatched()) {
       topics.distance.publish(boost::make_shared<PairDistance>(messages_.back().nearest));
     }
-    if (hasSubscribers(topics.niches)) {
+    if (topics.niches.isWatched()) {
       topics.niches.publish(boost::make_shared<PairNiches>(messages_.back()));
     }
   }

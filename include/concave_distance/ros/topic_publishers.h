@@ -2,7 +2,6 @@
 
 #include <concave_distance/PairNiches.h>
 #include <ros/node_handle.h>
-#include <ros/publisher.h>
 
 #include <atomic>
 #include <cstdint>
@@ -13,6 +12,7 @@
 #include "concave_distance/ros/cycle_statistics.h"
 #include "concave_distance/ros/distance_cycle.h"
 #include "concave_distance/ros/niche_markers.h"
+#include "concave_distance/ros/watched_topic.h"
 #include "concave_distance/scene/scene.h"
 
 namespace concave_distance {
@@ -20,8 +20,8 @@ namespace concave_distance {
 /// A scene together with the topics of its pairs: what one cycle works on.
 struct ServedScene {
   struct PairTopics {
-    ros::Publisher distance;
-    ros::Publisher niches;
+    WatchedTopic distance;
+    WatchedTopic niches;
   };
   std::shared_ptr<const Scene> scene;
   std::vector<PairTopics> topics;  ///< one per scene->pairs
@@ -58,10 +58,10 @@ class TopicPublishers {
 
   ros::NodeHandle node_;
   std::string reference_frame_;
-  ros::Publisher distances_;
-  ros::Publisher niches_;
-  ros::Publisher markers_;
-  ros::Publisher alerts_;
+  WatchedTopic distances_;
+  WatchedTopic niches_;
+  WatchedTopic markers_;
+  WatchedTopic alerts_;
   std::atomic<bool> repeat_alerts_{false};  ///< somebody has subscribed to the alerts
   // What readDemand found for this cycle.
   bool distances_wanted_ = false;

@@ -1,0 +1,50 @@
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+#include <regex>
+#include <set>
+#include <string>
+
+namespace concave_distance {
+namespace {
+
+std::string readText(const std::string& path) {
+  std::ifstream stream(std::string(CONCAVE_DISTANCE_SOURCE_DIR) + "/" + path);
+  EXPECT_TRUE(stream.is_open()) << path;
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+std::set<std::string> matches(const std::string& text, const std::string& pattern) {
+  std::set<std::string> found;
+  const std::regex expression(pattern);
+  for (std::sregex_iterator match(text.begin(), text.end(), expression), end; match != end; ++match) {
+    found.insert((*match)[1]);
+  }
+  return found;
+}
+
+// The names in the first column of the table.
+std::set<std::string> documentedParameters() {
+  std::set<std::string> names;
+  for (const std::string& cell : matches(readText("doc/parameters.md"), "\\n\\| (`[^|]*) \\|")) {
+    names.merge(matches(cell, "`(\\w+)`"));
+  }
+  return names;
+}
+
+TEST(ParameterDocumentation, NamesEveryParameterThatTheNodeReadsAndNoOther) {
+  std::set<std::string> read =
+      matches(readText("src/ros/node_parameters.cpp"), R"(reader\.\w+\(\s*"(\w+)\")");
+  EXPECT_GT(read.size(), 20U);
+  read.insert("diagnostic_period");  // read by diagnostic_updater
+  EXPECT_EQ(documentedParameters(), read);
+}
+
+TEST(ParameterDocumentation, MarksWhatMayChangeWhileRunning) {
+  const std::set<std::string> marked = matches(readText("doc/parameters.md"), "`(\\w+)`\\*");
+  EXPECT_EQ(marked, matches(readText("config/ConcaveDistance.cfg"), "gen\\.add\\(\"(\\w+)\""));
+}
+
+}  // namespace
+}  // namespace concave_distance
