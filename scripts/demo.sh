@@ -51,7 +51,11 @@ else
 fi
 
 export ROS_LOG_DIR="$build_dir/ros_logs"
-[ -n "${ROS_MASTER_URI:-}" ] || export ROS_MASTER_URI=http://localhost:11311 ROS_HOSTNAME=localhost
+export ROS_MASTER_URI="${ROS_MASTER_URI:-http://localhost:11311}"
+# A host name that no resolver knows would keep the nodes apart.
+if [[ "$ROS_MASTER_URI" == http://localhost:* && -z "${ROS_IP:-}${ROS_HOSTNAME:-}" ]]; then
+  export ROS_HOSTNAME=localhost
+fi
 mkdir -p "$ROS_LOG_DIR"
 launch_log="$ROS_LOG_DIR/demo_$scene.log"
 
@@ -79,6 +83,7 @@ status=0
 while kill -0 "$printer_pid" 2>/dev/null; do
   if ! kill -0 "$launch_pid" 2>/dev/null; then
     kill "$printer_pid" 2>/dev/null || true
+    if [ "$rviz" = true ] && wait "$launch_pid"; then say "rviz was closed: the scene has ended" && exit 0; fi
     tail -n 30 "$launch_log" >&2
     die "the scene ended by itself"
   fi

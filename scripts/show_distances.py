@@ -11,9 +11,9 @@ import threading
 import time
 
 import rospy
-from concave_distance.msg import NicheEvent, Niches, PairStatus
+from concave_distance.msg import NicheChange, Niches, PairStatus
 
-EVENT_VERBS = {NicheEvent.BIRTH: "new", NicheEvent.DEATH: "gone", NicheEvent.MERGE: "merged"}
+EVENT_VERBS = {NicheChange.BIRTH: "new", NicheChange.DEATH: "gone", NicheChange.MERGE: "merged"}
 
 
 def line_of(pair, with_niches=True):
@@ -43,7 +43,7 @@ class Printer:
     def receive(self, message):
         with self.lock:
             for pair in message.pairs:
-                self.events += [(pair.nearest.pair, event) for event in pair.events]
+                self.events += [(pair.nearest.pair, event) for event in pair.changes]
             if any(pair.nearest.has_distance for pair in message.pairs):
                 self.solved_messages += 1
             if time.monotonic() - self.printed_at >= self.period:
@@ -60,7 +60,7 @@ class Printer:
             print("{}  ({} pairs are watched)".format(" " * 11, len(by_distance)))
         shown = {pair.nearest.pair for pair in by_distance[:self.pairs]}
         events = ["{} #{}{}".format(EVENT_VERBS.get(event.kind, "?"), event.id,
-                                    " into #{}".format(event.into_id) if event.kind == NicheEvent.MERGE else "")
+                                    " into #{}".format(event.into_id) if event.kind == NicheChange.MERGE else "")
                   for name, event in self.events if name in shown]
         self.events = []
         if events:
@@ -74,7 +74,7 @@ def main():
     seconds = rospy.get_param("~seconds", 0.0)
     least_messages = rospy.get_param("~least_messages", 0)
     topic = rospy.get_param("~topic", "/concave_distance/niches")
-    rospy.Subscriber(topic, Niches, printer.receive, queue_size=1)
+    rospy.Subscriber(topic, Niches, printer.receive, queue_size=1000)
     started = time.monotonic()
     complained = started
     while not rospy.is_shutdown() and not (seconds and time.monotonic() - started >= seconds):
