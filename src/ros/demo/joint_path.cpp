@@ -21,15 +21,15 @@ JointPath::JointPath(std::vector<double> times, Eigen::MatrixXd waypoints, doubl
   const auto count = static_cast<Eigen::Index>(times_.size());
   Eigen::MatrixXd system = Eigen::MatrixXd::Zero(count, count);
   Eigen::MatrixXd right(count, waypoints_.cols());
-  const auto spanAfter = [&](Eigen::Index i) {
+  const auto span_after = [&](Eigen::Index i) {
     const auto k = static_cast<std::size_t>(i);
     return (i + 1 < count ? times_[k + 1] : period_) - times_[k];
   };
   for (Eigen::Index i = 0; i < count; ++i) {
     const Eigen::Index last = (i + count - 1) % count;
     const Eigen::Index next = (i + 1) % count;
-    const double before = spanAfter(last);
-    const double after = spanAfter(i);
+    const double before = span_after(last);
+    const double after = span_after(i);
     system(i, last) += 1.0 / before;
     system(i, i) += 2.0 / before + 2.0 / after;
     system(i, next) += 1.0 / after;
