@@ -71,12 +71,11 @@ class Flood {
       }
       const TriangleIndex triangle_a = workspace_.open[i].first;
       const TriangleIndex triangle_b = workspace_.open[i].second;
-      PlanarFeature part_a = levelPart(a_, triangle_a, levels_.tolerance);
-      PlanarFeature part_b = levelPart(b_, triangle_b, levels_.tolerance);
-      snapOnto(part_b, levels_.reach, part_a);
-      snapOnto(part_a, levels_.reach, part_b);
-      intersect(part_a, part_b, levels_.slack, workspace_.polygon, workspace_.clipped);
-      if (workspace_.polygon.empty()) continue;
+      workspace_.corners.clear();
+      appendOverlap(levelPart(a_, triangle_a, levels_.tolerance),
+                    levelPart(b_, triangle_b, levels_.tolerance), levels_.reach, workspace_.corners);
+      if (workspace_.corners.empty()) continue;
+      detail::convexHull(workspace_.corners, workspace_.polygon);
       const auto first = static_cast<std::uint32_t>(workspace_.points.size());
       const auto count = static_cast<std::uint32_t>(workspace_.polygon.size());
       workspace_.pieces.push_back({static_cast<std::uint32_t>(i), first, count});
@@ -178,7 +177,7 @@ void placeRepresentative(const detail::LocalFrames& frames, const LevelSide& a, 
   Vector2d middle = Vector2d::Zero();
   std::pair<TriangleIndex, TriangleIndex> carrier;
   for (const ExtentWorkspace::Piece& piece : workspace.pieces) {
-    const Vector2d nearest = detail::nearestIn(&workspace.polygon[piece.first], piece.count, centre);
+    const Vector2d nearest = detail::nearestIn(&workspace.points[piece.first], piece.count, centre);
     const double squared_distance = (nearest - centre).squaredNorm();
     const auto& pair = workspace.open[piece.pair];
     if (squared_distance < least || (squared_distance == least && pair < carrier)) {
@@ -224,8 +223,8 @@ NicheExtent measureExtent(const BodyMesh& a, const BodyMesh& b, const Eigen::Iso
     return extent;
   }
   Flood(side_a, side_b, levels, pair_limit, workspace, extent).run(witness.triangle_a, witness.triangle_b);
-  workspace.polygon = workspace.points;  // the hull sorts its input
-  detail::convexHull(workspace.points, workspace.hull);
+  workspace.corners = workspace.points;  // the hull sorts its input
+  detail::convexHull(workspace.corners, workspace.hull);
   const double length = detail::diameterOf(workspace.hull);
   if (length <= 2.0 * levels.reach) return extent;
   extent.length = length;

@@ -17,35 +17,39 @@ Vector2d rightOf(const Vector2d& v) {
   return {v.y(), -v.x()};
 }
 
-/// Keeps what lies on the side normal . x <= limit (Sutherland and Hodgman 1974).
-void clip(const Vector2d& normal, double limit, PlanarPoints& polygon, PlanarPoints& scratch) {
-  scratch.clear();
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Vector2d& from = polygon[i];
-    const Vector2d& to = polygon[i + 1 == polygon.size() ? 0 : i + 1];
-    const double height_from = normal.dot(from) - limit;
-    const double height_to = normal.dot(to) - limit;
-    if (height_from <= 0.0) scratch.push_back(from);
-    if ((height_from < 0.0 && height_to > 0.0) || (height_from > 0.0 && height_to < 0.0)) {
-      scratch.push_back(from + (height_from / (height_from - height_to)) * (to - from));
-    }
+/// The point of the segment (from, to) that is nearest to `point`.
+Vector2d nearestOnSegment(const Vector2d& point, const Vector2d& from, const Vector2d& to) {
+  const Vector2d edge = to - from;
+  const double squared_length = edge.squaredNorm();
+  if (!(squared_length > 0.0)) return from;
+  const double along = edge.dot(point - from) / squared_length;
+  if (along <= 0.0) return from;
+  if (along >= 1.0) return to;
+  return from + along * edge;
+}
+
+void appendCornersNear(const PlanarFeature& feature, const PlanarFeature& other, double reach,
+                       PlanarPoints& points) {
+  for (std::size_t i = 0; i < feature.count; ++i) {
+    const Vector2d nearest = nearestIn(other.corners, other.count, feature.corners[i]);
+    if ((nearest - feature.corners[i]).squaredNorm() <= reach * reach) points.push_back(feature.corners[i]);
   }
-  polygon.swap(scratch);
 }
 
-void clipToStrip(const Vector2d& direction, double low, double high, PlanarPoints& polygon,
-                 PlanarPoints& scratch) {
-  clip(direction, high, polygon, scratch);
-  clip(-direction, -low, polygon, scratch);
+void appendCrossing(const Vector2d& from_a, const Vector2d& to_a, const Vector2d& from_b,
+                    const Vector2d& to_b, PlanarPoints& points) {
+  const Vector2d u = to_a - from_a;
+  const Vector2d v = to_b - from_b;
+  const double determinant = turn(u, v);
+  if (determinant == 0.0) return;  // side by side, if at all: their ends are within reach
+  const double along_a = turn(from_b - from_a, v) / determinant;
+  const double along_b = turn(from_b - from_a, u) / determinant;
+  if (along_a < 0.0 || along_a > 1.0 || along_b < 0.0 || along_b > 1.0) return;
+  points.push_back(from_a + along_a * u);
 }
 
-void clipToSegment(const Vector2d& from, const Vector2d& to, double slack, PlanarPoints& polygon,
-                   PlanarPoints& scratch) {
-  const double length = (to - from).norm();
-  const Vector2d along = length > 0.0 ? Vector2d((to - from) / length) : Vector2d::UnitX();
-  const Vector2d across = rightOf(along);
-  clipToStrip(along, along.dot(from) - slack, along.dot(from) + length + slack, polygon, scratch);
-  clipToStrip(across, across.dot(from) - slack, across.dot(from) + slack, polygon, scratch);
+std::size_t edgeCount(const PlanarFeature& feature) {
+  return feature.count == 3 ? 3 : (feature.count == 2 ? 1 : 0);
 }
 
 struct Circle {
@@ -78,61 +82,14 @@ Circle circleThrough(const Vector2d& a, const Vector2d& b, const Vector2d& c) {
 
 }  // namespace
 
-Vector2d nearestOnSegment(const Vector2d& point, const Vector2d& from, const Vector2d& to) {
-  const Vector2d edge = to - from;
-  const double squared_length = edge.squaredNorm();
-  if (!(squared_length > 0.0)) return from;
-  const double along = edge.dot(point - from) / squared_length;
-  if (along <= 0.0) return from;
-  if (along >= 1.0) return to;
-  return from + along * edge;
-}
-
-void snapOnto(const PlanarFeature& other, double reach, PlanarFeature& feature) {
-  for (std::size_t i = 0; i < feature.count; ++i) {
-    Vector2d& corner = feature.corners[i];
-    double least = reach * reach;
-    Vector2d snapped = corner;
-    for (std::size_t k = 0; k < other.count; ++k) {
-      const Vector2d nearest =
-          nearestOnSegment(corner, other.corners[k], other.corners[(k + 1) % other.count]);
-      const double squared_distance = (nearest - corner).squaredNorm();
-      if (squared_distance <= least) {
-        least = squared_distance;
-        snapped = nearest;
-      }
+void appendOverlap(const PlanarFeature& a, const PlanarFeature& b, double reach, PlanarPoints& points) {
+  if (a.count == 0 || b.count == 0) return;
+  appendCornersNear(a, b, reach, points);
+  appendCornersNear(b, a, reach, points);
+  for (std::size_t i = 0; i < edgeCount(a); ++i) {
+    for (std::size_t j = 0; j < edgeCount(b); ++j) {
+      appendCrossing(a.corners[i], a.corners[(i + 1) % 3], b.corners[j], b.corners[(j + 1) % 3], points);
     }
-    corner = snapped;
-  }
-}
-
-void intersect(const PlanarFeature& feature, const PlanarFeature& other, double slack, PlanarPoints& polygon,
-               PlanarPoints& scratch) {
-  polygon.assign(feature.corners, feature.corners + feature.count);
-  if (other.count == 0) polygon.clear();
-  if (other.count == 1) clipToSegment(other.corners[0], other.corners[0], slack, polygon, scratch);
-  if (other.count == 2) clipToSegment(other.corners[0], other.corners[1], slack, polygon, scratch);
-  if (other.count < 3) return;
-  std::size_t longest = 0;
-  double length = 0.0;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const double edge = (other.corners[(k + 1) % 3] - other.corners[k]).norm();
-    if (edge > length) {
-      length = edge;
-      longest = k;
-    }
-  }
-  const Vector2d& from = other.corners[longest];
-  const Vector2d& to = other.corners[(longest + 1) % 3];
-  const double doubled_area = turn(to - from, other.corners[(longest + 2) % 3] - from);
-  if (std::abs(doubled_area) <= slack * length) {
-    clipToSegment(from, to, slack, polygon, scratch);
-    return;
-  }
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Vector2d edge = other.corners[(k + 1) % 3] - other.corners[k];
-    const Vector2d outwards = (doubled_area > 0.0 ? 1.0 : -1.0) * rightOf(edge).normalized();
-    clip(outwards, outwards.dot(other.corners[k]) + slack, polygon, scratch);
   }
 }
 

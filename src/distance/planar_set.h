@@ -8,22 +8,16 @@ namespace concave_distance::detail {
 
 using PlanarPoints = std::vector<Eigen::Vector2d>;
 
-/// The point of the segment (from, to) that is nearest to `point`.
-Eigen::Vector2d nearestOnSegment(const Eigen::Vector2d& point, const Eigen::Vector2d& from,
-                                 const Eigen::Vector2d& to);
-
 /// Up to three corners: a triangle of either turn, a segment, a point.
 struct PlanarFeature {
   Eigen::Vector2d corners[3];
   std::size_t count = 0;
 };
 
-/// Moves corners of `feature` that lie within `reach` of an edge or corner of `other` onto it.
-void snapOnto(const PlanarFeature& other, double reach, PlanarFeature& feature);
-
-/// The part of `feature` in `other`, `slack` more on all sides, into `polygon` (a buffer, as `scratch`).
-void intersect(const PlanarFeature& feature, const PlanarFeature& other, double slack, PlanarPoints& polygon,
-               PlanarPoints& scratch);
+/// What two features have in common, as corners (unordered, some twice): corners of either within `reach` of
+/// the other, and crossings of their edges. Borders that run side by side within `reach` are thus common as
+/// far as they do, while a crossing stays a point however far the reach.
+void appendOverlap(const PlanarFeature& a, const PlanarFeature& b, double reach, PlanarPoints& points);
 
 /// Convex hull, counter-clockwise, without repeated or collinear corners; sorts `points`.
 void convexHull(PlanarPoints& points, PlanarPoints& hull);

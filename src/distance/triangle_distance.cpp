@@ -80,7 +80,6 @@ class FaceFrame {
     side_ = -t.edges[previousCorner(base_)];
     side_along_ = side_.dot(edge_) * inverse_ee_;
     height_ = side_ - side_along_ * edge_;
-    height_ -= (height_.dot(edge_) * inverse_ee_) * edge_;
     inverse_hh_ = inverseOrZero(height_.squaredNorm());
   }
 

@@ -34,6 +34,8 @@ WitnessRefinement refineWitness(const BodyMesh& a, const BodyMesh& b, const Eige
     const double largest = detail::largestMagnitude(corners_a, corners_b);
     const double distance = std::sqrt(closest.squared_distance);
     if (distance <= kTriangleDistanceError * largest) {  // they touch: no direction to look along
+      closest.squared_distance = 0.0;
+      closest.point_b = closest.point_a;
       refinement.proven = true;
       break;
     }

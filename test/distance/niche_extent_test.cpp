@@ -129,6 +129,49 @@ TEST(MeasureExtent, ParallelEdgesShareTheirCommonStretch) {
   expectSameFromEveryStart(a, b, pose, NicheKind::Segment, 0.75, on_a, on_b, 1e-7);
 }
 
+TEST(MeasureExtent, EdgesParallelUpToTheToleranceAreASegment) {
+  // The same rods, turned against one another about the line between their edges: over the common stretch the
+  // distance grows by (0.375 angle)^2 / 2 d, up to a tenth of the tolerance.
+  const SurfaceMesh rod = makeCuboid(Vector3d(0, -0.1, -0.1), Vector3d(1, 0.1, 0.1));
+  const Body a = makeBody(rod);
+  const Body b = makeBody(rod);
+  Isometry3d turned = Isometry3d::Identity();
+  turned.linear() = AngleAxisd(M_PI / 4, Vector3d::UnitX()).toRotationMatrix();
+  const double reach = 0.1 * std::sqrt(2.0);
+  for (const double angle : {1e-15, 1e-12, 1e-9, 1e-7, 1e-6, 8e-6}) {
+    Isometry3d twist = test::translation(Vector3d(0.625, 0, 0));
+    twist.linear() = AngleAxisd(angle, Vector3d::UnitZ()).toRotationMatrix();
+    const Isometry3d pose = turned.inverse(Eigen::Isometry) * twist *
+                            test::translation(Vector3d(-0.375, 0, 2 * reach + 0.05)) * turned;
+    const NicheExtent extent = extentOfClosest(a, b, pose);
+    EXPECT_EQ(extent.kind, NicheKind::Segment) << angle;
+    EXPECT_NEAR(extent.length, 0.75, 1e-5) << angle;
+    EXPECT_NEAR(extent.representative.point_a_in_a.x(), 0.625, 1e-5) << angle;
+  }
+  // Ten times farther it is a crossing.
+  Isometry3d twist = test::translation(Vector3d(0.625, 0, 0));
+  twist.linear() = AngleAxisd(1e-3, Vector3d::UnitZ()).toRotationMatrix();
+  const Isometry3d pose = turned.inverse(Eigen::Isometry) * twist *
+                          test::translation(Vector3d(-0.375, 0, 2 * reach + 0.05)) * turned;
+  const NicheExtent crossing = extentOfClosest(a, b, pose);
+  EXPECT_EQ(crossing.kind, NicheKind::Point);
+  EXPECT_NEAR(crossing.representative.point_a_in_a.x(), 0.625, 1e-5);
+}
+
+TEST(MeasureExtent, FacesSideBySideUpToTheToleranceShareTheirBorder) {
+  // Two boxes, one above and beside the other, their nearest edges parallel but for a twist of 1e-7.
+  const Body a = makeBody(makeCuboid(Vector3d(-1, -1, -1), Vector3d(0, 1, 0)));
+  const Body b = makeBody(makeCuboid(Vector3d(0, -0.5, 0), Vector3d(1, 0.5, 1)));
+  for (const double angle : {-1e-7, -1e-12, 0.0, 1e-12, 1e-7}) {
+    Isometry3d pose = test::translation(Vector3d(0, 0, 0.2));
+    pose.linear() = AngleAxisd(angle, Vector3d::UnitZ()).toRotationMatrix();
+    const NicheExtent extent = extentOfClosest(a, b, pose);
+    EXPECT_EQ(extent.kind, NicheKind::Segment) << angle;
+    EXPECT_NEAR(extent.length, 1.0, 1e-5) << angle;
+    EXPECT_NEAR(extent.representative.point_a_in_a.y(), 0.0, 1e-5) << angle;
+  }
+}
+
 TEST(MeasureExtent, CornersAndCrossedEdgesArePoints) {
   RandomEngine engine(2);
   const Body a = makeBody(makeCuboid(Vector3d(-1, -1, -1), Vector3d(1, 1, 1)));

@@ -234,6 +234,23 @@ TEST(RefineWitness, ReturnsAtOnceWhereTrianglesMeet) {
   EXPECT_EQ(refined.witness.point_a_in_a, refined.witness.point_b_in_a);
 }
 
+TEST(RefineWitness, TouchingUpToRoundingIsTouching) {
+  // Boxes face to face, turned together: the true distance is 0, the rounded corners leave up to 1e-16.
+  const auto a = makeBody(test::makeCuboid(Vector3d::Zero(), Vector3d::Ones()));
+  RandomEngine engine(7);
+  RefinementWorkspace workspace;
+  for (int i = 0; i < 50; ++i) {
+    const Isometry3d world_from_a = test::randomPose(engine, 1.0);
+    const Isometry3d pose =
+        world_from_a.inverse(Eigen::Isometry) * (world_from_a * test::translation(Vector3d(0.3, 0.2, 1.0)));
+    const WitnessPair closest = enumerateTrianglePairs(*a, *a, pose);
+    const WitnessPair refined =
+        refineWitness(*a, *a, pose, closest.triangle_a, closest.triangle_b, workspace).witness;
+    EXPECT_EQ(refined.squared_distance, 0.0);
+    EXPECT_EQ(refined.point_a_in_a, refined.point_b_in_a);
+  }
+}
+
 TEST(RefineWitness, DescendsAcrossAFineMeshAllTheWay) {
   // From the far end of a wavy sheet to the crest: hundreds of triangles, no detour over nodes.
   const auto a = makeBody(test::makeSheet(80, 4, 0.01, 0.0));

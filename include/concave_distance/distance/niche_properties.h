@@ -46,8 +46,8 @@ struct ExtentWorkspace {
   std::vector<std::pair<TriangleIndex, TriangleIndex>> seen;  ///< the same, sorted
   std::vector<Piece> pieces;
   std::vector<Eigen::Vector2d> points;
+  std::vector<Eigen::Vector2d> corners;
   std::vector<Eigen::Vector2d> polygon;
-  std::vector<Eigen::Vector2d> clipped;
   std::vector<Eigen::Vector2d> hull;
 };
 

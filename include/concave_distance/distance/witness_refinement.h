@@ -42,7 +42,7 @@ struct RefinementWorkspace {
 /// point of tA closest to q and q that of tB closest to p (the variational inequality of a product of convex
 /// sets separates), so it is enough to look at the triangles around p and those around q one side at a time.
 /// Terminates: every step strictly decreases the distance and the triangle pairs are finitely many.
-/// Witnesses that touch (distance within the kernel's error of 0) end it at once.
+/// Witnesses that touch (distance within the kernel's error of 0) end it at once, as one point at distance 0.
 /// Error: that of triangleDistance in coordinates relative to the start triangles, once more for what the
 /// proof lets pass, and the rounding of a_from_b's translation. a_from_b must be rigid to rounding.
 WitnessRefinement refineWitness(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
