@@ -19,6 +19,7 @@ set(CONCAVE_DISTANCE_ROS_PACKAGES
   visualization_msgs)
 
 set(CONCAVE_DISTANCE_ROS_FOUND OFF)
+set(CONCAVE_DISTANCE_ROS_MISSING catkin)
 find_package(catkin QUIET)
 if(catkin_FOUND)
   find_package(catkin QUIET COMPONENTS ${CONCAVE_DISTANCE_ROS_PACKAGES})

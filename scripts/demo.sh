@@ -28,7 +28,7 @@ done
 "$package_dir/scripts/install_dependencies.sh" build demo </dev/null
 source_ros
 say "building (some minutes the first time)"
-"$package_dir/scripts/build.sh" programs </dev/null || die "the build failed: see the first error above"
+"$package_dir/scripts/build.sh" programs -DCONCAVE_DISTANCE_WITH_ROS=ON </dev/null || die "the build failed: see the first error above"
 set +u
 # shellcheck disable=SC1091
 . "$build_dir/devel/setup.bash"

@@ -34,7 +34,7 @@ fi
 say "dependencies are there after $((SECONDS - started)) s"
 
 source_ros
-"$package_dir/scripts/build.sh" all -DCONCAVE_DISTANCE_BUILD_TESTS=ON ||
+"$package_dir/scripts/build.sh" all -DCONCAVE_DISTANCE_WITH_ROS=ON -DCONCAVE_DISTANCE_BUILD_TESTS=ON ||
   count_arguments+=(--failure "the build (see the first error above)")
 [ -f "$build_dir/CTestTestfile.cmake" ] || finish_without_tests "the build could not be configured"
 say "built after $((SECONDS - started)) s"
