@@ -43,7 +43,8 @@ std::vector<DrawnNiche> drawnNiches(const PairNiches& pair) {
   for (const Niche& niche : pair.niches) {
     drawn.push_back({markerId(niche.id), niche.distance, niche.point_a, niche.point_b, drawn.empty()});
   }
-  if (drawn.empty() && pair.nearest.has_points != 0) {
+  const bool swallowed = pair.nearest.status.code == PairStatus::PENETRATING;
+  if (drawn.empty() && swallowed && pair.nearest.has_points != 0) {
     drawn.push_back({0, pair.nearest.distance, pair.nearest.point_a, pair.nearest.point_b, true});
   }
   return drawn;

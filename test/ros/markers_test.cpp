@@ -86,9 +86,11 @@ TEST(NicheMarkers, DrawAWarningRedAndAPairWithoutADistanceNotAtAll) {
   EXPECT_TRUE(nicheMarkers(emptyNiches(PairHeading(), stale), style(), 0.5).empty());
 }
 
-TEST(NicheMarkers, DrawTheClosestPointsWhenThereIsNoNiche) {
-  const std::vector<Marker> markers = nicheMarkers(pairWithNiches({}), style(), 0.5);
-  EXPECT_NE(find(markers, "a/b/line", 0), nullptr);
+TEST(NicheMarkers, DrawTheClosestPointsOfABodyInsideAnotherAndNoneBeyondTheCutoff) {
+  PairNiches pair = pairWithNiches({});
+  EXPECT_TRUE(nicheMarkers(pair, style(), 0.5).empty()) << "every niche is beyond the cutoff";
+  pair.nearest.status.code = PairStatus::PENETRATING;
+  EXPECT_NE(find(nicheMarkers(pair, style(), 0.5), "a/b/line", 0), nullptr);
 }
 
 TEST(NicheMarkers, AreDeletedOnceWhenTheirNicheDies) {
