@@ -21,6 +21,7 @@ set -euo pipefail
   debian_test=(
     libgtest-dev librapidcheck-dev libfcl-dev libboost-dev libbenchmark-dev
     librostest-dev python3-rostest libnodeletlib-tools
+    dart-doc  # robots that are broken on purpose
   )
   debian_demo=(
     python3-roslaunch python3-rospy python3-rostopic rosbash rviz ros-robot-state-publisher

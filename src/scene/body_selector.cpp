@@ -62,10 +62,11 @@ BodySelector::BodySelector(const SceneParts& parts, const std::vector<GroupSpec>
 BodySelector::Selection BodySelector::select(const Selector& selector) const {
   const std::string& text = selector.text;
   if (const auto body = source_of_name_.find(text); body != source_of_name_.end()) {
-    return {{body->second}, true, false};
+    return {{body->second}, true, false, false};
   }
-  if (const auto group = groups_.find(text); group != groups_.end()) return {group->second, false, false};
-  if (parts_.bare_links.count(text) != 0) return {{}, true, true};
+  if (const auto group = groups_.find(text); group != groups_.end())
+    return {group->second, false, false, false};
+  if (parts_.bare_links.count(text) != 0) return {{}, true, true, false};
   Selection selection;
   bool matches_bare_link = false;
   if (isPattern(text)) {
@@ -76,6 +77,7 @@ BodySelector::Selection BodySelector::select(const Selector& selector) const {
                                     [&](const std::string& link) { return matchesPattern(text, link); });
   }
   if (selection.sources.empty() && !matches_bare_link) {
+    if (parts_.robot_is_lost) return {{}, !isPattern(text), false, true};
     std::vector<std::string> bodies;
     for (const BodySource& source : parts_.sources) bodies.push_back(source.name);
     std::vector<std::string> groups;

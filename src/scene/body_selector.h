@@ -17,6 +17,7 @@ class BodySelector {
     std::vector<std::size_t> sources;  ///< numbers in SceneParts::sources, each once
     bool names_one = false;            ///< a body by its own name ...
     bool is_bare_link = false;         ///< ... or a link without geometry, and no source
+    bool is_lost = false;              ///< not known; perhaps of a robot whose URDF could not be read
   };
 
   /// Resolves the file's groups; those of robots and SRDFs give way to names of the file, with a note.
@@ -24,7 +25,8 @@ class BodySelector {
   BodySelector(const SceneParts& parts, const std::vector<GroupSpec>& groups,
                std::vector<std::string>& notes);
 
-  /// @throws Error when the text is no body, group or link, and no pattern that matches one
+  /// @throws Error when the text is no body, group or link, and no pattern that matches one, and every robot
+  ///         could be read
   Selection select(const Selector& selector) const;
 
  private:

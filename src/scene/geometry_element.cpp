@@ -91,7 +91,8 @@ RepairedMesh loadGeometry(const std::vector<GeometryElement>& elements, const st
     }
     appendTransformed(body, loadElement(element), element.frame_from_geometry);
   }
-  return repairMesh(body, RepairOptions{}, where);
+  const bool is_one_file = elements.size() == 1 && !elements.front().mesh_resource.empty();
+  return repairMesh(body, RepairOptions{}, is_one_file ? elements.front().mesh_resource : where);
 }
 
 std::string describeApproximations(const std::vector<GeometryElement>& elements) {

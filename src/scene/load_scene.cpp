@@ -9,9 +9,11 @@
 
 #include "build_bodies.h"
 #include "concave_distance/base/error.h"
+#include "robot_description.h"
 #include "scene_parts.h"
 #include "scene_spec.h"
 #include "select_pairs.h"
+#include "semantic_description.h"
 #include "settings_reader.h"
 
 namespace concave_distance {
@@ -20,6 +22,7 @@ namespace {
 using detail::BuiltBody;
 using detail::DescriptionText;
 using detail::PairSelection;
+using detail::RobotDescription;
 using detail::RobotSpec;
 using detail::SceneParts;
 using detail::SceneSpec;
@@ -67,18 +70,40 @@ DescriptionText textOfFile(const std::string& resource, const std::string& where
   }
 }
 
-void addRobot(const RobotSpec& robot, const std::string& base_folder, const SceneLoadOptions& options,
+SceneProblem problemOf(const Error& error, const std::string& consequence) {
+  return {error.where(), error.whatIsWrong() + " (" + error.remedy() + "); " + consequence};
+}
+
+// An SRDF that cannot be read is a problem of the scene: the robot is served without it.
+void addSemantics(const RobotSpec& spec, const RobotDescription& robot, const std::string& base_folder,
+                  const SceneLoadOptions& options, SceneParts& parts) {
+  if (spec.srdf.empty() && spec.semantic_description.empty()) return;
+  DescriptionText srdf;
+  if (spec.srdf.empty()) srdf = textOfParameter(spec.semantic_description, spec.where, options);
+  try {
+    if (!spec.srdf.empty()) srdf = textOfFile(spec.srdf, spec.where, base_folder, options);
+    detail::addSemantics(spec, detail::readSemanticDescription(srdf.text, srdf.where, robot), parts);
+  } catch (const Error& error) {
+    parts.problems.push_back(problemOf(error, "no pair is disabled by it, and it gives no groups"));
+  }
+}
+
+// So is a URDF that cannot be read: the other robots and the bodies are served.
+void addRobot(const RobotSpec& spec, const std::string& base_folder, const SceneLoadOptions& options,
               SceneParts& parts) {
-  const DescriptionText urdf = robot.urdf.empty() ? textOfParameter(robot.description, robot.where, options)
-                                                  : textOfFile(robot.urdf, robot.where, base_folder, options);
-  if (robot.srdf.empty() && robot.semantic_description.empty()) {
-    detail::addRobot(robot, urdf, nullptr, parts);
+  DescriptionText urdf;
+  RobotDescription robot;
+  if (spec.urdf.empty()) urdf = textOfParameter(spec.description, spec.where, options);
+  try {
+    if (!spec.urdf.empty()) urdf = textOfFile(spec.urdf, spec.where, base_folder, options);
+    robot = detail::readRobotDescription(urdf.text, urdf.where, spec.geometry);
+  } catch (const Error& error) {
+    parts.problems.push_back(problemOf(error, "no link of this robot is served"));
+    parts.robot_is_lost = true;
     return;
   }
-  const DescriptionText srdf = robot.srdf.empty()
-                                   ? textOfParameter(robot.semantic_description, robot.where, options)
-                                   : textOfFile(robot.srdf, robot.where, base_folder, options);
-  detail::addRobot(robot, urdf, &srdf, parts);
+  detail::addRobot(spec, robot, urdf, parts);
+  addSemantics(spec, robot, base_folder, options, parts);
 }
 
 // "a/b, a/c and 3 more": the pairs that go with a body that could not be loaded.
@@ -101,7 +126,8 @@ Scene assemble(const SceneSpec& spec, SceneParts parts, const SceneLoadOptions& 
       detail::buildBodies(parts.sources, options.package_locator, spec.metric_memory_limit);
   Scene scene;
   scene.notes = std::move(parts.notes);
-  scene.problems = std::move(selection.problems);
+  scene.problems = std::move(parts.problems);
+  scene.problems.insert(scene.problems.end(), selection.problems.begin(), selection.problems.end());
   std::vector<std::optional<std::size_t>> body_of_source(built.size());
   for (std::size_t i = 0; i < built.size(); ++i) {
     for (const std::string& note : built[i].notes) scene.notes.push_back(parts.sources[i].name + ": " + note);
@@ -163,12 +189,11 @@ Scene loadRobotScene(const std::string& urdf, const std::string& where, const Sc
   if (!is_file) robot.description = where;
   SceneParts parts;
   const DescriptionText text{urdf, where, is_file ? folderOf(where) : std::string()};
-  const auto semantic = options.descriptions.find(kSemanticDescription);
-  if (semantic == options.descriptions.end()) {
-    detail::addRobot(robot, text, nullptr, parts);
-  } else {
-    const DescriptionText srdf{semantic->second, std::string("parameter ") + kSemanticDescription, ""};
-    detail::addRobot(robot, text, &srdf, parts);
+  const RobotDescription description = detail::readRobotDescription(text.text, text.where, robot.geometry);
+  detail::addRobot(robot, description, text, parts);
+  if (options.descriptions.count(kSemanticDescription) != 0) {
+    robot.semantic_description = kSemanticDescription;
+    addSemantics(robot, description, "", options, parts);
   }
   return assemble(spec, std::move(parts), options);
 }

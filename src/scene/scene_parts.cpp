@@ -5,7 +5,6 @@
 
 #include "concave_distance/base/error.h"
 #include "name_pattern.h"
-#include "semantic_description.h"
 #include "wording.h"
 
 namespace concave_distance::detail {
@@ -87,18 +86,6 @@ void addLinks(const RobotSpec& spec, const RobotDescription& robot, const Descri
   parts.groups.emplace_back(spec.name.empty() ? spec.prefix + robot.name : spec.name, std::move(members));
 }
 
-void addSemantics(const RobotSpec& spec, const SemanticDescription& semantics, SceneParts& parts) {
-  for (const LinkPair& pair : semantics.disabled) {
-    parts.disabled_by_srdf.insert(linkPair(bodyName(spec, pair.first), bodyName(spec, pair.second)));
-  }
-  for (const auto& [name, links] : semantics.groups) {
-    std::vector<std::string> members;
-    for (const std::string& link : links) members.push_back(bodyName(spec, link));
-    parts.groups.emplace_back(spec.prefix + name, std::move(members));
-  }
-  parts.notes.insert(parts.notes.end(), semantics.notes.begin(), semantics.notes.end());
-}
-
 }  // namespace
 
 void RigidFrames::join(const std::string& a, const std::string& b) {
@@ -127,9 +114,8 @@ const char* SceneParts::filterReason(std::size_t source_a, std::size_t source_b)
   return nullptr;
 }
 
-void addRobot(const RobotSpec& spec, const DescriptionText& urdf, const DescriptionText* srdf,
+void addRobot(const RobotSpec& spec, const RobotDescription& robot, const DescriptionText& urdf,
               SceneParts& parts) {
-  const RobotDescription robot = readRobotDescription(urdf.text, urdf.where, spec.geometry);
   for (const std::string& note : robot.notes) parts.notes.push_back(urdf.where + ", " + note);
   addLinks(spec, robot, urdf, parts);
   for (const RobotJoint& joint : robot.joints) {
@@ -138,7 +124,18 @@ void addRobot(const RobotSpec& spec, const DescriptionText& urdf, const Descript
   for (const LinkPair& pair : adjacentLinks(robot)) {
     parts.adjacent.insert(linkPair(bodyName(spec, pair.first), bodyName(spec, pair.second)));
   }
-  if (srdf != nullptr) addSemantics(spec, readSemanticDescription(srdf->text, srdf->where, robot), parts);
+}
+
+void addSemantics(const RobotSpec& spec, const SemanticDescription& semantics, SceneParts& parts) {
+  for (const LinkPair& pair : semantics.disabled) {
+    parts.disabled_by_srdf.insert(linkPair(bodyName(spec, pair.first), bodyName(spec, pair.second)));
+  }
+  for (const auto& [name, links] : semantics.groups) {
+    std::vector<std::string> members;
+    for (const std::string& link : links) members.push_back(bodyName(spec, link));
+    parts.groups.emplace_back(spec.prefix + name, std::move(members));
+  }
+  parts.notes.insert(parts.notes.end(), semantics.notes.begin(), semantics.notes.end());
 }
 
 void addBody(const BodySpec& spec, const std::string& base_folder, SceneParts& parts) {

@@ -8,8 +8,11 @@
 #include <vector>
 
 #include "build_bodies.h"
+#include "concave_distance/scene/scene.h"
 #include "link_adjacency.h"
+#include "robot_description.h"
 #include "scene_spec.h"
+#include "semantic_description.h"
 
 namespace concave_distance::detail {
 
@@ -40,15 +43,20 @@ struct SceneParts {
   std::set<LinkPair> disabled_by_srdf;                                   ///< by body name
   std::vector<std::pair<std::string, std::vector<std::string>>> groups;  ///< of robots and SRDFs: body names
   std::vector<std::string> notes;
+  std::vector<SceneProblem> problems;  ///< URDFs and SRDFs that cannot be read
+  bool robot_is_lost = false;          ///< a name that nobody knows may be one of its links
 
   /// Why a pair is not watched unless the scene file names both bodies; nullptr when it is.
   const char* filterReason(std::size_t source_a, std::size_t source_b) const;
 };
 
-/// Adds the links of a robot. @param srdf nullptr when there is none
-/// @throws Error for a URDF or SRDF that cannot be read, a name that is taken, a pattern that matches no link
-void addRobot(const RobotSpec& spec, const DescriptionText& urdf, const DescriptionText* srdf,
+/// Adds the links of a robot that was read from `urdf`.
+/// @throws Error for a name that is taken, a pattern that matches no link
+void addRobot(const RobotSpec& spec, const RobotDescription& robot, const DescriptionText& urdf,
               SceneParts& parts);
+
+/// Adds the disabled pairs and the groups of that robot's SRDF.
+void addSemantics(const RobotSpec& spec, const SemanticDescription& semantics, SceneParts& parts);
 
 /// Adds a body of the scene file. @throws Error for a name that is taken
 void addBody(const BodySpec& spec, const std::string& base_folder, SceneParts& parts);

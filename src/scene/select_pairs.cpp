@@ -65,6 +65,13 @@ class Selection {
     const BodySelector::Selection a = selector_.select(entry.between[0]);
     const BodySelector::Selection b = selector_.select(entry.between[1]);
     const std::string& where = entry.between[0].where;
+    if (a.is_lost || b.is_lost) {
+      result_.problems.push_back(
+          {where, "pairs of '" + entry.between[0].text + "' and '" + entry.between[1].text +
+                      "' are not served: '" + entry.between[a.is_lost ? 0 : 1].text +
+                      "' is not known, perhaps it is of a robot that could not be read"});
+      return;
+    }
     if (!(a.names_one && b.names_one)) {
       if (!entry.name.empty()) {
         throw Error(where, "the name '" + entry.name + "' for more than one pair",

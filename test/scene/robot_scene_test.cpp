@@ -251,9 +251,15 @@ TEST_F(RobotScene, WhatTheSrdfHasAndTheUrdfHasNotIsNoted) {
   EXPECT_TRUE(hasNote(scene, "enable_collisions is not read"));
 }
 
-TEST_F(RobotScene, BrokenSrdfIsRefused) {
-  EXPECT_THROW(loadRobot(robot(boxLink("a")), "", "<robot name='arm'>"), Error);
-  EXPECT_THROW(loadRobot(robot(boxLink("a")), "", "<model/>"), Error);
+TEST_F(RobotScene, BrokenSrdfIsAProblemAndTheRobotIsServedWithoutIt) {
+  for (const std::string srdf : {"<robot name='arm'>", "<model/>"}) {
+    const Scene scene = loadRobot(robot(boxLink("a")), "", srdf);
+    EXPECT_EQ(bodyNames(scene), Names({"a"}));
+    ASSERT_EQ(scene.problems.size(), 1U);
+    EXPECT_EQ(scene.problems[0].where, "parameter semantics");
+    EXPECT_TRUE(mentions(scene.problems[0].message, "no pair is disabled by it"))
+        << scene.problems[0].message;
+  }
 }
 
 TEST_F(RobotScene, UnknownOrBrokenGeometryIsAProblemOfItsLinkAlone) {
@@ -349,6 +355,55 @@ TEST(BrokenUrdf, IsRefusedWithItsNameAndWhatUrdfdomSays) {
   EXPECT_TRUE(mentions(robotRefusal(robot(bareLink("a") + bareLink("a"))), "link 'a' is not unique"));
   EXPECT_TRUE(mentions(robotRefusal(robot(bareLink("a") + bareLink("b"))), "Two root links found"));
   EXPECT_TRUE(mentions(robotRefusal(robot(bareLink("a") + joint("fixed", "a", "zz"))), "[zz]"));
+}
+
+class SceneOfBrokenRobots : public test::SceneTest {
+ protected:
+  // A scene of that robot and two boxes; the problem of the robot, which is the first.
+  SceneProblem firstProblem(const std::string& entry, const std::string& pairs = "") {
+    last_scene = load("defaults: {max_edge_length: 9}\nrobots:\n  - " + entry +
+                      "\nbodies:\n  - {name: c, box: {size: [1, 1, 1]}}\n"
+                      "  - {name: d, box: {size: [1, 1, 1]}}\n" +
+                      pairs);
+    return last_scene.problems.empty() ? SceneProblem{"none", "none"} : last_scene.problems.front();
+  }
+  Scene last_scene;
+};
+
+TEST_F(SceneOfBrokenRobots, ServesTheRestAndNamesTheFileAndWhatIsWrong) {
+  const std::string file = CONCAVE_DISTANCE_TEST_DATA "/invalid/invalid.urdf";
+  const SceneProblem problem = firstProblem("{urdf: " + file + "}");
+  EXPECT_EQ(problem.where, file);
+  EXPECT_TRUE(mentions(problem.message, "the URDF cannot be read")) << problem.message;
+  EXPECT_TRUE(mentions(problem.message, "no link of this robot is served")) << problem.message;
+  EXPECT_EQ(pairNames(last_scene), Names({"c/d"}));
+  EXPECT_TRUE(mentions(firstProblem("{urdf: gone.urdf}").where, "scene.yaml:3, robots[0], gone.urdf"));
+  EXPECT_TRUE(mentions(firstProblem("{urdf: 'package://gone/a.urdf'}").message, "package 'gone'"));
+}
+
+TEST_F(SceneOfBrokenRobots, TellsPairsOfItsLinksAndRefusesUnknownNamesOnlyWhereEveryRobotIsRead) {
+  const std::string pairs =
+      "groups: {hand: ['finger*']}\n"
+      "pairs:\n  - between: [c, wrist]\n  - between: [c, d]\n  - between: [d, hand]\n";
+  firstProblem("{urdf: gone.urdf}", pairs);
+  EXPECT_EQ(pairNames(last_scene), Names({"c/d"}));
+  ASSERT_EQ(last_scene.problems.size(), 2U);
+  EXPECT_EQ(last_scene.problems[1].where, "scene.yaml:9, pairs[0].between[0]");
+  EXPECT_TRUE(mentions(last_scene.problems[1].message, "'wrist' is not known, perhaps"))
+      << last_scene.problems[1].message;
+  folder.write("whole.urdf", robot(boxLink("a")));
+  EXPECT_THROW(firstProblem("{urdf: whole.urdf}", pairs), Error);
+}
+
+TEST_F(SceneOfBrokenRobots, ServesARobotWhoseSrdfCannotBeRead) {
+  folder.write("arm.urdf", robot(boxLink("a")));
+  folder.write("arm.srdf", "This is not an SRDF.");
+  for (const std::string srdf : {"arm.srdf", "gone.srdf"}) {
+    const SceneProblem problem = firstProblem("{urdf: arm.urdf, srdf: " + srdf + "}");
+    EXPECT_TRUE(mentions(problem.where, srdf)) << problem.where;
+    EXPECT_TRUE(mentions(problem.message, "no pair is disabled by it")) << problem.message;
+    EXPECT_EQ(pairNames(last_scene), Names({"a/c", "a/d", "c/d"}));
+  }
 }
 
 TEST(BrokenUrdf, InvalidMeshFileIsAProblemAndNoError) {

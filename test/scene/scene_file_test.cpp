@@ -223,10 +223,6 @@ TEST_F(SceneFile, RobotNeedsOneDescription) {
                 "scene.yaml:3, robots[0].srdf", "both", "one");
   expectRefused("robots:\n  - description: gone\n", "scene.yaml:2, robots[0]", "there is no parameter 'gone'",
                 "set it");
-  expectRefused("robots:\n  - urdf: gone.urdf\n", "scene.yaml:2, robots[0], gone.urdf", "does not exist",
-                "check");
-  expectRefused("robots:\n  - urdf: package://gone/a.urdf\n",
-                "scene.yaml:2, robots[0], package://gone/a.urdf", "package 'gone'", "source");
   expectRefused("robots:\n  - description: d\n    geometry: hull\n", "scene.yaml:3, robots[0].geometry",
                 "'hull'", "collision, visual");
   expectRefused("robots:\n  - description: d\n    skip_links: a\n", "scene.yaml:3, robots[0].skip_links",

@@ -12,10 +12,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "rostest_support.h"
 #include "tf_player.h"
@@ -64,41 +68,123 @@ TEST(StartUp, WaitsForTheRobotDescriptionAndThenForTransforms) {
   EXPECT_NEAR(distances.last()->pairs[0].distance, 2.0, 1e-12);
 }
 
-TEST(StartUp, MeshesThatCannotBeReadAreProblemsAndTheRestIsServed) {
-  const std::string node = "/broken_meshes";
-  ASSERT_TRUE(isReady(node));
-  const ListBodiesResponse scene = list(node);
-  for (const char* name : {"missing", "empty", "no_triangles", "truncated", "not_a_number", "no_area"}) {
-    EXPECT_TRUE(std::any_of(scene.problems.begin(), scene.problems.end(),
-                            [&](const Problem& problem) {
-                              return (problem.where + problem.message).find(name) != std::string::npos;
-                            }))
-        << name << " is told as a problem";
-    EXPECT_TRUE(std::none_of(scene.bodies.begin(), scene.bodies.end(),
-                             [&](const BodyInfo& body) { return body.name == name; }));
-  }
+// Where a problem is and what it says, in one text.
+std::string told(const Problem& problem) {
+  return problem.where + ": " + problem.message;
+}
+
+// A problem that says every part: the file, what is wrong with it and what can be done.
+void expectProblem(const ListBodiesResponse& scene, const std::vector<std::string>& parts) {
+  EXPECT_TRUE(std::any_of(scene.problems.begin(), scene.problems.end(),
+                          [&](const Problem& problem) {
+                            return std::all_of(parts.begin(), parts.end(), [&](const std::string& part) {
+                              return told(problem).find(part) != std::string::npos;
+                            });
+                          }))
+      << "no problem says all of: " << ::testing::PrintToString(parts);
+}
+
+GetDistanceRequest boxesAtPoses() {
   GetDistanceRequest request;
   request.query.body_a = "box_a";
   request.query.body_b = "box_b";
   request.query.use_pose_a = request.query.use_pose_b = 1;
   request.query.pose_a.pose.orientation.w = request.query.pose_b.pose.orientation.w = 1.0;
   request.query.pose_b.pose.position.y = 1.5;
-  const auto response = call<GetDistance>(node + "/get_distance", request);
-  EXPECT_TRUE(response.success) << response.message;
-  EXPECT_NEAR(response.result.nearest.distance, 0.5, 1e-12);
+  return request;
 }
 
-TEST(StartUp, InvalidUrdfsAreProblemsAndTheNodeLives) {
-  for (const char* node : {"/invalid_urdf", "/invalid_mesh_urdf"}) {
+// The pair of boxes, from a service and on a topic.
+void expectTheBoxesServed(const std::string& node) {
+  const auto response = call<GetDistance>(node + "/get_distance", boxesAtPoses());
+  EXPECT_TRUE(response.success) << response.message;
+  EXPECT_NEAR(response.result.nearest.distance, 0.5, 1e-12);
+  TfPlayer player;
+  player.place("box_a", 0.0);
+  player.place("box_b", 0.0, 1.25);
+  Collector<Distances> distances(node + "/distances");
+  EXPECT_TRUE(distances.waitFor([](const Distances& message) {
+    return std::any_of(message.pairs.begin(), message.pairs.end(), [](const PairDistance& pair) {
+      return pair.body_a == "box_a" && pair.body_b == "box_b" && std::abs(pair.distance - 0.25) < 1e-12;
+    });
+  })) << node;
+}
+
+TEST(StartUp, MeshesThatCannotBeReadAreProblemsAndTheRestIsServed) {
+  const std::string node = "/broken_meshes";
+  ASSERT_TRUE(isReady(node));
+  const ListBodiesResponse scene = list(node);
+  const std::string again = "export";  // the remedy
+  expectProblem(scene, {"body 'missing'", "meshes/missing.stl' does not exist", "check the path"});
+  expectProblem(scene, {"body 'empty'", "meshes/empty.stl", "the file is empty", again});
+  expectProblem(scene, {"body 'no_triangles'", "meshes/no_triangles.stl", "no triangle", "mesh"});
+  expectProblem(scene, {"body 'truncated'", "meshes/truncated.stl", "breaks off", again});
+  expectProblem(scene, {"body 'not_a_number'", "meshes/nan.obj", "not finite", again});
+  expectProblem(scene, {"body 'no_area'", "meshes/no_area.obj", "area"});
+  EXPECT_EQ(scene.problems.size(), 6U);
+  ASSERT_EQ(scene.bodies.size(), 2U);
+  expectTheBoxesServed(node);
+}
+
+// One of the robots that `broken_robots.yaml` and `dart_robots.yaml` name.
+void expectBrokenRobots(const std::string& node, const std::string& folder) {
+  ASSERT_TRUE(isReady(node));
+  const ListBodiesResponse scene = list(node);
+  expectProblem(scene, {folder + "/invalid.urdf", "the URDF cannot be read", "no link of this robot"});
+  expectProblem(scene, {folder + "/invalid_mesh.urdf, link 'base_link'", folder + "/invalid_mesh.stl",
+                        "box_a/invalid_mesh_base_link"});
+  expectProblem(scene, {folder + "/missing_mesh.urdf, link 'base_link'",
+                        "this_file_does_not_exist.stl' does not exist", "check the path"});
+  expectProblem(scene, {folder + "/missing_package.urdf, link 'base_link'", "package 'missing_package'",
+                        "ROS_PACKAGE_PATH"});
+  EXPECT_EQ(scene.problems.size(), 4U);
+  EXPECT_EQ(scene.bodies.size(), 2U);
+}
+
+TEST(StartUp, RobotsThatCannotBeReadAreProblemsAndTheRestIsServed) {
+  expectBrokenRobots("/broken_robots", "data/invalid");
+  expectTheBoxesServed("/broken_robots");
+}
+
+TEST(StartUp, SoAreTheInvalidRobotsOfDartDoc) {
+  const std::string folder = "/usr/share/doc/dart/data/urdf/test";
+  if (std::filesystem::exists(folder)) {
+    expectBrokenRobots("/dart_robots", folder);
+  } else {  // minimal systems install no documentation: then the files themselves are what is missing
+    ASSERT_TRUE(isReady("/dart_robots"));
+    expectProblem(list("/dart_robots"), {folder + "/invalid.urdf' does not exist", "check the path"});
+  }
+  expectTheBoxesServed("/dart_robots");
+}
+
+TEST(StartUp, AnInvalidRobotDescriptionIsAProblemAndTheNodeLives) {
+  for (const auto& [node, part] :
+       {std::pair("/invalid_urdf", "urdfdom says"), std::pair("/invalid_mesh_urdf", "invalid_mesh.stl")}) {
     ASSERT_TRUE(isReady(node)) << node;
     const ListBodiesResponse scene = list(node);
-    ASSERT_FALSE(scene.problems.empty()) << node;
-    EXPECT_FALSE(scene.problems[0].message.empty());
+    EXPECT_EQ(scene.problems.size(), 1U);
+    expectProblem(scene, {"invalid_", part});
     EXPECT_TRUE(scene.bodies.empty());
     GetDistanceRequest request;
     request.query.body_a = "base_link";
     request.query.body_b = "other";
-    EXPECT_FALSE(call<GetDistance>(std::string(node) + "/get_distance", request).success);
+    const auto response = call<GetDistance>(std::string(node) + "/get_distance", request);
+    EXPECT_FALSE(response.success);
+    EXPECT_NE(response.message.find("base_link"), std::string::npos) << response.message;
+  }
+}
+
+TEST(StartUp, GeometryIsTheCollisionOrTheVisualOne) {
+  TfPlayer player;
+  player.place("base", 0.0);
+  player.place("tip", 3.0);
+  for (const auto& [node, gap] :
+       {std::pair("/collision_geometry", 2.0), std::pair("/visual_geometry", 2.5)}) {
+    Collector<Distances> distances(std::string(node) + "/distances");
+    ASSERT_TRUE(distances.waitFor([](const Distances& message) {
+      return message.pairs.size() == 1 && message.pairs[0].has_distance != 0;
+    })) << node;
+    EXPECT_NEAR(distances.last()->pairs[0].distance, gap, 1e-12) << node;
   }
 }
 
