@@ -5,7 +5,7 @@ Writes scripts/geometry/thesis_scene.json, which generate_thesis_geometry.py rea
 target, so that each is found by bisection or in closed form; nothing is random. Run again after changing
 sizes in scripts/geometry/thesis_solids.py:
 
-    scripts/fit_thesis_scene.py && scripts/generate_thesis_geometry.py && scripts/verify_thesis_scene.py
+    scripts/fit_thesis_scene.py && scripts/generate_thesis_geometry.py
 """
 
 import json

@@ -33,7 +33,7 @@ POCKET_DEPTH = 0.5
 # Battery: a box with two hexagonal through holes and a lateral guide on either end; 2 * 6 + 2 convex pieces.
 BATTERY_SIZE = (0.70, 0.50, 0.30)
 HOLE_RADIUS = 0.085
-HOLE_CENTRES = ((-0.20, -0.05), (0.20, -0.05))
+HOLE_CENTRES = ((-0.20, -0.05), (0.20, -0.07))
 GUIDE_HALF_WIDTH = 0.06
 GUIDE_REACH = 0.05
 GUIDE_BOTTOM = 0.04

@@ -10,7 +10,7 @@ namespace concave_distance {
 namespace {
 
 // Nodes that the automatic grid aims at when the mesh itself has fewer.
-constexpr double kTargetNodeCount = 1200.0;
+constexpr double kTargetNodeCount = 650.0;
 
 double edgeLengthOf(const std::string& name, const SurfaceMesh& surface, const BodyMeshOptions& options) {
   if (!options.max_edge_length) {
@@ -33,9 +33,9 @@ double automaticEdgeLength(const SurfaceMesh& surface) {
                       .cross(surface.vertex(t[2]) - surface.vertex(t[0]))
                       .norm();
   }
-  // Bisection leaves about one node per half a squared edge length; a body that is long and thin would get
-  // edges longer than it is thick, hence the second term.
-  return std::min(std::sqrt(2.0 * area / kTargetNodeCount), surface.diameter() / 8.0);
+  // makeSearchGrid spends 1.3 to 1.5 nodes on a squared edge length of area; a body that is long and thin
+  // would get edges longer than it is thick, hence the second term.
+  return std::min(std::sqrt(1.5 * area / kTargetNodeCount), surface.diameter() / 8.0);
 }
 
 BodyMesh::BodyMesh(std::string name, SurfaceMesh surface, const BodyMeshOptions& options)
@@ -44,28 +44,21 @@ BodyMesh::BodyMesh(std::string name, SurfaceMesh surface, const BodyMeshOptions&
       topology_(buildMeshTopology(surface_)),
       tree_(surface_),
       max_edge_length_(edgeLengthOf(name_, surface_, options)),
-      refined_(refineToEdgeLength(surface_, max_edge_length_)),
-      graph_(buildNodeGraph(refined_.mesh)),
+      grid_(makeSearchGrid(surface_, max_edge_length_)),
+      graph_(buildNodeGraph(grid_.mesh)),
       geodesic_extent_(0.0),
       protrusion_spacing_(0.0) {
-  // Descending, so that the triangle of least index wins and the answer does not depend on the container.
-  std::vector<TriangleIndex> triangle_of_vertex(refined_.mesh.vertexCount());
-  for (std::size_t t = refined_.mesh.triangleCount(); t-- > 0;) {
-    for (const NodeIndex node : refined_.mesh.triangles()[t]) {
-      triangle_of_vertex[node.value] = refined_.original_triangle[t];
-    }
-  }
   if (!options.max_edge_length && graph_.nodeCount() > options.search_node_limit) {
     ThinnedGraph thinned = thinGraph(graph_, options.search_node_limit);
     for (const NodeIndex node : thinned.original_node) {
-      original_triangle_of_node_.push_back(triangle_of_vertex[node.value]);
+      original_triangle_of_node_.push_back(grid_.original_triangle_of_node[node.value]);
     }
     thinned.nearest.resize(surface_.vertexCount());  // the grid's first nodes are the surface's vertices
     graph_node_of_vertex_ = std::move(thinned.nearest);
     graph_ = std::move(thinned.graph);
     max_edge_length_ = thinned.longest_edge;
   } else {
-    original_triangle_of_node_ = std::move(triangle_of_vertex);
+    original_triangle_of_node_ = std::move(grid_.original_triangle_of_node);
   }
   metric_ = std::make_unique<MeshMetric>(graph_, options.metric);
   geodesic_extent_ = concave_distance::geodesicExtent(graph_);
@@ -81,8 +74,8 @@ std::size_t BodyMesh::memoryBytes() const {
                                surface_.triangleCount() * (3 * sizeof(TriangleIndex) + sizeof(std::uint32_t) +
                                                            sizeof(Eigen::Vector3d)) +
                                surface_.vertexCount() * (3 * sizeof(std::uint32_t) + sizeof(Eigen::Vector3d));
-  return meshBytes(surface_) + meshBytes(refined_.mesh) +
-         refined_.original_triangle.size() * sizeof(TriangleIndex) + topology + graph_.memoryBytes() +
+  return meshBytes(surface_) + meshBytes(grid_.mesh) +
+         original_triangle_of_node_.size() * sizeof(TriangleIndex) + topology + graph_.memoryBytes() +
          tree_.memoryBytes() + metric_->memoryBytes();
 }
 

@@ -9,7 +9,7 @@
 #include <sstream>
 #include <utility>
 
-#include "concave_distance/mesh/refine_mesh.h"
+#include "concave_distance/mesh/search_grid.h"
 
 namespace concave_distance::detail {
 namespace {
@@ -63,7 +63,7 @@ PreparedBody prepare(const BodySource& source) {
   prepared.options.max_edge_length = source.max_edge_length;
   const SurfaceMesh& surface = prepared.repaired.mesh;
   const double edge_length = source.max_edge_length.value_or(automaticEdgeLength(surface));
-  prepared.graph_nodes = refineToEdgeLength(surface, edge_length).mesh.vertexCount();
+  prepared.graph_nodes = makeSearchGrid(surface, edge_length).mesh.vertexCount();
   if (!source.max_edge_length) {
     // BodyMesh thins an automatic grid, to one node a shell at least.
     const std::size_t most = std::max(prepared.options.search_node_limit, prepared.repaired.report.shells);

@@ -91,8 +91,10 @@ RepairedMesh loadGeometry(const std::vector<GeometryElement>& elements, const st
     }
     appendTransformed(body, loadElement(element), element.frame_from_geometry);
   }
+  RepairOptions options;
+  options.weld_tolerance = kSinglePrecisionWeld;
   const bool is_one_file = elements.size() == 1 && !elements.front().mesh_resource.empty();
-  return repairMesh(body, RepairOptions{}, is_one_file ? elements.front().mesh_resource : where);
+  return repairMesh(body, options, is_one_file ? elements.front().mesh_resource : where);
 }
 
 std::string describeApproximations(const std::vector<GeometryElement>& elements) {

@@ -26,7 +26,8 @@ struct GeometryElement {
 void locateGeometry(GeometryElement& element, const std::string& base_folder,
                     const PackageLocator& package_locator);
 
-/// Loads located elements and merges them into one repaired surface in the body's frame.
+/// Loads located elements and merges them into one repaired surface in the body's frame; slits of
+/// single precision are welded (kSinglePrecisionWeld), so that what is meant to be closed is.
 /// @throws Error naming the element at fault: nothing of the body is served rather than a part of it
 RepairedMesh loadGeometry(const std::vector<GeometryElement>& elements, const std::string& where);
 

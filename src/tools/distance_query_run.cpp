@@ -22,7 +22,9 @@ constexpr std::uint32_t kLargestNicheCount = 1000;
 
 std::shared_ptr<const BodyMesh> loadBody(const std::string& path, double scale,
                                          const DistanceQueryOptions& options, std::ostream& log) {
-  RepairedMesh repaired = repairMesh(importMesh(path, Eigen::Vector3d::Constant(scale)), {}, path);
+  RepairOptions repair;
+  repair.weld_tolerance = kSinglePrecisionWeld;
+  RepairedMesh repaired = repairMesh(importMesh(path, Eigen::Vector3d::Constant(scale)), repair, path);
   if (const std::string summary = repaired.report.summary(); !summary.empty()) {
     log << path << ": " << summary << '\n';
   }

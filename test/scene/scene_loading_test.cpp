@@ -111,11 +111,12 @@ TEST_F(SceneLoading, AnAutomaticGridIsThinnedAsBodyMeshDoesAndCountedSo) {
   ball.dimensions = {1.0};
   ball.chord_error = 1e-3;
   ball.max_edge_length.reset();
-  const SceneBody thinned = loadBody(ball, "", nullptr, 1500 * 1500 * 6);
-  EXPECT_GT(thinned.mesh->grid().vertexCount(), 1500U);
-  EXPECT_EQ(thinned.mesh->graph().nodeCount(), 1500U);
+  const std::size_t kLimit = BodyMeshOptions().search_node_limit;
+  const SceneBody thinned = loadBody(ball, "", nullptr, kLimit * kLimit * 6);
+  EXPECT_GT(thinned.mesh->grid().vertexCount(), kLimit);
+  EXPECT_EQ(thinned.mesh->graph().nodeCount(), kLimit);
   EXPECT_TRUE(thinned.mesh->metric().hasMatrices());
-  EXPECT_FALSE(loadBody(ball, "", nullptr, 1500 * 1500 * 6 - 1).mesh->metric().hasMatrices());
+  EXPECT_FALSE(loadBody(ball, "", nullptr, kLimit * kLimit * 6 - 1).mesh->metric().hasMatrices());
 }
 
 TEST_F(SceneLoading, LimitOfTheFileGoesBeforeTheCallers) {

@@ -67,9 +67,21 @@ TEST(MeshMating, TheTwoChildrenTogetherReachTheWholePath) {
   MatingCase c(test::hookAndStairs());
   RandomEngine engine(11);
   SearchCost cost;
+  // The nodes farthest from the first: paths of several edges.
+  const auto farthest = [](MeshMetricQuery& query, std::size_t nodes) {
+    NodeIndex far{0};
+    for (std::uint32_t n = 1; n < nodes; ++n) {
+      const double way = query.distanceWithin(NodeIndex{0}, NodeIndex{n}, kInfinity);
+      if (std::isfinite(way) && way > query.distanceWithin(NodeIndex{0}, far, kInfinity)) {
+        far = NodeIndex{n};
+      }
+    }
+    return far;
+  };
   const TrialPoint x = c.objective.evaluate(NodeIndex{0}, NodeIndex{0}, cost);
-  const TrialPoint y = c.objective.evaluate(NodeIndex{c.scene.a->graph().nodeCount() - 1},
-                                            NodeIndex{c.scene.b->graph().nodeCount() - 1}, cost);
+  const TrialPoint y =
+      c.objective.evaluate(farthest(c.metric.onA(), c.scene.a->graph().nodeCount()),
+                           farthest(c.metric.onB(), c.scene.b->graph().nodeCount()), cost);
   std::vector<NodeIndex> path;
   c.metric.onA().shortestPath(std::min(x, y).node_a, std::max(x, y).node_a, path);
   ASSERT_GE(path.size(), 5U);

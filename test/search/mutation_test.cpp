@@ -30,7 +30,7 @@ RC_GTEST_PROP(Mutation, MovesWithinTheRadiusOnTheShell, ()) {
 }
 
 TEST(Mutation, MovesOneGeneOrTheOtherOrBoth) {
-  const test::PairScene scene = test::facingCombs();
+  const test::PairScene scene = test::facingCombs(0.05);
   const PairObjective objective(*scene.a, *scene.b, scene.a_from_b);
   PairMetric metric(*scene.a, *scene.b);
   RandomEngine engine(21);

@@ -8,7 +8,7 @@
 #include "concave_distance/mesh/mesh_metric.h"
 #include "concave_distance/mesh/mesh_topology.h"
 #include "concave_distance/mesh/node_graph.h"
-#include "concave_distance/mesh/refine_mesh.h"
+#include "concave_distance/mesh/search_grid.h"
 #include "concave_distance/mesh/surface_mesh.h"
 #include "concave_distance/mesh/triangle_tree.h"
 
@@ -19,7 +19,7 @@ struct BodyMeshOptions {
   std::optional<double> max_edge_length;
   /// With an automatic grid, nodes of the search graph at the most: a finer mesh is thinned to evenly spread
   /// nodes (thinGraph). An explicit grid size is taken as it is.
-  std::size_t search_node_limit = 1500;
+  std::size_t search_node_limit = 800;
   MeshMetricOptions metric;
 };
 
@@ -29,7 +29,8 @@ struct BodyMeshOptions {
 double automaticEdgeLength(const SurfaceMesh& surface);
 
 /// One body, ready for queries: the original surface with its topology and tree for the exact levels, the
-/// refined grid with its graph and metric for the search. Immutable; shared between pairs and threads.
+/// even grid (makeSearchGrid) with its graph and metric for the search. Immutable; shared between pairs and
+/// threads.
 class BodyMesh {
  public:
   /// @param surface repaired, original triangles, body frame, metres
@@ -42,10 +43,10 @@ class BodyMesh {
   const SurfaceMesh& surface() const { return surface_; }
   const MeshTopology& topology() const { return topology_; }
   const TriangleTree& tree() const { return tree_; }
-  const SurfaceMesh& grid() const { return refined_.mesh; }
+  const SurfaceMesh& grid() const { return grid_.mesh; }
   /// What the search moves on: the grid's nodes or, where thinned() says so, an even choice of them.
   const NodeGraph& graph() const { return graph_; }
-  bool thinned() const { return graph_.nodeCount() < refined_.mesh.vertexCount(); }
+  bool thinned() const { return graph_.nodeCount() < grid_.mesh.vertexCount(); }
   const MeshMetric& metric() const { return *metric_; }
   double maxEdgeLength() const { return max_edge_length_; }
   double diameter() const { return surface_.diameter(); }
@@ -69,7 +70,7 @@ class BodyMesh {
   MeshTopology topology_;
   TriangleTree tree_;
   double max_edge_length_;
-  RefinedMesh refined_;
+  SearchGrid grid_;
   NodeGraph graph_;
   std::vector<TriangleIndex> original_triangle_of_node_;
   std::vector<NodeIndex> graph_node_of_vertex_;  ///< empty unless thinned

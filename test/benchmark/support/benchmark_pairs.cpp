@@ -24,7 +24,9 @@ std::string sourceFile(const std::string& relative) {
 
 SurfaceMesh loadSurface(const std::string& relative) {
   const std::string path = sourceFile(relative);
-  return repairMesh(importMesh(path), {}, path).mesh;
+  RepairOptions options;
+  options.weld_tolerance = kSinglePrecisionWeld;
+  return repairMesh(importMesh(path), options, path).mesh;
 }
 
 Eigen::Isometry3d poseOf(const Eigen::Vector3d& position, const Eigen::Quaterniond& rotation) {
