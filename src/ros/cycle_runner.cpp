@@ -98,8 +98,9 @@ void CycleRunner::checkClock(ros::Time now) {
 void CycleRunner::adoptScene() {
   std::shared_ptr<const ServedScene> served = keeper_.served();
   if (served != served_) {
+    const bool settings_changed = !served_ || served_->settings_revision != served->settings_revision;
     served_ = std::move(served);
-    cycle_.setScene(*served_->scene);
+    cycle_.setScene(*served_->scene, settings_changed);
     publishers_.publishRetired(cycle_.takeRetired());
   }
   const RestartRequests::Pending pending = restarts_.take();
@@ -120,8 +121,11 @@ CycleRecord CycleRunner::runCycle(ros::Time now) {
   publishers_.readDemand(*served_, publish_markers_, marker_cycle, demand_);
   CycleRecord record;
   record.report = cycle_.run(demand_, now);
-  record.latency = publishers_.publish(*served_, cycle_.pairs(),
-                                       std::max(kMarkerPeriods / marker_rate, kShortestMarkerLife), now);
+  const PublishReport published = publishers_.publish(
+      *served_, cycle_.pairs(), std::max(kMarkerPeriods / marker_rate, kShortestMarkerLife), now);
+  record.latency = published.latency;
+  record.messages = published.messages;
+  record.markers = published.markers;
   record.failing = failingPairs(cycle_.pairs());
   return record;
 }

@@ -36,7 +36,7 @@ void watchWarning(TrackedPair& pair) {
 DistanceCycle::DistanceCycle(const tf2::BufferCore& buffer, CycleOptions options)
     : buffer_(buffer), options_(std::move(options)), arena_(arenaSize(options_.threads)) {}
 
-void DistanceCycle::setScene(const Scene& scene) {
+void DistanceCycle::setScene(const Scene& scene, bool settings_changed) {
   std::map<std::string, std::unique_ptr<TrackedPair>> before;
   for (auto& pair : pairs_) {
     last_ids_[pair->heading.pair] = pair->largest_id;
@@ -51,7 +51,7 @@ void DistanceCycle::setScene(const Scene& scene) {
         found->second->mesh_b == fresh->mesh_b) {
       found->second->settings = fresh->settings;
       found->second->enabled = fresh->enabled;
-      found->second->stale_parameters = true;
+      found->second->stale_parameters = found->second->stale_parameters || settings_changed;
       fresh = std::move(found->second);
     }
     pairs_.push_back(std::move(fresh));

@@ -6,7 +6,7 @@ namespace concave_distance {
 
 SceneKeeper::SceneKeeper(TopicPublishers& publishers, const PairSettings& defaults, const MarkerStyle& style)
     : publishers_(publishers), style_(style), defaults_(defaults) {
-  serve(Scene());
+  serve(Scene(), true);
 }
 
 std::shared_ptr<const ServedScene> SceneKeeper::served() {
@@ -21,22 +21,28 @@ PairSettings SceneKeeper::defaults() {
 
 void SceneKeeper::replace(Scene scene) {
   const std::lock_guard<std::mutex> edit_lock(edit_mutex_);
-  serve(std::move(scene));
+  serve(std::move(scene), true);
 }
 
 void SceneKeeper::edit(const std::function<void(Scene&)>& change) {
+  apply(change, false);
+}
+
+void SceneKeeper::apply(const std::function<void(Scene&)>& change, bool settings_changed) {
   const std::lock_guard<std::mutex> edit_lock(edit_mutex_);
   Scene edited = *served()->scene;
   change(edited);
-  serve(std::move(edited));
+  serve(std::move(edited), settings_changed);
 }
 
 void SceneKeeper::changeSettings(const std::function<void(PairSettings&)>& change) {
-  edit([&](Scene& scene) {
-    for (ScenePair& pair : scene.pairs) {
-      change(pair.settings);
-    }
-  });
+  apply(
+      [&](Scene& scene) {
+        for (ScenePair& pair : scene.pairs) {
+          change(pair.settings);
+        }
+      },
+      true);
   const std::lock_guard<std::mutex> lock(mutex_);
   change(defaults_);
 }
@@ -51,10 +57,11 @@ void SceneKeeper::setWaitingFor(const std::string& what) {
   waiting_for_ = what;
 }
 
-void SceneKeeper::serve(Scene scene) {
+void SceneKeeper::serve(Scene scene, bool settings_changed) {
   const std::shared_ptr<const ServedScene> before = served();
+  const std::uint64_t revision = (before ? before->settings_revision : 0) + (settings_changed ? 1 : 0);
   std::shared_ptr<const ServedScene> next =
-      publishers_.serve(std::make_shared<const Scene>(std::move(scene)), before.get(), style_);
+      publishers_.serve(std::make_shared<const Scene>(std::move(scene)), before.get(), style_, revision);
   const std::lock_guard<std::mutex> lock(mutex_);
   served_ = std::move(next);
 }

@@ -80,8 +80,8 @@ TopicPublishers::TopicPublishers(const ros::NodeHandle& node, std::string refere
                                              [this] { repeat_alerts_ = true; })) {}
 
 std::shared_ptr<const ServedScene> TopicPublishers::serve(const std::shared_ptr<const Scene>& scene,
-                                                          const ServedScene* before,
-                                                          const MarkerStyle& style) {
+                                                          const ServedScene* before, const MarkerStyle& style,
+                                                          std::uint64_t settings_revision) {
   std::map<std::string, ServedScene::PairTopics> known;
   if (before != nullptr) {
     for (std::size_t index = 0; index < before->topics.size(); ++index) {
@@ -89,6 +89,7 @@ std::shared_ptr<const ServedScene> TopicPublishers::serve(const std::shared_ptr<
     }
   }
   auto served = std::make_shared<ServedScene>();
+  served->settings_revision = settings_revision;
   served->scene = scene;
   served->marker_style = style;
   if (style.scale == 0.0) {
@@ -130,9 +131,9 @@ void TopicPublishers::readDemand(const ServedScene& served, bool markers_wanted,
   }
 }
 
-Series TopicPublishers::publish(const ServedScene& served,
-                                const std::vector<std::unique_ptr<TrackedPair>>& pairs,
-                                double marker_lifetime, ros::Time now) {
+PublishReport TopicPublishers::publish(const ServedScene& served,
+                                       const std::vector<std::unique_ptr<TrackedPair>>& pairs,
+                                       double marker_lifetime, ros::Time now) {
   messages_.clear();
   for (std::size_t index = 0; index < pairs.size(); ++index) {
     const TrackedPair& pair = *pairs[index];
@@ -148,19 +149,20 @@ Series TopicPublishers::publish(const ServedScene& served,
       topics.niches.publish(boost::make_shared<PairNiches>(messages_.back()));
     }
   }
+  PublishReport report;
+  report.messages = static_cast<std::uint32_t>(messages_.size());
   publishAlerts(pairs);
   if (markers_due_) {
-    publishMarkers(served, marker_lifetime, now);
+    report.markers = static_cast<std::uint32_t>(publishMarkers(served, marker_lifetime, now));
   }
   publishLists(now);
-  Series latency;
   const ros::Time end = ros::Time::now();
   for (const auto& pair : pairs) {
     if (pair->demand.due && pair->solved && !pair->repeated && !pair->fixed) {
-      latency.add((end - pair->heading.stamp).toSec());
+      report.latency.add((end - pair->heading.stamp).toSec());
     }
   }
-  return latency;
+  return report;
 }
 
 void TopicPublishers::publishAlerts(const std::vector<std::unique_ptr<TrackedPair>>& pairs) {
@@ -178,7 +180,7 @@ void TopicPublishers::publishRetired(const std::vector<std::unique_ptr<TrackedPa
   }
 }
 
-void TopicPublishers::publishMarkers(const ServedScene& served, double lifetime, ros::Time now) {
+std::size_t TopicPublishers::publishMarkers(const ServedScene& served, double lifetime, ros::Time now) {
   std::vector<visualization_msgs::Marker> markers;
   if (markers_wanted_) {
     for (const PairNiches& message : messages_) {
@@ -189,8 +191,10 @@ void TopicPublishers::publishMarkers(const ServedScene& served, double lifetime,
   std_msgs::Header header;
   header.frame_id = reference_frame_;
   header.stamp = now;
-  markers_.publish(
-      boost::make_shared<visualization_msgs::MarkerArray>(withDeletions(std::move(markers), header, shown_)));
+  const auto message =
+      boost::make_shared<visualization_msgs::MarkerArray>(withDeletions(std::move(markers), header, shown_));
+  markers_.publish(message);
+  return message->markers.size();
 }
 
 void TopicPublishers::publishLists(ros::Time now) {

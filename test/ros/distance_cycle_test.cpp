@@ -165,6 +165,15 @@ TEST_F(DistanceCycleTest, KeepsWarmWhatAnEditOfTheSceneDoesNotTouch) {
   EXPECT_TRUE(pair(0).solution.warm);
 }
 
+TEST_F(DistanceCycleTest, SolvesNoPairAnewForAnEditThatChangesNoSettings) {
+  moveAll(0);
+  run(0, kNiches, kNiches);
+  cycle.setScene(scene, false);
+  EXPECT_EQ(run(1, kNiches, kNiches).repeated, 2U);
+  cycle.setScene(scene, true);
+  EXPECT_EQ(run(2, kNiches, kNiches).solved, 2U);
+}
+
 TEST_F(DistanceCycleTest, TakesBackTheAlertOfAPairThatIsSwitchedOffOrRemoved) {
   for (ScenePair& one : scene.pairs) {
     one.settings.warning_distance = 5.0;

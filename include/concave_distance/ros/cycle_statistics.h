@@ -26,6 +26,8 @@ struct CycleRecord {
   double cpu = 0.0;                  ///< processor time of all threads that worked on the cycle
   bool late = false;                 ///< ended after the next cycle was due
   Series latency;                    ///< from the transforms' time to the message, of each pair newly solved
+  std::uint32_t messages = 0;        ///< pairs turned into messages
+  std::uint32_t markers = 0;         ///< drawn or deleted
   std::vector<std::string> failing;  ///< pairs without transforms, each with the reason
 };
 
@@ -41,6 +43,8 @@ struct CycleWindow {
   std::uint64_t cold = 0;
   std::uint64_t repeated = 0;
   std::uint64_t search_misses = 0;
+  std::uint64_t messages = 0;
+  std::uint64_t markers = 0;
   CycleReport last;                  ///< of the last cycle
   std::vector<std::string> failing;  ///< in the last cycle
 };

@@ -41,7 +41,8 @@ class DistanceCycle {
   DistanceCycle(const tf2::BufferCore& buffer, CycleOptions options);
 
   /// Pairs that are in both scenes with the same meshes go on, warm. The order becomes that of scene.pairs.
-  void setScene(const Scene& scene);
+  /// @param settings_changed false: no pair of both scenes has other settings, and none is solved anew
+  void setScene(const Scene& scene, bool settings_changed = true);
   /// @param demand one per pair, in their order. A pair that is not watched costs nothing and starts cold
   /// when
   ///        it is watched again; one that is watched but not due keeps its state.

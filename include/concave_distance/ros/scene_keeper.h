@@ -23,7 +23,8 @@ class SceneKeeper {
   PairSettings defaults();
 
   void replace(Scene scene);
-  /// Applies `change` to a copy and serves that; when `change` throws, nothing has happened.
+  /// Applies `change` to a copy and serves that; when `change` throws, nothing has happened. It leaves the
+  /// settings of pairs that are there as they are: such pairs are tracked on, untouched.
   void edit(const std::function<void(Scene&)>& change);
   /// Applies `change` to every pair and to the defaults.
   void changeSettings(const std::function<void(PairSettings&)>& change);
@@ -33,7 +34,8 @@ class SceneKeeper {
   void setWaitingFor(const std::string& what);
 
  private:
-  void serve(Scene scene);
+  void apply(const std::function<void(Scene&)>& change, bool settings_changed);
+  void serve(Scene scene, bool settings_changed);
 
   TopicPublishers& publishers_;
   MarkerStyle style_;

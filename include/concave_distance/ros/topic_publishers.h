@@ -24,8 +24,16 @@ struct ServedScene {
     WatchedTopic niches;
   };
   std::shared_ptr<const Scene> scene;
-  std::vector<PairTopics> topics;  ///< one per scene->pairs
-  MarkerStyle marker_style;        ///< with its scale resolved
+  std::vector<PairTopics> topics;       ///< one per scene->pairs
+  MarkerStyle marker_style;             ///< with its scale resolved
+  std::uint64_t settings_revision = 0;  ///< another one: the settings of pairs that were there have changed
+};
+
+/// What was built and sent in one cycle.
+struct PublishReport {
+  Series latency;  ///< s, from the transforms' time to the end of publishing, of each pair newly solved
+  std::uint32_t messages = 0;  ///< pairs turned into messages
+  std::uint32_t markers = 0;   ///< drawn or deleted
 };
 
 /// Every topic of the cycle: who listens to what, and one cycle's messages.
@@ -36,7 +44,8 @@ class TopicPublishers {
   /// Advertises the topics of pairs that have none yet; those of pairs that are gone end with the last
   /// ServedScene that names them. Not from the cycle's thread: it talks to the master.
   std::shared_ptr<const ServedScene> serve(const std::shared_ptr<const Scene>& scene,
-                                           const ServedScene* before, const MarkerStyle& style);
+                                           const ServedScene* before, const MarkerStyle& style,
+                                           std::uint64_t settings_revision);
 
   /// @param marker_cycle markers are sent in this cycle when somebody listens
   void readDemand(const ServedScene& served, bool markers_wanted, bool marker_cycle,
@@ -44,16 +53,16 @@ class TopicPublishers {
 
   /// Publishes the pairs that are due. A message is built once and not touched after it was published.
   /// @param marker_lifetime seconds
-  /// @return seconds from the transforms' time to the end of publishing, of each pair newly solved
-  Series publish(const ServedScene& served, const std::vector<std::unique_ptr<TrackedPair>>& pairs,
-                 double marker_lifetime, ros::Time now);
+  PublishReport publish(const ServedScene& served, const std::vector<std::unique_ptr<TrackedPair>>& pairs,
+                        double marker_lifetime, ros::Time now);
 
   /// The alerts of pairs that left the scene (DistanceCycle::takeRetired).
   void publishRetired(const std::vector<std::unique_ptr<TrackedPair>>& pairs);
 
  private:
   void publishAlerts(const std::vector<std::unique_ptr<TrackedPair>>& pairs);
-  void publishMarkers(const ServedScene& served, double lifetime, ros::Time now);
+  /// @return how many markers
+  std::size_t publishMarkers(const ServedScene& served, double lifetime, ros::Time now);
   void publishLists(ros::Time now);
 
   ros::NodeHandle node_;
