@@ -1,13 +1,17 @@
 // The node under a simulated clock: before it runs, while it runs, and when it jumps back.
+#include <concave_distance/Distances.h>
 #include <concave_distance/GetDistance.h>
 #include <concave_distance/PairNiches.h>
 #include <gtest/gtest.h>
 #include <ros/init.h>
 #include <ros/spinner.h>
 #include <rosgraph_msgs/Clock.h>
+#include <tf2_ros/static_transform_broadcaster.h>
 
 #include <algorithm>
 #include <atomic>
+#include <functional>
+#include <string>
 #include <thread>
 
 #include "rostest_support.h"
@@ -47,12 +51,30 @@ class Clock {
   std::thread thread_;
 };
 
+geometry_msgs::TransformStamped standInWorld() {
+  geometry_msgs::TransformStamped transform;
+  transform.header.frame_id = "world";
+  transform.child_frame_id = "stand";
+  transform.transform.translation.y = -3.0;
+  transform.transform.rotation.w = 1.0;
+  return transform;
+}
+
+std::function<bool(const Distances&)> isSolved(const std::string& pair) {
+  return [pair](const Distances& message) {
+    return std::any_of(message.pairs.begin(), message.pairs.end(), [&](const PairDistance& distance) {
+      return distance.pair == pair && distance.has_distance != 0;
+    });
+  };
+}
+
 TEST(SimulatedClock, IsWaitedForFollowedAndMayJumpBack) {
   Clock clock;
   TfPlayer player;
   player.place("box_a", 0.0);
   player.place("box_b", 2.0);
-  player.place("ball", 0.0, 3.0);
+  tf2_ros::StaticTransformBroadcaster static_broadcaster;
+  static_broadcaster.sendTransform(standInWorld());
   Collector<PairNiches> niches(kNode + "pairs/boxes/niches");
 
   GetDistanceRequest request;
@@ -73,11 +95,18 @@ TEST(SimulatedClock, IsWaitedForFollowedAndMayJumpBack) {
   EXPECT_GT(niches.last()->header.stamp, ros::Time(1000.0));
   const std::uint64_t id = niches.last()->nearest.nearest_niche_id;
 
+  Collector<Distances> distances(kNode + "distances");
+  ASSERT_TRUE(distances.waitFor(isSolved("on_stand"))) << "a body on a static frame";
+
   clock.set(10.0);
   EXPECT_TRUE(niches.waitFor([&](const PairNiches& message) {
     return message.header.stamp < ros::Time(100.0) && message.warm && message.nearest.has_distance;
   })) << "it goes on in the new time";
   EXPECT_GT(niches.last()->nearest.nearest_niche_id, id) << "tracked niches of the other time are gone";
+  distances.clear();
+  EXPECT_TRUE(distances.waitFor(isSolved("on_stand"))) << "static transforms, sent once, outlive the jump";
+  EXPECT_TRUE(distances.last()->header.stamp < ros::Time(100.0));
+  EXPECT_TRUE(call<GetDistance>(kNode + "get_distance", request).success) << "services go on";
   const std::vector<PairNiches> all = niches.all();
   const auto jump = std::find_if(all.begin(), all.end(), [](const PairNiches& message) {
     return message.header.stamp < ros::Time(100.0) && message.nearest.has_distance;

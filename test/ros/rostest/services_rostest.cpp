@@ -106,6 +106,7 @@ TEST_F(ServicesTest, GetDistanceRefusesBadRequestsWithTheReason) {
   GetDistanceRequest request = boxes();
   request.query.body_b = "nobody";
   expectRefusal(request, "nobody");
+  expectRefusal(request, "list_bodies tells");
   request = boxes();
   request.query.body_b = "box_a";
   expectRefusal(request, "two different bodies");
@@ -119,6 +120,12 @@ TEST_F(ServicesTest, GetDistanceRefusesBadRequestsWithTheReason) {
   request.query.pose_a.pose.orientation.w = 1.0;
   request.query.pose_a.pose.position.y = std::numeric_limits<double>::quiet_NaN();
   expectRefusal(request, "finite");
+  request.query.pose_a.pose.position.y = 0.0;
+  request.query.pose_a.pose.orientation.x = std::numeric_limits<double>::quiet_NaN();
+  expectRefusal(request, "finite");
+  request.query.pose_a.pose.orientation.x = 0.0;
+  request.query.pose_a.pose.orientation.w = 0.0;
+  expectRefusal(request, "quaternion");
   request = boxes();
   request.query.accuracy = DistanceQuery::ACCURACY_CERTIFIED;
   expectRefusal(request, "certified");

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -35,6 +36,17 @@ std::string diagnosed(const diagnostic_msgs::DiagnosticArray& message, const std
     }
   }
   return "";
+}
+
+double counted(const diagnostic_msgs::DiagnosticArray& message, const std::string& key) {
+  const std::string value = diagnosed(message, key);
+  return value.empty() ? std::nan("") : std::stod(value);
+}
+
+// A period in which cycles did nothing but look who listens.
+bool isIdle(const diagnostic_msgs::DiagnosticArray& message) {
+  return counted(message, "solves") == 0 && counted(message, "pairs watched") == 0 &&
+         counted(message, "pairs turned into messages") == 0 && counted(message, "markers built") == 0;
 }
 
 const PairDistance* find(const Distances& distances, const std::string& pair) {
@@ -67,13 +79,31 @@ class TopicsTest : public ::testing::Test {
 TEST_F(TopicsTest, NothingIsComputedWithoutSubscribers) {
   Collector<diagnostic_msgs::DiagnosticArray> diagnostics("/diagnostics");
   ASSERT_TRUE(diagnostics.waitFor([](const auto& message) {
-    return diagnosed(message, "solves") == "0" && diagnosed(message, "pairs watched") == "0" &&
-           !diagnosed(message, "cycles").empty() && diagnosed(message, "cycles") != "0";
-  })) << "cycles run, nothing is solved";
-  Collector<PairDistance> one(kNode + "pairs/boxes/distance");
+    return counted(message, "cycles") > 0 && isIdle(message);
+  })) << "cycles run, nothing is solved, no message and no marker built";
+  {
+    Collector<PairDistance> one(kNode + "pairs/boxes/distance");
+    EXPECT_TRUE(diagnostics.waitFor([](const auto& message) {
+      return counted(message, "pairs watched") == 1 && counted(message, "solves") > 0 &&
+             counted(message, "pairs turned into messages") == counted(message, "cycles") &&
+             counted(message, "markers built") == 0;
+    })) << "the pair subscribed to and no other, and no marker";
+  }
+  EXPECT_TRUE(diagnostics.waitFor(isIdle)) << "the last subscriber has gone";
+}
+
+TEST_F(TopicsTest, MarkersAloneMakeTheNodeSolveAtTheirRateOnly) {
+  Collector<diagnostic_msgs::DiagnosticArray> diagnostics("/diagnostics");
+  Collector<visualization_msgs::MarkerArray> markers(kNode + "markers");
+  // 100 cycles a second, every fifth with markers: each pair is solved 20 times.
   EXPECT_TRUE(diagnostics.waitFor([](const auto& message) {
-    return diagnosed(message, "pairs watched") == "1" && diagnosed(message, "solves") != "0";
-  })) << "the pair subscribed to and no other";
+    const double cycles = counted(message, "cycles");
+    const double of_each_pair = counted(message, "pairs turned into messages") / 3.0;
+    return cycles > 50 && of_each_pair > 0.1 * cycles && of_each_pair < 0.3 * cycles &&
+           counted(message, "markers built") > 0;
+  })) << "pairs turned into messages: "
+      << diagnosed(*diagnostics.last(), "pairs turned into messages") << " in "
+      << diagnosed(*diagnostics.last(), "cycles") << " cycles";
 }
 
 TEST_F(TopicsTest, DistancesCarryEveryPairAtTheTimeOfItsTransforms) {
@@ -125,6 +155,46 @@ TEST_F(TopicsTest, NichesKeepTheirIdsFromCycleToCycle) {
     EXPECT_EQ(message.niches[0].kind, Niche::KIND_PATCH) << "parallel faces";
     EXPECT_NEAR(message.niches[0].distance, 1.0, kRounding);
   }
+}
+
+// The ball passes over two blocks, from one to the other and back: the distance to the one shrinks while that
+// to the other grows, and they cross in the middle.
+TEST_F(TopicsTest, NichesThatStayApartKeepTheirIdsWhileTheirDistancesCross) {
+  const auto isOver = [](double x) {
+    return [x](const PairNiches& message) {
+      return message.niches.size() == 2 &&
+             std::abs(message.niches[0].point_b.x - std::copysign(0.75, x)) < 0.3;
+    };
+  };
+  player.place("ball", -0.6, 3.0, 11.0);
+  Collector<PairNiches> niches(kNode + "pairs/ball_blocks/niches");
+  ASSERT_TRUE(niches.waitFor(isOver(-1.0)));
+  niches.clear();
+  for (int step = -60; step <= 180; ++step) {
+    const double x = step <= 60 ? 0.01 * step : 0.01 * (120 - step);
+    player.place("ball", x, 3.0, 11.0);
+    ros::WallDuration(0.01).sleep();
+    if (step == 60) {
+      ASSERT_TRUE(niches.waitFor(isOver(1.0)));
+    }
+  }
+  ASSERT_TRUE(niches.waitFor(isOver(-1.0)));
+  const std::vector<PairNiches> all = niches.all();
+  ASSERT_GT(all.size(), 100U);
+  std::map<bool, std::set<std::uint64_t>> ids_of_side;  // of the block on the right: true
+  std::size_t crossings = 0;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    EXPECT_EQ(all[i].niches.size(), 2U) << "one niche a block";
+    EXPECT_TRUE(all[i].changes.empty()) << "no birth, no death, no merger";
+    for (const Niche& niche : all[i].niches) {
+      ids_of_side[niche.point_b.x > 0.0].insert(niche.id);
+    }
+    crossings += i > 0 && all[i].nearest.nearest_niche_id != all[i - 1].nearest.nearest_niche_id ? 1 : 0;
+  }
+  EXPECT_EQ(ids_of_side[false].size(), 1U) << "one id on the left";
+  EXPECT_EQ(ids_of_side[true].size(), 1U) << "one on the right";
+  EXPECT_NE(ids_of_side[false], ids_of_side[true]);
+  EXPECT_EQ(crossings, 2U) << "the nearest is the other one, there and back";
 }
 
 TEST_F(TopicsTest, APairWithoutTransformsSaysSoAndTheOthersGoOn) {
