@@ -1,0 +1,82 @@
+#!/usr/bin/env bash
+# Measures the node on two moving scenes and writes the figures to doc/results/node_timing.txt.
+#   scripts/measure_node.sh [--seconds N] [--output FILE] [--prefix COMMAND] [pair] [robot] [robot_all]
+# pair: the battery in its fixture, one pair, poses and cycles at 500 Hz; robot: the arm in the shelf, 35 pairs, poses
+# and cycles at 50 Hz; robot_all: the same without the cutoff, so that all 35 pairs are solved in every cycle. All three
+# by default, 60 s each. --prefix "chrt -f 20" runs the node with real-time priority (needs the right to), which keeps
+# other programs' load out of the figures. Needs a finished build (scripts/build.sh all). How to read the figures:
+# test/ros/timing/node_timing.cpp.
+set -euo pipefail
+# shellcheck source=scripts/common.sh
+. "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+source_ros
+
+seconds=60
+output="$package_dir/doc/results/node_timing.txt"
+prefix=
+scenes=()
+while [ $# -gt 0 ]; do
+  case "$1" in
+    --seconds) seconds="${2:?--seconds needs a number}" && shift ;;
+    --output) output="${2:?--output needs a file}" && shift ;;
+    --prefix) prefix="${2:?--prefix needs a command}" && shift ;;
+    pair | robot | robot_all) scenes+=("$1") ;;
+    *) die "unknown argument '$1': expected pair, robot, robot_all, --seconds N, --output FILE or --prefix COMMAND" ;;
+  esac
+  shift
+done
+[ ${#scenes[@]} -gt 0 ] || scenes=(pair robot robot_all)
+[ -x "$build_dir/devel/lib/concave_distance/node_timing" ] || die "node_timing is not built: run scripts/build.sh all"
+set +u
+# shellcheck disable=SC1091
+. "$build_dir/devel/setup.bash"
+set -u
+# A master of its own, beside one that may run.
+export ROS_MASTER_URI=http://localhost:11411 ROS_HOSTNAME=localhost ROS_LOG_DIR="$build_dir/ros_logs"
+unset ROS_IP
+mkdir -p "$ROS_LOG_DIR" "$(dirname "$output")"
+if rosparam get /run_id >/dev/null 2>&1; then die "a master already runs at $ROS_MASTER_URI: end it first"; fi
+
+launch_pid=
+end_scene() {
+  [ -n "$launch_pid" ] || return 0
+  kill -INT "$launch_pid" 2>/dev/null || true
+  wait "$launch_pid" 2>/dev/null || true
+  launch_pid=
+}
+trap end_scene EXIT
+
+measure() { # <title> <topic> <cutoff or -1> <roslaunch arguments ...>
+  local title="$1" topic="$2" cutoff="$3" load
+  shift 3
+  load="$(cut -d ' ' -f 1-3 /proc/loadavg)"
+  setsid roslaunch --port=11411 concave_distance "$@" rviz:=false launch_prefix:="$prefix" </dev/null >"$ROS_LOG_DIR/measure_node.log" 2>&1 &
+  launch_pid=$!
+  until rosparam get /run_id >/dev/null 2>&1; do
+    kill -0 "$launch_pid" 2>/dev/null || { tail -n 30 "$ROS_LOG_DIR/measure_node.log" >&2 && die "the scene did not start"; }
+    sleep 0.2
+  done
+  echo "$title; subscribed: $topic; roslaunch concave_distance $*"
+  "$build_dir/devel/lib/concave_distance/node_timing" _node:=/concave_distance _seconds:="$seconds" \
+    _topic:="$topic" _cutoff:="$cutoff"
+  echo "  load average   before: $load; after: $(cut -d ' ' -f 1-3 /proc/loadavg) (this measurement included)"
+  echo
+  end_scene
+}
+
+exec > >(tee "$output")
+echo "# scripts/measure_node.sh --seconds $seconds ${prefix:+--prefix \"$prefix\" }${scenes[*]}"
+echo "# $(nproc) cores of $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1), $(uname -s) $(uname -r), release build"
+echo
+for scene in "${scenes[@]}"; do
+  case "$scene" in
+    pair)
+      measure "one pair at 500 Hz" distances -1 insertion.launch rate:=500 pose_rate:=500
+      measure "one pair at 500 Hz" niches -1 insertion.launch rate:=500 pose_rate:=500
+      ;;
+    robot) measure "robot scene at 50 Hz" niches -1 robot.launch rate:=50 pose_rate:=50 ;;
+    robot_all)
+      measure "robot scene at 50 Hz, no cutoff: all 35 pairs solved" niches 1000 robot.launch rate:=50 pose_rate:=50
+      ;;
+  esac
+done

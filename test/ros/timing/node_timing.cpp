@@ -1,0 +1,106 @@
+// How a running node keeps time: late cycles, processor time, latency from transforms to messages.
+//
+//   rosrun concave_distance node_timing [_node:=/concave_distance] [_seconds:=60] [_topic:=niches]
+//   [_cutoff:=-1]
+//
+// _topic is `niches` or `distances`; a _cutoff that is not negative (m) is first set for every pair.
+// Subscribes to that topic and to the diagnostics, warms up, listens for that many seconds and
+// prints figures, one a line. scripts/measure_node.sh starts it beside the demo scenes. How to read them:
+//   cycles         the node's own count from its diagnostics; late: ended after the next one was due
+//   messages       on the topic, counted here: what a subscriber got; the largest gap between two of them
+//   solved         pairs a cycle; repeated: answers that stand because no newer transforms had come
+//   bare timer     the same count of a thread that only sleeps: what the machine alone makes late; stolen:
+//   processor
+//                  time that the machine below a virtual one took, of all cores' time
+//   thread CPU     of the cycle's thread and its helpers, a cycle, and as a share of the period
+//   process CPU    of the whole node (tf, sockets, services too), as a share of one core
+//   warm, cold solves   wall time of the solves of single pairs, and the longest of them
+//   from stamp     from the transforms' stamp until the message is here: the way through two sockets, the
+//   wait
+//                  for the next cycle and the cycle
+//   from receipt   the same from when the transforms came here, nearly when the node got them
+#include <dynamic_reconfigure/Reconfigure.h>
+#include <ros/callback_queue.h>
+#include <ros/init.h>
+#include <ros/node_handle.h>
+#include <ros/service.h>
+
+#include <cstdio>
+#include <string>
+
+#include "bare_timer.h"
+#include "measurement.h"
+#include "processor_time.h"
+
+namespace concave_distance {
+namespace {
+
+constexpr double kWarmUp = 5.0;          // s, after the first solved message
+constexpr double kLongestStart = 120.0;  // s, that the scene may take to load
+
+bool setCutoff(const std::string& node, double cutoff) {
+  dynamic_reconfigure::Reconfigure service;
+  service.request.config.doubles.resize(1);
+  service.request.config.doubles[0].name = "cutoff";
+  service.request.config.doubles[0].value = cutoff;
+  return ros::service::call(node + "/set_parameters", service);
+}
+
+/// Handles messages for that long, or until the condition holds.
+template <typename Condition>
+bool spinFor(double seconds, const Condition& until) {
+  const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(seconds);
+  while (ros::ok() && ros::WallTime::now() < end) {
+    ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.05));
+    if (until()) {
+      return true;
+    }
+  }
+  return false;
+}
+
+int run() {
+  const ros::NodeHandle parameters("~");
+  const std::string measured = parameters.param<std::string>("node", "/concave_distance");
+  const double seconds = parameters.param("seconds", 60.0);
+  const std::string topic = parameters.param<std::string>("topic", "niches");
+  if (topic != "niches" && topic != "distances") {
+    std::fprintf(stderr, "~topic is '%s': expected niches or distances.\n", topic.c_str());
+    return 1;
+  }
+  ros::NodeHandle node;
+  Measurement measurement(node, measured, topic);
+  if (!spinFor(kLongestStart, [&] { return measurement.hasSeenADistance(); })) {
+    std::fprintf(stderr, "No distance came on %s/%s within %.0f s.\n", measured.c_str(), topic.c_str(),
+                 kLongestStart);
+    return 1;
+  }
+  const double cutoff = parameters.param("cutoff", -1.0);
+  if (cutoff >= 0.0 && !setCutoff(measured, cutoff)) {
+    std::fprintf(stderr, "The cutoff could not be set.\n");
+    return 1;
+  }
+  double rate = 0.0;
+  node.getParam(measured + "/rate", rate);
+  const auto never = [] { return false; };
+  spinFor(kWarmUp, never);
+  const int process = processOf(measured);
+  const double stolen_before = stolenSeconds();
+  const double process_before = processSeconds(process);
+  const ros::WallTime begin = ros::WallTime::now();
+  BareTimer bare(1.0 / rate);
+  measurement.restart();
+  spinFor(seconds, never);
+  bare.stop();
+  print(measurement.figures(), rate, (ros::WallTime::now() - begin).toSec(),
+        processSeconds(process) - process_before, bare, stolenSeconds() - stolen_before);
+  return 0;
+}
+
+}  // namespace
+}  // namespace concave_distance
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "node_timing");
+  return concave_distance::run();
+}
