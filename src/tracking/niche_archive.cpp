@@ -18,10 +18,34 @@ NicheRecord* NicheArchive::findSamePlace(const Eigen::Vector3d& point_a_in_a,
 }
 
 void NicheArchive::settle() {
-  std::sort(records_.begin(), records_.end(), [](const NicheRecord& l, const NicheRecord& r) {
-    return l.niche.distance != r.niche.distance ? l.niche.distance < r.niche.distance
-                                                : l.niche.id < r.niche.id;
-  });
+  // Records are large and mostly in order already: the order is found on small keys, and each record that is
+  // out of place moves once.
+  const auto before = [](const Key& l, const Key& r) {
+    return l.distance != r.distance ? l.distance < r.distance : l.id < r.id;
+  };
+  order_.clear();
+  for (std::size_t i = 0; i < records_.size(); ++i) {
+    order_.push_back({records_[i].niche.distance, records_[i].niche.id, i});
+  }
+  if (std::is_sorted(order_.begin(), order_.end(), before)) {
+    return;
+  }
+  std::sort(order_.begin(), order_.end(), before);
+  for (std::size_t start = 0; start < order_.size(); ++start) {
+    if (order_[start].from == start) {
+      continue;
+    }
+    const NicheRecord displaced = records_[start];
+    std::size_t to = start;
+    while (order_[to].from != start) {
+      const std::size_t from = order_[to].from;
+      records_[to] = records_[from];
+      order_[to].from = to;
+      to = from;
+    }
+    records_[to] = displaced;
+    order_[to].from = to;
+  }
 }
 
 void NicheArchive::unite(std::size_t survivor, std::size_t loser, std::vector<NicheEvent>& events) {

@@ -43,7 +43,13 @@ class NicheArchive {
   void remove(std::size_t i, std::vector<NicheEvent>& events);
 
  private:
+  struct Key {
+    double distance;
+    std::uint64_t id;
+    std::size_t from;
+  };
   std::vector<NicheRecord> records_;
+  std::vector<Key> order_;  ///< of settle()
   std::uint64_t next_id_ = 1;
 };
 

@@ -1,0 +1,77 @@
+#include "concave_distance/distance/surface_walk.h"
+#include "concave_distance/search/local_descent.h"
+#include "concave_distance/tracking/niche_admission.h"
+#include "tracker_state.h"
+
+namespace concave_distance {
+
+void TrackerState::followNiches(double displacement, double elapsed, SearchCost& cost,
+                                      std::vector<NicheEvent>& events) {
+  const PairObjective objective(*geometry.a, *geometry.b, geometry.a_from_b);
+  const double rounding = 1e-9 * geometry.scale();
+  std::vector<NicheRecord>& records = archive.records();
+  for (std::size_t i = 0; i < records.size();) {
+    NicheRecord& record = records[i];
+    const double before = record.niche.distance;
+    record.niche.node_pair = descend(
+        objective, objective.evaluate(record.niche.node_pair.node_a, record.niche.node_pair.node_b, cost),
+        &search.basins, search.trail, cost);
+    follow(record, elapsed);
+    // No surviving minimum can fall by more than any point of B has moved: the basin is gone and the descent
+    // has run on into another one.
+    if (record.niche.distance < before - displacement - rounding) {
+      candidates.push_back({record.niche.witness, record.niche.node_pair, record.niche.proven_local_minimum,
+                            record.reported ? record.niche.id : 0});
+      records[i] = records.back();
+      records.pop_back();
+      continue;
+    }
+    record.niche.closing_speed = elapsed > 0.0 ? (before - record.niche.distance) / elapsed : kNotComputed;
+    if (parameters.accuracy != AccuracyLevel::Nodes && !parameters.keep_through_material) {
+      record.niche.outward =
+          classifyOutwardness(*geometry.a, *geometry.b, geometry.a_from_b, record.niche.witness);
+      if (record.niche.outward == Outwardness::ThroughMaterial) {
+        if (!dark_side_met || record.niche.witness.squared_distance < dark_side.squared_distance) {
+          dark_side = record.niche.witness;
+          dark_side_met = true;
+        }
+        archive.remove(i, events);
+        continue;
+      }
+    }
+    ++i;
+  }
+}
+
+void TrackerState::follow(NicheRecord& record, double elapsed) {
+  if (parameters.accuracy == AccuracyLevel::Nodes) {
+    placeRecord(record, geometry, geometry.nodeWitness(record.niche.node_pair));
+    return;
+  }
+  TriangleIndex start_a = record.niche.witness.triangle_a;
+  TriangleIndex start_b = record.niche.witness.triangle_b;
+  const Eigen::Vector3d before_a = record.niche.point_a_in_a;
+  const Eigen::Vector3d before_b = record.point_b_in_b;
+  if (parameters.extrapolate && elapsed > 0.0) {
+    const Eigen::Vector3d way_a = record.velocity_a_in_a * elapsed;
+    const Eigen::Vector3d way_b = record.velocity_b_in_b * elapsed;
+    if (way_a.squaredNorm() + way_b.squaredNorm() > 0.0) {
+      const SurfacePoint on_a = walkTowards(*geometry.a, start_a, before_a + way_a);
+      const SurfacePoint on_b = walkTowards(*geometry.b, start_b, before_b + way_b);
+      const double extrapolated = (geometry.a_from_b * on_b.point - on_a.point).squaredNorm();
+      if (extrapolated < (geometry.a_from_b * before_b - before_a).squaredNorm()) {
+        start_a = on_a.triangle;
+        start_b = on_b.triangle;
+      }
+    }
+  }
+  const WitnessRefinement refined = geometry.refine(start_a, start_b);
+  record.niche.proven_local_minimum = refined.proven;
+  placeRecord(record, geometry, refined.witness);
+  if (elapsed > 0.0) {
+    record.velocity_a_in_a = (record.niche.point_a_in_a - before_a) / elapsed;
+    record.velocity_b_in_b = (record.point_b_in_b - before_b) / elapsed;
+  }
+}
+
+}  // namespace concave_distance

@@ -1,0 +1,128 @@
+#include <algorithm>
+
+#include "concave_distance/base/random_engine.h"
+#include "concave_distance/search/genetic_search.h"
+#include "concave_distance/tracking/projection.h"
+#include "concave_distance/tracking/warm_start.h"
+#include "tracker_state.h"
+
+namespace concave_distance {
+namespace {
+
+// Candidates that a warm cycle refines at the most, best first; a cold one takes them all.
+constexpr std::size_t kWarmCandidateLimit = 64;
+// Rounds of projections in a cold cycle: each asks what the last one brought.
+constexpr int kColdProjectionRounds = 4;
+// A cold cycle projects this many times the immigrants of a warm one.
+constexpr std::uint32_t kColdProjectionFactor = 16;
+// Tells the stream of the projections from that of the evolution.
+constexpr std::uint64_t kProjectionStream = 0x70726f6a656374ULL;
+// Steps along the nearest niche's valley in one cycle at the most.
+constexpr int kValleySteps = 8;
+
+}  // namespace
+
+void TrackerState::evolve(const PairObjective& objective, PairSolution& solution) {
+  RandomEngine engine(streamSeed(parameters.seed, name, cycle));
+  inherited.clear();
+  GeneticParameters genetic = warm ? parameters.warm : parameters.cold;
+  if (warm) {
+    known.clear();
+    for (const NicheRecord& record : archive.records()) {
+      known.push_back(record.niche.node_pair);
+    }
+    const double softening = std::min(geometry.a->maxEdgeLength(), geometry.b->maxEdgeLength());
+    inherit(known, {parameters.inherited_per_niche, parameters.inherited_limit}, softening, inherited,
+            scratch);
+    const auto wanted = static_cast<std::uint32_t>(inherited.size()) + parameters.immigrants;
+    genetic.population_size = std::max(genetic.population_size, wanted + wanted % 2);
+  }
+  const GeneticResult result =
+      geneticSearch(objective, genetic, warm ? warm_radii : cold_radii, inherited, engine, search);
+  solution.cost.evaluations += result.cost.evaluations;
+  solution.cost.descents += result.cost.descents;
+  solution.cost.descents_joined += result.cost.descents_joined;
+  solution.cost.descent_steps += result.cost.descent_steps;
+  if (!genetic.local_optimization) {
+    search.basins.addMinimum(result.best);
+  }
+}
+
+void TrackerState::collectCandidates(std::size_t known_minima) {
+  // Node pairs are cheap to compare: the best come first where a warm cycle has to choose.
+  known.assign(search.basins.minima().begin() + static_cast<std::ptrdiff_t>(known_minima),
+               search.basins.minima().end());
+  std::sort(known.begin(), known.end());
+  if (warm && known.size() > kWarmCandidateLimit) {
+    known.resize(kWarmCandidateLimit);
+  }
+  for (const TrialPoint& pair : known) {
+    if (parameters.accuracy == AccuracyLevel::Nodes) {
+      candidates.push_back({geometry.nodeWitness(pair), pair, true, 0});
+      continue;
+    }
+    const WitnessRefinement refined =
+        geometry.refine(geometry.a->originalTriangle(pair.node_a), geometry.b->originalTriangle(pair.node_b));
+    candidates.push_back({refined.witness, pair, refined.proven, 0});
+  }
+}
+
+void TrackerState::projectNiches(PairSolution& solution) {
+  if (parameters.accuracy == AccuracyLevel::Nodes) {
+    return;
+  }
+  RandomEngine engine(streamSeed(parameters.seed ^ kProjectionStream, name, cycle));
+  const std::uint32_t immigrants =
+      warm ? parameters.projected_immigrants : kColdProjectionFactor * parameters.projected_immigrants;
+  candidates.clear();
+  for (std::uint32_t k = 0; k < immigrants; ++k) {
+    const Side side = k % 2 == 0 ? Side::A : Side::B;
+    const NodeGraph& graph = (side == Side::A ? geometry.a : geometry.b)->graph();
+    projectNode(geometry, side,
+                NodeIndex{uniformIndex(engine, static_cast<std::uint32_t>(graph.nodeCount()))}, candidates);
+  }
+  settleCandidates(solution);
+
+  // A warm cycle asks the nearest niche and the next ones in turn; a cold one all, and again what that
+  // brought.
+  std::uint64_t newest = 0;
+  for (int round = 0; round < (warm ? 1 : kColdProjectionRounds); ++round) {
+    const std::size_t count = archive.records().size();
+    const std::size_t wanted = warm ? std::min<std::size_t>(parameters.projected_niches, count) : count;
+    for (std::size_t k = 0; k < wanted; ++k) {
+      next_projection = warm && k > 0 ? (next_projection + 1) % count : next_projection;
+      const NicheRecord& record = archive.records()[warm && k > 0 ? next_projection : k];
+      if (warm || record.niche.id > newest) {
+        projectWitness(geometry, record, candidates);
+      }
+    }
+    for (const NicheRecord& record : archive.records()) {
+      newest = std::max(newest, record.niche.id);
+    }
+    if (candidates.empty()) {
+      break;
+    }
+    settleCandidates(solution);
+  }
+  walkValley(solution);
+}
+
+void TrackerState::walkValley(PairSolution& solution) {
+  if (parameters.projected_niches == 0) {
+    return;
+  }
+  // The global minimum of a tessellated valley is often the next ripple: from the nearest niche's
+  // surroundings on either body in turn, on as long as that comes nearer.
+  Side side = cycle % 2 == 0 ? Side::A : Side::B;
+  int fruitless = 0;
+  for (int step = 0; step < kValleySteps && fruitless < (warm ? 1 : 2) && !archive.records().empty();
+       ++step) {
+    const double before = archive.records().front().niche.distance;
+    projectNeighbours(geometry, side, archive.records().front(), candidates);
+    settleCandidates(solution);
+    fruitless = archive.records().front().niche.distance < before ? 0 : fruitless + 1;
+    side = side == Side::A ? Side::B : Side::A;
+  }
+}
+
+}  // namespace concave_distance

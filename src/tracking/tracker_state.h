@@ -1,0 +1,78 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "concave_distance/search/automatic_radii.h"
+#include "concave_distance/search/search_workspace.h"
+#include "concave_distance/tracking/niche_archive.h"
+#include "concave_distance/tracking/pair_geometry.h"
+#include "concave_distance/tracking/pair_solution.h"
+#include "concave_distance/tracking/prominence_flood.h"
+#include "concave_distance/tracking/tracker_parameters.h"
+
+namespace concave_distance {
+
+/// What one pair keeps from cycle to cycle, and the stages of a cycle, in the order of update(). Each stage
+/// has a file of its own.
+struct TrackerState {
+  TrackerState(std::string pair_name, std::shared_ptr<const BodyMesh> a, std::shared_ptr<const BodyMesh> b,
+               const TrackerParameters& given);
+
+  void chooseRadii();
+  void update(const Eigen::Isometry3d& pose, double time, PairSolution& solution);
+
+  // follow_niches.cpp: every known niche to where its minimum has moved.
+  void followNiches(double displacement, double elapsed, SearchCost& cost, std::vector<NicheEvent>& events);
+  void follow(NicheRecord& record, double elapsed);
+
+  // search_niches.cpp: candidates from the genetic search and from projections.
+  void evolve(const PairObjective& objective, PairSolution& solution);
+  void collectCandidates(std::size_t known_minima);
+  void projectNiches(PairSolution& solution);
+  void walkValley(PairSolution& solution);
+
+  // settle_niches.cpp: which candidates are niches, and which niches are still niches of their own.
+  void settleCandidates(PairSolution& solution);
+  void orderCandidates();
+  void admitCandidates(std::vector<NicheEvent>& events);
+  void reviewRecords(PairSolution& solution);
+  void drownNewborns(const PairObjective& objective, PairSolution& solution);
+
+  // report_niches.cpp
+  void report(double displacement, PairSolution& solution);
+  void describe(TrackedNiche& niche);
+
+  std::string name;
+  PairGeometry geometry;
+  TrackerParameters parameters;
+  NicheRadii cold_radii{};
+  NicheRadii warm_radii{};
+  SearchWorkspace search;
+  NicheArchive archive;
+  std::vector<NicheCandidate> candidates;
+  std::vector<TrialPoint> known;
+  std::vector<TrialPoint> inherited;
+  std::vector<double> scratch;
+  WitnessPair dark_side;  ///< the closest pair of this cycle that runs through material
+  bool dark_side_met = false;
+  // Where floods have started that led on: their niches are not flooded again for some cycles.
+  struct Drowned {
+    TrialPoint start;
+    std::uint64_t cycle;
+  };
+  std::vector<Drowned> drowned;
+  FloodWorkspace flood;
+  std::uint64_t cycle = 0;
+  bool warm = false;
+  Eigen::Isometry3d last_pose = Eigen::Isometry3d::Identity();
+  double last_time = 0.0;
+  double last_elapsed = 0.0;
+  double last_distance = kNotComputed;
+  std::size_t next_review = 0;
+  std::size_t next_projection = 0;
+};
+
+}  // namespace concave_distance
