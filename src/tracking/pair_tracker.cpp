@@ -112,6 +112,7 @@ void PairTracker::update(const Eigen::Isometry3d& a_from_b, double time, PairSol
 
 void PairTracker::reset() {
   state_->archive.clear();
+  state_->ripples.clear();
   state_->warm = false;
 }
 

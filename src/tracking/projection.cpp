@@ -50,14 +50,4 @@ void projectNode(PairGeometry& geometry, Side side, NodeIndex node, std::vector<
   }
 }
 
-void projectNeighbours(PairGeometry& geometry, Side side, const NicheRecord& record,
-                       std::vector<NicheCandidate>& candidates) {
-  const TrialPoint at = geometry.nodePairNear(record.niche.witness);
-  const NodeGraph& graph = (side == Side::A ? geometry.a : geometry.b)->graph();
-  const NodeIndex centre = side == Side::A ? at.node_a : at.node_b;
-  for (const NodeGraph::Edge& edge : graph.edges.row(centre.value)) {
-    projectNode(geometry, side, edge.to, candidates);
-  }
-}
-
 }  // namespace concave_distance

@@ -17,8 +17,9 @@ constexpr int kColdProjectionRounds = 4;
 constexpr std::uint32_t kColdProjectionFactor = 16;
 // Tells the stream of the projections from that of the evolution.
 constexpr std::uint64_t kProjectionStream = 0x70726f6a656374ULL;
-// Steps along the nearest niche's valley in one cycle at the most.
-constexpr int kValleySteps = 8;
+// Ripples of the nearest niche that a cycle walks on from.
+constexpr int kWarmRippleSteps = 3;
+constexpr int kColdRippleSteps = 64;
 
 }  // namespace
 
@@ -104,24 +105,62 @@ void TrackerState::projectNiches(PairSolution& solution) {
     }
     settleCandidates(solution);
   }
-  walkValley(solution);
+  walkRipples(solution);
 }
 
-void TrackerState::walkValley(PairSolution& solution) {
-  if (parameters.projected_niches == 0) {
+void TrackerState::walkRipples(PairSolution& solution) {
+  if (parameters.projected_niches == 0 || archive.records().empty()) {
     return;
   }
-  // The global minimum of a tessellated valley is often the next ripple: from the nearest niche's
-  // surroundings on either body in turn, on as long as that comes nearer.
-  Side side = cycle % 2 == 0 ? Side::A : Side::B;
-  int fruitless = 0;
-  for (int step = 0; step < kValleySteps && fruitless < (warm ? 1 : 2) && !archive.records().empty();
-       ++step) {
-    const double before = archive.records().front().niche.distance;
-    projectNeighbours(geometry, side, archive.records().front(), candidates);
-    settleCandidates(solution);
-    fruitless = archive.records().front().niche.distance < before ? 0 : fruitless + 1;
-    side = side == Side::A ? Side::B : Side::A;
+  // The global minimum of a tessellated valley is often the next ripple, or one a few ripples on. Those known
+  // are followed; from the deepest and from the ones least recently left the walk goes on.
+  const auto belongs = [&](const Ripple& ripple) {
+    return ripple.owner == archive.records().front().niche.id;
+  };
+  ripples.follow(archive.records().front().niche.id, archive.records().front().niche.witness, geometry);
+  for (Ripple& ripple : ripples.ripples()) {
+    const bool deeper =
+        ripple.witness.squared_distance < archive.records().front().niche.witness.squared_distance;
+    if (belongs(ripple) && (deeper || ripple.judged + kRippleJudgement <= cycle)) {
+      candidates.push_back({ripple.witness, geometry.nodePairNear(ripple.witness), true, 0});
+    }
+  }
+  settleRipples(solution);
+  std::array<FeatureKey, 2> walked_from{};
+  for (int step = 0; step < (warm ? kWarmRippleSteps : kColdRippleSteps); ++step) {
+    const WitnessPair deepest = archive.records().front().niche.witness;
+    const std::array<FeatureKey, 2> features = featuresOf(geometry, deepest);
+    if (!(features == walked_from)) {
+      walked_from = features;
+      stepOverRipples(geometry, deepest, candidates);
+    } else {
+      const double within = (1.0 + 2.0 * parameters.least_prominence);
+      Ripple* next = nullptr;
+      for (Ripple& ripple : ripples.ripples()) {
+        if (belongs(ripple) && ripple.walked != cycle + 1 &&
+            ripple.witness.squared_distance <= within * within * deepest.squared_distance &&
+            (next == nullptr || ripple.walked < next->walked)) {
+          next = &ripple;
+        }
+      }
+      if (next == nullptr) {
+        break;
+      }
+      next->walked = cycle + 1;
+      const WitnessPair from = next->witness;
+      stepOverRipples(geometry, from, candidates);
+    }
+    settleRipples(solution);
+  }
+}
+
+void TrackerState::settleRipples(PairSolution& solution) {
+  const std::uint64_t id = archive.records().front().niche.id;
+  const WitnessPair before = archive.records().front().niche.witness;
+  settleCandidates(solution);
+  const TrackedNiche& now = archive.records().front().niche;
+  if (now.id == id && now.witness.squared_distance < before.squared_distance) {
+    ripples.remember(geometry, before, id, cycle);
   }
 }
 

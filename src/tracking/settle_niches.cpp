@@ -41,7 +41,13 @@ void TrackerState::admitCandidates(std::vector<NicheEvent>& events) {
     if (parameters.accuracy == AccuracyLevel::Nodes) {
       result = admitNodePair(candidate, geometry, niche_radius, cycle, search.metric, archive);
     } else {
-      result = admitCandidate(candidate, geometry, parameters, niche_radius, cycle, archive, events);
+      result = verdictOnRipple(candidate);
+      if (result.id == 0) {
+        result = admitCandidate(candidate, geometry, parameters, niche_radius, cycle, archive, events);
+        if (result.outcome == Admission::LowProminence) {
+          ripples.remember(geometry, candidate.witness, result.id, cycle);
+        }
+      }
     }
     if (result.outcome == Admission::ThroughMaterial &&
         (!dark_side_met || candidate.witness.squared_distance < dark_side.squared_distance)) {
@@ -66,6 +72,21 @@ void TrackerState::reviewRecords(PairSolution& solution) {
       archive.settle();
     }
   }
+}
+
+// A ripple judged a few cycles ago is believed to be one still, unless it has become the deepest of its niche.
+AdmissionResult TrackerState::verdictOnRipple(const NicheCandidate& candidate) {
+  const Ripple* ripple = ripples.find(geometry, candidate.witness);
+  if (ripple == nullptr || ripple->judged + kRippleJudgement <= cycle) {
+    return {Admission::LowProminence, 0};
+  }
+  for (const NicheRecord& record : archive.records()) {
+    if (record.niche.id == ripple->owner) {
+      const bool deepest = candidate.witness.squared_distance < record.niche.witness.squared_distance;
+      return {Admission::LowProminence, deepest ? 0 : ripple->owner};
+    }
+  }
+  return {Admission::LowProminence, 0};
 }
 
 // A newborn niche that a flood of the grid leads out of below the least prominence is part of what it leads

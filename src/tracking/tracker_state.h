@@ -7,16 +7,21 @@
 
 #include "concave_distance/search/automatic_radii.h"
 #include "concave_distance/search/search_workspace.h"
+#include "concave_distance/tracking/niche_admission.h"
 #include "concave_distance/tracking/niche_archive.h"
 #include "concave_distance/tracking/pair_geometry.h"
 #include "concave_distance/tracking/pair_solution.h"
 #include "concave_distance/tracking/prominence_flood.h"
+#include "concave_distance/tracking/ripple_memory.h"
 #include "concave_distance/tracking/tracker_parameters.h"
 
 namespace concave_distance {
 
 /// What one pair keeps from cycle to cycle, and the stages of a cycle, in the order of update(). Each stage
 /// has a file of its own.
+// Cycles for which a verdict on a ripple is believed.
+inline constexpr std::uint64_t kRippleJudgement = 4;
+
 struct TrackerState {
   TrackerState(std::string pair_name, std::shared_ptr<const BodyMesh> a, std::shared_ptr<const BodyMesh> b,
                const TrackerParameters& given);
@@ -32,12 +37,14 @@ struct TrackerState {
   void evolve(const PairObjective& objective, PairSolution& solution);
   void collectCandidates(std::size_t known_minima);
   void projectNiches(PairSolution& solution);
-  void walkValley(PairSolution& solution);
+  void walkRipples(PairSolution& solution);
+  void settleRipples(PairSolution& solution);
 
   // settle_niches.cpp: which candidates are niches, and which niches are still niches of their own.
   void settleCandidates(PairSolution& solution);
   void orderCandidates();
   void admitCandidates(std::vector<NicheEvent>& events);
+  AdmissionResult verdictOnRipple(const NicheCandidate& candidate);
   void reviewRecords(PairSolution& solution);
   void drownNewborns(const PairObjective& objective, PairSolution& solution);
 
@@ -65,6 +72,7 @@ struct TrackerState {
   };
   std::vector<Drowned> drowned;
   FloodWorkspace flood;
+  RippleMemory ripples;
   std::uint64_t cycle = 0;
   bool warm = false;
   Eigen::Isometry3d last_pose = Eigen::Isometry3d::Identity();

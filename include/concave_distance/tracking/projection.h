@@ -20,8 +20,4 @@ enum class Side { A, B };
 /// From one node of body A's or B's graph; appends a candidate.
 void projectNode(PairGeometry& geometry, Side side, NodeIndex node, std::vector<NicheCandidate>& candidates);
 
-/// From all neighbours of the niche's node on one body: steps over the ripples of a tessellated valley.
-void projectNeighbours(PairGeometry& geometry, Side side, const NicheRecord& record,
-                       std::vector<NicheCandidate>& candidates);
-
 }  // namespace concave_distance
