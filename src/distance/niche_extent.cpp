@@ -206,6 +206,7 @@ NicheExtent measureExtent(const BodyMesh& a, const BodyMesh& b, const Eigen::Iso
   const Vector3d point_a = witness.point_a_in_a - frames.centre_a;
   const Vector3d point_b = witness.point_b_in_a - frames.centre_a;
   const double distance = (point_b - point_a).norm();
+  workspace.seen.clear();
   if (distance <= rounding) return extent;
 
   const Vector3d normal = (point_b - point_a) / distance;
@@ -231,6 +232,11 @@ NicheExtent measureExtent(const BodyMesh& a, const BodyMesh& b, const Eigen::Iso
   extent.kind = detail::widthOf(workspace.hull) <= 2.0 * levels.reach ? NicheKind::Segment : NicheKind::Patch;
   placeRepresentative(frames, side_a, side_b, height_tolerance, workspace, extent);
   return extent;
+}
+
+bool isOnMeasuredSet(const ExtentWorkspace& workspace, const WitnessPair& witness) {
+  return std::binary_search(workspace.seen.begin(), workspace.seen.end(),
+                            std::pair{witness.triangle_a, witness.triangle_b});
 }
 
 }  // namespace concave_distance

@@ -12,6 +12,9 @@
 namespace concave_distance {
 namespace {
 
+// Local minima that a warm cycle meets at the most, as a rule.
+constexpr std::size_t kUsualMinima = 1024;
+
 double seconds(std::chrono::steady_clock::duration duration) {
   return std::chrono::duration<double>(duration).count();
 }
@@ -26,6 +29,11 @@ TrackerState::TrackerState(std::string pair_name, std::shared_ptr<const BodyMesh
       search(*geometry.a, *geometry.b) {
   parameters.validate(name);
   chooseRadii();
+  // So large that a warm cycle does not have to grow them; a cold one may.
+  known.reserve(kUsualMinima);
+  candidates.reserve(kUsualMinima);
+  drowned.reserve(kUsualMinima);
+  archive.reserve(kUsualMinima);
 }
 
 void TrackerState::chooseRadii() {
@@ -68,9 +76,12 @@ void TrackerState::update(const Eigen::Isometry3d& pose, double time, PairSoluti
   if (warm) {
     followNiches(displacement, elapsed, solution.cost, solution.events);
   }
-  const std::size_t known_minima = search.basins.minima().size();
-  evolve(objective, solution);
-  collectCandidates(known_minima);
+  searching = searchIsDue(displacement);
+  if (searching) {
+    const std::size_t known_minima = search.basins.minima().size();
+    evolve(objective, solution);
+    collectCandidates(known_minima);
+  }
   settleCandidates(solution);
   projectNiches(solution);
   if (parameters.accuracy == AccuracyLevel::Nodes) {
@@ -84,6 +95,7 @@ void TrackerState::update(const Eigen::Isometry3d& pose, double time, PairSoluti
     reviewRecords(solution);
     drownNewborns(objective, solution);
   }
+  describeNiches(solution);
   report(displacement, solution);
 
   last_pose = *rigid;

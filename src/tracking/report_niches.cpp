@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "concave_distance/distance/niche_properties.h"
@@ -7,15 +8,55 @@ namespace concave_distance {
 namespace {
 
 // Triangle pairs that the extent of a niche is followed over at the most.
-constexpr std::size_t kExtentPairLimit = 64;
-// The archive holds this many times what is reported, for niches that come and go at the edge of the list.
-constexpr std::size_t kArchiveFactor = 4;
+constexpr std::size_t kExtentPairLimit = 256;
+// What a plateau's distance may vary by, relative to the bodies: far above the kernels' rounding.
+constexpr double kPlateauTolerance = 1e-9;
+// The archive holds half as many niches more than are reported, for those that come and go at the edge of the
+// list.
+constexpr std::size_t archiveCapacity(std::size_t reported) {
+  return reported + (reported + 1) / 2;
+}
 
 }  // namespace
 
+void TrackerState::describeNiches(PairSolution& solution) {
+  if (parameters.accuracy == AccuracyLevel::Nodes || !parameters.niches_wanted) {
+    return;
+  }
+  std::vector<NicheRecord>& records = archive.records();
+  for (std::size_t i = 0; i < std::min<std::size_t>(records.size(), parameters.largest_niche_count);) {
+    if (records[i].described == cycle + 1 || records[i].niche.distance > parameters.cutoff) {
+      ++i;
+      continue;
+    }
+    records[i].described = cycle + 1;
+    describe(records[i].niche);
+    i = uniteOnPlateau(i, solution.events) ? 0 : i + 1;
+  }
+}
+
+// A plateau is one niche wherever its witnesses were found. True when others were united with record i.
+bool TrackerState::uniteOnPlateau(std::size_t i, std::vector<NicheEvent>& events) {
+  std::vector<NicheRecord>& records = archive.records();
+  if (records[i].niche.kind == NicheKind::Point) {
+    return false;
+  }
+  const double reach = 2.0 * kPlateauTolerance * geometry.scale();
+  for (std::size_t k = 0; k < records.size(); ++k) {
+    // One at a time: a witness at the rim of the set is known to belong to it only when looked at from there.
+    if (k != i && std::abs(records[k].niche.distance - records[i].niche.distance) <= reach &&
+        isOnMeasuredSet(geometry.extent, records[k].niche.witness)) {
+      archive.unite(std::min(i, k), std::max(i, k), events);
+      archive.settle();
+      return true;
+    }
+  }
+  return false;
+}
+
 void TrackerState::report(double displacement, PairSolution& solution) {
   std::vector<NicheRecord>& records = archive.records();
-  const std::size_t capacity = kArchiveFactor * parameters.largest_niche_count;
+  const std::size_t capacity = archiveCapacity(parameters.largest_niche_count);
   while (records.size() > capacity) {
     archive.remove(records.size() - 1, solution.events);
     solution.niches_cut = true;
@@ -32,9 +73,6 @@ void TrackerState::report(double displacement, PairSolution& solution) {
     if (!record.reported) {
       solution.events.push_back({NicheEvent::Kind::Birth, record.niche.id, 0});
       record.reported = true;
-    }
-    if (parameters.niches_wanted) {
-      describe(record.niche);
     }
     solution.niches.push_back(record.niche);
   }
@@ -60,10 +98,7 @@ void TrackerState::report(double displacement, PairSolution& solution) {
 }
 
 void TrackerState::describe(TrackedNiche& niche) {
-  if (parameters.accuracy == AccuracyLevel::Nodes) {
-    return;
-  }
-  const double tolerance = 1e-9 * geometry.scale();
+  const double tolerance = kPlateauTolerance * geometry.scale();
   const NicheExtent extent = measureExtent(*geometry.a, *geometry.b, geometry.a_from_b, niche.witness,
                                            tolerance, kExtentPairLimit, geometry.extent);
   niche.kind = extent.kind;

@@ -18,10 +18,23 @@ constexpr std::uint32_t kColdProjectionFactor = 16;
 // Tells the stream of the projections from that of the evolution.
 constexpr std::uint64_t kProjectionStream = 0x70726f6a656374ULL;
 // Ripples of the nearest niche that a cycle walks on from.
-constexpr int kWarmRippleSteps = 3;
+constexpr int kWarmRippleSteps = 5;
 constexpr int kColdRippleSteps = 64;
 
 }  // namespace
+
+bool TrackerState::searchIsDue(double displacement) {
+  moved_since_search += displacement;
+  ++cycles_since_search;
+  const double edge = std::min(geometry.a->maxEdgeLength(), geometry.b->maxEdgeLength());
+  if (warm && cycles_since_search < parameters.search_interval &&
+      moved_since_search < parameters.search_motion * edge) {
+    return false;
+  }
+  moved_since_search = 0.0;
+  cycles_since_search = 0;
+  return true;
+}
 
 void TrackerState::evolve(const PairObjective& objective, PairSolution& solution) {
   RandomEngine engine(streamSeed(parameters.seed, name, cycle));
@@ -73,8 +86,8 @@ void TrackerState::projectNiches(PairSolution& solution) {
     return;
   }
   RandomEngine engine(streamSeed(parameters.seed ^ kProjectionStream, name, cycle));
-  const std::uint32_t immigrants =
-      warm ? parameters.projected_immigrants : kColdProjectionFactor * parameters.projected_immigrants;
+  const std::uint32_t factor = warm ? 1 : kColdProjectionFactor;
+  const std::uint32_t immigrants = searching ? factor * parameters.projected_immigrants : 0;
   candidates.clear();
   for (std::uint32_t k = 0; k < immigrants; ++k) {
     const Side side = k % 2 == 0 ? Side::A : Side::B;
@@ -89,7 +102,8 @@ void TrackerState::projectNiches(PairSolution& solution) {
   std::uint64_t newest = 0;
   for (int round = 0; round < (warm ? 1 : kColdProjectionRounds); ++round) {
     const std::size_t count = archive.records().size();
-    const std::size_t wanted = warm ? std::min<std::size_t>(parameters.projected_niches, count) : count;
+    const std::size_t wanted =
+        warm ? std::min<std::size_t>(searching ? parameters.projected_niches : 1, count) : count;
     for (std::size_t k = 0; k < wanted; ++k) {
       next_projection = warm && k > 0 ? (next_projection + 1) % count : next_projection;
       const NicheRecord& record = archive.records()[warm && k > 0 ? next_projection : k];

@@ -25,6 +25,12 @@ void TrackerParameters::validate(const std::string& where) const {
   if (!(least_prominence >= 0.0) || !std::isfinite(least_prominence)) {
     refuse("least_prominence", least_prominence, "0 or more");
   }
+  if (!(search_motion >= 0.0) || !std::isfinite(search_motion)) {
+    refuse("search_motion", search_motion, "0 or more, in grid edges");
+  }
+  if (search_interval == 0) {
+    refuse("search_interval", 0, "1 or more cycles");
+  }
   if (!(cutoff > 0.0)) {
     refuse("cutoff", cutoff, "a positive length in metres, or leave it out");
   }

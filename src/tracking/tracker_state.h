@@ -34,6 +34,7 @@ struct TrackerState {
   void follow(NicheRecord& record, double elapsed);
 
   // search_niches.cpp: candidates from the genetic search and from projections.
+  bool searchIsDue(double displacement);
   void evolve(const PairObjective& objective, PairSolution& solution);
   void collectCandidates(std::size_t known_minima);
   void projectNiches(PairSolution& solution);
@@ -49,6 +50,8 @@ struct TrackerState {
   void drownNewborns(const PairObjective& objective, PairSolution& solution);
 
   // report_niches.cpp
+  void describeNiches(PairSolution& solution);
+  bool uniteOnPlateau(std::size_t i, std::vector<NicheEvent>& events);
   void report(double displacement, PairSolution& solution);
   void describe(TrackedNiche& niche);
 
@@ -81,6 +84,9 @@ struct TrackerState {
   double last_distance = kNotComputed;
   std::size_t next_review = 0;
   std::size_t next_projection = 0;
+  double moved_since_search = 0.0;  ///< metres, at most
+  std::uint32_t cycles_since_search = 0;
+  bool searching = true;  ///< this cycle looks for newborn niches
 };
 
 }  // namespace concave_distance

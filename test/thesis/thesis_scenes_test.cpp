@@ -5,6 +5,7 @@
 
 #include "concave_distance/distance/enumeration.h"
 #include "concave_distance/mesh/repair_mesh.h"
+#include "concave_distance/tracking/pair_tracker.h"
 #include "support/thesis_scenes.h"
 
 namespace concave_distance {
@@ -82,6 +83,29 @@ TEST(BatteryAndFixtureNiches, LieFartherApartOnTheMeshesThanTheSharingRadius) {
       EXPECT_GT(apart, 0.6) << niches[i].distance << " and " << niches[j].distance;
     }
   }
+}
+
+TEST(BatteryAtRest, IsOnePatchOverThePlateHoweverOftenItIsMet) {
+  // The battery's bottom lies parallel over the plate, around eight protrusions: one plateau of 160 pairs of
+  // triangles, that searches meet in many places.
+  const std::vector<Eigen::Isometry3d> manoeuvre = test::readThesisPoses("manoeuvre_200.csv");
+  TrackerParameters parameters;
+  parameters.largest_niche_count = 1000;
+  PairTracker tracker("battery", test::loadThesisBody("fixture", 0.1), test::loadThesisBody("battery", 0.1),
+                      parameters);
+  PairSolution solution;
+  for (std::size_t k = 100; k < manoeuvre.size(); ++k) {
+    tracker.update(manoeuvre[k], 0.1 * static_cast<double>(k), solution);
+  }
+  const Eigen::Isometry3d& rest = manoeuvre.back();
+  int patches = 0;
+  for (const TrackedNiche& niche : solution.niches) {
+    patches += niche.kind == NicheKind::Patch && niche.extent > 0.8 ? 1 : 0;
+    if (niche.extent > 0.8) {
+      EXPECT_NEAR(niche.distance, rest.translation().z(), 1e-6);
+    }
+  }
+  EXPECT_EQ(patches, 1);
 }
 
 }  // namespace

@@ -61,6 +61,10 @@ NicheExtent measureExtent(const BodyMesh& a, const BodyMesh& b, const Eigen::Iso
                           const WitnessPair& witness, double tolerance, std::size_t pair_limit,
                           ExtentWorkspace& workspace);
 
+/// Whether a witness at the same distance (up to the tolerance of the measurement) belongs to the set that
+/// was measured last: a pair of triangles holds one convex piece of it at the most.
+bool isOnMeasuredSet(const ExtentWorkspace& workspace, const WitnessPair& witness);
+
 /// Sign of the witness direction against the pseudonormals at both witnesses (Baerentzen and Aanaes 2005),
 /// which tells outside from inside where the witness is a local minimum. For touching witnesses (distance 0)
 /// Outward.

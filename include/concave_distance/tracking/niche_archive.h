@@ -14,6 +14,7 @@ struct NicheRecord {
   Eigen::Vector3d point_b_in_b = Eigen::Vector3d::Zero();
   Eigen::Vector3d velocity_a_in_a = Eigen::Vector3d::Zero();  ///< of the witness over A's surface, m/s
   Eigen::Vector3d velocity_b_in_b = Eigen::Vector3d::Zero();
+  std::uint64_t described = 0;  ///< cycle of the last look at kind and extent, plus 1
   bool reported = false;  ///< users have seen its id: its end is an event
 };
 
@@ -24,6 +25,11 @@ class NicheArchive {
   std::vector<NicheRecord>& records() { return records_; }
   const std::vector<NicheRecord>& records() const { return records_; }
   std::uint64_t takeId() { return next_id_++; }
+
+  void reserve(std::size_t count) {
+    records_.reserve(count);
+    order_.reserve(count);
+  }
 
   /// Forgets the niches, not the count of ids.
   void clear() { records_.clear(); }

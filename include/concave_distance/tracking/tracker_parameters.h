@@ -23,6 +23,11 @@ struct TrackerParameters {
   std::uint32_t projected_niches = 3;
   /// Random nodes that a warm cycle projects onto the other body and back; a cold one 16 times as many.
   std::uint32_t projected_immigrants = 4;
+  /// A warm cycle searches for newborn niches (evolution and projected immigrants) when B has moved by this
+  /// fraction of the finer grid's longest edge since the last search, or after `search_interval` cycles at
+  /// the latest; the cycles between follow the known niches and ask the nearest one only.
+  double search_motion = 0.5;
+  std::uint32_t search_interval = 4;
   bool extrapolate = true;         ///< start from where the relative velocity has carried the witnesses
   double least_prominence = 1e-2;  ///< niches with less are merged into their deeper neighbour
   double cutoff = std::numeric_limits<double>::infinity();  ///< niches farther than this are not reported
