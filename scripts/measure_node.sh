@@ -1,10 +1,12 @@
 #!/usr/bin/env bash
 # Measures the node on two moving scenes and writes the figures to doc/results/node_timing.txt.
-#   scripts/measure_node.sh [--seconds N] [--output FILE] [--prefix COMMAND] [pair] [robot] [robot_all]
-# pair: the battery in its fixture, one pair, poses and cycles at 500 Hz; robot: the arm in the shelf, 35 pairs, poses
-# and cycles at 50 Hz; robot_all: the same without the cutoff, so that all 35 pairs are solved in every cycle. All three
-# by default, 60 s each. --prefix "chrt -f 20" runs the node with real-time priority (needs the right to), which keeps
-# other programs' load out of the figures. Needs a finished build (scripts/build.sh all). How to read the figures:
+#   scripts/measure_node.sh [--seconds N] [--output FILE] [--prefix COMMAND] [--wait-idle] [scenes]
+# Scenes: pair: the battery in its fixture, one pair, poses and cycles at 500 Hz, its distance alone and with all niches;
+# oversampled: four cycles a pose, for the latency; robot: the arm in the shelf, 35 pairs, poses and cycles at 50 Hz;
+# robot_all: the same without the cutoff, so that all 35 pairs are solved in every cycle. All of them by default, 60 s
+# each. --prefix "chrt -f 20" runs the node with real-time priority (needs the right to), which keeps
+# other programs' load out of the figures. --wait-idle begins each measurement when the machine has been idle for three
+# seconds (how idle it was during one is printed). Needs a finished build (scripts/build.sh all). How to read the figures:
 # test/ros/timing/node_timing.cpp.
 set -euo pipefail
 # shellcheck source=scripts/common.sh
@@ -14,18 +16,20 @@ source_ros
 seconds=60
 output="$package_dir/doc/results/node_timing.txt"
 prefix=
+wait_idle=
 scenes=()
 while [ $# -gt 0 ]; do
   case "$1" in
     --seconds) seconds="${2:?--seconds needs a number}" && shift ;;
     --output) output="${2:?--output needs a file}" && shift ;;
     --prefix) prefix="${2:?--prefix needs a command}" && shift ;;
-    pair | robot | robot_all) scenes+=("$1") ;;
-    *) die "unknown argument '$1': expected pair, robot, robot_all, --seconds N, --output FILE or --prefix COMMAND" ;;
+    --wait-idle) wait_idle=1 ;;
+    pair | oversampled | robot | robot_all) scenes+=("$1") ;;
+    *) die "unknown argument '$1': expected pair, oversampled, robot, robot_all, --seconds N, --output FILE, --prefix COMMAND or --wait-idle" ;;
   esac
   shift
 done
-[ ${#scenes[@]} -gt 0 ] || scenes=(pair robot robot_all)
+[ ${#scenes[@]} -gt 0 ] || scenes=(pair oversampled robot robot_all)
 [ -x "$build_dir/devel/lib/concave_distance/node_timing" ] || die "node_timing is not built: run scripts/build.sh all"
 set +u
 # shellcheck disable=SC1091
@@ -46,9 +50,21 @@ end_scene() {
 }
 trap end_scene EXIT
 
+# The share of all cores' time that was idle in the next three seconds, in percent.
+idle_share() {
+  local before after
+  before="$(head -n 1 /proc/stat)"
+  sleep 3
+  after="$(head -n 1 /proc/stat)"
+  echo "$before $after" | awk '{ for (i = 2; i <= 9; ++i) all += $(i + 11) - $i; print int(100 * ($16 - $5) / all) }'
+}
+
 measure() { # <title> <topic> <cutoff or -1> <roslaunch arguments ...>
   local title="$1" topic="$2" cutoff="$3" load
   shift 3
+  if [ -n "$wait_idle" ]; then
+    until [ "$(idle_share)" -ge 90 ]; do :; done
+  fi
   load="$(cut -d ' ' -f 1-3 /proc/loadavg)"
   setsid roslaunch --port=11411 concave_distance "$@" rviz:=false launch_prefix:="$prefix" </dev/null >"$ROS_LOG_DIR/measure_node.log" 2>&1 &
   launch_pid=$!
@@ -65,7 +81,7 @@ measure() { # <title> <topic> <cutoff or -1> <roslaunch arguments ...>
 }
 
 exec > >(tee "$output")
-echo "# scripts/measure_node.sh --seconds $seconds ${prefix:+--prefix \"$prefix\" }${scenes[*]}"
+echo "# scripts/measure_node.sh --seconds $seconds ${wait_idle:+--wait-idle }${prefix:+--prefix \"$prefix\" }${scenes[*]}"
 echo "# $(nproc) cores of $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1), $(uname -s) $(uname -r), release build"
 echo
 for scene in "${scenes[@]}"; do
@@ -73,6 +89,9 @@ for scene in "${scenes[@]}"; do
     pair)
       measure "one pair at 500 Hz" distances -1 insertion.launch rate:=500 pose_rate:=500
       measure "one pair at 500 Hz" niches -1 insertion.launch rate:=500 pose_rate:=500
+      ;;
+    oversampled)
+      measure "one pair, poses at 500 Hz, cycles at 2000 Hz" distances -1 insertion.launch rate:=2000 pose_rate:=500
       ;;
     robot) measure "robot scene at 50 Hz" niches -1 robot.launch rate:=50 pose_rate:=50 ;;
     robot_all)

@@ -46,5 +46,15 @@ TEST(ParameterDocumentation, MarksWhatMayChangeWhileRunning) {
   EXPECT_EQ(marked, matches(readText("config/ConcaveDistance.cfg"), "gen\\.add\\(\"(\\w+)\""));
 }
 
+TEST(TestingDocumentation, NamesEveryRostestCaseAndNoOther) {
+  std::set<std::string> cases;
+  for (const char* program : {"clock", "nodelet", "services", "startup", "topics", "untouched"}) {
+    const std::string text = readText("test/ros/rostest/" + std::string(program) + "_rostest.cpp");
+    cases.merge(matches(text, "TEST(?:_F)?\\(\\w+, (\\w+)\\)"));
+  }
+  EXPECT_GT(cases.size(), 30U);
+  EXPECT_EQ(matches(readText("doc/testing.md"), "\\b([A-Z]\\w*[a-z]{2}[A-Z]\\w*)\\b"), cases);
+}
+
 }  // namespace
 }  // namespace concave_distance

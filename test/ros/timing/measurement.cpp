@@ -148,14 +148,16 @@ void Measurement::onDiagnostics(const diagnostic_msgs::DiagnosticArray& array) {
 }
 
 void print(const Figures& figures, double rate, double seconds, double process_seconds, const BareTimer& bare,
-           double stolen_seconds) {
+           const MachineSeconds& machine) {
   const double cycles = std::max(figures.cycles, 1.0);
   const double cpu = figures.cpu_seconds / cycles;
   std::printf("  cycles         %.0f at %.6g Hz, late %.0f: %.3f %%\n", figures.cycles, rate, figures.late,
               100.0 * figures.late / cycles);
-  std::printf("  bare timer     late %lu: %.3f %%; stolen %.2f %%\n", static_cast<unsigned long>(bare.late()),
+  const double core_seconds = seconds * std::thread::hardware_concurrency();
+  std::printf("  bare timer     late %lu: %.3f %%; cores idle %.0f %%, stolen %.2f %%\n",
+              static_cast<unsigned long>(bare.late()),
               100.0 * static_cast<double>(bare.late()) / static_cast<double>(bare.cycles()),
-              100.0 * stolen_seconds / (seconds * std::thread::hardware_concurrency()));
+              100.0 * machine.idle / core_seconds, 100.0 * machine.stolen / core_seconds);
   std::printf("  messages       %lu in %.1f s, largest gap %.2f ms\n",
               static_cast<unsigned long>(figures.messages), seconds, kMilliseconds * figures.largest_gap);
   std::printf(

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "bare_timer.h"
+#include "processor_time.h"
 
 namespace concave_distance {
 
@@ -75,6 +76,6 @@ class Measurement {
 /// @param seconds of wall time measured
 /// @param process_seconds processor time of the node's process meanwhile
 void print(const Figures& figures, double rate, double seconds, double process_seconds, const BareTimer& bare,
-           double stolen_seconds);
+           const MachineSeconds& machine);
 
 }  // namespace concave_distance

@@ -9,9 +9,8 @@
 //   cycles         the node's own count from its diagnostics; late: ended after the next one was due
 //   messages       on the topic, counted here: what a subscriber got; the largest gap between two of them
 //   solved         pairs a cycle; repeated: answers that stand because no newer transforms had come
-//   bare timer     the same count of a thread that only sleeps: what the machine alone makes late; stolen:
-//   processor
-//                  time that the machine below a virtual one took, of all cores' time
+//   bare timer     the same count of a thread that only sleeps: what the machine alone makes late; of all
+//                  cores' time: idle, and stolen by the machine below a virtual one
 //   thread CPU     of the cycle's thread and its helpers, a cycle, and as a share of the period
 //   process CPU    of the whole node (tf, sockets, services too), as a share of one core
 //   warm, cold solves   wall time of the solves of single pairs, and the longest of them
@@ -59,6 +58,11 @@ bool spinFor(double seconds, const Condition& until) {
   return false;
 }
 
+MachineSeconds since(const MachineSeconds& before) {
+  const MachineSeconds now = machineSeconds();
+  return {now.idle - before.idle, now.stolen - before.stolen};
+}
+
 int run() {
   const ros::NodeHandle parameters("~");
   const std::string measured = parameters.param<std::string>("node", "/concave_distance");
@@ -85,7 +89,7 @@ int run() {
   const auto never = [] { return false; };
   spinFor(kWarmUp, never);
   const int process = processOf(measured);
-  const double stolen_before = stolenSeconds();
+  const MachineSeconds machine_before = machineSeconds();
   const double process_before = processSeconds(process);
   const ros::WallTime begin = ros::WallTime::now();
   BareTimer bare(1.0 / rate);
@@ -93,7 +97,7 @@ int run() {
   spinFor(seconds, never);
   bare.stop();
   print(measurement.figures(), rate, (ros::WallTime::now() - begin).toSec(),
-        processSeconds(process) - process_before, bare, stolenSeconds() - stolen_before);
+        processSeconds(process) - process_before, bare, since(machine_before));
   return 0;
 }
 

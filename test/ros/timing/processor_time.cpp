@@ -7,6 +7,7 @@
 #include <xmlrpcpp/XmlRpcClient.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <fstream>
@@ -48,15 +49,16 @@ double processSeconds(int process) {
   return (user + system) / static_cast<double>(sysconf(_SC_CLK_TCK));
 }
 
-double stolenSeconds() {
+MachineSeconds machineSeconds() {
   std::ifstream stream("/proc/stat");
-  std::string skipped;
-  double stolen = std::nan("");
-  for (int i = 0; i < 8; ++i) {  // cpu user nice system idle iowait irq softirq
-    stream >> skipped;
+  std::string name;
+  std::array<double, 8> ticks{};  // user nice system idle iowait irq softirq steal
+  stream >> name;
+  for (double& tick : ticks) {
+    stream >> tick;
   }
-  stream >> stolen;
-  return stolen / static_cast<double>(sysconf(_SC_CLK_TCK));
+  const auto per_second = static_cast<double>(sysconf(_SC_CLK_TCK));
+  return {ticks[3] / per_second, ticks[7] / per_second};
 }
 
 }  // namespace concave_distance

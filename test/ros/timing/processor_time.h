@@ -10,7 +10,11 @@ int processOf(const std::string& node);
 /// Processor seconds that a process has used so far; NaN when there is none.
 double processSeconds(int process);
 
-/// Processor seconds of all cores that the machine below this one has taken away so far (steal, proc(5)).
-double stolenSeconds();
+/// Seconds of all cores so far (proc(5)).
+struct MachineSeconds {
+  double idle;    ///< nobody had anything to do
+  double stolen;  ///< the machine below a virtual one had taken the core away
+};
+MachineSeconds machineSeconds();
 
 }  // namespace concave_distance
