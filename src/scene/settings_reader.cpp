@@ -64,6 +64,7 @@ void readRadii(YamlMap& map, GeneticParameters& p) {
 
 void readOperators(YamlMap& map, GeneticParameters& p) {
   if (auto v = map.take("crossover_probability")) p.crossover_probability = v->number(kShare, share);
+  if (auto v = map.take("exchange_probability")) p.exchange_probability = v->number(kShare, share);
   if (auto v = map.take("mutation_probability")) {
     p.mutation_probability = optionalNumber(*v, "auto", kShare, share);
   }

@@ -46,6 +46,7 @@ void GeneticParameters::validate(const std::string& where) const {
     refuse(where, "population_size", std::to_string(population_size), "an even number, 2 or more");
   }
   requireShare(where, "crossover_probability", crossover_probability);
+  requireShare(where, "exchange_probability", exchange_probability);
   requireShare(where, "mutation_probability", mutation_probability.value_or(0.0));
   requireNotNegative(where, "final_mutation_probability_factor", final_mutation_probability_factor);
   requireLength(where, "mutation_radius", mutation_radius);

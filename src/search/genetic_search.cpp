@@ -59,7 +59,7 @@ class GeneticRun {
         result_.converged = true;
         break;
       }
-      if (parameters_.evaluation_limit != 0 && result_.cost.evaluations >= parameters_.evaluation_limit) {
+      if (outOfBudget()) {
         break;
       }
     }
@@ -74,8 +74,16 @@ class GeneticRun {
       work_.population.push_back(randomTrialPoint(objective_, engine_));
     }
     work_.population_places.resize(work_.population.size());
+    std::size_t settled = 0;
     for (std::size_t i = 0; i < work_.population.size(); ++i) {
+      if (i > 0 && outOfBudget()) {
+        // Seats that nothing is left for go to those settled already, in turn.
+        work_.population[i] = work_.population[i - settled];
+        work_.population_places[i] = work_.population_places[i - settled];
+        continue;
+      }
       settle(work_.population[i], work_.population_places[i]);
+      ++settled;
     }
     work_.census.take(work_.population_places, work_.places.size());
   }
@@ -178,14 +186,30 @@ class GeneticRun {
       // Parents on one place have children on it: nothing to mate.
       if (uniformUnit(engine_) < parameters_.crossover_probability &&
           work_.offspring_places[i] != work_.offspring_places[i + 1]) {
-        const Children children = mate(parameters_.mating, objective_, work_.offspring[i],
-                                       work_.offspring[i + 1], work_.metric, radii_.mating, engine_);
+        const Children children = mateCouple(work_.offspring[i], work_.offspring[i + 1]);
         work_.offspring[i] = children.first;
         work_.offspring[i + 1] = children.second;
         work_.offspring_is_new[i] = true;
         work_.offspring_is_new[i + 1] = true;
       }
     }
+  }
+
+  const TrialPoint& anyMinimumMet() {
+    const std::vector<TrialPoint>& minima = work_.basins.minima();
+    return minima[uniformIndex(engine_, static_cast<std::uint32_t>(minima.size()))];
+  }
+
+  Children mateCouple(const TrialPoint& parent_1, const TrialPoint& parent_2) {
+    const double exchange = parameters_.exchange_probability;
+    if (exchange > 0.0 && uniformUnit(engine_) < exchange) {
+      if (work_.basins.minima().empty()) {
+        return exchangeGenes(parent_1, parent_2, parent_2, parent_1);
+      }
+      const TrialPoint& donor = anyMinimumMet();
+      return exchangeGenes(parent_1, donor, parent_2, anyMinimumMet());
+    }
+    return mate(parameters_.mating, objective_, parent_1, parent_2, work_.metric, radii_.mating, engine_);
   }
 
   void mutateOffspring() {
@@ -199,10 +223,17 @@ class GeneticRun {
 
   void settleOffspring() {
     for (std::size_t i = 0; i < work_.offspring.size(); ++i) {
-      if (work_.offspring_is_new[i]) {
-        settle(work_.offspring[i], work_.offspring_places[i]);
-        work_.offspring_is_new[i] = false;
+      if (!work_.offspring_is_new[i]) {
+        continue;
       }
+      if (outOfBudget()) {
+        const std::uint32_t parent = work_.selected[i];
+        work_.offspring[i] = work_.population[parent];
+        work_.offspring_places[i] = work_.population_places[parent];
+      } else {
+        settle(work_.offspring[i], work_.offspring_places[i]);
+      }
+      work_.offspring_is_new[i] = false;
     }
   }
 
@@ -266,13 +297,17 @@ class GeneticRun {
   }
 
   void admitImmigrants() {
-    for (std::uint32_t i = 0; i < parameters_.immigrants; ++i) {
+    for (std::uint32_t i = 0; i < parameters_.immigrants && !outOfBudget(); ++i) {
       TrialPoint point = randomTrialPoint(objective_, engine_);
       std::uint32_t place = 0;
       settle(point, place);
       seatNewcomer(place, work_.elites, work_.places, work_.census, work_.population,
                    work_.population_places);
     }
+  }
+
+  bool outOfBudget() const {
+    return parameters_.evaluation_limit != 0 && result_.cost.evaluations >= parameters_.evaluation_limit;
   }
 
   void noteBest(std::uint32_t generation) {

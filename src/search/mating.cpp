@@ -97,4 +97,10 @@ Children mate(MatingMethod method, const PairObjective& objective, const TrialPo
   return {{a.first, b.first, kNotComputed}, {a.second, b.second, kNotComputed}};
 }
 
+Children exchangeGenes(const TrialPoint& parent_1, const TrialPoint& donor_1, const TrialPoint& parent_2,
+                       const TrialPoint& donor_2) {
+  constexpr double kNotComputed = std::numeric_limits<double>::quiet_NaN();
+  return {{parent_1.node_a, donor_1.node_b, kNotComputed}, {donor_2.node_a, parent_2.node_b, kNotComputed}};
+}
+
 }  // namespace concave_distance

@@ -1,16 +1,8 @@
 #include "concave_distance/search/place_table.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace concave_distance {
-namespace {
-
-// Distances between the first places are kept: 2 MB. A run that meets more computes the others each time.
-constexpr std::uint32_t kPlacesWithDistances = 1024;
-
-}  // namespace
-
 void PlaceTable::reset(double bound) {
   place_of_pair_.clear();
   points_.clear();
@@ -30,24 +22,15 @@ std::uint32_t PlaceTable::placeOf(const TrialPoint& point) {
   return place;
 }
 
-double PlaceTable::delta(std::uint32_t i, std::uint32_t j, PairMetric& metric) {
-  if (i == j) {
-    return 0.0;
-  }
-  if (i < j) {
-    std::swap(i, j);
-  }
+double PlaceTable::measure(std::uint32_t i, std::uint32_t j, PairMetric& metric) {
   // Measured from the younger place, which is usually compared with many older ones at once: without matrices
-  // one ball around it serves them all.
-  if (i >= kPlacesWithDistances) {
-    // Rounded as the kept ones are: a distance does not depend on the order in which places were met.
-    return static_cast<double>(static_cast<float>(metric.distanceWithin(points_[i], points_[j], bound_)));
+  // one ball around it serves them all. Rounded as the kept ones are: a distance does not depend on the order
+  // in which places were met.
+  const auto measured = static_cast<float>(metric.distanceWithin(points_[i], points_[j], bound_));
+  if (i < kPlacesWithDistances) {
+    delta_[std::size_t{i} * (i - 1) / 2 + j] = measured;
   }
-  float& kept = delta_[std::size_t{i} * (i - 1) / 2 + j];
-  if (kept < 0.0F) {
-    kept = static_cast<float>(metric.distanceWithin(points_[i], points_[j], bound_));
-  }
-  return static_cast<double>(kept);
+  return static_cast<double>(measured);
 }
 
 std::size_t PlaceTable::memoryBytes() const {
@@ -73,6 +56,21 @@ void Census::take(const std::vector<std::uint32_t>& population_places, std::size
     }
     ++counts[entry];
   }
+}
+
+void Census::move(std::uint32_t from, std::uint32_t to, std::size_t place_count) {
+  entry_of_place.resize(place_count, kNone);
+  const std::uint32_t entry = entry_of_place[from];
+  if (counts[entry] == 1) {
+    places[entry] = to;
+    entry_of_place[to] = entry;
+    entry_of_place[from] = kNone;
+    return;
+  }
+  --counts[entry];
+  entry_of_place[to] = static_cast<std::uint32_t>(places.size());
+  places.push_back(to);
+  counts.push_back(1);
 }
 
 std::size_t Census::memoryBytes() const {

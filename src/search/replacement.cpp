@@ -76,9 +76,9 @@ bool seatNewcomer(std::uint32_t place, const std::vector<std::uint32_t>& elites,
   if (seat == population.size()) {
     return false;
   }
+  census.move(population_places[seat], place, places.size());
   population[seat] = places.point(place);
   population_places[seat] = place;
-  census.take(population_places, places.size());
   return true;
 }
 

@@ -294,6 +294,7 @@ TEST_F(SceneFile, GeneticParametersOutOfRangeAreRefused) {
   expectGeneticRefused("population_size", "0", "a whole number from 2");
   expectGeneticRefused("max_generations", "-1", "a whole number from 0");
   expectGeneticRefused("crossover_probability", "1.1", "from 0 to 1");
+  expectGeneticRefused("exchange_probability", "-1", "from 0 to 1");
   expectGeneticRefused("mutation_probability", "-0.1", "from 0 to 1, or auto");
   expectGeneticRefused("final_mutation_probability_factor", "-1", "0 or more");
   expectGeneticRefused("mutation_radius", "0", "greater than 0, metres, or anywhere");
@@ -343,7 +344,8 @@ TEST_F(SceneFile, EverySettingReachesItsParameter) {
            "    warning_distance: 0.125\n    warning_hysteresis: 0.5\n"
            "    sharing_radius: 0.3\n    mating_radius: 0.4\n    niche_radius: 0.2\n"
            "    cold:\n      population_size: 80\n      max_generations: 9\n"
-           "      crossover_probability: 0.75\n      mutation_probability: 0.0625\n"
+           "      crossover_probability: 0.75\n      mutation_probability: 0.0625\n      "
+           "exchange_probability: 0.25\n"
            "      final_mutation_probability_factor: 0.5\n      mutation_radius: 1.5\n"
            "      shrinking_mutation_radius: true\n      selection: roulette\n"
            "      mating: phenotypic\n      niching: simple_crowding\n"
@@ -374,6 +376,7 @@ TEST_F(SceneFile, EverySettingReachesItsParameter) {
   EXPECT_EQ(cold.population_size, 80U);
   EXPECT_EQ(cold.max_generations, 9U);
   EXPECT_EQ(cold.crossover_probability, 0.75);
+  EXPECT_EQ(cold.exchange_probability, 0.25);
   EXPECT_EQ(cold.mutation_probability, 0.0625);
   EXPECT_EQ(cold.final_mutation_probability_factor, 0.5);
   EXPECT_EQ(cold.mutation_radius, 1.5);

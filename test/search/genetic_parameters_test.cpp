@@ -25,6 +25,7 @@ TEST(GeneticParameters, AreRefusedByNameWithTheValueSeen) {
       {"population_size", "7", [](auto& p) { p.population_size = 7; }},
       {"population_size", "0", [](auto& p) { p.population_size = 0; }},
       {"crossover_probability", "1.5", [](auto& p) { p.crossover_probability = 1.5; }},
+      {"exchange_probability", "2", [](auto& p) { p.exchange_probability = 2.0; }},
       {"mutation_probability", "-0.1", [](auto& p) { p.mutation_probability = -0.1; }},
       {"final_mutation_probability_factor", "nan",
        [](auto& p) { p.final_mutation_probability_factor = kNan; }},

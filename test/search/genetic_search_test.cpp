@@ -280,6 +280,45 @@ TEST(GeneticSearch, ImmigrantsFindWhatNoParentsLeadTo) {
       << "and they are seated";
 }
 
+// Niches of two fields of teeth are pairs of teeth: once a tooth has been met, exchange tries it against all.
+TEST(GeneticSearch, ExchangeOfGenesMeetsMoreMinimaAtEqualEvaluations) {
+  Search search(test::facingCombs());
+  GeneticParameters parameters = smallRun(NichingMethod::Sharing);
+  parameters.population_size = 100;
+  parameters.max_generations = 1000;
+  parameters.evaluation_limit = 40000;
+  std::size_t without = 0;
+  std::size_t with = 0;
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    parameters.exchange_probability = 0.0;
+    search.run(parameters, seed);
+    without += search.workspace.basins.minima().size();
+    parameters.exchange_probability = 0.8;
+    search.run(parameters, seed);
+    with += search.workspace.basins.minima().size();
+  }
+  EXPECT_GT(with, without);
+}
+
+// The first descent that reaches the limit is the last: any limit between the one given and what was spent
+// ends the same run after the same descent.
+TEST(GeneticSearch, DescendsNoMoreOnceTheEvaluationsAreSpent) {
+  Search search(test::hookAndStairs());
+  for (const NichingMethod niching : kAllNichings) {
+    GeneticParameters parameters = smallRun(niching);
+    parameters.max_generations = 1000;
+    for (const std::uint64_t limit : {300U, 3000U, 20000U}) {  // the first within the initial population
+      parameters.evaluation_limit = limit;
+      const SearchCost cost = search.run(parameters, 14).cost;
+      EXPECT_GE(cost.evaluations, limit);
+      parameters.evaluation_limit = cost.evaluations;
+      const SearchCost again = search.run(parameters, 14).cost;
+      EXPECT_EQ(again.evaluations, cost.evaluations) << "niching " << static_cast<int>(niching);
+      EXPECT_EQ(again.descents, cost.descents);
+    }
+  }
+}
+
 TEST(MultiStartDescent, MeetsMoreMinimaWithMoreStarts) {
   Search search(test::facingCombs());
   RandomEngine engine(12);

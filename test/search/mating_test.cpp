@@ -23,6 +23,16 @@ TEST(Mating, FitterParentKeepsTheLargerShare) {
   EXPECT_DOUBLE_EQ(fitterShare(0.0, 0.0), 0.5) << "0 / 0 of eq. (2.15) is defined";
 }
 
+TEST(Mating, ExchangedChildrenHaveOneNodeOfTheirParentAndOneOfTheirDonor) {
+  const auto point = [](std::uint32_t a, std::uint32_t b) {
+    return TrialPoint{NodeIndex{a}, NodeIndex{b}, 1.0};
+  };
+  const auto [first, second] = exchangeGenes(point(1, 2), point(3, 4), point(5, 6), point(7, 8));
+  EXPECT_TRUE(samePlace(first, point(1, 4)));
+  EXPECT_TRUE(samePlace(second, point(7, 6)));
+  EXPECT_TRUE(std::isnan(first.squared_distance)) << "not evaluated yet";
+}
+
 struct MatingCase {
   test::PairScene scene;
   PairObjective objective;
@@ -79,9 +89,8 @@ TEST(MeshMating, TheTwoChildrenTogetherReachTheWholePath) {
     return far;
   };
   const TrialPoint x = c.objective.evaluate(NodeIndex{0}, NodeIndex{0}, cost);
-  const TrialPoint y =
-      c.objective.evaluate(farthest(c.metric.onA(), c.scene.a->graph().nodeCount()),
-                           farthest(c.metric.onB(), c.scene.b->graph().nodeCount()), cost);
+  const TrialPoint y = c.objective.evaluate(farthest(c.metric.onA(), c.scene.a->graph().nodeCount()),
+                                            farthest(c.metric.onB(), c.scene.b->graph().nodeCount()), cost);
   std::vector<NodeIndex> path;
   c.metric.onA().shortestPath(std::min(x, y).node_a, std::max(x, y).node_a, path);
   ASSERT_GE(path.size(), 5U);

@@ -148,6 +148,30 @@ TEST(Census, CountsWhoStandsWhere) {
   EXPECT_EQ(census.entry_of_place, (std::vector<std::uint32_t>{Census::kNone, 0, Census::kNone}));
 }
 
+TEST(Census, AMoveIsWhatCountingAnewWouldFind) {
+  std::vector<std::uint32_t> where{4, 2, 4, 4, 0};
+  Census moved;
+  moved.take(where, 5);
+  const auto move = [&](std::size_t individual, std::uint32_t to) {
+    moved.move(where[individual], to, 7);
+    where[individual] = to;
+    Census counted;
+    counted.take(where, 7);
+    ASSERT_EQ(moved.places.size(), counted.places.size());
+    for (std::uint32_t place = 0; place < 7; ++place) {
+      const std::uint32_t entry = moved.entry_of_place[place];
+      const std::uint32_t expected = counted.entry_of_place[place];
+      ASSERT_EQ(entry == Census::kNone, expected == Census::kNone) << "place " << place;
+      if (entry != Census::kNone) {
+        EXPECT_EQ(moved.places[entry], place);
+        EXPECT_EQ(moved.counts[entry], counted.counts[expected]);
+      }
+    }
+  };
+  move(2, 6);  // from a crowd to a place that has come since
+  move(1, 3);  // the only one of its place
+}
+
 class MatingRestriction : public testing::Test {
  protected:
   MatingRestriction() : niches_(test::facingCombs()) {

@@ -39,6 +39,11 @@ struct GeneticParameters {
   std::uint32_t dynamic_niche_limit = 20;  ///< most peaks of dynamic sharing
   std::optional<double> mating_radius;     ///< sigma_m; empty: 1.25 sigma_s
   bool mating_restriction = true;
+  /// Share of the couples whose children, instead of standing between their parents, each take one node from
+  /// their parent and the other from any local minimum met so far (without local optimisation: from the other
+  /// parent). A niche is a pair of places, one on each body; a place that is part of one niche is likely to
+  /// be part of another. 0 for the thesis's own rows.
+  double exchange_probability = 0.8;
   std::optional<double> niche_radius;  ///< sigma_n; empty: sigma_s
   std::uint32_t crowding_factor = 3;   ///< C_f of simple crowding
   double generation_gap = 1.0;         ///< share of the population replaced a generation, (0, 1]
@@ -54,7 +59,8 @@ struct GeneticParameters {
   bool conserve_niches = true;
   /// Stop when the best and the set of niches have not changed for this many generations; 0: never early.
   std::uint32_t convergence_generations = 0;
-  /// Stop after the generation in which this many node pairs have been evaluated; 0: no limit.
+  /// No further descent once this many node pairs have been evaluated; what is left of the generation keeps
+  /// its parents, and the run ends. 0: no limit.
   std::uint64_t evaluation_limit = 0;
 
   /// @throws Error naming the parameter, the value seen and the allowed range

@@ -30,4 +30,9 @@ double fitterShare(double fitter_squared_distance, double other_squared_distance
 Children mate(MatingMethod method, const PairObjective& objective, const TrialPoint& parent_1,
               const TrialPoint& parent_2, PairMetric& metric, double path_bound, RandomEngine& engine);
 
+/// Exchange of genes: the first child has `parent_1`'s node on A and `donor_1`'s on B, the second `donor_2`'s
+/// on A and `parent_2`'s on B.
+Children exchangeGenes(const TrialPoint& parent_1, const TrialPoint& donor_1, const TrialPoint& parent_2,
+                       const TrialPoint& donor_2);
+
 }  // namespace concave_distance

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "concave_distance/search/node_pair_map.h"
@@ -21,25 +22,47 @@ class PlaceTable {
   const TrialPoint& point(std::uint32_t place) const { return points_[place]; }
   std::size_t size() const { return points_.size(); }
   /// Delta of two places (Carretero, eq. (4.5)), metres; infinite beyond the bound and between shells.
-  double delta(std::uint32_t i, std::uint32_t j, PairMetric& metric);
+  double delta(std::uint32_t i, std::uint32_t j, PairMetric& metric) {
+    if (i == j) {
+      return 0.0;
+    }
+    if (i < j) {
+      std::swap(i, j);
+    }
+    if (i < kPlacesWithDistances) {
+      const float kept = delta_[std::size_t{i} * (i - 1) / 2 + j];
+      if (kept >= 0.0F) {
+        return static_cast<double>(kept);
+      }
+    }
+    return measure(i, j, metric);
+  }
   std::size_t memoryBytes() const;
 
  private:
+  // Distances between the first places are kept: 2 MB. A run that meets more computes the others each time.
+  static constexpr std::uint32_t kPlacesWithDistances = 1024;
+
+  double measure(std::uint32_t i, std::uint32_t j, PairMetric& metric);
+
   NodePairMap place_of_pair_;
   std::vector<TrialPoint> points_;
   std::vector<float> delta_;  ///< lower triangle, row by row; negative: not computed yet
   double bound_ = 0.0;
 };
 
-/// How many individuals stand where: the places present in a population, in order of their first individual.
+/// How many individuals stand where: the places present in a population.
 struct Census {
   std::vector<std::uint32_t> places;          ///< the distinct ones
   std::vector<std::uint32_t> counts;          ///< beside them
   std::vector<std::uint32_t> entry_of_place;  ///< index into the two above; kNone where nobody stands
 
   static constexpr std::uint32_t kNone = 0xffffffffU;
+  /// Counts anew; the places come in order of their first individual.
   /// @param population_places the place of each individual
   void take(const std::vector<std::uint32_t>& population_places, std::size_t place_count);
+  /// One individual has moved from its place to one where nobody stood. O(1).
+  void move(std::uint32_t from, std::uint32_t to, std::size_t place_count);
   std::size_t memoryBytes() const;
 };
 
