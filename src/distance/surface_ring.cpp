@@ -10,6 +10,9 @@ namespace {
 
 using Eigen::Vector3d;
 
+/// No code of Feature.
+constexpr std::size_t kNoFeature = 99;
+
 bool isListed(const std::vector<TriangleIndex>& list, std::size_t count, TriangleIndex t) {
   const auto last = list.begin() + static_cast<std::ptrdiff_t>(count);
   return std::find(list.begin(), last, t) != last;
@@ -32,22 +35,10 @@ void addAcross(const SurfaceMesh& mesh, const MeshTopology& topology, NodeIndex 
   }
 }
 
-/// Which corners and edges of a triangle a point lies on, by its feature code or within the tolerance.
-struct Contact {
-  std::array<bool, 3> corner{};
-  std::array<bool, 3> edge{};
-};
-
-Contact contactOf(const TrianglePoints& corners, const Vector3d& point, double tolerance) {
-  Contact contact;
-  const double squared = tolerance * tolerance;
-  const std::array<Vector3d, 3> from_point = {corners[0] - point, corners[1] - point, corners[2] - point};
-  for (std::size_t k = 0; k < 3; ++k) {
-    contact.corner[k] = from_point[k].squaredNorm() <= squared;
-    const Vector3d edge = corners[(k + 1) % 3] - corners[k];
-    contact.edge[k] = from_point[k].cross(edge).squaredNorm() <= squared * edge.squaredNorm();
-  }
-  return contact;
+/// Whether a point lies on the line through two corners, given relative to it, within the tolerance.
+bool isOnLine(const Vector3d& from, const Vector3d& to, double squared_tolerance) {
+  const Vector3d edge = to - from;
+  return from.cross(edge).squaredNorm() <= squared_tolerance * edge.squaredNorm();
 }
 
 }  // namespace
@@ -61,24 +52,31 @@ void collectRing(const LocalTriangle& own, const LocalWitness& witness, double o
     const std::vector<NodeIndex>& done = workspace.ring_vertices;
     return std::find(done.begin(), done.end(), vertex) != done.end();
   };
+  const double squared_tolerance = on_feature * on_feature;
+  std::array<NodeIndex, 2> crossed{};  // the edge crossed last: the triangles at it are all listed
+  bool has_crossed = false;
   for (std::size_t i = 0; i < workspace.ring.size(); ++i) {
     const TriangleNodes& nodes = own.mesh.triangle(workspace.ring[i]);
-    Contact contact =
-        contactOf(localCorners(own.mesh, workspace.ring[i], own.centre), witness.point, on_feature);
-    if (i == 0) {
-      const auto code = static_cast<std::size_t>(witness.feature);
-      if (code < 3) contact.corner[code] = true;
-      if (code >= 3 && code < 6) contact.edge[code - 3] = true;
+    const TrianglePoints corners = localCorners(own.mesh, workspace.ring[i], own.centre);
+    const TrianglePoints away = {corners[0] - witness.point, corners[1] - witness.point,
+                                 corners[2] - witness.point};
+    const std::size_t code = i == 0 ? static_cast<std::size_t>(witness.feature) : kNoFeature;
+    for (std::size_t k = 0; k < 3; ++k) {
+      if ((code == k || away[k].squaredNorm() <= squared_tolerance) && !is_done(nodes[k])) {
+        workspace.ring_vertices.push_back(nodes[k]);
+        addAround(own.topology, nodes[k], workspace);
+      }
     }
     for (std::size_t k = 0; k < 3; ++k) {
-      if (!contact.corner[k] || is_done(nodes[k])) continue;
-      workspace.ring_vertices.push_back(nodes[k]);
-      addAround(own.topology, nodes[k], workspace);
-    }
-    for (std::size_t k = 0; k < 3; ++k) {
+      const NodeIndex from = nodes[k];
       const NodeIndex to = nodes[(k + 1) % 3];
-      if (!contact.edge[k] || is_done(nodes[k]) || is_done(to)) continue;  // those are all listed already
-      addAcross(own.mesh, own.topology, nodes[k], to, workspace);
+      if (is_done(from) || is_done(to)) continue;  // its triangles are all listed already
+      if (has_crossed && std::minmax(from, to) == std::minmax(crossed[0], crossed[1])) continue;
+      if (code == k + 3 || isOnLine(away[k], away[(k + 1) % 3], squared_tolerance)) {
+        addAcross(own.mesh, own.topology, from, to, workspace);
+        crossed = {from, to};
+        has_crossed = true;
+      }
     }
   }
 }

@@ -140,6 +140,12 @@ void TrackerState::walkRipples(PairSolution& solution) {
     }
   }
   settleRipples(solution);
+  const std::array<FeatureKey, 2> here = featuresOf(geometry, archive.records().front().niche.witness);
+  const bool smooth = std::none_of(ripples.ripples().begin(), ripples.ripples().end(), belongs);
+  if (!searching && smooth && here == last_features) {
+    return;
+  }
+  last_features = here;
   std::array<FeatureKey, 2> walked_from{};
   for (int step = 0; step < (warm ? kWarmRippleSteps : kColdRippleSteps); ++step) {
     const WitnessPair deepest = archive.records().front().niche.witness;

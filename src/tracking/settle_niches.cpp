@@ -9,8 +9,8 @@
 namespace concave_distance {
 namespace {
 
-// Records whose prominence is looked at again in a warm cycle, in turn.
-constexpr std::size_t kReviewsPerCycle = 1;
+// Warm cycles from one look at a record's prominence to the next record's, in turn.
+constexpr std::uint64_t kReviewInterval = 2;
 // States a flood looks at, at the most, before a newborn niche counts as one.
 constexpr std::uint32_t kColdFloodStates = 4000;
 constexpr std::uint32_t kWarmFloodStates = 400;
@@ -65,7 +65,7 @@ void TrackerState::admitCandidates(std::vector<NicheEvent>& events) {
 
 void TrackerState::reviewRecords(PairSolution& solution) {
   // A cold cycle looks at every record, once all are known: neighbours may have come in any order.
-  const std::size_t reviews = warm ? kReviewsPerCycle : archive.records().size();
+  const std::size_t reviews = warm ? cycle % kReviewInterval == 0 : archive.records().size();
   for (std::size_t k = 0; k < reviews && !archive.records().empty(); ++k) {
     next_review = (next_review + archive.records().size() - 1) % archive.records().size();
     if (reviewProminence(next_review, geometry, parameters, archive, solution.events)) {

@@ -82,6 +82,8 @@ struct TrackerState {
   double last_time = 0.0;
   double last_elapsed = 0.0;
   double last_distance = kNotComputed;
+  std::array<FeatureKey, 2>
+      last_features{};  ///< of the nearest niche when its surroundings were last looked at
   std::size_t next_review = 0;
   std::size_t next_projection = 0;
   double moved_since_search = 0.0;  ///< metres, at most
