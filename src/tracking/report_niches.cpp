@@ -9,8 +9,6 @@ namespace {
 
 // Triangle pairs that the extent of a niche is followed over at the most.
 constexpr std::size_t kExtentPairLimit = 256;
-// What a plateau's distance may vary by, relative to the bodies: far above the kernels' rounding.
-constexpr double kPlateauTolerance = 1e-9;
 // The archive holds half as many niches more than are reported, for those that come and go at the edge of the
 // list.
 constexpr std::size_t archiveCapacity(std::size_t reported) {

@@ -20,6 +20,8 @@ constexpr std::uint64_t kProjectionStream = 0x70726f6a656374ULL;
 // Ripples of the nearest niche that a cycle walks on from.
 constexpr int kWarmRippleSteps = 5;
 constexpr int kColdRippleSteps = 64;
+// How much farther than the nearest niche a place to walk on from may be, in least prominences.
+constexpr double kRippleReach = 5.0;
 
 }  // namespace
 
@@ -154,24 +156,42 @@ void TrackerState::walkRipples(PairSolution& solution) {
       walked_from = features;
       stepOverRipples(geometry, deepest, candidates);
     } else {
-      const double within = (1.0 + 2.0 * parameters.least_prominence);
-      Ripple* next = nullptr;
-      for (Ripple& ripple : ripples.ripples()) {
-        if (belongs(ripple) && ripple.walked != cycle + 1 &&
-            ripple.witness.squared_distance <= within * within * deepest.squared_distance &&
-            (next == nullptr || ripple.walked < next->walked)) {
-          next = &ripple;
-        }
-      }
-      if (next == nullptr) {
+      const std::optional<WitnessPair> next = nextToWalkFrom();
+      if (!next) {
         break;
       }
-      next->walked = cycle + 1;
-      const WitnessPair from = next->witness;
-      stepOverRipples(geometry, from, candidates);
+      stepOverRipples(geometry, *next, candidates);
     }
     settleRipples(solution);
   }
+}
+
+// Of the ripples of the nearest niche and the niches about as near, the one longest not walked from.
+std::optional<WitnessPair> TrackerState::nextToWalkFrom() {
+  const TrackedNiche& nearest = archive.records().front().niche;
+  const double within = (1.0 + kRippleReach * parameters.least_prominence) * nearest.distance;
+  std::uint64_t* longest = nullptr;
+  const WitnessPair* next = nullptr;
+  const auto consider = [&](const WitnessPair& witness, std::uint64_t& walked) {
+    if (walked <= cycle && witness.squared_distance <= within * within &&
+        (longest == nullptr || walked < *longest)) {
+      longest = &walked;
+      next = &witness;
+    }
+  };
+  for (Ripple& ripple : ripples.ripples()) {
+    if (ripple.owner == nearest.id) {
+      consider(ripple.witness, ripple.walked);
+    }
+  }
+  for (std::size_t i = 1; i < archive.records().size(); ++i) {
+    consider(archive.records()[i].niche.witness, archive.records()[i].walked);
+  }
+  if (next == nullptr) {
+    return std::nullopt;
+  }
+  *longest = cycle + 1;
+  return *next;
 }
 
 void TrackerState::settleRipples(PairSolution& solution) {

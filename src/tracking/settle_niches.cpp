@@ -44,7 +44,7 @@ void TrackerState::admitCandidates(std::vector<NicheEvent>& events) {
       result = verdictOnRipple(candidate);
       if (result.id == 0) {
         result = admitCandidate(candidate, geometry, parameters, niche_radius, cycle, archive, events);
-        if (result.outcome == Admission::LowProminence) {
+        if (result.outcome == Admission::LowProminence && !isOnPlateauOf(candidate, result.id)) {
           ripples.remember(geometry, candidate.witness, result.id, cycle);
         }
       }
@@ -72,6 +72,16 @@ void TrackerState::reviewRecords(PairSolution& solution) {
       archive.settle();
     }
   }
+}
+
+// At the niche's own distance: another place of a plateau, from where refinement finds its lowest end by
+// itself.
+bool TrackerState::isOnPlateauOf(const NicheCandidate& candidate, std::uint64_t id) const {
+  const auto& records = archive.records();
+  const auto niche =
+      std::find_if(records.begin(), records.end(), [&](const NicheRecord& r) { return r.niche.id == id; });
+  return niche != records.end() && std::sqrt(candidate.witness.squared_distance) <=
+                                       niche->niche.distance + 2.0 * kPlateauTolerance * geometry.scale();
 }
 
 // A ripple judged a few cycles ago is believed to be one still, unless it has become the deepest of its niche.

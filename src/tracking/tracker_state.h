@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,9 @@ namespace concave_distance {
 // Cycles for which a verdict on a ripple is believed.
 inline constexpr std::uint64_t kRippleJudgement = 4;
 
+// What a plateau's distance may vary by, relative to the bodies: far above the kernels' rounding.
+inline constexpr double kPlateauTolerance = 1e-9;
+
 struct TrackerState {
   TrackerState(std::string pair_name, std::shared_ptr<const BodyMesh> a, std::shared_ptr<const BodyMesh> b,
                const TrackerParameters& given);
@@ -39,12 +43,14 @@ struct TrackerState {
   void collectCandidates(std::size_t known_minima);
   void projectNiches(PairSolution& solution);
   void walkRipples(PairSolution& solution);
+  std::optional<WitnessPair> nextToWalkFrom();
   void settleRipples(PairSolution& solution);
 
   // settle_niches.cpp: which candidates are niches, and which niches are still niches of their own.
   void settleCandidates(PairSolution& solution);
   void orderCandidates();
   void admitCandidates(std::vector<NicheEvent>& events);
+  bool isOnPlateauOf(const NicheCandidate& candidate, std::uint64_t id) const;
   AdmissionResult verdictOnRipple(const NicheCandidate& candidate);
   void reviewRecords(PairSolution& solution);
   void drownNewborns(const PairObjective& objective, PairSolution& solution);
