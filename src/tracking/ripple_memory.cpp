@@ -19,8 +19,8 @@ struct Surroundings {
   std::size_t count = 0;
 
   void add(NodeIndex vertex) {
-    if (count < kVertexLimit && std::find(vertices.begin(), vertices.begin() + count, vertex) ==
-                                    vertices.begin() + count) {
+    if (count < kVertexLimit &&
+        std::find(vertices.begin(), vertices.begin() + count, vertex) == vertices.begin() + count) {
       vertices[count++] = vertex;
     }
   }
@@ -66,14 +66,25 @@ struct OneSide {
   const BodyMesh& other;
   const Eigen::Isometry3d& other_from_own;
   TriangleIndex own_triangle;
+  Feature own_feature;
   TriangleIndex other_triangle;
   Eigen::Vector3d own_point;  // own frame
 };
+
+// Whether a vertex is the one, or an end of the edge, that the witness lies on.
+bool isOnFeature(const OneSide& side, NodeIndex vertex) {
+  const FeatureKey key = featureKey(side.own.surface(), side.own_triangle, side.own_feature);
+  return (key.kind == Feature::Vertex0 && vertex.value == key.first) ||
+         (key.kind == Feature::Edge0 && (vertex.value == key.first || vertex.value == key.second));
+}
 
 std::array<Start, kStartsPerBody> closestStarts(const OneSide& side) {
   std::array<Start, kStartsPerBody> starts;
   const Surroundings around(side.own, side.own_triangle);
   for (std::size_t i = 0; i < around.count; ++i) {
+    if (isOnFeature(side, around.vertices[i])) {
+      continue;  // leads back to where the walk comes from
+    }
     const Eigen::Vector3d vertex = side.other_from_own * side.own.surface().vertex(around.vertices[i]);
     const SurfacePoint opposite = walkTowards(side.other, side.other_triangle, vertex);
     Start next{opposite.squared_distance, around.vertices[i], opposite.triangle};
@@ -163,15 +174,20 @@ void stepOverRipples(PairGeometry& geometry, const WitnessPair& from,
       candidates.push_back({refined.witness, geometry.nodePairNear(refined.witness), refined.proven, 0});
     }
   };
-  const OneSide on_a{*geometry.a,     *geometry.b,     geometry.b_from_a,
-                     from.triangle_a, from.triangle_b, from.point_a_in_a};
+  const OneSide on_a{*geometry.a,    *geometry.b,     geometry.b_from_a, from.triangle_a,
+                     from.feature_a, from.triangle_b, from.point_a_in_a};
   for (const Start& start : closestStarts(on_a)) {
     if (start.squared_distance < std::numeric_limits<double>::infinity()) {
       refine(triangleBeyond(on_a.own, start.vertex, on_a.own_point), start.opposite);
     }
   }
-  const OneSide on_b{*geometry.b,     *geometry.a,     geometry.a_from_b,
-                     from.triangle_b, from.triangle_a, geometry.b_from_a * from.point_b_in_a};
+  const OneSide on_b{*geometry.b,
+                     *geometry.a,
+                     geometry.a_from_b,
+                     from.triangle_b,
+                     from.feature_b,
+                     from.triangle_a,
+                     geometry.b_from_a * from.point_b_in_a};
   for (const Start& start : closestStarts(on_b)) {
     if (start.squared_distance < std::numeric_limits<double>::infinity()) {
       refine(start.opposite, triangleBeyond(on_b.own, start.vertex, on_b.own_point));

@@ -143,7 +143,10 @@ void TrackerState::walkRipples(PairSolution& solution) {
   }
   settleRipples(solution);
   const std::array<FeatureKey, 2> here = featuresOf(geometry, archive.records().front().niche.witness);
-  const bool smooth = std::none_of(ripples.ripples().begin(), ripples.ripples().end(), belongs);
+  const std::vector<NicheRecord>& records = archive.records();
+  const bool smooth =
+      std::none_of(ripples.ripples().begin(), ripples.ripples().end(), belongs) &&
+      std::none_of(records.begin() + 1, records.end(), [&](const NicheRecord& r) { return isBeside(r); });
   if (!searching && smooth && here == last_features) {
     return;
   }
@@ -166,7 +169,16 @@ void TrackerState::walkRipples(PairSolution& solution) {
   }
 }
 
-// Of the ripples of the nearest niche and the niches about as near, the one longest not walked from.
+// A niche between which and the nearest one the grid has no nodes: a ripple but for its prominence.
+bool TrackerState::isBeside(const NicheRecord& record) const {
+  const NicheRecord& nearest = archive.records().front();
+  const double within = (1.0 + kRippleReach * parameters.least_prominence) * nearest.niche.distance;
+  const double gap = (record.niche.point_a_in_a - nearest.niche.point_a_in_a).norm() +
+                     (record.point_b_in_b - nearest.point_b_in_b).norm();
+  return record.niche.distance <= within && gap <= geometry.a->maxEdgeLength() + geometry.b->maxEdgeLength();
+}
+
+// Of the ripples of the nearest niche and the niches beside it, the one longest not walked from.
 std::optional<WitnessPair> TrackerState::nextToWalkFrom() {
   const TrackedNiche& nearest = archive.records().front().niche;
   const double within = (1.0 + kRippleReach * parameters.least_prominence) * nearest.distance;
@@ -185,7 +197,9 @@ std::optional<WitnessPair> TrackerState::nextToWalkFrom() {
     }
   }
   for (std::size_t i = 1; i < archive.records().size(); ++i) {
-    consider(archive.records()[i].niche.witness, archive.records()[i].walked);
+    if (isBeside(archive.records()[i])) {
+      consider(archive.records()[i].niche.witness, archive.records()[i].walked);
+    }
   }
   if (next == nullptr) {
     return std::nullopt;

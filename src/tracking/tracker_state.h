@@ -43,6 +43,7 @@ struct TrackerState {
   void collectCandidates(std::size_t known_minima);
   void projectNiches(PairSolution& solution);
   void walkRipples(PairSolution& solution);
+  bool isBeside(const NicheRecord& record) const;
   std::optional<WitnessPair> nextToWalkFrom();
   void settleRipples(PairSolution& solution);
 
