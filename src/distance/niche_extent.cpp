@@ -72,8 +72,9 @@ class Flood {
       const TriangleIndex triangle_a = workspace_.open[i].first;
       const TriangleIndex triangle_b = workspace_.open[i].second;
       workspace_.corners.clear();
-      appendOverlap(levelPart(a_, triangle_a, levels_.tolerance),
-                    levelPart(b_, triangle_b, levels_.tolerance), levels_.reach, workspace_.corners);
+      const PlanarFeature part_a = levelPart(a_, triangle_a, levels_.tolerance);
+      const PlanarFeature part_b = levelPart(b_, triangle_b, levels_.tolerance);
+      appendOverlap(part_a, part_b, levels_.reach, workspace_.corners);
       if (workspace_.corners.empty()) continue;
       detail::convexHull(workspace_.corners, workspace_.polygon);
       const auto first = static_cast<std::uint32_t>(workspace_.points.size());
@@ -81,12 +82,13 @@ class Flood {
       workspace_.pieces.push_back({static_cast<std::uint32_t>(i), first, count});
       workspace_.points.insert(workspace_.points.end(), workspace_.polygon.begin(), workspace_.polygon.end());
       for (std::uint32_t k = first; k < first + count; ++k) {
-        spread(a_, triangle_a, workspace_.points[k], [&](TriangleIndex other) {
-          return std::pair{other, triangle_b};
-        });
-        spread(b_, triangle_b, workspace_.points[k], [&](TriangleIndex other) {
-          return std::pair{triangle_a, other};
-        });
+        const Vector2d point = workspace_.points[k];
+        if (!isInside(part_a, point)) {
+          spread(a_, triangle_a, point, [&](TriangleIndex other) { return std::pair{other, triangle_b}; });
+        }
+        if (!isInside(part_b, point)) {
+          spread(b_, triangle_b, point, [&](TriangleIndex other) { return std::pair{triangle_a, other}; });
+        }
       }
     }
   }
@@ -98,6 +100,21 @@ class Flood {
     if (place != workspace_.seen.end() && *place == pair) return;
     workspace_.seen.insert(place, pair);
     workspace_.open.push_back(pair);
+  }
+
+  /// Clearly within a level triangle: no other triangle holds the point.
+  bool isInside(const PlanarFeature& part, const Vector2d& point) const {
+    if (part.count < 3) return false;
+    const double margin = 4.0 * (levels_.slack + levels_.reach);
+    double turn = 0.0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vector2d edge = part.corners[(k + 1) % 3] - part.corners[k];
+      const Vector2d way = point - part.corners[k];
+      const double area = edge.x() * way.y() - edge.y() * way.x();
+      if (area * area <= margin * margin * edge.squaredNorm() || area * turn < 0.0) return false;
+      turn = area;
+    }
+    return true;
   }
 
   /// To the triangles that share the set's corner `point`, one body at a time: a set that goes on across a
