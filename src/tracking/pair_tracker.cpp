@@ -30,6 +30,7 @@ TrackerState::TrackerState(std::string pair_name, std::shared_ptr<const BodyMesh
   parameters.validate(name);
   chooseRadii();
   // So large that a warm cycle does not have to grow them; a cold one may.
+  search.reserve(kUsualMinima);
   known.reserve(kUsualMinima);
   candidates.reserve(kUsualMinima);
   drowned.reserve(kUsualMinima);

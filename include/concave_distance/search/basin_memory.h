@@ -15,6 +15,7 @@ class BasinMemory {
  public:
   /// @param capacity_log2 of the pairs' table, see NodePairMap
   explicit BasinMemory(std::uint32_t capacity_log2 = 12) : minimum_of_pair_(capacity_log2) {}
+  void reserve(std::size_t minima) { minima_.reserve(minima); }
   void clear();  ///< forgets all; call once a cycle
   /// Index into minima() or -1.
   std::int64_t find(NodeIndex node_a, NodeIndex node_b) const;

@@ -18,6 +18,7 @@ class PlaceTable {
  public:
   /// Forgets all. Distances beyond `bound` (metres) will be infinite.
   void reset(double bound);
+  void reserve(std::size_t places) { points_.reserve(places); }
   std::uint32_t placeOf(const TrialPoint& point);
   const TrialPoint& point(std::uint32_t place) const { return points_[place]; }
   std::size_t size() const { return points_.size(); }
@@ -58,6 +59,11 @@ struct Census {
   std::vector<std::uint32_t> entry_of_place;  ///< index into the two above; kNone where nobody stands
 
   static constexpr std::uint32_t kNone = 0xffffffffU;
+  void reserve(std::size_t place_count) {
+    places.reserve(place_count);
+    counts.reserve(place_count);
+    entry_of_place.reserve(place_count);
+  }
   /// Counts anew; the places come in order of their first individual.
   /// @param population_places the place of each individual
   void take(const std::vector<std::uint32_t>& population_places, std::size_t place_count);

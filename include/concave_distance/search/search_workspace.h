@@ -15,6 +15,13 @@ namespace concave_distance {
 /// Every buffer of one pair's search; bound to the two bodies, cleared and never freed.
 struct SearchWorkspace {
   SearchWorkspace(const BodyMesh& a, const BodyMesh& b) : metric(a, b) {}
+  /// Room for a run that meets this many places and minima; a larger one grows the buffers once more.
+  void reserve(std::size_t places) {
+    basins.reserve(places);
+    this->places.reserve(places);
+    census.reserve(places);
+    trail.reserve(places);
+  }
   PairMetric metric;
   BasinMemory basins;
   std::vector<TrialPoint> population;

@@ -1,0 +1,65 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "concave_distance/tracking/pair_tracker.h"
+#include "support/concave_shapes.h"
+#include "support/count_allocations.h"
+#include "support/thesis_scenes.h"
+
+namespace concave_distance {
+namespace {
+
+// Buffers have grown to what a motion needs when it has been run once: the same motion again must not
+// allocate, though other niches are born and die in it, for the random streams go on.
+template <typename PoseAt>
+void expectNoAllocation(PairTracker& tracker, PoseAt&& pose_at, int cycles, int rounds) {
+  PairSolution solution;
+  double time = 0.0;
+  for (int round = 0; round < rounds; ++round) {
+    for (int k = 0; k < cycles; ++k) {
+      tracker.update(pose_at(k), time += 0.01, solution);
+    }
+  }
+  const std::size_t before = allocations.load();
+  for (int k = 0; k < cycles; ++k) {
+    tracker.update(pose_at(k), time += 0.01, solution);
+    ASSERT_EQ(allocations.load() - before, 0U) << "cycle " << k;
+  }
+}
+
+TEST(TrackerAllocation, AWarmCycleOfTheBatteryAllocatesNothing) {
+  ASSERT_GT(allocations.load(), 0U) << "the counter is not in place";
+  const std::vector<Eigen::Isometry3d> manoeuvre = test::readThesisPoses("manoeuvre_200.csv");
+  for (const AccuracyLevel level : {AccuracyLevel::Refined, AccuracyLevel::Nodes}) {
+    TrackerParameters parameters;
+    parameters.accuracy = level;
+    PairTracker tracker("battery", test::loadThesisBody("fixture", 0.1), test::loadThesisBody("battery", 0.1),
+                        parameters);
+    // There and back, so that no step is a leap.
+    const int count = static_cast<int>(manoeuvre.size());
+    expectNoAllocation(
+        tracker,
+        [&](int k) { return manoeuvre[static_cast<std::size_t>(k < count ? k : 2 * count - 1 - k)]; },
+        2 * count, 3);
+  }
+}
+
+TEST(TrackerAllocation, AWarmCycleOfManyNichesAllocatesNothing) {
+  const auto comb = std::make_shared<BodyMesh>("comb", test::makeComb(5), BodyMeshOptions());
+  PairTracker tracker("combs", comb, comb, TrackerParameters());
+  expectNoAllocation(
+      tracker,
+      [](int k) {
+        const double t = 2.0 * 3.14159265358979323846 * k / 200.0;
+        Eigen::Isometry3d pose(
+            Eigen::AngleAxisd(3.14159265358979323846 + 0.01 * std::sin(t), Eigen::Vector3d::UnitZ()));
+        pose.translation() =
+            Eigen::Vector3d(1.225 + 0.008 * std::sin(2.0 * t), 0.6 + 0.1 * std::sin(t), 0.02 * std::sin(t));
+        return pose;
+      },
+      200, 3);
+}
+
+}  // namespace
+}  // namespace concave_distance
