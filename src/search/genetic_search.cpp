@@ -16,13 +16,17 @@
 namespace concave_distance {
 namespace {
 
-/// Mesh distances that the operators need: all of them where looking one up costs nothing, else those within
-/// the largest radius.
-double distanceBound(const PairObjective& objective, const NicheRadii& radii) {
+/// Mesh distances that the operators need: within the largest radius. Crowding compares distances of any
+/// length; it gets all of them where looking one up costs nothing.
+double distanceBound(const PairObjective& objective, const GeneticParameters& parameters,
+                     const NicheRadii& radii) {
   const bool has_matrices =
       objective.bodyA().metric().hasMatrices() && objective.bodyB().metric().hasMatrices();
-  return has_matrices ? std::numeric_limits<double>::infinity()
-                      : std::max({radii.sharing, radii.mating, radii.niche});
+  const bool within_radii = parameters.niching == NichingMethod::None ||
+                            parameters.niching == NichingMethod::Sharing ||
+                            parameters.niching == NichingMethod::DynamicSharing;
+  return has_matrices && !within_radii ? std::numeric_limits<double>::infinity()
+                                       : std::max({radii.sharing, radii.mating, radii.niche});
 }
 
 class GeneticRun {
@@ -37,7 +41,7 @@ class GeneticRun {
         epsilon_(parameters.fitness_epsilon *
                  std::max(objective.bodyA().maxEdgeLength(), objective.bodyB().maxEdgeLength())),
         offspring_count_(offspringCount(parameters.population_size, parameters.generation_gap)) {
-    work_.places.reset(distanceBound(objective, radii));
+    work_.places.reset(distanceBound(objective, parameters, radii));
     work_.convergence.reset(parameters.convergence_generations);
   }
 

@@ -3,8 +3,23 @@
 #include <limits>
 
 namespace concave_distance {
+namespace {
+
+// No path is shorter than the straight line, but for the single precision of the paths' lengths.
+bool straightLineExceeds(const MeshMetricQuery& query, NodeIndex from, NodeIndex to, double bound) {
+  constexpr double kRounding = 1.0 + 1e-5;
+  const std::vector<Eigen::Vector3d>& positions = query.metric().graph().positions;
+  const double least = (positions[from.value] - positions[to.value]).squaredNorm();
+  return least > kRounding * bound * bound;
+}
+
+}  // namespace
 
 double PairMetric::distanceWithin(const TrialPoint& x, const TrialPoint& y, double bound) {
+  if (straightLineExceeds(a_, x.node_a, y.node_a, bound) ||
+      straightLineExceeds(b_, x.node_b, y.node_b, bound)) {
+    return std::numeric_limits<double>::infinity();
+  }
   const double on_a = a_.distanceWithin(x.node_a, y.node_a, bound);
   if (!(on_a <= bound)) {
     return std::numeric_limits<double>::infinity();

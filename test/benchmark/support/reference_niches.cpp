@@ -11,7 +11,12 @@ std::vector<ReferenceNiche> referenceNiches(const BenchmarkPair& pair, const Eig
                                             double cutoff, double least_prominence) {
   RefinementWorkspace workspace;
   std::vector<ReferenceNiche> references;
-  for (const NodeNiche& niche : enumerateNodeNiches(*pair.a, *pair.b, pose, cutoff, least_prominence)) {
+  // What lies below the cutoff and leads on at less than the least prominence does so below this.
+  const double flood_level = (1.0 + least_prominence) * cutoff;
+  for (const NodeNiche& niche : enumerateNodeNiches(*pair.a, *pair.b, pose, flood_level, least_prominence)) {
+    if (niche.distance > cutoff) {
+      break;  // ascending
+    }
     const WitnessRefinement refined =
         refineWitness(*pair.a, *pair.b, pose, pair.a->originalTriangle(niche.node_a),
                       pair.b->originalTriangle(niche.node_b), workspace);
