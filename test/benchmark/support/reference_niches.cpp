@@ -48,29 +48,38 @@ bool isSameNiche(const BenchmarkPair& pair, const Eigen::Isometry3d& pose, const
          least_prominence;
 }
 
-std::size_t countRecalled(const BenchmarkPair& pair, const Eigen::Isometry3d& pose,
-                          const std::vector<WitnessPair>& found,
-                          const std::vector<ReferenceNiche>& references, double least_prominence) {
+std::vector<std::size_t> matchReferences(const BenchmarkPair& pair, const Eigen::Isometry3d& pose,
+                                         const std::vector<WitnessPair>& found,
+                                         const std::vector<ReferenceNiche>& references,
+                                         double least_prominence) {
   constexpr std::size_t kNearest = 4;
-  std::size_t recalled = 0;
+  std::vector<std::size_t> matches(references.size(), kNoMatch);
   std::vector<std::pair<double, std::size_t>> by_gap;
-  for (const ReferenceNiche& reference : references) {
+  for (std::size_t r = 0; r < references.size(); ++r) {
+    const WitnessPair& reference = references[r].witness;
     by_gap.clear();
     for (std::size_t i = 0; i < found.size(); ++i) {
-      by_gap.emplace_back((found[i].point_a_in_a - reference.witness.point_a_in_a).squaredNorm() +
-                              (found[i].point_b_in_a - reference.witness.point_b_in_a).squaredNorm(),
+      by_gap.emplace_back((found[i].point_a_in_a - reference.point_a_in_a).squaredNorm() +
+                              (found[i].point_b_in_a - reference.point_b_in_a).squaredNorm(),
                           i);
     }
     const std::size_t looked_at = std::min(kNearest, by_gap.size());
     std::partial_sort(by_gap.begin(), by_gap.begin() + static_cast<std::ptrdiff_t>(looked_at), by_gap.end());
-    for (std::size_t k = 0; k < looked_at; ++k) {
-      if (isSameNiche(pair, pose, found[by_gap[k].second], reference.witness, least_prominence)) {
-        ++recalled;
-        break;
+    for (std::size_t k = 0; k < looked_at && matches[r] == kNoMatch; ++k) {
+      if (isSameNiche(pair, pose, found[by_gap[k].second], reference, least_prominence)) {
+        matches[r] = by_gap[k].second;
       }
     }
   }
-  return recalled;
+  return matches;
+}
+
+std::size_t countRecalled(const BenchmarkPair& pair, const Eigen::Isometry3d& pose,
+                          const std::vector<WitnessPair>& found,
+                          const std::vector<ReferenceNiche>& references, double least_prominence) {
+  const std::vector<std::size_t> matches = matchReferences(pair, pose, found, references, least_prominence);
+  return static_cast<std::size_t>(
+      std::count_if(matches.begin(), matches.end(), [](std::size_t match) { return match != kNoMatch; }));
 }
 
 RecallCount countRecall(const BenchmarkPair& pair, const Eigen::Isometry3d& pose,

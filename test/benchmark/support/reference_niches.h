@@ -25,8 +25,16 @@ std::vector<ReferenceNiche> referenceNiches(const BenchmarkPair& pair, const Eig
 bool isSameNiche(const BenchmarkPair& pair, const Eigen::Isometry3d& pose, const WitnessPair& found,
                  const WitnessPair& reference, double least_prominence);
 
-/// References that some found witness is; looks at the found ones nearest to each reference only, so that
-/// lists of hundreds stay cheap.
+inline constexpr std::size_t kNoMatch = static_cast<std::size_t>(-1);
+
+/// For every reference the index of a found witness that is that niche, or kNoMatch; looks at the found ones
+/// nearest to each reference only, so that lists of hundreds stay cheap.
+std::vector<std::size_t> matchReferences(const BenchmarkPair& pair, const Eigen::Isometry3d& pose,
+                                         const std::vector<WitnessPair>& found,
+                                         const std::vector<ReferenceNiche>& references,
+                                         double least_prominence);
+
+/// References that some found witness is, by matchReferences().
 std::size_t countRecalled(const BenchmarkPair& pair, const Eigen::Isometry3d& pose,
                           const std::vector<WitnessPair>& found,
                           const std::vector<ReferenceNiche>& references, double least_prominence);
