@@ -2,7 +2,8 @@
 //
 //   battery_benchmark [--runs 1000] [--niche-runs 500] [--output doc/results/battery.csv]
 //
-// First block: comb-GA-wl with N_pop 80 (Table 5.2): runs whose best node pair is the enumeration's optimum.
+// First block: comb-GA-wl with N_pop 80 (Table 5.2): runs whose best node pair is the enumeration's optimum;
+// operators as in the thesis, without immigrants and exchange of genes.
 // Second block: comb-GA-wl-sh with N_pop 100 and automatic radii (Tables 4.1 and 5.8 with N_pop 100): niches
 // of the FINAL POPULATION by greedy identification with sigma_n = 0.6 (the thesis's measure: 9.19 mean, 7 to
 // 12), the nine references that the refined final population meets, and the nine that the archive (a cold
@@ -32,14 +33,24 @@ constexpr double kThesisGrid = 0.05;
 constexpr double kThesisNicheRadius = 0.6;
 constexpr double kLeastProminence = 1e-2;
 
+// A niche identified in a final population that is no reference, or is a reference met before.
+struct ExtraNiche {
+  TrialPoint best;
+  double distance;  // refined, metres
+  enum class Kind { Duplicate, ThroughMaterial, Other } kind;
+};
+
 struct NicheRun {
   std::size_t population_niches = 0;
+  std::vector<ExtraNiche> extras;
   RecallCount population;
   RecallCount archive;
 };
 
 GeneticParameters combGaWl() {
   GeneticParameters parameters;  // Table 5.2
+  parameters.exchange_probability = 0.0;
+  parameters.immigrants = 0;
   parameters.population_size = 80;
   parameters.mutation_probability = 1.0 / 80.0;
   parameters.max_generations = 100;
@@ -57,16 +68,34 @@ GeneticParameters combGaWlSh(bool conserve_niches) {
 }
 
 std::vector<WitnessPair> refinePopulation(const BenchmarkPair& pair, const Eigen::Isometry3d& pose,
-                                          const std::vector<IdentifiedNiche>& niches) {
+                                          const std::vector<IdentifiedNiche>& niches,
+                                          const std::vector<ReferenceNiche>& references,
+                                          std::vector<ExtraNiche>& extras) {
   RefinementWorkspace workspace;
   std::vector<WitnessPair> witnesses;
+  std::vector<bool> met(references.size(), false);
   for (const IdentifiedNiche& niche : niches) {
     const WitnessPair witness =
         refineWitness(*pair.a, *pair.b, pose, pair.a->originalTriangle(niche.best.node_a),
                       pair.b->originalTriangle(niche.best.node_b), workspace)
             .witness;
-    if (classifyOutwardness(*pair.a, *pair.b, pose, witness) != Outwardness::ThroughMaterial) {
-      witnesses.push_back(witness);
+    const double distance = std::sqrt(witness.squared_distance);
+    if (classifyOutwardness(*pair.a, *pair.b, pose, witness) == Outwardness::ThroughMaterial) {
+      extras.push_back({niche.best, distance, ExtraNiche::Kind::ThroughMaterial});
+      continue;
+    }
+    witnesses.push_back(witness);
+    std::size_t i = 0;
+    while (i < references.size() &&
+           !isSameNiche(pair, pose, witness, references[i].witness, kLeastProminence)) {
+      ++i;
+    }
+    if (i == references.size()) {
+      extras.push_back({niche.best, distance, ExtraNiche::Kind::Other});
+    } else if (met[i]) {
+      extras.push_back({niche.best, distance, ExtraNiche::Kind::Duplicate});
+    } else {
+      met[i] = true;
     }
   }
   return witnesses;
@@ -85,8 +114,8 @@ NicheRun nicheRun(const BenchmarkPair& pair, const Eigen::Isometry3d& pose,
   std::vector<std::uint32_t> order;
   identifyNiches(workspace.population, kThesisNicheRadius, workspace.metric, niches, order);
   run.population_niches = niches.size();
-  run.population =
-      countRecall(pair, pose, refinePopulation(pair, pose, niches), references, cutoff, kLeastProminence);
+  run.population = countRecall(pair, pose, refinePopulation(pair, pose, niches, references, run.extras),
+                               references, cutoff, kLeastProminence);
 
   TrackerParameters tracking;
   tracking.cold = parameters;
@@ -127,8 +156,41 @@ Manoeuvre runManoeuvre() {
   return manoeuvre;
 }
 
+// Where the identified niches of the final populations beyond the references stand, and how prominent they
+// are on the grid.
+void reportExtras(const std::vector<NicheRun>& runs, const std::vector<NodeNiche>& grid_minima) {
+  struct Place {
+    ExtraNiche niche;
+    std::size_t runs;
+  };
+  std::vector<Place> places;
+  for (const NicheRun& run : runs) {
+    for (const ExtraNiche& extra : run.extras) {
+      const auto known = std::find_if(places.begin(), places.end(), [&](const Place& place) {
+        return samePlace(place.niche.best, extra.best) && place.niche.kind == extra.kind;
+      });
+      if (known != places.end()) {
+        ++known->runs;
+      } else {
+        places.push_back({extra, 1});
+      }
+    }
+  }
+  std::sort(places.begin(), places.end(), [](const Place& l, const Place& r) { return l.runs > r.runs; });
+  for (const Place& place : places) {
+    constexpr const char* kNames[] = {"a reference's basin again", "through material", "no reference"};
+    const auto minimum = std::find_if(grid_minima.begin(), grid_minima.end(), [&](const NodeNiche& m) {
+      return m.node_a == place.niche.best.node_a && m.node_b == place.niche.best.node_b;
+    });
+    std::printf("    extra in %zu runs: nodes %.4f, exact %.4f, %s, prominence on the grid %s\n", place.runs,
+                std::sqrt(place.niche.best.squared_distance), place.niche.distance,
+                kNames[static_cast<int>(place.niche.kind)],
+                minimum == grid_minima.end() ? "0 (plateau)" : std::to_string(minimum->prominence).c_str());
+  }
+}
+
 void reportNicheRuns(const std::vector<NicheRun>& niche_runs, std::size_t references, const char* variant,
-                     std::ofstream& csv) {
+                     const std::vector<NodeNiche>& grid_minima, std::ofstream& csv) {
   std::uint32_t population_all = 0;
   std::uint32_t archive_all = 0;
   std::uint32_t with_duplicates = 0;
@@ -147,6 +209,7 @@ void reportNicheRuns(const std::vector<NicheRun>& niche_runs, std::size_t refere
   std::printf("comb-GA-wl-sh N_pop 100, %s, %zu runs\n", variant, runs);
   std::printf("  final population: N_Gamma %.2f [%.0f-%.0f]; references met %.2f mean; all in %u runs\n",
               mean(counts), percentile(counts, 0.0), percentile(counts, 1.0), mean(recalled), population_all);
+  reportExtras(niche_runs, grid_minima);
   std::printf("  archive: all references in %u runs; runs with a duplicate %u; with another niche %u\n",
               archive_all, with_duplicates, with_others);
   if (csv) {
@@ -211,12 +274,13 @@ int main(int argc, char** argv) {
     csv << "quantity,value,of\ncomb_ga_wl_optimum," << successes << ',' << runs << "\nreferences,"
         << references.size() << ",\n";
   }
+  const std::vector<NodeNiche> grid_minima = enumerateNodeNiches(*pair.a, *pair.b, pose, 1.2 * cutoff, 0.0);
   for (const bool conserve : {false, true}) {
     std::vector<NicheRun> niche(niche_runs);
     tbb::parallel_for(std::uint32_t{0}, niche_runs, [&](std::uint32_t run) {
       niche[run] = nicheRun(pair, pose, references, cutoff, run, conserve);
     });
-    reportNicheRuns(niche, references.size(), conserve ? "conserved" : "plain", csv);
+    reportNicheRuns(niche, references.size(), conserve ? "conserved" : "plain", grid_minima, csv);
   }
   const Manoeuvre manoeuvre = runManoeuvre();
   std::printf("manoeuvre, level nodes: the enumeration's optimum at %d of %d instants, worst excess %.3g\n",
