@@ -66,7 +66,7 @@ BodyMesh::BodyMesh(std::string name, SurfaceMesh surface, const BodyMeshOptions&
 }
 
 std::size_t BodyMesh::memoryBytes() const {
-  const auto meshBytes = [](const SurfaceMesh& mesh) {
+  const auto mesh_bytes = [](const SurfaceMesh& mesh) {
     return mesh.vertexCount() * sizeof(Eigen::Vector3d) + mesh.triangleCount() * sizeof(TriangleNodes);
   };
   const std::size_t topology = topology_.triangles_of_vertex.values.size() * sizeof(TriangleIndex) +
@@ -74,7 +74,7 @@ std::size_t BodyMesh::memoryBytes() const {
                                surface_.triangleCount() * (3 * sizeof(TriangleIndex) + sizeof(std::uint32_t) +
                                                            sizeof(Eigen::Vector3d)) +
                                surface_.vertexCount() * (3 * sizeof(std::uint32_t) + sizeof(Eigen::Vector3d));
-  return meshBytes(surface_) + meshBytes(grid_.mesh) +
+  return mesh_bytes(surface_) + mesh_bytes(grid_.mesh) +
          original_triangle_of_node_.size() * sizeof(TriangleIndex) + topology + graph_.memoryBytes() +
          tree_.memoryBytes() + metric_->memoryBytes();
 }

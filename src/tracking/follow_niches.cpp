@@ -6,7 +6,7 @@
 namespace concave_distance {
 
 void TrackerState::followNiches(double displacement, double elapsed, SearchCost& cost,
-                                      std::vector<NicheEvent>& events) {
+                                std::vector<NicheEvent>& events) {
   const PairObjective objective(*geometry.a, *geometry.b, geometry.a_from_b);
   const double rounding = 1e-9 * geometry.scale();
   std::vector<NicheRecord>& records = archive.records();

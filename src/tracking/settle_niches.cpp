@@ -84,7 +84,8 @@ bool TrackerState::isOnPlateauOf(const NicheCandidate& candidate, std::uint64_t 
                                        niche->niche.distance + 2.0 * kPlateauTolerance * geometry.scale();
 }
 
-// A ripple judged a few cycles ago is believed to be one still, unless it has become the deepest of its niche.
+// A ripple judged a few cycles ago is believed to be one still, unless it has become the deepest of its
+// niche.
 AdmissionResult TrackerState::verdictOnRipple(const NicheCandidate& candidate) {
   const Ripple* ripple = ripples.find(geometry, candidate.witness);
   if (ripple == nullptr || ripple->judged + kRippleJudgement <= cycle) {

@@ -16,7 +16,7 @@ struct NicheRecord {
   Eigen::Vector3d velocity_b_in_b = Eigen::Vector3d::Zero();
   std::uint64_t walked = 0;     ///< cycle of the last walk over ripples from here, plus 1; 0: never
   std::uint64_t described = 0;  ///< cycle of the last look at kind and extent, plus 1
-  bool reported = false;  ///< users have seen its id: its end is an event
+  bool reported = false;        ///< users have seen its id: its end is an event
 };
 
 /// The niches of one pair, apart from the population: the population is not the memory. Ascending
