@@ -122,7 +122,7 @@ void compare(const BenchmarkPair& pair, const Eigen::Isometry3d& pose,
              bool window_starts, std::vector<Followed>& followed, Tally& tally) {
   RefinementWorkspace workspace;
   const std::vector<const Followed*> before = predecessors(pair, pose, followed, truth, workspace);
-  const std::vector<std::size_t> met_by = matchReferences(pair, pose, found, truth, kLeastProminence);
+  const std::vector<std::size_t> met_by = matchOverBentPasses(pair, pose, found, truth, kLeastProminence);
   const auto waits = [](const Followed& niche) { return !niche.reported && !niche.from_the_start; };
   std::vector<Followed> next;
   for (std::size_t i = 0; i < truth.size(); ++i) {
@@ -179,8 +179,10 @@ Tally run(const BenchmarkPair& pair, const Windows& windows) {
       cold.seed = instant + 1;
       const PairSolution fresh = solveOnce(pair.name, pair.a, pair.b, cold, poses[instant]);
       tally.cold_truths += static_cast<double>(truth[instant].size());
-      tally.cold_recalled += static_cast<double>(
-          countRecalled(pair, poses[instant], witnesses(fresh), truth[instant], kLeastProminence));
+      for (const std::size_t match :
+           matchOverBentPasses(pair, poses[instant], witnesses(fresh), truth[instant], kLeastProminence)) {
+        tally.cold_recalled += match != kNoMatch ? 1.0 : 0.0;
+      }
     }
     window += k + 1 == windows.end(window) ? 1 : 0;
   }

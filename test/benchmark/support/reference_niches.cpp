@@ -1,9 +1,13 @@
 #include "benchmark/support/reference_niches.h"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 
 #include "concave_distance/distance/enumeration.h"
+#include "concave_distance/search/local_descent.h"
 #include "concave_distance/tracking/niche_admission.h"
+#include "concave_distance/tracking/prominence_flood.h"
 
 namespace concave_distance::benchmark {
 
@@ -28,7 +32,10 @@ std::vector<ReferenceNiche> referenceNiches(const BenchmarkPair& pair, const Eig
       known = known || isSameNiche(pair, pose, refined.witness, other.witness, least_prominence);
     }
     if (!known) {
-      references.push_back({refined.witness, niche.distance, niche.prominence});
+      references.push_back({refined.witness,
+                            {niche.node_a, niche.node_b, niche.distance * niche.distance},
+                            niche.distance,
+                            niche.prominence});
     }
   }
   return references;
@@ -47,6 +54,30 @@ bool isSameNiche(const BenchmarkPair& pair, const Eigen::Isometry3d& pose, const
   return prominenceBound(geometry, deeper ? reference : found, deeper ? found : reference, least_prominence) <
          least_prominence;
 }
+
+namespace {
+
+// The grid minimum that a place leads to over passes of less than `least_prominence`.
+TrialPoint bottomOfBasin(PairGeometry& geometry, const PairObjective& objective, const WitnessPair& place,
+                         double least_prominence, FloodWorkspace& flood) {
+  constexpr std::uint32_t kStates = 20000;
+  SearchCost cost;
+  std::vector<std::uint64_t> trail;
+  TrialPoint bottom = descend(objective, geometry.nodePairNear(place), nullptr, trail, cost);
+  while (true) {
+    const double level = (1.0 + least_prominence) * std::sqrt(bottom.squared_distance);
+    // The flood compares with the square of a root: without some noise its start may look deeper than itself.
+    const double noise = 1e-12 * level;
+    const std::optional<TrialPoint> deeper =
+        floodForDeeper(objective, bottom, level, noise, kStates, flood, cost);
+    if (!deeper) {
+      return bottom;
+    }
+    bottom = descend(objective, *deeper, nullptr, trail, cost);
+  }
+}
+
+}  // namespace
 
 std::vector<std::size_t> matchReferences(const BenchmarkPair& pair, const Eigen::Isometry3d& pose,
                                          const std::vector<WitnessPair>& found,
@@ -68,6 +99,32 @@ std::vector<std::size_t> matchReferences(const BenchmarkPair& pair, const Eigen:
     for (std::size_t k = 0; k < looked_at && matches[r] == kNoMatch; ++k) {
       if (isSameNiche(pair, pose, found[by_gap[k].second], reference, least_prominence)) {
         matches[r] = by_gap[k].second;
+      }
+    }
+  }
+  return matches;
+}
+
+std::vector<std::size_t> matchOverBentPasses(const BenchmarkPair& pair, const Eigen::Isometry3d& pose,
+                                             const std::vector<WitnessPair>& found,
+                                             const std::vector<ReferenceNiche>& references,
+                                             double least_prominence) {
+  std::vector<std::size_t> matches = matchReferences(pair, pose, found, references, least_prominence);
+  if (std::find(matches.begin(), matches.end(), kNoMatch) == matches.end()) {
+    return matches;
+  }
+  PairGeometry geometry(pair.a, pair.b);
+  geometry.setPose(pose);
+  const PairObjective objective(*pair.a, *pair.b, pose);
+  FloodWorkspace flood;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (std::find(matches.begin(), matches.end(), i) != matches.end()) {
+      continue;
+    }
+    const TrialPoint bottom = bottomOfBasin(geometry, objective, found[i], least_prominence, flood);
+    for (std::size_t r = 0; r < references.size(); ++r) {
+      if (matches[r] == kNoMatch && samePlace(bottom, references[r].nodes)) {
+        matches[r] = i;
       }
     }
   }

@@ -10,6 +10,7 @@ namespace concave_distance::benchmark {
 /// A niche of the ground truth.
 struct ReferenceNiche {
   WitnessPair witness;  ///< refined
+  TrialPoint nodes;     ///< the minimum on the grid
   double node_distance;
   double node_prominence;
 };
@@ -33,6 +34,14 @@ std::vector<std::size_t> matchReferences(const BenchmarkPair& pair, const Eigen:
                                          const std::vector<WitnessPair>& found,
                                          const std::vector<ReferenceNiche>& references,
                                          double least_prominence);
+
+/// The same and more: isSameNiche() knows straight ways only. Found witnesses that are left over are led, as
+/// the truth was made, from the grid minimum under them over passes of less than `least_prominence` to the
+/// bottom of their basin, which may be a reference that is left over. A flood for each of them.
+std::vector<std::size_t> matchOverBentPasses(const BenchmarkPair& pair, const Eigen::Isometry3d& pose,
+                                             const std::vector<WitnessPair>& found,
+                                             const std::vector<ReferenceNiche>& references,
+                                             double least_prominence);
 
 /// References that some found witness is, by matchReferences().
 std::size_t countRecalled(const BenchmarkPair& pair, const Eigen::Isometry3d& pose,
