@@ -1,6 +1,7 @@
 // The thesis's battery and fixture in the static pose: robustness over seeded runs.
 //
-//   battery_benchmark [--runs 1000] [--niche-runs 500] [--output doc/results/battery.csv]
+//   battery_benchmark [--runs 1000] [--niche-runs 500] [--exchange-probability 0.8]
+//                     [--output doc/results/battery.csv]
 //
 // First block: comb-GA-wl with N_pop 80 (Table 5.2): runs whose best node pair is the enumeration's optimum;
 // operators as in the thesis, without immigrants and exchange of genes.
@@ -59,9 +60,10 @@ GeneticParameters combGaWl() {
   return parameters;
 }
 
-GeneticParameters combGaWlSh(bool conserve_niches) {
+GeneticParameters combGaWlSh(bool conserve_niches, double exchange_probability) {
   GeneticParameters parameters;  // Tables 4.1 and 5.8 with N_pop 100; radii automatic
   parameters.conserve_niches = conserve_niches;
+  parameters.exchange_probability = exchange_probability;
   parameters.population_size = 100;
   parameters.max_generations = 50;
   return parameters;
@@ -103,9 +105,9 @@ std::vector<WitnessPair> refinePopulation(const BenchmarkPair& pair, const Eigen
 
 NicheRun nicheRun(const BenchmarkPair& pair, const Eigen::Isometry3d& pose,
                   const std::vector<ReferenceNiche>& references, double cutoff, std::uint64_t seed,
-                  bool conserve_niches) {
+                  bool conserve_niches, double exchange_probability) {
   NicheRun run;
-  const GeneticParameters parameters = combGaWlSh(conserve_niches);
+  const GeneticParameters parameters = combGaWlSh(conserve_niches, exchange_probability);
   const PairObjective objective(*pair.a, *pair.b, pose);
   SearchWorkspace workspace(*pair.a, *pair.b);
   RandomEngine engine(streamSeed(seed, "battery_benchmark", 0));
@@ -228,7 +230,9 @@ int main(int argc, char** argv) {
   CLI::App app("Robustness on the battery and fixture");
   std::uint32_t runs = 1000;
   std::uint32_t niche_runs = 500;
+  double exchange_probability = GeneticParameters{}.exchange_probability;
   std::string output;
+  app.add_option("--exchange-probability", exchange_probability, "Of comb-GA-wl-sh");
   app.add_option("--runs", runs, "Runs of comb-GA-wl");
   app.add_option("--niche-runs", niche_runs, "Runs of comb-GA-wl-sh");
   app.add_option("--output", output, "CSV file to write");
@@ -278,7 +282,7 @@ int main(int argc, char** argv) {
   for (const bool conserve : {false, true}) {
     std::vector<NicheRun> niche(niche_runs);
     tbb::parallel_for(std::uint32_t{0}, niche_runs, [&](std::uint32_t run) {
-      niche[run] = nicheRun(pair, pose, references, cutoff, run, conserve);
+      niche[run] = nicheRun(pair, pose, references, cutoff, run, conserve, exchange_probability);
     });
     reportNicheRuns(niche, references.size(), conserve ? "conserved" : "plain", grid_minima, csv);
   }
