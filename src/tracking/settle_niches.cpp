@@ -14,6 +14,8 @@ constexpr std::uint64_t kReviewInterval = 2;
 // States a flood looks at, at the most, before a newborn niche counts as one.
 constexpr std::uint32_t kColdFloodStates = 4000;
 constexpr std::uint32_t kWarmFloodStates = 400;
+// Floods from one newborn niche at the most, each from where the last one has led.
+constexpr int kFloodsPerNewborn = 4;
 // Cycles for which the outcome of a flood is believed without a new one.
 constexpr std::uint64_t kDrownedCycles = 16;
 
@@ -100,10 +102,45 @@ AdmissionResult TrackerState::verdictOnRipple(const NicheCandidate& candidate) {
   return {Admission::LowProminence, 0};
 }
 
+// Whether a flood of the grid from a niche's node pair, below its least prominence, leads to a place that is
+// closer on the triangles too. What is deeper for the grid only is where the flood goes on from. Appends that
+// place.
+bool TrackerState::leadsDown(const PairObjective& objective, const TrialPoint& start,
+                             const TrackedNiche& niche, PairSolution& solution) {
+  const std::uint32_t state_limit = warm ? kWarmFloodStates : kColdFloodStates;
+  const auto closerThan = [&](const TrialPoint& end) {
+    const WitnessRefinement refined =
+        geometry.refine(geometry.a->originalTriangle(end.node_a), geometry.b->originalTriangle(end.node_b));
+    if (!(std::sqrt(refined.witness.squared_distance) < niche.distance - geometry.samePlaceTolerance())) {
+      return false;
+    }
+    candidates.push_back({refined.witness, end, refined.proven, 0});
+    drowned.push_back({start, cycle});
+    return true;
+  };
+  const TrialPoint corner = geometry.nodePairNear(niche.witness);
+  if (std::sqrt(corner.squared_distance) <= (1.0 + parameters.least_prominence) * niche.distance &&
+      closerThan(descend(objective, corner, nullptr, search.trail, solution.cost))) {
+    return true;
+  }
+  const double level = (1.0 + parameters.least_prominence) * std::sqrt(start.squared_distance);
+  TrialPoint from = start;
+  for (int flooded = 0; flooded < kFloodsPerNewborn; ++flooded) {
+    const auto deeper = floodForDeeper(objective, from, level, 0.0, state_limit, flood, solution.cost);
+    if (!deeper) {
+      return false;
+    }
+    from = descend(objective, *deeper, nullptr, search.trail, solution.cost);
+    if (closerThan(from)) {
+      return true;
+    }
+  }
+  return false;
+}
+
 // A newborn niche that a flood of the grid leads out of below the least prominence is part of what it leads
 // to.
 void TrackerState::drownNewborns(const PairObjective& objective, PairSolution& solution) {
-  const std::uint32_t state_limit = warm ? kWarmFloodStates : kColdFloodStates;
   drowned.erase(std::remove_if(drowned.begin(), drowned.end(),
                                [&](const Drowned& entry) { return cycle - entry.cycle > kDrownedCycles; }),
                 drowned.end());
@@ -116,20 +153,8 @@ void TrackerState::drownNewborns(const PairObjective& objective, PairSolution& s
     const TrialPoint start = descend(objective, record.niche.node_pair, nullptr, search.trail, solution.cost);
     const bool known = std::any_of(drowned.begin(), drowned.end(),
                                    [&](const Drowned& entry) { return samePlace(entry.start, start); });
-    if (!known) {
-      const double level = (1.0 + parameters.least_prominence) * std::sqrt(start.squared_distance);
-      const auto deeper = floodForDeeper(objective, start, level, 0.0, state_limit, flood, solution.cost);
-      if (!deeper) {
-        continue;
-      }
-      const TrialPoint end = descend(objective, *deeper, nullptr, search.trail, solution.cost);
-      const WitnessRefinement refined =
-          geometry.refine(geometry.a->originalTriangle(end.node_a), geometry.b->originalTriangle(end.node_b));
-      if (!(std::sqrt(refined.witness.squared_distance) < record.niche.distance)) {
-        continue;  // deeper for the grid only
-      }
-      candidates.push_back({refined.witness, end, refined.proven, 0});
-      drowned.push_back({start, cycle});
+    if (!known && !leadsDown(objective, start, record.niche, solution)) {
+      continue;
     }
     archive.remove(i, solution.events);
   }

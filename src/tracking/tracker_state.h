@@ -54,6 +54,8 @@ struct TrackerState {
   bool isOnPlateauOf(const NicheCandidate& candidate, std::uint64_t id) const;
   AdmissionResult verdictOnRipple(const NicheCandidate& candidate);
   void reviewRecords(PairSolution& solution);
+  bool leadsDown(const PairObjective& objective, const TrialPoint& start, const TrackedNiche& niche,
+                 PairSolution& solution);
   void drownNewborns(const PairObjective& objective, PairSolution& solution);
 
   // report_niches.cpp
