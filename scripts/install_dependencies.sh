@@ -25,6 +25,7 @@ set -euo pipefail
   )
   debian_demo=(
     python3-roslaunch python3-rospy python3-rostopic rosbash rviz ros-robot-state-publisher
+    python3-geometry-msgs python3-std-msgs python3-visualization-msgs python3-diagnostic-msgs  # what ours are made of
   )
   debian_format=(clang-format)
   debian_lint=(clang-format clang-tidy catkin-lint)

@@ -14,7 +14,9 @@ std::optional<TrialPoint> floodForDeeper(const PairObjective& objective, const T
   const auto deeperLast = [](const TrialPoint& l, const TrialPoint& r) { return r < l; };
   const double from = std::sqrt(start.squared_distance);
   const double squared_level = level * level;
-  const double squared_goal = from > noise ? (from - noise) * (from - noise) : 0.0;
+  // The square of a rounded root may lie above what it is the root of: never above the start itself.
+  const double squared_goal =
+      from > noise ? std::min(start.squared_distance, (from - noise) * (from - noise)) : 0.0;
   workspace.seen.clear();
   heap.clear();
   heap.push_back(start);
