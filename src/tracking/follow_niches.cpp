@@ -52,14 +52,16 @@ void TrackerState::follow(NicheRecord& record, double elapsed) {
   TriangleIndex start_b = record.niche.witness.triangle_b;
   const Eigen::Vector3d before_a = record.niche.point_a_in_a;
   const Eigen::Vector3d before_b = record.point_b_in_b;
-  if (parameters.extrapolate && elapsed > 0.0) {
+  // On a plateau witnesses wander without coming nearer: no way to go on with.
+  if (parameters.extrapolate && elapsed > 0.0 && record.niche.kind == NicheKind::Point) {
     const Eigen::Vector3d way_a = record.velocity_a_in_a * elapsed;
     const Eigen::Vector3d way_b = record.velocity_b_in_b * elapsed;
     if (way_a.squaredNorm() + way_b.squaredNorm() > 0.0) {
       const SurfacePoint on_a = walkTowards(*geometry.a, start_a, before_a + way_a);
       const SurfacePoint on_b = walkTowards(*geometry.b, start_b, before_b + way_b);
-      const double extrapolated = (geometry.a_from_b * on_b.point - on_a.point).squaredNorm();
-      if (extrapolated < (geometry.a_from_b * before_b - before_a).squaredNorm()) {
+      const double extrapolated = (geometry.a_from_b * on_b.point - on_a.point).norm();
+      const double gain = (geometry.a_from_b * before_b - before_a).norm() - extrapolated;
+      if (gain > kPlateauTolerance * geometry.scale()) {
         start_a = on_a.triangle;
         start_b = on_b.triangle;
       }
