@@ -223,7 +223,7 @@ NicheExtent measureExtent(const BodyMesh& a, const BodyMesh& b, const Eigen::Iso
   const Vector3d point_a = witness.point_a_in_a - frames.centre_a;
   const Vector3d point_b = witness.point_b_in_a - frames.centre_a;
   const double distance = (point_b - point_a).norm();
-  workspace.seen.clear();
+  workspace.pieces.clear();
   if (distance <= rounding) return extent;
 
   const Vector3d normal = (point_b - point_a) / distance;
@@ -236,6 +236,12 @@ NicheExtent measureExtent(const BodyMesh& a, const BodyMesh& b, const Eigen::Iso
   const double height_tolerance = tolerance + 2.0 * rounding;
   const Levels levels{height_tolerance, std::sqrt(height_tolerance * (2.0 * distance + height_tolerance)),
                       2.0 * rounding};
+  workspace.origin = witness.point_a_in_a;
+  workspace.normal = normal;
+  workspace.axis_x = axis_x;
+  workspace.axis_y = axis_y;
+  workspace.height_tolerance = levels.tolerance;
+  workspace.reach = levels.reach + levels.slack;
   if (isPeak(side_a, witness.triangle_a, witness.feature_a, levels, workspace.ring) ||
       isPeak(side_b, witness.triangle_b, witness.feature_b, levels, workspace.ring)) {
     return extent;
@@ -252,8 +258,14 @@ NicheExtent measureExtent(const BodyMesh& a, const BodyMesh& b, const Eigen::Iso
 }
 
 bool isOnMeasuredSet(const ExtentWorkspace& workspace, const WitnessPair& witness) {
-  return std::binary_search(workspace.seen.begin(), workspace.seen.end(),
-                            std::pair{witness.triangle_a, witness.triangle_b});
+  const Vector3d way = witness.point_a_in_a - workspace.origin;
+  if (std::abs(workspace.normal.dot(way)) > workspace.height_tolerance) return false;
+  const Vector2d point(workspace.axis_x.dot(way), workspace.axis_y.dot(way));
+  return std::any_of(
+      workspace.pieces.begin(), workspace.pieces.end(), [&](const ExtentWorkspace::Piece& piece) {
+        const Vector2d nearest = detail::nearestIn(&workspace.points[piece.first], piece.count, point);
+        return (nearest - point).squaredNorm() <= 4.0 * workspace.reach * workspace.reach;
+      });
 }
 
 }  // namespace concave_distance

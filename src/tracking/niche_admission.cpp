@@ -11,6 +11,9 @@ namespace concave_distance {
 namespace {
 
 constexpr int kPassSamples = 8;
+// Before two places are taken for one niche: between coarse samples both points may slip round a corner at
+// once.
+constexpr int kPassSamplesToUnite = 64;
 constexpr std::size_t kNeighbours = 4;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -61,9 +64,15 @@ double prominenceBound(const PairGeometry& geometry, const WitnessPair& shallow,
   const double distance =
       std::max(std::sqrt(shallow.squared_distance), kRelativeDistanceFloor * geometry.scale());
   const double good_enough = (1.0 + least_prominence) * distance;
-  const double pass = passLevel(*geometry.a, *geometry.b, geometry.a_from_b, shallow, deep, kPassSamples,
-                                good_enough * good_enough);
-  return std::max(0.0, std::sqrt(pass) / distance - 1.0);
+  const auto pass = [&](int samples) {
+    return passLevel(*geometry.a, *geometry.b, geometry.a_from_b, shallow, deep, samples,
+                     good_enough * good_enough);
+  };
+  double level = pass(kPassSamples);
+  if (level < good_enough * good_enough) {
+    level = pass(kPassSamplesToUnite);
+  }
+  return std::max(0.0, std::sqrt(level) / distance - 1.0);
 }
 
 AdmissionResult admitCandidate(const NicheCandidate& candidate, const PairGeometry& geometry,

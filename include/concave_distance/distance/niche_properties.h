@@ -49,6 +49,14 @@ struct ExtentWorkspace {
   std::vector<Eigen::Vector2d> corners;
   std::vector<Eigen::Vector2d> polygon;
   std::vector<Eigen::Vector2d> hull;
+  /// Of the set measured last, A's frame: a point of its plane on A, the unit vector towards B, the axes of
+  /// the two-dimensional coordinates; how far heights and points may be off, metres.
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  Eigen::Vector3d axis_x = Eigen::Vector3d::Zero();
+  Eigen::Vector3d axis_y = Eigen::Vector3d::Zero();
+  double height_tolerance = 0.0;
+  double reach = 0.0;
 };
 
 /// Collects the triangle pairs around a refined witness that reach the same distance (up to `tolerance`,
@@ -61,8 +69,8 @@ NicheExtent measureExtent(const BodyMesh& a, const BodyMesh& b, const Eigen::Iso
                           const WitnessPair& witness, double tolerance, std::size_t pair_limit,
                           ExtentWorkspace& workspace);
 
-/// Whether a witness at the same distance (up to the tolerance of the measurement) belongs to the set that
-/// was measured last: a pair of triangles holds one convex piece of it at the most.
+/// Whether a witness pair at the same distance (up to the tolerance of the measurement) lies on the set that
+/// was measured last. A set that is a point holds nothing else.
 bool isOnMeasuredSet(const ExtentWorkspace& workspace, const WitnessPair& witness);
 
 /// Sign of the witness direction against the pseudonormals at both witnesses (Baerentzen and Aanaes 2005),
