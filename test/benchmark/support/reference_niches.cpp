@@ -41,6 +41,26 @@ std::vector<ReferenceNiche> referenceNiches(const BenchmarkPair& pair, const Eig
   return references;
 }
 
+namespace {
+
+// On one plateau: at one distance, and one on the set around the other.
+bool isOnePlateau(const BenchmarkPair& pair, const Eigen::Isometry3d& pose, const WitnessPair& l,
+                  const WitnessPair& r, double size) {
+  constexpr double kTolerance = 1e-9;
+  if (std::abs(std::sqrt(l.squared_distance) - std::sqrt(r.squared_distance)) > 2.0 * kTolerance * size) {
+    return false;
+  }
+  ExtentWorkspace workspace;
+  const auto holds = [&](const WitnessPair& around, const WitnessPair& witness) {
+    const NicheExtent extent =
+        measureExtent(*pair.a, *pair.b, pose, around, kTolerance * size, 1024, workspace);
+    return extent.kind != NicheKind::Point && isOnMeasuredSet(workspace, witness);
+  };
+  return holds(l, r) || holds(r, l);
+}
+
+}  // namespace
+
 bool isSameNiche(const BenchmarkPair& pair, const Eigen::Isometry3d& pose, const WitnessPair& found,
                  const WitnessPair& reference, double least_prominence) {
   PairGeometry geometry(pair.a, pair.b);
@@ -48,6 +68,9 @@ bool isSameNiche(const BenchmarkPair& pair, const Eigen::Isometry3d& pose, const
   const double tolerance = geometry.samePlaceTolerance();
   if ((found.point_a_in_a - reference.point_a_in_a).norm() <= tolerance &&
       (found.point_b_in_a - reference.point_b_in_a).norm() <= tolerance) {
+    return true;
+  }
+  if (isOnePlateau(pair, pose, found, reference, geometry.scale())) {
     return true;
   }
   const bool deeper = found.squared_distance < reference.squared_distance;
