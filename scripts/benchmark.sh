@@ -17,7 +17,7 @@ for name in tracking battery recall radii ablation; do
 done
 results=$root/doc/results
 mkdir -p "$results"
-"$(program tracking_benchmark)" --steps "$steps" --output "$results/tracking.csv" | tee "$results/tracking.txt"
+"$(program tracking_benchmark)" --steps "$steps" --list-misses --output "$results/tracking.csv" | tee "$results/tracking.txt"
 "$(program battery_benchmark)" --runs "$runs" --niche-runs "$niche_runs" --output "$results/battery.csv" |
   tee "$results/battery.txt"
 "$(program recall_benchmark)" --steps "$steps" --window "$window" --output "$results/recall.csv" |
