@@ -43,6 +43,7 @@ BodyMesh::BodyMesh(std::string name, SurfaceMesh surface, const BodyMeshOptions&
       surface_(std::move(surface)),
       topology_(buildMeshTopology(surface_)),
       tree_(surface_),
+      hierarchy_(surface_, tree_),
       max_edge_length_(edgeLengthOf(name_, surface_, options)),
       grid_(makeSearchGrid(surface_, max_edge_length_)),
       graph_(buildNodeGraph(grid_.mesh)),
@@ -76,7 +77,7 @@ std::size_t BodyMesh::memoryBytes() const {
                                surface_.vertexCount() * (3 * sizeof(std::uint32_t) + sizeof(Eigen::Vector3d));
   return mesh_bytes(surface_) + mesh_bytes(grid_.mesh) +
          original_triangle_of_node_.size() * sizeof(TriangleIndex) + topology + graph_.memoryBytes() +
-         tree_.memoryBytes() + metric_->memoryBytes();
+         tree_.memoryBytes() + hierarchy_.memoryBytes() + metric_->memoryBytes();
 }
 
 }  // namespace concave_distance

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "concave_distance/mesh/bounding_volume_hierarchy.h"
 #include "concave_distance/mesh/mesh_metric.h"
 #include "concave_distance/mesh/mesh_topology.h"
 #include "concave_distance/mesh/node_graph.h"
@@ -43,6 +44,7 @@ class BodyMesh {
   const SurfaceMesh& surface() const { return surface_; }
   const MeshTopology& topology() const { return topology_; }
   const TriangleTree& tree() const { return tree_; }
+  const BoundingVolumeHierarchy& hierarchy() const { return hierarchy_; }
   const SurfaceMesh& grid() const { return grid_.mesh; }
   /// What the search moves on: the grid's nodes or, where thinned() says so, an even choice of them.
   const NodeGraph& graph() const { return graph_; }
@@ -69,6 +71,7 @@ class BodyMesh {
   SurfaceMesh surface_;
   MeshTopology topology_;
   TriangleTree tree_;
+  BoundingVolumeHierarchy hierarchy_;
   double max_edge_length_;
   SearchGrid grid_;
   NodeGraph graph_;

@@ -1,0 +1,100 @@
+#include "leaf_pair.h"
+
+#include <Eigen/Geometry>
+
+namespace concave_distance::detail {
+namespace {
+
+using Eigen::Vector3d;
+
+Lanes along(const Vector3d& direction, const Lanes (&point)[3]) {
+  return direction.x() * point[0] + direction.y() * point[1] + direction.z() * point[2];
+}
+
+Lanes along(const Lanes (&direction)[3], const Vector3d& point) {
+  return direction[0] * point.x() + direction[1] * point.y() + direction[2] * point.z();
+}
+
+Lanes along(const Lanes (&direction)[3], const Lanes (&point)[3]) {
+  return direction[0] * point[0] + direction[1] * point[1] + direction[2] * point[2];
+}
+
+}  // namespace
+
+LeafLanes::LeafLanes(const BoundingVolumeHierarchy::Leaf& leaf, const Eigen::Matrix3d& rotation,
+                     const Vector3d& offset) {
+  for (int k = 0; k < 3; ++k) {
+    const Lanes x = lanes(leaf.corner[k][0]);
+    const Lanes y = lanes(leaf.corner[k][1]);
+    const Lanes z = lanes(leaf.corner[k][2]);
+    for (int c = 0; c < 3; ++c) {
+      corner[k][c] = rotation(c, 0) * x + rotation(c, 1) * y + rotation(c, 2) * z + offset[c];
+    }
+  }
+  Lanes u[3];
+  Lanes v[3];
+  for (int c = 0; c < 3; ++c) {
+    u[c] = corner[1][c] - corner[0][c];
+    v[c] = corner[2][c] - corner[0][c];
+  }
+  squared_normal = Lanes::Zero();
+  for (int c = 0; c < 3; ++c) {
+    const int next = (c + 1) % 3;
+    const int last = (c + 2) % 3;
+    normal[c] = u[next] * v[last] - u[last] * v[next];
+    squared_normal += normal[c].square();
+  }
+}
+
+TrianglePoints LeafLanes::triangle(std::size_t lane) const {
+  TrianglePoints points;
+  const auto i = static_cast<Eigen::Index>(lane);
+  for (std::size_t k = 0; k < 3; ++k) points[k] = {corner[k][0][i], corner[k][1][i], corner[k][2][i]};
+  return points;
+}
+
+Lanes leastAlong(const LeafLanes& leaf, const Vector3d& direction) {
+  return along(direction, leaf.corner[0])
+      .min(along(direction, leaf.corner[1]))
+      .min(along(direction, leaf.corner[2]));
+}
+
+unsigned closerThanByPlanes(const TrianglePoints& a, const LeafLanes& b, double enough, double slack,
+                            unsigned candidates) {
+  // A gap g along a direction of length l separates by g / l; both corners' heights are taken along it, so
+  // that it need not be the plane's normal to the last digit.
+  const double needed = enough + slack;
+  const double squared_needed = needed * needed;
+  const Vector3d normal = (a[1] - a[0]).cross(a[2] - a[0]);
+  const double a0 = normal.dot(a[0]);
+  const double a1 = normal.dot(a[1]);
+  const double a2 = normal.dot(a[2]);
+  const Lanes b0 = along(normal, b.corner[0]);
+  const Lanes b1 = along(normal, b.corner[1]);
+  const Lanes b2 = along(normal, b.corner[2]);
+  const Lanes above = b0.min(b1).min(b2) - std::max({a0, a1, a2});
+  const Lanes below = std::min({a0, a1, a2}) - b0.max(b1).max(b2);
+  const Lanes gap_a = above.max(below).max(0.0);
+
+  const Lanes own0 = along(b.normal, b.corner[0]);
+  const Lanes own1 = along(b.normal, b.corner[1]);
+  const Lanes own2 = along(b.normal, b.corner[2]);
+  const Lanes other0 = along(b.normal, a[0]);
+  const Lanes other1 = along(b.normal, a[1]);
+  const Lanes other2 = along(b.normal, a[2]);
+  const Lanes over = other0.min(other1).min(other2) - own0.max(own1).max(own2);
+  const Lanes under = own0.min(own1).min(own2) - other0.max(other1).max(other2);
+  const Lanes gap_b = over.max(under).max(0.0);
+
+  const double needed_a = squared_needed * normal.squaredNorm();
+  unsigned left = 0;
+  for (int lane = 0; lane < static_cast<int>(BoundingVolumeHierarchy::kWidth); ++lane) {
+    const bool apart_a = gap_a[lane] > 0.0 && gap_a[lane] * gap_a[lane] >= needed_a;
+    const bool apart_b =
+        gap_b[lane] > 0.0 && gap_b[lane] * gap_b[lane] >= squared_needed * b.squared_normal[lane];
+    if (!apart_a && !apart_b) left |= 1U << static_cast<unsigned>(lane);
+  }
+  return left & candidates;
+}
+
+}  // namespace concave_distance::detail

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "box_pair_bounds.h"
+#include "concave_distance/distance/triangle_distance.h"
+
+namespace concave_distance::detail {
+
+/// The triangles of one of B's leaves in the local frame of A, lane by lane.
+struct LeafLanes {
+  LeafLanes(const BoundingVolumeHierarchy::Leaf& leaf, const Eigen::Matrix3d& rotation,
+            const Eigen::Vector3d& offset);
+
+  TrianglePoints triangle(std::size_t lane) const;
+
+  Lanes corner[3][3];  ///< [corner][coordinate]
+  Lanes normal[3];     ///< of each triangle, not normalised; with its squared length
+  Lanes squared_normal;
+};
+
+inline TrianglePoints triangleOf(const BoundingVolumeHierarchy::Leaf& leaf, std::size_t lane) {
+  TrianglePoints points;
+  for (std::size_t k = 0; k < 3; ++k) {
+    points[k] = {leaf.corner[k][0][lane], leaf.corner[k][1][lane], leaf.corner[k][2][lane]};
+  }
+  return points;
+}
+
+/// Least value of `direction` over the corners of each lane.
+Lanes leastAlong(const LeafLanes& leaf, const Eigen::Vector3d& direction);
+
+/// Of the lanes whose bit is set in `candidates`, those whose triangle neither a's plane nor its own plane
+/// parts from triangle `a` by `enough` (metres) and `slack` for rounding.
+unsigned closerThanByPlanes(const TrianglePoints& a, const LeafLanes& b, double enough, double slack,
+                            unsigned candidates);
+
+}  // namespace concave_distance::detail
