@@ -16,6 +16,13 @@ void TrackerState::followNiches(double displacement, double elapsed, SearchCost&
     record.niche.node_pair = descend(
         objective, objective.evaluate(record.niche.node_pair.node_a, record.niche.node_pair.node_b, cost),
         &search.basins, search.trail, cost);
+    if (cycles_at_rest > 0 && parameters.accuracy != AccuracyLevel::Nodes) {
+      record.niche.closing_speed = elapsed > 0.0 ? 0.0 : kNotComputed;
+      record.velocity_a_in_a.setZero();
+      record.velocity_b_in_b.setZero();
+      ++i;
+      continue;
+    }
     follow(record, elapsed);
     // No surviving minimum can fall by more than any point of B has moved: the basin is gone and the descent
     // has run on into another one.

@@ -70,8 +70,9 @@ void TrackerState::update(const Eigen::Isometry3d& pose, double time, PairSoluti
   const double displacement =
       warm ? largestDisplacement(geometry.b->surface().boundingBox(), last_pose, *rigid)
            : std::numeric_limits<double>::infinity();
+  cycles_at_rest = displacement > 0.0 ? 0 : cycles_at_rest + 1;
   candidates.clear();
-  dark_side_met = false;
+  dark_side_met = dark_side_met && cycles_at_rest > 0;
   search.basins.clear();
 
   if (warm) {
@@ -127,6 +128,7 @@ void PairTracker::reset() {
   state_->archive.clear();
   state_->ripples.clear();
   state_->warm = false;
+  state_->dark_side_met = false;
 }
 
 void PairTracker::setParameters(const TrackerParameters& parameters) {

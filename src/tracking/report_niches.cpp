@@ -27,7 +27,12 @@ void TrackerState::describeNiches(PairSolution& solution) {
       ++i;
       continue;
     }
+    const bool known = cycles_at_rest > 0 && records[i].described == cycle;
     records[i].described = cycle + 1;
+    if (known) {
+      ++i;
+      continue;
+    }
     describe(records[i].niche);
     i = uniteOnPlateau(i, solution.events) ? 0 : i + 1;
   }

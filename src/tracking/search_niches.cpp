@@ -19,6 +19,8 @@ constexpr std::uint32_t kColdProjectionFactor = 16;
 constexpr std::uint64_t kProjectionStream = 0x70726f6a656374ULL;
 // Ripples of the nearest niche that a cycle walks on from.
 constexpr int kWarmRippleSteps = 5;
+// Cycles of walking on over ripples from one and the same pose.
+constexpr std::uint32_t kRestWalks = 16;
 constexpr int kColdRippleSteps = 64;
 // How much farther than the nearest niche a place to walk on from may be, in least prominences.
 constexpr double kRippleReach = 5.0;
@@ -125,7 +127,7 @@ void TrackerState::projectNiches(PairSolution& solution) {
 }
 
 void TrackerState::walkRipples(PairSolution& solution) {
-  if (parameters.projected_niches == 0 || archive.records().empty()) {
+  if (parameters.projected_niches == 0 || archive.records().empty() || cycles_at_rest > kRestWalks) {
     return;
   }
   // The global minimum of a tessellated valley is often the next ripple, or one a few ripples on. Those known

@@ -98,6 +98,9 @@ struct TrackerState {
   double moved_since_search = 0.0;  ///< metres, at most
   std::uint32_t cycles_since_search = 0;
   bool searching = true;  ///< this cycle looks for newborn niches
+  /// Cycles since the bodies last moved against each other: what was found at this very pose is not found
+  /// again.
+  std::uint32_t cycles_at_rest = 0;
 };
 
 }  // namespace concave_distance
