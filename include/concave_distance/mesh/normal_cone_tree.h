@@ -1,0 +1,69 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "concave_distance/mesh/mesh_topology.h"
+#include "concave_distance/mesh/surface_mesh.h"
+
+namespace concave_distance {
+
+/// All unit vectors within an angle of `axis`. An angle of pi is every direction.
+struct DirectionCap {
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();
+  double cosine = -1.0;  ///< of the angle
+  double sine = 0.0;     ///< of the angle; both for angles in [0, pi]
+
+  bool isFull() const { return cosine <= -1.0; }
+};
+
+/// Whether two caps may have a direction in common, given the cosine of their axes' angle. Rounding makes no
+/// difference where the caps were widened by more (NormalConeTree: 1e-9).
+inline bool capsMeet(double cosine_between, const DirectionCap& l, const DirectionCap& r) {
+  const double sine_of_sum = l.sine * r.cosine + l.cosine * r.sine;
+  return sine_of_sum <= 0.0 || cosine_between >= l.cosine * r.cosine - l.sine * r.sine;
+}
+
+/// Which part of a surface's local normal cones: where they leave the body, or all of them. On shells that
+/// are open both sides count as outside.
+enum class NormalSides : std::uint8_t { Outside, Both };
+
+/// A hierarchy over a surface's vertices, edges and faces with a bounding sphere and the local normal cones
+/// of each (Johnson and Cohen 2001): the directions u with u . (x - p) <= 0 for every point x of the surface
+/// near a point p of the feature. Only towards such a direction can p be the closest point of its
+/// surroundings. A reflex edge seen from outside has none and is left out; the edge of an open border has a
+/// half disc. Conservative: cones are widened by 1e-9 and by what the normals of thin triangles are
+/// uncertain. Body frame, metres; built in O(n log n), about 3 n entries of 88 bytes and half as many nodes.
+class NormalConeTree {
+ public:
+  enum class Kind : std::uint8_t { Vertex, Edge, Face };
+  struct Item {
+    Eigen::Vector3d centre;
+    double radius;  ///< of a sphere around the closed feature
+    DirectionCap cap;
+    TriangleIndex triangle;  ///< one that carries the feature
+    Kind kind;
+    std::uint8_t element;  ///< vertex: corner of the triangle; edge: from corner `element` to the next
+  };
+  struct Node {
+    Eigen::Vector3d centre;
+    double radius;
+    DirectionCap cap;
+    std::uint32_t first;  ///< inner: the second child (the first is next to the node); leaf: first item
+    std::uint32_t count;  ///< 0 for an inner node, else items in the leaf
+  };
+  NormalConeTree() = default;
+  NormalConeTree(const SurfaceMesh& mesh, const MeshTopology& topology, NormalSides sides);
+  const std::vector<Node>& nodes() const { return nodes_; }
+  const std::vector<Item>& items() const { return items_; }
+  std::size_t memoryBytes() const {
+    return nodes_.capacity() * sizeof(Node) + items_.capacity() * sizeof(Item);
+  }
+
+ private:
+  std::vector<Node> nodes_;
+  std::vector<Item> items_;
+};
+
+}  // namespace concave_distance

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "concave_distance/mesh/compressed_rows.h"
+#include "concave_distance/mesh/mesh_topology.h"
+#include "concave_distance/mesh/surface_mesh.h"
+
+namespace concave_distance {
+
+/// A triangle next to another and what they share: an edge (from, to), or one vertex (from == to).
+struct AdjacentTriangle {
+  TriangleIndex triangle;
+  NodeIndex from;
+  NodeIndex to;
+};
+
+/// For every triangle those across its edges, all of them where more than two meet; and where triangles hang
+/// together at a vertex alone, a chain over that vertex. Whatever touches on the surface is connected by
+/// such steps without leaving the point where it touches. O(n).
+CompressedRows<AdjacentTriangle> triangleAdjacency(const SurfaceMesh& mesh, const MeshTopology& topology);
+
+}  // namespace concave_distance

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <vector>
+
+#include "minima_scene.h"
+
+namespace concave_distance::detail {
+
+/// A triangle pair whose closest points are a local minimum of the distance over both surfaces.
+struct MinimumSeed {
+  TriangleIndex a;
+  TriangleIndex b;
+  double distance;
+};
+
+/// At least one triangle pair of every local minimum between 0 and `cutoff`: a dual traversal of the cone
+/// trees, where a pair of nodes is left out when it is too far apart, or when no direction from the one to
+/// the other lies in the cones of both; each pair of features that is left is tried on the triangles.
+void collectConeSeeds(const MinimaScene& scene, double cutoff, std::vector<MinimumSeed>& seeds,
+                      LocalMinimaCost& cost);
+
+/// Every triangle pair that meets, up to rounding.
+void collectMeetingPairs(const MinimaScene& scene, std::vector<MinimumSeed>& seeds, LocalMinimaCost& cost);
+
+}  // namespace concave_distance::detail

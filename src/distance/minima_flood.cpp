@@ -1,0 +1,244 @@
+#include "minima_flood.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "pair_table.h"
+
+namespace concave_distance::detail {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// A triangle pair that the flood has reached.
+struct Cell {
+  TriangleIndex a;
+  TriangleIndex b;
+  double distance;  ///< the least over the pair
+  double reached;   ///< the highest distance on the way here from the basin's start
+  Feature feature_a;
+  Feature feature_b;
+  std::uint32_t parent;  ///< union-find; the root of a basin is its deepest seed
+  std::uint32_t basin;   ///< of a root: its entry in basins_
+};
+
+constexpr std::uint32_t kNone = 0xffffffffU;
+
+struct Basin {
+  std::uint32_t cell;
+  double limit;
+  bool met_by_flood;
+  double pass = kInfinity;
+  std::uint32_t into = kNone;  ///< the deeper basin beyond the pass
+};
+
+/// The way from a cell to a neighbour that may not be reached yet.
+struct Step {
+  double level;
+  std::uint32_t from;
+  TriangleIndex to_a;
+  TriangleIndex to_b;
+};
+
+bool laterStep(const Step& l, const Step& r) {
+  if (l.level != r.level) return l.level > r.level;
+  return l.from > r.from;  // any order will do, as long as it is always the same
+}
+
+/// Whether a witness's feature lies on what two triangles share.
+bool isOnShared(Feature feature, const TriangleNodes& nodes, const AdjacentTriangle& next) {
+  const auto code = static_cast<std::size_t>(feature);
+  const auto shared = [&](std::size_t corner) {
+    return nodes[corner] == next.from || nodes[corner] == next.to;
+  };
+  if (code < 3) return shared(code);
+  if (code >= 6) return false;
+  return shared(code - 3) && shared((code - 2) % 3);
+}
+
+class Flood {
+ public:
+  Flood(const MinimaScene& scene, const LocalMinimaRequest& request)
+      : scene_(scene), request_(request), tolerance_(8.0 * scene.rounding) {}
+
+  /// The cell of a local minimum, as a basin of its own if it is new.
+  std::uint32_t startAt(TriangleIndex a, TriangleIndex b, bool met_by_flood) {
+    if (const std::uint32_t known = table_.find(a, b); known != PairTable::kAbsent) return known;
+    const std::uint32_t cell = addCell(a, b);
+    cells_[cell].parent = cell;
+    cells_[cell].basin = static_cast<std::uint32_t>(basins_.size());
+    basins_.push_back({cell, limitOf(cells_[cell].distance), met_by_flood});
+    expand(cell);
+    return cell;
+  }
+
+  void run() {
+    while (!steps_.empty()) {
+      std::pop_heap(steps_.begin(), steps_.end(), laterStep);
+      const Step step = steps_.back();
+      steps_.pop_back();
+      take(step);
+    }
+  }
+
+  std::uint32_t rootOf(std::uint32_t cell) {
+    while (cells_[cell].parent != cell) {
+      cells_[cell].parent = cells_[cells_[cell].parent].parent;
+      cell = cells_[cell].parent;
+    }
+    return cell;
+  }
+
+  const std::vector<Basin>& basins() const { return basins_; }
+  const Cell& cell(std::uint32_t i) const { return cells_[i]; }
+  std::size_t cellCount() const { return cells_.size(); }
+
+  /// Up to here a basin that starts at `distance` has to be flooded to know all that is asked for.
+  double limitOf(double distance) const {
+    const double decides = (1.0 + request_.least_prominence) * distance;
+    const double wanted = std::min((1.0 + request_.prominence_limit) * distance, request_.cutoff);
+    return std::max(decides, wanted) + tolerance_;
+  }
+
+  /// The basin that a start belongs to: its own or the next deeper one that is prominent.
+  std::uint32_t ownerOf(std::uint32_t start) const {
+    std::uint32_t basin = cells_[start].basin;
+    while (!isProminent(basins_[basin])) basin = basins_[basin].into;
+    return basin;
+  }
+
+  bool isProminent(const Basin& basin) const {
+    const double distance = cells_[basin.cell].distance;
+    return basin.pass > distance + tolerance_ && basin.pass >= (1.0 + request_.least_prominence) * distance;
+  }
+
+ private:
+  std::uint32_t addCell(TriangleIndex a, TriangleIndex b) {
+    const TrianglePairDistance d = triangleDistance(scene_.cornersOfA(a), scene_.cornersOfB(b));
+    const auto index = static_cast<std::uint32_t>(cells_.size());
+    const double distance = std::sqrt(d.squared_distance);
+    cells_.push_back({a, b, distance, distance, d.feature_a, d.feature_b, index, 0});
+    table_.insert(a, b, index);
+    return index;
+  }
+
+  void expand(std::uint32_t index) {
+    const Cell cell = cells_[index];
+    const double limit = basins_[cells_[rootOf(index)].basin].limit;
+    const TriangleNodes& nodes_a = scene_.a.body().surface().triangle(cell.a);
+    const TriangleNodes& nodes_b = scene_.b.body().surface().triangle(cell.b);
+    const TrianglePoints corners_a = scene_.cornersOfA(cell.a);
+    const TrianglePoints corners_b = scene_.cornersOfB(cell.b);
+    for (const AdjacentTriangle& next : scene_.a.adjacency().row(cell.a.value)) {
+      const bool at_witness = isOnShared(cell.feature_a, nodes_a, next);
+      consider(index, next.triangle, cell.b, limit,
+               at_witness ? cell.distance : levelOver(scene_.vertices_a, next, corners_b));
+    }
+    for (const AdjacentTriangle& next : scene_.b.adjacency().row(cell.b.value)) {
+      const bool at_witness = isOnShared(cell.feature_b, nodes_b, next);
+      consider(index, cell.a, next.triangle, limit,
+               at_witness ? cell.distance : levelOver(scene_.vertices_b, next, corners_a));
+    }
+  }
+
+  static double levelOver(const std::vector<Eigen::Vector3d>& vertices, const AdjacentTriangle& next,
+                          const TrianglePoints& other) {
+    const Eigen::Vector3d& from = vertices[next.from.value];
+    const Eigen::Vector3d& to = vertices[next.to.value];
+    return std::sqrt(triangleDistance({from, to, to}, other).squared_distance);
+  }
+
+  void consider(std::uint32_t from, TriangleIndex to_a, TriangleIndex to_b, double limit, double level) {
+    const double above = std::max(level, cells_[from].reached);
+    if (above > limit) return;
+    steps_.push_back({above, from, to_a, to_b});
+    std::push_heap(steps_.begin(), steps_.end(), laterStep);
+  }
+
+  void take(const Step& step) {
+    const std::uint32_t here = rootOf(step.from);
+    if (step.level > basins_[cells_[here].basin].limit) return;
+    std::uint32_t there = table_.find(step.to_a, step.to_b);
+    if (there == PairTable::kAbsent) {
+      there = addCell(step.to_a, step.to_b);
+      if (cells_[there].distance >= cells_[here].distance - tolerance_) {
+        cells_[there].parent = here;
+        cells_[there].reached = step.level;
+        expand(there);
+        return;
+      }
+      goDown(there);
+    }
+    unite(here, rootOf(there), std::max(step.level, cells_[there].reached));
+  }
+
+  /// From a cell deeper than the flood's start to the minimum under it.
+  void goDown(std::uint32_t index) {
+    const WitnessRefinement refined = refineWitness(scene_.a.body(), scene_.b.body(), scene_.a_from_b,
+                                                    cells_[index].a, cells_[index].b, refinement_);
+    if (refined.witness.triangle_a == cells_[index].a && refined.witness.triangle_b == cells_[index].b) {
+      cells_[index].basin = static_cast<std::uint32_t>(basins_.size());
+      basins_.push_back({index, limitOf(cells_[index].distance), true});
+    } else {
+      const std::uint32_t bottom = startAt(refined.witness.triangle_a, refined.witness.triangle_b, true);
+      cells_[index].parent = rootOf(bottom);
+    }
+    expand(index);
+  }
+
+  void unite(std::uint32_t l, std::uint32_t r, double level) {
+    if (l == r) return;
+    const bool l_deeper = cells_[l].distance < cells_[r].distance ||
+                          (cells_[l].distance == cells_[r].distance && cells_[l].basin < cells_[r].basin);
+    const std::uint32_t deep = l_deeper ? l : r;
+    const std::uint32_t shallow = l_deeper ? r : l;
+    cells_[shallow].parent = deep;
+    Basin& ended = basins_[cells_[shallow].basin];
+    Basin& goes_on = basins_[cells_[deep].basin];
+    ended.pass = std::max(level, cells_[shallow].distance);
+    ended.into = cells_[deep].basin;
+    // One place that both were led to, apart by rounding alone.
+    if (ended.pass <= cells_[deep].distance + tolerance_) {
+      goes_on.met_by_flood = goes_on.met_by_flood && ended.met_by_flood;
+    }
+  }
+
+  const MinimaScene& scene_;
+  const LocalMinimaRequest& request_;
+  double tolerance_;
+  PairTable table_;
+  std::vector<Cell> cells_;
+  std::vector<Basin> basins_;
+  std::vector<Step> steps_;
+  RefinementWorkspace refinement_;
+};
+
+}  // namespace
+
+FloodResult floodMinima(const MinimaScene& scene, const LocalMinimaRequest& request,
+                        const std::vector<MinimumSeed>& seeds, std::size_t owned, LocalMinimaCost& cost) {
+  Flood flood(scene, request);
+  std::vector<std::uint32_t> starts;
+  for (std::size_t i = 0; i < seeds.size(); ++i) {
+    starts.push_back(flood.startAt(seeds[i].a, seeds[i].b, i >= owned));
+  }
+  flood.run();
+  FloodResult result;
+  std::vector<std::size_t> minimum_of_basin(flood.basins().size(), LocalMinima::kNoOwner);
+  for (std::size_t i = 0; i < flood.basins().size(); ++i) {
+    const Basin& basin = flood.basins()[i];
+    if (!flood.isProminent(basin)) continue;
+    const Cell& cell = flood.cell(basin.cell);
+    minimum_of_basin[i] = result.minima.size();
+    result.minima.push_back({cell.a, cell.b, cell.distance, basin.pass, basin.limit, basin.met_by_flood});
+  }
+  // A start belongs to the deepest basin that it is joined to by passes of less than the least prominence.
+  for (std::size_t i = owned; i < starts.size(); ++i) {
+    result.owners.push_back(minimum_of_basin[flood.ownerOf(starts[i])]);
+  }
+  cost.flooded_pairs += flood.cellCount();
+  return result;
+}
+
+}  // namespace concave_distance::detail

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "concave_distance/base/indices.h"
+
+namespace concave_distance::detail {
+
+/// From triangle pairs to numbers: open addressing, doubled when half full.
+class PairTable {
+ public:
+  static constexpr std::uint32_t kAbsent = 0xffffffffU;
+
+  std::uint32_t find(TriangleIndex a, TriangleIndex b) const { return slots_[slotOf(keyOf(a, b))].number; }
+
+  /// The pair must not be in the table yet.
+  void insert(TriangleIndex a, TriangleIndex b, std::uint32_t number) {
+    if (2 * (used_ + 1) > slots_.size()) grow();
+    const std::uint64_t key = keyOf(a, b);
+    slots_[slotOf(key)] = {key, number};
+    ++used_;
+  }
+
+ private:
+  struct Slot {
+    std::uint64_t key = 0;
+    std::uint32_t number = kAbsent;
+  };
+
+  static std::uint64_t keyOf(TriangleIndex a, TriangleIndex b) {
+    return (std::uint64_t{a.value} << 32U) | b.value;
+  }
+
+  /// Where the pair is, or the free slot where it would go. Fibonacci hashing: the product's upper bits
+  /// depend on every bit of the key.
+  std::size_t slotOf(std::uint64_t key) const {
+    auto slot = static_cast<std::size_t>((key * 0x9e3779b97f4a7c15ULL) >> shift_);
+    while (slots_[slot].number != kAbsent && slots_[slot].key != key) {
+      slot = (slot + 1) & (slots_.size() - 1);
+    }
+    return slot;
+  }
+
+  void grow() {
+    std::vector<Slot> old(2 * slots_.size());
+    old.swap(slots_);
+    --shift_;
+    for (const Slot& slot : old) {
+      if (slot.number != kAbsent) slots_[slotOf(slot.key)] = slot;
+    }
+  }
+
+  std::vector<Slot> slots_{std::size_t{1} << 12U};
+  std::uint32_t shift_ = 64 - 12;
+  std::size_t used_ = 0;
+};
+
+}  // namespace concave_distance::detail

@@ -1,0 +1,162 @@
+#include "normal_cone_items.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "normal_cone.h"
+
+namespace concave_distance::detail {
+namespace {
+
+using Eigen::Vector3d;
+using Item = NormalConeTree::Item;
+using Kind = NormalConeTree::Kind;
+
+/// A triangle that leaves its normal this uncertain bounds nothing.
+constexpr double kWorstSlack = 0.1;
+/// Edges whose normals differ by less may be convex or reflex, and count as both.
+constexpr double kFlat = 1e-7;
+
+class Collector {
+ public:
+  Collector(const SurfaceMesh& mesh, const MeshTopology& topology, NormalSides sides)
+      : mesh_(mesh), topology_(topology), sides_(sides) {}
+
+  std::vector<Item> collect() {
+    items_.reserve(3 * mesh_.triangleCount());
+    for (std::uint32_t v = 0; v < mesh_.vertexCount(); ++v) addVertex(NodeIndex{v});
+    for (std::uint32_t t = 0; t < mesh_.triangleCount(); ++t) {
+      addFace(TriangleIndex{t});
+      for (std::uint8_t k = 0; k < 3; ++k) addEdge(TriangleIndex{t}, k);
+    }
+    return std::move(items_);
+  }
+
+ private:
+  bool bothSides(TriangleIndex t) const {
+    return sides_ == NormalSides::Both || !topology_.shell_is_closed[topology_.shell_of_triangle[t.value]];
+  }
+
+  /// Radians by which rounding may have turned the normal: the longest edge over the height on it.
+  double slackOf(TriangleIndex t) const {
+    double longest = 0.0;
+    for (int k = 0; k < 3; ++k) {
+      longest = std::max(longest, (mesh_.corner(t, (k + 1) % 3) - mesh_.corner(t, k)).squaredNorm());
+    }
+    const Vector3d u = mesh_.corner(t, 1) - mesh_.corner(t, 0);
+    const Vector3d v = mesh_.corner(t, 2) - mesh_.corner(t, 0);
+    const double area = u.cross(v).norm();
+    return area > 0.0 ? 1e-14 * longest / area : std::numeric_limits<double>::infinity();
+  }
+
+  void add(const Vector3d& centre, double radius, const DirectionCap& cap, TriangleIndex t, Kind kind,
+           std::uint8_t element) {
+    items_.push_back({centre, radius * (1.0 + 1e-12), cap, t, kind, element});
+  }
+
+  /// What the clipper holds, on the sides wanted.
+  void addClipped(const Vector3d& centre, double radius, const Vector3d& normal, TriangleIndex t, Kind kind,
+                  std::uint8_t element) {
+    if (const auto cap = clipper_.capOnSide(normal)) add(centre, radius, *cap, t, kind, element);
+    if (!bothSides(t) || normal.isZero(0.0)) return;
+    if (const auto cap = clipper_.capOnSide(-normal)) add(centre, radius, *cap, t, kind, element);
+  }
+
+  void addVertex(NodeIndex v) {
+    const auto fan = topology_.triangles_of_vertex.row(v.value);
+    if (fan.empty()) return;
+    clipper_.reset();
+    for (const NodeIndex neighbour : topology_.neighbours_of_vertex.row(v.value)) {
+      const Vector3d way = (mesh_.vertex(neighbour) - mesh_.vertex(v)).stableNormalized();
+      if (!way.isZero(0.0)) clipper_.clip(way, kConeSlack);
+    }
+    const TriangleNodes& nodes = mesh_.triangle(fan[0]);
+    const auto corner = static_cast<std::uint8_t>(std::find(nodes.begin(), nodes.end(), v) - nodes.begin());
+    addClipped(mesh_.vertex(v), 0.0, topology_.vertex_normals[v.value], fan[0], Kind::Vertex, corner);
+  }
+
+  void addFace(TriangleIndex t) {
+    const Vector3d& normal = topology_.triangle_normals[t.value];
+    if (normal.isZero(0.0)) return;  // its edges are all there is
+    const Vector3d low = mesh_.corner(t, 0).cwiseMin(mesh_.corner(t, 1)).cwiseMin(mesh_.corner(t, 2)).eval();
+    const Vector3d high = mesh_.corner(t, 0).cwiseMax(mesh_.corner(t, 1)).cwiseMax(mesh_.corner(t, 2)).eval();
+    const Vector3d centre = 0.5 * (low + high);
+    double radius = 0.0;
+    for (int k = 0; k < 3; ++k) radius = std::max(radius, (mesh_.corner(t, k) - centre).norm());
+    const double slack = slackOf(t);
+    const bool unsure = slack > kWorstSlack;
+    add(centre, radius, unsure ? DirectionCap{} : capOfAngle(normal, slack), t, Kind::Face, 0);
+    if (bothSides(t) && !unsure) add(centre, radius, capOfAngle(-normal, slack), t, Kind::Face, 0);
+  }
+
+  void addEdge(TriangleIndex t, std::uint8_t k) {
+    const NodeIndex from = mesh_.triangle(t)[k];
+    const NodeIndex to = mesh_.triangle(t)[(k + 1U) % 3];
+    if (from == to) return;
+    around_.clear();
+    for (const TriangleIndex other : topology_.triangles_of_vertex.row(from.value)) {
+      const TriangleNodes& nodes = mesh_.triangle(other);
+      if (std::find(nodes.begin(), nodes.end(), to) == nodes.end()) continue;
+      if (other < t) return;  // the edge was added with that triangle
+      around_.push_back(other);
+    }
+    const Vector3d centre = 0.5 * (mesh_.vertex(from) + mesh_.vertex(to));
+    const double radius = 0.5 * (mesh_.vertex(to) - mesh_.vertex(from)).norm();
+    const Vector3d along = (mesh_.vertex(to) - mesh_.vertex(from)).stableNormalized();
+    if (addBetweenTwo(t, k, centre, radius, along)) return;
+    clipper_.reset();
+    clipper_.clip(along, kConeSlack);
+    clipper_.clip(-along, kConeSlack);
+    Vector3d normal = Vector3d::Zero();
+    for (const TriangleIndex other : around_) {
+      normal += topology_.triangle_normals[other.value];
+      const double slack = slackOf(other);
+      if (slack > kWorstSlack) continue;
+      const TriangleNodes& nodes = mesh_.triangle(other);
+      const NodeIndex apex =
+          *std::find_if(nodes.begin(), nodes.end(), [&](NodeIndex n) { return n != from && n != to; });
+      const Vector3d way = mesh_.vertex(apex) - mesh_.vertex(from);
+      clipper_.clip((way - along.dot(way) * along).normalized(), slack + kConeSlack);
+    }
+    addClipped(centre, radius, normal.normalized(), t, Kind::Edge, k);
+  }
+
+  /// The common case in closed form: two sound triangles of one winding. False when it is another.
+  bool addBetweenTwo(TriangleIndex t, std::uint8_t k, const Vector3d& centre, double radius,
+                     const Vector3d& along) {
+    if (around_.size() != 2) return false;
+    const TriangleIndex other = around_[0] == t ? around_[1] : around_[0];
+    const TriangleNodes& nodes = mesh_.triangle(other);
+    const auto at = static_cast<std::size_t>(
+        std::find(nodes.begin(), nodes.end(), mesh_.triangle(t)[(k + 1U) % 3]) - nodes.begin());
+    const bool opposite = nodes[(at + 1) % 3] == mesh_.triangle(t)[k];
+    const Vector3d& n0 = topology_.triangle_normals[t.value];
+    const Vector3d& n1 = topology_.triangle_normals[other.value];
+    const double slack = slackOf(t) + slackOf(other);
+    if (!opposite || !(slack < 0.1 * kFlat) || !(n0.dot(n1) > -0.999)) return false;
+    const Vector3d axis = (n0 + n1).normalized();
+    const Vector3d turn = n0.cross(n1);
+    const double angle = 0.5 * std::atan2(turn.norm(), n0.dot(n1)) + slack;
+    const double convex = turn.dot(along);
+    if (convex > -kFlat) add(centre, radius, capOfAngle(axis, angle), t, Kind::Edge, k);
+    if (convex < kFlat && bothSides(t)) add(centre, radius, capOfAngle(-axis, angle), t, Kind::Edge, k);
+    return true;
+  }
+
+  const SurfaceMesh& mesh_;
+  const MeshTopology& topology_;
+  NormalSides sides_;
+  std::vector<Item> items_;
+  std::vector<TriangleIndex> around_;
+  ConeClipper clipper_;
+};
+
+}  // namespace
+
+std::vector<Item> collectConeItems(const SurfaceMesh& mesh, const MeshTopology& topology, NormalSides sides) {
+  return Collector(mesh, topology, sides).collect();
+}
+
+}  // namespace concave_distance::detail

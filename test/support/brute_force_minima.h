@@ -1,0 +1,150 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+#include <vector>
+
+#include "concave_distance/mesh/body_mesh.h"
+#include "support/exact_triangle_distance.h"
+
+/// Every local minimum of the distance between two surfaces by brute force: all triangle pairs, in long
+/// double, and 0-dimensional persistence over all of them. Shares no code with findLocalMinima.
+namespace concave_distance::test {
+
+struct BruteForceMinimum {
+  double distance;
+  double prominence;  ///< infinite for the deepest
+  std::uint32_t triangle_a;
+  std::uint32_t triangle_b;
+};
+
+namespace detail {
+
+inline TrianglePoints movedCorners(const SurfaceMesh& mesh, std::size_t t, const Eigen::Isometry3d& pose) {
+  TrianglePoints points;
+  for (int k = 0; k < 3; ++k) points[static_cast<std::size_t>(k)] = pose * mesh.corner(TriangleIndex{t}, k);
+  return points;
+}
+
+inline double longDoubleDistance(const TrianglePoints& a, const TrianglePoints& b) {
+  return static_cast<double>(std::sqrt(exactSquaredDistance<long double>(a, b)));
+}
+
+/// Two triangles and the corners that they share.
+struct Neighbours {
+  std::uint32_t l;
+  std::uint32_t r;
+  TrianglePoints shared;
+};
+
+/// All triangles that have an edge in common, by comparing every two; and those with one vertex in common.
+inline std::vector<Neighbours> neighbourPairs(const SurfaceMesh& mesh, const Eigen::Isometry3d& pose) {
+  std::vector<Neighbours> pairs;
+  for (std::uint32_t l = 0; l < mesh.triangleCount(); ++l) {
+    for (std::uint32_t r = 0; r < l; ++r) {
+      std::vector<Eigen::Vector3d> shared;
+      for (const NodeIndex node : mesh.triangles()[l]) {
+        const TriangleNodes& other = mesh.triangles()[r];
+        if (std::find(other.begin(), other.end(), node) != other.end()) {
+          shared.push_back(pose * mesh.vertex(node));
+        }
+      }
+      if (!shared.empty()) pairs.push_back({l, r, {shared.front(), shared.back(), shared.back()}});
+    }
+  }
+  return pairs;
+}
+
+}  // namespace detail
+
+/// Minima up to `cutoff` of at least that prominence, ascending by distance. Passes up to (1 +
+/// least_prominence) times the cutoff and up to `flood` are known, higher ones are infinite. Minima whose
+/// pass is not higher than they are by `rounding`, metres, are one. O(pairs) time and memory.
+inline std::vector<BruteForceMinimum> bruteForceMinima(const BodyMesh& a, const BodyMesh& b,
+                                                       const Eigen::Isometry3d& a_from_b, double cutoff,
+                                                       double least_prominence, double rounding,
+                                                       double flood = 0.0) {
+  const double top = std::max(flood, (1.0 + least_prominence) * cutoff + rounding);
+  const Eigen::Isometry3d stay = Eigen::Isometry3d::Identity();
+  const std::size_t count_b = b.surface().triangleCount();
+  std::vector<TrianglePoints> corners_a;
+  std::vector<TrianglePoints> corners_b;
+  for (std::size_t t = 0; t < a.surface().triangleCount(); ++t) {
+    corners_a.push_back(detail::movedCorners(a.surface(), t, stay));
+  }
+  for (std::size_t t = 0; t < count_b; ++t) {
+    corners_b.push_back(detail::movedCorners(b.surface(), t, a_from_b));
+  }
+
+  std::vector<double> distance(corners_a.size() * count_b);
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < distance.size(); ++i) {
+    distance[i] = detail::longDoubleDistance(corners_a[i / count_b], corners_b[i % count_b]);
+    if (distance[i] <= top) order.push_back(i);
+  }
+  const auto deeper = [&](std::size_t l, std::size_t r) {
+    return distance[l] != distance[r] ? distance[l] < distance[r] : l < r;
+  };
+
+  struct Pass {
+    double level;
+    std::size_t l;
+    std::size_t r;
+  };
+  std::vector<Pass> passes;
+  const auto join = [&](std::size_t l, std::size_t r, const TrianglePoints& shared,
+                        const TrianglePoints& other) {
+    if (distance[l] > top || distance[r] > top) return;
+    const double level = detail::longDoubleDistance(shared, other);
+    if (level <= top) passes.push_back({std::max({level, distance[l], distance[r]}), l, r});
+  };
+  for (const auto& pair : detail::neighbourPairs(a.surface(), stay)) {
+    for (std::size_t t = 0; t < count_b; ++t) {
+      join(pair.l * count_b + t, pair.r * count_b + t, pair.shared, corners_b[t]);
+    }
+  }
+  for (const auto& pair : detail::neighbourPairs(b.surface(), a_from_b)) {
+    for (std::size_t t = 0; t < corners_a.size(); ++t) {
+      join(t * count_b + pair.l, t * count_b + pair.r, pair.shared, corners_a[t]);
+    }
+  }
+  std::sort(passes.begin(), passes.end(), [](const Pass& l, const Pass& r) { return l.level < r.level; });
+
+  std::vector<std::size_t> parent(distance.size());
+  std::iota(parent.begin(), parent.end(), std::size_t{0});
+  const auto root = [&](std::size_t i) {
+    while (parent[i] != i) {
+      parent[i] = parent[parent[i]];
+      i = parent[i];
+    }
+    return i;
+  };
+  std::vector<BruteForceMinimum> minima;
+  const auto report = [&](std::size_t i, double pass) {
+    if (distance[i] > cutoff || pass <= distance[i] + rounding) return;
+    const double prominence =
+        distance[i] > rounding ? pass / distance[i] - 1.0 : std::numeric_limits<double>::infinity();
+    if (prominence < least_prominence) return;
+    minima.push_back({distance[i], prominence, static_cast<std::uint32_t>(i / count_b),
+                      static_cast<std::uint32_t>(i % count_b)});
+  };
+  for (const Pass& pass : passes) {
+    const std::size_t l = root(pass.l);
+    const std::size_t r = root(pass.r);
+    if (l == r) continue;
+    const std::size_t shallow = deeper(l, r) ? r : l;
+    parent[shallow] = shallow == l ? r : l;
+    report(shallow, pass.level);
+  }
+  for (const std::size_t i : order) {
+    if (root(i) == i) report(i, std::numeric_limits<double>::infinity());
+  }
+  std::sort(minima.begin(), minima.end(),
+            [](const BruteForceMinimum& l, const BruteForceMinimum& r) { return l.distance < r.distance; });
+  return minima;
+}
+
+}  // namespace concave_distance::test
