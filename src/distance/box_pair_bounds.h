@@ -17,6 +17,15 @@ inline Lanes absOf(const Lanes& x) {
   return x.abs();
 }
 
+/// Bit i is set when lane i lies below `limit`.
+inline unsigned lanesBelow(const Lanes& values, double limit) {
+  unsigned mask = 0;
+  for (unsigned lane = 0; lane < BoundingVolumeHierarchy::kWidth; ++lane) {
+    mask |= static_cast<unsigned>(values[lane] < limit) << lane;
+  }
+  return mask;
+}
+
 /// Squared lower bounds of the distances between `box` and each of the node's boxes, both in the node's
 /// frame; square metres. Separating axes: `direction` (unit, from `box` towards the node) and the axes of
 /// both boxes, where what separates along the three axes of one box adds up as in a vector. `slack` (metres)

@@ -119,11 +119,11 @@ class BranchAndBound {
             triangle_b);
   }
 
-  bool measure(const TrianglePoints& a, const TrianglePoints& b, TriangleIndex triangle_a,
-               TriangleIndex triangle_b) {
+  TrianglePairDistance measure(const TrianglePoints& a, const TrianglePoints& b, TriangleIndex triangle_a,
+                               TriangleIndex triangle_b) {
     const TrianglePairDistance found = triangleDistance(a, b);
     ++result_.cost.triangle_pairs;
-    if (!(found.squared_distance < squared_distance_)) return false;
+    if (!(found.squared_distance < squared_distance_)) return found;
     closest_ = found;
     triangle_a_ = triangle_a;
     triangle_b_ = triangle_b;
@@ -136,7 +136,7 @@ class BranchAndBound {
     const double tolerance = std::max(request_.absolute_tolerance, request_.relative_tolerance * distance_);
     enough_ = std::max(0.0, distance_ - std::max(tolerance, error_));
     squared_enough_ = enough_ * enough_;
-    return true;
+    return found;
   }
 
   /// One way down to a pair of leaves, always to the nearer box, to have something to compare with.
@@ -213,22 +213,37 @@ class BranchAndBound {
   void measureLeaves(const Hierarchy::Leaf& leaf_a, const Hierarchy::Leaf& leaf_b) {
     ++result_.cost.leaf_pairs;
     const detail::LeafLanes b(leaf_b, frames_.rotation, frames_.offset);
-    Vector3d direction = direction_;
-    Lanes least = detail::leastAlong(b, direction);
+    const unsigned all = (1U << leaf_b.count) - 1U;
+    const Lanes least = detail::leastAlong(b, direction_);
+    const Vector3d direction = direction_;
+    // The direction between the last pair measured here parts its neighbours as well, as a rule.
+    Vector3d near_direction = Vector3d::Zero();
+    Lanes near_least = Lanes::Zero();
     for (std::size_t i = 0; i < leaf_a.count; ++i) {
       const TrianglePoints a = detail::triangleOf(leaf_a, i);
-      const double most = std::max({direction.dot(a[0]), direction.dot(a[1]), direction.dot(a[2])}) + slack_;
-      unsigned candidates = 0;
-      for (unsigned lane = 0; lane < leaf_b.count; ++lane) {
-        if (least[lane] - most < enough_) candidates |= 1U << lane;
-      }
-      if (candidates == 0) continue;
-      candidates = detail::closerThanByPlanes(a, b, enough_, slack_, candidates);
-      for (unsigned lane = 0; candidates != 0; ++lane, candidates >>= 1U) {
-        if ((candidates & 1U) == 0) continue;
-        measure(a, b.triangle(lane), leaf_a.triangle[i], leaf_b.triangle[lane]);
+      unsigned left = all & detail::lanesBelow(least, mostAlong(a, direction) + slack_ + enough_);
+      if (left == 0) continue;
+      left = detail::closerThanByPlanes(a, b, enough_, slack_, left);
+      left &= detail::lanesBelow(near_least, mostAlong(a, near_direction) + slack_ + enough_);
+      while (left != 0) {
+        unsigned lane = 0;
+        while ((left >> lane & 1U) == 0) ++lane;
+        left &= ~(1U << lane);
+        const TrianglePairDistance found =
+            measure(a, b.triangle(lane), leaf_a.triangle[i], leaf_b.triangle[lane]);
+        if (left == 0 && i + 1 == leaf_a.count) break;
+        near_direction = found.point_b - found.point_a;
+        const double length = near_direction.norm();
+        if (!(length > 0.0)) return;
+        near_direction /= length;
+        near_least = detail::leastAlong(b, near_direction);
+        left &= detail::lanesBelow(near_least, mostAlong(a, near_direction) + slack_ + enough_);
       }
     }
+  }
+
+  static double mostAlong(const TrianglePoints& a, const Vector3d& direction) {
+    return std::max({direction.dot(a[0]), direction.dot(a[1]), direction.dot(a[2])});
   }
 
   void conclude(bool out_of_time) {
