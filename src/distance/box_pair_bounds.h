@@ -8,13 +8,10 @@ namespace concave_distance::detail {
 
 /// One number for each of a node's children.
 using Lanes = Eigen::Array<double, BoundingVolumeHierarchy::kWidth, 1>;
+using FloatLanes = Eigen::Array<float, BoundingVolumeHierarchy::kWidth, 1>;
 
 inline Lanes lanes(const double* values) {
   return Eigen::Map<const Lanes, Eigen::Aligned16>(values);
-}
-
-inline Lanes absOf(const Lanes& x) {
-  return x.abs();
 }
 
 /// Bit i is set when lane i lies below `limit`.
@@ -26,50 +23,94 @@ inline unsigned lanesBelow(const Lanes& values, double limit) {
   return mask;
 }
 
-/// Squared lower bounds of the distances between `box` and each of the node's boxes, both in the node's
-/// frame; square metres. Separating axes: `direction` (unit, from `box` towards the node) and the axes of
-/// both boxes, where what separates along the three axes of one box adds up as in a vector. `slack` (metres)
-/// is taken off every separation for rounding. When `direction` alone separates all by `enough` (metres) the
-/// others are not looked at.
-inline Lanes squaredBounds(const BoundingVolumeHierarchy::Node& node, const OrientedBox& box,
-                           const Eigen::Vector3d& direction, double slack, double enough) {
+/// A box as the other tree's nodes are compared with it: in their frame, for the direction along, and once
+/// more in single precision with lengths relative to the scene's scale.
+struct ComparedBox {
+  ComparedBox() = default;
+  ComparedBox(const OrientedBox& box_in_node_frame, double inverse_scale)
+      : box(box_in_node_frame),
+        axes(box.axes.cast<float>()),
+        half((box.half * inverse_scale).cast<float>()) {}
+
+  OrientedBox box;
+  Eigen::Matrix3f axes;
+  Eigen::Vector3f half;
+};
+
+/// What every bound of one query shares.
+struct BoundScale {
+  double scale;          ///< metres, no smaller than any distance between points of the two bodies
+  double inverse_scale;  ///< of it
+  double slack;          ///< metres: rounding of a bound in double precision
+  /// The same in single precision, relative to `scale`: 64 of its machine epsilons. No term of a bound errs
+  /// by more than 4 of them (an axis by 1, a product by 1, an offset by 1, the sum by 1), and the weights of
+  /// a bound's 12 terms add up to less than 16.
+  static constexpr float kFloatSlack = 0x1.0p-17F;
+};
+
+/// Squared lower bounds of the distances between `box` and each of the node's boxes; square metres.
+/// Separating axes: `direction` (unit, node's frame, from `box` towards the node) in double precision, which
+/// tells even ties between parallel walls; and in single precision the line of the centres and the axes of
+/// both boxes, where what separates along the three axes of one box adds up as in a vector. When `direction`
+/// alone separates all by `enough` (metres) the others are not looked at.
+inline Lanes squaredBounds(const BoundingVolumeHierarchy::Node& node, const ComparedBox& compared,
+                           const Eigen::Vector3d& direction, const BoundScale& scale, double enough) {
+  const OrientedBox& box = compared.box;
   const Lanes dx = lanes(node.centre[0]) - box.centre.x();
   const Lanes dy = lanes(node.centre[1]) - box.centre.y();
   const Lanes dz = lanes(node.centre[2]) - box.centre.z();
-  const Lanes half[3] = {lanes(node.half[0]), lanes(node.half[1]), lanes(node.half[2])};
-
   const double box_support = (box.axes.transpose() * direction).cwiseAbs().dot(box.half);
-  Lanes separation = direction.x() * dx + direction.y() * dy + direction.z() * dz - (box_support + slack);
+  Lanes separation =
+      direction.x() * dx + direction.y() * dy + direction.z() * dz - (box_support + scale.slack);
   for (int i = 0; i < 3; ++i) {
-    separation -=
-        half[i] * absOf(direction.x() * lanes(node.axes[i][0]) + direction.y() * lanes(node.axes[i][1]) +
-                        direction.z() * lanes(node.axes[i][2]));
+    separation -= lanes(node.half[i]) *
+                  (direction.x() * lanes(node.axes[i][0]) + direction.y() * lanes(node.axes[i][1]) +
+                   direction.z() * lanes(node.axes[i][2]))
+                      .abs();
   }
   separation = separation.max(0.0);
   const Lanes squared = separation.square();
-  if ((separation >= enough).all()) return squared;
+  if (separation.minCoeff() >= enough) return squared;
 
-  Lanes along_box[3];  // what separates along the box's axes
+  constexpr float kSlack = BoundScale::kFloatSlack;
+  const FloatLanes fx = (dx * scale.inverse_scale).cast<float>();
+  const FloatLanes fy = (dy * scale.inverse_scale).cast<float>();
+  const FloatLanes fz = (dz * scale.inverse_scale).cast<float>();
+  const FloatLanes squared_gap = fx * fx + fy * fy + fz * fz;
+  FloatLanes along_centres = squared_gap;
+  FloatLanes along_box[3];
   for (int k = 0; k < 3; ++k) {
-    along_box[k] =
-        absOf(box.axes(0, k) * dx + box.axes(1, k) * dy + box.axes(2, k) * dz) - (box.half[k] + slack);
+    const FloatLanes offset =
+        (compared.axes(0, k) * fx + compared.axes(1, k) * fy + compared.axes(2, k) * fz).abs();
+    along_centres -= offset * compared.half[k];
+    along_box[k] = offset - compared.half[k];
   }
-  Lanes sum_node = Lanes::Zero();
+  FloatLanes sum_node = FloatLanes::Zero();
   for (int i = 0; i < 3; ++i) {
-    const Lanes x = lanes(node.axes[i][0]);
-    const Lanes y = lanes(node.axes[i][1]);
-    const Lanes z = lanes(node.axes[i][2]);
-    Lanes along_node = absOf(x * dx + y * dy + z * dz) - half[i] - slack;
+    const FloatLanes x = lanes(node.axes[i][0]).cast<float>();
+    const FloatLanes y = lanes(node.axes[i][1]).cast<float>();
+    const FloatLanes z = lanes(node.axes[i][2]).cast<float>();
+    const FloatLanes half = (lanes(node.half[i]) * scale.inverse_scale).cast<float>();
+    const FloatLanes offset = (x * fx + y * fy + z * fz).abs();
+    along_centres -= offset * half;
+    FloatLanes along_node = offset - half;
     for (int k = 0; k < 3; ++k) {
-      const Lanes cosine = absOf(x * box.axes(0, k) + y * box.axes(1, k) + z * box.axes(2, k));
-      along_node -= cosine * box.half[k];
-      along_box[k] -= cosine * half[i];
+      const FloatLanes cosine =
+          (x * compared.axes(0, k) + y * compared.axes(1, k) + z * compared.axes(2, k)).abs();
+      along_node -= cosine * compared.half[k];
+      along_box[k] -= cosine * half;
     }
-    sum_node += along_node.max(0.0).square();
+    sum_node += (along_node - kSlack).max(0.0F).square();
   }
-  const Lanes sum_box =
-      along_box[0].max(0.0).square() + along_box[1].max(0.0).square() + along_box[2].max(0.0).square();
-  return squared.max(sum_node.max(sum_box));
+  const FloatLanes sum_box = (along_box[0] - kSlack).max(0.0F).square() +
+                             (along_box[1] - kSlack).max(0.0F).square() +
+                             (along_box[2] - kSlack).max(0.0F).square();
+  // The gap is at most 1 in these units, so that the slack need not be multiplied with it. Where the centres
+  // fall together nothing is left above.
+  const FloatLanes centres = (along_centres - kSlack).max(0.0F);
+  const FloatLanes sum_centres = centres.square() / squared_gap.max(0x1.0p-100F);
+  const FloatLanes best = sum_node.max(sum_box).max(sum_centres);
+  return squared.max(best.cast<double>() * (scale.scale * scale.scale * (1.0 - 0x1.0p-20)));
 }
 
 }  // namespace concave_distance::detail

@@ -39,6 +39,10 @@ double size(const Hierarchy& hierarchy, Slot slot) {
          node.half[2][lane] * node.half[2][lane];
 }
 
+detail::BoundScale boundScale(double scale) {
+  return {scale, 1.0 / scale, kBoundError * scale};
+}
+
 class BranchAndBound {
  public:
   BranchAndBound(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
@@ -53,11 +57,9 @@ class BranchAndBound {
         request_(request),
         open_(workspace.open),
         refinement_(workspace.refinement),
-        scale_(a.hierarchy().reach() + b.hierarchy().reach() + frames_.offset.norm()),
-        slack_(kBoundError * scale_),
-        error_(kProofError * scale_) {
-    open_.clear();
-  }
+        scale_(boundScale(a.hierarchy().reach() + b.hierarchy().reach() + frames_.offset.norm())),
+        slack_(scale_.slack),
+        error_(kProofError * scale_.scale) {}
 
   DistanceCertificate run(const TrianglePair* seeds, std::size_t seed_count) {
     const bool timed = std::isfinite(request_.time_budget);
@@ -65,10 +67,12 @@ class BranchAndBound {
     for (std::size_t i = 0; i < seed_count; ++i) descend(seeds[i]);
     if (seed_count == 0) dive();
     const double seeded = distance_;
-    open_.push_back({Hierarchy::kRoot, Hierarchy::kRoot, 0.0});
+    if (open_.empty()) open_.resize(Hierarchy::kWidth);
+    open_[0] = {Hierarchy::kRoot, Hierarchy::kRoot, 0.0};
+    open_count_ = 1;
     std::uint32_t until_look = kClockInterval;
     bool out_of_time = false;
-    while (!open_.empty() && squared_distance_ > 0.0) {
+    while (open_count_ > 0 && squared_distance_ > 0.0) {
       if (timed && --until_look == 0) {
         until_look = kClockInterval;
         if (std::chrono::duration<double>(Clock::now() - start).count() >= request_.time_budget) {
@@ -92,15 +96,8 @@ class BranchAndBound {
   // With a budget the least bound comes first, so that the proven bound rises as fast as it can; without one
   // a stack does, which costs less.
   OpenPair take(bool best_first) {
-    if (best_first) std::pop_heap(open_.begin(), open_.end(), isFarther);
-    const OpenPair next = open_.back();
-    open_.pop_back();
-    return next;
-  }
-
-  void put(const OpenPair& pair, bool best_first) {
-    open_.push_back(pair);
-    if (best_first) std::push_heap(open_.begin(), open_.end(), isFarther);
+    if (best_first) std::pop_heap(open_.begin(), open_.begin() + openCount(), isFarther);
+    return open_[--open_count_];
   }
 
   static bool isFarther(const OpenPair& l, const OpenPair& r) { return l.squared_bound > r.squared_bound; }
@@ -144,9 +141,10 @@ class BranchAndBound {
     Slot a = Hierarchy::kRoot;
     Slot b = Hierarchy::kRoot;
     while (!isLeaf(a_.child(a)) || !isLeaf(b_.child(b))) {
-      Slot& opened = opensB(a, b) ? b : a;
-      const Lanes bounds = childBounds(a, b);
-      const Hierarchy& tree = &opened == &b ? b_ : a_;
+      const bool opens_b = opensB(a, b);
+      Slot& opened = opens_b ? b : a;
+      const Lanes bounds = childBounds(a, b, opens_b);
+      const Hierarchy& tree = opens_b ? b_ : a_;
       const std::uint32_t child = tree.child(opened);
       const Hierarchy::Node& node = tree.nodes()[child];
       Eigen::Index best = 0;
@@ -164,18 +162,26 @@ class BranchAndBound {
   }
 
   /// Bounds of one box against the children of the other one.
-  Lanes childBounds(Slot a, Slot b) {
+  Lanes childBounds(Slot a, Slot b, bool opens_b) {
     result_.cost.box_bounds += static_cast<std::uint32_t>(Hierarchy::kWidth);
-    if (opensB(a, b)) {
-      OrientedBox box = a_.box(a);
-      box.centre = turned_ * (box.centre - frames_.offset);
-      box.axes = turned_ * box.axes;
-      return detail::squaredBounds(b_.nodes()[b_.child(b)], box, direction_in_b_, slack_, enough_);
+    if (opens_b) {
+      if (a != compared_slot_a_) {
+        OrientedBox box = a_.box(a);
+        box.centre = turned_ * (box.centre - frames_.offset);
+        box.axes = turned_ * box.axes;
+        compared_a_ = detail::ComparedBox(box, scale_.inverse_scale);
+        compared_slot_a_ = a;
+      }
+      return detail::squaredBounds(b_.nodes()[b_.child(b)], compared_a_, direction_in_b_, scale_, enough_);
     }
-    OrientedBox box = b_.box(b);
-    box.centre = frames_.rotation * box.centre + frames_.offset;
-    box.axes = frames_.rotation * box.axes;
-    return detail::squaredBounds(a_.nodes()[a_.child(a)], box, -direction_, slack_, enough_);
+    if (b != compared_slot_b_) {
+      OrientedBox box = b_.box(b);
+      box.centre = frames_.rotation * box.centre + frames_.offset;
+      box.axes = frames_.rotation * box.axes;
+      compared_b_ = detail::ComparedBox(box, scale_.inverse_scale);
+      compared_slot_b_ = b;
+    }
+    return detail::squaredBounds(a_.nodes()[a_.child(a)], compared_b_, -direction_, scale_, enough_);
   }
 
   void expand(const OpenPair& pair, bool best_first) {
@@ -188,43 +194,56 @@ class BranchAndBound {
     const bool opens_b = opensB(pair.a, pair.b);
     const std::uint32_t opened = opens_b ? child_b : child_a;
     const Hierarchy::Node& node = (opens_b ? b_ : a_).nodes()[opened];
-    const Lanes bounds = childBounds(pair.a, pair.b);
-    const std::size_t first = open_.size();
+    const Lanes bounds = childBounds(pair.a, pair.b, opens_b);
+    if (open_.size() < open_count_ + Hierarchy::kWidth) open_.resize(2 * open_.size() + 256);
+    std::uint32_t nearest = Hierarchy::kWidth;
+    double nearest_bound = squared_enough_;
+    const auto add = [&](std::uint32_t lane, double bound) {
+      // Field by field: a pair put together on the stack first would stall the store buffer.
+      const Slot slot = opened * static_cast<std::uint32_t>(Hierarchy::kWidth) + lane;
+      OpenPair& child = open_[open_count_++];
+      child.a = opens_b ? pair.a : slot;
+      child.b = opens_b ? slot : pair.b;
+      child.squared_bound = bound;
+      if (best_first) std::push_heap(open_.begin(), open_.begin() + openCount(), isFarther);
+    };
     for (std::uint32_t lane = 0; lane < Hierarchy::kWidth; ++lane) {
       if (node.child[lane] == Hierarchy::kNoChild) break;
       const double bound = std::max(bounds[lane], pair.squared_bound);
       if (bound >= squared_enough_) {
         exclude(bound);
-        continue;
-      }
-      const Slot slot = opened * static_cast<std::uint32_t>(Hierarchy::kWidth) + lane;
-      put(opens_b ? OpenPair{pair.a, slot, bound} : OpenPair{slot, pair.b, bound}, best_first);
-    }
-    // The nearest is taken next.
-    if (!best_first) {
-      for (std::size_t i = first + 1; i < open_.size(); ++i) {
-        for (std::size_t k = i; k > first && isFarther(open_[k], open_[k - 1]); --k) {
-          std::swap(open_[k], open_[k - 1]);
-        }
+      } else if (bound < nearest_bound) {
+        if (nearest != Hierarchy::kWidth) add(nearest, nearest_bound);
+        nearest = lane;
+        nearest_bound = bound;
+      } else {
+        add(lane, bound);
       }
     }
+    if (nearest != Hierarchy::kWidth) add(nearest, nearest_bound);  // is taken next
   }
+
+  std::ptrdiff_t openCount() const { return static_cast<std::ptrdiff_t>(open_count_); }
 
   void measureLeaves(const Hierarchy::Leaf& leaf_a, const Hierarchy::Leaf& leaf_b) {
     ++result_.cost.leaf_pairs;
-    const detail::LeafLanes b(leaf_b, frames_.rotation, frames_.offset);
-    const unsigned all = (1U << leaf_b.count) - 1U;
+    detail::LeafLanes b(leaf_b, frames_.rotation, frames_.offset);
     const Lanes least = detail::leastAlong(b, direction_);
-    const Vector3d direction = direction_;
+    const Lanes most = detail::mostAlong(leaf_a, direction_) + slack_;
+    if (least.minCoeff() - most.maxCoeff() >= enough_) return;
+    b.computeNormals();
+    const unsigned all = (1U << leaf_b.count) - 1U;
     // The direction between the last pair measured here parts its neighbours as well, as a rule.
     Vector3d near_direction = Vector3d::Zero();
     Lanes near_least = Lanes::Zero();
+    Lanes near_most = Lanes::Zero();
     for (std::size_t i = 0; i < leaf_a.count; ++i) {
-      const TrianglePoints a = detail::triangleOf(leaf_a, i);
-      unsigned left = all & detail::lanesBelow(least, mostAlong(a, direction) + slack_ + enough_);
+      const auto row = static_cast<Eigen::Index>(i);
+      unsigned left = all & detail::lanesBelow(least, most[row] + enough_) &
+                      detail::lanesBelow(near_least, near_most[row] + enough_);
       if (left == 0) continue;
+      const TrianglePoints a = detail::triangleOf(leaf_a, i);
       left = detail::closerThanByPlanes(a, b, enough_, slack_, left);
-      left &= detail::lanesBelow(near_least, mostAlong(a, near_direction) + slack_ + enough_);
       while (left != 0) {
         unsigned lane = 0;
         while ((left >> lane & 1U) == 0) ++lane;
@@ -237,20 +256,17 @@ class BranchAndBound {
         if (!(length > 0.0)) return;
         near_direction /= length;
         near_least = detail::leastAlong(b, near_direction);
-        left &= detail::lanesBelow(near_least, mostAlong(a, near_direction) + slack_ + enough_);
+        near_most = detail::mostAlong(leaf_a, near_direction) + slack_;
+        left &= detail::lanesBelow(near_least, near_most[row] + enough_);
       }
     }
-  }
-
-  static double mostAlong(const TrianglePoints& a, const Vector3d& direction) {
-    return std::max({direction.dot(a[0]), direction.dot(a[1]), direction.dot(a[2])});
   }
 
   void conclude(bool out_of_time) {
     result_.witness = frames_.toWitness(closest_, triangle_a_, triangle_b_);
     result_.distance = distance_;
     double bound = std::min(distance_ - error_, std::sqrt(squared_excluded_));
-    for (const OpenPair& pair : open_) bound = std::min(bound, std::sqrt(pair.squared_bound));
+    for (std::size_t i = 0; i < open_count_; ++i) bound = std::min(bound, std::sqrt(open_[i].squared_bound));
     result_.lower_bound = bound > 0.0 ? std::nextafter(bound, 0.0) : 0.0;
     if (squared_distance_ == 0.0) {
       result_.status = CertificateStatus::Penetrating;
@@ -272,9 +288,10 @@ class BranchAndBound {
   const detail::LocalFrames frames_;
   const Matrix3d turned_;  ///< from A's axes to B's
   const CertificateRequest& request_;
-  std::vector<OpenPair>& open_;
+  std::vector<OpenPair>& open_;  ///< the first open_count_ of it
+  std::size_t open_count_ = 0;
   RefinementWorkspace& refinement_;
-  const double scale_;
+  const detail::BoundScale scale_;
   const double slack_;
   const double error_;
   DistanceCertificate result_;
@@ -289,6 +306,12 @@ class BranchAndBound {
   double enough_ = std::numeric_limits<double>::infinity();  ///< farther than this need not be opened
   double squared_enough_ = std::numeric_limits<double>::infinity();
   double squared_excluded_ = std::numeric_limits<double>::infinity();
+
+  // Boxes are compared several times in a row.
+  Slot compared_slot_a_ = Hierarchy::kNoChild;
+  Slot compared_slot_b_ = Hierarchy::kNoChild;
+  detail::ComparedBox compared_a_;
+  detail::ComparedBox compared_b_;
 };
 
 }  // namespace

@@ -1,6 +1,8 @@
 #include "leaf_pair.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <limits>
 
 namespace concave_distance::detail {
 namespace {
@@ -31,6 +33,9 @@ LeafLanes::LeafLanes(const BoundingVolumeHierarchy::Leaf& leaf, const Eigen::Mat
       corner[k][c] = rotation(c, 0) * x + rotation(c, 1) * y + rotation(c, 2) * z + offset[c];
     }
   }
+}
+
+void LeafLanes::computeNormals() {
   Lanes u[3];
   Lanes v[3];
   for (int c = 0; c < 3; ++c) {
@@ -57,6 +62,15 @@ Lanes leastAlong(const LeafLanes& leaf, const Vector3d& direction) {
   return along(direction, leaf.corner[0])
       .min(along(direction, leaf.corner[1]))
       .min(along(direction, leaf.corner[2]));
+}
+
+Lanes mostAlong(const BoundingVolumeHierarchy::Leaf& leaf, const Vector3d& direction) {
+  Lanes most = Lanes::Constant(-std::numeric_limits<double>::infinity());
+  for (int k = 0; k < 3; ++k) {
+    most = most.max(direction.x() * lanes(leaf.corner[k][0]) + direction.y() * lanes(leaf.corner[k][1]) +
+                    direction.z() * lanes(leaf.corner[k][2]));
+  }
+  return most;
 }
 
 unsigned closerThanByPlanes(const TrianglePoints& a, const LeafLanes& b, double enough, double slack,

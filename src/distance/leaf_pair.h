@@ -10,11 +10,12 @@ struct LeafLanes {
   LeafLanes(const BoundingVolumeHierarchy::Leaf& leaf, const Eigen::Matrix3d& rotation,
             const Eigen::Vector3d& offset);
 
+  void computeNormals();
   TrianglePoints triangle(std::size_t lane) const;
 
-  Lanes corner[3][3];  ///< [corner][coordinate]
-  Lanes normal[3];     ///< of each triangle, not normalised; with its squared length
-  Lanes squared_normal;
+  Lanes corner[3][3];    ///< [corner][coordinate]
+  Lanes normal[3];       ///< of each triangle, not normalised; set by computeNormals()
+  Lanes squared_normal;  ///< squared lengths of `normal`
 };
 
 inline TrianglePoints triangleOf(const BoundingVolumeHierarchy::Leaf& leaf, std::size_t lane) {
@@ -27,6 +28,9 @@ inline TrianglePoints triangleOf(const BoundingVolumeHierarchy::Leaf& leaf, std:
 
 /// Least value of `direction` over the corners of each lane.
 Lanes leastAlong(const LeafLanes& leaf, const Eigen::Vector3d& direction);
+
+/// Greatest value of `direction` over the corners of each lane, frame of the leaf.
+Lanes mostAlong(const BoundingVolumeHierarchy::Leaf& leaf, const Eigen::Vector3d& direction);
 
 /// Of the lanes whose bit is set in `candidates`, those whose triangle neither a's plane nor its own plane
 /// parts from triangle `a` by `enough` (metres) and `slack` for rounding.
