@@ -39,6 +39,9 @@ struct ComparedBox {
 
 /// What every bound of one query shares.
 struct BoundScale {
+  BoundScale(double metres, double relative_slack)
+      : scale(metres), inverse_scale(1.0 / metres), slack(relative_slack * metres) {}
+
   double scale;          ///< metres, no smaller than any distance between points of the two bodies
   double inverse_scale;  ///< of it
   double slack;          ///< metres: rounding of a bound in double precision

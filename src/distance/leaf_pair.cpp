@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace concave_distance::detail {
@@ -73,12 +74,9 @@ Lanes mostAlong(const BoundingVolumeHierarchy::Leaf& leaf, const Vector3d& direc
   return most;
 }
 
-unsigned closerThanByPlanes(const TrianglePoints& a, const LeafLanes& b, double enough, double slack,
-                            unsigned candidates) {
-  // A gap g along a direction of length l separates by g / l; both corners' heights are taken along it, so
+Lanes planeSeparation(const TrianglePoints& a, const LeafLanes& b) {
+  // A gap g along a direction of length l separates by g / l; all corners' heights are taken along it, so
   // that it need not be the plane's normal to the last digit.
-  const double needed = enough + slack;
-  const double squared_needed = needed * needed;
   const Vector3d normal = (a[1] - a[0]).cross(a[2] - a[0]);
   const double a0 = normal.dot(a[0]);
   const double a1 = normal.dot(a[1]);
@@ -88,7 +86,6 @@ unsigned closerThanByPlanes(const TrianglePoints& a, const LeafLanes& b, double 
   const Lanes b2 = along(normal, b.corner[2]);
   const Lanes above = b0.min(b1).min(b2) - std::max({a0, a1, a2});
   const Lanes below = std::min({a0, a1, a2}) - b0.max(b1).max(b2);
-  const Lanes gap_a = above.max(below).max(0.0);
 
   const Lanes own0 = along(b.normal, b.corner[0]);
   const Lanes own1 = along(b.normal, b.corner[1]);
@@ -98,17 +95,12 @@ unsigned closerThanByPlanes(const TrianglePoints& a, const LeafLanes& b, double 
   const Lanes other2 = along(b.normal, a[2]);
   const Lanes over = other0.min(other1).min(other2) - own0.max(own1).max(own2);
   const Lanes under = own0.min(own1).min(own2) - other0.max(other1).max(other2);
-  const Lanes gap_b = over.max(under).max(0.0);
 
-  const double needed_a = squared_needed * normal.squaredNorm();
-  unsigned left = 0;
-  for (int lane = 0; lane < static_cast<int>(BoundingVolumeHierarchy::kWidth); ++lane) {
-    const bool apart_a = gap_a[lane] > 0.0 && gap_a[lane] * gap_a[lane] >= needed_a;
-    const bool apart_b =
-        gap_b[lane] > 0.0 && gap_b[lane] * gap_b[lane] >= squared_needed * b.squared_normal[lane];
-    if (!apart_a && !apart_b) left |= 1U << static_cast<unsigned>(lane);
-  }
-  return left & candidates;
+  // A triangle without area has no plane: its gap is 0 as well.
+  constexpr double kLeast = std::numeric_limits<double>::min();
+  const Lanes by_a = above.max(below).max(0.0) / std::sqrt(std::max(normal.squaredNorm(), kLeast));
+  const Lanes by_b = over.max(under).max(0.0) / b.squared_normal.max(kLeast).sqrt();
+  return by_a.max(by_b);
 }
 
 }  // namespace concave_distance::detail

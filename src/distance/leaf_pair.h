@@ -32,9 +32,8 @@ Lanes leastAlong(const LeafLanes& leaf, const Eigen::Vector3d& direction);
 /// Greatest value of `direction` over the corners of each lane, frame of the leaf.
 Lanes mostAlong(const BoundingVolumeHierarchy::Leaf& leaf, const Eigen::Vector3d& direction);
 
-/// Of the lanes whose bit is set in `candidates`, those whose triangle neither a's plane nor its own plane
-/// parts from triangle `a` by `enough` (metres) and `slack` for rounding.
-unsigned closerThanByPlanes(const TrianglePoints& a, const LeafLanes& b, double enough, double slack,
-                            unsigned candidates);
+/// How far a's plane or the lane's own plane parts triangle `a` from each lane; metres, 0 where neither does.
+/// Needs the leaf's normals.
+Lanes planeSeparation(const TrianglePoints& a, const LeafLanes& b);
 
 }  // namespace concave_distance::detail

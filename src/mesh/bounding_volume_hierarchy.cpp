@@ -140,6 +140,28 @@ BoundingVolumeHierarchy::BoundingVolumeHierarchy(const SurfaceMesh& mesh, const 
   Builder(mesh, tree, origin_, kBoxMargin * reach_, nodes_, leaves_).build();
   nodes_.shrink_to_fit();
   leaves_.shrink_to_fit();
+  chooseRegions();
+}
+
+void BoundingVolumeHierarchy::chooseRegions() {
+  regions_ = {kRoot};
+  region_of_node_.assign(nodes_.size(), 0);
+  // Parents come before their children. The node below the root belongs to the whole surface; the boxes of it
+  // and of its children are regions; what is deeper is of its parent's.
+  std::vector<std::uint8_t> depth(nodes_.size(), 0);
+  for (std::uint32_t node = 0; node < nodes_.size(); ++node) {
+    for (std::uint32_t lane = 0; lane < kWidth; ++lane) {
+      const std::uint32_t child = nodes_[node].child[lane];
+      if ((child & kLeafFlag) != 0) continue;
+      depth[child] = static_cast<std::uint8_t>(std::min(depth[node] + 1, 4));
+      if (depth[child] == 2 || depth[child] == 3) {
+        region_of_node_[child] = static_cast<std::uint8_t>(regions_.size());
+        regions_.push_back(node * static_cast<Slot>(kWidth) + lane);
+      } else {
+        region_of_node_[child] = region_of_node_[node];
+      }
+    }
+  }
 }
 
 OrientedBox BoundingVolumeHierarchy::box(Slot slot) const {
@@ -155,7 +177,7 @@ OrientedBox BoundingVolumeHierarchy::box(Slot slot) const {
 }
 
 std::size_t BoundingVolumeHierarchy::memoryBytes() const {
-  return nodes_.capacity() * sizeof(Node) + leaves_.capacity() * sizeof(Leaf);
+  return nodes_.capacity() * sizeof(Node) + leaves_.capacity() * sizeof(Leaf) + region_of_node_.capacity();
 }
 
 }  // namespace concave_distance

@@ -1,13 +1,15 @@
-// The proven distance beside FCL's, on the same meshes and poses, in one run and one thread: cold (no seed,
-// at random poses) and tracked (seeded with the last instant's closest triangles, along the pair's motion).
+// The proven distance beside FCL's, on the same meshes and poses, in one run and one thread: `cold` (no seed,
+// at random poses); `seeded` (begun with the last instant's closest triangles) and `front` (the same, and
+// what the last instant's proof excluded is kept) along the pair's motion, sampled at several rates.
 //
-//   certificate_benchmark [--pairs name,name,...] [--poses 200] [--steps 500] [--output
-//   doc/results/certificate.csv]
+//   certificate_benchmark [--pairs name,name,...] [--poses 200] [--steps 50,500,5000]
+//                         [--output doc/results/certificate.csv]
 //
-// A row is a pair: median microseconds of FCL's plain distance, of FCL seeded with the distance of the last
-// instant's closest triangles, of ours; FCL / ours (median over instants, and at the slower of ours: 99th
-// percentile over 99th percentile); box bounds and triangle distances of ours; instants where ours and FCL's
-// differ by more than 1e-9 of the bodies' size.
+// A row is a pair, a kind and a number of instants along the motion (5 s long: 50 is 10 Hz): median
+// microseconds of FCL's plain distance, of FCL seeded with the distance of the last instant's closest
+// triangles, of ours with its 99th percentile; FCL / ours (medians), seeded FCL / ours, and 99th percentile
+// over 99th percentile; box bounds, leaf pairs and triangle distances of ours; answers that differ from FCL's
+// by more than 1e-9 of the bodies' size; answers without a full proof.
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdio>
@@ -26,12 +28,21 @@ double microseconds(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
 }
 
-constexpr int kPasses = 3;  // the fastest of so many counts
+enum class Kind { Cold, Seeded, Front };
+
+const char* nameOf(Kind kind) {
+  return kind == Kind::Cold ? "cold" : (kind == Kind::Seeded ? "seeded" : "front");
+}
+
+/// FCL's share of a row: measured once for both kinds along a motion.
+struct Yardstick {
+  std::vector<double> plain_us;
+  std::vector<double> seeded_us;
+  std::vector<double> distances;
+};
 
 struct Series {
-  std::vector<double> fcl_us;
-  std::vector<double> seeded_fcl_us;
-  std::vector<double> ours_us;
+  std::vector<double> us;
   std::vector<double> bounds;
   std::vector<double> leaves;
   std::vector<double> triangles;
@@ -39,64 +50,66 @@ struct Series {
   int not_proven = 0;
 };
 
-class Run {
- public:
-  explicit Run(const BenchmarkPair& pair) : pair_(pair) {}
-
-  void measure(const Eigen::Isometry3d& pose, bool tracked, Series& series) {
-    double fcl_us = 1e300;
-    double seeded_us = 1e300;
-    double ours_us = 1e300;
-    FclAnswer exact{};
-    DistanceCertificate ours;
-    const TrianglePair seed{last_.witness.triangle_a, last_.witness.triangle_b};
-    const bool seeded = tracked && std::isfinite(last_.distance);
-    for (int pass = 0; pass < kPasses; ++pass) {
-      auto start = std::chrono::steady_clock::now();
-      exact = fclDistance(*pair_.fcl_a, *pair_.fcl_b, pose);
-      fcl_us = std::min(fcl_us, microseconds(start));
-      if (seeded) {
-        start = std::chrono::steady_clock::now();
-        (void)fclDistanceSeeded(*pair_.fcl_a, *pair_.fcl_b, pose, seed.a, seed.b);
-        seeded_us = std::min(seeded_us, microseconds(start));
-      }
-      start = std::chrono::steady_clock::now();
-      ours =
-          certifyDistance(*pair_.a, *pair_.b, pose, &seed, seeded ? 1 : 0, CertificateRequest(), workspace_);
-      ours_us = std::min(ours_us, microseconds(start));
-    }
-    last_ = ours;
-    series.fcl_us.push_back(fcl_us);
-    if (seeded) series.seeded_fcl_us.push_back(seeded_us);
-    series.ours_us.push_back(ours_us);
+Series measure(const BenchmarkPair& pair, const std::vector<Eigen::Isometry3d>& poses, Kind kind,
+               const Yardstick& yardstick, std::vector<TrianglePair>& closest) {
+  Series series;
+  CertificateWorkspace workspace;
+  ProofFront front;
+  const double size = std::max(pair.a->diameter(), pair.b->diameter());
+  closest.clear();
+  for (std::size_t k = 0; k < poses.size(); ++k) {
+    const bool seeded = kind != Kind::Cold && k > 0;
+    const TrianglePair seed = seeded ? closest.back() : TrianglePair{};
+    const auto start = std::chrono::steady_clock::now();
+    const DistanceCertificate ours =
+        certifyDistance(*pair.a, *pair.b, poses[k], &seed, seeded ? 1 : 0, CertificateRequest(), workspace,
+                        kind == Kind::Front ? &front : nullptr);
+    const double taken = microseconds(start);
+    closest.push_back({ours.witness.triangle_a, ours.witness.triangle_b});
+    if (kind != Kind::Cold && !seeded) continue;
+    series.us.push_back(taken);
     series.bounds.push_back(ours.cost.box_bounds);
     series.leaves.push_back(ours.cost.leaf_pairs);
     series.triangles.push_back(ours.cost.triangle_pairs);
-    const double size = std::max(pair_.a->diameter(), pair_.b->diameter());
-    series.different += std::abs(ours.distance - std::max(0.0, exact.distance)) > 1e-9 * size ? 1 : 0;
+    if (!yardstick.distances.empty()) {
+      series.different +=
+          std::abs(ours.distance - std::max(0.0, yardstick.distances[k])) > 1e-9 * size ? 1 : 0;
+    }
     series.not_proven += ours.status == CertificateStatus::Proven ? 0 : 1;
   }
+  return series;
+}
 
- private:
-  const BenchmarkPair& pair_;
-  CertificateWorkspace workspace_;
-  DistanceCertificate last_;
-};
+Yardstick measureFcl(const BenchmarkPair& pair, const std::vector<Eigen::Isometry3d>& poses,
+                     const std::vector<TrianglePair>& closest) {
+  Yardstick yardstick;
+  for (std::size_t k = 0; k < poses.size(); ++k) {
+    auto start = std::chrono::steady_clock::now();
+    yardstick.distances.push_back(fclDistance(*pair.fcl_a, *pair.fcl_b, poses[k]).distance);
+    yardstick.plain_us.push_back(microseconds(start));
+    if (k == 0 || closest.empty()) continue;
+    start = std::chrono::steady_clock::now();
+    (void)fclDistanceSeeded(*pair.fcl_a, *pair.fcl_b, poses[k], closest[k - 1].a, closest[k - 1].b);
+    yardstick.seeded_us.push_back(microseconds(start));
+  }
+  return yardstick;
+}
 
-void print(const char* kind, const std::string& name, const Series& s, std::ofstream& csv) {
-  const double fcl = median(s.fcl_us);
-  const double seeded = s.seeded_fcl_us.empty() ? 0.0 : median(s.seeded_fcl_us);
-  const double ours = median(s.ours_us);
-  const double tail = percentile(s.fcl_us, 0.99) / percentile(s.ours_us, 0.99);
-  std::printf("%-20s %-8s %9.1f %9.1f %8.2f %8.2f %7.1f %7.1f %7.1f %8.0f %7.0f %7.0f %5d %5d\n",
-              name.c_str(), kind, fcl, seeded, ours, percentile(s.ours_us, 0.99), fcl / ours, seeded / ours,
-              tail, median(s.bounds), median(s.leaves), median(s.triangles), s.different, s.not_proven);
+void print(const std::string& name, Kind kind, const Yardstick& fcl, const Series& s, std::ofstream& csv) {
+  const double plain = median(fcl.plain_us);
+  const double seeded = fcl.seeded_us.empty() ? std::nan("") : median(fcl.seeded_us);
+  const double ours = median(s.us);
+  const double slow = percentile(s.us, 0.99);
+  const double slow_ratio = percentile(fcl.plain_us, 0.99) / slow;
+  std::printf("%-18s %-6s %5zu %8.1f %8.1f %8.2f %8.2f %7.1f %7.1f %7.1f %7.0f %6.0f %5.0f %4d %4d\n",
+              name.c_str(), nameOf(kind), s.us.size(), plain, seeded, ours, slow, plain / ours, seeded / ours,
+              slow_ratio, median(s.bounds), median(s.leaves), median(s.triangles), s.different, s.not_proven);
   std::fflush(stdout);
   if (csv) {
-    csv << name << ',' << kind << ',' << fcl << ',' << seeded << ',' << ours << ','
-        << percentile(s.ours_us, 0.99) << ',' << fcl / ours << ',' << seeded / ours << ',' << tail << ','
+    csv << name << ',' << nameOf(kind) << ',' << s.us.size() << ',' << plain << ',' << seeded << ',' << ours
+        << ',' << slow << ',' << plain / ours << ',' << seeded / ours << ',' << slow_ratio << ','
         << median(s.bounds) << ',' << median(s.leaves) << ',' << median(s.triangles) << ',' << s.different
-        << ',' << s.not_proven << ',' << s.ours_us.size() << '\n';
+        << ',' << s.not_proven << '\n';
   }
 }
 
@@ -104,38 +117,43 @@ int main(int argc, char** argv) {
   CLI::App app("The proven distance beside FCL's, cold and tracked");
   std::vector<std::string> names = allPairs();
   std::size_t poses = 200;
-  int steps = 500;
+  std::vector<int> steps = {50, 500, 5000};
   std::string output;
   app.add_option("--pairs", names, "Pairs to run; all when left out")->delimiter(',');
-  app.add_option("--poses", poses, "Random poses of the cold queries");
-  app.add_option("--steps", steps, "Instants along each motion")->check(CLI::PositiveNumber);
+  app.add_option("--poses", poses, "Random poses of the cold queries; 0: none");
+  app.add_option("--steps", steps, "Instants along each motion")
+      ->delimiter(',')
+      ->check(CLI::Range(2, 1000000));
   app.add_option("--output", output, "CSV file to write");
   CLI11_PARSE(app, argc, argv);
 
   std::ofstream csv;
   if (!output.empty()) {
     csv.open(output);
-    csv << "pair,kind,fcl_us,fcl_seeded_us,certified_us,certified_p99_us,fcl_over_certified,"
-           "seeded_over_certified,p99_over_p99,box_bounds,leaf_pairs,triangle_pairs,different,not_proven,"
-           "queries\n";
+    csv << "pair,kind,queries,fcl_us,fcl_seeded_us,certified_us,certified_p99_us,fcl_over_certified,"
+           "fcl_seeded_over_certified,p99_over_p99,box_bounds,leaf_pairs,triangle_pairs,different,not_"
+           "proven\n";
   }
-  std::printf("%-20s %-8s %9s %9s %8s %8s %7s %7s %7s %8s %7s %7s %5s %5s\n", "pair", "kind", "FCL us",
-              "seeded us", "ours us", "p99 us", "FCL/", "seeded/", "p99/", "boxes", "leaves", "tri", "diff",
-              "unprv");
+  std::printf("%-18s %-6s %5s %8s %8s %8s %8s %7s %7s %7s %7s %6s %5s %4s %4s\n", "pair", "kind", "runs",
+              "FCL us", "seeded", "ours us", "p99 us", "FCL/", "seeded/", "p99/", "boxes", "leaves", "tri",
+              "diff", "unpr");
+  std::vector<TrianglePair> closest;
   for (const std::string& name : names) {
     const BenchmarkPair pair = loadBenchmarkPair(name);
-    Run run(pair);
     if (poses > 0) {
-      Series cold;
-      for (const Eigen::Isometry3d& pose : randomPoses(pair, poses, 1)) run.measure(pose, false, cold);
-      print("cold", name, cold, csv);
+      const std::vector<Eigen::Isometry3d> random = randomPoses(pair, poses, 1);
+      const Yardstick fcl = measureFcl(pair, random, {});
+      print(name, Kind::Cold, fcl, measure(pair, random, Kind::Cold, fcl, closest), csv);
     }
-    Series tracked;
-    for (int k = 0; k < steps; ++k) {
-      const double t = steps > 1 ? static_cast<double>(k) / (steps - 1) : 0.0;
-      run.measure(pair.motion(t), true, tracked);
+    for (const int count : steps) {
+      std::vector<Eigen::Isometry3d> motion;
+      for (int k = 0; k < count; ++k) motion.push_back(pair.motion(static_cast<double>(k) / (count - 1)));
+      measure(pair, motion, Kind::Seeded, {}, closest);  // for FCL's seeds
+      const Yardstick fcl = measureFcl(pair, motion, closest);
+      for (const Kind kind : {Kind::Seeded, Kind::Front}) {
+        print(name, kind, fcl, measure(pair, motion, kind, fcl, closest), csv);
+      }
     }
-    print("tracked", name, tracked, csv);
   }
   return 0;
 }

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "concave_distance/distance/proof_front.h"
 #include "concave_distance/distance/witness_refinement.h"
 #include "concave_distance/mesh/body_mesh.h"
 
@@ -78,6 +79,7 @@ struct CertificateWorkspace {
 /// must be rigid to rounding. Allocates nothing once the workspace has grown.
 DistanceCertificate certifyDistance(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
                                     const TrianglePair* seeds, std::size_t seed_count,
-                                    const CertificateRequest& request, CertificateWorkspace& workspace);
+                                    const CertificateRequest& request, CertificateWorkspace& workspace,
+                                    ProofFront* front = nullptr);
 
 }  // namespace concave_distance

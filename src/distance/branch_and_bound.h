@@ -1,0 +1,81 @@
+#pragma once
+
+#include "box_pair_bounds.h"
+#include "concave_distance/distance/certificate.h"
+#include "concave_distance/distance/proof_front.h"
+#include "leaf_pair.h"
+#include "local_frames.h"
+
+namespace concave_distance::detail {
+
+/// One proof: descends into every pair of boxes that could hide a pair of points closer than the best one
+/// known, and keeps, where a front is given, what it has excluded with its bound.
+class BranchAndBound {
+ public:
+  BranchAndBound(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
+                 const CertificateRequest& request, CertificateWorkspace& workspace, ProofFront* front);
+  DistanceCertificate run(const TrianglePair* seeds, std::size_t seed_count);
+
+ private:
+  using Hierarchy = BoundingVolumeHierarchy;
+  using Slot = Hierarchy::Slot;
+  using OpenPair = CertificateWorkspace::OpenPair;
+
+  void seed(const TrianglePair* seeds, std::size_t seed_count);
+  void descend(const TrianglePair& seed);
+  void dive();
+  TrianglePairDistance measure(const TrianglePoints& a, const TrianglePoints& b, TriangleIndex triangle_a,
+                               TriangleIndex triangle_b);
+
+  void beginAtRoots();
+  void reopenFront();
+  bool search();
+  OpenPair take();
+  void add(Slot kept, std::uint32_t opened, std::uint32_t lane, bool opens_b, double squared_bound);
+  void expand(const OpenPair& pair);
+  void openLeaves(const OpenPair& pair);
+  double measureLeaves(const Hierarchy::Leaf& leaf_a, const Hierarchy::Leaf& leaf_b);
+  bool opensB(Slot a, Slot b) const;
+  Lanes childBounds(Slot kept, std::uint32_t opened, bool opens_b);
+  void exclude(double bound);
+  DistanceCertificate conclude(bool out_of_time);
+
+  std::uint8_t regionOf(Slot slot_of_b) const { return b_.regionOfNode(slot_of_b / Hierarchy::kWidth); }
+  std::ptrdiff_t openCount() const { return static_cast<std::ptrdiff_t>(open_count_); }
+
+  const BodyMesh& body_a_;
+  const BodyMesh& body_b_;
+  const Hierarchy& a_;
+  const Hierarchy& b_;
+  const Eigen::Isometry3d& a_from_b_;
+  const LocalFrames frames_;
+  const Eigen::Matrix3d turned_;  ///< from A's axes to B's
+  const CertificateRequest& request_;
+  const bool timed_;             ///< then the least bound comes first
+  std::vector<OpenPair>& open_;  ///< the first open_count_ of it
+  std::size_t open_count_ = 0;
+  RefinementWorkspace& refinement_;
+  ProofFront* front_;  ///< null: nothing is kept
+  const BoundScale scale_;
+  const double error_;
+  DistanceCertificate result_;
+
+  TrianglePairDistance closest_{};
+  TriangleIndex triangle_a_;
+  TriangleIndex triangle_b_;
+  double squared_distance_ = std::numeric_limits<double>::infinity();
+  double distance_ = std::numeric_limits<double>::infinity();
+  Eigen::Vector3d direction_ = Eigen::Vector3d::Zero();  ///< from A's witness to B's, unit
+  Eigen::Vector3d direction_in_b_ = Eigen::Vector3d::Zero();
+  double enough_ = std::numeric_limits<double>::infinity();  ///< farther than this need not be opened
+  double squared_enough_ = std::numeric_limits<double>::infinity();
+  double excluded_ = std::numeric_limits<double>::infinity();  ///< least bound of what was not opened
+
+  // Boxes are compared several times in a row.
+  Slot compared_slot_a_ = Hierarchy::kNoChild;
+  Slot compared_slot_b_ = Hierarchy::kNoChild;
+  ComparedBox compared_a_;
+  ComparedBox compared_b_;
+};
+
+}  // namespace concave_distance::detail
