@@ -11,6 +11,8 @@ namespace {
 
 // Nodes that the automatic grid aims at when the mesh itself has fewer.
 constexpr double kTargetNodeCount = 650.0;
+// Nodes along the diameter at the most: edges are divided too, and a needle has next to no area.
+constexpr double kMostNodesAlong = kTargetNodeCount / 4.0;
 
 double edgeLengthOf(const std::string& name, const SurfaceMesh& surface, const BodyMeshOptions& options) {
   if (!options.max_edge_length) {
@@ -35,7 +37,8 @@ double automaticEdgeLength(const SurfaceMesh& surface) {
   }
   // makeSearchGrid spends 1.3 to 1.5 nodes on a squared edge length of area; a body that is long and thin
   // would get edges longer than it is thick, hence the second term.
-  return std::min(std::sqrt(1.5 * area / kTargetNodeCount), surface.diameter() / 8.0);
+  const double length = std::min(std::sqrt(1.5 * area / kTargetNodeCount), surface.diameter() / 8.0);
+  return std::max(length, surface.diameter() / kMostNodesAlong);
 }
 
 BodyMesh::BodyMesh(std::string name, SurfaceMesh surface, const BodyMeshOptions& options)

@@ -11,6 +11,10 @@ namespace {
 
 constexpr std::uint32_t kNoPatch = 0xffffffffU;
 
+/// A patch flatter than this, height over length, is seen stretched to it: a triangulation of angles that
+/// rounding decides would be left as it is, however long its edges.
+constexpr double kFlattest = 1e-5;
+
 Eigen::Vector3d areaVector(const SurfaceMesh& surface, std::uint32_t triangle) {
   const TriangleIndex t{triangle};
   const Eigen::Vector3d& a = surface.corner(t, 0);
@@ -54,7 +58,23 @@ PatchFrame frameOf(const SurfaceMesh& surface, const EdgeTable& edges,
     frame.first_axis = surface.corner(TriangleIndex{triangles.front()}, 1) - frame.origin;
   }
   frame.first_axis = (frame.first_axis - normal.dot(frame.first_axis) * normal).normalized();
+  if (frame.first_axis.isZero(0.0)) {  // all corners in one place
+    frame.first_axis = Eigen::Vector3d::UnitX();
+  }
   frame.second_axis = normal.cross(frame.first_axis);
+  if (frame.second_axis.isZero(0.0)) {  // no area, no normal: any plane through the line will do
+    frame.second_axis = frame.first_axis.unitOrthogonal();
+  }
+  Eigen::AlignedBox2d box;
+  for (const std::uint32_t t : triangles) {
+    for (int k = 0; k < 3; ++k) {
+      box.extend(frame.project(surface.corner(TriangleIndex{t}, k)));
+    }
+  }
+  const double least_height = kFlattest * box.sizes().x();
+  if (box.sizes().y() > 0.0 && box.sizes().y() < least_height) {
+    frame.second_axis *= least_height / box.sizes().y();
+  }
   return frame;
 }
 

@@ -8,7 +8,8 @@
 
 namespace concave_distance::detail {
 
-/// Plane coordinates: the first axis along the patch's longest border edge, metres.
+/// Plane coordinates: the first axis along the patch's longest border edge, metres. The second is of unit
+/// length too unless the patch is so flat that it is seen stretched.
 struct PatchFrame {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   Eigen::Vector3d first_axis = Eigen::Vector3d::Zero();

@@ -55,7 +55,7 @@ GridPoint PatchLocator::find(const Eigen::Vector2d& place) const {
     }
   }
   // The place is kept; only the height over the patch's plane is the triangle's own there.
-  const Eigen::Vector3d normal = frame_.first_axis.cross(frame_.second_axis);
+  const Eigen::Vector3d normal = frame_.first_axis.cross(frame_.second_axis).normalized();
   Eigen::Vector3d weight;
   Eigen::Vector3d height;
   for (int k = 0; k < 3; ++k) {
@@ -64,9 +64,12 @@ GridPoint PatchLocator::find(const Eigen::Vector2d& place) const {
     weight[k] = std::max(0.0, cross(next - place, last - place));
     height[k] = normal.dot(surface_.corner(home, k) - frame_.origin);
   }
+  const double total = weight.sum();
+  const double height_there =
+      total > 0.0 ? weight.dot(height) / total : height[0];  // a triangle without area
   const Eigen::Vector3d position = frame_.origin + place.x() * frame_.first_axis +
-                                   place.y() * frame_.second_axis +
-                                   weight.dot(height) / weight.sum() * normal;
+                                   place.y() / frame_.second_axis.squaredNorm() * frame_.second_axis +
+                                   height_there * normal;
   return {position, home};
 }
 

@@ -238,5 +238,22 @@ TEST(SearchGrid, RefusesLengthsAndMeshesItCannotWorkWith) {
   EXPECT_THROW(makeSearchGrid(folded, 0.1), Error);
 }
 
+TEST(SearchGrid, ANeedleTakesNoMoreNodesThanItsEdgesDo) {
+  // 1 m long and 1e-8 m thick: no triangulation is judged by angles that rounding decides.
+  for (const double width : {1e-3, 1e-5, 1e-8, 1e-11}) {
+    const SurfaceMesh spike = SurfaceMesh({{0, 0, 0}, {width, 0, 1}, {0, width, 1}, {-width, -width, 1}},
+                                          {{NodeIndex{0}, NodeIndex{2}, NodeIndex{1}},
+                                           {NodeIndex{0}, NodeIndex{3}, NodeIndex{2}},
+                                           {NodeIndex{0}, NodeIndex{1}, NodeIndex{3}},
+                                           {NodeIndex{1}, NodeIndex{2}, NodeIndex{3}}},
+                                          "spike");
+    const SearchGrid grid = makeSearchGrid(spike, 0.01);
+    EXPECT_LE(grid.mesh.vertexCount(), 2U * 3U * 100U) << width;
+    for (const Eigen::Vector3d& node : grid.mesh.vertices()) {
+      EXPECT_LE(node.head<2>().norm(), 2.0 * width * node.z() + 1e-15) << width;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace concave_distance

@@ -24,7 +24,8 @@ struct NicheExtent {
   NicheKind kind = NicheKind::Point;  ///< Segment: extended in one direction, Patch: in two
   double length = 0.0;  ///< metres, largest distance between two points of the set on A; 0 for a point
   /// A stable representative of the set: the point nearest to the centre of its smallest enclosing circle,
-  /// with the same distance as the witness given (up to the tolerance); the witness itself for a point.
+  /// with the distance of the witness given up to 4 times the kernel's error; the witness itself for a point
+  /// and where the set is level within the tolerance only.
   WitnessPair representative;
   bool cut = false;  ///< the set spans more triangle pairs than were looked at
   /// The set is a terrace and no local minimum: the triangle pair (down_a, down_b) at its border comes
