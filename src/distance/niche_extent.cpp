@@ -177,18 +177,23 @@ bool isPeak(const LevelSide& side, TriangleIndex triangle, Feature feature, cons
   return true;
 }
 
-/// The pair of points at `middle` on the piece's two triangles.
-TrianglePairDistance pairAt(const detail::LocalFrames& frames, const LevelSide& a, const LevelSide& b,
+/// How far the representative's distance may be from the witness's, in errors of the kernel: where it is
+/// farther, the set is level within the tolerance only, and the witness stands for it.
+constexpr double kSameDistance = 4.0;
+
+/// The closest pair of points at `middle` on the piece's two triangles: sideways the set is only as exact as
+/// the tolerance, so that each point is led to the one closest to the other.
+TrianglePairDistance pairAt(const detail::LocalFrames& frames, const LevelSide& a, const BodyMesh& b,
                             const Vector2d& middle, TriangleIndex triangle_a, TriangleIndex triangle_b) {
-  const PointTriangleDistance on_a =
-      pointTriangleDistance(a.raised(middle), frames.cornersOfA(a.body, triangle_a));
-  const PointTriangleDistance on_b = pointTriangleDistance(frames.rotation * b.raised(middle) + frames.offset,
-                                                           frames.cornersOfB(b.body, triangle_b));
+  const TrianglePoints corners_a = frames.cornersOfA(a.body, triangle_a);
+  const PointTriangleDistance start = pointTriangleDistance(a.raised(middle), corners_a);
+  const PointTriangleDistance on_b = pointTriangleDistance(start.point, frames.cornersOfB(b, triangle_b));
+  const PointTriangleDistance on_a = pointTriangleDistance(on_b.point, corners_a);
   return {(on_b.point - on_a.point).squaredNorm(), on_a.point, on_b.point, on_a.feature, on_b.feature};
 }
 
-void placeRepresentative(const detail::LocalFrames& frames, const LevelSide& a, const LevelSide& b,
-                         double tolerance, ExtentWorkspace& workspace, NicheExtent& extent) {
+void placeRepresentative(const detail::LocalFrames& frames, const LevelSide& a, const BodyMesh& b,
+                         double rounding, ExtentWorkspace& workspace, NicheExtent& extent) {
   const Vector2d centre = detail::centreOfEnclosingCircle(workspace.hull);
   double least = std::numeric_limits<double>::infinity();
   Vector2d middle = Vector2d::Zero();
@@ -205,7 +210,7 @@ void placeRepresentative(const detail::LocalFrames& frames, const LevelSide& a, 
   }
   const TrianglePairDistance found = pairAt(frames, a, b, middle, carrier.first, carrier.second);
   const double distance = std::sqrt(extent.representative.squared_distance);
-  if (std::abs(std::sqrt(found.squared_distance) - distance) > 4.0 * tolerance) return;
+  if (std::abs(std::sqrt(found.squared_distance) - distance) > kSameDistance * rounding) return;
   extent.representative = frames.toWitness(found, carrier.first, carrier.second);
 }
 
@@ -253,7 +258,7 @@ NicheExtent measureExtent(const BodyMesh& a, const BodyMesh& b, const Eigen::Iso
   if (length <= 2.0 * levels.reach) return extent;
   extent.length = length;
   extent.kind = detail::widthOf(workspace.hull) <= 2.0 * levels.reach ? NicheKind::Segment : NicheKind::Patch;
-  placeRepresentative(frames, side_a, side_b, height_tolerance, workspace, extent);
+  placeRepresentative(frames, side_a, b, rounding, workspace, extent);
   return extent;
 }
 
