@@ -50,6 +50,13 @@ void TrackerState::followNiches(double displacement, double elapsed, SearchCost&
   }
 }
 
+// What tells that a body is swallowed is in no archive: it is followed from cycle to cycle like a niche.
+// Where it has become one (keep_through_material, or the body has come out), it is admitted as such.
+void TrackerState::followDarkSide() {
+  const WitnessRefinement refined = geometry.refine(dark_side.triangle_a, dark_side.triangle_b);
+  candidates.push_back({refined.witness, geometry.nodePairNear(refined.witness), refined.proven, 0});
+}
+
 void TrackerState::follow(NicheRecord& record, double elapsed) {
   if (parameters.accuracy == AccuracyLevel::Nodes) {
     placeRecord(record, geometry, geometry.nodeWitness(record.niche.node_pair));

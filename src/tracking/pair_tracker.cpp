@@ -76,6 +76,9 @@ void TrackerState::update(const Eigen::Isometry3d& pose, double time, PairSoluti
   search.basins.clear();
 
   if (warm) {
+    if (swallowed) {
+      followDarkSide();
+    }
     followNiches(displacement, elapsed, solution.cost, solution.events);
   }
   searching = searchIsDue(displacement);
@@ -127,6 +130,7 @@ void PairTracker::update(const Eigen::Isometry3d& a_from_b, double time, PairSol
 void PairTracker::reset() {
   state_->archive.clear();
   state_->ripples.clear();
+  state_->swallowed = false;
   state_->warm = false;
   state_->dark_side_met = false;
 }

@@ -88,8 +88,10 @@ void TrackerState::report(double displacement, PairSolution& solution) {
   }
   // A segment that leaves a closed body inwards and meets no surface ends in that body's material: swallowed.
   // Only the closest pair can be so without a closer crossing of the surfaces.
-  if (dark_side_met && (records.empty() || std::sqrt(dark_side.squared_distance) < solution.distance) &&
-      isVisible(*geometry.a, *geometry.b, geometry.a_from_b, dark_side)) {
+  swallowed = dark_side_met &&
+              (records.empty() || std::sqrt(dark_side.squared_distance) < solution.distance) &&
+              isVisible(*geometry.a, *geometry.b, geometry.a_from_b, dark_side);
+  if (swallowed) {
     solution.status = SolveStatus::Penetrating;
     solution.surface_distance = std::sqrt(dark_side.squared_distance);
     solution.distance = 0.0;

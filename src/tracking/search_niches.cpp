@@ -31,7 +31,7 @@ bool TrackerState::searchIsDue(double displacement) {
   moved_since_search += displacement;
   ++cycles_since_search;
   const double edge = std::min(geometry.a->maxEdgeLength(), geometry.b->maxEdgeLength());
-  if (warm && cycles_since_search < parameters.search_interval &&
+  if (warm && !archive.records().empty() && cycles_since_search < parameters.search_interval &&
       moved_since_search < parameters.search_motion * edge) {
     return false;
   }

@@ -36,6 +36,7 @@ struct TrackerState {
   // follow_niches.cpp: every known niche to where its minimum has moved.
   void followNiches(double displacement, double elapsed, SearchCost& cost, std::vector<NicheEvent>& events);
   void follow(NicheRecord& record, double elapsed);
+  void followDarkSide();
 
   // search_niches.cpp: candidates from the genetic search and from projections.
   bool searchIsDue(double displacement);
@@ -77,6 +78,7 @@ struct TrackerState {
   std::vector<double> scratch;
   WitnessPair dark_side;  ///< the closest pair of this cycle that runs through material
   bool dark_side_met = false;
+  bool swallowed = false;  ///< the last cycle found so by its dark side
   // Where floods have started that led on: their niches are not flooded again for some cycles.
   struct Drowned {
     TrialPoint start;
