@@ -82,9 +82,7 @@ void considerOneSide(const ExactTriangle<Real>& a, const ExactTriangle<Real>& b,
 }
 
 template <typename Real>
-Real exactSquaredDistance(const TrianglePoints& points_a, const TrianglePoints& points_b) {
-  const ExactTriangle<Real> a = exactTriangle<Real>(points_a);
-  const ExactTriangle<Real> b = exactTriangle<Real>(points_b);
+Real exactSquaredDistance(const ExactTriangle<Real>& a, const ExactTriangle<Real>& b) {
   Real least = (a[0] - b[0]).squaredNorm();
   considerOneSide(a, b, least);
   considerOneSide(b, a, least);
@@ -105,6 +103,11 @@ Real exactSquaredDistance(const TrianglePoints& points_a, const TrianglePoints& 
     }
   }
   return least;
+}
+
+template <typename Real>
+Real exactSquaredDistance(const TrianglePoints& a, const TrianglePoints& b) {
+  return exactSquaredDistance(exactTriangle<Real>(a), exactTriangle<Real>(b));
 }
 
 /// Rounded to nearest.

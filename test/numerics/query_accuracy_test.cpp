@@ -1,0 +1,134 @@
+// Whole queries on hard cases against 100 digits: the table of cases times the accuracy levels. What a level
+// promises beyond the distance is asked of it below.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <string>
+#include <tuple>
+
+#include "concave_distance/tracking/pair_tracker.h"
+#include "numerics/numeric_cases.h"
+#include "support/body_pairs.h"
+#include "support/query_bound.h"
+
+namespace concave_distance {
+namespace {
+
+using test::NumericCase;
+using test::Relation;
+
+const AccuracyLevel kLevels[] = {AccuracyLevel::Refined};
+
+/// One solve, cold and once more warm at the same pose, with the truth.
+struct Solved {
+  PairSolution cold;
+  PairSolution warm;
+  double truth;  ///< distance of the surfaces, metres
+  test::Wide wide_truth;
+  double bound;  ///< metres
+};
+
+Solved solve(const NumericCase& numeric_case, AccuracyLevel level) {
+  const auto body = [&](const char* name, const SurfaceMesh& surface) {
+    BodyMeshOptions options;
+    if (numeric_case.coarse_grid) options.max_edge_length = 0.2 * surface.diameter();
+    return std::make_shared<const BodyMesh>(name, surface, options);
+  };
+  TrackerParameters parameters;
+  parameters.accuracy = level;
+  PairTracker tracker(numeric_case.name, body("a", numeric_case.a), body("b", numeric_case.b), parameters);
+  Solved solved;
+  tracker.update(numeric_case.b_in_a.isometry(), 0.0, solved.cold);
+  tracker.update(numeric_case.b_in_a.isometry(), 0.1, solved.warm);
+  solved.wide_truth = test::exactSurfaceDistance(numeric_case.a, numeric_case.b, numeric_case.b_in_a);
+  solved.truth = static_cast<double>(solved.wide_truth);
+  solved.bound =
+      test::queryBound(numeric_case.a, numeric_case.b, numeric_case.b_in_a.translation, solved.truth);
+  return solved;
+}
+
+void expectTheTruth(const NumericCase& numeric_case, const PairSolution& solution, const Solved& solved) {
+  const double surfaces =
+      numeric_case.relation == Relation::Swallowed ? solution.surface_distance : solution.distance;
+  const double error =
+      static_cast<double>(boost::multiprecision::abs(solved.wide_truth - test::Wide(surfaces)));
+  EXPECT_LE(error, solved.bound) << "reported " << surfaces << ", true " << solved.truth;
+  // Nearer than the bound nothing tells apart from touching.
+  switch (numeric_case.relation) {
+    case Relation::Apart:
+      EXPECT_TRUE(solution.status == SolveStatus::Ok || solved.truth <= solved.bound) << solved.truth;
+      break;
+    case Relation::Meeting:
+      EXPECT_EQ(solution.status, solution.distance == 0.0 ? SolveStatus::Penetrating : SolveStatus::Ok);
+      break;
+    case Relation::Swallowed:
+      EXPECT_EQ(solution.status, SolveStatus::Penetrating);
+      EXPECT_EQ(solution.distance, 0.0);
+      break;
+  }
+}
+
+/// Points on the surfaces, and as far apart as the distance says.
+void expectWitnesses(const NumericCase& numeric_case, const PairSolution& solution, const Solved& solved) {
+  const double surfaces =
+      numeric_case.relation == Relation::Swallowed ? solution.surface_distance : solution.distance;
+  // The points are given in A's frame, rounded there.
+  const double rounding = 0x1.0p-51 * test::reachOf(numeric_case.a) + 2.0 * solved.bound;
+  EXPECT_NEAR((solution.point_b_in_a - solution.point_a_in_a).norm(), surfaces, rounding);
+  EXPECT_LE(test::surfaceOffset(solution.point_a_in_a, numeric_case.a), rounding);
+  const Eigen::Isometry3d pose = numeric_case.b_in_a.isometry();
+  EXPECT_LE(test::surfaceOffset(pose.inverse() * solution.point_b_in_a, numeric_case.b), rounding);
+}
+
+void expectBounds(const PairSolution& solution, const Solved& solved) {
+  if (solution.accuracy < AccuracyLevel::Refined) return;
+  for (const TrackedNiche& niche : solution.niches) {
+    EXPECT_GE(niche.distance, solution.distance);
+    EXPECT_GE(test::Wide(niche.distance), solved.wide_truth - test::Wide(solved.bound));
+    EXPECT_TRUE(niche.proven_local_minimum);
+    EXPECT_TRUE(niche.point_a_in_a.allFinite() && niche.point_b_in_a.allFinite());
+  }
+}
+
+class HardCase : public testing::TestWithParam<std::tuple<NumericCase, AccuracyLevel>> {};
+
+TEST_P(HardCase, IsAnsweredWithinTheStatedBound) {
+  const auto& [numeric_case, level] = GetParam();
+  const Solved solved = solve(numeric_case, level);
+  if (numeric_case.closed_form) {
+    EXPECT_NEAR(solved.truth, *numeric_case.closed_form, solved.bound) << "the case is not what it claims";
+  }
+  if (solved.truth == 0.0) {
+    EXPECT_EQ(numeric_case.relation, Relation::Meeting) << "the case is not what it claims";
+  }
+  for (const PairSolution* solution : {&solved.cold, &solved.warm}) {
+    SCOPED_TRACE(solution == &solved.cold ? "cold" : "warm");
+    expectTheTruth(numeric_case, *solution, solved);
+    expectWitnesses(numeric_case, *solution, solved);
+    expectBounds(*solution, solved);
+  }
+}
+
+std::string nameOf(const testing::TestParamInfo<HardCase::ParamType>& info) {
+  return std::get<0>(info.param).name + "_" + std::string(toString(std::get<1>(info.param)));
+}
+
+INSTANTIATE_TEST_SUITE_P(Contacts, HardCase,
+                         testing::Combine(testing::ValuesIn(test::contactCases()),
+                                          testing::ValuesIn(kLevels)),
+                         nameOf);
+INSTANTIATE_TEST_SUITE_P(Meshes, HardCase,
+                         testing::Combine(testing::ValuesIn(test::meshCases()), testing::ValuesIn(kLevels)),
+                         nameOf);
+INSTANTIATE_TEST_SUITE_P(Poses, HardCase,
+                         testing::Combine(testing::ValuesIn(test::poseCases()), testing::ValuesIn(kLevels)),
+                         nameOf);
+INSTANTIATE_TEST_SUITE_P(ConcaveBodies, HardCase,
+                         testing::Combine(testing::ValuesIn(test::concaveCases()),
+                                          testing::ValuesIn(kLevels)),
+                         nameOf);
+
+}  // namespace
+}  // namespace concave_distance
