@@ -58,7 +58,7 @@ BranchAndBound::BranchAndBound(const BodyMesh& a, const BodyMesh& b, const Eigen
       refinement_(workspace.refinement),
       front_(front),
       scale_(a.hierarchy().reach() + b.hierarchy().reach() + frames_.offset.norm(), kBoundError),
-      error_(kProofError * scale_.scale) {}
+      error_(kProofError * proofScale(a, b, a_from_b)) {}
 
 DistanceCertificate BranchAndBound::run(const TrianglePair* seeds, std::size_t seed_count) {
   seed(seeds, seed_count);

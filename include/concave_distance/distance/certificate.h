@@ -50,8 +50,9 @@ struct DistanceCertificate {
 /// epsilons, the widening of the boxes (32) and the rounding of their bounds (2 x 16): doc/numerics.md.
 inline constexpr double kProofError = 0x1.0p-45;  // 128 machine epsilons
 
-/// The scene's scale that errors are relative to: how far the bodies' surfaces reach from their centres, and
-/// how far these are apart. Metres.
+/// The scene's scale that errors are relative to: how far the bodies' surfaces reach from their centres, how
+/// far these are apart, and for the rounding of the pose an eighth of how far they and B's frame are from the
+/// origins of their frames. Metres.
 double proofScale(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b);
 
 struct TrianglePair {
