@@ -8,6 +8,7 @@
 #include <string>
 #include <tuple>
 
+#include "concave_distance/distance/certificate.h"
 #include "concave_distance/tracking/pair_tracker.h"
 #include "numerics/numeric_cases.h"
 #include "support/body_pairs.h"
@@ -21,6 +22,12 @@ using test::Relation;
 
 const AccuracyLevel kLevels[] = {AccuracyLevel::Refined};
 
+std::shared_ptr<const BodyMesh> bodyOf(const NumericCase& numeric_case, const SurfaceMesh& surface) {
+  BodyMeshOptions options;
+  if (numeric_case.coarse_grid) options.max_edge_length = 0.2 * surface.diameter();
+  return std::make_shared<const BodyMesh>(numeric_case.name, surface, options);
+}
+
 /// One solve, cold and once more warm at the same pose, with the truth.
 struct Solved {
   PairSolution cold;
@@ -31,14 +38,10 @@ struct Solved {
 };
 
 Solved solve(const NumericCase& numeric_case, AccuracyLevel level) {
-  const auto body = [&](const char* name, const SurfaceMesh& surface) {
-    BodyMeshOptions options;
-    if (numeric_case.coarse_grid) options.max_edge_length = 0.2 * surface.diameter();
-    return std::make_shared<const BodyMesh>(name, surface, options);
-  };
   TrackerParameters parameters;
   parameters.accuracy = level;
-  PairTracker tracker(numeric_case.name, body("a", numeric_case.a), body("b", numeric_case.b), parameters);
+  PairTracker tracker(numeric_case.name, bodyOf(numeric_case, numeric_case.a),
+                      bodyOf(numeric_case, numeric_case.b), parameters);
   Solved solved;
   tracker.update(numeric_case.b_in_a.isometry(), 0.0, solved.cold);
   tracker.update(numeric_case.b_in_a.isometry(), 0.1, solved.warm);
@@ -110,6 +113,47 @@ TEST_P(HardCase, IsAnsweredWithinTheStatedBound) {
     expectBounds(*solution, solved);
   }
 }
+
+/// The proof alone, from no seed, from a bad one and with a tolerance.
+class HardProof : public testing::TestWithParam<NumericCase> {};
+
+TEST_P(HardProof, EnclosesTheTruth) {
+  const NumericCase& numeric_case = GetParam();
+  const auto a = bodyOf(numeric_case, numeric_case.a);
+  const auto b = bodyOf(numeric_case, numeric_case.b);
+  const Eigen::Isometry3d pose = numeric_case.b_in_a.isometry();
+  const test::Wide truth = test::exactSurfaceDistance(numeric_case.a, numeric_case.b, numeric_case.b_in_a);
+  const double bound = test::queryBound(numeric_case.a, numeric_case.b, numeric_case.b_in_a.translation,
+                                        static_cast<double>(truth));
+  const double error = kProofError * proofScale(*a, *b, pose);
+  CertificateWorkspace workspace;
+  const TrianglePair bad_seed{TriangleIndex{0}, TriangleIndex{b->surface().triangleCount() - 1}};
+  for (const double tolerance : {0.0, 1e-3}) {
+    for (const std::size_t seed_count : {0U, 1U}) {
+      CertificateRequest request;
+      request.relative_tolerance = tolerance;
+      const DistanceCertificate found =
+          certifyDistance(*a, *b, pose, &bad_seed, seed_count, request, workspace);
+      EXPECT_LE(test::Wide(found.lower_bound), truth) << found.distance;
+      EXPECT_LE(truth, test::Wide(found.distance) + test::Wide(bound));
+      EXPECT_GE(found.lower_bound, found.distance - std::max(1.01 * error, tolerance * found.distance));
+      if (tolerance == 0.0) {
+        EXPECT_LE(static_cast<double>(test::Wide(found.distance) - truth), bound);
+        EXPECT_NE(found.status, CertificateStatus::Tolerance);
+      }
+      EXPECT_EQ(found.status == CertificateStatus::Penetrating, found.distance == 0.0);
+    }
+  }
+}
+
+std::string nameOfProof(const testing::TestParamInfo<NumericCase>& info) {
+  return info.param.name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Contacts, HardProof, testing::ValuesIn(test::contactCases()), nameOfProof);
+INSTANTIATE_TEST_SUITE_P(Meshes, HardProof, testing::ValuesIn(test::meshCases()), nameOfProof);
+INSTANTIATE_TEST_SUITE_P(Poses, HardProof, testing::ValuesIn(test::poseCases()), nameOfProof);
+INSTANTIATE_TEST_SUITE_P(ConcaveBodies, HardProof, testing::ValuesIn(test::concaveCases()), nameOfProof);
 
 std::string nameOf(const testing::TestParamInfo<HardCase::ParamType>& info) {
   return std::get<0>(info.param).name + "_" + std::string(toString(std::get<1>(info.param)));
