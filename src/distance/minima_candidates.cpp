@@ -15,13 +15,15 @@ using Node = NormalConeTree::Node;
 constexpr double kDirectionSlack = 1e-6;
 
 struct Between {
-  Vector3d way = Vector3d::Zero();  ///< from A's closest point to B's
-  double squared_distance = 0.0;
+  Vector3d from;  ///< A's closest point
+  Vector3d to;    ///< B's
+  Vector3d way;
+  double squared_distance;
 };
 
 Between between(const Vector3d& from, const Vector3d& to) {
   const Vector3d way = to - from;
-  return {way, way.squaredNorm()};
+  return {from, to, way, way.squaredNorm()};
 }
 
 double unitClamp(double x) {
@@ -141,6 +143,10 @@ class Traversal {
         !capsMeet(-found.way.dot(b.cap.axis) / distance, allowance, b.cap)) {
       return;
     }
+    if (!isPeak(scene_.a, scene_.vertices_a, a, found.from, found.way / distance, distance) ||
+        !isPeak(scene_.b, scene_.vertices_b, b, found.to, -found.way / distance, distance)) {
+      return;
+    }
     ++cost_.candidates;
     // The surfaces around the pair decide. A true minimum does not move by more than rounding.
     const WitnessRefinement refined =
@@ -148,6 +154,36 @@ class Traversal {
     const double settled = std::sqrt(refined.witness.squared_distance);
     if (settled < distance - slack_) return;
     seeds_.push_back({refined.witness.triangle_a, refined.witness.triangle_b, settled});
+  }
+
+  /// Whether no vertex next to the feature rises towards the other body by more than rounding: the normal
+  /// cone itself, which the cap is around. Points are off by less than the slack, the direction between them
+  /// by that over their distance.
+  bool isPeak(const MinimaIndex& index, const std::vector<Vector3d>& vertices, const Item& item,
+              const Vector3d& point, const Vector3d& direction, double distance) const {
+    const auto rises = [&](NodeIndex node) {
+      const Vector3d way = vertices[node.value] - point;
+      const double over = direction.dot(way) - slack_;
+      const double turn = slack_ / distance;
+      return over > 0.0 && over * over > turn * turn * way.squaredNorm();
+    };
+    const TriangleNodes& nodes = index.body().surface().triangle(item.triangle);
+    // The end of an edge counts with all that is around it.
+    for (const NodeIndex node : nodes) {
+      if ((vertices[node.value] - point).squaredNorm() > slack_ * slack_) continue;
+      const auto around = index.body().topology().neighbours_of_vertex.row(node.value);
+      return std::none_of(around.begin(), around.end(), rises);
+    }
+    if (std::any_of(nodes.begin(), nodes.end(), rises)) return false;
+    if (item.kind == Kind::Face) return true;
+    const NodeIndex from = nodes[item.element];
+    const NodeIndex to = nodes[(item.element + 1U) % 3];
+    for (const AdjacentTriangle& next : index.adjacency().row(item.triangle.value)) {
+      if (next.from != from || next.to != to) continue;
+      const TriangleNodes& beyond = index.body().surface().triangle(next.triangle);
+      if (std::any_of(beyond.begin(), beyond.end(), rises)) return false;
+    }
+    return true;
   }
 
   TrianglePoints cornersOfA(const Item& item) const { return scene_.cornersOfA(item.triangle); }
