@@ -41,7 +41,9 @@ void appendCrossing(const Vector2d& from_a, const Vector2d& to_a, const Vector2d
   const Vector2d u = to_a - from_a;
   const Vector2d v = to_b - from_b;
   const double determinant = turn(u, v);
-  if (determinant == 0.0) return;  // side by side, if at all: their ends are within reach
+  // Side by side, if at all: their ends are within reach. Where they cross would be what rounding makes it.
+  constexpr double kParallel = 1e-12;
+  if (determinant * determinant <= kParallel * kParallel * u.squaredNorm() * v.squaredNorm()) return;
   const double along_a = turn(from_b - from_a, v) / determinant;
   const double along_b = turn(from_b - from_a, u) / determinant;
   if (along_a < 0.0 || along_a > 1.0 || along_b < 0.0 || along_b > 1.0) return;

@@ -172,6 +172,17 @@ TEST(MeasureExtent, FacesSideBySideUpToTheToleranceShareTheirBorder) {
   }
 }
 
+TEST(MeasureExtent, EdgesInOneLineShareTheirOverlapWhateverTheRoundingOfTheirCrossing) {
+  // Two L shapes, edges along one direction: a's from y = 0 to 0.6, b's from 0.45 to 0.65. Seen along the
+  // way between them they lie in one line, and the crossing of the two is 0 / 0 up to rounding.
+  const Body a = makeBody(test::makeLShape());
+  Isometry3d pose = test::translation(Vector3d(-0.4, 0.55, -0.5));
+  pose.linear() << 0, -1, 0, 0, 0, 1, -1, 0, 0;
+  const NicheExtent extent = extentOfClosest(a, a, pose);
+  EXPECT_EQ(extent.kind, NicheKind::Segment);
+  EXPECT_NEAR(extent.length, 0.15, 1e-12);
+}
+
 TEST(MeasureExtent, CornersAndCrossedEdgesArePoints) {
   RandomEngine engine(2);
   const Body a = makeBody(makeCuboid(Vector3d(-1, -1, -1), Vector3d(1, 1, 1)));

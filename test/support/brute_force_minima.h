@@ -19,6 +19,10 @@ struct BruteForceMinimum {
   double prominence;  ///< infinite for the deepest
   std::uint32_t triangle_a;
   std::uint32_t triangle_b;
+  /// Of the set of its minimisers on A, metres: the largest distance of two of them, and how far one is off
+  /// the line through those.
+  double length;
+  double width;
 };
 
 namespace detail {
@@ -31,6 +35,69 @@ inline TrianglePoints movedCorners(const SurfaceMesh& mesh, std::size_t t, const
 
 inline double longDoubleDistance(const TrianglePoints& a, const TrianglePoints& b) {
   return static_cast<double>(std::sqrt(exactSquaredDistance<long double>(a, b)));
+}
+
+using WidePoint = ExactVector<long double>;
+
+inline WidePoint closestOnTriangle(const WidePoint& p, const ExactTriangle<long double>& t) {
+  const WidePoint normal = (t[1] - t[0]).cross(t[2] - t[0]);
+  const long double area = normal.squaredNorm();
+  if (area > 0.0L) {
+    const WidePoint foot = p - normal * (normal.dot(p - t[0]) / area);
+    if (exactlyInside(foot, t, normal)) return foot;
+  }
+  WidePoint best = t[0];
+  for (std::size_t k = 0; k < 3; ++k) {
+    const WidePoint edge = t[(k + 1) % 3] - t[k];
+    const long double length = edge.squaredNorm();
+    const long double along = length > 0.0L ? std::clamp(edge.dot(p - t[k]) / length, 0.0L, 1.0L) : 0.0L;
+    const WidePoint on = t[k] + edge * along;
+    if ((on - p).squaredNorm() < (best - p).squaredNorm()) best = on;
+  }
+  return best;
+}
+
+/// The corners of the set of closest points of two triangles, on a, up to `tolerance` of the distance.
+inline void appendMinimisers(const TrianglePoints& points_a, const TrianglePoints& points_b, double distance,
+                             double tolerance, std::vector<Eigen::Vector3d>& minimisers) {
+  const ExactTriangle<long double> a = exactTriangle<long double>(points_a);
+  const ExactTriangle<long double> b = exactTriangle<long double>(points_b);
+  const auto add = [&](const WidePoint& on_a, const WidePoint& on_b) {
+    if (std::sqrt((on_b - on_a).squaredNorm()) > distance + tolerance) return;
+    minimisers.emplace_back(static_cast<double>(on_a.x), static_cast<double>(on_a.y),
+                            static_cast<double>(on_a.z));
+  };
+  for (std::size_t i = 0; i < 3; ++i) {
+    add(a[i], closestOnTriangle(a[i], b));
+    add(closestOnTriangle(b[i], a), b[i]);
+    for (std::size_t j = 0; j < 3; ++j) {
+      const WidePoint u = a[(i + 1) % 3] - a[i];
+      const WidePoint v = b[(j + 1) % 3] - b[j];
+      const WidePoint w = b[j] - a[i];
+      const long double determinant = u.squaredNorm() * v.squaredNorm() - u.dot(v) * u.dot(v);
+      if (!(determinant > 1e-12L * u.squaredNorm() * v.squaredNorm())) continue;
+      const long double s = (w.dot(u) * v.squaredNorm() - w.dot(v) * u.dot(v)) / determinant;
+      const long double t = (w.dot(u) * u.dot(v) - w.dot(v) * u.squaredNorm()) / determinant;
+      if (s >= 0.0L && s <= 1.0L && t >= 0.0L && t <= 1.0L) add(a[i] + u * s, b[j] + v * t);
+    }
+  }
+}
+
+/// The largest distance of two points, and how far one is off the line through those.
+inline void measure(const std::vector<Eigen::Vector3d>& points, double& length, double& width) {
+  Eigen::Vector3d from = Eigen::Vector3d::Zero();
+  Eigen::Vector3d to = from;
+  for (const Eigen::Vector3d& l : points) {
+    for (const Eigen::Vector3d& r : points) {
+      if ((r - l).norm() <= length) continue;
+      length = (r - l).norm();
+      from = l;
+      to = r;
+    }
+  }
+  if (!(length > 0.0)) return;
+  const Eigen::Vector3d along = (to - from) / length;
+  for (const Eigen::Vector3d& p : points) width = std::max(width, along.cross(p - from).norm());
 }
 
 /// Two triangles and the corners that they share.
@@ -61,13 +128,14 @@ inline std::vector<Neighbours> neighbourPairs(const SurfaceMesh& mesh, const Eig
 }  // namespace detail
 
 /// Minima up to `cutoff` of at least that prominence, ascending by distance. Passes up to (1 +
-/// least_prominence) times the cutoff and up to `flood` are known, higher ones are infinite. Minima whose
-/// pass is not higher than they are by `rounding`, metres, are one. O(pairs) time and memory.
+/// least_prominence) times the cutoff are known, higher ones are infinite. Minima whose pass is not higher
+/// than they are by `rounding`, metres, are one; `plateau`, metres, is what the sets of minimisers may rise.
+/// O(pairs) time and memory.
 inline std::vector<BruteForceMinimum> bruteForceMinima(const BodyMesh& a, const BodyMesh& b,
                                                        const Eigen::Isometry3d& a_from_b, double cutoff,
                                                        double least_prominence, double rounding,
-                                                       double flood = 0.0) {
-  const double top = std::max(flood, (1.0 + least_prominence) * cutoff + rounding);
+                                                       double plateau) {
+  const double top = (1.0 + least_prominence) * cutoff + std::max(rounding, plateau);
   const Eigen::Isometry3d stay = Eigen::Isometry3d::Identity();
   const std::size_t count_b = b.surface().triangleCount();
   std::vector<TrianglePoints> corners_a;
@@ -129,7 +197,7 @@ inline std::vector<BruteForceMinimum> bruteForceMinima(const BodyMesh& a, const 
         distance[i] > rounding ? pass / distance[i] - 1.0 : std::numeric_limits<double>::infinity();
     if (prominence < least_prominence) return;
     minima.push_back({distance[i], prominence, static_cast<std::uint32_t>(i / count_b),
-                      static_cast<std::uint32_t>(i % count_b)});
+                      static_cast<std::uint32_t>(i % count_b), 0.0, 0.0});
   };
   for (const Pass& pass : passes) {
     const std::size_t l = root(pass.l);
@@ -144,6 +212,29 @@ inline std::vector<BruteForceMinimum> bruteForceMinima(const BodyMesh& a, const 
   }
   std::sort(minima.begin(), minima.end(),
             [](const BruteForceMinimum& l, const BruteForceMinimum& r) { return l.distance < r.distance; });
+
+  for (BruteForceMinimum& minimum : minima) {
+    // The set of minimisers: every triangle pair that is reached without rising above the tolerance.
+    const double level = minimum.distance + plateau;
+    std::vector<bool> on_plateau(distance.size(), false);
+    on_plateau[minimum.triangle_a * count_b + minimum.triangle_b] = true;
+    for (bool grows = true; grows;) {
+      grows = false;
+      for (const Pass& pass : passes) {
+        if (pass.level > level) break;
+        if (on_plateau[pass.l] == on_plateau[pass.r]) continue;
+        on_plateau[pass.l] = on_plateau[pass.r] = true;
+        grows = true;
+      }
+    }
+    std::vector<Eigen::Vector3d> points;
+    for (std::size_t i = 0; i < on_plateau.size(); ++i) {
+      if (!on_plateau[i]) continue;
+      detail::appendMinimisers(corners_a[i / count_b], corners_b[i % count_b], minimum.distance, plateau,
+                               points);
+    }
+    detail::measure(points, minimum.length, minimum.width);
+  }
   return minima;
 }
 

@@ -157,6 +157,27 @@ inline SurfaceMesh makeSheet(std::uint32_t nx, std::uint32_t ny, double cell = 0
   return SurfaceMesh(std::move(vertices), std::move(triangles), "sheet");
 }
 
+/// A ring around z: `around` quadrilaterals along it, `across` around its tube. Closed, outward oriented.
+inline SurfaceMesh makeRing(double radius, double tube, std::uint32_t around, std::uint32_t across) {
+  std::vector<Eigen::Vector3d> vertices;
+  std::vector<TriangleNodes> triangles;
+  for (std::uint32_t i = 0; i < around; ++i) {
+    const double along = 2.0 * M_PI * i / around;
+    for (std::uint32_t j = 0; j < across; ++j) {
+      const double over = 2.0 * M_PI * j / across;
+      const double r = radius + tube * std::cos(over);
+      vertices.emplace_back(r * std::cos(along), r * std::sin(along), tube * std::sin(over));
+      const NodeIndex a{i * across + j};
+      const NodeIndex b{(i + 1) % around * across + j};
+      const NodeIndex c{(i + 1) % around * across + (j + 1) % across};
+      const NodeIndex d{i * across + (j + 1) % across};
+      triangles.push_back({a, b, c});
+      triangles.push_back({a, c, d});
+    }
+  }
+  return SurfaceMesh(std::move(vertices), std::move(triangles), "ring");
+}
+
 /// Both surfaces as shells of one mesh, the second moved by `offset`.
 inline SurfaceMesh makeUnion(const SurfaceMesh& a, const SurfaceMesh& b, const Eigen::Vector3d& offset) {
   std::vector<Eigen::Vector3d> vertices = a.vertices();

@@ -1,0 +1,110 @@
+#include "concave_distance/mesh/normal_cone_tree.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "concave_distance/distance/triangle_distance.h"
+#include "support/body_pairs.h"
+
+namespace concave_distance {
+namespace {
+
+using Eigen::Vector3d;
+
+/// The closest point of the whole surface to a target, by looking at every triangle.
+Vector3d closestByForce(const SurfaceMesh& mesh, const Vector3d& target) {
+  double least = std::numeric_limits<double>::infinity();
+  Vector3d closest = target;
+  for (std::size_t t = 0; t < mesh.triangleCount(); ++t) {
+    const TriangleIndex triangle{t};
+    const PointTriangleDistance d = pointTriangleDistance(
+        target, {mesh.corner(triangle, 0), mesh.corner(triangle, 1), mesh.corner(triangle, 2)});
+    if (d.squared_distance < least) {
+      least = d.squared_distance;
+      closest = d.point;
+    }
+  }
+  return closest;
+}
+
+bool holds(const DirectionCap& cap, const Vector3d& direction) {
+  return cap.isFull() || cap.axis.dot(direction) >= cap.cosine - 1e-12;
+}
+
+/// Whether a walk from the root over nodes that hold the point and the direction ends at an item that does.
+bool leadsTo(const NormalConeTree& tree, const Vector3d& point, const Vector3d& direction, double slack) {
+  std::vector<std::uint32_t> open{0};
+  while (!open.empty()) {
+    const std::uint32_t i = open.back();
+    open.pop_back();
+    const NormalConeTree::Node& node = tree.nodes()[i];
+    if ((point - node.centre).norm() > node.radius + slack || !holds(node.cap, direction)) continue;
+    for (std::uint32_t k = node.first; k < node.first + node.count; ++k) {
+      const NormalConeTree::Item& item = tree.items()[k];
+      if ((point - item.centre).norm() <= item.radius + slack && holds(item.cap, direction)) return true;
+    }
+    if (node.count == 0) {
+      open.push_back(i + 1);
+      open.push_back(node.first);
+    }
+  }
+  return false;
+}
+
+TEST(NormalConeTree, LeadsToEveryClosestPointFromEveryTarget) {
+  RandomEngine engine(2);
+  for (std::uint32_t shape = 0; shape < 6; ++shape) {
+    const SurfaceMesh mesh = test::concaveShape(shape);
+    const MeshTopology topology = buildMeshTopology(mesh);
+    const NormalConeTree both(mesh, topology, NormalSides::Both);
+    const NormalConeTree outside(mesh, topology, NormalSides::Outside);
+    EXPECT_LE(outside.items().size(), both.items().size());
+    for (int k = 0; k < 500; ++k) {
+      const Vector3d target = mesh.boundingBox().center() + test::uniformInCube(engine, mesh.diameter());
+      const Vector3d closest = closestByForce(mesh, target);
+      const double distance = (target - closest).norm();
+      if (!(distance > 1e-6)) continue;
+      const Vector3d direction = (target - closest) / distance;
+      const double slack = 1e-12 * mesh.diameter();
+      EXPECT_TRUE(leadsTo(both, closest, direction, slack)) << shape;
+      // A box's diagonal away from the centre is outside.
+      if ((target - mesh.boundingBox().center()).norm() > 0.5 * mesh.diameter()) {
+        EXPECT_TRUE(leadsTo(outside, closest, direction, slack)) << shape;
+      }
+    }
+  }
+}
+
+TEST(NormalConeTree, OfABoxHasNoReflexFeatureOutsideAndNoConvexOneInside) {
+  const SurfaceMesh box = test::makeCuboid(Vector3d(-1, -1, -1), Vector3d(1, 1, 1));
+  const MeshTopology topology = buildMeshTopology(box);
+  const NormalConeTree outside(box, topology, NormalSides::Outside);
+  std::size_t sharp_edges = 0;
+  for (const NormalConeTree::Item& item : outside.items()) {
+    ASSERT_FALSE(item.cap.isFull());
+    EXPECT_NEAR(item.cap.cosine * item.cap.cosine + item.cap.sine * item.cap.sine, 1.0, 1e-12);
+    const double angle = std::atan2(item.cap.sine, item.cap.cosine);
+    if (item.kind == NormalConeTree::Kind::Face) {
+      EXPECT_LT(angle, 1e-8);
+    } else if (item.kind == NormalConeTree::Kind::Edge && angle > 0.1) {
+      EXPECT_NEAR(angle, M_PI / 4, 1e-8);
+      ++sharp_edges;
+    } else if (item.kind == NormalConeTree::Kind::Vertex) {
+      EXPECT_GE(angle, std::acos(1.0 / std::sqrt(3.0)));
+      EXPECT_LT(angle, std::acos(1.0 / std::sqrt(3.0)) + 0.05);  // the axis is near the middle
+    }
+  }
+  EXPECT_EQ(sharp_edges, 12U);
+  // Turned inside out the faces and their diagonals are all that is left.
+  const SurfaceMesh turned = test::makeTurned(box);
+  const NormalConeTree of_turned(turned, buildMeshTopology(turned), NormalSides::Outside);
+  for (const NormalConeTree::Item& item : of_turned.items()) {
+    EXPECT_NE(item.kind, NormalConeTree::Kind::Vertex);
+    EXPECT_LT(std::atan2(item.cap.sine, item.cap.cosine), 1e-8);
+  }
+}
+
+}  // namespace
+}  // namespace concave_distance
