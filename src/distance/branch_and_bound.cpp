@@ -57,6 +57,8 @@ BranchAndBound::BranchAndBound(const BodyMesh& a, const BodyMesh& b, const Eigen
       open_(workspace.open),
       refinement_(workspace.refinement),
       front_(front),
+      support_a_(a.hierarchy(), workspace.support_a),
+      support_b_(b.hierarchy(), workspace.support_b),
       scale_(a.hierarchy().reach() + b.hierarchy().reach() + frames_.offset.norm(), kBoundError),
       error_(kProofError * proofScale(a, b, a_from_b)) {}
 
@@ -132,6 +134,7 @@ TrianglePairDistance BranchAndBound::measure(const TrianglePoints& a, const Tria
   if (distance_ > 0.0) {
     direction_ = (found.point_b - found.point_a) / distance_;
     direction_in_b_ = turned_ * direction_;
+    supports_are_new_ = true;
   }
   const double tolerance = std::max(request_.absolute_tolerance, request_.relative_tolerance * distance_);
   enough_ = std::max(0.0, distance_ - std::max(tolerance, error_));
@@ -144,6 +147,12 @@ void BranchAndBound::beginAtRoots() {
   if (open_.empty()) open_.resize(Hierarchy::kWidth);
   open_[0] = {Hierarchy::kRoot, Hierarchy::kRoot, 0.0};
   open_count_ = 1;
+  if (front_ != nullptr || squared_distance_ == 0.0) return;  // a front wants pairs whose bounds last
+  const double separation = separationAlongWitnesses(Hierarchy::kRoot, Hierarchy::kRoot);
+  if (separation >= enough_) {
+    exclude(separation);
+    open_count_ = 0;
+  }
 }
 
 // What the last proof excluded is looked at again where its bound has run out.
@@ -172,13 +181,15 @@ void BranchAndBound::reopenFront() {
     const Lanes bounds = childBounds(quad.kept, quad.opened, quad.opens_b);
     for (std::uint32_t lane = 0; lane < Hierarchy::kWidth; ++lane) {
       if (quad.bound[lane] == kInfinity) continue;
-      if (bounds[lane] >= squared_enough_) {
-        const double bound = std::sqrt(bounds[lane]);
+      const double squared_bound =
+          squaredBoundOfChild(quad.kept, slotOf(quad.opened, lane), quad.opens_b, bounds[lane]);
+      if (squared_bound >= squared_enough_) {
+        const double bound = std::sqrt(squared_bound);
         quad.bound[lane] = bound + gone;
         exclude(bound);
       } else {
         quad.bound[lane] = kInfinity;
-        add(quad.kept, quad.opened, lane, quad.opens_b, bounds[lane]);
+        add(quad.kept, quad.opened, lane, quad.opens_b, squared_bound);
       }
     }
   }
@@ -234,8 +245,9 @@ void BranchAndBound::expand(const OpenPair& pair) {
   double nearest_bound = squared_enough_;
   for (std::uint32_t lane = 0; lane < Hierarchy::kWidth; ++lane) {
     if (node.child[lane] == Hierarchy::kNoChild) break;
-    if (bounds[lane] >= squared_enough_) {
-      const double bound = std::sqrt(bounds[lane]);
+    const double squared_bound = squaredBoundOfChild(kept, slotOf(opened, lane), opens_b, bounds[lane]);
+    if (squared_bound >= squared_enough_) {
+      const double bound = std::sqrt(squared_bound);
       exclude(bound);
       if (front_ == nullptr) continue;
       if (quad == nullptr) {
@@ -245,12 +257,12 @@ void BranchAndBound::expand(const OpenPair& pair) {
         quad = &front_->quads_.back();
       }
       quad->bound[lane] = bound + front_->odometers_[quad->region];
-    } else if (bounds[lane] < nearest_bound) {
+    } else if (squared_bound < nearest_bound) {
       if (nearest != Hierarchy::kWidth) add(kept, opened, nearest, opens_b, nearest_bound);
       nearest = lane;
-      nearest_bound = bounds[lane];
+      nearest_bound = squared_bound;
     } else {
-      add(kept, opened, lane, opens_b, bounds[lane]);
+      add(kept, opened, lane, opens_b, squared_bound);
     }
   }
   if (nearest != Hierarchy::kWidth) add(kept, opened, nearest, opens_b, nearest_bound);  // is taken next
@@ -268,6 +280,25 @@ void BranchAndBound::openLeaves(const OpenPair& pair) {
 bool BranchAndBound::opensB(Slot a, Slot b) const {
   if (isLeaf(a_.child(a))) return true;
   return !isLeaf(b_.child(b)) && squaredSize(b_, b) >= squaredSize(a_, a);
+}
+
+// Along the direction between the witnesses, with what the boxes hold and not what they could hold.
+double BranchAndBound::separationAlongWitnesses(Slot a, Slot b) {
+  if (supports_are_new_) {
+    supports_are_new_ = false;
+    offset_along_ = direction_.dot(frames_.offset);
+    // Boxes of flat pieces may reach this far beyond their plane.
+    const double tie = 0.375 * error_;
+    support_a_.setDirection(direction_, direction_.dot(closest_.point_a) + tie);
+    support_b_.setDirection(-direction_in_b_, offset_along_ - direction_.dot(closest_.point_b) + tie);
+  }
+  return offset_along_ - support_a_.of(a) - support_b_.of(b) - scale_.slack;
+}
+
+double BranchAndBound::squaredBoundOfChild(Slot kept, Slot child, bool opens_b, double squared_bound) {
+  if (squared_bound >= squared_enough_) return squared_bound;
+  const double separation = separationAlongWitnesses(opens_b ? kept : child, opens_b ? child : kept);
+  return separation >= enough_ ? separation * separation : squared_bound;
 }
 
 // Squared bounds of one box against the children of the other one.

@@ -3,6 +3,7 @@
 #include "box_pair_bounds.h"
 #include "concave_distance/distance/certificate.h"
 #include "concave_distance/distance/proof_front.h"
+#include "directional_support.h"
 #include "leaf_pair.h"
 #include "local_frames.h"
 
@@ -37,6 +38,8 @@ class BranchAndBound {
   double measureLeaves(const Hierarchy::Leaf& leaf_a, const Hierarchy::Leaf& leaf_b);
   bool opensB(Slot a, Slot b) const;
   Lanes childBounds(Slot kept, std::uint32_t opened, bool opens_b);
+  double separationAlongWitnesses(Slot a, Slot b);
+  double squaredBoundOfChild(Slot kept, Slot child, bool opens_b, double squared_bound);
   void exclude(double bound);
   DistanceCertificate conclude(bool out_of_time);
 
@@ -55,7 +58,9 @@ class BranchAndBound {
   std::vector<OpenPair>& open_;  ///< the first open_count_ of it
   std::size_t open_count_ = 0;
   RefinementWorkspace& refinement_;
-  ProofFront* front_;  ///< null: nothing is kept
+  ProofFront* front_;             ///< null: nothing is kept
+  DirectionalSupport support_a_;  ///< along direction_
+  DirectionalSupport support_b_;  ///< against it
   const BoundScale scale_;
   const double error_;
   DistanceCertificate result_;
@@ -67,6 +72,8 @@ class BranchAndBound {
   double distance_ = std::numeric_limits<double>::infinity();
   Eigen::Vector3d direction_ = Eigen::Vector3d::Zero();  ///< from A's witness to B's, unit
   Eigen::Vector3d direction_in_b_ = Eigen::Vector3d::Zero();
+  double offset_along_ = 0.0;  ///< from A's origin to B's along direction_
+  bool supports_are_new_ = false;
   double enough_ = std::numeric_limits<double>::infinity();  ///< farther than this need not be opened
   double squared_enough_ = std::numeric_limits<double>::infinity();
   double excluded_ = std::numeric_limits<double>::infinity();  ///< least bound of what was not opened

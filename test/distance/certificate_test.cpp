@@ -121,7 +121,7 @@ TEST(Certificate, HoldsItsTolerances) {
 }
 
 TEST(Certificate, StopsWithValidBoundsWhenTheTimeIsUp) {
-  const Body a = makeBody(makeSphere(0.5, 1e-4));
+  const Body a = makeBody(test::makeBumpy(makeSphere(0.5, 1e-4)));
   RandomEngine engine(4);
   int stopped = 0;
   for (int round = 0; round < 40; ++round) {
@@ -141,6 +141,19 @@ TEST(Certificate, StopsWithValidBoundsWhenTheTimeIsUp) {
     EXPECT_NEAR(last, full.lower_bound, 1e-12);
   }
   EXPECT_GT(stopped, 0);
+}
+
+TEST(Certificate, OfConvexBodiesLooksAtNextToNothing) {
+  const Body a = makeBody(makeSphere(0.5, 1e-4));
+  RandomEngine engine(6);
+  for (int round = 0; round < 20; ++round) {
+    Isometry3d pose = test::randomPose(engine, 0.1);
+    pose.translation().x() += 1.3;
+    const DistanceCertificate found = certify(a, a, pose);
+    CertificateWorkspace workspace;
+    const TrianglePair seed{found.witness.triangle_a, found.witness.triangle_b};
+    EXPECT_EQ(certifyDistance(*a, *a, pose, &seed, 1, CertificateRequest(), workspace).cost.box_bounds, 0U);
+  }
 }
 
 TEST(Certificate, NamesTheTrianglesThatMeet) {

@@ -80,20 +80,22 @@ TEST(ProofFront, IsNotFooledByStaleSeedsLeapsAndTolerances) {
       if (found.status == CertificateStatus::Tolerance) {
         ASSERT_GE(found.lower_bound, (1.0 - request.relative_tolerance) * found.distance - error);
       }
-      EXPECT_EQ(found.status == CertificateStatus::Penetrating, exact == 0.0);
+      if (found.status != CertificateStatus::Budget) {
+        EXPECT_EQ(found.status == CertificateStatus::Penetrating, exact == 0.0);
+      }
     }
   }
   EXPECT_GT(reopened, 500);
 }
 
 TEST(ProofFront, ProvesForNothingAtRestAndForLittleInSmallSteps) {
-  const Body a = makeBody(makeSphere(0.5, 1e-4));
+  const Body a = makeBody(test::makeBumpy(makeSphere(0.5, 1e-4)));
   CertificateWorkspace workspace;
   ProofFront front;
   TrianglePair seed{};
   const auto prove = [&](double t) {
     const DistanceCertificate found =
-        certifyDistance(*a, *a, onLoop(t, 1.5), &seed, 1, CertificateRequest(), workspace, &front);
+        certifyDistance(*a, *a, onLoop(t, 1.15), &seed, 1, CertificateRequest(), workspace, &front);
     seed = {found.witness.triangle_a, found.witness.triangle_b};
     return found.cost.box_bounds;
   };

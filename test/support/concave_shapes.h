@@ -178,6 +178,16 @@ inline SurfaceMesh makeRing(double radius, double tube, std::uint32_t around, st
   return SurfaceMesh(std::move(vertices), std::move(triangles), "ring");
 }
 
+/// A surface with its vertices drawn in and out along their direction, by `depth` of it: bumps all around.
+inline SurfaceMesh makeBumpy(const SurfaceMesh& surface, double depth = 0.1) {
+  std::vector<Eigen::Vector3d> vertices = surface.vertices();
+  for (Eigen::Vector3d& v : vertices) {
+    const Eigen::Vector3d d = v.normalized();
+    v *= 1.0 + depth * std::sin(9.0 * d.x()) * std::cos(8.0 * d.y() + 1.0) * std::sin(7.0 * d.z() + 2.0);
+  }
+  return SurfaceMesh(std::move(vertices), surface.triangles(), "bumpy");
+}
+
 /// Both surfaces as shells of one mesh, the second moved by `offset`.
 inline SurfaceMesh makeUnion(const SurfaceMesh& a, const SurfaceMesh& b, const Eigen::Vector3d& offset) {
   std::vector<Eigen::Vector3d> vertices = a.vertices();

@@ -60,7 +60,14 @@ struct TrianglePair {
   TriangleIndex b;
 };
 
-/// Buffers of one thread; cleared, never freed.
+/// What one tree's boxes hold along one direction; valid where the stamp is the current one.
+struct SupportCache {
+  std::vector<double> values;
+  std::vector<std::uint32_t> stamps;
+  std::uint32_t stamp = 0;
+};
+
+/// Buffers of one thread; cleared, never freed. 48 bytes for each node of both hierarchies.
 struct CertificateWorkspace {
   /// A pair of boxes that nothing closer has been excluded from.
   struct OpenPair {
@@ -69,6 +76,8 @@ struct CertificateWorkspace {
     double squared_bound;
   };
   std::vector<OpenPair> open;
+  SupportCache support_a;
+  SupportCache support_b;
   RefinementWorkspace refinement;
 };
 
