@@ -1,0 +1,313 @@
+// Recall and precision of the shipped search, cold and tracked, against level `complete`; and what level
+// `complete` costs.
+//
+//   complete_benchmark [--pairs ...] [--steps 200] [--windows 4] [--window 10] [--cold-runs 20]
+//                      [--list-misses] [--output doc/results/complete.csv]
+//
+// A pair is tracked at every instant of its motion; in windows of consecutive instants, spread evenly, every
+// outward niche of prominence >= 1e-2 is found by findLocalMinima(), with a cutoff of 5 times the distance or
+// a quarter of the smaller body's diameter, whichever is larger. Which true niche a reported one belongs to
+// is decided by the same flood: exactly, over all triangle pairs.
+//   niches   true niches at an instant
+//   tracked  share of them that the tracker reports in the same cycle, summed over the instants observed
+//   cold     the same for fresh solves with other seeds in the middle of each window
+//   own      share of the tracker's niches below the cutoff that are the only ones in a true niche
+//   double   share that lie in a true niche which another reported one is nearer to the bottom of
+//   false    share that belong to no outward niche of the list at all
+//   complete, cold, cycle: milliseconds, means; one thread. Complete leaves out the indices, built once.
+// Reasons for what the cold solves missed, by trying the niche with everything else switched off: `grid`, no
+// local minimum of the grids leads to it; `met`, the search meets it and its admission unites it with another
+// (it is there at least prominence 0); `unmet`, neither.
+#include <CLI/CLI.hpp>
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <iostream>
+#include <set>
+
+#include "benchmark/support/benchmark_pairs.h"
+#include "benchmark/support/statistics.h"
+#include "concave_distance/base/error.h"
+#include "concave_distance/distance/enumeration.h"
+#include "concave_distance/distance/local_minima.h"
+#include "concave_distance/tracking/pair_tracker.h"
+
+namespace concave_distance::benchmark {
+namespace {
+
+constexpr double kLeastProminence = 1e-2;
+using Starts = std::vector<std::pair<TriangleIndex, TriangleIndex>>;
+
+struct Options {
+  int steps = 200;
+  int windows = 4;
+  int window = 10;
+  int cold_runs = 20;
+  bool list_misses = false;
+};
+
+double millisecondsSince(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+struct Shares {
+  double truths = 0.0;
+  double recalled = 0.0;
+  double prominent_truths = 0.0;  ///< of prominence >= 5e-2
+  double prominent_recalled = 0.0;
+  double reported = 0.0;
+  double own = 0.0;
+  double doubled = 0.0;
+  double none = 0.0;
+};
+
+struct Tally {
+  Shares tracked;
+  Shares cold;
+  std::vector<double> complete_ms;
+  std::vector<double> cold_ms;
+  std::vector<double> cycle_ms;
+  double index_ms = 0.0;
+  int observed = 0;
+  double niches = 0.0;
+  int missed_grid = 0;
+  int missed_met = 0;
+  int missed_unmet = 0;
+  std::uint64_t met_by_flood = 0;
+};
+
+TrackerParameters searchParameters() {
+  TrackerParameters parameters;
+  parameters.largest_niche_count = 2000;
+  return parameters;
+}
+
+class Comparison {
+ public:
+  Comparison(const BenchmarkPair& pair, const Options& options)
+      : pair_(pair),
+        options_(options),
+        start_(std::chrono::steady_clock::now()),
+        index_a_(*pair.a, NormalSides::Outside),
+        index_b_(*pair.b, NormalSides::Outside) {
+    tally_.index_ms = millisecondsSince(start_);
+  }
+
+  Tally run() {
+    PairTracker tracker(pair_.name, pair_.a, pair_.b, searchParameters());
+    PairSolution solution;
+    for (int k = 0; k < options_.steps; ++k) {
+      const double t = options_.steps > 1 ? static_cast<double>(k) / (options_.steps - 1) : 0.0;
+      const Eigen::Isometry3d pose = pair_.motion(t);
+      tracker.update(pose, 5.0 * t, solution);
+      if (k > 0) tally_.cycle_ms.push_back(1e3 * solution.solve_seconds);
+      const int place = placeInWindow(k);
+      if (place < 0) continue;
+      const double cutoff = cutoffAt(pose);
+      const LocalMinima truth = compare(pose, cutoff, solution, tally_.tracked, true);
+      ++tally_.observed;
+      tally_.niches += static_cast<double>(truth.niches.size());
+      if (place == options_.window / 2) tryCold(pose, cutoff, k);
+    }
+    return tally_;
+  }
+
+ private:
+  /// Instant k's place in its window; -1 outside.
+  int placeInWindow(int k) const {
+    for (int window = 0; window < options_.windows; ++window) {
+      const int first =
+          static_cast<int>((window + 0.5) * options_.steps / options_.windows) - options_.window / 2;
+      if (k >= first && k < first + options_.window) return k - first;
+    }
+    return -1;
+  }
+
+  double cutoffAt(const Eigen::Isometry3d& pose) const {
+    const double nearest = fclDistance(*pair_.fcl_a, *pair_.fcl_b, pose).distance;
+    return std::max(5.0 * nearest, 0.25 * std::min(pair_.a->diameter(), pair_.b->diameter()));
+  }
+
+  LocalMinima truthOf(const Eigen::Isometry3d& pose, double cutoff, Starts whose) {
+    LocalMinimaRequest request;
+    request.cutoff = cutoff;
+    request.least_prominence = kLeastProminence;
+    // Classes of prominence are told apart up to 5e-2.
+    request.prominence_limit = 5e-2;
+    request.whose = std::move(whose);
+    return findLocalMinima(index_a_, index_b_, pose, request);
+  }
+
+  LocalMinima compare(const Eigen::Isometry3d& pose, double cutoff, const PairSolution& solution,
+                      Shares& shares, bool timed) {
+    if (timed) {
+      const auto start = std::chrono::steady_clock::now();
+      LocalMinimaRequest request;
+      request.cutoff = cutoff;
+      tally_.met_by_flood += findLocalMinima(index_a_, index_b_, pose, request).cost.met_by_flood;
+      tally_.complete_ms.push_back(millisecondsSince(start));
+    }
+    Starts whose;
+    std::vector<double> distances;
+    for (const TrackedNiche& niche : solution.niches) {
+      if (niche.distance > cutoff) continue;
+      whose.emplace_back(niche.witness.triangle_a, niche.witness.triangle_b);
+      distances.push_back(niche.distance);
+    }
+    LocalMinima truth = truthOf(pose, cutoff, whose);
+    std::vector<std::size_t> hits(truth.niches.size(), 0);
+    for (const std::size_t owner : truth.owners) {
+      if (owner != LocalMinima::kNoOwner) ++hits[owner];
+    }
+    missed_.clear();
+    for (std::size_t i = 0; i < truth.niches.size(); ++i) {
+      const bool prominent = truth.niches[i].prominence >= 5e-2;
+      shares.truths += 1.0;
+      shares.recalled += hits[i] > 0 ? 1.0 : 0.0;
+      shares.prominent_truths += prominent ? 1.0 : 0.0;
+      shares.prominent_recalled += prominent && hits[i] > 0 ? 1.0 : 0.0;
+      shares.own += hits[i] > 0 ? 1.0 : 0.0;
+      shares.doubled += hits[i] > 1 ? static_cast<double>(hits[i] - 1) : 0.0;
+      if (hits[i] == 0) missed_.push_back(i);
+    }
+    shares.reported += static_cast<double>(whose.size());
+    for (const std::size_t owner : truth.owners) shares.none += owner == LocalMinima::kNoOwner ? 1.0 : 0.0;
+    return truth;
+  }
+
+  void tryCold(const Eigen::Isometry3d& pose, double cutoff, int instant) {
+    const int runs = std::max(1, options_.cold_runs / options_.windows);
+    std::set<std::size_t> led_to;
+    bool grid_known = false;
+    for (int run = 0; run < runs; ++run) {
+      TrackerParameters parameters = searchParameters();
+      parameters.seed = static_cast<std::uint64_t>(1000 * run + instant + 1);
+      const auto start = std::chrono::steady_clock::now();
+      const PairSolution fresh = solveOnce(pair_.name, pair_.a, pair_.b, parameters, pose);
+      tally_.cold_ms.push_back(millisecondsSince(start));
+      const LocalMinima truth = compare(pose, cutoff, fresh, tally_.cold, false);
+      if (missed_.empty()) continue;
+      const std::vector<std::size_t> missed = missed_;
+      if (!grid_known) led_to = gridLeadsTo(pose, cutoff);
+      grid_known = true;
+      parameters.least_prominence = 0.0;
+      Shares unused;
+      compare(pose, cutoff, solveOnce(pair_.name, pair_.a, pair_.b, parameters, pose), unused, false);
+      for (const std::size_t i : missed) {
+        const bool met = std::find(missed_.begin(), missed_.end(), i) == missed_.end();
+        const bool by_grid = led_to.count(i) != 0;
+        ++(met ? tally_.missed_met : by_grid ? tally_.missed_unmet : tally_.missed_grid);
+        if (!options_.list_misses) continue;
+        const LocalMinimum& niche = truth.niches[i];
+        std::printf(
+            "  missed at instant %d, run %d: distance %.6f (%.2f of the cutoff), prominence %s%.4f, "
+            "%s, %s\n",
+            instant, run, niche.distance, niche.distance / cutoff, std::isinf(niche.prominence) ? ">= " : "",
+            std::isinf(niche.prominence) ? 5e-2 : niche.prominence,
+            niche.kind == NicheKind::Point     ? "point"
+            : niche.kind == NicheKind::Segment ? "segment"
+                                               : "patch",
+            met       ? "met"
+            : by_grid ? "unmet"
+                      : "grid");
+      }
+    }
+  }
+
+  /// The true niches that refinements of the grids' own local minima end in.
+  std::set<std::size_t> gridLeadsTo(const Eigen::Isometry3d& pose, double cutoff) {
+    Starts starts;
+    const double slack = pair_.a->maxEdgeLength() + pair_.b->maxEdgeLength();
+    for (const NodeNiche& niche : enumerateNodeNiches(*pair_.a, *pair_.b, pose, cutoff + slack, 0.0)) {
+      starts.emplace_back(pair_.a->originalTriangle(niche.node_a), pair_.b->originalTriangle(niche.node_b));
+    }
+    const LocalMinima truth = truthOf(pose, cutoff, starts);
+    std::set<std::size_t> owners(truth.owners.begin(), truth.owners.end());
+    return owners;
+  }
+
+  const BenchmarkPair& pair_;
+  Options options_;
+  std::chrono::steady_clock::time_point start_;
+  MinimaIndex index_a_;
+  MinimaIndex index_b_;
+  Tally tally_;
+  std::vector<std::size_t> missed_;  ///< of the last comparison
+};
+
+double share(double part, double whole) {
+  return whole > 0.0 ? part / whole : 1.0;
+}
+
+int main(int argc, char** argv) {
+  CLI::App app("Recall and precision of the search against level complete");
+  std::vector<std::string> names = allPairs();
+  Options options;
+  std::string output;
+  app.add_option("--pairs", names, "Pairs to run; all when left out")->delimiter(',');
+  app.add_option("--steps", options.steps, "Instants along each motion")->check(CLI::PositiveNumber);
+  app.add_option("--windows", options.windows, "Windows that are observed")->check(CLI::PositiveNumber);
+  app.add_option("--window", options.window, "Instants of each")->check(CLI::PositiveNumber);
+  app.add_option("--cold-runs", options.cold_runs, "Cold solves of each pair")->check(CLI::PositiveNumber);
+  app.add_flag("--list-misses", options.list_misses, "List what the cold solves missed");
+  app.add_option("--output", output, "CSV file to write");
+  CLI11_PARSE(app, argc, argv);
+
+  std::ofstream csv;
+  if (!output.empty()) {
+    csv.open(output);
+    csv << "pair,triangles_a,triangles_b,observed,niches_mean,tracked_recall,tracked_prominent_recall,"
+           "cold_recall,cold_prominent_recall,tracked_own,tracked_double,tracked_false,cold_own,cold_double,"
+           "cold_false,missed_grid,missed_met,missed_unmet,index_ms,complete_ms,complete_max_ms,cold_ms,"
+           "cycle_ms,met_by_flood\n";
+  }
+  std::printf("%-19s %7s | %7s %7s %7s %7s | %6s %6s %6s | %5s %5s %5s | %8s %8s %8s %8s %8s\n", "pair",
+              "niches", "tracked", ">=5e-2", "cold", ">=5e-2", "own", "double", "false", "grid", "met",
+              "unmet", "index", "complete", "max", "cold", "cycle");
+  for (const std::string& name : names) {
+    const BenchmarkPair pair = loadBenchmarkPair(name);
+    const Tally t = Comparison(pair, options).run();
+    const double values[] = {t.niches / t.observed,
+                             share(t.tracked.recalled, t.tracked.truths),
+                             share(t.tracked.prominent_recalled, t.tracked.prominent_truths),
+                             share(t.cold.recalled, t.cold.truths),
+                             share(t.cold.prominent_recalled, t.cold.prominent_truths),
+                             share(t.tracked.own, t.tracked.reported),
+                             share(t.tracked.doubled, t.tracked.reported),
+                             share(t.tracked.none, t.tracked.reported),
+                             share(t.cold.own, t.cold.reported),
+                             share(t.cold.doubled, t.cold.reported),
+                             share(t.cold.none, t.cold.reported)};
+    const double longest = *std::max_element(t.complete_ms.begin(), t.complete_ms.end());
+    std::printf(
+        "%-19s %7.2f | %7.4f %7.4f %7.4f %7.4f | %6.3f %6.3f %6.3f | %5d %5d %5d | %8.2f %8.2f %8.2f %8.2f "
+        "%8.3f\n",
+        name.c_str(), values[0], values[1], values[2], values[3], values[4], values[5], values[6], values[7],
+        t.missed_grid, t.missed_met, t.missed_unmet, t.index_ms, mean(t.complete_ms), longest,
+        mean(t.cold_ms), mean(t.cycle_ms));
+    std::fflush(stdout);
+    if (csv) {
+      csv << name << ',' << pair.a->surface().triangleCount() << ',' << pair.b->surface().triangleCount()
+          << ',' << t.observed;
+      for (const double value : values) csv << ',' << value;
+      csv << ',' << t.missed_grid << ',' << t.missed_met << ',' << t.missed_unmet << ',' << t.index_ms << ','
+          << mean(t.complete_ms) << ',' << longest << ',' << mean(t.cold_ms) << ',' << mean(t.cycle_ms) << ','
+          << t.met_by_flood << '\n';
+    }
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace concave_distance::benchmark
+
+int main(int argc, char** argv) {
+  try {
+    return concave_distance::benchmark::main(argc, argv);
+  } catch (const concave_distance::Error& error) {
+    std::cerr << error.what() << '\n';
+    return 1;
+  }
+}
