@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "concave_distance/ros/conversions.h"
+
 namespace concave_distance {
 namespace {
 
@@ -12,6 +14,8 @@ constexpr double kLineShare = 0.35;   // line width over the diameter of the poi
 constexpr double kOtherShare = 0.55;  // size of the niches that are not the nearest
 constexpr float kOtherOpacity = 0.6F;
 constexpr double kTextShare = 2.5;  // letter height over the diameter of the points
+constexpr double kRimShare = 0.15;  // line width of the circles around a segment or patch
+constexpr int kRimCorners = 24;
 
 struct DrawnNiche {
   std::int32_t id;
@@ -19,6 +23,8 @@ struct DrawnNiche {
   geometry_msgs::Point point_a;
   geometry_msgs::Point point_b;
   bool nearest;
+  double extent;  // metres, 0 for a point
+  Eigen::Vector3d normal;
 };
 
 std::int32_t markerId(std::uint64_t niche_id) {
@@ -41,13 +47,30 @@ std::vector<DrawnNiche> drawnNiches(const PairNiches& pair) {
     return drawn;
   }
   for (const Niche& niche : pair.niches) {
-    drawn.push_back({markerId(niche.id), niche.distance, niche.point_a, niche.point_b, drawn.empty()});
+    drawn.push_back({markerId(niche.id), niche.distance, niche.point_a, niche.point_b, drawn.empty(),
+                     niche.kind == Niche::KIND_POINT ? 0.0 : niche.extent,
+                     Eigen::Vector3d(niche.normal.x, niche.normal.y, niche.normal.z)});
   }
   const bool swallowed = pair.nearest.status.code == PairStatus::PENETRATING;
   if (drawn.empty() && swallowed && pair.nearest.has_points != 0) {
-    drawn.push_back({0, pair.nearest.distance, pair.nearest.point_a, pair.nearest.point_b, true});
+    drawn.push_back({0, pair.nearest.distance, pair.nearest.point_a, pair.nearest.point_b, true, 0.0,
+                     Eigen::Vector3d::Zero()});
   }
   return drawn;
+}
+
+// Appends a circle around the normal as single lines.
+void appendCircle(const geometry_msgs::Point& centre, const Eigen::Vector3d& normal, double radius,
+                  std::vector<geometry_msgs::Point>& lines) {
+  const Eigen::Vector3d x = radius * normal.unitOrthogonal();
+  const Eigen::Vector3d y = normal.cross(x);
+  const Eigen::Vector3d middle(centre.x, centre.y, centre.z);
+  for (int k = 0; k < kRimCorners; ++k) {
+    for (const int corner : {k, k + 1}) {
+      const double angle = 2.0 * M_PI * corner / kRimCorners;
+      lines.push_back(toPoint(middle + std::cos(angle) * x + std::sin(angle) * y));
+    }
+  }
 }
 
 visualization_msgs::Marker emptyMarker(const PairNiches& pair, const char* kind, std::int32_t id,
@@ -112,6 +135,15 @@ std::vector<visualization_msgs::Marker> nicheMarkers(const PairNiches& pair, con
     line.points = points.points;
     markers.push_back(std::move(points));
     markers.push_back(std::move(line));
+    if (niche.extent > 0.0 && niche.normal.squaredNorm() > 0.0) {
+      visualization_msgs::Marker rim = emptyMarker(pair, "extent", niche.id, lifetime);
+      rim.type = visualization_msgs::Marker::LINE_LIST;
+      rim.scale.x = kRimShare * size;
+      rim.color = color;
+      appendCircle(niche.point_a, niche.normal, 0.5 * niche.extent, rim.points);
+      appendCircle(niche.point_b, niche.normal, 0.5 * niche.extent, rim.points);
+      markers.push_back(std::move(rim));
+    }
     if (!niche.nearest) {
       continue;
     }

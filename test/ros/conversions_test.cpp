@@ -128,6 +128,16 @@ TEST(ToNiches, AddsTheIdOffsetToEveryId) {
   EXPECT_EQ(message.changes[1].into_id, 0U);
 }
 
+TEST(ToNiches, CarriesKindAndExtentOfWeakMinima) {
+  PairSolution solution = solutionWithOneNiche();
+  solution.niches.front().kind = NicheKind::Segment;
+  solution.niches.front().extent = 0.25;
+  const PairNiches message = toNiches(quarterTurnHeading(), solution);
+  ASSERT_EQ(message.niches.size(), 1U);
+  EXPECT_EQ(message.niches[0].kind, Niche::KIND_SEGMENT);
+  EXPECT_EQ(message.niches[0].extent, 0.25);
+}
+
 TEST(ToNiches, TellsNoNichesThatWereNotAskedFor) {
   PairHeading heading = quarterTurnHeading();
   heading.with_niches = false;

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <memory>
 
 #include "concave_distance/mesh/primitives.h"
@@ -71,6 +72,26 @@ TEST(NicheMarkers, CarryTheNichesIdsAndEmphasiseTheNearest) {
   ASSERT_NE(find(markers, "a/b/text", 41), nullptr);
   EXPECT_EQ(find(markers, "a/b/text", 41)->text, "0.100 m");
   EXPECT_EQ(find(markers, "a/b/text", 7), nullptr) << "one text a pair";
+}
+
+TEST(NicheMarkers, DrawCirclesOfTheExtentAroundSegmentsAndPatchesAlone) {
+  PairNiches pair = pairWithNiches({1, 2});
+  pair.niches[1].kind = Niche::KIND_PATCH;
+  pair.niches[1].extent = 0.3;
+  const std::vector<Marker> markers = nicheMarkers(pair, style(), 0.5);
+  EXPECT_EQ(find(markers, "a/b/extent", 1), nullptr);
+  const Marker* rim = find(markers, "a/b/extent", 2);
+  ASSERT_NE(rim, nullptr);
+  EXPECT_EQ(rim->type, Marker::LINE_LIST);
+  ASSERT_FALSE(rim->points.empty());
+  EXPECT_EQ(rim->points.size() % 4, 0U);
+  for (std::size_t i = 0; i < rim->points.size(); ++i) {
+    const geometry_msgs::Point& centre =
+        i < rim->points.size() / 2 ? pair.niches[1].point_a : pair.niches[1].point_b;
+    const geometry_msgs::Point& p = rim->points[i];
+    EXPECT_NEAR(std::hypot(p.x - centre.x, p.y - centre.y, p.z - centre.z), 0.15, 1e-12);
+    EXPECT_NEAR(p.x, centre.x, 1e-12) << "across the normal";
+  }
 }
 
 TEST(NicheMarkers, DrawAWarningRedAndAPairWithoutADistanceNotAtAll) {
