@@ -265,6 +265,12 @@ NicheExtent measureExtent(const BodyMesh& a, const BodyMesh& b, const Eigen::Iso
 bool isOnMeasuredSet(const ExtentWorkspace& workspace, const WitnessPair& witness) {
   const Vector3d way = witness.point_a_in_a - workspace.origin;
   if (std::abs(workspace.normal.dot(way)) > workspace.height_tolerance) return false;
+  // One point of A can be equally near to two places of B: the set leads to B along its normal.
+  const Vector3d between = witness.point_b_in_a - witness.point_a_in_a;
+  const Vector3d beside = between - workspace.normal.dot(between) * workspace.normal;
+  if (workspace.normal.dot(between) < 0.0 || beside.squaredNorm() > 4.0 * workspace.reach * workspace.reach) {
+    return false;
+  }
   const Vector2d point(workspace.axis_x.dot(way), workspace.axis_y.dot(way));
   return std::any_of(
       workspace.pieces.begin(), workspace.pieces.end(), [&](const ExtentWorkspace::Piece& piece) {
