@@ -120,8 +120,10 @@ void collectShells(const SurfaceMesh& mesh, const std::vector<EdgeUse>& edges, M
     topology.shell_of_triangle.push_back(topology.shell_of_vertex[nodes[0].value]);
   }
   topology.shell_is_closed.assign(shell_count, false);
-  for (const std::uint32_t shell : topology.shell_of_triangle) {
-    topology.shell_is_closed[shell] = true;
+  topology.triangle_of_shell.assign(shell_count, kNoTriangle);
+  for (std::size_t t = topology.shell_of_triangle.size(); t-- > 0;) {
+    topology.shell_is_closed[topology.shell_of_triangle[t]] = true;
+    topology.triangle_of_shell[topology.shell_of_triangle[t]] = TriangleIndex{t};
   }
   forEachEdge(edges, [&](std::size_t first, std::size_t last) {
     const auto ascending = std::count_if(edges.begin() + static_cast<std::ptrdiff_t>(first),

@@ -38,7 +38,8 @@ std::optional<double> optionalNumber(const YamlValue& value, const char* word, c
 }
 
 constexpr std::pair<const char*, AccuracyLevel> kAccuracyLevels[] = {{"nodes", AccuracyLevel::Nodes},
-                                                                     {"refined", AccuracyLevel::Refined}};
+                                                                     {"refined", AccuracyLevel::Refined},
+                                                                     {"certified", AccuracyLevel::Certified}};
 constexpr std::pair<const char*, SelectionMethod> kSelectionMethods[] = {
     {"stochastic_universal_sampling", SelectionMethod::StochasticUniversalSampling},
     {"roulette", SelectionMethod::Roulette}};
@@ -112,6 +113,13 @@ void readGeneticParameters(const YamlValue& value, GeneticParameters& p) {
 
 void readTrackerParameters(YamlMap& map, TrackerParameters& p) {
   if (auto v = map.take("accuracy")) p.accuracy = v->choice(kAccuracyLevels);
+  if (auto v = map.take("absolute_tolerance")) {
+    p.absolute_tolerance = v->number("0 or more, metres", notNegativeFinite);
+  }
+  if (auto v = map.take("relative_tolerance")) p.relative_tolerance = v->number(kShare, share);
+  if (auto v = map.take("time_budget")) {
+    p.time_budget = v->number("greater than 0, seconds; .inf for none", [](double s) { return s > 0.0; });
+  }
   if (auto v = map.take("cutoff")) {
     p.cutoff = v->number("greater than 0, metres; .inf for none", [](double c) { return c > 0.0; });
   }

@@ -16,25 +16,24 @@ constexpr int kWrongCommandLine = 2;
 struct CommandLine {
   DistanceQueryOptions options;
   std::string accuracy = "refined";
-  double tolerance = 0.0;
-  double time_budget = 0.0;
 };
 
 AccuracyLevel accuracyOf(const std::string& name) {
   if (name == "nodes") return AccuracyLevel::Nodes;
   if (name == "refined") return AccuracyLevel::Refined;
-  if (name == "certified" || name == "complete") {
-    throw CLI::ValidationError("--accuracy", name + " is not among this version's levels: nodes, refined");
+  if (name == "certified") return AccuracyLevel::Certified;
+  if (name == "complete") {
+    throw CLI::ValidationError("--accuracy",
+                               name + " is not among this version's levels: nodes, refined, certified");
   }
-  throw CLI::ValidationError("--accuracy", "'" + name + "' is none of the levels: nodes, refined");
+  throw CLI::ValidationError("--accuracy", "'" + name + "' is none of the levels: nodes, refined, certified");
 }
 
 /// Stopping early only means something where a bound is proven.
 void refuseOnUnprovenLevels(const CLI::App& app, const char* option, const CommandLine& line) {
-  if (app.count(option) == 0) return;
-  throw CLI::ValidationError(option,
-                             std::string("stops a proof early, and --accuracy ") + line.accuracy +
-                                 " proves no bound; leave it out (levels of this version: nodes, refined)");
+  if (app.count(option) == 0 || line.options.accuracy == AccuracyLevel::Certified) return;
+  throw CLI::ValidationError(option, "stops a proof early, and --accuracy " + line.accuracy +
+                                         " proves no bound; leave it out or ask for --accuracy certified");
 }
 
 void addOptions(CLI::App& app, CommandLine& line) {
@@ -53,14 +52,21 @@ void addOptions(CLI::App& app, CommandLine& line) {
   app.add_option("--scale-b", options.scale_b, "the same for B")->capture_default_str();
   app.add_option(
          "--accuracy", line.accuracy,
-         "nodes: between the nodes of the search grids; refined: exact local minima over the triangles")
+         "nodes: between the nodes of the search grids; refined: exact local minima over the triangles; "
+         "certified: the distance with a proof")
       ->capture_default_str()
       ->type_name("LEVEL");
   app.add_option("--cutoff", options.cutoff, "niches farther than this are not listed, metres")
       ->check(CLI::PositiveNumber);
-  app.add_option("--tolerance", line.tolerance, "only for levels that prove a bound: none in this version");
-  app.add_option("--time-budget", line.time_budget,
-                 "only for levels that prove a bound: none in this version");
+  app.add_option("--tolerance", options.absolute_tolerance,
+                 "certified: the proven lower bound may stay this far below the distance, metres")
+      ->check(CLI::NonNegativeNumber);
+  app.add_option("--relative-tolerance", options.relative_tolerance,
+                 "the same as a share of the distance; the larger of the two counts")
+      ->check(CLI::Range(0.0, 1.0));
+  app.add_option("--time-budget", options.time_budget,
+                 "certified: seconds from the start of a query after which the proof stops with what it has")
+      ->check(CLI::PositiveNumber);
   app.add_option("--max-edge", options.max_edge_length,
                  "longest edge of the search grids, metres (automatic)")
       ->check(CLI::PositiveNumber);
@@ -68,8 +74,9 @@ void addOptions(CLI::App& app, CommandLine& line) {
                "lines are successive instants of one motion: warm starts, persistent niche numbers");
   app.add_option("--seed", options.seed, "of the random streams: one seed, one answer")
       ->capture_default_str();
-  app.add_option("--output", options.output,
-                 "index,distance,lower_bound,ax,ay,az,bx,by,bz,niche_count,status,time_us")
+  app.add_option(
+         "--output", options.output,
+         "index,distance,lower_bound,ax,ay,az,bx,by,bz,niche_count,status,time_us,triangle_a,triangle_b")
       ->required()
       ->type_name("FILE");
   app.add_option("--niches-output", options.niches_output,
@@ -82,14 +89,15 @@ int run(int argc, char** argv) {
   CLI::App app("Distance and niches of two meshes at a list of poses. Metres, seconds; points in A's frame.",
                "distance_query");
   app.footer(
-      "An empty cell was not computed. Status: ok, penetrating, invalid_pose.\n"
+      "An empty cell was not computed. Status: ok, tolerance, budget, penetrating, invalid_pose.\n"
       "Exit status: 0 done, 1 a file is at fault, 2 the command line is.");
   addOptions(app, line);
   try {
     app.parse(argc, argv);
     line.options.accuracy = accuracyOf(line.accuracy);
-    refuseOnUnprovenLevels(app, "--tolerance", line);
-    refuseOnUnprovenLevels(app, "--time-budget", line);
+    for (const char* option : {"--tolerance", "--relative-tolerance", "--time-budget"}) {
+      refuseOnUnprovenLevels(app, option, line);
+    }
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : kWrongCommandLine;
   }

@@ -40,17 +40,23 @@ class Solver {
       : a_(loadBody(options.mesh_a, options.scale_a, options, log)),
         b_(loadBody(options.mesh_b, options.scale_b, options, log)) {
     parameters_.accuracy = options.accuracy;
+    parameters_.absolute_tolerance = options.absolute_tolerance;
+    parameters_.relative_tolerance = options.relative_tolerance;
+    parameters_.time_budget = options.time_budget;
     parameters_.cutoff = options.cutoff;
     parameters_.largest_niche_count = kLargestNicheCount;
     parameters_.niches_wanted = !options.niches_output.empty();
     parameters_.seed = options.seed;
-    if (options.tracking) tracker_ = std::make_unique<PairTracker>(kPairName, a_, b_, parameters_);
+    // A proof alone draws nothing from the random streams: a reset makes it cold, and buffers are kept.
+    resets_ = !options.tracking && options.accuracy == AccuracyLevel::Certified && !parameters_.niches_wanted;
+    if (options.tracking || resets_) tracker_ = std::make_unique<PairTracker>(kPairName, a_, b_, parameters_);
   }
 
   /// Microseconds of the query alone: everything between the loaded bodies and the answer.
   double solve(const Eigen::Isometry3d& pose, double time) {
     const auto start = std::chrono::steady_clock::now();
     if (tracker_) {
+      if (resets_) tracker_->reset();
       tracker_->update(pose, time, solution_);
     } else {
       solution_ = solveOnce(kPairName, a_, b_, parameters_, pose);
@@ -65,6 +71,7 @@ class Solver {
   std::shared_ptr<const BodyMesh> b_;
   TrackerParameters parameters_;
   std::unique_ptr<PairTracker> tracker_;
+  bool resets_ = false;
   PairSolution solution_;
 };
 
@@ -92,6 +99,7 @@ void runDistanceQuery(const DistanceQueryOptions& options, std::ostream& log) {
     answer.point_a_in_a = solution.point_a_in_a;
     answer.point_b_in_a = solution.point_b_in_a;
     answer.status = toString(solution.status);
+    answer.meeting_triangles = solution.meeting_triangles;
     if (niches && solution.status != SolveStatus::InvalidPose) {
       answer.niche_count = solution.niches.size();
       cut_lists += solution.niches_cut ? 1 : 0;

@@ -41,7 +41,8 @@ void writePoint(std::ofstream& stream, const Eigen::Vector3d& point) {
 }  // namespace
 
 AnswerWriter::AnswerWriter(const std::string& path) : path_(path), stream_(opened(path)) {
-  stream_ << "index,distance,lower_bound,ax,ay,az,bx,by,bz,niche_count,status,time_us\n";
+  stream_
+      << "index,distance,lower_bound,ax,ay,az,bx,by,bz,niche_count,status,time_us,triangle_a,triangle_b\n";
 }
 
 void AnswerWriter::write(std::size_t index, const QueryAnswer& answer) {
@@ -54,7 +55,11 @@ void AnswerWriter::write(std::size_t index, const QueryAnswer& answer) {
   if (answer.niche_count) stream_ << *answer.niche_count;
   stream_ << ',' << answer.status;
   writeCell(stream_, answer.time_us);
-  stream_ << '\n';
+  if (answer.meeting_triangles) {
+    stream_ << ',' << answer.meeting_triangles->a.value << ',' << answer.meeting_triangles->b.value << '\n';
+  } else {
+    stream_ << ",,\n";
+  }
 }
 
 void AnswerWriter::finish() {

@@ -8,6 +8,8 @@
 #include <optional>
 #include <string>
 
+#include "concave_distance/distance/certificate.h"
+
 namespace concave_distance::tools {
 
 /// A line of out.csv; NaN and empty optionals are cells left empty: not computed.
@@ -18,6 +20,7 @@ struct QueryAnswer {
   Eigen::Vector3d point_b_in_a = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
   std::optional<std::size_t> niche_count;
   std::string status;
+  std::optional<TrianglePair> meeting_triangles;
   double time_us = std::numeric_limits<double>::quiet_NaN();  ///< of the query alone
 };
 

@@ -80,9 +80,13 @@ AdmissionResult admitCandidate(const NicheCandidate& candidate, const PairGeomet
                                std::uint64_t cycle, NicheArchive& archive, std::vector<NicheEvent>& events) {
   const WitnessPair& witness = candidate.witness;
   const Eigen::Vector3d point_b_in_b = geometry.b_from_a * witness.point_b_in_a;
-  // Touching or crossing surfaces meet in whole curves of pairs at distance 0: one niche per neighbourhood.
-  const double reach = witness.squared_distance > 0.0 ? geometry.samePlaceTolerance() : zero_distance_radius;
-  if (const NicheRecord* known = archive.findSamePlace(witness.point_a_in_a, point_b_in_b, reach)) {
+  const NicheRecord* known =
+      archive.findSamePlace(witness.point_a_in_a, point_b_in_b, geometry.samePlaceTolerance());
+  if (known == nullptr && witness.squared_distance == 0.0) {
+    // Touching or crossing surfaces meet in whole curves of pairs at distance 0: one niche per neighbourhood.
+    known = archive.findTouching(witness.point_a_in_a, point_b_in_b, zero_distance_radius);
+  }
+  if (known != nullptr) {
     return {Admission::SamePlace, known->niche.id};
   }
   const Outwardness outward = classifyOutwardness(*geometry.a, *geometry.b, geometry.a_from_b, witness);

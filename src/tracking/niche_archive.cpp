@@ -5,12 +5,29 @@
 
 namespace concave_distance {
 
+namespace {
+
+bool isWithin(const NicheRecord& record, const Eigen::Vector3d& point_a_in_a,
+              const Eigen::Vector3d& point_b_in_b, double tolerance) {
+  const double squared_tolerance = tolerance * tolerance;
+  return (record.niche.point_a_in_a - point_a_in_a).squaredNorm() <= squared_tolerance &&
+         (record.point_b_in_b - point_b_in_b).squaredNorm() <= squared_tolerance;
+}
+
+}  // namespace
+
 NicheRecord* NicheArchive::findSamePlace(const Eigen::Vector3d& point_a_in_a,
                                          const Eigen::Vector3d& point_b_in_b, double tolerance) {
-  const double squared_tolerance = tolerance * tolerance;
   for (NicheRecord& record : records_) {
-    if ((record.niche.point_a_in_a - point_a_in_a).squaredNorm() <= squared_tolerance &&
-        (record.point_b_in_b - point_b_in_b).squaredNorm() <= squared_tolerance) {
+    if (isWithin(record, point_a_in_a, point_b_in_b, tolerance)) return &record;
+  }
+  return nullptr;
+}
+
+NicheRecord* NicheArchive::findTouching(const Eigen::Vector3d& point_a_in_a,
+                                        const Eigen::Vector3d& point_b_in_b, double tolerance) {
+  for (NicheRecord& record : records_) {
+    if (record.niche.distance == 0.0 && isWithin(record, point_a_in_a, point_b_in_b, tolerance)) {
       return &record;
     }
   }

@@ -8,6 +8,8 @@ std::string_view toString(AccuracyLevel level) {
       return "nodes";
     case AccuracyLevel::Refined:
       return "refined";
+    case AccuracyLevel::Certified:
+      return "certified";
   }
   return "unknown";
 }
@@ -22,6 +24,8 @@ std::string_view toString(SolveStatus status) {
       return "invalid_pose";
     case SolveStatus::BudgetExhausted:
       return "budget";
+    case SolveStatus::WithinTolerance:
+      return "tolerance";
   }
   return "unknown";
 }

@@ -1,5 +1,6 @@
 #include "concave_distance/tracking/pair_tracker.h"
 
+#include <algorithm>
 #include <chrono>
 #include <limits>
 #include <utility>
@@ -35,6 +36,7 @@ TrackerState::TrackerState(std::string pair_name, std::shared_ptr<const BodyMesh
   candidates.reserve(kUsualMinima);
   drowned.reserve(kUsualMinima);
   archive.reserve(kUsualMinima);
+  proof.workspace.open.reserve(kUsualMinima);
 }
 
 void TrackerState::chooseRadii() {
@@ -42,13 +44,13 @@ void TrackerState::chooseRadii() {
   warm_radii = automaticRadii(*geometry.a, *geometry.b, parameters.warm);
 }
 
-void TrackerState::update(const Eigen::Isometry3d& pose, double time, PairSolution& solution) {
-  const auto start = std::chrono::steady_clock::now();
+void TrackerState::clear(PairSolution& solution) const {
   solution.status = SolveStatus::Ok;
   solution.accuracy = parameters.accuracy;
   solution.distance = solution.lower_bound = solution.surface_distance = kNotComputed;
   solution.point_a_in_a.setConstant(kNotComputed);
   solution.point_b_in_a.setConstant(kNotComputed);
+  solution.meeting_triangles.reset();
   solution.niches.clear();
   solution.events.clear();
   solution.niches_cut = solution.search_miss = false;
@@ -57,19 +59,64 @@ void TrackerState::update(const Eigen::Isometry3d& pose, double time, PairSoluti
   solution.warm = warm;
   solution.seed = parameters.seed;
   solution.cost = {};
+  solution.proof_cost = {};
+}
 
+void TrackerState::reset() {
+  archive.clear();
+  ripples.clear();
+  warm = false;
+  dark_side_met = false;
+  swallowed = false;
+  proof.front.clear();
+  proof.seeded = proof.current = false;
+}
+
+void TrackerState::update(const Eigen::Isometry3d& pose, double time, PairSolution& solution) {
+  const auto start = std::chrono::steady_clock::now();
+  const auto sinceStart = [start] { return seconds(std::chrono::steady_clock::now() - start); };
+  const auto secondsLeft = [&] { return std::max(0.0, parameters.time_budget - sinceStart()); };
+  clear(solution);
   const std::optional<Eigen::Isometry3d> rigid = rigidPose(pose);
   if (!rigid) {
     solution.status = SolveStatus::InvalidPose;
-    solution.solve_seconds = seconds(std::chrono::steady_clock::now() - start);
+    solution.solve_seconds = sinceStart();
     return;
   }
   geometry.setPose(*rigid);
-  const PairObjective objective(*geometry.a, *geometry.b, *rigid);
   const double elapsed = warm && time > last_time ? time - last_time : 0.0;
   const double displacement =
       warm ? largestDisplacement(geometry.b->surface().boundingBox(), last_pose, *rigid)
            : std::numeric_limits<double>::infinity();
+  const bool certified = parameters.accuracy == AccuracyLevel::Certified;
+  if (certified && !parameters.niches_wanted) {
+    proveAlone(displacement, elapsed, secondsLeft(), solution);
+  } else {
+    solveNiches(displacement, elapsed, solution);
+    if (certified) {
+      proveDistance(displacement, secondsLeft());
+      admitClosest(solution);
+    }
+    describeNiches(solution);
+    listNiches(solution);
+    if (certified) {
+      reportProven(solution);
+    } else {
+      reportNearest(displacement, solution);
+    }
+  }
+  last_pose = *rigid;
+  last_time = time;
+  last_elapsed = elapsed;
+  last_distance = solution.distance;
+  warm = true;
+  ++cycle;
+  solution.solve_seconds = sinceStart();
+}
+
+// Levels `nodes` and `refined`: the niches at the geometry's pose.
+void TrackerState::solveNiches(double displacement, double elapsed, PairSolution& solution) {
+  const PairObjective objective(*geometry.a, *geometry.b, geometry.a_from_b);
   cycles_at_rest = displacement > 0.0 ? 0 : cycles_at_rest + 1;
   candidates.clear();
   dark_side_met = dark_side_met && cycles_at_rest > 0;
@@ -91,25 +138,12 @@ void TrackerState::update(const Eigen::Isometry3d& pose, double time, PairSoluti
   projectNiches(solution);
   if (parameters.accuracy == AccuracyLevel::Nodes) {
     uniteWithinRadius(warm ? warm_radii.niche : cold_radii.niche, search.metric, archive, solution.events);
-  } else {
-    uniteSamePlaces(geometry, archive, solution.events);
-  }
-  if (parameters.accuracy == AccuracyLevel::Nodes) {
     improveNodePairs(objective, parameters.largest_niche_count, archive, geometry, solution.cost);
   } else {
+    uniteSamePlaces(geometry, archive, solution.events);
     reviewRecords(solution);
     drownNewborns(objective, solution);
   }
-  describeNiches(solution);
-  report(displacement, solution);
-
-  last_pose = *rigid;
-  last_time = time;
-  last_elapsed = elapsed;
-  last_distance = solution.distance;
-  warm = true;
-  ++cycle;
-  solution.solve_seconds = seconds(std::chrono::steady_clock::now() - start);
 }
 
 struct PairTracker::State : TrackerState {
@@ -128,19 +162,19 @@ void PairTracker::update(const Eigen::Isometry3d& a_from_b, double time, PairSol
 }
 
 void PairTracker::reset() {
-  state_->archive.clear();
-  state_->ripples.clear();
-  state_->swallowed = false;
-  state_->warm = false;
-  state_->dark_side_met = false;
+  state_->reset();
 }
 
 void PairTracker::setParameters(const TrackerParameters& parameters) {
   parameters.validate(state_->name);
-  if (parameters.accuracy != state_->parameters.accuracy) {
-    reset();  // node niches and refined ones are not the same places
+  const TrackerParameters& before = state_->parameters;
+  const bool proves_alone =
+      parameters.accuracy == AccuracyLevel::Certified && parameters.niches_wanted != before.niches_wanted;
+  if (parameters.accuracy != before.accuracy || proves_alone) {
+    reset();  // node niches and refined ones are not the same places; a proof alone follows none
   }
   state_->parameters = parameters;
+  state_->proof.current = false;
   state_->chooseRadii();
 }
 
@@ -149,7 +183,8 @@ std::size_t PairTracker::memoryBytes() const {
   return sizeof(State) + state.archive.records().capacity() * sizeof(NicheRecord) +
          state.candidates.capacity() * sizeof(NicheCandidate) +
          (state.known.capacity() + state.inherited.capacity()) * sizeof(TrialPoint) +
-         state.search.memoryBytes();
+         state.proof.workspace.open.capacity() * sizeof(CertificateWorkspace::OpenPair) +
+         state.proof.front.memoryBytes() + state.search.memoryBytes();
 }
 
 const TrackerParameters& PairTracker::parameters() const {

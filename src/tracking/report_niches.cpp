@@ -57,7 +57,7 @@ bool TrackerState::uniteOnPlateau(std::size_t i, std::vector<NicheEvent>& events
   return false;
 }
 
-void TrackerState::report(double displacement, PairSolution& solution) {
+void TrackerState::listNiches(PairSolution& solution) {
   std::vector<NicheRecord>& records = archive.records();
   const std::size_t capacity = archiveCapacity(parameters.largest_niche_count);
   while (records.size() > capacity) {
@@ -79,12 +79,19 @@ void TrackerState::report(double displacement, PairSolution& solution) {
     }
     solution.niches.push_back(record.niche);
   }
+}
+
+void TrackerState::reportNearest(double displacement, PairSolution& solution) {
+  const std::vector<NicheRecord>& records = archive.records();
   if (!records.empty()) {
     const TrackedNiche& nearest = records.front().niche;
     solution.distance = nearest.distance;
     solution.point_a_in_a = nearest.point_a_in_a;
     solution.point_b_in_a = nearest.point_b_in_a;
-    solution.status = nearest.distance == 0.0 ? SolveStatus::Penetrating : SolveStatus::Ok;
+    if (nearest.distance == 0.0) {
+      solution.status = SolveStatus::Penetrating;
+      solution.meeting_triangles = TrianglePair{nearest.witness.triangle_a, nearest.witness.triangle_b};
+    }
   }
   // A segment that leaves a closed body inwards and meets no surface ends in that body's material: swallowed.
   // Only the closest pair can be so without a closer crossing of the surfaces.

@@ -19,6 +19,15 @@ void TrackerParameters::validate(const std::string& where) const {
     throw Error(where + "." + key, "the value is " + std::to_string(value),
                 std::string("allowed: ") + allowed);
   };
+  if (!(absolute_tolerance >= 0.0) || !std::isfinite(absolute_tolerance)) {
+    refuse("absolute_tolerance", absolute_tolerance, "0 or more, metres");
+  }
+  if (!(relative_tolerance >= 0.0 && relative_tolerance <= 1.0)) {
+    refuse("relative_tolerance", relative_tolerance, "from 0 to 1, of the distance");
+  }
+  if (!(time_budget > 0.0)) {
+    refuse("time_budget", time_budget, "greater than 0, seconds, or leave it out");
+  }
   if (!(inherited_per_niche >= 1.0) || !std::isfinite(inherited_per_niche)) {
     refuse("inherited_per_niche", inherited_per_niche, "1 or more");
   }

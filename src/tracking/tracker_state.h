@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "concave_distance/distance/certificate.h"
 #include "concave_distance/search/automatic_radii.h"
 #include "concave_distance/search/search_workspace.h"
 #include "concave_distance/tracking/niche_admission.h"
@@ -18,20 +19,35 @@
 
 namespace concave_distance {
 
-/// What one pair keeps from cycle to cycle, and the stages of a cycle, in the order of update(). Each stage
-/// has a file of its own.
 // Cycles for which a verdict on a ripple is believed.
 inline constexpr std::uint64_t kRippleJudgement = 4;
 
 // What a plateau's distance may vary by, relative to the bodies: far above the kernels' rounding.
 inline constexpr double kPlateauTolerance = 1e-9;
 
+/// What level `certified` keeps from cycle to cycle.
+struct Proof {
+  CertificateWorkspace workspace;
+  ProofFront front;
+  DistanceCertificate certificate;  ///< of the last cycle
+  double error = 0.0;               ///< metres, of the certificate
+  bool seeded = false;              ///< there is a last certificate
+  bool current = false;             ///< made with the parameters as they are
+  bool swallowed = false;           ///< one body holds a part of the other
+};
+
+/// What one pair keeps from cycle to cycle, and the stages of a cycle, in the order of update(). Each stage
+/// has a file of its own.
 struct TrackerState {
   TrackerState(std::string pair_name, std::shared_ptr<const BodyMesh> a, std::shared_ptr<const BodyMesh> b,
                const TrackerParameters& given);
 
   void chooseRadii();
   void update(const Eigen::Isometry3d& pose, double time, PairSolution& solution);
+  void reset();
+
+  void clear(PairSolution& solution) const;
+  void solveNiches(double displacement, double elapsed, PairSolution& solution);
 
   // follow_niches.cpp: every known niche to where its minimum has moved.
   void followNiches(double displacement, double elapsed, SearchCost& cost, std::vector<NicheEvent>& events);
@@ -59,10 +75,17 @@ struct TrackerState {
                  PairSolution& solution);
   void drownNewborns(const PairObjective& objective, PairSolution& solution);
 
+  // prove_distance.cpp: level `certified`.
+  void proveDistance(double displacement, double seconds_left);
+  void admitClosest(PairSolution& solution);
+  void reportProven(PairSolution& solution);
+  void proveAlone(double displacement, double elapsed, double seconds_left, PairSolution& solution);
+
   // report_niches.cpp
   void describeNiches(PairSolution& solution);
   bool uniteOnPlateau(std::size_t i, std::vector<NicheEvent>& events);
-  void report(double displacement, PairSolution& solution);
+  void listNiches(PairSolution& solution);
+  void reportNearest(double displacement, PairSolution& solution);
   void describe(TrackedNiche& niche);
 
   std::string name;
@@ -103,6 +126,7 @@ struct TrackerState {
   /// Cycles since the bodies last moved against each other: what was found at this very pose is not found
   /// again.
   std::uint32_t cycles_at_rest = 0;
+  Proof proof;
 };
 
 }  // namespace concave_distance

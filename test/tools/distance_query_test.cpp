@@ -99,7 +99,7 @@ TEST_F(DistanceQuery, AnswersEveryLineInOrder) {
   ASSERT_EQ(runBoxes(""), 0) << log();
   const std::string text = test::contentOf(folder_.path("out.csv"));
   EXPECT_EQ(text.substr(0, text.find('\n')),
-            "index,distance,lower_bound,ax,ay,az,bx,by,bz,niche_count,status,time_us");
+            "index,distance,lower_bound,ax,ay,az,bx,by,bz,niche_count,status,time_us,triangle_a,triangle_b");
   const std::vector<Row> rows = answers();
   ASSERT_EQ(rows.size(), 7U);
   const double corner = std::sqrt(3.0 * 0.3 * 0.3);
@@ -112,6 +112,8 @@ TEST_F(DistanceQuery, AnswersEveryLineInOrder) {
     EXPECT_EQ(rows[i].at("status"), status[i]);
     EXPECT_EQ(rows[i].at("lower_bound"), "");
     EXPECT_EQ(rows[i].at("niche_count"), "");
+    EXPECT_EQ(rows[i].at("triangle_a").empty(), i != 4) << i;
+    EXPECT_EQ(rows[i].at("triangle_b").empty(), i != 4) << i;
     if (std::isnan(distance[i])) {
       EXPECT_EQ(rows[i].at("distance"), "");
       EXPECT_EQ(rows[i].at("ax"), "");
@@ -194,19 +196,73 @@ TEST_F(DistanceQuery, OneSeedGivesOneAnswer) {
   EXPECT_EQ(test::contentOf(folder_.path("niches.csv")), first);
 }
 
-TEST_F(DistanceQuery, RefusesWhatThisVersionCannotDo) {
-  for (const std::string level : {"certified", "complete"}) {
-    EXPECT_EQ(runBoxes("--accuracy " + level), 2);
-    EXPECT_NE(log().find(level + " is not among this version's levels: nodes, refined"), std::string::npos)
-        << log();
+TEST_F(DistanceQuery, ProvesTheDistanceAtLevelCertified) {
+  const double corner = std::sqrt(3.0 * 0.3 * 0.3);
+  const std::vector<std::string> status = {"ok",          "ok", "invalid_pose", "invalid_pose",
+                                           "penetrating", "ok", "penetrating"};
+  const std::vector<double> distance = {0.4, 0.9, NAN, NAN, 0.0, corner, 0.0};
+  for (const std::string further : {"", "--tracking", "--niches-output niches.csv"}) {
+    ASSERT_EQ(runBoxes("--accuracy certified " + further), 0) << log();
+    const std::vector<Row> rows = answers();
+    ASSERT_EQ(rows.size(), 7U);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      EXPECT_EQ(rows[i].at("status"), status[i]);
+      EXPECT_EQ(rows[i].at("niche_count").empty(),
+                further != "--niches-output niches.csv" || std::isnan(distance[i]));
+      EXPECT_EQ(rows[i].at("triangle_a").empty(), i != 4)
+          << "crossing names the triangles, swallowed does not";
+      if (std::isnan(distance[i])) {
+        EXPECT_EQ(rows[i].at("lower_bound"), "");
+        continue;
+      }
+      EXPECT_NEAR(number(rows[i], "distance"), distance[i], 1e-12);
+      EXPECT_LE(number(rows[i], "lower_bound"), distance[i]);
+      EXPECT_GE(number(rows[i], "lower_bound"), distance[i] - 1e-12);
+    }
   }
+}
+
+TEST_F(DistanceQuery, StopsAProofAtATolerance) {
+  folder_.write("poses.csv",
+                "t,x,y,z,qx,qy,qz,qw\n"
+                "0,0.72,0.75,0,0,0,1,0\n"
+                "1,0.72,0.85,0.1,0,0,0.6,0.8\n");
+  const std::string combs = "--mesh-a comb.stl --mesh-b comb.stl --poses poses.csv --output out.csv ";
+  ASSERT_EQ(run(combs + "--accuracy certified"), 0) << log();
+  const std::vector<Row> proven = answers();
+  for (const std::string tolerance : {"--tolerance 0.01", "--relative-tolerance 0.5", "--time-budget 10"}) {
+    ASSERT_EQ(run(combs + "--accuracy certified " + tolerance), 0) << log();
+    const std::vector<Row> rows = answers();
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      EXPECT_TRUE(rows[i].at("status") == "ok" || rows[i].at("status") == "tolerance");
+      EXPECT_LE(number(rows[i], "lower_bound"), number(proven[i], "distance"));
+      EXPECT_GE(number(rows[i], "distance"), number(proven[i], "distance") - 1e-12);
+      const double below = number(rows[i], "distance") - number(rows[i], "lower_bound");
+      EXPECT_LE(below, std::max(0.01, 0.5 * number(rows[i], "distance")) + 1e-12);
+    }
+  }
+  ASSERT_EQ(run(combs + "--accuracy certified --time-budget 1e-9"), 0) << log();
+  for (const Row& row : answers()) {
+    // The clock is looked at every few microseconds: an easy proof may be done by then.
+    EXPECT_TRUE(row.at("status") == "budget" || row.at("status") == "ok");
+    EXPECT_LE(number(row, "lower_bound"), number(row, "distance"));
+  }
+}
+
+TEST_F(DistanceQuery, RefusesWhatThisVersionCannotDo) {
+  EXPECT_EQ(runBoxes("--accuracy complete"), 2);
+  EXPECT_NE(log().find("complete is not among this version's levels: nodes, refined, certified"),
+            std::string::npos)
+      << log();
   EXPECT_EQ(runBoxes("--accuracy exact"), 2);
-  EXPECT_NE(log().find("'exact' is none of the levels: nodes, refined"), std::string::npos) << log();
-  EXPECT_EQ(runBoxes("--tolerance 0.001"), 2);
-  EXPECT_NE(log().find("--tolerance"), std::string::npos) << log();
-  EXPECT_NE(log().find("proves no bound"), std::string::npos) << log();
-  EXPECT_EQ(runBoxes("--accuracy nodes --time-budget 0.1"), 2);
-  EXPECT_NE(log().find("--accuracy nodes proves no bound"), std::string::npos) << log();
+  EXPECT_NE(log().find("'exact' is none of the levels: nodes, refined, certified"), std::string::npos)
+      << log();
+  for (const std::string option : {"--tolerance", "--relative-tolerance", "--time-budget"}) {
+    EXPECT_EQ(runBoxes(option + " 0.001"), 2);
+    EXPECT_NE(log().find(option), std::string::npos) << log();
+    EXPECT_NE(log().find("--accuracy refined proves no bound"), std::string::npos) << log();
+    EXPECT_EQ(runBoxes("--accuracy certified " + option + " -1"), 2) << log();
+  }
   EXPECT_EQ(runBoxes("--max-edge 0"), 2);
   EXPECT_EQ(runBoxes("--cutoff -1"), 2);
   EXPECT_EQ(run("--mesh-a box.stl"), 2);

@@ -26,11 +26,18 @@ TEST(AnswerWriter, WritesTheAgreedColumnsAndLeavesEmptyWhatWasNotComputed) {
   answer.niche_count = 0;
   answer.time_us = 12.5;
   writer.write(1, answer);
+  answer.status = "penetrating";
+  answer.distance = answer.lower_bound = 0.0;
+  answer.point_b_in_a = answer.point_a_in_a;
+  answer.niche_count.reset();
+  answer.meeting_triangles = TrianglePair{TriangleIndex{7U}, TriangleIndex{11U}};
+  writer.write(2, answer);
   writer.finish();
   EXPECT_EQ(contentOf(folder.path("out.csv")),
-            "index,distance,lower_bound,ax,ay,az,bx,by,bz,niche_count,status,time_us\n"
-            "0,,,,,,,,,,invalid_pose,\n"
-            "1,0.25,,1,2,3,1,2,3.25,0,ok,12.5\n");
+            "index,distance,lower_bound,ax,ay,az,bx,by,bz,niche_count,status,time_us,triangle_a,triangle_b\n"
+            "0,,,,,,,,,,invalid_pose,,,\n"
+            "1,0.25,,1,2,3,1,2,3.25,0,ok,12.5,,\n"
+            "2,0,0,1,2,3,1,2,3,,penetrating,12.5,7,11\n");
 }
 
 TEST(NicheWriter, WritesNumbersThatReadBackAsTheSameDouble) {

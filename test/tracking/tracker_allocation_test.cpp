@@ -31,7 +31,7 @@ void expectNoAllocation(PairTracker& tracker, PoseAt&& pose_at, int cycles, int 
 TEST(TrackerAllocation, AWarmCycleOfTheBatteryAllocatesNothing) {
   ASSERT_GT(allocations.load(), 0U) << "the counter is not in place";
   const std::vector<Eigen::Isometry3d> manoeuvre = test::readThesisPoses("manoeuvre_200.csv");
-  for (const AccuracyLevel level : {AccuracyLevel::Refined, AccuracyLevel::Nodes}) {
+  for (const AccuracyLevel level : {AccuracyLevel::Certified, AccuracyLevel::Refined, AccuracyLevel::Nodes}) {
     TrackerParameters parameters;
     parameters.accuracy = level;
     PairTracker tracker("battery", test::loadThesisBody("fixture", 0.1), test::loadThesisBody("battery", 0.1),
@@ -45,9 +45,10 @@ TEST(TrackerAllocation, AWarmCycleOfTheBatteryAllocatesNothing) {
   }
 }
 
-TEST(TrackerAllocation, AWarmCycleOfManyNichesAllocatesNothing) {
+// Two combs, the teeth of one swaying in the other's gaps.
+void expectNoAllocationOfCombs(const TrackerParameters& parameters) {
   const auto comb = std::make_shared<BodyMesh>("comb", test::makeComb(5), BodyMeshOptions());
-  PairTracker tracker("combs", comb, comb, TrackerParameters());
+  PairTracker tracker("combs", comb, comb, parameters);
   expectNoAllocation(
       tracker,
       [](int k) {
@@ -59,6 +60,21 @@ TEST(TrackerAllocation, AWarmCycleOfManyNichesAllocatesNothing) {
         return pose;
       },
       200, 3);
+}
+
+TEST(TrackerAllocation, AWarmCycleOfManyNichesAllocatesNothing) {
+  expectNoAllocationOfCombs(TrackerParameters());
+}
+
+TEST(TrackerAllocation, AProvenCycleAllocatesNothingWithAndWithoutNiches) {
+  TrackerParameters parameters;
+  parameters.accuracy = AccuracyLevel::Certified;
+  expectNoAllocationOfCombs(parameters);
+  parameters.niches_wanted = false;
+  expectNoAllocationOfCombs(parameters);
+  // A budget makes the proof go by another order.
+  parameters.time_budget = 1e-4;
+  expectNoAllocationOfCombs(parameters);
 }
 
 }  // namespace

@@ -21,6 +21,7 @@ struct MeshTopology {
   std::vector<std::array<TriangleIndex, 3>> triangle_across_edge;
   std::vector<std::uint32_t> shell_of_vertex;  ///< connected component; isolated vertices have their own
   std::vector<std::uint32_t> shell_of_triangle;
+  std::vector<TriangleIndex> triangle_of_shell;  ///< one of each; kNoTriangle for an isolated vertex
   /// Every edge of the shell has two triangles of opposite winding (where solids touch along an edge: as many
   /// one way as the other).
   std::vector<bool> shell_is_closed;

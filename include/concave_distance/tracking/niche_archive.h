@@ -39,6 +39,10 @@ class NicheArchive {
   NicheRecord* findSamePlace(const Eigen::Vector3d& point_a_in_a, const Eigen::Vector3d& point_b_in_b,
                              double tolerance);
 
+  /// The same among the records at distance 0 alone.
+  NicheRecord* findTouching(const Eigen::Vector3d& point_a_in_a, const Eigen::Vector3d& point_b_in_b,
+                            double tolerance);
+
   /// Sorts by distance, then by id.
   void settle();
 

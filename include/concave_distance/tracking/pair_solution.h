@@ -3,20 +3,28 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string_view>
 #include <vector>
 
+#include "concave_distance/distance/certificate.h"
 #include "concave_distance/distance/niche_properties.h"
 #include "concave_distance/search/trial_point.h"
 
 namespace concave_distance {
 
 /// How exact an answer is (README.md, "Accuracy").
-enum class AccuracyLevel : std::uint8_t { Nodes, Refined };
+enum class AccuracyLevel : std::uint8_t { Nodes, Refined, Certified };
 std::string_view toString(AccuracyLevel level);
 
 /// What became of a solve; a solve never throws.
-enum class SolveStatus : std::uint8_t { Ok, Penetrating, InvalidPose, BudgetExhausted };
+enum class SolveStatus : std::uint8_t {
+  Ok,               ///< at level `certified`: proven
+  Penetrating,      ///< the surfaces meet, or one body has swallowed a part of the other
+  InvalidPose,      ///< nothing was computed
+  BudgetExhausted,  ///< the time was up before the proof was done; lower_bound holds
+  WithinTolerance   ///< lower_bound is as near to the distance as was asked for
+};
 std::string_view toString(SolveStatus status);
 
 inline constexpr double kNotComputed = std::numeric_limits<double>::quiet_NaN();
@@ -52,22 +60,30 @@ struct NicheEvent {
 /// One pair's answer at one time. Not-computed numbers are NaN, never 0 or a sentinel.
 struct PairSolution {
   SolveStatus status = SolveStatus::Ok;
+  /// The level reached: where the time budget ended the proof, the one below the level asked for.
   AccuracyLevel accuracy = AccuracyLevel::Refined;
-  double distance = kNotComputed;     ///< metres; 0 when penetrating
-  double lower_bound = kNotComputed;  ///< proven; NaN at levels that prove none
+  double distance = kNotComputed;  ///< metres; 0 when penetrating
+  /// Proven: the true distance is not smaller; 0 when penetrating. NaN at levels that prove none.
+  double lower_bound = kNotComputed;
   Eigen::Vector3d point_a_in_a = Eigen::Vector3d::Constant(kNotComputed);
   Eigen::Vector3d point_b_in_a = Eigen::Vector3d::Constant(kNotComputed);
   /// Distance of the surfaces where a closed body has swallowed the other (status penetrating).
   double surface_distance = kNotComputed;
+  /// Original triangles that meet, where surfaces do (status penetrating); empty when swallowed.
+  std::optional<TrianglePair> meeting_triangles;
   std::vector<TrackedNiche> niches;  ///< ascending by distance; capacity is kept
   std::vector<NicheEvent> events;
   bool niches_cut = false;  ///< more niches were known than the largest count allows
   std::uint32_t niches_beyond_cutoff = 0;
   std::uint64_t cycle = 0;
   bool warm = false;
-  bool search_miss = false;  ///< this cycle found a niche closer than the last cycle could have moved to
+  /// The search was late. At `nodes` and `refined`: this cycle found a niche closer than the last cycle's
+  /// nearest could have moved to. At `certified`: the proof found a pair closer than every niche by more than
+  /// its error, in this very cycle; that pair is among the niches now.
+  bool search_miss = false;
   std::uint64_t seed = 0;
   SearchCost cost;
+  CertificateCost proof_cost;  ///< of level `certified`
   double solve_seconds = kNotComputed;
 };
 

@@ -12,6 +12,13 @@ namespace concave_distance {
 /// How one pair is solved and followed. Lengths in metres.
 struct TrackerParameters {
   AccuracyLevel accuracy = AccuracyLevel::Refined;
+  /// Of level `certified`: how far below the distance the proven bound may stay; the larger of the two
+  /// counts.
+  double absolute_tolerance = 0.0;
+  double relative_tolerance = 0.0;  ///< of the distance
+  /// Of level `certified`: seconds from the start of a cycle after which the proof stops with what it has.
+  /// The search for niches comes before and is not cut short.
+  double time_budget = std::numeric_limits<double>::infinity();
   GeneticParameters cold;            ///< first cycle, service calls, after a reset
   GeneticParameters warm;            ///< every further cycle; usually a small population and few generations
   double inherited_per_niche = 3.0;  ///< alpha_Gamma (Carretero, eq. (6.8))

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include "concave_distance/mesh/body_mesh.h"
+
+namespace concave_distance {
+
+/// Whether one body has a shell, open or closed, in the material of the other one's closed shells. Where the
+/// surfaces do not meet, each shell lies wholly inside or wholly outside, so that one point of each tells;
+/// the bodies are apart exactly when this is false, for two solids that overlap without their surfaces
+/// meeting have a piece of surface inside the other. Where they do meet it says nothing that counts.
+/// O(shells) where the points lie outside the other's box, O(log n) more for each that does not.
+bool holdsAnother(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b);
+
+}  // namespace concave_distance

@@ -1,0 +1,171 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "concave_distance/distance/solid_overlap.h"
+#include "tracker_state.h"
+
+namespace concave_distance {
+namespace {
+
+// Niches whose triangle pairs a proof starts from: the nearest gives the bound that everything is compared
+// with, and further ones cost a refinement each.
+constexpr std::size_t kSeedNiches = 1;
+
+TrianglePair trianglesOf(const WitnessPair& witness) {
+  return {witness.triangle_a, witness.triangle_b};
+}
+
+}  // namespace
+
+void TrackerState::proveDistance(double displacement, double seconds_left) {
+  DistanceCertificate& certificate = proof.certificate;
+  if (displacement == 0.0 && proof.current && certificate.status != CertificateStatus::Budget) {
+    certificate.cost = {};
+    return;
+  }
+  std::array<TrianglePair, kSeedNiches + 1> seeds{};
+  std::size_t count = 0;
+  for (const NicheRecord& record : archive.records()) {
+    if (count == kSeedNiches) break;
+    seeds[count++] = trianglesOf(record.niche.witness);
+  }
+  const auto isLast = [last = trianglesOf(certificate.witness)](const TrianglePair& seed) {
+    return seed.a == last.a && seed.b == last.b;
+  };
+  if (proof.seeded && std::none_of(seeds.begin(), seeds.begin() + count, isLast)) {
+    seeds[count++] = trianglesOf(certificate.witness);
+  }
+  const double last_bound = proof.seeded ? certificate.lower_bound : 0.0;
+  CertificateRequest request;
+  request.absolute_tolerance = parameters.absolute_tolerance;
+  request.relative_tolerance = parameters.relative_tolerance;
+  request.time_budget = seconds_left;
+  certificate = certifyDistance(*geometry.a, *geometry.b, geometry.a_from_b, seeds.data(), count, request,
+                                proof.workspace, &proof.front);
+  if (certificate.status == CertificateStatus::Budget || certificate.status == CertificateStatus::Tolerance) {
+    // Stopped on the way down.
+    const WitnessRefinement refined =
+        geometry.refine(certificate.witness.triangle_a, certificate.witness.triangle_b);
+    if (refined.witness.squared_distance < certificate.witness.squared_distance) {
+      certificate.witness = refined.witness;
+      certificate.distance = std::sqrt(refined.witness.squared_distance);
+    }
+  }
+  proof.error = kProofError * proofScale(*geometry.a, *geometry.b, geometry.a_from_b);
+  proof.seeded = proof.current = true;
+  // Who holds whom cannot change while no point comes as far as the other surface.
+  if (!(displacement + proof.error < last_bound)) {
+    proof.swallowed = holdsAnother(*geometry.a, *geometry.b, geometry.a_from_b);
+  }
+}
+
+// A pair closer than every niche becomes one, and the search has missed it.
+void TrackerState::admitClosest(PairSolution& solution) {
+  std::vector<NicheRecord>& records = archive.records();
+  const DistanceCertificate& certificate = proof.certificate;
+  if (!records.empty() && !(certificate.distance < records.front().niche.distance - proof.error)) {
+    return;
+  }
+  NicheCandidate candidate;
+  candidate.witness = certificate.witness;
+  const WitnessRefinement refined =
+      geometry.refine(certificate.witness.triangle_a, certificate.witness.triangle_b);
+  candidate.proven = refined.proven || certificate.status == CertificateStatus::Proven;
+  if (refined.witness.squared_distance < candidate.witness.squared_distance) {
+    candidate.witness = refined.witness;
+  }
+  candidate.node_pair = geometry.nodePairNear(candidate.witness);
+  const bool first = records.empty();
+  const std::uint64_t nearest_id = first ? 0 : records.front().niche.id;
+  const WitnessPair nearest = first ? WitnessPair() : records.front().niche.witness;
+  const AdmissionResult result =
+      admitCandidate(candidate, geometry, parameters, warm ? warm_radii.niche : cold_radii.niche, cycle,
+                     archive, solution.events);
+  if (result.outcome == Admission::ThroughMaterial) {
+    return;
+  }
+  if (result.outcome == Admission::SamePlace) {
+    const auto known = std::find_if(records.begin(), records.end(),
+                                    [&](const NicheRecord& r) { return r.niche.id == result.id; });
+    known->niche.proven_local_minimum = candidate.proven;
+    placeRecord(*known, geometry, candidate.witness);
+  }
+  archive.settle();
+  uniteSamePlaces(geometry, archive, solution.events);
+  if (!first && records.front().niche.id == nearest_id) {
+    ripples.remember(geometry, nearest, nearest_id, cycle);
+  }
+  solution.search_miss = true;
+}
+
+void TrackerState::reportProven(PairSolution& solution) {
+  const DistanceCertificate& certificate = proof.certificate;
+  solution.proof_cost = certificate.cost;
+  solution.distance = certificate.distance;
+  solution.lower_bound = certificate.lower_bound;
+  solution.point_a_in_a = certificate.witness.point_a_in_a;
+  solution.point_b_in_a = certificate.witness.point_b_in_a;
+  // Equally near but for the error of the proof: on a plateau the niche has the steadier points.
+  if (!archive.records().empty() &&
+      archive.records().front().niche.distance <= certificate.distance + proof.error) {
+    const TrackedNiche& nearest = archive.records().front().niche;
+    solution.distance = std::min(nearest.distance, certificate.distance);
+    solution.point_a_in_a = nearest.point_a_in_a;
+    solution.point_b_in_a = nearest.point_b_in_a;
+    if (!solution.niches.empty()) {
+      solution.niches.front().distance = solution.distance;
+    }
+  }
+  switch (certificate.status) {
+    case CertificateStatus::Proven:
+      solution.status = SolveStatus::Ok;
+      break;
+    case CertificateStatus::Tolerance:
+      solution.status = SolveStatus::WithinTolerance;
+      break;
+    case CertificateStatus::Budget:
+      solution.status = SolveStatus::BudgetExhausted;
+      solution.accuracy = AccuracyLevel::Refined;
+      break;
+    case CertificateStatus::Penetrating:
+      solution.status = SolveStatus::Penetrating;
+      solution.meeting_triangles = trianglesOf(certificate.witness);
+      return;
+  }
+  if (proof.swallowed) {
+    solution.status = SolveStatus::Penetrating;
+    solution.accuracy = AccuracyLevel::Certified;
+    solution.surface_distance = solution.distance;
+    solution.distance = solution.lower_bound = 0.0;
+  }
+}
+
+// Without niches: nothing is searched. What is nearest is listed as a niche without an id, for its normal and
+// closing speed.
+void TrackerState::proveAlone(double displacement, double elapsed, double seconds_left,
+                              PairSolution& solution) {
+  const double before = proof.certificate.distance;
+  proveDistance(displacement, seconds_left);
+  reportProven(solution);
+  if (proof.swallowed && !parameters.keep_through_material) {
+    return;
+  }
+  const DistanceCertificate& certificate = proof.certificate;
+  if (certificate.distance > parameters.cutoff) {
+    ++solution.niches_beyond_cutoff;
+    return;
+  }
+  NicheRecord nearest;
+  placeRecord(nearest, geometry, certificate.witness);
+  nearest.niche.distance = certificate.distance;
+  nearest.niche.closing_speed = elapsed > 0.0 ? (before - certificate.distance) / elapsed : kNotComputed;
+  nearest.niche.outward =
+      classifyOutwardness(*geometry.a, *geometry.b, geometry.a_from_b, certificate.witness);
+  nearest.niche.prominence = std::numeric_limits<double>::infinity();
+  nearest.niche.proven_local_minimum = certificate.status == CertificateStatus::Proven;
+  solution.niches.push_back(nearest.niche);
+}
+
+}  // namespace concave_distance

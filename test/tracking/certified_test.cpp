@@ -1,0 +1,319 @@
+// Level `certified`: the distance is the enumerated one whatever the search has met, with its proof.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "concave_distance/distance/enumeration.h"
+#include "concave_distance/distance/surface_walk.h"
+#include "concave_distance/tracking/pair_tracker.h"
+#include "support/body_pairs.h"
+
+namespace concave_distance {
+namespace {
+
+using Body = std::shared_ptr<const BodyMesh>;
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+using test::makeBody;
+using test::translation;
+
+constexpr double kPi = 3.14159265358979323846;
+
+TrackerParameters certified(bool with_niches = true) {
+  TrackerParameters parameters;
+  parameters.accuracy = AccuracyLevel::Certified;
+  parameters.niches_wanted = with_niches;
+  return parameters;
+}
+
+// As good as no search: two random starts at the beginning and nothing afterwards.
+TrackerParameters blind(AccuracyLevel level) {
+  TrackerParameters parameters;
+  parameters.accuracy = level;
+  for (GeneticParameters* genetic : {&parameters.cold, &parameters.warm}) {
+    genetic->population_size = 2;
+    genetic->max_generations = 0;
+    genetic->immigrants = 0;
+  }
+  parameters.immigrants = 0;
+  parameters.projected_niches = 0;
+  parameters.projected_immigrants = 0;
+  return parameters;
+}
+
+const Body& comb() {
+  static const Body kComb = std::make_shared<BodyMesh>("comb", test::makeComb(5), BodyMeshOptions());
+  return kComb;
+}
+
+// The teeth of one comb in the other's gaps, swaying within the clearance.
+Isometry3d swaying(double t) {
+  Isometry3d pose(Eigen::AngleAxisd(kPi + 0.01 * std::sin(4.0 * t), Vector3d::UnitZ()));
+  pose.translation() =
+      Vector3d(1.225 + 0.008 * std::sin(6.0 * t), 0.6 + 0.1 * std::sin(3.0 * t), 0.02 * std::sin(3.0 * t));
+  return pose;
+}
+
+double exactDistance(const Body& a, const Body& b, const Isometry3d& pose) {
+  return std::sqrt(enumerateTrianglePairs(*a, *b, pose).squared_distance);
+}
+
+void expectProven(const PairSolution& solution, double exact, double error) {
+  EXPECT_EQ(solution.status, SolveStatus::Ok);
+  EXPECT_EQ(solution.accuracy, AccuracyLevel::Certified);
+  EXPECT_NEAR(solution.distance, exact, error);
+  EXPECT_LE(solution.lower_bound, exact);
+  EXPECT_GE(solution.lower_bound, std::max(0.0, solution.distance - 1.01 * error));
+  EXPECT_NEAR((solution.point_b_in_a - solution.point_a_in_a).norm(), solution.distance, 1e-9);
+}
+
+TEST(Certified, ProvesTheBruteForceDistanceAlongAMotion) {
+  for (const bool with_niches : {true, false}) {
+    PairTracker tracker("combs", comb(), comb(), certified(with_niches));
+    PairSolution solution;
+    for (int k = 0; k < 60; ++k) {
+      const Isometry3d pose = swaying(0.02 * k);
+      tracker.update(pose, 0.02 * k, solution);
+      expectProven(solution, exactDistance(comb(), comb(), pose),
+                   kProofError * proofScale(*comb(), *comb(), pose));
+      ASSERT_FALSE(solution.niches.empty());
+      EXPECT_EQ(solution.niches.front().distance, solution.distance);
+    }
+  }
+}
+
+TEST(Certified, ProvesTheBruteForceDistanceAtRandomPoses) {
+  RandomEngine engine(1);
+  int apart = 0;
+  int crossing = 0;
+  for (std::uint32_t round = 0; round < 60; ++round) {
+    const Body a = makeBody(test::concaveShape(round), 0.2);
+    const Body b = makeBody(test::concaveShape(round / 6), 0.2);
+    const Isometry3d pose = test::randomPose(engine, round % 2 == 0 ? 0.5 : 1.5);
+    const double exact = exactDistance(a, b, pose);
+    for (const bool with_niches : {true, false}) {
+      const PairSolution solution = solveOnce("pair", a, b, certified(with_niches), pose);
+      if (exact == 0.0) {
+        ++crossing;
+        EXPECT_EQ(solution.status, SolveStatus::Penetrating);
+        EXPECT_EQ(solution.distance, 0.0);
+        EXPECT_EQ(solution.lower_bound, 0.0);
+        ASSERT_TRUE(solution.meeting_triangles);
+        EXPECT_EQ(triangleDistance(trianglePoints(a->surface(), solution.meeting_triangles->a),
+                                   [&] {
+                                     TrianglePoints t =
+                                         trianglePoints(b->surface(), solution.meeting_triangles->b);
+                                     for (Vector3d& p : t) p = pose * p;
+                                     return t;
+                                   }())
+                      .squared_distance,
+                  0.0);
+      } else if (solution.status == SolveStatus::Ok) {
+        ++apart;
+        expectProven(solution, exact, kProofError * proofScale(*a, *b, pose));
+      } else {  // swallowed
+        EXPECT_NEAR(solution.surface_distance, exact, 1e-12);
+      }
+    }
+  }
+  EXPECT_GT(apart, 20);
+  EXPECT_GT(crossing, 20);
+}
+
+TEST(Certified, IsRightWhereTheSearchIsBlindAndCountsItsMisses) {
+  PairTracker refined("combs", comb(), comb(), blind(AccuracyLevel::Refined));
+  PairTracker proven("combs", comb(), comb(), blind(AccuracyLevel::Certified));
+  PairSolution by_search;
+  PairSolution by_proof;
+  int wrong = 0;
+  int misses = 0;
+  int born = 0;
+  for (int k = 0; k < 100; ++k) {
+    const Isometry3d pose = swaying(0.05 * k);
+    refined.update(pose, 0.05 * k, by_search);
+    proven.update(pose, 0.05 * k, by_proof);
+    const double exact = exactDistance(comb(), comb(), pose);
+    wrong += by_search.distance > exact + 1e-9 ? 1 : 0;
+    misses += by_proof.search_miss ? 1 : 0;
+    expectProven(by_proof, exact, kProofError * proofScale(*comb(), *comb(), pose));
+    ASSERT_FALSE(by_proof.niches.empty());
+    EXPECT_NEAR(by_proof.niches.front().distance, exact, 1e-12);
+    EXPECT_TRUE(by_proof.niches.front().proven_local_minimum);
+    EXPECT_GT(by_proof.niches.front().id, 0U);
+    for (const NicheEvent& event : by_proof.events) {
+      born += event.kind == NicheEvent::Kind::Birth && event.id == by_proof.niches.front().id ? 1 : 0;
+    }
+    if (!by_proof.search_miss) continue;
+    // What was missed once is followed from then on.
+    proven.update(pose, 0.05 * k, by_proof);
+    EXPECT_FALSE(by_proof.search_miss);
+  }
+  EXPECT_GT(wrong, 0);
+  EXPECT_GT(misses, 0);
+  EXPECT_GT(born, 0);
+}
+
+TEST(Certified, ASearchThatSeesMissesNothingOfTheCombs) {
+  PairTracker tracker("combs", comb(), comb(), certified());
+  PairSolution solution;
+  int misses = 0;
+  for (int k = 0; k < 100; ++k) {
+    tracker.update(swaying(0.02 * k), 0.02 * k, solution);
+    misses += solution.search_miss ? 1 : 0;
+  }
+  EXPECT_EQ(misses, 0);
+}
+
+TEST(Certified, BoundsHoldForEveryToleranceAndBudget) {
+  RandomEngine engine(2);
+  int within = 0;
+  int stopped = 0;
+  const Body ball = makeBody(makeSphere(0.5, 1e-3));
+  for (std::uint32_t round = 0; round < 40; ++round) {
+    const Body a = round % 2 == 0 ? ball : makeBody(test::concaveShape(round));
+    const Body b = round % 2 == 0 ? ball : makeBody(test::concaveShape(round + 2));
+    Isometry3d pose = test::randomPose(engine, 0.3);
+    pose.translation().x() += 2.5;
+    const PairSolution full = solveOnce("pair", a, b, certified(false), pose);
+    ASSERT_EQ(full.status, SolveStatus::Ok);
+    for (int choice = 0; choice < 4; ++choice) {
+      for (const bool with_niches : {false, true}) {
+        if (with_niches && round >= 4) continue;
+        TrackerParameters parameters = certified(with_niches);
+        if (choice == 0) parameters.absolute_tolerance = 0.01;
+        if (choice == 1) parameters.relative_tolerance = 0.3;
+        if (choice == 2) parameters.time_budget = 1e-9;
+        if (choice == 3) parameters.time_budget = 1.0;
+        const PairSolution solution = solveOnce("pair", a, b, parameters, pose);
+        EXPECT_LE(solution.lower_bound, full.distance);
+        EXPECT_GE(solution.distance, full.distance - 1e-12);
+        within += solution.status == SolveStatus::WithinTolerance ? 1 : 0;
+        stopped += solution.status == SolveStatus::BudgetExhausted ? 1 : 0;
+        if (choice < 2) {
+          const double tolerance =
+              std::max(parameters.absolute_tolerance, parameters.relative_tolerance * solution.distance);
+          EXPECT_GE(solution.lower_bound, solution.distance - tolerance - 1e-12);
+          EXPECT_EQ(solution.accuracy, AccuracyLevel::Certified);
+          EXPECT_NE(solution.status, SolveStatus::BudgetExhausted);
+        }
+        if (solution.status == SolveStatus::BudgetExhausted) {
+          EXPECT_EQ(solution.accuracy, AccuracyLevel::Refined);
+          EXPECT_EQ(choice, 2);
+        }
+      }
+    }
+  }
+  EXPECT_GT(within, 0);
+  EXPECT_GT(stopped, 0);
+}
+
+TEST(Certified, TellsASwallowedBodyWithAndWithoutNiches) {
+  const Body big = makeBody(makeBox({2.0, 2.0, 2.0}), 0.5);
+  const Body small = makeBody(makeBox({0.2, 0.2, 0.2}), 0.1);
+  for (const bool with_niches : {true, false}) {
+    PairTracker tracker("swallowed", big, small, certified(with_niches));
+    PairSolution solution;
+    double time = 0.0;
+    // Out, in by one leap, on in small steps, out by one leap.
+    for (const double x : {1.5, 0.5, 0.51, 0.52, -1.2, -1.25, 0.0}) {
+      tracker.update(translation({x, 0.0, 0.1}), time += 0.1, solution);
+      const double gap = std::abs(std::abs(x) - 1.0) - 0.1;
+      if (std::abs(x) > 1.0) {
+        EXPECT_EQ(solution.status, SolveStatus::Ok) << x;
+        EXPECT_NEAR(solution.distance, gap, 1e-12) << x;
+        EXPECT_TRUE(std::isnan(solution.surface_distance));
+        continue;
+      }
+      EXPECT_EQ(solution.status, SolveStatus::Penetrating) << x;
+      EXPECT_EQ(solution.distance, 0.0);
+      EXPECT_EQ(solution.lower_bound, 0.0);
+      EXPECT_NEAR(solution.surface_distance, x == 0.0 ? 0.8 : gap, 1e-12) << x;
+      EXPECT_FALSE(solution.meeting_triangles);
+      EXPECT_TRUE(solution.niches.empty());
+    }
+  }
+}
+
+TEST(Certified, TellsThatOneOfManyPiecesIsSwallowedThoughAnotherIsNearer) {
+  // A holds B's first cube; the second one hovers outside, nearer to the surface than the first.
+  const Body a = makeBody(makeBox({2.0, 2.0, 2.0}), 0.5);
+  const Body b = makeBody(
+      test::makeUnion(makeBox({0.2, 0.2, 0.2}), makeBox({0.2, 0.2, 0.2}), Vector3d(1.15, 0, 0)), 0.1);
+  for (const bool with_niches : {true, false}) {
+    const PairSolution solution = solveOnce("pieces", a, b, certified(with_niches), Isometry3d::Identity());
+    EXPECT_EQ(solution.status, SolveStatus::Penetrating);
+    EXPECT_EQ(solution.distance, 0.0);
+    EXPECT_NEAR(solution.surface_distance, 0.05, 1e-12);
+  }
+  const PairSolution swapped = solveOnce("pieces", b, a, certified(), Isometry3d::Identity());
+  EXPECT_EQ(swapped.status, SolveStatus::Penetrating);
+}
+
+TEST(Certified, AnOpenShellHoldsNothingButCanBeSwallowed) {
+  SurfaceMesh box = makeBox({2.0, 2.0, 2.0});
+  std::vector<TriangleNodes> open = box.triangles();
+  open.pop_back();
+  const Body lidless = makeBody(SurfaceMesh(box.vertices(), open, "a box with a hole"), 0.5);
+  const Body small = makeBody(makeBox({0.2, 0.2, 0.2}), 0.1);
+  const Body sheet = makeBody(test::makeSheet(5, 4, 0.15, 0.1), 0.2);
+  const Body solid = makeBody(box, 0.5);
+  const Isometry3d inside = translation({0.4, 0.1, -0.1});
+  for (const bool with_niches : {true, false}) {
+    const PairSolution held = solveOnce("held", lidless, small, certified(with_niches), inside);
+    expectProven(held, exactDistance(lidless, small, inside),
+                 kProofError * proofScale(*lidless, *small, inside));
+    const Isometry3d centred = translation(-sheet->surface().boundingBox().center());
+    const PairSolution swallowed = solveOnce("swallowed", solid, sheet, certified(with_niches), centred);
+    EXPECT_EQ(swallowed.status, SolveStatus::Penetrating);
+    EXPECT_NEAR(swallowed.surface_distance, exactDistance(solid, sheet, centred), 1e-12);
+  }
+}
+
+TEST(Certified, MayBeAskedForNichesAndNotInTurn) {
+  PairTracker tracker("combs", comb(), comb(), certified());
+  PairSolution solution;
+  std::uint64_t largest = 0;
+  for (int k = 0; k < 40; ++k) {
+    const bool with_niches = k / 5 % 2 == 0;
+    tracker.setParameters(certified(with_niches));
+    const Isometry3d pose = swaying(0.02 * k);
+    tracker.update(pose, 0.02 * k, solution);
+    expectProven(solution, exactDistance(comb(), comb(), pose),
+                 kProofError * proofScale(*comb(), *comb(), pose));
+    EXPECT_EQ(solution.niches.size() > 1, with_niches);
+    EXPECT_EQ(solution.niches.front().id == 0, !with_niches);
+    for (const NicheEvent& event : solution.events) {
+      if (event.kind == NicheEvent::Kind::Birth) {
+        EXPECT_GT(event.id, largest);
+        largest = event.id;
+      }
+    }
+    // At rest nothing is proven again.
+    tracker.update(pose, 0.02 * k + 0.01, solution);
+    EXPECT_EQ(solution.proof_cost.box_bounds, 0U);
+    EXPECT_EQ(solution.status, SolveStatus::Ok);
+  }
+}
+
+TEST(Certified, RefusesTolerancesAndBudgetsThatMeanNothing) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const double wrong : {-1e-9, nan, std::numeric_limits<double>::infinity()}) {
+    TrackerParameters parameters = certified();
+    parameters.absolute_tolerance = wrong;
+    EXPECT_THROW(parameters.validate("pair"), std::exception);
+  }
+  for (const double wrong : {-0.1, 1.1, nan}) {
+    TrackerParameters parameters = certified();
+    parameters.relative_tolerance = wrong;
+    EXPECT_THROW(parameters.validate("pair"), std::exception);
+  }
+  for (const double wrong : {-1.0, 0.0, nan}) {
+    TrackerParameters parameters = certified();
+    parameters.time_budget = wrong;
+    EXPECT_THROW(parameters.validate("pair"), std::exception);
+  }
+}
+
+}  // namespace
+}  // namespace concave_distance
