@@ -169,12 +169,18 @@ TEST(Certified, BoundsHoldForEveryToleranceAndBudget) {
   RandomEngine engine(2);
   int within = 0;
   int stopped = 0;
-  const Body ball = makeBody(makeSphere(0.5, 1e-3));
+  // A ball in the middle of a hollow one: nearly everything is nearly as near as the nearest.
+  SurfaceMesh sphere = makeSphere(1.0, 3e-3);
+  std::vector<TriangleNodes> turned = sphere.triangles();
+  for (TriangleNodes& t : turned) std::swap(t[1], t[2]);
+  const Body hollow = makeBody(SurfaceMesh(sphere.vertices(), turned, "hollow"), 0.5);
+  const Body ball = makeBody(makeSphere(0.5, 3e-3), 0.25);
   for (std::uint32_t round = 0; round < 40; ++round) {
-    const Body a = round % 2 == 0 ? ball : makeBody(test::concaveShape(round));
-    const Body b = round % 2 == 0 ? ball : makeBody(test::concaveShape(round + 2));
-    Isometry3d pose = test::randomPose(engine, 0.3);
-    pose.translation().x() += 2.5;
+    const bool nested = round % 2 == 0;
+    const Body a = nested ? hollow : makeBody(test::concaveShape(round));
+    const Body b = nested ? ball : makeBody(test::concaveShape(round + 2));
+    Isometry3d pose = test::randomPose(engine, nested ? 0.01 : 0.3);
+    if (!nested) pose.translation().x() += 2.5;
     const PairSolution full = solveOnce("pair", a, b, certified(false), pose);
     ASSERT_EQ(full.status, SolveStatus::Ok);
     for (int choice = 0; choice < 4; ++choice) {
