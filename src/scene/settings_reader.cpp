@@ -39,7 +39,8 @@ std::optional<double> optionalNumber(const YamlValue& value, const char* word, c
 
 constexpr std::pair<const char*, AccuracyLevel> kAccuracyLevels[] = {{"nodes", AccuracyLevel::Nodes},
                                                                      {"refined", AccuracyLevel::Refined},
-                                                                     {"certified", AccuracyLevel::Certified}};
+                                                                     {"certified", AccuracyLevel::Certified},
+                                                                     {"complete", AccuracyLevel::Complete}};
 constexpr std::pair<const char*, SelectionMethod> kSelectionMethods[] = {
     {"stochastic_universal_sampling", SelectionMethod::StochasticUniversalSampling},
     {"roulette", SelectionMethod::Roulette}};
@@ -124,6 +125,9 @@ void readTrackerParameters(YamlMap& map, TrackerParameters& p) {
     p.cutoff = v->number("greater than 0, metres; .inf for none", [](double c) { return c > 0.0; });
   }
   if (auto v = map.take("least_prominence")) p.least_prominence = v->number("0 or more", notNegativeFinite);
+  if (auto v = map.take("prominence_limit")) {
+    p.prominence_limit = v->number("0 or more; .inf for all", [](double x) { return x >= 0.0; });
+  }
   if (auto v = map.take("largest_niche_count")) p.largest_niche_count = count32(*v, 1);
   if (auto v = map.take("keep_through_material")) p.keep_through_material = v->boolean();
   if (auto v = map.take("inherited_per_niche")) {

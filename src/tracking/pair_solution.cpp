@@ -10,6 +10,8 @@ std::string_view toString(AccuracyLevel level) {
       return "refined";
     case AccuracyLevel::Certified:
       return "certified";
+    case AccuracyLevel::Complete:
+      return "complete";
   }
   return "unknown";
 }

@@ -70,6 +70,7 @@ void TrackerState::reset() {
   swallowed = false;
   proof.front.clear();
   proof.seeded = proof.current = false;
+  completeness.current = false;
 }
 
 void TrackerState::update(const Eigen::Isometry3d& pose, double time, PairSolution& solution) {
@@ -88,18 +89,23 @@ void TrackerState::update(const Eigen::Isometry3d& pose, double time, PairSoluti
   const double displacement =
       warm ? largestDisplacement(geometry.b->surface().boundingBox(), last_pose, *rigid)
            : std::numeric_limits<double>::infinity();
-  const bool certified = parameters.accuracy == AccuracyLevel::Certified;
-  if (certified && !parameters.niches_wanted) {
+  const bool proves = provesDistance(parameters.accuracy);
+  if (proves && !parameters.niches_wanted) {
     proveAlone(displacement, elapsed, secondsLeft(), solution);
+  } else if (parameters.accuracy == AccuracyLevel::Complete) {
+    completeNiches(displacement, elapsed, solution);
+    listNiches(solution);
+    proveDistance(displacement, secondsLeft());
+    reportProven(solution);
   } else {
     solveNiches(displacement, elapsed, solution);
-    if (certified) {
+    if (proves) {
       proveDistance(displacement, secondsLeft());
       admitClosest(solution);
     }
     describeNiches(solution);
     listNiches(solution);
-    if (certified) {
+    if (proves) {
       reportProven(solution);
     } else {
       reportNearest(displacement, solution);
@@ -169,12 +175,12 @@ void PairTracker::setParameters(const TrackerParameters& parameters) {
   parameters.validate(state_->name);
   const TrackerParameters& before = state_->parameters;
   const bool proves_alone =
-      parameters.accuracy == AccuracyLevel::Certified && parameters.niches_wanted != before.niches_wanted;
+      provesDistance(parameters.accuracy) && parameters.niches_wanted != before.niches_wanted;
   if (parameters.accuracy != before.accuracy || proves_alone) {
     reset();  // node niches and refined ones are not the same places; a proof alone follows none
   }
   state_->parameters = parameters;
-  state_->proof.current = false;
+  state_->proof.current = state_->completeness.current = false;
   state_->chooseRadii();
 }
 
@@ -184,7 +190,7 @@ std::size_t PairTracker::memoryBytes() const {
          state.candidates.capacity() * sizeof(NicheCandidate) +
          (state.known.capacity() + state.inherited.capacity()) * sizeof(TrialPoint) +
          state.proof.workspace.open.capacity() * sizeof(CertificateWorkspace::OpenPair) +
-         state.proof.front.memoryBytes() + state.search.memoryBytes();
+         state.proof.front.memoryBytes() + state.completeness.memoryBytes() + state.search.memoryBytes();
 }
 
 const TrackerParameters& PairTracker::parameters() const {

@@ -136,7 +136,7 @@ void TrackerState::reportProven(PairSolution& solution) {
   }
   if (proof.swallowed) {
     solution.status = SolveStatus::Penetrating;
-    solution.accuracy = AccuracyLevel::Certified;
+    solution.accuracy = parameters.accuracy;
     solution.surface_distance = solution.distance;
     solution.distance = solution.lower_bound = 0.0;
   }

@@ -34,6 +34,9 @@ void TrackerParameters::validate(const std::string& where) const {
   if (!(least_prominence >= 0.0) || !std::isfinite(least_prominence)) {
     refuse("least_prominence", least_prominence, "0 or more");
   }
+  if (!(prominence_limit >= 0.0)) {
+    refuse("prominence_limit", prominence_limit, "0 or more; infinity measures all below the cutoff");
+  }
   if (!(search_motion >= 0.0) || !std::isfinite(search_motion)) {
     refuse("search_motion", search_motion, "0 or more, in grid edges");
   }

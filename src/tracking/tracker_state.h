@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "concave_distance/distance/certificate.h"
+#include "concave_distance/distance/local_minima.h"
 #include "concave_distance/search/automatic_radii.h"
 #include "concave_distance/search/search_workspace.h"
 #include "concave_distance/tracking/niche_admission.h"
@@ -34,6 +35,21 @@ struct Proof {
   bool seeded = false;              ///< there is a last certificate
   bool current = false;             ///< made with the parameters as they are
   bool swallowed = false;           ///< one body holds a part of the other
+};
+
+/// What level `complete` keeps: the indices of both bodies, built in the first cycle that needs them.
+struct Completeness {
+  std::unique_ptr<MinimaIndex> a;
+  std::unique_ptr<MinimaIndex> b;
+  NormalSides sides = NormalSides::Outside;
+  std::vector<NicheRecord> records;  ///< of the last cycle, as a buffer
+  bool current = false;              ///< the archive is complete at the last pose, as parameters want it
+  bool cut = false;                  ///< and it was cut
+
+  void prepare(const PairGeometry& geometry, NormalSides wanted);
+  std::size_t memoryBytes() const {
+    return (a ? a->memoryBytes() + b->memoryBytes() : 0) + records.capacity() * sizeof(NicheRecord);
+  }
 };
 
 /// What one pair keeps from cycle to cycle, and the stages of a cycle, in the order of update(). Each stage
@@ -75,7 +91,10 @@ struct TrackerState {
                  PairSolution& solution);
   void drownNewborns(const PairObjective& objective, PairSolution& solution);
 
-  // prove_distance.cpp: level `certified`.
+  // complete_niches.cpp: level `complete`.
+  void completeNiches(double displacement, double elapsed, PairSolution& solution);
+
+  // prove_distance.cpp: levels `certified` and `complete`.
   void proveDistance(double displacement, double seconds_left);
   void admitClosest(PairSolution& solution);
   void reportProven(PairSolution& solution);
@@ -127,6 +146,7 @@ struct TrackerState {
   /// again.
   std::uint32_t cycles_at_rest = 0;
   Proof proof;
+  Completeness completeness;
 };
 
 }  // namespace concave_distance

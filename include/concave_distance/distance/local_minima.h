@@ -23,6 +23,10 @@ class MinimaIndex {
   const BodyMesh& body() const { return *body_; }
   const NormalConeTree& cones() const { return cones_; }
   const CompressedRows<AdjacentTriangle>& adjacency() const { return adjacency_; }
+  std::size_t memoryBytes() const {
+    return cones_.memoryBytes() + adjacency_.offsets.capacity() * sizeof(std::uint32_t) +
+           adjacency_.values.capacity() * sizeof(AdjacentTriangle);
+  }
 
  private:
   const BodyMesh* body_;

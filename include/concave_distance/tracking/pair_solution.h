@@ -14,7 +14,11 @@
 namespace concave_distance {
 
 /// How exact an answer is (README.md, "Accuracy").
-enum class AccuracyLevel : std::uint8_t { Nodes, Refined, Certified };
+enum class AccuracyLevel : std::uint8_t { Nodes, Refined, Certified, Complete };
+/// Whether the level proves the distance in every cycle.
+constexpr bool provesDistance(AccuracyLevel level) {
+  return level == AccuracyLevel::Certified || level == AccuracyLevel::Complete;
+}
 std::string_view toString(AccuracyLevel level);
 
 /// What became of a solve; a solve never throws.

@@ -12,11 +12,11 @@ namespace concave_distance {
 /// How one pair is solved and followed. Lengths in metres.
 struct TrackerParameters {
   AccuracyLevel accuracy = AccuracyLevel::Refined;
-  /// Of level `certified`: how far below the distance the proven bound may stay; the larger of the two
-  /// counts.
+  /// Of levels `certified` and `complete`: how far below the distance the proven bound may stay; the larger
+  /// of the two counts.
   double absolute_tolerance = 0.0;
   double relative_tolerance = 0.0;  ///< of the distance
-  /// Of level `certified`: seconds from the start of a cycle after which the proof stops with what it has.
+  /// Of the same levels: seconds from the start of a cycle after which the proof stops with what it has.
   /// The search for niches comes before and is not cut short.
   double time_budget = std::numeric_limits<double>::infinity();
   GeneticParameters cold;            ///< first cycle, service calls, after a reset
@@ -37,6 +37,9 @@ struct TrackerParameters {
   std::uint32_t search_interval = 4;
   bool extrapolate = true;         ///< start from where the relative velocity has carried the witnesses
   double least_prominence = 1e-2;  ///< niches with less are merged into their deeper neighbour
+  /// Of level `complete`: prominences are measured up to this; higher ones are not computed, which is what
+  /// most of their price would be.
+  double prominence_limit = 5e-2;
   double cutoff = std::numeric_limits<double>::infinity();  ///< niches farther than this are not reported
   std::uint32_t largest_niche_count = 64;                   ///< of the report; a cut is always reported
   bool niches_wanted = true;                                ///< false: only the distance is asked for

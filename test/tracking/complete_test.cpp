@@ -1,0 +1,148 @@
+// Level `complete`: every niche there is, in every cycle, with identities that persist.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "concave_distance/distance/enumeration.h"
+#include "concave_distance/distance/local_minima.h"
+#include "concave_distance/tracking/pair_tracker.h"
+#include "support/body_pairs.h"
+#include "support/thesis_scenes.h"
+
+namespace concave_distance {
+namespace {
+
+using Body = std::shared_ptr<const BodyMesh>;
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+TrackerParameters complete() {
+  TrackerParameters parameters;
+  parameters.accuracy = AccuracyLevel::Complete;
+  parameters.largest_niche_count = 1000;
+  return parameters;
+}
+
+const Body& comb() {
+  static const Body kComb = std::make_shared<BodyMesh>("comb", test::makeComb(5), BodyMeshOptions());
+  return kComb;
+}
+
+// The teeth of one comb in the other's gaps, swaying within the clearance.
+Isometry3d swaying(double t) {
+  Isometry3d pose(Eigen::AngleAxisd(M_PI + 0.004 * std::sin(4.0 * t), Vector3d::UnitZ()));
+  pose.translation() =
+      Vector3d(1.225 + 0.008 * std::sin(6.0 * t), 0.7 + 0.15 * std::sin(3.0 * t), 0.02 * std::sin(3.0 * t));
+  return pose;
+}
+
+void expectEveryNiche(const Body& a, const Body& b, const Isometry3d& pose, const PairSolution& solution,
+                      double cutoff) {
+  LocalMinimaRequest request;
+  request.cutoff = cutoff;
+  const LocalMinima truth = findLocalMinima(MinimaIndex(*a, NormalSides::Outside),
+                                            MinimaIndex(*b, NormalSides::Outside), pose, request);
+  ASSERT_EQ(solution.niches.size(), truth.niches.size());
+  for (std::size_t i = 0; i < truth.niches.size(); ++i) {
+    EXPECT_NEAR(solution.niches[i].distance, truth.niches[i].distance, 1e-12);
+    EXPECT_EQ(solution.niches[i].outward, truth.niches[i].outward);
+    EXPECT_TRUE(solution.niches[i].proven_local_minimum);
+  }
+}
+
+TEST(CompleteLevel, ListsEveryNicheAlongAMotionAndKeepsTheBooksOfTheirIds) {
+  TrackerParameters parameters = complete();
+  parameters.cutoff = 0.3;
+  PairTracker tracker("combs", comb(), comb(), parameters);
+  PairSolution solution;
+  std::set<std::uint64_t> alive;
+  std::set<std::uint64_t> dead;
+  for (int k = 0; k < 100; ++k) {
+    SCOPED_TRACE("instant " + std::to_string(k));
+    const Isometry3d pose = swaying(0.01 * k);
+    tracker.update(pose, 0.01 * k, solution);
+    EXPECT_EQ(solution.status, SolveStatus::Ok);
+    EXPECT_EQ(solution.accuracy, AccuracyLevel::Complete);
+    expectEveryNiche(comb(), comb(), pose, solution, parameters.cutoff);
+    for (const NicheEvent& event : solution.events) {
+      if (event.kind == NicheEvent::Kind::Birth) {
+        EXPECT_TRUE(alive.insert(event.id).second);
+        EXPECT_EQ(dead.count(event.id), 0U) << "an id came back";
+      } else {
+        EXPECT_EQ(alive.erase(event.id), 1U);
+        dead.insert(event.id);
+      }
+    }
+    std::set<std::uint64_t> listed;
+    for (const TrackedNiche& niche : solution.niches) listed.insert(niche.id);
+    EXPECT_EQ(listed, alive);
+    const double exact = std::sqrt(enumerateTrianglePairs(*comb(), *comb(), pose).squared_distance);
+    EXPECT_NEAR(solution.distance, exact, 1e-13);
+    EXPECT_LE(solution.lower_bound, exact);
+    EXPECT_GE(solution.lower_bound, exact - 1e-12);
+  }
+  EXPECT_LE(alive.size() + dead.size(), 60U) << "niches in small motions are not new every time";
+}
+
+TEST(CompleteLevel, KeepsEveryIdOfNichesThatLiveOn) {
+  // The battery is lowered by a millimetre in forty steps: its nine niches are the same all the way.
+  const test::ThesisScene s = test::loadThesisScene("battery_static", 0.5);
+  PairTracker tracker("battery", s.a, s.b, complete());
+  PairSolution solution;
+  tracker.update(s.a_from_b, 0.0, solution);
+  ASSERT_EQ(solution.niches.size(), 9U);
+  EXPECT_EQ(solution.events.size(), 9U);
+  std::vector<std::uint64_t> ids;
+  for (const TrackedNiche& niche : solution.niches) ids.push_back(niche.id);
+  for (int k = 1; k <= 40; ++k) {
+    Isometry3d pose = s.a_from_b;
+    pose.translation().z() -= 2.5e-5 * k;
+    tracker.update(pose, 0.1 * k, solution);
+    ASSERT_EQ(solution.niches.size(), 9U);
+    EXPECT_TRUE(solution.events.empty());
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+      EXPECT_EQ(solution.niches[i].id, ids[i]);
+      EXPECT_LE(std::abs(solution.niches[i].closing_speed), 2.5e-4 * (1.0 + 1e-6));
+    }
+  }
+  // At rest nothing is looked for, and nothing changes.
+  Isometry3d pose = s.a_from_b;
+  pose.translation().z() -= 1e-3;
+  tracker.update(pose, 5.0, solution);
+  ASSERT_EQ(solution.niches.size(), 9U);
+  EXPECT_TRUE(solution.events.empty());
+  EXPECT_EQ(solution.niches.front().closing_speed, 0.0);
+}
+
+TEST(CompleteLevel, SaysPenetratingWhereBodiesMeetOrSwallowEachOther) {
+  const Body big = test::makeBody(test::makeCuboid(Vector3d(-1, -1, -1), Vector3d(1, 1, 1)));
+  const Body small = test::makeBody(test::makeCuboid(Vector3d(-0.1, -0.1, -0.1), Vector3d(0.1, 0.1, 0.1)));
+  const PairSolution meeting =
+      solveOnce("pair", big, small, complete(), test::translation(Vector3d(1, 0, 0)));
+  EXPECT_EQ(meeting.status, SolveStatus::Penetrating);
+  EXPECT_EQ(meeting.distance, 0.0);
+  ASSERT_FALSE(meeting.niches.empty());
+  EXPECT_EQ(meeting.niches.front().distance, 0.0);
+  const PairSolution inside =
+      solveOnce("pair", big, small, complete(), test::translation(Vector3d(0.5, 0, 0)));
+  EXPECT_EQ(inside.status, SolveStatus::Penetrating);
+  EXPECT_NEAR(inside.surface_distance, 0.4, 1e-12);
+  EXPECT_TRUE(inside.niches.empty());
+}
+
+TEST(CompleteLevel, ReportsACut) {
+  TrackerParameters parameters = complete();
+  parameters.largest_niche_count = 3;
+  PairTracker tracker("combs", comb(), comb(), parameters);
+  PairSolution solution;
+  for (int k = 0; k < 3; ++k) {
+    tracker.update(swaying(0.0), 0.1 * k, solution);
+    EXPECT_EQ(solution.niches.size(), 3U);
+    EXPECT_TRUE(solution.niches_cut);
+  }
+}
+
+}  // namespace
+}  // namespace concave_distance
