@@ -22,18 +22,17 @@ AccuracyLevel accuracyOf(const std::string& name) {
   if (name == "nodes") return AccuracyLevel::Nodes;
   if (name == "refined") return AccuracyLevel::Refined;
   if (name == "certified") return AccuracyLevel::Certified;
-  if (name == "complete") {
-    throw CLI::ValidationError("--accuracy",
-                               name + " is not among this version's levels: nodes, refined, certified");
-  }
-  throw CLI::ValidationError("--accuracy", "'" + name + "' is none of the levels: nodes, refined, certified");
+  if (name == "complete") return AccuracyLevel::Complete;
+  throw CLI::ValidationError("--accuracy",
+                             "'" + name + "' is none of the levels: nodes, refined, certified, complete");
 }
 
 /// Stopping early only means something where a bound is proven.
 void refuseOnUnprovenLevels(const CLI::App& app, const char* option, const CommandLine& line) {
-  if (app.count(option) == 0 || line.options.accuracy == AccuracyLevel::Certified) return;
-  throw CLI::ValidationError(option, "stops a proof early, and --accuracy " + line.accuracy +
-                                         " proves no bound; leave it out or ask for --accuracy certified");
+  if (app.count(option) == 0 || concave_distance::provesDistance(line.options.accuracy)) return;
+  throw CLI::ValidationError(
+      option, "stops a proof early, and --accuracy " + line.accuracy +
+                  " proves no bound; leave it out or ask for --accuracy certified or complete");
 }
 
 void addOptions(CLI::App& app, CommandLine& line) {
@@ -53,19 +52,33 @@ void addOptions(CLI::App& app, CommandLine& line) {
   app.add_option(
          "--accuracy", line.accuracy,
          "nodes: between the nodes of the search grids; refined: exact local minima over the triangles; "
-         "certified: the distance with a proof")
+         "certified: the distance with a proof; complete: every niche below the cutoff, with a proof")
       ->capture_default_str()
       ->type_name("LEVEL");
   app.add_option("--cutoff", options.cutoff, "niches farther than this are not listed, metres")
       ->check(CLI::PositiveNumber);
+  app.add_option("--least-prominence", options.least_prominence,
+                 "niches with less are part of their deeper neighbour")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  app.add_option(
+         "--prominence-limit", options.prominence_limit,
+         "complete: prominences are measured up to this (inf: all below the cutoff, which takes long)")
+      ->check([](const std::string& text) -> std::string {
+        double value = 0.0;
+        const bool fits = CLI::detail::lexical_cast(text, value) && value >= 0.0;
+        return fits ? "" : "'" + text + "' is no number from 0, nor inf";
+      })
+      ->capture_default_str();
   app.add_option("--tolerance", options.absolute_tolerance,
-                 "certified: the proven lower bound may stay this far below the distance, metres")
+                 "certified, complete: the proven lower bound may stay this far below the distance, metres")
       ->check(CLI::NonNegativeNumber);
   app.add_option("--relative-tolerance", options.relative_tolerance,
                  "the same as a share of the distance; the larger of the two counts")
       ->check(CLI::Range(0.0, 1.0));
   app.add_option("--time-budget", options.time_budget,
-                 "certified: seconds from the start of a query after which the proof stops with what it has")
+                 "certified, complete: seconds from the start of a query after which the proof stops with "
+                 "what it has")
       ->check(CLI::PositiveNumber);
   app.add_option("--max-edge", options.max_edge_length,
                  "longest edge of the search grids, metres (automatic)")
@@ -79,8 +92,10 @@ void addOptions(CLI::App& app, CommandLine& line) {
          "index,distance,lower_bound,ax,ay,az,bx,by,bz,niche_count,status,time_us,triangle_a,triangle_b")
       ->required()
       ->type_name("FILE");
-  app.add_option("--niches-output", options.niches_output,
-                 "index,niche,distance,ax,ay,az,bx,by,bz; without it no niches are computed")
+  app.add_option(
+         "--niches-output", options.niches_output,
+         "index,niche,distance,ax,ay,az,bx,by,bz,kind,extent,outward,visible,prominence; without it no "
+         "niches are computed")
       ->type_name("FILE");
 }
 

@@ -43,12 +43,15 @@ class Solver {
     parameters_.absolute_tolerance = options.absolute_tolerance;
     parameters_.relative_tolerance = options.relative_tolerance;
     parameters_.time_budget = options.time_budget;
+    parameters_.least_prominence = options.least_prominence;
+    parameters_.prominence_limit = options.prominence_limit;
     parameters_.cutoff = options.cutoff;
     parameters_.largest_niche_count = kLargestNicheCount;
     parameters_.niches_wanted = !options.niches_output.empty();
     parameters_.seed = options.seed;
-    // A proof alone draws nothing from the random streams: a reset makes it cold, and buffers are kept.
-    resets_ = !options.tracking && options.accuracy == AccuracyLevel::Certified && !parameters_.niches_wanted;
+    // What is proven draws nothing from the random streams: a reset makes it cold, and buffers are kept.
+    resets_ = !options.tracking && (options.accuracy == AccuracyLevel::Complete ||
+                                    (provesDistance(options.accuracy) && !parameters_.niches_wanted));
     if (options.tracking || resets_) tracker_ = std::make_unique<PairTracker>(kPairName, a_, b_, parameters_);
   }
 
@@ -105,8 +108,8 @@ void runDistanceQuery(const DistanceQueryOptions& options, std::ostream& log) {
       cut_lists += solution.niches_cut ? 1 : 0;
       std::uint64_t rank = 0;
       for (const TrackedNiche& niche : solution.niches) {
-        niches->write(index, options.tracking ? niche.id : rank, niche.distance, niche.point_a_in_a,
-                      niche.point_b_in_a);
+        niches->write(index, options.tracking ? niche.id : rank, niche,
+                      options.accuracy != AccuracyLevel::Nodes);
         ++rank;
       }
     }

@@ -17,9 +17,11 @@ struct DistanceQueryOptions {
   double scale_a = 1.0;
   double scale_b = 1.0;
   AccuracyLevel accuracy = AccuracyLevel::Refined;
-  double cutoff = std::numeric_limits<double>::infinity();       ///< metres; of the niches
-  double absolute_tolerance = 0.0;                               ///< metres; of level `certified`
-  double relative_tolerance = 0.0;                               ///< of the distance; of level `certified`
+  double cutoff = std::numeric_limits<double>::infinity();  ///< metres; of the niches
+  double absolute_tolerance = 0.0;                          ///< metres; of level `certified`
+  double relative_tolerance = 0.0;                          ///< of the distance; of level `certified`
+  double least_prominence = 1e-2;
+  double prominence_limit = 5e-2;                                ///< of level `complete`
   double time_budget = std::numeric_limits<double>::infinity();  ///< seconds a query; of level `certified`
   std::optional<double> max_edge_length;                         ///< metres; grid of the search, both bodies
   bool tracking = false;

@@ -38,6 +38,30 @@ void writePoint(std::ofstream& stream, const Eigen::Vector3d& point) {
   writeCell(stream, point.z());
 }
 
+const char* kindName(NicheKind kind) {
+  switch (kind) {
+    case NicheKind::Point:
+      return "point";
+    case NicheKind::Segment:
+      return "segment";
+    case NicheKind::Patch:
+      return "patch";
+  }
+  return "";
+}
+
+const char* outwardName(Outwardness outward) {
+  switch (outward) {
+    case Outwardness::Outward:
+      return "outward";
+    case Outwardness::ThroughMaterial:
+      return "through_material";
+    case Outwardness::Unknown:
+      return "unknown";
+  }
+  return "";
+}
+
 }  // namespace
 
 AnswerWriter::AnswerWriter(const std::string& path) : path_(path), stream_(opened(path)) {
@@ -67,15 +91,22 @@ void AnswerWriter::finish() {
 }
 
 NicheWriter::NicheWriter(const std::string& path) : path_(path), stream_(opened(path)) {
-  stream_ << "index,niche,distance,ax,ay,az,bx,by,bz\n";
+  stream_ << "index,niche,distance,ax,ay,az,bx,by,bz,kind,extent,outward,visible,prominence\n";
 }
 
-void NicheWriter::write(std::size_t index, std::uint64_t niche, double distance,
-                        const Eigen::Vector3d& point_a_in_a, const Eigen::Vector3d& point_b_in_a) {
-  stream_ << index << ',' << niche;
-  writeCell(stream_, distance);
-  writePoint(stream_, point_a_in_a);
-  writePoint(stream_, point_b_in_a);
+void NicheWriter::write(std::size_t index, std::uint64_t number, const TrackedNiche& niche, bool described) {
+  stream_ << index << ',' << number;
+  writeCell(stream_, niche.distance);
+  writePoint(stream_, niche.point_a_in_a);
+  writePoint(stream_, niche.point_b_in_a);
+  if (!described) {
+    stream_ << ",,,,,\n";
+    return;
+  }
+  stream_ << ',' << kindName(niche.kind);
+  writeCell(stream_, niche.extent);
+  stream_ << ',' << outwardName(niche.outward) << ',' << (niche.visible ? 1 : 0);
+  writeCell(stream_, niche.prominence);
   stream_ << '\n';
 }
 

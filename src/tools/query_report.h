@@ -9,6 +9,7 @@
 #include <string>
 
 #include "concave_distance/distance/certificate.h"
+#include "concave_distance/tracking/pair_solution.h"
 
 namespace concave_distance::tools {
 
@@ -40,8 +41,9 @@ class AnswerWriter {
 class NicheWriter {
  public:
   explicit NicheWriter(const std::string& path);  ///< @throws Error when the file cannot be written
-  void write(std::size_t index, std::uint64_t niche, double distance, const Eigen::Vector3d& point_a_in_a,
-             const Eigen::Vector3d& point_b_in_a);
+  /// @param number the niche's persistent id or its rank
+  /// @param described kind, extent, sides and prominence were computed: else their cells stay empty
+  void write(std::size_t index, std::uint64_t number, const TrackedNiche& niche, bool described);
   void finish();  ///< @throws Error when not everything could be written
 
  private:

@@ -249,13 +249,40 @@ TEST_F(DistanceQuery, StopsAProofAtATolerance) {
   }
 }
 
+TEST_F(DistanceQuery, ListsEveryNicheAtLevelComplete) {
+  // Teeth of 0.1 in gaps of 0.15, in the middle: two slits of 0.025 at each tooth between two others, with
+  // walls 0.2 x 0.2 in common.
+  folder_.write("poses.csv",
+                "t,x,y,z,qx,qy,qz,qw\n"
+                "0,0.725,0.6,0,0,0,1,0\n"
+                "1,0.725,0.6,0,0,0,1,0\n");
+  const std::string combs =
+      "--mesh-a comb.stl --mesh-b comb.stl --poses poses.csv --output out.csv --niches-output niches.csv ";
+  for (const std::string tracking : {"", "--tracking "}) {
+    ASSERT_EQ(run(combs + tracking + "--accuracy complete --cutoff 0.03 --prominence-limit inf"), 0) << log();
+    for (const Row& row : answers()) {
+      EXPECT_EQ(row.at("status"), "ok");
+      EXPECT_EQ(row.at("niche_count"), "5");
+      EXPECT_NEAR(number(row, "distance"), 0.025, 1e-7);  // STL has single precision
+      EXPECT_LE(number(row, "lower_bound"), number(row, "distance"));
+      EXPECT_NEAR(number(row, "lower_bound"), number(row, "distance"), 1e-12);
+    }
+    const std::vector<Row> rows = niches();
+    ASSERT_EQ(rows.size(), 10U);
+    for (const Row& row : rows) {
+      EXPECT_EQ(row.at("kind"), "patch");
+      EXPECT_NEAR(number(row, "extent"), std::hypot(0.2, 0.2), 1e-6);
+      EXPECT_EQ(row.at("outward"), "outward");
+      EXPECT_EQ(row.at("visible"), "1");
+      EXPECT_TRUE(row.at("niche") != "0" || tracking.empty());
+    }
+  }
+}
+
 TEST_F(DistanceQuery, RefusesWhatThisVersionCannotDo) {
-  EXPECT_EQ(runBoxes("--accuracy complete"), 2);
-  EXPECT_NE(log().find("complete is not among this version's levels: nodes, refined, certified"),
-            std::string::npos)
-      << log();
   EXPECT_EQ(runBoxes("--accuracy exact"), 2);
-  EXPECT_NE(log().find("'exact' is none of the levels: nodes, refined, certified"), std::string::npos)
+  EXPECT_NE(log().find("'exact' is none of the levels: nodes, refined, certified, complete"),
+            std::string::npos)
       << log();
   for (const std::string option : {"--tolerance", "--relative-tolerance", "--time-budget"}) {
     EXPECT_EQ(runBoxes(option + " 0.001"), 2);

@@ -42,17 +42,29 @@ TEST(AnswerWriter, WritesTheAgreedColumnsAndLeavesEmptyWhatWasNotComputed) {
 
 TEST(NicheWriter, WritesNumbersThatReadBackAsTheSameDouble) {
   const TemporaryFolder folder;
-  const double distance = 0.1 + 0.2;
-  const Eigen::Vector3d a(1.0 / 3.0, 1e-300, -1e22);
+  TrackedNiche niche;
+  niche.distance = 0.1 + 0.2;
+  niche.point_a_in_a = Eigen::Vector3d(1.0 / 3.0, 1e-300, -1e22);
+  niche.point_b_in_a = Eigen::Vector3d(-0.0, 5e-324, 1.7976931348623157e308);
+  niche.kind = NicheKind::Segment;
+  niche.extent = 0.75;
+  niche.outward = Outwardness::Unknown;
+  niche.visible = false;
   NicheWriter writer(folder.path("niches.csv"));
-  writer.write(3, 12345678901234567890ULL, distance, a,
-               Eigen::Vector3d(-0.0, 5e-324, 1.7976931348623157e308));
+  writer.write(3, 12345678901234567890ULL, niche, true);
+  niche.prominence = 0.5;
+  writer.write(4, 1, niche, true);
+  writer.write(5, 2, niche, false);
   writer.finish();
   const std::string text = contentOf(folder.path("niches.csv"));
   EXPECT_EQ(text,
-            "index,niche,distance,ax,ay,az,bx,by,bz\n"
+            "index,niche,distance,ax,ay,az,bx,by,bz,kind,extent,outward,visible,prominence\n"
             "3,12345678901234567890,0.30000000000000004,0.33333333333333331,1e-300,"
-            "-1e+22,-0,4.9406564584124654e-324,1.7976931348623157e+308\n");
+            "-1e+22,-0,4.9406564584124654e-324,1.7976931348623157e+308,segment,0.75,unknown,0,\n"
+            "4,1,0.30000000000000004,0.33333333333333331,1e-300,"
+            "-1e+22,-0,4.9406564584124654e-324,1.7976931348623157e+308,segment,0.75,unknown,0,0.5\n"
+            "5,2,0.30000000000000004,0.33333333333333331,1e-300,"
+            "-1e+22,-0,4.9406564584124654e-324,1.7976931348623157e+308,,,,,\n");
 }
 
 TEST(AnswerWriter, SaysWhereItCannotWrite) {
