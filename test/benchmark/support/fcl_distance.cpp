@@ -49,4 +49,10 @@ FclAnswer fclDistanceSeeded(const FclModel& a, const FclModel& b, const Eigen::I
   return {result.min_distance, result.nearest_points[0], result.nearest_points[1]};
 }
 
+double fclTriangleDistance(const TrianglePoints& a, const TrianglePoints& b) {
+  Eigen::Vector3d point_a;
+  Eigen::Vector3d point_b;
+  return fcl::detail::TriangleDistance<double>::triDistance(a.data(), b.data(), point_a, point_b);
+}
+
 }  // namespace concave_distance::benchmark

@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <memory>
 
+#include "concave_distance/distance/triangle_distance.h"
 #include "concave_distance/mesh/surface_mesh.h"
 
 namespace concave_distance::benchmark {
@@ -24,5 +25,7 @@ FclAnswer fclDistance(const FclModel& a, const FclModel& b, const Eigen::Isometr
 /// The same, begun with the distance of one pair of triangles: the only warm start FCL offers between meshes.
 FclAnswer fclDistanceSeeded(const FclModel& a, const FclModel& b, const Eigen::Isometry3d& a_from_b,
                             TriangleIndex triangle_a, TriangleIndex triangle_b);
+/// Of two triangles, in double precision and as naive as it is fast.
+double fclTriangleDistance(const TrianglePoints& a, const TrianglePoints& b);
 
 }  // namespace concave_distance::benchmark
