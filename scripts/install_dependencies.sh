@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs what the package needs from the distribution's packages, only what is missing.
-#   scripts/install_dependencies.sh [build] [test] [demo] [format] [lint]      (default: build test demo)
+#   scripts/install_dependencies.sh [build] [test] [demo] [plot] [format] [lint]      (default: build test demo)
 # Debian 12 has everything in its main archive. Ubuntu 20.04 needs the ROS Noetic archive set up beforehand.
 set -euo pipefail
 # shellcheck source=scripts/common.sh
@@ -27,6 +27,7 @@ set -euo pipefail
     python3-roslaunch python3-rospy python3-rostopic rosbash rviz ros-robot-state-publisher
     python3-geometry-msgs python3-std-msgs python3-visualization-msgs python3-diagnostic-msgs  # what ours are made of
   )
+  debian_plot=(python3-matplotlib)
   debian_format=(clang-format)
   debian_lint=(clang-format clang-tidy catkin-lint)
 
@@ -44,6 +45,7 @@ set -euo pipefail
     ros-noetic-roslaunch ros-noetic-rospy ros-noetic-rostopic ros-noetic-rosbash ros-noetic-rviz
     ros-noetic-robot-state-publisher
   )
+  noetic_plot=(python3-matplotlib)
   noetic_format=(clang-format)
   noetic_lint=(clang-format clang-tidy)
 }
@@ -64,7 +66,7 @@ groups=("$@")
 wanted=()
 for group in "${groups[@]}"; do
   case "$group" in
-    build | test | demo | format | lint)
+    build | test | demo | plot | format | lint)
       declare -n packages="${family}_${group}"
       wanted+=("${packages[@]}")
       ;;

@@ -15,6 +15,10 @@ SurfaceMesh makeHook(double ring_radius, double wire_radius, double open_share, 
 /// A slab with rows x columns pyramids of seeded heights on it, each a shell of its own: many niches.
 SurfaceMesh makePyramidField(int rows, int columns, double pitch, unsigned seed);
 
+/// A ring about z with bumps, of about so many triangles (a twentieth off at most): for how costs grow with
+/// size.
+SurfaceMesh makeBumpyRing(std::size_t triangles);
+
 /// The surface moved.
 SurfaceMesh moved(const SurfaceMesh& surface, const Eigen::Isometry3d& motion);
 

@@ -1,0 +1,139 @@
+// How costs grow with the size of the meshes: two bumpy rings of 1k, 10k, 100k and 1M triangles each, one
+// passing close by the other.
+//
+//   scale_benchmark [--sizes 1000,10000,100000,1000000] [--steps 200] [--output doc/results/scale.csv]
+//
+// A row is a size: triangles of each body; seconds to make both BodyMesh ready; bytes a triangle of the
+// hierarchy, of its tree and of the whole body; median microseconds of the proven distance cold, seeded and
+// with a front, of FCL's plain distance, and of a warm cycle with all niches at level `certified` (seeded and
+// front along 200 steps of a tenth of a diameter in all); the greatest memory the process has used so far,
+// megabytes.
+#include <sys/resource.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <iostream>
+
+#include "benchmark/support/fcl_distance.h"
+#include "benchmark/support/shapes.h"
+#include "benchmark/support/statistics.h"
+#include "concave_distance/base/error.h"
+#include "concave_distance/distance/certificate.h"
+#include "concave_distance/tracking/pair_tracker.h"
+
+namespace concave_distance::benchmark {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+double peakMegabytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
+Eigen::Isometry3d poseAt(double t) {
+  const double angle = 0.3 + 0.15 * t;
+  Eigen::Isometry3d pose(Eigen::AngleAxisd(angle, Eigen::Vector3d(1.0, 1.0, 0.0).normalized()));
+  pose.translation() = 1.6 * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0.06);
+  return pose;
+}
+
+template <typename Query>
+double medianMicroseconds(int steps, Query query) {
+  std::vector<double> taken;
+  for (int k = 0; k < steps; ++k) {
+    const Eigen::Isometry3d pose = poseAt(static_cast<double>(k) / steps);
+    const Clock::time_point start = Clock::now();
+    query(pose, k);
+    taken.push_back(1e6 * secondsSince(start));
+  }
+  return median(taken);
+}
+
+void run(std::size_t size, int steps, std::ofstream& csv) {
+  const SurfaceMesh surface = makeBumpyRing(size);
+  const Clock::time_point start = Clock::now();
+  const auto a = std::make_shared<const BodyMesh>("a", surface, BodyMeshOptions());
+  const auto b = std::make_shared<const BodyMesh>("b", surface, BodyMeshOptions());
+  const double build = secondsSince(start);
+  const auto triangles = static_cast<double>(surface.triangleCount());
+
+  CertificateWorkspace workspace;
+  TrianglePair closest{};
+  const auto prove = [&](const Eigen::Isometry3d& pose, std::size_t seeds, ProofFront* front) {
+    const DistanceCertificate found =
+        certifyDistance(*a, *b, pose, &closest, seeds, CertificateRequest(), workspace, front);
+    closest = {found.witness.triangle_a, found.witness.triangle_b};
+  };
+  const double cold = medianMicroseconds(steps, [&](const auto& pose, int) { prove(pose, 0, nullptr); });
+  const double seeded =
+      medianMicroseconds(steps, [&](const auto& pose, int k) { prove(pose, k > 0 ? 1 : 0, nullptr); });
+  ProofFront front;
+  const double kept =
+      medianMicroseconds(steps, [&](const auto& pose, int k) { prove(pose, k > 0 ? 1 : 0, &front); });
+  TrackerParameters parameters;
+  parameters.accuracy = AccuracyLevel::Certified;
+  PairTracker tracker("rings", a, b, parameters);
+  PairSolution solution;
+  const double tracked =
+      medianMicroseconds(steps, [&](const auto& pose, int k) { tracker.update(pose, 0.01 * k, solution); });
+  const double peak = peakMegabytes();
+  const std::shared_ptr<FclModel> fcl_model = makeFclModel(surface);
+  const double fcl = medianMicroseconds(
+      steps, [&](const auto& pose, int) { (void)fclDistance(*fcl_model, *fcl_model, pose); });
+
+  const double hierarchy = static_cast<double>(a->hierarchy().memoryBytes()) / triangles;
+  const double tree = static_cast<double>(a->tree().memoryBytes()) / triangles;
+  const double body = static_cast<double>(a->memoryBytes()) / triangles;
+  std::printf("%9zu %8.2f %9.0f %6.0f %8.0f %9.1f %9.1f %9.1f %9.1f %9.1f %8.0f\n", surface.triangleCount(),
+              build, hierarchy, tree, body, fcl, cold, seeded, kept, tracked, peak);
+  std::fflush(stdout);
+  if (csv) {
+    csv << surface.triangleCount() << ',' << build << ',' << hierarchy << ',' << tree << ',' << body << ','
+        << fcl << ',' << cold << ',' << seeded << ',' << kept << ',' << tracked << ',' << peak << '\n';
+  }
+}
+
+int main(int argc, char** argv) {
+  CLI::App app("How costs grow with the number of triangles");
+  std::vector<std::size_t> sizes = {1000, 10000, 100000, 1000000};
+  int steps = 200;
+  std::string output;
+  app.add_option("--sizes", sizes, "Triangles of each body")
+      ->delimiter(',')
+      ->check(CLI::Range(100, 10000000));
+  app.add_option("--steps", steps, "Instants along the motion")->check(CLI::PositiveNumber);
+  app.add_option("--output", output, "CSV file to write");
+  CLI11_PARSE(app, argc, argv);
+  std::ofstream csv;
+  if (!output.empty()) {
+    csv.open(output);
+    csv << "triangles,build_s,hierarchy_bytes,tree_bytes,body_bytes,fcl_us,cold_us,seeded_us,front_us,"
+           "tracked_us,"
+           "peak_mb\n";
+  }
+  std::printf("%9s %8s %9s %6s %8s %9s %9s %9s %9s %9s %8s\n", "triangles", "build s", "hierarchy", "tree",
+              "B/tri", "FCL us", "cold us", "seeded us", "front us", "all us", "peak MB");
+  for (const std::size_t size : sizes) run(size, steps, csv);
+  return 0;
+}
+
+}  // namespace
+}  // namespace concave_distance::benchmark
+
+int main(int argc, char** argv) {
+  try {
+    return concave_distance::benchmark::main(argc, argv);
+  } catch (const concave_distance::Error& error) {
+    std::cerr << error.what() << '\n';
+    return 1;
+  }
+}
