@@ -9,6 +9,11 @@
 
 namespace concave_distance::detail {
 
+/// Orders a heap of open pairs so that the least bound comes first.
+inline bool isFarther(const CertificateWorkspace::OpenPair& l, const CertificateWorkspace::OpenPair& r) {
+  return l.squared_bound > r.squared_bound;
+}
+
 /// One proof: descends into every pair of boxes that could hide a pair of points closer than the best one
 /// known, and keeps, where a front is given, what it has excluded with its bound.
 class BranchAndBound {
