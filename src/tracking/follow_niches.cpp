@@ -13,6 +13,7 @@ void TrackerState::followNiches(double displacement, double elapsed, SearchCost&
   for (std::size_t i = 0; i < records.size();) {
     NicheRecord& record = records[i];
     const double before = record.niche.distance;
+    record.least_distance = before - displacement - rounding;
     record.niche.node_pair = descend(
         objective, objective.evaluate(record.niche.node_pair.node_a, record.niche.node_pair.node_b, cost),
         &search.basins, search.trail, cost);
@@ -26,7 +27,7 @@ void TrackerState::followNiches(double displacement, double elapsed, SearchCost&
     follow(record, elapsed);
     // No surviving minimum can fall by more than any point of B has moved: the basin is gone and the descent
     // has run on into another one.
-    if (record.niche.distance < before - displacement - rounding) {
+    if (record.niche.distance < record.least_distance) {
       candidates.push_back({record.niche.witness, record.niche.node_pair, record.niche.proven_local_minimum,
                             record.reported ? record.niche.id : 0});
       records[i] = records.back();

@@ -149,9 +149,7 @@ AdmissionResult admitCandidate(const NicheCandidate& candidate, const PairGeomet
     archive.records()[shallow].niche.prominence =
         std::min(archive.records()[shallow].niche.prominence, bound);
     if (bound < least) {
-      const std::uint64_t older = std::min(living_id, shallow_id);
-      archive.unite(indexOf(living_id), shallow, events);
-      living_id = older;
+      living_id = archive.unite(indexOf(living_id), shallow, events);
     }
   }
   return {Admission::Born, living_id};

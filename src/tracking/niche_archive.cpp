@@ -65,23 +65,26 @@ void NicheArchive::settle() {
   }
 }
 
-void NicheArchive::unite(std::size_t survivor, std::size_t loser, std::vector<NicheEvent>& events) {
+std::uint64_t NicheArchive::unite(std::size_t survivor, std::size_t loser, std::vector<NicheEvent>& events) {
   NicheRecord& kept = records_[survivor];
   NicheRecord& lost = records_[loser];
   if (lost.niche.distance < kept.niche.distance) {
     std::swap(kept, lost);
   }
   // `kept` has the deeper place; give it the older identity.
-  if (lost.niche.id < kept.niche.id) {
+  if (lost.niche.id < kept.niche.id && (!lost.reported || kept.niche.distance >= lost.least_distance)) {
     std::swap(kept.niche.id, lost.niche.id);
     std::swap(kept.niche.birth_cycle, lost.niche.birth_cycle);
     std::swap(kept.reported, lost.reported);
+    std::swap(kept.least_distance, lost.least_distance);
   }
+  const std::uint64_t living = kept.niche.id;
   if (lost.reported) {
-    events.push_back({NicheEvent::Kind::Merge, lost.niche.id, kept.niche.id});
+    events.push_back({NicheEvent::Kind::Merge, lost.niche.id, living});
   }
   lost = records_.back();
   records_.pop_back();
+  return living;
 }
 
 void NicheArchive::remove(std::size_t i, std::vector<NicheEvent>& events) {

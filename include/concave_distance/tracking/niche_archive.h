@@ -17,6 +17,8 @@ struct NicheRecord {
   std::uint64_t walked = 0;     ///< cycle of the last walk over ripples from here, plus 1; 0: never
   std::uint64_t described = 0;  ///< cycle of the last look at kind and extent, plus 1
   bool reported = false;        ///< users have seen its id: its end is an event
+  /// Nearer than this, metres, its id cannot have come since the last cycle: a deeper place is another niche.
+  double least_distance = 0.0;
 };
 
 /// The niches of one pair, apart from the population: the population is not the memory. Ascending
@@ -46,9 +48,10 @@ class NicheArchive {
   /// Sorts by distance, then by id.
   void settle();
 
-  /// Unites two records: the deeper place, the older id. Reports the younger id's merge if it was known.
+  /// Unites two records: the deeper place, the older id, unless that would make a known niche fall farther
+  /// than it can have moved. Reports the other id's merge if it was known. @return the id that lives on
   /// `loser` is removed by swapping with the last record: references to records are void afterwards.
-  void unite(std::size_t survivor, std::size_t loser, std::vector<NicheEvent>& events);
+  std::uint64_t unite(std::size_t survivor, std::size_t loser, std::vector<NicheEvent>& events);
 
   /// Removes record i, reporting a death if it was known; the last record takes its place.
   void remove(std::size_t i, std::vector<NicheEvent>& events);

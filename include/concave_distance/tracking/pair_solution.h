@@ -58,7 +58,7 @@ struct NicheEvent {
   enum class Kind : std::uint8_t { Birth, Death, Merge };
   Kind kind;
   std::uint64_t id;
-  std::uint64_t into_id;  ///< of a merge: the older niche that lives on
+  std::uint64_t into_id;  ///< of a merge: the niche that lives on
 };
 
 /// One pair's answer at one time. Not-computed numbers are NaN, never 0 or a sentinel.
