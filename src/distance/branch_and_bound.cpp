@@ -107,8 +107,12 @@ TrianglePairDistance BranchAndBound::measure(const TrianglePoints& a, const Tria
   closest_ = found;
   triangle_a_ = triangle_a;
   triangle_b_ = triangle_b;
-  squared_distance_ = found.squared_distance;
-  distance_ = std::sqrt(squared_distance_);
+  distance_ = std::sqrt(found.squared_distance);
+  if (distance_ <= kTriangleDistanceError * scale_.scale) {  // nearer than the kernel tells from touching
+    closest_.point_b = closest_.point_a;
+    closest_.squared_distance = distance_ = 0.0;
+  }
+  squared_distance_ = closest_.squared_distance;
   if (distance_ > 0.0) {
     direction_ = (found.point_b - found.point_a) / distance_;
     direction_in_b_ = turned_ * direction_;

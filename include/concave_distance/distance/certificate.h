@@ -24,7 +24,7 @@ enum class CertificateStatus : std::uint8_t {
   Proven,      ///< lower_bound = distance - E, rounded down, not below 0
   Tolerance,   ///< lower_bound is within the tolerance asked for
   Budget,      ///< the time was up first; lower_bound still holds
-  Penetrating  ///< the surfaces meet: distance 0, witness names the triangles
+  Penetrating  ///< the surfaces meet, up to the kernel's error: distance 0, witness names the triangles
 };
 std::string_view toString(CertificateStatus status);
 
