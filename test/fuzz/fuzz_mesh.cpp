@@ -1,0 +1,48 @@
+// Any bytes as a mesh file: they are read, or refused by an Error that names the file; what is read can be
+// repaired and queried. The first byte chooses the format.
+#include <array>
+#include <cmath>
+
+#include "concave_distance/base/error.h"
+#include "concave_distance/distance/certificate.h"
+#include "concave_distance/mesh/import_mesh.h"
+#include "concave_distance/mesh/repair_mesh.h"
+#include "fuzz/fuzz_input.h"
+
+namespace {
+
+using namespace concave_distance;
+
+constexpr std::size_t kMostTriangles = 60;
+
+void query(const std::shared_ptr<const BodyMesh>& body) {
+  CertificateWorkspace workspace;
+  const DistanceCertificate found =
+      certifyDistance(*body, *body, Eigen::Isometry3d(Eigen::Translation3d(2.0 * body->diameter(), 0, 0)),
+                      nullptr, 0, CertificateRequest(), workspace);
+  // Two equal bodies twice their diameter apart: somewhere between one diameter and two.
+  const double diameter = body->diameter();
+  if (!(found.distance >= 0.99 * diameter && found.distance <= 2.01 * diameter)) test::broken("distance");
+  if (!(found.lower_bound <= found.distance)) test::broken("lower_bound <= distance");
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size < 2) return 0;
+  constexpr std::array<const char*, 4> kFormats = {"mesh.stl", "mesh.obj", "mesh.ply", "mesh.dae"};
+  const std::string path =
+      test::fuzzFolder().write(kFormats[data[0] % kFormats.size()], test::textOf(data + 1, size - 1));
+  try {
+    RepairOptions repair;
+    repair.weld_tolerance = kSinglePrecisionWeld;
+    RepairedMesh repaired = repairMesh(importMesh(path), repair, path);
+    if (repaired.mesh.triangleCount() > kMostTriangles) return 0;
+    BodyMeshOptions options;
+    options.max_edge_length = 0.5 * repaired.mesh.diameter();
+    query(std::make_shared<const BodyMesh>("fuzz", std::move(repaired.mesh), options));
+  } catch (const Error& error) {
+    if (error.where().empty() || error.remedy().empty()) test::broken("an Error says where and what to do");
+  }
+  return 0;
+}

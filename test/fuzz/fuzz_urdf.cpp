@@ -1,0 +1,19 @@
+// Any text as a robot description: a scene, perhaps with problems, or an Error.
+#include "concave_distance/base/error.h"
+#include "concave_distance/scene/load_scene.h"
+#include "fuzz/fuzz_input.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace concave_distance;
+  try {
+    SceneLoadOptions options;
+    const Scene scene = loadRobotScene(test::textOf(data, size), "fuzz", options);
+    for (const ScenePair& pair : scene.pairs) {
+      if (pair.body_a >= scene.bodies.size() || pair.body_b >= scene.bodies.size())
+        test::broken("pairs of bodies");
+    }
+  } catch (const Error& error) {
+    if (error.remedy().empty()) test::broken("an Error says what to do");
+  }
+  return 0;
+}
