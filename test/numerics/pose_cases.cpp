@@ -88,6 +88,7 @@ std::vector<NumericCase> poseCases() {
     pose.quaternion *= norm;
     add("QuaternionOfNorm" + std::to_string(cases.size()), comb, hook, pose);
   }
+  for (NumericCase& numeric_case : cases) numeric_case.coarse_grid = true;
   return cases;
 }
 

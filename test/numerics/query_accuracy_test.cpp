@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <map>
 #include <string>
 #include <tuple>
 
@@ -20,7 +21,7 @@ namespace {
 using test::NumericCase;
 using test::Relation;
 
-const AccuracyLevel kLevels[] = {AccuracyLevel::Refined};
+const AccuracyLevel kLevels[] = {AccuracyLevel::Refined, AccuracyLevel::Certified};
 
 std::shared_ptr<const BodyMesh> bodyOf(const NumericCase& numeric_case, const SurfaceMesh& surface) {
   BodyMeshOptions options;
@@ -34,15 +35,18 @@ struct Solved {
   PairSolution warm;
   double truth;  ///< distance of the surfaces, metres
   test::Wide wide_truth;
-  double bound;  ///< metres
+  double bound;        ///< metres
+  double proof_error;  ///< E of certificate.h, metres
 };
 
 Solved solve(const NumericCase& numeric_case, AccuracyLevel level) {
   TrackerParameters parameters;
   parameters.accuracy = level;
-  PairTracker tracker(numeric_case.name, bodyOf(numeric_case, numeric_case.a),
-                      bodyOf(numeric_case, numeric_case.b), parameters);
+  const auto a = bodyOf(numeric_case, numeric_case.a);
+  const auto b = bodyOf(numeric_case, numeric_case.b);
+  PairTracker tracker(numeric_case.name, a, b, parameters);
   Solved solved;
+  solved.proof_error = kProofError * proofScale(*a, *b, numeric_case.b_in_a.isometry());
   tracker.update(numeric_case.b_in_a.isometry(), 0.0, solved.cold);
   tracker.update(numeric_case.b_in_a.isometry(), 0.1, solved.warm);
   solved.wide_truth = test::exactSurfaceDistance(numeric_case.a, numeric_case.b, numeric_case.b_in_a);
@@ -52,11 +56,48 @@ Solved solve(const NumericCase& numeric_case, AccuracyLevel level) {
   return solved;
 }
 
+/// Worst errors by suite, printed at the end: what doc/numerics.md keeps. In machine epsilons of the scales.
+class WorstErrors : public testing::Environment {
+ public:
+  static void note(const std::string& suite, const NumericCase& numeric_case, double error,
+                   const Solved& solved) {
+    constexpr double kEpsilon = 0x1.0p-52;
+    const Eigen::Vector3d& shift = numeric_case.b_in_a.translation;
+    const double scale = test::localScale(numeric_case.a, numeric_case.b, solved.truth) +
+                         0.25 * test::poseScale(numeric_case.a, numeric_case.b, shift);
+    Worst& worst = all()[suite];
+    if (error / (kEpsilon * scale) >= worst.error) worst = {error / (kEpsilon * scale), numeric_case.name};
+  }
+  void TearDown() override {
+    for (const auto& [suite, worst] : all()) {
+      std::cout << "worst: " << suite << ' ' << worst.error << " (" << worst.name << ")\n";
+    }
+  }
+
+ private:
+  struct Worst {
+    double error = 0.0;
+    std::string name;
+  };
+  static std::map<std::string, Worst>& all() {
+    static std::map<std::string, Worst> worst;
+    return worst;
+  }
+};
+
+const testing::Environment* const kWorstErrors = testing::AddGlobalTestEnvironment(new WorstErrors);
+
+std::string suiteName() {
+  return testing::UnitTest::GetInstance()->current_test_info()->test_suite_name();
+}
+
 void expectTheTruth(const NumericCase& numeric_case, const PairSolution& solution, const Solved& solved) {
   const double surfaces =
       numeric_case.relation == Relation::Swallowed ? solution.surface_distance : solution.distance;
   const double error =
       static_cast<double>(boost::multiprecision::abs(solved.wide_truth - test::Wide(surfaces)));
+  WorstErrors::note(suiteName() + "/" + std::string(toString(solution.accuracy)), numeric_case, error,
+                    solved);
   EXPECT_LE(error, solved.bound) << "reported " << surfaces << ", true " << solved.truth;
   // Nearer than the bound nothing tells apart from touching.
   switch (numeric_case.relation) {
@@ -93,6 +134,9 @@ void expectBounds(const PairSolution& solution, const Solved& solved) {
     EXPECT_TRUE(niche.proven_local_minimum);
     EXPECT_TRUE(niche.point_a_in_a.allFinite() && niche.point_b_in_a.allFinite());
   }
+  if (solution.accuracy < AccuracyLevel::Certified) return;
+  EXPECT_LE(test::Wide(solution.lower_bound), solved.wide_truth);
+  EXPECT_GE(solution.lower_bound, solution.distance - 1.01 * solved.proof_error - solved.bound);
 }
 
 class HardCase : public testing::TestWithParam<std::tuple<NumericCase, AccuracyLevel>> {};
