@@ -2,7 +2,7 @@
 // `complete` costs.
 //
 //   complete_benchmark [--pairs ...] [--steps 200] [--windows 4] [--window 10] [--cold-runs 20]
-//                      [--list-misses] [--output doc/results/complete.csv]
+//                      [--list-misses 0] [--output doc/results/complete.csv]
 //
 // A pair is tracked at every instant of its motion; in windows of consecutive instants, spread evenly, every
 // outward niche of prominence >= 1e-2 is found by findLocalMinima(), with a cutoff of 5 times the distance or
@@ -45,7 +45,7 @@ struct Options {
   int windows = 4;
   int window = 10;
   int cold_runs = 20;
-  bool list_misses = false;
+  std::size_t list_misses = 0;
 };
 
 double millisecondsSince(std::chrono::steady_clock::time_point start) {
@@ -63,6 +63,15 @@ struct Shares {
   double none = 0.0;
 };
 
+/// A niche that cold solves missed.
+struct Miss {
+  int instant;
+  int times;
+  double share_of_cutoff;
+  LocalMinimum niche;
+  const char* reason;  ///< of the first time
+};
+
 struct Tally {
   Shares tracked;
   Shares cold;
@@ -76,6 +85,7 @@ struct Tally {
   int missed_met = 0;
   int missed_unmet = 0;
   std::uint64_t met_by_flood = 0;
+  std::vector<Miss> misses;
 };
 
 TrackerParameters searchParameters() {
@@ -199,21 +209,19 @@ class Comparison {
         const bool met = std::find(missed_.begin(), missed_.end(), i) == missed_.end();
         const bool by_grid = led_to.count(i) != 0;
         ++(met ? tally_.missed_met : by_grid ? tally_.missed_unmet : tally_.missed_grid);
-        if (!options_.list_misses) continue;
-        const LocalMinimum& niche = truth.niches[i];
-        std::printf(
-            "  missed at instant %d, run %d: distance %.6f (%.2f of the cutoff), prominence %s%.4f, "
-            "%s, %s\n",
-            instant, run, niche.distance, niche.distance / cutoff, std::isinf(niche.prominence) ? ">= " : "",
-            std::isinf(niche.prominence) ? 5e-2 : niche.prominence,
-            niche.kind == NicheKind::Point     ? "point"
-            : niche.kind == NicheKind::Segment ? "segment"
-                                               : "patch",
-            met       ? "met"
-            : by_grid ? "unmet"
-                      : "grid");
+        remember(instant, cutoff, truth.niches[i], met ? "met" : by_grid ? "unmet" : "grid");
       }
     }
+  }
+
+  void remember(int instant, double cutoff, const LocalMinimum& niche, const char* reason) {
+    for (Miss& miss : tally_.misses) {
+      if (miss.instant == instant && std::abs(miss.niche.distance - niche.distance) < 1e-12) {
+        ++miss.times;
+        return;
+      }
+    }
+    tally_.misses.push_back({instant, 1, niche.distance / cutoff, niche, reason});
   }
 
   /// The true niches that refinements of the grids' own local minima end in.
@@ -237,6 +245,21 @@ class Comparison {
   std::vector<std::size_t> missed_;  ///< of the last comparison
 };
 
+void list(std::vector<Miss> misses, std::size_t count) {
+  std::sort(misses.begin(), misses.end(),
+            [](const Miss& l, const Miss& r) { return l.niche.prominence > r.niche.prominence; });
+  for (std::size_t i = 0; i < std::min(count, misses.size()); ++i) {
+    const LocalMinimum& niche = misses[i].niche;
+    const bool measured = std::isfinite(niche.prominence);
+    const char* kind = niche.kind == NicheKind::Point     ? "point"
+                       : niche.kind == NicheKind::Segment ? "segment"
+                                                          : "patch";
+    std::printf("    instant %3d, %d times: distance %.6f (%.2f of the cutoff), prominence %s%.4f, %s, %s\n",
+                misses[i].instant, misses[i].times, niche.distance, misses[i].share_of_cutoff,
+                measured ? "" : ">= ", measured ? niche.prominence : 5e-2, kind, misses[i].reason);
+  }
+}
+
 double share(double part, double whole) {
   return whole > 0.0 ? part / whole : 1.0;
 }
@@ -251,7 +274,8 @@ int main(int argc, char** argv) {
   app.add_option("--windows", options.windows, "Windows that are observed")->check(CLI::PositiveNumber);
   app.add_option("--window", options.window, "Instants of each")->check(CLI::PositiveNumber);
   app.add_option("--cold-runs", options.cold_runs, "Cold solves of each pair")->check(CLI::PositiveNumber);
-  app.add_flag("--list-misses", options.list_misses, "List what the cold solves missed");
+  app.add_option("--list-misses", options.list_misses,
+                 "Of what the cold solves missed, list the most prominent");
   app.add_option("--output", output, "CSV file to write");
   CLI11_PARSE(app, argc, argv);
 
@@ -287,6 +311,7 @@ int main(int argc, char** argv) {
         name.c_str(), values[0], values[1], values[2], values[3], values[4], values[5], values[6], values[7],
         t.missed_grid, t.missed_met, t.missed_unmet, t.index_ms, mean(t.complete_ms), longest,
         mean(t.cold_ms), mean(t.cycle_ms));
+    list(t.misses, options.list_misses);
     std::fflush(stdout);
     if (csv) {
       csv << name << ',' << pair.a->surface().triangleCount() << ',' << pair.b->surface().triangleCount()
