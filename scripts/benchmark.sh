@@ -12,7 +12,7 @@ case $size in
   *) echo "usage: scripts/benchmark.sh [quick|full]" >&2; exit 2 ;;
 esac
 program() { find "$root/build" -type f -perm -u+x -name "$1" | head -n 1; }
-for name in tracking battery recall radii ablation certificate scale exactness; do
+for name in tracking battery recall radii ablation certificate scale exactness complete; do
   [ -n "$(program "${name}_benchmark")" ] || { echo "${name}_benchmark is not built: run scripts/build.sh" >&2; exit 1; }
 done
 results=$root/doc/results
@@ -27,4 +27,6 @@ mkdir -p "$results"
   --output "$results/ablation.csv" | tee "$results/ablation.txt"
 "$(program certificate_benchmark)" --output "$results/certificate.csv" | tee "$results/certificate.txt"
 "$(program scale_benchmark)" --sizes "$sizes" --output "$results/scale.csv" | tee "$results/scale.txt"
+"$(program complete_benchmark)" --steps "$steps" --window "$window" --list-misses 8 --cold-runs 12 \
+  --output "$results/complete.csv" | tee "$results/complete.txt"
 "$(program exactness_benchmark)" --poses "$proof_poses" --output "$results/exactness.csv" | tee "$results/exactness.txt"

@@ -15,9 +15,10 @@
 //   double   share that lie in a true niche which another reported one is nearer to the bottom of
 //   false    share that belong to no outward niche of the list at all
 //   complete, cold, cycle: milliseconds, means; one thread. Complete leaves out the indices, built once.
-// Reasons for what the cold solves missed, by trying the niche with everything else switched off: `grid`, no
-// local minimum of the grids leads to it; `met`, the search meets it and its admission unites it with another
-// (it is there at least prominence 0); `unmet`, neither.
+// Reasons for what the cold solves missed, by trying each on its own: `grid`, no local minimum of the grids
+// is refined to it; `united`, a way of less than the least prominence is known from it to a deeper minimum,
+// along chords or over the grids, which the surfaces do not have; `ripples`, neither, and a solve with least
+// prominence 0, which asks from every ripple and not only from niches, does find it; `unmet`, not even that.
 #include <CLI/CLI.hpp>
 
 #include <chrono>
@@ -25,6 +26,7 @@
 #include <cstdio>
 #include <fstream>
 #include <iostream>
+#include <map>
 #include <set>
 
 #include "benchmark/support/benchmark_pairs.h"
@@ -32,7 +34,10 @@
 #include "concave_distance/base/error.h"
 #include "concave_distance/distance/enumeration.h"
 #include "concave_distance/distance/local_minima.h"
+#include "concave_distance/search/local_descent.h"
+#include "concave_distance/tracking/niche_admission.h"
 #include "concave_distance/tracking/pair_tracker.h"
+#include "concave_distance/tracking/prominence_flood.h"
 
 namespace concave_distance::benchmark {
 namespace {
@@ -81,9 +86,7 @@ struct Tally {
   double index_ms = 0.0;
   int observed = 0;
   double niches = 0.0;
-  int missed_grid = 0;
-  int missed_met = 0;
-  int missed_unmet = 0;
+  std::map<std::string, int> missed;  ///< by reason
   std::uint64_t met_by_flood = 0;
   std::vector<Miss> misses;
 };
@@ -206,22 +209,62 @@ class Comparison {
       Shares unused;
       compare(pose, cutoff, solveOnce(pair_.name, pair_.a, pair_.b, parameters, pose), unused, false);
       for (const std::size_t i : missed) {
-        const bool met = std::find(missed_.begin(), missed_.end(), i) == missed_.end();
-        const bool by_grid = led_to.count(i) != 0;
-        ++(met ? tally_.missed_met : by_grid ? tally_.missed_unmet : tally_.missed_grid);
-        remember(instant, cutoff, truth.niches[i], met ? "met" : by_grid ? "unmet" : "grid");
+        if (Miss* known = knownMiss(instant, truth.niches[i])) {
+          ++known->times;
+          ++tally_.missed[known->reason];
+          continue;
+        }
+        const bool at_zero = std::find(missed_.begin(), missed_.end(), i) == missed_.end();
+        const char* reason = led_to.count(i) == 0              ? "grid"
+                             : isUnited(pose, truth.niches[i]) ? "united"
+                             : at_zero                         ? "ripples"
+                                                               : "unmet";
+        ++tally_.missed[reason];
+        tally_.misses.push_back({instant, 1, truth.niches[i].distance / cutoff, truth.niches[i], reason});
       }
     }
   }
 
-  void remember(int instant, double cutoff, const LocalMinimum& niche, const char* reason) {
+  /// The miss of this niche by another run at the same instant, or null.
+  Miss* knownMiss(int instant, const LocalMinimum& niche) {
     for (Miss& miss : tally_.misses) {
-      if (miss.instant == instant && std::abs(miss.niche.distance - niche.distance) < 1e-12) {
-        ++miss.times;
-        return;
+      if (miss.instant == instant && std::abs(miss.niche.distance - niche.distance) < 1e-12) return &miss;
+    }
+    return nullptr;
+  }
+
+  /// Whether a shortcut leads from a niche to a deeper minimum: what admission would unite it by.
+  bool isUnited(const Eigen::Isometry3d& pose, const LocalMinimum& niche) {
+    PairGeometry geometry(pair_.a, pair_.b);
+    geometry.setPose(pose);
+    LocalMinimaRequest request;
+    request.cutoff = niche.distance;
+    request.least_prominence = request.prominence_limit = 0.0;
+    for (const LocalMinimum& other : findLocalMinima(index_a_, index_b_, pose, request).niches) {
+      if (other.distance < niche.distance &&
+          prominenceBound(geometry, niche.witness, other.witness, kLeastProminence) < kLeastProminence) {
+        return true;
       }
     }
-    tally_.misses.push_back({instant, 1, niche.distance / cutoff, niche, reason});
+    const PairObjective objective(*pair_.a, *pair_.b, pose);
+    SearchCost cost;
+    FloodWorkspace flood;
+    std::vector<std::uint64_t> trail;
+    const TrialPoint start = descend(objective, geometry.nodePairNear(niche.witness), nullptr, trail, cost);
+    const auto refinedAt = [&](const TrialPoint& nodes) {
+      return std::sqrt(
+          geometry.refine(pair_.a->originalTriangle(nodes.node_a), pair_.b->originalTriangle(nodes.node_b))
+              .witness.squared_distance);
+    };
+    const double same = niche.distance - geometry.samePlaceTolerance();
+    if (refinedAt(start) < same &&
+        std::sqrt(start.squared_distance) <= (1.0 + kLeastProminence) * niche.distance)
+      return true;
+    constexpr std::uint32_t kStates = 20000;
+    const auto deeper =
+        floodForDeeper(objective, start, (1.0 + kLeastProminence) * std::sqrt(start.squared_distance), 0.0,
+                       kStates, flood, cost);
+    return deeper && refinedAt(*deeper) < same;
   }
 
   /// The true niches that refinements of the grids' own local minima end in.
@@ -284,15 +327,16 @@ int main(int argc, char** argv) {
     csv.open(output);
     csv << "pair,triangles_a,triangles_b,observed,niches_mean,tracked_recall,tracked_prominent_recall,"
            "cold_recall,cold_prominent_recall,tracked_own,tracked_double,tracked_false,cold_own,cold_double,"
-           "cold_false,missed_grid,missed_met,missed_unmet,index_ms,complete_ms,complete_max_ms,cold_ms,"
+           "cold_false,missed_grid,missed_united,missed_ripples,missed_unmet,index_ms,complete_ms,complete_"
+           "max_ms,cold_ms,"
            "cycle_ms,met_by_flood\n";
   }
-  std::printf("%-19s %7s | %7s %7s %7s %7s | %6s %6s %6s | %5s %5s %5s | %8s %8s %8s %8s %8s\n", "pair",
-              "niches", "tracked", ">=5e-2", "cold", ">=5e-2", "own", "double", "false", "grid", "met",
-              "unmet", "index", "complete", "max", "cold", "cycle");
+  std::printf("%-19s %7s | %7s %7s %7s %7s | %6s %6s %6s | %5s %6s %7s %5s | %8s %8s %8s %8s %8s\n", "pair",
+              "niches", "tracked", ">=5e-2", "cold", ">=5e-2", "own", "double", "false", "grid", "united",
+              "ripples", "unmet", "index", "complete", "max", "cold", "cycle");
   for (const std::string& name : names) {
     const BenchmarkPair pair = loadBenchmarkPair(name);
-    const Tally t = Comparison(pair, options).run();
+    Tally t = Comparison(pair, options).run();
     const double values[] = {t.niches / t.observed,
                              share(t.tracked.recalled, t.tracked.truths),
                              share(t.tracked.prominent_recalled, t.tracked.prominent_truths),
@@ -306,20 +350,21 @@ int main(int argc, char** argv) {
                              share(t.cold.none, t.cold.reported)};
     const double longest = *std::max_element(t.complete_ms.begin(), t.complete_ms.end());
     std::printf(
-        "%-19s %7.2f | %7.4f %7.4f %7.4f %7.4f | %6.3f %6.3f %6.3f | %5d %5d %5d | %8.2f %8.2f %8.2f %8.2f "
+        "%-19s %7.2f | %7.4f %7.4f %7.4f %7.4f | %6.3f %6.3f %6.3f | %5d %6d %7d %5d | %8.2f %8.2f %8.2f "
+        "%8.2f "
         "%8.3f\n",
         name.c_str(), values[0], values[1], values[2], values[3], values[4], values[5], values[6], values[7],
-        t.missed_grid, t.missed_met, t.missed_unmet, t.index_ms, mean(t.complete_ms), longest,
-        mean(t.cold_ms), mean(t.cycle_ms));
+        t.missed["grid"], t.missed["united"], t.missed["ripples"], t.missed["unmet"], t.index_ms,
+        mean(t.complete_ms), longest, mean(t.cold_ms), mean(t.cycle_ms));
     list(t.misses, options.list_misses);
     std::fflush(stdout);
     if (csv) {
       csv << name << ',' << pair.a->surface().triangleCount() << ',' << pair.b->surface().triangleCount()
           << ',' << t.observed;
       for (const double value : values) csv << ',' << value;
-      csv << ',' << t.missed_grid << ',' << t.missed_met << ',' << t.missed_unmet << ',' << t.index_ms << ','
-          << mean(t.complete_ms) << ',' << longest << ',' << mean(t.cold_ms) << ',' << mean(t.cycle_ms) << ','
-          << t.met_by_flood << '\n';
+      csv << ',' << t.missed["grid"] << ',' << t.missed["united"] << ',' << t.missed["ripples"] << ','
+          << t.missed["unmet"] << ',' << t.index_ms << ',' << mean(t.complete_ms) << ',' << longest << ','
+          << mean(t.cold_ms) << ',' << mean(t.cycle_ms) << ',' << t.met_by_flood << '\n';
     }
   }
   return 0;

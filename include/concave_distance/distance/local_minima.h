@@ -88,7 +88,7 @@ struct LocalMinima {
 /// Every local minimum of |p - q| over both original surfaces with a distance of at most the cutoff and the
 /// least prominence: none is missed, none invented, up to the error of the triangle kernel in coordinates of
 /// the bodies' size (minima whose pass is higher by less than that are one). How and why: doc/algorithm.md,
-/// section 6. Where the bodies meet, every connected set of meeting points is one niche of distance 0.
+/// section 7. Where the bodies meet, every connected set of meeting points is one niche of distance 0.
 /// Outward niches of open shells include those marked Unknown. Never throws; allocates.
 LocalMinima findLocalMinima(const MinimaIndex& a, const MinimaIndex& b, const Eigen::Isometry3d& a_from_b,
                             const LocalMinimaRequest& request);
