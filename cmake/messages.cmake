@@ -12,6 +12,7 @@ set(CONCAVE_DISTANCE_MESSAGES
   PairNiches.msg
   PairStatus.msg
   Problem.msg
+  SolveCost.msg
 )
 set(CONCAVE_DISTANCE_SERVICES
   AddBody.srv

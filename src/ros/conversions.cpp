@@ -12,10 +12,6 @@ namespace {
 // Departure of a quaternion's norm from 1 that is taken for rounding; the same as the command-line tools'.
 constexpr double kQuaternionTolerance = 1e-3;
 
-static_assert(PairStatus::OK == static_cast<int>(SolveStatus::Ok));
-static_assert(PairStatus::PENETRATING == static_cast<int>(SolveStatus::Penetrating));
-static_assert(PairStatus::INVALID_POSE == static_cast<int>(SolveStatus::InvalidPose));
-static_assert(PairStatus::BUDGET_EXHAUSTED == static_cast<int>(SolveStatus::BudgetExhausted));
 static_assert(Niche::KIND_POINT == static_cast<int>(NicheKind::Point));
 static_assert(Niche::KIND_SEGMENT == static_cast<int>(NicheKind::Segment));
 static_assert(Niche::KIND_PATCH == static_cast<int>(NicheKind::Patch));
@@ -106,10 +102,24 @@ Eigen::Isometry3d poseFromMessage(const geometry_msgs::Pose& pose, const std::st
 
 PairStatus toStatus(SolveStatus status) {
   PairStatus message;
-  message.code = static_cast<std::uint8_t>(status);
-  if (status != SolveStatus::Ok) {
-    message.message = std::string(toString(status));
+  switch (status) {
+    case SolveStatus::Ok:
+      message.code = PairStatus::OK;
+      return message;
+    case SolveStatus::Penetrating:
+      message.code = PairStatus::PENETRATING;
+      break;
+    case SolveStatus::InvalidPose:
+      message.code = PairStatus::INVALID_POSE;
+      break;
+    case SolveStatus::BudgetExhausted:
+      message.code = PairStatus::BUDGET_EXHAUSTED;
+      break;
+    case SolveStatus::WithinTolerance:
+      message.code = PairStatus::WITHIN_TOLERANCE;
+      break;
   }
+  message.message = std::string(toString(status));
   return message;
 }
 
@@ -131,7 +141,17 @@ PairStatus toStatus(TransformStatus status, const std::string& text) {
 }
 
 std::uint8_t toAccuracyCode(AccuracyLevel level) {
-  return level == AccuracyLevel::Nodes ? PairDistance::ACCURACY_NODES : PairDistance::ACCURACY_REFINED;
+  switch (level) {
+    case AccuracyLevel::Nodes:
+      return PairDistance::ACCURACY_NODES;
+    case AccuracyLevel::Refined:
+      return PairDistance::ACCURACY_REFINED;
+    case AccuracyLevel::Certified:
+      return PairDistance::ACCURACY_CERTIFIED;
+    case AccuracyLevel::Complete:
+      return PairDistance::ACCURACY_COMPLETE;
+  }
+  return 0;
 }
 
 PairDistance emptyDistance(const PairHeading& heading, const PairStatus& status) {
@@ -143,7 +163,8 @@ PairDistance emptyDistance(const PairHeading& heading, const PairStatus& status)
   message.body_b = heading.body_b;
   message.status = status;
   message.accuracy = toAccuracyCode(heading.accuracy);
-  message.distance = message.lower_bound = message.closing_speed = kNotComputed;
+  message.distance = message.lower_bound = message.surface_distance = message.closing_speed = kNotComputed;
+  message.cost.solve_time = kNotComputed;
   message.point_a = message.point_b = toPoint(Eigen::Vector3d::Constant(kNotComputed));
   message.normal = toVector(Eigen::Vector3d::Constant(kNotComputed));
   message.warning = static_cast<std::uint8_t>(heading.warning);
@@ -152,6 +173,11 @@ PairDistance emptyDistance(const PairHeading& heading, const PairStatus& status)
 
 PairDistance toDistance(const PairHeading& heading, const PairSolution& solution) {
   PairDistance message = emptyDistance(heading, toStatus(solution.status));
+  message.accuracy = toAccuracyCode(solution.accuracy);
+  message.cost.solve_time = solution.solve_seconds;
+  message.cost.evaluations = solution.cost.evaluations;
+  message.cost.box_bounds = solution.proof_cost.box_bounds;
+  message.cost.triangle_pairs = solution.proof_cost.triangle_pairs;
   if (std::isnan(solution.distance)) {
     if (solution.status == SolveStatus::Ok) {
       message.status.code = PairStatus::NOT_FOUND;
@@ -163,6 +189,13 @@ PairDistance toDistance(const PairHeading& heading, const PairSolution& solution
   message.distance = solution.distance;
   message.has_lower_bound = !std::isnan(solution.lower_bound);
   message.lower_bound = solution.lower_bound;
+  message.has_surface_distance = !std::isnan(solution.surface_distance);
+  message.surface_distance = solution.surface_distance;
+  message.has_meeting_triangles = solution.meeting_triangles.has_value();
+  if (solution.meeting_triangles) {
+    message.triangle_a = solution.meeting_triangles->a.value;
+    message.triangle_b = solution.meeting_triangles->b.value;
+  }
   message.has_points = solution.point_a_in_a.allFinite() && solution.point_b_in_a.allFinite();
   if (message.has_points == 0) {
     return message;
@@ -197,6 +230,7 @@ PairNiches toNiches(const PairHeading& heading, const PairSolution& solution) {
   message.header = message.nearest.header;
   message.cycle = solution.cycle;
   message.warm = static_cast<std::uint8_t>(solution.warm);
+  message.search_miss = static_cast<std::uint8_t>(solution.search_miss);
   message.solve_time = solution.solve_seconds;
   message.evaluations = solution.cost.evaluations;
   if (!heading.with_niches) {
@@ -258,28 +292,36 @@ TrackerParameters queryParameters(const DistanceQuery& query, const TrackerParam
       parameters.accuracy = AccuracyLevel::Refined;
       break;
     case DistanceQuery::ACCURACY_CERTIFIED:
+      parameters.accuracy = AccuracyLevel::Certified;
+      break;
     case DistanceQuery::ACCURACY_COMPLETE:
-      throw Error(
-          "accuracy",
-          "this version answers at the levels nodes and refined, not at " +
-              std::string(query.accuracy == DistanceQuery::ACCURACY_CERTIFIED ? "certified" : "complete"),
-          "ask for ACCURACY_REFINED or leave it 0");
+      parameters.accuracy = AccuracyLevel::Complete;
+      break;
     default:
-      throw Error("accuracy", "the value is " + std::to_string(query.accuracy), "allowed: 0, 1, 2");
+      throw Error("accuracy", "the value is " + std::to_string(query.accuracy), "allowed: 0, 1, 2, 3, 4");
   }
-  const auto refuseUnlessZero = [](const char* name, double value) {
-    if (value != 0.0) {
-      throw Error(name, "the value is " + std::to_string(value) + ", but it belongs to the certified level",
-                  "this version answers at the levels nodes and refined: leave it 0");
+  if (query.accuracy != DistanceQuery::ACCURACY_DEFAULT) {
+    parameters.absolute_tolerance = parameters.relative_tolerance = 0.0;
+    parameters.time_budget = std::numeric_limits<double>::infinity();
+  }
+  const auto take = [&](const char* name, double value, double& parameter) {
+    if (value == 0.0) {
+      return;
     }
+    if (!provesDistance(parameters.accuracy)) {
+      throw Error(name, "the value is " + std::to_string(value) + ", but it belongs to levels with a proof",
+                  "ask for ACCURACY_CERTIFIED or ACCURACY_COMPLETE, or leave it 0");
+    }
+    parameter = value;
   };
-  refuseUnlessZero("absolute_tolerance", query.absolute_tolerance);
-  refuseUnlessZero("relative_tolerance", query.relative_tolerance);
-  refuseUnlessZero("time_budget", query.time_budget);
+  take("absolute_tolerance", query.absolute_tolerance, parameters.absolute_tolerance);
+  take("relative_tolerance", query.relative_tolerance, parameters.relative_tolerance);
+  take("time_budget", query.time_budget, parameters.time_budget);
   parameters.niches_wanted = query.with_niches != 0;
   if (query.largest_niche_count != 0) {
     parameters.largest_niche_count = query.largest_niche_count;
   }
+  parameters.validate("query");
   return parameters;
 }
 

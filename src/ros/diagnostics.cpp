@@ -64,6 +64,7 @@ void describePairs(const CycleWindow& window, diagnostic_updater::DiagnosticStat
   status.add("cold solves", window.cold);
   status.add("answers repeated without new transforms", window.repeated);
   status.add("search misses", window.search_misses);
+  status.add("solves that ended unproven", window.unproven);
   status.add("pairs turned into messages", window.messages);
   status.add("markers built", window.markers);
   for (std::size_t index = 0; index < std::min(window.failing.size(), kListed); ++index) {

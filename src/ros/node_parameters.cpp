@@ -1,5 +1,6 @@
 #include "concave_distance/ros/node_parameters.h"
 
+#include <array>
 #include <limits>
 #include <utility>
 
@@ -15,11 +16,17 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kLongest = 1e6;
 
 TrackerParameters readTracker(ParameterReader& reader, TrackerParameters tracker) {
-  const std::vector<std::string> levels = {std::string(toString(AccuracyLevel::Nodes)),
-                                           std::string(toString(AccuracyLevel::Refined))};
-  tracker.accuracy = reader.choice("accuracy", tracker.accuracy == AccuracyLevel::Nodes ? 0 : 1, levels) == 0
-                         ? AccuracyLevel::Nodes
-                         : AccuracyLevel::Refined;
+  constexpr std::array<AccuracyLevel, 4> kLevels = {AccuracyLevel::Nodes, AccuracyLevel::Refined,
+                                                    AccuracyLevel::Certified, AccuracyLevel::Complete};
+  std::vector<std::string> names;
+  for (const AccuracyLevel level : kLevels) {
+    names.emplace_back(toString(level));
+  }
+  tracker.accuracy = kLevels[reader.choice("accuracy", static_cast<std::size_t>(tracker.accuracy), names)];
+  tracker.absolute_tolerance = reader.number("absolute_tolerance", tracker.absolute_tolerance, 0.0, kLongest);
+  tracker.relative_tolerance = reader.number("relative_tolerance", tracker.relative_tolerance, 0.0, 1.0);
+  const double budget = reader.number("time_budget", 0.0, 0.0, kLongest);
+  tracker.time_budget = budget == 0.0 ? kInfinity : budget;
   const double cutoff = reader.number("cutoff", 0.0, 0.0, kLongest);
   tracker.cutoff = cutoff == 0.0 ? kInfinity : cutoff;
   tracker.least_prominence = reader.number("least_prominence", tracker.least_prominence, 0.0, 1e3);

@@ -11,6 +11,9 @@ ConcaveDistanceConfig toConfig(const NodeParameters& parameters) {
   config.rate = parameters.rate;
   config.marker_rate = parameters.marker_rate;
   config.publish_markers = parameters.publish_markers;
+  config.absolute_tolerance = tracker.absolute_tolerance;
+  config.relative_tolerance = tracker.relative_tolerance;
+  config.time_budget = std::isfinite(tracker.time_budget) ? tracker.time_budget : 0.0;
   config.cutoff = std::isfinite(tracker.cutoff) ? tracker.cutoff : 0.0;
   config.least_prominence = tracker.least_prominence;
   config.largest_niche_count = static_cast<int>(tracker.largest_niche_count);
@@ -23,6 +26,16 @@ ConcaveDistanceConfig toConfig(const NodeParameters& parameters) {
 void applyChanges(const ConcaveDistanceConfig& before, const ConcaveDistanceConfig& after,
                   PairSettings& settings) {
   TrackerParameters& tracker = settings.tracker;
+  if (after.absolute_tolerance != before.absolute_tolerance) {
+    tracker.absolute_tolerance = after.absolute_tolerance;
+  }
+  if (after.relative_tolerance != before.relative_tolerance) {
+    tracker.relative_tolerance = after.relative_tolerance;
+  }
+  if (after.time_budget != before.time_budget) {
+    tracker.time_budget =
+        after.time_budget == 0.0 ? std::numeric_limits<double>::infinity() : after.time_budget;
+  }
   if (after.cutoff != before.cutoff) {
     tracker.cutoff = after.cutoff == 0.0 ? std::numeric_limits<double>::infinity() : after.cutoff;
   }
@@ -41,7 +54,9 @@ void applyChanges(const ConcaveDistanceConfig& before, const ConcaveDistanceConf
 }
 
 bool concernsPairs(const ConcaveDistanceConfig& before, const ConcaveDistanceConfig& after) {
-  return after.cutoff != before.cutoff || after.least_prominence != before.least_prominence ||
+  return after.absolute_tolerance != before.absolute_tolerance ||
+         after.relative_tolerance != before.relative_tolerance || after.time_budget != before.time_budget ||
+         after.cutoff != before.cutoff || after.least_prominence != before.least_prominence ||
          after.largest_niche_count != before.largest_niche_count ||
          after.warm_population_size != before.warm_population_size ||
          after.warm_generations != before.warm_generations || after.immigrants != before.immigrants;

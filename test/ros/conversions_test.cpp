@@ -147,7 +147,40 @@ TEST(ToNiches, TellsNoNichesThatWereNotAskedFor) {
   EXPECT_TRUE(message.nearest.has_distance);
 }
 
-TEST(QueryParameters, TakeTheQuerysWishesAndRefuseTheCertifiedLevel) {
+TEST(ToDistance, TellsTheProofAndWhatMeets) {
+  PairSolution solution = solutionWithOneNiche();
+  solution.accuracy = AccuracyLevel::Certified;
+  solution.lower_bound = 1.5;
+  solution.status = SolveStatus::WithinTolerance;
+  solution.proof_cost = {100, 20, 30};
+  solution.cost.evaluations = 7;
+  solution.solve_seconds = 1e-3;
+  PairDistance message = toDistance(quarterTurnHeading(), solution);
+  EXPECT_EQ(message.status.code, PairStatus::WITHIN_TOLERANCE);
+  EXPECT_EQ(message.accuracy, PairDistance::ACCURACY_CERTIFIED);
+  EXPECT_TRUE(message.has_lower_bound);
+  EXPECT_EQ(message.lower_bound, 1.5);
+  EXPECT_EQ(message.cost.box_bounds, 100U);
+  EXPECT_EQ(message.cost.triangle_pairs, 30U);
+  EXPECT_EQ(message.cost.evaluations, 7U);
+  EXPECT_EQ(message.cost.solve_time, 1e-3);
+  EXPECT_FALSE(message.has_meeting_triangles || message.has_surface_distance);
+
+  solution.status = SolveStatus::BudgetExhausted;
+  solution.accuracy = AccuracyLevel::Refined;
+  message = toDistance(quarterTurnHeading(), solution);
+  EXPECT_EQ(message.status.code, PairStatus::BUDGET_EXHAUSTED);
+  EXPECT_EQ(message.accuracy, PairDistance::ACCURACY_REFINED) << "as far as it came";
+
+  solution.status = SolveStatus::Penetrating;
+  solution.meeting_triangles = TrianglePair{TriangleIndex{3U}, TriangleIndex{5U}};
+  message = toDistance(quarterTurnHeading(), solution);
+  EXPECT_TRUE(message.has_meeting_triangles);
+  EXPECT_EQ(message.triangle_a, 3U);
+  EXPECT_EQ(message.triangle_b, 5U);
+}
+
+TEST(QueryParameters, TakeTheQuerysWishesAndRefuseWhatMeansNothing) {
   TrackerParameters configured;
   configured.largest_niche_count = 5;
   DistanceQuery query;
@@ -160,7 +193,7 @@ TEST(QueryParameters, TakeTheQuerysWishesAndRefuseTheCertifiedLevel) {
   EXPECT_EQ(queryParameters(query, configured).accuracy, AccuracyLevel::Nodes);
   EXPECT_EQ(queryParameters(query, configured).largest_niche_count, 2U);
   EXPECT_TRUE(queryParameters(query, configured).niches_wanted);
-  for (const std::uint8_t accuracy : std::vector<std::uint8_t>{3, 4, 9}) {
+  for (const std::uint8_t accuracy : std::vector<std::uint8_t>{5, 9}) {
     query.accuracy = accuracy;
     EXPECT_THROW(queryParameters(query, configured), Error) << static_cast<int>(accuracy);
   }
@@ -169,9 +202,28 @@ TEST(QueryParameters, TakeTheQuerysWishesAndRefuseTheCertifiedLevel) {
     query = DistanceQuery();
     query.*field = 1e-3;
     EXPECT_THROW(queryParameters(query, configured), Error);
-    query.*field = std::nan("");
-    EXPECT_THROW(queryParameters(query, configured), Error);
+    query.accuracy = DistanceQuery::ACCURACY_CERTIFIED;
+    EXPECT_EQ(queryParameters(query, configured).accuracy, AccuracyLevel::Certified);
+    for (const double wrong : {std::nan(""), -1.0}) {
+      query.*field = wrong;
+      EXPECT_THROW(queryParameters(query, configured), Error);
+    }
   }
+}
+
+TEST(QueryParameters, KeepTheConfiguredTolerancesUnlessALevelIsAskedFor) {
+  TrackerParameters configured;
+  configured.accuracy = AccuracyLevel::Certified;
+  configured.relative_tolerance = 0.1;
+  configured.time_budget = 0.5;
+  DistanceQuery query;
+  EXPECT_EQ(queryParameters(query, configured).relative_tolerance, 0.1);
+  query.absolute_tolerance = 0.01;
+  EXPECT_EQ(queryParameters(query, configured).absolute_tolerance, 0.01);
+  EXPECT_EQ(queryParameters(query, configured).time_budget, 0.5);
+  query.accuracy = DistanceQuery::ACCURACY_CERTIFIED;
+  EXPECT_EQ(queryParameters(query, configured).relative_tolerance, 0.0) << "as the query says";
+  EXPECT_TRUE(std::isinf(queryParameters(query, configured).time_budget));
 }
 
 TEST(ToBodyDescription, WantsOneGeometryAndAFrame) {

@@ -108,11 +108,27 @@ TEST_F(DistanceQueriesTest, RefuseWhatCannotBeAnsweredAndSayWhy) {
   query.pose_b.pose.orientation.w = 0.5;
   expectRefusal("pose_b.orientation");
   query.pose_b.pose.orientation.w = 1.0;
-  query.accuracy = DistanceQuery::ACCURACY_CERTIFIED;
-  expectRefusal("certified");
+  query.accuracy = 5;
+  expectRefusal("accuracy");
   query.accuracy = DistanceQuery::ACCURACY_DEFAULT;
   query.time_budget = 0.01;
   expectRefusal("time_budget");
+}
+
+TEST_F(DistanceQueriesTest, ProveTheDistanceWhenAsked) {
+  const std::vector<std::uint8_t> levels = {DistanceQuery::ACCURACY_CERTIFIED,
+                                            DistanceQuery::ACCURACY_COMPLETE};
+  for (std::size_t choice = 0; choice < 4; ++choice) {
+    query.accuracy = levels[choice / 2];
+    query.with_niches = static_cast<std::uint8_t>(choice % 2);
+    const PairDistance nearest = answer().nearest;
+    EXPECT_EQ(nearest.status.code, PairStatus::OK);
+    EXPECT_EQ(nearest.accuracy, query.accuracy);
+    ASSERT_TRUE(nearest.has_lower_bound);
+    EXPECT_LE(nearest.lower_bound, 1.0);
+    EXPECT_GE(nearest.lower_bound, 1.0 - kRounding);
+    EXPECT_GT(nearest.cost.box_bounds, 0U);
+  }
 }
 
 TEST_F(DistanceQueriesTest, SayWhichFrameIsMissing) {

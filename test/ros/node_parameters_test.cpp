@@ -54,6 +54,22 @@ TEST(NodeParameters, ReadWholeNumbersAsLengthsAndStripTheOldLeadingSlash) {
   EXPECT_FALSE(parameters.show_bodies);
 }
 
+TEST(NodeParameters, ReadTheCertifiedLevelWithItsTolerances) {
+  XmlRpc::XmlRpcValue values;
+  values["accuracy"] = "certified";
+  values["absolute_tolerance"] = 0.001;
+  values["relative_tolerance"] = 0.5;
+  values["time_budget"] = 0.002;
+  const TrackerParameters tracker = parse(values).pair.tracker;
+  EXPECT_EQ(tracker.accuracy, AccuracyLevel::Certified);
+  EXPECT_EQ(tracker.absolute_tolerance, 0.001);
+  EXPECT_EQ(tracker.relative_tolerance, 0.5);
+  EXPECT_EQ(tracker.time_budget, 0.002);
+  EXPECT_TRUE(std::isinf(parse(XmlRpc::XmlRpcValue()).pair.tracker.time_budget));
+  EXPECT_NE(refusal("relative_tolerance", 1.5), "");
+  EXPECT_NE(refusal("time_budget", -1.0), "");
+}
+
 TEST(NodeParameters, RefuseWithNameValueAndRange) {
   const std::string message = refusal("rate", 0.0);
   EXPECT_NE(message.find("~rate"), std::string::npos) << message;
@@ -100,6 +116,15 @@ TEST(Reconfiguration, ChangesWhatDiffersAndNothingElse) {
   EXPECT_EQ(settings.tracker.least_prominence, 0.123);
   applyChanges(after, before, settings);
   EXPECT_TRUE(std::isinf(settings.tracker.cutoff)) << "0 takes the cutoff away";
+  after = before;
+  after.time_budget = 0.01;
+  after.absolute_tolerance = 0.001;
+  EXPECT_TRUE(concernsPairs(before, after));
+  applyChanges(before, after, settings);
+  EXPECT_EQ(settings.tracker.time_budget, 0.01);
+  EXPECT_EQ(settings.tracker.absolute_tolerance, 0.001);
+  applyChanges(after, before, settings);
+  EXPECT_TRUE(std::isinf(settings.tracker.time_budget)) << "0 takes the budget away";
   after = before;
   after.rate = 10.0;
   EXPECT_FALSE(concernsPairs(before, after));

@@ -48,7 +48,8 @@ TEST(ParameterDocumentation, MarksWhatMayChangeWhileRunning) {
 
 TEST(TestingDocumentation, NamesEveryRostestCaseAndNoOther) {
   std::set<std::string> cases;
-  for (const char* program : {"clock", "nodelet", "services", "startup", "topics", "untouched"}) {
+  for (const char* program :
+       {"certified", "clock", "nodelet", "services", "startup", "topics", "untouched"}) {
     const std::string text = readText("test/ros/rostest/" + std::string(program) + "_rostest.cpp");
     cases.merge(matches(text, "TEST(?:_F)?\\(\\w+, (\\w+)\\)"));
   }

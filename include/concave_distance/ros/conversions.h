@@ -55,8 +55,8 @@ BodyInfo toBodyInfo(const SceneBody& body);
 PairInfo toPairInfo(const Scene& scene, const ScenePair& pair);
 
 /// The pair's settings with what the query asks for instead.
-/// @throws Error for an accuracy beyond `refined`, a tolerance or time budget (they belong to the certified
-///         level), each with the value seen
+/// @throws Error for a level that is none, for a tolerance or time budget that is out of range or that the
+///         level has no proof for, each with the value seen
 TrackerParameters queryParameters(const DistanceQuery& query, const TrackerParameters& configured);
 
 /// @throws Error for a request that names no geometry, two, or numbers out of range

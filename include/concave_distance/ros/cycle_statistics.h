@@ -43,6 +43,7 @@ struct CycleWindow {
   std::uint64_t cold = 0;
   std::uint64_t repeated = 0;
   std::uint64_t search_misses = 0;
+  std::uint64_t unproven = 0;
   std::uint64_t messages = 0;
   std::uint64_t markers = 0;
   CycleReport last;                  ///< of the last cycle

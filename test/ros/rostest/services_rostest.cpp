@@ -127,8 +127,8 @@ TEST_F(ServicesTest, GetDistanceRefusesBadRequestsWithTheReason) {
   request.query.pose_a.pose.orientation.w = 0.0;
   expectRefusal(request, "quaternion");
   request = boxes();
-  request.query.accuracy = DistanceQuery::ACCURACY_CERTIFIED;
-  expectRefusal(request, "certified");
+  request.query.accuracy = 5;
+  expectRefusal(request, "accuracy");
   request = boxes();
   request.query.relative_tolerance = 0.01;
   expectRefusal(request, "relative_tolerance");
