@@ -31,6 +31,21 @@ TEST(NicheArchive, AMergeKeepsTheDeeperPlaceAndTheOlderId) {
   EXPECT_EQ(events[0].into_id, 1U);
 }
 
+TEST(NicheArchive, AKnownIdDoesNotFallFartherThanItCanHaveMoved) {
+  NicheArchive archive;
+  std::vector<NicheEvent> events;
+  archive.records().push_back(recordAt(archive, 2.0, true));
+  archive.records().push_back(recordAt(archive, 1.0, false));
+  archive.records()[0].least_distance = 1.5;
+  EXPECT_EQ(archive.unite(0, 1, events), 2U);
+  ASSERT_EQ(archive.records().size(), 1U);
+  EXPECT_EQ(archive.records()[0].niche.id, 2U);
+  EXPECT_EQ(archive.records()[0].niche.distance, 1.0);
+  ASSERT_EQ(events.size(), 1U);
+  EXPECT_EQ(events[0].id, 1U);
+  EXPECT_EQ(events[0].into_id, 2U);
+}
+
 TEST(NicheArchive, WhatWasNeverReportedEndsInSilence) {
   NicheArchive archive;
   std::vector<NicheEvent> events;
