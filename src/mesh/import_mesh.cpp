@@ -59,6 +59,22 @@ void checkMeshes(const aiScene& scene, const std::string& path) {
   }
 }
 
+/// Says what kinds of faces each mesh has: where a reader leaves that out or is wrong, assimp's triangulation
+/// takes faces of fewer than three corners for polygons and aborts the process.
+void statePrimitiveTypes(const aiScene& scene) {
+  for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
+    aiMesh& mesh = *scene.mMeshes[m];
+    mesh.mPrimitiveTypes = 0;
+    for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
+      const unsigned corners = mesh.mFaces[f].mNumIndices;
+      mesh.mPrimitiveTypes |= static_cast<unsigned>(corners > 3    ? aiPrimitiveType_POLYGON
+                                                    : corners == 3 ? aiPrimitiveType_TRIANGLE
+                                                    : corners == 2 ? aiPrimitiveType_LINE
+                                                                   : aiPrimitiveType_POINT);
+    }
+  }
+}
+
 void appendMesh(TriangleSoup& soup, const aiMesh& mesh, const Eigen::Affine3d& body_from_mesh,
                 const std::string& path) {
   if (soup.vertices.size() + mesh.mNumVertices > 0xffffffffU) {
@@ -107,6 +123,7 @@ TriangleSoup importMesh(const std::string& path, const Eigen::Vector3d& scale) {
   const aiScene* scene = importer.ReadFile(path, 0);
   if (scene != nullptr) {
     checkMeshes(*scene, path);
+    statePrimitiveTypes(*scene);
     scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
   }
   if (scene == nullptr || scene->mRootNode == nullptr) {

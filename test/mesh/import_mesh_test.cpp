@@ -134,6 +134,16 @@ TEST(ImportMesh, TurnsTheWindingWhereANodeOfTheFileMirrors) {
   expectTetrahedron(importMesh(path, {1, 1, -1}));  // mirrored twice
 }
 
+TEST(ImportMesh, PassesOverFacesOfFewerThanThreeCorners) {
+  const TemporaryFolder folder;
+  const std::string header =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 4\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n";
+  EXPECT_EQ(importMesh(folder.write("faces.ply", header + "3 0 1 2\n0\n1 2\n2 0 1\n")).triangles.size(), 1U);
+  EXPECT_NE(errorOf(folder.write("none.ply", header + "0\n0\n1 2\n2 0 1\n")).find("no triangle"),
+            std::string::npos);
+}
+
 TEST(ImportMesh, MergesEveryMeshOfAFile) {
   const TemporaryFolder folder;
   const std::string instance = R"(<instance_geometry url="#mesh"/>)";
