@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds everything and runs every test: unit tests, consumer package, rostests.
-#   scripts/test.sh [--format]        --format: check the source formatting too
+#   scripts/test.sh [--format] [--precompiled]
+# --format: check the source formatting too; --precompiled: with precompiled headers, for a fresh build.
 # The last line is `N passed, N failed`, counted in test cases; the exit status is 0 only when none failed.
 set -euo pipefail
 # shellcheck source=scripts/common.sh
@@ -8,11 +9,14 @@ set -euo pipefail
 exec </dev/null
 
 format=
-case "${1:-}" in
-  "") ;;
-  --format) format=1 ;;
-  *) die "unknown option '$1'" ;;
-esac
+build_options=(-DCONCAVE_DISTANCE_WITH_ROS=ON -DCONCAVE_DISTANCE_BUILD_TESTS=ON)
+for argument in "$@"; do
+  case "$argument" in
+    --format) format=1 ;;
+    --precompiled) build_options+=(-DCONCAVE_DISTANCE_PRECOMPILED_HEADERS=ON) ;;
+    *) die "unknown option '$argument'" ;;
+  esac
+done
 
 count_arguments=()
 finish_without_tests() {
@@ -34,7 +38,7 @@ fi
 say "dependencies are there after $((SECONDS - started)) s"
 
 source_ros
-"$package_dir/scripts/build.sh" all -DCONCAVE_DISTANCE_WITH_ROS=ON -DCONCAVE_DISTANCE_BUILD_TESTS=ON ||
+"$package_dir/scripts/build.sh" all "${build_options[@]}" ||
   count_arguments+=(--failure "the build (see the first error above)")
 [ -f "$build_dir/CTestTestfile.cmake" ] || finish_without_tests "the build could not be configured"
 say "built after $((SECONDS - started)) s"

@@ -20,12 +20,12 @@ SurfacePoint closestOn(const BodyMesh& body, TriangleIndex triangle, const Eigen
 SurfacePoint closestPoint(const BodyMesh& body, const Eigen::Vector3d& target, TriangleIndex hint) {
   const TriangleTree& tree = body.tree();
   SurfacePoint best = closestOn(body, hint, target);
-  const auto boxDistance = [&](std::uint32_t node) {
+  const auto box_distance = [&](std::uint32_t node) {
     return tree.nodes()[node].box.squaredExteriorDistance(target);
   };
   std::array<Waiting, 96> stack;  // the builder keeps the depth below 80; one waiting child a level
   std::size_t waiting = 0;
-  stack[waiting++] = {0, boxDistance(0)};
+  stack[waiting++] = {0, box_distance(0)};
   while (waiting > 0) {
     const Waiting next = stack[--waiting];
     if (next.squared_distance >= best.squared_distance) {
@@ -33,8 +33,8 @@ SurfacePoint closestPoint(const BodyMesh& body, const Eigen::Vector3d& target, T
     }
     const TriangleTree::Node& node = tree.nodes()[next.node];
     if (node.count == 0) {
-      Waiting near{next.node + 1, boxDistance(next.node + 1)};
-      Waiting far{node.first, boxDistance(node.first)};
+      Waiting near{next.node + 1, box_distance(next.node + 1)};
+      Waiting far{node.first, box_distance(node.first)};
       if (far.squared_distance < near.squared_distance) {
         std::swap(near, far);
       }

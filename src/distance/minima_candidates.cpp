@@ -194,19 +194,19 @@ class Traversal {
     const TrianglePoints tb = cornersOfB(b);
     const Vector3d& a0 = ta[a.element];
     const Vector3d& b0 = tb[b.element];
-    const auto nextOf = [](const TrianglePoints& t, std::size_t k) -> const Vector3d& {
+    const auto next_of = [](const TrianglePoints& t, std::size_t k) -> const Vector3d& {
       return t[k == 2 ? 0 : k + 1];
     };
     if (a.kind == Kind::Vertex) {
       if (b.kind == Kind::Vertex) return between(a0, b0);
-      if (b.kind == Kind::Edge) return between(a0, closestOnSegment(a0, b0, nextOf(tb, b.element)));
+      if (b.kind == Kind::Edge) return between(a0, closestOnSegment(a0, b0, next_of(tb, b.element)));
       return between(a0, pointTriangleDistance(a0, tb).point);
     }
     if (b.kind == Kind::Vertex) {
-      if (a.kind == Kind::Edge) return between(closestOnSegment(b0, a0, nextOf(ta, a.element)), b0);
+      if (a.kind == Kind::Edge) return between(closestOnSegment(b0, a0, next_of(ta, a.element)), b0);
       return between(pointTriangleDistance(b0, ta).point, b0);
     }
-    return betweenSegments(a0, nextOf(ta, a.element), b0, nextOf(tb, b.element));
+    return betweenSegments(a0, next_of(ta, a.element), b0, next_of(tb, b.element));
   }
 
   const MinimaScene& scene_;

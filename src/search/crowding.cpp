@@ -30,13 +30,13 @@ void competePaired(Contestant& parent_1, Contestant& parent_2, const Contestant&
 
 void competeWithCloserParent(Contestant& parent_1, Contestant& parent_2, const Contestant& child_1,
                              const Contestant& child_2, PlaceTable& places, PairMetric& metric) {
-  const auto isCloserToFirst = [&](const Contestant& child) {
+  const auto is_closer_to_first = [&](const Contestant& child) {
     return places.delta(parent_1.place, child.place, metric) <=
            places.delta(parent_2.place, child.place, metric);
   };
   // Both answers before the first replacement: "parent" means those who were mated.
-  const bool child_1_to_first = isCloserToFirst(child_1);
-  const bool child_2_to_first = isCloserToFirst(child_2);
+  const bool child_1_to_first = is_closer_to_first(child_1);
+  const bool child_2_to_first = is_closer_to_first(child_2);
   compete(child_1_to_first ? parent_1 : parent_2, child_1);
   compete(child_2_to_first ? parent_1 : parent_2, child_2);
 }

@@ -133,7 +133,7 @@ AdmissionResult admitCandidate(const NicheCandidate& candidate, const PairGeomet
   for (std::size_t k = 0; k < kNeighbours && shallower[k].gap < kInfinity; ++k) {
     ids[k] = archive.records()[shallower[k].record].niche.id;
   }
-  const auto indexOf = [&](std::uint64_t wanted) {
+  const auto index_of = [&](std::uint64_t wanted) {
     const auto& records = archive.records();
     return static_cast<std::size_t>(std::find_if(records.begin(), records.end(),
                                                  [&](const NicheRecord& r) { return r.niche.id == wanted; }) -
@@ -143,13 +143,13 @@ AdmissionResult admitCandidate(const NicheCandidate& candidate, const PairGeomet
     if (shallow_id == 0) {
       break;
     }
-    const std::size_t shallow = indexOf(shallow_id);
+    const std::size_t shallow = index_of(shallow_id);
     const double least = leastProminence(archive.records()[shallow], parameters);
     const double bound = prominenceBound(geometry, archive.records()[shallow].niche.witness, witness, least);
     archive.records()[shallow].niche.prominence =
         std::min(archive.records()[shallow].niche.prominence, bound);
     if (bound < least) {
-      living_id = archive.unite(indexOf(living_id), shallow, events);
+      living_id = archive.unite(index_of(living_id), shallow, events);
     }
   }
   return {Admission::Born, living_id};

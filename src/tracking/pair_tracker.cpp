@@ -75,13 +75,13 @@ void TrackerState::reset() {
 
 void TrackerState::update(const Eigen::Isometry3d& pose, double time, PairSolution& solution) {
   const auto start = std::chrono::steady_clock::now();
-  const auto sinceStart = [start] { return seconds(std::chrono::steady_clock::now() - start); };
-  const auto secondsLeft = [&] { return std::max(0.0, parameters.time_budget - sinceStart()); };
+  const auto since_start = [start] { return seconds(std::chrono::steady_clock::now() - start); };
+  const auto seconds_left = [&] { return std::max(0.0, parameters.time_budget - since_start()); };
   clear(solution);
   const std::optional<Eigen::Isometry3d> rigid = rigidPose(pose);
   if (!rigid) {
     solution.status = SolveStatus::InvalidPose;
-    solution.solve_seconds = sinceStart();
+    solution.solve_seconds = since_start();
     return;
   }
   geometry.setPose(*rigid);
@@ -91,16 +91,16 @@ void TrackerState::update(const Eigen::Isometry3d& pose, double time, PairSoluti
            : std::numeric_limits<double>::infinity();
   const bool proves = provesDistance(parameters.accuracy);
   if (proves && !parameters.niches_wanted) {
-    proveAlone(displacement, elapsed, secondsLeft(), solution);
+    proveAlone(displacement, elapsed, seconds_left(), solution);
   } else if (parameters.accuracy == AccuracyLevel::Complete) {
     completeNiches(displacement, elapsed, solution);
     listNiches(solution);
-    proveDistance(displacement, secondsLeft());
+    proveDistance(displacement, seconds_left());
     reportProven(solution);
   } else {
     solveNiches(displacement, elapsed, solution);
     if (proves) {
-      proveDistance(displacement, secondsLeft());
+      proveDistance(displacement, seconds_left());
       admitClosest(solution);
     }
     describeNiches(solution);
@@ -117,7 +117,7 @@ void TrackerState::update(const Eigen::Isometry3d& pose, double time, PairSoluti
   last_distance = solution.distance;
   warm = true;
   ++cycle;
-  solution.solve_seconds = sinceStart();
+  solution.solve_seconds = since_start();
 }
 
 // Levels `nodes` and `refined`: the niches at the geometry's pose.

@@ -11,7 +11,7 @@ std::optional<TrialPoint> floodForDeeper(const PairObjective& objective, const T
   const NodeGraph& graph_a = objective.bodyA().graph();
   const NodeGraph& graph_b = objective.bodyB().graph();
   std::vector<TrialPoint>& heap = workspace.heap;
-  const auto deeperLast = [](const TrialPoint& l, const TrialPoint& r) { return r < l; };
+  const auto deeper_last = [](const TrialPoint& l, const TrialPoint& r) { return r < l; };
   const double from = std::sqrt(start.squared_distance);
   const double squared_level = level * level;
   // The square of a rounded root may lie above what it is the root of: never above the start itself.
@@ -23,7 +23,7 @@ std::optional<TrialPoint> floodForDeeper(const PairObjective& objective, const T
   workspace.seen.insert(start.node_a, start.node_b, 0);
   std::uint32_t states = 0;
   while (!heap.empty() && states < state_limit) {
-    std::pop_heap(heap.begin(), heap.end(), deeperLast);
+    std::pop_heap(heap.begin(), heap.end(), deeper_last);
     const TrialPoint here = heap.back();
     heap.pop_back();
     if (here.squared_distance < squared_goal) {
@@ -38,7 +38,7 @@ std::optional<TrialPoint> floodForDeeper(const PairObjective& objective, const T
       const TrialPoint next = objective.evaluate(node_a, node_b, cost);
       if (next.squared_distance <= squared_level) {
         heap.push_back(next);
-        std::push_heap(heap.begin(), heap.end(), deeperLast);
+        std::push_heap(heap.begin(), heap.end(), deeper_last);
       }
     };
     for (const NodeGraph::Edge& edge : graph_a.edges.row(here.node_a.value)) {

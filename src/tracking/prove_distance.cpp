@@ -31,10 +31,10 @@ void TrackerState::proveDistance(double displacement, double seconds_left) {
     if (count == kSeedNiches) break;
     seeds[count++] = trianglesOf(record.niche.witness);
   }
-  const auto isLast = [last = trianglesOf(certificate.witness)](const TrianglePair& seed) {
+  const auto is_last = [last = trianglesOf(certificate.witness)](const TrianglePair& seed) {
     return seed.a == last.a && seed.b == last.b;
   };
-  if (proof.seeded && std::none_of(seeds.begin(), seeds.begin() + count, isLast)) {
+  if (proof.seeded && std::none_of(seeds.begin(), seeds.begin() + count, is_last)) {
     seeds[count++] = trianglesOf(certificate.witness);
   }
   const double last_bound = proof.seeded ? certificate.lower_bound : 0.0;

@@ -108,7 +108,7 @@ AdmissionResult TrackerState::verdictOnRipple(const NicheCandidate& candidate) {
 bool TrackerState::leadsDown(const PairObjective& objective, const TrialPoint& start,
                              const TrackedNiche& niche, PairSolution& solution) {
   const std::uint32_t state_limit = warm ? kWarmFloodStates : kColdFloodStates;
-  const auto closerThan = [&](const TrialPoint& end) {
+  const auto closer_than = [&](const TrialPoint& end) {
     const WitnessRefinement refined =
         geometry.refine(geometry.a->originalTriangle(end.node_a), geometry.b->originalTriangle(end.node_b));
     if (!(std::sqrt(refined.witness.squared_distance) < niche.distance - geometry.samePlaceTolerance())) {
@@ -120,7 +120,7 @@ bool TrackerState::leadsDown(const PairObjective& objective, const TrialPoint& s
   };
   const TrialPoint corner = geometry.nodePairNear(niche.witness);
   if (std::sqrt(corner.squared_distance) <= (1.0 + parameters.least_prominence) * niche.distance &&
-      closerThan(descend(objective, corner, nullptr, search.trail, solution.cost))) {
+      closer_than(descend(objective, corner, nullptr, search.trail, solution.cost))) {
     return true;
   }
   const double level = (1.0 + parameters.least_prominence) * std::sqrt(start.squared_distance);
@@ -131,7 +131,7 @@ bool TrackerState::leadsDown(const PairObjective& objective, const TrialPoint& s
       return false;
     }
     from = descend(objective, *deeper, nullptr, search.trail, solution.cost);
-    if (closerThan(from)) {
+    if (closer_than(from)) {
       return true;
     }
   }

@@ -40,7 +40,7 @@ geometry_msgs::TransformStamped hookAt(int step, ros::Time stamp) {
 
 // Everything that the tracking determines: all but the time it took and the sender's count.
 std::vector<std::uint8_t> tracked(PairNiches message) {
-  message.solve_time = 0.0;
+  message.solve_time = message.nearest.cost.solve_time = 0.0;
   message.header.seq = message.nearest.header.seq = 0;
   std::vector<std::uint8_t> bytes(ros::serialization::serializationLength(message));
   ros::serialization::OStream stream(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
