@@ -46,14 +46,15 @@ def plot_speed(rows):
     axes.set_xticks(range(len(pairs)), pairs, rotation=40, ha="right")
     axes.axhline(1, color="black", linewidth=0.8)
     axes.grid(axis="y", alpha=0.3)
-    axes.legend()
+    axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0))
     axes.set_title("Proven distance against FCL's plain distance")
     save(figure, "proof_speed.png")
 
 
 def plot_steps(rows):
     """The cost of a proof as steps become smaller."""
-    figure, axes = plt.subplots(figsize=(8, 5))
+    figure, axes = plt.subplots(figsize=(9, 5))
+    axes.set_prop_cycle(color=plt.get_cmap("tab20").colors)
     for pair in dict.fromkeys(row["pair"] for row in rows):
         points = sorted((int(row["queries"]), float(row["certified_us"])) for row in rows
                         if row["pair"] == pair and row["kind"] == "front")
@@ -63,7 +64,8 @@ def plot_steps(rows):
     axes.set_xlabel("instants along the same motion")
     axes.set_ylabel("microseconds a proof (median, front kept)")
     axes.grid(alpha=0.3)
-    axes.legend(fontsize=7, ncol=2)
+    axes.legend(fontsize=8, loc="upper left", bbox_to_anchor=(1.01, 1.0))
+    axes.set_title("A proof as the steps become smaller")
     save(figure, "proof_steps.png")
 
 
@@ -79,6 +81,7 @@ def plot_scale(rows):
     axes.set_ylabel("microseconds (median)")
     axes.grid(alpha=0.3)
     axes.legend()
+    axes.set_title("Two bumpy rings, one passing close by the other")
     save(figure, "proof_scale.png")
 
 
