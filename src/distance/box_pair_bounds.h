@@ -14,13 +14,21 @@ inline Lanes lanes(const double* values) {
   return Eigen::Map<const Lanes, Eigen::Aligned16>(values);
 }
 
-/// Bit i is set when lane i lies below `limit`.
-inline unsigned lanesBelow(const Lanes& values, double limit) {
-  unsigned mask = 0;
-  for (unsigned lane = 0; lane < BoundingVolumeHierarchy::kWidth; ++lane) {
-    mask |= static_cast<unsigned>(values[lane] < limit) << lane;
-  }
-  return mask;
+/// Of each lane's point, [coordinate][lane].
+inline Lanes along(const Eigen::Vector3d& direction,
+                   const double (&point)[3][BoundingVolumeHierarchy::kWidth]) {
+  return direction.x() * lanes(point[0]) + direction.y() * lanes(point[1]) + direction.z() * lanes(point[2]);
+}
+
+/// How far each of the node's boxes reaches from its centre along a unit vector.
+inline Lanes reachAlong(const Eigen::Vector3d& direction, const BoundingVolumeHierarchy::Node& node) {
+  return lanes(node.half[0]) * along(direction, node.axes[0]).abs() +
+         lanes(node.half[1]) * along(direction, node.axes[1]).abs() +
+         lanes(node.half[2]) * along(direction, node.axes[2]).abs();
+}
+
+inline double reachAlong(const Eigen::Vector3d& direction, const OrientedBox& box) {
+  return (box.axes.transpose() * direction).cwiseAbs().dot(box.half);
 }
 
 /// A box as the other tree's nodes are compared with it: in their frame, for the direction along, and once
@@ -62,15 +70,8 @@ inline Lanes squaredBounds(const BoundingVolumeHierarchy::Node& node, const Comp
   const Lanes dx = lanes(node.centre[0]) - box.centre.x();
   const Lanes dy = lanes(node.centre[1]) - box.centre.y();
   const Lanes dz = lanes(node.centre[2]) - box.centre.z();
-  const double box_support = (box.axes.transpose() * direction).cwiseAbs().dot(box.half);
-  Lanes separation =
-      direction.x() * dx + direction.y() * dy + direction.z() * dz - (box_support + scale.slack);
-  for (int i = 0; i < 3; ++i) {
-    separation -= lanes(node.half[i]) *
-                  (direction.x() * lanes(node.axes[i][0]) + direction.y() * lanes(node.axes[i][1]) +
-                   direction.z() * lanes(node.axes[i][2]))
-                      .abs();
-  }
+  Lanes separation = direction.x() * dx + direction.y() * dy + direction.z() * dz -
+                     (reachAlong(direction, box) + scale.slack) - reachAlong(direction, node);
   separation = separation.max(0.0);
   const Lanes squared = separation.square();
   if (separation.minCoeff() >= enough) return squared;

@@ -24,6 +24,7 @@ class DirectionalSupport {
   using Hierarchy = BoundingVolumeHierarchy;
 
   double refine(Hierarchy::Slot slot, double box_support);
+  double mostOfChildren(std::uint32_t child);
 
   const Hierarchy& hierarchy_;
   SupportCache& cache_;

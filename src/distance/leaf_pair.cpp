@@ -66,12 +66,9 @@ Lanes leastAlong(const LeafLanes& leaf, const Vector3d& direction) {
 }
 
 Lanes mostAlong(const BoundingVolumeHierarchy::Leaf& leaf, const Vector3d& direction) {
-  Lanes most = Lanes::Constant(-std::numeric_limits<double>::infinity());
-  for (int k = 0; k < 3; ++k) {
-    most = most.max(direction.x() * lanes(leaf.corner[k][0]) + direction.y() * lanes(leaf.corner[k][1]) +
-                    direction.z() * lanes(leaf.corner[k][2]));
-  }
-  return most;
+  return along(direction, leaf.corner[0])
+      .max(along(direction, leaf.corner[1]))
+      .max(along(direction, leaf.corner[2]));
 }
 
 Lanes planeSeparation(const TrianglePoints& a, const LeafLanes& b) {
