@@ -13,10 +13,9 @@
 
 #include <cstdio>
 #include <fstream>
-#include <iostream>
 
+#include "benchmark/support/benchmark_main.h"
 #include "benchmark/support/search_trial.h"
-#include "concave_distance/base/error.h"
 
 namespace concave_distance::benchmark {
 namespace {
@@ -133,7 +132,9 @@ void runPair(const BenchmarkPair& pair, const std::vector<SearchScene>& scenes,
   }
 }
 
-int main(int argc, char** argv) {
+}  // namespace
+
+int benchmarkMain(int argc, char** argv) {
   CLI::App app("Ablation of the search at equal evaluations");
   std::vector<std::string> names = {"battery_fixture", "comb_in_comb", "wam3_wam5",
                                     "kr5_bicep_palm",  "stairs_leg",   "obstacle_field"};
@@ -166,14 +167,4 @@ int main(int argc, char** argv) {
   return 0;
 }
 
-}  // namespace
 }  // namespace concave_distance::benchmark
-
-int main(int argc, char** argv) {
-  try {
-    return concave_distance::benchmark::main(argc, argv);
-  } catch (const concave_distance::Error& error) {
-    std::cerr << error.what() << '\n';
-    return 1;
-  }
-}

@@ -16,11 +16,10 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
-#include <iostream>
 
+#include "benchmark/support/benchmark_main.h"
 #include "benchmark/support/reference_niches.h"
 #include "benchmark/support/statistics.h"
-#include "concave_distance/base/error.h"
 #include "concave_distance/distance/enumeration.h"
 #include "concave_distance/search/automatic_radii.h"
 #include "concave_distance/search/genetic_search.h"
@@ -226,7 +225,9 @@ void reportNicheRuns(const std::vector<NicheRun>& niche_runs, std::size_t refere
   }
 }
 
-int main(int argc, char** argv) {
+}  // namespace
+
+int benchmarkMain(int argc, char** argv) {
   CLI::App app("Robustness on the battery and fixture");
   std::uint32_t runs = 1000;
   std::uint32_t niche_runs = 500;
@@ -295,14 +296,4 @@ int main(int argc, char** argv) {
   return 0;
 }
 
-}  // namespace
 }  // namespace concave_distance::benchmark
-
-int main(int argc, char** argv) {
-  try {
-    return concave_distance::benchmark::main(argc, argv);
-  } catch (const concave_distance::Error& error) {
-    std::cerr << error.what() << '\n';
-    return 1;
-  }
-}

@@ -14,19 +14,15 @@
 #include <chrono>
 #include <cstdio>
 #include <fstream>
-#include <iostream>
 
+#include "benchmark/support/benchmark_main.h"
 #include "benchmark/support/benchmark_pairs.h"
 #include "benchmark/support/statistics.h"
-#include "concave_distance/base/error.h"
+#include "benchmark/support/stopwatch.h"
 #include "concave_distance/distance/certificate.h"
 
 namespace concave_distance::benchmark {
 namespace {
-
-double microseconds(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
-}
 
 enum class Kind { Cold, Seeded, Front };
 
@@ -64,7 +60,7 @@ Series measure(const BenchmarkPair& pair, const std::vector<Eigen::Isometry3d>& 
     const DistanceCertificate ours =
         certifyDistance(*pair.a, *pair.b, poses[k], &seed, seeded ? 1 : 0, CertificateRequest(), workspace,
                         kind == Kind::Front ? &front : nullptr);
-    const double taken = microseconds(start);
+    const double taken = microsecondsSince(start);
     closest.push_back({ours.witness.triangle_a, ours.witness.triangle_b});
     if (kind != Kind::Cold && !seeded) continue;
     series.us.push_back(taken);
@@ -86,11 +82,11 @@ Yardstick measureFcl(const BenchmarkPair& pair, const std::vector<Eigen::Isometr
   for (std::size_t k = 0; k < poses.size(); ++k) {
     auto start = std::chrono::steady_clock::now();
     yardstick.distances.push_back(fclDistance(*pair.fcl_a, *pair.fcl_b, poses[k]).distance);
-    yardstick.plain_us.push_back(microseconds(start));
+    yardstick.plain_us.push_back(microsecondsSince(start));
     if (k == 0 || closest.empty()) continue;
     start = std::chrono::steady_clock::now();
     (void)fclDistanceSeeded(*pair.fcl_a, *pair.fcl_b, poses[k], closest[k - 1].a, closest[k - 1].b);
-    yardstick.seeded_us.push_back(microseconds(start));
+    yardstick.seeded_us.push_back(microsecondsSince(start));
   }
   return yardstick;
 }
@@ -113,7 +109,9 @@ void print(const std::string& name, Kind kind, const Yardstick& fcl, const Serie
   }
 }
 
-int main(int argc, char** argv) {
+}  // namespace
+
+int benchmarkMain(int argc, char** argv) {
   CLI::App app("The proven distance beside FCL's, cold and tracked");
   std::vector<std::string> names = allPairs();
   std::size_t poses = 200;
@@ -158,14 +156,4 @@ int main(int argc, char** argv) {
   return 0;
 }
 
-}  // namespace
 }  // namespace concave_distance::benchmark
-
-int main(int argc, char** argv) {
-  try {
-    return concave_distance::benchmark::main(argc, argv);
-  } catch (const concave_distance::Error& error) {
-    std::cerr << error.what() << '\n';
-    return 1;
-  }
-}

@@ -25,13 +25,12 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
-#include <iostream>
 #include <map>
 #include <set>
 
+#include "benchmark/support/benchmark_main.h"
 #include "benchmark/support/benchmark_pairs.h"
 #include "benchmark/support/statistics.h"
-#include "concave_distance/base/error.h"
 #include "concave_distance/distance/enumeration.h"
 #include "concave_distance/distance/local_minima.h"
 #include "concave_distance/search/local_descent.h"
@@ -307,7 +306,9 @@ double share(double part, double whole) {
   return whole > 0.0 ? part / whole : 1.0;
 }
 
-int main(int argc, char** argv) {
+}  // namespace
+
+int benchmarkMain(int argc, char** argv) {
   CLI::App app("Recall and precision of the search against level complete");
   std::vector<std::string> names = allPairs();
   Options options;
@@ -370,14 +371,4 @@ int main(int argc, char** argv) {
   return 0;
 }
 
-}  // namespace
 }  // namespace concave_distance::benchmark
-
-int main(int argc, char** argv) {
-  try {
-    return concave_distance::benchmark::main(argc, argv);
-  } catch (const concave_distance::Error& error) {
-    std::cerr << error.what() << '\n';
-    return 1;
-  }
-}

@@ -12,6 +12,7 @@
 #include <functional>
 #include <limits>
 
+#include "benchmark/support/benchmark_main.h"
 #include "concave_distance/distance/enumeration.h"
 #include "concave_distance/distance/niche_properties.h"
 #include "support/body_pairs.h"
@@ -110,13 +111,14 @@ void run(int repeats) {
 }
 
 }  // namespace
-}  // namespace concave_distance::benchmark
 
-int main(int argc, char** argv) {
+int benchmarkMain(int argc, char** argv) {
   int repeats = 20;
   CLI::App app("Times of the distance kernels");
   app.add_option("--repeats", repeats)->capture_default_str()->check(CLI::PositiveNumber);
   CLI11_PARSE(app, argc, argv);
-  concave_distance::benchmark::run(repeats);
+  run(repeats);
   return 0;
 }
+
+}  // namespace concave_distance::benchmark

@@ -14,12 +14,11 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <fstream>
-#include <iostream>
 #include <mutex>
 
+#include "benchmark/support/benchmark_main.h"
 #include "benchmark/support/benchmark_pairs.h"
 #include "benchmark/support/sphere_tree.h"
-#include "concave_distance/base/error.h"
 #include "concave_distance/base/random_engine.h"
 #include "concave_distance/distance/certificate.h"
 #include "support/exact_query.h"
@@ -157,7 +156,9 @@ Row run(const BenchmarkPair& pair, std::size_t poses) {
   return row;
 }
 
-int main(int argc, char** argv) {
+}  // namespace
+
+int benchmarkMain(int argc, char** argv) {
   CLI::App app("The proven distance against an independent hierarchy and 100 digits");
   std::vector<std::string> names = allPairs();
   std::size_t poses = 7000;
@@ -198,14 +199,4 @@ int main(int argc, char** argv) {
   return sum.wrong + sum.bounds_above + sum.disagreements == 0 ? 0 : 1;
 }
 
-}  // namespace
 }  // namespace concave_distance::benchmark
-
-int main(int argc, char** argv) {
-  try {
-    return concave_distance::benchmark::main(argc, argv);
-  } catch (const concave_distance::Error& error) {
-    std::cerr << error.what() << '\n';
-    return 1;
-  }
-}

@@ -10,10 +10,9 @@
 
 #include <cstdio>
 #include <fstream>
-#include <iostream>
 
+#include "benchmark/support/benchmark_main.h"
 #include "benchmark/support/search_trial.h"
-#include "concave_distance/base/error.h"
 #include "concave_distance/search/automatic_radii.h"
 
 namespace concave_distance::benchmark {
@@ -29,7 +28,9 @@ std::vector<std::string> thesisAndRobotPairs() {
   return names;
 }
 
-int main(int argc, char** argv) {
+}  // namespace
+
+int benchmarkMain(int argc, char** argv) {
   CLI::App app("Automatic radii on pairs of links");
   std::vector<std::string> names = thesisAndRobotPairs();
   std::size_t poses = 5;
@@ -75,14 +76,4 @@ int main(int argc, char** argv) {
   return 0;
 }
 
-}  // namespace
 }  // namespace concave_distance::benchmark
-
-int main(int argc, char** argv) {
-  try {
-    return concave_distance::benchmark::main(argc, argv);
-  } catch (const concave_distance::Error& error) {
-    std::cerr << error.what() << '\n';
-    return 1;
-  }
-}

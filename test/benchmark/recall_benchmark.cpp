@@ -18,12 +18,11 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
-#include <iostream>
 
+#include "benchmark/support/benchmark_main.h"
 #include "benchmark/support/reference_niches.h"
 #include "benchmark/support/search_trial.h"
 #include "benchmark/support/statistics.h"
-#include "concave_distance/base/error.h"
 #include "concave_distance/tracking/pair_tracker.h"
 
 namespace concave_distance::benchmark {
@@ -189,7 +188,9 @@ Tally run(const BenchmarkPair& pair, const Windows& windows) {
   return tally;
 }
 
-int main(int argc, char** argv) {
+}  // namespace
+
+int benchmarkMain(int argc, char** argv) {
   CLI::App app("Recall of true niches along motions");
   std::vector<std::string> names = allPairs();
   Windows windows{4, 10, 200};
@@ -236,14 +237,4 @@ int main(int argc, char** argv) {
   return 0;
 }
 
-}  // namespace
 }  // namespace concave_distance::benchmark
-
-int main(int argc, char** argv) {
-  try {
-    return concave_distance::benchmark::main(argc, argv);
-  } catch (const concave_distance::Error& error) {
-    std::cerr << error.what() << '\n';
-    return 1;
-  }
-}

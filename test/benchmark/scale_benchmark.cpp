@@ -15,12 +15,12 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
-#include <iostream>
 
+#include "benchmark/support/benchmark_main.h"
 #include "benchmark/support/fcl_distance.h"
 #include "benchmark/support/shapes.h"
 #include "benchmark/support/statistics.h"
-#include "concave_distance/base/error.h"
+#include "benchmark/support/stopwatch.h"
 #include "concave_distance/distance/certificate.h"
 #include "concave_distance/tracking/pair_tracker.h"
 
@@ -28,10 +28,6 @@ namespace concave_distance::benchmark {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-double secondsSince(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 double peakMegabytes() {
   rusage usage{};
@@ -53,7 +49,7 @@ double medianMicroseconds(int steps, Query query) {
     const Eigen::Isometry3d pose = poseAt(static_cast<double>(k) / steps);
     const Clock::time_point start = Clock::now();
     query(pose, k);
-    taken.push_back(1e6 * secondsSince(start));
+    taken.push_back(microsecondsSince(start));
   }
   return median(taken);
 }
@@ -63,7 +59,7 @@ void run(std::size_t size, int steps, std::ofstream& csv) {
   const Clock::time_point start = Clock::now();
   const auto a = std::make_shared<const BodyMesh>("a", surface, BodyMeshOptions());
   const auto b = std::make_shared<const BodyMesh>("b", surface, BodyMeshOptions());
-  const double build = secondsSince(start);
+  const double build = 1e-6 * microsecondsSince(start);
   const auto triangles = static_cast<double>(surface.triangleCount());
 
   CertificateWorkspace workspace;
@@ -102,7 +98,9 @@ void run(std::size_t size, int steps, std::ofstream& csv) {
   }
 }
 
-int main(int argc, char** argv) {
+}  // namespace
+
+int benchmarkMain(int argc, char** argv) {
   CLI::App app("How costs grow with the number of triangles");
   std::vector<std::size_t> sizes = {1000, 10000, 100000, 1000000};
   int steps = 200;
@@ -126,14 +124,4 @@ int main(int argc, char** argv) {
   return 0;
 }
 
-}  // namespace
 }  // namespace concave_distance::benchmark
-
-int main(int argc, char** argv) {
-  try {
-    return concave_distance::benchmark::main(argc, argv);
-  } catch (const concave_distance::Error& error) {
-    std::cerr << error.what() << '\n';
-    return 1;
-  }
-}

@@ -14,19 +14,15 @@
 #include <chrono>
 #include <cstdio>
 #include <fstream>
-#include <iostream>
 
+#include "benchmark/support/benchmark_main.h"
 #include "benchmark/support/benchmark_pairs.h"
 #include "benchmark/support/statistics.h"
-#include "concave_distance/base/error.h"
+#include "benchmark/support/stopwatch.h"
 #include "concave_distance/tracking/pair_tracker.h"
 
 namespace concave_distance::benchmark {
 namespace {
-
-double microseconds(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
-}
 
 struct Row {
   std::vector<double> fcl_us;
@@ -72,16 +68,16 @@ Row run(const BenchmarkPair& pair, int steps, bool list_misses) {
     const Eigen::Isometry3d pose = pair.motion(t);
     auto start = std::chrono::steady_clock::now();
     const FclAnswer exact = fclDistance(*pair.fcl_a, *pair.fcl_b, pose);
-    row.fcl_us.push_back(microseconds(start));
+    row.fcl_us.push_back(microsecondsSince(start));
     start = std::chrono::steady_clock::now();
     tracker.update(pose, 5.0 * t, solution);
-    const double taken = microseconds(start);
+    const double taken = microsecondsSince(start);
     start = std::chrono::steady_clock::now();
     prover.update(pose, 5.0 * t, proven);
-    const double certified_taken = microseconds(start);
+    const double certified_taken = microsecondsSince(start);
     start = std::chrono::steady_clock::now();
     bare_prover.update(pose, 5.0 * t, bare);
-    const double proof_taken = microseconds(start);
+    const double proof_taken = microsecondsSince(start);
     row.wrong += isProven(proven, exact.distance, size) && isProven(bare, exact.distance, size) ? 0 : 1;
     if (k > 0) {
       row.found += proven.search_miss ? 1 : 0;
@@ -105,7 +101,7 @@ Row run(const BenchmarkPair& pair, int steps, bool list_misses) {
       start = std::chrono::steady_clock::now();
       PairTracker fresh(pair.name, pair.a, pair.b, TrackerParameters());
       fresh.update(pose, 0.0, cold);
-      row.cold_us.push_back(microseconds(start));
+      row.cold_us.push_back(microsecondsSince(start));
       row.cold_misses += cold.distance <= (1.0 + 1e-6) * exact.distance ? 0 : 1;
     }
   }
@@ -113,7 +109,9 @@ Row run(const BenchmarkPair& pair, int steps, bool list_misses) {
   return row;
 }
 
-int main(int argc, char** argv) {
+}  // namespace
+
+int benchmarkMain(int argc, char** argv) {
   CLI::App app("Tracked and cold solves beside FCL, one run, one thread");
   std::vector<std::string> names = allPairs();
   int steps = 500;
@@ -173,14 +171,4 @@ int main(int argc, char** argv) {
   return 0;
 }
 
-}  // namespace
 }  // namespace concave_distance::benchmark
-
-int main(int argc, char** argv) {
-  try {
-    return concave_distance::benchmark::main(argc, argv);
-  } catch (const concave_distance::Error& error) {
-    std::cerr << error.what() << '\n';
-    return 1;
-  }
-}
