@@ -1,8 +1,12 @@
 #include "concave_distance/mesh/bounding_volume_hierarchy.h"
 
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "oriented_box_fit.h"
 
@@ -18,6 +22,15 @@ struct Subtree {
   std::uint32_t first;
   std::uint32_t count;
 };
+
+/// How many nodes and leaves are below a box, or where the next ones go.
+struct Place {
+  std::uint32_t nodes = 0;
+  std::uint32_t leaves = 0;
+};
+
+/// Children of larger subtrees are built as tasks of their own.
+constexpr std::uint32_t kTaskSize = 32768;
 
 class Builder {
  public:
@@ -37,28 +50,75 @@ class Builder {
   }
 
   void build() {
-    nodes_.emplace_back(Hierarchy::Node{});
-    std::fill(std::begin(nodes_[0].child), std::end(nodes_[0].child), Hierarchy::kNoChild);
-    place({0, 0, counts_[0]}, 0, 0);
+    const Subtree all{0, 0, counts_[0]};
+    const Place size = sizeOf(all);
+    nodes_.resize(std::size_t{1} + size.nodes);
+    leaves_.resize(size.leaves);
+    nodes_[0] = emptyNode();
+    Place next{1, 0};
+    tbb::parallel_invoke([&] { storeBox(all, nodes_[0], 0); },
+                         [&] { nodes_[0].child[0] = place(all, next); });
     repeatLastBox(nodes_[0], 1);
   }
 
  private:
-  void place(const Subtree& subtree, std::size_t node, std::size_t lane) {
-    storeBox(subtree, node, lane);
-    if (subtree.count <= Hierarchy::kWidth) {
-      nodes_[node].child[lane] = Hierarchy::kLeafFlag | static_cast<std::uint32_t>(leaves_.size());
-      addLeaf(subtree);
-      return;
-    }
-    const std::size_t self = nodes_.size();
-    nodes_[node].child[lane] = static_cast<std::uint32_t>(self);
-    nodes_.emplace_back(Hierarchy::Node{});
-    std::fill(std::begin(nodes_[self].child), std::end(nodes_[self].child), Hierarchy::kNoChild);
+  /// Of what is below the subtree's box.
+  Place sizeOf(const Subtree& subtree) const {
+    if (subtree.count <= Hierarchy::kWidth) return {0, 1};
     std::array<Subtree, Hierarchy::kWidth> children;
     const std::size_t count = collapse(subtree, children);
-    for (std::size_t i = 0; i < count; ++i) place(children[i], self, i);
-    repeatLastBox(nodes_[self], count);
+    Place size{1, 0};
+    for (std::size_t i = 0; i < count; ++i) {
+      const Place below = sizeOf(children[i]);
+      size.nodes += below.nodes;
+      size.leaves += below.leaves;
+    }
+    return size;
+  }
+
+  /// Builds what is below a subtree's box, depth first from `next` on; returns what the box's child is
+  /// called.
+  std::uint32_t place(const Subtree& subtree, Place& next) {
+    if (subtree.count <= Hierarchy::kWidth) {
+      leaves_[next.leaves] = leafOf(subtree);
+      return Hierarchy::kLeafFlag | next.leaves++;
+    }
+    const std::uint32_t self = next.nodes++;
+    Hierarchy::Node& node = nodes_[self];
+    node = emptyNode();
+    std::array<Subtree, Hierarchy::kWidth> children;
+    const std::size_t count = collapse(subtree, children);
+    if (subtree.count <= kTaskSize) {
+      for (std::size_t i = 0; i < count; ++i) {
+        storeBox(children[i], node, i);
+        node.child[i] = place(children[i], next);
+      }
+    } else {
+      placeInTasks(children, count, node, next);
+    }
+    repeatLastBox(node, count);
+    return self;
+  }
+
+  /// Every child is told where its nodes go, so that what is built does not depend on the number of threads.
+  void placeInTasks(const std::array<Subtree, Hierarchy::kWidth>& children, std::size_t count,
+                    Hierarchy::Node& node, Place& next) {
+    std::array<Place, Hierarchy::kWidth> first;
+    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) { first[i] = sizeOf(children[i]); });
+    for (std::size_t i = 0; i < count; ++i) {
+      const Place size = std::exchange(first[i], next);
+      next = {next.nodes + size.nodes, next.leaves + size.leaves};
+    }
+    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+      storeBox(children[i], node, i);
+      node.child[i] = place(children[i], first[i]);
+    });
+  }
+
+  static Hierarchy::Node emptyNode() {
+    Hierarchy::Node node{};
+    std::fill(std::begin(node.child), std::end(node.child), Hierarchy::kNoChild);
+    return node;
   }
 
   static void repeatLastBox(Hierarchy::Node& node, std::size_t used) {
@@ -98,11 +158,10 @@ class Builder {
     return count;
   }
 
-  void storeBox(const Subtree& subtree, std::size_t node, std::size_t lane) {
+  void storeBox(const Subtree& subtree, Hierarchy::Node& target, std::size_t lane) const {
     const OrientedBox box = detail::fitOrientedBox(
         {corners_.data() + 3 * std::size_t{subtree.first},
          corners_.data() + 3 * (std::size_t{subtree.first} + std::size_t{subtree.count})});
-    Hierarchy::Node& target = nodes_[node];
     for (int k = 0; k < 3; ++k) {
       target.centre[k][lane] = box.centre[k];
       target.half[k][lane] = box.half[k] + margin_;
@@ -110,7 +169,7 @@ class Builder {
     }
   }
 
-  void addLeaf(const Subtree& subtree) {
+  Hierarchy::Leaf leafOf(const Subtree& subtree) const {
     Hierarchy::Leaf leaf{};
     leaf.count = subtree.count;
     for (std::size_t lane = 0; lane < Hierarchy::kWidth; ++lane) {
@@ -120,7 +179,7 @@ class Builder {
         for (int c = 0; c < 3; ++c) leaf.corner[k][c][lane] = corners_[3 * i + k][c];
       }
     }
-    leaves_.push_back(leaf);
+    return leaf;
   }
 
   const TriangleTree& tree_;
@@ -138,8 +197,6 @@ BoundingVolumeHierarchy::BoundingVolumeHierarchy(const SurfaceMesh& mesh, const 
   for (const Vector3d& vertex : mesh.vertices()) reach_ = std::max(reach_, (vertex - origin_).norm());
   reach_ *= 1.0 + kBoxMargin;
   Builder(mesh, tree, origin_, kBoxMargin * reach_, nodes_, leaves_).build();
-  nodes_.shrink_to_fit();
-  leaves_.shrink_to_fit();
   chooseRegions();
 }
 

@@ -1,5 +1,7 @@
 #include "concave_distance/mesh/triangle_tree.h"
 
+#include <tbb/parallel_invoke.h>
+
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -12,6 +14,8 @@ constexpr std::size_t kBinCount = 16;
 constexpr std::uint32_t kLargestLeaf = 4;
 /// Below this depth nodes are halved by count, so that the depth stays under kSurfaceAreaDepth + 32.
 constexpr std::uint32_t kSurfaceAreaDepth = 48;
+/// Subtrees of more triangles are built as tasks of their own; smaller ones would copy more than they gain.
+constexpr std::uint32_t kTaskSize = 32768;
 
 double halfArea(const Eigen::AlignedBox3d& box) {
   if (box.isEmpty()) return 0.0;
@@ -24,10 +28,12 @@ struct Split {
   double position = 0.0;  ///< boxes whose centre lies below go to the first child
 };
 
+using Nodes = std::vector<TriangleTree::Node>;
+
 class Builder {
  public:
-  Builder(const SurfaceMesh& mesh, std::vector<TriangleTree::Node>& nodes, std::vector<TriangleIndex>& order)
-      : nodes_(nodes), order_(order), boxes_(mesh.triangleCount()), centres_(mesh.triangleCount()) {
+  Builder(const SurfaceMesh& mesh, std::vector<TriangleIndex>& order)
+      : order_(order), boxes_(mesh.triangleCount()), centres_(mesh.triangleCount()) {
     order_.reserve(mesh.triangleCount());
     for (std::size_t t = 0; t < mesh.triangleCount(); ++t) {
       for (int k = 0; k < 3; ++k) {
@@ -36,35 +42,51 @@ class Builder {
       centres_[t] = 0.5 * (boxes_[t].min() + boxes_[t].max());
       order_.push_back(TriangleIndex{t});
     }
-    nodes_.reserve(mesh.triangleCount());
   }
 
-  // Depth first, so that the first child is next to its parent; the recursion is at most 80 deep.
-  void build(std::uint32_t first, std::uint32_t last, std::uint32_t depth) {
-    const std::size_t self = nodes_.size();
-    nodes_.emplace_back();
+  // Depth first, so that the first child is next to its parent; the recursion is at most 80 deep. What is
+  // built does not depend on the number of threads: tasks share nothing but disjoint ranges of the order.
+  void build(std::uint32_t first, std::uint32_t last, std::uint32_t depth, Nodes& nodes) {
+    const std::size_t self = nodes.size();
+    nodes.emplace_back();
     Eigen::AlignedBox3d centre_box;
     for (std::uint32_t i = first; i < last; ++i) {
-      nodes_[self].box.extend(boxes_[order_[i].value]);
+      nodes[self].box.extend(boxes_[order_[i].value]);
       centre_box.extend(centres_[order_[i].value]);
     }
     const std::uint32_t count = last - first;
     std::uint32_t middle = first;
     if (count > 1) {
-      middle = depth < kSurfaceAreaDepth ? splitByArea(first, last, nodes_[self].box, centre_box) : first;
+      middle = depth < kSurfaceAreaDepth ? splitByArea(first, last, nodes[self].box, centre_box) : first;
       if (middle == first && count > kLargestLeaf) middle = splitByCount(first, last, centre_box);
     }
     if (middle == first) {
-      nodes_[self].first = first;
-      nodes_[self].count = count;
+      nodes[self].first = first;
+      nodes[self].count = count;
       return;
     }
-    build(first, middle, depth + 1);
-    nodes_[self].first = static_cast<std::uint32_t>(nodes_.size());
-    build(middle, last, depth + 1);
+    if (count < kTaskSize) {
+      build(first, middle, depth + 1, nodes);
+      nodes[self].first = static_cast<std::uint32_t>(nodes.size());
+      build(middle, last, depth + 1, nodes);
+      return;
+    }
+    Nodes second;
+    tbb::parallel_invoke([&] { build(first, middle, depth + 1, nodes); },
+                         [&] { build(middle, last, depth + 1, second); });
+    nodes[self].first = static_cast<std::uint32_t>(nodes.size());
+    append(second, nodes);
   }
 
  private:
+  static void append(const Nodes& subtree, Nodes& nodes) {
+    const auto base = static_cast<std::uint32_t>(nodes.size());
+    nodes.insert(nodes.end(), subtree.begin(), subtree.end());
+    for (std::size_t i = base; i < nodes.size(); ++i) {
+      if (nodes[i].count == 0) nodes[i].first += base;
+    }
+  }
+
   /// First entry of the second child; `first` when a leaf is cheaper or no plane separates the centres.
   std::uint32_t splitByArea(std::uint32_t first, std::uint32_t last, const Eigen::AlignedBox3d& box,
                             const Eigen::AlignedBox3d& centre_box) {
@@ -129,7 +151,6 @@ class Builder {
     return middle;
   }
 
-  std::vector<TriangleTree::Node>& nodes_;
   std::vector<TriangleIndex>& order_;
   std::vector<Eigen::AlignedBox3d> boxes_;
   std::vector<Eigen::Vector3d> centres_;
@@ -139,7 +160,8 @@ class Builder {
 
 TriangleTree::TriangleTree(const SurfaceMesh& mesh) {
   if (mesh.triangleCount() == 0) return;
-  Builder(mesh, nodes_, order_).build(0, static_cast<std::uint32_t>(mesh.triangleCount()), 0);
+  nodes_.reserve(mesh.triangleCount());
+  Builder(mesh, order_).build(0, static_cast<std::uint32_t>(mesh.triangleCount()), 0, nodes_);
   nodes_.shrink_to_fit();
 }
 

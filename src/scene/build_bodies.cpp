@@ -9,19 +9,17 @@
 #include <sstream>
 #include <utility>
 
-#include "concave_distance/mesh/search_grid.h"
-
 namespace concave_distance::detail {
 namespace {
 
 // Per entry of the metric's matrices: a float and a 16-bit predecessor.
 constexpr std::size_t kBytesPerMatrixEntry = sizeof(float) + sizeof(std::uint16_t);
 
-// Between the two passes: the surface is there, the search graph's size known, its metric not yet built.
+// Between the two passes: all is there but the mesh metric.
 struct PreparedBody {
-  RepairedMesh repaired;
-  std::size_t graph_nodes = 0;
-  BodyMeshOptions options;
+  RepairReport repair;
+  BodyMeshParts parts;
+  MeshMetricOptions metric;
 };
 
 // Runs `step` for every body without a problem; what it throws becomes that body's problem.
@@ -59,16 +57,11 @@ void locateAll(std::vector<BodySource>& sources, const PackageLocator& package_l
 
 PreparedBody prepare(const BodySource& source) {
   PreparedBody prepared;
-  prepared.repaired = loadGeometry(source.geometry, source.source);
-  prepared.options.max_edge_length = source.max_edge_length;
-  const SurfaceMesh& surface = prepared.repaired.mesh;
-  const double edge_length = source.max_edge_length.value_or(automaticEdgeLength(surface));
-  prepared.graph_nodes = makeSearchGrid(surface, edge_length).mesh.vertexCount();
-  if (!source.max_edge_length) {
-    // BodyMesh thins an automatic grid, to one node a shell at least.
-    const std::size_t most = std::max(prepared.options.search_node_limit, prepared.repaired.report.shells);
-    prepared.graph_nodes = std::min(prepared.graph_nodes, most);
-  }
+  RepairedMesh repaired = loadGeometry(source.geometry, source.source);
+  prepared.repair = std::move(repaired.report);
+  BodyMeshOptions options;
+  options.max_edge_length = source.max_edge_length;
+  prepared.parts = makeBodyMeshParts(source.name, std::move(repaired.mesh), options);
   return prepared;
 }
 
@@ -79,12 +72,12 @@ void shareMetricMemory(std::vector<PreparedBody>& prepared, std::size_t limit,
   for (std::size_t i = 0; i < prepared.size(); ++i) {
     PreparedBody& body = prepared[i];
     if (!built[i].problem.empty()) continue;
+    const std::size_t graph_nodes = body.parts.nodes.graph.nodeCount();
     std::ostringstream reason;
-    if (body.graph_nodes > body.options.metric.matrix_node_limit) {
-      reason << "more than " << body.options.metric.matrix_node_limit << " search nodes";
-    } else if (const std::size_t wanted = body.graph_nodes * body.graph_nodes * kBytesPerMatrixEntry;
-               wanted > left) {
-      body.options.metric.matrix_node_limit = 0;
+    if (graph_nodes > body.metric.matrix_node_limit) {
+      reason << "more than " << body.metric.matrix_node_limit << " search nodes";
+    } else if (const std::size_t wanted = graph_nodes * graph_nodes * kBytesPerMatrixEntry; wanted > left) {
+      body.metric.matrix_node_limit = 0;
       reason << "matrices of " << static_cast<double>(wanted) * 1e-6 << " MB, "
              << static_cast<double>(left) * 1e-6 << " of " << static_cast<double>(limit) * 1e-6
              << " MB are left";
@@ -103,10 +96,9 @@ SceneBody finishBody(const BodySource& source, PreparedBody prepared) {
   body.source = source.source;
   body.colour = source.colour;
   body.in_robot_model = source.in_robot_model;
-  body.repair = prepared.repaired.report;
-  body.bounds = boundsOf(prepared.repaired.mesh);
-  body.mesh =
-      std::make_shared<const BodyMesh>(source.name, std::move(prepared.repaired.mesh), prepared.options);
+  body.repair = std::move(prepared.repair);
+  body.bounds = boundsOf(prepared.parts.surface);
+  body.mesh = std::make_shared<const BodyMesh>(std::move(prepared.parts), prepared.metric);
   return body;
 }
 
@@ -121,7 +113,7 @@ std::vector<BuiltBody> buildBodies(std::vector<BodySource> sources, const Packag
   for (std::size_t i = 0; i < sources.size(); ++i) {
     if (!built[i].problem.empty()) continue;
     for (const std::string& note :
-         {prepared[i].repaired.report.summary(), describeApproximations(sources[i].geometry)}) {
+         {prepared[i].repair.summary(), describeApproximations(sources[i].geometry)}) {
       if (!note.empty()) built[i].notes.push_back(note);
     }
   }

@@ -9,7 +9,7 @@
 #include "concave_distance/mesh/mesh_metric.h"
 #include "concave_distance/mesh/mesh_topology.h"
 #include "concave_distance/mesh/node_graph.h"
-#include "concave_distance/mesh/search_grid.h"
+#include "concave_distance/mesh/search_nodes.h"
 #include "concave_distance/mesh/surface_mesh.h"
 #include "concave_distance/mesh/triangle_tree.h"
 
@@ -24,10 +24,20 @@ struct BodyMeshOptions {
   MeshMetricOptions metric;
 };
 
-/// The grid the search needs, chosen for recall and not for accuracy (the exact levels use the original
-/// triangles): a stated fraction of the body's diameter, not below what keeps the node count within a few
-/// thousand.
-double automaticEdgeLength(const SurfaceMesh& surface);
+/// Everything of a body but its mesh metric, whose memory a scene shares out when all graphs are known.
+struct BodyMeshParts {
+  std::string name;
+  SurfaceMesh surface;
+  MeshTopology topology;
+  TriangleTree tree;
+  BoundingVolumeHierarchy hierarchy;
+  SearchNodes nodes;
+};
+
+/// Makes the parts, those that do not need each other in parallel; the same whatever the number of threads.
+/// @param surface repaired, original triangles, body frame, metres
+/// @throws Error (naming the body) for options out of range
+BodyMeshParts makeBodyMeshParts(std::string name, SurfaceMesh surface, const BodyMeshOptions& options);
 
 /// One body, ready for queries: the original surface with its topology and tree for the exact levels, the
 /// even grid (makeSearchGrid) with its graph and metric for the search. Immutable; shared between pairs and
@@ -37,46 +47,38 @@ class BodyMesh {
   /// @param surface repaired, original triangles, body frame, metres
   /// @throws Error (naming the body) for options out of range
   BodyMesh(std::string name, SurfaceMesh surface, const BodyMeshOptions& options);
+  BodyMesh(BodyMeshParts parts, const MeshMetricOptions& metric);
   BodyMesh(const BodyMesh&) = delete;
   BodyMesh& operator=(const BodyMesh&) = delete;
 
-  const std::string& name() const { return name_; }
-  const SurfaceMesh& surface() const { return surface_; }
-  const MeshTopology& topology() const { return topology_; }
-  const TriangleTree& tree() const { return tree_; }
-  const BoundingVolumeHierarchy& hierarchy() const { return hierarchy_; }
-  const SurfaceMesh& grid() const { return grid_.mesh; }
+  const std::string& name() const { return parts_.name; }
+  const SurfaceMesh& surface() const { return parts_.surface; }
+  const MeshTopology& topology() const { return parts_.topology; }
+  const TriangleTree& tree() const { return parts_.tree; }
+  const BoundingVolumeHierarchy& hierarchy() const { return parts_.hierarchy; }
+  const SurfaceMesh& grid() const { return parts_.nodes.grid; }
   /// What the search moves on: the grid's nodes or, where thinned() says so, an even choice of them.
-  const NodeGraph& graph() const { return graph_; }
-  bool thinned() const { return graph_.nodeCount() < grid_.mesh.vertexCount(); }
+  const NodeGraph& graph() const { return parts_.nodes.graph; }
+  bool thinned() const { return parts_.nodes.thinned(); }
   const MeshMetric& metric() const { return *metric_; }
-  double maxEdgeLength() const { return max_edge_length_; }
-  double diameter() const { return surface_.diameter(); }
+  double maxEdgeLength() const { return parts_.nodes.max_edge_length; }
+  double diameter() const { return parts_.surface.diameter(); }
   /// How long the ways on the body are, and how near its protrusions come to each other along the mesh (at
   /// most half as far), metres: what the radii of niching are chosen from (mesh/geodesic_extent.h).
   double geodesicExtent() const { return geodesic_extent_; }
   double protrusionSpacing() const { return protrusion_spacing_; }
   /// An original triangle that the graph's node lies on.
   TriangleIndex originalTriangle(NodeIndex graph_node) const {
-    return original_triangle_of_node_[graph_node.value];
+    return parts_.nodes.original_triangle_of_node[graph_node.value];
   }
   /// The graph's node that a vertex of the original surface is, or belongs to where the graph is thinned.
   NodeIndex graphNode(NodeIndex surface_vertex) const {
-    return thinned() ? graph_node_of_vertex_[surface_vertex.value] : surface_vertex;
+    return thinned() ? parts_.nodes.graph_node_of_vertex[surface_vertex.value] : surface_vertex;
   }
   std::size_t memoryBytes() const;
 
  private:
-  std::string name_;
-  SurfaceMesh surface_;
-  MeshTopology topology_;
-  TriangleTree tree_;
-  BoundingVolumeHierarchy hierarchy_;
-  double max_edge_length_;
-  SearchGrid grid_;
-  NodeGraph graph_;
-  std::vector<TriangleIndex> original_triangle_of_node_;
-  std::vector<NodeIndex> graph_node_of_vertex_;  ///< empty unless thinned
+  BodyMeshParts parts_;
   std::unique_ptr<MeshMetric> metric_;
   double geodesic_extent_;
   double protrusion_spacing_;

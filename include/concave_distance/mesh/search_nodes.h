@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "concave_distance/mesh/node_graph.h"
+#include "concave_distance/mesh/search_grid.h"
+#include "concave_distance/mesh/surface_mesh.h"
+
+namespace concave_distance {
+
+struct SearchNodesOptions {
+  /// Grid size of the search, metres: the longest edge between nodes. Empty: automaticEdgeLength().
+  std::optional<double> max_edge_length;
+  /// With an automatic grid, nodes of the search graph at the most: a finer mesh is thinned to evenly spread
+  /// nodes (thinGraph). An explicit grid size is taken as it is.
+  std::size_t node_limit = 800;
+};
+
+/// What the search moves on: the even grid over a surface and its graph, thinned where the mesh itself is
+/// finer than the search wants.
+struct SearchNodes {
+  SurfaceMesh grid;
+  NodeGraph graph;
+  double max_edge_length = 0.0;  ///< metres
+  /// An original triangle that each node of the graph lies on.
+  std::vector<TriangleIndex> original_triangle_of_node;
+  /// The graph's node that each vertex of the surface belongs to; empty unless the graph is thinned.
+  std::vector<NodeIndex> graph_node_of_vertex;
+
+  bool thinned() const { return graph.nodeCount() < grid.vertexCount(); }
+};
+
+/// The grid the search needs, chosen for recall and not for accuracy (the exact levels use the original
+/// triangles): a stated fraction of the body's diameter, not below what keeps the node count within a few
+/// thousand.
+double automaticEdgeLength(const SurfaceMesh& surface);
+
+/// O(n log n). @throws Error (naming `where`) when the edge length is not positive and finite; as
+/// makeSearchGrid()
+SearchNodes makeSearchNodes(const SurfaceMesh& surface, const SearchNodesOptions& options,
+                            const std::string& where);
+
+}  // namespace concave_distance

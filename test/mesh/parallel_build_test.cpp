@@ -1,0 +1,66 @@
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <cmath>
+
+#include "support/body_bytes.h"
+
+namespace concave_distance {
+namespace {
+
+/// A bumpy torus: enough triangles that its trees are built in several tasks on several levels.
+SurfaceMesh makeLargeTorus(std::uint32_t around, std::uint32_t across) {
+  std::vector<Eigen::Vector3d> vertices;
+  std::vector<TriangleNodes> triangles;
+  for (std::uint32_t i = 0; i < around; ++i) {
+    const double u = 2.0 * M_PI * i / around;
+    for (std::uint32_t j = 0; j < across; ++j) {
+      const double w = 2.0 * M_PI * j / across;
+      const double tube = 0.2 + 0.02 * std::sin(9.0 * u) * std::cos(5.0 * w);
+      const double radius = 0.5 + tube * std::cos(w);
+      vertices.emplace_back(radius * std::cos(u), radius * std::sin(u), tube * std::sin(w));
+      const NodeIndex a{i * across + j};
+      const NodeIndex b{(i + 1) % around * across + j};
+      const NodeIndex c{(i + 1) % around * across + (j + 1) % across};
+      const NodeIndex d{i * across + (j + 1) % across};
+      triangles.push_back({a, b, c});
+      triangles.push_back({a, c, d});
+    }
+  }
+  return {std::move(vertices), std::move(triangles), "torus"};
+}
+
+std::map<std::string, test::Bytes> buildWithThreads(std::size_t threads, const SurfaceMesh& surface,
+                                                    const BodyMeshOptions& options) {
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+  return test::bytesOf(BodyMesh("torus", surface, options));
+}
+
+TEST(ParallelBuild, EveryPartIsTheSameWhateverTheNumberOfThreads) {
+  const SurfaceMesh large = makeLargeTorus(420, 160);  // 134,400 triangles: two levels of tasks
+  BodyMeshOptions fine;
+  fine.max_edge_length = 0.1;  // the surface is its own grid, too many nodes for matrices
+  for (const BodyMeshOptions& options : {BodyMeshOptions(), fine}) {
+    const auto alone = buildWithThreads(1, large, options);
+    for (const std::size_t threads : {2U, 3U}) {
+      const auto together = buildWithThreads(threads, large, options);
+      for (const auto& [part, bytes] : alone) {
+        EXPECT_TRUE(bytes == together.at(part)) << part << " with " << threads << " threads";
+      }
+    }
+  }
+}
+
+TEST(ParallelBuild, ErrorsNameTheBody) {
+  BodyMeshOptions options;
+  options.max_edge_length = -1.0;
+  try {
+    const BodyMesh body("torus", makeLargeTorus(10, 10), options);
+    FAIL() << "a negative edge length was accepted";
+  } catch (const std::exception& error) {
+    EXPECT_EQ(std::string(error.what()).rfind("torus", 0), 0U) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace concave_distance

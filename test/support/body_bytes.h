@@ -1,0 +1,137 @@
+#pragma once
+
+#include <cstring>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "concave_distance/mesh/body_mesh.h"
+
+/// Every number that a body holds, so that two bodies can be compared bit for bit.
+namespace concave_distance::test {
+
+using Bytes = std::vector<unsigned char>;
+
+/// Only for what has no padding.
+template <typename T>
+void appendBytes(const T& value, Bytes& bytes) {
+  const std::size_t first = bytes.size();
+  bytes.resize(first + sizeof(T));
+  std::memcpy(bytes.data() + first, &value, sizeof(T));
+}
+
+template <typename T>
+Bytes bytesOf(const std::vector<T>& values) {
+  Bytes bytes;
+  for (const T& value : values) appendBytes(value, bytes);
+  return bytes;
+}
+
+inline Bytes bytesOf(const std::vector<bool>& values) {
+  Bytes bytes;
+  for (const bool value : values) bytes.push_back(value ? 1 : 0);
+  return bytes;
+}
+
+inline Bytes bytesOf(const BoundingVolumeHierarchy& hierarchy) {
+  Bytes bytes;
+  for (const BoundingVolumeHierarchy::Node& node : hierarchy.nodes()) {
+    appendBytes(node.centre, bytes);
+    appendBytes(node.axes, bytes);
+    appendBytes(node.half, bytes);
+    appendBytes(node.child, bytes);
+  }
+  for (const BoundingVolumeHierarchy::Leaf& leaf : hierarchy.leaves()) {
+    appendBytes(leaf.corner, bytes);
+    appendBytes(leaf.triangle, bytes);
+    appendBytes(leaf.count, bytes);
+  }
+  appendBytes(hierarchy.origin(), bytes);
+  appendBytes(hierarchy.reach(), bytes);
+  for (const auto slot : hierarchy.regions()) appendBytes(slot, bytes);
+  for (std::uint32_t node = 0; node < hierarchy.nodes().size(); ++node) {
+    appendBytes(hierarchy.regionOfNode(node), bytes);
+  }
+  return bytes;
+}
+
+inline Bytes bytesOf(const NodeGraph& graph) {
+  Bytes bytes = bytesOf(graph.positions);
+  for (const std::uint32_t offset : graph.edges.offsets) appendBytes(offset, bytes);
+  for (const NodeGraph::Edge& edge : graph.edges.values) {
+    appendBytes(edge.to, bytes);
+    appendBytes(edge.length, bytes);
+  }
+  for (const NodeGraph::Neighbourhood& part : graph.neighbourhoods) {
+    appendBytes(part.x, bytes);
+    appendBytes(part.y, bytes);
+    appendBytes(part.z, bytes);
+    appendBytes(part.to, bytes);
+    appendBytes(part.count, bytes);
+    appendBytes(part.more, bytes);
+  }
+  for (const std::uint32_t shell : graph.shell) appendBytes(shell, bytes);
+  appendBytes(graph.neighbourhood_origin, bytes);
+  appendBytes(graph.shell_count, bytes);
+  appendBytes(graph.length_quantum, bytes);
+  return bytes;
+}
+
+inline Bytes bytesOf(const MeshMetric& metric) {
+  Bytes bytes;
+  if (!metric.hasMatrices()) return bytes;
+  const std::size_t nodes = metric.graph().nodeCount();
+  for (std::size_t i = 0; i < nodes; ++i) {
+    for (std::size_t j = 0; j < nodes; ++j) {
+      appendBytes(metric.matrixDistance(NodeIndex{i}, NodeIndex{j}), bytes);
+      const bool connected = metric.graph().shell[i] == metric.graph().shell[j];
+      appendBytes(connected ? metric.matrixPredecessor(NodeIndex{i}, NodeIndex{j}) : NodeIndex{}, bytes);
+    }
+  }
+  return bytes;
+}
+
+/// Part by part, so that a test can say which one differs.
+inline std::map<std::string, Bytes> bytesOf(const BodyMesh& body) {
+  std::map<std::string, Bytes> parts;
+  parts["vertices"] = bytesOf(body.surface().vertices());
+  parts["triangles"] = bytesOf(body.surface().triangles());
+  const MeshTopology& topology = body.topology();
+  parts["triangles of vertices"] = bytesOf(topology.triangles_of_vertex.values);
+  parts["first triangles of vertices"] = bytesOf(topology.triangles_of_vertex.offsets);
+  parts["neighbours"] = bytesOf(topology.neighbours_of_vertex.values);
+  parts["first neighbours"] = bytesOf(topology.neighbours_of_vertex.offsets);
+  parts["triangles across edges"] = bytesOf(topology.triangle_across_edge);
+  parts["shells of vertices"] = bytesOf(topology.shell_of_vertex);
+  parts["shells of triangles"] = bytesOf(topology.shell_of_triangle);
+  parts["closed shells"] = bytesOf(topology.shell_is_closed);
+  parts["triangles of shells"] = bytesOf(topology.triangle_of_shell);
+  parts["triangle normals"] = bytesOf(topology.triangle_normals);
+  parts["vertex normals"] = bytesOf(topology.vertex_normals);
+  Bytes& tree = parts["tree"];
+  for (const TriangleTree::Node& node : body.tree().nodes()) {
+    appendBytes(node.box.min(), tree);
+    appendBytes(node.box.max(), tree);
+    appendBytes(node.first, tree);
+    appendBytes(node.count, tree);
+  }
+  parts["tree's order"] = bytesOf(body.tree().order());
+  parts["hierarchy"] = bytesOf(body.hierarchy());
+  parts["grid vertices"] = bytesOf(body.grid().vertices());
+  parts["grid triangles"] = bytesOf(body.grid().triangles());
+  parts["graph"] = bytesOf(body.graph());
+  parts["metric"] = bytesOf(body.metric());
+  Bytes& nodes = parts["nodes"];
+  for (std::size_t node = 0; node < body.graph().nodeCount(); ++node) {
+    appendBytes(body.originalTriangle(NodeIndex{node}), nodes);
+  }
+  for (std::size_t vertex = 0; vertex < body.surface().vertexCount(); ++vertex) {
+    appendBytes(body.graphNode(NodeIndex{vertex}), nodes);
+  }
+  appendBytes(body.maxEdgeLength(), nodes);
+  appendBytes(body.geodesicExtent(), nodes);
+  appendBytes(body.protrusionSpacing(), nodes);
+  return parts;
+}
+
+}  // namespace concave_distance::test
