@@ -6,6 +6,7 @@
 #include "minima_candidates.h"
 #include "minima_flood.h"
 #include "minima_scene.h"
+#include "minima_verdict.h"
 
 namespace concave_distance {
 namespace {
@@ -65,7 +66,8 @@ LocalMinima findLocalMinima(const MinimaIndex& a, const MinimaIndex& b, const Ei
   LocalMinima result;
   std::vector<detail::MinimumSeed> seeds;
   detail::collectMeetingPairs(scene, seeds, result.cost);
-  detail::collectConeSeeds(scene, request.cutoff, seeds, result.cost);
+  detail::CandidateWorkspace candidates;
+  detail::collectConeSeeds(scene, request.cutoff, seeds, result.cost, candidates);
   const std::size_t owned = seeds.size();
   result.cost.minima = owned;
   RefinementWorkspace refinement;
@@ -74,7 +76,13 @@ LocalMinima findLocalMinima(const MinimaIndex& a, const MinimaIndex& b, const Ei
         refineWitness(a.body(), b.body(), a_from_b, triangle_a, triangle_b, refinement).witness;
     seeds.push_back({settled.triangle_a, settled.triangle_b, std::sqrt(settled.squared_distance)});
   }
-  const detail::FloodResult flood = detail::floodMinima(scene, request, seeds, owned, result.cost);
+  detail::FloodResult flood;
+  if (request.prominence_limit > request.least_prominence) {
+    flood = detail::floodMinima(scene, request, seeds, owned, result.cost);
+  } else {
+    detail::VerdictWorkspace verdict;
+    detail::decideMinima(scene, request.least_prominence, seeds, owned, verdict, flood, result.cost);
+  }
 
   std::vector<Described> described;
   Describer describer(scene, request);

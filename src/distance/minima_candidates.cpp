@@ -3,16 +3,20 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cone_pair_bounds.h"
+
 namespace concave_distance::detail {
 namespace {
 
 using Eigen::Vector3d;
 using Item = NormalConeTree::Item;
 using Kind = NormalConeTree::Kind;
-using Node = NormalConeTree::Node;
+using Slot = NormalConeTree::Slot;
 
 /// Radians that the direction between two features may be off before its cone is asked, besides rounding.
 constexpr double kDirectionSlack = 1e-6;
+/// Sine of the angle between edges below which the direction across them is not believed.
+constexpr double kNearlyParallel = 1e-6;
 
 struct Between {
   Vector3d from;  ///< A's closest point
@@ -48,121 +52,184 @@ Between betweenSegments(const Vector3d& a0, const Vector3d& a1, const Vector3d& 
   return between(closestOnSegment(on_b, a0, a1), on_b);
 }
 
-/// An item or a node of B in the scene's frame.
-template <typename Part>
-std::vector<Part> moved(const std::vector<Part>& parts, const LocalFrames& frames) {
-  std::vector<Part> result = parts;
-  for (Part& part : result) {
-    part.centre = frames.rotation * (part.centre - frames.centre_b) + frames.offset;
-    part.cap.axis = frames.rotation * part.cap.axis;
-  }
-  return result;
-}
-
 bool allowed(Kind l, Kind r) {
   // What faces have in common with faces or edges ends at a vertex or an edge of one of them.
   return l == Kind::Vertex || r == Kind::Vertex || (l == Kind::Edge && r == Kind::Edge);
 }
 
+/// A cap's axis in the scene's frame.
+struct FacingCap {
+  Vector3d axis;
+  double cosine;
+  double sine;
+
+  /// Whether `direction` (of length `length`) lies in it, or may within a turn.
+  bool holds(const Vector3d& direction, double length, double turn_cosine, double turn_sine) const {
+    const double sine_of_sum = turn_sine * cosine + turn_cosine * sine;
+    return sine_of_sum <= 0.0 ||
+           direction.dot(axis) >= (turn_cosine * cosine - turn_sine * sine - 1e-14) * length;
+  }
+};
+
 class Traversal {
  public:
-  Traversal(const MinimaScene& scene, double cutoff, std::vector<MinimumSeed>& seeds, LocalMinimaCost& cost)
+  Traversal(const MinimaScene& scene, double cutoff, std::vector<MinimumSeed>& seeds, LocalMinimaCost& cost,
+            CandidateWorkspace& workspace)
       : scene_(scene),
         // Spheres and distances carry the rounding of the scene.
         slack_(4.0 * scene.rounding),
         cutoff_(cutoff + slack_),
-        nodes_a_(scene.a.cones().nodes()),
-        items_a_(scene.a.cones().items()),
-        nodes_b_(moved(scene.b.cones().nodes(), scene.frames)),
-        items_b_(moved(scene.b.cones().items(), scene.frames)),
+        cones_a_(scene.a.cones()),
+        cones_b_(scene.b.cones()),
+        limits_a_(slack_, scene.size, cutoff_, cones_a_.unit()),
+        limits_b_(slack_, scene.size, cutoff_, cones_b_.unit()),
+        turned_(scene.frames.rotation.transpose()),
         seeds_(seeds),
-        cost_(cost) {}
+        cost_(cost),
+        open_(workspace.open) {}
 
   void run() {
-    if (nodes_a_.empty() || nodes_b_.empty()) return;
-    open_.emplace_back(0U, 0U);
+    if (cones_a_.empty() || cones_b_.empty()) return;
+    open_.clear();
+    open_.push_back({NormalConeTree::kRoot, NormalConeTree::kRoot});
     while (!open_.empty()) {
-      const auto [i, j] = open_.back();
+      const auto [a, b] = open_.back();
       open_.pop_back();
-      const Node& a = nodes_a_[i];
-      const Node& b = nodes_b_[j];
+      const std::uint32_t child_a = cones_a_.child(a);
+      const std::uint32_t child_b = cones_b_.child(b);
+      const bool ends_a = (child_a & NormalConeTree::kItemFlag) != 0;
+      const bool ends_b = (child_b & NormalConeTree::kItemFlag) != 0;
+      if (ends_a && ends_b) {
+        const Item& item_a = cones_a_.items()[child_a & ~NormalConeTree::kItemFlag];
+        const Item& item_b = cones_b_.items()[child_b & ~NormalConeTree::kItemFlag];
+        if (allowed(item_a.kind, item_b.kind)) visitPair(item_a, item_b);
+        continue;
+      }
       ++cost_.node_pairs;
-      if (!mayHold(a, b)) continue;
-      if (a.count > 0 && b.count > 0) {
-        visitLeaves(a, b);
-      } else if (b.count > 0 || (a.count == 0 && breadth(a) >= breadth(b))) {
-        open_.emplace_back(i + 1, j);
-        open_.emplace_back(a.first, j);
+      if (ends_a || (!ends_b && breadth(cones_b_, b) >= breadth(cones_a_, a))) {
+        const ConeLanes excluded = excludes(cones_b_.nodes()[child_b], comparedA(a), limits_b_);
+        pushChildren(cones_b_.nodes()[child_b], excluded, [&, kept = a](std::uint32_t lane) {
+          open_.push_back({kept, child_b * kWidth + lane});
+        });
       } else {
-        open_.emplace_back(i, j + 1);
-        open_.emplace_back(i, b.first);
+        const ConeLanes excluded = excludes(cones_a_.nodes()[child_a], comparedB(b), limits_a_);
+        pushChildren(cones_a_.nodes()[child_a], excluded, [&, kept = b](std::uint32_t lane) {
+          open_.push_back({child_a * kWidth + lane, kept});
+        });
       }
     }
   }
 
  private:
-  /// How much a node leaves open: the turn of its normals counts like the turn of directions.
-  double breadth(const Node& node) const { return node.radius * (1.5 - node.cap.cosine); }
+  static constexpr std::uint32_t kWidth = NormalConeTree::kWidth;
 
-  template <typename Part>
-  bool mayHold(const Part& a, const Part& b) const {
-    const double cosine = -a.cap.axis.dot(b.cap.axis);
-    if (!capsMeet(cosine, a.cap, b.cap)) return false;
-    const Vector3d way = b.centre - (a.centre - scene_.frames.centre_a);
-    const double reach = a.radius + b.radius + slack_;
-    const double squared = way.squaredNorm();
-    const double farthest = cutoff_ + reach;
-    if (squared > farthest * farthest) return false;
-    if (squared <= reach * reach) return true;
-    const double length = std::sqrt(squared);
-    const double sine = reach / length;
-    const DirectionCap directions{way, std::sqrt(std::max(0.0, 1.0 - sine * sine)), sine};
-    return capsMeet(way.dot(a.cap.axis) / length + 1e-14, directions, a.cap) &&
-           capsMeet(-way.dot(b.cap.axis) / length + 1e-14, directions, b.cap);
+  template <typename Push>
+  static void pushChildren(const NormalConeTree::Node& node, const ConeLanes& excluded, const Push& push) {
+    for (std::uint32_t lane = 0; lane < kWidth; ++lane) {
+      if (node.child[lane] == NormalConeTree::kNoChild) break;
+      if (!(excluded[lane] > 0.0F)) push(lane);
+    }
   }
 
-  void visitLeaves(const Node& a, const Node& b) {
-    for (std::uint32_t i = a.first; i < a.first + a.count; ++i) {
-      for (std::uint32_t j = b.first; j < b.first + b.count; ++j) {
-        if (allowed(items_a_[i].kind, items_b_[j].kind) && mayHold(items_a_[i], items_b_[j])) {
-          visitPair(items_a_[i], items_b_[j]);
-        }
-      }
+  /// How much a child leaves open, in metres: the turn of its normals counts like the turn of directions.
+  static double breadth(const NormalConeTree& cones, Slot slot) {
+    const NormalConeTree::Node& node = cones.nodes()[slot / kWidth];
+    return cones.unit() * node.radius[slot % kWidth] * (1.5 - node.cosine[slot % kWidth]);
+  }
+
+  static Vector3d vectorOf(const float (&lanes)[3][kWidth], Slot slot) {
+    return {lanes[0][slot % kWidth], lanes[1][slot % kWidth], lanes[2][slot % kWidth]};
+  }
+
+  static ComparedCone compared(const NormalConeTree& from, Slot slot, const NormalConeTree& to,
+                               const Vector3d& centre, const Vector3d& axis) {
+    const NormalConeTree::Node& node = from.nodes()[slot / kWidth];
+    const std::uint32_t lane = slot % kWidth;
+    const Vector3d in_units = centre / to.unit();
+    return {{static_cast<float>(in_units.x()), static_cast<float>(in_units.y()),
+             static_cast<float>(in_units.z())},
+            static_cast<float>(node.radius[lane] * (from.unit() / to.unit())),
+            {static_cast<float>(axis.x()), static_cast<float>(axis.y()), static_cast<float>(axis.z())},
+            node.angle[lane],
+            node.cosine[lane],
+            node.sine[lane]};
+  }
+
+  /// Child of A as B's nodes see it; the last one is kept.
+  const ComparedCone& comparedA(Slot slot) {
+    if (slot != compared_slot_a_) {
+      const NormalConeTree::Node& node = cones_a_.nodes()[slot / kWidth];
+      const Vector3d centre = cones_a_.unit() * vectorOf(node.centre, slot);
+      compared_a_ = compared(cones_a_, slot, cones_b_, turned_ * (centre - scene_.frames.offset),
+                             turned_ * vectorOf(node.axis, slot));
+      compared_slot_a_ = slot;
     }
+    return compared_a_;
+  }
+  const ComparedCone& comparedB(Slot slot) {
+    if (slot != compared_slot_b_) {
+      const NormalConeTree::Node& node = cones_b_.nodes()[slot / kWidth];
+      const Vector3d centre = cones_b_.unit() * vectorOf(node.centre, slot);
+      compared_b_ = compared(cones_b_, slot, cones_a_, scene_.frames.rotation * centre + scene_.frames.offset,
+                             scene_.frames.rotation * vectorOf(node.axis, slot));
+      compared_slot_b_ = slot;
+    }
+    return compared_b_;
   }
 
   void visitPair(const Item& a, const Item& b) {
     ++cost_.feature_pairs;
+    const FacingCap cap_a{a.cap.axis, a.cap.cosine, a.cap.sine};
+    const FacingCap cap_b{-(scene_.frames.rotation * b.cap.axis), b.cap.cosine, b.cap.sine};
+    if (!mayFace(a, b, cap_a, cap_b)) return;
     const Between found = closest(a, b);
     if (found.squared_distance > cutoff_ * cutoff_) return;
     const double distance = std::sqrt(found.squared_distance);
     if (distance <= slack_) return;  // meeting triangles are collected apart
     const double turn = std::min(0.5, kDirectionSlack + slack_ / distance);
-    const DirectionCap allowance{found.way, std::cos(turn), std::sin(turn)};
-    if (!capsMeet(found.way.dot(a.cap.axis) / distance, allowance, a.cap) ||
-        !capsMeet(-found.way.dot(b.cap.axis) / distance, allowance, b.cap)) {
+    const double turn_cosine = 1.0 - 0.5 * turn * turn;
+    if (!cap_a.holds(found.way, distance, turn_cosine, turn) ||
+        !cap_b.holds(found.way, distance, turn_cosine, turn)) {
       return;
     }
-    if (!isPeak(scene_.a, scene_.vertices_a, a, found.from, found.way / distance, distance) ||
-        !isPeak(scene_.b, scene_.vertices_b, b, found.to, -found.way / distance, distance)) {
+    if (!isPeak(scene_.a, a, found.from, found.way / distance, distance,
+                [this](NodeIndex n) { return scene_.vertexOfA(n); }) ||
+        !isPeak(scene_.b, b, found.to, -found.way / distance, distance,
+                [this](NodeIndex n) { return scene_.vertexOfB(n); })) {
       return;
     }
     ++cost_.candidates;
-    // The surfaces around the pair decide. A true minimum does not move by more than rounding.
-    const WitnessRefinement refined =
-        refineWitness(scene_.a.body(), scene_.b.body(), scene_.a_from_b, a.triangle, b.triangle, refinement_);
-    const double settled = std::sqrt(refined.witness.squared_distance);
-    if (settled < distance - slack_) return;
-    seeds_.push_back({refined.witness.triangle_a, refined.witness.triangle_b, settled});
+    seeds_.push_back({a.triangle, b.triangle, distance});
+  }
+
+  /// Two edges at an angle are closest along the direction across both, a vertex and a face along the face's
+  /// normal: whether that lies in the caps needs no closest points.
+  bool mayFace(const Item& a, const Item& b, const FacingCap& cap_a, const FacingCap& cap_b) const {
+    if (a.kind == Kind::Edge && b.kind == Kind::Edge) {
+      const Vector3d along_a = edgeOfA(a);
+      const Vector3d along_b = edgeOfB(b);
+      const Vector3d across = along_a.cross(along_b);
+      const double length = across.norm();
+      const double lengths = std::sqrt(along_a.squaredNorm() * along_b.squaredNorm());
+      if (!(length > kNearlyParallel * lengths)) return true;
+      const double turn = kDirectionSlack;
+      const double turn_cosine = 1.0 - 0.5 * turn * turn;
+      return (cap_a.holds(across, length, turn_cosine, turn) &&
+              cap_b.holds(across, length, turn_cosine, turn)) ||
+             (cap_a.holds(-across, length, turn_cosine, turn) &&
+              cap_b.holds(-across, length, turn_cosine, turn));
+    }
+    return true;
   }
 
   /// Whether no vertex next to the feature rises towards the other body by more than rounding: the normal
   /// cone itself, which the cap is around. Points are off by less than the slack, the direction between them
   /// by that over their distance.
-  bool isPeak(const MinimaIndex& index, const std::vector<Vector3d>& vertices, const Item& item,
-              const Vector3d& point, const Vector3d& direction, double distance) const {
+  template <typename VertexOf>
+  bool isPeak(const MinimaIndex& index, const Item& item, const Vector3d& point, const Vector3d& direction,
+              double distance, const VertexOf& vertex_of) const {
     const auto rises = [&](NodeIndex node) {
-      const Vector3d way = vertices[node.value] - point;
+      const Vector3d way = vertex_of(node) - point;
       const double over = direction.dot(way) - slack_;
       const double turn = slack_ / distance;
       return over > 0.0 && over * over > turn * turn * way.squaredNorm();
@@ -170,7 +237,7 @@ class Traversal {
     const TriangleNodes& nodes = index.body().surface().triangle(item.triangle);
     // The end of an edge counts with all that is around it.
     for (const NodeIndex node : nodes) {
-      if ((vertices[node.value] - point).squaredNorm() > slack_ * slack_) continue;
+      if ((vertex_of(node) - point).squaredNorm() > slack_ * slack_) continue;
       const auto around = index.body().topology().neighbours_of_vertex.row(node.value);
       return std::none_of(around.begin(), around.end(), rises);
     }
@@ -188,6 +255,13 @@ class Traversal {
 
   TrianglePoints cornersOfA(const Item& item) const { return scene_.cornersOfA(item.triangle); }
   TrianglePoints cornersOfB(const Item& item) const { return scene_.cornersOfB(item.triangle); }
+  static Vector3d edgeOf(const SurfaceMesh& mesh, const Item& item) {
+    return mesh.corner(item.triangle, (item.element + 1) % 3) - mesh.corner(item.triangle, item.element);
+  }
+  Vector3d edgeOfA(const Item& item) const { return edgeOf(scene_.a.body().surface(), item); }
+  Vector3d edgeOfB(const Item& item) const {
+    return scene_.frames.rotation * edgeOf(scene_.b.body().surface(), item);
+  }
 
   Between closest(const Item& a, const Item& b) const {
     const TrianglePoints ta = cornersOfA(a);
@@ -212,14 +286,18 @@ class Traversal {
   const MinimaScene& scene_;
   double slack_;
   double cutoff_;
-  const std::vector<Node>& nodes_a_;
-  const std::vector<Item>& items_a_;
-  std::vector<Node> nodes_b_;
-  std::vector<Item> items_b_;
+  const NormalConeTree& cones_a_;
+  const NormalConeTree& cones_b_;
+  ConeLimits limits_a_;  ///< for comparisons with A's nodes
+  ConeLimits limits_b_;
+  Eigen::Matrix3d turned_;  ///< from A's axes to B's
+  ComparedCone compared_a_{};
+  ComparedCone compared_b_{};
+  Slot compared_slot_a_ = NormalConeTree::kNoChild;
+  Slot compared_slot_b_ = NormalConeTree::kNoChild;
   std::vector<MinimumSeed>& seeds_;
   LocalMinimaCost& cost_;
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> open_;
-  RefinementWorkspace refinement_;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>>& open_;
 };
 
 Eigen::AlignedBox3d movedBox(const Eigen::AlignedBox3d& box, const Eigen::Isometry3d& a_from_b) {
@@ -231,8 +309,8 @@ Eigen::AlignedBox3d movedBox(const Eigen::AlignedBox3d& box, const Eigen::Isomet
 }  // namespace
 
 void collectConeSeeds(const MinimaScene& scene, double cutoff, std::vector<MinimumSeed>& seeds,
-                      LocalMinimaCost& cost) {
-  Traversal(scene, cutoff, seeds, cost).run();
+                      LocalMinimaCost& cost, CandidateWorkspace& workspace) {
+  Traversal(scene, cutoff, seeds, cost, workspace).run();
 }
 
 void collectMeetingPairs(const MinimaScene& scene, std::vector<MinimumSeed>& seeds, LocalMinimaCost& cost) {

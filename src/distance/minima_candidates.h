@@ -13,11 +13,16 @@ struct MinimumSeed {
   double distance;
 };
 
+/// Buffers that are kept from query to query.
+struct CandidateWorkspace {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> open;  ///< children of both trees
+};
+
 /// At least one triangle pair of every local minimum between 0 and `cutoff`: a dual traversal of the cone
 /// trees, where a pair of nodes is left out when it is too far apart, or when no direction from the one to
 /// the other lies in the cones of both; each pair of features that is left is tried on the triangles.
 void collectConeSeeds(const MinimaScene& scene, double cutoff, std::vector<MinimumSeed>& seeds,
-                      LocalMinimaCost& cost);
+                      LocalMinimaCost& cost, CandidateWorkspace& workspace);
 
 /// Every triangle pair that meets, up to rounding.
 void collectMeetingPairs(const MinimaScene& scene, std::vector<MinimumSeed>& seeds, LocalMinimaCost& cost);

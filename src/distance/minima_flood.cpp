@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "cell_neighbours.h"
 #include "pair_table.h"
 
 namespace concave_distance::detail {
@@ -15,10 +16,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 struct Cell {
   TriangleIndex a;
   TriangleIndex b;
-  double distance;  ///< the least over the pair
-  double reached;   ///< the highest distance on the way here from the basin's start
-  Feature feature_a;
-  Feature feature_b;
+  double distance;       ///< the least over the pair
+  double reached;        ///< the highest distance on the way here from the basin's start
   std::uint32_t parent;  ///< union-find; the root of a basin is its deepest seed
   std::uint32_t basin;   ///< of a root: its entry in basins_
 };
@@ -44,17 +43,6 @@ struct Step {
 bool laterStep(const Step& l, const Step& r) {
   if (l.level != r.level) return l.level > r.level;
   return l.from > r.from;  // any order will do, as long as it is always the same
-}
-
-/// Whether a witness's feature lies on what two triangles share.
-bool isOnShared(Feature feature, const TriangleNodes& nodes, const AdjacentTriangle& next) {
-  const auto code = static_cast<std::size_t>(feature);
-  const auto shared = [&](std::size_t corner) {
-    return nodes[corner] == next.from || nodes[corner] == next.to;
-  };
-  if (code < 3) return shared(code);
-  if (code >= 6) return false;
-  return shared(code - 3) && shared((code - 2) % 3);
 }
 
 class Flood {
@@ -115,38 +103,27 @@ class Flood {
 
  private:
   std::uint32_t addCell(TriangleIndex a, TriangleIndex b) {
-    const TrianglePairDistance d = triangleDistance(scene_.cornersOfA(a), scene_.cornersOfB(b));
+    measure(a, b);
     const auto index = static_cast<std::uint32_t>(cells_.size());
-    const double distance = std::sqrt(d.squared_distance);
-    cells_.push_back({a, b, distance, distance, d.feature_a, d.feature_b, index, 0});
+    const double distance = std::sqrt(levels_.least());
+    cells_.push_back({a, b, distance, distance, index, 0});
     table_.insert(a, b, index);
     return index;
   }
 
-  void expand(std::uint32_t index) {
-    const Cell cell = cells_[index];
-    const double limit = basins_[cells_[rootOf(index)].basin].limit;
-    const TriangleNodes& nodes_a = scene_.a.body().surface().triangle(cell.a);
-    const TriangleNodes& nodes_b = scene_.b.body().surface().triangle(cell.b);
-    const TrianglePoints corners_a = scene_.cornersOfA(cell.a);
-    const TrianglePoints corners_b = scene_.cornersOfB(cell.b);
-    for (const AdjacentTriangle& next : scene_.a.adjacency().row(cell.a.value)) {
-      const bool at_witness = isOnShared(cell.feature_a, nodes_a, next);
-      consider(index, next.triangle, cell.b, limit,
-               at_witness ? cell.distance : levelOver(scene_.vertices_a, next, corners_b));
-    }
-    for (const AdjacentTriangle& next : scene_.b.adjacency().row(cell.b.value)) {
-      const bool at_witness = isOnShared(cell.feature_b, nodes_b, next);
-      consider(index, cell.a, next.triangle, limit,
-               at_witness ? cell.distance : levelOver(scene_.vertices_b, next, corners_a));
-    }
+  void measure(TriangleIndex a, TriangleIndex b) {
+    corners_a_ = scene_.cornersOfA(a);
+    corners_b_ = scene_.cornersOfB(b);
+    levels_ = cellLevels(corners_a_, corners_b_);
   }
 
-  static double levelOver(const std::vector<Eigen::Vector3d>& vertices, const AdjacentTriangle& next,
-                          const TrianglePoints& other) {
-    const Eigen::Vector3d& from = vertices[next.from.value];
-    const Eigen::Vector3d& to = vertices[next.to.value];
-    return std::sqrt(triangleDistance({from, to, to}, other).squared_distance);
+  /// Of the cell that was measured last.
+  void expand(std::uint32_t index) {
+    const double limit = basins_[cells_[rootOf(index)].basin].limit;
+    forEachNeighbour(scene_, cells_[index].a, cells_[index].b, corners_a_, corners_b_, levels_,
+                     [&](TriangleIndex to_a, TriangleIndex to_b, double squared_level) {
+                       consider(index, to_a, to_b, limit, std::sqrt(squared_level));
+                     });
   }
 
   void consider(std::uint32_t from, TriangleIndex to_a, TriangleIndex to_b, double limit, double level) {
@@ -183,6 +160,7 @@ class Flood {
     } else {
       const std::uint32_t bottom = startAt(refined.witness.triangle_a, refined.witness.triangle_b, true);
       cells_[index].parent = rootOf(bottom);
+      measure(cells_[index].a, cells_[index].b);
     }
     expand(index);
   }
@@ -212,6 +190,10 @@ class Flood {
   std::vector<Basin> basins_;
   std::vector<Step> steps_;
   RefinementWorkspace refinement_;
+  // Of the cell measured last.
+  TrianglePoints corners_a_;
+  TrianglePoints corners_b_;
+  CellLevels levels_{};
 };
 
 }  // namespace

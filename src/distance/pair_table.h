@@ -16,10 +16,17 @@ class PairTable {
 
   /// The pair must not be in the table yet.
   void insert(TriangleIndex a, TriangleIndex b, std::uint32_t number) {
-    if (2 * (used_ + 1) > slots_.size()) grow();
+    if (2 * (used_.size() + 1) > slots_.size()) grow();
     const std::uint64_t key = keyOf(a, b);
-    slots_[slotOf(key)] = {key, number};
-    ++used_;
+    const std::size_t slot = slotOf(key);
+    slots_[slot] = {key, number};
+    used_.push_back(static_cast<std::uint32_t>(slot));
+  }
+
+  /// Keeps the capacity; costs what is in it.
+  void clear() {
+    for (const std::uint32_t slot : used_) slots_[slot].number = kAbsent;
+    used_.clear();
   }
 
  private:
@@ -46,14 +53,16 @@ class PairTable {
     std::vector<Slot> old(2 * slots_.size());
     old.swap(slots_);
     --shift_;
-    for (const Slot& slot : old) {
-      if (slot.number != kAbsent) slots_[slotOf(slot.key)] = slot;
+    for (std::uint32_t& used : used_) {
+      const Slot& slot = old[used];
+      used = static_cast<std::uint32_t>(slotOf(slot.key));
+      slots_[used] = slot;
     }
   }
 
   std::vector<Slot> slots_{std::size_t{1} << 12U};
   std::uint32_t shift_ = 64 - 12;
-  std::size_t used_ = 0;
+  std::vector<std::uint32_t> used_;  ///< slots
 };
 
 }  // namespace concave_distance::detail

@@ -49,6 +49,14 @@ inline void expectSameAsBruteForce(const Body& a, const Body& b, const Eigen::Is
       bruteForceMinima(*a, *b, pose, cutoff, least_prominence, 10.0 * kMinimaRounding, plateau);
   EXPECT_EQ(found.cost.met_by_flood, 0U);
   ASSERT_EQ(found.niches.size(), truth.size());
+  // The verdict alone, without passes, is another flood.
+  request.prominence_limit = 0.0;
+  const LocalMinima decided = minimaOf(a, b, pose, request);
+  EXPECT_EQ(decided.cost.met_by_flood, 0U);
+  ASSERT_EQ(decided.niches.size(), truth.size());
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    EXPECT_NEAR(decided.niches[i].distance, truth[i].distance, 10.0 * kMinimaRounding);
+  }
   std::vector<std::pair<double, double>> found_passes;
   std::vector<std::pair<double, double>> true_passes;
   std::vector<std::pair<double, double>> found_extents;

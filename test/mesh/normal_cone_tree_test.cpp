@@ -33,21 +33,29 @@ bool holds(const DirectionCap& cap, const Vector3d& direction) {
   return cap.isFull() || cap.axis.dot(direction) >= cap.cosine - 1e-12;
 }
 
-/// Whether a walk from the root over nodes that hold the point and the direction ends at an item that does.
+/// Whether a walk from the root over children that hold the point and the direction ends at an item that
+/// does. Children are kept in single precision.
 bool leadsTo(const NormalConeTree& tree, const Vector3d& point, const Vector3d& direction, double slack) {
-  std::vector<std::uint32_t> open{0};
+  const Vector3d in_units = (point - tree.origin()) / tree.unit();
+  std::vector<NormalConeTree::Slot> open{NormalConeTree::kRoot};
   while (!open.empty()) {
-    const std::uint32_t i = open.back();
+    const NormalConeTree::Slot slot = open.back();
     open.pop_back();
-    const NormalConeTree::Node& node = tree.nodes()[i];
-    if ((point - node.centre).norm() > node.radius + slack || !holds(node.cap, direction)) continue;
-    for (std::uint32_t k = node.first; k < node.first + node.count; ++k) {
-      const NormalConeTree::Item& item = tree.items()[k];
+    const NormalConeTree::Node& node = tree.nodes()[slot / NormalConeTree::kWidth];
+    const std::size_t lane = slot % NormalConeTree::kWidth;
+    const Vector3d centre(node.centre[0][lane], node.centre[1][lane], node.centre[2][lane]);
+    const Vector3d axis(node.axis[0][lane], node.axis[1][lane], node.axis[2][lane]);
+    if ((in_units - centre).norm() > node.radius[lane] + slack / tree.unit()) continue;
+    if (node.angle[lane] < 3.1415F && axis.dot(direction) < std::cos(node.angle[lane]) - 1e-7) continue;
+    const std::uint32_t child = node.child[lane];
+    if ((child & NormalConeTree::kItemFlag) != 0) {
+      const NormalConeTree::Item& item = tree.items()[child & ~NormalConeTree::kItemFlag];
       if ((point - item.centre).norm() <= item.radius + slack && holds(item.cap, direction)) return true;
+      continue;
     }
-    if (node.count == 0) {
-      open.push_back(i + 1);
-      open.push_back(node.first);
+    for (std::uint32_t k = 0; k < NormalConeTree::kWidth; ++k) {
+      if (tree.nodes()[child].child[k] == NormalConeTree::kNoChild) break;
+      open.push_back(child * static_cast<std::uint32_t>(NormalConeTree::kWidth) + k);
     }
   }
   return false;
