@@ -1,10 +1,9 @@
 #include "concave_distance/mesh/body_mesh.h"
 
-#include <tbb/parallel_invoke.h>
-
 #include <utility>
 
-#include "concave_distance/mesh/geodesic_extent.h"
+#include "cached_parts.h"
+#include "concave_distance/base/run_together.h"
 
 namespace concave_distance {
 
@@ -12,26 +11,37 @@ BodyMeshParts makeBodyMeshParts(std::string name, SurfaceMesh surface, const Bod
   BodyMeshParts parts;
   parts.name = std::move(name);
   parts.surface = std::move(surface);
-  tbb::parallel_invoke([&] { parts.topology = buildMeshTopology(parts.surface); },
-                       [&] {
-                         parts.tree = TriangleTree(parts.surface);
-                         parts.hierarchy = BoundingVolumeHierarchy(parts.surface, parts.tree);
-                       },
-                       [&] {
-                         parts.nodes = makeSearchNodes(
-                             parts.surface, {options.max_edge_length, options.search_node_limit}, parts.name);
-                       });
+  parts.cache = options.cache;
+  PreparationCache* cache = options.cache.get();
+  const SearchNodesOptions nodes_options{options.max_edge_length, options.search_node_limit};
+  ContentKey surface_key;
+  if (cache != nullptr) {
+    surface_key = detail::keyOf(parts.surface);
+    parts.nodes_key = detail::keyOfNodes(surface_key, nodes_options);
+  }
+  runTogether({[&] { parts.topology = detail::topologyOf(parts.surface, cache, surface_key); },
+               [&] {
+                 detail::Trees trees = detail::treesOf(parts.surface, cache, surface_key);
+                 parts.tree = std::move(trees.tree);
+                 parts.hierarchy = std::move(trees.hierarchy);
+               },
+               [&] {
+                 parts.nodes =
+                     detail::nodesOf(parts.surface, nodes_options, parts.name, cache, parts.nodes_key);
+               }});
   return parts;
 }
 
 BodyMesh::BodyMesh(std::string name, SurfaceMesh surface, const BodyMeshOptions& options)
     : BodyMesh(makeBodyMeshParts(std::move(name), std::move(surface), options), options.metric) {}
 
-BodyMesh::BodyMesh(BodyMeshParts parts, const MeshMetricOptions& metric)
-    : parts_(std::move(parts)),
-      metric_(std::make_unique<MeshMetric>(parts_.nodes.graph, metric)),
-      geodesic_extent_(concave_distance::geodesicExtent(parts_.nodes.graph)),
-      protrusion_spacing_(concave_distance::protrusionSpacing(*metric_, 0.5 * geodesic_extent_)) {}
+BodyMesh::BodyMesh(BodyMeshParts parts, const MeshMetricOptions& metric) : parts_(std::move(parts)) {
+  detail::Metric measured =
+      detail::metricOf(parts_.nodes.graph, metric, parts_.cache.get(), parts_.nodes_key);
+  metric_ = std::move(measured.metric);
+  geodesic_extent_ = measured.geodesic_extent;
+  protrusion_spacing_ = measured.protrusion_spacing;
+}
 
 std::size_t BodyMesh::memoryBytes() const {
   const auto mesh_bytes = [](const SurfaceMesh& mesh) {

@@ -200,6 +200,12 @@ BoundingVolumeHierarchy::BoundingVolumeHierarchy(const SurfaceMesh& mesh, const 
   chooseRegions();
 }
 
+BoundingVolumeHierarchy::BoundingVolumeHierarchy(const Eigen::Vector3d& origin, double reach,
+                                                 std::vector<Node> nodes, std::vector<Leaf> leaves)
+    : origin_(origin), reach_(reach), nodes_(std::move(nodes)), leaves_(std::move(leaves)) {
+  chooseRegions();
+}
+
 void BoundingVolumeHierarchy::chooseRegions() {
   regions_ = {kRoot};
   region_of_node_.assign(nodes_.size(), 0);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace concave_distance {
 namespace {
@@ -62,9 +63,7 @@ void fillRow(const NodeGraph& graph, std::uint32_t source, RowBuffers& buffers, 
 }  // namespace
 
 MeshMetric::MeshMetric(const NodeGraph& graph, const MeshMetricOptions& options)
-    : graph_(&graph),
-      node_count_(graph.nodeCount()),
-      has_matrices_(node_count_ <= std::min(options.matrix_node_limit, kLargestPredecessor)) {
+    : graph_(&graph), node_count_(graph.nodeCount()), has_matrices_(wantsMatrices(node_count_, options)) {
   if (!has_matrices_) {
     return;
   }
@@ -78,6 +77,18 @@ MeshMetric::MeshMetric(const NodeGraph& graph, const MeshMetricOptions& options)
                                 &distance_[i * node_count_], &predecessor_[i * node_count_]);
                       }
                     });
+}
+
+MeshMetric::MeshMetric(const NodeGraph& graph, std::vector<float> distances,
+                       std::vector<std::uint16_t> predecessors)
+    : graph_(&graph),
+      node_count_(graph.nodeCount()),
+      has_matrices_(!distances.empty()),
+      distance_(std::move(distances)),
+      predecessor_(std::move(predecessors)) {}
+
+bool MeshMetric::wantsMatrices(std::size_t node_count, const MeshMetricOptions& options) {
+  return node_count <= std::min(options.matrix_node_limit, kLargestPredecessor);
 }
 
 std::size_t MeshMetric::memoryBytes() const {

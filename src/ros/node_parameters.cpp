@@ -83,6 +83,7 @@ NodeParameters parseNodeParameters(XmlRpc::XmlRpcValue values, std::vector<std::
   }
   parameters.geometry = reader.choice("geometry", 0, {"collision", "visual"}) == 0 ? GeometrySource::Collision
                                                                                    : GeometrySource::Visual;
+  parameters.cache = reader.text("cache", parameters.cache);
   parameters.rate = reader.number("rate", parameters.rate, 0.1, 2000.0);
   parameters.marker_rate = reader.number("marker_rate", parameters.marker_rate, 0.1, 200.0);
   parameters.threads = reader.count("threads", parameters.threads, 0, 1024);

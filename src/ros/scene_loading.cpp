@@ -44,6 +44,7 @@ LoadAttempt tryLoadScene(const NodeParameters& parameters, const ros::NodeHandle
   options.package_locator = rosPackagePath;
   options.geometry = parameters.geometry;
   options.default_settings = parameters.pair;
+  options.cache = openPreparationCache(parameters.cache);
   std::vector<std::string> names;
   if (!parameters.scene_file.empty()) {
     names = descriptionsOfSceneFile(parameters.scene_file);

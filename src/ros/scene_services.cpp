@@ -87,10 +87,12 @@ bool SceneServices::addBody(AddBody::Request& request, AddBody::Response& respon
     requireScene();
     const PairSettings settings = pairSettings(request, keeper_.defaults());
     // Reading the mesh may take seconds: outside the edit.
-    SceneBody body = loadBody(toBodyDescription(request), "", package_locator_);
+    const std::shared_ptr<const Scene> scene = keeper_.served()->scene;
+    SceneBody body =
+        loadBody(toBodyDescription(request), "", package_locator_, kDefaultMetricMemoryLimit, scene->cache);
     body.colour = toColour(request.color, body.colour);
-    keeper_.edit([&](Scene& scene) {
-      response.pairs = concave_distance::addBody(scene, body, request.pair_with, settings);
+    keeper_.edit([&](Scene& edited) {
+      response.pairs = concave_distance::addBody(edited, body, request.pair_with, settings);
     });
   });
 }

@@ -55,12 +55,13 @@ void locateAll(std::vector<BodySource>& sources, const PackageLocator& package_l
   }
 }
 
-PreparedBody prepare(const BodySource& source) {
+PreparedBody prepare(const BodySource& source, const PreparationCachePointer& cache) {
   PreparedBody prepared;
-  RepairedMesh repaired = loadGeometry(source.geometry, source.source);
+  RepairedMesh repaired = loadGeometry(source.geometry, source.source, cache.get());
   prepared.repair = std::move(repaired.report);
   BodyMeshOptions options;
   options.max_edge_length = source.max_edge_length;
+  options.cache = cache;
   prepared.parts = makeBodyMeshParts(source.name, std::move(repaired.mesh), options);
   return prepared;
 }
@@ -105,11 +106,11 @@ SceneBody finishBody(const BodySource& source, PreparedBody prepared) {
 }  // namespace
 
 std::vector<BuiltBody> buildBodies(std::vector<BodySource> sources, const PackageLocator& package_locator,
-                                   std::size_t metric_memory_limit) {
+                                   std::size_t metric_memory_limit, const PreparationCachePointer& cache) {
   std::vector<BuiltBody> built(sources.size());
   std::vector<PreparedBody> prepared(sources.size());
   locateAll(sources, package_locator, built);
-  forEachBody(built, [&](std::size_t i) { prepared[i] = prepare(sources[i]); });
+  forEachBody(built, [&](std::size_t i) { prepared[i] = prepare(sources[i], cache); });
   for (std::size_t i = 0; i < sources.size(); ++i) {
     if (!built[i].problem.empty()) continue;
     for (const std::string& note :

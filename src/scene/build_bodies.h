@@ -31,8 +31,9 @@ struct BuiltBody {
 };
 
 /// Loads all bodies, in parallel; one result a source, in their order and the same whatever the number of
-/// threads. Never throws for a body: its problem says what is wrong.
+/// threads and whatever the cache (nullptr: none) already holds. Never throws for a body: its problem says
+/// what is wrong.
 std::vector<BuiltBody> buildBodies(std::vector<BodySource> sources, const PackageLocator& package_locator,
-                                   std::size_t metric_memory_limit);
+                                   std::size_t metric_memory_limit, const PreparationCachePointer& cache);
 
 }  // namespace concave_distance::detail

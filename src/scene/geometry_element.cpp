@@ -71,6 +71,24 @@ TriangleSoup loadElement(const GeometryElement& element) {
                                    : soupOf(makePrimitive(element));
 }
 
+/// Of all that the surface is made from; nothing where that is not in the files and numbers named.
+std::optional<ContentKey> keyOf(const std::vector<GeometryElement>& elements, const RepairOptions& options) {
+  ContentHasher hasher = preparationHasher();
+  addRepairOptions(hasher, options);
+  for (const GeometryElement& element : elements) {
+    hasher.add(element.primitive);
+    for (const double dimension : element.dimensions) hasher.add(dimension);
+    if (element.primitive.empty()) {
+      if (!addMeshFile(hasher, element.mesh_resource)) return std::nullopt;
+    } else if (!element.dimensions.empty()) {
+      hasher.add(chordErrorOf(element));
+    }
+    for (int i = 0; i < 3; ++i) hasher.add(element.scale[i]);
+    for (int i = 0; i < 16; ++i) hasher.add(element.frame_from_geometry.data()[i]);
+  }
+  return hasher.key();
+}
+
 }  // namespace
 
 void locateGeometry(GeometryElement& element, const std::string& base_folder,
@@ -83,18 +101,23 @@ void locateGeometry(GeometryElement& element, const std::string& base_folder,
   }
 }
 
-RepairedMesh loadGeometry(const std::vector<GeometryElement>& elements, const std::string& where) {
-  TriangleSoup body;
-  for (const GeometryElement& element : elements) {
-    if (!element.frame_from_geometry.matrix().allFinite()) {
-      throw Error(element.where, "the pose is not finite", "give finite numbers");
-    }
-    appendTransformed(body, loadElement(element), element.frame_from_geometry);
-  }
+RepairedMesh loadGeometry(const std::vector<GeometryElement>& elements, const std::string& where,
+                          PreparationCache* cache) {
   RepairOptions options;
   options.weld_tolerance = kSinglePrecisionWeld;
-  const bool is_one_file = elements.size() == 1 && !elements.front().mesh_resource.empty();
-  return repairMesh(body, options, is_one_file ? elements.front().mesh_resource : where);
+  return repairedMeshThrough(
+      cache, [&] { return keyOf(elements, options); },
+      [&] {
+        TriangleSoup body;
+        for (const GeometryElement& element : elements) {
+          if (!element.frame_from_geometry.matrix().allFinite()) {
+            throw Error(element.where, "the pose is not finite", "give finite numbers");
+          }
+          appendTransformed(body, loadElement(element), element.frame_from_geometry);
+        }
+        const bool is_one_file = elements.size() == 1 && !elements.front().mesh_resource.empty();
+        return repairMesh(body, options, is_one_file ? elements.front().mesh_resource : where);
+      });
 }
 
 std::string describeApproximations(const std::vector<GeometryElement>& elements) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "concave_distance/mesh/preparation_cache.h"
 #include "concave_distance/mesh/repair_mesh.h"
 #include "concave_distance/scene/resource_locator.h"
 
@@ -28,8 +29,10 @@ void locateGeometry(GeometryElement& element, const std::string& base_folder,
 
 /// Loads located elements and merges them into one repaired surface in the body's frame; slits of
 /// single precision are welded (kSinglePrecisionWeld), so that what is meant to be closed is.
+/// @param cache looked into first and added to; nullptr: none
 /// @throws Error naming the element at fault: nothing of the body is served rather than a part of it
-RepairedMesh loadGeometry(const std::vector<GeometryElement>& elements, const std::string& where);
+RepairedMesh loadGeometry(const std::vector<GeometryElement>& elements, const std::string& where,
+                          PreparationCache* cache);
 
 /// One line for each element whose round surface became a mesh, with its chord error. May be empty.
 std::string describeApproximations(const std::vector<GeometryElement>& elements);

@@ -123,8 +123,9 @@ Scene assemble(const SceneSpec& spec, SceneParts parts, const SceneLoadOptions& 
   // Before the costly part, so that a mistake in the file is told at once.
   PairSelection selection = detail::selectPairs(spec, parts);
   std::vector<BuiltBody> built =
-      detail::buildBodies(parts.sources, options.package_locator, spec.metric_memory_limit);
+      detail::buildBodies(parts.sources, options.package_locator, spec.metric_memory_limit, spec.cache);
   Scene scene;
+  scene.cache = spec.cache;
   scene.notes = std::move(parts.notes);
   scene.problems = std::move(parts.problems);
   scene.problems.insert(scene.problems.end(), selection.problems.begin(), selection.problems.end());
@@ -146,6 +147,11 @@ Scene assemble(const SceneSpec& spec, SceneParts parts, const SceneLoadOptions& 
     if (a && b) scene.pairs.push_back({pair.name, *a, *b, pair.enabled, pair.settings});
   }
   scene.notes.insert(scene.notes.end(), selection.notes.begin(), selection.notes.end());
+  if (spec.cache) {
+    if (std::string problem = spec.cache->takeProblem(); !problem.empty()) {
+      scene.notes.push_back(std::move(problem));
+    }
+  }
   return scene;
 }
 
@@ -153,7 +159,7 @@ Scene assemble(const SceneSpec& spec, SceneParts parts, const SceneLoadOptions& 
 
 Scene loadSceneText(const std::string& yaml, const std::string& where, const std::string& base_folder,
                     const SceneLoadOptions& options) {
-  const SceneSpec spec = detail::readSceneSpec(yaml, where, options);
+  const SceneSpec spec = detail::readSceneSpec(yaml, where, base_folder, options);
   SceneParts parts;
   for (const RobotSpec& robot : spec.robots) addRobot(robot, base_folder, options, parts);
   for (const detail::BodySpec& body : spec.bodies) detail::addBody(body, base_folder, parts);
@@ -165,7 +171,8 @@ Scene loadSceneFile(const std::string& path, const SceneLoadOptions& options) {
 }
 
 std::vector<std::string> descriptionsOfSceneFile(const std::string& path) {
-  const SceneSpec spec = detail::readSceneSpec(readFile(path, "scene file"), path, SceneLoadOptions{});
+  const SceneSpec spec =
+      detail::readSceneSpec(readFile(path, "scene file"), path, folderOf(path), SceneLoadOptions{});
   std::vector<std::string> names;
   for (const RobotSpec& robot : spec.robots) {
     for (const std::string& name : {robot.description, robot.semantic_description}) {
@@ -179,6 +186,7 @@ Scene loadRobotScene(const std::string& urdf, const std::string& where, const Sc
   SceneSpec spec;
   spec.defaults = options.default_settings;
   spec.metric_memory_limit = options.metric_memory_limit;
+  spec.cache = options.cache;
   detail::validatePairSettings(spec.defaults, where);
   RobotSpec robot;
   robot.where = where;
@@ -199,9 +207,10 @@ Scene loadRobotScene(const std::string& urdf, const std::string& where, const Sc
 }
 
 SceneBody loadBody(const BodyDescription& description, const std::string& base_folder,
-                   const PackageLocator& package_locator, std::size_t metric_memory_limit) {
-  std::vector<BuiltBody> built =
-      detail::buildBodies({detail::sourceOf(description, base_folder)}, package_locator, metric_memory_limit);
+                   const PackageLocator& package_locator, std::size_t metric_memory_limit,
+                   const PreparationCachePointer& cache) {
+  std::vector<BuiltBody> built = detail::buildBodies({detail::sourceOf(description, base_folder)},
+                                                     package_locator, metric_memory_limit, cache);
   if (!built.front().body) {
     throw Error("body '" + description.name + "'", built.front().problem, "it is not added");
   }

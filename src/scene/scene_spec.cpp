@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <map>
 
 #include "body_spec_reader.h"
@@ -96,13 +97,23 @@ std::vector<GroupSpec> readGroups(const YamlValue& value, Names& names) {
   return groups;
 }
 
+// A folder, relative to that of the scene file, or off.
+PreparationCachePointer readCache(const YamlValue& value, const std::string& base_folder) {
+  std::string folder = value.text();
+  if (folder.empty()) value.refuse("a folder, or off");
+  if (folder != "off") folder = (std::filesystem::path(base_folder) / folder).string();
+  return openPreparationCache(folder);
+}
+
 }  // namespace
 
-SceneSpec readSceneSpec(const std::string& yaml, const std::string& file, const SceneLoadOptions& options) {
+SceneSpec readSceneSpec(const std::string& yaml, const std::string& file, const std::string& base_folder,
+                        const SceneLoadOptions& options) {
   YamlMap map(YamlValue::parse(yaml, file), "a map with robots, bodies, groups, pairs, defaults");
   SceneSpec spec;
   spec.defaults = options.default_settings;
   spec.metric_memory_limit = options.metric_memory_limit;
+  spec.cache = options.cache;
   BodyDefaults body_defaults;
   body_defaults.geometry = options.geometry;
   // Before all that they are the defaults of, wherever they stand in the file.
@@ -116,6 +127,7 @@ SceneSpec readSceneSpec(const std::string& yaml, const std::string& file, const 
   if (auto v = map.take("metric_memory_limit_mb")) {
     spec.metric_memory_limit = v->count(0, kMostMegabytes, "megabytes") * kBytesPerMegabyte;
   }
+  if (auto v = map.take("cache")) spec.cache = readCache(*v, base_folder);
   Names body_names;
   if (auto v = map.take("robots")) {
     for (const YamlValue& item : v->list("a list of robots")) {

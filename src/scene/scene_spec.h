@@ -61,10 +61,13 @@ struct SceneSpec {
   std::vector<std::array<Selector, 2>> disabled;
   PairSettings defaults;
   std::size_t metric_memory_limit = 0;  ///< bytes
+  PreparationCachePointer cache;        ///< nullptr: none
 };
 
+/// @param base_folder where relative paths start; empty: the working directory
 /// @throws Error: file, line, key, what is wrong and what is allowed
-SceneSpec readSceneSpec(const std::string& yaml, const std::string& file, const SceneLoadOptions& options);
+SceneSpec readSceneSpec(const std::string& yaml, const std::string& file, const std::string& base_folder,
+                        const SceneLoadOptions& options);
 
 /// Lays the settings of a pair's entry over `settings`, and says whether the pair is enabled when the entry
 /// does.

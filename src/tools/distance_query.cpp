@@ -83,6 +83,10 @@ void addOptions(CLI::App& app, CommandLine& line) {
   app.add_option("--max-edge", options.max_edge_length,
                  "longest edge of the search grids, metres (automatic)")
       ->check(CLI::PositiveNumber);
+  app.add_option("--cache", options.cache,
+                 "folder that keeps what was prepared of a mesh for the next run, or off "
+                 "($XDG_CACHE_HOME/concave_distance, ~/.cache/concave_distance)")
+      ->type_name("DIR|off");
   app.add_flag("--tracking", options.tracking,
                "lines are successive instants of one motion: warm starts, persistent niche numbers");
   app.add_option("--seed", options.seed, "of the random streams: one seed, one answer")

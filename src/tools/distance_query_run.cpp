@@ -2,10 +2,14 @@
 
 #include <chrono>
 #include <memory>
+#include <optional>
 #include <ostream>
+#include <sstream>
 
+#include "concave_distance/base/run_together.h"
 #include "concave_distance/mesh/body_mesh.h"
 #include "concave_distance/mesh/import_mesh.h"
+#include "concave_distance/mesh/preparation_cache.h"
 #include "concave_distance/mesh/repair_mesh.h"
 #include "concave_distance/tracking/pair_tracker.h"
 #include "query_poses.h"
@@ -21,24 +25,51 @@ constexpr const char* kPairName = "distance_query";
 constexpr std::uint32_t kLargestNicheCount = 1000;
 
 std::shared_ptr<const BodyMesh> loadBody(const std::string& path, double scale,
-                                         const DistanceQueryOptions& options, std::ostream& log) {
+                                         const DistanceQueryOptions& options,
+                                         const PreparationCachePointer& cache, std::ostream& log) {
   RepairOptions repair;
   repair.weld_tolerance = kSinglePrecisionWeld;
-  RepairedMesh repaired = repairMesh(importMesh(path, Eigen::Vector3d::Constant(scale)), repair, path);
+  const auto key_of = [&]() -> std::optional<ContentKey> {
+    ContentHasher hasher = preparationHasher();
+    addRepairOptions(hasher, repair);
+    hasher.add(scale);
+    if (!addMeshFile(hasher, path)) return std::nullopt;
+    return hasher.key();
+  };
+  RepairedMesh repaired = repairedMeshThrough(cache.get(), key_of, [&] {
+    return repairMesh(importMesh(path, Eigen::Vector3d::Constant(scale)), repair, path);
+  });
   if (const std::string summary = repaired.report.summary(); !summary.empty()) {
     log << path << ": " << summary << '\n';
   }
   BodyMeshOptions body_options;
   body_options.max_edge_length = options.max_edge_length;
+  body_options.cache = cache;
   return std::make_shared<const BodyMesh>(path, std::move(repaired.mesh), body_options);
+}
+
+struct LoadedBodies {
+  std::shared_ptr<const BodyMesh> a;
+  std::shared_ptr<const BodyMesh> b;
+};
+
+LoadedBodies loadBodies(const DistanceQueryOptions& options, std::ostream& log) {
+  const PreparationCachePointer cache = openPreparationCache(options.cache);
+  LoadedBodies bodies;
+  std::ostringstream log_b;  // both at once, what they say one after the other
+  runTogether({[&] { bodies.a = loadBody(options.mesh_a, options.scale_a, options, cache, log); },
+               [&] { bodies.b = loadBody(options.mesh_b, options.scale_b, options, cache, log_b); }});
+  log << log_b.str();
+  if (cache) {
+    if (const std::string problem = cache->takeProblem(); !problem.empty()) log << problem << '\n';
+  }
+  return bodies;
 }
 
 /// Solves pose after pose: one tracker for all when tracking, a new one for each otherwise.
 class Solver {
  public:
-  Solver(const DistanceQueryOptions& options, std::ostream& log)
-      : a_(loadBody(options.mesh_a, options.scale_a, options, log)),
-        b_(loadBody(options.mesh_b, options.scale_b, options, log)) {
+  Solver(const DistanceQueryOptions& options, std::ostream& log) : bodies_(loadBodies(options, log)) {
     parameters_.accuracy = options.accuracy;
     parameters_.absolute_tolerance = options.absolute_tolerance;
     parameters_.relative_tolerance = options.relative_tolerance;
@@ -52,7 +83,8 @@ class Solver {
     // What is proven draws nothing from the random streams: a reset makes it cold, and buffers are kept.
     resets_ = !options.tracking && (options.accuracy == AccuracyLevel::Complete ||
                                     (provesDistance(options.accuracy) && !parameters_.niches_wanted));
-    if (options.tracking || resets_) tracker_ = std::make_unique<PairTracker>(kPairName, a_, b_, parameters_);
+    if (options.tracking || resets_)
+      tracker_ = std::make_unique<PairTracker>(kPairName, bodies_.a, bodies_.b, parameters_);
   }
 
   /// Microseconds of the query alone: everything between the loaded bodies and the answer.
@@ -62,7 +94,7 @@ class Solver {
       if (resets_) tracker_->reset();
       tracker_->update(pose, time, solution_);
     } else {
-      solution_ = solveOnce(kPairName, a_, b_, parameters_, pose);
+      solution_ = solveOnce(kPairName, bodies_.a, bodies_.b, parameters_, pose);
     }
     return std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
   }
@@ -70,8 +102,7 @@ class Solver {
   const PairSolution& solution() const { return solution_; }
 
  private:
-  std::shared_ptr<const BodyMesh> a_;
-  std::shared_ptr<const BodyMesh> b_;
+  LoadedBodies bodies_;
   TrackerParameters parameters_;
   std::unique_ptr<PairTracker> tracker_;
   bool resets_ = false;

@@ -24,6 +24,7 @@ struct DistanceQueryOptions {
   double prominence_limit = 5e-2;                                ///< of level `complete`
   double time_budget = std::numeric_limits<double>::infinity();  ///< seconds a query; of level `certified`
   std::optional<double> max_edge_length;                         ///< metres; grid of the search, both bodies
+  std::string cache;  ///< folder of prepared bodies; empty: the user's, "off": none
   bool tracking = false;
   std::uint64_t seed = 1;
   std::string output;

@@ -78,8 +78,8 @@ class DistanceQuery : public testing::Test {
 
   /// Exit status; what it prints goes to the file "log".
   int run(const std::string& arguments) {
-    const std::string command =
-        "cd " + folder_.path() + " && " + CONCAVE_DISTANCE_DISTANCE_QUERY + " " + arguments + " > log 2>&1";
+    const std::string command = "cd " + folder_.path() + " && XDG_CACHE_HOME=" + folder_.path("cache") + " " +
+                                CONCAVE_DISTANCE_DISTANCE_QUERY + " " + arguments + " > log 2>&1";
     const int status = std::system(command.c_str());
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }

@@ -9,6 +9,7 @@
 #include "concave_distance/mesh/mesh_metric.h"
 #include "concave_distance/mesh/mesh_topology.h"
 #include "concave_distance/mesh/node_graph.h"
+#include "concave_distance/mesh/preparation_cache.h"
 #include "concave_distance/mesh/search_nodes.h"
 #include "concave_distance/mesh/surface_mesh.h"
 #include "concave_distance/mesh/triangle_tree.h"
@@ -22,6 +23,8 @@ struct BodyMeshOptions {
   /// nodes (thinGraph). An explicit grid size is taken as it is.
   std::size_t search_node_limit = 800;
   MeshMetricOptions metric;
+  /// Where prepared parts are looked for and stored; nullptr: nowhere.
+  PreparationCachePointer cache;
 };
 
 /// Everything of a body but its mesh metric, whose memory a scene shares out when all graphs are known.
@@ -32,6 +35,8 @@ struct BodyMeshParts {
   TriangleTree tree;
   BoundingVolumeHierarchy hierarchy;
   SearchNodes nodes;
+  PreparationCachePointer cache;  ///< for the metric
+  ContentKey nodes_key;           ///< in the cache
 };
 
 /// Makes the parts, those that do not need each other in parallel; the same whatever the number of threads.

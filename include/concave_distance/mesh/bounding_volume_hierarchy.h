@@ -50,6 +50,9 @@ class BoundingVolumeHierarchy {
 
   BoundingVolumeHierarchy() = default;
   BoundingVolumeHierarchy(const SurfaceMesh& mesh, const TriangleTree& tree);
+  /// From another hierarchy's parts, which are taken as they are. O(nodes).
+  BoundingVolumeHierarchy(const Eigen::Vector3d& origin, double reach, std::vector<Node> nodes,
+                          std::vector<Leaf> leaves);
 
   const Eigen::Vector3d& origin() const { return origin_; }
   /// Largest distance of a vertex from `origin`, rounded up; metres.

@@ -25,6 +25,13 @@ class MeshMetric {
   /// Builds the matrices in parallel, O(n^2 log n), when the graph is small enough.
   /// @param graph must outlive the metric
   MeshMetric(const NodeGraph& graph, const MeshMetricOptions& options);
+  /// From the matrices of another metric of the same graph, which are taken as they are.
+  MeshMetric(const NodeGraph& graph, std::vector<float> distances, std::vector<std::uint16_t> predecessors);
+  /// Whether a graph of so many nodes gets matrices.
+  static bool wantsMatrices(std::size_t node_count, const MeshMetricOptions& options);
+  /// The matrices row by row; empty when there are none.
+  const std::vector<float>& distances() const { return distance_; }
+  const std::vector<std::uint16_t>& predecessors() const { return predecessor_; }
   bool hasMatrices() const { return has_matrices_; }
   const NodeGraph& graph() const { return *graph_; }
   /// Matrix entry, metres; infinity between shells. Only when hasMatrices().

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "concave_distance/mesh/surface_mesh.h"
@@ -19,6 +20,9 @@ class TriangleTree {
   };
   TriangleTree() = default;
   explicit TriangleTree(const SurfaceMesh& mesh);
+  /// From another tree's nodes() and order(), which are taken as they are.
+  TriangleTree(std::vector<Node> nodes, std::vector<TriangleIndex> order)
+      : nodes_(std::move(nodes)), order_(std::move(order)) {}
   const std::vector<Node>& nodes() const { return nodes_; }
   /// Triangles in leaf order: a leaf holds order()[first .. first + count).
   const std::vector<TriangleIndex>& order() const { return order_; }

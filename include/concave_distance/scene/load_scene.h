@@ -26,6 +26,8 @@ struct SceneLoadOptions {
   /// Bytes that the matrices of all mesh metrics may take together. Bodies get theirs in the order of the
   /// scene while the rest of the limit holds them; the others search their mesh on demand.
   std::size_t metric_memory_limit = kDefaultMetricMemoryLimit;
+  /// Where prepared bodies are kept between runs, unless the scene file says otherwise; nullptr: nowhere.
+  PreparationCachePointer cache;
 };
 
 /// Loads a scene YAML (doc/scene_file.md): robots from descriptions or files, bodies, groups, pairs. A body
@@ -61,9 +63,11 @@ struct BodyDescription {
 };
 /// Loads one body as a scene does.
 /// @param metric_memory_limit bytes that the matrices of its mesh metric may take
+/// @param cache as SceneLoadOptions::cache
 /// @throws Error naming the body
 SceneBody loadBody(const BodyDescription& description, const std::string& base_folder,
                    const PackageLocator& package_locator,
-                   std::size_t metric_memory_limit = kDefaultMetricMemoryLimit);
+                   std::size_t metric_memory_limit = kDefaultMetricMemoryLimit,
+                   const PreparationCachePointer& cache = nullptr);
 
 }  // namespace concave_distance

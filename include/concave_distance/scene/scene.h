@@ -55,6 +55,7 @@ struct Scene {
   std::vector<ScenePair> pairs;  ///< enabled ones and those disabled by name; filtered pairs are not listed
   std::vector<SceneProblem> problems;
   std::vector<std::string> notes;  ///< repairs and filters applied, one line each
+  PreparationCachePointer cache;   ///< that its bodies went through, for those added later; nullptr: none
 
   /// Index of the body with this name.
   std::optional<std::size_t> findBody(const std::string& name) const;

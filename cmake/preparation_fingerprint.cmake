@@ -1,0 +1,16 @@
+# Writes a header with a fingerprint of the sources that make bodies ready (-DFILES, separated by |) and of how they
+# are compiled (-DCOMPILER): part of every key of the preparation cache, so that no stored file outlives a change.
+string(REPLACE "|" ";" files "${FILES}")
+set(all "${COMPILER}")
+foreach(file IN LISTS files)
+  file(SHA256 "${file}" hash)
+  string(APPEND all " ${hash}")
+endforeach()
+string(SHA256 fingerprint "${all}")
+set(content "#pragma once\n\n#include <string_view>\n\nnamespace concave_distance::detail {\n\n/// Of the sources, the compiler and its options.\ninline constexpr std::string_view kPreparationFingerprint =\n    \"${fingerprint}\";\n\n}  // namespace concave_distance::detail\n")
+if(EXISTS "${OUTPUT}")
+  file(READ "${OUTPUT}" old)
+endif()
+if(NOT "${old}" STREQUAL "${content}")
+  file(WRITE "${OUTPUT}" "${content}")
+endif()
