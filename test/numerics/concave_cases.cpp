@@ -29,28 +29,14 @@ SurfaceMesh makeHollow(double outer, double inner) {
 
 /// A closed ring about z: `count` square cross-sections of side `thickness` on a circle of `radius`, flat
 /// towards x.
-SurfaceMesh makeRing(double radius, double thickness, std::uint32_t count) {
-  std::vector<Vector3d> vertices;
+SurfaceMesh makeSquareRing(double radius, double thickness, std::uint32_t count) {
   const double half = 0.5 * thickness;
-  for (std::uint32_t i = 0; i < count; ++i) {
+  return makeRingThrough(count, 4, [&](std::uint32_t i, std::uint32_t j) {
     const double angle = 2.0 * M_PI * (i + 0.5) / count;
     const Vector3d outwards(std::cos(angle), std::sin(angle), 0.0);
-    vertices.emplace_back((radius - half) * outwards - half * Vector3d::UnitZ());
-    vertices.emplace_back((radius + half) * outwards - half * Vector3d::UnitZ());
-    vertices.emplace_back((radius + half) * outwards + half * Vector3d::UnitZ());
-    vertices.emplace_back((radius - half) * outwards + half * Vector3d::UnitZ());
-  }
-  std::vector<TriangleNodes> triangles;
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const std::uint32_t here = 4 * i;
-    const std::uint32_t next = 4 * ((i + 1) % count);
-    for (std::uint32_t k = 0; k < 4; ++k) {
-      const std::uint32_t l = (k + 1) % 4;
-      triangles.push_back({NodeIndex{here + k}, NodeIndex{next + l}, NodeIndex{here + l}});
-      triangles.push_back({NodeIndex{here + k}, NodeIndex{next + k}, NodeIndex{next + l}});
-    }
-  }
-  return SurfaceMesh(std::move(vertices), std::move(triangles), "ring");
+    const double r = radius + (j == 1 || j == 2 ? half : -half);
+    return Vector3d(r * outwards + (j < 2 ? -half : half) * Vector3d::UnitZ());
+  });
 }
 
 /// A block with a square blind hole of half side `half` from the top (z = 0), 0.5 deep.
@@ -108,7 +94,7 @@ std::vector<NumericCase> concaveCases() {
       Relation::Swallowed);
   add("CrossingSurfaces", makeCube(1.0), makeComb(3), at(0.8, 0.0, 0.0), Relation::Meeting, 0.0);
 
-  const SurfaceMesh ring = makeRing(1.0, 0.2, 24);
+  const SurfaceMesh ring = makeSquareRing(1.0, 0.2, 24);
   add("LinkedRings", ring, ring, givenPose(turn(M_PI_2, Vector3d::UnitX()), {1.0, 0, 0}), Relation::Apart);
   add("LinkedRingsAskew", ring, ring, givenPose(turn(1.2, {1, 0.2, 0.1}), {0.85, 0.1, 0.05}),
       Relation::Apart);

@@ -2,6 +2,7 @@
 
 #include "numerics/numeric_cases.h"
 #include "support/concave_shapes.h"
+#include "support/mesh_variants.h"
 #include "support/plain_shapes.h"
 
 namespace concave_distance::test {
@@ -11,15 +12,7 @@ using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
 SurfaceMesh shifted(const SurfaceMesh& mesh, const Vector3d& shift) {
-  std::vector<Vector3d> vertices = mesh.vertices();
-  for (Vector3d& v : vertices) v += shift;
-  return SurfaceMesh(std::move(vertices), mesh.triangles(), "shifted");
-}
-
-SurfaceMesh scaledBy(const SurfaceMesh& mesh, double factor) {
-  std::vector<Vector3d> vertices = mesh.vertices();
-  for (Vector3d& v : vertices) v *= factor;
-  return SurfaceMesh(std::move(vertices), mesh.triangles(), "scaled");
+  return movedSurface(mesh, Eigen::Isometry3d(Eigen::Translation3d(shift)));
 }
 
 Quaterniond turn(double angle, const Vector3d& axis) {
@@ -55,18 +48,18 @@ std::vector<NumericCase> poseCases() {
   for (const double size : {1e-6, 1e-3, 1e3, 1e6}) {
     const std::string name = "Size1e" + std::string(size < 1 ? "Minus" : "") +
                              std::to_string(static_cast<int>(std::abs(std::log10(size)) + 0.5));
-    add(name, scaledBy(comb, size), scaledBy(hook, size), givenPose(askew, size * place));
-    add(name + "FaceToFace", scaledBy(block, size), scaledBy(block, size),
+    add(name, scaledSurface(comb, size), scaledSurface(hook, size), givenPose(askew, size * place));
+    add(name + "FaceToFace", scaledSurface(block, size), scaledSurface(block, size),
         givenPose(Quaterniond::Identity(), size * Vector3d(0.1, 0.1, 0.501)));
   }
   // A grain of 1e-6 m at a body of 1e6 m, from within a grain's size to a body's size away.
-  const SurfaceMesh mountain = scaledBy(block, 1e6);
-  const SurfaceMesh grain = scaledBy(comb, 1e-6);
+  const SurfaceMesh mountain = scaledSurface(block, 1e6);
+  const SurfaceMesh grain = scaledSurface(comb, 1e-6);
   for (const double gap : {1e-6, 1.0, 1e6}) {
     const std::string name = "GrainAtAMountain" + std::to_string(cases.size());
     add(name + "OverAFace", mountain, grain, givenPose(askew, {1e5, 2e5, 0.25e6 + gap}));
     add(name + "BesideACorner", mountain, grain, givenPose(askew, {0.3e6 + gap, 0.4e6 + gap, 0.25e6 + gap}));
-    add(name + "Swapped", grain, scaledBy(comb, 1e6), givenPose(askew, {gap, 2.0 * gap, 0.9e6 + gap}));
+    add(name + "Swapped", grain, scaledSurface(comb, 1e6), givenPose(askew, {gap, 2.0 * gap, 0.9e6 + gap}));
   }
 
   for (const double angle : {1e-9, 1e-12, 1e-15, 7.96e-4}) {

@@ -23,10 +23,44 @@ using test::Relation;
 
 const AccuracyLevel kLevels[] = {AccuracyLevel::Refined, AccuracyLevel::Certified};
 
-std::shared_ptr<const BodyMesh> bodyOf(const NumericCase& numeric_case, const SurfaceMesh& surface) {
-  BodyMeshOptions options;
-  if (numeric_case.coarse_grid) options.max_edge_length = 0.2 * surface.diameter();
-  return std::make_shared<const BodyMesh>(numeric_case.name, surface, options);
+std::string suiteName() {
+  return testing::UnitTest::GetInstance()->current_test_info()->test_suite_name();
+}
+
+/// "Contacts" of "Contacts/HardCase": what a case's name is unique within.
+std::string keyOf(const NumericCase& numeric_case) {
+  const std::string suite = suiteName();
+  return suite.substr(0, suite.find('/')) + '/' + numeric_case.name;
+}
+
+/// The distance of the surfaces in 100 digits, computed once for all tests of a case.
+const test::Wide& truthOf(const NumericCase& numeric_case) {
+  static std::map<std::string, test::Wide> known;
+  const auto [entry, is_new] = known.try_emplace(keyOf(numeric_case));
+  if (is_new) {
+    entry->second = test::exactSurfaceDistance(numeric_case.a, numeric_case.b, numeric_case.b_in_a);
+  }
+  return entry->second;
+}
+
+struct Bodies {
+  std::shared_ptr<const BodyMesh> a;
+  std::shared_ptr<const BodyMesh> b;
+};
+
+/// Ready for the search; those of the last case are kept, since its levels come one after the other.
+const Bodies& bodiesOf(const NumericCase& numeric_case) {
+  static std::string key;
+  static Bodies bodies;
+  if (key == keyOf(numeric_case)) return bodies;
+  const auto bodyOf = [&](const SurfaceMesh& surface) {
+    BodyMeshOptions options;
+    if (numeric_case.coarse_grid) options.max_edge_length = 0.2 * surface.diameter();
+    return std::make_shared<const BodyMesh>(numeric_case.name, surface, options);
+  };
+  bodies = {bodyOf(numeric_case.a), bodyOf(numeric_case.b)};
+  key = keyOf(numeric_case);
+  return bodies;
 }
 
 /// One solve, cold and once more warm at the same pose, with the truth.
@@ -42,14 +76,13 @@ struct Solved {
 Solved solve(const NumericCase& numeric_case, AccuracyLevel level) {
   TrackerParameters parameters;
   parameters.accuracy = level;
-  const auto a = bodyOf(numeric_case, numeric_case.a);
-  const auto b = bodyOf(numeric_case, numeric_case.b);
+  const auto& [a, b] = bodiesOf(numeric_case);
   PairTracker tracker(numeric_case.name, a, b, parameters);
   Solved solved;
   solved.proof_error = kProofError * proofScale(*a, *b, numeric_case.b_in_a.isometry());
   tracker.update(numeric_case.b_in_a.isometry(), 0.0, solved.cold);
   tracker.update(numeric_case.b_in_a.isometry(), 0.1, solved.warm);
-  solved.wide_truth = test::exactSurfaceDistance(numeric_case.a, numeric_case.b, numeric_case.b_in_a);
+  solved.wide_truth = truthOf(numeric_case);
   solved.truth = static_cast<double>(solved.wide_truth);
   solved.bound =
       test::queryBound(numeric_case.a, numeric_case.b, numeric_case.b_in_a.translation, solved.truth);
@@ -86,10 +119,6 @@ class WorstErrors : public testing::Environment {
 };
 
 const testing::Environment* const kWorstErrors = testing::AddGlobalTestEnvironment(new WorstErrors);
-
-std::string suiteName() {
-  return testing::UnitTest::GetInstance()->current_test_info()->test_suite_name();
-}
 
 void expectTheTruth(const NumericCase& numeric_case, const PairSolution& solution, const Solved& solved) {
   const double surfaces =
@@ -163,10 +192,10 @@ class HardProof : public testing::TestWithParam<NumericCase> {};
 
 TEST_P(HardProof, EnclosesTheTruth) {
   const NumericCase& numeric_case = GetParam();
-  const auto a = bodyOf(numeric_case, numeric_case.a);
-  const auto b = bodyOf(numeric_case, numeric_case.b);
+  const auto a = test::makeBody(numeric_case.a);  // a proof needs no search
+  const auto b = test::makeBody(numeric_case.b);
   const Eigen::Isometry3d pose = numeric_case.b_in_a.isometry();
-  const test::Wide truth = test::exactSurfaceDistance(numeric_case.a, numeric_case.b, numeric_case.b_in_a);
+  const test::Wide& truth = truthOf(numeric_case);
   const double bound = test::queryBound(numeric_case.a, numeric_case.b, numeric_case.b_in_a.translation,
                                         static_cast<double>(truth));
   const double error = kProofError * proofScale(*a, *b, pose);

@@ -157,16 +157,15 @@ inline SurfaceMesh makeSheet(std::uint32_t nx, std::uint32_t ny, double cell = 0
   return SurfaceMesh(std::move(vertices), std::move(triangles), "sheet");
 }
 
-/// A ring around z: `around` quadrilaterals along it, `across` around its tube. Closed, outward oriented.
-inline SurfaceMesh makeRing(double radius, double tube, std::uint32_t around, std::uint32_t across) {
+/// A closed ring: `around` quadrilaterals along it, `across` around its tube, the corner (i, j) where
+/// `point(i, j)` says. Outward oriented when i runs about z and j from the outside to the top.
+template <typename Point>
+SurfaceMesh makeRingThrough(std::uint32_t around, std::uint32_t across, const Point& point) {
   std::vector<Eigen::Vector3d> vertices;
   std::vector<TriangleNodes> triangles;
   for (std::uint32_t i = 0; i < around; ++i) {
-    const double along = 2.0 * M_PI * i / around;
     for (std::uint32_t j = 0; j < across; ++j) {
-      const double over = 2.0 * M_PI * j / across;
-      const double r = radius + tube * std::cos(over);
-      vertices.emplace_back(r * std::cos(along), r * std::sin(along), tube * std::sin(over));
+      vertices.push_back(point(i, j));
       const NodeIndex a{i * across + j};
       const NodeIndex b{(i + 1) % around * across + j};
       const NodeIndex c{(i + 1) % around * across + (j + 1) % across};
@@ -176,6 +175,22 @@ inline SurfaceMesh makeRing(double radius, double tube, std::uint32_t around, st
     }
   }
   return SurfaceMesh(std::move(vertices), std::move(triangles), "ring");
+}
+
+/// A ring around z whose tube has the radius `tube(along, over)`, angles in radians.
+template <typename Tube>
+SurfaceMesh makeRingOfTube(double radius, std::uint32_t around, std::uint32_t across, const Tube& tube) {
+  return makeRingThrough(around, across, [&](std::uint32_t i, std::uint32_t j) {
+    const double along = 2.0 * M_PI * i / around;
+    const double over = 2.0 * M_PI * j / across;
+    const double thickness = tube(along, over);
+    const double r = radius + thickness * std::cos(over);
+    return Eigen::Vector3d(r * std::cos(along), r * std::sin(along), thickness * std::sin(over));
+  });
+}
+
+inline SurfaceMesh makeRing(double radius, double tube, std::uint32_t around, std::uint32_t across) {
+  return makeRingOfTube(radius, around, across, [&](double, double) { return tube; });
 }
 
 /// A surface with its vertices drawn in and out along their direction, by `depth` of it: bumps all around.

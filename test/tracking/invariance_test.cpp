@@ -1,13 +1,12 @@
 #include <gtest/gtest.h>
 
 #include <rapidcheck/gtest.h>
-#include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "concave_distance/base/random_engine.h"
 #include "concave_distance/tracking/pair_tracker.h"
 #include "support/concave_shapes.h"
+#include "support/mesh_variants.h"
 
 namespace concave_distance {
 namespace {
@@ -33,49 +32,6 @@ std::shared_ptr<const BodyMesh> body(const std::string& name, SurfaceMesh surfac
   BodyMeshOptions options;
   options.max_edge_length = surface.diameter() / 12.0;
   return std::make_shared<BodyMesh>(name, std::move(surface), options);
-}
-
-SurfaceMesh scaled(const SurfaceMesh& mesh, double factor) {
-  std::vector<Eigen::Vector3d> vertices = mesh.vertices();
-  for (Eigen::Vector3d& vertex : vertices) {
-    vertex *= factor;
-  }
-  return SurfaceMesh(std::move(vertices), mesh.triangles(), "scaled");
-}
-
-SurfaceMesh moved(const SurfaceMesh& mesh, const Eigen::Isometry3d& pose) {
-  std::vector<Eigen::Vector3d> vertices = mesh.vertices();
-  for (Eigen::Vector3d& vertex : vertices) {
-    vertex = pose * vertex;
-  }
-  return SurfaceMesh(std::move(vertices), mesh.triangles(), "moved");
-}
-
-template <typename T>
-void shuffle(std::vector<T>& items, RandomEngine& engine) {
-  for (std::size_t i = items.size(); i > 1; --i) {
-    std::swap(items[i - 1], items[uniformIndex(engine, static_cast<std::uint32_t>(i))]);
-  }
-}
-
-// New numbers for the vertices, another order of the triangles, another first corner of each.
-SurfaceMesh relabelled(const SurfaceMesh& mesh, RandomEngine& engine) {
-  std::vector<std::uint32_t> order(mesh.vertexCount());
-  std::iota(order.begin(), order.end(), 0U);
-  shuffle(order, engine);
-  std::vector<Eigen::Vector3d> vertices(mesh.vertexCount());
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    vertices[order[i]] = mesh.vertices()[i];
-  }
-  std::vector<TriangleNodes> triangles = mesh.triangles();
-  for (TriangleNodes& t : triangles) {
-    for (NodeIndex& node : t) {
-      node = NodeIndex{order[node.value]};
-    }
-    std::rotate(t.begin(), t.begin() + uniformIndex(engine, 3), t.end());
-  }
-  shuffle(triangles, engine);
-  return SurfaceMesh(std::move(vertices), std::move(triangles), "relabelled");
 }
 
 double distanceOf(const std::shared_ptr<const BodyMesh>& a, const std::shared_ptr<const BodyMesh>& b,
@@ -112,9 +68,9 @@ RC_GTEST_PROP(Invariance, ARigidMotionOfBoth, (std::uint64_t seed)) {
   const Eigen::Isometry3d frame_a = draw.pose(0.0, 10.0);
   const Eigen::Isometry3d frame_b = draw.pose(0.0, 10.0);
   const double plain = distanceOf(pair.a, pair.b, pose);
-  const double elsewhere =
-      distanceOf(body("comb", moved(pair.comb, frame_a)), body("channel", moved(pair.channel, frame_b)),
-                 frame_a * pose * frame_b.inverse());
+  const double elsewhere = distanceOf(body("comb", test::movedSurface(pair.comb, frame_a)),
+                                      body("channel", test::movedSurface(pair.channel, frame_b)),
+                                      frame_a * pose * frame_b.inverse());
   RC_ASSERT(std::abs(plain - elsewhere) <= kUnits * (pair.size() + 30.0));
 }
 
@@ -123,8 +79,8 @@ RC_GTEST_PROP(Invariance, RelabelledNodesAndTriangles, (std::uint64_t seed)) {
   Draw draw{RandomEngine(seed)};
   const Eigen::Isometry3d pose = draw.pose(0.0, 4.0);
   const double plain = distanceOf(pair.a, pair.b, pose);
-  const double other = distanceOf(body("comb", relabelled(pair.comb, draw.engine)),
-                                  body("channel", relabelled(pair.channel, draw.engine)), pose);
+  const double other = distanceOf(body("comb", test::relabelledSurface(pair.comb, draw.engine)),
+                                  body("channel", test::relabelledSurface(pair.channel, draw.engine)), pose);
   RC_ASSERT(std::abs(plain - other) <= kUnits * (pair.size() + pose.translation().norm()));
 }
 
@@ -136,8 +92,8 @@ RC_GTEST_PROP(Invariance, Scale, (std::uint64_t seed)) {
   Eigen::Isometry3d far = pose;
   far.translation() *= factor;
   const double plain = distanceOf(pair.a, pair.b, pose);
-  const double large =
-      distanceOf(body("comb", scaled(pair.comb, factor)), body("channel", scaled(pair.channel, factor)), far);
+  const double large = distanceOf(body("comb", test::scaledSurface(pair.comb, factor)),
+                                  body("channel", test::scaledSurface(pair.channel, factor)), far);
   RC_ASSERT(std::abs(large - factor * plain) <= kUnits * factor * (pair.size() + pose.translation().norm()));
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "concave_distance/base/random_engine.h"
+#include "support/concave_shapes.h"
 
 namespace concave_distance::benchmark {
 namespace {
@@ -138,25 +139,9 @@ SurfaceMesh makePyramidField(int rows, int columns, double pitch, unsigned seed)
 
 SurfaceMesh makeBumpyRing(std::size_t triangles) {
   const auto around = static_cast<std::uint32_t>(std::lround(std::sqrt(static_cast<double>(triangles))));
-  const std::uint32_t across = around / 2;
-  std::vector<Eigen::Vector3d> vertices;
-  std::vector<TriangleNodes> faces;
-  for (std::uint32_t i = 0; i < around; ++i) {
-    const double u = 2.0 * M_PI * i / around;
-    for (std::uint32_t j = 0; j < across; ++j) {
-      const double w = 2.0 * M_PI * j / across;
-      const double tube = 0.2 + 0.02 * std::sin(9.0 * u) * std::cos(5.0 * w);
-      const double radius = 0.5 + tube * std::cos(w);
-      vertices.emplace_back(radius * std::cos(u), radius * std::sin(u), tube * std::sin(w));
-      const NodeIndex a{i * across + j};
-      const NodeIndex b{(i + 1) % around * across + j};
-      const NodeIndex c{(i + 1) % around * across + (j + 1) % across};
-      const NodeIndex d{i * across + (j + 1) % across};
-      faces.push_back({a, b, c});
-      faces.push_back({a, c, d});
-    }
-  }
-  return SurfaceMesh(std::move(vertices), std::move(faces), "bumpy ring");
+  return test::makeRingOfTube(0.5, around, around / 2, [](double along, double over) {
+    return 0.2 + 0.02 * std::sin(9.0 * along) * std::cos(5.0 * over);
+  });
 }
 
 SurfaceMesh moved(const SurfaceMesh& surface, const Eigen::Isometry3d& motion) {

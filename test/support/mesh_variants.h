@@ -1,0 +1,54 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "concave_distance/base/random_engine.h"
+#include "concave_distance/mesh/surface_mesh.h"
+
+/// The same surface in other words: moved, scaled, with other numbers for its vertices and triangles.
+namespace concave_distance::test {
+
+template <typename Change>
+SurfaceMesh withVertices(const SurfaceMesh& mesh, const char* name, const Change& change) {
+  std::vector<Eigen::Vector3d> vertices = mesh.vertices();
+  for (Eigen::Vector3d& vertex : vertices) vertex = change(vertex);
+  return SurfaceMesh(std::move(vertices), mesh.triangles(), name);
+}
+
+inline SurfaceMesh movedSurface(const SurfaceMesh& mesh, const Eigen::Isometry3d& pose) {
+  return withVertices(mesh, "moved", [&](const Eigen::Vector3d& v) -> Eigen::Vector3d { return pose * v; });
+}
+
+inline SurfaceMesh scaledSurface(const SurfaceMesh& mesh, double factor) {
+  return withVertices(mesh, "scaled",
+                      [&](const Eigen::Vector3d& v) -> Eigen::Vector3d { return factor * v; });
+}
+
+template <typename T>
+void shuffle(std::vector<T>& items, RandomEngine& engine) {
+  for (std::size_t i = items.size(); i > 1; --i) {
+    std::swap(items[i - 1], items[uniformIndex(engine, static_cast<std::uint32_t>(i))]);
+  }
+}
+
+/// New numbers for the vertices, another order of the triangles, another first corner of each.
+inline SurfaceMesh relabelledSurface(const SurfaceMesh& mesh, RandomEngine& engine) {
+  std::vector<std::uint32_t> order(mesh.vertexCount());
+  std::iota(order.begin(), order.end(), 0U);
+  shuffle(order, engine);
+  std::vector<Eigen::Vector3d> vertices(mesh.vertexCount());
+  for (std::size_t i = 0; i < order.size(); ++i) vertices[order[i]] = mesh.vertices()[i];
+  std::vector<TriangleNodes> triangles = mesh.triangles();
+  for (TriangleNodes& t : triangles) {
+    for (NodeIndex& node : t) node = NodeIndex{order[node.value]};
+    std::rotate(t.begin(), t.begin() + uniformIndex(engine, 3), t.end());
+  }
+  shuffle(triangles, engine);
+  return SurfaceMesh(std::move(vertices), std::move(triangles), "relabelled");
+}
+
+}  // namespace concave_distance::test
