@@ -4,12 +4,11 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <map>
-#include <sstream>
 #include <vector>
 
 #include "concave_distance/mesh/export_mesh.h"
 #include "support/concave_shapes.h"
+#include "support/csv_table.h"
 #include "support/plain_shapes.h"
 #include "support/temporary_folder.h"
 
@@ -17,41 +16,9 @@ namespace concave_distance {
 namespace {
 
 using Eigen::Vector3d;
-using Row = std::map<std::string, std::string>;
-
-/// A table by its header; every row has as many cells.
-std::vector<Row> readTable(const std::string& path) {
-  std::istringstream stream(test::contentOf(path));
-  const auto cellsOf = [](const std::string& line) {
-    std::vector<std::string> cells(1);
-    for (const char c : line) {
-      if (c == ',') {
-        cells.emplace_back();
-      } else {
-        cells.back() += c;
-      }
-    }
-    return cells;
-  };
-  std::string line;
-  std::getline(stream, line);
-  const std::vector<std::string> header = cellsOf(line);
-  std::vector<Row> rows;
-  while (std::getline(stream, line)) {
-    const std::vector<std::string> cells = cellsOf(line);
-    EXPECT_EQ(cells.size(), header.size()) << line;
-    Row row;
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-      row[header[i]] = cells[i];
-    }
-    rows.push_back(row);
-  }
-  return rows;
-}
-
-double number(const Row& row, const std::string& column) {
-  return std::strtod(row.at(column).c_str(), nullptr);
-}
+using test::number;
+using test::readTable;
+using test::Row;
 
 Vector3d point(const Row& row, const std::string& body) {
   return {number(row, body + "x"), number(row, body + "y"), number(row, body + "z")};
