@@ -3,7 +3,7 @@
 #   scripts/fuzz.sh [seconds for each] [mesh] [urdf] [scene] [poses]      (default: 60 s, all of them)
 # The corpora grow in build-fuzz/corpus; what breaks is kept in build-fuzz/findings and replayed by
 #   build-fuzz/devel/lib/concave_distance/fuzz_<input> <file>
-# Debian: clang libclang-rt-14-dev.
+# What it needs beyond the tests (clang with its runtime) is installed where it is missing.
 set -euo pipefail
 # shellcheck source=scripts/common.sh
 . "$(dirname "${BASH_SOURCE[0]}")/common.sh"
@@ -19,13 +19,14 @@ for input in "${inputs[@]}"; do
   targets+=("fuzz_$input")
 done
 
+"$package_dir/scripts/install_dependencies.sh" build test fuzz
 command -v clang++ >/dev/null || die "clang++ is not installed (Debian: clang libclang-rt-14-dev)"
 launcher=()
 if command -v ccache >/dev/null; then launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache); fi
 generator=()
 if [ ! -f "$build_dir/CMakeCache.txt" ] && command -v ninja >/dev/null; then generator=(-G Ninja); fi
 cmake -S "$package_dir" -B "$build_dir" "${generator[@]}" "${launcher[@]}" -DCMAKE_CXX_COMPILER=clang++ \
-  -DCMAKE_BUILD_TYPE=None -DCONCAVE_DISTANCE_FUZZERS=ON -DCONCAVE_DISTANCE_WITH_ROS=OFF \
+  -DCMAKE_BUILD_TYPE=None -DCONCAVE_DISTANCE_FUZZERS=ON -DCONCAVE_DISTANCE_WITH_ROS=OFF -DCONCAVE_DISTANCE_PRECOMPILED_HEADERS=ON \
   -DCONCAVE_DISTANCE_BUILD_BENCHMARKS=OFF \
   -DCMAKE_CXX_FLAGS="-O1 -g1 -fno-omit-frame-pointer -fsanitize=address,undefined,fuzzer-no-link -fno-sanitize-recover=undefined"
 cmake --build "$build_dir" --parallel "$(job_count)" --target "${targets[@]}"

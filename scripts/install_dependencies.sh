@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs what the package needs from the distribution's packages, only what is missing.
-#   scripts/install_dependencies.sh [build] [test] [demo] [plot] [format] [lint]      (default: build test demo)
+#   scripts/install_dependencies.sh [build] [test] [demo] [plot] [format] [lint] [fuzz]      (default: build test demo)
 # Debian 12 has everything in its main archive. Ubuntu 20.04 needs the ROS Noetic archive set up beforehand.
 set -euo pipefail
 # shellcheck source=scripts/common.sh
@@ -30,6 +30,7 @@ set -euo pipefail
   debian_plot=(python3-matplotlib)
   debian_format=(clang-format)
   debian_lint=(clang-format clang-tidy catkin-lint)
+  debian_fuzz=(clang libclang-rt-14-dev)  # libFuzzer is in the second
 
   noetic_build=(
     g++ cmake ninja-build
@@ -48,6 +49,7 @@ set -euo pipefail
   noetic_plot=(python3-matplotlib)
   noetic_format=(clang-format)
   noetic_lint=(clang-format clang-tidy)
+  noetic_fuzz=(clang)
 }
 
 # shellcheck disable=SC1091
@@ -66,11 +68,11 @@ groups=("$@")
 wanted=()
 for group in "${groups[@]}"; do
   case "$group" in
-    build | test | demo | plot | format | lint)
+    build | test | demo | plot | format | lint | fuzz)
       declare -n packages="${family}_${group}"
       wanted+=("${packages[@]}")
       ;;
-    *) die "unknown group '$group': expected build, test, demo, format or lint" ;;
+    *) die "unknown group '$group': expected build, test, demo, plot, format, lint or fuzz" ;;
   esac
 done
 
