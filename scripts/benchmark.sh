@@ -12,7 +12,7 @@ case $size in
   *) echo "usage: scripts/benchmark.sh [quick|full]" >&2; exit 2 ;;
 esac
 program() { find "$root/build" -type f -perm -u+x -name "$1" | head -n 1; }
-for name in tracking battery recall radii ablation certificate scale exactness complete; do
+for name in tracking battery recall radii ablation certificate hierarchy scale exactness complete; do
   [ -n "$(program "${name}_benchmark")" ] || { echo "${name}_benchmark is not built: run scripts/build.sh" >&2; exit 1; }
 done
 results=$root/doc/results
@@ -26,6 +26,7 @@ mkdir -p "$results"
 "$(program ablation_benchmark)" --poses "$poses" --seeds "$seeds" --edge-scales "$edge_scales" \
   --output "$results/ablation.csv" | tee "$results/ablation.txt"
 "$(program certificate_benchmark)" --output "$results/certificate.csv" | tee "$results/certificate.txt"
+"$(program hierarchy_benchmark)" --output "$results/hierarchy.csv" | tee "$results/hierarchy.txt"
 "$(program scale_benchmark)" --sizes "$sizes" --output "$results/scale.csv" | tee "$results/scale.txt"
 "$(program complete_benchmark)" --steps "$steps" --window "$window" --list-misses 8 --cold-runs 12 \
   --output "$results/complete.csv" | tee "$results/complete.txt"

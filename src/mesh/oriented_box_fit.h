@@ -1,6 +1,6 @@
 #pragma once
 
-#include <vector>
+#include <cstdint>
 
 #include "concave_distance/mesh/bounding_volume_hierarchy.h"
 
@@ -12,9 +12,16 @@ struct CornerRange {
   const Eigen::Vector3d* end;
 };
 
-/// A small oriented box around the corners: the one of least surface area among the frame's axes, the
-/// principal axes of the triangles' area, and the largest triangle's plane with its longest edge. Halves are
-/// not widened.
-OrientedBox fitOrientedBox(const CornerRange& corners);
+/// Where a box's axes come from.
+enum class BoxAxes : std::uint8_t {
+  Frame,      ///< those of the body frame
+  Principal,  ///< the principal axes of the triangles' area
+  Fitted      ///< those of the two, and of the largest triangle's plane with its longest edge, that give the
+              ///< least surface area
+};
+
+/// An oriented box around the corners. Halves are not widened. What the hierarchy has are the fitted ones;
+/// the others are what they are compared with (doc/hierarchy.md).
+OrientedBox fitOrientedBox(const CornerRange& corners, BoxAxes axes = BoxAxes::Fitted);
 
 }  // namespace concave_distance::detail
