@@ -58,7 +58,8 @@ std::size_t BodyMesh::memoryBytes() const {
   return mesh_bytes(surface()) + mesh_bytes(nodes.grid) +
          nodes.original_triangle_of_node.size() * sizeof(TriangleIndex) +
          nodes.graph_node_of_vertex.size() * sizeof(NodeIndex) + topology_bytes + nodes.graph.memoryBytes() +
-         parts_.tree.memoryBytes() + parts_.hierarchy.memoryBytes() + metric_->memoryBytes();
+         nodes.levels.memoryBytes() + parts_.tree.memoryBytes() + parts_.hierarchy.memoryBytes() +
+         metric_->memoryBytes();
 }
 
 }  // namespace concave_distance

@@ -88,6 +88,29 @@ void writeGraph(ArrayFileWriter& writer, const NodeGraph& graph) {
   writer.value(graph.length_quantum);
 }
 
+NodeLevels readLevels(ArrayFileReader& reader) {
+  NodeLevels all;
+  std::uint64_t count = 0;
+  reader.value(count);
+  while (reader.ok() && all.levels.size() < count) {
+    NodeLevel level;
+    level.graph = readGraph(reader);
+    reader.array(level.finer_node);
+    reader.array(level.node_of_finer);
+    all.levels.push_back(std::move(level));
+  }
+  return all;
+}
+
+void writeLevels(ArrayFileWriter& writer, const NodeLevels& all) {
+  writer.value(std::uint64_t{all.levels.size()});
+  for (const NodeLevel& level : all.levels) {
+    writeGraph(writer, level.graph);
+    writer.array(level.finer_node);
+    writer.array(level.node_of_finer);
+  }
+}
+
 }  // namespace
 
 std::optional<RepairedMesh> findRepairedMesh(PreparationCache* cache, const ContentKey& key) {
@@ -208,6 +231,7 @@ SearchNodes nodesOf(const SurfaceMesh& surface, const SearchNodesOptions& option
         SearchNodes nodes;
         nodes.grid = readSurface(reader);
         nodes.graph = readGraph(reader);
+        nodes.levels = readLevels(reader);
         reader.value(nodes.max_edge_length);
         reader.array(nodes.original_triangle_of_node);
         reader.array(nodes.graph_node_of_vertex);
@@ -217,6 +241,7 @@ SearchNodes nodesOf(const SurfaceMesh& surface, const SearchNodesOptions& option
       [](ArrayFileWriter& writer, const SearchNodes& nodes) {
         writeSurface(writer, nodes.grid);
         writeGraph(writer, nodes.graph);
+        writeLevels(writer, nodes.levels);
         writer.value(nodes.max_edge_length);
         writer.array(nodes.original_triangle_of_node);
         writer.array(nodes.graph_node_of_vertex);

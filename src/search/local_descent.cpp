@@ -69,21 +69,23 @@ float provenDifference(float squared_distance, float target_norm) {
   return 0x1.0p-19F * distance * reach + 0x1.0p-43F * reach * reach + 0x1.0p-18F * squared_distance;
 }
 
-struct Approach {
-  NodeIndex node;
-  bool proven;  ///< none of its neighbours is closer, whatever the rounding
+/// Where a walk in float has come to.
+struct Place {
+  std::uint32_t node;
+  std::int32_t value;  ///< key of its squared distance
+  bool is_minimum;     ///< no neighbour looks closer
+  std::int32_t least;  ///< key of the closest neighbour, of a minimum
 };
 
-/// Walks in float while a neighbour looks closer to `target` (in the graph's frame). Its values fall
-/// strictly, so it ends.
-Approach approach(const NodeGraph& graph, NodeIndex node, const Eigen::Vector3d& target, SearchCost& cost) {
-  const Eigen::Vector3f local = (target - graph.neighbourhood_origin).cast<float>();
+/// Walks while a neighbour looks closer to `local` (relative to the graph's origin), `most_steps` at the
+/// most. The values fall strictly, so it ends.
+Place walk(const NodeGraph& graph, NodeIndex node, const Eigen::Vector3f& local, std::uint32_t most_steps,
+           SearchCost& cost) {
   const Eigen::Vector3f start =
       (graph.positions[node.value] - graph.neighbourhood_origin).cast<float>() - local;
-  std::uint32_t current = node.value;
-  std::int32_t value = bitsOf(start.squaredNorm()) & ~kSeatMask;
-  while (true) {
-    const Neighbourhood* seats = &graph.neighbourhoods[current];
+  Place place{node.value, bitsOf(start.squaredNorm()) & ~kSeatMask, false, 0};
+  for (std::uint32_t steps = 0; steps < most_steps; ++steps) {
+    const Neighbourhood* seats = &graph.neighbourhoods[place.node];
     std::int32_t least = closestSeat(*seats, local.x(), local.y(), local.z());
     std::uint32_t closest = seats->to[static_cast<std::size_t>(least & kSeatMask)];
     cost.evaluations += seats->count;
@@ -97,14 +99,70 @@ Approach approach(const NodeGraph& graph, NodeIndex node, const Eigen::Vector3d&
       cost.evaluations += seats->count;
     }
     least &= ~kSeatMask;
-    if (!(least < value)) {
-      const float nearest = valueOf(least);
-      return {NodeIndex{current}, nearest - valueOf(value) > provenDifference(nearest, local.norm())};
+    if (!(least < place.value)) {
+      place.is_minimum = true;
+      place.least = least;
+      return place;
     }
-    value = least;
-    current = closest;
+    place.value = least;
+    place.node = closest;
     ++cost.descent_steps;
   }
+  return place;
+}
+
+/// Steps on one level after which a walk goes on with longer ones.
+constexpr std::uint32_t kStepsOnALevel = 8;
+constexpr std::uint32_t kNoLimit = 0xffffffffU;
+
+Eigen::Vector3f localTarget(const NodeGraph& graph, const Eigen::Vector3d& target) {
+  return (target - graph.neighbourhood_origin).cast<float>();
+}
+
+/// From `node` over the levels from the finest on, as far up as the walk is long, and down again. A valley
+/// that the walk starts in is not stepped over: only who has gone kStepsOnALevel steps without meeting a
+/// bottom takes longer ones. Returns a node of the graph.
+NodeIndex walkInLongSteps(const std::vector<NodeLevel>& levels, NodeIndex node, const Eigen::Vector3d& target,
+                          SearchCost& cost) {
+  std::size_t level = 0;
+  for (bool is_minimum = false; !is_minimum && level < levels.size(); ++level) {
+    const NodeGraph& graph = levels[level].graph;
+    const std::uint32_t most_steps = level + 1 < levels.size() ? kStepsOnALevel : kNoLimit;
+    const Place place =
+        walk(graph, levels[level].node_of_finer[node.value], localTarget(graph, target), most_steps, cost);
+    node = NodeIndex{place.node};
+    is_minimum = place.is_minimum;
+  }
+  while (level > 0) {
+    // A coarse node is one of the next finer graph.
+    --level;
+    node = levels[level].finer_node[node.value];
+    if (level == 0) break;
+    const NodeGraph& graph = levels[level - 1].graph;
+    node = NodeIndex{walk(graph, node, localTarget(graph, target), kNoLimit, cost).node};
+  }
+  return node;
+}
+
+struct Approach {
+  NodeIndex node;
+  bool proven;  ///< none of its neighbours is closer, whatever the rounding
+};
+
+/// Walks in float to where no neighbour looks closer to `target` (in the graph's frame).
+Approach approach(const BodyMesh& body, NodeIndex node, const Eigen::Vector3d& target, SearchCost& cost) {
+  const NodeGraph& graph = body.graph();
+  const Eigen::Vector3f local = localTarget(graph, target);
+  const bool has_levels = !body.levels().levels.empty();
+  Place place = walk(graph, node, local, has_levels ? kStepsOnALevel : kNoLimit, cost);
+  if (!place.is_minimum) {
+    const NodeIndex far = walkInLongSteps(body.levels().levels, NodeIndex{place.node}, target, cost);
+    const Place arrived = walk(graph, far, local, kNoLimit, cost);
+    // Coarse steps may lead to a worse valley; then on from where the fine ones stopped.
+    place = arrived.value < place.value ? arrived : walk(graph, NodeIndex{place.node}, local, kNoLimit, cost);
+  }
+  const float nearest = valueOf(place.least);
+  return {NodeIndex{place.node}, nearest - valueOf(place.value) > provenDifference(nearest, local.norm())};
 }
 
 /// One descent. The stored squared distance, in double and in A's frame, only ever falls; whatever was found
@@ -166,7 +224,7 @@ class Descent {
   /// True when A's node has moved; then none of its neighbours is closer.
   bool moveA() {
     const NodeIndex start = point_.node_a;
-    const auto [reached, proven] = approach(graph_a_, start, b_in_a_, cost_);
+    const auto [reached, proven] = approach(objective_.bodyA(), start, b_in_a_, cost_);
     if (reached != start) {
       const double reached_distance = squaredDistanceBetween(graph_a_.positions[reached.value], b_in_a_);
       if (reached_distance < point_.squared_distance) {
@@ -199,7 +257,7 @@ class Descent {
   bool moveB() {
     const Eigen::Vector3d& a = graph_a_.positions[point_.node_a.value];
     const NodeIndex start = point_.node_b;
-    const auto [reached, proven] = approach(graph_b_, start, objective_.bFromA() * a, cost_);
+    const auto [reached, proven] = approach(objective_.bodyB(), start, objective_.bFromA() * a, cost_);
     if (reached != start) {
       const Eigen::Vector3d reached_in_a = objective_.aFromB() * graph_b_.positions[reached.value];
       const double reached_distance = squaredDistanceBetween(a, reached_in_a);

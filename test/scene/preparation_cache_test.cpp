@@ -35,8 +35,11 @@ class PreparationCacheTest : public test::SceneTest {
     options.cache = std::make_shared<PreparationCache>(cache_folder());
   }
   std::string cache_folder() const { return folder.path("cache"); }
+  /// The ball's grid is thinned, the comb's has levels.
   Scene loadBoth(const std::string& more = "") {
-    return load(more + "bodies:\n  - {name: comb, mesh: comb.stl}\n  - {name: ball, mesh: ball.ply}\n");
+    return load(more +
+                "bodies:\n  - {name: comb, mesh: comb.stl, max_edge_length: 0.025}\n"
+                "  - {name: ball, mesh: ball.ply}\n");
   }
   static std::map<std::string, test::Bytes> bytesOf(const Scene& scene) {
     std::map<std::string, test::Bytes> all;
@@ -56,7 +59,10 @@ class PreparationCacheTest : public test::SceneTest {
 
 TEST_F(PreparationCacheTest, AHitIsAMissBitForBit) {
   options.cache = nullptr;
-  const auto without = bytesOf(loadBoth());
+  const Scene scene = loadBoth();
+  EXPECT_FALSE(scene.bodies[0].mesh->levels().levels.empty());
+  EXPECT_TRUE(scene.bodies[1].mesh->thinned());
+  const auto without = bytesOf(scene);
   EXPECT_TRUE(filesIn(cache_folder()).empty());
   options.cache = std::make_shared<PreparationCache>(cache_folder());
   expectSame(bytesOf(loadBoth()), without, "stored");

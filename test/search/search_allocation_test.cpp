@@ -12,7 +12,9 @@ namespace {
 TEST(SearchAllocation, AWarmRunAllocatesNothing) {
   ASSERT_GT(allocations.load(), 0U) << "the counter is not in place";
   for (const std::size_t matrix_node_limit : {std::size_t{65535}, std::size_t{0}}) {
-    const test::PairScene scene = test::facingCombs(0.1, matrix_node_limit);
+    // Without matrices on a grid that has levels, too.
+    const test::PairScene scene = test::facingCombs(matrix_node_limit == 0 ? 0.03 : 0.1, matrix_node_limit);
+    EXPECT_EQ(scene.a->levels().levels.empty(), matrix_node_limit != 0);
     const PairObjective objective(*scene.a, *scene.b, scene.a_from_b);
     SearchWorkspace workspace(*scene.a, *scene.b);
     const NicheRadii radii = automaticRadii(*scene.a, *scene.b, {});

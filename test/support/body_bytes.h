@@ -120,6 +120,13 @@ inline std::map<std::string, Bytes> bytesOf(const BodyMesh& body) {
   parts["grid vertices"] = bytesOf(body.grid().vertices());
   parts["grid triangles"] = bytesOf(body.grid().triangles());
   parts["graph"] = bytesOf(body.graph());
+  Bytes& levels = parts["levels"];
+  for (const NodeLevel& level : body.levels().levels) {
+    const Bytes graph = bytesOf(level.graph);
+    levels.insert(levels.end(), graph.begin(), graph.end());
+    for (const NodeIndex node : level.finer_node) appendBytes(node, levels);
+    for (const NodeIndex node : level.node_of_finer) appendBytes(node, levels);
+  }
   parts["metric"] = bytesOf(body.metric());
   Bytes& nodes = parts["nodes"];
   for (std::size_t node = 0; node < body.graph().nodeCount(); ++node) {

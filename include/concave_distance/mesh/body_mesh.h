@@ -64,6 +64,8 @@ class BodyMesh {
   const SurfaceMesh& grid() const { return parts_.nodes.grid; }
   /// What the search moves on: the grid's nodes or, where thinned() says so, an even choice of them.
   const NodeGraph& graph() const { return parts_.nodes.graph; }
+  /// Coarser and coarser graphs over graph().
+  const NodeLevels& levels() const { return parts_.nodes.levels; }
   bool thinned() const { return parts_.nodes.thinned(); }
   const MeshMetric& metric() const { return *metric_; }
   double maxEdgeLength() const { return parts_.nodes.max_edge_length; }

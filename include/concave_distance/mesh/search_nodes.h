@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "concave_distance/mesh/node_graph.h"
+#include "concave_distance/mesh/node_levels.h"
 #include "concave_distance/mesh/search_grid.h"
 #include "concave_distance/mesh/surface_mesh.h"
 
@@ -24,6 +25,7 @@ struct SearchNodesOptions {
 struct SearchNodes {
   SurfaceMesh grid;
   NodeGraph graph;
+  NodeLevels levels;             ///< over the graph
   double max_edge_length = 0.0;  ///< metres
   /// An original triangle that each node of the graph lies on.
   std::vector<TriangleIndex> original_triangle_of_node;
