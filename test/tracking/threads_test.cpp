@@ -1,0 +1,159 @@
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+
+#include <cctype>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "concave_distance/tracking/pair_tracker.h"
+#include "support/body_bytes.h"
+#include "support/body_pairs.h"
+
+namespace concave_distance {
+namespace {
+
+using test::appendBytes;
+using test::Bytes;
+
+void appendWitness(const WitnessPair& witness, Bytes& bytes) {
+  appendBytes(witness.squared_distance, bytes);
+  appendBytes(witness.point_a_in_a, bytes);
+  appendBytes(witness.point_b_in_a, bytes);
+  appendBytes(witness.triangle_a, bytes);
+  appendBytes(witness.triangle_b, bytes);
+  appendBytes(witness.feature_a, bytes);
+  appendBytes(witness.feature_b, bytes);
+}
+
+void appendNiche(const TrackedNiche& niche, Bytes& bytes) {
+  appendBytes(niche.id, bytes);
+  appendBytes(niche.distance, bytes);
+  appendBytes(niche.point_a_in_a, bytes);
+  appendBytes(niche.point_b_in_a, bytes);
+  appendBytes(niche.normal_in_a, bytes);
+  appendBytes(niche.closing_speed, bytes);
+  appendBytes(niche.kind, bytes);
+  appendBytes(niche.extent, bytes);
+  appendBytes(niche.outward, bytes);
+  appendBytes(niche.visible, bytes);
+  appendBytes(niche.prominence, bytes);
+  appendBytes(niche.proven_local_minimum, bytes);
+  appendBytes(niche.birth_cycle, bytes);
+  appendWitness(niche.witness, bytes);
+  appendBytes(niche.node_pair.node_a, bytes);
+  appendBytes(niche.node_pair.node_b, bytes);
+  appendBytes(niche.node_pair.squared_distance, bytes);
+}
+
+/// Everything but the time it took.
+void appendSolution(const PairSolution& solution, Bytes& bytes) {
+  appendBytes(solution.status, bytes);
+  appendBytes(solution.accuracy, bytes);
+  appendBytes(solution.distance, bytes);
+  appendBytes(solution.lower_bound, bytes);
+  appendBytes(solution.point_a_in_a, bytes);
+  appendBytes(solution.point_b_in_a, bytes);
+  appendBytes(solution.surface_distance, bytes);
+  if (solution.meeting_triangles) {
+    appendBytes(solution.meeting_triangles->a, bytes);
+    appendBytes(solution.meeting_triangles->b, bytes);
+  }
+  for (const TrackedNiche& niche : solution.niches) appendNiche(niche, bytes);
+  for (const NicheEvent& event : solution.events) {
+    appendBytes(event.kind, bytes);
+    appendBytes(event.id, bytes);
+    appendBytes(event.into_id, bytes);
+  }
+  appendBytes(solution.niches_cut, bytes);
+  appendBytes(solution.niches_beyond_cutoff, bytes);
+  appendBytes(solution.cycle, bytes);
+  appendBytes(solution.warm, bytes);
+  appendBytes(solution.search_miss, bytes);
+  appendBytes(solution.seed, bytes);
+  appendBytes(solution.cost.evaluations, bytes);
+  appendBytes(solution.cost.descents, bytes);
+  appendBytes(solution.cost.descents_joined, bytes);
+  appendBytes(solution.cost.descent_steps, bytes);
+  appendBytes(solution.proof_cost.box_bounds, bytes);
+  appendBytes(solution.proof_cost.leaf_pairs, bytes);
+  appendBytes(solution.proof_cost.triangle_pairs, bytes);
+}
+
+/// A group of pairs over shared bodies: what a node solves in one cycle, one task a pair.
+class Group {
+ public:
+  explicit Group(AccuracyLevel level) {
+    BodyMeshOptions thinned;
+    bodies_.push_back(std::make_shared<const BodyMesh>("ball", makeSphere(0.4, 1e-3), thinned));
+    for (std::uint32_t k = 0; k < 4; ++k) {
+      bodies_.push_back(std::make_shared<const BodyMesh>("body", test::concaveShape(k), thinned));
+    }
+    BodyMeshOptions on_demand;  // no matrices, with levels
+    on_demand.max_edge_length = 0.02;
+    on_demand.metric.matrix_node_limit = 0;
+    bodies_.push_back(std::make_shared<const BodyMesh>("fine", test::makeComb(3), on_demand));
+    TrackerParameters parameters;
+    parameters.accuracy = level;
+    for (std::size_t a = 0; a < bodies_.size(); ++a) {
+      for (std::size_t b = 0; b < a; ++b) {
+        const std::string name = std::to_string(a) + "/" + std::to_string(b);
+        trackers_.emplace_back(name, bodies_[a], bodies_[b], parameters);
+      }
+    }
+    solutions_.resize(trackers_.size());
+  }
+
+  /// Every number of the pairs' answers along a motion with a pause, pair by pair.
+  std::vector<Bytes> track(int cycles) {
+    std::vector<Bytes> answers(trackers_.size());
+    for (int cycle = 0; cycle < cycles; ++cycle) {
+      tbb::parallel_for(std::size_t{0}, trackers_.size(), [&](std::size_t i) {
+        if (cycle == cycles / 2) trackers_[i].reset();  // cold once more
+        const double t = 0.05 * static_cast<double>(cycle == 3 ? 2 : cycle) + 0.1 * static_cast<double>(i);
+        Eigen::Isometry3d pose(Eigen::AngleAxisd(t, Eigen::Vector3d(1.0, 0.5, 0.2).normalized()));
+        pose.translation() = Eigen::Vector3d(1.4 * std::cos(t), 1.4 * std::sin(t), 0.2);
+        trackers_[i].update(pose, 0.01 * cycle, solutions_[i]);
+        appendSolution(solutions_[i], answers[i]);
+      });
+    }
+    return answers;
+  }
+
+ private:
+  std::vector<std::shared_ptr<const BodyMesh>> bodies_;
+  std::vector<PairTracker> trackers_;
+  std::vector<PairSolution> solutions_;
+};
+
+std::vector<Bytes> trackWithThreads(std::size_t threads, AccuracyLevel level) {
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+  return Group(level).track(8);  // bodies built with as many threads
+}
+
+class Threads : public testing::TestWithParam<AccuracyLevel> {};
+
+TEST_P(Threads, OneSeedGivesOneAnswerWhateverTheirNumber) {
+  const std::vector<Bytes> alone = trackWithThreads(1, GetParam());
+  ASSERT_EQ(alone.size(), 15U);
+  for (const Bytes& answers : alone) EXPECT_GT(answers.size(), 1000U);
+  for (const std::size_t threads : {2U, 3U, 8U}) {
+    const std::vector<Bytes> together = trackWithThreads(threads, GetParam());
+    for (std::size_t i = 0; i < alone.size(); ++i) {
+      EXPECT_TRUE(together[i] == alone[i]) << "pair " << i << " with " << threads << " threads";
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Levels, Threads,
+                         testing::Values(AccuracyLevel::Nodes, AccuracyLevel::Refined,
+                                         AccuracyLevel::Certified, AccuracyLevel::Complete),
+                         [](const testing::TestParamInfo<AccuracyLevel>& info) {
+                           std::string name(toString(info.param));
+                           name[0] = static_cast<char>(std::toupper(name[0]));
+                           return name;
+                         });
+
+}  // namespace
+}  // namespace concave_distance
