@@ -1,8 +1,6 @@
 // Level `certified` of a running node: proofs, tolerances and budgets on topics, in services and diagnostics.
 #include <concave_distance/GetDistance.h>
 #include <concave_distance/PairNiches.h>
-#include <diagnostic_msgs/DiagnosticArray.h>
-#include <dynamic_reconfigure/Reconfigure.h>
 #include <gtest/gtest.h>
 #include <ros/init.h>
 #include <ros/spinner.h>
@@ -11,25 +9,14 @@
 #include <cmath>
 #include <functional>
 
-#include "rostest_support.h"
+#include "node_access.h"
 #include "tf_player.h"
 
 namespace concave_distance {
 namespace {
 
-constexpr double kRounding = 1e-12;  // lengths of order 1: far above the error of a proof
 // Metres, of the battery over the fixture: inserted, near walls on every side.
 constexpr double kDepth = 0.15;
-const std::string kNode = "/concave_distance/";
-
-double counted(const diagnostic_msgs::DiagnosticArray& message, const std::string& key) {
-  for (const auto& status : message.status) {
-    for (const auto& value : status.values) {
-      if (status.name.find("concave_distance: ") == 0 && value.key == key) return std::stod(value.value);
-    }
-  }
-  return std::nan("");
-}
 
 GetDistanceRequest insertion() {
   GetDistanceRequest request;
@@ -37,14 +24,6 @@ GetDistanceRequest insertion() {
   request.query.body_b = "battery";
   request.query.pose_a.pose.orientation.w = request.query.pose_b.pose.orientation.w = 1.0;
   return request;
-}
-
-void reconfigure(const std::string& name, double value) {
-  dynamic_reconfigure::ReconfigureRequest request;
-  request.config.doubles.resize(1);
-  request.config.doubles[0].name = name;
-  request.config.doubles[0].value = value;
-  call<dynamic_reconfigure::Reconfigure>(kNode + "set_parameters", request);
 }
 
 class CertifiedTest : public ::testing::Test {

@@ -14,13 +14,11 @@
 #include <string>
 #include <thread>
 
-#include "rostest_support.h"
+#include "node_access.h"
 #include "tf_player.h"
 
 namespace concave_distance {
 namespace {
-
-const std::string kNode = "/concave_distance/";
 
 /// Publishes /clock in steps of 10 ms, in real time.
 class Clock {

@@ -17,14 +17,11 @@
 #include <limits>
 #include <set>
 
-#include "rostest_support.h"
+#include "node_access.h"
 #include "tf_player.h"
 
 namespace concave_distance {
 namespace {
-
-constexpr double kRounding = 1e-12;  // lengths of order 1, a few operations
-const std::string kNode = "/concave_distance/";
 
 GetDistanceRequest boxes() {
   GetDistanceRequest request;

@@ -4,8 +4,6 @@
 #include <concave_distance/Niches.h>
 #include <concave_distance/PairNiches.h>
 #include <concave_distance/SetPairEnabled.h>
-#include <diagnostic_msgs/DiagnosticArray.h>
-#include <dynamic_reconfigure/Reconfigure.h>
 #include <gtest/gtest.h>
 #include <ros/init.h>
 #include <ros/spinner.h>
@@ -17,31 +15,11 @@
 #include <set>
 #include <utility>
 
-#include "rostest_support.h"
+#include "node_access.h"
 #include "tf_player.h"
 
 namespace concave_distance {
 namespace {
-
-constexpr double kRounding = 1e-12;  // lengths of order 1, a few operations
-const std::string kNode = "/concave_distance/";
-
-// The value of a key in the node's diagnostics; empty when there is none.
-std::string diagnosed(const diagnostic_msgs::DiagnosticArray& message, const std::string& key) {
-  for (const auto& status : message.status) {
-    for (const auto& value : status.values) {
-      if (status.name.find("concave_distance: ") == 0 && value.key == key) {
-        return value.value;
-      }
-    }
-  }
-  return "";
-}
-
-double counted(const diagnostic_msgs::DiagnosticArray& message, const std::string& key) {
-  const std::string value = diagnosed(message, key);
-  return value.empty() ? std::nan("") : std::stod(value);
-}
 
 // A period in which cycles did nothing but look who listens.
 bool isIdle(const diagnostic_msgs::DiagnosticArray& message) {
@@ -56,14 +34,6 @@ const PairDistance* find(const Distances& distances, const std::string& pair) {
     }
   }
   return nullptr;
-}
-
-void reconfigure(const std::string& name, double value) {
-  dynamic_reconfigure::ReconfigureRequest request;
-  request.config.doubles.resize(1);
-  request.config.doubles[0].name = name;
-  request.config.doubles[0].value = value;
-  call<dynamic_reconfigure::Reconfigure>(kNode + "set_parameters", request);
 }
 
 class TopicsTest : public ::testing::Test {
