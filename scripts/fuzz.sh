@@ -38,7 +38,7 @@ failed=()
 for input in "${inputs[@]}"; do
   mkdir -p "$build_dir/corpus/$input"
   say "fuzz_$input for $seconds s"
-  "$build_dir/devel/lib/concave_distance/fuzz_$input" -max_total_time="$seconds" -timeout=20 -rss_limit_mb=3000 -print_final_stats=1 \
+  "$build_dir/devel/lib/concave_distance/fuzz_$input" -max_total_time="$seconds" -timeout=60 -report_slow_units=60 -rss_limit_mb=3000 -print_final_stats=1 \
     -artifact_prefix="$build_dir/findings/$input-" "$build_dir/corpus/$input" \
     "$package_dir/test/fuzz/corpus/$input" || failed+=("$input")
 done

@@ -7,6 +7,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace concave_distance;
   try {
     SceneLoadOptions options;
+    options.metric_memory_limit = 0;  // what is looked for is in the text
     options.descriptions["robot_description"] =
         "<robot name='r'><link name='a'><collision><geometry><box size='1 1 "
         "1'/></geometry></collision></link></robot>";
