@@ -13,7 +13,7 @@ BodyMeshParts makeBodyMeshParts(std::string name, SurfaceMesh surface, const Bod
   parts.surface = std::move(surface);
   parts.cache = options.cache;
   PreparationCache* cache = options.cache.get();
-  const SearchNodesOptions nodes_options{options.max_edge_length, options.search_node_limit};
+  const SearchNodesOptions nodes_options{options.max_edge_length, options.search_node_limit, options.levels};
   ContentKey surface_key;
   if (cache != nullptr) {
     surface_key = detail::keyOf(parts.surface);

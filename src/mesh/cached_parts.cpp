@@ -152,6 +152,7 @@ ContentKey keyOfNodes(const ContentKey& surface_key, const SearchNodesOptions& o
       .add(options.max_edge_length.has_value())
       .add(options.max_edge_length.value_or(0.0))
       .add(options.node_limit)
+      .add(options.levels)
       .key();
 }
 

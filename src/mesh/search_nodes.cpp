@@ -52,7 +52,7 @@ SearchNodes makeSearchNodes(const SurfaceMesh& surface, const SearchNodesOptions
   nodes.graph = buildNodeGraph(nodes.grid);
   nodes.original_triangle_of_node = std::move(grid.original_triangle_of_node);
   if (options.max_edge_length || nodes.graph.nodeCount() <= options.node_limit) {
-    nodes.levels = buildNodeLevels(nodes.graph);
+    if (options.levels) nodes.levels = buildNodeLevels(nodes.graph);
     return nodes;
   }
   ThinnedGraph thinned = thinGraph(nodes.graph, options.node_limit);
@@ -66,7 +66,7 @@ SearchNodes makeSearchNodes(const SurfaceMesh& surface, const SearchNodesOptions
   nodes.graph_node_of_vertex = std::move(thinned.nearest);
   nodes.graph = std::move(thinned.graph);
   nodes.max_edge_length = thinned.longest_edge;
-  nodes.levels = buildNodeLevels(nodes.graph);
+  if (options.levels) nodes.levels = buildNodeLevels(nodes.graph);
   return nodes;
 }
 

@@ -3,17 +3,21 @@
 //
 //   scale_benchmark [--sizes 1000,10000,100000,1000000] [--steps 200] [--output doc/results/scale.csv]
 //
-// A row is a size: triangles of each body; seconds to make both BodyMesh ready; bytes a triangle of the
+// A row is a size: triangles of each body; seconds to make both bodies ready, with all threads, with one, and
+// from the preparation cache (files in the system's memory); bytes a triangle of the
 // hierarchy, of its tree and of the whole body; median microseconds of the proven distance cold, seeded and
 // with a front, of FCL's plain distance, and of a warm cycle with all niches at level `certified` (seeded and
 // front along 200 steps of a tenth of a diameter in all); the greatest memory the process has used so far,
 // megabytes.
 #include <sys/resource.h>
+#include <tbb/global_control.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 
 #include "benchmark/support/benchmark_main.h"
@@ -21,6 +25,7 @@
 #include "benchmark/support/shapes.h"
 #include "benchmark/support/statistics.h"
 #include "benchmark/support/stopwatch.h"
+#include "concave_distance/base/run_together.h"
 #include "concave_distance/distance/certificate.h"
 #include "concave_distance/tracking/pair_tracker.h"
 
@@ -54,12 +59,50 @@ double medianMicroseconds(int steps, Query query) {
   return median(taken);
 }
 
+using Body = std::shared_ptr<const BodyMesh>;
+
+/// Seconds.
+double buildBoth(const SurfaceMesh& surface, const BodyMeshOptions& options, Body& a, Body& b) {
+  const Clock::time_point start = Clock::now();
+  runTogether({[&] { a = std::make_shared<const BodyMesh>("a", surface, options); },
+               [&] { b = std::make_shared<const BodyMesh>("b", surface, options); }});
+  return 1e-6 * microsecondsSince(start);
+}
+
+struct BuildTimes {
+  double parallel;
+  double serial;
+  double cached;
+};
+
+BuildTimes timeBuilds(const SurfaceMesh& surface) {
+  BuildTimes times{};
+  const auto timeOne = [&](const BodyMeshOptions& options) {
+    Body a;
+    Body b;
+    return buildBoth(surface, options, a, b);
+  };
+  {
+    const tbb::global_control alone(tbb::global_control::max_allowed_parallelism, 1);
+    times.serial = timeOne({});
+  }
+  times.parallel = timeOne({});
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("scale_benchmark_" + std::to_string(getpid()));
+  BodyMeshOptions kept;
+  kept.cache = std::make_shared<PreparationCache>(folder.string());
+  (void)timeOne(kept);
+  times.cached = timeOne(kept);
+  std::filesystem::remove_all(folder);
+  return times;
+}
+
 void run(std::size_t size, int steps, std::ofstream& csv) {
   const SurfaceMesh surface = makeBumpyRing(size);
-  const Clock::time_point start = Clock::now();
-  const auto a = std::make_shared<const BodyMesh>("a", surface, BodyMeshOptions());
-  const auto b = std::make_shared<const BodyMesh>("b", surface, BodyMeshOptions());
-  const double build = 1e-6 * microsecondsSince(start);
+  const BuildTimes build = timeBuilds(surface);
+  Body a;
+  Body b;
+  buildBoth(surface, BodyMeshOptions(), a, b);
   const auto triangles = static_cast<double>(surface.triangleCount());
 
   CertificateWorkspace workspace;
@@ -89,12 +132,14 @@ void run(std::size_t size, int steps, std::ofstream& csv) {
   const double hierarchy = static_cast<double>(a->hierarchy().memoryBytes()) / triangles;
   const double tree = static_cast<double>(a->tree().memoryBytes()) / triangles;
   const double body = static_cast<double>(a->memoryBytes()) / triangles;
-  std::printf("%9zu %8.2f %9.0f %6.0f %8.0f %9.1f %9.1f %9.1f %9.1f %9.1f %8.0f\n", surface.triangleCount(),
-              build, hierarchy, tree, body, fcl, cold, seeded, kept, tracked, peak);
+  std::printf("%9zu %8.3f %8.3f %8.3f %9.0f %6.0f %8.0f %9.1f %9.1f %9.1f %9.1f %9.1f %8.0f\n",
+              surface.triangleCount(), build.parallel, build.serial, build.cached, hierarchy, tree, body, fcl,
+              cold, seeded, kept, tracked, peak);
   std::fflush(stdout);
   if (csv) {
-    csv << surface.triangleCount() << ',' << build << ',' << hierarchy << ',' << tree << ',' << body << ','
-        << fcl << ',' << cold << ',' << seeded << ',' << kept << ',' << tracked << ',' << peak << '\n';
+    csv << surface.triangleCount() << ',' << build.parallel << ',' << hierarchy << ',' << tree << ',' << body
+        << ',' << fcl << ',' << cold << ',' << seeded << ',' << kept << ',' << tracked << ',' << peak << ','
+        << build.serial << ',' << build.cached << '\n';
   }
 }
 
@@ -116,10 +161,11 @@ int benchmarkMain(int argc, char** argv) {
     csv.open(output);
     csv << "triangles,build_s,hierarchy_bytes,tree_bytes,body_bytes,fcl_us,cold_us,seeded_us,front_us,"
            "tracked_us,"
-           "peak_mb\n";
+           "peak_mb,build_serial_s,build_cached_s\n";
   }
-  std::printf("%9s %8s %9s %6s %8s %9s %9s %9s %9s %9s %8s\n", "triangles", "build s", "hierarchy", "tree",
-              "B/tri", "FCL us", "cold us", "seeded us", "front us", "all us", "peak MB");
+  std::printf("%9s %8s %8s %8s %9s %6s %8s %9s %9s %9s %9s %9s %8s\n", "triangles", "build s", "1 thread",
+              "cached", "hierarchy", "tree", "B/tri", "FCL us", "cold us", "seeded us", "front us", "all us",
+              "peak MB");
   for (const std::size_t size : sizes) run(size, steps, csv);
   return 0;
 }

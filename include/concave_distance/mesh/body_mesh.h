@@ -22,6 +22,8 @@ struct BodyMeshOptions {
   /// With an automatic grid, nodes of the search graph at the most: a finer mesh is thinned to evenly spread
   /// nodes (thinGraph). An explicit grid size is taken as it is.
   std::size_t search_node_limit = 800;
+  /// Coarser levels over fine grids, for descents in long steps; only a comparison is without.
+  bool levels = true;
   MeshMetricOptions metric;
   /// Where prepared parts are looked for and stored; nullptr: nowhere.
   PreparationCachePointer cache;

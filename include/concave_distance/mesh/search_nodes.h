@@ -18,6 +18,8 @@ struct SearchNodesOptions {
   /// With an automatic grid, nodes of the search graph at the most: a finer mesh is thinned to evenly spread
   /// nodes (thinGraph). An explicit grid size is taken as it is.
   std::size_t node_limit = 800;
+  /// Coarser levels over fine graphs; without them a descent takes every step along an edge.
+  bool levels = true;
 };
 
 /// What the search moves on: the even grid over a surface and its graph, thinned where the mesh itself is
