@@ -20,8 +20,8 @@ void forEachNeighbour(const MinimaScene& scene, TriangleIndex a, TriangleIndex b
     while (k < 2 && nodes[k] != next.from) ++k;
     return next.from != next.to ? edges[k] : pointTriangleDistance(corners[k], other).squared_distance;
   };
-  const TriangleNodes& nodes_a = scene.a.body().surface().triangle(a);
-  const TriangleNodes& nodes_b = scene.b.body().surface().triangle(b);
+  const TriangleNodes& nodes_a = scene.a.surface().triangle(a);
+  const TriangleNodes& nodes_b = scene.b.surface().triangle(b);
   for (const AdjacentTriangle& next : scene.a.adjacency().row(a.value)) {
     step(next.triangle, b, over(nodes_a, corners_a, next, levels.edges_of_a, corners_b));
   }

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "concave_distance/distance/basin_verdict.h"
 #include "minima_candidates.h"
 #include "minima_flood.h"
 #include "minima_scene.h"
-#include "minima_verdict.h"
 
 namespace concave_distance {
 namespace {
@@ -24,7 +24,7 @@ struct Described {
 class Describer {
  public:
   Describer(const detail::MinimaScene& scene, const LocalMinimaRequest& request)
-      : scene_(scene), request_(request), a_(scene.a.body()), b_(scene.b.body()) {}
+      : scene_(scene), request_(request), a_(scene.a), b_(scene.b) {}
 
   /// False for what is not wanted.
   bool describe(const detail::FloodedMinimum& minimum, LocalMinimum& niche) {
@@ -58,31 +58,61 @@ class Describer {
   ExtentWorkspace extent_;
 };
 
+/// Verdicts alone; no pass is measured.
+detail::FloodResult decide(const detail::MinimaScene& scene, const LocalMinimaRequest& request,
+                           const std::vector<detail::MinimumSeed>& seeds, std::size_t owned,
+                           LocalMinimaCost& cost) {
+  std::vector<BasinSeed> basin_seeds;
+  basin_seeds.reserve(seeds.size());
+  for (const detail::MinimumSeed& seed : seeds) {
+    basin_seeds.push_back({seed.a, seed.b, seed.distance, request.least_prominence, true});
+  }
+  BasinVerdicts verdicts;
+  judgeBasins(scene.a, scene.b, scene.a_from_b, basin_seeds, std::numeric_limits<std::uint32_t>::max(),
+              verdicts);
+  cost.flooded_pairs += verdicts.floodedPairs();
+  detail::FloodResult result;
+  const std::vector<Basin>& basins = verdicts.basins();
+  std::vector<std::size_t> minimum_of_basin(basins.size(), LocalMinima::kNoOwner);
+  // What no cone led to is met by a flood; what was asked for does not count.
+  std::vector<bool> led_to(basins.size(), false);
+  for (std::size_t i = 0; i < owned; ++i) {
+    const std::uint32_t root = verdicts.rootOf(verdicts.basinOf(i));
+    led_to[root] = led_to[root] || seeds[i].distance <= basins[root].distance + 16.0 * scene.rounding;
+  }
+  for (std::uint32_t i = 0; i < basins.size(); ++i) {
+    const Basin& basin = basins[i];
+    if (basin.owner != i) continue;
+    minimum_of_basin[i] = result.minima.size();
+    result.minima.push_back({basin.a, basin.b, basin.distance, basin.pass, basin.flooded, !led_to[i]});
+  }
+  for (std::size_t i = owned; i < seeds.size(); ++i) {
+    result.owners.push_back(minimum_of_basin[verdicts.rootOf(verdicts.basinOf(i))]);
+  }
+  return result;
+}
+
 }  // namespace
 
-LocalMinima findLocalMinima(const MinimaIndex& a, const MinimaIndex& b, const Eigen::Isometry3d& a_from_b,
+LocalMinima findLocalMinima(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
                             const LocalMinimaRequest& request) {
   const detail::MinimaScene scene(a, b, a_from_b);
   LocalMinima result;
   std::vector<detail::MinimumSeed> seeds;
   detail::collectMeetingPairs(scene, seeds, result.cost);
   detail::CandidateWorkspace candidates;
-  detail::collectConeSeeds(scene, request.cutoff, seeds, result.cost, candidates);
+  const NormalSides sides = request.through_material ? NormalSides::Both : NormalSides::Outside;
+  detail::collectConeSeeds(scene, sides, request.cutoff, seeds, result.cost, candidates);
   const std::size_t owned = seeds.size();
   result.cost.minima = owned;
   RefinementWorkspace refinement;
   for (const auto& [triangle_a, triangle_b] : request.whose) {
-    const WitnessPair settled =
-        refineWitness(a.body(), b.body(), a_from_b, triangle_a, triangle_b, refinement).witness;
+    const WitnessPair settled = refineWitness(a, b, a_from_b, triangle_a, triangle_b, refinement).witness;
     seeds.push_back({settled.triangle_a, settled.triangle_b, std::sqrt(settled.squared_distance)});
   }
-  detail::FloodResult flood;
-  if (request.prominence_limit > request.least_prominence) {
-    flood = detail::floodMinima(scene, request, seeds, owned, result.cost);
-  } else {
-    detail::VerdictWorkspace verdict;
-    detail::decideMinima(scene, request.least_prominence, seeds, owned, verdict, flood, result.cost);
-  }
+  const detail::FloodResult flood = request.prominence_limit > request.least_prominence
+                                        ? detail::floodMinima(scene, request, seeds, owned, result.cost)
+                                        : decide(scene, request, seeds, owned, result.cost);
 
   std::vector<Described> described;
   Describer describer(scene, request);

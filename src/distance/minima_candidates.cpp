@@ -73,14 +73,14 @@ struct FacingCap {
 
 class Traversal {
  public:
-  Traversal(const MinimaScene& scene, double cutoff, std::vector<MinimumSeed>& seeds, LocalMinimaCost& cost,
-            CandidateWorkspace& workspace)
+  Traversal(const MinimaScene& scene, NormalSides sides, double cutoff, std::vector<MinimumSeed>& seeds,
+            LocalMinimaCost& cost, CandidateWorkspace& workspace)
       : scene_(scene),
         // Spheres and distances carry the rounding of the scene.
         slack_(4.0 * scene.rounding),
         cutoff_(cutoff + slack_),
-        cones_a_(scene.a.cones()),
-        cones_b_(scene.b.cones()),
+        cones_a_(scene.a.normalCones(sides)),
+        cones_b_(scene.b.normalCones(sides)),
         limits_a_(slack_, scene.size, cutoff_, cones_a_.unit()),
         limits_b_(slack_, scene.size, cutoff_, cones_b_.unit()),
         turned_(scene.frames.rotation.transpose()),
@@ -226,7 +226,7 @@ class Traversal {
   /// cone itself, which the cap is around. Points are off by less than the slack, the direction between them
   /// by that over their distance.
   template <typename VertexOf>
-  bool isPeak(const MinimaIndex& index, const Item& item, const Vector3d& point, const Vector3d& direction,
+  bool isPeak(const BodyMesh& body, const Item& item, const Vector3d& point, const Vector3d& direction,
               double distance, const VertexOf& vertex_of) const {
     const auto rises = [&](NodeIndex node) {
       const Vector3d way = vertex_of(node) - point;
@@ -234,20 +234,20 @@ class Traversal {
       const double turn = slack_ / distance;
       return over > 0.0 && over * over > turn * turn * way.squaredNorm();
     };
-    const TriangleNodes& nodes = index.body().surface().triangle(item.triangle);
+    const TriangleNodes& nodes = body.surface().triangle(item.triangle);
     // The end of an edge counts with all that is around it.
     for (const NodeIndex node : nodes) {
       if ((vertex_of(node) - point).squaredNorm() > slack_ * slack_) continue;
-      const auto around = index.body().topology().neighbours_of_vertex.row(node.value);
+      const auto around = body.topology().neighbours_of_vertex.row(node.value);
       return std::none_of(around.begin(), around.end(), rises);
     }
     if (std::any_of(nodes.begin(), nodes.end(), rises)) return false;
     if (item.kind == Kind::Face) return true;
     const NodeIndex from = nodes[item.element];
     const NodeIndex to = nodes[(item.element + 1U) % 3];
-    for (const AdjacentTriangle& next : index.adjacency().row(item.triangle.value)) {
+    for (const AdjacentTriangle& next : body.adjacency().row(item.triangle.value)) {
       if (next.from != from || next.to != to) continue;
-      const TriangleNodes& beyond = index.body().surface().triangle(next.triangle);
+      const TriangleNodes& beyond = body.surface().triangle(next.triangle);
       if (std::any_of(beyond.begin(), beyond.end(), rises)) return false;
     }
     return true;
@@ -258,9 +258,9 @@ class Traversal {
   static Vector3d edgeOf(const SurfaceMesh& mesh, const Item& item) {
     return mesh.corner(item.triangle, (item.element + 1) % 3) - mesh.corner(item.triangle, item.element);
   }
-  Vector3d edgeOfA(const Item& item) const { return edgeOf(scene_.a.body().surface(), item); }
+  Vector3d edgeOfA(const Item& item) const { return edgeOf(scene_.a.surface(), item); }
   Vector3d edgeOfB(const Item& item) const {
-    return scene_.frames.rotation * edgeOf(scene_.b.body().surface(), item);
+    return scene_.frames.rotation * edgeOf(scene_.b.surface(), item);
   }
 
   Between closest(const Item& a, const Item& b) const {
@@ -308,18 +308,18 @@ Eigen::AlignedBox3d movedBox(const Eigen::AlignedBox3d& box, const Eigen::Isomet
 
 }  // namespace
 
-void collectConeSeeds(const MinimaScene& scene, double cutoff, std::vector<MinimumSeed>& seeds,
-                      LocalMinimaCost& cost, CandidateWorkspace& workspace) {
-  Traversal(scene, cutoff, seeds, cost, workspace).run();
+void collectConeSeeds(const MinimaScene& scene, NormalSides sides, double cutoff,
+                      std::vector<MinimumSeed>& seeds, LocalMinimaCost& cost, CandidateWorkspace& workspace) {
+  Traversal(scene, sides, cutoff, seeds, cost, workspace).run();
 }
 
 void collectMeetingPairs(const MinimaScene& scene, std::vector<MinimumSeed>& seeds, LocalMinimaCost& cost) {
-  const TriangleTree& tree_a = scene.a.body().tree();
-  const TriangleTree& tree_b = scene.b.body().tree();
+  const TriangleTree& tree_a = scene.a.tree();
+  const TriangleTree& tree_b = scene.b.tree();
   const double slack = 4.0 * scene.rounding;
   // Boxes are compared in A's own frame, far from whose origin coordinates round coarser.
-  const double origin = scene.a.body().surface().boundingBox().center().cwiseAbs().maxCoeff() +
-                        scene.b.body().surface().boundingBox().center().cwiseAbs().maxCoeff();
+  const double origin = scene.a.surface().boundingBox().center().cwiseAbs().maxCoeff() +
+                        scene.b.surface().boundingBox().center().cwiseAbs().maxCoeff();
   const double margin = slack + 1e-14 * (origin + scene.size);
   std::vector<std::pair<std::uint32_t, std::uint32_t>> open{{0U, 0U}};
   while (!open.empty()) {

@@ -152,8 +152,8 @@ class Flood {
 
   /// From a cell deeper than the flood's start to the minimum under it.
   void goDown(std::uint32_t index) {
-    const WitnessRefinement refined = refineWitness(scene_.a.body(), scene_.b.body(), scene_.a_from_b,
-                                                    cells_[index].a, cells_[index].b, refinement_);
+    const WitnessRefinement refined =
+        refineWitness(scene_.a, scene_.b, scene_.a_from_b, cells_[index].a, cells_[index].b, refinement_);
     if (refined.witness.triangle_a == cells_[index].a && refined.witness.triangle_b == cells_[index].b) {
       cells_[index].basin = static_cast<std::uint32_t>(basins_.size());
       basins_.push_back({index, limitOf(cells_[index].distance), true});

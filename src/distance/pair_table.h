@@ -23,6 +23,10 @@ class PairTable {
     used_.push_back(static_cast<std::uint32_t>(slot));
   }
 
+  std::size_t memoryBytes() const {
+    return slots_.capacity() * sizeof(Slot) + used_.capacity() * sizeof(std::uint32_t);
+  }
+
   /// Keeps the capacity; costs what is in it.
   void clear() {
     for (const std::uint32_t slot : used_) slots_[slot].number = kAbsent;

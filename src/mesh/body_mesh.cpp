@@ -1,11 +1,25 @@
 #include "concave_distance/mesh/body_mesh.h"
 
+#include <array>
+#include <atomic>
+#include <mutex>
 #include <utility>
 
 #include "cached_parts.h"
 #include "concave_distance/base/run_together.h"
 
 namespace concave_distance {
+
+struct BodyMesh::OnDemand {
+  template <typename T>
+  struct Part {
+    std::once_flag once;
+    T value;
+    std::atomic<std::size_t> bytes{0};
+  };
+  Part<CompressedRows<AdjacentTriangle>> adjacency;
+  std::array<Part<NormalConeTree>, 2> cones;  ///< by NormalSides
+};
 
 BodyMeshParts makeBodyMeshParts(std::string name, SurfaceMesh surface, const BodyMeshOptions& options) {
   BodyMeshParts parts;
@@ -35,12 +49,34 @@ BodyMeshParts makeBodyMeshParts(std::string name, SurfaceMesh surface, const Bod
 BodyMesh::BodyMesh(std::string name, SurfaceMesh surface, const BodyMeshOptions& options)
     : BodyMesh(makeBodyMeshParts(std::move(name), std::move(surface), options), options.metric) {}
 
-BodyMesh::BodyMesh(BodyMeshParts parts, const MeshMetricOptions& metric) : parts_(std::move(parts)) {
+BodyMesh::BodyMesh(BodyMeshParts parts, const MeshMetricOptions& metric)
+    : parts_(std::move(parts)), on_demand_(std::make_unique<OnDemand>()) {
   detail::Metric measured =
       detail::metricOf(parts_.nodes.graph, metric, parts_.cache.get(), parts_.nodes_key);
   metric_ = std::move(measured.metric);
   geodesic_extent_ = measured.geodesic_extent;
   protrusion_spacing_ = measured.protrusion_spacing;
+}
+
+BodyMesh::~BodyMesh() = default;
+
+const CompressedRows<AdjacentTriangle>& BodyMesh::adjacency() const {
+  auto& part = on_demand_->adjacency;
+  std::call_once(part.once, [&] {
+    part.value = triangleAdjacency(surface(), topology());
+    part.bytes = part.value.offsets.capacity() * sizeof(std::uint32_t) +
+                 part.value.values.capacity() * sizeof(AdjacentTriangle);
+  });
+  return part.value;
+}
+
+const NormalConeTree& BodyMesh::normalCones(NormalSides sides) const {
+  auto& part = on_demand_->cones.at(static_cast<std::size_t>(sides));
+  std::call_once(part.once, [&] {
+    part.value = NormalConeTree(surface(), topology(), sides);
+    part.bytes = part.value.memoryBytes();
+  });
+  return part.value;
 }
 
 std::size_t BodyMesh::memoryBytes() const {
@@ -59,7 +95,8 @@ std::size_t BodyMesh::memoryBytes() const {
          nodes.original_triangle_of_node.size() * sizeof(TriangleIndex) +
          nodes.graph_node_of_vertex.size() * sizeof(NodeIndex) + topology_bytes + nodes.graph.memoryBytes() +
          nodes.levels.memoryBytes() + parts_.tree.memoryBytes() + parts_.hierarchy.memoryBytes() +
-         metric_->memoryBytes();
+         metric_->memoryBytes() + on_demand_->adjacency.bytes + on_demand_->cones[0].bytes +
+         on_demand_->cones[1].bytes;
 }
 
 }  // namespace concave_distance

@@ -25,13 +25,6 @@ void placeMinimum(NicheRecord& record, const PairGeometry& geometry, const Local
 
 }  // namespace
 
-void Completeness::prepare(const PairGeometry& geometry, NormalSides wanted) {
-  if (a && sides == wanted) return;
-  a = std::make_unique<MinimaIndex>(*geometry.a, wanted);
-  b = std::make_unique<MinimaIndex>(*geometry.b, wanted);
-  sides = wanted;
-}
-
 // Level `complete`: every niche there is, without a search. A niche that is known goes on as the one whose
 // basin its triangles lie in now.
 void TrackerState::completeNiches(double displacement, double elapsed, PairSolution& solution) {
@@ -41,7 +34,6 @@ void TrackerState::completeNiches(double displacement, double elapsed, PairSolut
     solution.niches_cut = completeness.cut;
     return;
   }
-  completeness.prepare(geometry, parameters.keep_through_material ? NormalSides::Both : NormalSides::Outside);
   LocalMinimaRequest request;
   request.cutoff = parameters.cutoff;
   request.least_prominence = parameters.least_prominence;
@@ -51,7 +43,7 @@ void TrackerState::completeNiches(double displacement, double elapsed, PairSolut
   for (const NicheRecord& record : records) {
     request.whose.emplace_back(record.niche.witness.triangle_a, record.niche.witness.triangle_b);
   }
-  const LocalMinima found = findLocalMinima(*completeness.a, *completeness.b, geometry.a_from_b, request);
+  const LocalMinima found = findLocalMinima(*geometry.a, *geometry.b, geometry.a_from_b, request);
   solution.niches_cut = completeness.cut = found.cut;
   solution.cost.evaluations += found.cost.feature_pairs + found.cost.candidates + found.cost.flooded_pairs;
   completeness.current = true;

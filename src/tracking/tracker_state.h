@@ -37,19 +37,13 @@ struct Proof {
   bool swallowed = false;           ///< one body holds a part of the other
 };
 
-/// What level `complete` keeps: the indices of both bodies, built in the first cycle that needs them.
+/// What level `complete` keeps.
 struct Completeness {
-  std::unique_ptr<MinimaIndex> a;
-  std::unique_ptr<MinimaIndex> b;
-  NormalSides sides = NormalSides::Outside;
   std::vector<NicheRecord> records;  ///< of the last cycle, as a buffer
   bool current = false;              ///< the archive is complete at the last pose, as parameters want it
   bool cut = false;                  ///< and it was cut
 
-  void prepare(const PairGeometry& geometry, NormalSides wanted);
-  std::size_t memoryBytes() const {
-    return (a ? a->memoryBytes() + b->memoryBytes() : 0) + records.capacity() * sizeof(NicheRecord);
-  }
+  std::size_t memoryBytes() const { return records.capacity() * sizeof(NicheRecord); }
 };
 
 /// What one pair keeps from cycle to cycle, and the stages of a cycle, in the order of update(). Each stage

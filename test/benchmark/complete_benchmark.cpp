@@ -101,9 +101,11 @@ class Comparison {
   Comparison(const BenchmarkPair& pair, const Options& options)
       : pair_(pair),
         options_(options),
-        start_(std::chrono::steady_clock::now()),
-        index_a_(*pair.a, NormalSides::Outside),
-        index_b_(*pair.b, NormalSides::Outside) {
+        start_(std::chrono::steady_clock::now()) {
+    pair.a->normalCones(NormalSides::Outside);
+    pair.b->normalCones(NormalSides::Outside);
+    pair.a->adjacency();
+    pair.b->adjacency();
     tally_.index_ms = millisecondsSince(start_);
   }
 
@@ -149,7 +151,7 @@ class Comparison {
     // Classes of prominence are told apart up to 5e-2.
     request.prominence_limit = 5e-2;
     request.whose = std::move(whose);
-    return findLocalMinima(index_a_, index_b_, pose, request);
+    return findLocalMinima(*pair_.a, *pair_.b, pose, request);
   }
 
   LocalMinima compare(const Eigen::Isometry3d& pose, double cutoff, const PairSolution& solution,
@@ -158,7 +160,7 @@ class Comparison {
       const auto start = std::chrono::steady_clock::now();
       LocalMinimaRequest request;
       request.cutoff = cutoff;
-      tally_.met_by_flood += findLocalMinima(index_a_, index_b_, pose, request).cost.met_by_flood;
+      tally_.met_by_flood += findLocalMinima(*pair_.a, *pair_.b, pose, request).cost.met_by_flood;
       tally_.complete_ms.push_back(millisecondsSince(start));
     }
     Starts whose;
@@ -239,7 +241,7 @@ class Comparison {
     LocalMinimaRequest request;
     request.cutoff = niche.distance;
     request.least_prominence = request.prominence_limit = 0.0;
-    for (const LocalMinimum& other : findLocalMinima(index_a_, index_b_, pose, request).niches) {
+    for (const LocalMinimum& other : findLocalMinima(*pair_.a, *pair_.b, pose, request).niches) {
       if (other.distance < niche.distance &&
           prominenceBound(geometry, niche.witness, other.witness, kLeastProminence) < kLeastProminence) {
         return true;
@@ -281,8 +283,6 @@ class Comparison {
   const BenchmarkPair& pair_;
   Options options_;
   std::chrono::steady_clock::time_point start_;
-  MinimaIndex index_a_;
-  MinimaIndex index_b_;
   Tally tally_;
   std::vector<std::size_t> missed_;  ///< of the last comparison
 };

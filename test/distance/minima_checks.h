@@ -21,8 +21,7 @@ inline constexpr double kMinimaRounding = 1e-12;
 
 inline LocalMinima minimaOf(const Body& a, const Body& b, const Eigen::Isometry3d& pose,
                             const LocalMinimaRequest& request) {
-  const NormalSides sides = request.through_material ? NormalSides::Both : NormalSides::Outside;
-  return findLocalMinima(MinimaIndex(*a, sides), MinimaIndex(*b, sides), pose, request);
+  return findLocalMinima(*a, *b, pose, request);
 }
 
 /// Distances and passes side by side, where equal distances may come in any order.

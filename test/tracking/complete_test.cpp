@@ -42,8 +42,7 @@ void expectEveryNiche(const Body& a, const Body& b, const Isometry3d& pose, cons
                       double cutoff) {
   LocalMinimaRequest request;
   request.cutoff = cutoff;
-  const LocalMinima truth = findLocalMinima(MinimaIndex(*a, NormalSides::Outside),
-                                            MinimaIndex(*b, NormalSides::Outside), pose, request);
+  const LocalMinima truth = findLocalMinima(*a, *b, pose, request);
   ASSERT_EQ(solution.niches.size(), truth.niches.size());
   for (std::size_t i = 0; i < truth.niches.size(); ++i) {
     EXPECT_NEAR(solution.niches[i].distance, truth.niches[i].distance, 1e-12);

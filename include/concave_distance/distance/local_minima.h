@@ -7,32 +7,9 @@
 #include <vector>
 
 #include "concave_distance/distance/niche_properties.h"
-#include "concave_distance/mesh/normal_cone_tree.h"
-#include "concave_distance/mesh/triangle_adjacency.h"
+#include "concave_distance/mesh/body_mesh.h"
 
 namespace concave_distance {
-
-/// What level `complete` needs of a body besides the body itself, built on demand in O(n log n): about 500
-/// bytes a triangle. Refers to the body, which has to live as long.
-class MinimaIndex {
- public:
-  MinimaIndex(const BodyMesh& body, NormalSides sides)
-      : body_(&body),
-        cones_(body.surface(), body.topology(), sides),
-        adjacency_(triangleAdjacency(body.surface(), body.topology())) {}
-  const BodyMesh& body() const { return *body_; }
-  const NormalConeTree& cones() const { return cones_; }
-  const CompressedRows<AdjacentTriangle>& adjacency() const { return adjacency_; }
-  std::size_t memoryBytes() const {
-    return cones_.memoryBytes() + adjacency_.offsets.capacity() * sizeof(std::uint32_t) +
-           adjacency_.values.capacity() * sizeof(AdjacentTriangle);
-  }
-
- private:
-  const BodyMesh* body_;
-  NormalConeTree cones_;
-  CompressedRows<AdjacentTriangle> adjacency_;
-};
 
 struct LocalMinimaRequest {
   double cutoff = std::numeric_limits<double>::infinity();  ///< metres; niches up to this are wanted
@@ -42,8 +19,7 @@ struct LocalMinimaRequest {
   /// price: the flood around a niche goes on until it reaches a deeper one or (1 + this) times its distance.
   double prominence_limit = 1e-2;
   std::size_t largest_count = std::numeric_limits<std::size_t>::max();  ///< the nearest are kept
-  /// Niches through the material of closed shells are listed, too, flagged. Both indices have to be built
-  /// with NormalSides::Both then.
+  /// Niches through the material of closed shells are listed, too, flagged.
   bool through_material = false;
   /// Triangle pairs whose niches are asked for (LocalMinima::owners), e.g. those that a search has found:
   /// descended to the local minimum around them.
@@ -89,8 +65,8 @@ struct LocalMinima {
 /// least prominence: none is missed, none invented, up to the error of the triangle kernel in coordinates of
 /// the bodies' size (minima whose pass is higher by less than that are one). How and why: doc/algorithm.md,
 /// section 7. Where the bodies meet, every connected set of meeting points is one niche of distance 0.
-/// Outward niches of open shells include those marked Unknown. Never throws; allocates.
-LocalMinima findLocalMinima(const MinimaIndex& a, const MinimaIndex& b, const Eigen::Isometry3d& a_from_b,
+/// Outward niches of open shells include those marked Unknown. Uses the bodies' normalCones(). Never throws.
+LocalMinima findLocalMinima(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
                             const LocalMinimaRequest& request);
 
 }  // namespace concave_distance

@@ -9,9 +9,11 @@
 #include "concave_distance/mesh/mesh_metric.h"
 #include "concave_distance/mesh/mesh_topology.h"
 #include "concave_distance/mesh/node_graph.h"
+#include "concave_distance/mesh/normal_cone_tree.h"
 #include "concave_distance/mesh/preparation_cache.h"
 #include "concave_distance/mesh/search_nodes.h"
 #include "concave_distance/mesh/surface_mesh.h"
+#include "concave_distance/mesh/triangle_adjacency.h"
 #include "concave_distance/mesh/triangle_tree.h"
 
 namespace concave_distance {
@@ -55,6 +57,7 @@ class BodyMesh {
   /// @throws Error (naming the body) for options out of range
   BodyMesh(std::string name, SurfaceMesh surface, const BodyMeshOptions& options);
   BodyMesh(BodyMeshParts parts, const MeshMetricOptions& metric);
+  ~BodyMesh();
   BodyMesh(const BodyMesh&) = delete;
   BodyMesh& operator=(const BodyMesh&) = delete;
 
@@ -63,6 +66,11 @@ class BodyMesh {
   const MeshTopology& topology() const { return parts_.topology; }
   const TriangleTree& tree() const { return parts_.tree; }
   const BoundingVolumeHierarchy& hierarchy() const { return parts_.hierarchy; }
+  /// Which triangles hang together. Built at the first call, for all threads; 40 bytes a triangle.
+  const CompressedRows<AdjacentTriangle>& adjacency() const;
+  /// Of level `complete`. Built at the first call for each of the two, for all threads; about 450 bytes a
+  /// triangle.
+  const NormalConeTree& normalCones(NormalSides sides) const;
   const SurfaceMesh& grid() const { return parts_.nodes.grid; }
   /// What the search moves on: the grid's nodes or, where thinned() says so, an even choice of them.
   const NodeGraph& graph() const { return parts_.nodes.graph; }
@@ -91,6 +99,8 @@ class BodyMesh {
   std::unique_ptr<MeshMetric> metric_;
   double geodesic_extent_;
   double protrusion_spacing_;
+  struct OnDemand;
+  std::unique_ptr<OnDemand> on_demand_;  ///< what not every level needs
 };
 
 }  // namespace concave_distance

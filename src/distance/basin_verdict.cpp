@@ -1,0 +1,238 @@
+#include "concave_distance/distance/basin_verdict.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "cell_neighbours.h"
+#include "pair_table.h"
+
+namespace concave_distance {
+namespace detail {
+
+struct BasinBuffers {
+  struct Cell {
+    TriangleIndex a;
+    TriangleIndex b;
+    std::uint32_t basin;
+  };
+  /// A triangle pair that can be reached and has not been looked at yet.
+  struct Reached {
+    double squared_level;
+    std::uint32_t cell;
+  };
+  PairTable table;
+  std::vector<Cell> cells;
+  std::vector<Reached> reached;
+  std::vector<std::uint32_t> order;
+  std::vector<Basin> basins;
+  std::vector<std::uint32_t> basin_of_seed;
+  RefinementWorkspace refinement;
+};
+
+namespace {
+
+using Reached = BasinBuffers::Reached;
+
+bool isHigher(const Reached& l, const Reached& r) {
+  if (l.squared_level != r.squared_level) return l.squared_level > r.squared_level;
+  return l.cell > r.cell;  // any order will do, as long as it is always the same
+}
+
+class Judge {
+ public:
+  Judge(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b, std::size_t largest_flood,
+        BasinBuffers& buffers)
+      : scene_(a, b, a_from_b),
+        tolerance_(8.0 * scene_.rounding),
+        largest_flood_(largest_flood),
+        table_(buffers.table),
+        cells_(buffers.cells),
+        reached_(buffers.reached),
+        basins_(buffers.basins),
+        refinement_(buffers.refinement) {
+    table_.clear();
+    cells_.clear();
+    basins_.clear();
+  }
+
+  /// A known niche; another seed's basin when that has its triangle pair.
+  std::uint32_t enter(const BasinSeed& seed) {
+    const std::uint32_t known = table_.find(seed.a, seed.b);
+    if (known == PairTable::kAbsent) return addBasin(seed.a, seed.b, seed.distance, seed.least_prominence);
+    return cells_[known].basin;
+  }
+
+  std::uint32_t judge(const BasinSeed& seed) {
+    const std::size_t before = basins_.size();
+    const std::uint32_t basin = enter(seed);
+    if (basins_.size() > before) flood(basin);
+    return basin;
+  }
+
+  void flood(std::uint32_t basin) {
+    const double limit = basins_[basin].flooded;
+    double deeper = basins_[basin].distance - tolerance_;
+    double pass = basins_[basin].distance;
+    const std::size_t last = cells_.size() + largest_flood_;
+    reached_.clear();
+    reached_.push_back({0.0, cellOf(basin)});
+    while (!reached_.empty()) {
+      std::pop_heap(reached_.begin(), reached_.end(), isHigher);
+      const Reached next = reached_.back();
+      reached_.pop_back();
+      pass = std::max(pass, std::sqrt(next.squared_level));
+      const TriangleIndex a = cells_[next.cell].a;
+      const TriangleIndex b = cells_[next.cell].b;
+      const TrianglePoints corners_a = scene_.cornersOfA(a);
+      const TrianglePoints corners_b = scene_.cornersOfB(b);
+      const CellLevels levels = cellLevels(corners_a, corners_b);
+      if (deeper > 0.0 && levels.least() < deeper * deeper) {
+        if (joinsBelow(basin, a, b, pass)) return;
+        deeper = basins_[basin].distance - tolerance_;
+      }
+      bool joined = false;
+      forEachNeighbour(scene_, a, b, corners_a, corners_b, levels,
+                       [&](TriangleIndex to_a, TriangleIndex to_b, double squared_level) {
+                         if (joined || squared_level > limit * limit) return;
+                         const std::uint32_t known = table_.find(to_a, to_b);
+                         if (known == PairTable::kAbsent) {
+                           reached_.push_back({squared_level, addCell(to_a, to_b, basin)});
+                           std::push_heap(reached_.begin(), reached_.end(), isHigher);
+                         } else if (cells_[known].basin != basin) {
+                           joined = meet(basin, rootOf(cells_[known].basin),
+                                         std::max(pass, std::sqrt(squared_level)));
+                         }
+                       });
+      if (joined) return;
+      if (cells_.size() > last) {
+        basins_[basin].undecided = true;
+        return;
+      }
+    }
+  }
+
+  std::uint32_t rootOf(std::uint32_t basin) const {
+    while (basins_[basin].owner != basin) basin = basins_[basin].owner;
+    return basin;
+  }
+
+ private:
+  std::uint32_t addBasin(TriangleIndex a, TriangleIndex b, double distance, double least_prominence) {
+    const auto basin = static_cast<std::uint32_t>(basins_.size());
+    Basin added{a, b, distance, least_prominence, basin};
+    added.flooded = (1.0 + least_prominence) * distance + tolerance_;
+    basins_.push_back(added);
+    addCell(a, b, basin);
+    return basin;
+  }
+
+  std::uint32_t addCell(TriangleIndex a, TriangleIndex b, std::uint32_t basin) {
+    const auto cell = static_cast<std::uint32_t>(cells_.size());
+    cells_.push_back({a, b, basin});
+    table_.insert(a, b, cell);
+    return cell;
+  }
+
+  std::uint32_t cellOf(std::uint32_t basin) const { return table_.find(basins_[basin].a, basins_[basin].b); }
+
+  /// Two basins that touch at a level. True when the one that is flooded has ended in the other.
+  bool meet(std::uint32_t flooded, std::uint32_t other, double level) {
+    if (other == flooded) return false;
+    if (basins_[other].distance <= basins_[flooded].distance) {
+      join(flooded, other, level);
+      return true;
+    }
+    if (level <= basins_[other].flooded) join(other, flooded, level);
+    return false;
+  }
+
+  /// From a cell deeper than the basin's start to the minimum under it. False when that is in the basin
+  /// itself, which has not started at its bottom then.
+  bool joinsBelow(std::uint32_t basin, TriangleIndex a, TriangleIndex b, double pass) {
+    const WitnessPair below = refineWitness(scene_.a, scene_.b, scene_.a_from_b, a, b, refinement_).witness;
+    const double distance = std::sqrt(below.squared_distance);
+    const std::uint32_t known = table_.find(below.triangle_a, below.triangle_b);
+    if (known != PairTable::kAbsent && rootOf(cells_[known].basin) == basin) {
+      basins_[basin].distance = distance;
+      basins_[basin].a = below.triangle_a;
+      basins_[basin].b = below.triangle_b;
+      return false;
+    }
+    if (known != PairTable::kAbsent) {
+      join(basin, rootOf(cells_[known].basin), pass);
+      return true;
+    }
+    const std::uint32_t bottom =
+        addBasin(below.triangle_a, below.triangle_b, distance, basins_[basin].least_prominence);
+    join(basin, bottom, pass);
+    flood(bottom);
+    return true;
+  }
+
+  void join(std::uint32_t shallow, std::uint32_t deep, double pass) {
+    basins_[shallow].owner = deep;
+    basins_[shallow].pass = pass;
+  }
+
+  MinimaScene scene_;
+  double tolerance_;
+  std::size_t largest_flood_;
+  PairTable& table_;
+  std::vector<BasinBuffers::Cell>& cells_;
+  std::vector<Reached>& reached_;
+  std::vector<Basin>& basins_;
+  RefinementWorkspace& refinement_;
+};
+
+}  // namespace
+}  // namespace detail
+
+BasinVerdicts::BasinVerdicts() : buffers_(std::make_unique<detail::BasinBuffers>()) {}
+BasinVerdicts::~BasinVerdicts() = default;
+BasinVerdicts::BasinVerdicts(BasinVerdicts&&) noexcept = default;
+BasinVerdicts& BasinVerdicts::operator=(BasinVerdicts&&) noexcept = default;
+
+const std::vector<Basin>& BasinVerdicts::basins() const {
+  return buffers_->basins;
+}
+
+std::uint32_t BasinVerdicts::basinOf(std::size_t seed) const {
+  return buffers_->basin_of_seed[seed];
+}
+
+std::uint32_t BasinVerdicts::rootOf(std::uint32_t basin) const {
+  while (buffers_->basins[basin].owner != basin) basin = buffers_->basins[basin].owner;
+  return basin;
+}
+
+std::uint64_t BasinVerdicts::floodedPairs() const {
+  return buffers_->cells.size();
+}
+
+std::size_t BasinVerdicts::memoryBytes() const {
+  const detail::BasinBuffers& b = *buffers_;
+  return b.table.memoryBytes() + b.cells.capacity() * sizeof(detail::BasinBuffers::Cell) +
+         b.reached.capacity() * sizeof(detail::BasinBuffers::Reached) + b.basins.capacity() * sizeof(Basin) +
+         (b.order.capacity() + b.basin_of_seed.capacity()) * sizeof(std::uint32_t);
+}
+
+void judgeBasins(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
+                 const std::vector<BasinSeed>& seeds, std::size_t largest_flood, BasinVerdicts& verdicts) {
+  detail::BasinBuffers& buffers = verdicts.buffers();
+  detail::Judge judge(a, b, a_from_b, largest_flood, buffers);
+  buffers.basin_of_seed.resize(seeds.size());
+  buffers.order.resize(seeds.size());
+  std::iota(buffers.order.begin(), buffers.order.end(), 0U);
+  std::sort(buffers.order.begin(), buffers.order.end(), [&](std::uint32_t l, std::uint32_t r) {
+    return seeds[l].distance != seeds[r].distance ? seeds[l].distance < seeds[r].distance : l < r;
+  });
+  for (const std::uint32_t i : buffers.order) {
+    if (!seeds[i].judged) buffers.basin_of_seed[i] = judge.enter(seeds[i]);
+  }
+  for (const std::uint32_t i : buffers.order) {
+    if (seeds[i].judged) buffers.basin_of_seed[i] = judge.judge(seeds[i]);
+  }
+}
+
+}  // namespace concave_distance
