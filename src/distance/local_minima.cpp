@@ -60,11 +60,11 @@ class Describer {
 
 /// Verdicts alone; no pass is measured.
 detail::FloodResult decide(const detail::MinimaScene& scene, const LocalMinimaRequest& request,
-                           const std::vector<detail::MinimumSeed>& seeds, std::size_t owned,
+                           const std::vector<MinimumSeed>& seeds, std::size_t owned,
                            LocalMinimaCost& cost) {
   std::vector<BasinSeed> basin_seeds;
   basin_seeds.reserve(seeds.size());
-  for (const detail::MinimumSeed& seed : seeds) {
+  for (const MinimumSeed& seed : seeds) {
     basin_seeds.push_back({seed.a, seed.b, seed.distance, request.least_prominence, true});
   }
   BasinVerdicts verdicts;
@@ -98,11 +98,12 @@ LocalMinima findLocalMinima(const BodyMesh& a, const BodyMesh& b, const Eigen::I
                             const LocalMinimaRequest& request) {
   const detail::MinimaScene scene(a, b, a_from_b);
   LocalMinima result;
-  std::vector<detail::MinimumSeed> seeds;
+  std::vector<MinimumSeed> seeds;
   detail::collectMeetingPairs(scene, seeds, result.cost);
-  detail::CandidateWorkspace candidates;
   const NormalSides sides = request.through_material ? NormalSides::Both : NormalSides::Outside;
-  detail::collectConeSeeds(scene, sides, request.cutoff, seeds, result.cost, candidates);
+  detail::OpenCones open;
+  detail::collectConeSeeds(scene, sides, request.cutoff, std::numeric_limits<std::size_t>::max(), open, seeds,
+                           result.cost);
   const std::size_t owned = seeds.size();
   result.cost.minima = owned;
   RefinementWorkspace refinement;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "cone_pair_bounds.h"
 
@@ -74,7 +75,7 @@ struct FacingCap {
 class Traversal {
  public:
   Traversal(const MinimaScene& scene, NormalSides sides, double cutoff, std::vector<MinimumSeed>& seeds,
-            LocalMinimaCost& cost, CandidateWorkspace& workspace)
+            LocalMinimaCost& cost, OpenCones& open)
       : scene_(scene),
         // Spheres and distances carry the rounding of the scene.
         slack_(4.0 * scene.rounding),
@@ -86,13 +87,15 @@ class Traversal {
         turned_(scene.frames.rotation.transpose()),
         seeds_(seeds),
         cost_(cost),
-        open_(workspace.open) {}
+        open_(open) {}
 
-  void run() {
+  /// Until every pair is looked at or the budget (groups of cones) is used up; goes on from what is open, from
+  /// the roots when nothing is.
+  void run(std::size_t budget) {
     if (cones_a_.empty() || cones_b_.empty()) return;
-    open_.clear();
-    open_.push_back({NormalConeTree::kRoot, NormalConeTree::kRoot});
-    while (!open_.empty()) {
+    if (open_.empty()) open_.emplace_back(NormalConeTree::kRoot, NormalConeTree::kRoot);
+    const std::uint64_t last = budget < kAll ? cost_.node_pairs + budget : kAll;
+    while (!open_.empty() && cost_.node_pairs < last) {
       const auto [a, b] = open_.back();
       open_.pop_back();
       const std::uint32_t child_a = cones_a_.child(a);
@@ -122,6 +125,7 @@ class Traversal {
 
  private:
   static constexpr std::uint32_t kWidth = NormalConeTree::kWidth;
+  static constexpr std::uint64_t kAll = std::numeric_limits<std::uint64_t>::max();
 
   template <typename Push>
   static void pushChildren(const NormalConeTree::Node& node, const ConeLanes& excluded, const Push& push) {
@@ -297,7 +301,7 @@ class Traversal {
   Slot compared_slot_b_ = NormalConeTree::kNoChild;
   std::vector<MinimumSeed>& seeds_;
   LocalMinimaCost& cost_;
-  std::vector<std::pair<std::uint32_t, std::uint32_t>>& open_;
+  OpenCones& open_;
 };
 
 Eigen::AlignedBox3d movedBox(const Eigen::AlignedBox3d& box, const Eigen::Isometry3d& a_from_b) {
@@ -308,9 +312,9 @@ Eigen::AlignedBox3d movedBox(const Eigen::AlignedBox3d& box, const Eigen::Isomet
 
 }  // namespace
 
-void collectConeSeeds(const MinimaScene& scene, NormalSides sides, double cutoff,
-                      std::vector<MinimumSeed>& seeds, LocalMinimaCost& cost, CandidateWorkspace& workspace) {
-  Traversal(scene, sides, cutoff, seeds, cost, workspace).run();
+void collectConeSeeds(const MinimaScene& scene, NormalSides sides, double cutoff, std::size_t budget,
+                      OpenCones& open, std::vector<MinimumSeed>& seeds, LocalMinimaCost& cost) {
+  Traversal(scene, sides, cutoff, seeds, cost, open).run(budget);
 }
 
 void collectMeetingPairs(const MinimaScene& scene, std::vector<MinimumSeed>& seeds, LocalMinimaCost& cost) {

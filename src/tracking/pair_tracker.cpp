@@ -34,7 +34,6 @@ TrackerState::TrackerState(std::string pair_name, std::shared_ptr<const BodyMesh
   search.reserve(kUsualMinima);
   known.reserve(kUsualMinima);
   candidates.reserve(kUsualMinima);
-  drowned.reserve(kUsualMinima);
   archive.reserve(kUsualMinima);
   proof.workspace.open.reserve(kUsualMinima);
 }
@@ -65,6 +64,7 @@ void TrackerState::clear(PairSolution& solution) const {
 void TrackerState::reset() {
   archive.clear();
   ripples.clear();
+  sweep.restart();
   warm = false;
   dark_side_met = false;
   swallowed = false;
@@ -147,8 +147,8 @@ void TrackerState::solveNiches(double displacement, double elapsed, PairSolution
     improveNodePairs(objective, parameters.largest_niche_count, archive, geometry, solution.cost);
   } else {
     uniteSamePlaces(geometry, archive, solution.events);
+    sweepCones(solution);
     reviewRecords(solution);
-    drownNewborns(objective, solution);
   }
 }
 

@@ -77,25 +77,19 @@ void TrackerState::admitClosest(PairSolution& solution) {
     candidate.witness = refined.witness;
   }
   candidate.node_pair = geometry.nodePairNear(candidate.witness);
-  const bool first = records.empty();
-  const std::uint64_t nearest_id = first ? 0 : records.front().niche.id;
-  const WitnessPair nearest = first ? WitnessPair() : records.front().niche.witness;
-  const AdmissionResult result =
-      admitCandidate(candidate, geometry, parameters, warm ? warm_radii.niche : cold_radii.niche, cycle,
-                     archive, solution.events);
-  if (result.outcome == Admission::ThroughMaterial) {
-    return;
-  }
-  if (result.outcome == Admission::SamePlace) {
-    const auto known = std::find_if(records.begin(), records.end(),
-                                    [&](const NicheRecord& r) { return r.niche.id == result.id; });
+  const double missed = candidate.witness.squared_distance;
+  candidates.assign(1, candidate);
+  settleCandidates(solution);
+  uniteSamePlaces(geometry, archive, solution.events);
+  // At a place that is known the proof's witness may be the closer one by rounding.
+  if (records.empty() || records.front().niche.witness.squared_distance > missed) {
+    NicheRecord* known = archive.findSamePlace(candidate.witness.point_a_in_a,
+                                               geometry.b_from_a * candidate.witness.point_b_in_a,
+                                               geometry.samePlaceTolerance());
+    if (known == nullptr) return;  // through material
     known->niche.proven_local_minimum = candidate.proven;
     placeRecord(*known, geometry, candidate.witness);
-  }
-  archive.settle();
-  uniteSamePlaces(geometry, archive, solution.events);
-  if (!first && records.front().niche.id == nearest_id) {
-    ripples.remember(geometry, nearest, nearest_id, cycle);
+    archive.settle();
   }
   solution.search_miss = true;
 }

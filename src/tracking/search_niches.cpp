@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <limits>
 
 #include "concave_distance/base/random_engine.h"
 #include "concave_distance/search/genetic_search.h"
@@ -17,13 +18,6 @@ constexpr int kColdProjectionRounds = 4;
 constexpr std::uint32_t kColdProjectionFactor = 16;
 // Tells the stream of the projections from that of the evolution.
 constexpr std::uint64_t kProjectionStream = 0x70726f6a656374ULL;
-// Ripples of the nearest niche that a cycle walks on from.
-constexpr int kWarmRippleSteps = 5;
-// Cycles of walking on over ripples from one and the same pose.
-constexpr std::uint32_t kRestWalks = 16;
-constexpr int kColdRippleSteps = 64;
-// How much farther than the nearest niche a place to walk on from may be, in least prominences.
-constexpr double kRippleReach = 5.0;
 
 }  // namespace
 
@@ -123,101 +117,29 @@ void TrackerState::projectNiches(PairSolution& solution) {
     }
     settleCandidates(solution);
   }
-  walkRipples(solution);
 }
 
-void TrackerState::walkRipples(PairSolution& solution) {
-  if (parameters.projected_niches == 0 || archive.records().empty() || cycles_at_rest > kRestWalks) {
+// What no search looks for but a look at all normal cones finds: a part of them in a warm cycle, where the
+// last one has ended; all in a cold one.
+void TrackerState::sweepCones(PairSolution& solution) {
+  if (parameters.swept_cones == 0 || !parameters.niches_wanted) {
     return;
   }
-  // The global minimum of a tessellated valley is often the next ripple, or one a few ripples on. Those known
-  // are followed; from the deepest and from the ones least recently left the walk goes on.
-  const auto belongs = [&](const Ripple& ripple) {
-    return ripple.owner == archive.records().front().niche.id;
-  };
-  ripples.follow(archive.records().front().niche.id, archive.records().front().niche.witness, geometry);
-  for (Ripple& ripple : ripples.ripples()) {
-    const bool deeper =
-        ripple.witness.squared_distance < archive.records().front().niche.witness.squared_distance;
-    if (belongs(ripple) && (deeper || ripple.judged + kRippleJudgement <= cycle)) {
-      candidates.push_back({ripple.witness, geometry.nodePairNear(ripple.witness), true, 0});
-    }
+  const std::size_t budget = warm ? parameters.swept_cones : std::numeric_limits<std::size_t>::max();
+  double cutoff = parameters.cutoff;
+  if (archive.records().size() > parameters.largest_niche_count) {
+    cutoff = std::min(cutoff, archive.records()[parameters.largest_niche_count].niche.distance);
   }
-  settleRipples(solution);
-  const std::array<FeatureKey, 2> here = featuresOf(geometry, archive.records().front().niche.witness);
-  const std::vector<NicheRecord>& records = archive.records();
-  const bool smooth =
-      std::none_of(ripples.ripples().begin(), ripples.ripples().end(), belongs) &&
-      std::none_of(records.begin() + 1, records.end(), [&](const NicheRecord& r) { return isBeside(r); });
-  if (!searching && smooth && here == last_features) {
-    return;
+  swept.clear();
+  solution.cost.evaluations +=
+      sweep.advance(*geometry.a, *geometry.b, geometry.a_from_b,
+                    parameters.keep_through_material ? NormalSides::Both : NormalSides::Outside, cutoff,
+                    budget, swept);
+  for (const MinimumSeed& pair : swept) {
+    const WitnessRefinement refined = geometry.refine(pair.a, pair.b);
+    candidates.push_back({refined.witness, geometry.nodePairNear(refined.witness), refined.proven, 0});
   }
-  last_features = here;
-  std::array<FeatureKey, 2> walked_from{};
-  for (int step = 0; step < (warm ? kWarmRippleSteps : kColdRippleSteps); ++step) {
-    const WitnessPair deepest = archive.records().front().niche.witness;
-    const std::array<FeatureKey, 2> features = featuresOf(geometry, deepest);
-    if (!(features == walked_from)) {
-      walked_from = features;
-      stepOverRipples(geometry, deepest, candidates);
-    } else {
-      const std::optional<WitnessPair> next = nextToWalkFrom();
-      if (!next) {
-        break;
-      }
-      stepOverRipples(geometry, *next, candidates);
-    }
-    settleRipples(solution);
-  }
-}
-
-// A niche between which and the nearest one the grid has no nodes: a ripple but for its prominence.
-bool TrackerState::isBeside(const NicheRecord& record) const {
-  const NicheRecord& nearest = archive.records().front();
-  const double within = (1.0 + kRippleReach * parameters.least_prominence) * nearest.niche.distance;
-  const double gap = (record.niche.point_a_in_a - nearest.niche.point_a_in_a).norm() +
-                     (record.point_b_in_b - nearest.point_b_in_b).norm();
-  return record.niche.distance <= within && gap <= geometry.a->maxEdgeLength() + geometry.b->maxEdgeLength();
-}
-
-// Of the ripples of the nearest niche and the niches beside it, the one longest not walked from.
-std::optional<WitnessPair> TrackerState::nextToWalkFrom() {
-  const TrackedNiche& nearest = archive.records().front().niche;
-  const double within = (1.0 + kRippleReach * parameters.least_prominence) * nearest.distance;
-  std::uint64_t* longest = nullptr;
-  const WitnessPair* next = nullptr;
-  const auto consider = [&](const WitnessPair& witness, std::uint64_t& walked) {
-    if (walked <= cycle && witness.squared_distance <= within * within &&
-        (longest == nullptr || walked < *longest)) {
-      longest = &walked;
-      next = &witness;
-    }
-  };
-  for (Ripple& ripple : ripples.ripples()) {
-    if (ripple.owner == nearest.id) {
-      consider(ripple.witness, ripple.walked);
-    }
-  }
-  for (std::size_t i = 1; i < archive.records().size(); ++i) {
-    if (isBeside(archive.records()[i])) {
-      consider(archive.records()[i].niche.witness, archive.records()[i].walked);
-    }
-  }
-  if (next == nullptr) {
-    return std::nullopt;
-  }
-  *longest = cycle + 1;
-  return *next;
-}
-
-void TrackerState::settleRipples(PairSolution& solution) {
-  const std::uint64_t id = archive.records().front().niche.id;
-  const WitnessPair before = archive.records().front().niche.witness;
   settleCandidates(solution);
-  const TrackedNiche& now = archive.records().front().niche;
-  if (now.id == id && now.witness.squared_distance < before.squared_distance) {
-    ripples.remember(geometry, before, id, cycle);
-  }
 }
 
 }  // namespace concave_distance

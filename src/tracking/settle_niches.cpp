@@ -1,164 +1,213 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
-#include "concave_distance/search/local_descent.h"
-#include "concave_distance/tracking/niche_admission.h"
 #include "concave_distance/tracking/node_niches.h"
 #include "tracker_state.h"
 
 namespace concave_distance {
 namespace {
 
-// Warm cycles from one look at a record's prominence to the next record's, in turn.
-constexpr std::uint64_t kReviewInterval = 2;
-// States a flood looks at, at the most, before a newborn niche counts as one.
-constexpr std::uint32_t kColdFloodStates = 4000;
-constexpr std::uint32_t kWarmFloodStates = 400;
-// Floods from one newborn niche at the most, each from where the last one has led.
-constexpr int kFloodsPerNewborn = 4;
-// Cycles for which the outcome of a flood is believed without a new one.
-constexpr std::uint64_t kDrownedCycles = 16;
+// Triangle pairs that a flood visits at the most before its start counts as a niche.
+constexpr std::size_t kColdFlood = 20000;
+constexpr std::size_t kWarmFlood = 1000;
+// Niches that a warm cycle looks at again besides the nearest.
+constexpr std::size_t kWarmReviews = 3;
+constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+
+// Hysteresis: a niche that users know is given up only at half the least prominence.
+double leastProminenceOf(const NicheRecord& record, const TrackerParameters& parameters) {
+  return (record.reported ? 0.5 : 1.0) * parameters.least_prominence;
+}
 
 }  // namespace
 
 void TrackerState::settleCandidates(PairSolution& solution) {
-  orderCandidates();
-  admitCandidates(solution.events);
-  archive.settle();
-  candidates.clear();
-}
-
-void TrackerState::orderCandidates() {
   std::sort(candidates.begin(), candidates.end(), [](const NicheCandidate& l, const NicheCandidate& r) {
     return l.witness.squared_distance != r.witness.squared_distance
                ? l.witness.squared_distance < r.witness.squared_distance
                : l.node_pair < r.node_pair;
   });
-}
-
-void TrackerState::admitCandidates(std::vector<NicheEvent>& events) {
-  const double niche_radius = warm ? warm_radii.niche : cold_radii.niche;
-  for (const NicheCandidate& candidate : candidates) {
-    AdmissionResult result{Admission::SamePlace, 0};
-    if (parameters.accuracy == AccuracyLevel::Nodes) {
-      result = admitNodePair(candidate, geometry, niche_radius, cycle, search.metric, archive);
-    } else {
-      result = verdictOnRipple(candidate);
-      if (result.id == 0) {
-        result = admitCandidate(candidate, geometry, parameters, niche_radius, cycle, archive, events);
-        if (result.outcome == Admission::LowProminence && !isOnPlateauOf(candidate, result.id)) {
-          ripples.remember(geometry, candidate.witness, result.id, cycle);
-        }
-      }
+  if (parameters.accuracy == AccuracyLevel::Nodes) {
+    const double niche_radius = warm ? warm_radii.niche : cold_radii.niche;
+    for (const NicheCandidate& candidate : candidates) {
+      report(candidate, admitNodePair(candidate, geometry, niche_radius, cycle, search.metric, archive),
+             solution.events);
     }
-    if (result.outcome == Admission::ThroughMaterial &&
-        (!dark_side_met || candidate.witness.squared_distance < dark_side.squared_distance)) {
-      dark_side = candidate.witness;
-      dark_side_met = true;
-    }
-    if (candidate.left_by != 0) {
-      const bool joined =
-          result.outcome == Admission::SamePlace || result.outcome == Admission::LowProminence;
-      events.push_back(joined ? NicheEvent{NicheEvent::Kind::Merge, candidate.left_by, result.id}
-                              : NicheEvent{NicheEvent::Kind::Death, candidate.left_by, 0});
-    }
+  } else {
+    judging.records.assign(archive.records().size(), 0);
+    judge(solution);
   }
+  archive.settle();
+  candidates.clear();
 }
 
 void TrackerState::reviewRecords(PairSolution& solution) {
-  // A cold cycle looks at every record, once all are known: neighbours may have come in any order.
-  const std::size_t reviews = warm ? cycle % kReviewInterval == 0 : archive.records().size();
-  for (std::size_t k = 0; k < reviews && !archive.records().empty(); ++k) {
-    next_review = (next_review + archive.records().size() - 1) % archive.records().size();
-    if (reviewProminence(next_review, geometry, parameters, archive, solution.events)) {
-      archive.settle();
+  // A warm cycle looks at the nearest niche, which has to be the deepest of its basin, and at the others in
+  // turn; a cold one at all.
+  const std::size_t count = archive.records().size();
+  judging.records.assign(count, warm ? 0 : 1);
+  if (warm && count > 0 && (cycles_at_rest == 0 || cycles_at_rest < count)) {
+    judging.records[0] = 1;
+    for (std::size_t k = 0; k < kWarmReviews; ++k) {
+      next_review = (next_review + 1) % count;
+      judging.records[next_review] = 1;
     }
   }
+  if (std::find(judging.records.begin(), judging.records.end(), 1) == judging.records.end()) return;
+  judge(solution);
+  archive.settle();
 }
 
-// At the niche's own distance: another place of a plateau, from where refinement finds its lowest end by
-// itself.
-bool TrackerState::isOnPlateauOf(const NicheCandidate& candidate, std::uint64_t id) const {
-  const auto& records = archive.records();
-  const auto niche =
-      std::find_if(records.begin(), records.end(), [&](const NicheRecord& r) { return r.niche.id == id; });
-  return niche != records.end() && std::sqrt(candidate.witness.squared_distance) <=
-                                       niche->niche.distance + 2.0 * kPlateauTolerance * geometry.scale();
+// What became of a candidate that a reported niche has run on to.
+void TrackerState::report(const NicheCandidate& candidate, const AdmissionResult& result,
+                          std::vector<NicheEvent>& events) {
+  if (candidate.left_by == 0) return;
+  const bool joined = result.outcome == Admission::SamePlace || result.outcome == Admission::LowProminence;
+  events.push_back(joined ? NicheEvent{NicheEvent::Kind::Merge, candidate.left_by, result.id}
+                          : NicheEvent{NicheEvent::Kind::Death, candidate.left_by, 0});
 }
 
-// A ripple judged a few cycles ago is believed to be one still, unless it has become the deepest of its
-// niche.
-AdmissionResult TrackerState::verdictOnRipple(const NicheCandidate& candidate) {
-  const Ripple* ripple = ripples.find(geometry, candidate.witness);
-  if (ripple == nullptr || ripple->judged + kRippleJudgement <= cycle) {
-    return {Admission::LowProminence, 0};
+// Through material: not a niche, but what tells that a body is swallowed.
+bool TrackerState::isDark(const WitnessPair& witness, Outwardness outward) {
+  if (outward != Outwardness::ThroughMaterial || parameters.keep_through_material) return false;
+  if (!dark_side_met || witness.squared_distance < dark_side.squared_distance) {
+    dark_side = witness;
+    dark_side_met = true;
   }
-  for (const NicheRecord& record : archive.records()) {
-    if (record.niche.id == ripple->owner) {
-      const bool deepest = candidate.witness.squared_distance < record.niche.witness.squared_distance;
-      return {Admission::LowProminence, deepest ? 0 : ripple->owner};
-    }
-  }
-  return {Admission::LowProminence, 0};
+  return true;
 }
 
-// Whether a flood of the grid from a niche's node pair, below its least prominence, leads to a place that is
-// closer on the triangles too. What is deeper for the grid only is where the flood goes on from. Appends that
-// place.
-bool TrackerState::leadsDown(const PairObjective& objective, const TrialPoint& start,
-                             const TrackedNiche& niche, PairSolution& solution) {
-  const std::uint32_t state_limit = warm ? kWarmFloodStates : kColdFloodStates;
-  const auto closer_than = [&](const TrialPoint& end) {
-    const WitnessRefinement refined =
-        geometry.refine(geometry.a->originalTriangle(end.node_a), geometry.b->originalTriangle(end.node_b));
-    if (!(std::sqrt(refined.witness.squared_distance) < niche.distance - geometry.samePlaceTolerance())) {
-      return false;
-    }
-    candidates.push_back({refined.witness, end, refined.proven, 0});
-    drowned.push_back({start, cycle});
-    return true;
-  };
-  const TrialPoint corner = geometry.nodePairNear(niche.witness);
-  if (std::sqrt(corner.squared_distance) <= (1.0 + parameters.least_prominence) * niche.distance &&
-      closer_than(descend(objective, corner, nullptr, search.trail, solution.cost))) {
-    return true;
+// A candidate at a known place, through material or known for a ripple; empty when it is to be judged.
+std::optional<AdmissionResult> TrackerState::knownVerdict(const NicheCandidate& candidate,
+                                                          Outwardness& outward) {
+  const WitnessPair& witness = candidate.witness;
+  const Eigen::Vector3d point_b_in_b = geometry.b_from_a * witness.point_b_in_a;
+  const NicheRecord* known =
+      archive.findSamePlace(witness.point_a_in_a, point_b_in_b, geometry.samePlaceTolerance());
+  if (known == nullptr && witness.squared_distance == 0.0) {
+    // Touching or crossing surfaces meet in whole curves of pairs at distance 0: one niche per neighbourhood.
+    known = archive.findTouching(witness.point_a_in_a, point_b_in_b,
+                                 warm ? warm_radii.niche : cold_radii.niche);
   }
-  const double level = (1.0 + parameters.least_prominence) * std::sqrt(start.squared_distance);
-  TrialPoint from = start;
-  for (int flooded = 0; flooded < kFloodsPerNewborn; ++flooded) {
-    const auto deeper = floodForDeeper(objective, from, level, 0.0, state_limit, flood, solution.cost);
-    if (!deeper) {
-      return false;
-    }
-    from = descend(objective, *deeper, nullptr, search.trail, solution.cost);
-    if (closer_than(from)) {
-      return true;
+  if (known != nullptr) return AdmissionResult{Admission::SamePlace, known->niche.id};
+  if (const auto owner = ripples.ownerOf(witness.triangle_a, witness.triangle_b, cycle)) {
+    const NicheRecord* record = archive.find(*owner);
+    // One that has become the deepest of its niche is no ripple any more.
+    if (record != nullptr && record->niche.witness.squared_distance <= witness.squared_distance) {
+      return AdmissionResult{Admission::LowProminence, *owner};
     }
   }
-  return false;
+  outward = classifyOutwardness(*geometry.a, *geometry.b, geometry.a_from_b, witness);
+  if (isDark(witness, outward)) return AdmissionResult{Admission::ThroughMaterial, 0};
+  return std::nullopt;
 }
 
-// A newborn niche that a flood of the grid leads out of below the least prominence is part of what it leads
-// to.
-void TrackerState::drownNewborns(const PairObjective& objective, PairSolution& solution) {
-  drowned.erase(std::remove_if(drowned.begin(), drowned.end(),
-                               [&](const Drowned& entry) { return cycle - entry.cycle > kDrownedCycles; }),
-                drowned.end());
-  candidates.clear();
-  for (std::size_t i = archive.records().size(); i-- > 0;) {
+std::uint64_t TrackerState::bear(const NicheCandidate& candidate, Outwardness outward) {
+  NicheRecord newborn;
+  newborn.niche.id = archive.takeId();
+  newborn.niche.birth_cycle = cycle;
+  newborn.niche.node_pair = candidate.node_pair;
+  newborn.niche.proven_local_minimum = candidate.proven;
+  newborn.niche.outward = outward;
+  placeRecord(newborn, geometry, candidate.witness);
+  archive.records().push_back(newborn);
+  return newborn.niche.id;
+}
+
+// Floods from the candidates, and from the records that are marked, say which of them are niches of their own
+// (judgeBasins): candidates become records, are dropped, or a record turns out to be part of one.
+void TrackerState::judge(PairSolution& solution) {
+  std::vector<BasinSeed>& seeds = judging.seeds;
+  seeds.clear();
+  const std::size_t known = archive.records().size();
+  for (std::size_t i = 0; i < known; ++i) {
     const NicheRecord& record = archive.records()[i];
-    if (record.reported || record.niche.distance == 0.0 || i == 0) {
-      continue;  // the deepest has nowhere to lead to
-    }
-    const TrialPoint start = descend(objective, record.niche.node_pair, nullptr, search.trail, solution.cost);
-    const bool known = std::any_of(drowned.begin(), drowned.end(),
-                                   [&](const Drowned& entry) { return samePlace(entry.start, start); });
-    if (!known && !leadsDown(objective, start, record.niche, solution)) {
+    const WitnessPair& witness = record.niche.witness;
+    seeds.push_back({witness.triangle_a, witness.triangle_b, record.niche.distance,
+                     leastProminenceOf(record, parameters),
+                     judging.records[i] != 0 && record.niche.distance > 0.0});
+  }
+  judging.pending.clear();
+  for (std::size_t k = 0; k < candidates.size(); ++k) {
+    const NicheCandidate& candidate = candidates[k];
+    Outwardness outward{};
+    if (const auto verdict = knownVerdict(candidate, outward)) {
+      report(candidate, *verdict, solution.events);
       continue;
     }
-    archive.remove(i, solution.events);
+    const WitnessPair& witness = candidate.witness;
+    if (witness.squared_distance == 0.0) {
+      report(candidate, {Admission::Born, bear(candidate, outward)}, solution.events);
+      continue;
+    }
+    judging.pending.push_back({k, outward});
+    seeds.push_back({witness.triangle_a, witness.triangle_b, std::sqrt(witness.squared_distance),
+                     parameters.least_prominence, true});
   }
-  settleCandidates(solution);
+  if (std::none_of(seeds.begin(), seeds.end(), [](const BasinSeed& seed) { return seed.judged; })) return;
+  judgeBasins(*geometry.a, *geometry.b, geometry.a_from_b, seeds, warm ? kWarmFlood : kColdFlood,
+              judging.verdicts);
+  solution.cost.evaluations += judging.verdicts.floodedPairs();
+  settleVerdicts(known, solution);
+}
+
+void TrackerState::settleVerdicts(std::size_t known, PairSolution& solution) {
+  const BasinVerdicts& verdicts = judging.verdicts;
+  const std::vector<Basin>& basins = verdicts.basins();
+  // The niche of every root: a record's id, 0 for what is none.
+  std::vector<std::uint64_t>& ids = judging.ids;
+  ids.assign(basins.size(), 0);
+  judging.seeded.assign(basins.size(), kNone);
+  for (std::size_t i = judging.seeds.size(); i-- > 0;) {
+    const std::uint32_t basin = verdicts.basinOf(i);
+    judging.seeded[basin] = i;
+    if (i < known) ids[basin] = archive.records()[i].niche.id;
+  }
+  judging.record_ids.clear();
+  for (std::size_t i = 0; i < known; ++i) judging.record_ids.push_back(archive.records()[i].niche.id);
+  for (std::uint32_t basin = 0; basin < basins.size(); ++basin) {
+    if (basins[basin].owner != basin || ids[basin] != 0) continue;
+    const std::size_t seed = judging.seeded[basin];
+    if (seed != kNone) {
+      const Pending& pending = judging.pending[seed - known];
+      ids[basin] = bear(candidates[pending.candidate], pending.outward);
+      continue;
+    }
+    // A place that no candidate but a flood has found.
+    const WitnessRefinement refined = geometry.refine(basins[basin].a, basins[basin].b);
+    const NicheCandidate found{refined.witness, geometry.nodePairNear(refined.witness), refined.proven, 0};
+    Outwardness outward{};
+    const auto verdict = knownVerdict(found, outward);
+    ids[basin] = verdict ? verdict->id : bear(found, outward);
+  }
+  for (std::size_t k = 0; k < judging.pending.size(); ++k) {
+    const NicheCandidate& candidate = candidates[judging.pending[k].candidate];
+    const std::uint32_t basin = verdicts.basinOf(known + k);
+    const std::uint32_t root = verdicts.rootOf(basin);
+    const bool born = root == basin && judging.seeded[basin] == known + k;
+    const Admission outcome = born             ? Admission::Born
+                              : ids[root] == 0 ? Admission::ThroughMaterial
+                                               : Admission::LowProminence;
+    if (outcome == Admission::LowProminence) {
+      ripples.remember(candidate.witness.triangle_a, candidate.witness.triangle_b, ids[root], cycle);
+    }
+    report(candidate, {outcome, ids[root]}, solution.events);
+  }
+  for (std::size_t i = 0; i < known; ++i) {
+    const std::uint32_t root = verdicts.rootOf(verdicts.basinOf(i));
+    const std::uint64_t id = judging.record_ids[i];
+    if (ids[root] == 0 || ids[root] == id) continue;
+    const NicheRecord* record = archive.find(id);
+    const NicheRecord* owner = archive.find(ids[root]);
+    if (record == nullptr || owner == nullptr) continue;
+    const std::uint64_t living =
+        archive.unite(static_cast<std::size_t>(owner - archive.records().data()),
+                      static_cast<std::size_t>(record - archive.records().data()), solution.events);
+    // The older id may have moved to the deeper place.
+    const std::uint64_t gone = living == id ? ids[root] : id;
+    std::replace(ids.begin(), ids.end(), gone, living);
+  }
 }
 
 }  // namespace concave_distance

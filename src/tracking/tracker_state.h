@@ -6,22 +6,21 @@
 #include <string>
 #include <vector>
 
+#include "concave_distance/distance/basin_verdict.h"
 #include "concave_distance/distance/certificate.h"
+#include "concave_distance/distance/cone_sweep.h"
 #include "concave_distance/distance/local_minima.h"
 #include "concave_distance/search/automatic_radii.h"
+#include "concave_distance/search/pair_objective.h"
 #include "concave_distance/search/search_workspace.h"
 #include "concave_distance/tracking/niche_admission.h"
 #include "concave_distance/tracking/niche_archive.h"
 #include "concave_distance/tracking/pair_geometry.h"
 #include "concave_distance/tracking/pair_solution.h"
-#include "concave_distance/tracking/prominence_flood.h"
 #include "concave_distance/tracking/ripple_memory.h"
 #include "concave_distance/tracking/tracker_parameters.h"
 
 namespace concave_distance {
-
-// Cycles for which a verdict on a ripple is believed.
-inline constexpr std::uint64_t kRippleJudgement = 4;
 
 // What a plateau's distance may vary by, relative to the bodies: far above the kernels' rounding.
 inline constexpr double kPlateauTolerance = 1e-9;
@@ -69,21 +68,18 @@ struct TrackerState {
   void evolve(const PairObjective& objective, PairSolution& solution);
   void collectCandidates(std::size_t known_minima);
   void projectNiches(PairSolution& solution);
-  void walkRipples(PairSolution& solution);
-  bool isBeside(const NicheRecord& record) const;
-  std::optional<WitnessPair> nextToWalkFrom();
-  void settleRipples(PairSolution& solution);
+  void sweepCones(PairSolution& solution);
 
   // settle_niches.cpp: which candidates are niches, and which niches are still niches of their own.
   void settleCandidates(PairSolution& solution);
-  void orderCandidates();
-  void admitCandidates(std::vector<NicheEvent>& events);
-  bool isOnPlateauOf(const NicheCandidate& candidate, std::uint64_t id) const;
-  AdmissionResult verdictOnRipple(const NicheCandidate& candidate);
   void reviewRecords(PairSolution& solution);
-  bool leadsDown(const PairObjective& objective, const TrialPoint& start, const TrackedNiche& niche,
-                 PairSolution& solution);
-  void drownNewborns(const PairObjective& objective, PairSolution& solution);
+  void report(const NicheCandidate& candidate, const AdmissionResult& result,
+              std::vector<NicheEvent>& events);
+  bool isDark(const WitnessPair& witness, Outwardness outward);
+  std::optional<AdmissionResult> knownVerdict(const NicheCandidate& candidate, Outwardness& outward);
+  std::uint64_t bear(const NicheCandidate& candidate, Outwardness outward);
+  void judge(PairSolution& solution);
+  void settleVerdicts(std::size_t known, PairSolution& solution);
 
   // complete_niches.cpp: level `complete`.
   void completeNiches(double displacement, double elapsed, PairSolution& solution);
@@ -115,13 +111,24 @@ struct TrackerState {
   WitnessPair dark_side;  ///< the closest pair of this cycle that runs through material
   bool dark_side_met = false;
   bool swallowed = false;  ///< the last cycle found so by its dark side
-  // Where floods have started that led on: their niches are not flooded again for some cycles.
-  struct Drowned {
-    TrialPoint start;
-    std::uint64_t cycle;
+  /// A candidate that waits for its verdict.
+  struct Pending {
+    std::size_t candidate;
+    Outwardness outward;
   };
-  std::vector<Drowned> drowned;
-  FloodWorkspace flood;
+  /// Buffers of judge().
+  struct Judging {
+    std::vector<char> records;  ///< not 0: to be judged again
+    std::vector<BasinSeed> seeds;
+    std::vector<Pending> pending;
+    BasinVerdicts verdicts;
+    std::vector<std::uint64_t> ids;     ///< of the niche of every basin
+    std::vector<std::size_t> seeded;    ///< first seed of every basin
+    std::vector<std::uint64_t> record_ids;
+  };
+  Judging judging;
+  ConeSweep sweep;
+  std::vector<MinimumSeed> swept;
   RippleMemory ripples;
   std::uint64_t cycle = 0;
   bool warm = false;
@@ -129,8 +136,6 @@ struct TrackerState {
   double last_time = 0.0;
   double last_elapsed = 0.0;
   double last_distance = kNotComputed;
-  std::array<FeatureKey, 2>
-      last_features{};  ///< of the nearest niche when its surroundings were last looked at
   std::size_t next_review = 0;
   std::size_t next_projection = 0;
   double moved_since_search = 0.0;  ///< metres, at most

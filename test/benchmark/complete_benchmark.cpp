@@ -15,10 +15,8 @@
 //   double   share that lie in a true niche which another reported one is nearer to the bottom of
 //   false    share that belong to no outward niche of the list at all
 //   complete, cold, cycle: milliseconds, means; one thread. Complete leaves out the indices, built once.
-// Reasons for what the cold solves missed, by trying each on its own: `grid`, no local minimum of the grids
-// is refined to it; `united`, a way of less than the least prominence is known from it to a deeper minimum,
-// along chords or over the grids, which the surfaces do not have; `ripples`, neither, and a solve with least
-// prominence 0, which asks from every ripple and not only from niches, does find it; `unmet`, not even that.
+// Reasons for what the cold solves missed: `grid`, no local minimum of the grids is refined to it; `unmet`,
+// one is.
 #include <CLI/CLI.hpp>
 
 #include <chrono>
@@ -34,9 +32,7 @@
 #include "concave_distance/distance/enumeration.h"
 #include "concave_distance/distance/local_minima.h"
 #include "concave_distance/search/local_descent.h"
-#include "concave_distance/tracking/niche_admission.h"
 #include "concave_distance/tracking/pair_tracker.h"
-#include "concave_distance/tracking/prominence_flood.h"
 
 namespace concave_distance::benchmark {
 namespace {
@@ -203,23 +199,15 @@ class Comparison {
       tally_.cold_ms.push_back(millisecondsSince(start));
       const LocalMinima truth = compare(pose, cutoff, fresh, tally_.cold, false);
       if (missed_.empty()) continue;
-      const std::vector<std::size_t> missed = missed_;
       if (!grid_known) led_to = gridLeadsTo(pose, cutoff);
       grid_known = true;
-      parameters.least_prominence = 0.0;
-      Shares unused;
-      compare(pose, cutoff, solveOnce(pair_.name, pair_.a, pair_.b, parameters, pose), unused, false);
-      for (const std::size_t i : missed) {
+      for (const std::size_t i : missed_) {
         if (Miss* known = knownMiss(instant, truth.niches[i])) {
           ++known->times;
           ++tally_.missed[known->reason];
           continue;
         }
-        const bool at_zero = std::find(missed_.begin(), missed_.end(), i) == missed_.end();
-        const char* reason = led_to.count(i) == 0              ? "grid"
-                             : isUnited(pose, truth.niches[i]) ? "united"
-                             : at_zero                         ? "ripples"
-                                                               : "unmet";
+        const char* reason = led_to.count(i) == 0 ? "grid" : "unmet";
         ++tally_.missed[reason];
         tally_.misses.push_back({instant, 1, truth.niches[i].distance / cutoff, truth.niches[i], reason});
       }
@@ -232,40 +220,6 @@ class Comparison {
       if (miss.instant == instant && std::abs(miss.niche.distance - niche.distance) < 1e-12) return &miss;
     }
     return nullptr;
-  }
-
-  /// Whether a shortcut leads from a niche to a deeper minimum: what admission would unite it by.
-  bool isUnited(const Eigen::Isometry3d& pose, const LocalMinimum& niche) {
-    PairGeometry geometry(pair_.a, pair_.b);
-    geometry.setPose(pose);
-    LocalMinimaRequest request;
-    request.cutoff = niche.distance;
-    request.least_prominence = request.prominence_limit = 0.0;
-    for (const LocalMinimum& other : findLocalMinima(*pair_.a, *pair_.b, pose, request).niches) {
-      if (other.distance < niche.distance &&
-          prominenceBound(geometry, niche.witness, other.witness, kLeastProminence) < kLeastProminence) {
-        return true;
-      }
-    }
-    const PairObjective objective(*pair_.a, *pair_.b, pose);
-    SearchCost cost;
-    FloodWorkspace flood;
-    std::vector<std::uint64_t> trail;
-    const TrialPoint start = descend(objective, geometry.nodePairNear(niche.witness), nullptr, trail, cost);
-    const auto refinedAt = [&](const TrialPoint& nodes) {
-      return std::sqrt(
-          geometry.refine(pair_.a->originalTriangle(nodes.node_a), pair_.b->originalTriangle(nodes.node_b))
-              .witness.squared_distance);
-    };
-    const double same = niche.distance - geometry.samePlaceTolerance();
-    if (refinedAt(start) < same &&
-        std::sqrt(start.squared_distance) <= (1.0 + kLeastProminence) * niche.distance)
-      return true;
-    constexpr std::uint32_t kStates = 20000;
-    const auto deeper =
-        floodForDeeper(objective, start, (1.0 + kLeastProminence) * std::sqrt(start.squared_distance), 0.0,
-                       kStates, flood, cost);
-    return deeper && refinedAt(*deeper) < same;
   }
 
   /// The true niches that refinements of the grids' own local minima end in.
@@ -328,13 +282,12 @@ int benchmarkMain(int argc, char** argv) {
     csv.open(output);
     csv << "pair,triangles_a,triangles_b,observed,niches_mean,tracked_recall,tracked_prominent_recall,"
            "cold_recall,cold_prominent_recall,tracked_own,tracked_double,tracked_false,cold_own,cold_double,"
-           "cold_false,missed_grid,missed_united,missed_ripples,missed_unmet,index_ms,complete_ms,complete_"
+           "cold_false,missed_grid,missed_unmet,index_ms,complete_ms,complete_"
            "max_ms,cold_ms,"
            "cycle_ms,met_by_flood\n";
   }
-  std::printf("%-19s %7s | %7s %7s %7s %7s | %6s %6s %6s | %5s %6s %7s %5s | %8s %8s %8s %8s %8s\n", "pair",
-              "niches", "tracked", ">=5e-2", "cold", ">=5e-2", "own", "double", "false", "grid", "united",
-              "ripples", "unmet", "index", "complete", "max", "cold", "cycle");
+  std::printf("%-19s %7s | %7s %7s %7s %7s | %6s %6s %6s | %5s %5s | %8s %8s %8s %8s %8s\n", "pair",
+              "niches", "tracked", ">=5e-2", "cold", ">=5e-2", "own", "double", "false", "grid", "unmet", "index", "complete", "max", "cold", "cycle");
   for (const std::string& name : names) {
     const BenchmarkPair pair = loadBenchmarkPair(name);
     Tally t = Comparison(pair, options).run();
@@ -351,11 +304,11 @@ int benchmarkMain(int argc, char** argv) {
                              share(t.cold.none, t.cold.reported)};
     const double longest = *std::max_element(t.complete_ms.begin(), t.complete_ms.end());
     std::printf(
-        "%-19s %7.2f | %7.4f %7.4f %7.4f %7.4f | %6.3f %6.3f %6.3f | %5d %6d %7d %5d | %8.2f %8.2f %8.2f "
+        "%-19s %7.2f | %7.4f %7.4f %7.4f %7.4f | %6.3f %6.3f %6.3f | %5d %5d | %8.2f %8.2f %8.2f "
         "%8.2f "
         "%8.3f\n",
         name.c_str(), values[0], values[1], values[2], values[3], values[4], values[5], values[6], values[7],
-        t.missed["grid"], t.missed["united"], t.missed["ripples"], t.missed["unmet"], t.index_ms,
+        t.missed["grid"], t.missed["unmet"], t.index_ms,
         mean(t.complete_ms), longest, mean(t.cold_ms), mean(t.cycle_ms));
     list(t.misses, options.list_misses);
     std::fflush(stdout);
@@ -363,8 +316,7 @@ int benchmarkMain(int argc, char** argv) {
       csv << name << ',' << pair.a->surface().triangleCount() << ',' << pair.b->surface().triangleCount()
           << ',' << t.observed;
       for (const double value : values) csv << ',' << value;
-      csv << ',' << t.missed["grid"] << ',' << t.missed["united"] << ',' << t.missed["ripples"] << ','
-          << t.missed["unmet"] << ',' << t.index_ms << ',' << mean(t.complete_ms) << ',' << longest << ','
+      csv << ',' << t.missed["grid"] << ',' << t.missed["unmet"] << ',' << t.index_ms << ',' << mean(t.complete_ms) << ',' << longest << ','
           << mean(t.cold_ms) << ',' << mean(t.cycle_ms) << ',' << t.met_by_flood << '\n';
     }
   }

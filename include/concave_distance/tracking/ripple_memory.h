@@ -2,62 +2,51 @@
 
 #include <array>
 #include <cstdint>
-#include <vector>
+#include <optional>
 
-#include "concave_distance/tracking/niche_archive.h"
-#include "concave_distance/tracking/pair_geometry.h"
+#include "concave_distance/distance/witness_refinement.h"
 
 namespace concave_distance {
 
-/// Which vertex, edge or face a witness lies on: the same for every triangle that shares it.
-struct FeatureKey {
-  Feature kind = Feature::Face;
-  std::uint32_t first = 0;
-  std::uint32_t second = 0;
-  bool operator==(const FeatureKey& other) const {
-    return kind == other.kind && first == other.first && second == other.second;
-  }
-};
-FeatureKey featureKey(const SurfaceMesh& surface, TriangleIndex triangle, Feature feature);
-
-std::array<FeatureKey, 2> featuresOf(const PairGeometry& geometry, const WitnessPair& witness);
-
-/// A local minimum that is no niche of its own: its prominence is below the least, so that it belongs to a
-/// deeper niche. Tessellated valleys are full of them, and the next one may be the deeper in the next cycle.
-struct Ripple {
-  WitnessPair witness;
-  std::array<FeatureKey, 2> features;
-  std::uint64_t owner = 0;   ///< id of the niche it belongs to
-  std::uint64_t judged = 0;  ///< cycle in which its prominence was last looked at
-  std::uint64_t walked = 0;  ///< cycle in which its surroundings were last looked at, plus 1; 0: never
-};
-
-/// The ripples of one pair, a fixed number at the most; those longest not judged give way.
+/// Local minima that are no niches of their own: their prominence is below the least, so that they belong to
+/// a deeper niche. Tessellated valleys are full of them and searches meet them again and again; for a few
+/// cycles the verdict is believed without another flood. A fixed number; a new one takes the place of another.
 class RippleMemory {
  public:
-  /// Room for all ripples of a pair, entries.
-  static constexpr std::size_t kCapacity = 64;
+  /// Cycles for which a verdict is believed.
+  static constexpr std::uint64_t kBelief = 4;
 
-  void clear() { ripples_.clear(); }
-  std::vector<Ripple>& ripples() { return ripples_; }
+  void clear() { ripples_.fill({}); }
 
-  /// The ripple on the same features, or null.
-  Ripple* find(const PairGeometry& geometry, const WitnessPair& witness);
-  /// Enters a witness or judges it again.
-  void remember(const PairGeometry& geometry, const WitnessPair& witness, std::uint64_t owner,
-                std::uint64_t cycle);
-  /// Moves the ripples of one niche to their minima at the geometry's pose; those that have run together, or
-  /// into `deepest`, become one. The others stay as they were.
-  void follow(std::uint64_t owner, const WitnessPair& deepest, PairGeometry& geometry);
+  /// Id of the niche that the minimum on this triangle pair belonged to, if that is known.
+  std::optional<std::uint64_t> ownerOf(TriangleIndex a, TriangleIndex b, std::uint64_t cycle) const {
+    const Ripple& ripple = ripples_[slotOf(a, b)];
+    if (ripple.owner == 0 || ripple.a != a || ripple.b != b || ripple.judged + kBelief <= cycle) {
+      return std::nullopt;
+    }
+    return ripple.owner;
+  }
+
+  void remember(TriangleIndex a, TriangleIndex b, std::uint64_t owner, std::uint64_t cycle) {
+    ripples_[slotOf(a, b)] = {a, b, owner, cycle};
+  }
 
  private:
-  std::vector<Ripple> ripples_;
-};
+  struct Ripple {
+    TriangleIndex a;
+    TriangleIndex b;
+    std::uint64_t owner = 0;
+    std::uint64_t judged = 0;  ///< cycle
+  };
+  static constexpr std::size_t kCapacity = 1024;
 
-/// Looks for the ripples next to a local minimum: from each vertex around its witness on either body, a walk
-/// over the other body towards it; the closest few that lie elsewhere are refined from beyond the vertex and
-/// appended. Bounded: at most 48 vertices a body.
-void stepOverRipples(PairGeometry& geometry, const WitnessPair& from,
-                     std::vector<NicheCandidate>& candidates);
+  /// Fibonacci hashing: the product's upper bits depend on every bit of the key.
+  static std::size_t slotOf(TriangleIndex a, TriangleIndex b) {
+    const std::uint64_t key = (std::uint64_t{a.value} << 32U) | b.value;
+    return static_cast<std::size_t>((key * 0x9e3779b97f4a7c15ULL) >> 54U);
+  }
+
+  std::array<Ripple, kCapacity> ripples_{};
+};
 
 }  // namespace concave_distance

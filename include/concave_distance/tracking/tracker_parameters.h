@@ -35,6 +35,9 @@ struct TrackerParameters {
   /// the latest; the cycles between follow the known niches and ask the nearest one only.
   double search_motion = 0.5;
   std::uint32_t search_interval = 4;
+  /// Groups of normal cones that a warm cycle compares to find what the search has not: a sweep over all of
+  /// them takes as many cycles as it needs, and begins anew. A cold cycle compares all. 0: none.
+  std::uint32_t swept_cones = 800;
   bool extrapolate = true;         ///< start from where the relative velocity has carried the witnesses
   double least_prominence = 1e-2;  ///< niches with less are merged into their deeper neighbour
   /// Of level `complete`: prominences are measured up to this; higher ones are not computed, which is what

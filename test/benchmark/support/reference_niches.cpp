@@ -6,8 +6,9 @@
 
 #include "concave_distance/distance/enumeration.h"
 #include "concave_distance/search/local_descent.h"
-#include "concave_distance/tracking/niche_admission.h"
-#include "concave_distance/tracking/prominence_flood.h"
+#include "concave_distance/distance/basin_verdict.h"
+#include "concave_distance/tracking/pair_geometry.h"
+#include "benchmark/support/grid_flood.h"
 
 namespace concave_distance::benchmark {
 
@@ -74,8 +75,16 @@ bool isSameNiche(const BenchmarkPair& pair, const Eigen::Isometry3d& pose, const
     return true;
   }
   const bool deeper = found.squared_distance < reference.squared_distance;
-  return prominenceBound(geometry, deeper ? reference : found, deeper ? found : reference, least_prominence) <
-         least_prominence;
+  const auto seed = [&](const WitnessPair& witness, bool judged) {
+    return BasinSeed{witness.triangle_a, witness.triangle_b, std::sqrt(witness.squared_distance),
+                     least_prominence, judged};
+  };
+  constexpr std::size_t kLargestFlood = 100'000;
+  BasinVerdicts verdicts;
+  judgeBasins(*pair.a, *pair.b, pose,
+              {seed(deeper ? found : reference, false), seed(deeper ? reference : found, true)},
+              kLargestFlood, verdicts);
+  return verdicts.rootOf(verdicts.basinOf(1)) == verdicts.rootOf(verdicts.basinOf(0));
 }
 
 namespace {

@@ -1,9 +1,9 @@
-#include "concave_distance/tracking/prominence_flood.h"
+#include "benchmark/support/grid_flood.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace concave_distance {
+namespace concave_distance::benchmark {
 
 std::optional<TrialPoint> floodForDeeper(const PairObjective& objective, const TrialPoint& start,
                                          double level, double noise, std::uint32_t state_limit,
@@ -51,4 +51,4 @@ std::optional<TrialPoint> floodForDeeper(const PairObjective& objective, const T
   return std::nullopt;
 }
 
-}  // namespace concave_distance
+}  // namespace concave_distance::benchmark

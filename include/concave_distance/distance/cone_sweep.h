@@ -1,0 +1,38 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "concave_distance/mesh/body_mesh.h"
+
+namespace concave_distance {
+
+/// A triangle pair whose closest points are a local minimum of the distance over both surfaces.
+struct MinimumSeed {
+  TriangleIndex a;
+  TriangleIndex b;
+  double distance;  ///< metres
+};
+
+/// Looks through the normal cones of two bodies for local minima (doc/algorithm.md, section 7) in portions:
+/// each call goes on where the last one has ended, at the pose of its own, and begins anew after the end. Over
+/// a motion every part is looked at once in a while; what lives for as long is found.
+class ConeSweep {
+ public:
+  /// Appends triangle pairs that hold local minima above 0 and up to `cutoff` (metres), some more than once.
+  /// @param budget groups of four cones to compare
+  /// @return pairs of features whose distance was computed
+  std::uint64_t advance(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
+                        NormalSides sides, double cutoff, std::size_t budget,
+                        std::vector<MinimumSeed>& found);
+  /// The next call begins anew.
+  void restart() { open_.clear(); }
+  std::size_t memoryBytes() const { return open_.capacity() * sizeof(open_[0]); }
+
+ private:
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> open_;  ///< children of both trees
+};
+
+}  // namespace concave_distance
