@@ -63,7 +63,7 @@ void addOptions(CLI::App& app, CommandLine& line) {
       ->capture_default_str();
   app.add_option(
          "--prominence-limit", options.prominence_limit,
-         "complete: prominences are measured up to this (inf: all below the cutoff, which takes long)")
+         "complete: prominences are measured up to this (0: none; inf: all below the cutoff, which takes long)")
       ->check([](const std::string& text) -> std::string {
         double value = 0.0;
         const bool fits = CLI::detail::lexical_cast(text, value) && value >= 0.0;

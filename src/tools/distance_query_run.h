@@ -21,7 +21,7 @@ struct DistanceQueryOptions {
   double absolute_tolerance = 0.0;                          ///< metres; of level `certified`
   double relative_tolerance = 0.0;                          ///< of the distance; of level `certified`
   double least_prominence = 1e-2;
-  double prominence_limit = 5e-2;                                ///< of level `complete`
+  double prominence_limit = 0.0;                                 ///< of level `complete`
   double time_budget = std::numeric_limits<double>::infinity();  ///< seconds a query; of level `certified`
   std::optional<double> max_edge_length;                         ///< metres; grid of the search, both bodies
   std::string cache;  ///< folder of prepared bodies; empty: the user's, "off": none

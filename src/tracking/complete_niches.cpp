@@ -85,7 +85,6 @@ void TrackerState::completeNiches(double displacement, double elapsed, PairSolut
         heirs[k] != kNone && elapsed > 0.0 ? (before - record.niche.distance) / elapsed : kNotComputed;
     next.push_back(record);
   }
-  if (!next.empty()) next.front().niche.prominence = std::numeric_limits<double>::infinity();
   records.swap(next);
   archive.settle();
 }

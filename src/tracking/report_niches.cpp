@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "concave_distance/distance/niche_properties.h"
 #include "tracker_state.h"
@@ -64,6 +65,9 @@ void TrackerState::listNiches(PairSolution& solution) {
     archive.remove(records.size() - 1, solution.events);
     solution.niches_cut = true;
   }
+  if (!records.empty()) {
+    records.front().niche.prominence = std::numeric_limits<double>::infinity();
+  }
   for (NicheRecord& record : records) {
     if (record.niche.distance > parameters.cutoff) {
       ++solution.niches_beyond_cutoff;
@@ -72,6 +76,9 @@ void TrackerState::listNiches(PairSolution& solution) {
     if (solution.niches.size() == parameters.largest_niche_count) {
       solution.niches_cut = true;
       continue;
+    }
+    if (&record != &records.front() && std::isinf(record.niche.prominence)) {
+      record.niche.prominence = kNotComputed;  // it was the deepest
     }
     if (!record.reported) {
       solution.events.push_back({NicheEvent::Kind::Birth, record.niche.id, 0});

@@ -46,7 +46,8 @@ struct TrackedNiche {
   double extent = 0.0;  ///< metres, see NicheExtent::length
   Outwardness outward = Outwardness::Outward;
   bool visible = true;
-  /// Lower value of (pass level / distance - 1) to any deeper niche found so far; infinite for the deepest.
+  /// (Lowest pass to a deeper niche) / distance - 1 where it was measured, at level `complete`; infinite for
+  /// the deepest.
   double prominence = kNotComputed;
   bool proven_local_minimum = false;
   std::uint64_t birth_cycle = 0;

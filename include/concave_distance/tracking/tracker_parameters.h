@@ -40,9 +40,9 @@ struct TrackerParameters {
   std::uint32_t swept_cones = 800;
   bool extrapolate = true;         ///< start from where the relative velocity has carried the witnesses
   double least_prominence = 1e-2;  ///< niches with less are merged into their deeper neighbour
-  /// Of level `complete`: prominences are measured up to this; higher ones are not computed, which is what
-  /// most of their price would be.
-  double prominence_limit = 5e-2;
+  /// Of level `complete`: prominences are measured up to this, at a price that grows with it; up to
+  /// `least_prominence` none is: it is only decided who has the least.
+  double prominence_limit = 0.0;
   double cutoff = std::numeric_limits<double>::infinity();  ///< niches farther than this are not reported
   std::uint32_t largest_niche_count = 64;                   ///< of the report; a cut is always reported
   bool niches_wanted = true;                                ///< false: only the distance is asked for
