@@ -60,8 +60,7 @@ class Describer {
 
 /// Verdicts alone; no pass is measured.
 detail::FloodResult decide(const detail::MinimaScene& scene, const LocalMinimaRequest& request,
-                           const std::vector<MinimumSeed>& seeds, std::size_t owned,
-                           LocalMinimaCost& cost) {
+                           const std::vector<MinimumSeed>& seeds, std::size_t owned, LocalMinimaCost& cost) {
   std::vector<BasinSeed> basin_seeds;
   basin_seeds.reserve(seeds.size());
   for (const MinimumSeed& seed : seeds) {

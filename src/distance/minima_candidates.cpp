@@ -89,8 +89,8 @@ class Traversal {
         cost_(cost),
         open_(open) {}
 
-  /// Until every pair is looked at or the budget (groups of cones) is used up; goes on from what is open, from
-  /// the roots when nothing is.
+  /// Until every pair is looked at or the budget (groups of cones) is used up; goes on from what is open,
+  /// from the roots when nothing is.
   void run(std::size_t budget) {
     if (cones_a_.empty() || cones_b_.empty()) return;
     if (open_.empty()) open_.emplace_back(NormalConeTree::kRoot, NormalConeTree::kRoot);

@@ -61,9 +61,9 @@ void addOptions(CLI::App& app, CommandLine& line) {
                  "niches with less are part of their deeper neighbour")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
-  app.add_option(
-         "--prominence-limit", options.prominence_limit,
-         "complete: prominences are measured up to this (0: none; inf: all below the cutoff, which takes long)")
+  app.add_option("--prominence-limit", options.prominence_limit,
+                 "complete: prominences are measured up to this (0: none; inf: all below the cutoff, which "
+                 "takes long)")
       ->check([](const std::string& text) -> std::string {
         double value = 0.0;
         const bool fits = CLI::detail::lexical_cast(text, value) && value >= 0.0;

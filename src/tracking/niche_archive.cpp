@@ -17,8 +17,8 @@ bool isWithin(const NicheRecord& record, const Eigen::Vector3d& point_a_in_a,
 }  // namespace
 
 const NicheRecord* NicheArchive::find(std::uint64_t id) const {
-  const auto record = std::find_if(records_.begin(), records_.end(),
-                                   [id](const NicheRecord& r) { return r.niche.id == id; });
+  const auto record =
+      std::find_if(records_.begin(), records_.end(), [id](const NicheRecord& r) { return r.niche.id == id; });
   return record == records_.end() ? nullptr : &*record;
 }
 

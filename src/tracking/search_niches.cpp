@@ -131,10 +131,9 @@ void TrackerState::sweepCones(PairSolution& solution) {
     cutoff = std::min(cutoff, archive.records()[parameters.largest_niche_count].niche.distance);
   }
   swept.clear();
-  solution.cost.evaluations +=
-      sweep.advance(*geometry.a, *geometry.b, geometry.a_from_b,
-                    parameters.keep_through_material ? NormalSides::Both : NormalSides::Outside, cutoff,
-                    budget, swept);
+  solution.cost.evaluations += sweep.advance(
+      *geometry.a, *geometry.b, geometry.a_from_b,
+      parameters.keep_through_material ? NormalSides::Both : NormalSides::Outside, cutoff, budget, swept);
   for (const MinimumSeed& pair : swept) {
     const WitnessRefinement refined = geometry.refine(pair.a, pair.b);
     candidates.push_back({refined.witness, geometry.nodePairNear(refined.witness), refined.proven, 0});

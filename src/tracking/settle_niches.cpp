@@ -87,8 +87,8 @@ std::optional<AdmissionResult> TrackerState::knownVerdict(const NicheCandidate& 
       archive.findSamePlace(witness.point_a_in_a, point_b_in_b, geometry.samePlaceTolerance());
   if (known == nullptr && witness.squared_distance == 0.0) {
     // Touching or crossing surfaces meet in whole curves of pairs at distance 0: one niche per neighbourhood.
-    known = archive.findTouching(witness.point_a_in_a, point_b_in_b,
-                                 warm ? warm_radii.niche : cold_radii.niche);
+    known =
+        archive.findTouching(witness.point_a_in_a, point_b_in_b, warm ? warm_radii.niche : cold_radii.niche);
   }
   if (known != nullptr) return AdmissionResult{Admission::SamePlace, known->niche.id};
   if (const auto owner = ripples.ownerOf(witness.triangle_a, witness.triangle_b, cycle)) {

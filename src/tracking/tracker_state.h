@@ -122,8 +122,8 @@ struct TrackerState {
     std::vector<BasinSeed> seeds;
     std::vector<Pending> pending;
     BasinVerdicts verdicts;
-    std::vector<std::uint64_t> ids;     ///< of the niche of every basin
-    std::vector<std::size_t> seeded;    ///< first seed of every basin
+    std::vector<std::uint64_t> ids;   ///< of the niche of every basin
+    std::vector<std::size_t> seeded;  ///< first seed of every basin
     std::vector<std::uint64_t> record_ids;
   };
   Judging judging;

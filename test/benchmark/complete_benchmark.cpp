@@ -95,9 +95,7 @@ TrackerParameters searchParameters() {
 class Comparison {
  public:
   Comparison(const BenchmarkPair& pair, const Options& options)
-      : pair_(pair),
-        options_(options),
-        start_(std::chrono::steady_clock::now()) {
+      : pair_(pair), options_(options), start_(std::chrono::steady_clock::now()) {
     pair.a->normalCones(NormalSides::Outside);
     pair.b->normalCones(NormalSides::Outside);
     pair.a->adjacency();
@@ -286,8 +284,9 @@ int benchmarkMain(int argc, char** argv) {
            "max_ms,cold_ms,"
            "cycle_ms,met_by_flood\n";
   }
-  std::printf("%-19s %7s | %7s %7s %7s %7s | %6s %6s %6s | %5s %5s | %8s %8s %8s %8s %8s\n", "pair",
-              "niches", "tracked", ">=5e-2", "cold", ">=5e-2", "own", "double", "false", "grid", "unmet", "index", "complete", "max", "cold", "cycle");
+  std::printf("%-19s %7s | %7s %7s %7s %7s | %6s %6s %6s | %5s %5s | %8s %8s %8s %8s %8s\n", "pair", "niches",
+              "tracked", ">=5e-2", "cold", ">=5e-2", "own", "double", "false", "grid", "unmet", "index",
+              "complete", "max", "cold", "cycle");
   for (const std::string& name : names) {
     const BenchmarkPair pair = loadBenchmarkPair(name);
     Tally t = Comparison(pair, options).run();
@@ -308,16 +307,17 @@ int benchmarkMain(int argc, char** argv) {
         "%8.2f "
         "%8.3f\n",
         name.c_str(), values[0], values[1], values[2], values[3], values[4], values[5], values[6], values[7],
-        t.missed["grid"], t.missed["unmet"], t.index_ms,
-        mean(t.complete_ms), longest, mean(t.cold_ms), mean(t.cycle_ms));
+        t.missed["grid"], t.missed["unmet"], t.index_ms, mean(t.complete_ms), longest, mean(t.cold_ms),
+        mean(t.cycle_ms));
     list(t.misses, options.list_misses);
     std::fflush(stdout);
     if (csv) {
       csv << name << ',' << pair.a->surface().triangleCount() << ',' << pair.b->surface().triangleCount()
           << ',' << t.observed;
       for (const double value : values) csv << ',' << value;
-      csv << ',' << t.missed["grid"] << ',' << t.missed["unmet"] << ',' << t.index_ms << ',' << mean(t.complete_ms) << ',' << longest << ','
-          << mean(t.cold_ms) << ',' << mean(t.cycle_ms) << ',' << t.met_by_flood << '\n';
+      csv << ',' << t.missed["grid"] << ',' << t.missed["unmet"] << ',' << t.index_ms << ','
+          << mean(t.complete_ms) << ',' << longest << ',' << mean(t.cold_ms) << ',' << mean(t.cycle_ms) << ','
+          << t.met_by_flood << '\n';
     }
   }
   return 0;

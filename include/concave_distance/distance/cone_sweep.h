@@ -17,8 +17,8 @@ struct MinimumSeed {
 };
 
 /// Looks through the normal cones of two bodies for local minima (doc/algorithm.md, section 7) in portions:
-/// each call goes on where the last one has ended, at the pose of its own, and begins anew after the end. Over
-/// a motion every part is looked at once in a while; what lives for as long is found.
+/// each call goes on where the last one has ended, at the pose of its own, and begins anew after the end.
+/// Over a motion every part is looked at once in a while; what lives for as long is found.
 class ConeSweep {
  public:
   /// Appends triangle pairs that hold local minima above 0 and up to `cutoff` (metres), some more than once.

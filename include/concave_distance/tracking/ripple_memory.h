@@ -10,7 +10,8 @@ namespace concave_distance {
 
 /// Local minima that are no niches of their own: their prominence is below the least, so that they belong to
 /// a deeper niche. Tessellated valleys are full of them and searches meet them again and again; for a few
-/// cycles the verdict is believed without another flood. A fixed number; a new one takes the place of another.
+/// cycles the verdict is believed without another flood. A fixed number; a new one takes the place of
+/// another.
 class RippleMemory {
  public:
   /// Cycles for which a verdict is believed.

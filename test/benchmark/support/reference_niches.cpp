@@ -4,11 +4,11 @@
 #include <cmath>
 #include <optional>
 
+#include "benchmark/support/grid_flood.h"
+#include "concave_distance/distance/basin_verdict.h"
 #include "concave_distance/distance/enumeration.h"
 #include "concave_distance/search/local_descent.h"
-#include "concave_distance/distance/basin_verdict.h"
 #include "concave_distance/tracking/pair_geometry.h"
-#include "benchmark/support/grid_flood.h"
 
 namespace concave_distance::benchmark {
 
