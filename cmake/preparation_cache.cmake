@@ -13,7 +13,7 @@ file(GLOB headers CONFIGURE_DEPENDS
 list(APPEND fingerprinted ${headers})
 list(SORT fingerprinted)
 string(REPLACE ";" "|" files "${fingerprinted}")
-set(fingerprint ${PROJECT_BINARY_DIR}/generated/preparation_fingerprint.h)
+set(fingerprint ${PROJECT_BINARY_DIR}/preparation_fingerprint.h)
 add_custom_command(OUTPUT ${fingerprint}
   COMMAND ${CMAKE_COMMAND} "-DFILES=${files}" "-DOUTPUT=${fingerprint}"
     "-DCOMPILER=${CMAKE_CXX_COMPILER_ID} ${CMAKE_CXX_COMPILER_VERSION} ${CMAKE_CXX_FLAGS} ${CMAKE_BUILD_TYPE} ${CONCAVE_DISTANCE_NATIVE} ${EIGEN3_VERSION_STRING} ${assimp_VERSION}"
@@ -22,4 +22,4 @@ add_custom_command(OUTPUT ${fingerprint}
   COMMENT "Fingerprint of the sources that make bodies ready"
   VERBATIM)
 target_sources(concave_distance_core PRIVATE ${fingerprint})
-target_include_directories(concave_distance_core PRIVATE ${PROJECT_BINARY_DIR}/generated)
+target_include_directories(concave_distance_core PRIVATE ${PROJECT_BINARY_DIR})
