@@ -11,10 +11,12 @@ namespace concave_distance {
 namespace detail {
 
 struct BasinBuffers {
+  static constexpr std::uint32_t kNone = 0xffffffffU;
   struct Cell {
     TriangleIndex a;
     TriangleIndex b;
-    std::uint32_t basin;
+    std::uint32_t basin;    ///< whose flood has looked at it, or kNone
+    std::uint32_t reached;  ///< last basin whose flood has reached it
   };
   /// A triangle pair that can be reached and has not been looked at yet.
   struct Reached {
@@ -59,8 +61,8 @@ class Judge {
   /// A known niche; another seed's basin when that has its triangle pair.
   std::uint32_t enter(const BasinSeed& seed) {
     const std::uint32_t known = table_.find(seed.a, seed.b);
-    if (known == PairTable::kAbsent) return addBasin(seed.a, seed.b, seed.distance, seed.least_prominence);
-    return cells_[known].basin;
+    if (known != PairTable::kAbsent && cells_[known].basin != kNone) return cells_[known].basin;
+    return addBasin(seed.a, seed.b, seed.distance, seed.least_prominence);
   }
 
   std::uint32_t judge(const BasinSeed& seed) {
@@ -74,9 +76,10 @@ class Judge {
     const double limit = basins_[basin].flooded;
     double deeper = basins_[basin].distance - tolerance_;
     double pass = basins_[basin].distance;
-    const std::size_t last = cells_.size() + largest_flood_;
+    std::size_t looked_at = 0;
     reached_.clear();
-    reached_.push_back({0.0, cellOf(basin)});
+    reached_.push_back({0.0, table_.find(basins_[basin].a, basins_[basin].b)});
+    cells_[reached_.back().cell].reached = basin;
     while (!reached_.empty()) {
       std::pop_heap(reached_.begin(), reached_.end(), isHigher);
       const Reached next = reached_.back();
@@ -91,21 +94,29 @@ class Judge {
         if (joinsBelow(basin, a, b, pass)) return;
         deeper = basins_[basin].distance - tolerance_;
       }
+      if (cells_[next.cell].basin == kNone) cells_[next.cell].basin = basin;
       bool joined = false;
       forEachNeighbour(scene_, a, b, corners_a, corners_b, levels,
                        [&](TriangleIndex to_a, TriangleIndex to_b, double squared_level) {
                          if (joined || squared_level > limit * limit) return;
-                         const std::uint32_t known = table_.find(to_a, to_b);
-                         if (known == PairTable::kAbsent) {
-                           reached_.push_back({squared_level, addCell(to_a, to_b, basin)});
-                           std::push_heap(reached_.begin(), reached_.end(), isHigher);
-                         } else if (cells_[known].basin != basin) {
-                           joined = meet(basin, rootOf(cells_[known].basin),
-                                         std::max(pass, std::sqrt(squared_level)));
+                         std::uint32_t cell = table_.find(to_a, to_b);
+                         if (cell == PairTable::kAbsent) {
+                           cell = addCell(to_a, to_b);
+                         } else if (cells_[cell].reached == basin) {
+                           return;
                          }
+                         // What is shallower is flooded through, whether it becomes a part of this basin or
+                         // not.
+                         const std::uint32_t other = rootOfCell(cell);
+                         joined = other != kNone && other != basin &&
+                                  meet(basin, other, std::max(pass, std::sqrt(squared_level)));
+                         if (joined) return;
+                         cells_[cell].reached = basin;
+                         reached_.push_back({squared_level, cell});
+                         std::push_heap(reached_.begin(), reached_.end(), isHigher);
                        });
       if (joined) return;
-      if (cells_.size() > last) {
+      if (++looked_at == largest_flood_) {
         basins_[basin].undecided = true;
         return;
       }
@@ -123,18 +134,21 @@ class Judge {
     Basin added{a, b, distance, least_prominence, basin};
     added.flooded = (1.0 + least_prominence) * distance + tolerance_;
     basins_.push_back(added);
-    addCell(a, b, basin);
+    const std::uint32_t known = table_.find(a, b);
+    cells_[known == PairTable::kAbsent ? addCell(a, b) : known].basin = basin;
     return basin;
   }
 
-  std::uint32_t addCell(TriangleIndex a, TriangleIndex b, std::uint32_t basin) {
+  std::uint32_t addCell(TriangleIndex a, TriangleIndex b) {
     const auto cell = static_cast<std::uint32_t>(cells_.size());
-    cells_.push_back({a, b, basin});
+    cells_.push_back({a, b, kNone, kNone});
     table_.insert(a, b, cell);
     return cell;
   }
 
-  std::uint32_t cellOf(std::uint32_t basin) const { return table_.find(basins_[basin].a, basins_[basin].b); }
+  std::uint32_t rootOfCell(std::uint32_t cell) const {
+    return cells_[cell].basin == kNone ? kNone : rootOf(cells_[cell].basin);
+  }
 
   /// Two basins that touch at a level. True when the one that is flooded has ended in the other.
   bool meet(std::uint32_t flooded, std::uint32_t other, double level) {
@@ -153,14 +167,15 @@ class Judge {
     const WitnessPair below = refineWitness(scene_.a, scene_.b, scene_.a_from_b, a, b, refinement_).witness;
     const double distance = std::sqrt(below.squared_distance);
     const std::uint32_t known = table_.find(below.triangle_a, below.triangle_b);
-    if (known != PairTable::kAbsent && rootOf(cells_[known].basin) == basin) {
+    const std::uint32_t owner = known == PairTable::kAbsent ? kNone : rootOfCell(known);
+    if (owner == basin) {
       basins_[basin].distance = distance;
       basins_[basin].a = below.triangle_a;
       basins_[basin].b = below.triangle_b;
       return false;
     }
-    if (known != PairTable::kAbsent) {
-      join(basin, rootOf(cells_[known].basin), pass);
+    if (owner != kNone) {
+      join(basin, owner, pass);
       return true;
     }
     const std::uint32_t bottom =
@@ -174,6 +189,8 @@ class Judge {
     basins_[shallow].owner = deep;
     basins_[shallow].pass = pass;
   }
+
+  static constexpr std::uint32_t kNone = BasinBuffers::kNone;
 
   MinimaScene scene_;
   double tolerance_;

@@ -1,0 +1,160 @@
+#include "concave_distance/distance/basin_verdict.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "concave_distance/distance/cone_sweep.h"
+#include "distance/minima_checks.h"
+
+namespace concave_distance {
+namespace {
+
+using Eigen::Isometry3d;
+using test::Body;
+using test::makeBody;
+
+constexpr std::size_t kNoLimit = 1'000'000;
+constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
+
+struct Scene {
+  Body a;
+  Body b;
+  Isometry3d pose;
+};
+
+Scene drawn(RandomEngine& engine) {
+  return {makeBody(test::concaveShape(uniformIndex(engine, 6))),
+          makeBody(test::concaveShape(uniformIndex(engine, 6))), test::randomPose(engine, 1.2)};
+}
+
+std::vector<MinimumSeed> sweptAtOnce(const Scene& scene) {
+  ConeSweep sweep;
+  std::vector<MinimumSeed> found;
+  sweep.advance(*scene.a, *scene.b, scene.pose, NormalSides::Both, 10.0, kAll, found);
+  return found;
+}
+
+std::vector<BasinSeed> seedsOf(const std::vector<MinimumSeed>& minima, double least_prominence) {
+  std::vector<BasinSeed> seeds;
+  for (const MinimumSeed& m : minima) seeds.push_back({m.a, m.b, m.distance, least_prominence, true});
+  return seeds;
+}
+
+/// The niches above 0 with the least prominence, ascending.
+std::vector<double> distancesOf(const std::vector<LocalMinimum>& niches) {
+  std::vector<double> distances;
+  for (const LocalMinimum& niche : niches) {
+    if (niche.distance > 0.0) distances.push_back(niche.distance);
+  }
+  return distances;
+}
+
+TEST(BasinVerdict, RootsAreTheNichesWhateverTheOrderOfTheSeeds) {
+  RandomEngine engine(31);
+  std::size_t united = 0;
+  for (int run = 0; run < 40; ++run) {
+    const Scene scene = drawn(engine);
+    LocalMinimaRequest request;
+    request.least_prominence = 0.1;
+    request.prominence_limit = 0.2;  // another flood than the one that is tested
+    request.through_material = true;
+    const LocalMinima truth = findLocalMinima(*scene.a, *scene.b, scene.pose, request);
+    if (truth.niches.front().distance == 0.0) continue;  // floods from contact are no seeds of the cones
+    std::vector<BasinSeed> seeds = seedsOf(sweptAtOnce(scene), request.least_prominence);
+    std::reverse(seeds.begin() + static_cast<std::ptrdiff_t>(seeds.size() / 3), seeds.end());
+    BasinVerdicts verdicts;
+    judgeBasins(*scene.a, *scene.b, scene.pose, seeds, kNoLimit, verdicts);
+    std::vector<double> roots;
+    for (std::uint32_t i = 0; i < verdicts.basins().size(); ++i) {
+      const Basin& basin = verdicts.basins()[i];
+      EXPECT_FALSE(basin.undecided);
+      if (basin.owner == i) {
+        roots.push_back(basin.distance);
+        continue;
+      }
+      ++united;
+      EXPECT_LE(basin.pass, 1.1 * basin.distance + 1e-12);
+      EXPECT_GE(basin.pass, basin.distance - 1e-12);
+    }
+    std::sort(roots.begin(), roots.end());
+    const std::vector<double> expected = distancesOf(truth.niches);
+    ASSERT_EQ(roots.size(), expected.size()) << run;
+    for (std::size_t i = 0; i < roots.size(); ++i) EXPECT_NEAR(roots[i], expected[i], 1e-12);
+  }
+  EXPECT_GT(united, 20U);
+}
+
+TEST(BasinVerdict, KnownNichesTakeUpCandidatesAndAreTakenUpByDeeperOnes) {
+  constexpr double kLeast = 1.0;
+  constexpr double kFar = 20.0;
+  RandomEngine engine(32);
+  int taken_up = 0;
+  for (int run = 0; run < 40; ++run) {
+    const Scene scene = drawn(engine);
+    std::vector<BasinSeed> seeds = seedsOf(sweptAtOnce(scene), kLeast);
+    BasinVerdicts all;
+    judgeBasins(*scene.a, *scene.b, scene.pose, seeds, kNoLimit, all);
+    // Each seed that is no root, known and not judged, beside its root as the candidate.
+    for (std::size_t i = 0; i < seeds.size(); ++i) {
+      const std::uint32_t root = all.rootOf(all.basinOf(i));
+      const Basin& deep = all.basins()[root];
+      if (deep.distance < 1e-6) continue;  // floods from contact go nowhere
+      if (root == all.basinOf(i) || all.basins()[all.basinOf(i)].owner != root) continue;
+      const std::vector<BasinSeed> two = {{seeds[i].a, seeds[i].b, seeds[i].distance, kLeast, false},
+                                          {deep.a, deep.b, deep.distance, kFar, true}};
+      BasinVerdicts verdicts;
+      judgeBasins(*scene.a, *scene.b, scene.pose, two, kNoLimit, verdicts);
+      // How far the flood of the deeper one goes, and how little the shallower one stands out, decides.
+      const Basin& shallow = all.basins()[all.basinOf(i)];
+      if (shallow.pass > (1.0 + kFar) * deep.distance) continue;
+      ++taken_up;
+      EXPECT_EQ(verdicts.rootOf(verdicts.basinOf(0)), verdicts.rootOf(verdicts.basinOf(1)));
+      EXPECT_LE(verdicts.basins()[verdicts.basinOf(0)].pass, (1.0 + kLeast) * seeds[i].distance + 1e-12);
+      // The other way round the shallow one is judged and runs into the known one, or into another deeper
+      // one.
+      judgeBasins(*scene.a, *scene.b, scene.pose,
+                  {{seeds[i].a, seeds[i].b, seeds[i].distance, kLeast, true},
+                   {deep.a, deep.b, deep.distance, kLeast, false}},
+                  kNoLimit, verdicts);
+      const std::uint32_t owner = verdicts.rootOf(verdicts.basinOf(0));
+      EXPECT_NE(owner, verdicts.basinOf(0));
+      EXPECT_LT(verdicts.basins()[owner].distance, seeds[i].distance);
+    }
+  }
+  EXPECT_GT(taken_up, 5);
+}
+
+TEST(BasinVerdict, AFloodThatIsCutShortSaysSo) {
+  RandomEngine engine(33);
+  const Scene scene = drawn(engine);
+  const std::vector<BasinSeed> seeds = seedsOf(sweptAtOnce(scene), 10.0);
+  BasinVerdicts verdicts;
+  judgeBasins(*scene.a, *scene.b, scene.pose, {seeds.front()}, 3, verdicts);
+  EXPECT_TRUE(verdicts.basins().front().undecided);
+  EXPECT_LT(verdicts.floodedPairs(), 20U);
+}
+
+TEST(ConeSweep, InPortionsFindsWhatItFindsAtOnce) {
+  RandomEngine engine(34);
+  for (int run = 0; run < 20; ++run) {
+    const Scene scene = drawn(engine);
+    const auto placesOf = [](const std::vector<MinimumSeed>& minima) {
+      std::set<std::pair<std::uint32_t, std::uint32_t>> places;
+      for (const MinimumSeed& m : minima) places.emplace(m.a.value, m.b.value);
+      return places;
+    };
+    const auto at_once = placesOf(sweptAtOnce(scene));
+    ConeSweep sweep;
+    std::vector<MinimumSeed> found;
+    for (int call = 0; call < 2000; ++call) {
+      sweep.advance(*scene.a, *scene.b, scene.pose, NormalSides::Both, 10.0, 7, found);
+    }
+    EXPECT_EQ(placesOf(found), at_once);
+  }
+}
+
+}  // namespace
+}  // namespace concave_distance
