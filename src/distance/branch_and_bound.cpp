@@ -1,7 +1,6 @@
 #include "branch_and_bound.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "hierarchy_access.h"
@@ -11,7 +10,6 @@ namespace {
 
 using Eigen::Vector3d;
 using Hierarchy = BoundingVolumeHierarchy;
-using Clock = std::chrono::steady_clock;
 
 /// Of the rounding of one bound: see kProofError.
 constexpr double kBoundError = 0x1.0p-48;  // 16 machine epsilons
@@ -32,6 +30,7 @@ BranchAndBound::BranchAndBound(const BodyMesh& a, const BodyMesh& b, const Eigen
       turned_(frames_.rotation.transpose()),
       request_(request),
       timed_(std::isfinite(request.time_budget)),
+      start_(timed_ ? Clock::now() : Clock::time_point()),
       open_(workspace.open),
       refinement_(workspace.refinement),
       front_(front),
@@ -43,6 +42,7 @@ BranchAndBound::BranchAndBound(const BodyMesh& a, const BodyMesh& b, const Eigen
 DistanceCertificate BranchAndBound::run(const TrianglePair* seeds, std::size_t seed_count) {
   seed(seeds, seed_count);
   const double seeded = distance_;
+  if (partsAtRoots()) return conclude(false);  // a front can wait
   if (front_ != nullptr && !front_->valid() && front_->wait_ > 0) {
     --front_->wait_;
     front_ = nullptr;
@@ -129,22 +129,24 @@ void BranchAndBound::beginAtRoots() {
   if (open_.empty()) open_.resize(Hierarchy::kWidth);
   open_[0] = {Hierarchy::kRoot, Hierarchy::kRoot, 0.0};
   open_count_ = 1;
-  if (front_ != nullptr || squared_distance_ == 0.0) return;  // a front wants pairs whose bounds last
+}
+
+// Whether the direction between the closest points parts the bodies as wholes.
+bool BranchAndBound::partsAtRoots() {
+  if (squared_distance_ == 0.0) return false;
   const double separation = separationAlongWitnesses(Hierarchy::kRoot, Hierarchy::kRoot);
-  if (separation >= enough_) {
-    exclude(separation);
-    open_count_ = 0;
-  }
+  if (separation < enough_) return false;
+  exclude(separation);
+  return true;
 }
 
 // True when the time was up first.
 bool BranchAndBound::search() {
-  const Clock::time_point start = timed_ ? Clock::now() : Clock::time_point();
   std::uint32_t until_look = kClockInterval;
   while (open_count_ > 0 && squared_distance_ > 0.0) {
     if (timed_ && --until_look == 0) {
       until_look = kClockInterval;
-      if (std::chrono::duration<double>(Clock::now() - start).count() >= request_.time_budget) return true;
+      if (std::chrono::duration<double>(Clock::now() - start_).count() >= request_.time_budget) return true;
     }
     expand(take());
   }

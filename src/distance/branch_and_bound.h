@@ -1,5 +1,7 @@
 #pragma once
 
+#include <chrono>
+
 #include "box_pair_bounds.h"
 #include "concave_distance/distance/certificate.h"
 #include "concave_distance/distance/proof_front.h"
@@ -17,6 +19,8 @@ inline bool isFarther(const CertificateWorkspace::OpenPair& l, const Certificate
 /// One proof: descends into every pair of boxes that could hide a pair of points closer than the best one
 /// known, and keeps, where a front is given, what it has excluded with its bound.
 class BranchAndBound {
+  using Clock = std::chrono::steady_clock;
+
  public:
   BranchAndBound(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
                  const CertificateRequest& request, CertificateWorkspace& workspace, ProofFront* front);
@@ -34,6 +38,7 @@ class BranchAndBound {
                                TriangleIndex triangle_b);
 
   void beginAtRoots();
+  bool partsAtRoots();
   void reopenFront();
   bool search();
   OpenPair take();
@@ -59,7 +64,8 @@ class BranchAndBound {
   const LocalFrames frames_;
   const Eigen::Matrix3d turned_;  ///< from A's axes to B's
   const CertificateRequest& request_;
-  const bool timed_;             ///< then the least bound comes first
+  const bool timed_;  ///< then the least bound comes first
+  const Clock::time_point start_;
   std::vector<OpenPair>& open_;  ///< the first open_count_ of it
   std::size_t open_count_ = 0;
   RefinementWorkspace& refinement_;

@@ -8,6 +8,7 @@ namespace {
 
 // A front that has grown by this factor since it was begun is begun anew: it looks at needlessly small boxes.
 constexpr double kLargestGrowth = 2.0;
+constexpr double kSmallGrowth = 8.0;  // of the smallest, entries
 // When this share of what a fresh proof opens is opened again, the front was not worth keeping.
 constexpr double kWorthless = 0.6;
 constexpr std::uint32_t kLongestWait = 32;
@@ -52,7 +53,7 @@ void ProofFront::decide(bool began_anew, std::uint32_t opened) {
     return;
   }
   next_wait_ = 1;
-  valid_ = static_cast<double>(size()) <= kLargestGrowth * static_cast<double>(size_at_begin_) + 64.0;
+  valid_ = static_cast<double>(size()) <= kLargestGrowth * static_cast<double>(size_at_begin_) + kSmallGrowth;
 }
 
 }  // namespace concave_distance

@@ -113,7 +113,12 @@ TEST(ProofFront, BeginsAnewOnceCleared) {
   CertificateWorkspace workspace;
   ProofFront front;
   const TrianglePair seed{};
-  certifyDistance(*a, *a, onLoop(0.1, 1.2), &seed, 1, CertificateRequest(), workspace, &front);
+  // Linked, so that no plane parts them: what one plane parts needs no front.
+  const Body ring = makeBody(test::makeRing(0.5, 0.1, 14, 6));
+  Isometry3d linked = Isometry3d::Identity();
+  linked.linear() = Eigen::AngleAxisd(0.5 * M_PI, Eigen::Vector3d::UnitX()).toRotationMatrix();
+  linked.translation().x() = 0.5;
+  certifyDistance(*ring, *ring, linked, &seed, 1, CertificateRequest(), workspace, &front);
   EXPECT_TRUE(front.valid());
   front.clear();
   EXPECT_FALSE(front.valid());
