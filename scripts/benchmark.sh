@@ -8,7 +8,7 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 size=${1:-quick}
 case $size in
   quick) runs=200 niche_runs=60 steps=200 window=4 poses=2 seeds=2 edge_scales=1 proof_poses=200 sizes=1000,10000,100000 spacings=0,0.02 rings=100000 ;;
-  full) runs=1000 niche_runs=500 steps=200 window=10 poses=2 seeds=8 edge_scales=1,0.4 proof_poses=7000 sizes=1000,10000,100000,1000000
+  full) runs=1000 niche_runs=500 steps=500 window=10 poses=2 seeds=8 edge_scales=1,0.4 proof_poses=7000 sizes=1000,10000,100000,1000000
     spacings=0,0.01 rings=1000000 ;;
   *) echo "usage: scripts/benchmark.sh [quick|full]" >&2; exit 2 ;;
 esac

@@ -43,11 +43,9 @@ bool isHigher(const Reached& l, const Reached& r) {
 
 class Judge {
  public:
-  Judge(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b, std::size_t largest_flood,
-        BasinBuffers& buffers)
+  Judge(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b, BasinBuffers& buffers)
       : scene_(a, b, a_from_b),
         tolerance_(8.0 * scene_.rounding),
-        largest_flood_(largest_flood),
         table_(buffers.table),
         cells_(buffers.cells),
         reached_(buffers.reached),
@@ -68,11 +66,11 @@ class Judge {
   std::uint32_t judge(const BasinSeed& seed) {
     const std::size_t before = basins_.size();
     const std::uint32_t basin = enter(seed);
-    if (basins_.size() > before) flood(basin);
+    if (basins_.size() > before) flood(basin, seed.largest_flood);
     return basin;
   }
 
-  void flood(std::uint32_t basin) {
+  void flood(std::uint32_t basin, std::size_t largest_flood) {
     const double limit = basins_[basin].flooded;
     double deeper = basins_[basin].distance - tolerance_;
     double pass = basins_[basin].distance;
@@ -91,7 +89,7 @@ class Judge {
       const TrianglePoints corners_b = scene_.cornersOfB(b);
       const CellLevels levels = cellLevels(corners_a, corners_b);
       if (deeper > 0.0 && levels.least() < deeper * deeper) {
-        if (joinsBelow(basin, a, b, pass)) return;
+        if (joinsBelow(basin, a, b, pass, largest_flood)) return;
         deeper = basins_[basin].distance - tolerance_;
       }
       if (cells_[next.cell].basin == kNone) cells_[next.cell].basin = basin;
@@ -116,7 +114,7 @@ class Judge {
                          std::push_heap(reached_.begin(), reached_.end(), isHigher);
                        });
       if (joined) return;
-      if (++looked_at == largest_flood_) {
+      if (++looked_at == largest_flood) {
         basins_[basin].undecided = true;
         return;
       }
@@ -163,7 +161,8 @@ class Judge {
 
   /// From a cell deeper than the basin's start to the minimum under it. False when that is in the basin
   /// itself, which has not started at its bottom then.
-  bool joinsBelow(std::uint32_t basin, TriangleIndex a, TriangleIndex b, double pass) {
+  bool joinsBelow(std::uint32_t basin, TriangleIndex a, TriangleIndex b, double pass,
+                  std::size_t largest_flood) {
     const WitnessPair below = refineWitness(scene_.a, scene_.b, scene_.a_from_b, a, b, refinement_).witness;
     const double distance = std::sqrt(below.squared_distance);
     const std::uint32_t known = table_.find(below.triangle_a, below.triangle_b);
@@ -181,7 +180,7 @@ class Judge {
     const std::uint32_t bottom =
         addBasin(below.triangle_a, below.triangle_b, distance, basins_[basin].least_prominence);
     join(basin, bottom, pass);
-    flood(bottom);
+    flood(bottom, largest_flood);
     return true;
   }
 
@@ -194,7 +193,6 @@ class Judge {
 
   MinimaScene scene_;
   double tolerance_;
-  std::size_t largest_flood_;
   PairTable& table_;
   std::vector<BasinBuffers::Cell>& cells_;
   std::vector<Reached>& reached_;
@@ -235,9 +233,9 @@ std::size_t BasinVerdicts::memoryBytes() const {
 }
 
 void judgeBasins(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
-                 const std::vector<BasinSeed>& seeds, std::size_t largest_flood, BasinVerdicts& verdicts) {
+                 const std::vector<BasinSeed>& seeds, BasinVerdicts& verdicts) {
   detail::BasinBuffers& buffers = verdicts.buffers();
-  detail::Judge judge(a, b, a_from_b, largest_flood, buffers);
+  detail::Judge judge(a, b, a_from_b, buffers);
   buffers.basin_of_seed.resize(seeds.size());
   buffers.order.resize(seeds.size());
   std::iota(buffers.order.begin(), buffers.order.end(), 0U);

@@ -64,11 +64,11 @@ detail::FloodResult decide(const detail::MinimaScene& scene, const LocalMinimaRe
   std::vector<BasinSeed> basin_seeds;
   basin_seeds.reserve(seeds.size());
   for (const MinimumSeed& seed : seeds) {
-    basin_seeds.push_back({seed.a, seed.b, seed.distance, request.least_prominence, true});
+    basin_seeds.push_back({seed.a, seed.b, seed.distance, request.least_prominence, true,
+                           std::numeric_limits<std::size_t>::max()});
   }
   BasinVerdicts verdicts;
-  judgeBasins(scene.a, scene.b, scene.a_from_b, basin_seeds, std::numeric_limits<std::uint32_t>::max(),
-              verdicts);
+  judgeBasins(scene.a, scene.b, scene.a_from_b, basin_seeds, verdicts);
   cost.flooded_pairs += verdicts.floodedPairs();
   detail::FloodResult result;
   const std::vector<Basin>& basins = verdicts.basins();

@@ -25,6 +25,10 @@ bool TrackerState::searchIsDue(double displacement) {
   moved_since_search += displacement;
   ++cycles_since_search;
   const double edge = std::min(geometry.a->maxEdgeLength(), geometry.b->maxEdgeLength());
+  const double least_share = 1.0 / parameters.search_interval;
+  due_share = warm && displacement < parameters.search_motion * edge
+                  ? std::max(least_share, displacement / (parameters.search_motion * edge))
+                  : 1.0;
   if (warm && !archive.records().empty() && cycles_since_search < parameters.search_interval &&
       moved_since_search < parameters.search_motion * edge) {
     return false;
@@ -125,7 +129,8 @@ void TrackerState::sweepCones(PairSolution& solution) {
   if (parameters.swept_cones == 0 || !parameters.niches_wanted) {
     return;
   }
-  const std::size_t budget = warm ? parameters.swept_cones : std::numeric_limits<std::size_t>::max();
+  const std::size_t budget = warm ? static_cast<std::size_t>(due_share * parameters.swept_cones)
+                                  : std::numeric_limits<std::size_t>::max();
   double cutoff = parameters.cutoff;
   if (archive.records().size() > parameters.largest_niche_count) {
     cutoff = std::min(cutoff, archive.records()[parameters.largest_niche_count].niche.distance);

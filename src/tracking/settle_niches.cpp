@@ -10,9 +10,11 @@ namespace {
 
 // Triangle pairs that a flood visits at the most before its start counts as a niche.
 constexpr std::size_t kColdFlood = 20000;
-constexpr std::size_t kWarmFlood = 1000;
-// Niches that a warm cycle looks at again besides the nearest.
-constexpr std::size_t kWarmReviews = 3;
+constexpr std::size_t kWarmFlood = 400;
+constexpr std::size_t kNearestFlood = 128;  // of the nearest niche, in every warm cycle
+// The nearest niche is flooded this many times as far as its prominence asks: a deeper place may be beyond a
+// ridge of its own.
+constexpr double kNearestReach = 5.0;
 constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
 // Hysteresis: a niche that users know is given up only at half the least prominence.
@@ -43,13 +45,15 @@ void TrackerState::settleCandidates(PairSolution& solution) {
 }
 
 void TrackerState::reviewRecords(PairSolution& solution) {
-  // A warm cycle looks at the nearest niche, which has to be the deepest of its basin, and at the others in
-  // turn; a cold one at all.
+  // A warm cycle looks at the nearest niche, which has to be the deepest of its basin, and as the bodies move
+  // at the others in turn; a cold one at all.
   const std::size_t count = archive.records().size();
   judging.records.assign(count, warm ? 0 : 1);
   if (warm && count > 0 && (cycles_at_rest == 0 || cycles_at_rest < count)) {
     judging.records[0] = 1;
-    for (std::size_t k = 0; k < kWarmReviews; ++k) {
+    due_reviews += due_share;
+    if (due_reviews >= 1.0) {
+      due_reviews -= 1.0;
       next_review = (next_review + 1) % count;
       judging.records[next_review] = 1;
     }
@@ -124,9 +128,13 @@ void TrackerState::judge(PairSolution& solution) {
   for (std::size_t i = 0; i < known; ++i) {
     const NicheRecord& record = archive.records()[i];
     const WitnessPair& witness = record.niche.witness;
-    seeds.push_back({witness.triangle_a, witness.triangle_b, record.niche.distance,
-                     leastProminenceOf(record, parameters),
-                     judging.records[i] != 0 && record.niche.distance > 0.0});
+    const double reach =
+        i == 0 ? kNearestReach * parameters.least_prominence : leastProminenceOf(record, parameters);
+    seeds.push_back({witness.triangle_a, witness.triangle_b, record.niche.distance, reach,
+                     judging.records[i] != 0 && record.niche.distance > 0.0,
+                     !warm    ? kColdFlood
+                     : i == 0 ? kNearestFlood
+                              : kWarmFlood});
   }
   judging.pending.clear();
   for (std::size_t k = 0; k < candidates.size(); ++k) {
@@ -143,11 +151,10 @@ void TrackerState::judge(PairSolution& solution) {
     }
     judging.pending.push_back({k, outward});
     seeds.push_back({witness.triangle_a, witness.triangle_b, std::sqrt(witness.squared_distance),
-                     parameters.least_prominence, true});
+                     parameters.least_prominence, true, warm ? kWarmFlood : kColdFlood});
   }
   if (std::none_of(seeds.begin(), seeds.end(), [](const BasinSeed& seed) { return seed.judged; })) return;
-  judgeBasins(*geometry.a, *geometry.b, geometry.a_from_b, seeds, warm ? kWarmFlood : kColdFlood,
-              judging.verdicts);
+  judgeBasins(*geometry.a, *geometry.b, geometry.a_from_b, seeds, judging.verdicts);
   solution.cost.evaluations += judging.verdicts.floodedPairs();
   settleVerdicts(known, solution);
 }
@@ -201,6 +208,8 @@ void TrackerState::settleVerdicts(std::size_t known, PairSolution& solution) {
     const NicheRecord* record = archive.find(id);
     const NicheRecord* owner = archive.find(ids[root]);
     if (record == nullptr || owner == nullptr) continue;
+    const Basin& own = basins[verdicts.basinOf(i)];
+    if (own.pass >= (1.0 + leastProminenceOf(*record, parameters)) * own.distance) continue;  // seen far off
     const std::uint64_t living =
         archive.unite(static_cast<std::size_t>(owner - archive.records().data()),
                       static_cast<std::size_t>(record - archive.records().data()), solution.events);

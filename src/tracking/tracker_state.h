@@ -137,6 +137,9 @@ struct TrackerState {
   double last_elapsed = 0.0;
   double last_distance = kNotComputed;
   std::size_t next_review = 0;
+  double due_reviews = 0.0;
+  /// Of the work that goes with the motion, from 1 / search_interval to 1 where the next search is due.
+  double due_share = 1.0;
   std::size_t next_projection = 0;
   double moved_since_search = 0.0;  ///< metres, at most
   std::uint32_t cycles_since_search = 0;

@@ -39,7 +39,8 @@ std::vector<MinimumSeed> sweptAtOnce(const Scene& scene) {
 
 std::vector<BasinSeed> seedsOf(const std::vector<MinimumSeed>& minima, double least_prominence) {
   std::vector<BasinSeed> seeds;
-  for (const MinimumSeed& m : minima) seeds.push_back({m.a, m.b, m.distance, least_prominence, true});
+  for (const MinimumSeed& m : minima)
+    seeds.push_back({m.a, m.b, m.distance, least_prominence, true, kNoLimit});
   return seeds;
 }
 
@@ -66,7 +67,7 @@ TEST(BasinVerdict, RootsAreTheNichesWhateverTheOrderOfTheSeeds) {
     std::vector<BasinSeed> seeds = seedsOf(sweptAtOnce(scene), request.least_prominence);
     std::reverse(seeds.begin() + static_cast<std::ptrdiff_t>(seeds.size() / 3), seeds.end());
     BasinVerdicts verdicts;
-    judgeBasins(*scene.a, *scene.b, scene.pose, seeds, kNoLimit, verdicts);
+    judgeBasins(*scene.a, *scene.b, scene.pose, seeds, verdicts);
     std::vector<double> roots;
     for (std::uint32_t i = 0; i < verdicts.basins().size(); ++i) {
       const Basin& basin = verdicts.basins()[i];
@@ -96,17 +97,18 @@ TEST(BasinVerdict, KnownNichesTakeUpCandidatesAndAreTakenUpByDeeperOnes) {
     const Scene scene = drawn(engine);
     std::vector<BasinSeed> seeds = seedsOf(sweptAtOnce(scene), kLeast);
     BasinVerdicts all;
-    judgeBasins(*scene.a, *scene.b, scene.pose, seeds, kNoLimit, all);
+    judgeBasins(*scene.a, *scene.b, scene.pose, seeds, all);
     // Each seed that is no root, known and not judged, beside its root as the candidate.
     for (std::size_t i = 0; i < seeds.size(); ++i) {
       const std::uint32_t root = all.rootOf(all.basinOf(i));
       const Basin& deep = all.basins()[root];
       if (deep.distance < 1e-6) continue;  // floods from contact go nowhere
       if (root == all.basinOf(i) || all.basins()[all.basinOf(i)].owner != root) continue;
-      const std::vector<BasinSeed> two = {{seeds[i].a, seeds[i].b, seeds[i].distance, kLeast, false},
-                                          {deep.a, deep.b, deep.distance, kFar, true}};
+      const std::vector<BasinSeed> two = {
+          {seeds[i].a, seeds[i].b, seeds[i].distance, kLeast, false, kNoLimit},
+          {deep.a, deep.b, deep.distance, kFar, true, kNoLimit}};
       BasinVerdicts verdicts;
-      judgeBasins(*scene.a, *scene.b, scene.pose, two, kNoLimit, verdicts);
+      judgeBasins(*scene.a, *scene.b, scene.pose, two, verdicts);
       // How far the flood of the deeper one goes, and how little the shallower one stands out, decides.
       const Basin& shallow = all.basins()[all.basinOf(i)];
       if (shallow.pass > (1.0 + kFar) * deep.distance) continue;
@@ -116,9 +118,9 @@ TEST(BasinVerdict, KnownNichesTakeUpCandidatesAndAreTakenUpByDeeperOnes) {
       // The other way round the shallow one is judged and runs into the known one, or into another deeper
       // one.
       judgeBasins(*scene.a, *scene.b, scene.pose,
-                  {{seeds[i].a, seeds[i].b, seeds[i].distance, kLeast, true},
-                   {deep.a, deep.b, deep.distance, kLeast, false}},
-                  kNoLimit, verdicts);
+                  {{seeds[i].a, seeds[i].b, seeds[i].distance, kLeast, true, kNoLimit},
+                   {deep.a, deep.b, deep.distance, kLeast, false, kNoLimit}},
+                  verdicts);
       const std::uint32_t owner = verdicts.rootOf(verdicts.basinOf(0));
       EXPECT_NE(owner, verdicts.basinOf(0));
       EXPECT_LT(verdicts.basins()[owner].distance, seeds[i].distance);
@@ -130,9 +132,11 @@ TEST(BasinVerdict, KnownNichesTakeUpCandidatesAndAreTakenUpByDeeperOnes) {
 TEST(BasinVerdict, AFloodThatIsCutShortSaysSo) {
   RandomEngine engine(33);
   const Scene scene = drawn(engine);
-  const std::vector<BasinSeed> seeds = seedsOf(sweptAtOnce(scene), 10.0);
+  std::vector<BasinSeed> seeds = seedsOf(sweptAtOnce(scene), 10.0);
+  seeds.resize(1);
+  seeds.front().largest_flood = 3;
   BasinVerdicts verdicts;
-  judgeBasins(*scene.a, *scene.b, scene.pose, {seeds.front()}, 3, verdicts);
+  judgeBasins(*scene.a, *scene.b, scene.pose, seeds, verdicts);
   EXPECT_TRUE(verdicts.basins().front().undecided);
   EXPECT_LT(verdicts.floodedPairs(), 20U);
 }

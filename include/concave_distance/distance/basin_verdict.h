@@ -23,6 +23,7 @@ struct BasinSeed {
   double least_prominence;  ///< with less it belongs to a deeper minimum
   /// Whether it is to be judged. Others are known niches that floods may run into.
   bool judged;
+  std::size_t largest_flood;  ///< triangle pairs that its flood looks at at the most
 };
 
 /// What became of a minimum: a root is a niche of the least prominence, as far as it was flooded.
@@ -69,8 +70,7 @@ class BasinVerdicts {
 /// to, and shallower seeds in its reach belong to it. A flood that comes upon a cell deeper than its own
 /// start goes down from there; where that is no seed it is a new basin, judged like a seed. Exact up to the
 /// error of the triangle kernel in coordinates of the bodies' size. Never throws.
-/// @param largest_flood triangle pairs that one flood visits at the most
 void judgeBasins(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
-                 const std::vector<BasinSeed>& seeds, std::size_t largest_flood, BasinVerdicts& verdicts);
+                 const std::vector<BasinSeed>& seeds, BasinVerdicts& verdicts);
 
 }  // namespace concave_distance

@@ -15,7 +15,7 @@ namespace concave_distance {
 class RippleMemory {
  public:
   /// Cycles for which a verdict is believed.
-  static constexpr std::uint64_t kBelief = 4;
+  static constexpr std::uint64_t kBelief = 8;
 
   void clear() { ripples_.fill({}); }
 

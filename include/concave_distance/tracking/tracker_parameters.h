@@ -35,9 +35,11 @@ struct TrackerParameters {
   /// the latest; the cycles between follow the known niches and ask the nearest one only.
   double search_motion = 0.5;
   std::uint32_t search_interval = 4;
-  /// Groups of normal cones that a warm cycle compares to find what the search has not: a sweep over all of
-  /// them takes as many cycles as it needs, and begins anew. A cold cycle compares all. 0: none.
-  std::uint32_t swept_cones = 800;
+  /// Groups of four normal cones that a warm cycle compares to find what the search has not, when B has moved
+  /// by `search_motion` or more since the last cycle; in proportion less when it has moved less, but no less
+  /// than a `search_interval`-th. A sweep over all takes as many cycles as it needs. A cold cycle compares
+  /// all. 0: none.
+  std::uint32_t swept_cones = 1000;
   bool extrapolate = true;         ///< start from where the relative velocity has carried the witnesses
   double least_prominence = 1e-2;  ///< niches with less are merged into their deeper neighbour
   /// Of level `complete`: prominences are measured up to this, at a price that grows with it; up to

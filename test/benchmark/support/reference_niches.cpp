@@ -75,15 +75,15 @@ bool isSameNiche(const BenchmarkPair& pair, const Eigen::Isometry3d& pose, const
     return true;
   }
   const bool deeper = found.squared_distance < reference.squared_distance;
-  const auto seed = [&](const WitnessPair& witness, bool judged) {
-    return BasinSeed{witness.triangle_a, witness.triangle_b, std::sqrt(witness.squared_distance),
-                     least_prominence, judged};
-  };
   constexpr std::size_t kLargestFlood = 100'000;
+  const auto seed = [&](const WitnessPair& witness, bool judged) {
+    return BasinSeed{
+        witness.triangle_a, witness.triangle_b, std::sqrt(witness.squared_distance), least_prominence, judged,
+        kLargestFlood};
+  };
   BasinVerdicts verdicts;
   judgeBasins(*pair.a, *pair.b, pose,
-              {seed(deeper ? found : reference, false), seed(deeper ? reference : found, true)},
-              kLargestFlood, verdicts);
+              {seed(deeper ? found : reference, false), seed(deeper ? reference : found, true)}, verdicts);
   return verdicts.rootOf(verdicts.basinOf(1)) == verdicts.rootOf(verdicts.basinOf(0));
 }
 
