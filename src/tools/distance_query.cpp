@@ -15,7 +15,7 @@ constexpr int kWrongCommandLine = 2;
 
 struct CommandLine {
   DistanceQueryOptions options;
-  std::string accuracy = "refined";
+  std::string accuracy = "certified";
 };
 
 AccuracyLevel accuracyOf(const std::string& name) {

@@ -16,7 +16,7 @@ struct DistanceQueryOptions {
   std::string poses;
   double scale_a = 1.0;
   double scale_b = 1.0;
-  AccuracyLevel accuracy = AccuracyLevel::Refined;
+  AccuracyLevel accuracy = AccuracyLevel::Certified;
   double cutoff = std::numeric_limits<double>::infinity();  ///< metres; of the niches
   double absolute_tolerance = 0.0;                          ///< metres; of level `certified`
   double relative_tolerance = 0.0;                          ///< of the distance; of level `certified`

@@ -184,7 +184,7 @@ TEST(QueryParameters, TakeTheQuerysWishesAndRefuseWhatMeansNothing) {
   TrackerParameters configured;
   configured.largest_niche_count = 5;
   DistanceQuery query;
-  EXPECT_EQ(queryParameters(query, configured).accuracy, AccuracyLevel::Refined);
+  EXPECT_EQ(queryParameters(query, configured).accuracy, configured.accuracy);
   EXPECT_EQ(queryParameters(query, configured).largest_niche_count, 5U);
   EXPECT_FALSE(queryParameters(query, configured).niches_wanted);
   query.accuracy = DistanceQuery::ACCURACY_NODES;

@@ -11,7 +11,7 @@ namespace concave_distance {
 
 /// How one pair is solved and followed. Lengths in metres.
 struct TrackerParameters {
-  AccuracyLevel accuracy = AccuracyLevel::Refined;
+  AccuracyLevel accuracy = AccuracyLevel::Certified;
   /// Of levels `certified` and `complete`: how far below the distance the proven bound may stay; the larger
   /// of the two counts.
   double absolute_tolerance = 0.0;
