@@ -201,6 +201,7 @@ TEST(QueryParameters, TakeTheQuerysWishesAndRefuseWhatMeansNothing) {
                                        &DistanceQuery::time_budget}) {
     query = DistanceQuery();
     query.*field = 1e-3;
+    query.accuracy = DistanceQuery::ACCURACY_REFINED;
     EXPECT_THROW(queryParameters(query, configured), Error);
     query.accuracy = DistanceQuery::ACCURACY_CERTIFIED;
     EXPECT_EQ(queryParameters(query, configured).accuracy, AccuracyLevel::Certified);

@@ -110,7 +110,7 @@ TEST_F(DistanceQueriesTest, RefuseWhatCannotBeAnsweredAndSayWhy) {
   query.pose_b.pose.orientation.w = 1.0;
   query.accuracy = 5;
   expectRefusal("accuracy");
-  query.accuracy = DistanceQuery::ACCURACY_DEFAULT;
+  query.accuracy = DistanceQuery::ACCURACY_REFINED;
   query.time_budget = 0.01;
   expectRefusal("time_budget");
 }
@@ -127,7 +127,7 @@ TEST_F(DistanceQueriesTest, ProveTheDistanceWhenAsked) {
     ASSERT_TRUE(nearest.has_lower_bound);
     EXPECT_LE(nearest.lower_bound, 1.0);
     EXPECT_GE(nearest.lower_bound, 1.0 - kRounding);
-    EXPECT_GT(nearest.cost.box_bounds, 0U);
+    EXPECT_GT(nearest.cost.triangle_pairs, 0U);
   }
 }
 

@@ -127,6 +127,7 @@ TEST_F(ServicesTest, GetDistanceRefusesBadRequestsWithTheReason) {
   request.query.accuracy = 5;
   expectRefusal(request, "accuracy");
   request = boxes();
+  request.query.accuracy = DistanceQuery::ACCURACY_REFINED;
   request.query.relative_tolerance = 0.01;
   expectRefusal(request, "relative_tolerance");
   EXPECT_TRUE(call<GetDistance>(kNode + "get_distance", boxes()).success) << "the node is alive";
