@@ -21,7 +21,7 @@ mkdir -p "$results"
 "$(program tracking_benchmark)" --steps "$steps" --list-misses --output "$results/tracking.csv" | tee "$results/tracking.txt"
 "$(program battery_benchmark)" --runs "$runs" --niche-runs "$niche_runs" --output "$results/battery.csv" |
   tee "$results/battery.txt"
-"$(program recall_benchmark)" --steps "$steps" --window "$window" --output "$results/recall.csv" |
+"$(program recall_benchmark)" --steps 200 --window "$window" --output "$results/recall.csv" |
   tee "$results/recall.txt"
 "$(program radii_benchmark)" --seeds "$seeds" --output "$results/radii.csv" | tee "$results/radii.txt"
 "$(program ablation_benchmark)" --poses "$poses" --seeds "$seeds" --edge-scales "$edge_scales" \
