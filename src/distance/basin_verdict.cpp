@@ -36,6 +36,11 @@ namespace {
 
 using Reached = BasinBuffers::Reached;
 
+std::uint32_t rootAmong(const std::vector<Basin>& basins, std::uint32_t basin) {
+  while (basins[basin].owner != basin) basin = basins[basin].owner;
+  return basin;
+}
+
 bool isHigher(const Reached& l, const Reached& r) {
   if (l.squared_level != r.squared_level) return l.squared_level > r.squared_level;
   return l.cell > r.cell;  // any order will do, as long as it is always the same
@@ -121,10 +126,7 @@ class Judge {
     }
   }
 
-  std::uint32_t rootOf(std::uint32_t basin) const {
-    while (basins_[basin].owner != basin) basin = basins_[basin].owner;
-    return basin;
-  }
+  std::uint32_t rootOf(std::uint32_t basin) const { return rootAmong(basins_, basin); }
 
  private:
   std::uint32_t addBasin(TriangleIndex a, TriangleIndex b, double distance, double least_prominence) {
@@ -217,8 +219,7 @@ std::uint32_t BasinVerdicts::basinOf(std::size_t seed) const {
 }
 
 std::uint32_t BasinVerdicts::rootOf(std::uint32_t basin) const {
-  while (buffers_->basins[basin].owner != basin) basin = buffers_->basins[basin].owner;
-  return basin;
+  return detail::rootAmong(buffers_->basins, basin);
 }
 
 std::uint64_t BasinVerdicts::floodedPairs() const {

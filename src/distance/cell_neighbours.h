@@ -22,10 +22,10 @@ void forEachNeighbour(const MinimaScene& scene, TriangleIndex a, TriangleIndex b
   };
   const TriangleNodes& nodes_a = scene.a.surface().triangle(a);
   const TriangleNodes& nodes_b = scene.b.surface().triangle(b);
-  for (const AdjacentTriangle& next : scene.a.adjacency().row(a.value)) {
+  for (const AdjacentTriangle& next : scene.adjacency_a.row(a.value)) {
     step(next.triangle, b, over(nodes_a, corners_a, next, levels.edges_of_a, corners_b));
   }
-  for (const AdjacentTriangle& next : scene.b.adjacency().row(b.value)) {
+  for (const AdjacentTriangle& next : scene.adjacency_b.row(b.value)) {
     step(a, next.triangle, over(nodes_b, corners_b, next, levels.edges_of_b, corners_a));
   }
 }

@@ -185,7 +185,7 @@ class Traversal {
     ++cost_.feature_pairs;
     const FacingCap cap_a{a.cap.axis, a.cap.cosine, a.cap.sine};
     const FacingCap cap_b{-(scene_.frames.rotation * b.cap.axis), b.cap.cosine, b.cap.sine};
-    if (!mayFace(a, b, cap_a, cap_b)) return;
+    if (a.kind == Kind::Edge && b.kind == Kind::Edge && !edgesMayFace(a, b, cap_a, cap_b)) return;
     const Between found = closest(a, b);
     if (found.squared_distance > cutoff_ * cutoff_) return;
     const double distance = std::sqrt(found.squared_distance);
@@ -206,24 +206,21 @@ class Traversal {
     seeds_.push_back({a.triangle, b.triangle, distance});
   }
 
-  /// Two edges at an angle are closest along the direction across both, a vertex and a face along the face's
-  /// normal: whether that lies in the caps needs no closest points.
-  bool mayFace(const Item& a, const Item& b, const FacingCap& cap_a, const FacingCap& cap_b) const {
-    if (a.kind == Kind::Edge && b.kind == Kind::Edge) {
-      const Vector3d along_a = edgeOfA(a);
-      const Vector3d along_b = edgeOfB(b);
-      const Vector3d across = along_a.cross(along_b);
-      const double length = across.norm();
-      const double lengths = std::sqrt(along_a.squaredNorm() * along_b.squaredNorm());
-      if (!(length > kNearlyParallel * lengths)) return true;
-      const double turn = kDirectionSlack;
-      const double turn_cosine = 1.0 - 0.5 * turn * turn;
-      return (cap_a.holds(across, length, turn_cosine, turn) &&
-              cap_b.holds(across, length, turn_cosine, turn)) ||
-             (cap_a.holds(-across, length, turn_cosine, turn) &&
-              cap_b.holds(-across, length, turn_cosine, turn));
-    }
-    return true;
+  /// Two edges at an angle are closest along the direction across both: whether that lies in the caps of
+  /// both needs no closest points.
+  bool edgesMayFace(const Item& a, const Item& b, const FacingCap& cap_a, const FacingCap& cap_b) const {
+    const Vector3d along_a = edgeOfA(a);
+    const Vector3d along_b = edgeOfB(b);
+    const Vector3d across = along_a.cross(along_b);
+    const double length = across.norm();
+    const double lengths = std::sqrt(along_a.squaredNorm() * along_b.squaredNorm());
+    if (!(length > kNearlyParallel * lengths)) return true;
+    constexpr double kTurnCosine = 1.0 - 0.5 * kDirectionSlack * kDirectionSlack;
+    const auto both_hold = [&](const Vector3d& direction) {
+      return cap_a.holds(direction, length, kTurnCosine, kDirectionSlack) &&
+             cap_b.holds(direction, length, kTurnCosine, kDirectionSlack);
+    };
+    return both_hold(across) || both_hold(-across);
   }
 
   /// Whether no vertex next to the feature rises towards the other body by more than rounding: the normal

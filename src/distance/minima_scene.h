@@ -12,6 +12,8 @@ struct MinimaScene {
   MinimaScene(const BodyMesh& body_a, const BodyMesh& body_b, const Eigen::Isometry3d& pose)
       : a(body_a),
         b(body_b),
+        adjacency_a(body_a.adjacency()),
+        adjacency_b(body_b.adjacency()),
         a_from_b(pose),
         frames(body_a.surface().boundingBox().center(), body_b.surface().boundingBox().center(), pose) {
     size = 0.5 * (a.diameter() + b.diameter()) + frames.offset.norm();
@@ -27,6 +29,8 @@ struct MinimaScene {
 
   const BodyMesh& a;
   const BodyMesh& b;
+  const CompressedRows<AdjacentTriangle>& adjacency_a;  ///< of the bodies, which build it on demand
+  const CompressedRows<AdjacentTriangle>& adjacency_b;
   Eigen::Isometry3d a_from_b;
   LocalFrames frames;
   double size;      ///< no coordinate is larger
