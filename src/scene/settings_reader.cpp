@@ -138,6 +138,7 @@ void readTrackerParameters(YamlMap& map, TrackerParameters& p) {
   if (auto v = map.take("search_motion")) p.search_motion = v->number("0 or more", notNegativeFinite);
   if (auto v = map.take("search_interval")) p.search_interval = count32(*v, 1);
   if (auto v = map.take("swept_cones")) p.swept_cones = count32(*v, 0);
+  if (auto v = map.take("reviewed_niches")) p.reviewed_niches = count32(*v, 0);
   if (auto v = map.take("projected_niches")) p.projected_niches = count32(*v, 0);
   if (auto v = map.take("projected_immigrants")) p.projected_immigrants = count32(*v, 0);
   if (auto v = map.take("extrapolate")) p.extrapolate = v->boolean();

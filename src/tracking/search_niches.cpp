@@ -126,9 +126,11 @@ void TrackerState::projectNiches(PairSolution& solution) {
 // What no search looks for but a look at all normal cones finds: a part of them in a warm cycle, where the
 // last one has ended; all in a cold one.
 void TrackerState::sweepCones(PairSolution& solution) {
-  if (parameters.swept_cones == 0 || !parameters.niches_wanted) {
+  if (cycles_at_rest == 0) swept_at_rest = false;
+  if (parameters.swept_cones == 0 || !parameters.niches_wanted || swept_at_rest) {
     return;
   }
+  if (cycles_at_rest == 1) sweep.restart();
   const std::size_t budget = warm ? static_cast<std::size_t>(due_share * parameters.swept_cones)
                                   : std::numeric_limits<std::size_t>::max();
   double cutoff = parameters.cutoff;
@@ -139,6 +141,7 @@ void TrackerState::sweepCones(PairSolution& solution) {
   solution.cost.evaluations += sweep.advance(
       *geometry.a, *geometry.b, geometry.a_from_b,
       parameters.keep_through_material ? NormalSides::Both : NormalSides::Outside, cutoff, budget, swept);
+  swept_at_rest = cycles_at_rest > 0 && sweep.finished();
   for (const MinimumSeed& pair : swept) {
     const WitnessRefinement refined = geometry.refine(pair.a, pair.b);
     candidates.push_back({refined.witness, geometry.nodePairNear(refined.witness), refined.proven, 0});

@@ -51,9 +51,8 @@ void TrackerState::reviewRecords(PairSolution& solution) {
   judging.records.assign(count, warm ? 0 : 1);
   if (warm && count > 0 && (cycles_at_rest == 0 || cycles_at_rest < count)) {
     judging.records[0] = 1;
-    due_reviews += due_share;
-    if (due_reviews >= 1.0) {
-      due_reviews -= 1.0;
+    due_reviews = std::min(due_reviews + due_share * parameters.reviewed_niches, static_cast<double>(count));
+    for (; due_reviews >= 1.0; due_reviews -= 1.0) {
       next_review = (next_review + 1) % count;
       judging.records[next_review] = 1;
     }

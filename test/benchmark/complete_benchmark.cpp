@@ -2,7 +2,8 @@
 // `complete` costs.
 //
 //   complete_benchmark [--pairs ...] [--steps 200] [--windows 4] [--window 10] [--cold-runs 20]
-//                      [--list-misses 0] [--output doc/results/complete.csv]
+//                      [--list-misses 0] [--swept-cones 1000] [--reviewed-niches 1]
+//                      [--output doc/results/complete.csv]
 //
 // A pair is tracked at every instant of its motion; in windows of consecutive instants, spread evenly, every
 // outward niche of prominence >= 1e-2 is found by findLocalMinima(), with a cutoff of 5 times the distance or
@@ -13,6 +14,8 @@
 //   cold     the same for fresh solves with other seeds in the middle of each window
 //   own      share of the tracker's niches below the cutoff that are the only ones in a true niche
 //   double   share that lie in a true niche which another reported one is nearer to the bottom of
+//   stale    share that would do so if half the prominence were asked for, too: what users know is given up
+//            at half the least prominence only, so that it does not flicker; these have less and stand longer
 //   false    share that belong to no outward niche of the list at all
 //   complete, cold, cycle: milliseconds, means; one thread. Complete leaves out the indices, built once.
 // Reasons for what the cold solves missed: `grid`, no local minimum of the grids is refined to it; `unmet`,
@@ -46,6 +49,7 @@ struct Options {
   int window = 10;
   int cold_runs = 20;
   std::size_t list_misses = 0;
+  TrackerParameters tracker;
 };
 
 double millisecondsSince(std::chrono::steady_clock::time_point start) {
@@ -60,6 +64,7 @@ struct Shares {
   double reported = 0.0;
   double own = 0.0;
   double doubled = 0.0;
+  double stale = 0.0;
   double none = 0.0;
 };
 
@@ -86,12 +91,6 @@ struct Tally {
   std::vector<Miss> misses;
 };
 
-TrackerParameters searchParameters() {
-  TrackerParameters parameters;
-  parameters.largest_niche_count = 2000;
-  return parameters;
-}
-
 class Comparison {
  public:
   Comparison(const BenchmarkPair& pair, const Options& options)
@@ -104,7 +103,7 @@ class Comparison {
   }
 
   Tally run() {
-    PairTracker tracker(pair_.name, pair_.a, pair_.b, searchParameters());
+    PairTracker tracker(pair_.name, pair_.a, pair_.b, options_.tracker);
     PairSolution solution;
     for (int k = 0; k < options_.steps; ++k) {
       const double t = options_.steps > 1 ? static_cast<double>(k) / (options_.steps - 1) : 0.0;
@@ -138,10 +137,11 @@ class Comparison {
     return std::max(5.0 * nearest, 0.25 * std::min(pair_.a->diameter(), pair_.b->diameter()));
   }
 
-  LocalMinima truthOf(const Eigen::Isometry3d& pose, double cutoff, Starts whose) {
+  LocalMinima truthOf(const Eigen::Isometry3d& pose, double cutoff, Starts whose,
+                      double least_prominence = kLeastProminence) {
     LocalMinimaRequest request;
     request.cutoff = cutoff;
-    request.least_prominence = kLeastProminence;
+    request.least_prominence = least_prominence;
     // Classes of prominence are told apart up to 5e-2.
     request.prominence_limit = 5e-2;
     request.whose = std::move(whose);
@@ -180,9 +180,22 @@ class Comparison {
       shares.doubled += hits[i] > 1 ? static_cast<double>(hits[i] - 1) : 0.0;
       if (hits[i] == 0) missed_.push_back(i);
     }
+    if (doubles(truth) > 0) {
+      shares.stale += static_cast<double>(doubles(truthOf(pose, cutoff, whose, 0.5 * kLeastProminence)));
+    }
     shares.reported += static_cast<double>(whose.size());
     for (const std::size_t owner : truth.owners) shares.none += owner == LocalMinima::kNoOwner ? 1.0 : 0.0;
     return truth;
+  }
+
+  /// Reported places that are not the first one in their true niche.
+  static std::size_t doubles(const LocalMinima& truth) {
+    std::set<std::size_t> met;
+    std::size_t count = 0;
+    for (const std::size_t owner : truth.owners) {
+      count += owner != LocalMinima::kNoOwner && !met.insert(owner).second ? 1 : 0;
+    }
+    return count;
   }
 
   void tryCold(const Eigen::Isometry3d& pose, double cutoff, int instant) {
@@ -190,7 +203,7 @@ class Comparison {
     std::set<std::size_t> led_to;
     bool grid_known = false;
     for (int run = 0; run < runs; ++run) {
-      TrackerParameters parameters = searchParameters();
+      TrackerParameters parameters = options_.tracker;
       parameters.seed = static_cast<std::uint64_t>(1000 * run + instant + 1);
       const auto start = std::chrono::steady_clock::now();
       const PairSolution fresh = solveOnce(pair_.name, pair_.a, pair_.b, parameters, pose);
@@ -272,6 +285,10 @@ int benchmarkMain(int argc, char** argv) {
   app.add_option("--cold-runs", options.cold_runs, "Cold solves of each pair")->check(CLI::PositiveNumber);
   app.add_option("--list-misses", options.list_misses,
                  "Of what the cold solves missed, list the most prominent");
+  options.tracker.largest_niche_count = 2000;
+  app.add_option("--swept-cones", options.tracker.swept_cones, "The tracker's parameter of this name");
+  app.add_option("--reviewed-niches", options.tracker.reviewed_niches,
+                 "The tracker's parameter of this name");
   app.add_option("--output", output, "CSV file to write");
   CLI11_PARSE(app, argc, argv);
 
@@ -279,14 +296,15 @@ int benchmarkMain(int argc, char** argv) {
   if (!output.empty()) {
     csv.open(output);
     csv << "pair,triangles_a,triangles_b,observed,niches_mean,tracked_recall,tracked_prominent_recall,"
-           "cold_recall,cold_prominent_recall,tracked_own,tracked_double,tracked_false,cold_own,cold_double,"
+           "cold_recall,cold_prominent_recall,tracked_own,tracked_double,tracked_stale,tracked_false,cold_"
+           "own,cold_double,"
            "cold_false,missed_grid,missed_unmet,index_ms,complete_ms,complete_"
            "max_ms,cold_ms,"
            "cycle_ms,met_by_flood\n";
   }
-  std::printf("%-19s %7s | %7s %7s %7s %7s | %6s %6s %6s | %5s %5s | %8s %8s %8s %8s %8s\n", "pair", "niches",
-              "tracked", ">=5e-2", "cold", ">=5e-2", "own", "double", "false", "grid", "unmet", "index",
-              "complete", "max", "cold", "cycle");
+  std::printf("%-19s %7s | %7s %7s %7s %7s | %6s %6s %6s %6s | %5s %5s | %8s %8s %8s %8s %8s\n", "pair",
+              "niches", "tracked", ">=5e-2", "cold", ">=5e-2", "own", "double", "stale", "false", "grid",
+              "unmet", "index", "complete", "max", "cold", "cycle");
   for (const std::string& name : names) {
     const BenchmarkPair pair = loadBenchmarkPair(name);
     Tally t = Comparison(pair, options).run();
@@ -297,18 +315,19 @@ int benchmarkMain(int argc, char** argv) {
                              share(t.cold.prominent_recalled, t.cold.prominent_truths),
                              share(t.tracked.own, t.tracked.reported),
                              share(t.tracked.doubled, t.tracked.reported),
+                             share(t.tracked.stale, t.tracked.reported),
                              share(t.tracked.none, t.tracked.reported),
                              share(t.cold.own, t.cold.reported),
                              share(t.cold.doubled, t.cold.reported),
                              share(t.cold.none, t.cold.reported)};
     const double longest = *std::max_element(t.complete_ms.begin(), t.complete_ms.end());
     std::printf(
-        "%-19s %7.2f | %7.4f %7.4f %7.4f %7.4f | %6.3f %6.3f %6.3f | %5d %5d | %8.2f %8.2f %8.2f "
+        "%-19s %7.2f | %7.4f %7.4f %7.4f %7.4f | %6.3f %6.3f %6.3f %6.3f | %5d %5d | %8.2f %8.2f %8.2f "
         "%8.2f "
         "%8.3f\n",
         name.c_str(), values[0], values[1], values[2], values[3], values[4], values[5], values[6], values[7],
-        t.missed["grid"], t.missed["unmet"], t.index_ms, mean(t.complete_ms), longest, mean(t.cold_ms),
-        mean(t.cycle_ms));
+        values[8], t.missed["grid"], t.missed["unmet"], t.index_ms, mean(t.complete_ms), longest,
+        mean(t.cold_ms), mean(t.cycle_ms));
     list(t.misses, options.list_misses);
     std::fflush(stdout);
     if (csv) {

@@ -339,7 +339,7 @@ TEST_F(SceneFile, EverySettingReachesItsParameter) {
            "    accuracy: nodes\n    cutoff: 2\n    least_prominence: 0.25\n"
            "    largest_niche_count: 7\n    keep_through_material: true\n"
            "    inherited_per_niche: 4.5\n    inherited_limit: 11\n    immigrants: 5\n"
-           "    swept_cones: 77\n    projected_niches: 6\n    projected_immigrants: 13\n"
+           "    swept_cones: 77\n    reviewed_niches: 9\n    projected_niches: 6\n    projected_immigrants: 13\n"
            "    extrapolate: false\n    seed: 18446744073709551615\n"
            "    warning_distance: 0.125\n    warning_hysteresis: 0.5\n"
            "    sharing_radius: 0.3\n    mating_radius: 0.4\n    niche_radius: 0.2\n"
@@ -368,6 +368,7 @@ TEST_F(SceneFile, EverySettingReachesItsParameter) {
   EXPECT_EQ(tracker.immigrants, 5U);
   EXPECT_EQ(tracker.projected_niches, 6U);
   EXPECT_EQ(tracker.swept_cones, 77U);
+  EXPECT_EQ(tracker.reviewed_niches, 9U);
   EXPECT_EQ(tracker.projected_immigrants, 13U);
   EXPECT_FALSE(tracker.extrapolate);
   EXPECT_EQ(tracker.seed, 18446744073709551615ULL);

@@ -5,15 +5,14 @@
 namespace concave_distance {
 namespace {
 
-TEST(RippleMemory, BelievesAVerdictForSomeCyclesAndOfThatTrianglePairAlone) {
+TEST(RippleMemory, KeepsAVerdictForItsCycleAndOfThatTrianglePairAlone) {
   RippleMemory ripples;
   const TriangleIndex a{3};
   const TriangleIndex b{7};
   EXPECT_FALSE(ripples.ownerOf(a, b, 0));
   ripples.remember(a, b, 42, 10);
   EXPECT_EQ(ripples.ownerOf(a, b, 10), 42U);
-  EXPECT_EQ(ripples.ownerOf(a, b, 10 + RippleMemory::kBelief - 1), 42U);
-  EXPECT_FALSE(ripples.ownerOf(a, b, 10 + RippleMemory::kBelief));
+  EXPECT_FALSE(ripples.ownerOf(a, b, 11));
   EXPECT_FALSE(ripples.ownerOf(b, a, 10));
   ripples.clear();
   EXPECT_FALSE(ripples.ownerOf(a, b, 10));

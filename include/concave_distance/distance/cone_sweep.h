@@ -29,6 +29,8 @@ class ConeSweep {
                         std::vector<MinimumSeed>& found);
   /// The next call begins anew.
   void restart() { open_.clear(); }
+  /// Whether the last call has come to the end.
+  bool finished() const { return open_.empty(); }
   std::size_t memoryBytes() const { return open_.capacity() * sizeof(open_[0]); }
 
  private:

@@ -9,20 +9,17 @@
 namespace concave_distance {
 
 /// Local minima that are no niches of their own: their prominence is below the least, so that they belong to
-/// a deeper niche. Tessellated valleys are full of them and searches meet them again and again; for a few
-/// cycles the verdict is believed without another flood. A fixed number; a new one takes the place of
-/// another.
+/// a deeper niche. Tessellated valleys are full of them and searches meet them again and again within a
+/// cycle; a verdict holds for its cycle, then the bodies have moved. A fixed number; a new one takes the
+/// place of another.
 class RippleMemory {
  public:
-  /// Cycles for which a verdict is believed.
-  static constexpr std::uint64_t kBelief = 8;
-
   void clear() { ripples_.fill({}); }
 
-  /// Id of the niche that the minimum on this triangle pair belonged to, if that is known.
+  /// Id of the niche that the minimum on this triangle pair belongs to, if this cycle knows it.
   std::optional<std::uint64_t> ownerOf(TriangleIndex a, TriangleIndex b, std::uint64_t cycle) const {
     const Ripple& ripple = ripples_[slotOf(a, b)];
-    if (ripple.owner == 0 || ripple.a != a || ripple.b != b || ripple.judged + kBelief <= cycle) {
+    if (ripple.owner == 0 || ripple.a != a || ripple.b != b || ripple.judged != cycle) {
       return std::nullopt;
     }
     return ripple.owner;

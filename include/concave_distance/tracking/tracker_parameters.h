@@ -40,6 +40,10 @@ struct TrackerParameters {
   /// than a `search_interval`-th. A sweep over all takes as many cycles as it needs. A cold cycle compares
   /// all. 0: none.
   std::uint32_t swept_cones = 1000;
+  /// Niches that a warm cycle floods again, in turn, to see whether they still have their prominence, when B
+  /// has moved by `search_motion` or more since the last cycle; in proportion fewer when it has moved less.
+  /// The nearest is looked at in every cycle besides; a cold cycle looks at all.
+  std::uint32_t reviewed_niches = 1;
   bool extrapolate = true;         ///< start from where the relative velocity has carried the witnesses
   double least_prominence = 1e-2;  ///< niches with less are merged into their deeper neighbour
   /// Of level `complete`: prominences are measured up to this, at a price that grows with it; up to
