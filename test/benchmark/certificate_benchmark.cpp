@@ -8,7 +8,9 @@
 // A row is a pair, a kind and a number of instants along the motion (5 s long: 50 is 10 Hz): median
 // microseconds of FCL's plain distance, of FCL seeded with the distance of the last instant's closest
 // triangles, of ours with its 99th percentile; FCL / ours (medians), seeded FCL / ours, and 99th percentile
-// over 99th percentile; box bounds, leaf pairs and triangle distances of ours; answers that differ from FCL's
+// over 99th percentile; box bounds, leaf pairs and triangle distances of ours; the limit: triangle pairs that
+// are as near as the minimum, which any proof that measures pairs one by one has to open, and their number
+// times the kernel's time (medians of up to 200 of the poses); answers that differ from FCL's
 // by more than 1e-9 of the bodies' size; answers without a full proof.
 #include <CLI/CLI.hpp>
 #include <chrono>
@@ -19,6 +21,7 @@
 #include "benchmark/support/benchmark_pairs.h"
 #include "benchmark/support/statistics.h"
 #include "benchmark/support/stopwatch.h"
+#include "benchmark/support/tied_pairs.h"
 #include "concave_distance/distance/certificate.h"
 
 namespace concave_distance::benchmark {
@@ -36,6 +39,30 @@ struct Yardstick {
   std::vector<double> seeded_us;
   std::vector<double> distances;
 };
+
+/// Instants of a row at the most whose limit is looked at.
+constexpr std::size_t kLimitPoses = 200;
+
+struct Limit {
+  std::vector<double> ties;
+  std::vector<double> us;
+};
+
+Limit measureLimit(const BenchmarkPair& pair, const std::vector<Eigen::Isometry3d>& poses,
+                   const Yardstick& yardstick) {
+  Limit limit;
+  const std::size_t stride = std::max<std::size_t>(1, poses.size() / kLimitPoses);
+  for (std::size_t k = 0; k < poses.size(); k += stride) {
+    if (yardstick.distances[k] <= 0.0) continue;
+    CertificateWorkspace workspace;
+    const double distance =
+        certifyDistance(*pair.a, *pair.b, poses[k], nullptr, 0, CertificateRequest(), workspace).distance;
+    const ProofLimit least = proofLimit(*pair.a, *pair.b, poses[k], distance);
+    limit.ties.push_back(least.ties);
+    limit.us.push_back(least.microseconds);
+  }
+  return limit;
+}
 
 struct Series {
   std::vector<double> us;
@@ -91,21 +118,24 @@ Yardstick measureFcl(const BenchmarkPair& pair, const std::vector<Eigen::Isometr
   return yardstick;
 }
 
-void print(const std::string& name, Kind kind, const Yardstick& fcl, const Series& s, std::ofstream& csv) {
+void print(const std::string& name, Kind kind, const Yardstick& fcl, const Limit& limit, const Series& s,
+           std::ofstream& csv) {
   const double plain = median(fcl.plain_us);
   const double seeded = fcl.seeded_us.empty() ? std::nan("") : median(fcl.seeded_us);
   const double ours = median(s.us);
   const double slow = percentile(s.us, 0.99);
   const double slow_ratio = percentile(fcl.plain_us, 0.99) / slow;
-  std::printf("%-18s %-6s %5zu %8.1f %8.1f %8.2f %8.2f %7.1f %7.1f %7.1f %7.0f %6.0f %5.0f %4d %4d\n",
-              name.c_str(), nameOf(kind), s.us.size(), plain, seeded, ours, slow, plain / ours, seeded / ours,
-              slow_ratio, median(s.bounds), median(s.leaves), median(s.triangles), s.different, s.not_proven);
+  std::printf(
+      "%-18s %-6s %5zu %8.1f %8.1f %8.2f %8.2f %7.1f %7.1f %7.1f %7.0f %6.0f %5.0f %5.0f %7.2f %4d %4d\n",
+      name.c_str(), nameOf(kind), s.us.size(), plain, seeded, ours, slow, plain / ours, seeded / ours,
+      slow_ratio, median(s.bounds), median(s.leaves), median(s.triangles), median(limit.ties),
+      median(limit.us), s.different, s.not_proven);
   std::fflush(stdout);
   if (csv) {
     csv << name << ',' << nameOf(kind) << ',' << s.us.size() << ',' << plain << ',' << seeded << ',' << ours
         << ',' << slow << ',' << plain / ours << ',' << seeded / ours << ',' << slow_ratio << ','
-        << median(s.bounds) << ',' << median(s.leaves) << ',' << median(s.triangles) << ',' << s.different
-        << ',' << s.not_proven << '\n';
+        << median(s.bounds) << ',' << median(s.leaves) << ',' << median(s.triangles) << ','
+        << median(limit.ties) << ',' << median(limit.us) << ',' << s.different << ',' << s.not_proven << '\n';
   }
 }
 
@@ -129,27 +159,30 @@ int benchmarkMain(int argc, char** argv) {
   if (!output.empty()) {
     csv.open(output);
     csv << "pair,kind,queries,fcl_us,fcl_seeded_us,certified_us,certified_p99_us,fcl_over_certified,"
-           "fcl_seeded_over_certified,p99_over_p99,box_bounds,leaf_pairs,triangle_pairs,different,not_"
+           "fcl_seeded_over_certified,p99_over_p99,box_bounds,leaf_pairs,triangle_pairs,tied_pairs,limit_us,"
+           "different,not_"
            "proven\n";
   }
-  std::printf("%-18s %-6s %5s %8s %8s %8s %8s %7s %7s %7s %7s %6s %5s %4s %4s\n", "pair", "kind", "runs",
-              "FCL us", "seeded", "ours us", "p99 us", "FCL/", "seeded/", "p99/", "boxes", "leaves", "tri",
-              "diff", "unpr");
+  std::printf("%-18s %-6s %5s %8s %8s %8s %8s %7s %7s %7s %7s %6s %5s %5s %7s %4s %4s\n", "pair", "kind",
+              "runs", "FCL us", "seeded", "ours us", "p99 us", "FCL/", "seeded/", "p99/", "boxes", "leaves",
+              "tri", "ties", "limit", "diff", "unpr");
   std::vector<TrianglePair> closest;
   for (const std::string& name : names) {
     const BenchmarkPair pair = loadBenchmarkPair(name);
     if (poses > 0) {
       const std::vector<Eigen::Isometry3d> random = randomPoses(pair, poses, 1);
       const Yardstick fcl = measureFcl(pair, random, {});
-      print(name, Kind::Cold, fcl, measure(pair, random, Kind::Cold, fcl, closest), csv);
+      print(name, Kind::Cold, fcl, measureLimit(pair, random, fcl),
+            measure(pair, random, Kind::Cold, fcl, closest), csv);
     }
     for (const int count : steps) {
       std::vector<Eigen::Isometry3d> motion;
       for (int k = 0; k < count; ++k) motion.push_back(pair.motion(static_cast<double>(k) / (count - 1)));
       measure(pair, motion, Kind::Seeded, {}, closest);  // for FCL's seeds
       const Yardstick fcl = measureFcl(pair, motion, closest);
+      const Limit limit = measureLimit(pair, motion, fcl);
       for (const Kind kind : {Kind::Seeded, Kind::Front}) {
-        print(name, kind, fcl, measure(pair, motion, kind, fcl, closest), csv);
+        print(name, kind, fcl, limit, measure(pair, motion, kind, fcl, closest), csv);
       }
     }
   }

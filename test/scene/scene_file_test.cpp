@@ -331,30 +331,30 @@ TEST_F(SceneFile, SettingsThatDoNotGoTogetherAreRefused) {
 }
 
 TEST_F(SceneFile, EverySettingReachesItsParameter) {
-  const Scene scene =
-      load(kBall +
-           "  - {name: box, box: {size: [1, 1, 1]}, max_edge_length: 100}\n"
-           "pairs:\n"
-           "  - between: [box, ball]\n"
-           "    accuracy: nodes\n    cutoff: 2\n    least_prominence: 0.25\n"
-           "    largest_niche_count: 7\n    keep_through_material: true\n"
-           "    inherited_per_niche: 4.5\n    inherited_limit: 11\n    immigrants: 5\n"
-           "    swept_cones: 77\n    reviewed_niches: 9\n    projected_niches: 6\n    projected_immigrants: 13\n"
-           "    extrapolate: false\n    seed: 18446744073709551615\n"
-           "    warning_distance: 0.125\n    warning_hysteresis: 0.5\n"
-           "    sharing_radius: 0.3\n    mating_radius: 0.4\n    niche_radius: 0.2\n"
-           "    cold:\n      population_size: 80\n      max_generations: 9\n"
-           "      crossover_probability: 0.75\n      mutation_probability: 0.0625\n      "
-           "exchange_probability: 0.25\n"
-           "      final_mutation_probability_factor: 0.5\n      mutation_radius: 1.5\n"
-           "      shrinking_mutation_radius: true\n      selection: roulette\n"
-           "      mating: phenotypic\n      niching: simple_crowding\n"
-           "      local_optimization: false\n      sharing_exponent: 10\n"
-           "      mating_restriction: false\n      crowding_factor: 4\n"
-           "      generation_gap: 0.5\n      elite_count: 2\n      convergence_generations: 3\n"
-           "      sharing_radius: auto\n      fitness_epsilon: 0\n      dynamic_niche_limit: 6\n"
-           "      immigrants: 4\n      conserve_niches: false\n      evaluation_limit: 5000000000\n"
-           "    warm: {population_size: 10, niching: dynamic_sharing, mating: genotypic}\n");
+  const Scene scene = load(
+      kBall +
+      "  - {name: box, box: {size: [1, 1, 1]}, max_edge_length: 100}\n"
+      "pairs:\n"
+      "  - between: [box, ball]\n"
+      "    accuracy: nodes\n    cutoff: 2\n    least_prominence: 0.25\n"
+      "    largest_niche_count: 7\n    keep_through_material: true\n"
+      "    inherited_per_niche: 4.5\n    inherited_limit: 11\n    immigrants: 5\n"
+      "    swept_cones: 77\n    reviewed_niches: 9\n    projected_niches: 6\n    projected_immigrants: 13\n"
+      "    extrapolate: false\n    seed: 18446744073709551615\n"
+      "    warning_distance: 0.125\n    warning_hysteresis: 0.5\n"
+      "    sharing_radius: 0.3\n    mating_radius: 0.4\n    niche_radius: 0.2\n"
+      "    cold:\n      population_size: 80\n      max_generations: 9\n"
+      "      crossover_probability: 0.75\n      mutation_probability: 0.0625\n      "
+      "exchange_probability: 0.25\n"
+      "      final_mutation_probability_factor: 0.5\n      mutation_radius: 1.5\n"
+      "      shrinking_mutation_radius: true\n      selection: roulette\n"
+      "      mating: phenotypic\n      niching: simple_crowding\n"
+      "      local_optimization: false\n      sharing_exponent: 10\n"
+      "      mating_restriction: false\n      crowding_factor: 4\n"
+      "      generation_gap: 0.5\n      elite_count: 2\n      convergence_generations: 3\n"
+      "      sharing_radius: auto\n      fitness_epsilon: 0\n      dynamic_niche_limit: 6\n"
+      "      immigrants: 4\n      conserve_niches: false\n      evaluation_limit: 5000000000\n"
+      "    warm: {population_size: 10, niching: dynamic_sharing, mating: genotypic}\n");
   ASSERT_EQ(scene.pairs.size(), 1U);
   const PairSettings& settings = scene.pairs[0].settings;
   const TrackerParameters& tracker = settings.tracker;
