@@ -1,8 +1,10 @@
 // The proven distance beside FCL's, on the same meshes and poses, in one run and one thread: `cold` (no seed,
-// at random poses); `seeded` (begun with the last instant's closest triangles) and `front` (the same, and
-// what the last instant's proof excluded is kept) along the pair's motion, sampled at several rates.
+// at random poses); `near` (no seed, at instants along the pair's motion, where the bodies are close: the
+// peg in its hole, the hooks in each other); `seeded` (begun with the last instant's closest triangles) and
+// `front` (the same, and what the last instant's proof excluded is kept) along the pair's motion, sampled at
+// several rates.
 //
-//   certificate_benchmark [--pairs name,name,...] [--poses 200] [--steps 50,500,5000]
+//   certificate_benchmark [--pairs name,name,...] [--poses 2000] [--steps 50,500,5000]
 //                         [--output doc/results/certificate.csv]
 //
 // A row is a pair, a kind and a number of instants along the motion (5 s long: 50 is 10 Hz): median
@@ -27,10 +29,23 @@
 namespace concave_distance::benchmark {
 namespace {
 
-enum class Kind { Cold, Seeded, Front };
+enum class Kind { Cold, Near, Seeded, Front };
+
+bool isSeeded(Kind kind) {
+  return kind == Kind::Seeded || kind == Kind::Front;
+}
 
 const char* nameOf(Kind kind) {
-  return kind == Kind::Cold ? "cold" : (kind == Kind::Seeded ? "seeded" : "front");
+  switch (kind) {
+    case Kind::Cold:
+      return "cold";
+    case Kind::Near:
+      return "near";
+    case Kind::Seeded:
+      return "seeded";
+    default:
+      return "front";
+  }
 }
 
 /// FCL's share of a row: measured once for both kinds along a motion.
@@ -42,6 +57,15 @@ struct Yardstick {
 
 /// Instants of a row at the most whose limit is looked at.
 constexpr std::size_t kLimitPoses = 200;
+
+/// Instants of a motion that are asked without a seed.
+constexpr int kNearPoses = 500;
+
+std::vector<Eigen::Isometry3d> posesAlong(const BenchmarkPair& pair, int count) {
+  std::vector<Eigen::Isometry3d> motion;
+  for (int k = 0; k < count; ++k) motion.push_back(pair.motion(static_cast<double>(k) / (count - 1)));
+  return motion;
+}
 
 struct Limit {
   std::vector<double> ties;
@@ -81,7 +105,7 @@ Series measure(const BenchmarkPair& pair, const std::vector<Eigen::Isometry3d>& 
   const double size = std::max(pair.a->diameter(), pair.b->diameter());
   closest.clear();
   for (std::size_t k = 0; k < poses.size(); ++k) {
-    const bool seeded = kind != Kind::Cold && k > 0;
+    const bool seeded = isSeeded(kind) && k > 0;
     const TrianglePair seed = seeded ? closest.back() : TrianglePair{};
     const auto start = std::chrono::steady_clock::now();
     const DistanceCertificate ours =
@@ -89,7 +113,7 @@ Series measure(const BenchmarkPair& pair, const std::vector<Eigen::Isometry3d>& 
                         kind == Kind::Front ? &front : nullptr);
     const double taken = microsecondsSince(start);
     closest.push_back({ours.witness.triangle_a, ours.witness.triangle_b});
-    if (kind != Kind::Cold && !seeded) continue;
+    if (isSeeded(kind) && !seeded) continue;
     series.us.push_back(taken);
     series.bounds.push_back(ours.cost.box_bounds);
     series.leaves.push_back(ours.cost.leaf_pairs);
@@ -121,7 +145,7 @@ Yardstick measureFcl(const BenchmarkPair& pair, const std::vector<Eigen::Isometr
 void print(const std::string& name, Kind kind, const Yardstick& fcl, const Limit& limit, const Series& s,
            std::ofstream& csv) {
   const double plain = median(fcl.plain_us);
-  const double seeded = fcl.seeded_us.empty() ? std::nan("") : median(fcl.seeded_us);
+  const double seeded = fcl.seeded_us.empty() || !isSeeded(kind) ? std::nan("") : median(fcl.seeded_us);
   const double ours = median(s.us);
   const double slow = percentile(s.us, 0.99);
   const double slow_ratio = percentile(fcl.plain_us, 0.99) / slow;
@@ -144,7 +168,7 @@ void print(const std::string& name, Kind kind, const Yardstick& fcl, const Limit
 int benchmarkMain(int argc, char** argv) {
   CLI::App app("The proven distance beside FCL's, cold and tracked");
   std::vector<std::string> names = allPairs();
-  std::size_t poses = 200;
+  std::size_t poses = 2000;
   std::vector<int> steps = {50, 500, 5000};
   std::string output;
   app.add_option("--pairs", names, "Pairs to run; all when left out")->delimiter(',');
@@ -175,9 +199,12 @@ int benchmarkMain(int argc, char** argv) {
       print(name, Kind::Cold, fcl, measureLimit(pair, random, fcl),
             measure(pair, random, Kind::Cold, fcl, closest), csv);
     }
+    const std::vector<Eigen::Isometry3d> near = posesAlong(pair, kNearPoses);
+    const Yardstick fcl_near = measureFcl(pair, near, {});
+    print(name, Kind::Near, fcl_near, measureLimit(pair, near, fcl_near),
+          measure(pair, near, Kind::Near, fcl_near, closest), csv);
     for (const int count : steps) {
-      std::vector<Eigen::Isometry3d> motion;
-      for (int k = 0; k < count; ++k) motion.push_back(pair.motion(static_cast<double>(k) / (count - 1)));
+      const std::vector<Eigen::Isometry3d> motion = posesAlong(pair, count);
       measure(pair, motion, Kind::Seeded, {}, closest);  // for FCL's seeds
       const Yardstick fcl = measureFcl(pair, motion, closest);
       const Limit limit = measureLimit(pair, motion, fcl);
