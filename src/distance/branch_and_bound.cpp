@@ -101,7 +101,7 @@ void BranchAndBound::dive() {
 
 TrianglePairDistance BranchAndBound::measure(const TrianglePoints& a, const TrianglePoints& b,
                                              TriangleIndex triangle_a, TriangleIndex triangle_b) {
-  const TrianglePairDistance found = triangleDistance(a, b);
+  TrianglePairDistance found = triangleDistance(a, b);
   ++result_.cost.triangle_pairs;
   if (!(found.squared_distance < squared_distance_)) return found;
   closest_ = found;

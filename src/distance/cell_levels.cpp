@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "prepared_triangle.h"
+
 namespace concave_distance::detail {
 namespace {
 
@@ -39,33 +41,13 @@ VectorLanes cross(const VectorLanes& l, const VectorLanes& r) {
   return {l.y * r.z - l.z * r.y, l.z * r.x - l.x * r.z, l.x * r.y - l.y * r.x};
 }
 
+Lanes infinite() {
+  return Lanes::Constant(std::numeric_limits<double>::infinity());
+}
+
 Lanes clampToUnit(const Lanes& x) {
   return x.max(0.0).min(1.0);
 }
-
-double inverseOrZero(double x) {
-  return x > 0.0 ? 1.0 / x : 0.0;
-}
-
-struct Side {
-  explicit Side(const TrianglePoints& points)
-      : corners(points), edges{points[1] - points[0], points[2] - points[1], points[0] - points[2]} {
-    for (std::size_t k = 0; k < 3; ++k) {
-      squared_lengths[k] = edges[k].squaredNorm();
-      inverses[k] = inverseOrZero(squared_lengths[k]);
-    }
-  }
-  double size() const { return squared_lengths[0] + squared_lengths[1] + squared_lengths[2]; }
-  std::size_t longest() const {
-    const std::size_t k = squared_lengths[0] >= squared_lengths[1] ? 0 : 1;
-    return squared_lengths[2] > squared_lengths[k] ? 2 : k;
-  }
-
-  const TrianglePoints& corners;
-  std::array<Vector3d, 3> edges;
-  std::array<double, 3> squared_lengths;
-  std::array<double, 3> inverses;
-};
 
 /// Squared distances of one edge of a to all edges of b; the formula is that of triangle_distance.cpp, but
 /// that the edge's own parameter is chosen anew at the end for every lane.
@@ -83,48 +65,37 @@ Lanes edgeToEdges(const Vector3d& from, const Vector3d& u, double inverse_uu, co
   return dot(between, between);
 }
 
-/// Squared distances of three points to the inside of a triangle; infinite for those not over it. The frame
-/// along the longest edge and the height on it is that of triangle_distance.cpp.
-Lanes pointsToInside(const VectorLanes& points, const Side& triangle) {
-  const Lanes infinite = Lanes::Constant(std::numeric_limits<double>::infinity());
-  const std::size_t base = triangle.longest();
-  const Vector3d& corner = triangle.corners[base];
-  const Vector3d& edge = triangle.edges[base];
-  const double inverse_ee = triangle.inverses[base];
-  const Vector3d side = -triangle.edges[base == 0 ? 2 : base - 1];
-  const double side_along = side.dot(edge) * inverse_ee;
-  const Vector3d height = side - side_along * edge;
-  const double inverse_hh = inverseOrZero(height.squaredNorm());
-  if (inverse_hh == 0.0) return infinite;
-  const VectorLanes w = points - corner;
-  const Lanes along = dot(w, edge) * inverse_ee;
+/// Squared distances of three points to the inside of a triangle; infinite for those not over it.
+Lanes pointsToInside(const VectorLanes& points, const PreparedTriangle& triangle) {
+  const FaceFrame face(triangle);
+  if (face.flat()) return infinite();
+  const Vector3d& edge = face.edge;
+  const Vector3d& side = face.side;
+  const VectorLanes w = points - face.corner;
+  const Lanes along = dot(w, edge) * face.inverse_ee;
   const VectorLanes off = {w.x - along * edge.x(), w.y - along * edge.y(), w.z - along * edge.z()};
-  const Lanes up = dot(off, height) * inverse_hh;
-  const Lanes next = along - up * side_along;
+  const Lanes up = dot(off, face.height) * face.inverse_hh;
+  const Lanes next = along - up * face.side_along;
   const VectorLanes left = {w.x - next * edge.x() - up * side.x(), w.y - next * edge.y() - up * side.y(),
                             w.z - next * edge.z() - up * side.z()};
   const Lanes inside = along.min(1.0 - along).min(up).min(next).min(1.0 - next - up);
-  return (inside > 0.0).select(dot(left, left), infinite);
+  return (inside > 0.0).select(dot(left, left), infinite());
 }
 
 /// Each edge's own and what its two ends have over the other's inside.
 void lower(std::array<double, 3>& edges, const Lanes& corners) {
   for (std::size_t k = 0; k < 3; ++k) {
     const auto here = static_cast<Eigen::Index>(k);
-    const auto next = static_cast<Eigen::Index>(k == 2 ? 0 : k + 1);
+    const auto next = static_cast<Eigen::Index>(nextCorner(k));
     edges[k] = std::min({edges[k], corners[here], corners[next]});
   }
 }
-
-/// Within these no product of coordinates over- or underflows harmfully.
-constexpr double kLeastSquare = 1e-100;
-constexpr double kLargestSquare = 1e60;
 
 /// One by one, for triangles that cross, may cross or are out of range.
 CellLevels oneByOne(const TrianglePoints& a, const TrianglePoints& b) {
   CellLevels levels{};
   for (std::size_t k = 0; k < 3; ++k) {
-    const std::size_t next = k == 2 ? 0 : k + 1;
+    const std::size_t next = nextCorner(k);
     levels.edges_of_a[k] = triangleDistance({a[k], a[next], a[next]}, b).squared_distance;
     levels.edges_of_b[k] = triangleDistance(a, {b[k], b[next], b[next]}).squared_distance;
   }
@@ -133,7 +104,7 @@ CellLevels oneByOne(const TrianglePoints& a, const TrianglePoints& b) {
 
 /// Whether a's plane or b's, or a plane across the line between their middles, parts them by more than
 /// rounding.
-bool certainlyApart(const Side& a, const Side& b) {
+bool certainlyApart(const PreparedTriangle& a, const PreparedTriangle& b) {
   const auto parts = [&](const Vector3d& d) {
     const double a0 = d.dot(a.corners[0]);
     const double a1 = d.dot(a.corners[1]);
@@ -157,20 +128,21 @@ bool certainlyApart(const Side& a, const Side& b) {
 }  // namespace
 
 CellLevels cellLevels(const TrianglePoints& a, const TrianglePoints& b) {
-  const Side side_a(a);
-  const Side side_b(b);
+  const PreparedTriangle side_a(a);
+  const PreparedTriangle side_b(b);
   const double size = side_a.size() + side_b.size() + (b[0] - a[0]).squaredNorm();
   if (!(size > kLeastSquare && size < kLargestSquare) || !certainlyApart(side_a, side_b)) {
     return oneByOne(a, b);
   }
   const VectorLanes corners_b = lanesOf(b[0], b[1], b[2]);
   const VectorLanes edges_b = lanesOf(side_b.edges[0], side_b.edges[1], side_b.edges[2]);
-  const Lanes inverses_b(side_b.inverses[0], side_b.inverses[1], side_b.inverses[2], side_b.inverses[0]);
+  const Lanes inverses_b(side_b.inverse_squared_lengths[0], side_b.inverse_squared_lengths[1],
+                         side_b.inverse_squared_lengths[2], side_b.inverse_squared_lengths[0]);
   CellLevels levels{};
-  Lanes least_b = Lanes::Constant(std::numeric_limits<double>::infinity());
+  Lanes least_b = infinite();
   for (std::size_t k = 0; k < 3; ++k) {
     const Lanes squared =
-        edgeToEdges(a[k], side_a.edges[k], side_a.inverses[k], corners_b, edges_b, inverses_b);
+        edgeToEdges(a[k], side_a.edges[k], side_a.inverse_squared_lengths[k], corners_b, edges_b, inverses_b);
     levels.edges_of_a[k] = squared.minCoeff();
     least_b = least_b.min(squared);
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 
 #include "concave_distance/mesh/normal_cone_tree.h"
 #include "local_frames.h"

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "prepared_triangle.h"
 #include "triangle_crossing.h"
 
 // Method: the pair of closest points lies on an edge of each triangle, or on a vertex of one and the face of
@@ -20,6 +21,10 @@
 namespace concave_distance {
 namespace {
 
+using detail::FaceFrame;
+using detail::nextCorner;
+using detail::PreparedTriangle;
+using detail::previousCorner;
 using Eigen::Vector3d;
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
@@ -28,85 +33,12 @@ double clampToUnit(double x) {
   return x < 0.0 ? 0.0 : (x > 1.0 ? 1.0 : x);
 }
 
-double inverseOrZero(double x) {
-  return x > 0.0 ? 1.0 / x : 0.0;
-}
-
 Feature vertexFeature(std::size_t corner) {
   return static_cast<Feature>(corner);
 }
 Feature edgeFeature(std::size_t edge) {
   return static_cast<Feature>(3 + edge);
 }
-
-std::size_t nextCorner(std::size_t k) {
-  return k == 2 ? 0 : k + 1;
-}
-std::size_t previousCorner(std::size_t k) {
-  return k == 0 ? 2 : k - 1;
-}
-
-/// A triangle with what every kernel needs of it.
-struct Prepared {
-  explicit Prepared(const TrianglePoints& points)
-      : corners(points),
-        edges{points[1] - points[0], points[2] - points[1], points[0] - points[2]},
-        squared_lengths{edges[0].squaredNorm(), edges[1].squaredNorm(), edges[2].squaredNorm()},
-        inverse_squared_lengths{inverseOrZero(squared_lengths[0]), inverseOrZero(squared_lengths[1]),
-                                inverseOrZero(squared_lengths[2])} {}
-
-  double size() const { return squared_lengths[0] + squared_lengths[1] + squared_lengths[2]; }
-
-  const TrianglePoints& corners;
-  std::array<Vector3d, 3> edges;  ///< from corner k to corner (k + 1) % 3
-  std::array<double, 3> squared_lengths;
-  std::array<double, 3> inverse_squared_lengths;  ///< 0 for an edge without length
-};
-
-/// The triangle's inside as seen from any point: coordinates along the longest edge (0 to 1) and along the
-/// height on it (0 at the edge, 1 at the opposite corner). For a needle or cap whose height is phi times its
-/// length the height's direction is wrong by eps / phi. It is only used on what the longest edge leaves of a
-/// point, at most phi times the length plus the gap, so that the foot is wrong by eps times the length plus
-/// eps / phi times the gap; the latter turns the gap and, the edges being nearer than phi, lengthens it by no
-/// more than eps times the length.
-class FaceFrame {
- public:
-  explicit FaceFrame(const Prepared& t) {
-    base_ = t.squared_lengths[0] >= t.squared_lengths[1] ? 0 : 1;
-    if (t.squared_lengths[2] > t.squared_lengths[base_]) base_ = 2;
-    corner_ = t.corners[base_];
-    edge_ = t.edges[base_];
-    inverse_ee_ = t.inverse_squared_lengths[base_];
-    side_ = -t.edges[previousCorner(base_)];
-    side_along_ = side_.dot(edge_) * inverse_ee_;
-    height_ = side_ - side_along_ * edge_;
-    inverse_hh_ = inverseOrZero(height_.squaredNorm());
-  }
-
-  bool flat() const { return inverse_hh_ == 0.0; }
-
-  /// Whether `point` projects inside, and where; the foot lies on the triangle whatever the rounding.
-  bool isOver(const Vector3d& point, Vector3d& foot) const {
-    const Vector3d w = point - corner_;
-    const double along = w.dot(edge_) * inverse_ee_;
-    if (!(along > 0.0 && along < 1.0)) return false;
-    const double up = (w - along * edge_).dot(height_) * inverse_hh_;
-    const double weight_next = along - up * side_along_;
-    if (!(up > 0.0 && weight_next > 0.0 && weight_next + up < 1.0)) return false;
-    foot = corner_ + (weight_next * edge_ + up * side_);
-    return true;
-  }
-
- private:
-  std::size_t base_ = 0;  ///< the longest edge
-  Vector3d corner_;       ///< where it starts
-  Vector3d edge_;
-  Vector3d side_;            ///< from there to the opposite corner
-  Vector3d height_;          ///< the part of it across the edge
-  double side_along_ = 0.0;  ///< where the height stands on the edge
-  double inverse_ee_ = 0.0;
-  double inverse_hh_ = 0.0;  ///< 0 for a triangle without area
-};
 
 /// The closest pair found so far: points on edges by their parameters, or as they are.
 struct Best {
@@ -123,8 +55,8 @@ struct Best {
 /// u.u v.v - (u.v)^2: for edges at an angle phi the former is wrong by eps / phi, which moves the point by
 /// eps across the other edge, the latter by eps / phi^2. Parallel edges may start anywhere: the clamping
 /// below then finds a common stretch.
-void considerEdges(const Prepared& a, std::size_t i, const Prepared& b, std::size_t j, const Vector3d& w,
-                   Best& candidate) {
+void considerEdges(const PreparedTriangle& a, std::size_t i, const PreparedTriangle& b, std::size_t j,
+                   const Vector3d& w, Best& candidate) {
   const Vector3d& u = a.edges[i];
   const Vector3d& v = b.edges[j];
   const Vector3d n = u.cross(v);
@@ -147,7 +79,7 @@ void considerEdges(const Prepared& a, std::size_t i, const Prepared& b, std::siz
 /// is closer than the candidate less what corners stick out beyond them. That is held to a rounding of the
 /// triangles' size and not of the gap, which a gap much smaller than the triangles cannot show (d is itself
 /// rounded); such pairs go through all candidates.
-bool separates(const Prepared& a, const Prepared& b, const Best& c, double squared_size) {
+bool separates(const PreparedTriangle& a, const PreparedTriangle& b, const Best& c, double squared_size) {
   const Vector3d& d = c.between;
   const double along_a = d.dot(a.edges[c.edge_a]);
   const double along_b = d.dot(b.edges[c.edge_b]);
@@ -160,7 +92,7 @@ bool separates(const Prepared& a, const Prepared& b, const Best& c, double squar
   return beyond <= 0.0 || beyond * beyond <= kSquaredTolerance * squared_size * c.squared_distance;
 }
 
-Vector3d pointOnEdge(const Prepared& t, std::size_t edge, double along, Feature& feature) {
+Vector3d pointOnEdge(const PreparedTriangle& t, std::size_t edge, double along, Feature& feature) {
   if (along <= 0.0) {
     feature = vertexFeature(edge);
     return t.corners[edge];
@@ -178,7 +110,7 @@ TrianglePairDistance fromPoints(const Vector3d& point_a, const Vector3d& point_b
   return {(point_b - point_a).squaredNorm(), point_a, point_b, feature_a, feature_b};
 }
 
-TrianglePairDistance fromEdges(const Prepared& a, const Prepared& b, const Best& best) {
+TrianglePairDistance fromEdges(const PreparedTriangle& a, const PreparedTriangle& b, const Best& best) {
   Feature feature_a{};
   Feature feature_b{};
   const Vector3d point_a = pointOnEdge(a, best.edge_a, best.along_a, feature_a);
@@ -187,7 +119,8 @@ TrianglePairDistance fromEdges(const Prepared& a, const Prepared& b, const Best&
 }
 
 /// True when the direction between the witnesses parts the triangles by more than rounding could feign.
-bool certainlyApart(const Prepared& a, const Prepared& b, const TrianglePairDistance& result) {
+bool certainlyApart(const PreparedTriangle& a, const PreparedTriangle& b,
+                    const TrianglePairDistance& result) {
   const Vector3d d = result.point_b - result.point_a;
   double beyond_a = 0.0;
   double before_b = 0.0;
@@ -198,11 +131,7 @@ bool certainlyApart(const Prepared& a, const Prepared& b, const TrianglePairDist
   return beyond_a - before_b < 0.5 * result.squared_distance;
 }
 
-/// Within these no product of coordinates over- or underflows harmfully.
-constexpr double kLeastSquare = 1e-100;
-constexpr double kLargestSquare = 1e60;
-
-TrianglePairDistance distanceInRange(const Prepared& a, const Prepared& b) {
+TrianglePairDistance distanceInRange(const PreparedTriangle& a, const PreparedTriangle& b) {
   const double squared_size = a.size() + b.size();
   Best best;
   Best candidate;
@@ -253,7 +182,7 @@ TrianglePairDistance scaledDistance(const TrianglePoints& a, const TrianglePoint
   };
   const TrianglePoints scaled_a = {scaled(a[0]), scaled(a[1]), scaled(a[2])};
   const TrianglePoints scaled_b = {scaled(b[0]), scaled(b[1]), scaled(b[2])};
-  const TrianglePairDistance result = distanceInRange(Prepared(scaled_a), Prepared(scaled_b));
+  const TrianglePairDistance result = distanceInRange(PreparedTriangle(scaled_a), PreparedTriangle(scaled_b));
   const auto back = [exponent](const Vector3d& v) {
     return Vector3d(std::ldexp(v.x(), -exponent), std::ldexp(v.y(), -exponent), std::ldexp(v.z(), -exponent));
   };
@@ -263,7 +192,7 @@ TrianglePairDistance scaledDistance(const TrianglePoints& a, const TrianglePoint
 }  // namespace
 
 PointTriangleDistance pointTriangleDistance(const Vector3d& point, const TrianglePoints& triangle) {
-  const Prepared t(triangle);
+  const PreparedTriangle t(triangle);
   PointTriangleDistance best{std::numeric_limits<double>::infinity(), triangle[0], Feature::Vertex0};
   for (std::size_t k = 0; k < 3; ++k) {
     const double along = clampToUnit(t.edges[k].dot(point - t.corners[k]) * t.inverse_squared_lengths[k]);
@@ -281,10 +210,10 @@ PointTriangleDistance pointTriangleDistance(const Vector3d& point, const Triangl
 }
 
 TrianglePairDistance triangleDistance(const TrianglePoints& a, const TrianglePoints& b) {
-  const Prepared prepared_a(a);
-  const Prepared prepared_b(b);
+  const PreparedTriangle prepared_a(a);
+  const PreparedTriangle prepared_b(b);
   const double size = prepared_a.size() + prepared_b.size() + (b[0] - a[0]).squaredNorm();
-  if (!(size > kLeastSquare && size < kLargestSquare)) return scaledDistance(a, b);
+  if (!(size > detail::kLeastSquare && size < detail::kLargestSquare)) return scaledDistance(a, b);
   return distanceInRange(prepared_a, prepared_b);
 }
 

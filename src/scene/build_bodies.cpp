@@ -58,7 +58,7 @@ void locateAll(std::vector<BodySource>& sources, const PackageLocator& package_l
 PreparedBody prepare(const BodySource& source, const PreparationCachePointer& cache) {
   PreparedBody prepared;
   RepairedMesh repaired = loadGeometry(source.geometry, source.source, cache.get());
-  prepared.repair = std::move(repaired.report);
+  prepared.repair = repaired.report;
   BodyMeshOptions options;
   options.max_edge_length = source.max_edge_length;
   options.cache = cache;
@@ -97,7 +97,7 @@ SceneBody finishBody(const BodySource& source, PreparedBody prepared) {
   body.source = source.source;
   body.colour = source.colour;
   body.in_robot_model = source.in_robot_model;
-  body.repair = std::move(prepared.repair);
+  body.repair = prepared.repair;
   body.bounds = boundsOf(prepared.parts.surface);
   body.mesh = std::make_shared<const BodyMesh>(std::move(prepared.parts), prepared.metric);
   return body;
