@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs what the package needs from the distribution's packages, only what is missing.
-#   scripts/install_dependencies.sh [build] [test] [demo] [plot] [format] [lint] [fuzz]      (default: build test demo)
+#   scripts/install_dependencies.sh [build] [test] [demo] [plot] [format] [lint] [fuzz] [sanitize]  (default: build test demo)
 # Debian 12 has everything in its main archive. Ubuntu 20.04 needs the ROS Noetic archive set up beforehand.
 set -euo pipefail
 # shellcheck source=scripts/common.sh
@@ -31,6 +31,7 @@ set -euo pipefail
   debian_format=(clang-format)
   debian_lint=(clang-format clang-tidy catkin-lint)
   debian_fuzz=(clang libclang-rt-14-dev)  # libFuzzer is in the second
+  debian_sanitize=(dpkg-dev)  # unpacks the source package of TBB
 
   noetic_build=(
     g++ cmake ninja-build
@@ -50,6 +51,7 @@ set -euo pipefail
   noetic_format=(clang-format)
   noetic_lint=(clang-format clang-tidy)
   noetic_fuzz=(clang)
+  noetic_sanitize=(dpkg-dev)
 }
 
 # shellcheck disable=SC1091
@@ -68,11 +70,11 @@ groups=("$@")
 wanted=()
 for group in "${groups[@]}"; do
   case "$group" in
-    build | test | demo | plot | format | lint | fuzz)
+    build | test | demo | plot | format | lint | fuzz | sanitize)
       declare -n packages="${family}_${group}"
       wanted+=("${packages[@]}")
       ;;
-    *) die "unknown group '$group': expected build, test, demo, plot, format, lint or fuzz" ;;
+    *) die "unknown group '$group': expected build, test, demo, plot, format, lint, fuzz or sanitize" ;;
   esac
 done
 
