@@ -63,6 +63,7 @@ constexpr int kNearPoses = 500;
 
 std::vector<Eigen::Isometry3d> posesAlong(const BenchmarkPair& pair, int count) {
   std::vector<Eigen::Isometry3d> motion;
+  motion.reserve(static_cast<std::size_t>(count));
   for (int k = 0; k < count; ++k) motion.push_back(pair.motion(static_cast<double>(k) / (count - 1)));
   return motion;
 }

@@ -204,7 +204,7 @@ class Comparison {
     bool grid_known = false;
     for (int run = 0; run < runs; ++run) {
       TrackerParameters parameters = options_.tracker;
-      parameters.seed = static_cast<std::uint64_t>(1000 * run + instant + 1);
+      parameters.seed = 1000 * static_cast<std::uint64_t>(run) + static_cast<std::uint64_t>(instant) + 1;
       const auto start = std::chrono::steady_clock::now();
       const PairSolution fresh = solveOnce(pair_.name, pair_.a, pair_.b, parameters, pose);
       tally_.cold_ms.push_back(millisecondsSince(start));
