@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "concave_distance/base/indices.h"
+#include "concave_distance/base/pair_key.h"
 
 namespace concave_distance::detail {
 
@@ -12,12 +13,12 @@ class PairTable {
  public:
   static constexpr std::uint32_t kAbsent = 0xffffffffU;
 
-  std::uint32_t find(TriangleIndex a, TriangleIndex b) const { return slots_[slotOf(keyOf(a, b))].number; }
+  std::uint32_t find(TriangleIndex a, TriangleIndex b) const { return slots_[slotOf(pairKey(a, b))].number; }
 
   /// The pair must not be in the table yet.
   void insert(TriangleIndex a, TriangleIndex b, std::uint32_t number) {
     if (2 * (used_.size() + 1) > slots_.size()) grow();
-    const std::uint64_t key = keyOf(a, b);
+    const std::uint64_t key = pairKey(a, b);
     const std::size_t slot = slotOf(key);
     slots_[slot] = {key, number};
     used_.push_back(static_cast<std::uint32_t>(slot));
@@ -39,14 +40,9 @@ class PairTable {
     std::uint32_t number = kAbsent;
   };
 
-  static std::uint64_t keyOf(TriangleIndex a, TriangleIndex b) {
-    return (std::uint64_t{a.value} << 32U) | b.value;
-  }
-
-  /// Where the pair is, or the free slot where it would go. Fibonacci hashing: the product's upper bits
-  /// depend on every bit of the key.
+  /// Where the pair is, or the free slot where it would go.
   std::size_t slotOf(std::uint64_t key) const {
-    auto slot = static_cast<std::size_t>((key * 0x9e3779b97f4a7c15ULL) >> shift_);
+    std::size_t slot = slotOfKey(key, shift_);
     while (slots_[slot].number != kAbsent && slots_[slot].key != key) {
       slot = (slot + 1) & (slots_.size() - 1);
     }

@@ -2,14 +2,9 @@
 
 #include <algorithm>
 
+#include "concave_distance/base/pair_key.h"
+
 namespace concave_distance {
-namespace {
-
-std::uint64_t keyOf(NodeIndex node_a, NodeIndex node_b) {
-  return (std::uint64_t{node_a.value} << 32U) | node_b.value;
-}
-
-}  // namespace
 
 NodePairMap::NodePairMap(std::uint32_t capacity_log2)
     : slots_(std::size_t{1} << capacity_log2), shift_(64U - capacity_log2) {}
@@ -25,8 +20,7 @@ void NodePairMap::clear() {
 /// Where the pair is, or the free slot where it would go.
 std::size_t NodePairMap::slotOf(std::uint64_t key) const {
   const std::size_t mask = slots_.size() - 1;
-  // Fibonacci hashing: the product's upper bits depend on every bit of the key.
-  auto slot = static_cast<std::size_t>((key * 0x9e3779b97f4a7c15ULL) >> shift_);
+  std::size_t slot = slotOfKey(key, shift_);
   while (slots_[slot].stamp == stamp_ && slots_[slot].key != key) {
     slot = (slot + 1) & mask;
   }
@@ -34,7 +28,7 @@ std::size_t NodePairMap::slotOf(std::uint64_t key) const {
 }
 
 std::uint32_t NodePairMap::find(NodeIndex node_a, NodeIndex node_b) const {
-  const Slot& slot = slots_[slotOf(keyOf(node_a, node_b))];
+  const Slot& slot = slots_[slotOf(pairKey(node_a, node_b))];
   return slot.stamp == stamp_ ? slot.number : kAbsent;
 }
 
@@ -42,7 +36,7 @@ std::uint32_t NodePairMap::insert(NodeIndex node_a, NodeIndex node_b, std::uint3
   if (2 * (used_ + 1) > slots_.size()) {
     grow();
   }
-  const std::uint64_t key = keyOf(node_a, node_b);
+  const std::uint64_t key = pairKey(node_a, node_b);
   Slot& slot = slots_[slotOf(key)];
   if (slot.stamp != stamp_) {
     slot = {key, stamp_, number};

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "concave_distance/base/pair_key.h"
 #include "concave_distance/distance/witness_refinement.h"
 
 namespace concave_distance {
@@ -36,15 +37,13 @@ class RippleMemory {
     std::uint64_t owner = 0;
     std::uint64_t judged = 0;  ///< cycle
   };
-  static constexpr std::size_t kCapacity = 1024;
+  static constexpr std::uint32_t kCapacityLog2 = 10;
 
-  /// Fibonacci hashing: the product's upper bits depend on every bit of the key.
   static std::size_t slotOf(TriangleIndex a, TriangleIndex b) {
-    const std::uint64_t key = (std::uint64_t{a.value} << 32U) | b.value;
-    return static_cast<std::size_t>((key * 0x9e3779b97f4a7c15ULL) >> 54U);
+    return slotOfKey(pairKey(a, b), 64 - kCapacityLog2);
   }
 
-  std::array<Ripple, kCapacity> ripples_{};
+  std::array<Ripple, std::size_t{1} << kCapacityLog2> ripples_{};
 };
 
 }  // namespace concave_distance
