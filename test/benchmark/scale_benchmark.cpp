@@ -77,22 +77,22 @@ struct BuildTimes {
 
 BuildTimes timeBuilds(const SurfaceMesh& surface) {
   BuildTimes times{};
-  const auto timeOne = [&](const BodyMeshOptions& options) {
+  const auto time_one = [&](const BodyMeshOptions& options) {
     Body a;
     Body b;
     return buildBoth(surface, options, a, b);
   };
   {
     const tbb::global_control alone(tbb::global_control::max_allowed_parallelism, 1);
-    times.serial = timeOne({});
+    times.serial = time_one({});
   }
-  times.parallel = timeOne({});
+  times.parallel = time_one({});
   const std::filesystem::path folder =
       std::filesystem::temp_directory_path() / ("scale_benchmark_" + std::to_string(getpid()));
   BodyMeshOptions kept;
   kept.cache = std::make_shared<PreparationCache>(folder.string());
-  (void)timeOne(kept);
-  times.cached = timeOne(kept);
+  (void)time_one(kept);
+  times.cached = time_one(kept);
   std::filesystem::remove_all(folder);
   return times;
 }

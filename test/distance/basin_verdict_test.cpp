@@ -39,6 +39,7 @@ std::vector<MinimumSeed> sweptAtOnce(const Scene& scene) {
 
 std::vector<BasinSeed> seedsOf(const std::vector<MinimumSeed>& minima, double least_prominence) {
   std::vector<BasinSeed> seeds;
+  seeds.reserve(minima.size());
   for (const MinimumSeed& m : minima)
     seeds.push_back({m.a, m.b, m.distance, least_prominence, true, kNoLimit});
   return seeds;
@@ -145,18 +146,18 @@ TEST(ConeSweep, InPortionsFindsWhatItFindsAtOnce) {
   RandomEngine engine(34);
   for (int run = 0; run < 20; ++run) {
     const Scene scene = drawn(engine);
-    const auto placesOf = [](const std::vector<MinimumSeed>& minima) {
+    const auto places_of = [](const std::vector<MinimumSeed>& minima) {
       std::set<std::pair<std::uint32_t, std::uint32_t>> places;
       for (const MinimumSeed& m : minima) places.emplace(m.a.value, m.b.value);
       return places;
     };
-    const auto at_once = placesOf(sweptAtOnce(scene));
+    const auto at_once = places_of(sweptAtOnce(scene));
     ConeSweep sweep;
     std::vector<MinimumSeed> found;
     for (int call = 0; call < 2000; ++call) {
       sweep.advance(*scene.a, *scene.b, scene.pose, NormalSides::Both, 10.0, 7, found);
     }
-    EXPECT_EQ(placesOf(found), at_once);
+    EXPECT_EQ(places_of(found), at_once);
   }
 }
 

@@ -98,7 +98,7 @@ SurfaceMesh makePyramidField(int rows, int columns, double pitch, unsigned seed)
   RandomEngine engine(seed);
   std::vector<Eigen::Vector3d> vertices;
   std::vector<TriangleNodes> triangles;
-  const auto addBox = [&](const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
+  const auto add_box = [&](const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
     const auto base = static_cast<std::uint32_t>(vertices.size());
     for (std::uint32_t k = 0; k < 8; ++k) {
       vertices.emplace_back((k & 1U) != 0 ? high.x() : low.x(), (k & 2U) != 0 ? high.y() : low.y(),
@@ -113,7 +113,7 @@ SurfaceMesh makePyramidField(int rows, int columns, double pitch, unsigned seed)
   };
   const double half_x = 0.5 * columns * pitch;
   const double half_y = 0.5 * rows * pitch;
-  addBox({-half_x, -half_y, -0.5 * pitch}, {half_x, half_y, 0.0});
+  add_box({-half_x, -half_y, -0.5 * pitch}, {half_x, half_y, 0.0});
   for (int row = 0; row < rows; ++row) {
     for (int column = 0; column < columns; ++column) {
       const Eigen::Vector3d foot((column + 0.5) * pitch - half_x, (row + 0.5) * pitch - half_y, 0.01 * pitch);

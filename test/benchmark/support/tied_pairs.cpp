@@ -61,6 +61,7 @@ ProofLimit proofLimit(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometr
   const double error = kProofError * proofScale(a, b, a_from_b);
   const std::vector<TrianglePair> ties = pairsWithin(a, b, a_from_b, distance + 2.0 * error);
   std::vector<std::pair<TrianglePoints, TrianglePoints>> corners;
+  corners.reserve(ties.size());
   for (const TrianglePair& pair : ties) {
     corners.emplace_back(cornersOf(a.surface(), pair.a, Eigen::Isometry3d::Identity()),
                          cornersOf(b.surface(), pair.b, a_from_b));
