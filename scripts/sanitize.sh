@@ -94,12 +94,13 @@ for kind in "${kinds[@]}"; do
   # Sanitizers slow programs down; -O1 keeps what they say readable.
   cmake -S "$package_dir" -B "$build_dir" "${generator[@]}" "${launcher[@]}" -DCMAKE_BUILD_TYPE=None \
     -DCMAKE_CXX_FLAGS="-O1 -g1 -fno-omit-frame-pointer $flags" -DCONCAVE_DISTANCE_WITH_ROS=OFF \
-    -DCONCAVE_DISTANCE_BUILD_BENCHMARKS=OFF -DCONCAVE_DISTANCE_PRECOMPILED_HEADERS=ON
+    -DCONCAVE_DISTANCE_BUILD_BENCHMARKS=OFF -DCONCAVE_DISTANCE_PRECOMPILED_HEADERS=ON \
+    -DCONCAVE_DISTANCE_TEST_TIMEOUT=1500
   cmake --build "$build_dir" --parallel "$(job_count)"
   if [ "$kind" = thread ]; then use_sanitized_tbb "$build_dir/tbb"; fi
   say "$kind: running the tests"
   # Other packages that link the core are built by the consumer tests, without a sanitizer.
-  (cd "$build_dir" && "${wrapper[@]}" ctest --timeout 900 --output-on-failure --parallel "$(job_count)" \
+  (cd "$build_dir" && "${wrapper[@]}" ctest --output-on-failure --parallel "$(job_count)" \
     --exclude-regex '^consumer_|^launch_files' "$@") || failed+=("$kind")
 done
 [ ${#failed[@]} -eq 0 ] || die "findings: ${failed[*]}"
