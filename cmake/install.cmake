@@ -1,7 +1,11 @@
 # What is installed, and the exported target, for the devel space (or build tree) and for the install space.
 set(concave_distance_config_destination ${CONCAVE_DISTANCE_SHARE_DESTINATION}/cmake)
 
-install(TARGETS concave_distance_core EXPORT concave_distance-targets
+set(concave_distance_libraries concave_distance_core)
+if(CONCAVE_DISTANCE_WITH_CGAL)
+  list(APPEND concave_distance_libraries concave_distance_convex)
+endif()
+install(TARGETS ${concave_distance_libraries} EXPORT concave_distance-targets
   ARCHIVE DESTINATION ${CONCAVE_DISTANCE_LIB_DESTINATION}
   LIBRARY DESTINATION ${CONCAVE_DISTANCE_LIB_DESTINATION}
   RUNTIME DESTINATION ${CONCAVE_DISTANCE_BIN_DESTINATION})
