@@ -45,46 +45,65 @@ void checkIndices(const ConvexPiece& piece, const std::string& where) {
   }
 }
 
-}  // namespace
-
-ConvexPiece makeConvexPiece(std::vector<Eigen::Vector3d> vertices,
-                            std::vector<std::vector<std::uint32_t>> facets, const std::string& where,
-                            double tolerance) {
-  ConvexPiece piece;
-  piece.vertices = std::move(vertices);
-  piece.facets = std::move(facets);
-  checkIndices(piece, where);
+void measureSphere(ConvexPiece& piece) {
   for (const Eigen::Vector3d& vertex : piece.vertices) {
     piece.centre += vertex / static_cast<double>(piece.vertices.size());
   }
   for (const Eigen::Vector3d& vertex : piece.vertices) {
     piece.radius = std::max(piece.radius, (vertex - piece.centre).norm());
   }
+}
+
+}  // namespace
+
+ConvexPiece makeConvexPiece(std::vector<Eigen::Vector3d> vertices,
+                            std::vector<std::vector<std::uint32_t>> facets,
+                            const std::vector<Eigen::Vector3d>& outward, const std::string& where) {
+  ConvexPiece piece;
+  piece.vertices = std::move(vertices);
+  piece.facets = std::move(facets);
+  checkIndices(piece, where);
+  if (outward.size() != piece.facets.size()) {
+    throw Error(where, "there are not as many directions as facets", "give one a facet");
+  }
+  measureSphere(piece);
   const auto count = static_cast<Eigen::Index>(piece.facets.size());
   piece.normals.resize(count, 3);
   piece.offsets.resize(count);
   for (Eigen::Index f = 0; f < count; ++f) {
-    const std::vector<std::uint32_t>& facet = piece.facets[static_cast<std::size_t>(f)];
-    const Eigen::Vector3d normal = facetNormal(piece.vertices, facet);
-    if (normal.norm() == 0.0) {
+    const Eigen::Vector3d direction = outward[static_cast<std::size_t>(f)].normalized();
+    piece.normals.row(f) = -direction;
+    piece.offsets[f] = support(piece, direction);
+  }
+  return piece;
+}
+
+ConvexPiece makeConvexPiece(std::vector<Eigen::Vector3d> vertices,
+                            std::vector<std::vector<std::uint32_t>> facets, const std::string& where,
+                            double tolerance) {
+  ConvexPiece indexed;
+  indexed.vertices = std::move(vertices);
+  indexed.facets = std::move(facets);
+  checkIndices(indexed, where);
+  std::vector<Eigen::Vector3d> outward;
+  for (std::size_t f = 0; f < indexed.facets.size(); ++f) {
+    outward.push_back(facetNormal(indexed.vertices, indexed.facets[f]));
+    if (outward.back().norm() == 0.0) {
       throw Error(where, "facet " + std::to_string(f) + " has no area", "leave it out");
     }
-    const Eigen::Vector3d inward = -normal.normalized();
-    double lowest = std::numeric_limits<double>::infinity();
-    for (const Eigen::Vector3d& vertex : piece.vertices) {
-      lowest = std::min(lowest, inward.dot(vertex));
-    }
-    for (const std::uint32_t corner : facet) {
-      const double above = inward.dot(piece.vertices[corner]) - lowest;
-      if (above > tolerance * piece.radius) {
-        throw Error(where,
-                    "a corner of facet " + std::to_string(f) + " lies " + std::to_string(above) +
-                        " m inside of the facet's plane",
-                    "a piece must be convex, its facets flat and counter-clockwise seen from outside");
+  }
+  ConvexPiece piece = makeConvexPiece(std::move(indexed.vertices), std::move(indexed.facets), outward, where);
+  for (std::size_t f = 0; f < piece.facets.size(); ++f) {
+    const auto row = static_cast<Eigen::Index>(f);
+    for (const std::uint32_t corner : piece.facets[f]) {
+      const double inside = piece.normals.row(row).dot(piece.vertices[corner]) + piece.offsets[row];
+      if (inside > tolerance * piece.radius) {
+        throw Error(
+            where,
+            "another corner lies " + std::to_string(inside) + " m outside of facet " + std::to_string(f),
+            "a piece must be convex, its facets flat and counter-clockwise seen from outside");
       }
     }
-    piece.normals.row(f) = inward;
-    piece.offsets[f] = -lowest;
   }
   return piece;
 }

@@ -28,6 +28,12 @@ ConvexPiece makeConvexPiece(std::vector<Eigen::Vector3d> vertices,
                             std::vector<std::vector<std::uint32_t>> facets, const std::string& where,
                             double tolerance = 1e-7);
 
+/// The same from facets whose outward directions are known better than rounded corners can say (slivers).
+/// Nothing is checked but the indices. @param outward one direction a facet, of any length but zero
+ConvexPiece makeConvexPiece(std::vector<Eigen::Vector3d> vertices,
+                            std::vector<std::vector<std::uint32_t>> facets,
+                            const std::vector<Eigen::Vector3d>& outward, const std::string& where);
+
 /// Metres^3, from the facets. O(corners).
 double volume(const ConvexPiece& piece);
 
