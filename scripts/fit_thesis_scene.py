@@ -153,8 +153,8 @@ def fit_battery():
     pin = 0.055
     # region, name, base outline, tip (x, y), height of the pointed part, foot is a corner of the battery
     design = [
-        (1, "left_pin", [tuple(p[:2]) for p in thesis_solids.hexagon(left, pin, 0.0)], left, 0.055, False),
-        (2, "right_pin", [tuple(p[:2]) for p in thesis_solids.hexagon(right, pin, 0.0)], right, 0.055, False),
+        (1, "left_pin", [tuple(p[:2]) for p in thesis_solids.regular_polygon(left, pin, 6, 0.0)], left, 0.055, False),
+        (2, "right_pin", [tuple(p[:2]) for p in thesis_solids.regular_polygon(right, pin, 6, 0.0)], right, 0.055, False),
         (3, "east_rail", square((0.425, -0.125), 0.025, 0.035), (0.425, -0.125), 0.05, False),
         (4, "west_rail_north", square((-0.42, 0.125), 0.025, 0.035), (-0.425, 0.13), 0.06, True),
         (5, "south_west_post", square((-0.31, -0.44), 0.04, 0.03), (-0.325, -0.45), 0.07, True),

@@ -3,7 +3,7 @@
 
     scripts/generate_thesis_geometry.py [package folder]
 
-Output: meshes/thesis/*.stl, meshes/thesis/*.csv, urdf/*.urdf. Deterministic: a second run changes no byte.
+Output: meshes/thesis/*.stl, *.csv and *_pieces.obj, urdf/*.urdf. Deterministic: a second run changes no byte.
 """
 
 import json
@@ -12,7 +12,7 @@ import sys
 
 import numpy as np
 
-from geometry import manoeuvre, poses, thesis_solids
+from geometry import hand_partition, manoeuvre, poses, thesis_solids
 from geometry.solid import write_binary_stl
 
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -56,6 +56,10 @@ def main():
         with open(os.path.join(urdfs, solid.name + ".urdf"), "w", encoding="utf-8") as stream:
             stream.write(URDF.format(name=solid.name, colour=COLOURS[solid.name]))
         print(solid.describe())
+
+    hand_partition.write_pieces(os.path.join(meshes, "battery_pieces.obj"), "battery", hand_partition.battery())
+    hand_partition.write_pieces(os.path.join(meshes, "fixture_pieces.obj"), "fixture",
+                                hand_partition.fixture(scene["protrusions"]))
 
     static = {name: np.array(scene[key]) for name, key in (
         ("boxes_position_1", "boxes_position_1"), ("boxes_position_2", "boxes_position_2"),

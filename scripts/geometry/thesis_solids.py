@@ -44,11 +44,23 @@ PLATE_LOWER = (-0.48, -0.51, -0.06)
 PLATE_UPPER = (0.48, 0.21, 0.0)
 
 
-def hexagon(centre, radius, z):
-    """Six corners, counter-clockwise seen from +z, one of them towards +y (where the pins come in)."""
-    angles = np.pi / 2.0 + np.arange(6) * np.pi / 3.0
+def regular_polygon(centre, radius, sides, z):
+    """Counter-clockwise seen from +z, one corner towards +y (where the pins come in)."""
+    angles = np.pi / 2.0 + np.arange(sides) * 2.0 * np.pi / sides
     return np.column_stack((centre[0] + radius * np.cos(angles), centre[1] + radius * np.sin(angles),
-                            np.full(6, z)))
+                            np.full(sides, z)))
+
+
+def guide(sign):
+    """The rims of the battery's guide at +x or -x: at the box's wall, and where it reaches to."""
+    x, out = sign * BATTERY_SIZE[0] / 2.0, sign * (BATTERY_SIZE[0] / 2.0 + GUIDE_REACH)
+    w = GUIDE_HALF_WIDTH
+    # Both ends slope at 45 degrees: the guide enters easily, and a tilted battery has its lowest point at a corner of
+    # the box, not at the guide's end.
+    root = np.array([(x, -w, GUIDE_BOTTOM), (x, w, GUIDE_BOTTOM), (x, w, GUIDE_TOP), (x, -w, GUIDE_TOP)])
+    crest = np.array([(out, -w, GUIDE_BOTTOM + GUIDE_REACH), (out, w, GUIDE_BOTTOM + GUIDE_REACH),
+                      (out, w, GUIDE_TOP - GUIDE_REACH), (out, -w, GUIDE_TOP - GUIDE_REACH)])
+    return root, crest
 
 
 def rectangle(lower, upper, z):
@@ -124,14 +136,14 @@ def semi_extruded():
     return solid
 
 
-def battery():
+def battery(hole_sides=6):
     """Frame: centre of the bottom face, z upwards; inserted by a motion along -z."""
     solid = Solid("battery")
     sx, sy, sz = BATTERY_SIZE
     lower, upper = (-sx / 2.0, -sy / 2.0), (sx / 2.0, sy / 2.0)
     bottom, top = rectangle(lower, upper, 0.0), rectangle(lower, upper, sz)
-    low_rims = [hexagon(c, HOLE_RADIUS, 0.0) for c in HOLE_CENTRES]
-    high_rims = [hexagon(c, HOLE_RADIUS, sz) for c in HOLE_CENTRES]
+    low_rims = [regular_polygon(c, HOLE_RADIUS, hole_sides, 0.0) for c in HOLE_CENTRES]
+    high_rims = [regular_polygon(c, HOLE_RADIUS, hole_sides, sz) for c in HOLE_CENTRES]
     solid.add_face(bottom, holes=low_rims, outward=(0, 0, -1))
     solid.add_face(top, holes=high_rims, outward=(0, 0, 1))
     for low, high in zip(low_rims, high_rims):
@@ -140,13 +152,8 @@ def battery():
         solid.add_face([bottom[k], bottom[k + 1], top[k + 1], top[(k + 1)]][:3] + [top[k]],
                        outward=(0, -1 if k == 0 else 1, 0))
     for sign in (1.0, -1.0):
-        x, out = sign * sx / 2.0, sign * (sx / 2.0 + GUIDE_REACH)
-        w = GUIDE_HALF_WIDTH
-        # Both ends of a guide slope at 45 degrees: it enters easily, and a tilted battery has its lowest
-        # point at a corner of the box, not at the guide's end.
-        root = np.array([(x, -w, GUIDE_BOTTOM), (x, w, GUIDE_BOTTOM), (x, w, GUIDE_TOP), (x, -w, GUIDE_TOP)])
-        crest = np.array([(out, -w, GUIDE_BOTTOM + GUIDE_REACH), (out, w, GUIDE_BOTTOM + GUIDE_REACH),
-                          (out, w, GUIDE_TOP - GUIDE_REACH), (out, -w, GUIDE_TOP - GUIDE_REACH)])
+        x = sign * sx / 2.0
+        root, crest = guide(sign)
         side = np.array([(x, lower[1], 0.0), (x, upper[1], 0.0), (x, upper[1], sz), (x, lower[1], sz)])
         outward = (sign, 0, 0)
         solid.add_face(side, holes=[root], outward=outward)

@@ -12,14 +12,18 @@ namespace {
 /// Facets this near to a proposed point are asked first; relative to the piece's radius.
 constexpr double kNearFacets = 1e-3;
 
+bool isProven(const ConvexPiece& a, const ConvexPiece& b, const Eigen::Isometry3d& a_from_b,
+              const PieceDistance& answer) {
+  return answer.distance - answer.lower_bound <= kPieceDistanceTolerance * pieceScale(a, b, a_from_b);
+}
+
 void measure(const ConvexPiece& a, const ConvexPiece& b, const Eigen::Isometry3d& a_from_b,
              PieceDistance& answer) {
   const Eigen::Vector3d between = a_from_b * answer.points.on_b - answer.points.on_a;
   answer.distance = between.norm();
   answer.lower_bound =
       answer.distance > 0.0 ? std::max(0.0, shadowGap(a, b, a_from_b, between / answer.distance)) : 0.0;
-  answer.proven =
-      answer.distance - answer.lower_bound <= kPieceDistanceTolerance * pieceScale(a, b, a_from_b);
+  answer.proven = isProven(a, b, a_from_b, answer);
 }
 
 TrianglePoints triangleOf(const ConvexPiece& piece, std::size_t facet, std::size_t k,
@@ -34,12 +38,31 @@ bool isNear(const ConvexPiece& piece, std::size_t facet, const Eigen::Vector3d& 
   return piece.normals.row(row).dot(point) + piece.offsets[row] <= reach;
 }
 
+/// Near contact the direction between two points has few digits left; that of a facet has all of them.
+void boundByFacets(const ConvexPiece& a, const ConvexPiece& b, const Eigen::Isometry3d& a_from_b,
+                   PieceDistance& answer) {
+  const auto bound = [&](const Eigen::Vector3d& direction_in_a) {
+    answer.lower_bound = std::max(answer.lower_bound, shadowGap(a, b, a_from_b, direction_in_a));
+  };
+  for (std::size_t f = 0; f < a.facets.size(); ++f) {
+    if (!isNear(a, f, answer.points.on_a, kNearFacets * a.radius)) continue;
+    bound(-a.normals.row(static_cast<Eigen::Index>(f)).transpose());
+  }
+  for (std::size_t f = 0; f < b.facets.size(); ++f) {
+    if (!isNear(b, f, answer.points.on_b, kNearFacets * b.radius)) continue;
+    bound(a_from_b.linear() * b.normals.row(static_cast<Eigen::Index>(f)).transpose());
+  }
+  answer.lower_bound = std::min(answer.lower_bound, answer.distance);
+  answer.proven = isProven(a, b, a_from_b, answer);
+}
+
 /// The closest points of the facets within `reach` of the answer's points, where closer than these.
 void finish(const ConvexPiece& a, const ConvexPiece& b, const Eigen::Isometry3d& a_from_b, double reach_a,
             double reach_b, PieceDistance& answer) {
   const PiecePoints near = answer.points;
   const Eigen::Vector3d origin = a.centre;
-  double best = answer.distance * answer.distance;
+  PiecePoints found = near;
+  double best = std::numeric_limits<double>::infinity();
   for (std::size_t fa = 0; fa < a.facets.size(); ++fa) {
     if (!isNear(a, fa, near.on_a, reach_a)) continue;
     for (std::size_t ka = 1; ka + 1 < a.facets[fa].size(); ++ka) {
@@ -50,14 +73,17 @@ void finish(const ConvexPiece& a, const ConvexPiece& b, const Eigen::Isometry3d&
           const TrianglePairDistance pair = triangleDistance(ta, triangleOf(b, fb, kb, a_from_b, origin));
           if (pair.squared_distance >= best) continue;
           best = pair.squared_distance;
-          answer.points.on_a = pair.point_a + origin;
-          answer.points.on_b = a_from_b.inverse() * (pair.point_b + origin);
+          found = {pair.point_a + origin, a_from_b.inverse() * (pair.point_b + origin)};
         }
       }
     }
   }
   answer.finished = true;
+  // At equal distances, too: these points are exact, and the bound wants the exact direction.
+  const double rounding = kTriangleDistanceError * pieceScale(a, b, a_from_b);
+  if (std::sqrt(best) <= answer.distance + rounding) answer.points = found;
   measure(a, b, a_from_b, answer);
+  if (!answer.proven) boundByFacets(a, b, a_from_b, answer);
 }
 
 /// One common point is enough for distance 0: B's, or a centre, where one body holds the other.
