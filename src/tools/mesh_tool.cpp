@@ -7,6 +7,7 @@
 
 #include "concave_distance/base/error.h"
 #include "mesh_tool_commands.h"
+#include "mesh_tool_convex.h"
 
 namespace {
 
@@ -72,15 +73,24 @@ int run(int argc, char** argv) {
       app.add_subcommand("refine", "Repair, then split edges until none is longer than --max-edge");
   CLI::App* convert =
       app.add_subcommand("convert", "Write in another format or scale; equal vertices are welded, no more");
-  for (CLI::App* command : {inspect, repair, refine, convert}) {
+  CLI::App* hull = app.add_subcommand("hull", "Repair, then write the convex hull");
+  CLI::App* partition =
+      app.add_subcommand("partition", "Repair, then cut a closed mesh into convex pieces, exactly");
+  for (CLI::App* command : {inspect, repair, refine, convert, hull, partition}) {
     addInput(*command, line);
   }
-  for (CLI::App* command : {repair, refine, convert}) {
+  for (CLI::App* command : {repair, refine, convert, hull}) {
     addOutput(*command, line);
   }
-  for (CLI::App* command : {inspect, repair, refine}) {
+  partition->add_option("output", line.options.output, "pieces to write (.obj, one object a piece)")
+      ->required();
+  for (CLI::App* command : {inspect, repair, refine, hull, partition}) {
     addRepair(*command, line);
   }
+  partition
+      ->add_option("--reflex-edge-limit", line.options.reflex_edge_limit,
+                   "refuse meshes with more edges that have more than half a turn of material around them")
+      ->capture_default_str();
   refine->add_option("--max-edge", line.options.max_edge_length, "longest edge to leave, metres")->required();
 
   try {
@@ -96,6 +106,10 @@ int run(int argc, char** argv) {
     repairMeshFile(line.options, std::cout);
   } else if (refine->parsed()) {
     refineMeshFile(line.options, std::cout);
+  } else if (hull->parsed()) {
+    hullOfMeshFile(line.options, std::cout);
+  } else if (partition->parsed()) {
+    partitionMeshFile(line.options, std::cout);
   } else {
     convertMeshFile(line.options, std::cout);
   }

@@ -39,13 +39,6 @@ Measures measure(const SurfaceMesh& mesh) {
   return measures;
 }
 
-RepairedMesh readRepaired(const MeshToolOptions& options) {
-  RepairOptions repair;
-  repair.weld_tolerance = options.weld_tolerance;
-  repair.orient = options.orient;
-  return repairMesh(importMesh(options.input, options.scale), repair, options.input);
-}
-
 void printSizes(const char* label, const SurfaceMesh& mesh, std::ostream& out) {
   out << label << mesh.vertexCount() << " vertices, " << mesh.triangleCount() << " triangles\n";
 }
@@ -56,6 +49,13 @@ void printRepairs(const RepairReport& report, std::ostream& out) {
 }
 
 }  // namespace
+
+RepairedMesh readRepaired(const MeshToolOptions& options) {
+  RepairOptions repair;
+  repair.weld_tolerance = options.weld_tolerance;
+  repair.orient = options.orient;
+  return repairMesh(importMesh(options.input, options.scale), repair, options.input);
+}
 
 void inspectMeshFile(const MeshToolOptions& options, std::ostream& out) {
   const RepairedMesh repaired = readRepaired(options);

@@ -1,8 +1,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <iosfwd>
 #include <string>
+
+#include "concave_distance/mesh/repair_mesh.h"
 
 namespace concave_distance::tools {
 
@@ -13,7 +16,11 @@ struct MeshToolOptions {
   double weld_tolerance = 0.0;   ///< relative to the bounding box's diagonal
   bool orient = true;            ///< turn triangles that disagree
   double max_edge_length = 0.0;  ///< metres
+  std::size_t reflex_edge_limit = 1500;
 };
+
+/// The input, repaired as the options say. @throws Error naming the file
+RepairedMesh readRepaired(const MeshToolOptions& options);
 
 /// Each reads `input`, writes `output` (but for inspect) and prints what it found to `out`.
 /// @throws Error naming the file

@@ -1,0 +1,140 @@
+#include "benchmark/support/manoeuvre_methods.h"
+
+#include <chrono>
+
+#include "benchmark/support/fcl_distance.h"
+#include "benchmark/support/stopwatch.h"
+#include "concave_distance/mesh/import_mesh.h"
+#include "concave_distance/mesh/repair_mesh.h"
+#include "concave_distance/partition/hybrid_distance.h"
+#include "concave_distance/partition/partition_tracker.h"
+#include "concave_distance/tracking/pair_tracker.h"
+
+namespace concave_distance::benchmark {
+namespace {
+
+using Partition = std::shared_ptr<const ConvexPartition>;
+
+/// Carretero counts 26 operations for the distance of a node pair (sec. 5.2).
+constexpr double kFlopsPerNodePair = 26.0;
+
+MethodStep stepOf(const PartitionSolution& solution, double time_us) {
+  MethodStep step;
+  step.distance = solution.distance;
+  step.time_us = time_us;
+  step.flops = solution.flops;
+  step.sub_pairs = solution.sub_pairs;
+  step.iterations = static_cast<double>(solution.iterations);
+  step.most_iterations = solution.most_iterations;
+  step.finished = solution.finished;
+  return step;
+}
+
+Method partitionMethod(const std::string& name, const std::string& partition, const Partition& a,
+                       const Partition& b, const PartitionTrackerOptions& options) {
+  auto tracker = std::make_shared<PartitionTracker>(a, b, options);
+  return {name, partition, [tracker](const Eigen::Isometry3d& pose, double) {
+            const auto start = std::chrono::steady_clock::now();
+            const PartitionSolution solution = tracker->update(pose);
+            return stepOf(solution, microsecondsSince(start));
+          }};
+}
+
+TrackerParameters parametersOf(AccuracyLevel level, bool niches_wanted) {
+  TrackerParameters parameters;
+  parameters.accuracy = level;
+  parameters.niches_wanted = niches_wanted;
+  return parameters;
+}
+
+Method trackerMethod(const std::string& name, const PartitionedPair& pair, AccuracyLevel level,
+                     bool niches_wanted) {
+  auto tracker = std::make_shared<PairTracker>(pair.name, pair.a, pair.b, parametersOf(level, niches_wanted));
+  auto solution = std::make_shared<PairSolution>();
+  return {name, "none", [tracker, solution](const Eigen::Isometry3d& pose, double time) {
+            const auto start = std::chrono::steady_clock::now();
+            tracker->update(pose, time, *solution);
+            MethodStep step;
+            step.time_us = microsecondsSince(start);
+            step.distance = solution->distance;
+            step.flops = kFlopsPerNodePair * static_cast<double>(solution->cost.evaluations);
+            return step;
+          }};
+}
+
+/// The search at `nodes` selects the sub-pairs, the quadratic program finishes them.
+Method hybridMethod(const std::string& name, const std::string& partition, const PartitionedPair& pair,
+                    const Partition& a, const Partition& b) {
+  auto search =
+      std::make_shared<PairTracker>(pair.name, pair.a, pair.b, parametersOf(AccuracyLevel::Nodes, true));
+  auto solution = std::make_shared<PairSolution>();
+  auto hybrid = std::make_shared<HybridDistance>(a, b);
+  auto places = std::make_shared<std::vector<PlacePair>>();
+  auto bodies = std::make_pair(pair.a, pair.b);
+  return {name, partition, [=](const Eigen::Isometry3d& pose, double time) {
+            const auto start = std::chrono::steady_clock::now();
+            search->update(pose, time, *solution);
+            places->clear();
+            for (const TrackedNiche& niche : solution->niches) {
+              places->push_back({bodies.first->graph().positions[niche.node_pair.node_a.value],
+                                 bodies.second->graph().positions[niche.node_pair.node_b.value]});
+            }
+            const PartitionSolution finished = hybrid->update(pose, *places);
+            MethodStep step = stepOf(finished, microsecondsSince(start));
+            step.flops += kFlopsPerNodePair * static_cast<double>(solution->cost.evaluations);
+            return step;
+          }};
+}
+
+void addPartitionMethods(const PartitionedPair& pair, const std::string& partition, const Partition& a,
+                         const Partition& b, std::vector<Method>& methods) {
+  PartitionTrackerOptions options;
+  options.warm_start = false;
+  methods.push_back(partitionMethod("QP, cold", partition, a, b, options));
+  options.warm_start = true;
+  methods.push_back(partitionMethod("QP, warm", partition, a, b, options));
+  options.cull = true;
+  methods.push_back(partitionMethod("QP, warm, culled", partition, a, b, options));
+  options.cull = false;
+  options.solver = PieceSolver::Gjk;
+  methods.push_back(partitionMethod("GJK", partition, a, b, options));
+  options.cull = true;
+  methods.push_back(partitionMethod("GJK, culled", partition, a, b, options));
+  methods.push_back(hybridMethod("hybrid: nodes + QP", partition, pair, a, b));
+}
+
+Method fclMethod(const PartitionedPair& pair) {
+  auto a = makeFclModel(pair.a->surface());
+  auto b = makeFclModel(pair.b->surface());
+  return {"FCL, meshes", "none", [a, b](const Eigen::Isometry3d& pose, double) {
+            const auto start = std::chrono::steady_clock::now();
+            MethodStep step;
+            step.distance = fclDistance(*a, *b, pose).distance;
+            step.time_us = microsecondsSince(start);
+            return step;
+          }};
+}
+
+}  // namespace
+
+std::vector<Method> manoeuvreMethods(const PartitionedPair& pair, bool automatic) {
+  std::vector<Method> methods;
+  addPartitionMethods(pair, "hand", pair.hand_a, pair.hand_b, methods);
+  if (automatic) addPartitionMethods(pair, "automatic", pair.automatic_a, pair.automatic_b, methods);
+  methods.push_back(trackerMethod("nodes", pair, AccuracyLevel::Nodes, true));
+  methods.push_back(trackerMethod("refined", pair, AccuracyLevel::Refined, true));
+  methods.push_back(trackerMethod("certified", pair, AccuracyLevel::Certified, true));
+  methods.push_back(trackerMethod("certified, distance only", pair, AccuracyLevel::Certified, false));
+  methods.push_back(fclMethod(pair));
+  return methods;
+}
+
+std::shared_ptr<const BodyMesh> loadBody(const std::string& folder, const std::string& name,
+                                         double max_edge_length) {
+  const std::string path = folder + "/" + name + ".stl";
+  BodyMeshOptions options;
+  options.max_edge_length = max_edge_length;
+  return std::make_shared<const BodyMesh>(name, repairMesh(importMesh(path), {}, path).mesh, options);
+}
+
+}  // namespace concave_distance::benchmark
