@@ -3,7 +3,7 @@ set(concave_distance_config_destination ${CONCAVE_DISTANCE_SHARE_DESTINATION}/cm
 
 set(concave_distance_libraries concave_distance_core)
 if(CONCAVE_DISTANCE_WITH_CGAL)
-  list(APPEND concave_distance_libraries concave_distance_convex)
+  list(PREPEND concave_distance_libraries concave_distance_convex)
 endif()
 install(TARGETS ${concave_distance_libraries} EXPORT concave_distance-targets
   ARCHIVE DESTINATION ${CONCAVE_DISTANCE_LIB_DESTINATION}

@@ -30,7 +30,10 @@ TEST_F(MeshToolConvex, PartitionWritesPiecesThatAreTheBody) {
   exportMesh(comb, folder.path("comb.obj"));
   EXPECT_EQ(run("partition " + folder.path("comb.obj") + " " + folder.path("pieces.obj")), 0);
   EXPECT_NE(test::contentOf(folder.path("out")).find("reflex edges: 6, shells: 1\n"), std::string::npos);
-  test::expectSameSolid(readPieces(folder.path("pieces.obj")), comb, 1000);
+  // Import passes through single precision.
+  const std::string path = folder.path("comb.obj");
+  test::expectSameSolid(readPieces(folder.path("pieces.obj")), repairMesh(importMesh(path), {}, path).mesh,
+                        1000);
 }
 
 TEST_F(MeshToolConvex, HullWritesAClosedMeshAroundTheBody) {
