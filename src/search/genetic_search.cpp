@@ -10,7 +10,7 @@
 #include "concave_distance/search/mating_restriction.h"
 #include "concave_distance/search/mutation.h"
 #include "concave_distance/search/replacement.h"
-#include "concave_distance/search/selection.h"
+#include "concave_distance/base/selection.h"
 #include "concave_distance/search/sharing.h"
 
 namespace concave_distance {

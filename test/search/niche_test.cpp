@@ -10,7 +10,7 @@
 #include "concave_distance/search/mutation.h"
 #include "concave_distance/search/niche_identification.h"
 #include "concave_distance/search/place_table.h"
-#include "concave_distance/search/selection.h"
+#include "concave_distance/base/selection.h"
 #include "search/search_scenes.h"
 
 namespace concave_distance {

@@ -4,9 +4,10 @@
 #include <optional>
 #include <string>
 
+#include "concave_distance/base/selection.h"
+
 namespace concave_distance {
 
-enum class SelectionMethod : std::uint8_t { StochasticUniversalSampling, Roulette };
 enum class MatingMethod : std::uint8_t { Mesh, Phenotypic, Genotypic };
 enum class NichingMethod : std::uint8_t {
   None,

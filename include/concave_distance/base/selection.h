@@ -4,9 +4,10 @@
 #include <vector>
 
 #include "concave_distance/base/random_engine.h"
-#include "concave_distance/search/genetic_parameters.h"
 
 namespace concave_distance {
+
+enum class SelectionMethod : std::uint8_t { StochasticUniversalSampling, Roulette };
 
 /// Draws `count` individuals with the method given, see the two functions below.
 /// @param weights of the individuals, not negative, their sum positive and finite

@@ -1,4 +1,4 @@
-#include "concave_distance/search/selection.h"
+#include "concave_distance/base/selection.h"
 
 #include <gtest/gtest.h>
 
