@@ -1,5 +1,5 @@
-# concave_distance_convex: the rooms partition/ and continuous/. Their exact constructions are CGAL's (GPL-3), their
-# quadratic programs ALGLIB's (GPL-2 or later), their GJK is FCL's (BSD): a library of its own, so that
+# concave_distance_convex: the room partition/ and the tree builder of continuous/. Their exact constructions are CGAL's
+# (GPL-3), their quadratic programs ALGLIB's (GPL-2 or later), their GJK is FCL's (BSD): a library of its own, so that
 # concave_distance_core and the node stay BSD-3-Clause. A program that links it is under the GPL as a whole.
 find_package(CGAL QUIET)
 find_package(fcl QUIET)
@@ -36,7 +36,7 @@ if(CONCAVE_DISTANCE_WITH_CGAL)
     PRIVATE concave_distance_warnings CGAL::CGAL fcl ${CONCAVE_DISTANCE_ALGLIB})
   # Their headers warn where ours may not.
   target_include_directories(concave_distance_convex SYSTEM PRIVATE ${CONCAVE_DISTANCE_ALGLIB_HEADERS})
-  foreach(room partition continuous)
+  foreach(room partition continuous/construction)
     if(EXISTS "${PROJECT_SOURCE_DIR}/src/${room}/CMakeLists.txt")
       add_subdirectory(src/${room})
     endif()
