@@ -59,6 +59,8 @@ ContinuousGeneticParameters improvedContinuousGenetic() {
   ContinuousGeneticParameters p;
   p.local_step = improvedLocalStep();
   p.elite_count = 1;
+  p.deterministic_crowding = true;
+  p.immigrants = 4;
   p.prefer_feasible = true;
   p.final_repeats = 50;
   return p;
