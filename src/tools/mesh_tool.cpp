@@ -76,7 +76,9 @@ int run(int argc, char** argv) {
   CLI::App* hull = app.add_subcommand("hull", "Repair, then write the convex hull");
   CLI::App* partition =
       app.add_subcommand("partition", "Repair, then cut a closed mesh into convex pieces, exactly");
-  for (CLI::App* command : {inspect, repair, refine, convert, hull, partition}) {
+  CLI::App* tree = app.add_subcommand(
+      "tree", "Repair, then write the constraint tree: hull, concavities, what stands in them, and so on");
+  for (CLI::App* command : {inspect, repair, refine, convert, hull, partition, tree}) {
     addInput(*command, line);
   }
   for (CLI::App* command : {repair, refine, convert, hull}) {
@@ -84,7 +86,13 @@ int run(int argc, char** argv) {
   }
   partition->add_option("output", line.options.output, "pieces to write (.obj, one object a piece)")
       ->required();
-  for (CLI::App* command : {inspect, repair, refine, hull, partition}) {
+  tree->add_option("output", line.options.output, "tree to write (.yaml)")->required();
+  tree->add_option("--pieces", line.options.pieces,
+                   "write the convex pieces, too (.obj, one object a piece)");
+  tree->add_option("--flatness", line.options.flatness,
+                   "leave out pieces thinner than this fraction of the body's size")
+      ->capture_default_str();
+  for (CLI::App* command : {inspect, repair, refine, hull, partition, tree}) {
     addRepair(*command, line);
   }
   partition
@@ -110,6 +118,8 @@ int run(int argc, char** argv) {
     hullOfMeshFile(line.options, std::cout);
   } else if (partition->parsed()) {
     partitionMeshFile(line.options, std::cout);
+  } else if (tree->parsed()) {
+    treeOfMeshFile(line.options, std::cout);
   } else {
     convertMeshFile(line.options, std::cout);
   }

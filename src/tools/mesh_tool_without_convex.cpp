@@ -20,4 +20,8 @@ void partitionMeshFile(const MeshToolOptions&, std::ostream&) {
   failWithoutCgal("partition");
 }
 
+void treeOfMeshFile(const MeshToolOptions&, std::ostream&) {
+  failWithoutCgal("tree");
+}
+
 }  // namespace concave_distance::tools

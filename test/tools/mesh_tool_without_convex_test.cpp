@@ -10,7 +10,7 @@ namespace {
 
 TEST(MeshToolWithoutCgal, SaysWhatToInstallAndWhichOptionToTurnOn) {
   std::ostringstream out;
-  for (const auto& command : {hullOfMeshFile, partitionMeshFile}) {
+  for (const auto& command : {hullOfMeshFile, partitionMeshFile, treeOfMeshFile}) {
     try {
       command({}, out);
       ADD_FAILURE() << "no error";
