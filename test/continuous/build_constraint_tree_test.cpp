@@ -6,6 +6,7 @@
 #include <map>
 
 #include "concave_distance/base/error.h"
+#include "concave_distance/continuous/constraint_tree_file.h"
 #include "concave_distance/continuous/continuous_genetic_search.h"
 #include "concave_distance/distance/enumeration.h"
 #include "concave_distance/mesh/mesh_topology.h"
@@ -78,6 +79,18 @@ INSTANTIATE_TEST_SUITE_P(
                       std::pair("grooved_cylinder", Expected{{{1, {1, 18}}, {-2, {1, 2}}, {3, {2, 34}}}, 1}),
                       std::pair("battery", Expected{{{1, {1, 14}}, {-2, {4, 14}}, {3, {2, 8}}}, 0}),
                       std::pair("fixture", Expected{{{1, {1, 26}}, {-2, {1, 1}}, {3, {8, 68}}}, 0})));
+
+TEST(BuildConstraintTree, GivesTheTreesThatAreKeptForBuildsWithoutCgal) {
+  for (const char* name : {"box", "notched_box", "semi_extruded", "grooved_cylinder", "battery", "fixture"}) {
+    const ConstraintTree kept =
+        readConstraintTreeFile(test::thesisFile("trees/" + std::string(name) + ".yaml"));
+    const SurfaceMesh mesh = loadMesh("thesis/" + std::string(name) + ".stl");
+    const ConstraintTree built = buildConstraintTree(mesh, {}, name).tree;
+    EXPECT_EQ(kept.pieces().size(), built.pieces().size()) << name;
+    EXPECT_EQ(kept.constraints().size(), built.constraints().size()) << name;
+    expectSameInside(mesh, kept, name);
+  }
+}
 
 TEST(BuildConstraintTree, HoldsForLinksOfRobots) {
   for (const char* name :

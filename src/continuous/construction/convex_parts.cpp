@@ -1,5 +1,6 @@
 #include "convex_parts.h"
 
+#include <algorithm>
 #include <iterator>
 
 namespace concave_distance {
@@ -12,15 +13,27 @@ void addFacetPlanes(const SolidFacets& part, std::vector<CutPlane>& cuts) {
   }
 }
 
+bool isNothing(const SolidFacets& solid, double tolerance) {
+  return solid.facets.empty() || volumeOf(solid) <= tolerance * tolerance * tolerance ||
+         thicknessOf(solid) <= tolerance;
+}
+
 void divideByWalls(const ExactSolid& solid, double tolerance, ConvexParts& result) {
   result.used_vertical_walls = true;
   for (const ExactSolid& part : solid.convexParts()) {
     const SolidFacets facets = part.facets();
-    if (thicknessOf(facets) > tolerance) {
+    if (!isNothing(facets, tolerance)) {
       addFacetPlanes(facets, result.cuts);
       result.parts.push_back(facets);
     }
   }
+}
+
+/// Reflex edges that bend by less than the tolerance leave nothing between a solid and its hull.
+bool fillsItsHull(const ExactSolid& solid, const ExactSolid& hull, double tolerance) {
+  const std::vector<ExactSolid> rest = hull.minus(solid).components();
+  return std::all_of(rest.begin(), rest.end(),
+                     [&](const ExactSolid& part) { return isNothing(part.facets(), tolerance); });
 }
 
 /// Both sides of the first plane that leaves something on each.
@@ -50,16 +63,24 @@ ConvexParts convexParts(const ExactSolid& solid, double tolerance, std::uint32_t
     const ExactSolid piece = std::move(open.back());
     open.pop_back();
     const SolidFacets facets = piece.facets();
-    if (facets.facets.empty() || thicknessOf(facets) <= tolerance) {
+    if (isNothing(facets, tolerance)) {
       continue;
     }
     if (isConvex(facets, tolerance)) {
       result.parts.push_back(facets);
       continue;
     }
+    const std::vector<CutPlane> planes = cutPlanes(facets, tolerance);
+    if (planes.empty()) {
+      const ExactSolid hull = piece.hull();
+      if (fillsItsHull(piece, hull, tolerance)) {
+        result.parts.push_back(hull.facets());
+        continue;
+      }
+    }
     std::vector<ExactSolid> sides;
     if (result.cuts.size() < cut_limit) {
-      sides = cutOnce(piece, cutPlanes(facets, tolerance), result);
+      sides = cutOnce(piece, planes, result);
     }
     if (sides.empty()) {
       divideByWalls(piece, tolerance, result);

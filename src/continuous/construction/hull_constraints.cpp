@@ -30,7 +30,7 @@ bool meetsAny(const SolidFacets& hull, const SolidFacet& facet,
 /// Satisfied by every vertex.
 LinearConstraint supportingConstraint(const SolidFacets& hull, const SolidFacet& facet) {
   LinearConstraint constraint;
-  constraint.normal = -facet.normal;
+  constraint.normal = Eigen::Vector3d::Zero() - facet.normal;  // no negative zeros in files
   double least = std::numeric_limits<double>::infinity();
   for (const Eigen::Vector3d& vertex : hull.vertices) {
     least = std::min(least, constraint.normal.dot(vertex));
