@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Batteries with more hole facets and fixtures with more protrusions, each with its partition by hand.
 
-    scripts/generate_partition_family.py FOLDER [--hole-facets 6,12,20] [--protrusions 8,16,32]
+    scripts/generate_partition_family.py FOLDER [--hole-facets 6,12,20,40] [--protrusions 1,4,8,16,32]
 
 Output: FOLDER/battery_<facets>.stl, battery_<facets>_pieces.obj (2 n + 2 pieces, Carretero, sec. 6.3.1) and
 fixture_<protrusions>.stl, fixture_<protrusions>_pieces.obj (one piece more than protrusions). The first eight
@@ -58,8 +58,8 @@ def numbers(text):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("folder")
-    parser.add_argument("--hole-facets", type=numbers, default=[6, 12, 20])
-    parser.add_argument("--protrusions", type=numbers, default=[8, 16, 32])
+    parser.add_argument("--hole-facets", type=numbers, default=[6, 12, 20, 40])
+    parser.add_argument("--protrusions", type=numbers, default=[1, 4, 8, 16, 32])
     arguments = parser.parse_args()
     os.makedirs(arguments.folder, exist_ok=True)
     with open(os.path.join(HERE, "geometry", "thesis_scene.json"), encoding="utf-8") as stream:

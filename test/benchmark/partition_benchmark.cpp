@@ -4,18 +4,19 @@
 // from which the search is cheaper than the partition, by batteries with more hole facets and fixtures with
 // more protrusions.
 //
-//   partition_benchmark [--family FOLDER --hole-facets 6,12,20 --protrusions 8,16,32] [--repeats 3]
+//   partition_benchmark [--family FOLDER --hole-facets 6,12,20,40 --protrusions 1,4,8,16,32] [--repeats 2]
 //                       [--output doc/results/partition.csv]
 //
 // FOLDER is what scripts/generate_partition_family.py wrote. A row is a method on a pair: hole facets and
 // protrusions; sub-pairs of the partition; mean and largest error against the certified distance, metres;
-// microseconds a step (mean, median, the first step's; the fastest of the repeats at every step); of the
-// quadratic programs, the mean iterations of one at the first step and at the others, and the most that one
-// took; sub-pairs solved a step; sub-pairs a step whose solver was not good enough; Mflop a step by the
-// thesis's rules (26 a node pair, 2221 a QP iteration).
+// microseconds of processor time a step (mean, median, the first step's; the fastest of the repeats at every
+// step); of the quadratic programs, the mean iterations of one at the first step and at the others, and the
+// most that one took; sub-pairs solved a step; sub-pairs a step whose solver was not good enough; Mflop a
+// step by the thesis's rules (26 a node pair, 2221 a QP iteration).
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <fstream>
+#include <map>
 
 #include "benchmark/support/benchmark_main.h"
 #include "benchmark/support/benchmark_pairs.h"
@@ -111,19 +112,43 @@ void print(const Row& row, int hole_facets, int protrusions, std::ofstream& csv)
       << ',' << 1e-6 * row.flops << std::endl;
 }
 
-/// Where the search is cheaper than solving every sub-pair: its time over the partition's time a sub-pair.
-void printCrossing(const std::vector<Row>& rows) {
-  for (const char* search : {"nodes", "refined", "certified", "certified, distance only"}) {
-    for (const char* partition : {"QP, cold", "QP, warm", "GJK"}) {
-      double search_us = 0.0;
-      double pair_us = 0.0;
-      for (const Row& row : rows) {
-        if (row.method == search) search_us = mean(row.times_us);
-        if (row.method == partition && row.partition == "hand") {
-          pair_us = mean(row.times_us) / static_cast<double>(row.sub_pairs_in_all);
+const std::vector<std::string>& searches() {
+  static const std::vector<std::string> kSearches = {"nodes", "refined", "certified",
+                                                     "certified, distance only", "hybrid: nodes + QP"};
+  return kSearches;
+}
+
+const std::vector<std::string>& partitions() {
+  static const std::vector<std::string> kPartitions = {"QP, warm", "GJK", "GJK, culled"};
+  return kPartitions;
+}
+
+/// One pair's mean microseconds a step of every method on the partition by hand.
+struct PairTimes {
+  std::size_t sub_pairs = 0;
+  std::map<std::string, double> mean_us;
+};
+
+/// Where the search is cheaper than the partition: on which side of every pair's count of sub-pairs.
+void printCrossing(std::vector<PairTimes> pairs) {
+  std::sort(pairs.begin(), pairs.end(),
+            [](const PairTimes& l, const PairTimes& r) { return l.sub_pairs < r.sub_pairs; });
+  std::printf(
+      "sub-pairs with the partition cheaper (up to) and with the search cheaper (from), of %zu pairs:\n",
+      pairs.size());
+  for (const std::string& search : searches()) {
+    for (const std::string& partition : partitions()) {
+      std::size_t last_cheaper_partition = 0;
+      std::size_t first_cheaper_search = 0;
+      for (const PairTimes& pair : pairs) {
+        if (pair.mean_us.at(partition) < pair.mean_us.at(search)) {
+          last_cheaper_partition = pair.sub_pairs;
+        } else if (first_cheaper_search == 0) {
+          first_cheaper_search = pair.sub_pairs;
         }
       }
-      std::printf("  %-25s costs as much as %6.1f sub-pairs by %s\n", search, search_us / pair_us, partition);
+      std::printf("  %-25s against %-12s %6zu %6zu\n", search.c_str(), partition.c_str(),
+                  last_cheaper_partition, first_cheaper_search);
     }
   }
 }
@@ -152,8 +177,8 @@ void partitionAutomatically(PartitionedPair& pair) {
   pair.automatic_b = partition(*pair.b);
 }
 
-void runPair(PartitionedPair& pair, int hole_facets, int protrusions, bool automatic, int repeats,
-             std::ofstream& csv) {
+PairTimes runPair(PartitionedPair& pair, int hole_facets, int protrusions, bool automatic, int repeats,
+                  std::ofstream& csv) {
   const std::vector<TimedPose> poses =
       loadPoses(std::string(CONCAVE_DISTANCE_SOURCE_DIR) + "/meshes/thesis/manoeuvre_200.csv");
   std::printf("%s: %d hole facets, %d protrusions; %zu x %zu pieces by hand\n", pair.name.c_str(),
@@ -164,12 +189,14 @@ void runPair(PartitionedPair& pair, int hole_facets, int protrusions, bool autom
               "Mflop");
   const std::vector<double> certified = certifiedDistances(pair, poses);
   const std::size_t count = manoeuvreMethods(pair, automatic).size();
-  std::vector<Row> rows;
+  PairTimes times;
+  times.sub_pairs = pair.hand_a->pieces.size() * pair.hand_b->pieces.size();
   for (std::size_t k = 0; k < count; ++k) {
-    rows.push_back(measure(pair, k, automatic, repeats, poses, certified));
-    print(rows.back(), hole_facets, protrusions, csv);
+    const Row row = measure(pair, k, automatic, repeats, poses, certified);
+    print(row, hole_facets, protrusions, csv);
+    if (row.partition != "automatic") times.mean_us[row.method] = mean(row.times_us);
   }
-  printCrossing(rows);
+  return times;
 }
 
 }  // namespace
@@ -177,9 +204,9 @@ void runPair(PartitionedPair& pair, int hole_facets, int protrusions, bool autom
 int benchmarkMain(int argc, char** argv) {
   CLI::App app("Convex partition and the search along the insertion of the battery");
   std::string family;
-  std::vector<int> hole_facets = {6, 12, 20};
-  std::vector<int> protrusions = {8, 16, 32};
-  int repeats = 3;
+  std::vector<int> hole_facets = {6, 12, 20, 40};
+  std::vector<int> protrusions = {1, 4, 8, 16, 32};
+  int repeats = 2;
   std::string output;
   app.add_option("--family", family, "Folder with batteries and fixtures of more pieces");
   app.add_option("--hole-facets", hole_facets, "Batteries of the family")->delimiter(',');
@@ -197,15 +224,16 @@ int benchmarkMain(int argc, char** argv) {
   }
   PartitionedPair thesis =
       loadPair(std::string(CONCAVE_DISTANCE_SOURCE_DIR) + "/meshes/thesis", "fixture", "battery");
-  runPair(thesis, 6, 8, true, repeats, csv);
+  std::vector<PairTimes> times = {runPair(thesis, 6, 8, true, repeats, csv)};
   if (family.empty()) return 0;
   for (const int facets : hole_facets) {
     for (const int count : protrusions) {
       PartitionedPair pair =
           loadPair(family, "fixture_" + std::to_string(count), "battery_" + std::to_string(facets));
-      runPair(pair, facets, count, false, repeats, csv);
+      times.push_back(runPair(pair, facets, count, false, repeats, csv));
     }
   }
+  printCrossing(std::move(times));
   return 0;
 }
 

@@ -1,9 +1,7 @@
 #include "benchmark/support/manoeuvre_methods.h"
 
-#include <chrono>
-
 #include "benchmark/support/fcl_distance.h"
-#include "benchmark/support/stopwatch.h"
+#include "benchmark/support/processor_time.h"
 #include "concave_distance/mesh/import_mesh.h"
 #include "concave_distance/mesh/repair_mesh.h"
 #include "concave_distance/partition/hybrid_distance.h"
@@ -34,9 +32,9 @@ Method partitionMethod(const std::string& name, const std::string& partition, co
                        const Partition& b, const PartitionTrackerOptions& options) {
   auto tracker = std::make_shared<PartitionTracker>(a, b, options);
   return {name, partition, [tracker](const Eigen::Isometry3d& pose, double) {
-            const auto start = std::chrono::steady_clock::now();
+            const double start = processorMicroseconds();
             const PartitionSolution solution = tracker->update(pose);
-            return stepOf(solution, microsecondsSince(start));
+            return stepOf(solution, processorMicroseconds() - start);
           }};
 }
 
@@ -52,10 +50,10 @@ Method trackerMethod(const std::string& name, const PartitionedPair& pair, Accur
   auto tracker = std::make_shared<PairTracker>(pair.name, pair.a, pair.b, parametersOf(level, niches_wanted));
   auto solution = std::make_shared<PairSolution>();
   return {name, "none", [tracker, solution](const Eigen::Isometry3d& pose, double time) {
-            const auto start = std::chrono::steady_clock::now();
+            const double start = processorMicroseconds();
             tracker->update(pose, time, *solution);
             MethodStep step;
-            step.time_us = microsecondsSince(start);
+            step.time_us = processorMicroseconds() - start;
             step.distance = solution->distance;
             step.flops = kFlopsPerNodePair * static_cast<double>(solution->cost.evaluations);
             return step;
@@ -72,7 +70,7 @@ Method hybridMethod(const std::string& name, const std::string& partition, const
   auto places = std::make_shared<std::vector<PlacePair>>();
   auto bodies = std::make_pair(pair.a, pair.b);
   return {name, partition, [=](const Eigen::Isometry3d& pose, double time) {
-            const auto start = std::chrono::steady_clock::now();
+            const double start = processorMicroseconds();
             search->update(pose, time, *solution);
             places->clear();
             for (const TrackedNiche& niche : solution->niches) {
@@ -80,17 +78,17 @@ Method hybridMethod(const std::string& name, const std::string& partition, const
                                  bodies.second->graph().positions[niche.node_pair.node_b.value]});
             }
             const PartitionSolution finished = hybrid->update(pose, *places);
-            MethodStep step = stepOf(finished, microsecondsSince(start));
+            MethodStep step = stepOf(finished, processorMicroseconds() - start);
             step.flops += kFlopsPerNodePair * static_cast<double>(solution->cost.evaluations);
             return step;
           }};
 }
 
 void addPartitionMethods(const PartitionedPair& pair, const std::string& partition, const Partition& a,
-                         const Partition& b, std::vector<Method>& methods) {
+                         const Partition& b, bool cold, std::vector<Method>& methods) {
   PartitionTrackerOptions options;
   options.warm_start = false;
-  methods.push_back(partitionMethod("QP, cold", partition, a, b, options));
+  if (cold) methods.push_back(partitionMethod("QP, cold", partition, a, b, options));
   options.warm_start = true;
   methods.push_back(partitionMethod("QP, warm", partition, a, b, options));
   options.cull = true;
@@ -107,20 +105,22 @@ Method fclMethod(const PartitionedPair& pair) {
   auto a = makeFclModel(pair.a->surface());
   auto b = makeFclModel(pair.b->surface());
   return {"FCL, meshes", "none", [a, b](const Eigen::Isometry3d& pose, double) {
-            const auto start = std::chrono::steady_clock::now();
+            const double start = processorMicroseconds();
             MethodStep step;
             step.distance = fclDistance(*a, *b, pose).distance;
-            step.time_us = microsecondsSince(start);
+            step.time_us = processorMicroseconds() - start;
             return step;
           }};
 }
 
 }  // namespace
 
-std::vector<Method> manoeuvreMethods(const PartitionedPair& pair, bool automatic) {
+std::vector<Method> manoeuvreMethods(const PartitionedPair& pair, bool cold) {
   std::vector<Method> methods;
-  addPartitionMethods(pair, "hand", pair.hand_a, pair.hand_b, methods);
-  if (automatic) addPartitionMethods(pair, "automatic", pair.automatic_a, pair.automatic_b, methods);
+  addPartitionMethods(pair, "hand", pair.hand_a, pair.hand_b, cold, methods);
+  if (pair.automatic_a) {
+    addPartitionMethods(pair, "automatic", pair.automatic_a, pair.automatic_b, cold, methods);
+  }
   methods.push_back(trackerMethod("nodes", pair, AccuracyLevel::Nodes, true));
   methods.push_back(trackerMethod("refined", pair, AccuracyLevel::Refined, true));
   methods.push_back(trackerMethod("certified", pair, AccuracyLevel::Certified, true));

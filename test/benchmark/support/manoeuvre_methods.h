@@ -11,7 +11,8 @@
 
 namespace concave_distance::benchmark {
 
-/// What one method says at one instant of a motion, and what that cost. Metres, microseconds.
+/// What one method says at one instant of a motion, and what that cost. Metres, microseconds of
+/// processor time.
 struct MethodStep {
   double distance = 0.0;
   double time_us = 0.0;
@@ -30,7 +31,7 @@ struct PartitionedPair {
   std::shared_ptr<const BodyMesh> b;
   std::shared_ptr<const ConvexPartition> hand_a;  ///< cut by hand
   std::shared_ptr<const ConvexPartition> hand_b;
-  std::shared_ptr<const ConvexPartition> automatic_a;  ///< partitionMesh
+  std::shared_ptr<const ConvexPartition> automatic_a;  ///< partitionMesh; may be missing
   std::shared_ptr<const ConvexPartition> automatic_b;
 };
 
@@ -42,8 +43,9 @@ struct Method {
 };
 
 /// Convex partition with QP and with GJK, all sub-pairs and culled, the hybrid, and this package's tracker at
-/// `nodes`, `refined` and `certified`. @param automatic also on the automatic partition
-std::vector<Method> manoeuvreMethods(const PartitionedPair& pair, bool automatic);
+/// `nodes`, `refined` and `certified`. On the automatic
+/// partition, too, where there is one. @param cold also QP without warm starts
+std::vector<Method> manoeuvreMethods(const PartitionedPair& pair, bool cold);
 
 /// FOLDER/NAME.stl on a grid of `max_edge_length`, metres. @throws Error when the file is missing
 std::shared_ptr<const BodyMesh> loadBody(const std::string& folder, const std::string& name,
