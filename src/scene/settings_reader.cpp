@@ -54,6 +54,10 @@ constexpr std::pair<const char*, NichingMethod> kNichingMethods[] = {
     {"deterministic_crowding", NichingMethod::DeterministicCrowding},
     {"deterministic_crowding_with_selection", NichingMethod::DeterministicCrowdingWithSelection},
     {"simple_crowding", NichingMethod::SimpleCrowding}};
+constexpr std::pair<const char*, LocalOptimization> kLocalOptimizations[] = {
+    {"none", LocalOptimization::None},
+    {"lamarckian", LocalOptimization::Lamarckian},
+    {"baldwinian", LocalOptimization::Baldwinian}};
 
 // The three radii of niching, which the settings may give for cold and warm cycles at once.
 void readRadii(YamlMap& map, GeneticParameters& p) {
@@ -80,7 +84,7 @@ void readOperators(YamlMap& map, GeneticParameters& p) {
   if (auto v = map.take("selection")) p.selection = v->choice(kSelectionMethods);
   if (auto v = map.take("mating")) p.mating = v->choice(kMatingMethods);
   if (auto v = map.take("niching")) p.niching = v->choice(kNichingMethods);
-  if (auto v = map.take("local_optimization")) p.local_optimization = v->boolean();
+  if (auto v = map.take("local_optimization")) p.local_optimization = v->choice(kLocalOptimizations);
   if (auto v = map.take("sharing_exponent")) {
     p.sharing_exponent = v->number("greater than 0", positiveFinite);
   }

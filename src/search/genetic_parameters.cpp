@@ -1,45 +1,16 @@
 #include "concave_distance/search/genetic_parameters.h"
 
 #include <cmath>
-#include <sstream>
 
-#include "concave_distance/base/error.h"
+#include "parameter_checks.h"
 
 namespace concave_distance {
-namespace {
 
-/// Refuses one parameter.
-[[noreturn]] void refuse(const std::string& where, const std::string& parameter, const std::string& seen,
-                         const std::string& allowed) {
-  throw Error(where, parameter + " is " + seen, "allowed: " + allowed);
-}
-
-std::string toText(double value) {
-  std::ostringstream text;
-  text << value;
-  return text.str();
-}
-
-void requireShare(const std::string& where, const std::string& parameter, double value) {
-  if (!(value >= 0.0 && value <= 1.0)) {
-    refuse(where, parameter, toText(value), "0 to 1");
-  }
-}
-
-void requireLength(const std::string& where, const std::string& parameter,
-                   const std::optional<double>& value) {
-  if (value && !(*value > 0.0)) {
-    refuse(where, parameter, toText(*value), "a positive length in metres, or leave it out");
-  }
-}
-
-void requireNotNegative(const std::string& where, const std::string& parameter, double value) {
-  if (!(value >= 0.0) || std::isinf(value)) {
-    refuse(where, parameter, toText(value), "0 or more, finite");
-  }
-}
-
-}  // namespace
+using detail::refuse;
+using detail::requireLength;
+using detail::requireNotNegative;
+using detail::requireShare;
+using detail::toText;
 
 void GeneticParameters::validate(const std::string& where) const {
   if (population_size < 2 || population_size % 2 != 0) {

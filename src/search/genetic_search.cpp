@@ -92,11 +92,19 @@ class GeneticRun {
     work_.census.take(work_.population_places, work_.places.size());
   }
 
-  /// A new individual's distance; with local optimisation it goes where its descent ends (Lamarck).
+  /// A new individual's distance, or that of the local minimum below it.
   void settle(TrialPoint& point, std::uint32_t& place) {
-    point = parameters_.local_optimization
-                ? descend(objective_, point, &work_.basins, work_.trail, result_.cost)
-                : objective_.evaluate(point.node_a, point.node_b, result_.cost);
+    if (parameters_.local_optimization == LocalOptimization::None) {
+      point = objective_.evaluate(point.node_a, point.node_b, result_.cost);
+    } else {
+      const TrialPoint minimum = descend(objective_, point, &work_.basins, work_.trail, result_.cost);
+      if (parameters_.local_optimization == LocalOptimization::Lamarckian) {
+        point = minimum;
+      } else {
+        point.squared_distance = minimum.squared_distance;
+        best_below_ = std::min(best_below_, minimum);
+      }
+    }
     place = work_.places.placeOf(point);
   }
 
@@ -315,7 +323,9 @@ class GeneticRun {
   }
 
   void noteBest(std::uint32_t generation) {
-    const TrialPoint& best = *std::min_element(work_.population.begin(), work_.population.end());
+    const TrialPoint best = parameters_.local_optimization == LocalOptimization::Baldwinian
+                                ? best_below_
+                                : *std::min_element(work_.population.begin(), work_.population.end());
     if (generation == 0 || best < result_.best) {
       result_.best = best;
       result_.best_generation = generation;
@@ -338,6 +348,8 @@ class GeneticRun {
   std::uint32_t offspring_count_;
   double mutation_probability_ = 0.0;
   double mutation_radius_ = 0.0;
+  /// Of all local minima met, where individuals do not stand on them.
+  TrialPoint best_below_{NodeIndex{}, NodeIndex{}, std::numeric_limits<double>::infinity()};
   GeneticResult result_;
 };
 

@@ -59,7 +59,7 @@ void TrackerState::evolve(const PairObjective& objective, PairSolution& solution
   solution.cost.descents += result.cost.descents;
   solution.cost.descents_joined += result.cost.descents_joined;
   solution.cost.descent_steps += result.cost.descent_steps;
-  if (!genetic.local_optimization) {
+  if (genetic.local_optimization == LocalOptimization::None) {
     search.basins.addMinimum(result.best);
   }
 }

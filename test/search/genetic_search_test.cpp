@@ -7,6 +7,7 @@
 
 #include "concave_distance/distance/enumeration.h"
 #include "concave_distance/search/automatic_radii.h"
+#include "concave_distance/search/local_descent.h"
 #include "search/search_scenes.h"
 
 namespace concave_distance {
@@ -78,7 +79,7 @@ TEST(GeneticSearch, WorksOnUnconnectedShellsWithEveryMethod) {
   for (const NichingMethod niching : kAllNichings) {
     for (const bool local : {true, false}) {
       GeneticParameters parameters = smallRun(niching);
-      parameters.local_optimization = local;
+      parameters.local_optimization = local ? LocalOptimization::Lamarckian : LocalOptimization::None;
       const GeneticResult result = search.run(parameters, 3);
       EXPECT_EQ(search.workspace.population.size(), 40U);
       EXPECT_EQ(result.generations, 12U);
@@ -94,7 +95,7 @@ TEST(GeneticSearch, BestNeverGetsWorseBecauseTheEliteStays) {
   for (const NichingMethod niching : kAllNichings) {
     for (const bool local : {true, false}) {
       GeneticParameters parameters = smallRun(niching);
-      parameters.local_optimization = local;
+      parameters.local_optimization = local ? LocalOptimization::Lamarckian : LocalOptimization::None;
       double last = std::numeric_limits<double>::infinity();
       search.run(parameters, 4, {}, [&](const GenerationRecord& record) {
         const TrialPoint& best = *std::min_element(record.population->begin(), record.population->end());
@@ -129,6 +130,25 @@ TEST(GeneticSearch, LamarckianPopulationIsMadeOfTheMinimaMet) {
   }
 }
 
+TEST(GeneticSearch, BaldwinianIndividualsStayAndCountAsFitAsTheMinimumBelowThem) {
+  Search search(test::facingCombs());
+  GeneticParameters parameters = smallRun(NichingMethod::None);
+  parameters.local_optimization = LocalOptimization::Baldwinian;
+  const GeneticResult result = search.run(parameters, 6);
+  EXPECT_EQ(result.best.squared_distance,
+            search.objective.squaredDistance(result.best.node_a, result.best.node_b));
+  std::vector<std::uint64_t> trail;
+  std::size_t above = 0;
+  for (const TrialPoint& point : search.workspace.population) {
+    SearchCost cost;
+    const TrialPoint minimum = descend(search.objective, point, nullptr, trail, cost);
+    EXPECT_EQ(point.squared_distance, minimum.squared_distance);
+    EXPECT_LE(result.best.squared_distance, point.squared_distance);
+    above += samePlace(point, minimum) ? 0 : 1;
+  }
+  EXPECT_GT(above, search.workspace.population.size() / 2);
+}
+
 TEST(GeneticSearch, InheritedPointsAreDescendedAnew) {
   Search search(test::facingCombs());
   const NodePairMinimum optimum = enumerateNodePairs(*search.scene.a, *search.scene.b, search.scene.a_from_b);
@@ -148,7 +168,7 @@ TEST(GeneticSearch, InheritedPointsAreDescendedAnew) {
 TEST(GeneticSearch, GenerationGapReplacesThatManyAtMost) {
   Search search(test::hookAndStairs());
   GeneticParameters parameters = smallRun(NichingMethod::Sharing);
-  parameters.local_optimization = false;  // individuals stay apart
+  parameters.local_optimization = LocalOptimization::None;  // individuals stay apart
   parameters.immigrants = 0;
   parameters.elite_count = 0;  // elites, immigrants and conserved niches take further seats
   parameters.conserve_niches = false;

@@ -17,6 +17,12 @@ enum class NichingMethod : std::uint8_t {
   DeterministicCrowdingWithSelection,  ///< the thesis's: parents are selected as without niching
   SimpleCrowding
 };
+/// What becomes of a new individual (Carretero, sec. 3.1.5, 5.2.1.a).
+enum class LocalOptimization : std::uint8_t {
+  None,        ///< -nl: it stays where it is
+  Lamarckian,  ///< -wl: it moves to the local minimum that it descends to
+  Baldwinian   ///< it stays where it is and counts as fit as that local minimum
+};
 
 /// Every parameter of the combinatorial genetic algorithm (Carretero, ch. 3 and 4). Lengths in metres.
 struct GeneticParameters {
@@ -31,7 +37,7 @@ struct GeneticParameters {
   SelectionMethod selection = SelectionMethod::StochasticUniversalSampling;
   MatingMethod mating = MatingMethod::Mesh;
   NichingMethod niching = NichingMethod::Sharing;
-  bool local_optimization = true;        ///< Lamarckian descent of every new individual (-wl / -nl)
+  LocalOptimization local_optimization = LocalOptimization::Lamarckian;
   std::optional<double> sharing_radius;  ///< sigma_s; empty: automaticRadii()
   double sharing_exponent = 1.0;         ///< alpha_s
   /// epsilon of the potential fitness 1 / (d^2 + epsilon^2), as a share of the longer of both grids' maximum

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+// What the searches' parameters are held to; each throws Error naming the parameter and what is allowed.
+
+namespace concave_distance::detail {
+
+[[noreturn]] void refuse(const std::string& where, const std::string& parameter, const std::string& seen,
+                         const std::string& allowed);
+std::string toText(double value);
+void requireShare(const std::string& where, const std::string& parameter, double value);
+void requireLength(const std::string& where, const std::string& parameter,
+                   const std::optional<double>& value);
+void requireNotNegative(const std::string& where, const std::string& parameter, double value);
+
+}  // namespace concave_distance::detail
