@@ -58,6 +58,8 @@ constexpr std::pair<const char*, LocalOptimization> kLocalOptimizations[] = {
     {"none", LocalOptimization::None},
     {"lamarckian", LocalOptimization::Lamarckian},
     {"baldwinian", LocalOptimization::Baldwinian}};
+constexpr std::pair<const char*, DescentMoves> kDescentMoves[] = {{"one_node", DescentMoves::OneNode},
+                                                                  {"both_nodes", DescentMoves::BothNodes}};
 
 // The three radii of niching, which the settings may give for cold and warm cycles at once.
 void readRadii(YamlMap& map, GeneticParameters& p) {
@@ -85,6 +87,7 @@ void readOperators(YamlMap& map, GeneticParameters& p) {
   if (auto v = map.take("mating")) p.mating = v->choice(kMatingMethods);
   if (auto v = map.take("niching")) p.niching = v->choice(kNichingMethods);
   if (auto v = map.take("local_optimization")) p.local_optimization = v->choice(kLocalOptimizations);
+  if (auto v = map.take("descent_moves")) p.descent_moves = v->choice(kDescentMoves);
   if (auto v = map.take("sharing_exponent")) {
     p.sharing_exponent = v->number("greater than 0", positiveFinite);
   }

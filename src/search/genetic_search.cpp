@@ -97,7 +97,8 @@ class GeneticRun {
     if (parameters_.local_optimization == LocalOptimization::None) {
       point = objective_.evaluate(point.node_a, point.node_b, result_.cost);
     } else {
-      const TrialPoint minimum = descend(objective_, point, &work_.basins, work_.trail, result_.cost);
+      const TrialPoint minimum =
+          descend(objective_, point, &work_.basins, work_.trail, result_.cost, parameters_.descent_moves);
       if (parameters_.local_optimization == LocalOptimization::Lamarckian) {
         point = minimum;
       } else {

@@ -169,12 +169,13 @@ Approach approach(const BodyMesh& body, NodeIndex node, const Eigen::Vector3d& t
 /// in float or in B's frame is accepted only when it does. Node pairs being finitely many, it ends.
 class Descent {
  public:
-  Descent(const PairObjective& objective, const TrialPoint& start, BasinMemory* memory,
+  Descent(const PairObjective& objective, const TrialPoint& start, DescentMoves moves, BasinMemory* memory,
           std::vector<std::uint64_t>& trail, SearchCost& cost)
       : objective_(objective),
         graph_a_(objective.bodyA().graph()),
         graph_b_(objective.bodyB().graph()),
         point_(start),
+        moves_(moves),
         memory_(memory),
         trail_(trail),
         cost_(cost) {
@@ -189,13 +190,15 @@ class Descent {
     b_in_a_ = objective_.aFromB() * graph_b_.positions[point_.node_b.value];
     point_.squared_distance = squaredDistanceBetween(graph_a_.positions[point_.node_a.value], b_in_a_);
     ++cost_.evaluations;
-    moveA();
-    // When B has had its say and A does not move either, both are at their best.
     do {
-      if (joinsKnownBasin()) {
-        return true;
-      }
-    } while (moveB() && !joinsKnownBasin() && moveA());
+      moveA();
+      // When B has had its say and A does not move either, both are at their best.
+      do {
+        if (joinsKnownBasin()) {
+          return true;
+        }
+      } while (moveB() && !joinsKnownBasin() && moveA());
+    } while (!joined_ && moves_ == DescentMoves::BothNodes && stepBoth());
     return joined_;
   }
 
@@ -289,10 +292,30 @@ class Descent {
     return point_.node_b != start;
   }
 
+  /// To the closest pair of neighbours when it is closer. Ties as in stepA().
+  bool stepBoth() {
+    const TrialPoint start = point_;
+    for (const NodeGraph::Edge& edge_b : graph_b_.edges.row(start.node_b.value)) {
+      const Eigen::Vector3d neighbour_in_a = objective_.aFromB() * graph_b_.positions[edge_b.to.value];
+      for (const NodeGraph::Edge& edge_a : graph_a_.edges.row(start.node_a.value)) {
+        const double candidate = squaredDistanceBetween(graph_a_.positions[edge_a.to.value], neighbour_in_a);
+        if (candidate < point_.squared_distance) {
+          point_ = {edge_a.to, edge_b.to, candidate};
+          b_in_a_ = neighbour_in_a;
+        }
+      }
+    }
+    cost_.evaluations +=
+        graph_a_.edges.row(start.node_a.value).size() * graph_b_.edges.row(start.node_b.value).size();
+    cost_.descent_steps += samePlace(point_, start) ? 0 : 1;
+    return !samePlace(point_, start);
+  }
+
   const PairObjective& objective_;
   const NodeGraph& graph_a_;
   const NodeGraph& graph_b_;
   TrialPoint point_;
+  DescentMoves moves_;
   Eigen::Vector3d b_in_a_ = Eigen::Vector3d::Zero();
   BasinMemory* memory_;
   std::vector<std::uint64_t>& trail_;
@@ -303,9 +326,9 @@ class Descent {
 }  // namespace
 
 TrialPoint descend(const PairObjective& objective, TrialPoint start, BasinMemory* memory,
-                   std::vector<std::uint64_t>& trail, SearchCost& cost) {
+                   std::vector<std::uint64_t>& trail, SearchCost& cost, DescentMoves moves) {
   ++cost.descents;
-  Descent descent(objective, start, memory, trail, cost);
+  Descent descent(objective, start, moves, memory, trail, cost);
   const bool joined = descent.run();
   cost.descents_joined += joined ? 1 : 0;
   if (memory != nullptr && !trail.empty()) {

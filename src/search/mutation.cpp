@@ -50,6 +50,11 @@ TrialPoint mutate(const TrialPoint& point, double radius, PairMetric& metric, Ra
   return moved;
 }
 
+TrialPoint moveBoth(const TrialPoint& point, double radius, PairMetric& metric, RandomEngine& engine) {
+  const NodeIndex node_a = moveGene(point.node_a, radius, metric.onA(), engine);
+  return {node_a, moveGene(point.node_b, radius, metric.onB(), engine), kNotComputed};
+}
+
 TrialPoint randomTrialPoint(const PairObjective& objective, RandomEngine& engine) {
   const NodeIndex node_a = randomNode(objective.bodyA().graph(), engine);
   return {node_a, randomNode(objective.bodyB().graph(), engine), kNotComputed};

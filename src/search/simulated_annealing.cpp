@@ -13,6 +13,7 @@ void AnnealingParameters::validate(const std::string& where) const {
   if (initial_temperature == 0) detail::refuse(where, "initial_temperature", "0", "1 or more");
   detail::requireNotNegative(where, "boltzmann_constant", boltzmann_constant);
   detail::requireLength(where, "move_radius", move_radius);
+  detail::requireShare(where, "new_point_probability", new_point_probability);
 }
 
 double acceptanceProbability(double squared_before, double squared_now, double boltzmann_constant,
@@ -26,9 +27,9 @@ AnnealingResult simulatedAnnealing(const PairObjective& objective, const Anneali
                                    const AnnealingObserver& observer) {
   AnnealingResult result;
   const auto settle = [&](const TrialPoint& point) {
-    return parameters.local_optimization
-               ? descend(objective, point, &workspace.basins, workspace.trail, result.cost)
-               : objective.evaluate(point.node_a, point.node_b, result.cost);
+    return parameters.local_optimization ? descend(objective, point, &workspace.basins, workspace.trail,
+                                                   result.cost, parameters.descent_moves)
+                                         : objective.evaluate(point.node_a, point.node_b, result.cost);
   };
   const double radius = parameters.move_radius.value_or(
       std::max(objective.bodyA().geodesicExtent(), objective.bodyB().geodesicExtent()));
@@ -40,9 +41,10 @@ AnnealingResult simulatedAnnealing(const PairObjective& objective, const Anneali
     if (parameters.evaluation_limit != 0 && result.cost.evaluations >= parameters.evaluation_limit) break;
     ++result.iterations;
     const double scale = parameters.variable_displacement ? probability : 1.0;
-    const TrialPoint next = settle(parameters.move == AnnealingMove::NewPoint
+    const TrialPoint next = settle(parameters.move == AnnealingMove::NewPoint ||
+                                           uniformUnit(engine) < parameters.new_point_probability
                                        ? randomTrialPoint(objective, engine)
-                                       : mutate(current, scale * radius, workspace.metric, engine));
+                                       : moveBoth(current, scale * radius, workspace.metric, engine));
     probability = acceptanceProbability(current.squared_distance, next.squared_distance,
                                         parameters.boltzmann_constant, temperature);
     if (probability >= 1.0 || uniformUnit(engine) < probability) current = next;

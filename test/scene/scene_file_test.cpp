@@ -302,6 +302,7 @@ TEST_F(SceneFile, GeneticParametersOutOfRangeAreRefused) {
   expectGeneticRefused("selection", "tournament", "stochastic_universal_sampling, roulette");
   expectGeneticRefused("mating", "average", "mesh, phenotypic, genotypic");
   expectGeneticRefused("niching", "clearing", "none, sharing, dynamic_sharing, deterministic_crowding");
+  expectGeneticRefused("descent_moves", "many", "one_node, both_nodes");
   expectGeneticRefused("local_optimization", "1", "none, lamarckian, baldwinian");
   expectGeneticRefused("sharing_radius", "0", "greater than 0, metres, or auto");
   expectGeneticRefused("sharing_exponent", "0", "greater than 0");
@@ -349,7 +350,7 @@ TEST_F(SceneFile, EverySettingReachesItsParameter) {
       "      final_mutation_probability_factor: 0.5\n      mutation_radius: 1.5\n"
       "      shrinking_mutation_radius: true\n      selection: roulette\n"
       "      mating: phenotypic\n      niching: simple_crowding\n"
-      "      local_optimization: none\n      sharing_exponent: 10\n"
+      "      local_optimization: none\n      descent_moves: both_nodes\n      sharing_exponent: 10\n"
       "      mating_restriction: false\n      crowding_factor: 4\n"
       "      generation_gap: 0.5\n      elite_count: 2\n      convergence_generations: 3\n"
       "      sharing_radius: auto\n      fitness_epsilon: 0\n      dynamic_niche_limit: 6\n"
@@ -387,6 +388,7 @@ TEST_F(SceneFile, EverySettingReachesItsParameter) {
   EXPECT_EQ(cold.mating, MatingMethod::Phenotypic);
   EXPECT_EQ(cold.niching, NichingMethod::SimpleCrowding);
   EXPECT_EQ(cold.local_optimization, LocalOptimization::None);
+  EXPECT_EQ(cold.descent_moves, DescentMoves::BothNodes);
   EXPECT_EQ(cold.sharing_exponent, 10.0);
   EXPECT_FALSE(cold.mating_restriction);
   EXPECT_EQ(cold.crowding_factor, 4U);

@@ -112,6 +112,34 @@ RC_GTEST_PROP(LocalDescent, EndsAtADiscreteLocalMinimumWithItsDistance, ()) {
   }
 }
 
+// Parallel edges with nodes at different spacings: pairs of nodes that face each other are closest one by
+// one.
+TEST(LocalDescent, MovesBothNodesWhereOneAloneIsStuck) {
+  const auto a = test::makeBody(test::makeStairs(4), 0.05, 0);
+  const auto b = test::makeBody(test::makeStairs(4), 0.06, 0);
+  // Slightly askew, so that the distance falls along the edges.
+  const PairObjective objective(*a, *b, test::makePose(0.01, {0, 1, 0}, {0.02, 1.2, 0.03}));
+  RandomEngine engine(5);
+  std::vector<std::uint64_t> trail;
+  SearchCost cost;
+  int closer = 0;
+  for (int i = 0; i < 300; ++i) {
+    const TrialPoint start = randomTrialPoint(objective, engine);
+    const TrialPoint one = descend(objective, start, nullptr, trail, cost);
+    const TrialPoint both = descend(objective, start, nullptr, trail, cost, DescentMoves::BothNodes);
+    EXPECT_TRUE(isLocalMinimum(objective, both));
+    EXPECT_EQ(both.squared_distance, objective.squaredDistance(both.node_a, both.node_b));
+    EXPECT_LE(both.squared_distance, one.squared_distance);
+    for (const NodeGraph::Edge& edge_a : a->graph().edges.row(both.node_a.value)) {
+      for (const NodeGraph::Edge& edge_b : b->graph().edges.row(both.node_b.value)) {
+        EXPECT_GE(objective.squaredDistance(edge_a.to, edge_b.to), both.squared_distance);
+      }
+    }
+    closer += both.squared_distance < one.squared_distance ? 1 : 0;
+  }
+  EXPECT_GT(closer, 30);
+}
+
 // Faces in parallel: whole plateaus of node pairs differ by nothing but rounding, each frame its own.
 TEST(LocalDescent, EndsOnParallelFacesToo) {
   const auto a = test::makeBody(test::makeStairs(4), 0.05, 0);

@@ -132,6 +132,7 @@ TEST(SimulatedAnnealing, MovesNoFartherThanTheRadius) {
   Annealing annealing(test::facingCombs());
   AnnealingParameters parameters = shortRun(false);
   parameters.boltzmann_constant = 1.0;  // accepts nearly everything
+  parameters.new_point_probability = 0.0;
   parameters.variable_displacement = false;
   EXPECT_GT(annealing.longestMove(parameters, 3), 1.0);
   parameters.move_radius = 0.25;
@@ -143,6 +144,7 @@ TEST(SimulatedAnnealing, VariableDisplacementsShrinkWithTheAcceptanceProbability
   Annealing annealing(test::facingCombs());
   AnnealingParameters parameters = shortRun(false);
   parameters.boltzmann_constant = 1e-3;
+  parameters.new_point_probability = 0.0;
   parameters.move_radius = 1.0;
   TrialPoint last;
   double probability = 1.0;
@@ -196,6 +198,9 @@ TEST(AnnealingParameters, AreRefusedByName) {
   parameters = {};
   parameters.move_radius = -1.0;
   expect_refused(parameters, "move_radius");
+  parameters = {};
+  parameters.new_point_probability = 1.5;
+  expect_refused(parameters, "new_point_probability");
 }
 
 TEST(SearchMethod, RunsEachMethodAsItsOwnFunctionDoes) {

@@ -4,6 +4,8 @@
 #include <optional>
 #include <string>
 
+#include "concave_distance/search/descent_moves.h"
+
 namespace concave_distance {
 
 enum class AnnealingMove : std::uint8_t {
@@ -21,7 +23,11 @@ struct AnnealingParameters {
   /// r_max, mesh distance, metres; empty: the longer of both bodies' geodesic extents.
   std::optional<double> move_radius;
   bool variable_displacement = true;  ///< r_max is scaled by the last acceptance probability (sec. 3.2.2.c)
-  bool local_optimization = true;     ///< every new trial point is descended (-wl / -nl)
+  /// Share of the iterations of RandomMove that try a new point instead: a move that shrinks with p_b does
+  /// not leave the valley that the trial point is in.
+  double new_point_probability = 0.35;
+  bool local_optimization = true;  ///< every new trial point is descended (-wl / -nl)
+  DescentMoves descent_moves = DescentMoves::OneNode;
   /// No further iteration once this many node pairs have been evaluated. 0: no limit.
   std::uint64_t evaluation_limit = 0;
 

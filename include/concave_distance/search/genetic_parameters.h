@@ -5,6 +5,7 @@
 #include <string>
 
 #include "concave_distance/base/selection.h"
+#include "concave_distance/search/descent_moves.h"
 
 namespace concave_distance {
 
@@ -38,6 +39,7 @@ struct GeneticParameters {
   MatingMethod mating = MatingMethod::Mesh;
   NichingMethod niching = NichingMethod::Sharing;
   LocalOptimization local_optimization = LocalOptimization::Lamarckian;
+  DescentMoves descent_moves = DescentMoves::OneNode;
   std::optional<double> sharing_radius;  ///< sigma_s; empty: automaticRadii()
   double sharing_exponent = 1.0;         ///< alpha_s
   /// epsilon of the potential fitness 1 / (d^2 + epsilon^2), as a share of the longer of both grids' maximum

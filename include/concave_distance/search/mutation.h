@@ -15,6 +15,9 @@ namespace concave_distance {
 /// The result's distance is not computed.
 TrialPoint mutate(const TrialPoint& point, double radius, PairMetric& metric, RandomEngine& engine);
 
+/// The same of both genes (Carretero, sec. 3.2.2.b).
+TrialPoint moveBoth(const TrialPoint& point, double radius, PairMetric& metric, RandomEngine& engine);
+
 /// A uniformly random node pair, its distance not computed.
 TrialPoint randomTrialPoint(const PairObjective& objective, RandomEngine& engine);
 

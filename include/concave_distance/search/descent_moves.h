@@ -1,0 +1,15 @@
+#pragma once
+
+#include <cstdint>
+
+namespace concave_distance {
+
+/// How a descent may move.
+enum class DescentMoves : std::uint8_t {
+  OneNode,  ///< to a neighbour of one node, the other stays (Carretero, sec. 3.1.5)
+  /// Where no such move is left also to a neighbour of both at once (the thesis's outlook, sec. 7.1): along
+  /// parallel edges, whose nodes are pairwise closest, nothing else leads on.
+  BothNodes
+};
+
+}  // namespace concave_distance
