@@ -1,0 +1,60 @@
+#include "run_experiment.h"
+
+#include <tbb/parallel_for_each.h>
+
+#include <algorithm>
+#include <mutex>
+#include <vector>
+
+#include "trial_files.h"
+
+namespace concave_distance::evaluation {
+namespace {
+
+/// Runs of a unit of work: so many that opening and closing costs nothing, so few that nothing is lost.
+constexpr std::uint32_t kRunsAtOnce = 10;
+
+}  // namespace
+
+void runExperiment(const Experiment& experiment, const EvaluationOptions& options,
+                   const ProgressObserver& progress) {
+  std::vector<SceneTruth> scenes;
+  for (const ExperimentScene& scene : experiment.scenes) scenes.push_back(loadScene(scene, options.meshes));
+  TrialFiles files(experiment, options.output);
+  std::vector<WorkUnit> units;
+  std::uint64_t done = 0;
+  std::uint64_t all = 0;
+  std::uint64_t number = 0;
+  for (std::size_t row = 0; row < experiment.rows.size(); ++row) {
+    for (std::size_t scene = 0; scene < scenes.size(); ++scene) {
+      for (std::uint32_t first = 0; first < options.runs; first += kRunsAtOnce) {
+        if (number++ % options.shard_count != options.shard) continue;
+        const WorkUnit unit{row, scene, first, std::min(kRunsAtOnce, options.runs - first)};
+        all += unit.run_count;
+        if (files.contains(unit)) {
+          done += unit.run_count;
+        } else {
+          units.push_back(unit);
+        }
+      }
+    }
+  }
+  progress(done, all);
+  std::mutex writing;
+  tbb::parallel_for_each(units.begin(), units.end(), [&](const WorkUnit& unit) {
+    const SceneTruth& scene = scenes[unit.scene];
+    SearchWorkspace workspace(*scene.a, *scene.b);
+    std::vector<TrialRecord> records;
+    std::vector<CurvePoint> curve;
+    for (std::uint32_t i = 0; i < unit.run_count; ++i) {
+      records.push_back(runTrial(experiment, experiment.rows[unit.row], scene, unit.first_run + i, workspace,
+                                 experiment.curves ? &curve : nullptr));
+    }
+    const std::lock_guard<std::mutex> lock(writing);
+    files.append(unit, records, curve);
+    done += unit.run_count;
+    progress(done, all);
+  });
+}
+
+}  // namespace concave_distance::evaluation

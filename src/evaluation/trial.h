@@ -1,0 +1,46 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "experiment.h"
+#include "scene_truth.h"
+
+namespace concave_distance::evaluation {
+
+/// Sums over runs at one generation or iteration; averages are made when all runs are there.
+struct CurvePoint {
+  double best_distance = 0.0;  ///< metres
+  double mean_square = 0.0;    ///< of the population: average objective, square metres
+  double niches = 0.0;         ///< of the population, by greedy identification
+  double acceptance = 0.0;     ///< p_b, of annealing
+};
+
+/// What one run gave (Carretero, sec. 5.1).
+struct TrialRecord {
+  double distance = 0.0;             ///< of the best node pair, metres
+  std::uint32_t best_iteration = 0;  ///< G_i
+  bool exact = false;                ///< counts for Phi*: the best node pair there is
+  bool region = false;               ///< counts for Phi: within the region of the optimum
+  std::uint32_t niches = 0;          ///< N_Gamma of the final population
+  static constexpr std::size_t kNicheCount = 5;
+  std::array<std::uint32_t, kNicheCount> members{};  ///< individuals of the nearest niches
+  double best_convergence = 0.0;                     ///< (5.1) over f*_global
+  double population_convergence = 0.0;               ///< (5.2) over f*_global
+  SearchCost cost;
+  double microseconds = 0.0;
+  double recall = 0.0;     ///< of the outward niches of level complete, in the final population
+  double precision = 0.0;  ///< niches of the final population that are one of those, each counted once
+};
+
+/// Iterations between two points of a curve: every generation of a GA, every tenth iteration of annealing.
+std::uint32_t curveStride(const SearchMethod& method);
+
+/// One run of a row on a scene.
+/// @param run from 0; names the stream of random numbers, the same for every row
+/// @param curve sums that this run is added to; null: none
+TrialRecord runTrial(const Experiment& experiment, const ExperimentRow& row, const SceneTruth& scene,
+                     std::uint32_t run, SearchWorkspace& workspace, std::vector<CurvePoint>* curve);
+
+}  // namespace concave_distance::evaluation

@@ -1,0 +1,104 @@
+#include "trial_files.h"
+
+#include <filesystem>
+#include <limits>
+#include <sstream>
+
+#include "concave_distance/base/error.h"
+
+namespace concave_distance::evaluation {
+namespace {
+
+constexpr const char* kRunsHeader =
+    "row,algorithm,scene,run,distance,best_iteration,exact,region,niches,members_1,members_2,members_3,"
+    "members_4,members_5,best_convergence,population_convergence,evaluations,descents,descent_steps,"
+    "microseconds,recall,precision";
+constexpr const char* kCurvesHeader =
+    "row,scene,first_run,runs,iteration,best_distance_sum,mean_square_sum,niches_sum,acceptance_sum";
+
+/// Opens a file to append to; writes its header when it is new. @throws Error
+std::ofstream openToAppend(const std::string& path, const char* header) {
+  const bool is_new = !std::filesystem::exists(path) || std::filesystem::file_size(path) == 0;
+  if (!is_new) {
+    std::ifstream before(path);
+    std::string line;
+    std::getline(before, line);
+    if (line != header) {
+      throw Error(path, "has another header than this program writes",
+                  "move the file away or name another folder");
+    }
+  }
+  std::ofstream file(path, std::ios::app);
+  if (!file) throw Error(path, "cannot be written", "name a folder that can be written with --output");
+  if (is_new) file << header << '\n' << std::flush;
+  file.precision(std::numeric_limits<double>::max_digits10);
+  return file;
+}
+
+}  // namespace
+
+TrialFiles::TrialFiles(const Experiment& experiment, const std::string& folder) : experiment_(experiment) {
+  std::filesystem::create_directories(folder);
+  const std::string path = folder + "/" + experiment.name + ".csv";
+  if (std::filesystem::exists(path)) readDone(path);
+  runs_ = openToAppend(path, kRunsHeader);
+  if (experiment.curves)
+    curves_ = openToAppend(folder + "/" + experiment.name + "_curves.csv", kCurvesHeader);
+}
+
+void TrialFiles::readDone(const std::string& path) {
+  std::ifstream file(path);
+  std::string line;
+  std::getline(file, line);
+  while (std::getline(file, line)) {
+    std::istringstream cells(line);
+    std::string row;
+    std::string algorithm;
+    std::string scene;
+    std::string run;
+    std::getline(cells, row, ',');
+    std::getline(cells, algorithm, ',');
+    std::getline(cells, scene, ',');
+    std::getline(cells, run, ',');
+    if (run.empty() || run.find_first_not_of("0123456789") != std::string::npos) {
+      throw Error(path, "has a line without a run: " + line, "remove the line, its run is done again");
+    }
+    done_[{row, scene, static_cast<std::uint32_t>(std::stoul(run))}] = true;
+  }
+}
+
+bool TrialFiles::contains(const WorkUnit& unit) const {
+  for (std::uint32_t run = unit.first_run; run < unit.first_run + unit.run_count; ++run) {
+    if (done_.count({experiment_.rows[unit.row].name, experiment_.scenes[unit.scene].name, run}) == 0) {
+      return false;
+    }
+  }
+  return true;
+}
+
+void TrialFiles::append(const WorkUnit& unit, const std::vector<TrialRecord>& records,
+                        const std::vector<CurvePoint>& curve) {
+  const ExperimentRow& row = experiment_.rows[unit.row];
+  const std::string& scene = experiment_.scenes[unit.scene].name;
+  const std::uint32_t stride = curveStride(row.method);
+  for (std::size_t i = 0; i < curve.size(); ++i) {
+    curves_ << row.name << ',' << scene << ',' << unit.first_run << ',' << unit.run_count << ',' << i * stride
+            << ',' << curve[i].best_distance << ',' << curve[i].mean_square << ',' << curve[i].niches << ','
+            << curve[i].acceptance << '\n';
+  }
+  curves_.flush();
+  std::ostringstream lines;
+  lines.precision(std::numeric_limits<double>::max_digits10);
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    const TrialRecord& r = records[i];
+    lines << row.name << ',' << nameOf(row.method) << ',' << scene << ',' << unit.first_run + i << ','
+          << r.distance << ',' << r.best_iteration << ',' << r.exact << ',' << r.region << ',' << r.niches;
+    for (const std::uint32_t members : r.members) lines << ',' << members;
+    lines << ',' << r.best_convergence << ',' << r.population_convergence << ',' << r.cost.evaluations << ','
+          << r.cost.descents << ',' << r.cost.descent_steps << ',' << r.microseconds << ',' << r.recall << ','
+          << r.precision << '\n';
+  }
+  runs_ << lines.str() << std::flush;
+}
+
+}  // namespace concave_distance::evaluation

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <fstream>
+#include <map>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "trial.h"
+
+namespace concave_distance::evaluation {
+
+/// Runs first, first + 1, ... of one row on one scene: what is done in one go and written in one go.
+struct WorkUnit {
+  std::size_t row;
+  std::size_t scene;
+  std::uint32_t first_run;
+  std::uint32_t run_count;
+};
+
+/// The two files of an experiment: `<folder>/<name>.csv`, a line a run, and with curves
+/// `<folder>/<name>_curves.csv`, sums over the runs of a unit at each generation. Both are appended to, unit
+/// by unit, the runs' file last: what an interrupted evaluation has left is gone on from, and the files of
+/// several shards are merged by joining them.
+class TrialFiles {
+ public:
+  /// Opens or begins the files. @throws Error when they cannot be written or belong to another experiment
+  TrialFiles(const Experiment& experiment, const std::string& folder);
+
+  /// Whether the runs of this unit are in the file already.
+  bool contains(const WorkUnit& unit) const;
+  void append(const WorkUnit& unit, const std::vector<TrialRecord>& records,
+              const std::vector<CurvePoint>& curve);
+
+ private:
+  void readDone(const std::string& path);
+
+  const Experiment& experiment_;
+  std::ofstream runs_;
+  std::ofstream curves_;
+  std::map<std::tuple<std::string, std::string, std::uint32_t>, bool> done_;  ///< row, scene, run
+};
+
+}  // namespace concave_distance::evaluation
