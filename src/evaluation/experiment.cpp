@@ -74,15 +74,21 @@ constexpr std::pair<const char*, bool> kBases[] = {{"thesis", true}, {"shipped",
 ExperimentRow readRow(const YamlValue& value, const std::optional<YamlValue>& common) {
   YamlMap map(value, "a row: name, algorithm, parameters, thesis");
   ExperimentRow row;
-  row.name = map.require("name", "give every row a name of its own").text();
+  const YamlValue name = map.require("name", "give every row a name of its own");
+  row.name = name.text();
+  if (row.name.find_first_of(",\"\n") != std::string::npos) name.refuse("a name without commas and quotes");
   bool from_thesis = true;
   if (auto v = map.take("base")) from_thesis = v->choice(kBases);
   row.method = methodNamed(map.require("algorithm", "name the algorithm, e.g. comb-GA-wl-sh"),
                            from_thesis ? thesisGeneticParameters() : GeneticParameters());
   if (common && std::holds_alternative<GeneticParameters>(row.method)) readParameters(*common, row.method);
   if (auto v = map.take("parameters")) readParameters(*v, row.method);
-  map.take("thesis");  // the thesis's own figures, for the report
-  map.take("remark");
+  if (const auto* genetic = std::get_if<GeneticParameters>(&row.method)) genetic->validate(value.where());
+  if (const auto* annealing = std::get_if<AnnealingParameters>(&row.method)) {
+    annealing->validate(value.where());
+  }
+  map.take("thesis");      // the thesis's own figures, for the report
+  map.take("variant_of");  // the thesis's row that it improves on
   map.finish();
   return row;
 }

@@ -14,7 +14,6 @@ namespace concave_distance::evaluation {
 namespace {
 
 constexpr double kRegion = 1.1;
-constexpr double kSecondProminence = 5e-2;
 /// Niches up to this many times the distance are asked for (the battery's nine reach 5.3 times).
 constexpr double kNicheReach = 6.0;
 
@@ -60,16 +59,14 @@ SceneTruth loadScene(const ExperimentScene& scene, const std::string& folder) {
   truth.exact_distance =
       certifyDistance(*truth.a, *truth.b, truth.a_from_b, nullptr, 0, {}, workspace).distance;
   truth.node_distance = std::sqrt(enumerateNodePairs(*truth.a, *truth.b, truth.a_from_b).squared_distance);
-  truth.region_limit = kRegion * truth.node_distance;
-  for (const NodeNiche& niche :
-       enumerateNodeNiches(*truth.a, *truth.b, truth.a_from_b, truth.region_limit, kSecondProminence)) {
-    if (niche.distance > truth.node_distance)
-      truth.region_limit = std::min(truth.region_limit, niche.distance);
-  }
   truth.niche_cutoff = kNicheReach * truth.exact_distance;
   LocalMinimaRequest request;
   request.cutoff = truth.niche_cutoff;
   truth.niches = findLocalMinima(*truth.a, *truth.b, truth.a_from_b, request);
+  truth.region_limit = kRegion * truth.node_distance;
+  if (truth.niches.niches.size() > 1) {
+    truth.region_limit = std::min(truth.region_limit, truth.niches.niches[1].distance);
+  }
   return truth;
 }
 

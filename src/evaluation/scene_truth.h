@@ -16,8 +16,8 @@ struct SceneTruth {
   Eigen::Isometry3d a_from_b;
   double exact_distance = 0.0;  ///< of the surfaces, proven; metres
   double node_distance = 0.0;   ///< of the best node pair, by enumeration; metres
-  /// A run has found the region of the optimum below this (Carretero, sec. 5.1.1): 1.1 times the optimum or
-  /// the second local minimum of the grid (of prominence 5e-2), whichever is less. Metres.
+  /// A run has found the region of the optimum below this (Carretero, sec. 5.1.1): 1.1 times the best node
+  /// pair's distance or that of the second niche of the surfaces, whichever is less. Metres.
   double region_limit = 0.0;
   LocalMinima niches;  ///< outward, of prominence 1e-2, up to `niche_cutoff`
   double niche_cutoff = 0.0;

@@ -124,6 +124,7 @@ TrialRecord runTrial(const Experiment& experiment, const ExperimentRow& row, con
   record.niches = static_cast<std::uint32_t>(niches.size());
   for (std::size_t i = 0; i < std::min(niches.size(), record.members.size()); ++i) {
     record.members[i] = niches[i].member_count;
+    record.niche_distances[i] = std::sqrt(niches[i].best.squared_distance);
   }
   if (experiment.niches) measureRecall(scene, niches, record);
   return record;

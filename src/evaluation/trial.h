@@ -24,10 +24,11 @@ struct TrialRecord {
   bool exact = false;                ///< counts for Phi*: the best node pair there is
   bool region = false;               ///< counts for Phi: within the region of the optimum
   std::uint32_t niches = 0;          ///< N_Gamma of the final population
-  static constexpr std::size_t kNicheCount = 5;
-  std::array<std::uint32_t, kNicheCount> members{};  ///< individuals of the nearest niches
-  double best_convergence = 0.0;                     ///< (5.1) over f*_global
-  double population_convergence = 0.0;               ///< (5.2) over f*_global
+  static constexpr std::size_t kNicheCount = 10;
+  std::array<std::uint32_t, kNicheCount> members{};   ///< individuals of the nearest niches
+  std::array<double, kNicheCount> niche_distances{};  ///< of the same, metres; 0: there are no more
+  double best_convergence = 0.0;                      ///< (5.1) over f*_global
+  double population_convergence = 0.0;                ///< (5.2) over f*_global
   SearchCost cost;
   double microseconds = 0.0;
   double recall = 0.0;     ///< of the outward niches of level complete, in the final population

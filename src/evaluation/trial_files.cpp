@@ -9,15 +9,22 @@
 namespace concave_distance::evaluation {
 namespace {
 
-constexpr const char* kRunsHeader =
-    "row,algorithm,scene,run,distance,best_iteration,exact,region,niches,members_1,members_2,members_3,"
-    "members_4,members_5,best_convergence,population_convergence,evaluations,descents,descent_steps,"
-    "microseconds,recall,precision";
+std::string runsHeader() {
+  std::string header = "row,algorithm,scene,run,distance,best_iteration,exact,region,niches";
+  for (const char* column : {"members", "niche_distance"}) {
+    for (std::size_t i = 1; i <= TrialRecord::kNicheCount; ++i) {
+      header += std::string(",") + column + "_" + std::to_string(i);
+    }
+  }
+  return header +
+         ",best_convergence,population_convergence,evaluations,descents,descent_steps,microseconds,recall,"
+         "precision";
+}
 constexpr const char* kCurvesHeader =
     "row,scene,first_run,runs,iteration,best_distance_sum,mean_square_sum,niches_sum,acceptance_sum";
 
 /// Opens a file to append to; writes its header when it is new. @throws Error
-std::ofstream openToAppend(const std::string& path, const char* header) {
+std::ofstream openToAppend(const std::string& path, const std::string& header) {
   const bool is_new = !std::filesystem::exists(path) || std::filesystem::file_size(path) == 0;
   if (!is_new) {
     std::ifstream before(path);
@@ -41,7 +48,7 @@ TrialFiles::TrialFiles(const Experiment& experiment, const std::string& folder) 
   std::filesystem::create_directories(folder);
   const std::string path = folder + "/" + experiment.name + ".csv";
   if (std::filesystem::exists(path)) readDone(path);
-  runs_ = openToAppend(path, kRunsHeader);
+  runs_ = openToAppend(path, runsHeader());
   if (experiment.curves)
     curves_ = openToAppend(folder + "/" + experiment.name + "_curves.csv", kCurvesHeader);
 }
@@ -94,6 +101,7 @@ void TrialFiles::append(const WorkUnit& unit, const std::vector<TrialRecord>& re
     lines << row.name << ',' << nameOf(row.method) << ',' << scene << ',' << unit.first_run + i << ','
           << r.distance << ',' << r.best_iteration << ',' << r.exact << ',' << r.region << ',' << r.niches;
     for (const std::uint32_t members : r.members) lines << ',' << members;
+    for (const double distance : r.niche_distances) lines << ',' << distance;
     lines << ',' << r.best_convergence << ',' << r.population_convergence << ',' << r.cost.evaluations << ','
           << r.cost.descents << ',' << r.cost.descent_steps << ',' << r.microseconds << ',' << r.recall << ','
           << r.precision << '\n';

@@ -1,0 +1,27 @@
+#!/usr/bin/env bash
+# Runs the experiments (experiments/*.yaml) and writes doc/evaluation.md with its plots.
+#
+#   scripts/report.sh [quick|full] [folder of the results]    quick: a minute (default); full: the counts of runs of
+#                                                             the thesis, some minutes on two cores
+#
+# It installs and builds what is missing, and goes on where an interrupted run has ended. On several machines, each shard
+# into a folder of its own; here eight with GNU parallel over two hosts, then the join:
+#   parallel -S host1,host2 'cd concave_distance && build/devel/lib/concave_distance/evaluate experiments/*.yaml --size full --shard {}/8 --output shard_{}' ::: {0..7}
+#   scripts/write_evaluation.py shard_*
+# As a Slurm array: sbatch --array=0-7 --wrap 'build/devel/lib/concave_distance/evaluate experiments/*.yaml --size full
+# --shard $SLURM_ARRAY_TASK_ID/8 --output shard_$SLURM_ARRAY_TASK_ID'.
+set -euo pipefail
+# shellcheck source=scripts/common.sh
+. "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+size=${1:-quick}
+case $size in
+  quick | full) ;;
+  *) die "name the size of the report: quick or full" ;;
+esac
+cd "$package_dir"
+results=${2:-build/evaluation_$size}
+evaluate() { find build -type f -perm -u+x -name evaluate | head -n 1; }
+scripts/install_dependencies.sh build plot
+[ -d build ] && [ -n "$(evaluate)" ] || scripts/build.sh
+"$(evaluate)" experiments/*.yaml --size "$size" --output "$results"
+/usr/bin/python3 scripts/write_evaluation.py "$results"

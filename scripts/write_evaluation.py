@@ -1,0 +1,296 @@
+#!/usr/bin/python3
+"""Writes doc/evaluation.md and its plots from the results of `evaluate`.
+
+    scripts/write_evaluation.py RESULTS [MORE_RESULTS ...] [--output doc/evaluation.md]
+
+RESULTS are folders that `evaluate --output` has filled; the files of several, one for each shard, are joined.
+Every experiment of experiments/*.yaml that has results is written, with the thesis's figures beside ours.
+"""
+import argparse
+import collections
+import csv
+import math
+import pathlib
+import re
+import statistics
+
+import matplotlib
+import yaml
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402  (the backend comes first)
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+NICHE_COUNT = 10
+HEADINGS = {
+    "exact": "Phi*", "region": "Phi", "best_iteration": "G_i", "niches": "N_Gamma", "distance": "distance",
+    "kflop": "kflop", "recall": "recall", "precision": "precision", "best_convergence": "x*'",
+    "population_convergence": "x'", "niche_members": "individuals of the nearest niches",
+    "niche_distances": "distances of the nearest niches",
+}
+FLOPS_PER_EVALUATION = 26  # Carretero, app. D: a descent's step looks at about 5 neighbours, 130 flops
+
+
+def read_rows(folders, file_name):
+    rows = []
+    for folder in folders:
+        path = pathlib.Path(folder) / file_name
+        if path.exists():
+            with open(path, newline="", encoding="utf-8") as file:
+                rows += list(csv.DictReader(file))
+    return rows
+
+
+def wilson(successes, runs, z=1.959964):
+    """The 95 % interval of a rate (Wilson 1927)."""
+    rate = successes / runs
+    centre = rate + z * z / (2 * runs)
+    margin = z * math.sqrt(rate * (1 - rate) / runs + z * z / (4 * runs * runs))
+    return (centre - margin) / (1 + z * z / runs), (centre + margin) / (1 + z * z / runs)
+
+
+def spread(values, digits):
+    deviation = statistics.pstdev(values)
+    return f"{statistics.fmean(values):.{digits}f} [{min(values):g}-{max(values):g}] {deviation:.{max(1, digits - 1)}f}"
+
+
+def median_range(values, digits=4):
+    return f"{statistics.median(values):.{digits}f} [{min(values):.{digits}f}-{max(values):.{digits}f}]"
+
+
+def niche_means(runs, column, digits):
+    """Of the niches that at least half of the runs have."""
+    cells = []
+    for i in range(1, NICHE_COUNT + 1):
+        values = [float(run[f"{column}_{i}"]) for run in runs if float(run[f"members_{i}"]) > 0]
+        if 2 * len(values) < len(runs):
+            break
+        cells.append(f"{statistics.median(values):.{digits}f}" if digits == 4
+                     else f"{sum(values) / len(runs):.{digits}f}")
+    return " ".join(cells)
+
+
+def ours(column, runs):
+    """Our figure of a column over the runs of a row on a scene."""
+    if column in ("exact", "region"):
+        return f"{sum(int(run[column]) for run in runs)}/{len(runs)}"
+    if column == "distance":
+        return median_range([float(run["distance"]) for run in runs])
+    if column == "kflop":
+        return median_range([FLOPS_PER_EVALUATION * int(run["evaluations"]) / 1000 for run in runs], 0)
+    if column in ("best_iteration", "niches"):
+        return spread([int(run[column]) for run in runs], 2)
+    if column in ("recall", "precision"):
+        return f"{statistics.fmean(float(run[column]) for run in runs):.3f}"
+    if column in ("best_convergence", "population_convergence"):
+        return f"{statistics.fmean(float(run[column]) for run in runs):.5f}"
+    if column == "niche_members":
+        return niche_means(runs, "members", 1)
+    if column == "niche_distances":
+        return niche_means(runs, "niche_distance", 4)
+    raise SystemExit(f"no column is called {column}")
+
+
+def theirs(column, thesis):
+    value = thesis.get(column)
+    if column == "region" and isinstance(value, bool):
+        return "yes" if value else "no"
+    if column == "kflop" and value is None and "mflop" in thesis:
+        return f"{1000 * thesis['mflop']:.0f}"
+    return "" if value is None else str(value)
+
+
+def is_less_robust(column, thesis, runs):
+    """Whether the thesis's rate is above the upper end of our interval."""
+    match = re.fullmatch(r"(\d+)/(\d+)", str(thesis.get(column, "")))
+    if column not in ("exact", "region") or not match:
+        return False
+    upper = wilson(sum(int(run[column]) for run in runs), len(runs))[1]
+    return int(match[1]) / int(match[2]) > upper + 1e-12
+
+
+def write_table(out, experiment, runs_of, counts):
+    scenes = list(experiment["scenes"])
+    columns = experiment["columns"]
+    compared = [column for column in columns if any(
+        theirs(column, row.get("thesis", {}).get(scene, {})) for row in experiment["rows"] for scene in scenes)]
+    header = ["algorithm"] + (["scene"] if len(scenes) > 1 else [])
+    for column in columns:
+        if column in compared:
+            header.append(f"{HEADINGS[column]}, thesis")
+        header.append(HEADINGS[column] + (", ours" if column in compared else ""))
+    header.append("ms a run")
+    out.append("| " + " | ".join(header) + " |")
+    out.append("|---" * len(header) + "|")
+    for row in experiment["rows"]:
+        for scene in scenes:
+            runs = runs_of.get((row["name"], scene))
+            if not runs:
+                continue
+            counts.add(len(runs))
+            thesis = row.get("thesis", {}).get(scene, {})
+            cells = [row["name"].replace(";", ",")] + ([scene.replace("_", " ")] if len(scenes) > 1 else [])
+            for column in columns:
+                if column in compared:
+                    cells.append(theirs(column, thesis))
+                mark = " (below)" if is_less_robust(column, thesis, runs) else ""
+                cells.append(ours(column, runs) + mark)
+            cells.append(f"{statistics.median(float(run['microseconds']) for run in runs) / 1000:.2f}")
+            out.append("| " + " | ".join(cells) + " |")
+
+
+def lost_rows(experiment, runs_of):
+    """The thesis's rows in which it is more robust than its algorithm here and every variant of it."""
+    lost = []
+    for row in experiment["rows"]:
+        if row.get("variant_of"):
+            continue
+        family = [row] + [other for other in experiment["rows"] if other.get("variant_of") == row["name"]]
+        for scene in experiment["scenes"]:
+            for column in ("exact", "region"):
+                if all(is_less_robust(column, one.get("thesis", {}).get(scene, {}), runs_of[(one["name"], scene)])
+                       for one in family if (one["name"], scene) in runs_of):
+                    lost.append(f"{experiment.get('table')} {row['name'].replace(';', ',')} "
+                                f"({scene.replace('_', ' ')}, {HEADINGS[column]})")
+    return lost
+
+
+def curves_of(folders, name):
+    """Averages over all runs: {(row, scene): [(iteration, best, mean square, niches, p_b)]}."""
+    units = {}
+    for line in read_rows(folders, name + "_curves.csv"):
+        unit = (line["row"], line["scene"], line["first_run"], int(line["iteration"]))
+        # A unit that was written twice, once with fewer runs, counts once.
+        if unit not in units or int(units[unit]["runs"]) < int(line["runs"]):
+            units[unit] = line
+    sums = collections.defaultdict(lambda: collections.defaultdict(lambda: [0.0] * 5))
+    for (row, scene, _, iteration), line in units.items():
+        point = sums[(row, scene)][iteration]
+        point[0] += int(line["runs"])
+        for i, column in enumerate(("best_distance_sum", "mean_square_sum", "niches_sum", "acceptance_sum")):
+            point[i + 1] += float(line[column])
+    return {key: [(iteration, *(value / p[0] for value in p[1:])) for iteration, p in sorted(points.items())]
+            for key, points in sums.items()}
+
+
+def plot_curves(experiment, curves, images):
+    """The figures that an experiment's curves stand for; returns their names and what they show."""
+    scenes = list(experiment["scenes"])
+    name = experiment["name"]
+    wanted = [("best", 1, "distance of the best, m", True)]
+    if any(key[0] for key in curves) and any(point[3] > 0 for points in curves.values() for point in points):
+        wanted += [("niches", 3, "niches of the population", False),
+                   ("average", 2, "average objective, m^2", True)]
+    if any("SA" in row["algorithm"] for row in experiment["rows"]):
+        wanted.append(("acceptance", 4, "acceptance probability p_b", False))
+    written = []
+    for kind, column, label, logarithmic in wanted:
+        figure, all_axes = plt.subplots(1, len(scenes), figsize=(5.5 * len(scenes), 4), squeeze=False)
+        for axes, scene in zip(all_axes[0], scenes):
+            for row in experiment["rows"]:
+                points = curves.get((row["name"], scene), [])
+                annealing = "SA" in row["algorithm"]
+                if not points or (kind == "acceptance") != annealing and kind != "best" or (
+                        annealing and kind in ("niches", "average")):
+                    continue
+                # An iteration of annealing is a trial point, a generation is N_pop of them: shares of the run.
+                last = points[-1][0] or 1
+                axes.plot([point[0] / last for point in points], [point[column] for point in points],
+                          label=row["name"].replace(";", ","))
+            if logarithmic:
+                axes.set_yscale("log")
+            axes.set_title(scene.replace("_", " "))
+            axes.set_xlabel("share of the run")
+            axes.set_ylabel(label)
+            axes.grid(alpha=0.3)
+            axes.legend(fontsize=8)
+        figure.tight_layout()
+        file_name = f"evaluation_{name}_{kind}.png"
+        figure.savefig(images / file_name, dpi=90)
+        plt.close(figure)
+        written.append((file_name, label))
+    return written
+
+
+def plot_sharing(images):
+    """Figure 5.2: the sharing function for five exponents."""
+    figure, axes = plt.subplots(figsize=(5.5, 4))
+    shares = [i / 200 for i in range(201)]
+    for exponent in (0.1, 0.3, 1, 3, 10):
+        axes.plot(shares, [1 - share ** exponent for share in shares], label=f"alpha_s = {exponent:g}")
+    axes.set_xlabel("mesh distance / sharing radius")
+    axes.set_ylabel("S")
+    axes.grid(alpha=0.3)
+    axes.legend()
+    figure.tight_layout()
+    figure.savefig(images / "evaluation_sharing.png", dpi=90)
+    plt.close(figure)
+
+
+def order_of(experiment):
+    numbers = re.findall(r"\d+", experiment.get("table") or experiment.get("figure") or "99")
+    return [int(number) for number in numbers[:2]]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("results", nargs="+")
+    parser.add_argument("--output", default=str(ROOT / "doc" / "evaluation.md"))
+    options = parser.parse_args()
+    images = pathlib.Path(options.output).parent / "images"
+    images.mkdir(exist_ok=True)
+
+    experiments = []
+    for path in sorted((ROOT / "experiments").glob("*.yaml")):
+        with open(path, encoding="utf-8") as file:
+            experiments.append({"name": path.stem, **yaml.safe_load(file)})
+    experiments.sort(key=order_of)
+
+    body = []
+    less_robust = []
+    for experiment in experiments:
+        runs_of = collections.defaultdict(dict)
+        for run in read_rows(options.results, experiment["name"] + ".csv"):
+            runs_of[(run["row"], run["scene"])][int(run["run"])] = run  # the same run of two folders is one
+        runs_of = {key: list(runs.values()) for key, runs in runs_of.items()}
+        if not runs_of:
+            continue
+        table = experiment.get("table")
+        body += ["", f"## {'Table ' + table if table else 'Figures ' + experiment['figure']}: {experiment['title']}", ""]
+        counts = set()
+        lines = []
+        write_table(lines, experiment, runs_of, counts)
+        grids = ", ".join(f"{scene.replace('_', ' ')} {edge:g}" for scene, edge in experiment["scenes"].items())
+        body += [f"Runs of each row: {', '.join(str(c) for c in sorted(counts))}. Grid: {grids}."
+                 + (f" {experiment['remark']}" if experiment.get("remark") else ""), ""] + lines
+        if experiment.get("note"):
+            body += ["", experiment["note"].strip()]
+        less_robust += lost_rows(experiment, runs_of)
+        curves = curves_of(options.results, experiment["name"])
+        if curves:
+            for file_name, label in plot_curves(experiment, curves, images):
+                body += ["", f"![{label}](images/{file_name})"]
+    plot_sharing(images)
+
+    head = ["# The thesis's algorithms, evaluated", "",
+            "Every table of the thesis (Carretero) that its algorithms fill, with its figures beside ours. Written by",
+            "`scripts/report.sh` (`quick`, or `full` for the counts of runs kept here); the experiments are `experiments/*.yaml`.",
+            "Rows that name something of this package's own (`shipped defaults`, `descents move both nodes`) stand below the thesis's.",
+            "", "- Phi*: runs that end at the best node pair there is (by enumeration); Phi: in its region (1.1 times its distance, nearer than the",
+            "  second local minimum). `(below)`: the thesis's rate is above the upper end of our 95 % interval (Wilson).",
+            "- G_i: the generation (iteration) in which the run's best appeared; N_Gamma: niches of the final population: mean [least-most] deviation.",
+            "- x*', x': averages of the best and of the mean objective over a run, over the optimum's (5.1, 5.2).",
+            "- kflop: by the thesis's rule, 26 for each node pair looked at: median [least-most]. Times are of one core of a shared machine.",
+            "- recall, precision: of the outward niches of prominence 1e-2 that level `complete` proves, in the final population.", "",
+            "![Figure 5.2: the sharing function](images/evaluation_sharing.png)"]
+    if less_robust:
+        head += ["", "Rows in which the thesis is more robust than its algorithm here and every variant of it beside it: "
+                 + "; ".join(less_robust) + "."]
+    else:
+        head += ["", "In no row is the thesis more robust than its algorithm here or a variant of it beside it."]
+    pathlib.Path(options.output).write_text("\n".join(head + body) + "\n", encoding="utf-8")
+    print(options.output)
+
+
+if __name__ == "__main__":
+    main()
