@@ -46,9 +46,9 @@ std::string contentOf(const std::filesystem::path& file) {
 }  // namespace
 
 const std::vector<std::string>& roomsFromTheGround() {
-  static const std::vector<std::string> rooms = {"base",       "mesh",   "distance",     "partition",
-                                                 "continuous", "search", "interference", "contact",
-                                                 "tracking",   "scene",  "tools",        kTopRoom};
+  static const std::vector<std::string> rooms = {
+      "base",    "mesh",     "distance", "partition", "continuous", "search", "interference",
+      "contact", "tracking", "scene",    "tools",     "evaluation", kTopRoom};
   return rooms;
 }
 
