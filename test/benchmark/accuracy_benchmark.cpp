@@ -1,0 +1,291 @@
+// What accuracy costs in time: error against microseconds of every level and of what the levels can be
+// compared with, cold and tracked, on the thesis's scenes, links of robots and bodies of 100,000 triangles.
+//
+//   accuracy_benchmark [--pairs name,name,...] [--steps 200] [--cold 40] [--output doc/results/accuracy.csv]
+//
+// A row is a pair, a method, its setting and a mode. `cold`: nothing is known, at instants along the pair's
+// motion; `tracked`: along the motion, every instant from the last. Errors are of the distance, against the
+// proven one, in units of the smaller body's diameter; `gap` is how far the method's own lower bound stays
+// below its distance, in the same unit (empty where it has none). Time is the query's alone, in one thread:
+// median and 99th percentile, microseconds. `missed`: instants with an error above 1e-2.
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <functional>
+
+#include "benchmark/support/benchmark_main.h"
+#include "benchmark/support/benchmark_pairs.h"
+#include "benchmark/support/shapes.h"
+#include "benchmark/support/statistics.h"
+#include "benchmark/support/stopwatch.h"
+#include "concave_distance/distance/certificate.h"
+#include "concave_distance/search/automatic_radii.h"
+#include "concave_distance/search/search_method.h"
+#include "concave_distance/tracking/pair_tracker.h"
+
+namespace concave_distance::benchmark {
+namespace {
+
+constexpr double kMissed = 1e-2;
+constexpr double kDuration = 5.0;  // seconds of a motion
+
+struct Answer {
+  double distance;
+  double lower_bound;  ///< NaN: none
+  double microseconds;
+};
+using Query = std::function<Answer(const Eigen::Isometry3d& pose, double time, bool first)>;
+
+/// Two rings of 100,000 triangles, one passing close by the other, as in scale_benchmark.
+BenchmarkPair makeRings() {
+  const SurfaceMesh surface = makeBumpyRing(100000);
+  BenchmarkPair pair;
+  pair.name = "rings_100k";
+  pair.a = std::make_shared<const BodyMesh>("a", surface, BodyMeshOptions());
+  pair.b = std::make_shared<const BodyMesh>("b", surface, BodyMeshOptions());
+  pair.fcl_a = pair.fcl_b = makeFclModel(surface);
+  pair.motion = [](double t) {
+    const double angle = 0.3 + 0.15 * t;
+    Eigen::Isometry3d pose(Eigen::AngleAxisd(angle, Eigen::Vector3d(1.0, 1.0, 0.0).normalized()));
+    pose.translation() = 1.6 * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0.06);
+    return pose;
+  };
+  return pair;
+}
+
+BenchmarkPair loadPair(const std::string& name, std::optional<double> edge = std::nullopt) {
+  return name == "rings_100k" ? makeRings() : loadBenchmarkPair(name, edge);
+}
+
+class Rows {
+ public:
+  Rows(const std::string& output, int steps, int cold) : steps_(steps), cold_(cold) {
+    if (output.empty()) return;
+    csv_.open(output);
+    csv_ << "pair,method,setting,mode,instants,median_error,p99_error,largest_error,median_gap,median_us,p99_"
+            "us,"
+            "missed\n";
+  }
+
+  /// Takes the truth of the pair's instants.
+  void begin(const BenchmarkPair& pair) {
+    name_ = pair.name;
+    unit_ = std::min(pair.a->diameter(), pair.b->diameter());
+    tracked_ = instants(pair, steps_);
+    colds_ = instants(pair, cold_);
+  }
+
+  void cold(const std::string& method, const std::string& setting, const Query& query) {
+    add(method, setting, "cold", colds_, query);
+  }
+  void tracked(const std::string& method, const std::string& setting, const Query& query) {
+    add(method, setting, "tracked", tracked_, query);
+  }
+
+ private:
+  struct Instant {
+    double time;
+    Eigen::Isometry3d pose;
+    double distance;
+  };
+
+  static std::vector<Instant> instants(const BenchmarkPair& pair, int count) {
+    std::vector<Instant> made;
+    CertificateWorkspace workspace;
+    for (int k = 0; k < count; ++k) {
+      const double t = count > 1 ? static_cast<double>(k) / (count - 1) : 0.0;
+      const Eigen::Isometry3d pose = pair.motion(t);
+      made.push_back(
+          {kDuration * t, pose, certifyDistance(*pair.a, *pair.b, pose, nullptr, 0, {}, workspace).distance});
+    }
+    return made;
+  }
+
+  void add(const std::string& method, const std::string& setting, const char* mode,
+           const std::vector<Instant>& instants, const Query& query) {
+    std::vector<double> errors;
+    std::vector<double> gaps;
+    std::vector<double> times;
+    int missed = 0;
+    for (std::size_t k = 0; k < instants.size(); ++k) {
+      const Answer answer = query(instants[k].pose, instants[k].time, k == 0);
+      if (k == 0 && std::string(mode) == "tracked") continue;  // begins cold
+      errors.push_back(std::abs(answer.distance - instants[k].distance) / unit_);
+      missed += errors.back() > kMissed ? 1 : 0;
+      if (std::isfinite(answer.lower_bound)) gaps.push_back((answer.distance - answer.lower_bound) / unit_);
+      times.push_back(answer.microseconds);
+    }
+    const double largest = *std::max_element(errors.begin(), errors.end());
+    const double gap = gaps.empty() ? std::nan("") : median(gaps);
+    std::printf("%-18s %-22s %-28s %-8s %9.2e %9.2e %9.2e %9.2e %10.2f %10.2f %4d\n", name_.c_str(),
+                method.c_str(), setting.c_str(), mode, median(errors), percentile(errors, 0.99), largest, gap,
+                median(times), percentile(times, 0.99), missed);
+    std::fflush(stdout);
+    if (!csv_) return;
+    csv_ << name_ << ',' << method << ',' << setting << ',' << mode << ',' << errors.size() << ','
+         << median(errors) << ',' << percentile(errors, 0.99) << ',' << largest << ',';
+    if (!gaps.empty()) csv_ << gap;
+    csv_ << ',' << median(times) << ',' << percentile(times, 0.99) << ',' << missed << '\n';
+  }
+
+  int steps_;
+  int cold_;
+  std::ofstream csv_;
+  std::string name_;
+  double unit_ = 1.0;
+  std::vector<Instant> tracked_;
+  std::vector<Instant> colds_;
+};
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%g", value);
+  return text;
+}
+
+/// A tracker's answers, cold each time or tracked.
+void addTracker(Rows& rows, const BenchmarkPair& pair, const std::string& method, const std::string& setting,
+                const TrackerParameters& parameters) {
+  PairTracker tracker(pair.name, pair.a, pair.b, parameters);
+  PairSolution solution;
+  const auto solve = [&](const Eigen::Isometry3d& pose, double time) {
+    tracker.update(pose, time, solution);
+    return Answer{solution.distance, solution.lower_bound, 1e6 * solution.solve_seconds};
+  };
+  rows.cold(method, setting, [&](const Eigen::Isometry3d& pose, double time, bool) {
+    tracker.reset();
+    return solve(pose, time);
+  });
+  tracker.reset();
+  rows.tracked(method, setting,
+               [&](const Eigen::Isometry3d& pose, double time, bool) { return solve(pose, time); });
+}
+
+/// Level `nodes` over edge lengths, populations and generations.
+void addNodes(Rows& rows, const std::string& name, const BenchmarkPair& pair) {
+  TrackerParameters parameters;
+  parameters.accuracy = AccuracyLevel::Nodes;
+  const double edge = std::max(pair.a->maxEdgeLength(), pair.b->maxEdgeLength());
+  if (name != "rings_100k") {
+    for (const double scale : {4.0, 2.0, 1.0, 0.5, 0.25, 0.125}) {
+      addTracker(rows, loadPair(name, scale * edge), "nodes", "edge " + number(scale * edge), parameters);
+    }
+  }
+  for (const std::uint32_t population : {20U, 50U, 100U, 200U}) {
+    for (const std::uint32_t generations : {5U, 30U}) {
+      parameters.cold.population_size = population;
+      parameters.cold.max_generations = generations;
+      addTracker(rows, pair, "nodes",
+                 "N_pop " + std::to_string(population) + " G " + std::to_string(generations), parameters);
+    }
+  }
+}
+
+void addLevels(Rows& rows, const BenchmarkPair& pair) {
+  TrackerParameters parameters;
+  parameters.accuracy = AccuracyLevel::Refined;
+  addTracker(rows, pair, "refined", "all niches", parameters);
+  parameters.niches_wanted = false;
+  addTracker(rows, pair, "refined", "distance alone", parameters);
+  parameters.accuracy = AccuracyLevel::Certified;
+  parameters.niches_wanted = true;
+  addTracker(rows, pair, "certified", "all niches", parameters);
+  parameters.accuracy = AccuracyLevel::Complete;
+  addTracker(rows, pair, "complete", "all niches", parameters);
+
+  parameters.accuracy = AccuracyLevel::Certified;
+  parameters.niches_wanted = false;
+  for (const double tolerance : {0.0, 1e-6, 1e-4, 1e-3, 1e-2, 1e-1}) {
+    parameters.relative_tolerance = tolerance;
+    addTracker(rows, pair, "certified", "tolerance " + number(tolerance), parameters);
+  }
+  parameters.relative_tolerance = 0.0;
+  for (const double budget : {2e-6, 5e-6, 1e-5, 2e-5, 5e-5, 1e-4, 3e-4}) {
+    parameters.time_budget = budget;
+    addTracker(rows, pair, "certified", "budget " + number(1e6 * budget) + " us", parameters);
+  }
+}
+
+/// Searches over nodes that no level uses.
+void addSearches(Rows& rows, const BenchmarkPair& pair) {
+  SearchWorkspace workspace(*pair.a, *pair.b);
+  const NicheRadii radii = automaticRadii(*pair.a, *pair.b, {});
+  std::uint64_t seed = 0;
+  const auto add = [&](const std::string& setting, const SearchMethod& method) {
+    rows.cold(nameOf(method), setting, [&](const Eigen::Isometry3d& pose, double, bool) {
+      const PairObjective objective(*pair.a, *pair.b, pose);
+      workspace.basins.clear();
+      RandomEngine engine(++seed);
+      const auto start = std::chrono::steady_clock::now();
+      const SearchOutcome outcome = searchPair(objective, method, radii, engine, workspace);
+      return Answer{std::sqrt(outcome.best.squared_distance), std::nan(""), microsecondsSince(start)};
+    });
+  };
+  for (const std::uint32_t iterations : {150U, 2500U}) {
+    AnnealingParameters annealing;
+    annealing.initial_temperature = iterations;
+    // In the thesis's scenes, whose bodies are two metres long, 0.01 (Table 5.5).
+    annealing.boltzmann_constant = 0.0025 * std::pow(std::min(pair.a->diameter(), pair.b->diameter()), 2);
+    add("t_ini " + std::to_string(iterations), annealing);
+    annealing.local_optimization = false;
+    add("t_ini " + std::to_string(iterations), annealing);
+  }
+  for (const std::uint32_t starts : {10U, 100U, 1000U}) {
+    add(std::to_string(starts) + " starts", MultiStartParameters{starts, 0});
+  }
+}
+
+void addFcl(Rows& rows, const BenchmarkPair& pair) {
+  TrianglePair closest{};
+  const auto plain = [&](const Eigen::Isometry3d& pose, double, bool) {
+    const auto start = std::chrono::steady_clock::now();
+    const double distance = fclDistance(*pair.fcl_a, *pair.fcl_b, pose).distance;
+    return Answer{std::max(0.0, distance), std::nan(""), microsecondsSince(start)};
+  };
+  rows.cold("FCL", "plain", plain);
+  rows.tracked("FCL", "plain", plain);
+  CertificateWorkspace workspace;
+  rows.tracked("FCL", "seeded", [&](const Eigen::Isometry3d& pose, double, bool first) {
+    const auto start = std::chrono::steady_clock::now();
+    const double distance =
+        first ? fclDistance(*pair.fcl_a, *pair.fcl_b, pose).distance
+              : fclDistanceSeeded(*pair.fcl_a, *pair.fcl_b, pose, closest.a, closest.b).distance;
+    const double taken = microsecondsSince(start);
+    const DistanceCertificate proven = certifyDistance(*pair.a, *pair.b, pose, nullptr, 0, {}, workspace);
+    closest = {proven.witness.triangle_a, proven.witness.triangle_b};
+    return Answer{std::max(0.0, distance), std::nan(""), taken};
+  });
+}
+
+}  // namespace
+
+int benchmarkMain(int argc, char** argv) {
+  CLI::App app("What accuracy costs in time");
+  std::vector<std::string> names = {"notched_boxes",  "grooved_cylinder", "battery_insertion",
+                                    "kr5_bicep_palm", "wam1_wam6",        "rings_100k"};
+  int steps = 200;
+  int cold = 40;
+  std::string output;
+  app.add_option("--pairs", names, "Pairs to run, rings_100k or of the benchmark pairs")->delimiter(',');
+  app.add_option("--steps", steps, "Instants along each motion")->check(CLI::Range(2, 1000000));
+  app.add_option("--cold", cold, "Instants of the cold queries")->check(CLI::Range(2, 1000000));
+  app.add_option("--output", output, "CSV file to write");
+  CLI11_PARSE(app, argc, argv);
+
+  Rows rows(output, steps, cold);
+  std::printf("%-18s %-22s %-28s %-8s %9s %9s %9s %9s %10s %10s %4s\n", "pair", "method", "setting", "mode",
+              "error", "p99", "largest", "gap", "us", "p99", "miss");
+  for (const std::string& name : names) {
+    const BenchmarkPair pair = loadPair(name);
+    rows.begin(pair);
+    addNodes(rows, name, pair);
+    addSearches(rows, pair);
+    addLevels(rows, pair);
+    addFcl(rows, pair);
+  }
+  return 0;
+}
+
+}  // namespace concave_distance::benchmark
