@@ -210,7 +210,7 @@ class Descent {
     if (memory_ == nullptr) {
       return false;
     }
-    const std::uint64_t pair = (std::uint64_t{point_.node_a.value} << 32U) | point_.node_b.value;
+    const std::uint64_t pair = pairKey(point_.node_a, point_.node_b);
     if (!trail_.empty() && trail_.back() == pair) {
       return false;
     }

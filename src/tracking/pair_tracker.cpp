@@ -59,6 +59,7 @@ void TrackerState::clear(PairSolution& solution) const {
   solution.seed = parameters.seed;
   solution.cost = {};
   solution.proof_cost = {};
+  solution.stages = {};
 }
 
 void TrackerState::reset() {
@@ -90,18 +91,24 @@ void TrackerState::update(const Eigen::Isometry3d& pose, double time, PairSoluti
       warm ? largestDisplacement(geometry.b->surface().boundingBox(), last_pose, *rigid)
            : std::numeric_limits<double>::infinity();
   const bool proves = provesDistance(parameters.accuracy);
+  stage_clock.start();
   if (proves && !parameters.niches_wanted) {
     proveAlone(displacement, elapsed, seconds_left(), solution);
+    stage_clock.lap(SolveStage::Proof, solution.stages);
   } else if (parameters.accuracy == AccuracyLevel::Complete) {
     completeNiches(displacement, elapsed, solution);
+    stage_clock.lap(SolveStage::Sweep, solution.stages);
     listNiches(solution);
+    stage_clock.lap(SolveStage::Describe, solution.stages);
     proveDistance(displacement, seconds_left());
     reportProven(solution);
+    stage_clock.lap(SolveStage::Proof, solution.stages);
   } else {
     solveNiches(displacement, elapsed, solution);
     if (proves) {
       proveDistance(displacement, seconds_left());
       admitClosest(solution);
+      stage_clock.lap(SolveStage::Proof, solution.stages);
     }
     describeNiches(solution);
     listNiches(solution);
@@ -110,6 +117,7 @@ void TrackerState::update(const Eigen::Isometry3d& pose, double time, PairSoluti
     } else {
       reportNearest(displacement, solution);
     }
+    stage_clock.lap(SolveStage::Describe, solution.stages);
   }
   last_pose = *rigid;
   last_time = time;
@@ -134,6 +142,7 @@ void TrackerState::solveNiches(double displacement, double elapsed, PairSolution
     }
     followNiches(displacement, elapsed, solution.cost, solution.events);
   }
+  stage_clock.lap(SolveStage::Follow, solution.stages);
   searching = searchIsDue(displacement);
   if (searching) {
     const std::size_t known_minima = search.basins.minima().size();
@@ -141,14 +150,19 @@ void TrackerState::solveNiches(double displacement, double elapsed, PairSolution
     collectCandidates(known_minima);
   }
   settleCandidates(solution);
+  stage_clock.lap(SolveStage::Search, solution.stages);
   projectNiches(solution);
+  stage_clock.lap(SolveStage::Project, solution.stages);
   if (parameters.accuracy == AccuracyLevel::Nodes) {
     uniteWithinRadius(warm ? warm_radii.niche : cold_radii.niche, search.metric, archive, solution.events);
     improveNodePairs(objective, parameters.largest_niche_count, archive, geometry, solution.cost);
+    stage_clock.lap(SolveStage::Search, solution.stages);
   } else {
     uniteSamePlaces(geometry, archive, solution.events);
     sweepCones(solution);
+    stage_clock.lap(SolveStage::Sweep, solution.stages);
     reviewRecords(solution);
+    stage_clock.lap(SolveStage::Review, solution.stages);
   }
 }
 

@@ -150,6 +150,7 @@ struct TrackerState {
   std::uint32_t cycles_at_rest = 0;
   Proof proof;
   Completeness completeness;
+  StageClock stage_clock;
 };
 
 }  // namespace concave_distance

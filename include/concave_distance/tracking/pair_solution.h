@@ -10,6 +10,7 @@
 #include "concave_distance/distance/certificate.h"
 #include "concave_distance/distance/niche_properties.h"
 #include "concave_distance/search/trial_point.h"
+#include "concave_distance/tracking/stage_times.h"
 
 namespace concave_distance {
 
@@ -90,6 +91,7 @@ struct PairSolution {
   SearchCost cost;
   CertificateCost proof_cost;  ///< of level `certified`
   double solve_seconds = kNotComputed;
+  StageTimes stages;  ///< their sum is solve_seconds but for the frame around them
 };
 
 }  // namespace concave_distance
