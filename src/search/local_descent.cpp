@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "concave_distance/base/pair_key.h"
+
 namespace concave_distance {
 namespace {
 
