@@ -4,13 +4,13 @@
 #include <limits>
 #include <numeric>
 
+#include "concave_distance/base/selection.h"
 #include "concave_distance/search/crowding.h"
 #include "concave_distance/search/local_descent.h"
 #include "concave_distance/search/mating.h"
 #include "concave_distance/search/mating_restriction.h"
 #include "concave_distance/search/mutation.h"
 #include "concave_distance/search/replacement.h"
-#include "concave_distance/base/selection.h"
 #include "concave_distance/search/sharing.h"
 
 namespace concave_distance {
