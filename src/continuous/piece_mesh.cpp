@@ -15,8 +15,8 @@ using Polygon = std::vector<Eigen::Vector3d>;
 /// The faces of a box, counter-clockwise seen from outside.
 std::vector<Polygon> boxFaces(const Eigen::AlignedBox3d& box) {
   std::vector<Polygon> faces;
-  const Eigen::Vector3d low = box.min();
-  const Eigen::Vector3d high = box.max();
+  const Eigen::Vector3d& low = box.min();
+  const Eigen::Vector3d& high = box.max();
   for (int axis = 0; axis < 3; ++axis) {
     const int u = (axis + 1) % 3;
     const int v = (axis + 2) % 3;
@@ -61,7 +61,7 @@ Polygon clipped(const Polygon& face, const LinearConstraint& constraint, double 
 }
 
 /// The points on a constraint's plane as the face that closes the solid there.
-Polygon closingFace(Polygon cut, const LinearConstraint& constraint, double margin) {
+Polygon closingFace(const Polygon& cut, const LinearConstraint& constraint, double margin) {
   Polygon face;
   for (const Eigen::Vector3d& p : cut) {
     const bool is_new = std::none_of(face.begin(), face.end(),
@@ -106,7 +106,7 @@ void clip(std::vector<Polygon>& faces, const LinearConstraint& constraint, doubl
   if (!cuts) {
     return;
   }
-  Polygon closing = closingFace(std::move(cut), constraint, margin);
+  Polygon closing = closingFace(cut, constraint, margin);
   if (!closing.empty()) {
     kept.push_back(std::move(closing));
   }

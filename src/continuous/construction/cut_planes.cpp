@@ -105,11 +105,13 @@ std::vector<CutPlane> cutPlanes(const SolidFacets& solid, double tolerance) {
     }
   }
   std::vector<std::pair<double, std::size_t>> ranking;
+  ranking.reserve(planes.size());
   for (std::size_t i = 0; i < planes.size(); ++i) {
     ranking.emplace_back(-scoreOf(planes[i], edges, tolerance), i);
   }
   std::sort(ranking.begin(), ranking.end());
   std::vector<CutPlane> ordered;
+  ordered.reserve(ranking.size());
   for (const auto& [score, i] : ranking) {
     ordered.push_back(planes[i]);
   }
