@@ -7,8 +7,8 @@ set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 size=${1:-quick}
 case $size in
-  quick) tree_seeds=10 runs=200 niche_runs=60 steps=200 window=4 poses=2 seeds=2 edge_scales=1 proof_poses=200 sizes=1000,10000,100000 spacings=0,0.02 rings=100000 ;;
-  full) tree_seeds=50 runs=1000 niche_runs=500 steps=500 window=10 poses=2 seeds=8 edge_scales=1,0.4 proof_poses=7000 sizes=1000,10000,100000,1000000
+  quick) hole_facets=6,20 protrusions=8,16 tree_seeds=10 runs=200 niche_runs=60 steps=200 window=4 poses=2 seeds=2 edge_scales=1 proof_poses=200 sizes=1000,10000,100000 spacings=0,0.02 rings=100000 ;;
+  full) hole_facets=6,12,20,40 protrusions=1,4,8,16,32 tree_seeds=50 runs=1000 niche_runs=500 steps=500 window=10 poses=2 seeds=8 edge_scales=1,0.4 proof_poses=7000 sizes=1000,10000,100000,1000000
     spacings=0,0.01 rings=1000000 ;;
   *) echo "usage: scripts/benchmark.sh [quick|full]" >&2; exit 2 ;;
 esac
@@ -34,6 +34,19 @@ mkdir -p "$results"
 "$(program complete_benchmark)" --steps "$steps" --window "$window" --list-misses 8 --cold-runs 12 \
   --output "$results/complete.csv" | tee "$results/complete.txt"
 "$(program exactness_benchmark)" --poses "$proof_poses" --output "$results/exactness.csv" | tee "$results/exactness.txt"
+if [ -n "$(program partition_benchmark)" ]; then  # built with CGAL only
+  family=()
+  if /usr/bin/python3 -c "import numpy" 2>/dev/null; then
+    folder=$(mktemp -d)
+    trap 'rm -rf "$folder"' EXIT
+    /usr/bin/python3 "$root/scripts/generate_partition_family.py" "$folder" --hole-facets "$hole_facets" \
+      --protrusions "$protrusions"
+    family=(--family "$folder" --hole-facets "$hole_facets" --protrusions "$protrusions")
+  else
+    echo "no batteries with more pieces: install python3-numpy (scripts/install_dependencies.sh plot)" >&2
+  fi
+  "$(program partition_benchmark)" "${family[@]}" --output "$results/partition.csv" | tee "$results/partition.txt"
+fi
 if [ -n "$(program continuous_benchmark)" ]; then  # built with CGAL only
   "$(program continuous_benchmark)" --seeds "$tree_seeds" --output "$results/continuous.csv"
 fi

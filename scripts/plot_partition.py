@@ -2,7 +2,8 @@
 """Draws the convex pieces of the battery and the fixture, by hand and automatic: doc/images/partition.png; and the
 cost of a step over the number of sub-pairs from doc/results/partition.csv: doc/images/partition_crossing.png.
 
-    scripts/plot_partition.py            (needs a finished build for mesh_tool, and python3-matplotlib)
+    scripts/plot_partition.py            (needs a finished build for mesh_tool, and
+    python3-matplotlib: scripts/install_dependencies.sh plot)
 """
 import csv
 import pathlib
@@ -112,7 +113,7 @@ def plot_crossing():
         rows = [row for row in csv.DictReader(file) if row["partition"] != "automatic"]
     sizes = {(row["hole_facets"], row["protrusions"]): int(row["sub_pairs"]) for row in rows
              if row["partition"] == "hand"}
-    figure, axes = plt.subplots(figsize=(9, 5.5))
+    figure, axes = plt.subplots(figsize=(10.5, 5.5), layout="constrained")
     styles = (("QP, warm", "o-", "all sub-pairs, QP, warm"), ("GJK", "o-", "all sub-pairs, GJK"),
               ("QP, warm, culled", ".:", "culled, QP, warm"), ("GJK, culled", ".:", "culled, GJK"),
               ("hybrid: nodes + QP", "^--", "hybrid: nodes, then QP"), ("nodes", "s-", "search, nodes"),
@@ -123,15 +124,14 @@ def plot_crossing():
                         if row["method"] == method)
         axes.plot([p[0] for p in points], [p[1] for p in points], style, label=label, markersize=5)
     axes.axvline(150, color="black", linewidth=0.8)
-    axes.text(155, axes.get_ylim()[0] * 1.5, "the thesis's guess: 150", fontsize=9)
     axes.set_xscale("log")
     axes.set_yscale("log")
+    axes.text(155, 1.15 * axes.get_ylim()[0], "the thesis's guess: 150", fontsize=9)
     axes.set_xlabel("sub-pairs of the partition by hand")
     axes.set_ylabel("microseconds a step, mean of the manoeuvre's 200")
     axes.grid(alpha=0.3, which="both")
     axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0))
     axes.set_title("Battery into fixture: partition against search")
-    figure.tight_layout()
     figure.savefig(IMAGES / "partition_crossing.png", dpi=100)
     plt.close(figure)
     print("doc/images/partition_crossing.png")

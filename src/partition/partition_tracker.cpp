@@ -54,10 +54,8 @@ struct PartitionTracker::State {
     const ConvexPiece& piece_b = b->pieces[pair.b];
     const Eigen::Vector3d between = a_from_b * piece_b.centre - piece_a.centre;
     if (between.norm() - piece_a.radius - piece_b.radius > best) return true;
-    Eigen::Vector3d direction = between;
-    if (const std::optional<PiecePoints>& last = memoryOf(pair).last) {
-      direction = a_from_b * last->on_b - last->on_a;
-    }
+    const std::optional<PiecePoints>& last = memoryOf(pair).last;
+    const Eigen::Vector3d direction = last ? Eigen::Vector3d(a_from_b * last->on_b - last->on_a) : between;
     const double length = direction.norm();
     return length > 0.0 && shadowGap(piece_a, piece_b, a_from_b, direction / length) > best;
   }
@@ -110,7 +108,7 @@ PieceDistance PartitionTracker::solve(const Eigen::Isometry3d& a_from_b, SubPair
     const bool warm = s.options.warm_start && memory.last.has_value();
     proposal = memory.solver->solve(a_from_b, warm ? &*memory.last : nullptr);
   }
-  const PieceDistance answer = judgeProposal(piece_a, piece_b, a_from_b, proposal);
+  PieceDistance answer = judgeProposal(piece_a, piece_b, a_from_b, proposal);
   memory.last = answer.points;
   ++solution.sub_pairs;
   solution.finished += answer.finished ? 1 : 0;

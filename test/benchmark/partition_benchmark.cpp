@@ -113,14 +113,14 @@ void print(const Row& row, int hole_facets, int protrusions, std::ofstream& csv)
 }
 
 const std::vector<std::string>& searches() {
-  static const std::vector<std::string> kSearches = {"nodes", "refined", "certified",
-                                                     "certified, distance only", "hybrid: nodes + QP"};
-  return kSearches;
+  static const std::vector<std::string> names = {"nodes", "refined", "certified", "certified, distance only",
+                                                 "hybrid: nodes + QP"};
+  return names;
 }
 
 const std::vector<std::string>& partitions() {
-  static const std::vector<std::string> kPartitions = {"QP, warm", "GJK", "GJK, culled"};
-  return kPartitions;
+  static const std::vector<std::string> names = {"QP, warm", "GJK", "GJK, culled"};
+  return names;
 }
 
 /// One pair's mean microseconds a step of every method on the partition by hand.

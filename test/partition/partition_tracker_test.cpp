@@ -48,8 +48,8 @@ struct Manoeuvre {
 };
 
 const Manoeuvre& manoeuvre() {
-  static const Manoeuvre kManoeuvre;
-  return kManoeuvre;
+  static const Manoeuvre scene;
+  return scene;
 }
 
 TEST(PartitionTracker, FollowsTheManoeuvreAtTheCertifiedDistanceWithEverySolver) {
