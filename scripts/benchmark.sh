@@ -13,7 +13,7 @@ case $size in
   *) echo "usage: scripts/benchmark.sh [quick|full]" >&2; exit 2 ;;
 esac
 program() { find "$root/build" -type f -perm -u+x -name "$1" | head -n 1; }
-for name in tracking battery recall radii ablation descent certificate hierarchy scale exactness complete; do
+for name in tracking battery recall radii ablation descent certificate hierarchy scale exactness complete accuracy; do
   [ -n "$(program "${name}_benchmark")" ] || { echo "${name}_benchmark is not built: run scripts/build.sh" >&2; exit 1; }
 done
 results=$root/doc/results
@@ -50,3 +50,6 @@ fi
 if [ -n "$(program continuous_benchmark)" ]; then  # built with CGAL only
   "$(program continuous_benchmark)" --seeds "$tree_seeds" --output "$results/continuous.csv"
 fi
+"$(program complete_benchmark)" --steps "$steps" --window "$window" --cold-runs 4 --swept-cones 4294967295 --reviewed-niches 4 \
+  --output "$results/complete_all_cones.csv" | tee "$results/complete_all_cones.txt"
+"$(program accuracy_benchmark)" --output "$results/accuracy.csv" --stages-output "$results/stages.csv" | tee "$results/accuracy.txt"

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Draws the figures of doc/results from its CSV files: doc/images/proof_*.png, niche_recall.png.
+"""Draws the figures of doc/results from its CSV files: doc/images/proof_*.png, niche_recall.png,
+accuracy_*.png, stages.png.
 
     scripts/plot_results.py            (needs python3-matplotlib: scripts/install_dependencies.sh plot)
 """
@@ -119,6 +120,91 @@ def plot_recall(default, all_cones, tracking):
     save(figure, "niche_recall.png")
 
 
+FLOOR = 1e-16  # errors below count as this on a logarithmic axis
+
+
+def colour_of(method):
+    order = ["nodes", "refined", "certified", "complete", "comb-SA-wl", "comb-SA-nl", "multi-start descent",
+             "cont-GA-wl", "cont-SA-wl", "FCL"]
+    return plt.get_cmap("tab10")(order.index(method)) if method in order else "gray"
+
+
+def plot_accuracy(rows, mode, name):
+    """Error against time of every method and setting, pair by pair."""
+    pairs = list(dict.fromkeys(row["pair"] for row in rows))
+    figure, all_axes = plt.subplots(2, 3, figsize=(14, 8), sharex=True, sharey=True)
+    for axes, pair in zip(all_axes.flat, pairs):
+        for row in rows:
+            if row["pair"] != pair or row["mode"] != mode:
+                continue
+            alone = row["method"] != "certified" or not row["setting"].startswith("all")
+            axes.plot(float(row["median_us"]), max(FLOOR, float(row["median_error"])),
+                      "o" if alone else "s", color=colour_of(row["method"]), markersize=6, alpha=0.8,
+                      label=row["method"])
+            axes.plot([float(row["median_us"])] * 2,
+                      [max(FLOOR, float(row["median_error"])), max(FLOOR, float(row["largest_error"]))],
+                      color=colour_of(row["method"]), linewidth=0.8, alpha=0.5)
+        axes.set_xscale("log")
+        axes.set_yscale("log")
+        axes.set_title(pair, fontsize=10)
+        axes.grid(alpha=0.3)
+    for axes in all_axes[-1]:
+        axes.set_xlabel("microseconds a query (median)")
+    for axes in all_axes[:, 0]:
+        axes.set_ylabel("error / diameter: median, line to the largest")
+    found = {}
+    for axes in all_axes.flat:
+        for handle, label in zip(*axes.get_legend_handles_labels()):
+            found.setdefault(label, handle)
+    figure.legend(found.values(), found.keys(), loc="lower center", ncol=len(found), fontsize=9)
+    figure.tight_layout(rect=(0, 0.04, 1, 1))
+    figure.savefig(IMAGES / name, dpi=90)
+    plt.close(figure)
+    print(f"doc/images/{name}")
+
+
+def plot_budgets(rows):
+    """What a proof that is cut short leaves open."""
+    figure, axes = plt.subplots(figsize=(8, 5))
+    for pair in dict.fromkeys(row["pair"] for row in rows):
+        points = [(float(row["setting"].split()[1]), float(row["p90_gap"])) for row in rows
+                  if row["pair"] == pair and row["mode"] == "cold" and row["setting"].startswith("budget")]
+        axes.plot([time for time, _ in points], [max(FLOOR, gap) for _, gap in points], marker="o", label=pair)
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    axes.set_xlabel("time budget of a cold proof, microseconds")
+    axes.set_ylabel("distance less lower bound / diameter\n(90th percentile)")
+    axes.grid(alpha=0.3)
+    axes.legend(fontsize=8)
+    save(figure, "accuracy_budget.png")
+
+
+def plot_stages(rows):
+    """Where the time of a warm cycle goes."""
+    stages = [name for name in rows[0] if name not in ("pair", "level", "whole")]
+    levels = ["nodes", "refined", "certified", "certified, distance alone"]
+    pairs = list(dict.fromkeys(row["pair"] for row in rows))
+    figure, axes = plt.subplots(figsize=(11, 5))
+    ticks = []
+    for i, pair in enumerate(pairs):
+        for k, level in enumerate(levels):
+            row = next(row for row in rows if row["pair"] == pair and row["level"] == level)
+            place = i * (len(levels) + 1) + k
+            ticks.append((place, level))
+            bottom = 0.0
+            for number, stage in enumerate(stages):
+                axes.bar(place, float(row[stage]), bottom=bottom, color=plt.get_cmap("tab10")(number), width=0.8,
+                         label=stage if place == 0 else None)
+                bottom += float(row[stage])
+        axes.text(i * (len(levels) + 1) + 1.5, -0.42, pair, ha="center", fontsize=9,
+                  transform=axes.get_xaxis_transform())
+    axes.set_xticks([place for place, _ in ticks], [level.replace("certified, ", "") for _, level in ticks], rotation=60, ha="right", fontsize=7)
+    axes.set_ylabel("microseconds a warm cycle (mean)")
+    axes.grid(axis="y", alpha=0.3)
+    axes.legend(fontsize=8)
+    save(figure, "stages.png")
+
+
 def main():
     IMAGES.mkdir(exist_ok=True)
     certificate = rows_of("certificate.csv")
@@ -126,6 +212,11 @@ def main():
     plot_steps(certificate)
     plot_scale(rows_of("scale.csv"))
     plot_recall(rows_of("complete.csv"), rows_of("complete_all_cones.csv"), rows_of("tracking.csv"))
+    accuracy = rows_of("accuracy.csv")
+    plot_accuracy(accuracy, "cold", "accuracy_cold.png")
+    plot_accuracy(accuracy, "tracked", "accuracy_tracked.png")
+    plot_budgets(accuracy)
+    plot_stages(rows_of("stages.csv"))
 
 
 if __name__ == "__main__":

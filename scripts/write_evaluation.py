@@ -26,9 +26,8 @@ HEADINGS = {
     "exact": "Phi*", "region": "Phi", "best_iteration": "G_i", "niches": "N_Gamma", "distance": "distance",
     "kflop": "kflop", "recall": "recall", "precision": "precision", "best_convergence": "x*'",
     "population_convergence": "x'", "niche_members": "individuals of the nearest niches",
-    "niche_distances": "distances of the nearest niches",
+    "niche_distances": "distances of the nearest niches", "below_second": "nearer than the second niche",
 }
-FLOPS_PER_EVALUATION = 26  # Carretero, app. D: a descent's step looks at about 5 neighbours, 130 flops
 
 
 def read_rows(folders, file_name):
@@ -72,12 +71,12 @@ def niche_means(runs, column, digits):
 
 def ours(column, runs):
     """Our figure of a column over the runs of a row on a scene."""
-    if column in ("exact", "region"):
+    if column in ("exact", "region", "below_second"):
         return f"{sum(int(run[column]) for run in runs)}/{len(runs)}"
     if column == "distance":
         return median_range([float(run["distance"]) for run in runs])
     if column == "kflop":
-        return median_range([FLOPS_PER_EVALUATION * int(run["evaluations"]) / 1000 for run in runs], 0)
+        return median_range([int(run["flops"]) / 1000 for run in runs], 0)
     if column in ("best_iteration", "niches"):
         return spread([int(run[column]) for run in runs], 2)
     if column in ("recall", "precision"):
@@ -260,8 +259,13 @@ def main():
         counts = set()
         lines = []
         write_table(lines, experiment, runs_of, counts)
-        grids = ", ".join(f"{scene.replace('_', ' ')} {edge:g}" for scene, edge in experiment["scenes"].items())
-        body += [f"Runs of each row: {', '.join(str(c) for c in sorted(counts))}. Grid: {grids}."
+        scenes = {row["scene"]: row for row in read_rows(options.results, experiment["name"] + "_scenes.csv")}
+        described = "; ".join(
+            f"{scene.replace('_', ' ')}: edges up to {edge:g} m, {scenes[scene]['nodes_a']} and {scenes[scene]['nodes_b']} "
+            f"nodes, enumeration {26e-6 * int(scenes[scene]['nodes_a']) * int(scenes[scene]['nodes_b']):.0f} Mflop, best "
+            f"node pair {float(scenes[scene]['node_distance']):.4f}, exact {float(scenes[scene]['exact_distance']):.4f}"
+            for scene, edge in experiment["scenes"].items() if scene in scenes)
+        body += [f"Runs of each row: {', '.join(str(c) for c in sorted(counts))}. Metres; {described}."
                  + (f" {experiment['remark']}" if experiment.get("remark") else ""), ""] + lines
         if experiment.get("note"):
             body += ["", experiment["note"].strip()]
@@ -280,7 +284,7 @@ def main():
             "  second local minimum). `(below)`: the thesis's rate is above the upper end of our 95 % interval (Wilson).",
             "- G_i: the generation (iteration) in which the run's best appeared; N_Gamma: niches of the final population: mean [least-most] deviation.",
             "- x*', x': averages of the best and of the mean objective over a run, over the optimum's (5.1, 5.2).",
-            "- kflop: by the thesis's rule, 26 for each node pair looked at: median [least-most]. Times are of one core of a shared machine.",
+            "- kflop: by the thesis's rule, 26 for each point pair looked at (a step of a descent looks at about five) and 6 for each constraint: median [least-most]. Times are of one core of a shared machine.",
             "- recall, precision: of the outward niches of prominence 1e-2 that level `complete` proves, in the final population.", "",
             "![Figure 5.2: the sharing function](images/evaluation_sharing.png)"]
     if less_robust:

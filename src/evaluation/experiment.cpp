@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <optional>
 #include <set>
 #include <sstream>
 
@@ -28,16 +29,14 @@ std::string readText(const std::string& file) {
   return text.str();
 }
 
-/// comb-{GA|SA}-{wl|nl|bw}[-sh|-ds|-dc|-dcs|-sc] or multi-start.
-SearchMethod methodNamed(const YamlValue& value, const SearchMethod& genetic_base) {
-  const std::string name = value.text();
+/// Every method of a family whose name it is tried by.
+std::optional<SearchMethod> combinatorialNamed(const std::string& name, GeneticParameters genetic) {
   if (name == "multi-start") return MultiStartParameters{};
   for (const bool local : {true, false}) {
     AnnealingParameters annealing;
     annealing.local_optimization = local;
-    if (nameOf(SearchMethod(annealing)) == name) return annealing;
+    if (concave_distance::nameOf(SearchMethod(annealing)) == name) return annealing;
   }
-  GeneticParameters genetic = std::get<GeneticParameters>(genetic_base);
   for (const auto local :
        {LocalOptimization::None, LocalOptimization::Lamarckian, LocalOptimization::Baldwinian}) {
     for (const auto niching :
@@ -46,28 +45,89 @@ SearchMethod methodNamed(const YamlValue& value, const SearchMethod& genetic_bas
           NichingMethod::SimpleCrowding}) {
       genetic.local_optimization = local;
       genetic.niching = niching;
-      if (nameOf(SearchMethod(genetic)) == name) return genetic;
+      if (concave_distance::nameOf(SearchMethod(genetic)) == name) return genetic;
     }
   }
-  value.refuse(
-      "comb-GA-wl, -nl or -bw, with -sh, -ds, -dc, -dcs or -sc or without; comb-SA-wl or -nl; multi-start");
+  return std::nullopt;
 }
 
-void readParameters(const YamlValue& value, SearchMethod& method) {
-  if (auto* genetic = std::get_if<GeneticParameters>(&method)) {
-    detail::readGeneticParameters(value, *genetic);
-  } else if (auto* annealing = std::get_if<AnnealingParameters>(&method)) {
-    detail::readAnnealingParameters(value, *annealing);
-  } else {
-    YamlMap map(value, "a map of parameters of random starts");
-    auto& starts = std::get<MultiStartParameters>(method);
-    if (auto v = map.take("starts")) starts.starts = static_cast<std::uint32_t>(v->count(1, kMost32));
-    if (auto v = map.take("evaluation_limit")) {
-      starts.evaluation_limit = v->count(0, std::numeric_limits<std::uint64_t>::max());
-    }
-    map.finish();
+Method methodNamed(const YamlValue& value, bool from_thesis) {
+  const std::string name = value.text();
+  for (const bool local : {true, false}) {
+    ContinuousGeneticParameters genetic =
+        from_thesis ? thesisContinuousGenetic() : improvedContinuousGenetic();
+    ContinuousAnnealingParameters annealing =
+        from_thesis ? thesisContinuousAnnealing() : improvedContinuousAnnealing();
+    genetic.local_step.enabled = annealing.local_step.enabled = local;
+    if (nameOf(Method(genetic)) == name) return genetic;
+    if (nameOf(Method(annealing)) == name) return annealing;
   }
+  const std::optional<SearchMethod> combinatorial =
+      combinatorialNamed(name, from_thesis ? thesisGeneticParameters() : GeneticParameters());
+  if (combinatorial) return *combinatorial;
+  value.refuse(
+      "comb-GA-wl, -nl or -bw, with -sh, -ds, -dc, -dcs or -sc or without; comb-SA-wl or -nl; multi-start; "
+      "cont-GA-wl or -nl; cont-SA-wl or -nl");
 }
+
+double readWeight(const YamlValue& value) {
+  return value.number("0 or more, finite", [](double x) { return x >= 0.0 && std::isfinite(x); });
+}
+
+void readContinuousGenetic(const YamlValue& value, ContinuousGeneticParameters& p) {
+  YamlMap map(value, "a map of parameters of cont-GA");
+  const auto share = [](const YamlValue& v) {
+    return v.number("from 0 to 1", [](double x) { return x >= 0.0 && x <= 1.0; });
+  };
+  if (auto v = map.take("population_size"))
+    p.population_size = static_cast<std::uint32_t>(v->count(2, kMost32));
+  if (auto v = map.take("max_generations"))
+    p.max_generations = static_cast<std::uint32_t>(v->count(0, kMost32));
+  if (auto v = map.take("crossover_probability")) p.crossover_probability = share(*v);
+  if (auto v = map.take("mutation_probability")) p.mutation_probability = share(*v);
+  if (auto v = map.take("penalty_weight")) p.penalty_weight = readWeight(*v);
+  map.finish();
+}
+
+void readContinuousAnnealing(const YamlValue& value, ContinuousAnnealingParameters& p) {
+  YamlMap map(value, "a map of parameters of cont-SA");
+  if (auto v = map.take("initial_temperature")) {
+    p.initial_temperature = static_cast<std::uint32_t>(v->count(1, kMost32));
+  }
+  if (auto v = map.take("boltzmann_constant")) p.boltzmann_constant = readWeight(*v);
+  if (auto v = map.take("penalty_weight")) p.penalty_weight = readWeight(*v);
+  map.finish();
+}
+
+void readMultiStart(const YamlValue& value, MultiStartParameters& p) {
+  YamlMap map(value, "a map of parameters of random starts");
+  if (auto v = map.take("starts")) p.starts = static_cast<std::uint32_t>(v->count(1, kMost32));
+  if (auto v = map.take("evaluation_limit")) {
+    p.evaluation_limit = v->count(0, std::numeric_limits<std::uint64_t>::max());
+  }
+  map.finish();
+}
+
+/// Reads the parameters of whatever method it is.
+struct ParameterReader {
+  const YamlValue& value;
+  void operator()(GeneticParameters& p) const { detail::readGeneticParameters(value, p); }
+  void operator()(AnnealingParameters& p) const { detail::readAnnealingParameters(value, p); }
+  void operator()(MultiStartParameters& p) const { readMultiStart(value, p); }
+  void operator()(SearchMethod& method) const { std::visit(*this, method); }
+  void operator()(ContinuousGeneticParameters& p) const { readContinuousGenetic(value, p); }
+  void operator()(ContinuousAnnealingParameters& p) const { readContinuousAnnealing(value, p); }
+};
+
+struct Validator {
+  const std::string where;
+  void operator()(const MultiStartParameters&) const {}
+  void operator()(const SearchMethod& method) const { std::visit(*this, method); }
+  template <typename Parameters>
+  void operator()(const Parameters& parameters) const {
+    parameters.validate(where);
+  }
+};
 
 constexpr std::pair<const char*, bool> kBases[] = {{"thesis", true}, {"shipped", false}};
 
@@ -79,14 +139,14 @@ ExperimentRow readRow(const YamlValue& value, const std::optional<YamlValue>& co
   if (row.name.find_first_of(",\"\n") != std::string::npos) name.refuse("a name without commas and quotes");
   bool from_thesis = true;
   if (auto v = map.take("base")) from_thesis = v->choice(kBases);
-  row.method = methodNamed(map.require("algorithm", "name the algorithm, e.g. comb-GA-wl-sh"),
-                           from_thesis ? thesisGeneticParameters() : GeneticParameters());
-  if (common && std::holds_alternative<GeneticParameters>(row.method)) readParameters(*common, row.method);
-  if (auto v = map.take("parameters")) readParameters(*v, row.method);
-  if (const auto* genetic = std::get_if<GeneticParameters>(&row.method)) genetic->validate(value.where());
-  if (const auto* annealing = std::get_if<AnnealingParameters>(&row.method)) {
-    annealing->validate(value.where());
-  }
+  row.method = methodNamed(map.require("algorithm", "name the algorithm, e.g. comb-GA-wl-sh"), from_thesis);
+  const auto* combinatorial = std::get_if<SearchMethod>(&row.method);
+  const bool is_genetic =
+      std::holds_alternative<ContinuousGeneticParameters>(row.method) ||
+      (combinatorial != nullptr && std::holds_alternative<GeneticParameters>(*combinatorial));
+  if (common && is_genetic) std::visit(ParameterReader{*common}, row.method);
+  if (auto v = map.take("parameters")) std::visit(ParameterReader{*v}, row.method);
+  std::visit(Validator{value.where()}, row.method);
   map.take("thesis");      // the thesis's own figures, for the report
   map.take("variant_of");  // the thesis's row that it improves on
   map.finish();
@@ -94,6 +154,16 @@ ExperimentRow readRow(const YamlValue& value, const std::optional<YamlValue>& co
 }
 
 }  // namespace
+
+std::string nameOf(const Method& method) {
+  if (const auto* genetic = std::get_if<ContinuousGeneticParameters>(&method)) {
+    return genetic->local_step.enabled ? "cont-GA-wl" : "cont-GA-nl";
+  }
+  if (const auto* annealing = std::get_if<ContinuousAnnealingParameters>(&method)) {
+    return annealing->local_step.enabled ? "cont-SA-wl" : "cont-SA-nl";
+  }
+  return concave_distance::nameOf(std::get<SearchMethod>(method));
+}
 
 GeneticParameters thesisGeneticParameters() {
   GeneticParameters parameters;

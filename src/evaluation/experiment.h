@@ -2,16 +2,24 @@
 
 #include <cstdint>
 #include <string>
+#include <variant>
 #include <vector>
 
+#include "concave_distance/continuous/continuous_parameters.h"
 #include "concave_distance/search/search_method.h"
 
 namespace concave_distance::evaluation {
 
+/// Any algorithm of the thesis.
+using Method = std::variant<SearchMethod, ContinuousGeneticParameters, ContinuousAnnealingParameters>;
+
+/// {cont|comb}-{GA|SA}-{wl|nl}..., see search/search_method.h.
+std::string nameOf(const Method& method);
+
 /// A row of a table: one algorithm with one set of parameters.
 struct ExperimentRow {
   std::string name;
-  SearchMethod method;
+  Method method;
 };
 
 /// A scene of meshes/thesis at a pose, on a grid.

@@ -3,6 +3,7 @@
 #include <tbb/parallel_for_each.h>
 
 #include <algorithm>
+#include <fstream>
 #include <mutex>
 #include <vector>
 
@@ -14,6 +15,20 @@ namespace {
 /// Runs of a unit of work: so many that opening and closing costs nothing, so few that nothing is lost.
 constexpr std::uint32_t kRunsAtOnce = 10;
 
+/// What the scenes are, for the report.
+void writeScenes(const Experiment& experiment, const std::vector<SceneTruth>& scenes,
+                 const std::string& folder) {
+  std::ofstream file(folder + "/" + experiment.name + "_scenes.csv");
+  file << "scene,max_edge_length,nodes_a,nodes_b,exact_distance,node_distance,second_distance,niches\n";
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    const SceneTruth& scene = scenes[i];
+    file << experiment.scenes[i].name << ',' << experiment.scenes[i].max_edge_length << ','
+         << scene.a->graph().nodeCount() << ',' << scene.b->graph().nodeCount() << ',' << scene.exact_distance
+         << ',' << scene.node_distance << ',' << scene.second_distance << ',' << scene.niches.niches.size()
+         << '\n';
+  }
+}
+
 }  // namespace
 
 void runExperiment(const Experiment& experiment, const EvaluationOptions& options,
@@ -21,6 +36,7 @@ void runExperiment(const Experiment& experiment, const EvaluationOptions& option
   std::vector<SceneTruth> scenes;
   for (const ExperimentScene& scene : experiment.scenes) scenes.push_back(loadScene(scene, options.meshes));
   TrialFiles files(experiment, options.output);
+  writeScenes(experiment, scenes, options.output);
   std::vector<WorkUnit> units;
   std::uint64_t done = 0;
   std::uint64_t all = 0;

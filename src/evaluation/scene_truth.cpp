@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "concave_distance/base/error.h"
+#include "concave_distance/continuous/constraint_tree_file.h"
 #include "concave_distance/distance/certificate.h"
 #include "concave_distance/distance/enumeration.h"
 #include "concave_distance/mesh/import_mesh.h"
@@ -64,9 +65,14 @@ SceneTruth loadScene(const ExperimentScene& scene, const std::string& folder) {
   request.cutoff = truth.niche_cutoff;
   truth.niches = findLocalMinima(*truth.a, *truth.b, truth.a_from_b, request);
   truth.region_limit = kRegion * truth.node_distance;
+  truth.exact_region_limit = kRegion * truth.exact_distance;
   if (truth.niches.niches.size() > 1) {
-    truth.region_limit = std::min(truth.region_limit, truth.niches.niches[1].distance);
+    truth.second_distance = truth.niches.niches[1].distance;
   }
+  truth.region_limit = std::min(truth.region_limit, truth.second_distance);
+  truth.exact_region_limit = std::min(truth.exact_region_limit, truth.second_distance);
+  truth.tree_a = readConstraintTreeFile(folder + "/trees/" + files->a + ".yaml");
+  truth.tree_b = readConstraintTreeFile(folder + "/trees/" + files->b + ".yaml");
   return truth;
 }
 

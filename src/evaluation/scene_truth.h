@@ -1,8 +1,11 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <limits>
 #include <memory>
+#include <optional>
 
+#include "concave_distance/continuous/constraint_tree.h"
 #include "concave_distance/distance/local_minima.h"
 #include "concave_distance/mesh/body_mesh.h"
 #include "experiment.h"
@@ -19,6 +22,12 @@ struct SceneTruth {
   /// A run has found the region of the optimum below this (Carretero, sec. 5.1.1): 1.1 times the best node
   /// pair's distance or that of the second niche of the surfaces, whichever is less. Metres.
   double region_limit = 0.0;
+  /// The same for points anywhere: 1.1 times the exact distance or the second niche.
+  double exact_region_limit = 0.0;
+  /// Of the second niche, metres; infinite when there is but one.
+  double second_distance = std::numeric_limits<double>::infinity();
+  std::optional<ConstraintTree> tree_a;  ///< of the continuous approach, from `trees` beside the meshes
+  std::optional<ConstraintTree> tree_b;
   LocalMinima niches;  ///< outward, of prominence 1e-2, up to `niche_cutoff`
   double niche_cutoff = 0.0;
 };

@@ -29,14 +29,18 @@ struct TrialRecord {
   std::array<double, kNicheCount> niche_distances{};  ///< of the same, metres; 0: there are no more
   double best_convergence = 0.0;                      ///< (5.1) over f*_global
   double population_convergence = 0.0;                ///< (5.2) over f*_global
+  /// Nearer than the second niche, in its bodies or not: what Table 5.12 counts besides.
+  bool below_second = false;
+  bool feasible = true;  ///< of the continuous approach: both points lie in their bodies
   SearchCost cost;
+  std::uint64_t flops = 0;  ///< by the thesis's rule: 26 a point pair, 6 a constraint (App. D, sec. 2.1.4)
   double microseconds = 0.0;
   double recall = 0.0;     ///< of the outward niches of level complete, in the final population
   double precision = 0.0;  ///< niches of the final population that are one of those, each counted once
 };
 
 /// Iterations between two points of a curve: every generation of a GA, every tenth iteration of annealing.
-std::uint32_t curveStride(const SearchMethod& method);
+std::uint32_t curveStride(const Method& method);
 
 /// One run of a row on a scene.
 /// @param run from 0; names the stream of random numbers, the same for every row

@@ -17,7 +17,10 @@ std::string runsHeader() {
     }
   }
   return header +
-         ",best_convergence,population_convergence,evaluations,descents,descent_steps,microseconds,recall,"
+         ",best_convergence,population_convergence,below_second,feasible,evaluations,descents,descent_steps,"
+         "flops,"
+         "microseconds,"
+         "recall,"
          "precision";
 }
 constexpr const char* kCurvesHeader =
@@ -102,9 +105,9 @@ void TrialFiles::append(const WorkUnit& unit, const std::vector<TrialRecord>& re
           << r.distance << ',' << r.best_iteration << ',' << r.exact << ',' << r.region << ',' << r.niches;
     for (const std::uint32_t members : r.members) lines << ',' << members;
     for (const double distance : r.niche_distances) lines << ',' << distance;
-    lines << ',' << r.best_convergence << ',' << r.population_convergence << ',' << r.cost.evaluations << ','
-          << r.cost.descents << ',' << r.cost.descent_steps << ',' << r.microseconds << ',' << r.recall << ','
-          << r.precision << '\n';
+    lines << ',' << r.best_convergence << ',' << r.population_convergence << ',' << r.below_second << ','
+          << r.feasible << ',' << r.cost.evaluations << ',' << r.cost.descents << ',' << r.cost.descent_steps
+          << ',' << r.flops << ',' << r.microseconds << ',' << r.recall << ',' << r.precision << '\n';
   }
   runs_ << lines.str() << std::flush;
 }

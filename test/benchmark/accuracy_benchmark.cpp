@@ -2,13 +2,16 @@
 // compared with, cold and tracked, on the thesis's scenes, links of robots and bodies of 100,000 triangles.
 //
 //   accuracy_benchmark [--pairs name,name,...] [--steps 200] [--cold 40] [--output doc/results/accuracy.csv]
+//                      [--stages-output doc/results/stages.csv]
 //
 // A row is a pair, a method, its setting and a mode. `cold`: nothing is known, at instants along the pair's
 // motion; `tracked`: along the motion, every instant from the last. Errors are of the distance, against the
 // proven one, in units of the smaller body's diameter; `gap` is how far the method's own lower bound stays
 // below its distance, in the same unit (empty where it has none). Time is the query's alone, in one thread:
-// median and 99th percentile, microseconds. `missed`: instants with an error above 1e-2.
+// median and 99th percentile, microseconds. `missed`: instants with an error above 1e-2. The stages' file has
+// the mean microseconds of each stage of a warm cycle, level by level.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -20,6 +23,9 @@
 #include "benchmark/support/shapes.h"
 #include "benchmark/support/statistics.h"
 #include "benchmark/support/stopwatch.h"
+#include "concave_distance/continuous/constraint_tree_file.h"
+#include "concave_distance/continuous/continuous_annealing.h"
+#include "concave_distance/continuous/continuous_genetic_search.h"
 #include "concave_distance/distance/certificate.h"
 #include "concave_distance/search/automatic_radii.h"
 #include "concave_distance/search/search_method.h"
@@ -64,7 +70,8 @@ class Rows {
   Rows(const std::string& output, int steps, int cold) : steps_(steps), cold_(cold) {
     if (output.empty()) return;
     csv_.open(output);
-    csv_ << "pair,method,setting,mode,instants,median_error,p99_error,largest_error,median_gap,median_us,p99_"
+    csv_ << "pair,method,setting,mode,instants,median_error,p99_error,largest_error,median_gap,p90_gap,"
+            "median_us,p99_"
             "us,"
             "missed\n";
   }
@@ -126,7 +133,8 @@ class Rows {
     if (!csv_) return;
     csv_ << name_ << ',' << method << ',' << setting << ',' << mode << ',' << errors.size() << ','
          << median(errors) << ',' << percentile(errors, 0.99) << ',' << largest << ',';
-    if (!gaps.empty()) csv_ << gap;
+    if (!gaps.empty()) csv_ << gap << ',' << percentile(gaps, 0.9);
+    if (gaps.empty()) csv_ << ',';
     csv_ << ',' << median(times) << ',' << percentile(times, 0.99) << ',' << missed << '\n';
   }
 
@@ -237,6 +245,47 @@ void addSearches(Rows& rows, const BenchmarkPair& pair) {
   }
 }
 
+/// The continuous approach, on the thesis's bodies, whose constraint trees are kept.
+void addContinuous(Rows& rows, const BenchmarkPair& pair) {
+  struct Bodies {
+    const char* pair;
+    const char* a;
+    const char* b;
+  };
+  constexpr Bodies kBodies[] = {{"notched_boxes", "box", "notched_box"},
+                                {"grooved_cylinder", "semi_extruded", "grooved_cylinder"},
+                                {"battery_fixture", "fixture", "battery"},
+                                {"battery_insertion", "fixture", "battery"}};
+  const auto* const bodies =
+      std::find_if(std::begin(kBodies), std::end(kBodies),
+                   [&](const Bodies& candidate) { return pair.name == candidate.pair; });
+  if (bodies == std::end(kBodies)) return;
+  const auto tree_of = [](const char* body) {
+    return std::string(CONCAVE_DISTANCE_SOURCE_DIR) + "/meshes/thesis/trees/" + body + ".yaml";
+  };
+  const ConstraintTree a = readConstraintTreeFile(tree_of(bodies->a));
+  const ConstraintTree b = readConstraintTreeFile(tree_of(bodies->b));
+  std::uint64_t seed = 0;
+  const auto add = [&](const std::string& method, const std::string& setting, const auto& search) {
+    rows.cold(method, setting, [&](const Eigen::Isometry3d& pose, double, bool) {
+      RandomEngine engine(++seed);
+      const auto start = std::chrono::steady_clock::now();
+      const ContinuousResult found = search(pose, engine);
+      return Answer{found.distance, std::nan(""), microsecondsSince(start)};
+    });
+  };
+  const auto add_genetic = [&](const std::string& setting, const ContinuousGeneticParameters& parameters) {
+    add("cont-GA-wl", setting, [&](const Eigen::Isometry3d& pose, RandomEngine& engine) {
+      return continuousGeneticSearch(a, b, pose, parameters, engine);
+    });
+  };
+  add_genetic("thesis", thesisContinuousGenetic());
+  add_genetic("improved", improvedContinuousGenetic());
+  add("cont-SA-wl", "improved", [&](const Eigen::Isometry3d& pose, RandomEngine& engine) {
+    return continuousAnnealing(a, b, pose, improvedContinuousAnnealing(), engine);
+  });
+}
+
 void addFcl(Rows& rows, const BenchmarkPair& pair) {
   TrianglePair closest{};
   const auto plain = [&](const Eigen::Isometry3d& pose, double, bool) {
@@ -259,6 +308,38 @@ void addFcl(Rows& rows, const BenchmarkPair& pair) {
   });
 }
 
+/// Mean microseconds that each stage of a warm cycle takes.
+void writeStages(const BenchmarkPair& pair, int steps, std::ofstream& csv) {
+  struct Setting {
+    const char* name;
+    AccuracyLevel level;
+    bool niches;
+  };
+  for (const Setting& setting :
+       {Setting{"nodes", AccuracyLevel::Nodes, true}, Setting{"refined", AccuracyLevel::Refined, true},
+        Setting{"certified", AccuracyLevel::Certified, true},
+        Setting{"certified, distance alone", AccuracyLevel::Certified, false},
+        Setting{"complete", AccuracyLevel::Complete, true}}) {
+    TrackerParameters parameters;
+    parameters.accuracy = setting.level;
+    parameters.niches_wanted = setting.niches;
+    PairTracker tracker(pair.name, pair.a, pair.b, parameters);
+    PairSolution solution;
+    StageTimes sum;
+    double whole = 0.0;
+    for (int k = 0; k < steps; ++k) {
+      const double t = static_cast<double>(k) / (steps - 1);
+      tracker.update(pair.motion(t), kDuration * t, solution);
+      if (k == 0) continue;
+      for (std::size_t i = 0; i < kSolveStageCount; ++i) sum.seconds[i] += solution.stages.seconds[i];
+      whole += solution.solve_seconds;
+    }
+    csv << pair.name << ',' << '"' << setting.name << '"';
+    for (const double seconds : sum.seconds) csv << ',' << 1e6 * seconds / (steps - 1);
+    csv << ',' << 1e6 * whole / (steps - 1) << '\n';
+  }
+}
+
 }  // namespace
 
 int benchmarkMain(int argc, char** argv) {
@@ -268,12 +349,21 @@ int benchmarkMain(int argc, char** argv) {
   int steps = 200;
   int cold = 40;
   std::string output;
+  std::string stages_output;
   app.add_option("--pairs", names, "Pairs to run, rings_100k or of the benchmark pairs")->delimiter(',');
   app.add_option("--steps", steps, "Instants along each motion")->check(CLI::Range(2, 1000000));
   app.add_option("--cold", cold, "Instants of the cold queries")->check(CLI::Range(2, 1000000));
   app.add_option("--output", output, "CSV file to write");
+  app.add_option("--stages-output", stages_output, "CSV file to write the stages' times to");
   CLI11_PARSE(app, argc, argv);
 
+  std::ofstream stages;
+  if (!stages_output.empty()) {
+    stages.open(stages_output);
+    stages << "pair,level";
+    for (const char* name : kSolveStageNames) stages << ',' << name;
+    stages << ",whole\n";
+  }
   Rows rows(output, steps, cold);
   std::printf("%-18s %-22s %-28s %-8s %9s %9s %9s %9s %10s %10s %4s\n", "pair", "method", "setting", "mode",
               "error", "p99", "largest", "gap", "us", "p99", "miss");
@@ -282,8 +372,10 @@ int benchmarkMain(int argc, char** argv) {
     rows.begin(pair);
     addNodes(rows, name, pair);
     addSearches(rows, pair);
+    addContinuous(rows, pair);
     addLevels(rows, pair);
     addFcl(rows, pair);
+    if (stages) writeStages(pair, steps, stages);
   }
   return 0;
 }

@@ -24,10 +24,11 @@ runs: {quick: 10, full: 25}
 niches: true
 curves: true
 scenes: {battery_static: 0.1}
-common: {population_size: 20, max_generations: 5, niche_radius: 0.6}
+common: {population_size: 20, max_generations: 5}
 rows:
-  - {name: sharing, algorithm: comb-GA-wl-sh}
+  - {name: sharing, algorithm: comb-GA-wl-sh, parameters: {niche_radius: 0.6}}
   - {name: annealing, algorithm: comb-SA-wl, parameters: {initial_temperature: 30, boltzmann_constant: 0.01}}
+  - {name: continuous, algorithm: cont-GA-wl, base: shipped}
 )";
 
 class Evaluation : public ::testing::Test {
@@ -77,13 +78,13 @@ TEST_F(Evaluation, AnInterruptedOneGoesOnAndGivesWhatOneInOneGoGives) {
   run(experiment, options("whole", 20));
   run(experiment, options("parts", 10));
   const std::vector<std::string> first = linesOf("parts");
-  EXPECT_EQ(first.size(), 20U);
+  EXPECT_EQ(first.size(), 30U);
   run(experiment, options("parts", 20));
   EXPECT_EQ(linesOf("parts"), linesOf("whole"));
   EXPECT_EQ(linesOf("parts", "small_curves.csv"), linesOf("whole", "small_curves.csv"));
   const auto before = std::filesystem::last_write_time(output("whole") + "/small.csv");
   run(experiment, options("whole", 20));
-  EXPECT_EQ(linesOf("whole").size(), 40U);
+  EXPECT_EQ(linesOf("whole").size(), 60U);
   EXPECT_EQ(std::filesystem::last_write_time(output("whole") + "/small.csv"), before);
 }
 
@@ -128,6 +129,19 @@ TEST_F(Evaluation, MeasuresARunAsTheThesisDoes) {
   EXPECT_LE(record.precision, 1.0);
 }
 
+TEST_F(Evaluation, MeasuresContinuousRunsByPointsInTheBodies) {
+  const Experiment experiment = loadExperiment(write(kExperiment));
+  const SceneTruth scene = loadScene(experiment.scenes[0], kSource + "/meshes/thesis");
+  SearchWorkspace workspace(*scene.a, *scene.b);
+  std::vector<CurvePoint> curve;
+  const TrialRecord record = runTrial(experiment, experiment.rows[2], scene, 3, workspace, &curve);
+  EXPECT_EQ(curve.size(), 6U);
+  EXPECT_EQ(record.niches, 0U);
+  EXPECT_GE(record.distance, record.feasible ? scene.exact_distance * (1 - 1e-9) : 0.0);
+  EXPECT_EQ(record.region, record.feasible && record.distance < scene.exact_region_limit);
+  EXPECT_GT(record.flops, 26 * record.cost.evaluations);  // constraints count, too
+}
+
 TEST_F(Evaluation, ReadsEveryExperimentOfThePackage) {
   std::size_t count = 0;
   for (const auto& entry : std::filesystem::directory_iterator(kSource + "/experiments")) {
@@ -142,7 +156,7 @@ TEST_F(Evaluation, ReadsEveryExperimentOfThePackage) {
 
 TEST_F(Evaluation, ThesisRowsHaveNothingOfOurOwn) {
   const Experiment experiment = loadExperiment(write(kExperiment));
-  const auto& genetic = std::get<GeneticParameters>(experiment.rows[0].method);
+  const auto& genetic = std::get<GeneticParameters>(std::get<SearchMethod>(experiment.rows[0].method));
   EXPECT_EQ(genetic.exchange_probability, 0.0);
   EXPECT_EQ(genetic.immigrants, 0U);
   EXPECT_FALSE(genetic.conserve_niches);
