@@ -55,7 +55,7 @@ inline constexpr double kFlopsPerIteration = 309.1e6 / (200.0 * 126.0 * 5.52);
 
 /// Two partitioned bodies along a motion: the distance is the least of all sub-pairs' (Carretero, sec.
 /// 6.1.3), each warm-started by its own previous solution. Not thread-safe; a sub-pair's solver is made when
-/// it is first needed (about 20 kB each).
+/// it is first needed.
 class PartitionTracker {
  public:
   /// @throws Error when a partition has no piece
