@@ -30,7 +30,7 @@ struct Block {
     return near_box || (wedge_axis >= 0 && std::abs(heightOverDiagonal(p)) < margin);
   }
   ExactSolid solid() const {
-    const ExactSolid box = ExactSolid::fromMesh(test::makeCuboid(low, high), "block");
+    ExactSolid box = ExactSolid::fromMesh(test::makeCuboid(low, high), "block");
     if (wedge_axis < 0) return box;
     Eigen::Vector3d normal = Eigen::Vector3d::Zero();
     for (const int axis : {wedge_axis, (wedge_axis + 1) % 3}) normal[axis] = 1.0 / (high[axis] - low[axis]);

@@ -129,9 +129,8 @@ struct ExactSolid::Implementation {
 
 namespace {
 
-ExactSolid solidOf(Nef nef) {
-  return ExactSolid(
-      std::make_shared<const ExactSolid::Implementation>(ExactSolid::Implementation{std::move(nef)}));
+ExactSolid solidOf(const Nef& nef) {
+  return ExactSolid(std::make_shared<const ExactSolid::Implementation>(ExactSolid::Implementation{nef}));
 }
 
 }  // namespace
@@ -167,7 +166,7 @@ ExactSolid ExactSolid::fromMesh(const SurfaceMesh& mesh, const std::string& wher
     throw Error(where, "the surface encloses no volume",
                 "give a closed surface whose triangles face outwards");
   }
-  return solidOf(std::move(solid));
+  return solidOf(solid);
 }
 
 bool ExactSolid::isEmpty() const {
@@ -203,7 +202,7 @@ std::vector<ExactSolid> ExactSolid::components() const {
       Nef part = nef;
       KeepVolume keep(index);
       part.delegate(keep, false, true);
-      parts.push_back(solidOf(std::move(part)));
+      parts.push_back(solidOf(part));
     }
   }
   return parts;
