@@ -15,6 +15,8 @@ namespace concave_distance::evaluation {
 namespace {
 
 constexpr double kRegion = 1.1;
+/// Niches as near as this to the nearest are the optimum again, at another corner of the same rim.
+constexpr double kTie = 1.001;
 /// Niches up to this many times the distance are asked for (the battery's nine reach 5.3 times).
 constexpr double kNicheReach = 6.0;
 
@@ -66,8 +68,10 @@ SceneTruth loadScene(const ExperimentScene& scene, const std::string& folder) {
   truth.niches = findLocalMinima(*truth.a, *truth.b, truth.a_from_b, request);
   truth.region_limit = kRegion * truth.node_distance;
   truth.exact_region_limit = kRegion * truth.exact_distance;
-  if (truth.niches.niches.size() > 1) {
-    truth.second_distance = truth.niches.niches[1].distance;
+  for (const LocalMinimum& niche : truth.niches.niches) {
+    if (niche.distance > kTie * truth.exact_distance) {
+      truth.second_distance = std::min(truth.second_distance, niche.distance);
+    }
   }
   truth.region_limit = std::min(truth.region_limit, truth.second_distance);
   truth.exact_region_limit = std::min(truth.exact_region_limit, truth.second_distance);
