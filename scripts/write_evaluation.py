@@ -24,7 +24,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 NICHE_COUNT = 10
 HEADINGS = {
     "exact": "Phi*", "region": "Phi", "best_iteration": "G_i", "niches": "N_Gamma", "distance": "distance",
-    "kflop": "kflop", "recall": "recall", "precision": "precision", "best_convergence": "x*'",
+    "kflop": "kflop", "recall": "recall", "archive_recall": "recall of all minima met", "precision": "precision", "best_convergence": "x*'",
     "population_convergence": "x'", "niche_members": "individuals of the nearest niches",
     "niche_distances": "distances of the nearest niches", "below_second": "nearer than the second niche",
 }
@@ -79,7 +79,7 @@ def ours(column, runs):
         return median_range([int(run["flops"]) / 1000 for run in runs], 0)
     if column in ("best_iteration", "niches"):
         return spread([int(run[column]) for run in runs], 2)
-    if column in ("recall", "precision"):
+    if column in ("recall", "precision", "archive_recall"):
         return f"{statistics.fmean(float(run[column]) for run in runs):.3f}"
     if column in ("best_convergence", "population_convergence"):
         return f"{statistics.fmean(float(run[column]) for run in runs):.5f}"
@@ -255,7 +255,8 @@ def main():
         if not runs_of:
             continue
         table = experiment.get("table")
-        body += ["", f"## {'Table ' + table if table else 'Figures ' + experiment['figure']}: {experiment['title']}", ""]
+        number = f"Table {table}: " if table else f"Figures {experiment['figure']}: " if "figure" in experiment else ""
+        body += ["", f"## {number}{experiment['title']}", ""]
         counts = set()
         lines = []
         write_table(lines, experiment, runs_of, counts)

@@ -1,7 +1,7 @@
 // Runs experiments: the tables and figures of the thesis, and of any other experiment file.
 //
 //   evaluate experiments/table_5_9.yaml [more ...] [--size quick|full] [--runs N] [--shard i/n]
-//            [--output doc/results/evaluation] [--meshes meshes/thesis]
+//            [--output build/evaluation] [--meshes meshes/thesis]
 //
 // Results: a line a run in <output>/<experiment>.csv; an evaluation that was interrupted goes on where it
 // ended. Shards share no file when each has a folder of its own; scripts/report.sh joins them.
@@ -66,14 +66,12 @@ class ProgressBar {
   int last_ = kNever;
 };
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   CLI::App app("Runs experiments, many seeded runs of search algorithms");
   std::vector<std::string> files;
   EvaluationOptions options;
   options.meshes = "meshes/thesis";
-  options.output = "doc/results/evaluation";
+  options.output = "build/evaluation";
   std::string size = "quick";
   std::string shard = "0/1";
   app.add_option("experiments", files, "Experiment files")->required()->check(CLI::ExistingFile);
@@ -89,17 +87,23 @@ int main(int argc, char** argv) {
     return app.exit(error);
   }
   const std::uint32_t asked = options.runs;
+  for (const std::string& file : files) {
+    const Experiment experiment = concave_distance::evaluation::loadExperiment(file);
+    options.runs = asked > 0 ? asked : size == "full" ? experiment.full_runs : experiment.quick_runs;
+    ProgressBar bar(experiment.name);
+    concave_distance::evaluation::runExperiment(
+        experiment, options, [&bar](std::uint64_t done, std::uint64_t all) { bar.show(done, all); });
+  }
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
   try {
-    for (const std::string& file : files) {
-      const Experiment experiment = concave_distance::evaluation::loadExperiment(file);
-      options.runs = asked > 0 ? asked : size == "full" ? experiment.full_runs : experiment.quick_runs;
-      ProgressBar bar(experiment.name);
-      concave_distance::evaluation::runExperiment(
-          experiment, options, [&bar](std::uint64_t done, std::uint64_t all) { bar.show(done, all); });
-    }
+    return run(argc, argv);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "evaluate: %s\n", error.what());
     return 1;
   }
-  return 0;
 }

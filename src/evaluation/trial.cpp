@@ -76,22 +76,32 @@ class Diary {
   double microseconds_ = 0.0;
 };
 
-/// Which true niches the identified ones are, decided by the flood that made the truth.
-void measureRecall(const SceneTruth& scene, const std::vector<IdentifiedNiche>& found, TrialRecord& record) {
+/// How many of the true niches the places are, decided by the flood that made the truth.
+std::size_t countMet(const SceneTruth& scene, const std::vector<TrialPoint>& places) {
   LocalMinimaRequest request;
   request.cutoff = scene.niche_cutoff;
-  for (const IdentifiedNiche& niche : found) {
-    request.whose.emplace_back(scene.a->originalTriangle(niche.best.node_a),
-                               scene.b->originalTriangle(niche.best.node_b));
+  for (const TrialPoint& place : places) {
+    request.whose.emplace_back(scene.a->originalTriangle(place.node_a),
+                               scene.b->originalTriangle(place.node_b));
   }
   const LocalMinima truth = findLocalMinima(*scene.a, *scene.b, scene.a_from_b, request);
   std::set<std::size_t> met(truth.owners.begin(), truth.owners.end());
   met.erase(LocalMinima::kNoOwner);
-  const auto share = [&](std::size_t of) {
-    return of > 0 ? static_cast<double>(met.size()) / static_cast<double>(of) : 1.0;
-  };
-  record.recall = share(truth.niches.size());
-  record.precision = share(found.size());
+  return met.size();
+}
+
+double share(std::size_t part, std::size_t whole) {
+  return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : 1.0;
+}
+
+void measureRecall(const SceneTruth& scene, const std::vector<IdentifiedNiche>& found,
+                   const std::vector<TrialPoint>& archive, TrialRecord& record) {
+  std::vector<TrialPoint> places;
+  for (const IdentifiedNiche& niche : found) places.push_back(niche.best);
+  const std::size_t met = countMet(scene, places);
+  record.recall = share(met, scene.niches.niches.size());
+  record.precision = share(met, found.size());
+  record.archive_recall = share(countMet(scene, archive), scene.niches.niches.size());
 }
 
 TrialRecord runCombinatorial(const SearchMethod& method, const SceneTruth& scene, bool with_recall,
@@ -132,7 +142,7 @@ TrialRecord runCombinatorial(const SearchMethod& method, const SceneTruth& scene
     record.members[i] = niches[i].member_count;
     record.niche_distances[i] = std::sqrt(niches[i].best.squared_distance);
   }
-  if (with_recall) measureRecall(scene, niches, record);
+  if (with_recall) measureRecall(scene, niches, workspace.basins.minima(), record);
   return record;
 }
 

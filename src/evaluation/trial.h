@@ -35,8 +35,9 @@ struct TrialRecord {
   SearchCost cost;
   std::uint64_t flops = 0;  ///< by the thesis's rule: 26 a point pair, 6 a constraint (App. D, sec. 2.1.4)
   double microseconds = 0.0;
-  double recall = 0.0;     ///< of the outward niches of level complete, in the final population
-  double precision = 0.0;  ///< niches of the final population that are one of those, each counted once
+  double recall = 0.0;          ///< of the outward niches of level complete, in the final population
+  double archive_recall = 0.0;  ///< the same of all local minima that the run has met
+  double precision = 0.0;       ///< niches of the final population that are one of those, each counted once
 };
 
 /// Iterations between two points of a curve: every generation of a GA, every tenth iteration of annealing.

@@ -21,7 +21,7 @@ std::string runsHeader() {
          "flops,"
          "microseconds,"
          "recall,"
-         "precision";
+         "precision,archive_recall";
 }
 constexpr const char* kCurvesHeader =
     "row,scene,first_run,runs,iteration,best_distance_sum,mean_square_sum,niches_sum,acceptance_sum";
@@ -107,7 +107,8 @@ void TrialFiles::append(const WorkUnit& unit, const std::vector<TrialRecord>& re
     for (const double distance : r.niche_distances) lines << ',' << distance;
     lines << ',' << r.best_convergence << ',' << r.population_convergence << ',' << r.below_second << ','
           << r.feasible << ',' << r.cost.evaluations << ',' << r.cost.descents << ',' << r.cost.descent_steps
-          << ',' << r.flops << ',' << r.microseconds << ',' << r.recall << ',' << r.precision << '\n';
+          << ',' << r.flops << ',' << r.microseconds << ',' << r.recall << ',' << r.precision << ','
+          << r.archive_recall << '\n';
   }
   runs_ << lines.str() << std::flush;
 }
