@@ -20,7 +20,8 @@ case $size in
 esac
 cd "$package_dir"
 results=${2:-build/evaluation_$size}
-evaluate() { find build -type f -perm -u+x -name evaluate | head -n 1; }
+# Tests install copies of their own below build/test.
+evaluate() { find build -path build/test -prune -o -type f -perm -u+x -name evaluate -print | head -n 1; }
 scripts/install_dependencies.sh build plot
 [ -d build ] && [ -n "$(evaluate)" ] || scripts/build.sh
 "$(evaluate)" experiments/*.yaml --size "$size" --output "$results"
