@@ -23,6 +23,6 @@ results=${2:-build/evaluation_$size}
 # Tests install copies of their own below build/test.
 evaluate() { find build -path build/test -prune -o -type f -perm -u+x -name evaluate -print | head -n 1; }
 scripts/install_dependencies.sh build plot
-[ -d build ] && [ -n "$(evaluate)" ] || scripts/build.sh
+if [ ! -d build ] || [ -z "$(evaluate)" ]; then scripts/build.sh; fi
 "$(evaluate)" experiments/*.yaml --size "$size" --output "$results"
 /usr/bin/python3 scripts/write_evaluation.py "$results"
