@@ -1,7 +1,6 @@
 #include "experiment.h"
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -11,14 +10,19 @@
 
 #include "concave_distance/base/error.h"
 #include "search_settings_reader.h"
+#include "setting_values.h"
 
 namespace concave_distance::evaluation {
 namespace {
 
+using detail::count32;
+using detail::kLength;
+using detail::kShare;
+using detail::notNegativeFinite;
+using detail::positiveFinite;
+using detail::share;
 using detail::YamlMap;
 using detail::YamlValue;
-
-constexpr std::uint64_t kMost32 = std::numeric_limits<std::uint32_t>::max();
 
 std::string readText(const std::string& file) {
   std::ifstream stream(file);
@@ -70,38 +74,32 @@ Method methodNamed(const YamlValue& value, bool from_thesis) {
       "cont-GA-wl or -nl; cont-SA-wl or -nl");
 }
 
-double readWeight(const YamlValue& value) {
-  return value.number("0 or more, finite", [](double x) { return x >= 0.0 && std::isfinite(x); });
-}
-
 void readContinuousGenetic(const YamlValue& value, ContinuousGeneticParameters& p) {
   YamlMap map(value, "a map of parameters of cont-GA");
-  const auto share = [](const YamlValue& v) {
-    return v.number("from 0 to 1", [](double x) { return x >= 0.0 && x <= 1.0; });
-  };
-  if (auto v = map.take("population_size"))
-    p.population_size = static_cast<std::uint32_t>(v->count(2, kMost32));
-  if (auto v = map.take("max_generations"))
-    p.max_generations = static_cast<std::uint32_t>(v->count(0, kMost32));
-  if (auto v = map.take("crossover_probability")) p.crossover_probability = share(*v);
-  if (auto v = map.take("mutation_probability")) p.mutation_probability = share(*v);
-  if (auto v = map.take("penalty_weight")) p.penalty_weight = readWeight(*v);
+  if (auto v = map.take("population_size")) p.population_size = count32(*v, 2);
+  if (auto v = map.take("max_generations")) p.max_generations = count32(*v, 0);
+  if (auto v = map.take("crossover_probability")) p.crossover_probability = v->number(kShare, share);
+  if (auto v = map.take("mutation_probability")) p.mutation_probability = v->number(kShare, share);
+  if (auto v = map.take("penalty_weight"))
+    p.penalty_weight = v->number("0 or more, finite", notNegativeFinite);
   map.finish();
 }
 
 void readContinuousAnnealing(const YamlValue& value, ContinuousAnnealingParameters& p) {
   YamlMap map(value, "a map of parameters of cont-SA");
   if (auto v = map.take("initial_temperature")) {
-    p.initial_temperature = static_cast<std::uint32_t>(v->count(1, kMost32));
+    p.initial_temperature = count32(*v, 1);
   }
-  if (auto v = map.take("boltzmann_constant")) p.boltzmann_constant = readWeight(*v);
-  if (auto v = map.take("penalty_weight")) p.penalty_weight = readWeight(*v);
+  if (auto v = map.take("boltzmann_constant"))
+    p.boltzmann_constant = v->number("0 or more, finite", notNegativeFinite);
+  if (auto v = map.take("penalty_weight"))
+    p.penalty_weight = v->number("0 or more, finite", notNegativeFinite);
   map.finish();
 }
 
 void readMultiStart(const YamlValue& value, MultiStartParameters& p) {
   YamlMap map(value, "a map of parameters of random starts");
-  if (auto v = map.take("starts")) p.starts = static_cast<std::uint32_t>(v->count(1, kMost32));
+  if (auto v = map.take("starts")) p.starts = count32(*v, 1);
   if (auto v = map.take("evaluation_limit")) {
     p.evaluation_limit = v->count(0, std::numeric_limits<std::uint64_t>::max());
   }
@@ -185,16 +183,15 @@ Experiment loadExperiment(const std::string& file) {
   map.take("remark");
   if (auto v = map.take("seed")) experiment.seed = v->count(0, std::numeric_limits<std::uint64_t>::max());
   YamlMap runs(map.require("runs", "say how many runs: {quick: 20, full: 500}"), "{quick: 20, full: 500}");
-  experiment.quick_runs = static_cast<std::uint32_t>(runs.require("quick", "a count").count(1, kMost32));
-  experiment.full_runs = static_cast<std::uint32_t>(runs.require("full", "a count").count(1, kMost32));
+  experiment.quick_runs = count32(runs.require("quick", "a count"), 1);
+  experiment.full_runs = count32(runs.require("full", "a count"), 1);
   runs.finish();
   if (auto v = map.take("niches")) experiment.niches = v->boolean();
   if (auto v = map.take("curves")) experiment.curves = v->boolean();
   const YamlMap scenes(map.require("scenes", "name scenes and their grids: {battery_static: 0.05}"),
                        "scenes and the edge length of their grids");
   for (const auto& [name, edge] : scenes.entries()) {
-    experiment.scenes.push_back({name, edge.number("an edge length greater than 0, metres",
-                                                   [](double x) { return x > 0.0 && std::isfinite(x); })});
+    experiment.scenes.push_back({name, edge.number(kLength, positiveFinite)});
   }
   const std::optional<YamlValue> common = map.take("common");
   std::set<std::string> names;

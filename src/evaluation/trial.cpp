@@ -18,6 +18,7 @@ using Clock = std::chrono::steady_clock;
 /// Distances are sums of squares rounded alike; two node pairs are as good when only rounding parts them.
 constexpr double kSame = 1.0 + 1e-12;
 constexpr std::uint64_t kFlopsOfAPair = 26;
+
 NicheRadii radiiOf(const SceneTruth& scene, const SearchMethod& method) {
   const auto* genetic = std::get_if<GeneticParameters>(&method);
   return automaticRadii(*scene.a, *scene.b, genetic != nullptr ? *genetic : GeneticParameters());
@@ -76,32 +77,32 @@ class Diary {
   double microseconds_ = 0.0;
 };
 
-/// How many of the true niches the places are, decided by the flood that made the truth.
-std::size_t countMet(const SceneTruth& scene, const std::vector<TrialPoint>& places) {
-  LocalMinimaRequest request;
-  request.cutoff = scene.niche_cutoff;
-  for (const TrialPoint& place : places) {
-    request.whose.emplace_back(scene.a->originalTriangle(place.node_a),
-                               scene.b->originalTriangle(place.node_b));
-  }
-  const LocalMinima truth = findLocalMinima(*scene.a, *scene.b, scene.a_from_b, request);
-  std::set<std::size_t> met(truth.owners.begin(), truth.owners.end());
-  met.erase(LocalMinima::kNoOwner);
-  return met.size();
-}
-
 double share(std::size_t part, std::size_t whole) {
   return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : 1.0;
 }
 
+/// Which true niches the final population's and all minima met are, decided by the flood that made the truth.
 void measureRecall(const SceneTruth& scene, const std::vector<IdentifiedNiche>& found,
                    const std::vector<TrialPoint>& archive, TrialRecord& record) {
-  std::vector<TrialPoint> places;
-  for (const IdentifiedNiche& niche : found) places.push_back(niche.best);
-  const std::size_t met = countMet(scene, places);
-  record.recall = share(met, scene.niches.niches.size());
+  LocalMinimaRequest request;
+  request.cutoff = scene.niche_cutoff;
+  const auto ask = [&](const TrialPoint& place) {
+    request.whose.emplace_back(scene.a->originalTriangle(place.node_a),
+                               scene.b->originalTriangle(place.node_b));
+  };
+  for (const IdentifiedNiche& niche : found) ask(niche.best);
+  for (const TrialPoint& place : archive) ask(place);
+  const LocalMinima truth = findLocalMinima(*scene.a, *scene.b, scene.a_from_b, request);
+  const auto archive_begin = truth.owners.begin() + static_cast<std::ptrdiff_t>(found.size());
+  const auto count_met = [](auto begin, auto end) {
+    std::set<std::size_t> met(begin, end);
+    met.erase(LocalMinima::kNoOwner);
+    return met.size();
+  };
+  const std::size_t met = count_met(truth.owners.begin(), archive_begin);
+  record.recall = share(met, truth.niches.size());
   record.precision = share(met, found.size());
-  record.archive_recall = share(countMet(scene, archive), scene.niches.niches.size());
+  record.archive_recall = share(count_met(archive_begin, truth.owners.end()), truth.niches.size());
 }
 
 TrialRecord runCombinatorial(const SearchMethod& method, const SceneTruth& scene, bool with_recall,

@@ -18,10 +18,7 @@ std::string runsHeader() {
   }
   return header +
          ",best_convergence,population_convergence,below_second,feasible,evaluations,descents,descent_steps,"
-         "flops,"
-         "microseconds,"
-         "recall,"
-         "precision,archive_recall";
+         "flops,microseconds,recall,precision,archive_recall";
 }
 constexpr const char* kCurvesHeader =
     "row,scene,first_run,runs,iteration,best_distance_sum,mean_square_sum,niches_sum,acceptance_sum";
@@ -73,7 +70,7 @@ void TrialFiles::readDone(const std::string& path) {
     if (run.empty() || run.find_first_not_of("0123456789") != std::string::npos) {
       throw Error(path, "has a line without a run: " + line, "remove the line, its run is done again");
     }
-    done_[{row, scene, static_cast<std::uint32_t>(std::stoul(run))}] = true;
+    done_.emplace(row, scene, static_cast<std::uint32_t>(std::stoul(run)));
   }
 }
 

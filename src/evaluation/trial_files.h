@@ -2,7 +2,7 @@
 
 #include <cstdint>
 #include <fstream>
-#include <map>
+#include <set>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -39,7 +39,7 @@ class TrialFiles {
   const Experiment& experiment_;
   std::ofstream runs_;
   std::ofstream curves_;
-  std::map<std::tuple<std::string, std::string, std::uint32_t>, bool> done_;  ///< row, scene, run
+  std::set<std::tuple<std::string, std::string, std::uint32_t>> done_;  ///< row, scene, run
 };
 
 }  // namespace concave_distance::evaluation

@@ -52,12 +52,7 @@ BenchmarkPair makeRings() {
   pair.a = std::make_shared<const BodyMesh>("a", surface, BodyMeshOptions());
   pair.b = std::make_shared<const BodyMesh>("b", surface, BodyMeshOptions());
   pair.fcl_a = pair.fcl_b = makeFclModel(surface);
-  pair.motion = [](double t) {
-    const double angle = 0.3 + 0.15 * t;
-    Eigen::Isometry3d pose(Eigen::AngleAxisd(angle, Eigen::Vector3d(1.0, 1.0, 0.0).normalized()));
-    pose.translation() = 1.6 * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0.06);
-    return pose;
-  };
+  pair.motion = ringPassingBy;
   return pair;
 }
 

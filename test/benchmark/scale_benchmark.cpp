@@ -40,18 +40,11 @@ double peakMegabytes() {
   return static_cast<double>(usage.ru_maxrss) / 1024.0;
 }
 
-Eigen::Isometry3d poseAt(double t) {
-  const double angle = 0.3 + 0.15 * t;
-  Eigen::Isometry3d pose(Eigen::AngleAxisd(angle, Eigen::Vector3d(1.0, 1.0, 0.0).normalized()));
-  pose.translation() = 1.6 * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0.06);
-  return pose;
-}
-
 template <typename Query>
 double medianMicroseconds(int steps, Query query) {
   std::vector<double> taken;
   for (int k = 0; k < steps; ++k) {
-    const Eigen::Isometry3d pose = poseAt(static_cast<double>(k) / steps);
+    const Eigen::Isometry3d pose = ringPassingBy(static_cast<double>(k) / steps);
     const Clock::time_point start = Clock::now();
     query(pose, k);
     taken.push_back(microsecondsSince(start));

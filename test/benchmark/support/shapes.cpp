@@ -152,4 +152,11 @@ SurfaceMesh moved(const SurfaceMesh& surface, const Eigen::Isometry3d& motion) {
   return {std::move(vertices), surface.triangles(), "moved surface"};
 }
 
+Eigen::Isometry3d ringPassingBy(double t) {
+  const double angle = 0.3 + 0.15 * t;
+  Eigen::Isometry3d pose(Eigen::AngleAxisd(angle, Eigen::Vector3d(1.0, 1.0, 0.0).normalized()));
+  pose.translation() = 1.6 * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0.06);
+  return pose;
+}
+
 }  // namespace concave_distance::benchmark

@@ -19,6 +19,9 @@ SurfaceMesh makePyramidField(int rows, int columns, double pitch, unsigned seed)
 /// size.
 SurfaceMesh makeBumpyRing(std::size_t triangles);
 
+/// Pose of a second such ring that passes close by the first, t in [0, 1]: a tenth of a diameter in all.
+Eigen::Isometry3d ringPassingBy(double t);
+
 /// The surface moved.
 SurfaceMesh moved(const SurfaceMesh& surface, const Eigen::Isometry3d& motion);
 
