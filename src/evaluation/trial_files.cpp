@@ -1,5 +1,6 @@
 #include "trial_files.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <limits>
 #include <sstream>
@@ -23,18 +24,38 @@ std::string runsHeader() {
 constexpr const char* kCurvesHeader =
     "row,scene,first_run,runs,iteration,best_distance_sum,mean_square_sum,niches_sum,acceptance_sum";
 
-/// Opens a file to append to; writes its header when it is new. @throws Error
-std::ofstream openToAppend(const std::string& path, const std::string& header) {
-  const bool is_new = !std::filesystem::exists(path) || std::filesystem::file_size(path) == 0;
-  if (!is_new) {
-    std::ifstream before(path);
-    std::string line;
-    std::getline(before, line);
-    if (line != header) {
-      throw Error(path, "has another header than this program writes",
-                  "move the file away or name another folder");
+/// A last line without an end was cut off by a crash or a full disk: nothing says that its last cell is
+/// whole, and what is appended would go on in it. It is dropped, after the header has said whose file it is.
+/// Returns whether anything is left. @throws Error
+bool keepWholeLines(const std::string& path, const std::string& header) {
+  std::uintmax_t size = 0;
+  std::uintmax_t kept = 0;  // up to the last end of a line
+  {
+    std::ifstream file(path, std::ios::binary);
+    for (std::string line; std::getline(file, line);) {
+      const bool is_whole = !file.eof();
+      if (size == 0 && (is_whole ? line != header : header.compare(0, line.size(), line) != 0)) {
+        throw Error(path, "has another header than this program writes",
+                    "move the file away or name another folder");
+      }
+      size += line.size() + (is_whole ? 1 : 0);
+      if (is_whole) kept = size;
     }
   }
+  if (kept != size) {
+    std::error_code failure;
+    std::filesystem::resize_file(path, kept, failure);
+    if (failure) {
+      throw Error(path, "its last line is cut off and cannot be removed: " + failure.message(),
+                  "name a folder that can be written with --output");
+    }
+  }
+  return kept > 0;
+}
+
+/// Opens a file to append to; writes its header when it is new. @throws Error
+std::ofstream openToAppend(const std::string& path, const std::string& header) {
+  const bool is_new = !std::filesystem::exists(path) || !keepWholeLines(path, header);
   std::ofstream file(path, std::ios::app);
   if (!file) throw Error(path, "cannot be written", "name a folder that can be written with --output");
   if (is_new) file << header << '\n' << std::flush;
@@ -47,8 +68,8 @@ std::ofstream openToAppend(const std::string& path, const std::string& header) {
 TrialFiles::TrialFiles(const Experiment& experiment, const std::string& folder) : experiment_(experiment) {
   std::filesystem::create_directories(folder);
   const std::string path = folder + "/" + experiment.name + ".csv";
-  if (std::filesystem::exists(path)) readDone(path);
   runs_ = openToAppend(path, runsHeader());
+  readDone(path);
   if (experiment.curves)
     curves_ = openToAppend(folder + "/" + experiment.name + "_curves.csv", kCurvesHeader);
 }
@@ -57,6 +78,7 @@ void TrialFiles::readDone(const std::string& path) {
   std::ifstream file(path);
   std::string line;
   std::getline(file, line);
+  const auto commas = std::count(line.begin(), line.end(), ',');
   while (std::getline(file, line)) {
     std::istringstream cells(line);
     std::string row;
@@ -67,8 +89,9 @@ void TrialFiles::readDone(const std::string& path) {
     std::getline(cells, algorithm, ',');
     std::getline(cells, scene, ',');
     std::getline(cells, run, ',');
-    if (run.empty() || run.find_first_not_of("0123456789") != std::string::npos) {
-      throw Error(path, "has a line without a run: " + line, "remove the line, its run is done again");
+    if (std::count(line.begin(), line.end(), ',') != commas || run.empty() ||
+        run.find_first_not_of("0123456789") != std::string::npos) {
+      throw Error(path, "has a line that is no whole run: " + line, "remove the line, its run is done again");
     }
     done_.emplace(row, scene, static_cast<std::uint32_t>(std::stoul(run)));
   }
@@ -98,8 +121,11 @@ void TrialFiles::append(const WorkUnit& unit, const std::vector<TrialRecord>& re
   lines.precision(std::numeric_limits<double>::max_digits10);
   for (std::size_t i = 0; i < records.size(); ++i) {
     const TrialRecord& r = records[i];
-    lines << row.name << ',' << nameOf(row.method) << ',' << scene << ',' << unit.first_run + i << ','
-          << r.distance << ',' << r.best_iteration << ',' << r.exact << ',' << r.region << ',' << r.niches;
+    const auto run = static_cast<std::uint32_t>(unit.first_run + i);
+    // Of a unit that was cut off in the middle some runs are there already.
+    if (!done_.emplace(row.name, scene, run).second) continue;
+    lines << row.name << ',' << nameOf(row.method) << ',' << scene << ',' << run << ',' << r.distance << ','
+          << r.best_iteration << ',' << r.exact << ',' << r.region << ',' << r.niches;
     for (const std::uint32_t members : r.members) lines << ',' << members;
     for (const double distance : r.niche_distances) lines << ',' << distance;
     lines << ',' << r.best_convergence << ',' << r.population_convergence << ',' << r.below_second << ','

@@ -21,11 +21,12 @@ struct WorkUnit {
 
 /// The two files of an experiment: `<folder>/<name>.csv`, a line a run, and with curves
 /// `<folder>/<name>_curves.csv`, sums over the runs of a unit at each generation. Both are appended to, unit
-/// by unit, the runs' file last: what an interrupted evaluation has left is gone on from, and the files of
-/// several shards are merged by joining them.
+/// by unit, the runs' file last: what an interrupted evaluation has left is gone on from (a last line that
+/// was cut off is dropped, its run done again), and the files of several shards are merged by joining them.
 class TrialFiles {
  public:
-  /// Opens or begins the files. @throws Error when they cannot be written or belong to another experiment
+  /// Opens or begins the files. @throws Error when they cannot be written, belong to another experiment or
+  /// have a line in them that is no whole run
   TrialFiles(const Experiment& experiment, const std::string& folder);
 
   /// Whether the runs of this unit are in the file already.

@@ -88,6 +88,42 @@ TEST_F(Evaluation, AnInterruptedOneGoesOnAndGivesWhatOneInOneGoGives) {
   EXPECT_EQ(std::filesystem::last_write_time(output("whole") + "/small.csv"), before);
 }
 
+TEST_F(Evaluation, ARunWhoseLineWasCutOffIsDoneAgain) {
+  const Experiment experiment = loadExperiment(write(kExperiment));
+  run(experiment, options("whole", 10));
+  run(experiment, options("cut", 10));
+  // The end of the last line, its last cell, its middle, several lines, all but a part of the header.
+  const std::string path = output("cut") + "/small.csv";
+  for (const std::uintmax_t lost : {1U, 3U, 60U, 1000U, 20000U}) {
+    const std::uintmax_t size = std::filesystem::file_size(path);
+    std::filesystem::resize_file(path, size > lost ? size - lost : 20);
+    run(experiment, options("cut", 10));
+    EXPECT_EQ(linesOf("cut"), linesOf("whole")) << lost << " bytes lost";
+  }
+}
+
+TEST_F(Evaluation, ACurveThatWasCutOffLeavesWholeLinesOnly) {
+  const Experiment experiment = loadExperiment(write(kExperiment));
+  run(experiment, options("cut", 10));
+  const std::string path = output("cut") + "/small_curves.csv";
+  std::filesystem::resize_file(path, std::filesystem::file_size(path) - 3);
+  run(experiment, options("cut", 20));
+  run(experiment, options("whole", 20));
+  // One line less: nobody asks for runs again that are there.
+  EXPECT_EQ(linesOf("cut", "small_curves.csv").size() + 1, linesOf("whole", "small_curves.csv").size());
+  for (const std::string& line : linesOf("cut", "small_curves.csv")) {
+    EXPECT_EQ(std::count(line.begin(), line.end(), ','), 9) << line;
+  }
+}
+
+TEST_F(Evaluation, RefusesALineInTheMiddleThatIsNoWholeRun) {
+  const Experiment experiment = loadExperiment(write(kExperiment));
+  run(experiment, options("whole", 10));
+  std::ofstream(output("whole") + "/small.csv", std::ios::app)
+      << "sharing,comb-GA-wl-sh,battery_static,10,0.07\n";
+  EXPECT_THROW(run(experiment, options("whole", 20)), Error);
+}
+
 TEST_F(Evaluation, ShardsTogetherAreTheWhole) {
   const Experiment experiment = loadExperiment(write(kExperiment));
   run(experiment, options("whole", 20));
@@ -192,6 +228,9 @@ TEST_F(Evaluation, DoesNotWriteIntoAnotherPrograms) {
   std::filesystem::create_directories(output("other"));
   std::ofstream(output("other") + "/small.csv") << "a,b,c\n";
   EXPECT_THROW(run(experiment, options("other", 1)), Error);
+  std::ofstream(output("other") + "/small.csv") << "a,b";
+  EXPECT_THROW(run(experiment, options("other", 1)), Error);
+  EXPECT_EQ(std::filesystem::file_size(output("other") + "/small.csv"), 3U);
 }
 
 }  // namespace
