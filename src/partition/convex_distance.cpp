@@ -22,7 +22,9 @@ void measure(const ConvexPiece& a, const ConvexPiece& b, const Eigen::Isometry3d
   const Eigen::Vector3d between = a_from_b * answer.points.on_b - answer.points.on_a;
   answer.distance = between.norm();
   answer.lower_bound =
-      answer.distance > 0.0 ? std::max(0.0, shadowGap(a, b, a_from_b, between / answer.distance)) : 0.0;
+      answer.distance > 0.0
+          ? std::clamp(shadowGap(a, b, a_from_b, between / answer.distance), 0.0, answer.distance)
+          : 0.0;
   answer.proven = isProven(a, b, a_from_b, answer);
 }
 

@@ -8,7 +8,7 @@ namespace concave_distance {
 
 struct HybridDistance::State {
   PartitionTracker tracker;
-  double reach;
+  HybridOptions options;
   std::vector<std::uint32_t> at_a;
   std::vector<std::uint32_t> at_b;
   std::vector<std::uint32_t> solved_in;  ///< of each sub-pair: the last update it was solved in
@@ -21,15 +21,22 @@ struct HybridDistance::State {
     return true;
   }
 
-  /// Solves what touches at two points and has not been solved yet. Whether any is nearer than `best`, whose
-  /// points these are.
+  /// Whether the sub-pair has not been looked at in this update and may be nearer than all that was.
+  bool isWanted(const Eigen::Isometry3d& a_from_b, SubPair pair, const PartitionSolution& solution) {
+    if (!firstTime(pair)) return false;
+    return !options.prove ||
+           (solution.distance != 0.0 && !tracker.isFarther(a_from_b, pair, solution.distance));
+  }
+
+  /// Solves what touches at two points and is wanted. Whether any is nearer than `best`, whose points these
+  /// are.
   bool improve(const Eigen::Isometry3d& a_from_b, PieceDistance& best, PartitionSolution& solution) {
-    findPiecesAt(tracker.partitionA(), best.points.on_a, reach, at_a);
-    findPiecesAt(tracker.partitionB(), best.points.on_b, reach, at_b);
+    findPiecesAt(tracker.partitionA(), best.points.on_a, options.reach, at_a);
+    findPiecesAt(tracker.partitionB(), best.points.on_b, options.reach, at_b);
     bool improved = false;
     for (const std::uint32_t a : at_a) {
       for (const std::uint32_t b : at_b) {
-        if (!firstTime({a, b})) continue;
+        if (!isWanted(a_from_b, {a, b}, solution)) continue;
         const PieceDistance answer = tracker.solve(a_from_b, {a, b}, solution);
         if (answer.distance >= best.distance) continue;
         best = answer;
@@ -38,12 +45,23 @@ struct HybridDistance::State {
     }
     return improved;
   }
+
+  /// What no place has led to.
+  void solveRest(const Eigen::Isometry3d& a_from_b, PartitionSolution& solution) {
+    const auto count_a = static_cast<std::uint32_t>(tracker.partitionA().pieces.size());
+    const auto count_b = static_cast<std::uint32_t>(tracker.partitionB().pieces.size());
+    for (std::uint32_t a = 0; a < count_a; ++a) {
+      for (std::uint32_t b = 0; b < count_b; ++b) {
+        if (isWanted(a_from_b, {a, b}, solution)) tracker.solve(a_from_b, {a, b}, solution);
+      }
+    }
+  }
 };
 
 HybridDistance::HybridDistance(std::shared_ptr<const ConvexPartition> a,
                                std::shared_ptr<const ConvexPartition> b, const HybridOptions& options)
-    : state_(new State{
-          PartitionTracker(std::move(a), std::move(b), options.tracker), options.reach, {}, {}, {}, 0}) {
+    : state_(
+          new State{PartitionTracker(std::move(a), std::move(b), options.tracker), options, {}, {}, {}, 0}) {
   state_->solved_in.resize(state_->tracker.partitionA().pieces.size() *
                            state_->tracker.partitionB().pieces.size());
 }
@@ -68,6 +86,7 @@ PartitionSolution HybridDistance::update(const Eigen::Isometry3d& a_from_b,
     while (state_->improve(a_from_b, best, solution) && best.distance > 0.0) {
     }
   }
+  if (state_->options.prove) state_->solveRest(a_from_b, solution);
   solution.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return solution;
 }

@@ -47,18 +47,6 @@ struct PartitionTracker::State {
     const std::size_t columns = b->pieces.size();
     return {static_cast<std::uint32_t>(place / columns), static_cast<std::uint32_t>(place % columns)};
   }
-
-  /// Whether the sub-pair is certainly no nearer than `best`.
-  bool isFarther(const Eigen::Isometry3d& a_from_b, SubPair pair, double best) {
-    const ConvexPiece& piece_a = a->pieces[pair.a];
-    const ConvexPiece& piece_b = b->pieces[pair.b];
-    const Eigen::Vector3d between = a_from_b * piece_b.centre - piece_a.centre;
-    if (between.norm() - piece_a.radius - piece_b.radius > best) return true;
-    const std::optional<PiecePoints>& last = memoryOf(pair).last;
-    const Eigen::Vector3d direction = last ? Eigen::Vector3d(a_from_b * last->on_b - last->on_a) : between;
-    const double length = direction.norm();
-    return length > 0.0 && shadowGap(piece_a, piece_b, a_from_b, direction / length) > best;
-  }
 };
 
 PartitionTracker::PartitionTracker(std::shared_ptr<const ConvexPartition> a,
@@ -88,6 +76,18 @@ const ConvexPartition& PartitionTracker::partitionA() const {
 }
 const ConvexPartition& PartitionTracker::partitionB() const {
   return *state_->b;
+}
+
+bool PartitionTracker::isFarther(const Eigen::Isometry3d& a_from_b, SubPair pair, double distance) const {
+  const ConvexPiece& piece_a = state_->a->pieces[pair.a];
+  const ConvexPiece& piece_b = state_->b->pieces[pair.b];
+  const Eigen::Vector3d between = a_from_b * piece_b.centre - piece_a.centre;
+  const double reach = distance + piece_a.radius + piece_b.radius;
+  if (between.squaredNorm() > reach * reach) return true;
+  const std::optional<PiecePoints>& last = state_->memoryOf(pair).last;
+  const Eigen::Vector3d direction = last ? Eigen::Vector3d(a_from_b * last->on_b - last->on_a) : between;
+  const double length = direction.norm();
+  return length > 0.0 && shadowGap(piece_a, piece_b, a_from_b, direction / length) > distance;
 }
 
 void PartitionTracker::reset() {
@@ -133,7 +133,7 @@ PartitionSolution PartitionTracker::update(const Eigen::Isometry3d& a_from_b) {
   PartitionSolution solution;
   for (std::size_t k = 0; k < s.order.size(); ++k) {
     const SubPair pair = s.pairAt(s.order[k]);
-    if (s.options.cull && k > 0 && s.isFarther(a_from_b, pair, solution.distance)) continue;
+    if (s.options.cull && k > 0 && isFarther(a_from_b, pair, solution.distance)) continue;
     const double before = solution.distance;
     solve(a_from_b, pair, solution);
     // The best of this pose is the first of the next: the others have to be nearer than it.

@@ -135,12 +135,18 @@ TEST(PartitionTracker, APartitionWithoutPiecesIsRefused) {
   EXPECT_THROW(HybridDistance(manoeuvre().fixture_by_hand, empty), Error);
 }
 
-TEST(HybridDistance, EqualsTheFullSearchWhereverTheNichesHoldTheRightOne) {
+HybridOptions placesOnly() {
+  HybridOptions options;
+  options.prove = false;
+  return options;
+}
+
+TEST(HybridDistance, PlacesAloneEqualTheFullSearchWhereverTheNichesHoldTheRightOne) {
   const Manoeuvre& m = manoeuvre();
   TrackerParameters parameters;
   parameters.accuracy = AccuracyLevel::Nodes;
   PairTracker search("hybrid", m.fixture, m.battery, parameters);
-  HybridDistance hybrid(m.fixture_by_hand, m.battery_by_hand);
+  HybridDistance hybrid(m.fixture_by_hand, m.battery_by_hand, placesOnly());
   PartitionTracker full(m.fixture_by_hand, m.battery_by_hand, optionsOf(PieceSolver::Gjk, true, true));
   PairSolution niches;
   std::vector<PlacePair> places;
@@ -169,7 +175,7 @@ TEST(HybridDistance, EqualsTheFullSearchWhereverTheNichesHoldTheRightOne) {
 TEST(HybridDistance, APlaceEndsInTheLocalMinimumItsPiecesLeadTo) {
   // One place in a corner of the plate far from everything still walks to a local minimum.
   const Manoeuvre& m = manoeuvre();
-  HybridDistance hybrid(m.fixture_by_hand, m.battery_by_hand);
+  HybridDistance hybrid(m.fixture_by_hand, m.battery_by_hand, placesOnly());
   const Eigen::Isometry3d pose = m.poses.front();
   const PartitionSolution solution = hybrid.update(pose, {{{0.48, 0.21, 0.0}, {0.0, 0.0, 0.3}}});
   EXPECT_GT(solution.sub_pairs, 0u);
@@ -177,6 +183,32 @@ TEST(HybridDistance, APlaceEndsInTheLocalMinimumItsPiecesLeadTo) {
   const PartitionSolution nothing = hybrid.update(pose, {});
   EXPECT_EQ(nothing.sub_pairs, 0u);
   EXPECT_TRUE(std::isnan(nothing.distance));
+}
+
+TEST(HybridDistance, IsTheBodiesDistanceWhateverThePlacesAre) {
+  // Right ones, one in a corner far from everything, none.
+  const Manoeuvre& m = manoeuvre();
+  const PlacePair corner{{0.48, 0.21, 0.0}, {0.0, 0.0, 0.3}};
+  PartitionTracker full(m.fixture_by_hand, m.battery_by_hand, optionsOf(PieceSolver::Gjk, true, true));
+  for (const int kind : {0, 1, 2}) {
+    HybridDistance hybrid(m.fixture_by_hand, m.battery_by_hand);
+    std::uint64_t sub_pairs = 0;
+    std::uint64_t updates = 0;
+    for (std::size_t k = 0; k < m.poses.size(); k += 10) {
+      const PartitionSolution exact = full.update(m.poses[k]);
+      std::vector<PlacePair> places;
+      if (kind == 0) places.push_back({exact.point_a_in_a, m.poses[k].inverse() * exact.point_b_in_a});
+      if (kind == 1) places.push_back(corner);
+      const PartitionSolution found = hybrid.update(m.poses[k], places);
+      EXPECT_NEAR(found.distance, exact.distance, 1e-9) << "pose " << k << ", places " << kind;
+      EXPECT_LE(found.lower_bound, found.distance);
+      EXPECT_GE(found.lower_bound, found.distance - 1e-8);
+      sub_pairs += found.sub_pairs;
+      ++updates;
+    }
+    // Most sub-pairs need bounds only.
+    EXPECT_LT(sub_pairs, updates * 126 / 4) << "places " << kind;
+  }
 }
 
 }  // namespace

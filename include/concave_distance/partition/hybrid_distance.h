@@ -20,12 +20,16 @@ struct HybridOptions {
   /// A piece is at a place when it is no farther from it than this fraction of the piece's radius: nodes lie
   /// on the surface up to rounding only.
   double reach = 1e-6;
+  /// Every sub-pair that no place leads to is shown to be farther than the nearest of the places (its
+  /// spheres, its shadows), or solved: the distance is then the bodies', whatever the search has missed. Else
+  /// only the places are finished.
+  bool prove = true;
 };
 
 /// The hybrid of the thesis's conclusions (Carretero, ch. 7 and sec. 6.3.4): the search selects the
 /// sub-pairs, the quadratic program finishes them. From each place's pieces the solve goes on to the pieces
-/// that touch where the nearest points lie, until none of them is nearer: each place ends in an exact local
-/// minimum of the bodies' distance. Not thread-safe.
+/// that touch where the nearest points lie, until none of them is nearer. Where the search has found the
+/// right place the other sub-pairs need bounds only ("a sophisticated pruning strategy"). Not thread-safe.
 class HybridDistance {
  public:
   /// @throws Error when a partition has no piece
@@ -35,8 +39,9 @@ class HybridDistance {
   HybridDistance(HybridDistance&&) noexcept;
   HybridDistance& operator=(HybridDistance&&) noexcept;
 
-  /// The nearest of the places' local minima. A place in no piece is taken to the nearest piece. Without
-  /// places nothing is computed. Never throws.
+  /// The bodies' distance; without `prove` the nearest local minimum of the places', each exact, and nothing
+  /// without places. A place in no piece is taken to the nearest piece; the nearest places had better come
+  /// first. Never throws.
   PartitionSolution update(const Eigen::Isometry3d& a_from_b, const std::vector<PlacePair>& places);
 
   void reset();

@@ -71,6 +71,10 @@ class PartitionTracker {
   /// One sub-pair, added to `solution` if it is nearer; its solution is remembered.
   PieceDistance solve(const Eigen::Isometry3d& a_from_b, SubPair pair, PartitionSolution& solution);
 
+  /// Whether a sub-pair is certainly no nearer than `distance`: its spheres say so, or its shadows along the
+  /// line of its last solution (of its centres before the first). What `cull` leaves out. O(corners).
+  bool isFarther(const Eigen::Isometry3d& a_from_b, SubPair pair, double distance) const;
+
   /// Forgets all solutions: the next solves are cold.
   void reset();
 

@@ -55,6 +55,7 @@ Method trackerMethod(const std::string& name, const PartitionedPair& pair, Accur
             MethodStep step;
             step.time_us = processorMicroseconds() - start;
             step.distance = solution->distance;
+            step.niches = solution->niches.size();
             step.flops = kFlopsPerNodePair * static_cast<double>(solution->cost.evaluations);
             return step;
           }};
@@ -62,11 +63,13 @@ Method trackerMethod(const std::string& name, const PartitionedPair& pair, Accur
 
 /// The search at `nodes` selects the sub-pairs, the quadratic program finishes them.
 Method hybridMethod(const std::string& name, const std::string& partition, const PartitionedPair& pair,
-                    const Partition& a, const Partition& b) {
+                    const Partition& a, const Partition& b, bool prove) {
   auto search =
       std::make_shared<PairTracker>(pair.name, pair.a, pair.b, parametersOf(AccuracyLevel::Nodes, true));
   auto solution = std::make_shared<PairSolution>();
-  auto hybrid = std::make_shared<HybridDistance>(a, b);
+  HybridOptions options;
+  options.prove = prove;
+  auto hybrid = std::make_shared<HybridDistance>(a, b, options);
   auto places = std::make_shared<std::vector<PlacePair>>();
   auto bodies = std::make_pair(pair.a, pair.b);
   return {name, partition, [=](const Eigen::Isometry3d& pose, double time) {
@@ -98,7 +101,8 @@ void addPartitionMethods(const PartitionedPair& pair, const std::string& partiti
   methods.push_back(partitionMethod("GJK", partition, a, b, options));
   options.cull = true;
   methods.push_back(partitionMethod("GJK, culled", partition, a, b, options));
-  methods.push_back(hybridMethod("hybrid: nodes + QP", partition, pair, a, b));
+  methods.push_back(hybridMethod("hybrid: nodes + QP", partition, pair, a, b, true));
+  methods.push_back(hybridMethod("hybrid, places alone", partition, pair, a, b, false));
 }
 
 Method fclMethod(const PartitionedPair& pair) {

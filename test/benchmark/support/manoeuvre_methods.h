@@ -22,6 +22,7 @@ struct MethodStep {
   double iterations = 0.0;          ///< of the quadratic programs, together
   std::size_t most_iterations = 0;  ///< of one
   std::size_t finished = 0;         ///< sub-pairs whose solver was not good enough
+  std::size_t niches = 0;           ///< reported
 };
 
 /// Two bodies as every method needs them.
