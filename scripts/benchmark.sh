@@ -45,7 +45,8 @@ if [ -n "$(program partition_benchmark)" ]; then  # built with CGAL only
   else
     echo "no batteries with more pieces: install python3-numpy (scripts/install_dependencies.sh plot)" >&2
   fi
-  "$(program partition_benchmark)" "${family[@]}" --output "$results/partition.csv" | tee "$results/partition.txt"
+  "$(program partition_benchmark)" "${family[@]}" --output "$results/partition.csv" \
+    --curves-output "$results/manoeuvre.csv" | tee "$results/partition.txt"
 fi
 if [ -n "$(program continuous_benchmark)" ]; then  # built with CGAL only
   "$(program continuous_benchmark)" --seeds "$tree_seeds" --output "$results/continuous.csv"

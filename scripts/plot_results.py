@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """Draws the figures of doc/results from its CSV files: doc/images/proof_*.png, niche_recall.png,
-accuracy_*.png, stages.png.
+accuracy_*.png, stages.png, manoeuvre.png.
 
     scripts/plot_results.py            (needs python3-matplotlib: scripts/install_dependencies.sh plot)
 """
@@ -9,6 +9,8 @@ import math
 import pathlib
 
 import matplotlib
+
+from manoeuvre_plot import draw_manoeuvre, read_curves
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402  (the backend comes first)
@@ -217,6 +219,10 @@ def main():
     plot_accuracy(accuracy, "tracked", "accuracy_tracked.png")
     plot_budgets(accuracy)
     plot_stages(rows_of("stages.csv"))
+    curves = read_curves(RESULTS / "manoeuvre.csv")
+    if curves:  # of a build with CGAL
+        draw_manoeuvre(curves, plt, IMAGES / "manoeuvre.png")
+        print("doc/images/manoeuvre.png")
 
 
 if __name__ == "__main__":

@@ -1,7 +1,8 @@
 // What accuracy costs in time: error against microseconds of every level and of what the levels can be
 // compared with, cold and tracked, on the thesis's scenes, links of robots and bodies of 100,000 triangles.
 //
-//   accuracy_benchmark [--pairs name,name,...] [--steps 200] [--cold 40] [--output doc/results/accuracy.csv]
+//   accuracy_benchmark [--pairs name,name,...] [--methods levels,fcl,...] [--steps 200] [--cold 40] [--output
+//   doc/results/accuracy.csv]
 //                      [--stages-output doc/results/stages.csv]
 //
 // A row is a pair, a method, its setting and a mode. `cold`: nothing is known, at instants along the pair's
@@ -9,18 +10,20 @@
 // proven one, in units of the smaller body's diameter; `gap` is how far the method's own lower bound stays
 // below its distance, in the same unit (empty where it has none). Time is the query's alone, in one thread:
 // median and 99th percentile, microseconds. `missed`: instants with an error above 1e-2. The stages' file has
-// the mean microseconds of each stage of a warm cycle, level by level.
+// the mean microseconds of each stage of a warm cycle, level by level. `partition` (of a build with CGAL)
+// says which pairs it leaves out and why.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
-#include <functional>
 
+#include "benchmark/support/accuracy_pairs.h"
+#include "benchmark/support/accuracy_partition.h"
+#include "benchmark/support/accuracy_rows.h"
 #include "benchmark/support/benchmark_main.h"
 #include "benchmark/support/benchmark_pairs.h"
-#include "benchmark/support/shapes.h"
 #include "benchmark/support/statistics.h"
 #include "benchmark/support/stopwatch.h"
 #include "concave_distance/continuous/constraint_tree_file.h"
@@ -34,119 +37,7 @@
 namespace concave_distance::benchmark {
 namespace {
 
-constexpr double kMissed = 1e-2;
-constexpr double kDuration = 5.0;  // seconds of a motion
-
-struct Answer {
-  double distance;
-  double lower_bound;  ///< NaN: none
-  double microseconds;
-};
-using Query = std::function<Answer(const Eigen::Isometry3d& pose, double time, bool first)>;
-
-/// Two rings of 100,000 triangles, one passing close by the other, as in scale_benchmark.
-BenchmarkPair makeRings() {
-  const SurfaceMesh surface = makeBumpyRing(100000);
-  BenchmarkPair pair;
-  pair.name = "rings_100k";
-  pair.a = std::make_shared<const BodyMesh>("a", surface, BodyMeshOptions());
-  pair.b = std::make_shared<const BodyMesh>("b", surface, BodyMeshOptions());
-  pair.fcl_a = pair.fcl_b = makeFclModel(surface);
-  pair.motion = ringPassingBy;
-  return pair;
-}
-
-BenchmarkPair loadPair(const std::string& name, std::optional<double> edge = std::nullopt) {
-  return name == "rings_100k" ? makeRings() : loadBenchmarkPair(name, edge);
-}
-
-class Rows {
- public:
-  Rows(const std::string& output, int steps, int cold) : steps_(steps), cold_(cold) {
-    if (output.empty()) return;
-    csv_.open(output);
-    csv_ << "pair,method,setting,mode,instants,median_error,p99_error,largest_error,median_gap,p90_gap,"
-            "median_us,p99_"
-            "us,"
-            "missed\n";
-  }
-
-  /// Takes the truth of the pair's instants.
-  void begin(const BenchmarkPair& pair) {
-    name_ = pair.name;
-    unit_ = std::min(pair.a->diameter(), pair.b->diameter());
-    tracked_ = instants(pair, steps_);
-    colds_ = instants(pair, cold_);
-  }
-
-  void cold(const std::string& method, const std::string& setting, const Query& query) {
-    add(method, setting, "cold", colds_, query);
-  }
-  void tracked(const std::string& method, const std::string& setting, const Query& query) {
-    add(method, setting, "tracked", tracked_, query);
-  }
-
- private:
-  struct Instant {
-    double time;
-    Eigen::Isometry3d pose;
-    double distance;
-  };
-
-  static std::vector<Instant> instants(const BenchmarkPair& pair, int count) {
-    std::vector<Instant> made;
-    CertificateWorkspace workspace;
-    for (int k = 0; k < count; ++k) {
-      const double t = count > 1 ? static_cast<double>(k) / (count - 1) : 0.0;
-      const Eigen::Isometry3d pose = pair.motion(t);
-      made.push_back(
-          {kDuration * t, pose, certifyDistance(*pair.a, *pair.b, pose, nullptr, 0, {}, workspace).distance});
-    }
-    return made;
-  }
-
-  void add(const std::string& method, const std::string& setting, const char* mode,
-           const std::vector<Instant>& instants, const Query& query) {
-    std::vector<double> errors;
-    std::vector<double> gaps;
-    std::vector<double> times;
-    int missed = 0;
-    for (std::size_t k = 0; k < instants.size(); ++k) {
-      const Answer answer = query(instants[k].pose, instants[k].time, k == 0);
-      if (k == 0 && std::string(mode) == "tracked") continue;  // begins cold
-      errors.push_back(std::abs(answer.distance - instants[k].distance) / unit_);
-      missed += errors.back() > kMissed ? 1 : 0;
-      if (std::isfinite(answer.lower_bound)) gaps.push_back((answer.distance - answer.lower_bound) / unit_);
-      times.push_back(answer.microseconds);
-    }
-    const double largest = *std::max_element(errors.begin(), errors.end());
-    const double gap = gaps.empty() ? std::nan("") : median(gaps);
-    std::printf("%-18s %-22s %-28s %-8s %9.2e %9.2e %9.2e %9.2e %10.2f %10.2f %4d\n", name_.c_str(),
-                method.c_str(), setting.c_str(), mode, median(errors), percentile(errors, 0.99), largest, gap,
-                median(times), percentile(times, 0.99), missed);
-    std::fflush(stdout);
-    if (!csv_) return;
-    csv_ << name_ << ',' << method << ',' << setting << ',' << mode << ',' << errors.size() << ','
-         << median(errors) << ',' << percentile(errors, 0.99) << ',' << largest << ',';
-    if (!gaps.empty()) csv_ << gap << ',' << percentile(gaps, 0.9);
-    if (gaps.empty()) csv_ << ',';
-    csv_ << ',' << median(times) << ',' << percentile(times, 0.99) << ',' << missed << '\n';
-  }
-
-  int steps_;
-  int cold_;
-  std::ofstream csv_;
-  std::string name_;
-  double unit_ = 1.0;
-  std::vector<Instant> tracked_;
-  std::vector<Instant> colds_;
-};
-
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%g", value);
-  return text;
-}
+constexpr double kDuration = Rows::kDuration;
 
 /// A tracker's answers, cold each time or tracked.
 void addTracker(Rows& rows, const BenchmarkPair& pair, const std::string& method, const std::string& setting,
@@ -173,7 +64,8 @@ void addNodes(Rows& rows, const std::string& name, const BenchmarkPair& pair) {
   const double edge = std::max(pair.a->maxEdgeLength(), pair.b->maxEdgeLength());
   if (name != "rings_100k") {
     for (const double scale : {4.0, 2.0, 1.0, 0.5, 0.25, 0.125}) {
-      addTracker(rows, loadPair(name, scale * edge), "nodes", "edge " + number(scale * edge), parameters);
+      addTracker(rows, loadAccuracyPair(name, scale * edge), "nodes", "edge " + number(scale * edge),
+                 parameters);
     }
   }
   for (const std::uint32_t population : {20U, 50U, 100U, 200U}) {
@@ -339,19 +231,26 @@ void writeStages(const BenchmarkPair& pair, int steps, std::ofstream& csv) {
 
 int benchmarkMain(int argc, char** argv) {
   CLI::App app("What accuracy costs in time");
-  std::vector<std::string> names = {"notched_boxes",  "grooved_cylinder", "battery_insertion",
-                                    "kr5_bicep_palm", "wam1_wam6",        "rings_100k"};
+  std::vector<std::string> names = accuracyPairs();
   int steps = 200;
   int cold = 40;
+  const std::vector<std::string> kinds = {"nodes", "searches", "continuous", "levels", "partition", "fcl"};
+  std::vector<std::string> methods = kinds;
   std::string output;
   std::string stages_output;
   app.add_option("--pairs", names, "Pairs to run, rings_100k or of the benchmark pairs")->delimiter(',');
   app.add_option("--steps", steps, "Instants along each motion")->check(CLI::Range(2, 1000000));
   app.add_option("--cold", cold, "Instants of the cold queries")->check(CLI::Range(2, 1000000));
+  app.add_option("--methods", methods, "Of nodes, searches, continuous, levels, partition, fcl; all")
+      ->delimiter(',')
+      ->check(CLI::IsMember(kinds));
   app.add_option("--output", output, "CSV file to write");
   app.add_option("--stages-output", stages_output, "CSV file to write the stages' times to");
   CLI11_PARSE(app, argc, argv);
 
+  const auto wanted = [&](const char* kind) {
+    return std::find(methods.begin(), methods.end(), kind) != methods.end();
+  };
   std::ofstream stages;
   if (!stages_output.empty()) {
     stages.open(stages_output);
@@ -363,13 +262,14 @@ int benchmarkMain(int argc, char** argv) {
   std::printf("%-18s %-22s %-28s %-8s %9s %9s %9s %9s %10s %10s %4s\n", "pair", "method", "setting", "mode",
               "error", "p99", "largest", "gap", "us", "p99", "miss");
   for (const std::string& name : names) {
-    const BenchmarkPair pair = loadPair(name);
+    const BenchmarkPair pair = loadAccuracyPair(name);
     rows.begin(pair);
-    addNodes(rows, name, pair);
-    addSearches(rows, pair);
-    addContinuous(rows, pair);
-    addLevels(rows, pair);
-    addFcl(rows, pair);
+    if (wanted("nodes")) addNodes(rows, name, pair);
+    if (wanted("searches")) addSearches(rows, pair);
+    if (wanted("continuous")) addContinuous(rows, pair);
+    if (wanted("levels")) addLevels(rows, pair);
+    if (wanted("partition")) addPartition(rows, pair);
+    if (wanted("fcl")) addFcl(rows, pair);
     if (stages) writeStages(pair, steps, stages);
   }
   return 0;

@@ -5,21 +5,24 @@
 // more protrusions.
 //
 //   partition_benchmark [--family FOLDER --hole-facets 6,12,20,40 --protrusions 1,4,8,16,32] [--repeats 2]
-//                       [--output doc/results/partition.csv]
+//                       [--output doc/results/partition.csv] [--curves-output doc/results/manoeuvre.csv]
 //
 // FOLDER is what scripts/generate_partition_family.py wrote. A row is a method on a pair: hole facets and
 // protrusions; sub-pairs of the partition; mean and largest error against the certified distance, metres;
 // microseconds of processor time a step (mean, median, the first step's; the fastest of the repeats at every
 // step); of the quadratic programs, the mean iterations of one at the first step and at the others, and the
 // most that one took; sub-pairs solved a step; sub-pairs a step whose solver was not good enough; Mflop a
-// step by the thesis's rules (26 a node pair, 2221 a QP iteration).
+// step by the thesis's rules (26 a node pair, 2221 a QP iteration). The curves' file has four of the methods
+// instant by instant: seconds, metres, microseconds; the thesis's figures 6.6 and 6.7.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <fstream>
 #include <map>
+#include <optional>
 
 #include "benchmark/support/benchmark_main.h"
 #include "benchmark/support/benchmark_pairs.h"
+#include "benchmark/support/manoeuvre_curves.h"
 #include "benchmark/support/manoeuvre_methods.h"
 #include "benchmark/support/statistics.h"
 #include "concave_distance/base/error.h"
@@ -60,33 +63,42 @@ std::vector<double> certifiedDistances(const PartitionedPair& pair, const std::v
   return distances;
 }
 
-Row measure(const PartitionedPair& pair, std::size_t number, bool automatic, int repeats,
-            const std::vector<TimedPose>& poses, const std::vector<double>& certified) {
-  Row row;
-  double later_pairs = 0.0;
+/// Every step of a method, with the time of its fastest repeat.
+std::vector<MethodStep> stepsOf(const PartitionedPair& pair, std::size_t number, bool automatic, int repeats,
+                                const std::vector<TimedPose>& poses) {
+  std::vector<MethodStep> steps;
   for (int repeat = 0; repeat < repeats; ++repeat) {
     const Method method = manoeuvreMethods(pair, automatic)[number];
-    row.method = method.name;
-    row.partition = method.partition;
     for (std::size_t k = 0; k < poses.size(); ++k) {
       const MethodStep step = method.step(poses[k].pose, poses[k].time);
-      if (repeat > 0) {
-        row.times_us[k] = std::min(row.times_us[k], step.time_us);
-        continue;
-      }
-      row.times_us.push_back(step.time_us);
-      row.errors.push_back(std::abs(step.distance - certified[k]));
-      const auto solved = static_cast<double>(step.sub_pairs);
-      if (k == 0 && solved > 0.0) row.first_iterations = step.iterations / solved;
-      if (k > 0) {
-        row.later_iterations += step.iterations;
-        later_pairs += solved;
-      }
-      row.most_iterations = std::max(row.most_iterations, step.most_iterations);
-      row.sub_pairs += solved / static_cast<double>(poses.size());
-      row.finished += static_cast<double>(step.finished) / static_cast<double>(poses.size());
-      row.flops += step.flops / static_cast<double>(poses.size());
+      if (repeat == 0) steps.push_back(step);
+      steps[k].time_us = std::min(steps[k].time_us, step.time_us);
     }
+  }
+  return steps;
+}
+
+Row rowOf(const PartitionedPair& pair, const Method& method, const std::vector<MethodStep>& steps,
+          const std::vector<double>& certified) {
+  Row row;
+  row.method = method.name;
+  row.partition = method.partition;
+  const auto count = static_cast<double>(steps.size());
+  double later_pairs = 0.0;
+  for (std::size_t k = 0; k < steps.size(); ++k) {
+    const MethodStep& step = steps[k];
+    row.times_us.push_back(step.time_us);
+    row.errors.push_back(std::abs(step.distance - certified[k]));
+    const auto solved = static_cast<double>(step.sub_pairs);
+    if (k == 0 && solved > 0.0) row.first_iterations = step.iterations / solved;
+    if (k > 0) {
+      row.later_iterations += step.iterations;
+      later_pairs += solved;
+    }
+    row.most_iterations = std::max(row.most_iterations, step.most_iterations);
+    row.sub_pairs += solved / count;
+    row.finished += static_cast<double>(step.finished) / count;
+    row.flops += step.flops / count;
   }
   if (later_pairs > 0.0) row.later_iterations /= later_pairs;
   if (row.partition == "hand") {
@@ -178,7 +190,7 @@ void partitionAutomatically(PartitionedPair& pair) {
 }
 
 PairTimes runPair(PartitionedPair& pair, int hole_facets, int protrusions, bool automatic, int repeats,
-                  std::ofstream& csv) {
+                  std::ofstream& csv, ManoeuvreCurves* curves) {
   const std::vector<TimedPose> poses =
       loadPoses(std::string(CONCAVE_DISTANCE_SOURCE_DIR) + "/meshes/thesis/manoeuvre_200.csv");
   std::printf("%s: %d hole facets, %d protrusions; %zu x %zu pieces by hand\n", pair.name.c_str(),
@@ -188,11 +200,15 @@ PairTimes runPair(PartitionedPair& pair, int hole_facets, int protrusions, bool 
               "error", "largest", "us", "median", "first us", "it. 1", "iter.", "most", "solved", "fin.",
               "Mflop");
   const std::vector<double> certified = certifiedDistances(pair, poses);
-  const std::size_t count = manoeuvreMethods(pair, automatic).size();
+  const std::vector<double> best_nodes =
+      curves != nullptr ? bestNodeDistances(pair, poses) : std::vector<double>();
+  const std::vector<Method> methods = manoeuvreMethods(pair, automatic);
   PairTimes times;
   times.sub_pairs = pair.hand_a->pieces.size() * pair.hand_b->pieces.size();
-  for (std::size_t k = 0; k < count; ++k) {
-    const Row row = measure(pair, k, automatic, repeats, poses, certified);
+  for (std::size_t k = 0; k < methods.size(); ++k) {
+    const std::vector<MethodStep> steps = stepsOf(pair, k, automatic, repeats, poses);
+    if (curves != nullptr) curves->add(methods[k], poses, steps, certified, best_nodes);
+    const Row row = rowOf(pair, methods[k], steps, certified);
     print(row, hole_facets, protrusions, csv);
     if (row.partition != "automatic") times.mean_us[row.method] = mean(row.times_us);
   }
@@ -208,11 +224,13 @@ int benchmarkMain(int argc, char** argv) {
   std::vector<int> protrusions = {1, 4, 8, 16, 32};
   int repeats = 2;
   std::string output;
+  std::string curves_output;
   app.add_option("--family", family, "Folder with batteries and fixtures of more pieces");
   app.add_option("--hole-facets", hole_facets, "Batteries of the family")->delimiter(',');
   app.add_option("--protrusions", protrusions, "Fixtures of the family")->delimiter(',');
   app.add_option("--repeats", repeats, "Runs of each; the fastest counts")->check(CLI::PositiveNumber);
   app.add_option("--output", output, "CSV file to write");
+  app.add_option("--curves-output", curves_output, "CSV file to write the thesis's pair to, step by step");
   CLI11_PARSE(app, argc, argv);
 
   std::ofstream csv;
@@ -224,13 +242,15 @@ int benchmarkMain(int argc, char** argv) {
   }
   PartitionedPair thesis =
       loadPair(std::string(CONCAVE_DISTANCE_SOURCE_DIR) + "/meshes/thesis", "fixture", "battery");
-  std::vector<PairTimes> times = {runPair(thesis, 6, 8, true, repeats, csv)};
+  std::optional<ManoeuvreCurves> curves;
+  if (!curves_output.empty()) curves.emplace(curves_output);
+  std::vector<PairTimes> times = {runPair(thesis, 6, 8, true, repeats, csv, curves ? &*curves : nullptr)};
   if (family.empty()) return 0;
   for (const int facets : hole_facets) {
     for (const int count : protrusions) {
       PartitionedPair pair =
           loadPair(family, "fixture_" + std::to_string(count), "battery_" + std::to_string(facets));
-      times.push_back(runPair(pair, facets, count, false, repeats, csv));
+      times.push_back(runPair(pair, facets, count, false, repeats, csv, nullptr));
     }
   }
   printCrossing(std::move(times));
