@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "parameter_checks.h"
+#include "concave_distance/base/parameter_checks.h"
 
 namespace concave_distance {
 

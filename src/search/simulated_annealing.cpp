@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "concave_distance/base/parameter_checks.h"
 #include "concave_distance/search/local_descent.h"
 #include "concave_distance/search/mutation.h"
-#include "parameter_checks.h"
 
 namespace concave_distance {
 

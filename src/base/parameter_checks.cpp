@@ -1,4 +1,4 @@
-#include "parameter_checks.h"
+#include "concave_distance/base/parameter_checks.h"
 
 #include <cmath>
 #include <sstream>
@@ -34,6 +34,13 @@ void requireLength(const std::string& where, const std::string& parameter,
 void requireNotNegative(const std::string& where, const std::string& parameter, double value) {
   if (!(value >= 0.0) || std::isinf(value)) {
     refuse(where, parameter, toText(value), "0 or more, finite");
+  }
+}
+
+void requirePositive(const std::string& where, const std::string& parameter, double value,
+                     const std::string& unit) {
+  if (!(value > 0.0) || std::isinf(value)) {
+    refuse(where, parameter, toText(value), "greater than 0, " + unit);
   }
 }
 

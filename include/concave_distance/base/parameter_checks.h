@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-// What the searches' parameters are held to; each throws Error naming the parameter and what is allowed.
+// What parameters are held to; each throws Error naming the parameter and what is allowed.
 
 namespace concave_distance::detail {
 
@@ -14,5 +14,8 @@ void requireShare(const std::string& where, const std::string& parameter, double
 void requireLength(const std::string& where, const std::string& parameter,
                    const std::optional<double>& value);
 void requireNotNegative(const std::string& where, const std::string& parameter, double value);
+/// Finite and greater than 0.
+void requirePositive(const std::string& where, const std::string& parameter, double value,
+                     const std::string& unit);
 
 }  // namespace concave_distance::detail

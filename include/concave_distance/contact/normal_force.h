@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "concave_distance/contact/material.h"
+
+namespace concave_distance {
+
+/// How the force along the normal follows from an interference region. All are in newtons, push only (a
+/// force that would pull is 0: bodies in contact do not stick to each other), and are right for any depth >=
+/// 0.
+enum class NormalForceModel : std::uint8_t {
+  QuasiStatic,    ///< Carretero, eq. (A-1) and (A-2)
+  SpringDashpot,  ///< constant stiffness and damping
+  Hertz,          ///< elastic, no damping
+  HuntCrossley    ///< Hertz with non-linear damping
+};
+std::string_view toString(NormalForceModel model);
+
+/// What a force depends on of one interference region.
+struct ContactGeometry {
+  double depth = 0.0;         ///< d, metres, >= 0
+  double depth_rate = 0.0;    ///< metres a second, positive while the bodies go deeper
+  double contact_area = 0.0;  ///< A, square metres: the area of the region's loops seen along the normal
+};
+
+/// c of with which a = sqrt(A / pi) of the GEOMETRIC overlap gives Hertz's force: there a^2 = 2 R d,
+/// where elastic spheres touch over a^2 = R d.
+inline constexpr double kHertzLoadingCoefficient = 0.94280904158206336587;  // 4 / (3 sqrt 2)
+
+/// without friction: (k_c d + mu_d d') n with k_c = c E* a, a = sqrt(A / pi).
+/// @param loading_coefficient c, of the surface's load, without a unit
+/// @param damping mu_d, newton second a metre
+double quasiStaticForce(const ContactGeometry& contact, double contact_modulus, double loading_coefficient,
+                        double damping);
+
+/// k d + b d'. @param stiffness k, newton a metre @param damping b, newton second a metre
+double springDashpotForce(const ContactGeometry& contact, double stiffness, double damping);
+
+/// 4/3 E* sqrt(R) d^(3/2) (Johnson 1985, eq. (4.23)). @param radius R = 1 / (1/R1 + 1/R2), metres
+double hertzForce(double depth, double contact_modulus, double radius);
+
+/// Hertz times (1 + 3/2 c d') (Hunt and Crossley 1975; Marhefka and Orin 1996).
+/// @param dissipation c, seconds a metre
+double huntCrossleyForce(double depth, double depth_rate, double contact_modulus, double radius,
+                         double dissipation);
+
+/// The relative radius of curvature that a region of this area and depth has where a sphere dips into a
+/// plane: A = 2 pi R d at small depths. 0 without depth.
+double radiusFromOverlap(const ContactGeometry& contact);
+
+struct NormalForceSettings {
+  NormalForceModel model = NormalForceModel::HuntCrossley;
+  double loading_coefficient = kHertzLoadingCoefficient;  ///< quasi_static, > 0
+  double stiffness = 1e5;                                 ///< spring_dashpot, N/m, > 0
+  double damping = 0.0;                                   ///< quasi_static and spring_dashpot, N s/m, >= 0
+  /// hertz and hunt_crossley: R, metres; 0: from the overlap (radiusFromOverlap), each region its own.
+  double radius = 0.0;
+
+  /// @throws Error naming the parameter, the value seen and the allowed range
+  void validate(const std::string& where) const;
+};
+
+/// The force of the chosen model, newtons, >= 0.
+double normalForce(const NormalForceSettings& settings, const ContactMaterial& material,
+                   const ContactGeometry& contact);
+
+}  // namespace concave_distance

@@ -1,0 +1,35 @@
+#include "concave_distance/contact/material.h"
+
+#include <cmath>
+
+#include "concave_distance/base/parameter_checks.h"
+
+namespace concave_distance {
+
+void Material::validate(const std::string& where) const {
+  detail::requirePositive(where, "youngs_modulus", youngs_modulus, "pascal");
+  if (!(poissons_ratio >= 0.0 && poissons_ratio < 0.5)) {
+    detail::refuse(where, "poissons_ratio", detail::toText(poissons_ratio), "from 0 to below 0.5");
+  }
+  detail::requireNotNegative(where, "dissipation", dissipation);
+  detail::requireNotNegative(where, "dynamic_friction", dynamic_friction);
+  if (!(static_friction >= dynamic_friction) || std::isinf(static_friction)) {
+    detail::refuse(where, "static_friction", detail::toText(static_friction),
+                   "dynamic_friction (" + detail::toText(dynamic_friction) + ") or more, finite");
+  }
+  detail::requireNotNegative(where, "viscous_friction", viscous_friction);
+}
+
+ContactMaterial inContact(const Material& a, const Material& b) {
+  const double compliance_a = (1.0 - a.poissons_ratio * a.poissons_ratio) / a.youngs_modulus;
+  const double compliance_b = (1.0 - b.poissons_ratio * b.poissons_ratio) / b.youngs_modulus;
+  ContactMaterial pair;
+  pair.contact_modulus = 1.0 / (compliance_a + compliance_b);
+  pair.dissipation = pair.contact_modulus * (compliance_a * a.dissipation + compliance_b * b.dissipation);
+  pair.static_friction = std::sqrt(a.static_friction * b.static_friction);
+  pair.dynamic_friction = std::sqrt(a.dynamic_friction * b.dynamic_friction);
+  pair.viscous_friction = std::sqrt(a.viscous_friction * b.viscous_friction);
+  return pair;
+}
+
+}  // namespace concave_distance

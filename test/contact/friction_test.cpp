@@ -1,0 +1,140 @@
+#include "concave_distance/contact/friction.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+
+#include "concave_distance/base/error.h"
+
+namespace concave_distance {
+namespace {
+
+const ContactMaterial kMaterial{1e9, 0.1, 0.6, 0.4, 0.0};
+constexpr double kPi = 3.14159265358979323846;
+const Eigen::Vector3d kUp = Eigen::Vector3d::UnitZ();
+
+TEST(Friction, CoefficientFallsFromStaticToDynamic) {
+  EXPECT_DOUBLE_EQ(frictionCoefficient(kMaterial, 0.01, 0.0), 0.6);
+  EXPECT_NEAR(frictionCoefficient(kMaterial, 0.01, 0.01), 0.4 + 0.2 * std::exp(-1.0), 1e-15);
+  EXPECT_DOUBLE_EQ(frictionCoefficient(kMaterial, 0.01, 1.0), 0.4);
+}
+
+TEST(Friction, RegularisedCoulombOpposesTheMotionAndStaysBelowTheCone) {
+  const FrictionSettings settings;
+  for (const double speed : {1e-6, 1e-3, 0.1, 10.0}) {
+    const Eigen::Vector3d sliding = speed * Eigen::Vector3d(0.6, -0.8, 0.0);
+    const Eigen::Vector3d force = regularisedCoulombForce(settings, kMaterial, 100.0, sliding);
+    EXPECT_LT(force.dot(sliding), 0.0);
+    EXPECT_LE(force.norm(), 60.0 * (1.0 + 1e-12));
+    EXPECT_LT(force.cross(sliding).norm(), 1e-12 * force.norm() * speed + 1e-30);
+  }
+  EXPECT_EQ(regularisedCoulombForce(settings, kMaterial, 100.0, Eigen::Vector3d::Zero()).norm(), 0.0);
+  EXPECT_NEAR(regularisedCoulombForce(settings, kMaterial, 100.0, {1.0, 0.0, 0.0}).x(), -40.0, 1e-4);
+}
+
+TEST(Friction, BristlesEndInCoulombsForceWhileSliding) {
+  const FrictionSettings settings;
+  BristleState state;
+  Eigen::Vector3d force;
+  for (int k = 0; k < 2000; ++k) {
+    force = bristleForce(settings, kMaterial, 100.0, kUp, {0.2, 0.0, 0.0}, 1e-4, state);
+  }
+  EXPECT_NEAR(force.x(), -40.0, 1e-9);
+  EXPECT_NEAR(state.deflection.x(), 0.4 / settings.bristle_stiffness, 1e-12);
+}
+
+/// A block pushed along a plane by a force that has risen to `push` after half a second (applied at
+/// once it would throw the block over the bristles), integrated semi-implicitly: the way after a second.
+double wayUnder(double push, double normal_force, double mass, FrictionModel model) {
+  FrictionSettings settings;
+  BristleState state;
+  double speed = 0.0;
+  double way = 0.0;
+  const double step = 1e-5;
+  for (int k = 0; k < 100000; ++k) {
+    const Eigen::Vector3d sliding(speed, 0.0, 0.0);
+    const Eigen::Vector3d force =
+        model == FrictionModel::Bristle
+            ? bristleForce(settings, kMaterial, normal_force, kUp, sliding, step, state)
+            : regularisedCoulombForce(settings, kMaterial, normal_force, sliding);
+    speed += step * (0.5 * (1.0 - std::cos(kPi * std::min(1.0, k / 50000.0))) * push + force.x()) / mass;
+    way += step * speed;
+  }
+  return way;
+}
+
+TEST(Friction, BristlesStickBelowTheStaticLimitAndSlideAboveIt) {
+  // The limit is 0.6 * 20 = 12 N. Below it the block gives way by as much as its bristles bend and slip:
+  // z' = v (1 - sigma_0 z / mu_s) makes z = mu_s / sigma_0 (1 - exp(-sigma_0 x / mu_s)).
+  for (const double push : {3.0, 6.0, 10.0}) {
+    const double closed_form = -0.6 / 1e4 * std::log1p(-push / 12.0);
+    EXPECT_NEAR(wayUnder(push, 20.0, 2.0, FrictionModel::Bristle), closed_form, 0.02 * closed_form);
+  }
+  EXPECT_GT(wayUnder(12.5, 20.0, 2.0, FrictionModel::Bristle), 0.1);
+}
+
+TEST(Friction, RegularisedCoulombCreepsWhereBristlesStick) {
+  const double creep = wayUnder(11.5, 20.0, 2.0, FrictionModel::RegularisedCoulomb);
+  EXPECT_GT(creep, 1e-3);
+}
+
+TEST(Friction, TheRuleIsStableAtAnyStep) {
+  const FrictionSettings settings;
+  for (const double step : {1e-6, 1e-3, 1.0, 1e6}) {
+    BristleState state;
+    for (int k = 0; k < 50; ++k) {
+      const double speed = k % 2 == 0 ? 3.0 : -3.0;
+      const Eigen::Vector3d force =
+          bristleForce(settings, kMaterial, 10.0, kUp, {speed, 0.0, 0.0}, step, state);
+      EXPECT_LE(force.norm(), 6.0 * (1.0 + 1e-12));
+      EXPECT_LE(state.deflection.norm(), 0.6 / settings.bristle_stiffness * (1.0 + 1e-12));
+    }
+  }
+}
+
+TEST(Friction, BristlesTurnWithTheirPlaneAndKeepTheirLength) {
+  const FrictionSettings settings;
+  BristleState state;
+  state.deflection = {1e-5, 0.0, 0.0};
+  const Eigen::Vector3d tilted = Eigen::Vector3d(0.3, 0.0, 1.0).normalized();
+  bristleForce(settings, kMaterial, 10.0, tilted, Eigen::Vector3d::Zero(), 1e-3, state);
+  EXPECT_NEAR(state.deflection.norm(), 1e-5, 1e-20);
+  EXPECT_NEAR(state.deflection.dot(tilted), 0.0, 1e-20);
+}
+
+TEST(Friction, WithoutLoadBristlesForget) {
+  const FrictionSettings settings;
+  BristleState state;
+  state.deflection = {1e-5, 0.0, 0.0};
+  EXPECT_EQ(bristleForce(settings, kMaterial, 0.0, kUp, {1.0, 0.0, 0.0}, 1e-3, state).norm(), 0.0);
+  EXPECT_EQ(state.deflection.norm(), 0.0);
+}
+
+TEST(Friction, OverACycleNothingIsGained) {
+  const FrictionSettings settings;
+  BristleState state;
+  double work = 0.0;
+  const double step = 1e-5;
+  for (int k = 0; k < 40000; ++k) {
+    const Eigen::Vector3d sliding(0.05 * std::sin(k * 1e-3), 0.02 * std::cos(k * 7e-4), 0.0);
+    work += step * bristleForce(settings, kMaterial, 10.0, kUp, sliding, step, state).dot(sliding);
+  }
+  EXPECT_LT(work, 0.0);
+}
+
+TEST(Friction, ParametersOutOfRangeAreNamed) {
+  FrictionSettings settings;
+  settings.bristle_stiffness = 0.0;
+  try {
+    settings.validate("pairs.friction");
+    FAIL() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_STREQ(error.what(), "pairs.friction: bristle_stiffness is 0 (allowed: greater than 0, per metre)");
+  }
+}
+
+}  // namespace
+}  // namespace concave_distance
