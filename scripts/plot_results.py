@@ -10,7 +10,7 @@ import pathlib
 
 import matplotlib
 
-from manoeuvre_plot import draw_manoeuvre, read_curves
+from manoeuvre import draw_manoeuvre, read_curves
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402  (the backend comes first)
@@ -128,7 +128,8 @@ FLOOR = 1e-16  # errors below count as this on a logarithmic axis
 def colour_of(method):
     order = ["nodes", "refined", "certified", "complete", "comb-SA-wl", "comb-SA-nl", "multi-start descent",
              "cont-GA-wl", "cont-SA-wl", "FCL"]
-    return plt.get_cmap("tab10")(order.index(method)) if method in order else "gray"
+    partition = {"partition QP": "black", "partition GJK": "darkviolet"}
+    return plt.get_cmap("tab10")(order.index(method)) if method in order else partition[method]
 
 
 def plot_accuracy(rows, mode, name):
@@ -139,10 +140,15 @@ def plot_accuracy(rows, mode, name):
         for row in rows:
             if row["pair"] != pair or row["mode"] != mode:
                 continue
-            alone = row["method"] != "certified" or not row["setting"].startswith("all")
+            marker, label = "o", row["method"]
+            if row["method"] == "certified" and row["setting"].startswith("all"):
+                marker = "s"
+            elif row["method"].startswith("partition"):
+                culled = row["setting"].endswith("culled")
+                marker, label = ("v", label + ", culled") if culled else ("^", label + ", all")
             axes.plot(float(row["median_us"]), max(FLOOR, float(row["median_error"])),
-                      "o" if alone else "s", color=colour_of(row["method"]), markersize=6, alpha=0.8,
-                      label=row["method"])
+                      marker, color=colour_of(row["method"]), markersize=6, alpha=0.8,
+                      label=label)
             axes.plot([float(row["median_us"])] * 2,
                       [max(FLOOR, float(row["median_error"])), max(FLOOR, float(row["largest_error"]))],
                       color=colour_of(row["method"]), linewidth=0.8, alpha=0.5)
@@ -158,8 +164,8 @@ def plot_accuracy(rows, mode, name):
     for axes in all_axes.flat:
         for handle, label in zip(*axes.get_legend_handles_labels()):
             found.setdefault(label, handle)
-    figure.legend(found.values(), found.keys(), loc="lower center", ncol=len(found), fontsize=9)
-    figure.tight_layout(rect=(0, 0.04, 1, 1))
+    figure.legend(found.values(), found.keys(), loc="lower center", ncol=(len(found) + 1) // 2, fontsize=9)
+    figure.tight_layout(rect=(0, 0.06, 1, 1))
     figure.savefig(IMAGES / name, dpi=90)
     plt.close(figure)
     print(f"doc/images/{name}")
@@ -181,9 +187,10 @@ def plot_budgets(rows):
     save(figure, "accuracy_budget.png")
 
 
-def plot_stages(rows):
-    """Where the time of a warm cycle goes."""
-    stages = [name for name in rows[0] if name not in ("pair", "level", "whole")]
+def plot_stages(rows, message_rows):
+    """Where the time of a warm cycle goes, and what it takes to tell its answer."""
+    stages = [name for name in rows[0] if name not in ("pair", "level", "whole")] + ["messages", "markers"]
+    told = {(row["pair"], row["level"]): row for row in message_rows}
     levels = ["nodes", "refined", "certified", "certified, distance alone"]
     pairs = list(dict.fromkeys(row["pair"] for row in rows))
     figure, axes = plt.subplots(figsize=(11, 5))
@@ -191,6 +198,8 @@ def plot_stages(rows):
     for i, pair in enumerate(pairs):
         for k, level in enumerate(levels):
             row = next(row for row in rows if row["pair"] == pair and row["level"] == level)
+            tell = told[pair, level]
+            row = {**row, "messages": float(tell["message"]) + float(tell["wire"]), "markers": tell["markers"]}
             place = i * (len(levels) + 1) + k
             ticks.append((place, level))
             bottom = 0.0
@@ -218,7 +227,7 @@ def main():
     plot_accuracy(accuracy, "cold", "accuracy_cold.png")
     plot_accuracy(accuracy, "tracked", "accuracy_tracked.png")
     plot_budgets(accuracy)
-    plot_stages(rows_of("stages.csv"))
+    plot_stages(rows_of("stages.csv"), rows_of("messages.csv"))
     curves = read_curves(RESULTS / "manoeuvre.csv")
     if curves:  # of a build with CGAL
         draw_manoeuvre(curves, plt, IMAGES / "manoeuvre.png")

@@ -21,8 +21,11 @@ esac
 cd "$package_dir"
 results=${2:-build/evaluation_$size}
 # Tests install copies of their own below build/test.
-evaluate() { find build -path build/test -prune -o -type f -perm -u+x -name evaluate -print | head -n 1; }
+program() { find build -path build/test -prune -o -type f -perm -u+x -name "$1" -print | head -n 1; }
 scripts/install_dependencies.sh build plot
-if [ ! -d build ] || [ -z "$(evaluate)" ]; then scripts/build.sh; fi
-"$(evaluate)" experiments/*.yaml --size "$size" --output "$results"
+if [ ! -d build ] || [ -z "$(program evaluate)" ]; then scripts/build.sh; fi
+"$(program evaluate)" experiments/*.yaml --size "$size" --output "$results"
+if [ -n "$(program partition_benchmark)" ]; then  # built with CGAL only
+  "$(program partition_benchmark)" --curves-output "$results/manoeuvre.csv"
+fi
 /usr/bin/python3 scripts/write_evaluation.py "$results"

@@ -17,6 +17,8 @@ import statistics
 import matplotlib
 import yaml
 
+from manoeuvre import draw_manoeuvre, manoeuvre_table, read_curves
+
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402  (the backend comes first)
 
@@ -226,6 +228,23 @@ def plot_sharing(images):
     plt.close(figure)
 
 
+def manoeuvre_section(folders, images):
+    """Figures 6.6 and 6.7; nothing without their data (a build without CGAL)."""
+    kept = ROOT / "doc" / "results" / "manoeuvre.csv"
+    paths = [pathlib.Path(folder) / kept.name for folder in folders] + [kept]
+    path = next((path for path in paths if path.exists()), None)
+    if path is None:
+        return []
+    curves = read_curves(path)
+    file_name = "evaluation_figure_6_6.png"
+    draw_manoeuvre(curves, plt, images / file_name)
+    return ["", "## Figures 6.6, 6.7: The manoeuvre into the fixture", "",
+            f"{len(curves['nodes'])} steps at 10 Hz, the partition by hand (126 sub-pairs), grid 0.05 m; by "
+            "`partition_benchmark --curves-output`. Metres, microseconds of processor time; flops by the thesis's rules "
+            "([partition](partition.md#along-the-manoeuvre)).", "",
+            *manoeuvre_table(curves), "", f"![distance, error and time of every step](images/{file_name})"]
+
+
 def order_of(experiment):
     numbers = re.findall(r"\d+", experiment.get("table") or experiment.get("figure") or "99")
     return [int(number) for number in numbers[:2]]
@@ -247,7 +266,11 @@ def main():
 
     body = []
     less_robust = []
+    manoeuvre = manoeuvre_section(options.results, images)
     for experiment in experiments:
+        if order_of(experiment) > [6, 7]:
+            body += manoeuvre
+            manoeuvre = []
         runs_of = collections.defaultdict(dict)
         for run in read_rows(options.results, experiment["name"] + ".csv"):
             runs_of[(run["row"], run["scene"])][int(run["run"])] = run  # the same run of two folders is one
@@ -275,6 +298,7 @@ def main():
         if curves:
             for file_name, label in plot_curves(experiment, curves, images):
                 body += ["", f"![{label}](images/{file_name})"]
+    body += manoeuvre
     plot_sharing(images)
 
     head = ["# The thesis's algorithms, evaluated", "",

@@ -19,10 +19,10 @@ void ManoeuvreCurves::add(const Method& method, const std::vector<TimedPose>& po
                           const std::vector<MethodStep>& steps, const std::vector<double>& exact,
                           const std::vector<double>& best_nodes) {
   const bool partition = method.name == "QP, warm" && method.partition == "hand";
-  const std::vector<std::string> levels = {"nodes", "refined", "certified"};
+  const std::vector<std::string> levels = {"nodes", "nodes, Table 6.1", "refined", "certified"};
   if (!partition && std::find(levels.begin(), levels.end(), method.name) == levels.end()) return;
   for (std::size_t k = 0; k < steps.size(); ++k) {
-    csv_ << (partition ? "partition" : method.name) << ',' << poses[k].time
+    csv_ << '"' << (partition ? "partition" : method.name) << '"' << ',' << poses[k].time
          << std::setprecision(std::numeric_limits<double>::max_digits10) << ',' << steps[k].distance << ','
          << exact[k] << ',' << best_nodes[k] << std::setprecision(6) << ',' << steps[k].time_us << ','
          << 1e-6 * steps[k].flops << ',' << steps[k].niches << '\n';

@@ -11,13 +11,14 @@ namespace concave_distance::benchmark {
 
 /// The curves of Carretero, figures 6.6 and 6.7, and the time of each step beside them, as a CSV file:
 /// a line a method and an instant, of the convex partition with quadratic programs (warm, all sub-pairs, cut
-/// by hand) and of the search at `nodes`, `refined` and `certified` with all niches.
+/// by hand) and of the search at `nodes` (with the thesis's Table 6.1, too), `refined` and `certified` with
+/// all niches.
 class ManoeuvreCurves {
  public:
   /// @throws Error when the file cannot be written
   explicit ManoeuvreCurves(const std::string& path);
 
-  /// A method's steps, when it is one of the four. @param exact proven distances, metres; @param best_nodes
+  /// A method's steps, when it is one of these. @param exact proven distances, metres; @param best_nodes
   /// those of the best node pair there is
   void add(const Method& method, const std::vector<TimedPose>& poses, const std::vector<MethodStep>& steps,
            const std::vector<double>& exact, const std::vector<double>& best_nodes);

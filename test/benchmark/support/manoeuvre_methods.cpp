@@ -45,9 +45,34 @@ TrackerParameters parametersOf(AccuracyLevel level, bool niches_wanted) {
   return parameters;
 }
 
-Method trackerMethod(const std::string& name, const PartitionedPair& pair, AccuracyLevel level,
-                     bool niches_wanted) {
-  auto tracker = std::make_shared<PairTracker>(pair.name, pair.a, pair.b, parametersOf(level, niches_wanted));
+/// Carretero, Table 6.1, and nothing of this package's own: the same search in every step, which inherits up
+/// to 30 points of the last one's niches.
+TrackerParameters thesisParameters() {
+  TrackerParameters parameters = parametersOf(AccuracyLevel::Nodes, true);
+  GeneticParameters& search = parameters.cold;
+  search.population_size = 100;
+  search.max_generations = 20;
+  search.mutation_probability = 0.01;
+  search.sharing_radius = search.mating_radius = search.niche_radius = 0.6;
+  search.sharing_exponent = 1.0;
+  search.exchange_probability = 0.0;
+  search.immigrants = 0;
+  search.conserve_niches = false;
+  search.fitness_epsilon = 0.0;
+  parameters.warm = search;
+  parameters.inherited_per_niche = 3.0;
+  parameters.inherited_limit = 30;
+  parameters.immigrants = 0;
+  parameters.projected_niches = parameters.projected_immigrants = 0;
+  parameters.search_motion = 0.0;
+  parameters.search_interval = 1;
+  parameters.extrapolate = false;
+  return parameters;
+}
+
+Method trackerMethod(const std::string& name, const PartitionedPair& pair,
+                     const TrackerParameters& parameters) {
+  auto tracker = std::make_shared<PairTracker>(pair.name, pair.a, pair.b, parameters);
   auto solution = std::make_shared<PairSolution>();
   return {name, "none", [tracker, solution](const Eigen::Isometry3d& pose, double time) {
             const double start = processorMicroseconds();
@@ -125,10 +150,12 @@ std::vector<Method> manoeuvreMethods(const PartitionedPair& pair, bool cold) {
   if (pair.automatic_a) {
     addPartitionMethods(pair, "automatic", pair.automatic_a, pair.automatic_b, cold, methods);
   }
-  methods.push_back(trackerMethod("nodes", pair, AccuracyLevel::Nodes, true));
-  methods.push_back(trackerMethod("refined", pair, AccuracyLevel::Refined, true));
-  methods.push_back(trackerMethod("certified", pair, AccuracyLevel::Certified, true));
-  methods.push_back(trackerMethod("certified, distance only", pair, AccuracyLevel::Certified, false));
+  methods.push_back(trackerMethod("nodes", pair, parametersOf(AccuracyLevel::Nodes, true)));
+  methods.push_back(trackerMethod("nodes, Table 6.1", pair, thesisParameters()));
+  methods.push_back(trackerMethod("refined", pair, parametersOf(AccuracyLevel::Refined, true)));
+  methods.push_back(trackerMethod("certified", pair, parametersOf(AccuracyLevel::Certified, true)));
+  methods.push_back(
+      trackerMethod("certified, distance only", pair, parametersOf(AccuracyLevel::Certified, false)));
   methods.push_back(fclMethod(pair));
   return methods;
 }

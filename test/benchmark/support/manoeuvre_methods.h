@@ -44,8 +44,8 @@ struct Method {
 };
 
 /// Convex partition with QP and with GJK, all sub-pairs and culled, the hybrid, and this package's tracker at
-/// `nodes`, `refined` and `certified`. On the automatic
-/// partition, too, where there is one. @param cold also QP without warm starts
+/// `nodes` (with the thesis's Table 6.1, too), `refined` and `certified`. On the automatic partition, too,
+/// where there is one. @param cold also QP without warm starts
 std::vector<Method> manoeuvreMethods(const PartitionedPair& pair, bool cold);
 
 /// FOLDER/NAME.stl on a grid of `max_edge_length`, metres. @throws Error when the file is missing

@@ -1,11 +1,17 @@
-"""The dynamic comparison of the thesis's ch. 6 as a picture: for plot_results.py and write_evaluation.py.
+"""The dynamic comparison of the thesis's ch. 6, its picture and its table: for plot_results.py and write_evaluation.py.
 
 Its data are `partition_benchmark --curves-output FILE`: four methods along the battery's manoeuvre.
 """
 import csv
+import statistics
 
-METHODS = [("partition", "convex partition + QP", "tab:brown"), ("nodes", "comb-GA-wl-sh, nodes", "tab:blue"),
+METHODS = [("partition", "convex partition + QP", "tab:brown"),
+           ("nodes, Table 6.1", "comb-GA-wl-sh, nodes, Table 6.1", "tab:cyan"),
+           ("nodes", "the same, shipped defaults", "tab:blue"),
            ("refined", "the same, refined", "tab:orange"), ("certified", "the same, certified", "tab:green")]
+# Carretero, sec. 6.3.3: Mflop of the first step and of all, steps that missed the best node pair and by how much, niches.
+THESIS = {"partition": ("2.27", "1.545", "", ""),
+          "nodes, Table 6.1": ("2.16", "2.032", "3 (9.88e-4)", "7.93 [11]")}
 FLOOR = 1e-17  # an error of nothing, on a logarithmic axis
 
 
@@ -48,3 +54,24 @@ def draw_manoeuvre(curves, plt, path):
     figure.tight_layout()
     figure.savefig(path, dpi=90)
     plt.close(figure)
+
+
+def manoeuvre_table(curves):
+    """The lines of the table that stands below the picture."""
+    lines = ["| method | error, largest (mean), ours | steps off the best node pair (most), thesis | ours | niches, mean [most], thesis | ours "
+             "| Mflop, first step (mean), thesis | ours | us, first step (mean) |", "|---" * 9 + "|"]
+    for method, label, _ in METHODS:
+        steps = curves[method]
+        errors = [abs(step["distance"] - step["exact"]) for step in steps]
+        off = [step["distance"] - step["best_nodes"] for step in steps if step["distance"] - step["best_nodes"] > 1e-12]
+        niches = [step["niches"] for step in steps]
+        times = [step["us"] for step in steps]
+        mflop = [step["mflop"] for step in steps]
+        first, mean, missed, found = THESIS.get(method, ("", "", "", ""))
+        lines.append(
+            f"| {label} | {max(errors):.1e} ({statistics.fmean(errors):.1e}) | {missed} "
+            f"| {len(off)}{f' ({max(off):.1e})' if off else ''} "
+            f"| {found} | {f'{statistics.fmean(niches):.2f} [{max(niches):.0f}]' if max(niches) else ''} "
+            f"| {f'{first} ({mean})' if first else ''} | {mflop[0]:.2f} ({statistics.fmean(mflop):.3f}) "
+            f"| {times[0]:.0f} ({statistics.fmean(times):.0f}) |")
+    return lines
