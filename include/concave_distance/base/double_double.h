@@ -7,7 +7,7 @@ namespace concave_distance::detail {
 
 /// An unevaluated sum of two doubles, about 106 bits (Dekker 1971). Right as long as nothing over- or
 /// underflows, and as long as the compiler fuses no product into a sum: what includes this is compiled with
-/// -ffp-contract=off (src/distance/CMakeLists.txt).
+/// -ffp-contract=off (see src/distance/CMakeLists.txt).
 struct DoubleDouble {
   double high = 0.0;
   double low = 0.0;

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "concave_distance/mesh/body_mesh.h"
+
+namespace concave_distance {
+
+/// One place where two bodies overlap: a connected component of the regularised intersection of the two
+/// solids, cavities counted to the region around them. What is not defined is NaN. All in A's frame.
+/// The definitions with their reasons and bounds: doc/interference.md.
+struct InterferenceRegion {
+  /// How far B must be moved along the normal to take this region apart, metres: over all lines along the
+  /// normal, the greatest way from the region's part of B's surface up to its part of A's. Of a swallowed
+  /// shell, which has no part of the other surface: how far until the bodies' extents along the normal part.
+  double depth = std::numeric_limits<double>::quiet_NaN();
+  /// Length of the vector area of A's surface inside B, m^2: what the loops enclose, seen along the normal.
+  /// Of a sphere of radius R pressed into a plane by delta pi 2 R delta at first order, as Carretero's a =
+  /// sqrt(A / pi) of equation expects.
+  double contact_area = std::numeric_limits<double>::quiet_NaN();
+  double surface_area_a = std::numeric_limits<double>::quiet_NaN();  ///< of A's surface inside B, m^2
+  double surface_area_b = std::numeric_limits<double>::quiet_NaN();  ///< of B's surface inside A, m^2
+  double volume = std::numeric_limits<double>::quiet_NaN();          ///< m^3
+  /// Of the volume; where that vanishes of the surfaces inside, where these are not defined of the curves.
+  Eigen::Vector3d centroid_in_a = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  /// Unit, from A to B: the direction of the vector area of A's surface inside B, which is minus that of B's
+  /// inside A, since both have the same loops.
+  Eigen::Vector3d normal_in_a = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  /// Where the depth is attained, one line along the normal: on A's surface, and `depth` below it on B's.
+  Eigen::Vector3d point_a_in_a = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  Eigen::Vector3d point_b_in_a = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  std::uint32_t loop_count = 0;  ///< closed intersection curves; 0 for a swallowed shell
+  /// Every shell concerned is closed. Else the region is a connected piece of the intersection curve (or a
+  /// swallowed open shell): areas, volume and depth are NaN, the normal is the curve's vector area or, where
+  /// it is straight or undecided, any direction across it.
+  bool closed = true;
+  /// The depth is not above Interference::rounding_bound: the surfaces touch. Flush faces have their common
+  /// part as contact area.
+  bool touching = false;
+  /// The vector areas of the loops cancel (a peg through a plate) or there is none (a swallowed shell): the
+  /// normal is then the one of least depth among a few candidates.
+  bool normal_is_fallback = false;
+  bool a_swallowed = false;  ///< a shell of A inside B that meets no surface of B
+  bool b_swallowed = false;  ///< the same of B in A
+  /// False where the bodies' own triangles pass through each other or are wound both ways near this region:
+  /// its numbers are then no more than a guide.
+  bool consistent = true;
+};
+
+enum class InterferenceStatus : std::uint8_t {
+  Ok,
+  InvalidPose,  ///< not finite or not a rotation within 1e-3: nothing was computed
+};
+
+struct Interference {
+  InterferenceStatus status = InterferenceStatus::Ok;
+  std::vector<InterferenceRegion> regions;  ///< deepest first; those without a depth last
+  bool a_inside_b = false;                  ///< A lies in B's material, the surfaces do not meet
+  bool b_inside_a = false;
+  /// How far rounding of B's vertices into A's frame may move them, and what depths are sure to, metres.
+  double rounding_bound = 0.0;
+};
+
+/// Buffers of one thread; cleared, never freed. Grows to 28 bytes a vertex and 8 a triangle of the largest
+/// bodies, and to what the largest regions need.
+class InterferenceWorkspace {
+ public:
+  InterferenceWorkspace();
+  ~InterferenceWorkspace();
+  InterferenceWorkspace(InterferenceWorkspace&&) noexcept;
+  InterferenceWorkspace& operator=(InterferenceWorkspace&&) noexcept;
+
+  struct Implementation;
+  Implementation& implementation() { return *implementation_; }
+
+ private:
+  std::unique_ptr<Implementation> implementation_;
+};
+
+/// All regions where the bodies overlap. Exact but for the rounding of B's vertices into A's frame and of the
+/// crossing points: which triangles cross where is decided by exact predicates, exact coincidences by moving
+/// B by an infinitesimal and by minus that. a_from_b must be rigid to rounding. Time grows with the crossing
+/// triangles, the surface inside the other body and the logarithm of the rest. Never throws but for lack of
+/// memory; allocates nothing once workspace and result have grown.
+void findInterference(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
+                      InterferenceWorkspace& workspace, Interference& result);
+
+}  // namespace concave_distance

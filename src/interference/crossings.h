@@ -1,0 +1,65 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "triangle_pairs.h"
+#include "working_frame.h"
+
+namespace concave_distance::detail {
+
+inline constexpr std::uint32_t kNone = 0xffffffffU;
+
+/// Where an edge of one body runs through a triangle of the other.
+struct CrossingNode {
+  Side edge_side;  ///< whose edge
+  NodeIndex low;   ///< the edge's ends, low < high
+  NodeIndex high;
+  TriangleIndex triangle;    ///< of the other body
+  bool enters;               ///< from low to high it runs into the other body
+  double parameter;          ///< from 0 at low to 1 at high
+  Eigen::Vector3d position;  ///< working frame
+};
+
+/// The common segment of two triangles, from node to node along normal of A x normal of B: A's surface inside
+/// B lies to its left, B's inside A to its right.
+struct CrossingSegment {
+  TriangleIndex triangle[2];  ///< of A and of B
+  std::uint32_t start;
+  std::uint32_t end;
+  bool closed;  ///< both triangles' shells are
+};
+
+/// The curves where the two surfaces cross, B moved by an infinitesimal: nodes and the segments between them.
+class CrossingCurves {
+ public:
+  void find(WorkingFrame& frame, PerturbedPredicates& predicates,
+            const std::vector<CandidatePair>& candidates);
+
+  const std::vector<CrossingNode>& nodes() const { return nodes_; }
+  const std::vector<CrossingSegment>& segments() const { return segments_; }
+  /// A pair of triangles had not two ends of a segment: arithmetic has over- or underflown.
+  bool broken() const { return broken_; }
+
+ private:
+  /// One end of a segment before ends at the same crossing are told to be one node.
+  struct End {
+    std::uint64_t edge;      ///< low and high
+    std::uint64_t triangle;  ///< and whose edge
+    std::uint32_t segment;
+    bool is_start;
+    bool enters;
+  };
+
+  void crossPair(WorkingFrame& frame, PerturbedPredicates& predicates, const CandidatePair& pair);
+  void appendEnd(Side side, NodeIndex from, NodeIndex to, TriangleIndex triangle, bool enters);
+  void joinEnds(WorkingFrame& frame);
+
+  std::vector<CrossingNode> nodes_;
+  std::vector<CrossingSegment> segments_;
+  std::vector<End> ends_;
+  bool broken_ = false;
+};
+
+}  // namespace concave_distance::detail

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "exact_orientation.h"
+
+namespace concave_distance::detail {
+
+/// Which of the two bodies.
+enum class Side : std::uint8_t { A = 0, B = 1 };
+inline constexpr Side other(Side side) {
+  return side == Side::A ? Side::B : Side::A;
+}
+inline constexpr std::size_t at(Side side) {
+  return static_cast<std::size_t>(side);
+}
+
+using Corners = std::array<const Eigen::Vector3d*, 3>;
+
+/// The predicates of two bodies, B moved by `direction` * (e, e^2, e^3) with e infinitesimal (simulation of
+/// simplicity, Edelsbrunner and Muecke 1990): a vertex of one never lies on a plane of the other, nor an edge
+/// on an edge, so that every crossing is an edge through the inside of a triangle and all agree on it.
+class PerturbedPredicates {
+ public:
+  explicit PerturbedPredicates(int direction = 1) : direction_(direction) {}
+  /// Whether an exact coincidence was met, so that the direction may have mattered.
+  bool tied() const { return tied_; }
+  void setTied() { tied_ = true; }
+
+  /// 1 where `point`, of the body `whose`, lies above the other body's triangle, else -1; 0 for a triangle
+  /// without area.
+  int side(const Corners& triangle, Side whose, const Eigen::Vector3d& point) {
+    const int sign = orientationSign(*triangle[0], *triangle[1], *triangle[2], point);
+    if (sign != 0) return sign;
+    tied_ = true;
+    return motionOf(whose) * firstSignOfCross(*triangle[0], *triangle[1], *triangle[0], *triangle[2]);
+  }
+
+  /// How the edge (p, q) of A and the edge (r, s) of B pass each other: the sign of the determinant of the
+  /// four. Neither may run parallel to a plane through the other, which is asked about only where one crosses
+  /// the plane of a triangle with the other.
+  int passing(const Eigen::Vector3d& p, const Eigen::Vector3d& q, const Eigen::Vector3d& r,
+              const Eigen::Vector3d& s) {
+    const int sign = orientationSign(p, q, r, s);
+    if (sign != 0) return sign;
+    tied_ = true;
+    // Moving r and s by e changes the determinant by ((s - r) x (q - p)) . e.
+    return direction_ * firstSignOfCross(r, s, p, q);
+  }
+
+  /// Which of two planes of the other body the segment (p, q) of the body `whose` meets first; see
+  /// planeOrder.
+  int order(const Eigen::Vector3d& p, const Eigen::Vector3d& q, const PlaneOnSegment& first,
+            const PlaneOnSegment& second, Side whose) {
+    return planeOrder(p, q, first, second, motionOf(whose));
+  }
+
+ private:
+  int motionOf(Side whose) const { return whose == Side::B ? direction_ : -direction_; }
+
+  int direction_;
+  bool tied_ = false;
+};
+
+}  // namespace concave_distance::detail

@@ -1,0 +1,176 @@
+#include "region_builder.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace concave_distance::detail {
+namespace {
+
+/// Vector areas shorter than this share of what their loops have one by one cancel.
+constexpr double kCancelled = 1e-6;
+
+Eigen::Vector3d centroidOf(const BoundaryComponent& region, double rounding) {
+  if (region.volume > 1e3 * rounding * region.surface())
+    return region.reference + region.moment / region.volume;
+  if (region.surface() > 0.0) return region.reference + region.area_moment / region.surface();
+  return region.reference;
+}
+
+}  // namespace
+
+void RegionBuilder::findCandidates(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b) {
+  frame_.reset(a, b, a_from_b);
+  collectCandidates(frame_, stack_, candidates_);
+}
+
+bool RegionBuilder::pass(int direction, std::vector<FoundRegion>& found) {
+  PerturbedPredicates predicates(direction);
+  curves_.find(frame_, predicates, candidates_);
+  sets_.reset(curves_.nodes().size());
+  for (const Side side : {Side::A, Side::B})
+    pieces_[at(side)].collect(frame_, predicates, containment_, curves_, side, sets_);
+  for (const Side side : {Side::A, Side::B}) addSwallowedShells(predicates, side);
+  components_.build(frame_, curves_, pieces_, sets_);
+  found.clear();
+  component_of_region_.clear();
+  for (std::uint32_t c = 0; c < components_.all().size(); ++c) {
+    const BoundaryComponent& component = components_.all()[c];
+    if (component.is_cavity) continue;
+    found.emplace_back();
+    component_of_region_.push_back(c);
+    buildRegion(component, found.back());
+  }
+  addOpenRegions(found);
+  return predicates.tied();
+}
+
+void RegionBuilder::addSwallowedShells(PerturbedPredicates& predicates, Side side) {
+  const MeshTopology& topology = frame_.body(side).topology();
+  const std::vector<bool>& holders = frame_.body(other(side)).topology().shell_is_closed;
+  if (std::none_of(holders.begin(), holders.end(), [](bool closed) { return closed; })) return;
+  shell_seen_.assign(topology.shellCount(), 0);
+  for (const CrossingSegment& segment : curves_.segments())
+    shell_seen_[topology.shell_of_triangle[segment.triangle[at(side)].value]] = 1;
+  for (std::size_t shell = 0; shell < topology.shellCount(); ++shell) {
+    const TriangleIndex triangle = topology.triangle_of_shell[shell];
+    if (triangle == kNoTriangle || shell_seen_[shell] != 0) continue;
+    if (containment_.winding(frame_, predicates, side, *frame_.corners(side, triangle)[0]) > 0)
+      pieces_[at(side)].addShell(frame_, triangle, sets_);
+  }
+}
+
+void RegionBuilder::buildRegion(const BoundaryComponent& component, FoundRegion& found) {
+  InterferenceRegion& region = found.region;
+  const double length = 1.0 / frame_.scale();
+  const double area = length * length;
+  BoundaryComponent whole = component;
+  for (std::uint32_t c = component.next_cavity; c != kNone; c = components_.all()[c].next_cavity) {
+    const BoundaryComponent& cavity = components_.all()[c];
+    whole.moment += cavity.moment + cavity.volume * (cavity.reference - whole.reference);
+    whole.area_moment += cavity.area_moment + cavity.surface() * (cavity.reference - whole.reference);
+    whole.volume += cavity.volume;
+    for (const std::size_t side : {0U, 1U}) whole.area[side] += cavity.area[side];
+    whole.vector_area += cavity.vector_area;
+    whole.loop_count += cavity.loop_count;
+    whole.consistent = whole.consistent && cavity.consistent;
+  }
+  found.vector_area = whole.vector_area * area;
+  region.surface_area_a = whole.area[0] * area;
+  region.surface_area_b = whole.area[1] * area;
+  region.loop_count = whole.loop_count;
+  region.closed = whole.closed;
+  region.consistent = whole.consistent && !curves_.broken();
+  region.centroid_in_a = frame_.pointInA(centroidOf(whole, frame_.roundingBound() * frame_.scale()));
+  if (whole.closed) region.volume = std::max(0.0, whole.volume) * area * length;
+  if (whole.loop_count == 0) {
+    region.a_swallowed = component.last_whole[0] > component.first_whole[0];
+    region.b_swallowed = !region.a_swallowed;
+  }
+  measureDepth(static_cast<std::uint32_t>(component_of_region_.size() - 1), found.vector_area, region);
+}
+
+void RegionBuilder::measureDepth(std::uint32_t index, const Eigen::Vector3d& vector_area,
+                                 InterferenceRegion& region) {
+  const BoundaryComponent& component = components_.all()[component_of_region_[index]];
+  const double length = 1.0 / frame_.scale();
+  DepthAlong along{Eigen::Vector3d::UnitX(), {0.0, component.reference, component.reference}};
+  region.contact_area = vector_area.norm();
+  region.normal_is_fallback = true;
+  if (component.loop_count == 0) {
+    const Side side = region.a_swallowed ? Side::A : Side::B;
+    along = leastWayOut(frame_, side, pieces_[at(side)], component);
+  } else if (region.contact_area > kCancelled * component.loop_area * length * length) {
+    region.normal_is_fallback = false;
+    along.normal = vector_area / region.contact_area;
+    along.deepest = depthAlong(along.normal, frame_, curves_, pieces_, components_, component, overlay_);
+  } else {
+    along = leastDepth(frame_, curves_, pieces_, components_, component, sets_, overlay_);
+  }
+  region.depth = along.deepest.depth * length;
+  region.normal_in_a = along.normal;
+  region.point_a_in_a = frame_.pointInA(along.deepest.point_a);
+  region.point_b_in_a = frame_.pointInA(along.deepest.point_b);
+  region.touching = region.depth <= frame_.roundingBound();
+}
+
+void RegionBuilder::addOpenRegions(std::vector<FoundRegion>& found) {
+  curve_seen_.assign(curves_.nodes().size(), 0);
+  for (const CrossingSegment& segment : curves_.segments()) {
+    if (segment.closed) continue;
+    const std::uint32_t curve = components_.loopOf(segment.start);
+    if (curve_seen_[curve] != 0) continue;
+    curve_seen_[curve] = 1;
+    found.emplace_back();
+    found.back().region = openRegion(curve);
+  }
+}
+
+InterferenceRegion RegionBuilder::openRegion(std::uint32_t curve) {
+  const std::vector<CrossingNode>& nodes = curves_.nodes();
+  double total = 0.0;
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  Eigen::Vector3d apart = Eigen::Vector3d::Zero();
+  Eigen::Vector3d straight = Eigen::Vector3d::Zero();
+  std::size_t segments = 0;
+  std::size_t ends = 0;
+  for (std::uint32_t n = 0; n < nodes.size(); ++n) ends += components_.loopOf(n) == curve ? 1U : 0U;
+  for (const CrossingSegment& segment : curves_.segments()) {
+    if (components_.loopOf(segment.start) != curve) continue;
+    const Eigen::Vector3d& start = nodes[segment.start].position;
+    const Eigen::Vector3d& end = nodes[segment.end].position;
+    const double length = (end - start).norm();
+    total += length;
+    middle += 0.5 * length * (start + end - 2.0 * nodes[curve].position);
+    apart +=
+        length * (frame_.normal(Side::A, segment.triangle[0]) - frame_.normal(Side::B, segment.triangle[1]));
+    straight += end - start;
+    ++segments;
+  }
+  InterferenceRegion region;
+  region.closed = false;
+  region.loop_count = segments == ends ? 1 : 0;
+  Eigen::Vector3d centre = nodes[curve].position;
+  if (total > 0.0) centre += middle / total;
+  region.centroid_in_a = frame_.pointInA(centre);
+  std::uint32_t nearest = curve;
+  for (std::uint32_t n = 0; n < nodes.size(); ++n) {
+    if (components_.loopOf(n) == curve &&
+        (nodes[n].position - centre).squaredNorm() < (nodes[nearest].position - centre).squaredNorm())
+      nearest = n;
+  }
+  region.point_a_in_a = region.point_b_in_a = frame_.pointInA(nodes[nearest].position);
+  // An open curve is closed by its chord, which the sum from one of its points leaves out of account.
+  const Eigen::Vector3d& area = components_.vectorAreaOfLoop(curve);
+  region.normal_is_fallback = !(area.norm() > kCancelled * total * total);
+  Eigen::Vector3d normal = area;
+  if (region.normal_is_fallback) {
+    normal = apart;
+    if (straight.norm() > 0.5 * total) normal -= straight * (straight.dot(normal) / straight.squaredNorm());
+    if (!(normal.norm() > kCancelled * total)) normal = straight.unitOrthogonal();
+  }
+  region.normal_in_a = normal.stableNormalized();
+  region.consistent = !curves_.broken();
+  return region;
+}
+
+}  // namespace concave_distance::detail

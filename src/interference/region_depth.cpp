@@ -1,0 +1,139 @@
+#include "region_depth.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <limits>
+
+namespace concave_distance::detail {
+namespace {
+
+constexpr std::size_t kLoopDirections = 4;
+
+/// A body's support along a few directions.
+struct Extents {
+  static constexpr std::size_t kDirections = 6;
+  std::array<double, kDirections> least;
+  std::array<double, kDirections> greatest;
+  std::array<NodeIndex, kDirections> least_at;
+  std::array<NodeIndex, kDirections> greatest_at;
+
+  Extents() {
+    least.fill(std::numeric_limits<double>::infinity());
+    greatest.fill(-std::numeric_limits<double>::infinity());
+  }
+  void add(const Eigen::Matrix<double, 6, 3>& directions, NodeIndex vertex, const Eigen::Vector3d& point) {
+    const Eigen::Matrix<double, 6, 1> heights = directions * point;
+    for (std::size_t k = 0; k < kDirections; ++k) {
+      const double height = heights[static_cast<Eigen::Index>(k)];
+      if (height < least[k]) {
+        least[k] = height;
+        least_at[k] = vertex;
+      }
+      if (height > greatest[k]) {
+        greatest[k] = height;
+        greatest_at[k] = vertex;
+      }
+    }
+  }
+};
+
+}  // namespace
+
+OverlayDepth::Result depthAlong(const Eigen::Vector3d& normal, WorkingFrame& frame,
+                                const CrossingCurves& curves, const SurfacePieces (&pieces)[2],
+                                const BoundaryComponents& components, const BoundaryComponent& region,
+                                OverlayDepth& overlay) {
+  overlay.begin(normal, curves.nodes()[region.first_node].position, frame.roundingBound() * frame.scale());
+  const BoundaryComponent* part = &region;
+  while (true) {
+    for (const Side side : {Side::A, Side::B}) {
+      const SurfacePieces& on_side = pieces[at(side)];
+      for (std::uint32_t i = part->first_whole[at(side)]; i < part->last_whole[at(side)]; ++i) {
+        const TriangleIndex triangle = on_side.wholes()[i].triangle;
+        const Corners c = frame.corners(side, triangle);
+        overlay.addFace(side, frame.normal(side, triangle));
+        for (std::size_t k = 0; k < 3; ++k) overlay.addEdge(side, *c[k], *c[(k + 1) % 3]);
+      }
+      forEachCutTriangle(on_side, *part, side,
+                         [&](TriangleIndex triangle, std::uint32_t first, std::uint32_t last) {
+                           overlay.addFace(side, frame.normal(side, triangle));
+                           for (std::uint32_t i = first; i < last; ++i)
+                             overlay.addEdge(side, on_side.edges()[i].from, on_side.edges()[i].to);
+                         });
+    }
+    if (part->next_cavity == kNone) break;
+    part = &components.all()[part->next_cavity];
+  }
+  return overlay.solve();
+}
+
+DepthAlong leastDepth(WorkingFrame& frame, const CrossingCurves& curves, const SurfacePieces (&pieces)[2],
+                      BoundaryComponents& components, const BoundaryComponent& region, ElementSets& sets,
+                      OverlayDepth& overlay) {
+  std::array<Eigen::Vector3d, kLoopDirections + 3> directions;
+  std::size_t count = 0;
+  const std::uint32_t own = components.componentOfNode(region.first_node, sets);
+  for (std::uint32_t n = 0; n < curves.nodes().size(); ++n) {
+    if (components.loopOf(n) != n || components.componentOfNode(n, sets) != own) continue;
+    const Eigen::Vector3d& area = components.vectorAreaOfLoop(n);
+    std::size_t place = std::min(count, kLoopDirections);
+    while (place > 0 && directions[place - 1].squaredNorm() < area.squaredNorm()) --place;
+    if (place == kLoopDirections) continue;
+    count = std::min(count + 1, kLoopDirections);
+    for (std::size_t k = count - 1; k > place; --k) directions[k] = directions[k - 1];
+    directions[place] = area;
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(region.facing);
+  for (int k = 2; k >= 0; --k) directions[count++] = principal.eigenvectors().col(k);
+
+  DepthAlong least{Eigen::Vector3d::UnitX(),
+                   {std::numeric_limits<double>::infinity(), region.reference, region.reference}};
+  for (std::size_t k = 0; k < count; ++k) {
+    const double length = directions[k].stableNorm();
+    if (!(length > 0.0)) continue;
+    for (const double sense : {1.0, -1.0}) {
+      const Eigen::Vector3d normal = (sense / length) * directions[k];
+      const OverlayDepth::Result deepest =
+          depthAlong(normal, frame, curves, pieces, components, region, overlay);
+      if (deepest.depth < least.deepest.depth) least = {normal, deepest};
+    }
+  }
+  return least;
+}
+
+DepthAlong leastWayOut(WorkingFrame& frame, Side side, const SurfacePieces& pieces,
+                       const BoundaryComponent& region) {
+  Eigen::Matrix<double, 6, 3> directions;
+  directions.topRows<3>() =
+      frame.body(Side::A).hierarchy().box(BoundingVolumeHierarchy::kRoot).axes.transpose();
+  directions.bottomRows<3>() =
+      (frame.aFromB().linear() * frame.body(Side::B).hierarchy().box(BoundingVolumeHierarchy::kRoot).axes)
+          .transpose();
+  directions.rowwise().normalize();
+  Extents extents[2];
+  for (std::uint32_t i = region.first_whole[at(side)]; i < region.last_whole[at(side)]; ++i) {
+    for (const NodeIndex node : frame.surface(side).triangle(pieces.wholes()[i].triangle))
+      extents[at(side)].add(directions, node, frame.point(side, node));
+  }
+  for (std::uint32_t v = 0; v < frame.surface(other(side)).vertexCount(); ++v)
+    extents[at(other(side))].add(directions, NodeIndex{v}, frame.point(other(side), NodeIndex{v}));
+  DepthAlong least{Eigen::Vector3d::UnitX(),
+                   {std::numeric_limits<double>::infinity(), region.reference, region.reference}};
+  for (std::size_t k = 0; k < Extents::kDirections; ++k) {
+    const Eigen::Vector3d direction = directions.row(static_cast<Eigen::Index>(k)).transpose();
+    const double up = extents[0].greatest[k] - extents[1].least[k];
+    const double down = extents[1].greatest[k] - extents[0].least[k];
+    if (up < least.deepest.depth)
+      least = {direction,
+               {up, frame.point(Side::A, extents[0].greatest_at[k]),
+                frame.point(Side::B, extents[1].least_at[k])}};
+    if (down < least.deepest.depth)
+      least = {-direction,
+               {down, frame.point(Side::A, extents[0].least_at[k]),
+                frame.point(Side::B, extents[1].greatest_at[k])}};
+  }
+  return least;
+}
+
+}  // namespace concave_distance::detail

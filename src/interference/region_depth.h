@@ -1,0 +1,31 @@
+#pragma once
+
+#include "boundary_components.h"
+#include "overlay_depth.h"
+
+namespace concave_distance::detail {
+
+/// Depth and where it is attained, working frame.
+struct DepthAlong {
+  Eigen::Vector3d normal;
+  OverlayDepth::Result deepest;
+};
+
+/// The region's depth along a direction (OverlayDepth over its pieces).
+OverlayDepth::Result depthAlong(const Eigen::Vector3d& normal, WorkingFrame& frame,
+                                const CrossingCurves& curves, const SurfacePieces (&pieces)[2],
+                                const BoundaryComponents& components, const BoundaryComponent& region,
+                                OverlayDepth& overlay);
+
+/// Where the vector areas cancel: the least depth along the vector areas of the (four largest) loops and the
+/// principal axes of how the pieces face, each both ways.
+DepthAlong leastDepth(WorkingFrame& frame, const CrossingCurves& curves, const SurfacePieces (&pieces)[2],
+                      BoundaryComponents& components, const BoundaryComponent& region, ElementSets& sets,
+                      OverlayDepth& overlay);
+
+/// Of a shell of the body `side` that nothing crosses: the least way until its extent and the other body's
+/// part, along the axes of both bodies' boxes, each both ways.
+DepthAlong leastWayOut(WorkingFrame& frame, Side side, const SurfacePieces& pieces,
+                       const BoundaryComponent& region);
+
+}  // namespace concave_distance::detail

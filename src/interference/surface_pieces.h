@@ -1,0 +1,89 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "containment.h"
+#include "crossings.h"
+#include "element_sets.h"
+
+namespace concave_distance::detail {
+
+/// A piece of the boundary of what is inside of one crossed triangle; the inside lies to its left.
+struct PieceEdge {
+  TriangleIndex triangle;
+  std::uint32_t element;
+  Eigen::Vector3d from;  ///< working frame
+  Eigen::Vector3d to;
+};
+
+struct WholeTriangle {
+  TriangleIndex triangle;
+  std::uint32_t element;
+};
+
+/// What the crossing curves cut out of one body's surface: the part inside the other body, as boundary edges
+/// in crossed triangles and as whole ones. Knows closed shells crossed by closed shells only.
+class SurfacePieces {
+ public:
+  /// Adds the inside vertices to `sets`, which hold the nodes, and unites what hangs together.
+  void collect(WorkingFrame& frame, PerturbedPredicates& predicates, Containment& containment,
+               const CrossingCurves& curves, Side side, ElementSets& sets);
+  /// Takes a whole shell that nothing crosses as inside. Returns its element.
+  std::uint32_t addShell(WorkingFrame& frame, TriangleIndex triangle, ElementSets& sets);
+
+  const std::vector<PieceEdge>& edges() const { return edges_; }
+  const std::vector<WholeTriangle>& wholes() const { return wholes_; }
+  std::vector<PieceEdge>& edges() { return edges_; }
+  std::vector<WholeTriangle>& wholes() { return wholes_; }
+  /// A node of an edge along which the surface enters twice in turn; kNone: none.
+  std::uint32_t contradiction() const { return contradiction_; }
+
+ private:
+  struct Mark {
+    std::uint32_t stamp = 0;
+    std::uint32_t value = 0;
+  };
+  /// The nodes of one edge, in order from its lower end.
+  struct CrossedEdge {
+    std::uint64_t key;
+    std::uint32_t first;
+    std::uint32_t last;
+  };
+  enum TriangleState : std::uint32_t { kCrossed, kWhole };
+
+  void startStamp(const WorkingFrame& frame);
+  void sortEdgeNodes(WorkingFrame& frame, PerturbedPredicates& predicates, const CrossingCurves& curves);
+  bool before(WorkingFrame& frame, PerturbedPredicates& predicates, const CrossingNode& l,
+              const CrossingNode& r) const;
+  const CrossedEdge* crossedEdge(NodeIndex p, NodeIndex q) const;
+  std::uint32_t markInside(NodeIndex vertex, ElementSets& sets);
+  bool isInside(NodeIndex vertex) const { return vertex_marks_[vertex.value].stamp == stamp_; }
+  void seedFromEdges(const CrossingCurves& curves, ElementSets& sets);
+  void seedFromLoops(WorkingFrame& frame, PerturbedPredicates& predicates, Containment& containment,
+                     const CrossingCurves& curves, ElementSets& sets);
+  void flood(const WorkingFrame& frame, ElementSets& sets);
+  void emitTriangle(WorkingFrame& frame, const CrossingCurves& curves, std::size_t first, std::size_t last,
+                    ElementSets& sets);
+  void emitEdge(WorkingFrame& frame, const CrossingCurves& curves, TriangleIndex triangle, NodeIndex from,
+                NodeIndex to, ElementSets& sets);
+  void uniteHoles(WorkingFrame& frame, const CrossingCurves& curves, std::size_t first, std::size_t last,
+                  std::size_t first_edge, ElementSets& sets);
+
+  Side side_ = Side::A;
+  std::uint32_t stamp_ = 0;
+  std::vector<Mark> vertex_marks_;    ///< value: element
+  std::vector<Mark> triangle_marks_;  ///< value: TriangleState
+  std::vector<std::uint32_t> edge_nodes_;
+  std::vector<CrossedEdge> crossed_edges_;
+  std::vector<std::uint32_t> segments_;  ///< by triangle
+  std::vector<std::uint32_t> segment_after_node_;
+  std::vector<std::uint8_t> seen_;
+  std::vector<NodeIndex> waiting_;
+  std::vector<PieceEdge> edges_;
+  std::vector<WholeTriangle> wholes_;
+  std::uint32_t contradiction_ = kNone;
+};
+
+}  // namespace concave_distance::detail

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "working_frame.h"
+
+namespace concave_distance::detail {
+
+struct CandidatePair {
+  TriangleIndex a;
+  TriangleIndex b;
+};
+
+/// Pairs of triangles in leaves whose boxes meet, by descending both trees at once: all that could touch or
+/// cross, and more. Allocates nothing once the vectors have grown.
+void collectCandidates(const WorkingFrame& frame, std::vector<std::pair<std::uint32_t, std::uint32_t>>& stack,
+                       std::vector<CandidatePair>& candidates);
+
+}  // namespace concave_distance::detail

@@ -1,0 +1,163 @@
+#include "support/cgal_overlap.h"
+
+#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Polygon_mesh_processing/connected_components.h>
+#include <CGAL/Polygon_mesh_processing/corefinement.h>
+#include <CGAL/Polygon_mesh_processing/measure.h>
+#include <CGAL/Side_of_triangle_mesh.h>
+#include <CGAL/Surface_mesh.h>
+
+#include <algorithm>
+#include <chrono>
+#include <unordered_map>
+
+namespace concave_distance::test {
+namespace {
+
+namespace pmp = CGAL::Polygon_mesh_processing;
+using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
+using Fast = CGAL::Exact_predicates_inexact_constructions_kernel;
+using ExactMesh = CGAL::Surface_mesh<Exact::Point_3>;
+using FastMesh = CGAL::Surface_mesh<Fast::Point_3>;
+using Face = ExactMesh::Face_index;
+
+template <typename Mesh>
+Mesh meshOf(const SurfaceMesh& surface) {
+  Mesh mesh;
+  for (const Eigen::Vector3d& v : surface.vertices())
+    mesh.add_vertex(typename Mesh::Point(v.x(), v.y(), v.z()));
+  for (const TriangleNodes& t : surface.triangles()) {
+    mesh.add_face(typename Mesh::Vertex_index(t[0].value), typename Mesh::Vertex_index(t[1].value),
+                  typename Mesh::Vertex_index(t[2].value));
+  }
+  return mesh;
+}
+
+std::array<Exact::Point_3, 3> cornersOf(const ExactMesh& mesh, Face face) {
+  std::array<Exact::Point_3, 3> corners;
+  std::size_t k = 0;
+  for (const auto v : CGAL::vertices_around_face(mesh.halfedge(face), mesh)) corners[k++] = mesh.point(v);
+  return corners;
+}
+
+double areaInside(ExactMesh& mesh, const ExactMesh& around,
+                  const ExactMesh::Property_map<ExactMesh::Edge_index, bool>& on_curve) {
+  auto component = mesh.add_property_map<Face, std::size_t>("f:part", 0).first;
+  const std::size_t count =
+      pmp::connected_components(mesh, component, CGAL::parameters::edge_is_constrained_map(on_curve));
+  const CGAL::Side_of_triangle_mesh<ExactMesh, Exact> side(around);
+  std::vector<int> inside(count, -1);
+  double area = 0.0;
+  for (const Face face : mesh.faces()) {
+    int& known = inside[component[face]];
+    const auto c = cornersOf(mesh, face);
+    if (known < 0) known = side(CGAL::centroid(c[0], c[1], c[2])) == CGAL::ON_BOUNDED_SIDE ? 1 : 0;
+    if (known == 1) area += std::sqrt(CGAL::to_double(CGAL::squared_area(c[0], c[1], c[2])));
+  }
+  return area;
+}
+
+struct ExactPart {
+  Exact::FT volume = 0;
+  Exact::FT moment[3] = {0, 0, 0};
+};
+
+void addPart(ExactPart& sum, const ExactPart& other) {
+  sum.volume += other.volume;
+  for (int k = 0; k < 3; ++k) sum.moment[k] += other.moment[k];
+}
+
+std::vector<OverlapPart> partsOf(ExactMesh& overlap) {
+  auto component = overlap.add_property_map<Face, std::size_t>("f:shell", 0).first;
+  const std::size_t count = pmp::connected_components(overlap, component);
+  std::vector<ExactPart> shells(count);
+  std::vector<Exact::Point_3> some(count);
+  for (const Face face : overlap.faces()) {
+    const auto c = cornersOf(overlap, face);
+    const Exact::FT volume = CGAL::volume(Exact::Point_3(0, 0, 0), c[0], c[1], c[2]);
+    ExactPart& shell = shells[component[face]];
+    shell.volume += volume;
+    for (int k = 0; k < 3; ++k) shell.moment[k] += volume * (c[0][k] + c[1][k] + c[2][k]) / 4;
+    some[component[face]] = c[0];
+  }
+  std::vector<ExactPart> parts;
+  for (std::size_t s = 0; s < count; ++s) {
+    if (shells[s].volume <= 0) continue;
+    ExactMesh own;
+    std::unordered_map<std::size_t, ExactMesh::Vertex_index> vertex;
+    bool has_cavities = false;
+    for (std::size_t other = 0; other < count; ++other)
+      has_cavities = has_cavities || shells[other].volume < 0;
+    parts.push_back(shells[s]);
+    if (!has_cavities) continue;
+    for (const Face face : overlap.faces()) {
+      if (component[face] != s) continue;
+      std::vector<ExactMesh::Vertex_index> corners;
+      for (const auto v : CGAL::vertices_around_face(overlap.halfedge(face), overlap)) {
+        const auto found = vertex.find(v);
+        corners.push_back(found != vertex.end()
+                              ? found->second
+                              : vertex.emplace(v, own.add_vertex(overlap.point(v))).first->second);
+      }
+      own.add_face(corners);
+    }
+    const CGAL::Side_of_triangle_mesh<ExactMesh, Exact> side(own);
+    for (std::size_t cavity = 0; cavity < count; ++cavity) {
+      if (shells[cavity].volume < 0 && side(some[cavity]) == CGAL::ON_BOUNDED_SIDE)
+        addPart(parts.back(), shells[cavity]);
+    }
+  }
+  std::vector<OverlapPart> rounded;
+  for (const ExactPart& part : parts) {
+    OverlapPart entry{CGAL::to_double(part.volume), Eigen::Vector3d::Zero()};
+    for (int k = 0; k < 3; ++k) entry.centroid[k] = CGAL::to_double(part.moment[k] / part.volume);
+    rounded.push_back(entry);
+  }
+  std::sort(rounded.begin(), rounded.end(),
+            [](const OverlapPart& l, const OverlapPart& r) { return l.volume > r.volume; });
+  return rounded;
+}
+
+double secondsSince(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace
+
+OverlapTruth cgalOverlap(const SurfaceMesh& a, const SurfaceMesh& b_in_a) {
+  OverlapTruth truth;
+  ExactMesh mesh_a = meshOf<ExactMesh>(a);
+  ExactMesh mesh_b = meshOf<ExactMesh>(b_in_a);
+  const ExactMesh whole_a = mesh_a;
+  const ExactMesh whole_b = mesh_b;
+  ExactMesh overlap;
+  {
+    ExactMesh copy_a = mesh_a;
+    ExactMesh copy_b = mesh_b;
+    const auto start = std::chrono::steady_clock::now();
+    truth.known = pmp::corefine_and_compute_intersection(copy_a, copy_b, overlap);
+    truth.corefinement_time = secondsSince(start);
+  }
+  if (!truth.known) return truth;
+  truth.parts = partsOf(overlap);
+  for (const OverlapPart& part : truth.parts) truth.volume += part.volume;
+  auto curve_a = mesh_a.add_property_map<ExactMesh::Edge_index, bool>("e:curve", false).first;
+  auto curve_b = mesh_b.add_property_map<ExactMesh::Edge_index, bool>("e:curve", false).first;
+  pmp::corefine(mesh_a, mesh_b, CGAL::parameters::edge_is_constrained_map(curve_a),
+                CGAL::parameters::edge_is_constrained_map(curve_b));
+  truth.area_a = areaInside(mesh_a, whole_b, curve_a);
+  truth.area_b = areaInside(mesh_b, whole_a, curve_b);
+  return truth;
+}
+
+double cgalFastOverlapTime(const SurfaceMesh& a, const SurfaceMesh& b_in_a) {
+  FastMesh mesh_a = meshOf<FastMesh>(a);
+  FastMesh mesh_b = meshOf<FastMesh>(b_in_a);
+  FastMesh overlap;
+  const auto start = std::chrono::steady_clock::now();
+  const bool done = pmp::corefine_and_compute_intersection(mesh_a, mesh_b, overlap);
+  return done ? secondsSince(start) : -1.0;
+}
+
+}  // namespace concave_distance::test

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <memory>
+#include <vector>
+
+#include "concave_distance/mesh/surface_mesh.h"
+
+/// The overlap of two closed surfaces by CGAL's Booleans (corefinement, Loriot et al.) with exact
+/// constructions: what interference/ is held against. CGAL is in cgal_overlap.cpp alone.
+namespace concave_distance::test {
+
+struct OverlapPart {
+  double volume;
+  Eigen::Vector3d centroid;
+};
+
+struct OverlapTruth {
+  bool known = false;  ///< false: the result would be no 2-manifold, which CGAL refuses
+  double volume = 0.0;
+  double area_a = 0.0;  ///< of A's surface inside B
+  double area_b = 0.0;
+  std::vector<OverlapPart> parts;  ///< connected solids, largest first; cavities taken off
+  double corefinement_time = 0.0;  ///< seconds, the Boolean alone
+};
+
+/// b already in A's frame. Meshes must bound volumes and not cross themselves.
+OverlapTruth cgalOverlap(const SurfaceMesh& a, const SurfaceMesh& b_in_a);
+
+/// Seconds of CGAL's corefinement with inexact constructions (doubles and exact predicates), its fastest; -1
+/// where it gives up.
+double cgalFastOverlapTime(const SurfaceMesh& a, const SurfaceMesh& b_in_a);
+
+}  // namespace concave_distance::test

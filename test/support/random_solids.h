@@ -1,0 +1,84 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <cstdint>
+
+#include "concave_distance/base/random_engine.h"
+#include "concave_distance/mesh/primitives.h"
+#include "support/concave_shapes.h"
+#include "support/plain_shapes.h"
+#include "support/triangle_pairs.h"
+
+/// Random concave solids about a metre across: closed, outward oriented, not crossing themselves.
+namespace concave_distance::test {
+
+/// A prism over a star with points of random length.
+inline SurfaceMesh randomStar(RandomEngine& engine) {
+  const std::uint32_t corners = 5 + uniformIndex(engine, 8);
+  Outline outline;
+  for (std::uint32_t i = 0; i < corners; ++i) {
+    const double angle = 2.0 * M_PI * (i + 0.6 * uniformUnit(engine)) / corners;
+    outline.emplace_back(Eigen::Vector2d(std::cos(angle), std::sin(angle)) * uniformIn(engine, 0.15, 0.6));
+  }
+  return makeExtrusion(outline, uniformIn(engine, 0.1, 0.8));
+}
+
+inline SurfaceMesh randomRing(RandomEngine& engine) {
+  const double radius = uniformIn(engine, 0.25, 0.4);
+  const double tube = uniformIn(engine, 0.05, 0.2);
+  const double lobes = 2.0 + uniformIndex(engine, 4);
+  const double depth = uniformIn(engine, 0.0, 0.6);
+  return makeRingOfTube(radius, 8 + uniformIndex(engine, 9), 4 + uniformIndex(engine, 5),
+                        [&](double along, double over) {
+                          return tube * (1.0 - depth * std::abs(std::sin(lobes * along + over)));
+                        });
+}
+
+inline SurfaceMesh randomBumpySphere(RandomEngine& engine) {
+  SurfaceMesh sphere = makeSphere(uniformIn(engine, 0.25, 0.5), uniformIn(engine, 0.01, 0.05));
+  return makeBumpy(sphere, uniformIn(engine, 0.1, 0.5));
+}
+
+/// A box with a cavity of the shape of another.
+inline SurfaceMesh randomHollowBox(RandomEngine& engine) {
+  const Eigen::Vector3d half = Eigen::Vector3d::Constant(0.25) + 0.5 * uniformInCube(engine, 0.2);
+  const Eigen::Vector3d inner = half * uniformIn(engine, 0.2, 0.9);
+  return makeUnion(makeCuboid(-half, half), makeTurned(makeCuboid(-inner, inner)), Eigen::Vector3d::Zero());
+}
+
+inline SurfaceMesh randomSolid(RandomEngine& engine) {
+  switch (uniformIndex(engine, 8)) {
+    case 0:
+      return makeComb(2 + static_cast<int>(uniformIndex(engine, 4)), uniformIn(engine, 0.05, 0.15),
+                      uniformIn(engine, 0.05, 0.2), uniformIn(engine, 0.2, 0.5));
+    case 1:
+      return makeStairs(2 + static_cast<int>(uniformIndex(engine, 4)), uniformIn(engine, 0.1, 0.25),
+                        uniformIn(engine, 0.1, 0.2), uniformIn(engine, 0.2, 0.6));
+    case 2:
+      return makeHook(0.8, uniformIn(engine, 0.2, 0.5), uniformIn(engine, 0.1, 0.3));
+    case 3:
+      return randomRing(engine);
+    case 4:
+      return randomBumpySphere(engine);
+    case 5:
+      return randomHollowBox(engine);
+    case 6:
+      return makeUnion(randomStar(engine), makeLShape(), Eigen::Vector3d(0.7, 0.7, 0.0));
+    default:
+      return randomStar(engine);
+  }
+}
+
+/// A pose near enough that most pairs of randomSolid overlap.
+inline Eigen::Isometry3d randomOverlappingPose(const SurfaceMesh& a, const SurfaceMesh& b,
+                                               RandomEngine& engine) {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.linear() = randomRotation(engine);
+  const double reach = 0.15 * (a.diameter() + b.diameter());
+  pose.translation() =
+      a.boundingBox().center() - pose.linear() * b.boundingBox().center() + uniformInCube(engine, reach);
+  return pose;
+}
+
+}  // namespace concave_distance::test
