@@ -1,20 +1,19 @@
 // What accuracy costs in time: error against microseconds of every level and of what the levels can be
 // compared with, cold and tracked, on the thesis's scenes, links of robots and bodies of 100,000 triangles.
 //
-//   accuracy_benchmark [--pairs name,name,...] [--methods levels,fcl,...] [--steps 200] [--cold 40] [--output
-//   doc/results/accuracy.csv]
+//   accuracy_benchmark [--pairs name,name,...] [--steps 200] [--cold 40] [--output doc/results/accuracy.csv]
+//                      [--methods nodes,searches,continuous,levels,partition,fcl]
 //                      [--stages-output doc/results/stages.csv]
 //
 // A row is a pair, a method, its setting and a mode. `cold`: nothing is known, at instants along the pair's
 // motion; `tracked`: along the motion, every instant from the last. Errors are of the distance, against the
 // proven one, in units of the smaller body's diameter; `gap` is how far the method's own lower bound stays
-// below its distance, in the same unit (empty where it has none). Time is the query's alone, in one thread:
-// median and 99th percentile, microseconds. `missed`: instants with an error above 1e-2. The stages' file has
-// the mean microseconds of each stage of a warm cycle, level by level. `partition` (of a build with CGAL)
-// says which pairs it leaves out and why.
+// below its distance, in the same unit (empty where it has none). Time is the query's alone, in one thread,
+// the lesser of wall and processor time: median and 99th percentile, microseconds. `missed`: instants with an
+// error above 1e-2. The stages' file has the mean microseconds of each stage of a warm cycle, level by level.
+// `partition` (of a build with CGAL) says which pairs it leaves out and why.
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
@@ -24,8 +23,7 @@
 #include "benchmark/support/accuracy_rows.h"
 #include "benchmark/support/benchmark_main.h"
 #include "benchmark/support/benchmark_pairs.h"
-#include "benchmark/support/statistics.h"
-#include "benchmark/support/stopwatch.h"
+#include "benchmark/support/query_clock.h"
 #include "concave_distance/continuous/constraint_tree_file.h"
 #include "concave_distance/continuous/continuous_annealing.h"
 #include "concave_distance/continuous/continuous_genetic_search.h"
@@ -45,8 +43,10 @@ void addTracker(Rows& rows, const BenchmarkPair& pair, const std::string& method
   PairTracker tracker(pair.name, pair.a, pair.b, parameters);
   PairSolution solution;
   const auto solve = [&](const Eigen::Isometry3d& pose, double time) {
+    const QueryClock clock;
     tracker.update(pose, time, solution);
-    return Answer{solution.distance, solution.lower_bound, 1e6 * solution.solve_seconds};
+    return Answer{solution.distance, solution.lower_bound,
+                  std::min(1e6 * solution.solve_seconds, clock.microseconds())};
   };
   rows.cold(method, setting, [&](const Eigen::Isometry3d& pose, double time, bool) {
     tracker.reset();
@@ -113,9 +113,9 @@ void addSearches(Rows& rows, const BenchmarkPair& pair) {
       const PairObjective objective(*pair.a, *pair.b, pose);
       workspace.basins.clear();
       RandomEngine engine(++seed);
-      const auto start = std::chrono::steady_clock::now();
+      const QueryClock clock;
       const SearchOutcome outcome = searchPair(objective, method, radii, engine, workspace);
-      return Answer{std::sqrt(outcome.best.squared_distance), std::nan(""), microsecondsSince(start)};
+      return Answer{std::sqrt(outcome.best.squared_distance), std::nan(""), clock.microseconds()};
     });
   };
   for (const std::uint32_t iterations : {150U, 2500U}) {
@@ -156,9 +156,9 @@ void addContinuous(Rows& rows, const BenchmarkPair& pair) {
   const auto add = [&](const std::string& method, const std::string& setting, const auto& search) {
     rows.cold(method, setting, [&](const Eigen::Isometry3d& pose, double, bool) {
       RandomEngine engine(++seed);
-      const auto start = std::chrono::steady_clock::now();
+      const QueryClock clock;
       const ContinuousResult found = search(pose, engine);
-      return Answer{found.distance, std::nan(""), microsecondsSince(start)};
+      return Answer{found.distance, std::nan(""), clock.microseconds()};
     });
   };
   const auto add_genetic = [&](const std::string& setting, const ContinuousGeneticParameters& parameters) {
@@ -176,26 +176,26 @@ void addContinuous(Rows& rows, const BenchmarkPair& pair) {
 void addFcl(Rows& rows, const BenchmarkPair& pair) {
   TrianglePair closest{};
   const auto plain = [&](const Eigen::Isometry3d& pose, double, bool) {
-    const auto start = std::chrono::steady_clock::now();
+    const QueryClock clock;
     const double distance = fclDistance(*pair.fcl_a, *pair.fcl_b, pose).distance;
-    return Answer{std::max(0.0, distance), std::nan(""), microsecondsSince(start)};
+    return Answer{std::max(0.0, distance), std::nan(""), clock.microseconds()};
   };
   rows.cold("FCL", "plain", plain);
   rows.tracked("FCL", "plain", plain);
   CertificateWorkspace workspace;
   rows.tracked("FCL", "seeded", [&](const Eigen::Isometry3d& pose, double, bool first) {
-    const auto start = std::chrono::steady_clock::now();
+    const QueryClock clock;
     const double distance =
         first ? fclDistance(*pair.fcl_a, *pair.fcl_b, pose).distance
               : fclDistanceSeeded(*pair.fcl_a, *pair.fcl_b, pose, closest.a, closest.b).distance;
-    const double taken = microsecondsSince(start);
+    const double taken = clock.microseconds();
     const DistanceCertificate proven = certifyDistance(*pair.a, *pair.b, pose, nullptr, 0, {}, workspace);
     closest = {proven.witness.triangle_a, proven.witness.triangle_b};
     return Answer{std::max(0.0, distance), std::nan(""), taken};
   });
 }
 
-/// Mean microseconds that each stage of a warm cycle takes.
+/// Mean microseconds that each stage of a warm cycle takes; what interrupts it counts for none.
 void writeStages(const BenchmarkPair& pair, int steps, std::ofstream& csv) {
   struct Setting {
     const char* name;
@@ -216,10 +216,13 @@ void writeStages(const BenchmarkPair& pair, int steps, std::ofstream& csv) {
     double whole = 0.0;
     for (int k = 0; k < steps; ++k) {
       const double t = static_cast<double>(k) / (steps - 1);
-      tracker.update(pair.motion(t), kDuration * t, solution);
+      const Eigen::Isometry3d pose = pair.motion(t);
+      const QueryClock clock;
+      tracker.update(pose, kDuration * t, solution);
+      const double share = std::min(1.0, 1e-6 * clock.microseconds() / solution.solve_seconds);
       if (k == 0) continue;
-      for (std::size_t i = 0; i < kSolveStageCount; ++i) sum.seconds[i] += solution.stages.seconds[i];
-      whole += solution.solve_seconds;
+      for (std::size_t i = 0; i < kSolveStageCount; ++i) sum.seconds[i] += share * solution.stages.seconds[i];
+      whole += share * solution.solve_seconds;
     }
     csv << pair.name << ',' << '"' << setting.name << '"';
     for (const double seconds : sum.seconds) csv << ',' << 1e6 * seconds / (steps - 1);

@@ -2,7 +2,7 @@
 
 #include <cstdio>
 
-#include "benchmark/support/stopwatch.h"
+#include "benchmark/support/query_clock.h"
 #include "concave_distance/base/error.h"
 #include "concave_distance/partition/convex_partition.h"
 #include "concave_distance/partition/partition_tracker.h"
@@ -26,10 +26,10 @@ void addMethod(Rows& rows, const std::string& method, const std::string& setting
                const Partition& b, const PartitionTrackerOptions& options) {
   PartitionTracker tracker(a, b, options);
   const auto solve = [&](const Eigen::Isometry3d& pose) {
-    const auto start = std::chrono::steady_clock::now();
+    const QueryClock clock;
     const PartitionSolution solution = tracker.update(pose);
     // What is left out of all sub-pairs is farther than the nearest, so that the bound is of all.
-    return Answer{solution.distance, solution.lower_bound, microsecondsSince(start)};
+    return Answer{solution.distance, solution.lower_bound, clock.microseconds()};
   };
   rows.cold(method, setting, [&](const Eigen::Isometry3d& pose, double, bool) {
     tracker.reset();
