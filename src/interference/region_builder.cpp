@@ -166,7 +166,8 @@ InterferenceRegion RegionBuilder::openRegion(std::uint32_t curve) {
   if (region.normal_is_fallback) {
     normal = apart;
     if (straight.norm() > 0.5 * total) normal -= straight * (straight.dot(normal) / straight.squaredNorm());
-    if (!(normal.norm() > kCancelled * total)) normal = straight.unitOrthogonal();
+    if (!(normal.norm() > kCancelled * total))
+      normal = straight.squaredNorm() > 0.0 ? straight.unitOrthogonal() : Eigen::Vector3d::UnitX();
   }
   region.normal_in_a = normal.stableNormalized();
   region.consistent = !curves_.broken();

@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 
 namespace concave_distance::detail {
@@ -89,6 +90,8 @@ DepthAlong leastDepth(WorkingFrame& frame, const CrossingCurves& curves, const S
 
   DepthAlong least{Eigen::Vector3d::UnitX(),
                    {std::numeric_limits<double>::infinity(), region.reference, region.reference}};
+  const double rounding = frame.roundingBound() * frame.scale();
+  const double trivial = region.volume > 2.0 * rounding * region.surface() ? rounding : -1.0;
   for (std::size_t k = 0; k < count; ++k) {
     const double length = directions[k].stableNorm();
     if (!(length > 0.0)) continue;
@@ -96,9 +99,12 @@ DepthAlong leastDepth(WorkingFrame& frame, const CrossingCurves& curves, const S
       const Eigen::Vector3d normal = (sense / length) * directions[k];
       const OverlayDepth::Result deepest =
           depthAlong(normal, frame, curves, pieces, components, region, overlay);
-      if (deepest.depth < least.deepest.depth) least = {normal, deepest};
+      // A way on which none of B's part is below A's is none: flush faces, of which each side has a part
+      // only.
+      if (deepest.depth > trivial && deepest.depth < least.deepest.depth) least = {normal, deepest};
     }
   }
+  if (!std::isfinite(least.deepest.depth)) least.deepest.depth = 0.0;
   return least;
 }
 

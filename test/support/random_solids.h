@@ -29,14 +29,15 @@ inline SurfaceMesh randomRing(RandomEngine& engine) {
   const double tube = uniformIn(engine, 0.05, 0.2);
   const double lobes = 2.0 + uniformIndex(engine, 4);
   const double depth = uniformIn(engine, 0.0, 0.6);
-  return makeRingOfTube(radius, 8 + uniformIndex(engine, 9), 4 + uniformIndex(engine, 5),
-                        [&](double along, double over) {
-                          return tube * (1.0 - depth * std::abs(std::sin(lobes * along + over)));
-                        });
+  const std::uint32_t around = 8 + uniformIndex(engine, 9);
+  return makeRingOfTube(radius, around, 4 + uniformIndex(engine, 5), [&](double along, double over) {
+    return tube * (1.0 - depth * std::abs(std::sin(lobes * along + over)));
+  });
 }
 
 inline SurfaceMesh randomBumpySphere(RandomEngine& engine) {
-  SurfaceMesh sphere = makeSphere(uniformIn(engine, 0.25, 0.5), uniformIn(engine, 0.01, 0.05));
+  const double radius = uniformIn(engine, 0.25, 0.5);
+  const SurfaceMesh sphere = makeSphere(radius, uniformIn(engine, 0.01, 0.05));
   return makeBumpy(sphere, uniformIn(engine, 0.1, 0.5));
 }
 
@@ -48,15 +49,17 @@ inline SurfaceMesh randomHollowBox(RandomEngine& engine) {
 }
 
 inline SurfaceMesh randomSolid(RandomEngine& engine) {
-  switch (uniformIndex(engine, 8)) {
+  const std::uint32_t kind = uniformIndex(engine, 8);
+  const int count = 2 + static_cast<int>(uniformIndex(engine, 4));
+  // Drawn in this order on every compiler, unlike a function's arguments.
+  const double share[3] = {uniformUnit(engine), uniformUnit(engine), uniformUnit(engine)};
+  switch (kind) {
     case 0:
-      return makeComb(2 + static_cast<int>(uniformIndex(engine, 4)), uniformIn(engine, 0.05, 0.15),
-                      uniformIn(engine, 0.05, 0.2), uniformIn(engine, 0.2, 0.5));
+      return makeComb(count, 0.05 + 0.1 * share[0], 0.05 + 0.15 * share[1], 0.2 + 0.3 * share[2]);
     case 1:
-      return makeStairs(2 + static_cast<int>(uniformIndex(engine, 4)), uniformIn(engine, 0.1, 0.25),
-                        uniformIn(engine, 0.1, 0.2), uniformIn(engine, 0.2, 0.6));
+      return makeStairs(count, 0.1 + 0.15 * share[0], 0.1 + 0.1 * share[1], 0.2 + 0.4 * share[2]);
     case 2:
-      return makeHook(0.8, uniformIn(engine, 0.2, 0.5), uniformIn(engine, 0.1, 0.3));
+      return makeHook(0.8, 0.2 + 0.3 * share[0], 0.1 + 0.2 * share[1]);
     case 3:
       return randomRing(engine);
     case 4:
