@@ -14,6 +14,9 @@ struct BodyDefaults {
   std::optional<double> chord_error;
 };
 
+/// A map of xyz and rpy or quaternion. @throws Error for what is wrong with it
+Eigen::Isometry3d readPose(const YamlValue& value);
+
 /// Takes the keys about bodies from `defaults`; the caller calls finish().
 void readBodyDefaults(YamlMap& map, BodyDefaults& defaults);
 

@@ -21,6 +21,7 @@ struct BodySource {
   std::optional<double> max_edge_length;
   Eigen::Vector4d colour = SceneBody().colour;
   bool in_robot_model = false;
+  std::optional<MassProperties> inertia;
   std::string problem;  ///< known already: the body is not tried
 };
 

@@ -61,6 +61,7 @@ BodySource linkSource(const RobotSpec& spec, const RobotLink& link, const Descri
   for (GeometryElement& element : source.geometry) element.chord_error = spec.chord_error;
   if (link.colour) source.colour = *link.colour;
   source.in_robot_model = !spec.description.empty();
+  source.inertia = link.inertia;
   source.problem = link.problem;
   return source;
 }
