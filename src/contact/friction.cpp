@@ -69,4 +69,18 @@ Eigen::Vector3d bristleForce(const FrictionSettings& settings, const ContactMate
   return -normal_force * friction;
 }
 
+Eigen::Vector3d frictionForce(const FrictionSettings& settings, const ContactMaterial& material,
+                              double normal_force, const Eigen::Vector3d& normal,
+                              const Eigen::Vector3d& sliding, double step, BristleState& state) {
+  switch (settings.model) {
+    case FrictionModel::None:
+      break;
+    case FrictionModel::RegularisedCoulomb:
+      return regularisedCoulombForce(settings, material, normal_force, sliding);
+    case FrictionModel::Bristle:
+      return bristleForce(settings, material, normal_force, normal, sliding, step, state);
+  }
+  return Eigen::Vector3d::Zero();
+}
+
 }  // namespace concave_distance

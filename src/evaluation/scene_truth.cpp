@@ -9,7 +9,7 @@
 #include "concave_distance/distance/enumeration.h"
 #include "concave_distance/mesh/import_mesh.h"
 #include "concave_distance/mesh/repair_mesh.h"
-#include "concave_distance/scene/query_poses.h"
+#include "query_poses.h"
 
 namespace concave_distance::evaluation {
 namespace {
@@ -52,8 +52,9 @@ SceneTruth loadScene(const ExperimentScene& scene, const std::string& folder) {
   truth.a = loadBody(folder, files->a, scene.max_edge_length);
   truth.b = loadBody(folder, files->b, scene.max_edge_length);
   const std::string poses = folder + "/" + scene.name + ".csv";
-  const std::vector<QueryPose> queries = readQueryPoses(poses);
-  const std::optional<Eigen::Isometry3d> pose = queries.empty() ? std::nullopt : poseOf(queries.front());
+  const std::vector<tools::QueryPose> queries = tools::readQueryPoses(poses);
+  const std::optional<Eigen::Isometry3d> pose =
+      queries.empty() ? std::nullopt : tools::poseOf(queries.front());
   if (!pose) throw Error(poses, "has no pose", "a line t,x,y,z,qx,qy,qz,qw below the header");
   truth.a_from_b = *pose;
 

@@ -40,8 +40,24 @@ bool RegionBuilder::pass(int direction, std::vector<FoundRegion>& found) {
     component_of_region_.push_back(c);
     buildRegion(component, found.back());
   }
+  measureReach(found);
   addOpenRegions(found);
   return predicates.tied();
+}
+
+void RegionBuilder::measureReach(std::vector<FoundRegion>& found) {
+  region_of_component_.assign(components_.all().size(), kNone);
+  for (std::uint32_t r = 0; r < component_of_region_.size(); ++r) {
+    region_of_component_[component_of_region_[r]] = r;
+  }
+  const std::vector<CrossingNode>& nodes = curves_.nodes();
+  for (std::uint32_t n = 0; n < nodes.size(); ++n) {
+    const std::uint32_t component = components_.componentOfNode(n, sets_);
+    const std::uint32_t r = component == kNone ? kNone : region_of_component_[component];
+    if (r == kNone) continue;
+    InterferenceRegion& region = found[r].region;
+    region.reach = std::max(region.reach, (frame_.pointInA(nodes[n].position) - region.centroid_in_a).norm());
+  }
 }
 
 void RegionBuilder::addSwallowedShells(PerturbedPredicates& predicates, Side side) {
@@ -153,11 +169,14 @@ InterferenceRegion RegionBuilder::openRegion(std::uint32_t curve) {
   if (total > 0.0) centre += middle / total;
   region.centroid_in_a = frame_.pointInA(centre);
   std::uint32_t nearest = curve;
+  double farthest = 0.0;
   for (std::uint32_t n = 0; n < nodes.size(); ++n) {
-    if (components_.loopOf(n) == curve &&
-        (nodes[n].position - centre).squaredNorm() < (nodes[nearest].position - centre).squaredNorm())
-      nearest = n;
+    if (components_.loopOf(n) != curve) continue;
+    const double squared_distance = (nodes[n].position - centre).squaredNorm();
+    if (squared_distance < (nodes[nearest].position - centre).squaredNorm()) nearest = n;
+    farthest = std::max(farthest, squared_distance);
   }
+  region.reach = std::sqrt(farthest) / frame_.scale();
   region.point_a_in_a = region.point_b_in_a = frame_.pointInA(nodes[nearest].position);
   // An open curve is closed by its chord, which the sum from one of its points leaves out of account.
   const Eigen::Vector3d& area = components_.vectorAreaOfLoop(curve);

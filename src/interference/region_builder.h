@@ -30,6 +30,7 @@ class RegionBuilder {
  private:
   void addSwallowedShells(PerturbedPredicates& predicates, Side side);
   void buildRegion(const BoundaryComponent& component, FoundRegion& found);
+  void measureReach(std::vector<FoundRegion>& found);
   void addOpenRegions(std::vector<FoundRegion>& found);
   InterferenceRegion openRegion(std::uint32_t curve);
 
@@ -45,6 +46,7 @@ class RegionBuilder {
   std::vector<std::uint8_t> shell_seen_;
   std::vector<std::uint8_t> curve_seen_;
   std::vector<std::uint32_t> component_of_region_;
+  std::vector<std::uint32_t> region_of_component_;
 };
 
 }  // namespace concave_distance::detail

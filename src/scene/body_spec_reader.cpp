@@ -43,6 +43,27 @@ Eigen::Quaterniond fromRollPitchYaw(const Eigen::Vector3d& rpy) {
          Eigen::AngleAxisd(rpy.x(), Eigen::Vector3d::UnitX());
 }
 
+Eigen::Isometry3d readPose(const YamlValue& value) {
+  YamlMap map(value, "a map with xyz and rpy or quaternion");
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  if (auto v = map.take("xyz")) pose.translation() = v->vector3("three numbers, metres");
+  const std::optional<YamlValue> rpy = map.take("rpy");
+  const std::optional<YamlValue> quaternion = map.take("quaternion");
+  if (rpy && quaternion) quaternion->fail("both 'rpy' and 'quaternion' are given", "give one of them");
+  if (rpy) pose.linear() = fromRollPitchYaw(rpy->vector3("three angles, radians")).toRotationMatrix();
+  if (quaternion) {
+    const char* allowed = "four numbers x, y, z, w of norm 1";
+    const std::vector<double> q = quaternion->numbers(4, allowed);
+    const Eigen::Quaterniond rotation(q[3], q[0], q[1], q[2]);
+    if (!(std::abs(rotation.norm() - 1.0) <= kQuaternionTolerance)) {
+      quaternion->fail("the norm is " + std::to_string(rotation.norm()), std::string("allowed: ") + allowed);
+    }
+    pose.linear() = rotation.normalized().toRotationMatrix();
+  }
+  map.finish();
+  return pose;
+}
+
 Eigen::Vector4d readColour(const YamlValue& value) {
   const char* allowed = "three or four numbers from 0 to 1: red, green, blue, opacity";
   if (!value.isList()) value.refuse(allowed);
@@ -93,31 +114,11 @@ void readGeometry(YamlMap& map, BodyDescription& body) {
 
 }  // namespace
 
-Eigen::Isometry3d readPose(const YamlValue& value) {
-  YamlMap map(value, "a map with xyz and rpy or quaternion");
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  if (auto v = map.take("xyz")) pose.translation() = v->vector3("three numbers, metres");
-  const std::optional<YamlValue> rpy = map.take("rpy");
-  const std::optional<YamlValue> quaternion = map.take("quaternion");
-  if (rpy && quaternion) quaternion->fail("both 'rpy' and 'quaternion' are given", "give one of them");
-  if (rpy) pose.linear() = fromRollPitchYaw(rpy->vector3("three angles, radians")).toRotationMatrix();
-  if (quaternion) {
-    const char* allowed = "four numbers x, y, z, w of norm 1";
-    const std::vector<double> q = quaternion->numbers(4, allowed);
-    const Eigen::Quaterniond rotation(q[3], q[0], q[1], q[2]);
-    if (!(std::abs(rotation.norm() - 1.0) <= kQuaternionTolerance)) {
-      quaternion->fail("the norm is " + std::to_string(rotation.norm()), std::string("allowed: ") + allowed);
-    }
-    pose.linear() = rotation.normalized().toRotationMatrix();
-  }
-  map.finish();
-  return pose;
-}
-
 void readBodyDefaults(YamlMap& map, BodyDefaults& defaults) {
   if (auto v = map.take("geometry")) defaults.geometry = v->choice(kGeometrySources);
   if (auto v = map.take("max_edge_length")) defaults.max_edge_length = readEdgeLength(*v);
   if (auto v = map.take("chord_error")) defaults.chord_error = readLength(*v);
+  if (auto v = map.take("material")) defaults.material = readMaterial(*v, defaults.materials);
 }
 
 RobotSpec readRobotSpec(const YamlValue& value, const BodyDefaults& defaults) {
@@ -145,6 +146,8 @@ RobotSpec readRobotSpec(const YamlValue& value, const BodyDefaults& defaults) {
   if (auto v = map.take("max_edge_length")) robot.max_edge_length = readEdgeLength(*v);
   robot.chord_error = defaults.chord_error;
   if (auto v = map.take("chord_error")) robot.chord_error = readLength(*v);
+  robot.material = defaults.material;
+  if (auto v = map.take("material")) robot.material = readMaterial(*v, defaults.materials);
   map.finish();
   return robot;
 }
@@ -170,6 +173,8 @@ BodySpec readBodySpec(const YamlValue& value, const BodyDefaults& defaults) {
   if (auto v = map.take("max_edge_length")) description.max_edge_length = readEdgeLength(*v);
   description.chord_error = defaults.chord_error;
   if (auto v = map.take("chord_error")) description.chord_error = readLength(*v);
+  body.material = defaults.material;
+  if (auto v = map.take("material")) body.material = readMaterial(*v, defaults.materials);
   map.finish();
   return body;
 }

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "effects_reader.h"
 #include "scene_spec.h"
 #include "yaml_value.h"
 
@@ -12,10 +13,9 @@ struct BodyDefaults {
   GeometrySource geometry = GeometrySource::Collision;
   std::optional<double> max_edge_length;
   std::optional<double> chord_error;
+  Materials materials;
+  Material material;
 };
-
-/// A map of xyz and rpy or quaternion. @throws Error for what is wrong with it
-Eigen::Isometry3d readPose(const YamlValue& value);
 
 /// Takes the keys about bodies from `defaults`; the caller calls finish().
 void readBodyDefaults(YamlMap& map, BodyDefaults& defaults);

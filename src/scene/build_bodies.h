@@ -20,8 +20,8 @@ struct BodySource {
   std::string base_folder;  ///< where relative paths start; empty: none are allowed
   std::optional<double> max_edge_length;
   Eigen::Vector4d colour = SceneBody().colour;
+  Material material;
   bool in_robot_model = false;
-  std::optional<MassProperties> inertia;
   std::string problem;  ///< known already: the body is not tried
 };
 

@@ -119,6 +119,21 @@ std::string lostPairs(const std::vector<SelectedPair>& pairs, std::size_t source
   return count == 0 ? "no pairs are lost with it" : "pairs not served: " + text;
 }
 
+// An open surface has no inside, so nothing says how deep another body is in it.
+void noteOpenBodies(Scene& scene) {
+  for (const ScenePair& pair : scene.pairs) {
+    if (!pair.settings.effects.normal_force) continue;
+    for (const std::size_t index : {pair.body_a, pair.body_b}) {
+      const SceneBody& body = scene.bodies[index];
+      const std::vector<bool>& closed = body.mesh->topology().shell_is_closed;
+      if (std::find(closed.begin(), closed.end(), false) == closed.end()) continue;
+      scene.problems.push_back({body.source, "body '" + body.name + "' is not closed: pair '" + pair.name +
+                                                 "' has no normal force where its open surface is met (close "
+                                                 "the mesh, see mesh_tool repair)"});
+    }
+  }
+}
+
 Scene assemble(const SceneSpec& spec, SceneParts parts, const SceneLoadOptions& options) {
   // Before the costly part, so that a mistake in the file is told at once.
   PairSelection selection = detail::selectPairs(spec, parts);
@@ -126,7 +141,6 @@ Scene assemble(const SceneSpec& spec, SceneParts parts, const SceneLoadOptions& 
       detail::buildBodies(parts.sources, options.package_locator, spec.metric_memory_limit, spec.cache);
   Scene scene;
   scene.cache = spec.cache;
-  scene.simulation = spec.simulation;
   scene.notes = std::move(parts.notes);
   scene.problems = std::move(parts.problems);
   scene.problems.insert(scene.problems.end(), selection.problems.begin(), selection.problems.end());
@@ -147,6 +161,7 @@ Scene assemble(const SceneSpec& spec, SceneParts parts, const SceneLoadOptions& 
     const std::optional<std::size_t> b = body_of_source[pair.source_b];
     if (a && b) scene.pairs.push_back({pair.name, *a, *b, pair.enabled, pair.settings});
   }
+  noteOpenBodies(scene);
   scene.notes.insert(scene.notes.end(), selection.notes.begin(), selection.notes.end());
   if (spec.cache) {
     if (std::string problem = spec.cache->takeProblem(); !problem.empty()) {

@@ -60,8 +60,8 @@ BodySource linkSource(const RobotSpec& spec, const RobotLink& link, const Descri
   source.max_edge_length = spec.max_edge_length;
   for (GeometryElement& element : source.geometry) element.chord_error = spec.chord_error;
   if (link.colour) source.colour = *link.colour;
+  source.material = spec.material;
   source.in_robot_model = !spec.description.empty();
-  source.inertia = link.inertia;
   source.problem = link.problem;
   return source;
 }
@@ -143,6 +143,7 @@ void addBody(const BodySpec& spec, const std::string& base_folder, SceneParts& p
   BodySource source = sourceOf(spec.description, base_folder);
   source.source = spec.where + ", " + source.source;
   source.colour = spec.colour;
+  source.material = spec.material;
   addSource(std::move(source), spec.where, "give it another name", parts);
 }
 

@@ -9,7 +9,6 @@
 #include "concave_distance/base/error.h"
 #include "name_pattern.h"
 #include "settings_reader.h"
-#include "simulation_reader.h"
 
 namespace concave_distance::detail {
 namespace {
@@ -117,6 +116,7 @@ SceneSpec readSceneSpec(const std::string& yaml, const std::string& file, const 
   spec.cache = options.cache;
   BodyDefaults body_defaults;
   body_defaults.geometry = options.geometry;
+  if (auto v = map.take("materials")) body_defaults.materials = readMaterials(*v);
   // Before all that they are the defaults of, wherever they stand in the file.
   if (auto v = map.take("defaults")) {
     YamlMap defaults(*v, "a map of settings");
@@ -149,9 +149,6 @@ SceneSpec readSceneSpec(const std::string& yaml, const std::string& file, const 
   if (auto v = map.take("pairs")) spec.pairs = readPairs(*v, spec.defaults, pair_names);
   if (auto v = map.take("disable")) {
     for (const YamlValue& item : v->list("a list of pairs")) spec.disabled.push_back(readTwoSelectors(item));
-  }
-  if (auto v = map.take("simulation")) {
-    spec.simulation = readSimulation(*v, base_folder, options.package_locator);
   }
   map.finish();
   return spec;

@@ -33,12 +33,14 @@ struct RobotSpec {
   std::vector<Selector> skipped_links;
   std::optional<double> max_edge_length;
   std::optional<double> chord_error;
+  Material material;
 };
 
 struct BodySpec {
   std::string where;
   BodyDescription description;
   Eigen::Vector4d colour = SceneBody().colour;
+  Material material;
 };
 
 struct GroupSpec {
@@ -61,8 +63,7 @@ struct SceneSpec {
   std::vector<std::array<Selector, 2>> disabled;
   PairSettings defaults;
   std::size_t metric_memory_limit = 0;  ///< bytes
-  std::optional<SimulationSettings> simulation;
-  PreparationCachePointer cache;  ///< nullptr: none
+  PreparationCachePointer cache;        ///< nullptr: none
 };
 
 /// @param base_folder where relative paths start; empty: the working directory

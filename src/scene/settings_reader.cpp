@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "concave_distance/base/error.h"
+#include "effects_reader.h"
 #include "search_settings_reader.h"
 #include "setting_values.h"
 
@@ -59,6 +60,7 @@ void readPairSettings(YamlMap& map, PairSettings& settings) {
   if (auto v = map.take("warning_distance")) {
     settings.warning_distance = optionalNumber(*v, "never", "0 or more, metres", notNegativeFinite);
   }
+  if (auto v = map.take("effects")) readEffects(*v, settings.effects);
   if (auto v = map.take("warning_hysteresis")) {
     settings.warning_hysteresis = v->number("0 or more, metres", notNegativeFinite);
   }
@@ -66,6 +68,13 @@ void readPairSettings(YamlMap& map, PairSettings& settings) {
 
 void validatePairSettings(const PairSettings& settings, const std::string& where) {
   settings.tracker.validate(where);
+  settings.effects.validate(where + ".effects");
+  if (settings.effects.any() && !provesDistance(settings.tracker.accuracy)) {
+    throw Error(where,
+                "effects are asked for at accuracy " + std::string(toString(settings.tracker.accuracy)) +
+                    ", which does not prove that bodies are apart",
+                "set accuracy to certified or complete, or effects to none");
+  }
   if (settings.warning_distance && *settings.warning_distance > settings.tracker.cutoff) {
     throw Error(where,
                 "warning_distance " + std::to_string(*settings.warning_distance) +

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "concave_distance/base/error.h"
-#include "concave_distance/contact/contact_force.h"
+#include "concave_distance/contact/contact_point.h"
 
 namespace concave_distance {
 namespace {
@@ -124,7 +124,7 @@ TEST(NormalForce, RestitutionAtSmallSpeedsIsOneMinusDissipationTimesSpeed) {
   EXPECT_NEAR(reboundSpeedInClosedForm(0.01, 0.2) / 0.01, 1.0 - 0.2 * 0.01, 1e-5);
 }
 
-TEST(ContactForce, MotionAtAContactSplitsIntoDepthRateAndSliding) {
+TEST(ContactPoint, MotionAtAContactSplitsIntoDepthRateAndSliding) {
   ContactPoint contact;
   contact.point_in_a = {1.0, 0.0, 0.0};
   contact.normal_in_a = Eigen::Vector3d::UnitZ();
@@ -136,7 +136,7 @@ TEST(ContactForce, MotionAtAContactSplitsIntoDepthRateAndSliding) {
   EXPECT_LT((contact.sliding_in_a - Eigen::Vector3d(0.5, 1.0, 0.0)).norm(), 1e-15);
 }
 
-TEST(ContactForce, TheMomentOfAForceIsTakenAboutTheGivenPoint) {
+TEST(ContactPoint, TheMomentOfAForceIsTakenAboutTheGivenPoint) {
   const Wrench wrench = wrenchAbout({0.0, 2.0, 0.0}, {3.0, 0.0, 0.0}, {1.0, 0.0, 0.0});
   EXPECT_LT((wrench.torque - Eigen::Vector3d(0.0, 0.0, 4.0)).norm(), 1e-15);
 }

@@ -6,6 +6,7 @@
 #include "support/concave_shapes.h"
 #include "support/count_allocations.h"
 #include "support/thesis_scenes.h"
+#include "tracking/effect_scene.h"
 
 namespace concave_distance {
 namespace {
@@ -75,6 +76,18 @@ TEST(TrackerAllocation, AProvenCycleAllocatesNothingWithAndWithoutNiches) {
   // A budget makes the proof go by another order.
   parameters.time_budget = 1e-4;
   expectNoAllocationOfCombs(parameters);
+}
+
+TEST(EffectsAllocation, AWarmCycleInContactAllocatesNothing) {
+  test::EffectScene scene(test::body("ground", makeBox({2, 2, 0.2})), test::body("feet", test::twoFeet()),
+                          test::spring(1e4, FrictionModel::Bristle));
+  const auto pose = [](int k) { return test::at(1e-5 * k, 0.0, 0.199); };
+  for (int k = 0; k < 30; ++k) scene.update(pose(k));
+  ASSERT_EQ(scene.contacts.regions.size(), 2U);
+  scene.tracker.update(pose(30), 10.0, scene.solution);
+  const std::size_t before = allocations.load();
+  scene.effects.update(scene.solution, pose(30), {}, 0.01, scene.contacts);
+  EXPECT_EQ(allocations.load(), before);
 }
 
 }  // namespace

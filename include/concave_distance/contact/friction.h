@@ -53,4 +53,9 @@ Eigen::Vector3d bristleForce(const FrictionSettings& settings, const ContactMate
                              double normal_force, const Eigen::Vector3d& normal,
                              const Eigen::Vector3d& sliding, double step, BristleState& state);
 
+/// The force of the chosen model; see bristleForce. Newtons, on B.
+Eigen::Vector3d frictionForce(const FrictionSettings& settings, const ContactMaterial& material,
+                              double normal_force, const Eigen::Vector3d& normal,
+                              const Eigen::Vector3d& sliding, double step, BristleState& state);
+
 }  // namespace concave_distance

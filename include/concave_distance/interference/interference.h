@@ -34,6 +34,7 @@ struct InterferenceRegion {
   /// Where the depth is attained, one line along the normal: on A's surface, and `depth` below it on B's.
   Eigen::Vector3d point_a_in_a = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
   Eigen::Vector3d point_b_in_a = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  double reach = 0.0;            ///< of its curves from the centroid, metres; 0 for a swallowed shell
   std::uint32_t loop_count = 0;  ///< closed intersection curves; 0 for a swallowed shell
   /// Every shell concerned is closed. Else the region is a connected piece of the intersection curve (or a
   /// swallowed open shell): areas, volume and depth are NaN, the normal is the curve's vector area or, where

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "concave_distance/contact/effect_settings.h"
+#include "concave_distance/contact/wrench.h"
+#include "concave_distance/interference/interference.h"
+#include "concave_distance/mesh/body_mesh.h"
+#include "concave_distance/tracking/pair_solution.h"
+
+namespace concave_distance {
+
+/// A region of overlap over time, with the force that acts there. What was not asked for is NaN.
+struct ContactRegion {
+  /// Of the niche that became it, and of the niche that it becomes again when the bodies part; 0 where the
+  /// pair follows no niches.
+  std::uint64_t id = 0;
+  InterferenceRegion overlap;
+  Eigen::Vector3d point_in_a = Eigen::Vector3d::Constant(kNotComputed);    ///< where the force acts
+  double depth_rate = kNotComputed;                                        ///< m/s, positive while it deepens
+  Eigen::Vector3d sliding_in_a = Eigen::Vector3d::Constant(kNotComputed);  ///< of B against A, m/s
+  double normal_force = kNotComputed;                                      ///< N, >= 0
+  Eigen::Vector3d friction_on_b_in_a = Eigen::Vector3d::Constant(kNotComputed);  ///< N
+  /// Both forces, about A's origin.
+  Wrench on_b_in_a{Eigen::Vector3d::Constant(kNotComputed), Eigen::Vector3d::Constant(kNotComputed)};
+};
+
+/// What the effects of a pair come to at one time.
+struct PairContacts {
+  bool possible = false;               ///< the certificate allows contact: the regions were looked for
+  std::vector<ContactRegion> regions;  ///< deepest first; capacity is kept
+  bool a_inside_b = false;             ///< swallowed without a crossing of the surfaces
+  bool b_inside_a = false;
+  /// Of all regions, about A's origin, on B; A gets the opposite. NaN where no force was asked for.
+  Wrench on_b_in_a{Eigen::Vector3d::Constant(kNotComputed), Eigen::Vector3d::Constant(kNotComputed)};
+};
+
+/// The effects that one pair asks for, run after each of its solves. What the settings do not ask for is not
+/// in the plan; what they ask for runs when its trigger holds. Not thread-safe; pairs run in parallel. A
+/// warm cycle allocates nothing.
+class PairEffects {
+ public:
+  /// @throws Error for settings out of range
+  PairEffects(std::shared_ptr<const BodyMesh> a, std::shared_ptr<const BodyMesh> b,
+              const EffectSettings& settings, const ContactMaterial& material);
+  ~PairEffects();
+  PairEffects(PairEffects&&) noexcept;
+  PairEffects& operator=(PairEffects&&) noexcept;
+
+  /// @param solution of the same pose; its certificate decides whether contact is possible: a lower bound
+  ///        above 0 excludes it. Without a certificate (`nodes`, `refined`) the distance found does, which is
+  ///        why the scene file refuses effects there.
+  /// @param b_in_a velocity of B relative to A; zero where it is not known
+  /// @param step seconds since the last call, for the bristles; 0 leaves them as they are
+  void update(const PairSolution& solution, const Eigen::Isometry3d& a_from_b, const RelativeTwist& b_in_a,
+              double step, PairContacts& contacts);
+
+  /// Forgets regions and bristles.
+  void reset();
+
+  /// Another plan from the next cycle on; regions keep their ids, bristles are forgotten.
+  /// @throws Error for settings out of range
+  void setSettings(const EffectSettings& settings, const ContactMaterial& material);
+  const EffectSettings& settings() const;
+  const EffectPlan& plan() const;
+  const EffectCounts& counts() const;
+  std::size_t memoryBytes() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace concave_distance

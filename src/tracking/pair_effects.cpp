@@ -1,0 +1,184 @@
+#include "concave_distance/tracking/pair_effects.h"
+
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+#include "concave_distance/contact/contact_point.h"
+#include "concave_distance/tracking/relative_motion.h"
+#include "region_identity.h"
+
+namespace concave_distance {
+namespace {
+
+bool contactIsPossible(const PairSolution& solution) {
+  if (solution.status == SolveStatus::InvalidPose) return false;
+  if (solution.status == SolveStatus::Penetrating) return true;
+  return std::isnan(solution.lower_bound) ? !(solution.distance > 0.0) : !(solution.lower_bound > 0.0);
+}
+
+Wrench notComputed() {
+  return {Eigen::Vector3d::Constant(kNotComputed), Eigen::Vector3d::Constant(kNotComputed)};
+}
+
+}  // namespace
+
+struct PairEffects::State {
+  std::shared_ptr<const BodyMesh> a;
+  std::shared_ptr<const BodyMesh> b;
+  EffectSettings settings;
+  ContactMaterial material;
+  EffectPlan plan;
+  EffectCounts counts;
+  InterferenceWorkspace workspace;
+  Interference interference;
+  RegionIdentity identity;
+  Eigen::Isometry3d last_pose = Eigen::Isometry3d::Identity();
+  bool in_contact = false;  ///< in the last cycle, at last_pose
+
+  void findRegions(const Eigen::Isometry3d& a_from_b, PairContacts& contacts) {
+    findInterference(*a, *b, a_from_b, workspace, interference);
+    contacts.a_inside_b = interference.a_inside_b;
+    contacts.b_inside_a = interference.b_inside_a;
+    contacts.regions.resize(interference.regions.size());
+    for (std::size_t r = 0; r < contacts.regions.size(); ++r) {
+      contacts.regions[r] = {};
+      contacts.regions[r].overlap = interference.regions[r];
+      contacts.regions[r].point_in_a = interference.regions[r].centroid_in_a;
+    }
+  }
+
+  void identify(const PairSolution& solution, const Eigen::Isometry3d& a_from_b, PairContacts& contacts) {
+    const double displacement =
+        in_contact ? largestDisplacement(b->surface().boundingBox(), last_pose, a_from_b) : 0.0;
+    identity.update(solution.niches, displacement, contacts.regions);
+  }
+
+  void push(const RelativeTwist& b_in_a, PairContacts& contacts) const {
+    for (ContactRegion& region : contacts.regions) {
+      ContactPoint contact = at(region);
+      setRelativeMotion(b_in_a, contact);
+      region.depth_rate = contact.geometry.depth_rate;
+      region.sliding_in_a = contact.sliding_in_a;
+      if (std::isnan(contact.geometry.depth)) continue;  // an open surface: no depth, no force
+      region.normal_force = normalForce(*settings.normal_force, material, contact.geometry);
+      region.on_b_in_a =
+          wrenchAbout(region.normal_force * contact.normal_in_a, contact.point_in_a, Eigen::Vector3d::Zero());
+    }
+  }
+
+  void rub(double step, PairContacts& contacts) {
+    for (std::size_t r = 0; r < contacts.regions.size(); ++r) {
+      ContactRegion& region = contacts.regions[r];
+      if (!(region.normal_force > 0.0)) continue;
+      region.friction_on_b_in_a =
+          frictionForce(settings.friction, material, region.normal_force, region.overlap.normal_in_a,
+                        region.sliding_in_a, step, identity.memory()[r].bristles);
+      region.on_b_in_a += wrenchAbout(region.friction_on_b_in_a, region.point_in_a, Eigen::Vector3d::Zero());
+    }
+  }
+
+  static ContactPoint at(const ContactRegion& region) {
+    ContactPoint contact;
+    contact.point_in_a = region.point_in_a;
+    contact.normal_in_a = region.overlap.normal_in_a;
+    contact.geometry.depth = region.overlap.depth;
+    contact.geometry.contact_area = region.overlap.contact_area;
+    return contact;
+  }
+
+  bool isDue(EffectStage stage, const PairContacts& contacts) const {
+    switch (stage) {
+      case EffectStage::Interference:
+        return contacts.possible;
+      case EffectStage::Identity:
+      case EffectStage::NormalForce:
+        return !contacts.regions.empty();
+      case EffectStage::Friction:
+        for (const ContactRegion& region : contacts.regions) {
+          if (region.normal_force > 0.0) return true;
+        }
+        return false;
+    }
+    return false;
+  }
+};
+
+PairEffects::PairEffects(std::shared_ptr<const BodyMesh> a, std::shared_ptr<const BodyMesh> b,
+                         const EffectSettings& settings, const ContactMaterial& material)
+    : state_(std::make_unique<State>()) {
+  state_->a = std::move(a);
+  state_->b = std::move(b);
+  setSettings(settings, material);
+}
+PairEffects::~PairEffects() = default;
+PairEffects::PairEffects(PairEffects&&) noexcept = default;
+PairEffects& PairEffects::operator=(PairEffects&&) noexcept = default;
+
+void PairEffects::update(const PairSolution& solution, const Eigen::Isometry3d& a_from_b,
+                         const RelativeTwist& b_in_a, double step, PairContacts& contacts) {
+  State& state = *state_;
+  contacts.possible = !state.plan.empty() && contactIsPossible(solution);
+  contacts.regions.clear();
+  contacts.a_inside_b = contacts.b_inside_a = false;
+  for (const EffectStage stage : state.plan) {
+    if (!state.isDue(stage, contacts)) continue;
+    const auto start = std::chrono::steady_clock::now();
+    switch (stage) {
+      case EffectStage::Interference:
+        state.findRegions(a_from_b, contacts);
+        break;
+      case EffectStage::Identity:
+        state.identify(solution, a_from_b, contacts);
+        break;
+      case EffectStage::NormalForce:
+        state.push(b_in_a, contacts);
+        break;
+      case EffectStage::Friction:
+        state.rub(step, contacts);
+        break;
+    }
+    const auto index = static_cast<std::size_t>(stage);
+    ++state.counts.runs[index];
+    state.counts.seconds[index] +=
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  }
+  if (contacts.regions.empty()) state.identity.clear();
+  contacts.on_b_in_a = state.settings.normal_force ? Wrench{} : notComputed();
+  if (state.settings.normal_force) {
+    for (const ContactRegion& region : contacts.regions) {
+      if (region.normal_force > 0.0) contacts.on_b_in_a += region.on_b_in_a;
+    }
+  }
+  state.in_contact = !contacts.regions.empty();
+  state.last_pose = a_from_b;
+}
+
+void PairEffects::reset() {
+  state_->identity.clear();
+  state_->in_contact = false;
+}
+
+void PairEffects::setSettings(const EffectSettings& settings, const ContactMaterial& material) {
+  settings.validate(state_->a->name() + "/" + state_->b->name() + ".effects");
+  state_->settings = settings;
+  state_->material = material;
+  state_->plan = EffectPlan(settings);
+  for (RegionMemory& memory : state_->identity.memory()) memory.bristles = {};
+}
+
+const EffectSettings& PairEffects::settings() const {
+  return state_->settings;
+}
+const EffectPlan& PairEffects::plan() const {
+  return state_->plan;
+}
+const EffectCounts& PairEffects::counts() const {
+  return state_->counts;
+}
+std::size_t PairEffects::memoryBytes() const {
+  return sizeof(State) + state_->identity.memoryBytes() +
+         state_->interference.regions.capacity() * sizeof(InterferenceRegion);
+}
+
+}  // namespace concave_distance

@@ -1,0 +1,51 @@
+#include "concave_distance/contact/effect_settings.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "concave_distance/base/error.h"
+
+namespace concave_distance {
+namespace {
+
+std::vector<EffectStage> stagesOf(const EffectSettings& settings) {
+  const EffectPlan plan(settings);
+  return {plan.begin(), plan.end()};
+}
+
+TEST(EffectPlan, HasNoStageThatNobodyAsksFor) {
+  EffectSettings settings;
+  EXPECT_TRUE(EffectPlan(settings).empty());
+  settings.interference = true;
+  EXPECT_EQ(stagesOf(settings), (std::vector{EffectStage::Interference, EffectStage::Identity}));
+  settings.normal_force.emplace();
+  EXPECT_EQ(stagesOf(settings),
+            (std::vector{EffectStage::Interference, EffectStage::Identity, EffectStage::NormalForce}));
+  settings.friction.model = FrictionModel::Bristle;
+  EXPECT_EQ(stagesOf(settings), (std::vector{EffectStage::Interference, EffectStage::Identity,
+                                             EffectStage::NormalForce, EffectStage::Friction}));
+}
+
+TEST(EffectPlan, ANormalForceBringsWhatItNeeds) {
+  EffectSettings settings;
+  settings.normal_force.emplace();
+  EXPECT_EQ(stagesOf(settings).front(), EffectStage::Interference);
+}
+
+TEST(EffectSettings, FrictionWithoutANormalForceIsRefused) {
+  EffectSettings settings;
+  settings.interference = true;
+  settings.friction.model = FrictionModel::RegularisedCoulomb;
+  try {
+    settings.validate("pairs[0].effects");
+    FAIL() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_STREQ(error.what(),
+                 "pairs[0].effects.friction: friction is asked for without a normal force (add normal_force, "
+                 "or leave friction out)");
+  }
+}
+
+}  // namespace
+}  // namespace concave_distance

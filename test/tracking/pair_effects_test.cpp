@@ -1,0 +1,170 @@
+#include "concave_distance/tracking/pair_effects.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "concave_distance/contact/normal_force.h"
+#include "concave_distance/mesh/primitives.h"
+#include "tracking/effect_scene.h"
+
+namespace concave_distance {
+namespace {
+
+using test::at;
+using test::body;
+using test::EffectScene;
+using test::spring;
+using test::twoFeet;
+
+constexpr double kPi = 3.14159265358979323846;
+
+EffectSettings onlyInterference() {
+  EffectSettings settings;
+  settings.interference = true;
+  return settings;
+}
+
+std::uint64_t runs(const PairEffects& effects, EffectStage stage) {
+  return effects.counts().runs[static_cast<std::size_t>(stage)];
+}
+
+TEST(PairEffects, NothingRunsWhileTheCertificateExcludesContact) {
+  EffectScene scene(body("a", makeBox({1, 1, 1})), body("b", makeBox({1, 1, 1})), spring(1e4));
+  for (const double gap : {1.0, 0.1, 1e-6}) {
+    scene.update(at(0, 0, 1.0 + gap));
+    EXPECT_FALSE(scene.contacts.possible) << gap;
+    EXPECT_TRUE(scene.contacts.regions.empty());
+  }
+  for (const std::uint64_t count : scene.effects.counts().runs) EXPECT_EQ(count, 0U);
+  EXPECT_EQ(scene.contacts.on_b_in_a.force.norm(), 0.0);
+}
+
+TEST(PairEffects, AStageThatIsNotAskedForNeverRuns) {
+  EffectScene scene(body("a", makeBox({1, 1, 1})), body("b", makeBox({1, 1, 1})), onlyInterference());
+  scene.update(at(0.1, 0.2, 0.99));
+  EXPECT_EQ(runs(scene.effects, EffectStage::Interference), 1U);
+  EXPECT_EQ(runs(scene.effects, EffectStage::Identity), 1U);
+  EXPECT_EQ(runs(scene.effects, EffectStage::NormalForce), 0U);
+  EXPECT_EQ(runs(scene.effects, EffectStage::Friction), 0U);
+  ASSERT_EQ(scene.contacts.regions.size(), 1U);
+  EXPECT_TRUE(std::isnan(scene.contacts.regions[0].normal_force));
+  EXPECT_TRUE(std::isnan(scene.contacts.on_b_in_a.force.x()));
+}
+
+TEST(PairEffects, ASpringPushesInProportionToTheDepth) {
+  EffectScene scene(body("a", makeBox({1, 1, 1})), body("b", makeBox({0.5, 0.5, 0.5})), spring(2e4));
+  scene.update(at(0.1, 0.2, 0.74));
+  ASSERT_EQ(scene.contacts.regions.size(), 1U);
+  const ContactRegion& region = scene.contacts.regions[0];
+  EXPECT_NEAR(region.overlap.depth, 0.01, 1e-12);
+  EXPECT_NEAR(region.normal_force, 200.0, 1e-8);
+  EXPECT_LT((scene.contacts.on_b_in_a.force - Eigen::Vector3d(0, 0, 200)).norm(), 1e-7);
+  // About A's origin: the force acts under B's middle.
+  EXPECT_LT((scene.contacts.on_b_in_a.torque - Eigen::Vector3d(40, -20, 0)).norm(), 1e-6);
+}
+
+TEST(PairEffects, FrictionRunsOnlyUnderLoad) {
+  EffectScene scene(body("a", makeBox({1, 1, 1})), body("b", makeBox({0.5, 0.5, 0.5})),
+                    spring(2e4, FrictionModel::RegularisedCoulomb));
+  scene.effects.setSettings(
+      [] {
+        EffectSettings settings = spring(2e4, FrictionModel::RegularisedCoulomb);
+        settings.normal_force->damping = 1e6;
+        return settings;
+      }(),
+      inContact(Material(), Material()));
+  RelativeTwist parting;
+  parting.linear = {1.0, 0.0, 5.0};  // so fast that the damper would pull: no force
+  scene.update(at(0, 0, 0.74), 0.01, parting);
+  EXPECT_EQ(runs(scene.effects, EffectStage::NormalForce), 1U);
+  EXPECT_EQ(runs(scene.effects, EffectStage::Friction), 0U);
+  RelativeTwist sliding;
+  sliding.linear = {1.0, 0.0, 0.0};
+  scene.update(at(0, 0, 0.7399), 0.01, sliding);
+  EXPECT_EQ(runs(scene.effects, EffectStage::Friction), 1U);
+  EXPECT_NEAR(scene.contacts.regions[0].friction_on_b_in_a.x(), -0.4 * scene.contacts.regions[0].normal_force,
+              1e-3);
+}
+
+TEST(PairEffects, ANicheKeepsItsIdThroughContactAndBack) {
+  EffectScene scene(body("ground", makeBox({2, 2, 0.2})), body("feet", twoFeet()), spring(1e4));
+  const auto tilted = [](double height, double angle) {
+    return Eigen::Isometry3d(Eigen::Translation3d(0, 0, 0.2 + height) *
+                             Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitY()));
+  };
+  // Down until the one foot is in the ground, then the other as well, then up again.
+  for (int k = 0; k <= 20; ++k) scene.update(tilted(0.05 - 0.001 * k, 0.05));
+  ASSERT_GE(scene.solution.niches.size(), 2U);
+  const std::uint64_t first = scene.solution.niches[0].id;
+  std::set<std::uint64_t> approaching;
+  for (const TrackedNiche& niche : scene.solution.niches) approaching.insert(niche.id);
+  int in_contact = 0;
+  int both = 0;
+  for (int k = 21; k <= 90; ++k) {
+    scene.update(tilted(0.05 - 0.001 * k, 0.05));
+    in_contact += scene.contacts.regions.empty() ? 0 : 1;
+    both += scene.contacts.regions.size() == 2 ? 1 : 0;
+    std::set<std::uint64_t> ids;
+    for (const ContactRegion& region : scene.contacts.regions) ids.insert(region.id);
+    EXPECT_EQ(ids.size(), scene.contacts.regions.size()) << "a region without an id of its own, step " << k;
+    if (scene.contacts.regions.size() == 1) {
+      EXPECT_EQ(*ids.begin(), first) << "step " << k;
+    }
+    for (const std::uint64_t id : ids) EXPECT_EQ(approaching.count(id), 1U) << "a new id at step " << k;
+  }
+  EXPECT_GT(in_contact, 30);
+  EXPECT_GT(both, 5);
+  for (int k = 90; k >= 0; --k) scene.update(tilted(0.05 - 0.001 * k, 0.05));
+  EXPECT_TRUE(scene.contacts.regions.empty());
+  ASSERT_FALSE(scene.solution.niches.empty());
+  EXPECT_EQ(scene.solution.niches[0].id, first) << "the region has become another niche";
+}
+
+TEST(PairEffects, BristlesOfARegionGoOnFromCycleToCycle) {
+  EffectScene scene(body("a", makeBox({2, 2, 1})), body("b", makeBox({0.5, 0.5, 0.5})),
+                    spring(1e6, FrictionModel::Bristle));
+  RelativeTwist sliding;
+  sliding.linear = {1e-4, 0.0, 0.0};
+  double before = 0.0;
+  for (int k = 0; k < 20; ++k) {
+    scene.update(at(1e-6 * k, 0, 0.7499), 0.01, sliding);
+    ASSERT_EQ(scene.contacts.regions.size(), 1U);
+    const double friction = -scene.contacts.regions[0].friction_on_b_in_a.x();
+    EXPECT_GT(friction, before) << "the bristles do not bend on, step " << k;
+    before = friction;
+  }
+  // Switched off and on again they stand upright.
+  scene.effects.setSettings(spring(1e6), inContact(Material(), Material()));
+  scene.update(at(2e-5, 0, 0.7499), 0.01, sliding);
+  EXPECT_TRUE(std::isnan(scene.contacts.regions[0].friction_on_b_in_a.x()));
+  scene.effects.setSettings(spring(1e6, FrictionModel::Bristle), inContact(Material(), Material()));
+  scene.update(at(2e-5, 0, 0.7499), 0.01, sliding);
+  EXPECT_LT(-scene.contacts.regions[0].friction_on_b_in_a.x(), before);
+}
+
+TEST(PairEffects, HertzianIndentationOfASphereIsWithinItsTessellation) {
+  const double radius = 0.1;
+  const auto plane = body("plane", makeBox({1, 1, 0.2}));
+  const auto ball = body("ball", makeSphere(radius, 1e-5));
+  EffectSettings settings;
+  settings.normal_force.emplace();
+  settings.normal_force->model = NormalForceModel::Hertz;
+  PairTracker tracker("pair", plane, ball, TrackerParameters());
+  PairEffects effects(plane, ball, settings, inContact(Material(), Material()));
+  PairSolution solution;
+  PairContacts contacts;
+  const double depth = 1e-3;
+  const Eigen::Isometry3d pose = at(0.0013, 0.0007, 0.1 + radius - depth);
+  tracker.update(pose, 0.0, solution);
+  effects.update(solution, pose, {}, 0.0, contacts);
+  ASSERT_EQ(contacts.regions.size(), 1U);
+  const double expected = hertzForce(depth, inContact(Material(), Material()).contact_modulus, radius);
+  EXPECT_NEAR(contacts.on_b_in_a.force.z(), expected, 0.02 * expected);
+  EXPECT_NEAR(contacts.regions[0].overlap.contact_area, kPi * 2.0 * radius * depth,
+              0.02 * kPi * 2.0 * radius * depth);
+}
+
+}  // namespace
+}  // namespace concave_distance
