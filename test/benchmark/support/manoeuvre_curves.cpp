@@ -31,6 +31,7 @@ void ManoeuvreCurves::add(const Method& method, const std::vector<TimedPose>& po
 
 std::vector<double> bestNodeDistances(const PartitionedPair& pair, const std::vector<TimedPose>& poses) {
   std::vector<double> distances;
+  distances.reserve(poses.size());
   for (const TimedPose& pose : poses) {
     distances.push_back(std::sqrt(enumerateNodePairs(*pair.a, *pair.b, pose.pose).squared_distance));
   }
