@@ -81,8 +81,8 @@ TEST_F(SceneFile, UnknownKeysAreRefusedEverywhere) {
                 "scene.yaml:4, bodies[0].pose.yaw", "not known", "xyz, rpy, quaternion");
   expectRefused("robots:\n  - description: d\n    tf_prefix: a\n", "scene.yaml:3, robots[0].tf_prefix",
                 "not known", "prefix");
-  expectRefused(kBall + "pairs:\n  - between: [ball, ball]\n    effects: [contact]\n",
-                "scene.yaml:7, pairs[0].effects", "not known", "accuracy");
+  expectRefused(kBall + "pairs:\n  - between: [ball, ball]\n    effect: contact\n",
+                "scene.yaml:7, pairs[0].effect", "not known", "effects");
   expectRefused(kBall + "pairs:\n  - between: ['*', '*']\n    max_edge_length: 1\n",
                 "scene.yaml:7, pairs[0].max_edge_length", "not known", "cutoff");
 }
