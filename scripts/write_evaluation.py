@@ -24,11 +24,15 @@ import matplotlib.pyplot as plt  # noqa: E402  (the backend comes first)
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 NICHE_COUNT = 10
+ROUNDING = 1e-12  # metres; what is less is none
 HEADINGS = {
     "exact": "Phi*", "region": "Phi", "best_iteration": "G_i", "niches": "N_Gamma", "distance": "distance",
     "kflop": "kflop", "recall": "recall", "archive_recall": "recall of all minima met", "precision": "precision", "best_convergence": "x*'",
     "population_convergence": "x'", "niche_members": "individuals of the nearest niches",
     "niche_distances": "distances of the nearest niches", "below_second": "nearer than the second niche",
+    "nearest": "nearest niche met", "exact_instants": "exact", "proof_finds": "found by the proof",
+    "evaluations": "node pairs looked at", "wrong_instants": "instants not the optimum", "worst_excess": "worst excess, m",
+    "most_niches": "most niches", "ms": "ms",
 }
 
 
@@ -79,9 +83,25 @@ def ours(column, runs):
         return median_range([float(run["distance"]) for run in runs])
     if column == "kflop":
         return median_range([int(run["flops"]) / 1000 for run in runs], 0)
+    if column == "wrong_instants":
+        return spread([int(run[column]) for run in runs], 1)
     if column in ("best_iteration", "niches"):
-        return spread([int(run[column]) for run in runs], 2)
-    if column in ("recall", "precision", "archive_recall"):
+        return spread([float(run[column]) for run in runs], 2)
+    if column == "proof_finds":
+        return f"{statistics.fmean(int(run[column]) for run in runs):.1f}"
+    if column == "worst_excess":
+        values = [float(run[column]) for run in runs]
+        words = [f"{value:.1e}" if value > ROUNDING else "0" for value in (statistics.median(values), min(values), max(values))]
+        return f"{words[0]} [{words[1]}-{words[2]}]"
+    if column == "most_niches":
+        return str(max(int(run[column]) for run in runs))
+    if column == "evaluations":
+        return f"{statistics.fmean(int(run[column]) for run in runs):.0f}"
+    if column == "ms":
+        return f"{statistics.median(float(run['microseconds']) for run in runs) / 1000:.2f}"
+    if column == "exact_instants":
+        return f"{1 - statistics.fmean(int(run['wrong_instants']) for run in runs) / int(runs[0]['instants']):.3f}"
+    if column in ("recall", "precision", "archive_recall", "nearest"):
         return f"{statistics.fmean(float(run[column]) for run in runs):.3f}"
     if column in ("best_convergence", "population_convergence"):
         return f"{statistics.fmean(float(run[column]) for run in runs):.5f}"
@@ -90,6 +110,11 @@ def ours(column, runs):
     if column == "niche_distances":
         return niche_means(runs, "niche_distance", 4)
     raise SystemExit(f"no column is called {column}")
+
+
+def has_column(row, column):
+    """Enumeration answers with one pair and looks for no niches."""
+    return row["algorithm"] != "enumeration" or column not in ("recall", "archive_recall", "precision", "nearest", "niches")
 
 
 def theirs(column, thesis):
@@ -110,7 +135,7 @@ def is_less_robust(column, thesis, runs):
     return int(match[1]) / int(match[2]) > upper + 1e-12
 
 
-def write_table(out, experiment, runs_of, counts):
+def write_table(out, experiment, runs_of, counts, _):
     scenes = list(experiment["scenes"])
     columns = experiment["columns"]
     compared = [column for column in columns if any(
@@ -135,9 +160,41 @@ def write_table(out, experiment, runs_of, counts):
                 if column in compared:
                     cells.append(theirs(column, thesis))
                 mark = " (below)" if is_less_robust(column, thesis, runs) else ""
-                cells.append(ours(column, runs) + mark)
+                cells.append(ours(column, runs) + mark if has_column(row, column) else "")
             cells.append(f"{statistics.median(float(run['microseconds']) for run in runs) / 1000:.2f}")
             out.append("| " + " | ".join(cells) + " |")
+
+
+def write_by_scene(out, experiment, runs_of, counts, truths):
+    """A table for each measure, or for two with a stroke between, with the scenes side by side."""
+    scenes = list(experiment["scenes"])
+    titles = [f"{scene.replace('_', ' ')}, {float(truths[scene]['niches']):.0f} niches" if experiment.get("niches") and
+              scene in truths else scene.replace("_", " ") for scene in scenes]
+    for measure in experiment["columns"]:
+        columns = measure.split("/")
+        out += [f"**{' / '.join(HEADINGS[column] for column in columns)}**", "",
+                "| | " + " | ".join(titles) + " |", "|---" * (len(scenes) + 1) + "|"]
+        for row in experiment["rows"]:
+            cells = [row["name"].replace(";", ",")]
+            for scene in scenes:
+                runs = runs_of.get((row["name"], scene))
+                cells.append(" / ".join(ours(column, runs) for column in columns
+                                        if has_column(row, column)) if runs else "")
+                counts.update([len(runs)] if runs else [])
+            out.append("| " + " | ".join(cells) + " |")
+        out.append("")
+    del out[-1]
+
+
+def described(scene, truth):
+    """What a scene is, in words."""
+    nodes = f"{truth['nodes_a']} and {truth['nodes_b']} nodes"
+    name = scene.replace("_", " ")
+    if int(truth["instants"]) > 1:
+        return f"{name}: {truth['instants']} instants, {nodes}, {float(truth['niches']):.1f} niches at an instant"
+    return (f"{name}: edges up to {float(truth['max_edge_length']):.3g} m, {nodes}, enumeration "
+            f"{26e-6 * int(truth['nodes_a']) * int(truth['nodes_b']):.0f} Mflop, best node pair "
+            f"{float(truth['node_distance']):.4f}, exact {float(truth['exact_distance']):.4f}")
 
 
 def lost_rows(experiment, runs_of):
@@ -246,8 +303,9 @@ def manoeuvre_section(folders, images):
 
 
 def order_of(experiment):
-    numbers = re.findall(r"\d+", experiment.get("table") or experiment.get("figure") or "99")
-    return [int(number) for number in numbers[:2]]
+    """As in the thesis, its appendix last, then what has no number there."""
+    number = experiment.get("table") or experiment.get("figure") or "99"
+    return [50] * number.startswith("D") + [int(part) for part in re.findall(r"\d+", number)[:2]]
 
 
 def main():
@@ -282,14 +340,14 @@ def main():
         body += ["", f"## {number}{experiment['title']}", ""]
         counts = set()
         lines = []
-        write_table(lines, experiment, runs_of, counts)
         scenes = {row["scene"]: row for row in read_rows(options.results, experiment["name"] + "_scenes.csv")}
-        described = "; ".join(
-            f"{scene.replace('_', ' ')}: edges up to {edge:g} m, {scenes[scene]['nodes_a']} and {scenes[scene]['nodes_b']} "
-            f"nodes, enumeration {26e-6 * int(scenes[scene]['nodes_a']) * int(scenes[scene]['nodes_b']):.0f} Mflop, best "
-            f"node pair {float(scenes[scene]['node_distance']):.4f}, exact {float(scenes[scene]['exact_distance']):.4f}"
-            for scene, edge in experiment["scenes"].items() if scene in scenes)
-        body += [f"Runs of each row: {', '.join(str(c) for c in sorted(counts))}. Metres; {described}."
+        for (_, scene), runs in runs_of.items():
+            for run in runs:
+                run["instants"] = scenes[scene]["instants"]
+        write = write_by_scene if experiment.get("layout") == "by_scene" else write_table
+        write(lines, experiment, runs_of, counts, scenes)
+        places = "; ".join(described(scene, scenes[scene]) for scene in experiment["scenes"] if scene in scenes)
+        body += [f"Runs of each row: {', '.join(str(c) for c in sorted(counts))}. Metres; {places}."
                  + (f" {experiment['remark']}" if experiment.get("remark") else ""), ""] + lines
         if experiment.get("note"):
             body += ["", experiment["note"].strip()]
@@ -310,7 +368,9 @@ def main():
             "- G_i: the generation (iteration) in which the run's best appeared; N_Gamma: niches of the final population: mean [least-most] deviation.",
             "- x*', x': averages of the best and of the mean objective over a run, over the optimum's (5.1, 5.2).",
             "- kflop: by the thesis's rule, 26 for each point pair looked at (a step of a descent looks at about five) and 6 for each constraint: median [least-most]. Times are of one core of a shared machine.",
-            "- recall, precision: of the outward niches of prominence 1e-2 that level `complete` proves, in the final population.", "",
+            "- recall, precision: of the outward niches of prominence 1e-2 that level `complete` proves, in the final population (of a",
+            "  tracker: those it lists). Nearest niche met: runs that have met it at all.",
+            "- Along a motion (`instants`) every figure is a mean over them.", "",
             "![Figure 5.2: the sharing function](images/evaluation_sharing.png)"]
     if less_robust:
         head += ["", "Rows in which the thesis is more robust than its algorithm here and every variant of it beside it: "

@@ -1,6 +1,7 @@
 #include "experiment.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -11,15 +12,14 @@
 #include "concave_distance/base/error.h"
 #include "search_settings_reader.h"
 #include "setting_values.h"
+#include "settings_reader.h"
 
 namespace concave_distance::evaluation {
 namespace {
 
 using detail::count32;
-using detail::kLength;
 using detail::kShare;
 using detail::notNegativeFinite;
-using detail::positiveFinite;
 using detail::share;
 using detail::YamlMap;
 using detail::YamlValue;
@@ -57,6 +57,8 @@ std::optional<SearchMethod> combinatorialNamed(const std::string& name, GeneticP
 
 Method methodNamed(const YamlValue& value, bool from_thesis) {
   const std::string name = value.text();
+  if (name == nameOf(Method(TrackerMethod()))) return TrackerMethod();
+  if (name == nameOf(Method(EnumerationMethod()))) return EnumerationMethod();
   for (const bool local : {true, false}) {
     ContinuousGeneticParameters genetic =
         from_thesis ? thesisContinuousGenetic() : improvedContinuousGenetic();
@@ -71,7 +73,7 @@ Method methodNamed(const YamlValue& value, bool from_thesis) {
   if (combinatorial) return *combinatorial;
   value.refuse(
       "comb-GA-wl, -nl or -bw, with -sh, -ds, -dc, -dcs or -sc or without; comb-SA-wl or -nl; multi-start; "
-      "cont-GA-wl or -nl; cont-SA-wl or -nl");
+      "cont-GA-wl or -nl; cont-SA-wl or -nl; tracker; enumeration");
 }
 
 void readContinuousGenetic(const YamlValue& value, ContinuousGeneticParameters& p) {
@@ -106,6 +108,17 @@ void readMultiStart(const YamlValue& value, MultiStartParameters& p) {
   map.finish();
 }
 
+/// The settings of a pair, as in a scene file (doc/scene_file.md).
+void readTracker(const YamlValue& value, TrackerMethod& method) {
+  YamlMap map(value, "settings of a pair");
+  if (auto v = map.take("forgets")) method.forgets = v->boolean();
+  PairSettings settings;
+  settings.tracker = method.parameters;
+  detail::readPairSettings(map, settings);
+  method.parameters = settings.tracker;
+  map.finish();
+}
+
 /// Reads the parameters of whatever method it is.
 struct ParameterReader {
   const YamlValue& value;
@@ -115,15 +128,51 @@ struct ParameterReader {
   void operator()(SearchMethod& method) const { std::visit(*this, method); }
   void operator()(ContinuousGeneticParameters& p) const { readContinuousGenetic(value, p); }
   void operator()(ContinuousAnnealingParameters& p) const { readContinuousAnnealing(value, p); }
+  void operator()(TrackerMethod& method) const { readTracker(value, method); }
+  void operator()(EnumerationMethod&) const { value.fail("enumeration has no parameters", "leave them out"); }
 };
 
 struct Validator {
   const std::string where;
   void operator()(const MultiStartParameters&) const {}
+  void operator()(const EnumerationMethod&) const {}
+  void operator()(const TrackerMethod& method) const { method.parameters.validate(where); }
   void operator()(const SearchMethod& method) const { std::visit(*this, method); }
   template <typename Parameters>
   void operator()(const Parameters& parameters) const {
     parameters.validate(where);
+  }
+};
+
+bool isContinuous(const Method& method) {
+  return std::holds_alternative<ContinuousGeneticParameters>(method) ||
+         std::holds_alternative<ContinuousAnnealingParameters>(method);
+}
+
+Inheritance readInheritance(const YamlValue& value) {
+  YamlMap map(value, "what a population inherits: {per_niche: 3, limit: 30}");
+  Inheritance inheritance;
+  if (auto v = map.take("per_niche")) {
+    inheritance.per_niche = v->number("1 or more", [](double n) { return n >= 1.0 && std::isfinite(n); });
+  }
+  if (auto v = map.take("limit")) inheritance.limit = count32(*v, 0);
+  map.finish();
+  return inheritance;
+}
+
+/// Sets what a scene wants of a search.
+struct SceneSettings {
+  const ExperimentScene& scene;
+  bool has_own_limit;
+
+  void operator()(GeneticParameters& p) const {
+    if (scene.population_size) p.population_size = *scene.population_size;
+    limit(p.evaluation_limit);
+  }
+  void operator()(AnnealingParameters& p) const { limit(p.evaluation_limit); }
+  void operator()(MultiStartParameters& p) const { limit(p.evaluation_limit); }
+  void limit(std::uint64_t& evaluations) const {
+    if (scene.evaluation_limit && !has_own_limit) evaluations = *scene.evaluation_limit;
   }
 };
 
@@ -143,7 +192,11 @@ ExperimentRow readRow(const YamlValue& value, const std::optional<YamlValue>& co
       std::holds_alternative<ContinuousGeneticParameters>(row.method) ||
       (combinatorial != nullptr && std::holds_alternative<GeneticParameters>(*combinatorial));
   if (common && is_genetic) std::visit(ParameterReader{*common}, row.method);
-  if (auto v = map.take("parameters")) std::visit(ParameterReader{*v}, row.method);
+  if (auto v = map.take("parameters")) {
+    std::visit(ParameterReader{*v}, row.method);
+    row.has_own_limit = YamlMap(*v, "a map of parameters").take("evaluation_limit").has_value();
+  }
+  if (auto v = map.take("inheritance")) row.inheritance = readInheritance(*v);
   std::visit(Validator{value.where()}, row.method);
   map.take("thesis");      // the thesis's own figures, for the report
   map.take("variant_of");  // the thesis's row that it improves on
@@ -160,7 +213,17 @@ std::string nameOf(const Method& method) {
   if (const auto* annealing = std::get_if<ContinuousAnnealingParameters>(&method)) {
     return annealing->local_step.enabled ? "cont-SA-wl" : "cont-SA-nl";
   }
+  if (std::holds_alternative<TrackerMethod>(method)) return "tracker";
+  if (std::holds_alternative<EnumerationMethod>(method)) return "enumeration";
   return concave_distance::nameOf(std::get<SearchMethod>(method));
+}
+
+Method ExperimentRow::methodOn(const ExperimentScene& scene) const {
+  Method changed = method;
+  if (auto* search = std::get_if<SearchMethod>(&changed)) {
+    std::visit(SceneSettings{scene, has_own_limit}, *search);
+  }
+  return changed;
 }
 
 GeneticParameters thesisGeneticParameters() {
@@ -180,7 +243,9 @@ Experiment loadExperiment(const std::string& file) {
   map.take("table");
   map.take("figure");
   map.take("columns");
+  map.take("layout");
   map.take("remark");
+  map.take("note");
   if (auto v = map.take("seed")) experiment.seed = v->count(0, std::numeric_limits<std::uint64_t>::max());
   YamlMap runs(map.require("runs", "say how many runs: {quick: 20, full: 500}"), "{quick: 20, full: 500}");
   experiment.quick_runs = count32(runs.require("quick", "a count"), 1);
@@ -190,8 +255,11 @@ Experiment loadExperiment(const std::string& file) {
   if (auto v = map.take("curves")) experiment.curves = v->boolean();
   const YamlMap scenes(map.require("scenes", "name scenes and their grids: {battery_static: 0.05}"),
                        "scenes and the edge length of their grids");
-  for (const auto& [name, edge] : scenes.entries()) {
-    experiment.scenes.push_back({name, edge.number(kLength, positiveFinite)});
+  const std::string folder = std::filesystem::path(file).parent_path().string();
+  bool all_have_trees = true;
+  for (const auto& [name, scene] : scenes.entries()) {
+    experiment.scenes.push_back(readScene(name, scene, folder));
+    all_have_trees = all_have_trees && !experiment.scenes.back().thesis_scene.empty();
   }
   const std::optional<YamlValue> common = map.take("common");
   std::set<std::string> names;
@@ -199,6 +267,9 @@ Experiment loadExperiment(const std::string& file) {
     experiment.rows.push_back(readRow(value, common));
     if (!names.insert(experiment.rows.back().name).second) {
       value.fail("the name " + experiment.rows.back().name + " stands twice", "give every row its own");
+    }
+    if (isContinuous(experiment.rows.back().method) && !all_have_trees) {
+      value.fail("the continuous approach needs constraint trees", "use scenes of meshes/thesis only");
     }
   }
   map.finish();

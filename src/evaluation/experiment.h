@@ -7,25 +7,39 @@
 
 #include "concave_distance/continuous/continuous_parameters.h"
 #include "concave_distance/search/search_method.h"
+#include "concave_distance/tracking/tracker_parameters.h"
+#include "concave_distance/tracking/warm_start.h"
+#include "experiment_scene.h"
 
 namespace concave_distance::evaluation {
 
-/// Any algorithm of the thesis.
-using Method = std::variant<SearchMethod, ContinuousGeneticParameters, ContinuousAnnealingParameters>;
+/// All node pairs (Carretero, app. D).
+struct EnumerationMethod {};
 
-/// {cont|comb}-{GA|SA}-{wl|nl}..., see search/search_method.h.
+/// What a node runs for a pair: every niche followed, the search one stage among others.
+struct TrackerMethod {
+  TrackerParameters parameters;
+  bool forgets = false;  ///< every instant is solved cold
+};
+
+/// Any algorithm of the thesis, and this package's own tracker.
+using Method = std::variant<SearchMethod, ContinuousGeneticParameters, ContinuousAnnealingParameters,
+                            TrackerMethod, EnumerationMethod>;
+
+/// {cont|comb}-{GA|SA}-{wl|nl}..., see search/search_method.h; tracker; enumeration.
 std::string nameOf(const Method& method);
 
 /// A row of a table: one algorithm with one set of parameters.
 struct ExperimentRow {
   std::string name;
   Method method;
-};
+  bool has_own_limit = false;  ///< of evaluations, which a scene's does not replace
+  /// Of a GA along a motion: what each instant's population inherits from the niches of the last one's
+  /// (6.7), (6.8); other searches start anew at every instant.
+  Inheritance inheritance;
 
-/// A scene of meshes/thesis at a pose, on a grid.
-struct ExperimentScene {
-  std::string name;        ///< of a poses file, e.g. battery_static
-  double max_edge_length;  ///< metres
+  /// With what the scene wants.
+  Method methodOn(const ExperimentScene& scene) const;
 };
 
 /// One table or figure: every row on every scene, many times. Read from experiments/*.yaml.

@@ -19,13 +19,20 @@ constexpr std::uint32_t kRunsAtOnce = 10;
 void writeScenes(const Experiment& experiment, const std::vector<SceneTruth>& scenes,
                  const std::string& folder) {
   std::ofstream file(folder + "/" + experiment.name + "_scenes.csv");
-  file << "scene,max_edge_length,nodes_a,nodes_b,exact_distance,node_distance,second_distance,niches\n";
+  file << "scene,max_edge_length,nodes_a,nodes_b,exact_distance,node_distance,second_distance,niches,"
+          "instants\n";
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     const SceneTruth& scene = scenes[i];
-    file << experiment.scenes[i].name << ',' << experiment.scenes[i].max_edge_length << ','
-         << scene.a->graph().nodeCount() << ',' << scene.b->graph().nodeCount() << ',' << scene.exact_distance
-         << ',' << scene.node_distance << ',' << scene.second_distance << ',' << scene.niches.niches.size()
-         << '\n';
+    const InstantTruth& truth = scene.first();
+    double niches = 0.0;
+    for (const InstantTruth& instant : scene.instants) {
+      niches +=
+          static_cast<double>(instant.niches.niches.size()) / static_cast<double>(scene.instants.size());
+    }
+    file << experiment.scenes[i].name << ',' << std::max(scene.a->maxEdgeLength(), scene.b->maxEdgeLength())
+         << ',' << scene.a->graph().nodeCount() << ',' << scene.b->graph().nodeCount() << ','
+         << truth.exact_distance << ',' << truth.node_distance << ',' << truth.second_distance << ','
+         << niches << ',' << scene.instants.size() << '\n';
   }
 }
 
@@ -60,12 +67,10 @@ void runExperiment(const Experiment& experiment, const EvaluationOptions& option
   tbb::parallel_for_each(units.begin(), units.end(), [&](const WorkUnit& unit) {
     const SceneTruth& scene = scenes[unit.scene];
     SearchWorkspace workspace(*scene.a, *scene.b);
-    std::vector<TrialRecord> records;
     std::vector<CurvePoint> curve;
-    for (std::uint32_t i = 0; i < unit.run_count; ++i) {
-      records.push_back(runTrial(experiment, experiment.rows[unit.row], scene, unit.first_run + i, workspace,
-                                 experiment.curves ? &curve : nullptr));
-    }
+    const std::vector<TrialRecord> records =
+        runTrials(experiment, unit.row, unit.scene, scene, unit.first_run, unit.run_count, workspace,
+                  experiment.curves ? &curve : nullptr);
     const std::lock_guard<std::mutex> lock(writing);
     files.append(unit, records, curve);
     done += unit.run_count;

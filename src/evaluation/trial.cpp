@@ -3,26 +3,17 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <set>
 
 #include "concave_distance/continuous/continuous_annealing.h"
 #include "concave_distance/continuous/continuous_genetic_search.h"
-#include "concave_distance/search/automatic_radii.h"
 #include "concave_distance/search/niche_identification.h"
+#include "motion_trial.h"
+#include "niche_questions.h"
 
 namespace concave_distance::evaluation {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-/// Distances are sums of squares rounded alike; two node pairs are as good when only rounding parts them.
-constexpr double kSame = 1.0 + 1e-12;
-constexpr std::uint64_t kFlopsOfAPair = 26;
-
-NicheRadii radiiOf(const SceneTruth& scene, const SearchMethod& method) {
-  const auto* genetic = std::get_if<GeneticParameters>(&method);
-  return automaticRadii(*scene.a, *scene.b, genetic != nullptr ? *genetic : GeneticParameters());
-}
 
 /// What one generation or iteration shows.
 struct Moment {
@@ -77,38 +68,11 @@ class Diary {
   double microseconds_ = 0.0;
 };
 
-double share(std::size_t part, std::size_t whole) {
-  return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : 1.0;
-}
-
-/// Which true niches the final population's and all minima met are, decided by the flood that made the truth.
-void measureRecall(const SceneTruth& scene, const std::vector<IdentifiedNiche>& found,
-                   const std::vector<TrialPoint>& archive, TrialRecord& record) {
-  LocalMinimaRequest request;
-  request.cutoff = scene.niche_cutoff;
-  const auto ask = [&](const TrialPoint& place) {
-    request.whose.emplace_back(scene.a->originalTriangle(place.node_a),
-                               scene.b->originalTriangle(place.node_b));
-  };
-  for (const IdentifiedNiche& niche : found) ask(niche.best);
-  for (const TrialPoint& place : archive) ask(place);
-  const LocalMinima truth = findLocalMinima(*scene.a, *scene.b, scene.a_from_b, request);
-  const auto archive_begin = truth.owners.begin() + static_cast<std::ptrdiff_t>(found.size());
-  const auto count_met = [](auto begin, auto end) {
-    std::set<std::size_t> met(begin, end);
-    met.erase(LocalMinima::kNoOwner);
-    return met.size();
-  };
-  const std::size_t met = count_met(truth.owners.begin(), archive_begin);
-  record.recall = share(met, truth.niches.size());
-  record.precision = share(met, found.size());
-  record.archive_recall = share(count_met(archive_begin, truth.owners.end()), truth.niches.size());
-}
-
-TrialRecord runCombinatorial(const SearchMethod& method, const SceneTruth& scene, bool with_recall,
-                             RandomEngine& engine, SearchWorkspace& workspace, Diary& diary) {
+TrialRecord runCombinatorial(const SearchMethod& method, const SceneTruth& scene, RandomEngine& engine,
+                             SearchWorkspace& workspace, Diary& diary, FoundPlaces* places) {
   const NicheRadii radii = radiiOf(scene, method);
-  const PairObjective objective(*scene.a, *scene.b, scene.a_from_b);
+  const InstantTruth& truth = scene.first();
+  const PairObjective objective(*scene.a, *scene.b, truth.a_from_b);
   std::vector<TrialPoint> population;
   std::vector<IdentifiedNiche> seen;
   std::vector<std::uint32_t> order;
@@ -128,28 +92,31 @@ TrialRecord runCombinatorial(const SearchMethod& method, const SceneTruth& scene
   const Clock::time_point start = Clock::now();
   const SearchOutcome outcome = searchPair(objective, method, radii, engine, workspace, look);
   TrialRecord record;
-  diary.conclude(start, scene.node_distance * scene.node_distance, record);
+  diary.conclude(start, truth.node_distance * truth.node_distance, record);
   record.distance = std::sqrt(outcome.best.squared_distance);
   record.best_iteration = outcome.best_iteration;
-  record.exact = record.distance <= scene.node_distance * kSame;
-  record.region = record.exact || record.distance < scene.region_limit;
-  record.below_second = record.distance < scene.second_distance;
+  record.exact = record.distance <= truth.node_distance * kSame;
+  record.region = record.exact || record.distance < truth.region_limit;
+  record.below_second = record.distance < truth.second_distance;
+  record.wrong_instants = record.exact ? 0 : 1;
+  record.worst_excess = record.distance - truth.node_distance;
   record.cost = outcome.cost;
   record.flops = kFlopsOfAPair * outcome.cost.evaluations;
   std::vector<IdentifiedNiche>& niches = workspace.niches;
   identifyNiches(workspace.population, radii.niche, workspace.metric, niches, workspace.order);
-  record.niches = static_cast<std::uint32_t>(niches.size());
+  record.niches = static_cast<double>(niches.size());
+  record.most_niches = static_cast<std::uint32_t>(niches.size());
   for (std::size_t i = 0; i < std::min(niches.size(), record.members.size()); ++i) {
     record.members[i] = niches[i].member_count;
     record.niche_distances[i] = std::sqrt(niches[i].best.squared_distance);
   }
-  if (with_recall) measureRecall(scene, niches, workspace.basins.minima(), record);
+  if (places != nullptr) *places = placesOf(scene, niches, workspace.basins.minima());
   return record;
 }
 
 /// @param search what runs, given an observer
 template <typename Search>
-TrialRecord runContinuous(const SceneTruth& scene, Diary& diary, const Search& search) {
+TrialRecord runContinuous(const InstantTruth& truth, Diary& diary, const Search& search) {
   const auto look = [&diary](const ContinuousRecord& record) {
     diary.startLooking();
     double sum = 0.0;
@@ -160,13 +127,13 @@ TrialRecord runContinuous(const SceneTruth& scene, Diary& diary, const Search& s
   const Clock::time_point start = Clock::now();
   const ContinuousResult result = search(look);
   TrialRecord record;
-  diary.conclude(start, scene.exact_distance * scene.exact_distance, record);
+  diary.conclude(start, truth.exact_distance * truth.exact_distance, record);
   record.distance = result.distance;
   record.best_iteration = result.best_generation;
   record.feasible = result.is_feasible;
-  record.exact = record.feasible && record.distance <= scene.exact_distance * kSame;
-  record.region = record.feasible && record.distance < scene.exact_region_limit;
-  record.below_second = record.distance < scene.second_distance;
+  record.exact = record.feasible && record.distance <= truth.exact_distance * kSame;
+  record.region = record.feasible && record.distance < truth.exact_region_limit;
+  record.below_second = record.distance < truth.second_distance;
   record.cost.evaluations = result.cost.evaluations;
   record.cost.descent_steps = result.cost.local_steps;
   record.flops = result.cost.flops();
@@ -182,23 +149,54 @@ std::uint32_t curveStride(const Method& method) {
   return anneals ? 10 : 1;
 }
 
-TrialRecord runTrial(const Experiment& experiment, const ExperimentRow& row, const SceneTruth& scene,
-                     std::uint32_t run, SearchWorkspace& workspace, std::vector<CurvePoint>* curve) {
-  Diary diary(curveStride(row.method), curve);
-  RandomEngine engine(streamSeed(experiment.seed, "evaluate", run));
-  if (const auto* genetic = std::get_if<ContinuousGeneticParameters>(&row.method)) {
-    return runContinuous(scene, diary, [&](const ContinuousObserver& observer) {
-      return continuousGeneticSearch(*scene.tree_a, *scene.tree_b, scene.a_from_b, *genetic, engine,
-                                     observer);
+namespace {
+
+/// A run at one pose. @param places that it found, when they are asked for
+TrialRecord runOnce(const Method& method, const SceneTruth& scene, RandomEngine& engine,
+                    SearchWorkspace& workspace, std::vector<CurvePoint>* curve, FoundPlaces* places) {
+  Diary diary(curveStride(method), curve);
+  const Eigen::Isometry3d& a_from_b = scene.first().a_from_b;
+  if (const auto* genetic = std::get_if<ContinuousGeneticParameters>(&method)) {
+    return runContinuous(scene.first(), diary, [&](const ContinuousObserver& observer) {
+      return continuousGeneticSearch(*scene.tree_a, *scene.tree_b, a_from_b, *genetic, engine, observer);
     });
   }
-  if (const auto* annealing = std::get_if<ContinuousAnnealingParameters>(&row.method)) {
-    return runContinuous(scene, diary, [&](const ContinuousObserver& observer) {
-      return continuousAnnealing(*scene.tree_a, *scene.tree_b, scene.a_from_b, *annealing, engine, observer);
+  if (const auto* annealing = std::get_if<ContinuousAnnealingParameters>(&method)) {
+    return runContinuous(scene.first(), diary, [&](const ContinuousObserver& observer) {
+      return continuousAnnealing(*scene.tree_a, *scene.tree_b, a_from_b, *annealing, engine, observer);
     });
   }
-  return runCombinatorial(std::get<SearchMethod>(row.method), scene, experiment.niches, engine, workspace,
-                          diary);
+  return runCombinatorial(std::get<SearchMethod>(method), scene, engine, workspace, diary, places);
+}
+
+}  // namespace
+
+std::vector<TrialRecord> runTrials(const Experiment& experiment, std::size_t row, std::size_t scene,
+                                   const SceneTruth& truth, std::uint32_t first_run, std::uint32_t count,
+                                   SearchWorkspace& workspace, std::vector<CurvePoint>* curve) {
+  const ExperimentScene& place = experiment.scenes[scene];
+  const ExperimentRow& what = experiment.rows[row];
+  const Method method = what.methodOn(place);
+  const bool has_niches = experiment.niches && (std::holds_alternative<SearchMethod>(method) ||
+                                                std::holds_alternative<TrackerMethod>(method));
+  const bool instant_by_instant = place.isMotion() || std::holds_alternative<TrackerMethod>(method) ||
+                                  std::holds_alternative<EnumerationMethod>(method);
+  NicheQuestions questions(truth);
+  std::vector<TrialRecord> records;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const std::uint64_t seed = streamSeed(experiment.seed, "evaluate", first_run + i);
+    if (instant_by_instant) {
+      records.push_back(
+          runAlong(method, what.inheritance, truth, seed, workspace, has_niches ? &questions : nullptr, i));
+      continue;
+    }
+    RandomEngine engine(seed);
+    FoundPlaces places;
+    records.push_back(runOnce(method, truth, engine, workspace, curve, has_niches ? &places : nullptr));
+    if (has_niches) questions.ask(0, i, std::move(places));
+  }
+  if (has_niches) questions.settle(records);
+  return records;
 }
 
 }  // namespace concave_distance::evaluation

@@ -17,13 +17,16 @@ struct CurvePoint {
   double acceptance = 0.0;     ///< p_b, of annealing
 };
 
-/// What one run gave (Carretero, sec. 5.1).
+/// What one run gave (Carretero, sec. 5.1). Along a motion distance, counts, cost, shares and time are means
+/// over its instants.
 struct TrialRecord {
   double distance = 0.0;             ///< of the best node pair, metres
   std::uint32_t best_iteration = 0;  ///< G_i
-  bool exact = false;                ///< counts for Phi*: the best node pair there is
-  bool region = false;               ///< counts for Phi: within the region of the optimum
-  std::uint32_t niches = 0;          ///< N_Gamma of the final population
+  /// Counts for Phi*: the best node pair there is, or for who answers with points of the surfaces the exact
+  /// distance; at every instant.
+  bool exact = false;
+  bool region = false;  ///< counts for Phi: within the region of the optimum, at every instant
+  double niches = 0.0;  ///< N_Gamma of the final population
   static constexpr std::size_t kNicheCount = 10;
   std::array<std::uint32_t, kNicheCount> members{};   ///< individuals of the nearest niches
   std::array<double, kNicheCount> niche_distances{};  ///< of the same, metres; 0: there are no more
@@ -38,15 +41,22 @@ struct TrialRecord {
   double recall = 0.0;          ///< of the outward niches of level complete, in the final population
   double archive_recall = 0.0;  ///< the same of all local minima that the run has met
   double precision = 0.0;       ///< niches of the final population that are one of those, each counted once
+  double nearest = 0.0;         ///< 1 where the nearest of those niches is among the minima met
+  std::uint32_t wrong_instants = 0;  ///< where the answer is not `exact`
+  double worst_excess = 0.0;         ///< of the distance over the one that is, metres
+  std::uint32_t most_niches = 0;     ///< at one instant
+  /// Instants at which the proof found a nearer place than every niche that the search had met.
+  std::uint32_t proof_finds = 0;
 };
 
 /// Iterations between two points of a curve: every generation of a GA, every tenth iteration of annealing.
 std::uint32_t curveStride(const Method& method);
 
-/// One run of a row on a scene.
-/// @param run from 0; names the stream of random numbers, the same for every row
-/// @param curve sums that this run is added to; null: none
-TrialRecord runTrial(const Experiment& experiment, const ExperimentRow& row, const SceneTruth& scene,
-                     std::uint32_t run, SearchWorkspace& workspace, std::vector<CurvePoint>* curve);
+/// Runs of a row on a scene.
+/// @param first_run from 0; a run's number names its stream of random numbers, the same for every row
+/// @param curve sums that these runs are added to; null: none
+std::vector<TrialRecord> runTrials(const Experiment& experiment, std::size_t row, std::size_t scene,
+                                   const SceneTruth& truth, std::uint32_t first_run, std::uint32_t count,
+                                   SearchWorkspace& workspace, std::vector<CurvePoint>* curve);
 
 }  // namespace concave_distance::evaluation

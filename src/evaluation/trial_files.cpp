@@ -19,7 +19,8 @@ std::string runsHeader() {
   }
   return header +
          ",best_convergence,population_convergence,below_second,feasible,evaluations,descents,descent_steps,"
-         "flops,microseconds,recall,precision,archive_recall";
+         "flops,microseconds,recall,precision,archive_recall,nearest,wrong_instants,worst_excess,most_niches,"
+         "proof_finds";
 }
 constexpr const char* kCurvesHeader =
     "row,scene,first_run,runs,iteration,best_distance_sum,mean_square_sum,niches_sum,acceptance_sum";
@@ -131,7 +132,8 @@ void TrialFiles::append(const WorkUnit& unit, const std::vector<TrialRecord>& re
     lines << ',' << r.best_convergence << ',' << r.population_convergence << ',' << r.below_second << ','
           << r.feasible << ',' << r.cost.evaluations << ',' << r.cost.descents << ',' << r.cost.descent_steps
           << ',' << r.flops << ',' << r.microseconds << ',' << r.recall << ',' << r.precision << ','
-          << r.archive_recall << '\n';
+          << r.archive_recall << ',' << r.nearest << ',' << r.wrong_instants << ',' << r.worst_excess << ','
+          << r.most_niches << ',' << r.proof_finds << '\n';
   }
   runs_ << lines.str() << std::flush;
 }

@@ -4,7 +4,7 @@
 //
 // The rule was chosen on the thesis's three scenes and frozen (src/search/automatic_radii.cpp); the robot
 // links are pairs it has not seen. A row is a pair and a factor on all three radii: the share of the true
-// outward niches (as in ablation_benchmark) that stand in the final population of 100 after 30 generations,
+// outward niches (see searchScenes) that stand in the final population of 100 after 30 generations,
 // with sharing alone and with the best of every niche conserved, and that the run has met at all.
 #include <CLI/CLI.hpp>
 
@@ -57,8 +57,8 @@ int benchmarkMain(int argc, char** argv) {
     for (const SearchScene& scene : scenes) {
       niches += static_cast<double>(scene.references.size()) / static_cast<double>(scenes.size());
     }
-    SearchMethod conserved{"conserved", false, {}};
-    SearchMethod sharing{"sharing", false, {}};
+    SearchMethod conserved{"conserved", {}};
+    SearchMethod sharing{"sharing", {}};
     sharing.parameters.conserve_niches = false;
     for (const double factor : {0.5, 1.0, 2.0}) {
       const double radius = factor * automaticRadii(*pair.a, *pair.b, {}).sharing;

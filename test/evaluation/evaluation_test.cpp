@@ -66,6 +66,12 @@ class Evaluation : public ::testing::Test {
     std::sort(lines.begin(), lines.end());
     return lines;
   }
+  /// Of one row on the first scene.
+  static TrialRecord runOne(const Experiment& experiment, std::size_t row, const SceneTruth& scene,
+                            std::vector<CurvePoint>* curve) {
+    SearchWorkspace workspace(*scene.a, *scene.b);
+    return runTrials(experiment, row, 0, scene, 3, 1, workspace, curve).front();
+  }
   static void run(const Experiment& experiment, const EvaluationOptions& options) {
     runExperiment(experiment, options, [](std::uint64_t, std::uint64_t) {});
   }
@@ -139,9 +145,8 @@ TEST_F(Evaluation, ShardsTogetherAreTheWhole) {
 TEST_F(Evaluation, MeasuresARunAsTheThesisDoes) {
   const Experiment experiment = loadExperiment(write(kExperiment));
   const SceneTruth scene = loadScene(experiment.scenes[0], kSource + "/meshes/thesis");
-  SearchWorkspace workspace(*scene.a, *scene.b);
   std::vector<CurvePoint> curve;
-  const TrialRecord record = runTrial(experiment, experiment.rows[0], scene, 3, workspace, &curve);
+  const TrialRecord record = runOne(experiment, 0, scene, &curve);
   ASSERT_EQ(curve.size(), 6U);  // the initial population and five generations
   double best = 0.0;
   double mean = 0.0;
@@ -150,12 +155,13 @@ TEST_F(Evaluation, MeasuresARunAsTheThesisDoes) {
     best += curve[g].best_distance * curve[g].best_distance / 5.0;
     mean += curve[g].mean_square / 5.0;
   }
-  const double global = scene.node_distance * scene.node_distance;
+  const double global = scene.first().node_distance * scene.first().node_distance;
   EXPECT_NEAR(record.best_convergence, best / global, 1e-12 * best / global);  // eq. (5.1)
   EXPECT_NEAR(record.population_convergence, mean / global, 1e-12 * mean / global);
-  EXPECT_GE(record.distance, scene.node_distance);
-  EXPECT_EQ(record.exact, record.distance == scene.node_distance);
-  EXPECT_EQ(record.region, record.distance < std::max(scene.region_limit, scene.node_distance * (1 + 1e-9)));
+  EXPECT_GE(record.distance, scene.first().node_distance);
+  EXPECT_EQ(record.exact, record.distance == scene.first().node_distance);
+  EXPECT_EQ(record.region,
+            record.distance < std::max(scene.first().region_limit, scene.first().node_distance * (1 + 1e-9)));
   EXPECT_EQ(record.distance, curve.back().best_distance);
   std::uint32_t members = 0;
   for (const std::uint32_t count : record.members) members += count;
@@ -168,14 +174,79 @@ TEST_F(Evaluation, MeasuresARunAsTheThesisDoes) {
 TEST_F(Evaluation, MeasuresContinuousRunsByPointsInTheBodies) {
   const Experiment experiment = loadExperiment(write(kExperiment));
   const SceneTruth scene = loadScene(experiment.scenes[0], kSource + "/meshes/thesis");
-  SearchWorkspace workspace(*scene.a, *scene.b);
   std::vector<CurvePoint> curve;
-  const TrialRecord record = runTrial(experiment, experiment.rows[2], scene, 3, workspace, &curve);
+  const TrialRecord record = runOne(experiment, 2, scene, &curve);
   EXPECT_EQ(curve.size(), 6U);
-  EXPECT_EQ(record.niches, 0U);
-  EXPECT_GE(record.distance, record.feasible ? scene.exact_distance * (1 - 1e-9) : 0.0);
-  EXPECT_EQ(record.region, record.feasible && record.distance < scene.exact_region_limit);
+  EXPECT_EQ(record.niches, 0.0);
+  EXPECT_GE(record.distance, record.feasible ? scene.first().exact_distance * (1 - 1e-9) : 0.0);
+  EXPECT_EQ(record.region, record.feasible && record.distance < scene.first().exact_region_limit);
   EXPECT_GT(record.flops, 26 * record.cost.evaluations);  // constraints count, too
+}
+
+TEST_F(Evaluation, FollowsAMotion) {
+  const std::string meshes = kSource + "/meshes/";
+  const Experiment experiment = loadExperiment(write(R"(
+title: "The battery on its way, and combs"
+runs: {quick: 1, full: 1}
+niches: true
+scenes:
+  manoeuvre: {mesh_a: )" + meshes + "thesis/fixture.stl, mesh_b: " +
+                                                     meshes + "thesis/battery.stl, poses: " + meshes +
+                                                     R"(thesis/manoeuvre_200.csv,
+              instants: {first: 80, count: 6, step: 2}, max_edge_length: 0.1, evaluation_limit: 700, population_size: 20}
+common: {max_generations: 1000}
+rows:
+  - {name: inherits, algorithm: comb-GA-wl-sh, base: shipped}
+  - {name: starts anew, algorithm: comb-GA-wl-sh, base: shipped, inheritance: {limit: 0}}
+  - {name: certified, algorithm: tracker}
+  - {name: at nodes, algorithm: tracker, parameters: {accuracy: nodes, forgets: true}}
+  - {name: all, algorithm: enumeration}
+  - {name: its own limit, algorithm: multi-start, parameters: {starts: 100000, evaluation_limit: 3000}}
+)"));
+  const SceneTruth scene = loadScene(experiment.scenes[0], "");
+  ASSERT_EQ(scene.instants.size(), 6U);
+  EXPECT_NEAR(scene.instants[1].time - scene.instants[0].time, 0.2, 1e-9);  // 10 Hz, every second one
+  std::vector<TrialRecord> records;
+  for (std::size_t row = 0; row < experiment.rows.size(); ++row) {
+    records.push_back(runOne(experiment, row, scene, nullptr));
+    EXPECT_GE(records[row].recall, 0.0);
+    EXPECT_LE(records[row].recall, 1.0 + 1e-12);
+    EXPECT_LE(records[row].archive_recall, 1.0 + 1e-12);
+    EXPECT_GE(records[row].worst_excess, -1e-9);
+    EXPECT_EQ(records[row].exact, records[row].wrong_instants == 0);
+  }
+  EXPECT_NEAR(static_cast<double>(records[0].cost.evaluations), 700.0, 100.0);  // ends with a descent
+  EXPECT_NEAR(static_cast<double>(records[5].cost.evaluations), 3000.0, 100.0);
+  EXPECT_GT(records[0].archive_recall, records[1].archive_recall);
+  EXPECT_TRUE(records[2].exact);
+  EXPECT_EQ(records[2].recall, records[2].archive_recall);
+  EXPECT_TRUE(records[4].exact);
+  EXPECT_EQ(records[4].cost.evaluations, scene.a->graph().nodeCount() * scene.b->graph().nodeCount());
+  EXPECT_EQ(records[4].flops, 26 * records[4].cost.evaluations);
+}
+
+TEST_F(Evaluation, SearchesOnOtherNodes) {
+  const Experiment experiment = loadExperiment(write(R"(
+title: "Other nodes"
+runs: {quick: 1, full: 1}
+scenes:
+  mesh: {thesis_scene: battery_static, max_edge_length: 0.1}
+  points: {thesis_scene: battery_static, max_edge_length: 0.1, nodes: plain_random_points}
+  others: {thesis_scene: battery_static, max_edge_length: 0.1, nodes: plain_random_points, node_seed: 2}
+  volume: {thesis_scene: battery_static, max_edge_length: 0.1, nodes: volume, lattice_edge: 0.06}
+rows:
+  - {name: search, algorithm: comb-GA-wl, parameters: {population_size: 80}}
+)"));
+  std::vector<SceneTruth> scenes;
+  for (const ExperimentScene& scene : experiment.scenes) {
+    scenes.push_back(loadScene(scene, kSource + "/meshes/thesis"));
+    EXPECT_GE(scenes.back().first().node_distance, scenes.back().first().exact_distance);
+    EXPECT_LT(runOne(experiment, 0, scenes.back(), nullptr).distance, 0.3);
+  }
+  EXPECT_EQ(scenes[1].a->graph().nodeCount(), scenes[0].a->graph().nodeCount());
+  EXPECT_NE(scenes[1].first().node_distance, scenes[2].first().node_distance);
+  EXPECT_EQ(scenes[3].first().node_distance, scenes[0].first().node_distance);
+  EXPECT_GT(scenes[3].b->graph().nodeCount(), scenes[0].b->graph().nodeCount());
 }
 
 TEST_F(Evaluation, ReadsEveryExperimentOfThePackage) {
@@ -218,6 +289,13 @@ TEST_F(Evaluation, RefusesWhatIsWrongByFileLineAndKey) {
   refused("name: sharing", "name: \"a,b\"", "without commas");
   refused("battery_static: 0.1", "battery_static: 0", "greater than 0");
   refused("battery_static: 0.1", "teapot: 0.1", "is not known");
+  refused("battery_static: 0.1", "a: {mesh_a: x.stl, poses: p.csv}", "mesh_b");
+  refused("battery_static: 0.1", "a: {thesis_scene: battery_static, nodes: volume}", "max_edge_length");
+  refused("battery_static: 0.1", "a: {mesh_a: x.stl, mesh_b: x.stl, poses: p.csv}", "constraint trees");
+  refused("algorithm: comb-GA-wl-sh, parameters: {niche_radius: 0.6}",
+          "algorithm: enumeration, parameters: {niche_radius: 0.6}", "no parameters");
+  refused("algorithm: comb-GA-wl-sh, parameters: {niche_radius: 0.6}",
+          "algorithm: tracker, parameters: {niches: 6}", "niches");
   refused("quick: 10, ", "", "quick");
   refused("niche_radius: 0.6", "niche_radius: -1", "niche_radius");
   refused("initial_temperature: 30", "temperature: 30", "temperature");

@@ -59,10 +59,7 @@ SearchOutcome trySearch(const BenchmarkPair& pair, const SearchScene& scene, con
   radii.mating *= sharing_scale;
   radii.niche *= sharing_scale;
   const auto start = std::chrono::steady_clock::now();
-  const GeneticResult result =
-      method.multi_start
-          ? multiStartDescent(objective, 0xffffffffU, engine, workspace, method.parameters.evaluation_limit)
-          : geneticSearch(objective, method.parameters, radii, {}, engine, workspace);
+  const GeneticResult result = geneticSearch(objective, method.parameters, radii, {}, engine, workspace);
   SearchOutcome outcome;
   outcome.microseconds =
       std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
@@ -75,9 +72,7 @@ SearchOutcome trySearch(const BenchmarkPair& pair, const SearchScene& scene, con
   const std::vector<WitnessPair> archive = refineAll(pair, scene.pose, workspace.basins.minima());
   outcome.archive_recall = recalled(archive, scene.references);
   outcome.nearest = recalled(archive, {scene.references.front()});
-  if (!method.multi_start) {
-    outcome.population_recall = recalled(refineAll(pair, scene.pose, workspace.population), scene.references);
-  }
+  outcome.population_recall = recalled(refineAll(pair, scene.pose, workspace.population), scene.references);
   return outcome;
 }
 

@@ -23,18 +23,16 @@ double truthCutoff(const BenchmarkPair& pair, const Eigen::Isometry3d& pose);
 /// cutoff are left out.
 std::vector<SearchScene> searchScenes(const BenchmarkPair& pair, std::size_t count, double least_prominence);
 
-/// A search to be tried: multi-start descent, or the genetic algorithm with these parameters. The limit of
-/// evaluations in them is the trial's.
+/// A search to be tried.
 struct SearchMethod {
-  std::string name;
-  bool multi_start;
+  std::string name;  ///< names the stream of random numbers
   GeneticParameters parameters;
 };
 
 /// What a search has met of the truth, as shares of it, and what that cost.
 struct SearchOutcome {
   double archive_recall = 0.0;     ///< of all local minima met
-  double population_recall = 0.0;  ///< of the final population alone; 0 for multi-start descent
+  double population_recall = 0.0;  ///< of the final population alone
   double nearest = 0.0;            ///< 1 when the nearest niche is among the minima met
   double microseconds = 0.0;
   double evaluations = 0.0;

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "scene_truth.h"
+#include "trial.h"
+
+namespace concave_distance::evaluation {
+
+using TrianglePlace = std::pair<TriangleIndex, TriangleIndex>;
+
+/// What one run has found at one instant.
+struct FoundPlaces {
+  std::vector<TrianglePlace>
+      reported;  ///< niches of the final population, or a tracker's up to the truth's cutoff
+  std::vector<TrianglePlace> met;  ///< all local minima that the search has met
+};
+
+/// Gathers what runs have found and then has the truth decide, once for each instant, whose niches these are:
+/// the flood that made the truth costs more than a run.
+class NicheQuestions {
+ public:
+  explicit NicheQuestions(const SceneTruth& scene) : scene_(&scene), asked_(scene.instants.size()) {}
+
+  void ask(std::size_t instant, std::size_t run, FoundPlaces places);
+  /// Adds each run's shares to its record: means over the instants.
+  void settle(std::vector<TrialRecord>& records) const;
+
+ private:
+  struct Asked {
+    std::size_t run;
+    FoundPlaces places;
+  };
+  const SceneTruth* scene_;
+  std::vector<std::vector<Asked>> asked_;  ///< per instant
+};
+
+}  // namespace concave_distance::evaluation
