@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Runs the experiments (experiments/*.yaml) and writes doc/evaluation.md with its plots.
 #
-#   scripts/report.sh [quick|full] [folder of the results]    quick: a minute (default); full: the counts of runs of
+#   scripts/report.sh [quick|full] [folder of the results]    quick: one to two minutes (default); full: the counts of runs of
 #                                                             the thesis, some minutes on two cores
 #
 # It installs and builds what is missing, and goes on where an interrupted run has ended. On several machines, each shard
