@@ -15,7 +15,7 @@
 #include "concave_distance/mesh/random_nodes.h"
 #include "concave_distance/mesh/repair_mesh.h"
 #include "concave_distance/mesh/volume_nodes.h"
-#include "query_poses.h"
+#include "concave_distance/scene/query_poses.h"
 
 namespace concave_distance::evaluation {
 namespace {
@@ -62,9 +62,9 @@ std::shared_ptr<const BodyMesh> loadBody(const std::string& path, const Experime
   return std::make_shared<const BodyMesh>(std::move(parts), options.metric);
 }
 
-std::vector<tools::QueryPose> posesOf(const ExperimentScene& scene, const std::string& path) {
-  const std::vector<tools::QueryPose> all = tools::readQueryPoses(path);
-  std::vector<tools::QueryPose> chosen;
+std::vector<QueryPose> posesOf(const ExperimentScene& scene, const std::string& path) {
+  const std::vector<QueryPose> all = readQueryPoses(path);
+  std::vector<QueryPose> chosen;
   for (std::uint32_t i = 0; i < scene.instants.count; ++i) {
     const std::size_t place = scene.instants.first + std::size_t{i} * scene.instants.step;
     if (place >= all.size()) {
@@ -130,11 +130,11 @@ SceneTruth loadScene(const ExperimentScene& scene, const std::string& folder) {
     truth.tree_a = readConstraintTreeFile(folder + "/trees/" + files->a + ".yaml");
     truth.tree_b = readConstraintTreeFile(folder + "/trees/" + files->b + ".yaml");
   }
-  const std::vector<tools::QueryPose> queries = posesOf(scene, poses);
+  const std::vector<QueryPose> queries = posesOf(scene, poses);
   truth.a = loadBody(mesh_a, scene, 0);
   truth.b = loadBody(mesh_b, scene, 1);
-  for (const tools::QueryPose& query : queries) {
-    const std::optional<Eigen::Isometry3d> pose = tools::poseOf(query);
+  for (const QueryPose& query : queries) {
+    const std::optional<Eigen::Isometry3d> pose = poseOf(query);
     if (!pose) throw Error(poses, "has a pose that is none", "finite numbers and a quaternion of length 1");
     truth.instants.emplace_back();
     truth.instants.back().a_from_b = *pose;

@@ -43,27 +43,6 @@ Eigen::Quaterniond fromRollPitchYaw(const Eigen::Vector3d& rpy) {
          Eigen::AngleAxisd(rpy.x(), Eigen::Vector3d::UnitX());
 }
 
-Eigen::Isometry3d readPose(const YamlValue& value) {
-  YamlMap map(value, "a map with xyz and rpy or quaternion");
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  if (auto v = map.take("xyz")) pose.translation() = v->vector3("three numbers, metres");
-  const std::optional<YamlValue> rpy = map.take("rpy");
-  const std::optional<YamlValue> quaternion = map.take("quaternion");
-  if (rpy && quaternion) quaternion->fail("both 'rpy' and 'quaternion' are given", "give one of them");
-  if (rpy) pose.linear() = fromRollPitchYaw(rpy->vector3("three angles, radians")).toRotationMatrix();
-  if (quaternion) {
-    const char* allowed = "four numbers x, y, z, w of norm 1";
-    const std::vector<double> q = quaternion->numbers(4, allowed);
-    const Eigen::Quaterniond rotation(q[3], q[0], q[1], q[2]);
-    if (!(std::abs(rotation.norm() - 1.0) <= kQuaternionTolerance)) {
-      quaternion->fail("the norm is " + std::to_string(rotation.norm()), std::string("allowed: ") + allowed);
-    }
-    pose.linear() = rotation.normalized().toRotationMatrix();
-  }
-  map.finish();
-  return pose;
-}
-
 Eigen::Vector4d readColour(const YamlValue& value) {
   const char* allowed = "three or four numbers from 0 to 1: red, green, blue, opacity";
   if (!value.isList()) value.refuse(allowed);
@@ -113,6 +92,27 @@ void readGeometry(YamlMap& map, BodyDescription& body) {
 }
 
 }  // namespace
+
+Eigen::Isometry3d readPose(const YamlValue& value) {
+  YamlMap map(value, "a map with xyz and rpy or quaternion");
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  if (auto v = map.take("xyz")) pose.translation() = v->vector3("three numbers, metres");
+  const std::optional<YamlValue> rpy = map.take("rpy");
+  const std::optional<YamlValue> quaternion = map.take("quaternion");
+  if (rpy && quaternion) quaternion->fail("both 'rpy' and 'quaternion' are given", "give one of them");
+  if (rpy) pose.linear() = fromRollPitchYaw(rpy->vector3("three angles, radians")).toRotationMatrix();
+  if (quaternion) {
+    const char* allowed = "four numbers x, y, z, w of norm 1";
+    const std::vector<double> q = quaternion->numbers(4, allowed);
+    const Eigen::Quaterniond rotation(q[3], q[0], q[1], q[2]);
+    if (!(std::abs(rotation.norm() - 1.0) <= kQuaternionTolerance)) {
+      quaternion->fail("the norm is " + std::to_string(rotation.norm()), std::string("allowed: ") + allowed);
+    }
+    pose.linear() = rotation.normalized().toRotationMatrix();
+  }
+  map.finish();
+  return pose;
+}
 
 void readBodyDefaults(YamlMap& map, BodyDefaults& defaults) {
   if (auto v = map.take("geometry")) defaults.geometry = v->choice(kGeometrySources);

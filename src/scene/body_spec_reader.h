@@ -17,6 +17,9 @@ struct BodyDefaults {
   Material material;
 };
 
+/// A map of xyz and rpy or quaternion. @throws Error for what is wrong with it
+Eigen::Isometry3d readPose(const YamlValue& value);
+
 /// Takes the keys about bodies from `defaults`; the caller calls finish().
 void readBodyDefaults(YamlMap& map, BodyDefaults& defaults);
 

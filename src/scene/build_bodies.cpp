@@ -99,6 +99,7 @@ SceneBody finishBody(const BodySource& source, PreparedBody prepared) {
   body.material = source.material;
   body.in_robot_model = source.in_robot_model;
   body.repair = prepared.repair;
+  body.inertia = source.inertia;
   body.bounds = boundsOf(prepared.parts.surface);
   body.mesh = std::make_shared<const BodyMesh>(std::move(prepared.parts), prepared.metric);
   return body;

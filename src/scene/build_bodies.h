@@ -22,6 +22,7 @@ struct BodySource {
   Eigen::Vector4d colour = SceneBody().colour;
   Material material;
   bool in_robot_model = false;
+  std::optional<MassProperties> inertia;
   std::string problem;  ///< known already: the body is not tried
 };
 

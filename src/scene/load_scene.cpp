@@ -141,6 +141,7 @@ Scene assemble(const SceneSpec& spec, SceneParts parts, const SceneLoadOptions& 
       detail::buildBodies(parts.sources, options.package_locator, spec.metric_memory_limit, spec.cache);
   Scene scene;
   scene.cache = spec.cache;
+  scene.simulation = spec.simulation;
   scene.notes = std::move(parts.notes);
   scene.problems = std::move(parts.problems);
   scene.problems.insert(scene.problems.end(), selection.problems.begin(), selection.problems.end());

@@ -185,6 +185,20 @@ std::vector<GeometryElement> geometryOf(const urdf::Link& link, GeometrySource g
                                                : toElements(link.visual_array, link.name, "visual");
 }
 
+// About the centre of mass in the link's axes: the URDF has its own axes for the tensor.
+std::optional<MassProperties> inertiaOf(const urdf::Link& link) {
+  if (!link.inertial) return std::nullopt;
+  const urdf::Inertial& given = *link.inertial;
+  const Eigen::Isometry3d link_from_inertial = toIsometry(given.origin);
+  MassProperties inertia;
+  inertia.mass = given.mass;
+  inertia.centre_in_body = link_from_inertial.translation();
+  inertia.inertia << given.ixx, given.ixy, given.ixz, given.ixy, given.iyy, given.iyz, given.ixz, given.iyz,
+      given.izz;
+  inertia.inertia = link_from_inertial.linear() * inertia.inertia * link_from_inertial.linear().transpose();
+  return inertia;
+}
+
 std::optional<Eigen::Vector4d> colourOf(const urdf::Link& link) {
   if (!link.visual || !link.visual->material || !link.visual->material->texture_filename.empty()) {
     return std::nullopt;
@@ -231,6 +245,7 @@ RobotDescription readRobotDescription(const std::string& urdf, const std::string
         geometry_only.model ? geometry_only.model->getLink(link.name) : full_link;
     if (parsed) link.geometry = geometryOf(*parsed, geometry);
     if (full_link) link.colour = colourOf(*full_link);
+    if (full_link) link.inertia = inertiaOf(*full_link);
     const auto fault = geometry_faults.find(link.name);
     const auto other_fault = all_faults.find(link.name);
     if (link.name.empty() && link_text.elements > 0) {

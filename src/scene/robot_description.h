@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "concave_distance/mesh/mass_properties.h"
 #include "concave_distance/scene/load_scene.h"
 #include "geometry_element.h"
 
@@ -14,6 +15,7 @@ struct RobotLink {
   std::string name;                       ///< as in the URDF
   std::vector<GeometryElement> geometry;  ///< of the chosen kind, link frame; empty: no body
   std::optional<Eigen::Vector4d> colour;  ///< of the first visual element, when it has one
+  std::optional<MassProperties> inertia;  ///< as given, link frame
   std::string problem;                    ///< why the geometry could not be read; empty: it could
   bool hasGeometry() const { return !geometry.empty() || !problem.empty(); }
 };

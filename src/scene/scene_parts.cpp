@@ -62,6 +62,7 @@ BodySource linkSource(const RobotSpec& spec, const RobotLink& link, const Descri
   if (link.colour) source.colour = *link.colour;
   source.material = spec.material;
   source.in_robot_model = !spec.description.empty();
+  source.inertia = link.inertia;
   source.problem = link.problem;
   return source;
 }

@@ -9,6 +9,7 @@
 #include "concave_distance/base/error.h"
 #include "name_pattern.h"
 #include "settings_reader.h"
+#include "simulation_reader.h"
 
 namespace concave_distance::detail {
 namespace {
@@ -149,6 +150,9 @@ SceneSpec readSceneSpec(const std::string& yaml, const std::string& file, const 
   if (auto v = map.take("pairs")) spec.pairs = readPairs(*v, spec.defaults, pair_names);
   if (auto v = map.take("disable")) {
     for (const YamlValue& item : v->list("a list of pairs")) spec.disabled.push_back(readTwoSelectors(item));
+  }
+  if (auto v = map.take("simulation")) {
+    spec.simulation = readSimulation(*v, base_folder, options.package_locator);
   }
   map.finish();
   return spec;

@@ -63,7 +63,8 @@ struct SceneSpec {
   std::vector<std::array<Selector, 2>> disabled;
   PairSettings defaults;
   std::size_t metric_memory_limit = 0;  ///< bytes
-  PreparationCachePointer cache;        ///< nullptr: none
+  std::optional<SimulationSettings> simulation;
+  PreparationCachePointer cache;  ///< nullptr: none
 };
 
 /// @param base_folder where relative paths start; empty: the working directory

@@ -11,8 +11,8 @@
 #include "concave_distance/mesh/import_mesh.h"
 #include "concave_distance/mesh/preparation_cache.h"
 #include "concave_distance/mesh/repair_mesh.h"
+#include "concave_distance/scene/query_poses.h"
 #include "concave_distance/tracking/pair_tracker.h"
-#include "query_poses.h"
 #include "query_report.h"
 
 namespace concave_distance::tools {

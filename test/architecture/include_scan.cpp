@@ -47,8 +47,8 @@ std::string contentOf(const std::filesystem::path& file) {
 
 const std::vector<std::string>& roomsFromTheGround() {
   static const std::vector<std::string> rooms = {
-      "base",    "mesh",     "distance", "partition", "continuous", "search", "interference",
-      "contact", "tracking", "scene",    "tools",     "evaluation", kTopRoom};
+      "base",    "mesh",     "distance", "partition",  "continuous", "search",     "interference",
+      "contact", "tracking", "scene",    "simulation", "tools",      "evaluation", kTopRoom};
   return rooms;
 }
 

@@ -2,15 +2,15 @@
 #include <cmath>
 
 #include "concave_distance/base/error.h"
+#include "concave_distance/scene/query_poses.h"
 #include "fuzz/fuzz_input.h"
-#include "query_poses.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace concave_distance;
   const std::string path = test::fuzzFolder().write("poses.csv", test::textOf(data, size));
   try {
-    for (const tools::QueryPose& query : tools::readQueryPoses(path)) {
-      const auto pose = tools::poseOf(query);
+    for (const QueryPose& query : readQueryPoses(path)) {
+      const auto pose = poseOf(query);
       if (!pose) continue;
       const Eigen::Matrix3d r = pose->linear();
       if (!((r.transpose() * r - Eigen::Matrix3d::Identity()).norm() < 1e-14)) test::broken("a rotation");

@@ -10,8 +10,10 @@
 #include "concave_distance/contact/effect_settings.h"
 #include "concave_distance/contact/material.h"
 #include "concave_distance/mesh/body_mesh.h"
+#include "concave_distance/mesh/mass_properties.h"
 #include "concave_distance/mesh/repair_mesh.h"
 #include "concave_distance/scene/broad_phase.h"
+#include "concave_distance/scene/simulation_settings.h"
 #include "concave_distance/tracking/tracker_parameters.h"
 
 namespace concave_distance {
@@ -23,8 +25,9 @@ struct SceneBody {
   std::shared_ptr<const BodyMesh> mesh;
   BodyBounds bounds;  ///< of the mesh's surface
   RepairReport repair;
-  std::string source;           ///< file or URDF element it came from, for messages
-  bool in_robot_model = false;  ///< rviz can draw it from robot_description; no mesh marker needed
+  std::optional<MassProperties> inertia;  ///< of a link: what its URDF says
+  std::string source;                     ///< file or URDF element it came from, for messages
+  bool in_robot_model = false;            ///< rviz can draw it from robot_description; no mesh marker needed
   Eigen::Vector4d colour = Eigen::Vector4d(0.6, 0.6, 0.65, 1.0);  ///< red, green, blue, opacity in [0, 1]
   Material material;                                              ///< for contact forces
 };
@@ -58,8 +61,9 @@ struct Scene {
   std::vector<SceneBody> bodies;
   std::vector<ScenePair> pairs;  ///< enabled ones and those disabled by name; filtered pairs are not listed
   std::vector<SceneProblem> problems;
-  std::vector<std::string> notes;  ///< repairs and filters applied, one line each
-  PreparationCachePointer cache;   ///< that its bodies went through, for those added later; nullptr: none
+  std::vector<std::string> notes;                ///< repairs and filters applied, one line each
+  std::optional<SimulationSettings> simulation;  ///< the section `simulation`, where there is one
+  PreparationCachePointer cache;  ///< that its bodies went through, for those added later; nullptr: none
 
   /// Index of the body with this name.
   std::optional<std::size_t> findBody(const std::string& name) const;

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace concave_distance::tools {
+namespace concave_distance {
 
 /// A line of poses.csv as it stands there: pose of B in A's frame.
 struct QueryPose {
@@ -23,4 +23,4 @@ std::vector<QueryPose> readQueryPoses(const std::string& path);
 /// within 1e-3 of 1.
 std::optional<Eigen::Isometry3d> poseOf(const QueryPose& query);
 
-}  // namespace concave_distance::tools
+}  // namespace concave_distance

@@ -1,4 +1,4 @@
-#include "query_poses.h"
+#include "concave_distance/scene/query_poses.h"
 
 #include <array>
 #include <charconv>
@@ -8,7 +8,7 @@
 
 #include "concave_distance/base/error.h"
 
-namespace concave_distance::tools {
+namespace concave_distance {
 namespace {
 
 constexpr std::array<std::string_view, 8> kColumns = {"t", "x", "y", "z", "qx", "qy", "qz", "qw"};
@@ -105,4 +105,4 @@ std::optional<Eigen::Isometry3d> poseOf(const QueryPose& query) {
   return pose;
 }
 
-}  // namespace concave_distance::tools
+}  // namespace concave_distance

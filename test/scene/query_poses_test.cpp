@@ -1,4 +1,4 @@
-#include "query_poses.h"
+#include "concave_distance/scene/query_poses.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include "concave_distance/base/error.h"
 #include "support/temporary_folder.h"
 
-namespace concave_distance::tools {
+namespace concave_distance {
 namespace {
 
 using test::TemporaryFolder;
@@ -110,4 +110,4 @@ TEST(PoseOf, RefusesOtherQuaternionsAndNumbersThatAreNotFinite) {
 }
 
 }  // namespace
-}  // namespace concave_distance::tools
+}  // namespace concave_distance

@@ -1,0 +1,27 @@
+#pragma once
+
+namespace concave_distance {
+
+/// Where the energy of the free bodies is, where it came from and where it went, joules. Works are integrals
+/// over the way (trapezoidal rule), apart from the impulses that move the bodies: what they leave unexplained
+/// is the integration error.
+struct EnergyAccount {
+  double kinetic = 0.0;
+  double gravity_potential = 0.0;  ///< 0 with the centre of mass at the origin
+  double drive_potential = 0.0;    ///< in the springs of the drives
+  double initial = 0.0;            ///< mechanical() at the start
+
+  // Since the start, done on the free bodies.
+  double normal_work = 0.0;    ///< of contact forces along the normal; < 0: lost, or still in a contact
+  double friction_work = 0.0;  ///< of friction
+  double load_work = 0.0;      ///< of applied loads
+  double drive_work = 0.0;     ///< of moving the drives' targets
+  double drive_loss = 0.0;     ///< taken by the drives' dampers, >= 0
+
+  double mechanical() const { return kinetic + gravity_potential + drive_potential; }
+  double work() const { return normal_work + friction_work + load_work + drive_work - drive_loss; }
+  /// What is there and nothing put in: the error of the integration, of either sign.
+  double balanceError() const { return mechanical() - initial - work(); }
+};
+
+}  // namespace concave_distance
