@@ -33,7 +33,7 @@ if(NOT CONCAVE_DISTANCE_WITH_ROS)
   install(FILES package.xml DESTINATION ${CONCAVE_DISTANCE_SHARE_DESTINATION})
 endif()
 
-install(TARGETS distance_query evaluate mesh_tool RUNTIME DESTINATION ${CONCAVE_DISTANCE_BIN_DESTINATION})
+install(TARGETS distance_query evaluate mesh_tool simulate RUNTIME DESTINATION ${CONCAVE_DISTANCE_BIN_DESTINATION})
 foreach(folder config launch meshes urdf)
   if(IS_DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}/${folder}")
     install(DIRECTORY ${folder} DESTINATION ${CONCAVE_DISTANCE_SHARE_DESTINATION})

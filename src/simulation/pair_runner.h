@@ -1,0 +1,75 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <optional>
+
+#include "concave_distance/scene/scene.h"
+#include "concave_distance/simulation/contact_rates.h"
+#include "concave_distance/simulation/simulation.h"
+#include "concave_distance/simulation/single_minimum.h"
+#include "concave_distance/tracking/pair_effects.h"
+#include "concave_distance/tracking/pair_tracker.h"
+
+namespace concave_distance::detail {
+
+/// The wrenches of a pair's contacts on B, world axes, about the world's origin.
+struct ContactWrenches {
+  Wrench normal;
+  Wrench friction;
+};
+
+/// The sum of the stiffnesses and dampings of a pair's contacts, each with the compliance of the bodies
+/// there.
+struct ContactSpeeds {
+  double stiffness_rate = 0.0;  ///< 1/s^2
+  double damping_rate = 0.0;    ///< 1/s
+};
+
+/// One pair of a simulation: distance, contacts and the single minimum at each pose.
+class PairRunner {
+ public:
+  /// @throws Error for a pair whose level proves no distance
+  PairRunner(const Scene& scene, const ScenePair& pair, const SimulationSettings& settings);
+
+  /// Solves at the bodies' poses. @param step seconds since the last call
+  void update(double time, double step, const SimulatedBody& a, const SimulatedBody& b, SimulatedPair& pair,
+              SimulationCounters& counters);
+  static ContactWrenches wrenchesOnB(const SimulatedPair& pair, const Eigen::Isometry3d& world_from_a);
+
+  /// @param compliance (point in the world, direction) -> 1/kg, of both bodies together
+  template <typename Compliance>
+  ContactSpeeds speeds(const SimulatedPair& pair, const Eigen::Isometry3d& world_from_a, double step,
+                       const Compliance& compliance) const {
+    ContactSpeeds speeds;
+    for (const ContactRegion& region : pair.contacts.regions) {
+      if (!(region.overlap.depth > 0.0) || !(region.normal_force >= 0.0)) continue;
+      const Eigen::Vector3d point = world_from_a * region.point_in_a;
+      const Eigen::Vector3d normal = world_from_a.linear() * region.overlap.normal_in_a;
+      const ContactRates rates = ratesOf(region, step);
+      const double along = compliance.along(point, normal);
+      const double across = compliance.largest(point);
+      speeds.stiffness_rate += rates.normal_stiffness * along + rates.tangential_stiffness * across;
+      speeds.damping_rate += rates.normal_damping * along + rates.tangential_damping * across;
+    }
+    return speeds;
+  }
+
+ private:
+  ContactRates ratesOf(const ContactRegion& region, double step) const;
+  void followSingle(SimulatedPair& pair);
+
+  std::string name_;
+  std::shared_ptr<const BodyMesh> mesh_a_;
+  std::shared_ptr<const BodyMesh> mesh_b_;
+  BodyBounds bounds_a_;
+  BodyBounds bounds_b_;
+  TrackerParameters parameters_;
+  EffectSettings settings_;
+  ContactMaterial material_;
+  PairTracker tracker_;
+  PairEffects effects_;
+  std::optional<SingleMinimum> single_;
+};
+
+}  // namespace concave_distance::detail

@@ -1,0 +1,196 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <exception>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "concave_distance/base/error.h"
+#include "concave_distance/scene/load_scene.h"
+#include "concave_distance/simulation/simulation.h"
+#include "simulation_log.h"
+
+namespace {
+
+using namespace concave_distance;
+using Clock = std::chrono::steady_clock;
+
+constexpr int kFileProblem = 1;
+constexpr int kWrongCommandLine = 2;
+constexpr int kDiverged = 3;
+constexpr double kProgressSeconds = 0.5;
+
+struct Options {
+  std::string scene;
+  std::string output;
+  std::string contacts;
+  std::string niches;
+  std::string cache;
+  std::optional<double> duration;
+  std::optional<std::string> tracking;
+  std::optional<double> step_fraction;
+  std::optional<double> allowed_penetration;
+  std::optional<double> largest_step;
+  bool progress = false;
+};
+
+void addOptions(CLI::App& app, Options& options) {
+  app.add_option("scene", options.scene, "scene file with a section `simulation`")
+      ->required()
+      ->type_name("FILE");
+  app.add_option("--output", options.output, "CSV: energies, poses, velocities, pairs; a line each log time")
+      ->required()
+      ->type_name("FILE");
+  app.add_option("--contacts", options.contacts, "CSV: every region of overlap with its forces")
+      ->type_name("FILE");
+  app.add_option("--niches", options.niches, "CSV: every niche of every pair")->type_name("FILE");
+  app.add_option("--duration", options.duration, "seconds, instead of the scene's")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--largest-step", options.largest_step, "seconds, instead of the scene's")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--step-fraction", options.step_fraction, "instead of the scene's")
+      ->check(CLI::Range(0.0, 1.0));
+  app.add_option("--allowed-penetration", options.allowed_penetration, "metres, instead of the scene's")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--tracking", options.tracking, "instead of the scene's")
+      ->check(CLI::IsMember({"niches", "single_minimum", "both"}));
+  app.add_option("--cache", options.cache, "folder that keeps what was prepared of the meshes, or off")
+      ->type_name("DIR|off");
+  app.add_flag("--progress", options.progress, "show simulated time and real-time factor on the way");
+}
+
+SimulationSettings settingsOf(const Scene& scene, const Options& options) {
+  if (!scene.simulation) {
+    throw Error(options.scene, "there is no section `simulation`", "add one: doc/scene_file.md");
+  }
+  SimulationSettings settings = *scene.simulation;
+  if (options.duration) settings.duration = *options.duration;
+  if (options.largest_step) settings.largest_step = *options.largest_step;
+  if (options.step_fraction) settings.step_fraction = *options.step_fraction;
+  if (options.allowed_penetration) settings.allowed_penetration = *options.allowed_penetration;
+  if (options.tracking) {
+    for (const SimulationTracking tracking :
+         {SimulationTracking::Niches, SimulationTracking::SingleMinimum, SimulationTracking::Both}) {
+      if (toString(tracking) == *options.tracking) settings.tracking = tracking;
+    }
+  }
+  return settings;
+}
+
+Scene load(const Options& options) {
+  SceneLoadOptions load_options;
+  load_options.package_locator = packagePathFromEnvironment;
+  load_options.cache = openPreparationCache(options.cache);
+  Scene scene = loadSceneFile(options.scene, load_options);
+  for (const SceneProblem& problem : scene.problems) {
+    std::cerr << problem.where << ": " << problem.message << '\n';
+  }
+  return scene;
+}
+
+double since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+void showProgress(const Simulation& simulation, Clock::time_point start) {
+  const double seconds = since(start);
+  std::fprintf(stderr, "\rt = %.4f of %.4f s, real-time factor %.3f, %llu steps ", simulation.time(),
+               simulation.settings().duration, simulation.time() / seconds,
+               static_cast<unsigned long long>(simulation.counters().steps));
+  std::fflush(stderr);
+}
+
+void summarise(const Simulation& simulation, double loop_seconds) {
+  const SimulationCounters& counters = simulation.counters();
+  const auto share = [&](double seconds) { return 100.0 * seconds / loop_seconds; };
+  std::printf("simulated %.6g s in %.3f s: real-time factor %.3f\n", simulation.time(), loop_seconds,
+              simulation.time() / loop_seconds);
+  std::printf("steps %llu (%.1f us each), smallest %.3g s, drifts done again %llu, with contact %llu\n",
+              static_cast<unsigned long long>(counters.steps),
+              1e6 * loop_seconds / static_cast<double>(std::max<std::uint64_t>(1, counters.steps)),
+              counters.smallest_step, static_cast<unsigned long long>(counters.shortened),
+              static_cast<unsigned long long>(counters.contact_steps));
+  std::printf("steps held back by:");
+  for (std::size_t i = 0; i < kStepLimits; ++i) {
+    std::printf(" %s %llu", std::string(toString(static_cast<StepLimit>(i))).c_str(),
+                static_cast<unsigned long long>(counters.limited_by[i]));
+  }
+  double inside = 0.0;
+  std::printf("\nshare of time:");
+  for (std::size_t i = 0; i < kSimulationStages; ++i) {
+    std::printf(" %s %.1f %%", std::string(toString(static_cast<SimulationStage>(i))).c_str(),
+                share(counters.seconds[i]));
+    inside += counters.seconds[i];
+  }
+  std::printf(" writing %.1f %%\n", share(std::max(0.0, loop_seconds - inside)));
+  const EnergyAccount& energy = simulation.energy();
+  std::printf("energy: mechanical %.9g J, at the start %.9g J, balance error %.3g J\n", energy.mechanical(),
+              energy.initial, energy.balanceError());
+  std::printf("largest depth %.3g m, largest drift of a quaternion's norm in a step %.2g\n",
+              counters.largest_depth, counters.largest_quaternion_drift);
+}
+
+int simulate(const Options& options) {
+  const Scene scene = load(options);
+  Simulation simulation(scene, settingsOf(scene, options));
+  tools::TrajectoryLog trajectory(options.output, simulation);
+  std::unique_ptr<tools::ContactLog> contacts;
+  std::unique_ptr<tools::NicheLog> niches;
+  if (!options.contacts.empty()) contacts = std::make_unique<tools::ContactLog>(options.contacts);
+  if (!options.niches.empty()) niches = std::make_unique<tools::NicheLog>(options.niches);
+  const Clock::time_point start = Clock::now();
+  Clock::time_point shown = start;
+  const double duration = simulation.settings().duration;
+  for (std::uint64_t line = 1;; ++line) {
+    trajectory.write(simulation);
+    if (contacts) contacts->write(simulation);
+    if (niches) niches->write(simulation);
+    if (options.progress && since(shown) > kProgressSeconds) {
+      showProgress(simulation, start);
+      shown = Clock::now();
+    }
+    if (simulation.time() >= duration || simulation.status() != SimulationStatus::Ok) break;
+    simulation.advanceTo(std::min(duration, static_cast<double>(line) / simulation.settings().log_rate));
+  }
+  const double seconds = since(start);
+  if (options.progress) {
+    showProgress(simulation, start);
+    std::fputc('\n', stderr);
+  }
+  trajectory.finish();
+  if (contacts) contacts->finish();
+  if (niches) niches->finish();
+  summarise(simulation, seconds);
+  if (simulation.status() == SimulationStatus::Ok) return 0;
+  std::cerr << "simulate: diverged at t = " << simulation.time() << " s\n";
+  return kDiverged;
+}
+
+int run(int argc, char** argv) {
+  Options options;
+  CLI::App app("Rigid bodies of a scene in contact over time. Metres, seconds, newtons.", "simulate");
+  app.footer(
+      "An empty cell was not computed.\n"
+      "Exit status: 0 done, 1 a file is at fault, 2 the command line is, 3 the simulation diverged.");
+  addOptions(app, options);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : kWrongCommandLine;
+  }
+  return simulate(options);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& error) {
+    std::cerr << "simulate: " << error.what() << '\n';
+    return kFileProblem;
+  }
+}

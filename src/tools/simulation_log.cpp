@@ -1,0 +1,145 @@
+#include "simulation_log.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+
+#include "concave_distance/base/error.h"
+
+namespace concave_distance::tools {
+namespace {
+
+constexpr int kDigits = 17;
+
+std::string trajectoryHeader(const Simulation& simulation) {
+  std::string header =
+      "t,steps,kinetic,gravity_potential,drive_potential,normal_work,friction_work,load_work,drive_work,"
+      "drive_loss,balance_error";
+  const auto add = [&](const std::string& name, std::initializer_list<const char*> columns) {
+    for (const char* column : columns) header += "," + name + "." + column;
+  };
+  for (const SimulatedBody& body : simulation.bodies()) {
+    if (body.motion == BodyMotion::Fixed) continue;
+    add(body.name, {"x", "y", "z", "qx", "qy", "qz", "qw", "vx", "vy", "vz", "wx", "wy", "wz", "contact_fx",
+                    "contact_fy", "contact_fz", "drive_fx", "drive_fy", "drive_fz"});
+  }
+  for (const SimulatedPair& pair : simulation.pairs()) {
+    add(pair.name, {"distance", "lower_bound", "niches", "regions", "depth", "normal_force",
+                    "single_distance", "single_is_wrong"});
+  }
+  return header;
+}
+
+}  // namespace
+
+CsvFile::CsvFile(const std::string& path, const std::string& header) : path_(path), stream_(path) {
+  if (!stream_) throw Error(path, "the file cannot be written", "check the folder and the rights on it");
+  stream_ << header << '\n';
+}
+
+void CsvFile::separate() {
+  if (line_begun_) stream_ << ',';
+  line_begun_ = true;
+}
+
+CsvFile& CsvFile::operator<<(double value) {
+  separate();
+  if (std::isnan(value)) return *this;
+  std::array<char, 32> text{};
+  const auto end =
+      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, kDigits).ptr;
+  stream_.write(text.data(), end - text.data());
+  return *this;
+}
+
+CsvFile& CsvFile::operator<<(std::uint64_t value) {
+  separate();
+  stream_ << value;
+  return *this;
+}
+
+CsvFile& CsvFile::operator<<(const std::string& text) {
+  separate();
+  stream_ << text;
+  return *this;
+}
+
+CsvFile& CsvFile::operator<<(const Eigen::Vector3d& vector) {
+  return *this << vector.x() << vector.y() << vector.z();
+}
+
+void CsvFile::endLine() {
+  stream_ << '\n';
+  line_begun_ = false;
+}
+
+void CsvFile::finish() {
+  stream_.close();
+  if (stream_.fail()) throw Error(path_, "writing failed", "check the space on the disk");
+}
+
+TrajectoryLog::TrajectoryLog(const std::string& path, const Simulation& simulation)
+    : file_(path, trajectoryHeader(simulation)) {}
+
+void TrajectoryLog::write(const Simulation& simulation) {
+  const EnergyAccount& energy = simulation.energy();
+  file_ << simulation.time() << simulation.counters().steps << energy.kinetic << energy.gravity_potential
+        << energy.drive_potential << energy.normal_work << energy.friction_work << energy.load_work
+        << energy.drive_work << energy.drive_loss << energy.balanceError();
+  for (const SimulatedBody& body : simulation.bodies()) {
+    if (body.motion == BodyMotion::Fixed) continue;
+    const Eigen::Quaterniond rotation(body.world_from_body.linear());
+    file_ << Eigen::Vector3d(body.world_from_body.translation()) << rotation.x() << rotation.y()
+          << rotation.z() << rotation.w() << body.velocity << body.angular_velocity
+          << body.contact_wrench.force << body.drive_wrench.force;
+  }
+  for (const SimulatedPair& pair : simulation.pairs()) {
+    double force = 0.0;
+    for (const ContactRegion& region : pair.contacts.regions) {
+      if (region.normal_force > 0.0) force += region.normal_force;
+    }
+    const bool touches = !pair.contacts.regions.empty();
+    file_ << (pair.solved ? pair.solution.distance : kNotComputed) << pair.lower_bound
+          << std::uint64_t{pair.solution.niches.size()} << std::uint64_t{pair.contacts.regions.size()}
+          << (touches ? pair.contacts.regions.front().overlap.depth : 0.0) << force << pair.single_distance
+          << std::uint64_t{pair.single_is_wrong ? 1U : 0U};
+  }
+  file_.endLine();
+}
+
+ContactLog::ContactLog(const std::string& path)
+    : file_(path,
+            "t,pair,id,depth,depth_rate,contact_area,volume,normal_force,friction_x,friction_y,friction_z,"
+            "point_x,point_y,point_z,normal_x,normal_y,normal_z") {}
+
+void ContactLog::write(const Simulation& simulation) {
+  for (const SimulatedPair& pair : simulation.pairs()) {
+    const Eigen::Isometry3d& world_from_a = simulation.bodies()[pair.body_a].world_from_body;
+    for (const ContactRegion& region : pair.contacts.regions) {
+      file_ << simulation.time() << pair.name << region.id << region.overlap.depth << region.depth_rate
+            << region.overlap.contact_area << region.overlap.volume << region.normal_force
+            << Eigen::Vector3d(world_from_a.linear() * region.friction_on_b_in_a)
+            << Eigen::Vector3d(world_from_a * region.point_in_a)
+            << Eigen::Vector3d(world_from_a.linear() * region.overlap.normal_in_a);
+      file_.endLine();
+    }
+  }
+}
+
+NicheLog::NicheLog(const std::string& path)
+    : file_(path, "t,pair,id,distance,closing_speed,a_x,a_y,a_z,b_x,b_y,b_z") {}
+
+void NicheLog::write(const Simulation& simulation) {
+  for (const SimulatedPair& pair : simulation.pairs()) {
+    if (!pair.solved) continue;
+    const Eigen::Isometry3d& world_from_a = simulation.bodies()[pair.body_a].world_from_body;
+    for (const TrackedNiche& niche : pair.solution.niches) {
+      file_ << simulation.time() << pair.name << niche.id << niche.distance << niche.closing_speed
+            << Eigen::Vector3d(world_from_a * niche.point_a_in_a)
+            << Eigen::Vector3d(world_from_a * niche.point_b_in_a);
+      file_.endLine();
+    }
+  }
+}
+
+}  // namespace concave_distance::tools
