@@ -28,6 +28,7 @@ mkdir -p "$results"
   tee "$results/descents.txt"
 "$(program certificate_benchmark)" --output "$results/certificate.csv" | tee "$results/certificate.txt"
 "$(program hierarchy_benchmark)" --output "$results/hierarchy.csv" | tee "$results/hierarchy.txt"
+"$(program effects_benchmark)" --output "$results/effects.csv" | tee "$results/effects.txt"
 "$(program scale_benchmark)" --sizes "$sizes" --output "$results/scale.csv" | tee "$results/scale.txt"
 "$(program complete_benchmark)" --steps "$steps" --window "$window" --list-misses 8 --cold-runs 12 \
   --output "$results/complete.csv" | tee "$results/complete.txt"

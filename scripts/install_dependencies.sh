@@ -28,7 +28,7 @@ set -euo pipefail
     python3-roslaunch python3-rospy python3-rostopic rosbash rviz ros-robot-state-publisher
     python3-geometry-msgs python3-std-msgs python3-visualization-msgs python3-diagnostic-msgs  # what ours are made of
   )
-  debian_plot=(python3-matplotlib python3-yaml)
+  debian_plot=(python3-matplotlib python3-yaml valgrind)
   debian_format=(clang-format)
   debian_lint=(clang-format clang-tidy catkin-lint)
   debian_fuzz=(clang libclang-rt-14-dev)  # libFuzzer is in the second
@@ -49,7 +49,7 @@ set -euo pipefail
     ros-noetic-roslaunch ros-noetic-rospy ros-noetic-rostopic ros-noetic-rosbash ros-noetic-rviz
     ros-noetic-robot-state-publisher
   )
-  noetic_plot=(python3-matplotlib python3-yaml)
+  noetic_plot=(python3-matplotlib python3-yaml valgrind)
   noetic_format=(clang-format)
   noetic_lint=(clang-format clang-tidy)
   noetic_fuzz=(clang)
