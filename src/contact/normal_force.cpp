@@ -22,6 +22,8 @@ std::string_view toString(NormalForceModel model) {
       return "hertz";
     case NormalForceModel::HuntCrossley:
       return "hunt_crossley";
+    case NormalForceModel::ElasticFoundation:
+      return "elastic_foundation";
   }
   return "unknown";
 }
@@ -49,6 +51,12 @@ double huntCrossleyForce(double depth, double depth_rate, double contact_modulus
   return std::max(0.0, hertzForce(depth, contact_modulus, radius) * (1.0 + 1.5 * dissipation * depth_rate));
 }
 
+double elasticFoundationForce(double volume, double depth_rate, double foundation_stiffness,
+                              double dissipation) {
+  if (!(volume > 0.0)) return 0.0;
+  return std::max(0.0, foundation_stiffness * volume * (1.0 + 1.5 * dissipation * depth_rate));
+}
+
 double radiusFromOverlap(const ContactGeometry& contact) {
   return contact.depth > 0.0 ? contact.contact_area / (2.0 * kPi * contact.depth) : 0.0;
 }
@@ -57,6 +65,7 @@ void NormalForceSettings::validate(const std::string& where) const {
   detail::requirePositive(where, "loading_coefficient", loading_coefficient, "without a unit");
   detail::requirePositive(where, "stiffness", stiffness, "newtons a metre");
   detail::requireNotNegative(where, "damping", damping);
+  detail::requirePositive(where, "foundation_stiffness", foundation_stiffness, "pascal a metre");
   detail::requireNotNegative(where, "radius", radius);
 }
 
@@ -74,6 +83,9 @@ double normalForce(const NormalForceSettings& settings, const ContactMaterial& m
     case NormalForceModel::HuntCrossley:
       return huntCrossleyForce(contact.depth, contact.depth_rate, material.contact_modulus, radius,
                                material.dissipation);
+    case NormalForceModel::ElasticFoundation:
+      return elasticFoundationForce(contact.volume, contact.depth_rate, settings.foundation_stiffness,
+                                    material.dissipation);
   }
   return 0.0;
 }

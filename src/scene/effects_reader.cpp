@@ -10,7 +10,8 @@ constexpr std::pair<const char*, NormalForceModel> kNormalForceModels[] = {
     {"quasi_static", NormalForceModel::QuasiStatic},
     {"spring_dashpot", NormalForceModel::SpringDashpot},
     {"hertz", NormalForceModel::Hertz},
-    {"hunt_crossley", NormalForceModel::HuntCrossley}};
+    {"hunt_crossley", NormalForceModel::HuntCrossley},
+    {"elastic_foundation", NormalForceModel::ElasticFoundation}};
 constexpr std::pair<const char*, FrictionModel> kFrictionModels[] = {
     {"none", FrictionModel::None},
     {"regularised_coulomb", FrictionModel::RegularisedCoulomb},
@@ -33,6 +34,9 @@ void readNormalForce(const YamlValue& value, std::optional<NormalForceSettings>&
     }
     if (auto v = map.take("damping")) {
       settings.damping = v->number("0 or more, newton seconds a metre", notNegativeFinite);
+    }
+    if (auto v = map.take("foundation_stiffness")) {
+      settings.foundation_stiffness = v->number("greater than 0, pascal a metre", positiveFinite);
     }
     if (auto v = map.take("radius")) {
       settings.radius = optionalNumber(*v, "from_overlap", kLength, positiveFinite).value_or(0.0);

@@ -48,6 +48,14 @@ ContactRates contactRates(const NormalForceSettings& normal, const FrictionSetti
       }
       break;
     }
+    case NormalForceModel::ElasticFoundation: {
+      // dV = A dd; a wedge's area grows with its depth.
+      const double rate = 1.5 * material.dissipation;
+      rates.normal_stiffness =
+          normal.foundation_stiffness * contact.contact_area * std::max(0.0, 1.0 + rate * contact.depth_rate);
+      rates.normal_damping = rate * normal.foundation_stiffness * contact.volume;
+      break;
+    }
   }
   switch (friction.model) {
     case FrictionModel::None:

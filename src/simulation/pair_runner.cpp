@@ -125,7 +125,8 @@ ContactWrenches PairRunner::wrenchesOnB(const SimulatedPair& pair, const Eigen::
 
 ContactRates PairRunner::ratesOf(const ContactRegion& region, double step) const {
   if (!settings_.normal_force) return {};
-  const ContactGeometry geometry{region.overlap.depth, region.depth_rate, region.overlap.contact_area};
+  const ContactGeometry geometry{region.overlap.depth, region.depth_rate, region.overlap.contact_area,
+                                 region.overlap.volume};
   return contactRates(*settings_.normal_force, settings_.friction, material_, geometry, region.normal_force,
                       step);
 }

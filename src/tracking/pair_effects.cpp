@@ -84,6 +84,7 @@ struct PairEffects::State {
     contact.normal_in_a = region.overlap.normal_in_a;
     contact.geometry.depth = region.overlap.depth;
     contact.geometry.contact_area = region.overlap.contact_area;
+    contact.geometry.volume = region.overlap.volume;
     return contact;
   }
 

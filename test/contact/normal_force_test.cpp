@@ -120,6 +120,32 @@ TEST(NormalForce, RestitutionOfHuntCrossleyFollowsItsClosedForm) {
   }
 }
 
+// A plate of sides a and b that dips in with its mean depth d, tilted about its middle: k_f a b d whatever
+// the tilt, at the centroid of the wedge; the moment about the middle is that of the springs' potential.
+TEST(NormalForce, ElasticFoundationIsTheSumOfItsSprings) {
+  const double stiffness = 1e8;
+  const double a = 0.3;
+  const double b = 0.2;
+  const double depth = 2e-3;
+  const double slope = 5e-3;
+  double force = 0.0;
+  double moment = 0.0;
+  const int cells = 2000;
+  for (int i = 0; i < cells; ++i) {
+    const double x = (i + 0.5) / cells * a - 0.5 * a;
+    const double pressure = stiffness * (depth + slope * x);
+    force += pressure * a * b / cells;
+    moment += x * pressure * a * b / cells;
+  }
+  const double volume = a * b * depth;
+  const double centroid = slope * a * a * a * b / 12.0 / volume;
+  EXPECT_NEAR(elasticFoundationForce(volume, 0.0, stiffness, 0.5), force, 1e-9 * force);
+  EXPECT_NEAR(elasticFoundationForce(volume, 0.0, stiffness, 0.5) * centroid, moment, 1e-6 * moment);
+  EXPECT_DOUBLE_EQ(elasticFoundationForce(volume, 0.2, stiffness, 0.5), 1.15 * stiffness * volume);
+  EXPECT_EQ(elasticFoundationForce(volume, -10.0, stiffness, 0.5), 0.0);
+  EXPECT_EQ(elasticFoundationForce(0.0, 1.0, stiffness, 0.5), 0.0);
+}
+
 TEST(NormalForce, RestitutionAtSmallSpeedsIsOneMinusDissipationTimesSpeed) {
   EXPECT_NEAR(reboundSpeedInClosedForm(0.01, 0.2) / 0.01, 1.0 - 0.2 * 0.01, 1e-5);
 }

@@ -12,10 +12,11 @@ namespace concave_distance {
 /// force that would pull is 0: bodies in contact do not stick to each other), and are right for any depth >=
 /// 0.
 enum class NormalForceModel : std::uint8_t {
-  QuasiStatic,    ///< Carretero, eq. (A-1) and (A-2)
-  SpringDashpot,  ///< constant stiffness and damping
-  Hertz,          ///< elastic, no damping
-  HuntCrossley    ///< Hertz with non-linear damping
+  QuasiStatic,       ///< Carretero, eq. (A-1) and (A-2)
+  SpringDashpot,     ///< constant stiffness and damping
+  Hertz,             ///< elastic, no damping
+  HuntCrossley,      ///< Hertz with non-linear damping
+  ElasticFoundation  ///< pressure in proportion to the depth at every place of the contact
 };
 std::string_view toString(NormalForceModel model);
 
@@ -24,6 +25,7 @@ struct ContactGeometry {
   double depth = 0.0;         ///< d, metres, >= 0
   double depth_rate = 0.0;    ///< metres a second, positive while the bodies go deeper
   double contact_area = 0.0;  ///< A, square metres: the area of the region's loops seen along the normal
+  double volume = 0.0;        ///< V, cubic metres: of the overlap
 };
 
 /// c of with which a = sqrt(A / pi) of the GEOMETRIC overlap gives Hertz's force: there a^2 = 2 R d,
@@ -47,6 +49,14 @@ double hertzForce(double depth, double contact_modulus, double radius);
 double huntCrossleyForce(double depth, double depth_rate, double contact_modulus, double radius,
                          double dissipation);
 
+/// k_f V (1 + 3/2 c d'): a bed of springs side by side (Johnson 1985, sec. 4.3, after Winkler), whose
+/// pressure k_f times the depth adds up to the volume of the overlap and acts at its centroid, which is where
+/// a region's force acts. Of flat faces that rock on each other it is the one law here that has a potential:
+/// the others count with the greatest depth alone, and their force at the centroid may do work in a cycle.
+/// @param foundation_stiffness k_f, pascal a metre @param dissipation c, seconds a metre
+double elasticFoundationForce(double volume, double depth_rate, double foundation_stiffness,
+                              double dissipation);
+
 /// The relative radius of curvature that a region of this area and depth has where a sphere dips into a
 /// plane: A = 2 pi R d at small depths. 0 without depth.
 double radiusFromOverlap(const ContactGeometry& contact);
@@ -56,6 +66,7 @@ struct NormalForceSettings {
   double loading_coefficient = kHertzLoadingCoefficient;  ///< quasi_static, > 0
   double stiffness = 1e5;                                 ///< spring_dashpot, N/m, > 0
   double damping = 0.0;                                   ///< quasi_static and spring_dashpot, N s/m, >= 0
+  double foundation_stiffness = 1e9;                      ///< elastic_foundation, Pa/m, > 0
   /// hertz and hunt_crossley: R, metres; 0: from the overlap (radiusFromOverlap), each region its own.
   double radius = 0.0;
 

@@ -45,7 +45,7 @@ class RigidBody {
   /// Velocity of a point (world) by a unit of force along the unit vector `direction` at it, 1/kg.
   double compliance(const RigidBodyState& state, const Eigen::Vector3d& point,
                     const Eigen::Vector3d& direction) const;
-  /// The largest compliance in any direction at a point at most, 1/kg.
+  /// The largest compliance in any direction at a point, 1/kg.
   double largestCompliance(const RigidBodyState& state, const Eigen::Vector3d& point) const;
 
   /// The impulse of a constant wrench about the centre, world axes, over `step` seconds.
