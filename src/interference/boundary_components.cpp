@@ -26,6 +26,26 @@ void addCone(BoundaryComponent& component, const Eigen::Vector3d& p, const Eigen
   component.moment += volume * 0.25 * (u + v + w);
 }
 
+/// Whether a component's part of a triangle holds a point of it.
+bool holdsPoint(const SurfacePieces& pieces, const BoundaryComponent& component, Side side,
+                TriangleIndex triangle, const Eigen::Vector3d& normal, const Eigen::Vector3d& point) {
+  const auto before = [](const auto& item, TriangleIndex sought) { return item.triangle < sought; };
+  const auto last_whole = pieces.wholes().begin() + component.last_whole[at(side)];
+  const auto whole = std::lower_bound(pieces.wholes().begin() + component.first_whole[at(side)], last_whole,
+                                      triangle, before);
+  if (whole != last_whole && whole->triangle == triangle) return true;
+  const auto last_edge = pieces.edges().begin() + component.last_edge[at(side)];
+  double angle = 0.0;
+  for (auto edge = std::lower_bound(pieces.edges().begin() + component.first_edge[at(side)], last_edge,
+                                    triangle, before);
+       edge != last_edge && edge->triangle == triangle; ++edge) {
+    const Eigen::Vector3d from = edge->from - point;
+    const Eigen::Vector3d to = edge->to - point;
+    angle += std::atan2(from.cross(to).dot(normal), from.dot(to));
+  }
+  return angle > M_PI;
+}
+
 void addArea(BoundaryComponent& component, Side side, double area, const Eigen::Vector3d& middle) {
   component.area[at(side)] += area;
   component.area_moment += area * (middle - component.reference);
@@ -55,6 +75,7 @@ void BoundaryComponents::build(WorkingFrame& frame, const CrossingCurves& curves
   }
   for (const Side side : {Side::A, Side::B}) measureSurface(frame, pieces[at(side)], side);
   measureLoops(curves, sets);
+  measureCommonFaces(frame, curves, pieces);
   for (const Side side : {Side::A, Side::B}) {
     const std::uint32_t node = pieces[at(side)].contradiction();
     if (node != kNone) components_[component_of_element_[sets.find(node)]].consistent = false;
@@ -142,6 +163,27 @@ void BoundaryComponents::measureSurface(WorkingFrame& frame, const SurfacePieces
                          }
                          component.facing += total * normal * normal.transpose();
                        });
+  }
+}
+
+void BoundaryComponents::measureCommonFaces(const WorkingFrame& frame, const CrossingCurves& curves,
+                                            const SurfacePieces (&pieces)[2]) {
+  for (const CommonFace& face : curves.commonFaces()) {
+    const TriangleIndex triangle = face.triangle[at(face.inside)];
+    const Eigen::Vector3d normal = frame.normal(face.inside, triangle);
+    for (BoundaryComponent& component : components_) {
+      if (!holdsPoint(pieces[at(face.inside)], component, face.inside, triangle, normal, face.centroid))
+        continue;
+      if (face.opposite) {
+        component.flap_area += face.area;
+        component.flap_vector_area += face.area * normal;
+      } else {
+        const double half = face.inside == Side::A ? -0.5 * face.area : 0.5 * face.area;
+        component.shared_area += half;
+        component.shared_vector_area += half * normal;
+      }
+      break;
+    }
   }
 }
 

@@ -21,6 +21,12 @@ struct BoundaryComponent {
   /// The squares of the normals, summed up by area: which way the pieces face, whatever cancels.
   Eigen::Matrix3d facing = Eigen::Matrix3d::Zero();
   Eigen::Vector3d vector_area = Eigen::Vector3d::Zero();  ///< of A's part, from the loops
+  /// Of flaps (CommonFace). Each is in both areas.
+  double flap_area = 0.0;
+  Eigen::Vector3d flap_vector_area = Eigen::Vector3d::Zero();
+  /// What half of the common faces that face the same way adds to A's part and takes from B's.
+  double shared_area = 0.0;
+  Eigen::Vector3d shared_vector_area = Eigen::Vector3d::Zero();
   double loop_area = 0.0;  ///< the lengths of each loop's vector area, added up
   std::uint32_t loop_count = 0;
   std::uint32_t first_node = kNone;  ///< of a loop
@@ -57,6 +63,8 @@ class BoundaryComponents {
   void sortPieces(SurfacePieces& pieces, Side side, ElementSets& sets);
   void measureLoops(const CrossingCurves& curves, ElementSets& sets);
   void measureSurface(WorkingFrame& frame, const SurfacePieces& pieces, Side side);
+  void measureCommonFaces(const WorkingFrame& frame, const CrossingCurves& curves,
+                          const SurfacePieces (&pieces)[2]);
   void joinCavities(WorkingFrame& frame, const SurfacePieces (&pieces)[2]);
   double windingOf(WorkingFrame& frame, const SurfacePieces (&pieces)[2], const BoundaryComponent& component,
                    const Eigen::Vector3d& point) const;

@@ -1,6 +1,8 @@
 #include "crossings.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 
 namespace concave_distance::detail {
 namespace {
@@ -17,13 +19,19 @@ bool apart(const Corners& a, const Corners& b) {
 /// Corners' sides of the other triangle's plane.
 struct Sides {
   int of[3];
-  bool flat;  ///< the other triangle has no area
+  bool flat;      ///< the other triangle has no area
+  bool in_plane;  ///< all lie in its plane
   bool mixed;
 };
 
 Sides sidesOf(PerturbedPredicates& predicates, const Corners& triangle, Side whose, const Corners& corners) {
   Sides sides{};
-  for (std::size_t k = 0; k < 3; ++k) sides.of[k] = predicates.side(triangle, whose, *corners[k]);
+  sides.in_plane = true;
+  for (std::size_t k = 0; k < 3; ++k) {
+    bool on_plane = false;
+    sides.of[k] = predicates.side(triangle, whose, *corners[k], on_plane);
+    sides.in_plane = sides.in_plane && on_plane;
+  }
   sides.flat = sides.of[0] == 0;
   sides.mixed = sides.of[0] != sides.of[1] || sides.of[1] != sides.of[2];
   return sides;
@@ -36,6 +44,7 @@ void CrossingCurves::find(WorkingFrame& frame, PerturbedPredicates& predicates,
   nodes_.clear();
   segments_.clear();
   ends_.clear();
+  common_faces_.clear();
   broken_ = false;
   for (const CandidatePair& pair : candidates) crossPair(frame, predicates, pair);
   joinEnds(frame);
@@ -47,6 +56,7 @@ void CrossingCurves::crossPair(WorkingFrame& frame, PerturbedPredicates& predica
   const Corners b = frame.corners(Side::B, pair.b);
   if (apart(a, b)) return;
   const Sides sides_b = sidesOf(predicates, a, Side::B, b);
+  if (sides_b.in_plane && !sides_b.flat) addCommonFace(pair, a, b, sides_b.of[0] < 0);
   if (!sides_b.flat && !sides_b.mixed) return;
   const Sides sides_a = sidesOf(predicates, b, Side::A, a);
   if (!sides_a.flat && !sides_a.mixed) return;
@@ -90,6 +100,42 @@ void CrossingCurves::crossPair(WorkingFrame& frame, PerturbedPredicates& predica
     return topology.shell_is_closed[topology.shell_of_triangle[triangle.value]];
   };
   segments_.push_back({{pair.a, pair.b}, kNone, kNone, closed(Side::A, pair.a) && closed(Side::B, pair.b)});
+}
+
+// B's triangle cut along A's edges (Sutherland and Hodgman 1974): six corners at most, 10 with what rounding
+// may add.
+void CrossingCurves::addCommonFace(const CandidatePair& pair, const Corners& a, const Corners& b,
+                                   bool b_below) {
+  const Eigen::Vector3d normal = (*a[1] - *a[0]).cross(*a[2] - *a[0]);
+  const bool opposite = normal.dot((*b[1] - *b[0]).cross(*b[2] - *b[0])) < 0.0;
+  if (opposite && !b_below) return;
+  std::array<Eigen::Vector3d, 10> polygon = {*b[0], *b[1], *b[2]};
+  std::array<Eigen::Vector3d, 10> cut;
+  std::size_t count = 3;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Eigen::Vector3d inward = normal.cross(*a[(k + 1) % 3] - *a[k]);
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < count && kept + 2 <= cut.size(); ++i) {
+      const Eigen::Vector3d& p = polygon[i];
+      const Eigen::Vector3d& q = polygon[(i + 1) % count];
+      const double height_p = inward.dot(p - *a[k]);
+      const double height_q = inward.dot(q - *a[k]);
+      if (height_p >= 0.0) cut[kept++] = p;
+      if ((height_p < 0.0) != (height_q < 0.0)) cut[kept++] = p + height_p / (height_p - height_q) * (q - p);
+    }
+    polygon = cut;
+    count = kept;
+  }
+  CommonFace face{
+      {pair.a, pair.b}, opposite, b_below && !opposite ? Side::B : Side::A, 0.0, Eigen::Vector3d::Zero()};
+  for (std::size_t i = 2; i < count; ++i) {
+    const double area = 0.5 * (polygon[i - 1] - polygon[0]).cross(polygon[i] - polygon[0]).norm();
+    face.area += area;
+    face.centroid += area / 3.0 * (polygon[0] + polygon[i - 1] + polygon[i]);
+  }
+  if (!(face.area > 0.0)) return;
+  face.centroid /= face.area;
+  common_faces_.push_back(face);
 }
 
 void CrossingCurves::appendEnd(Side side, NodeIndex from, NodeIndex to, TriangleIndex triangle, bool enters) {

@@ -31,6 +31,17 @@ struct CrossingSegment {
   bool closed;  ///< both triangles' shells are
 };
 
+/// What two triangles in one plane have in common. Facing the same way they bound the overlap together, and
+/// the motion decides whose part counts as inside. Facing each other, and pushed into each other by the
+/// motion, both count: a flap that encloses nothing.
+struct CommonFace {
+  TriangleIndex triangle[2];
+  bool opposite;
+  Side inside;  ///< whose part is inside the other body; of opposite ones both are
+  double area;
+  Eigen::Vector3d centroid;  ///< working frame
+};
+
 /// The curves where the two surfaces cross, B moved by an infinitesimal: nodes and the segments between them.
 class CrossingCurves {
  public:
@@ -39,6 +50,7 @@ class CrossingCurves {
 
   const std::vector<CrossingNode>& nodes() const { return nodes_; }
   const std::vector<CrossingSegment>& segments() const { return segments_; }
+  const std::vector<CommonFace>& commonFaces() const { return common_faces_; }
   /// A pair of triangles had not two ends of a segment: arithmetic has over- or underflown.
   bool broken() const { return broken_; }
 
@@ -53,11 +65,13 @@ class CrossingCurves {
   };
 
   void crossPair(WorkingFrame& frame, PerturbedPredicates& predicates, const CandidatePair& pair);
+  void addCommonFace(const CandidatePair& pair, const Corners& a, const Corners& b, bool b_below);
   void appendEnd(Side side, NodeIndex from, NodeIndex to, TriangleIndex triangle, bool enters);
   void joinEnds(WorkingFrame& frame);
 
   std::vector<CrossingNode> nodes_;
   std::vector<CrossingSegment> segments_;
+  std::vector<CommonFace> common_faces_;
   std::vector<End> ends_;
   bool broken_ = false;
 };

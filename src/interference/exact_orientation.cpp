@@ -90,17 +90,17 @@ double orientationValue(const Eigen::Vector3d& p, const Eigen::Vector3d& q, cons
   return exactDeterminant(p, q, r, s).value();
 }
 
-int firstSignOfCross(const Eigen::Vector3d& p, const Eigen::Vector3d& q, const Eigen::Vector3d& r,
-                     const Eigen::Vector3d& s) {
+int signAlong(const Motion& motion, const Eigen::Vector3d& p, const Eigen::Vector3d& q,
+              const Eigen::Vector3d& r, const Eigen::Vector3d& s) {
   for (int axis = 0; axis < 3; ++axis) {
     const int sign = crossSign(p, q, r, s, axis);
-    if (sign != 0) return sign;
+    if (sign != 0) return motion[static_cast<std::size_t>(axis)] * sign;
   }
   return 0;
 }
 
 int planeOrder(const Eigen::Vector3d& p, const Eigen::Vector3d& q, const PlaneOnSegment& first,
-               const PlaneOnSegment& second, int motion) {
+               const PlaneOnSegment& second, const Motion& motion) {
   // The segment meets plane i at p_i / (p_i - q_i), p_i and q_i the heights of its ends over it.
   std::array<Expansion, 2> height_p;
   std::array<Expansion, 2> height_q;
@@ -121,8 +121,8 @@ int planeOrder(const Eigen::Vector3d& p, const Eigen::Vector3d& q, const PlaneOn
     normal[i] = exactCross(exactDifference(*corner[1], *corner[0]), exactDifference(*corner[2], *corner[0]));
   }
   const ExactVector change = exactCross(exactDifference(p, q), exactCross(normal[0], normal[1]));
-  for (const Expansion& coordinate : change) {
-    if (coordinate.sign() != 0) return sides * motion * coordinate.sign();
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (change[axis].sign() != 0) return sides * motion[axis] * change[axis].sign();
   }
   return 0;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 
 namespace concave_distance::detail {
 
@@ -14,9 +15,15 @@ int orientationSign(const Eigen::Vector3d& p, const Eigen::Vector3d& q, const Ei
 double orientationValue(const Eigen::Vector3d& p, const Eigen::Vector3d& q, const Eigen::Vector3d& r,
                         const Eigen::Vector3d& s);
 
-/// Sign of the first coordinate of (q - p) x (s - r) that is not zero, exact; 0 for parallel vectors.
-int firstSignOfCross(const Eigen::Vector3d& p, const Eigen::Vector3d& q, const Eigen::Vector3d& r,
-                     const Eigen::Vector3d& s);
+/// An infinitesimal motion: (x e, y e^2, z e^3), e > 0 infinitesimal, x, y and z 1 or -1.
+using Motion = std::array<int, 3>;
+inline Motion reversed(const Motion& motion) {
+  return {-motion[0], -motion[1], -motion[2]};
+}
+
+/// Sign of the vector (q - p) x (s - r) along the motion, exact; 0 only for parallel vectors.
+int signAlong(const Motion& motion, const Eigen::Vector3d& p, const Eigen::Vector3d& q,
+              const Eigen::Vector3d& r, const Eigen::Vector3d& s);
 
 /// What is compared of two planes that a segment (p, q) runs through.
 struct PlaneOnSegment {
@@ -25,9 +32,8 @@ struct PlaneOnSegment {
 };
 
 /// Which of two planes the segment meets first, exact: -1 the first, 1 the second, 0 for both at one point
-/// and parallel. Planes that it meets in one point are parted by moving p and q by
-/// `motion` * (e, e^2, e^3), e infinitesimal.
+/// and parallel. Planes that it meets in one point are parted by moving p and q.
 int planeOrder(const Eigen::Vector3d& p, const Eigen::Vector3d& q, const PlaneOnSegment& first,
-               const PlaneOnSegment& second, int motion);
+               const PlaneOnSegment& second, const Motion& motion);
 
 }  // namespace concave_distance::detail

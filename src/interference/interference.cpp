@@ -11,9 +11,9 @@ using detail::FoundRegion;
 
 struct InterferenceWorkspace::Implementation {
   detail::RegionBuilder builder;
-  std::vector<FoundRegion> first;
-  std::vector<FoundRegion> second;
-  std::vector<std::uint8_t> matched;
+  std::vector<FoundRegion> solids;  ///< of the best pass so far
+  std::vector<FoundRegion> others;  ///< what touches, and open surfaces
+  std::vector<FoundRegion> found;
 };
 
 InterferenceWorkspace::InterferenceWorkspace() : implementation_(std::make_unique<Implementation>()) {}
@@ -29,68 +29,83 @@ bool isPose(const Eigen::Isometry3d& pose) {
   return excess.cwiseAbs().maxCoeff() <= 1e-3 && pose.linear().determinant() > 0.0;
 }
 
-/// Whether two passes' regions are the same solid: volume and first moment agree to rounding. Touching
-/// surfaces have no volume to agree on, and meet in one pass only.
-bool sameSolid(const InterferenceRegion& l, const InterferenceRegion& r, double rounding) {
-  if (!l.closed || !r.closed || l.touching || r.touching) return false;
-  const double volume = std::max(l.volume, r.volume);
-  const double surface = l.surface_area_a + l.surface_area_b + r.surface_area_a + r.surface_area_b;
-  const double tolerance = 1e-9 * volume + 4.0 * rounding * surface;
-  return std::abs(l.volume - r.volume) <= tolerance &&
-         volume * (l.centroid_in_a - r.centroid_in_a).norm() <= tolerance * std::sqrt(surface);
+bool isSolid(const FoundRegion& found) {
+  return found.region.closed && !found.region.touching;
 }
 
-/// Faces of both bodies in one plane and facing one way belong to A's surface inside B after one motion and
-/// to B's inside A after the other: half to each.
-void average(const FoundRegion& first, FoundRegion& second, std::uint32_t index,
-             detail::RegionBuilder& builder) {
-  InterferenceRegion& region = second.region;
-  region.surface_area_a = 0.5 * (region.surface_area_a + first.region.surface_area_a);
-  region.surface_area_b = 0.5 * (region.surface_area_b + first.region.surface_area_b);
-  region.consistent = region.consistent && first.region.consistent;
-  second.vector_area = 0.5 * (second.vector_area + first.vector_area);
-  builder.measureDepth(index, second.vector_area, region);
+/// How well a motion shows the solids of the overlap where things are flush: the more parts, the fewer of
+/// them hang together by walls that only touch; the fewer flaps the better; and a body that is swallowed but
+/// for a flush face has a loop.
+struct Clarity {
+  std::size_t parts = 0;
+  double flap_area = 0.0;
+  std::size_t swallowed = 0;
+
+  bool better(const Clarity& than) const {
+    if (parts != than.parts) return parts > than.parts;
+    if (flap_area != than.flap_area) return flap_area < than.flap_area;
+    return swallowed < than.swallowed;
+  }
+};
+
+Clarity clarityOf(const std::vector<FoundRegion>& found) {
+  Clarity clarity;
+  for (const FoundRegion& f : found) {
+    if (!isSolid(f)) continue;
+    ++clarity.parts;
+    clarity.flap_area += f.flap_area;
+    clarity.swallowed += f.region.loop_count == 0 ? 1U : 0U;
+  }
+  return clarity;
 }
 
-/// Joins two passes. The same solid in both becomes one region; of solids that hang together in one pass
-/// only, by walls that just touch, the finer parts stay; what touches in one pass stays.
-void joinPasses(std::vector<FoundRegion>& first, std::vector<FoundRegion>& second,
-                std::vector<std::uint8_t>& matched, detail::RegionBuilder& builder) {
-  const double rounding = builder.frame().roundingBound();
-  matched.assign(first.size() + second.size(), 0);
-  for (std::size_t j = 0; j < second.size(); ++j) {
-    for (std::size_t i = 0; i < first.size(); ++i) {
-      if (matched[i] != 0 || !sameSolid(first[i].region, second[j].region, rounding)) continue;
-      matched[i] = matched[first.size() + j] = 1;
-      if (second[j].region.loop_count == 0) {
-        second[j] = first[i];
-      } else if (first[i].region.loop_count > 0) {
-        average(first[i], second[j], static_cast<std::uint32_t>(j), builder);
-      }
-      break;
+void takeSolids(const std::vector<FoundRegion>& found, std::vector<FoundRegion>& solids) {
+  solids.clear();
+  for (const FoundRegion& f : found) {
+    if (isSolid(f)) solids.push_back(f);
+  }
+}
+
+/// Faces that touch do so after one of two opposite motions alone; curves of open surfaces are there after
+/// both unless these only touch.
+void addOthers(const std::vector<FoundRegion>& found, double rounding, std::vector<FoundRegion>& others) {
+  const std::size_t known = others.size();
+  for (const FoundRegion& f : found) {
+    if (isSolid(f)) continue;
+    const auto same = [&](const FoundRegion& other) {
+      return !f.region.closed && !other.region.closed &&
+             (other.region.centroid_in_a - f.region.centroid_in_a).norm() <= 16.0 * rounding;
+    };
+    const auto last = others.begin() + static_cast<std::ptrdiff_t>(known);
+    if (std::none_of(others.begin(), last, same)) others.push_back(f);
+  }
+}
+
+/// Finds the regions after one motion of B and, where anything coincides exactly, after its opposite; where
+/// these differ or have flaps after the remaining six, for the solids alone.
+void findRegions(InterferenceWorkspace::Implementation& space) {
+  const double rounding = space.builder.frame().roundingBound();
+  detail::Motion motion = {1, 1, 1};
+  const bool tied = space.builder.pass(motion, space.found);
+  takeSolids(space.found, space.solids);
+  space.others.clear();
+  addOthers(space.found, rounding, space.others);
+  if (!tied) return;
+  Clarity best = clarityOf(space.found);
+  bool unclear = false;
+  for (int octant = 1; octant < 8 && (octant == 1 || unclear); ++octant) {
+    // The opposite first.
+    const int bits = octant <= 1 ? 7 : octant - 1;
+    for (std::size_t axis = 0; axis < 3; ++axis) motion[axis] = (bits >> axis & 1) != 0 ? -1 : 1;
+    space.builder.pass(motion, space.found);
+    const Clarity clarity = clarityOf(space.found);
+    if (octant == 1) {
+      addOthers(space.found, rounding, space.others);
+      unclear = clarity.parts != best.parts || std::min(clarity.flap_area, best.flap_area) > 0.0;
     }
-  }
-  const auto is_alone = [&](const FoundRegion& found, std::size_t mark) {
-    return matched[mark] == 0 && found.region.closed && !found.region.touching;
-  };
-  std::size_t alone[2] = {0, 0};
-  for (std::size_t i = 0; i < first.size(); ++i) alone[0] += is_alone(first[i], i) ? 1U : 0U;
-  for (std::size_t j = 0; j < second.size(); ++j) alone[1] += is_alone(second[j], first.size() + j) ? 1U : 0U;
-  const bool first_is_finer = alone[0] > alone[1];
-  std::size_t kept = 0;
-  for (std::size_t j = 0; j < second.size(); ++j) {
-    if (is_alone(second[j], first.size() + j) && first_is_finer) continue;
-    second[kept++] = second[j];
-  }
-  second.resize(kept);
-  for (std::size_t i = 0; i < first.size(); ++i) {
-    if (matched[i] != 0 || (is_alone(first[i], i) && !first_is_finer)) continue;
-    // A curve of open surfaces is there in both passes unless they only touch.
-    const auto& region = first[i].region;
-    const bool again = !region.closed && std::any_of(second.begin(), second.end(), [&](const FoundRegion& f) {
-      return !f.region.closed && (f.region.centroid_in_a - region.centroid_in_a).norm() <= 16.0 * rounding;
-    });
-    if (!again) second.push_back(first[i]);
+    if (!clarity.better(best)) continue;
+    best = clarity;
+    takeSolids(space.found, space.solids);
   }
 }
 
@@ -115,14 +130,14 @@ void findInterference(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometr
   InterferenceWorkspace::Implementation& space = workspace.implementation();
   space.builder.findCandidates(a, b, a_from_b);
   result.rounding_bound = space.builder.frame().roundingBound();
-  if (space.builder.pass(1, space.second)) {
-    space.first.swap(space.second);
-    space.builder.pass(-1, space.second);
-    joinPasses(space.first, space.second, space.matched, space.builder);
+  findRegions(space);
+  space.found.clear();
+  for (const std::vector<FoundRegion>* list : {&space.solids, &space.others}) {
+    for (const FoundRegion& found : *list) space.found.push_back(found);
   }
-  std::sort(space.second.begin(), space.second.end(), deeper);
+  std::sort(space.found.begin(), space.found.end(), deeper);
   bool surfaces_meet = false;
-  for (const FoundRegion& found : space.second) {
+  for (const FoundRegion& found : space.found) {
     result.regions.push_back(found.region);
     surfaces_meet = surfaces_meet || !(found.region.a_swallowed || found.region.b_swallowed);
     result.a_inside_b = result.a_inside_b || found.region.a_swallowed;

@@ -18,23 +18,29 @@ inline constexpr std::size_t at(Side side) {
 
 using Corners = std::array<const Eigen::Vector3d*, 3>;
 
-/// The predicates of two bodies, B moved by `direction` * (e, e^2, e^3) with e infinitesimal (simulation of
+/// The predicates of two bodies, B moved by an infinitesimal (simulation of
 /// simplicity, Edelsbrunner and Muecke 1990): a vertex of one never lies on a plane of the other, nor an edge
 /// on an edge, so that every crossing is an edge through the inside of a triangle and all agree on it.
 class PerturbedPredicates {
  public:
-  explicit PerturbedPredicates(int direction = 1) : direction_(direction) {}
-  /// Whether an exact coincidence was met, so that the direction may have mattered.
+  explicit PerturbedPredicates(const Motion& motion_of_b)
+      : of_b_(motion_of_b), of_a_(reversed(motion_of_b)) {}
+  /// Whether an exact coincidence was met, so that the motion may have mattered.
   bool tied() const { return tied_; }
-  void setTied() { tied_ = true; }
 
   /// 1 where `point`, of the body `whose`, lies above the other body's triangle, else -1; 0 for a triangle
-  /// without area.
-  int side(const Corners& triangle, Side whose, const Eigen::Vector3d& point) {
+  /// without area. `on_plane` tells whether it lies on the plane but for the motion.
+  int side(const Corners& triangle, Side whose, const Eigen::Vector3d& point, bool& on_plane) {
     const int sign = orientationSign(*triangle[0], *triangle[1], *triangle[2], point);
+    on_plane = sign == 0;
     if (sign != 0) return sign;
     tied_ = true;
-    return motionOf(whose) * firstSignOfCross(*triangle[0], *triangle[1], *triangle[0], *triangle[2]);
+    return signAlong(motionOf(whose), *triangle[0], *triangle[1], *triangle[0], *triangle[2]);
+  }
+
+  int side(const Corners& triangle, Side whose, const Eigen::Vector3d& point) {
+    bool on_plane = false;
+    return side(triangle, whose, point, on_plane);
   }
 
   /// How the edge (p, q) of A and the edge (r, s) of B pass each other: the sign of the determinant of the
@@ -46,7 +52,7 @@ class PerturbedPredicates {
     if (sign != 0) return sign;
     tied_ = true;
     // Moving r and s by e changes the determinant by ((s - r) x (q - p)) . e.
-    return direction_ * firstSignOfCross(r, s, p, q);
+    return signAlong(of_b_, r, s, p, q);
   }
 
   /// Which of two planes of the other body the segment (p, q) of the body `whose` meets first; see
@@ -57,9 +63,10 @@ class PerturbedPredicates {
   }
 
  private:
-  int motionOf(Side whose) const { return whose == Side::B ? direction_ : -direction_; }
+  const Motion& motionOf(Side whose) const { return whose == Side::B ? of_b_ : of_a_; }
 
-  int direction_;
+  Motion of_b_;
+  Motion of_a_;  ///< relative to B
   bool tied_ = false;
 };
 

@@ -23,8 +23,8 @@ void RegionBuilder::findCandidates(const BodyMesh& a, const BodyMesh& b, const E
   collectCandidates(frame_, stack_, candidates_);
 }
 
-bool RegionBuilder::pass(int direction, std::vector<FoundRegion>& found) {
-  PerturbedPredicates predicates(direction);
+bool RegionBuilder::pass(const Motion& motion_of_b, std::vector<FoundRegion>& found) {
+  PerturbedPredicates predicates(motion_of_b);
   curves_.find(frame_, predicates, candidates_);
   sets_.reset(curves_.nodes().size());
   for (const Side side : {Side::A, Side::B})
@@ -87,10 +87,21 @@ void RegionBuilder::buildRegion(const BoundaryComponent& component, FoundRegion&
     whole.volume += cavity.volume;
     for (const std::size_t side : {0U, 1U}) whole.area[side] += cavity.area[side];
     whole.vector_area += cavity.vector_area;
+    whole.flap_area += cavity.flap_area;
+    whole.flap_vector_area += cavity.flap_vector_area;
+    whole.shared_area += cavity.shared_area;
+    whole.shared_vector_area += cavity.shared_vector_area;
     whole.loop_count += cavity.loop_count;
     whole.consistent = whole.consistent && cavity.consistent;
   }
-  found.vector_area = whole.vector_area * area;
+  // The regularised overlap has no flaps; only where there is nothing else they are what touches.
+  const bool solid = whole.volume > 2.0 * frame_.roundingBound() * frame_.scale() * whole.surface();
+  if (solid) {
+    whole.vector_area += whole.shared_vector_area - whole.flap_vector_area;
+    whole.area[0] = std::max(0.0, whole.area[0] + whole.shared_area - whole.flap_area);
+    whole.area[1] = std::max(0.0, whole.area[1] - whole.shared_area - whole.flap_area);
+    found.flap_area = whole.flap_area * area;
+  }
   region.surface_area_a = whole.area[0] * area;
   region.surface_area_b = whole.area[1] * area;
   region.loop_count = whole.loop_count;
@@ -102,12 +113,11 @@ void RegionBuilder::buildRegion(const BoundaryComponent& component, FoundRegion&
     region.a_swallowed = component.last_whole[0] > component.first_whole[0];
     region.b_swallowed = !region.a_swallowed;
   }
-  measureDepth(static_cast<std::uint32_t>(component_of_region_.size() - 1), found.vector_area, region);
+  measureDepth(component, solid, whole.vector_area * area, region);
 }
 
-void RegionBuilder::measureDepth(std::uint32_t index, const Eigen::Vector3d& vector_area,
-                                 InterferenceRegion& region) {
-  const BoundaryComponent& component = components_.all()[component_of_region_[index]];
+void RegionBuilder::measureDepth(const BoundaryComponent& component, bool solid,
+                                 const Eigen::Vector3d& vector_area, InterferenceRegion& region) {
   const double length = 1.0 / frame_.scale();
   DepthAlong along{Eigen::Vector3d::UnitX(), {0.0, component.reference, component.reference}};
   region.contact_area = vector_area.norm();
@@ -121,6 +131,12 @@ void RegionBuilder::measureDepth(std::uint32_t index, const Eigen::Vector3d& vec
     along.deepest = depthAlong(along.normal, frame_, curves_, pieces_, components_, component, overlay_);
   } else {
     along = leastDepth(frame_, curves_, pieces_, components_, component, sets_, overlay_);
+  }
+  // On average thinner than roundings: faces that touch, also where several do round a corner.
+  if (component.loop_count > 0 && component.closed && !solid &&
+      along.deepest.depth > frame_.roundingBound() * frame_.scale()) {
+    const Eigen::Vector3d& point = curves_.nodes()[component.first_node].position;
+    along.deepest = {0.0, point, point};
   }
   region.depth = along.deepest.depth * length;
   region.normal_in_a = along.normal;

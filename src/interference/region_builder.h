@@ -10,10 +10,10 @@
 
 namespace concave_distance::detail {
 
-/// A region with what only the comparison of two passes needs.
+/// A region, and the flaps that were taken off it, m^2 (CommonFace).
 struct FoundRegion {
   InterferenceRegion region;
-  Eigen::Vector3d vector_area = Eigen::Vector3d::Zero();  ///< m^2, of A's part
+  double flap_area = 0.0;
 };
 
 /// Finds the regions for one infinitesimal motion of B: a pass.
@@ -21,9 +21,7 @@ class RegionBuilder {
  public:
   void findCandidates(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b);
   /// Whether anything coincided exactly, so that another motion may give another answer.
-  bool pass(int direction, std::vector<FoundRegion>& found);
-  /// The depth along another normal than the pass's own; `index` counts the regions of the last pass.
-  void measureDepth(std::uint32_t index, const Eigen::Vector3d& vector_area, InterferenceRegion& region);
+  bool pass(const Motion& motion_of_b, std::vector<FoundRegion>& found);
 
   const WorkingFrame& frame() const { return frame_; }
 
@@ -31,6 +29,8 @@ class RegionBuilder {
   void addSwallowedShells(PerturbedPredicates& predicates, Side side);
   void buildRegion(const BoundaryComponent& component, FoundRegion& found);
   void measureReach(std::vector<FoundRegion>& found);
+  void measureDepth(const BoundaryComponent& component, bool solid, const Eigen::Vector3d& vector_area,
+                    InterferenceRegion& region);
   void addOpenRegions(std::vector<FoundRegion>& found);
   InterferenceRegion openRegion(std::uint32_t curve);
 

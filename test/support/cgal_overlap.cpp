@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
 #include <unordered_map>
 
 namespace concave_distance::test {
@@ -142,6 +143,10 @@ OverlapTruth cgalOverlap(const SurfaceMesh& a, const SurfaceMesh& b_in_a) {
   if (!truth.known) return truth;
   truth.parts = partsOf(overlap);
   for (const OverlapPart& part : truth.parts) truth.volume += part.volume;
+  for (const Face face : overlap.faces()) {
+    const auto c = cornersOf(overlap, face);
+    truth.surface += std::sqrt(CGAL::to_double(CGAL::squared_area(c[0], c[1], c[2])));
+  }
   auto curve_a = mesh_a.add_property_map<ExactMesh::Edge_index, bool>("e:curve", false).first;
   auto curve_b = mesh_b.add_property_map<ExactMesh::Edge_index, bool>("e:curve", false).first;
   pmp::corefine(mesh_a, mesh_b, CGAL::parameters::edge_is_constrained_map(curve_a),
@@ -154,10 +159,16 @@ OverlapTruth cgalOverlap(const SurfaceMesh& a, const SurfaceMesh& b_in_a) {
 double cgalFastOverlapTime(const SurfaceMesh& a, const SurfaceMesh& b_in_a) {
   FastMesh mesh_a = meshOf<FastMesh>(a);
   FastMesh mesh_b = meshOf<FastMesh>(b_in_a);
-  FastMesh overlap;
-  const auto start = std::chrono::steady_clock::now();
-  const bool done = pmp::corefine_and_compute_intersection(mesh_a, mesh_b, overlap);
-  return done ? secondsSince(start) : -1.0;
+  double fastest = std::numeric_limits<double>::infinity();
+  for (int repeat = 0; repeat < 3; ++repeat) {
+    FastMesh copy_a = mesh_a;
+    FastMesh copy_b = mesh_b;
+    FastMesh overlap;
+    const auto start = std::chrono::steady_clock::now();
+    if (!pmp::corefine_and_compute_intersection(copy_a, copy_b, overlap)) return -1.0;
+    fastest = std::min(fastest, secondsSince(start));
+  }
+  return fastest;
 }
 
 }  // namespace concave_distance::test

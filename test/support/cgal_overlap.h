@@ -20,6 +20,7 @@ struct OverlapTruth {
   double volume = 0.0;
   double area_a = 0.0;  ///< of A's surface inside B
   double area_b = 0.0;
+  double surface = 0.0;            ///< of the overlap; area_a + area_b, and what lies in both surfaces
   std::vector<OverlapPart> parts;  ///< connected solids, largest first; cavities taken off
   double corefinement_time = 0.0;  ///< seconds, the Boolean alone
 };
