@@ -168,12 +168,16 @@ void BoundaryComponents::measureSurface(WorkingFrame& frame, const SurfacePieces
 
 void BoundaryComponents::measureCommonFaces(const WorkingFrame& frame, const CrossingCurves& curves,
                                             const SurfacePieces (&pieces)[2]) {
+  component_of_common_face_.clear();
   for (const CommonFace& face : curves.commonFaces()) {
     const TriangleIndex triangle = face.triangle[at(face.inside)];
     const Eigen::Vector3d normal = frame.normal(face.inside, triangle);
-    for (BoundaryComponent& component : components_) {
+    component_of_common_face_.push_back(kNone);
+    for (std::uint32_t c = 0; c < components_.size(); ++c) {
+      BoundaryComponent& component = components_[c];
       if (!holdsPoint(pieces[at(face.inside)], component, face.inside, triangle, normal, face.centroid))
         continue;
+      component_of_common_face_.back() = c;
       if (face.opposite) {
         component.flap_area += face.area;
         component.flap_vector_area += face.area * normal;

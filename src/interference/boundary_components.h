@@ -50,6 +50,8 @@ class BoundaryComponents {
              ElementSets& sets);
   const std::vector<BoundaryComponent>& all() const { return components_; }
   std::vector<BoundaryComponent>& all() { return components_; }
+  /// Of each of the curves' common faces, the component that it belongs to; kNone where it belongs to none.
+  const std::vector<std::uint32_t>& componentOfCommonFace() const { return component_of_common_face_; }
   /// The loop of each node, named by one of its nodes.
   std::uint32_t loopOf(std::uint32_t node) { return loops_.find(node); }
   /// Vector area of A's side of a loop named so.
@@ -71,6 +73,7 @@ class BoundaryComponents {
 
   std::vector<BoundaryComponent> components_;
   std::vector<std::uint32_t> component_of_element_;
+  std::vector<std::uint32_t> component_of_common_face_;
   ElementSets loops_;
   std::vector<Eigen::Vector3d> loop_vector_areas_;
   std::vector<std::uint8_t> loop_seen_;

@@ -126,8 +126,15 @@ void CrossingCurves::addCommonFace(const CandidatePair& pair, const Corners& a, 
     polygon = cut;
     count = kept;
   }
-  CommonFace face{
-      {pair.a, pair.b}, opposite, b_below && !opposite ? Side::B : Side::A, 0.0, Eigen::Vector3d::Zero()};
+  CommonFace face;
+  face.triangle[0] = pair.a;
+  face.triangle[1] = pair.b;
+  face.opposite = opposite;
+  face.inside = b_below && !opposite ? Side::B : Side::A;
+  face.area = 0.0;
+  face.centroid.setZero();
+  face.corners = polygon;
+  face.corner_count = count;
   for (std::size_t i = 2; i < count; ++i) {
     const double area = 0.5 * (polygon[i - 1] - polygon[0]).cross(polygon[i] - polygon[0]).norm();
     face.area += area;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -40,6 +41,8 @@ struct CommonFace {
   Side inside;  ///< whose part is inside the other body; of opposite ones both are
   double area;
   Eigen::Vector3d centroid;  ///< working frame
+  std::array<Eigen::Vector3d, 10> corners;
+  std::size_t corner_count;
 };
 
 /// The curves where the two surfaces cross, B moved by an infinitesimal: nodes and the segments between them.

@@ -142,7 +142,7 @@ void RegionBuilder::measureDepth(const BoundaryComponent& component, bool solid,
   region.normal_in_a = along.normal;
   region.point_a_in_a = frame_.pointInA(along.deepest.point_a);
   region.point_b_in_a = frame_.pointInA(along.deepest.point_b);
-  region.touching = region.depth <= frame_.roundingBound();
+  region.touching = component.loop_count > 0 && component.closed && !solid;
 }
 
 void RegionBuilder::addOpenRegions(std::vector<FoundRegion>& found) {

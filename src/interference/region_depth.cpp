@@ -63,6 +63,16 @@ OverlayDepth::Result depthAlong(const Eigen::Vector3d& normal, WorkingFrame& fra
                              overlay.addEdge(side, on_side.edges()[i].from, on_side.edges()[i].to);
                          });
     }
+    // What both surfaces have in common counts for both.
+    const auto own = static_cast<std::uint32_t>(part - components.all().data());
+    for (std::size_t f = 0; f < curves.commonFaces().size(); ++f) {
+      const CommonFace& face = curves.commonFaces()[f];
+      if (face.opposite || components.componentOfCommonFace()[f] != own) continue;
+      const Side side = other(face.inside);
+      overlay.addFace(side, frame.normal(side, face.triangle[at(side)]));
+      for (std::size_t k = 0; k < face.corner_count; ++k)
+        overlay.addEdge(side, face.corners[k], face.corners[(k + 1) % face.corner_count]);
+    }
     if (part->next_cavity == kNone) break;
     part = &components.all()[part->next_cavity];
   }

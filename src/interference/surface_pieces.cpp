@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace concave_distance::detail {
 namespace {
@@ -263,6 +264,10 @@ void SurfacePieces::uniteHoles(WorkingFrame& frame, const CrossingCurves& curves
   normal.cwiseAbs().maxCoeff(&dropped);
   const Eigen::Index u = normal[dropped] > 0.0 ? (dropped + 1) % 3 : (dropped + 2) % 3;
   const Eigen::Index v = normal[dropped] > 0.0 ? (dropped + 2) % 3 : (dropped + 1) % 3;
+  // Turned by an angle that no mesh has, or the way out would meet corner after corner of loops in a row.
+  const auto flat = [&](const Eigen::Vector3d& p) {
+    return Eigen::Vector2d(0.829 * p[u] - 0.559 * p[v], 0.559 * p[u] + 0.829 * p[v]);
+  };
   for (std::size_t i = first; i < last; ++i) {
     std::uint32_t s = segments_[i];
     if (seen_[s] != 0) continue;
@@ -272,27 +277,29 @@ void SurfacePieces::uniteHoles(WorkingFrame& frame, const CrossingCurves& curves
       seen_[s] = 1;
       const std::uint32_t n = side_ == Side::A ? segments[s].end : segments[s].start;
       if (curves.nodes()[n].edge_side == side_) break;
-      if (curves.nodes()[n].position[u] < curves.nodes()[outermost].position[u]) outermost = n;
+      if (flat(curves.nodes()[n].position)[0] < flat(curves.nodes()[outermost].position)[0]) outermost = n;
       s = segment_after_node_[n];
       loop = s == segments_[i];
       if (s == kNone || seen_[s] != 0 || segments[s].triangle[at(side_)] != triangle) break;
     }
     if (!loop) continue;
-    const Eigen::Vector3d& corner = curves.nodes()[outermost].position;
+    const Eigen::Vector2d corner = flat(curves.nodes()[outermost].position);
     double nearest = -std::numeric_limits<double>::infinity();
     const PieceEdge* hit = nullptr;
+    int winding = 0;  // edges that run down have the inside on the loop's side
     for (std::size_t e = first_edge; e < edges_.size(); ++e) {
-      const PieceEdge& edge = edges_[e];
-      if ((edge.from[v] <= corner[v]) == (edge.to[v] <= corner[v])) continue;
-      const double share = (corner[v] - edge.from[v]) / (edge.to[v] - edge.from[v]);
-      const double at_u = edge.from[u] + share * (edge.to[u] - edge.from[u]);
-      if (at_u < corner[u] && at_u > nearest) {
-        nearest = at_u;
-        hit = &edge;
-      }
+      const Eigen::Vector2d from = flat(edges_[e].from);
+      const Eigen::Vector2d to = flat(edges_[e].to);
+      const bool down = to[1] <= corner[1];
+      if ((from[1] <= corner[1]) == down) continue;
+      const double at_u = from[0] + (corner[1] - from[1]) / (to[1] - from[1]) * (to[0] - from[0]);
+      if (!(at_u < corner[0])) continue;
+      winding += down ? 1 : -1;
+      if (!down || at_u <= nearest) continue;
+      nearest = at_u;
+      hit = &edges_[e];
     }
-    // An edge that runs down has the inside on the loop's side.
-    if (hit != nullptr && hit->to[v] < hit->from[v]) sets.unite(hit->element, outermost);
+    if (winding > 0) sets.unite(hit->element, outermost);
   }
 }
 

@@ -115,6 +115,25 @@ TEST_F(InterferenceInvariance, ScalingScalesTheRegions) {
   });
 }
 
+// Prongs in a row through one triangle: a loop's way out meets the next loops exactly at their corners.
+TEST_F(InterferenceInvariance, LoopsInARowInOneTriangleStayRegionsOfTheirOwn) {
+  for (const std::uint64_t seed : {10506U, 6716U}) {
+    const RandomPair pair = randomPair(seed);
+    const std::size_t regions = test::interferenceOf(pair.a, pair.b, pair.a_from_b).regions.size();
+    EXPECT_GT(regions, 1u);
+    for (int i = 0; i < 60; ++i) {
+      const double factor = 1e-3 * (1.0 + 0.01 * i);
+      Eigen::Isometry3d pose = pair.a_from_b;
+      pose.translation() *= factor;
+      EXPECT_EQ(
+          test::interferenceOf(test::scaledSurface(pair.a, factor), test::scaledSurface(pair.b, factor), pose)
+              .regions.size(),
+          regions)
+          << seed << " scaled by " << factor;
+    }
+  }
+}
+
 TEST_F(InterferenceInvariance, FarFromTheOriginOnlyTheRoundingOfTheCoordinatesIsLost) {
   forRandomPairs(80, [](const RandomPair& pair, const Interference& result, const Allowed& allowed) {
     const Eigen::Isometry3d motion = test::translation({1048576.0, -524288.0, 262144.0});

@@ -40,8 +40,9 @@ struct InterferenceRegion {
   /// swallowed open shell): areas, volume and depth are NaN, the normal is the curve's vector area or, where
   /// it is straight or undecided, any direction across it.
   bool closed = true;
-  /// The depth is not above Interference::rounding_bound: the surfaces touch. Flush faces have their common
-  /// part as contact area.
+  /// Thinner than roundings: the volume is at most twice Interference::rounding_bound times the surface. The
+  /// surfaces touch; the depth is 0 but for roundings, the contact area that of the common part of flush
+  /// faces.
   bool touching = false;
   /// The vector areas of the loops cancel (a peg through a plate) or there is none (a swallowed shell): the
   /// normal is then the one of least depth among a few candidates.
