@@ -30,7 +30,7 @@
 #include <set>
 
 #include "benchmark/support/benchmark_main.h"
-#include "benchmark/support/benchmark_pairs.h"
+#include "benchmark/support/flood_recall.h"
 #include "benchmark/support/statistics.h"
 #include "concave_distance/distance/enumeration.h"
 #include "concave_distance/distance/local_minima.h"
@@ -39,9 +39,6 @@
 
 namespace concave_distance::benchmark {
 namespace {
-
-constexpr double kLeastProminence = 1e-2;
-using Starts = std::vector<std::pair<TriangleIndex, TriangleIndex>>;
 
 struct Options {
   int steps = 200;
@@ -56,18 +53,6 @@ double millisecondsSince(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
-struct Shares {
-  double truths = 0.0;
-  double recalled = 0.0;
-  double prominent_truths = 0.0;  ///< of prominence >= 5e-2
-  double prominent_recalled = 0.0;
-  double reported = 0.0;
-  double own = 0.0;
-  double doubled = 0.0;
-  double stale = 0.0;
-  double none = 0.0;
-};
-
 /// A niche that cold solves missed.
 struct Miss {
   int instant;
@@ -78,8 +63,8 @@ struct Miss {
 };
 
 struct Tally {
-  Shares tracked;
-  Shares cold;
+  RecallShares tracked;
+  RecallShares cold;
   std::vector<double> complete_ms;
   std::vector<double> cold_ms;
   std::vector<double> cycle_ms;
@@ -112,8 +97,9 @@ class Comparison {
       if (k > 0) tally_.cycle_ms.push_back(1e3 * solution.solve_seconds);
       const int place = placeInWindow(k);
       if (place < 0) continue;
-      const double cutoff = cutoffAt(pose);
-      const LocalMinima truth = compare(pose, cutoff, solution, tally_.tracked, true);
+      const double cutoff = floodCutoff(pair_, pose);
+      timeComplete(pose, cutoff);
+      const LocalMinima truth = compare(pose, cutoff, solution, tally_.tracked);
       ++tally_.observed;
       tally_.niches += static_cast<double>(truth.niches.size());
       if (place == options_.window / 2) tryCold(pose, cutoff, k);
@@ -132,70 +118,19 @@ class Comparison {
     return -1;
   }
 
-  double cutoffAt(const Eigen::Isometry3d& pose) const {
-    const double nearest = fclDistance(*pair_.fcl_a, *pair_.fcl_b, pose).distance;
-    return std::max(5.0 * nearest, 0.25 * std::min(pair_.a->diameter(), pair_.b->diameter()));
+  LocalMinima compare(const Eigen::Isometry3d& pose, double cutoff, const PairSolution& solution,
+                      RecallShares& shares) {
+    FloodComparison comparison = compareWithFlood(pair_, pose, cutoff, solution, shares);
+    missed_ = std::move(comparison.missed);
+    return std::move(comparison.truth);
   }
 
-  LocalMinima truthOf(const Eigen::Isometry3d& pose, double cutoff, Starts whose,
-                      double least_prominence = kLeastProminence) {
+  void timeComplete(const Eigen::Isometry3d& pose, double cutoff) {
+    const auto start = std::chrono::steady_clock::now();
     LocalMinimaRequest request;
     request.cutoff = cutoff;
-    request.least_prominence = least_prominence;
-    // Classes of prominence are told apart up to 5e-2.
-    request.prominence_limit = 5e-2;
-    request.whose = std::move(whose);
-    return findLocalMinima(*pair_.a, *pair_.b, pose, request);
-  }
-
-  LocalMinima compare(const Eigen::Isometry3d& pose, double cutoff, const PairSolution& solution,
-                      Shares& shares, bool timed) {
-    if (timed) {
-      const auto start = std::chrono::steady_clock::now();
-      LocalMinimaRequest request;
-      request.cutoff = cutoff;
-      tally_.met_by_flood += findLocalMinima(*pair_.a, *pair_.b, pose, request).cost.met_by_flood;
-      tally_.complete_ms.push_back(millisecondsSince(start));
-    }
-    Starts whose;
-    std::vector<double> distances;
-    for (const TrackedNiche& niche : solution.niches) {
-      if (niche.distance > cutoff) continue;
-      whose.emplace_back(niche.witness.triangle_a, niche.witness.triangle_b);
-      distances.push_back(niche.distance);
-    }
-    LocalMinima truth = truthOf(pose, cutoff, whose);
-    std::vector<std::size_t> hits(truth.niches.size(), 0);
-    for (const std::size_t owner : truth.owners) {
-      if (owner != LocalMinima::kNoOwner) ++hits[owner];
-    }
-    missed_.clear();
-    for (std::size_t i = 0; i < truth.niches.size(); ++i) {
-      const bool prominent = truth.niches[i].prominence >= 5e-2;
-      shares.truths += 1.0;
-      shares.recalled += hits[i] > 0 ? 1.0 : 0.0;
-      shares.prominent_truths += prominent ? 1.0 : 0.0;
-      shares.prominent_recalled += prominent && hits[i] > 0 ? 1.0 : 0.0;
-      shares.own += hits[i] > 0 ? 1.0 : 0.0;
-      shares.doubled += hits[i] > 1 ? static_cast<double>(hits[i] - 1) : 0.0;
-      if (hits[i] == 0) missed_.push_back(i);
-    }
-    if (doubles(truth) > 0) {
-      shares.stale += static_cast<double>(doubles(truthOf(pose, cutoff, whose, 0.5 * kLeastProminence)));
-    }
-    shares.reported += static_cast<double>(whose.size());
-    for (const std::size_t owner : truth.owners) shares.none += owner == LocalMinima::kNoOwner ? 1.0 : 0.0;
-    return truth;
-  }
-
-  /// Reported places that are not the first one in their true niche.
-  static std::size_t doubles(const LocalMinima& truth) {
-    std::set<std::size_t> met;
-    std::size_t count = 0;
-    for (const std::size_t owner : truth.owners) {
-      count += owner != LocalMinima::kNoOwner && !met.insert(owner).second ? 1 : 0;
-    }
-    return count;
+    tally_.met_by_flood += findLocalMinima(*pair_.a, *pair_.b, pose, request).cost.met_by_flood;
+    tally_.complete_ms.push_back(millisecondsSince(start));
   }
 
   void tryCold(const Eigen::Isometry3d& pose, double cutoff, int instant) {
@@ -208,7 +143,7 @@ class Comparison {
       const auto start = std::chrono::steady_clock::now();
       const PairSolution fresh = solveOnce(pair_.name, pair_.a, pair_.b, parameters, pose);
       tally_.cold_ms.push_back(millisecondsSince(start));
-      const LocalMinima truth = compare(pose, cutoff, fresh, tally_.cold, false);
+      const LocalMinima truth = compare(pose, cutoff, fresh, tally_.cold);
       if (missed_.empty()) continue;
       if (!grid_known) led_to = gridLeadsTo(pose, cutoff);
       grid_known = true;
@@ -235,12 +170,12 @@ class Comparison {
 
   /// The true niches that refinements of the grids' own local minima end in.
   std::set<std::size_t> gridLeadsTo(const Eigen::Isometry3d& pose, double cutoff) {
-    Starts starts;
+    FloodStarts starts;
     const double slack = pair_.a->maxEdgeLength() + pair_.b->maxEdgeLength();
     for (const NodeNiche& niche : enumerateNodeNiches(*pair_.a, *pair_.b, pose, cutoff + slack, 0.0)) {
       starts.emplace_back(pair_.a->originalTriangle(niche.node_a), pair_.b->originalTriangle(niche.node_b));
     }
-    const LocalMinima truth = truthOf(pose, cutoff, starts);
+    const LocalMinima truth = trueNiches(pair_, pose, cutoff, starts);
     std::set<std::size_t> owners(truth.owners.begin(), truth.owners.end());
     return owners;
   }
@@ -263,12 +198,8 @@ void list(std::vector<Miss> misses, std::size_t count) {
                                                           : "patch";
     std::printf("    instant %3d, %d times: distance %.6f (%.2f of the cutoff), prominence %s%.4f, %s, %s\n",
                 misses[i].instant, misses[i].times, niche.distance, misses[i].share_of_cutoff,
-                measured ? "" : ">= ", measured ? niche.prominence : 5e-2, kind, misses[i].reason);
+                measured ? "" : ">= ", measured ? niche.prominence : kProminentNiche, kind, misses[i].reason);
   }
-}
-
-double share(double part, double whole) {
-  return whole > 0.0 ? part / whole : 1.0;
 }
 
 }  // namespace
@@ -309,17 +240,17 @@ int benchmarkMain(int argc, char** argv) {
     const BenchmarkPair pair = loadBenchmarkPair(name);
     Tally t = Comparison(pair, options).run();
     const double values[] = {t.niches / t.observed,
-                             share(t.tracked.recalled, t.tracked.truths),
-                             share(t.tracked.prominent_recalled, t.tracked.prominent_truths),
-                             share(t.cold.recalled, t.cold.truths),
-                             share(t.cold.prominent_recalled, t.cold.prominent_truths),
-                             share(t.tracked.own, t.tracked.reported),
-                             share(t.tracked.doubled, t.tracked.reported),
-                             share(t.tracked.stale, t.tracked.reported),
-                             share(t.tracked.none, t.tracked.reported),
-                             share(t.cold.own, t.cold.reported),
-                             share(t.cold.doubled, t.cold.reported),
-                             share(t.cold.none, t.cold.reported)};
+                             t.tracked.recall(),
+                             t.tracked.prominentRecall(),
+                             t.cold.recall(),
+                             t.cold.prominentRecall(),
+                             RecallShares::share(t.tracked.own, t.tracked.reported),
+                             RecallShares::share(t.tracked.doubled, t.tracked.reported),
+                             RecallShares::share(t.tracked.stale, t.tracked.reported),
+                             RecallShares::share(t.tracked.none, t.tracked.reported),
+                             RecallShares::share(t.cold.own, t.cold.reported),
+                             RecallShares::share(t.cold.doubled, t.cold.reported),
+                             RecallShares::share(t.cold.none, t.cold.reported)};
     const double longest = *std::max_element(t.complete_ms.begin(), t.complete_ms.end());
     std::printf(
         "%-19s %7.2f | %7.4f %7.4f %7.4f %7.4f | %6.3f %6.3f %6.3f %6.3f | %5d %5d | %8.2f %8.2f %8.2f "
