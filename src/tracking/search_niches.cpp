@@ -41,7 +41,8 @@ bool TrackerState::searchIsDue(double displacement) {
 void TrackerState::evolve(const PairObjective& objective, PairSolution& solution) {
   RandomEngine engine(streamSeed(parameters.seed, name, cycle));
   inherited.clear();
-  GeneticParameters genetic = warm ? parameters.warm : parameters.cold;
+  const bool as_warm = warm || (parameters.accuracy != AccuracyLevel::Nodes && sweepsCones());
+  GeneticParameters genetic = as_warm ? parameters.warm : parameters.cold;
   if (warm) {
     known.clear();
     for (const NicheRecord& record : archive.records()) {
@@ -54,7 +55,7 @@ void TrackerState::evolve(const PairObjective& objective, PairSolution& solution
     genetic.population_size = std::max(genetic.population_size, wanted + wanted % 2);
   }
   const GeneticResult result =
-      geneticSearch(objective, genetic, warm ? warm_radii : cold_radii, inherited, engine, search);
+      geneticSearch(objective, genetic, as_warm ? warm_radii : cold_radii, inherited, engine, search);
   solution.cost.evaluations += result.cost.evaluations;
   solution.cost.descents += result.cost.descents;
   solution.cost.descents_joined += result.cost.descents_joined;
@@ -127,7 +128,7 @@ void TrackerState::projectNiches(PairSolution& solution) {
 // last one has ended; all in a cold one.
 void TrackerState::sweepCones(PairSolution& solution) {
   if (cycles_at_rest == 0) swept_at_rest = false;
-  if (parameters.swept_cones == 0 || !parameters.niches_wanted || swept_at_rest) {
+  if (!sweepsCones() || swept_at_rest) {
     return;
   }
   if (cycles_at_rest == 1) sweep.restart();

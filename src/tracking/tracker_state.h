@@ -68,6 +68,7 @@ struct TrackerState {
   void evolve(const PairObjective& objective, PairSolution& solution);
   void collectCandidates(std::size_t known_minima);
   void projectNiches(PairSolution& solution);
+  bool sweepsCones() const { return parameters.swept_cones > 0 && parameters.niches_wanted; }
   void sweepCones(PairSolution& solution);
 
   // settle_niches.cpp: which candidates are niches, and which niches are still niches of their own.

@@ -7,7 +7,8 @@
 // The pairs are dealt out by turns: every second one of allPairs() for tuning, the rest for checking; both
 // halves have pairs of every family. A line is one variant of the shipped parameters: recall of the true
 // niches, of the prominent ones, and time as a multiple of the shipped parameters' in the same run, pair by
-// pair in turns; means over pairs (geometric of the times).
+// pair in turns; means over pairs (geometric of the times); `own`, the share of the reported niches
+// that are the only ones in a true one; `births`, new ids a cycle.
 //   search   level `nodes`, cold: the genetic search alone. Truth: the flood of the product graph, prominence
 //            >= 1e-2. `recall` counts every local minimum met, `prominent` those of the final population,
 //            `nearest` the share of runs that met the nearest niche.
@@ -18,6 +19,7 @@
 //   refined  the same at level `refined`, where no proof mends what the search has missed.
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
@@ -46,7 +48,8 @@ struct Figures {
   double recall = 0.0;
   double prominent = 0.0;
   double nearest = 1.0;
-  double own = 1.0;  ///< share of the reported niches that are the only ones in a true one
+  double own = 1.0;     ///< share of the reported niches that are the only ones in a true one
+  double births = 0.0;  ///< new ids a cycle
   double seconds = 0.0;
 };
 using Part = std::vector<Figures> (*)(const BenchmarkPair&, const std::vector<TuningVariant>&,
@@ -114,6 +117,11 @@ std::vector<Figures> tryColdVariants(const BenchmarkPair& pair, const std::vecto
   return figures;
 }
 
+std::ptrdiff_t births(const PairSolution& solution) {
+  return std::count_if(solution.events.begin(), solution.events.end(),
+                       [](const NicheEvent& event) { return event.kind == NicheEvent::Kind::Birth; });
+}
+
 template <AccuracyLevel level>
 std::vector<Figures> tryCycleVariants(const BenchmarkPair& pair, const std::vector<TuningVariant>& variants,
                                       const Options& options) {
@@ -138,7 +146,10 @@ std::vector<Figures> tryCycleVariants(const BenchmarkPair& pair, const std::vect
       // Whoever comes first finds the meshes out of the caches: by turns.
       const std::size_t whose = (i + static_cast<std::size_t>(k)) % variants.size();
       trackers[whose].update(pose, 5.0 * t, solution);
-      if (k > 0) figures[whose].seconds += solution.solve_seconds;
+      if (k > 0) {
+        figures[whose].seconds += solution.solve_seconds;
+        figures[whose].births += static_cast<double>(births(solution)) / (options.steps - 1);
+      }
       figures[whose].nearest -= solution.distance > nearest + kSameDistance ? 1.0 / options.steps : 0.0;
       if (observed) compareWithFlood(pair, pose, cutoff, solution, shares[whose]);
     }
@@ -152,7 +163,8 @@ class Report {
   Report(const std::string& part, const std::string& file) : part_(part) {
     if (file.empty()) return;
     csv_.open(file, std::ios::app);
-    if (csv_.tellp() == 0) csv_ << "part,variant,pair,used_for,recall,prominent,nearest,own,time_ratio\n";
+    if (csv_.tellp() == 0)
+      csv_ << "part,variant,pair,used_for,recall,prominent,nearest,own,births,time_ratio\n";
   }
 
   void add(const std::vector<TuningVariant>& variants, const BenchmarkPair& pair, bool tuning,
@@ -166,20 +178,24 @@ class Report {
       sum.prominent += figures[i].prominent;
       sum.nearest += figures[i].nearest;
       sum.own += figures[i].own;
+      sum.births += figures[i].births;
       sum.log_ratio += std::log(ratio);
       if (csv_) {
         csv_ << part_ << ",\"" << variants[i].name << "\"," << pair.name << ','
              << (tuning ? "tuning" : "check") << ',' << figures[i].recall << ',' << figures[i].prominent
-             << ',' << figures[i].nearest << ',' << figures[i].own << ',' << ratio << '\n'
+             << ',' << figures[i].nearest << ',' << figures[i].own << ',' << figures[i].births << ',' << ratio
+             << '\n'
              << std::flush;
       }
     }
   }
 
   void print(const std::vector<TuningVariant>& variants) const {
-    std::printf("%s\n%-34s | %-41s | %s\n%-34s | %7s %9s %7s %7s %7s | %7s %9s %7s %7s %7s\n", part_.c_str(),
-                "", "tuning", "check", "", "recall", "prominent", "nearest", "own", "time", "recall",
-                "prominent", "nearest", "own", "time");
+    std::printf("%s\n%-34s | %-47s | check\n%-34s |", part_.c_str(), "", "tuning", "");
+    for (int half = 0; half < 2; ++half) {
+      std::printf(" %7s %9s %7s %6s %6s %6s%s", "recall", "prominent", "nearest", "own", "births", "time",
+                  half == 0 ? " |" : "\n");
+    }
     for (std::size_t i = 0; i < sums_.size(); ++i) {
       std::printf("%-34s |", variants[i].name.c_str());
       sums_[i].tuning.print();
@@ -191,10 +207,11 @@ class Report {
 
  private:
   struct Sum {
-    double pairs = 0.0, recall = 0.0, prominent = 0.0, nearest = 0.0, own = 0.0, log_ratio = 0.0;
+    double pairs = 0.0, recall = 0.0, prominent = 0.0, nearest = 0.0, own = 0.0, births = 0.0,
+           log_ratio = 0.0;
     void print() const {
-      std::printf(" %7.4f %9.4f %7.4f %7.4f %7.3f", recall / pairs, prominent / pairs, nearest / pairs,
-                  own / pairs, std::exp(log_ratio / pairs));
+      std::printf(" %7.4f %9.4f %7.4f %6.3f %6.3f %6.3f", recall / pairs, prominent / pairs, nearest / pairs,
+                  own / pairs, births / pairs, std::exp(log_ratio / pairs));
     }
   };
   struct Halves {
@@ -211,7 +228,7 @@ int benchmarkMain(int argc, char** argv) {
   CLI::App app("Variants of the shipped parameters: recall and time, on pairs for tuning and on others");
   const std::map<std::string, std::pair<Part, std::vector<TuningVariant> (*)()>> parts = {
       {"search", {trySearchVariants, searchVariants}},
-      {"cold", {tryColdVariants, searchVariants}},
+      {"cold", {tryColdVariants, coldVariants}},
       {"tracked", {tryCycleVariants<AccuracyLevel::Certified>, cycleVariants}},
       {"refined", {tryCycleVariants<AccuracyLevel::Refined>, cycleVariants}}};
   Options options;

@@ -19,7 +19,9 @@ struct TrackerParameters {
   /// Of the same levels: seconds from the start of a cycle after which the proof stops with what it has.
   /// The search for niches comes before and is not cut short.
   double time_budget = std::numeric_limits<double>::infinity();
-  GeneticParameters cold;            ///< first cycle, service calls, after a reset
+  /// Of a first cycle, a service call, after a reset: at level `nodes`, and where no normal cones are swept. A
+  /// cold cycle that sweeps them finds every niche by that, and searches as a warm one does.
+  GeneticParameters cold;
   GeneticParameters warm;            ///< every further cycle; usually a small population and few generations
   double inherited_per_niche = 3.0;  ///< alpha_Gamma (Carretero, eq. (6.8))
   std::uint32_t inherited_limit = 30;  ///< N_popGamma_max (6.8)
@@ -27,19 +29,19 @@ struct TrackerParameters {
   /// Niches of which a warm cycle asks, the nearest always and the others in turn, whether the body opposite
   /// has a closer place anywhere (projectWitness); of the nearest the surroundings are asked too. A cold
   /// cycle asks all. 0: none.
-  std::uint32_t projected_niches = 3;
+  std::uint32_t projected_niches = 1;
   /// Random nodes that a warm cycle projects onto the other body and back; a cold one 16 times as many.
   std::uint32_t projected_immigrants = 4;
   /// A warm cycle searches for newborn niches (evolution and projected immigrants) when B has moved by this
   /// fraction of the finer grid's longest edge since the last search, or after `search_interval` cycles at
   /// the latest; the cycles between follow the known niches and ask the nearest one only.
   double search_motion = 0.5;
-  std::uint32_t search_interval = 4;
+  std::uint32_t search_interval = 16;
   /// Groups of four normal cones that a warm cycle compares to find what the search has not, when B has moved
   /// by `search_motion` or more since the last cycle; in proportion less when it has moved less, but no less
   /// than a `search_interval`-th. A sweep over all takes as many cycles as it needs. A cold cycle compares
   /// all. 0: none.
-  std::uint32_t swept_cones = 1000;
+  std::uint32_t swept_cones = 3000;
   /// Niches that a warm cycle floods again, in turn, to see whether they still have their prominence, when B
   /// has moved by `search_motion` or more since the last cycle; in proportion fewer when it has moved less.
   /// The nearest is looked at in every cycle besides; a cold cycle looks at all.

@@ -14,9 +14,11 @@ struct TuningVariant {
   std::function<void(TrackerParameters&)> change;
 };
 
-/// One parameter changed at a time, most of them down and up, beside a few that change together. The first
-/// changes nothing. `searchVariants` change the cold search alone, `cycleVariants` what a warm cycle does.
+/// One parameter changed at a time, most of them down and up. The first changes nothing, the second is what
+/// was shipped before. `searchVariants` change the cold search alone, `coldVariants` what else a cold
+/// cycle does, `cycleVariants` what a warm one does.
 std::vector<TuningVariant> searchVariants();
+std::vector<TuningVariant> coldVariants();
 std::vector<TuningVariant> cycleVariants();
 
 }  // namespace concave_distance::benchmark
