@@ -67,14 +67,14 @@ std::vector<Figures> trySearchVariants(const BenchmarkPair& pair, const std::vec
   std::vector<Figures> figures(variants.size());
   for (Figures& f : figures) f.nearest = 0.0;
   for (const SearchScene& scene : scenes) {  // brings the meshes into the caches
-    trySearch(pair, scene, {"warm-up", false, TrackerParameters().cold}, 1.0, 0, kLeastTrueProminence);
+    trySearch(pair, scene, {"warm-up", TrackerParameters().cold}, 1.0, 0, kLeastTrueProminence);
   }
   for (std::uint64_t seed = 0; seed < options.seeds; ++seed) {
     for (std::size_t i = 0; i < variants.size(); ++i) {
       TrackerParameters parameters;
       variants[i].change(parameters);
       for (const SearchScene& scene : scenes) {
-        const SearchOutcome outcome = trySearch(pair, scene, {variants[i].name, false, parameters.cold}, 1.0,
+        const SearchOutcome outcome = trySearch(pair, scene, {variants[i].name, parameters.cold}, 1.0,
                                                 seed, kLeastTrueProminence);
         const double n = static_cast<double>(options.seeds * scenes.size());
         figures[i].recall += outcome.archive_recall / n;

@@ -18,7 +18,11 @@ class PlaceTable {
  public:
   /// Forgets all. Distances beyond `bound` (metres) will be infinite.
   void reset(double bound);
-  void reserve(std::size_t places) { points_.reserve(places); }
+  /// Room for so many places, and for the distances between the first `compared` of them.
+  void reserve(std::size_t places, std::size_t compared) {
+    points_.reserve(places);
+    delta_.reserve(compared * compared / 2);
+  }
   std::uint32_t placeOf(const TrialPoint& point);
   const TrialPoint& point(std::uint32_t place) const { return points_[place]; }
   std::size_t size() const { return points_.size(); }

@@ -14,11 +14,23 @@ namespace concave_distance {
 
 /// Every buffer of one pair's search; bound to the two bodies, cleared and never freed.
 struct SearchWorkspace {
+  /// Individuals of a usual warm population and its offspring.
+  static constexpr std::size_t kUsualPopulation = 256;
+
   SearchWorkspace(const BodyMesh& a, const BodyMesh& b) : metric(a, b) {}
   /// Room for a run that meets this many places and minima; a larger one grows the buffers once more.
   void reserve(std::size_t places) {
     basins.reserve(places);
-    this->places.reserve(places);
+    this->places.reserve(places, kUsualPopulation);
+    for (std::vector<std::uint32_t>* individuals :
+         {&order, &population_places, &offspring_places, &selected, &seats, &elites, &dynamic_niches.order,
+          &dynamic_niches.peaks}) {
+      individuals->reserve(kUsualPopulation);
+    }
+    for (std::vector<double>* values : {&niche_counts, &weights, &wheel}) values->reserve(kUsualPopulation);
+    population.reserve(kUsualPopulation);
+    offspring.reserve(kUsualPopulation);
+    offspring_is_new.reserve(kUsualPopulation);
     census.reserve(places);
     trail.reserve(places);
   }

@@ -19,8 +19,8 @@ struct TrackerParameters {
   /// Of the same levels: seconds from the start of a cycle after which the proof stops with what it has.
   /// The search for niches comes before and is not cut short.
   double time_budget = std::numeric_limits<double>::infinity();
-  /// Of a first cycle, a service call, after a reset: at level `nodes`, and where no normal cones are swept. A
-  /// cold cycle that sweeps them finds every niche by that, and searches as a warm one does.
+  /// Of a first cycle, a service call, after a reset: at level `nodes`, and where no normal cones are swept.
+  /// A cold cycle that sweeps them finds every niche by that, and searches as a warm one does.
   GeneticParameters cold;
   GeneticParameters warm;            ///< every further cycle; usually a small population and few generations
   double inherited_per_niche = 3.0;  ///< alpha_Gamma (Carretero, eq. (6.8))
@@ -46,7 +46,7 @@ struct TrackerParameters {
   /// has moved by `search_motion` or more since the last cycle; in proportion fewer when it has moved less.
   /// The nearest is looked at in every cycle besides; a cold cycle looks at all.
   std::uint32_t reviewed_niches = 1;
-  bool extrapolate = true;         ///< start from where the relative velocity has carried the witnesses
+  bool extrapolate = false;        ///< start from where the relative velocity has carried the witnesses
   double least_prominence = 1e-2;  ///< niches with less are merged into their deeper neighbour
   /// Of level `complete`: prominences are measured up to this, at a price that grows with it; up to
   /// `least_prominence` none is: it is only decided who has the least.

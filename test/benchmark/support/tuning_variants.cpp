@@ -74,6 +74,7 @@ std::vector<TuningVariant> cycleVariants() {
                                      p.projected_niches = 3;
                                      p.search_interval = 4;
                                      p.swept_cones = 1000;
+                                     p.extrapolate = true;
                                    }},
                                   {"no evolution", [](P& p) {
                                      p.warm.population_size = 2;
@@ -104,7 +105,7 @@ std::vector<TuningVariant> cycleVariants() {
       "swept_cones", {0, 1000, 2000, 4000}, [](P& p, Count n) { p.swept_cones = n; }, v);
   addValues<Count>(
       "reviewed_niches", {0, 2, 4}, [](P& p, Count n) { p.reviewed_niches = n; }, v);
-  v.push_back({"no extrapolation", [](P& p) { p.extrapolate = false; }});
+  v.push_back({"extrapolation", [](P& p) { p.extrapolate = true; }});
   return v;
 }
 
