@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs what the package needs from the distribution's packages, only what is missing.
-#   scripts/install_dependencies.sh [build] [test] [demo] [plot] [format] [lint] [fuzz] [sanitize]  (default: build test demo)
+#   scripts/install_dependencies.sh [build] [test] [demo] [plot] [format] [lint] [fuzz] [sanitize] [engines]  (default: build test demo)
 # Debian 12 has everything in its main archive. Ubuntu 20.04 needs the ROS Noetic archive set up beforehand.
 set -euo pipefail
 # shellcheck source=scripts/common.sh
@@ -33,6 +33,7 @@ set -euo pipefail
   debian_lint=(clang-format clang-tidy catkin-lint)
   debian_fuzz=(clang libclang-rt-14-dev)  # libFuzzer is in the second
   debian_sanitize=(dpkg-dev)  # unpacks the source package of TBB
+  debian_engines=(libsimbody-dev libode-dev)  # engine_comparison: what the simulation is compared with
 
   noetic_build=(
     g++ cmake ninja-build
@@ -54,6 +55,7 @@ set -euo pipefail
   noetic_lint=(clang-format clang-tidy)
   noetic_fuzz=(clang)
   noetic_sanitize=(dpkg-dev)
+  noetic_engines=(libsimbody-dev libode-dev)
 }
 
 # shellcheck disable=SC1091
@@ -72,11 +74,11 @@ groups=("$@")
 wanted=()
 for group in "${groups[@]}"; do
   case "$group" in
-    build | test | demo | plot | format | lint | fuzz | sanitize)
+    build | test | demo | plot | format | lint | fuzz | sanitize | engines)
       declare -n packages="${family}_${group}"
       wanted+=("${packages[@]}")
       ;;
-    *) die "unknown group '$group': expected build, test, demo, plot, format, lint, fuzz or sanitize" ;;
+    *) die "unknown group '$group': expected build, test, demo, plot, format, lint, fuzz, sanitize or engines" ;;
   esac
 done
 
