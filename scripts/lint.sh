@@ -21,7 +21,7 @@ check_format() {
 }
 check_tidy() {
   [ -f "$build_dir/compile_commands.json" ] || scripts/build.sh all
-  find src test -path test/consumer -prune -o -name '*.cpp' -print0 |
+  find src test \( -path test/consumer -o -path test/benchmark/engines \) -prune -o -name '*.cpp' -print0 |
     xargs -0 -n 1 -P "$(job_count)" clang-tidy --quiet -p "$build_dir" --extra-arg=-std=c++17 \
       2> >(grep -v 'warnings generated' >&2)
 }
