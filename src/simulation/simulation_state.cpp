@@ -1,0 +1,139 @@
+#include "simulation_state.h"
+
+#include <algorithm>
+
+#include "concave_distance/base/error.h"
+
+namespace concave_distance {
+namespace {
+
+using detail::BodyContacts;
+using detail::MovingBody;
+using detail::PairRunner;
+using detail::StepBegin;
+using detail::trapezoidalWork;
+
+Wrench movedTo(const Wrench& about_origin, const Eigen::Vector3d& point) {
+  return {about_origin.force, about_origin.torque - point.cross(about_origin.force)};
+}
+
+Wrench opposite(const Wrench& wrench) {
+  return {-wrench.force, -wrench.torque};
+}
+
+Eigen::Vector3d rotationBetween(const Eigen::Quaterniond& from, const Eigen::Quaterniond& to) {
+  Eigen::Quaterniond turn = to * from.conjugate();
+  if (turn.w() < 0.0) turn.coeffs() = -turn.coeffs();
+  const Eigen::AngleAxisd angle_axis(turn);
+  return angle_axis.angle() * angle_axis.axis();
+}
+
+SimulatedBodySettings settingsOf(const SceneBody& body, const SimulationSettings& settings) {
+  for (const SimulatedBodySettings& candidate : settings.bodies) {
+    if (candidate.body == body.name) return candidate;
+  }
+  SimulatedBodySettings fixed;
+  fixed.body = body.name;
+  fixed.motion = BodyMotion::Fixed;
+  return fixed;
+}
+
+}  // namespace
+
+Simulation::State::State(const Scene& scene, const SimulationSettings& given) : settings(given) {
+  settings.validate("simulation");
+  for (const SimulatedBodySettings& body : settings.bodies) {
+    if (!scene.findBody(body.body)) {
+      throw Error(body.where.empty() ? "simulation" : body.where, "there is no body '" + body.body + "'",
+                  "name a body or link of the scene");
+    }
+  }
+  for (const SceneBody& body : scene.bodies) {
+    const SimulatedBodySettings body_settings = settingsOf(body, settings);
+    moving.emplace_back(body, body_settings);
+    SimulatedBody simulated;
+    simulated.name = body.name;
+    simulated.motion = body_settings.motion;
+    bodies.push_back(simulated);
+  }
+  for (const ScenePair& pair : scene.pairs) {
+    if (!pair.enabled || !(moving[pair.body_a].moves() || moving[pair.body_b].moves())) continue;
+    runners.emplace_back(scene, pair, settings);
+    SimulatedPair simulated;
+    simulated.name = pair.name;
+    simulated.body_a = pair.body_a;
+    simulated.body_b = pair.body_b;
+    pairs.push_back(std::move(simulated));
+  }
+  contacts.resize(bodies.size());
+  begins.resize(bodies.size());
+  drifts.resize(bodies.size());
+  external.resize(bodies.size());
+  speeds.resize(bodies.size());
+  const double inside = 0.5 * std::min(settings.largest_step, settings.duration);
+  for (std::size_t i = 0; i < moving.size(); ++i) {
+    if (moving[i].isFree()) moving[i].evaluateExternal(0.0, inside, moving[i].state(), external[i]);
+  }
+  report(inside);
+  evaluateContacts(0.0);
+  report(inside);
+  sumEnergies();
+  energy.initial = energy.mechanical();
+  counters = {};  // the steps, without the cold solves of the start
+}
+
+void Simulation::State::evaluateContacts(double step) {
+  std::fill(contacts.begin(), contacts.end(), BodyContacts());
+  bool touched = false;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    SimulatedPair& pair = pairs[i];
+    const SimulatedBody& a = bodies[pair.body_a];
+    const SimulatedBody& b = bodies[pair.body_b];
+    runners[i].update(time, step, a, b, pair, counters);
+    const detail::ContactWrenches on_b = PairRunner::wrenchesOnB(pair, a.world_from_body);
+    contacts[pair.body_b].normal += movedTo(on_b.normal, b.centre);
+    contacts[pair.body_b].friction += movedTo(on_b.friction, b.centre);
+    contacts[pair.body_a].normal += movedTo(opposite(on_b.normal), a.centre);
+    contacts[pair.body_a].friction += movedTo(opposite(on_b.friction), a.centre);
+    for (const ContactRegion& region : pair.contacts.regions) {
+      touched = touched || region.normal_force > 0.0;
+      if (region.overlap.depth > counters.largest_depth) counters.largest_depth = region.overlap.depth;
+    }
+  }
+  if (touched) ++counters.contact_steps;
+}
+
+void Simulation::State::report(double inside) {
+  for (std::size_t i = 0; i < moving.size(); ++i) {
+    moving[i].report(time, inside, bodies[i]);
+    bodies[i].contact_wrench = contacts[i].sum();
+  }
+}
+
+void Simulation::State::addWorks(double step) {
+  for (std::size_t i = 0; i < moving.size(); ++i) {
+    const MovingBody& body = moving[i];
+    if (!body.isFree()) continue;
+    const StepBegin& begin = begins[i];
+    const Eigen::Vector3d& shift = drifts[i].shift;
+    const Eigen::Vector3d turn =
+        rotationBetween(body.before().world_from_principal, body.state().world_from_principal);
+    energy.normal_work += trapezoidalWork(begin.contacts.normal, contacts[i].normal, shift, turn);
+    energy.friction_work += trapezoidalWork(begin.contacts.friction, contacts[i].friction, shift, turn);
+    energy.load_work += trapezoidalWork(begin.load, body.load(), shift, turn);
+    energy.drive_work += 0.5 * step * (begin.drive_power + body.drive().power);
+    energy.drive_loss += 0.5 * step * (begin.drive_loss + body.drive().loss);
+  }
+}
+
+void Simulation::State::sumEnergies() {
+  energy.kinetic = energy.gravity_potential = energy.drive_potential = 0.0;
+  for (const MovingBody& body : moving) {
+    if (!body.isFree()) continue;
+    energy.kinetic += body.rigid().kineticEnergy(body.state());
+    energy.gravity_potential -= body.rigid().mass() * settings.gravity.dot(body.state().centre);
+    energy.drive_potential += body.drive().spring_energy;
+  }
+}
+
+}  // namespace concave_distance
