@@ -7,8 +7,8 @@ set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 size=${1:-quick}
 case $size in
-  quick) hole_facets=6,20 protrusions=8,16 tree_seeds=10 runs=200 niche_runs=60 steps=200 window=4 seeds=2 proof_poses=200 sizes=1000,10000,100000 spacings=0,0.02 rings=100000 ;;
-  full) hole_facets=6,12,20,40 protrusions=1,4,8,16,32 tree_seeds=50 runs=1000 niche_runs=500 steps=500 window=10 seeds=8 proof_poses=7000 sizes=1000,10000,100000,1000000
+  quick) overlaps=500 lattices=300 hole_facets=6,20 protrusions=8,16 tree_seeds=10 runs=200 niche_runs=60 steps=200 window=4 seeds=2 proof_poses=200 sizes=1000,10000,100000 spacings=0,0.02 rings=100000 ;;
+  full) overlaps=10000 lattices=2000 hole_facets=6,12,20,40 protrusions=1,4,8,16,32 tree_seeds=50 runs=1000 niche_runs=500 steps=500 window=10 seeds=8 proof_poses=7000 sizes=1000,10000,100000,1000000
     spacings=0,0.01 rings=1000000 ;;
   *) echo "usage: scripts/benchmark.sh [quick|full]" >&2; exit 2 ;;
 esac
@@ -46,6 +46,10 @@ if [ -n "$(program partition_benchmark)" ]; then  # built with CGAL only
   fi
   "$(program partition_benchmark)" "${family[@]}" --output "$results/partition.csv" \
     --curves-output "$results/manoeuvre.csv" | tee "$results/partition.txt"
+fi
+if [ -n "$(program interference_benchmark)" ]; then  # built with CGAL only
+  "$(program interference_benchmark)" --pairs "$overlaps" --lattice-pairs "$lattices" --output "$results/interference.csv" |
+    tee "$results/interference.txt"
 fi
 if [ -n "$(program continuous_benchmark)" ]; then  # built with CGAL only
   "$(program continuous_benchmark)" --seeds "$tree_seeds" --output "$results/continuous.csv"

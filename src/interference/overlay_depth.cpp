@@ -176,7 +176,7 @@ void OverlayDepth::edgeAcrossEdge(const Edge& a, const Edge& b) {
 void OverlayDepth::endsOverEdge(const Edge& ends, const Edge& edge, bool ends_on_a) {
   const Eigen::Vector2d direction = (edge.to - edge.from).head<2>();
   const double squared_length = direction.squaredNorm();
-  const auto offerBoth = [&](const Eigen::Vector3d& end, const Eigen::Vector3d& point) {
+  const auto offer_both = [&](const Eigen::Vector3d& end, const Eigen::Vector3d& point) {
     if ((end - point).head<2>().squaredNorm() > lateral_ * lateral_) return;
     if (ends_on_a) {
       offer(end, point);
@@ -187,10 +187,10 @@ void OverlayDepth::endsOverEdge(const Edge& ends, const Edge& edge, bool ends_on
   for (const Eigen::Vector3d* end : {&ends.from, &ends.to}) {
     if (squared_length > lateral_ * lateral_) {
       const double share = direction.dot((*end - edge.from).head<2>()) / squared_length;
-      offerBoth(*end, along(edge.from, edge.to, std::clamp(share, 0.0, 1.0)));
+      offer_both(*end, along(edge.from, edge.to, std::clamp(share, 0.0, 1.0)));
     } else {
-      offerBoth(*end, edge.from);
-      offerBoth(*end, edge.to);
+      offer_both(*end, edge.from);
+      offer_both(*end, edge.to);
     }
   }
 }

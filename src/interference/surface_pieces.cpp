@@ -299,7 +299,7 @@ void SurfacePieces::uniteHoles(WorkingFrame& frame, const CrossingCurves& curves
       nearest = at_u;
       hit = &edges_[e];
     }
-    if (winding > 0) sets.unite(hit->element, outermost);
+    if (winding > 0 && hit != nullptr) sets.unite(hit->element, outermost);
   }
 }
 

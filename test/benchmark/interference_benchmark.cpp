@@ -123,7 +123,7 @@ void timeScene(const InterferenceScene& scene, std::ofstream& csv) {
   const double ours = fastest([&] { findInterference(*a, *b, scene.pair.a_from_b, workspace, result); });
   const SurfaceMesh b_in_a = test::movedSurface(scene.pair.b, scene.pair.a_from_b);
   const double fast = test::cgalFastOverlapTime(scene.pair.a, b_in_a);
-  const double exact = test::cgalOverlap(scene.pair.a, b_in_a).corefinement_time;
+  const double exact = test::cgalExactOverlapTime(scene.pair.a, b_in_a);
   const FclContacts fcl = fclContacts(scene.pair);
   std::printf("%-18s %9zu %8zu %9.1f %11.1f %8.0f %11.1f %8.0f %9.1f %7.2f %8zu\n", scene.name.c_str(),
               scene.pair.a.triangleCount() + scene.pair.b.triangleCount(), result.regions.size(), 1e6 * ours,
@@ -133,6 +133,28 @@ void timeScene(const InterferenceScene& scene, std::ofstream& csv) {
   csv << "time," << scene.name << ',' << scene.pair.a.triangleCount() + scene.pair.b.triangleCount() << ','
       << result.regions.size() << ',' << 1e6 * ours << ',' << 1e6 * fast << ',' << 1e6 * exact << ','
       << 1e6 * fcl.seconds << ',' << fcl.count << '\n';
+}
+
+/// What scripts/plot_interference.py draws.
+void writeRegions(const InterferenceScene& scene, std::ofstream& csv) {
+  InterferenceWorkspace workspace;
+  Interference result;
+  findInterference(*test::makeBody(scene.pair.a), *test::makeBody(scene.pair.b), scene.pair.a_from_b,
+                   workspace, result);
+  csv << "table,scene,x,y,z,qx,qy,qz,qw\npose," << scene.name;
+  const Eigen::Quaterniond rotation(scene.pair.a_from_b.linear());
+  for (int k = 0; k < 3; ++k) csv << ',' << scene.pair.a_from_b.translation()[k];
+  csv << ',' << rotation.x() << ',' << rotation.y() << ',' << rotation.z() << ',' << rotation.w() << '\n';
+  csv << "table,scene,depth,contact_area,volume,cx,cy,cz,nx,ny,nz,ax,ay,az,bx,by,bz\n";
+  for (const InterferenceRegion& region : result.regions) {
+    csv << "region," << scene.name << ',' << region.depth << ',' << region.contact_area << ','
+        << region.volume;
+    for (const Eigen::Vector3d* v :
+         {&region.centroid_in_a, &region.normal_in_a, &region.point_a_in_a, &region.point_b_in_a}) {
+      for (int k = 0; k < 3; ++k) csv << ',' << (*v)[k];
+    }
+    csv << '\n';
+  }
 }
 
 void compareHalvings(const InterferenceScene& scene, std::ofstream& csv) {
@@ -207,6 +229,9 @@ int benchmarkMain(int argc, char** argv) {
          "depth_3\n";
   for (const InterferenceScene& scene : scenes) {
     if (scene.pair.a.triangleCount() < 5000 && scene.name != "combs") compareHalvings(scene, csv);
+  }
+  for (const InterferenceScene& scene : scenes) {
+    if (scene.name == "battery pushed") writeRegions(scene, csv);
   }
   return 0;
 }

@@ -5,6 +5,7 @@
 
 #include "concave_distance/base/error.h"
 #include "concave_distance/distance/certificate.h"
+#include "concave_distance/interference/interference.h"
 #include "concave_distance/mesh/import_mesh.h"
 #include "concave_distance/mesh/repair_mesh.h"
 #include "fuzz/fuzz_input.h"
@@ -20,6 +21,16 @@ void query(const std::shared_ptr<const BodyMesh>& body) {
   const DistanceCertificate found =
       certifyDistance(*body, *body, Eigen::Isometry3d(Eigen::Translation3d(2.0 * body->diameter(), 0, 0)),
                       nullptr, 0, CertificateRequest(), workspace);
+  // Whatever the triangles do: regions end, and say where they are.
+  InterferenceWorkspace interference;
+  Interference regions;
+  for (const double way : {0.0, 0.25}) {
+    findInterference(*body, *body, Eigen::Isometry3d(Eigen::Translation3d(way * body->diameter(), 0, 0)),
+                     interference, regions);
+    for (const InterferenceRegion& region : regions.regions) {
+      if (!region.normal_in_a.allFinite() || !region.centroid_in_a.allFinite()) test::broken("region");
+    }
+  }
   // Two equal bodies twice their diameter apart: somewhere between one diameter and two.
   const double diameter = body->diameter();
   if (!(found.distance >= 0.99 * diameter && found.distance <= 2.01 * diameter)) test::broken("distance");

@@ -22,14 +22,14 @@ struct OverlapTruth {
   double area_b = 0.0;
   double surface = 0.0;            ///< of the overlap; area_a + area_b, and what lies in both surfaces
   std::vector<OverlapPart> parts;  ///< connected solids, largest first; cavities taken off
-  double corefinement_time = 0.0;  ///< seconds, the Boolean alone
 };
 
 /// b already in A's frame. Meshes must bound volumes and not cross themselves.
 OverlapTruth cgalOverlap(const SurfaceMesh& a, const SurfaceMesh& b_in_a);
 
-/// Seconds of CGAL's corefinement with inexact constructions (doubles and exact predicates), its fastest; -1
-/// where it gives up.
+/// Seconds of CGAL's corefinement, the fastest of a few runs: with inexact constructions (doubles and exact
+/// predicates), and exact. -1 where it gives up.
 double cgalFastOverlapTime(const SurfaceMesh& a, const SurfaceMesh& b_in_a);
+double cgalExactOverlapTime(const SurfaceMesh& a, const SurfaceMesh& b_in_a);
 
 }  // namespace concave_distance::test

@@ -68,7 +68,7 @@ struct Interference {
   double rounding_bound = 0.0;
 };
 
-/// Buffers of one thread; cleared, never freed. Grows to 28 bytes a vertex and 8 a triangle of the largest
+/// Buffers of one thread; cleared, never freed. Grows to 36 bytes a vertex and 8 a triangle of the largest
 /// bodies, and to what the largest regions need.
 class InterferenceWorkspace {
  public:
