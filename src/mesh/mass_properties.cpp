@@ -51,7 +51,7 @@ MassProperties evenlyFilled(const Moments& moments, double density) {
 }
 
 Moments requireVolume(const SurfaceMesh& closed, const std::string& where) {
-  const Moments moments = momentsOf(closed);
+  Moments moments = momentsOf(closed);
   if (!(moments.volume > 0.0)) {
     throw Error(where, "the surface encloses a volume of " + detail::toText(moments.volume) + " m^3",
                 "a closed surface with its triangles outward is needed, or give the inertia");

@@ -44,7 +44,7 @@ double positive(const YamlValue& value, const std::string& unit) {
 Eigen::Vector3d readPerAxis(const YamlValue& value, const std::string& unit) {
   const std::string allowed = "a number from 0 or a list of three, " + unit;
   if (value.isScalar()) return Eigen::Vector3d::Constant(value.number(allowed, notNegativeFinite));
-  const Eigen::Vector3d numbers = value.vector3(allowed);
+  Eigen::Vector3d numbers = value.vector3(allowed);
   if (!(numbers.array() >= 0.0).all()) value.refuse(allowed);
   return numbers;
 }
@@ -156,7 +156,7 @@ SimulatedBodySettings SimulationReader::readBody(const YamlValue& value) const {
     body.path = readPath(*path);
   }
   const auto take_if_free = [&](const char* key) {
-    const std::optional<YamlValue> v = map.take(key);
+    std::optional<YamlValue> v = map.take(key);
     if (v && body.motion != BodyMotion::Free) {
       v->fail("a body that is " + std::string(toString(body.motion)) + " has no " + key,
               "leave it out, or let the body be free");

@@ -206,6 +206,50 @@ TEST(ContactMotion, NoPointMovesFartherInAStepThanTheProvenDistanceAndTheAllowan
   EXPECT_GT(simulation.counters().limited_by[static_cast<std::size_t>(StepLimit::Distance)], 0U);
 }
 
+// Seen from the plate the ball comes with 1 m/s and leaves with 1 m/s.
+TEST(ContactMotion, ADrivenPlateThrowsABallAtTwiceItsSpeed) {
+  SceneBuilder builder = ballOnBlock(NormalForceModel::Hertz, 0.02, 0.0);
+  SimulatedBodySettings& block = builder.settings.bodies[0];
+  block.motion = BodyMotion::Driven;
+  block.path = {{0.0, at(0.0, 0.0, -0.1)}, {1.0, at(0.0, 0.0, 0.9)}};
+  builder.settings.step_fraction = 0.03;
+  builder.settings.allowed_penetration = 1e-4;
+  Simulation simulation = builder.simulation();
+  simulation.advanceTo(0.2);
+  EXPECT_NEAR(simulation.bodies()[1].velocity.z(), 2.0, 0.01);
+  EXPECT_NEAR(simulation.energy().normal_work, simulation.energy().kinetic,
+              0.01 * simulation.energy().kinetic);
+}
+
+TEST(ContactMotion, TwoEqualBallsChangeTheirVelocitiesAndKeepTheirMomentum) {
+  SceneBuilder builder;
+  Material material;
+  material.youngs_modulus = 1e7;
+  builder.addBody("one", makeSphere(kRadius, 0.002)).material = material;
+  builder.addBody("other", makeSphere(kRadius, 0.002)).material = material;
+  NormalForceSettings normal;
+  normal.model = NormalForceModel::Hertz;
+  normal.radius = 0.5 * kRadius;
+  builder.addPair().effects.normal_force = normal;
+  builder.setFree("one", kMass).velocity = {0.1, 0.0, 0.7};
+  SimulatedBodySettings& other = builder.setFree("other", kMass);
+  other.pose = at(0.0, 0.0, 2.0 * kRadius + 0.01);
+  other.velocity = {0.1, 0.0, -0.3};
+  builder.settings.gravity.setZero();
+  builder.settings.step_fraction = 0.03;
+  builder.settings.allowed_penetration = 1e-4;
+  builder.settings.tracking = SimulationTracking::SingleMinimum;
+  Simulation simulation = builder.simulation();
+  const Eigen::Vector3d momentum = simulation.momentum();
+  const Eigen::Vector3d angular_momentum = simulation.angularMomentum();
+  simulation.advanceTo(0.1);
+  EXPECT_GT(simulation.counters().contact_steps, 0U);
+  EXPECT_NEAR(simulation.bodies()[0].velocity.z(), -0.3, 0.005);
+  EXPECT_NEAR(simulation.bodies()[1].velocity.z(), 0.7, 0.005);
+  EXPECT_LT((simulation.momentum() - momentum).norm(), 1e-12);
+  EXPECT_LT((simulation.angularMomentum() - angular_momentum).norm(), 1e-12);
+}
+
 TEST(ContactMotion, OneSceneOneAnswer) {
   const auto run = [] {
     SceneBuilder builder = ballOnBlock(NormalForceModel::HuntCrossley, 1e-3, 1.0);
