@@ -2,11 +2,14 @@
 set(CONCAVE_DISTANCE_MESSAGES
   Alert.msg
   BodyInfo.msg
+  Contact.msg
+  Contacts.msg
   DistanceQuery.msg
   Distances.msg
   Niche.msg
   NicheChange.msg
   Niches.msg
+  PairContactState.msg
   PairDistance.msg
   PairInfo.msg
   PairNiches.msg
@@ -21,6 +24,7 @@ set(CONCAVE_DISTANCE_SERVICES
   ListBodies.srv
   RemoveBody.srv
   ResetTracking.srv
+  SetEffects.srv
   SetPairEnabled.srv
 )
 set(CONCAVE_DISTANCE_DYNAMIC_RECONFIGURE

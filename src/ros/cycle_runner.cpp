@@ -58,12 +58,16 @@ void CycleRunner::start(double rate) {
   spinner_.start();
 }
 
-void CycleRunner::setRates(double rate, double marker_rate, bool publish_markers) {
+void CycleRunner::setRates(double rate, double marker_rate) {
   marker_rate_ = marker_rate;
-  publish_markers_ = publish_markers;
   if (rate != rate_.exchange(rate)) {
     timer_.setPeriod(ros::Duration(1.0 / rate));
   }
+}
+
+void CycleRunner::setMarkers(bool publish, bool contacts) {
+  publish_markers_ = publish;
+  contact_markers_ = contacts;
 }
 
 void CycleRunner::onTimer(const ros::TimerEvent& event) {
@@ -118,7 +122,7 @@ CycleRecord CycleRunner::runCycle(ros::Time now) {
   const bool marker_cycle = cycles_until_markers_ == 0;
   cycles_until_markers_ = marker_cycle ? static_cast<std::uint64_t>(std::lround(rate_ / marker_rate)) - 1
                                        : cycles_until_markers_ - 1;
-  publishers_.readDemand(*served_, publish_markers_, marker_cycle, demand_);
+  publishers_.readDemand(*served_, {publish_markers_, contact_markers_, marker_cycle}, demand_);
   CycleRecord record;
   record.report = cycle_.run(demand_, now);
   const PublishReport published = publishers_.publish(

@@ -38,6 +38,7 @@ void CycleStatistics::add(CycleRecord record) {
   window_.repeated += record.report.repeated;
   window_.search_misses += record.report.search_misses;
   window_.unproven += record.report.unproven;
+  window_.effects += record.report.effects;
   window_.messages += record.messages;
   window_.markers += record.markers;
   window_.last = record.report;

@@ -3,6 +3,7 @@
 #include <diagnostic_msgs/DiagnosticStatus.h>
 
 #include <algorithm>
+#include <string>
 
 namespace concave_distance {
 namespace {
@@ -69,6 +70,21 @@ void describePairs(const CycleWindow& window, diagnostic_updater::DiagnosticStat
   status.add("markers built", window.markers);
   for (std::size_t index = 0; index < std::min(window.failing.size(), kListed); ++index) {
     status.add("no transforms " + std::to_string(index + 1), window.failing[index]);
+  }
+}
+
+void describeEffects(const CycleWindow& window, diagnostic_updater::DiagnosticStatusWrapper& status) {
+  const auto& runs = window.effects.runs;
+  const bool ran = std::any_of(runs.begin(), runs.end(), [](std::uint64_t count) { return count > 0; });
+  status.summary(DiagnosticStatus::OK,
+                 ran ? "effects ran" : "no effect ran: none asked for, nobody subscribes, or no contact");
+  for (std::size_t stage = 0; stage < kEffectStages; ++stage) {
+    const std::string name(toString(static_cast<EffectStage>(stage)));
+    status.add(name + " runs", runs[stage]);
+    if (runs[stage] > 0 && window.cpu.sum > 0.0) {
+      status.addf(name + " share of the processor time (%)", "%.1f",
+                  100.0 * window.effects.seconds[stage] / window.cpu.sum);
+    }
   }
 }
 

@@ -72,6 +72,7 @@ std::vector<std::unique_ptr<TrackedPair>> DistanceCycle::takeRetired() {
 // An alert that is raised when nobody watches the pair any more is taken back: it would never end.
 void DistanceCycle::stopWatching(TrackedPair& pair) {
   pair.restart();
+  pair.effects.prepare(pair.settings.effects, false);
   pair.status.code = PairStatus::DISABLED;
   pair.warning_changed = pair.warning.state() != WarningState::Clear;
   pair.warning.reset();
@@ -126,8 +127,9 @@ CycleReport DistanceCycle::run(const std::vector<PairDemand>& demand, ros::Time 
             ? 1
             : 0;
   }
-  for (const TrackedPair* pair : to_solve_) {
+  for (TrackedPair* pair : to_solve_) {
     ++report.solved;
+    report.effects += pair->effects.takeCounts();
     report.cold += pair->solution.warm ? 0 : 1;
     report.search_misses += pair->solution.search_miss ? 1 : 0;
     report.unproven += pair->solution.status == SolveStatus::BudgetExhausted ? 1 : 0;
@@ -150,6 +152,7 @@ bool DistanceCycle::locate(TrackedPair& pair, ros::Time now) {
     return false;
   }
   pair.heading.reference_from_a = transforms.reference_from_a;
+  pair.located_a_from_b = transforms.a_from_b;
   pair.fixed = transforms.fixed;
   const double cutoff = pair.settings.tracker.cutoff;
   if (std::isfinite(cutoff)) {
@@ -161,7 +164,7 @@ bool DistanceCycle::locate(TrackedPair& pair, ros::Time now) {
       return false;
     }
   }
-  pair.prepareTracker();
+  pair.prepare();
   const bool same_input = transforms.fixed ? pair.solved_a_from_b.matrix() == transforms.a_from_b.matrix()
                                            : last_stamp == transforms.stamp;
   pair.repeated = pair.solved && same_input && !pair.must_solve;
@@ -196,6 +199,7 @@ void DistanceCycle::solveAll() {
 
 void DistanceCycle::solve(TrackedPair& pair) {
   pair.tracker->update(pair.solved_a_from_b, pair.heading.stamp.toSec(), pair.solution);
+  pair.effects.update(pair.solution, pair.solved_a_from_b, pair.heading.stamp);
   pair.solved = true;
   pair.must_solve = false;
   for (const TrackedNiche& niche : pair.solution.niches) {

@@ -5,10 +5,12 @@
 #include <utility>
 
 #include "concave_distance/base/error.h"
+#include "concave_distance/ros/contact_conversions.h"
 #include "concave_distance/ros/conversions.h"
 #include "concave_distance/ros/scene_edits.h"
 #include "concave_distance/ros/tf_poses.h"
 #include "concave_distance/ros/thread_count.h"
+#include "concave_distance/tracking/pair_effects.h"
 #include "concave_distance/tracking/pair_tracker.h"
 
 namespace concave_distance {
@@ -52,8 +54,22 @@ void forgetIds(PairNiches& answer) {
   }
 }
 
-PairNiches answer(const DistanceQuery& query, const Scene& scene, const QueryContext& context, ros::Time now,
-                  PairHeading& heading) {
+// The regions of overlap at one pose, from nothing; no forces.
+PairContactState findContacts(const SceneBody& body_a, const SceneBody& body_b, const PairSolution& solution,
+                              const Eigen::Isometry3d& a_from_b, const PairHeading& heading) {
+  EffectSettings regions;
+  regions.interference = true;
+  PairEffects effects(body_a.mesh, body_b.mesh, regions, inContact(body_a.material, body_b.material));
+  PairContacts contacts;
+  effects.update(solution, a_from_b, RelativeTwist(), 0.0, contacts);
+  for (ContactRegion& region : contacts.regions) {
+    region.id = 0;
+  }
+  return toContacts(heading, toDistance(heading, solution).status, contacts, a_from_b);
+}
+
+QueryAnswer answer(const DistanceQuery& query, const Scene& scene, const QueryContext& context, ros::Time now,
+                   PairHeading& heading) {
   const SceneBody& body_a = scene.bodies[requireBody(scene, query.body_a)];
   const SceneBody& body_b = scene.bodies[requireBody(scene, query.body_b)];
   if (&body_a == &body_b) {
@@ -63,6 +79,11 @@ PairNiches answer(const DistanceQuery& query, const Scene& scene, const QueryCon
   const PairSettings& settings = found ? scene.pairs[*found].settings : context.defaults;
   heading.pair = found ? scene.pairs[*found].name : query.body_a + "/" + query.body_b;
   const TrackerParameters parameters = queryParameters(query, settings.tracker);
+  if (query.with_contacts != 0 && !provesDistance(parameters.accuracy)) {
+    throw Error("with_contacts",
+                "it is true, but the accuracy is " + std::string(toString(parameters.accuracy)),
+                "ask for ACCURACY_CERTIFIED or ACCURACY_COMPLETE: their proof tells whether bodies touch");
+  }
   heading.accuracy = parameters.accuracy;
   heading.with_niches = parameters.niches_wanted;
 
@@ -73,15 +94,25 @@ PairNiches answer(const DistanceQuery& query, const Scene& scene, const QueryCon
   const PairTransforms transforms = locate(place_a, place_b, context, query.stamp, now);
   heading.stamp = transforms.status == TransformStatus::Missing ? now : transforms.stamp;
   heading.reference_from_a = transforms.reference_from_a;
+  QueryAnswer answer;
   if (transforms.status != TransformStatus::Ok) {
-    return emptyNiches(heading, toStatus(transforms.status, transforms.message));
+    const PairStatus status = toStatus(transforms.status, transforms.message);
+    answer.result = emptyNiches(heading, status);
+    if (query.with_contacts != 0) {
+      answer.contacts = emptyContacts(heading, status);
+    }
+    return answer;
   }
   const PairSolution solution =
       solveOnce(heading.pair, body_a.mesh, body_b.mesh, parameters, transforms.a_from_b);
   if (settings.warning_distance && solution.distance < *settings.warning_distance) {
     heading.warning = true;
   }
-  return toNiches(heading, solution);
+  answer.result = toNiches(heading, solution);
+  if (query.with_contacts != 0) {
+    answer.contacts = findContacts(body_a, body_b, solution, transforms.a_from_b, heading);
+  }
+  return answer;
 }
 
 }  // namespace
@@ -90,22 +121,22 @@ bool isAnswered(const PairNiches& answer) {
   return answer.nearest.has_distance != 0;
 }
 
-PairNiches answerQuery(const DistanceQuery& query, const Scene& scene, const QueryContext& context,
-                       ros::Time now) {
+QueryAnswer answerQuery(const DistanceQuery& query, const Scene& scene, const QueryContext& context,
+                        ros::Time now) {
   PairHeading heading;
   heading.body_a = query.body_a;
   heading.body_b = query.body_b;
   heading.reference_frame = context.reference_frame;
   heading.stamp = now;
   try {
-    PairNiches result = answer(query, scene, context, now, heading);
-    forgetIds(result);
-    return result;
+    QueryAnswer answered = answer(query, scene, context, now, heading);
+    forgetIds(answered.result);
+    return answered;
   } catch (const Error& problem) {
     PairStatus status;
     status.code = PairStatus::INVALID_REQUEST;
     status.message = problem.what();
-    return emptyNiches(heading, status);
+    return {emptyNiches(heading, status), PairContactState()};
   }
 }
 
@@ -126,7 +157,9 @@ QueryContext DistanceQueries::currentContext() {
 
 bool DistanceQueries::getDistance(GetDistance::Request& request, GetDistance::Response& response) {
   const auto served = keeper_.served();
-  response.result = answerQuery(request.query, *served->scene, currentContext(), ros::Time::now());
+  QueryAnswer answered = answerQuery(request.query, *served->scene, currentContext(), ros::Time::now());
+  response.result = std::move(answered.result);
+  response.contacts = std::move(answered.contacts);
   response.success = static_cast<std::uint8_t>(isAnswered(response.result));
   response.message = response.result.nearest.status.message;
   const std::string waiting = keeper_.waitingFor();
@@ -146,9 +179,12 @@ bool DistanceQueries::getDistances(GetDistances::Request& request, GetDistances:
   const QueryContext context = currentContext();
   const ros::Time now = ros::Time::now();
   response.results.resize(request.queries.size());
+  response.contacts.resize(request.queries.size());
   arena_.execute([&] {
     tbb::parallel_for(std::size_t{0}, request.queries.size(), [&](std::size_t index) {
-      response.results[index] = answerQuery(request.queries[index], *served->scene, context, now);
+      QueryAnswer answered = answerQuery(request.queries[index], *served->scene, context, now);
+      response.results[index] = std::move(answered.result);
+      response.contacts[index] = std::move(answered.contacts);
     });
   });
   std::size_t failed = 0;

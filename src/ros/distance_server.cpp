@@ -78,7 +78,8 @@ DistanceServer::DistanceServer(const ros::NodeHandle& node, const ros::NodeHandl
       body_markers_(private_node_.advertise<visualization_msgs::MarkerArray>("body_markers", 1, true)) {
   keeper_.setWaitingFor("loading");
   setUpDiagnostics();
-  runner_.setRates(parameters_.rate, parameters_.marker_rate, parameters_.publish_markers);
+  runner_.setRates(parameters_.rate, parameters_.marker_rate);
+  runner_.setMarkers(parameters_.publish_markers, parameters_.publish_contact_markers);
   runner_.start(parameters_.rate);
   config_ = toConfig(parameters_);
   reconfigure_ =
@@ -122,6 +123,9 @@ void DistanceServer::setUpDiagnostics() {
   });
   updater_.add("pairs", [this](diagnostic_updater::DiagnosticStatusWrapper& status) {
     describePairs(window_, status);
+  });
+  updater_.add("effects", [this](diagnostic_updater::DiagnosticStatusWrapper& status) {
+    describeEffects(window_, status);
   });
   updater_.add("scene", [this](diagnostic_updater::DiagnosticStatusWrapper& status) {
     describeScene(*keeper_.served()->scene, keeper_.waitingFor(), status);
@@ -179,7 +183,8 @@ void DistanceServer::onReconfigure(ConcaveDistanceConfig& config, std::uint32_t 
       return;
     }
   }
-  runner_.setRates(config.rate, config.marker_rate, config.publish_markers);
+  runner_.setRates(config.rate, config.marker_rate);
+  runner_.setMarkers(config.publish_markers, config.publish_contact_markers);
   config_ = config;
 }
 

@@ -14,6 +14,8 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Above any length of a scene; keeps a misplaced exponent out.
 constexpr double kLongest = 1e6;
+constexpr double kLeastForce = 1e-6;  // newtons a metre of an arrow
+constexpr double kLargestForce = 1e12;
 
 TrackerParameters readTracker(ParameterReader& reader, TrackerParameters tracker) {
   constexpr std::array<AccuracyLevel, 4> kLevels = {AccuracyLevel::Nodes, AccuracyLevel::Refined,
@@ -58,6 +60,7 @@ MarkerStyle readMarkers(ParameterReader& reader, MarkerStyle style) {
   style.scale = reader.number("marker_scale", style.scale, 0.0, kLongest);
   style.near = reader.number("marker_near", style.near, 0.0, kLongest);
   style.far = reader.number("marker_far", style.far, 0.0, kLongest);
+  style.force_scale = reader.number("force_marker_scale", style.force_scale, kLeastForce, kLargestForce);
   if (style.far <= style.near) {
     throw Error("~marker_far", "the value is " + std::to_string(style.far),
                 "allowed: more than ~marker_near, which is " + std::to_string(style.near));
@@ -92,6 +95,8 @@ NodeParameters parseNodeParameters(XmlRpc::XmlRpcValue values, std::vector<std::
   parameters.tf_cache = reader.number("tf_cache", parameters.tf_cache, 0.1, 3600.0);
   parameters.pair = readPair(reader, parameters.pair);
   parameters.publish_markers = reader.flag("publish_markers", parameters.publish_markers);
+  parameters.publish_contact_markers =
+      reader.flag("publish_contact_markers", parameters.publish_contact_markers);
   parameters.show_bodies = reader.flag("show_bodies", parameters.show_bodies);
   parameters.marker = readMarkers(reader, parameters.marker);
   unknown = reader.unread({"diagnostic_period"});

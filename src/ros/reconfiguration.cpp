@@ -11,6 +11,7 @@ ConcaveDistanceConfig toConfig(const NodeParameters& parameters) {
   config.rate = parameters.rate;
   config.marker_rate = parameters.marker_rate;
   config.publish_markers = parameters.publish_markers;
+  config.publish_contact_markers = parameters.publish_contact_markers;
   config.absolute_tolerance = tracker.absolute_tolerance;
   config.relative_tolerance = tracker.relative_tolerance;
   config.time_budget = std::isfinite(tracker.time_budget) ? tracker.time_budget : 0.0;

@@ -28,6 +28,10 @@ void SceneKeeper::edit(const std::function<void(Scene&)>& change) {
   apply(change, false);
 }
 
+void SceneKeeper::editSettings(const std::function<void(Scene&)>& change) {
+  apply(change, true);
+}
+
 void SceneKeeper::apply(const std::function<void(Scene&)>& change, bool settings_changed) {
   const std::lock_guard<std::mutex> edit_lock(edit_mutex_);
   Scene edited = *served()->scene;

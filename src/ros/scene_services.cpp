@@ -6,6 +6,7 @@
 #include "concave_distance/ros/conversions.h"
 #include "concave_distance/ros/scene_edits.h"
 #include "concave_distance/scene/load_scene.h"
+#include "concave_distance/scene/set_effects.h"
 
 namespace concave_distance {
 namespace {
@@ -52,6 +53,7 @@ SceneServices::SceneServices(const ros::NodeHandle& node, SceneKeeper& keeper, R
       add_body_(node_.advertiseService("add_body", &SceneServices::addBody, this)),
       remove_body_(node_.advertiseService("remove_body", &SceneServices::removeBody, this)),
       set_pair_enabled_(node_.advertiseService("set_pair_enabled", &SceneServices::setPairEnabled, this)),
+      set_effects_(node_.advertiseService("set_effects", &SceneServices::setEffects, this)),
       reset_tracking_(node_.advertiseService("reset_tracking", &SceneServices::resetTracking, this)) {}
 
 void SceneServices::requireScene() {
@@ -111,6 +113,15 @@ bool SceneServices::setPairEnabled(SetPairEnabled::Request& request, SetPairEnab
     keeper_.edit([&](Scene& scene) {
       response.pair = concave_distance::setPairEnabled(scene, {request.pair, request.body_a, request.body_b},
                                                        request.enabled != 0, defaults);
+    });
+  });
+}
+
+bool SceneServices::setEffects(SetEffects::Request& request, SetEffects::Response& response) {
+  return respond(response, [&] {
+    requireScene();
+    keeper_.editSettings([&](Scene& scene) {
+      response.pairs = concave_distance::setEffects(scene, request.pair, request.effects);
     });
   });
 }

@@ -1,6 +1,7 @@
 #include "concave_distance/ros/topic_publishers.h"
 
 #include <concave_distance/Alert.h>
+#include <concave_distance/Contacts.h>
 #include <concave_distance/Distances.h>
 #include <concave_distance/Niches.h>
 #include <visualization_msgs/MarkerArray.h>
@@ -11,6 +12,9 @@
 #include <iterator>
 #include <map>
 #include <utility>
+
+#include "concave_distance/ros/contact_conversions.h"
+#include "concave_distance/ros/contact_markers.h"
 
 namespace concave_distance {
 namespace {
@@ -34,6 +38,21 @@ PairNiches toMessage(const TrackedPair& pair) {
   return message;
 }
 
+PairContactState toContactMessage(const TrackedPair& pair) {
+  if (pair.solved && pair.effects.contacts() != nullptr) {
+    return toContacts(pair.heading, toDistance(pair.heading, pair.solution).status, *pair.effects.contacts(),
+                      pair.solved_a_from_b);
+  }
+  if (pair.box_bound) {  // proven apart, although not solved
+    PairContacts apart;
+    if (pair.settings.effects.normal_force) {
+      apart.on_b_in_a = Wrench{};
+    }
+    return toContacts(pair.heading, pair.status, apart, pair.located_a_from_b);
+  }
+  return emptyContacts(pair.heading, pair.status);
+}
+
 Alert toAlert(const TrackedPair& pair, const PairDistance& nearest) {
   Alert alert;
   alert.header = nearest.header;
@@ -45,17 +64,42 @@ Alert toAlert(const TrackedPair& pair, const PairDistance& nearest) {
 }
 
 // The oldest time of the pairs that carry a distance; `now` when none does.
-std_msgs::Header commonHeader(const std::vector<PairNiches>& messages, ros::Time now,
-                              const std::string& frame) {
+template <typename Message, typename Carries>
+std_msgs::Header commonHeader(const std::vector<Message>& messages, const Carries& carries_distance,
+                              ros::Time now, const std::string& frame) {
   std_msgs::Header header;
   header.frame_id = frame;
   header.stamp = now;
-  for (const PairNiches& message : messages) {
-    if (message.nearest.has_distance != 0 && message.header.stamp < header.stamp) {
+  for (const Message& message : messages) {
+    if (carries_distance(message) && message.header.stamp < header.stamp) {
       header.stamp = message.header.stamp;
     }
   }
   return header;
+}
+
+bool hasDistance(const PairNiches& message) {
+  return message.nearest.has_distance != 0;
+}
+bool isSolved(const PairContactState& message) {
+  switch (message.status.code) {
+    case PairStatus::OK:
+    case PairStatus::PENETRATING:
+    case PairStatus::WITHIN_TOLERANCE:
+    case PairStatus::BUDGET_EXHAUSTED:
+      return true;
+    default:
+      return false;
+  }
+}
+
+// Where contacts tell depth and force, the niche's "0.00 mm" would only hide them.
+void dropNicheText(const std::string& pair, std::vector<visualization_msgs::Marker>& markers) {
+  markers.erase(std::remove_if(markers.begin(), markers.end(),
+                               [ns = pair + "/text"](const visualization_msgs::Marker& marker) {
+                                 return marker.ns == ns;
+                               }),
+                markers.end());
 }
 
 // Links may be called `link-1` or `arm.2`; topics may not.
@@ -75,6 +119,7 @@ TopicPublishers::TopicPublishers(const ros::NodeHandle& node, std::string refere
       reference_frame_(std::move(reference_frame)),
       distances_(WatchedTopic::advertise<Distances>(node_, "distances", kQueueLength)),
       niches_(WatchedTopic::advertise<Niches>(node_, "niches", kQueueLength)),
+      contacts_(WatchedTopic::advertise<Contacts>(node_, "contacts", kQueueLength)),
       markers_(WatchedTopic::advertise<visualization_msgs::MarkerArray>(node_, "markers", kQueueLength)),
       alerts_(WatchedTopic::advertise<Alert>(node_, "alerts", kAlertQueueLength,
                                              [this] { repeat_alerts_ = true; })) {}
@@ -101,33 +146,40 @@ std::shared_ptr<const ServedScene> TopicPublishers::serve(const std::shared_ptr<
       const std::string name = topicName(pair.name);
       topics.distance = WatchedTopic::advertise<PairDistance>(node_, name + "/distance", kQueueLength);
       topics.niches = WatchedTopic::advertise<PairNiches>(node_, name + "/niches", kQueueLength);
+      topics.contacts = WatchedTopic::advertise<PairContactState>(node_, name + "/contacts", kQueueLength);
     }
     served->topics.push_back(std::move(topics));
   }
   return served;
 }
 
-void TopicPublishers::readDemand(const ServedScene& served, bool markers_wanted, bool marker_cycle,
+void TopicPublishers::readDemand(const ServedScene& served, const MarkerWish& markers,
                                  std::vector<PairDemand>& demand) {
   distances_wanted_ = distances_.isWatched();
   niches_wanted_ = niches_.isWatched();
+  contacts_wanted_ = contacts_.isWatched();
   const bool alerts_wanted = alerts_.isWatched();
   const bool markers_watched = markers_.isWatched();
   if (!markers_watched) {
     shown_.clear();
   }
-  markers_wanted_ = markers_wanted && markers_watched;
+  markers_wanted_ = markers.publish && markers_watched;
+  contact_markers_wanted_ = markers_wanted_ && markers.contacts;
   // When markers are switched off, what is shown has to be deleted once more.
-  markers_due_ = marker_cycle && (markers_wanted_ || !shown_.empty());
+  markers_due_ = markers.due && (markers_wanted_ || !shown_.empty());
   demand.assign(served.topics.size(), PairDemand());
   for (std::size_t index = 0; index < demand.size(); ++index) {
     const bool own_niches = served.topics[index].niches.isWatched();
     const bool alert = alerts_wanted && served.scene->pairs[index].settings.warning_distance;
+    const bool contacts = served.scene->pairs[index].settings.effects.any() &&
+                          (contacts_wanted_ || served.topics[index].contacts.isWatched());
     PairDemand& pair = demand[index];
-    pair.due = distances_wanted_ || niches_wanted_ || alert || own_niches ||
-               served.topics[index].distance.isWatched() || (markers_wanted_ && marker_cycle);
+    pair.due = distances_wanted_ || niches_wanted_ || alert || own_niches || contacts ||
+               served.topics[index].distance.isWatched() || (markers_wanted_ && markers.due);
     pair.watched = pair.due || markers_wanted_;
-    pair.niches = niches_wanted_ || own_niches || markers_wanted_;
+    // A contact's id is its niche's.
+    pair.niches = niches_wanted_ || own_niches || contacts || markers_wanted_;
+    pair.effects = contacts || (contact_markers_wanted_ && served.scene->pairs[index].settings.effects.any());
   }
 }
 
@@ -152,6 +204,7 @@ PublishReport TopicPublishers::publish(const ServedScene& served,
   PublishReport report;
   report.messages = static_cast<std::uint32_t>(messages_.size());
   publishAlerts(pairs);
+  publishContacts(served, pairs, now);
   if (markers_due_) {
     report.markers = static_cast<std::uint32_t>(publishMarkers(served, marker_lifetime, now));
   }
@@ -188,6 +241,16 @@ std::size_t TopicPublishers::publishMarkers(const ServedScene& served, double li
       std::move(of_pair.begin(), of_pair.end(), std::back_inserter(markers));
     }
   }
+  if (contact_markers_wanted_) {
+    for (const PairContactState& message : contact_messages_) {
+      std::vector<visualization_msgs::Marker> of_pair =
+          contactMarkers(message, served.marker_style, lifetime);
+      if (!of_pair.empty()) {
+        dropNicheText(message.pair, markers);
+      }
+      std::move(of_pair.begin(), of_pair.end(), std::back_inserter(markers));
+    }
+  }
   std_msgs::Header header;
   header.frame_id = reference_frame_;
   header.stamp = now;
@@ -197,10 +260,30 @@ std::size_t TopicPublishers::publishMarkers(const ServedScene& served, double li
   return message->markers.size();
 }
 
+void TopicPublishers::publishContacts(const ServedScene& served,
+                                      const std::vector<std::unique_ptr<TrackedPair>>& pairs, ros::Time now) {
+  contact_messages_.clear();
+  for (std::size_t index = 0; index < pairs.size(); ++index) {
+    if (!pairs[index]->demand.due || !pairs[index]->demand.effects) {
+      continue;
+    }
+    contact_messages_.push_back(toContactMessage(*pairs[index]));
+    if (served.topics[index].contacts.isWatched()) {
+      served.topics[index].contacts.publish(boost::make_shared<PairContactState>(contact_messages_.back()));
+    }
+  }
+  if (contacts_wanted_) {
+    auto message = boost::make_shared<Contacts>();
+    message->header = commonHeader(contact_messages_, isSolved, now, reference_frame_);
+    message->pairs = contact_messages_;
+    contacts_.publish(message);
+  }
+}
+
 void TopicPublishers::publishLists(ros::Time now) {
   if (distances_wanted_) {
     auto message = boost::make_shared<Distances>();
-    message->header = commonHeader(messages_, now, reference_frame_);
+    message->header = commonHeader(messages_, hasDistance, now, reference_frame_);
     message->pairs.reserve(messages_.size());
     for (const PairNiches& pair : messages_) {
       message->pairs.push_back(pair.nearest);
@@ -209,7 +292,7 @@ void TopicPublishers::publishLists(ros::Time now) {
   }
   if (niches_wanted_) {
     auto message = boost::make_shared<Niches>();
-    message->header = commonHeader(messages_, now, reference_frame_);
+    message->header = commonHeader(messages_, hasDistance, now, reference_frame_);
     message->pairs = std::move(messages_);
     niches_.publish(message);
   }

@@ -11,6 +11,8 @@ TrackedPair::TrackedPair(const Scene& scene, const ScenePair& pair, const std::s
       frames{reference_frame, scene.bodies[pair.body_a].frame, scene.bodies[pair.body_b].frame},
       settings(pair.settings),
       enabled(pair.enabled),
+      effects(mesh_a, mesh_b,
+              inContact(scene.bodies[pair.body_a].material, scene.bodies[pair.body_b].material)),
       largest_id(first_id) {
   heading.pair = pair.name;
   heading.body_a = scene.bodies[pair.body_a].name;
@@ -24,11 +26,15 @@ void TrackedPair::restart() {
   if (tracker) {
     tracker->reset();
   }
+  effects.reset();
   solved = false;
   must_solve = true;
 }
 
-void TrackedPair::prepareTracker() {
+void TrackedPair::prepare() {
+  if (effects.prepare(settings.effects, demand.effects)) {
+    must_solve = true;
+  }
   if (tracker && !stale_parameters && tracker->parameters().niches_wanted == demand.niches) {
     return;
   }

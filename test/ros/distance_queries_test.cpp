@@ -23,7 +23,8 @@ class DistanceQueriesTest : public ::testing::Test {
     query.body_b = "b";
     query.pose_a.pose.orientation.w = query.pose_b.pose.orientation.w = 1.0;
   }
-  PairNiches answer() { return answerQuery(query, scene, {&buffer, "world", 0.0, 1.0, {}}, now); }
+  QueryAnswer answerAll() { return answerQuery(query, scene, {&buffer, "world", 0.0, 1.0, {}}, now); }
+  PairNiches answer() { return answerAll().result; }
   void expectRefusal(const std::string& part) {
     const PairNiches result = answer();
     EXPECT_FALSE(isAnswered(result));
@@ -74,7 +75,7 @@ TEST_F(DistanceQueriesTest, NeedNoTransformWhenBothPosesAreGiven) {
   tf2::BufferCore empty;
   query.use_pose_a = query.use_pose_b = 1;
   query.pose_b.pose.position.x = 3.0;
-  const PairNiches result = answerQuery(query, scene, {&empty, "world", 0.0, 1.0, {}}, now);
+  const PairNiches result = answerQuery(query, scene, {&empty, "world", 0.0, 1.0, {}}, now).result;
   ASSERT_TRUE(isAnswered(result)) << result.nearest.status.message;
   EXPECT_NEAR(result.nearest.distance, 2.0, kRounding);
 }

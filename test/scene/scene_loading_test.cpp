@@ -183,7 +183,7 @@ TEST(SceneOfThePackage, ConfiguredScenesLoadWithoutProblems) {
   SceneLoadOptions options = packageOptions();
   options.descriptions["robot_description"] =
       test::contentOfFile(CONCAVE_DISTANCE_SOURCE_DIR "/urdf/wam.urdf");
-  for (const std::string name : {"insertion", "interactive", "robot"}) {
+  for (const std::string name : {"contact", "insertion", "interactive", "robot"}) {
     const Scene scene = loadSceneFile(CONCAVE_DISTANCE_SOURCE_DIR "/config/" + name + ".yaml", options);
     EXPECT_TRUE(scene.problems.empty()) << scene.problems.front().message;
     EXPECT_FALSE(scene.pairs.empty()) << name;

@@ -22,6 +22,13 @@ struct EffectSettings {
   void validate(const std::string& where) const;
 };
 
+inline bool operator==(const EffectSettings& l, const EffectSettings& r) {
+  return l.interference == r.interference && l.normal_force == r.normal_force && l.friction == r.friction;
+}
+inline bool operator!=(const EffectSettings& l, const EffectSettings& r) {
+  return !(l == r);
+}
+
 /// What is done about a pair's contacts, in the order in which it is done.
 enum class EffectStage : std::uint8_t {
   Interference,  ///< once the certificate allows contact
@@ -50,6 +57,14 @@ class EffectPlan {
 struct EffectCounts {
   std::array<std::uint64_t, kEffectStages> runs{};
   std::array<double, kEffectStages> seconds{};
+
+  EffectCounts& operator+=(const EffectCounts& other) {
+    for (std::size_t stage = 0; stage < kEffectStages; ++stage) {
+      runs[stage] += other.runs[stage];
+      seconds[stage] += other.seconds[stage];
+    }
+    return *this;
+  }
 };
 
 }  // namespace concave_distance

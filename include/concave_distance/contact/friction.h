@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <tuple>
 
 #include "concave_distance/contact/material.h"
 
@@ -28,6 +29,12 @@ struct FrictionSettings {
   /// @throws Error naming the parameter, the value seen and the allowed range
   void validate(const std::string& where) const;
 };
+
+inline bool operator==(const FrictionSettings& l, const FrictionSettings& r) {
+  return std::tie(l.model, l.regularisation_speed, l.stribeck_speed, l.bristle_stiffness,
+                  l.bristle_damping) ==
+         std::tie(r.model, r.regularisation_speed, r.stribeck_speed, r.bristle_stiffness, r.bristle_damping);
+}
 
 /// Coefficient at a sliding speed (m/s, >= 0): mu_d + (mu_s - mu_d) exp(-(v / v_s)^2) (Stribeck). The viscous
 /// part comes on top.

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <tuple>
 
 #include "concave_distance/contact/material.h"
 
@@ -73,6 +74,11 @@ struct NormalForceSettings {
   /// @throws Error naming the parameter, the value seen and the allowed range
   void validate(const std::string& where) const;
 };
+
+inline bool operator==(const NormalForceSettings& l, const NormalForceSettings& r) {
+  return std::tie(l.model, l.loading_coefficient, l.stiffness, l.damping, l.radius) ==
+         std::tie(r.model, r.loading_coefficient, r.stiffness, r.damping, r.radius);
+}
 
 /// The force of the chosen model, newtons, >= 0.
 double normalForce(const NormalForceSettings& settings, const ContactMaterial& material,

@@ -31,7 +31,9 @@ class CycleRunner {
 
   void start(double rate);
   /// Takes effect with the next cycle.
-  void setRates(double rate, double marker_rate, bool publish_markers);
+  void setRates(double rate, double marker_rate);
+  /// Likewise. @param contacts draw contacts beside the niches, while markers are published
+  void setMarkers(bool publish, bool contacts);
   double rate() const { return rate_; }
   CycleStatistics& statistics() { return statistics_; }
 
@@ -51,6 +53,7 @@ class CycleRunner {
   std::atomic<double> rate_{50.0};
   std::atomic<double> marker_rate_{20.0};
   std::atomic<bool> publish_markers_{true};
+  std::atomic<bool> contact_markers_{true};
 
   // Of the cycle's thread alone.
   DistanceCycle cycle_;

@@ -44,6 +44,7 @@ struct CycleWindow {
   std::uint64_t repeated = 0;
   std::uint64_t search_misses = 0;
   std::uint64_t unproven = 0;
+  EffectCounts effects;
   std::uint64_t messages = 0;
   std::uint64_t markers = 0;
   CycleReport last;                  ///< of the last cycle

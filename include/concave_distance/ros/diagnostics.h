@@ -15,6 +15,8 @@ void describeCycle(const CycleWindow& window, double wanted_rate,
                    diagnostic_updater::DiagnosticStatusWrapper& status);
 /// Pairs watched and solved, pairs without transforms (WARN, each with its reason), search misses.
 void describePairs(const CycleWindow& window, diagnostic_updater::DiagnosticStatusWrapper& status);
+/// How often each stage of the pairs' effects ran and its share of the cycles' processor time.
+void describeEffects(const CycleWindow& window, diagnostic_updater::DiagnosticStatusWrapper& status);
 /// Bodies, pairs and what could not be loaded (WARN), or what is waited for (WARN).
 void describeScene(const Scene& scene, const std::string& waiting_for,
                    diagnostic_updater::DiagnosticStatusWrapper& status);

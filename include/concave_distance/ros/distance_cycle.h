@@ -32,6 +32,7 @@ struct CycleReport {
   std::uint32_t without_transform = 0;  ///< missing or stale
   std::uint32_t search_misses = 0;
   std::uint32_t unproven = 0;       ///< solves at `certified` that the time budget ended before the proof
+  EffectCounts effects;             ///< of all pairs
   double helper_cpu_seconds = 0.0;  ///< processor time of the threads that helped the caller's
 };
 

@@ -3,6 +3,7 @@
 #include <concave_distance/DistanceQuery.h>
 #include <concave_distance/GetDistance.h>
 #include <concave_distance/GetDistances.h>
+#include <concave_distance/PairContactState.h>
 #include <ros/node_handle.h>
 #include <ros/service_server.h>
 #include <tbb/task_arena.h>
@@ -24,10 +25,16 @@ struct QueryContext {
   PairSettings defaults;           ///< for bodies that are no pair of the scene
 };
 
+/// The answer to one query.
+struct QueryAnswer {
+  PairNiches result;
+  PairContactState contacts;  ///< empty unless asked for
+};
+
 /// Answers one query by a solve of its own: nothing that is tracked is read or changed. Never throws: what
 /// cannot be answered has a status that says why.
-PairNiches answerQuery(const DistanceQuery& query, const Scene& scene, const QueryContext& context,
-                       ros::Time now);
+QueryAnswer answerQuery(const DistanceQuery& query, const Scene& scene, const QueryContext& context,
+                        ros::Time now);
 
 /// True when the answer carries a distance.
 bool isAnswered(const PairNiches& answer);

@@ -11,11 +11,12 @@
 
 namespace concave_distance {
 
-/// How niches are drawn. Lengths in metres.
+/// How niches and contacts are drawn. Lengths in metres.
 struct MarkerStyle {
-  double scale = 0.0;  ///< diameter of the nearest niche's points; 0: automaticMarkerScale()
-  double near = 0.0;   ///< distance drawn in the near colour
-  double far = 0.5;    ///< distance drawn in the far colour, and beyond
+  double scale = 0.0;           ///< diameter of the nearest niche's points; 0: automaticMarkerScale()
+  double near = 0.0;            ///< distance drawn in the near colour
+  double far = 0.5;             ///< distance drawn in the far colour, and beyond
+  double force_scale = 1000.0;  ///< newtons that an arrow of one metre stands for
 };
 
 /// Every private parameter of the node, validated (doc/parameters.md). SI units.
@@ -33,6 +34,7 @@ struct NodeParameters {
   double tf_cache = 10.0;          ///< s, of transforms kept
   PairSettings pair;               ///< what a scene file does not say otherwise
   bool publish_markers = true;
+  bool publish_contact_markers = true;
   bool show_bodies = true;
   MarkerStyle marker;
 };

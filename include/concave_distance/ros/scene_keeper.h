@@ -26,6 +26,8 @@ class SceneKeeper {
   /// Applies `change` to a copy and serves that; when `change` throws, nothing has happened. It leaves the
   /// settings of pairs that are there as they are: such pairs are tracked on, untouched.
   void edit(const std::function<void(Scene&)>& change);
+  /// The same for a change of pairs' settings.
+  void editSettings(const std::function<void(Scene&)>& change);
   /// Applies `change` to every pair and to the defaults.
   void changeSettings(const std::function<void(PairSettings&)>& change);
 

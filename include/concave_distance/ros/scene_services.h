@@ -4,6 +4,7 @@
 #include <concave_distance/ListBodies.h>
 #include <concave_distance/RemoveBody.h>
 #include <concave_distance/ResetTracking.h>
+#include <concave_distance/SetEffects.h>
 #include <concave_distance/SetPairEnabled.h>
 #include <ros/node_handle.h>
 #include <ros/service_server.h>
@@ -17,7 +18,7 @@
 namespace concave_distance {
 
 /// The services that tell and change what is watched: list_bodies, add_body, remove_body, set_pair_enabled,
-/// reset_tracking.
+/// set_effects, reset_tracking.
 class SceneServices {
  public:
   SceneServices(const ros::NodeHandle& node, SceneKeeper& keeper, RestartRequests& restarts,
@@ -28,6 +29,7 @@ class SceneServices {
   bool addBody(AddBody::Request& request, AddBody::Response& response);
   bool removeBody(RemoveBody::Request& request, RemoveBody::Response& response);
   bool setPairEnabled(SetPairEnabled::Request& request, SetPairEnabled::Response& response);
+  bool setEffects(SetEffects::Request& request, SetEffects::Response& response);
   bool resetTracking(ResetTracking::Request& request, ResetTracking::Response& response);
   /// @throws Error while the scene is not loaded: it would replace what is edited now
   void requireScene();
@@ -41,6 +43,7 @@ class SceneServices {
   ros::ServiceServer add_body_;
   ros::ServiceServer remove_body_;
   ros::ServiceServer set_pair_enabled_;
+  ros::ServiceServer set_effects_;
   ros::ServiceServer reset_tracking_;
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <concave_distance/PairContactState.h>
 #include <concave_distance/PairNiches.h>
 #include <ros/node_handle.h>
 
@@ -22,6 +23,7 @@ struct ServedScene {
   struct PairTopics {
     WatchedTopic distance;
     WatchedTopic niches;
+    WatchedTopic contacts;
   };
   std::shared_ptr<const Scene> scene;
   std::vector<PairTopics> topics;       ///< one per scene->pairs
@@ -36,6 +38,13 @@ struct PublishReport {
   std::uint32_t markers = 0;   ///< drawn or deleted
 };
 
+/// What the parameters say of the markers, and the cycle.
+struct MarkerWish {
+  bool publish = true;
+  bool contacts = true;  ///< beside the niches
+  bool due = true;       ///< they are sent in this cycle when somebody listens
+};
+
 /// Every topic of the cycle: who listens to what, and one cycle's messages.
 class TopicPublishers {
  public:
@@ -47,9 +56,7 @@ class TopicPublishers {
                                            const ServedScene* before, const MarkerStyle& style,
                                            std::uint64_t settings_revision);
 
-  /// @param marker_cycle markers are sent in this cycle when somebody listens
-  void readDemand(const ServedScene& served, bool markers_wanted, bool marker_cycle,
-                  std::vector<PairDemand>& demand);
+  void readDemand(const ServedScene& served, const MarkerWish& markers, std::vector<PairDemand>& demand);
 
   /// Publishes the pairs that are due. A message is built once and not touched after it was published.
   /// @param marker_lifetime seconds
@@ -64,21 +71,27 @@ class TopicPublishers {
   /// @return how many markers
   std::size_t publishMarkers(const ServedScene& served, double lifetime, ros::Time now);
   void publishLists(ros::Time now);
+  void publishContacts(const ServedScene& served, const std::vector<std::unique_ptr<TrackedPair>>& pairs,
+                       ros::Time now);
 
   ros::NodeHandle node_;
   std::string reference_frame_;
   WatchedTopic distances_;
   WatchedTopic niches_;
+  WatchedTopic contacts_;
   WatchedTopic markers_;
   WatchedTopic alerts_;
   std::atomic<bool> repeat_alerts_{false};  ///< somebody has subscribed to the alerts
   // What readDemand found for this cycle.
   bool distances_wanted_ = false;
   bool niches_wanted_ = false;
+  bool contacts_wanted_ = false;
   bool markers_wanted_ = false;
+  bool contact_markers_wanted_ = false;
   bool markers_due_ = false;
   ShownMarkers shown_;
-  std::vector<PairNiches> messages_;  ///< of the pairs that are due
+  std::vector<PairNiches> messages_;                ///< of the pairs that are due
+  std::vector<PairContactState> contact_messages_;  ///< of those whose effects are wanted
 };
 
 }  // namespace concave_distance

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "concave_distance/ros/conversions.h"
+#include "concave_distance/ros/followed_effects.h"
 #include "concave_distance/ros/tf_poses.h"
 #include "concave_distance/ros/warning_monitor.h"
 #include "concave_distance/scene/broad_phase.h"
@@ -23,6 +24,7 @@ struct PairDemand {
   bool watched = false;  ///< some topic that carries the pair has a subscriber
   bool due = false;      ///< one of them gets a message in this cycle
   bool niches = false;   ///< some of them carries niches
+  bool effects = false;  ///< some of them carries contacts
 };
 
 /// One pair of the scene while it is followed; owned by the cycle's thread.
@@ -49,8 +51,10 @@ struct TrackedPair {
   std::optional<double>
       box_bound;       ///< m, with status BEYOND_CUTOFF: proven by boxes and spheres around the bodies
   bool fixed = false;  ///< both bodies are connected by static transforms only
+  Eigen::Isometry3d located_a_from_b = Eigen::Isometry3d::Identity();  ///< of the last transforms
   Eigen::Isometry3d solved_a_from_b = Eigen::Isometry3d::Identity();
   PairSolution solution;
+  FollowedEffects effects;
   std::uint64_t largest_id = 0;  ///< told so far, with the offset
 
   WarningMonitor warning;
@@ -62,8 +66,8 @@ struct TrackedPair {
 
   /// Forgets the niches; ids go on.
   void restart();
-  /// Gives the tracker what the settings and the demand say; makes it when there is none.
-  void prepareTracker();
+  /// Gives tracker and effects what the settings and the demand say; makes them when there are none.
+  void prepare();
 };
 
 }  // namespace concave_distance

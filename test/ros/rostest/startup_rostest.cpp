@@ -8,12 +8,9 @@
 #include <ros/package.h>
 #include <ros/param.h>
 #include <ros/spinner.h>
-#include <sys/wait.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -22,6 +19,7 @@
 #include <vector>
 
 #include "rostest_support.h"
+#include "run_node.h"
 #include "tf_player.h"
 
 namespace concave_distance {
@@ -186,27 +184,6 @@ TEST(StartUp, GeometryIsTheCollisionOrTheVisualOne) {
     })) << node;
     EXPECT_NEAR(distances.last()->pairs[0].distance, gap, 1e-12) << node;
   }
-}
-
-struct Ended {
-  int exit_code;
-  std::string output;
-};
-
-// Runs a node of its own until it ends; what it says on both streams.
-Ended runNode(const std::string& arguments) {
-  // It stands beside this program.
-  const std::string node = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "distance_node";
-  const std::string command = "timeout 20 " + node + " " + arguments + " 2>&1";
-  FILE* pipe = popen(command.c_str(), "r");
-  Ended ended{-1, ""};
-  std::array<char, 256> buffer{};
-  while (pipe != nullptr && fgets(buffer.data(), buffer.size(), pipe) != nullptr) {
-    ended.output += buffer.data();
-  }
-  const int status = pipe == nullptr ? -1 : pclose(pipe);
-  ended.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  return ended;
 }
 
 TEST(StartUp, AWrongSceneFileEndsTheNodeWithFileAndLine) {

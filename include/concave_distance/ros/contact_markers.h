@@ -1,0 +1,22 @@
+#pragma once
+
+#include <concave_distance/PairContactState.h>
+#include <visualization_msgs/Marker.h>
+
+#include <vector>
+
+#include "concave_distance/ros/node_parameters.h"
+
+namespace concave_distance {
+
+/// What is drawn for the contacts of one pair. Namespaces `<pair>/contact_area`: a translucent disc of the
+/// contact's area at its centroid, across the normal; `<pair>/contact_depth`: the line along which the depth
+/// is attained; `<pair>/normal_force` and `<pair>/friction`: arrows of the forces on B, style.force_scale
+/// newtons a metre; `<pair>/contact_text`: depth and force. The marker id is the contact's (its low 31 bits);
+/// of contacts without one -1, -2 and so on in their order.
+/// @param style with a resolved scale (> 0)
+/// @param lifetime seconds after which rviz drops a marker that is not renewed
+std::vector<visualization_msgs::Marker> contactMarkers(const PairContactState& pair, const MarkerStyle& style,
+                                                       double lifetime);
+
+}  // namespace concave_distance

@@ -1,0 +1,136 @@
+#include "concave_distance/ros/contact_markers.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <utility>
+
+#include "concave_distance/ros/conversions.h"
+
+namespace concave_distance {
+namespace {
+
+using visualization_msgs::Marker;
+
+constexpr double kDiscHeight = 0.06;  // over the scale of the markers
+constexpr double kLineWidth = 0.12;
+constexpr double kShaftWidth = 0.22;
+constexpr double kHeadWidth = 0.55;
+constexpr double kHeadLength = 0.6;
+constexpr double kHeadShare = 0.4;   // of a short arrow's length
+constexpr double kTextHeight = 1.6;  // over the scale, of the letters and above the contact
+
+std_msgs::ColorRGBA color(float r, float g, float b, float a) {
+  std_msgs::ColorRGBA result;
+  result.r = r;
+  result.g = g;
+  result.b = b;
+  result.a = a;
+  return result;
+}
+
+Eigen::Vector3d toEigen(const geometry_msgs::Point& point) {
+  return {point.x, point.y, point.z};
+}
+Eigen::Vector3d toEigen(const geometry_msgs::Vector3& vector) {
+  return {vector.x, vector.y, vector.z};
+}
+
+Marker emptyMarker(const PairContactState& pair, const char* kind, std::int32_t id, double lifetime) {
+  Marker marker;
+  marker.header = pair.header;
+  marker.ns = pair.pair + "/" + kind;
+  marker.id = id;
+  marker.action = Marker::ADD;
+  marker.pose.orientation.w = 1.0;
+  marker.lifetime = ros::Duration(lifetime);
+  return marker;
+}
+
+// A disc as large as the contact's area, across the normal.
+void drawArea(const Contact& contact, double scale, Marker& marker) {
+  marker.type = Marker::CYLINDER;
+  const Eigen::Quaterniond turn =
+      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), toEigen(contact.normal));
+  marker.pose.position = contact.centroid;
+  marker.pose.orientation.x = turn.x();
+  marker.pose.orientation.y = turn.y();
+  marker.pose.orientation.z = turn.z();
+  marker.pose.orientation.w = turn.w();
+  marker.scale.x = marker.scale.y = 2.0 * std::sqrt(contact.contact_area / M_PI);
+  marker.scale.z = kDiscHeight * scale;
+  marker.color = color(0.80F, 0.10F, 0.55F, 0.45F);
+}
+
+// An arrow from the point where the force acts; a short one keeps its shape.
+void drawForce(const geometry_msgs::Point& from, const Eigen::Vector3d& arrow, double scale, Marker& marker) {
+  marker.type = Marker::ARROW;
+  marker.points = {from, toPoint(toEigen(from) + arrow)};
+  const double head = std::min(kHeadLength * scale, kHeadShare * arrow.norm());
+  const double thinness = head / (kHeadLength * scale);
+  marker.scale.x = kShaftWidth * scale * thinness;
+  marker.scale.y = kHeadWidth * scale * thinness;
+  marker.scale.z = head;
+}
+
+std::string contactText(const Contact& contact) {
+  char text[64];
+  int length = 0;
+  if (contact.has_depth != 0) {
+    length = std::snprintf(text, sizeof(text), "%.2f mm", 1000.0 * contact.depth);
+  }
+  if (contact.has_force != 0) {
+    const Eigen::Vector3d force = toEigen(contact.wrench.force);
+    std::snprintf(text + length, sizeof(text) - static_cast<std::size_t>(length), "%s%.3g N",
+                  length > 0 ? "  " : "", force.norm());
+    return text;
+  }
+  return length > 0 ? text : "contact";
+}
+
+}  // namespace
+
+std::vector<Marker> contactMarkers(const PairContactState& pair, const MarkerStyle& style, double lifetime) {
+  std::vector<Marker> markers;
+  std::int32_t without_id = 0;
+  for (const Contact& contact : pair.contacts) {
+    const std::int32_t id =
+        contact.id == 0 ? --without_id : static_cast<std::int32_t>(contact.id & 0x7fffffffU);
+    const auto add = [&](const char* kind) -> Marker& {
+      markers.push_back(emptyMarker(pair, kind, id, lifetime));
+      return markers.back();
+    };
+    const bool has_normal = toEigen(contact.normal).allFinite();
+    if (contact.contact_area > 0.0 && has_normal) drawArea(contact, style.scale, add("contact_area"));
+    if (contact.depth > 0.0) {
+      Marker& line = add("contact_depth");
+      line.type = Marker::LINE_LIST;
+      line.scale.x = kLineWidth * style.scale;
+      line.color = color(0.35F, 0.0F, 0.35F, 1.0F);
+      line.points = {contact.point_a, contact.point_b};
+    }
+    if (contact.has_force != 0 && contact.normal_force > 0.0) {
+      Marker& arrow = add("normal_force");
+      arrow.color = color(0.85F, 0.05F, 0.10F, 1.0F);
+      drawForce(contact.force_point, contact.normal_force / style.force_scale * toEigen(contact.normal),
+                style.scale, arrow);
+    }
+    if (contact.has_friction != 0 && toEigen(contact.friction).norm() > 0.0) {
+      Marker& arrow = add("friction");
+      arrow.color = color(0.05F, 0.35F, 0.90F, 1.0F);
+      drawForce(contact.force_point, toEigen(contact.friction) / style.force_scale, style.scale, arrow);
+    }
+    if (!toEigen(contact.centroid).allFinite()) continue;
+    Marker& text = add("contact_text");
+    text.type = Marker::TEXT_VIEW_FACING;
+    text.pose.position = contact.centroid;
+    text.pose.position.z += kTextHeight * style.scale;
+    text.scale.z = kTextHeight * style.scale;
+    text.color = color(0.45F, 0.0F, 0.35F, 1.0F);
+    text.text = contactText(contact);
+  }
+  return markers;
+}
+
+}  // namespace concave_distance

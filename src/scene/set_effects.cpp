@@ -1,0 +1,26 @@
+#include "concave_distance/scene/set_effects.h"
+
+#include "concave_distance/base/error.h"
+#include "effects_reader.h"
+#include "name_pattern.h"
+#include "settings_reader.h"
+
+namespace concave_distance {
+
+std::vector<std::string> setEffects(Scene& scene, const std::string& pattern, const std::string& yaml) {
+  const detail::YamlValue value = detail::YamlValue::parse(yaml, "effects");
+  std::vector<std::string> names;
+  for (ScenePair& pair : scene.pairs) {
+    if (pair.name != pattern && !detail::matchesPattern(pattern, pair.name)) continue;
+    detail::readEffects(value, pair.settings.effects);
+    detail::validatePairSettings(pair.settings, "pair '" + pair.name + "'");
+    names.push_back(pair.name);
+  }
+  if (names.empty()) {
+    throw Error("pair", "there is no pair '" + pattern + "'",
+                "list_bodies tells their names; * and ? stand for any characters and for one");
+  }
+  return names;
+}
+
+}  // namespace concave_distance
