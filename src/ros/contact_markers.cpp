@@ -19,7 +19,8 @@ constexpr double kShaftWidth = 0.22;
 constexpr double kHeadWidth = 0.55;
 constexpr double kHeadLength = 0.6;
 constexpr double kHeadShare = 0.4;   // of a short arrow's length
-constexpr double kTextHeight = 1.6;  // over the scale, of the letters and above the contact
+constexpr double kTextHeight = 1.6;  // of the letters, over the scale
+constexpr double kTextLift = 5.5;    // of the text above the contact: clear of the arrows' beginning
 
 std_msgs::ColorRGBA color(float r, float g, float b, float a) {
   std_msgs::ColorRGBA result;
@@ -125,7 +126,7 @@ std::vector<Marker> contactMarkers(const PairContactState& pair, const MarkerSty
     Marker& text = add("contact_text");
     text.type = Marker::TEXT_VIEW_FACING;
     text.pose.position = contact.centroid;
-    text.pose.position.z += kTextHeight * style.scale;
+    text.pose.position.z += kTextLift * style.scale;
     text.scale.z = kTextHeight * style.scale;
     text.color = color(0.45F, 0.0F, 0.35F, 1.0F);
     text.text = contactText(contact);
