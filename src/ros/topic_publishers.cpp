@@ -82,15 +82,9 @@ bool hasDistance(const PairNiches& message) {
   return message.nearest.has_distance != 0;
 }
 bool isSolved(const PairContactState& message) {
-  switch (message.status.code) {
-    case PairStatus::OK:
-    case PairStatus::PENETRATING:
-    case PairStatus::WITHIN_TOLERANCE:
-    case PairStatus::BUDGET_EXHAUSTED:
-      return true;
-    default:
-      return false;
-  }
+  const std::uint8_t code = message.status.code;
+  return code == PairStatus::OK || code == PairStatus::PENETRATING || code == PairStatus::WITHIN_TOLERANCE ||
+         code == PairStatus::BUDGET_EXHAUSTED;
 }
 
 // Where contacts tell depth and force, the niche's "0.00 mm" would only hide them.
