@@ -1,6 +1,7 @@
 #include "concave_distance/ros/contact_markers.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <string>
