@@ -32,25 +32,25 @@ constexpr const char* kScene =
 
 class Simulate : public testing::Test {
  protected:
-  void SetUp() override { folder_.write("scene.yaml", kScene); }
+  void SetUp() override { folder.write("scene.yaml", kScene); }
 
   /// Exit status; what it prints goes to the file "log".
   int run(const std::string& arguments) {
-    const std::string command = "cd " + folder_.path() + " && XDG_CACHE_HOME=" + folder_.path("cache") + " " +
+    const std::string command = "cd " + folder.path() + " && XDG_CACHE_HOME=" + folder.path("cache") + " " +
                                 CONCAVE_DISTANCE_SIMULATE + " " + arguments + " > log 2>&1";
     const int status = std::system(command.c_str());
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
-  std::string log() const { return test::contentOf(folder_.path("log")); }
+  std::string log() const { return test::contentOf(folder.path("log")); }
   bool logHas(const std::string& part) const { return log().find(part) != std::string::npos; }
 
-  test::TemporaryFolder folder_;
+  test::TemporaryFolder folder;
 };
 
 TEST_F(Simulate, WritesTrajectoryContactsAndNiches) {
   ASSERT_EQ(run("scene.yaml --output out.csv --contacts contacts.csv --niches niches.csv --progress"), 0)
       << log();
-  const std::vector<Row> rows = readTable(folder_.path("out.csv"));
+  const std::vector<Row> rows = readTable(folder.path("out.csv"));
   ASSERT_EQ(rows.size(), 21U);
   EXPECT_EQ(number(rows[0], "t"), 0.0);
   EXPECT_EQ(number(rows[20], "t"), 0.1);
@@ -60,12 +60,12 @@ TEST_F(Simulate, WritesTrajectoryContactsAndNiches) {
   double forces = 0.0;
   for (const Row& row : rows) forces += number(row, "cube_ground.normal_force");
   EXPECT_GT(forces, 0.0);
-  const std::vector<Row> contacts = readTable(folder_.path("contacts.csv"));
+  const std::vector<Row> contacts = readTable(folder.path("contacts.csv"));
   ASSERT_FALSE(contacts.empty());
   EXPECT_GT(number(contacts[0], "depth"), 0.0);
   EXPECT_NEAR(number(contacts[0], "contact_area"), 0.04, 1e-9);
   EXPECT_NEAR(number(contacts[0], "normal_z"), 1.0, 1e-9);
-  EXPECT_FALSE(readTable(folder_.path("niches.csv")).empty());
+  EXPECT_FALSE(readTable(folder.path("niches.csv")).empty());
   for (const char* part : {"real-time factor", "share of time: solve", "balance error", "held back by"}) {
     EXPECT_TRUE(logHas(part)) << part << "\n" << log();
   }
@@ -75,14 +75,14 @@ TEST_F(Simulate, OptionsReplaceTheScenesValues) {
   ASSERT_EQ(
       run("scene.yaml --output out.csv --duration 0.05 --largest-step 0.0005 --tracking single_minimum"), 0)
       << log();
-  const std::vector<Row> rows = readTable(folder_.path("out.csv"));
+  const std::vector<Row> rows = readTable(folder.path("out.csv"));
   ASSERT_EQ(rows.size(), 11U);
   EXPECT_GE(number(rows[10], "steps"), 100.0);
   EXPECT_LE(number(rows[10], "cube_ground.niches"), 1.0);  // the closest pair alone
 }
 
 TEST_F(Simulate, SaysWhatIsWrong) {
-  folder_.write("bare.yaml", "bodies: []\n");
+  folder.write("bare.yaml", "bodies: []\n");
   EXPECT_EQ(run("bare.yaml --output out.csv"), 1);
   EXPECT_TRUE(logHas("bare.yaml: there is no section `simulation`")) << log();
   EXPECT_EQ(run("nowhere.yaml --output out.csv"), 1);

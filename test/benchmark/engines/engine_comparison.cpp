@@ -102,11 +102,11 @@ void run(const std::string& path) {
 }  // namespace concave_distance::benchmark
 
 int main(int argc, char** argv) {
-  std::string path = CONCAVE_DISTANCE_SOURCE_DIR "/doc/results/engines.csv";
-  CLI::App app("The contact scenes beside Simbody and ODE.", "engine_comparison");
-  app.add_option("--output", path, "CSV: scene,engine,t,place,velocity")->capture_default_str();
-  CLI11_PARSE(app, argc, argv);
   try {
+    std::string path = CONCAVE_DISTANCE_SOURCE_DIR "/doc/results/engines.csv";
+    CLI::App app("The contact scenes beside Simbody and ODE.", "engine_comparison");
+    app.add_option("--output", path, "CSV: scene,engine,t,place,velocity")->capture_default_str();
+    CLI11_PARSE(app, argc, argv);
     concave_distance::benchmark::run(path);
   } catch (const std::exception& error) {
     std::cerr << "engine_comparison: " << error.what() << '\n';
