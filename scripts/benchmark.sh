@@ -60,3 +60,6 @@ fi
 if [ -n "$(program message_benchmark)" ]; then  # built with ROS only
   "$(program message_benchmark)" --output "$results/messages.csv" | tee "$results/messages.txt"
 fi
+if [ -n "$(program engine_differences)" ]; then  # built with Simbody and ODE only
+  "$(program engine_differences)" --output "$results/engine_differences.csv" | tee "$results/engine_differences.txt"
+fi
