@@ -9,6 +9,7 @@ set(CONCAVE_DISTANCE_ROS_PACKAGES
   nodelet
   pluginlib
   roscpp
+  rosgraph_msgs
   roslib
   sensor_msgs
   std_msgs

@@ -15,6 +15,7 @@ set(CONCAVE_DISTANCE_MESSAGES
   PairNiches.msg
   PairStatus.msg
   Problem.msg
+  SimulationState.msg
   SolveCost.msg
 )
 set(CONCAVE_DISTANCE_SERVICES

@@ -15,7 +15,7 @@ set -euo pipefail
     libcgal-dev libalglib-dev libfcl-dev  # convex partition, constraint trees (CONCAVE_DISTANCE_WITH_CGAL)
     catkin python3-dynamic-reconfigure ros-message-generation ros-message-runtime
     libdiagnostic-updater-dev libdynamic-reconfigure-config-init-mutex-dev libgeometry-msgs-dev
-    libinteractive-markers-dev libnodelet-dev libnodeletlib-dev libroscpp-dev libroslib-dev libsensor-msgs-dev libstd-msgs-dev
+    libinteractive-markers-dev libnodelet-dev libnodeletlib-dev libros-rosgraph-msgs-dev libroscpp-dev libroslib-dev libsensor-msgs-dev libstd-msgs-dev
     libstd-srvs-dev libtf2-dev libtf2-eigen-dev libtf2-ros-dev libvisualization-msgs-dev pluginlib-dev
     ros-geometry-msgs ros-sensor-msgs ros-std-msgs ros-std-srvs ros-visualization-msgs
   )
@@ -42,7 +42,7 @@ set -euo pipefail
     libcgal-dev libalglib-dev libfcl-dev
     ros-noetic-catkin ros-noetic-diagnostic-updater ros-noetic-dynamic-reconfigure ros-noetic-geometry-msgs
     ros-noetic-interactive-markers ros-noetic-message-generation ros-noetic-nodelet ros-noetic-pluginlib
-    ros-noetic-roscpp ros-noetic-roslib ros-noetic-sensor-msgs ros-noetic-std-msgs ros-noetic-std-srvs ros-noetic-tf2
+    ros-noetic-roscpp ros-noetic-rosgraph-msgs ros-noetic-roslib ros-noetic-sensor-msgs ros-noetic-std-msgs ros-noetic-std-srvs ros-noetic-tf2
     ros-noetic-tf2-eigen ros-noetic-tf2-ros ros-noetic-visualization-msgs
   )
   noetic_test=(libgtest-dev libfcl-dev libboost-dev libbenchmark-dev ros-noetic-rostest)

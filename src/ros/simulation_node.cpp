@@ -1,0 +1,49 @@
+#include <ros/init.h>
+#include <ros/node_handle.h>
+#include <ros/spinner.h>
+
+#include <cstdlib>
+
+#include "concave_distance/base/error.h"
+#include "concave_distance/ros/scene_loading.h"
+#include "concave_distance/ros/simulation_runner.h"
+
+namespace {
+
+using namespace concave_distance;
+
+void run() {
+  const ros::NodeHandle node;
+  const ros::NodeHandle private_node("~");
+  XmlRpc::XmlRpcValue values;
+  private_node.getParam("", values);
+  const SimulationNodeParameters parameters = parseSimulationParameters(values);
+  NodeParameters loading;
+  loading.scene_file = parameters.scene_file;
+  loading.robot_description = parameters.robot_description;
+  loading.cache = parameters.cache;
+  LoadAttempt attempt = tryLoadScene(loading, node);
+  for (; !attempt.scene && ros::ok(); attempt = tryLoadScene(loading, node)) {
+    ROS_INFO_STREAM_THROTTLE(5.0, "waiting: " << attempt.waiting_for);
+    ros::WallDuration(0.2).sleep();
+  }
+  if (!attempt.scene) return;
+  for (const SceneProblem& problem : attempt.scene->problems) {
+    ROS_ERROR_STREAM(problem.where << ": " << problem.message);
+  }
+  const SimulationRunner runner(node, private_node, std::move(*attempt.scene), parameters);
+  ros::spin();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "simulation");
+  try {
+    run();
+  } catch (const Error& problem) {
+    ROS_FATAL_STREAM(problem.what());
+    return EXIT_FAILURE;
+  }
+  return EXIT_SUCCESS;
+}
