@@ -33,8 +33,9 @@ struct Combination {
 std::vector<Combination> combinations() {
   std::vector<Combination> all = {{"none", {}}, {"interference", {}}};
   all[1].settings.interference = true;
-  for (const NormalForceModel model : {NormalForceModel::QuasiStatic, NormalForceModel::SpringDashpot,
-                                       NormalForceModel::Hertz, NormalForceModel::HuntCrossley}) {
+  for (const NormalForceModel model :
+       {NormalForceModel::QuasiStatic, NormalForceModel::SpringDashpot, NormalForceModel::Hertz,
+        NormalForceModel::HuntCrossley, NormalForceModel::ElasticFoundation}) {
     for (const FrictionModel friction :
          {FrictionModel::None, FrictionModel::RegularisedCoulomb, FrictionModel::Bristle}) {
       Combination combination{std::string(toString(model)), {}};
