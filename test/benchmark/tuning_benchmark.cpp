@@ -74,8 +74,8 @@ std::vector<Figures> trySearchVariants(const BenchmarkPair& pair, const std::vec
       TrackerParameters parameters;
       variants[i].change(parameters);
       for (const SearchScene& scene : scenes) {
-        const SearchOutcome outcome = trySearch(pair, scene, {variants[i].name, parameters.cold}, 1.0,
-                                                seed, kLeastTrueProminence);
+        const SearchOutcome outcome =
+            trySearch(pair, scene, {variants[i].name, parameters.cold}, 1.0, seed, kLeastTrueProminence);
         const double n = static_cast<double>(options.seeds * scenes.size());
         figures[i].recall += outcome.archive_recall / n;
         figures[i].prominent += outcome.population_recall / n;
