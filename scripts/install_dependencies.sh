@@ -33,7 +33,7 @@ set -euo pipefail
   debian_lint=(clang-format clang-tidy catkin-lint)
   debian_fuzz=(clang libclang-rt-14-dev)  # libFuzzer is in the second
   debian_sanitize=(dpkg-dev)  # unpacks the source package of TBB
-  debian_engines=(libsimbody-dev libode-dev)  # engine_comparison: what the simulation is compared with
+  debian_engines=(libsimbody-dev libode-dev)  # engine_differences: what the simulation is compared with
 
   noetic_build=(
     g++ cmake ninja-build

@@ -162,32 +162,9 @@ def plot_insertion(folder, scene, body, pair, title, name, target):
     save(figure, name)
 
 
-def plot_engines():
-    """doc/results/engines.csv, written by engine_comparison."""
-    path = ROOT / "doc" / "results" / "engines.csv"
-    with open(path, newline="", encoding="utf-8") as file:
-        rows = list(csv.DictReader(file))
-    styles = {"concave_distance": ("-", "tab:blue"), "simbody": ("--", "tab:orange"), "ode": (":", "tab:green")}
-    figure, all_axes = plt.subplots(1, 3, figsize=(13, 4))
-    for axes, (scene, label) in zip(all_axes, (("bouncing_ball", "height of the centre, m"),
-                                               ("box_sticks", "way, mm"), ("box_slides", "way, m"))):
-        scale = 1e3 if scene == "box_sticks" else 1.0
-        for engine, (line, colour) in styles.items():
-            points = [row for row in rows if row["scene"] == scene and row["engine"] == engine]
-            axes.plot([float(row["t"]) for row in points], [scale * float(row["place"]) for row in points], line,
-                      color=colour, label=engine, linewidth=1.8)
-        axes.set_title(scene)
-        axes.set_xlabel("t, s")
-        axes.set_ylabel(label)
-        axes.grid(alpha=0.3)
-        axes.legend(fontsize=8)
-    save(figure, "simulation_engines.png")
-
-
 def main():
     folder = pathlib.Path(sys.argv[1])
     IMAGES.mkdir(exist_ok=True)
-    plot_engines()
     plot_two_feet(folder)
     plot_ball(folder)
     plot_slope(folder)

@@ -20,6 +20,4 @@ mkdir -p "$output"
   echo "== config/insertion_simulation.yaml --tracking single_minimum (no niches)"
   "$simulate" "$root/config/insertion_simulation.yaml" --output "$output/insertion_single.csv" --tracking single_minimum
 } | tee "$root/doc/results/simulation.txt"
-comparison="$build/devel/lib/concave_distance/engine_comparison"  # where Simbody and ODE are installed
-if [ -x "$comparison" ]; then "$comparison" | tee "$root/doc/results/engines.txt"; fi
 /usr/bin/python3 "$root/scripts/plot_simulation.py" "$output"

@@ -179,7 +179,9 @@ void SimulationRunner::publish() {
     transforms_[i].header.frame_id = parameters_.world_frame;
     transforms_[i].child_frame_id = scene_.bodies[i].frame;
   }
-  broadcaster_.sendTransform(transforms_);
+  // Nothing new while it stands still: listeners complain of transforms that come twice.
+  if (stamp != last_stamp_) broadcaster_.sendTransform(transforms_);
+  last_stamp_ = stamp;
   if (state_publisher_.getNumSubscribers() == 0) return;
   fillSimulationState(*simulation_, parameters_.world_frame, stamp, real_seconds_, state_);
   state_.paused = paused_;

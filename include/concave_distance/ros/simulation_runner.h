@@ -72,6 +72,7 @@ class SimulationRunner {
   ros::ServiceServer pause_service_;
   ros::SteadyTimer timer_;
   ros::Time zero_;             ///< the clock at the simulation's begin
+  ros::Time last_stamp_;       ///< of the last transforms
   double held_ = 0.0;          ///< simulated seconds past the end, or before the begin
   double real_seconds_ = 0.0;  ///< spent in simulating
   bool paused_ = false;

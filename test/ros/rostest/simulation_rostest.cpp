@@ -55,7 +55,7 @@ TEST(SimulationNode, TheBallFallsBouncesAndStaysInTheBooks) {
   EXPECT_GT(strongest, 20.0) << "more than the weight";
   EXPECT_FALSE(deeper_than_proven) << "a region where the proof excludes contact";
   const SimulationState end = *states.last();
-  EXPECT_GT(end.twists.at(ballOf(end)).linear.z, 1.0) << "it does not rebound";
+  EXPECT_GT(end.twists.at(ballOf(end)).linear.z, 0.5) << "it does not rebound";
   EXPECT_LT(std::abs(end.energy_balance_error), 0.02) << "of 4.9 J";
 
   // The distance node sees the same: the gap while it falls.
