@@ -6,6 +6,7 @@
 
 #include "concave_distance/base/error.h"
 #include "concave_distance/ros/reconfiguration.h"
+#include "concave_distance/ros/simulation_runner.h"
 
 namespace concave_distance {
 namespace {
@@ -132,6 +133,38 @@ TEST(Reconfiguration, ChangesWhatDiffersAndNothingElse) {
   EXPECT_TRUE(concernsPairs(before, after));
   applyChanges(before, after, settings);
   EXPECT_EQ(settings.tracker.immigrants, 1U);
+}
+
+std::string simulationRefusal(const std::string& name, const XmlRpc::XmlRpcValue& value) {
+  XmlRpc::XmlRpcValue values;
+  values["scene_file"] = "scene.yaml";
+  values[name] = value;
+  try {
+    parseSimulationParameters(values);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(SimulationNodeParameters, AreReadAndTheirSceneIsRequired) {
+  XmlRpc::XmlRpcValue values;
+  values["scene_file"] = "scene.yaml";
+  values["speed"] = 0;
+  values["at_end"] = "loop";
+  const SimulationNodeParameters parameters = parseSimulationParameters(values);
+  EXPECT_EQ(parameters.scene_file, "scene.yaml");
+  EXPECT_EQ(parameters.speed, 0.0);
+  EXPECT_EQ(parameters.at_end, SimulationEnd::Loop);
+  EXPECT_TRUE(parameters.publish_clock);
+  EXPECT_NE(simulationRefusal("scene_file", "").find("~scene_file"), std::string::npos);
+}
+
+TEST(SimulationNodeParameters, WrongNamesAndValuesAreRefused) {
+  EXPECT_EQ(simulationRefusal("rate", 50.0), "");
+  EXPECT_NE(simulationRefusal("rate", 0.0).find("~rate"), std::string::npos);
+  EXPECT_NE(simulationRefusal("at_end", "stop").find("hold, loop, exit"), std::string::npos);
+  EXPECT_NE(simulationRefusal("sped", 1.0).find("~sped"), std::string::npos);
 }
 
 }  // namespace
