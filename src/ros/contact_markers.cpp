@@ -83,9 +83,10 @@ std::string contactText(const Contact& contact) {
     length = std::snprintf(text, sizeof(text), "%.2f mm", 1000.0 * contact.depth);
   }
   if (contact.has_force != 0) {
-    const Eigen::Vector3d force = toEigen(contact.wrench.force);
-    std::snprintf(text + length, sizeof(text) - static_cast<std::size_t>(length), "%s%.3g N",
-                  length > 0 ? "  " : "", force.norm());
+    const double newtons = toEigen(contact.wrench.force).norm();
+    const bool thousands = newtons >= 1000.0;
+    std::snprintf(text + length, sizeof(text) - static_cast<std::size_t>(length), "%s%.3g %s",
+                  length > 0 ? "  " : "", thousands ? 1e-3 * newtons : newtons, thousands ? "kN" : "N");
     return text;
   }
   return length > 0 ? text : "contact";
