@@ -163,7 +163,7 @@ TEST(SimulationNodeParameters, AreReadAndTheirSceneIsRequired) {
 TEST(SimulationNodeParameters, WrongNamesAndValuesAreRefused) {
   EXPECT_EQ(simulationRefusal("rate", 50.0), "");
   EXPECT_NE(simulationRefusal("rate", 0.0).find("~rate"), std::string::npos);
-  EXPECT_NE(simulationRefusal("at_end", "stop").find("hold, loop, exit"), std::string::npos);
+  EXPECT_NE(simulationRefusal("at_end", "stop").find("allowed: hold loop exit"), std::string::npos);
   EXPECT_NE(simulationRefusal("sped", 1.0).find("~sped"), std::string::npos);
 }
 
