@@ -33,6 +33,33 @@ TEST(EffectPlan, ANormalForceBringsWhatItNeeds) {
   EXPECT_EQ(stagesOf(settings).front(), EffectStage::Interference);
 }
 
+// What tells a follower of a pair that its settings have been edited.
+TEST(EffectSettings, DifferWhicheverParameterDiffers) {
+  EffectSettings settings;
+  settings.normal_force.emplace();
+  const auto differs = [&](auto change) {
+    EffectSettings other = settings;
+    change(other);
+    return other != settings;
+  };
+  EXPECT_FALSE(differs([](EffectSettings&) {}));
+  EXPECT_TRUE(differs([](EffectSettings& s) { s.interference = true; }));
+  EXPECT_TRUE(differs([](EffectSettings& s) { s.normal_force.reset(); }));
+  EXPECT_TRUE(differs([](EffectSettings& s) { s.normal_force->model = NormalForceModel::Hertz; }));
+  for (double NormalForceSettings::*value :
+       {&NormalForceSettings::loading_coefficient, &NormalForceSettings::stiffness,
+        &NormalForceSettings::damping, &NormalForceSettings::foundation_stiffness,
+        &NormalForceSettings::radius}) {
+    EXPECT_TRUE(differs([&](EffectSettings& s) { (*s.normal_force).*value += 1.0; }));
+  }
+  EXPECT_TRUE(differs([](EffectSettings& s) { s.friction.model = FrictionModel::Bristle; }));
+  for (double FrictionSettings::*value :
+       {&FrictionSettings::regularisation_speed, &FrictionSettings::stribeck_speed,
+        &FrictionSettings::bristle_stiffness, &FrictionSettings::bristle_damping}) {
+    EXPECT_TRUE(differs([&](EffectSettings& s) { s.friction.*value += 1.0; }));
+  }
+}
+
 TEST(EffectSettings, FrictionWithoutANormalForceIsRefused) {
   EffectSettings settings;
   settings.interference = true;

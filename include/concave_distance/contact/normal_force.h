@@ -76,8 +76,8 @@ struct NormalForceSettings {
 };
 
 inline bool operator==(const NormalForceSettings& l, const NormalForceSettings& r) {
-  return std::tie(l.model, l.loading_coefficient, l.stiffness, l.damping, l.radius) ==
-         std::tie(r.model, r.loading_coefficient, r.stiffness, r.damping, r.radius);
+  return std::tie(l.model, l.loading_coefficient, l.stiffness, l.damping, l.foundation_stiffness, l.radius) ==
+         std::tie(r.model, r.loading_coefficient, r.stiffness, r.damping, r.foundation_stiffness, r.radius);
 }
 
 /// The force of the chosen model, newtons, >= 0.
