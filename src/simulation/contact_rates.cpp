@@ -40,16 +40,14 @@ ContactRates contactRates(const NormalForceSettings& normal, const FrictionSetti
     case NormalForceModel::Hertz:
     case NormalForceModel::HuntCrossley: {
       const double radius = normal.radius > 0.0 ? normal.radius : radiusFromOverlap(contact);
-      rates.normal_stiffness = 2.0 * material.contact_modulus * std::sqrt(radius * contact.depth) * growth;
-      if (normal.model == NormalForceModel::HuntCrossley) {
-        const double rate = 1.5 * material.dissipation;
-        rates.normal_stiffness *= std::max(0.0, 1.0 + rate * contact.depth_rate);
-        rates.normal_damping = rate * rates.normal_stiffness / 1.5 * deeper;
-      }
+      const double elastic = 2.0 * material.contact_modulus * std::sqrt(radius * contact.depth) * growth;
+      const double rate = normal.model == NormalForceModel::HuntCrossley ? 1.5 * material.dissipation : 0.0;
+      rates.normal_stiffness = elastic * std::max(0.0, 1.0 + rate * contact.depth_rate);
+      rates.normal_damping = rate * elastic / 1.5 * deeper;  // the elastic force is 2/3 of elastic * depth
       break;
     }
     case NormalForceModel::ElasticFoundation: {
-      // dV = A dd; a wedge's area grows with its depth.
+      // dV = A dd.
       const double rate = 1.5 * material.dissipation;
       rates.normal_stiffness =
           normal.foundation_stiffness * contact.contact_area * std::max(0.0, 1.0 + rate * contact.depth_rate);

@@ -14,7 +14,7 @@ struct ContactRates {
 };
 
 /// Upper estimates from the models' derivatives. The depth that counts is the one that a step of `step`
-/// seconds reaches at the present rate.
+/// seconds reaches at the present rate; of an elastic foundation the present area and volume count.
 /// @param normal_force the force there now, N
 ContactRates contactRates(const NormalForceSettings& normal, const FrictionSettings& friction,
                           const ContactMaterial& material, const ContactGeometry& contact,
