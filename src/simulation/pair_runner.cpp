@@ -72,6 +72,9 @@ void PairRunner::update(double time, double step, const SimulatedBody& a, const 
     }
     pair.solved = false;
     pair.lower_bound = apart;
+    pair.single_distance = kNotComputed;
+    pair.single_point_a_in_a = pair.single_point_b_in_a = Eigen::Vector3d::Constant(kNotComputed);
+    pair.single_is_wrong = false;
     ++counters.broad_phase_only;
     return;
   }

@@ -100,7 +100,8 @@ void TrajectoryLog::write(const Simulation& simulation) {
     }
     const bool touches = !pair.contacts.regions.empty();
     file_ << (pair.solved ? pair.solution.distance : kNotComputed) << pair.lower_bound
-          << std::uint64_t{pair.solution.niches.size()} << std::uint64_t{pair.contacts.regions.size()}
+          << (pair.solved ? static_cast<double>(pair.solution.niches.size()) : kNotComputed)
+          << std::uint64_t{pair.contacts.regions.size()}
           << (touches ? pair.contacts.regions.front().overlap.depth : 0.0) << force << pair.single_distance
           << std::uint64_t{pair.single_is_wrong ? 1U : 0U};
   }
