@@ -77,19 +77,20 @@ void drawForce(const geometry_msgs::Point& from, const Eigen::Vector3d& arrow, d
 }
 
 std::string contactText(const Contact& contact) {
-  char text[64];
-  int length = 0;
+  std::string text;
+  char number[32];
   if (contact.has_depth != 0) {
-    length = std::snprintf(text, sizeof(text), "%.2f mm", 1000.0 * contact.depth);
+    std::snprintf(number, sizeof(number), "%.2f mm", 1000.0 * contact.depth);
+    text = number;
   }
   if (contact.has_force != 0) {
     const double newtons = toEigen(contact.wrench.force).norm();
     const bool thousands = newtons >= 1000.0;
-    std::snprintf(text + length, sizeof(text) - static_cast<std::size_t>(length), "%s%.3g %s",
-                  length > 0 ? "  " : "", thousands ? 1e-3 * newtons : newtons, thousands ? "kN" : "N");
-    return text;
+    std::snprintf(number, sizeof(number), "%.3g %s", thousands ? 1e-3 * newtons : newtons,
+                  thousands ? "kN" : "N");
+    text += (text.empty() ? "" : "  ") + std::string(number);
   }
-  return length > 0 ? text : "contact";
+  return text.empty() ? "contact" : text;
 }
 
 }  // namespace
