@@ -34,8 +34,8 @@ geometry_msgs::Wrench toWrench(const Wrench& wrench) {
 
 }  // namespace
 
-SimulationNodeParameters parseSimulationParameters(XmlRpc::XmlRpcValue values) {
-  ParameterReader reader(std::move(values), "~");
+SimulationNodeParameters parseSimulationParameters(const XmlRpc::XmlRpcValue& values) {
+  ParameterReader reader(values, "~");
   SimulationNodeParameters p;
   p.scene_file = reader.text("scene_file", p.scene_file);
   if (p.scene_file.empty()) {
@@ -52,7 +52,7 @@ SimulationNodeParameters parseSimulationParameters(XmlRpc::XmlRpcValue values) {
   const std::vector<std::string> unknown = reader.unread({});
   if (!unknown.empty()) {
     throw Error("~" + unknown.front(), "there is no such parameter",
-                "see doc/parameters.md for those there are");
+                "see doc/simulation_node.md for those there are");
   }
   return p;
 }

@@ -21,7 +21,7 @@ namespace concave_distance {
 /// What the simulation does when its duration is over.
 enum class SimulationEnd : std::uint8_t { Hold, Loop, Exit };
 
-/// Every private parameter of the simulation node, validated (doc/parameters.md). SI units.
+/// Every private parameter of the simulation node, validated (doc/simulation_node.md). SI units.
 struct SimulationNodeParameters {
   std::string scene_file;
   std::string robot_description = "robot_description";
@@ -35,7 +35,7 @@ struct SimulationNodeParameters {
 };
 
 /// @throws Error naming the parameter, the value seen and what is allowed
-SimulationNodeParameters parseSimulationParameters(XmlRpc::XmlRpcValue values);
+SimulationNodeParameters parseSimulationParameters(const XmlRpc::XmlRpcValue& values);
 
 /// The message of a simulation as it is now.
 /// @param stamp simulated time since the clock's zero @param real_seconds that the simulation took so far
@@ -73,7 +73,7 @@ class SimulationRunner {
   ros::SteadyTimer timer_;
   ros::Time zero_;             ///< the clock at the simulation's begin
   ros::Time last_stamp_;       ///< of the last transforms
-  double held_ = 0.0;          ///< simulated seconds past the end, or before the begin
+  double held_ = 0.0;          ///< simulated seconds past the end
   double real_seconds_ = 0.0;  ///< spent in simulating
   bool paused_ = false;
   std::chrono::steady_clock::time_point started_;
