@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 
+#include "concave_distance/base/pair_key.h"
+
 namespace concave_distance::detail {
 namespace {
 
@@ -149,8 +151,7 @@ void CrossingCurves::appendEnd(Side side, NodeIndex from, NodeIndex to, Triangle
   const bool ascending = from < to;
   const NodeIndex low = ascending ? from : to;
   const NodeIndex high = ascending ? to : from;
-  ends_.push_back({(std::uint64_t{low.value} << 32U) | high.value,
-                   (std::uint64_t{at(side)} << 32U) | triangle.value,
+  ends_.push_back({pairKey(low, high), (std::uint64_t{at(side)} << 32U) | triangle.value,
                    static_cast<std::uint32_t>(segments_.size()), false, enters == ascending});
 }
 

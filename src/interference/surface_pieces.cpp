@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "concave_distance/base/pair_key.h"
+
 namespace concave_distance::detail {
 namespace {
 
@@ -11,7 +13,7 @@ namespace {
 constexpr double kSureOrder = 0x1.0p-46;
 
 std::uint64_t edgeKey(NodeIndex p, NodeIndex q) {
-  return (std::uint64_t{std::min(p.value, q.value)} << 32U) | std::max(p.value, q.value);
+  return pairKey(std::min(p, q), std::max(p, q));
 }
 
 std::uint64_t edgeKey(const CrossingNode& node) {

@@ -12,11 +12,6 @@ geometry_msgs::Wrench toWrench(const Eigen::Matrix3d& rotation, const Wrench& wr
   return message;
 }
 
-// The same wrench about another point.
-Wrench movedTo(const Eigen::Vector3d& point, const Wrench& about_origin) {
-  return {about_origin.force, about_origin.torque - point.cross(about_origin.force)};
-}
-
 Contact toContact(const PairHeading& heading, const ContactRegion& region, const Eigen::Vector3d& origin_b) {
   const Eigen::Isometry3d& reference_from_a = heading.reference_from_a;
   const Eigen::Matrix3d rotation = reference_from_a.linear();

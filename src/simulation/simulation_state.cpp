@@ -13,10 +13,6 @@ using detail::PairRunner;
 using detail::StepBegin;
 using detail::trapezoidalWork;
 
-Wrench movedTo(const Wrench& about_origin, const Eigen::Vector3d& point) {
-  return {about_origin.force, about_origin.torque - point.cross(about_origin.force)};
-}
-
 Wrench opposite(const Wrench& wrench) {
   return {-wrench.force, -wrench.torque};
 }
@@ -91,10 +87,10 @@ void Simulation::State::evaluateContacts(double step) {
     const SimulatedBody& b = bodies[pair.body_b];
     runners[i].update(time, step, a, b, pair, counters);
     const detail::ContactWrenches on_b = PairRunner::wrenchesOnB(pair, a.world_from_body);
-    contacts[pair.body_b].normal += movedTo(on_b.normal, b.centre);
-    contacts[pair.body_b].friction += movedTo(on_b.friction, b.centre);
-    contacts[pair.body_a].normal += movedTo(opposite(on_b.normal), a.centre);
-    contacts[pair.body_a].friction += movedTo(opposite(on_b.friction), a.centre);
+    contacts[pair.body_b].normal += movedTo(b.centre, on_b.normal);
+    contacts[pair.body_b].friction += movedTo(b.centre, on_b.friction);
+    contacts[pair.body_a].normal += movedTo(a.centre, opposite(on_b.normal));
+    contacts[pair.body_a].friction += movedTo(a.centre, opposite(on_b.friction));
     for (const ContactRegion& region : pair.contacts.regions) {
       touched = touched || region.normal_force > 0.0;
       if (region.overlap.depth > counters.largest_depth) counters.largest_depth = region.overlap.depth;

@@ -177,9 +177,5 @@ const EffectPlan& PairEffects::plan() const {
 const EffectCounts& PairEffects::counts() const {
   return state_->counts;
 }
-std::size_t PairEffects::memoryBytes() const {
-  return sizeof(State) + state_->identity.memoryBytes() +
-         state_->interference.regions.capacity() * sizeof(InterferenceRegion);
-}
 
 }  // namespace concave_distance

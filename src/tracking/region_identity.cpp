@@ -78,9 +78,4 @@ void RegionIdentity::update(const std::vector<TrackedNiche>& niches, double disp
   for (std::size_t r = 0; r < regions.size(); ++r) regions[r].id = memory_[r].id;
 }
 
-std::size_t RegionIdentity::memoryBytes() const {
-  return (memory_.capacity() + before_.capacity()) * sizeof(RegionMemory) +
-         matches_.capacity() * sizeof(Match) + region_taken_.capacity() + other_taken_.capacity();
-}
-
 }  // namespace concave_distance

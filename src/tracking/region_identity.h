@@ -29,7 +29,6 @@ class RegionIdentity {
 
   /// Of the regions of the last update(), in their order.
   std::vector<RegionMemory>& memory() { return memory_; }
-  std::size_t memoryBytes() const;
 
  private:
   struct Match {

@@ -30,4 +30,9 @@ inline Wrench wrenchAbout(const Eigen::Vector3d& force, const Eigen::Vector3d& p
   return {force, (point - about).cross(force)};
 }
 
+/// The same wrench about `point`, given about the origin.
+inline Wrench movedTo(const Eigen::Vector3d& point, const Wrench& about_origin) {
+  return {about_origin.force, about_origin.torque - point.cross(about_origin.force)};
+}
+
 }  // namespace concave_distance

@@ -67,7 +67,6 @@ class PairEffects {
   const EffectSettings& settings() const;
   const EffectPlan& plan() const;
   const EffectCounts& counts() const;
-  std::size_t memoryBytes() const;
 
  private:
   struct State;
