@@ -29,6 +29,8 @@ mkdir -p "$results"
 "$(program certificate_benchmark)" --output "$results/certificate.csv" | tee "$results/certificate.txt"
 "$(program hierarchy_benchmark)" --output "$results/hierarchy.csv" | tee "$results/hierarchy.txt"
 "$(program effects_benchmark)" --output "$results/effects.csv" | tee "$results/effects.txt"
+rm -f "$results/tuning.csv"  # rows are added
+"$(program tuning_benchmark)" --steps 120 --observed 8 --output "$results/tuning.csv" | tee "$results/tuning.txt"
 "$(program scale_benchmark)" --sizes "$sizes" --output "$results/scale.csv" | tee "$results/scale.txt"
 "$(program complete_benchmark)" --steps "$steps" --window "$window" --list-misses 8 --cold-runs 12 \
   --output "$results/complete.csv" | tee "$results/complete.txt"
