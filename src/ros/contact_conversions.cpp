@@ -5,11 +5,8 @@
 namespace concave_distance {
 namespace {
 
-geometry_msgs::Wrench toWrench(const Eigen::Matrix3d& rotation, const Wrench& wrench) {
-  geometry_msgs::Wrench message;
-  message.force = toVector(rotation * wrench.force);
-  message.torque = toVector(rotation * wrench.torque);
-  return message;
+Wrench rotated(const Eigen::Matrix3d& rotation, const Wrench& wrench) {
+  return {rotation * wrench.force, rotation * wrench.torque};
 }
 
 Contact toContact(const PairHeading& heading, const ContactRegion& region, const Eigen::Vector3d& origin_b) {
@@ -43,7 +40,7 @@ Contact toContact(const PairHeading& heading, const ContactRegion& region, const
   message.normal_force = region.normal_force;
   message.has_friction = static_cast<std::uint8_t>(region.friction_on_b_in_a.allFinite());
   message.friction = toVector(rotation * region.friction_on_b_in_a);
-  message.wrench = toWrench(rotation, movedTo(origin_b, region.on_b_in_a));
+  message.wrench = toWrench(rotated(rotation, movedTo(origin_b, region.on_b_in_a)));
   return message;
 }
 
@@ -59,7 +56,7 @@ PairContactState emptyContacts(const PairHeading& heading, const PairStatus& sta
   message.status = status;
   const Eigen::Vector3d not_computed = Eigen::Vector3d::Constant(kNotComputed);
   message.wrench_point = toPoint(not_computed);
-  message.wrench = toWrench(Eigen::Matrix3d::Identity(), {not_computed, not_computed});
+  message.wrench = toWrench({not_computed, not_computed});
   return message;
 }
 
@@ -76,7 +73,8 @@ PairContactState toContacts(const PairHeading& heading, const PairStatus& status
   }
   message.has_wrench = static_cast<std::uint8_t>(contacts.on_b_in_a.force.allFinite());
   message.wrench_point = toPoint(heading.reference_from_a * origin_b);
-  message.wrench = toWrench(heading.reference_from_a.linear(), movedTo(origin_b, contacts.on_b_in_a));
+  message.wrench =
+      toWrench(rotated(heading.reference_from_a.linear(), movedTo(origin_b, contacts.on_b_in_a)));
   return message;
 }
 

@@ -79,6 +79,13 @@ geometry_msgs::Vector3 toVector(const Eigen::Vector3d& vector) {
   return message;
 }
 
+geometry_msgs::Wrench toWrench(const Wrench& wrench) {
+  geometry_msgs::Wrench message;
+  message.force = toVector(wrench.force);
+  message.torque = toVector(wrench.torque);
+  return message;
+}
+
 Eigen::Isometry3d poseFromMessage(const geometry_msgs::Pose& pose, const std::string& where) {
   for (const double value : {pose.position.x, pose.position.y, pose.position.z}) {
     checkFinite(value, where + ".position");

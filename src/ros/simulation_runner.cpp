@@ -25,13 +25,6 @@ double secondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-geometry_msgs::Wrench toWrench(const Wrench& wrench) {
-  geometry_msgs::Wrench message;
-  message.force = toVector(wrench.force);
-  message.torque = toVector(wrench.torque);
-  return message;
-}
-
 }  // namespace
 
 SimulationNodeParameters parseSimulationParameters(const XmlRpc::XmlRpcValue& values) {

@@ -6,6 +6,7 @@
 
 #include "concave_distance/base/error.h"
 #include "concave_distance/contact/contact_point.h"
+#include "support/hunt_crossley_rebound.h"
 
 namespace concave_distance {
 namespace {
@@ -96,24 +97,10 @@ double reboundSpeed(double mass, double speed, double modulus, double radius, do
   return -rate;
 }
 
-/// The same in closed form: m v dv/dx = -k x^1.5 (1 + s v) with s = 1.5 c separates, so that
-/// v/s - ln(1 + s v)/s^2 is equal at impact (v) and at the end (-e v): bisection for e v.
-double reboundSpeedInClosedForm(double speed, double dissipation) {
-  const double s = 1.5 * dissipation;
-  const auto potential = [s](double v) { return v / s - std::log1p(s * v) / (s * s); };
-  double low = 0.0;
-  double high = std::min(speed, (1.0 - 1e-15) / s);
-  for (int k = 0; k < 200; ++k) {
-    const double middle = 0.5 * (low + high);
-    (potential(-middle) < potential(speed) ? low : high) = middle;
-  }
-  return 0.5 * (low + high);
-}
-
 TEST(NormalForce, RestitutionOfHuntCrossleyFollowsItsClosedForm) {
   for (const double dissipation : {0.05, 0.3, 1.0}) {
     for (const double speed : {0.05, 0.5, 2.0}) {
-      const double expected = reboundSpeedInClosedForm(speed, dissipation);
+      const double expected = test::huntCrossleyRebound(speed, dissipation);
       EXPECT_NEAR(reboundSpeed(0.2, speed, 1e8, 0.05, dissipation), expected, 1e-4 * speed)
           << "c " << dissipation << ", v " << speed;
     }
@@ -147,7 +134,7 @@ TEST(NormalForce, ElasticFoundationIsTheSumOfItsSprings) {
 }
 
 TEST(NormalForce, RestitutionAtSmallSpeedsIsOneMinusDissipationTimesSpeed) {
-  EXPECT_NEAR(reboundSpeedInClosedForm(0.01, 0.2) / 0.01, 1.0 - 0.2 * 0.01, 1e-5);
+  EXPECT_NEAR(test::huntCrossleyRebound(0.01, 0.2) / 0.01, 1.0 - 0.2 * 0.01, 1e-5);
 }
 
 TEST(ContactPoint, MotionAtAContactSplitsIntoDepthRateAndSliding) {

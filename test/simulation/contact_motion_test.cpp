@@ -6,6 +6,7 @@
 #include "concave_distance/mesh/primitives.h"
 #include "concave_distance/tracking/relative_motion.h"
 #include "simulation/scene_builder.h"
+#include "support/hunt_crossley_rebound.h"
 
 namespace concave_distance {
 namespace {
@@ -48,20 +49,6 @@ double modulus(const SceneBuilder& builder) {
   return inContact(builder.scene.bodies[0].material, builder.scene.bodies[1].material).contact_modulus;
 }
 
-/// Hunt and Crossley's rebound: v/s - ln(1 + s v)/s^2 is equal at impact (v) and at the end (-e v), with s =
-/// 1.5 c.
-double reboundSpeedInClosedForm(double speed, double dissipation) {
-  const double s = 1.5 * dissipation;
-  const auto potential = [s](double v) { return v / s - std::log1p(s * v) / (s * s); };
-  double low = 0.0;
-  double high = std::min(speed, (1.0 - 1e-15) / s);
-  for (int k = 0; k < 200; ++k) {
-    const double middle = 0.5 * (low + high);
-    (potential(-middle) < potential(speed) ? low : high) = middle;
-  }
-  return 0.5 * (low + high);
-}
-
 /// Runs until the ball is clear again. @return its speed upwards
 double rebound(Simulation& simulation) {
   bool touched = false;
@@ -80,7 +67,7 @@ TEST(ContactMotion, RestitutionFollowsHuntAndCrossleyOverTheSpeeds) {
     builder.settings.allowed_penetration = 1e-4 * std::pow(speed, 0.8);  // a share of the depth reached
     builder.settings.step_fraction = 0.05;
     Simulation simulation = builder.simulation();
-    const double expected = reboundSpeedInClosedForm(speed, kDissipation);
+    const double expected = test::huntCrossleyRebound(speed, kDissipation);
     EXPECT_NEAR(rebound(simulation), expected, 2e-3 * speed) << speed;
     // What is lost is the contact's work, and no more than the integration's error is made of nothing.
     const EnergyAccount& energy = simulation.energy();

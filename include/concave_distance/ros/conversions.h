@@ -8,10 +8,12 @@
 #include <concave_distance/PairNiches.h>
 #include <concave_distance/PairStatus.h>
 #include <geometry_msgs/Pose.h>
+#include <geometry_msgs/Wrench.h>
 
 #include <Eigen/Geometry>
 #include <string>
 
+#include "concave_distance/contact/wrench.h"
 #include "concave_distance/ros/tf_poses.h"
 #include "concave_distance/scene/load_scene.h"
 #include "concave_distance/scene/scene.h"
@@ -21,6 +23,7 @@ namespace concave_distance {
 
 geometry_msgs::Point toPoint(const Eigen::Vector3d& point);
 geometry_msgs::Vector3 toVector(const Eigen::Vector3d& vector);
+geometry_msgs::Wrench toWrench(const Wrench& wrench);
 
 /// @throws Error (naming `where`) for a NaN or infinite number and for a quaternion whose norm differs from 1
 ///         by more than 1e-3; a smaller difference is normalised away

@@ -5,6 +5,7 @@
 #include "benchmark/engines/engine_differences.h"
 #include "concave_distance/base/error.h"
 #include "concave_distance/scene/load_scene.h"
+#include "support/hunt_crossley_rebound.h"
 
 namespace concave_distance::benchmark {
 namespace {
@@ -68,22 +69,10 @@ double heightOfLowestPoint(const ComparedScene& scene) {
 // A body that falls from rest; of one that hits beside its centre the lowest point's speed is the same.
 void setRestitution(ComparedScene& scene) {
   const double speed = std::sqrt(-2.0 * scene.settings().gravity.z() * heightOfLowestPoint(scene));
-  scene.restitution = reboundSpeed(speed, scene.material.dissipation) / speed;
+  scene.restitution = test::huntCrossleyRebound(speed, scene.material.dissipation) / speed;
 }
 
 }  // namespace
-
-double reboundSpeed(double speed, double dissipation) {
-  const double s = 1.5 * dissipation;
-  const auto potential = [s](double v) { return v / s - std::log1p(s * v) / (s * s); };
-  double low = 0.0;
-  double high = std::min(speed, (1.0 - 1e-15) / s);
-  for (int k = 0; k < 200; ++k) {
-    const double middle = 0.5 * (low + high);
-    (potential(-middle) < potential(speed) ? low : high) = middle;
-  }
-  return 0.5 * (low + high);
-}
 
 double mechanicalEnergy(const ComparedScene& scene, const EngineSample& sample) {
   const Eigen::Vector3d turning = sample.world_from_body.transpose() * sample.angular_velocity;

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "concave_distance/contact/normal_force.h"
+#include "support/hunt_crossley_rebound.h"
 
 namespace concave_distance::benchmark {
 namespace {
@@ -148,7 +149,8 @@ void printBall(const ComparedScene& scene, const std::vector<Run>& runs) {
   std::vector<double> constant;
   double height = start;
   for (std::size_t i = 0; i < kBounces; ++i) {
-    const double speed = reboundSpeed(std::sqrt(2.0 * gravity * height), scene.material.dissipation);
+    const double speed =
+        test::huntCrossleyRebound(std::sqrt(2.0 * gravity * height), scene.material.dissipation);
     height = 0.5 * speed * speed / gravity;
     closed.push_back(height);
     constant.push_back((i == 0 ? start : constant.back()) * scene.restitution * scene.restitution);
@@ -230,7 +232,7 @@ void printFeet(const ComparedScene& scene, const std::vector<Run>& runs) {
     const double speed = std::sqrt(2.0 * gravity * lowestPoint(scene, start));
     const double lever = own.front().lever;
     const double mass = 1.0 / (1.0 / scene.mass.mass + lever * lever / scene.mass.inertia(1, 1));
-    const double impulse = mass * (speed + reboundSpeed(speed, scene.material.dissipation));
+    const double impulse = mass * (speed + test::huntCrossleyRebound(speed, scene.material.dissipation));
     std::printf("  %-32s %5.0f %s %8.4f %8.4f\n", "closed form, one rigid impact", 1e3 * speed / gravity,
                 lever > 0.0 ? "right" : "left ", impulse / scene.mass.mass - speed,
                 -impulse * lever / scene.mass.inertia(1, 1));

@@ -86,8 +86,4 @@ Trajectory runOde(const ComparedScene& scene, double rate, const OdeOptions& opt
 /// @throws Error for a scene file of another form
 std::vector<ComparedScene> comparedScenes();
 
-/// Hunt and Crossley's speed after an impact, of any exponent of the depth: v / s - ln(1 + s v) / s^2 is
-/// equal at impact (v) and at the end (-v'), s = 3/2 c. m/s
-double reboundSpeed(double speed, double dissipation);
-
 }  // namespace concave_distance::benchmark
