@@ -99,6 +99,7 @@ NodeParameters parseNodeParameters(XmlRpc::XmlRpcValue values, std::vector<std::
       reader.flag("publish_contact_markers", parameters.publish_contact_markers);
   parameters.show_bodies = reader.flag("show_bodies", parameters.show_bodies);
   parameters.marker = readMarkers(reader, parameters.marker);
+  parameters.limits = readLimits(reader);
   unknown = reader.unread({"diagnostic_period"});
   return parameters;
 }

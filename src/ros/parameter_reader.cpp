@@ -99,8 +99,18 @@ std::size_t ParameterReader::choice(const std::string& name, std::size_t fallbac
   return static_cast<std::size_t>(found - choices.begin());
 }
 
+ParameterReader ParameterReader::group(const std::string& name) {
+  return {has(name) ? values_[name] : XmlRpc::XmlRpcValue(), prefix_ + name + "/"};
+}
+
+void ParameterReader::adoptUnread(const ParameterReader& reader, const std::string& prefix) {
+  for (const std::string& name : reader.unread({})) {
+    unread_in_groups_.push_back(prefix + name);
+  }
+}
+
 std::vector<std::string> ParameterReader::unread(const std::set<std::string>& known) const {
-  std::vector<std::string> names;
+  std::vector<std::string> names = unread_in_groups_;
   if (!values_.valid()) {
     return names;
   }

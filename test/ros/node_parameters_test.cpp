@@ -97,6 +97,24 @@ TEST(NodeParameters, TellNamesNobodyKnows) {
   EXPECT_EQ(unknown, std::vector<std::string>{"ratte"});
 }
 
+TEST(NodeParameters, ReadTheLimitsBelowTheirOwnName) {
+  XmlRpc::XmlRpcValue values;
+  values["limits"]["service_queue"] = 3;
+  values["limits"]["query_seconds"] = 2;
+  values["limits"]["query_secnods"] = 2;
+  std::vector<std::string> unknown;
+  const NodeLimits limits = parseNodeParameters(values, unknown).limits;
+  EXPECT_EQ(limits.service_queue, 3U);
+  EXPECT_EQ(limits.query_seconds, 2.0);
+  EXPECT_EQ(limits.service_threads, NodeLimits().service_threads);
+  EXPECT_EQ(unknown, std::vector<std::string>{"limits/query_secnods"});
+  XmlRpc::XmlRpcValue wrong;
+  wrong["service_threads"] = 0;
+  EXPECT_NE(refusal("limits", wrong).find("~limits/service_threads"), std::string::npos);
+  EXPECT_NE(refusal("limits", wrong).find("1 to 64"), std::string::npos);
+  EXPECT_NE(refusal("limits", 5).find("~limits"), std::string::npos);
+}
+
 TEST(Reconfiguration, BeginsWithTheDefaultsOfTheNode) {
   const ConcaveDistanceConfig ours = toConfig(NodeParameters());
   const ConcaveDistanceConfig generated = ConcaveDistanceConfig::__getDefault__();

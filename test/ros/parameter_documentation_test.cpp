@@ -41,6 +41,13 @@ TEST(ParameterDocumentation, NamesEveryParameterThatTheNodeReadsAndNoOther) {
   EXPECT_EQ(documentedParameters(), read);
 }
 
+TEST(ParameterDocumentation, NamesEveryLimitThatTheNodeReadsAndNoOther) {
+  const std::set<std::string> read =
+      matches(readText("src/ros/limits_reader.cpp"), R"(reader\.\w+\(\s*"(\w+)\")");
+  EXPECT_GT(read.size(), 5U);
+  EXPECT_EQ(matches(readText("doc/parameters.md"), "\n\\| `limits/(\\w+)` \\|"), read);
+}
+
 TEST(ParameterDocumentation, MarksWhatMayChangeWhileRunning) {
   const std::set<std::string> marked = matches(readText("doc/parameters.md"), "`(\\w+)`\\*");
   EXPECT_EQ(marked, matches(readText("config/ConcaveDistance.cfg"), "gen\\.add\\(\"(\\w+)\""));

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "concave_distance/ros/node_limits.h"
 #include "concave_distance/scene/load_scene.h"
 #include "concave_distance/scene/scene.h"
 
@@ -37,6 +38,7 @@ struct NodeParameters {
   bool publish_contact_markers = true;
   bool show_bodies = true;
   MarkerStyle marker;
+  NodeLimits limits;
 };
 
 /// @param values the node's private namespace as a struct, as ros::NodeHandle::getParam("") gives it; an

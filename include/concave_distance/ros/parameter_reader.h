@@ -28,6 +28,11 @@ class ParameterReader {
   /// Index into `choices`.
   std::size_t choice(const std::string& name, std::size_t fallback, const std::vector<std::string>& choices);
 
+  /// The parameters of a namespace within this one; a reader of nothing when it is not set.
+  ParameterReader group(const std::string& name);
+  /// Counts what is unread in `reader` among the unread names here. @param prefix put before them
+  void adoptUnread(const ParameterReader& reader, const std::string& prefix);
+
   /// Names present that nobody asked for, `known` excepted.
   std::vector<std::string> unread(const std::set<std::string>& known) const;
 
@@ -35,6 +40,7 @@ class ParameterReader {
   XmlRpc::XmlRpcValue values_;
   std::string prefix_;
   std::set<std::string> read_;
+  std::vector<std::string> unread_in_groups_;
 };
 
 }  // namespace concave_distance

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+
+namespace concave_distance {
+
+class ParameterReader;
+
+/// What the node spends on requests at the most: the private parameters below `~limits/` (doc/parameters.md).
+struct NodeLimits {
+  std::uint32_t service_threads = 2;  ///< requests of get_distance, get_distances and add_body at one time
+  std::uint32_t service_queue = 8;    ///< further ones that wait; the next is refused
+  double query_seconds = 10.0;        ///< for one call of get_distance or get_distances
+  std::uint32_t query_memory_mb = 512;
+  std::uint32_t largest_query_count = 10'000;  ///< in one call of get_distances
+  std::uint32_t largest_body_count = 20'000;
+  std::uint32_t largest_pair_count = 50'000;
+  std::uint32_t largest_triangle_count = 5'000'000;  ///< of one body
+  std::uint32_t largest_node_count = 200'000;        ///< of one body's search grid
+};
+
+/// @param parameters of the node's private namespace; the limits are read from the group `limits` in it
+/// @throws Error naming the limit, the value seen and what is allowed
+NodeLimits readLimits(ParameterReader& parameters);
+
+}  // namespace concave_distance
