@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "concave_distance/base/error.h"
+#include "concave_distance/ros/description_search.h"
 #include "concave_distance/scene/load_scene.h"
 
 namespace concave_distance {
@@ -13,14 +14,25 @@ namespace {
 
 // Where loadRobotScene looks for the SRDF; a robot may have none.
 constexpr const char* kSemanticDescription = "robot_description_semantic";
+constexpr std::size_t kLongestQuote = 60;  // characters of a wrong value in a message
 
-std::optional<std::string> findDescription(const ros::NodeHandle& node, const std::string& name) {
-  std::string key;
-  std::string urdf;
-  if (!node.searchParam(name, key) || !node.getParam(key, urdf)) {
-    return std::nullopt;
+std::optional<FoundDescription> findDescription(const ros::NodeHandle& node, const std::string& name) {
+  return searchDescription(node.getNamespace(), name, [&](const std::string& key) {
+    std::string text;
+    return node.getParam(key, text) ? std::optional<std::string>(text) : std::nullopt;
+  });
+}
+
+// Why `found` cannot be used yet; empty: it can.
+std::string whatIsMissing(const std::optional<FoundDescription>& found, const std::string& name) {
+  if (!found) {
+    return "there is no parameter '" + name + "' with the robot's URDF";
   }
-  return urdf;
+  if (!found->is_xml) {
+    return "the parameter '" + found->key + "' holds no URDF but '" + found->text.substr(0, kLongestQuote) +
+           "'; set it to the text of the robot's URDF";
+  }
+  return "";
 }
 
 Scene loadRobot(const std::string& urdf, const std::string& name, const SceneLoadOptions& options) {
@@ -52,11 +64,11 @@ LoadAttempt tryLoadScene(const NodeParameters& parameters, const ros::NodeHandle
     names.push_back(parameters.robot_description);
   }
   for (const std::string& name : names) {
-    const std::optional<std::string> urdf = findDescription(node, name);
-    if (!urdf) {
-      return {std::nullopt, "there is no parameter '" + name + "' with the robot's URDF"};
+    const std::optional<FoundDescription> found = findDescription(node, name);
+    if (const std::string missing = whatIsMissing(found, name); !missing.empty()) {
+      return {std::nullopt, missing};
     }
-    options.descriptions[name] = *urdf;
+    options.descriptions[name] = found->text;
   }
   if (!parameters.scene_file.empty()) {
     return {loadSceneFile(parameters.scene_file, options), ""};
@@ -65,8 +77,8 @@ LoadAttempt tryLoadScene(const NodeParameters& parameters, const ros::NodeHandle
     return {Scene(), ""};
   }
   const std::string urdf = options.descriptions[parameters.robot_description];
-  if (const auto srdf = findDescription(node, kSemanticDescription)) {
-    options.descriptions[kSemanticDescription] = *srdf;
+  if (const auto srdf = findDescription(node, kSemanticDescription); srdf && srdf->is_xml) {
+    options.descriptions[kSemanticDescription] = srdf->text;
   }
   return {loadRobot(urdf, parameters.robot_description, options), ""};
 }
