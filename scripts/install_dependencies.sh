@@ -23,6 +23,7 @@ set -euo pipefail
     libgtest-dev librapidcheck-dev libfcl-dev libboost-dev libbenchmark-dev
     librostest-dev python3-rostest libnodeletlib-tools
     dart-doc  # robots that are broken on purpose
+    python3-rosmaster python3-rospy python3-tf2-msgs python3-rosgraph-msgs python3-dynamic-reconfigure  # scripts/faults.sh
   )
   debian_demo=(
     python3-roslaunch python3-rospy python3-rostopic rosbash rviz ros-robot-state-publisher
@@ -45,7 +46,7 @@ set -euo pipefail
     ros-noetic-roscpp ros-noetic-rosgraph-msgs ros-noetic-roslib ros-noetic-sensor-msgs ros-noetic-std-msgs ros-noetic-std-srvs ros-noetic-tf2
     ros-noetic-tf2-eigen ros-noetic-tf2-ros ros-noetic-visualization-msgs
   )
-  noetic_test=(libgtest-dev libfcl-dev libboost-dev libbenchmark-dev ros-noetic-rostest)
+  noetic_test=(libgtest-dev libfcl-dev libboost-dev libbenchmark-dev ros-noetic-rostest ros-noetic-rosmaster ros-noetic-rospy ros-noetic-tf2-msgs)
   noetic_demo=(
     ros-noetic-roslaunch ros-noetic-rospy ros-noetic-rostopic ros-noetic-rosbash ros-noetic-rviz
     ros-noetic-robot-state-publisher

@@ -1,0 +1,121 @@
+"""Processes from outside: memory and processor time with their children's, start with limits, end of a group."""
+
+import os
+import resource
+import signal
+import subprocess
+import time
+
+PAGE_BYTES = os.sysconf("SC_PAGE_SIZE")
+TICKS = os.sysconf("SC_CLK_TCK")
+
+
+def children_of(pid):
+    found = []
+    try:
+        for task in os.listdir("/proc/%d/task" % pid):
+            with open("/proc/%d/task/%s/children" % (pid, task)) as listing:
+                found += [int(child) for child in listing.read().split()]
+    except OSError:
+        pass
+    return found
+
+
+def family_of(pid):
+    """The process and everything it started, as far as it still belongs to it."""
+    family = [pid]
+    for member in family:
+        family += children_of(member)
+    return family
+
+
+def resident_mb(pid):
+    """Memory of the process and its children, MiB; 0 when there is none."""
+    total = 0
+    for member in family_of(pid):
+        try:
+            with open("/proc/%d/statm" % member) as statm:
+                total += int(statm.read().split()[1]) * PAGE_BYTES
+        except (OSError, IndexError):
+            pass
+    return total / 2.0**20
+
+
+def processor_seconds(pid):
+    """User and system time of the process itself."""
+    try:
+        with open("/proc/%d/stat" % pid) as stat:
+            fields = stat.read().rpartition(")")[2].split()
+    except OSError:
+        return 0.0
+    return (int(fields[11]) + int(fields[12])) / TICKS
+
+
+def start(command, environment=None, output=subprocess.DEVNULL, address_space_gb=None, stdin=subprocess.DEVNULL,
+          cwd=None):
+    """Starts a program in a process group of its own, with a limit on its memory and without core files."""
+    def limit():
+        resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+        if address_space_gb:
+            bytes_allowed = int(address_space_gb * 2**30)
+            resource.setrlimit(resource.RLIMIT_AS, (bytes_allowed, bytes_allowed))
+    return subprocess.Popen(command, env=environment, stdin=stdin, stdout=output, stderr=subprocess.STDOUT,
+                            start_new_session=True, preexec_fn=limit, cwd=cwd)
+
+
+def end_group(process, gently=None, timeout=15.0):
+    """Ends a process and its group: by the signal `gently` first. Returns the seconds until it had ended by itself,
+    or None when it had to be killed."""
+    seconds = None
+    if process.poll() is None and gently is not None:
+        began = time.monotonic()
+        process.send_signal(gently)
+        try:
+            process.wait(timeout)
+            seconds = time.monotonic() - began
+        except subprocess.TimeoutExpired:
+            pass
+    try:
+        os.killpg(process.pid, signal.SIGKILL)
+    except ProcessLookupError:
+        pass
+    process.wait()
+    return seconds
+
+
+def ended_as(process):
+    """How a process ended, in words."""
+    code = process.poll()
+    if code is None:
+        return "running"
+    if code < 0:
+        try:
+            return "ended by " + signal.Signals(-code).name
+        except ValueError:
+            return "ended by signal %d" % -code
+    return "exited with status %d" % code
+
+
+def run(command, timeout, environment=None, address_space_gb=6.0, output_path=None, stdin=subprocess.DEVNULL, cwd=None,
+        largest_mb=None):
+    """Runs a program to its end: (status or None when it was still running after `timeout`, output, peak MiB).
+    A program that grows beyond largest_mb is ended: status None as well."""
+    path = output_path or "/dev/null"
+    with open(path, "wb") as output:
+        process = start(command, environment, output, address_space_gb, stdin, cwd)
+        deadline = time.monotonic() + timeout
+        peak = 0.0
+        pause = 0.005
+        while process.poll() is None and time.monotonic() < deadline:
+            peak = max(peak, resident_mb(process.pid))
+            if largest_mb and peak > largest_mb:
+                break
+            time.sleep(pause)
+            pause = min(0.1, 1.5 * pause)
+        status = process.poll()
+        end_group(process)
+    text = ""
+    if output_path:
+        with open(output_path, errors="replace") as written:
+            text = written.read(1 << 20)
+    return status, text, peak

@@ -1,0 +1,218 @@
+#!/usr/bin/python3
+"""Attacks the built programs from outside and counts what holds; scripts/faults.sh builds and calls this.
+
+One line an attack, `PASS/FAIL group/name seconds memory reason`, and at the end `N passed, N failed`.
+"""
+
+import argparse
+import csv
+import fnmatch
+import importlib
+import os
+import shutil
+import sys
+import tempfile
+import threading
+import time
+import traceback
+
+from arena import Arena
+from attacks import Failed, expect, groups, shortened
+
+MODULES = ("mesh_faults", "hostile_queries", "hostile_bodies", "hostile_services", "hostile_wire", "races", "tf_faults",
+           "clock_faults", "parameter_faults", "scene_faults")
+GRACE = 60.0  # s beyond its deadline after which an attack that hangs is left behind
+
+
+class Runner:
+    def __init__(self, arena):
+        self.arena = arena
+        self.results = []
+        self.fresh = {}  # group -> answers of a node that nobody has attacked
+        self.starts = 0
+
+    def report(self, name, seconds, memory_mb, failure):
+        self.results.append((name, seconds, memory_mb, failure))
+        print("%s %-52s %6.1f s %6.0f MB%s" % ("FAIL" if failure else "PASS", name, seconds, memory_mb,
+                                               "  " + shortened(failure, 400) if failure else ""), flush=True)
+
+    # One attack
+
+    def act(self, attack):
+        """What failed, or None. The attack runs in a thread, so that one that hangs does not end the run."""
+        outcome = []
+
+        def body():
+            try:
+                attack.act(self.arena)
+                outcome.append(None)
+            except Failed as failure:
+                outcome.append(str(failure))
+            except Exception:
+                outcome.append("the attack itself broke: " + " | ".join(traceback.format_exc().splitlines()[-3:]))
+        thread = threading.Thread(target=body, daemon=True)
+        began = time.monotonic()
+        deadline = attack.deadline * self.arena.patience
+        thread.start()
+        thread.join(deadline + GRACE)
+        if thread.is_alive():
+            return "it hangs: no end after %.0f s" % (deadline + GRACE)
+        if outcome[0] is None and time.monotonic() - began > deadline:
+            return "it took %.1f s, longer than %.0f s" % (time.monotonic() - began, deadline)
+        return outcome[0]
+
+    def attack_node(self, attack):
+        from node_under_test import Pulse
+        node = self.arena.node
+        before_mb = node.resident_mb()
+        node.memory.peak_mb = before_mb
+        pulse = Pulse(node)
+        failure = self.act(attack)
+        pulse.stop(5.0)
+        growth_mb = node.memory.peak_mb - before_mb
+        if not attack.dies and not node.alive():
+            return "the node died: " + node.why_dead()
+        if failure is None and not attack.dies:
+            if pulse.longest > attack.silence * self.arena.patience:
+                failure = "list_bodies waited %.1f s for an answer" % pulse.longest
+            elif growth_mb > attack.growth_mb * self.arena.memory_factor:
+                failure = "the node grew by %.0f MB (allowed %.0f)" % (growth_mb, attack.growth_mb)
+            else:
+                try:
+                    node.list_bodies(timeout=attack.silence)
+                except Failed as problem:
+                    failure = "afterwards: %s" % problem
+        return failure
+
+    # A group
+
+    def fresh_node(self, group):
+        self.arena.stop_node()
+        self.starts += 1
+        node = self.arena.start_node("%s_%d" % (group.name, self.starts), **group.setting)
+        node.wait_until_ready()
+        self.arena.listen()
+        return node
+
+    def prepare(self, group):
+        """The group's node, alive and following the motion."""
+        import reference
+        if self.arena.node is None or not self.arena.node.alive():
+            self.fresh_node(group)
+            self.arena.require_tracking(30.0)
+        if group.name not in self.fresh:
+            self.fresh[group.name] = reference.answers(self.arena.node)
+            self.fresh_node(group)
+            self.arena.require_tracking(30.0)
+
+    def compare(self, group):
+        """After the attacks: the node follows the motion again and answers as a fresh one."""
+        import reference
+        began = time.monotonic()
+        failure = None
+        try:
+            self.arena.require_tracking(30.0)
+            reference.require_equal(self.arena.node, self.fresh[group.name])
+        except Failed as problem:
+            failure = str(problem)
+        self.report(group.name + "/answers_like_a_fresh_node", time.monotonic() - began,
+                    self.arena.node.resident_mb(), failure)
+
+    def run(self, group, chosen):
+        attacked_since_start = False
+        for attack in chosen:
+            memory_mb = 0.0
+            began = time.monotonic()
+            try:
+                if group.setting is None:
+                    failure = self.act(attack)
+                else:
+                    self.prepare(group)
+                    began = time.monotonic()
+                    failure = self.attack_node(attack)
+                    memory_mb = self.arena.node.memory.peak_mb
+                    attacked_since_start = True
+            except Failed as problem:
+                failure = "before the attack: %s" % problem
+            self.report("%s/%s" % (group.name, attack.name), time.monotonic() - began, memory_mb, failure)
+            if failure or attack.dies:
+                self.arena.stop_node()  # the next one meets a node that is well
+                attacked_since_start = False
+        if attacked_since_start and self.arena.node is not None:
+            self.compare(group)
+        self.arena.stop_node()
+
+    def finish(self, path):
+        if path:
+            with open(path, "w", newline="") as file:
+                writer = csv.writer(file)
+                writer.writerow(["attack", "passed", "seconds", "memory_mb", "failure"])
+                for name, seconds, memory_mb, failure in self.results:
+                    writer.writerow([name, int(not failure), "%.2f" % seconds, "%.0f" % memory_mb, failure or ""])
+        failed = [result for result in self.results if result[3]]
+        if failed:
+            print("failed: " + " ".join(result[0] for result in failed))
+        print("%d passed, %d failed" % (len(self.results) - len(failed), len(failed)), flush=True)
+        return 1 if failed else 0
+
+
+def chosen_of(group, patterns, fast):
+    return [attack for attack in group.attacks
+            if (attack.fast or not fast)
+            and (not patterns or any(fnmatch.fnmatch("%s/%s" % (group.name, attack.name), pattern)
+                                     for pattern in patterns))]
+
+
+def parse(arguments):
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("patterns", nargs="*", help="attacks to run, as 'tf/*'; none: all")
+    parser.add_argument("--build", default="build", help="folder in which the programs were built")
+    parser.add_argument("--sanitized", action="store_true", help="the programs were built with sanitizers")
+    parser.add_argument("--fast", action="store_true", help="only the subset of every test run, about a minute")
+    parser.add_argument("--port", type=int, help="of the master; none: a free one")
+    parser.add_argument("--folder", help="scratch folder with logs that is kept; none: one that is removed")
+    parser.add_argument("--results", help="CSV file with a line an attack")
+    parser.add_argument("--list", action="store_true", help="print the attacks and end")
+    return parser.parse_args(arguments)
+
+
+def load_attacks():
+    for module in MODULES:
+        importlib.import_module(module)
+
+
+def main(arguments):
+    options = parse(arguments)
+    if options.list:
+        load_attacks()
+        for group in groups.values():
+            for attack in group.attacks:
+                print("%s/%s" % (group.name, attack.name))
+        print("%d attacks" % sum(len(group.attacks) for group in groups.values()))
+        return 0
+    folder = options.folder or tempfile.mkdtemp(prefix="faults_")
+    began = time.monotonic()
+    arena = Arena(options.build, folder, options.port, options.sanitized)
+    runner = Runner(arena)
+    try:
+        arena.join_ros()
+        load_attacks()
+        expect(any(chosen_of(group, options.patterns, options.fast) for group in groups.values()),
+               "no attack is called like that (--list shows their names)")
+        for group in groups.values():
+            chosen = chosen_of(group, options.patterns, options.fast)
+            if chosen:
+                runner.run(group, chosen)
+    finally:
+        arena.close()
+        if not options.folder:
+            shutil.rmtree(folder, ignore_errors=True)
+    print("%.0f s" % (time.monotonic() - began))
+    return runner.finish(options.results)
+
+
+if __name__ == "__main__":
+    sys.dont_write_bytecode = True
+    status = main(sys.argv[1:])
+    sys.stdout.flush()
+    os._exit(status)  # threads of attacks that hang would keep the process
