@@ -1,5 +1,5 @@
 # The libraries of the core; none belongs to ROS. Collected in CONCAVE_DISTANCE_CORE_LIBRARIES (all private to it
-# except Eigen). Older distributions name the same things by variables instead of targets.
+# except Eigen); assimp alone is linked by mesh_import_worker and not by the core. Older distributions name the same things by variables instead of targets.
 find_package(Eigen3 REQUIRED)
 find_package(Threads REQUIRED)
 #catkin_lint: ignore_once missing_cmake_modules
@@ -21,9 +21,9 @@ else()
   list(APPEND CONCAVE_DISTANCE_CORE_LIBRARIES yaml-cpp)
 endif()
 if(TARGET assimp::assimp)
-  list(APPEND CONCAVE_DISTANCE_CORE_LIBRARIES assimp::assimp)
+  set(CONCAVE_DISTANCE_ASSIMP assimp::assimp)
 else()
-  list(APPEND CONCAVE_DISTANCE_CORE_LIBRARIES ${ASSIMP_LIBRARIES})
+  set(CONCAVE_DISTANCE_ASSIMP ${ASSIMP_LIBRARIES})
 endif()
 if(TARGET urdfdom::urdfdom_model)
   list(APPEND CONCAVE_DISTANCE_CORE_LIBRARIES urdfdom::urdfdom_model)

@@ -6,10 +6,13 @@ foreach(source IN LISTS sources)
     list(APPEND fingerprinted ${source})
   endif()
 endforeach()
+get_property(mesh_readers GLOBAL PROPERTY CONCAVE_DISTANCE_MESH_READERS)
+list(APPEND fingerprinted ${mesh_readers})
 file(GLOB headers CONFIGURE_DEPENDS
   ${PROJECT_SOURCE_DIR}/include/concave_distance/base/*.h
   ${PROJECT_SOURCE_DIR}/include/concave_distance/mesh/*.h
-  ${PROJECT_SOURCE_DIR}/src/mesh/*.h)
+  ${PROJECT_SOURCE_DIR}/src/mesh/*.h
+  ${PROJECT_SOURCE_DIR}/src/mesh/import_worker/*.h)
 list(APPEND fingerprinted ${headers})
 list(SORT fingerprinted)
 string(REPLACE ";" "|" files "${fingerprinted}")

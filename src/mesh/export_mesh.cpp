@@ -9,7 +9,7 @@
 #include <locale>
 
 #include "concave_distance/base/error.h"
-#include "mesh_file_checks.h"
+#include "file_extension.h"
 
 namespace concave_distance {
 namespace {

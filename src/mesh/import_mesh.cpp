@@ -1,23 +1,13 @@
 #include "concave_distance/mesh/import_mesh.h"
 
-#include <assimp/config.h>
-#include <assimp/postprocess.h>
-#include <assimp/scene.h>
-
 #include <Eigen/Geometry>
-#include <assimp/Importer.hpp>
-#include <cmath>
-#include <cstdint>
 #include <sstream>
-#include <string>
 
 #include "concave_distance/base/error.h"
-#include "mesh_file_checks.h"
+#include "import_process.h"
 
 namespace concave_distance {
 namespace {
-
-constexpr const char* kExportAgain = "export the mesh again";
 
 void checkScale(const std::string& path, const Eigen::Vector3d& scale) {
   if (!scale.allFinite() || (scale.array() == 0.0).any()) {
@@ -27,129 +17,17 @@ void checkScale(const std::string& path, const Eigen::Vector3d& scale) {
   }
 }
 
-Eigen::Affine3d toEigen(const aiMatrix4x4& m) {
-  Eigen::Matrix4d matrix;
-  matrix << m.a1, m.a2, m.a3, m.a4, m.b1, m.b2, m.b3, m.b4, m.c1, m.c2, m.c3, m.c4, m.d1, m.d2, m.d3, m.d4;
-  return Eigen::Affine3d(matrix);
-}
-
-/// Assimp's later steps trust the indices of a file, so this comes before them.
-void checkMeshes(const aiScene& scene, const std::string& path) {
-  for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
-    const aiMesh& mesh = *scene.mMeshes[m];
-    const std::string name = " of mesh '" + std::string(mesh.mName.C_Str()) + "'";
-    for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
-      const aiVector3D& p = mesh.mVertices[v];
-      if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
-        throw Error(path, "vertex " + std::to_string(v) + name + " has a coordinate that is not finite",
-                    kExportAgain);
-      }
-    }
-    for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
-      const aiFace& face = mesh.mFaces[f];
-      for (unsigned k = 0; k < face.mNumIndices; ++k) {
-        if (face.mIndices[k] >= mesh.mNumVertices) {
-          throw Error(path,
-                      "face " + std::to_string(f) + name + " refers to vertex " +
-                          std::to_string(face.mIndices[k]) + " of " + std::to_string(mesh.mNumVertices),
-                      kExportAgain);
-        }
-      }
-    }
-  }
-}
-
-/// Says what kinds of faces each mesh has: where a reader leaves that out or is wrong, assimp's triangulation
-/// takes faces of fewer than three corners for polygons and aborts the process.
-void statePrimitiveTypes(const aiScene& scene) {
-  for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
-    aiMesh& mesh = *scene.mMeshes[m];
-    mesh.mPrimitiveTypes = 0;
-    for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
-      const unsigned corners = mesh.mFaces[f].mNumIndices;
-      mesh.mPrimitiveTypes |= static_cast<unsigned>(corners > 3    ? aiPrimitiveType_POLYGON
-                                                    : corners == 3 ? aiPrimitiveType_TRIANGLE
-                                                    : corners == 2 ? aiPrimitiveType_LINE
-                                                                   : aiPrimitiveType_POINT);
-    }
-  }
-}
-
-void appendMesh(TriangleSoup& soup, const aiMesh& mesh, const Eigen::Affine3d& body_from_mesh,
-                const std::string& path) {
-  if (soup.vertices.size() + mesh.mNumVertices > 0xffffffffU) {
-    throw Error(path, "the file has more than 2^32 vertices", "simplify the mesh");
-  }
-  const auto first = static_cast<std::uint32_t>(soup.vertices.size());
-  for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
-    const aiVector3D& p = mesh.mVertices[v];
-    soup.vertices.emplace_back(body_from_mesh * Eigen::Vector3d(p.x, p.y, p.z));
-    if (!soup.vertices.back().allFinite()) {
-      throw Error(path, "a node's transform or the scale is too large or not a number", kExportAgain);
-    }
-  }
-  const bool mirrored = body_from_mesh.linear().determinant() < 0.0;
-  for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
-    const aiFace& face = mesh.mFaces[f];
-    if (face.mNumIndices == 3) {  // points and lines have no surface; polygons have been cut into triangles
-      soup.triangles.push_back({first + face.mIndices[0], first + face.mIndices[mirrored ? 2 : 1],
-                                first + face.mIndices[mirrored ? 1 : 2]});
-    }
-  }
-}
-
-void appendNode(TriangleSoup& soup, const aiScene& scene, const aiNode& node,
-                const Eigen::Affine3d& body_from_node, const std::string& path) {
-  for (unsigned i = 0; i < node.mNumMeshes; ++i) {
-    appendMesh(soup, *scene.mMeshes[node.mMeshes[i]], body_from_node, path);
-  }
-  for (unsigned i = 0; i < node.mNumChildren; ++i) {
-    const aiNode& child = *node.mChildren[i];
-    appendNode(soup, scene, child, body_from_node * toEigen(child.mTransformation), path);
-  }
-}
-
 }  // namespace
 
-TriangleSoup importMesh(const std::string& path, const Eigen::Vector3d& scale) {
-  checkScale(path, scale);
-  detail::checkMeshFile(path);
+TriangleSoup importMesh(const MeshFile& file, const Eigen::Vector3d& scale, const MeshImportLimits& limits) {
+  checkScale(file.path(), scale);
+  return detail::importInProcess(detail::importWorkerPath(), file, scale, limits);
+}
 
-  Assimp::Importer importer;
-  // Assimp turns a COLLADA scene so that y points up, by the transform of the root node; rviz draws the
-  // file's own axes whatever its <up_axis> says, and so do we.
-  importer.SetPropertyInteger(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, 1);
-  importer.SetPropertyInteger(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, 1);
-  const aiScene* scene = importer.ReadFile(path, 0);
-  if (scene != nullptr) {
-    checkMeshes(*scene, path);
-    statePrimitiveTypes(*scene);
-    scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
-  }
-  if (scene == nullptr || scene->mRootNode == nullptr) {
-    throw Error(path, std::string("the file cannot be read as a mesh: ") + importer.GetErrorString(),
-                "give a whole STL, OBJ, PLY or DAE file");
-  }
-  // For COLLADA the root's transform holds the <unit>. With other formats rviz leaves the root's transform
-  // out for all nodes below it.
-  const std::string extension = detail::lowerCaseExtension(path);
-  const bool collada = extension == ".dae" || extension == ".zae";
-  const aiNode& root = *scene->mRootNode;
-  const Eigen::Affine3d body_from_file(Eigen::Scaling(scale));
-  TriangleSoup soup;
-  for (unsigned i = 0; i < root.mNumMeshes; ++i) {
-    appendMesh(soup, *scene->mMeshes[root.mMeshes[i]], body_from_file * toEigen(root.mTransformation), path);
-  }
-  const Eigen::Affine3d body_from_root =
-      collada ? Eigen::Affine3d(body_from_file * toEigen(root.mTransformation)) : body_from_file;
-  for (unsigned i = 0; i < root.mNumChildren; ++i) {
-    const aiNode& child = *root.mChildren[i];
-    appendNode(soup, *scene, child, body_from_root * toEigen(child.mTransformation), path);
-  }
-  if (soup.triangles.empty()) {
-    throw Error(path, "the file has no triangle", "give a mesh with faces, not points or lines alone");
-  }
-  return soup;
+TriangleSoup importMesh(const std::string& path, const Eigen::Vector3d& scale,
+                        const MeshImportLimits& limits) {
+  checkScale(path, scale);
+  return importMesh(MeshFile(path), scale, limits);
 }
 
 void appendTransformed(TriangleSoup& body, const TriangleSoup& part,

@@ -35,5 +35,12 @@ TEST(Architecture, TheCoreLinksNoRosLibrary) {
   EXPECT_TRUE(core_seen);
 }
 
+// A mesh file ends nothing but the process that reads it: mesh_import_worker alone has the import library.
+TEST(Architecture, TheCoreLinksNoImportLibrary) {
+  for (const std::string& name : loadedLibraries()) {
+    EXPECT_EQ(name.find("assimp"), std::string::npos) << name;
+  }
+}
+
 }  // namespace
 }  // namespace concave_distance

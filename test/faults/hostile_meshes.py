@@ -94,7 +94,7 @@ def _():
     return _dae(nodes=_nested_nodes(50))
 
 
-@_mesh("unknown_elements_500000_deep.dae")
+@_mesh("unknown_elements_500000_deep.dae", EITHER)
 def _():
     return _dae(library="<x>" * 500_000 + "</x>" * 500_000)
 
@@ -175,6 +175,11 @@ def _():
     return _dae(faces=_TRIANGLE_FACES.replace('offset="0"', 'offset="4294967295"'))
 
 
+@_mesh("index_that_overflows.dae")
+def _():
+    return _dae(faces=_TRIANGLE_FACES.replace("<p>0 1 2</p>", "<p>0 1 99999999999999999999999</p>"))
+
+
 @_mesh("polylist_with_a_count_of_4e9.dae")
 def _():
     return _dae(faces='<vertices id="v"><input semantic="POSITION" source="#p"/></vertices><polylist count="1">'
@@ -190,6 +195,16 @@ def _():
 @_mesh("three_million_open_brackets.dae")
 def _():
     return "<" * 3_000_000
+
+
+@_mesh("three_million_open_brackets_and_one_closed.dae")
+def _():
+    return "<" * 3_000_000 + ">"
+
+
+@_mesh("three_million_tags.dae")
+def _():
+    return "<p>" * 1_000_000 + ">" * 1_000_000
 
 
 @_mesh("half_a_million_open_tags.dae")

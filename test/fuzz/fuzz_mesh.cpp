@@ -1,20 +1,22 @@
 // Any bytes as a mesh file: they are read, or refused by an Error that names the file; what is read can be
-// repaired and queried. The first byte chooses the format.
+// repaired and queried. In this process, though importMesh() has one of its own for it. The first byte
+// chooses the format.
 #include <array>
 #include <cmath>
 
 #include "concave_distance/base/error.h"
 #include "concave_distance/distance/certificate.h"
 #include "concave_distance/interference/interference.h"
-#include "concave_distance/mesh/import_mesh.h"
 #include "concave_distance/mesh/repair_mesh.h"
 #include "fuzz/fuzz_input.h"
+#include "read_mesh.h"
 
 namespace {
 
 using namespace concave_distance;
 
 constexpr std::size_t kMostTriangles = 60;
+constexpr std::uint64_t kMostTrianglesRead = 1'000'000;
 
 void query(const std::shared_ptr<const BodyMesh>& body) {
   CertificateWorkspace workspace;
@@ -41,13 +43,15 @@ void query(const std::shared_ptr<const BodyMesh>& body) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size < 2) return 0;
-  constexpr std::array<const char*, 4> kFormats = {"mesh.stl", "mesh.obj", "mesh.ply", "mesh.dae"};
-  const std::string path =
-      test::fuzzFolder().write(kFormats[data[0] % kFormats.size()], test::textOf(data + 1, size - 1));
+  constexpr std::array<const char*, 4> kFormats = {".stl", ".obj", ".ply", ".dae"};
+  const std::string content = test::textOf(data + 1, size - 1);
+  const std::string path = "fuzz";
   try {
     RepairOptions repair;
     repair.weld_tolerance = kSinglePrecisionWeld;
-    RepairedMesh repaired = repairMesh(importMesh(path), repair, path);
+    RepairedMesh repaired = repairMesh(detail::readMesh(content, path, kFormats[data[0] % kFormats.size()],
+                                                        Eigen::Vector3d::Ones(), kMostTrianglesRead),
+                                       repair, path);
     if (repaired.mesh.triangleCount() > kMostTriangles) return 0;
     BodyMeshOptions options;
     options.max_edge_length = 0.5 * repaired.mesh.diameter();

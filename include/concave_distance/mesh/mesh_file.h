@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "concave_distance/base/error.h"
+
+namespace concave_distance {
+
+/// A mesh file opened for reading. Only a regular file is opened: a FIFO, a device or a socket is not
+/// touched. What is read later is this file, whatever stands at its path meanwhile.
+class MeshFile {
+ public:
+  /// @param folders real paths (no symbolic links); the file that was opened must lie below one of them.
+  ///        Empty: it may lie anywhere.
+  /// @throws Error naming the path when it is missing, no regular file, empty, not readable or not below
+  ///         `folders`
+  explicit MeshFile(std::string path, const std::vector<std::string>& folders = {});
+  MeshFile(MeshFile&& other) noexcept;
+  MeshFile& operator=(MeshFile&& other) = delete;
+  ~MeshFile();
+
+  const std::string& path() const { return path_; }
+  /// The file name's ending with its dot, in lower case.
+  const std::string& extension() const { return extension_; }
+  /// Bytes, when it was opened.
+  std::uint64_t size() const { return size_; }
+  /// Of the operating system; belongs to this object.
+  int descriptor() const { return descriptor_; }
+
+ private:
+  std::string path_;
+  std::string extension_;
+  std::uint64_t size_ = 0;
+  int descriptor_ = -1;
+};
+
+/// The one refusal of a file outside of the allowed folders. It says nothing about what is there.
+Error outsideOfMeshFolders(const std::string& name);
+
+/// True when `path` is `folder` or lies below it, both absolute and without . and ..
+bool isBelow(const std::string& path, const std::string& folder);
+
+}  // namespace concave_distance

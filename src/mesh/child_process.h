@@ -1,0 +1,46 @@
+#pragma once
+
+#include <sys/types.h>
+#include <chrono>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace concave_distance::detail {
+
+/// How a child process ended.
+struct ChildEnd {
+  bool was_late = false;  ///< ended here at its deadline
+  bool is_known = false;  ///< false when this program's own handling of SIGCHLD took the status
+  int signal = 0;         ///< that ended it, 0: none
+  int exit_status = 0;
+};
+
+/// A program that reads one open file and answers through a pipe, until a deadline. Its standard streams are
+/// /dev/null, its signals those of a fresh program. It has ended when this object goes.
+class ChildProcess {
+ public:
+  /// @param input becomes the child's `input_number`, the pipe its `output_number`
+  /// @throws std::system_error when it cannot be started
+  ChildProcess(const std::string& program, const std::vector<std::string>& arguments, int input,
+               int input_number, int output_number, double seconds);
+  ChildProcess(const ChildProcess&) = delete;
+  ChildProcess& operator=(const ChildProcess&) = delete;
+  ~ChildProcess();
+
+  /// Waits for the next `size` bytes of its answer. False when there are fewer, or not before the deadline.
+  bool read(void* data, std::size_t size);
+  /// Ends it, where it has not ended by itself, and says how it ended.
+  ChildEnd end();
+
+ private:
+  /// Until there is something to read; false at the deadline.
+  bool waitForOutput();
+
+  int output_ = -1;
+  pid_t pid_ = -1;
+  std::chrono::steady_clock::time_point deadline_;
+  ChildEnd end_;
+};
+
+}  // namespace concave_distance::detail

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+
+#include "concave_distance/mesh/mesh_file.h"
+#include "concave_distance/mesh/mesh_import_limits.h"
+#include "concave_distance/mesh/surface_mesh.h"
+
+namespace concave_distance::detail {
+
+/// mesh_import_worker: what the environment variable CONCAVE_DISTANCE_IMPORT_WORKER names, else the program
+/// in the folder concave_distance/ beside this library, where it is built and installed.
+std::string importWorkerPath();
+
+/// Starts the worker for one file and takes its answer, nothing of which is believed: counts are checked
+/// before memory is reserved for them, then every index and number. The process has ended when this returns
+/// or throws, and leaves neither a zombie nor a descriptor, whatever this program does with SIGCHLD.
+/// @throws Error as importMesh
+TriangleSoup importInProcess(const std::string& worker_path, const MeshFile& file,
+                             const Eigen::Vector3d& scale, const MeshImportLimits& limits);
+
+}  // namespace concave_distance::detail
