@@ -33,18 +33,28 @@ def free_port():
         return listener.getsockname()[1]
 
 
+def source_of(build):
+    """The package that was built there: its launch files, meshes and scenes are the ones that are tried."""
+    try:
+        with open(os.path.join(build, "CMakeCache.txt")) as cache:
+            return next(line.partition("=")[2].strip() for line in cache if line.startswith("CMAKE_HOME_DIRECTORY:"))
+    except (OSError, StopIteration):
+        return REPOSITORY
+
+
 class Arena:
     """The master, the scratch folder and the programs under attack."""
 
     def __init__(self, build, folder, port=None, sanitized=False):
         self.build = os.path.abspath(build)
+        self.source = source_of(self.build)
         self.folder = os.path.abspath(folder)
         self.sanitized = sanitized
         self.patience = 6.0 if sanitized else 1.0  # factor on every deadline
         self.memory_factor = 4.0 if sanitized else 1.0
         self.address_space_gb = None if sanitized else 6.0  # sanitizers reserve terabytes of addresses
         self.largest_mb = 3000.0 * (2.0 if sanitized else 1.0)
-        self.node = None
+        self.running_node = None
         self.player = None
         self.listener = None
         os.makedirs(os.path.join(self.folder, "scene", "meshes"), exist_ok=True)
@@ -62,7 +72,7 @@ class Arena:
         os.environ.update({
             "ROS_MASTER_URI": "http://localhost:%d" % port,
             "ROS_HOSTNAME": "localhost",
-            "ROS_PACKAGE_PATH": os.pathsep.join([REPOSITORY, "/usr/share"]),
+            "ROS_PACKAGE_PATH": os.pathsep.join([self.source, "/usr/share"]),
             "ROS_LOG_DIR": os.path.join(self.folder, "ros_logs"),
             "ROS_HOME": os.path.join(self.folder, "ros_home"),
             "XDG_CACHE_HOME": os.path.join(self.folder, "cache"),
@@ -156,19 +166,25 @@ class Arena:
 
     # The node and what it serves
 
+    @property
+    def node(self):
+        if self.running_node is None:
+            raise Failed("no node runs")
+        return self.running_node
+
     def start_node(self, log_name, parameters=None, **options):
         from node_under_test import Node
         values = {"scene_file": self.scene_file, "robot_description": "", "rate": 50.0}
         values.update(parameters or {})
-        self.node = Node(self, values, log_name, **options)
-        return self.node
+        self.running_node = Node(self, values, log_name, **options)
+        return self.running_node
 
     def stop_node(self):
         if self.listener:
             self.listener.close()
             self.listener = None
-        if self.node:
-            node, self.node = self.node, None
+        if self.running_node:
+            node, self.running_node = self.running_node, None
             return node.stop()
         return None
 

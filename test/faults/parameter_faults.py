@@ -105,7 +105,7 @@ def whole_namespace_is_a_number(arena):
     original = arena.set_parameters
     arena.set_parameters = lambda namespace, values: arena.set_parameter(namespace, 17)
     try:
-        node = arena.node = Node(arena, {}, "parameter_namespace")
+        node = arena.running_node = Node(arena, {}, "parameter_namespace")
         time.sleep(2.0)
         expect(node.alive() or node.process.poll() > 0, "it ended: " + node.why_dead())
     finally:

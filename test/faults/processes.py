@@ -29,16 +29,18 @@ def family_of(pid):
     return family
 
 
+def own_mb(pid):
+    """Resident memory of one process, MiB; 0 when there is none."""
+    try:
+        with open("/proc/%d/statm" % pid) as statm:
+            return int(statm.read().split()[1]) * PAGE_BYTES / 2.0**20
+    except (OSError, IndexError):
+        return 0.0
+
+
 def resident_mb(pid):
-    """Memory of the process and its children, MiB; 0 when there is none."""
-    total = 0
-    for member in family_of(pid):
-        try:
-            with open("/proc/%d/statm" % member) as statm:
-                total += int(statm.read().split()[1]) * PAGE_BYTES
-        except (OSError, IndexError):
-            pass
-    return total / 2.0**20
+    """The same with its children."""
+    return sum(own_mb(member) for member in family_of(pid))
 
 
 def processor_seconds(pid):

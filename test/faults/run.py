@@ -20,7 +20,7 @@ from arena import Arena
 from attacks import Failed, expect, groups, shortened
 
 MODULES = ("mesh_faults", "hostile_queries", "hostile_bodies", "hostile_services", "hostile_wire", "races", "tf_faults",
-           "clock_faults", "parameter_faults", "scene_faults")
+           "clock_faults", "parameter_faults", "scene_faults", "tool_faults", "launch_faults")
 GRACE = 60.0  # s beyond its deadline after which an attack that hangs is left behind
 
 
@@ -97,7 +97,7 @@ class Runner:
     def prepare(self, group):
         """The group's node, alive and following the motion."""
         import reference
-        if self.arena.node is None or not self.arena.node.alive():
+        if self.arena.running_node is None or not self.arena.node.alive():
             self.fresh_node(group)
             self.arena.require_tracking(30.0)
         if group.name not in self.fresh:
@@ -138,9 +138,16 @@ class Runner:
             if failure or attack.dies:
                 self.arena.stop_node()  # the next one meets a node that is well
                 attacked_since_start = False
-        if attacked_since_start and self.arena.node is not None:
+        if attacked_since_start and self.arena.running_node is not None:
             self.compare(group)
         self.arena.stop_node()
+
+    def run_all(self, options):
+        chosen = [(group, chosen_of(group, options.patterns, options.fast)) for group in groups.values()]
+        expect(any(attacks for _, attacks in chosen), "no attack is called like that (--list shows their names)")
+        for group, attacks in chosen:
+            if attacks:
+                self.run(group, attacks)
 
     def finish(self, path):
         if path:
@@ -169,6 +176,8 @@ def parse(arguments):
     parser.add_argument("--build", default="build", help="folder in which the programs were built")
     parser.add_argument("--sanitized", action="store_true", help="the programs were built with sanitizers")
     parser.add_argument("--fast", action="store_true", help="only the subset of every test run, about a minute")
+    parser.add_argument("--storm", type=float, metavar="SECONDS", help="everything at once, at random, for this long")
+    parser.add_argument("--seed", type=int, default=1, help="of the storm")
     parser.add_argument("--port", type=int, help="of the master; none: a free one")
     parser.add_argument("--folder", help="scratch folder with logs that is kept; none: one that is removed")
     parser.add_argument("--results", help="CSV file with a line an attack")
@@ -190,6 +199,7 @@ def main(arguments):
                 print("%s/%s" % (group.name, attack.name))
         print("%d attacks" % sum(len(group.attacks) for group in groups.values()))
         return 0
+    threading.excepthook = lambda problem: None  # clients of a node that was ended
     folder = options.folder or tempfile.mkdtemp(prefix="faults_")
     began = time.monotonic()
     arena = Arena(options.build, folder, options.port, options.sanitized)
@@ -197,12 +207,11 @@ def main(arguments):
     try:
         arena.join_ros()
         load_attacks()
-        expect(any(chosen_of(group, options.patterns, options.fast) for group in groups.values()),
-               "no attack is called like that (--list shows their names)")
-        for group in groups.values():
-            chosen = chosen_of(group, options.patterns, options.fast)
-            if chosen:
-                runner.run(group, chosen)
+        if options.storm is None:
+            runner.run_all(options)
+        else:
+            import storm
+            storm.run(runner, options.storm, options.seed)
     finally:
         arena.close()
         if not options.folder:

@@ -1,0 +1,191 @@
+"""Every launch file as a new user starts it, with robots of other packages too."""
+
+import glob
+import os
+import signal
+import threading
+import time
+import xml.etree.ElementTree as ElementTree
+
+import processes
+import rospy
+from arena import REPOSITORY
+from attacks import Failed, Group, expect, shortened
+from node_under_test import NODE, Node
+from tf2_msgs.msg import TFMessage
+
+group = Group("launch")
+ROBOTS = "/usr/share/doc/dart/data"
+DIED = ("has died", "cannot launch", "FATAL", "Traceback", "unrecognized", "Invalid")
+
+
+class Launched:
+    """A launch file, started by roslaunch for as long as the block lasts."""
+
+    def __init__(self, arena, file, *arguments):
+        self.arena = arena
+        self.log_path = arena.path("logs/launch_%s.log" % time.monotonic_ns())
+        os.makedirs(os.path.dirname(self.log_path), exist_ok=True)
+        self.command = ["roslaunch", "concave_distance", file, *arguments]
+
+    def __enter__(self):
+        self.arena.delete_parameter(NODE)
+        with open(self.log_path, "wb") as log:
+            self.process = processes.start(self.command, self.arena.environment, log)
+        return self
+
+    def __exit__(self, *_):
+        processes.end_group(self.process, signal.SIGINT, 30.0 * self.arena.patience)
+        for name in self.arena.master().getSystemState("/faults")[2][0]:
+            for node in name[1]:
+                if node != "/faults":
+                    self.arena.forget(node)
+        for parameter in ("/use_sim_time", "/robot_description"):
+            if self.arena.master().hasParam("/faults", parameter)[2]:
+                self.arena.delete_parameter(parameter)
+
+    def log(self):
+        with open(self.log_path, errors="replace") as log:
+            return log.read()
+
+    def require_up(self):
+        text = self.log()
+        signs = [sign for sign in DIED if sign in text]
+        lines = [line for line in text.splitlines() if any(sign in line for sign in DIED)]
+        expect(not signs, shortened(lines[-1] if lines else text, 300))
+        expect(self.process.poll() is None, "roslaunch has ended: " + shortened(text[-300:]))
+
+
+def wait_for_distance(arena, launched, timeout):
+    """A pair with a distance on ~distances."""
+    found = threading.Event()
+    subscriber = rospy.Subscriber(NODE + "/distances", arena.messages.Distances, lambda message: found.set()
+                                  if any(pair.has_distance for pair in message.pairs) else None)
+    try:
+        deadline = time.monotonic() + timeout * arena.patience
+        while not found.wait(0.1):
+            launched.require_up()
+            expect(time.monotonic() < deadline, "no distance after %.0f s: %s" % (timeout, shortened(launched.log()[-300:])))
+    finally:
+        subscriber.unregister()
+
+
+def demo(arena, file, leftover):
+    """A demo gives distances, also where a simulation has left /use_sim_time behind."""
+    arena.set_parameter("/use_sim_time", leftover)
+    text = open(os.path.join(arena.source, "launch", file)).read()
+    arguments = ["rviz:=false"] if 'name="rviz"' in text else []
+    with Launched(arena, file, *arguments) as launched:
+        wait_for_distance(arena, launched, 60.0)
+        launched.require_up()
+
+
+NEEDS_A_ROBOT = set()
+for path in sorted(glob.glob(os.path.join(REPOSITORY, "launch", "*.launch"))):
+    launch_file = os.path.basename(path)
+    own_scene = "scene_file\" value=\"$(find" in open(path).read() or "arg name=\"scene\"" in open(path).read()
+    if own_scene:
+        group.add(launch_file, lambda arena, file=launch_file: demo(arena, file, False), deadline=120.0)
+        group.add(launch_file + "_after_a_simulation", lambda arena, file=launch_file: demo(arena, file, True), deadline=120.0)
+    else:
+        NEEDS_A_ROBOT.add(launch_file)
+
+
+class Robot(threading.Thread):
+    """Publishes the frames of a URDF with every joint at zero, its root at world."""
+
+    def __init__(self, text):
+        super().__init__(daemon=True)
+        self.links = []
+        self.running = True
+        try:
+            root = ElementTree.fromstring(text)
+        except ElementTree.ParseError:
+            root = ElementTree.Element("robot")
+        children = set()
+        for joint in root.iter("joint"):
+            if joint.find("parent") is None or joint.find("child") is None:
+                continue
+            origin = joint.find("origin")
+            xyz = [float(x) for x in (origin.get("xyz") if origin is not None and origin.get("xyz") else "0 0 0").split()]
+            parent, child = joint.find("parent").get("link"), joint.find("child").get("link")
+            children.add(child)
+            self.links.append((parent, child, xyz))
+        self.links += [("world", link.get("name"), [0.0, 0.0, 0.0]) for link in root.findall("link")
+                       if link.get("name") not in children and link.get("name") != "world"]
+        self.publisher = rospy.Publisher("/tf", TFMessage, queue_size=10)
+        self.start()
+
+    def run(self):
+        import frames
+        while self.running:
+            now = rospy.Time.now()
+            self.publisher.publish(TFMessage([frames.transform(parent, child, now, *xyz)
+                                              for parent, child, xyz in self.links]))
+            time.sleep(0.05)
+
+
+def robot(arena, file, text, whole, *arguments):
+    """The launch file serves a robot: its distances, or, where it is broken, the reason."""
+    arena.set_parameter("/use_sim_time", False)
+    arena.set_parameter("/robot_description", text)
+    frames = Robot(text)
+    try:
+        with Launched(arena, file, *arguments) as launched:
+            node = Node.__new__(Node)  # started by roslaunch, asked as any other
+            node.arena, node.name, node.require_alive = arena, NODE, launched.require_up
+            node.process = launched.process
+            deadline = time.monotonic() + 60.0 * arena.patience
+            listed = None
+            while listed is None or not (listed.ready or listed.message):
+                launched.require_up()
+                expect(time.monotonic() < deadline, "no answer: " + shortened(launched.log()[-300:]))
+                try:
+                    listed = node.list_bodies()
+                except Failed:
+                    time.sleep(0.2)
+                if listed is not None and not listed.ready and time.monotonic() < deadline:
+                    listed = None if "loading" in listed.message or "prepar" in listed.message else listed
+            if whole:
+                expect(listed.ready and listed.pairs, "no pairs: %s %s" % (listed.message, shortened(listed.problems)))
+            if listed.pairs:
+                wait_for_distance(arena, launched, 60.0)
+            else:
+                expect(listed.problems or listed.message or listed.notes or len(listed.bodies) < 2,
+                       "no pairs, and no reason")
+            launched.require_up()
+    finally:
+        frames.running = False
+
+
+def text_of(path):
+    with open(path, errors="replace") as file:
+        return file.read()
+
+
+@group.attack(deadline=120.0)
+def distance_node_with_its_defaults(arena):
+    robot(arena, "distance_node.launch", text_of(os.path.join(REPOSITORY, "test/ros/rostest/two_links.urdf")), True)
+
+
+@group.attack(deadline=60.0)
+def distance_node_without_a_robot_waits(arena):
+    """Nobody has loaded a robot: the node lives and says what it waits for."""
+    arena.set_parameter("/use_sim_time", False)
+    with Launched(arena, "distance_node.launch") as launched:
+        deadline = time.monotonic() + 40.0 * arena.patience
+        while "robot_description" not in launched.log().partition("NODES")[2]:
+            launched.require_up()
+            expect(time.monotonic() < deadline, "it does not say what it waits for")
+            time.sleep(0.1)
+        launched.require_up()
+
+
+@group.attack(deadline=120.0)
+def distance_node_of_the_kr5(arena):
+    robot(arena, "distance_node.launch", text_of(os.path.join(REPOSITORY, "urdf/kr5.urdf")), True)
+
+
+for path in sorted(glob.glob(ROBOTS + "/**/*.urdf", recursive=True)):
+    group.add("robot_" + os.path.relpath(path, ROBOTS).replace("/", "_").replace(" ", "_"), lambda arena, path=path: robot(
+        arena, "distance_node.launch", text_of(path), False), deadline=150.0)
