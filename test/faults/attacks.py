@@ -13,11 +13,13 @@ class Failed(Exception):
 
 
 class Group:
-    """Attacks that share a node: `setting` is what node_under_test.Node takes; None: no node is started."""
+    """Attacks that share a node: `setting` is what node_under_test.Node takes; None: no node is started.
+    beside: they need no master either and run beside the other groups."""
 
-    def __init__(self, name, setting=None):
+    def __init__(self, name, setting=None, beside=False):
         self.name = name
         self.setting = setting
+        self.beside = beside
         self.attacks = []
         groups[name] = self
 

@@ -26,7 +26,8 @@ class Launched:
         self.arena = arena
         self.log_path = arena.path("logs/launch_%s.log" % time.monotonic_ns())
         os.makedirs(os.path.dirname(self.log_path), exist_ok=True)
-        self.command = ["roslaunch", "concave_distance", file, *arguments]
+        package = [] if os.path.isabs(file) else ["concave_distance"]
+        self.command = ["roslaunch", *package, file, *arguments]
 
     def __enter__(self):
         self.arena.delete_parameter(NODE)
@@ -125,6 +126,13 @@ class Robot(threading.Thread):
             time.sleep(0.05)
 
 
+def started_by(arena, launched):
+    """The node that roslaunch started, to be asked as any other."""
+    node = Node.__new__(Node)
+    node.arena, node.name, node.process, node.require_alive = arena, NODE, launched.process, launched.require_up
+    return node
+
+
 def robot(arena, file, text, whole, *arguments):
     """The launch file serves a robot: its distances, or, where it is broken, the reason."""
     arena.set_parameter("/use_sim_time", False)
@@ -132,9 +140,7 @@ def robot(arena, file, text, whole, *arguments):
     frames = Robot(text)
     try:
         with Launched(arena, file, *arguments) as launched:
-            node = Node.__new__(Node)  # started by roslaunch, asked as any other
-            node.arena, node.name, node.require_alive = arena, NODE, launched.require_up
-            node.process = launched.process
+            node = started_by(arena, launched)
             deadline = time.monotonic() + 60.0 * arena.patience
             listed = None
             while listed is None or not (listed.ready or listed.message):
@@ -187,5 +193,44 @@ def distance_node_of_the_kr5(arena):
 
 
 for path in sorted(glob.glob(ROBOTS + "/**/*.urdf", recursive=True)):
-    group.add("robot_" + os.path.relpath(path, ROBOTS).replace("/", "_").replace(" ", "_"), lambda arena, path=path: robot(
-        arena, "distance_node.launch", text_of(path), False), deadline=150.0)
+    whole_robot = "/test/" not in path and "ground" not in path
+    group.add("robot_" + os.path.relpath(path, ROBOTS).replace("/", "_").replace(" ", "_"),
+              lambda arena, path=path, whole=whole_robot: robot(arena, "distance_node.launch", text_of(path), whole),
+              deadline=150.0)
+
+
+MANAGER = """<launch>
+  <node pkg="nodelet" type="nodelet" name="manager" args="manager" output="screen"/>
+  <include file="$(find concave_distance)/launch/distance_node.launch">
+    <arg name="manager" value="manager"/>
+    <arg name="scene_file" value="%s"/>
+  </include>
+</launch>
+"""
+
+
+@group.attack(deadline=150.0)
+def nodelet_under_attack(arena):
+    """Hostile requests, a hostile mesh and a hostile stamp leave the nodelet and its manager alive."""
+    import frames
+    import genpy
+    import mesh_faults
+    from request_checks import ask, call, require_refused
+    file = arena.write("nodelet.launch", MANAGER % arena.scene_file)
+    arena.set_parameter("/use_sim_time", False)
+    with Launched(arena, file) as launched:
+        wait_for_distance(arena, launched, 60.0)
+        arena.running_node = started_by(arena, launched)
+        try:
+            for name in ("node_instances_itself.dae", "accessor_with_huge_stride.dae", "a_fifo.stl"):
+                require_refused(call(arena, "add_body", 60.0, name="hostile", frame_id="world", pose__orientation__w=1.0,
+                                     mesh_resource=mesh_faults.resource_of(arena, name)), name)
+            publisher = rospy.Publisher("/tf", TFMessage, queue_size=10)
+            time.sleep(1.0)
+            for stamp in (genpy.Time(2**32 - 1, 999999999), genpy.Time(2**31, 0), rospy.Time.now() + rospy.Duration(1000)):
+                publisher.publish(TFMessage([frames.transform("world", "box_b", stamp, 40.0)]))
+            require_refused(ask(arena, body_a="nobody"), "body")
+            wait_for_distance(arena, launched, 60.0)
+            launched.require_up()
+        finally:
+            arena.running_node = None

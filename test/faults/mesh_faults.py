@@ -4,6 +4,7 @@ import itertools
 import math
 import os
 import struct
+import threading
 
 import hostile_meshes
 import processes
@@ -11,19 +12,21 @@ from attacks import Group, expect, shortened
 from request_checks import ask, call, require_refused
 
 node_group = Group("meshes", {})
-tool_group = Group("mesh_tool")
+tool_group = Group("mesh_tool", beside=True)
 scene_group = Group("mesh_scenes")
 counter = itertools.count()
+writing = threading.Lock()
 
-SECONDS = 20.0     # that a mesh may take until it is refused
-GROWTH_MB = 700.0  # of the node and the process that imports; the documented default leaves room for large good meshes
+SECONDS = 45.0      # until a mesh is refused: an import may take 30 s
+GROWTH_MB = 1600.0  # of the node and the process that imports, which may take 1.5 GB
 
 
 def resource_of(arena, name):
     """The hostile file, written when its attack begins; beside the scene, where the node may read meshes."""
-    folder = arena.path("scene/meshes/hostile")
-    if not hasattr(arena, "hostile_paths"):
-        arena.hostile_paths = {mesh.name: mesh.path for mesh in hostile_meshes.write_hostile_meshes(folder)}
+    with writing:
+        if not hasattr(arena, "hostile_paths"):
+            arena.hostile_paths = {mesh.name: mesh.path for mesh in hostile_meshes.write_hostile_meshes(
+                arena.path("scene/meshes/hostile"))}
     return arena.hostile_paths[name]
 
 
@@ -45,8 +48,8 @@ def add_hostile(arena, name, expectation):
 def inspect_hostile(arena, path, expectation):
     status, text, _ = processes.run([arena.program("mesh_tool"), "inspect", path], SECONDS * arena.patience,
                                     arena.environment, arena.address_space_gb, arena.path("tool.log"),
-                                    largest_mb=1500.0 * arena.memory_factor)
-    expect(status is not None, "mesh_tool does not end or takes 1.5 GB")
+                                    largest_mb=GROWTH_MB * arena.memory_factor)
+    expect(status is not None, "mesh_tool does not end, or takes more than an import may")
     expect(status in (0, 1), "mesh_tool ended with %d: %s" % (status, shortened(text[-200:])))
     if status == 0:
         expect(expectation != hostile_meshes.REFUSED, "mesh_tool accepted it")
@@ -58,7 +61,7 @@ def inspect_hostile(arena, path, expectation):
 def register_hostile_meshes():
     for file_name, expectation, _ in hostile_meshes._WRITERS:
         node_group.add(file_name, lambda arena, name=file_name, expectation=expectation:
-                       add_hostile(arena, name, expectation), deadline=2.0 * SECONDS, growth_mb=GROWTH_MB)
+                       add_hostile(arena, name, expectation), deadline=SECONDS + 10.0, growth_mb=GROWTH_MB)
         tool_group.add(file_name, lambda arena, name=file_name, expectation=expectation:
                        inspect_hostile(arena, resource_of(arena, name), expectation), deadline=SECONDS + 10.0)
 

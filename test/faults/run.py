@@ -119,19 +119,17 @@ class Runner:
                     self.arena.node.resident_mb(), failure)
 
     def run(self, group, chosen):
+        """Attacks on a node that they share."""
         attacked_since_start = False
         for attack in chosen:
             memory_mb = 0.0
             began = time.monotonic()
             try:
-                if group.setting is None:
-                    failure = self.act(attack)
-                else:
-                    self.prepare(group)
-                    began = time.monotonic()
-                    failure = self.attack_node(attack)
-                    memory_mb = self.arena.node.memory.peak_mb
-                    attacked_since_start = True
+                self.prepare(group)
+                began = time.monotonic()
+                failure = self.attack_node(attack)
+                memory_mb = self.arena.node.memory.peak_mb
+                attacked_since_start = True
             except Failed as problem:
                 failure = "before the attack: %s" % problem
             self.report("%s/%s" % (group.name, attack.name), time.monotonic() - began, memory_mb, failure)
@@ -142,12 +140,23 @@ class Runner:
             self.compare(group)
         self.arena.stop_node()
 
-    def run_all(self, options):
-        chosen = [(group, chosen_of(group, options.patterns, options.fast)) for group in groups.values()]
-        expect(any(attacks for _, attacks in chosen), "no attack is called like that (--list shows their names)")
+    def run_alone(self, group, chosen):
+        """Attacks that start what they need."""
+        for attack in chosen:
+            began = time.monotonic()
+            failure = self.act(attack)
+            self.report("%s/%s" % (group.name, attack.name), time.monotonic() - began, 0.0, failure)
+
+    def run_all(self, chosen):
+        beside = threading.Thread(daemon=True, target=lambda: [
+            self.run_alone(group, attacks) for group, attacks in chosen if group.beside])
+        beside.start()
         for group, attacks in chosen:
-            if attacks:
+            if group.setting is not None and attacks:
                 self.run(group, attacks)
+            elif not group.beside:
+                self.run_alone(group, attacks)
+        beside.join()
 
     def finish(self, path):
         if path:
@@ -207,11 +216,13 @@ def main(arguments):
     try:
         arena.join_ros()
         load_attacks()
+        chosen = [(group, chosen_of(group, options.patterns, options.fast)) for group in groups.values()]
+        expect(any(attacks for _, attacks in chosen), "no attack is called like that (--list shows their names)")
         if options.storm is None:
-            runner.run_all(options)
+            runner.run_all(chosen)
         else:
             import storm
-            storm.run(runner, options.storm, options.seed)
+            storm.run(runner, chosen, options.storm, options.seed)
     finally:
         arena.close()
         if not options.folder:

@@ -9,7 +9,7 @@ import time
 import processes
 import reference
 import rospy
-from attacks import Failed, groups
+from attacks import Failed
 from diagnostic_msgs.msg import DiagnosticArray
 from node_under_test import Pulse
 
@@ -38,11 +38,11 @@ class Cycles:
 
 
 class Storm:
-    def __init__(self, arena, seed):
+    def __init__(self, arena, attacks, seed):
         self.arena = arena
         self.seed = seed
         self.groups = [storming for storming in (
-            [attack for attack in group.attacks if attack.storms] for group in groups.values()
+            [attack for attack in chosen if attack.storms] for group, chosen in attacks
             if group.setting is not None) if storming]
         self.running = True
         self.done = collections.Counter()
@@ -150,9 +150,10 @@ def check(runner, name, act):
     runner.report("storm/" + name, time.monotonic() - began, node.memory.peak_mb if node else 0.0, failure)
 
 
-def run(runner, seconds, seed):
+def run(runner, attacks, seconds, seed):
+    """attacks: pairs of a group and those of its attacks that take part."""
     arena = runner.arena
-    storm = Storm(arena, seed)
+    storm = Storm(arena, attacks, seed)
     storm.start_node()
     fresh = reference.answers(arena.node)
     listed = arena.node.list_bodies()

@@ -12,7 +12,7 @@ import time
 import processes
 from attacks import Group, expect, shortened
 
-group = Group("tools")
+group = Group("tools", beside=True)
 SECONDS = 20.0
 HEADER = "t,x,y,z,qx,qy,qz,qw\n"
 GOOD = HEADER + "0,2,0,0,0,0,0,1\n1,2,0.5,0,0,0,0,1\n"
