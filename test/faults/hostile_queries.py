@@ -173,6 +173,7 @@ def thousand_questions_for_every_niche(arena):
     time.sleep(1.0)
     for _ in range(5):
         require_sound(ask(arena, timeout=15.0))
+    asking.join(80.0 * arena.patience)
 
 
 @group.attack(deadline=60.0)

@@ -10,6 +10,7 @@ import fnmatch
 import importlib
 import os
 import shutil
+import signal
 import sys
 import tempfile
 import threading
@@ -209,6 +210,7 @@ def main(arguments):
         print("%d attacks" % sum(len(group.attacks) for group in groups.values()))
         return 0
     threading.excepthook = lambda problem: None  # clients of a node that was ended
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))  # so that the node and the master end too
     folder = options.folder or tempfile.mkdtemp(prefix="faults_")
     began = time.monotonic()
     arena = Arena(options.build, folder, options.port, options.sanitized)
@@ -233,6 +235,9 @@ def main(arguments):
 
 if __name__ == "__main__":
     sys.dont_write_bytecode = True
-    status = main(sys.argv[1:])
+    try:
+        status = main(sys.argv[1:])
+    except SystemExit as ended:
+        status = ended.code
     sys.stdout.flush()
     os._exit(status)  # threads of attacks that hang would keep the process
