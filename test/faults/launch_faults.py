@@ -2,6 +2,7 @@
 
 import glob
 import os
+import re
 import signal
 import threading
 import time
@@ -169,6 +170,20 @@ def text_of(path):
         return file.read()
 
 
+def with_meshes_found(path):
+    """A URDF of another package, its mesh files by their whole paths: that package is not installed as a ROS package."""
+    def found(match):
+        name = match.group(1)
+        local = os.path.join(os.path.dirname(path), name)
+        if name.startswith("package://"):
+            rest = name[len("package://"):].partition("/")[2]
+            folders = [os.path.dirname(path), *glob.glob(ROBOTS + "/*"), *glob.glob(ROBOTS + "/*/*")]
+            local = next((os.path.join(folder, rest) for folder in folders if os.path.isfile(os.path.join(folder, rest))),
+                         name)
+        return 'filename="%s"' % ("file://" + local.replace(" ", "%20") if os.path.isfile(local) else name)
+    return re.sub(r'filename="([^"]*)"', found, text_of(path))
+
+
 @group.attack(deadline=120.0)
 def distance_node_with_its_defaults(arena):
     robot(arena, "distance_node.launch", text_of(os.path.join(REPOSITORY, "test/ros/rostest/two_links.urdf")), True)
@@ -193,9 +208,10 @@ def distance_node_of_the_kr5(arena):
 
 
 for path in sorted(glob.glob(ROBOTS + "/**/*.urdf", recursive=True)):
-    whole_robot = "/test/" not in path and "ground" not in path
+    whole_robot = "/test/" not in path and "ground" not in path and not path.endswith("atlas_v3.urdf")  # a link is missing
     group.add("robot_" + os.path.relpath(path, ROBOTS).replace("/", "_").replace(" ", "_"),
-              lambda arena, path=path, whole=whole_robot: robot(arena, "distance_node.launch", text_of(path), whole),
+              lambda arena, path=path, whole=whole_robot: robot(arena, "distance_node.launch", with_meshes_found(path),
+                                                                  whole),
               deadline=150.0)
 
 
