@@ -1,14 +1,31 @@
 #include "concave_distance/mesh/body_mesh.h"
 
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
 #include <array>
-#include <atomic>
+#include <iterator>
 #include <mutex>
+#include <sstream>
 #include <utility>
 
 #include "cached_parts.h"
+#include "concave_distance/base/error.h"
 #include "concave_distance/base/run_together.h"
 
 namespace concave_distance {
+
+struct BodyMesh::Measured {
+  detail::Metric metric;
+  bool has_room = true;  ///< for the metric's matrices
+  std::shared_ptr<MetricMemory> memory;
+  std::size_t taken = 0;  ///< bytes of `memory`
+
+  ~Measured() {
+    if (memory) memory->giveBack(taken);
+  }
+};
 
 struct BodyMesh::OnDemand {
   template <typename T>
@@ -19,46 +36,155 @@ struct BodyMesh::OnDemand {
   };
   Part<CompressedRows<AdjacentTriangle>> adjacency;
   std::array<Part<NormalConeTree>, 2> cones;  ///< by NormalSides
+  std::once_flag nodes_once;
+  SearchNodes nodes;
+  std::once_flag reserved_once;
+  std::once_flag measured_once;
+  Measured measured;
+  std::atomic<bool> is_measured{false};
 };
 
-BodyMeshParts makeBodyMeshParts(std::string name, SurfaceMesh surface, const BodyMeshOptions& options) {
+namespace {
+
+SearchNodesOptions nodesOptions(const BodyMeshOptions& options) {
+  return {options.max_edge_length, options.search_node_limit, options.levels};
+}
+
+void checkNodeCount(const std::string& name, const SurfaceMesh& surface, const BodyMeshOptions& options) {
+  if (!options.max_edge_length) return;
+  const double nodes = estimatedNodeCount(surface, *options.max_edge_length);
+  if (nodes <= static_cast<double>(options.largest_node_count)) return;
+  std::ostringstream seen;
+  seen << "max_edge_length " << *options.max_edge_length << " m makes a search grid of about " << nodes
+       << " nodes";
+  throw Error(name, seen.str(),
+              "give a longer one or leave it out; the limit is " +
+                  std::to_string(options.largest_node_count) + " nodes");
+}
+
+BodyMeshParts makeExactParts(std::string name, SurfaceMesh surface, const BodyMeshOptions& options) {
+  checkEdgeLength(surface, options.max_edge_length, name);
+  checkNodeCount(name, surface, options);
   BodyMeshParts parts;
   parts.name = std::move(name);
   parts.surface = std::move(surface);
   parts.cache = options.cache;
   PreparationCache* cache = options.cache.get();
-  const SearchNodesOptions nodes_options{options.max_edge_length, options.search_node_limit, options.levels};
   ContentKey surface_key;
   if (cache != nullptr) {
     surface_key = detail::keyOf(parts.surface);
-    parts.nodes_key = detail::keyOfNodes(surface_key, nodes_options);
+    parts.nodes_key = detail::keyOfNodes(surface_key, nodesOptions(options));
   }
   runTogether({[&] { parts.topology = detail::topologyOf(parts.surface, cache, surface_key); },
                [&] {
                  detail::Trees trees = detail::treesOf(parts.surface, cache, surface_key);
                  parts.tree = std::move(trees.tree);
                  parts.hierarchy = std::move(trees.hierarchy);
-               },
-               [&] {
-                 parts.nodes =
-                     detail::nodesOf(parts.surface, nodes_options, parts.name, cache, parts.nodes_key);
                }});
   return parts;
 }
 
+// Its edge lengths have been checked; where it cannot be made all the same, the surface is its own grid.
+SearchNodes makeCheckedNodes(const BodyMeshParts& parts, const BodyMeshOptions& options) {
+  try {
+    return detail::nodesOf(parts.surface, nodesOptions(options), parts.name, parts.cache.get(),
+                           parts.nodes_key);
+  } catch (const Error&) {
+    SearchNodesOptions coarse = nodesOptions(options);
+    coarse.max_edge_length = 2.0 * parts.surface.diameter();
+    return makeSearchNodes(parts.surface, coarse, parts.name);
+  }
+}
+
+}  // namespace
+
+BodyMeshParts makeBodyMeshParts(std::string name, SurfaceMesh surface, const BodyMeshOptions& options) {
+  BodyMeshParts parts = makeExactParts(std::move(name), std::move(surface), options);
+  parts.nodes = detail::nodesOf(parts.surface, nodesOptions(options), parts.name, parts.cache.get(),
+                                parts.nodes_key);
+  return parts;
+}
+
 BodyMesh::BodyMesh(std::string name, SurfaceMesh surface, const BodyMeshOptions& options)
-    : BodyMesh(makeBodyMeshParts(std::move(name), std::move(surface), options), options.metric) {}
+    : parts_(makeExactParts(std::move(name), std::move(surface), options)),
+      options_(options),
+      on_demand_(std::make_unique<OnDemand>()) {}
 
 BodyMesh::BodyMesh(BodyMeshParts parts, const MeshMetricOptions& metric)
     : parts_(std::move(parts)), on_demand_(std::make_unique<OnDemand>()) {
-  detail::Metric measured =
-      detail::metricOf(parts_.nodes.graph, metric, parts_.cache.get(), parts_.nodes_key);
-  metric_ = std::move(measured.metric);
-  geodesic_extent_ = measured.geodesic_extent;
-  protrusion_spacing_ = measured.protrusion_spacing;
+  options_.metric = metric;
+  std::call_once(on_demand_->nodes_once, [&] { on_demand_->nodes = std::exchange(parts_.nodes, {}); });
+  nodes_.store(&on_demand_->nodes, std::memory_order_release);
 }
 
 BodyMesh::~BodyMesh() = default;
+
+// A thread that waits for its own parallel parts must not take up another task meanwhile: that might want
+// the same body, and wait for what it is making.
+const SearchNodes& BodyMesh::makeNodes() const {
+  std::call_once(on_demand_->nodes_once, [&] {
+    tbb::this_task_arena::isolate([&] { on_demand_->nodes = makeCheckedNodes(parts_, options_); });
+    nodes_.store(&on_demand_->nodes, std::memory_order_release);
+  });
+  return on_demand_->nodes;
+}
+
+void BodyMesh::reserveMetric() const {
+  std::call_once(on_demand_->reserved_once, [&] {
+    Measured& part = on_demand_->measured;
+    if (!options_.metric_memory || !MeshMetric::wantsMatrices(graph().nodeCount(), options_.metric)) return;
+    const std::size_t wanted = MeshMetric::matrixBytes(graph().nodeCount());
+    part.has_room = options_.metric_memory->take(wanted);
+    if (!part.has_room) return;
+    part.memory = options_.metric_memory;
+    part.taken = wanted;
+  });
+}
+
+const BodyMesh::Measured& BodyMesh::measured() const {
+  Measured& part = on_demand_->measured;
+  if (on_demand_->is_measured.load(std::memory_order_acquire)) return part;
+  reserveMetric();
+  std::call_once(on_demand_->measured_once, [&] {
+    const NodeGraph& made = graph();
+    MeshMetricOptions options = options_.metric;
+    if (!part.has_room) options.matrix_node_limit = 0;
+    tbb::this_task_arena::isolate(
+        [&] { part.metric = detail::metricOf(made, options, parts_.cache.get(), parts_.nodes_key); });
+    on_demand_->is_measured.store(true, std::memory_order_release);
+  });
+  return part;
+}
+
+const MeshMetric& BodyMesh::metric() const {
+  return *measured().metric.metric;
+}
+
+const MeshMetric* BodyMesh::metricIfMade() const {
+  return on_demand_->is_measured.load(std::memory_order_acquire) ? &metric() : nullptr;
+}
+
+double BodyMesh::geodesicExtent() const {
+  return measured().metric.geodesic_extent;
+}
+
+double BodyMesh::protrusionSpacing() const {
+  return measured().metric.protrusion_spacing;
+}
+
+ContentKey bodyKey(const SurfaceMesh& surface, const BodyMeshOptions& options) {
+  return detail::keyOfNodes(detail::keyOf(surface), nodesOptions(options));
+}
+
+void prepareSearch(const std::vector<const BodyMesh*>& bodies) {
+  std::vector<const BodyMesh*> open;
+  std::copy_if(bodies.begin(), bodies.end(), std::back_inserter(open),
+               [](const BodyMesh* body) { return body->metricIfMade() == nullptr; });
+  if (open.empty()) return;
+  tbb::parallel_for(std::size_t{0}, open.size(), [&](std::size_t i) { open[i]->graph(); });
+  for (const BodyMesh* body : open) body->reserveMetric();
+  tbb::parallel_for(std::size_t{0}, open.size(), [&](std::size_t i) { open[i]->metric(); });
+}
 
 const CompressedRows<AdjacentTriangle>& BodyMesh::adjacency() const {
   auto& part = on_demand_->adjacency;
@@ -84,19 +210,22 @@ std::size_t BodyMesh::memoryBytes() const {
     return mesh.vertexCount() * sizeof(Eigen::Vector3d) + mesh.triangleCount() * sizeof(TriangleNodes);
   };
   const MeshTopology& topology = parts_.topology;
-  const SearchNodes& nodes = parts_.nodes;
   const std::size_t topology_bytes =
       topology.triangles_of_vertex.values.size() * sizeof(TriangleIndex) +
       topology.neighbours_of_vertex.values.size() * sizeof(NodeIndex) +
       surface().triangleCount() *
           (3 * sizeof(TriangleIndex) + sizeof(std::uint32_t) + sizeof(Eigen::Vector3d)) +
       surface().vertexCount() * (3 * sizeof(std::uint32_t) + sizeof(Eigen::Vector3d));
-  return mesh_bytes(surface()) + mesh_bytes(nodes.grid) +
-         nodes.original_triangle_of_node.size() * sizeof(TriangleIndex) +
-         nodes.graph_node_of_vertex.size() * sizeof(NodeIndex) + topology_bytes + nodes.graph.memoryBytes() +
-         nodes.levels.memoryBytes() + parts_.tree.memoryBytes() + parts_.hierarchy.memoryBytes() +
-         metric_->memoryBytes() + on_demand_->adjacency.bytes + on_demand_->cones[0].bytes +
-         on_demand_->cones[1].bytes;
+  std::size_t search_bytes = 0;
+  if (const SearchNodes* nodes = nodesIfMade()) {
+    search_bytes += mesh_bytes(nodes->grid) + nodes->original_triangle_of_node.size() * sizeof(TriangleIndex) +
+                    nodes->graph_node_of_vertex.size() * sizeof(NodeIndex) + nodes->graph.memoryBytes() +
+                    nodes->levels.memoryBytes();
+  }
+  if (const MeshMetric* metric = metricIfMade()) search_bytes += metric->memoryBytes();
+  return sizeof(BodyMesh) + sizeof(OnDemand) + mesh_bytes(surface()) + topology_bytes + search_bytes +
+         parts_.tree.memoryBytes() + parts_.hierarchy.memoryBytes() + on_demand_->adjacency.bytes +
+         on_demand_->cones[0].bytes + on_demand_->cones[1].bytes;
 }
 
 }  // namespace concave_distance

@@ -16,37 +16,58 @@ constexpr double kTargetNodeCount = 650.0;
 // Nodes along the diameter at the most: edges are divided too, and a needle has next to no area.
 constexpr double kMostNodesAlong = kTargetNodeCount / 4.0;
 
-double edgeLengthOf(const SurfaceMesh& surface, const std::optional<double>& given,
-                    const std::string& where) {
-  if (!given) {
-    return automaticEdgeLength(surface);
-  }
-  if (!(*given > 0.0) || !std::isfinite(*given)) {
-    throw Error(where, "max_edge_length is " + std::to_string(*given),
-                "give a positive, finite length in metres or leave it out");
-  }
-  return *given;
-}
+// makeSearchGrid spends 1.3 to 1.5 nodes on a squared edge length of area.
+constexpr double kNodesPerSquaredEdge = 1.5;
 
-}  // namespace
-
-double automaticEdgeLength(const SurfaceMesh& surface) {
+double areaOf(const SurfaceMesh& surface) {
   double area = 0.0;
   for (const TriangleNodes& t : surface.triangles()) {
     area += 0.5 * (surface.vertex(t[1]) - surface.vertex(t[0]))
                       .cross(surface.vertex(t[2]) - surface.vertex(t[0]))
                       .norm();
   }
-  // makeSearchGrid spends 1.3 to 1.5 nodes on a squared edge length of area; a body that is long and thin
-  // would get edges longer than it is thick, hence the second term.
-  const double length = std::min(std::sqrt(1.5 * area / kTargetNodeCount), surface.diameter() / 8.0);
+  return area;
+}
+
+}  // namespace
+
+void checkEdgeLength(const SurfaceMesh& surface, const std::optional<double>& max_edge_length,
+                     const std::string& where) {
+  if (max_edge_length && (!(*max_edge_length > 0.0) || !std::isfinite(*max_edge_length))) {
+    throw Error(where, "max_edge_length is " + std::to_string(*max_edge_length),
+                "give a positive, finite length in metres or leave it out");
+  }
+  for (const TriangleNodes& t : surface.triangles()) {
+    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) {
+      throw Error(where, "a triangle has the same corner twice", "repair the mesh first");
+    }
+  }
+}
+
+double estimatedNodeCount(const SurfaceMesh& surface, double max_edge_length) {
+  double along_edges = 0.0;
+  for (const TriangleNodes& t : surface.triangles()) {
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      const double length = (surface.vertex(t[corner]) - surface.vertex(t[(corner + 1) % 3])).norm();
+      along_edges += 0.5 * std::floor(length / max_edge_length);  // every edge has two triangles
+    }
+  }
+  return static_cast<double>(surface.vertexCount()) + along_edges +
+         kNodesPerSquaredEdge * areaOf(surface) / (max_edge_length * max_edge_length);
+}
+
+double automaticEdgeLength(const SurfaceMesh& surface) {
+  const double area = areaOf(surface);
+  // A body that is long and thin would get edges longer than it is thick, hence the second term.
+  const double length = std::min(std::sqrt(kNodesPerSquaredEdge * area / kTargetNodeCount), surface.diameter() / 8.0);
   return std::max(length, surface.diameter() / kMostNodesAlong);
 }
 
 SearchNodes makeSearchNodes(const SurfaceMesh& surface, const SearchNodesOptions& options,
                             const std::string& where) {
   SearchNodes nodes;
-  nodes.max_edge_length = edgeLengthOf(surface, options.max_edge_length, where);
+  checkEdgeLength(surface, options.max_edge_length, where);
+  nodes.max_edge_length = options.max_edge_length.value_or(automaticEdgeLength(surface));
   SearchGrid grid = makeSearchGrid(surface, nodes.max_edge_length);
   nodes.grid = std::move(grid.mesh);
   nodes.graph = buildNodeGraph(nodes.grid);

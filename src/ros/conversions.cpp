@@ -263,8 +263,10 @@ BodyInfo toBodyInfo(const SceneBody& body) {
   message.source = body.source;
   message.vertices = static_cast<std::uint32_t>(body.mesh->surface().vertexCount());
   message.triangles = static_cast<std::uint32_t>(body.mesh->surface().triangleCount());
-  message.grid_nodes = static_cast<std::uint32_t>(body.mesh->grid().vertexCount());
-  message.max_edge_length = body.mesh->maxEdgeLength();
+  if (const SearchNodes* nodes = body.mesh->nodesIfMade()) {
+    message.grid_nodes = static_cast<std::uint32_t>(nodes->grid.vertexCount());
+    message.max_edge_length = nodes->max_edge_length;
+  }
   message.diameter = body.mesh->diameter();
   message.memory = body.mesh->memoryBytes();
   message.closed = static_cast<std::uint8_t>(body.mesh->topology().allShellsClosed());

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 #include <thread>
+#include <unordered_map>
 #include <utility>
 
 #include "concave_distance/ros/thread_count.h"
@@ -31,37 +33,64 @@ void watchWarning(TrackedPair& pair) {
   pair.heading.warning = pair.warning.state() == WarningState::Warning;
 }
 
+// Their places come from the frames too: a body of that name in another frame is another one.
+bool isOfTheSameBodies(const TrackedPair& tracked, const Scene& scene, const ScenePair& wanted) {
+  const SceneBody& a = scene.bodies[wanted.body_a];
+  const SceneBody& b = scene.bodies[wanted.body_b];
+  return tracked.mesh_a == a.mesh && tracked.mesh_b == b.mesh && tracked.heading.body_a == a.name &&
+         tracked.heading.body_b == b.name && tracked.frames.frame_a == a.frame &&
+         tracked.frames.frame_b == b.frame;
+}
+
 }  // namespace
 
 DistanceCycle::DistanceCycle(const tf2::BufferCore& buffer, CycleOptions options)
-    : buffer_(buffer), options_(std::move(options)), arena_(arenaSize(options_.threads)) {}
+    : buffer_(buffer), options_(std::move(options)), arena_(makeCycleArena(options_.threads)) {}
 
 void DistanceCycle::setScene(const Scene& scene, bool settings_changed) {
-  std::map<std::string, std::unique_ptr<TrackedPair>> before;
-  for (auto& pair : pairs_) {
-    last_ids_[pair->heading.pair] = pair->largest_id;
-    before[pair->heading.pair] = std::move(pair);
-  }
-  pairs_.clear();
-  for (const ScenePair& wanted : scene.pairs) {
-    auto fresh =
-        std::make_unique<TrackedPair>(scene, wanted, options_.reference_frame, last_ids_[wanted.name]);
-    const auto found = before.find(wanted.name);
-    if (found != before.end() && found->second->mesh_a == fresh->mesh_a &&
-        found->second->mesh_b == fresh->mesh_b) {
-      found->second->settings = fresh->settings;
-      found->second->enabled = fresh->enabled;
-      found->second->stale_parameters = found->second->stale_parameters || settings_changed;
-      fresh = std::move(found->second);
+  std::vector<std::unique_ptr<TrackedPair>> before = std::exchange(pairs_, {});
+  pairs_.resize(scene.pairs.size());
+  // Usually an edit leaves most pairs as they are, in their places.
+  std::unordered_map<std::string_view, std::size_t> moved;
+  for (std::size_t index = 0; index < before.size(); ++index) {
+    if (index < pairs_.size() && before[index]->origin.get() == &scene.pairs[index]) {
+      pairs_[index] = std::move(before[index]);
+    } else {
+      moved.emplace(before[index]->heading.pair, index);
     }
-    pairs_.push_back(std::move(fresh));
   }
-  for (auto& [name, pair] : before) {
-    if (pair && pair->warning.state() != WarningState::Clear) {
-      pair->status.message = "the pair was removed with one of its bodies";
-      stopWatching(*pair);
-      retired_.push_back(std::move(pair));
+  for (std::size_t index = 0; index < pairs_.size(); ++index) {
+    if (pairs_[index]) continue;
+    const ScenePair& wanted = scene.pairs[index];
+    const auto found = moved.find(wanted.name);
+    if (found == moved.end() || !isOfTheSameBodies(*before[found->second], scene, wanted)) {
+      continue;
     }
+    pairs_[index] = std::move(before[found->second]);
+    moved.erase(found);
+    TrackedPair& pair = *pairs_[index];
+    pair.origin = scene.pairs.share(index);
+    pair.settings = wanted.settings;
+    pair.enabled = wanted.enabled;
+    pair.stale_parameters = pair.stale_parameters || settings_changed;
+  }
+  for (std::unique_ptr<TrackedPair>& pair : before) {
+    if (pair) retire(std::move(pair));
+  }
+  for (std::size_t index = 0; index < pairs_.size(); ++index) {
+    if (!pairs_[index]) {
+      pairs_[index] = std::make_unique<TrackedPair>(scene, index, options_.reference_frame, largest_retired_id_);
+    }
+  }
+}
+
+// Ids are not used again: pairs that come later begin above all that are gone.
+void DistanceCycle::retire(std::unique_ptr<TrackedPair> pair) {
+  largest_retired_id_ = std::max(largest_retired_id_, pair->largest_id);
+  if (pair->warning.state() != WarningState::Clear) {
+    pair->status.message = "the pair was removed with one of its bodies";
+    stopWatching(*pair);
+    retired_.push_back(std::move(pair));
   }
 }
 
@@ -114,6 +143,7 @@ CycleReport DistanceCycle::run(const std::vector<PairDemand>& demand, ros::Time 
     }
   }
   helper_cpu_nanoseconds_ = 0;
+  prepareSearches();
   solveAll();
   for (auto& pair : pairs_) {
     if (!pair->demand.due) {
@@ -173,6 +203,24 @@ bool DistanceCycle::locate(TrackedPair& pair, ros::Time now) {
   }
   pair.solved_a_from_b = transforms.a_from_b;
   return true;
+}
+
+// Together, before they are needed one by one: grids and metrics of bodies whose niches are searched first.
+void DistanceCycle::prepareSearches() {
+  to_prepare_.clear();
+  for (const TrackedPair* pair : to_solve_) {
+    if (!pair->must_solve || (!pair->demand.niches && provesDistance(pair->settings.tracker.accuracy))) {
+      continue;
+    }
+    for (const BodyMesh* body : {pair->mesh_a.get(), pair->mesh_b.get()}) {
+      if (body->metricIfMade() == nullptr) {
+        to_prepare_.push_back(body);
+      }
+    }
+  }
+  if (!to_prepare_.empty()) {
+    arena_.execute([&] { prepareSearch(to_prepare_); });
+  }
 }
 
 void DistanceCycle::solveAll() {

@@ -1,7 +1,7 @@
 #include "concave_distance/ros/scene_edits.h"
 
-#include <algorithm>
 #include <cctype>
+#include <unordered_set>
 #include <utility>
 
 #include "concave_distance/base/error.h"
@@ -11,11 +11,7 @@ namespace {
 
 std::string freePairName(const Scene& scene, const std::string& wanted) {
   std::string name = wanted;
-  const auto taken = [&] {
-    return std::any_of(scene.pairs.begin(), scene.pairs.end(),
-                       [&](const ScenePair& pair) { return pair.name == name; });
-  };
-  for (int copy = 2; taken(); ++copy) {
+  for (int copy = 2; scene.pairs.find(name); ++copy) {
     name = wanted + "_" + std::to_string(copy);
   }
   return name;
@@ -30,6 +26,46 @@ const std::string& appendPair(Scene& scene, std::size_t body_a, std::size_t body
   pair.settings = settings;
   scene.pairs.push_back(std::move(pair));
   return scene.pairs.back().name;
+}
+
+void requireRoomForPairs(const Scene& scene, std::size_t more) {
+  const std::size_t pairs = scene.pairs.size();
+  if (more > scene.limits.pairs || pairs > scene.limits.pairs - more) {
+    throw Error("pairs",
+                std::to_string(more) + " new pairs beside the " + std::to_string(pairs) +
+                    " that there are, the limit is " + std::to_string(scene.limits.pairs),
+                "name fewer bodies in pair_with, set without_pairs, or raise ~limits/largest_pair_count");
+  }
+}
+
+// Each once, in the order of their names in the request or, without names, of the scene.
+std::vector<std::size_t> partnersOf(const Scene& scene, const SceneBody& body, const PairPartners& partners) {
+  std::vector<std::size_t> indices;
+  if (partners.none) {
+    if (!partners.names.empty()) {
+      throw Error("pair_with", "it names '" + partners.names.front() + "', and without_pairs is set",
+                  "give one of the two");
+    }
+    return indices;
+  }
+  std::unordered_set<std::size_t> seen;
+  for (const std::string& name : partners.names) {
+    if (name == body.name) {
+      throw Error("pair_with", "it names the new body '" + name + "' itself", "name other bodies");
+    }
+    const std::size_t index = requireBody(scene, name);
+    if (seen.insert(index).second) {
+      indices.push_back(index);
+    }
+  }
+  if (partners.names.empty()) {
+    for (std::size_t index = 0; index < scene.bodies.size(); ++index) {
+      if (scene.bodies[index].frame != body.frame) {
+        indices.push_back(index);
+      }
+    }
+  }
+  return indices;
 }
 
 }  // namespace
@@ -55,16 +91,22 @@ std::size_t requireBody(const Scene& scene, const std::string& name) {
 }
 
 std::size_t requirePair(const Scene& scene, const std::string& name) {
-  for (std::size_t index = 0; index < scene.pairs.size(); ++index) {
-    if (scene.pairs[index].name == name) {
-      return index;
-    }
+  if (const auto found = scene.pairs.find(name)) {
+    return *found;
   }
   throw Error("pair", "there is no pair '" + name + "'", "list_bodies tells their names");
 }
 
-std::vector<std::string> addBody(Scene& scene, SceneBody body, const std::vector<std::string>& pair_with,
+void requireRoomForBody(const Scene& scene) {
+  if (scene.bodies.size() >= scene.limits.bodies) {
+    throw Error("scene", "it has " + std::to_string(scene.bodies.size()) + " bodies, the limit",
+                "remove_body some, or raise ~limits/largest_body_count");
+  }
+}
+
+std::vector<std::string> addBody(Scene& scene, SceneBody body, const PairPartners& partners,
                                  const PairSettings& settings) {
+  requireRoomForBody(scene);
   if (!isRosName(body.name)) {
     throw Error("name", "'" + body.name + "' cannot be part of a topic name",
                 "begin with a letter, go on with letters, digits, _ and /");
@@ -72,26 +114,11 @@ std::vector<std::string> addBody(Scene& scene, SceneBody body, const std::vector
   if (scene.findBody(body.name)) {
     throw Error("name", "there is a body '" + body.name + "' already", "remove_body it first");
   }
-  std::vector<std::size_t> partners;
-  for (const std::string& partner : pair_with) {
-    if (partner == body.name) {
-      throw Error("pair_with", "it names the new body '" + partner + "' itself", "name other bodies");
-    }
-    const std::size_t index = requireBody(scene, partner);
-    if (std::find(partners.begin(), partners.end(), index) == partners.end()) {
-      partners.push_back(index);
-    }
-  }
-  if (pair_with.empty()) {
-    for (std::size_t index = 0; index < scene.bodies.size(); ++index) {
-      if (scene.bodies[index].frame != body.frame) {
-        partners.push_back(index);
-      }
-    }
-  }
+  const std::vector<std::size_t> indices = partnersOf(scene, body, partners);
+  requireRoomForPairs(scene, indices.size());
   scene.bodies.push_back(std::move(body));
   std::vector<std::string> names;
-  for (const std::size_t partner : partners) {
+  for (const std::size_t partner : indices) {
     names.push_back(appendPair(scene, scene.bodies.size() - 1, partner, settings));
   }
   return names;
@@ -100,25 +127,35 @@ std::vector<std::string> addBody(Scene& scene, SceneBody body, const std::vector
 std::vector<std::string> removeBody(Scene& scene, const std::string& name) {
   const std::size_t gone = requireBody(scene, name);
   std::vector<std::string> names;
-  std::vector<ScenePair> kept;
-  for (ScenePair& pair : scene.pairs) {
+  PairList kept;
+  for (std::size_t index = 0; index < scene.pairs.size(); ++index) {
+    const ScenePair& pair = scene.pairs[index];
     if (pair.body_a == gone || pair.body_b == gone) {
       names.push_back(pair.name);
-      continue;
+    } else if (pair.body_a < gone && pair.body_b < gone) {
+      kept.appendShared(scene.pairs, index);
+    } else {
+      ScenePair moved = pair;
+      moved.body_a -= pair.body_a > gone ? 1 : 0;
+      moved.body_b -= pair.body_b > gone ? 1 : 0;
+      kept.push_back(std::move(moved));
     }
-    pair.body_a -= pair.body_a > gone ? 1 : 0;
-    pair.body_b -= pair.body_b > gone ? 1 : 0;
-    kept.push_back(std::move(pair));
+  }
+  NamedList<SceneBody> bodies;
+  for (std::size_t index = 0; index < scene.bodies.size(); ++index) {
+    if (index != gone) {
+      bodies.appendShared(scene.bodies, index);
+    }
   }
   scene.pairs = std::move(kept);
-  scene.bodies.erase(scene.bodies.begin() + static_cast<std::ptrdiff_t>(gone));
+  scene.bodies = std::move(bodies);
   return names;
 }
 
 std::string setPairEnabled(Scene& scene, const PairReference& reference, bool enabled,
                            const PairSettings& settings) {
   if (!reference.pair.empty()) {
-    scene.pairs[requirePair(scene, reference.pair)].enabled = enabled;
+    scene.pairs.edit(requirePair(scene, reference.pair)).enabled = enabled;
     return reference.pair;
   }
   const std::size_t body_a = requireBody(scene, reference.body_a);
@@ -127,7 +164,7 @@ std::string setPairEnabled(Scene& scene, const PairReference& reference, bool en
     throw Error("pair", "both bodies are '" + reference.body_a + "'", "name two different bodies");
   }
   if (const auto found = scene.findPair(reference.body_a, reference.body_b)) {
-    scene.pairs[*found].enabled = enabled;
+    scene.pairs.edit(*found).enabled = enabled;
     return scene.pairs[*found].name;
   }
   if (!enabled) {
@@ -135,6 +172,7 @@ std::string setPairEnabled(Scene& scene, const PairReference& reference, bool en
                 "'" + reference.body_a + "' and '" + reference.body_b + "' are no pair that is watched",
                 "nothing to switch off");
   }
+  requireRoomForPairs(scene, 1);
   return appendPair(scene, body_a, body_b, settings);
 }
 

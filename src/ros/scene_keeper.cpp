@@ -42,8 +42,8 @@ void SceneKeeper::apply(const std::function<void(Scene&)>& change, bool settings
 void SceneKeeper::changeSettings(const std::function<void(PairSettings&)>& change) {
   apply(
       [&](Scene& scene) {
-        for (ScenePair& pair : scene.pairs) {
-          change(pair.settings);
+        for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
+          change(scene.pairs.edit(i).settings);
         }
       },
       true);

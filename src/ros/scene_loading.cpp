@@ -35,11 +35,20 @@ std::string whatIsMissing(const std::optional<FoundDescription>& found, const st
   return "";
 }
 
+// To add bodies to.
+Scene emptyScene(const SceneLoadOptions& options) {
+  Scene scene;
+  scene.cache = options.cache;
+  scene.pool = std::make_shared<BodyPool>(options.metric_memory_limit);
+  scene.limits = options.limits;
+  return scene;
+}
+
 Scene loadRobot(const std::string& urdf, const std::string& name, const SceneLoadOptions& options) {
   try {
     return loadRobotScene(urdf, name, options);
   } catch (const Error& problem) {
-    Scene scene;
+    Scene scene = emptyScene(options);
     scene.problems.push_back({problem.where(), problem.whatIsWrong() + " (" + problem.remedy() + ")"});
     return scene;
   }
@@ -57,6 +66,8 @@ LoadAttempt tryLoadScene(const NodeParameters& parameters, const ros::NodeHandle
   options.geometry = parameters.geometry;
   options.default_settings = parameters.pair;
   options.cache = openPreparationCache(parameters.cache);
+  options.limits = {parameters.limits.largest_body_count, parameters.limits.largest_pair_count,
+                    parameters.limits.largest_triangle_count, parameters.limits.largest_node_count};
   std::vector<std::string> names;
   if (!parameters.scene_file.empty()) {
     names = descriptionsOfSceneFile(parameters.scene_file);
@@ -74,7 +85,7 @@ LoadAttempt tryLoadScene(const NodeParameters& parameters, const ros::NodeHandle
     return {loadSceneFile(parameters.scene_file, options), ""};
   }
   if (parameters.robot_description.empty()) {
-    return {Scene(), ""};
+    return {emptyScene(options), ""};
   }
   const std::string urdf = options.descriptions[parameters.robot_description];
   if (const auto srdf = findDescription(node, kSemanticDescription); srdf && srdf->is_xml) {

@@ -2,21 +2,33 @@
 
 namespace concave_distance {
 
-TrackedPair::TrackedPair(const Scene& scene, const ScenePair& pair, const std::string& reference_frame,
+namespace {
+
+const SceneBody& bodyA(const Scene& scene, std::size_t pair) {
+  return scene.bodies[scene.pairs[pair].body_a];
+}
+
+const SceneBody& bodyB(const Scene& scene, std::size_t pair) {
+  return scene.bodies[scene.pairs[pair].body_b];
+}
+
+}  // namespace
+
+TrackedPair::TrackedPair(const Scene& scene, std::size_t index, const std::string& reference_frame,
                          std::uint64_t first_id)
-    : mesh_a(scene.bodies[pair.body_a].mesh),
-      mesh_b(scene.bodies[pair.body_b].mesh),
-      bounds_a(scene.bodies[pair.body_a].bounds),
-      bounds_b(scene.bodies[pair.body_b].bounds),
-      frames{reference_frame, scene.bodies[pair.body_a].frame, scene.bodies[pair.body_b].frame},
-      settings(pair.settings),
-      enabled(pair.enabled),
-      effects(mesh_a, mesh_b,
-              inContact(scene.bodies[pair.body_a].material, scene.bodies[pair.body_b].material)),
+    : origin(scene.pairs.share(index)),
+      mesh_a(bodyA(scene, index).mesh),
+      mesh_b(bodyB(scene, index).mesh),
+      bounds_a(bodyA(scene, index).bounds),
+      bounds_b(bodyB(scene, index).bounds),
+      frames{reference_frame, bodyA(scene, index).frame, bodyB(scene, index).frame},
+      settings(origin->settings),
+      enabled(origin->enabled),
+      effects(mesh_a, mesh_b, inContact(bodyA(scene, index).material, bodyB(scene, index).material)),
       largest_id(first_id) {
-  heading.pair = pair.name;
-  heading.body_a = scene.bodies[pair.body_a].name;
-  heading.body_b = scene.bodies[pair.body_b].name;
+  heading.pair = origin->name;
+  heading.body_a = bodyA(scene, index).name;
+  heading.body_b = bodyB(scene, index).name;
   heading.reference_frame = reference_frame;
   heading.accuracy = settings.tracker.accuracy;
   heading.id_offset = first_id;

@@ -6,21 +6,16 @@
 #include <algorithm>
 #include <exception>
 #include <memory>
-#include <sstream>
+#include <string>
 #include <utility>
+
+#include "concave_distance/base/error.h"
 
 namespace concave_distance::detail {
 namespace {
 
-// Per entry of the metric's matrices: a float and a 16-bit predecessor.
-constexpr std::size_t kBytesPerMatrixEntry = sizeof(float) + sizeof(std::uint16_t);
-
-// Between the two passes: all is there but the mesh metric.
-struct PreparedBody {
-  RepairReport repair;
-  BodyMeshParts parts;
-  MeshMetricOptions metric;
-};
+// A larger grid takes so long that it is made while loading, not when the body is first searched.
+constexpr double kLargeGrid = 5000.0;
 
 // Runs `step` for every body without a problem; what it throws becomes that body's problem.
 template <typename Step>
@@ -55,42 +50,34 @@ void locateAll(std::vector<BodySource>& sources, const PackageLocator& package_l
   }
 }
 
-PreparedBody prepare(const BodySource& source, const PreparationCachePointer& cache) {
-  PreparedBody prepared;
-  RepairedMesh repaired = loadGeometry(source.geometry, source.source, cache.get());
-  prepared.repair = repaired.report;
-  BodyMeshOptions options;
-  options.max_edge_length = source.max_edge_length;
-  options.cache = cache;
-  prepared.parts = makeBodyMeshParts(source.name, std::move(repaired.mesh), options);
-  return prepared;
-}
-
-// In the order of the scene, so that which bodies have matrices does not depend on who was ready first.
-void shareMetricMemory(std::vector<PreparedBody>& prepared, std::size_t limit,
-                       std::vector<BuiltBody>& built) {
-  std::size_t left = limit;
-  for (std::size_t i = 0; i < prepared.size(); ++i) {
-    PreparedBody& body = prepared[i];
-    if (!built[i].problem.empty()) continue;
-    const std::size_t graph_nodes = body.parts.nodes.graph.nodeCount();
-    std::ostringstream reason;
-    if (graph_nodes > body.metric.matrix_node_limit) {
-      reason << "more than " << body.metric.matrix_node_limit << " search nodes";
-    } else if (const std::size_t wanted = graph_nodes * graph_nodes * kBytesPerMatrixEntry; wanted > left) {
-      body.metric.matrix_node_limit = 0;
-      reason << "matrices of " << static_cast<double>(wanted) * 1e-6 << " MB, "
-             << static_cast<double>(left) * 1e-6 << " of " << static_cast<double>(limit) * 1e-6
-             << " MB are left";
-    } else {
-      left -= wanted;
-      continue;
-    }
-    built[i].notes.push_back("mesh distances are searched on demand: " + reason.str());
+void checkTriangleCount(const SurfaceMesh& surface, const BodySource& source, const SceneLimits& limits) {
+  if (surface.triangleCount() > limits.triangles) {
+    throw Error(source.source, std::to_string(surface.triangleCount()) + " triangles",
+                "reduce the mesh; the limit of a body is " + std::to_string(limits.triangles));
   }
 }
 
-SceneBody finishBody(const BodySource& source, PreparedBody prepared) {
+std::shared_ptr<const BodyMesh> sharedMesh(const BodySource& source, SurfaceMesh surface,
+                                           const std::shared_ptr<BodyPool>& pool,
+                                           const PreparationCachePointer& cache, const SceneLimits& limits) {
+  BodyMeshOptions options;
+  options.max_edge_length = source.max_edge_length;
+  options.largest_node_count = limits.nodes;
+  options.metric_memory = pool->metricMemory();
+  options.cache = cache;
+  const ContentKey key = bodyKey(surface, options);
+  return pool->share(key, [&] {
+    auto mesh = std::make_shared<const BodyMesh>(source.name, std::move(surface), options);
+    const double edge = source.max_edge_length.value_or(automaticEdgeLength(mesh->surface()));
+    if (estimatedNodeCount(mesh->surface(), edge) > kLargeGrid) mesh->graph();
+    return mesh;
+  });
+}
+
+SceneBody build(const BodySource& source, const std::shared_ptr<BodyPool>& pool,
+                const PreparationCachePointer& cache, const SceneLimits& limits) {
+  RepairedMesh repaired = loadGeometry(source.geometry, source.source, cache.get());
+  checkTriangleCount(repaired.mesh, source, limits);
   SceneBody body;
   body.name = source.name;
   body.frame = source.frame;
@@ -98,32 +85,28 @@ SceneBody finishBody(const BodySource& source, PreparedBody prepared) {
   body.colour = source.colour;
   body.material = source.material;
   body.in_robot_model = source.in_robot_model;
-  body.repair = prepared.repair;
+  body.repair = repaired.report;
   body.inertia = source.inertia;
-  body.bounds = boundsOf(prepared.parts.surface);
-  body.mesh = std::make_shared<const BodyMesh>(std::move(prepared.parts), prepared.metric);
+  body.bounds = boundsOf(repaired.mesh);
+  body.mesh = sharedMesh(source, std::move(repaired.mesh), pool, cache, limits);
   return body;
 }
 
 }  // namespace
 
 std::vector<BuiltBody> buildBodies(std::vector<BodySource> sources, const PackageLocator& package_locator,
-                                   std::size_t metric_memory_limit, const PreparationCachePointer& cache) {
+                                   const std::shared_ptr<BodyPool>& pool,
+                                   const PreparationCachePointer& cache, const SceneLimits& limits) {
   std::vector<BuiltBody> built(sources.size());
-  std::vector<PreparedBody> prepared(sources.size());
   locateAll(sources, package_locator, built);
-  forEachBody(built, [&](std::size_t i) { prepared[i] = prepare(sources[i], cache); });
+  forEachBody(built, [&](std::size_t i) { built[i].body = build(sources[i], pool, cache, limits); });
   for (std::size_t i = 0; i < sources.size(); ++i) {
-    if (!built[i].problem.empty()) continue;
+    if (!built[i].body) continue;
     for (const std::string& note :
-         {prepared[i].repair.summary(), describeApproximations(sources[i].geometry)}) {
+         {built[i].body->repair.summary(), describeApproximations(sources[i].geometry)}) {
       if (!note.empty()) built[i].notes.push_back(note);
     }
   }
-  shareMetricMemory(prepared, metric_memory_limit, built);
-  forEachBody(built, [&](std::size_t i) {
-    built[i].body = finishBody(sources[i], std::exchange(prepared[i], PreparedBody{}));
-  });
   return built;
 }
 

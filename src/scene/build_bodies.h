@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "concave_distance/scene/scene.h"
+#include "concave_distance/scene/scene_limits.h"
 #include "geometry_element.h"
 
 namespace concave_distance::detail {
@@ -35,7 +36,9 @@ struct BuiltBody {
 /// Loads all bodies, in parallel; one result a source, in their order and the same whatever the number of
 /// threads and whatever the cache (nullptr: none) already holds. Never throws for a body: its problem says
 /// what is wrong.
+/// @param pool not nullptr
 std::vector<BuiltBody> buildBodies(std::vector<BodySource> sources, const PackageLocator& package_locator,
-                                   std::size_t metric_memory_limit, const PreparationCachePointer& cache);
+                                   const std::shared_ptr<BodyPool>& pool,
+                                   const PreparationCachePointer& cache, const SceneLimits& limits);
 
 }  // namespace concave_distance::detail

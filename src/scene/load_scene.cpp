@@ -135,11 +135,17 @@ void noteOpenBodies(Scene& scene) {
 }
 
 Scene assemble(const SceneSpec& spec, SceneParts parts, const SceneLoadOptions& options) {
+  if (parts.sources.size() > options.limits.bodies) {
+    throw Error("scene", std::to_string(parts.sources.size()) + " bodies",
+                "the limit is " + std::to_string(options.limits.bodies) + " (largest_body_count)");
+  }
   // Before the costly part, so that a mistake in the file is told at once.
-  PairSelection selection = detail::selectPairs(spec, parts);
-  std::vector<BuiltBody> built =
-      detail::buildBodies(parts.sources, options.package_locator, spec.metric_memory_limit, spec.cache);
+  PairSelection selection = detail::selectPairs(spec, parts, options.limits.pairs);
   Scene scene;
+  scene.pool = std::make_shared<BodyPool>(spec.metric_memory_limit);
+  scene.limits = options.limits;
+  std::vector<BuiltBody> built =
+      detail::buildBodies(parts.sources, options.package_locator, scene.pool, spec.cache, options.limits);
   scene.cache = spec.cache;
   scene.simulation = spec.simulation;
   scene.notes = std::move(parts.notes);
@@ -224,10 +230,11 @@ Scene loadRobotScene(const std::string& urdf, const std::string& where, const Sc
 }
 
 SceneBody loadBody(const BodyDescription& description, const std::string& base_folder,
-                   const PackageLocator& package_locator, std::size_t metric_memory_limit,
-                   const PreparationCachePointer& cache) {
-  std::vector<BuiltBody> built = detail::buildBodies({detail::sourceOf(description, base_folder)},
-                                                     package_locator, metric_memory_limit, cache);
+                   const PackageLocator& package_locator, const std::shared_ptr<BodyPool>& pool,
+                   const PreparationCachePointer& cache, const SceneLimits& limits) {
+  std::vector<BuiltBody> built =
+      detail::buildBodies({detail::sourceOf(description, base_folder)}, package_locator,
+                          pool ? pool : std::make_shared<BodyPool>(kDefaultMetricMemoryLimit), cache, limits);
   if (!built.front().body) {
     throw Error("body '" + description.name + "'", built.front().problem, "it is not added");
   }

@@ -41,8 +41,8 @@ struct Candidate {
 
 class Selection {
  public:
-  Selection(const SceneSpec& spec, const SceneParts& parts)
-      : spec_(spec), parts_(parts), selector_(parts, spec.groups, result_.notes) {}
+  Selection(const SceneSpec& spec, const SceneParts& parts, std::size_t pair_limit)
+      : spec_(spec), parts_(parts), pair_limit_(pair_limit), selector_(parts, spec.groups, result_.notes) {}
 
   PairSelection run() {
     if (spec_.pairs) {
@@ -120,6 +120,12 @@ class Selection {
 
   Candidate& candidateOf(std::size_t a, std::size_t b) {
     const auto [place, is_new] = number_.emplace(unordered(a, b), candidates_.size());
+    if (is_new && candidates_.size() == pair_limit_) {
+      const std::size_t bodies = parts_.sources.size();
+      throw Error("pairs",
+                  "more than " + std::to_string(pair_limit_) + " pairs of " + std::to_string(bodies) + " bodies",
+                  "name the pairs to watch in the scene file's section pairs, or raise largest_pair_count");
+    }
     if (is_new) candidates_.push_back({a, b, {}, {}});
     return candidates_[place->second];
   }
@@ -180,6 +186,7 @@ class Selection {
 
   const SceneSpec& spec_;
   const SceneParts& parts_;
+  std::size_t pair_limit_;
   PairSelection result_;
   BodySelector selector_;  // writes its notes into result_
   std::vector<Candidate> candidates_;
@@ -189,8 +196,8 @@ class Selection {
 
 }  // namespace
 
-PairSelection selectPairs(const SceneSpec& spec, const SceneParts& parts) {
-  return Selection(spec, parts).run();
+PairSelection selectPairs(const SceneSpec& spec, const SceneParts& parts, std::size_t pair_limit) {
+  return Selection(spec, parts, pair_limit).run();
 }
 
 }  // namespace concave_distance::detail

@@ -26,7 +26,7 @@ struct PairSelection {
 };
 
 /// Applies the file's groups, pairs and disabled pairs, and the filters of the robots.
-/// @throws Error for names that are not known and settings that do not go together
-PairSelection selectPairs(const SceneSpec& spec, const SceneParts& parts);
+/// @throws Error for names that are not known, settings that do not go together and more pairs than allowed
+PairSelection selectPairs(const SceneSpec& spec, const SceneParts& parts, std::size_t pair_limit);
 
 }  // namespace concave_distance::detail

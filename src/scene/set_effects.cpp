@@ -10,11 +10,13 @@ namespace concave_distance {
 std::vector<std::string> setEffects(Scene& scene, const std::string& pattern, const std::string& yaml) {
   const detail::YamlValue value = detail::YamlValue::parse(yaml, "effects");
   std::vector<std::string> names;
-  for (ScenePair& pair : scene.pairs) {
-    if (pair.name != pattern && !detail::matchesPattern(pattern, pair.name)) continue;
+  for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
+    const std::string& name = scene.pairs[i].name;
+    if (name != pattern && !detail::matchesPattern(pattern, name)) continue;
+    names.push_back(name);
+    ScenePair& pair = scene.pairs.edit(i);
     detail::readEffects(value, pair.settings.effects);
     detail::validatePairSettings(pair.settings, "pair '" + pair.name + "'");
-    names.push_back(pair.name);
   }
   if (names.empty()) {
     throw Error("pair", "there is no pair '" + pattern + "'",

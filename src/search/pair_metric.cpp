@@ -16,15 +16,17 @@ bool straightLineExceeds(const MeshMetricQuery& query, NodeIndex from, NodeIndex
 }  // namespace
 
 double PairMetric::distanceWithin(const TrialPoint& x, const TrialPoint& y, double bound) {
-  if (straightLineExceeds(a_, x.node_a, y.node_a, bound) ||
-      straightLineExceeds(b_, x.node_b, y.node_b, bound)) {
+  MeshMetricQuery& metric_a = onA();
+  MeshMetricQuery& metric_b = onB();
+  if (straightLineExceeds(metric_a, x.node_a, y.node_a, bound) ||
+      straightLineExceeds(metric_b, x.node_b, y.node_b, bound)) {
     return std::numeric_limits<double>::infinity();
   }
-  const double on_a = a_.distanceWithin(x.node_a, y.node_a, bound);
+  const double on_a = metric_a.distanceWithin(x.node_a, y.node_a, bound);
   if (!(on_a <= bound)) {
     return std::numeric_limits<double>::infinity();
   }
-  const double sum = on_a + b_.distanceWithin(x.node_b, y.node_b, bound - on_a);
+  const double sum = on_a + metric_b.distanceWithin(x.node_b, y.node_b, bound - on_a);
   // bound - on_a is rounded, so the sum may miss the bound by a last place.
   return sum <= bound ? sum : std::numeric_limits<double>::infinity();
 }

@@ -10,6 +10,16 @@ void PlaceTable::reset(double bound) {
   bound_ = bound;
 }
 
+void PlaceTable::shrink(std::size_t compared) {
+  const std::size_t kept = compared * compared / 2;
+  if (delta_.capacity() <= kept) {
+    return;
+  }
+  reset(bound_);
+  std::vector<float>().swap(delta_);
+  delta_.reserve(kept);
+}
+
 std::uint32_t PlaceTable::placeOf(const TrialPoint& point) {
   const auto next = static_cast<std::uint32_t>(points_.size());
   const std::uint32_t place = place_of_pair_.insert(point.node_a, point.node_b, next);

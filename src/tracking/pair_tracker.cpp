@@ -13,8 +13,8 @@
 namespace concave_distance {
 namespace {
 
-// Local minima that a warm cycle meets at the most, as a rule.
-constexpr std::size_t kUsualMinima = 1024;
+// Local minima that a warm cycle meets at the most, as a rule; buffers grow with more.
+constexpr std::size_t kUsualMinima = 128;
 
 double seconds(std::chrono::steady_clock::duration duration) {
   return std::chrono::duration<double>(duration).count();
@@ -29,16 +29,19 @@ TrackerState::TrackerState(std::string pair_name, std::shared_ptr<const BodyMesh
       parameters(given),
       search(*geometry.a, *geometry.b) {
   parameters.validate(name);
-  chooseRadii();
+  proof.workspace.open.reserve(kUsualMinima);
+}
+
+// Not before a search needs it: a proof alone does without the bodies' grids and most of the memory.
+void TrackerState::prepareSearch() {
+  if (search_prepared) return;
+  search_prepared = true;
   // So large that a warm cycle does not have to grow them; a cold one may.
   search.reserve(kUsualMinima);
   known.reserve(kUsualMinima);
   candidates.reserve(kUsualMinima);
   archive.reserve(kUsualMinima);
-  proof.workspace.open.reserve(kUsualMinima);
-}
-
-void TrackerState::chooseRadii() {
+  ripples.allocate();
   cold_radii = automaticRadii(*geometry.a, *geometry.b, parameters.cold);
   warm_radii = automaticRadii(*geometry.a, *geometry.b, parameters.warm);
 }
@@ -92,6 +95,9 @@ void TrackerState::update(const Eigen::Isometry3d& pose, double time, PairSoluti
            : std::numeric_limits<double>::infinity();
   const bool proves = provesDistance(parameters.accuracy);
   stage_clock.start();
+  if (!proves || parameters.niches_wanted) {
+    prepareSearch();
+  }
   if (proves && !parameters.niches_wanted) {
     proveAlone(displacement, elapsed, seconds_left(), solution);
     stage_clock.lap(SolveStage::Proof, solution.stages);
@@ -118,6 +124,9 @@ void TrackerState::update(const Eigen::Isometry3d& pose, double time, PairSoluti
       reportNearest(displacement, solution);
     }
     stage_clock.lap(SolveStage::Describe, solution.stages);
+  }
+  if (!warm) {
+    search.shrink();
   }
   last_pose = *rigid;
   last_time = time;
@@ -195,7 +204,7 @@ void PairTracker::setParameters(const TrackerParameters& parameters) {
   }
   state_->parameters = parameters;
   state_->proof.current = state_->completeness.current = false;
-  state_->chooseRadii();
+  state_->search_prepared = false;
 }
 
 std::size_t PairTracker::memoryBytes() const {

@@ -51,7 +51,7 @@ struct TrackerState {
   TrackerState(std::string pair_name, std::shared_ptr<const BodyMesh> a, std::shared_ptr<const BodyMesh> b,
                const TrackerParameters& given);
 
-  void chooseRadii();
+  void prepareSearch();
   void update(const Eigen::Isometry3d& pose, double time, PairSolution& solution);
   void reset();
 
@@ -101,6 +101,7 @@ struct TrackerState {
   std::string name;
   PairGeometry geometry;
   TrackerParameters parameters;
+  bool search_prepared = false;  ///< with the parameters as they are
   NicheRadii cold_radii{};
   NicheRadii warm_radii{};
   SearchWorkspace search;

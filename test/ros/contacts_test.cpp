@@ -139,7 +139,7 @@ TEST(ContactMarkers, DrawNothingThatWasNotComputedAndTellContactsWithoutIdsApart
 class EffectsInTheCycle : public ::testing::Test {
  protected:
   EffectsInTheCycle() {
-    EffectSettings& effects = scene.pairs[0].settings.effects;
+    EffectSettings& effects = scene.pairs.edit(0).settings.effects;
     effects.normal_force.emplace();
     effects.normal_force->model = NormalForceModel::SpringDashpot;
     effects.normal_force->stiffness = 100.0;
@@ -191,7 +191,7 @@ TEST_F(EffectsInTheCycle, ChangeWithTheSettings) {
   EXPECT_EQ(interferenceRuns(run(1, kContacts)), 0U);
   EXPECT_EQ(contacts(), nullptr);
   EXPECT_THROW(setEffects(scene, "a/d", "none"), Error);
-  scene.pairs[0].settings.tracker.accuracy = AccuracyLevel::Refined;
+  scene.pairs.edit(0).settings.tracker.accuracy = AccuracyLevel::Refined;
   EXPECT_THROW(setEffects(scene, "a/b", "{interference: true}"), Error) << "without a proof";
 }
 

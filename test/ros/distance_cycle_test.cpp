@@ -126,8 +126,8 @@ TEST_F(DistanceCycleTest, DoesNotSolveAtStaleTransforms) {
 }
 
 TEST_F(DistanceCycleTest, ProvesAPairBeyondTheCutoffInsteadOfSolvingIt) {
-  scene.pairs[1].settings.tracker.cutoff = 1.5;
-  scene.pairs[1].settings.warning_distance = 0.1;
+  scene.pairs.edit(1).settings.tracker.cutoff = 1.5;
+  scene.pairs.edit(1).settings.warning_distance = 0.1;
   cycle.setScene(scene);
   moveAll(0);
   const CycleReport report = run(0, kDistance, kDistance);
@@ -157,7 +157,9 @@ TEST_F(DistanceCycleTest, NeverUsesAnIdAgainWhenABodyComesBackUnderItsName) {
 TEST_F(DistanceCycleTest, KeepsWarmWhatAnEditOfTheSceneDoesNotTouch) {
   moveAll(0);
   run(0, kNiches, kNiches);
-  scene.pairs.erase(scene.pairs.begin());
+  PairList rest;
+  rest.appendShared(scene.pairs, 1);
+  scene.pairs = rest;
   cycle.setScene(scene);
   moveAll(1);
   cycle.run({kNiches}, at(1));
@@ -175,15 +177,15 @@ TEST_F(DistanceCycleTest, SolvesNoPairAnewForAnEditThatChangesNoSettings) {
 }
 
 TEST_F(DistanceCycleTest, TakesBackTheAlertOfAPairThatIsSwitchedOffOrRemoved) {
-  for (ScenePair& one : scene.pairs) {
-    one.settings.warning_distance = 5.0;
+  for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
+    scene.pairs.edit(i).settings.warning_distance = 5.0;
   }
   cycle.setScene(scene);
   moveAll(0);
   run(0, kDistance, kDistance);
   EXPECT_TRUE(pair(0).warning_changed);
   EXPECT_TRUE(pair(0).heading.warning);
-  scene.pairs[0].enabled = false;
+  scene.pairs.edit(0).enabled = false;
   cycle.setScene(scene);
   run(1, kDistance, kDistance);
   EXPECT_TRUE(pair(0).warning_changed);

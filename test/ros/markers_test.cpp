@@ -159,7 +159,7 @@ TEST(BodyMarkers, ShowWhatTheRobotModelDoesNot) {
   Scene scene;
   scene.bodies.push_back(boxBody("shelf", 1.0));
   scene.bodies.push_back(boxBody("link", 1.0));
-  scene.bodies[1].in_robot_model = true;
+  scene.bodies.edit(1).in_robot_model = true;
   const auto message = bodyMarkers(scene);
   ASSERT_EQ(message.markers.size(), 2U);
   EXPECT_EQ(message.markers[0].action, Marker::DELETEALL);

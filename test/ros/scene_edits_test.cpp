@@ -47,16 +47,78 @@ TEST(AddBody, PairsWithBodiesOfOtherFrames) {
 
 TEST(AddBody, PairsWithThoseNamedOnceEach) {
   Scene scene = threeBodies();
-  EXPECT_EQ(addBody(scene, body("cup", "world"), {"table", "table"}, {}),
+  EXPECT_EQ(addBody(scene, body("cup", "world"), {{"table", "table"}, false}, {}),
             std::vector<std::string>{"cup/table"});
+}
+
+TEST(AddBody, AddsABodyThatIsWatchedAgainstNothing) {
+  Scene scene = threeBodies();
+  EXPECT_TRUE(addBody(scene, body("cup", "cup"), {{}, true}, {}).empty());
+  EXPECT_EQ(scene.pairs.size(), 2U);
+  EXPECT_THROW(addBody(scene, body("mug", "mug"), {{"table"}, true}, {}), Error);
+}
+
+std::string refusalOfBody(Scene& scene, const PairPartners& partners) {
+  try {
+    addBody(scene, body("cup", "cup"), partners, {});
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(AddBody, RefusesWhatWouldBeBeyondALimitWithTheFigureAndAddsNothing) {
+  Scene scene = threeBodies();
+  scene.limits.pairs = 4;
+  const std::string pairs = refusalOfBody(scene, {});
+  EXPECT_NE(pairs.find("3 new pairs beside the 2"), std::string::npos) << pairs;
+  EXPECT_NE(pairs.find("the limit is 4"), std::string::npos) << pairs;
+  EXPECT_EQ(scene.bodies.size(), 3U);
+  EXPECT_EQ(refusalOfBody(scene, {{"arm", "table"}, false}), "accepted");
+  EXPECT_EQ(scene.pairs.size(), 4U);
+  EXPECT_THROW(setPairEnabled(scene, {"", "table", "shelf"}, true, {}), Error);
+  removeBody(scene, "cup");
+  scene.limits.bodies = 3;
+  EXPECT_NE(refusalOfBody(scene, {{}, true}).find("3 bodies, the limit"), std::string::npos);
+}
+
+TEST(RemoveBody, LeavesNamesAndPairsThatAreFoundByTheirNewPlaces) {
+  Scene scene = threeBodies();
+  addBody(scene, body("cup", "cup"), {}, {});
+  const Scene before = scene;
+  removeBody(scene, "arm");
+  EXPECT_EQ(before.bodies.size(), 4U) << "a copy is not changed with it";
+  EXPECT_EQ(names(scene), (std::vector<std::string>{"cup/table", "cup/shelf"}));
+  ASSERT_TRUE(scene.findPair("shelf", "cup").has_value());
+  const ScenePair& pair = scene.pairs[*scene.findPair("shelf", "cup")];
+  EXPECT_EQ(scene.bodies[pair.body_a].name, "cup");
+  EXPECT_EQ(scene.bodies[pair.body_b].name, "shelf");
+  EXPECT_FALSE(scene.findBody("arm").has_value());
+  EXPECT_EQ(&before.bodies[1], &scene.bodies[0]) << "what was not edited is shared";
+}
+
+TEST(SceneEdits, FindThousandsOfBodiesAndPairsByName) {
+  Scene scene;
+  addBody(scene, body("hub", "hub"), {}, {});
+  for (int i = 0; i < 3000; ++i) {
+    addBody(scene, body("b" + std::to_string(i), "f"), {{"hub"}, false}, {});
+  }
+  for (int i = 0; i < 3000; i += 7) {
+    const std::string name = "b" + std::to_string(i);
+    ASSERT_EQ(scene.findBody(name), static_cast<std::size_t>(i + 1));
+    ASSERT_EQ(scene.findPair("hub", name), static_cast<std::size_t>(i));
+    ASSERT_EQ(scene.pairs.find(name + "/hub"), static_cast<std::size_t>(i));
+    ASSERT_FALSE(scene.findPair("b1", name).has_value());
+  }
+  EXPECT_FALSE(scene.findBody("b3000").has_value());
 }
 
 TEST(AddBody, RefusesTakenBadAndUnknownNamesAndChangesNothing) {
   Scene scene = threeBodies();
   EXPECT_THROW(addBody(scene, body("arm", "x"), {}, {}), Error);
   EXPECT_THROW(addBody(scene, body("my cup", "x"), {}, {}), Error);
-  EXPECT_THROW(addBody(scene, body("cup", "x"), {"nobody"}, {}), Error);
-  EXPECT_THROW(addBody(scene, body("cup", "x"), {"cup"}, {}), Error);
+  EXPECT_THROW(addBody(scene, body("cup", "x"), {{"nobody"}, false}, {}), Error);
+  EXPECT_THROW(addBody(scene, body("cup", "x"), {{"cup"}, false}, {}), Error);
   EXPECT_EQ(scene.bodies.size(), 3U);
   EXPECT_EQ(scene.pairs.size(), 2U);
 }

@@ -121,7 +121,7 @@ TEST_F(PreparationCacheTest, FilesThatAreNotSoundAreMadeAnew) {
 TEST_F(PreparationCacheTest, EveryInputThatChangesIsAnotherKey) {
   const auto filesAfter = [&](const std::string& body) {
     std::filesystem::remove_all(cache_folder());
-    load("bodies:\n  - {name: a, " + body + "}\n");
+    bytesOf(load("bodies:\n  - {name: a, " + body + "}\n"));  // makes all parts
     return filesIn(cache_folder());
   };
   const std::vector<std::string> bodies = {
@@ -211,9 +211,9 @@ TEST_F(PreparationCacheTest, AFolderThatCannotBeWrittenIsToldOnceAndStopsNothing
 }
 
 TEST_F(PreparationCacheTest, TheSceneFileGoesBeforeTheCaller) {
-  loadBoth("cache: 'off'\n");
+  bytesOf(loadBoth("cache: 'off'\n"));
   EXPECT_TRUE(filesIn(cache_folder()).empty());
-  loadBoth("cache: kept/here\n");  // from the scene file's folder on
+  bytesOf(loadBoth("cache: kept/here\n"));  // from the scene file's folder on
   EXPECT_TRUE(filesIn(cache_folder()).empty());
   EXPECT_EQ(filesIn(folder.path("kept/here")).size(), 10U);
   EXPECT_TRUE(mentions(refusal("cache: ''\n"), "cache"));

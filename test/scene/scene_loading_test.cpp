@@ -82,27 +82,97 @@ TEST_F(SceneLoading, IsTheSameWhateverTheNumberOfThreads) {
   EXPECT_TRUE(mentions(alone, "matrices"));
 }
 
+void prepareAll(const Scene& scene) {
+  std::vector<const BodyMesh*> bodies;
+  for (const SceneBody& body : scene.bodies) bodies.push_back(body.mesh.get());
+  prepareSearch(bodies);
+}
+
 TEST_F(SceneLoading, MatricesGoToBodiesInOrderWhileTheLimitLasts) {
-  // Grids of one box: equal sizes, so that the limit can be set to hold exactly two.
+  // Grids of boxes as good as equal, so that the limit can be set to hold exactly two.
   const std::size_t nodes = loadBody(box("x"), "", nullptr).mesh->graph().nodeCount();
   options.metric_memory_limit = 2 * nodes * nodes * 6;
   std::string yaml = "bodies:\n";
   for (const std::string name : {"a", "b", "c"}) {
-    yaml += "  - {name: " + name + ", box: {size: [1, 2, 3]}, max_edge_length: 0.5}\n";
+    yaml += "  - {name: " + name + ", box: {size: [1, 2, 2.99999" + std::to_string(name[0] - 'a') +
+            "]}, max_edge_length: 0.5}\n";
   }
   yaml += "  - {name: tiny, box: {size: [1, 2, 3]}, max_edge_length: 10}\n";
-  const Scene exact = load(yaml);
-  ASSERT_EQ(exact.bodies.size(), 4U);
-  EXPECT_TRUE(exact.bodies[0].mesh->metric().hasMatrices());
-  EXPECT_TRUE(exact.bodies[1].mesh->metric().hasMatrices());
-  EXPECT_FALSE(exact.bodies[2].mesh->metric().hasMatrices());
-  EXPECT_TRUE(hasNote(exact, "c: mesh distances are searched on demand"));
-  EXPECT_FALSE(exact.bodies[3].mesh->metric().hasMatrices());  // nothing is left
+  const auto has_matrices = [&](std::size_t body) {
+    const Scene scene = load(yaml);
+    EXPECT_EQ(scene.bodies.size(), 4U);
+    prepareAll(scene);
+    return scene.bodies[body].mesh->metric().hasMatrices();
+  };
+  EXPECT_TRUE(has_matrices(0));
+  EXPECT_TRUE(has_matrices(1));
+  EXPECT_FALSE(has_matrices(2));
+  EXPECT_FALSE(has_matrices(3));  // nothing is left
   const std::size_t tiny = std::size_t{8} * 8 * 6;
   options.metric_memory_limit += tiny;
-  EXPECT_TRUE(load(yaml).bodies[3].mesh->metric().hasMatrices());  // what is left holds the small one
+  EXPECT_TRUE(has_matrices(3));  // what is left holds the small one
   options.metric_memory_limit -= tiny + 1;
-  EXPECT_FALSE(load(yaml).bodies[1].mesh->metric().hasMatrices());
+  EXPECT_FALSE(has_matrices(1));
+}
+
+TEST_F(SceneLoading, BodiesAddedLaterShareTheLimitOfMatrices) {
+  const std::size_t nodes = loadBody(box("x"), "", nullptr).mesh->graph().nodeCount();
+  options.metric_memory_limit = nodes * nodes * 6;
+  const Scene scene = load("bodies: [{name: a, box: {size: [1, 2, 2.999999]}, max_edge_length: 0.5}]\n");
+  EXPECT_TRUE(scene.bodies[0].mesh->metric().hasMatrices());
+  const SceneBody added = loadBody(box("b"), "", nullptr, scene.pool);
+  EXPECT_FALSE(added.mesh->metric().hasMatrices());
+  EXPECT_EQ(scene.pool->metricMemory()->used(), options.metric_memory_limit);
+}
+
+TEST_F(SceneLoading, MatricesOfABodyThatIsGoneMakeRoomForOthers) {
+  const auto pool = std::make_shared<BodyPool>(1'000'000'000);
+  SceneBody body = loadBody(box("a"), "", nullptr, pool);
+  body.mesh->metric();
+  EXPECT_GT(pool->metricMemory()->used(), 0U);
+  body = SceneBody();
+  EXPECT_EQ(pool->metricMemory()->used(), 0U);
+}
+
+TEST_F(SceneLoading, BodiesOfTheSameSurfaceAndGridShareOneMesh) {
+  const Scene scene = load(
+      "bodies:\n"
+      "  - {name: a, box: {size: [1, 2, 3]}}\n  - {name: b, box: {size: [1, 2, 3]}, frame: tool}\n"
+      "  - {name: c, box: {size: [1, 2, 3]}, max_edge_length: 0.5}\n  - {name: d, box: {size: [1, 2, 4]}}\n");
+  ASSERT_EQ(scene.bodies.size(), 4U);
+  EXPECT_EQ(scene.bodies[0].mesh, scene.bodies[1].mesh);
+  EXPECT_NE(scene.bodies[0].mesh, scene.bodies[2].mesh);
+  EXPECT_NE(scene.bodies[0].mesh, scene.bodies[3].mesh);
+  EXPECT_EQ(loadBody(box("e"), "", nullptr, scene.pool).mesh, scene.bodies[2].mesh);
+}
+
+TEST_F(SceneLoading, NothingOfTheSearchIsMadeBeforeItIsNeeded) {
+  BodyDescription plain = box("crate");
+  plain.max_edge_length.reset();
+  const SceneBody body = loadBody(plain, "", nullptr);
+  EXPECT_EQ(body.mesh->nodesIfMade(), nullptr);
+  EXPECT_LT(body.mesh->memoryBytes(), 20'000U);
+  body.mesh->metric();
+  EXPECT_NE(body.mesh->nodesIfMade(), nullptr);
+  EXPECT_GT(body.mesh->memoryBytes(), 1'000'000U) << "what is made is counted";
+}
+
+TEST_F(SceneLoading, WhatIsBeyondALimitIsRefusedWithTheFigure) {
+  options.limits.nodes = 1000;
+  options.limits.triangles = 11;
+  const std::string bodies = "bodies: [{name: a, box: {size: [1, 1, 1]}}, {name: b, box: {size: [1, 1, 2]}}]\n";
+  EXPECT_TRUE(mentions(load(bodies).problems.at(0).message, "12 triangles"));
+  options.limits.triangles = 12;
+  const Scene fine = load("bodies: [{name: a, box: {size: [1, 1, 1]}, max_edge_length: 0.002}]\n");
+  EXPECT_TRUE(fine.bodies.empty());
+  EXPECT_TRUE(mentions(fine.problems.at(0).message, "search grid of about 2.2"));
+  EXPECT_TRUE(mentions(fine.problems.at(0).message, "the limit is 1000 nodes"));
+  options.limits.pairs = 0;
+  EXPECT_THROW(load(bodies), Error);
+  options.limits.pairs = 1;
+  EXPECT_EQ(load(bodies).pairs.size(), 1U);
+  options.limits.bodies = 1;
+  EXPECT_THROW(load(bodies), Error);
 }
 
 TEST_F(SceneLoading, AnAutomaticGridIsThinnedAsBodyMeshDoesAndCountedSo) {
@@ -112,11 +182,12 @@ TEST_F(SceneLoading, AnAutomaticGridIsThinnedAsBodyMeshDoesAndCountedSo) {
   ball.chord_error = 1e-3;
   ball.max_edge_length.reset();
   const std::size_t kLimit = BodyMeshOptions().search_node_limit;
-  const SceneBody thinned = loadBody(ball, "", nullptr, kLimit * kLimit * 6);
+  const SceneBody thinned = loadBody(ball, "", nullptr, std::make_shared<BodyPool>(kLimit * kLimit * 6));
   EXPECT_GT(thinned.mesh->grid().vertexCount(), kLimit);
   EXPECT_EQ(thinned.mesh->graph().nodeCount(), kLimit);
   EXPECT_TRUE(thinned.mesh->metric().hasMatrices());
-  EXPECT_FALSE(loadBody(ball, "", nullptr, kLimit * kLimit * 6 - 1).mesh->metric().hasMatrices());
+  const auto too_small = std::make_shared<BodyPool>(kLimit * kLimit * 6 - 1);
+  EXPECT_FALSE(loadBody(ball, "", nullptr, too_small).mesh->metric().hasMatrices());
 }
 
 TEST_F(SceneLoading, LimitOfTheFileGoesBeforeTheCallers) {
@@ -198,7 +269,7 @@ TEST_F(SceneLoading, SingleBodyIsLoadedAsASceneDoes) {
   EXPECT_NEAR(test::signedVolume(body.mesh->surface()), 6.0, 1e-12);
   EXPECT_TRUE(body.mesh->metric().hasMatrices());
   EXPECT_FALSE(body.in_robot_model);
-  EXPECT_FALSE(loadBody(box("crate"), "", nullptr, 100).mesh->metric().hasMatrices());
+  EXPECT_FALSE(loadBody(box("crate"), "", nullptr, std::make_shared<BodyPool>(100)).mesh->metric().hasMatrices());
 }
 
 TEST_F(SceneLoading, SingleBodyWithAMeshIsPlacedInItsFrame) {

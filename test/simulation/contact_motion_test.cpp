@@ -251,7 +251,7 @@ TEST(ContactMotion, OneSceneOneAnswer) {
 
 TEST(ContactMotion, APairBeyondItsCutoffIsNotSolved) {
   SceneBuilder builder = ballOnBlock(NormalForceModel::HuntCrossley, 0.5, 1.0);
-  builder.scene.pairs[0].settings.tracker.cutoff = 0.1;
+  builder.scene.pairs.edit(0).settings.tracker.cutoff = 0.1;
   Simulation simulation = builder.simulation();
   simulation.advanceTo(0.3);
   EXPECT_EQ(simulation.counters().solves, 0U);

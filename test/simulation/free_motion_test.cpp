@@ -243,7 +243,7 @@ TEST(Simulation, AFreeLinkTakesTheInertiaOfItsUrdf) {
   builder.settings.bodies[0].mass.reset();
   MassProperties properties;
   properties.mass = 3.0;
-  builder.scene.bodies[0].inertia = properties;
+  builder.scene.bodies.edit(0).inertia = properties;
   builder.settings.bodies[0].velocity = {1.0, 0.0, 0.0};
   EXPECT_EQ(builder.simulation().momentum().x(), 3.0);
 }

@@ -23,7 +23,7 @@ struct SceneBuilder {
     body.bounds = boundsOf(mesh);
     body.mesh = std::make_shared<const BodyMesh>(name, std::move(mesh), options);
     scene.bodies.push_back(std::move(body));
-    return scene.bodies.back();
+    return scene.bodies.edit(scene.bodies.size() - 1);
   }
 
   /// Gives the body free motion; the settings are valid until the next call.
@@ -42,7 +42,7 @@ struct SceneBuilder {
     pair.body_a = 0;
     pair.body_b = 1;
     scene.pairs.push_back(pair);
-    return scene.pairs.back().settings;
+    return scene.pairs.edit(scene.pairs.size() - 1).settings;
   }
 
   Simulation simulation() const { return Simulation(scene, settings); }

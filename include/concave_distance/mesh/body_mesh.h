@@ -1,5 +1,7 @@
 #pragma once
 
+#include <atomic>
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>
@@ -8,6 +10,7 @@
 #include "concave_distance/mesh/bounding_volume_hierarchy.h"
 #include "concave_distance/mesh/mesh_metric.h"
 #include "concave_distance/mesh/mesh_topology.h"
+#include "concave_distance/mesh/metric_memory.h"
 #include "concave_distance/mesh/node_graph.h"
 #include "concave_distance/mesh/normal_cone_tree.h"
 #include "concave_distance/mesh/preparation_cache.h"
@@ -26,12 +29,16 @@ struct BodyMeshOptions {
   std::size_t search_node_limit = 800;
   /// Coarser levels over fine grids, for descents in long steps; only a comparison is without.
   bool levels = true;
+  /// Nodes of the grid at the most, estimated before it is made (estimatedNodeCount).
+  std::size_t largest_node_count = 20'000'000;
   MeshMetricOptions metric;
+  /// Out of which the matrices of the metric are taken; without room in it there are none. nullptr: no limit.
+  std::shared_ptr<MetricMemory> metric_memory;
   /// Where prepared parts are looked for and stored; nullptr: nowhere.
   PreparationCachePointer cache;
 };
 
-/// Everything of a body but its mesh metric, whose memory a scene shares out when all graphs are known.
+/// Everything of a body but its mesh metric, for a search that moves on other nodes than the grid's.
 struct BodyMeshParts {
   std::string name;
   SurfaceMesh surface;
@@ -49,18 +56,20 @@ struct BodyMeshParts {
 BodyMeshParts makeBodyMeshParts(std::string name, SurfaceMesh surface, const BodyMeshOptions& options);
 
 /// One body, ready for queries: the original surface with its topology and tree for the exact levels, the
-/// even grid (makeSearchGrid) with its graph and metric for the search. Immutable; shared between pairs and
-/// threads.
+/// even grid (makeSearchGrid) with its graph and metric for the search. To its users immutable; shared
+/// between pairs and threads. What only a search needs is made at its first use, once for all threads: a body
+/// whose distance alone is asked for never has it.
 class BodyMesh {
  public:
   /// @param surface repaired, original triangles, body frame, metres
-  /// @throws Error (naming the body) for options out of range
+  /// @throws Error (naming the body) for options out of range, or for a grid of more nodes than they allow
   BodyMesh(std::string name, SurfaceMesh surface, const BodyMeshOptions& options);
   BodyMesh(BodyMeshParts parts, const MeshMetricOptions& metric);
   ~BodyMesh();
   BodyMesh(const BodyMesh&) = delete;
   BodyMesh& operator=(const BodyMesh&) = delete;
 
+  /// Of the body that it was made for; others of the same content may share it.
   const std::string& name() const { return parts_.name; }
   const SurfaceMesh& surface() const { return parts_.surface; }
   const MeshTopology& topology() const { return parts_.topology; }
@@ -71,36 +80,56 @@ class BodyMesh {
   /// Of level `complete`. Built at the first call for each of the two, for all threads; about 450 bytes a
   /// triangle.
   const NormalConeTree& normalCones(NormalSides sides) const;
-  const SurfaceMesh& grid() const { return parts_.nodes.grid; }
+  const SurfaceMesh& grid() const { return nodes().grid; }
   /// What the search moves on: the grid's nodes or, where thinned() says so, an even choice of them.
-  const NodeGraph& graph() const { return parts_.nodes.graph; }
+  const NodeGraph& graph() const { return nodes().graph; }
   /// Coarser and coarser graphs over graph().
-  const NodeLevels& levels() const { return parts_.nodes.levels; }
-  bool thinned() const { return parts_.nodes.thinned(); }
-  const MeshMetric& metric() const { return *metric_; }
-  double maxEdgeLength() const { return parts_.nodes.max_edge_length; }
+  const NodeLevels& levels() const { return nodes().levels; }
+  bool thinned() const { return nodes().thinned(); }
+  const MeshMetric& metric() const;
+  double maxEdgeLength() const { return nodes().max_edge_length; }
   double diameter() const { return parts_.surface.diameter(); }
   /// How long the ways on the body are, and how near its protrusions come to each other along the mesh (at
   /// most half as far), metres: what the radii of niching are chosen from (mesh/geodesic_extent.h).
-  double geodesicExtent() const { return geodesic_extent_; }
-  double protrusionSpacing() const { return protrusion_spacing_; }
+  double geodesicExtent() const;
+  double protrusionSpacing() const;
   /// An original triangle that the graph's node lies on.
   TriangleIndex originalTriangle(NodeIndex graph_node) const {
-    return parts_.nodes.original_triangle_of_node[graph_node.value];
+    return nodes().original_triangle_of_node[graph_node.value];
   }
   /// The graph's node that a vertex of the original surface is, or belongs to where the graph is thinned.
   NodeIndex graphNode(NodeIndex surface_vertex) const {
-    return thinned() ? parts_.nodes.graph_node_of_vertex[surface_vertex.value] : surface_vertex;
+    return thinned() ? nodes().graph_node_of_vertex[surface_vertex.value] : surface_vertex;
   }
+  /// The grid with its graph; nullptr as long as no search has needed it.
+  const SearchNodes* nodesIfMade() const { return nodes_.load(std::memory_order_acquire); }
+  const MeshMetric* metricIfMade() const;
+  /// Of what is made so far.
   std::size_t memoryBytes() const;
 
  private:
-  BodyMeshParts parts_;
-  std::unique_ptr<MeshMetric> metric_;
-  double geodesic_extent_;
-  double protrusion_spacing_;
+  const SearchNodes& nodes() const {
+    const SearchNodes* made = nodesIfMade();
+    return made != nullptr ? *made : makeNodes();
+  }
+  const SearchNodes& makeNodes() const;
+  struct Measured;
+  const Measured& measured() const;
+  void reserveMetric() const;
+  friend void prepareSearch(const std::vector<const BodyMesh*>& bodies);
+
+  BodyMeshParts parts_;  ///< without the nodes
+  BodyMeshOptions options_;
   struct OnDemand;
   std::unique_ptr<OnDemand> on_demand_;  ///< what not every level needs
+  mutable std::atomic<const SearchNodes*> nodes_{nullptr};  ///< set once, in on_demand_
 };
+
+/// Bodies with the same key are the same but for their names.
+ContentKey bodyKey(const SurfaceMesh& surface, const BodyMeshOptions& options);
+
+/// Makes what a search needs of these bodies, in parallel, where it is not made yet. Room for matrices goes
+/// to them in this order, so that who has some does not depend on the threads.
+void prepareSearch(const std::vector<const BodyMesh*>& bodies);
 
 }  // namespace concave_distance

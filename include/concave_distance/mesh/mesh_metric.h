@@ -29,6 +29,10 @@ class MeshMetric {
   MeshMetric(const NodeGraph& graph, std::vector<float> distances, std::vector<std::uint16_t> predecessors);
   /// Whether a graph of so many nodes gets matrices.
   static bool wantsMatrices(std::size_t node_count, const MeshMetricOptions& options);
+  /// Memory of the matrices of so many nodes.
+  static std::size_t matrixBytes(std::size_t node_count) {
+    return node_count * node_count * (sizeof(float) + sizeof(std::uint16_t));
+  }
   /// The matrices row by row; empty when there are none.
   const std::vector<float>& distances() const { return distance_; }
   const std::vector<std::uint16_t>& predecessors() const { return predecessor_; }

@@ -42,6 +42,14 @@ struct SearchNodes {
 /// thousand.
 double automaticEdgeLength(const SurfaceMesh& surface);
 
+/// Nodes of the grid that this edge length makes, roughly: from the area and the lengths of the edges. O(n).
+double estimatedNodeCount(const SurfaceMesh& surface, double max_edge_length);
+
+/// @throws Error (naming `where`) when the edge length is not positive and finite, or a triangle has a corner
+///         twice
+void checkEdgeLength(const SurfaceMesh& surface, const std::optional<double>& max_edge_length,
+                     const std::string& where);
+
 /// O(n log n). @throws Error (naming `where`) when the edge length is not positive and finite; as
 /// makeSearchGrid()
 SearchNodes makeSearchNodes(const SurfaceMesh& surface, const SearchNodesOptions& options,

@@ -6,7 +6,6 @@
 
 #include <atomic>
 #include <cstdint>
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -61,6 +60,8 @@ class DistanceCycle {
  private:
   bool locate(TrackedPair& pair, ros::Time now);
   void stopWatching(TrackedPair& pair);
+  void retire(std::unique_ptr<TrackedPair> pair);
+  void prepareSearches();
   void solveAll();
   void solve(TrackedPair& pair);
 
@@ -69,8 +70,9 @@ class DistanceCycle {
   tbb::task_arena arena_;
   std::vector<std::unique_ptr<TrackedPair>> pairs_;
   std::vector<std::unique_ptr<TrackedPair>> retired_;
-  std::map<std::string, std::uint64_t> last_ids_;  ///< of pairs that are gone
+  std::uint64_t largest_retired_id_ = 0;  ///< of pairs that are gone
   std::vector<TrackedPair*> to_solve_;
+  std::vector<const BodyMesh*> to_prepare_;
   std::atomic<std::int64_t> helper_cpu_nanoseconds_{0};
 };
 

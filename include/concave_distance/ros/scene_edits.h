@@ -10,10 +10,20 @@ namespace concave_distance {
 /// True for letters, digits, _ and /, beginning with a letter and without empty parts: usable in topic names.
 bool isRosName(const std::string& name);
 
-/// Adds a body and its pairs with the bodies named, or with every body of another frame when none is.
+/// @throws Error when the scene has as many bodies as it may have
+void requireRoomForBody(const Scene& scene);
+
+/// Which bodies a new one is paired with.
+struct PairPartners {
+  std::vector<std::string> names;  ///< empty: every body of another frame
+  bool none = false;               ///< no body at all
+};
+
+/// Adds a body and its pairs with its partners.
 /// @return names of the new pairs
-/// @throws Error when the name is taken or no ROS name, or a partner is unknown or the body itself
-std::vector<std::string> addBody(Scene& scene, SceneBody body, const std::vector<std::string>& pair_with,
+/// @throws Error when the name is taken or no ROS name, a partner is unknown or the body itself, or the scene
+///         would be beyond its limits
+std::vector<std::string> addBody(Scene& scene, SceneBody body, const PairPartners& partners,
                                  const PairSettings& settings);
 
 /// @return names of the pairs that went with it. @throws Error when there is no such body

@@ -29,8 +29,11 @@ struct PairDemand {
 
 /// One pair of the scene while it is followed; owned by the cycle's thread.
 struct TrackedPair {
-  TrackedPair(const Scene& scene, const ScenePair& pair, const std::string& reference_frame,
+  /// @param index of the pair in the scene
+  TrackedPair(const Scene& scene, std::size_t index, const std::string& reference_frame,
               std::uint64_t first_id);
+
+  std::shared_ptr<const ScenePair> origin;  ///< what it was made or last set up from
 
   std::shared_ptr<const BodyMesh> mesh_a;
   std::shared_ptr<const BodyMesh> mesh_b;

@@ -10,6 +10,7 @@
 
 #include "concave_distance/scene/resource_locator.h"
 #include "concave_distance/scene/scene.h"
+#include "concave_distance/scene/scene_limits.h"
 
 namespace concave_distance {
 
@@ -23,11 +24,13 @@ struct SceneLoadOptions {
   /// URDF texts by parameter name, e.g. {"robot_description", ...}; a scene file refers to them by name.
   std::map<std::string, std::string> descriptions;
   PairSettings default_settings;
-  /// Bytes that the matrices of all mesh metrics may take together. Bodies get theirs in the order of the
-  /// scene while the rest of the limit holds them; the others search their mesh on demand.
+  /// Bytes that the matrices of all mesh metrics may take together, those of bodies added later included.
+  /// Bodies get theirs when they are first searched while the rest of the limit holds them; the others search
+  /// their mesh on demand.
   std::size_t metric_memory_limit = kDefaultMetricMemoryLimit;
   /// Where prepared bodies are kept between runs, unless the scene file says otherwise; nullptr: nowhere.
   PreparationCachePointer cache;
+  SceneLimits limits;
 };
 
 /// Loads a scene YAML (doc/scene_file.md): robots from descriptions or files, bodies, groups, pairs. A body
@@ -62,12 +65,13 @@ struct BodyDescription {
   std::optional<double> chord_error;  ///< metres; empty: 1 % of the radius
 };
 /// Loads one body as a scene does.
-/// @param metric_memory_limit bytes that the matrices of its mesh metric may take
+/// @param pool of the scene that it is for; nullptr: one of its own
 /// @param cache as SceneLoadOptions::cache
+/// @param limits those of one body are read
 /// @throws Error naming the body
 SceneBody loadBody(const BodyDescription& description, const std::string& base_folder,
                    const PackageLocator& package_locator,
-                   std::size_t metric_memory_limit = kDefaultMetricMemoryLimit,
-                   const PreparationCachePointer& cache = nullptr);
+                   const std::shared_ptr<BodyPool>& pool = nullptr,
+                   const PreparationCachePointer& cache = nullptr, const SceneLimits& limits = {});
 
 }  // namespace concave_distance

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "concave_distance/contact/effect_settings.h"
@@ -12,7 +14,10 @@
 #include "concave_distance/mesh/body_mesh.h"
 #include "concave_distance/mesh/mass_properties.h"
 #include "concave_distance/mesh/repair_mesh.h"
+#include "concave_distance/scene/body_pool.h"
 #include "concave_distance/scene/broad_phase.h"
+#include "concave_distance/scene/named_list.h"
+#include "concave_distance/scene/scene_limits.h"
 #include "concave_distance/scene/simulation_settings.h"
 #include "concave_distance/tracking/tracker_parameters.h"
 
@@ -57,13 +62,41 @@ struct SceneProblem {
   std::string message;
 };
 
+/// Pairs by name and by their two bodies; an edit leaves both as they are.
+class PairList : public NamedList<ScenePair> {
+ public:
+  void push_back(ScenePair pair) { append(std::make_shared<ScenePair>(std::move(pair))); }
+  void appendShared(const PairList& other, std::size_t i) { append(other.pointer(i)); }
+  using NamedList::find;
+  /// Index of the pair of these bodies, in either order.
+  std::optional<std::size_t> find(std::size_t body_a, std::size_t body_b) const {
+    return by_bodies_.find(hashOf(body_a, body_b), [&](std::size_t place) {
+      const ScenePair& pair = (*this)[place];
+      return (pair.body_a == body_a && pair.body_b == body_b) ||
+             (pair.body_a == body_b && pair.body_b == body_a);
+    });
+  }
+
+ private:
+  void append(const Pointer& pair) {
+    by_bodies_.insert(hashOf(pair->body_a, pair->body_b), size());
+    NamedList::append(pair);
+  }
+  static std::size_t hashOf(std::size_t a, std::size_t b) {
+    return ((std::min(a, b) << 32U | std::max(a, b)) * 0x9e3779b97f4a7c15ULL) >> 24U;
+  }
+  PlaceIndex by_bodies_;
+};
+
 struct Scene {
-  std::vector<SceneBody> bodies;
-  std::vector<ScenePair> pairs;  ///< enabled ones and those disabled by name; filtered pairs are not listed
+  NamedList<SceneBody> bodies;
+  PairList pairs;  ///< enabled ones and those disabled by name; filtered pairs are not listed
   std::vector<SceneProblem> problems;
   std::vector<std::string> notes;                ///< repairs and filters applied, one line each
   std::optional<SimulationSettings> simulation;  ///< the section `simulation`, where there is one
   PreparationCachePointer cache;  ///< that its bodies went through, for those added later; nullptr: none
+  std::shared_ptr<BodyPool> pool;  ///< the same; nullptr: none
+  SceneLimits limits;              ///< that hold for edits too
 
   /// Index of the body with this name.
   std::optional<std::size_t> findBody(const std::string& name) const;

@@ -23,6 +23,8 @@ class PlaceTable {
     points_.reserve(places);
     delta_.reserve(compared * compared / 2);
   }
+  /// Forgets all and gives back the memory of distances beyond the first `compared` places.
+  void shrink(std::size_t compared);
   std::uint32_t placeOf(const TrialPoint& point);
   const TrialPoint& point(std::uint32_t place) const { return points_[place]; }
   std::size_t size() const { return points_.size(); }
@@ -50,7 +52,7 @@ class PlaceTable {
 
   double measure(std::uint32_t i, std::uint32_t j, PairMetric& metric);
 
-  NodePairMap place_of_pair_;
+  NodePairMap place_of_pair_{6};
   std::vector<TrialPoint> points_;
   std::vector<float> delta_;  ///< lower triangle, row by row; negative: not computed yet
   double bound_ = 0.0;

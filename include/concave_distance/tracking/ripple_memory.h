@@ -1,8 +1,10 @@
 #pragma once
 
-#include <array>
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "concave_distance/base/pair_key.h"
 #include "concave_distance/distance/witness_refinement.h"
@@ -15,10 +17,15 @@ namespace concave_distance {
 /// place of another.
 class RippleMemory {
  public:
-  void clear() { ripples_.fill({}); }
+  /// Takes the memory; without a call the first remember() does.
+  void allocate() { ripples_.resize(std::size_t{1} << kCapacityLog2); }
+  void clear() { std::fill(ripples_.begin(), ripples_.end(), Ripple{}); }
 
   /// Id of the niche that the minimum on this triangle pair belongs to, if this cycle knows it.
   std::optional<std::uint64_t> ownerOf(TriangleIndex a, TriangleIndex b, std::uint64_t cycle) const {
+    if (ripples_.empty()) {
+      return std::nullopt;
+    }
     const Ripple& ripple = ripples_[slotOf(a, b)];
     if (ripple.owner == 0 || ripple.a != a || ripple.b != b || ripple.judged != cycle) {
       return std::nullopt;
@@ -27,6 +34,9 @@ class RippleMemory {
   }
 
   void remember(TriangleIndex a, TriangleIndex b, std::uint64_t owner, std::uint64_t cycle) {
+    if (ripples_.empty()) {
+      allocate();
+    }
     ripples_[slotOf(a, b)] = {a, b, owner, cycle};
   }
 
@@ -43,7 +53,7 @@ class RippleMemory {
     return slotOfKey(pairKey(a, b), 64 - kCapacityLog2);
   }
 
-  std::array<Ripple, std::size_t{1} << kCapacityLog2> ripples_{};
+  std::vector<Ripple> ripples_;  ///< none or 2^kCapacityLog2
 };
 
 }  // namespace concave_distance

@@ -25,7 +25,7 @@ std::vector<Run> runsOf(const ComparedScene& scene) {
   runs.push_back({"concave_distance, half steps", runOwn(scene, kRate, finer), true});
   if (scene.shape == ComparedShape::Box) {
     ComparedScene regularised = scene;
-    regularised.scene.pairs[0].settings.effects.friction.model = FrictionModel::RegularisedCoulomb;
+    regularised.scene.pairs.edit(0).settings.effects.friction.model = FrictionModel::RegularisedCoulomb;
     runs.push_back({"concave_distance, regularised", runOwn(regularised, kRate), true});
   }
   if (scene.shape == ComparedShape::Sphere) {
