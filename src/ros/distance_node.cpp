@@ -9,7 +9,7 @@
 
 namespace {
 
-constexpr int kServiceThreads = 2;  // a long query does not hold up the others
+constexpr int kThreads = 2;  // loading the scene does not hold up subscribers and diagnostics
 
 }  // namespace
 
@@ -25,7 +25,7 @@ int main(int argc, char** argv) {
                                               exit_code = EXIT_FAILURE;
                                               ros::requestShutdown();
                                             });
-    ros::AsyncSpinner spinner(kServiceThreads);
+    ros::AsyncSpinner spinner(kThreads);
     spinner.start();
     ros::waitForShutdown();
   } catch (const concave_distance::Error& problem) {

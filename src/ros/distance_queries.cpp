@@ -1,7 +1,8 @@
 #include "concave_distance/ros/distance_queries.h"
 
-#include <tbb/parallel_for.h>
-
+#include <algorithm>
+#include <new>
+#include <thread>
 #include <utility>
 
 #include "concave_distance/base/error.h"
@@ -31,11 +32,26 @@ BodyPlace placeOf(const SceneBody& body, bool use_pose, const geometry_msgs::Pos
   return {frame.empty() ? reference_frame : frame, poseFromMessage(pose.pose, where)};
 }
 
+double secondsLeft(const QueryContext& context) {
+  const auto left = context.deadline - std::chrono::steady_clock::now();
+  return std::chrono::duration<double>(left).count();
+}
+
+double waitingTime(const QueryContext& context) {
+  return std::clamp(secondsLeft(context), 0.0, context.transform_timeout);
+}
+
+void requireRunning(const QueryContext& context) {
+  if (context.stop != nullptr && *context.stop) {
+    throw Error("service", "the node is shutting down", "ask again when it is back");
+  }
+}
+
 PairTransforms locate(const BodyPlace& a, const BodyPlace& b, const QueryContext& context, ros::Time stamp,
                       ros::Time now) {
   const PairFrames frames{context.reference_frame, a.frame, b.frame};
-  waitForFrames(*context.buffer, frames.frame_a, frames.frame_b, stamp, context.transform_timeout);
-  waitForFrames(*context.buffer, frames.reference, frames.frame_a, stamp, context.transform_timeout);
+  waitForFrames(*context.buffer, frames.frame_a, frames.frame_b, stamp, waitingTime(context));
+  waitForFrames(*context.buffer, frames.reference, frames.frame_a, stamp, waitingTime(context));
   std::string ancestor;
   PairTransforms transforms = stamp.isZero()
                                   ? lookUpPair(*context.buffer, frames, now, context.stale_after, ancestor)
@@ -43,6 +59,20 @@ PairTransforms locate(const BodyPlace& a, const BodyPlace& b, const QueryContext
   transforms.a_from_b = a.frame_from_body.inverse() * transforms.a_from_b * b.frame_from_body;
   transforms.reference_from_a = transforms.reference_from_a * a.frame_from_body;
   return transforms;
+}
+
+// What the call's time did not suffice for.
+QueryAnswer outOfTime(const DistanceQuery& query, const PairHeading& heading) {
+  PairStatus status;
+  status.code = PairStatus::BUDGET_EXHAUSTED;
+  status.message = "the call's time was up before this query was begun (ask fewer queries in one call, or raise "
+                   "~limits/query_seconds)";
+  QueryAnswer answer;
+  answer.result = emptyNiches(heading, status);
+  if (query.with_contacts != 0) {
+    answer.contacts = emptyContacts(heading, status);
+  }
+  return answer;
 }
 
 // Ids belong to what is tracked; an answer has none.
@@ -78,7 +108,7 @@ QueryAnswer answer(const DistanceQuery& query, const Scene& scene, const QueryCo
   const auto found = scene.findPair(query.body_a, query.body_b);
   const PairSettings& settings = found ? scene.pairs[*found].settings : context.defaults;
   heading.pair = found ? scene.pairs[*found].name : query.body_a + "/" + query.body_b;
-  const TrackerParameters parameters = queryParameters(query, settings.tracker);
+  TrackerParameters parameters = queryParameters(query, settings.tracker);
   if (query.with_contacts != 0 && !provesDistance(parameters.accuracy)) {
     throw Error("with_contacts",
                 "it is true, but the accuracy is " + std::string(toString(parameters.accuracy)),
@@ -103,6 +133,12 @@ QueryAnswer answer(const DistanceQuery& query, const Scene& scene, const QueryCo
     }
     return answer;
   }
+  requireRunning(context);
+  const double left = secondsLeft(context);
+  if (left <= 0.0) {
+    return outOfTime(query, heading);
+  }
+  parameters.time_budget = std::min(parameters.time_budget, left);
   const PairSolution solution =
       solveOnce(heading.pair, body_a.mesh, body_b.mesh, parameters, transforms.a_from_b);
   if (settings.warning_distance && solution.distance < *settings.warning_distance) {
@@ -128,36 +164,62 @@ QueryAnswer answerQuery(const DistanceQuery& query, const Scene& scene, const Qu
   heading.body_b = query.body_b;
   heading.reference_frame = context.reference_frame;
   heading.stamp = now;
+  PairStatus status;
+  status.code = PairStatus::INVALID_REQUEST;
   try {
+    requireRunning(context);
     QueryAnswer answered = answer(query, scene, context, now, heading);
     forgetIds(answered.result);
     return answered;
   } catch (const Error& problem) {
-    PairStatus status;
-    status.code = PairStatus::INVALID_REQUEST;
     status.message = problem.what();
-    return {emptyNiches(heading, status), PairContactState()};
+  } catch (const std::bad_alloc&) {
+    status.message = "there is not enough memory for this query (ask for less at once)";
   }
+  return {emptyNiches(heading, status), PairContactState()};
 }
 
-DistanceQueries::DistanceQueries(const ros::NodeHandle& node, SceneKeeper& keeper, QueryContext context,
-                                 std::uint32_t threads)
-    : node_(node),
+DistanceQueries::DistanceQueries(ServiceQueues& queues, SceneKeeper& keeper, QueryContext context,
+                                 const NodeLimits& limits, std::uint32_t threads)
+    : node_(queues.heavy()),
+      gate_(queues.gate()),
       keeper_(keeper),
       context_(std::move(context)),
-      arena_(arenaSize(threads)),
+      limits_(limits),
+      threads_(static_cast<std::size_t>(arenaSize(threads))),
       get_distance_(node_.advertiseService("get_distance", &DistanceQueries::getDistance, this)),
       get_distances_(node_.advertiseService("get_distances", &DistanceQueries::getDistances, this)) {}
 
 QueryContext DistanceQueries::currentContext() {
   QueryContext context = context_;
   context.defaults = keeper_.defaults();
+  context.stop = &gate_.stopped();
+  context.deadline = std::chrono::steady_clock::now() +
+                     std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+                         std::chrono::duration<double>(limits_.query_seconds));
   return context;
 }
 
 bool DistanceQueries::getDistance(GetDistance::Request& request, GetDistance::Response& response) {
+  try {
+    const RequestGate::Place place = gate_.enter();
+    answerOne(request.query, response);
+  } catch (const Error& refusal) {
+    PairHeading heading;
+    heading.body_a = request.query.body_a;
+    heading.body_b = request.query.body_b;
+    heading.reference_frame = context_.reference_frame;
+    PairStatus status;
+    status.code = PairStatus::INVALID_REQUEST;
+    status.message = response.message = refusal.what();
+    response.result = emptyNiches(heading, status);
+  }
+  return true;
+}
+
+void DistanceQueries::answerOne(const DistanceQuery& query, GetDistance::Response& response) {
   const auto served = keeper_.served();
-  QueryAnswer answered = answerQuery(request.query, *served->scene, currentContext(), ros::Time::now());
+  QueryAnswer answered = answerQuery(query, *served->scene, currentContext(), ros::Time::now());
   response.result = std::move(answered.result);
   response.contacts = std::move(answered.contacts);
   response.success = static_cast<std::uint8_t>(isAnswered(response.result));
@@ -166,27 +228,50 @@ bool DistanceQueries::getDistance(GetDistance::Request& request, GetDistance::Re
   if (response.success == 0 && !waiting.empty()) {
     response.message += "; the scene is not loaded yet: " + waiting;
   }
-  return true;
 }
 
 bool DistanceQueries::getDistances(GetDistances::Request& request, GetDistances::Response& response) {
-  if (request.queries.empty()) {
-    response.success = 0;
-    response.message = "queries: the list is empty (name at least one pair; list_bodies tells what there is)";
-    return true;
+  try {
+    if (request.queries.empty()) {
+      throw Error("queries", "the list is empty", "name at least one pair; list_bodies has their names");
+    }
+    if (request.queries.size() > limits_.largest_query_count) {
+      throw Error("queries", std::to_string(request.queries.size()) + " in one call",
+                  "ask in several calls; ~limits/largest_query_count is " +
+                      std::to_string(limits_.largest_query_count));
+    }
+    const RequestGate::Place place = gate_.enter();
+    answerAll(request.queries, response);
+  } catch (const Error& refusal) {
+    response.message = refusal.what();
   }
+  return true;
+}
+
+// By threads of its own and not by TBB's: the cycle's helpers come out of the same few of those, and one that
+// solves a long query does not come back for it.
+void DistanceQueries::answerAll(const std::vector<DistanceQuery>& queries, GetDistances::Response& response) {
   const auto served = keeper_.served();
   const QueryContext context = currentContext();
   const ros::Time now = ros::Time::now();
-  response.results.resize(request.queries.size());
-  response.contacts.resize(request.queries.size());
-  arena_.execute([&] {
-    tbb::parallel_for(std::size_t{0}, request.queries.size(), [&](std::size_t index) {
-      QueryAnswer answered = answerQuery(request.queries[index], *served->scene, context, now);
+  response.results.resize(queries.size());
+  response.contacts.resize(queries.size());
+  std::atomic<std::size_t> next{0};
+  const auto answer_some = [&] {
+    for (std::size_t index = next++; index < queries.size(); index = next++) {
+      QueryAnswer answered = answerQuery(queries[index], *served->scene, context, now);
       response.results[index] = std::move(answered.result);
       response.contacts[index] = std::move(answered.contacts);
-    });
-  });
+    }
+  };
+  std::vector<std::thread> helpers;
+  while (helpers.size() + 1 < std::min(threads_, queries.size())) {
+    helpers.emplace_back(answer_some);
+  }
+  answer_some();
+  for (std::thread& helper : helpers) {
+    helper.join();
+  }
   std::size_t failed = 0;
   for (const PairNiches& result : response.results) {
     if (isAnswered(result)) {
@@ -202,7 +287,6 @@ bool DistanceQueries::getDistances(GetDistances::Request& request, GetDistances:
                        " queries have no distance; the first: " + response.message;
   }
   response.success = static_cast<std::uint8_t>(failed == 0);
-  return true;
 }
 
 }  // namespace concave_distance

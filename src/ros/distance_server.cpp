@@ -67,11 +67,12 @@ DistanceServer::DistanceServer(const ros::NodeHandle& node, const ros::NodeHandl
       listener_(buffer_, node),
       publishers_(private_node, parameters_.reference_frame),
       keeper_(publishers_, parameters_.pair, parameters_.marker),
-      queries_(private_node, keeper_,
+      service_queues_(private_node, parameters_.limits),
+      queries_(service_queues_, keeper_,
                {&buffer_, parameters_.reference_frame, parameters_.transform_timeout, parameters_.stale_after,
                 parameters_.pair},
-               parameters_.threads),
-      scene_services_(private_node, keeper_, restarts_, parameters_.reference_frame, rosPackagePath),
+               parameters_.limits, parameters_.threads),
+      scene_services_(service_queues_, keeper_, restarts_, parameters_.reference_frame, rosPackagePath),
       runner_(private_node, buffer_, keeper_, publishers_, restarts_,
               {parameters_.reference_frame, parameters_.stale_after, parameters_.threads}),
       updater_(node, private_node, std::move(name)),
@@ -90,6 +91,10 @@ DistanceServer::DistanceServer(const ros::NodeHandle& node, const ros::NodeHandl
       private_node_.createWallTimer(ros::WallDuration(kLoadPeriod), &DistanceServer::tryToLoad, this);
   housekeeping_timer_ = private_node_.createWallTimer(ros::WallDuration(kHousekeepingPeriod),
                                                       &DistanceServer::onHousekeeping, this);
+}
+
+DistanceServer::~DistanceServer() {
+  service_queues_.gate().stop();
 }
 
 void DistanceServer::tryToLoad(const ros::WallTimerEvent& /*event*/) {

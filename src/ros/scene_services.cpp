@@ -42,19 +42,21 @@ Eigen::Vector4d toColour(const std_msgs::ColorRGBA& color, const Eigen::Vector4d
 
 }  // namespace
 
-SceneServices::SceneServices(const ros::NodeHandle& node, SceneKeeper& keeper, RestartRequests& restarts,
+SceneServices::SceneServices(ServiceQueues& queues, SceneKeeper& keeper, RestartRequests& restarts,
                              std::string reference_frame, PackageLocator package_locator)
-    : node_(node),
+    : light_(queues.light()),
+      heavy_(queues.heavy()),
+      gate_(queues.gate()),
       keeper_(keeper),
       restarts_(restarts),
       reference_frame_(std::move(reference_frame)),
       package_locator_(std::move(package_locator)),
-      list_bodies_(node_.advertiseService("list_bodies", &SceneServices::listBodies, this)),
-      add_body_(node_.advertiseService("add_body", &SceneServices::addBody, this)),
-      remove_body_(node_.advertiseService("remove_body", &SceneServices::removeBody, this)),
-      set_pair_enabled_(node_.advertiseService("set_pair_enabled", &SceneServices::setPairEnabled, this)),
-      set_effects_(node_.advertiseService("set_effects", &SceneServices::setEffects, this)),
-      reset_tracking_(node_.advertiseService("reset_tracking", &SceneServices::resetTracking, this)) {}
+      list_bodies_(light_.advertiseService("list_bodies", &SceneServices::listBodies, this)),
+      add_body_(heavy_.advertiseService("add_body", &SceneServices::addBody, this)),
+      remove_body_(light_.advertiseService("remove_body", &SceneServices::removeBody, this)),
+      set_pair_enabled_(light_.advertiseService("set_pair_enabled", &SceneServices::setPairEnabled, this)),
+      set_effects_(light_.advertiseService("set_effects", &SceneServices::setEffects, this)),
+      reset_tracking_(light_.advertiseService("reset_tracking", &SceneServices::resetTracking, this)) {}
 
 void SceneServices::requireScene() {
   const std::string waiting = keeper_.waitingFor();
@@ -81,20 +83,31 @@ bool SceneServices::listBodies(ListBodies::Request& /*request*/, ListBodies::Res
     response.problems.push_back(message);
   }
   response.notes = scene->notes;
+  for (const SceneBody& body : scene->bodies) {
+    const MeshMetric* metric = body.mesh->metricIfMade();
+    if (metric != nullptr && !metric->hasMatrices()) {
+      response.notes.push_back(body.name + ": mesh distances are searched on demand: its matrices are beyond "
+                               "metric_memory_limit_mb or 4096 nodes");
+    }
+  }
   return true;
 }
 
 bool SceneServices::addBody(AddBody::Request& request, AddBody::Response& response) {
   return respond(response, [&] {
+    const RequestGate::Place place = gate_.enter();
     requireScene();
     const PairSettings settings = pairSettings(request, keeper_.defaults());
-    // Reading the mesh may take seconds: outside the edit.
     const std::shared_ptr<const Scene> scene = keeper_.served()->scene;
+    requireRoomForBody(*scene);
+    // Reading the mesh may take seconds: outside the edit.
     SceneBody body =
-        loadBody(toBodyDescription(request), "", package_locator_, kDefaultMetricMemoryLimit, scene->cache);
+        loadBody(toBodyDescription(request), "", package_locator_, scene->pool,
+                 request.primitive.empty() ? scene->cache : nullptr, scene->limits);
     body.colour = toColour(request.color, body.colour);
     keeper_.edit([&](Scene& edited) {
-      response.pairs = concave_distance::addBody(edited, body, request.pair_with, settings);
+      response.pairs = concave_distance::addBody(
+          edited, body, {request.pair_with, request.without_pairs != 0}, settings);
     });
   });
 }

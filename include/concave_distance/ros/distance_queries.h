@@ -6,12 +6,16 @@
 #include <concave_distance/PairContactState.h>
 #include <ros/node_handle.h>
 #include <ros/service_server.h>
-#include <tbb/task_arena.h>
 #include <tf2/buffer_core.h>
 
+#include <atomic>
+#include <chrono>
 #include <string>
+#include <vector>
 
+#include "concave_distance/ros/node_limits.h"
 #include "concave_distance/ros/scene_keeper.h"
+#include "concave_distance/ros/service_queues.h"
 #include "concave_distance/scene/scene.h"
 
 namespace concave_distance {
@@ -23,6 +27,9 @@ struct QueryContext {
   double transform_timeout = 0.2;  ///< s
   double stale_after = 1.0;        ///< s
   PairSettings defaults;           ///< for bodies that are no pair of the scene
+  /// All queries of a call end by then: what is solved stops with the bound it has.
+  std::chrono::steady_clock::time_point deadline = std::chrono::steady_clock::time_point::max();
+  const std::atomic<bool>* stop = nullptr;  ///< set: what is solved ends, and nothing is begun
 };
 
 /// The answer to one query.
@@ -39,21 +46,26 @@ QueryAnswer answerQuery(const DistanceQuery& query, const Scene& scene, const Qu
 /// True when the answer carries a distance.
 bool isAnswered(const PairNiches& answer);
 
-/// The services get_distance and get_distances.
+/// The services get_distance and get_distances, on the queue for requests that take long and behind its gate.
 class DistanceQueries {
  public:
-  DistanceQueries(const ros::NodeHandle& node, SceneKeeper& keeper, QueryContext context,
+  /// @param threads that answer the queries of one call
+  DistanceQueries(ServiceQueues& queues, SceneKeeper& keeper, QueryContext context, const NodeLimits& limits,
                   std::uint32_t threads);
 
  private:
   bool getDistance(GetDistance::Request& request, GetDistance::Response& response);
   bool getDistances(GetDistances::Request& request, GetDistances::Response& response);
+  void answerOne(const DistanceQuery& query, GetDistance::Response& response);
+  void answerAll(const std::vector<DistanceQuery>& queries, GetDistances::Response& response);
   QueryContext currentContext();
 
   ros::NodeHandle node_;
+  RequestGate& gate_;
   SceneKeeper& keeper_;
   QueryContext context_;
-  tbb::task_arena arena_;
+  NodeLimits limits_;
+  std::size_t threads_;
   ros::ServiceServer get_distance_;
   ros::ServiceServer get_distances_;
 };

@@ -31,7 +31,7 @@ class DistanceServer {
  public:
   using FatalCallback = std::function<void(const Error&)>;
 
-  /// @param node for /tf and /diagnostics; its queue serves the services
+  /// @param node for /tf and /diagnostics; its queue serves timers and subscribers, not the services
   /// @param private_node for parameters, topics and services
   /// @param name of the node or nodelet, for the diagnostics
   /// @param on_fatal called, from a callback of `private_node`, when the scene file is wrong: nothing of it
@@ -40,6 +40,10 @@ class DistanceServer {
   /// @throws Error for a wrong parameter
   DistanceServer(const ros::NodeHandle& node, const ros::NodeHandle& private_node, std::string name,
                  FatalCallback on_fatal);
+  /// Ends what services work on.
+  ~DistanceServer();
+  DistanceServer(const DistanceServer&) = delete;
+  DistanceServer& operator=(const DistanceServer&) = delete;
 
  private:
   void tryToLoad(const ros::WallTimerEvent& event);
@@ -57,6 +61,7 @@ class DistanceServer {
   TopicPublishers publishers_;
   SceneKeeper keeper_;
   RestartRequests restarts_;
+  ServiceQueues service_queues_;
   DistanceQueries queries_;
   SceneServices scene_services_;
   CycleRunner runner_;

@@ -13,6 +13,7 @@
 
 #include "concave_distance/ros/restart_requests.h"
 #include "concave_distance/ros/scene_keeper.h"
+#include "concave_distance/ros/service_queues.h"
 #include "concave_distance/scene/resource_locator.h"
 
 namespace concave_distance {
@@ -21,7 +22,8 @@ namespace concave_distance {
 /// set_effects, reset_tracking.
 class SceneServices {
  public:
-  SceneServices(const ros::NodeHandle& node, SceneKeeper& keeper, RestartRequests& restarts,
+  /// add_body goes through the gate of requests that take long, the others do not.
+  SceneServices(ServiceQueues& queues, SceneKeeper& keeper, RestartRequests& restarts,
                 std::string reference_frame, PackageLocator package_locator);
 
  private:
@@ -34,7 +36,9 @@ class SceneServices {
   /// @throws Error while the scene is not loaded: it would replace what is edited now
   void requireScene();
 
-  ros::NodeHandle node_;
+  ros::NodeHandle light_;
+  ros::NodeHandle heavy_;
+  RequestGate& gate_;
   SceneKeeper& keeper_;
   RestartRequests& restarts_;
   std::string reference_frame_;

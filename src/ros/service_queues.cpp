@@ -1,0 +1,56 @@
+#include "concave_distance/ros/service_queues.h"
+
+#include <ros/init.h>
+
+#include <chrono>
+
+namespace concave_distance {
+namespace {
+
+constexpr std::uint32_t kLightThreads = 2;  // a look at the scene does not wait for an edit of it
+constexpr std::chrono::milliseconds kWatchPeriod{20};
+
+ros::NodeHandle onQueue(const ros::NodeHandle& node, ros::CallbackQueue& queue) {
+  ros::NodeHandle handle(node);
+  handle.setCallbackQueue(&queue);
+  return handle;
+}
+
+}  // namespace
+
+ServiceQueues::ServiceQueues(const ros::NodeHandle& node, const NodeLimits& limits)
+    : gate_(limits.service_threads, limits.service_queue),
+      light_node_(onQueue(node, light_queue_)),
+      heavy_node_(onQueue(node, heavy_queue_)),
+      light_spinner_(kLightThreads, &light_queue_),
+      // One for each request that works or waits, and one that refuses the next.
+      heavy_spinner_(limits.service_threads + limits.service_queue + 1, &heavy_queue_),
+      watcher_([this] { watchForShutdown(); }) {
+  light_spinner_.start();
+  heavy_spinner_.start();
+}
+
+ServiceQueues::~ServiceQueues() {
+  gate_.stop();
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    ends_ = true;
+  }
+  ending_.notify_all();
+  watcher_.join();
+  heavy_spinner_.stop();
+  light_spinner_.stop();
+}
+
+// Polling: roscpp says that it shuts down by a flag only, before it waits for the services.
+void ServiceQueues::watchForShutdown() {
+  std::unique_lock<std::mutex> lock(mutex_);
+  while (!ending_.wait_for(lock, kWatchPeriod, [this] { return ends_; })) {
+    if (ros::isShuttingDown()) {
+      gate_.stop();
+      return;
+    }
+  }
+}
+
+}  // namespace concave_distance
