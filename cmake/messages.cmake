@@ -6,6 +6,7 @@ set(CONCAVE_DISTANCE_MESSAGES
   Contacts.msg
   DistanceQuery.msg
   Distances.msg
+  Nearest.msg
   Niche.msg
   NicheChange.msg
   Niches.msg

@@ -99,9 +99,10 @@ void CycleRunner::checkClock(ros::Time now) {
   last_now_ = now;
 }
 
-void CycleRunner::adoptScene() {
+bool CycleRunner::adoptScene() {
   std::shared_ptr<const ServedScene> served = keeper_.served();
-  if (served != served_) {
+  const bool scene_changed = served != served_;
+  if (scene_changed) {
     const bool settings_changed = !served_ || served_->settings_revision != served->settings_revision;
     served_ = std::move(served);
     cycle_.setScene(*served_->scene, settings_changed);
@@ -114,16 +115,23 @@ void CycleRunner::adoptScene() {
   for (const std::string& pair : pending.pairs) {
     cycle_.restart(pair);
   }
+  return scene_changed;
 }
 
 CycleRecord CycleRunner::runCycle(ros::Time now) {
-  adoptScene();
+  const bool scene_changed = adoptScene();
   const double marker_rate = std::min<double>(marker_rate_, rate_);
   const bool marker_cycle = cycles_until_markers_ == 0;
   cycles_until_markers_ = marker_cycle ? static_cast<std::uint64_t>(std::lround(rate_ / marker_rate)) - 1
                                        : cycles_until_markers_ - 1;
   publishers_.readDemand(*served_, {publish_markers_, contact_markers_, marker_cycle}, demand_);
   CycleRecord record;
+  // Once more after the last subscriber has gone: what it had watched ends. Thousands of pairs that nobody
+  // watches cost nothing after that.
+  const bool idle = publishers_.isIdle(demand_);
+  if (std::exchange(was_idle_, idle) && idle && !scene_changed) {
+    return record;
+  }
   record.report = cycle_.run(demand_, now);
   const PublishReport published = publishers_.publish(
       *served_, cycle_.pairs(), std::max(kMarkerPeriods / marker_rate, kShortestMarkerLife), now);

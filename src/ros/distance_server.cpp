@@ -65,7 +65,7 @@ DistanceServer::DistanceServer(const ros::NodeHandle& node, const ros::NodeHandl
       on_fatal_(std::move(on_fatal)),
       buffer_(ros::Duration(parameters_.tf_cache)),
       listener_(buffer_, node),
-      publishers_(private_node, parameters_.reference_frame),
+      publishers_(private_node, parameters_.reference_frame, parameters_.pair_topics),
       keeper_(publishers_, parameters_.pair, parameters_.marker),
       service_queues_(private_node, parameters_.limits),
       queries_(service_queues_, keeper_,

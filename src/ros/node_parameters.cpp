@@ -98,6 +98,9 @@ NodeParameters parseNodeParameters(XmlRpc::XmlRpcValue values, std::vector<std::
   parameters.publish_contact_markers =
       reader.flag("publish_contact_markers", parameters.publish_contact_markers);
   parameters.show_bodies = reader.flag("show_bodies", parameters.show_bodies);
+  if (reader.has("pair_topics")) {
+    parameters.pair_topics = reader.texts("pair_topics");
+  }
   parameters.marker = readMarkers(reader, parameters.marker);
   parameters.limits = readLimits(reader);
   unknown = reader.unread({"diagnostic_period"});

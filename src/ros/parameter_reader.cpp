@@ -85,6 +85,30 @@ std::string ParameterReader::text(const std::string& name, const std::string& fa
   return static_cast<std::string>(value);
 }
 
+std::vector<std::string> ParameterReader::texts(const std::string& name) {
+  std::vector<std::string> list;
+  if (!has(name)) {
+    return list;
+  }
+  XmlRpc::XmlRpcValue& value = values_[name];
+  if (value.getType() == XmlRpc::XmlRpcValue::TypeString) {
+    return {static_cast<std::string>(value)};
+  }
+  const auto refuse = [&] {
+    throw Error(prefix_ + name, "the value is " + shown(value), "allowed: a list of texts");
+  };
+  if (value.getType() != XmlRpc::XmlRpcValue::TypeArray) {
+    refuse();
+  }
+  for (int i = 0; i < value.size(); ++i) {
+    if (value[i].getType() != XmlRpc::XmlRpcValue::TypeString) {
+      refuse();
+    }
+    list.push_back(static_cast<std::string>(value[i]));
+  }
+  return list;
+}
+
 std::size_t ParameterReader::choice(const std::string& name, std::size_t fallback,
                                     const std::vector<std::string>& choices) {
   const std::string value = text(name, choices[fallback]);

@@ -3,18 +3,19 @@
 #include <concave_distance/Alert.h>
 #include <concave_distance/Contacts.h>
 #include <concave_distance/Distances.h>
+#include <concave_distance/Nearest.h>
 #include <concave_distance/Niches.h>
+#include <std_msgs/Float64.h>
 #include <visualization_msgs/MarkerArray.h>
 
 #include <algorithm>
 #include <boost/make_shared.hpp>
-#include <cctype>
 #include <iterator>
-#include <map>
 #include <utility>
 
 #include "concave_distance/ros/contact_conversions.h"
 #include "concave_distance/ros/contact_markers.h"
+#include "concave_distance/ros/nearest.h"
 
 namespace concave_distance {
 namespace {
@@ -96,21 +97,15 @@ void dropNicheText(const std::string& pair, std::vector<visualization_msgs::Mark
                 markers.end());
 }
 
-// Links may be called `link-1` or `arm.2`; topics may not.
-std::string topicName(const std::string& pair) {
-  std::string name = pair;
-  for (char& c : name) {
-    const bool allowed = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '/';
-    c = allowed ? c : '_';
-  }
-  return "pairs/" + name;
-}
-
 }  // namespace
 
-TopicPublishers::TopicPublishers(const ros::NodeHandle& node, std::string reference_frame)
+TopicPublishers::TopicPublishers(const ros::NodeHandle& node, std::string reference_frame,
+                                 std::optional<std::vector<std::string>> pair_topics)
     : node_(node),
       reference_frame_(std::move(reference_frame)),
+      pair_topics_(node_, std::move(pair_topics)),
+      nearest_(WatchedTopic::advertise<Nearest>(node_, "nearest", kQueueLength)),
+      nearest_distance_(WatchedTopic::advertise<std_msgs::Float64>(node_, "nearest_distance", kQueueLength)),
       distances_(WatchedTopic::advertise<Distances>(node_, "distances", kQueueLength)),
       niches_(WatchedTopic::advertise<Niches>(node_, "niches", kQueueLength)),
       contacts_(WatchedTopic::advertise<Contacts>(node_, "contacts", kQueueLength)),
@@ -121,12 +116,6 @@ TopicPublishers::TopicPublishers(const ros::NodeHandle& node, std::string refere
 std::shared_ptr<const ServedScene> TopicPublishers::serve(const std::shared_ptr<const Scene>& scene,
                                                           const ServedScene* before, const MarkerStyle& style,
                                                           std::uint64_t settings_revision) {
-  std::map<std::string, ServedScene::PairTopics> known;
-  if (before != nullptr) {
-    for (std::size_t index = 0; index < before->topics.size(); ++index) {
-      known[before->scene->pairs[index].name] = before->topics[index];
-    }
-  }
   auto served = std::make_shared<ServedScene>();
   served->settings_revision = settings_revision;
   served->scene = scene;
@@ -134,21 +123,15 @@ std::shared_ptr<const ServedScene> TopicPublishers::serve(const std::shared_ptr<
   if (style.scale == 0.0) {
     served->marker_style.scale = automaticMarkerScale(*scene);
   }
-  for (const ScenePair& pair : scene->pairs) {
-    ServedScene::PairTopics topics = known[pair.name];
-    if (!topics.distance) {
-      const std::string name = topicName(pair.name);
-      topics.distance = WatchedTopic::advertise<PairDistance>(node_, name + "/distance", kQueueLength);
-      topics.niches = WatchedTopic::advertise<PairNiches>(node_, name + "/niches", kQueueLength);
-      topics.contacts = WatchedTopic::advertise<PairContactState>(node_, name + "/contacts", kQueueLength);
-    }
-    served->topics.push_back(std::move(topics));
-  }
+  static const PairTopicList kNoTopics;
+  served->topics = pair_topics_.topicsOf(*scene, before == nullptr ? nullptr : before->scene.get(),
+                                         before == nullptr ? kNoTopics : before->topics);
   return served;
 }
 
 void TopicPublishers::readDemand(const ServedScene& served, const MarkerWish& markers,
                                  std::vector<PairDemand>& demand) {
+  nearest_wanted_ = nearest_.isWatched() || nearest_distance_.isWatched();
   distances_wanted_ = distances_.isWatched();
   niches_wanted_ = niches_.isWatched();
   contacts_wanted_ = contacts_.isWatched();
@@ -162,14 +145,16 @@ void TopicPublishers::readDemand(const ServedScene& served, const MarkerWish& ma
   // When markers are switched off, what is shown has to be deleted once more.
   markers_due_ = markers.due && (markers_wanted_ || !shown_.empty());
   demand.assign(served.topics.size(), PairDemand());
+  static const PairTopics kNoTopics;
   for (std::size_t index = 0; index < demand.size(); ++index) {
-    const bool own_niches = served.topics[index].niches.isWatched();
+    const PairTopics& own = served.topics[index] ? *served.topics[index] : kNoTopics;
+    const bool own_niches = own.niches.isWatched();
     const bool alert = alerts_wanted && served.scene->pairs[index].settings.warning_distance;
-    const bool contacts = served.scene->pairs[index].settings.effects.any() &&
-                          (contacts_wanted_ || served.topics[index].contacts.isWatched());
+    const bool contacts = (contacts_wanted_ || own.contacts.isWatched()) &&
+                          served.scene->pairs[index].settings.effects.any();
     PairDemand& pair = demand[index];
-    pair.due = distances_wanted_ || niches_wanted_ || alert || own_niches || contacts ||
-               served.topics[index].distance.isWatched() || (markers_wanted_ && markers.due);
+    pair.due = nearest_wanted_ || distances_wanted_ || niches_wanted_ || alert || own_niches || contacts ||
+               own.distance.isWatched() || (markers_wanted_ && markers.due);
     pair.watched = pair.due || markers_wanted_;
     // A contact's id is its niche's.
     pair.niches = niches_wanted_ || own_niches || contacts || markers_wanted_;
@@ -177,26 +162,35 @@ void TopicPublishers::readDemand(const ServedScene& served, const MarkerWish& ma
   }
 }
 
+bool TopicPublishers::isIdle(const std::vector<PairDemand>& demand) const {
+  return !nearest_wanted_ && !distances_wanted_ && !niches_wanted_ && !contacts_wanted_ && !markers_due_ &&
+         std::none_of(demand.begin(), demand.end(), [](const PairDemand& pair) { return pair.watched; });
+}
+
 PublishReport TopicPublishers::publish(const ServedScene& served,
                                        const std::vector<std::unique_ptr<TrackedPair>>& pairs,
                                        double marker_lifetime, ros::Time now) {
   messages_.clear();
+  const bool in_lists = distances_wanted_ || niches_wanted_ || markers_due_;
   for (std::size_t index = 0; index < pairs.size(); ++index) {
     const TrackedPair& pair = *pairs[index];
-    if (!pair.demand.due) {
+    const PairTopics* own = served.topics[index].get();
+    const bool own_distance = own != nullptr && own->distance.isWatched();
+    const bool own_niches = own != nullptr && own->niches.isWatched();
+    if (!pair.demand.due || !(in_lists || own_distance || own_niches)) {
       continue;
     }
     messages_.push_back(toMessage(pair));
-    const ServedScene::PairTopics& topics = served.topics[index];
-    if (topics.distance.isWatched()) {
-      topics.distance.publish(boost::make_shared<PairDistance>(messages_.back().nearest));
+    if (own_distance) {
+      own->distance.publish(boost::make_shared<PairDistance>(messages_.back().nearest));
     }
-    if (topics.niches.isWatched()) {
-      topics.niches.publish(boost::make_shared<PairNiches>(messages_.back()));
+    if (own_niches) {
+      own->niches.publish(boost::make_shared<PairNiches>(messages_.back()));
     }
   }
   PublishReport report;
   report.messages = static_cast<std::uint32_t>(messages_.size());
+  publishNearest(pairs, now);
   publishAlerts(pairs);
   publishContacts(served, pairs, now);
   if (markers_due_) {
@@ -262,8 +256,9 @@ void TopicPublishers::publishContacts(const ServedScene& served,
       continue;
     }
     contact_messages_.push_back(toContactMessage(*pairs[index]));
-    if (served.topics[index].contacts.isWatched()) {
-      served.topics[index].contacts.publish(boost::make_shared<PairContactState>(contact_messages_.back()));
+    const PairTopics* own = served.topics[index].get();
+    if (own != nullptr && own->contacts.isWatched()) {
+      own->contacts.publish(boost::make_shared<PairContactState>(contact_messages_.back()));
     }
   }
   if (contacts_wanted_) {
@@ -272,6 +267,19 @@ void TopicPublishers::publishContacts(const ServedScene& served,
     message->pairs = contact_messages_;
     contacts_.publish(message);
   }
+}
+
+void TopicPublishers::publishNearest(const std::vector<std::unique_ptr<TrackedPair>>& pairs, ros::Time now) {
+  if (!nearest_wanted_) {
+    return;
+  }
+  const auto message = boost::make_shared<Nearest>(nearestOf(pairs, reference_frame_, now));
+  if (message->has_number != 0) {
+    const auto number = boost::make_shared<std_msgs::Float64>();
+    number->data = message->number;
+    nearest_distance_.publish(number);
+  }
+  nearest_.publish(message);
 }
 
 void TopicPublishers::publishLists(ros::Time now) {

@@ -97,6 +97,23 @@ TEST(NodeParameters, TellNamesNobodyKnows) {
   EXPECT_EQ(unknown, std::vector<std::string>{"ratte"});
 }
 
+TEST(NodeParameters, ReadPatternsOfPairsAsAListOrAsOneText) {
+  EXPECT_FALSE(parse(XmlRpc::XmlRpcValue()).pair_topics.has_value());
+  XmlRpc::XmlRpcValue values;
+  values["pair_topics"] = "arm/*";
+  EXPECT_EQ(parse(values).pair_topics, std::vector<std::string>{"arm/*"});
+  XmlRpc::XmlRpcValue two;
+  two["pair_topics"][0] = "arm/*";
+  two["pair_topics"][1] = "cup/table";
+  EXPECT_EQ(parse(two).pair_topics->size(), 2U);
+  XmlRpc::XmlRpcValue none;
+  none["pair_topics"].setSize(0);
+  EXPECT_TRUE(parse(none).pair_topics->empty()) << "none at all";
+  EXPECT_NE(refusal("pair_topics", 3).find("a list of texts"), std::string::npos);
+  two["pair_topics"][1] = 5;
+  EXPECT_NE(refusal("pair_topics", two["pair_topics"]).find("~pair_topics"), std::string::npos);
+}
+
 TEST(NodeParameters, ReadTheLimitsBelowTheirOwnName) {
   XmlRpc::XmlRpcValue values;
   values["limits"]["service_queue"] = 3;

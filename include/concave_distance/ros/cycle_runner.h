@@ -39,7 +39,8 @@ class CycleRunner {
 
  private:
   void onTimer(const ros::TimerEvent& event);
-  void adoptScene();
+  /// @return whether it was another one
+  bool adoptScene();
   /// A clock that jumps back (a bag that starts over, a simulation that is reset) invalidates every transform
   /// and every warm state.
   void checkClock(ros::Time now);
@@ -61,6 +62,7 @@ class CycleRunner {
   std::vector<PairDemand> demand_;
   ros::Time last_now_;
   std::uint64_t cycles_until_markers_ = 0;
+  bool was_idle_ = false;
 
   ros::CallbackQueue queue_;
   ros::NodeHandle node_;

@@ -3,6 +3,7 @@
 #include <xmlrpcpp/XmlRpcValue.h>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,8 @@ struct NodeParameters {
   bool publish_markers = true;
   bool publish_contact_markers = true;
   bool show_bodies = true;
+  /// Patterns of the pairs with topics of their own; nothing: those of a small scene.
+  std::optional<std::vector<std::string>> pair_topics;
   MarkerStyle marker;
   NodeLimits limits;
 };

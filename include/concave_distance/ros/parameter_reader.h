@@ -25,6 +25,8 @@ class ParameterReader {
                       std::uint32_t highest);
   bool flag(const std::string& name, bool fallback);
   std::string text(const std::string& name, const std::string& fallback);
+  /// A list of texts; one text is a list of one. Empty when it is not set.
+  std::vector<std::string> texts(const std::string& name);
   /// Index into `choices`.
   std::size_t choice(const std::string& name, std::size_t fallback, const std::vector<std::string>& choices);
 

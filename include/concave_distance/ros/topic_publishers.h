@@ -7,12 +7,14 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "concave_distance/ros/cycle_statistics.h"
 #include "concave_distance/ros/distance_cycle.h"
 #include "concave_distance/ros/niche_markers.h"
+#include "concave_distance/ros/pair_topics.h"
 #include "concave_distance/ros/watched_topic.h"
 #include "concave_distance/scene/scene.h"
 
@@ -20,13 +22,8 @@ namespace concave_distance {
 
 /// A scene together with the topics of its pairs: what one cycle works on.
 struct ServedScene {
-  struct PairTopics {
-    WatchedTopic distance;
-    WatchedTopic niches;
-    WatchedTopic contacts;
-  };
   std::shared_ptr<const Scene> scene;
-  std::vector<PairTopics> topics;       ///< one per scene->pairs
+  PairTopicList topics;                 ///< one per scene->pairs
   MarkerStyle marker_style;             ///< with its scale resolved
   std::uint64_t settings_revision = 0;  ///< another one: the settings of pairs that were there have changed
 };
@@ -48,7 +45,9 @@ struct MarkerWish {
 /// Every topic of the cycle: who listens to what, and one cycle's messages.
 class TopicPublishers {
  public:
-  TopicPublishers(const ros::NodeHandle& node, std::string reference_frame);
+  /// @param pair_topics patterns of the pairs that have topics of their own, see PairTopicKeeper
+  TopicPublishers(const ros::NodeHandle& node, std::string reference_frame,
+                  std::optional<std::vector<std::string>> pair_topics);
 
   /// Advertises the topics of pairs that have none yet; those of pairs that are gone end with the last
   /// ServedScene that names them. Not from the cycle's thread: it talks to the master.
@@ -57,6 +56,9 @@ class TopicPublishers {
                                            std::uint64_t settings_revision);
 
   void readDemand(const ServedScene& served, const MarkerWish& markers, std::vector<PairDemand>& demand);
+
+  /// Whether nothing is to be computed or published for the demand just read.
+  bool isIdle(const std::vector<PairDemand>& demand) const;
 
   /// Publishes the pairs that are due. A message is built once and not touched after it was published.
   /// @param marker_lifetime seconds
@@ -71,11 +73,15 @@ class TopicPublishers {
   /// @return how many markers
   std::size_t publishMarkers(const ServedScene& served, double lifetime, ros::Time now);
   void publishLists(ros::Time now);
+  void publishNearest(const std::vector<std::unique_ptr<TrackedPair>>& pairs, ros::Time now);
   void publishContacts(const ServedScene& served, const std::vector<std::unique_ptr<TrackedPair>>& pairs,
                        ros::Time now);
 
   ros::NodeHandle node_;
   std::string reference_frame_;
+  PairTopicKeeper pair_topics_;
+  WatchedTopic nearest_;
+  WatchedTopic nearest_distance_;
   WatchedTopic distances_;
   WatchedTopic niches_;
   WatchedTopic contacts_;
@@ -83,6 +89,7 @@ class TopicPublishers {
   WatchedTopic alerts_;
   std::atomic<bool> repeat_alerts_{false};  ///< somebody has subscribed to the alerts
   // What readDemand found for this cycle.
+  bool nearest_wanted_ = false;
   bool distances_wanted_ = false;
   bool niches_wanted_ = false;
   bool contacts_wanted_ = false;

@@ -1,12 +1,17 @@
 // Topics of a running node: contents, who gets what, dropouts of tf, alerts, markers, reconfiguration.
 #include <concave_distance/Alert.h>
 #include <concave_distance/Distances.h>
+#include <concave_distance/ListBodies.h>
+#include <concave_distance/Nearest.h>
 #include <concave_distance/Niches.h>
 #include <concave_distance/PairNiches.h>
 #include <concave_distance/SetPairEnabled.h>
 #include <gtest/gtest.h>
 #include <ros/init.h>
+#include <ros/master.h>
+#include <ros/package.h>
 #include <ros/spinner.h>
+#include <std_msgs/Float64.h>
 #include <visualization_msgs/MarkerArray.h>
 
 #include <algorithm>
@@ -16,6 +21,7 @@
 #include <utility>
 
 #include "node_access.h"
+#include "started_node.h"
 #include "tf_player.h"
 
 namespace concave_distance {
@@ -74,6 +80,52 @@ TEST_F(TopicsTest, MarkersAloneMakeTheNodeSolveAtTheirRateOnly) {
   })) << "pairs turned into messages: "
       << diagnosed(*diagnostics.last(), "pairs turned into messages") << " in "
       << diagnosed(*diagnostics.last(), "cycles") << " cycles";
+}
+
+TEST_F(TopicsTest, NearestIsThePairAndTheNumberAndFallsSilentWithoutTransforms) {
+  Collector<Nearest> nearest(kNode + "nearest");
+  Collector<std_msgs::Float64> number(kNode + "nearest_distance");
+  ASSERT_TRUE(nearest.waitFor([](const Nearest& message) { return message.pair == "boxes"; }));
+  const Nearest message = *nearest.last();
+  EXPECT_NEAR(message.distance, 1.0, kRounding);
+  EXPECT_EQ(message.pairs, 3U);
+  EXPECT_EQ(message.pairs_beyond_cutoff, 1U) << "ball_blocks";
+  EXPECT_TRUE(message.is_minimum) << message.message;
+  ASSERT_TRUE(number.waitFor([&](const auto& value) { return value.data == message.number; }));
+  player.drop("ball");
+  ASSERT_TRUE(nearest.waitFor([](const Nearest& later) { return later.pairs_missing == 2; }));
+  EXPECT_FALSE(nearest.last()->has_number);
+  EXPECT_NE(nearest.last()->message.find("2 of 3 pairs"), std::string::npos) << nearest.last()->message;
+  // What was on its way has come: ten more cycles bring no number.
+  const std::size_t later = nearest.count() + 10;
+  number.clear();
+  ASSERT_TRUE(eventually([&] { return nearest.count() > later; }));
+  number.clear();
+  ASSERT_TRUE(eventually([&] { return nearest.count() > later + 10; }));
+  EXPECT_EQ(number.count(), 0U);
+  player.place("ball", 0.0, 3.0);
+  EXPECT_TRUE(eventually([&] { return number.count() > 0; }));
+}
+
+TEST(PairTopics, PairsHaveTopicsOnlyWhereAPatternNamesThem) {
+  const std::string scene = ros::package::getPath("concave_distance") + "/test/ros/rostest/boxes.yaml";
+  const StartedNode chosen({"__name:=chosen", "_scene_file:=" + scene, "_pair_topics:=box*"});
+  ASSERT_TRUE(eventually([] { return call<ListBodies>("/chosen/list_bodies", {}).ready != 0; }));
+  const auto topics = [] {
+    ros::master::V_TopicInfo all;
+    ros::master::getTopics(all);
+    std::set<std::string> names;
+    for (const auto& topic : all) {
+      if (topic.name.rfind("/chosen/pairs/", 0) == 0) {
+        names.insert(topic.name);
+      }
+    }
+    return names;
+  };
+  ASSERT_TRUE(eventually([&] { return topics().size() >= 6; }));
+  EXPECT_EQ(topics(), (std::set<std::string>{"/chosen/pairs/boxes/distance", "/chosen/pairs/boxes/niches",
+                                             "/chosen/pairs/boxes/contacts", "/chosen/pairs/box_ball/distance",
+                                             "/chosen/pairs/box_ball/niches", "/chosen/pairs/box_ball/contacts"}));
 }
 
 TEST_F(TopicsTest, DistancesCarryEveryPairAtTheTimeOfItsTransforms) {

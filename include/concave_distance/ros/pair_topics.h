@@ -1,0 +1,49 @@
+#pragma once
+
+#include <ros/node_handle.h>
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "concave_distance/ros/watched_topic.h"
+#include "concave_distance/scene/scene.h"
+
+namespace concave_distance {
+
+/// The topics of one pair.
+struct PairTopics {
+  WatchedTopic distance;
+  WatchedTopic niches;
+  WatchedTopic contacts;
+};
+
+/// One entry a pair of a scene, in their order; nullptr: the pair has no topics.
+using PairTopicList = std::vector<std::shared_ptr<const PairTopics>>;
+
+/// Decides which pairs have topics of their own, and advertises them. Three topics a pair take the master
+/// milliseconds each: with thousands of pairs only those that somebody names have them.
+class PairTopicKeeper {
+ public:
+  /// Without patterns, pairs have topics while the scene has at most this many.
+  static constexpr std::size_t kMostUnnamed = 16;
+
+  /// @param patterns of pairs' names, with * and ?; nothing: every pair of a small scene
+  PairTopicKeeper(const ros::NodeHandle& node, std::optional<std::vector<std::string>> patterns);
+
+  /// @param before the scene before with its topics: those of pairs that stay are kept; nullptr: none
+  PairTopicList topicsOf(const Scene& scene, const Scene* before, const PairTopicList& topics_before);
+
+ private:
+  bool isWanted(const std::string& pair, std::size_t pair_count) const;
+  std::shared_ptr<const PairTopics> advertise(const std::string& pair);
+  void reportUnnamed(std::size_t pair_count);
+
+  ros::NodeHandle node_;
+  std::optional<std::vector<std::string>> patterns_;
+  bool reported_ = false;
+};
+
+}  // namespace concave_distance

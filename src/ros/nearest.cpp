@@ -1,0 +1,118 @@
+#include "concave_distance/ros/nearest.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace concave_distance {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+bool isPartlyProven(SolveStatus status) {
+  return status == SolveStatus::BudgetExhausted || status == SolveStatus::WithinTolerance;
+}
+
+/// What is known of all pairs together.
+struct Survey {
+  const TrackedPair* nearest = nullptr;  ///< of those with a distance
+  const TrackedPair* missing = nullptr;  ///< the first about which nothing is known
+  double distance = kInfinity;           ///< of `nearest`
+  double number = kInfinity;             ///< Nearest::number, so far
+  double lower_bound = kInfinity;
+  bool all_proven = true;
+  std::uint32_t pairs = 0;
+  std::uint32_t missing_count = 0;
+  std::uint32_t beyond_cutoff = 0;
+
+  void add(const TrackedPair& pair) {
+    ++pairs;
+    if (pair.box_bound) {
+      ++beyond_cutoff;
+      number = std::min(number, *pair.box_bound);
+      lower_bound = std::min(lower_bound, *pair.box_bound);
+    } else if (pair.solved && !std::isnan(pair.solution.distance)) {
+      addSolved(pair);
+    } else {
+      missing = missing == nullptr ? &pair : missing;
+      ++missing_count;
+    }
+  }
+
+ private:
+  void addSolved(const TrackedPair& pair) {
+    const PairSolution& solution = pair.solution;
+    if (nearest == nullptr || solution.distance < distance) {
+      nearest = &pair;
+      distance = solution.distance;
+    }
+    const bool has_bound = !std::isnan(solution.lower_bound);
+    all_proven = all_proven && has_bound;
+    lower_bound = has_bound ? std::min(lower_bound, solution.lower_bound) : lower_bound;
+    number = std::min(number, has_bound && isPartlyProven(solution.status) ? solution.lower_bound
+                                                                            : solution.distance);
+  }
+};
+
+std::string ofPairs(std::uint32_t count, std::uint32_t all) {
+  return std::to_string(count) + " of " + std::to_string(all) + " pairs ";
+}
+
+std::string explain(const Survey& survey) {
+  if (survey.pairs == 0) {
+    return "no pair is watched: the scene has none, or all are switched off";
+  }
+  if (survey.missing != nullptr) {
+    return ofPairs(survey.missing_count, survey.pairs) + "have no distance and may be nearer; the first is " +
+           survey.missing->heading.pair + ": " + survey.missing->status.message;
+  }
+  if (survey.nearest == nullptr) {
+    return "all pairs are farther apart than their cutoff";
+  }
+  return ofPairs(survey.beyond_cutoff, survey.pairs) +
+         "are beyond their cutoff, or their proof was ended early, and may be nearer";
+}
+
+}  // namespace
+
+Nearest nearestOf(const std::vector<std::unique_ptr<TrackedPair>>& pairs, const std::string& reference_frame,
+                  ros::Time now) {
+  Survey survey;
+  for (const auto& pair : pairs) {
+    if (pair->demand.due) {
+      survey.add(*pair);
+    }
+  }
+  Nearest message;
+  message.header.frame_id = reference_frame;
+  message.header.stamp = survey.nearest == nullptr ? now : survey.nearest->heading.stamp;
+  message.distance = message.lower_bound = message.number = kNotComputed;
+  message.pairs = survey.pairs;
+  message.pairs_missing = survey.missing_count;
+  message.pairs_beyond_cutoff = survey.beyond_cutoff;
+  if (survey.nearest != nullptr) {
+    message.pair = survey.nearest->heading.pair;
+    message.body_a = survey.nearest->heading.body_a;
+    message.body_b = survey.nearest->heading.body_b;
+    message.has_distance = 1;
+    message.distance = survey.distance;
+  }
+  const bool touching = survey.distance == 0.0;  // nothing can be nearer
+  const bool all_known = survey.pairs > 0 && survey.missing_count == 0;
+  message.is_minimum = static_cast<std::uint8_t>(
+      touching || (all_known && survey.nearest != nullptr && survey.number >= survey.distance));
+  if (touching || (all_known && survey.all_proven)) {
+    message.has_lower_bound = 1;
+    message.lower_bound = touching ? 0.0 : survey.lower_bound;
+  }
+  if (touching || all_known) {
+    message.has_number = 1;
+    message.number = touching ? 0.0 : survey.number;
+  }
+  if (message.is_minimum == 0) {
+    message.message = explain(survey);
+  }
+  return message;
+}
+
+}  // namespace concave_distance
