@@ -9,6 +9,7 @@
 #include "concave_distance/ros/contact_conversions.h"
 #include "concave_distance/ros/conversions.h"
 #include "concave_distance/ros/scene_edits.h"
+#include "concave_distance/ros/short_text.h"
 #include "concave_distance/ros/tf_poses.h"
 #include "concave_distance/ros/thread_count.h"
 #include "concave_distance/tracking/pair_effects.h"
@@ -172,7 +173,7 @@ QueryAnswer answerQuery(const DistanceQuery& query, const Scene& scene, const Qu
     forgetIds(answered.result);
     return answered;
   } catch (const Error& problem) {
-    status.message = problem.what();
+    status.message = shortText(problem.what());
   } catch (const std::bad_alloc&) {
     status.message = "there is not enough memory for this query (ask for less at once)";
   }
@@ -211,7 +212,7 @@ bool DistanceQueries::getDistance(GetDistance::Request& request, GetDistance::Re
     heading.reference_frame = context_.reference_frame;
     PairStatus status;
     status.code = PairStatus::INVALID_REQUEST;
-    status.message = response.message = refusal.what();
+    status.message = response.message = shortText(refusal.what());
     response.result = emptyNiches(heading, status);
   }
   return true;

@@ -71,6 +71,10 @@ std::vector<std::size_t> partnersOf(const Scene& scene, const SceneBody& body, c
 }  // namespace
 
 bool isRosName(const std::string& name) {
+  constexpr std::size_t kLongest = 200;
+  if (name.size() > kLongest) {
+    return false;
+  }
   bool part_begins = true;
   for (const char c : name) {
     const auto letter = static_cast<unsigned char>(c);
@@ -109,7 +113,7 @@ std::vector<std::string> addBody(Scene& scene, SceneBody body, const PairPartner
   requireRoomForBody(scene);
   if (!isRosName(body.name)) {
     throw Error("name", "'" + body.name + "' cannot be part of a topic name",
-                "begin with a letter, go on with letters, digits, _ and /");
+                "begin with a letter, go on with letters, digits, _ and /, 200 of them at the most");
   }
   if (scene.findBody(body.name)) {
     throw Error("name", "there is a body '" + body.name + "' already", "remove_body it first");

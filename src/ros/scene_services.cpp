@@ -5,6 +5,7 @@
 #include "concave_distance/base/error.h"
 #include "concave_distance/ros/conversions.h"
 #include "concave_distance/ros/scene_edits.h"
+#include "concave_distance/ros/short_text.h"
 #include "concave_distance/scene/load_scene.h"
 #include "concave_distance/scene/set_effects.h"
 
@@ -19,7 +20,7 @@ bool respond(Response& response, Act&& act) {
     response.success = 1;
   } catch (const Error& problem) {
     response.success = 0;
-    response.message = problem.what();
+    response.message = shortText(problem.what());
   }
   return true;
 }

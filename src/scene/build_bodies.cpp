@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <exception>
 #include <memory>
+#include <sstream>
 #include <string>
 #include <utility>
 
@@ -16,6 +17,7 @@ namespace {
 
 // A larger grid takes so long that it is made while loading, not when the body is first searched.
 constexpr double kLargeGrid = 5000.0;
+constexpr double kFarthestCoordinate = 1e9;  // metres
 
 // Runs `step` for every body without a problem; what it throws becomes that body's problem.
 template <typename Step>
@@ -57,6 +59,17 @@ void checkTriangleCount(const SurfaceMesh& surface, const BodySource& source, co
   }
 }
 
+// Beyond, squares of coordinates lose all that is small, and at 1e154 m they overflow.
+void checkExtent(const SurfaceMesh& surface, const BodySource& source) {
+  const Eigen::AlignedBox3d& box = surface.boundingBox();
+  const double farthest = box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff();
+  if (!(farthest <= kFarthestCoordinate)) {
+    std::ostringstream seen;
+    seen << "it reaches " << farthest << " m from the origin of its frame";
+    throw Error(source.source, seen.str(), "check its size, unit (scale) and pose; the limit is 1e9 m");
+  }
+}
+
 std::shared_ptr<const BodyMesh> sharedMesh(const BodySource& source, SurfaceMesh surface,
                                            const std::shared_ptr<BodyPool>& pool,
                                            const PreparationCachePointer& cache, const SceneLimits& limits) {
@@ -78,6 +91,7 @@ SceneBody build(const BodySource& source, const std::shared_ptr<BodyPool>& pool,
                 const PreparationCachePointer& cache, const SceneLimits& limits) {
   RepairedMesh repaired = loadGeometry(source.geometry, source.source, cache.get());
   checkTriangleCount(repaired.mesh, source, limits);
+  checkExtent(repaired.mesh, source);
   SceneBody body;
   body.name = source.name;
   body.frame = source.frame;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "box_scene.h"
 #include "concave_distance/ros/distance_cycle.h"
@@ -106,12 +107,18 @@ TEST_F(NearestTest, APairBeyondItsCutoffMayBeTheNearestOne) {
 }
 
 TEST_F(NearestTest, TheNumberIsTheBoundOfAProofThatEndedEarly) {
-  scene.pairs.edit(0).settings.tracker.absolute_tolerance = 0.5;
-  place(buffer, "b", 2.0, now, 0.3);
-  const Nearest nearest = answer();
-  EXPECT_LE(nearest.number, nearest.distance);
-  EXPECT_GE(nearest.number, nearest.distance - 0.5 - kRounding);
-  EXPECT_EQ(nearest.number, nearest.lower_bound);
+  DistanceCycle cycle(buffer, {"world", 1.0, 1});
+  cycle.setScene(scene);
+  cycle.run({kDistance, kDistance}, now);
+  PairSolution& solution = cycle.pairs()[1]->solution;  // a/c
+  solution.status = SolveStatus::BudgetExhausted;
+  solution.distance = 1.5;
+  solution.lower_bound = 0.25;
+  const Nearest nearest = nearestOf(cycle.pairs(), "world", now);
+  EXPECT_EQ(nearest.pair, "a/b");
+  EXPECT_FALSE(nearest.is_minimum) << "a/c may be nearer";
+  EXPECT_EQ(nearest.number, 0.25);
+  EXPECT_EQ(nearest.lower_bound, 0.25);
 }
 
 TEST_F(NearestTest, SaysThatNoPairIsWatched) {

@@ -55,7 +55,7 @@ TEST(ParameterDocumentation, MarksWhatMayChangeWhileRunning) {
 
 TEST(TestingDocumentation, NamesEveryRostestCaseAndNoOther) {
   std::set<std::string> cases;
-  for (const char* program : {"certified", "clock", "effects", "limits", "nodelet", "services", "simulation", "startup",
+  for (const char* program : {"certified", "clock", "effects", "launch_files", "limits", "nodelet", "services", "simulation", "startup",
                               "topics", "untouched"}) {
     const std::string text = readText("test/ros/rostest/" + std::string(program) + "_rostest.cpp");
     cases.merge(matches(text, "TEST(?:_F)?\\(\\w+, (\\w+)\\)"));

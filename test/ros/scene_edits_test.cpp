@@ -37,6 +37,8 @@ TEST(RosName, IsWhatMayStandInATopic) {
   for (const char* bad : {"", "1a", "a-b", "/a", "a/", "a//b", "a b", "_a", "a.b"}) {
     EXPECT_FALSE(isRosName(bad)) << bad;
   }
+  EXPECT_TRUE(isRosName(std::string(200, 'a')));
+  EXPECT_FALSE(isRosName(std::string(201, 'a')));
 }
 
 TEST(AddBody, PairsWithBodiesOfOtherFrames) {

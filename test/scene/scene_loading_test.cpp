@@ -157,6 +157,15 @@ TEST_F(SceneLoading, NothingOfTheSearchIsMadeBeforeItIsNeeded) {
   EXPECT_GT(body.mesh->memoryBytes(), 1'000'000U) << "what is made is counted";
 }
 
+TEST_F(SceneLoading, ABodyThatReachesTooFarIsRefusedAtOnce) {
+  const auto problem = [&](const std::string& body) {
+    return load("bodies: [{name: a, " + body + "}]\n").problems.at(0).message;
+  };
+  EXPECT_TRUE(mentions(problem("box: {size: [1, 1, 1]}, pose: {xyz: [0, 1.0e+200, 0]}"), "the limit is 1e9 m"));
+  EXPECT_TRUE(mentions(problem("box: {size: [1, 1, 1.0e+15]}"), "it reaches 5e+14 m"));
+  EXPECT_NE(problem("sphere: {radius: 1.0e+300}"), "");
+}
+
 TEST_F(SceneLoading, WhatIsBeyondALimitIsRefusedWithTheFigure) {
   options.limits.nodes = 1000;
   options.limits.triangles = 11;

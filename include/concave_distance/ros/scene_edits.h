@@ -7,7 +7,8 @@
 
 namespace concave_distance {
 
-/// True for letters, digits, _ and /, beginning with a letter and without empty parts: usable in topic names.
+/// True for letters, digits, _ and /, beginning with a letter and without empty parts, 200 of them at the
+/// most: usable in topic names.
 bool isRosName(const std::string& name);
 
 /// @throws Error when the scene has as many bodies as it may have

@@ -1,0 +1,89 @@
+// What a pair and its bodies keep in memory, and that only what is asked for is made.
+#include <gtest/gtest.h>
+#include <tbb/parallel_for.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "concave_distance/mesh/primitives.h"
+#include "concave_distance/tracking/pair_tracker.h"
+#include "support/concave_shapes.h"
+
+namespace concave_distance {
+namespace {
+
+constexpr int kCycles = 20;
+
+std::shared_ptr<const BodyMesh> bodyOf(SurfaceMesh surface, const BodyMeshOptions& options = {}) {
+  return std::make_shared<const BodyMesh>("body", std::move(surface), options);
+}
+
+Eigen::Isometry3d poseAt(int cycle) {
+  Eigen::Isometry3d pose(Eigen::AngleAxisd(0.01 * cycle, Eigen::Vector3d::UnitX()));
+  pose.translation() = Eigen::Vector3d(0.2, 0.1, 2.5 + 0.01 * cycle);
+  return pose;
+}
+
+std::size_t trackedBytes(const std::shared_ptr<const BodyMesh>& a, const std::shared_ptr<const BodyMesh>& b,
+                         const TrackerParameters& parameters) {
+  PairTracker tracker("pair", a, b, parameters);
+  PairSolution solution;
+  for (int cycle = 0; cycle < kCycles; ++cycle) {
+    tracker.update(poseAt(cycle), 0.01 * cycle, solution);
+  }
+  return tracker.memoryBytes();
+}
+
+TEST(TrackerMemory, AProofAloneMakesNothingOfTheSearch) {
+  const auto a = bodyOf(makeBox(Eigen::Vector3d(1.0, 1.0, 1.0)));
+  const auto b = bodyOf(test::makeComb(3));
+  TrackerParameters parameters;
+  parameters.niches_wanted = false;
+  EXPECT_LT(trackedBytes(a, b, parameters), 60'000U);
+  EXPECT_EQ(a->nodesIfMade(), nullptr);
+  EXPECT_EQ(b->nodesIfMade(), nullptr);
+  EXPECT_EQ(a->metricIfMade(), nullptr);
+  EXPECT_LT(a->memoryBytes(), 20'000U);
+}
+
+TEST(TrackerMemory, APairWithNichesTakesAFewHundredKilobytes) {
+  const auto a = bodyOf(makeBox(Eigen::Vector3d(1.0, 1.0, 1.0)));
+  const auto b = bodyOf(test::makeComb(3));
+  EXPECT_LT(trackedBytes(a, b, TrackerParameters()), 600'000U);
+  TrackerParameters nodes;
+  nodes.accuracy = AccuracyLevel::Nodes;  // a cold run of 300 individuals meets more than a thousand places
+  EXPECT_LT(trackedBytes(a, b, nodes), 900'000U);
+  EXPECT_NE(b->metricIfMade(), nullptr);
+}
+
+TEST(BodyMesh, ManyThreadsThatNeedItsSearchAtOnceGetTheSame) {
+  const auto body = bodyOf(test::makeComb(4));
+  std::vector<const MeshMetric*> seen(64);
+  // Each task waits for the body inside a parallel loop, as pairs do that share it.
+  tbb::parallel_for(std::size_t{0}, seen.size(), [&](std::size_t i) { seen[i] = &body->metric(); });
+  for (const MeshMetric* metric : seen) EXPECT_EQ(metric, seen.front());
+}
+
+TEST(BodyMesh, PreparingBodiesGivesMatricesInTheirOrder) {
+  BodyMeshOptions options;
+  const std::size_t nodes = bodyOf(makeBox(Eigen::Vector3d(1.0, 1.0, 1.0)))->graph().nodeCount();
+  options.metric_memory = std::make_shared<MetricMemory>(2 * MeshMetric::matrixBytes(nodes));
+  std::vector<std::shared_ptr<const BodyMesh>> bodies;
+  std::vector<const BodyMesh*> order;
+  for (int i = 0; i < 8; ++i) {
+    bodies.push_back(bodyOf(makeBox(Eigen::Vector3d(1.0, 1.0, 1.0)), options));
+    order.push_back(bodies.back().get());
+  }
+  prepareSearch(order);
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    EXPECT_EQ(bodies[i]->metric().hasMatrices(), i < 2) << i;
+  }
+  prepareSearch(order);  // nothing left to do
+  order.clear();
+  bodies.clear();
+  EXPECT_EQ(options.metric_memory->used(), 0U);
+}
+
+}  // namespace
+}  // namespace concave_distance
