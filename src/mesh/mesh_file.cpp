@@ -9,6 +9,7 @@
 #include <climits>
 #include <cstring>
 #include <utility>
+#include <vector>
 
 #include "file_extension.h"
 
@@ -65,6 +66,18 @@ struct stat statusOf(const std::string& path, int descriptor) {
   return status;
 }
 
+bool readAt(int descriptor, std::uint64_t place, char* data, std::size_t size) {
+  while (size > 0) {
+    const ssize_t count = pread(descriptor, data, size, static_cast<off_t>(place));
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return false;
+    data += count;
+    place += static_cast<std::uint64_t>(count);
+    size -= static_cast<std::size_t>(count);
+  }
+  return true;
+}
+
 }  // namespace
 
 Error outsideOfMeshFolders(const std::string& name) {
@@ -102,6 +115,20 @@ MeshFile::MeshFile(MeshFile&& other) noexcept
 
 MeshFile::~MeshFile() {
   if (descriptor_ >= 0) close(descriptor_);
+}
+
+bool addMeshFile(ContentHasher& hasher, const MeshFile& file, const MeshImportLimits& limits) {
+  if (file.size() > limits.memory) return false;
+  constexpr std::size_t kBlock = std::size_t{1} << 24U;
+  std::vector<char> block(static_cast<std::size_t>(std::min<std::uint64_t>(kBlock, file.size())));
+  hasher.add(file.extension()).add(file.size());
+  for (std::uint64_t at = 0; at < file.size();) {
+    const auto wanted = static_cast<std::size_t>(std::min<std::uint64_t>(block.size(), file.size() - at));
+    if (!readAt(file.descriptor(), at, block.data(), wanted)) return false;
+    hasher.addBytes(block.data(), wanted);
+    at += wanted;
+  }
+  return true;
 }
 
 }  // namespace concave_distance

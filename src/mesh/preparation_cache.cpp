@@ -1,15 +1,12 @@
 #include "concave_distance/mesh/preparation_cache.h"
 
-#include <algorithm>
-#include <array>
-#include <cctype>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <system_error>
 #include <utility>
-#include <vector>
 
+#include "concave_distance/base/error.h"
+#include "concave_distance/mesh/mesh_file.h"
 #include "preparation_fingerprint.h"
 
 namespace concave_distance {
@@ -63,20 +60,11 @@ PreparationCachePointer openPreparationCache(const std::string& folder_or_off) {
 }
 
 bool addMeshFile(ContentHasher& hasher, const std::string& path) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  constexpr std::array<const char*, 4> kWhole = {".stl", ".obj", ".ply", ".dae"};
-  if (std::find(kWhole.begin(), kWhole.end(), ending) == kWhole.end()) return false;
-  std::error_code error;
-  const std::uintmax_t size = std::filesystem::file_size(path, error);
-  if (error) return false;
-  std::vector<char> bytes(size);
-  std::ifstream file(path, std::ios::binary);
-  file.read(bytes.data(), static_cast<std::streamsize>(size));
-  if (!file) return false;
-  hasher.add(ending).addBytes(bytes.data(), bytes.size());
-  return true;
+  try {
+    return addMeshFile(hasher, MeshFile(path), {});
+  } catch (const Error&) {
+    return false;
+  }
 }
 
 void addRepairOptions(ContentHasher& hasher, const RepairOptions& options) {

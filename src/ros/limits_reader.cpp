@@ -16,6 +16,8 @@ NodeLimits readLimits(ParameterReader& parameters) {
   limits.largest_triangle_count =
       reader.count("largest_triangle_count", limits.largest_triangle_count, 1, 100'000'000);
   limits.largest_node_count = reader.count("largest_node_count", limits.largest_node_count, 10, 10'000'000);
+  limits.import_memory_mb = reader.count("import_memory_mb", limits.import_memory_mb, 64, 1'000'000);
+  limits.import_seconds = reader.number("import_seconds", limits.import_seconds, 0.1, 3600.0);
   parameters.adoptUnread(reader, "limits/");
   return limits;
 }

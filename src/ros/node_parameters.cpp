@@ -1,6 +1,7 @@
 #include "concave_distance/ros/node_parameters.h"
 
 #include <array>
+#include <filesystem>
 #include <limits>
 #include <utility>
 
@@ -68,6 +69,22 @@ MarkerStyle readMarkers(ParameterReader& reader, MarkerStyle style) {
   return style;
 }
 
+/// Without the parameter: what a package holds, and what lies beside the scene file.
+MeshRoots readMeshRoots(ParameterReader& reader, const std::string& scene_file) {
+  std::vector<std::string> entries{"package://"};
+  if (reader.has("mesh_roots")) {
+    entries = reader.texts("mesh_roots");
+  } else if (!scene_file.empty()) {
+    entries.push_back(std::filesystem::absolute(scene_file).parent_path().string());
+  }
+  return parseMeshRoots(entries, "~mesh_roots");
+}
+
+MeshImportLimits importLimits(const NodeLimits& limits) {
+  return {limits.import_memory_mb * std::size_t{1'000'000}, limits.import_seconds,
+          limits.largest_triangle_count};
+}
+
 }  // namespace
 
 NodeParameters parseNodeParameters(XmlRpc::XmlRpcValue values, std::vector<std::string>& unknown) {
@@ -103,6 +120,7 @@ NodeParameters parseNodeParameters(XmlRpc::XmlRpcValue values, std::vector<std::
   }
   parameters.marker = readMarkers(reader, parameters.marker);
   parameters.limits = readLimits(reader);
+  parameters.mesh_access = {importLimits(parameters.limits), readMeshRoots(reader, parameters.scene_file)};
   unknown = reader.unread({"diagnostic_period"});
   return parameters;
 }

@@ -68,6 +68,7 @@ LoadAttempt tryLoadScene(const NodeParameters& parameters, const ros::NodeHandle
   options.cache = openPreparationCache(parameters.cache);
   options.limits = {parameters.limits.largest_body_count, parameters.limits.largest_pair_count,
                     parameters.limits.largest_triangle_count, parameters.limits.largest_node_count};
+  options.mesh_import = parameters.mesh_access.limits;
   std::vector<std::string> names;
   if (!parameters.scene_file.empty()) {
     names = descriptionsOfSceneFile(parameters.scene_file);

@@ -44,7 +44,8 @@ Eigen::Vector4d toColour(const std_msgs::ColorRGBA& color, const Eigen::Vector4d
 }  // namespace
 
 SceneServices::SceneServices(ServiceQueues& queues, SceneKeeper& keeper, RestartRequests& restarts,
-                             std::string reference_frame, PackageLocator package_locator)
+                             std::string reference_frame, PackageLocator package_locator,
+                             MeshAccess mesh_access)
     : light_(queues.light()),
       heavy_(queues.heavy()),
       gate_(queues.gate()),
@@ -52,6 +53,7 @@ SceneServices::SceneServices(ServiceQueues& queues, SceneKeeper& keeper, Restart
       restarts_(restarts),
       reference_frame_(std::move(reference_frame)),
       package_locator_(std::move(package_locator)),
+      mesh_access_(std::move(mesh_access)),
       list_bodies_(light_.advertiseService("list_bodies", &SceneServices::listBodies, this)),
       add_body_(heavy_.advertiseService("add_body", &SceneServices::addBody, this)),
       remove_body_(light_.advertiseService("remove_body", &SceneServices::removeBody, this)),
@@ -87,7 +89,8 @@ bool SceneServices::listBodies(ListBodies::Request& /*request*/, ListBodies::Res
   for (const SceneBody& body : scene->bodies) {
     const MeshMetric* metric = body.mesh->metricIfMade();
     if (metric != nullptr && !metric->hasMatrices()) {
-      response.notes.push_back(body.name + ": mesh distances are searched on demand: its matrices are beyond "
+      response.notes.push_back(body.name +
+                               ": mesh distances are searched on demand: its matrices are beyond "
                                "metric_memory_limit_mb or 4096 nodes");
     }
   }
@@ -102,13 +105,14 @@ bool SceneServices::addBody(AddBody::Request& request, AddBody::Response& respon
     const std::shared_ptr<const Scene> scene = keeper_.served()->scene;
     requireRoomForBody(*scene);
     // Reading the mesh may take seconds: outside the edit.
-    SceneBody body =
-        loadBody(toBodyDescription(request), "", package_locator_, scene->pool,
-                 request.primitive.empty() ? scene->cache : nullptr, scene->limits);
+    BodyDescription description = toBodyDescription(request);
+    description.mesh_access = mesh_access_;
+    SceneBody body = loadBody(description, "", package_locator_, scene->pool,
+                              request.primitive.empty() ? scene->cache : nullptr, scene->limits);
     body.colour = toColour(request.color, body.colour);
     keeper_.edit([&](Scene& edited) {
-      response.pairs = concave_distance::addBody(
-          edited, body, {request.pair_with, request.without_pairs != 0}, settings);
+      response.pairs =
+          concave_distance::addBody(edited, body, {request.pair_with, request.without_pairs != 0}, settings);
     });
   });
 }

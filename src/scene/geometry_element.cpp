@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <sstream>
+#include <utility>
 
 #include "concave_distance/base/error.h"
 #include "concave_distance/mesh/import_mesh.h"
@@ -61,14 +62,18 @@ TriangleSoup soupOf(const SurfaceMesh& mesh) {
   return soup;
 }
 
+MeshFile meshFileOf(const GeometryElement& element) {
+  return MeshFile(element.mesh_resource, element.real_folders);
+}
+
 TriangleSoup loadElement(const GeometryElement& element) {
   if (element.mesh_resource.empty() == element.primitive.empty()) {
     throw Error(element.where,
                 element.primitive.empty() ? "neither a mesh nor a primitive" : "both a mesh and a primitive",
                 "give one of them");
   }
-  return element.primitive.empty() ? importMesh(element.mesh_resource, element.scale)
-                                   : soupOf(makePrimitive(element));
+  if (!element.primitive.empty()) return soupOf(makePrimitive(element));
+  return importMesh(meshFileOf(element), element.scale, element.access.limits);
 }
 
 /// Of all that the surface is made from; nothing where that is not in the files and numbers named.
@@ -79,7 +84,7 @@ std::optional<ContentKey> keyOf(const std::vector<GeometryElement>& elements, co
     hasher.add(element.primitive);
     for (const double dimension : element.dimensions) hasher.add(dimension);
     if (element.primitive.empty()) {
-      if (!addMeshFile(hasher, element.mesh_resource)) return std::nullopt;
+      if (!addMeshFile(hasher, meshFileOf(element), element.access.limits)) return std::nullopt;
     } else if (!element.dimensions.empty()) {
       hasher.add(chordErrorOf(element));
     }
@@ -95,6 +100,12 @@ void locateGeometry(GeometryElement& element, const std::string& base_folder,
                     const PackageLocator& package_locator) {
   if (!element.primitive.empty()) return;
   try {
+    if (element.access.roots) {
+      LocatedMesh located = locateMeshBelow(element.mesh_resource, *element.access.roots, package_locator);
+      element.mesh_resource = std::move(located.path);
+      element.real_folders = std::move(located.real_folders);
+      return;
+    }
     element.mesh_resource = locateResource(element.mesh_resource, base_folder, package_locator);
   } catch (const Error& error) {
     throw Error(element.where + ", " + error.where(), error.whatIsWrong(), error.remedy());

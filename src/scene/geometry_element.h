@@ -7,6 +7,7 @@
 
 #include "concave_distance/mesh/preparation_cache.h"
 #include "concave_distance/mesh/repair_mesh.h"
+#include "concave_distance/scene/mesh_roots.h"
 #include "concave_distance/scene/resource_locator.h"
 
 namespace concave_distance::detail {
@@ -20,6 +21,8 @@ struct GeometryElement {
   std::vector<double> dimensions;                   ///< as BodyDescription::dimensions, metres
   std::optional<double> chord_error;                ///< metres; empty: 1 % of the radius
   Eigen::Isometry3d frame_from_geometry = Eigen::Isometry3d::Identity();
+  MeshAccess access;                      ///< of the mesh
+  std::vector<std::string> real_folders;  ///< that the located file must be below; empty: anywhere
 };
 
 /// Puts the path of this machine in place of the element's resource; a primitive is left alone.

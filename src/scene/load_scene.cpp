@@ -30,6 +30,7 @@ using detail::SelectedPair;
 
 // Enough to see what is missing; a list cut short says so.
 constexpr std::size_t kMostPairsListed = 10;
+constexpr std::uintmax_t kLongestFile = 64'000'000;  // bytes, of a scene file, URDF or SRDF
 constexpr const char* kSemanticDescription = "robot_description_semantic";
 
 std::string readFile(const std::string& path, const std::string& where) {
@@ -37,6 +38,10 @@ std::string readFile(const std::string& path, const std::string& where) {
   std::ifstream stream;
   // A folder can be opened, and fails only when it is read.
   if (std::filesystem::is_regular_file(path, ignored)) stream.open(path, std::ios::binary);
+  if (const auto size = std::filesystem::file_size(path, ignored); stream.is_open() && size > kLongestFile) {
+    throw Error(where, "'" + path + "' has " + std::to_string(size) + " bytes",
+                "allowed: at most " + std::to_string(kLongestFile));
+  }
   std::ostringstream text;
   if (stream.is_open()) text << stream.rdbuf();
   if (!stream.is_open() || stream.bad()) {
@@ -141,6 +146,7 @@ Scene assemble(const SceneSpec& spec, SceneParts parts, const SceneLoadOptions& 
   }
   // Before the costly part, so that a mistake in the file is told at once.
   PairSelection selection = detail::selectPairs(spec, parts, options.limits.pairs);
+  detail::limitImports(parts, options.mesh_import);
   Scene scene;
   scene.pool = std::make_shared<BodyPool>(spec.metric_memory_limit);
   scene.limits = options.limits;

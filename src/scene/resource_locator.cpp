@@ -3,9 +3,9 @@
 #include <tinyxml2.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cstdlib>
 #include <filesystem>
-#include <optional>
 #include <sstream>
 #include <string_view>
 #include <system_error>
@@ -63,45 +63,35 @@ std::optional<std::string> schemeOf(std::string_view resource) {
   return std::string(resource.substr(0, end));
 }
 
-// The first candidate that is a file. Nothing else serves: a folder or a socket has no triangles.
-std::string firstFile(const std::string& resource, const std::vector<std::string>& candidates) {
-  for (const std::string& candidate : candidates) {
-    if (candidate.find('\0') != std::string::npos) {
-      throw Error(resource, "the file name holds a zero byte", "remove %00 from it");
-    }
-    std::error_code error;
-    if (fs::is_regular_file(candidate, error)) return candidate;
-  }
-  std::error_code error;
-  if (fs::is_directory(candidates.front(), error)) {
-    throw Error(resource, "'" + candidates.front() + "' is a folder", "name a file");
-  }
-  if (fs::exists(candidates.front(), error)) {
-    throw Error(resource, "'" + candidates.front() + "' is no regular file", "name a file");
-  }
-  throw Error(resource, "file '" + candidates.front() + "' does not exist",
-              "check the path and its upper and lower case letters");
-}
+constexpr std::string_view kPackageScheme = "package://";
+// Longer than any path that the system takes.
+constexpr std::size_t kLongestResource = 4096;
 
-std::string locateInPackage(const std::string& resource, const PackageLocator& package_locator) {
-  const std::string rest = resource.substr(std::string_view("package://").size());
+detail::ResourcePaths pathsInPackage(const std::string& resource, const PackageLocator& package_locator) {
+  const std::string rest = resource.substr(kPackageScheme.size());
   const std::size_t slash = rest.find('/');
   const std::string package = decodePercent(std::string_view(rest).substr(0, slash));
   if (package.empty() || slash == std::string::npos || slash + 1 == rest.size()) {
     throw Error(resource, "a package and a file in it are expected", "write package://<package>/<path>");
   }
-  const std::string folder = package_locator ? package_locator(package) : std::string();
+  // What rospack would take for options or further arguments is not asked for.
+  const bool is_name =
+      package.front() != '-' && std::all_of(package.begin(), package.end(), [](unsigned char c) {
+        return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.';
+      });
+  const std::string folder = is_name && package_locator ? package_locator(package) : std::string();
   if (folder.empty()) {
     throw Error(resource, "package '" + package + "' is not known",
                 "install it or source the workspace that has it (ROS_PACKAGE_PATH)");
   }
   const std::string path = rest.substr(slash + 1);
-  return firstFile(resource, {(fs::path(folder) / fs::path(decodePercent(path)).relative_path()).string(),
-                              (fs::path(folder) / fs::path(path).relative_path()).string()});
+  return {{(fs::path(folder) / fs::path(decodePercent(path)).relative_path()).string(),
+           (fs::path(folder) / fs::path(path).relative_path()).string()},
+          folder};
 }
 
 // RFC 8089: file:///path, file://localhost/path.
-std::string locateFileUri(const std::string& resource) {
+detail::ResourcePaths pathsOfFileUri(const std::string& resource) {
   const std::string rest = resource.substr(std::string_view("file://").size());
   const std::size_t slash = rest.find('/');
   const std::string host = rest.substr(0, slash);
@@ -110,7 +100,25 @@ std::string locateFileUri(const std::string& resource) {
                 "write file:///<absolute path>, or a path without file:// for a relative one");
   }
   const std::string path = rest.substr(slash);
-  return firstFile(resource, {decodePercent(path), path});
+  return {{decodePercent(path), path}, ""};
+}
+
+detail::ResourcePaths pathsOf(const std::string& resource, const std::string& base_folder,
+                              const PackageLocator& package_locator) {
+  if (startsWith(resource, kPackageScheme)) return pathsInPackage(resource, package_locator);
+  if (startsWith(resource, "file://")) return pathsOfFileUri(resource);
+  if (const std::optional<std::string> scheme = schemeOf(resource)) {
+    throw Error(resource, "scheme '" + *scheme + "' is not known",
+                "use package://, file:// or a path of this machine");
+  }
+  const fs::path path(resource);
+  if (path.is_absolute()) return {{resource, decodePercent(resource)}, ""};
+  if (base_folder.empty()) {
+    throw Error(resource, "a relative path, and the text it stands in comes from no file",
+                "write package://<package>/<path> or an absolute path");
+  }
+  const fs::path base(base_folder);
+  return {{(base / path).string(), (base / decodePercent(resource)).string()}, ""};
 }
 
 std::string packageNameIn(const fs::path& package_xml) {
@@ -179,24 +187,55 @@ std::string packagePathFromEnvironment(const std::string& package) {
 
 std::string locateResource(const std::string& resource, const std::string& base_folder,
                            const PackageLocator& package_locator) {
+  return detail::firstFile(resource,
+                           detail::resourcePaths(resource, base_folder, package_locator).candidates);
+}
+
+namespace detail {
+
+std::optional<std::string> packageOf(const std::string& resource) {
+  if (!startsWith(resource, kPackageScheme)) return std::nullopt;
+  const std::string rest = resource.substr(kPackageScheme.size());
+  return decodePercent(std::string_view(rest).substr(0, rest.find('/')));
+}
+
+ResourcePaths resourcePaths(const std::string& resource, const std::string& base_folder,
+                            const PackageLocator& package_locator) {
   if (resource.empty()) {
     throw Error("resource", "the file name is empty",
                 "give package://<package>/<path>, file:///<path> or a path");
   }
-  if (startsWith(resource, "package://")) return locateInPackage(resource, package_locator);
-  if (startsWith(resource, "file://")) return locateFileUri(resource);
-  if (const std::optional<std::string> scheme = schemeOf(resource)) {
-    throw Error(resource, "scheme '" + *scheme + "' is not known",
-                "use package://, file:// or a path of this machine");
+  if (resource.size() > kLongestResource) {
+    throw Error(resource.substr(0, 60) + "...",
+                "a file name of " + std::to_string(resource.size()) + " characters",
+                "allowed: at most " + std::to_string(kLongestResource));
   }
-  const fs::path path(resource);
-  if (path.is_absolute()) return firstFile(resource, {resource, decodePercent(resource)});
-  if (base_folder.empty()) {
-    throw Error(resource, "a relative path, and the text it stands in comes from no file",
-                "write package://<package>/<path> or an absolute path");
+  ResourcePaths paths = pathsOf(resource, base_folder, package_locator);
+  for (const std::string& candidate : paths.candidates) {
+    if (candidate.find('\0') != std::string::npos) {
+      // No message holds what comes behind the zero byte.
+      throw Error(resource.substr(0, resource.find('\0')), "the file name holds a zero byte",
+                  "remove it (%00)");
+    }
   }
-  const fs::path base(base_folder);
-  return firstFile(resource, {(base / path).string(), (base / decodePercent(resource)).string()});
+  return paths;
 }
 
+// Nothing but a regular file serves: a folder or a socket has no triangles.
+std::string firstFile(const std::string& resource, const std::vector<std::string>& candidates) {
+  std::error_code error;
+  for (const std::string& candidate : candidates) {
+    if (fs::is_regular_file(candidate, error)) return candidate;
+  }
+  if (fs::is_directory(candidates.front(), error)) {
+    throw Error(resource, "'" + candidates.front() + "' is a folder", "name a file");
+  }
+  if (fs::exists(candidates.front(), error)) {
+    throw Error(resource, "'" + candidates.front() + "' is no regular file", "name a file");
+  }
+  throw Error(resource, "file '" + candidates.front() + "' does not exist",
+              "check the path and its upper and lower case letters");
+}
+
+}  // namespace detail
 }  // namespace concave_distance

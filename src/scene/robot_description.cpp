@@ -15,6 +15,10 @@
 namespace concave_distance::detail {
 namespace {
 
+constexpr std::size_t kLongestDescription = 64'000'000;  // bytes
+constexpr std::size_t kMostLinks = 10'000;
+constexpr const char* kCheckUrdf = "check it with check_urdf; a xacro file must be expanded first";
+
 const char* elementName(GeometrySource geometry) {
   return geometry == GeometrySource::Collision ? "collision" : "visual";
 }
@@ -74,10 +78,11 @@ struct RobotText {
   std::vector<std::string> joints;  ///< names, in the order of the text
 };
 
-std::size_t countChildren(const tinyxml2::XMLElement& parent) {
+/// @param name nullptr: of any name
+std::size_t countChildren(const tinyxml2::XMLElement& parent, const char* name = nullptr) {
   std::size_t count = 0;
-  for (const auto* child = parent.FirstChildElement(); child != nullptr;
-       child = child->NextSiblingElement()) {
+  for (const auto* child = parent.FirstChildElement(name); child != nullptr;
+       child = child->NextSiblingElement(name)) {
     ++count;
   }
   return count;
@@ -126,6 +131,25 @@ std::string printed(const tinyxml2::XMLDocument& document) {
   tinyxml2::XMLPrinter printer;
   document.Print(&printer);
   return printer.CStr();
+}
+
+// urdfdom's parser and the models that it builds go as deep as the text wants, until the stack is used up. So
+// it gets what tinyxml2, which has a limit, has read, and no more links than any robot has.
+void parseXml(tinyxml2::XMLDocument& document, const std::string& urdf, const std::string& where) {
+  if (urdf.size() > kLongestDescription) {
+    throw Error(where, "the URDF has " + std::to_string(urdf.size()) + " bytes",
+                "allowed: at most " + std::to_string(kLongestDescription));
+  }
+  document.Parse(urdf.c_str(), urdf.size());
+  if (document.Error()) {
+    throw Error(where, "the URDF cannot be read; " + xmlError(document), kCheckUrdf);
+  }
+  std::size_t links = 0;
+  if (const auto* robot = document.FirstChildElement("robot")) links = countChildren(*robot, "link");
+  if (links > kMostLinks) {
+    throw Error(where, "the URDF has " + std::to_string(links) + " links",
+                "allowed: at most " + std::to_string(kMostLinks));
+  }
 }
 
 Eigen::Isometry3d toIsometry(const urdf::Pose& pose) {
@@ -219,14 +243,11 @@ const RobotLink* RobotDescription::findLink(const std::string& link) const {
 RobotDescription readRobotDescription(const std::string& urdf, const std::string& where,
                                       GeometrySource geometry) {
   const char* wanted = elementName(geometry);
-  const ParsedModel full = parseModel(urdf);
   tinyxml2::XMLDocument document;
-  document.Parse(urdf.c_str(), urdf.size());
-  if (!full.model || document.Error()) {
-    std::string message = full.model ? std::string() : "urdfdom says: " + joined(full.messages);
-    if (document.Error()) message += (message.empty() ? "" : "; ") + xmlError(document);
-    throw Error(where, "the URDF cannot be read; " + message,
-                "check it with check_urdf; a xacro file must be expanded first");
+  parseXml(document, urdf, where);
+  const ParsedModel full = parseModel(printed(document));
+  if (!full.model) {
+    throw Error(where, "the URDF cannot be read; urdfdom says: " + joined(full.messages), kCheckUrdf);
   }
   tinyxml2::XMLElement* root = document.FirstChildElement("robot");
   const RobotText text = scan(*root, wanted);

@@ -148,6 +148,12 @@ void addBody(const BodySpec& spec, const std::string& base_folder, SceneParts& p
   addSource(std::move(source), spec.where, "give it another name", parts);
 }
 
+void limitImports(SceneParts& parts, const MeshImportLimits& limits) {
+  for (BodySource& source : parts.sources) {
+    for (GeometryElement& element : source.geometry) element.access.limits = limits;
+  }
+}
+
 BodySource sourceOf(const BodyDescription& description, const std::string& base_folder) {
   GeometryElement element;
   element.mesh_resource = description.mesh_resource;
@@ -156,6 +162,7 @@ BodySource sourceOf(const BodyDescription& description, const std::string& base_
   element.dimensions = description.dimensions;
   element.chord_error = description.chord_error;
   element.frame_from_geometry = description.frame_from_geometry;
+  element.access = description.mesh_access;
   BodySource source;
   source.name = description.name;
   source.frame = description.frame;

@@ -6,8 +6,18 @@
 #include "settings_reader.h"
 
 namespace concave_distance {
+namespace {
+
+// Ten times what effects with every key take; it also bounds how deep a text from outside nests.
+constexpr std::size_t kLongestEffects = 4096;
+
+}  // namespace
 
 std::vector<std::string> setEffects(Scene& scene, const std::string& pattern, const std::string& yaml) {
+  if (yaml.size() > kLongestEffects) {
+    throw Error("effects", "the text has " + std::to_string(yaml.size()) + " characters",
+                "allowed: at most " + std::to_string(kLongestEffects));
+  }
   const detail::YamlValue value = detail::YamlValue::parse(yaml, "effects");
   std::vector<std::string> names;
   for (std::size_t i = 0; i < scene.pairs.size(); ++i) {

@@ -1,9 +1,12 @@
 #include "yaml_value.h"
 
+#include <yaml-cpp/eventhandler.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <sstream>
 #include <system_error>
 
 #include "concave_distance/base/error.h"
@@ -42,20 +45,60 @@ std::optional<double> parseNumber(const std::string& text) {
   return value;
 }
 
+// Sees whether a document is empty.
+class EmptinessHandler : public YAML::EventHandler {
+ public:
+  using Mark = YAML::Mark;
+  using Anchor = YAML::anchor_t;
+  using Style = YAML::EmitterStyle::value;
+  bool isEmpty() const { return is_empty_; }
+
+  void OnDocumentStart(const Mark& /*mark*/) override { is_empty_ = true; }
+  void OnDocumentEnd() override {}
+  void OnNull(const Mark& /*mark*/, Anchor /*anchor*/) override {}
+  void OnAlias(const Mark& /*mark*/, Anchor /*anchor*/) override { is_empty_ = false; }
+  void OnScalar(const Mark& /*mark*/, const std::string& /*tag*/, Anchor /*anchor*/,
+                const std::string& /*value*/) override {
+    is_empty_ = false;
+  }
+  void OnSequenceStart(const Mark& /*mark*/, const std::string& /*tag*/, Anchor /*anchor*/,
+                       Style /*style*/) override {
+    is_empty_ = false;
+  }
+  void OnSequenceEnd() override {}
+  void OnMapStart(const Mark& /*mark*/, const std::string& /*tag*/, Anchor /*anchor*/,
+                  Style /*style*/) override {
+    is_empty_ = false;
+  }
+  void OnMapEnd() override {}
+
+ private:
+  bool is_empty_ = true;
+};
+
+// 0, 1, or 2 for more; an empty one ends the count. YAML::LoadAll never returns from the text ",".
+std::size_t countDocuments(const std::string& yaml) {
+  std::istringstream stream(yaml);
+  YAML::Parser parser(stream);
+  EmptinessHandler handler;
+  std::size_t count = 0;
+  while (count < 2 && parser.HandleNextDocument(handler) && !handler.isEmpty()) ++count;
+  return count;
+}
+
 }  // namespace
 
 YamlValue YamlValue::parse(const std::string& yaml, const std::string& file) {
-  std::vector<YAML::Node> documents;
+  std::size_t documents = 0;
+  YAML::Node root;
   try {
-    documents = YAML::LoadAll(yaml);
+    documents = countDocuments(yaml);
+    if (documents > 0) root = YAML::Load(yaml);
   } catch (const YAML::Exception& exception) {
     throw Error(file + ":" + std::to_string(exception.mark.line + 1), "no YAML: " + exception.msg,
                 "mend the syntax");
   }
-  if (documents.size() > 1) {
-    throw Error(file, std::to_string(documents.size()) + " YAML documents", "one is expected");
-  }
-  const YAML::Node root = documents.empty() ? YAML::Node() : documents.front();
+  if (documents > 1) throw Error(file, "2 YAML documents or more", "one is expected");
   const int line = lineOf(root, 1);
   return YamlValue(root, line, "", std::make_shared<const std::string>(file));
 }

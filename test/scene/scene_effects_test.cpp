@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "concave_distance/scene/set_effects.h"
 #include "scene/scene_fixture.h"
 
 namespace concave_distance {
@@ -91,6 +92,30 @@ TEST_F(SceneEffects, EffectsNeedAProof) {
   const std::string text =
       refusal(kTwoBalls + "defaults: {accuracy: refined, effects: {interference: true}}\n");
   EXPECT_TRUE(mentions(text, "set accuracy to certified or complete")) << text;
+}
+
+// What anybody on the network may send to set_effects: an Error, soon, and no pair is changed.
+TEST_F(SceneEffects, NoTextFromOutsideDoesHarm) {
+  const auto repeated = [](const std::string& text, std::size_t size) {
+    std::string all;
+    while (all.size() + text.size() <= size) all += text;
+    return all;
+  };
+  Scene scene = load(kTwoBalls);
+  for (const std::string part :
+       {"[",  "{",  "{a: ", "[{",   "- ",    "? ",   "&a ", "! ", "*a ",  ": ",
+        ", ", "\"", "'",    "|\n ", "---\n", "%A\n", "\t",  "x",  "<<: ", "!!binary "}) {
+    for (const std::size_t size : {std::size_t{4096}, std::size_t{10'000'000}}) {
+      EXPECT_THROW(setEffects(scene, "*", repeated(part, size)), Error) << part << " times " << size;
+    }
+  }
+  for (const std::string text : {"&a [*a]", "&a {normal_force: *a}", "{normal_force: &b {model: *b}}",
+                                 "{&a interference: *a}", "*none", "{interference: {}, interference: {}}"}) {
+    EXPECT_THROW(setEffects(scene, "*", text), Error) << text;
+  }
+  EXPECT_THROW(setEffects(scene, std::string(1'000'000, '['), "none"), Error);
+  EXPECT_THROW(setEffects(scene, repeated("*a", 1'000'000), "none"), Error);
+  for (const ScenePair& pair : scene.pairs) EXPECT_FALSE(pair.settings.effects.any());
 }
 
 TEST_F(SceneEffects, AMaterialIsNamedOrSpelledOut) {

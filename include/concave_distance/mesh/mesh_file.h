@@ -4,7 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "concave_distance/base/content_hash.h"
 #include "concave_distance/base/error.h"
+#include "concave_distance/mesh/mesh_import_limits.h"
 
 namespace concave_distance {
 
@@ -35,6 +37,10 @@ class MeshFile {
   std::uint64_t size_ = 0;
   int descriptor_ = -1;
 };
+
+/// Adds what the file brings to a body: its bytes and its ending. False when it cannot be read whole, or when
+/// it is larger than `limits` let it be imported: not to be cached. Memory is constant.
+bool addMeshFile(ContentHasher& hasher, const MeshFile& file, const MeshImportLimits& limits);
 
 /// The one refusal of a file outside of the allowed folders. It says nothing about what is there.
 Error outsideOfMeshFolders(const std::string& name);

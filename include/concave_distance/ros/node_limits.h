@@ -17,6 +17,8 @@ struct NodeLimits {
   std::uint32_t largest_pair_count = 50'000;
   std::uint32_t largest_triangle_count = 5'000'000;  ///< of one body
   std::uint32_t largest_node_count = 200'000;        ///< of one body's search grid
+  std::uint32_t import_memory_mb = 1024;             ///< of the process that reads one mesh file
+  double import_seconds = 30.0;                      ///< for one mesh file
 };
 
 /// @param parameters of the node's private namespace; the limits are read from the group `limits` in it

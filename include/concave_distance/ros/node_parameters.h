@@ -28,6 +28,7 @@ struct NodeParameters {
   std::string reference_frame = "world";                ///< tf frame of every output; a continuous one
   GeometrySource geometry = GeometrySource::Collision;
   std::string cache;               ///< folder of prepared bodies; empty: the user's, "off": none
+  MeshAccess mesh_access;          ///< of bodies that services add
   double rate = 50.0;              ///< cycles per second
   double marker_rate = 20.0;       ///< marker messages per second, at most `rate`
   std::uint32_t threads = 0;       ///< that solve pairs in one cycle; 0: one per core

@@ -14,6 +14,7 @@
 #include "concave_distance/ros/restart_requests.h"
 #include "concave_distance/ros/scene_keeper.h"
 #include "concave_distance/ros/service_queues.h"
+#include "concave_distance/scene/mesh_roots.h"
 #include "concave_distance/scene/resource_locator.h"
 
 namespace concave_distance {
@@ -24,7 +25,7 @@ class SceneServices {
  public:
   /// add_body goes through the gate of requests that take long, the others do not.
   SceneServices(ServiceQueues& queues, SceneKeeper& keeper, RestartRequests& restarts,
-                std::string reference_frame, PackageLocator package_locator);
+                std::string reference_frame, PackageLocator package_locator, MeshAccess mesh_access);
 
  private:
   bool listBodies(ListBodies::Request& request, ListBodies::Response& response);
@@ -43,6 +44,7 @@ class SceneServices {
   RestartRequests& restarts_;
   std::string reference_frame_;
   PackageLocator package_locator_;
+  MeshAccess mesh_access_;
   ros::ServiceServer list_bodies_;
   ros::ServiceServer add_body_;
   ros::ServiceServer remove_body_;

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "concave_distance/scene/mesh_roots.h"
 #include "concave_distance/scene/resource_locator.h"
 #include "concave_distance/scene/scene.h"
 #include "concave_distance/scene/scene_limits.h"
@@ -31,6 +32,7 @@ struct SceneLoadOptions {
   /// Where prepared bodies are kept between runs, unless the scene file says otherwise; nullptr: nowhere.
   PreparationCachePointer cache;
   SceneLimits limits;
+  MeshImportLimits mesh_import;  ///< of each mesh file
 };
 
 /// Loads a scene YAML (doc/scene_file.md): robots from descriptions or files, bodies, groups, pairs. A body
@@ -63,6 +65,7 @@ struct BodyDescription {
   Eigen::Isometry3d frame_from_geometry = Eigen::Isometry3d::Identity();
   std::optional<double> max_edge_length;
   std::optional<double> chord_error;  ///< metres; empty: 1 % of the radius
+  MeshAccess mesh_access;             ///< which mesh files may be read, and what that may cost
 };
 /// Loads one body as a scene does.
 /// @param pool of the scene that it is for; nullptr: one of its own
@@ -70,8 +73,7 @@ struct BodyDescription {
 /// @param limits those of one body are read
 /// @throws Error naming the body
 SceneBody loadBody(const BodyDescription& description, const std::string& base_folder,
-                   const PackageLocator& package_locator,
-                   const std::shared_ptr<BodyPool>& pool = nullptr,
+                   const PackageLocator& package_locator, const std::shared_ptr<BodyPool>& pool = nullptr,
                    const PreparationCachePointer& cache = nullptr, const SceneLimits& limits = {});
 
 }  // namespace concave_distance

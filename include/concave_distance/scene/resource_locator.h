@@ -1,7 +1,9 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace concave_distance {
 
@@ -20,4 +22,23 @@ std::string packagePathFromEnvironment(const std::string& package);
 std::string locateResource(const std::string& resource, const std::string& base_folder,
                            const PackageLocator& package_locator);
 
+namespace detail {
+
+/// What a resource may stand for, before anything is looked up in the file system.
+struct ResourcePaths {
+  std::vector<std::string> candidates;  ///< absolute, or relative to the working folder; at least one
+  std::string package_folder;           ///< empty: no package://
+};
+
+/// Package that a package:// resource names; nothing for any other resource.
+std::optional<std::string> packageOf(const std::string& resource);
+
+/// @throws Error as locateResource, but for what is missing
+ResourcePaths resourcePaths(const std::string& resource, const std::string& base_folder,
+                            const PackageLocator& package_locator);
+
+/// The first candidate that is a regular file. @throws Error naming the resource when none is
+std::string firstFile(const std::string& resource, const std::vector<std::string>& candidates);
+
+}  // namespace detail
 }  // namespace concave_distance

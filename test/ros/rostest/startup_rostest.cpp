@@ -157,7 +157,7 @@ TEST(StartUp, SoAreTheInvalidRobotsOfDartDoc) {
 
 TEST(StartUp, AnInvalidRobotDescriptionIsAProblemAndTheNodeLives) {
   for (const auto& [node, part] :
-       {std::pair("/invalid_urdf", "urdfdom says"), std::pair("/invalid_mesh_urdf", "invalid_mesh.stl")}) {
+       {std::pair("/invalid_urdf", "the URDF cannot be read"), std::pair("/invalid_mesh_urdf", "invalid_mesh.stl")}) {
     ASSERT_TRUE(isReady(node)) << node;
     const ListBodiesResponse scene = list(node);
     EXPECT_EQ(scene.problems.size(), 1U);
