@@ -253,6 +253,18 @@ TEST(ImportMesh, RefusesCorruptFiles) {
   errorOf(folder.write("words.dae", "<?xml version=\"1.0\"?><COLLADA version=\"1.4.1\"><asset/></COLLADA>"));
 }
 
+TEST(ImportMesh, RefusesABodyWhoseShapeSinglePrecisionLoses) {
+  const TemporaryFolder folder;
+  const auto tetrahedron_at = [&](const std::string& x, const std::string& next_x) {
+    return folder.write("far.obj", "v " + x + " 0 0\nv " + next_x + " 0 0\nv " + x + " 1 0\nv " + x +
+                                       " 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+  };
+  EXPECT_EQ(importMesh(tetrahedron_at("10000", "10001")).triangles.size(), 4U);
+  EXPECT_NE(errorOf(tetrahedron_at("1000000", "1000001")).find("seven digits"), std::string::npos);
+  EXPECT_NE(errorOf(tetrahedron_at("1000000000000000", "1000000000000001")).find("seven digits"),
+            std::string::npos);
+}
+
 TEST(ImportMesh, RefusesFilesWithoutFaces) {
   const TemporaryFolder folder;
   errorOf(folder.write("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n"));

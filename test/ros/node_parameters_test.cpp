@@ -202,5 +202,43 @@ TEST(SimulationNodeParameters, WrongNamesAndValuesAreRefused) {
   EXPECT_NE(simulationRefusal("sped", 1.0).find("~sped"), std::string::npos);
 }
 
+TEST(NodeParameters, MeshRootsArePackagesAndTheScenesFolderUnlessTheyAreListed) {
+  XmlRpc::XmlRpcValue values;
+  MeshRoots roots = parse(values).mesh_access.roots.value();
+  EXPECT_TRUE(roots.every_package);
+  EXPECT_TRUE(roots.folders.empty());
+  values["scene_file"] = "/cell/scene.yaml";
+  roots = parse(values).mesh_access.roots.value();
+  EXPECT_TRUE(roots.every_package);
+  EXPECT_EQ(roots.folders, std::vector<std::string>{"/cell"});
+  values["mesh_roots"][0] = "package://arm";
+  values["mesh_roots"][1] = "/data/parts/";
+  roots = parse(values).mesh_access.roots.value();
+  EXPECT_FALSE(roots.every_package);
+  EXPECT_EQ(roots.packages, std::vector<std::string>{"arm"});
+  EXPECT_EQ(roots.folders, std::vector<std::string>{"/data/parts"});
+  XmlRpc::XmlRpcValue none;
+  none.setSize(0);
+  values["mesh_roots"] = none;
+  roots = parse(values).mesh_access.roots.value();
+  EXPECT_FALSE(roots.every_package || !roots.packages.empty() || !roots.folders.empty());
+
+  XmlRpc::XmlRpcValue relative;
+  relative[0] = "meshes";
+  EXPECT_NE(refusal("mesh_roots", relative).find("absolute folder"), std::string::npos);
+  EXPECT_NE(refusal("mesh_roots", 5).find("a list of texts"), std::string::npos);
+}
+
+TEST(NodeParameters, LimitsOfTheImportReachIt) {
+  XmlRpc::XmlRpcValue values;
+  values["limits"]["import_memory_mb"] = 300;
+  values["limits"]["import_seconds"] = 2.5;
+  values["limits"]["largest_triangle_count"] = 1000;
+  const MeshImportLimits limits = parse(values).mesh_access.limits;
+  EXPECT_EQ(limits.memory, 300'000'000U);
+  EXPECT_EQ(limits.seconds, 2.5);
+  EXPECT_EQ(limits.largest_triangle_count, 1000U);
+}
+
 }  // namespace
 }  // namespace concave_distance

@@ -55,10 +55,10 @@ TEST(ParameterDocumentation, MarksWhatMayChangeWhileRunning) {
 
 TEST(TestingDocumentation, NamesEveryRostestCaseAndNoOther) {
   std::set<std::string> cases;
-  for (const char* program : {"certified", "clock", "effects", "launch_files", "limits", "nodelet", "services", "simulation", "startup",
-                              "topics", "untouched"}) {
+  for (const char* program : {"certified", "clock", "effects", "hostile_meshes", "launch_files", "limits",
+                              "nodelet", "services", "simulation", "startup", "topics", "untouched"}) {
     const std::string text = readText("test/ros/rostest/" + std::string(program) + "_rostest.cpp");
-    cases.merge(matches(text, "TEST(?:_F)?\\(\\w+, (\\w+)\\)"));
+    cases.merge(matches(text, "TEST(?:_[FP])?\\(\\w+, (\\w+)\\)"));
   }
   EXPECT_GT(cases.size(), 30U);
   EXPECT_EQ(matches(readText("doc/testing.md"), "\\b([A-Z]\\w*[a-z]{2}[A-Z]\\w*)\\b"), cases);

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <sstream>
 #include <vector>
 
 #include "concave_distance/base/error.h"
@@ -51,6 +52,29 @@ void checkMeshes(const aiScene& scene, const std::string& path) {
       }
     }
   }
+}
+
+/// Assimp keeps seven digits: a small body far from the file's origin comes out as another body.
+void checkPrecision(const aiScene& scene, const std::string& path) {
+  constexpr double kRounding = 6e-8;  // of a coordinate, half a unit of single precision
+  constexpr double kLargestShare = 0.01;
+  double farthest = 0.0;
+  double extent = 0.0;
+  for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
+    Eigen::AlignedBox3d box;
+    for (unsigned v = 0; v < scene.mMeshes[m]->mNumVertices; ++v) {
+      const aiVector3D& p = scene.mMeshes[m]->mVertices[v];
+      box.extend(Eigen::Vector3d(p.x, p.y, p.z));
+    }
+    if (box.isEmpty()) continue;
+    farthest = std::max({farthest, box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff()});
+    extent = std::max(extent, box.diagonal().norm());
+  }
+  if (extent == 0.0 || kRounding * farthest <= kLargestShare * extent) return;
+  std::ostringstream seen;
+  seen << "the mesh is " << extent << " large and has coordinates of " << farthest
+       << ", which keep seven digits: its shape is lost";
+  throw Error(path, seen.str(), "move the mesh to the origin of its file and give the body a pose");
 }
 
 /// Says what kinds of faces each mesh has: where a reader leaves that out or is wrong, assimp's triangulation
@@ -196,6 +220,7 @@ TriangleSoup readMesh(std::string_view content, const std::string& path, const s
   const aiScene* scene = importer.ReadFile(name, 0);
   if (scene != nullptr && scene->mRootNode != nullptr) {
     checkMeshes(*scene, path);
+    checkPrecision(*scene, path);
     statePrimitiveTypes(*scene);
     scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
   }

@@ -1,0 +1,160 @@
+// Hostile mesh files, and files that nobody may read, given to a running node: it refuses them and answers
+// on.
+#include <concave_distance/AddBody.h>
+#include <concave_distance/GetDistance.h>
+#include <concave_distance/ListBodies.h>
+#include <concave_distance/RemoveBody.h>
+#include <concave_distance/SetEffects.h>
+#include <gtest/gtest.h>
+#include <ros/init.h>
+#include <ros/spinner.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "node_access.h"
+#include "tf_player.h"
+
+namespace concave_distance {
+namespace {
+
+namespace fs = std::filesystem;
+
+// As in hostile_meshes.test.
+const std::string kFolder = "/tmp/concave_distance_hostile_rostest";
+const std::string kMeshes = kFolder + "/meshes";
+constexpr const char* kTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+
+struct HostileMesh {
+  std::string expectation;
+  std::string name;
+  std::string path;
+};
+
+std::vector<HostileMesh> writeHostileMeshes() {
+  const std::string command =
+      "python3 '" CONCAVE_DISTANCE_SOURCE_DIR "/test/faults/hostile_meshes.py' '" + kMeshes + "'";
+  std::FILE* pipe = popen(command.c_str(), "r");
+  if (pipe == nullptr) return {};
+  std::string output;
+  char buffer[4096];
+  while (const std::size_t size = fread(buffer, 1, sizeof buffer, pipe)) output.append(buffer, size);
+  EXPECT_EQ(pclose(pipe), 0) << command;
+  std::vector<HostileMesh> meshes;
+  std::istringstream lines(output);
+  for (HostileMesh mesh; lines >> mesh.expectation >> mesh.name >> mesh.path;) meshes.push_back(mesh);
+  return meshes;
+}
+
+AddBodyResponse addMesh(const std::string& resource) {
+  AddBodyRequest request;
+  request.name = "mesh";
+  request.frame_id = "world";
+  request.pose.orientation.w = 1.0;
+  request.mesh_resource = resource;
+  request.pair_with = {"box_a"};
+  AddBodyResponse response = call<AddBody>(kNode + "add_body", request);
+  if (response.success) {
+    RemoveBodyRequest removal;
+    removal.name = "mesh";
+    EXPECT_TRUE(call<RemoveBody>(kNode + "remove_body", removal).success);
+  }
+  return response;
+}
+
+class HostileMeshesTest : public ::testing::Test {
+ protected:
+  HostileMeshesTest() {
+    player.place("box_a", 0.0);
+    player.place("box_b", 2.0);
+    player.place("ball", 0.0, 3.0);
+    EXPECT_TRUE(eventually([] { return answersRight(); }));
+  }
+
+  static bool answersRight() {
+    GetDistanceRequest request;
+    request.query.body_a = "box_a";
+    request.query.body_b = "box_b";
+    const auto response = call<GetDistance>(kNode + "get_distance", request);
+    return response.success && std::abs(response.result.nearest.distance - 1.0) < kRounding;
+  }
+
+  TfPlayer player;
+};
+
+TEST_F(HostileMeshesTest, AreRefusedAndTheNodeAnswersOn) {
+  const std::vector<HostileMesh> meshes = writeHostileMeshes();
+  ASSERT_GE(meshes.size(), 80U);
+  for (const HostileMesh& mesh : meshes) {
+    const AddBodyResponse response = addMesh(mesh.path);
+    if (response.success) {
+      EXPECT_NE(mesh.expectation, "refused") << mesh.name;
+    } else {
+      EXPECT_NE(mesh.expectation, "served") << response.message;
+      EXPECT_NE(response.message.find(mesh.name), std::string::npos) << response.message;
+    }
+    ASSERT_TRUE(answersRight()) << mesh.name;
+  }
+  EXPECT_EQ(call<ListBodies>(kNode + "list_bodies", {}).bodies.size(), 4U);
+}
+
+TEST_F(HostileMeshesTest, OutsideOfTheMeshRootsThereIsOneRefusal) {
+  fs::create_directories(kMeshes);
+  fs::create_directories(kFolder + "/secret/folder.obj");
+  for (const char* file : {"/meshes/good.obj", "/secret/there.obj"})
+    std::ofstream(kFolder + file) << kTriangle;
+  std::error_code exists;
+  fs::create_symlink("../secret/there.obj", kMeshes + "/link_out.obj", exists);
+  fs::create_symlink("../secret/none.obj", kMeshes + "/link_to_none.obj", exists);
+  EXPECT_TRUE(addMesh(kMeshes + "/good.obj").success);
+  EXPECT_TRUE(addMesh("package://concave_distance/test/ros/rostest/meshes/two_blocks.obj").success);
+
+  const auto refusal = [](const std::string& resource) {
+    const std::string message = addMesh(resource).message;
+    const std::size_t at = message.find(resource);
+    EXPECT_NE(at, std::string::npos) << message;
+    return at == std::string::npos ? message : message.substr(at + resource.size());
+  };
+  const std::string expected = refusal(kFolder + "/secret/there.obj");
+  EXPECT_NE(expected.find("services read no mesh from there"), std::string::npos) << expected;
+  EXPECT_NE(expected.find("~mesh_roots"), std::string::npos) << expected;
+  for (const std::string& resource :
+       {kFolder + "/secret/none.obj", kFolder + "/secret/folder.obj", kMeshes + "/../secret/there.obj",
+        kMeshes + "/../secret/none.obj", kMeshes + "/link_out.obj", kMeshes + "/link_to_none.obj",
+        "file://" + kFolder + "/secret/there.obj", std::string("/etc/passwd"), std::string("/no/such/file"),
+        std::string("/dev/zero"), std::string("package://concave_distance/../../../../../../../etc/passwd"),
+        std::string("package://roscpp/package.xml"), std::string("package://no_such_package/a.stl")}) {
+    EXPECT_EQ(refusal(resource), expected) << resource;
+  }
+  EXPECT_TRUE(answersRight());
+}
+
+TEST_F(HostileMeshesTest, NorDoTextsForEffectsDoHarm) {
+  SetEffectsRequest request;
+  request.pair = "*";
+  for (const std::string& text :
+       {std::string(","), std::string(4096, '['), std::string(4096, '{'), std::string(50'000'000, '['),
+        std::string("&a [*a]"), std::string("&a {normal_force: *a}"), std::string(4096, '&')}) {
+    request.effects = text;
+    const auto response = call<SetEffects>(kNode + "set_effects", request);
+    EXPECT_FALSE(response.success) << text.substr(0, 20);
+    EXPECT_LT(response.message.size(), 1000U);
+    ASSERT_TRUE(answersRight()) << text.substr(0, 20);
+  }
+}
+
+}  // namespace
+}  // namespace concave_distance
+
+int main(int argc, char** argv) {
+  ::testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "hostile_meshes_rostest");
+  ros::AsyncSpinner spinner(2);
+  spinner.start();
+  const int result = RUN_ALL_TESTS();
+  std::error_code ignored;
+  fs::remove_all(kFolder, ignored);
+  return result;
+}
