@@ -1,5 +1,7 @@
 #include "concave_distance/ros/body_markers.h"
 
+#include <vector>
+
 #include "concave_distance/ros/conversions.h"
 
 namespace concave_distance {
@@ -16,25 +18,40 @@ std_msgs::ColorRGBA toColor(const Eigen::Vector4d& color) {
   return message;
 }
 
-void drawTriangles(const SurfaceMesh& surface, visualization_msgs::Marker& marker) {
-  marker.type = visualization_msgs::Marker::TRIANGLE_LIST;
-  marker.scale.x = marker.scale.y = marker.scale.z = 1.0;
-  marker.points.reserve(3 * surface.triangleCount());
+// Unit vectors outwards at the vertices; 0 where the faces around cancel out.
+std::vector<Eigen::Vector3d> vertexNormals(const SurfaceMesh& surface) {
+  std::vector<Eigen::Vector3d> normals(surface.vertexCount(), Eigen::Vector3d::Zero());
   for (const TriangleNodes& triangle : surface.triangles()) {
-    for (const NodeIndex node : triangle) {
-      marker.points.push_back(toPoint(surface.vertex(node)));
-    }
+    const Eigen::Vector3d& a = surface.vertex(triangle[0]);
+    const Eigen::Vector3d area = (surface.vertex(triangle[1]) - a).cross(surface.vertex(triangle[2]) - a);
+    for (const NodeIndex node : triangle) normals[node.value] += area;
   }
-}
-
-void drawBox(const SurfaceMesh& surface, visualization_msgs::Marker& marker) {
-  marker.type = visualization_msgs::Marker::CUBE;
-  marker.pose.position = toPoint(surface.boundingBox().center());
-  marker.scale = toVector(surface.boundingBox().sizes());
-  marker.color.a = kBoxOpacity;
+  for (Eigen::Vector3d& normal : normals) normal.normalize();
+  return normals;
 }
 
 }  // namespace
+
+void drawSurface(const SurfaceMesh& surface, double offset, visualization_msgs::Marker& marker) {
+  if (surface.triangleCount() > kLargestShownBody) {
+    marker.type = visualization_msgs::Marker::CUBE;
+    marker.pose.position = toPoint(surface.boundingBox().center());
+    marker.scale = toVector(surface.boundingBox().sizes() + Eigen::Vector3d::Constant(2.0 * offset));
+    marker.color.a = kBoxOpacity;
+    return;
+  }
+  marker.type = visualization_msgs::Marker::TRIANGLE_LIST;
+  marker.scale.x = marker.scale.y = marker.scale.z = 1.0;
+  marker.points.reserve(3 * surface.triangleCount());
+  std::vector<Eigen::Vector3d> vertices = surface.vertices();
+  if (offset != 0.0) {
+    const std::vector<Eigen::Vector3d> normals = vertexNormals(surface);
+    for (std::size_t k = 0; k < vertices.size(); ++k) vertices[k] += offset * normals[k];
+  }
+  for (const TriangleNodes& triangle : surface.triangles()) {
+    for (const NodeIndex node : triangle) marker.points.push_back(toPoint(vertices[node.value]));
+  }
+}
 
 visualization_msgs::MarkerArray bodyMarkers(const Scene& scene) {
   visualization_msgs::MarkerArray message;
@@ -55,11 +72,7 @@ visualization_msgs::MarkerArray bodyMarkers(const Scene& scene) {
     marker.action = visualization_msgs::Marker::ADD;
     marker.pose.orientation.w = 1.0;
     marker.color = toColor(body.colour);
-    if (body.mesh->surface().triangleCount() > kLargestShownBody) {
-      drawBox(body.mesh->surface(), marker);
-    } else {
-      drawTriangles(body.mesh->surface(), marker);
-    }
+    drawSurface(body.mesh->surface(), 0.0, marker);
     message.markers.push_back(std::move(marker));
   }
   return message;

@@ -3,11 +3,11 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <string>
 #include <utility>
 
 #include "concave_distance/ros/conversions.h"
+#include "concave_distance/ros/marker_labels.h"
 
 namespace concave_distance {
 namespace {
@@ -19,9 +19,7 @@ constexpr double kLineWidth = 0.12;
 constexpr double kShaftWidth = 0.22;
 constexpr double kHeadWidth = 0.55;
 constexpr double kHeadLength = 0.6;
-constexpr double kHeadShare = 0.4;   // of a short arrow's length
-constexpr double kTextHeight = 1.6;  // of the letters, over the scale
-constexpr double kTextLift = 5.5;    // of the text above the contact: clear of the arrows' beginning
+constexpr double kHeadShare = 0.4;  // of a short arrow's length
 
 std_msgs::ColorRGBA color(float r, float g, float b, float a) {
   std_msgs::ColorRGBA result;
@@ -37,6 +35,11 @@ Eigen::Vector3d toEigen(const geometry_msgs::Point& point) {
 }
 Eigen::Vector3d toEigen(const geometry_msgs::Vector3& vector) {
   return {vector.x, vector.y, vector.z};
+}
+
+// Text and disc: seen on light and on dark.
+std_msgs::ColorRGBA contactColor() {
+  return color(0.70F, 0.15F, 0.60F, 1.0F);
 }
 
 Marker emptyMarker(const PairContactState& pair, const char* kind, std::int32_t id, double lifetime) {
@@ -62,7 +65,8 @@ void drawArea(const Contact& contact, double scale, Marker& marker) {
   marker.pose.orientation.w = turn.w();
   marker.scale.x = marker.scale.y = 2.0 * std::sqrt(contact.contact_area / M_PI);
   marker.scale.z = kDiscHeight * scale;
-  marker.color = color(0.80F, 0.10F, 0.55F, 0.45F);
+  marker.color = contactColor();
+  marker.color.a = 0.5F;
 }
 
 // An arrow from the point where the force acts; a short one keeps its shape.
@@ -78,22 +82,25 @@ void drawForce(const geometry_msgs::Point& from, const Eigen::Vector3d& arrow, d
 
 std::string contactText(const Contact& contact) {
   std::string text;
-  char number[32];
-  if (contact.has_depth != 0) {
-    std::snprintf(number, sizeof(number), "%.2f mm", 1000.0 * contact.depth);
-    text = number;
-  }
+  if (contact.has_depth != 0) text = lengthText(contact.depth) + " deep";
   if (contact.has_force != 0) {
     const double newtons = toEigen(contact.wrench.force).norm();
-    const bool thousands = newtons >= 1000.0;
-    std::snprintf(number, sizeof(number), "%.3g %s", thousands ? 1e-3 * newtons : newtons,
-                  thousands ? "kN" : "N");
-    text += (text.empty() ? "" : "  ") + std::string(number);
+    text += (text.empty() ? "" : "  ") + forceText(newtons);
   }
   return text.empty() ? "contact" : text;
 }
 
 }  // namespace
+
+std_msgs::ColorRGBA normalForceColor() {
+  return color(0.85F, 0.05F, 0.10F, 1.0F);
+}
+std_msgs::ColorRGBA frictionColor() {
+  return color(0.10F, 0.40F, 0.95F, 1.0F);
+}
+std_msgs::ColorRGBA contactTextColor() {
+  return contactColor();
+}
 
 std::vector<Marker> contactMarkers(const PairContactState& pair, const MarkerStyle& style, double lifetime) {
   std::vector<Marker> markers;
@@ -116,22 +123,21 @@ std::vector<Marker> contactMarkers(const PairContactState& pair, const MarkerSty
     }
     if (contact.has_force != 0 && contact.normal_force > 0.0) {
       Marker& arrow = add("normal_force");
-      arrow.color = color(0.85F, 0.05F, 0.10F, 1.0F);
+      arrow.color = normalForceColor();
       drawForce(contact.force_point, contact.normal_force / style.force_scale * toEigen(contact.normal),
                 style.scale, arrow);
     }
     if (contact.has_friction != 0 && toEigen(contact.friction).norm() > 0.0) {
       Marker& arrow = add("friction");
-      arrow.color = color(0.05F, 0.35F, 0.90F, 1.0F);
+      arrow.color = frictionColor();
       drawForce(contact.force_point, toEigen(contact.friction) / style.force_scale, style.scale, arrow);
     }
     if (!toEigen(contact.centroid).allFinite()) continue;
     Marker& text = add("contact_text");
     text.type = Marker::TEXT_VIEW_FACING;
     text.pose.position = contact.centroid;
-    text.pose.position.z += kTextLift * style.scale;
-    text.scale.z = kTextHeight * style.scale;
-    text.color = color(0.45F, 0.0F, 0.35F, 1.0F);
+    text.scale.z = style.scale;
+    text.color = contactTextColor();
     text.text = contactText(contact);
   }
   return markers;

@@ -2,19 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <utility>
 
 #include "concave_distance/ros/conversions.h"
 
 namespace concave_distance {
 namespace {
 
-constexpr double kScaleShare = 0.02;  // of the median body diameter
-constexpr double kLineShare = 0.35;   // line width over the diameter of the points
-constexpr double kOtherShare = 0.55;  // size of the niches that are not the nearest
-constexpr float kOtherOpacity = 0.6F;
-constexpr double kTextShare = 2.5;  // letter height over the diameter of the points
-constexpr double kRimShare = 0.15;  // line width of the circles around a segment or patch
+constexpr double kLineShare = 0.4;   // line width over the diameter of the points
+constexpr double kOtherShare = 0.5;  // size of the niches that are not the nearest
+constexpr float kOtherOpacity = 0.5F;
+constexpr double kLongShare = 0.5;   // points take up at most this share of a line each ...
+constexpr double kLeastShare = 0.4;  // ... but are not smaller than this share of their size
+constexpr double kRimShare = 0.15;   // line width of the circles around a segment or patch
 constexpr int kRimCorners = 24;
 
 struct DrawnNiche {
@@ -31,28 +31,18 @@ std::int32_t markerId(std::uint64_t niche_id) {
   return static_cast<std::int32_t>(niche_id & 0x7fffffffU);
 }
 
-std::string distanceText(double distance) {
-  char text[32];
-  if (distance < 0.01) {
-    std::snprintf(text, sizeof(text), "%.2f mm", 1000.0 * distance);
-  } else {
-    std::snprintf(text, sizeof(text), "%.3f m", distance);
-  }
-  return text;
-}
-
-std::vector<DrawnNiche> drawnNiches(const PairNiches& pair) {
+std::vector<DrawnNiche> drawnNiches(const PairNiches& pair, std::size_t count) {
   std::vector<DrawnNiche> drawn;
-  if (pair.nearest.has_distance == 0) {
+  if (!hasMarkers(pair)) {
     return drawn;
   }
-  for (const Niche& niche : pair.niches) {
+  for (std::size_t k = 0; k < std::min(count, pair.niches.size()); ++k) {
+    const Niche& niche = pair.niches[k];
     drawn.push_back({markerId(niche.id), niche.distance, niche.point_a, niche.point_b, drawn.empty(),
                      niche.kind == Niche::KIND_POINT ? 0.0 : niche.extent,
                      Eigen::Vector3d(niche.normal.x, niche.normal.y, niche.normal.z)});
   }
-  const bool swallowed = pair.nearest.status.code == PairStatus::PENETRATING;
-  if (drawn.empty() && swallowed && pair.nearest.has_points != 0) {
+  if (pair.niches.empty()) {
     drawn.push_back({0, pair.nearest.distance, pair.nearest.point_a, pair.nearest.point_b, true, 0.0,
                      Eigen::Vector3d::Zero()});
   }
@@ -87,39 +77,44 @@ visualization_msgs::Marker emptyMarker(const PairNiches& pair, const char* kind,
 
 }  // namespace
 
-double automaticMarkerScale(const Scene& scene) {
-  std::vector<double> diameters;
-  for (const SceneBody& body : scene.bodies) {
-    diameters.push_back(body.mesh->diameter());
-  }
-  if (diameters.empty()) {
-    return kScaleShare;
-  }
-  const auto middle = diameters.begin() + static_cast<std::ptrdiff_t>(diameters.size() / 2);
-  std::nth_element(diameters.begin(), middle, diameters.end());
-  return kScaleShare * *middle;
+std_msgs::ColorRGBA distanceColor(double distance, const MarkerStyle& style) {
+  const double share = std::clamp((distance - style.near) / (style.far - style.near), 0.0, 1.0);
+  std_msgs::ColorRGBA color;
+  // Dark enough for a light background, light enough for a dark one.
+  const Eigen::Vector3d kNear(0.95, 0.42, 0.0);
+  const Eigen::Vector3d kMiddle(0.72, 0.60, 0.0);
+  const Eigen::Vector3d kFar(0.0, 0.55, 0.10);
+  const Eigen::Vector3d mixed = share < 0.5
+                                    ? Eigen::Vector3d(kNear + 2.0 * share * (kMiddle - kNear))
+                                    : Eigen::Vector3d(kMiddle + (2.0 * share - 1.0) * (kFar - kMiddle));
+  color.r = static_cast<float>(mixed.x());
+  color.g = static_cast<float>(mixed.y());
+  color.b = static_cast<float>(mixed.z());
+  color.a = 1.0F;
+  return color;
 }
 
-std_msgs::ColorRGBA distanceColor(double distance, const MarkerStyle& style) {
-  const double way = std::clamp((distance - style.near) / (style.far - style.near), 0.0, 1.0);
+std_msgs::ColorRGBA warningColor() {
   std_msgs::ColorRGBA color;
-  color.r = static_cast<float>(way < 0.5 ? 1.0 : 2.0 - 2.0 * way);
-  color.g = static_cast<float>(way < 0.5 ? 0.45 + 0.9 * way : 0.9 - 0.3 * (way - 0.5));
+  color.r = 0.90F;
+  color.g = 0.0F;
   color.b = 0.05F;
   color.a = 1.0F;
   return color;
 }
 
-std::vector<visualization_msgs::Marker> nicheMarkers(const PairNiches& pair, const MarkerStyle& style,
+std_msgs::ColorRGBA pairColor(const PairNiches& pair, const MarkerStyle& style) {
+  return pair.nearest.warning != 0 ? warningColor() : distanceColor(pair.nearest.distance, style);
+}
+
+std::vector<visualization_msgs::Marker> nicheMarkers(const DrawnPair& drawn, const MarkerStyle& style,
                                                      double lifetime) {
+  const PairNiches& pair = *drawn.pair;
   std::vector<visualization_msgs::Marker> markers;
-  for (const DrawnNiche& niche : drawnNiches(pair)) {
-    const double size = niche.nearest ? style.scale : kOtherShare * style.scale;
-    std_msgs::ColorRGBA color = distanceColor(niche.distance, style);
-    if (niche.nearest && pair.nearest.warning != 0) {
-      color.r = 1.0F;
-      color.g = color.b = 0.0F;
-    }
+  for (const DrawnNiche& niche : drawnNiches(pair, drawn.niche_count)) {
+    const double full = niche.nearest ? style.scale : kOtherShare * style.scale;
+    const double size = std::clamp(kLongShare * niche.distance, kLeastShare * full, full);
+    std_msgs::ColorRGBA color = niche.nearest ? pairColor(pair, style) : distanceColor(niche.distance, style);
     color.a = niche.nearest ? 1.0F : kOtherOpacity;
 
     visualization_msgs::Marker points = emptyMarker(pair, "points", niche.id, lifetime);
@@ -138,26 +133,31 @@ std::vector<visualization_msgs::Marker> nicheMarkers(const PairNiches& pair, con
     if (niche.extent > 0.0 && niche.normal.squaredNorm() > 0.0) {
       visualization_msgs::Marker rim = emptyMarker(pair, "extent", niche.id, lifetime);
       rim.type = visualization_msgs::Marker::LINE_LIST;
-      rim.scale.x = kRimShare * size;
+      rim.scale.x = kRimShare * full;
       rim.color = color;
       appendCircle(niche.point_a, niche.normal, 0.5 * niche.extent, rim.points);
       appendCircle(niche.point_b, niche.normal, 0.5 * niche.extent, rim.points);
       markers.push_back(std::move(rim));
     }
-    if (!niche.nearest) {
-      continue;
-    }
-    visualization_msgs::Marker text = emptyMarker(pair, "text", niche.id, lifetime);
-    text.type = visualization_msgs::Marker::TEXT_VIEW_FACING;
-    text.pose.position.x = 0.5 * (niche.point_a.x + niche.point_b.x);
-    text.pose.position.y = 0.5 * (niche.point_a.y + niche.point_b.y);
-    text.pose.position.z = 0.5 * (niche.point_a.z + niche.point_b.z) + kTextShare * style.scale;
-    text.scale.z = kTextShare * style.scale;
-    text.color = color;
-    text.text = distanceText(niche.distance);
-    markers.push_back(std::move(text));
   }
   return markers;
+}
+
+Label nicheLabel(const PairNiches& pair, bool with_names, const MarkerStyle& style, double lifetime) {
+  const bool known = !pair.niches.empty();
+  const std::int32_t id = known ? markerId(pair.niches.front().id) : 0;
+  const geometry_msgs::Point& a = known ? pair.niches.front().point_a : pair.nearest.point_a;
+  const geometry_msgs::Point& b = known ? pair.niches.front().point_b : pair.nearest.point_b;
+  Label label;
+  label.from = {a.x, a.y, a.z};
+  label.to = {b.x, b.y, b.z};
+  label.marker = emptyMarker(pair, "text", id, lifetime);
+  label.marker.type = visualization_msgs::Marker::TEXT_VIEW_FACING;
+  label.marker.color = pairColor(pair, style);
+  const bool overlapping = pair.nearest.status.code == PairStatus::PENETRATING;
+  label.marker.text = (with_names ? pair.nearest.body_a + " - " + pair.nearest.body_b + ": " : "") +
+                      (overlapping ? "overlap" : lengthText(pair.nearest.distance));
+  return label;
 }
 
 visualization_msgs::MarkerArray withDeletions(std::vector<visualization_msgs::Marker> markers,

@@ -62,9 +62,13 @@ MarkerStyle readMarkers(ParameterReader& reader, MarkerStyle style) {
   style.near = reader.number("marker_near", style.near, 0.0, kLongest);
   style.far = reader.number("marker_far", style.far, 0.0, kLongest);
   style.force_scale = reader.number("force_marker_scale", style.force_scale, kLeastForce, kLargestForce);
-  if (style.far <= style.near) {
+  style.pair_count = reader.count("marker_pair_count", style.pair_count, 0, 1'000'000);
+  style.niche_count = reader.count("marker_niche_count", style.niche_count, 0, 1'000'000);
+  style.legend = reader.flag("show_legend", style.legend);
+  if (style.far != 0.0 && style.far <= style.near) {
     throw Error("~marker_far", "the value is " + std::to_string(style.far),
-                "allowed: more than ~marker_near, which is " + std::to_string(style.near));
+                "allowed: more than ~marker_near, which is " + std::to_string(style.near) +
+                    ", or 0 for automatic");
   }
   return style;
 }

@@ -10,12 +10,11 @@
 
 #include <algorithm>
 #include <boost/make_shared.hpp>
-#include <iterator>
 #include <utility>
 
 #include "concave_distance/ros/contact_conversions.h"
-#include "concave_distance/ros/contact_markers.h"
 #include "concave_distance/ros/nearest.h"
+#include "concave_distance/ros/scene_markers.h"
 
 namespace concave_distance {
 namespace {
@@ -88,15 +87,6 @@ bool isSolved(const PairContactState& message) {
          code == PairStatus::BUDGET_EXHAUSTED;
 }
 
-// Where contacts tell depth and force, the niche's "0.00 mm" would only hide them.
-void dropNicheText(const std::string& pair, std::vector<visualization_msgs::Marker>& markers) {
-  markers.erase(std::remove_if(markers.begin(), markers.end(),
-                               [ns = pair + "/text"](const visualization_msgs::Marker& marker) {
-                                 return marker.ns == ns;
-                               }),
-                markers.end());
-}
-
 }  // namespace
 
 TopicPublishers::TopicPublishers(const ros::NodeHandle& node, std::string reference_frame,
@@ -111,7 +101,10 @@ TopicPublishers::TopicPublishers(const ros::NodeHandle& node, std::string refere
       contacts_(WatchedTopic::advertise<Contacts>(node_, "contacts", kQueueLength)),
       markers_(WatchedTopic::advertise<visualization_msgs::MarkerArray>(node_, "markers", kQueueLength)),
       alerts_(WatchedTopic::advertise<Alert>(node_, "alerts", kAlertQueueLength,
-                                             [this] { repeat_alerts_ = true; })) {}
+                                             [this] { repeat_alerts_ = true; })),
+      drawing_(std::make_unique<SceneMarkers>()) {}
+
+TopicPublishers::~TopicPublishers() = default;
 
 std::shared_ptr<const ServedScene> TopicPublishers::serve(const std::shared_ptr<const Scene>& scene,
                                                           const ServedScene* before, const MarkerStyle& style,
@@ -120,9 +113,6 @@ std::shared_ptr<const ServedScene> TopicPublishers::serve(const std::shared_ptr<
   served->settings_revision = settings_revision;
   served->scene = scene;
   served->marker_style = style;
-  if (style.scale == 0.0) {
-    served->marker_style.scale = automaticMarkerScale(*scene);
-  }
   static const PairTopicList kNoTopics;
   served->topics = pair_topics_.topicsOf(*scene, before == nullptr ? nullptr : before->scene.get(),
                                          before == nullptr ? kNoTopics : before->topics);
@@ -138,20 +128,20 @@ void TopicPublishers::readDemand(const ServedScene& served, const MarkerWish& ma
   const bool alerts_wanted = alerts_.isWatched();
   const bool markers_watched = markers_.isWatched();
   if (!markers_watched) {
-    shown_.clear();
+    drawing_->forget();
   }
   markers_wanted_ = markers.publish && markers_watched;
   contact_markers_wanted_ = markers_wanted_ && markers.contacts;
   // When markers are switched off, what is shown has to be deleted once more.
-  markers_due_ = markers.due && (markers_wanted_ || !shown_.empty());
+  markers_due_ = markers.due && (markers_wanted_ || !drawing_->empty());
   demand.assign(served.topics.size(), PairDemand());
   static const PairTopics kNoTopics;
   for (std::size_t index = 0; index < demand.size(); ++index) {
     const PairTopics& own = served.topics[index] ? *served.topics[index] : kNoTopics;
     const bool own_niches = own.niches.isWatched();
     const bool alert = alerts_wanted && served.scene->pairs[index].settings.warning_distance;
-    const bool contacts = (contacts_wanted_ || own.contacts.isWatched()) &&
-                          served.scene->pairs[index].settings.effects.any();
+    const bool contacts =
+        (contacts_wanted_ || own.contacts.isWatched()) && served.scene->pairs[index].settings.effects.any();
     PairDemand& pair = demand[index];
     pair.due = nearest_wanted_ || distances_wanted_ || niches_wanted_ || alert || own_niches || contacts ||
                own.distance.isWatched() || (markers_wanted_ && markers.due);
@@ -194,7 +184,7 @@ PublishReport TopicPublishers::publish(const ServedScene& served,
   publishAlerts(pairs);
   publishContacts(served, pairs, now);
   if (markers_due_) {
-    report.markers = static_cast<std::uint32_t>(publishMarkers(served, marker_lifetime, now));
+    report.markers = static_cast<std::uint32_t>(publishMarkers(served, pairs, marker_lifetime, now));
   }
   publishLists(now);
   const ros::Time end = ros::Time::now();
@@ -221,29 +211,17 @@ void TopicPublishers::publishRetired(const std::vector<std::unique_ptr<TrackedPa
   }
 }
 
-std::size_t TopicPublishers::publishMarkers(const ServedScene& served, double lifetime, ros::Time now) {
-  std::vector<visualization_msgs::Marker> markers;
-  if (markers_wanted_) {
-    for (const PairNiches& message : messages_) {
-      std::vector<visualization_msgs::Marker> of_pair = nicheMarkers(message, served.marker_style, lifetime);
-      std::move(of_pair.begin(), of_pair.end(), std::back_inserter(markers));
-    }
-  }
-  if (contact_markers_wanted_) {
-    for (const PairContactState& message : contact_messages_) {
-      std::vector<visualization_msgs::Marker> of_pair =
-          contactMarkers(message, served.marker_style, lifetime);
-      if (!of_pair.empty()) {
-        dropNicheText(message.pair, markers);
-      }
-      std::move(of_pair.begin(), of_pair.end(), std::back_inserter(markers));
-    }
-  }
+std::size_t TopicPublishers::publishMarkers(const ServedScene& served,
+                                            const std::vector<std::unique_ptr<TrackedPair>>& pairs,
+                                            double lifetime, ros::Time now) {
   std_msgs::Header header;
   header.frame_id = reference_frame_;
   header.stamp = now;
-  const auto message =
-      boost::make_shared<visualization_msgs::MarkerArray>(withDeletions(std::move(markers), header, shown_));
+  static const std::vector<PairNiches> kNoNiches;
+  static const std::vector<PairContactState> kNoContacts;
+  const auto message = boost::make_shared<visualization_msgs::MarkerArray>(
+      drawing_->draw(*served.scene, served.marker_style, pairs, markers_wanted_ ? messages_ : kNoNiches,
+                     contact_markers_wanted_ ? contact_messages_ : kNoContacts, header, lifetime));
   markers_.publish(message);
   return message->markers.size();
 }

@@ -116,7 +116,7 @@ TEST(ContactMarkers, DrawAreaDepthForcesAndText) {
     } else if (marker.ns == "a/b/friction") {
       EXPECT_NEAR(marker.points[1].x - marker.points[0].x, -3.0 / 50.0, kSums);
     } else if (marker.ns == "a/b/contact_text") {
-      EXPECT_EQ(marker.text, "2.00 mm  10.4 N");
+      EXPECT_EQ(marker.text, "2.00 mm deep  10.4 N");
     }
   }
   EXPECT_EQ(kinds, (std::set<std::string>{"a/b/contact_area", "a/b/contact_depth", "a/b/contact_text",

@@ -84,7 +84,11 @@ TEST(NodeParameters, RefuseWithNameValueAndRange) {
   EXPECT_NE(refusal("reference_frame", 3), "");
   EXPECT_NE(refusal("show_bodies", "yes"), "");
   EXPECT_NE(refusal("warm_population_size", 21), "") << "the population is even";
-  EXPECT_NE(refusal("marker_far", 0.0), "") << "not above marker_near";
+  EXPECT_NE(refusal("marker_far", -1.0), "");
+  XmlRpc::XmlRpcValue crossed;
+  crossed["marker_near"] = 0.2;
+  crossed["marker_far"] = 0.1;
+  EXPECT_THROW(parse(crossed), Error) << "not above marker_near";
 }
 
 TEST(NodeParameters, TellNamesNobodyKnows) {

@@ -12,6 +12,10 @@ namespace concave_distance {
 /// gracefully.
 inline constexpr std::size_t kLargestShownBody = 200'000;
 
+/// Gives the marker the surface's triangles, moved outwards by `offset` metres, or its bounding box,
+/// translucent, when there are too many.
+void drawSurface(const SurfaceMesh& surface, double offset, visualization_msgs::Marker& marker);
+
 /// The bodies that rviz cannot draw from a robot model, as triangle lists fixed to their tf frames. Begins
 /// with a DELETEALL, so that one latched message always says everything.
 visualization_msgs::MarkerArray bodyMarkers(const Scene& scene);

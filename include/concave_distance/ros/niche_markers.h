@@ -9,26 +9,31 @@
 #include <utility>
 #include <vector>
 
-#include "concave_distance/ros/node_parameters.h"
-#include "concave_distance/scene/scene.h"
+#include "concave_distance/ros/marker_labels.h"
+#include "concave_distance/ros/marker_selection.h"
+#include "concave_distance/ros/marker_style.h"
 
 namespace concave_distance {
 
-/// 2 % of the median diameter of the scene's bodies, metres: points that can be seen and hide nothing.
-double automaticMarkerScale(const Scene& scene);
-
 /// Colour of a niche by its distance: orange at `near`, over yellow to green at `far`; opaque.
+/// @param style with far > near
 std_msgs::ColorRGBA distanceColor(double distance, const MarkerStyle& style);
+/// Red, which no distance has.
+std_msgs::ColorRGBA warningColor();
 
 /// What is drawn for one pair: per niche its witness points and the line between them, for the nearest one
-/// thicker, opaque and with the distance as text; red when the pair is in warning. Namespaces
-/// `<pair>/points`,
-/// `<pair>/line`, `<pair>/text`; the marker id is the niche's id (its low 31 bits). A pair with a distance
-/// but no niche (one body inside the other) is drawn from its closest points under id 0.
-/// @param style with a resolved scale (> 0)
+/// thick and opaque, red when the pair is in warning, for the others thin and faint; around a segment or
+/// patch circles as wide as it is. Namespaces `<pair>/points`, `<pair>/line`, `<pair>/extent`; the marker id
+/// is the niche's id (its low 31 bits). A pair with a distance but no niche (one body inside the other) is
+/// drawn from its closest points under id 0.
+/// @param style with scale > 0 and far > near
 /// @param lifetime seconds after which rviz drops a marker that is not renewed
-std::vector<visualization_msgs::Marker> nicheMarkers(const PairNiches& pair, const MarkerStyle& style,
+std::vector<visualization_msgs::Marker> nicheMarkers(const DrawnPair& drawn, const MarkerStyle& style,
                                                      double lifetime);
+
+/// The distance of the pair's nearest niche, with the bodies' names on request: namespace `<pair>/text`.
+/// @param pair with hasMarkers()
+Label nicheLabel(const PairNiches& pair, bool with_names, const MarkerStyle& style, double lifetime);
 
 /// Namespaces and ids that rviz shows at present.
 using ShownMarkers = std::set<std::pair<std::string, std::int32_t>>;

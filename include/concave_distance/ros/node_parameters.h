@@ -7,19 +7,12 @@
 #include <string>
 #include <vector>
 
+#include "concave_distance/ros/marker_style.h"
 #include "concave_distance/ros/node_limits.h"
 #include "concave_distance/scene/load_scene.h"
 #include "concave_distance/scene/scene.h"
 
 namespace concave_distance {
-
-/// How niches and contacts are drawn. Lengths in metres.
-struct MarkerStyle {
-  double scale = 0.0;           ///< diameter of the nearest niche's points; 0: automaticMarkerScale()
-  double near = 0.0;            ///< distance drawn in the near colour
-  double far = 0.5;             ///< distance drawn in the far colour, and beyond
-  double force_scale = 1000.0;  ///< newtons that an arrow of one metre stands for
-};
 
 /// Every private parameter of the node, validated (doc/parameters.md). SI units.
 struct NodeParameters {

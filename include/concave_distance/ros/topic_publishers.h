@@ -13,18 +13,20 @@
 
 #include "concave_distance/ros/cycle_statistics.h"
 #include "concave_distance/ros/distance_cycle.h"
-#include "concave_distance/ros/niche_markers.h"
+#include "concave_distance/ros/marker_style.h"
 #include "concave_distance/ros/pair_topics.h"
 #include "concave_distance/ros/watched_topic.h"
 #include "concave_distance/scene/scene.h"
 
 namespace concave_distance {
 
+class SceneMarkers;
+
 /// A scene together with the topics of its pairs: what one cycle works on.
 struct ServedScene {
   std::shared_ptr<const Scene> scene;
   PairTopicList topics;                 ///< one per scene->pairs
-  MarkerStyle marker_style;             ///< with its scale resolved
+  MarkerStyle marker_style;             ///< as configured
   std::uint64_t settings_revision = 0;  ///< another one: the settings of pairs that were there have changed
 };
 
@@ -48,6 +50,7 @@ class TopicPublishers {
   /// @param pair_topics patterns of the pairs that have topics of their own, see PairTopicKeeper
   TopicPublishers(const ros::NodeHandle& node, std::string reference_frame,
                   std::optional<std::vector<std::string>> pair_topics);
+  ~TopicPublishers();
 
   /// Advertises the topics of pairs that have none yet; those of pairs that are gone end with the last
   /// ServedScene that names them. Not from the cycle's thread: it talks to the master.
@@ -71,7 +74,9 @@ class TopicPublishers {
  private:
   void publishAlerts(const std::vector<std::unique_ptr<TrackedPair>>& pairs);
   /// @return how many markers
-  std::size_t publishMarkers(const ServedScene& served, double lifetime, ros::Time now);
+  std::size_t publishMarkers(const ServedScene& served,
+                             const std::vector<std::unique_ptr<TrackedPair>>& pairs, double lifetime,
+                             ros::Time now);
   void publishLists(ros::Time now);
   void publishNearest(const std::vector<std::unique_ptr<TrackedPair>>& pairs, ros::Time now);
   void publishContacts(const ServedScene& served, const std::vector<std::unique_ptr<TrackedPair>>& pairs,
@@ -96,7 +101,7 @@ class TopicPublishers {
   bool markers_wanted_ = false;
   bool contact_markers_wanted_ = false;
   bool markers_due_ = false;
-  ShownMarkers shown_;
+  std::unique_ptr<SceneMarkers> drawing_;
   std::vector<PairNiches> messages_;                ///< of the pairs that are due
   std::vector<PairContactState> contact_messages_;  ///< of those whose effects are wanted
 };

@@ -9,7 +9,9 @@
 #include <tf2_ros/transform_broadcaster.h>
 #include <visualization_msgs/InteractiveMarker.h>
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "concave_distance/base/error.h"
 #include "demo_parameters.h"
@@ -18,7 +20,8 @@ namespace {
 
 using namespace concave_distance;
 
-constexpr double kRange = 1e3;  // metres and radians: more is a mistake
+constexpr double kRange = 1e3;        // metres and radians: more is a mistake
+constexpr double kHandleRate = 30.0;  // Hz
 
 visualization_msgs::InteractiveMarkerControl makeControl(const std::string& axis, double x, double y,
                                                          double z, std::uint8_t mode) {
@@ -106,13 +109,20 @@ void run() {
   Eigen::Isometry3d pose = start;
   interactive_markers::InteractiveMarkerServer server("interactive_body");
   server.insert(makeMarker(parent, child, scale));
-  server.setPose(child, toPose(pose));
   server.setCallback(child, [&](const visualization_msgs::InteractiveMarkerFeedbackConstPtr& feedback) {
     using Feedback = visualization_msgs::InteractiveMarkerFeedback;
     if (feedback->event_type == Feedback::MOUSE_DOWN) idle = false;
     if (feedback->event_type == Feedback::POSE_UPDATE && !idle) pose = fromPose(feedback->pose);
   });
-  server.applyChanges();
+  // Whoever moved the body: the handles of every rviz, and of one that is started later, go with it.
+  std::optional<Eigen::Isometry3d> shown;
+  const auto show_handles = [&] {
+    if (shown && shown->matrix() == pose.matrix()) return;
+    server.setPose(child, toPose(pose));
+    server.applyChanges();
+    shown = pose;
+  };
+  show_handles();
 
   tf2_ros::TransformBroadcaster broadcaster;
   ros::NodeHandle public_node;
@@ -120,13 +130,12 @@ void run() {
   const ros::Timer timer = public_node.createTimer(ros::Duration(1.0 / rate), [&](const ros::TimerEvent&) {
     const ros::Time now = ros::Time::now();
     if (first.isZero() || now < first) first = now;
-    if (idle) {
-      pose = sway(start, (now - first).toSec());
-      server.setPose(child, toPose(pose));
-      server.applyChanges();
-    }
+    if (idle) pose = sway(start, (now - first).toSec());
     broadcaster.sendTransform(demo::toTransform(pose, now, parent, child));
   });
+  // Not as often as the poses: rviz starts over when it loses one of the server's messages.
+  const ros::Timer handle_timer = public_node.createTimer(ros::Duration(1.0 / std::min(rate, kHandleRate)),
+                                                          [&](const ros::TimerEvent&) { show_handles(); });
   ros::spin();
 }
 

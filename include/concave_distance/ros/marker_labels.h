@@ -1,0 +1,46 @@
+#pragma once
+
+#include <visualization_msgs/Marker.h>
+
+#include <Eigen/Geometry>
+#include <array>
+#include <string>
+
+namespace concave_distance {
+
+/// A length with three digits and its unit: "0.42 mm", "12.3 mm", "456 mm", "1.24 m"; below 10 um "<0.01 mm".
+std::string lengthText(double metres);
+/// A force in the same way: "312 N", "3.58 kN".
+std::string forceText(double newtons);
+
+/// A text that belongs to a line in the picture.
+struct Label {
+  visualization_msgs::Marker marker;  ///< TEXT_VIEW_FACING; placeLabels() sets its position and height
+  Eigen::Vector3d from = Eigen::Vector3d::Zero();  ///< ends of the line, reference frame, metres
+  Eigen::Vector3d to = Eigen::Vector3d::Zero();
+};
+
+/// A text is this wide, metres: rviz's font on average.
+double widthOf(const visualization_msgs::Marker& text);
+
+/// A direction from which the scene is looked at; the camera itself is not known to the node.
+struct View {
+  Eigen::Vector3d towards;  ///< the camera, unit vector, reference frame
+  Eigen::Vector3d right;    ///< on the screen
+  Eigen::Vector3d up;
+};
+/// Eight views from all around, a little and half from above. Labels are laid out for these.
+const std::array<View, 8>& usualViews();
+
+/// A text that faces the camera.
+struct LabelSpace {
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< m
+  double width = 0.0;                                ///< m
+  double height = 0.0;
+};
+/// Whether two texts cover each other on the screen.
+bool overlap(const LabelSpace& a, const LabelSpace& b, const View& view);
+/// Whether a text covers a part of the line on the screen.
+bool covers(const LabelSpace& text, const Eigen::Vector3d& from, const Eigen::Vector3d& to, const View& view);
+
+}  // namespace concave_distance

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "concave_distance/ros/marker_style.h"
+#include "concave_distance/ros/tracked_pair.h"
+#include "concave_distance/scene/scene.h"
+
+namespace concave_distance {
+
+/// Where a body of the scene is, in the reference frame.
+struct LocatedBody {
+  std::size_t index = 0;    ///< into Scene::bodies
+  Eigen::AlignedBox3d box;  ///< around it, metres
+  Eigen::Isometry3d reference_from_body = Eigen::Isometry3d::Identity();
+};
+
+/// The bodies of the pairs that are due and have transforms, each once.
+/// @param pairs in the order of scene.pairs
+std::vector<LocatedBody> locateBodies(const Scene& scene,
+                                      const std::vector<std::unique_ptr<TrackedPair>>& pairs);
+
+/// The box around the bodies, metres; without those that are much larger than the median one (a floor) or
+/// that lie far from all others. Empty without bodies.
+Eigen::AlignedBox3d usualRegion(const std::vector<LocatedBody>& bodies);
+
+/// Where and how large markers are drawn. Follows the scene's size in steps, so that nothing breathes while
+/// bodies move.
+class MarkerLayout {
+ public:
+  /// @param style as configured, with 0 for what is automatic
+  void update(const std::vector<LocatedBody>& bodies, const MarkerStyle& style);
+
+  /// With scale and far resolved (> 0 and > near).
+  const MarkerStyle& style() const { return style_; }
+  double letterHeight() const;  ///< m
+  /// Beside this the legend stands, metres; empty before the first body was located.
+  const Eigen::AlignedBox3d& region() const { return region_; }
+
+ private:
+  MarkerStyle style_;
+  Eigen::AlignedBox3d region_;
+  double size_ = 0.0;  ///< m, diagonal of the region when it was last taken over
+};
+
+}  // namespace concave_distance

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <concave_distance/PairContactState.h>
+#include <concave_distance/PairNiches.h>
+#include <visualization_msgs/MarkerArray.h>
+
+#include <memory>
+#include <vector>
+
+#include "concave_distance/ros/label_placer.h"
+#include "concave_distance/ros/marker_layout.h"
+#include "concave_distance/ros/niche_markers.h"
+#include "concave_distance/ros/tracked_pair.h"
+#include "concave_distance/ros/warning_tints.h"
+#include "concave_distance/scene/scene.h"
+
+namespace concave_distance {
+
+/// The picture of a whole scene: the nearest pairs, contacts, labels that keep clear of each other, tinted
+/// bodies, the legend; and what has to be deleted of the picture before. One per topic.
+class SceneMarkers {
+ public:
+  /// @param style as configured, with 0 for what is automatic
+  /// @param pairs in the order of scene.pairs
+  /// @param niches of the pairs that are due; none: everything is deleted
+  /// @param header in the reference frame, stamped now
+  /// @param lifetime seconds after which rviz drops a marker that is not renewed
+  visualization_msgs::MarkerArray draw(const Scene& scene, const MarkerStyle& style,
+                                       const std::vector<std::unique_ptr<TrackedPair>>& pairs,
+                                       const std::vector<PairNiches>& niches,
+                                       const std::vector<PairContactState>& contacts,
+                                       const std_msgs::Header& header, double lifetime);
+  /// Nobody sees the markers any more: there is nothing to delete.
+  void forget();
+  bool empty() const { return shown_.empty() && tints_.empty(); }
+
+ private:
+  MarkerLayout layout_;
+  LabelPlacer placer_;
+  WarningTints tints_;
+  ShownMarkers shown_;
+  bool extents_seen_ = false;  ///< a row that comes and goes would move the legend
+};
+
+}  // namespace concave_distance

@@ -1,0 +1,100 @@
+#!/usr/bin/env bash
+# Takes the pictures of the demos in doc/images: starts each scene at rest on a display of its own, waits until rviz
+# draws the same picture twice, and keeps it.
+#   scripts/take_pictures.sh [--output FOLDER] [insertion|contact|simulation|robot|interactive|cell ...]   (default: all)
+# Needs what scripts/demo.sh builds, and xvfb and imagemagick. ROS_MASTER_URI says on which port; no master may run there.
+set -euo pipefail
+# shellcheck source=scripts/common.sh
+. "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+
+size=1240x860
+output="$package_dir/doc/images"
+scenes=()
+while [ $# -gt 0 ]; do
+  case "$1" in
+    --output) output="${2:?--output needs a folder}" && shift ;;
+    insertion | contact | simulation | robot | interactive | cell) scenes+=("$1") ;;
+    -h | --help) sed -n '2,/^set/s/^# \{0,1\}//p' "${BASH_SOURCE[0]}" && exit 0 ;;
+    *) die "unknown argument '$1': see --help" ;;
+  esac
+  shift
+done
+[ ${#scenes[@]} -gt 0 ] || scenes=(insertion contact simulation robot interactive cell)
+for tool in Xvfb import compare; do
+  command -v "$tool" >/dev/null || die "$tool is missing: apt-get install xvfb imagemagick"
+done
+source_ros
+set +u
+# shellcheck disable=SC1091
+. "$build_dir/devel/setup.bash"
+set -u
+export ROS_MASTER_URI="${ROS_MASTER_URI:-http://localhost:11319}" ROS_HOSTNAME="${ROS_HOSTNAME:-localhost}"
+export LIBGL_ALWAYS_SOFTWARE=1 QT_X11_NO_MITSHM=1
+work="$(mktemp -d)"
+export ROS_LOG_DIR="$work/logs" XDG_RUNTIME_DIR="$work"
+mkdir -p "$output"
+chmod 700 "$work"
+
+processes=()
+stop_all() {
+  local pid
+  for pid in "${processes[@]}"; do kill -INT "$pid" 2>/dev/null || true; done
+  for pid in "${processes[@]}"; do wait "$pid" 2>/dev/null || true; done
+  processes=()
+}
+trap 'stop_all; rm -rf "$work"' EXIT
+trap 'exit 130' INT TERM
+
+mkfifo "$work/display"
+Xvfb -displayfd 3 -screen 0 "${size}x24" -nolisten tcp 3<>"$work/display" >/dev/null 2>&1 &
+xvfb=$!
+read -r display <"$work/display" || die "Xvfb did not start"
+export DISPLAY=":$display"
+
+# Arguments of a scene's launch file that hold it still at a telling moment.
+launch_arguments() {
+  case "$1" in
+    insertion) echo "speed:=0 start:=6.6" ;;
+    contact) echo "speed:=0 start:=3.0" ;;
+    simulation) echo "at_end:=hold scene:=two_feet" ;;
+    robot) echo "speed:=0 start:=17.0" ;;
+    interactive) echo "idle_motion:=false" ;;
+    cell) echo "speed:=0 start:=5.6" ;;
+  esac
+}
+
+wait_for() {  # seconds, what, command...
+  local end=$((SECONDS + $1)) what="$2"
+  shift 2
+  until "$@" >/dev/null 2>&1; do
+    [ "$SECONDS" -lt "$end" ] || die "$what did not come in time; see $work"
+    sleep 0.3
+  done
+}
+
+markers_came() { timeout 5 rostopic echo -n 1 /concave_distance/markers | grep -q 'points'; }
+
+picture_settled() {
+  mv -f "$work/now.png" "$work/before.png" 2>/dev/null || true
+  sleep 1.5
+  import -window root "$work/now.png"
+  [ "$(identify -format %k "$work/now.png")" -gt 50 ] || return 1
+  [ -s "$work/before.png" ] && [ "$(compare -metric AE -fuzz 3% "$work/before.png" "$work/now.png" null: 2>&1 | cut -d' ' -f1 | cut -d. -f1)" -lt "${largest_change:-40}" ]
+}
+
+for scene in "${scenes[@]}"; do
+  say "$scene"
+  read -ra arguments <<<"$(launch_arguments "$scene")"
+  rm -f "$work"/*.png
+  setsid roslaunch concave_distance "$scene.launch" rviz:=false "${arguments[@]}" >"$work/$scene.log" 2>&1 </dev/null &
+  processes+=($!)
+  wait_for 60 "the markers of $scene" markers_came
+  rviz --fullscreen -s "" -d "$package_dir/config/$scene.rviz" >"$work/$scene.rviz.log" 2>&1 </dev/null &
+  processes+=($!)
+  wait_for 90 "a picture of $scene" picture_settled
+  convert "$work/now.png" -crop 1200x820+40+40 +repage -strip -colors 255 "PNG8:$output/$scene.png"
+  say "$output/$scene.png: $(stat -c %s "$output/$scene.png") bytes"
+  stop_all
+done
+kill "$xvfb"
+wait "$xvfb" 2>/dev/null || true

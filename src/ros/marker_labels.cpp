@@ -1,0 +1,88 @@
+#include "concave_distance/ros/marker_labels.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+namespace concave_distance {
+namespace {
+
+constexpr double kCharacterWidth = 0.5;  // over the height
+
+// The digits are those of the rounded value: 9.999 is 10.0, not 10.00.
+std::string threeDigits(double value, const char* unit) {
+  const int decimals = value < 9.995 ? 2 : value < 99.95 ? 1 : 0;
+  char text[64];
+  std::snprintf(text, sizeof(text), "%.*f %s", decimals, value, unit);
+  return text;
+}
+
+constexpr double kPitches[2] = {0.35, 0.75};  // radians, of the views in turn
+
+std::array<View, 8> makeViews() {
+  std::array<View, 8> views;
+  for (std::size_t k = 0; k < views.size(); ++k) {
+    const double azimuth = 2.0 * M_PI * (static_cast<double>(k) + 0.5) / static_cast<double>(views.size());
+    const double pitch = kPitches[k % 2];
+    const Eigen::Vector3d outwards(std::cos(azimuth), std::sin(azimuth), 0.0);
+    View& view = views[k];
+    view.towards = std::cos(pitch) * outwards + std::sin(pitch) * Eigen::Vector3d::UnitZ();
+    view.right = Eigen::Vector3d::UnitZ().cross(outwards);
+    view.up = view.towards.cross(view.right);
+  }
+  return views;
+}
+
+}  // namespace
+
+std::string lengthText(double metres) {
+  const double millimetres = 1000.0 * metres;
+  if (millimetres == 0.0) return "0 mm";
+  if (millimetres < 0.01) return "<0.01 mm";
+  return millimetres < 999.5 ? threeDigits(millimetres, "mm") : threeDigits(metres, "m");
+}
+
+std::string forceText(double newtons) {
+  return newtons < 999.5 ? threeDigits(newtons, "N") : threeDigits(1e-3 * newtons, "kN");
+}
+
+double widthOf(const visualization_msgs::Marker& text) {
+  return kCharacterWidth * static_cast<double>(text.text.size()) * text.scale.z;
+}
+
+const std::array<View, 8>& usualViews() {
+  static const std::array<View, 8> kViews = makeViews();
+  return kViews;
+}
+
+bool overlap(const LabelSpace& a, const LabelSpace& b, const View& view) {
+  const Eigen::Vector3d between = a.centre - b.centre;
+  return std::abs(between.dot(view.up)) < 0.5 * (a.height + b.height) &&
+         std::abs(between.dot(view.right)) < 0.5 * (a.width + b.width);
+}
+
+bool covers(const LabelSpace& text, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+            const View& view) {
+  // The part of the line that lies in the text's box on the screen: Liang and Barsky's clipping.
+  const Eigen::Vector3d start = from - text.centre;
+  const Eigen::Vector3d along = to - from;
+  double first = 0.0;
+  double last = 1.0;
+  for (const auto& [axis, half] :
+       {std::pair(view.right, 0.5 * text.width), std::pair(view.up, 0.5 * text.height)}) {
+    const double begin = start.dot(axis);
+    const double step = along.dot(axis);
+    if (step == 0.0) {
+      if (std::abs(begin) > half) return false;
+      continue;
+    }
+    const double enter = (-half - begin) / step;
+    const double leave = (half - begin) / step;
+    first = std::max(first, std::min(enter, leave));
+    last = std::min(last, std::max(enter, leave));
+  }
+  return first <= last;
+}
+
+}  // namespace concave_distance

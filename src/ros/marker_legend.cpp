@@ -1,0 +1,110 @@
+#include "concave_distance/ros/marker_legend.h"
+
+#include <algorithm>
+#include <string>
+
+#include "concave_distance/ros/contact_markers.h"
+#include "concave_distance/ros/conversions.h"
+#include "concave_distance/ros/niche_markers.h"
+
+namespace concave_distance {
+namespace {
+
+constexpr double kLetterShare = 0.9;     // of the legend's letters over the labels'
+constexpr double kSlope = 0.35;          // tangent of the pitch up to which nothing is seen behind the legend
+constexpr double kLift = 1.5;            // of the legend above the scene, in letters
+constexpr double kRvizLineSpace = 0.01;  // m, that rviz leaves between the rows of a text
+constexpr std::size_t kColumn = 26;      // spaces by which two columns of a row are apart
+
+struct Row {
+  std::string text;
+  std_msgs::ColorRGBA color;
+  std::size_t row = 0;
+};
+
+std_msgs::ColorRGBA grey() {
+  std_msgs::ColorRGBA color;
+  color.r = color.g = color.b = 0.45F;
+  color.a = 1.0F;
+  return color;
+}
+
+void addContactRows(const MarkerStyle& style, std::vector<Row>& rows) {
+  std::size_t row = rows.back().row;
+  const std::string space(kColumn, ' ');
+  ++row;
+  rows.push_back({"red arrow: normal force" + space, normalForceColor(), row});
+  rows.push_back({space + "blue arrow: friction", frictionColor(), row});
+  rows.push_back({"disc: area of a contact; an arrow of 1 m: " + forceText(style.force_scale),
+                  contactTextColor(), row + 1});
+}
+
+std::vector<Row> rowsOf(const LegendContents& contents, const MarkerStyle& style) {
+  std::vector<Row> rows;
+  std::size_t row = 0;
+  const std::string of_pairs =
+      contents.drawn_pairs < contents.pairs
+          ? "the " + std::to_string(contents.drawn_pairs) + " nearest of " + std::to_string(contents.pairs) +
+                " pairs are shown"
+          : std::to_string(contents.pairs) + (contents.pairs == 1 ? " pair" : " pairs");
+  rows.push_back({"thick line: shortest distance of a pair (" + of_pairs + ")", grey(), row});
+  if (contents.others) rows.push_back({"thin line: another place where the pair could touch", grey(), ++row});
+  if (contents.extents) rows.push_back({"circle: faces or edges run parallel this far", grey(), ++row});
+  const std::string space(kColumn, ' ');
+  ++row;
+  rows.push_back({lengthText(style.near) + space, distanceColor(style.near, style), row});
+  const double middle = 0.5 * (style.near + style.far);
+  rows.push_back({lengthText(middle), distanceColor(middle, style), row});
+  rows.push_back({space + lengthText(style.far) + " or more", distanceColor(style.far, style), row});
+  if (contents.warnings) rows.push_back({"red: closer than the warning distance", warningColor(), ++row});
+  if (contents.contacts) addContactRows(style, rows);
+  return rows;
+}
+
+}  // namespace
+
+std::vector<visualization_msgs::Marker> legendMarkers(const LegendContents& contents,
+                                                      const MarkerLayout& layout,
+                                                      const std_msgs::Header& header, double lifetime) {
+  std::vector<visualization_msgs::Marker> markers;
+  if (layout.region().isEmpty()) return markers;
+  const std::vector<Row> rows = rowsOf(contents, layout.style());
+  const double letters = kLetterShare * layout.letterHeight();
+  const std::size_t count = rows.back().row + 1;
+  const double height =
+      static_cast<double>(count) * letters + static_cast<double>(count - 1) * kRvizLineSpace;
+  Eigen::Vector3d centre = layout.region().center();
+  // From above, the far edges of the scene are seen higher than the near ones.
+  const double rear = kSlope * 0.5 * layout.region().diagonal().head<2>().norm();
+  centre.z() = layout.region().max().z() + rear + kLift * layout.letterHeight() + 0.5 * height;
+  for (const Row& row : rows) {
+    visualization_msgs::Marker marker;
+    marker.header = header;
+    marker.ns = "legend";
+    marker.id = static_cast<std::int32_t>(markers.size());
+    marker.type = visualization_msgs::Marker::TEXT_VIEW_FACING;
+    marker.action = visualization_msgs::Marker::ADD;
+    marker.pose.orientation.w = 1.0;
+    marker.pose.position = toPoint(centre);
+    marker.scale.z = letters;
+    marker.color = row.color;
+    marker.lifetime = ros::Duration(lifetime);
+    // Every marker has as many rows and stands at the same place: so the rows stay apart in every view.
+    marker.text = std::string(row.row, '\n') + row.text + std::string(count - 1 - row.row, '\n');
+    markers.push_back(std::move(marker));
+  }
+  return markers;
+}
+
+LabelSpace spaceOfLegend(const std::vector<visualization_msgs::Marker>& legend) {
+  const visualization_msgs::Marker& first = legend.front();
+  LabelSpace space;
+  space.centre = {first.pose.position.x, first.pose.position.y, first.pose.position.z};
+  for (const visualization_msgs::Marker& marker : legend)
+    space.width = std::max(space.width, widthOf(marker));
+  const auto rows = static_cast<double>(1 + std::count(first.text.begin(), first.text.end(), '\n'));
+  space.height = rows * first.scale.z + (rows - 1.0) * kRvizLineSpace;
+  return space;
+}
+
+}  // namespace concave_distance

@@ -1,0 +1,133 @@
+#include "concave_distance/ros/scene_markers.h"
+
+#include <algorithm>
+#include <iterator>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "concave_distance/ros/contact_markers.h"
+#include "concave_distance/ros/marker_legend.h"
+#include "concave_distance/ros/marker_selection.h"
+
+namespace concave_distance {
+namespace {
+
+using visualization_msgs::Marker;
+
+constexpr double kTintOffset = 0.1;  // of a tint in front of the surface, over the scale
+constexpr double kLargestTint =
+    1.0;  // diameter of a tinted body over the region's: a red floor hides the rest
+
+void append(std::vector<Marker> from, std::vector<Marker>& to) {
+  std::move(from.begin(), from.end(), std::back_inserter(to));
+}
+
+// Bodies of pairs in warning, and of pairs that overlap without showing it by contacts.
+std::set<std::size_t> bodiesToTint(const Scene& scene, const std::vector<std::unique_ptr<TrackedPair>>& pairs,
+                                   double largest) {
+  std::set<std::size_t> bodies;
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const TrackedPair& pair = *pairs[k];
+    const bool overlaps = pair.solved && pair.solution.status == SolveStatus::Penetrating;
+    const bool tinted = pair.heading.warning || (overlaps && !pair.settings.effects.any());
+    if (!pair.demand.due || !tinted) continue;
+    for (const std::size_t body : {scene.pairs[k].body_a, scene.pairs[k].body_b}) {
+      if (scene.bodies[body].mesh->diameter() <= largest) bodies.insert(body);
+    }
+  }
+  return bodies;
+}
+
+// Takes the texts out of the contacts' markers.
+std::vector<Label> takeLabels(std::vector<Marker>& markers) {
+  std::vector<Label> labels;
+  for (const Marker& marker : markers) {
+    if (marker.type != Marker::TEXT_VIEW_FACING) continue;
+    Label label;
+    label.marker = marker;
+    label.from = {marker.pose.position.x, marker.pose.position.y, marker.pose.position.z};
+    label.to = label.from;
+    labels.push_back(std::move(label));
+  }
+  markers.erase(std::remove_if(markers.begin(), markers.end(),
+                               [](const Marker& marker) { return marker.type == Marker::TEXT_VIEW_FACING; }),
+                markers.end());
+  return labels;
+}
+
+bool hasExtent(const std::vector<Marker>& markers) {
+  return std::any_of(markers.begin(), markers.end(), [](const Marker& marker) {
+    return marker.ns.size() > 7 && marker.ns.compare(marker.ns.size() - 7, 7, "/extent") == 0;
+  });
+}
+
+LegendContents contentsOf(const Scene& scene, const std::vector<PairNiches>& niches,
+                          const std::vector<DrawnPair>& drawn) {
+  LegendContents contents;
+  contents.drawn_pairs = drawn.size();
+  contents.pairs = static_cast<std::size_t>(std::count_if(niches.begin(), niches.end(), hasMarkers));
+  contents.others =
+      std::any_of(drawn.begin(), drawn.end(), [](const DrawnPair& pair) { return pair.niche_count > 1; });
+  for (const ScenePair& pair : scene.pairs) {
+    contents.warnings = contents.warnings || pair.settings.warning_distance.has_value();
+    contents.contacts = contents.contacts || pair.settings.effects.any();
+  }
+  return contents;
+}
+
+}  // namespace
+
+visualization_msgs::MarkerArray SceneMarkers::draw(const Scene& scene, const MarkerStyle& style,
+                                                   const std::vector<std::unique_ptr<TrackedPair>>& pairs,
+                                                   const std::vector<PairNiches>& niches,
+                                                   const std::vector<PairContactState>& contacts,
+                                                   const std_msgs::Header& header, double lifetime) {
+  std::vector<Marker> markers;
+  std::set<std::size_t> tinted;
+  if (!niches.empty()) {
+    const std::vector<LocatedBody> bodies = locateBodies(scene, pairs);
+    layout_.update(bodies, style);
+    const std::vector<DrawnPair> drawn = selectPairs(niches, layout_.style());
+    std::vector<Label> labels;
+    std::set<std::string> with_contacts;
+    for (const PairContactState& contact : contacts) {
+      std::vector<Marker> of_pair = contactMarkers(contact, layout_.style(), lifetime);
+      if (!of_pair.empty()) with_contacts.insert(contact.pair);
+      std::vector<Label> texts = takeLabels(of_pair);
+      std::move(texts.begin(), texts.end(), std::back_inserter(labels));
+      append(std::move(of_pair), markers);
+    }
+    for (const DrawnPair& pair : drawn) {
+      append(nicheMarkers(pair, layout_.style(), lifetime), markers);
+      const bool with_names = &pair == &drawn.front() || pair.pair->nearest.warning != 0;
+      if (with_contacts.count(pair.pair->nearest.pair) == 0) {
+        labels.push_back(nicheLabel(*pair.pair, with_names, layout_.style(), lifetime));
+      }
+    }
+    extents_seen_ = extents_seen_ || hasExtent(markers);
+    std::vector<LabelSpace> taken;
+    if (style.legend) {
+      LegendContents contents = contentsOf(scene, niches, drawn);
+      contents.extents = extents_seen_;
+      std::vector<Marker> legend = legendMarkers(contents, layout_, header, lifetime);
+      if (!legend.empty()) taken.push_back(spaceOfLegend(legend));
+      append(std::move(legend), markers);
+    }
+    const double now = header.stamp.toSec();
+    append(placer_.place(std::move(labels), {scene, bodies}, layout_.letterHeight(), std::move(taken), now),
+           markers);
+    tinted = bodiesToTint(scene, pairs, kLargestTint * layout_.region().diagonal().norm());
+  }
+  visualization_msgs::MarkerArray message = withDeletions(std::move(markers), header, shown_);
+  append(tints_.update(scene, tinted, kTintOffset * layout_.style().scale, lifetime, header.stamp),
+         message.markers);
+  return message;
+}
+
+void SceneMarkers::forget() {
+  shown_.clear();
+  tints_.forget();
+}
+
+}  // namespace concave_distance
