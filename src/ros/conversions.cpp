@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
 
+#include "concave_distance/base/coordinate_limit.h"
 #include "concave_distance/base/error.h"
+#include "concave_distance/scene/frame_name.h"
 
 namespace concave_distance {
 namespace {
@@ -89,6 +92,11 @@ geometry_msgs::Wrench toWrench(const Wrench& wrench) {
 Eigen::Isometry3d poseFromMessage(const geometry_msgs::Pose& pose, const std::string& where) {
   for (const double value : {pose.position.x, pose.position.y, pose.position.z}) {
     checkFinite(value, where + ".position");
+    if (std::abs(value) > kLargestCoordinate) {
+      std::ostringstream seen;
+      seen << "a coordinate is " << value << " m";
+      throw Error(where + ".position", seen.str(), "allowed: up to 1e18 m");
+    }
   }
   for (const double value :
        {pose.orientation.x, pose.orientation.y, pose.orientation.z, pose.orientation.w}) {
@@ -340,12 +348,9 @@ BodyDescription toBodyDescription(const AddBodyRequest& request) {
                 request.primitive.empty() ? "neither a mesh nor a primitive" : "a mesh and a primitive",
                 "give mesh_resource or primitive, one of the two");
   }
-  if (request.frame_id.empty()) {
-    throw Error("frame_id", "it is empty", "name the tf frame that the body is fixed to");
-  }
   BodyDescription description;
   description.name = request.name;
-  description.frame = withoutLeadingSlash(request.frame_id);
+  description.frame = requireFrameName(request.frame_id, "frame_id");
   description.mesh_resource = request.mesh_resource;
   description.scale = scaleFromMessage(request.scale);
   description.primitive = request.primitive;

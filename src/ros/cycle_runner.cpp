@@ -7,7 +7,9 @@
 #include <string>
 #include <utility>
 
+#include "concave_distance/ros/callback_guard.h"
 #include "concave_distance/ros/thread_cpu.h"
+#include "concave_distance/ros/time_difference.h"
 
 namespace concave_distance {
 namespace {
@@ -29,39 +31,28 @@ std::vector<std::string> failingPairs(const std::vector<std::unique_ptr<TrackedP
   return failing;
 }
 
-ros::NodeHandle onQueue(const ros::NodeHandle& node, ros::CallbackQueue& queue) {
-  ros::NodeHandle handle(node);
-  handle.setCallbackQueue(&queue);
-  return handle;
-}
-
 }  // namespace
 
-CycleRunner::CycleRunner(const ros::NodeHandle& node, tf2_ros::Buffer& buffer, SceneKeeper& keeper,
-                         TopicPublishers& publishers, RestartRequests& restarts, const CycleOptions& options)
-    : buffer_(buffer),
+CycleRunner::CycleRunner(TransformBuffer& transforms, SceneKeeper& keeper, TopicPublishers& publishers,
+                         RestartRequests& restarts, const CycleOptions& options)
+    : transforms_(transforms),
       keeper_(keeper),
       publishers_(publishers),
       restarts_(restarts),
-      cycle_(buffer, options),
-      node_(onQueue(node, queue_)),
-      spinner_(1, &queue_) {}
-
-CycleRunner::~CycleRunner() {
-  timer_.stop();
-  spinner_.stop();
-}
+      cycle_(transforms, options),
+      timer_([this](std::int64_t due) {
+        if (!guarded("A cycle", [&] { runTimedCycle(due); })) statistics_.addFailure();
+      }) {}
 
 void CycleRunner::start(double rate) {
   rate_ = rate;
-  timer_ = node_.createTimer(ros::Duration(1.0 / rate), &CycleRunner::onTimer, this);
-  spinner_.start();
+  timer_.start(rate);
 }
 
 void CycleRunner::setRates(double rate, double marker_rate) {
   marker_rate_ = marker_rate;
   if (rate != rate_.exchange(rate)) {
-    timer_.setPeriod(ros::Duration(1.0 / rate));
+    timer_.setRate(rate);
   }
 }
 
@@ -70,7 +61,7 @@ void CycleRunner::setMarkers(bool publish, bool contacts) {
   contact_markers_ = contacts;
 }
 
-void CycleRunner::onTimer(const ros::TimerEvent& event) {
+void CycleRunner::runTimedCycle(std::int64_t due) {
   const std::int64_t cpu_start = threadCpuNanoseconds();
   const ros::WallTime start = ros::WallTime::now();
   const ros::Time now = ros::Time::now();
@@ -79,12 +70,14 @@ void CycleRunner::onTimer(const ros::TimerEvent& event) {
   record.duration = (ros::WallTime::now() - start).toSec();
   record.cpu =
       1e-9 * static_cast<double>(threadCpuNanoseconds() - cpu_start) + record.report.helper_cpu_seconds;
-  record.late = ros::Time::now() > event.current_expected + ros::Duration(1.0 / rate_);
+  const auto past_due = static_cast<std::int64_t>(ros::Time::now().toNSec()) - due;
+  record.late = 1e-9 * static_cast<double>(past_due) > 1.0 / rate_;
   if (!record.failing.empty()) {
-    ROS_WARN_STREAM_THROTTLE(kWarningPeriod, record.failing.size()
-                                                 << " of " << record.report.watched
-                                                 << " watched pairs are not solved for want of transforms; "
-                                                 << record.failing.front());
+    ROS_WARN_STREAM_THROTTLE(kWarningPeriod,
+                             record.failing.size()
+                                 << " of " << record.report.watched
+                                 << " watched pairs are not solved: transforms are missing or old; "
+                                 << record.failing.front());
   }
   statistics_.add(std::move(record));
 }
@@ -92,8 +85,8 @@ void CycleRunner::onTimer(const ros::TimerEvent& event) {
 void CycleRunner::checkClock(ros::Time now) {
   if (now < last_now_) {
     ROS_WARN("The clock jumped back by %.3f s: transforms and tracked niches are forgotten.",
-             (last_now_ - now).toSec());
-    buffer_.clear();
+             secondsBetween(now, last_now_));
+    transforms_.checkClock();
     cycle_.restart();
   }
   last_now_ = now;

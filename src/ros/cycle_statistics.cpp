@@ -45,6 +45,11 @@ void CycleStatistics::add(CycleRecord record) {
   window_.failing = std::move(record.failing);
 }
 
+void CycleStatistics::addFailure() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  ++window_.failed;
+}
+
 CycleWindow CycleStatistics::take(double wall_seconds) {
   const std::lock_guard<std::mutex> lock(mutex_);
   CycleWindow window = std::move(window_);

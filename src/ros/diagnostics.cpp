@@ -30,7 +30,9 @@ void describeCycle(const CycleWindow& window, double wanted_rate,
                    diagnostic_updater::DiagnosticStatusWrapper& status) {
   const double rate = window.seconds > 0.0 ? static_cast<double>(window.cycles) / window.seconds : 0.0;
   const auto cycles = static_cast<double>(std::max<std::uint64_t>(window.cycles, 1));
-  if (window.cycles == 0) {
+  if (window.failed > 0) {
+    status.summary(DiagnosticStatus::ERROR, "cycles were ended by an error of the node (see its log)");
+  } else if (window.cycles == 0) {
     status.summary(DiagnosticStatus::WARN, "no cycle ran (waiting for the scene, or the clock stands still)");
   } else if (window.last.watched == 0) {
     status.summary(DiagnosticStatus::OK, "nobody subscribes: nothing is computed");
@@ -46,6 +48,7 @@ void describeCycle(const CycleWindow& window, double wanted_rate,
   status.addf("rate achieved (Hz)", "%.3f", rate);
   status.add("cycles", window.cycles);
   status.add("late cycles", window.late);
+  status.add("failed cycles", window.failed);
   addSeries("cycle time", window.duration, status);
   addSeries("thread CPU time per cycle", window.cpu, status);
   addSeries("latency from transform to message", window.latency, status);
@@ -71,6 +74,20 @@ void describePairs(const CycleWindow& window, diagnostic_updater::DiagnosticStat
   for (std::size_t index = 0; index < std::min(window.failing.size(), kListed); ++index) {
     status.add("no transforms " + std::to_string(index + 1), window.failing[index]);
   }
+}
+
+void describeTransforms(const TransformReport& report, diagnostic_updater::DiagnosticStatusWrapper& status) {
+  if (report.refused > 0) {
+    status.summaryf(DiagnosticStatus::WARN, "%llu transforms were refused; the last: %s",
+                    static_cast<unsigned long long>(report.refused), report.last_refusal.c_str());
+  } else {
+    status.summaryf(DiagnosticStatus::OK, "%zu frames", report.frames);
+  }
+  status.add("frames", report.frames);
+  status.add("transforms taken", report.taken);
+  status.add("transforms refused", report.refused);
+  status.add("transforms refused since the start", report.refused_in_all);
+  status.add("last refusal", report.last_refusal);
 }
 
 void describeEffects(const CycleWindow& window, diagnostic_updater::DiagnosticStatusWrapper& status) {

@@ -44,8 +44,8 @@ bool isOfTheSameBodies(const TrackedPair& tracked, const Scene& scene, const Sce
 
 }  // namespace
 
-DistanceCycle::DistanceCycle(const tf2::BufferCore& buffer, CycleOptions options)
-    : buffer_(buffer), options_(std::move(options)), arena_(makeCycleArena(options_.threads)) {}
+DistanceCycle::DistanceCycle(const TransformBuffer& transforms, CycleOptions options)
+    : transforms_(transforms), options_(std::move(options)), arena_(makeCycleArena(options_.threads)) {}
 
 void DistanceCycle::setScene(const Scene& scene, bool settings_changed) {
   std::vector<std::unique_ptr<TrackedPair>> before = std::exchange(pairs_, {});
@@ -123,6 +123,7 @@ void DistanceCycle::restart(const std::string& name) {
 }
 
 CycleReport DistanceCycle::run(const std::vector<PairDemand>& demand, ros::Time now) {
+  const std::shared_ptr<const tf2::BufferCore> buffer = transforms_.current();
   CycleReport report;
   to_solve_.clear();
   for (std::size_t index = 0; index < pairs_.size(); ++index) {
@@ -138,7 +139,7 @@ CycleReport DistanceCycle::run(const std::vector<PairDemand>& demand, ros::Time 
       continue;
     }
     ++report.watched;
-    if (pair.demand.due && locate(pair, now)) {
+    if (pair.demand.due && locate(pair, *buffer, now)) {
       to_solve_.push_back(&pair);
     }
   }
@@ -169,8 +170,8 @@ CycleReport DistanceCycle::run(const std::vector<PairDemand>& demand, ros::Time 
 }
 
 // Fills status, stamp and poses; true when the pair has to be solved.
-bool DistanceCycle::locate(TrackedPair& pair, ros::Time now) {
-  PairTransforms transforms = lookUpPair(buffer_, pair.frames, now, options_.stale_after, pair.ancestor);
+bool DistanceCycle::locate(TrackedPair& pair, const tf2::BufferCore& buffer, ros::Time now) {
+  PairTransforms transforms = lookUpPair(buffer, pair.frames, now, options_.stale_after, pair.ancestors);
   pair.repeated = false;
   pair.box_bound.reset();
   const ros::Time last_stamp = pair.heading.stamp;

@@ -12,6 +12,7 @@
 #include "concave_distance/ros/short_text.h"
 #include "concave_distance/ros/tf_poses.h"
 #include "concave_distance/ros/thread_count.h"
+#include "concave_distance/scene/frame_name.h"
 #include "concave_distance/tracking/pair_effects.h"
 #include "concave_distance/tracking/pair_tracker.h"
 
@@ -29,8 +30,9 @@ BodyPlace placeOf(const SceneBody& body, bool use_pose, const geometry_msgs::Pos
   if (!use_pose) {
     return {body.frame, Eigen::Isometry3d::Identity()};
   }
-  const std::string frame = withoutLeadingSlash(pose.header.frame_id);
-  return {frame.empty() ? reference_frame : frame, poseFromMessage(pose.pose, where)};
+  const std::string& frame = pose.header.frame_id;
+  return {frame.empty() ? reference_frame : requireFrameName(frame, where + ".header.frame_id"),
+          poseFromMessage(pose.pose, where)};
 }
 
 double secondsLeft(const QueryContext& context) {
@@ -51,12 +53,13 @@ void requireRunning(const QueryContext& context) {
 PairTransforms locate(const BodyPlace& a, const BodyPlace& b, const QueryContext& context, ros::Time stamp,
                       ros::Time now) {
   const PairFrames frames{context.reference_frame, a.frame, b.frame};
-  waitForFrames(*context.buffer, frames.frame_a, frames.frame_b, stamp, waitingTime(context));
-  waitForFrames(*context.buffer, frames.reference, frames.frame_a, stamp, waitingTime(context));
-  std::string ancestor;
+  waitForFrames(*context.transforms, frames.frame_a, frames.frame_b, stamp, waitingTime(context));
+  waitForFrames(*context.transforms, frames.reference, frames.frame_a, stamp, waitingTime(context));
+  const std::shared_ptr<const tf2::BufferCore> buffer = context.transforms->current();
+  PairAncestors ancestors;
   PairTransforms transforms = stamp.isZero()
-                                  ? lookUpPair(*context.buffer, frames, now, context.stale_after, ancestor)
-                                  : lookUpPairAt(*context.buffer, frames, stamp);
+                                  ? lookUpPair(*buffer, frames, now, context.stale_after, ancestors)
+                                  : lookUpPairAt(*buffer, frames, stamp);
   transforms.a_from_b = a.frame_from_body.inverse() * transforms.a_from_b * b.frame_from_body;
   transforms.reference_from_a = transforms.reference_from_a * a.frame_from_body;
   return transforms;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "concave_distance/ros/body_markers.h"
+#include "concave_distance/ros/callback_guard.h"
 #include "concave_distance/ros/diagnostics.h"
 #include "concave_distance/ros/reconfiguration.h"
 #include "concave_distance/ros/scene_loading.h"
@@ -63,20 +64,21 @@ DistanceServer::DistanceServer(const ros::NodeHandle& node, const ros::NodeHandl
     : private_node_(private_node),
       parameters_(readParameters(private_node)),
       on_fatal_(std::move(on_fatal)),
-      buffer_(ros::Duration(parameters_.tf_cache)),
-      listener_(buffer_, node),
+      transforms_({parameters_.tf_cache, parameters_.tf_future_tolerance}),
+      receiver_(node, transforms_),
       publishers_(private_node, parameters_.reference_frame, parameters_.pair_topics),
       keeper_(publishers_, parameters_.pair, parameters_.marker),
       service_queues_(private_node, parameters_.limits),
       queries_(service_queues_, keeper_,
-               {&buffer_, parameters_.reference_frame, parameters_.transform_timeout, parameters_.stale_after,
-                parameters_.pair},
+               {&transforms_, parameters_.reference_frame, parameters_.transform_timeout,
+                parameters_.stale_after, parameters_.pair},
                parameters_.limits, parameters_.threads),
       scene_services_(service_queues_, keeper_, restarts_, parameters_.reference_frame, rosPackagePath,
                       parameters_.mesh_access),
-      runner_(private_node, buffer_, keeper_, publishers_, restarts_,
+      runner_(transforms_, keeper_, publishers_, restarts_,
               {parameters_.reference_frame, parameters_.stale_after, parameters_.threads}),
-      updater_(node, private_node, std::move(name)),
+      // It would read ~diagnostic_period unchecked, again and again: it looks where there is none.
+      updater_(node, ros::NodeHandle(private_node, "diagnostic_updater"), std::move(name)),
       body_markers_(private_node_.advertise<visualization_msgs::MarkerArray>("body_markers", 1, true)) {
   keeper_.setWaitingFor("loading");
   setUpDiagnostics();
@@ -86,19 +88,25 @@ DistanceServer::DistanceServer(const ros::NodeHandle& node, const ros::NodeHandl
   config_ = toConfig(parameters_);
   reconfigure_ =
       std::make_unique<dynamic_reconfigure::Server<ConcaveDistanceConfig>>(reconfigure_mutex_, private_node_);
+  reconfigure_->setConfigMin(lowestConfig());
+  reconfigure_->setConfigMax(highestConfig());
   reconfigure_->setCallback(
       [this](ConcaveDistanceConfig& config, std::uint32_t level) { onReconfigure(config, level); });
-  load_timer_ =
-      private_node_.createWallTimer(ros::WallDuration(kLoadPeriod), &DistanceServer::tryToLoad, this);
-  housekeeping_timer_ = private_node_.createWallTimer(ros::WallDuration(kHousekeepingPeriod),
-                                                      &DistanceServer::onHousekeeping, this);
+  load_timer_ = startTimer(kLoadPeriod, "Loading the scene", &DistanceServer::tryToLoad);
+  housekeeping_timer_ = startTimer(kHousekeepingPeriod, "Housekeeping", &DistanceServer::doHousekeeping);
 }
 
 DistanceServer::~DistanceServer() {
   service_queues_.gate().stop();
 }
 
-void DistanceServer::tryToLoad(const ros::WallTimerEvent& /*event*/) {
+ros::WallTimer DistanceServer::startTimer(double period, const char* name, void (DistanceServer::*act)()) {
+  return private_node_.createWallTimer(
+      ros::WallDuration(period),
+      [this, name, act](const ros::WallTimerEvent& /*event*/) { guarded(name, [&] { (this->*act)(); }); });
+}
+
+void DistanceServer::tryToLoad() {
   LoadAttempt attempt;
   try {
     attempt = tryLoadScene(parameters_, private_node_);
@@ -136,12 +144,19 @@ void DistanceServer::setUpDiagnostics() {
   updater_.add("scene", [this](diagnostic_updater::DiagnosticStatusWrapper& status) {
     describeScene(*keeper_.served()->scene, keeper_.waitingFor(), status);
   });
-  diagnostics_timer_ =
-      private_node_.createWallTimer(ros::WallDuration(updater_.getPeriod()),
-                                    [this](const ros::WallTimerEvent&) { updater_.force_update(); });
+  updater_.add("transforms", [this](diagnostic_updater::DiagnosticStatusWrapper& status) {
+    describeTransforms(receiver_.take(), status);
+  });
+  diagnostics_timer_ = startTimer(parameters_.diagnostic_period, "Publishing diagnostics",
+                                  &DistanceServer::publishDiagnostics);
 }
 
-void DistanceServer::onHousekeeping(const ros::WallTimerEvent& /*event*/) {
+void DistanceServer::publishDiagnostics() {
+  updater_.force_update();
+}
+
+void DistanceServer::doHousekeeping() {
+  reportMissingClock();
   publishBodies();
   if (keeper_.waitingFor().empty() && isDue(last_frame_message_, kMessagePeriod)) {
     reportMissingFrames();
@@ -156,10 +171,21 @@ void DistanceServer::publishBodies() {
   }
 }
 
+void DistanceServer::reportMissingClock() {
+  if (ros::Time::isSimTime() && ros::Time::now().isZero() && isDue(last_clock_message_, kMessagePeriod)) {
+    ROS_WARN(
+        "No cycle runs: /use_sim_time is true and nothing publishes /clock. Start the simulation, play the "
+        "bag "
+        "with --clock, or set /use_sim_time to false and start the node again.");
+  }
+}
+
 void DistanceServer::reportMissingFrames() {
   std::set<std::string> missing;
+  const std::shared_ptr<const tf2::BufferCore> buffer = transforms_.current();
   for (const SceneBody& body : keeper_.served()->scene->bodies) {
-    if (!buffer_.canTransform(parameters_.reference_frame, body.frame, ros::Time(0))) {
+    if (body.frame != parameters_.reference_frame &&
+        !buffer->canTransform(parameters_.reference_frame, body.frame, ros::Time(0))) {
       missing.insert(body.frame);
     }
   }
@@ -176,18 +202,19 @@ void DistanceServer::reportMissingFrames() {
 }
 
 void DistanceServer::onReconfigure(ConcaveDistanceConfig& config, std::uint32_t /*level*/) {
-  if (concernsPairs(config_, config)) {
-    const ConcaveDistanceConfig before = config_;
-    try {
+  const ConcaveDistanceConfig before = config_;
+  try {
+    checkConfig(config);
+    if (concernsPairs(before, config)) {
       keeper_.changeSettings([&](PairSettings& settings) {
         applyChanges(before, config, settings);
         settings.tracker.validate("reconfigure");
       });
-    } catch (const Error& problem) {
-      ROS_ERROR_STREAM("Reconfiguration refused: " << problem.what());
-      config = config_;
-      return;
     }
+  } catch (const std::exception& problem) {
+    ROS_ERROR_STREAM("Reconfiguration refused, nothing was changed: " << problem.what());
+    config = before;  // the client's answer
+    return;
   }
   runner_.setRates(config.rate, config.marker_rate);
   runner_.setMarkers(config.publish_markers, config.publish_contact_markers);

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "concave_distance/contact/motion_between.h"
+#include "concave_distance/ros/time_difference.h"
 
 namespace concave_distance {
 
@@ -34,7 +35,7 @@ void FollowedEffects::update(const PairSolution& solution, const Eigen::Isometry
   if (!effects_) {
     return;
   }
-  const double step = has_pose_ ? (stamp - last_stamp_).toSec() : 0.0;
+  const double step = has_pose_ ? secondsBetween(last_stamp_, stamp) : 0.0;
   // The same stamp once more, for other settings: the velocity of that time still holds.
   if (!has_pose_ || step != 0.0) {
     b_in_a_ = motionBetween(last_a_from_b_, a_from_b, step);

@@ -8,6 +8,7 @@
 #include "concave_distance/base/error.h"
 #include "concave_distance/ros/parameter_reader.h"
 #include "concave_distance/ros/tf_poses.h"
+#include "concave_distance/scene/frame_name.h"
 
 namespace concave_distance {
 namespace {
@@ -17,6 +18,14 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kLongest = 1e6;
 constexpr double kLeastForce = 1e-6;  // newtons a metre of an arrow
 constexpr double kLargestForce = 1e12;
+
+// Individuals of a generation are mated in pairs.
+std::uint32_t requireEven(const std::string& name, std::uint32_t count) {
+  if (count % 2 != 0) {
+    throw Error("~" + name, "the value is " + std::to_string(count), "allowed: an even number");
+  }
+  return count;
+}
 
 TrackerParameters readTracker(ParameterReader& reader, TrackerParameters tracker) {
   constexpr std::array<AccuracyLevel, 4> kLevels = {AccuracyLevel::Nodes, AccuracyLevel::Refined,
@@ -37,10 +46,11 @@ TrackerParameters readTracker(ParameterReader& reader, TrackerParameters tracker
   tracker.keep_through_material = reader.flag("keep_through_material", tracker.keep_through_material);
   tracker.extrapolate = reader.flag("extrapolate", tracker.extrapolate);
   tracker.cold.population_size =
-      reader.count("cold_population_size", tracker.cold.population_size, 2, 1'000'000);
+      requireEven("cold_population_size",
+                  reader.count("cold_population_size", tracker.cold.population_size, 2, 1'000'000));
   tracker.cold.max_generations = reader.count("cold_generations", tracker.cold.max_generations, 0, 1'000'000);
-  tracker.warm.population_size =
-      reader.count("warm_population_size", tracker.warm.population_size, 2, 10'000);
+  tracker.warm.population_size = requireEven(
+      "warm_population_size", reader.count("warm_population_size", tracker.warm.population_size, 2, 10'000));
   tracker.warm.max_generations = reader.count("warm_generations", tracker.warm.max_generations, 0, 10'000);
   tracker.immigrants = reader.count("immigrants", tracker.immigrants, 0, 10'000);
   tracker.seed = reader.count("seed", static_cast<std::uint32_t>(tracker.seed), 0, 2'147'483'647);
@@ -101,10 +111,7 @@ NodeParameters parseNodeParameters(XmlRpc::XmlRpcValue values, std::vector<std::
     parameters.robot_description = NodeParameters().robot_description;
   }
   parameters.reference_frame =
-      withoutLeadingSlash(reader.text("reference_frame", parameters.reference_frame));
-  if (parameters.reference_frame.empty()) {
-    throw Error("~reference_frame", "it is empty", "name a tf frame that does not jump, e.g. world or odom");
-  }
+      requireFrameName(reader.text("reference_frame", parameters.reference_frame), "~reference_frame");
   parameters.geometry = reader.choice("geometry", 0, {"collision", "visual"}) == 0 ? GeometrySource::Collision
                                                                                    : GeometrySource::Visual;
   parameters.cache = reader.text("cache", parameters.cache);
@@ -114,6 +121,8 @@ NodeParameters parseNodeParameters(XmlRpc::XmlRpcValue values, std::vector<std::
   parameters.transform_timeout = reader.number("transform_timeout", parameters.transform_timeout, 0.0, 60.0);
   parameters.stale_after = reader.number("stale_after", parameters.stale_after, 1e-3, 1e6);
   parameters.tf_cache = reader.number("tf_cache", parameters.tf_cache, 0.1, 3600.0);
+  parameters.tf_future_tolerance =
+      reader.number("tf_future_tolerance", parameters.tf_future_tolerance, 0.0, 60.0);
   parameters.pair = readPair(reader, parameters.pair);
   parameters.publish_markers = reader.flag("publish_markers", parameters.publish_markers);
   parameters.publish_contact_markers =
@@ -125,7 +134,9 @@ NodeParameters parseNodeParameters(XmlRpc::XmlRpcValue values, std::vector<std::
   parameters.marker = readMarkers(reader, parameters.marker);
   parameters.limits = readLimits(reader);
   parameters.mesh_access = {importLimits(parameters.limits), readMeshRoots(reader, parameters.scene_file)};
-  unknown = reader.unread({"diagnostic_period"});
+  parameters.diagnostic_period =
+      reader.number("diagnostic_period", parameters.diagnostic_period, 0.05, 3600.0);
+  unknown = reader.unread({});
   return parameters;
 }
 

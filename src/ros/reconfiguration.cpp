@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <limits>
+#include <string>
+#include <vector>
 
 namespace concave_distance {
 
@@ -22,6 +24,49 @@ ConcaveDistanceConfig toConfig(const NodeParameters& parameters) {
   config.warm_generations = static_cast<int>(tracker.warm.max_generations);
   config.immigrants = static_cast<int>(tracker.immigrants);
   return config;
+}
+
+ConcaveDistanceConfig lowestConfig() {
+  ConcaveDistanceConfig config = ConcaveDistanceConfig::__getDefault__();
+  config.rate = config.marker_rate = 0.1;
+  config.publish_markers = config.publish_contact_markers = false;
+  config.absolute_tolerance = config.relative_tolerance = 0.0;
+  config.time_budget = config.cutoff = config.least_prominence = 0.0;
+  config.largest_niche_count = 1;
+  config.warm_population_size = 2;
+  config.warm_generations = config.immigrants = 0;
+  return config;
+}
+
+ConcaveDistanceConfig highestConfig() {
+  ConcaveDistanceConfig config = ConcaveDistanceConfig::__getDefault__();
+  config.rate = 2000.0;
+  config.marker_rate = 200.0;
+  config.publish_markers = config.publish_contact_markers = true;
+  config.absolute_tolerance = config.time_budget = config.cutoff = 1e6;
+  config.relative_tolerance = 1.0;
+  config.least_prominence = 1e3;
+  config.largest_niche_count = 100'000;
+  config.warm_population_size = config.warm_generations = config.immigrants = 10'000;
+  return config;
+}
+
+// As if the values were the node's private parameters: one place knows the ranges.
+void checkConfig(const ConcaveDistanceConfig& config) {
+  XmlRpc::XmlRpcValue values;
+  values["rate"] = config.rate;
+  values["marker_rate"] = config.marker_rate;
+  values["absolute_tolerance"] = config.absolute_tolerance;
+  values["relative_tolerance"] = config.relative_tolerance;
+  values["time_budget"] = config.time_budget;
+  values["cutoff"] = config.cutoff;
+  values["least_prominence"] = config.least_prominence;
+  values["largest_niche_count"] = config.largest_niche_count;
+  values["warm_population_size"] = config.warm_population_size;
+  values["warm_generations"] = config.warm_generations;
+  values["immigrants"] = config.immigrants;
+  std::vector<std::string> unknown;
+  parseNodeParameters(values, unknown);
 }
 
 void applyChanges(const ConcaveDistanceConfig& before, const ConcaveDistanceConfig& after,

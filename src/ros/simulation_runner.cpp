@@ -9,8 +9,10 @@
 #include <utility>
 
 #include "concave_distance/base/error.h"
+#include "concave_distance/ros/callback_guard.h"
 #include "concave_distance/ros/conversions.h"
 #include "concave_distance/ros/parameter_reader.h"
+#include "concave_distance/scene/frame_name.h"
 
 namespace concave_distance {
 namespace {
@@ -35,7 +37,7 @@ SimulationNodeParameters parseSimulationParameters(const XmlRpc::XmlRpcValue& va
     throw Error("~scene_file", "it is empty", "name a scene file with a section `simulation`");
   }
   p.robot_description = reader.text("robot_description", p.robot_description);
-  p.world_frame = reader.text("world_frame", p.world_frame);
+  p.world_frame = requireFrameName(reader.text("world_frame", p.world_frame), "~world_frame");
   p.cache = reader.text("cache", p.cache);
   p.rate = reader.number("rate", p.rate, 0.1, 10000.0);
   p.speed = reader.number("speed", p.speed, 0.0, 1000.0);
@@ -114,6 +116,10 @@ void SimulationRunner::restart() {
 }
 
 void SimulationRunner::onTimer(const ros::SteadyTimerEvent&) {
+  guarded("A step of the simulation", [this] { step(); });
+}
+
+void SimulationRunner::step() {
   if (!paused_ && secondsSince(started_) >= parameters_.start_delay) {
     if (simulation_->time() < simulation_->settings().duration &&
         simulation_->status() == SimulationStatus::Ok) {

@@ -7,7 +7,11 @@
 #include <algorithm>
 #include <array>
 #include <sstream>
+#include <stdexcept>
+#include <unordered_set>
 #include <vector>
+
+#include "concave_distance/ros/time_difference.h"
 
 namespace concave_distance {
 namespace {
@@ -34,31 +38,22 @@ PairTransforms failed(const FrameTransform& frame) {
 std::vector<std::string> frameAndAncestors(const tf2::BufferCore& buffer, const std::string& frame) {
   std::vector<std::string> chain = {frame};
   std::string parent;
-  // tf2 refuses loops, but two threads may see a tree in between two changes.
+  // A tree in between two changes may have a loop for a moment.
   while (chain.size() < kLongestChain && buffer._getParent(chain.back(), ros::Time(0), parent)) {
     chain.push_back(parent);
   }
   return chain;
 }
 
-// @param stamp zero: the newest common time
-PairTransforms locate(const tf2::BufferCore& buffer, const PairFrames& frames, ros::Time stamp,
-                      std::string& ancestor) {
-  if (ancestor.empty()) {
-    ancestor = commonAncestor(buffer, frames.frame_a, frames.frame_b);
-  }
-  if (ancestor.empty()) {
-    return failed(lookUpFrame(buffer, frames.frame_a, frames.frame_b, stamp));
-  }
-  struct Sight {
-    const std::string& target;
-    const std::string& source;
-    FrameTransform seen;
-  };
-  std::array<Sight, 3> sights{{{ancestor, frames.frame_a, {}},
-                               {ancestor, frames.frame_b, {}},
-                               {frames.reference, frames.frame_a, {}}}};
-  ros::Time common;
+struct Sight {
+  const std::string& target;
+  const std::string& source;
+  FrameTransform seen;
+};
+
+// All of them at the same time. @param stamp zero: the newest common time. @return the first failure
+const Sight* lookUpAll(const tf2::BufferCore& buffer, ros::Time stamp, std::array<Sight, 4>& sights,
+                       ros::Time& common) {
   for (Sight& sight : sights) {
     sight.seen = lookUpFrame(buffer, sight.target, sight.source, stamp);
     common = olderOf(common, sight.seen.stamp);
@@ -70,29 +65,57 @@ PairTransforms locate(const tf2::BufferCore& buffer, const PairFrames& frames, r
       sight.seen = lookUpFrame(buffer, sight.target, sight.source, common);
     }
     if (sight.seen.status != TransformStatus::Ok) {
-      const PairTransforms failure = failed(sight.seen);
-      ancestor.clear();  // the tree may have changed
-      return failure;
+      return &sight;
     }
+  }
+  return nullptr;
+}
+
+// @param stamp zero: the newest common time
+PairTransforms locate(const tf2::BufferCore& buffer, const PairFrames& frames, ros::Time stamp,
+                      PairAncestors& ancestors) {
+  if (ancestors.of_bodies.empty()) {
+    ancestors.of_bodies = commonAncestor(buffer, frames.frame_a, frames.frame_b);
+  }
+  if (ancestors.of_bodies.empty()) {
+    return failed(lookUpFrame(buffer, frames.frame_a, frames.frame_b, stamp));
+  }
+  if (ancestors.of_reference.empty()) {
+    ancestors.of_reference = commonAncestor(buffer, frames.reference, frames.frame_a);
+  }
+  if (ancestors.of_reference.empty()) {
+    return failed(lookUpFrame(buffer, frames.reference, frames.frame_a, stamp));
+  }
+  std::array<Sight, 4> sights{{{ancestors.of_bodies, frames.frame_a, {}},
+                               {ancestors.of_bodies, frames.frame_b, {}},
+                               {ancestors.of_reference, frames.frame_a, {}},
+                               {ancestors.of_reference, frames.reference, {}}}};
+  ros::Time common;
+  if (const Sight* failure = lookUpAll(buffer, stamp, sights, common)) {
+    const PairTransforms transforms = failed(failure->seen);
+    ancestors = {};  // the tree may have changed
+    return transforms;
   }
   PairTransforms transforms;
   transforms.status = TransformStatus::Ok;
   transforms.stamp = common;
   transforms.fixed = common.isZero();
   transforms.a_from_b = sights[0].seen.target_from_source.inverse() * sights[1].seen.target_from_source;
-  transforms.reference_from_a = sights[2].seen.target_from_source;
+  transforms.reference_from_a =
+      sights[3].seen.target_from_source.inverse() * sights[2].seen.target_from_source;
   return transforms;
 }
 
 }  // namespace
 
-std::string withoutLeadingSlash(const std::string& frame) {
-  return !frame.empty() && frame.front() == '/' ? frame.substr(1) : frame;
-}
-
 FrameTransform lookUpFrame(const tf2::BufferCore& buffer, const std::string& target,
                            const std::string& source, ros::Time stamp) {
   FrameTransform result;
+  if (target == source) {
+    // tf2 would give it the stamp of the transform from its parent, however old.
+    result.status = TransformStatus::Ok;
+    return result;
+  }
   try {
     const geometry_msgs::TransformStamped found = buffer.lookupTransform(target, source, stamp);
     result.status = TransformStatus::Ok;
@@ -100,15 +123,20 @@ FrameTransform lookUpFrame(const tf2::BufferCore& buffer, const std::string& tar
     result.target_from_source = tf2::transformToEigen(found.transform);
   } catch (const tf2::TransformException& problem) {
     result.message = problem.what();
+  } catch (const std::runtime_error& problem) {
+    // tf2's own messages subtract stamps, which fails when they are more than 2^31 s apart.
+    result.message = "no transform from '" + source + "' to '" + target + "' at " +
+                     std::to_string(stamp.sec) + " s: " + problem.what();
   }
   return result;
 }
 
 std::string commonAncestor(const tf2::BufferCore& buffer, const std::string& frame_a,
                            const std::string& frame_b) {
-  const std::vector<std::string> above_a = frameAndAncestors(buffer, frame_a);
+  const std::vector<std::string> chain = frameAndAncestors(buffer, frame_a);
+  const std::unordered_set<std::string> above_a(chain.begin(), chain.end());
   for (const std::string& frame : frameAndAncestors(buffer, frame_b)) {
-    if (std::find(above_a.begin(), above_a.end(), frame) != above_a.end()) {
+    if (above_a.count(frame) > 0) {
       return frame;
     }
   }
@@ -116,15 +144,23 @@ std::string commonAncestor(const tf2::BufferCore& buffer, const std::string& fra
 }
 
 PairTransforms lookUpPair(const tf2::BufferCore& buffer, const PairFrames& frames, ros::Time now,
-                          double stale_after, std::string& ancestor) {
-  PairTransforms transforms = locate(buffer, frames, ros::Time(0), ancestor);
+                          double stale_after, PairAncestors& ancestors) {
+  PairTransforms transforms = locate(buffer, frames, ros::Time(0), ancestors);
   if (transforms.status != TransformStatus::Ok) {
     return transforms;
   }
   if (transforms.fixed) {
     transforms.stamp = now;
   }
-  const double age = (now - transforms.stamp).toSec();
+  if (transforms.stamp > now) {
+    // Else one transform ahead of the clock would hold the pair still until the clock has reached it.
+    PairTransforms present = locate(buffer, frames, now, ancestors);
+    if (present.status == TransformStatus::Ok) {
+      present.stamp = now;
+      return present;
+    }
+  }
+  const double age = secondsBetween(transforms.stamp, now);
   if (age > stale_after) {
     std::ostringstream message;
     message << "the newest transform between '" << frames.frame_a << "', '" << frames.frame_b << "' and '"
@@ -136,16 +172,17 @@ PairTransforms lookUpPair(const tf2::BufferCore& buffer, const PairFrames& frame
 }
 
 PairTransforms lookUpPairAt(const tf2::BufferCore& buffer, const PairFrames& frames, ros::Time stamp) {
-  std::string ancestor;
-  PairTransforms transforms = locate(buffer, frames, stamp, ancestor);
+  PairAncestors ancestors;
+  PairTransforms transforms = locate(buffer, frames, stamp, ancestors);
   transforms.stamp = stamp;
   return transforms;
 }
 
-void waitForFrames(const tf2::BufferCore& buffer, const std::string& target, const std::string& source,
+void waitForFrames(const TransformBuffer& buffer, const std::string& target, const std::string& source,
                    ros::Time stamp, double timeout) {
   const ros::WallTime deadline = ros::WallTime::now() + ros::WallDuration(timeout);
-  while (!buffer.canTransform(target, source, stamp) && ros::WallTime::now() < deadline) {
+  while (target != source && !buffer.current()->canTransform(target, source, stamp) &&
+         ros::WallTime::now() < deadline) {
     ros::WallDuration(kWaitSlice).sleep();
   }
 }

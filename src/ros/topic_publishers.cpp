@@ -15,6 +15,7 @@
 #include "concave_distance/ros/contact_conversions.h"
 #include "concave_distance/ros/nearest.h"
 #include "concave_distance/ros/scene_markers.h"
+#include "concave_distance/ros/time_difference.h"
 
 namespace concave_distance {
 namespace {
@@ -190,7 +191,7 @@ PublishReport TopicPublishers::publish(const ServedScene& served,
   const ros::Time end = ros::Time::now();
   for (const auto& pair : pairs) {
     if (pair->demand.due && pair->solved && !pair->repeated && !pair->fixed) {
-      report.latency.add((end - pair->heading.stamp).toSec());
+      report.latency.add(secondsBetween(pair->heading.stamp, end));
     }
   }
   return report;

@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "concave_distance/base/coordinate_limit.h"
+#include "concave_distance/scene/frame_name.h"
 #include "name_pattern.h"
 #include "settings_reader.h"
 
@@ -96,7 +98,10 @@ void readGeometry(YamlMap& map, BodyDescription& body) {
 Eigen::Isometry3d readPose(const YamlValue& value) {
   YamlMap map(value, "a map with xyz and rpy or quaternion");
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  if (auto v = map.take("xyz")) pose.translation() = v->vector3("three numbers, metres");
+  if (auto v = map.take("xyz")) {
+    pose.translation() = v->vector3("three numbers, metres");
+    if (pose.translation().cwiseAbs().maxCoeff() > kLargestCoordinate) v->refuse("three numbers up to 1e18");
+  }
   const std::optional<YamlValue> rpy = map.take("rpy");
   const std::optional<YamlValue> quaternion = map.take("quaternion");
   if (rpy && quaternion) quaternion->fail("both 'rpy' and 'quaternion' are given", "give one of them");
@@ -161,7 +166,11 @@ BodySpec readBodySpec(const YamlValue& value, const BodyDefaults& defaults) {
   description.name = name.text();
   if (isPattern(description.name)) name.refuse("a text without * ? [");
   description.frame = description.name;
-  if (auto v = map.take("frame")) description.frame = v->text();
+  if (auto v = map.take("frame")) {
+    description.frame = requireFrameName(v->text(), v->where());
+  } else if (const std::string problem = tfFrameProblem(description.name); !problem.empty()) {
+    name.fail("it cannot be the name of its frame, too: " + problem, "give a 'frame' or another name");
+  }
   readGeometry(map, description);
   if (auto v = map.take("scale")) {
     if (description.mesh_resource.empty()) v->fail("a primitive has no scale", "give its dimensions instead");

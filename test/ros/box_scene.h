@@ -1,12 +1,12 @@
 #pragma once
 
 #include <geometry_msgs/TransformStamped.h>
-#include <tf2/buffer_core.h>
 
 #include <memory>
 #include <string>
 
 #include "concave_distance/mesh/primitives.h"
+#include "concave_distance/ros/transform_buffer.h"
 #include "concave_distance/scene/scene.h"
 
 namespace concave_distance {
@@ -40,8 +40,13 @@ inline Scene threeBoxes() {
   return scene;
 }
 
+/// Takes transforms of every time: its clock stands at 100 s, the tests begin there.
+inline TransformBuffer timelessBuffer() {
+  return TransformBuffer({10.0, 1e6}, [] { return ros::Time(100, 0); });
+}
+
 /// Puts `child` at (x, 0, 0), turned by `angle` about z so that corners are nearest.
-inline void place(tf2::BufferCore& buffer, const std::string& child, double x, ros::Time stamp,
+inline void place(TransformBuffer& buffer, const std::string& child, double x, ros::Time stamp,
                   double angle = 0.0, bool fixed = false) {
   geometry_msgs::TransformStamped transform;
   transform.header.frame_id = "world";
@@ -50,7 +55,7 @@ inline void place(tf2::BufferCore& buffer, const std::string& child, double x, r
   transform.transform.translation.x = x;
   transform.transform.rotation.z = std::sin(angle / 2.0);
   transform.transform.rotation.w = std::cos(angle / 2.0);
-  buffer.setTransform(transform, "test", fixed);
+  buffer.insert(transform, "test", fixed);
 }
 
 }  // namespace concave_distance

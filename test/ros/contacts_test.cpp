@@ -159,7 +159,7 @@ class EffectsInTheCycle : public ::testing::Test {
   }
   const PairContacts* contacts() { return cycle.pairs()[0]->effects.contacts(); }
 
-  tf2::BufferCore buffer;
+  TransformBuffer buffer = timelessBuffer();
   Scene scene = threeBoxes();
   DistanceCycle cycle{buffer, {"world", 1.0, 1}};
 };

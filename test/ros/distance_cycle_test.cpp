@@ -33,7 +33,7 @@ class DistanceCycleTest : public ::testing::Test {
   }
   TrackedPair& pair(std::size_t index) { return *cycle.pairs()[index]; }
 
-  tf2::BufferCore buffer;
+  TransformBuffer buffer = timelessBuffer();
   Scene scene = threeBoxes();
   DistanceCycle cycle{buffer, {"world", 1.0, 1}};
 };

@@ -34,7 +34,7 @@ class DistanceQueriesTest : public ::testing::Test {
   }
 
   const ros::Time now{100, 0};
-  tf2::BufferCore buffer;
+  TransformBuffer buffer = timelessBuffer();
   Scene scene = threeBoxes();
   DistanceQuery query;
 };
@@ -72,7 +72,7 @@ TEST_F(DistanceQueriesTest, TakePosesGivenInsteadOfTransforms) {
 }
 
 TEST_F(DistanceQueriesTest, NeedNoTransformWhenBothPosesAreGiven) {
-  tf2::BufferCore empty;
+  const TransformBuffer empty = timelessBuffer();
   query.use_pose_a = query.use_pose_b = 1;
   query.pose_b.pose.position.x = 3.0;
   const PairNiches result = answerQuery(query, scene, {&empty, "world", 0.0, 1.0, {}}, now).result;

@@ -82,6 +82,13 @@ TEST(NodeParameters, RefuseWithNameValueAndRange) {
   EXPECT_NE(refusal("geometry", "convex").find("collision visual"), std::string::npos);
   EXPECT_NE(refusal("reference_frame", ""), "");
   EXPECT_NE(refusal("reference_frame", 3), "");
+  for (const char* frame : {"/", "///", "a b", "a\nb"}) {
+    EXPECT_NE(refusal("reference_frame", frame), "") << frame;
+  }
+  for (const double period : {-5.0, 0.0, 1e300, std::nan("")}) {
+    EXPECT_NE(refusal("diagnostic_period", period), "") << period;
+  }
+  EXPECT_NE(refusal("diagnostic_period", "abc"), "");
   EXPECT_NE(refusal("show_bodies", "yes"), "");
   EXPECT_NE(refusal("warm_population_size", 21), "") << "the population is even";
   EXPECT_NE(refusal("marker_far", -1.0), "");

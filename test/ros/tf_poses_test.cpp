@@ -22,8 +22,8 @@ void put(tf2::BufferCore& buffer, const std::string& parent, const std::string& 
 
 PairTransforms look(const tf2::BufferCore& buffer, const PairFrames& frames, ros::Time now,
                     double stale_after) {
-  std::string ancestor;
-  return lookUpPair(buffer, frames, now, stale_after, ancestor);
+  PairAncestors ancestors;
+  return lookUpPair(buffer, frames, now, stale_after, ancestors);
 }
 
 ros::Time at(double seconds) {
@@ -120,19 +120,19 @@ TEST(TfPoses, FindTheWayAgainWhenTheTreeChanges) {
   put(buffer, "world", "base", 1.0, kStart);
   put(buffer, "base", "a", 1.0, kStart);
   put(buffer, "base", "b", 2.0, kStart);
-  std::string ancestor;
-  ASSERT_EQ(lookUpPair(buffer, {"world", "a", "b"}, kStart, 1.0, ancestor).status, TransformStatus::Ok);
-  EXPECT_EQ(ancestor, "base");
+  PairAncestors ancestors;
+  ASSERT_EQ(lookUpPair(buffer, {"world", "a", "b"}, kStart, 1.0, ancestors).status, TransformStatus::Ok);
+  EXPECT_EQ(ancestors.of_bodies, "base");
   put(buffer, "world", "a", 5.0, at(1.0));  // picked up: it does not hang on the base any more
   put(buffer, "world", "base", 1.0, at(1.0));
   put(buffer, "base", "b", 2.0, at(1.0));
-  const PairTransforms transforms = lookUpPair(buffer, {"world", "a", "b"}, at(1.0), 1.0, ancestor);
+  const PairTransforms transforms = lookUpPair(buffer, {"world", "a", "b"}, at(1.0), 1.0, ancestors);
   ASSERT_EQ(transforms.status, TransformStatus::Ok) << transforms.message;
   EXPECT_NEAR(transforms.a_from_b.translation().x(), -2.0, 1e-12);
 }
 
 TEST(TfPoses, WaitNoLongerThanTold) {
-  tf2::BufferCore buffer;
+  const TransformBuffer buffer({10.0, 1.0});
   const ros::WallTime start = ros::WallTime::now();
   waitForFrames(buffer, "a", "b", ros::Time(0), 0.05);
   const double waited = (ros::WallTime::now() - start).toSec();

@@ -1,10 +1,6 @@
 #pragma once
 
-#include <ros/callback_queue.h>
-#include <ros/node_handle.h>
-#include <ros/spinner.h>
-#include <ros/timer.h>
-#include <tf2_ros/buffer.h>
+#include <ros/time.h>
 
 #include <atomic>
 #include <cstdint>
@@ -12,6 +8,7 @@
 #include <vector>
 
 #include "concave_distance/ros/cycle_statistics.h"
+#include "concave_distance/ros/cycle_timer.h"
 #include "concave_distance/ros/distance_cycle.h"
 #include "concave_distance/ros/restart_requests.h"
 #include "concave_distance/ros/scene_keeper.h"
@@ -19,13 +16,12 @@
 
 namespace concave_distance {
 
-/// Runs the cycle on a timer of its own queue and thread, so that no service delays it. The timer follows ROS
-/// time: with use_sim_time, the simulated rate.
+/// Runs the cycle on a timer of its own thread, so that no service delays it. The timer follows ROS time:
+/// with use_sim_time, the simulated rate.
 class CycleRunner {
  public:
-  CycleRunner(const ros::NodeHandle& node, tf2_ros::Buffer& buffer, SceneKeeper& keeper,
-              TopicPublishers& publishers, RestartRequests& restarts, const CycleOptions& options);
-  ~CycleRunner();
+  CycleRunner(TransformBuffer& transforms, SceneKeeper& keeper, TopicPublishers& publishers,
+              RestartRequests& restarts, const CycleOptions& options);
   CycleRunner(const CycleRunner&) = delete;
   CycleRunner& operator=(const CycleRunner&) = delete;
 
@@ -38,7 +34,7 @@ class CycleRunner {
   CycleStatistics& statistics() { return statistics_; }
 
  private:
-  void onTimer(const ros::TimerEvent& event);
+  void runTimedCycle(std::int64_t due);
   /// @return whether it was another one
   bool adoptScene();
   /// A clock that jumps back (a bag that starts over, a simulation that is reset) invalidates every transform
@@ -46,7 +42,7 @@ class CycleRunner {
   void checkClock(ros::Time now);
   CycleRecord runCycle(ros::Time now);
 
-  tf2_ros::Buffer& buffer_;
+  TransformBuffer& transforms_;
   SceneKeeper& keeper_;
   TopicPublishers& publishers_;
   RestartRequests& restarts_;
@@ -64,10 +60,7 @@ class CycleRunner {
   std::uint64_t cycles_until_markers_ = 0;
   bool was_idle_ = false;
 
-  ros::CallbackQueue queue_;
-  ros::NodeHandle node_;
-  ros::AsyncSpinner spinner_;
-  ros::Timer timer_;
+  CycleTimer timer_;  ///< the last one: it ends before what it calls
 };
 
 }  // namespace concave_distance

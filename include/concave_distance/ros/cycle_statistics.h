@@ -36,6 +36,7 @@ struct CycleWindow {
   double seconds = 0.0;  ///< wall time covered
   std::uint64_t cycles = 0;
   std::uint64_t late = 0;
+  std::uint64_t failed = 0;  ///< ended by an exception
   Series duration;
   Series cpu;
   Series latency;
@@ -55,6 +56,7 @@ struct CycleWindow {
 class CycleStatistics {
  public:
   void add(CycleRecord record);
+  void addFailure();
   /// @param wall_seconds now, of a clock that never jumps
   CycleWindow take(double wall_seconds);
   /// Since the start; for long measurements.

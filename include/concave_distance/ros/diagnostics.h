@@ -5,16 +5,19 @@
 #include <string>
 
 #include "concave_distance/ros/cycle_statistics.h"
+#include "concave_distance/ros/transform_receiver.h"
 #include "concave_distance/scene/scene.h"
 
 namespace concave_distance {
 
 /// Cycle time, rate against the wanted one, late cycles, processor time, latency. WARN when more than 1 % of
-/// the cycles were late or the rate fell below 90 %.
+/// the cycles were late or the rate fell below 90 %; ERROR when cycles were ended by an exception.
 void describeCycle(const CycleWindow& window, double wanted_rate,
                    diagnostic_updater::DiagnosticStatusWrapper& status);
 /// Pairs watched and solved, pairs without transforms (WARN, each with its reason), search misses.
 void describePairs(const CycleWindow& window, diagnostic_updater::DiagnosticStatusWrapper& status);
+/// Frames known and transforms refused (WARN, with the last one's sender and reason).
+void describeTransforms(const TransformReport& report, diagnostic_updater::DiagnosticStatusWrapper& status);
 /// How often each stage of the pairs' effects ran and its share of the cycles' processor time.
 void describeEffects(const CycleWindow& window, diagnostic_updater::DiagnosticStatusWrapper& status);
 /// Bodies, pairs and what could not be loaded (WARN), or what is waited for (WARN).

@@ -2,7 +2,6 @@
 
 #include <ros/time.h>
 #include <tbb/task_arena.h>
-#include <tf2/buffer_core.h>
 
 #include <atomic>
 #include <cstdint>
@@ -36,10 +35,10 @@ struct CycleReport {
 };
 
 /// Follows every pair of a scene: looks up transforms, leaves out what is beyond the cutoff, solves the rest
-/// in parallel, watches the warning distances. Knows tf2's buffer but no topic. One thread at a time.
+/// in parallel, watches the warning distances. Knows the transforms but no topic. One thread at a time.
 class DistanceCycle {
  public:
-  DistanceCycle(const tf2::BufferCore& buffer, CycleOptions options);
+  DistanceCycle(const TransformBuffer& transforms, CycleOptions options);
 
   /// Pairs that are in both scenes with the same meshes go on, warm. The order becomes that of scene.pairs.
   /// @param settings_changed false: no pair of both scenes has other settings, and none is solved anew
@@ -58,14 +57,14 @@ class DistanceCycle {
   std::vector<std::unique_ptr<TrackedPair>> takeRetired();
 
  private:
-  bool locate(TrackedPair& pair, ros::Time now);
+  bool locate(TrackedPair& pair, const tf2::BufferCore& buffer, ros::Time now);
   void stopWatching(TrackedPair& pair);
   void retire(std::unique_ptr<TrackedPair> pair);
   void prepareSearches();
   void solveAll();
   void solve(TrackedPair& pair);
 
-  const tf2::BufferCore& buffer_;
+  const TransformBuffer& transforms_;
   CycleOptions options_;
   tbb::task_arena arena_;
   std::vector<std::unique_ptr<TrackedPair>> pairs_;

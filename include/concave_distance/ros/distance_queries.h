@@ -6,7 +6,6 @@
 #include <concave_distance/PairContactState.h>
 #include <ros/node_handle.h>
 #include <ros/service_server.h>
-#include <tf2/buffer_core.h>
 
 #include <atomic>
 #include <chrono>
@@ -16,13 +15,14 @@
 #include "concave_distance/ros/node_limits.h"
 #include "concave_distance/ros/scene_keeper.h"
 #include "concave_distance/ros/service_queues.h"
+#include "concave_distance/ros/transform_buffer.h"
 #include "concave_distance/scene/scene.h"
 
 namespace concave_distance {
 
 /// What a query is answered with besides the scene.
 struct QueryContext {
-  const tf2::BufferCore* buffer = nullptr;
+  const TransformBuffer* transforms = nullptr;
   std::string reference_frame;
   double transform_timeout = 0.2;  ///< s
   double stale_after = 1.0;        ///< s

@@ -6,8 +6,6 @@
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
 #include <ros/wall_timer.h>
-#include <tf2_ros/buffer.h>
-#include <tf2_ros/transform_listener.h>
 
 #include <boost/thread/recursive_mutex.hpp>
 #include <functional>
@@ -22,6 +20,8 @@
 #include "concave_distance/ros/scene_keeper.h"
 #include "concave_distance/ros/scene_services.h"
 #include "concave_distance/ros/topic_publishers.h"
+#include "concave_distance/ros/transform_buffer.h"
+#include "concave_distance/ros/transform_receiver.h"
 
 namespace concave_distance {
 
@@ -46,18 +46,22 @@ class DistanceServer {
   DistanceServer& operator=(const DistanceServer&) = delete;
 
  private:
-  void tryToLoad(const ros::WallTimerEvent& event);
-  void onHousekeeping(const ros::WallTimerEvent& event);
+  void tryToLoad();
+  void doHousekeeping();
+  void publishDiagnostics();
   void onReconfigure(ConcaveDistanceConfig& config, std::uint32_t level);
   void reportMissingFrames();
+  void reportMissingClock();
   void publishBodies();
   void setUpDiagnostics();
+  /// A wall timer whose callback keeps its exceptions to itself.
+  ros::WallTimer startTimer(double period, const char* name, void (DistanceServer::*act)());
 
   ros::NodeHandle private_node_;
   NodeParameters parameters_;
   FatalCallback on_fatal_;
-  tf2_ros::Buffer buffer_;
-  tf2_ros::TransformListener listener_;
+  TransformBuffer transforms_;
+  TransformReceiver receiver_;
   TopicPublishers publishers_;
   SceneKeeper keeper_;
   RestartRequests restarts_;
@@ -79,6 +83,7 @@ class DistanceServer {
   ros::WallTimer diagnostics_timer_;
   ros::WallTime last_load_message_;
   ros::WallTime last_frame_message_;
+  ros::WallTime last_clock_message_ = ros::WallTime::now();
 };
 
 }  // namespace concave_distance

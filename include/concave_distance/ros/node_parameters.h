@@ -28,6 +28,7 @@ struct NodeParameters {
   double transform_timeout = 0.2;  ///< s, that a service waits for a transform
   double stale_after = 1.0;        ///< s, age of the newest common transform at which a pair is not solved
   double tf_cache = 10.0;          ///< s, of transforms kept
+  double tf_future_tolerance = 1.0;  ///< s, that a transform's stamp may lie ahead of the clock
   PairSettings pair;               ///< what a scene file does not say otherwise
   bool publish_markers = true;
   bool publish_contact_markers = true;
@@ -35,6 +36,7 @@ struct NodeParameters {
   /// Patterns of the pairs with topics of their own; nothing: those of a small scene.
   std::optional<std::vector<std::string>> pair_topics;
   MarkerStyle marker;
+  double diagnostic_period = 1.0;  ///< s
   NodeLimits limits;
 };
 

@@ -10,6 +10,13 @@ namespace concave_distance {
 /// The reconfigurable part of the parameters.
 ConcaveDistanceConfig toConfig(const NodeParameters& parameters);
 
+/// The ranges, for clients to show.
+ConcaveDistanceConfig lowestConfig();
+ConcaveDistanceConfig highestConfig();
+
+/// @throws Error naming the parameter, the value seen and what is allowed
+void checkConfig(const ConcaveDistanceConfig& config);
+
 /// Applies to a pair what differs between the two configurations, and nothing else: what a scene file says of
 /// a pair stays until somebody changes that value.
 void applyChanges(const ConcaveDistanceConfig& before, const ConcaveDistanceConfig& after,

@@ -51,6 +51,7 @@ class SimulationRunner {
                    SimulationNodeParameters parameters);
 
  private:
+  void step();
   void onTimer(const ros::SteadyTimerEvent& event);
   void restart();
   void advance();

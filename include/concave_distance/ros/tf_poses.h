@@ -8,6 +8,9 @@
 #include <cstdint>
 #include <string>
 
+#include "concave_distance/ros/transform_buffer.h"
+#include "concave_distance/scene/frame_name.h"
+
 namespace concave_distance {
 
 enum class TransformStatus : std::uint8_t { Ok, Missing, Stale };
@@ -30,10 +33,8 @@ struct FrameTransform {
   Eigen::Isometry3d target_from_source = Eigen::Isometry3d::Identity();
 };
 
-/// `/base` of the first tf is tf2's `base`.
-std::string withoutLeadingSlash(const std::string& frame);
-
-/// The only place where tf2's exceptions are met: they become a status with tf2's message.
+/// The only place where tf2's exceptions are met: they become a status with tf2's message. A frame seen from
+/// itself is static, whether tf knows it or not.
 /// @param stamp zero: the newest time common to both frames
 FrameTransform lookUpFrame(const tf2::BufferCore& buffer, const std::string& target,
                            const std::string& source, ros::Time stamp);
@@ -45,6 +46,13 @@ struct PairFrames {
   std::string frame_b;
 };
 
+/// Frames that the transforms of a pair are composed through, kept by the caller from call to call; looked
+/// for where empty.
+struct PairAncestors {
+  std::string of_bodies;
+  std::string of_reference;  ///< of it and frame_a
+};
+
 /// The nearest frame that both descend from (one of the two, if the other descends from it); empty when tf
 /// does not connect them. tf2 composes every transform through the root of the tree, so that two frames of a
 /// robot 1e9 m from the root would lose seven digits; from an ancestor it does not.
@@ -52,18 +60,18 @@ std::string commonAncestor(const tf2::BufferCore& buffer, const std::string& fra
                            const std::string& frame_b);
 
 /// All transforms of a pair at the newest time that the two bodies' frames and the reference frame have in
-/// common, the bodies seen from their common ancestor. Stale when that time is older than `stale_after`
-/// seconds (static transforms never are).
-/// @param ancestor kept by the caller from call to call; looked for when it is empty
+/// common, each two frames seen from their common ancestor. Stale when that time is older than `stale_after`
+/// seconds (static transforms never are); where it lies ahead of `now`, the transforms at `now` instead, if
+/// they are known.
 PairTransforms lookUpPair(const tf2::BufferCore& buffer, const PairFrames& frames, ros::Time now,
-                          double stale_after, std::string& ancestor);
+                          double stale_after, PairAncestors& ancestors);
 
 /// The same at a given time; for services. Never Stale.
 PairTransforms lookUpPairAt(const tf2::BufferCore& buffer, const PairFrames& frames, ros::Time stamp);
 
 /// Waits, at most `timeout` seconds of wall time (a paused clock does not hang a service), until both frames
 /// are connected at `stamp`; zero: at any common time.
-void waitForFrames(const tf2::BufferCore& buffer, const std::string& target, const std::string& source,
+void waitForFrames(const TransformBuffer& buffer, const std::string& target, const std::string& source,
                    ros::Time stamp, double timeout);
 
 }  // namespace concave_distance

@@ -40,7 +40,7 @@ struct TrackedPair {
   BodyBounds bounds_a;
   BodyBounds bounds_b;
   PairFrames frames;
-  std::string ancestor;  ///< of the two frames, see lookUpPair
+  PairAncestors ancestors;
   PairSettings settings;
   bool enabled = true;
   PairDemand demand;

@@ -7,6 +7,7 @@
 #include <sensor_msgs/JointState.h>
 
 #include "concave_distance/base/error.h"
+#include "concave_distance/ros/time_difference.h"
 #include "demo_parameters.h"
 #include "joint_path.h"
 
@@ -29,7 +30,7 @@ void run() {
   const ros::Timer timer = public_node.createTimer(ros::Duration(1.0 / rate), [&](const ros::TimerEvent&) {
     const ros::Time now = ros::Time::now();
     if (first.isZero() || now < first) first = now;
-    const Eigen::VectorXd positions = joints.path.at(start + speed * (now - first).toSec());
+    const Eigen::VectorXd positions = joints.path.at(start + speed * secondsBetween(first, now));
     message.header.stamp = now;
     message.position.assign(positions.data(), positions.data() + positions.size());
     publisher.publish(message);

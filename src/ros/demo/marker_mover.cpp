@@ -14,6 +14,7 @@
 #include <optional>
 
 #include "concave_distance/base/error.h"
+#include "concave_distance/ros/time_difference.h"
 #include "demo_parameters.h"
 
 namespace {
@@ -130,7 +131,7 @@ void run() {
   const ros::Timer timer = public_node.createTimer(ros::Duration(1.0 / rate), [&](const ros::TimerEvent&) {
     const ros::Time now = ros::Time::now();
     if (first.isZero() || now < first) first = now;
-    if (idle) pose = sway(start, (now - first).toSec());
+    if (idle) pose = sway(start, secondsBetween(first, now));
     broadcaster.sendTransform(demo::toTransform(pose, now, parent, child));
   });
   // Not as often as the poses: rviz starts over when it loses one of the server's messages.

@@ -7,6 +7,7 @@
 #include <tf2_ros/transform_broadcaster.h>
 
 #include "concave_distance/base/error.h"
+#include "concave_distance/ros/time_difference.h"
 #include "demo_parameters.h"
 #include "pose_path.h"
 
@@ -31,7 +32,7 @@ void run() {
     const ros::Time now = ros::Time::now();
     // A clock that jumps back starts the path anew.
     if (first.isZero() || now < first) first = now;
-    const double elapsed = start + speed * (now - first).toSec();
+    const double elapsed = start + speed * secondsBetween(first, now);
     const double time = path.startTime() + demo::pingPong(elapsed, path.duration(), pause);
     broadcaster.sendTransform(demo::toTransform(path.at(time), now, parent, child));
   });

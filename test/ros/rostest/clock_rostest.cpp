@@ -5,49 +5,18 @@
 #include <gtest/gtest.h>
 #include <ros/init.h>
 #include <ros/spinner.h>
-#include <rosgraph_msgs/Clock.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 
 #include <algorithm>
-#include <atomic>
 #include <functional>
 #include <string>
-#include <thread>
 
 #include "node_access.h"
+#include "simulated_clock.h"
 #include "tf_player.h"
 
 namespace concave_distance {
 namespace {
-
-/// Publishes /clock in steps of 10 ms, in real time.
-class Clock {
- public:
-  Clock() : publisher_(node_.advertise<rosgraph_msgs::Clock>("/clock", 10)), thread_([this] { run(); }) {}
-  ~Clock() {
-    running_ = false;
-    thread_.join();
-  }
-  void set(double seconds) { time_ = seconds; }
-
- private:
-  void run() {
-    while (running_) {
-      ros::WallDuration(0.01).sleep();
-      if (time_ > 0.0) {
-        time_ = time_ + 0.01;
-        rosgraph_msgs::Clock message;
-        message.clock = ros::Time(time_);
-        publisher_.publish(message);
-      }
-    }
-  }
-  ros::NodeHandle node_;
-  ros::Publisher publisher_;
-  std::atomic<double> time_{0.0};  ///< 0: the clock does not run
-  std::atomic<bool> running_{true};
-  std::thread thread_;
-};
 
 geometry_msgs::TransformStamped standInWorld() {
   geometry_msgs::TransformStamped transform;
@@ -67,7 +36,7 @@ std::function<bool(const Distances&)> isSolved(const std::string& pair) {
 }
 
 TEST(SimulatedClock, IsWaitedForFollowedAndMayJumpBack) {
-  Clock clock;
+  SimulatedClock clock;
   TfPlayer player;
   player.place("box_a", 0.0);
   player.place("box_b", 2.0);

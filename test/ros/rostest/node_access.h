@@ -31,13 +31,13 @@ inline double counted(const diagnostic_msgs::DiagnosticArray& message, const std
   return value.empty() ? std::nan("") : std::stod(value);
 }
 
-/// Sets one of the node's parameters while it runs.
-inline void reconfigure(const std::string& name, double value) {
+/// Sets one of the node's parameters while it runs. @return what holds afterwards, as the client sees it
+inline dynamic_reconfigure::Config reconfigure(const std::string& name, double value) {
   dynamic_reconfigure::ReconfigureRequest request;
   request.config.doubles.resize(1);
   request.config.doubles[0].name = name;
   request.config.doubles[0].value = value;
-  call<dynamic_reconfigure::Reconfigure>(kNode + "set_parameters", request);
+  return call<dynamic_reconfigure::Reconfigure>(kNode + "set_parameters", request).config;
 }
 
 }  // namespace concave_distance

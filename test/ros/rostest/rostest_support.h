@@ -54,6 +54,23 @@ class Collector {
     const std::lock_guard<std::mutex> lock(mutex_);
     messages_.clear();
   }
+  /// Waits for a message that satisfies the condition, among all that have come since clear() and those to
+  /// come; the first one.
+  std::optional<Message> match(const std::function<bool(const Message&)>& condition,
+                               double deadline = kDeadline) {
+    std::optional<Message> found;
+    std::size_t seen = 0;
+    eventually(
+        [&] {
+          const std::lock_guard<std::mutex> lock(mutex_);
+          for (; !found && seen < messages_.size(); ++seen) {
+            if (condition(messages_[seen])) found = messages_[seen];
+          }
+          return found.has_value();
+        },
+        deadline);
+    return found;
+  }
   /// Waits for a message that satisfies the condition, among those to come and the last one.
   bool waitFor(const std::function<bool(const Message&)>& condition, double deadline = kDeadline) {
     return eventually(

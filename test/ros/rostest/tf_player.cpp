@@ -1,5 +1,6 @@
 #include "tf_player.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -23,6 +24,13 @@ void TfPlayer::place(const std::string& frame, double x, double y, double z, dou
   transform.transform.rotation.w = std::cos(angle / 2.0);
   const std::lock_guard<std::mutex> lock(mutex_);
   transforms_[frame] = transform;
+  glides_.erase(frame);
+}
+
+void TfPlayer::glide(const std::string& frame, double from, double to, double seconds) {
+  place(frame, from);
+  const std::lock_guard<std::mutex> lock(mutex_);
+  glides_[frame] = {from, to, seconds, ros::Time::now()};
 }
 
 void TfPlayer::drop(const std::string& frame) {
@@ -40,6 +48,11 @@ void TfPlayer::play() {
       const std::lock_guard<std::mutex> lock(mutex_);
       for (auto& [frame, transform] : transforms_) {
         transform.header.stamp = now;
+        if (const auto glide = glides_.find(frame); glide != glides_.end()) {
+          const Glide& path = glide->second;
+          const double share = std::clamp((now - path.start).toSec() / path.seconds, 0.0, 1.0);
+          transform.transform.translation.x = path.from + share * (path.to - path.from);
+        }
         transforms.push_back(transform);
       }
     }

