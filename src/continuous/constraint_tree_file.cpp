@@ -11,6 +11,7 @@
 #include <ostream>
 
 #include "concave_distance/base/error.h"
+#include "concave_distance/base/output_file.h"
 
 namespace concave_distance {
 namespace {
@@ -151,12 +152,9 @@ void writeConstraintTree(const ConstraintTree& tree, std::ostream& stream) {
 }
 
 void writeConstraintTreeFile(const ConstraintTree& tree, const std::string& path) {
-  std::ofstream stream(path);
-  writeConstraintTree(tree, stream);
-  stream.close();
-  if (!stream) {
-    throw Error(path, "the tree cannot be written", "check the folder and its permissions");
-  }
+  OutputFile file(path);
+  writeConstraintTree(tree, file.stream());
+  file.finish();
 }
 
 ConstraintTree readConstraintTree(std::istream& stream, const std::string& where) {

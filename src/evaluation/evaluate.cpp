@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "concave_distance/base/error.h"
+#include "concave_distance/base/output_file.h"
 #include "run_experiment.h"
 
 namespace {
@@ -101,7 +102,10 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   try {
-    return run(argc, argv);
+    concave_distance::ignoreClosedPipes();
+    const int status = run(argc, argv);
+    concave_distance::finishStandardOutput();
+    return status;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "evaluate: %s\n", error.what());
     return 1;

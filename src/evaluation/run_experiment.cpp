@@ -3,10 +3,10 @@
 #include <tbb/parallel_for_each.h>
 
 #include <algorithm>
-#include <fstream>
 #include <mutex>
 #include <vector>
 
+#include "concave_distance/base/output_file.h"
 #include "trial_files.h"
 
 namespace concave_distance::evaluation {
@@ -18,7 +18,9 @@ constexpr std::uint32_t kRunsAtOnce = 10;
 /// What the scenes are, for the report.
 void writeScenes(const Experiment& experiment, const std::vector<SceneTruth>& scenes,
                  const std::string& folder) {
-  std::ofstream file(folder + "/" + experiment.name + "_scenes.csv");
+  OutputFile output(folder + "/" + experiment.name + "_scenes.csv");
+  std::ostream& file = output.stream();
+  file.precision(6);
   file << "scene,max_edge_length,nodes_a,nodes_b,exact_distance,node_distance,second_distance,niches,"
           "instants\n";
   for (std::size_t i = 0; i < scenes.size(); ++i) {
@@ -34,6 +36,7 @@ void writeScenes(const Experiment& experiment, const std::vector<SceneTruth>& sc
          << truth.exact_distance << ',' << truth.node_distance << ',' << truth.second_distance << ','
          << niches << ',' << scene.instants.size() << '\n';
   }
+  output.finish();
 }
 
 }  // namespace

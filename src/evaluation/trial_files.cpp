@@ -64,6 +64,12 @@ std::ofstream openToAppend(const std::string& path, const std::string& header) {
   return file;
 }
 
+// A file that is appended to keeps what it has: the next call drops a line that was cut off.
+void requireWritten(const std::ostream& stream, const std::string& file) {
+  if (stream) return;
+  throw Error(file, "not everything could be written", "check the space on the device and begin again");
+}
+
 }  // namespace
 
 TrialFiles::TrialFiles(const Experiment& experiment, const std::string& folder) : experiment_(experiment) {
@@ -117,7 +123,7 @@ void TrialFiles::append(const WorkUnit& unit, const std::vector<TrialRecord>& re
             << ',' << curve[i].best_distance << ',' << curve[i].mean_square << ',' << curve[i].niches << ','
             << curve[i].acceptance << '\n';
   }
-  curves_.flush();
+  requireWritten(curves_.flush(), experiment_.name + "_curves.csv");
   std::ostringstream lines;
   lines.precision(std::numeric_limits<double>::max_digits10);
   for (std::size_t i = 0; i < records.size(); ++i) {
@@ -135,7 +141,7 @@ void TrialFiles::append(const WorkUnit& unit, const std::vector<TrialRecord>& re
           << r.archive_recall << ',' << r.nearest << ',' << r.wrong_instants << ',' << r.worst_excess << ','
           << r.most_niches << ',' << r.proof_finds << '\n';
   }
-  runs_ << lines.str() << std::flush;
+  requireWritten(runs_ << lines.str() << std::flush, experiment_.name + ".csv");
 }
 
 }  // namespace concave_distance::evaluation

@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
-#include <fstream>
-#include <iomanip>
 #include <limits>
-#include <locale>
+#include <ostream>
 
 #include "concave_distance/base/error.h"
+#include "concave_distance/base/output_file.h"
 #include "file_extension.h"
 
 namespace concave_distance {
@@ -82,12 +81,8 @@ void exportMesh(const SurfaceMesh& mesh, const std::string& path) {
     throw Error(path, "the ending '" + extension + "' names no format that can be written",
                 "end the file name in .stl, .obj or .ply");
   }
-  std::ofstream stream(path, std::ios::binary);
-  if (!stream) {
-    throw Error(path, "the file cannot be written", "check that its folder exists and may be written to");
-  }
-  stream.imbue(std::locale::classic());
-  stream << std::setprecision(17);
+  OutputFile file(path);
+  std::ostream& stream = file.stream();
   if (extension == ".stl") {
     writeStl(mesh, stream, path);
   } else if (extension == ".obj") {
@@ -95,10 +90,7 @@ void exportMesh(const SurfaceMesh& mesh, const std::string& path) {
   } else {
     writePly(mesh, stream);
   }
-  stream.close();
-  if (!stream) {
-    throw Error(path, "writing broke off", "check the space left on the device");
-  }
+  file.finish();
 }
 
 }  // namespace concave_distance

@@ -2,11 +2,11 @@
 
 #include <filesystem>
 #include <fstream>
-#include <iomanip>
 #include <optional>
 #include <sstream>
 
 #include "concave_distance/base/error.h"
+#include "concave_distance/base/output_file.h"
 
 namespace concave_distance {
 namespace {
@@ -110,8 +110,9 @@ class PieceReader {
 }  // namespace
 
 void writePieces(const ConvexPartition& partition, const std::string& path) {
-  std::ofstream file(path);
-  file << std::setprecision(17) << "# convex pieces of " << partition.name << "; metres\n";
+  OutputFile output(path);
+  std::ostream& file = output.stream();
+  file << "# convex pieces of " << partition.name << "; metres\n";
   std::size_t first_vertex = 1;
   std::size_t normal = 1;
   for (std::size_t p = 0; p < partition.pieces.size(); ++p) {
@@ -130,9 +131,7 @@ void writePieces(const ConvexPartition& partition, const std::string& path) {
     }
     first_vertex += piece.vertices.size();
   }
-  file.close();
-  if (!file)
-    throw Error(path, "the pieces cannot be written", "check that its folder exists and is writable");
+  output.finish();
 }
 
 ConvexPartition readPieces(const std::string& path) {

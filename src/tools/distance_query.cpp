@@ -3,6 +3,7 @@
 #include <iostream>
 #include <string>
 
+#include "concave_distance/base/output_file.h"
 #include "distance_query_run.h"
 
 namespace {
@@ -90,6 +91,10 @@ void addOptions(CLI::App& app, CommandLine& line) {
   app.add_flag("--tracking", options.tracking,
                "lines are successive instants of one motion: warm starts, persistent niche numbers");
   app.add_option("--seed", options.seed, "of the random streams: one seed, one answer")
+      ->check([](const std::string& text) -> std::string {
+        const bool digits = text.find_first_not_of("0123456789") == std::string::npos;
+        return digits ? "" : "'" + text + "' is no whole number from 0";
+      })
       ->capture_default_str();
   app.add_option(
          "--output", options.output,
@@ -128,7 +133,10 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   try {
-    return run(argc, argv);
+    concave_distance::ignoreClosedPipes();
+    const int status = run(argc, argv);
+    concave_distance::finishStandardOutput();
+    return status;
   } catch (const std::exception& error) {
     std::cerr << "distance_query: " << error.what() << '\n';
     return kFileProblem;

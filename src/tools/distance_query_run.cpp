@@ -6,6 +6,7 @@
 #include <ostream>
 #include <sstream>
 
+#include "concave_distance/base/output_file.h"
 #include "concave_distance/base/run_together.h"
 #include "concave_distance/mesh/body_mesh.h"
 #include "concave_distance/mesh/import_mesh.h"
@@ -112,6 +113,9 @@ class Solver {
 }  // namespace
 
 void runDistanceQuery(const DistanceQueryOptions& options, std::ostream& log) {
+  requireDistinctFiles(
+      {{"--mesh-a", options.mesh_a}, {"--mesh-b", options.mesh_b}, {"--poses", options.poses}},
+      {{"--output", options.output}, {"--niches-output", options.niches_output}});
   const std::vector<QueryPose> poses = readQueryPoses(options.poses);
   Solver solver(options, log);
   AnswerWriter answers(options.output);
@@ -146,6 +150,8 @@ void runDistanceQuery(const DistanceQueryOptions& options, std::ostream& log) {
     }
     answers.write(index, answer);
   }
+  answers.complete();
+  if (niches) niches->complete();
   answers.finish();
   if (niches) niches->finish();
   if (cut_lists > 0) {

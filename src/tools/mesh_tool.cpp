@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "concave_distance/base/error.h"
+#include "concave_distance/base/output_file.h"
 #include "mesh_tool_commands.h"
 #include "mesh_tool_convex.h"
 
@@ -108,6 +109,9 @@ int run(int argc, char** argv) {
     return app.exit(error) == 0 ? 0 : kWrongCommandLine;
   }
 
+  concave_distance::requireDistinctFiles(
+      {{"the input", line.options.input}},
+      {{"the output", line.options.output}, {"--pieces", line.options.pieces}});
   if (inspect->parsed()) {
     inspectMeshFile(line.options, std::cout);
   } else if (repair->parsed()) {
@@ -130,7 +134,10 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   try {
-    return run(argc, argv);
+    concave_distance::ignoreClosedPipes();
+    const int status = run(argc, argv);
+    concave_distance::finishStandardOutput();
+    return status;
   } catch (const std::exception& error) {
     std::cerr << "mesh_tool: " << error.what() << '\n';
     return kMeshProblem;

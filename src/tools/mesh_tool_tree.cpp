@@ -1,12 +1,10 @@
 #include <cstdlib>
-#include <fstream>
-#include <iomanip>
-#include <limits>
 #include <map>
+#include <optional>
 #include <ostream>
 #include <utility>
 
-#include "concave_distance/base/error.h"
+#include "concave_distance/base/output_file.h"
 #include "concave_distance/continuous/build_constraint_tree.h"
 #include "concave_distance/continuous/constraint_tree_file.h"
 #include "concave_distance/continuous/piece_mesh.h"
@@ -16,9 +14,7 @@ namespace concave_distance::tools {
 namespace {
 
 /// One Wavefront object a piece, named by its level and object_id: level_-2_piece_1_3.
-void writePieceMeshes(const ConstraintTree& tree, const std::string& path) {
-  std::ofstream stream(path);
-  stream << std::setprecision(std::numeric_limits<double>::max_digits10);
+void writePieceMeshes(const ConstraintTree& tree, std::ostream& stream) {
   std::size_t first = 1;
   for (std::uint32_t i = 0; i < tree.pieces().size(); ++i) {
     stream << "o level_" << tree.pieces()[i].level << "_piece";
@@ -35,10 +31,6 @@ void writePieceMeshes(const ConstraintTree& tree, const std::string& path) {
     }
     first += mesh.vertexCount();
   }
-  stream.close();
-  if (!stream) {
-    throw Error(path, "the pieces cannot be written", "check the folder and its permissions");
-  }
 }
 
 }  // namespace
@@ -47,10 +39,14 @@ void treeOfMeshFile(const MeshToolOptions& options, std::ostream& out) {
   TreeBuildOptions build_options;
   build_options.flatness_tolerance = options.flatness;
   const BuiltTree built = buildConstraintTree(readRepaired(options).mesh, build_options, options.input);
-  writeConstraintTreeFile(built.tree, options.output);
+  std::optional<OutputFile> pieces;
   if (!options.pieces.empty()) {
-    writePieceMeshes(built.tree, options.pieces);
+    pieces.emplace(options.pieces);
+    writePieceMeshes(built.tree, pieces->stream());
+    pieces->complete();
   }
+  writeConstraintTreeFile(built.tree, options.output);
+  if (pieces) pieces->finish();
   std::map<int, std::pair<std::size_t, std::size_t>> counts;  // of pieces and constraints, by depth
   for (const TreePiece& piece : built.tree.pieces()) {
     ++counts[std::abs(piece.level)].first;

@@ -3,11 +3,11 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
-#include <fstream>
 #include <limits>
 #include <optional>
 #include <string>
 
+#include "concave_distance/base/output_file.h"
 #include "concave_distance/distance/certificate.h"
 #include "concave_distance/tracking/pair_solution.h"
 
@@ -30,11 +30,11 @@ class AnswerWriter {
  public:
   explicit AnswerWriter(const std::string& path);  ///< @throws Error when the file cannot be written
   void write(std::size_t index, const QueryAnswer& answer);
-  void finish();  ///< @throws Error when not everything could be written
+  void complete() { file_.complete(); }
+  void finish() { file_.finish(); }  ///< @throws Error when not everything could be written
 
  private:
-  std::string path_;
-  std::ofstream stream_;
+  OutputFile file_;
 };
 
 /// Writes niches.csv, 17 digits, a line per niche.
@@ -44,11 +44,11 @@ class NicheWriter {
   /// @param number the niche's persistent id or its rank
   /// @param described kind, extent, sides and prominence were computed: else their cells stay empty
   void write(std::size_t index, std::uint64_t number, const TrackedNiche& niche, bool described);
-  void finish();  ///< @throws Error when not everything could be written
+  void complete() { file_.complete(); }
+  void finish() { file_.finish(); }  ///< @throws Error when not everything could be written
 
  private:
-  std::string path_;
-  std::ofstream stream_;
+  OutputFile file_;
 };
 
 }  // namespace concave_distance::tools

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "concave_distance/base/error.h"
+#include "concave_distance/base/output_file.h"
 #include "concave_distance/scene/load_scene.h"
 #include "concave_distance/simulation/simulation.h"
 #include "simulation_log.h"
@@ -134,6 +135,9 @@ void summarise(const Simulation& simulation, double loop_seconds) {
 }
 
 int simulate(const Options& options) {
+  requireDistinctFiles(
+      {{"the scene", options.scene}},
+      {{"--output", options.output}, {"--contacts", options.contacts}, {"--niches", options.niches}});
   const Scene scene = load(options);
   Simulation simulation(scene, settingsOf(scene, options));
   tools::TrajectoryLog trajectory(options.output, simulation);
@@ -160,6 +164,9 @@ int simulate(const Options& options) {
     showProgress(simulation, start);
     std::fputc('\n', stderr);
   }
+  trajectory.complete();
+  if (contacts) contacts->complete();
+  if (niches) niches->complete();
   trajectory.finish();
   if (contacts) contacts->finish();
   if (niches) niches->finish();
@@ -188,7 +195,10 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   try {
-    return run(argc, argv);
+    concave_distance::ignoreClosedPipes();
+    const int status = run(argc, argv);
+    concave_distance::finishStandardOutput();
+    return status;
   } catch (const std::exception& error) {
     std::cerr << "simulate: " << error.what() << '\n';
     return kFileProblem;

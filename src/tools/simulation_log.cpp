@@ -4,8 +4,6 @@
 #include <charconv>
 #include <cmath>
 
-#include "concave_distance/base/error.h"
-
 namespace concave_distance::tools {
 namespace {
 
@@ -32,13 +30,12 @@ std::string trajectoryHeader(const Simulation& simulation) {
 
 }  // namespace
 
-CsvFile::CsvFile(const std::string& path, const std::string& header) : path_(path), stream_(path) {
-  if (!stream_) throw Error(path, "the file cannot be written", "check the folder and the rights on it");
-  stream_ << header << '\n';
+CsvFile::CsvFile(const std::string& path, const std::string& header) : file_(path) {
+  file_.stream() << header << '\n';
 }
 
 void CsvFile::separate() {
-  if (line_begun_) stream_ << ',';
+  if (line_begun_) file_.stream() << ',';
   line_begun_ = true;
 }
 
@@ -48,19 +45,19 @@ CsvFile& CsvFile::operator<<(double value) {
   std::array<char, 32> text{};
   const auto end =
       std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, kDigits).ptr;
-  stream_.write(text.data(), end - text.data());
+  file_.stream().write(text.data(), end - text.data());
   return *this;
 }
 
 CsvFile& CsvFile::operator<<(std::uint64_t value) {
   separate();
-  stream_ << value;
+  file_.stream() << value;
   return *this;
 }
 
 CsvFile& CsvFile::operator<<(const std::string& text) {
   separate();
-  stream_ << text;
+  file_.stream() << text;
   return *this;
 }
 
@@ -69,13 +66,8 @@ CsvFile& CsvFile::operator<<(const Eigen::Vector3d& vector) {
 }
 
 void CsvFile::endLine() {
-  stream_ << '\n';
+  file_.stream() << '\n';
   line_begun_ = false;
-}
-
-void CsvFile::finish() {
-  stream_.close();
-  if (stream_.fail()) throw Error(path_, "writing failed", "check the space on the disk");
 }
 
 TrajectoryLog::TrajectoryLog(const std::string& path, const Simulation& simulation)

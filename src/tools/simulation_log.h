@@ -1,8 +1,8 @@
 #pragma once
 
-#include <fstream>
 #include <string>
 
+#include "concave_distance/base/output_file.h"
 #include "concave_distance/simulation/simulation.h"
 
 namespace concave_distance::tools {
@@ -18,12 +18,12 @@ class CsvFile {
   CsvFile& operator<<(const Eigen::Vector3d& vector);
   void endLine();
   /// @throws Error when something could not be written
-  void finish();
+  void complete() { file_.complete(); }
+  void finish() { file_.finish(); }
 
  private:
   void separate();
-  std::string path_;
-  std::ofstream stream_;
+  OutputFile file_;
   bool line_begun_ = false;
 };
 
@@ -32,6 +32,7 @@ class TrajectoryLog {
  public:
   TrajectoryLog(const std::string& path, const Simulation& simulation);
   void write(const Simulation& simulation);
+  void complete() { file_.complete(); }
   void finish() { file_.finish(); }
 
  private:
@@ -43,6 +44,7 @@ class ContactLog {
  public:
   explicit ContactLog(const std::string& path);
   void write(const Simulation& simulation);
+  void complete() { file_.complete(); }
   void finish() { file_.finish(); }
 
  private:
@@ -54,6 +56,7 @@ class NicheLog {
  public:
   explicit NicheLog(const std::string& path);
   void write(const Simulation& simulation);
+  void complete() { file_.complete(); }
   void finish() { file_.finish(); }
 
  private:

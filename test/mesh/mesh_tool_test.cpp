@@ -2,6 +2,7 @@
 #include <sys/wait.h>
 
 #include <cstdlib>
+#include <filesystem>
 #include <string>
 
 #include "concave_distance/mesh/export_mesh.h"
@@ -52,6 +53,29 @@ TEST_F(MeshTool, InspectPrintsWhatTheMeshIs) {
   EXPECT_TRUE(contains(outcome.out, "size (m): 1 2 3\n"));
   EXPECT_TRUE(contains(outcome.out, "area (m^2): 22\n"));
   EXPECT_TRUE(contains(outcome.out, "volume (m^3): 6\n"));
+}
+
+TEST_F(MeshTool, EndsWithAnErrorWhenADeviceIsFull) {
+  exportMesh(makeBox({1, 2, 3}), path("box.stl"));
+  const std::string tool = CONCAVE_DISTANCE_MESH_TOOL;
+  const auto status = [&](const std::string& arguments) {
+    return WEXITSTATUS(std::system((tool + " " + arguments + " 2> " + path("errors")).c_str()));
+  };
+  EXPECT_EQ(status("inspect " + path("box.stl") + " > /dev/full"), 1);
+  EXPECT_TRUE(contains(test::contentOf(path("errors")), "standard output: not everything could be written"));
+  EXPECT_EQ(status("--help > /dev/full"), 1);
+  std::filesystem::create_symlink("/dev/full", path("full.obj"));
+  EXPECT_EQ(status("repair " + path("box.stl") + " " + path("full.obj")), 1);
+  EXPECT_TRUE(contains(test::contentOf(path("errors")), "full.obj"));
+}
+
+TEST_F(MeshTool, RefusesToWriteOverItsInput) {
+  exportMesh(makeBox({1, 2, 3}), path("box.stl"));
+  const std::string before = test::contentOf(path("box.stl"));
+  const Outcome outcome = run("repair " + path("box.stl") + " " + path("box.stl"));
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_TRUE(contains(outcome.errors, "the same file as the input")) << outcome.errors;
+  EXPECT_EQ(test::contentOf(path("box.stl")), before);
 }
 
 TEST_F(MeshTool, RepairTurnsAndDropsAndSaysSo) {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <vector>
 
 #include "concave_distance/mesh/export_mesh.h"
@@ -264,6 +265,37 @@ TEST_F(DistanceQuery, RefusesWhatThisVersionCannotDo) {
   EXPECT_EQ(runBoxes("--max-edge 0"), 2);
   EXPECT_EQ(runBoxes("--cutoff -1"), 2);
   EXPECT_EQ(run("--mesh-a box.stl"), 2);
+}
+
+TEST_F(DistanceQuery, RefusesAnOutputThatIsAnInputOrTheOtherOutputAndWritesNothing) {
+  const std::string poses = test::contentOf(folder_.path("poses.csv"));
+  const std::string mesh = test::contentOf(folder_.path("box.stl"));
+  for (const std::string output : {"poses.csv", "./poses.csv", "box.stl"}) {
+    EXPECT_EQ(run("--mesh-a box.stl --mesh-b box.stl --poses poses.csv --output " + output), 1);
+    EXPECT_NE(log().find("--output is the same file as"), std::string::npos) << log();
+  }
+  EXPECT_EQ(runBoxes("--niches-output poses.csv"), 1);
+  EXPECT_EQ(runBoxes("--niches-output ./out.csv"), 1);
+  EXPECT_EQ(test::contentOf(folder_.path("poses.csv")), poses);
+  EXPECT_EQ(test::contentOf(folder_.path("box.stl")), mesh);
+  EXPECT_FALSE(std::filesystem::exists(folder_.path("out.csv")));
+}
+
+TEST_F(DistanceQuery, EndsWithAnErrorWhenADeviceIsFullAndLeavesNoCutFile) {
+  EXPECT_EQ(runBoxes("--niches-output /dev/full"), 1);
+  EXPECT_NE(log().find("/dev/full"), std::string::npos) << log();
+  EXPECT_FALSE(std::filesystem::exists(folder_.path("out.csv")));
+}
+
+TEST_F(DistanceQuery, CallsPosesBeyondTheLimitInvalid) {
+  folder_.write("poses.csv",
+                "t,x,y,z,qx,qy,qz,qw\n0,1e200,0,0,0,0,0,1\n1,-1.1e18,0,0,0,0,0,1\n2,1e18,0,0,0,0,0,1\n");
+  ASSERT_EQ(runBoxes(""), 0) << log();
+  EXPECT_EQ(answers()[0].at("status"), "invalid_pose");
+  EXPECT_EQ(answers()[0].at("distance"), "");
+  EXPECT_EQ(answers()[1].at("status"), "invalid_pose");
+  EXPECT_EQ(answers()[2].at("status"), "ok");
+  EXPECT_NEAR(number(answers()[2], "distance"), 1e18, 1e18 * 0x1p-46);
 }
 
 TEST_F(DistanceQuery, NamesTheFileThatIsAtFault) {

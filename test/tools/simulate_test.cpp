@@ -88,6 +88,11 @@ TEST_F(Simulate, SaysWhatIsWrong) {
   EXPECT_EQ(run("nowhere.yaml --output out.csv"), 1);
   EXPECT_EQ(run("scene.yaml --output no/such/folder/out.csv"), 1);
   EXPECT_TRUE(logHas("cannot be written")) << log();
+  EXPECT_EQ(run("scene.yaml --output scene.yaml"), 1);
+  EXPECT_TRUE(logHas("the same file as the scene")) << log();
+  EXPECT_EQ(run("scene.yaml --output out.csv --contacts out.csv"), 1);
+  EXPECT_EQ(run("scene.yaml --output /dev/full"), 1);
+  EXPECT_TRUE(logHas("not everything could be written")) << log();
   EXPECT_EQ(run("scene.yaml"), 2);
   EXPECT_EQ(run("scene.yaml --output out.csv --duration -1"), 2);
   EXPECT_EQ(run("scene.yaml --output out.csv --tracking some"), 2);
