@@ -1,6 +1,7 @@
 #include "concave_distance/distance/certificate.h"
 
 #include "branch_and_bound.h"
+#include "concave_distance/base/coordinate_limit.h"
 
 namespace concave_distance {
 
@@ -37,6 +38,10 @@ DistanceCertificate certifyDistance(const BodyMesh& a, const BodyMesh& b, const 
                                     const TrianglePair* seeds, std::size_t seed_count,
                                     const CertificateRequest& request, CertificateWorkspace& workspace,
                                     ProofFront* front) {
+  // Where products of coordinates would overflow nothing is proven: bound 0, distance infinite.
+  if (!a_from_b.matrix().allFinite() || a_from_b.translation().cwiseAbs().maxCoeff() > kLargestCoordinate) {
+    return {};
+  }
   return detail::BranchAndBound(a, b, a_from_b, request, workspace, front).run(seeds, seed_count);
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "concave_distance/base/coordinate_limit.h"
 #include "region_builder.h"
 
 namespace concave_distance {
@@ -24,7 +25,9 @@ InterferenceWorkspace& InterferenceWorkspace::operator=(InterferenceWorkspace&&)
 namespace {
 
 bool isPose(const Eigen::Isometry3d& pose) {
-  if (!pose.matrix().allFinite()) return false;
+  if (!pose.matrix().allFinite() || pose.translation().cwiseAbs().maxCoeff() > kLargestCoordinate) {
+    return false;
+  }
   const Eigen::Matrix3d excess = pose.linear().transpose() * pose.linear() - Eigen::Matrix3d::Identity();
   return excess.cwiseAbs().maxCoeff() <= 1e-3 && pose.linear().determinant() > 0.0;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "concave_distance/base/coordinate_limit.h"
 #include "concave_distance/base/error.h"
 #include "drop_triangles.h"
 #include "edge_table.h"
@@ -20,9 +21,10 @@ void checkSoup(const TriangleSoup& soup, const RepairOptions& options, const std
     throw Error(where, seen.str(), "give a fraction of the size, from 0 to below 1");
   }
   for (std::size_t i = 0; i < soup.vertices.size(); ++i) {
-    if (!soup.vertices[i].allFinite()) {
-      throw Error(where, "vertex " + std::to_string(i) + " has a coordinate that is not finite",
-                  "export the mesh again");
+    if (!soup.vertices[i].allFinite() || soup.vertices[i].cwiseAbs().maxCoeff() > kLargestCoordinate) {
+      throw Error(where,
+                  "vertex " + std::to_string(i) + " has a coordinate that is not finite or beyond 1e18 m",
+                  "export the mesh again, or correct its scale");
     }
   }
   for (std::size_t t = 0; t < soup.triangles.size(); ++t) {

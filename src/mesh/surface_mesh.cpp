@@ -1,5 +1,6 @@
 #include "concave_distance/mesh/surface_mesh.h"
 
+#include "concave_distance/base/coordinate_limit.h"
 #include "concave_distance/base/error.h"
 
 namespace concave_distance {
@@ -11,9 +12,10 @@ SurfaceMesh::SurfaceMesh(std::vector<Eigen::Vector3d> vertices, std::vector<Tria
     throw Error(where, "the mesh has no triangle", "give a mesh with at least one triangle of non-zero area");
   }
   for (std::size_t i = 0; i < vertices_.size(); ++i) {
-    if (!vertices_[i].allFinite()) {
-      throw Error(where, "vertex " + std::to_string(i) + " has a coordinate that is not finite",
-                  "export the mesh again");
+    if (!vertices_[i].allFinite() || vertices_[i].cwiseAbs().maxCoeff() > kLargestCoordinate) {
+      throw Error(where,
+                  "vertex " + std::to_string(i) + " has a coordinate that is not finite or beyond 1e18 m",
+                  "export the mesh again, or correct its scale");
     }
     bounding_box_.extend(vertices_[i]);
   }

@@ -3,9 +3,12 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <string_view>
+#include <system_error>
 
+#include "concave_distance/base/coordinate_limit.h"
 #include "concave_distance/base/error.h"
 
 namespace concave_distance {
@@ -63,9 +66,23 @@ QueryPose parseLine(std::string_view line, const std::string& where) {
   return {values[0], {values[1], values[2], values[3]}, {values[4], values[5], values[6], values[7]}};
 }
 
+// A device may never end, and a pipe that nobody writes into is waited for; one that the shell has opened
+// (/dev/stdin, /dev/fd/63 of <(...)) is fine.
+void requireReadableFile(const std::string& path) {
+  namespace fs = std::filesystem;
+  std::error_code failure;
+  const fs::file_status status = fs::status(path, failure);
+  const bool opened_by_the_shell = path == "/dev/stdin" || path.rfind("/dev/fd/", 0) == 0;
+  if (!fs::exists(status) || fs::is_regular_file(status) || (fs::is_fifo(status) && opened_by_the_shell)) {
+    return;
+  }
+  throw Error(path, "it is no regular file", "name a file, not a folder, a device or a pipe");
+}
+
 }  // namespace
 
 std::vector<QueryPose> readQueryPoses(const std::string& path) {
+  requireReadableFile(path);
   std::ifstream stream(path);
   if (!stream) throw Error(path, "the file cannot be read", "check the path and the rights on it");
   std::vector<QueryPose> poses;
@@ -98,7 +115,9 @@ std::vector<QueryPose> readQueryPoses(const std::string& path) {
 
 std::optional<Eigen::Isometry3d> poseOf(const QueryPose& query) {
   const double norm = query.quaternion.norm();
-  if (!query.position.allFinite() || !(std::abs(norm - 1.0) <= kNormTolerance)) return std::nullopt;
+  if (!query.position.allFinite() || query.position.cwiseAbs().maxCoeff() > kLargestCoordinate ||
+      !(std::abs(norm - 1.0) <= kNormTolerance))
+    return std::nullopt;
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.linear() = Eigen::Quaterniond(Eigen::Vector4d(query.quaternion / norm)).toRotationMatrix();
   pose.translation() = query.position;

@@ -2,12 +2,15 @@
 
 #include <algorithm>
 
+#include "concave_distance/base/coordinate_limit.h"
+
 namespace concave_distance {
 
 std::optional<Eigen::Isometry3d> rigidPose(const Eigen::Isometry3d& pose) {
   constexpr double kOrthonormalTolerance = 1e-3;
   const Eigen::Matrix3d rotation = pose.linear();
-  if (!pose.matrix().allFinite() || rotation.determinant() <= 0.0 ||
+  if (!pose.matrix().allFinite() || pose.translation().cwiseAbs().maxCoeff() > kLargestCoordinate ||
+      rotation.determinant() <= 0.0 ||
       !((rotation.transpose() * rotation - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() <=
         kOrthonormalTolerance)) {
     return std::nullopt;

@@ -22,6 +22,16 @@ TEST(RigidPose, RefusesWhatIsNoRotation) {
   EXPECT_FALSE(rigidPose(pose));
 }
 
+TEST(RigidPose, RefusesTranslationsWhoseProductsOverflow) {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  for (const double far : {1.1e18, 1e154, 1e200, std::numeric_limits<double>::infinity()}) {
+    pose.translation().y() = -far;
+    EXPECT_FALSE(rigidPose(pose)) << far;
+  }
+  pose.translation().y() = -1e18;
+  EXPECT_TRUE(rigidPose(pose));
+}
+
 TEST(RigidPose, MendsRounding) {
   Eigen::Isometry3d pose(Eigen::AngleAxisd(0.7, Eigen::Vector3d(1.0, 2.0, 3.0).normalized()));
   pose.linear() *= 1.0001;
