@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "concave_distance/distance/triangle_distance.h"
+#include "support/case_seed.h"
 #include "support/exact_triangle_distance.h"
 #include "support/triangle_pairs.h"
 
@@ -22,7 +23,7 @@ constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 int pairsPerFamily() {
   const char* const wanted = std::getenv("CONCAVE_DISTANCE_ACCURACY_PAIRS");
-  return wanted == nullptr ? 1000 : std::max(1, std::atoi(wanted));
+  return wanted == nullptr ? test::caseCount(1000) : std::max(1, std::atoi(wanted));
 }
 
 std::string corners(const test::TrianglePair& pair) {
@@ -44,7 +45,7 @@ double featureError(const TrianglePairDistance& result, const test::TrianglePair
 class EveryFamily : public testing::TestWithParam<test::TrianglePairFamily> {};
 
 TEST_P(EveryFamily, StaysWithinTheStatedBounds) {
-  RandomEngine engine(20240229);
+  RandomEngine engine(test::caseSeed(20240229));
   double worst_distance = 0.0;
   double worst_witness = 0.0;
   const int count = pairsPerFamily();
@@ -67,8 +68,8 @@ TEST_P(EveryFamily, StaysWithinTheStatedBounds) {
 }
 
 TEST_P(EveryFamily, SwappingBodiesAndCornersKeepsTheDistance) {
-  RandomEngine engine(5);
-  for (int i = 0; i < 1000; ++i) {
+  RandomEngine engine(test::caseSeed(5));
+  for (int i = 0; i < test::caseCount(1000); ++i) {
     const auto [a, b] = GetParam().draw(engine);
     const double d = std::sqrt(triangleDistance(a, b).squared_distance);
     const double bound = 2.0 * kTriangleDistanceError * test::largestCoordinate(a, b);
@@ -79,8 +80,8 @@ TEST_P(EveryFamily, SwappingBodiesAndCornersKeepsTheDistance) {
 }
 
 TEST_P(EveryFamily, ScalingByAPowerOfTwoScalesTheAnswerExactly) {
-  RandomEngine engine(6);
-  for (int i = 0; i < 500; ++i) {
+  RandomEngine engine(test::caseSeed(6));
+  for (int i = 0; i < test::caseCount(500); ++i) {
     const auto [a, b] = GetParam().draw(engine);
     const TrianglePairDistance one = triangleDistance(a, b);
     for (const double factor : {0x1p-20, 0x1p20}) {
@@ -92,8 +93,8 @@ TEST_P(EveryFamily, ScalingByAPowerOfTwoScalesTheAnswerExactly) {
 }
 
 TEST_P(EveryFamily, PointTriangleDistanceStaysWithinTheStatedBounds) {
-  RandomEngine engine(7);
-  for (int i = 0; i < 500; ++i) {
+  RandomEngine engine(test::caseSeed(7));
+  for (int i = 0; i < test::caseCount(500); ++i) {
     const test::TrianglePair pair = GetParam().draw(engine);
     const Vector3d& point = pair.second[0];
     const PointTriangleDistance result = pointTriangleDistance(point, pair.first);
@@ -118,8 +119,8 @@ INSTANTIATE_TEST_SUITE_P(TriangleDistance, EveryFamily, testing::ValuesIn(test::
 TEST(TriangleDistance, TenThousandPairsMeetTheKarushKuhnTuckerConditions) {
   // Optimal if and only if neither triangle reaches across the plane through its witness, normal to the
   // direction between the witnesses. The direction is wrong by the witnesses' errors over the distance.
-  RandomEngine engine(8);
-  for (int i = 0; i < 10000; ++i) {
+  RandomEngine engine(test::caseSeed(8));
+  for (int i = 0; i < test::caseCount(10000); ++i) {
     const test::TrianglePair pair = test::generalPair(engine);
     const TrianglePairDistance result = triangleDistance(pair.first, pair.second);
     const double d = std::sqrt(result.squared_distance);
@@ -135,8 +136,8 @@ TEST(TriangleDistance, TenThousandPairsMeetTheKarushKuhnTuckerConditions) {
 }
 
 TEST(TriangleDistance, ScalesFromMicrometresToThousandsOfKilometres) {
-  RandomEngine engine(9);
-  for (int i = 0; i < 1000; ++i) {
+  RandomEngine engine(test::caseSeed(9));
+  for (int i = 0; i < test::caseCount(1000); ++i) {
     const double scale = test::powerOfTen(engine, -6, 6);
     test::TrianglePair pair = test::touchingPair(engine);
     pair = {test::scaled(pair.first, scale), test::scaled(pair.second, scale)};
@@ -147,8 +148,8 @@ TEST(TriangleDistance, ScalesFromMicrometresToThousandsOfKilometres) {
 }
 
 TEST(ExactTriangleDistance, AgreesWithRationalArithmetic) {
-  RandomEngine engine(10);
-  for (int i = 0; i < 300; ++i) {
+  RandomEngine engine(test::caseSeed(10));
+  for (int i = 0; i < test::caseCount(300); ++i) {
     const test::TrianglePair pair = i % 2 == 0 ? test::latticePair(engine) : test::touchingPair(engine);
     const test::Rational exact = test::exactSquaredDistance<test::Rational>(pair.first, pair.second);
     const test::Wide wide = test::exactSquaredDistance<test::Wide>(pair.first, pair.second);

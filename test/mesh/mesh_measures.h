@@ -111,16 +111,18 @@ inline double smallestAngle(const SurfaceMesh& mesh) {
 }
 
 /// By projection and clamping (Ericson, Real-Time Collision Detection, 5.1.5).
-inline double distanceToTriangle(const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-                                 const Eigen::Vector3d& c) {
-  const auto toSegment = [&p](const Eigen::Vector3d& u, const Eigen::Vector3d& v) {
-    const double s = std::clamp((p - u).dot(v - u) / (v - u).squaredNorm(), 0.0, 1.0);
-    return (p - (u + s * (v - u))).norm();
+template <typename Scalar>
+Scalar distanceToTriangle(const Eigen::Matrix<Scalar, 3, 1>& p, const Eigen::Matrix<Scalar, 3, 1>& a,
+                          const Eigen::Matrix<Scalar, 3, 1>& b, const Eigen::Matrix<Scalar, 3, 1>& c) {
+  using Vector = Eigen::Matrix<Scalar, 3, 1>;
+  const auto toSegment = [&p](const Vector& u, const Vector& v) {
+    const Scalar s = std::clamp<Scalar>((p - u).dot(v - u) / (v - u).squaredNorm(), Scalar(0), Scalar(1));
+    return Scalar((p - (u + s * (v - u))).norm());
   };
-  const Eigen::Vector3d n = (b - a).cross(c - a);
-  const bool above = n.cross(b - a).dot(p - a) >= 0.0 && n.cross(c - b).dot(p - b) >= 0.0 &&
-                     n.cross(a - c).dot(p - c) >= 0.0;
-  if (above) return std::abs(n.normalized().dot(p - a));
+  const Vector n = (b - a).cross(c - a);
+  const bool above =
+      n.cross(b - a).dot(p - a) >= 0 && n.cross(c - b).dot(p - b) >= 0 && n.cross(a - c).dot(p - c) >= 0;
+  if (above) return std::abs(Scalar(n.normalized().dot(p - a)));
   return std::min({toSegment(a, b), toSegment(b, c), toSegment(c, a)});
 }
 

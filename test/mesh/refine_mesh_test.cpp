@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -24,6 +25,19 @@ SurfaceMesh surfaceOf(std::vector<Eigen::Vector3d> vertices,
   triangles.reserve(corners.size());
   for (const auto& c : corners) triangles.push_back({NodeIndex{c[0]}, NodeIndex{c[1]}, NodeIndex{c[2]}});
   return SurfaceMesh(std::move(vertices), std::move(triangles), "test surface");
+}
+
+using Vector3l = Eigen::Matrix<long double, 3, 1>;
+
+// Of test::distanceToTriangle in long double, of a point in the triangle's plane. With u the unit of rounding
+// and L the longest side, the normal n is off by at most 8 u L^2, and so is its direction by 8 u L^2 / |n|; a
+// point at most L away is measured wrong by L times that. Twice for the choice between face and sides, which
+// the same error decides, and twice for the rest.
+double errorOfDistanceToTriangle(const Vector3l& a, const Vector3l& b, const Vector3l& c) {
+  constexpr long double kUnit = std::numeric_limits<long double>::epsilon() / 2;
+  const long double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
+  const long double twice_area = (b - a).cross(c - a).norm();
+  return static_cast<double>(4 * 8 * kUnit * longest * longest * longest / twice_area);
 }
 
 rc::Gen<double> anyLimit() {
@@ -49,13 +63,18 @@ RC_GTEST_PROP(RefineMesh, KeepsEveryCornerOnItsOriginalTriangle, ()) {
   const SurfaceMesh surface = *test::anySurface();
   const RefinedMesh refined = refineToEdgeLength(surface, *anyLimit());
   RC_ASSERT(refined.original_triangle.size() == refined.mesh.triangleCount());
+  // Each coordinate of a midpoint is rounded once, by half an epsilon of 1; at most 20 deep.
+  const double corner_error = 20.0 * std::sqrt(3.0) * 0.5 * kEpsilon;
   for (std::size_t t = 0; t < refined.mesh.triangleCount(); ++t) {
     const TriangleIndex original = refined.original_triangle[t];
+    const auto corner = [&](int k) -> Vector3l { return surface.corner(original, k).cast<long double>(); };
+    const Vector3l a = corner(0);
+    const Vector3l b = corner(1);
+    const Vector3l c = corner(2);
+    const double bound = corner_error + errorOfDistanceToTriangle(a, b, c);
     for (int k = 0; k < 3; ++k) {
-      // A bisection adds half a unit of rounding of the largest coordinate (2 here); at most 20 deep.
-      RC_ASSERT(test::distanceToTriangle(refined.mesh.corner(TriangleIndex{t}, k),
-                                         surface.corner(original, 0), surface.corner(original, 1),
-                                         surface.corner(original, 2)) <= 20.0 * 2.0 * kEpsilon);
+      const Vector3l point = refined.mesh.corner(TriangleIndex{t}, k).cast<long double>();
+      RC_ASSERT(static_cast<double>(test::distanceToTriangle(point, a, b, c)) <= bound);
     }
   }
 }

@@ -1,0 +1,66 @@
+#!/usr/bin/env bash
+# Runs every property test on cases that no run has seen: a new seed, 20,000 cases each. scripts/test.sh draws the same
+# hundred each time. Programs that are missing in build/ are built.
+#   scripts/fresh_tests.sh [--cases N] [--seed N] [program ...]      (default: 20000, drawn, every program)
+# What failed is printed with the seed and the case; the last line is `N passed, N failed`, counted in properties.
+# To repeat one: RC_PARAMS="seed=N max_success=N" build/test/bin/<program> --gtest_filter=<property>
+set -euo pipefail
+# shellcheck source=scripts/common.sh
+. "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+
+cases=20000
+seed="$(od -An -N4 -tu4 /dev/urandom | tr -d ' ')"
+programs=()
+while [ $# -gt 0 ]; do
+  case "$1" in
+    --cases) cases="$2" && shift ;;
+    --seed) seed="$2" && shift ;;
+    -*) die "unknown option '$1'" ;;
+    *) programs+=("$1") ;;
+  esac
+  shift
+done
+
+test_dir="$package_dir/test"
+# Of this one every test is a property; it draws with the package's own engine (test/support/case_seed.h).
+own=triangle_distance_accuracy_test
+if [ ${#programs[@]} -eq 0 ]; then
+  mapfile -t programs < <(sed -n 's/^target_link_libraries(\(\w*\) PRIVATE concave_distance_property_tests.*/\1/p' \
+    "$test_dir"/*/CMakeLists.txt | sort)
+  programs+=("$own")
+fi
+properties="$(sed -n 's/^RC_GTEST_PROP(\(\w*\), *\(\w*\),.*/\1.\2/p' "$test_dir"/*/*.cpp | paste -sd:)"
+
+missing=()
+for program in "${programs[@]}"; do
+  [ -x "$build_dir/test/bin/$program" ] || missing+=("$program")
+done
+if [ ${#missing[@]} -gt 0 ]; then
+  [ -f "$build_dir/CMakeCache.txt" ] || die "there is no build in $build_dir: run scripts/test.sh first"
+  cmake --build "$build_dir" --parallel "$(job_count)" --target "${missing[@]}"
+fi
+
+results="$build_dir/fresh_test_results"
+rm -rf "$results"
+mkdir -p "$results"
+say "seed $seed, $cases cases each"
+export RC_PARAMS="seed=$seed max_success=$cases" XDG_CACHE_HOME="$build_dir/test_cache"
+export CONCAVE_DISTANCE_FRESH_SEED="$seed" CONCAVE_DISTANCE_FRESH_CASES="$cases"
+passed=0
+failed=0
+for program in "${programs[@]}"; do
+  log="$results/$program.log"
+  status=0
+  filter="$properties"
+  [ "$program" != "$own" ] || filter='*'
+  "$build_dir/test/bin/$program" --gtest_filter="$filter" >"$log" 2>&1 || status=$?
+  good="$(grep -c '^\[       OK \]' "$log" || true)"
+  bad="$(grep -c '^\[  FAILED  \] .*ms)$' "$log" || true)"
+  [ "$status" -eq 0 ] || [ "$bad" -gt 0 ] || bad=1 # it crashed
+  say "$program: $good passed, $bad failed"
+  [ "$bad" -eq 0 ] || cat "$log"
+  passed=$((passed + good))
+  failed=$((failed + bad))
+done
+echo "$passed passed, $failed failed"
+[ "$failed" -eq 0 ]
