@@ -23,7 +23,7 @@ class NearestTest : public ::testing::Test {
     place(buffer, "b", 2.0, now);
     place(buffer, "c", -3.0, now);
   }
-  Nearest answer(const tf2::BufferCore& transforms) {
+  Nearest answer(const TransformBuffer& transforms) {
     DistanceCycle cycle(transforms, {"world", 1.0, 1});
     cycle.setScene(scene);
     cycle.run({kDistance, kDistance}, now);
@@ -32,7 +32,7 @@ class NearestTest : public ::testing::Test {
   Nearest answer() { return answer(buffer); }
 
   const ros::Time now{100, 0};
-  tf2::BufferCore buffer;
+  TransformBuffer buffer = timelessBuffer();
   Scene scene = threeBoxes();
 };
 
@@ -53,7 +53,7 @@ TEST_F(NearestTest, NamesTheNearestPairWithItsDistance) {
 }
 
 TEST_F(NearestTest, HasNoNumberWhileAPairHasNoTransform) {
-  tf2::BufferCore without_c;
+  TransformBuffer without_c = timelessBuffer();
   place(without_c, "a", 0.0, now);
   place(without_c, "b", 2.0, now);
   const Nearest nearest = answer(without_c);
@@ -69,7 +69,7 @@ TEST_F(NearestTest, HasNoNumberWhileAPairHasNoTransform) {
 }
 
 TEST_F(NearestTest, PenetratingIsZeroWhateverTheOtherPairsAre) {
-  tf2::BufferCore without_c;
+  TransformBuffer without_c = timelessBuffer();
   place(without_c, "a", 0.0, now);
   place(without_c, "b", 0.5, now);
   const Nearest nearest = answer(without_c);
