@@ -155,6 +155,6 @@ int main(int argc, char** argv) {
   spinner.start();
   const int result = RUN_ALL_TESTS();
   std::error_code ignored;
-  fs::remove_all(kFolder, ignored);
+  std::filesystem::remove_all(concave_distance::kFolder, ignored);
   return result;
 }
