@@ -68,7 +68,7 @@ def frame_that_does_not_exist(arena):
 
 
 for key, value in {"nan": NAN, "inf": INF, "minus_inf": -INF, "1e308": 1e308, "1e200": 1e200}.items():
-    refuse("position_" + key, ("pose", "position"), pose__position__x=value)
+    refuse("position_" + key, ("pose", "position", "reaches"), pose__position__x=value)
 for key, value in {"nan": NAN, "inf": INF, "two": 2.0, "1e308": 1e308, "denormal": 5e-324}.items():
     refuse("quaternion_" + key, ("quaternion", "rotation", "orientation", "pose"), pose__orientation__w=value)
 
@@ -87,9 +87,10 @@ refuse("neither_mesh_nor_primitive", ("mesh", "primitive"), primitive="")
 refuse("mesh_and_primitive", ("mesh", "primitive"), mesh_resource=HOOK)
 SIZES = {"zero": 0.0, "negative": -1.0, "nan": NAN, "inf": INF, "1e300": 1e300, "1e200": 1e200}
 for key, value in SIZES.items():
-    refuse("box_" + key, ("dimensions", "size", "box"), dimensions=[value, 1.0, 1.0])
-    refuse("sphere_" + key, ("dimensions", "radius", "sphere"), primitive="sphere", dimensions=[value])
-    refuse("cylinder_length_" + key, ("dimensions", "length", "cylinder"), primitive="cylinder", dimensions=[0.1, value])
+    refuse("box_" + key, ("dimensions", "size", "box", "reaches"), dimensions=[value, 1.0, 1.0])
+    refuse("sphere_" + key, ("dimensions", "radius", "sphere", "reaches"), primitive="sphere", dimensions=[value])
+    refuse("cylinder_length_" + key, ("dimensions", "length", "cylinder", "reaches"), primitive="cylinder",
+           dimensions=[0.1, value])
 
 
 def tiny(arena, right_distance, **fields):
@@ -124,7 +125,8 @@ answer("box_needle", dimensions=[1e-9, 1e-9, 1e6])
 answer("cylinder_sheet", primitive="cylinder", dimensions=[1e3, 1e-9])
 for key, value in {"negative": -1.0, "nan": NAN}.items():
     refuse("max_edge_length_" + key, ("max_edge_length",), max_edge_length=value)
-    refuse("chord_error_" + key, ("chord_error", "chord error"), primitive="sphere", dimensions=[0.1], chord_error=value)
+    refuse("chord_error_" + key, ("chord_error", "chord error"), primitive="sphere", dimensions=[0.1],
+           chord_error=value)
 for key, value in {"2_mm_on_a_metre": 0.002, "1e-9": 1e-9, "denormal": 5e-324, "1e300": 1e300}.items():
     answer("max_edge_length_" + key, dimensions=[1.0, 1.0, 1.0], max_edge_length=value, deadline=20.0)
 for key, value in {"1e-9": 1e-9, "denormal": 5e-324, "1e300": 1e300, "inf": INF}.items():
