@@ -43,7 +43,7 @@ class Picture {
       pair.name = "middle/box_" + std::to_string(k + 1);
       pair.body_b = k + 1;
       scene_.pairs.push_back(pair);
-      pairs_.push_back(std::make_unique<TrackedPair>(scene_, scene_.pairs[k], "world", 0));
+      pairs_.push_back(std::make_unique<TrackedPair>(scene_, k, "world", 0));
       solve(k);
     }
     header_.frame_id = "world";
@@ -60,7 +60,6 @@ class Picture {
   void wait(double seconds) { header_.stamp += ros::Duration(seconds); }
   SceneMarkers& drawing() { return drawing_; }
   std::vector<LocatedBody> bodies() const { return locateBodies(scene_, pairs_); }
-  Scene& scene() { return scene_; }
 
   MarkerStyle style;
 
@@ -312,16 +311,21 @@ TEST(SceneMarkers, AreAllDeletedWhenNothingIsToBeDrawn) {
   EXPECT_TRUE(picture.drawing().empty());
 }
 
-TEST(SceneMarkers, ABodyThatLeavesTheSceneTakesItsTintAlong) {
-  Picture picture(3);
-  picture.warn(2, true);
-  ASSERT_EQ(withKind(picture.draw(), "warning").size(), 2U);
-  picture.warn(2, false);
-  picture.scene().bodies[3].name = "another";
-  picture.warn(2, true);
-  const MarkerArray message = picture.draw();
-  ASSERT_EQ(withKind(message, "warning").size(), 1U);
-  EXPECT_EQ(withKind(message, "warning").front().id, 3);
+TEST(WarningTints, ABodyThatTakesAnothersNumberTakesItsTintOver) {
+  Scene scene;
+  scene.bodies.push_back(box("first", 1.0));
+  Scene other;
+  other.bodies.push_back(box("second", 1.0));
+  WarningTints tints;
+  EXPECT_EQ(tints.update(scene, {0}, 0.0, 1.0, ros::Time(100.0)).size(), 1U);
+  const std::vector<Marker> markers = tints.update(other, {0}, 0.0, 1.0, ros::Time(100.1));
+  ASSERT_EQ(markers.size(), 2U);
+  EXPECT_EQ(markers[0].action, Marker::DELETE);
+  EXPECT_EQ(markers[0].header.frame_id, "first");
+  EXPECT_EQ(markers[1].action, Marker::ADD);
+  EXPECT_EQ(markers[1].header.frame_id, "second");
+  EXPECT_EQ(tints.update(Scene(), {}, 0.0, 1.0, ros::Time(100.2)).size(), 1U) << "deleted";
+  EXPECT_TRUE(tints.empty());
 }
 
 }  // namespace
