@@ -18,6 +18,10 @@ namespace {
 // Above the numbers that the child gets, so that no dup2 replaces a descriptor that a later one copies.
 constexpr int kFirstOwnDescriptor = 16;
 
+using Clock = std::chrono::steady_clock;
+constexpr std::chrono::milliseconds kStopPeriod(50);  // between two looks at the stop flag
+constexpr std::chrono::milliseconds kLongestPoll(60'000);
+
 [[noreturn]] void fail(int error, const std::string& what) {
   throw std::system_error(error, std::generic_category(), what);
 }
@@ -79,10 +83,10 @@ class SpawnSettings {
 }  // namespace
 
 ChildProcess::ChildProcess(const std::string& program, const std::vector<std::string>& arguments, int input,
-                           int input_number, int output_number, double seconds)
-    : deadline_(std::chrono::steady_clock::now() +
-                std::chrono::duration_cast<std::chrono::steady_clock::duration>(
-                    std::chrono::duration<double>(seconds))) {
+                           int input_number, int output_number, double seconds, const std::atomic<bool>* stop)
+    : deadline_(Clock::now() +
+                std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds))),
+      stop_(stop) {
   int ends[2] = {-1, -1};
   if (pipe2(ends, O_CLOEXEC) != 0) fail(errno, "a pipe");
   try {
@@ -107,15 +111,13 @@ ChildProcess::~ChildProcess() {
 
 bool ChildProcess::waitForOutput() {
   for (;;) {
-    const auto left =
-        std::chrono::ceil<std::chrono::milliseconds>(deadline_ - std::chrono::steady_clock::now());
-    if (left.count() <= 0) {
-      end_.was_late = true;
-      return false;
-    }
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline_ - Clock::now());
+    end_.was_late = left.count() <= 0;
+    end_.was_stopped = stop_ != nullptr && *stop_;
+    if (end_.was_late || end_.was_stopped) return false;
+    const auto wait = std::min(left, stop_ != nullptr ? kStopPeriod : kLongestPoll);
     pollfd output{output_, POLLIN, 0};
-    const int ready =
-        poll(&output, 1, static_cast<int>(std::min<std::chrono::milliseconds::rep>(left.count(), 60'000)));
+    const int ready = poll(&output, 1, static_cast<int>(wait.count()));
     if (ready > 0) return true;
     if (ready < 0 && errno != EINTR) return false;
   }

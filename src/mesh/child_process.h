@@ -1,6 +1,7 @@
 #pragma once
 
 #include <sys/types.h>
+#include <atomic>
 #include <chrono>
 #include <cstddef>
 #include <string>
@@ -10,9 +11,10 @@ namespace concave_distance::detail {
 
 /// How a child process ended.
 struct ChildEnd {
-  bool was_late = false;  ///< ended here at its deadline
-  bool is_known = false;  ///< false when this program's own handling of SIGCHLD took the status
-  int signal = 0;         ///< that ended it, 0: none
+  bool was_late = false;     ///< ended here at its deadline
+  bool was_stopped = false;  ///< ended here because of the stop flag
+  bool is_known = false;     ///< false when this program's own handling of SIGCHLD took the status
+  int signal = 0;            ///< that ended it, 0: none
   int exit_status = 0;
 };
 
@@ -20,10 +22,11 @@ struct ChildEnd {
 /// /dev/null, its signals those of a fresh program. It has ended when this object goes.
 class ChildProcess {
  public:
+  /// @param stop ends it like the deadline when it becomes true; nullptr: none
   /// @param input becomes the child's `input_number`, the pipe its `output_number`
   /// @throws std::system_error when it cannot be started
   ChildProcess(const std::string& program, const std::vector<std::string>& arguments, int input,
-               int input_number, int output_number, double seconds);
+               int input_number, int output_number, double seconds, const std::atomic<bool>* stop);
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
   ~ChildProcess();
@@ -34,12 +37,13 @@ class ChildProcess {
   ChildEnd end();
 
  private:
-  /// Until there is something to read; false at the deadline.
+  /// Until there is something to read; false at the deadline or when it is stopped.
   bool waitForOutput();
 
   int output_ = -1;
   pid_t pid_ = -1;
   std::chrono::steady_clock::time_point deadline_;
+  const std::atomic<bool>* stop_;
   ChildEnd end_;
 };
 

@@ -19,6 +19,7 @@
 namespace concave_distance::detail {
 namespace {
 
+constexpr double kLongestTime = 1e9;  // s, fits every clock
 constexpr const char* kReinstall =
     "build and install the whole package, or set CONCAVE_DISTANCE_IMPORT_WORKER to the path of its "
     "mesh_import_worker";
@@ -61,6 +62,7 @@ Error garbled(const std::string& path) {
 /// Why there is no whole answer.
 Error describeEnd(const std::string& path, const std::string& worker, const ChildEnd& end,
                   const MeshImportLimits& limits) {
+  if (end.was_stopped) return {path, "reading it was interrupted", "try again"};
   if (end.was_late || end.signal == SIGXCPU) return tooMuchTime(path, limits);
   if (!end.is_known) return {path, "the process that read it ended without an answer", kExportAgain};
   if (end.signal == SIGKILL) {
@@ -132,11 +134,13 @@ std::string importWorkerPath() {
 }
 
 TriangleSoup importInProcess(const std::string& worker_path, const MeshFile& file,
-                             const Eigen::Vector3d& scale, const MeshImportLimits& limits) {
+                             const Eigen::Vector3d& scale, const MeshImportLimits& wanted) {
+  MeshImportLimits limits = wanted;
+  limits.seconds = std::min(wanted.seconds, kLongestTime);
   if (file.size() > limits.memory) throw tooMuchMemory(file.path(), limits);
   try {
     ChildProcess worker(worker_path, argumentsOf(file, scale, limits), file.descriptor(), kMeshDescriptor,
-                        kResultDescriptor, limits.seconds);
+                        kResultDescriptor, limits.seconds, limits.stop);
     ImportHeader header;
     TriangleSoup soup;
     if (!worker.read(&header, sizeof header))

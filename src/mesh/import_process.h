@@ -18,6 +18,6 @@ std::string importWorkerPath();
 /// or throws, and leaves neither a zombie nor a descriptor, whatever this program does with SIGCHLD.
 /// @throws Error as importMesh
 TriangleSoup importInProcess(const std::string& worker_path, const MeshFile& file,
-                             const Eigen::Vector3d& scale, const MeshImportLimits& limits);
+                             const Eigen::Vector3d& scale, const MeshImportLimits& wanted);
 
 }  // namespace concave_distance::detail

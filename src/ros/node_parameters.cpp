@@ -76,9 +76,9 @@ MarkerStyle readMarkers(ParameterReader& reader, MarkerStyle style) {
   style.niche_count = reader.count("marker_niche_count", style.niche_count, 0, 1'000'000);
   style.legend = reader.flag("show_legend", style.legend);
   if (style.far != 0.0 && style.far <= style.near) {
-    throw Error("~marker_far", "the value is " + std::to_string(style.far),
-                "allowed: more than ~marker_near, which is " + std::to_string(style.near) +
-                    ", or 0 for automatic");
+    throw Error(
+        "~marker_far", "the value is " + std::to_string(style.far),
+        "allowed: more than ~marker_near, which is " + std::to_string(style.near) + ", or 0 for automatic");
   }
   return style;
 }
@@ -95,8 +95,11 @@ MeshRoots readMeshRoots(ParameterReader& reader, const std::string& scene_file) 
 }
 
 MeshImportLimits importLimits(const NodeLimits& limits) {
-  return {limits.import_memory_mb * std::size_t{1'000'000}, limits.import_seconds,
-          limits.largest_triangle_count};
+  MeshImportLimits import;
+  import.memory = limits.import_memory_mb * std::size_t{1'000'000};
+  import.seconds = limits.import_seconds;
+  import.largest_triangle_count = limits.largest_triangle_count;
+  return import;
 }
 
 }  // namespace

@@ -107,6 +107,7 @@ bool SceneServices::addBody(AddBody::Request& request, AddBody::Response& respon
     // Reading the mesh may take seconds: outside the edit.
     BodyDescription description = toBodyDescription(request);
     description.mesh_access = mesh_access_;
+    description.mesh_access.limits.stop = &gate_.stopped();
     SceneBody body = loadBody(description, "", package_locator_, scene->pool,
                               request.primitive.empty() ? scene->cache : nullptr, scene->limits);
     body.colour = toColour(request.color, body.colour);

@@ -5,11 +5,13 @@
 #include <unistd.h>
 
 #include <array>
+#include <atomic>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <limits>
 #include <string>
+#include <thread>
 
 #include "concave_distance/base/error.h"
 #include "concave_distance/mesh/export_mesh.h"
@@ -117,6 +119,21 @@ TEST_F(ImportProcess, AHangIsARefusal) {
   EXPECT_TRUE(says(refusalOf(script("cat '" + answer + "' >&4; exec sleep 1000"), limits), "more than 0.3"));
 }
 
+TEST_F(ImportProcess, AStopFlagEndsIt) {
+  std::atomic<bool> stop{false};
+  MeshImportLimits limits;
+  limits.seconds = 1e6;
+  limits.stop = &stop;
+  EXPECT_EQ(import(detail::importWorkerPath(), limits).triangles.size(), 4U);
+  const std::string started = folder_.path("started");
+  std::thread other([&] {
+    while (!std::filesystem::exists(started)) std::this_thread::yield();
+    stop = true;
+  });
+  EXPECT_TRUE(says(refusalOf(script("touch '" + started + "'; exec sleep 1000"), limits), "interrupted"));
+  other.join();
+}
+
 TEST_F(ImportProcess, AWorkerThatClosesItsAnswerAndGoesOnIsEnded) {
   const std::string refusal = refusalOf(script("exec 4>&-; exec sleep 1000"));
   EXPECT_TRUE(says(refusal, "ended") || says(refusal, "no answer")) << refusal;
@@ -165,11 +182,14 @@ TEST_F(ImportProcess, AMissingWorkerIsNamedWithTheRemedy) {
 }
 
 TEST_F(ImportProcess, TheEnvironmentMayNameTheWorker) {
+  const char* variable = "CONCAVE_DISTANCE_IMPORT_WORKER";
+  const char* set = std::getenv(variable);
+  const std::string before = set == nullptr ? "" : set;
   const std::string usual = detail::importWorkerPath();
   EXPECT_TRUE(std::filesystem::is_regular_file(usual)) << usual;
-  ASSERT_EQ(setenv("CONCAVE_DISTANCE_IMPORT_WORKER", "/somewhere/else", 1), 0);
+  ASSERT_EQ(setenv(variable, "/somewhere/else", 1), 0);
   EXPECT_EQ(detail::importWorkerPath(), "/somewhere/else");
-  unsetenv("CONCAVE_DISTANCE_IMPORT_WORKER");
+  setenv(variable, before.c_str(), 1);  // an empty one counts as none
 }
 
 TEST_F(ImportProcess, HoldsTheLimits) {
