@@ -13,8 +13,9 @@
 namespace concave_distance {
 namespace {
 
-// Local minima that a warm cycle meets at the most, as a rule; buffers grow with more.
-constexpr std::size_t kUsualMinima = 128;
+// What a warm cycle meets at the most, as a rule; buffers grow with more.
+constexpr std::size_t kUsualMinima = 1024;
+constexpr std::size_t kUsualNiches = 256;
 
 double seconds(std::chrono::steady_clock::duration duration) {
   return std::chrono::duration<double>(duration).count();
@@ -29,7 +30,7 @@ TrackerState::TrackerState(std::string pair_name, std::shared_ptr<const BodyMesh
       parameters(given),
       search(*geometry.a, *geometry.b) {
   parameters.validate(name);
-  proof.workspace.open.reserve(kUsualMinima);
+  proof.workspace.open.reserve(kUsualNiches);
 }
 
 // Not before a search needs it: a proof alone does without the bodies' grids and most of the memory.
@@ -39,8 +40,8 @@ void TrackerState::prepareSearch() {
   // So large that a warm cycle does not have to grow them; a cold one may.
   search.reserve(kUsualMinima);
   known.reserve(kUsualMinima);
-  candidates.reserve(kUsualMinima);
-  archive.reserve(kUsualMinima);
+  candidates.reserve(kUsualNiches);
+  archive.reserve(kUsualNiches);
   ripples.allocate();
   cold_radii = automaticRadii(*geometry.a, *geometry.b, parameters.cold);
   warm_radii = automaticRadii(*geometry.a, *geometry.b, parameters.warm);

@@ -15,7 +15,10 @@ class BasinMemory {
  public:
   /// @param capacity_log2 of the pairs' table, see NodePairMap
   explicit BasinMemory(std::uint32_t capacity_log2 = 12) : minimum_of_pair_(capacity_log2) {}
-  void reserve(std::size_t minima) { minima_.reserve(minima); }
+  void reserve(std::size_t minima) {
+    minima_.reserve(minima);
+    minimum_of_pair_.reserve(kUsualPairsLog2);
+  }
   void clear();  ///< forgets all; call once a cycle
   /// Index into minima() or -1.
   std::int64_t find(NodeIndex node_a, NodeIndex node_b) const;
@@ -28,6 +31,7 @@ class BasinMemory {
   std::size_t memoryBytes() const;
 
  private:
+  static constexpr std::uint32_t kUsualPairsLog2 = 12;
   NodePairMap minimum_of_pair_;
   std::vector<TrialPoint> minima_;
 };

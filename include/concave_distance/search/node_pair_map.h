@@ -16,6 +16,10 @@ class NodePairMap {
 
   /// @param capacity_log2 the table starts with 2^capacity_log2 slots of 16 bytes; in [1, 31]
   explicit NodePairMap(std::uint32_t capacity_log2 = 10);
+  /// Grows to at least 2^capacity_log2 slots.
+  void reserve(std::uint32_t capacity_log2) {
+    while (slots_.size() < std::size_t{1} << capacity_log2) grow();
+  }
   void clear();
   std::uint32_t find(NodeIndex node_a, NodeIndex node_b) const;  ///< kAbsent when it is not there
   /// Keeps the number a pair has already. Returns the number the pair has now.

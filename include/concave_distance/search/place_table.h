@@ -21,6 +21,7 @@ class PlaceTable {
   /// Room for so many places, and for the distances between the first `compared` of them.
   void reserve(std::size_t places, std::size_t compared) {
     points_.reserve(places);
+    place_of_pair_.reserve(kUsualPlacesLog2);
     delta_.reserve(compared * compared / 2);
   }
   /// Forgets all and gives back the memory of distances beyond the first `compared` places.
@@ -50,6 +51,7 @@ class PlaceTable {
   // Distances between the first places are kept: 2 MB. A run that meets more computes the others each time.
   static constexpr std::uint32_t kPlacesWithDistances = 1024;
 
+  static constexpr std::uint32_t kUsualPlacesLog2 = 10;
   double measure(std::uint32_t i, std::uint32_t j, PairMetric& metric);
 
   NodePairMap place_of_pair_{6};
