@@ -208,6 +208,7 @@ bool DistanceCycle::locate(TrackedPair& pair, const tf2::BufferCore& buffer, ros
 
 // Together, before they are needed one by one: grids and metrics of bodies whose niches are searched first.
 void DistanceCycle::prepareSearches() {
+  if (options_.stop != nullptr && *options_.stop) return;
   to_prepare_.clear();
   for (const TrackedPair* pair : to_solve_) {
     if (!pair->must_solve || (!pair->demand.niches && provesDistance(pair->settings.tracker.accuracy))) {
@@ -247,6 +248,12 @@ void DistanceCycle::solveAll() {
 }
 
 void DistanceCycle::solve(TrackedPair& pair) {
+  if (options_.stop != nullptr && *options_.stop) {
+    pair.solved = false;
+    pair.status.code = PairStatus::DISABLED;
+    pair.status.message = "the node is shutting down";
+    return;
+  }
   pair.tracker->update(pair.solved_a_from_b, pair.heading.stamp.toSec(), pair.solution);
   pair.effects.update(pair.solution, pair.solved_a_from_b, pair.heading.stamp);
   pair.solved = true;

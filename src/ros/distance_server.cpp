@@ -76,7 +76,8 @@ DistanceServer::DistanceServer(const ros::NodeHandle& node, const ros::NodeHandl
       scene_services_(service_queues_, keeper_, restarts_, parameters_.reference_frame, rosPackagePath,
                       parameters_.mesh_access),
       runner_(transforms_, keeper_, publishers_, restarts_,
-              {parameters_.reference_frame, parameters_.stale_after, parameters_.threads}),
+              {parameters_.reference_frame, parameters_.stale_after, parameters_.threads,
+               &service_queues_.gate().stopped()}),
       // It would read ~diagnostic_period unchecked, again and again: it looks where there is none.
       updater_(node, ros::NodeHandle(private_node, "diagnostic_updater"), std::move(name)),
       body_markers_(private_node_.advertise<visualization_msgs::MarkerArray>("body_markers", 1, true)) {
@@ -183,7 +184,8 @@ void DistanceServer::reportMissingClock() {
 void DistanceServer::reportMissingFrames() {
   std::set<std::string> missing;
   const std::shared_ptr<const tf2::BufferCore> buffer = transforms_.current();
-  for (const SceneBody& body : keeper_.served()->scene->bodies) {
+  const std::shared_ptr<const ServedScene> served = keeper_.served();  // an edit must not end it meanwhile
+  for (const SceneBody& body : served->scene->bodies) {
     if (body.frame != parameters_.reference_frame &&
         !buffer->canTransform(parameters_.reference_frame, body.frame, ros::Time(0))) {
       missing.insert(body.frame);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 
 #include "box_scene.h"
@@ -48,6 +49,18 @@ TEST_F(DistanceCycleTest, SolvesWhatIsWatchedAndNothingElse) {
   EXPECT_EQ(report.cold, 1U);
   EXPECT_NEAR(pair(0).solution.distance, 1.0, kRounding);
   EXPECT_EQ(pair(1).tracker, nullptr);
+}
+
+TEST_F(DistanceCycleTest, SolvesNothingMoreWhenTheNodeShutsDown) {
+  std::atomic<bool> stop{false};
+  DistanceCycle stopped(buffer, {"world", 1.0, 1, &stop});
+  stopped.setScene(scene);
+  moveAll(0);
+  stop = true;
+  stopped.run({kNiches, kNiches}, at(0));
+  EXPECT_FALSE(stopped.pairs()[0]->solved);
+  EXPECT_EQ(stopped.pairs()[0]->status.code, PairStatus::DISABLED) << "not OK without an answer";
+  EXPECT_EQ(stopped.pairs()[0]->mesh_a->metricIfMade(), nullptr) << "nor is anything prepared";
 }
 
 TEST_F(DistanceCycleTest, RepeatsAnAnswerUntilNewTransformsCome) {
