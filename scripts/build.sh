@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Builds the package into build/ without a workspace; programs end in build/devel/lib/concave_distance.
-#   scripts/build.sh [programs|all] [cmake options ...]
-# programs (default): the core, the tools, the messages, the node; all: tests and benchmarks too.
+#   scripts/build.sh [demo|programs|all] [cmake options ...]
+# demo: the node, what moves the demos, the messages; programs (default): the tools besides; all: tests and benchmarks
+# too.
 set -euo pipefail
 # shellcheck source=scripts/common.sh
 . "$(dirname "${BASH_SOURCE[0]}")/common.sh"
@@ -9,15 +10,22 @@ source_ros
 
 what=programs
 case "${1:-}" in
-  programs | all) what="$1" && shift ;;
+  demo | programs | all) what="$1" && shift ;;
 esac
 
-generator=()
-if [ ! -f "$build_dir/CMakeCache.txt" ] && command -v ninja >/dev/null; then generator=(-G Ninja); fi
-cmake -S "$package_dir" -B "$build_dir" "${generator[@]}" "$@"
+first_options=()
+if [ ! -f "$build_dir/CMakeCache.txt" ]; then
+  if command -v ninja >/dev/null; then first_options+=(-G Ninja); fi
+  # Whoever builds the demos first wants to see them soon.
+  if [ "$what" = demo ]; then first_options+=(-DCONCAVE_DISTANCE_PRECOMPILED_HEADERS=ON); fi
+fi
+cmake -S "$package_dir" -B "$build_dir" "${first_options[@]}" "$@"
 
 target=()
-if [ "$what" = programs ]; then target=(--target concave_distance_programs); fi
+case "$what" in
+  demo) target=(--target concave_distance_demos) ;;
+  programs) target=(--target concave_distance_programs) ;;
+esac
 # Keep going after an error, so that one broken program does not hide the others.
 keep_going=(-k)
 if [ -f "$build_dir/build.ninja" ]; then keep_going=(-k 0); fi

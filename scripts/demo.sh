@@ -26,10 +26,10 @@ while [ $# -gt 0 ]; do
   shift
 done
 
-"$package_dir/scripts/install_dependencies.sh" build demo </dev/null
+"$package_dir/scripts/install_dependencies.sh" node demo </dev/null
 source_ros
 say "building (some minutes the first time)"
-"$package_dir/scripts/build.sh" programs -DCONCAVE_DISTANCE_WITH_ROS=ON </dev/null || die "the build failed: see the first error above"
+"$package_dir/scripts/build.sh" demo -DCONCAVE_DISTANCE_WITH_ROS=ON </dev/null || die "the build failed: see the first error above"
 set +u
 # shellcheck disable=SC1091
 . "$build_dir/devel/setup.bash"

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Installs what the package needs from the distribution's packages, only what is missing.
-#   scripts/install_dependencies.sh [build] [test] [demo] [plot] [format] [lint] [fuzz] [sanitize] [engines]  (default: build test demo)
+#   scripts/install_dependencies.sh [node] [build] [test] [demo] [plot] [format] [lint] [fuzz] [sanitize] [engines]  (default: build test demo)
+# node: what the node is built with; build: that, and what the other programs are built with.
 # Debian 12 has everything in its main archive. Ubuntu 20.04 needs the ROS Noetic archive set up beforehand.
 set -euo pipefail
 # shellcheck source=scripts/common.sh
@@ -8,16 +9,19 @@ set -euo pipefail
 
 # shellcheck disable=SC2034  # the arrays are used by name
 {
-  debian_build=(
+  debian_node=(
     g++ cmake ninja-build
     libassimp-dev libeigen3-dev libtbb-dev liburdfdom-dev libyaml-cpp-dev libcli11-dev
     libconsole-bridge-dev libtinyxml2-dev zlib1g-dev
-    libcgal-dev libalglib-dev libfcl-dev  # convex partition, constraint trees (CONCAVE_DISTANCE_WITH_CGAL)
     catkin python3-dynamic-reconfigure ros-message-generation ros-message-runtime
     libdiagnostic-updater-dev libdynamic-reconfigure-config-init-mutex-dev libgeometry-msgs-dev
     libinteractive-markers-dev libnodelet-dev libnodeletlib-dev libros-rosgraph-msgs-dev libroscpp-dev libroslib-dev libsensor-msgs-dev libstd-msgs-dev
     libstd-srvs-dev libtf2-dev libtf2-eigen-dev libtf2-ros-dev libvisualization-msgs-dev pluginlib-dev
     ros-geometry-msgs ros-sensor-msgs ros-std-msgs ros-std-srvs ros-visualization-msgs
+  )
+  debian_build=(
+    "${debian_node[@]}"
+    libcgal-dev libalglib-dev libfcl-dev  # convex partition, constraint trees (CONCAVE_DISTANCE_WITH_CGAL)
   )
   debian_test=(
     libgtest-dev librapidcheck-dev libfcl-dev libboost-dev libbenchmark-dev
@@ -26,7 +30,7 @@ set -euo pipefail
     python3-rosmaster python3-rospy python3-tf2-msgs python3-rosgraph-msgs python3-dynamic-reconfigure  # scripts/faults.sh
   )
   debian_demo=(
-    python3-roslaunch python3-rospy python3-rostopic rosbash rviz ros-robot-state-publisher
+    python3-roslaunch python3-rospy python3-rosservice python3-rostopic rosbash rviz ros-robot-state-publisher
     python3-geometry-msgs python3-std-msgs python3-visualization-msgs python3-diagnostic-msgs  # what ours are made of
   )
   debian_plot=(python3-matplotlib python3-yaml valgrind)
@@ -36,19 +40,19 @@ set -euo pipefail
   debian_sanitize=(dpkg-dev)  # unpacks the source package of TBB
   debian_engines=(libsimbody-dev libode-dev)  # engine_differences: what the simulation is compared with
 
-  noetic_build=(
+  noetic_node=(
     g++ cmake ninja-build
     libassimp-dev libeigen3-dev libtbb-dev liburdfdom-dev libyaml-cpp-dev
     libconsole-bridge-dev libtinyxml2-dev zlib1g-dev
-    libcgal-dev libalglib-dev libfcl-dev
     ros-noetic-catkin ros-noetic-diagnostic-updater ros-noetic-dynamic-reconfigure ros-noetic-geometry-msgs
     ros-noetic-interactive-markers ros-noetic-message-generation ros-noetic-nodelet ros-noetic-pluginlib
     ros-noetic-roscpp ros-noetic-rosgraph-msgs ros-noetic-roslib ros-noetic-sensor-msgs ros-noetic-std-msgs ros-noetic-std-srvs ros-noetic-tf2
     ros-noetic-tf2-eigen ros-noetic-tf2-ros ros-noetic-visualization-msgs
   )
+  noetic_build=("${noetic_node[@]}" libcgal-dev libalglib-dev libfcl-dev)
   noetic_test=(libgtest-dev libfcl-dev libboost-dev libbenchmark-dev ros-noetic-rostest ros-noetic-rosmaster ros-noetic-rospy ros-noetic-tf2-msgs)
   noetic_demo=(
-    ros-noetic-roslaunch ros-noetic-rospy ros-noetic-rostopic ros-noetic-rosbash ros-noetic-rviz
+    ros-noetic-roslaunch ros-noetic-rospy ros-noetic-rosservice ros-noetic-rostopic ros-noetic-rosbash ros-noetic-rviz
     ros-noetic-robot-state-publisher
   )
   noetic_plot=(python3-matplotlib python3-yaml valgrind)
@@ -75,11 +79,11 @@ groups=("$@")
 wanted=()
 for group in "${groups[@]}"; do
   case "$group" in
-    build | test | demo | plot | format | lint | fuzz | sanitize | engines)
+    node | build | test | demo | plot | format | lint | fuzz | sanitize | engines)
       declare -n packages="${family}_${group}"
       wanted+=("${packages[@]}")
       ;;
-    *) die "unknown group '$group': expected build, test, demo, plot, format, lint, fuzz, sanitize or engines" ;;
+    *) die "unknown group '$group': expected node, build, test, demo, plot, format, lint, fuzz, sanitize or engines" ;;
   esac
 done
 

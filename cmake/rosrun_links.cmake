@@ -1,0 +1,12 @@
+# rosrun does not look below a package's own folder `build`, where programs are when this package is built there
+# without a workspace. It finds these links instead; roslaunch, which finds the programs themselves, does not look
+# into hidden folders.
+if(CONCAVE_DISTANCE_WITH_ROS AND PROJECT_BINARY_DIR STREQUAL "${PROJECT_SOURCE_DIR}/build")
+  set(rosrun_links ${PROJECT_SOURCE_DIR}/.rosrun)
+  file(REMOVE_RECURSE ${rosrun_links})
+  file(MAKE_DIRECTORY ${rosrun_links})
+  foreach(program IN ITEMS distance_query evaluate mesh_tool simulate
+      distance_node simulation_node joint_player marker_mover pose_player robot_mover)
+    file(CREATE_LINK ../build/devel/lib/concave_distance/${program} ${rosrun_links}/${program} SYMBOLIC RESULT ignored)
+  endforeach()
+endif()
