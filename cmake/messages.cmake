@@ -28,6 +28,7 @@ set(CONCAVE_DISTANCE_SERVICES
   ResetTracking.srv
   SetEffects.srv
   SetPairEnabled.srv
+  SetWarningDistance.srv
 )
 set(CONCAVE_DISTANCE_DYNAMIC_RECONFIGURE
   config/ConcaveDistance.cfg

@@ -102,16 +102,19 @@ Eigen::Isometry3d poseFromMessage(const geometry_msgs::Pose& pose, const std::st
        {pose.orientation.x, pose.orientation.y, pose.orientation.z, pose.orientation.w}) {
     checkFinite(value, where + ".orientation");
   }
+  Eigen::Isometry3d result = Eigen::Isometry3d::Identity();
+  result.translation() = Eigen::Vector3d(pose.position.x, pose.position.y, pose.position.z);
   Eigen::Quaterniond rotation(pose.orientation.w, pose.orientation.x, pose.orientation.y, pose.orientation.z);
+  if (rotation.coeffs().isZero(0.0)) {
+    return result;  // a message whose orientation nobody filled in
+  }
   const double norm = rotation.norm();
   if (std::abs(norm - 1.0) > kQuaternionTolerance) {
     throw Error(where + ".orientation", "the quaternion's norm is " + std::to_string(norm),
-                "give a unit quaternion; no rotation is w: 1");
+                "give a unit quaternion; no rotation is w: 1, or all zeros");
   }
   rotation.normalize();
-  Eigen::Isometry3d result = Eigen::Isometry3d::Identity();
   result.linear() = rotation.toRotationMatrix();
-  result.translation() = Eigen::Vector3d(pose.position.x, pose.position.y, pose.position.z);
   return result;
 }
 

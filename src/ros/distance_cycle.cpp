@@ -19,6 +19,9 @@ namespace {
 void watchWarning(TrackedPair& pair) {
   pair.warning_changed = false;
   if (!pair.settings.warning_distance) {
+    // Taken away while it ran: what was raised is taken back.
+    pair.warning_changed = pair.warning.state() != WarningState::Clear;
+    pair.warning.reset();
     pair.heading.warning = false;
     return;
   }

@@ -1,6 +1,7 @@
 #include "concave_distance/ros/scene_edits.h"
 
 #include <cctype>
+#include <unordered_map>
 #include <unordered_set>
 #include <utility>
 
@@ -38,18 +39,12 @@ void requireRoomForPairs(const Scene& scene, std::size_t more) {
   }
 }
 
-// Each once, in the order of their names in the request or, without names, of the scene.
-std::vector<std::size_t> partnersOf(const Scene& scene, const SceneBody& body, const PairPartners& partners) {
+// Each once, in the order of their names in the request.
+std::vector<std::size_t> partnersNamed(const Scene& scene, const SceneBody& body,
+                                       const std::vector<std::string>& names) {
   std::vector<std::size_t> indices;
-  if (partners.none) {
-    if (!partners.names.empty()) {
-      throw Error("pair_with", "it names '" + partners.names.front() + "', and without_pairs is set",
-                  "give one of the two");
-    }
-    return indices;
-  }
   std::unordered_set<std::size_t> seen;
-  for (const std::string& name : partners.names) {
+  for (const std::string& name : names) {
     if (name == body.name) {
       throw Error("pair_with", "it names the new body '" + name + "' itself", "name other bodies");
     }
@@ -58,14 +53,59 @@ std::vector<std::size_t> partnersOf(const Scene& scene, const SceneBody& body, c
       indices.push_back(index);
     }
   }
-  if (partners.names.empty()) {
-    for (std::size_t index = 0; index < scene.bodies.size(); ++index) {
-      if (scene.bodies[index].frame != body.frame) {
-        indices.push_back(index);
-      }
+  return indices;
+}
+
+// In the order of the scene.
+std::vector<std::size_t> partnersThatMove(const Scene& scene, const SceneBody& body,
+                                          const PairPartners& partners, AddedPairs& added) {
+  std::unordered_set<std::size_t> touched;
+  for (const std::string& name : partners.may_touch) {
+    if (const auto index = scene.findBody(name)) {
+      touched.insert(*index);
+    } else {
+      added.unknown.push_back(name);
+    }
+  }
+  // Many bodies share few frames, and tf is asked once for each.
+  std::unordered_map<std::string, bool> rigid;
+  const auto is_rigid = [&](const std::string& frame) {
+    const auto [place, is_new] = rigid.emplace(frame, false);
+    if (is_new) {
+      place->second = scene.rigid.areJoined(frame, body.frame) ||
+                      (partners.is_rigid && partners.is_rigid(frame, body.frame));
+    }
+    return place->second;
+  };
+  std::vector<std::size_t> indices;
+  for (std::size_t index = 0; index < scene.bodies.size(); ++index) {
+    const SceneBody& other = scene.bodies[index];
+    if (other.frame == body.frame || touched.count(index) != 0) {
+      continue;
+    }
+    if (is_rigid(other.frame)) {
+      added.rigid_neighbours.push_back(other.name);
+    } else {
+      indices.push_back(index);
     }
   }
   return indices;
+}
+
+std::vector<std::size_t> partnersOf(const Scene& scene, const SceneBody& body, const PairPartners& partners,
+                                    AddedPairs& added) {
+  if (partners.none && !partners.names.empty()) {
+    throw Error("pair_with", "it names '" + partners.names.front() + "', and without_pairs is set",
+                "give one of the two");
+  }
+  if (!partners.names.empty() && !partners.may_touch.empty()) {
+    throw Error("touch_links", "pair_with names the bodies to watch already", "leave one of the two empty");
+  }
+  if (partners.none) {
+    return {};
+  }
+  return partners.names.empty() ? partnersThatMove(scene, body, partners, added)
+                                : partnersNamed(scene, body, partners.names);
 }
 
 }  // namespace
@@ -108,8 +148,7 @@ void requireRoomForBody(const Scene& scene) {
   }
 }
 
-std::vector<std::string> addBody(Scene& scene, SceneBody body, const PairPartners& partners,
-                                 const PairSettings& settings) {
+AddedPairs addBody(Scene& scene, SceneBody body, const PairPartners& partners, const PairSettings& settings) {
   requireRoomForBody(scene);
   if (!isRosName(body.name)) {
     throw Error("name", "'" + body.name + "' cannot be part of a topic name",
@@ -118,18 +157,23 @@ std::vector<std::string> addBody(Scene& scene, SceneBody body, const PairPartner
   if (scene.findBody(body.name)) {
     throw Error("name", "there is a body '" + body.name + "' already", "remove_body it first");
   }
-  const std::vector<std::size_t> indices = partnersOf(scene, body, partners);
+  AddedPairs added;
+  const std::vector<std::size_t> indices = partnersOf(scene, body, partners, added);
   requireRoomForPairs(scene, indices.size());
   scene.bodies.push_back(std::move(body));
-  std::vector<std::string> names;
   for (const std::size_t partner : indices) {
-    names.push_back(appendPair(scene, scene.bodies.size() - 1, partner, settings));
+    added.names.push_back(appendPair(scene, scene.bodies.size() - 1, partner, settings));
   }
-  return names;
+  return added;
 }
 
-std::vector<std::string> removeBody(Scene& scene, const std::string& name) {
+std::vector<std::string> removeBody(Scene& scene, const std::string& name, bool allow_robot_link) {
   const std::size_t gone = requireBody(scene, name);
+  if (scene.bodies[gone].is_robot_link && !allow_robot_link) {
+    throw Error(
+        "name", "'" + name + "' is a link of a robot",
+        "set allow_robot_link to remove it all the same, or switch its pairs off by set_pair_enabled");
+  }
   std::vector<std::string> names;
   PairList kept;
   for (std::size_t index = 0; index < scene.pairs.size(); ++index) {

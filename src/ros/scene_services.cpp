@@ -1,13 +1,20 @@
 #include "concave_distance/ros/scene_services.h"
 
+#include <ros/console.h>
+
+#include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "concave_distance/base/error.h"
+#include "concave_distance/ros/clock_check.h"
 #include "concave_distance/ros/conversions.h"
 #include "concave_distance/ros/scene_edits.h"
 #include "concave_distance/ros/short_text.h"
+#include "concave_distance/ros/tf_poses.h"
 #include "concave_distance/scene/load_scene.h"
 #include "concave_distance/scene/set_effects.h"
+#include "concave_distance/scene/set_warning_distance.h"
 
 namespace concave_distance {
 namespace {
@@ -36,6 +43,46 @@ PairSettings pairSettings(const AddBody::Request& request, PairSettings settings
   return settings;
 }
 
+// Bodies named in a remark.
+constexpr std::size_t kMostNamed = 8;
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min(names.size(), kMostNamed); ++i) {
+    text += (i == 0 ? "" : ", ") + names[i];
+  }
+  return names.size() > kMostNamed ? text + " and " + std::to_string(names.size() - kMostNamed) + " more"
+                                   : text;
+}
+
+// Only static transforms lie between the two frames.
+bool areFixed(const tf2::BufferCore& buffer, const std::string& frame_a, const std::string& frame_b) {
+  const FrameTransform transform = lookUpFrame(buffer, frame_a, frame_b, ros::Time(0));
+  return transform.status == TransformStatus::Ok && transform.stamp.isZero();
+}
+
+bool isOnTf(const tf2::BufferCore& buffer, const std::string& frame) {
+  return buffer._frameExists(frame);
+}
+
+// What the caller should know of a body that was added; empty: nothing.
+std::string remarksOn(const AddedPairs& added, const std::string& frame, bool frame_is_known) {
+  std::string text;
+  const auto add = [&](const std::string& remark) { text += (text.empty() ? "" : "; ") + remark; };
+  if (!frame_is_known) {
+    add("the frame '" + frame +
+        "' is not on tf: the body's pairs have no distance until something publishes it");
+  }
+  if (!added.unknown.empty()) {
+    add("touch_links: no bodies: " + listed(added.unknown));
+  }
+  if (!added.rigid_neighbours.empty()) {
+    add("not watched against what cannot move against '" + frame + "': " + listed(added.rigid_neighbours) +
+        " (pair_with watches them all the same)");
+  }
+  return text;
+}
+
 Eigen::Vector4d toColour(const std_msgs::ColorRGBA& color, const Eigen::Vector4d& fallback) {
   const Eigen::Vector4d given(color.r, color.g, color.b, color.a);
   return given.isZero(0.0) ? fallback : given;
@@ -44,13 +91,14 @@ Eigen::Vector4d toColour(const std_msgs::ColorRGBA& color, const Eigen::Vector4d
 }  // namespace
 
 SceneServices::SceneServices(ServiceQueues& queues, SceneKeeper& keeper, RestartRequests& restarts,
-                             std::string reference_frame, PackageLocator package_locator,
-                             MeshAccess mesh_access)
+                             const TransformBuffer& transforms, std::string reference_frame,
+                             PackageLocator package_locator, MeshAccess mesh_access)
     : light_(queues.light()),
       heavy_(queues.heavy()),
       gate_(queues.gate()),
       keeper_(keeper),
       restarts_(restarts),
+      transforms_(transforms),
       reference_frame_(std::move(reference_frame)),
       package_locator_(std::move(package_locator)),
       mesh_access_(std::move(mesh_access)),
@@ -59,6 +107,8 @@ SceneServices::SceneServices(ServiceQueues& queues, SceneKeeper& keeper, Restart
       remove_body_(light_.advertiseService("remove_body", &SceneServices::removeBody, this)),
       set_pair_enabled_(light_.advertiseService("set_pair_enabled", &SceneServices::setPairEnabled, this)),
       set_effects_(light_.advertiseService("set_effects", &SceneServices::setEffects, this)),
+      set_warning_distance_(
+          light_.advertiseService("set_warning_distance", &SceneServices::setWarningDistance, this)),
       reset_tracking_(light_.advertiseService("reset_tracking", &SceneServices::resetTracking, this)) {}
 
 void SceneServices::requireScene() {
@@ -72,6 +122,9 @@ bool SceneServices::listBodies(ListBodies::Request& /*request*/, ListBodies::Res
   const std::shared_ptr<const Scene> scene = keeper_.served()->scene;
   response.message = keeper_.waitingFor();
   response.ready = static_cast<std::uint8_t>(response.message.empty());
+  if (response.message.empty()) {
+    response.message = missingClock();
+  }
   response.reference_frame = reference_frame_;
   for (const SceneBody& body : scene->bodies) {
     response.bodies.push_back(toBodyInfo(body));
@@ -85,7 +138,8 @@ bool SceneServices::listBodies(ListBodies::Request& /*request*/, ListBodies::Res
     message.message = problem.message;
     response.problems.push_back(message);
   }
-  response.notes = scene->notes;
+  response.notes = scene->warnings;
+  response.notes.insert(response.notes.end(), scene->notes.begin(), scene->notes.end());
   for (const SceneBody& body : scene->bodies) {
     const MeshMetric* metric = body.mesh->metricIfMade();
     if (metric != nullptr && !metric->hasMatrices()) {
@@ -111,17 +165,27 @@ bool SceneServices::addBody(AddBody::Request& request, AddBody::Response& respon
     SceneBody body = loadBody(description, "", package_locator_, scene->pool,
                               request.primitive.empty() ? scene->cache : nullptr, scene->limits);
     body.colour = toColour(request.color, body.colour);
-    keeper_.edit([&](Scene& edited) {
-      response.pairs =
-          concave_distance::addBody(edited, body, {request.pair_with, request.without_pairs != 0}, settings);
-    });
+    const std::shared_ptr<const tf2::BufferCore> buffer = transforms_.current();
+    const PairPartners partners{request.pair_with, request.without_pairs != 0, request.touch_links,
+                                [&](const std::string& frame_a, const std::string& frame_b) {
+                                  return areFixed(*buffer, frame_a, frame_b);
+                                }};
+    AddedPairs added;
+    keeper_.edit([&](Scene& edited) { added = concave_distance::addBody(edited, body, partners, settings); });
+    response.message = shortText(remarksOn(added, body.frame, isOnTf(*buffer, body.frame)));
+    if (!response.message.empty()) {
+      ROS_WARN_STREAM("add_body '" << body.name << "': " << response.message);
+    }
+    response.pairs = std::move(added.names);
   });
 }
 
 bool SceneServices::removeBody(RemoveBody::Request& request, RemoveBody::Response& response) {
   return respond(response, [&] {
     requireScene();
-    keeper_.edit([&](Scene& scene) { response.pairs = concave_distance::removeBody(scene, request.name); });
+    keeper_.edit([&](Scene& scene) {
+      response.pairs = concave_distance::removeBody(scene, request.name, request.allow_robot_link != 0);
+    });
   });
 }
 
@@ -141,6 +205,19 @@ bool SceneServices::setEffects(SetEffects::Request& request, SetEffects::Respons
     requireScene();
     keeper_.editSettings([&](Scene& scene) {
       response.pairs = concave_distance::setEffects(scene, request.pair, request.effects);
+    });
+  });
+}
+
+bool SceneServices::setWarningDistance(SetWarningDistance::Request& request,
+                                       SetWarningDistance::Response& response) {
+  return respond(response, [&] {
+    requireScene();
+    const auto distance =
+        request.remove != 0 ? std::nullopt : std::optional<double>(request.warning_distance);
+    keeper_.editSettings([&](Scene& scene) {
+      response.pairs =
+          concave_distance::setWarningDistance(scene, request.pair, distance, request.warning_hysteresis);
     });
   });
 }

@@ -67,7 +67,7 @@ TEST(PoseFromMessage, NormalisesRoundingAndRefusesTheRest) {
   pose.orientation.w = 1.01;
   EXPECT_NE(refusalOf(pose).find("pose_a.orientation"), std::string::npos);
   EXPECT_NE(refusalOf(pose).find("1.01"), std::string::npos);
-  pose.orientation.w = 0.0;
+  pose.orientation.w = 0.5;
   EXPECT_NE(refusalOf(pose).find("w: 1"), std::string::npos) << "the message tells the remedy";
   pose = unitPose();
   pose.position.z = std::nan("");
@@ -75,6 +75,16 @@ TEST(PoseFromMessage, NormalisesRoundingAndRefusesTheRest) {
   pose = unitPose();
   pose.orientation.x = std::numeric_limits<double>::infinity();
   EXPECT_NE(refusalOf(pose), "");
+}
+
+TEST(PoseFromMessage, AnOrientationOfZerosIsNoRotation) {
+  geometry_msgs::Pose pose;
+  pose.position.x = 3.0;
+  const Eigen::Isometry3d read = poseFromMessage(pose, "p");
+  EXPECT_EQ(read.linear(), Eigen::Matrix3d::Identity());
+  EXPECT_EQ(read.translation(), Eigen::Vector3d(3.0, 0.0, 0.0));
+  pose.orientation.x = 1e-9;
+  EXPECT_NE(refusalOf(pose), "") << "not all of it is zero";
 }
 
 TEST(ToDistance, GivesPointsInTheReferenceFrameAtTheDistanceStated) {

@@ -49,13 +49,13 @@ TEST(AddBody, PairsWithBodiesOfOtherFrames) {
 
 TEST(AddBody, PairsWithThoseNamedOnceEach) {
   Scene scene = threeBodies();
-  EXPECT_EQ(addBody(scene, body("cup", "world"), {{"table", "table"}, false}, {}),
+  EXPECT_EQ(addBody(scene, body("cup", "world"), {{"table", "table"}, false, {}, {}}, {}).names,
             std::vector<std::string>{"cup/table"});
 }
 
 TEST(AddBody, AddsABodyThatIsWatchedAgainstNothing) {
   Scene scene = threeBodies();
-  EXPECT_TRUE(addBody(scene, body("cup", "cup"), {{}, true}, {}).empty());
+  EXPECT_TRUE(addBody(scene, body("cup", "cup"), {{}, true}, {}).names.empty());
   EXPECT_EQ(scene.pairs.size(), 2U);
   EXPECT_THROW(addBody(scene, body("mug", "mug"), {{"table"}, true}, {}), Error);
 }
@@ -119,10 +119,31 @@ TEST(AddBody, RefusesTakenBadAndUnknownNamesAndChangesNothing) {
   Scene scene = threeBodies();
   EXPECT_THROW(addBody(scene, body("arm", "x"), {}, {}), Error);
   EXPECT_THROW(addBody(scene, body("my cup", "x"), {}, {}), Error);
-  EXPECT_THROW(addBody(scene, body("cup", "x"), {{"nobody"}, false}, {}), Error);
-  EXPECT_THROW(addBody(scene, body("cup", "x"), {{"cup"}, false}, {}), Error);
+  EXPECT_THROW(addBody(scene, body("cup", "x"), {{"nobody"}, false, {}, {}}, {}), Error);
+  EXPECT_THROW(addBody(scene, body("cup", "x"), {{"cup"}, false, {}, {}}, {}), Error);
   EXPECT_EQ(scene.bodies.size(), 3U);
   EXPECT_EQ(scene.pairs.size(), 2U);
+}
+
+TEST(AddBody, LeavesOutWhatCannotMoveAgainstItAndWhatItMayTouch) {
+  Scene scene = threeBodies();
+  addBody(scene, body("hand", "hand"), {}, {});
+  scene.rigid.join("hand", "arm");
+  const AddedPairs held = addBody(scene, body("cup", "hand"), {{}, false, {"table", "no_body"}, {}}, {});
+  EXPECT_EQ(held.names, std::vector<std::string>{"cup/shelf"});
+  EXPECT_EQ(held.rigid_neighbours, std::vector<std::string>{"arm"});
+  EXPECT_EQ(held.unknown, std::vector<std::string>{"no_body"});
+  const auto all_rigid = [](const std::string&, const std::string&) { return true; };
+  EXPECT_TRUE(addBody(scene, body("label", "cup_frame"), {{}, false, {}, all_rigid}, {}).names.empty());
+  EXPECT_THROW(addBody(scene, body("lid", "x"), {{"arm"}, false, {"table"}, {}}, {}), Error);
+}
+
+TEST(RemoveBody, LeavesRobotLinksUnlessAsked) {
+  Scene scene = threeBodies();
+  scene.bodies.edit(0).is_robot_link = true;
+  EXPECT_THROW(removeBody(scene, "arm"), Error);
+  EXPECT_EQ(scene.bodies.size(), 3U);
+  EXPECT_EQ(removeBody(scene, "arm", true).size(), 2U);
 }
 
 TEST(RemoveBody, TakesItsPairsAndKeepsTheOthersRight) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -16,19 +17,27 @@ void requireRoomForBody(const Scene& scene);
 
 /// Which bodies a new one is paired with.
 struct PairPartners {
-  std::vector<std::string> names;  ///< empty: every body of another frame
-  bool none = false;               ///< no body at all
+  std::vector<std::string> names;        ///< empty: every body that can move against the new one's frame
+  bool none = false;                     ///< no body at all
+  std::vector<std::string> may_touch{};  ///< bodies left out; not together with `names`
+  /// Whether two frames are known to stand still against each other, besides those that Scene::rigid joins.
+  std::function<bool(const std::string& frame_a, const std::string& frame_b)> is_rigid{};
+};
+
+struct AddedPairs {
+  std::vector<std::string> names;
+  std::vector<std::string> rigid_neighbours;  ///< bodies of other frames left out: nothing moves them apart
+  std::vector<std::string> unknown;           ///< of PairPartners::may_touch: names of no body
 };
 
 /// Adds a body and its pairs with its partners.
-/// @return names of the new pairs
 /// @throws Error when the name is taken or no ROS name, a partner is unknown or the body itself, or the scene
 ///         would be beyond its limits
-std::vector<std::string> addBody(Scene& scene, SceneBody body, const PairPartners& partners,
-                                 const PairSettings& settings);
+AddedPairs addBody(Scene& scene, SceneBody body, const PairPartners& partners, const PairSettings& settings);
 
+/// @param allow_robot_link false: a link of a robot is refused
 /// @return names of the pairs that went with it. @throws Error when there is no such body
-std::vector<std::string> removeBody(Scene& scene, const std::string& name);
+std::vector<std::string> removeBody(Scene& scene, const std::string& name, bool allow_robot_link = false);
 
 /// How a request names a pair: by its name or, when that is empty, by its bodies in either order.
 struct PairReference {

@@ -6,6 +6,7 @@
 #include <concave_distance/ResetTracking.h>
 #include <concave_distance/SetEffects.h>
 #include <concave_distance/SetPairEnabled.h>
+#include <concave_distance/SetWarningDistance.h>
 #include <ros/node_handle.h>
 #include <ros/service_server.h>
 
@@ -14,18 +15,21 @@
 #include "concave_distance/ros/restart_requests.h"
 #include "concave_distance/ros/scene_keeper.h"
 #include "concave_distance/ros/service_queues.h"
+#include "concave_distance/ros/transform_buffer.h"
 #include "concave_distance/scene/mesh_roots.h"
 #include "concave_distance/scene/resource_locator.h"
 
 namespace concave_distance {
 
 /// The services that tell and change what is watched: list_bodies, add_body, remove_body, set_pair_enabled,
-/// set_effects, reset_tracking.
+/// set_effects, set_warning_distance, reset_tracking.
 class SceneServices {
  public:
   /// add_body goes through the gate of requests that take long, the others do not.
+  /// @param transforms what tf says of the frames that bodies are added to
   SceneServices(ServiceQueues& queues, SceneKeeper& keeper, RestartRequests& restarts,
-                std::string reference_frame, PackageLocator package_locator, MeshAccess mesh_access);
+                const TransformBuffer& transforms, std::string reference_frame,
+                PackageLocator package_locator, MeshAccess mesh_access);
 
  private:
   bool listBodies(ListBodies::Request& request, ListBodies::Response& response);
@@ -33,6 +37,7 @@ class SceneServices {
   bool removeBody(RemoveBody::Request& request, RemoveBody::Response& response);
   bool setPairEnabled(SetPairEnabled::Request& request, SetPairEnabled::Response& response);
   bool setEffects(SetEffects::Request& request, SetEffects::Response& response);
+  bool setWarningDistance(SetWarningDistance::Request& request, SetWarningDistance::Response& response);
   bool resetTracking(ResetTracking::Request& request, ResetTracking::Response& response);
   /// @throws Error while the scene is not loaded: it would replace what is edited now
   void requireScene();
@@ -42,6 +47,7 @@ class SceneServices {
   RequestGate& gate_;
   SceneKeeper& keeper_;
   RestartRequests& restarts_;
+  const TransformBuffer& transforms_;
   std::string reference_frame_;
   PackageLocator package_locator_;
   MeshAccess mesh_access_;
@@ -50,6 +56,7 @@ class SceneServices {
   ros::ServiceServer remove_body_;
   ros::ServiceServer set_pair_enabled_;
   ros::ServiceServer set_effects_;
+  ros::ServiceServer set_warning_distance_;
   ros::ServiceServer reset_tracking_;
 };
 

@@ -97,6 +97,26 @@ TEST_P(DemoLaunchFile, GivesDistancesBesideAnotherRobot) {
   removeRobot();
 }
 
+TEST(LaunchFiles, OwnRobotServesWhatIsOnTheParameterServerAndOnTf) {
+  ros::param::set("/use_sim_time", false);
+  ros::param::set("/robot_description", robotText());
+  TfPlayer player;
+  player.place("base", 0.0);
+  player.place("tip", 3.0);
+  LaunchedFile launched({"own_robot.launch", "rviz:=false"});
+  expectDistances(launched);
+  removeRobot();
+}
+
+TEST(LaunchFiles, OwnRobotMovesARobotThatIsAFile) {
+  removeRobot();
+  leaveSimulatedTime();
+  const std::string file = ros::package::getPath("concave_distance") + "/test/ros/rostest/own_robot.urdf";
+  LaunchedFile launched({"own_robot.launch", "rviz:=false", "urdf:=" + file});
+  expectDistances(launched);
+  removeRobot();
+}
+
 INSTANTIATE_TEST_SUITE_P(Demos, DemoLaunchFile,
                          testing::Values("insertion.launch", "contact.launch", "interactive.launch",
                                          "robot.launch", "cell.launch", "simulation.launch"),

@@ -121,7 +121,7 @@ TEST_F(ServicesTest, GetDistanceRefusesBadRequestsWithTheReason) {
   request.query.pose_a.pose.orientation.x = std::numeric_limits<double>::quiet_NaN();
   expectRefusal(request, "finite");
   request.query.pose_a.pose.orientation.x = 0.0;
-  request.query.pose_a.pose.orientation.w = 0.0;
+  request.query.pose_a.pose.orientation.w = 0.5;
   expectRefusal(request, "quaternion");
   request = boxes();
   request.query.accuracy = 5;
@@ -274,7 +274,7 @@ TEST_F(ServicesTest, AddBodyRefusesBadRequestsWithTheReason) {
   request.mesh_resource = "package://no_such_package/cup.stl";
   expectBad(request, "no_such_package");
   request = good;
-  request.pose.orientation.w = 0.0;
+  request.pose.orientation.w = 0.5;
   expectBad(request, "quaternion");
   request = good;
   request.name = "my cup";

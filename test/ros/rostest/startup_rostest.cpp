@@ -10,7 +10,9 @@
 #include <ros/spinner.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -20,6 +22,7 @@
 
 #include "rostest_support.h"
 #include "run_node.h"
+#include "support/temporary_folder.h"
 #include "tf_player.h"
 
 namespace concave_distance {
@@ -184,6 +187,60 @@ TEST(StartUp, GeometryIsTheCollisionOrTheVisualOne) {
     })) << node;
     EXPECT_NEAR(distances.last()->pairs[0].distance, gap, 1e-12) << node;
   }
+}
+
+// A bumpy square of 2 size^2 triangles, as binary STL.
+void writeBumps(const std::string& path, int size) {
+  std::ofstream file(path, std::ios::binary);
+  const std::string header(80, ' ');
+  const auto count = static_cast<std::uint32_t>(2 * size * size);
+  file.write(header.data(), 80);
+  file.write(reinterpret_cast<const char*>(&count), 4);
+  const auto corner = [&](int i, int j) {
+    const auto x = static_cast<float>(i) / static_cast<float>(size);
+    const auto y = static_cast<float>(j) / static_cast<float>(size);
+    const std::array<float, 3> point{x, y, 0.02F * std::sin(40.0F * x) * std::cos(30.0F * y)};
+    file.write(reinterpret_cast<const char*>(point.data()), 12);
+  };
+  const std::array<char, 12> normal{};
+  for (int i = 0; i < size; ++i) {
+    for (int j = 0; j < size; ++j) {
+      for (const bool upper : {false, true}) {
+        file.write(normal.data(), 12);
+        corner(i, j);
+        corner(i + 1, upper ? j + 1 : j);
+        corner(upper ? i : i + 1, j + 1);
+        file.write(normal.data(), 2);
+      }
+    }
+  }
+}
+
+TEST(StartUp, PreparationIsReportedWhileServicesAnswer) {
+  const std::string node = "/preparing";
+  ASSERT_TRUE(eventually([&] { return list(node).message.find("large_description") != std::string::npos; }));
+  const test::TemporaryFolder folder;
+  std::string urdf = "<robot name='large'>";
+  for (int link = 0; link < 4; ++link) {
+    const std::string name = "large_" + std::to_string(link);
+    writeBumps(folder.path(name + ".stl"), 250 + link);
+    urdf += "<link name='" + name + "'><collision><geometry><mesh filename='file://" +
+            folder.path(name + ".stl") + "'/></geometry></collision></link>";
+    if (link > 0) {
+      urdf += "<joint name='j" + std::to_string(link) + "' type='continuous'><parent link='large_" +
+              std::to_string(link - 1) + "'/><child link='" + name + "'/></joint>";
+    }
+  }
+  ros::param::set("/large_description", urdf + "</robot>");
+  std::string message;
+  EXPECT_TRUE(eventually([&] {
+    const ListBodiesResponse scene = list(node);
+    message = scene.message;
+    return scene.ready != 0 || message.find("of 4 bodies") != std::string::npos;
+  }));
+  EXPECT_NE(message.find("loading: prepared"), std::string::npos) << message;
+  EXPECT_TRUE(eventually([&] { return list(node).ready != 0; }, 60.0)) << list(node).message;
+  EXPECT_EQ(list(node).bodies.size(), 4U);
 }
 
 TEST(StartUp, AWrongSceneFileEndsTheNodeWithFileAndLine) {

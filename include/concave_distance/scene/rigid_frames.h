@@ -1,0 +1,19 @@
+#pragma once
+
+#include <map>
+#include <string>
+
+namespace concave_distance {
+
+/// Frames that no joint moves against each other, as sets. A frame that was never joined is alone.
+class RigidFrames {
+ public:
+  void join(const std::string& a, const std::string& b);
+  bool areJoined(const std::string& a, const std::string& b) const;
+
+ private:
+  std::string rootOf(std::string frame) const;
+  std::map<std::string, std::string> parent_;
+};
+
+}  // namespace concave_distance

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "concave_distance/scene/scene.h"
+
+namespace concave_distance {
+
+/// Sets the warning distance of every pair whose name matches, or takes it away.
+/// @param pattern a pair's name, or with * for any characters and ? for one
+/// @param distance metres; empty: no alert
+/// @param hysteresis metres; not read without a distance
+/// @return the pairs' names, in the scene's order
+/// @throws Error for a pattern that no pair matches and for lengths that are negative or not finite; then
+///         nothing was changed
+std::vector<std::string> setWarningDistance(Scene& scene, const std::string& pattern,
+                                            std::optional<double> distance, double hysteresis);
+
+}  // namespace concave_distance

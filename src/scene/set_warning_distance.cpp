@@ -1,0 +1,41 @@
+#include "concave_distance/scene/set_warning_distance.h"
+
+#include <cmath>
+
+#include "concave_distance/base/error.h"
+#include "name_pattern.h"
+
+namespace concave_distance {
+namespace {
+
+void requireLength(const std::string& field, double value) {
+  if (!(value >= 0.0) || !std::isfinite(value)) {
+    throw Error(field, "the value is " + std::to_string(value), "give metres: a finite number, 0 or more");
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> setWarningDistance(Scene& scene, const std::string& pattern,
+                                            std::optional<double> distance, double hysteresis) {
+  if (distance) {
+    requireLength("warning_distance", *distance);
+    requireLength("warning_hysteresis", hysteresis);
+  }
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
+    const std::string& name = scene.pairs[i].name;
+    if (name != pattern && !detail::matchesPattern(pattern, name)) continue;
+    names.push_back(name);
+    PairSettings& settings = scene.pairs.edit(i).settings;
+    settings.warning_distance = distance;
+    if (distance) settings.warning_hysteresis = hysteresis;
+  }
+  if (names.empty()) {
+    throw Error("pair", "there is no pair '" + pattern + "'",
+                "list_bodies has their names; * and ? stand for any characters and for one");
+  }
+  return names;
+}
+
+}  // namespace concave_distance
