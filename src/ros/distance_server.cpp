@@ -2,14 +2,16 @@
 
 #include <ros/console.h>
 
-#include <set>
-#include <sstream>
+#include <cmath>
+#include <optional>
 #include <thread>
 #include <utility>
 
 #include "concave_distance/ros/body_markers.h"
 #include "concave_distance/ros/callback_guard.h"
+#include "concave_distance/ros/clock_check.h"
 #include "concave_distance/ros/diagnostics.h"
+#include "concave_distance/ros/frame_report.h"
 #include "concave_distance/ros/reconfiguration.h"
 #include "concave_distance/ros/scene_loading.h"
 
@@ -18,6 +20,11 @@ namespace {
 
 constexpr double kLoadPeriod = 0.1;          // s, between two looks for the robot description
 constexpr double kHousekeepingPeriod = 0.2;  // s
+constexpr const char* kRemedies =
+    "fewer pairs (an SRDF, the scene file's pairs, ~skip_overlapping_pairs), a shorter ~cutoff, a lower "
+    "~rate, "
+    "more ~threads, subscribers of distances instead of niches or markers, ~relative_tolerance";
+constexpr double kProgressPeriod = 2.0;      // s, between two messages about loading
 constexpr double kMessagePeriod = 5.0;       // s, between two messages about what is missing
 
 NodeParameters readParameters(const ros::NodeHandle& node) {
@@ -46,15 +53,18 @@ bool isDue(ros::WallTime& last, double period) {
   return true;
 }
 
-void logScene(const Scene& scene) {
+void logScene(const Scene& scene, double seconds) {
   for (const std::string& note : scene.notes) {
     ROS_INFO_STREAM(note);
+  }
+  for (const std::string& warning : scene.warnings) {
+    ROS_WARN_STREAM(warning);
   }
   for (const SceneProblem& problem : scene.problems) {
     ROS_ERROR_STREAM("Not loaded: " << problem.where << ": " << problem.message);
   }
-  ROS_INFO("The scene has %zu bodies and %zu pairs; %zu parts could not be loaded.", scene.bodies.size(),
-           scene.pairs.size(), scene.problems.size());
+  ROS_INFO("The scene has %zu bodies and %zu pairs; %zu parts could not be loaded. It took %.1f s.",
+           scene.bodies.size(), scene.pairs.size(), scene.problems.size(), seconds);
 }
 
 }  // namespace
@@ -73,8 +83,8 @@ DistanceServer::DistanceServer(const ros::NodeHandle& node, const ros::NodeHandl
                {&transforms_, parameters_.reference_frame, parameters_.transform_timeout,
                 parameters_.stale_after, parameters_.pair},
                parameters_.limits, parameters_.threads),
-      scene_services_(service_queues_, keeper_, restarts_, parameters_.reference_frame, rosPackagePath,
-                      parameters_.mesh_access),
+      scene_services_(service_queues_, keeper_, restarts_, transforms_, parameters_.reference_frame,
+                      rosPackagePath, parameters_.mesh_access),
       runner_(transforms_, keeper_, publishers_, restarts_,
               {parameters_.reference_frame, parameters_.stale_after, parameters_.threads,
                &service_queues_.gate().stopped()}),
@@ -93,6 +103,11 @@ DistanceServer::DistanceServer(const ros::NodeHandle& node, const ros::NodeHandl
   reconfigure_->setConfigMax(highestConfig());
   reconfigure_->setCallback(
       [this](ConcaveDistanceConfig& config, std::uint32_t level) { onReconfigure(config, level); });
+  if (parameters_.automatic_cutoff) {
+    // The reconfigure server has written its default there, which is none; the next start would take it for
+    // the user's wish.
+    private_node_.deleteParam("cutoff");
+  }
   load_timer_ = startTimer(kLoadPeriod, "Loading the scene", &DistanceServer::tryToLoad);
   housekeeping_timer_ = startTimer(kHousekeepingPeriod, "Housekeeping", &DistanceServer::doHousekeeping);
 }
@@ -108,26 +123,63 @@ ros::WallTimer DistanceServer::startTimer(double period, const char* name, void 
 }
 
 void DistanceServer::tryToLoad() {
-  LoadAttempt attempt;
+  if (loader_.isRunning()) {
+    followLoading();
+    return;
+  }
+  SceneRequest request;
   try {
-    attempt = tryLoadScene(parameters_, private_node_);
+    request = requestScene(parameters_, private_node_);
   } catch (const Error& problem) {
-    load_timer_.stop();
-    keeper_.setWaitingFor(std::string("the scene cannot be loaded: ") + problem.what());
-    on_fatal_(problem);
+    giveUpLoading(problem);
     return;
   }
-  if (attempt.scene) {
-    load_timer_.stop();
-    logScene(*attempt.scene);
-    keeper_.replace(std::move(*attempt.scene));
-    keeper_.setWaitingFor("");
+  if (request.waiting_for.empty()) {
+    last_load_message_ = ros::WallTime::now();
+    loader_.start(parameters_, std::move(request));
+    followLoading();
     return;
   }
-  keeper_.setWaitingFor(attempt.waiting_for);
+  keeper_.setWaitingFor(request.waiting_for);
   if (isDue(last_load_message_, kMessagePeriod)) {
-    ROS_WARN_STREAM("Waiting: " << attempt.waiting_for);
+    ROS_WARN_STREAM("Waiting: " << request.waiting_for);
   }
+}
+
+void DistanceServer::giveUpLoading(const Error& problem) {
+  load_timer_.stop();
+  keeper_.setWaitingFor(std::string("the scene cannot be loaded: ") + problem.what());
+  on_fatal_(problem);
+}
+
+void DistanceServer::followLoading() {
+  std::optional<SceneLoader::Outcome> outcome = loader_.take();
+  if (!outcome) {
+    keeper_.setWaitingFor("loading: " + loader_.progress());
+    if (isDue(last_load_message_, kProgressPeriod)) {
+      ROS_INFO_STREAM("Loading the scene: " << loader_.progress());
+    }
+    return;
+  }
+  if (outcome->error) {
+    giveUpLoading(*outcome->error);
+    return;
+  }
+  load_timer_.stop();
+  logScene(*outcome->scene, loader_.seconds());
+  if (outcome->scene->automatic_cutoff) {
+    adoptCutoff(*outcome->scene->automatic_cutoff);
+  }
+  keeper_.replace(std::move(*outcome->scene));
+  keeper_.setWaitingFor("");
+}
+
+void DistanceServer::adoptCutoff(double cutoff) {
+  const boost::recursive_mutex::scoped_lock lock(reconfigure_mutex_);
+  keeper_.changeSettings([&](PairSettings& settings) { settings.tracker.cutoff = cutoff; });
+  config_.cutoff = std::isfinite(cutoff) ? cutoff : 0.0;
+  reconfigure_->updateConfig(config_);
+  private_node_.deleteParam("cutoff");
 }
 
 void DistanceServer::setUpDiagnostics() {
@@ -159,8 +211,33 @@ void DistanceServer::publishDiagnostics() {
 void DistanceServer::doHousekeeping() {
   reportMissingClock();
   publishBodies();
+  reportLateness();
   if (keeper_.waitingFor().empty() && isDue(last_frame_message_, kMessagePeriod)) {
     reportMissingFrames();
+  }
+}
+
+void DistanceServer::reportLateness() {
+  const std::shared_ptr<const Scene> scene = keeper_.served()->scene;
+  if (scene->pairs.empty()) {
+    lateness_.restart();
+    return;
+  }
+  LatenessSample sample;
+  sample.wall = ros::WallTime::now().toSec();
+  sample.ros_time = ros::Time::now().toSec();
+  sample.cycles = runner_.statistics().totalCycles();
+  sample.late = runner_.statistics().totalLate();
+  sample.wanted_rate = runner_.rate();
+  const std::optional<LatenessMonitor::News> news = lateness_.update(sample);
+  if (!news) {
+    return;
+  }
+  if (news->is_warning) {
+    ROS_WARN_STREAM(news->text << ". " << scene->pairs.size()
+                               << " pairs are in the scene; what helps: " << kRemedies);
+  } else {
+    ROS_INFO_STREAM(news->text);
   }
 }
 
@@ -173,34 +250,19 @@ void DistanceServer::publishBodies() {
 }
 
 void DistanceServer::reportMissingClock() {
-  if (ros::Time::isSimTime() && ros::Time::now().isZero() && isDue(last_clock_message_, kMessagePeriod)) {
-    ROS_WARN(
-        "No cycle runs: /use_sim_time is true and nothing publishes /clock. Start the simulation, play the "
-        "bag "
-        "with --clock, or set /use_sim_time to false and start the node again.");
+  const std::string missing = missingClock();
+  if (!missing.empty() && isDue(last_clock_message_, kMessagePeriod)) {
+    ROS_WARN_STREAM(missing);
   }
 }
 
 void DistanceServer::reportMissingFrames() {
-  std::set<std::string> missing;
   const std::shared_ptr<const tf2::BufferCore> buffer = transforms_.current();
   const std::shared_ptr<const ServedScene> served = keeper_.served();  // an edit must not end it meanwhile
-  for (const SceneBody& body : served->scene->bodies) {
-    if (body.frame != parameters_.reference_frame &&
-        !buffer->canTransform(parameters_.reference_frame, body.frame, ros::Time(0))) {
-      missing.insert(body.frame);
-    }
+  const std::string missing = describeMissingFrames(*buffer, *served->scene, parameters_.reference_frame);
+  if (!missing.empty()) {
+    ROS_WARN_STREAM(missing);
   }
-  if (missing.empty()) {
-    return;
-  }
-  std::ostringstream list;
-  for (const std::string& frame : missing) {
-    list << (list.tellp() > 0 ? ", " : "") << frame;
-  }
-  ROS_WARN_STREAM("No transform to the reference frame '"
-                  << parameters_.reference_frame << "' from " << missing.size() << " frames of bodies: "
-                  << list.str() << ". Is somebody publishing them, and is ~reference_frame right?");
 }
 
 void DistanceServer::onReconfigure(ConcaveDistanceConfig& config, std::uint32_t /*level*/) {

@@ -3,6 +3,7 @@
 #include <array>
 #include <filesystem>
 #include <limits>
+#include <sstream>
 #include <utility>
 
 #include "concave_distance/base/error.h"
@@ -67,6 +68,18 @@ PairSettings readPair(ParameterReader& reader, PairSettings pair) {
   return pair;
 }
 
+// "a:b", as the shell writes lists of paths.
+std::vector<std::string> readPaths(const std::string& text) {
+  std::vector<std::string> paths;
+  std::istringstream stream(text);
+  for (std::string path; std::getline(stream, path, ':');) {
+    if (!path.empty()) {
+      paths.push_back(path);
+    }
+  }
+  return paths;
+}
+
 MarkerStyle readMarkers(ParameterReader& reader, MarkerStyle style) {
   style.scale = reader.number("marker_scale", style.scale, 0.0, kLongest);
   style.near = reader.number("marker_near", style.near, 0.0, kLongest);
@@ -117,6 +130,7 @@ NodeParameters parseNodeParameters(XmlRpc::XmlRpcValue values, std::vector<std::
       requireFrameName(reader.text("reference_frame", parameters.reference_frame), "~reference_frame");
   parameters.geometry = reader.choice("geometry", 0, {"collision", "visual"}) == 0 ? GeometrySource::Collision
                                                                                    : GeometrySource::Visual;
+  parameters.mesh_search_path = readPaths(reader.text("mesh_search_path", ""));
   parameters.cache = reader.text("cache", parameters.cache);
   parameters.rate = reader.number("rate", parameters.rate, 0.1, 2000.0);
   parameters.marker_rate = reader.number("marker_rate", parameters.marker_rate, 0.1, 200.0);
@@ -126,6 +140,9 @@ NodeParameters parseNodeParameters(XmlRpc::XmlRpcValue values, std::vector<std::
   parameters.tf_cache = reader.number("tf_cache", parameters.tf_cache, 0.1, 3600.0);
   parameters.tf_future_tolerance =
       reader.number("tf_future_tolerance", parameters.tf_future_tolerance, 0.0, 60.0);
+  parameters.automatic_cutoff = parameters.scene_file.empty() && !reader.has("cutoff");
+  parameters.skip_overlapping_pairs =
+      reader.flag("skip_overlapping_pairs", parameters.skip_overlapping_pairs);
   parameters.pair = readPair(reader, parameters.pair);
   parameters.publish_markers = reader.flag("publish_markers", parameters.publish_markers);
   parameters.publish_contact_markers =

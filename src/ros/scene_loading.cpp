@@ -14,25 +14,13 @@ namespace {
 
 // Where loadRobotScene looks for the SRDF; a robot may have none.
 constexpr const char* kSemanticDescription = "robot_description_semantic";
-constexpr std::size_t kLongestQuote = 60;  // characters of a wrong value in a message
+constexpr const char* kSemanticSuffix = "_semantic";  // of the parameter's name, as MoveIt has it
 
 std::optional<FoundDescription> findDescription(const ros::NodeHandle& node, const std::string& name) {
   return searchDescription(node.getNamespace(), name, [&](const std::string& key) {
     std::string text;
     return node.getParam(key, text) ? std::optional<std::string>(text) : std::nullopt;
   });
-}
-
-// Why `found` cannot be used yet; empty: it can.
-std::string whatIsMissing(const std::optional<FoundDescription>& found, const std::string& name) {
-  if (!found) {
-    return "there is no parameter '" + name + "' with the robot's URDF";
-  }
-  if (!found->is_xml) {
-    return "the parameter '" + found->key + "' holds no URDF but '" + found->text.substr(0, kLongestQuote) +
-           "'; set it to the text of the robot's URDF";
-  }
-  return "";
 }
 
 // To add bodies to.
@@ -60,15 +48,8 @@ std::string rosPackagePath(const std::string& package) {
   return ros::package::getPath(package);
 }
 
-LoadAttempt tryLoadScene(const NodeParameters& parameters, const ros::NodeHandle& node) {
-  SceneLoadOptions options;
-  options.package_locator = rosPackagePath;
-  options.geometry = parameters.geometry;
-  options.default_settings = parameters.pair;
-  options.cache = openPreparationCache(parameters.cache);
-  options.limits = {parameters.limits.largest_body_count, parameters.limits.largest_pair_count,
-                    parameters.limits.largest_triangle_count, parameters.limits.largest_node_count};
-  options.mesh_import = parameters.mesh_access.limits;
+SceneRequest requestScene(const NodeParameters& parameters, const ros::NodeHandle& node) {
+  SceneRequest request;
   std::vector<std::string> names;
   if (!parameters.scene_file.empty()) {
     names = descriptionsOfSceneFile(parameters.scene_file);
@@ -77,22 +58,44 @@ LoadAttempt tryLoadScene(const NodeParameters& parameters, const ros::NodeHandle
   }
   for (const std::string& name : names) {
     const std::optional<FoundDescription> found = findDescription(node, name);
-    if (const std::string missing = whatIsMissing(found, name); !missing.empty()) {
-      return {std::nullopt, missing};
+    if (!found) {
+      request.waiting_for = "there is no parameter '" + name + "' with the robot's description";
+      return request;
     }
-    options.descriptions[name] = found->text;
+    request.descriptions[name] = found->text;
   }
+  if (parameters.scene_file.empty() && !parameters.robot_description.empty()) {
+    const auto srdf = findDescription(node, parameters.robot_description + kSemanticSuffix);
+    if (srdf && srdf->is_xml) {
+      request.descriptions[kSemanticDescription] = srdf->text;
+    }
+  }
+  return request;
+}
+
+Scene loadScene(const NodeParameters& parameters, const SceneRequest& request, LoadProgress& progress) {
+  SceneLoadOptions options;
+  options.package_locator = rosPackagePath;
+  options.mesh_search_path = parameters.mesh_search_path;
+  options.geometry = parameters.geometry;
+  options.default_settings = parameters.pair;
+  options.cache = openPreparationCache(parameters.cache);
+  options.limits = {parameters.limits.largest_body_count, parameters.limits.largest_pair_count,
+                    parameters.limits.largest_triangle_count, parameters.limits.largest_node_count};
+  options.mesh_import = parameters.mesh_access.limits;
+  options.mesh_import.stop = &progress.stop;
+  options.descriptions = request.descriptions;
+  options.progress = &progress;
+  options.automatic_cutoff = parameters.automatic_cutoff;
+  options.skip_overlapping_pairs = parameters.skip_overlapping_pairs;
   if (!parameters.scene_file.empty()) {
-    return {loadSceneFile(parameters.scene_file, options), ""};
+    return loadSceneFile(parameters.scene_file, options);
   }
   if (parameters.robot_description.empty()) {
-    return {emptyScene(options), ""};
+    return emptyScene(options);
   }
-  const std::string urdf = options.descriptions[parameters.robot_description];
-  if (const auto srdf = findDescription(node, kSemanticDescription); srdf && srdf->is_xml) {
-    options.descriptions[kSemanticDescription] = srdf->text;
-  }
-  return {loadRobot(urdf, parameters.robot_description, options), ""};
+  return loadRobot(request.descriptions.at(parameters.robot_description), parameters.robot_description,
+                   options);
 }
 
 }  // namespace concave_distance

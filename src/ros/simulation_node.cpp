@@ -22,16 +22,18 @@ void run() {
   loading.scene_file = parameters.scene_file;
   loading.robot_description = parameters.robot_description;
   loading.cache = parameters.cache;
-  LoadAttempt attempt = tryLoadScene(loading, node);
-  for (; !attempt.scene && ros::ok(); attempt = tryLoadScene(loading, node)) {
-    ROS_INFO_STREAM_THROTTLE(5.0, "waiting: " << attempt.waiting_for);
+  SceneRequest request = requestScene(loading, node);
+  for (; !request.waiting_for.empty() && ros::ok(); request = requestScene(loading, node)) {
+    ROS_INFO_STREAM_THROTTLE(5.0, "waiting: " << request.waiting_for);
     ros::WallDuration(0.2).sleep();
   }
-  if (!attempt.scene) return;
-  for (const SceneProblem& problem : attempt.scene->problems) {
+  if (!ros::ok()) return;
+  LoadProgress progress;
+  Scene scene = loadScene(loading, request, progress);
+  for (const SceneProblem& problem : scene.problems) {
     ROS_ERROR_STREAM(problem.where << ": " << problem.message);
   }
-  const SimulationRunner runner(node, private_node, std::move(*attempt.scene), parameters);
+  const SimulationRunner runner(node, private_node, std::move(scene), parameters);
   ros::spin();
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <exception>
 #include <memory>
+#include <set>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -21,30 +22,39 @@ constexpr double kFarthestCoordinate = 1e9;  // metres
 
 // Runs `step` for every body without a problem; what it throws becomes that body's problem.
 template <typename Step>
-void forEachBody(std::vector<BuiltBody>& built, const Step& step) {
+void forEachBody(std::vector<BuiltBody>& built, LoadProgress* progress, const Step& step) {
   // One body a task: their costs differ by orders of magnitude.
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, built.size(), 1),
                     [&](const tbb::blocked_range<std::size_t>& range) {
                       for (std::size_t i = range.begin(); i != range.end(); ++i) {
-                        if (!built[i].problem.empty()) continue;
+                        if (progress != nullptr && progress->stop) built[i].problem = "loading was stopped";
                         try {
-                          step(i);
+                          if (built[i].problem.empty()) step(i);
                         } catch (const std::exception& exception) {
                           built[i].problem = exception.what();
                         }
+                        if (progress != nullptr) progress->finishBody();
                       }
                     });
 }
 
 // The caller's locator need not be safe between threads: files are looked up one by one, beforehand.
-void locateAll(std::vector<BodySource>& sources, const PackageLocator& package_locator,
-               std::vector<BuiltBody>& built) {
+void locateAll(std::vector<BodySource>& sources, const BuildOptions& options, std::vector<BuiltBody>& built) {
+  std::set<std::string> told;
   for (std::size_t i = 0; i < sources.size(); ++i) {
     built[i].problem = sources[i].problem;
     if (!built[i].problem.empty()) continue;
     try {
+      const MeshFolders folders{sources[i].base_folder, options.mesh_search_path};
       for (GeometryElement& element : sources[i].geometry) {
-        locateGeometry(element, sources[i].base_folder, package_locator);
+        const std::string resource = element.mesh_resource;
+        const std::string below = locateGeometry(element, folders, options.package_locator);
+        if (below.empty()) continue;
+        sources[i].in_robot_model = false;  // rviz does not find the mesh
+        if (told.insert(below).second) {
+          built[i].notes.push_back("'" + resource + "' was found below " + below +
+                                   ", and what else is missing is looked for there too");
+        }
       }
     } catch (const std::exception& exception) {
       built[i].problem = exception.what();
@@ -99,6 +109,7 @@ SceneBody build(const BodySource& source, const std::shared_ptr<BodyPool>& pool,
   body.colour = source.colour;
   body.material = source.material;
   body.in_robot_model = source.in_robot_model;
+  body.is_robot_link = source.is_robot_link;
   body.repair = repaired.report;
   body.inertia = source.inertia;
   body.bounds = boundsOf(repaired.mesh);
@@ -108,12 +119,13 @@ SceneBody build(const BodySource& source, const std::shared_ptr<BodyPool>& pool,
 
 }  // namespace
 
-std::vector<BuiltBody> buildBodies(std::vector<BodySource> sources, const PackageLocator& package_locator,
-                                   const std::shared_ptr<BodyPool>& pool,
-                                   const PreparationCachePointer& cache, const SceneLimits& limits) {
+std::vector<BuiltBody> buildBodies(std::vector<BodySource> sources, const BuildOptions& options) {
   std::vector<BuiltBody> built(sources.size());
-  locateAll(sources, package_locator, built);
-  forEachBody(built, [&](std::size_t i) { built[i].body = build(sources[i], pool, cache, limits); });
+  if (options.progress != nullptr) options.progress->begin(sources.size());
+  locateAll(sources, options, built);
+  forEachBody(built, options.progress, [&](std::size_t i) {
+    built[i].body = build(sources[i], options.pool, options.cache, options.limits);
+  });
   for (std::size_t i = 0; i < sources.size(); ++i) {
     if (!built[i].body) continue;
     for (const std::string& note :

@@ -2,10 +2,12 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "concave_distance/scene/load_scene.h"
 #include "concave_distance/scene/scene.h"
 #include "concave_distance/scene/scene_limits.h"
 #include "geometry_element.h"
@@ -23,6 +25,7 @@ struct BodySource {
   Eigen::Vector4d colour = SceneBody().colour;
   Material material;
   bool in_robot_model = false;
+  bool is_robot_link = false;
   std::optional<MassProperties> inertia;
   std::string problem;  ///< known already: the body is not tried
 };
@@ -33,12 +36,18 @@ struct BuiltBody {
   std::vector<std::string> notes;
 };
 
+/// What bodies are built with.
+struct BuildOptions {
+  PackageLocator package_locator;
+  std::vector<std::string> mesh_search_path;
+  std::shared_ptr<BodyPool> pool;    ///< not nullptr
+  PreparationCachePointer cache;     ///< nullptr: none
+  SceneLimits limits;                ///< those of one body are read
+  LoadProgress* progress = nullptr;  ///< nullptr: nobody watches
+};
+
 /// Loads all bodies, in parallel; one result a source, in their order and the same whatever the number of
-/// threads and whatever the cache (nullptr: none) already holds. Never throws for a body: its problem says
-/// what is wrong.
-/// @param pool not nullptr
-std::vector<BuiltBody> buildBodies(std::vector<BodySource> sources, const PackageLocator& package_locator,
-                                   const std::shared_ptr<BodyPool>& pool,
-                                   const PreparationCachePointer& cache, const SceneLimits& limits);
+/// threads and whatever the cache already holds. Never throws for a body: its problem says what is wrong.
+std::vector<BuiltBody> buildBodies(std::vector<BodySource> sources, const BuildOptions& options);
 
 }  // namespace concave_distance::detail

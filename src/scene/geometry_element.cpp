@@ -96,17 +96,19 @@ std::optional<ContentKey> keyOf(const std::vector<GeometryElement>& elements, co
 
 }  // namespace
 
-void locateGeometry(GeometryElement& element, const std::string& base_folder,
-                    const PackageLocator& package_locator) {
-  if (!element.primitive.empty()) return;
+std::string locateGeometry(GeometryElement& element, const MeshFolders& folders,
+                           const PackageLocator& package_locator) {
+  if (!element.primitive.empty()) return "";
   try {
     if (element.access.roots) {
       LocatedMesh located = locateMeshBelow(element.mesh_resource, *element.access.roots, package_locator);
       element.mesh_resource = std::move(located.path);
       element.real_folders = std::move(located.real_folders);
-      return;
+      return "";
     }
-    element.mesh_resource = locateResource(element.mesh_resource, base_folder, package_locator);
+    FoundMesh found = searchMesh(element.mesh_resource, folders, package_locator);
+    element.mesh_resource = std::move(found.path);
+    return std::move(found.below);
   } catch (const Error& error) {
     throw Error(element.where + ", " + error.where(), error.whatIsWrong(), error.remedy());
   }

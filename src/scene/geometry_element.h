@@ -9,6 +9,7 @@
 #include "concave_distance/mesh/repair_mesh.h"
 #include "concave_distance/scene/mesh_roots.h"
 #include "concave_distance/scene/resource_locator.h"
+#include "mesh_search.h"
 
 namespace concave_distance::detail {
 
@@ -26,9 +27,10 @@ struct GeometryElement {
 };
 
 /// Puts the path of this machine in place of the element's resource; a primitive is left alone.
-/// @throws Error as locateResource, naming the element too
-void locateGeometry(GeometryElement& element, const std::string& base_folder,
-                    const PackageLocator& package_locator);
+/// @return the folder of the search path that led there; empty: none was needed
+/// @throws Error as searchMesh, naming the element too
+std::string locateGeometry(GeometryElement& element, const MeshFolders& folders,
+                           const PackageLocator& package_locator);
 
 /// Loads located elements and merges them into one repaired surface in the body's frame; slits of
 /// single precision are welded (kSinglePrecisionWeld), so that what is meant to be closed is.

@@ -9,6 +9,7 @@
 
 #include "build_bodies.h"
 #include "concave_distance/base/error.h"
+#include "robot_at_rest.h"
 #include "robot_description.h"
 #include "scene_parts.h"
 #include "scene_spec.h"
@@ -148,10 +149,12 @@ Scene assemble(const SceneSpec& spec, SceneParts parts, const SceneLoadOptions& 
   PairSelection selection = detail::selectPairs(spec, parts, options.limits.pairs);
   detail::limitImports(parts, options.mesh_import);
   Scene scene;
+  scene.rigid = parts.rigid;
   scene.pool = std::make_shared<BodyPool>(spec.metric_memory_limit);
   scene.limits = options.limits;
   std::vector<BuiltBody> built =
-      detail::buildBodies(parts.sources, options.package_locator, scene.pool, spec.cache, options.limits);
+      detail::buildBodies(parts.sources, {options.package_locator, options.mesh_search_path, scene.pool,
+                                          spec.cache, options.limits, options.progress});
   scene.cache = spec.cache;
   scene.simulation = spec.simulation;
   scene.notes = std::move(parts.notes);
@@ -232,15 +235,24 @@ Scene loadRobotScene(const std::string& urdf, const std::string& where, const Sc
     robot.semantic_description = kSemanticDescription;
     addSemantics(robot, description, "", options, parts);
   }
-  return assemble(spec, std::move(parts), options);
+  Scene scene = assemble(spec, std::move(parts), options);
+  if (options.automatic_cutoff) detail::setAutomaticCutoff(scene, description);
+  detail::warnOfNoGeometry(scene, description, options.geometry);
+  detail::reportOverlappingPairs(scene, description, options);
+  return scene;
 }
 
 SceneBody loadBody(const BodyDescription& description, const std::string& base_folder,
                    const PackageLocator& package_locator, const std::shared_ptr<BodyPool>& pool,
                    const PreparationCachePointer& cache, const SceneLimits& limits) {
   std::vector<BuiltBody> built =
-      detail::buildBodies({detail::sourceOf(description, base_folder)}, package_locator,
-                          pool ? pool : std::make_shared<BodyPool>(kDefaultMetricMemoryLimit), cache, limits);
+      detail::buildBodies({detail::sourceOf(description, base_folder)},
+                          {package_locator,
+                           {},
+                           pool ? pool : std::make_shared<BodyPool>(kDefaultMetricMemoryLimit),
+                           cache,
+                           limits,
+                           nullptr});
   if (!built.front().body) {
     throw Error("body '" + description.name + "'", built.front().problem, "it is not added");
   }

@@ -10,6 +10,7 @@
 
 #include "concave_distance/base/error.h"
 #include "message_capture.h"
+#include "urdf_values.h"
 #include "wording.h"
 
 namespace concave_distance::detail {
@@ -17,6 +18,7 @@ namespace {
 
 constexpr std::size_t kLongestDescription = 64'000'000;  // bytes
 constexpr std::size_t kMostLinks = 10'000;
+constexpr std::size_t kLongestQuote = 60;  // characters of what is no URDF
 constexpr const char* kCheckUrdf = "check it with check_urdf; a xacro file must be expanded first";
 
 const char* elementName(GeometrySource geometry) {
@@ -142,7 +144,9 @@ void parseXml(tinyxml2::XMLDocument& document, const std::string& urdf, const st
   }
   document.Parse(urdf.c_str(), urdf.size());
   if (document.Error()) {
-    throw Error(where, "the URDF cannot be read; " + xmlError(document), kCheckUrdf);
+    const std::string seen =
+        urdf.find('<') == std::string::npos ? "; it is '" + urdf.substr(0, kLongestQuote) + "'" : "";
+    throw Error(where, "the URDF cannot be read; " + xmlError(document) + seen, kCheckUrdf);
   }
   std::size_t links = 0;
   if (const auto* robot = document.FirstChildElement("robot")) links = countChildren(*robot, "link");
@@ -150,14 +154,6 @@ void parseXml(tinyxml2::XMLDocument& document, const std::string& urdf, const st
     throw Error(where, "the URDF has " + std::to_string(links) + " links",
                 "allowed: at most " + std::to_string(kMostLinks));
   }
-}
-
-Eigen::Isometry3d toIsometry(const urdf::Pose& pose) {
-  Eigen::Isometry3d isometry = Eigen::Isometry3d::Identity();
-  const urdf::Rotation& r = pose.rotation;
-  isometry.linear() = Eigen::Quaterniond(r.w, r.x, r.y, r.z).normalized().toRotationMatrix();
-  isometry.translation() = Eigen::Vector3d(pose.position.x, pose.position.y, pose.position.z);
-  return isometry;
 }
 
 GeometryElement toElement(const urdf::Geometry& geometry, const urdf::Pose& origin,
@@ -209,20 +205,6 @@ std::vector<GeometryElement> geometryOf(const urdf::Link& link, GeometrySource g
                                                : toElements(link.visual_array, link.name, "visual");
 }
 
-// About the centre of mass in the link's axes: the URDF has its own axes for the tensor.
-std::optional<MassProperties> inertiaOf(const urdf::Link& link) {
-  if (!link.inertial) return std::nullopt;
-  const urdf::Inertial& given = *link.inertial;
-  const Eigen::Isometry3d link_from_inertial = toIsometry(given.origin);
-  MassProperties inertia;
-  inertia.mass = given.mass;
-  inertia.centre_in_body = link_from_inertial.translation();
-  inertia.inertia << given.ixx, given.ixy, given.ixz, given.ixy, given.iyy, given.iyz, given.ixz, given.iyz,
-      given.izz;
-  inertia.inertia = link_from_inertial.linear() * inertia.inertia * link_from_inertial.linear().transpose();
-  return inertia;
-}
-
 std::optional<Eigen::Vector4d> colourOf(const urdf::Link& link) {
   if (!link.visual || !link.visual->material || !link.visual->material->texture_filename.empty()) {
     return std::nullopt;
@@ -251,6 +233,9 @@ RobotDescription readRobotDescription(const std::string& urdf, const std::string
   }
   tinyxml2::XMLElement* root = document.FirstChildElement("robot");
   const RobotText text = scan(*root, wanted);
+  const bool visual_is_wanted = geometry == GeometrySource::Visual;
+  const RobotText other =
+      scan(*root, elementName(visual_is_wanted ? GeometrySource::Collision : GeometrySource::Visual));
   keepOnly(*root, wanted);
   const ParsedModel geometry_only = parseModel(printed(document));
   const std::map<std::string, std::string> all_faults = messagesByLink(full.messages);
@@ -258,6 +243,8 @@ RobotDescription readRobotDescription(const std::string& urdf, const std::string
 
   RobotDescription robot;
   robot.name = full.model->getName();
+  robot.links_with_other_geometry = static_cast<std::size_t>(std::count_if(
+      other.links.begin(), other.links.end(), [](const LinkText& link) { return link.elements > 0; }));
   for (const LinkText& link_text : text.links) {
     RobotLink link;
     link.name = link_text.name;
@@ -288,8 +275,7 @@ RobotDescription readRobotDescription(const std::string& urdf, const std::string
   for (const std::string& name : text.joints) {
     const urdf::JointConstSharedPtr joint = full.model->getJoint(name);
     if (!joint) continue;  // urdfdom refuses the whole text instead
-    robot.joints.push_back(
-        {name, joint->parent_link_name, joint->child_link_name, joint->type == urdf::Joint::FIXED});
+    robot.joints.push_back(toJoint(*joint));
   }
   return robot;
 }

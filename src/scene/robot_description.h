@@ -1,6 +1,7 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,11 +21,23 @@ struct RobotLink {
   bool hasGeometry() const { return !geometry.empty() || !problem.empty(); }
 };
 
+/// Of joints with one degree of freedom; the others stand still here.
+enum class JointMotion : std::uint8_t { None, Turns, Slides };
+
 struct RobotJoint {
   std::string name;
   std::string parent;
   std::string child;
   bool fixed = false;
+  Eigen::Isometry3d parent_from_joint = Eigen::Isometry3d::Identity();
+  JointMotion motion = JointMotion::None;
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  ///< unit, joint frame
+  bool has_limits = false;
+  double lower = 0.0;  ///< rad or m
+  double upper = 0.0;
+  std::string mimicked;  ///< joint that it follows; empty: none
+  double mimic_factor = 1.0;
+  double mimic_offset = 0.0;
 };
 
 /// What a URDF says that matters here; links and joints in the order of the text.
@@ -33,6 +46,7 @@ struct RobotDescription {
   std::vector<RobotLink> links;
   std::vector<RobotJoint> joints;
   std::vector<std::string> notes;
+  std::size_t links_with_other_geometry = 0;  ///< visual where collision is wanted, and the other way round
   const RobotLink* findLink(const std::string& link) const;
 };
 

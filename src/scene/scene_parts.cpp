@@ -62,6 +62,7 @@ BodySource linkSource(const RobotSpec& spec, const RobotLink& link, const Descri
   if (link.colour) source.colour = *link.colour;
   source.material = spec.material;
   source.in_robot_model = !spec.description.empty();
+  source.is_robot_link = true;
   source.inertia = link.inertia;
   source.problem = link.problem;
   return source;
@@ -89,22 +90,6 @@ void addLinks(const RobotSpec& spec, const RobotDescription& robot, const Descri
 }
 
 }  // namespace
-
-void RigidFrames::join(const std::string& a, const std::string& b) {
-  const std::string root_a = rootOf(a);
-  const std::string root_b = rootOf(b);
-  if (root_a != root_b) parent_[root_b] = root_a;
-}
-
-bool RigidFrames::areJoined(const std::string& a, const std::string& b) const {
-  return rootOf(a) == rootOf(b);
-}
-
-std::string RigidFrames::rootOf(std::string frame) const {
-  for (auto found = parent_.find(frame); found != parent_.end(); found = parent_.find(frame))
-    frame = found->second;
-  return frame;
-}
 
 const char* SceneParts::filterReason(std::size_t source_a, std::size_t source_b) const {
   const BodySource& a = sources[source_a];

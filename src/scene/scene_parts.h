@@ -1,13 +1,13 @@
 #pragma once
 
 #include <cstddef>
-#include <map>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "build_bodies.h"
+#include "concave_distance/scene/rigid_frames.h"
 #include "concave_distance/scene/scene.h"
 #include "link_adjacency.h"
 #include "robot_description.h"
@@ -15,17 +15,6 @@
 #include "semantic_description.h"
 
 namespace concave_distance::detail {
-
-/// Frames that no joint moves against each other, as sets. A frame that was never joined is alone.
-class RigidFrames {
- public:
-  void join(const std::string& a, const std::string& b);
-  bool areJoined(const std::string& a, const std::string& b) const;
-
- private:
-  std::string rootOf(std::string frame) const;
-  std::map<std::string, std::string> parent_;
-};
 
 /// A URDF or SRDF text, with where it came from and where its relative paths start.
 struct DescriptionText {

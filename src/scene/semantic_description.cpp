@@ -31,17 +31,18 @@ class Reader {
   Reader(const RobotDescription& robot, std::string where, SemanticDescription& result)
       : robot_(robot), where_(std::move(where)), result_(result) {}
 
+  // In MoveIt's order: a link may be disabled against all others, pairs of it enabled again, and what is
+  // disabled by name is disabled in any case.
   void readDisabledPairs(const XMLElement& root) {
-    forEachChild(root, "disable_collisions", [&](const XMLElement& element) {
-      const std::string a = attribute(element, "link1");
-      const std::string b = attribute(element, "link2");
-      if (isLink(a, element) && isLink(b, element)) result_.disabled.insert(linkPair(a, b));
-    });
-    for (const char* unread : {"enable_collisions", "disable_default_collisions"}) {
-      if (const XMLElement* element = root.FirstChildElement(unread)) {
-        note(*element, std::string(unread) + " is not read, only disable_collisions is");
+    forEachChild(root, "disable_default_collisions", [&](const XMLElement& element) {
+      const std::string link = attribute(element, "link");
+      if (!isLink(link, element)) return;
+      for (const RobotLink& other : robot_.links) {
+        if (other.name != link) result_.disabled.insert(linkPair(link, other.name));
       }
-    }
+    });
+    forEachPair(root, "enable_collisions", [&](const LinkPair& pair) { result_.disabled.erase(pair); });
+    forEachPair(root, "disable_collisions", [&](const LinkPair& pair) { result_.disabled.insert(pair); });
   }
 
   void readGroups(const XMLElement& root) {
@@ -61,6 +62,15 @@ class Reader {
   }
 
  private:
+  template <typename Visit>
+  void forEachPair(const XMLElement& root, const char* name, const Visit& visit) {
+    forEachChild(root, name, [&](const XMLElement& element) {
+      const std::string a = attribute(element, "link1");
+      const std::string b = attribute(element, "link2");
+      if (isLink(a, element) && isLink(b, element)) visit(linkPair(a, b));
+    });
+  }
+
   static void add(std::vector<std::string>& links, const std::string& link) {
     if (std::find(links.begin(), links.end(), link) == links.end()) links.push_back(link);
   }

@@ -12,14 +12,15 @@ namespace concave_distance::detail {
 
 /// What of an SRDF matters here. Links are named as in the URDF.
 struct SemanticDescription {
-  std::set<LinkPair> disabled;  ///< of disable_collisions
+  std::set<LinkPair> disabled;
   /// Groups with the links they hold, in the order of the text.
   std::vector<std::pair<std::string, std::vector<std::string>>> groups;
   std::vector<std::string> notes;
 };
 
-/// Reads disable_collisions and groups (links, joints by their child link, chains without their base link,
-/// and other groups). What names no link of the robot is left out, with a note.
+/// Reads disable_collisions, disable_default_collisions, enable_collisions and groups (links, joints by their
+/// child link, chains without their base link, and other groups). What names no link of the robot is left
+/// out, with a note.
 /// @throws Error when the text is no SRDF
 SemanticDescription readSemanticDescription(const std::string& srdf, const std::string& where,
                                             const RobotDescription& robot);

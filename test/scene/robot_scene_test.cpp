@@ -248,7 +248,7 @@ TEST_F(RobotScene, WhatTheSrdfHasAndTheUrdfHasNotIsNoted) {
                                 "<enable_collisions link1='a' link2='gone'/></robot>");
   EXPECT_TRUE(hasNote(scene, "is for robot 'other', read for 'arm'"));
   EXPECT_TRUE(hasNote(scene, "parameter semantics:2: disable_collisions names 'gone'"));
-  EXPECT_TRUE(hasNote(scene, "enable_collisions is not read"));
+  EXPECT_TRUE(hasNote(scene, "parameter semantics:3: enable_collisions names 'gone'"));
 }
 
 TEST_F(RobotScene, BrokenSrdfIsAProblemAndTheRobotIsServedWithoutIt) {

@@ -15,9 +15,11 @@
 #include "concave_distance/base/error.h"
 #include "concave_distance/ros/cycle_runner.h"
 #include "concave_distance/ros/distance_queries.h"
+#include "concave_distance/ros/lateness_monitor.h"
 #include "concave_distance/ros/node_parameters.h"
 #include "concave_distance/ros/restart_requests.h"
 #include "concave_distance/ros/scene_keeper.h"
+#include "concave_distance/ros/scene_loader.h"
 #include "concave_distance/ros/scene_services.h"
 #include "concave_distance/ros/topic_publishers.h"
 #include "concave_distance/ros/transform_buffer.h"
@@ -47,6 +49,11 @@ class DistanceServer {
 
  private:
   void tryToLoad();
+  void followLoading();
+  void giveUpLoading(const Error& problem);
+  /// Of a robot: for the pairs to come and for reconfiguration, too.
+  void adoptCutoff(double cutoff);
+  void reportLateness();
   void doHousekeeping();
   void publishDiagnostics();
   void onReconfigure(ConcaveDistanceConfig& config, std::uint32_t level);
@@ -78,12 +85,14 @@ class DistanceServer {
 
   ros::Publisher body_markers_;
   std::shared_ptr<const Scene> shown_scene_;  ///< by body_markers_
+  SceneLoader loader_;                        ///< used by load_timer_ alone
   ros::WallTimer load_timer_;
   ros::WallTimer housekeeping_timer_;
   ros::WallTimer diagnostics_timer_;
   ros::WallTime last_load_message_;
   ros::WallTime last_frame_message_;
   ros::WallTime last_clock_message_ = ros::WallTime::now();
+  LatenessMonitor lateness_;
 };
 
 }  // namespace concave_distance

@@ -20,6 +20,9 @@ struct NodeParameters {
   std::string robot_description = "robot_description";  ///< name of the parameter with the URDF; empty: none
   std::string reference_frame = "world";                ///< tf frame of every output; a continuous one
   GeometrySource geometry = GeometrySource::Collision;
+  std::vector<std::string> mesh_search_path;  ///< as of SceneLoadOptions; so are the next two
+  bool automatic_cutoff = false;              ///< a robot without scene file, and `cutoff` is not set
+  bool skip_overlapping_pairs = false;
   std::string cache;                 ///< folder of prepared bodies; empty: the user's, "off": none
   MeshAccess mesh_access;            ///< of bodies that services add
   double rate = 50.0;                ///< cycles per second

@@ -2,10 +2,12 @@
 
 #include <ros/node_handle.h>
 
+#include <map>
 #include <optional>
 #include <string>
 
 #include "concave_distance/ros/node_parameters.h"
+#include "concave_distance/scene/load_scene.h"
 #include "concave_distance/scene/resource_locator.h"
 #include "concave_distance/scene/scene.h"
 
@@ -14,14 +16,19 @@ namespace concave_distance {
 /// Folder of a ROS package by rospack; empty when it is not known.
 std::string rosPackagePath(const std::string& package);
 
-struct LoadAttempt {
-  std::optional<Scene> scene;
-  std::string waiting_for;  ///< why there is no scene yet
+/// What the parameter server has for a scene.
+struct SceneRequest {
+  std::map<std::string, std::string> descriptions;  ///< texts by parameter name
+  std::string waiting_for;                          ///< what is not there yet; empty: the scene can be loaded
 };
 
-/// Loads the scene that the parameters name, once every robot description it refers to is on the parameter
-/// server. A robot whose URDF cannot be read becomes a problem of the scene, as a broken mesh does.
+/// Reads the robot descriptions that the scene file or `~robot_description` names. Does not wait.
 /// @throws Error for a scene file that is wrong in itself
-LoadAttempt tryLoadScene(const NodeParameters& parameters, const ros::NodeHandle& node);
+SceneRequest requestScene(const NodeParameters& parameters, const ros::NodeHandle& node);
+
+/// Loads the scene. A robot whose URDF cannot be read becomes a problem of the scene, as a broken mesh does.
+/// Takes as long as preparing the bodies; no ROS call but for packages.
+/// @throws Error for a scene file that is wrong in itself
+Scene loadScene(const NodeParameters& parameters, const SceneRequest& request, LoadProgress& progress);
 
 }  // namespace concave_distance

@@ -17,6 +17,7 @@
 #include "concave_distance/scene/body_pool.h"
 #include "concave_distance/scene/broad_phase.h"
 #include "concave_distance/scene/named_list.h"
+#include "concave_distance/scene/rigid_frames.h"
 #include "concave_distance/scene/scene_limits.h"
 #include "concave_distance/scene/simulation_settings.h"
 #include "concave_distance/tracking/tracker_parameters.h"
@@ -33,6 +34,7 @@ struct SceneBody {
   std::optional<MassProperties> inertia;  ///< of a link: what its URDF says
   std::string source;                     ///< file or URDF element it came from, for messages
   bool in_robot_model = false;            ///< rviz can draw it from robot_description; no mesh marker needed
+  bool is_robot_link = false;             ///< of a URDF
   Eigen::Vector4d colour = Eigen::Vector4d(0.6, 0.6, 0.65, 1.0);  ///< red, green, blue, opacity in [0, 1]
   Material material;                                              ///< for contact forces
 };
@@ -93,6 +95,9 @@ struct Scene {
   PairList pairs;  ///< enabled ones and those disabled by name; filtered pairs are not listed
   std::vector<SceneProblem> problems;
   std::vector<std::string> notes;                ///< repairs and filters applied, one line each
+  std::vector<std::string> warnings;             ///< what is served but hardly meant so, with a remedy each
+  RigidFrames rigid;                             ///< frames that fixed joints connect
+  std::optional<double> automatic_cutoff;        ///< m, where SceneLoadOptions asks for one
   std::optional<SimulationSettings> simulation;  ///< the section `simulation`, where there is one
   PreparationCachePointer cache;  ///< that its bodies went through, for those added later; nullptr: none
   std::shared_ptr<BodyPool> pool;  ///< the same; nullptr: none

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <tf2/buffer_core.h>
+
+#include <string>
+
+#include "concave_distance/scene/scene.h"
+
+namespace concave_distance {
+
+/// Which frames of bodies tf does not connect with the reference frame, and what to do; empty: none.
+std::string describeMissingFrames(const tf2::BufferCore& buffer, const Scene& scene,
+                                  const std::string& reference_frame);
+
+}  // namespace concave_distance

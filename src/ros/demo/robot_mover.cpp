@@ -1,0 +1,128 @@
+/// Moves a robot that nobody moves yet: publishes its joint states and the transform from `root_frame` to its
+/// root link, so that robot_state_publisher and the distance node have what they need.
+///
+/// Private parameters: `robot_description` (name of the parameter with the URDF), `motion` (zero: every joint
+/// stands at zero, or in the middle of its range where that does not hold zero; sway: around there), `rate`
+/// (Hz, 50), `root_frame` (world; empty: no transform to the root link).
+
+#include <ros/ros.h>
+#include <sensor_msgs/JointState.h>
+#include <tf2_ros/static_transform_broadcaster.h>
+#include <urdf_parser/urdf_parser.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "concave_distance/base/error.h"
+#include "concave_distance/ros/description_search.h"
+#include "demo_parameters.h"
+
+namespace {
+
+using namespace concave_distance;
+
+constexpr double kTurn = 0.5;          // rad, largest amplitude of a turning joint
+constexpr double kShift = 0.1;         // m, of a sliding one
+constexpr double kShareOfRange = 0.2;  // at most, of both
+constexpr double kSlowest = 0.07;      // Hz
+constexpr double kFrequencyStep = 0.011;
+constexpr std::size_t kFrequencies = 7;
+
+struct MovedJoint {
+  double centre = 0.0;
+  double amplitude = 0.0;
+};
+
+bool isMoved(const urdf::Joint& joint) {
+  const bool has_one_axis = joint.type == urdf::Joint::REVOLUTE || joint.type == urdf::Joint::CONTINUOUS ||
+                            joint.type == urdf::Joint::PRISMATIC;
+  return has_one_axis && !joint.mimic;
+}
+
+MovedJoint motionOf(const urdf::Joint& joint, bool sway) {
+  MovedJoint moved;
+  moved.amplitude = sway ? (joint.type == urdf::Joint::PRISMATIC ? kShift : kTurn) : 0.0;
+  if (joint.type == urdf::Joint::CONTINUOUS || !joint.limits) return moved;
+  const double lower = joint.limits->lower;
+  const double upper = joint.limits->upper;
+  if (!(lower < upper)) return {std::clamp(0.0, std::min(lower, upper), std::max(lower, upper)), 0.0};
+  if (lower > 0.0 || upper < 0.0) moved.centre = 0.5 * (lower + upper);
+  moved.amplitude = std::min(moved.amplitude, kShareOfRange * (upper - lower));
+  moved.centre = std::clamp(moved.centre, lower + moved.amplitude, upper - moved.amplitude);
+  return moved;
+}
+
+std::string waitForDescription(const ros::NodeHandle& node) {
+  const std::string name = node.param<std::string>("robot_description", "robot_description");
+  while (ros::ok()) {
+    const auto found = searchDescription(node.getNamespace(), name, [&](const std::string& key) {
+      std::string text;
+      return node.getParam(key, text) ? std::optional<std::string>(text) : std::nullopt;
+    });
+    if (found && found->is_xml) return found->text;
+    ROS_WARN_STREAM_THROTTLE(5.0, "Waiting for the parameter '" << name << "' with a robot's URDF.");
+    ros::WallDuration(0.1).sleep();
+  }
+  return "";
+}
+
+void publishRoot(tf2_ros::StaticTransformBroadcaster& broadcaster, const std::string& frame,
+                 const std::string& root) {
+  if (frame.empty() || frame == root) return;
+  broadcaster.sendTransform(demo::toTransform(Eigen::Isometry3d::Identity(), ros::Time::now(), frame, root));
+}
+
+void run() {
+  const ros::NodeHandle node("~");
+  const double rate = demo::numberParameter(node, "rate", 50.0, 0.1, 2000.0);
+  const std::string motion = node.param<std::string>("motion", "zero");
+  if (motion != "zero" && motion != "sway") {
+    throw Error(node.resolveName("motion"), "is '" + motion + "'", "set it to zero or sway");
+  }
+  const std::string text = waitForDescription(node);
+  if (!ros::ok()) return;
+  const urdf::ModelInterfaceSharedPtr model = urdf::parseURDF(text);
+  if (!model || !model->getRoot()) {
+    throw Error("robot_description", "it is no URDF that can be read", "check it with check_urdf");
+  }
+  tf2_ros::StaticTransformBroadcaster broadcaster;
+  publishRoot(broadcaster, node.param<std::string>("root_frame", "world"), model->getRoot()->name);
+
+  sensor_msgs::JointState message;
+  std::vector<MovedJoint> joints;
+  for (const auto& [name, joint] : model->joints_) {
+    if (!isMoved(*joint)) continue;
+    message.name.push_back(name);
+    joints.push_back(motionOf(*joint, motion == "sway"));
+  }
+  message.position.resize(joints.size());
+  ros::NodeHandle public_node;
+  ros::Publisher publisher = public_node.advertise<sensor_msgs::JointState>("joint_states", 1);
+  ros::Time first;
+  const ros::Timer timer = public_node.createTimer(ros::Duration(1.0 / rate), [&](const ros::TimerEvent&) {
+    const ros::Time now = ros::Time::now();
+    if (first.isZero() || now < first) first = now;
+    const double time = (now - first).toSec();
+    for (std::size_t i = 0; i < joints.size(); ++i) {
+      const double frequency = kSlowest + kFrequencyStep * static_cast<double>(i % kFrequencies);
+      message.position[i] = joints[i].centre + joints[i].amplitude * std::sin(2.0 * M_PI * frequency * time);
+    }
+    message.header.stamp = now;
+    publisher.publish(message);
+  });
+  ros::spin();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "robot_mover");
+  try {
+    run();
+  } catch (const Error& error) {
+    ROS_FATAL_STREAM(error.what());
+    return 1;
+  }
+  return 0;
+}

@@ -1,0 +1,61 @@
+#include "concave_distance/ros/frame_report.h"
+
+#include <ros/time.h>
+
+#include <set>
+#include <sstream>
+
+namespace concave_distance {
+namespace {
+
+// Frames above one another; more is a loop.
+constexpr int kLongestChain = 1000;
+
+std::string listed(const std::set<std::string>& names) {
+  std::ostringstream list;
+  for (const std::string& name : names) {
+    list << (list.tellp() > 0 ? ", " : "") << "'" << name << "'";
+  }
+  return list.str();
+}
+
+std::string rootOf(const tf2::BufferCore& buffer, std::string frame) {
+  std::string parent;
+  for (int step = 0; step < kLongestChain && buffer._getParent(frame, ros::Time(0), parent); ++step) {
+    frame = parent;
+  }
+  return frame;
+}
+
+}  // namespace
+
+std::string describeMissingFrames(const tf2::BufferCore& buffer, const Scene& scene,
+                                  const std::string& reference_frame) {
+  std::set<std::string> unknown;
+  std::set<std::string> elsewhere;
+  std::set<std::string> roots;
+  for (const SceneBody& body : scene.bodies) {
+    if (body.frame == reference_frame || buffer.canTransform(reference_frame, body.frame, ros::Time(0))) {
+      continue;
+    }
+    if (buffer._frameExists(body.frame)) {
+      elsewhere.insert(body.frame);
+      roots.insert(rootOf(buffer, body.frame));
+    } else {
+      unknown.insert(body.frame);
+    }
+  }
+  std::ostringstream text;
+  if (!unknown.empty()) {
+    text << unknown.size() << " frames of bodies are not on tf: " << listed(unknown)
+         << "; is robot_state_publisher running, and do the joint states name every joint?";
+  }
+  if (!elsewhere.empty()) {
+    text << (unknown.empty() ? "" : " ") << "tf does not connect the reference frame '" << reference_frame
+         << "' with " << listed(elsewhere) << ", which are below " << listed(roots)
+         << "; set ~reference_frame to that, or publish the transform between the two.";
+  }
+  return text.str();
+}
+
+}  // namespace concave_distance

@@ -1,0 +1,80 @@
+#include "concave_distance/ros/lateness_monitor.h"
+
+#include <cstdio>
+
+namespace concave_distance {
+namespace {
+
+constexpr double kSpan = 5.0;       // s of wall time
+constexpr double kRateShare = 0.9;  // of the wanted rate; less is late
+constexpr double kLateShare = 0.1;  // of the cycles; more is late
+constexpr double kMuchMore = 2.0;   // change of the rate that is news
+constexpr int kGoodSpans = 2;       // until it is believed that all is well
+
+std::string describe(double rate, double late_share, double wanted_rate) {
+  char text[160];
+  if (rate <= 0.0) {
+    std::snprintf(text, sizeof text, "no cycle has finished for %.0f s (%.3g a second are wanted)", kSpan,
+                  wanted_rate);
+  } else {
+    std::snprintf(text, sizeof text, "%.3g cycles a second instead of %.3g, %.0f %% of them late", rate,
+                  wanted_rate, 100.0 * late_share);
+  }
+  return text;
+}
+
+}  // namespace
+
+void LatenessMonitor::restart() {
+  span_start_.reset();
+  reported_rate_.reset();
+  good_spans_ = 0;
+}
+
+std::optional<LatenessMonitor::News> LatenessMonitor::update(const LatenessSample& sample) {
+  if (!span_start_ || sample.ros_time < span_start_->ros_time ||
+      sample.wanted_rate != span_start_->wanted_rate) {
+    span_start_ = sample;
+    return std::nullopt;
+  }
+  if (sample.wall - span_start_->wall < kSpan) {
+    return std::nullopt;
+  }
+  const LatenessSample start = *span_start_;
+  span_start_ = sample;
+  const double passed = sample.ros_time - start.ros_time;
+  if (!(passed * sample.wanted_rate > 1.0)) {
+    return std::nullopt;  // the clock stands still, or no cycle was due
+  }
+  const auto cycles = static_cast<double>(sample.cycles - start.cycles);
+  const auto late = static_cast<double>(sample.late - start.late);
+  return judge(cycles / passed, cycles > 0.0 ? late / cycles : 1.0, sample.wanted_rate);
+}
+
+std::optional<LatenessMonitor::News> LatenessMonitor::judge(double rate, double late_share,
+                                                            double wanted_rate) {
+  const bool is_late = rate < kRateShare * wanted_rate || late_share > kLateShare;
+  good_spans_ = is_late ? 0 : good_spans_ + 1;
+  if (!is_late) {
+    if (!reported_rate_ || good_spans_ < kGoodSpans) {
+      return std::nullopt;
+    }
+    reported_rate_.reset();
+    return News{false, "cycles are on time again: " + describe(rate, late_share, wanted_rate)};
+  }
+  if (!reported_rate_) {
+    reported_rate_ = rate;
+    return News{true, "cycles are late: " + describe(rate, late_share, wanted_rate)};
+  }
+  if (rate < *reported_rate_ / kMuchMore) {
+    reported_rate_ = rate;
+    return News{true, "cycles are even later: " + describe(rate, late_share, wanted_rate)};
+  }
+  if (rate > *reported_rate_ * kMuchMore) {
+    reported_rate_ = rate;
+    return News{false, "cycles are still late, but less: " + describe(rate, late_share, wanted_rate)};
+  }
+  return std::nullopt;
+}
+
+}  // namespace concave_distance
