@@ -43,6 +43,8 @@ PairSettings pairSettings(const AddBody::Request& request, PairSettings settings
   return settings;
 }
 
+constexpr double kRemarkPeriod = 1.0;  // s, between two remarks in the log; each is in its response too
+
 // Bodies named in a remark.
 constexpr std::size_t kMostNamed = 8;
 
@@ -174,7 +176,7 @@ bool SceneServices::addBody(AddBody::Request& request, AddBody::Response& respon
     keeper_.edit([&](Scene& edited) { added = concave_distance::addBody(edited, body, partners, settings); });
     response.message = shortText(remarksOn(added, body.frame, isOnTf(*buffer, body.frame)));
     if (!response.message.empty()) {
-      ROS_WARN_STREAM("add_body '" << body.name << "': " << response.message);
+      ROS_WARN_STREAM_THROTTLE(kRemarkPeriod, "add_body '" << body.name << "': " << response.message);
     }
     response.pairs = std::move(added.names);
   });
