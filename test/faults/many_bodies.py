@@ -13,6 +13,8 @@ import time
 import xmlrpc.client
 
 import rospy
+from geometry_msgs.msg import TransformStamped
+from tf2_msgs.msg import TFMessage
 
 from concave_distance.msg import Niches
 from concave_distance.srv import AddBody, AddBodyRequest, ListBodies, RemoveBody
@@ -50,6 +52,21 @@ def box(index, arguments):
     return request
 
 
+def place_frames(count):
+    """Static transforms of all frames: the boxes stand side by side, a metre above the first one."""
+    publisher = rospy.Publisher("/tf_static", TFMessage, queue_size=1, latch=True)
+    message = TFMessage()
+    for index in range(count):
+        transform = TransformStamped()
+        transform.header.frame_id = "world"
+        transform.child_frame_id = "frame%d" % index
+        transform.transform.rotation.w = 1.0
+        transform.transform.translation.z = 1.0 if index > 0 else 0.0
+        message.transforms.append(transform)
+    publisher.publish(message)
+    return publisher
+
+
 def timed(calls):
     times = []
     for call in calls:
@@ -59,6 +76,12 @@ def timed(calls):
         if not answer.success:
             sys.exit("refused: " + answer.message)
     return times
+
+
+def last_pairs(node):
+    """How many pairs were solved with niches in the next cycle."""
+    message = rospy.wait_for_message(node + "/niches", Niches, timeout=300.0)
+    return "%d of %d pairs" % (sum(bool(pair.niches) for pair in message.pairs), len(message.pairs))
 
 
 def report(name, times):
@@ -81,7 +104,8 @@ def main():
     remove = rospy.ServiceProxy(arguments.node + "/remove_body", RemoveBody, persistent=True)
     listing = rospy.ServiceProxy(arguments.node + "/list_bodies", ListBodies)
     if arguments.pairs == "niches":
-        rospy.Subscriber(arguments.node + "/niches", Niches, lambda _: None)
+        publisher = place_frames(arguments.count)
+        subscriber = rospy.Subscriber(arguments.node + "/niches", Niches, lambda _: None)
     print("before: %.0f MB" % memory_of(arguments.node)[0], flush=True)
     adding = []
     for first in range(0, arguments.count, 1000):
@@ -95,6 +119,11 @@ def main():
     print("list_bodies  %.1f ms for %d bodies and %d pairs"
           % (1e3 * (time.perf_counter() - start), len(scene.bodies), len(scene.pairs)), flush=True)
     rss, most = memory_of(arguments.node)
+    if arguments.pairs == "niches":
+        print("niches of the last cycle: %s" % last_pairs(arguments.node), flush=True)
+        rss, most = memory_of(arguments.node)
+        subscriber.unregister()
+        publisher.unregister()
     removing = timed(lambda i=i: remove(name="box%d" % i) for i in range(arguments.count - 1, arguments.count // 2, -37))
     report("remove_body", removing)
     print("memory: %.0f MB, at most %.0f MB" % (rss, most), flush=True)
