@@ -194,20 +194,20 @@ DistanceQueries::DistanceQueries(ServiceQueues& queues, SceneKeeper& keeper, Que
       get_distance_(node_.advertiseService("get_distance", &DistanceQueries::getDistance, this)),
       get_distances_(node_.advertiseService("get_distances", &DistanceQueries::getDistances, this)) {}
 
-QueryContext DistanceQueries::currentContext() {
+QueryContext DistanceQueries::currentContext(std::chrono::steady_clock::time_point arrival) {
   QueryContext context = context_;
   context.defaults = keeper_.defaults();
   context.stop = &gate_.stopped();
-  context.deadline = std::chrono::steady_clock::now() +
-                     std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+  context.deadline = arrival + std::chrono::duration_cast<std::chrono::steady_clock::duration>(
                          std::chrono::duration<double>(limits_.query_seconds));
   return context;
 }
 
 bool DistanceQueries::getDistance(GetDistance::Request& request, GetDistance::Response& response) {
+  const auto arrival = std::chrono::steady_clock::now();
   try {
     const RequestGate::Place place = gate_.enter();
-    answerOne(request.query, response);
+    answerOne(request.query, currentContext(arrival), response);
   } catch (const Error& refusal) {
     PairHeading heading;
     heading.body_a = request.query.body_a;
@@ -221,9 +221,10 @@ bool DistanceQueries::getDistance(GetDistance::Request& request, GetDistance::Re
   return true;
 }
 
-void DistanceQueries::answerOne(const DistanceQuery& query, GetDistance::Response& response) {
+void DistanceQueries::answerOne(const DistanceQuery& query, const QueryContext& context,
+                                GetDistance::Response& response) {
   const auto served = keeper_.served();
-  QueryAnswer answered = answerQuery(query, *served->scene, currentContext(), ros::Time::now());
+  QueryAnswer answered = answerQuery(query, *served->scene, context, ros::Time::now());
   response.result = std::move(answered.result);
   response.contacts = std::move(answered.contacts);
   response.success = static_cast<std::uint8_t>(isAnswered(response.result));
@@ -235,6 +236,7 @@ void DistanceQueries::answerOne(const DistanceQuery& query, GetDistance::Respons
 }
 
 bool DistanceQueries::getDistances(GetDistances::Request& request, GetDistances::Response& response) {
+  const auto arrival = std::chrono::steady_clock::now();
   try {
     if (request.queries.empty()) {
       throw Error("queries", "the list is empty", "name at least one pair; list_bodies has their names");
@@ -245,7 +247,7 @@ bool DistanceQueries::getDistances(GetDistances::Request& request, GetDistances:
                       std::to_string(limits_.largest_query_count));
     }
     const RequestGate::Place place = gate_.enter();
-    answerAll(request.queries, response);
+    answerAll(request.queries, currentContext(arrival), response);
   } catch (const Error& refusal) {
     response.message = refusal.what();
   }
@@ -254,9 +256,9 @@ bool DistanceQueries::getDistances(GetDistances::Request& request, GetDistances:
 
 // By threads of its own and not by TBB's: the cycle's helpers come out of the same few of those, and one that
 // solves a long query does not come back for it.
-void DistanceQueries::answerAll(const std::vector<DistanceQuery>& queries, GetDistances::Response& response) {
+void DistanceQueries::answerAll(const std::vector<DistanceQuery>& queries, const QueryContext& context,
+                                GetDistances::Response& response) {
   const auto served = keeper_.served();
-  const QueryContext context = currentContext();
   const ros::Time now = ros::Time::now();
   response.results.resize(queries.size());
   response.contacts.resize(queries.size());

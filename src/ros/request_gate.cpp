@@ -1,26 +1,38 @@
 #include "concave_distance/ros/request_gate.h"
 
+#include <algorithm>
 #include <string>
 
 #include "concave_distance/base/error.h"
 
 namespace concave_distance {
 
-RequestGate::RequestGate(std::uint32_t workers, std::uint32_t waiting)
-    : workers_(workers), waiting_(waiting) {}
+RequestGate::RequestGate(std::uint32_t workers, std::uint32_t waiting, double waiting_seconds)
+    : workers_(workers), waiting_(waiting), waiting_seconds_(waiting_seconds) {}
 
 RequestGate::Place RequestGate::enter() {
+  const auto busy = [&](const std::string& what) {
+    return Error("SERVICE BUSY", what,
+                 "ask again later, one after the other, or raise ~limits/service_threads or ~limits/service_queue");
+  };
   std::unique_lock<std::mutex> lock(mutex_);
-  if (!stopped_ && entered_ - left_ >= std::uint64_t{workers_} + waiting_) {
-    throw Error("SERVICE BUSY",
-                std::to_string(workers_) + " requests are worked on and " + std::to_string(waiting_) + " wait",
-                "ask again later, one after the other, or raise ~limits/service_threads or ~limits/service_queue");
+  const bool has_to_wait = working_ >= workers_ || !line_.empty();
+  if (!stopped_ && has_to_wait && line_.size() >= waiting_) {
+    throw busy(std::to_string(workers_) + " requests are worked on and " + std::to_string(waiting_) + " wait");
   }
-  const std::uint64_t turn = entered_++;
-  changed_.wait(lock, [&] { return stopped_ || turn < left_ + workers_; });
+  const std::uint64_t turn = next_++;
+  line_.push_back(turn);
+  const bool may_enter = changed_.wait_for(lock, waiting_seconds_, [&] {
+    return stopped_ || (line_.front() == turn && working_ < workers_);
+  });
+  line_.erase(std::find(line_.begin(), line_.end(), turn));
+  working_ += may_enter && !stopped_ ? 1 : 0;
+  changed_.notify_all();  // the next one is at the front now
   if (stopped_) {
-    ++left_;
     throw Error("service", "the node is shutting down", "ask again when it is back");
+  }
+  if (!may_enter) {
+    throw busy("no thread became free within ~limits/query_seconds");
   }
   return Place(*this);
 }
@@ -28,7 +40,7 @@ RequestGate::Place RequestGate::enter() {
 void RequestGate::leave() {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    ++left_;
+    --working_;
   }
   changed_.notify_all();
 }

@@ -19,7 +19,7 @@ ros::NodeHandle onQueue(const ros::NodeHandle& node, ros::CallbackQueue& queue) 
 }  // namespace
 
 ServiceQueues::ServiceQueues(const ros::NodeHandle& node, const NodeLimits& limits)
-    : gate_(limits.service_threads, limits.service_queue),
+    : gate_(limits.service_threads, limits.service_queue, limits.query_seconds),
       light_node_(onQueue(node, light_queue_)),
       heavy_node_(onQueue(node, heavy_queue_)),
       light_spinner_(kLightThreads, &light_queue_),

@@ -10,6 +10,8 @@
 namespace concave_distance {
 namespace {
 
+constexpr double kLong = 600.0;  // s
+
 // Enters, says so, and stays until it is let go.
 class Request {
  public:
@@ -36,7 +38,7 @@ class Request {
 };
 
 TEST(RequestGate, RefusesAtOnceWhatNobodyCanWaitFor) {
-  RequestGate gate(1, 0);
+  RequestGate gate(1, 0, kLong);
   Request first(gate);
   first.waitUntilIn();
   Request second(gate);
@@ -49,7 +51,7 @@ TEST(RequestGate, RefusesAtOnceWhatNobodyCanWaitFor) {
 }
 
 TEST(RequestGate, LetsWaitersInOneByOne) {
-  RequestGate gate(1, 2);
+  RequestGate gate(1, 2, kLong);
   Request first(gate);
   first.waitUntilIn();
   Request second(gate);
@@ -62,8 +64,21 @@ TEST(RequestGate, LetsWaitersInOneByOne) {
   EXPECT_EQ(third.outcome(), "done");
 }
 
+TEST(RequestGate, RefusesWhoHasWaitedTooLongAndLetsTheOthersIn) {
+  RequestGate gate(1, 2, 0.05);
+  Request first(gate);
+  first.waitUntilIn();
+  Request second(gate);
+  EXPECT_NE(second.outcome().find("no thread became free"), std::string::npos);
+  first.letGo();
+  EXPECT_EQ(first.outcome(), "done");
+  Request third(gate);
+  third.letGo();
+  EXPECT_EQ(third.outcome(), "done") << "nobody stands in line any more";
+}
+
 TEST(RequestGate, StoppingRefusesThoseWhoWaitOrComeAndSaysSoToThoseWhoWork) {
-  RequestGate gate(1, 1);
+  RequestGate gate(1, 1, kLong);
   Request first(gate);
   first.waitUntilIn();
   EXPECT_FALSE(gate.stopped());

@@ -56,9 +56,11 @@ class DistanceQueries {
  private:
   bool getDistance(GetDistance::Request& request, GetDistance::Response& response);
   bool getDistances(GetDistances::Request& request, GetDistances::Response& response);
-  void answerOne(const DistanceQuery& query, GetDistance::Response& response);
-  void answerAll(const std::vector<DistanceQuery>& queries, GetDistances::Response& response);
-  QueryContext currentContext();
+  void answerOne(const DistanceQuery& query, const QueryContext& context, GetDistance::Response& response);
+  void answerAll(const std::vector<DistanceQuery>& queries, const QueryContext& context,
+                 GetDistances::Response& response);
+  /// @param arrival of the call, from which on its time counts
+  QueryContext currentContext(std::chrono::steady_clock::time_point arrival);
 
   ros::NodeHandle node_;
   RequestGate& gate_;

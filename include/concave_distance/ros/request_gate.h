@@ -1,8 +1,10 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <cstdint>
+#include <deque>
 #include <mutex>
 
 namespace concave_distance {
@@ -11,7 +13,8 @@ namespace concave_distance {
 /// the next is refused at once.
 class RequestGate {
  public:
-  RequestGate(std::uint32_t workers, std::uint32_t waiting);
+  /// @param waiting_seconds that a request waits at the most before it is refused too
+  RequestGate(std::uint32_t workers, std::uint32_t waiting, double waiting_seconds);
 
   /// The right to work; its destructor lets the next one in.
   class Place {
@@ -25,7 +28,8 @@ class RequestGate {
     RequestGate* gate_;
   };
 
-  /// Waits until it is this request's turn. @throws Error when too many wait already, or after stop()
+  /// Waits until it is this request's turn. @throws Error when too many wait already, when no worker becomes
+  /// free in time, or after stop()
   Place enter();
 
   /// Refuses everybody who waits or comes, and raises the flag that ends the work of those who are in.
@@ -37,10 +41,12 @@ class RequestGate {
 
   std::uint32_t workers_;
   std::uint32_t waiting_;
+  std::chrono::duration<double> waiting_seconds_;
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::uint64_t entered_ = 0;  ///< requests that have come, those refused left out
-  std::uint64_t left_ = 0;
+  std::deque<std::uint64_t> line_;  ///< who waits, in the order they came
+  std::uint64_t next_ = 0;          ///< who comes next
+  std::uint32_t working_ = 0;
   std::atomic<bool> stopped_{false};
 };
 
