@@ -100,8 +100,8 @@ SearchNodes makeCheckedNodes(const BodyMeshParts& parts, const BodyMeshOptions& 
 
 BodyMeshParts makeBodyMeshParts(std::string name, SurfaceMesh surface, const BodyMeshOptions& options) {
   BodyMeshParts parts = makeExactParts(std::move(name), std::move(surface), options);
-  parts.nodes = detail::nodesOf(parts.surface, nodesOptions(options), parts.name, parts.cache.get(),
-                                parts.nodes_key);
+  parts.nodes =
+      detail::nodesOf(parts.surface, nodesOptions(options), parts.name, parts.cache.get(), parts.nodes_key);
   return parts;
 }
 
@@ -218,7 +218,8 @@ std::size_t BodyMesh::memoryBytes() const {
       surface().vertexCount() * (3 * sizeof(std::uint32_t) + sizeof(Eigen::Vector3d));
   std::size_t search_bytes = 0;
   if (const SearchNodes* nodes = nodesIfMade()) {
-    search_bytes += mesh_bytes(nodes->grid) + nodes->original_triangle_of_node.size() * sizeof(TriangleIndex) +
+    search_bytes += mesh_bytes(nodes->grid) +
+                    nodes->original_triangle_of_node.size() * sizeof(TriangleIndex) +
                     nodes->graph_node_of_vertex.size() * sizeof(NodeIndex) + nodes->graph.memoryBytes() +
                     nodes->levels.memoryBytes();
   }

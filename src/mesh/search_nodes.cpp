@@ -59,7 +59,8 @@ double estimatedNodeCount(const SurfaceMesh& surface, double max_edge_length) {
 double automaticEdgeLength(const SurfaceMesh& surface) {
   const double area = areaOf(surface);
   // A body that is long and thin would get edges longer than it is thick, hence the second term.
-  const double length = std::min(std::sqrt(kNodesPerSquaredEdge * area / kTargetNodeCount), surface.diameter() / 8.0);
+  const double length =
+      std::min(std::sqrt(kNodesPerSquaredEdge * area / kTargetNodeCount), surface.diameter() / 8.0);
   return std::max(length, surface.diameter() / kMostNodesAlong);
 }
 

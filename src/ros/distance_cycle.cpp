@@ -82,7 +82,8 @@ void DistanceCycle::setScene(const Scene& scene, bool settings_changed) {
   }
   for (std::size_t index = 0; index < pairs_.size(); ++index) {
     if (!pairs_[index]) {
-      pairs_[index] = std::make_unique<TrackedPair>(scene, index, options_.reference_frame, largest_retired_id_);
+      pairs_[index] =
+          std::make_unique<TrackedPair>(scene, index, options_.reference_frame, largest_retired_id_);
     }
   }
 }

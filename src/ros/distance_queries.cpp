@@ -69,8 +69,9 @@ PairTransforms locate(const BodyPlace& a, const BodyPlace& b, const QueryContext
 QueryAnswer outOfTime(const DistanceQuery& query, const PairHeading& heading) {
   PairStatus status;
   status.code = PairStatus::BUDGET_EXHAUSTED;
-  status.message = "the call's time was up before this query was begun (ask fewer queries in one call, or raise "
-                   "~limits/query_seconds)";
+  status.message =
+      "the call's time was up before this query was begun (ask fewer queries in one call, or raise "
+      "~limits/query_seconds)";
   QueryAnswer answer;
   answer.result = emptyNiches(heading, status);
   if (query.with_contacts != 0) {
@@ -199,7 +200,7 @@ QueryContext DistanceQueries::currentContext(std::chrono::steady_clock::time_poi
   context.defaults = keeper_.defaults();
   context.stop = &gate_.stopped();
   context.deadline = arrival + std::chrono::duration_cast<std::chrono::steady_clock::duration>(
-                         std::chrono::duration<double>(limits_.query_seconds));
+                                   std::chrono::duration<double>(limits_.query_seconds));
   return context;
 }
 

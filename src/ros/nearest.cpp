@@ -49,8 +49,8 @@ struct Survey {
     const bool has_bound = !std::isnan(solution.lower_bound);
     all_proven = all_proven && has_bound;
     lower_bound = has_bound ? std::min(lower_bound, solution.lower_bound) : lower_bound;
-    number = std::min(number, has_bound && isPartlyProven(solution.status) ? solution.lower_bound
-                                                                            : solution.distance);
+    number = std::min(
+        number, has_bound && isPartlyProven(solution.status) ? solution.lower_bound : solution.distance);
   }
 };
 

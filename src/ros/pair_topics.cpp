@@ -28,7 +28,8 @@ std::string topicName(const std::string& pair) {
 
 }  // namespace
 
-PairTopicKeeper::PairTopicKeeper(const ros::NodeHandle& node, std::optional<std::vector<std::string>> patterns)
+PairTopicKeeper::PairTopicKeeper(const ros::NodeHandle& node,
+                                 std::optional<std::vector<std::string>> patterns)
     : node_(node), patterns_(std::move(patterns)) {}
 
 PairTopicList PairTopicKeeper::topicsOf(const Scene& scene, const Scene* before,
@@ -87,10 +88,11 @@ void PairTopicKeeper::reportUnnamed(std::size_t pair_count) {
   if (std::exchange(reported_, true)) {
     return;
   }
-  ROS_INFO("The scene has %zu pairs, more than %zu: they have no topics of their own. Name those that you want "
-           "in ~pair_topics, e.g. ['gripper/*', 'arm/table']; the topics distances, niches and nearest have "
-           "all pairs.",
-           pair_count, kMostUnnamed);
+  ROS_INFO(
+      "The scene has %zu pairs, more than %zu: they have no topics of their own. Name those that you want "
+      "in ~pair_topics, e.g. ['gripper/*', 'arm/table']; the topics distances, niches and nearest have "
+      "all pairs.",
+      pair_count, kMostUnnamed);
 }
 
 }  // namespace concave_distance

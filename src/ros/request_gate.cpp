@@ -12,19 +12,20 @@ RequestGate::RequestGate(std::uint32_t workers, std::uint32_t waiting, double wa
 
 RequestGate::Place RequestGate::enter() {
   const auto busy = [&](const std::string& what) {
-    return Error("SERVICE BUSY", what,
-                 "ask again later, one after the other, or raise ~limits/service_threads or ~limits/service_queue");
+    return Error(
+        "SERVICE BUSY", what,
+        "ask again later, one after the other, or raise ~limits/service_threads or ~limits/service_queue");
   };
   std::unique_lock<std::mutex> lock(mutex_);
   const bool has_to_wait = working_ >= workers_ || !line_.empty();
   if (!stopped_ && has_to_wait && line_.size() >= waiting_) {
-    throw busy(std::to_string(workers_) + " requests are worked on and " + std::to_string(waiting_) + " wait");
+    throw busy(std::to_string(workers_) + " requests are worked on and " + std::to_string(waiting_) +
+               " wait");
   }
   const std::uint64_t turn = next_++;
   line_.push_back(turn);
-  const bool may_enter = changed_.wait_for(lock, waiting_seconds_, [&] {
-    return stopped_ || (line_.front() == turn && working_ < workers_);
-  });
+  const bool may_enter = changed_.wait_for(
+      lock, waiting_seconds_, [&] { return stopped_ || (line_.front() == turn && working_ < workers_); });
   line_.erase(std::find(line_.begin(), line_.end(), turn));
   working_ += may_enter && !stopped_ ? 1 : 0;
   changed_.notify_all();  // the next one is at the front now

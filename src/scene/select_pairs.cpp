@@ -122,9 +122,10 @@ class Selection {
     const auto [place, is_new] = number_.emplace(unordered(a, b), candidates_.size());
     if (is_new && candidates_.size() == pair_limit_) {
       const std::size_t bodies = parts_.sources.size();
-      throw Error("pairs",
-                  "more than " + std::to_string(pair_limit_) + " pairs of " + std::to_string(bodies) + " bodies",
-                  "name the pairs to watch in the scene file's section pairs, or raise largest_pair_count");
+      throw Error(
+          "pairs",
+          "more than " + std::to_string(pair_limit_) + " pairs of " + std::to_string(bodies) + " bodies",
+          "name the pairs to watch in the scene file's section pairs, or raise largest_pair_count");
     }
     if (is_new) candidates_.push_back({a, b, {}, {}});
     return candidates_[place->second];

@@ -161,7 +161,8 @@ TEST_F(SceneLoading, ABodyThatReachesTooFarIsRefusedAtOnce) {
   const auto problem = [&](const std::string& body) {
     return load("bodies: [{name: a, " + body + "}]\n").problems.at(0).message;
   };
-  EXPECT_TRUE(mentions(problem("box: {size: [1, 1, 1]}, pose: {xyz: [0, 1.0e+200, 0]}"), "the limit is 1e9 m"));
+  EXPECT_TRUE(
+      mentions(problem("box: {size: [1, 1, 1]}, pose: {xyz: [0, 1.0e+200, 0]}"), "the limit is 1e9 m"));
   EXPECT_TRUE(mentions(problem("box: {size: [1, 1, 1.0e+15]}"), "it reaches 5e+14 m"));
   EXPECT_NE(problem("sphere: {radius: 1.0e+300}"), "");
 }
@@ -169,7 +170,8 @@ TEST_F(SceneLoading, ABodyThatReachesTooFarIsRefusedAtOnce) {
 TEST_F(SceneLoading, WhatIsBeyondALimitIsRefusedWithTheFigure) {
   options.limits.nodes = 1000;
   options.limits.triangles = 11;
-  const std::string bodies = "bodies: [{name: a, box: {size: [1, 1, 1]}}, {name: b, box: {size: [1, 1, 2]}}]\n";
+  const std::string bodies =
+      "bodies: [{name: a, box: {size: [1, 1, 1]}}, {name: b, box: {size: [1, 1, 2]}}]\n";
   EXPECT_TRUE(mentions(load(bodies).problems.at(0).message, "12 triangles"));
   options.limits.triangles = 12;
   const Scene fine = load("bodies: [{name: a, box: {size: [1, 1, 1]}, max_edge_length: 0.002}]\n");
@@ -278,7 +280,8 @@ TEST_F(SceneLoading, SingleBodyIsLoadedAsASceneDoes) {
   EXPECT_NEAR(test::signedVolume(body.mesh->surface()), 6.0, 1e-12);
   EXPECT_TRUE(body.mesh->metric().hasMatrices());
   EXPECT_FALSE(body.in_robot_model);
-  EXPECT_FALSE(loadBody(box("crate"), "", nullptr, std::make_shared<BodyPool>(100)).mesh->metric().hasMatrices());
+  EXPECT_FALSE(
+      loadBody(box("crate"), "", nullptr, std::make_shared<BodyPool>(100)).mesh->metric().hasMatrices());
 }
 
 TEST_F(SceneLoading, SingleBodyWithAMeshIsPlacedInItsFrame) {

@@ -60,8 +60,8 @@ class PlaceIndex {
   std::size_t used_ = 0;
 };
 
-/// Values with a name, in order. A copy shares the values and is cheap, so that a scene of thousands of bodies
-/// can be edited while others read the one before. A name is found in O(1).
+/// Values with a name, in order. A copy shares the values and is cheap, so that a scene of thousands of
+/// bodies can be edited while others read the one before. A name is found in O(1).
 template <typename T>
 class NamedList {
  public:

@@ -1,5 +1,5 @@
-// Long queries hold up nothing else: not the other services, not subscribers, not the end of the node; and what
-// goes beyond a limit is refused with the figure.
+// Long queries hold up nothing else: not the other services, not subscribers, not the end of the node; and
+// what goes beyond a limit is refused with the figure.
 #include <concave_distance/AddBody.h>
 #include <concave_distance/Distances.h>
 #include <concave_distance/GetDistance.h>
@@ -27,9 +27,14 @@ constexpr const char* kLimited = "/limited/";
 constexpr double kManyTimesLonger = 30.0;  // s, than an end takes; far less than the queries would
 
 std::vector<std::string> limitedNode(const std::string& query_seconds = "600.0") {
-  const std::string scene = ros::package::getPath("concave_distance") + "/test/ros/rostest/hook_and_comb.yaml";
-  return {"__name:=limited",           "_scene_file:=" + scene,         "_limits/service_threads:=1",
-          "_limits/service_queue:=0",  "_limits/query_seconds:=" + query_seconds,  "_limits/largest_query_count:=20000",
+  const std::string scene =
+      ros::package::getPath("concave_distance") + "/test/ros/rostest/hook_and_comb.yaml";
+  return {"__name:=limited",
+          "_scene_file:=" + scene,
+          "_limits/service_threads:=1",
+          "_limits/service_queue:=0",
+          "_limits/query_seconds:=" + query_seconds,
+          "_limits/largest_query_count:=20000",
           "_limits/largest_body_count:=4"};
 }
 
@@ -57,7 +62,8 @@ class LimitsTest : public ::testing::Test {
  protected:
   LimitsTest() : node(std::make_unique<StartedNode>(limitedNode())) {
     player.place("hook", 0.0, 0.0);
-    EXPECT_TRUE(eventually([] { return call<ListBodies>(std::string(kLimited) + "list_bodies", {}).ready != 0; }));
+    EXPECT_TRUE(
+        eventually([] { return call<ListBodies>(std::string(kLimited) + "list_bodies", {}).ready != 0; }));
   }
   ~LimitsTest() override {
     node.reset();
@@ -108,7 +114,8 @@ TEST_F(LimitsTest, WhatIsBeyondALimitIsRefusedWithTheFigure) {
   const auto refused = call<GetDistances>(std::string(kLimited) + "get_distances", many);
   EXPECT_FALSE(refused.success);
   EXPECT_NE(refused.message.find("20001 in one call"), std::string::npos) << refused.message;
-  EXPECT_NE(refused.message.find("~limits/largest_query_count is 20000"), std::string::npos) << refused.message;
+  EXPECT_NE(refused.message.find("~limits/largest_query_count is 20000"), std::string::npos)
+      << refused.message;
   AddBodyRequest body;
   body.name = "first";
   body.frame_id = "world";
@@ -132,7 +139,8 @@ TEST_F(LimitsTest, WhatIsBeyondALimitIsRefusedWithTheFigure) {
 
 TEST(TimeLimit, OfACallHoldsForAllItsQueriesTogether) {
   const StartedNode node(limitedNode("0.5"));
-  ASSERT_TRUE(eventually([] { return call<ListBodies>(std::string(kLimited) + "list_bodies", {}).ready != 0; }));
+  ASSERT_TRUE(
+      eventually([] { return call<ListBodies>(std::string(kLimited) + "list_bodies", {}).ready != 0; }));
   GetDistances service = longCall();
   ASSERT_TRUE(ros::service::call(std::string(kLimited) + "get_distances", service));
   ASSERT_EQ(service.response.results.size(), service.request.queries.size());

@@ -17,8 +17,8 @@ class StartedNode {
  public:
   /// @param arguments remappings and parameters, e.g. "__name:=other", "_rate:=100"
   explicit StartedNode(const std::vector<std::string>& arguments) {
-    std::vector<std::string> command = {
-        std::filesystem::read_symlink("/proc/self/exe").parent_path() / "distance_node"};
+    std::vector<std::string> command = {std::filesystem::read_symlink("/proc/self/exe").parent_path() /
+                                        "distance_node"};
     command.insert(command.end(), arguments.begin(), arguments.end());
     process_ = fork();
     if (process_ == 0) {

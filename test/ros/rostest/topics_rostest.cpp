@@ -131,9 +131,10 @@ TEST(PairTopics, PairsHaveTopicsOnlyWhereAPatternNamesThem) {
     return names;
   };
   ASSERT_TRUE(eventually([&] { return topics().size() >= 6; }));
-  EXPECT_EQ(topics(), (std::set<std::string>{"/chosen/pairs/boxes/distance", "/chosen/pairs/boxes/niches",
-                                             "/chosen/pairs/boxes/contacts", "/chosen/pairs/box_ball/distance",
-                                             "/chosen/pairs/box_ball/niches", "/chosen/pairs/box_ball/contacts"}));
+  EXPECT_EQ(topics(),
+            (std::set<std::string>{"/chosen/pairs/boxes/distance", "/chosen/pairs/boxes/niches",
+                                   "/chosen/pairs/boxes/contacts", "/chosen/pairs/box_ball/distance",
+                                   "/chosen/pairs/box_ball/niches", "/chosen/pairs/box_ball/contacts"}));
 }
 
 TEST_F(TopicsTest, DistancesCarryEveryPairAtTheTimeOfItsTransforms) {
