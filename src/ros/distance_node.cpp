@@ -3,6 +3,7 @@
 #include <ros/spinner.h>
 
 #include <cstdlib>
+#include <exception>
 
 #include "concave_distance/base/error.h"
 #include "concave_distance/ros/distance_server.h"
@@ -28,7 +29,7 @@ int main(int argc, char** argv) {
     ros::AsyncSpinner spinner(kThreads);
     spinner.start();
     ros::waitForShutdown();
-  } catch (const concave_distance::Error& problem) {
+  } catch (const std::exception& problem) {
     ROS_FATAL_STREAM(problem.what());
     exit_code = EXIT_FAILURE;
   }

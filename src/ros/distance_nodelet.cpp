@@ -1,6 +1,7 @@
 #include <nodelet/nodelet.h>
 #include <pluginlib/class_list_macros.hpp>
 
+#include <exception>
 #include <memory>
 
 #include "concave_distance/base/error.h"
@@ -19,7 +20,7 @@ class DistanceNodelet : public nodelet::Nodelet {
                                                    // without a scene and says why.
                                                    NODELET_FATAL_STREAM(problem.what());
                                                  });
-    } catch (const Error& problem) {
+    } catch (const std::exception& problem) {
       NODELET_FATAL_STREAM(problem.what());
     }
   }

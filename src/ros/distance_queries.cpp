@@ -1,6 +1,7 @@
 #include "concave_distance/ros/distance_queries.h"
 
 #include <algorithm>
+#include <exception>
 #include <new>
 #include <thread>
 #include <utility>
@@ -180,6 +181,8 @@ QueryAnswer answerQuery(const DistanceQuery& query, const Scene& scene, const Qu
     status.message = shortText(problem.what());
   } catch (const std::bad_alloc&) {
     status.message = "there is not enough memory for this query (ask for less at once)";
+  } catch (const std::exception& problem) {
+    status.message = shortText(problem.what());
   }
   return {emptyNiches(heading, status), PairContactState()};
 }

@@ -3,6 +3,7 @@
 #include <ros/console.h>
 
 #include <algorithm>
+#include <exception>
 #include <optional>
 #include <utility>
 
@@ -19,13 +20,13 @@
 namespace concave_distance {
 namespace {
 
-// Runs a request; an Error becomes the response's message.
+// Runs a request; an exception becomes the response's message.
 template <typename Response, typename Act>
 bool respond(Response& response, Act&& act) {
   try {
     act();
     response.success = 1;
-  } catch (const Error& problem) {
+  } catch (const std::exception& problem) {
     response.success = 0;
     response.message = shortText(problem.what());
   }

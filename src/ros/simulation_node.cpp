@@ -3,6 +3,7 @@
 #include <ros/spinner.h>
 
 #include <cstdlib>
+#include <exception>
 
 #include "concave_distance/base/error.h"
 #include "concave_distance/ros/scene_loading.h"
@@ -43,7 +44,7 @@ int main(int argc, char** argv) {
   ros::init(argc, argv, "simulation");
   try {
     run();
-  } catch (const Error& problem) {
+  } catch (const std::exception& problem) {
     ROS_FATAL_STREAM(problem.what());
     return EXIT_FAILURE;
   }
