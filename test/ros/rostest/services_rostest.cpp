@@ -239,8 +239,9 @@ TEST_F(ServicesTest, AddedBodiesAreWatchedAndRemovedOnesNot) {
   EXPECT_FALSE(call<AddBody>(kNode + "add_body", request).success) << "the name is taken";
   {
     Collector<PairDistance> distance(kNode + "pairs/cup/box_a/distance");
-    ASSERT_TRUE(distance.waitFor([](const PairDistance& message) { return message.has_distance != 0; }));
-    EXPECT_NEAR(distance.last()->distance, std::hypot(1.0, 1.0), kRounding);
+    const auto solved = distance.match([](const PairDistance& message) { return message.has_distance != 0; });
+    ASSERT_TRUE(solved);
+    EXPECT_NEAR(solved->distance, std::hypot(1.0, 1.0), kRounding);
   }
   RemoveBodyRequest removal;
   removal.name = "cup";

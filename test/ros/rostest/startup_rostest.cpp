@@ -65,8 +65,10 @@ TEST(StartUp, WaitsForTheRobotDescriptionAndThenForTransforms) {
   TfPlayer player;
   player.place("base", 0.0);
   player.place("tip", 3.0);
-  EXPECT_TRUE(distances.waitFor([](const Distances& message) { return message.pairs[0].has_distance != 0; }));
-  EXPECT_NEAR(distances.last()->pairs[0].distance, 2.0, 1e-12);
+  const auto solved =
+      distances.match([](const Distances& message) { return message.pairs[0].has_distance != 0; });
+  ASSERT_TRUE(solved);
+  EXPECT_NEAR(solved->pairs[0].distance, 2.0, 1e-12);
 }
 
 // Where a problem is and what it says, in one text.
@@ -182,10 +184,11 @@ TEST(StartUp, GeometryIsTheCollisionOrTheVisualOne) {
   for (const auto& [node, gap] :
        {std::pair("/collision_geometry", 2.0), std::pair("/visual_geometry", 2.5)}) {
     Collector<Distances> distances(std::string(node) + "/distances");
-    ASSERT_TRUE(distances.waitFor([](const Distances& message) {
+    const auto solved = distances.match([](const Distances& message) {
       return message.pairs.size() == 1 && message.pairs[0].has_distance != 0;
-    })) << node;
-    EXPECT_NEAR(distances.last()->pairs[0].distance, gap, 1e-12) << node;
+    });
+    ASSERT_TRUE(solved) << node;
+    EXPECT_NEAR(solved->pairs[0].distance, gap, 1e-12) << node;
   }
 }
 
