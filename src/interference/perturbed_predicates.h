@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdint>
 
-#include "exact_orientation.h"
+#include "concave_distance/base/exact_orientation.h"
 
 namespace concave_distance::detail {
 

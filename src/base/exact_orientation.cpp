@@ -1,6 +1,6 @@
-#include "exact_orientation.h"
+#include "concave_distance/base/exact_orientation.h"
 
-#include "expansion.h"
+#include "concave_distance/base/expansion.h"
 
 namespace concave_distance::detail {
 namespace {
