@@ -1,6 +1,7 @@
 #include "concave_distance/distance/niche_properties.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "concave_distance/mesh/triangle_tree.h"
 
@@ -9,19 +10,31 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Body frame; not unit. Every triangle at an edge counts, however many there are.
+/// Body frame; not unit. Every triangle of the witness's shell at an edge or vertex counts, however many
+/// there are.
 Vector3d pseudonormal(const BodyMesh& body, TriangleIndex triangle, Feature feature) {
   const MeshTopology& topology = body.topology();
-  const TriangleNodes& nodes = body.surface().triangle(triangle);
+  const SurfaceMesh& surface = body.surface();
+  const TriangleNodes& nodes = surface.triangle(triangle);
   const auto code = static_cast<std::size_t>(feature);
-  if (code < 3) return topology.vertex_normals[nodes[code].value];
   if (code >= 6) return topology.triangle_normals[triangle.value];
-  const NodeIndex to = nodes[(code - 2) % 3];
+  const std::uint32_t shell = topology.shell_of_triangle[triangle.value];
+  const auto is_of_shell = [&](TriangleIndex t) { return topology.shell_of_triangle[t.value] == shell; };
+  const NodeIndex at = nodes[code % 3];
+  const auto fan = topology.triangles_of_vertex.row(at.value);
+  if (code < 3 && std::all_of(fan.begin(), fan.end(), is_of_shell)) return topology.vertex_normals[at.value];
   Vector3d sum = Vector3d::Zero();
-  for (const TriangleIndex t : topology.triangles_of_vertex.row(nodes[code - 3].value)) {
-    const TriangleNodes& corners = body.surface().triangle(t);
-    if (std::find(corners.begin(), corners.end(), to) != corners.end()) {
-      sum += topology.triangle_normals[t.value];
+  for (const TriangleIndex t : fan) {
+    if (!is_of_shell(t)) continue;
+    const TriangleNodes& corners = surface.triangle(t);
+    const Vector3d& normal = topology.triangle_normals[t.value];
+    if (code < 3) {
+      const auto k = static_cast<int>(std::find(corners.begin(), corners.end(), at) - corners.begin());
+      const Vector3d out = surface.corner(t, (k + 1) % 3) - surface.vertex(at);
+      const Vector3d back = surface.corner(t, (k + 2) % 3) - surface.vertex(at);
+      sum += std::atan2(out.cross(back).norm(), out.dot(back)) * normal;
+    } else if (std::find(corners.begin(), corners.end(), nodes[(code - 2) % 3]) != corners.end()) {
+      sum += normal;
     }
   }
   return sum;

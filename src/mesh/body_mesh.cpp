@@ -215,7 +215,7 @@ std::size_t BodyMesh::memoryBytes() const {
       topology.neighbours_of_vertex.values.size() * sizeof(NodeIndex) +
       surface().triangleCount() *
           (3 * sizeof(TriangleIndex) + sizeof(std::uint32_t) + sizeof(Eigen::Vector3d)) +
-      surface().vertexCount() * (3 * sizeof(std::uint32_t) + sizeof(Eigen::Vector3d));
+      surface().vertexCount() * (2 * sizeof(std::uint32_t) + sizeof(Eigen::Vector3d));
   std::size_t search_bytes = 0;
   if (const SearchNodes* nodes = nodesIfMade()) {
     search_bytes += mesh_bytes(nodes->grid) +

@@ -164,7 +164,6 @@ MeshTopology topologyOf(const SurfaceMesh& surface, PreparationCache* cache, con
         topology.triangles_of_vertex = readRows<TriangleIndex>(reader);
         topology.neighbours_of_vertex = readRows<NodeIndex>(reader);
         reader.array(topology.triangle_across_edge);
-        reader.array(topology.shell_of_vertex);
         reader.array(topology.shell_of_triangle);
         reader.array(topology.triangle_of_shell);
         std::vector<std::uint8_t> closed;
@@ -179,7 +178,6 @@ MeshTopology topologyOf(const SurfaceMesh& surface, PreparationCache* cache, con
         writeRows(writer, topology.triangles_of_vertex);
         writeRows(writer, topology.neighbours_of_vertex);
         writer.array(topology.triangle_across_edge);
-        writer.array(topology.shell_of_vertex);
         writer.array(topology.shell_of_triangle);
         writer.array(topology.triangle_of_shell);
         writer.array(

@@ -27,34 +27,6 @@ std::size_t dropWithoutArea(const std::vector<Eigen::Vector3d>& vertices,
   return dropped;
 }
 
-std::size_t dropDuplicates(std::vector<TriangleNodes>& triangles) {
-  struct Keyed {
-    TriangleNodes nodes;  ///< ascending
-    std::size_t triangle;
-  };
-  std::vector<Keyed> keyed(triangles.size());
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    keyed[t] = {triangles[t], t};
-    std::sort(keyed[t].nodes.begin(), keyed[t].nodes.end());
-  }
-  std::sort(keyed.begin(), keyed.end(), [](const Keyed& l, const Keyed& r) {
-    return l.nodes != r.nodes ? l.nodes < r.nodes : l.triangle < r.triangle;
-  });
-  std::vector<bool> keep(triangles.size(), true);
-  for (std::size_t i = 1; i < keyed.size(); ++i) {
-    keep[keyed[i].triangle] = keyed[i].nodes != keyed[i - 1].nodes;
-  }
-  std::size_t kept = 0;
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    if (keep[t]) {
-      triangles[kept++] = triangles[t];
-    }
-  }
-  const std::size_t dropped = triangles.size() - kept;
-  triangles.resize(kept);
-  return dropped;
-}
-
 std::size_t dropUnused(std::vector<Eigen::Vector3d>& vertices, std::vector<TriangleNodes>& triangles) {
   std::vector<bool> used(vertices.size(), false);
   for (const TriangleNodes& nodes : triangles) {

@@ -12,9 +12,6 @@ namespace concave_distance::detail {
 std::size_t dropWithoutArea(const std::vector<Eigen::Vector3d>& vertices,
                             std::vector<TriangleNodes>& triangles);
 
-/// Drops every triangle that has the same three corners as an earlier one; returns how many fell. O(n log n).
-std::size_t dropDuplicates(std::vector<TriangleNodes>& triangles);
-
 /// Keeps the vertices that a triangle uses, in their order; returns how many fell.
 std::size_t dropUnused(std::vector<Eigen::Vector3d>& vertices, std::vector<TriangleNodes>& triangles);
 

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
+
+#include "resolve_shells.h"
 
 namespace concave_distance {
 namespace {
@@ -92,49 +95,6 @@ void collectNeighbours(const std::vector<EdgeUse>& edges, std::size_t vertex_cou
   }
 }
 
-std::uint32_t findRoot(std::vector<std::uint32_t>& parent, std::uint32_t v) {
-  while (parent[v] != v) {
-    parent[v] = parent[parent[v]];
-    v = parent[v];
-  }
-  return v;
-}
-
-/// Shells are numbered by their smallest vertex.
-void collectShells(const SurfaceMesh& mesh, const std::vector<EdgeUse>& edges, MeshTopology& topology) {
-  std::vector<std::uint32_t> parent(mesh.vertexCount());
-  std::iota(parent.begin(), parent.end(), 0U);
-  for (const EdgeUse& edge : edges) {
-    const std::uint32_t l = findRoot(parent, edge.low);
-    const std::uint32_t r = findRoot(parent, edge.high);
-    parent[std::max(l, r)] = std::min(l, r);
-  }
-  topology.shell_of_vertex.resize(mesh.vertexCount());
-  std::uint32_t shell_count = 0;
-  for (std::size_t v = 0; v < parent.size(); ++v) {
-    const std::uint32_t root = findRoot(parent, static_cast<std::uint32_t>(v));
-    topology.shell_of_vertex[v] = root == v ? shell_count++ : topology.shell_of_vertex[root];
-  }
-  topology.shell_of_triangle.reserve(mesh.triangleCount());
-  for (const TriangleNodes& nodes : mesh.triangles()) {
-    topology.shell_of_triangle.push_back(topology.shell_of_vertex[nodes[0].value]);
-  }
-  topology.shell_is_closed.assign(shell_count, false);
-  topology.triangle_of_shell.assign(shell_count, kNoTriangle);
-  for (std::size_t t = topology.shell_of_triangle.size(); t-- > 0;) {
-    topology.shell_is_closed[topology.shell_of_triangle[t]] = true;
-    topology.triangle_of_shell[topology.shell_of_triangle[t]] = TriangleIndex{t};
-  }
-  forEachEdge(edges, [&](std::size_t first, std::size_t last) {
-    const auto ascending = std::count_if(edges.begin() + static_cast<std::ptrdiff_t>(first),
-                                         edges.begin() + static_cast<std::ptrdiff_t>(last),
-                                         [](const EdgeUse& use) { return use.ascending; });
-    if (2 * ascending != static_cast<std::ptrdiff_t>(last - first)) {
-      topology.shell_is_closed[topology.shell_of_vertex[edges[first].low]] = false;
-    }
-  });
-}
-
 /// From the two shorter edges, whose cross product cancels least.
 Eigen::Vector3d unitNormal(const SurfaceMesh& mesh, TriangleIndex t) {
   const Eigen::Vector3d e0 = mesh.corner(t, 1) - mesh.corner(t, 0);
@@ -195,7 +155,10 @@ MeshTopology buildMeshTopology(const SurfaceMesh& mesh) {
       }
     }
   });
-  collectShells(mesh, edges, topology);
+  detail::ShellLabels shells = detail::labelShells(mesh.vertices(), mesh.triangles());
+  topology.shell_of_triangle = std::move(shells.shell_of_triangle);
+  topology.triangle_of_shell = std::move(shells.triangle_of_shell);
+  topology.shell_is_closed = std::move(shells.shell_is_closed);
   collectNormals(mesh, topology);
   return topology;
 }

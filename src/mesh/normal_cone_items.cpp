@@ -39,6 +39,15 @@ class Collector {
     return sides_ == NormalSides::Both || !topology_.shell_is_closed[topology_.shell_of_triangle[t.value]];
   }
 
+  /// Where shells meet, the sum of their normals says nothing of either.
+  template <typename Triangles>
+  bool bothSidesOfAny(const Triangles& triangles) const {
+    const std::uint32_t shell = topology_.shell_of_triangle[triangles.begin()->value];
+    return std::any_of(triangles.begin(), triangles.end(), [&](TriangleIndex t) {
+      return bothSides(t) || topology_.shell_of_triangle[t.value] != shell;
+    });
+  }
+
   /// Radians by which rounding may have turned the normal: the longest edge over the height on it.
   double slackOf(TriangleIndex t) const {
     double longest = 0.0;
@@ -57,10 +66,10 @@ class Collector {
   }
 
   /// What the clipper holds, on the sides wanted.
-  void addClipped(const Vector3d& centre, double radius, const Vector3d& normal, TriangleIndex t, Kind kind,
-                  std::uint8_t element) {
+  void addClipped(const Vector3d& centre, double radius, const Vector3d& normal, bool both_sides,
+                  TriangleIndex t, Kind kind, std::uint8_t element) {
     if (const auto cap = clipper_.capOnSide(normal)) add(centre, radius, *cap, t, kind, element);
-    if (!bothSides(t) || normal.isZero(0.0)) return;
+    if (!both_sides || normal.isZero(0.0)) return;
     if (const auto cap = clipper_.capOnSide(-normal)) add(centre, radius, *cap, t, kind, element);
   }
 
@@ -74,7 +83,8 @@ class Collector {
     }
     const TriangleNodes& nodes = mesh_.triangle(fan[0]);
     const auto corner = static_cast<std::uint8_t>(std::find(nodes.begin(), nodes.end(), v) - nodes.begin());
-    addClipped(mesh_.vertex(v), 0.0, topology_.vertex_normals[v.value], fan[0], Kind::Vertex, corner);
+    addClipped(mesh_.vertex(v), 0.0, topology_.vertex_normals[v.value], bothSidesOfAny(fan), fan[0],
+               Kind::Vertex, corner);
   }
 
   void addFace(TriangleIndex t) {
@@ -120,7 +130,7 @@ class Collector {
       const Vector3d way = mesh_.vertex(apex) - mesh_.vertex(from);
       clipper_.clip((way - along.dot(way) * along).normalized(), slack + kConeSlack);
     }
-    addClipped(centre, radius, normal.normalized(), t, Kind::Edge, k);
+    addClipped(centre, radius, normal.normalized(), bothSidesOfAny(around_), t, Kind::Edge, k);
   }
 
   /// The common case in closed form: two sound triangles of one winding. False when it is another.

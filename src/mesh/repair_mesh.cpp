@@ -7,7 +7,8 @@
 #include "concave_distance/base/error.h"
 #include "drop_triangles.h"
 #include "edge_table.h"
-#include "orient_triangles.h"
+#include "resolve_shells.h"
+#include "settle_faces.h"
 #include "union_find.h"
 #include "weld_vertices.h"
 
@@ -57,18 +58,20 @@ double diagonal(const std::vector<Eigen::Vector3d>& vertices) {
   return box.diagonal().norm();
 }
 
-/// Counts shells, borders and edges of more than two triangles.
-void inspect(const std::vector<TriangleNodes>& triangles, std::size_t vertex_count, RepairReport& report) {
+void countShells(const std::vector<Eigen::Vector3d>& vertices, const std::vector<TriangleNodes>& triangles,
+                 RepairReport& report) {
+  const detail::ShellLabels labels = detail::labelShells(vertices, triangles);
+  report.shells = labels.shell_is_closed.size();
+  report.closed_shells = static_cast<std::size_t>(
+      std::count(labels.shell_is_closed.begin(), labels.shell_is_closed.end(), true));
+}
+
+/// Counts borders, edges of more than two triangles and edges whose two do not agree.
+void countEdges(const std::vector<TriangleNodes>& triangles, RepairReport& report) {
   const detail::EdgeTable edges = detail::buildEdgeTable(triangles);
-  detail::UnionFind shells(vertex_count);
-  for (const TriangleNodes& nodes : triangles) {
-    shells.unite(nodes[0].value, nodes[1].value);
-    shells.unite(nodes[1].value, nodes[2].value);
-  }
   // A hole is a chain of border edges that follow one another around the same fans of triangles. Corners are
   // half-edge starts; the corners of one vertex that are joined by edges are one fan.
   detail::UnionFind fans(3 * triangles.size());
-  std::vector<bool> shell_is_open(vertex_count, false);
   std::vector<detail::HalfEdge> border;
   const auto corner_at = [&](detail::HalfEdge h, NodeIndex node) {
     return detail::startOf(triangles, h) == node ? h : h - h % 3 + (h % 3 + 1) % 3;
@@ -85,12 +88,7 @@ void inspect(const std::vector<TriangleNodes>& triangles, std::size_t vertex_cou
       fans.unite(corner_at(first, a), corner_at(other, a));
       fans.unite(corner_at(first, b), corner_at(other, b));
     }
-    if (balance != 0) {
-      shell_is_open[shells.find(a.value)] = true;
-    }
-    if (uses == 1) {
-      border.push_back(first);
-    }
+    if (uses == 1) border.push_back(first);
     report.non_manifold_edges += uses > 2 ? 1U : 0U;
     report.inconsistent_edges += uses == 2 && balance != 0 ? 1U : 0U;
   }
@@ -100,17 +98,9 @@ void inspect(const std::vector<TriangleNodes>& triangles, std::size_t vertex_cou
   }
   std::vector<std::uint32_t> loops;
   loops.reserve(border.size());
-  for (const detail::HalfEdge h : border) {
-    loops.push_back(fans.find(h));
-  }
+  for (const detail::HalfEdge h : border) loops.push_back(fans.find(h));
   std::sort(loops.begin(), loops.end());
   report.holes = static_cast<std::size_t>(std::unique(loops.begin(), loops.end()) - loops.begin());
-  for (std::uint32_t v = 0; v < vertex_count; ++v) {
-    if (shells.find(v) == v) {
-      ++report.shells;
-      report.closed_shells += shell_is_open[v] ? 0U : 1U;
-    }
-  }
 }
 
 }  // namespace
@@ -126,6 +116,8 @@ std::string RepairReport::summary() const {
   add(unused_vertices, "unused vertex dropped", "unused vertices dropped");
   add(zero_area_triangles, "zero-area triangle dropped", "zero-area triangles dropped");
   add(duplicate_triangles, "duplicate triangle dropped", "duplicate triangles dropped");
+  add(inner_wall_triangles, "triangle between touching solids dropped",
+      "triangles between touching solids dropped");
   add(turned_triangles, "triangle turned", "triangles turned");
   add(shells > 1 ? shells : 0, "shell", "shells");
   add(shells - closed_shells, "open shell", "open shells");
@@ -144,18 +136,14 @@ RepairedMesh repairMesh(const TriangleSoup& soup, const RepairOptions& options, 
 
   detail::WeldedVertices welded = detail::weldVertices(soup.vertices, 0.0);
   std::vector<TriangleNodes> triangles = weldedTriangles(soup, welded);
-  const auto drop = [&] {
-    report.zero_area_triangles += detail::dropWithoutArea(welded.vertices, triangles);
-    report.duplicate_triangles += detail::dropDuplicates(triangles);
-  };
-  drop();
+  report.zero_area_triangles += detail::dropWithoutArea(welded.vertices, triangles);
   std::size_t joined_vertices = 0;
   if (options.weld_tolerance > 0.0) {
     const double tolerance = options.weld_tolerance * diagonal(welded.vertices);
     const detail::BorderWeld joined = detail::weldBorders(welded.vertices, triangles, tolerance);
     joined_vertices = joined.joined_vertices;
     report.largest_move = joined.farthest;
-    drop();
+    report.zero_area_triangles += detail::dropWithoutArea(welded.vertices, triangles);
   }
   if (triangles.empty()) {
     throw Error(where,
@@ -164,12 +152,14 @@ RepairedMesh repairMesh(const TriangleSoup& soup, const RepairOptions& options, 
                                              " triangles has an area",
                 "give a mesh with at least one triangle of non-zero area");
   }
+  const detail::SettledFaces settled = detail::settleFaces(welded.vertices, triangles, options.orient);
+  report.duplicate_triangles = settled.duplicates;
+  report.inner_wall_triangles = settled.inner_walls;
+  report.turned_triangles = settled.turned;
   report.welded_vertices = soup.vertices.size() - welded.vertices.size() + joined_vertices;
   report.unused_vertices = detail::dropUnused(welded.vertices, triangles) - joined_vertices;
-  if (options.orient) {
-    report.turned_triangles = detail::orientTriangles(welded.vertices, triangles);
-  }
-  inspect(triangles, welded.vertices.size(), report);
+  countShells(welded.vertices, triangles, report);
+  countEdges(triangles, report);
   return {SurfaceMesh(std::move(welded.vertices), std::move(triangles), where), report};
 }
 

@@ -8,6 +8,7 @@
 #include <unordered_map>
 
 #include "edge_table.h"
+#include "face_table.h"
 
 namespace concave_distance::detail {
 namespace {
@@ -114,13 +115,14 @@ WeldedVertices weldVertices(const std::vector<Eigen::Vector3d>& vertices, double
 
 BorderWeld weldBorders(const std::vector<Eigen::Vector3d>& vertices, std::vector<TriangleNodes>& triangles,
                        double tolerance) {
-  const EdgeTable edges = buildEdgeTable(triangles);
+  const std::vector<TriangleNodes> faces = cornersOf(buildFaceTable(triangles));
+  const EdgeTable edges = buildEdgeTable(faces);
   std::vector<bool> at_border(vertices.size(), false);
   for (std::size_t e = 0; e < edges.edgeCount(); ++e) {
     if (edges.first[e + 1] - edges.first[e] == 1) {
       const HalfEdge h = edges.half_edges[edges.first[e]];
-      at_border[startOf(triangles, h).value] = true;
-      at_border[endOf(triangles, h).value] = true;
+      at_border[startOf(faces, h).value] = true;
+      at_border[endOf(faces, h).value] = true;
     }
   }
   std::vector<NodeIndex> border;

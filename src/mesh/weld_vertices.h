@@ -22,7 +22,7 @@ struct BorderWeld {
 };
 
 /// Joins vertices of border edges that lie within `tolerance` metres of each other; the others stay, so that
-/// no detail within a surface collapses. O(n log n).
+/// no detail within a surface collapses. Triangles with the same corners count as one. O(n log n).
 BorderWeld weldBorders(const std::vector<Eigen::Vector3d>& vertices, std::vector<TriangleNodes>& triangles,
                        double tolerance);
 

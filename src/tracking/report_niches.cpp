@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "concave_distance/distance/niche_properties.h"
+#include "concave_distance/distance/solid_overlap.h"
 #include "tracker_state.h"
 
 namespace concave_distance {
@@ -100,17 +101,24 @@ void TrackerState::reportNearest(double displacement, PairSolution& solution) {
       solution.meeting_triangles = TrianglePair{nearest.witness.triangle_a, nearest.witness.triangle_b};
     }
   }
-  // A segment that leaves a closed body inwards and meets no surface ends in that body's material: swallowed.
-  // Only the closest pair can be so without a closer crossing of the surfaces.
-  swallowed = dark_side_met &&
-              (records.empty() || std::sqrt(dark_side.squared_distance) < solution.distance) &&
-              isVisible(*geometry.a, *geometry.b, geometry.a_from_b, dark_side);
-  if (swallowed) {
+  // A segment that leaves a closed body inwards and meets no surface ends in that body's material, too. Only
+  // the closest pair can be so without a closer crossing of the surfaces.
+  const bool dark_side_nearest =
+      dark_side_met && (records.empty() || std::sqrt(dark_side.squared_distance) < solution.distance);
+  const bool overlap =
+      solution.status != SolveStatus::Penetrating &&
+      (holdsAnother(*geometry.a, *geometry.b, geometry.a_from_b) ||
+       (dark_side_nearest && isVisible(*geometry.a, *geometry.b, geometry.a_from_b, dark_side)));
+  swallowed = overlap && dark_side_nearest;
+  if (overlap) {
+    if (swallowed) {
+      solution.distance = std::sqrt(dark_side.squared_distance);
+      solution.point_a_in_a = dark_side.point_a_in_a;
+      solution.point_b_in_a = dark_side.point_b_in_a;
+    }
     solution.status = SolveStatus::Penetrating;
-    solution.surface_distance = std::sqrt(dark_side.squared_distance);
+    solution.surface_distance = solution.distance;
     solution.distance = 0.0;
-    solution.point_a_in_a = dark_side.point_a_in_a;
-    solution.point_b_in_a = dark_side.point_b_in_a;
   }
   const double rounding = 1e-9 * geometry.scale();
   solution.search_miss = warm && solution.distance < last_distance - displacement - rounding;

@@ -84,8 +84,6 @@ TEST(MeshTopology, TellsClosedShellsFromOpenOnes) {
   ASSERT_EQ(topology.shellCount(), 2U);
   EXPECT_FALSE(topology.shell_is_closed[0]);
   EXPECT_TRUE(topology.shell_is_closed[1]);
-  EXPECT_EQ(topology.shell_of_vertex.front(), 0U);
-  EXPECT_EQ(topology.shell_of_vertex.back(), 1U);
   EXPECT_EQ(topology.shell_of_triangle.front(), 0U);
   EXPECT_EQ(topology.shell_of_triangle.back(), 1U);
 }
@@ -108,7 +106,7 @@ TEST(MeshTopology, NamesTheFirstOtherTriangleAtANonManifoldEdge) {
   EXPECT_FALSE(topology.allShellsClosed());
 }
 
-TEST(MeshTopology, SolidsThatTouchAlongAnEdgeStayClosed) {
+TEST(MeshTopology, SolidsThatTouchAlongAnEdgeAreClosedEach) {
   std::vector<Vector3d> vertices = makeCuboid(Vector3d::Zero(), Vector3d::Ones()).vertices();
   const SurfaceMesh joined = test::makeJoined(makeCuboid(Vector3d::Zero(), Vector3d::Ones()),
                                               makeCuboid(Vector3d(1, 1, 0), Vector3d(2, 2, 1)));
@@ -121,16 +119,29 @@ TEST(MeshTopology, SolidsThatTouchAlongAnEdgeStayClosed) {
     }
   }
   const MeshTopology topology = buildMeshTopology(SurfaceMesh(joined.vertices(), triangles, "two boxes"));
-  EXPECT_TRUE(topology.shell_is_closed[topology.shell_of_vertex[3]]);
-  EXPECT_EQ(topology.shell_of_vertex[0], topology.shell_of_vertex[15]);
+  EXPECT_EQ(topology.shellCount(), 2U);
+  EXPECT_TRUE(topology.allShellsClosed());
+  EXPECT_NE(topology.shell_of_triangle.front(), topology.shell_of_triangle.back());
 }
 
-TEST(MeshTopology, IsolatedVerticesFormShellsOfTheirOwn) {
+TEST(MeshTopology, IsolatedVerticesBelongToNoShell) {
   const SurfaceMesh mesh = makeSurface({{5, 5, 5}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{1, 2, 3}});
   const MeshTopology topology = buildMeshTopology(mesh);
-  EXPECT_EQ(topology.shellCount(), 2U);
-  EXPECT_EQ(topology.shell_of_triangle[0], 1U);
+  EXPECT_EQ(topology.shellCount(), 1U);
+  EXPECT_EQ(topology.shell_of_triangle[0], 0U);
   EXPECT_TRUE(topology.triangles_of_vertex.row(0).empty());
+}
+
+TEST(MeshTopology, ASheetOnAnEdgeOfASolidIsAShellOfItsOwn) {
+  std::vector<Vector3d> vertices = unitCuboid().vertices();
+  std::vector<TriangleNodes> triangles = unitCuboid().triangles();
+  vertices.emplace_back(2, 2, 0);
+  triangles.push_back({NodeIndex{3}, NodeIndex{7}, NodeIndex{8}});
+  const MeshTopology topology = buildMeshTopology(SurfaceMesh(vertices, triangles, "box with a fin"));
+  ASSERT_EQ(topology.shellCount(), 2U);
+  EXPECT_TRUE(topology.shell_is_closed[0]);
+  EXPECT_FALSE(topology.shell_is_closed[1]);
+  EXPECT_EQ(topology.triangle_of_shell[1], TriangleIndex{12});
 }
 
 TEST(MeshTopology, CopesWithTrianglesThatNameAVertexTwice) {

@@ -102,7 +102,6 @@ inline std::map<std::string, Bytes> bytesOf(const BodyMesh& body) {
   parts["neighbours"] = bytesOf(topology.neighbours_of_vertex.values);
   parts["first neighbours"] = bytesOf(topology.neighbours_of_vertex.offsets);
   parts["triangles across edges"] = bytesOf(topology.triangle_across_edge);
-  parts["shells of vertices"] = bytesOf(topology.shell_of_vertex);
   parts["shells of triangles"] = bytesOf(topology.shell_of_triangle);
   parts["closed shells"] = bytesOf(topology.shell_is_closed);
   parts["triangles of shells"] = bytesOf(topology.triangle_of_shell);

@@ -5,11 +5,14 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <sstream>
+#include <string>
 #include <vector>
 
 #include "concave_distance/mesh/export_mesh.h"
 #include "support/concave_shapes.h"
 #include "support/csv_table.h"
+#include "support/painted_boxes.h"
 #include "support/plain_shapes.h"
 #include "support/temporary_folder.h"
 
@@ -62,6 +65,72 @@ class DistanceQuery : public testing::Test {
 
   test::TemporaryFolder folder_;
 };
+
+/// Writes ASCII STL and OBJ as other programs do: every triangle with corners of its own.
+void writeFiles(const TriangleSoup& soup, const test::TemporaryFolder& folder, const std::string& name) {
+  std::ostringstream stl;
+  std::ostringstream obj;
+  stl.precision(17);
+  obj.precision(17);
+  stl << "solid union\n";
+  for (const Vector3d& v : soup.vertices) obj << "v " << v.x() << ' ' << v.y() << ' ' << v.z() << '\n';
+  for (const auto& t : soup.triangles) {
+    stl << "facet normal 0 0 0\nouter loop\n";
+    for (const std::uint32_t k : t) {
+      const Vector3d& v = soup.vertices[k];
+      stl << "vertex " << v.x() << ' ' << v.y() << ' ' << v.z() << '\n';
+    }
+    stl << "endloop\nendfacet\n";
+    obj << "f " << t[0] + 1 << ' ' << t[1] + 1 << ' ' << t[2] + 1 << '\n';
+  }
+  stl << "endsolid union\n";
+  folder.write(name + ".stl", stl.str());
+  folder.write(name + ".obj", obj.str());
+}
+
+TEST_F(DistanceQuery, TakesAFileOfStackedBoxesForOneSolid) {
+  TriangleSoup stack;
+  for (const double x : {0.0, 1.0, 2.0}) {
+    const Vector3d low(x, 0.0, 0.0);
+    test::addBox(stack, test::Box(low, low + Vector3d::Ones()), 0, false);
+  }
+  writeFiles(stack, folder_, "stack");
+  TriangleSoup cube;
+  test::addBox(cube, test::Box(Vector3d::Constant(-0.1), Vector3d::Constant(0.1)), 0, false);
+  writeFiles(cube, folder_, "cube");
+  // In the first box, across the first wall, in the third box, beside the stack.
+  folder_.write("poses.csv",
+                "t,x,y,z,qx,qy,qz,qw\n0,0.5,0.5,0.5,0,0,0,1\n1,1,0.5,0.5,0,0,0,1\n2,2.5,0.5,0.5,0,0,0,1\n"
+                "3,1.5,0.5,1.5,0,0,0,1\n");
+  for (const std::string format : {".stl", ".obj"}) {
+    for (const std::string level : {"nodes", "refined", "certified", "complete"}) {
+      for (const std::string further : {"", " --niches-output niches.csv", " --tracking"}) {
+        for (const bool swapped : {false, true}) {
+          // The reflection of the poses: the stack seen from the cube.
+          if (swapped) {
+            folder_.write("seen.csv",
+                          "t,x,y,z,qx,qy,qz,qw\n0,-0.5,-0.5,-0.5,0,0,0,1\n1,-1,-0.5,-0.5,0,0,0,1\n"
+                          "2,-2.5,-0.5,-0.5,0,0,0,1\n3,-1.5,-0.5,-1.5,0,0,0,1\n");
+          }
+          const std::string a = (swapped ? "cube" : "stack") + format;
+          const std::string b = (swapped ? "stack" : "cube") + format;
+          ASSERT_EQ(run("--mesh-a " + a + " --mesh-b " + b + " --poses " + (swapped ? "seen" : "poses") +
+                        ".csv --output out.csv --accuracy " + level + further),
+                    0)
+              << log();
+          const std::vector<Row> rows = answers();
+          ASSERT_EQ(rows.size(), 4U);
+          for (std::size_t i = 0; i < 3; ++i) {
+            EXPECT_EQ(rows[i].at("status"), "penetrating") << format << ' ' << level << further << i;
+            EXPECT_EQ(number(rows[i], "distance"), 0.0);
+          }
+          EXPECT_EQ(rows[3].at("status"), "ok");
+          EXPECT_GE(number(rows[3], "distance"), 0.4 - 1e-12);
+        }
+      }
+    }
+  }
+}
 
 TEST_F(DistanceQuery, AnswersEveryLineInOrder) {
   ASSERT_EQ(runBoxes(""), 0) << log();

@@ -19,11 +19,12 @@ struct MeshTopology {
   CompressedRows<NodeIndex> neighbours_of_vertex;
   /// Across each edge; kNoTriangle at a border, the first other triangle at a non-manifold edge.
   std::vector<std::array<TriangleIndex, 3>> triangle_across_edge;
-  std::vector<std::uint32_t> shell_of_vertex;  ///< connected component; isolated vertices have their own
+  /// Triangles that bound one solid and are connected by edges, or sheets connected by edges or corners. A
+  /// sheet that hangs on a solid, and solids that share an edge, are shells of their own.
   std::vector<std::uint32_t> shell_of_triangle;
-  std::vector<TriangleIndex> triangle_of_shell;  ///< one of each; kNoTriangle for an isolated vertex
-  /// Every edge of the shell has two triangles of opposite winding (where solids touch along an edge: as many
-  /// one way as the other).
+  std::vector<TriangleIndex> triangle_of_shell;  ///< the first of each
+  /// Bounds a solid or a cavity: along each edge as many of the shell's triangles run one way as the other.
+  /// The solid is where the closed shells' winding numbers add up to more than 0.
   std::vector<bool> shell_is_closed;
   std::vector<Eigen::Vector3d> triangle_normals;  ///< unit; zero for a triangle without area
   /// Angle-weighted sum of the incident normals, unit (Baerentzen and Aanaes 2005): its sign against the

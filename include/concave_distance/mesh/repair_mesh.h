@@ -28,7 +28,10 @@ struct RepairReport {
   double largest_move = 0.0;  ///< of a vertex by welding, metres
   std::size_t unused_vertices = 0;
   std::size_t zero_area_triangles = 0;  ///< dropped
-  std::size_t duplicate_triangles = 0;  ///< dropped; same three vertices, either winding
+  std::size_t duplicate_triangles = 0;  ///< dropped; same three vertices as others, either winding
+  /// Dropped, all that there were of each: between two solids that share it, not on the surface of their
+  /// union
+  std::size_t inner_wall_triangles = 0;
   std::size_t turned_triangles = 0;
   std::size_t shells = 0;  ///< of the result, as the rest
   std::size_t closed_shells = 0;
