@@ -54,7 +54,7 @@ TEST(LaunchFiles, TheNodeWithItsDefaultsServesTheRobot) {
   ros::param::set("/robot_description", robotText());
   TfPlayer player;
   player.place("base", 0.0);
-  player.place("tip", 3.0);
+  player.place("tip", 1.2);  // nearer than the cutoff of a robot of that size
   LaunchedFile launched({"distance_node.launch"});
   expectDistances(launched);
   removeRobot();
@@ -65,7 +65,7 @@ TEST(LaunchFiles, TheNodeWithItsDefaultsWaitsForARobotAndThenServesIt) {
   removeRobot();
   TfPlayer player;
   player.place("base", 0.0);
-  player.place("tip", 3.0);
+  player.place("tip", 1.2);  // nearer than the cutoff of a robot of that size
   LaunchedFile launched({"distance_node.launch"});
   const std::string service = std::string(kNode) + "/list_bodies";
   ASSERT_TRUE(ros::service::waitForService(service, ros::Duration(kStart))) << launched.output();
@@ -102,7 +102,7 @@ TEST(LaunchFiles, OwnRobotServesWhatIsOnTheParameterServerAndOnTf) {
   ros::param::set("/robot_description", robotText());
   TfPlayer player;
   player.place("base", 0.0);
-  player.place("tip", 3.0);
+  player.place("tip", 1.2);  // nearer than the cutoff of a robot of that size
   LaunchedFile launched({"own_robot.launch", "rviz:=false"});
   expectDistances(launched);
   removeRobot();
