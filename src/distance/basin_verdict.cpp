@@ -5,6 +5,8 @@
 #include <numeric>
 
 #include "cell_neighbours.h"
+#include "far_shells.h"
+#include "level_path.h"
 #include "pair_table.h"
 
 namespace concave_distance {
@@ -29,6 +31,9 @@ struct BasinBuffers {
   std::vector<std::uint32_t> order;
   std::vector<Basin> basins;
   std::vector<std::uint32_t> basin_of_seed;
+  /// First basin of each pair of shells: the deepest.
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> deepest;
+  LevelPathBuffers path;
   RefinementWorkspace refinement;
 };
 
@@ -46,19 +51,47 @@ bool isHigher(const Reached& l, const Reached& r) {
   return l.cell > r.cell;  // any order will do, as long as it is always the same
 }
 
+/// Floods without a limit of their own that have looked at this many triangle pairs count as large.
+constexpr std::size_t kLargeFlood = std::size_t{1} << 15U;
+constexpr std::size_t kUnlimited = std::numeric_limits<std::size_t>::max();
+
 class Judge {
  public:
-  Judge(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b, BasinBuffers& buffers)
+  Judge(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b, BasinBuffers& buffers,
+        WorkLimit& limit)
       : scene_(a, b, a_from_b),
         tolerance_(8.0 * scene_.rounding),
         table_(buffers.table),
         cells_(buffers.cells),
         reached_(buffers.reached),
         basins_(buffers.basins),
-        refinement_(buffers.refinement) {
+        deepest_(buffers.deepest),
+        path_(buffers.path),
+        refinement_(buffers.refinement),
+        limit_(limit) {
     table_.clear();
     cells_.clear();
     basins_.clear();
+    deepest_.clear();
+  }
+
+  const MinimaScene& scene() const { return scene_; }
+
+  /// Of seeds by ascending distance: the basin of the deepest one of the same pair of shells.
+  std::uint32_t deepestLike(const BasinSeed& seed, std::uint32_t basin) {
+    const std::uint64_t shells = shellPairOf(scene_, seed.a, seed.b);
+    const auto place = std::lower_bound(deepest_.begin(), deepest_.end(), std::pair{shells, 0U});
+    if (place != deepest_.end() && place->first == shells) return place->second;
+    deepest_.insert(place, {shells, basin});
+    return basin;
+  }
+
+  /// Without a flood: isFar() holds.
+  std::uint32_t judgeFar(const BasinSeed& seed) {
+    const std::uint32_t basin = enter(seed);
+    const std::uint32_t deepest = rootOf(deepestLike(seed, basin));
+    if (deepest != basin && basins_[basin].owner == basin) join(basin, deepest, largestDistance(scene_));
+    return basin;
   }
 
   /// A known niche; another seed's basin when that has its triangle pair.
@@ -71,11 +104,40 @@ class Judge {
   std::uint32_t judge(const BasinSeed& seed) {
     const std::size_t before = basins_.size();
     const std::uint32_t basin = enter(seed);
-    if (basins_.size() > before) flood(basin, seed.largest_flood);
+    const std::uint32_t deepest = deepestLike(seed, basin);
+    if (basins_.size() == before) return basin;
+    const bool all_known = seed.largest_flood == kUnlimited;
+    if (!(all_known && floods_are_large_ && isSettledByPath(basin, deepest)))
+      flood(basin, deepest, seed.largest_flood);
     return basin;
   }
 
-  void flood(std::uint32_t basin, std::size_t largest_flood) {
+  /// A large flood of a seed among which are all minima: the deepest of its shells is a niche, and others are
+  /// none where a path leads to that one.
+  bool isSettledByPath(std::uint32_t basin, std::uint32_t deepest) {
+    if (basin == deepest) return true;
+    const std::uint32_t owner = rootOf(deepest);
+    if (owner == basin) return false;
+    // A path may end in any basin that is known to belong to the deepest one: shallower than this one, it got
+    // there by no higher a pass.
+    const auto has_arrived = [&](TriangleIndex a, TriangleIndex b) {
+      const std::uint32_t cell = table_.find(a, b);
+      return cell != PairTable::kAbsent && rootOfCell(cell) == owner;
+    };
+    const TrianglePair from{basins_[basin].a, basins_[basin].b};
+    const TrianglePair to{basins_[deepest].a, basins_[deepest].b};
+    std::optional<double> pass;
+    for (const int first_moves : {0, 1}) {
+      if (!pass)
+        pass =
+            LevelPath(scene_, path_, limit_).find(from, to, basins_[basin].flooded, first_moves, has_arrived);
+    }
+    if (!pass) return false;
+    join(basin, owner, std::max(*pass, basins_[basin].distance));
+    return true;
+  }
+
+  void flood(std::uint32_t basin, std::uint32_t deepest, std::size_t largest_flood) {
     const double limit = basins_[basin].flooded;
     double deeper = basins_[basin].distance - tolerance_;
     double pass = basins_[basin].distance;
@@ -84,6 +146,10 @@ class Judge {
     reached_.push_back({0.0, table_.find(basins_[basin].a, basins_[basin].b)});
     cells_[reached_.back().cell].reached = basin;
     while (!reached_.empty()) {
+      if (limit_.isOverNow()) {
+        refuse(basin);
+        return;
+      }
       std::pop_heap(reached_.begin(), reached_.end(), isHigher);
       const Reached next = reached_.back();
       reached_.pop_back();
@@ -94,14 +160,18 @@ class Judge {
       const TrianglePoints corners_b = scene_.cornersOfB(b);
       const CellLevels levels = cellLevels(corners_a, corners_b);
       if (deeper > 0.0 && levels.least() < deeper * deeper) {
-        if (joinsBelow(basin, a, b, pass, largest_flood)) return;
+        if (joinsBelow(basin, deepest, a, b, pass, largest_flood)) return;
         deeper = basins_[basin].distance - tolerance_;
       }
       if (cells_[next.cell].basin == kNone) cells_[next.cell].basin = basin;
       bool joined = false;
+      bool has_room = true;
       forEachNeighbour(scene_, a, b, corners_a, corners_b, levels,
                        [&](TriangleIndex to_a, TriangleIndex to_b, double squared_level) {
                          if (joined || squared_level > limit * limit) return;
+                         has_room = has_room && table_.hasRoom(limit_) && limit_.hasRoom(cells_) &&
+                                    limit_.hasRoom(reached_);
+                         if (!has_room) return;
                          std::uint32_t cell = table_.find(to_a, to_b);
                          if (cell == PairTable::kAbsent) {
                            cell = addCell(to_a, to_b);
@@ -119,7 +189,15 @@ class Judge {
                          std::push_heap(reached_.begin(), reached_.end(), isHigher);
                        });
       if (joined) return;
-      if (++looked_at == largest_flood) {
+      if (!has_room) {
+        refuse(basin);
+        return;
+      }
+      if (++looked_at == kLargeFlood && largest_flood == kUnlimited) {
+        floods_are_large_ = true;
+        if (isSettledByPath(basin, deepest)) return;
+      }
+      if (looked_at == largest_flood) {
         basins_[basin].undecided = true;
         return;
       }
@@ -138,6 +216,8 @@ class Judge {
     cells_[known == PairTable::kAbsent ? addCell(a, b) : known].basin = basin;
     return basin;
   }
+
+  void refuse(std::uint32_t basin) { basins_[basin].undecided = basins_[basin].refused = true; }
 
   std::uint32_t addCell(TriangleIndex a, TriangleIndex b) {
     const auto cell = static_cast<std::uint32_t>(cells_.size());
@@ -163,7 +243,7 @@ class Judge {
 
   /// From a cell deeper than the basin's start to the minimum under it. False when that is in the basin
   /// itself, which has not started at its bottom then.
-  bool joinsBelow(std::uint32_t basin, TriangleIndex a, TriangleIndex b, double pass,
+  bool joinsBelow(std::uint32_t basin, std::uint32_t deepest, TriangleIndex a, TriangleIndex b, double pass,
                   std::size_t largest_flood) {
     const WitnessPair below = refineWitness(scene_.a, scene_.b, scene_.a_from_b, a, b, refinement_).witness;
     const double distance = std::sqrt(below.squared_distance);
@@ -182,7 +262,7 @@ class Judge {
     const std::uint32_t bottom =
         addBasin(below.triangle_a, below.triangle_b, distance, basins_[basin].least_prominence);
     join(basin, bottom, pass);
-    flood(bottom, largest_flood);
+    flood(bottom, deepest == basin ? bottom : deepest, largest_flood);
     return true;
   }
 
@@ -199,7 +279,11 @@ class Judge {
   std::vector<BasinBuffers::Cell>& cells_;
   std::vector<Reached>& reached_;
   std::vector<Basin>& basins_;
+  std::vector<std::pair<std::uint64_t, std::uint32_t>>& deepest_;
+  LevelPathBuffers& path_;
   RefinementWorkspace& refinement_;
+  WorkLimit& limit_;
+  bool floods_are_large_ = false;
 };
 
 }  // namespace
@@ -230,19 +314,27 @@ std::size_t BasinVerdicts::memoryBytes() const {
   const detail::BasinBuffers& b = *buffers_;
   return b.table.memoryBytes() + b.cells.capacity() * sizeof(detail::BasinBuffers::Cell) +
          b.reached.capacity() * sizeof(detail::BasinBuffers::Reached) + b.basins.capacity() * sizeof(Basin) +
-         (b.order.capacity() + b.basin_of_seed.capacity()) * sizeof(std::uint32_t);
+         (b.order.capacity() + b.basin_of_seed.capacity()) * sizeof(std::uint32_t) + b.path.memoryBytes() +
+         b.deepest.capacity() * sizeof(b.deepest[0]);
 }
 
 void judgeBasins(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
-                 const std::vector<BasinSeed>& seeds, BasinVerdicts& verdicts) {
+                 const std::vector<BasinSeed>& seeds, BasinVerdicts& verdicts, WorkLimit* limit) {
   detail::BasinBuffers& buffers = verdicts.buffers();
-  detail::Judge judge(a, b, a_from_b, buffers);
+  WorkLimit none;
+  detail::Judge judge(a, b, a_from_b, buffers, limit != nullptr ? *limit : none);
   buffers.basin_of_seed.resize(seeds.size());
   buffers.order.resize(seeds.size());
   std::iota(buffers.order.begin(), buffers.order.end(), 0U);
   std::sort(buffers.order.begin(), buffers.order.end(), [&](std::uint32_t l, std::uint32_t r) {
     return seeds[l].distance != seeds[r].distance ? seeds[l].distance < seeds[r].distance : l < r;
   });
+  double least_prominence = std::numeric_limits<double>::infinity();
+  for (const BasinSeed& seed : seeds) least_prominence = std::min(least_prominence, seed.least_prominence);
+  if (!seeds.empty() && detail::isFar(judge.scene(), least_prominence)) {
+    for (const std::uint32_t i : buffers.order) buffers.basin_of_seed[i] = judge.judgeFar(seeds[i]);
+    return;
+  }
   for (const std::uint32_t i : buffers.order) {
     if (!seeds[i].judged) buffers.basin_of_seed[i] = judge.enter(seeds[i]);
   }

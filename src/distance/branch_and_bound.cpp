@@ -13,8 +13,6 @@ using Hierarchy = BoundingVolumeHierarchy;
 
 /// Of the rounding of one bound: see kProofError.
 constexpr double kBoundError = 0x1.0p-48;  // 16 machine epsilons
-/// Box pairs opened between two looks at the clock.
-constexpr std::uint32_t kClockInterval = 16;
 
 }  // namespace
 
@@ -29,8 +27,8 @@ BranchAndBound::BranchAndBound(const BodyMesh& a, const BodyMesh& b, const Eigen
       frames_(a.hierarchy().origin(), b.hierarchy().origin(), a_from_b),
       turned_(frames_.rotation.transpose()),
       request_(request),
-      timed_(std::isfinite(request.time_budget)),
-      start_(timed_ ? Clock::now() : Clock::time_point()),
+      limit_(request.limit != nullptr ? *request.limit : unlimited_),
+      timed_(limit_.isTimed()),
       open_(workspace.open),
       refinement_(workspace.refinement),
       front_(front),
@@ -42,7 +40,7 @@ BranchAndBound::BranchAndBound(const BodyMesh& a, const BodyMesh& b, const Eigen
 DistanceCertificate BranchAndBound::run(const TrianglePair* seeds, std::size_t seed_count) {
   seed(seeds, seed_count);
   const double seeded = distance_;
-  if (partsAtRoots()) return conclude(false);  // a front can wait
+  if (partsAtRoots()) return conclude();  // a front can wait
   if (front_ != nullptr && !front_->valid() && front_->wait_ > 0) {
     --front_->wait_;
     front_ = nullptr;
@@ -53,9 +51,9 @@ DistanceCertificate BranchAndBound::run(const TrianglePair* seeds, std::size_t s
   } else {
     reopenFront();
   }
-  const bool out_of_time = search();
+  search();
   if (front_ != nullptr) {
-    if (out_of_time || squared_distance_ == 0.0) {
+    if (cut_ || squared_distance_ == 0.0) {
       front_->clear();  // not everything is in it
     } else {
       front_->decide(anew, result_.cost.box_bounds / static_cast<std::uint32_t>(Hierarchy::kWidth) +
@@ -63,7 +61,7 @@ DistanceCertificate BranchAndBound::run(const TrianglePair* seeds, std::size_t s
     }
   }
   result_.improved = distance_ < seeded - error_;
-  return conclude(out_of_time);
+  return conclude();
 }
 
 void BranchAndBound::seed(const TrianglePair* seeds, std::size_t seed_count) {
@@ -127,30 +125,35 @@ TrianglePairDistance BranchAndBound::measure(const TrianglePoints& a, const Tria
 void BranchAndBound::beginAtRoots() {
   if (front_ != nullptr) front_->begin(b_, frames_.rotation, frames_.offset);
   if (open_.empty()) open_.resize(Hierarchy::kWidth);
-  open_[0] = {Hierarchy::kRoot, Hierarchy::kRoot, 0.0};
+  // Where the proof may be cut short this much is certain at once.
+  const double certain = timed_ ? std::max(0.0, root_separation_) : 0.0;
+  open_[0] = {Hierarchy::kRoot, Hierarchy::kRoot, certain * certain};
   open_count_ = 1;
 }
 
 // Whether the direction between the closest points parts the bodies as wholes.
 bool BranchAndBound::partsAtRoots() {
   if (squared_distance_ == 0.0) return false;
-  const double separation = separationAlongWitnesses(Hierarchy::kRoot, Hierarchy::kRoot);
-  if (separation < enough_) return false;
-  exclude(separation);
+  root_separation_ = separationAlongWitnesses(Hierarchy::kRoot, Hierarchy::kRoot);
+  if (root_separation_ < enough_) return false;
+  exclude(root_separation_);
   return true;
 }
 
-// True when the time was up first.
-bool BranchAndBound::search() {
-  std::uint32_t until_look = kClockInterval;
+void BranchAndBound::search() {
   while (open_count_ > 0 && squared_distance_ > 0.0) {
-    if (timed_ && --until_look == 0) {
-      until_look = kClockInterval;
-      if (std::chrono::duration<double>(Clock::now() - start_).count() >= request_.time_budget) return true;
+    if (limit_.isOverNow()) {
+      cut_ = true;
+      return;
     }
     expand(take());
   }
-  return false;
+}
+
+// What does not fit is not kept for the next proof.
+void BranchAndBound::dropFront() {
+  front_->clear();
+  front_ = nullptr;
 }
 
 // With a budget the least bound comes first, so that the proven bound rises as fast as it can; without one a
@@ -164,7 +167,7 @@ void BranchAndBound::exclude(double bound) {
   excluded_ = std::min(excluded_, bound);
 }
 
-DistanceCertificate BranchAndBound::conclude(bool out_of_time) {
+DistanceCertificate BranchAndBound::conclude() {
   result_.witness = frames_.toWitness(closest_, triangle_a_, triangle_b_);
   result_.distance = distance_;
   double bound = std::min(distance_ - error_, excluded_);
@@ -173,7 +176,7 @@ DistanceCertificate BranchAndBound::conclude(bool out_of_time) {
   if (squared_distance_ == 0.0) {
     result_.status = CertificateStatus::Penetrating;
     result_.lower_bound = 0.0;
-  } else if (out_of_time) {
+  } else if (cut_) {
     result_.status = CertificateStatus::Budget;
   } else if (bound < distance_ - error_) {
     result_.status = CertificateStatus::Tolerance;

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <chrono>
-
 #include "box_pair_bounds.h"
 #include "concave_distance/distance/certificate.h"
 #include "concave_distance/distance/proof_front.h"
@@ -19,8 +17,6 @@ inline bool isFarther(const CertificateWorkspace::OpenPair& l, const Certificate
 /// One proof: descends into every pair of boxes that could hide a pair of points closer than the best one
 /// known, and keeps, where a front is given, what it has excluded with its bound.
 class BranchAndBound {
-  using Clock = std::chrono::steady_clock;
-
  public:
   BranchAndBound(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
                  const CertificateRequest& request, CertificateWorkspace& workspace, ProofFront* front);
@@ -40,7 +36,7 @@ class BranchAndBound {
   void beginAtRoots();
   bool partsAtRoots();
   void reopenFront();
-  bool search();
+  void search();
   OpenPair take();
   void add(Slot kept, std::uint32_t opened, std::uint32_t lane, bool opens_b, double squared_bound);
   void expand(const OpenPair& pair);
@@ -51,7 +47,8 @@ class BranchAndBound {
   double separationAlongWitnesses(Slot a, Slot b);
   double squaredBoundOfChild(Slot kept, Slot child, bool opens_b, double squared_bound);
   void exclude(double bound);
-  DistanceCertificate conclude(bool out_of_time);
+  void dropFront();
+  DistanceCertificate conclude();
 
   std::uint8_t regionOf(Slot slot_of_b) const { return b_.regionOfNode(slot_of_b / Hierarchy::kWidth); }
   std::ptrdiff_t openCount() const { return static_cast<std::ptrdiff_t>(open_count_); }
@@ -64,8 +61,10 @@ class BranchAndBound {
   const LocalFrames frames_;
   const Eigen::Matrix3d turned_;  ///< from A's axes to B's
   const CertificateRequest& request_;
+  WorkLimit unlimited_;
+  WorkLimit& limit_;
   const bool timed_;  ///< then the least bound comes first
-  const Clock::time_point start_;
+  bool cut_ = false;  ///< the limit has struck
   std::vector<OpenPair>& open_;  ///< the first open_count_ of it
   std::size_t open_count_ = 0;
   RefinementWorkspace& refinement_;
@@ -83,7 +82,8 @@ class BranchAndBound {
   double distance_ = std::numeric_limits<double>::infinity();
   Eigen::Vector3d direction_ = Eigen::Vector3d::Zero();  ///< from A's witness to B's, unit
   Eigen::Vector3d direction_in_b_ = Eigen::Vector3d::Zero();
-  double offset_along_ = 0.0;  ///< from A's origin to B's along direction_
+  double root_separation_ = 0.0;  ///< of the bodies as wholes, along the first direction
+  double offset_along_ = 0.0;     ///< from A's origin to B's along direction_
   bool supports_are_new_ = false;
   double enough_ = std::numeric_limits<double>::infinity();  ///< farther than this need not be opened
   double squared_enough_ = std::numeric_limits<double>::infinity();

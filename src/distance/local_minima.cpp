@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "concave_distance/distance/basin_verdict.h"
+#include "far_shells.h"
 #include "minima_candidates.h"
 #include "minima_flood.h"
 #include "minima_scene.h"
@@ -13,6 +14,8 @@ namespace {
 
 /// Of heights, relative to the size of both bodies; the same as the tracker's.
 constexpr double kPlateauTolerance = 1e-9;
+/// What judgeBasins() and decide() keep of a seed.
+constexpr std::size_t kBytesPerSeed = sizeof(BasinSeed) + sizeof(Basin) + 64;
 /// No plateau seen comes near it; the flood has united the whole set before.
 constexpr std::size_t kExtentPairLimit = 100'000;
 
@@ -23,8 +26,8 @@ struct Described {
 
 class Describer {
  public:
-  Describer(const detail::MinimaScene& scene, const LocalMinimaRequest& request)
-      : scene_(scene), request_(request), a_(scene.a), b_(scene.b) {}
+  Describer(const detail::MinimaScene& scene, const LocalMinimaRequest& request, WorkLimit& limit)
+      : scene_(scene), request_(request), a_(scene.a), b_(scene.b), limit_(limit) {}
 
   /// False for what is not wanted.
   bool describe(const detail::FloodedMinimum& minimum, LocalMinimum& niche) {
@@ -42,7 +45,8 @@ class Describer {
     niche.prominence = minimum.pass / niche.distance - 1.0;
     const double tolerance = kPlateauTolerance * (a_.diameter() + b_.diameter());
     const NicheExtent extent =
-        measureExtent(a_, b_, scene_.a_from_b, niche.witness, tolerance, kExtentPairLimit, extent_);
+        measureExtent(a_, b_, scene_.a_from_b, niche.witness, tolerance, kExtentPairLimit, extent_,
+                      &limit_);
     niche.kind = extent.kind;
     niche.extent = extent.length;
     if (extent.kind != NicheKind::Point) niche.witness = extent.representative;
@@ -54,13 +58,22 @@ class Describer {
   const LocalMinimaRequest& request_;
   const BodyMesh& a_;
   const BodyMesh& b_;
+  WorkLimit& limit_;
   RefinementWorkspace refinement_;
   ExtentWorkspace extent_;
 };
 
 /// Verdicts alone; no pass is measured.
 detail::FloodResult decide(const detail::MinimaScene& scene, const LocalMinimaRequest& request,
-                           const std::vector<MinimumSeed>& seeds, std::size_t owned, LocalMinimaCost& cost) {
+                           const std::vector<MinimumSeed>& seeds, std::size_t owned, LocalMinimaCost& cost,
+                           WorkLimit& limit) {
+  const MemoryScope memory(limit);
+  detail::FloodResult result;
+  if (!limit.takeMemory(seeds.size() * kBytesPerSeed)) {
+    result.cut = true;
+    result.owners.assign(seeds.size() - owned, LocalMinima::kNoOwner);
+    return result;
+  }
   std::vector<BasinSeed> basin_seeds;
   basin_seeds.reserve(seeds.size());
   for (const MinimumSeed& seed : seeds) {
@@ -68,9 +81,8 @@ detail::FloodResult decide(const detail::MinimaScene& scene, const LocalMinimaRe
                            std::numeric_limits<std::size_t>::max()});
   }
   BasinVerdicts verdicts;
-  judgeBasins(scene.a, scene.b, scene.a_from_b, basin_seeds, verdicts);
+  judgeBasins(scene.a, scene.b, scene.a_from_b, basin_seeds, verdicts, &limit);
   cost.flooded_pairs += verdicts.floodedPairs();
-  detail::FloodResult result;
   const std::vector<Basin>& basins = verdicts.basins();
   std::vector<std::size_t> minimum_of_basin(basins.size(), LocalMinima::kNoOwner);
   // What no cone led to is met by a flood; what was asked for does not count.
@@ -81,7 +93,8 @@ detail::FloodResult decide(const detail::MinimaScene& scene, const LocalMinimaRe
   }
   for (std::uint32_t i = 0; i < basins.size(); ++i) {
     const Basin& basin = basins[i];
-    if (basin.owner != i) continue;
+    result.cut = result.cut || basin.refused;
+    if (basin.owner != i || basin.refused) continue;
     minimum_of_basin[i] = result.minima.size();
     result.minima.push_back({basin.a, basin.b, basin.distance, basin.pass, basin.flooded, !led_to[i]});
   }
@@ -91,18 +104,33 @@ detail::FloodResult decide(const detail::MinimaScene& scene, const LocalMinimaRe
   return result;
 }
 
+bool isFar(const detail::MinimaScene& scene, const LocalMinimaRequest& request) {
+  return detail::isFar(scene, request.least_prominence);
+}
+
+void collectSeeds(const detail::MinimaScene& scene, const LocalMinimaRequest& request,
+                  std::vector<MinimumSeed>& seeds, LocalMinimaCost& cost, WorkLimit& limit) {
+  detail::FarShellBuffers far_shells;
+  if (isFar(scene, request) && detail::collectFarSeeds(scene, request.cutoff, far_shells, seeds, limit)) return;
+  detail::collectMeetingPairs(scene, seeds, cost, limit);
+  const NormalSides sides = request.through_material ? NormalSides::Both : NormalSides::Outside;
+  detail::OpenCones open;
+  detail::collectConeSeeds(scene, sides, request.cutoff, std::numeric_limits<std::size_t>::max(), open, seeds,
+                           cost, limit);
+}
+
 }  // namespace
 
 LocalMinima findLocalMinima(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
                             const LocalMinimaRequest& request) {
   const detail::MinimaScene scene(a, b, a_from_b);
+  WorkLimit none;
+  WorkLimit& limit = request.limit != nullptr ? *request.limit : none;
+  const MemoryScope memory(limit);
+  const bool refused_before = limit.hasRefusedMemory();
   LocalMinima result;
   std::vector<MinimumSeed> seeds;
-  detail::collectMeetingPairs(scene, seeds, result.cost);
-  const NormalSides sides = request.through_material ? NormalSides::Both : NormalSides::Outside;
-  detail::OpenCones open;
-  detail::collectConeSeeds(scene, sides, request.cutoff, std::numeric_limits<std::size_t>::max(), open, seeds,
-                           result.cost);
+  collectSeeds(scene, request, seeds, result.cost, limit);
   const std::size_t owned = seeds.size();
   result.cost.minima = owned;
   RefinementWorkspace refinement;
@@ -110,16 +138,18 @@ LocalMinima findLocalMinima(const BodyMesh& a, const BodyMesh& b, const Eigen::I
     const WitnessPair settled = refineWitness(a, b, a_from_b, triangle_a, triangle_b, refinement).witness;
     seeds.push_back({settled.triangle_a, settled.triangle_b, std::sqrt(settled.squared_distance)});
   }
-  const detail::FloodResult flood = request.prominence_limit > request.least_prominence
-                                        ? detail::floodMinima(scene, request, seeds, owned, result.cost)
-                                        : decide(scene, request, seeds, owned, result.cost);
+  const bool measures = request.prominence_limit > request.least_prominence && !isFar(scene, request);
+  const detail::FloodResult flood =
+      measures ? detail::floodMinima(scene, request, seeds, owned, result.cost, limit)
+               : decide(scene, request, seeds, owned, result.cost, limit);
 
   std::vector<Described> described;
-  Describer describer(scene, request);
+  Describer describer(scene, request, limit);
   for (std::size_t i = 0; i < flood.minima.size(); ++i) {
     LocalMinimum niche;
     if (describer.describe(flood.minima[i], niche)) described.push_back({niche, i});
   }
+  result.finished = !flood.cut && !limit.isOver() && limit.hasRefusedMemory() == refused_before;
   std::sort(described.begin(), described.end(), [&](const Described& l, const Described& r) {
     if (l.niche.distance != r.niche.distance) return l.niche.distance < r.niche.distance;
     const detail::FloodedMinimum& of_l = flood.minima[l.minimum];

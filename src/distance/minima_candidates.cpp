@@ -75,7 +75,7 @@ struct FacingCap {
 class Traversal {
  public:
   Traversal(const MinimaScene& scene, NormalSides sides, double cutoff, std::vector<MinimumSeed>& seeds,
-            LocalMinimaCost& cost, OpenCones& open)
+            LocalMinimaCost& cost, OpenCones& open, WorkLimit& limit)
       : scene_(scene),
         // Spheres and distances carry the rounding of the scene.
         slack_(4.0 * scene.rounding),
@@ -87,7 +87,8 @@ class Traversal {
         turned_(scene.frames.rotation.transpose()),
         seeds_(seeds),
         cost_(cost),
-        open_(open) {}
+        open_(open),
+        limit_(limit) {}
 
   /// Until every pair is looked at or the budget (groups of cones) is used up; goes on from what is open,
   /// from the roots when nothing is.
@@ -96,6 +97,11 @@ class Traversal {
     if (open_.empty()) open_.emplace_back(NormalConeTree::kRoot, NormalConeTree::kRoot);
     const std::uint64_t last = budget < kAll ? cost_.node_pairs + budget : kAll;
     while (!open_.empty() && cost_.node_pairs < last) {
+      if (limit_.isOverNow()) return;
+      if (!limit_.hasRoom(open_, kWidth) || !limit_.hasRoom(seeds_)) {
+        open_.clear();
+        return;
+      }
       const auto [a, b] = open_.back();
       open_.pop_back();
       const std::uint32_t child_a = cones_a_.child(a);
@@ -299,6 +305,7 @@ class Traversal {
   std::vector<MinimumSeed>& seeds_;
   LocalMinimaCost& cost_;
   OpenCones& open_;
+  WorkLimit& limit_;
 };
 
 Eigen::AlignedBox3d movedBox(const Eigen::AlignedBox3d& box, const Eigen::Isometry3d& a_from_b) {
@@ -310,11 +317,13 @@ Eigen::AlignedBox3d movedBox(const Eigen::AlignedBox3d& box, const Eigen::Isomet
 }  // namespace
 
 void collectConeSeeds(const MinimaScene& scene, NormalSides sides, double cutoff, std::size_t budget,
-                      OpenCones& open, std::vector<MinimumSeed>& seeds, LocalMinimaCost& cost) {
-  Traversal(scene, sides, cutoff, seeds, cost, open).run(budget);
+                      OpenCones& open, std::vector<MinimumSeed>& seeds, LocalMinimaCost& cost,
+                      WorkLimit& limit) {
+  Traversal(scene, sides, cutoff, seeds, cost, open, limit).run(budget);
 }
 
-void collectMeetingPairs(const MinimaScene& scene, std::vector<MinimumSeed>& seeds, LocalMinimaCost& cost) {
+void collectMeetingPairs(const MinimaScene& scene, std::vector<MinimumSeed>& seeds, LocalMinimaCost& cost,
+                         WorkLimit& limit) {
   const TriangleTree& tree_a = scene.a.tree();
   const TriangleTree& tree_b = scene.b.tree();
   const double slack = 4.0 * scene.rounding;
@@ -324,6 +333,7 @@ void collectMeetingPairs(const MinimaScene& scene, std::vector<MinimumSeed>& see
   const double margin = slack + 1e-14 * (origin + scene.size);
   std::vector<std::pair<std::uint32_t, std::uint32_t>> open{{0U, 0U}};
   while (!open.empty()) {
+    if (limit.isOverNow() || !limit.hasRoom(open, 2)) return;
     const auto [i, j] = open.back();
     open.pop_back();
     const TriangleTree::Node& a = tree_a.nodes()[i];
@@ -338,6 +348,7 @@ void collectMeetingPairs(const MinimaScene& scene, std::vector<MinimumSeed>& see
           ++cost.candidates;
           if (triangleDistance(scene.cornersOfA(ta), scene.cornersOfB(tb)).squared_distance <=
               slack * slack) {
+            if (!limit.hasRoom(seeds)) return;
             seeds.push_back({ta, tb, 0.0});
           }
         }

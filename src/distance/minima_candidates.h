@@ -16,10 +16,13 @@ using OpenCones = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 /// the other lies in the cones of both; each pair of features that is left is tried on the triangles.
 /// @param budget groups of cones compared at the most
 /// @param open where to go on, empty: everywhere; what was not come to is left there
+/// @param limit ends it early; where memory is refused, what was open is given up
 void collectConeSeeds(const MinimaScene& scene, NormalSides sides, double cutoff, std::size_t budget,
-                      OpenCones& open, std::vector<MinimumSeed>& seeds, LocalMinimaCost& cost);
+                      OpenCones& open, std::vector<MinimumSeed>& seeds, LocalMinimaCost& cost,
+                      WorkLimit& limit);
 
-/// Every triangle pair that meets, up to rounding.
-void collectMeetingPairs(const MinimaScene& scene, std::vector<MinimumSeed>& seeds, LocalMinimaCost& cost);
+/// Every triangle pair that meets, up to rounding; those found until the limit strikes.
+void collectMeetingPairs(const MinimaScene& scene, std::vector<MinimumSeed>& seeds, LocalMinimaCost& cost,
+                         WorkLimit& limit);
 
 }  // namespace concave_distance::detail

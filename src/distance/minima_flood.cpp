@@ -47,11 +47,12 @@ bool laterStep(const Step& l, const Step& r) {
 
 class Flood {
  public:
-  Flood(const MinimaScene& scene, const LocalMinimaRequest& request)
-      : scene_(scene), request_(request), tolerance_(8.0 * scene.rounding) {}
+  Flood(const MinimaScene& scene, const LocalMinimaRequest& request, WorkLimit& limit)
+      : scene_(scene), request_(request), tolerance_(8.0 * scene.rounding), limit_(limit) {}
 
   /// The cell of a local minimum, as a basin of its own if it is new.
   std::uint32_t startAt(TriangleIndex a, TriangleIndex b, bool met_by_flood) {
+    cut_ = cut_ || limit_.isOverNow();
     if (const std::uint32_t known = table_.find(a, b); known != PairTable::kAbsent) return known;
     const std::uint32_t cell = addCell(a, b);
     cells_[cell].parent = cell;
@@ -62,13 +63,22 @@ class Flood {
   }
 
   void run() {
-    while (!steps_.empty()) {
+    while (!steps_.empty() && !cut_) {
       std::pop_heap(steps_.begin(), steps_.end(), laterStep);
       const Step step = steps_.back();
       steps_.pop_back();
-      take(step);
+      reached_ = step.level;
+      if (limit_.isOverNow()) {
+        cut_ = true;
+      } else {
+        take(step);
+      }
     }
   }
+
+  bool wasCut() const { return cut_; }
+  /// Whether everything that could end a basin has been looked at.
+  bool isDecided(const Basin& basin) const { return !cut_ || basin.limit < reached_; }
 
   std::uint32_t rootOf(std::uint32_t cell) {
     while (cells_[cell].parent != cell) {
@@ -128,7 +138,11 @@ class Flood {
 
   void consider(std::uint32_t from, TriangleIndex to_a, TriangleIndex to_b, double limit, double level) {
     const double above = std::max(level, cells_[from].reached);
-    if (above > limit) return;
+    if (above > limit || cut_) return;
+    if (!limit_.hasRoom(steps_) || !limit_.hasRoom(cells_, 2) || !table_.hasRoom(limit_)) {
+      cut_ = true;
+      return;
+    }
     steps_.push_back({above, from, to_a, to_b});
     std::push_heap(steps_.begin(), steps_.end(), laterStep);
   }
@@ -185,6 +199,9 @@ class Flood {
   const MinimaScene& scene_;
   const LocalMinimaRequest& request_;
   double tolerance_;
+  WorkLimit& limit_;
+  bool cut_ = false;
+  double reached_ = 0.0;  ///< metres, the level of the last step
   PairTable table_;
   std::vector<Cell> cells_;
   std::vector<Basin> basins_;
@@ -199,8 +216,10 @@ class Flood {
 }  // namespace
 
 FloodResult floodMinima(const MinimaScene& scene, const LocalMinimaRequest& request,
-                        const std::vector<MinimumSeed>& seeds, std::size_t owned, LocalMinimaCost& cost) {
-  Flood flood(scene, request);
+                        const std::vector<MinimumSeed>& seeds, std::size_t owned, LocalMinimaCost& cost,
+                        WorkLimit& limit) {
+  const MemoryScope memory(limit);
+  Flood flood(scene, request, limit);
   std::vector<std::uint32_t> starts;
   for (std::size_t i = 0; i < seeds.size(); ++i) {
     starts.push_back(flood.startAt(seeds[i].a, seeds[i].b, i >= owned));
@@ -210,7 +229,7 @@ FloodResult floodMinima(const MinimaScene& scene, const LocalMinimaRequest& requ
   std::vector<std::size_t> minimum_of_basin(flood.basins().size(), LocalMinima::kNoOwner);
   for (std::size_t i = 0; i < flood.basins().size(); ++i) {
     const Basin& basin = flood.basins()[i];
-    if (!flood.isProminent(basin)) continue;
+    if (!flood.isProminent(basin) || !flood.isDecided(basin)) continue;
     const Cell& cell = flood.cell(basin.cell);
     minimum_of_basin[i] = result.minima.size();
     result.minima.push_back({cell.a, cell.b, cell.distance, basin.pass, basin.limit, basin.met_by_flood});
@@ -220,6 +239,7 @@ FloodResult floodMinima(const MinimaScene& scene, const LocalMinimaRequest& requ
     result.owners.push_back(minimum_of_basin[flood.ownerOf(starts[i])]);
   }
   cost.flooded_pairs += flood.cellCount();
+  result.cut = flood.wasCut();
   return result;
 }
 

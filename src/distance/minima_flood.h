@@ -18,6 +18,7 @@ struct FloodedMinimum {
 
 struct FloodResult {
   std::vector<FloodedMinimum> minima;  ///< of the least prominence, in no order
+  bool cut = false;                    ///< by the limit: `minima` are those decided before
   std::vector<std::size_t> owners;     ///< of each of the starts asked for: index in `minima` or npos
 };
 
@@ -28,6 +29,7 @@ struct FloodResult {
 /// triangle pair deeper than its own start goes down from there and joins what it finds.
 /// @param owned first seed of those whose owner is asked for; they are the last of the list
 FloodResult floodMinima(const MinimaScene& scene, const LocalMinimaRequest& request,
-                        const std::vector<MinimumSeed>& seeds, std::size_t owned, LocalMinimaCost& cost);
+                        const std::vector<MinimumSeed>& seeds, std::size_t owned, LocalMinimaCost& cost,
+                        WorkLimit& limit);
 
 }  // namespace concave_distance::detail

@@ -48,6 +48,11 @@ PlanarFeature levelPart(const LevelSide& side, TriangleIndex t, double tolerance
   return part;
 }
 
+/// Triangles that the rings around the corners of a set name in all: about 12 for each corner of a pair, many
+/// more where the sideways reach is longer than the triangles, which far apart it is.
+constexpr std::size_t kRingsPerPair = 1024;
+constexpr std::size_t kLargestRings = std::size_t{1} << 20U;
+
 bool isCornerOf(const TriangleNodes& nodes, NodeIndex node) {
   return std::find(nodes.begin(), nodes.end(), node) != nodes.end();
 }
@@ -55,8 +60,15 @@ bool isCornerOf(const TriangleNodes& nodes, NodeIndex node) {
 class Flood {
  public:
   Flood(const LevelSide& a, const LevelSide& b, const Levels& levels, std::size_t pair_limit,
-        ExtentWorkspace& workspace, NicheExtent& extent)
-      : a_(a), b_(b), levels_(levels), pair_limit_(pair_limit), workspace_(workspace), extent_(extent) {}
+        WorkLimit& limit, ExtentWorkspace& workspace, NicheExtent& extent)
+      : a_(a),
+        b_(b),
+        levels_(levels),
+        pair_limit_(pair_limit),
+        rings_left_(std::min(kRingsPerPair * std::min(pair_limit, kLargestRings), kLargestRings)),
+        limit_(limit),
+        workspace_(workspace),
+        extent_(extent) {}
 
   void run(TriangleIndex start_a, TriangleIndex start_b) {
     workspace_.open.clear();
@@ -65,10 +77,8 @@ class Flood {
     workspace_.points.clear();
     open(start_a, start_b);
     for (std::size_t i = 0; i < workspace_.open.size(); ++i) {
-      if (i == pair_limit_) {
-        extent_.cut = true;
-        return;
-      }
+      if (i == pair_limit_ || rings_left_ == 0 || limit_.isOver()) extent_.cut = true;
+      if (extent_.cut) return;
       const TriangleIndex triangle_a = workspace_.open[i].first;
       const TriangleIndex triangle_b = workspace_.open[i].second;
       workspace_.corners.clear();
@@ -95,6 +105,7 @@ class Flood {
 
  private:
   void open(TriangleIndex triangle_a, TriangleIndex triangle_b) {
+    if (workspace_.open.size() > pair_limit_) return;  // the last one is never looked at
     const std::pair pair{triangle_a, triangle_b};
     const auto place = std::lower_bound(workspace_.seen.begin(), workspace_.seen.end(), pair);
     if (place != workspace_.seen.end() && *place == pair) return;
@@ -127,7 +138,8 @@ class Flood {
     const PointTriangleDistance on_triangle =
         pointTriangleDistance(side.raised(point), side.corners(triangle));
     detail::collectRing(own, {on_triangle.point, on_triangle.feature, side.outwards},
-                        levels_.slack + levels_.reach, workspace_.ring);
+                        levels_.slack + levels_.reach, workspace_.ring, rings_left_);
+    rings_left_ -= std::min(rings_left_, workspace_.ring.ring.size());
     for (std::size_t i = 1; i < workspace_.ring.ring.size(); ++i) {
       const TriangleIndex other = workspace_.ring.ring[i];
       const TriangleNodes& nodes = own.mesh.triangle(other);
@@ -157,6 +169,8 @@ class Flood {
   const LevelSide& b_;
   const Levels& levels_;
   std::size_t pair_limit_;
+  std::size_t rings_left_;  ///< triangles that rings may still name
+  WorkLimit& limit_;
   ExtentWorkspace& workspace_;
   NicheExtent& extent_;
 };
@@ -218,7 +232,7 @@ void placeRepresentative(const detail::LocalFrames& frames, const LevelSide& a, 
 
 NicheExtent measureExtent(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
                           const WitnessPair& witness, double tolerance, std::size_t pair_limit,
-                          ExtentWorkspace& workspace) {
+                          ExtentWorkspace& workspace, WorkLimit* limit) {
   NicheExtent extent;
   extent.representative = witness;
   const detail::LocalFrames frames(a, b, a_from_b, witness.triangle_a, witness.triangle_b);
@@ -247,11 +261,15 @@ NicheExtent measureExtent(const BodyMesh& a, const BodyMesh& b, const Eigen::Iso
   workspace.axis_y = axis_y;
   workspace.height_tolerance = levels.tolerance;
   workspace.reach = levels.reach + levels.slack;
+  // No set is longer than either body; one of less than this length is told from a point by nothing.
+  if (std::min(a.diameter(), b.diameter()) <= 2.0 * levels.reach) return extent;
   if (isPeak(side_a, witness.triangle_a, witness.feature_a, levels, workspace.ring) ||
       isPeak(side_b, witness.triangle_b, witness.feature_b, levels, workspace.ring)) {
     return extent;
   }
-  Flood(side_a, side_b, levels, pair_limit, workspace, extent).run(witness.triangle_a, witness.triangle_b);
+  WorkLimit none;
+  Flood(side_a, side_b, levels, pair_limit, limit != nullptr ? *limit : none, workspace, extent)
+      .run(witness.triangle_a, witness.triangle_b);
   workspace.corners = workspace.points;  // the hull sorts its input
   detail::convexHull(workspace.corners, workspace.hull);
   const double length = detail::diameterOf(workspace.hull);

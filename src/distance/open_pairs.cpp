@@ -24,7 +24,8 @@ void BranchAndBound::reopenFront() {
     ProofFront::LeafPair& pair = front.leaf_pairs_[i];
     const double gone = front.odometers_[pair.region];
     double bound = pair.bound - gone;
-    if (bound < enough_) {
+    cut_ = cut_ || limit_.isOverNow();
+    if (bound < enough_ && !cut_) {
       bound = measureLeaves(leafOf(a_, a_.child(pair.a)), leafOf(b_, b_.child(pair.b)));
       pair.bound = bound + gone;
     }
@@ -35,7 +36,8 @@ void BranchAndBound::reopenFront() {
     ProofFront::Quad& quad = front.quads_[i];
     const double gone = front.odometers_[quad.region];
     const double least = *std::min_element(quad.bound, quad.bound + Hierarchy::kWidth) - gone;
-    if (least >= enough_) {
+    cut_ = cut_ || limit_.isOverNow();
+    if (least >= enough_ || cut_) {
       exclude(least);
       continue;
     }
@@ -58,7 +60,15 @@ void BranchAndBound::reopenFront() {
 
 void BranchAndBound::add(Slot kept, std::uint32_t opened, std::uint32_t lane, bool opens_b,
                          double squared_bound) {
-  if (open_.size() == open_count_) open_.resize(2 * open_.size() + 256);
+  if (open_.size() == open_count_) {
+    const std::size_t more = open_.size() + 256;
+    if (!limit_.hasRoom(open_, more)) {
+      exclude(std::sqrt(squared_bound));
+      cut_ = true;
+      return;
+    }
+    open_.resize(open_.size() + more);
+  }
   // Field by field: a pair put together on the stack first would stall the store buffer.
   const Slot slot = slotOf(opened, lane);
   OpenPair& child = open_[open_count_++];
@@ -91,6 +101,10 @@ void BranchAndBound::expand(const OpenPair& pair) {
       exclude(bound);
       if (front_ == nullptr) continue;
       if (quad == nullptr) {
+        if (!limit_.hasRoom(front_->quads_)) {
+          dropFront();
+          continue;
+        }
         const std::uint8_t region = opens_b ? b_.regionOfNode(opened) : regionOf(kept);
         front_->quads_.push_back(
             {{kInfinity, kInfinity, kInfinity, kInfinity}, kept, opened, region, opens_b});
@@ -113,6 +127,10 @@ void BranchAndBound::openLeaves(const OpenPair& pair) {
                                 measureLeaves(leafOf(a_, a_.child(pair.a)), leafOf(b_, b_.child(pair.b))));
   exclude(bound);
   if (front_ == nullptr) return;
+  if (!limit_.hasRoom(front_->leaf_pairs_)) {
+    dropFront();
+    return;
+  }
   const std::uint8_t region = regionOf(pair.b);
   front_->leaf_pairs_.push_back({bound + front_->odometers_[region], pair.a, pair.b, region});
 }

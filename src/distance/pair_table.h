@@ -5,6 +5,7 @@
 
 #include "concave_distance/base/indices.h"
 #include "concave_distance/base/pair_key.h"
+#include "concave_distance/base/work_limit.h"
 
 namespace concave_distance::detail {
 
@@ -26,6 +27,15 @@ class PairTable {
 
   std::size_t memoryBytes() const {
     return slots_.capacity() * sizeof(Slot) + used_.capacity() * sizeof(std::uint32_t);
+  }
+
+  /// Whether another pair may be inserted, with what the table's growth takes.
+  bool hasRoom(WorkLimit& limit) const {
+    if (!limit.hasRoom(used_)) return false;
+    if (2 * (used_.size() + 1) <= slots_.size()) return true;
+    if (!limit.takeMemory(2 * slots_.size() * sizeof(Slot))) return false;
+    limit.returnMemory(slots_.size() * sizeof(Slot));
+    return true;
   }
 
   /// Keeps the capacity; costs what is in it.

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstddef>
+#include <limits>
+
 #include "concave_distance/distance/triangle_distance.h"
 #include "concave_distance/distance/witness_refinement.h"
 #include "concave_distance/mesh/mesh_topology.h"
@@ -34,9 +37,11 @@ struct RingLook {
 };
 
 /// All triangles that hold the witness, the own one first: across its edge, around its vertex, and whatever
-/// else is connected to them within the tolerance, where triangles are as thin as rounding.
+/// else is connected to them within the tolerance, where triangles are as thin as rounding. Time grows with the
+/// ring, no faster. At most `largest` triangles and the rest of the last vertex or edge.
 void collectRing(const LocalTriangle& own, const LocalWitness& witness, double on_feature,
-                 RefinementWorkspace& workspace);
+                 RefinementWorkspace& workspace,
+                 std::size_t largest = std::numeric_limits<std::size_t>::max());
 
 /// Looks for a triangle around the witness that comes closer to the other witness. A triangle none of whose
 /// corners lies beyond the plane through the point, across the direction to the other, cannot.

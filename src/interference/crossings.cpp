@@ -41,15 +41,19 @@ Sides sidesOf(PerturbedPredicates& predicates, const Corners& triangle, Side who
 
 }  // namespace
 
-void CrossingCurves::find(WorkingFrame& frame, PerturbedPredicates& predicates,
-                          const std::vector<CandidatePair>& candidates) {
+bool CrossingCurves::find(WorkingFrame& frame, PerturbedPredicates& predicates,
+                          const std::vector<CandidatePair>& candidates, WorkLimit& limit) {
   nodes_.clear();
   segments_.clear();
   ends_.clear();
   common_faces_.clear();
   broken_ = false;
-  for (const CandidatePair& pair : candidates) crossPair(frame, predicates, pair);
+  for (const CandidatePair& pair : candidates) {
+    if (limit.isOverNow()) return false;
+    crossPair(frame, predicates, pair);
+  }
   joinEnds(frame);
+  return true;
 }
 
 void CrossingCurves::crossPair(WorkingFrame& frame, PerturbedPredicates& predicates,

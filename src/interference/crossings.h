@@ -48,8 +48,9 @@ struct CommonFace {
 /// The curves where the two surfaces cross, B moved by an infinitesimal: nodes and the segments between them.
 class CrossingCurves {
  public:
-  void find(WorkingFrame& frame, PerturbedPredicates& predicates,
-            const std::vector<CandidatePair>& candidates);
+  /// False when the limit struck first.
+  bool find(WorkingFrame& frame, PerturbedPredicates& predicates,
+            const std::vector<CandidatePair>& candidates, WorkLimit& limit);
 
   const std::vector<CrossingNode>& nodes() const { return nodes_; }
   const std::vector<CrossingSegment>& segments() const { return segments_; }

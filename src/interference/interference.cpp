@@ -86,10 +86,10 @@ void addOthers(const std::vector<FoundRegion>& found, double rounding, std::vect
 
 /// Finds the regions after one motion of B and, where anything coincides exactly, after its opposite; where
 /// these differ or have flaps after the remaining six, for the solids alone.
-void findRegions(InterferenceWorkspace::Implementation& space) {
+void findRegions(InterferenceWorkspace::Implementation& space, WorkLimit& limit) {
   const double rounding = space.builder.frame().roundingBound();
   detail::Motion motion = {1, 1, 1};
-  const bool tied = space.builder.pass(motion, space.found);
+  const bool tied = space.builder.pass(motion, space.found, limit);
   takeSolids(space.found, space.solids);
   space.others.clear();
   addOthers(space.found, rounding, space.others);
@@ -100,7 +100,8 @@ void findRegions(InterferenceWorkspace::Implementation& space) {
     // The opposite first.
     const int bits = octant <= 1 ? 7 : octant - 1;
     for (std::size_t axis = 0; axis < 3; ++axis) motion[axis] = (bits >> axis & 1) != 0 ? -1 : 1;
-    space.builder.pass(motion, space.found);
+    space.builder.pass(motion, space.found, limit);
+    if (space.builder.wasCut()) return;
     const Clarity clarity = clarityOf(space.found);
     if (octant == 1) {
       addOthers(space.found, rounding, space.others);
@@ -124,16 +125,22 @@ bool deeper(const FoundRegion& l, const FoundRegion& r) {
 }  // namespace
 
 void findInterference(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
-                      InterferenceWorkspace& workspace, Interference& result) {
+                      InterferenceWorkspace& workspace, Interference& result, WorkLimit* limit) {
   result.regions.clear();
   result.a_inside_b = result.b_inside_a = false;
   result.rounding_bound = std::numeric_limits<double>::quiet_NaN();
   result.status = isPose(a_from_b) ? InterferenceStatus::Ok : InterferenceStatus::InvalidPose;
   if (result.status != InterferenceStatus::Ok) return;
   InterferenceWorkspace::Implementation& space = workspace.implementation();
-  space.builder.findCandidates(a, b, a_from_b);
+  WorkLimit none;
+  WorkLimit& work = limit != nullptr ? *limit : none;
+  space.builder.findCandidates(a, b, a_from_b, work);
   result.rounding_bound = space.builder.frame().roundingBound();
-  findRegions(space);
+  findRegions(space, work);
+  if (space.builder.wasCut()) {
+    result.status = InterferenceStatus::Cut;
+    return;
+  }
   space.found.clear();
   for (const std::vector<FoundRegion>* list : {&space.solids, &space.others}) {
     for (const FoundRegion& found : *list) space.found.push_back(found);

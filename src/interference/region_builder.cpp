@@ -18,14 +18,17 @@ Eigen::Vector3d centroidOf(const BoundaryComponent& region, double rounding) {
 
 }  // namespace
 
-void RegionBuilder::findCandidates(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b) {
+void RegionBuilder::findCandidates(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
+                                   WorkLimit& limit) {
   frame_.reset(a, b, a_from_b);
-  collectCandidates(frame_, stack_, candidates_);
+  cut_ = !collectCandidates(frame_, stack_, candidates_, limit);
 }
 
-bool RegionBuilder::pass(const Motion& motion_of_b, std::vector<FoundRegion>& found) {
+bool RegionBuilder::pass(const Motion& motion_of_b, std::vector<FoundRegion>& found, WorkLimit& limit) {
+  found.clear();
   PerturbedPredicates predicates(motion_of_b);
-  curves_.find(frame_, predicates, candidates_);
+  cut_ = cut_ || limit.isOver() || !curves_.find(frame_, predicates, candidates_, limit);
+  if (cut_) return false;
   sets_.reset(curves_.nodes().size());
   for (const Side side : {Side::A, Side::B})
     pieces_[at(side)].collect(frame_, predicates, containment_, curves_, side, sets_);

@@ -19,9 +19,12 @@ struct FoundRegion {
 /// Finds the regions for one infinitesimal motion of B: a pass.
 class RegionBuilder {
  public:
-  void findCandidates(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b);
+  /// Once the limit has struck, passes find nothing.
+  void findCandidates(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
+                      WorkLimit& limit);
   /// Whether anything coincided exactly, so that another motion may give another answer.
-  bool pass(const Motion& motion_of_b, std::vector<FoundRegion>& found);
+  bool pass(const Motion& motion_of_b, std::vector<FoundRegion>& found, WorkLimit& limit);
+  bool wasCut() const { return cut_; }
 
   const WorkingFrame& frame() const { return frame_; }
 
@@ -35,6 +38,7 @@ class RegionBuilder {
   InterferenceRegion openRegion(std::uint32_t curve);
 
   WorkingFrame frame_;
+  bool cut_ = false;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> stack_;
   std::vector<CandidatePair> candidates_;
   CrossingCurves curves_;

@@ -46,14 +46,15 @@ class BoxesMeet {
 
 }  // namespace
 
-void collectCandidates(const WorkingFrame& frame, std::vector<std::pair<std::uint32_t, std::uint32_t>>& stack,
-                       std::vector<CandidatePair>& candidates) {
+bool collectCandidates(const WorkingFrame& frame, std::vector<std::pair<std::uint32_t, std::uint32_t>>& stack,
+                       std::vector<CandidatePair>& candidates, WorkLimit& limit) {
   const TriangleTree& tree_a = frame.body(Side::A).tree();
   const TriangleTree& tree_b = frame.body(Side::B).tree();
   const BoxesMeet meet(frame.aFromB(), frame.roundingBound());
   candidates.clear();
   stack.assign(1, {0U, 0U});
   while (!stack.empty()) {
+    if (limit.isOverNow() || !limit.hasRoom(stack, 2)) return false;
     const auto [index_a, index_b] = stack.back();
     stack.pop_back();
     const TriangleTree::Node& a = tree_a.nodes()[index_a];
@@ -62,6 +63,7 @@ void collectCandidates(const WorkingFrame& frame, std::vector<std::pair<std::uin
     if (a.count > 0 && b.count > 0) {
       for (std::uint32_t i = a.first; i < a.first + a.count; ++i) {
         for (std::uint32_t j = b.first; j < b.first + b.count; ++j) {
+          if (!limit.hasRoom(candidates)) return false;
           candidates.push_back({tree_a.order()[i], tree_b.order()[j]});
         }
       }
@@ -73,6 +75,7 @@ void collectCandidates(const WorkingFrame& frame, std::vector<std::pair<std::uin
       stack.emplace_back(index_a, index_b + 1);
     }
   }
+  return true;
 }
 
 }  // namespace concave_distance::detail

@@ -65,6 +65,10 @@ PairContactState toContacts(const PairHeading& heading, const PairStatus& status
   PairContactState message = emptyContacts(heading, status);
   const Eigen::Vector3d origin_b = a_from_b.translation();
   message.possible = static_cast<std::uint8_t>(contacts.possible);
+  if (contacts.cut) {
+    message.status.code = PairStatus::BUDGET_EXHAUSTED;
+    message.status.message = "no time or memory was left to find the regions of contact: raise time_budget";
+  }
   message.a_inside_b = static_cast<std::uint8_t>(contacts.a_inside_b);
   message.b_inside_a = static_cast<std::uint8_t>(contacts.b_inside_a);
   message.contacts.reserve(contacts.regions.size());

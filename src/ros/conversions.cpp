@@ -136,6 +136,9 @@ PairStatus toStatus(SolveStatus status) {
     case SolveStatus::WithinTolerance:
       message.code = PairStatus::WITHIN_TOLERANCE;
       break;
+    case SolveStatus::MemoryExhausted:
+      message.code = PairStatus::MEMORY_EXHAUSTED;
+      break;
   }
   message.message = std::string(toString(status));
   return message;
@@ -254,6 +257,7 @@ PairNiches toNiches(const PairHeading& heading, const PairSolution& solution) {
   if (!heading.with_niches) {
     return message;
   }
+  message.niches_complete = static_cast<std::uint8_t>(solution.niches_complete);
   message.niches_cut = static_cast<std::uint8_t>(solution.niches_cut);
   message.niches_beyond_cutoff = solution.niches_beyond_cutoff;
   message.niches.reserve(solution.niches.size());
@@ -336,7 +340,7 @@ TrackerParameters queryParameters(const DistanceQuery& query, const TrackerParam
   };
   take("absolute_tolerance", query.absolute_tolerance, parameters.absolute_tolerance);
   take("relative_tolerance", query.relative_tolerance, parameters.relative_tolerance);
-  take("time_budget", query.time_budget, parameters.time_budget);
+  if (query.time_budget != 0.0) parameters.time_budget = query.time_budget;
   parameters.niches_wanted = query.with_niches != 0;
   if (query.largest_niche_count != 0) {
     parameters.largest_niche_count = query.largest_niche_count;

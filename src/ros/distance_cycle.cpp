@@ -167,7 +167,8 @@ CycleReport DistanceCycle::run(const std::vector<PairDemand>& demand, ros::Time 
     report.effects += pair->effects.takeCounts();
     report.cold += pair->solution.warm ? 0 : 1;
     report.search_misses += pair->solution.search_miss ? 1 : 0;
-    report.unproven += pair->solution.status == SolveStatus::BudgetExhausted ? 1 : 0;
+    const SolveStatus status = pair->solution.status;
+    report.unproven += status == SolveStatus::BudgetExhausted || status == SolveStatus::MemoryExhausted ? 1 : 0;
   }
   report.helper_cpu_seconds = 1e-9 * static_cast<double>(helper_cpu_nanoseconds_.load());
   return report;
@@ -259,7 +260,8 @@ void DistanceCycle::solve(TrackedPair& pair) {
     return;
   }
   pair.tracker->update(pair.solved_a_from_b, pair.heading.stamp.toSec(), pair.solution);
-  pair.effects.update(pair.solution, pair.solved_a_from_b, pair.heading.stamp);
+  WorkLimit limit = remainingWork(pair.settings.tracker, pair.solution.solve_seconds);
+  pair.effects.update(pair.solution, pair.solved_a_from_b, pair.heading.stamp, limit);
   pair.solved = true;
   pair.must_solve = false;
   for (const TrackedNiche& niche : pair.solution.niches) {

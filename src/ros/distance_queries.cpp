@@ -92,12 +92,13 @@ void forgetIds(PairNiches& answer) {
 
 // The regions of overlap at one pose, from nothing; no forces.
 PairContactState findContacts(const SceneBody& body_a, const SceneBody& body_b, const PairSolution& solution,
-                              const Eigen::Isometry3d& a_from_b, const PairHeading& heading) {
+                              const Eigen::Isometry3d& a_from_b, const PairHeading& heading,
+                              WorkLimit limit) {
   EffectSettings regions;
   regions.interference = true;
   PairEffects effects(body_a.mesh, body_b.mesh, regions, inContact(body_a.material, body_b.material));
   PairContacts contacts;
-  effects.update(solution, a_from_b, RelativeTwist(), 0.0, contacts);
+  effects.update(solution, a_from_b, RelativeTwist(), 0.0, contacts, &limit);
   for (ContactRegion& region : contacts.regions) {
     region.id = 0;
   }
@@ -152,7 +153,8 @@ QueryAnswer answer(const DistanceQuery& query, const Scene& scene, const QueryCo
   }
   answer.result = toNiches(heading, solution);
   if (query.with_contacts != 0) {
-    answer.contacts = findContacts(body_a, body_b, solution, transforms.a_from_b, heading);
+    answer.contacts = findContacts(body_a, body_b, solution, transforms.a_from_b, heading,
+                                   remainingWork(parameters, solution.solve_seconds));
   }
   return answer;
 }

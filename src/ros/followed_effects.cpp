@@ -31,7 +31,7 @@ bool FollowedEffects::prepare(const EffectSettings& settings, bool wanted) {
 }
 
 void FollowedEffects::update(const PairSolution& solution, const Eigen::Isometry3d& a_from_b,
-                             ros::Time stamp) {
+                             ros::Time stamp, WorkLimit& limit) {
   if (!effects_) {
     return;
   }
@@ -40,7 +40,7 @@ void FollowedEffects::update(const PairSolution& solution, const Eigen::Isometry
   if (!has_pose_ || step != 0.0) {
     b_in_a_ = motionBetween(last_a_from_b_, a_from_b, step);
   }
-  effects_->update(solution, a_from_b, b_in_a_, step > 0.0 ? step : 0.0, contacts_);
+  effects_->update(solution, a_from_b, b_in_a_, step > 0.0 ? step : 0.0, contacts_, &limit);
   has_pose_ = true;
   last_a_from_b_ = a_from_b;
   last_stamp_ = stamp;

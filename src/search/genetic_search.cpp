@@ -32,12 +32,13 @@ double distanceBound(const PairObjective& objective, const GeneticParameters& pa
 class GeneticRun {
  public:
   GeneticRun(const PairObjective& objective, const GeneticParameters& parameters, const NicheRadii& radii,
-             RandomEngine& engine, SearchWorkspace& workspace)
+             RandomEngine& engine, SearchWorkspace& workspace, WorkLimit* limit)
       : objective_(objective),
         parameters_(parameters),
         radii_(radii),
         engine_(engine),
         work_(workspace),
+        limit_(limit),
         epsilon_(parameters.fitness_epsilon *
                  std::max(objective.bodyA().maxEdgeLength(), objective.bodyB().maxEdgeLength())),
         offspring_count_(offspringCount(parameters.population_size, parameters.generation_gap)) {
@@ -198,7 +199,7 @@ class GeneticRun {
     for (std::size_t i = 0; i + 1 < work_.offspring.size(); i += 2) {
       // Parents on one place have children on it: nothing to mate.
       if (uniformUnit(engine_) < parameters_.crossover_probability &&
-          work_.offspring_places[i] != work_.offspring_places[i + 1]) {
+          work_.offspring_places[i] != work_.offspring_places[i + 1] && !outOfBudget()) {
         const Children children = mateCouple(work_.offspring[i], work_.offspring[i + 1]);
         work_.offspring[i] = children.first;
         work_.offspring[i + 1] = children.second;
@@ -320,6 +321,7 @@ class GeneticRun {
   }
 
   bool outOfBudget() const {
+    if (limit_ != nullptr && limit_->isOver()) return true;
     return parameters_.evaluation_limit != 0 && result_.cost.evaluations >= parameters_.evaluation_limit;
   }
 
@@ -345,6 +347,7 @@ class GeneticRun {
   const NicheRadii& radii_;
   RandomEngine& engine_;
   SearchWorkspace& work_;
+  WorkLimit* limit_;  ///< null: none
   double epsilon_;
   std::uint32_t offspring_count_;
   double mutation_probability_ = 0.0;
@@ -359,8 +362,8 @@ class GeneticRun {
 GeneticResult geneticSearch(const PairObjective& objective, const GeneticParameters& parameters,
                             const NicheRadii& radii, const std::vector<TrialPoint>& inherited,
                             RandomEngine& engine, SearchWorkspace& workspace,
-                            const GenerationObserver& observer) {
-  return GeneticRun(objective, parameters, radii, engine, workspace).run(inherited, observer);
+                            const GenerationObserver& observer, WorkLimit* limit) {
+  return GeneticRun(objective, parameters, radii, engine, workspace, limit).run(inherited, observer);
 }
 
 }  // namespace concave_distance

@@ -78,8 +78,7 @@ void addOptions(CLI::App& app, CommandLine& line) {
                  "the same as a share of the distance; the larger of the two counts")
       ->check(CLI::Range(0.0, 1.0));
   app.add_option("--time-budget", options.time_budget,
-                 "certified, complete: seconds from the start of a query after which the proof stops with "
-                 "what it has")
+                 "seconds from the start of a query after which everything in it stops with what it has")
       ->check(CLI::PositiveNumber);
   app.add_option("--max-edge", options.max_edge_length,
                  "longest edge of the search grids, metres (automatic)")
@@ -113,13 +112,13 @@ int run(int argc, char** argv) {
   CLI::App app("Distance and niches of two meshes at a list of poses. Metres, seconds; points in A's frame.",
                "distance_query");
   app.footer(
-      "An empty cell was not computed. Status: ok, tolerance, budget, penetrating, invalid_pose.\n"
+      "An empty cell was not computed. Status: ok, tolerance, budget, memory, penetrating, invalid_pose.\n"
       "Exit status: 0 done, 1 a file is at fault, 2 the command line is.");
   addOptions(app, line);
   try {
     app.parse(argc, argv);
     line.options.accuracy = accuracyOf(line.accuracy);
-    for (const char* option : {"--tolerance", "--relative-tolerance", "--time-budget"}) {
+    for (const char* option : {"--tolerance", "--relative-tolerance"}) {
       refuseOnUnprovenLevels(app, option, line);
     }
   } catch (const CLI::ParseError& error) {

@@ -35,6 +35,7 @@ void TrackerState::completeNiches(double displacement, double elapsed, PairSolut
     return;
   }
   LocalMinimaRequest request;
+  request.limit = &limit;
   request.cutoff = parameters.cutoff;
   request.least_prominence = parameters.least_prominence;
   request.prominence_limit = parameters.prominence_limit;
@@ -44,9 +45,13 @@ void TrackerState::completeNiches(double displacement, double elapsed, PairSolut
     request.whose.emplace_back(record.niche.witness.triangle_a, record.niche.witness.triangle_b);
   }
   const LocalMinima found = findLocalMinima(*geometry.a, *geometry.b, geometry.a_from_b, request);
+  completeness.current = found.finished;
+  if (!found.finished && warm) {
+    carryNiches(solution);
+    return;
+  }
   solution.niches_cut = completeness.cut = found.cut;
   solution.cost.evaluations += found.cost.feature_pairs + found.cost.candidates + found.cost.flooded_pairs;
-  completeness.current = true;
 
   // The lowest value of a basin cannot fall by more than any point of B has moved: who did has run on into
   // another basin and is not its heir.
@@ -56,7 +61,9 @@ void TrackerState::completeNiches(double displacement, double elapsed, PairSolut
     const std::size_t owner = found.owners[i];
     if (owner == LocalMinima::kNoOwner) continue;
     const TrackedNiche& known_niche = records[i].niche;
-    if (found.niches[owner].distance < known_niche.distance - displacement - rounding) continue;
+    if (!records[i].carried && found.niches[owner].distance < known_niche.distance - displacement - rounding) {
+      continue;
+    }
     if (heirs[owner] == kNone || known_niche.id < records[heirs[owner]].niche.id) heirs[owner] = i;
   }
   for (std::size_t i = 0; i < records.size(); ++i) {
@@ -81,12 +88,27 @@ void TrackerState::completeNiches(double displacement, double elapsed, PairSolut
     }
     const double before = record.niche.distance;
     placeMinimum(record, geometry, found.niches[k]);
+    record.carried = false;
     record.niche.closing_speed =
         heirs[k] != kNone && elapsed > 0.0 ? (before - record.niche.distance) / elapsed : kNotComputed;
     next.push_back(record);
   }
   records.swap(next);
   archive.settle();
+}
+
+// A list that time or memory has cut says nothing of the niches it does not name: those known stay, each at the
+// minimum around its triangles.
+void TrackerState::carryNiches(PairSolution& solution) {
+  for (NicheRecord& record : archive.records()) {
+    if (!limit.isOver()) {
+      placeRecord(record, geometry,
+                  geometry.refine(record.niche.witness.triangle_a, record.niche.witness.triangle_b).witness);
+    }
+    carryRecord(record, geometry);
+  }
+  archive.settle();
+  uniteSamePlaces(geometry, archive, solution.events);
 }
 
 }  // namespace concave_distance

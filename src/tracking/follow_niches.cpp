@@ -1,3 +1,5 @@
+#include <limits>
+
 #include "concave_distance/distance/surface_walk.h"
 #include "concave_distance/search/local_descent.h"
 #include "concave_distance/tracking/niche_admission.h"
@@ -12,8 +14,16 @@ void TrackerState::followNiches(double displacement, double elapsed, SearchCost&
   std::vector<NicheRecord>& records = archive.records();
   for (std::size_t i = 0; i < records.size();) {
     NicheRecord& record = records[i];
+    if (limit.isOver()) {
+      carryRecord(record, geometry);
+      ++i;
+      continue;
+    }
     const double before = record.niche.distance;
-    record.least_distance = before - displacement - rounding;
+    // A minimum that was not descended may lie far below its points.
+    record.least_distance = record.carried ? -std::numeric_limits<double>::infinity()
+                                           : before - displacement - rounding;
+    record.carried = false;
     record.niche.node_pair = descend(
         objective, objective.evaluate(record.niche.node_pair.node_a, record.niche.node_pair.node_b, cost),
         &search.basins, search.trail, cost);

@@ -36,8 +36,9 @@ struct PairEffects::State {
   Eigen::Isometry3d last_pose = Eigen::Isometry3d::Identity();
   bool in_contact = false;  ///< in the last cycle, at last_pose
 
-  void findRegions(const Eigen::Isometry3d& a_from_b, PairContacts& contacts) {
-    findInterference(*a, *b, a_from_b, workspace, interference);
+  void findRegions(const Eigen::Isometry3d& a_from_b, WorkLimit* limit, PairContacts& contacts) {
+    findInterference(*a, *b, a_from_b, workspace, interference, limit);
+    contacts.cut = interference.status == InterferenceStatus::Cut;
     contacts.a_inside_b = interference.a_inside_b;
     contacts.b_inside_a = interference.b_inside_a;
     contacts.regions.resize(interference.regions.size());
@@ -117,17 +118,18 @@ PairEffects::PairEffects(PairEffects&&) noexcept = default;
 PairEffects& PairEffects::operator=(PairEffects&&) noexcept = default;
 
 void PairEffects::update(const PairSolution& solution, const Eigen::Isometry3d& a_from_b,
-                         const RelativeTwist& b_in_a, double step, PairContacts& contacts) {
+                         const RelativeTwist& b_in_a, double step, PairContacts& contacts,
+                         WorkLimit* limit) {
   State& state = *state_;
   contacts.possible = !state.plan.empty() && contactIsPossible(solution);
   contacts.regions.clear();
-  contacts.a_inside_b = contacts.b_inside_a = false;
+  contacts.a_inside_b = contacts.b_inside_a = contacts.cut = false;
   for (const EffectStage stage : state.plan) {
     if (!state.isDue(stage, contacts)) continue;
     const auto start = std::chrono::steady_clock::now();
     switch (stage) {
       case EffectStage::Interference:
-        state.findRegions(a_from_b, contacts);
+        state.findRegions(a_from_b, limit, contacts);
         break;
       case EffectStage::Identity:
         state.identify(solution, a_from_b, contacts);
@@ -143,6 +145,10 @@ void PairEffects::update(const PairSolution& solution, const Eigen::Isometry3d& 
     ++state.counts.runs[index];
     state.counts.seconds[index] +=
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  }
+  if (contacts.cut) {
+    contacts.on_b_in_a = notComputed();
+    return;
   }
   if (contacts.regions.empty()) state.identity.clear();
   contacts.on_b_in_a = state.settings.normal_force ? Wrench{} : notComputed();

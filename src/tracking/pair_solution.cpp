@@ -28,6 +28,8 @@ std::string_view toString(SolveStatus status) {
       return "budget";
     case SolveStatus::WithinTolerance:
       return "tolerance";
+    case SolveStatus::MemoryExhausted:
+      return "memory";
   }
   return "unknown";
 }

@@ -17,6 +17,10 @@ namespace {
 constexpr std::size_t kUsualMinima = 1024;
 constexpr std::size_t kUsualNiches = 256;
 
+// Of a time budget: what the niches, and what niches and proof together may take.
+constexpr double kShareOfNiches = 0.5;
+constexpr double kShareWithProof = 0.85;
+
 double seconds(std::chrono::steady_clock::duration duration) {
   return std::chrono::duration<double>(duration).count();
 }
@@ -56,7 +60,7 @@ void TrackerState::clear(PairSolution& solution) const {
   solution.meeting_triangles.reset();
   solution.niches.clear();
   solution.events.clear();
-  solution.niches_cut = solution.search_miss = false;
+  solution.niches_cut = solution.niches_complete = solution.search_miss = false;
   solution.niches_beyond_cutoff = 0;
   solution.cycle = cycle;
   solution.warm = warm;
@@ -70,6 +74,7 @@ void TrackerState::reset() {
   archive.clear();
   ripples.clear();
   sweep.restart();
+  swept.clear();
   warm = false;
   dark_side_met = false;
   swallowed = false;
@@ -81,7 +86,9 @@ void TrackerState::reset() {
 void TrackerState::update(const Eigen::Isometry3d& pose, double time, PairSolution& solution) {
   const auto start = std::chrono::steady_clock::now();
   const auto since_start = [start] { return seconds(std::chrono::steady_clock::now() - start); };
-  const auto seconds_left = [&] { return std::max(0.0, parameters.time_budget - since_start()); };
+  const bool was_cut = limit.hasRefused();
+  limit = WorkLimit(start, parameters.time_budget, parameters.memory_limit, parameters.stop);
+  limit.setTaken(memoryBytes());
   clear(solution);
   const std::optional<Eigen::Isometry3d> rigid = rigidPose(pose);
   if (!rigid) {
@@ -100,23 +107,29 @@ void TrackerState::update(const Eigen::Isometry3d& pose, double time, PairSoluti
     prepareSearch();
   }
   if (proves && !parameters.niches_wanted) {
-    proveAlone(displacement, elapsed, seconds_left(), solution);
+    proveAlone(displacement, elapsed, solution);
     stage_clock.lap(SolveStage::Proof, solution.stages);
   } else if (parameters.accuracy == AccuracyLevel::Complete) {
+    limit.allowShare(kShareOfNiches);
     completeNiches(displacement, elapsed, solution);
     stage_clock.lap(SolveStage::Sweep, solution.stages);
     listNiches(solution);
     stage_clock.lap(SolveStage::Describe, solution.stages);
-    proveDistance(displacement, seconds_left());
+    limit.allowShare(1.0);
+    proveDistance(displacement);
     reportProven(solution);
     stage_clock.lap(SolveStage::Proof, solution.stages);
   } else {
+    limit.allowShare(proves ? kShareOfNiches : kShareWithProof);
+    cycles_at_rest = displacement > 0.0 || was_cut ? 0 : cycles_at_rest + 1;
     solveNiches(displacement, elapsed, solution);
+    limit.allowShare(kShareWithProof);
     if (proves) {
-      proveDistance(displacement, seconds_left());
+      proveDistance(displacement);
       admitClosest(solution);
       stage_clock.lap(SolveStage::Proof, solution.stages);
     }
+    limit.allowShare(1.0);
     describeNiches(solution);
     listNiches(solution);
     if (proves) {
@@ -126,6 +139,7 @@ void TrackerState::update(const Eigen::Isometry3d& pose, double time, PairSoluti
     }
     stage_clock.lap(SolveStage::Describe, solution.stages);
   }
+  reportLimit(solution);
   if (!warm) {
     search.shrink();
   }
@@ -141,7 +155,6 @@ void TrackerState::update(const Eigen::Isometry3d& pose, double time, PairSoluti
 // Levels `nodes` and `refined`: the niches at the geometry's pose.
 void TrackerState::solveNiches(double displacement, double elapsed, PairSolution& solution) {
   const PairObjective objective(*geometry.a, *geometry.b, geometry.a_from_b);
-  cycles_at_rest = displacement > 0.0 ? 0 : cycles_at_rest + 1;
   candidates.clear();
   dark_side_met = dark_side_met && cycles_at_rest > 0;
   search.basins.clear();
@@ -208,13 +221,17 @@ void PairTracker::setParameters(const TrackerParameters& parameters) {
   state_->search_prepared = false;
 }
 
+std::size_t TrackerState::memoryBytes() const {
+  return sizeof(TrackerState) + archive.records().capacity() * sizeof(NicheRecord) +
+         candidates.capacity() * sizeof(NicheCandidate) +
+         (known.capacity() + inherited.capacity()) * sizeof(TrialPoint) +
+         proof.workspace.open.capacity() * sizeof(CertificateWorkspace::OpenPair) +
+         proof.front.memoryBytes() + completeness.memoryBytes() + search.memoryBytes() +
+         judging.verdicts.memoryBytes() + sweep.memoryBytes() + swept.capacity() * sizeof(MinimumSeed);
+}
+
 std::size_t PairTracker::memoryBytes() const {
-  const State& state = *state_;
-  return sizeof(State) + state.archive.records().capacity() * sizeof(NicheRecord) +
-         state.candidates.capacity() * sizeof(NicheCandidate) +
-         (state.known.capacity() + state.inherited.capacity()) * sizeof(TrialPoint) +
-         state.proof.workspace.open.capacity() * sizeof(CertificateWorkspace::OpenPair) +
-         state.proof.front.memoryBytes() + state.completeness.memoryBytes() + state.search.memoryBytes();
+  return state_->memoryBytes();
 }
 
 const TrackerParameters& PairTracker::parameters() const {

@@ -19,7 +19,7 @@ TrianglePair trianglesOf(const WitnessPair& witness) {
 
 }  // namespace
 
-void TrackerState::proveDistance(double displacement, double seconds_left) {
+void TrackerState::proveDistance(double displacement) {
   DistanceCertificate& certificate = proof.certificate;
   if (displacement == 0.0 && proof.current && certificate.status != CertificateStatus::Budget) {
     certificate.cost = {};
@@ -41,7 +41,7 @@ void TrackerState::proveDistance(double displacement, double seconds_left) {
   CertificateRequest request;
   request.absolute_tolerance = parameters.absolute_tolerance;
   request.relative_tolerance = parameters.relative_tolerance;
-  request.time_budget = seconds_left;
+  request.limit = &limit;
   certificate = certifyDistance(*geometry.a, *geometry.b, geometry.a_from_b, seeds.data(), count, request,
                                 proof.workspace, &proof.front);
   if (certificate.status == CertificateStatus::Budget || certificate.status == CertificateStatus::Tolerance) {
@@ -57,7 +57,13 @@ void TrackerState::proveDistance(double displacement, double seconds_left) {
   proof.seeded = proof.current = true;
   // Who holds whom cannot change while no point comes as far as the other surface.
   if (!(displacement + proof.error < last_bound)) {
-    proof.swallowed = holdsAnother(*geometry.a, *geometry.b, geometry.a_from_b);
+    const std::optional<bool> holds = holdsAnother(*geometry.a, *geometry.b, geometry.a_from_b, limit);
+    proof.swallowed = holds.value_or(false);
+    // While it is not known whether one body holds the other, nothing is certain.
+    if (!holds) {
+      certificate.lower_bound = 0.0;
+      certificate.status = CertificateStatus::Budget;
+    }
   }
 }
 
@@ -138,10 +144,9 @@ void TrackerState::reportProven(PairSolution& solution) {
 
 // Without niches: nothing is searched. What is nearest is listed as a niche without an id, for its normal and
 // closing speed.
-void TrackerState::proveAlone(double displacement, double elapsed, double seconds_left,
-                              PairSolution& solution) {
+void TrackerState::proveAlone(double displacement, double elapsed, PairSolution& solution) {
   const double before = proof.certificate.distance;
-  proveDistance(displacement, seconds_left);
+  proveDistance(displacement);
   reportProven(solution);
   if (proof.swallowed && !parameters.keep_through_material) {
     return;

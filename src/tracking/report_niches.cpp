@@ -29,6 +29,7 @@ void TrackerState::describeNiches(PairSolution& solution) {
       ++i;
       continue;
     }
+    if (limit.isOver()) return;
     const bool known = cycles_at_rest > 0 && records[i].described == cycle;
     records[i].described = cycle + 1;
     if (known) {
@@ -89,6 +90,18 @@ void TrackerState::listNiches(PairSolution& solution) {
   }
 }
 
+// What the limit has cut is not what was asked for, whatever the proof says.
+void TrackerState::reportLimit(PairSolution& solution) const {
+  if (!limit.hasRefused()) {
+    solution.niches_complete = parameters.accuracy == AccuracyLevel::Complete && parameters.niches_wanted &&
+                               !solution.niches_cut;
+    return;
+  }
+  if (solution.accuracy == AccuracyLevel::Complete) solution.accuracy = AccuracyLevel::Certified;
+  if (solution.status == SolveStatus::Penetrating) return;
+  solution.status = limit.hasRefusedTime() ? SolveStatus::BudgetExhausted : SolveStatus::MemoryExhausted;
+}
+
 void TrackerState::reportNearest(double displacement, PairSolution& solution) {
   const std::vector<NicheRecord>& records = archive.records();
   if (!records.empty()) {
@@ -127,7 +140,7 @@ void TrackerState::reportNearest(double displacement, PairSolution& solution) {
 void TrackerState::describe(TrackedNiche& niche) {
   const double tolerance = kPlateauTolerance * geometry.scale();
   const NicheExtent extent = measureExtent(*geometry.a, *geometry.b, geometry.a_from_b, niche.witness,
-                                           tolerance, kExtentPairLimit, geometry.extent);
+                                           tolerance, kExtentPairLimit, geometry.extent, &limit);
   niche.kind = extent.kind;
   niche.extent = extent.length;
   if (extent.kind != NicheKind::Point) {

@@ -55,7 +55,7 @@ void TrackerState::evolve(const PairObjective& objective, PairSolution& solution
     genetic.population_size = std::max(genetic.population_size, wanted + wanted % 2);
   }
   const GeneticResult result =
-      geneticSearch(objective, genetic, as_warm ? warm_radii : cold_radii, inherited, engine, search);
+      geneticSearch(objective, genetic, as_warm ? warm_radii : cold_radii, inherited, engine, search, {}, &limit);
   solution.cost.evaluations += result.cost.evaluations;
   solution.cost.descents += result.cost.descents;
   solution.cost.descents_joined += result.cost.descents_joined;
@@ -74,6 +74,7 @@ void TrackerState::collectCandidates(std::size_t known_minima) {
     known.resize(kWarmCandidateLimit);
   }
   for (const TrialPoint& pair : known) {
+    if (!candidates.empty() && limit.isOver()) return;
     if (parameters.accuracy == AccuracyLevel::Nodes) {
       candidates.push_back({geometry.nodeWitness(pair), pair, true, 0});
       continue;
@@ -92,7 +93,7 @@ void TrackerState::projectNiches(PairSolution& solution) {
   const std::uint32_t factor = warm ? 1 : kColdProjectionFactor;
   const std::uint32_t immigrants = searching ? factor * parameters.projected_immigrants : 0;
   candidates.clear();
-  for (std::uint32_t k = 0; k < immigrants; ++k) {
+  for (std::uint32_t k = 0; k < immigrants && !limit.isOver(); ++k) {
     const Side side = k % 2 == 0 ? Side::A : Side::B;
     const NodeGraph& graph = (side == Side::A ? geometry.a : geometry.b)->graph();
     projectNode(geometry, side,
@@ -107,7 +108,7 @@ void TrackerState::projectNiches(PairSolution& solution) {
     const std::size_t count = archive.records().size();
     const std::size_t wanted =
         warm ? std::min<std::size_t>(searching ? parameters.projected_niches : 1, count) : count;
-    for (std::size_t k = 0; k < wanted; ++k) {
+    for (std::size_t k = 0; k < wanted && !limit.isOver(); ++k) {
       next_projection = warm && k > 0 ? (next_projection + 1) % count : next_projection;
       const NicheRecord& record = archive.records()[warm && k > 0 ? next_projection : k];
       if (warm || record.niche.id > newest) {
@@ -138,15 +139,22 @@ void TrackerState::sweepCones(PairSolution& solution) {
   if (archive.records().size() > parameters.largest_niche_count) {
     cutoff = std::min(cutoff, archive.records()[parameters.largest_niche_count].niche.distance);
   }
-  swept.clear();
-  solution.cost.evaluations += sweep.advance(
-      *geometry.a, *geometry.b, geometry.a_from_b,
-      parameters.keep_through_material ? NormalSides::Both : NormalSides::Outside, cutoff, budget, swept);
+  if (limit.isOver()) return;
+  // Where time was up there are pairs left from the last sweep.
+  if (swept.empty()) {
+    solution.cost.evaluations +=
+        sweep.advance(*geometry.a, *geometry.b, geometry.a_from_b,
+                      parameters.keep_through_material ? NormalSides::Both : NormalSides::Outside, cutoff,
+                      budget, swept, parameters.least_prominence, &limit);
+  }
   swept_at_rest = cycles_at_rest > 0 && sweep.finished();
-  for (const MinimumSeed& pair : swept) {
+  auto taken = swept.begin();
+  for (; taken != swept.end() && !limit.isOver() && limit.hasRoom(candidates); ++taken) {
+    const MinimumSeed& pair = *taken;
     const WitnessRefinement refined = geometry.refine(pair.a, pair.b);
     candidates.push_back({refined.witness, geometry.nodePairNear(refined.witness), refined.proven, 0});
   }
+  swept.erase(swept.begin(), taken);
   settleCandidates(solution);
 }
 

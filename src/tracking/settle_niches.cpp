@@ -17,6 +17,9 @@ constexpr std::size_t kNearestFlood = 128;  // of the nearest niche, in every wa
 constexpr double kNearestReach = 5.0;
 constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
+// What becomes of a candidate that there is no time for.
+constexpr AdmissionResult kGivenUp{Admission::ThroughMaterial, 0};
+
 // Hysteresis: a niche that users know is given up only at half the least prominence.
 double leastProminenceOf(const NicheRecord& record, const TrackerParameters& parameters) {
   return (record.reported ? 0.5 : 1.0) * parameters.least_prominence;
@@ -47,6 +50,7 @@ void TrackerState::settleCandidates(PairSolution& solution) {
 void TrackerState::reviewRecords(PairSolution& solution) {
   // A warm cycle looks at the nearest niche, which has to be the deepest of its basin, and as the bodies move
   // at the others in turn; a cold one at all.
+  if (limit.isOver()) return;
   const std::size_t count = archive.records().size();
   judging.records.assign(count, warm ? 0 : 1);
   if (warm && count > 0 && (cycles_at_rest == 0 || cycles_at_rest < count)) {
@@ -118,6 +122,13 @@ std::uint64_t TrackerState::bear(const NicheCandidate& candidate, Outwardness ou
   return newborn.niche.id;
 }
 
+bool TrackerState::isNearest(const NicheCandidate& candidate) const {
+  const std::vector<NicheRecord>& records = archive.records();
+  return std::all_of(records.begin(), records.end(), [&](const NicheRecord& record) {
+    return candidate.witness.squared_distance < record.niche.witness.squared_distance;
+  });
+}
+
 // Floods from the candidates, and from the records that are marked, say which of them are niches of their own
 // (judgeBasins): candidates become records, are dropped, or a record turns out to be part of one.
 void TrackerState::judge(PairSolution& solution) {
@@ -139,6 +150,10 @@ void TrackerState::judge(PairSolution& solution) {
   for (std::size_t k = 0; k < candidates.size(); ++k) {
     const NicheCandidate& candidate = candidates[k];
     Outwardness outward{};
+    if (k > 0 && limit.isOver()) {
+      report(candidate, kGivenUp, solution.events);
+      continue;
+    }
     if (const auto verdict = knownVerdict(candidate, outward)) {
       report(candidate, *verdict, solution.events);
       continue;
@@ -153,7 +168,7 @@ void TrackerState::judge(PairSolution& solution) {
                      parameters.least_prominence, true, warm ? kWarmFlood : kColdFlood});
   }
   if (std::none_of(seeds.begin(), seeds.end(), [](const BasinSeed& seed) { return seed.judged; })) return;
-  judgeBasins(*geometry.a, *geometry.b, geometry.a_from_b, seeds, judging.verdicts);
+  judgeBasins(*geometry.a, *geometry.b, geometry.a_from_b, seeds, judging.verdicts, &limit);
   solution.cost.evaluations += judging.verdicts.floodedPairs();
   settleVerdicts(known, solution);
 }
@@ -177,6 +192,8 @@ void TrackerState::settleVerdicts(std::size_t known, PairSolution& solution) {
     const std::size_t seed = judging.seeded[basin];
     if (seed != kNone) {
       const Pending& pending = judging.pending[seed - known];
+      // Without a verdict it may be a ripple; the nearest of all is wanted all the same.
+      if (basins[basin].refused && !isNearest(candidates[pending.candidate])) continue;
       ids[basin] = bear(candidates[pending.candidate], pending.outward);
       continue;
     }
@@ -191,7 +208,7 @@ void TrackerState::settleVerdicts(std::size_t known, PairSolution& solution) {
     const NicheCandidate& candidate = candidates[judging.pending[k].candidate];
     const std::uint32_t basin = verdicts.basinOf(known + k);
     const std::uint32_t root = verdicts.rootOf(basin);
-    const bool born = root == basin && judging.seeded[basin] == known + k;
+    const bool born = root == basin && judging.seeded[basin] == known + k && ids[root] != 0;
     const Admission outcome = born             ? Admission::Born
                               : ids[root] == 0 ? Admission::ThroughMaterial
                                                : Admission::LowProminence;

@@ -5,6 +5,12 @@
 #include "concave_distance/base/error.h"
 
 namespace concave_distance {
+namespace {
+
+/// Less than the buffers that every pair begins with.
+constexpr std::size_t kLeastMemory = std::size_t{1} << 20U;
+
+}  // namespace
 
 // Chosen by tuning_benchmark on every second of its pairs and checked on the others (doc/tuning.md).
 TrackerParameters::TrackerParameters() {
@@ -33,6 +39,9 @@ void TrackerParameters::validate(const std::string& where) const {
   if (!(time_budget > 0.0)) {
     refuse("time_budget", time_budget, "greater than 0, seconds, or leave it out");
   }
+  if (memory_limit < kLeastMemory) {
+    refuse("memory_limit", static_cast<double>(memory_limit), "1048576 (1 MiB) or more, bytes");
+  }
   if (!(inherited_per_niche >= 1.0) || !std::isfinite(inherited_per_niche)) {
     refuse("inherited_per_niche", inherited_per_niche, "1 or more");
   }
@@ -54,6 +63,12 @@ void TrackerParameters::validate(const std::string& where) const {
   if (largest_niche_count == 0) {
     refuse("largest_niche_count", 0, "1 or more");
   }
+}
+
+WorkLimit remainingWork(const TrackerParameters& parameters, double seconds_spent) {
+  const auto spent = std::chrono::duration_cast<WorkLimit::Clock::duration>(
+      std::chrono::duration<double>(seconds_spent));
+  return {WorkLimit::Clock::now() - spent, parameters.time_budget, parameters.memory_limit, parameters.stop};
 }
 
 }  // namespace concave_distance

@@ -55,6 +55,7 @@ struct TrackerState {
   void update(const Eigen::Isometry3d& pose, double time, PairSolution& solution);
   void reset();
 
+  std::size_t memoryBytes() const;
   void clear(PairSolution& solution) const;
   void solveNiches(double displacement, double elapsed, PairSolution& solution);
 
@@ -79,23 +80,26 @@ struct TrackerState {
   bool isDark(const WitnessPair& witness, Outwardness outward);
   std::optional<AdmissionResult> knownVerdict(const NicheCandidate& candidate, Outwardness& outward);
   std::uint64_t bear(const NicheCandidate& candidate, Outwardness outward);
+  bool isNearest(const NicheCandidate& candidate) const;
   void judge(PairSolution& solution);
   void settleVerdicts(std::size_t known, PairSolution& solution);
 
   // complete_niches.cpp: level `complete`.
   void completeNiches(double displacement, double elapsed, PairSolution& solution);
+  void carryNiches(PairSolution& solution);
 
   // prove_distance.cpp: levels `certified` and `complete`.
-  void proveDistance(double displacement, double seconds_left);
+  void proveDistance(double displacement);
   void admitClosest(PairSolution& solution);
   void reportProven(PairSolution& solution);
-  void proveAlone(double displacement, double elapsed, double seconds_left, PairSolution& solution);
+  void proveAlone(double displacement, double elapsed, PairSolution& solution);
 
   // report_niches.cpp
   void describeNiches(PairSolution& solution);
   bool uniteOnPlateau(std::size_t i, std::vector<NicheEvent>& events);
   void listNiches(PairSolution& solution);
   void reportNearest(double displacement, PairSolution& solution);
+  void reportLimit(PairSolution& solution) const;
   void describe(TrackedNiche& niche);
 
   std::string name;
@@ -130,7 +134,7 @@ struct TrackerState {
   };
   Judging judging;
   ConeSweep sweep;
-  std::vector<MinimumSeed> swept;
+  std::vector<MinimumSeed> swept;  ///< not taken up yet
   bool swept_at_rest = false;  ///< all cones have been compared at this very pose
   RippleMemory ripples;
   std::uint64_t cycle = 0;
@@ -153,6 +157,7 @@ struct TrackerState {
   Proof proof;
   Completeness completeness;
   StageClock stage_clock;
+  WorkLimit limit;  ///< of the present cycle
 };
 
 }  // namespace concave_distance

@@ -131,7 +131,8 @@ TEST(Certificate, StopsWithValidBoundsWhenTheTimeIsUp) {
     double last = 0.0;
     for (const double budget : {0.0, 2e-6, 1e-5, 1000.0}) {
       CertificateRequest request;
-      request.time_budget = budget;
+      WorkLimit limit(WorkLimit::Clock::now(), budget, std::numeric_limits<std::size_t>::max(), nullptr);
+      request.limit = &limit;
       const DistanceCertificate found = certify(a, a, pose, request);
       EXPECT_LE(found.lower_bound, full.distance);
       EXPECT_GE(found.distance, full.distance - 1e-12);

@@ -2,10 +2,12 @@
 
 #include <cmath>
 
+#include "concave_distance/distance/certificate.h"
 #include "concave_distance/distance/enumeration.h"
 #include "concave_distance/distance/niche_properties.h"
 #include "concave_distance/mesh/refine_mesh.h"
 #include "support/body_pairs.h"
+#include "support/mesh_variants.h"
 
 namespace concave_distance {
 namespace {
@@ -36,6 +38,11 @@ NicheExtent extentOf(const Body& a, const Body& b, const Isometry3d& pose, const
   EXPECT_NEAR(std::sqrt(extent.representative.squared_distance), std::sqrt(witness.squared_distance),
               4.0 * tolerance + 1e-14);
   return extent;
+}
+
+WitnessPair certifiedWitness(const Body& a, const Body& b, const Isometry3d& pose) {
+  CertificateWorkspace workspace;
+  return certifyDistance(*a, *b, pose, nullptr, 0, CertificateRequest(), workspace).witness;
 }
 
 NicheExtent extentOfClosest(const Body& a, const Body& b, const Isometry3d& pose) {
@@ -338,6 +345,25 @@ TEST(MeasureExtent, TouchingWitnessesArePoints) {
   const Isometry3d pose = test::translation(Vector3d(0.25, 0.25, 1.0));
   const NicheExtent extent = extentOfClosest(a, a, pose);
   EXPECT_EQ(extent.kind, NicheKind::Point);
+}
+
+// The sideways tolerance grows with the root of the distance; the number of triangle pairs that are looked at
+// and kept must not.
+TEST(NicheExtent, CostsNoMoreForBodiesFarApart) {
+  const SurfaceMesh plate = test::halvedEdges(
+      test::halvedEdges(test::halvedEdges(test::halvedEdges(test::makeCuboid({0, 0, 0}, {1, 1, 0.1})))));
+  const Body a = makeBody(plate);
+  for (const double distance : {1.0, 1e4, 1e6, 3e6, 1e7, 1e9}) {
+    SCOPED_TRACE(distance);
+    const Isometry3d pose = test::translation({0.0, 0.0, distance});
+    const WitnessPair start = certifiedWitness(a, a, pose);
+    ExtentWorkspace workspace;
+    const NicheExtent extent = measureExtent(*a, *a, pose, start, 2e-9, 256, workspace);
+    EXPECT_LE(workspace.open.size(), 257U);
+    EXPECT_LE(workspace.seen.size(), 257U);
+    if (distance >= 1e7) EXPECT_EQ(extent.kind, NicheKind::Point) << "no longer than twice the tolerance";
+    if (distance <= 1e4) EXPECT_EQ(extent.kind, NicheKind::Patch);
+  }
 }
 
 }  // namespace

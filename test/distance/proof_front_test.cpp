@@ -64,7 +64,8 @@ TEST(ProofFront, IsNotFooledByStaleSeedsLeapsAndTolerances) {
       if (pose.translation().norm() > 2.0) pose = test::randomPose(engine, 1.0);  // a leap
       CertificateRequest request;
       if (k % 3 == 0) request.relative_tolerance = 0.3 * uniformUnit(engine);
-      if (k % 7 == 0) request.time_budget = 1e-5;
+      WorkLimit limit(WorkLimit::Clock::now(), 1e-5, std::numeric_limits<std::size_t>::max(), nullptr);
+      if (k % 7 == 0) request.limit = &limit;
       // Any seed: triangle 0 is as good as none.
       const TrianglePair seed{};
       const bool was_valid = front.valid();

@@ -182,6 +182,9 @@ TEST(ToDistance, TellsTheProofAndWhatMeets) {
   EXPECT_EQ(message.status.code, PairStatus::BUDGET_EXHAUSTED);
   EXPECT_EQ(message.accuracy, PairDistance::ACCURACY_REFINED) << "as far as it came";
 
+  solution.status = SolveStatus::MemoryExhausted;
+  EXPECT_EQ(toDistance(quarterTurnHeading(), solution).status.code, PairStatus::MEMORY_EXHAUSTED);
+
   solution.status = SolveStatus::Penetrating;
   solution.meeting_triangles = TrianglePair{TriangleIndex{3U}, TriangleIndex{5U}};
   message = toDistance(quarterTurnHeading(), solution);
@@ -207,8 +210,14 @@ TEST(QueryParameters, TakeTheQuerysWishesAndRefuseWhatMeansNothing) {
     query.accuracy = accuracy;
     EXPECT_THROW(queryParameters(query, configured), Error) << static_cast<int>(accuracy);
   }
-  for (double DistanceQuery::*field : {&DistanceQuery::absolute_tolerance, &DistanceQuery::relative_tolerance,
-                                       &DistanceQuery::time_budget}) {
+  query = DistanceQuery();
+  query.time_budget = 0.25;
+  query.accuracy = DistanceQuery::ACCURACY_REFINED;
+  EXPECT_EQ(queryParameters(query, configured).time_budget, 0.25) << "of every level";
+  query.time_budget = -1.0;
+  EXPECT_THROW(queryParameters(query, configured), Error);
+  for (double DistanceQuery::*field :
+       {&DistanceQuery::absolute_tolerance, &DistanceQuery::relative_tolerance}) {
     query = DistanceQuery();
     query.*field = 1e-3;
     query.accuracy = DistanceQuery::ACCURACY_REFINED;

@@ -112,7 +112,10 @@ TEST_F(DistanceQueriesTest, RefuseWhatCannotBeAnsweredAndSayWhy) {
   query.accuracy = 5;
   expectRefusal("accuracy");
   query.accuracy = DistanceQuery::ACCURACY_REFINED;
-  query.time_budget = 0.01;
+  query.relative_tolerance = 0.01;
+  expectRefusal("relative_tolerance");
+  query.relative_tolerance = 0.0;
+  query.time_budget = -0.01;
   expectRefusal("time_budget");
 }
 

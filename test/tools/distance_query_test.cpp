@@ -325,7 +325,9 @@ TEST_F(DistanceQuery, RefusesWhatThisVersionCannotDo) {
   EXPECT_NE(log().find("'exact' is none of the levels: nodes, refined, certified, complete"),
             std::string::npos)
       << log();
-  for (const std::string option : {"--tolerance", "--relative-tolerance", "--time-budget"}) {
+  EXPECT_EQ(runBoxes("--accuracy refined --time-budget 1000"), 0) << log();
+  EXPECT_EQ(runBoxes("--accuracy refined --time-budget -1"), 2) << log();
+  for (const std::string option : {"--tolerance", "--relative-tolerance"}) {
     EXPECT_EQ(runBoxes("--accuracy refined " + option + " 0.001"), 2);
     EXPECT_NE(log().find(option), std::string::npos) << log();
     EXPECT_NE(log().find("--accuracy refined proves no bound"), std::string::npos) << log();

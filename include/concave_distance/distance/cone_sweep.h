@@ -2,12 +2,18 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <memory>
 #include <utility>
 #include <vector>
 
+#include "concave_distance/base/work_limit.h"
 #include "concave_distance/mesh/body_mesh.h"
 
 namespace concave_distance {
+
+namespace detail {
+struct FarShellBuffers;
+}
 
 /// A triangle pair whose closest points are a local minimum of the distance over both surfaces.
 struct MinimumSeed {
@@ -21,12 +27,21 @@ struct MinimumSeed {
 /// Over a motion every part is looked at once in a while; what lives for as long is found.
 class ConeSweep {
  public:
+  ConeSweep();
+  ~ConeSweep();
+  ConeSweep(ConeSweep&&) noexcept;
+  ConeSweep& operator=(ConeSweep&&) noexcept;
+
   /// Appends triangle pairs that hold local minima above 0 and up to `cutoff` (metres), some more than once.
   /// @param budget groups of four cones to compare
+  /// @param least_prominence where the bodies are so far apart that each pair of shells has one niche of it,
+  ///        these are found and no cones are compared; 0: never
+  /// @param limit may end a call earlier; the next one goes on from there
   /// @return pairs of features whose distance was computed
   std::uint64_t advance(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
                         NormalSides sides, double cutoff, std::size_t budget,
-                        std::vector<MinimumSeed>& found);
+                        std::vector<MinimumSeed>& found, double least_prominence = 0.0,
+                        WorkLimit* limit = nullptr);
   /// The next call begins anew.
   void restart() { open_.clear(); }
   /// Whether the last call has come to the end.
@@ -35,6 +50,7 @@ class ConeSweep {
 
  private:
   std::vector<std::pair<std::uint32_t, std::uint32_t>> open_;  ///< children of both trees
+  std::unique_ptr<detail::FarShellBuffers> far_;               ///< made when first needed
 };
 
 }  // namespace concave_distance

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "concave_distance/base/work_limit.h"
 #include "concave_distance/distance/niche_properties.h"
 #include "concave_distance/mesh/body_mesh.h"
 
@@ -24,6 +25,8 @@ struct LocalMinimaRequest {
   /// Triangle pairs whose niches are asked for (LocalMinima::owners), e.g. those that a search has found:
   /// descended to the local minimum around them.
   std::vector<std::pair<TriangleIndex, TriangleIndex>> whose;
+  /// Where it strikes, the niches decided by then are the result (LocalMinima::finished); nullptr: none.
+  WorkLimit* limit = nullptr;
 };
 
 /// A niche as DESIGN calls it: a connected set of point pairs at one distance, none near it closer.
@@ -55,6 +58,7 @@ struct LocalMinima {
   static constexpr std::size_t kNoOwner = std::numeric_limits<std::size_t>::max();
   std::vector<LocalMinimum> niches;  ///< ascending by distance
   bool cut = false;                  ///< there are more than largest_count
+  bool finished = true;              ///< false: the limit struck, niches may be missing
   /// For each of LocalMinimaRequest::whose the niche that it belongs to; kNoOwner when that is none of the
   /// result (farther than the cutoff, through material, cut).
   std::vector<std::size_t> owners;
@@ -64,7 +68,8 @@ struct LocalMinima {
 /// Every local minimum of |p - q| over both original surfaces with a distance of at most the cutoff and the
 /// least prominence: none is missed, none invented, up to the error of the triangle kernel in coordinates of
 /// the bodies' size (minima whose pass is higher by less than that are one). How and why: doc/algorithm.md,
-/// section 7. Where the bodies meet, every connected set of meeting points is one niche of distance 0.
+/// section 7. Bodies about 2 / (least prominence) times their size apart have one niche for each pair of shells,
+/// found without looking through their features. Where the bodies meet, every connected set of meeting points is one niche of distance 0.
 /// Outward niches of open shells include those marked Unknown. Uses the bodies' normalCones(). Never throws.
 LocalMinima findLocalMinima(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
                             const LocalMinimaRequest& request);

@@ -35,6 +35,8 @@ struct WitnessRefinement {
 struct RefinementWorkspace {
   std::vector<TriangleIndex> ring;
   std::vector<NodeIndex> ring_vertices;
+  std::vector<bool> ring_marks;  ///< the same by index, of large rings; false between calls
+  std::vector<bool> vertex_marks;
 };
 
 /// Polishes a pair of original triangles to the exact local minimum of the distance around them.

@@ -20,7 +20,8 @@ class FollowedEffects {
   /// @return true when what was found last does not answer what is asked now
   bool prepare(const EffectSettings& settings, bool wanted);
   /// Does nothing while no effects are wanted.
-  void update(const PairSolution& solution, const Eigen::Isometry3d& a_from_b, ros::Time stamp);
+  void update(const PairSolution& solution, const Eigen::Isometry3d& a_from_b, ros::Time stamp,
+              WorkLimit& limit);
   /// Forgets regions, bristles and the last pose.
   void reset();
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "concave_distance/base/random_engine.h"
+#include "concave_distance/base/work_limit.h"
 #include "concave_distance/search/genetic_parameters.h"
 #include "concave_distance/search/pair_objective.h"
 #include "concave_distance/search/search_workspace.h"
@@ -37,12 +38,13 @@ struct GeneticResult {
 /// @param radii from automaticRadii()
 /// @param inherited node pairs to start from, evaluated and descended anew; what exceeds the population is
 ///        left out
+/// @param limit ends the run with what it has once one individual is settled; nullptr: none
 /// @param observer called once a generation when not empty; the only call that may allocate in a warm run
 /// Otherwise allocates only while the workspace warms up. Never throws.
 GeneticResult geneticSearch(const PairObjective& objective, const GeneticParameters& parameters,
                             const NicheRadii& radii, const std::vector<TrialPoint>& inherited,
                             RandomEngine& engine, SearchWorkspace& workspace,
-                            const GenerationObserver& observer = {});
+                            const GenerationObserver& observer = {}, WorkLimit* limit = nullptr);
 
 /// The comparison of the ablation: `descents` random starts, each descended; minima in workspace.basins.
 /// @param evaluation_limit no further start once this many node pairs have been evaluated; 0: no limit

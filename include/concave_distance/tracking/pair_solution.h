@@ -27,8 +27,9 @@ enum class SolveStatus : std::uint8_t {
   Ok,               ///< at level `certified`: proven
   Penetrating,      ///< the surfaces meet, or one body has swallowed a part of the other
   InvalidPose,      ///< nothing was computed
-  BudgetExhausted,  ///< the time was up before the proof was done; lower_bound holds
-  WithinTolerance   ///< lower_bound is as near to the distance as was asked for
+  BudgetExhausted,  ///< the time was up before all was done; lower_bound holds
+  WithinTolerance,  ///< lower_bound is as near to the distance as was asked for
+  MemoryExhausted   ///< the memory limit was reached before all was done; lower_bound holds
 };
 std::string_view toString(SolveStatus status);
 
@@ -66,7 +67,7 @@ struct NicheEvent {
 /// One pair's answer at one time. Not-computed numbers are NaN, never 0 or a sentinel.
 struct PairSolution {
   SolveStatus status = SolveStatus::Ok;
-  /// The level reached: where the time budget ended the proof, the one below the level asked for.
+  /// The level reached: where the time budget or the memory limit struck, that of what was finished.
   AccuracyLevel accuracy = AccuracyLevel::Refined;
   double distance = kNotComputed;  ///< metres; 0 when penetrating
   /// Proven: the true distance is not smaller; 0 when penetrating. NaN at levels that prove none.
@@ -80,6 +81,8 @@ struct PairSolution {
   std::vector<TrackedNiche> niches;  ///< ascending by distance; capacity is kept
   std::vector<NicheEvent> events;
   bool niches_cut = false;  ///< more niches were known than the largest count allows
+  /// The list is proven to be every niche up to the cutoff: level `complete`, and nothing cut it short.
+  bool niches_complete = false;
   std::uint32_t niches_beyond_cutoff = 0;
   std::uint64_t cycle = 0;
   bool warm = false;

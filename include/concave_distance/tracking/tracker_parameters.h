@@ -1,9 +1,12 @@
 #pragma once
 
+#include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <string>
 
+#include "concave_distance/base/work_limit.h"
 #include "concave_distance/search/genetic_parameters.h"
 #include "concave_distance/tracking/pair_solution.h"
 
@@ -16,9 +19,15 @@ struct TrackerParameters {
   /// of the two counts.
   double absolute_tolerance = 0.0;
   double relative_tolerance = 0.0;  ///< of the distance
-  /// Of the same levels: seconds from the start of a cycle after which the proof stops with what it has.
-  /// The search for niches comes before and is not cut short.
+  /// Seconds from the start of a cycle after which everything in it stops with what it has: half of it is for
+  /// the niches, a third more for the proof, the rest for describing what was found; what one of them leaves
+  /// is the next one's. Building the normal cones of a body, once in its life, is not cut.
   double time_budget = std::numeric_limits<double>::infinity();
+  /// Bytes of working memory that a solve may take for its pair, what it keeps from cycle to cycle included.
+  /// The benchmarks' largest solve takes a quarter of the default.
+  std::size_t memory_limit = std::size_t{512} << 20U;
+  /// A solve that finds it set ends as if its time were up; nullptr: none.
+  const std::atomic<bool>* stop = nullptr;
   /// Of a first cycle, a service call, after a reset: at level `nodes`, and where no normal cones are swept.
   /// A cold cycle that sweeps them finds every niche by that, and searches as a warm one does.
   GeneticParameters cold;
@@ -61,5 +70,8 @@ struct TrackerParameters {
   /// @throws Error naming the parameter, the value seen and the allowed range
   void validate(const std::string& where) const;
 };
+
+/// What these parameters leave of time and memory to the effects after a solve of so many seconds.
+WorkLimit remainingWork(const TrackerParameters& parameters, double seconds_spent);
 
 }  // namespace concave_distance

@@ -1,0 +1,123 @@
+#include "far_shells.h"
+
+#include <cmath>
+#include <limits>
+
+namespace concave_distance::detail {
+namespace {
+
+using Eigen::Vector3d;
+
+/// Steps after which a pair of shells counts as one that resists; three suffice as a rule.
+constexpr int kMostSteps = 16;
+
+double reachOf(const BodyMesh& body) {
+  return 0.5 * body.surface().boundingBox().diagonal().norm();
+}
+
+void groupByShell(const BodyMesh& body, TrianglesOfShells& grouped) {
+  const std::vector<std::uint32_t>& shell_of = body.topology().shell_of_triangle;
+  grouped.first.assign(body.topology().shellCount() + 1, 0);
+  for (const std::uint32_t shell : shell_of) ++grouped.first[shell + 1];
+  for (std::size_t i = 1; i < grouped.first.size(); ++i) grouped.first[i] += grouped.first[i - 1];
+  grouped.triangles.resize(shell_of.size());
+  // Filled from the back, so that the starts are right afterwards.
+  std::vector<std::uint32_t>& next = grouped.first;
+  for (std::size_t t = shell_of.size(); t-- > 0;) {
+    grouped.triangles[--next[shell_of[t] + 1]] = TriangleIndex{t};
+  }
+  for (std::size_t i = 1; i < next.size(); ++i) next[i - 1] = next[i];
+  next.back() = static_cast<std::uint32_t>(shell_of.size());
+}
+
+struct Support {
+  TriangleIndex triangle;
+  double along = -std::numeric_limits<double>::infinity();
+};
+
+/// The triangle of a shell that reaches farthest along a direction, given in the body's own axes.
+Support supportOf(const BodyMesh& body, const Vector3d& centre, const TrianglesOfShells& grouped,
+                  std::size_t shell, const Vector3d& direction) {
+  Support best;
+  for (std::uint32_t i = grouped.first[shell]; i < grouped.first[shell + 1]; ++i) {
+    const TriangleIndex t = grouped.triangles[i];
+    for (int k = 0; k < 3; ++k) {
+      const double along = direction.dot(body.surface().corner(t, k) - centre);
+      if (along > best.along) best = {t, along};
+    }
+  }
+  return best;
+}
+
+/// Nearest points of two shells, or false.
+class ShellPair {
+ public:
+  ShellPair(const MinimaScene& scene, FarShellBuffers& buffers, std::size_t shell_a, std::size_t shell_b)
+      : scene_(scene), buffers_(buffers), shell_a_(shell_a), shell_b_(shell_b) {}
+
+  bool findNearest(MinimumSeed& seed) {
+    Vector3d direction = scene_.frames.offset.normalized();
+    double least = std::numeric_limits<double>::infinity();
+    for (int step = 0; step < kMostSteps; ++step) {
+      const Support a = supportOf(scene_.a, scene_.frames.centre_a, buffers_.a, shell_a_, direction);
+      const Support b = supportOf(scene_.b, scene_.frames.centre_b, buffers_.b, shell_b_,
+                                  scene_.frames.rotation.transpose() * -direction);
+      const double separation = direction.dot(scene_.frames.offset) - a.along - b.along;
+      if (separation >= least - 8.0 * scene_.rounding) return true;
+      const double before = least;
+      for (const auto& [ta, tb] : {std::pair{a.triangle, b.triangle}, std::pair{seed.a, b.triangle},
+                                   std::pair{a.triangle, seed.b}}) {
+        if (step == 0 && (ta != a.triangle || tb != b.triangle)) continue;  // no seed yet
+        const WitnessPair found =
+            refineWitness(scene_.a, scene_.b, scene_.a_from_b, ta, tb, buffers_.refinement).witness;
+        const double distance = std::sqrt(found.squared_distance);
+        if (!(distance < least)) continue;
+        least = distance;
+        seed = {found.triangle_a, found.triangle_b, distance};
+        direction = (found.point_b_in_a - found.point_a_in_a).normalized();
+      }
+      if (!(least < before)) return false;
+    }
+    return false;
+  }
+
+ private:
+  const MinimaScene& scene_;
+  FarShellBuffers& buffers_;
+  std::size_t shell_a_;
+  std::size_t shell_b_;
+};
+
+}  // namespace
+
+double largestDistance(const MinimaScene& scene) {
+  return scene.frames.offset.norm() + reachOf(scene.a) + reachOf(scene.b);
+}
+
+bool isFar(const MinimaScene& scene, double least_prominence) {
+  const double least = scene.frames.offset.norm() - reachOf(scene.a) - reachOf(scene.b);
+  return least > 0.0 && largestDistance(scene) + 8.0 * scene.rounding < (1.0 + least_prominence) * least;
+}
+
+bool collectFarSeeds(const MinimaScene& scene, double cutoff, FarShellBuffers& buffers,
+                     std::vector<MinimumSeed>& seeds, WorkLimit& limit) {
+  const std::size_t before = seeds.size();
+  groupByShell(scene.a, buffers.a);
+  groupByShell(scene.b, buffers.b);
+  for (std::size_t i = 0; i + 1 < buffers.a.first.size(); ++i) {
+    if (buffers.a.first[i] == buffers.a.first[i + 1]) continue;
+    for (std::size_t k = 0; k + 1 < buffers.b.first.size(); ++k) {
+      if (buffers.b.first[k] == buffers.b.first[k + 1]) continue;
+      MinimumSeed seed{};
+      const bool may_go_on = !limit.isOver() && limit.hasRoom(seeds);
+      if (!may_go_on || !ShellPair(scene, buffers, i, k).findNearest(seed)) {
+        seeds.resize(before);
+        return false;
+      }
+      if (seed.distance <= cutoff) seeds.push_back(seed);
+    }
+  }
+  return true;
+}
+
+}  // namespace concave_distance::detail

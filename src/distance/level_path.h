@@ -1,0 +1,131 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "cell_levels.h"
+#include "concave_distance/base/work_limit.h"
+#include "concave_distance/distance/certificate.h"
+#include "minima_scene.h"
+#include "pair_table.h"
+
+namespace concave_distance::detail {
+
+/// Buffers of one thread; cleared, never freed.
+struct LevelPathBuffers {
+  /// A triangle of the body that moves.
+  struct Reached {
+    TriangleIndex triangle;
+    double squared_level;  ///< the highest on the way here
+  };
+  struct Open {
+    double remaining;  ///< square metres, to the target
+    std::uint32_t reached;
+  };
+  std::vector<bool> known[2];  ///< triangles of A and B; false between calls
+  std::vector<Reached> reached;
+  std::vector<Open> open;
+
+  std::size_t memoryBytes() const {
+    return reached.capacity() * sizeof(Reached) + open.capacity() * sizeof(Open) +
+           (known[0].capacity() + known[1].capacity()) / 8;
+  }
+};
+
+/// Looks for a path over the triangle pairs on which the distance stays below a limit, one body at a time
+/// while the other holds still: its highest distance, metres, which no pass between its ends exceeds. A flood
+/// in order of distance goes round the whole rim of a basin in both bodies' triangles at once before it
+/// crosses; this looks at no more than the triangles of one body, and at those towards the target first.
+class LevelPath {
+ public:
+  LevelPath(const MinimaScene& scene, LevelPathBuffers& buffers, WorkLimit& work)
+      : scene_(scene), buffers_(buffers), work_(work) {}
+
+  /// @param has_arrived (triangle of A, triangle of B) whether the path may end here
+  /// @param first_moves the body that moves first, 0: A, 1: B
+  /// Empty where no such path was found, which says nothing.
+  template <typename Arrived>
+  std::optional<double> find(TrianglePair from, TrianglePair to, double limit, int first_moves,
+                             const Arrived& has_arrived) {
+    TrianglePair here = from;
+    double squared_level = 0.0;
+    for (const int side : {first_moves, 1 - first_moves}) {
+      const auto level = move(side, here, to, limit, has_arrived);
+      if (!level) return std::nullopt;
+      squared_level = std::max(squared_level, *level);
+      if (has_arrived(here.a, here.b)) break;
+    }
+    return std::sqrt(squared_level);
+  }
+
+ private:
+  TrianglePoints cornersOf(int side, TriangleIndex t) const {
+    return side == 0 ? scene_.cornersOfA(t) : scene_.cornersOfB(t);
+  }
+  static Eigen::Vector3d middleOf(const TrianglePoints& corners) {
+    return (corners[0] + corners[1] + corners[2]) / 3.0;
+  }
+  static bool isFarther(const LevelPathBuffers::Open& l, const LevelPathBuffers::Open& r) {
+    if (l.remaining != r.remaining) return l.remaining > r.remaining;
+    return l.reached > r.reached;
+  }
+
+  /// Moves one body's triangle to the target's, or to where the path has arrived.
+  template <typename Arrived>
+  std::optional<double> move(int side, TrianglePair& here, TrianglePair to, double limit,
+                             const Arrived& has_arrived) {
+    const BodyMesh& body = side == 0 ? scene_.a : scene_.b;
+    const auto& adjacency = side == 0 ? scene_.adjacency_a : scene_.adjacency_b;
+    const TrianglePoints still = cornersOf(1 - side, side == 0 ? here.b : here.a);
+    const TriangleIndex target = side == 0 ? to.a : to.b;
+    const Eigen::Vector3d middle = middleOf(cornersOf(side, target));
+    std::vector<bool>& known = buffers_.known[side];
+    if (known.size() < body.surface().triangleCount()) known.resize(body.surface().triangleCount(), false);
+    buffers_.reached.clear();
+    buffers_.open.clear();
+    const auto enter = [&](TriangleIndex t, double squared_level) {
+      known[t.value] = true;
+      buffers_.open.push_back({(middleOf(cornersOf(side, t)) - middle).squaredNorm(),
+                               static_cast<std::uint32_t>(buffers_.reached.size())});
+      buffers_.reached.push_back({t, squared_level});
+      std::push_heap(buffers_.open.begin(), buffers_.open.end(), isFarther);
+    };
+    std::optional<double> result;
+    enter(side == 0 ? here.a : here.b, 0.0);
+    while (!buffers_.open.empty() && !work_.isOverNow()) {
+      std::pop_heap(buffers_.open.begin(), buffers_.open.end(), isFarther);
+      const LevelPathBuffers::Reached next = buffers_.reached[buffers_.open.back().reached];
+      buffers_.open.pop_back();
+      (side == 0 ? here.a : here.b) = next.triangle;
+      if (next.triangle == target || has_arrived(here.a, here.b)) {
+        result = next.squared_level;
+        break;
+      }
+      const TrianglePoints corners = cornersOf(side, next.triangle);
+      const CellLevels levels = side == 0 ? cellLevels(corners, still) : cellLevels(still, corners);
+      const TriangleNodes& nodes = body.surface().triangle(next.triangle);
+      for (const AdjacentTriangle& beyond : adjacency.row(next.triangle.value)) {
+        if (known[beyond.triangle.value]) continue;
+        std::size_t k = 0;
+        while (k < 2 && nodes[k] != beyond.from) ++k;
+        const double squared = beyond.from != beyond.to
+                                   ? (side == 0 ? levels.edges_of_a : levels.edges_of_b)[k]
+                                   : pointTriangleDistance(corners[k], still).squared_distance;
+        if (squared > limit * limit) continue;
+        if (!work_.hasRoom(buffers_.reached) || !work_.hasRoom(buffers_.open)) break;
+        enter(beyond.triangle, std::max(squared, next.squared_level));
+      }
+    }
+    for (const LevelPathBuffers::Reached& reached : buffers_.reached) known[reached.triangle.value] = false;
+    return result;
+  }
+
+  const MinimaScene& scene_;
+  LevelPathBuffers& buffers_;
+  WorkLimit& work_;
+};
+
+}  // namespace concave_distance::detail
