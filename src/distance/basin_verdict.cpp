@@ -115,7 +115,7 @@ class Judge {
   /// A large flood of a seed among which are all minima: the deepest of its shells is a niche, and others are
   /// none where a path leads to that one.
   bool isSettledByPath(std::uint32_t basin, std::uint32_t deepest) {
-    if (basin == deepest) return true;
+    if (basin == deepest) return isNearest(basin);
     const std::uint32_t owner = rootOf(deepest);
     if (owner == basin) return false;
     // A path may end in any basin that is known to belong to the deepest one: shallower than this one, it got
@@ -207,6 +207,19 @@ class Judge {
   std::uint32_t rootOf(std::uint32_t basin) const { return rootAmong(basins_, basin); }
 
  private:
+  /// Seeds may leave out what runs through material: the deepest of them need not be the nearest place.
+  bool isNearest(std::uint32_t basin) {
+    const Basin& deepest = basins_[basin];
+    const WitnessPair minimum =
+        refineWitness(scene_.a, scene_.b, scene_.a_from_b, deepest.a, deepest.b, refinement_).witness;
+    if (isNearestOfItsShells(scene_, minimum)) return true;
+    const TrianglePair seed{deepest.a, deepest.b};
+    CertificateRequest request;
+    request.limit = &limit_;
+    return certifyDistance(scene_.a, scene_.b, scene_.a_from_b, &seed, 1, request, proof_).lower_bound >=
+           deepest.distance - tolerance_;
+  }
+
   std::uint32_t addBasin(TriangleIndex a, TriangleIndex b, double distance, double least_prominence) {
     const auto basin = static_cast<std::uint32_t>(basins_.size());
     Basin added{a, b, distance, least_prominence, basin};
@@ -282,6 +295,7 @@ class Judge {
   std::vector<std::pair<std::uint64_t, std::uint32_t>>& deepest_;
   LevelPathBuffers& path_;
   RefinementWorkspace& refinement_;
+  CertificateWorkspace proof_;
   WorkLimit& limit_;
   bool floods_are_large_ = false;
 };

@@ -133,6 +133,11 @@ LocalMinima findLocalMinima(const BodyMesh& a, const BodyMesh& b, const Eigen::I
   collectSeeds(scene, request, seeds, result.cost, limit);
   const std::size_t owned = seeds.size();
   result.cost.minima = owned;
+  if (limit.isOver()) {
+    result.finished = false;
+    result.owners.assign(request.whose.size(), LocalMinima::kNoOwner);
+    return result;
+  }
   RefinementWorkspace refinement;
   for (const auto& [triangle_a, triangle_b] : request.whose) {
     const WitnessPair settled = refineWitness(a, b, a_from_b, triangle_a, triangle_b, refinement).witness;

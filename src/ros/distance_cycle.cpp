@@ -200,7 +200,7 @@ bool DistanceCycle::locate(TrackedPair& pair, const tf2::BufferCore& buffer, ros
       return false;
     }
   }
-  pair.prepare();
+  pair.prepare(options_.stop);
   const bool same_input = transforms.fixed ? pair.solved_a_from_b.matrix() == transforms.a_from_b.matrix()
                                            : last_stamp == transforms.stamp;
   pair.repeated = pair.solved && same_input && !pair.must_solve;

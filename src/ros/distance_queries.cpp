@@ -146,6 +146,8 @@ QueryAnswer answer(const DistanceQuery& query, const Scene& scene, const QueryCo
     return outOfTime(query, heading);
   }
   parameters.time_budget = std::min(parameters.time_budget, left);
+  parameters.memory_limit = context.memory_limit;
+  parameters.stop = context.stop;
   const PairSolution solution =
       solveOnce(heading.pair, body_a.mesh, body_b.mesh, parameters, transforms.a_from_b);
   if (settings.warning_distance && solution.distance < *settings.warning_distance) {
@@ -204,6 +206,7 @@ QueryContext DistanceQueries::currentContext(std::chrono::steady_clock::time_poi
   QueryContext context = context_;
   context.defaults = keeper_.defaults();
   context.stop = &gate_.stopped();
+  context.memory_limit = std::size_t{limits_.query_memory_mb} << 20U;
   context.deadline = arrival + std::chrono::duration_cast<std::chrono::steady_clock::duration>(
                                    std::chrono::duration<double>(limits_.query_seconds));
   return context;

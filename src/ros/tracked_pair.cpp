@@ -43,7 +43,7 @@ void TrackedPair::restart() {
   must_solve = true;
 }
 
-void TrackedPair::prepare() {
+void TrackedPair::prepare(const std::atomic<bool>* stop) {
   if (effects.prepare(settings.effects, demand.effects)) {
     must_solve = true;
   }
@@ -52,6 +52,7 @@ void TrackedPair::prepare() {
   }
   TrackerParameters parameters = settings.tracker;
   parameters.niches_wanted = demand.niches;
+  parameters.stop = stop;
   if (tracker) {
     tracker->setParameters(parameters);
   } else {

@@ -114,6 +114,12 @@ void TrackerState::reportNearest(double displacement, PairSolution& solution) {
       solution.meeting_triangles = TrianglePair{nearest.witness.triangle_a, nearest.witness.triangle_b};
     }
   }
+  if (records.empty() && dark_side_met && limit.hasRefused()) {
+    // Not a niche, but no less a bound of the distance: there was no time to look for another.
+    solution.distance = std::sqrt(dark_side.squared_distance);
+    solution.point_a_in_a = dark_side.point_a_in_a;
+    solution.point_b_in_a = dark_side.point_b_in_a;
+  }
   // A segment that leaves a closed body inwards and meets no surface ends in that body's material, too. Only
   // the closest pair can be so without a closer crossing of the surfaces.
   const bool dark_side_nearest =

@@ -91,7 +91,7 @@ TEST(WorkLimit, TheStopFlagEndsASolveLikeABudget) {
     stop = false;
     const PairSolution whole = solveOnce("pair", a, a, parameters, pose);
     EXPECT_EQ(whole.status, SolveStatus::Ok);
-    EXPECT_LT(100 * stopped.cost.evaluations, whole.cost.evaluations + 10000);
+    EXPECT_LT(2 * stopped.cost.evaluations, whole.cost.evaluations);
     stop = true;
   }
 }
@@ -137,7 +137,7 @@ TEST(WorkLimit, AnyCutLeavesATrackerThatGoesOnRight) {
 
 // Shells apart are looked through whatever the distance; features and triangle pairs are not any more.
 TEST(WorkLimit, TheWorkOfACompleteListDoesNotGrowWithTheDistance) {
-  const SurfaceMesh comb = test::halvedEdges(test::makeComb(5));
+  const SurfaceMesh comb = test::halvedEdges(test::halvedEdges(test::makeComb(5)));
   const Body a = test::makeBody(comb);
   LocalMinimaRequest request;
   for (const double distance : {30.0, 100.0, 300.0, 1e4, 1e7, 1e9}) {

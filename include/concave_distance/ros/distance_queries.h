@@ -30,6 +30,7 @@ struct QueryContext {
   /// All queries of a call end by then: what is solved stops with the bound it has.
   std::chrono::steady_clock::time_point deadline = std::chrono::steady_clock::time_point::max();
   const std::atomic<bool>* stop = nullptr;  ///< set: what is solved ends, and nothing is begun
+  std::size_t memory_limit = TrackerParameters().memory_limit;  ///< bytes, of one query
 };
 
 /// The answer to one query.

@@ -4,6 +4,7 @@
 #include <ros/time.h>
 
 #include <Eigen/Geometry>
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -70,7 +71,8 @@ struct TrackedPair {
   /// Forgets the niches; ids go on.
   void restart();
   /// Gives tracker and effects what the settings and the demand say; makes them when there are none.
-  void prepare();
+  /// @param stop of the node; set, a solve ends with what it has
+  void prepare(const std::atomic<bool>* stop);
 };
 
 }  // namespace concave_distance
