@@ -67,19 +67,23 @@ wait_for() {  # seconds, what, command...
   local end=$((SECONDS + $1)) what="$2"
   shift 2
   until "$@" >/dev/null 2>&1; do
-    [ "$SECONDS" -lt "$end" ] || die "$what did not come in time; see $work"
+    [ "$SECONDS" -lt "$end" ] || { tail -n 20 "$work"/*.log >&2; die "$what did not come in time"; }
     sleep 0.3
   done
 }
 
 markers_came() { timeout 5 rostopic echo -n 1 /concave_distance/markers | grep -q 'points'; }
 
+# Labels look for a better place once a second: two pictures farther apart than that have to be the same.
 picture_settled() {
   mv -f "$work/now.png" "$work/before.png" 2>/dev/null || true
   sleep 1.5
   import -window root "$work/now.png"
   [ "$(identify -format %k "$work/now.png")" -gt 50 ] || return 1
-  [ -s "$work/before.png" ] && [ "$(compare -metric AE -fuzz 3% "$work/before.png" "$work/now.png" null: 2>&1 | cut -d' ' -f1 | cut -d. -f1)" -lt "${largest_change:-40}" ]
+  [ -s "$work/before.png" ] || return 1
+  local changed
+  changed="$(compare -metric AE -fuzz 3% "$work/before.png" "$work/now.png" null: 2>&1 || true)"
+  [ "${changed%%[. ]*}" -lt 40 ]
 }
 
 for scene in "${scenes[@]}"; do
