@@ -39,12 +39,15 @@ class NestedSkins {
     std::iota(largest_first.begin(), largest_first.end(), 0U);
     std::stable_sort(largest_first.begin(), largest_first.end(),
                      [&](std::uint32_t l, std::uint32_t r) { return skins_[l].volume > skins_[r].volume; });
+    std::vector<Eigen::AlignedBox3d> boxes;  // side by side, for there may be tens of thousands
+    for (const std::uint32_t unit : largest_first) boxes.push_back(skins_[unit].box);
     std::vector<bool> is_cavity(skins_.size(), false);
     for (std::size_t i = 0; i < largest_first.size(); ++i) {
       const std::uint32_t unit = largest_first[i];
       int around = 0;
       std::uint32_t outermost = unit;
       for (std::size_t k = 0; k < i; ++k) {
+        if (!boxes[k].contains(boxes[i])) continue;
         const std::uint32_t other = largest_first[k];
         if (!liesInside(skins_[unit], skins_[other])) continue;
         around += is_cavity[other] ? -1 : 1;
@@ -90,7 +93,7 @@ class NestedSkins {
   /// Several middles of triangles are asked, so that two solids that merely overlap are not taken for a
   /// hollow one. One on the other's surface (1/2) says nothing.
   bool liesInside(const Skin& inner, const Skin& outer) const {
-    if (inner.faces.empty() || outer.faces.empty() || !outer.box.contains(inner.box)) return false;
+    if (inner.faces.empty() || outer.faces.empty()) return false;
     const std::size_t step = std::max<std::size_t>(1, inner.faces.size() / kSamples);
     bool any = false;
     for (std::size_t i = 0; i < inner.faces.size(); i += step) {
