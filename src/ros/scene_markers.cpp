@@ -23,15 +23,13 @@ void append(std::vector<Marker> from, std::vector<Marker>& to) {
   std::move(from.begin(), from.end(), std::back_inserter(to));
 }
 
-// Bodies of pairs in warning, and of pairs that overlap without showing it by contacts.
+// Of pairs in warning. Not of all that overlap: in many robots some links always do.
 std::set<std::size_t> bodiesToTint(const Scene& scene, const std::vector<std::unique_ptr<TrackedPair>>& pairs,
                                    double largest) {
   std::set<std::size_t> bodies;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const TrackedPair& pair = *pairs[k];
-    const bool overlaps = pair.solved && pair.solution.status == SolveStatus::Penetrating;
-    const bool tinted = pair.heading.warning || (overlaps && !pair.settings.effects.any());
-    if (!pair.demand.due || !tinted) continue;
+    if (!pair.demand.due || !pair.heading.warning) continue;
     for (const std::size_t body : {scene.pairs[k].body_a, scene.pairs[k].body_b}) {
       if (scene.bodies[body].mesh->diameter() <= largest) bodies.insert(body);
     }
