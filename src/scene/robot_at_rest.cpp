@@ -42,7 +42,9 @@ bool overlap(const SceneBody& a, const SceneBody& b, const Poses& poses) {
   request.relative_tolerance = kEnoughToBeApart;
   const DistanceCertificate proof =
       certifyDistance(*a.mesh, *b.mesh, a_from_b, nullptr, 0, request, workspace);
-  return proof.status == CertificateStatus::Penetrating || holdsAnother(*a.mesh, *b.mesh, a_from_b);
+  if (proof.status == CertificateStatus::Penetrating) return true;
+  WorkLimit no_limit;
+  return holdsAnother(*a.mesh, *b.mesh, a_from_b, no_limit).value_or(false);
 }
 
 double robotDiagonal(const Scene& scene, const RobotDescription& robot) {
