@@ -94,20 +94,22 @@ class ShellPair {
 bool isNearestOfItsShells(const MinimaScene& scene, const WitnessPair& minimum) {
   const double distance = std::sqrt(minimum.squared_distance);
   const Vector3d direction = (minimum.point_b_in_a - minimum.point_a_in_a).normalized();
-  const auto reach = [](const BodyMesh& body, const Vector3d& centre, TriangleIndex of, const Vector3d& along) {
-    const std::vector<std::uint32_t>& shells = body.topology().shell_of_vertex;
-    const std::uint32_t shell = body.topology().shell_of_triangle[of.value];
+  const auto reach = [](const BodyMesh& body, const Vector3d& centre, TriangleIndex of,
+                        const Vector3d& along) {
+    const std::vector<std::uint32_t>& shells = body.topology().shell_of_triangle;
     double most = -std::numeric_limits<double>::infinity();
-    for (std::uint32_t v = 0; v < shells.size(); ++v) {
-      if (shells[v] == shell) most = std::max(most, along.dot(body.surface().vertex(NodeIndex{v}) - centre));
+    for (std::uint32_t t = 0; t < shells.size(); ++t) {
+      if (shells[t] != shells[of.value]) continue;
+      for (const NodeIndex node : body.surface().triangles()[t]) {
+        most = std::max(most, along.dot(body.surface().vertex(node) - centre));
+      }
     }
     return most;
   };
-  const double separation =
-      direction.dot(scene.frames.offset) -
-      reach(scene.a, scene.frames.centre_a, minimum.triangle_a, direction) -
-      reach(scene.b, scene.frames.centre_b, minimum.triangle_b,
-            scene.frames.rotation.transpose() * -direction);
+  const double separation = direction.dot(scene.frames.offset) -
+                            reach(scene.a, scene.frames.centre_a, minimum.triangle_a, direction) -
+                            reach(scene.b, scene.frames.centre_b, minimum.triangle_b,
+                                  scene.frames.rotation.transpose() * -direction);
   return separation >= distance - 8.0 * scene.rounding;
 }
 

@@ -93,8 +93,8 @@ void TrackerState::listNiches(PairSolution& solution) {
 // What the limit has cut is not what was asked for, whatever the proof says.
 void TrackerState::reportLimit(PairSolution& solution) const {
   if (!limit.hasRefused()) {
-    solution.niches_complete = parameters.accuracy == AccuracyLevel::Complete && parameters.niches_wanted &&
-                               !solution.niches_cut;
+    solution.niches_complete =
+        parameters.accuracy == AccuracyLevel::Complete && parameters.niches_wanted && !solution.niches_cut;
     return;
   }
   if (solution.accuracy == AccuracyLevel::Complete) solution.accuracy = AccuracyLevel::Certified;
@@ -126,7 +126,7 @@ void TrackerState::reportNearest(double displacement, PairSolution& solution) {
       dark_side_met && (records.empty() || std::sqrt(dark_side.squared_distance) < solution.distance);
   const bool overlap =
       solution.status != SolveStatus::Penetrating &&
-      (holdsAnother(*geometry.a, *geometry.b, geometry.a_from_b) ||
+      (holdsAnother(*geometry.a, *geometry.b, geometry.a_from_b, limit).value_or(false) ||
        (dark_side_nearest && isVisible(*geometry.a, *geometry.b, geometry.a_from_b, dark_side)));
   swallowed = overlap && dark_side_nearest;
   if (overlap) {
