@@ -67,16 +67,22 @@ RC_GTEST_PROP(NicheIdentification, IsBestStripRepeat, ()) {
   const auto population = niches.drawPopulation(40, engine);
   const double radius = *rc::gen::element(0.1, 0.4, 1.0, 3.0);
 
-  std::vector<IdentifiedNiche> expected;
-  std::vector<TrialPoint> left = population;
-  while (!left.empty()) {
-    const TrialPoint best = *std::min_element(left.begin(), left.end());
-    const auto stays = std::stable_partition(left.begin(), left.end(), [&](const TrialPoint& point) {
-      return niches.metric.distanceWithin(best, point, radius) > radius;
-    });
-    expected.push_back({best, static_cast<std::uint32_t>(left.end() - stays)});
-    left.erase(stays, left.end());
-  }
+  const auto bestStripRepeat = [&](const auto& distance) {
+    std::vector<IdentifiedNiche> expected;
+    std::vector<TrialPoint> left = population;
+    while (!left.empty()) {
+      const TrialPoint best = *std::min_element(left.begin(), left.end());
+      const auto stays = std::stable_partition(
+          left.begin(), left.end(), [&](const TrialPoint& point) { return distance(best, point) > radius; });
+      expected.push_back({best, static_cast<std::uint32_t>(left.end() - stays)});
+      left.erase(stays, left.end());
+    }
+    return expected;
+  };
+  const auto distance = [&](const TrialPoint& l, const TrialPoint& r) {
+    return niches.metric.distanceWithin(l, r, kInfinity);
+  };
+  const std::vector<IdentifiedNiche> expected = bestStripRepeat(distance);
 
   std::vector<IdentifiedNiche> found;
   std::vector<std::uint32_t> order;
@@ -97,9 +103,12 @@ RC_GTEST_PROP(NicheIdentification, IsBestStripRepeat, ()) {
   census.take(where, places.size());
   std::vector<std::uint32_t> peaks;
   nichePeaks(census, radius, places, niches.metric, order, peaks);
-  RC_ASSERT(peaks.size() == found.size());
+  // The table keeps distances in single precision: one next to the radius may fall on its other side.
+  const std::vector<IdentifiedNiche> rounded = bestStripRepeat(
+      [&](const TrialPoint& l, const TrialPoint& r) { return static_cast<float>(distance(l, r)); });
+  RC_ASSERT(peaks.size() == rounded.size());
   for (std::size_t i = 0; i < peaks.size(); ++i) {
-    RC_ASSERT(samePlace(places.point(peaks[i]), found[i].best));
+    RC_ASSERT(samePlace(places.point(peaks[i]), rounded[i].best));
   }
 }
 
