@@ -29,8 +29,8 @@ struct TrianglesOfShells {
   std::vector<TriangleIndex> triangles;
 };
 
-/// Whether a local minimum is the nearest place of its two shells: proven where the direction between its points
-/// parts them by its distance, else not known. O(triangles).
+/// Whether a local minimum is the nearest place of its two shells: proven where the direction between its
+/// points parts them by its distance, else not known. O(triangles).
 bool isNearestOfItsShells(const MinimaScene& scene, const WitnessPair& minimum);
 
 struct FarShellBuffers {
