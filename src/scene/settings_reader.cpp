@@ -23,6 +23,9 @@ void readTrackerParameters(YamlMap& map, TrackerParameters& p) {
   if (auto v = map.take("time_budget")) {
     p.time_budget = v->number("greater than 0, seconds; .inf for none", [](double s) { return s > 0.0; });
   }
+  if (auto v = map.take("memory_limit")) {
+    p.memory_limit = v->count(std::uint64_t{1} << 20U, std::numeric_limits<std::size_t>::max());
+  }
   if (auto v = map.take("cutoff")) {
     p.cutoff = v->number("greater than 0, metres; .inf for none", [](double c) { return c > 0.0; });
   }

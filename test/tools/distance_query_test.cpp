@@ -125,7 +125,8 @@ TEST_F(DistanceQuery, TakesAFileOfStackedBoxesForOneSolid) {
             EXPECT_EQ(number(rows[i], "distance"), 0.0);
           }
           EXPECT_EQ(rows[3].at("status"), "ok");
-          EXPECT_GE(number(rows[3], "distance"), 0.4 - 1e-12);
+          // The cube's 0.1 passes through single precision on its way from the file.
+          EXPECT_GE(number(rows[3], "distance"), 0.4 - 6e-8 * 0.1);
         }
       }
     }

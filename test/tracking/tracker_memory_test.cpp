@@ -40,7 +40,7 @@ TEST(TrackerMemory, AProofAloneMakesNothingOfTheSearch) {
   const auto b = bodyOf(test::makeComb(3));
   TrackerParameters parameters;
   parameters.niches_wanted = false;
-  EXPECT_LT(trackedBytes(a, b, parameters), 60'000U);
+  EXPECT_LT(trackedBytes(a, b, parameters), 80'000U);
   EXPECT_EQ(a->nodesIfMade(), nullptr);
   EXPECT_EQ(b->nodesIfMade(), nullptr);
   EXPECT_EQ(a->metricIfMade(), nullptr);
