@@ -213,7 +213,7 @@ def mesh_outside_of_the_roots_tells_nothing(arena):
     good = arena.write("outside/mesh.stl", open(arena.path("scene/meshes/hook.stl"), "rb").read())
     texts = set()
     for path in (good, arena.path("outside/none.stl"), "/etc/shadow", "/etc/passwd", "/root/.bashrc", "/root/none"):
-        response = add(arena, primitive="", dimensions=[], mesh_resource=path)
+        response = add(arena, name="stranger", primitive="", dimensions=[], mesh_resource=path)
         expect(not response.success, path + " was read")
         texts.add(response.message.replace(path, "PATH"))
     expect(len(texts) == 1, "different refusals: " + " / ".join(sorted(texts)))
