@@ -63,8 +63,8 @@ class BranchAndBound {
   const CertificateRequest& request_;
   WorkLimit unlimited_;
   WorkLimit& limit_;
-  const bool timed_;  ///< then the least bound comes first
-  bool cut_ = false;  ///< the limit has struck
+  const bool timed_;             ///< then the least bound comes first
+  bool cut_ = false;             ///< the limit has struck
   std::vector<OpenPair>& open_;  ///< the first open_count_ of it
   std::size_t open_count_ = 0;
   RefinementWorkspace& refinement_;

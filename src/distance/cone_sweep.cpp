@@ -12,8 +12,7 @@ ConeSweep& ConeSweep::operator=(ConeSweep&&) noexcept = default;
 
 std::uint64_t ConeSweep::advance(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
                                  NormalSides sides, double cutoff, std::size_t budget,
-                                 std::vector<MinimumSeed>& found, double least_prominence,
-                                 WorkLimit* limit) {
+                                 std::vector<MinimumSeed>& found, double least_prominence, WorkLimit* limit) {
   WorkLimit none;
   WorkLimit& work = limit != nullptr ? *limit : none;
   const detail::MinimaScene scene(a, b, a_from_b);

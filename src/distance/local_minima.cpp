@@ -45,8 +45,7 @@ class Describer {
     niche.prominence = minimum.pass / niche.distance - 1.0;
     const double tolerance = kPlateauTolerance * (a_.diameter() + b_.diameter());
     const NicheExtent extent =
-        measureExtent(a_, b_, scene_.a_from_b, niche.witness, tolerance, kExtentPairLimit, extent_,
-                      &limit_);
+        measureExtent(a_, b_, scene_.a_from_b, niche.witness, tolerance, kExtentPairLimit, extent_, &limit_);
     niche.kind = extent.kind;
     niche.extent = extent.length;
     if (extent.kind != NicheKind::Point) niche.witness = extent.representative;
@@ -111,7 +110,8 @@ bool isFar(const detail::MinimaScene& scene, const LocalMinimaRequest& request) 
 void collectSeeds(const detail::MinimaScene& scene, const LocalMinimaRequest& request,
                   std::vector<MinimumSeed>& seeds, LocalMinimaCost& cost, WorkLimit& limit) {
   detail::FarShellBuffers far_shells;
-  if (isFar(scene, request) && detail::collectFarSeeds(scene, request.cutoff, far_shells, seeds, limit)) return;
+  if (isFar(scene, request) && detail::collectFarSeeds(scene, request.cutoff, far_shells, seeds, limit))
+    return;
   detail::collectMeetingPairs(scene, seeds, cost, limit);
   const NormalSides sides = request.through_material ? NormalSides::Both : NormalSides::Outside;
   detail::OpenCones open;

@@ -37,8 +37,8 @@ struct RingLook {
 };
 
 /// All triangles that hold the witness, the own one first: across its edge, around its vertex, and whatever
-/// else is connected to them within the tolerance, where triangles are as thin as rounding. Time grows with the
-/// ring, no faster. At most `largest` triangles and the rest of the last vertex or edge.
+/// else is connected to them within the tolerance, where triangles are as thin as rounding. Time grows with
+/// the ring, no faster. At most `largest` triangles and the rest of the last vertex or edge.
 void collectRing(const LocalTriangle& own, const LocalWitness& witness, double on_feature,
                  RefinementWorkspace& workspace,
                  std::size_t largest = std::numeric_limits<std::size_t>::max());

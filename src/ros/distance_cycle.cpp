@@ -168,7 +168,8 @@ CycleReport DistanceCycle::run(const std::vector<PairDemand>& demand, ros::Time 
     report.cold += pair->solution.warm ? 0 : 1;
     report.search_misses += pair->solution.search_miss ? 1 : 0;
     const SolveStatus status = pair->solution.status;
-    report.unproven += status == SolveStatus::BudgetExhausted || status == SolveStatus::MemoryExhausted ? 1 : 0;
+    report.unproven +=
+        status == SolveStatus::BudgetExhausted || status == SolveStatus::MemoryExhausted ? 1 : 0;
   }
   report.helper_cpu_seconds = 1e-9 * static_cast<double>(helper_cpu_nanoseconds_.load());
   return report;

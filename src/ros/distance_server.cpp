@@ -24,8 +24,8 @@ constexpr const char* kRemedies =
     "fewer pairs (an SRDF, the scene file's pairs, ~skip_overlapping_pairs), a shorter ~cutoff, a lower "
     "~rate, "
     "more ~threads, subscribers of distances instead of niches or markers, ~relative_tolerance";
-constexpr double kProgressPeriod = 2.0;      // s, between two messages about loading
-constexpr double kMessagePeriod = 5.0;       // s, between two messages about what is missing
+constexpr double kProgressPeriod = 2.0;  // s, between two messages about loading
+constexpr double kMessagePeriod = 5.0;   // s, between two messages about what is missing
 
 NodeParameters readParameters(const ros::NodeHandle& node) {
   XmlRpc::XmlRpcValue values;
@@ -91,7 +91,6 @@ DistanceServer::DistanceServer(const ros::NodeHandle& node, const ros::NodeHandl
       // It would read ~diagnostic_period unchecked, again and again: it looks where there is none.
       updater_(node, ros::NodeHandle(private_node, "diagnostic_updater"), std::move(name)),
       body_markers_(private_node_.advertise<visualization_msgs::MarkerArray>("body_markers", 1, true)) {
-  keeper_.setWaitingFor("loading");
   setUpDiagnostics();
   runner_.setRates(parameters_.rate, parameters_.marker_rate);
   runner_.setMarkers(parameters_.publish_markers, parameters_.publish_contact_markers);

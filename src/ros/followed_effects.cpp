@@ -30,8 +30,8 @@ bool FollowedEffects::prepare(const EffectSettings& settings, bool wanted) {
   return false;
 }
 
-void FollowedEffects::update(const PairSolution& solution, const Eigen::Isometry3d& a_from_b,
-                             ros::Time stamp, WorkLimit& limit) {
+void FollowedEffects::update(const PairSolution& solution, const Eigen::Isometry3d& a_from_b, ros::Time stamp,
+                             WorkLimit& limit) {
   if (!effects_) {
     return;
   }

@@ -61,7 +61,8 @@ void TrackerState::completeNiches(double displacement, double elapsed, PairSolut
     const std::size_t owner = found.owners[i];
     if (owner == LocalMinima::kNoOwner) continue;
     const TrackedNiche& known_niche = records[i].niche;
-    if (!records[i].carried && found.niches[owner].distance < known_niche.distance - displacement - rounding) {
+    if (!records[i].carried &&
+        found.niches[owner].distance < known_niche.distance - displacement - rounding) {
       continue;
     }
     if (heirs[owner] == kNone || known_niche.id < records[heirs[owner]].niche.id) heirs[owner] = i;
@@ -97,8 +98,8 @@ void TrackerState::completeNiches(double displacement, double elapsed, PairSolut
   archive.settle();
 }
 
-// A list that time or memory has cut says nothing of the niches it does not name: those known stay, each at the
-// minimum around its triangles.
+// A list that time or memory has cut says nothing of the niches it does not name: those known stay, each at
+// the minimum around its triangles.
 void TrackerState::carryNiches(PairSolution& solution) {
   for (NicheRecord& record : archive.records()) {
     if (!limit.isOver()) {

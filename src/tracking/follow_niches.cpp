@@ -21,8 +21,8 @@ void TrackerState::followNiches(double displacement, double elapsed, SearchCost&
     }
     const double before = record.niche.distance;
     // A minimum that was not descended may lie far below its points.
-    record.least_distance = record.carried ? -std::numeric_limits<double>::infinity()
-                                           : before - displacement - rounding;
+    record.least_distance =
+        record.carried ? -std::numeric_limits<double>::infinity() : before - displacement - rounding;
     record.carried = false;
     record.niche.node_pair = descend(
         objective, objective.evaluate(record.niche.node_pair.node_a, record.niche.node_pair.node_b, cost),

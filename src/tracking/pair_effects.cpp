@@ -118,8 +118,7 @@ PairEffects::PairEffects(PairEffects&&) noexcept = default;
 PairEffects& PairEffects::operator=(PairEffects&&) noexcept = default;
 
 void PairEffects::update(const PairSolution& solution, const Eigen::Isometry3d& a_from_b,
-                         const RelativeTwist& b_in_a, double step, PairContacts& contacts,
-                         WorkLimit* limit) {
+                         const RelativeTwist& b_in_a, double step, PairContacts& contacts, WorkLimit* limit) {
   State& state = *state_;
   contacts.possible = !state.plan.empty() && contactIsPossible(solution);
   contacts.regions.clear();

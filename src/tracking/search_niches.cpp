@@ -54,8 +54,8 @@ void TrackerState::evolve(const PairObjective& objective, PairSolution& solution
     const auto wanted = static_cast<std::uint32_t>(inherited.size()) + parameters.immigrants;
     genetic.population_size = std::max(genetic.population_size, wanted + wanted % 2);
   }
-  const GeneticResult result =
-      geneticSearch(objective, genetic, as_warm ? warm_radii : cold_radii, inherited, engine, search, {}, &limit);
+  const GeneticResult result = geneticSearch(objective, genetic, as_warm ? warm_radii : cold_radii, inherited,
+                                             engine, search, {}, &limit);
   solution.cost.evaluations += result.cost.evaluations;
   solution.cost.descents += result.cost.descents;
   solution.cost.descents_joined += result.cost.descents_joined;

@@ -135,7 +135,7 @@ struct TrackerState {
   Judging judging;
   ConeSweep sweep;
   std::vector<MinimumSeed> swept;  ///< not taken up yet
-  bool swept_at_rest = false;  ///< all cones have been compared at this very pose
+  bool swept_at_rest = false;      ///< all cones have been compared at this very pose
   RippleMemory ripples;
   std::uint64_t cycle = 0;
   bool warm = false;

@@ -12,6 +12,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <fstream>
+#include <vector>
 
 #include "benchmark/support/accuracy_pairs.h"
 #include "benchmark/support/benchmark_main.h"
@@ -75,6 +76,17 @@ PairHeading headingOf(const BenchmarkPair& pair, const Level& level) {
   return heading;
 }
 
+// Of a pair alone in its scene: all that is drawn for it but the label.
+std::vector<visualization_msgs::Marker> drawnMarkers(const PairNiches& message, const MarkerStyle& style) {
+  std::vector<visualization_msgs::Marker> markers;
+  const std::vector<PairNiches> alone = {message};
+  for (const DrawnPair& drawn : selectPairs(alone, style)) {
+    const std::vector<visualization_msgs::Marker> of_pair = nicheMarkers(drawn, style, 0.5);
+    markers.insert(markers.end(), of_pair.begin(), of_pair.end());
+  }
+  return markers;
+}
+
 Sums follow(const BenchmarkPair& pair, const Level& level, int steps) {
   TrackerParameters parameters;
   parameters.accuracy = level.accuracy;
@@ -84,6 +96,7 @@ Sums follow(const BenchmarkPair& pair, const Level& level, int steps) {
   PairHeading heading = headingOf(pair, level);
   MarkerStyle style;
   style.scale = 0.02 * pair.b->diameter();
+  style.far = 0.5;
   ShownMarkers shown;
   Laps laps;
   Sums all;
@@ -98,7 +111,7 @@ Sums follow(const BenchmarkPair& pair, const Level& level, int steps) {
       const PairNiches message = toNiches(heading, solution);
       laps.add(sums.message);
       const visualization_msgs::MarkerArray markers =
-          withDeletions(nicheMarkers(message, style, 0.5), message.header, shown);
+          withDeletions(drawnMarkers(message, style), message.header, shown);
       laps.add(sums.markers);
       sums.bytes = static_cast<double>(ros::serialization::serializeMessage(message).num_bytes +
                                        ros::serialization::serializeMessage(markers).num_bytes);

@@ -39,9 +39,8 @@ class ConeSweep {
   /// @param limit may end a call earlier; the next one goes on from there
   /// @return pairs of features whose distance was computed
   std::uint64_t advance(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
-                        NormalSides sides, double cutoff, std::size_t budget,
-                        std::vector<MinimumSeed>& found, double least_prominence = 0.0,
-                        WorkLimit* limit = nullptr);
+                        NormalSides sides, double cutoff, std::size_t budget, std::vector<MinimumSeed>& found,
+                        double least_prominence = 0.0, WorkLimit* limit = nullptr);
   /// The next call begins anew.
   void restart() { open_.clear(); }
   /// Whether the last call has come to the end.

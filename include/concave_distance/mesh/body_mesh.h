@@ -121,7 +121,7 @@ class BodyMesh {
   BodyMeshParts parts_;  ///< without the nodes
   BodyMeshOptions options_;
   struct OnDemand;
-  std::unique_ptr<OnDemand> on_demand_;  ///< what not every level needs
+  std::unique_ptr<OnDemand> on_demand_;                     ///< what not every level needs
   mutable std::atomic<const SearchNodes*> nodes_{nullptr};  ///< set once, in on_demand_
 };
 

@@ -16,8 +16,8 @@ namespace concave_distance {
 
 struct CycleOptions {
   std::string reference_frame;
-  double stale_after = 1.0;   ///< s
-  std::uint32_t threads = 0;  ///< that solve pairs; 0: one per core, 1: the caller's alone
+  double stale_after = 1.0;                 ///< s
+  std::uint32_t threads = 0;                ///< that solve pairs; 0: one per core, 1: the caller's alone
   const std::atomic<bool>* stop = nullptr;  ///< set: a cycle ends without solving the pairs that are left
 };
 

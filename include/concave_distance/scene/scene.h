@@ -99,7 +99,7 @@ struct Scene {
   RigidFrames rigid;                             ///< frames that fixed joints connect
   std::optional<double> automatic_cutoff;        ///< m, where SceneLoadOptions asks for one
   std::optional<SimulationSettings> simulation;  ///< the section `simulation`, where there is one
-  PreparationCachePointer cache;  ///< that its bodies went through, for those added later; nullptr: none
+  PreparationCachePointer cache;   ///< that its bodies went through, for those added later; nullptr: none
   std::shared_ptr<BodyPool> pool;  ///< the same; nullptr: none
   SceneLimits limits;              ///< that hold for edits too
 

@@ -56,7 +56,8 @@ class PairEffects {
   ///        why the scene file refuses effects there.
   /// @param b_in_a velocity of B relative to A; zero where it is not known
   /// @param step seconds since the last call, for the bristles; 0 leaves them as they are
-  /// @param limit where it strikes there are no regions and no forces; what is known of them stays for the next
+  /// @param limit where it strikes there are no regions and no forces; what is known of them stays for the
+  /// next
   ///        call; nullptr: none
   void update(const PairSolution& solution, const Eigen::Isometry3d& a_from_b, const RelativeTwist& b_in_a,
               double step, PairContacts& contacts, WorkLimit* limit = nullptr);
