@@ -42,7 +42,7 @@ stop_all() {
   for pid in "${processes[@]}"; do wait "$pid" 2>/dev/null || true; done
   processes=()
 }
-trap 'stop_all; rm -rf "$work"' EXIT
+trap 'stop_all; kill "${xvfb:-}" 2>/dev/null || true; rm -rf "$work"' EXIT
 trap 'exit 130' INT TERM
 
 mkfifo "$work/display"
