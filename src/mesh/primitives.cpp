@@ -4,6 +4,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "concave_distance/base/coordinate_limit.h"
 #include "concave_distance/base/error.h"
 
 namespace concave_distance {
@@ -13,11 +14,14 @@ constexpr double kPi = 3.14159265358979323846;
 /// A finer mesh than this is surely a chord error given in the wrong unit.
 constexpr double kMaxTriangles = 4e6;
 
+/// A capsule's corners are a radius and half a length from its centre.
+constexpr double kLongest = 0.5 * kLargestCoordinate;
+
 void requirePositive(double value, const char* name, const std::string& where) {
-  if (!(value > 0.0) || !std::isfinite(value)) {
+  if (!(value > 0.0) || !(value <= kLongest)) {
     std::ostringstream seen;
     seen << name << " is " << value;
-    throw Error(where, seen.str(), "give a positive, finite length in metres");
+    throw Error(where, seen.str(), "give a positive length of at most 5e17 m");
   }
 }
 

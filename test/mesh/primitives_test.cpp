@@ -175,10 +175,10 @@ TEST(Primitives, SpheresHaveNoSlivers) {
   }
 }
 
-TEST(Primitives, RefuseSizesThatAreNotPositiveAndFinite) {
+TEST(Primitives, RefuseSizesThatAreNotPositiveOrTooLarge) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinity = std::numeric_limits<double>::infinity();
-  for (const double bad : {0.0, -1.0, nan, infinity}) {
+  for (const double bad : {0.0, -1.0, nan, infinity, 1e200}) {
     EXPECT_THROW(makeBox({1.0, bad, 1.0}), Error);
     EXPECT_THROW(makeSphere(bad, 0.1), Error);
     EXPECT_THROW(makeSphere(1.0, bad), Error);
