@@ -9,6 +9,10 @@
 namespace concave_distance::detail {
 namespace {
 
+/// Above a triangle's index in `End::triangle`.
+constexpr std::uint64_t kSideB = std::uint64_t{1} << 32U;
+constexpr std::uint64_t kOpen = std::uint64_t{1} << 33U;
+
 bool apart(const Corners& a, const Corners& b) {
   for (int i = 0; i < 3; ++i) {
     const auto [low_a, high_a] = std::minmax({(*a[0])[i], (*a[1])[i], (*a[2])[i]});
@@ -77,6 +81,11 @@ void CrossingCurves::crossPair(WorkingFrame& frame, PerturbedPredicates& predica
     }
     return passing[i][j];
   };
+  const auto on_closed_shell = [&](Side side, TriangleIndex triangle) {
+    const MeshTopology& topology = frame.body(side).topology();
+    return topology.shell_is_closed[topology.shell_of_triangle[triangle.value]];
+  };
+  const bool closed = on_closed_shell(Side::A, pair.a) && on_closed_shell(Side::B, pair.b);
   const std::size_t first_end = ends_.size();
   const TriangleNodes& nodes_a = frame.surface(Side::A).triangle(pair.a);
   const TriangleNodes& nodes_b = frame.surface(Side::B).triangle(pair.b);
@@ -84,7 +93,7 @@ void CrossingCurves::crossPair(WorkingFrame& frame, PerturbedPredicates& predica
     const std::size_t next = (k + 1) % 3;
     if (sides_a.of[k] == sides_a.of[next]) continue;
     if (passes(k, 0) != passes(k, 1) || passes(k, 1) != passes(k, 2)) continue;
-    appendEnd(Side::A, nodes_a[k], nodes_a[next], pair.b, sides_a.of[k] > 0);
+    appendEnd(Side::A, nodes_a[k], nodes_a[next], pair.b, sides_a.of[k] > 0, closed);
     // Round the inside part of A's triangle the segment ends where an edge runs in.
     ends_.back().is_start = sides_a.of[k] < 0;
   }
@@ -92,7 +101,7 @@ void CrossingCurves::crossPair(WorkingFrame& frame, PerturbedPredicates& predica
     const std::size_t next = (k + 1) % 3;
     if (sides_b.of[k] == sides_b.of[next]) continue;
     if (passes(0, k) != passes(1, k) || passes(1, k) != passes(2, k)) continue;
-    appendEnd(Side::B, nodes_b[k], nodes_b[next], pair.a, sides_b.of[k] > 0);
+    appendEnd(Side::B, nodes_b[k], nodes_b[next], pair.a, sides_b.of[k] > 0, closed);
     ends_.back().is_start = sides_b.of[k] > 0;
   }
   if (ends_.size() == first_end) return;
@@ -101,11 +110,7 @@ void CrossingCurves::crossPair(WorkingFrame& frame, PerturbedPredicates& predica
     ends_.resize(first_end);
     return;
   }
-  const auto closed = [&](Side side, TriangleIndex triangle) {
-    const MeshTopology& topology = frame.body(side).topology();
-    return topology.shell_is_closed[topology.shell_of_triangle[triangle.value]];
-  };
-  segments_.push_back({{pair.a, pair.b}, kNone, kNone, closed(Side::A, pair.a) && closed(Side::B, pair.b)});
+  segments_.push_back({{pair.a, pair.b}, kNone, kNone, closed});
 }
 
 // B's triangle cut along A's edges (Sutherland and Hodgman 1974): six corners at most, 10 with what rounding
@@ -151,11 +156,13 @@ void CrossingCurves::addCommonFace(const CandidatePair& pair, const Corners& a, 
   common_faces_.push_back(face);
 }
 
-void CrossingCurves::appendEnd(Side side, NodeIndex from, NodeIndex to, TriangleIndex triangle, bool enters) {
+void CrossingCurves::appendEnd(Side side, NodeIndex from, NodeIndex to, TriangleIndex triangle, bool enters,
+                               bool closed) {
   const bool ascending = from < to;
   const NodeIndex low = ascending ? from : to;
   const NodeIndex high = ascending ? to : from;
-  ends_.push_back({pairKey(low, high), (std::uint64_t{at(side)} << 32U) | triangle.value,
+  const std::uint64_t of = (closed ? 0U : kOpen) | (at(side) == 0 ? 0U : kSideB) | triangle.value;
+  ends_.push_back({pairKey(low, high), of,
                    static_cast<std::uint32_t>(segments_.size()), false, enters == ascending});
 }
 
@@ -169,7 +176,7 @@ void CrossingCurves::joinEnds(WorkingFrame& frame) {
     const End& end = ends_[i];
     if (i == 0 || end.triangle != ends_[i - 1].triangle || end.edge != ends_[i - 1].edge) {
       CrossingNode node{};
-      node.edge_side = (end.triangle >> 32U) == 0 ? Side::A : Side::B;
+      node.edge_side = (end.triangle & kSideB) == 0 ? Side::A : Side::B;
       node.low = NodeIndex{static_cast<std::uint32_t>(end.edge >> 32U)};
       node.high = NodeIndex{static_cast<std::uint32_t>(end.edge)};
       node.triangle = TriangleIndex{static_cast<std::uint32_t>(end.triangle)};

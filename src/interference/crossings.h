@@ -12,7 +12,8 @@ namespace concave_distance::detail {
 
 inline constexpr std::uint32_t kNone = 0xffffffffU;
 
-/// Where an edge of one body runs through a triangle of the other.
+/// Where an edge of one body runs through a triangle of the other. Where a sheet hangs on an edge of a closed
+/// shell there are two: one on the curves of closed shells, one on the sheet's.
 struct CrossingNode {
   Side edge_side;  ///< whose edge
   NodeIndex low;   ///< the edge's ends, low < high
@@ -62,7 +63,7 @@ class CrossingCurves {
   /// One end of a segment before ends at the same crossing are told to be one node.
   struct End {
     std::uint64_t edge;      ///< low and high
-    std::uint64_t triangle;  ///< and whose edge
+    std::uint64_t triangle;  ///< whose edge, and on which kind of curve
     std::uint32_t segment;
     bool is_start;
     bool enters;
@@ -70,7 +71,7 @@ class CrossingCurves {
 
   void crossPair(WorkingFrame& frame, PerturbedPredicates& predicates, const CandidatePair& pair);
   void addCommonFace(const CandidatePair& pair, const Corners& a, const Corners& b, bool b_below);
-  void appendEnd(Side side, NodeIndex from, NodeIndex to, TriangleIndex triangle, bool enters);
+  void appendEnd(Side side, NodeIndex from, NodeIndex to, TriangleIndex triangle, bool enters, bool closed);
   void joinEnds(WorkingFrame& frame);
 
   std::vector<CrossingNode> nodes_;

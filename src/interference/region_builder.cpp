@@ -70,11 +70,14 @@ void RegionBuilder::addSwallowedShells(PerturbedPredicates& predicates, Side sid
   shell_seen_.assign(topology.shellCount(), 0);
   for (const CrossingSegment& segment : curves_.segments())
     shell_seen_[topology.shell_of_triangle[segment.triangle[at(side)].value]] = 1;
-  for (std::size_t shell = 0; shell < topology.shellCount(); ++shell) {
-    const TriangleIndex triangle = topology.triangle_of_shell[shell];
-    if (triangle == kNoTriangle || shell_seen_[shell] != 0) continue;
-    if (containment_.winding(frame_, predicates, side, *frame_.corners(side, triangle)[0]) > 0)
-      pieces_[at(side)].addShell(frame_, triangle, sets_);
+  for (const bool closed : {true, false}) {
+    for (std::size_t shell = 0; shell < topology.shellCount(); ++shell) {
+      const TriangleIndex triangle = topology.triangle_of_shell[shell];
+      if (triangle == kNoTriangle || shell_seen_[shell] != 0 || topology.shell_is_closed[shell] != closed)
+        continue;
+      if (containment_.winding(frame_, predicates, side, *frame_.corners(side, triangle)[0]) > 0)
+        pieces_[at(side)].addShell(frame_, triangle, sets_);
+    }
   }
 }
 

@@ -168,7 +168,7 @@ void SurfacePieces::seedFromLoops(WorkingFrame& frame, PerturbedPredicates& pred
   }
 }
 
-void SurfacePieces::flood(const WorkingFrame& frame, ElementSets& sets) {
+void SurfacePieces::flood(const WorkingFrame& frame, ElementSets& sets, std::uint32_t open_shell) {
   const SurfaceMesh& surface = frame.surface(side_);
   const MeshTopology& topology = frame.body(side_).topology();
   while (!waiting_.empty()) {
@@ -176,6 +176,8 @@ void SurfacePieces::flood(const WorkingFrame& frame, ElementSets& sets) {
     waiting_.pop_back();
     const std::uint32_t element = vertex_marks_[vertex.value].value;
     for (const TriangleIndex triangle : topology.triangles_of_vertex.row(vertex.value)) {
+      const std::uint32_t shell = topology.shell_of_triangle[triangle.value];
+      if (open_shell == kNone ? !topology.shell_is_closed[shell] : shell != open_shell) continue;
       const TriangleNodes& nodes = surface.triangle(triangle);
       Mark& mark = triangle_marks_[triangle.value];
       const bool crossed = mark.stamp == stamp_ && mark.value == kCrossed;
@@ -191,10 +193,13 @@ void SurfacePieces::flood(const WorkingFrame& frame, ElementSets& sets) {
   }
 }
 
-std::uint32_t SurfacePieces::addShell(WorkingFrame& frame, TriangleIndex triangle, ElementSets& sets) {
-  const std::uint32_t element = markInside(frame.surface(side_).triangle(triangle)[0], sets);
-  flood(frame, sets);
-  return element;
+void SurfacePieces::addShell(WorkingFrame& frame, TriangleIndex triangle, ElementSets& sets) {
+  const MeshTopology& topology = frame.body(side_).topology();
+  const std::uint32_t shell = topology.shell_of_triangle[triangle.value];
+  const bool open = !topology.shell_is_closed[shell];
+  if (open) startStamp(frame);  // a sheet that hangs on a solid has vertices in common with it
+  markInside(frame.surface(side_).triangle(triangle)[0], sets);
+  flood(frame, sets, open ? shell : kNone);
 }
 
 void SurfacePieces::emitTriangle(WorkingFrame& frame, const CrossingCurves& curves, std::size_t first,

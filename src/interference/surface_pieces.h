@@ -30,8 +30,8 @@ class SurfacePieces {
   /// Adds the inside vertices to `sets`, which hold the nodes, and unites what hangs together.
   void collect(WorkingFrame& frame, PerturbedPredicates& predicates, Containment& containment,
                const CrossingCurves& curves, Side side, ElementSets& sets);
-  /// Takes a whole shell that nothing crosses as inside. Returns its element.
-  std::uint32_t addShell(WorkingFrame& frame, TriangleIndex triangle, ElementSets& sets);
+  /// Takes a whole shell that nothing crosses as inside; closed ones before open ones.
+  void addShell(WorkingFrame& frame, TriangleIndex triangle, ElementSets& sets);
 
   const std::vector<PieceEdge>& edges() const { return edges_; }
   const std::vector<WholeTriangle>& wholes() const { return wholes_; }
@@ -63,7 +63,8 @@ class SurfacePieces {
   void seedFromEdges(const CrossingCurves& curves, ElementSets& sets);
   void seedFromLoops(WorkingFrame& frame, PerturbedPredicates& predicates, Containment& containment,
                      const CrossingCurves& curves, ElementSets& sets);
-  void flood(const WorkingFrame& frame, ElementSets& sets);
+  /// Over closed shells, or over one open shell.
+  void flood(const WorkingFrame& frame, ElementSets& sets, std::uint32_t open_shell = kNone);
   void emitTriangle(WorkingFrame& frame, const CrossingCurves& curves, std::size_t first, std::size_t last,
                     ElementSets& sets);
   void emitEdge(WorkingFrame& frame, const CrossingCurves& curves, TriangleIndex triangle, NodeIndex from,

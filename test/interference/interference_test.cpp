@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "interference/interference_checks.h"
 #include "support/mesh_variants.h"
 #include "support/thesis_scenes.h"
@@ -295,6 +297,46 @@ TEST(Interference, OfOpenSheetsIsTheirCurvesFlagged) {
   ASSERT_EQ(swallowed.regions.size(), 1u);
   EXPECT_TRUE(swallowed.b_inside_a && !swallowed.regions[0].closed);
   EXPECT_NEAR(swallowed.regions[0].surface_area_b, 0.04, kRounding);
+}
+
+// The box and the sheet have an edge and its corners in common.
+TEST(Interference, OfABoxWithASheetOnItsEdgeIsThatOfTheBoxAndTheSheetsCurves) {
+  const SurfaceMesh box = test::makeCuboid({0, 0, 0}, {1, 1, 1});
+  std::vector<Eigen::Vector3d> vertices = box.vertices();
+  std::vector<TriangleNodes> triangles = box.triangles();
+  const auto corner = [&](const Eigen::Vector3d& at) {
+    return NodeIndex{
+        static_cast<std::size_t>(std::find(vertices.begin(), vertices.end(), at) - vertices.begin())};
+  };
+  triangles.push_back(
+      {corner(Eigen::Vector3d(0, 0, 1)), corner(Eigen::Vector3d(1, 0, 1)), NodeIndex{vertices.size()}});
+  vertices.emplace_back(0.5, 0, 2);
+  const SurfaceMesh finned(vertices, triangles, "finned box");
+
+  const SurfaceMesh bar = test::makeCuboid({0.25, -0.5, 0.5}, {0.75, 0.5, 3});
+  for (const bool swapped : {false, true}) {
+    const Interference cut = swapped ? interferenceOf(bar, finned, Eigen::Isometry3d::Identity())
+                                     : interferenceOf(finned, bar, Eigen::Isometry3d::Identity());
+    ASSERT_GE(cut.regions.size(), 2u);
+    std::size_t solids = 0;
+    for (const InterferenceRegion& region : cut.regions) {
+      EXPECT_TRUE(region.consistent);
+      solids += region.closed ? 1U : 0U;
+      if (!region.closed) continue;
+      EXPECT_NEAR(region.volume, 0.125, kRounding);
+      EXPECT_EQ(region.loop_count, 1u);
+    }
+    EXPECT_EQ(solids, 1u);
+  }
+
+  const SurfaceMesh room = test::makeCuboid({-1, -1, -1}, {3, 3, 3});
+  const Interference swallowed = interferenceOf(finned, room, Eigen::Isometry3d::Identity());
+  ASSERT_EQ(swallowed.regions.size(), 2u);
+  for (const InterferenceRegion& region : swallowed.regions) {
+    EXPECT_TRUE(region.a_swallowed);
+    EXPECT_NEAR(region.surface_area_a, region.closed ? 6.0 : 0.5, 8 * kRounding);
+    EXPECT_NEAR(region.closed ? region.volume : 1.0, 1.0, kRounding);
+  }
 }
 
 TEST(Interference, RefusesWhatIsNoPose) {
