@@ -162,8 +162,8 @@ void CrossingCurves::appendEnd(Side side, NodeIndex from, NodeIndex to, Triangle
   const NodeIndex low = ascending ? from : to;
   const NodeIndex high = ascending ? to : from;
   const std::uint64_t of = (closed ? 0U : kOpen) | (at(side) == 0 ? 0U : kSideB) | triangle.value;
-  ends_.push_back({pairKey(low, high), of,
-                   static_cast<std::uint32_t>(segments_.size()), false, enters == ascending});
+  ends_.push_back(
+      {pairKey(low, high), of, static_cast<std::uint32_t>(segments_.size()), false, enters == ascending});
 }
 
 void CrossingCurves::joinEnds(WorkingFrame& frame) {

@@ -210,6 +210,8 @@ def main(arguments):
         print("%d attacks" % sum(len(group.attacks) for group in groups.values()))
         return 0
     threading.excepthook = lambda problem: None  # clients of a node that was ended
+    # A shell starts its background jobs with SIGINT ignored, and programs started here would inherit that.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))  # so that the node and the master end too
     folder = options.folder or tempfile.mkdtemp(prefix="faults_")
     began = time.monotonic()
