@@ -198,11 +198,10 @@ YamlMap::YamlMap(const YamlValue& value, const std::string& expected) : value_(v
     const std::string& key = entry.first.Scalar();
     const std::string path = value.key_.empty() ? key : value.key_ + "." + key;
     YamlValue child(entry.second, lineOf(entry.second, line), path, value.file_);
-    const auto same =
-        std::find_if(entries_.begin(), entries_.end(), [&](const auto& other) { return other.first == key; });
-    if (same != entries_.end()) {
+    const auto [same, is_new] = index_.emplace(key, entries_.size());
+    if (!is_new) {
       child.line_ = line;
-      child.fail("the key stands twice, first in line " + std::to_string(same->second.line_),
+      child.fail("the key stands twice, first in line " + std::to_string(entries_[same->second].second.line_),
                  "remove one of them");
     }
     entries_.emplace_back(key, std::move(child));
@@ -211,10 +210,9 @@ YamlMap::YamlMap(const YamlValue& value, const std::string& expected) : value_(v
 
 std::optional<YamlValue> YamlMap::take(const std::string& key) {
   asked_.push_back(key);
-  for (const auto& [name, value] : entries_) {
-    if (name == key) return value;
-  }
-  return std::nullopt;
+  const auto found = index_.find(key);
+  if (found == index_.end()) return std::nullopt;
+  return entries_[found->second].second;
 }
 
 YamlValue YamlMap::require(const std::string& key, const std::string& remedy) {

@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -93,6 +94,7 @@ class YamlMap {
  private:
   YamlValue value_;
   std::vector<std::pair<std::string, YamlValue>> entries_;
+  std::unordered_map<std::string, std::size_t> index_;  ///< into entries_
   std::vector<std::string> asked_;
 };
 
