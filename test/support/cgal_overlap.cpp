@@ -173,6 +173,24 @@ OverlapTruth cgalOverlap(const SurfaceMesh& a, const SurfaceMesh& b_in_a) {
   return truth;
 }
 
+struct CgalSolids::Solid {
+  explicit Solid(const SurfaceMesh& surface) : mesh(meshOf<ExactMesh>(surface)), side(mesh) {}
+  ExactMesh mesh;
+  CGAL::Side_of_triangle_mesh<ExactMesh, Exact> side;
+};
+
+CgalSolids::CgalSolids(const std::vector<SurfaceMesh>& solids) {
+  for (const SurfaceMesh& solid : solids) solids_.push_back(std::make_unique<Solid>(solid));
+}
+
+CgalSolids::~CgalSolids() = default;
+
+bool CgalSolids::hold(const Eigen::Vector3d& point) const {
+  const Exact::Point_3 at(point.x(), point.y(), point.z());
+  return std::any_of(solids_.begin(), solids_.end(),
+                     [&](const auto& solid) { return solid->side(at) == CGAL::ON_BOUNDED_SIDE; });
+}
+
 double cgalFastOverlapTime(const SurfaceMesh& a, const SurfaceMesh& b_in_a) {
   return fastestCorefinement<FastMesh>(a, b_in_a);
 }

@@ -27,6 +27,19 @@ struct OverlapTruth {
 /// b already in A's frame. Meshes must bound volumes and not cross themselves.
 OverlapTruth cgalOverlap(const SurfaceMesh& a, const SurfaceMesh& b_in_a);
 
+/// Closed solids, asked by CGAL's winding numbers with exact arithmetic.
+class CgalSolids {
+ public:
+  explicit CgalSolids(const std::vector<SurfaceMesh>& solids);
+  ~CgalSolids();
+  /// Whether one of them holds the point.
+  bool hold(const Eigen::Vector3d& point) const;
+
+ private:
+  struct Solid;
+  std::vector<std::unique_ptr<Solid>> solids_;
+};
+
 /// Seconds of CGAL's corefinement, the fastest of a few runs: with inexact constructions (doubles and exact
 /// predicates), and exact. -1 where it gives up.
 double cgalFastOverlapTime(const SurfaceMesh& a, const SurfaceMesh& b_in_a);
