@@ -42,6 +42,7 @@ void RequestGate::leave() {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     --working_;
+    ++ended_;
   }
   changed_.notify_all();
 }

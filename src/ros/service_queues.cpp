@@ -1,5 +1,6 @@
 #include "concave_distance/ros/service_queues.h"
 
+#include <malloc.h>
 #include <ros/init.h>
 
 #include <chrono>
@@ -9,6 +10,7 @@ namespace {
 
 constexpr std::uint32_t kLightThreads = 2;  // a look at the scene does not wait for an edit of it
 constexpr std::chrono::milliseconds kWatchPeriod{20};
+constexpr std::chrono::seconds kReturnPeriod{5};
 
 ros::NodeHandle onQueue(const ros::NodeHandle& node, ros::CallbackQueue& queue) {
   ros::NodeHandle handle(node);
@@ -25,7 +27,7 @@ ServiceQueues::ServiceQueues(const ros::NodeHandle& node, const NodeLimits& limi
       light_spinner_(kLightThreads, &light_queue_),
       // One for each request that works or waits, and one that refuses the next.
       heavy_spinner_(limits.service_threads + limits.service_queue + 1, &heavy_queue_),
-      watcher_([this] { watchForShutdown(); }) {
+      watcher_([this] { watch(); }) {
   light_spinner_.start();
   heavy_spinner_.start();
 }
@@ -43,13 +45,21 @@ ServiceQueues::~ServiceQueues() {
 }
 
 // Polling: roscpp says that it shuts down by a flag only, before it waits for the services.
-void ServiceQueues::watchForShutdown() {
+void ServiceQueues::watch() {
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point last_look = Clock::now();
+  std::uint64_t ended = 0;
   std::unique_lock<std::mutex> lock(mutex_);
   while (!ending_.wait_for(lock, kWatchPeriod, [this] { return ends_; })) {
     if (ros::isShuttingDown()) {
       gate_.stop();
       return;
     }
+    if (Clock::now() - last_look < kReturnPeriod) continue;
+    last_look = Clock::now();
+    if (gate_.ended() == ended) continue;
+    ended = gate_.ended();
+    malloc_trim(0);
   }
 }
 

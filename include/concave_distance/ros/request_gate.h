@@ -35,6 +35,8 @@ class RequestGate {
   /// Refuses everybody who waits or comes, and raises the flag that ends the work of those who are in.
   void stop();
   const std::atomic<bool>& stopped() const { return stopped_; }
+  /// How many requests have been worked on.
+  std::uint64_t ended() const { return ended_; }
 
  private:
   void leave();
@@ -47,6 +49,7 @@ class RequestGate {
   std::deque<std::uint64_t> line_;  ///< who waits, in the order they came
   std::uint64_t next_ = 0;          ///< who comes next
   std::uint32_t working_ = 0;
+  std::atomic<std::uint64_t> ended_{0};
   std::atomic<bool> stopped_{false};
 };
 

@@ -16,6 +16,7 @@ namespace concave_distance {
 /// Queues and threads of their own for the services: one for requests that take long, behind a gate, and one
 /// for those that do not. In a nodelet as well, whose manager's threads are for all its nodelets.
 /// When roscpp shuts down it waits for running services; a thread sees that it has begun and ends their work.
+/// It also gives memory back to the system after requests: malloc keeps what each thread has needed once.
 class ServiceQueues {
  public:
   ServiceQueues(const ros::NodeHandle& node, const NodeLimits& limits);
@@ -30,7 +31,7 @@ class ServiceQueues {
   RequestGate& gate() { return gate_; }
 
  private:
-  void watchForShutdown();
+  void watch();
 
   RequestGate gate_;
   ros::CallbackQueue light_queue_;
