@@ -1,20 +1,23 @@
 #!/usr/bin/env bash
 # Runs every property test on cases that no run has seen: a new seed, 20,000 cases each. scripts/test.sh draws the same
 # hundred each time. Programs that are missing in build/ are built.
-#   scripts/fresh_tests.sh [--cases N] [--seed N] [program ...]      (default: 20000, drawn, every program)
+#   scripts/fresh_tests.sh [--cases N] [--seed N] [--property NAME] [program ...]
+# Default: 20000 cases, a seed drawn, every property of every program.
 # What failed is printed with the seed and the case; the last line is `N passed, N failed`, counted in properties.
-# To repeat one: RC_PARAMS="seed=N max_success=N" build/test/bin/<program> --gtest_filter=<property>
+# To repeat one: this script with the seed, the program and `--property <name>`.
 set -euo pipefail
 # shellcheck source=scripts/common.sh
 . "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 cases=20000
 seed="$(od -An -N4 -tu4 /dev/urandom | tr -d ' ')"
+only=
 programs=()
 while [ $# -gt 0 ]; do
   case "$1" in
     --cases) cases="$2" && shift ;;
     --seed) seed="$2" && shift ;;
+    --property) only="$2" && shift ;;
     -*) die "unknown option '$1'" ;;
     *) programs+=("$1") ;;
   esac
@@ -22,12 +25,17 @@ while [ $# -gt 0 ]; do
 done
 
 test_dir="$package_dir/test"
-# Of this one every test is a property; it draws with the package's own engine (test/support/case_seed.h).
-own=triangle_distance_accuracy_test
+# Properties that draw with the package's own engine (test/support/case_seed.h).
+declare -A own=(
+  [triangle_distance_accuracy_test]='*'
+  [union_of_solids_test]='*ContainsExactlyTheMaterial*:*ARepairedUnionStays*'
+  [union_of_solids_query_test]='*'
+  [union_cgal_test]='*'
+)
 if [ ${#programs[@]} -eq 0 ]; then
   mapfile -t programs < <(sed -n 's/^target_link_libraries(\(\w*\) PRIVATE concave_distance_property_tests.*/\1/p' \
     "$test_dir"/*/CMakeLists.txt | sort)
-  programs+=("$own")
+  programs+=("${!own[@]}")
 fi
 properties="$(sed -n 's/^RC_GTEST_PROP(\(\w*\), *\(\w*\),.*/\1.\2/p' "$test_dir"/*/*.cpp | paste -sd:)"
 
@@ -51,8 +59,7 @@ failed=0
 for program in "${programs[@]}"; do
   log="$results/$program.log"
   status=0
-  filter="$properties"
-  [ "$program" != "$own" ] || filter='*'
+  filter="${only:-${own[$program]:-$properties}}"
   "$build_dir/test/bin/$program" --gtest_filter="$filter" >"$log" 2>&1 || status=$?
   good="$(grep -c '^\[       OK \]' "$log" || true)"
   bad="$(grep -c '^\[  FAILED  \] .*ms)$' "$log" || true)"

@@ -9,7 +9,7 @@
 #include "mesh/mesh_measures.h"
 #include "support/body_pairs.h"
 #include "support/painted_boxes.h"
-#include "support/property_runs.h"
+#include "support/case_seed.h"
 
 /// Repair makes of a file's triangles the surface of the union of its solids, and the topology says what is
 /// inside it.
@@ -237,8 +237,8 @@ Drawn draw(RandomEngine& engine) {
 }
 
 TEST(UnionOfSolids, ContainsExactlyTheMaterialOfEverySolid) {
-  const std::uint64_t seed = test::propertySeed();
-  const std::uint64_t cases = test::propertyCases(400);
+  const std::uint64_t seed = test::caseSeed(1);
+  const std::uint64_t cases = test::caseCount<std::uint64_t>(400);
   for (std::uint64_t i = 0; i < cases; ++i) {
     RandomEngine engine(streamSeed(seed, "union of solids", i));
     const Drawn drawn = draw(engine);
@@ -257,8 +257,8 @@ TEST(UnionOfSolids, ContainsExactlyTheMaterialOfEverySolid) {
 }
 
 TEST(UnionOfSolids, ARepairedUnionStaysAsItIs) {
-  const std::uint64_t seed = test::propertySeed();
-  const std::uint64_t cases = test::propertyCases(200);
+  const std::uint64_t seed = test::caseSeed(1);
+  const std::uint64_t cases = test::caseCount<std::uint64_t>(200);
   for (std::uint64_t i = 0; i < cases; ++i) {
     RandomEngine engine(streamSeed(seed, "repaired union", i));
     const RepairedMesh once = repair(draw(engine).soup);

@@ -15,9 +15,11 @@ inline std::uint64_t caseSeed(std::uint64_t usual) {
 }
 
 /// How many cases it draws: as usual, or CONCAVE_DISTANCE_FRESH_CASES.
-inline int caseCount(int usual) {
+template <typename Count>
+Count caseCount(Count usual) {
   const char* const wanted = std::getenv("CONCAVE_DISTANCE_FRESH_CASES");
-  return wanted == nullptr || std::atoi(wanted) < 1 ? usual : std::atoi(wanted);
+  const int count = wanted == nullptr ? 0 : std::atoi(wanted);
+  return count < 1 ? usual : static_cast<Count>(count);
 }
 
 }  // namespace concave_distance::test

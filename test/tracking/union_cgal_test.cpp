@@ -94,9 +94,9 @@ File drawFile(RandomEngine& engine, bool with_overlaps) {
 
 TEST(UnionAgainstCgal, HoldsThePointsThatASolidHolds) {
   const std::uint64_t seed = test::caseSeed(1);
-  const int cases = test::caseCount(40);
-  for (int i = 0; i < cases; ++i) {
-    RandomEngine engine(streamSeed(seed, "points in unions", static_cast<std::uint64_t>(i)));
+  const std::uint64_t cases = test::caseCount<std::uint64_t>(40);
+  for (std::uint64_t i = 0; i < cases; ++i) {
+    RandomEngine engine(streamSeed(seed, "points in unions", i));
     const File file = drawFile(engine, uniformIndex(engine, 2) == 0);
     const MeshTopology& topology = file.body->topology();
     const test::CgalSolids solids(file.solids);
@@ -118,10 +118,10 @@ void expectStatus(const PairSolution& solution, AccuracyLevel level, bool overla
 
 TEST(UnionAgainstCgal, OverlapsAsMuchAsItsSolidsDo) {
   const std::uint64_t seed = test::caseSeed(1);
-  const int cases = test::caseCount(12);
-  int overlaps = 0;
-  for (int i = 0; i < cases; ++i) {
-    RandomEngine engine(streamSeed(seed, "overlaps of unions", static_cast<std::uint64_t>(i)));
+  const std::uint64_t cases = test::caseCount<std::uint64_t>(12);
+  std::uint64_t overlaps = 0;
+  for (std::uint64_t i = 0; i < cases; ++i) {
+    RandomEngine engine(streamSeed(seed, "overlaps of unions", i));
     const File a = drawFile(engine, false);
     const SurfaceMesh partner = test::randomStar(engine);
     const Eigen::Isometry3d pose = test::randomPose(engine, 0.9);
