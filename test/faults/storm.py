@@ -18,6 +18,9 @@ SAMPLE = 1.0            # s, between two looks at the memory
 REPORT = 60.0           # s, between two lines about how it goes
 GROWTH_MB = 100.0       # that the node's own memory may gain from its second quarter to its last
 LONGEST_SILENCE = 60.0  # s without an answer to list_bodies; the machine is busy with attackers too
+# Small limits, so that memory that no limit holds stands out; what they leave to the node and the processes it starts.
+LIMITS = {"limits/query_memory_mb": 128, "limits/import_memory_mb": 256, "limits/largest_node_count": 50000}
+LARGEST_MB = 1500.0
 OVERHANG = 120.0        # s that attacks may take to end after the storm
 
 
@@ -136,7 +139,7 @@ class Storm:
 
 
 def storm_setting():
-    return {"diagnostic_period": 1.0}
+    return {"diagnostic_period": 1.0, **LIMITS}
 
 
 def check(runner, name, act):
@@ -153,6 +156,7 @@ def check(runner, name, act):
 def run(runner, attacks, seconds, seed):
     """attacks: pairs of a group and those of its attacks that take part."""
     arena = runner.arena
+    arena.largest_mb = LARGEST_MB * arena.memory_factor
     storm = Storm(arena, attacks, seed)
     storm.start_node()
     fresh = reference.answers(arena.node)
