@@ -54,7 +54,7 @@ bool areSameFile(const std::string& left, const std::string& right) {
 }
 
 [[noreturn]] void throwUnwritable(const std::string& path) {
-  throw Error(path, "the file cannot be written", "check that its folder exists and may be written");
+  throw Error(path, "the file cannot be written", "check that its folder exists and is writable");
 }
 
 }  // namespace
@@ -101,8 +101,8 @@ void OutputFile::finish() {
   if (fs::exists(before)) fs::permissions(temporary_, before.permissions(), failure);
   fs::rename(temporary_, target_, failure);
   if (failure) {
-    throw Error(path_, "the complete file cannot take its place: " + failure.message(),
-                "check the rights on its folder");
+    throw Error(path_, "the finished file cannot replace it: " + failure.message(),
+                "check the permissions of its folder");
   }
   temporary_.clear();
 }

@@ -23,7 +23,7 @@ constexpr double kLongestTime = 1e9;  // s, fits every clock
 constexpr const char* kReinstall =
     "build and install the whole package, or set CONCAVE_DISTANCE_IMPORT_WORKER to the path of its "
     "mesh_import_worker";
-constexpr const char* kExportAgain = "the file is broken or made to do this: export the mesh again";
+constexpr const char* kExportAgain = "the file is broken: export the mesh again";
 
 template <typename Number>
 std::string textOf(Number value, int digits) {
@@ -56,7 +56,7 @@ Error tooMuchTime(const std::string& path, const MeshImportLimits& limits) {
 }
 
 Error garbled(const std::string& path) {
-  return {path, "the program that reads meshes gave an answer that is not one of its own", kReinstall};
+  return {path, "the program that reads meshes gave an invalid answer", kReinstall};
 }
 
 /// Why there is no whole answer.
@@ -66,7 +66,7 @@ Error describeEnd(const std::string& path, const std::string& worker, const Chil
   if (end.was_late || end.signal == SIGXCPU) return tooMuchTime(path, limits);
   if (!end.is_known) return {path, "the process that read it ended without an answer", kExportAgain};
   if (end.signal == SIGKILL) {
-    return {path, "the system ended the process that read it, mostly because memory is short",
+    return {path, "the system ended the process that read it, probably because memory is short",
             "free memory or simplify the mesh"};
   }
   if (end.signal == SIGINT || end.signal == SIGTERM || end.signal == SIGHUP) {

@@ -98,7 +98,7 @@ MeshFile::MeshFile(std::string path, const std::vector<std::string>& folders)
   if (named.get() < 0) refuseToOpen(path_, errno);
   checkFolder(path_, named.get(), folders);
   if (!S_ISREG(statusOf(path_, named.get()).st_mode)) {
-    throw Error(path_, "this is not a file but a folder, a device or the like", "name a mesh file");
+    throw Error(path_, "this is not a file, but a folder or a device", "name a mesh file");
   }
   Descriptor opened(open(procPathOf(named.get()).c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
   if (opened.get() < 0) refuseToOpen(path_, errno);

@@ -17,7 +17,7 @@ void reportEscape(const char* callback, const char* reason) noexcept {
       if (!throttle.isDue(callback)) return;
     }
     ROS_ERROR("%s failed: %s (the node goes on; please report this)", callback,
-              reason == nullptr ? "an exception without a text" : reason);
+              reason == nullptr ? "an exception without a message" : reason);
   } catch (...) {
     // Without memory for a message there is nothing left to do.
   }

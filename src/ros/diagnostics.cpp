@@ -31,7 +31,7 @@ void describeCycle(const CycleWindow& window, double wanted_rate,
   const double rate = window.seconds > 0.0 ? static_cast<double>(window.cycles) / window.seconds : 0.0;
   const auto cycles = static_cast<double>(std::max<std::uint64_t>(window.cycles, 1));
   if (window.failed > 0) {
-    status.summary(DiagnosticStatus::ERROR, "cycles were ended by an error of the node (see its log)");
+    status.summary(DiagnosticStatus::ERROR, "errors ended cycles (see the node's log)");
   } else if (window.cycles == 0) {
     status.summary(DiagnosticStatus::WARN, "no cycle ran (waiting for the scene, or the clock stands still)");
   } else if (window.last.watched == 0) {

@@ -71,7 +71,7 @@ QueryAnswer outOfTime(const DistanceQuery& query, const PairHeading& heading) {
   PairStatus status;
   status.code = PairStatus::BUDGET_EXHAUSTED;
   status.message =
-      "the call's time was up before this query was begun (ask fewer queries in one call, or raise "
+      "the call's time ran out before this query began (send fewer queries in one call, or raise "
       "~limits/query_seconds)";
   QueryAnswer answer;
   answer.result = emptyNiches(heading, status);
@@ -184,7 +184,7 @@ QueryAnswer answerQuery(const DistanceQuery& query, const Scene& scene, const Qu
   } catch (const Error& problem) {
     status.message = shortText(problem.what());
   } catch (const std::bad_alloc&) {
-    status.message = "there is not enough memory for this query (ask for less at once)";
+    status.message = "there is not enough memory for this query (request less in one call)";
   } catch (const std::exception& problem) {
     status.message = shortText(problem.what());
   }
@@ -252,7 +252,7 @@ bool DistanceQueries::getDistances(GetDistances::Request& request, GetDistances:
     }
     if (request.queries.size() > limits_.largest_query_count) {
       throw Error("queries", std::to_string(request.queries.size()) + " in one call",
-                  "ask in several calls; ~limits/largest_query_count is " +
+                  "split them into several calls; ~limits/largest_query_count is " +
                       std::to_string(limits_.largest_query_count));
     }
     const RequestGate::Place place = gate_.enter();

@@ -48,7 +48,7 @@ std::string describeMissingFrames(const tf2::BufferCore& buffer, const Scene& sc
   std::ostringstream text;
   if (!unknown.empty()) {
     text << unknown.size() << " frames of bodies are not on tf: " << listed(unknown)
-         << "; is robot_state_publisher running, and do the joint states name every joint?";
+         << "; check that robot_state_publisher runs and that the joint states name every joint.";
   }
   if (!elsewhere.empty()) {
     text << (unknown.empty() ? "" : " ") << "tf does not connect the reference frame '" << reference_frame

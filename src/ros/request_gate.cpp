@@ -14,13 +14,12 @@ RequestGate::Place RequestGate::enter() {
   const auto busy = [&](const std::string& what) {
     return Error(
         "SERVICE BUSY", what,
-        "ask again later, one after the other, or raise ~limits/service_threads or ~limits/service_queue");
+        "send requests later, one at a time, or raise ~limits/service_threads or ~limits/service_queue");
   };
   std::unique_lock<std::mutex> lock(mutex_);
   const bool has_to_wait = working_ >= workers_ || !line_.empty();
   if (!stopped_ && has_to_wait && line_.size() >= waiting_) {
-    throw busy(std::to_string(workers_) + " requests are worked on and " + std::to_string(waiting_) +
-               " wait");
+    throw busy(std::to_string(workers_) + " requests run and " + std::to_string(waiting_) + " wait");
   }
   const std::uint64_t turn = next_++;
   line_.push_back(turn);

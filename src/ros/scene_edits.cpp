@@ -33,8 +33,8 @@ void requireRoomForPairs(const Scene& scene, std::size_t more) {
   const std::size_t pairs = scene.pairs.size();
   if (more > scene.limits.pairs || pairs > scene.limits.pairs - more) {
     throw Error("pairs",
-                std::to_string(more) + " new pairs beside the " + std::to_string(pairs) +
-                    " that there are, the limit is " + std::to_string(scene.limits.pairs),
+                std::to_string(more) + " new pairs besides the " + std::to_string(pairs) +
+                    " of the scene, the limit is " + std::to_string(scene.limits.pairs),
                 "name fewer bodies in pair_with, set without_pairs, or raise ~limits/largest_pair_count");
   }
 }
@@ -129,7 +129,7 @@ bool isRosName(const std::string& name) {
 std::size_t requireBody(const Scene& scene, const std::string& name) {
   const auto found = scene.findBody(name);
   if (!found) {
-    throw Error("body", "there is no body '" + name + "'", "list_bodies tells their names");
+    throw Error("body", "there is no body '" + name + "'", "list_bodies has their names");
   }
   return *found;
 }
@@ -138,13 +138,13 @@ std::size_t requirePair(const Scene& scene, const std::string& name) {
   if (const auto found = scene.pairs.find(name)) {
     return *found;
   }
-  throw Error("pair", "there is no pair '" + name + "'", "list_bodies tells their names");
+  throw Error("pair", "there is no pair '" + name + "'", "list_bodies has their names");
 }
 
 void requireRoomForBody(const Scene& scene) {
   if (scene.bodies.size() >= scene.limits.bodies) {
     throw Error("scene", "it has " + std::to_string(scene.bodies.size()) + " bodies, the limit",
-                "remove_body some, or raise ~limits/largest_body_count");
+                "remove bodies with remove_body, or raise ~limits/largest_body_count");
   }
 }
 
@@ -152,7 +152,7 @@ AddedPairs addBody(Scene& scene, SceneBody body, const PairPartners& partners, c
   requireRoomForBody(scene);
   if (!isRosName(body.name)) {
     throw Error("name", "'" + body.name + "' cannot be part of a topic name",
-                "begin with a letter, go on with letters, digits, _ and /, 200 of them at the most");
+                "begin with a letter, then letters, digits, _ and /, at most 200 characters");
   }
   if (scene.findBody(body.name)) {
     throw Error("name", "there is a body '" + body.name + "' already", "remove_body it first");
@@ -170,9 +170,8 @@ AddedPairs addBody(Scene& scene, SceneBody body, const PairPartners& partners, c
 std::vector<std::string> removeBody(Scene& scene, const std::string& name, bool allow_robot_link) {
   const std::size_t gone = requireBody(scene, name);
   if (scene.bodies[gone].is_robot_link && !allow_robot_link) {
-    throw Error(
-        "name", "'" + name + "' is a link of a robot",
-        "set allow_robot_link to remove it all the same, or switch its pairs off by set_pair_enabled");
+    throw Error("name", "'" + name + "' is a link of a robot",
+                "set allow_robot_link to remove it anyway, or switch its pairs off with set_pair_enabled");
   }
   std::vector<std::string> names;
   PairList kept;

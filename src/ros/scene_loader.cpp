@@ -24,7 +24,8 @@ void SceneLoader::start(const NodeParameters& parameters, SceneRequest request) 
     } catch (const Error& error) {
       outcome_.error = error;
     } catch (const std::exception& exception) {  // memory, for one
-      outcome_.error = Error("scene", exception.what(), "nothing of it can be served");
+      outcome_.error =
+          Error("scene", exception.what(), "free memory, or report this as an error of the package");
     }
     done_ = true;
   });

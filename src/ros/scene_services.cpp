@@ -77,11 +77,11 @@ std::string remarksOn(const AddedPairs& added, const std::string& frame, bool fr
         "' is not on tf: the body's pairs have no distance until something publishes it");
   }
   if (!added.unknown.empty()) {
-    add("touch_links: no bodies: " + listed(added.unknown));
+    add("touch_links names no body of the scene: " + listed(added.unknown));
   }
   if (!added.rigid_neighbours.empty()) {
-    add("not watched against what cannot move against '" + frame + "': " + listed(added.rigid_neighbours) +
-        " (pair_with watches them all the same)");
+    add("not watched against bodies rigidly connected with '" + frame +
+        "': " + listed(added.rigid_neighbours) + " (name them in pair_with to watch them)");
   }
   return text;
 }
@@ -147,7 +147,7 @@ bool SceneServices::listBodies(ListBodies::Request& /*request*/, ListBodies::Res
     const MeshMetric* metric = body.mesh->metricIfMade();
     if (metric != nullptr && !metric->hasMatrices()) {
       response.notes.push_back(body.name +
-                               ": mesh distances are searched on demand: its matrices are beyond "
+                               ": mesh distances are computed on demand, because its matrices exceed "
                                "metric_memory_limit_mb or 4096 nodes");
     }
   }

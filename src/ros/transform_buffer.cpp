@@ -70,12 +70,12 @@ std::optional<TransformProblem> TransformBuffer::admitFrame(const geometry_msgs:
   const auto known = frames_.find(child);
   const bool other_parent = known == frames_.end() || known->second.latest.header.frame_id != parent;
   if (other_parent && makesLoop(child, parent)) {
-    return TransformProblem{"its parent '" + parent + "' hangs on the frame itself: a loop",
-                            "let each frame have one parent that does not descend from it"};
+    return TransformProblem{"its parent '" + parent + "' is below the frame itself: a loop",
+                            "give each frame one parent that is not below it"};
   }
   if (other_parent && !hasSpace(now)) {
     return TransformProblem{"there are " + std::to_string(kMostFrames) + " frames already",
-                            "find the publisher that invents names of frames"};
+                            "find the publisher that keeps inventing frame names"};
   }
   const auto frame = frames_.find(child);
   if (frame == frames_.end()) {
@@ -84,8 +84,8 @@ std::optional<TransformProblem> TransformBuffer::admitFrame(const geometry_msgs:
   }
   const double behind = secondsBetween(transform.header.stamp, frame->second.latest.header.stamp);
   if (!fixed && !frame->second.fixed && behind > limits_.cache) {
-    return TransformProblem{"its stamp lies " + std::to_string(behind) + " s behind the newest one, which " +
-                                frame->second.sender + " sent",
+    return TransformProblem{"its stamp is " + std::to_string(behind) + " s older than the newest one, from " +
+                                frame->second.sender,
                             "stop one of the two publishers, or correct the clock of its machine"};
   }
   return changeKind(frame->second, fixed, now);
@@ -97,7 +97,7 @@ std::optional<TransformProblem> TransformBuffer::changeKind(Frame& frame, bool f
   const double since = secondsBetween(frame.taken, now);
   if (since >= 0.0 && since < kBetweenKinds) {
     return TransformProblem{
-        "the frame comes on /tf and on /tf_static at once, the other one from " + frame.sender,
+        "the frame is published on both /tf and /tf_static; the other sender is " + frame.sender,
         "stop one of the two publishers"};
   }
   frame.fixed = fixed;

@@ -29,7 +29,7 @@ Problem findFrameProblem(const geometry_msgs::TransformStamped& transform) {
         {"child_frame_id", transform.child_frame_id}}) {
     const std::string problem = tfFrameProblem(frame);
     if (!problem.empty()) {
-      return TransformProblem{std::string(name) + " is no name of a frame: " + problem,
+      return TransformProblem{std::string(name) + " is not a valid frame name: " + problem,
                               "correct the publisher"};
     }
   }
@@ -73,13 +73,13 @@ Problem findStampProblem(ros::Time stamp, ros::Time now, const TransformLimits& 
   const double ahead = secondsBetween(now, stamp);
   if (ahead > limits.future_tolerance) {
     return TransformProblem{
-        "its stamp lies " + numberText(ahead) + " s ahead of this node's clock",
+        "its stamp is " + numberText(ahead) + " s ahead of this node's clock",
         "check that the clocks of the machines agree, or raise ~tf_future_tolerance, which is " +
             numberText(limits.future_tolerance) + " s"};
   }
   // tf2 adds the length of its cache to stamps.
   if (stamp.toSec() + limits.cache >= std::numeric_limits<std::uint32_t>::max()) {
-    return TransformProblem{"its stamp " + std::to_string(stamp.sec) + " s is beyond what ROS can count",
+    return TransformProblem{"its stamp " + std::to_string(stamp.sec) + " s is beyond the range of ROS time",
                             "check the clock"};
   }
   return std::nullopt;

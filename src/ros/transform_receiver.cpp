@@ -63,7 +63,7 @@ void TransformReceiver::logRefusals() {
   if (unlogged_ == 0 || !throttle_.isDue(last_sender_)) return;
   const std::uint64_t others = std::exchange(unlogged_, 0) - 1;
   ROS_WARN_STREAM(report_.last_refusal
-                  << (others > 0 ? "; so were " + std::to_string(others) + " others before" : ""));
+                  << (others > 0 ? "; " + std::to_string(others) + " others were refused before" : ""));
 }
 
 TransformReport TransformReceiver::take() {

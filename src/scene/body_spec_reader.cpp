@@ -169,7 +169,7 @@ BodySpec readBodySpec(const YamlValue& value, const BodyDefaults& defaults) {
   if (auto v = map.take("frame")) {
     description.frame = requireFrameName(v->text(), v->where());
   } else if (const std::string problem = tfFrameProblem(description.name); !problem.empty()) {
-    name.fail("it cannot be the name of its frame, too: " + problem, "give a 'frame' or another name");
+    name.fail("it cannot also be the name of its frame: " + problem, "give a 'frame' or another name");
   }
   readGeometry(map, description);
   if (auto v = map.take("scale")) {

@@ -53,7 +53,7 @@ void locateAll(std::vector<BodySource>& sources, const BuildOptions& options, st
         sources[i].in_robot_model = false;  // rviz does not find the mesh
         if (told.insert(below).second) {
           built[i].notes.push_back("'" + resource + "' was found below " + below +
-                                   ", and what else is missing is looked for there too");
+                                   "; other missing meshes are looked for there too");
         }
       }
     } catch (const std::exception& exception) {

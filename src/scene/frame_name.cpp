@@ -23,7 +23,7 @@ std::string tfFrameProblem(std::string_view frame) {
   const auto control = std::find_if(frame.begin(), frame.end(),
                                     [](char c) { return std::iscntrl(static_cast<unsigned char>(c)) != 0; });
   if (control != frame.end()) {
-    return "it holds the control character with code " +
+    return "it contains the control character with code " +
            std::to_string(static_cast<int>(static_cast<unsigned char>(*control)));
   }
   return "";
@@ -36,14 +36,14 @@ std::string withoutLeadingSlash(const std::string& frame) {
 std::string frameNameProblem(std::string_view frame) {
   const std::string problem = tfFrameProblem(frame);
   if (!problem.empty()) return problem;
-  return frame.find(' ') == std::string_view::npos ? "" : "it holds a blank";
+  return frame.find(' ') == std::string_view::npos ? "" : "it contains a blank";
 }
 
 std::string requireFrameName(const std::string& frame, const std::string& where) {
   const std::string name = withoutLeadingSlash(frame);
   const std::string problem = frameNameProblem(name);
   if (!problem.empty()) {
-    throw Error(where, "it is no name of a tf frame: " + problem,
+    throw Error(where, "it is not a valid tf frame name: " + problem,
                 "name a frame that tf knows, such as world, without blanks");
   }
   return name;

@@ -76,7 +76,7 @@ void requireReadableFile(const std::string& path) {
   if (!fs::exists(status) || fs::is_regular_file(status) || (fs::is_fifo(status) && opened_by_the_shell)) {
     return;
   }
-  throw Error(path, "it is no regular file", "name a file, not a folder, a device or a pipe");
+  throw Error(path, "it is not a regular file", "name a file, not a folder, a device or a pipe");
 }
 
 }  // namespace

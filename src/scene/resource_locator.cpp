@@ -114,7 +114,7 @@ detail::ResourcePaths pathsOf(const std::string& resource, const std::string& ba
   const fs::path path(resource);
   if (path.is_absolute()) return {{resource, decodePercent(resource)}, ""};
   if (base_folder.empty()) {
-    throw Error(resource, "a relative path, and the text it stands in comes from no file",
+    throw Error(resource, "a relative path in a text that comes from no file",
                 "write package://<package>/<path> or an absolute path");
   }
   const fs::path base(base_folder);

@@ -119,8 +119,8 @@ void setAutomaticCutoff(Scene& scene, const RobotDescription& robot) {
   }
   if (!std::isfinite(cutoff)) return;
   scene.notes.push_back("cutoff " + metres(cutoff) + ", a fifth of the robot's diagonal of " +
-                        metres(diagonal) + " in its zero pose: pairs farther apart have a lower bound only " +
-                        "(~cutoff sets another, 0 none)");
+                        metres(diagonal) + " in its zero pose: pairs farther apart have only a lower bound " +
+                        "(set ~cutoff to change it; 0: none)");
 }
 
 // A robot that is silently nothing at all is no help to anybody.
@@ -142,11 +142,11 @@ void reportOverlappingPairs(Scene& scene, const RobotDescription& robot, const S
   if (pairs.empty()) return;
   const std::string text = describeOverlap(scene, pairs);
   if (!options.skip_overlapping_pairs) {
-    scene.warnings.push_back(text + ". If the robot is built so, disable them in its SRDF, or set " +
+    scene.warnings.push_back(text + ". If this is intended, disable them in its SRDF, or set " +
                              "~skip_overlapping_pairs");
     return;
   }
-  scene.notes.push_back(text + ". They are left out, as ~skip_overlapping_pairs says");
+  scene.notes.push_back(text + ". They are left out because ~skip_overlapping_pairs is set");
   PairList kept;
   for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
     if (!std::binary_search(pairs.begin(), pairs.end(), i)) kept.appendShared(scene.pairs, i);

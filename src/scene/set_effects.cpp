@@ -30,7 +30,7 @@ std::vector<std::string> setEffects(Scene& scene, const std::string& pattern, co
   }
   if (names.empty()) {
     throw Error("pair", "there is no pair '" + pattern + "'",
-                "list_bodies tells their names; * and ? stand for any characters and for one");
+                "list_bodies has their names; * matches any characters, ? one");
   }
   return names;
 }

@@ -33,7 +33,7 @@ std::vector<std::string> setWarningDistance(Scene& scene, const std::string& pat
   }
   if (names.empty()) {
     throw Error("pair", "there is no pair '" + pattern + "'",
-                "list_bodies has their names; * and ? stand for any characters and for one");
+                "list_bodies has their names; * matches any characters, ? one");
   }
   return names;
 }

@@ -78,7 +78,7 @@ void addOptions(CLI::App& app, CommandLine& line) {
                  "the same as a share of the distance; the larger of the two counts")
       ->check(CLI::Range(0.0, 1.0));
   app.add_option("--time-budget", options.time_budget,
-                 "seconds from the start of a query after which everything in it stops with what it has")
+                 "seconds after which a query ends with its results so far")
       ->check(CLI::PositiveNumber);
   app.add_option("--max-edge", options.max_edge_length,
                  "longest edge of the search grids, metres (automatic)")
@@ -92,7 +92,7 @@ void addOptions(CLI::App& app, CommandLine& line) {
   app.add_option("--seed", options.seed, "of the random streams: one seed, one answer")
       ->check([](const std::string& text) -> std::string {
         const bool digits = text.find_first_not_of("0123456789") == std::string::npos;
-        return digits ? "" : "'" + text + "' is no whole number from 0";
+        return digits ? "" : "'" + text + "' is not a whole number";
       })
       ->capture_default_str();
   app.add_option(

@@ -162,7 +162,7 @@ TEST_F(ImportProcess, NothingOfAnAnswerIsBelieved) {
            header + bad_corner + triangle,
        }) {
     const std::string refusal = refusalOf(answering(answer));
-    EXPECT_TRUE(says(refusal, "not one of its own")) << refusal;
+    EXPECT_TRUE(says(refusal, "an invalid answer")) << refusal;
   }
   for (const std::size_t size : {std::size_t{0}, std::size_t{31}, std::size_t{32}, std::size_t{100}}) {
     const std::string whole = header + corners + triangle;

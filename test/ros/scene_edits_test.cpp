@@ -73,7 +73,7 @@ TEST(AddBody, RefusesWhatWouldBeBeyondALimitWithTheFigureAndAddsNothing) {
   Scene scene = threeBodies();
   scene.limits.pairs = 4;
   const std::string pairs = refusalOfBody(scene, {});
-  EXPECT_NE(pairs.find("3 new pairs beside the 2"), std::string::npos) << pairs;
+  EXPECT_NE(pairs.find("3 new pairs besides the 2"), std::string::npos) << pairs;
   EXPECT_NE(pairs.find("the limit is 4"), std::string::npos) << pairs;
   EXPECT_EQ(scene.bodies.size(), 3U);
   EXPECT_EQ(refusalOfBody(scene, {{"arm", "table"}, false}), "accepted");

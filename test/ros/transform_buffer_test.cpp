@@ -95,7 +95,7 @@ TEST_F(TransformBufferTest, StampsThatRosCannotSubtractAreRefused) {
   stamp.nsec = 4'000'000'000U;
   expectRefusal(transformOf("b", 1.0, stamp), "nanoseconds");
   now = ros::Time(std::numeric_limits<std::uint32_t>::max() - 3, 0);
-  expectRefusal(transformOf("b", 1.0, now), "beyond what ROS can count");
+  expectRefusal(transformOf("b", 1.0, now), "beyond the range of ROS time");
 }
 
 TEST_F(TransformBufferTest, AStampFarBehindTheNewestIsRefusedAndARepeatedOneIgnored) {

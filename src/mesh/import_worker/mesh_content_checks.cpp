@@ -38,8 +38,8 @@ void checkStl(std::string_view content, const std::string& path, std::uint64_t m
   const std::size_t end = tail.rfind("endsolid");
   if (end == std::string::npos || tail.find("facet normal", end) != std::string::npos) {
     throw Error(path,
-                "the STL file breaks off: " + std::to_string(content.size()) +
-                    " bytes are not what a binary header announces, nor is 'endsolid' the end of a text",
+                "the STL file breaks off: its " + std::to_string(content.size()) +
+                    " bytes neither match a binary header nor end with 'endsolid'",
                 kExportAgain);
   }
 }
@@ -72,9 +72,9 @@ void checkDaeIndices(std::string_view list, const std::string& tag, const std::s
     const auto [last, error] = std::from_chars(list.data() + at, list.data() + end, index);
     if (error != std::errc() || last != list.data() + end || index < 0) {
       throw Error(path,
-                  "a <" + tag + "> holds '" +
+                  "a <" + tag + "> contains '" +
                       std::string(list.substr(at, std::min<std::size_t>(end - at, 40))) +
-                      "' and not indices alone",
+                      "', which is not an index",
                   kExportAgain);
     }
     at = list.find_first_not_of(kSpace, end);
@@ -120,7 +120,7 @@ void checkMeshContent(std::string_view content, const std::string& path, const s
   } else if (extension == ".dae") {
     checkDae(content, path);
   } else if (extension != ".obj") {
-    throw Error(path, "the ending '" + extension + "' is none of a mesh file",
+    throw Error(path, "the ending '" + extension + "' is not that of a mesh file",
                 "give an STL, OBJ, PLY or DAE file");
   }
 }

@@ -198,8 +198,7 @@ void checkPly(std::string_view content, const std::string& path) {
       throw Error(path, "the PLY header announces elements without properties", kExportAgain);
     }
     if (!body.skip(element)) {
-      throw Error(path, "the PLY file breaks off before the last of the elements that its header announces",
-                  kExportAgain);
+      throw Error(path, "the PLY file breaks off before the last element of its header", kExportAgain);
     }
   }
 }

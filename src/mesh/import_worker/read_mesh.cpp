@@ -72,8 +72,8 @@ void checkPrecision(const aiScene& scene, const std::string& path) {
   }
   if (extent == 0.0 || kRounding * farthest <= kLargestShare * extent) return;
   std::ostringstream seen;
-  seen << "the mesh is " << extent << " large and has coordinates of " << farthest
-       << ", which keep seven digits: its shape is lost";
+  seen << "the mesh is " << extent << " large, but has coordinates of " << farthest
+       << "; with seven digits its shape is lost";
   throw Error(path, seen.str(), "move the mesh to the origin of its file and give the body a pose");
 }
 
@@ -163,7 +163,7 @@ SoupSize checkedSizeOf(const aiScene& scene, const std::string& path, std::uint6
                 "simplify the mesh, or raise the limit (of the node: ~limits/largest_triangle_count)");
   }
   if (size.triangles == 0) {
-    throw Error(path, "the file has no triangle", "give a mesh with faces, not points or lines alone");
+    throw Error(path, "the file has no triangle", "give a mesh with faces, not only points or lines");
   }
   return size;
 }
@@ -226,7 +226,7 @@ TriangleSoup readMesh(std::string_view content, const std::string& path, const s
   }
   if (scene == nullptr || scene->mRootNode == nullptr) {
     throw Error(path, std::string("the file cannot be read as a mesh: ") + importer.GetErrorString(),
-                "give a whole STL, OBJ, PLY or DAE file");
+                "give a complete STL, OBJ, PLY or DAE file");
   }
   return toSoup(*scene, path, extension == ".dae", scale, most_triangles);
 }

@@ -84,7 +84,7 @@ void run() {
   if (!ros::ok()) return;
   const urdf::ModelInterfaceSharedPtr model = urdf::parseURDF(text);
   if (!model || !model->getRoot()) {
-    throw Error("robot_description", "it is no URDF that can be read", "check it with check_urdf");
+    throw Error("robot_description", "the URDF cannot be read", "check it with check_urdf");
   }
   tf2_ros::StaticTransformBroadcaster broadcaster;
   publishRoot(broadcaster, node.param<std::string>("root_frame", "world"), model->getRoot()->name);
