@@ -5,7 +5,8 @@
 
 #include "concave_distance/base/coordinate_limit.h"
 #include "concave_distance/base/error.h"
-#include "drop_triangles.h"
+#include "dissolve_flat_triangles.h"
+#include "drop_unused.h"
 #include "edge_table.h"
 #include "resolve_shells.h"
 #include "settle_faces.h"
@@ -56,6 +57,13 @@ double diagonal(const std::vector<Eigen::Vector3d>& vertices) {
     box.extend(vertex);
   }
   return box.diagonal().norm();
+}
+
+void dissolveFlat(const std::vector<Eigen::Vector3d>& vertices, std::vector<TriangleNodes>& triangles,
+                  RepairReport& report) {
+  const detail::DissolvedTriangles dissolved = detail::dissolveFlatTriangles(vertices, triangles);
+  report.zero_area_triangles += dissolved.flat;
+  report.split_triangles += dissolved.split;
 }
 
 void countShells(const std::vector<Eigen::Vector3d>& vertices, const std::vector<TriangleNodes>& triangles,
@@ -115,6 +123,7 @@ std::string RepairReport::summary() const {
   add(welded_vertices, "vertex welded", "vertices welded");
   add(unused_vertices, "unused vertex dropped", "unused vertices dropped");
   add(zero_area_triangles, "zero-area triangle dropped", "zero-area triangles dropped");
+  add(split_triangles, "triangle split beside them", "triangles split beside them");
   add(duplicate_triangles, "duplicate triangle dropped", "duplicate triangles dropped");
   add(inner_wall_triangles, "triangle between touching solids dropped",
       "triangles between touching solids dropped");
@@ -136,14 +145,14 @@ RepairedMesh repairMesh(const TriangleSoup& soup, const RepairOptions& options, 
 
   detail::WeldedVertices welded = detail::weldVertices(soup.vertices, 0.0);
   std::vector<TriangleNodes> triangles = weldedTriangles(soup, welded);
-  report.zero_area_triangles += detail::dropWithoutArea(welded.vertices, triangles);
+  dissolveFlat(welded.vertices, triangles, report);
   std::size_t joined_vertices = 0;
   if (options.weld_tolerance > 0.0) {
     const double tolerance = options.weld_tolerance * diagonal(welded.vertices);
     const detail::BorderWeld joined = detail::weldBorders(welded.vertices, triangles, tolerance);
     joined_vertices = joined.joined_vertices;
     report.largest_move = joined.farthest;
-    report.zero_area_triangles += detail::dropWithoutArea(welded.vertices, triangles);
+    dissolveFlat(welded.vertices, triangles, report);
   }
   if (triangles.empty()) {
     throw Error(where,

@@ -136,6 +136,83 @@ TEST(RepairMesh, DropsTrianglesWithoutArea) {
   EXPECT_TRUE(test::isClosedManifold(repaired.mesh));
 }
 
+// The box's face in front has `count` more corners on its upper edge, the top has none; triangles without
+// area close the gap between. `fan`: they have the edge's first corner in common, or follow each other
+// otherwise.
+TriangleSoup boxClosedByFlatTriangles(std::uint32_t count, bool fan, bool turned) {
+  TriangleSoup soup = soupOf(unitCube());
+  const auto first = static_cast<std::uint32_t>(soup.vertices.size());
+  std::vector<std::uint32_t> chain;
+  std::uint32_t ends[2] = {0, 0};
+  for (std::uint32_t v = 0; v < first; ++v) {
+    if (soup.vertices[v] == Eigen::Vector3d(-0.5, -0.5, 0.5)) ends[0] = v;
+    if (soup.vertices[v] == Eigen::Vector3d(0.5, -0.5, 0.5)) ends[1] = v;
+  }
+  chain.push_back(ends[0]);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    soup.vertices.emplace_back((i + 1.0) / (count + 1.0) - 0.5, -0.5, 0.5);
+    chain.push_back(first + i);
+  }
+  chain.push_back(ends[1]);
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  for (const auto& t : soup.triangles) {
+    const auto lies_in_front = [&](std::uint32_t v) { return soup.vertices[v].y() == -0.5; };
+    const bool at_edge =
+        std::count(t.begin(), t.end(), ends[0]) + std::count(t.begin(), t.end(), ends[1]) == 2;
+    if (!at_edge || !std::all_of(t.begin(), t.end(), lies_in_front)) {
+      triangles.push_back(t);
+      continue;
+    }
+    std::size_t apex = 0;
+    while (t[apex] == ends[0] || t[apex] == ends[1]) ++apex;
+    for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
+      const bool ascends = t[(apex + 1) % 3] == ends[0];
+      triangles.push_back({t[apex], chain[ascends ? i : i + 1], chain[ascends ? i + 1 : i]});
+    }
+  }
+  for (std::uint32_t i = 0; i < count; ++i) {
+    // Each has the whole rest of the edge on one side: from its start, or from the corner before.
+    std::array<std::uint32_t, 3> flat =
+        fan ? std::array<std::uint32_t, 3>{chain[0], chain[i + 1], chain[i + 2]}
+            : std::array<std::uint32_t, 3>{chain[i], chain[i + 1], chain.back()};
+    if (turned) std::swap(flat[0], flat[1]);
+    triangles.push_back(flat);
+  }
+  soup.triangles = triangles;
+  return soup;
+}
+
+TEST(RepairMesh, WhatTrianglesWithoutAreaCloseStaysClosed) {
+  for (const std::uint32_t count : {1U, 2U, 9U}) {
+    for (const bool fan : {false, true}) {
+      for (const bool turned : {false, true}) {
+        const RepairedMesh repaired = repair(boxClosedByFlatTriangles(count, fan, turned));
+        EXPECT_EQ(repaired.report.zero_area_triangles, count);
+        EXPECT_EQ(repaired.report.split_triangles, count);
+        EXPECT_EQ(repaired.report.closed_shells, 1U);
+        EXPECT_TRUE(test::isClosedManifold(repaired.mesh));
+        EXPECT_DOUBLE_EQ(test::signedVolume(repaired.mesh), 1.0);
+        EXPECT_DOUBLE_EQ(test::totalArea(repaired.mesh), 6.0);
+        EXPECT_EQ(repaired.mesh.triangleCount(), 12U + 2U * count);
+      }
+    }
+  }
+}
+
+TEST(RepairMesh, AnyNumberOfTrianglesWithoutAreaEndsSoon) {
+  // All share one line of corners, in every order, so that each one split makes further ones.
+  TriangleSoup soup = soupOf(unitCube());
+  const auto first = static_cast<std::uint32_t>(soup.vertices.size());
+  constexpr std::uint32_t kCorners = 300;
+  for (std::uint32_t i = 0; i < kCorners; ++i) soup.vertices.emplace_back(i * 0.01, 5.0, 5.0);
+  for (std::uint32_t i = 0; i < 40 * kCorners; ++i) {
+    soup.triangles.push_back(
+        {first + i * 7 % kCorners, first + i * 31 % kCorners, first + (i * 97 + i / kCorners) % kCorners});
+  }
+  const RepairedMesh repaired = repair(soup);
+  EXPECT_EQ(repaired.mesh.triangles(), unitCube().triangles());
+}
+
 TEST(RepairMesh, KeepsASliverThatHasAnArea) {
   // coal's sliver: 14.729 m long, 5.3 mm wide; and one a thousand times thinner.
   for (const double width : {5.3e-3, 5.3e-6}) {
