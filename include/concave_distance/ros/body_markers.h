@@ -12,8 +12,8 @@ namespace concave_distance {
 /// gracefully.
 inline constexpr std::size_t kLargestShownBody = 200'000;
 
-/// Gives the marker the surface's triangles, moved outwards by `offset` metres, or its bounding box,
-/// translucent, when there are too many.
+/// Gives the marker the surface's triangles, moved outwards by `offset` metres; its bounding box,
+/// translucent, when there are too many triangles.
 void drawSurface(const SurfaceMesh& surface, double offset, visualization_msgs::Marker& marker);
 
 /// The bodies that rviz cannot draw from a robot model, as triangle lists fixed to their tf frames. Begins

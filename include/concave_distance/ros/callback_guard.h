@@ -5,12 +5,13 @@
 
 namespace concave_distance {
 
-/// Logs that a callback was ended by an exception; of each callback once in five seconds.
-/// @param reason nullptr: not even a std::exception
+/// Logs that an exception ended a callback; for each callback once in five seconds.
+/// @param reason nullptr: the exception is no std::exception
 void reportEscape(const char* callback, const char* reason) noexcept;
 
-/// Runs the body of a callback. An exception is logged and ends here: past a callback's border it would end
-/// the process. @param callback its name, for the log. @return false after an exception
+/// Runs the body of a callback and logs an exception, because one that leaves a callback ends the process.
+/// @param callback its name, for the log
+/// @return false after an exception
 template <typename Body>
 bool guarded(const char* callback, Body&& body) noexcept {
   try {

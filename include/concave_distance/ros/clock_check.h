@@ -4,7 +4,7 @@
 
 namespace concave_distance {
 
-/// Why ROS time stands at zero, with the remedy; empty: it does not.
+/// Why ROS time is zero, with the remedy; empty when it is not.
 std::string missingClock();
 
 }  // namespace concave_distance

@@ -16,8 +16,8 @@
 
 namespace concave_distance {
 
-/// Runs the cycle on a timer of its own thread, so that no service delays it. The timer follows ROS time:
-/// with use_sim_time, the simulated rate.
+/// Runs the cycle on its own thread, so that no service delays it, at a rate of ROS time (with use_sim_time,
+/// of simulated time).
 class CycleRunner {
  public:
   CycleRunner(TransformBuffer& transforms, SceneKeeper& keeper, TopicPublishers& publishers,
@@ -35,7 +35,7 @@ class CycleRunner {
 
  private:
   void runTimedCycle(std::int64_t due);
-  /// @return whether it was another one
+  /// @return whether the scene changed
   bool adoptScene();
   /// A clock that jumps back (a bag that starts over, a simulation that is reset) invalidates every transform
   /// and every warm state.
@@ -60,7 +60,7 @@ class CycleRunner {
   std::uint64_t cycles_until_markers_ = 0;
   bool was_idle_ = false;
 
-  CycleTimer timer_;  ///< the last one: it ends before what it calls
+  CycleTimer timer_;  ///< last member: it stops before what it calls is destroyed
 };
 
 }  // namespace concave_distance

@@ -36,7 +36,7 @@ struct CycleWindow {
   double seconds = 0.0;  ///< wall time covered
   std::uint64_t cycles = 0;
   std::uint64_t late = 0;
-  std::uint64_t failed = 0;  ///< ended by an exception
+  std::uint64_t failed = 0;  ///< cycles ended by an exception
   Series duration;
   Series cpu;
   Series latency;

@@ -8,8 +8,8 @@
 
 namespace concave_distance {
 
-/// Calls back at a rate of ROS time, on a thread of its own. ros::Timer adds periods to ros::Time, which ends
-/// the process when a simulated clock comes near the last time that ROS can count; this one does not.
+/// Calls back at a rate of ROS time, on its own thread. ros::Timer ends the process when a simulated clock
+/// comes near the largest ros::Time, because it adds periods to it; this one does not.
 class CycleTimer {
  public:
   /// @param due when this call was to happen, nanoseconds of ROS time

@@ -13,14 +13,14 @@ struct FoundDescription {
   bool is_xml = false;  ///< false: the nearest parameter of that name holds something else
 };
 
-/// Reads a parameter by its full name; nothing when there is none or it is no text.
+/// Reads a parameter by its full name; nothing when it is not set or not a text.
 using ParameterText = std::function<std::optional<std::string>(const std::string& key)>;
 
-/// Looks for a URDF or SRDF: in the private namespace, then in the namespaces above it. A node's private
-/// parameter may have the same name and say which parameter to read (~robot_description: robot_description),
-/// so a private value that is no XML is passed over.
+/// Looks for a URDF or SRDF in the private namespace, then in the namespaces above it. A private parameter of
+/// the same name may instead hold the name of the parameter to read (~robot_description: robot_description);
+/// so a private value that is not XML is skipped.
 /// @param name relative, or absolute with a leading slash: then only that parameter is read
-/// @return the nearest XML; without one, the nearest other text outside of the private namespace
+/// @return the nearest XML; without one, the nearest other text outside the private namespace
 std::optional<FoundDescription> searchDescription(const std::string& private_namespace,
                                                   const std::string& name, const ParameterText& read);
 

@@ -10,8 +10,8 @@
 
 namespace concave_distance {
 
-/// Cycle time, rate against the wanted one, late cycles, processor time, latency. WARN when more than 1 % of
-/// the cycles were late or the rate fell below 90 %; ERROR when cycles were ended by an exception.
+/// Cycle time, achieved and wanted rate, late cycles, processor time, latency. WARN when more than 1 % of the
+/// cycles were late or the rate fell below 90 %; ERROR when exceptions ended cycles.
 void describeCycle(const CycleWindow& window, double wanted_rate,
                    diagnostic_updater::DiagnosticStatusWrapper& status);
 /// Pairs watched and solved, pairs without transforms (WARN, each with its reason), search misses.

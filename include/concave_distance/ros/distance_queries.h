@@ -27,9 +27,9 @@ struct QueryContext {
   double transform_timeout = 0.2;  ///< s
   double stale_after = 1.0;        ///< s
   PairSettings defaults;           ///< for bodies that are no pair of the scene
-  /// All queries of a call end by then: what is solved stops with the bound it has.
+  /// When all queries of a call end: running ones stop with the bound they have.
   std::chrono::steady_clock::time_point deadline = std::chrono::steady_clock::time_point::max();
-  const std::atomic<bool>* stop = nullptr;  ///< set: what is solved ends, and nothing is begun
+  const std::atomic<bool>* stop = nullptr;                      ///< set: running queries end, no other begins
   std::size_t memory_limit = TrackerParameters().memory_limit;  ///< bytes, of one query
 };
 
@@ -47,10 +47,10 @@ QueryAnswer answerQuery(const DistanceQuery& query, const Scene& scene, const Qu
 /// True when the answer carries a distance.
 bool isAnswered(const PairNiches& answer);
 
-/// The services get_distance and get_distances, on the queue for requests that take long and behind its gate.
+/// The services get_distance and get_distances, on the queue and behind the gate for long requests.
 class DistanceQueries {
  public:
-  /// @param threads that answer the queries of one call
+  /// @param threads number of threads for the queries of one call
   DistanceQueries(ServiceQueues& queues, SceneKeeper& keeper, QueryContext context, const NodeLimits& limits,
                   std::uint32_t threads);
 
@@ -60,7 +60,7 @@ class DistanceQueries {
   void answerOne(const DistanceQuery& query, const QueryContext& context, GetDistance::Response& response);
   void answerAll(const std::vector<DistanceQuery>& queries, const QueryContext& context,
                  GetDistances::Response& response);
-  /// @param arrival of the call, from which on its time counts
+  /// @param arrival when the call arrived; its time counts from then
   QueryContext currentContext(std::chrono::steady_clock::time_point arrival);
 
   ros::NodeHandle node_;

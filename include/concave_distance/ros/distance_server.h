@@ -36,13 +36,12 @@ class DistanceServer {
   /// @param node for /tf and /diagnostics; its queue serves timers and subscribers, not the services
   /// @param private_node for parameters, topics and services
   /// @param name of the node or nodelet, for the diagnostics
-  /// @param on_fatal called, from a callback of `private_node`, when the scene file is wrong: nothing of it
-  /// can
-  ///        be served
+  /// @param on_fatal called from a callback of `private_node` when the scene file is wrong, so that nothing
+  ///        can be served
   /// @throws Error for a wrong parameter
   DistanceServer(const ros::NodeHandle& node, const ros::NodeHandle& private_node, std::string name,
                  FatalCallback on_fatal);
-  /// Ends what services work on.
+  /// Ends the running requests of services.
   ~DistanceServer();
   DistanceServer(const DistanceServer&) = delete;
   DistanceServer& operator=(const DistanceServer&) = delete;
@@ -51,7 +50,7 @@ class DistanceServer {
   void tryToLoad();
   void followLoading();
   void giveUpLoading(const Error& problem);
-  /// Of a robot: for the pairs to come and for reconfiguration, too.
+  /// The cutoff scaled to a robot, for pairs added later and for reconfiguration.
   void adoptCutoff(double cutoff);
   void reportLateness();
   void doHousekeeping();
@@ -61,7 +60,7 @@ class DistanceServer {
   void reportMissingClock();
   void publishBodies();
   void setUpDiagnostics();
-  /// A wall timer whose callback keeps its exceptions to itself.
+  /// A wall timer; exceptions in its callback are logged and end there.
   ros::WallTimer startTimer(double period, const char* name, void (DistanceServer::*act)());
 
   ros::NodeHandle private_node_;

@@ -8,7 +8,7 @@
 
 namespace concave_distance {
 
-/// Which frames of bodies tf does not connect with the reference frame, and what to do; empty: none.
+/// The frames of bodies that tf does not connect with the reference frame, with a remedy; empty: none.
 std::string describeMissingFrames(const tf2::BufferCore& buffer, const Scene& scene,
                                   const std::string& reference_frame);
 

@@ -14,14 +14,14 @@
 
 namespace concave_distance {
 
-/// What may hide a label.
+/// What can hide a label.
 struct LabelSurroundings {
   const Scene& scene;
   const std::vector<LocatedBody>& bodies;
 };
 
-/// Puts each label beside its line where most of usualViews() see it: not behind a body, not on a line, not
-/// on another label. A label keeps its place on its line for a while, and is looked at again once a second.
+/// Places each label beside its line where most of usualViews() see it: not behind a body, a line or another
+/// label. A label keeps its place for a while; a better one is looked for once a second.
 class LabelPlacer {
  public:
   /// @param labels the most important first: a later one that would cover an earlier one is left out

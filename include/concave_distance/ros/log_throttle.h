@@ -6,8 +6,8 @@
 
 namespace concave_distance {
 
-/// Which messages may be logged now: of each subject one in five seconds of wall time, and of all together
-/// one a second. Not thread-safe.
+/// Limits log messages: one per subject in five seconds of wall time, and one per second of all subjects. Not
+/// thread-safe.
 class LogThrottle {
  public:
   bool isDue(const std::string& subject);

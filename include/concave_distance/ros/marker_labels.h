@@ -13,23 +13,23 @@ std::string lengthText(double metres);
 /// A force in the same way: "312 N", "3.58 kN".
 std::string forceText(double newtons);
 
-/// A text that belongs to a line in the picture.
+/// A text beside a line of the picture.
 struct Label {
   visualization_msgs::Marker marker;  ///< TEXT_VIEW_FACING; placeLabels() sets its position and height
   Eigen::Vector3d from = Eigen::Vector3d::Zero();  ///< ends of the line, reference frame, metres
   Eigen::Vector3d to = Eigen::Vector3d::Zero();
 };
 
-/// A text is this wide, metres: rviz's font on average.
+/// Width of a text, metres: that of rviz's font on average.
 double widthOf(const visualization_msgs::Marker& text);
 
-/// A direction from which the scene is looked at; the camera itself is not known to the node.
+/// A direction of view; the node does not know the camera.
 struct View {
-  Eigen::Vector3d towards;  ///< the camera, unit vector, reference frame
+  Eigen::Vector3d towards;  ///< the camera; unit vector, reference frame
   Eigen::Vector3d right;    ///< on the screen
   Eigen::Vector3d up;
 };
-/// Eight views from all around, a little and half from above. Labels are laid out for these.
+/// Eight views from all around, with pitches of 0.35 and 0.75 rad. Labels are placed for these.
 const std::array<View, 8>& usualViews();
 
 /// A text that faces the camera.

@@ -23,21 +23,21 @@ struct LocatedBody {
 std::vector<LocatedBody> locateBodies(const Scene& scene,
                                       const std::vector<std::unique_ptr<TrackedPair>>& pairs);
 
-/// The box around the bodies, metres; without those that are much larger than the median one (a floor) or
-/// that lie far from all others. Empty without bodies.
+/// The box around the bodies, metres, without those much larger than the median one (a floor) and those far
+/// from all others. Empty without bodies.
 Eigen::AlignedBox3d usualRegion(const std::vector<LocatedBody>& bodies);
 
-/// Where and how large markers are drawn. Follows the scene's size in steps, so that nothing breathes while
-/// bodies move.
+/// Where and how large markers are drawn. Follows the scene's size in steps, so that sizes stay constant
+/// while bodies move.
 class MarkerLayout {
  public:
-  /// @param style as configured, with 0 for what is automatic
+  /// @param style as configured; 0 means automatic
   void update(const std::vector<LocatedBody>& bodies, const MarkerStyle& style);
 
-  /// With scale and far resolved (> 0 and > near).
+  /// The style with automatic values replaced (scale > 0, far > near).
   const MarkerStyle& style() const { return style_; }
   double letterHeight() const;  ///< m
-  /// Beside this the legend stands, metres; empty before the first body was located.
+  /// Box beside which the legend is placed, metres; empty before the first body was located.
   const Eigen::AlignedBox3d& region() const { return region_; }
 
  private:

@@ -11,7 +11,7 @@
 
 namespace concave_distance {
 
-/// What the legend has to explain.
+/// What the legend explains.
 struct LegendContents {
   std::size_t drawn_pairs = 0;
   std::size_t pairs = 0;  ///< with a distance
@@ -21,13 +21,13 @@ struct LegendContents {
   bool contacts = false;  ///< some pair asks for effects
 };
 
-/// The legend above the scene: namespace `legend`, a text a row, each in the colour that it explains.
+/// The legend above the scene: namespace `legend`, one text per row, in the colour that it explains.
 /// @param header in the reference frame
 std::vector<visualization_msgs::Marker> legendMarkers(const LegendContents& contents,
                                                       const MarkerLayout& layout,
                                                       const std_msgs::Header& header, double lifetime);
 
-/// What it covers.
+/// The space that the legend covers.
 LabelSpace spaceOfLegend(const std::vector<visualization_msgs::Marker>& legend);
 
 }  // namespace concave_distance

@@ -11,10 +11,10 @@
 
 namespace concave_distance {
 
-/// The nearest of the pairs that are due in this cycle, which have been located and solved. O(pairs).
-/// `number` is the smallest of: the distance of a pair whose distance is exact, or which proves nothing; the
-/// lower bound of a pair whose proof was ended early; the bound of a pair beyond its cutoff. It is there when
-/// every pair has one of them, or when bodies penetrate: then it is 0, whatever the others are.
+/// The nearest pair of a cycle, from its located and solved pairs. O(pairs).
+/// `number` is the smallest of: the distance of a pair that is exact or proves nothing; the lower bound of a
+/// pair whose proof was ended early; the bound of a pair beyond its cutoff. It is set when every pair has one
+/// of these, and it is 0 whenever bodies penetrate.
 Nearest nearestOf(const std::vector<std::unique_ptr<TrackedPair>>& pairs, const std::string& reference_frame,
                   ros::Time now);
 

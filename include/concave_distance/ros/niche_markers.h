@@ -18,20 +18,21 @@ namespace concave_distance {
 /// Colour of a niche by its distance: orange at `near`, over yellow to green at `far`; opaque.
 /// @param style with far > near
 std_msgs::ColorRGBA distanceColor(double distance, const MarkerStyle& style);
-/// Red, which no distance has.
+/// Red; colours of distances are never red.
 std_msgs::ColorRGBA warningColor();
 
-/// What is drawn for one pair: per niche its witness points and the line between them, for the nearest one
-/// thick and opaque, red when the pair is in warning, for the others thin and faint; around a segment or
-/// patch circles as wide as it is. Namespaces `<pair>/points`, `<pair>/line`, `<pair>/extent`; the marker id
-/// is the niche's id (its low 31 bits). A pair with a distance but no niche (one body inside the other) is
-/// drawn from its closest points under id 0.
+/// The markers for one pair: for each niche its witness points and the line between them, thick and opaque
+/// for the nearest (red when the pair is in warning), thin and faint for the others; around a segment or
+/// patch, circles as wide as it is. Namespaces `<pair>/points`, `<pair>/line`, `<pair>/extent`; the marker id
+/// is the niche's (its low 31 bits). For a pair with a distance but no niche (one body inside the other) its
+/// closest points are drawn under id 0.
 /// @param style with scale > 0 and far > near
 /// @param lifetime seconds after which rviz drops a marker that is not renewed
 std::vector<visualization_msgs::Marker> nicheMarkers(const DrawnPair& drawn, const MarkerStyle& style,
                                                      double lifetime);
 
-/// The distance of the pair's nearest niche, with the bodies' names on request: namespace `<pair>/text`.
+/// The label with the distance of the pair's nearest niche and, if wanted, the bodies' names: namespace
+/// `<pair>/text`.
 /// @param pair with hasMarkers()
 Label nicheLabel(const PairNiches& pair, bool with_names, const MarkerStyle& style, double lifetime);
 

@@ -6,7 +6,7 @@ namespace concave_distance {
 
 class ParameterReader;
 
-/// What the node spends on requests at the most: the private parameters below `~limits/` (doc/parameters.md).
+/// The most that requests may cost: the private parameters below `~limits/` (doc/parameters.md).
 struct NodeLimits {
   std::uint32_t service_threads = 2;  ///< requests of get_distance, get_distances and add_body at one time
   std::uint32_t service_queue = 8;    ///< further ones that wait; the next is refused
@@ -21,7 +21,7 @@ struct NodeLimits {
   double import_seconds = 30.0;                      ///< for one mesh file
 };
 
-/// @param parameters of the node's private namespace; the limits are read from the group `limits` in it
+/// @param parameters of the node's private namespace; the limits are its group `limits`
 /// @throws Error naming the limit, the value seen and what is allowed
 NodeLimits readLimits(ParameterReader& parameters);
 

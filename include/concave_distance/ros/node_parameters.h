@@ -20,7 +20,7 @@ struct NodeParameters {
   std::string robot_description = "robot_description";  ///< name of the parameter with the URDF; empty: none
   std::string reference_frame = "world";                ///< tf frame of every output; a continuous one
   GeometrySource geometry = GeometrySource::Collision;
-  std::vector<std::string> mesh_search_path;  ///< as of SceneLoadOptions; so are the next two
+  std::vector<std::string> mesh_search_path;  ///< as in SceneLoadOptions; so are the next two
   bool automatic_cutoff = false;              ///< a robot without scene file, and `cutoff` is not set
   bool skip_overlapping_pairs = false;
   std::string cache;                 ///< folder of prepared bodies; empty: the user's, "off": none
@@ -28,15 +28,15 @@ struct NodeParameters {
   double rate = 50.0;                ///< cycles per second
   double marker_rate = 20.0;         ///< marker messages per second, at most `rate`
   std::uint32_t threads = 0;         ///< that solve pairs in one cycle; 0: one per core
-  double transform_timeout = 0.2;    ///< s, that a service waits for a transform
+  double transform_timeout = 0.2;    ///< s that a service waits for a transform
   double stale_after = 1.0;          ///< s, age of the newest common transform at which a pair is not solved
   double tf_cache = 10.0;            ///< s, of transforms kept
-  double tf_future_tolerance = 1.0;  ///< s, that a transform's stamp may lie ahead of the clock
-  PairSettings pair;                 ///< what a scene file does not say otherwise
+  double tf_future_tolerance = 1.0;  ///< s that a transform's stamp may be ahead of the clock
+  PairSettings pair;                 ///< for pairs and settings that no scene file sets
   bool publish_markers = true;
   bool publish_contact_markers = true;
   bool show_bodies = true;
-  /// Patterns of the pairs with topics of their own; nothing: those of a small scene.
+  /// Patterns of the pairs with their own topics; nothing: every pair of a small scene.
   std::optional<std::vector<std::string>> pair_topics;
   MarkerStyle marker;
   double diagnostic_period = 1.0;  ///< s

@@ -20,11 +20,11 @@ struct PairTopics {
   WatchedTopic contacts;
 };
 
-/// One entry a pair of a scene, in their order; nullptr: the pair has no topics.
+/// One entry per pair of a scene, in the scene's order; nullptr: the pair has no topics.
 using PairTopicList = std::vector<std::shared_ptr<const PairTopics>>;
 
-/// Decides which pairs have topics of their own, and advertises them. Three topics a pair take the master
-/// milliseconds each: with thousands of pairs only those that somebody names have them.
+/// Decides which pairs have their own topics, and advertises these. Advertising three topics takes the master
+/// milliseconds; so with thousands of pairs only those of the patterns have topics.
 class PairTopicKeeper {
  public:
   /// Without patterns, pairs have topics while the scene has at most this many.
@@ -33,7 +33,7 @@ class PairTopicKeeper {
   /// @param patterns of pairs' names, with * and ?; nothing: every pair of a small scene
   PairTopicKeeper(const ros::NodeHandle& node, std::optional<std::vector<std::string>> patterns);
 
-  /// @param before the scene before with its topics: those of pairs that stay are kept; nullptr: none
+  /// @param before the previous scene with its topics, which are kept for pairs that stay; nullptr: none
   PairTopicList topicsOf(const Scene& scene, const Scene* before, const PairTopicList& topics_before);
 
  private:

@@ -25,14 +25,14 @@ class ParameterReader {
                       std::uint32_t highest);
   bool flag(const std::string& name, bool fallback);
   std::string text(const std::string& name, const std::string& fallback);
-  /// A list of texts; one text is a list of one. Empty when it is not set.
+  /// A list of texts; a single text counts as a list of one. Empty when it is not set.
   std::vector<std::string> texts(const std::string& name);
   /// Index into `choices`.
   std::size_t choice(const std::string& name, std::size_t fallback, const std::vector<std::string>& choices);
 
-  /// The parameters of a namespace within this one; a reader of nothing when it is not set.
+  /// The parameters of a namespace within this one; an empty reader when it is not set.
   ParameterReader group(const std::string& name);
-  /// Counts what is unread in `reader` among the unread names here. @param prefix put before them
+  /// Adds the unread names of `reader` to those of this one. @param prefix put before them
   void adoptUnread(const ParameterReader& reader, const std::string& prefix);
 
   /// Names present that nobody asked for, `known` excepted.

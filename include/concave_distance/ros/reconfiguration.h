@@ -10,7 +10,7 @@ namespace concave_distance {
 /// The reconfigurable part of the parameters.
 ConcaveDistanceConfig toConfig(const NodeParameters& parameters);
 
-/// The ranges, for clients to show.
+/// The ranges, for clients to display.
 ConcaveDistanceConfig lowestConfig();
 ConcaveDistanceConfig highestConfig();
 

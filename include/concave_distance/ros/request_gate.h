@@ -9,14 +9,14 @@
 
 namespace concave_distance {
 
-/// Lets requests in that take long: so many work at one time, so many more wait in the order they came, and
-/// the next is refused at once.
+/// Limits requests that take long: some run at one time, some wait in the order in which they came, and the
+/// next is refused at once.
 class RequestGate {
  public:
-  /// @param waiting_seconds that a request waits at the most before it is refused too
+  /// @param waiting_seconds longest wait of a request before it is refused, too
   RequestGate(std::uint32_t workers, std::uint32_t waiting, double waiting_seconds);
 
-  /// The right to work; its destructor lets the next one in.
+  /// Permission to run; the destructor lets the next request run.
   class Place {
    public:
     explicit Place(RequestGate& gate) : gate_(&gate) {}
@@ -32,10 +32,10 @@ class RequestGate {
   /// free in time, or after stop()
   Place enter();
 
-  /// Refuses everybody who waits or comes, and raises the flag that ends the work of those who are in.
+  /// Refuses waiting and later requests, and sets the flag that ends running ones.
   void stop();
   const std::atomic<bool>& stopped() const { return stopped_; }
-  /// How many requests have been worked on.
+  /// Number of requests that have run.
   std::uint64_t ended() const { return ended_; }
 
  private:
@@ -46,8 +46,8 @@ class RequestGate {
   std::chrono::duration<double> waiting_seconds_;
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::deque<std::uint64_t> line_;  ///< who waits, in the order they came
-  std::uint64_t next_ = 0;          ///< who comes next
+  std::deque<std::uint64_t> line_;  ///< waiting requests, in the order in which they came
+  std::uint64_t next_ = 0;          ///< number of the next request
   std::uint32_t working_ = 0;
   std::atomic<std::uint64_t> ended_{0};
   std::atomic<bool> stopped_{false};

@@ -8,11 +8,11 @@
 
 namespace concave_distance {
 
-/// True for letters, digits, _ and /, beginning with a letter and without empty parts, 200 of them at the
-/// most: usable in topic names.
+/// True for at most 200 letters, digits, _ and /, beginning with a letter and without empty parts: usable in
+/// topic names.
 bool isRosName(const std::string& name);
 
-/// @throws Error when the scene has as many bodies as it may have
+/// @throws Error when the scene has its largest number of bodies
 void requireRoomForBody(const Scene& scene);
 
 /// Which bodies a new one is paired with.
@@ -20,23 +20,23 @@ struct PairPartners {
   std::vector<std::string> names;        ///< empty: every body that can move against the new one's frame
   bool none = false;                     ///< no body at all
   std::vector<std::string> may_touch{};  ///< bodies left out; not together with `names`
-  /// Whether two frames are known to stand still against each other, besides those that Scene::rigid joins.
+  /// Whether two frames do not move relative to each other, besides those that Scene::rigid joins.
   std::function<bool(const std::string& frame_a, const std::string& frame_b)> is_rigid{};
 };
 
 struct AddedPairs {
   std::vector<std::string> names;
-  std::vector<std::string> rigid_neighbours;  ///< bodies of other frames left out: nothing moves them apart
-  std::vector<std::string> unknown;           ///< of PairPartners::may_touch: names of no body
+  std::vector<std::string> rigid_neighbours;  ///< bodies of other frames left out as rigidly connected
+  std::vector<std::string> unknown;           ///< names in PairPartners::may_touch without a body
 };
 
 /// Adds a body and its pairs with its partners.
-/// @throws Error when the name is taken or no ROS name, a partner is unknown or the body itself, or the scene
-///         would be beyond its limits
+/// @throws Error when the name is taken or not a ROS name, when a partner is unknown or the body itself, or
+///         when the scene would exceed its limits
 AddedPairs addBody(Scene& scene, SceneBody body, const PairPartners& partners, const PairSettings& settings);
 
 /// @param allow_robot_link false: a link of a robot is refused
-/// @return names of the pairs that went with it. @throws Error when there is no such body
+/// @return names of the pairs removed with it. @throws Error when there is no such body
 std::vector<std::string> removeBody(Scene& scene, const std::string& name, bool allow_robot_link = false);
 
 /// How a request names a pair: by its name or, when that is empty, by its bodies in either order.

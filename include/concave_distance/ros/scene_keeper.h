@@ -45,7 +45,7 @@ class SceneKeeper {
   std::mutex mutex_;       ///< guards what follows, held for a copy only
   std::shared_ptr<const ServedScene> served_;
   PairSettings defaults_;
-  std::string waiting_for_ = "loading";  ///< services may be asked before the first look for a scene
+  std::string waiting_for_ = "loading";  ///< services may be called before the first attempt to load
 };
 
 }  // namespace concave_distance

@@ -15,17 +15,17 @@
 
 namespace concave_distance {
 
-/// Prepares the scene in a thread of its own, so that services, diagnostics and shutdown go on meanwhile.
-/// One thread at a time calls it.
+/// Prepares the scene on its own thread, so that services, diagnostics and shutdown do not wait.
+/// Use it from one thread at a time.
 class SceneLoader {
  public:
   struct Outcome {
     std::optional<Scene> scene;
-    std::optional<Error> error;  ///< a scene file that is wrong in itself
+    std::optional<Error> error;  ///< of a wrong scene file
   };
 
   SceneLoader() = default;
-  /// Waits for the bodies that are being prepared; those not begun are left out.
+  /// Waits for bodies that are being prepared; the others are left out.
   ~SceneLoader();
   SceneLoader(const SceneLoader&) = delete;
   SceneLoader& operator=(const SceneLoader&) = delete;
@@ -35,7 +35,7 @@ class SceneLoader {
   /// "prepared 12 of 54 bodies, 3.1 s"
   std::string progress() const;
   double seconds() const;
-  /// Nothing while it runs.
+  /// The result; nothing while it runs.
   std::optional<Outcome> take();
 
  private:

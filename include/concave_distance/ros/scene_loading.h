@@ -23,12 +23,12 @@ struct SceneRequest {
 };
 
 /// Reads the robot descriptions that the scene file or `~robot_description` names. Does not wait.
-/// @throws Error for a scene file that is wrong in itself
+/// @throws Error for a wrong scene file
 SceneRequest requestScene(const NodeParameters& parameters, const ros::NodeHandle& node);
 
-/// Loads the scene. A robot whose URDF cannot be read becomes a problem of the scene, as a broken mesh does.
-/// Takes as long as preparing the bodies; no ROS call but for packages.
-/// @throws Error for a scene file that is wrong in itself
+/// Loads the scene. A robot whose URDF cannot be read becomes a problem of the scene, as does a broken mesh.
+/// Takes as long as preparing the bodies; calls ROS only to find packages.
+/// @throws Error for a wrong scene file
 Scene loadScene(const NodeParameters& parameters, const SceneRequest& request, LoadProgress& progress);
 
 }  // namespace concave_distance

@@ -16,11 +16,11 @@
 
 namespace concave_distance {
 
-/// The picture of a whole scene: the nearest pairs, contacts, labels that keep clear of each other, tinted
-/// bodies, the legend; and what has to be deleted of the picture before. One per topic.
+/// The markers of a scene: nearest pairs, contacts, labels that do not overlap, red bodies, the legend, and
+/// deletions of earlier markers. One object per topic.
 class SceneMarkers {
  public:
-  /// @param style as configured, with 0 for what is automatic
+  /// @param style as configured; 0 means automatic
   /// @param pairs in the order of scene.pairs
   /// @param niches of the pairs that are due; none: everything is deleted
   /// @param header in the reference frame, stamped now
@@ -30,7 +30,7 @@ class SceneMarkers {
                                        const std::vector<PairNiches>& niches,
                                        const std::vector<PairContactState>& contacts,
                                        const std_msgs::Header& header, double lifetime);
-  /// Nobody sees the markers any more: there is nothing to delete.
+  /// For when there is no subscriber any more: nothing has to be deleted.
   void forget();
   bool empty() const { return shown_.empty() && tints_.empty(); }
 
@@ -39,7 +39,7 @@ class SceneMarkers {
   LabelPlacer placer_;
   WarningTints tints_;
   ShownMarkers shown_;
-  bool extents_seen_ = false;  ///< a row that comes and goes would move the legend
+  bool extents_seen_ = false;  ///< keeps that row, so that the legend does not move
 };
 
 }  // namespace concave_distance

@@ -21,12 +21,12 @@
 
 namespace concave_distance {
 
-/// The services that tell and change what is watched: list_bodies, add_body, remove_body, set_pair_enabled,
+/// The services that list and change the scene: list_bodies, add_body, remove_body, set_pair_enabled,
 /// set_effects, set_warning_distance, reset_tracking.
 class SceneServices {
  public:
-  /// add_body goes through the gate of requests that take long, the others do not.
-  /// @param transforms what tf says of the frames that bodies are added to
+  /// add_body passes the gate for long requests, the others do not.
+  /// @param transforms tf, for the frames of added bodies
   SceneServices(ServiceQueues& queues, SceneKeeper& keeper, RestartRequests& restarts,
                 const TransformBuffer& transforms, std::string reference_frame,
                 PackageLocator package_locator, MeshAccess mesh_access);

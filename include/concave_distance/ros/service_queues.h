@@ -13,19 +13,19 @@
 
 namespace concave_distance {
 
-/// Queues and threads of their own for the services: one for requests that take long, behind a gate, and one
-/// for those that do not. In a nodelet as well, whose manager's threads are for all its nodelets.
-/// When roscpp shuts down it waits for running services; a thread sees that it has begun and ends their work.
-/// It also gives memory back to the system after requests: malloc keeps what each thread has needed once.
+/// Queues and threads for the services: one queue for long requests, behind a gate, and one for the others.
+/// Also in a nodelet, because its manager's threads serve all its nodelets.
+/// At shutdown roscpp waits for running services; a thread notices the shutdown and ends their work. It also
+/// returns memory to the system after requests, because malloc keeps what each thread once needed.
 class ServiceQueues {
  public:
   ServiceQueues(const ros::NodeHandle& node, const NodeLimits& limits);
-  /// Ends what runs; the services themselves have to be gone by then.
+  /// Ends running requests; destroy the services first.
   ~ServiceQueues();
   ServiceQueues(const ServiceQueues&) = delete;
   ServiceQueues& operator=(const ServiceQueues&) = delete;
 
-  /// To advertise services with.
+  /// The node handle to advertise services with.
   const ros::NodeHandle& light() const { return light_node_; }
   const ros::NodeHandle& heavy() const { return heavy_node_; }
   RequestGate& gate() { return gate_; }

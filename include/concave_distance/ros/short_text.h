@@ -4,8 +4,7 @@
 
 namespace concave_distance {
 
-/// The text, or its beginning and its end: a message that quotes what somebody sent need not repeat a
-/// megabyte.
+/// The text, or its beginning and end, so that a message that quotes a request does not repeat a megabyte.
 inline std::string shortText(const std::string& text) {
   constexpr std::size_t kHead = 600;
   constexpr std::size_t kTail = 300;

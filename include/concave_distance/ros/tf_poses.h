@@ -33,8 +33,8 @@ struct FrameTransform {
   Eigen::Isometry3d target_from_source = Eigen::Isometry3d::Identity();
 };
 
-/// The only place where tf2's exceptions are met: they become a status with tf2's message. A frame seen from
-/// itself is static, whether tf knows it or not.
+/// The only place that catches tf2's exceptions: they become a status with tf2's message. The transform of a
+/// frame to itself is static, also for frames unknown to tf.
 /// @param stamp zero: the newest time common to both frames
 FrameTransform lookUpFrame(const tf2::BufferCore& buffer, const std::string& target,
                            const std::string& source, ros::Time stamp);
@@ -46,11 +46,11 @@ struct PairFrames {
   std::string frame_b;
 };
 
-/// Frames that the transforms of a pair are composed through, kept by the caller from call to call; looked
-/// for where empty.
+/// Common ancestors through which the transforms of a pair are composed. The caller keeps them between calls;
+/// empty ones are looked up.
 struct PairAncestors {
   std::string of_bodies;
-  std::string of_reference;  ///< of it and frame_a
+  std::string of_reference;  ///< of the reference frame and frame_a
 };
 
 /// The nearest frame that both descend from (one of the two, if the other descends from it); empty when tf
@@ -59,10 +59,9 @@ struct PairAncestors {
 std::string commonAncestor(const tf2::BufferCore& buffer, const std::string& frame_a,
                            const std::string& frame_b);
 
-/// All transforms of a pair at the newest time that the two bodies' frames and the reference frame have in
-/// common, each two frames seen from their common ancestor. Stale when that time is older than `stale_after`
-/// seconds (static transforms never are); where it lies ahead of `now`, the transforms at `now` instead, if
-/// they are known.
+/// All transforms of a pair at the newest time common to the two bodies' frames and the reference frame, each
+/// composed through a common ancestor. Stale when that time is older than `stale_after` seconds (static
+/// transforms never are). When it is ahead of `now`, the transforms at `now` are taken instead, if available.
 PairTransforms lookUpPair(const tf2::BufferCore& buffer, const PairFrames& frames, ros::Time now,
                           double stale_after, PairAncestors& ancestors);
 

@@ -14,7 +14,7 @@ inline int arenaSize(std::uint32_t threads) {
   return static_cast<int>(threads == 0 ? cores : std::min(threads, cores));
 }
 
-/// The arena of the cycle: TBB gives its few threads to it before others ask (where TBB has priorities).
+/// The arena of the cycle: TBB assigns its threads to it first (in versions of TBB with priorities).
 inline tbb::task_arena makeCycleArena(std::uint32_t threads) {
 #if TBB_INTERFACE_VERSION >= 12000
   return tbb::task_arena(arenaSize(threads), 1, tbb::task_arena::priority::high);

@@ -60,7 +60,7 @@ class TopicPublishers {
 
   void readDemand(const ServedScene& served, const MarkerWish& markers, std::vector<PairDemand>& demand);
 
-  /// Whether nothing is to be computed or published for the demand just read.
+  /// Whether no topic has a subscriber that needs anything computed or published.
   bool isIdle(const std::vector<PairDemand>& demand) const;
 
   /// Publishes the pairs that are due. A message is built once and not touched after it was published.

@@ -34,7 +34,7 @@ struct TrackedPair {
   TrackedPair(const Scene& scene, std::size_t index, const std::string& reference_frame,
               std::uint64_t first_id);
 
-  std::shared_ptr<const ScenePair> origin;  ///< what it was made or last set up from
+  std::shared_ptr<const ScenePair> origin;  ///< the scene pair that it was last set up from
 
   std::shared_ptr<const BodyMesh> mesh_a;
   std::shared_ptr<const BodyMesh> mesh_b;
@@ -71,7 +71,7 @@ struct TrackedPair {
   /// Forgets the niches; ids go on.
   void restart();
   /// Gives tracker and effects what the settings and the demand say; makes them when there are none.
-  /// @param stop of the node; set, a solve ends with what it has
+  /// @param stop flag of the node; when set, a solve ends with its results so far
   void prepare(const std::atomic<bool>* stop);
 };
 

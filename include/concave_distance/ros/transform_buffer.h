@@ -16,8 +16,8 @@
 
 namespace concave_distance {
 
-/// tf2's buffer behind a check: what cannot be right does not enter it, so that it recovers by itself as soon
-/// as right transforms come. Thread-safe.
+/// tf2's buffer behind a check: transforms that cannot be right do not enter it, so that one wrong transform
+/// does not block the correct ones that follow. Thread-safe.
 class TransformBuffer {
  public:
   using Clock = std::function<ros::Time()>;
@@ -27,16 +27,16 @@ class TransformBuffer {
 
   /// @param sender node that published it, for messages
   /// @param fixed it came on /tf_static
-  /// @return why it was refused; empty: it was taken
+  /// @return why it was refused; empty: it was accepted
   std::optional<TransformProblem> insert(geometry_msgs::TransformStamped transform, const std::string& sender,
                                          bool fixed);
 
-  /// A clock that jumped back (a bag that starts over, a simulation that is reset) invalidates every
-  /// transform that moves. insert() looks at the clock, too.
+  /// Clears moving transforms if the clock has jumped back (a bag or simulation that restarts). insert() does
+  /// the same.
   void checkClock();
 
-  /// For lookups. Later transforms come into it as well, until a frame changes its kind or the clock jumps
-  /// back: ask again for each cycle or query.
+  /// The buffer for lookups. It is replaced when a frame changes between static and moving or the clock jumps
+  /// back; so get it anew for each cycle or query.
   std::shared_ptr<const tf2::BufferCore> current() const;
 
   std::size_t frameCount() const;
@@ -61,10 +61,10 @@ class TransformBuffer {
   const Clock clock_;
   mutable std::mutex mutex_;
   std::unordered_map<std::string, Frame> frames_;  ///< by the child's name
-  // tf2 forgets neither a name nor a frame's kind: then the buffer is made anew, when it is next asked for.
+  // tf2 never forgets a name or whether a frame is static: then a new buffer is made at the next request.
   mutable std::shared_ptr<tf2::BufferCore> buffer_;
   mutable bool outdated_ = false;
-  mutable std::unordered_set<std::string> names_;  ///< that buffer_ has met
+  mutable std::unordered_set<std::string> names_;  ///< all names in buffer_
   ros::Time last_now_;
   ros::Time last_clearance_;  ///< of names
   std::size_t refused_for_space_ = 0;

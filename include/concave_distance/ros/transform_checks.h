@@ -8,7 +8,7 @@
 
 namespace concave_distance {
 
-/// Why a transform cannot be used, and what whoever sends it can do.
+/// Why a transform cannot be used, and what its sender can do.
 struct TransformProblem {
   std::string what;
   std::string remedy;
@@ -16,13 +16,13 @@ struct TransformProblem {
 
 struct TransformLimits {
   double cache = 10.0;            ///< s, of transforms kept
-  double future_tolerance = 1.0;  ///< s, that a stamp may lie ahead of the clock
+  double future_tolerance = 1.0;  ///< s that a stamp may be ahead of the clock
 };
 
-/// Looks at one transform alone: frame ids (without a leading slash), translation, rotation and, of one that
-/// moves, the stamp.
-/// @param fixed it came on /tf_static: its stamp means nothing
-/// @param now zero: simulated time that has not begun
+/// Checks one transform by itself: frame ids (without a leading slash), translation, rotation and, for a
+/// moving one, the stamp.
+/// @param fixed it came on /tf_static: its stamp is ignored
+/// @param now zero: simulated time has not begun
 std::optional<TransformProblem> findTransformProblem(const geometry_msgs::TransformStamped& transform,
                                                      bool fixed, ros::Time now,
                                                      const TransformLimits& limits);

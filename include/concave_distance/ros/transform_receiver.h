@@ -16,16 +16,16 @@
 
 namespace concave_distance {
 
-/// What came in since it was last asked.
+/// What arrived since the last call of take().
 struct TransformReport {
-  std::size_t frames = 0;  ///< known now
+  std::size_t frames = 0;  ///< known at present
   std::uint64_t taken = 0;
   std::uint64_t refused = 0;
   std::uint64_t refused_in_all = 0;  ///< since the start
   std::string last_refusal;          ///< frame, sender, reason and remedy; empty when there was none
 };
 
-/// Subscribes to /tf and /tf_static and fills the buffer, on a thread of its own; reports what is refused.
+/// Subscribes to /tf and /tf_static and fills the buffer, on its own thread; logs refused transforms.
 class TransformReceiver {
  public:
   TransformReceiver(const ros::NodeHandle& node, TransformBuffer& buffer);
@@ -33,7 +33,7 @@ class TransformReceiver {
   TransformReceiver(const TransformReceiver&) = delete;
   TransformReceiver& operator=(const TransformReceiver&) = delete;
 
-  /// Logs what it has not yet, too: ask once a second or so.
+  /// Also logs refusals not logged yet: call it about once a second.
   TransformReport take();
 
  private:
