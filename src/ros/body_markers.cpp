@@ -18,7 +18,7 @@ std_msgs::ColorRGBA toColor(const Eigen::Vector4d& color) {
   return message;
 }
 
-// Unit vectors outwards at the vertices; 0 where the faces around cancel out.
+// Outward unit vectors at the vertices; 0 where the normals of the faces around cancel out.
 std::vector<Eigen::Vector3d> vertexNormals(const SurfaceMesh& surface) {
   std::vector<Eigen::Vector3d> normals(surface.vertexCount(), Eigen::Vector3d::Zero());
   for (const TriangleNodes& triangle : surface.triangles()) {

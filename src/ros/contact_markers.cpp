@@ -37,7 +37,7 @@ Eigen::Vector3d toEigen(const geometry_msgs::Vector3& vector) {
   return {vector.x, vector.y, vector.z};
 }
 
-// Text and disc: seen on light and on dark.
+// For text and disc: visible on light and dark backgrounds.
 std_msgs::ColorRGBA contactColor() {
   return color(0.70F, 0.15F, 0.60F, 1.0F);
 }

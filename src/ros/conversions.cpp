@@ -106,7 +106,7 @@ Eigen::Isometry3d poseFromMessage(const geometry_msgs::Pose& pose, const std::st
   result.translation() = Eigen::Vector3d(pose.position.x, pose.position.y, pose.position.z);
   Eigen::Quaterniond rotation(pose.orientation.w, pose.orientation.x, pose.orientation.y, pose.orientation.z);
   if (rotation.coeffs().isZero(0.0)) {
-    return result;  // a message whose orientation nobody filled in
+    return result;  // an orientation that was not filled in
   }
   const double norm = rotation.norm();
   if (std::abs(norm - 1.0) > kQuaternionTolerance) {

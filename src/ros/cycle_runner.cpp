@@ -119,8 +119,8 @@ CycleRecord CycleRunner::runCycle(ros::Time now) {
                                        : cycles_until_markers_ - 1;
   publishers_.readDemand(*served_, {publish_markers_, contact_markers_, marker_cycle}, demand_);
   CycleRecord record;
-  // Once more after the last subscriber has gone: what it had watched ends. Thousands of pairs that nobody
-  // watches cost nothing after that.
+  // One more cycle after the last subscriber has gone ends what it needed. After that, pairs without
+  // subscribers cost nothing.
   const bool idle = publishers_.isIdle(demand_);
   if (std::exchange(was_idle_, idle) && idle && !scene_changed) {
     return record;

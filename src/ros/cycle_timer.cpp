@@ -10,7 +10,7 @@
 namespace concave_distance {
 namespace {
 
-// A simulated clock may run faster than the real one: it is looked at this often.
+// A simulated clock may run faster than the real one, so it is read this often.
 constexpr std::chrono::milliseconds kSimulatedSlice(1);
 constexpr std::chrono::milliseconds kLongestSlice(100);
 
@@ -51,7 +51,7 @@ void CycleTimer::stop() {
   if (thread_.joinable()) thread_.join();
 }
 
-// False: stop.
+// False when the timer was stopped.
 bool CycleTimer::waitUntilDue(std::unique_lock<std::mutex>& lock) {
   while (!stopping_) {
     const std::int64_t now = nowInNanoseconds();
@@ -75,7 +75,7 @@ void CycleTimer::run() {
     callback_(due);
     lock.lock();
     due_ += period_;
-    // A clock that ran ahead, or calls that take too long: those that were missed are left out.
+    // If the clock ran ahead or calls take too long, missed calls are left out.
     due_ = std::max(due_, nowInNanoseconds() - period_);
   }
 }

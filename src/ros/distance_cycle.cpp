@@ -19,7 +19,7 @@ namespace {
 void watchWarning(TrackedPair& pair) {
   pair.warning_changed = false;
   if (!pair.settings.warning_distance) {
-    // Taken away while it ran: what was raised is taken back.
+    // Removed while it ran: a raised alert is cleared.
     pair.warning_changed = pair.warning.state() != WarningState::Clear;
     pair.warning.reset();
     pair.heading.warning = false;
@@ -36,7 +36,7 @@ void watchWarning(TrackedPair& pair) {
   pair.heading.warning = pair.warning.state() == WarningState::Warning;
 }
 
-// Their places come from the frames too: a body of that name in another frame is another one.
+// The frame counts too: a body of the same name in another frame is another body.
 bool isOfTheSameBodies(const TrackedPair& tracked, const Scene& scene, const ScenePair& wanted) {
   const SceneBody& a = scene.bodies[wanted.body_a];
   const SceneBody& b = scene.bodies[wanted.body_b];
@@ -53,7 +53,7 @@ DistanceCycle::DistanceCycle(const TransformBuffer& transforms, CycleOptions opt
 void DistanceCycle::setScene(const Scene& scene, bool settings_changed) {
   std::vector<std::unique_ptr<TrackedPair>> before = std::exchange(pairs_, {});
   pairs_.resize(scene.pairs.size());
-  // Usually an edit leaves most pairs as they are, in their places.
+  // Usually an edit leaves most pairs unchanged and at the same index.
   std::unordered_map<std::string_view, std::size_t> moved;
   for (std::size_t index = 0; index < before.size(); ++index) {
     if (index < pairs_.size() && before[index]->origin.get() == &scene.pairs[index]) {
@@ -88,7 +88,7 @@ void DistanceCycle::setScene(const Scene& scene, bool settings_changed) {
   }
 }
 
-// Ids are not used again: pairs that come later begin above all that are gone.
+// Ids are not used again: later pairs begin above those of all removed ones.
 void DistanceCycle::retire(std::unique_ptr<TrackedPair> pair) {
   largest_retired_id_ = std::max(largest_retired_id_, pair->largest_id);
   if (pair->warning.state() != WarningState::Clear) {
@@ -212,7 +212,7 @@ bool DistanceCycle::locate(TrackedPair& pair, const tf2::BufferCore& buffer, ros
   return true;
 }
 
-// Together, before they are needed one by one: grids and metrics of bodies whose niches are searched first.
+// Grids and metrics of bodies whose niches are searched for the first time are made together, in parallel.
 void DistanceCycle::prepareSearches() {
   if (options_.stop != nullptr && *options_.stop) return;
   to_prepare_.clear();

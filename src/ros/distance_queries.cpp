@@ -66,7 +66,7 @@ PairTransforms locate(const BodyPlace& a, const BodyPlace& b, const QueryContext
   return transforms;
 }
 
-// What the call's time did not suffice for.
+// The answer to a query for which the call had no time left.
 QueryAnswer outOfTime(const DistanceQuery& query, const PairHeading& heading) {
   PairStatus status;
   status.code = PairStatus::BUDGET_EXHAUSTED;
@@ -263,8 +263,7 @@ bool DistanceQueries::getDistances(GetDistances::Request& request, GetDistances:
   return true;
 }
 
-// By threads of its own and not by TBB's: the cycle's helpers come out of the same few of those, and one that
-// solves a long query does not come back for it.
+// On its own threads, not TBB's: a TBB worker busy with a long query would be missing in the cycle.
 void DistanceQueries::answerAll(const std::vector<DistanceQuery>& queries, const QueryContext& context,
                                 GetDistances::Response& response) {
   const auto served = keeper_.served();

@@ -87,7 +87,7 @@ DistanceServer::DistanceServer(const ros::NodeHandle& node, const ros::NodeHandl
       runner_(transforms_, keeper_, publishers_, restarts_,
               {parameters_.reference_frame, parameters_.stale_after, parameters_.threads,
                &service_queues_.gate().stopped()}),
-      // It would read ~diagnostic_period unchecked, again and again: it looks where there is none.
+      // The updater would read ~diagnostic_period unchecked; in this namespace it finds none.
       updater_(node, ros::NodeHandle(private_node, "diagnostic_updater"), std::move(name)),
       body_markers_(private_node_.advertise<visualization_msgs::MarkerArray>("body_markers", 1, true)) {
   setUpDiagnostics();
@@ -102,8 +102,8 @@ DistanceServer::DistanceServer(const ros::NodeHandle& node, const ros::NodeHandl
   reconfigure_->setCallback(
       [this](ConcaveDistanceConfig& config, std::uint32_t level) { onReconfigure(config, level); });
   if (parameters_.automatic_cutoff) {
-    // The reconfigure server has written its default there, which is none; the next start would take it for
-    // the user's wish.
+    // The reconfigure server has written its default there; the next start would take it for the user's
+    // setting.
     private_node_.deleteParam("cutoff");
   }
   load_timer_ = startTimer(kLoadPeriod, "Loading the scene", &DistanceServer::tryToLoad);
@@ -256,7 +256,7 @@ void DistanceServer::reportMissingClock() {
 
 void DistanceServer::reportMissingFrames() {
   const std::shared_ptr<const tf2::BufferCore> buffer = transforms_.current();
-  const std::shared_ptr<const ServedScene> served = keeper_.served();  // an edit must not end it meanwhile
+  const std::shared_ptr<const ServedScene> served = keeper_.served();  // kept alive during edits
   const std::string missing = describeMissingFrames(*buffer, *served->scene, parameters_.reference_frame);
   if (!missing.empty()) {
     ROS_WARN_STREAM(missing);

@@ -8,7 +8,7 @@
 namespace concave_distance {
 namespace {
 
-// Frames above one another; more is a loop.
+// Longest chain of frames; a longer one is a loop.
 constexpr int kLongestChain = 1000;
 
 std::string listed(const std::set<std::string>& names) {

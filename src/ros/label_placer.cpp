@@ -13,12 +13,12 @@ namespace concave_distance {
 namespace {
 
 constexpr std::size_t kDirections = 8;  // to the side
-// Of a label beyond its line's end, in heights; 0: at the middle of the line, to a side.
+// Distance of a label from its line's end, in heights; 0: beside the middle of the line.
 constexpr std::array<double, 6> kRises = {1.2, 0.0, 3.0, 6.0, 10.0, -1.2};
 constexpr std::size_t kPlaces = kRises.size() * (kDirections + 1);
 constexpr double kPeriod = 1.0;  // s, between two looks for a better place
-constexpr double kLeader = 2.0;  // heights between label and line from which on a thin line joins them
-// Costs of a place, for each view in which it is so.
+constexpr double kLeader = 2.0;  // distance in heights beyond which a thin line joins label and line
+// Costs of a place, for each view to which they apply.
 constexpr double kOnLabel = 2.0;
 constexpr double kHidden = 3.0;  // a third of it for either end and the middle
 constexpr double kOnOwnLine = 0.5;
@@ -29,13 +29,13 @@ constexpr double kPerRise = 0.03;
 constexpr double kBelow = 0.1;
 constexpr double kSideways = 0.05;
 constexpr double kMoved = 0.15;
-constexpr double kNever = 100.0;  // nearer to its line than this many heights:
+constexpr double kNever = 100.0;  // applies nearer to its line than this many heights:
 constexpr double kClear = 1.1;
 constexpr double kTooManyOverlaps = 0.3;  // share of the views
 
 using Places = std::array<Eigen::Vector3d, kPlaces>;
 
-// Above and below the line, over its middle and to each side, nearer and farther.
+// Above and below the line, at its middle and to each side, at two distances.
 Places placesOf(const Label& label, double width, double height) {
   Places places;
   const Eigen::Vector3d middle = 0.5 * (label.from + label.to);
@@ -58,12 +58,12 @@ double costOfShape(std::size_t place) {
          (place % (kDirections + 1) != 0 ? kSideways : 0.0);
 }
 
-// Whether a body lies between the point and what is far off in this direction.
+// Whether a body hides the point from a camera far off in this direction.
 bool isHidden(const Eigen::Vector3d& point, const Eigen::Vector3d& towards,
               const LabelSurroundings& surroundings) {
   for (const LocatedBody& body : surroundings.bodies) {
     const double length = 2.0 * ((body.box.center() - point).norm() + body.box.diagonal().norm());
-    // The ray beside the body's sphere: most bodies end here.
+    // The ray misses the body's sphere, as for most bodies.
     const Eigen::Vector3d to_centre = body.box.center() - point;
     const double along = std::max(0.0, to_centre.dot(towards));
     if ((to_centre - along * towards).norm() > 0.5 * body.box.diagonal().norm()) continue;
@@ -124,7 +124,7 @@ double costOfHiding(const LabelSpace& space, const LabelSurroundings& surroundin
   return (kHidden * hidden / 3.0 + kBeforeBody * before) / static_cast<double>(usualViews().size());
 }
 
-// The best place; what costs most to find out comes last and only for places that can still be the best.
+// The best place; the expensive checks come last and only for places that can still be the best.
 std::size_t bestPlace(const Label& label, const Places& places, LabelSpace space, const Situation& situation,
                       std::optional<std::size_t> before) {
   std::array<std::pair<double, std::size_t>, kPlaces> order;
@@ -150,7 +150,7 @@ std::size_t bestPlace(const Label& label, const Places& places, LabelSpace space
   return best;
 }
 
-// From the label to its line where they are far apart.
+// A thin line from the label to its line, if they are far apart.
 visualization_msgs::Marker leaderOf(const Label& label, const LabelSpace& space) {
   visualization_msgs::Marker leader = label.marker;
   leader.ns += "_leader";

@@ -8,8 +8,8 @@ namespace {
 constexpr double kSpan = 5.0;       // s of wall time
 constexpr double kRateShare = 0.9;  // of the wanted rate; less is late
 constexpr double kLateShare = 0.1;  // of the cycles; more is late
-constexpr double kMuchMore = 2.0;   // change of the rate that is news
-constexpr int kGoodSpans = 2;       // until it is believed that all is well
+constexpr double kMuchMore = 2.0;   // factor of the rate that is reported again
+constexpr int kGoodSpans = 2;       // on time in a row before it is reported
 
 std::string describe(double rate, double late_share, double wanted_rate) {
   char text[160];

@@ -11,8 +11,8 @@ constexpr double kFarOff = 8.0;         // median distances from the median cent
 constexpr double kScaleShare = 0.009;   // diameter of the nearest points over the scene's size
 constexpr double kLetterShare = 2.2;    // height of the letters over that diameter
 constexpr double kFarShare = 0.25;      // end of the colour gradient over the scene's size
-constexpr double kResizeStep = 1.3;     // the size is taken over when it has changed by this factor
-constexpr double kMoveStep = 0.1;       // the place, when it has moved by this share of the size
+constexpr double kResizeStep = 1.3;     // the size is updated when it has changed by this factor
+constexpr double kMoveStep = 0.1;       // the place is updated when it has moved by this share of the size
 constexpr double kSizeOfNothing = 1.0;  // m
 
 double median(std::vector<double> values) {

@@ -10,11 +10,11 @@
 namespace concave_distance {
 namespace {
 
-constexpr double kLetterShare = 0.9;     // of the legend's letters over the labels'
-constexpr double kSlope = 0.35;          // tangent of the pitch up to which nothing is seen behind the legend
-constexpr double kLift = 1.5;            // of the legend above the scene, in letters
-constexpr double kRvizLineSpace = 0.01;  // m, that rviz leaves between the rows of a text
-constexpr std::size_t kColumn = 26;      // spaces by which two columns of a row are apart
+constexpr double kLetterShare = 0.9;     // height of the legend's letters over that of the labels
+constexpr double kSlope = 0.35;          // tangent of the pitch up to which the legend hides nothing
+constexpr double kLift = 1.5;            // height of the legend above the scene, in letters
+constexpr double kRvizLineSpace = 0.01;  // m between the rows of a text in rviz
+constexpr std::size_t kColumn = 26;      // spaces between two columns of a row
 
 struct Row {
   std::string text;
@@ -74,7 +74,7 @@ std::vector<visualization_msgs::Marker> legendMarkers(const LegendContents& cont
   const double height =
       static_cast<double>(count) * letters + static_cast<double>(count - 1) * kRvizLineSpace;
   Eigen::Vector3d centre = layout.region().center();
-  // From above, the far edges of the scene are seen higher than the near ones.
+  // From above, the far edges of the scene appear higher than the near ones.
   const double rear = kSlope * 0.5 * layout.region().diagonal().head<2>().norm();
   centre.z() = layout.region().max().z() + rear + kLift * layout.letterHeight() + 0.5 * height;
   for (const Row& row : rows) {
@@ -89,7 +89,7 @@ std::vector<visualization_msgs::Marker> legendMarkers(const LegendContents& cont
     marker.scale.z = letters;
     marker.color = row.color;
     marker.lifetime = ros::Duration(lifetime);
-    // Every marker has as many rows and stands at the same place: so the rows stay apart in every view.
+    // All markers have the same number of rows and the same place, so the rows never overlap in any view.
     marker.text = std::string(row.row, '\n') + row.text + std::string(count - 1 - row.row, '\n');
     markers.push_back(std::move(marker));
   }

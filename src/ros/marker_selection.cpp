@@ -6,7 +6,7 @@
 namespace concave_distance {
 namespace {
 
-// Gives what is left of the count to the niches behind each pair's nearest one, by distance.
+// Assigns the rest of the count to further niches of the pairs, nearest first.
 void addFartherNiches(std::vector<DrawnPair>& drawn, std::size_t count) {
   std::vector<std::pair<double, DrawnPair*>> others;
   std::size_t used = 0;

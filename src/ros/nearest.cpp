@@ -13,10 +13,10 @@ bool isPartlyProven(SolveStatus status) {
   return status == SolveStatus::BudgetExhausted || status == SolveStatus::WithinTolerance;
 }
 
-/// What is known of all pairs together.
+/// A summary of all pairs.
 struct Survey {
-  const TrackedPair* nearest = nullptr;  ///< of those with a distance
-  const TrackedPair* missing = nullptr;  ///< the first about which nothing is known
+  const TrackedPair* nearest = nullptr;  ///< among pairs with a distance
+  const TrackedPair* missing = nullptr;  ///< the first pair without distance and bound
   double distance = kInfinity;           ///< of `nearest`
   double number = kInfinity;             ///< Nearest::number, so far
   double lower_bound = kInfinity;

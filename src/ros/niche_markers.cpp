@@ -80,7 +80,7 @@ visualization_msgs::Marker emptyMarker(const PairNiches& pair, const char* kind,
 std_msgs::ColorRGBA distanceColor(double distance, const MarkerStyle& style) {
   const double share = std::clamp((distance - style.near) / (style.far - style.near), 0.0, 1.0);
   std_msgs::ColorRGBA color;
-  // Dark enough for a light background, light enough for a dark one.
+  // Visible on light and dark backgrounds.
   const Eigen::Vector3d kNear(0.95, 0.42, 0.0);
   const Eigen::Vector3d kMiddle(0.72, 0.60, 0.0);
   const Eigen::Vector3d kFar(0.0, 0.55, 0.10);

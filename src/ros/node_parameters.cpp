@@ -96,7 +96,7 @@ MarkerStyle readMarkers(ParameterReader& reader, MarkerStyle style) {
   return style;
 }
 
-/// Without the parameter: what a package holds, and what lies beside the scene file.
+/// By default every package and the scene file's folder.
 MeshRoots readMeshRoots(ParameterReader& reader, const std::string& scene_file) {
   std::vector<std::string> entries{"package://"};
   if (reader.has("mesh_roots")) {

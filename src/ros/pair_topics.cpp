@@ -35,7 +35,7 @@ PairTopicKeeper::PairTopicKeeper(const ros::NodeHandle& node,
 PairTopicList PairTopicKeeper::topicsOf(const Scene& scene, const Scene* before,
                                         const PairTopicList& topics_before) {
   PairTopicList topics(scene.pairs.size());
-  // Usually an edit leaves most pairs as they are, in their places.
+  // Usually an edit leaves most pairs unchanged and at the same index.
   std::unordered_map<std::string, std::shared_ptr<const PairTopics>> moved;
   const auto is_unchanged = [&](std::size_t index) {
     return before != nullptr && index < before->pairs.size() && index < scene.pairs.size() &&

@@ -51,7 +51,7 @@ ConcaveDistanceConfig highestConfig() {
   return config;
 }
 
-// As if the values were the node's private parameters: one place knows the ranges.
+// The values are read like private parameters, so that the ranges are defined only once.
 void checkConfig(const ConcaveDistanceConfig& config) {
   XmlRpc::XmlRpcValue values;
   values["rate"] = config.rate;

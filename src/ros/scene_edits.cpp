@@ -39,7 +39,7 @@ void requireRoomForPairs(const Scene& scene, std::size_t more) {
   }
 }
 
-// Each once, in the order of their names in the request.
+// Each body once, in the order of the request.
 std::vector<std::size_t> partnersNamed(const Scene& scene, const SceneBody& body,
                                        const std::vector<std::string>& names) {
   std::vector<std::size_t> indices;
@@ -67,7 +67,7 @@ std::vector<std::size_t> partnersThatMove(const Scene& scene, const SceneBody& b
       added.unknown.push_back(name);
     }
   }
-  // Many bodies share few frames, and tf is asked once for each.
+  // tf is asked once for each frame, because many bodies share few frames.
   std::unordered_map<std::string, bool> rigid;
   const auto is_rigid = [&](const std::string& frame) {
     const auto [place, is_new] = rigid.emplace(frame, false);

@@ -14,7 +14,7 @@ namespace {
 
 // Where loadRobotScene looks for the SRDF; a robot may have none.
 constexpr const char* kSemanticDescription = "robot_description_semantic";
-constexpr const char* kSemanticSuffix = "_semantic";  // of the parameter's name, as MoveIt has it
+constexpr const char* kSemanticSuffix = "_semantic";  // of the parameter's name, as in MoveIt
 
 std::optional<FoundDescription> findDescription(const ros::NodeHandle& node, const std::string& name) {
   return searchDescription(node.getNamespace(), name, [&](const std::string& key) {
@@ -23,7 +23,7 @@ std::optional<FoundDescription> findDescription(const ros::NodeHandle& node, con
   });
 }
 
-// To add bodies to.
+// Bodies can be added to this scene.
 Scene emptyScene(const SceneLoadOptions& options) {
   Scene scene;
   scene.cache = options.cache;

@@ -15,15 +15,15 @@ namespace {
 
 using visualization_msgs::Marker;
 
-constexpr double kTintOffset = 0.1;  // of a tint in front of the surface, over the scale
-constexpr double kLargestTint =
-    1.0;  // diameter of a tinted body over the region's: a red floor hides the rest
+constexpr double kTintOffset = 0.1;  // distance of a red copy from the surface, over the scale
+// Diameter of the largest red body over that of the region: a red floor would hide the rest.
+constexpr double kLargestTint = 1.0;
 
 void append(std::vector<Marker> from, std::vector<Marker>& to) {
   std::move(from.begin(), from.end(), std::back_inserter(to));
 }
 
-// Of pairs in warning. Not of all that overlap: in many robots some links always do.
+// Only bodies of pairs in warning, not of all that overlap: in many robots some links always do.
 std::set<std::size_t> bodiesToTint(const Scene& scene, const std::vector<std::unique_ptr<TrackedPair>>& pairs,
                                    double largest) {
   std::set<std::size_t> bodies;

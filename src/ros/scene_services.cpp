@@ -44,7 +44,7 @@ PairSettings pairSettings(const AddBody::Request& request, PairSettings settings
   return settings;
 }
 
-constexpr double kRemarkPeriod = 1.0;  // s, between two remarks in the log; each is in its response too
+constexpr double kRemarkPeriod = 1.0;  // s between two remarks in the log; every response has its own
 
 // Bodies named in a remark.
 constexpr std::size_t kMostNamed = 8;
@@ -58,7 +58,7 @@ std::string listed(const std::vector<std::string>& names) {
                                    : text;
 }
 
-// Only static transforms lie between the two frames.
+// Whether only static transforms connect the two frames.
 bool areFixed(const tf2::BufferCore& buffer, const std::string& frame_a, const std::string& frame_b) {
   const FrameTransform transform = lookUpFrame(buffer, frame_a, frame_b, ros::Time(0));
   return transform.status == TransformStatus::Ok && transform.stamp.isZero();
@@ -68,7 +68,7 @@ bool isOnTf(const tf2::BufferCore& buffer, const std::string& frame) {
   return buffer._frameExists(frame);
 }
 
-// What the caller should know of a body that was added; empty: nothing.
+// Remarks for the caller about an added body; empty: none.
 std::string remarksOn(const AddedPairs& added, const std::string& frame, bool frame_is_known) {
   std::string text;
   const auto add = [&](const std::string& remark) { text += (text.empty() ? "" : "; ") + remark; };

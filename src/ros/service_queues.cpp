@@ -8,7 +8,7 @@
 namespace concave_distance {
 namespace {
 
-constexpr std::uint32_t kLightThreads = 2;  // a look at the scene does not wait for an edit of it
+constexpr std::uint32_t kLightThreads = 2;  // so that reading the scene does not wait for an edit
 constexpr std::chrono::milliseconds kWatchPeriod{20};
 constexpr std::chrono::seconds kReturnPeriod{5};
 
@@ -25,7 +25,7 @@ ServiceQueues::ServiceQueues(const ros::NodeHandle& node, const NodeLimits& limi
       light_node_(onQueue(node, light_queue_)),
       heavy_node_(onQueue(node, heavy_queue_)),
       light_spinner_(kLightThreads, &light_queue_),
-      // One for each request that works or waits, and one that refuses the next.
+      // One thread per running or waiting request, and one that refuses the next.
       heavy_spinner_(limits.service_threads + limits.service_queue + 1, &heavy_queue_),
       watcher_([this] { watch(); }) {
   light_spinner_.start();
@@ -44,7 +44,7 @@ ServiceQueues::~ServiceQueues() {
   light_spinner_.stop();
 }
 
-// Polling: roscpp says that it shuts down by a flag only, before it waits for the services.
+// Polls, because roscpp announces its shutdown only by a flag before it waits for the services.
 void ServiceQueues::watch() {
   using Clock = std::chrono::steady_clock;
   Clock::time_point last_look = Clock::now();

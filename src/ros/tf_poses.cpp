@@ -18,7 +18,7 @@ namespace {
 
 // Wall seconds between two looks at the buffer of a service that waits for a transform.
 constexpr double kWaitSlice = 0.002;
-// Frames above one another; more is a loop.
+// Longest chain of frames; a longer one is a loop.
 constexpr std::size_t kLongestChain = 1000;
 
 ros::Time olderOf(ros::Time left, ros::Time right) {
@@ -38,7 +38,7 @@ PairTransforms failed(const FrameTransform& frame) {
 std::vector<std::string> frameAndAncestors(const tf2::BufferCore& buffer, const std::string& frame) {
   std::vector<std::string> chain = {frame};
   std::string parent;
-  // A tree in between two changes may have a loop for a moment.
+  // Between two changes the tree may have a loop for a moment.
   while (chain.size() < kLongestChain && buffer._getParent(chain.back(), ros::Time(0), parent)) {
     chain.push_back(parent);
   }
@@ -51,7 +51,7 @@ struct Sight {
   FrameTransform seen;
 };
 
-// All of them at the same time. @param stamp zero: the newest common time. @return the first failure
+// All transforms at the same time. @param stamp zero: the newest common time. @return the first failure
 const Sight* lookUpAll(const tf2::BufferCore& buffer, ros::Time stamp, std::array<Sight, 4>& sights,
                        ros::Time& common) {
   for (Sight& sight : sights) {
@@ -112,7 +112,7 @@ FrameTransform lookUpFrame(const tf2::BufferCore& buffer, const std::string& tar
                            const std::string& source, ros::Time stamp) {
   FrameTransform result;
   if (target == source) {
-    // tf2 would give it the stamp of the transform from its parent, however old.
+    // tf2 would use the stamp of the transform from its parent, however old.
     result.status = TransformStatus::Ok;
     return result;
   }
@@ -153,7 +153,7 @@ PairTransforms lookUpPair(const tf2::BufferCore& buffer, const PairFrames& frame
     transforms.stamp = now;
   }
   if (transforms.stamp > now) {
-    // Else one transform ahead of the clock would hold the pair still until the clock has reached it.
+    // Otherwise one transform ahead of the clock would stop the pair until the clock reaches it.
     PairTransforms present = locate(buffer, frames, now, ancestors);
     if (present.status == TransformStatus::Ok) {
       present.stamp = now;

@@ -10,15 +10,15 @@
 namespace concave_distance {
 namespace {
 
-// Frames of the largest robots number in the hundreds; a storm of invented names must not fill the memory.
+// The largest robots have hundreds of frames; invented names must not fill the memory.
 constexpr std::size_t kMostFrames = 10'000;
-// Looking for frames to forget takes a walk over all of them.
+// Looking for frames to forget visits all of them.
 constexpr double kBetweenClearances = 1.0;  // s
 constexpr std::size_t kRefusalsBetweenClearances = 1000;
-// A frame that came on one of the topics as lately as this is not taken from the other one.
+// A frame that came on one topic within this time is not accepted on the other one.
 constexpr double kBetweenKinds = 1.0;  // s
 
-// tf2 takes norms that are off by half a percent and scales with them.
+// tf2 accepts norms that are off by half a percent, and then scales by them.
 void normalize(geometry_msgs::Quaternion& q) {
   const double norm = std::sqrt(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w);
   if (std::abs(norm - 1.0) <= 4.0 * std::numeric_limits<double>::epsilon()) return;
@@ -48,7 +48,7 @@ std::optional<TransformProblem> TransformBuffer::insert(geometry_msgs::Transform
   normalize(transform.transform.rotation);
   if (fixed) transform.header.stamp = ros::Time();
   if (!fixed && transform.header.stamp == frames_[transform.child_frame_id].latest.header.stamp) {
-    return std::nullopt;  // tf2 keeps the first and logs the others, each of them
+    return std::nullopt;  // tf2 keeps the first and logs each of the others
   }
   if (!outdated_) buffer_->setTransform(transform, sender, fixed);
   names_.insert(transform.child_frame_id);
@@ -62,7 +62,7 @@ std::optional<TransformProblem> TransformBuffer::insert(geometry_msgs::Transform
   return std::nullopt;
 }
 
-// Looks at the transform among the others.
+// Checks the transform against the known ones.
 std::optional<TransformProblem> TransformBuffer::admitFrame(const geometry_msgs::TransformStamped& transform,
                                                             bool fixed, ros::Time now) {
   const std::string& child = transform.child_frame_id;
@@ -101,7 +101,7 @@ std::optional<TransformProblem> TransformBuffer::changeKind(Frame& frame, bool f
         "stop one of the two publishers"};
   }
   frame.fixed = fixed;
-  frame.latest = geometry_msgs::TransformStamped();  // what it was before counts no more
+  frame.latest = geometry_msgs::TransformStamped();  // its earlier transform is ignored
   outdated_ = true;
   return std::nullopt;
 }
@@ -117,7 +117,7 @@ bool TransformBuffer::makesLoop(const std::string& child, const std::string& par
   return true;
 }
 
-// Space for two more names; made by forgetting frames that were not published for long.
+// Makes space for two more names by forgetting frames that were not published for long.
 bool TransformBuffer::hasSpace(ros::Time now) {
   const bool full = names_.size() + 2 > kMostFrames;
   const bool tried = std::abs(secondsBetween(last_clearance_, now)) < kBetweenClearances;

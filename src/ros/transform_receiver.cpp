@@ -9,7 +9,7 @@
 namespace concave_distance {
 namespace {
 
-constexpr std::uint32_t kQueueLength = 100;  // messages, as tf2_ros has it
+constexpr std::uint32_t kQueueLength = 100;  // messages, as in tf2_ros
 
 }  // namespace
 

@@ -9,7 +9,7 @@ namespace concave_distance {
 namespace {
 
 constexpr float kOpacity = 0.4F;
-constexpr double kLives = 3.0;  // renewals that a copy outlasts
+constexpr double kLives = 3.0;  // lifetime of a copy, in renewals
 
 visualization_msgs::Marker emptyTint(std::int32_t id, const std::string& frame) {
   visualization_msgs::Marker marker;

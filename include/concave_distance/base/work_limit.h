@@ -10,9 +10,9 @@
 
 namespace concave_distance {
 
-/// How long a solve may work and how much memory its buffers may take. The stages of a solve share one and
-/// ask it in every loop that can be long; what was refused is remembered until the solve ends. Without a
-/// deadline and a stop flag a question costs a comparison; a look at the clock costs about 25 ns.
+/// Limits the time and the memory of a solve. All its stages share one limit and ask it in every loop that
+/// can be long; a refusal is remembered until the solve ends. Without deadline and stop flag, asking costs a
+/// comparison; reading the clock costs about 25 ns.
 class WorkLimit {
  public:
   using Clock = std::chrono::steady_clock;
@@ -21,14 +21,15 @@ class WorkLimit {
   WorkLimit() = default;
 
   /// @param seconds from `start`; infinite: no deadline
-  /// @param memory_bytes of all buffers that hasRoom() and takeMemory() are asked for
-  /// @param stop ends the work as soon as it is set; nullptr: nothing does
+  /// @param memory_bytes for all buffers that hasRoom() and takeMemory() count
+  /// @param stop ends the work as soon as it is set; nullptr: none
   WorkLimit(Clock::time_point start, double seconds, std::size_t memory_bytes, const std::atomic<bool>* stop)
       : start_(start), seconds_(seconds), stop_(stop), memory_(memory_bytes) {
     allowShare(1.0);
   }
 
-  /// The deadline of the next stages as a share of the whole time; what was over by an earlier one may go on.
+  /// Sets the deadline of the next stages to a share of the whole time. A stage may go on after an earlier
+  /// one ran out.
   void allowShare(double share) {
     is_timed_ = share * seconds_ < kLongest;
     if (is_timed_)
@@ -46,7 +47,7 @@ class WorkLimit {
     return true;
   }
 
-  /// The same for loops whose turns take less than a microsecond: every 32nd call looks.
+  /// The same for loops with steps below a microsecond: only every 32nd call checks.
   bool isOverNow() {
     if (is_over_ || (!is_timed_ && stop_ == nullptr)) return is_over_;
     if (until_look_-- > 0) return false;
@@ -54,14 +55,14 @@ class WorkLimit {
     return isOver();
   }
 
-  /// Whether `more` elements may be added. Counts what the vector's growth takes.
+  /// Whether `more` elements may be added. Counts the memory of the vector's growth.
   template <typename T>
   bool hasRoom(const std::vector<T>& buffer, std::size_t more = 1) {
     const std::size_t needed = buffer.size() + more;
     if (needed <= buffer.capacity()) return true;
     const std::size_t grown = std::max(needed, 2 * buffer.capacity()) * sizeof(T);
     if (!takeMemory(grown)) return false;
-    returnMemory(buffer.capacity() * sizeof(T));  // the old elements go when the new ones are in place
+    returnMemory(buffer.capacity() * sizeof(T));  // freed after the new elements are in place
     return true;
   }
 
@@ -75,12 +76,12 @@ class WorkLimit {
     return true;
   }
   void returnMemory(std::size_t bytes) { taken_ -= std::min(bytes, taken_); }
-  /// What buffers hold that were there before.
+  /// Counts the memory of buffers from earlier solves.
   void setTaken(std::size_t bytes) { taken_ = bytes; }
   std::size_t taken() const { return taken_; }
 
   bool isTimed() const { return is_timed_; }
-  /// Whether anything was refused: what was computed is not all that was asked for.
+  /// Whether anything was refused, so that the results are incomplete.
   bool hasRefusedTime() const { return time_refused_; }
   bool hasRefusedMemory() const { return memory_refused_; }
   bool hasRefused() const { return time_refused_ || memory_refused_; }
@@ -88,7 +89,7 @@ class WorkLimit {
  private:
   using Duration = std::chrono::duration<double>;
   static constexpr std::uint32_t kCallsBetweenLooks = 31;
-  static constexpr double kLongest = 1e9;  ///< seconds that the clock can count from now on
+  static constexpr double kLongest = 1e9;  ///< s that the clock can count from now on
 
   Clock::time_point start_;
   Clock::time_point deadline_;
@@ -103,7 +104,7 @@ class WorkLimit {
   bool memory_refused_ = false;
 };
 
-/// Gives memory taken inside a scope back at its end: of buffers that are freed there.
+/// Returns the memory taken inside a scope at its end, for buffers that are freed there.
 class MemoryScope {
  public:
   explicit MemoryScope(WorkLimit& limit) : limit_(limit), taken_(limit.taken()) {}

@@ -38,7 +38,7 @@ struct Basin {
   double pass = std::numeric_limits<double>::infinity();
   double flooded = 0.0;    ///< metres: passes up to this were looked for
   bool undecided = false;  ///< the flood was cut short
-  bool refused = false;    ///< by the limit of the work, perhaps before it began
+  bool refused = false;    ///< the work limit was reached, perhaps before it began
 };
 
 /// Buffers and results of judgeBasins(), kept from call to call: once they are large enough nothing is
@@ -72,10 +72,10 @@ class BasinVerdicts {
 /// to, and shallower seeds in its reach belong to it. A flood that comes upon a cell deeper than its own
 /// start goes down from there; where that is no seed it is a new basin, judged like a seed. Exact up to the
 /// error of the triangle kernel in coordinates of the bodies' size. Never throws.
-/// Bodies so far apart that no pass can be prominent (doc/algorithm.md, section 7) are not flooded: of each
-/// pair of shells the deepest seed is the niche. Floods without a limit that turn out large go by straight
+/// Bodies so far apart that no pass can be prominent (doc/algorithm.md, section 7) are not flooded: the
+/// deepest seed of each pair of shells is the niche. Large floods without a limit are replaced by straight
 /// paths.
-/// @param limit ends floods: what is left undecided is a root that is `refused`; nullptr: none
+/// @param limit ends floods: undecided seeds become roots that are `refused`; nullptr: none
 void judgeBasins(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
                  const std::vector<BasinSeed>& seeds, BasinVerdicts& verdicts, WorkLimit* limit = nullptr);
 

@@ -17,14 +17,14 @@ namespace concave_distance {
 struct CertificateRequest {
   double absolute_tolerance = 0.0;  ///< metres: the bound may stay this far below the distance
   double relative_tolerance = 0.0;  ///< of the distance; the larger of the two counts
-  /// Where it strikes, the proof stops with the bound it has; nullptr: none.
+  /// When it is reached, the proof stops with the bound it has; nullptr: none.
   WorkLimit* limit = nullptr;
 };
 
 enum class CertificateStatus : std::uint8_t {
   Proven,      ///< lower_bound = distance - E, rounded down, not below 0
   Tolerance,   ///< lower_bound is within the tolerance asked for
-  Budget,      ///< time or memory was up first; lower_bound still holds
+  Budget,      ///< time or memory ran out first; lower_bound still holds
   Penetrating  ///< the surfaces meet, up to the kernel's error: distance 0, witness names the triangles
 };
 std::string_view toString(CertificateStatus status);

@@ -34,9 +34,9 @@ class ConeSweep {
 
   /// Appends triangle pairs that hold local minima above 0 and up to `cutoff` (metres), some more than once.
   /// @param budget groups of four cones to compare
-  /// @param least_prominence where the bodies are so far apart that each pair of shells has one niche of it,
-  ///        these are found and no cones are compared; 0: never
-  /// @param limit may end a call earlier; the next one goes on from there
+  /// @param least_prominence when the bodies are so far apart that each pair of shells has one niche with it,
+  ///        these are found without comparing cones; 0: never
+  /// @param limit may end a call early; the next one continues there
   /// @return pairs of features whose distance was computed
   std::uint64_t advance(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
                         NormalSides sides, double cutoff, std::size_t budget, std::vector<MinimumSeed>& found,

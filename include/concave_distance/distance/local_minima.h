@@ -25,7 +25,7 @@ struct LocalMinimaRequest {
   /// Triangle pairs whose niches are asked for (LocalMinima::owners), e.g. those that a search has found:
   /// descended to the local minimum around them.
   std::vector<std::pair<TriangleIndex, TriangleIndex>> whose;
-  /// Where it strikes, the niches decided by then are the result (LocalMinima::finished); nullptr: none.
+  /// When it is reached, the niches decided so far are the result (LocalMinima::finished); nullptr: none.
   WorkLimit* limit = nullptr;
 };
 
@@ -58,7 +58,7 @@ struct LocalMinima {
   static constexpr std::size_t kNoOwner = std::numeric_limits<std::size_t>::max();
   std::vector<LocalMinimum> niches;  ///< ascending by distance
   bool cut = false;                  ///< there are more than largest_count
-  bool finished = true;              ///< false: the limit struck, niches may be missing
+  bool finished = true;              ///< false: the limit was reached, niches may be missing
   /// For each of LocalMinimaRequest::whose the niche that it belongs to; kNoOwner when that is none of the
   /// result (farther than the cutoff, through material, cut).
   std::vector<std::size_t> owners;

@@ -66,8 +66,9 @@ struct ExtentWorkspace {
 /// Sideways the tolerance goes as far as it lengthens the distance d by no more: sqrt(2 d tolerance).
 /// Looks at no more than `pair_limit` triangle pairs and says when it cut. A witness that is the only closest
 /// point of its own surroundings, on either body, costs no more than looking around it. Touching witnesses
-/// (distance 0) are points, and so is every set where twice the sideways tolerance is as long as a body: so
-/// far apart nothing tells a set from a point. Cost: at most pair_limit and 2^20 steps, however far apart.
+/// (distance 0) are points, and so is every set when twice the sideways tolerance is as long as a body,
+/// because so far apart a set cannot be distinguished from a point. Cost: at most pair_limit and 2^20 steps
+/// at any distance.
 /// @param limit may cut the set shorter; nullptr: none
 NicheExtent measureExtent(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
                           const WitnessPair& witness, double tolerance, std::size_t pair_limit,

@@ -58,7 +58,7 @@ struct InterferenceRegion {
 enum class InterferenceStatus : std::uint8_t {
   Ok,
   InvalidPose,  ///< not finite or not a rotation within 1e-3: nothing was computed
-  Cut,          ///< the limit struck first: there are no regions
+  Cut,          ///< the limit was reached first: there are no regions
 };
 
 struct Interference {
@@ -91,7 +91,7 @@ class InterferenceWorkspace {
 /// B by an infinitesimal and by minus that. a_from_b must be rigid to rounding. Time grows with the crossing
 /// triangles, the surface inside the other body and the logarithm of the rest. Never throws but for lack of
 /// memory; allocates nothing once workspace and result have grown.
-/// @param limit asked for every pair of boxes and of triangles, and between passes; nullptr: none
+/// @param limit checked for every pair of boxes and of triangles, and between passes; nullptr: none
 void findInterference(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
                       InterferenceWorkspace& workspace, Interference& result, WorkLimit* limit = nullptr);
 

@@ -29,16 +29,16 @@ struct BodyMeshOptions {
   std::size_t search_node_limit = 800;
   /// Coarser levels over fine grids, for descents in long steps; only a comparison is without.
   bool levels = true;
-  /// Nodes of the grid at the most, estimated before it is made (estimatedNodeCount).
+  /// Largest number of nodes of the grid, compared with an estimate before it is made (estimatedNodeCount).
   std::size_t largest_node_count = 20'000'000;
   MeshMetricOptions metric;
-  /// Out of which the matrices of the metric are taken; without room in it there are none. nullptr: no limit.
+  /// Limit for the matrices of the metric; without room in it none are made. nullptr: no limit.
   std::shared_ptr<MetricMemory> metric_memory;
   /// Where prepared parts are looked for and stored; nullptr: nowhere.
   PreparationCachePointer cache;
 };
 
-/// Everything of a body but its mesh metric, for a search that moves on other nodes than the grid's.
+/// Everything of a body except its mesh metric, for a search on other nodes than the grid's.
 struct BodyMeshParts {
   std::string name;
   SurfaceMesh surface;
@@ -56,9 +56,9 @@ struct BodyMeshParts {
 BodyMeshParts makeBodyMeshParts(std::string name, SurfaceMesh surface, const BodyMeshOptions& options);
 
 /// One body, ready for queries: the original surface with its topology and tree for the exact levels, the
-/// even grid (makeSearchGrid) with its graph and metric for the search. To its users immutable; shared
-/// between pairs and threads. What only a search needs is made at its first use, once for all threads: a body
-/// whose distance alone is asked for never has it.
+/// even grid (makeSearchGrid) with its graph and metric for the search. Immutable to its users; shared
+/// between pairs and threads. What only a search needs is made at its first use, once for all threads; a body
+/// that is never searched has none of it.
 class BodyMesh {
  public:
   /// @param surface repaired, original triangles, body frame, metres
@@ -69,7 +69,7 @@ class BodyMesh {
   BodyMesh(const BodyMesh&) = delete;
   BodyMesh& operator=(const BodyMesh&) = delete;
 
-  /// Of the body that it was made for; others of the same content may share it.
+  /// Name of the body that it was made for; others of the same content may share it.
   const std::string& name() const { return parts_.name; }
   const SurfaceMesh& surface() const { return parts_.surface; }
   const MeshTopology& topology() const { return parts_.topology; }
@@ -101,10 +101,10 @@ class BodyMesh {
   NodeIndex graphNode(NodeIndex surface_vertex) const {
     return thinned() ? nodes().graph_node_of_vertex[surface_vertex.value] : surface_vertex;
   }
-  /// The grid with its graph; nullptr as long as no search has needed it.
+  /// The grid with its graph; nullptr until a search needs it.
   const SearchNodes* nodesIfMade() const { return nodes_.load(std::memory_order_acquire); }
   const MeshMetric* metricIfMade() const;
-  /// Of what is made so far.
+  /// Memory of the parts made so far.
   std::size_t memoryBytes() const;
 
  private:
@@ -125,11 +125,11 @@ class BodyMesh {
   mutable std::atomic<const SearchNodes*> nodes_{nullptr};  ///< set once, in on_demand_
 };
 
-/// Bodies with the same key are the same but for their names.
+/// Bodies with the same key differ only in their names.
 ContentKey bodyKey(const SurfaceMesh& surface, const BodyMeshOptions& options);
 
-/// Makes what a search needs of these bodies, in parallel, where it is not made yet. Room for matrices goes
-/// to them in this order, so that who has some does not depend on the threads.
+/// Makes the missing parts that a search of these bodies needs, in parallel. Room for matrices is given in
+/// this order, so that it does not depend on the threads.
 void prepareSearch(const std::vector<const BodyMesh*>& bodies);
 
 }  // namespace concave_distance

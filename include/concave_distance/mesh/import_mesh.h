@@ -15,14 +15,14 @@ namespace concave_distance {
 /// node's transform for the nodes below it. STL, OBJ and PLY state no unit: their numbers are metres.
 /// Coordinates pass through assimp's single precision: 6e-8 of their size.
 ///
-/// The file is read by a process of its own, mesh_import_worker, within `limits`; that process opens no other
-/// file (materials, textures), and a crash there is an error here. Starting it takes some milliseconds.
+/// A separate process, mesh_import_worker, reads the file within `limits`. It opens no other file (materials,
+/// textures), and a crash there becomes an error here. Starting it takes some milliseconds.
 /// @param scale the URDF's mesh scale, a factor per axis. Where it or a node's transform mirrors, the winding
 ///        is turned, so that normals keep pointing outwards.
 /// @throws Error naming the file when it is missing, empty, unreadable or breaks off (an OBJ cut between two
-///         lines shows no sign of it), has no triangle or a coordinate that is not finite, when it takes more
-///         than the limits or ends the process that reads it, when the scale is zero or not finite, or when
-///         the worker cannot be started
+///         lines shows no sign of it), has no triangle or a coordinate that is not finite, when reading it
+///         exceeds the limits or crashes, when the scale is zero or not finite, or when the worker cannot be
+///         started
 TriangleSoup importMesh(const MeshFile& file, const Eigen::Vector3d& scale = Eigen::Vector3d::Ones(),
                         const MeshImportLimits& limits = {});
 TriangleSoup importMesh(const std::string& path, const Eigen::Vector3d& scale = Eigen::Vector3d::Ones(),

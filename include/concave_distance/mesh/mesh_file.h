@@ -10,13 +10,13 @@
 
 namespace concave_distance {
 
-/// A mesh file opened for reading. Only a regular file is opened: a FIFO, a device or a socket is not
-/// touched. What is read later is this file, whatever stands at its path meanwhile.
+/// A mesh file opened for reading. Only a regular file is opened, never a FIFO, a device or a socket. Later
+/// reads come from this file, even if another one replaces it at its path.
 class MeshFile {
  public:
   /// @param folders real paths (no symbolic links); the file that was opened must lie below one of them.
   ///        Empty: it may lie anywhere.
-  /// @throws Error naming the path when it is missing, no regular file, empty, not readable or not below
+  /// @throws Error naming the path when it is missing, not a regular file, empty, not readable or not below
   ///         `folders`
   explicit MeshFile(std::string path, const std::vector<std::string>& folders = {});
   MeshFile(MeshFile&& other) noexcept;
@@ -26,9 +26,9 @@ class MeshFile {
   const std::string& path() const { return path_; }
   /// The file name's ending with its dot, in lower case.
   const std::string& extension() const { return extension_; }
-  /// Bytes, when it was opened.
+  /// Size in bytes when it was opened.
   std::uint64_t size() const { return size_; }
-  /// Of the operating system; belongs to this object.
+  /// Descriptor of the operating system; belongs to this object.
   int descriptor() const { return descriptor_; }
 
  private:
@@ -38,11 +38,11 @@ class MeshFile {
   int descriptor_ = -1;
 };
 
-/// Adds what the file brings to a body: its bytes and its ending. False when it cannot be read whole, or when
-/// it is larger than `limits` let it be imported: not to be cached. Memory is constant.
+/// Adds the file's bytes and its ending to the hash of a body. False when it cannot be read completely or
+/// exceeds `limits`: then it is not cached. Uses constant memory.
 bool addMeshFile(ContentHasher& hasher, const MeshFile& file, const MeshImportLimits& limits);
 
-/// The one refusal of a file outside of the allowed folders. It says nothing about what is there.
+/// The error for every file outside the allowed folders. It does not reveal what is there.
 Error outsideOfMeshFolders(const std::string& name);
 
 /// True when `path` is `folder` or lies below it, both absolute and without . and ..

@@ -29,7 +29,7 @@ class MeshMetric {
   MeshMetric(const NodeGraph& graph, std::vector<float> distances, std::vector<std::uint16_t> predecessors);
   /// Whether a graph of so many nodes gets matrices.
   static bool wantsMatrices(std::size_t node_count, const MeshMetricOptions& options);
-  /// Memory of the matrices of so many nodes.
+  /// Bytes that the matrices of this many nodes take.
   static std::size_t matrixBytes(std::size_t node_count) {
     return node_count * node_count * (sizeof(float) + sizeof(std::uint16_t));
   }

@@ -20,7 +20,7 @@ struct MeshTopology {
   /// Across each edge; kNoTriangle at a border, the first other triangle at a non-manifold edge.
   std::vector<std::array<TriangleIndex, 3>> triangle_across_edge;
   /// Triangles that bound one solid and are connected by edges, or sheets connected by edges or corners. A
-  /// sheet that hangs on a solid, and solids that share an edge, are shells of their own.
+  /// sheet attached to a solid, and solids that share an edge, are separate shells.
   std::vector<std::uint32_t> shell_of_triangle;
   std::vector<TriangleIndex> triangle_of_shell;  ///< the first of each
   /// Bounds a solid or a cavity: along each edge as many of the shell's triangles run one way as the other.

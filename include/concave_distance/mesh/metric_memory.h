@@ -5,7 +5,7 @@
 
 namespace concave_distance {
 
-/// A limit on what the matrices of several mesh metrics take together. Thread-safe.
+/// A limit on the memory of the matrices of several mesh metrics. Thread-safe.
 class MetricMemory {
  public:
   /// @param limit bytes
@@ -13,7 +13,7 @@ class MetricMemory {
 
   std::size_t limit() const { return limit_; }
   std::size_t used() const { return used_; }
-  /// False, and nothing is taken, when less than this is left.
+  /// Takes memory; false, without taking any, when less than this is left.
   bool take(std::size_t bytes) {
     std::size_t used = used_;
     while (bytes <= limit_ - used) {

@@ -42,7 +42,7 @@ struct SearchNodes {
 /// thousand.
 double automaticEdgeLength(const SurfaceMesh& surface);
 
-/// Nodes of the grid that this edge length makes, roughly: from the area and the lengths of the edges. O(n).
+/// Rough number of grid nodes for this edge length, from the area and the lengths of the edges. O(n).
 double estimatedNodeCount(const SurfaceMesh& surface, double max_edge_length);
 
 /// @throws Error (naming `where`) when the edge length is not positive and finite, or a triangle has a corner

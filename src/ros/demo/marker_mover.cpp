@@ -115,7 +115,7 @@ void run() {
     if (feedback->event_type == Feedback::MOUSE_DOWN) idle = false;
     if (feedback->event_type == Feedback::POSE_UPDATE && !idle) pose = fromPose(feedback->pose);
   });
-  // Whoever moved the body: the handles of every rviz, and of one that is started later, go with it.
+  // The handles in every rviz, also in one started later, follow the body.
   std::optional<Eigen::Isometry3d> shown;
   const auto show_handles = [&] {
     if (shown && shown->matrix() == pose.matrix()) return;
@@ -134,7 +134,7 @@ void run() {
     if (idle) pose = sway(start, secondsBetween(first, now));
     broadcaster.sendTransform(demo::toTransform(pose, now, parent, child));
   });
-  // Not as often as the poses: rviz starts over when it loses one of the server's messages.
+  // Less often than the poses, because rviz starts over when it loses one of the server's messages.
   const ros::Timer handle_timer = public_node.createTimer(ros::Duration(1.0 / std::min(rate, kHandleRate)),
                                                           [&](const ros::TimerEvent&) { show_handles(); });
   ros::spin();

@@ -1,8 +1,8 @@
-/// Moves a robot that nobody moves yet: publishes its joint states and the transform from `root_frame` to its
-/// root link, so that robot_state_publisher and the distance node have what they need.
+/// Moves a robot without a driver: publishes its joint states and the transform from `root_frame` to its root
+/// link, for robot_state_publisher and the distance node.
 ///
 /// Private parameters: `robot_description` (name of the parameter with the URDF), `motion` (zero: every joint
-/// stands at zero, or in the middle of its range where that does not hold zero; sway: around there), `rate`
+/// at zero, or in the middle of its range if zero is outside; sway: each joint moves around that), `rate`
 /// (Hz, 50), `root_frame` (world; empty: no transform to the root link).
 
 #include <ros/ros.h>
