@@ -18,7 +18,7 @@ std::shared_ptr<const BodyMesh> BodyPool::insert(const ContentKey& key,
     for (auto entry = meshes_.begin(); entry != meshes_.end();) {
       entry = entry->second.expired() ? meshes_.erase(entry) : std::next(entry);
     }
-    inserts_until_sweep_ = meshes_.size() + 64;  // a sweep costs no more than the inserts before it
+    inserts_until_sweep_ = meshes_.size() + 64;  // so that a sweep costs no more than the inserts before it
   }
   return made;
 }

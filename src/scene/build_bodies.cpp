@@ -16,7 +16,7 @@
 namespace concave_distance::detail {
 namespace {
 
-// A larger grid takes so long that it is made while loading, not when the body is first searched.
+// A larger grid takes so long that it is made while loading, not at the first search.
 constexpr double kLargeGrid = 5000.0;
 constexpr double kFarthestCoordinate = 1e9;  // metres
 
@@ -69,7 +69,7 @@ void checkTriangleCount(const SurfaceMesh& surface, const BodySource& source, co
   }
 }
 
-// Beyond, squares of coordinates lose all that is small, and at 1e154 m they overflow.
+// With larger coordinates, squares lose all small terms; at 1e154 m they overflow.
 void checkExtent(const SurfaceMesh& surface, const BodySource& source) {
   const Eigen::AlignedBox3d& box = surface.boundingBox();
   const double farthest = box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff();

@@ -36,14 +36,14 @@ struct BuiltBody {
   std::vector<std::string> notes;
 };
 
-/// What bodies are built with.
+/// Options for building bodies.
 struct BuildOptions {
   PackageLocator package_locator;
   std::vector<std::string> mesh_search_path;
   std::shared_ptr<BodyPool> pool;    ///< not nullptr
   PreparationCachePointer cache;     ///< nullptr: none
-  SceneLimits limits;                ///< those of one body are read
-  LoadProgress* progress = nullptr;  ///< nullptr: nobody watches
+  SceneLimits limits;                ///< only those of one body apply
+  LoadProgress* progress = nullptr;  ///< nullptr: none
 };
 
 /// Loads all bodies, in parallel; one result a source, in their order and the same whatever the number of

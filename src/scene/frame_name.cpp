@@ -8,7 +8,7 @@
 namespace concave_distance {
 namespace {
 
-// tf2 has no limit of its own; a longer one is an accident, and it is kept as long as the node runs.
+// tf2 has no limit; a longer name is a mistake, and tf2 would keep it as long as the node runs.
 constexpr std::size_t kLongestFrameName = 255;
 
 }  // namespace

@@ -23,11 +23,11 @@ struct GeometryElement {
   std::optional<double> chord_error;                ///< metres; empty: 1 % of the radius
   Eigen::Isometry3d frame_from_geometry = Eigen::Isometry3d::Identity();
   MeshAccess access;                      ///< of the mesh
-  std::vector<std::string> real_folders;  ///< that the located file must be below; empty: anywhere
+  std::vector<std::string> real_folders;  ///< the file must be below one of them; empty: anywhere
 };
 
-/// Puts the path of this machine in place of the element's resource; a primitive is left alone.
-/// @return the folder of the search path that led there; empty: none was needed
+/// Replaces the element's resource by a path of this machine; a primitive is not changed.
+/// @return the folder of the search path where it was found; empty: none was needed
 /// @throws Error as searchMesh, naming the element too
 std::string locateGeometry(GeometryElement& element, const MeshFolders& folders,
                            const PackageLocator& package_locator);

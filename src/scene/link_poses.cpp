@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kTurn = 3.141592653589793;
 
-// A joint that follows another one has that one's position; chains of them end after as many steps as joints.
+// A mimic joint has the position of the joint it follows; chains end after as many steps as joints.
 double positionOf(const RobotDescription& robot, const JointPositions& positions, std::size_t index) {
   double factor = 1.0;
   double offset = 0.0;

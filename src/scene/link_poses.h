@@ -10,13 +10,13 @@
 
 namespace concave_distance::detail {
 
-/// Positions of a robot's joints, in their order: rad or m; 0 for joints that do not move.
+/// Positions of a robot's joints, in their order: rad or m; 0 for fixed joints.
 using JointPositions = std::vector<double>;
 
-/// Every joint at zero, or in the middle of its range where that does not hold zero.
+/// Every joint at zero, or in the middle of its range if zero is outside.
 JointPositions zeroPositions(const RobotDescription& robot);
 
-/// Every joint at random within its limits; one without limits within a turn.
+/// Every joint at random within its limits; joints without limits within one turn.
 JointPositions randomPositions(const RobotDescription& robot, RandomEngine& engine);
 
 /// Poses of the links in the frame of the root link, by their names in the URDF. Joints of more than one

@@ -34,14 +34,14 @@ std::vector<std::string> realFolders(const std::vector<std::string>& folders) {
   return real;
 }
 
-// By its name alone, so that what lies elsewhere is not looked up.
+// Compares names only, so that files elsewhere are not looked up.
 bool isNamedBelow(const std::string& path, const std::vector<std::string>& folders,
                   const std::vector<std::string>& real_folders) {
   const std::string normal = fs::path(path).lexically_normal().string();
   return isBelowAny(normal, folders) || isBelowAny(normal, real_folders);
 }
 
-// Where a link to a file that does not exist points to is not known to weakly_canonical().
+// weakly_canonical() does not resolve a link to a file that does not exist.
 bool hasDanglingLink(const fs::path& path) {
   fs::path part;
   for (const fs::path& name : path) {
@@ -52,7 +52,7 @@ bool hasDanglingLink(const fs::path& path) {
   return false;
 }
 
-// With links resolved: a missing file counts where it would be.
+// Resolves links; a missing file counts by where it would be.
 bool isReallyBelow(const std::string& path, const std::vector<std::string>& real_folders) {
   if (hasDanglingLink(path)) return false;
   std::error_code failure;

@@ -22,7 +22,7 @@ std::string folderOf(const std::string& place) {
   return fs::is_directory(place, ignored) ? place : fs::path(place).parent_path().string();
 }
 
-// The path of a resource that may be found elsewhere than it says; nothing for absolute ones.
+// The path of a resource that may be searched elsewhere; nothing for absolute ones.
 std::optional<std::string> pathToSearch(const std::string& resource) {
   const std::string scheme = "package://";
   if (resource.compare(0, scheme.size(), scheme) == 0) return resource.substr(scheme.size());

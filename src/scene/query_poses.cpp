@@ -66,8 +66,8 @@ QueryPose parseLine(std::string_view line, const std::string& where) {
   return {values[0], {values[1], values[2], values[3]}, {values[4], values[5], values[6], values[7]}};
 }
 
-// A device may never end, and a pipe that nobody writes into is waited for; one that the shell has opened
-// (/dev/stdin, /dev/fd/63 of <(...)) is fine.
+// A device may never end, and opening a pipe without a writer blocks. Pipes that the shell has opened
+// (/dev/stdin, /dev/fd/63 of <(...)) are allowed.
 void requireReadableFile(const std::string& path) {
   namespace fs = std::filesystem;
   std::error_code failure;

@@ -74,7 +74,7 @@ detail::ResourcePaths pathsInPackage(const std::string& resource, const PackageL
   if (package.empty() || slash == std::string::npos || slash + 1 == rest.size()) {
     throw Error(resource, "a package and a file in it are expected", "write package://<package>/<path>");
   }
-  // What rospack would take for options or further arguments is not asked for.
+  // Names that rospack would take for options or further arguments are not passed to it.
   const bool is_name =
       package.front() != '-' && std::all_of(package.begin(), package.end(), [](unsigned char c) {
         return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.';
@@ -213,7 +213,7 @@ ResourcePaths resourcePaths(const std::string& resource, const std::string& base
   ResourcePaths paths = pathsOf(resource, base_folder, package_locator);
   for (const std::string& candidate : paths.candidates) {
     if (candidate.find('\0') != std::string::npos) {
-      // No message holds what comes behind the zero byte.
+      // The text after the zero byte would be missing in messages.
       throw Error(resource.substr(0, resource.find('\0')), "the file name holds a zero byte",
                   "remove it (%00)");
     }
@@ -221,7 +221,7 @@ ResourcePaths resourcePaths(const std::string& resource, const std::string& base
   return paths;
 }
 
-// Nothing but a regular file serves: a folder or a socket has no triangles.
+// Only a regular file can hold triangles, not a folder or a socket.
 std::string firstFile(const std::string& resource, const std::vector<std::string>& candidates) {
   std::error_code error;
   for (const std::string& candidate : candidates) {

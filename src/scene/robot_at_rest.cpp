@@ -123,7 +123,7 @@ void setAutomaticCutoff(Scene& scene, const RobotDescription& robot) {
                         "(set ~cutoff to change it; 0: none)");
 }
 
-// A robot that is silently nothing at all is no help to anybody.
+// Without this warning an empty robot would not be noticed.
 void warnOfNoGeometry(Scene& scene, const RobotDescription& robot, GeometrySource geometry) {
   if (!scene.bodies.empty() || !scene.problems.empty()) return;
   const bool collision = geometry == GeometrySource::Collision;

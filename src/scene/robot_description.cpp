@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t kLongestDescription = 64'000'000;  // bytes
 constexpr std::size_t kMostLinks = 10'000;
-constexpr std::size_t kLongestQuote = 60;  // characters of what is no URDF
+constexpr std::size_t kLongestQuote = 60;  // characters of a text that is not a URDF
 constexpr const char* kCheckUrdf = "check it with check_urdf; a xacro file must be expanded first";
 
 const char* elementName(GeometrySource geometry) {
@@ -135,8 +135,8 @@ std::string printed(const tinyxml2::XMLDocument& document) {
   return printer.CStr();
 }
 
-// urdfdom's parser and the models that it builds go as deep as the text wants, until the stack is used up. So
-// it gets what tinyxml2, which has a limit, has read, and no more links than any robot has.
+// Deeply nested text would overflow the stack in urdfdom. So tinyxml2, which limits depth, reads the text
+// first, and the number of links is limited.
 void parseXml(tinyxml2::XMLDocument& document, const std::string& urdf, const std::string& where) {
   if (urdf.size() > kLongestDescription) {
     throw Error(where, "the URDF has " + std::to_string(urdf.size()) + " bytes",

@@ -35,7 +35,7 @@ struct RobotJoint {
   bool has_limits = false;
   double lower = 0.0;  ///< rad or m
   double upper = 0.0;
-  std::string mimicked;  ///< joint that it follows; empty: none
+  std::string mimicked;  ///< the joint it follows; empty: none
   double mimic_factor = 1.0;
   double mimic_offset = 0.0;
 };

@@ -53,7 +53,7 @@ void addBody(const BodySpec& spec, const std::string& base_folder, SceneParts& p
 /// The source of a single body.
 BodySource sourceOf(const BodyDescription& description, const std::string& base_folder);
 
-/// Of every mesh file of every body.
+/// For every mesh file of every body.
 void limitImports(SceneParts& parts, const MeshImportLimits& limits);
 
 }  // namespace concave_distance::detail

@@ -31,8 +31,8 @@ class Reader {
   Reader(const RobotDescription& robot, std::string where, SemanticDescription& result)
       : robot_(robot), where_(std::move(where)), result_(result) {}
 
-  // In MoveIt's order: a link may be disabled against all others, pairs of it enabled again, and what is
-  // disabled by name is disabled in any case.
+  // In MoveIt's order: first links disabled against all others, then pairs enabled again, then pairs disabled
+  // by name.
   void readDisabledPairs(const XMLElement& root) {
     forEachChild(root, "disable_default_collisions", [&](const XMLElement& element) {
       const std::string link = attribute(element, "link");

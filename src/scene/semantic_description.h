@@ -19,7 +19,7 @@ struct SemanticDescription {
 };
 
 /// Reads disable_collisions, disable_default_collisions, enable_collisions and groups (links, joints by their
-/// child link, chains without their base link, and other groups). What names no link of the robot is left
+/// child link, chains without their base link, and other groups). Names without a link of the robot are left
 /// out, with a note.
 /// @throws Error when the text is no SRDF
 SemanticDescription readSemanticDescription(const std::string& srdf, const std::string& where,

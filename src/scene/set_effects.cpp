@@ -8,7 +8,7 @@
 namespace concave_distance {
 namespace {
 
-// Ten times what effects with every key take; it also bounds how deep a text from outside nests.
+// Ten times a text with every key; it also limits how deep a text from outside can nest.
 constexpr std::size_t kLongestEffects = 4096;
 
 }  // namespace

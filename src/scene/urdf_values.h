@@ -10,12 +10,12 @@
 
 namespace concave_distance::detail {
 
-// urdfdom's values as this package has them.
+// Conversions of urdfdom's values.
 
 Eigen::Isometry3d toIsometry(const urdf::Pose& pose);
 RobotJoint toJoint(const urdf::Joint& joint);
 
-/// About the centre of mass in the link's axes: the URDF has its own axes for the tensor.
+/// About the centre of mass, in the link's axes: in the URDF the tensor has its own axes.
 std::optional<MassProperties> inertiaOf(const urdf::Link& link);
 
 }  // namespace concave_distance::detail

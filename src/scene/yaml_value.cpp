@@ -76,7 +76,7 @@ class EmptinessHandler : public YAML::EventHandler {
   bool is_empty_ = true;
 };
 
-// 0, 1, or 2 for more; an empty one ends the count. YAML::LoadAll never returns from the text ",".
+// 0, 1, or 2 for more; stops at an empty one, because YAML::LoadAll never returns from the text ",".
 std::size_t countDocuments(const std::string& yaml) {
   std::istringstream stream(yaml);
   YAML::Parser parser(stream);

@@ -11,8 +11,8 @@
 
 namespace concave_distance {
 
-/// What the bodies of a scene share: those with the same surface and search settings are one mesh, and the
-/// matrices of all mesh metrics have one limit. Thread-safe.
+/// Shares meshes between the bodies of a scene: bodies with the same surface and search settings use one
+/// mesh, and all matrices of mesh metrics have one limit. Thread-safe.
 class BodyPool {
  public:
   /// @param metric_memory_limit bytes
@@ -21,7 +21,8 @@ class BodyPool {
 
   const std::shared_ptr<MetricMemory>& metricMemory() const { return metric_memory_; }
 
-  /// The mesh with this key that some body still has; else that of `make`, which is called without a lock.
+  /// The mesh with this key if a body still has it, else the result of `make`, which is called without a
+  /// lock.
   template <typename Make>
   std::shared_ptr<const BodyMesh> share(const ContentKey& key, const Make& make) {
     if (std::shared_ptr<const BodyMesh> known = find(key)) return known;

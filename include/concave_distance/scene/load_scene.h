@@ -20,16 +20,16 @@ enum class GeometrySource : std::uint8_t { Collision, Visual };
 
 inline constexpr std::size_t kDefaultMetricMemoryLimit = 512'000'000;
 
-/// Watched and stopped from another thread while a scene is loaded.
+/// Progress of loading a scene, read and stopped from another thread.
 class LoadProgress {
  public:
   void begin(std::size_t bodies) { bodies_ = bodies; }
   void finishBody() { ++prepared_; }
-  /// To be prepared; 0 before that is known.
+  /// Number of bodies to prepare; 0 before it is known.
   std::size_t bodies() const { return bodies_; }
   std::size_t prepared() const { return prepared_; }
 
-  /// Set: what is not begun is left out, and the scene that comes is of no use.
+  /// When set, bodies not begun are left out and the result is not usable.
   std::atomic<bool> stop{false};
 
  private:
@@ -39,21 +39,21 @@ class LoadProgress {
 
 struct SceneLoadOptions {
   PackageLocator package_locator;
-  /// Folders, or files that stand for theirs, that hold meshes which their package:// or relative path does
-  /// not lead to.
+  /// Folders to search for meshes that are not found at their package:// or relative path; a file means its
+  /// folder.
   std::vector<std::string> mesh_search_path;
-  LoadProgress* progress = nullptr;  ///< nullptr: nobody watches
-  /// Of loadRobotScene: a cutoff scaled to the robot instead of that in `default_settings`.
+  LoadProgress* progress = nullptr;  ///< nullptr: none
+  /// For loadRobotScene: a cutoff scaled to the robot instead of that in `default_settings`.
   bool automatic_cutoff = false;
-  /// Of loadRobotScene: pairs whose bodies overlap in every pose that is tried are left out.
+  /// For loadRobotScene: leave out pairs whose bodies overlap in every pose tried.
   bool skip_overlapping_pairs = false;
   GeometrySource geometry = GeometrySource::Collision;  ///< default; a scene file's robot may override
   /// URDF texts by parameter name, e.g. {"robot_description", ...}; a scene file refers to them by name.
   std::map<std::string, std::string> descriptions;
   PairSettings default_settings;
-  /// Bytes that the matrices of all mesh metrics may take together, those of bodies added later included.
-  /// Bodies get theirs when they are first searched while the rest of the limit holds them; the others search
-  /// their mesh on demand.
+  /// Bytes that the matrices of all mesh metrics may take together, including those of bodies added later. A
+  /// body gets its matrices at its first search if the rest of the limit holds them; the others compute
+  /// distances on their mesh on demand.
   std::size_t metric_memory_limit = kDefaultMetricMemoryLimit;
   /// Where prepared bodies are kept between runs, unless the scene file says otherwise; nullptr: nowhere.
   PreparationCachePointer cache;
@@ -92,12 +92,12 @@ struct BodyDescription {
   Eigen::Isometry3d frame_from_geometry = Eigen::Isometry3d::Identity();
   std::optional<double> max_edge_length;
   std::optional<double> chord_error;  ///< metres; empty: 1 % of the radius
-  MeshAccess mesh_access;             ///< which mesh files may be read, and what that may cost
+  MeshAccess mesh_access;             ///< which mesh files may be read, and the limits for it
 };
 /// Loads one body as a scene does.
-/// @param pool of the scene that it is for; nullptr: one of its own
+/// @param pool of its scene; nullptr: a new one
 /// @param cache as SceneLoadOptions::cache
-/// @param limits those of one body are read
+/// @param limits only those of one body apply
 /// @throws Error naming the body
 SceneBody loadBody(const BodyDescription& description, const std::string& base_folder,
                    const PackageLocator& package_locator, const std::shared_ptr<BodyPool>& pool = nullptr,

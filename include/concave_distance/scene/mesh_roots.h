@@ -21,7 +21,7 @@ struct MeshRoots {
 /// @throws Error for any other entry
 MeshRoots parseMeshRoots(const std::vector<std::string>& entries, const std::string& where);
 
-/// Which mesh files may be read, and what that may cost.
+/// Which mesh files may be read, and the limits for it.
 struct MeshAccess {
   MeshImportLimits limits;
   std::optional<MeshRoots> roots;  ///< nothing: any file
@@ -32,9 +32,9 @@ struct LocatedMesh {
   std::vector<std::string> real_folders;  ///< for MeshFile: the file is below one of them
 };
 
-/// Finds a mesh file below the roots, symbolic links resolved. Of what is not below them nothing is said, and
-/// most of it is not looked up either: there is one refusal, outsideOfMeshFolders().
-/// @throws Error that refusal, or, below the roots, as locateResource
+/// Finds a mesh file below the roots, with symbolic links resolved. Every other path gives the same error,
+/// outsideOfMeshFolders(), and most are not looked up, so that nothing about them is revealed.
+/// @throws Error that error, or, below the roots, as locateResource
 LocatedMesh locateMeshBelow(const std::string& resource, const MeshRoots& roots,
                             const PackageLocator& package_locator);
 

@@ -13,7 +13,7 @@
 
 namespace concave_distance {
 
-/// Where values with a hash stand in a list: open addressing, one block of memory, so that a copy is cheap.
+/// Positions in a list by hash: open addressing in one block of memory, so that a copy is fast.
 class PlaceIndex {
  public:
   /// The first place with this hash that `is_it` accepts.
@@ -60,8 +60,8 @@ class PlaceIndex {
   std::size_t used_ = 0;
 };
 
-/// Values with a name, in order. A copy shares the values and is cheap, so that a scene of thousands of
-/// bodies can be edited while others read the one before. A name is found in O(1).
+/// Named values, in order. A copy shares the values and is fast, so that a scene of thousands of bodies can
+/// be edited while others read the previous one. A name is found in O(1).
 template <typename T>
 class NamedList {
  public:
@@ -113,7 +113,7 @@ class NamedList {
   const T& back() const { return *values_.back(); }
   const_iterator begin() const { return const_iterator(values_.data()); }
   const_iterator end() const { return const_iterator(values_.data() + values_.size()); }
-  /// The value itself: the same one in every copy of the list in which it was not edited.
+  /// The value itself, shared by every copy of the list in which it was not edited.
   std::shared_ptr<const T> share(std::size_t i) const { return values_[i]; }
 
   /// Index of the value with this name.
@@ -123,9 +123,9 @@ class NamedList {
   }
 
   void push_back(T value) { append(std::make_shared<T>(std::move(value))); }
-  /// Shares the value i of another list.
+  /// Appends value i of another list, shared with it.
   void appendShared(const NamedList& other, std::size_t i) { append(other.values_[i]); }
-  /// For a change of anything but the name: of a copy when other lists or users share the value.
+  /// For changing anything but the name: copies the value if other lists or users share it.
   T& edit(std::size_t i) {
     Pointer& value = values_.at(i);
     if (value.use_count() > 1) value = std::make_shared<T>(*value);

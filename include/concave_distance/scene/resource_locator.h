@@ -24,16 +24,16 @@ std::string locateResource(const std::string& resource, const std::string& base_
 
 namespace detail {
 
-/// What a resource may stand for, before anything is looked up in the file system.
+/// The paths that a resource may mean, before anything is looked up in the file system.
 struct ResourcePaths {
   std::vector<std::string> candidates;  ///< absolute, or relative to the working folder; at least one
   std::string package_folder;           ///< empty: no package://
 };
 
-/// Package that a package:// resource names; nothing for any other resource.
+/// The package of a package:// resource; nothing for any other resource.
 std::optional<std::string> packageOf(const std::string& resource);
 
-/// @throws Error as locateResource, but for what is missing
+/// @throws Error as locateResource, except for missing files
 ResourcePaths resourcePaths(const std::string& resource, const std::string& base_folder,
                             const PackageLocator& package_locator);
 

@@ -5,7 +5,7 @@
 
 namespace concave_distance {
 
-/// Frames that no joint moves against each other, as sets. A frame that was never joined is alone.
+/// Sets of frames that no joint moves relative to each other. A frame that was never joined is alone.
 class RigidFrames {
  public:
   void join(const std::string& a, const std::string& b);

@@ -64,7 +64,7 @@ struct SceneProblem {
   std::string message;
 };
 
-/// Pairs by name and by their two bodies; an edit leaves both as they are.
+/// Pairs by name and by their two bodies; an edit changes neither.
 class PairList : public NamedList<ScenePair> {
  public:
   void push_back(ScenePair pair) { append(std::make_shared<ScenePair>(std::move(pair))); }
@@ -95,13 +95,13 @@ struct Scene {
   PairList pairs;  ///< enabled ones and those disabled by name; filtered pairs are not listed
   std::vector<SceneProblem> problems;
   std::vector<std::string> notes;                ///< repairs and filters applied, one line each
-  std::vector<std::string> warnings;             ///< what is served but hardly meant so, with a remedy each
+  std::vector<std::string> warnings;             ///< served, but probably mistakes; each with a remedy
   RigidFrames rigid;                             ///< frames that fixed joints connect
-  std::optional<double> automatic_cutoff;        ///< m, where SceneLoadOptions asks for one
+  std::optional<double> automatic_cutoff;        ///< m, if SceneLoadOptions requests one
   std::optional<SimulationSettings> simulation;  ///< the section `simulation`, where there is one
-  PreparationCachePointer cache;   ///< that its bodies went through, for those added later; nullptr: none
-  std::shared_ptr<BodyPool> pool;  ///< the same; nullptr: none
-  SceneLimits limits;              ///< that hold for edits too
+  PreparationCachePointer cache;                 ///< of its bodies, used for later ones too; nullptr: none
+  std::shared_ptr<BodyPool> pool;                ///< the same
+  SceneLimits limits;                            ///< for edits, too
 
   /// Index of the body with this name.
   std::optional<std::size_t> findBody(const std::string& name) const;

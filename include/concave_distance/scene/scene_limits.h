@@ -5,7 +5,7 @@
 
 namespace concave_distance {
 
-/// How large a scene may become; what is beyond is refused with the figure.
+/// Largest size of a scene; anything larger is refused with the figure.
 struct SceneLimits {
   std::size_t bodies = std::numeric_limits<std::size_t>::max();
   std::size_t pairs = std::numeric_limits<std::size_t>::max();

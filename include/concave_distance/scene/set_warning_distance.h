@@ -8,10 +8,10 @@
 
 namespace concave_distance {
 
-/// Sets the warning distance of every pair whose name matches, or takes it away.
+/// Sets or removes the warning distance of every pair whose name matches.
 /// @param pattern a pair's name, or with * for any characters and ? for one
 /// @param distance metres; empty: no alert
-/// @param hysteresis metres; not read without a distance
+/// @param hysteresis metres; ignored without a distance
 /// @return the pairs' names, in the scene's order
 /// @throws Error for a pattern that no pair matches and for lengths that are negative or not finite; then
 ///         nothing was changed

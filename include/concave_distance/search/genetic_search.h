@@ -38,7 +38,7 @@ struct GeneticResult {
 /// @param radii from automaticRadii()
 /// @param inherited node pairs to start from, evaluated and descended anew; what exceeds the population is
 ///        left out
-/// @param limit ends the run with what it has once one individual is settled; nullptr: none
+/// @param limit ends the run with its results so far, once one individual is settled; nullptr: none
 /// @param observer called once a generation when not empty; the only call that may allocate in a warm run
 /// Otherwise allocates only while the workspace warms up. Never throws.
 GeneticResult geneticSearch(const PairObjective& objective, const GeneticParameters& parameters,

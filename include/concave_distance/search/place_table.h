@@ -24,7 +24,7 @@ class PlaceTable {
     place_of_pair_.reserve(kUsualPlacesLog2);
     delta_.reserve(compared * compared / 2);
   }
-  /// Forgets all and gives back the memory of distances beyond the first `compared` places.
+  /// Clears the table and frees the memory of distances beyond the first `compared` places.
   void shrink(std::size_t compared);
   std::uint32_t placeOf(const TrialPoint& point);
   const TrialPoint& point(std::uint32_t place) const { return points_[place]; }

@@ -16,10 +16,10 @@ namespace concave_distance {
 struct SearchWorkspace {
   /// Individuals of a usual warm population and its offspring.
   static constexpr std::size_t kUsualPopulation = 256;
-  static constexpr std::uint32_t kFirstBasinsLog2 = 6;  ///< grows with what descents run through
+  static constexpr std::uint32_t kFirstBasinsLog2 = 6;  ///< grows with the places that descents pass
 
   SearchWorkspace(const BodyMesh& a, const BodyMesh& b) : metric(a, b), basins(kFirstBasinsLog2) {}
-  /// After a run from nothing, which meets many more places than the runs that follow from it.
+  /// After a cold run, which meets many more places than the warm runs that follow.
   void shrink() { places.shrink(kUsualPopulation); }
   /// Room for a run that meets this many places and minima; a larger one grows the buffers once more.
   void reserve(std::size_t places) {

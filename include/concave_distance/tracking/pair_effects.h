@@ -31,7 +31,7 @@ struct ContactRegion {
 /// What the effects of a pair come to at one time.
 struct PairContacts {
   bool possible = false;               ///< the certificate allows contact: the regions were looked for
-  bool cut = false;                    ///< and not found in the time and memory allowed
+  bool cut = false;                    ///< not found within the time and memory allowed
   std::vector<ContactRegion> regions;  ///< deepest first; capacity is kept
   bool a_inside_b = false;             ///< swallowed without a crossing of the surfaces
   bool b_inside_a = false;
@@ -56,8 +56,7 @@ class PairEffects {
   ///        why the scene file refuses effects there.
   /// @param b_in_a velocity of B relative to A; zero where it is not known
   /// @param step seconds since the last call, for the bristles; 0 leaves them as they are
-  /// @param limit where it strikes there are no regions and no forces; what is known of them stays for the
-  /// next
+  /// @param limit when it is reached there are no regions and no forces; known ones are kept for the next
   ///        call; nullptr: none
   void update(const PairSolution& solution, const Eigen::Isometry3d& a_from_b, const RelativeTwist& b_in_a,
               double step, PairContacts& contacts, WorkLimit* limit = nullptr);

@@ -48,8 +48,8 @@ struct PairGeometry {
 /// Places a record at a witness: points, distance, normal. Keeps id, birth and flags.
 void placeRecord(struct NicheRecord& record, const PairGeometry& geometry, const WitnessPair& witness);
 
-/// Leaves a record's points where they are on their bodies and measures them at the present pose: an upper
-/// bound of its minimum.
+/// Keeps the points of a record on their bodies and measures them at the present pose: an upper bound of its
+/// minimum.
 void carryRecord(struct NicheRecord& record, const PairGeometry& geometry);
 
 /// A niche that was found and is not in the archive yet.

@@ -27,7 +27,7 @@ enum class SolveStatus : std::uint8_t {
   Ok,               ///< at level `certified`: proven
   Penetrating,      ///< the surfaces meet, or one body has swallowed a part of the other
   InvalidPose,      ///< nothing was computed
-  BudgetExhausted,  ///< the time was up before all was done; lower_bound holds
+  BudgetExhausted,  ///< the time ran out before all was done; lower_bound holds
   WithinTolerance,  ///< lower_bound is as near to the distance as was asked for
   MemoryExhausted   ///< the memory limit was reached before all was done; lower_bound holds
 };
@@ -67,7 +67,7 @@ struct NicheEvent {
 /// One pair's answer at one time. Not-computed numbers are NaN, never 0 or a sentinel.
 struct PairSolution {
   SolveStatus status = SolveStatus::Ok;
-  /// The level reached: where the time budget or the memory limit struck, that of what was finished.
+  /// The level reached; after the time budget or memory limit, the level of what was finished.
   AccuracyLevel accuracy = AccuracyLevel::Refined;
   double distance = kNotComputed;  ///< metres; 0 when penetrating
   /// Proven: the true distance is not smaller; 0 when penetrating. NaN at levels that prove none.

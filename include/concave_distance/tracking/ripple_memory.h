@@ -17,7 +17,7 @@ namespace concave_distance {
 /// place of another.
 class RippleMemory {
  public:
-  /// Takes the memory; without a call the first remember() does.
+  /// Allocates the memory; otherwise the first remember() does.
   void allocate() { ripples_.resize(std::size_t{1} << kCapacityLog2); }
   void clear() { std::fill(ripples_.begin(), ripples_.end(), Ripple{}); }
 

@@ -19,14 +19,14 @@ struct TrackerParameters {
   /// of the two counts.
   double absolute_tolerance = 0.0;
   double relative_tolerance = 0.0;  ///< of the distance
-  /// Seconds from the start of a cycle after which everything in it stops with what it has: half of it is for
-  /// the niches, a third more for the proof, the rest for describing what was found; what one of them leaves
-  /// is the next one's. Building the normal cones of a body, once in its life, is not cut.
+  /// Seconds from the start of a cycle after which it ends with its results so far. Half is for the niches, a
+  /// third for the proof, the rest for describing what was found; unused time goes to the next. Building a
+  /// body's normal cones, done once, is not interrupted.
   double time_budget = std::numeric_limits<double>::infinity();
-  /// Bytes of working memory that a solve may take for its pair, what it keeps from cycle to cycle included.
-  /// The benchmarks' largest solve takes a quarter of the default.
+  /// Bytes of working memory for the solves of one pair, including what is kept between cycles. The
+  /// benchmarks' largest solve takes a quarter of the default.
   std::size_t memory_limit = std::size_t{512} << 20U;
-  /// A solve that finds it set ends as if its time were up; nullptr: none.
+  /// When set, a solve ends as if its time had run out; nullptr: none.
   const std::atomic<bool>* stop = nullptr;
   /// Of a first cycle, a service call, after a reset: at level `nodes`, and where no normal cones are swept.
   /// A cold cycle that sweeps them finds every niche by that, and searches as a warm one does.
@@ -71,7 +71,7 @@ struct TrackerParameters {
   void validate(const std::string& where) const;
 };
 
-/// What these parameters leave of time and memory to the effects after a solve of so many seconds.
+/// The time and memory left for the effects after a solve of this many seconds.
 WorkLimit remainingWork(const TrackerParameters& parameters, double seconds_spent);
 
 }  // namespace concave_distance
