@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMostLinks = 40;  // as the kernel follows
+constexpr int kMostLinks = 40;  // as in the kernel
 
 fs::path behindLinks(fs::path path) {
   std::error_code failure;
@@ -30,7 +30,7 @@ fs::path behindLinks(fs::path path) {
   return path;
 }
 
-// A redirection such as >> belongs to the shell that opened it: replacing the file would lose what is in it.
+// Replacing the file of a shell's redirection such as >> would lose its content.
 bool isOpenedElsewhere(const std::string& path) {
   return path.rfind("/dev/", 0) == 0 || path.rfind("/proc/", 0) == 0;
 }

@@ -51,7 +51,7 @@ bool isHigher(const Reached& l, const Reached& r) {
   return l.cell > r.cell;  // any order will do, as long as it is always the same
 }
 
-/// Floods without a limit of their own that have looked at this many triangle pairs count as large.
+/// Floods without their own limit count as large when they have visited this many triangle pairs.
 constexpr std::size_t kLargeFlood = std::size_t{1} << 15U;
 constexpr std::size_t kUnlimited = std::numeric_limits<std::size_t>::max();
 
@@ -77,7 +77,7 @@ class Judge {
 
   const MinimaScene& scene() const { return scene_; }
 
-  /// Of seeds by ascending distance: the basin of the deepest one of the same pair of shells.
+  /// The basin of the deepest seed of the same pair of shells. Seeds come by ascending distance.
   std::uint32_t deepestLike(const BasinSeed& seed, std::uint32_t basin) {
     const std::uint64_t shells = shellPairOf(scene_, seed.a, seed.b);
     const auto place = std::lower_bound(deepest_.begin(), deepest_.end(), std::pair{shells, 0U});
@@ -86,7 +86,7 @@ class Judge {
     return basin;
   }
 
-  /// Without a flood: isFar() holds.
+  /// Judges a seed without a flood, when isFar() holds.
   std::uint32_t judgeFar(const BasinSeed& seed) {
     const std::uint32_t basin = enter(seed);
     const std::uint32_t deepest = rootOf(deepestLike(seed, basin));
@@ -112,8 +112,8 @@ class Judge {
     return basin;
   }
 
-  /// A large flood of a seed among which are all minima: the deepest of its shells is a niche, and others are
-  /// none where a path leads to that one.
+  /// Replaces a large flood when all minima are among the seeds: the deepest of its shells is a niche;
+  /// another one is none if a path leads from it to the deepest.
   bool isSettledByPath(std::uint32_t basin, std::uint32_t deepest) {
     if (basin == deepest) return isNearest(basin);
     const std::uint32_t owner = rootOf(deepest);
@@ -207,7 +207,7 @@ class Judge {
   std::uint32_t rootOf(std::uint32_t basin) const { return rootAmong(basins_, basin); }
 
  private:
-  /// Seeds may leave out what runs through material: the deepest of them need not be the nearest place.
+  /// Seeds may leave out minima through material, so the deepest seed need not be the nearest place.
   bool isNearest(std::uint32_t basin) {
     const Basin& deepest = basins_[basin];
     const WitnessPair minimum =

@@ -125,7 +125,7 @@ TrianglePairDistance BranchAndBound::measure(const TrianglePoints& a, const Tria
 void BranchAndBound::beginAtRoots() {
   if (front_ != nullptr) front_->begin(b_, frames_.rotation, frames_.offset);
   if (open_.empty()) open_.resize(Hierarchy::kWidth);
-  // Where the proof may be cut short this much is certain at once.
+  // If the proof may be cut short, this bound is certain at once.
   const double certain = timed_ ? std::max(0.0, root_separation_) : 0.0;
   open_[0] = {Hierarchy::kRoot, Hierarchy::kRoot, certain * certain};
   open_count_ = 1;
@@ -150,7 +150,7 @@ void BranchAndBound::search() {
   }
 }
 
-// What does not fit is not kept for the next proof.
+// Without room, it is not kept for the next proof.
 void BranchAndBound::dropFront() {
   front_->clear();
   front_ = nullptr;

@@ -64,7 +64,7 @@ class BranchAndBound {
   WorkLimit unlimited_;
   WorkLimit& limit_;
   const bool timed_;             ///< then the least bound comes first
-  bool cut_ = false;             ///< the limit has struck
+  bool cut_ = false;             ///< the limit was reached
   std::vector<OpenPair>& open_;  ///< the first open_count_ of it
   std::size_t open_count_ = 0;
   RefinementWorkspace& refinement_;

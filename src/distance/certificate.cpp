@@ -38,7 +38,7 @@ DistanceCertificate certifyDistance(const BodyMesh& a, const BodyMesh& b, const 
                                     const TrianglePair* seeds, std::size_t seed_count,
                                     const CertificateRequest& request, CertificateWorkspace& workspace,
                                     ProofFront* front) {
-  // Where products of coordinates would overflow nothing is proven: bound 0, distance infinite.
+  // If products of coordinates would overflow, nothing is proven: bound 0, distance infinite.
   if (!a_from_b.matrix().allFinite() || a_from_b.translation().cwiseAbs().maxCoeff() > kLargestCoordinate) {
     return {};
   }

@@ -9,7 +9,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Steps after which a pair of shells counts as one that resists; three suffice as a rule.
+/// Steps after which the search of a pair of shells gives up; usually three are enough.
 constexpr int kMostSteps = 16;
 
 double reachOf(const BodyMesh& body) {
@@ -22,7 +22,7 @@ void groupByShell(const BodyMesh& body, TrianglesOfShells& grouped) {
   for (const std::uint32_t shell : shell_of) ++grouped.first[shell + 1];
   for (std::size_t i = 1; i < grouped.first.size(); ++i) grouped.first[i] += grouped.first[i - 1];
   grouped.triangles.resize(shell_of.size());
-  // Filled from the back, so that the starts are right afterwards.
+  // Filled from the back, so that the starts are correct afterwards.
   std::vector<std::uint32_t>& next = grouped.first;
   for (std::size_t t = shell_of.size(); t-- > 0;) {
     grouped.triangles[--next[shell_of[t] + 1]] = TriangleIndex{t};
@@ -36,7 +36,7 @@ struct Support {
   double along = -std::numeric_limits<double>::infinity();
 };
 
-/// The triangle of a shell that reaches farthest along a direction, given in the body's own axes.
+/// The triangle of a shell that reaches farthest along a direction in the body's own axes.
 Support supportOf(const BodyMesh& body, const Vector3d& centre, const TrianglesOfShells& grouped,
                   std::size_t shell, const Vector3d& direction) {
   Support best;

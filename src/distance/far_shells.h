@@ -8,16 +8,15 @@
 
 namespace concave_distance::detail {
 
-/// The farthest points of both bodies, metres: no two are farther apart.
+/// An upper bound of the distance of any two points, metres.
 double largestDistance(const MinimaScene& scene);
 
-/// Whether every path on the surfaces, wherever it leads, stays below the pass that would make a niche of its
-/// own prominent: no two points are (1 + least prominence) times as far apart as two others. Then each pair
-/// of shells has one niche, its nearest points. True from about 2 / (least prominence) times the bodies' size
-/// on.
+/// Whether no minimum can be prominent beside the nearest points: no two points are (1 + least prominence)
+/// times as far apart as two others. Then each pair of shells has one niche, its nearest points. True from a
+/// distance of about 2 / (least prominence) times the bodies' size.
 bool isFar(const MinimaScene& scene, double least_prominence);
 
-/// Number of the pair of shells that two triangles belong to.
+/// The number of the pair of shells of two triangles.
 inline std::uint64_t shellPairOf(const MinimaScene& scene, TriangleIndex a, TriangleIndex b) {
   const std::uint64_t shell_a = scene.a.topology().shell_of_triangle[a.value];
   return (shell_a << 32U) | scene.b.topology().shell_of_triangle[b.value];
@@ -29,8 +28,8 @@ struct TrianglesOfShells {
   std::vector<TriangleIndex> triangles;
 };
 
-/// Whether a local minimum is the nearest place of its two shells: proven where the direction between its
-/// points parts them by its distance, else not known. O(triangles).
+/// Whether a local minimum is proven to be the nearest place of its two shells: the direction between its
+/// points separates them by its distance. O(triangles).
 bool isNearestOfItsShells(const MinimaScene& scene, const WitnessPair& minimum);
 
 struct FarShellBuffers {
@@ -39,10 +38,10 @@ struct FarShellBuffers {
   RefinementWorkspace refinement;
 };
 
-/// Of every pair of shells the triangles that hold its nearest points, up to `cutoff`: supporting triangles
-/// along the direction between the best points known, refined until that direction parts the two shells by
-/// the distance itself. O(triangles) for each pair of shells and step; a few steps where isFar() holds.
-/// @return false when a pair of shells resists or the limit strikes; `seeds` are then as before
+/// Finds for every pair of shells the triangles with its nearest points, up to `cutoff`: supporting triangles
+/// along the direction between the best points so far, repeated until that direction separates the shells by
+/// the distance itself. O(triangles) for each pair of shells and step; a few steps if isFar() holds.
+/// @return false when a pair of shells does not converge or the limit is reached; `seeds` are then unchanged
 bool collectFarSeeds(const MinimaScene& scene, double cutoff, FarShellBuffers& buffers,
                      std::vector<MinimumSeed>& seeds, WorkLimit& limit);
 

@@ -35,10 +35,10 @@ struct LevelPathBuffers {
   }
 };
 
-/// Looks for a path over the triangle pairs on which the distance stays below a limit, one body at a time
-/// while the other holds still: its highest distance, metres, which no pass between its ends exceeds. A flood
-/// in order of distance goes round the whole rim of a basin in both bodies' triangles at once before it
-/// crosses; this looks at no more than the triangles of one body, and at those towards the target first.
+/// Looks for a path over triangle pairs with the distance below a limit, moving one body at a time. The
+/// highest distance on it, metres, bounds the pass between its ends.
+/// Unlike a flood in order of distance, which covers the whole basin of both bodies first, it visits at most
+/// the triangles of one body, those towards the target first.
 class LevelPath {
  public:
   LevelPath(const MinimaScene& scene, LevelPathBuffers& buffers, WorkLimit& work)
@@ -46,7 +46,7 @@ class LevelPath {
 
   /// @param has_arrived (triangle of A, triangle of B) whether the path may end here
   /// @param first_moves the body that moves first, 0: A, 1: B
-  /// Empty where no such path was found, which says nothing.
+  /// @return empty when no such path was found, which proves nothing
   template <typename Arrived>
   std::optional<double> find(TrianglePair from, TrianglePair to, double limit, int first_moves,
                              const Arrived& has_arrived) {
@@ -73,7 +73,7 @@ class LevelPath {
     return l.reached > r.reached;
   }
 
-  /// Moves one body's triangle to the target's, or to where the path has arrived.
+  /// Moves one body's triangle to the target's, or until the path may end.
   template <typename Arrived>
   std::optional<double> move(int side, TrianglePair& here, TrianglePair to, double limit,
                              const Arrived& has_arrived) {

@@ -14,7 +14,7 @@ namespace {
 
 /// Of heights, relative to the size of both bodies; the same as the tracker's.
 constexpr double kPlateauTolerance = 1e-9;
-/// What judgeBasins() and decide() keep of a seed.
+/// What judgeBasins() and decide() store for a seed.
 constexpr std::size_t kBytesPerSeed = sizeof(BasinSeed) + sizeof(Basin) + 64;
 /// No plateau seen comes near it; the flood has united the whole set before.
 constexpr std::size_t kExtentPairLimit = 100'000;

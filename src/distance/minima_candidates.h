@@ -16,12 +16,12 @@ using OpenCones = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 /// the other lies in the cones of both; each pair of features that is left is tried on the triangles.
 /// @param budget groups of cones compared at the most
 /// @param open where to go on, empty: everywhere; what was not come to is left there
-/// @param limit ends it early; where memory is refused, what was open is given up
+/// @param limit ends it early; without memory the open pairs are given up
 void collectConeSeeds(const MinimaScene& scene, NormalSides sides, double cutoff, std::size_t budget,
                       OpenCones& open, std::vector<MinimumSeed>& seeds, LocalMinimaCost& cost,
                       WorkLimit& limit);
 
-/// Every triangle pair that meets, up to rounding; those found until the limit strikes.
+/// Every triangle pair that meets, up to rounding, until the limit is reached.
 void collectMeetingPairs(const MinimaScene& scene, std::vector<MinimumSeed>& seeds, LocalMinimaCost& cost,
                          WorkLimit& limit);
 

@@ -77,7 +77,7 @@ class Flood {
   }
 
   bool wasCut() const { return cut_; }
-  /// Whether everything that could end a basin has been looked at.
+  /// Whether everything that could end a basin has been checked.
   bool isDecided(const Basin& basin) const { return !cut_ || basin.limit < reached_; }
 
   std::uint32_t rootOf(std::uint32_t cell) {

@@ -18,7 +18,7 @@ struct FloodedMinimum {
 
 struct FloodResult {
   std::vector<FloodedMinimum> minima;  ///< of the least prominence, in no order
-  bool cut = false;                    ///< by the limit: `minima` are those decided before
+  bool cut = false;                    ///< the limit was reached: `minima` are those decided before
   std::vector<std::size_t> owners;     ///< of each of the starts asked for: index in `minima` or npos
 };
 

@@ -48,8 +48,8 @@ PlanarFeature levelPart(const LevelSide& side, TriangleIndex t, double tolerance
   return part;
 }
 
-/// Triangles that the rings around the corners of a set name in all: about 12 for each corner of a pair, many
-/// more where the sideways reach is longer than the triangles, which far apart it is.
+/// Triangles in all rings around the corners of a set: about 12 for each corner of a pair, many more when the
+/// sideways reach is longer than the triangles, as at large distances.
 constexpr std::size_t kRingsPerPair = 1024;
 constexpr std::size_t kLargestRings = std::size_t{1} << 20U;
 
@@ -105,7 +105,7 @@ class Flood {
 
  private:
   void open(TriangleIndex triangle_a, TriangleIndex triangle_b) {
-    if (workspace_.open.size() > pair_limit_) return;  // the last one is never looked at
+    if (workspace_.open.size() > pair_limit_) return;  // the last one is never visited
     const std::pair pair{triangle_a, triangle_b};
     const auto place = std::lower_bound(workspace_.seen.begin(), workspace_.seen.end(), pair);
     if (place != workspace_.seen.end() && *place == pair) return;
@@ -261,7 +261,7 @@ NicheExtent measureExtent(const BodyMesh& a, const BodyMesh& b, const Eigen::Iso
   workspace.axis_y = axis_y;
   workspace.height_tolerance = levels.tolerance;
   workspace.reach = levels.reach + levels.slack;
-  // No set is longer than either body; one of less than this length is told from a point by nothing.
+  // No set is longer than either body; one shorter than this cannot be distinguished from a point.
   if (std::min(a.diameter(), b.diameter()) <= 2.0 * levels.reach) return extent;
   if (isPeak(side_a, witness.triangle_a, witness.feature_a, levels, workspace.ring) ||
       isPeak(side_b, witness.triangle_b, witness.feature_b, levels, workspace.ring)) {

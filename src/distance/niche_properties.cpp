@@ -10,8 +10,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Body frame; not unit. Every triangle of the witness's shell at an edge or vertex counts, however many
-/// there are.
+/// In the body frame; not a unit vector. Counts every triangle of the witness's shell at an edge or vertex.
 Vector3d pseudonormal(const BodyMesh& body, TriangleIndex triangle, Feature feature) {
   const MeshTopology& topology = body.topology();
   const SurfaceMesh& surface = body.surface();

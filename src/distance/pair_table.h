@@ -29,7 +29,7 @@ class PairTable {
     return slots_.capacity() * sizeof(Slot) + used_.capacity() * sizeof(std::uint32_t);
   }
 
-  /// Whether another pair may be inserted, with what the table's growth takes.
+  /// Whether another pair may be inserted, including the memory for the table's growth.
   bool hasRoom(WorkLimit& limit) const {
     if (!limit.hasRoom(used_)) return false;
     if (2 * (used_.size() + 1) <= slots_.size()) return true;

@@ -13,7 +13,7 @@ using Eigen::Vector3d;
 /// No code of Feature.
 constexpr std::size_t kNoFeature = 99;
 
-/// A list without repetitions: looked through while it is short, marked by index when it is long.
+/// A list without repetitions: searched while it is short, marked by index when it is long.
 template <typename Index>
 class DistinctList {
  public:

@@ -64,7 +64,7 @@ std::ofstream openToAppend(const std::string& path, const std::string& header) {
   return file;
 }
 
-// A file that is appended to keeps what it has: the next call drops a line that was cut off.
+// An incomplete last line is dropped by the next call, which appends to the file.
 void requireWritten(const std::ostream& stream, const std::string& file) {
   if (stream) return;
   throw Error(file, "not everything could be written", "check the space on the device and begin again");

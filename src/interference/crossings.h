@@ -12,7 +12,7 @@ namespace concave_distance::detail {
 
 inline constexpr std::uint32_t kNone = 0xffffffffU;
 
-/// Where an edge of one body runs through a triangle of the other. Where a sheet hangs on an edge of a closed
+/// Where an edge of one body crosses a triangle of the other. If a sheet is attached to an edge of a closed
 /// shell there are two: one on the curves of closed shells, one on the sheet's.
 struct CrossingNode {
   Side edge_side;  ///< whose edge
@@ -49,7 +49,7 @@ struct CommonFace {
 /// The curves where the two surfaces cross, B moved by an infinitesimal: nodes and the segments between them.
 class CrossingCurves {
  public:
-  /// False when the limit struck first.
+  /// False when the limit was reached first.
   bool find(WorkingFrame& frame, PerturbedPredicates& predicates,
             const std::vector<CandidatePair>& candidates, WorkLimit& limit);
 

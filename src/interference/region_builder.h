@@ -19,7 +19,7 @@ struct FoundRegion {
 /// Finds the regions for one infinitesimal motion of B: a pass.
 class RegionBuilder {
  public:
-  /// Once the limit has struck, passes find nothing.
+  /// Once the limit is reached, passes find nothing.
   void findCandidates(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
                       WorkLimit& limit);
   /// Whether anything coincided exactly, so that another motion may give another answer.

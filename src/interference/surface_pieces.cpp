@@ -197,7 +197,7 @@ void SurfacePieces::addShell(WorkingFrame& frame, TriangleIndex triangle, Elemen
   const MeshTopology& topology = frame.body(side_).topology();
   const std::uint32_t shell = topology.shell_of_triangle[triangle.value];
   const bool open = !topology.shell_is_closed[shell];
-  if (open) startStamp(frame);  // a sheet that hangs on a solid has vertices in common with it
+  if (open) startStamp(frame);  // a sheet attached to a solid shares vertices with it
   markInside(frame.surface(side_).triangle(triangle)[0], sets);
   flood(frame, sets, open ? shell : kNone);
 }

@@ -30,7 +30,7 @@ class SurfacePieces {
   /// Adds the inside vertices to `sets`, which hold the nodes, and unites what hangs together.
   void collect(WorkingFrame& frame, PerturbedPredicates& predicates, Containment& containment,
                const CrossingCurves& curves, Side side, ElementSets& sets);
-  /// Takes a whole shell that nothing crosses as inside; closed ones before open ones.
+  /// Counts a whole shell without crossings as inside; closed ones before open ones.
   void addShell(WorkingFrame& frame, TriangleIndex triangle, ElementSets& sets);
 
   const std::vector<PieceEdge>& edges() const { return edges_; }

@@ -16,7 +16,7 @@ struct CandidatePair {
 };
 
 /// Pairs of triangles in leaves whose boxes meet, by descending both trees at once: all that could touch or
-/// cross, and more. Allocates nothing once the vectors have grown. False when the limit struck first.
+/// cross, and more. Allocates nothing once the vectors have grown. False when the limit was reached first.
 bool collectCandidates(const WorkingFrame& frame, std::vector<std::pair<std::uint32_t, std::uint32_t>>& stack,
                        std::vector<CandidatePair>& candidates, WorkLimit& limit);
 

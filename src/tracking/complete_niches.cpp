@@ -98,8 +98,8 @@ void TrackerState::completeNiches(double displacement, double elapsed, PairSolut
   archive.settle();
 }
 
-// A list that time or memory has cut says nothing of the niches it does not name: those known stay, each at
-// the minimum around its triangles.
+// A list cut by time or memory is no evidence against niches missing from it: known ones stay, each at the
+// minimum around its triangles.
 void TrackerState::carryNiches(PairSolution& solution) {
   for (NicheRecord& record : archive.records()) {
     if (!limit.isOver()) {

@@ -20,7 +20,7 @@ void TrackerState::followNiches(double displacement, double elapsed, SearchCost&
       continue;
     }
     const double before = record.niche.distance;
-    // A minimum that was not descended may lie far below its points.
+    // A minimum that was not descended may be far below its points.
     record.least_distance =
         record.carried ? -std::numeric_limits<double>::infinity() : before - displacement - rounding;
     record.carried = false;

@@ -13,11 +13,11 @@
 namespace concave_distance {
 namespace {
 
-// What a warm cycle meets at the most, as a rule; buffers grow with more.
+// Usual maximum of a warm cycle; buffers grow beyond it.
 constexpr std::size_t kUsualMinima = 1024;
 constexpr std::size_t kUsualNiches = 256;
 
-// Of a time budget: what the niches, and what niches and proof together may take.
+// Shares of a time budget: of the niches, and of niches and proof together.
 constexpr double kShareOfNiches = 0.5;
 constexpr double kShareWithProof = 0.85;
 
@@ -37,7 +37,7 @@ TrackerState::TrackerState(std::string pair_name, std::shared_ptr<const BodyMesh
   proof.workspace.open.reserve(kUsualNiches);
 }
 
-// Not before a search needs it: a proof alone does without the bodies' grids and most of the memory.
+// Made only when a search needs it: a proof alone needs no grids and little memory.
 void TrackerState::prepareSearch() {
   if (search_prepared) return;
   search_prepared = true;

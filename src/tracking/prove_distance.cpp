@@ -59,7 +59,7 @@ void TrackerState::proveDistance(double displacement) {
   if (!(displacement + proof.error < last_bound)) {
     const std::optional<bool> holds = holdsAnother(*geometry.a, *geometry.b, geometry.a_from_b, limit);
     proof.swallowed = holds.value_or(false);
-    // While it is not known whether one body holds the other, nothing is certain.
+    // Until it is known whether one body is inside the other, nothing is certain.
     if (!holds) {
       certificate.lower_bound = 0.0;
       certificate.status = CertificateStatus::Budget;

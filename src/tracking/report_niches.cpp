@@ -90,7 +90,7 @@ void TrackerState::listNiches(PairSolution& solution) {
   }
 }
 
-// What the limit has cut is not what was asked for, whatever the proof says.
+// After the limit the answer is incomplete, even with a finished proof.
 void TrackerState::reportLimit(PairSolution& solution) const {
   if (!limit.hasRefused()) {
     solution.niches_complete =
@@ -115,13 +115,13 @@ void TrackerState::reportNearest(double displacement, PairSolution& solution) {
     }
   }
   if (records.empty() && dark_side_met && limit.hasRefused()) {
-    // Not a niche, but no less a bound of the distance: there was no time to look for another.
+    // Not a niche, but still a bound of the distance: there was no time to find another.
     solution.distance = std::sqrt(dark_side.squared_distance);
     solution.point_a_in_a = dark_side.point_a_in_a;
     solution.point_b_in_a = dark_side.point_b_in_a;
   }
-  // A segment that leaves a closed body inwards and meets no surface ends in that body's material, too. Only
-  // the closest pair can be so without a closer crossing of the surfaces.
+  // A segment that leaves a closed body inwards and meets no surface also ends in its material. Only the
+  // closest pair can do that without a closer crossing of the surfaces.
   const bool dark_side_nearest =
       dark_side_met && (records.empty() || std::sqrt(dark_side.squared_distance) < solution.distance);
   const bool overlap =

@@ -140,7 +140,7 @@ void TrackerState::sweepCones(PairSolution& solution) {
     cutoff = std::min(cutoff, archive.records()[parameters.largest_niche_count].niche.distance);
   }
   if (limit.isOver()) return;
-  // Where time was up there are pairs left from the last sweep.
+  // If the time ran out, pairs are left from the last sweep.
   if (swept.empty()) {
     solution.cost.evaluations +=
         sweep.advance(*geometry.a, *geometry.b, geometry.a_from_b,

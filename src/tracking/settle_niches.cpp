@@ -17,7 +17,7 @@ constexpr std::size_t kNearestFlood = 128;  // of the nearest niche, in every wa
 constexpr double kNearestReach = 5.0;
 constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
-// What becomes of a candidate that there is no time for.
+// The result for a candidate without time left.
 constexpr AdmissionResult kGivenUp{Admission::ThroughMaterial, 0};
 
 // Hysteresis: a niche that users know is given up only at half the least prominence.
@@ -192,7 +192,7 @@ void TrackerState::settleVerdicts(std::size_t known, PairSolution& solution) {
     const std::size_t seed = judging.seeded[basin];
     if (seed != kNone) {
       const Pending& pending = judging.pending[seed - known];
-      // Without a verdict it may be a ripple; the nearest of all is wanted all the same.
+      // Undecided, it may be a ripple; the nearest of all is still reported.
       if (basins[basin].refused && !isNearest(candidates[pending.candidate])) continue;
       ids[basin] = bear(candidates[pending.candidate], pending.outward);
       continue;

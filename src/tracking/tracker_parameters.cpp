@@ -7,7 +7,7 @@
 namespace concave_distance {
 namespace {
 
-/// Less than the buffers that every pair begins with.
+/// Smaller than the first buffers of a pair.
 constexpr std::size_t kLeastMemory = std::size_t{1} << 20U;
 
 }  // namespace

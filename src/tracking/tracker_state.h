@@ -105,7 +105,7 @@ struct TrackerState {
   std::string name;
   PairGeometry geometry;
   TrackerParameters parameters;
-  bool search_prepared = false;  ///< with the parameters as they are
+  bool search_prepared = false;  ///< with the present parameters
   NicheRadii cold_radii{};
   NicheRadii warm_radii{};
   SearchWorkspace search;
@@ -134,8 +134,8 @@ struct TrackerState {
   };
   Judging judging;
   ConeSweep sweep;
-  std::vector<MinimumSeed> swept;  ///< not taken up yet
-  bool swept_at_rest = false;      ///< all cones have been compared at this very pose
+  std::vector<MinimumSeed> swept;  ///< not used yet
+  bool swept_at_rest = false;      ///< all cones have been compared at this pose
   RippleMemory ripples;
   std::uint64_t cycle = 0;
   bool warm = false;
