@@ -84,7 +84,7 @@ BodyMeshParts makeExactParts(std::string name, SurfaceMesh surface, const BodyMe
   return parts;
 }
 
-// Its edge lengths have been checked; where it cannot be made all the same, the surface is its own grid.
+// The edge lengths have been checked; if the grid still cannot be made, the surface serves as grid.
 SearchNodes makeCheckedNodes(const BodyMeshParts& parts, const BodyMeshOptions& options) {
   try {
     return detail::nodesOf(parts.surface, nodesOptions(options), parts.name, parts.cache.get(),
@@ -119,8 +119,8 @@ BodyMesh::BodyMesh(BodyMeshParts parts, const MeshMetricOptions& metric)
 
 BodyMesh::~BodyMesh() = default;
 
-// A thread that waits for its own parallel parts must not take up another task meanwhile: that might want
-// the same body, and wait for what it is making.
+// While a thread waits for its parallel parts it must not start another task, which might wait for the same
+// body.
 const SearchNodes& BodyMesh::makeNodes() const {
   std::call_once(on_demand_->nodes_once, [&] {
     tbb::this_task_arena::isolate([&] { on_demand_->nodes = makeCheckedNodes(parts_, options_); });

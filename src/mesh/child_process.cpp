@@ -15,18 +15,18 @@
 namespace concave_distance::detail {
 namespace {
 
-// Above the numbers that the child gets, so that no dup2 replaces a descriptor that a later one copies.
+// Above the numbers in the child, so that no dup2 overwrites a descriptor that a later dup2 copies.
 constexpr int kFirstOwnDescriptor = 16;
 
 using Clock = std::chrono::steady_clock;
-constexpr std::chrono::milliseconds kStopPeriod(50);  // between two looks at the stop flag
+constexpr std::chrono::milliseconds kStopPeriod(50);  // between two checks of the stop flag
 constexpr std::chrono::milliseconds kLongestPoll(60'000);
 
 [[noreturn]] void fail(int error, const std::string& what) {
   throw std::system_error(error, std::generic_category(), what);
 }
 
-/// A copy that no program started meanwhile by another thread inherits.
+/// A copy that is not inherited by programs that other threads start.
 class HighCopy {
  public:
   explicit HighCopy(int descriptor) : descriptor_(fcntl(descriptor, F_DUPFD_CLOEXEC, kFirstOwnDescriptor)) {
@@ -101,7 +101,7 @@ ChildProcess::ChildProcess(const std::string& program, const std::vector<std::st
   }
   close(ends[1]);
   output_ = ends[0];
-  fcntl(output_, F_SETPIPE_SZ, 1 << 20);  // fewer switches between the processes; refused: no harm
+  fcntl(output_, F_SETPIPE_SZ, 1 << 20);  // fewer switches between the processes; may fail
 }
 
 ChildProcess::~ChildProcess() {
@@ -139,7 +139,7 @@ bool ChildProcess::read(void* data, std::size_t size) {
 ChildEnd ChildProcess::end() {
   const pid_t pid = std::exchange(pid_, -1);
   if (pid < 0) return end_;
-  // A process that is ending already keeps its status.
+  // A process that is already ending keeps its status.
   kill(pid, SIGKILL);
   int status = 0;
   pid_t waited = -1;

@@ -11,15 +11,15 @@ namespace concave_distance::detail {
 
 /// How a child process ended.
 struct ChildEnd {
-  bool was_late = false;     ///< ended here at its deadline
-  bool was_stopped = false;  ///< ended here because of the stop flag
+  bool was_late = false;     ///< ended by this program at its deadline
+  bool was_stopped = false;  ///< ended by this program because of the stop flag
   bool is_known = false;     ///< false when this program's own handling of SIGCHLD took the status
-  int signal = 0;            ///< that ended it, 0: none
+  int signal = 0;            ///< signal that ended it, 0: none
   int exit_status = 0;
 };
 
-/// A program that reads one open file and answers through a pipe, until a deadline. Its standard streams are
-/// /dev/null, its signals those of a fresh program. It has ended when this object goes.
+/// A child process that reads one open file and answers through a pipe, until a deadline. Its standard
+/// streams are /dev/null, its signal handling is the default. The destructor ends it.
 class ChildProcess {
  public:
   /// @param stop ends it like the deadline when it becomes true; nullptr: none
@@ -31,13 +31,13 @@ class ChildProcess {
   ChildProcess& operator=(const ChildProcess&) = delete;
   ~ChildProcess();
 
-  /// Waits for the next `size` bytes of its answer. False when there are fewer, or not before the deadline.
+  /// Waits for the next `size` bytes of its answer. False when they do not come before the deadline.
   bool read(void* data, std::size_t size);
-  /// Ends it, where it has not ended by itself, and says how it ended.
+  /// Ends it, if it has not ended by itself, and returns how it ended.
   ChildEnd end();
 
  private:
-  /// Until there is something to read; false at the deadline or when it is stopped.
+  /// Waits for data; false at the deadline or when it is stopped.
   bool waitForOutput();
 
   int output_ = -1;

@@ -11,7 +11,7 @@ struct Page {
   HalfEdge half_edge;
   const Eigen::Vector3d* apex;
   int quarter;  ///< 0 level with the first page, 1 up to opposite of it, 2 opposite, 3 beyond
-  bool upward;  ///< the way around goes up through the page's plane; up is the same from any edge
+  bool upward;  ///< turning passes upwards through the page's plane; up is the same for every edge
 };
 
 constexpr Motion kUp = {1, 1, 1};

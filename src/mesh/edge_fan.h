@@ -10,8 +10,8 @@ namespace concave_distance::detail {
 /// Which side of a face: 2 f for its front, 2 f + 1 for its back.
 using FaceSide = std::uint32_t;
 
-/// Seen along an edge from its lower to its higher node, faces stand around it like the pages of a book:
-/// the side of a face that looks counter-clockwise, and the one that looks back.
+/// Seen along an edge from its lower to its higher node, faces are arranged around it like the pages of a
+/// book: each face has a side that faces counter-clockwise and one that faces clockwise.
 inline FaceSide sideAhead(HalfEdge half_edge) {
   return 2 * (half_edge / 3) + (half_edge % 3 == 2 ? 1U : 0U);
 }
@@ -20,8 +20,7 @@ inline FaceSide sideBehind(HalfEdge half_edge) {
 }
 
 /// Sorts the faces of one edge counter-clockwise around it, from its first one, by exact predicates. Faces
-/// that overlap in one plane lie one above the other in the order of their patches, the same way up at every
-/// edge. O(k log k).
+/// that overlap in one plane are ordered by their patches, consistently at every edge. O(k log k).
 void sortAroundEdge(const std::vector<Eigen::Vector3d>& vertices, const FaceTable& table,
                     const std::vector<std::uint32_t>& patch_of_face, std::vector<HalfEdge>& fan);
 

@@ -9,7 +9,7 @@ namespace concave_distance::detail {
 
 inline constexpr std::uint32_t kNoFace = 0xffffffffU;
 
-/// All triangles with the same three corners, whichever way they are wound.
+/// All triangles with the same three corners, in either winding.
 struct Face {
   TriangleNodes nodes;        ///< ascending; the face's front is where they run counter-clockwise
   std::uint32_t first = 0;    ///< of its triangles in FaceTable::triangles
@@ -31,7 +31,7 @@ bool runsAlong(const TriangleNodes& nodes);
 /// Triangles that name a vertex twice belong to no face. O(n log n).
 FaceTable buildFaceTable(const std::vector<TriangleNodes>& triangles);
 
-/// The faces' corners, in the order of the faces.
+/// The corners of the faces, in the faces' order.
 std::vector<TriangleNodes> cornersOf(const FaceTable& table);
 
 }  // namespace concave_distance::detail

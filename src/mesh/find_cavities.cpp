@@ -9,14 +9,14 @@ namespace concave_distance::detail {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-/// Triangles of a unit that are asked whether they lie in another.
+/// Number of triangles of a unit that are tested against another unit.
 constexpr std::size_t kSamples = 16;
 
-/// The skin of a unit, turned outwards.
+/// The boundary of a unit, turned outwards.
 struct Skin {
   std::vector<std::uint32_t> faces;
   Eigen::AlignedBox3d box;
-  double volume = 0.0;  ///< six times
+  double volume = 0.0;  ///< six times the volume
 };
 
 class NestedSkins {
@@ -39,7 +39,7 @@ class NestedSkins {
     std::iota(largest_first.begin(), largest_first.end(), 0U);
     std::stable_sort(largest_first.begin(), largest_first.end(),
                      [&](std::uint32_t l, std::uint32_t r) { return skins_[l].volume > skins_[r].volume; });
-    std::vector<Eigen::AlignedBox3d> boxes;  // side by side, for there may be tens of thousands
+    std::vector<Eigen::AlignedBox3d> boxes;  // in one array, because there may be tens of thousands
     for (const std::uint32_t unit : largest_first) boxes.push_back(skins_[unit].box);
     std::vector<bool> is_cavity(skins_.size(), false);
     for (std::size_t i = 0; i < largest_first.size(); ++i) {
@@ -74,7 +74,7 @@ class NestedSkins {
     return sum;
   }
 
-  /// How often a skin winds around a point: the sum of its triangles' solid angles over 4 pi.
+  /// Winding number of a boundary around a point: the sum of its triangles' solid angles over 4 pi.
   double windingNumber(const Skin& skin, const Eigen::Vector3d& point) const {
     double sum = 0.0;
     for (const std::uint32_t face : skin.faces) {
@@ -90,8 +90,8 @@ class NestedSkins {
     return sum / (4.0 * kPi);
   }
 
-  /// Several middles of triangles are asked, so that two solids that merely overlap are not taken for a
-  /// hollow one. One on the other's surface (1/2) says nothing.
+  /// Tests the centres of several triangles, so that two overlapping solids are not taken for a hollow one. A
+  /// centre on the other's surface (1/2) is ignored.
   bool liesInside(const Skin& inner, const Skin& outer) const {
     if (inner.faces.empty() || outer.faces.empty()) return false;
     const std::size_t step = std::max<std::size_t>(1, inner.faces.size() / kSamples);

@@ -59,7 +59,7 @@ Error garbled(const std::string& path) {
   return {path, "the program that reads meshes gave an invalid answer", kReinstall};
 }
 
-/// Why there is no whole answer.
+/// Why the answer is incomplete.
 Error describeEnd(const std::string& path, const std::string& worker, const ChildEnd& end,
                   const MeshImportLimits& limits) {
   if (end.was_stopped) return {path, "reading it was interrupted", "try again"};
@@ -82,7 +82,7 @@ Error describeEnd(const std::string& path, const std::string& worker, const Chil
           kReinstall};
 }
 
-/// Nothing is reserved for more than the worker itself may have had.
+/// Memory is reserved only for sizes that the worker itself could have had.
 bool isPlausible(const ImportHeader& header, const MeshImportLimits& limits) {
   if (header.magic != kImportMagic) return false;
   switch (header.status) {
@@ -113,7 +113,7 @@ bool isValid(const TriangleSoup& soup) {
          std::all_of(soup.triangles.begin(), soup.triangles.end(), in_range);
 }
 
-/// @throws Error with what the worker says about the file
+/// @throws Error with the message of the worker
 bool readRefusal(ChildProcess& worker, const ImportHeader& header, const std::string& path) {
   std::string what(header.first, '\0');
   std::string remedy(header.second, '\0');

@@ -9,13 +9,13 @@
 
 namespace concave_distance::detail {
 
-/// mesh_import_worker: what the environment variable CONCAVE_DISTANCE_IMPORT_WORKER names, else the program
-/// in the folder concave_distance/ beside this library, where it is built and installed.
+/// Path of mesh_import_worker: the environment variable CONCAVE_DISTANCE_IMPORT_WORKER, else the program in
+/// the folder concave_distance/ beside this library, where it is built and installed.
 std::string importWorkerPath();
 
-/// Starts the worker for one file and takes its answer, nothing of which is believed: counts are checked
-/// before memory is reserved for them, then every index and number. The process has ended when this returns
-/// or throws, and leaves neither a zombie nor a descriptor, whatever this program does with SIGCHLD.
+/// Starts the worker for one file and reads its answer without trusting it: counts are checked before memory
+/// is reserved, then every index and number. The process has ended when this returns or throws. It leaves no
+/// zombie and no descriptor, however this program handles SIGCHLD.
 /// @throws Error as importMesh
 TriangleSoup importInProcess(const std::string& worker_path, const MeshFile& file,
                              const Eigen::Vector3d& scale, const MeshImportLimits& wanted);

@@ -4,10 +4,10 @@
 
 namespace concave_distance::detail {
 
-// What mesh_import_worker writes to its result pipe: this header, then the body it announces, in this
-// machine's byte order. The worker reads the mesh file from kMeshDescriptor.
+// Format of the result pipe of mesh_import_worker: this header, then the body that it announces, in the byte
+// order of this machine. The worker reads the mesh file from kMeshDescriptor.
 
-/// Changes with the format, so that a worker of another version is noticed.
+/// Changes with the format, so that a worker of another version is detected.
 inline constexpr std::uint64_t kImportMagic = 0x31306d695f64632eULL;
 inline constexpr int kMeshDescriptor = 3;
 inline constexpr int kResultDescriptor = 4;

@@ -15,8 +15,8 @@ bool isSegment(const TriangleNodes& nodes) {
   return nodes[0] == nodes[1] || nodes[1] == nodes[2] || nodes[2] == nodes[0];
 }
 
-/// What parts triangles that share an edge: kOpenClass for sheets, else a number for each unit whose skin
-/// they are. One for all where no edge has more than two triangles.
+/// Classes that separate triangles sharing an edge: kOpenClass for sheets, else a number for each unit that
+/// they bound. One class for all if no edge has more than two triangles.
 std::vector<std::uint32_t> classesOf(const std::vector<Eigen::Vector3d>& vertices,
                                      const std::vector<TriangleNodes>& triangles, const EdgeTable& edges) {
   bool is_manifold = true;
@@ -36,8 +36,8 @@ std::vector<std::uint32_t> classesOf(const std::vector<Eigen::Vector3d>& vertice
   return classes;
 }
 
-/// Whether the triangles of each set lie in one plane, but for roundings of their size: both sides of a
-/// sheet, each cut in its own way, bound nothing. Sets are named by one of their triangles.
+/// Whether the triangles of each set lie in one plane, up to rounding: the two sides of a sheet with
+/// different triangles bound nothing. A set is named by one of its triangles.
 std::vector<bool> findFlatSets(const std::vector<Eigen::Vector3d>& vertices,
                                const std::vector<TriangleNodes>& triangles, UnionFind& sets) {
   constexpr double kRounding = 0x1.0p-45;
@@ -134,7 +134,7 @@ class Labeller {
     }
   }
 
-  /// Sheets that meet in a corner are one; a triangle that is a segment goes with anything at its corners.
+  /// Joins sheets that meet in a corner; a triangle degenerated to a segment joins all at its corners.
   void joinOverCorners() {
     std::vector<std::uint32_t> open_at(vertices_.size(), kNone);
     std::vector<std::uint32_t> any_at(vertices_.size(), kNone);

@@ -16,7 +16,7 @@
 namespace concave_distance {
 namespace {
 
-// Closes what it holds when something is thrown.
+// Closes its descriptor when an exception is thrown.
 class Descriptor {
  public:
   explicit Descriptor(int descriptor) : descriptor_(descriptor) {}
@@ -44,7 +44,7 @@ std::string procPathOf(int descriptor) {
   return "/proc/self/fd/" + std::to_string(descriptor);
 }
 
-// Asked of the opened file and not of its path: what stands there may change at any time.
+// Checks the opened file, not its path, where the file may be replaced at any time.
 std::string realPathOf(int descriptor) {
   std::string real(PATH_MAX, '\0');
   const ssize_t size = readlink(procPathOf(descriptor).c_str(), real.data(), real.size());
@@ -93,7 +93,7 @@ bool isBelow(const std::string& path, const std::string& folder) {
 
 MeshFile::MeshFile(std::string path, const std::vector<std::string>& folders)
     : path_(std::move(path)), extension_(detail::lowerCaseExtension(path_)) {
-  // O_PATH names the file without opening it: opening a device or a FIFO has effects of its own.
+  // O_PATH names the file without opening it, because opening a device or a FIFO has side effects.
   const Descriptor named(open(path_.c_str(), O_PATH | O_CLOEXEC));
   if (named.get() < 0) refuseToOpen(path_, errno);
   checkFolder(path_, named.get(), folders);

@@ -39,7 +39,7 @@ class Collector {
     return sides_ == NormalSides::Both || !topology_.shell_is_closed[topology_.shell_of_triangle[t.value]];
   }
 
-  /// Where shells meet, the sum of their normals says nothing of either.
+  /// Where shells meet, the sum of their normals is meaningless for each.
   template <typename Triangles>
   bool bothSidesOfAny(const Triangles& triangles) const {
     const std::uint32_t shell = topology_.shell_of_triangle[triangles.begin()->value];

@@ -6,29 +6,29 @@
 
 namespace concave_distance::detail {
 
-/// What every face of a surface is to the union of the solids that it bounds.
+/// The role of every face of a surface in the union of the solids that it bounds.
 struct ResolvedShells {
   FaceTable table;
   SurfaceUnits units;
-  std::vector<FaceVerdict> verdicts;  ///< of each face
-  std::vector<bool> unit_is_inward;   ///< wound inside out in the file, for the most part
+  std::vector<FaceVerdict> verdicts;  ///< one per face
+  std::vector<bool> unit_is_inward;   ///< mostly wound inside out in the file
 };
 
-/// Combinatorics of the windings and edges, with exact predicates where more than two faces meet at an edge
+/// Uses only windings and edges, and exact predicates where more than two faces meet at an edge
 /// (doc/numerics.md, "Inside and outside"). O(n log n).
 ResolvedShells resolveShells(const std::vector<Eigen::Vector3d>& vertices,
                              const std::vector<TriangleNodes>& triangles);
 
-/// Which units bound a cavity: those that lie in the material of others and are wound the other way than the
+/// Finds units that bound a cavity: they lie in the material of others and are wound the other way than the
 /// outermost unit around them. All others bound material. Winding numbers: van Oosterom and Strackee 1983.
-/// O(n) for each pair of units of which one's bounding box holds the other's.
+/// O(n) for each pair of units with one bounding box inside the other.
 std::vector<bool> findCavities(const std::vector<Eigen::Vector3d>& vertices, const ResolvedShells& resolved);
 
-/// The shells of a surface: pieces connected by edges whose triangles bound a solid, and open ones, which
-/// corners connect, too.
+/// The shells of a surface: sets of triangles that bound a solid, connected by edges, and open ones,
+/// connected by edges or corners.
 struct ShellLabels {
   std::vector<std::uint32_t> shell_of_triangle;  ///< numbered by their first triangles
-  std::vector<TriangleIndex> triangle_of_shell;  ///< the first
+  std::vector<TriangleIndex> triangle_of_shell;  ///< the first of each
   /// Bounds a solid: not flat, and the windings balance along each of its edges.
   std::vector<bool> shell_is_closed;
 };

@@ -16,7 +16,7 @@ constexpr double kTargetNodeCount = 650.0;
 // Nodes along the diameter at the most: edges are divided too, and a needle has next to no area.
 constexpr double kMostNodesAlong = kTargetNodeCount / 4.0;
 
-// makeSearchGrid spends 1.3 to 1.5 nodes on a squared edge length of area.
+// makeSearchGrid makes 1.3 to 1.5 nodes per squared edge length of area.
 constexpr double kNodesPerSquaredEdge = 1.5;
 
 double areaOf(const SurfaceMesh& surface) {
@@ -58,7 +58,7 @@ double estimatedNodeCount(const SurfaceMesh& surface, double max_edge_length) {
 
 double automaticEdgeLength(const SurfaceMesh& surface) {
   const double area = areaOf(surface);
-  // A body that is long and thin would get edges longer than it is thick, hence the second term.
+  // The second term keeps the edges of a long, thin body from being longer than it is thick.
   const double length =
       std::min(std::sqrt(kNodesPerSquaredEdge * area / kTargetNodeCount), surface.diameter() / 8.0);
   return std::max(length, surface.diameter() / kMostNodesAlong);

@@ -11,7 +11,7 @@
 namespace concave_distance::detail {
 namespace {
 
-/// How many triangles of a face stay: wound as the face's corners, and the other way.
+/// How many triangles of a face stay, in the winding of its corners and in the other one.
 struct Needed {
   std::uint32_t along = 0;
   std::uint32_t against = 0;
@@ -58,7 +58,7 @@ class Settler {
       if (wanted > 0) --wanted;
       --missing;
     }
-    // What is missing are the first of those that were left out, turned.
+    // Missing ones are taken from those left out, turned.
     for (const std::uint32_t* t = first; missing > 0; ++t) {
       if (stays_[*t]) continue;
       stays_[*t] = true;
@@ -118,7 +118,7 @@ bool hasBranchingEdges(const std::vector<TriangleNodes>& triangles) {
 
 SettledFaces settleFaces(const std::vector<Eigen::Vector3d>& vertices, std::vector<TriangleNodes>& triangles,
                          bool orient) {
-  // Where faces overlap in one plane the new windings may bring another one to the outside.
+  // If faces overlap in one plane, another one may be outside with the new windings.
   constexpr int kMostRounds = 8;
   const std::vector<TriangleNodes> before = triangles;
   std::vector<std::uint32_t> origins(triangles.size());

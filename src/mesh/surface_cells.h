@@ -8,9 +8,9 @@
 
 namespace concave_distance::detail {
 
-/// The cell of space on each side of each face: sides that look at each other around an edge of their unit
-/// have one cell, as have both sides of a face at a free edge. What meets without sharing an edge does not
-/// part cells. Cells are named by one of their sides. O(n log n).
+/// The cell of space on each side of each face. Sides that face each other around an edge of their unit share
+/// a cell, as do both sides of a face at a free edge. Faces that meet without a common edge do not separate
+/// cells. A cell is named by one of its sides. O(n log n).
 std::vector<FaceSide> findCells(const std::vector<Eigen::Vector3d>& vertices, const FaceTable& table,
                                 const EdgeTable& edges, const SurfaceUnits& units);
 

@@ -8,8 +8,7 @@ namespace concave_distance::detail {
 namespace {
 
 constexpr std::uint32_t kUndecided = kSheet - 1;
-/// Solids that hang together by a chain of shared edges may need a round each; what is left after so many is
-/// taken together.
+/// Solids in a chain of shared edges may need a round each; those left after this many rounds form one unit.
 constexpr int kMostRounds = 32;
 
 class Splitter {

@@ -85,7 +85,7 @@ double UnitSolver::volumeUnder(std::uint32_t face) const {
   return a.dot(b.cross(c));
 }
 
-/// The outer cell is what its faces turn their outsides to: its volume is minus that of all others.
+/// Finds the outer cell: its signed volume is minus that of all others.
 void UnitSolver::measureCells(const std::vector<std::uint32_t>& faces) {
   Eigen::AlignedBox3d box;
   for (const std::uint32_t face : faces) {
@@ -103,8 +103,7 @@ void UnitSolver::measureCells(const std::vector<std::uint32_t>& faces) {
   outer_ = static_cast<std::uint32_t>(std::min_element(volumes.begin(), volumes.end()) - volumes.begin());
 }
 
-/// The middle one of the jumps between each two cells; faces wound both ways only count where there are no
-/// others.
+/// The median of the jumps between each two cells; faces wound both ways count only if there are no others.
 std::vector<UnitSolver::Boundary> UnitSolver::boundariesOfCells() const {
   std::vector<Boundary> boundaries;
   for (const Crossing& crossing : crossings_) {
@@ -136,9 +135,9 @@ std::vector<UnitSolver::Boundary> UnitSolver::boundariesOfCells() const {
   return boundaries;
 }
 
-/// Numbers the cells by their boundaries, those that most faces agree on first and those of faces wound both
-/// ways last; what contradicts them is overruled. Ends with 1 for material and 0 for what is void. False when
-/// a face that is wound one way has one cell on both sides, or all are left at 0.
+/// Numbers the cells by their boundaries, in order of agreement, those of faces wound both ways last; later
+/// contradictions are ignored. Ends with 1 for material and 0 for void. False when a face wound one way has
+/// one cell on both sides, or all are 0.
 bool UnitSolver::cellsVote() {
   for (const Crossing& crossing : crossings_) {
     if (crossing.front == crossing.back && crossing.jump != 0) return false;
@@ -158,7 +157,7 @@ bool UnitSolver::cellsVote() {
     next[boundary.high].emplace_back(boundary.low, -boundary.jump);
   }
   if (!numberFromOuter(next)) return false;
-  // A cell is left void by the windings only where more of its faces agree with that than not.
+  // The windings make a cell void only if most of its faces agree.
   std::vector<std::ptrdiff_t> support(cell_count_, 0);
   for (const Boundary& boundary : boundaries) {
     const bool agrees = windings_[boundary.high] - windings_[boundary.low] == boundary.jump;
@@ -172,7 +171,7 @@ bool UnitSolver::cellsVote() {
   return true;
 }
 
-/// Numbers the cells by the jumps; false when that contradicts itself or leaves all at 0.
+/// Numbers the cells by the jumps; false on a contradiction or if all are 0.
 bool UnitSolver::cellsAgree() {
   CellSteps next(cell_count_);
   for (const Crossing& crossing : crossings_) {
@@ -222,7 +221,7 @@ bool UnitSolver::edgesBalance(const std::vector<std::uint32_t>& faces,
       for (std::uint32_t at = edges_.first[edge]; at < edges_.first[edge + 1]; ++at) {
         const HalfEdge h = edges_.half_edges[at];
         if (units_.unit_of_face[h / 3] != unit) continue;
-        if (h / 3 < faces[i]) {  // its first face has looked at this edge
+        if (h / 3 < faces[i]) {  // its first face has visited this edge
           balance = 0;
           break;
         }

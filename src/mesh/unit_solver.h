@@ -9,7 +9,7 @@
 
 namespace concave_distance::detail {
 
-/// What a unit's faces are to the solid it bounds.
+/// The role of a unit's faces in the solid it bounds.
 enum class FaceRole : std::uint8_t {
   Skin,  ///< material on one side: `coefficient` triangles of it bound the solid
   Wall,  ///< between two solids that share it: not on the surface of their union
@@ -23,16 +23,16 @@ struct FaceVerdict {
   bool both_windings = false;  ///< Sheet: between different cells; one triangle to each side stays
 };
 
-/// Decides what a unit encloses, by the first of these that does not contradict itself:
-/// 1. The file's windings number the cells: 0 outside, one more for each face that is entered. Cells with a
-///    number other than 0 are material.
+/// Decides what a unit encloses, by the first of these rules without a contradiction:
+/// 1. The file's windings number the cells: 0 outside, one more for each face entered. Cells with a number
+///    other than 0 are material.
 /// 2. The file's windings balance along every edge, but cells merge where the surface passes through itself:
-///    all faces stay as they are wound.
-/// 3. As 1, where the faces between two cells vote and what most agree on overrules the rest. A cell is void
-///    only where more of its faces agree with that than not.
+///    all faces keep their winding.
+/// 3. As 1, but the majority of the faces between two cells decides. A cell is void only if most of its faces
+///    agree.
 /// 4. As 2, with each face counted once.
-/// 5. Every cell but the outer one is material.
-/// Returns the verdict of each face, and whether most of the skin was wound inside out.
+/// 5. Every cell except the outer one is material.
+/// Returns the verdict of each face, and whether most of the boundary was wound inside out.
 class UnitSolver {
  public:
   UnitSolver(const std::vector<Eigen::Vector3d>& vertices, const FaceTable& table, const EdgeTable& edges,

@@ -19,8 +19,7 @@ std::string lowerCase(std::string_view text) {
   return lower;
 }
 
-/// A binary STL has 50 bytes for each facet it announces; an ASCII one has no facet after its last
-/// "endsolid".
+/// A binary STL has 50 bytes per announced facet; an ASCII STL has no facet after its last "endsolid".
 void checkStl(std::string_view content, const std::string& path, std::uint64_t most_triangles) {
   constexpr std::size_t kHeader = 84;
   if (content.size() >= kHeader) {
@@ -44,7 +43,7 @@ void checkStl(std::string_view content, const std::string& path, std::uint64_t m
   }
 }
 
-/// A count that the file is too short for makes assimp reserve memory for it.
+/// Assimp would reserve memory for a count that is larger than the file.
 void checkDaeCount(std::string_view attributes, const std::string& tag, std::size_t file_size,
                    const std::string& path) {
   const std::size_t at = attributes.find("count=");
@@ -62,8 +61,8 @@ void checkDaeCount(std::string_view attributes, const std::string& tag, std::siz
   }
 }
 
-/// Assimp's COLLADA reader never returns from an index list with something other than numbers in it, and
-/// takes a number that has no place in 31 bits for 0.
+/// Assimp's COLLADA reader never returns from an index list that contains anything but numbers, and reads
+/// numbers beyond 31 bits as 0.
 void checkDaeIndices(std::string_view list, const std::string& tag, const std::string& path) {
   constexpr const char* kSpace = " \t\r\n";
   for (std::size_t at = list.find_first_not_of(kSpace); at != std::string_view::npos;) {
@@ -98,7 +97,7 @@ void checkDae(std::string_view content, const std::string& path) {
     if (close == std::string_view::npos) return;
     const std::size_t next = content[close] == '<' ? close : content.find('<', close);
     const std::string_view inside = content.substr(open + 1, close - open - 1);
-    // No name that matters is longer.
+    // No relevant name is longer.
     const std::string tag(inside.substr(0, std::min<std::size_t>(inside.find_first_of(" \t\r\n/"), 16)));
     if (tag == "float_array" || tag == "accessor") {
       checkDaeCount(inside.substr(tag.size()), tag, content.size(), path);

@@ -1,8 +1,7 @@
-// Reads one mesh file for importMesh(), in a process of its own: what a hostile file does to assimp ends
-// here.
+// Reads one mesh file for importMesh() in a separate process, so that a hostile file crashes only this
+// process.
 //   mesh_import_worker <memory, bytes> <seconds> <largest triangle count> <extension> <scale x> <y> <z>
-// The file is open as descriptor 3, the answer goes to descriptor 4 (import_stream.h). Nothing else is
-// opened.
+// The file is open as descriptor 3, the answer goes to descriptor 4 (import_stream.h).
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -37,7 +36,7 @@ void writeAll(const void* data, std::size_t size) {
   while (size > 0) {
     const ssize_t written = write(kResultDescriptor, bytes, size);
     if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) _exit(EXIT_FAILURE);  // nobody listens any more
+    if (written <= 0) _exit(EXIT_FAILURE);  // the reader is gone
     bytes += written;
     size -= static_cast<std::size_t>(written);
   }
@@ -51,7 +50,7 @@ void writeHeader(ImportStatus status, std::uint64_t first, std::uint64_t second)
   writeAll(&header, sizeof header);
 }
 
-// Also where assimp would catch the exception and call it something else.
+// Also where assimp would catch the exception and report another error.
 void onOutOfMemory() {
   writeHeader(ImportStatus::OutOfMemory, 0, 0);
   _exit(EXIT_FAILURE);
@@ -101,5 +100,5 @@ int main(int argc, char** argv) {
   limitProcess(request.memory, request.seconds);
   std::set_new_handler(onOutOfMemory);
   answer(request);
-  _exit(EXIT_SUCCESS);  // what is allocated goes with the process: freeing it takes a third of the time
+  _exit(EXIT_SUCCESS);  // without freeing memory, which takes a third of the time
 }

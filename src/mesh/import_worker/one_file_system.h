@@ -10,7 +10,7 @@
 
 namespace concave_distance::detail {
 
-/// All the files that assimp sees: one, from memory. Material libraries, textures and archives are not there.
+/// The only file that assimp sees, from memory; no material libraries, textures or archives.
 class OneFileSystem : public Assimp::IOSystem {
  public:
   OneFileSystem(std::string name, std::string_view content) : name_(std::move(name)), content_(content) {}

@@ -12,7 +12,7 @@ namespace {
 
 constexpr const char* kExportAgain = "export the mesh again";
 constexpr const char* kSpace = " \t\r\n\v\f";
-// Scanners write a few dozen; assimp compares each with each.
+// Scanners write a few dozen; assimp compares all pairs.
 constexpr std::size_t kMostProperties = 1000;
 
 struct PlyProperty {
@@ -32,7 +32,7 @@ struct PlyHeader {
 
 enum class Kind { WholeNumber, Any };
 
-/// Takes words and lines from the front of a text.
+/// Reads words and lines from the front of a text.
 class Words {
  public:
   explicit Words(std::string_view text) : rest_(text) {}
@@ -51,7 +51,7 @@ class Words {
     return found;
   }
 
-  /// Empty when there are fewer left.
+  /// Empty when fewer are left.
   std::string_view bytes(std::size_t count) {
     if (count > rest_.size()) return {};
     const std::string_view found = rest_.substr(0, count);
@@ -70,7 +70,7 @@ bool parseCount(std::string_view text, std::uint64_t& count) {
   return error == std::errc() && end == text.data() + text.size();
 }
 
-/// @throws Error for a name that is no type of PLY
+/// @throws Error for a name that is not a type of PLY
 std::size_t typeSize(std::string_view type, Kind kind, const std::string& path) {
   static const std::vector<std::pair<std::size_t, std::vector<std::string_view>>> whole{
       {1, {"char", "uchar", "int8", "uint8"}},
@@ -111,7 +111,7 @@ PlyElement readElement(Words words, const std::string& path) {
   return element;
 }
 
-/// Leaves `file` behind the header.
+/// Afterwards `file` begins after the header.
 PlyHeader readHeader(Words& file, const std::string& path) {
   PlyHeader header;
   std::size_t properties = 0;
@@ -136,7 +136,7 @@ PlyHeader readHeader(Words& file, const std::string& path) {
   return {};
 }
 
-/// Passes over the values of a PLY body; false when they run out.
+/// Skips the values of a PLY body; false when they run out.
 class Body {
  public:
   Body(Words file, const std::string& format)

@@ -38,7 +38,7 @@ void closeDescriptorsAbove(int last) {
 void limitProcess(std::size_t memory, double seconds) {
   const int score = open("/proc/self/oom_score_adj", O_WRONLY | O_CLOEXEC);
   if (score >= 0) {
-    static_cast<void>(write(score, "1000", 4) == 4);  // at worst the system chooses another process
+    static_cast<void>(write(score, "1000", 4) == 4);  // if this fails, the system may choose another process
     close(score);
   }
   prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);

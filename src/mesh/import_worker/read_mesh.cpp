@@ -28,7 +28,7 @@ Eigen::Affine3d toEigen(const aiMatrix4x4& m) {
   return Eigen::Affine3d(matrix);
 }
 
-/// Assimp's later steps trust the indices of a file, so this comes before them.
+/// Comes before assimp's later steps, which trust the indices of a file.
 void checkMeshes(const aiScene& scene, const std::string& path) {
   for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
     const aiMesh& mesh = *scene.mMeshes[m];
@@ -54,7 +54,7 @@ void checkMeshes(const aiScene& scene, const std::string& path) {
   }
 }
 
-/// Assimp keeps seven digits: a small body far from the file's origin comes out as another body.
+/// Assimp keeps seven digits: a small body far from the file's origin would be distorted.
 void checkPrecision(const aiScene& scene, const std::string& path) {
   constexpr double kRounding = 6e-8;  // of a coordinate, half a unit of single precision
   constexpr double kLargestShare = 0.01;
@@ -77,8 +77,8 @@ void checkPrecision(const aiScene& scene, const std::string& path) {
   throw Error(path, seen.str(), "move the mesh to the origin of its file and give the body a pose");
 }
 
-/// Says what kinds of faces each mesh has: where a reader leaves that out or is wrong, assimp's triangulation
-/// takes faces of fewer than three corners for polygons and aborts the process.
+/// Sets the kinds of faces of each mesh. If a reader leaves them out or sets them wrong, assimp's
+/// triangulation takes faces of fewer than three corners for polygons and aborts the process.
 void statePrimitiveTypes(const aiScene& scene) {
   for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
     aiMesh& mesh = *scene.mMeshes[m];
@@ -143,8 +143,7 @@ SoupSize sizeOf(const aiMesh& mesh) {
   return size;
 }
 
-/// With every instance counted. Stops counting beyond the limit: a small file may name a mesh billions of
-/// times.
+/// Counts every instance. Stops beyond the limit, because a small file may refer to a mesh billions of times.
 SoupSize sizeOf(const aiNode& node, const std::vector<SoupSize>& sizes, std::uint64_t most_triangles) {
   SoupSize size;
   for (unsigned i = 0; i < node.mNumMeshes; ++i) size = size + sizes[node.mMeshes[i]];
@@ -168,8 +167,9 @@ SoupSize checkedSizeOf(const aiScene& scene, const std::string& path, std::uint6
   return size;
 }
 
-/// Leaves the reader of the file's ending alone in `importer`: else the content chooses among fifty.
-/// @return the others, which belong to nobody now
+/// Removes all readers from `importer` but that of the file's ending; otherwise the content chooses among
+/// fifty.
+/// @return the removed readers, which the caller owns
 std::vector<std::unique_ptr<Assimp::BaseImporter>> keepOneReader(Assimp::Importer& importer,
                                                                  const std::string& extension) {
   const Assimp::BaseImporter* kept = importer.GetImporter(extension.c_str());
@@ -187,8 +187,8 @@ TriangleSoup toSoup(const aiScene& scene, const std::string& path, bool collada,
   TriangleSoup soup;
   soup.vertices.reserve(size.vertices);
   soup.triangles.reserve(size.triangles);
-  // For COLLADA the root's transform holds the <unit>. With other formats rviz leaves the root's transform
-  // out for all nodes below it.
+  // For COLLADA the root's transform contains the <unit>. For other formats rviz ignores the root's transform
+  // for all nodes below it.
   const aiNode& root = *scene.mRootNode;
   const Eigen::Affine3d body_from_file(Eigen::Scaling(scale));
   for (unsigned i = 0; i < root.mNumMeshes; ++i) {
@@ -210,11 +210,11 @@ TriangleSoup readMesh(std::string_view content, const std::string& path, const s
   checkMeshContent(content, path, extension, most_triangles);
   Assimp::Importer importer;
   const auto others = keepOneReader(importer, extension);
-  // The name is ours: what stands in the file's own name chooses nothing.
+  // A fixed name, so that the file's own name has no influence.
   const std::string name = "mesh" + extension;
   importer.SetIOHandler(new OneFileSystem(name, content));  // the importer owns it
-  // Assimp turns a COLLADA scene so that y points up, by the transform of the root node; rviz draws the
-  // file's own axes whatever its <up_axis> says, and so do we.
+  // Assimp turns a COLLADA scene so that y points up, by the transform of the root node. rviz keeps the
+  // file's axes for any <up_axis>, and so does this package.
   importer.SetPropertyInteger(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, 1);
   importer.SetPropertyInteger(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, 1);
   const aiScene* scene = importer.ReadFile(name, 0);

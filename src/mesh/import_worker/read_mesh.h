@@ -9,8 +9,8 @@
 
 namespace concave_distance::detail {
 
-/// importMesh() in this process: what mesh_import_worker does. A hostile file may crash or hang it, or take
-/// all memory; it opens no file.
+/// importMesh() without a worker process; used by mesh_import_worker. A hostile file may crash or hang it, or
+/// use all memory. It opens no file.
 /// @param content the whole file; `path` names it in errors
 /// @param extension .stl, .obj, .ply or .dae: chooses the reader
 /// @throws Error as importMesh
