@@ -24,7 +24,7 @@ if(concave_distance_convex_missing)
   message(STATUS "No convex partition is built: not found: ${concave_distance_convex_missing}")
 else()
   set(concave_distance_convex_default ON)
-  # Installed since the first configuration, as after scripts/demo.sh: the default is chosen again.
+  # Choose the default again if the libraries were installed after the first configuration (scripts/demo.sh).
   if(CONCAVE_DISTANCE_CONVEX_WAS_MISSING)
     unset(CONCAVE_DISTANCE_WITH_CGAL CACHE)
     unset(CONCAVE_DISTANCE_CONVEX_WAS_MISSING CACHE)

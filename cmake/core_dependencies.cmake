@@ -1,5 +1,5 @@
 # The libraries of the core; none belongs to ROS. Collected in CONCAVE_DISTANCE_CORE_LIBRARIES (all private to it
-# except Eigen); assimp alone is linked by mesh_import_worker and not by the core. Older distributions name the same things by variables instead of targets.
+# except Eigen); only mesh_import_worker links assimp. Older distributions have variables instead of targets.
 find_package(Eigen3 REQUIRED)
 find_package(Threads REQUIRED)
 #catkin_lint: ignore_once missing_cmake_modules

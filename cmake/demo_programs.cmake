@@ -1,4 +1,4 @@
-# The target concave_distance_demos: what the demos and own_robot.launch start, and no more (scripts/demo.sh).
+# The target concave_distance_demos: only what the demos and own_robot.launch start (scripts/demo.sh).
 if(CONCAVE_DISTANCE_WITH_ROS)
   add_custom_target(concave_distance_demos DEPENDS
     distance_node simulation_node joint_player marker_mover pose_player robot_mover

@@ -1,6 +1,5 @@
-# rosrun does not look below a package's own folder `build`, where programs are when this package is built there
-# without a workspace. It finds these links instead; roslaunch, which finds the programs themselves, does not look
-# into hidden folders.
+# rosrun does not look below a package's folder `build`, where a build without a workspace puts the programs; it finds
+# these links. roslaunch finds the programs themselves and does not look into hidden folders.
 if(CONCAVE_DISTANCE_WITH_ROS AND PROJECT_BINARY_DIR STREQUAL "${PROJECT_SOURCE_DIR}/build")
   set(rosrun_links ${PROJECT_SOURCE_DIR}/.rosrun)
   file(REMOVE_RECURSE ${rosrun_links})

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Builds the package into build/ without a workspace; programs end in build/devel/lib/concave_distance.
 #   scripts/build.sh [demo|programs|all] [cmake options ...]
-# demo: the node, what moves the demos, the messages; programs (default): the tools besides; all: tests and benchmarks
+# demo: the node, the messages and the demos' programs; programs (default): the tools too; all: tests and benchmarks
 # too.
 set -euo pipefail
 # shellcheck source=scripts/common.sh
@@ -16,7 +16,7 @@ esac
 first_options=()
 if [ ! -f "$build_dir/CMakeCache.txt" ]; then
   if command -v ninja >/dev/null; then first_options+=(-G Ninja); fi
-  # Whoever builds the demos first wants to see them soon.
+  # Makes the first build for the demos faster.
   if [ "$what" = demo ]; then first_options+=(-DCONCAVE_DISTANCE_PRECOMPILED_HEADERS=ON); fi
 fi
 cmake -S "$package_dir" -B "$build_dir" "${first_options[@]}" "$@"

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Runs every property test on cases that no run has seen: a new seed, 20,000 cases each. scripts/test.sh draws the same
-# hundred each time. Programs that are missing in build/ are built.
+# Runs every property test on new cases: a new seed, 20,000 cases each. scripts/test.sh draws the same hundred each
+# time. Programs that are missing in build/ are built.
 #   scripts/fresh_tests.sh [--cases N] [--seed N] [--property NAME] [program ...]
 # Default: 20000 cases, a seed drawn, every property of every program.
-# What failed is printed with the seed and the case; the last line is `N passed, N failed`, counted in properties.
+# Failures are printed with the seed and the case; the last line is `N passed, N failed`, counted in properties.
 # To repeat one: this script with the seed, the program and `--property <name>`.
 set -euo pipefail
 # shellcheck source=scripts/common.sh

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs what the package needs from the distribution's packages, only what is missing.
 #   scripts/install_dependencies.sh [node] [build] [test] [demo] [plot] [format] [lint] [fuzz] [sanitize] [engines]  (default: build test demo)
-# node: what the node is built with; build: that, and what the other programs are built with.
+# node: for building the node; build: for building the other programs too.
 # Debian 12 has everything in its main archive. Ubuntu 20.04 needs the ROS Noetic archive set up beforehand.
 set -euo pipefail
 # shellcheck source=scripts/common.sh

@@ -20,7 +20,7 @@ check_format() {
   find include src test -name '*.h' -print0 -o -name '*.cpp' -print0 | xargs -0 clang-format --dry-run --Werror
 }
 check_tidy() {
-  # clang-tidy cannot read the precompiled headers of another compiler, which a build for the demos has.
+  # clang-tidy cannot read the precompiled headers of a build for the demos, which are of another compiler.
   if [ ! -f "$build_dir/compile_commands.json" ] ||
     grep -q '^CONCAVE_DISTANCE_PRECOMPILED_HEADERS:BOOL=ON' "$build_dir/CMakeCache.txt"; then
     scripts/build.sh all -DCONCAVE_DISTANCE_PRECOMPILED_HEADERS=OFF

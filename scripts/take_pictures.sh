@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# Takes the pictures of the demos in doc/images: starts each scene at rest on a display of its own, waits until rviz
-# draws the same picture twice, and keeps it.
+# Takes the pictures of the demos in doc/images: starts each scene at rest on a virtual display, waits until rviz
+# draws the same picture twice, and saves it.
 #   scripts/take_pictures.sh [--output FOLDER] [insertion|contact|simulation|robot|interactive|cell|own_robot ...]   (default: all)
-# Needs what scripts/demo.sh builds, xvfb, imagemagick and, for own_robot, the robots of dart-doc. ROS_MASTER_URI says on which port; no master may run there.
+# Needs a build by scripts/demo.sh, xvfb, imagemagick and, for own_robot, dart-doc. ROS_MASTER_URI sets the port of the
+# master, which must be free.
 set -euo pipefail
 # shellcheck source=scripts/common.sh
 . "$(dirname "${BASH_SOURCE[0]}")/common.sh"
@@ -51,7 +52,7 @@ xvfb=$!
 read -r display <"$work/display" || die "Xvfb did not start"
 export DISPLAY=":$display"
 
-# Arguments of a scene's launch file that hold it still at a telling moment.
+# Arguments of a scene's launch file that stop it at a clear picture.
 launch_arguments() {
   case "$1" in
     insertion) echo "speed:=0 start:=6.6" ;;
@@ -75,7 +76,7 @@ wait_for() {  # seconds, what, command...
 
 markers_came() { timeout 5 rostopic echo -n 1 /concave_distance/markers | grep -q 'points'; }
 
-# Labels look for a better place once a second: two pictures farther apart than that have to be the same.
+# Labels may move once a second; so two pictures more than a second apart have to be the same.
 picture_settled() {
   mv -f "$work/now.png" "$work/before.png" 2>/dev/null || true
   sleep 1.5
