@@ -1,16 +1,16 @@
 #!/usr/bin/env python3
-"""Starts the distance node on many robots, moves their joints, and prints what it reaches as a Markdown table.
+"""Starts the distance node on many robots, moves their joints, and prints its times and rates as a Markdown table.
 
     . build/devel/setup.bash; scripts/robot_table.py [--seconds 10] [--port 11399] [--search] [--json OUT] [URDF ...]
 
-Without URDFs: those of Debian's dart-doc, broken ones included, and of this package; URDFs without collision geometry
-with their visual one. --search: meshes are looked for
-beside the URDF (~mesh_search_path); without it, packages that the URDFs name are made known by links in a temporary
-folder, so that versions of the node without that parameter load the same. --node: another build's distance_node.
-Columns: bodies, pairs and problems as list_bodies has them; seconds from the start of the node to the first `niches`
-message in which every pair is located (a distance, or the bound of one beyond the cutoff); messages per second of `niches` for the given time after it, with every joint in motion; resident
-memory at the end. Processor time stands beside, for machines that do other work: of the node until the first distance, and
-per cycle.
+Default URDFs: those of Debian's dart-doc, including broken ones, and of this package; without collision geometry the
+visual geometry is used. --search: meshes are searched beside the URDF (~mesh_search_path); without it, links in a
+temporary folder make the packages of the URDFs known, for versions of the node without that parameter.
+--node: distance_node of another build.
+Columns: bodies, pairs and problems of list_bodies; seconds from the start of the node to the first `niches` message in
+which every pair has a distance or a bound beyond its cutoff; messages per second of `niches` after it, with every joint
+moving; resident memory at the end. Processor time of the node until the first distance, and per cycle, is given too,
+for busy machines.
 """
 import argparse
 import json
@@ -33,7 +33,7 @@ PACKAGE = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 DART = "/usr/share/doc/dart/data"
 DEADLINE = 120.0  # s, for the first distance
 NOT_LOCATED = (PairStatus.MISSING_TRANSFORM, PairStatus.STALE_TRANSFORM)
-# Packages that the URDFs of dart-doc name, and the folder that has their meshes.
+# Packages named in the URDFs of dart-doc, and the folder of their meshes.
 DART_PACKAGES = {"atlas_description/meshes_v3": DART + "/sdf/atlas", "herb_description": DART + "/urdf/wam",
                  "drchubo": DART + "/urdf/drchubo"}
 
@@ -99,7 +99,7 @@ def text_of(path):
 
 
 class Watch:
-    """Counts the messages of `niches` from the first with a distance on; solved pairs are those with a distance."""
+    """Counts the messages of `niches` after the first with a distance; solved pairs are those with a distance."""
 
     def __init__(self):
         self.first = None

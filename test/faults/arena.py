@@ -1,4 +1,4 @@
-"""Where the attacks take place: a master, a scratch folder with a scene, a node, the frames that move."""
+"""The environment of the attacks: a master, a scratch folder with a scene, a node, moving frames."""
 
 import os
 import socket
@@ -34,7 +34,7 @@ def free_port():
 
 
 def source_of(build):
-    """The package that was built there: its launch files, meshes and scenes are the ones that are tried."""
+    """The source folder of the build, whose launch files, meshes and scenes are used."""
     try:
         with open(os.path.join(build, "CMakeCache.txt")) as cache:
             return next(line.partition("=")[2].strip() for line in cache if line.startswith("CMAKE_HOME_DIRECTORY:"))
@@ -50,7 +50,7 @@ class Arena:
         self.source = source_of(self.build)
         self.folder = os.path.abspath(folder)
         self.sanitized = sanitized
-        self.patience = 6.0 if sanitized else 1.0  # factor on every deadline
+        self.patience = 6.0 if sanitized else 1.0  # factor of every deadline
         self.memory_factor = 4.0 if sanitized else 1.0
         self.address_space_gb = None if sanitized else 6.0  # sanitizers reserve terabytes of addresses
         self.largest_mb = 3000.0 * (2.0 if sanitized else 1.0)
@@ -100,7 +100,7 @@ class Arena:
                 time.sleep(0.05)
 
     def join_ros(self):
-        """Makes this process a ROS node. Afterwards the message classes are there."""
+        """Makes this process a ROS node and loads the message classes."""
         import rospy
         rospy.init_node("faults", disable_signals=True, log_level=rospy.FATAL)
         import concave_distance.msg
@@ -148,7 +148,7 @@ class Arena:
         self.master().deleteParam("/faults", name)
 
     def forget(self, name):
-        """Takes a node that was killed off the master's lists."""
+        """Unregisters a killed node from the master."""
         master = self.master()
         _, _, (publishers, subscribers, services) = master.getSystemState("/faults")
         code, _, uri = master.lookupNode("/faults", name)
@@ -164,7 +164,7 @@ class Arena:
             if name in nodes:
                 master.unregisterService(name, service, master.lookupService(name, service)[2])
 
-    # The node and what it serves
+    # The node and its services
 
     @property
     def node(self):

@@ -1,4 +1,4 @@
-"""What an attack is, and the list that each module of attacks adds to."""
+"""Attacks, and the list to which each module of attacks adds."""
 
 import collections
 import re
@@ -9,12 +9,12 @@ groups = collections.OrderedDict()  # name -> Group
 
 
 class Failed(Exception):
-    """An expectation of an attack does not hold."""
+    """An expectation of an attack is not met."""
 
 
 class Group:
-    """Attacks that share a node: `setting` is what node_under_test.Node takes; None: no node is started.
-    beside: they need no master either and run beside the other groups."""
+    """Attacks that share a node: `setting` holds arguments of node_under_test.Node; None: no node is started.
+    beside: they need no master either and run in parallel with the other groups."""
 
     def __init__(self, name, setting=None, beside=False):
         self.name = name
@@ -24,15 +24,15 @@ class Group:
         groups[name] = self
 
     def add(self, name, act, deadline=30.0, growth_mb=200.0, silence=10.0, dies=False, storms=True, fast=False):
-        """`act(arena)` attacks and raises Failed. deadline: s that it may take; growth_mb: by which the node may
-        grow meanwhile; silence: s that the node may leave list_bodies unanswered; dies: the attack ends the node by
-        itself; storms: takes part in storms; fast: belongs to the subset of every test run."""
+        """`act(arena)` attacks and raises Failed. deadline: longest duration, s; growth_mb: largest growth of
+        the node; silence: longest time without an answer to list_bodies, s; dies: the attack itself ends the
+        node; storms: takes part in storms; fast: belongs to the subset of every test run."""
         if any(attack.name == name for attack in self.attacks):
             raise ValueError("two attacks of group '%s' are called '%s'" % (self.name, name))
         self.attacks.append(Attack(name, self.name, act, deadline, growth_mb, silence, dies, storms, fast))
 
     def attack(self, **options):
-        """The same as a decorator: the function's name is the attack's."""
+        """The same as a decorator: the attack has the function's name."""
         def register(function):
             self.add(function.__name__, function, **options)
             return function
@@ -45,6 +45,6 @@ def expect(condition, text):
 
 
 def shortened(text, length=160):
-    """A text as a part of one line."""
+    """The text on one line, cut to a length."""
     line = re.sub(r"[^ -~]+", " ", str(text)).strip()
     return line if len(line) <= length else line[:length - 3] + "..."

@@ -15,13 +15,13 @@ LAST = 4294967295  # s, the end of ROS's time
 
 
 class Simulation:
-    """A node in simulated time, a clock, and the frames of the scene stamped by it."""
+    """A node in simulated time, a clock, and frames of the scene with its stamps."""
 
     def __init__(self, arena):
         self.arena = arena
         self.now = None
         self.running = True
-        self.rate = 1.0  # simulated over real seconds
+        self.rate = 1.0  # simulated seconds per real second
         self.moving = True
         self.clock = rospy.Publisher("/clock", Clock, queue_size=100)
         self.tf = rospy.Publisher("/tf", TFMessage, queue_size=100)
@@ -68,7 +68,7 @@ class Simulation:
             self.tf.publish(self.arena.player.message(stamp))
 
     def expect_right(self, timeout=20.0):
-        """From now on a right distance arrives, stamped at the simulated time."""
+        """Waits for a right distance, stamped with simulated time."""
         self.distances = []
 
         def right():
@@ -87,7 +87,7 @@ class Simulation:
 
 @group.attack(deadline=90.0)
 def no_clock_at_all(arena):
-    """The node says why nothing moves, serves, and ends when it is asked to."""
+    """The node logs why nothing moves, answers services, and ends on SIGINT."""
     with Simulation(arena) as simulation:
         simulation.node.wait_until_ready(30.0)
         simulation.expect_served()
@@ -98,7 +98,7 @@ def no_clock_at_all(arena):
 
 
 def jumps(arena, *times, right_after=True):
-    """The clock runs, jumps to each of the times in turn, and runs on from there."""
+    """The clock runs, jumps to each of the times in turn, and continues from there."""
     with Simulation(arena) as simulation:
         simulation.now = 1000.0
         simulation.node.wait_until_ready(30.0)
@@ -127,13 +127,13 @@ for label, moments in JUMPS.items():
 
 @group.attack(deadline=90.0)
 def at_its_end(arena):
-    """4294967295 s: no time can come after it."""
+    """4294967295 s is the largest time in ROS."""
     jumps(arena, LAST - 1.0, LAST, 10.0)
 
 
 @group.attack(deadline=90.0)
 def stands_still(arena):
-    """Services go on; when the clock goes on, so does the motion."""
+    """Services answer; when the clock goes on, so does the motion."""
     with Simulation(arena) as simulation:
         simulation.now = 1000.0
         simulation.node.wait_until_ready(30.0)

@@ -1,4 +1,4 @@
-"""The motion that the node follows during the attacks, and what it must say about it."""
+"""The motion that the node follows during the attacks, and its right distances."""
 
 import math
 import threading
@@ -55,7 +55,7 @@ class FramePlayer(threading.Thread):
 
 
 class DistanceListener:
-    """Receives ~distances; counts messages that say OK with a number that is wrong."""
+    """Receives ~distances; finds messages with status OK and a wrong distance."""
     ALLOWED = 5e-3  # m; between two transforms the motion is interpolated
 
     def __init__(self, name, distances_class, status_class):
@@ -80,7 +80,7 @@ class DistanceListener:
             with self.lock:
                 self.last = (time.monotonic(), pair.status.code, pair.distance, stamp, right, pair.status.message)
                 self.count += 1
-                # Wrong for the time at which it arrives, whatever its stamp says.
+                # Wrong for the time of arrival, independent of its stamp.
                 near = min(abs(pair.distance - gap_at(now - late)) for late in (0.0, 0.25, 0.5, 0.75, 1.0, 1.5, 2.0)) \
                     if pair.status.code == self.ok else 0.0
                 if near > 0.1:
@@ -93,7 +93,7 @@ class DistanceListener:
             self.last = None
 
     def wait_until_right(self, timeout):
-        """Whether a right distance arrives from now on within the time."""
+        """Whether a right distance arrives within the time."""
         began = time.monotonic()
         while time.monotonic() - began < timeout:
             with self.lock:

@@ -1,4 +1,4 @@
-"""Bodies that nobody should be able to add."""
+"""Bodies that the node must refuse to add."""
 
 import itertools
 import os
@@ -38,7 +38,7 @@ def refuse(label, words, **fields):
 
 
 def answer(label, deadline=30.0, **fields):
-    """Bodies that may be refused with the reason or accepted; the node survives and goes on."""
+    """Bodies that may be accepted, or refused with the reason; the node goes on."""
     group.add(label, lambda arena: require_sound(add(arena, **fields)), deadline=deadline)
 
 
@@ -55,7 +55,7 @@ for key, text in FRAMES.items():
 
 @group.attack()
 def frame_that_does_not_exist(arena):
-    """It may come later: accepted, with a warning that names it."""
+    """The frame may come later: accepted, with a warning that names it."""
     mark = arena.node.log_length()
     values = dict(BOX, name="waits", frame_id="not_there_yet")
     response = call(arena, "add_body", **values)
@@ -75,7 +75,7 @@ for key, value in {"nan": NAN, "inf": INF, "two": 2.0, "1e308": 1e308, "denormal
 
 @group.attack(fast=True)
 def quaternion_of_zeros(arena):
-    """What a message has that nobody filled in: the identity, or a refusal."""
+    """As in an empty message: the identity, or a refusal."""
     response = add(arena, pose__orientation__w=0.0)
     if not response.success:
         require_refused(response, "quaternion")
@@ -94,7 +94,7 @@ for key, value in SIZES.items():
 
 
 def tiny(arena, right_distance, **fields):
-    """A body too thin to be seen: refused, or its distance to box_b is right."""
+    """An extremely thin body: refused, or its distance to box_b is right."""
     name = "tiny_%d" % next(counter)
     response = call(arena, "add_body", **dict(BOX, name=name, **fields))
     if not response.success:
@@ -209,7 +209,7 @@ def mesh_that_is_a_link_out_of_the_scene(arena):
 
 @group.attack(deadline=15.0)
 def mesh_outside_of_the_roots_tells_nothing(arena):
-    """A good mesh, a file that is no mesh, a secret one and none at all: the same refusal."""
+    """A valid mesh, another file, a secret file and a missing one: the same refusal."""
     good = arena.write("outside/mesh.stl", open(arena.path("scene/meshes/hook.stl"), "rb").read())
     texts = set()
     for path in (good, arena.path("outside/none.stl"), "/etc/shadow", "/etc/passwd", "/root/.bashrc", "/root/none"):
@@ -221,7 +221,7 @@ def mesh_outside_of_the_roots_tells_nothing(arena):
 
 @group.attack(deadline=15.0)
 def good_mesh_beside_the_scene(arena):
-    """What is allowed goes on working."""
+    """Allowed files still work."""
     response = add(arena, primitive="", dimensions=[], mesh_resource=arena.path("scene/meshes/hook.stl"))
     expect(response.success, response.message)
     response = add(arena, primitive="", dimensions=[], mesh_resource=HOOK)
@@ -230,7 +230,7 @@ def good_mesh_beside_the_scene(arena):
 
 @group.attack(deadline=120.0, growth_mb=200.0)
 def thousand_boxes(arena):
-    """Added and removed; each call is quick and none keeps its memory."""
+    """Bodies are added and removed; each call is fast and frees its memory."""
     slowest = 0.0
     names = ["many_%d" % index for index in range(1000)]
     for index, name in enumerate(names):

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes mesh files that try to end, hang or mislead whoever reads them.
+"""Writes mesh files that try to crash, hang or mislead a reader.
 
     hostile_meshes.py FOLDER      writes them and prints name, expectation and path
 
@@ -14,7 +14,7 @@ import sys
 from typing import Callable, List, NamedTuple
 
 REFUSED = "refused"  # an error that names the file; the program goes on
-SERVED = "served"    # odd, but a mesh: refusing it would be a fault
+SERVED = "served"    # unusual, but a valid mesh: refusing it would be an error
 EITHER = "either"    # served or refused, within the limits; the program goes on
 
 
@@ -28,7 +28,7 @@ _WRITERS: List = []
 
 
 def _mesh(file_name: str, expectation: str = REFUSED):
-    """The function below returns the file's content, or makes the file at the path it is given and returns None."""
+    """For a function that returns the file's content, or writes the file at the given path and returns None."""
 
     def register(write: Callable):
         _WRITERS.append((file_name, expectation, write))
@@ -437,7 +437,7 @@ def _():
 
 @_mesh("facets_in_a_sparse_file.stl")
 def _(path):
-    # What the header announces is there, but as a hole: 64 GB that take no space.
+    # The file has the announced size, but is sparse: 64 GB that take no space.
     facets = 1_374_000_000
     _write(path, _binary_stl(facets, 0))
     os.truncate(path, 84 + 50 * facets)
@@ -522,7 +522,7 @@ def _():
     return _OBJ_TRIANGLE
 
 
-# -------------------------------------------------------------------------------- no regular files at all
+# -------------------------------------------------------------------------------- files that are not regular
 
 
 @_mesh("a_fifo.stl")
@@ -574,7 +574,7 @@ def _():
 
 @_mesh("unreadable.stl", EITHER)
 def _(path):
-    # Root reads it all the same.
+    # Root can still read it.
     _write(path, _binary_stl(2, 2))
     os.chmod(path, 0)
 
@@ -585,7 +585,7 @@ def _write(path: str, content) -> None:
 
 
 def write_hostile_meshes(folder: str) -> List[HostileMesh]:
-    """Writes every file below `folder`, which is made; a second call writes the same again."""
+    """Makes `folder` and writes every file below it; a second call writes the same files."""
     folder = os.path.abspath(folder)
     os.makedirs(folder, exist_ok=True)
     meshes = []

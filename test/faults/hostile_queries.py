@@ -1,4 +1,4 @@
-"""Questions for distances that no honest client asks."""
+"""Hostile queries of distances."""
 
 import math
 import threading
@@ -62,7 +62,7 @@ for label, value in {"twice_a_unit": 2.0, "1e308": 1e308, "denormal": 5e-324, "s
 
 @group.attack(fast=True)
 def quaternion_of_zeros(arena):
-    """Refused, or the identity as in other programs of ROS."""
+    """Refused, or taken as the identity, as in other ROS programs."""
     response = ask(arena, pose_b__pose__orientation__w=0.0)
     if response.success:
         expect(response.result.nearest.distance == 1.0, "distance %r instead of 1" % response.result.nearest.distance)
@@ -97,7 +97,7 @@ def largest_niche_count_of_four_billion(arena):
 
 
 def bounded(arena, seconds, **fields):
-    """A bracket that holds, within the time."""
+    """A correct bracket, within the time."""
     began = time.monotonic()
     finite_or_refused(arena, body_a="hook", body_b="comb", **fields)
     took = time.monotonic() - began
@@ -131,7 +131,7 @@ for label, frame in FRAMES.items():
     refuse("pose_frame_" + label, ("frame", "transform"), pose_b__header__frame_id=frame)
 
 
-# Several questions in one call
+# Several queries in one call
 
 @group.attack(fast=True)
 def list_that_is_empty(arena):
@@ -147,7 +147,7 @@ def one_bad_question_among_good_ones(arena):
 
 
 def answered_or_limited(arena, question, count):
-    """Every question has its answer, or the whole list is refused as too long."""
+    """Every query is answered, or the whole list is refused as too long."""
     response = call(arena, "get_distances", timeout=60.0, queries=[question] * count)
     if len(response.results) != count:
         require_refused(response, "queries", "limit")
@@ -165,7 +165,7 @@ def ten_thousand_good_questions(arena):
 
 @group.attack(deadline=120.0, growth_mb=400.0, silence=15.0)
 def thousand_questions_for_every_niche(arena):
-    """They may take long; another client is answered meanwhile, or refused with the reason."""
+    """They may take long; meanwhile another client is answered, or refused with the reason."""
     heavy = query(arena, body_a="hook", body_b="comb", accuracy=4, with_niches=True)
     asking = threading.Thread(target=lambda: call(arena, "get_distances", timeout=60.0, queries=[heavy] * 1000),
                               daemon=True)

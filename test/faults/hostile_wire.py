@@ -27,7 +27,7 @@ def connect(arena, uri=None):
 
 
 def send(arena, data, wait=0.5, uri=None):
-    """Sends bytes, looks at what comes back for a moment, and hangs up."""
+    """Sends bytes, reads the answer for a moment, and disconnects."""
     with connect(arena, uri) as connection:
         try:
             connection.sendall(data)
@@ -36,7 +36,7 @@ def send(arena, data, wait=0.5, uri=None):
                 connection.settimeout(max(0.01, ends - time.monotonic()))
                 if not connection.recv(65536):
                     break
-        except OSError:  # the node may hang up as it likes
+        except OSError:  # the node may disconnect at any time
             pass
     require_sound(ask(arena))
 
@@ -65,7 +65,7 @@ sends("caller_of_a_megabyte", lambda arena: header(arena, callerid="/" + "c" * 2
 sends("header_of_10000_fields", lambda arena: header(arena, **{"f%d" % index: "x" for index in range(10000)}))
 for label, length in {"4_gb": 0xffffffff, "2_gb": 0x7fffffff, "1_gb": 1000000000}.items():
     sends("request_of_" + label, lambda arena, length=length: header(arena) + struct.pack("<I", length) + b"x" * 1000,
-          growth_mb=1300.0)  # roscpp makes room for as much as a client announces, up to 1 GB
+          growth_mb=1300.0)  # roscpp reserves the memory that a client announces, up to 1 GB
 sends("request_of_no_length", lambda arena: header(arena) + struct.pack("<I", 0))
 sends("request_cut_in_half", lambda arena: header(arena) + struct.pack("<I", 4000) + b"\x05\0\0\0box")
 
@@ -113,7 +113,7 @@ def request_with_every_byte_changed_in_turn(arena):
 
 @group.attack(deadline=60.0)
 def hundred_sockets_that_hang(arena):
-    """Half a request each, and then nothing: others are served meanwhile."""
+    """Half a request each, then nothing; meanwhile others are served."""
     opened = []
     try:
         for index in range(100):
@@ -190,7 +190,7 @@ for label, announced in {"negative": -1, "4_gb": 2**32, "huge": 10**30, "no_numb
 
 @group.attack(deadline=60.0)
 def publishers_that_are_not_there(arena):
-    """publisherUpdate with addresses at which nobody answers."""
+    """publisherUpdate with addresses that do not answer."""
     slave = ros_wire.xmlrpc_proxy(arena.node.slave_uri())
     uris = ["http://localhost:1/", "http://256.256.256.256:1/", "not a uri", "", "http://[::1]:99999/", "http://localhost:0/"]
     slave.publisherUpdate("/master", "/tf", uris + ["http://localhost:%d/" % port for port in range(2, 50)])
@@ -204,7 +204,7 @@ def publishers_that_are_not_there(arena):
 # Topics
 
 def topic_uri(arena, topic):
-    """Where the node serves one of its topics."""
+    """The address at which the node serves a topic."""
     slave = ros_wire.xmlrpc_proxy(arena.node.slave_uri())
     code, text, protocol = slave.requestTopic("/faults_raw", arena.node.name + "/" + topic, [["TCPROS"]])
     expect(code == 1, "the node does not offer %s: %s" % (topic, text))
@@ -220,7 +220,7 @@ def subscription(arena, name, message_class, **changes):
 
 @group.attack(deadline=60.0)
 def subscribers_that_never_read(arena):
-    """Fifty of them on the largest topic: what they do not fetch is dropped, not kept."""
+    """Fifty of them on the largest topic: the node drops what they do not read."""
     uri = topic_uri(arena, "niches")
     opened = []
     try:

@@ -1,4 +1,4 @@
-"""Every launch file as a new user starts it, with robots of other packages too."""
+"""Every launch file as a new user starts it, also with robots of other packages."""
 
 import glob
 import os
@@ -26,7 +26,7 @@ def text_of(path):
 
 
 class Launched:
-    """A launch file, started by roslaunch for as long as the block lasts."""
+    """A launch file, run by roslaunch for the duration of the block."""
 
     def __init__(self, arena, file, *arguments):
         self.arena = arena
@@ -58,7 +58,7 @@ class Launched:
 
     def require_up(self):
         wrong = [line for line in self.log().splitlines() if any(sign in line for sign in DIED)
-                 and "robot_state_publisher" not in line]  # which may give up on a broken robot
+                 and "robot_state_publisher" not in line]  # which may end with a broken robot
         expect(not wrong, shortened(wrong[-1] if wrong else "", 300))
         expect(self.process.poll() is None, "roslaunch has ended: " + shortened(self.log()[-300:]))
 
@@ -78,7 +78,7 @@ def wait_for_distance(arena, launched, timeout):
 
 
 def demo(arena, file, leftover):
-    """A demo gives distances, also where a simulation has left /use_sim_time behind."""
+    """A demo gives distances, also after a simulation that left /use_sim_time set."""
     arena.set_parameter("/use_sim_time", leftover)
     with Launched(arena, file) as launched:
         wait_for_distance(arena, launched, 60.0)
@@ -131,14 +131,14 @@ class Robot(threading.Thread):
 
 
 def started_by(arena, launched):
-    """The node that roslaunch started, to be asked as any other."""
+    """The node that roslaunch started, with the interface of node_under_test."""
     node = Node.__new__(Node)
     node.arena, node.name, node.process, node.require_alive = arena, NODE, launched.process, launched.require_up
     return node
 
 
 def robot(arena, file, text, whole, *arguments):
-    """The launch file serves a robot: its distances, or, where it is broken, the reason. text: the URDF that is loaded
+    """The launch file serves a robot: its distances, or the reason if it is broken. text: the URDF that is loaded
     and whose frames are published; None: the launch file does both."""
     arena.set_parameter("/use_sim_time", False)
     frames = Robot(text or "")
@@ -171,7 +171,7 @@ def robot(arena, file, text, whole, *arguments):
 
 
 def with_meshes_found(path):
-    """A URDF of another package, its mesh files by their whole paths: that package is not installed as a ROS package."""
+    """A URDF of another package, with absolute mesh paths, because that package is not installed as a ROS package."""
     def found(match):
         name = match.group(1)
         local = os.path.join(os.path.dirname(path), name)
@@ -185,7 +185,7 @@ def with_meshes_found(path):
 
 
 def waits_for_a_robot(arena, file):
-    """Nobody has loaded a robot: the node lives and says what it waits for."""
+    """Without a robot the node goes on and says what it waits for."""
     arena.set_parameter("/use_sim_time", False)
     with Launched(arena, file) as launched:
         deadline = time.monotonic() + 40.0 * arena.patience

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Adds thousands of boxes to a running node, one by one, and says what each call takes and what the node has grown to.
+"""Adds thousands of boxes to a running node, one by one, and prints the time of the calls and the node's memory.
 
 Usage: many_bodies.py [--count 10000] [--node /concave_distance] [--pairs one|none|niches] [--most-ms 10] [--most-mb 1000]
 
-It wants a master and a node with an empty scene (robot_description: ""). Every box has a size and a pose of its own, so
-that no two share a mesh. --pairs one: each is watched against the first one; none: against nothing; niches: as one, and
-niches are subscribed to while boxes are added. Ends with status 1 when the median call or the memory is beyond its limit.
+It needs a master and a node with an empty scene (robot_description: ""). All boxes have different sizes and poses, so
+that no two share a mesh. --pairs one: each is watched against the first one; none: against nothing; niches: as one, with
+a subscriber to niches while boxes are added. Ends with status 1 when the median call or the memory is beyond its limit.
 """
 import argparse
 import sys
@@ -21,7 +21,7 @@ from concave_distance.srv import AddBody, AddBodyRequest, ListBodies, RemoveBody
 
 
 def memory_of(node):
-    """Resident megabytes of the node's process, and the most they have been."""
+    """Resident megabytes of the node's process, and their peak."""
     address = rospy.get_master().lookupNode(node)[2]
     pid = xmlrpc.client.ServerProxy(address).getPid(rospy.get_name())[2]
     fields = {}

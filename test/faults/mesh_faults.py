@@ -17,8 +17,8 @@ scene_group = Group("mesh_scenes")
 counter = itertools.count()
 writing = threading.Lock()
 
-SECONDS = 45.0      # until a mesh is refused: an import may take 30 s
-GROWTH_MB = 1600.0  # of the node and the process that imports, which may take 1.5 GB
+SECONDS = 45.0      # for refusing a mesh: an import may take 30 s
+GROWTH_MB = 1600.0  # of the node and its import process, which may take 1.5 GB
 
 
 def resource_of(arena, name):
@@ -41,7 +41,7 @@ def add_hostile(arena, name, expectation):
         finally:
             call(arena, "remove_body", name=body)
     else:
-        expect(expectation != hostile_meshes.SERVED, "a mesh that is none the worse was refused: " + response.message)
+        expect(expectation != hostile_meshes.SERVED, "a valid mesh was refused: " + response.message)
         require_refused(response, name)
 
 
@@ -69,7 +69,7 @@ def register_hostile_meshes():
 register_hostile_meshes()
 
 
-# Files that are well formed and hold shapes that are not
+# Well-formed files with hostile shapes
 
 def obj(vertices, faces):
     return "".join("v %r %r %r\n" % vertex for vertex in vertices) + "".join(
@@ -191,7 +191,7 @@ for stack, places in STACKS.items():
                    fast=stack.startswith("two_boxes_with_a_common_face"))
 
 
-# A whole scene of them
+# A scene with all of them
 
 @scene_group.attack(deadline=240.0)
 def scene_of_every_hostile_mesh(arena):

@@ -1,4 +1,4 @@
-"""A node that is attacked: started, watched, asked and ended from outside."""
+"""A node under attack: started, watched, called and ended from outside."""
 
 import os
 import signal
@@ -13,7 +13,7 @@ NODE = "/concave_distance"
 
 
 class MemoryWatch(threading.Thread):
-    """Samples the memory of a node and its children; ends the node before it takes the machine down."""
+    """Samples the memory of a node and its children; ends the node before it uses up the machine's memory."""
     PERIOD = 0.05
 
     def __init__(self, process, largest_mb):
@@ -101,7 +101,7 @@ class Node:
                                  timeout * self.arena.patience, replace)
         except ros_wire.CallFailed as problem:
             if "closed the connection" in str(problem):
-                self.wait_for_end(0.5)  # a node that died of the request
+                self.wait_for_end(0.5)  # if the request crashed the node
             self.require_alive()
             raise Failed("%s: %s" % (service, shortened(problem, 300))) from None
 
@@ -144,7 +144,7 @@ class Node:
 
 
 class Pulse(threading.Thread):
-    """Asks list_bodies again and again while an attack goes on, and keeps the longest wait."""
+    """Calls list_bodies repeatedly during an attack, and keeps the longest wait."""
     PERIOD = 0.2
 
     def __init__(self, node):
@@ -160,7 +160,7 @@ class Pulse(threading.Thread):
             began = time.monotonic()
             try:
                 self.node.list_bodies(timeout=60.0)
-            except Exception as problem:  # whatever a node under attack answers
+            except Exception as problem:  # any answer of a node under attack
                 if not self.stopped.is_set():
                     self.failure = shortened(problem)
             self.longest = max(self.longest, time.monotonic() - began)

@@ -97,7 +97,7 @@ def text_of_ten_megabytes(arena):
 
 @group.attack(deadline=60.0)
 def whole_namespace_is_a_number(arena):
-    """Somebody set the node's own name as a parameter."""
+    """The node's own name is set as a parameter."""
     arena.stop_node()
     arena.delete_parameter("/concave_distance")
     from node_under_test import NODE, Node
@@ -116,7 +116,7 @@ def whole_namespace_is_a_number(arena):
 
 @group.attack(deadline=60.0)
 def diagnostic_period_does_not_burn_a_core(arena):
-    """The shortest period that the node takes leaves it idle."""
+    """With the shortest accepted period the node is still mostly idle."""
     node = arena.start_node("parameter_period", {"diagnostic_period": 1.0})
     try:
         node.wait_until_ready()

@@ -1,4 +1,4 @@
-"""Processes from outside: memory and processor time with their children's, start with limits, end of a group."""
+"""Processes seen from outside: memory and processor time with children, start with limits, end of a group."""
 
 import os
 import resource
@@ -22,7 +22,7 @@ def children_of(pid):
 
 
 def family_of(pid):
-    """The process and everything it started, as far as it still belongs to it."""
+    """The process and its present descendants."""
     family = [pid]
     for member in family:
         family += children_of(member)
@@ -66,8 +66,8 @@ def start(command, environment=None, output=subprocess.DEVNULL, address_space_gb
 
 
 def end_group(process, gently=None, timeout=15.0):
-    """Ends a process and its group: by the signal `gently` first. Returns the seconds until it had ended by itself,
-    or None when it had to be killed."""
+    """Ends a process and its group, first with the signal `gently`. Returns the seconds until it ended, or None when
+    it had to be killed."""
     seconds = None
     if process.poll() is None and gently is not None:
         began = time.monotonic()
@@ -101,7 +101,7 @@ def ended_as(process):
 def run(command, timeout, environment=None, address_space_gb=6.0, output_path=None, stdin=subprocess.DEVNULL, cwd=None,
         largest_mb=None):
     """Runs a program to its end: (status or None when it was still running after `timeout`, output, peak MiB).
-    A program that grows beyond largest_mb is ended: status None as well."""
+    A program that grows beyond largest_mb is ended, with status None too."""
     path = output_path or "/dev/null"
     with open(path, "wb") as output:
         process = start(command, environment, output, address_space_gb, stdin, cwd)

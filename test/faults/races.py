@@ -1,4 +1,4 @@
-"""Requests that meet: many clients at once."""
+"""Simultaneous requests of many clients."""
 
 import random
 import threading
@@ -57,7 +57,7 @@ def eight_threads_add_and_remove_the_same_name(arena):
 
 @group.attack(deadline=90.0)
 def two_hundred_threads_add_one_name(arena):
-    """One of them wins."""
+    """Exactly one call succeeds."""
     won = []
     threads = [threading.Thread(target=lambda: won.append(bool(added(arena, "contested").success)), daemon=True)
                for _ in range(200)]
@@ -115,7 +115,7 @@ def effects_switched_while_bodies_come_and_go(arena):
 
 @group.attack(deadline=120.0, silence=10.0)
 def sixty_clients_ask_for_every_niche(arena):
-    """Each is answered or refused as one too many."""
+    """Each is answered, or refused because too many wait."""
     def work(_):
         require_sound(ask(arena, body_a="hook", body_b="comb", accuracy=4, with_niches=True, timeout=60.0,
                           pose_b__pose__position__x=0.5))
@@ -124,7 +124,7 @@ def sixty_clients_ask_for_every_niche(arena):
 
 @group.attack(deadline=120.0, growth_mb=400.0, silence=10.0)
 def heavy_questions_leave_the_others_alone(arena):
-    """While eight clients ask the dearest questions, another is served and the motion is followed."""
+    """While eight clients send the most expensive queries, another is served and the motion is followed."""
     stop = threading.Event()
 
     def heavy():

@@ -1,4 +1,4 @@
-"""Questions with known circumstances, and whether a node answers them as a fresh one does, byte for byte."""
+"""Queries for comparing a node's answers with those of a fresh node, byte for byte."""
 
 import math
 import time
@@ -12,7 +12,7 @@ POSES = ((2.5, 0.1, -0.2, 0.3), (0.4, 1.7, 0.6, 1.1), (-0.2, 0.3, 0.1, -0.7))
 
 
 def queries(messages):
-    """Poses are given, so that no transform plays a part; every level with a proof, with niches."""
+    """With given poses, so that transforms have no influence; every level with a proof, with niches."""
     for body_a, body_b in PAIRS:
         for x, y, z, angle in POSES:
             for accuracy in (messages.DistanceQuery.ACCURACY_CERTIFIED, messages.DistanceQuery.ACCURACY_COMPLETE):
@@ -29,7 +29,7 @@ def queries(messages):
 
 
 def without_times(message):
-    """Stamps and measured times set to 0: all that may differ between two nodes."""
+    """Sets stamps and measured times to 0, which may differ between two nodes."""
     for name in message.__slots__:
         value = getattr(message, name)
         if isinstance(value, genpy.Time):
@@ -46,7 +46,7 @@ def without_times(message):
 
 
 def answer(node, query):
-    """The response; a node that still works for others says that it is busy, and is asked again."""
+    """The response; a busy node is called again."""
     deadline = time.monotonic() + 60.0 * node.arena.patience
     while True:
         response = node.call("get_distance", node.arena.services.GetDistance,
@@ -59,7 +59,7 @@ def answer(node, query):
 
 
 def answers(node):
-    """What the node says, as bytes, one entry a question."""
+    """The node's answers as bytes, one entry per query."""
     return [(query, ros_wire.serialized(without_times(answer(node, query)))) for query in queries(node.arena.messages)]
 
 
@@ -68,5 +68,5 @@ def require_equal(node, fresh):
     for (query, mine), (_, theirs) in zip(answers(node), fresh):
         if mine != theirs:
             position = query.pose_b.pose.position
-            raise Failed("another answer than a fresh node's: %s and %s at (%g, %g, %g), level %d" % (
+            raise Failed("the answer differs from a fresh node's: %s and %s at (%g, %g, %g), level %d" % (
                 query.body_a, query.body_b, position.x, position.y, position.z, query.accuracy))

@@ -1,13 +1,13 @@
-"""Requests as attacks write them, and what a service must say to a bad one."""
+"""Requests of the attacks, and checks of the answers."""
 
 from attacks import expect, shortened
 
-LONGEST_MESSAGE = 20000  # characters; a message that repeats a megabyte helps nobody
+LONGEST_MESSAGE = 20000  # characters; a message must not repeat a megabyte of the request
 MEGABYTE = "m" * 2**20
 
 
 def query(arena, body_a="box_a", body_b="box_b", posed=True, **fields):
-    """A good question unless fields say otherwise; both poses are given unless posed is False."""
+    """A valid query, changed by the fields; both poses are given unless posed is False."""
     question = arena.messages.DistanceQuery(body_a=body_a, body_b=body_b, use_pose_a=posed, use_pose_b=posed)
     question.pose_a.pose.orientation.w = 1.0
     question.pose_b.pose.orientation.w = 1.0

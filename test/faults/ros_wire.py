@@ -8,7 +8,7 @@ import xmlrpc.client
 
 
 class CallFailed(Exception):
-    """A service call that brought no response: refused connection, error of the node, no answer in time."""
+    """A service call without a response: connection refused, error of the node, no answer in time."""
 
 
 class DeadlineTransport(xmlrpc.client.Transport):
@@ -58,7 +58,7 @@ def serialized(message):
 
 
 def call_bytes(uri, service, md5sum, body, timeout=10.0):
-    """Sends a request as bytes and returns the response's; CallFailed says what went wrong."""
+    """Sends a request as bytes and returns the bytes of the response. Raises CallFailed."""
     try:
         with socket.create_connection(address_of(uri), timeout=timeout) as connection:
             connection.sendall(connection_header(callerid="/faults", service=service, md5sum=md5sum))
@@ -78,8 +78,8 @@ def call_bytes(uri, service, md5sum, body, timeout=10.0):
 
 
 def call(uri, service, service_class, request, timeout=10.0, replace=()):
-    """Calls a service. replace: pairs of bytes of equal length, exchanged in the request as it is sent, for what the
-    message classes refuse to write."""
+    """Calls a service. replace: pairs of bytes of equal length, replaced in the request before sending, for values
+    that the message classes cannot write."""
     body = serialized(request)
     for old, new in replace:
         if len(old) != len(new) or old not in body:

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Attacks the built programs from outside and counts what holds; scripts/faults.sh builds and calls this.
+"""Attacks the built programs from outside and counts passed attacks; scripts/faults.sh builds and calls this.
 
 One line an attack, `PASS/FAIL group/name seconds memory reason`, and at the end `N passed, N failed`.
 """
@@ -22,14 +22,14 @@ from attacks import Failed, expect, groups, shortened
 
 MODULES = ("mesh_faults", "hostile_queries", "hostile_bodies", "hostile_services", "hostile_wire", "races", "tf_faults",
            "clock_faults", "parameter_faults", "scene_faults", "tool_faults", "launch_faults")
-GRACE = 60.0  # s beyond its deadline after which an attack that hangs is left behind
+GRACE = 60.0  # s after its deadline when a hanging attack is abandoned
 
 
 class Runner:
     def __init__(self, arena):
         self.arena = arena
         self.results = []
-        self.fresh = {}  # group -> answers of a node that nobody has attacked
+        self.fresh = {}  # group -> answers of a fresh node
         self.starts = 0
 
     def report(self, name, seconds, memory_mb, failure):
@@ -40,7 +40,7 @@ class Runner:
     # One attack
 
     def act(self, attack):
-        """What failed, or None. The attack runs in a thread, so that one that hangs does not end the run."""
+        """The failure, or None. The attack runs in a thread, so that the run continues if it hangs."""
         outcome = []
 
         def body():
@@ -135,7 +135,7 @@ class Runner:
                 failure = "before the attack: %s" % problem
             self.report("%s/%s" % (group.name, attack.name), time.monotonic() - began, memory_mb, failure)
             if failure or attack.dies:
-                self.arena.stop_node()  # the next one meets a node that is well
+                self.arena.stop_node()  # the next attack gets a new node
                 attacked_since_start = False
         if attacked_since_start and self.arena.running_node is not None:
             self.compare(group)
@@ -182,15 +182,15 @@ def chosen_of(group, patterns, fast):
 
 def parse(arguments):
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("patterns", nargs="*", help="attacks to run, as 'tf/*'; none: all")
+    parser.add_argument("patterns", nargs="*", help="attacks to run, e.g. 'tf/*'; default: all")
     parser.add_argument("--build", default="build", help="folder in which the programs were built")
     parser.add_argument("--sanitized", action="store_true", help="the programs were built with sanitizers")
     parser.add_argument("--fast", action="store_true", help="only the subset of every test run, about a minute")
     parser.add_argument("--storm", type=float, metavar="SECONDS", help="everything at once, at random, for this long")
-    parser.add_argument("--seed", type=int, default=1, help="of the storm")
-    parser.add_argument("--port", type=int, help="of the master; none: a free one")
-    parser.add_argument("--folder", help="scratch folder with logs that is kept; none: one that is removed")
-    parser.add_argument("--results", help="CSV file with a line an attack")
+    parser.add_argument("--seed", type=int, default=1, help="seed of the storm")
+    parser.add_argument("--port", type=int, help="port of the master; default: a free one")
+    parser.add_argument("--folder", help="scratch folder with logs, kept; default: a temporary one")
+    parser.add_argument("--results", help="CSV file with a line per attack")
     parser.add_argument("--list", action="store_true", help="print the attacks and end")
     return parser.parse_args(arguments)
 
@@ -209,7 +209,7 @@ def main(arguments):
                 print("%s/%s" % (group.name, attack.name))
         print("%d attacks" % sum(len(group.attacks) for group in groups.values()))
         return 0
-    threading.excepthook = lambda problem: None  # clients of a node that was ended
+    threading.excepthook = lambda problem: None  # from clients of a node that was ended
     # A shell starts its background jobs with SIGINT ignored, and programs started here would inherit that.
     signal.signal(signal.SIGINT, signal.default_int_handler)
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))  # so that the node and the master end too
@@ -221,7 +221,7 @@ def main(arguments):
         arena.join_ros()
         load_attacks()
         chosen = [(group, chosen_of(group, options.patterns, options.fast)) for group in groups.values()]
-        expect(any(attacks for _, attacks in chosen), "no attack is called like that (--list shows their names)")
+        expect(any(attacks for _, attacks in chosen), "no attack has such a name (--list prints all names)")
         if options.storm is None:
             runner.run_all(chosen)
         else:
@@ -242,4 +242,4 @@ if __name__ == "__main__":
     except SystemExit as ended:
         status = ended.code
     sys.stdout.flush()
-    os._exit(status)  # threads of attacks that hang would keep the process
+    os._exit(status)  # threads of hanging attacks would keep the process alive

@@ -1,4 +1,4 @@
-"""Scene files and robots that are wrong: the node ends with file and line, or serves what is left."""
+"""Wrong scene files and robots: the node ends with file and line, or serves the rest."""
 
 import itertools
 import os
@@ -86,7 +86,7 @@ def file_is_a_fifo(arena):
 
 @group.attack(deadline=90.0)
 def empty(arena):
-    """Nothing at all: a clear end, or a node that serves no bodies."""
+    """An empty file: the node ends with an error, or serves no bodies."""
     path = arena.write("scene/empty.yaml", "")
     node = arena.start_node("scene_empty", {"scene_file": path})
     try:
@@ -162,7 +162,7 @@ URDFS = {
 
 
 def robot(arena, text):
-    """A robot that is wrong is a problem: the node serves the rest, or waits and says why."""
+    """A wrong robot is reported: the node serves the rest, or waits and says why."""
     arena.set_parameter("/hostile_robot", text)
     node = arena.start_node("scene_robot_%d" % next(counter), {"robot_description": "/hostile_robot", "scene_file": ""})
     try:

@@ -1,4 +1,4 @@
-"""Everything at once: attacks of every group that shares a node, at random, for as long as one likes."""
+"""Attacks of every group that shares a node, several at once, at random, for a given time."""
 
 import collections
 import random
@@ -14,11 +14,11 @@ from diagnostic_msgs.msg import DiagnosticArray
 from node_under_test import Pulse
 
 WORKERS = 4
-SAMPLE = 1.0            # s, between two looks at the memory
-REPORT = 60.0           # s, between two lines about how it goes
-GROWTH_MB = 100.0       # that the node's own memory may gain from its second quarter to its last
+SAMPLE = 1.0            # s between two samples of the memory
+REPORT = 60.0           # s between two lines of progress
+GROWTH_MB = 100.0       # largest growth of the node's own memory from the second quarter to the last
 LONGEST_SILENCE = 60.0  # s without an answer to list_bodies; the machine is busy with attackers too
-# Small limits, so that memory that no limit holds stands out; what they leave to the node and the processes it starts.
+# Small limits make memory without a limit visible. LARGEST_MB is for the node and the processes it starts.
 LIMITS = {"limits/query_memory_mb": 128, "limits/import_memory_mb": 256, "limits/largest_node_count": 50000}
 LARGEST_MB = 1500.0
 OVERHANG = 120.0        # s that attacks may take to end after the storm
@@ -63,7 +63,7 @@ class Storm:
             self.going_on[index] = "%s/%s" % (attack.group, attack.name)
             try:
                 attack.act(self.arena)
-            except Exception:  # what an attack alone must show does not hold in a crowd
+            except Exception:  # attacks disturb each other, so their own checks do not apply
                 self.failed[self.going_on[index]] += 1
             self.done[self.going_on[index]] += 1
 
@@ -121,7 +121,7 @@ class Storm:
                 self.arena.node.memory.peak_mb, self.cycles.all, self.cycles.late, self.silence, len(self.deaths))
 
     def clean_up(self):
-        """Takes back what attacks that were cut short have left."""
+        """Undoes the changes of attacks that were cut short."""
         from request_checks import call
         self.arena.player.dropped = set()
         listed = self.arena.node.list_bodies(60.0)
@@ -133,7 +133,7 @@ class Storm:
         call(self.arena, "set_effects", 60.0, pair="*", effects="none")
 
     def growth_mb(self):
-        """From the second quarter, when everything has been used once, to the last."""
+        """Growth from the second quarter, when everything has been used once, to the last."""
         quarter = max(1, len(self.own_mb) // 4)
         return statistics.median(self.own_mb[-quarter:]) - statistics.median(self.own_mb[quarter:2 * quarter] or [0.0])
 

@@ -1,4 +1,4 @@
-"""Transforms that are wrong, hostile, or of somebody else."""
+"""Wrong and hostile transforms, and transforms of other publishers."""
 
 import math
 import threading
@@ -15,7 +15,7 @@ CALLER = "/faults"
 
 
 def publisher(topic="/tf", latch=False):
-    """One for each topic, kept."""
+    """One publisher for each topic, kept."""
     key = (topic, latch)
     if key not in publisher.kept:
         publisher.kept[key] = rospy.Publisher(topic, TFMessage, queue_size=1000, latch=latch)
@@ -33,7 +33,7 @@ def send(arena, *transforms, times=3, topic="/tf"):
 
 
 def wrong_box_b(arena, stamp, parent="world", child="box_b", **pose):
-    """Where box_b is not: 40 m away."""
+    """A wrong transform: box_b 40 m away."""
     pose.setdefault("x", 40.0)
     return arena.frames.transform(parent, child, stamp, **pose)
 
@@ -43,12 +43,12 @@ def later(seconds):
 
 
 def recovers(arena, timeout=15.0):
-    """The node follows the motion again, and has said nothing wrong with status OK since the attack."""
+    """The node follows the motion again."""
     arena.require_tracking(timeout)
 
 
 def never_wrong(arena, attack, timeout=15.0, named=()):
-    """Attacks; no distance with status OK is wrong for the time, the node recovers, and the log names `named`."""
+    """Attacks. Distances with status OK must be right, the node must recover, and the log must contain `named`."""
     arena.listener.forget()
     mark = arena.node.log_length()
     attack()
@@ -58,7 +58,7 @@ def never_wrong(arena, attack, timeout=15.0, named=()):
         arena.wait_until(lambda word=word: word in arena.node.log(mark), 10.0, "the log does not name '%s'" % word)
 
 
-# A stamp that is not now. The transforms that follow are right, and must be followed.
+# Wrong stamps. The transforms that follow are right and must be used.
 
 for label, ahead in {"1000_s_ahead": 1000.0, "60_s_ahead": 60.0, "a_year_ahead": 3e7}.items():
     group.add("stamp_" + label, lambda arena, ahead=ahead: never_wrong(
@@ -94,13 +94,13 @@ def stamp_long_ago(arena):
 
 @group.attack(deadline=60.0)
 def stamp_zero(arena):
-    """tf2 takes stamp 0 as any other time that is long ago."""
+    """tf2 treats stamp 0 like any other old time."""
     never_wrong(arena, lambda: send(arena, wrong_box_b(arena, genpy.Time(0, 0)), times=20))
 
 
 @group.attack(deadline=60.0)
 def publisher_whose_clock_is_an_hour_ahead_goes_on(arena):
-    """For as long as it sends and afterwards: right, or not OK."""
+    """While it sends and afterwards, distances are right or not OK."""
     def attack():
         for _ in range(100):
             send(arena, wrong_box_b(arena, later(3600.0)), times=1)
@@ -122,7 +122,7 @@ for label, position in POSITIONS.items():
 
 
 def never_finite_but_wrong(arena, position):
-    """No message says OK with a distance that is no number."""
+    """No message has status OK and a distance that is not a number."""
     problems = []
 
     def look(message):
@@ -170,7 +170,7 @@ group.add("parent_that_hangs_in_the_air", lambda arena: tree_attack(arena, ("now
 
 @group.attack(deadline=60.0)
 def reference_frame_gets_a_parent(arena):
-    """Sent once: what is below the reference frame goes on."""
+    """Sent once: frames below the reference frame still work."""
     send(arena, arena.frames.transform("map", "world", rospy.Time.now(), 3.0), times=1)
     for _ in range(4):
         time.sleep(1.0)
@@ -199,7 +199,7 @@ def ten_thousand_frames(arena):
 
 @group.attack(deadline=120.0, growth_mb=300.0, storms=False)
 def hundred_thousand_frames_of_long_names(arena):
-    """Names are never forgotten by tf2: what a stranger may make the node keep has a limit."""
+    """tf2 never forgets names, so the node must limit their number."""
     for part in range(100):
         now = rospy.Time.now()
         send(arena, *(arena.frames.transform("world", "n" * 500 + "%d_%d" % (part, index), now) for index in range(1000)),
@@ -207,11 +207,11 @@ def hundred_thousand_frames_of_long_names(arena):
     recovers(arena, 60.0)
 
 
-# Who else publishes
+# Other publishers
 
 @group.attack(deadline=60.0)
 def two_publishers_that_fight(arena):
-    """Nobody can know who is right; the node survives and recovers when the other one stops."""
+    """The node cannot know which one is right; it goes on and recovers when the other one stops."""
     ends = time.monotonic() + 3.0
     while time.monotonic() < ends:
         send(arena, wrong_box_b(arena, rospy.Time.now()), times=1)

@@ -61,7 +61,7 @@ class Bench:
         return process.returncode, ((printed or b"") + complained).decode(errors="replace")
 
     def refused(self, *command, words=(), left_behind=(), **options):
-        """The tool ends with status 1 or 2, says why, and leaves no half file."""
+        """The tool ends with status 1 or 2 and a message, and leaves no incomplete file."""
         status, text = self.run(*command, **options)
         expect(status is not None, "it does not end within %.0f s" % options.get("seconds", SECONDS))
         expect(status in (1, 2), "it ended with %d: %s" % (status, shortened(text[-200:])))
@@ -172,7 +172,7 @@ def poses_from_windows(arena):
 
 
 def fifo(arena, tool_line, name):
-    """Nobody writes into it: refused, not waited for."""
+    """A pipe without a writer is refused; the tool does not wait."""
     bench = Bench(arena)
     os.mkfifo(bench.path(name))
     bench.refused(*tool_line, words=(name,))
@@ -207,17 +207,17 @@ def output_name(writer):
 
 
 def full_device(arena, writer):
-    """A link with the right ending to the device that is always full."""
+    """A link, with the right ending, to the device that is always full."""
     bench = Bench(arena)
     os.symlink("/dev/full", bench.path(output_name(writer)))
     bench.refused(*WRITERS[writer](output_name(writer)), words=(output_name(writer),), seconds=60.0)
 
 
 def disk_full_midway(arena, writer):
-    """After 20 bytes the disk is full: no half file stays."""
+    """The disk is full after 20 bytes: no incomplete file stays."""
     bench = Bench(arena)
     command = WRITERS[writer](output_name(writer))
-    others = [name for name in ("out.csv", "main.csv") if name in command]  # may meet the end first
+    others = [name for name in ("out.csv", "main.csv") if name in command]  # may fail first
     bench.refused(*command, words=() if others else (output_name(writer),), left_behind=[output_name(writer)] + others,
                   file_bytes=20, seconds=60.0)
 
@@ -237,7 +237,7 @@ for writing in WRITERS:
 
 
 def untouched(arena, name, command):
-    """The output would overwrite an input: refused, and the input is as it was."""
+    """The output would overwrite an input: refused, and the input is unchanged."""
     bench = Bench(arena)
     os.symlink("poses.csv", bench.path("link.csv"))
     os.link(bench.path("poses.csv"), bench.path("hard.csv"))
@@ -297,7 +297,7 @@ group.add("simulation_printed_to_a_full_device", lambda arena: print_to_full_dev
 
 @group.attack()
 def printed_into_a_closed_pipe(arena):
-    """Ended by SIGPIPE or with an error, not otherwise."""
+    """The tool ends by SIGPIPE or with an error."""
     for command in (("mesh_tool", "inspect", "cube.obj"), ("distance_query", "--help"), ("mesh_tool", "--help")):
         reading, writing = os.pipe()
         os.close(reading)
