@@ -116,7 +116,7 @@ def whole_namespace_is_a_number(arena):
 
 @group.attack(deadline=60.0)
 def diagnostic_period_does_not_burn_a_core(arena):
-    """With the shortest accepted period the node is still mostly idle."""
+    """At rest, with diagnostics once a second, the node is mostly idle."""
     node = arena.start_node("parameter_period", {"diagnostic_period": 1.0})
     try:
         node.wait_until_ready()
