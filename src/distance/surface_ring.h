@@ -36,9 +36,9 @@ struct RingLook {
   std::uint32_t opened = 0;
 };
 
-/// All triangles that hold the witness, the own one first: across its edge, around its vertex, and whatever
-/// else is connected to them within the tolerance, where triangles are as thin as rounding. Time grows with
-/// the ring, no faster. At most `largest` triangles and the rest of the last vertex or edge.
+/// All triangles that hold the witness, its own first: across its edge, around its vertex, and all others
+/// connected to them within the tolerance, for triangles as thin as rounding. Time is linear in the ring. At
+/// most `largest` triangles and the rest of the last vertex or edge.
 void collectRing(const LocalTriangle& own, const LocalWitness& witness, double on_feature,
                  RefinementWorkspace& workspace,
                  std::size_t largest = std::numeric_limits<std::size_t>::max());

@@ -15,7 +15,7 @@ inline constexpr int kResultDescriptor = 4;
 enum class ImportStatus : std::uint32_t {
   Read = 1,         ///< first: vertices, second: triangles; 3 doubles each, then 3 std::uint32_t each
   Refused = 2,      ///< first and second: bytes of two texts, what is wrong and the remedy
-  OutOfMemory = 3,  ///< no body; first: bytes of the last block asked for, or 0
+  OutOfMemory = 3,  ///< no body; first: bytes of the last block requested, or 0
 };
 
 struct ImportHeader {

@@ -16,7 +16,7 @@ constexpr std::size_t kDirections = 8;  // to the side
 // Distance of a label from its line's end, in heights; 0: beside the middle of the line.
 constexpr std::array<double, 6> kRises = {1.2, 0.0, 3.0, 6.0, 10.0, -1.2};
 constexpr std::size_t kPlaces = kRises.size() * (kDirections + 1);
-constexpr double kPeriod = 1.0;  // s, between two looks for a better place
+constexpr double kPeriod = 1.0;  // s between two searches for a better place
 constexpr double kLeader = 2.0;  // distance in heights beyond which a thin line joins label and line
 // Costs of a place, for each view to which they apply.
 constexpr double kOnLabel = 2.0;

@@ -46,8 +46,8 @@ struct BuildOptions {
   LoadProgress* progress = nullptr;  ///< nullptr: none
 };
 
-/// Loads all bodies, in parallel; one result a source, in their order and the same whatever the number of
-/// threads and whatever the cache already holds. Never throws for a body: its problem says what is wrong.
+/// Loads all bodies, in parallel; one result per source, in their order, the same for any number of threads
+/// and any content of the cache. Never throws for a body: its problem says what is wrong.
 std::vector<BuiltBody> buildBodies(std::vector<BodySource> sources, const BuildOptions& options);
 
 }  // namespace concave_distance::detail

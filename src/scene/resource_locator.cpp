@@ -64,7 +64,7 @@ std::optional<std::string> schemeOf(std::string_view resource) {
 }
 
 constexpr std::string_view kPackageScheme = "package://";
-// Longer than any path that the system takes.
+// Longer than any path that the system accepts.
 constexpr std::size_t kLongestResource = 4096;
 
 detail::ResourcePaths pathsInPackage(const std::string& resource, const PackageLocator& package_locator) {

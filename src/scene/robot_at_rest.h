@@ -12,7 +12,7 @@ namespace concave_distance::detail {
 /// pose, rounded up to two digits; adds a note.
 void setAutomaticCutoff(Scene& scene, const RobotDescription& robot);
 
-/// A warning when no link has geometry of the wanted kind.
+/// Adds a warning when no link has geometry of the wanted kind.
 void warnOfNoGeometry(Scene& scene, const RobotDescription& robot, GeometrySource geometry);
 
 /// Adds a warning that names the enabled pairs whose bodies overlap in the zero pose and in each of 20 random

@@ -45,7 +45,7 @@ std::optional<double> parseNumber(const std::string& text) {
   return value;
 }
 
-// Sees whether a document is empty.
+// Checks whether a document is empty.
 class EmptinessHandler : public YAML::EventHandler {
  public:
   using Mark = YAML::Mark;

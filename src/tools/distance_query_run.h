@@ -22,7 +22,7 @@ struct DistanceQueryOptions {
   double relative_tolerance = 0.0;                          ///< of the distance; of level `certified`
   double least_prominence = 1e-2;
   double prominence_limit = 0.0;                                 ///< of level `complete`
-  double time_budget = std::numeric_limits<double>::infinity();  ///< seconds a query
+  double time_budget = std::numeric_limits<double>::infinity();  ///< seconds per query
   std::optional<double> max_edge_length;                         ///< metres; grid of the search, both bodies
   std::string cache;  ///< folder of prepared bodies; empty: the user's, "off": none
   bool tracking = false;

@@ -12,7 +12,7 @@ namespace concave_distance {
 /// comes near the largest ros::Time, because it adds periods to it; this one does not.
 class CycleTimer {
  public:
-  /// @param due when this call was to happen, nanoseconds of ROS time
+  /// @param due when this call was due, nanoseconds of ROS time
   using Callback = std::function<void(std::int64_t due)>;
 
   explicit CycleTimer(Callback callback);
@@ -24,7 +24,7 @@ class CycleTimer {
   void start(double rate);
   /// Takes effect with the next call.
   void setRate(double rate);
-  /// Waits for a call that runs.
+  /// Waits for a running call.
   void stop();
 
  private:

@@ -17,7 +17,7 @@ namespace concave_distance {
 struct CycleOptions {
   std::string reference_frame;
   double stale_after = 1.0;                 ///< s
-  std::uint32_t threads = 0;                ///< that solve pairs; 0: one per core, 1: the caller's alone
+  std::uint32_t threads = 0;                ///< that solve pairs; 0: one per core, 1: only the caller's
   const std::atomic<bool>* stop = nullptr;  ///< set: a cycle ends without solving the pairs that are left
 };
 
@@ -70,7 +70,7 @@ class DistanceCycle {
   tbb::task_arena arena_;
   std::vector<std::unique_ptr<TrackedPair>> pairs_;
   std::vector<std::unique_ptr<TrackedPair>> retired_;
-  std::uint64_t largest_retired_id_ = 0;  ///< of pairs that are gone
+  std::uint64_t largest_retired_id_ = 0;  ///< of removed pairs
   std::vector<TrackedPair*> to_solve_;
   std::vector<const BodyMesh*> to_prepare_;
   std::atomic<std::int64_t> helper_cpu_nanoseconds_{0};

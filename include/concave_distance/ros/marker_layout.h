@@ -43,7 +43,7 @@ class MarkerLayout {
  private:
   MarkerStyle style_;
   Eigen::AlignedBox3d region_;
-  double size_ = 0.0;  ///< m, diagonal of the region when it was last taken over
+  double size_ = 0.0;  ///< m, diagonal of the region at its last update
 };
 
 }  // namespace concave_distance

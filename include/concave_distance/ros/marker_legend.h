@@ -18,7 +18,7 @@ struct LegendContents {
   bool others = false;    ///< thin lines are drawn
   bool warnings = false;  ///< some pair has a warning distance
   bool extents = false;   ///< circles are drawn
-  bool contacts = false;  ///< some pair asks for effects
+  bool contacts = false;  ///< some pair has effects
 };
 
 /// The legend above the scene: namespace `legend`, one text per row, in the colour that it explains.

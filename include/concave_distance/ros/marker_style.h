@@ -9,7 +9,7 @@ struct MarkerStyle {
   double scale = 0.0;              ///< diameter of the nearest niche's points; 0: from the scene's size
   double near = 0.0;               ///< distance drawn in the near colour
   double far = 0.0;                ///< distance drawn in the far colour, and beyond; 0: from the scene's size
-  double force_scale = 1000.0;     ///< newtons that an arrow of one metre stands for
+  double force_scale = 1000.0;     ///< newtons that an arrow of one metre represents
   std::uint32_t pair_count = 5;    ///< nearest pairs drawn, beside those in warning; 0: every pair
   std::uint32_t niche_count = 12;  ///< niches drawn of all pairs together; 0: every niche
   bool legend = true;              ///< a text beside the scene that explains what is drawn

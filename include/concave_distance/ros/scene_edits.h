@@ -17,7 +17,7 @@ void requireRoomForBody(const Scene& scene);
 
 /// Which bodies a new one is paired with.
 struct PairPartners {
-  std::vector<std::string> names;        ///< empty: every body that can move against the new one's frame
+  std::vector<std::string> names;        ///< empty: every body that can move relative to its frame
   bool none = false;                     ///< no body at all
   std::vector<std::string> may_touch{};  ///< bodies left out; not together with `names`
   /// Whether two frames do not move relative to each other, besides those that Scene::rigid joins.

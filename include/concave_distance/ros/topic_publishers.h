@@ -47,7 +47,7 @@ struct MarkerWish {
 /// Every topic of the cycle: who listens to what, and one cycle's messages.
 class TopicPublishers {
  public:
-  /// @param pair_topics patterns of the pairs that have topics of their own, see PairTopicKeeper
+  /// @param pair_topics patterns of the pairs with their own topics, see PairTopicKeeper
   TopicPublishers(const ros::NodeHandle& node, std::string reference_frame,
                   std::optional<std::vector<std::string>> pair_topics);
   ~TopicPublishers();

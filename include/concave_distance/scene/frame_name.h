@@ -9,7 +9,7 @@ namespace concave_distance {
 /// begins with a slash or contains a control character. Empty: it can.
 std::string tfFrameProblem(std::string_view frame);
 
-/// `/base` of the first tf is tf2's `base`.
+/// `/base` in tf is `base` in tf2.
 std::string withoutLeadingSlash(const std::string& frame);
 
 /// The same for a frame named by a user: blanks are errors, too.

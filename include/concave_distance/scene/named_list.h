@@ -129,7 +129,7 @@ class NamedList {
   T& edit(std::size_t i) {
     Pointer& value = values_.at(i);
     if (value.use_count() > 1) value = std::make_shared<T>(*value);
-    std::atomic_thread_fence(std::memory_order_acquire);  // after what the last other user did
+    std::atomic_thread_fence(std::memory_order_acquire);  // sees all accesses of the last other user
     return *value;
   }
 

@@ -28,7 +28,7 @@ enum class SolveStatus : std::uint8_t {
   Penetrating,      ///< the surfaces meet, or one body has swallowed a part of the other
   InvalidPose,      ///< nothing was computed
   BudgetExhausted,  ///< the time ran out before all was done; lower_bound holds
-  WithinTolerance,  ///< lower_bound is as near to the distance as was asked for
+  WithinTolerance,  ///< lower_bound is within the tolerance of the distance
   MemoryExhausted   ///< the memory limit was reached before all was done; lower_bound holds
 };
 std::string_view toString(SolveStatus status);
