@@ -12,14 +12,14 @@
 namespace concave_distance::detail {
 namespace {
 
-/// Splits beyond so many for each flat triangle are left: files made to have ever more of them.
+/// Largest number of splits per flat triangle, because hostile files can cause ever more of them.
 constexpr std::size_t kSplitsPerFlat = 16;
 
 bool hasTwoEqualCorners(const TriangleNodes& t) {
   return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
 }
 
-/// The triangles at an edge, those that are gone included.
+/// The triangles at an edge, including removed ones.
 struct Users {
   std::vector<std::uint32_t> triangles;
   std::size_t left = 0;
@@ -29,7 +29,7 @@ struct Users {
 struct Flat {
   double squared_length;  ///< of the longest edge
   std::uint32_t triangle;
-  std::size_t corner;  ///< the one across from it
+  std::size_t corner;  ///< opposite to the longest edge
   bool operator<(const Flat& other) const {
     if (squared_length != other.squared_length) return squared_length < other.squared_length;
     return triangle > other.triangle;
@@ -69,7 +69,7 @@ class Dissolving {
   const Eigen::Vector3d& at(NodeIndex node) const { return vertices_[node.value]; }
   static std::uint64_t keyOf(NodeIndex a, NodeIndex b) { return pairKey(std::min(a, b), std::max(a, b)); }
 
-  /// Whether a triangle is flat; queues it then.
+  /// Whether a triangle is flat; if so, queues it.
   bool look(std::uint32_t t) {
     const TriangleNodes& nodes = triangles_[t];
     if (hasTwoEqualCorners(nodes)) {
@@ -92,7 +92,7 @@ class Dissolving {
     return true;
   }
 
-  // Edges between corners of flat triangles: no other is asked for.
+  // Only edges between corners of flat triangles are looked up.
   void linkEdges(const std::vector<std::uint32_t>& flats) {
     on_flat_.assign(vertices_.size(), false);
     for (const std::uint32_t t : flats) {
@@ -157,7 +157,7 @@ class Dissolving {
   const std::vector<Eigen::Vector3d>& vertices_;
   std::vector<TriangleNodes>& triangles_;
   std::vector<bool> gone_;
-  std::priority_queue<Flat> flats_;  ///< the longest first: splitting rarely meets another flat one then
+  std::priority_queue<Flat> flats_;  ///< longest first, so that splitting rarely meets another one
   std::size_t without_edges_ = 0;
   std::vector<bool> on_flat_;  ///< by vertex: corner of a flat triangle
   std::unordered_map<std::uint64_t, Users> at_edge_;

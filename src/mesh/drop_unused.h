@@ -7,7 +7,7 @@
 
 namespace concave_distance::detail {
 
-/// Keeps the vertices that a triangle uses, in their order; returns how many fell.
+/// Keeps the vertices that a triangle uses, in their order; returns how many were dropped.
 std::size_t dropUnused(std::vector<Eigen::Vector3d>& vertices, std::vector<TriangleNodes>& triangles);
 
 }  // namespace concave_distance::detail

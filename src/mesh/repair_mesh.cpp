@@ -74,7 +74,7 @@ void countShells(const std::vector<Eigen::Vector3d>& vertices, const std::vector
       std::count(labels.shell_is_closed.begin(), labels.shell_is_closed.end(), true));
 }
 
-/// Counts borders, edges of more than two triangles and edges whose two do not agree.
+/// Counts borders, edges of more than two triangles, and edges whose two triangles do not agree.
 void countEdges(const std::vector<TriangleNodes>& triangles, RepairReport& report) {
   const detail::EdgeTable edges = detail::buildEdgeTable(triangles);
   // A hole is a chain of border edges that follow one another around the same fans of triangles. Corners are

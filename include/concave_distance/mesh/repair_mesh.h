@@ -28,10 +28,9 @@ struct RepairReport {
   double largest_move = 0.0;  ///< of a vertex by welding, metres
   std::size_t unused_vertices = 0;
   std::size_t zero_area_triangles = 0;  ///< dropped
-  std::size_t split_triangles = 0;      ///< at a corner of a zero-area triangle on one of their edges
+  std::size_t split_triangles = 0;      ///< at a corner of a zero-area triangle on their edge
   std::size_t duplicate_triangles = 0;  ///< dropped; same three vertices as others, either winding
-  /// Dropped, all that there were of each: between two solids that share it, not on the surface of their
-  /// union
+  /// Dropped because two solids share them, so that they are not on the surface of the union.
   std::size_t inner_wall_triangles = 0;
   std::size_t turned_triangles = 0;
   std::size_t shells = 0;  ///< of the result, as the rest
@@ -49,9 +48,9 @@ struct RepairedMesh {
   RepairReport report;
 };
 
-/// Welds, drops what has no area and what is there twice, and orients. No vertex moves but by welding, so
-/// distances between surfaces stay right. A zero-area triangle between a long edge and two short ones is
-/// replaced by splitting the triangle at the long edge; one whose segment no other triangle covers is lost.
+/// Welds vertices, drops triangles without area and duplicates, and orients. Vertices move only by welding,
+/// so distances between surfaces stay right. A zero-area triangle between a long edge and two short ones is
+/// replaced by splitting the triangle at the long edge; a segment that no other triangle covers is lost.
 /// O(n log n). @throws Error when nothing with an area is left (`where` names the file)
 RepairedMesh repairMesh(const TriangleSoup& soup, const RepairOptions& options, const std::string& where);
 
