@@ -5,7 +5,7 @@
 
 namespace concave_distance {
 
-/// Limits for reading one mesh file. The defaults allow scans of two million triangles.
+/// Limits for reading one mesh file. The defaults allow scans of a million triangles in any format.
 struct MeshImportLimits {
   std::size_t memory = 1'024'000'000;              ///< bytes of the process that reads the file
   double seconds = 30.0;                           ///< of wall time, and of processor time
