@@ -105,6 +105,24 @@ TEST(LocalMinima, AreThoseOfBruteForceForBrokenSurfaces) {
   }
 }
 
+TEST(LocalMinima, AreThoseOfBruteForceForManyTrianglesAtOneEdge) {
+  std::vector<Vector3d> vertices{Vector3d(0.0, 0.0, -0.3), Vector3d(0.0, 0.0, 0.3)};
+  std::vector<TriangleNodes> triangles;
+  RandomEngine engine(12);
+  for (std::uint32_t page = 0; page < 24; ++page) {
+    const double angle = 2.0 * M_PI * page / 24.0;
+    vertices.emplace_back(0.4 * std::cos(angle), 0.4 * std::sin(angle), test::uniformIn(engine, -0.3, 0.3));
+    triangles.push_back({NodeIndex{page % 2}, NodeIndex{1 - page % 2}, NodeIndex{2 + page}});
+  }
+  const Body a = makeBody(SurfaceMesh(vertices, triangles, "book"));
+  const Body b = makeBody(test::makeLShape());
+  for (std::uint32_t run = 0; run < 30; ++run) {
+    SCOPED_TRACE("run " + std::to_string(run));
+    expectSameAsBruteForce(a, b, test::randomPose(engine, 1.2), 0.8, run % 2 == 0 ? 0.0 : 1e-2);
+    if (HasFailure()) break;
+  }
+}
+
 TEST(LocalMinima, OfTheBatteryInItsFixtureAreNineOutwards) {
   const test::ThesisScene s = test::loadThesisScene("battery_static", 1.0);
   const LocalMinima found = test::minimaOf(s.a, s.b, s.a_from_b, LocalMinimaRequest{});

@@ -13,9 +13,10 @@ struct AdjacentTriangle {
   NodeIndex to;
 };
 
-/// For every triangle those across its edges, all of them where more than two meet; and where triangles hang
-/// together at a vertex alone, a chain over that vertex. Whatever touches on the surface is connected by
-/// such steps without leaving the point where it touches. O(n).
+/// For every triangle those across its edges, or the next one in a ring where more than 8 meet at an edge;
+/// and where triangles hang together at a vertex alone, a chain over that vertex. Whatever touches on the
+/// surface is connected by such steps without leaving the point where it touches. O(n log n) time, O(n)
+/// memory.
 CompressedRows<AdjacentTriangle> triangleAdjacency(const SurfaceMesh& mesh, const MeshTopology& topology);
 
 }  // namespace concave_distance
