@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "cell_neighbours.h"
-#include "far_shells.h"
+#include "far_pieces.h"
 #include "level_path.h"
 #include "pair_table.h"
 
@@ -30,9 +30,9 @@ struct BasinBuffers {
   std::vector<Reached> reached;
   std::vector<std::uint32_t> order;
   std::vector<Basin> basins;
+  std::vector<std::uint32_t> roots;  ///< of each basin, or a basin on the way there
   std::vector<std::uint32_t> basin_of_seed;
-  /// First basin of each pair of shells: the deepest.
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> deepest;
+  PairTable deepest{4};  ///< first basin of each pair of pieces
   LevelPathBuffers path;
   RefinementWorkspace refinement;
 };
@@ -40,11 +40,6 @@ struct BasinBuffers {
 namespace {
 
 using Reached = BasinBuffers::Reached;
-
-std::uint32_t rootAmong(const std::vector<Basin>& basins, std::uint32_t basin) {
-  while (basins[basin].owner != basin) basin = basins[basin].owner;
-  return basin;
-}
 
 bool isHigher(const Reached& l, const Reached& r) {
   if (l.squared_level != r.squared_level) return l.squared_level > r.squared_level;
@@ -65,6 +60,7 @@ class Judge {
         cells_(buffers.cells),
         reached_(buffers.reached),
         basins_(buffers.basins),
+        roots_(buffers.roots),
         deepest_(buffers.deepest),
         path_(buffers.path),
         refinement_(buffers.refinement),
@@ -72,17 +68,19 @@ class Judge {
     table_.clear();
     cells_.clear();
     basins_.clear();
+    roots_.clear();
     deepest_.clear();
   }
 
   const MinimaScene& scene() const { return scene_; }
 
-  /// The basin of the deepest seed of the same pair of shells. Seeds come by ascending distance.
+  /// The basin of the deepest seed of the same pair of pieces. Seeds come by ascending distance.
   std::uint32_t deepestLike(const BasinSeed& seed, std::uint32_t basin) {
-    const std::uint64_t shells = shellPairOf(scene_, seed.a, seed.b);
-    const auto place = std::lower_bound(deepest_.begin(), deepest_.end(), std::pair{shells, 0U});
-    if (place != deepest_.end() && place->first == shells) return place->second;
-    deepest_.insert(place, {shells, basin});
+    const TriangleIndex piece_a{scene_.pieces_a.piece_of_triangle[seed.a.value]};
+    const TriangleIndex piece_b{scene_.pieces_b.piece_of_triangle[seed.b.value]};
+    const std::uint32_t known = deepest_.find(piece_a, piece_b);
+    if (known != PairTable::kAbsent) return known;
+    deepest_.insert(piece_a, piece_b, basin);
     return basin;
   }
 
@@ -108,11 +106,11 @@ class Judge {
     if (basins_.size() == before) return basin;
     const bool all_known = seed.largest_flood == kUnlimited;
     if (!(all_known && floods_are_large_ && isSettledByPath(basin, deepest)))
-      flood(basin, deepest, seed.largest_flood);
+      floodDown(basin, deepest, seed.largest_flood);
     return basin;
   }
 
-  /// Replaces a large flood when all minima are among the seeds: the deepest of its shells is a niche;
+  /// Replaces a large flood when all minima are among the seeds: the deepest of its pieces is a niche;
   /// another one is none if a path leads from it to the deepest.
   bool isSettledByPath(std::uint32_t basin, std::uint32_t deepest) {
     if (basin == deepest) return isNearest(basin);
@@ -137,7 +135,17 @@ class Judge {
     return true;
   }
 
-  void flood(std::uint32_t basin, std::uint32_t deepest, std::size_t largest_flood) {
+  /// Floods a basin, then the deeper one that its flood has met, and so on.
+  void floodDown(std::uint32_t basin, std::uint32_t deepest, std::size_t largest_flood) {
+    while (basin != kNone) {
+      const std::uint32_t below = flood(basin, deepest, largest_flood);
+      if (deepest == basin) deepest = below;
+      basin = below;
+    }
+  }
+
+  /// @return a new basin that this one belongs to and that is to be flooded next, or kNone
+  std::uint32_t flood(std::uint32_t basin, std::uint32_t deepest, std::size_t largest_flood) {
     const double limit = basins_[basin].flooded;
     double deeper = basins_[basin].distance - tolerance_;
     double pass = basins_[basin].distance;
@@ -148,7 +156,7 @@ class Judge {
     while (!reached_.empty()) {
       if (limit_.isOverNow()) {
         refuse(basin);
-        return;
+        return kNone;
       }
       std::pop_heap(reached_.begin(), reached_.end(), isHigher);
       const Reached next = reached_.back();
@@ -160,7 +168,8 @@ class Judge {
       const TrianglePoints corners_b = scene_.cornersOfB(b);
       const CellLevels levels = cellLevels(corners_a, corners_b);
       if (deeper > 0.0 && levels.least() < deeper * deeper) {
-        if (joinsBelow(basin, deepest, a, b, pass, largest_flood)) return;
+        std::uint32_t below = kNone;
+        if (joinsBelow(basin, a, b, pass, below)) return below;
         deeper = basins_[basin].distance - tolerance_;
       }
       if (cells_[next.cell].basin == kNone) cells_[next.cell].basin = basin;
@@ -169,8 +178,8 @@ class Judge {
       forEachNeighbour(scene_, a, b, corners_a, corners_b, levels,
                        [&](TriangleIndex to_a, TriangleIndex to_b, double squared_level) {
                          if (joined || squared_level > limit * limit) return;
-                         has_room = has_room && table_.hasRoom(limit_) && limit_.hasRoom(cells_) &&
-                                    limit_.hasRoom(reached_);
+                         has_room = has_room && table_.makeRoom(limit_) && limit_.makeRoom(cells_) &&
+                                    limit_.makeRoom(reached_);
                          if (!has_room) return;
                          std::uint32_t cell = table_.find(to_a, to_b);
                          if (cell == PairTable::kAbsent) {
@@ -188,23 +197,27 @@ class Judge {
                          reached_.push_back({squared_level, cell});
                          std::push_heap(reached_.begin(), reached_.end(), isHigher);
                        });
-      if (joined) return;
+      if (joined) return kNone;
       if (!has_room) {
         refuse(basin);
-        return;
+        return kNone;
       }
       if (++looked_at == kLargeFlood && largest_flood == kUnlimited) {
         floods_are_large_ = true;
-        if (isSettledByPath(basin, deepest)) return;
+        if (isSettledByPath(basin, deepest)) return kNone;
       }
       if (looked_at == largest_flood) {
         basins_[basin].undecided = true;
-        return;
+        return kNone;
       }
     }
+    return kNone;
   }
 
-  std::uint32_t rootOf(std::uint32_t basin) const { return rootAmong(basins_, basin); }
+  std::uint32_t rootOf(std::uint32_t basin) {
+    while (roots_[basin] != basin) basin = roots_[basin] = roots_[roots_[basin]];
+    return basin;
+  }
 
  private:
   /// Seeds may leave out minima through material, so the deepest seed need not be the nearest place.
@@ -212,7 +225,7 @@ class Judge {
     const Basin& deepest = basins_[basin];
     const WitnessPair minimum =
         refineWitness(scene_.a, scene_.b, scene_.a_from_b, deepest.a, deepest.b, refinement_).witness;
-    if (isNearestOfItsShells(scene_, minimum)) return true;
+    if (isNearestOfItsPieces(scene_, minimum)) return true;
     const TrianglePair seed{deepest.a, deepest.b};
     CertificateRequest request;
     request.limit = &limit_;
@@ -225,6 +238,7 @@ class Judge {
     Basin added{a, b, distance, least_prominence, basin};
     added.flooded = (1.0 + least_prominence) * distance + tolerance_;
     basins_.push_back(added);
+    roots_.push_back(basin);
     const std::uint32_t known = table_.find(a, b);
     cells_[known == PairTable::kAbsent ? addCell(a, b) : known].basin = basin;
     return basin;
@@ -239,7 +253,7 @@ class Judge {
     return cell;
   }
 
-  std::uint32_t rootOfCell(std::uint32_t cell) const {
+  std::uint32_t rootOfCell(std::uint32_t cell) {
     return cells_[cell].basin == kNone ? kNone : rootOf(cells_[cell].basin);
   }
 
@@ -256,8 +270,7 @@ class Judge {
 
   /// From a cell deeper than the basin's start to the minimum under it. False when that is in the basin
   /// itself, which has not started at its bottom then.
-  bool joinsBelow(std::uint32_t basin, std::uint32_t deepest, TriangleIndex a, TriangleIndex b, double pass,
-                  std::size_t largest_flood) {
+  bool joinsBelow(std::uint32_t basin, TriangleIndex a, TriangleIndex b, double pass, std::uint32_t& bottom) {
     const WitnessPair below = refineWitness(scene_.a, scene_.b, scene_.a_from_b, a, b, refinement_).witness;
     const double distance = std::sqrt(below.squared_distance);
     const std::uint32_t known = table_.find(below.triangle_a, below.triangle_b);
@@ -272,15 +285,13 @@ class Judge {
       join(basin, owner, pass);
       return true;
     }
-    const std::uint32_t bottom =
-        addBasin(below.triangle_a, below.triangle_b, distance, basins_[basin].least_prominence);
+    bottom = addBasin(below.triangle_a, below.triangle_b, distance, basins_[basin].least_prominence);
     join(basin, bottom, pass);
-    flood(bottom, deepest == basin ? bottom : deepest, largest_flood);
     return true;
   }
 
   void join(std::uint32_t shallow, std::uint32_t deep, double pass) {
-    basins_[shallow].owner = deep;
+    basins_[shallow].owner = roots_[shallow] = deep;
     basins_[shallow].pass = pass;
   }
 
@@ -292,7 +303,8 @@ class Judge {
   std::vector<BasinBuffers::Cell>& cells_;
   std::vector<Reached>& reached_;
   std::vector<Basin>& basins_;
-  std::vector<std::pair<std::uint64_t, std::uint32_t>>& deepest_;
+  std::vector<std::uint32_t>& roots_;
+  PairTable& deepest_;
   LevelPathBuffers& path_;
   RefinementWorkspace& refinement_;
   CertificateWorkspace proof_;
@@ -317,7 +329,8 @@ std::uint32_t BasinVerdicts::basinOf(std::size_t seed) const {
 }
 
 std::uint32_t BasinVerdicts::rootOf(std::uint32_t basin) const {
-  return detail::rootAmong(buffers_->basins, basin);
+  while (buffers_->roots[basin] != basin) basin = buffers_->roots[basin];
+  return basin;
 }
 
 std::uint64_t BasinVerdicts::floodedPairs() const {
@@ -326,10 +339,11 @@ std::uint64_t BasinVerdicts::floodedPairs() const {
 
 std::size_t BasinVerdicts::memoryBytes() const {
   const detail::BasinBuffers& b = *buffers_;
-  return b.table.memoryBytes() + b.cells.capacity() * sizeof(detail::BasinBuffers::Cell) +
+  return b.table.memoryBytes() + b.deepest.memoryBytes() +
+         b.cells.capacity() * sizeof(detail::BasinBuffers::Cell) +
          b.reached.capacity() * sizeof(detail::BasinBuffers::Reached) + b.basins.capacity() * sizeof(Basin) +
-         (b.order.capacity() + b.basin_of_seed.capacity()) * sizeof(std::uint32_t) + b.path.memoryBytes() +
-         b.deepest.capacity() * sizeof(b.deepest[0]);
+         (b.order.capacity() + b.basin_of_seed.capacity() + b.roots.capacity()) * sizeof(std::uint32_t) +
+         b.path.memoryBytes();
 }
 
 void judgeBasins(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,

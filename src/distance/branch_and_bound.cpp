@@ -49,6 +49,7 @@ DistanceCertificate BranchAndBound::run(const TrianglePair* seeds, std::size_t s
   if (anew) {
     beginAtRoots();
   } else {
+    front_->clear();  // until decide(): an exception must not leave it half opened
     reopenFront();
   }
   search();

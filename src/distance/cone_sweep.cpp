@@ -1,6 +1,6 @@
 #include "concave_distance/distance/cone_sweep.h"
 
-#include "far_shells.h"
+#include "far_pieces.h"
 #include "minima_candidates.h"
 
 namespace concave_distance {
@@ -17,7 +17,7 @@ std::uint64_t ConeSweep::advance(const BodyMesh& a, const BodyMesh& b, const Eig
   WorkLimit& work = limit != nullptr ? *limit : none;
   const detail::MinimaScene scene(a, b, a_from_b);
   if (detail::isFar(scene, least_prominence)) {
-    if (!far_) far_ = std::make_unique<detail::FarShellBuffers>();
+    if (!far_) far_ = std::make_unique<detail::FarPieceBuffers>();
     if (detail::collectFarSeeds(scene, cutoff, *far_, found, work)) {
       open_.clear();
       return 0;

@@ -115,7 +115,7 @@ class LevelPath {
                                    ? (side == 0 ? levels.edges_of_a : levels.edges_of_b)[k]
                                    : pointTriangleDistance(corners[k], still).squared_distance;
         if (squared > limit * limit) continue;
-        if (!work_.hasRoom(buffers_.reached) || !work_.hasRoom(buffers_.open)) break;
+        if (!work_.makeRoom(buffers_.reached) || !work_.makeRoom(buffers_.open)) break;
         enter(beyond.triangle, std::max(squared, next.squared_level));
       }
     }

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "concave_distance/distance/basin_verdict.h"
-#include "far_shells.h"
+#include "far_pieces.h"
 #include "minima_candidates.h"
 #include "minima_flood.h"
 #include "minima_scene.h"
@@ -109,8 +109,8 @@ bool isFar(const detail::MinimaScene& scene, const LocalMinimaRequest& request) 
 
 void collectSeeds(const detail::MinimaScene& scene, const LocalMinimaRequest& request,
                   std::vector<MinimumSeed>& seeds, LocalMinimaCost& cost, WorkLimit& limit) {
-  detail::FarShellBuffers far_shells;
-  if (isFar(scene, request) && detail::collectFarSeeds(scene, request.cutoff, far_shells, seeds, limit))
+  detail::FarPieceBuffers far_pieces;
+  if (isFar(scene, request) && detail::collectFarSeeds(scene, request.cutoff, far_pieces, seeds, limit))
     return;
   detail::collectMeetingPairs(scene, seeds, cost, limit);
   const NormalSides sides = request.through_material ? NormalSides::Both : NormalSides::Outside;
@@ -150,7 +150,7 @@ LocalMinima findLocalMinima(const BodyMesh& a, const BodyMesh& b, const Eigen::I
 
   std::vector<Described> described;
   Describer describer(scene, request, limit);
-  for (std::size_t i = 0; i < flood.minima.size(); ++i) {
+  for (std::size_t i = 0; i < flood.minima.size() && !limit.isOver(); ++i) {
     LocalMinimum niche;
     if (describer.describe(flood.minima[i], niche)) described.push_back({niche, i});
   }

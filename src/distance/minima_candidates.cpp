@@ -98,7 +98,7 @@ class Traversal {
     const std::uint64_t last = budget < kAll ? cost_.node_pairs + budget : kAll;
     while (!open_.empty() && cost_.node_pairs < last) {
       if (limit_.isOverNow()) return;
-      if (!limit_.hasRoom(open_, kWidth) || !limit_.hasRoom(seeds_)) {
+      if (!limit_.makeRoom(open_, kWidth) || !limit_.makeRoom(seeds_)) {
         open_.clear();
         return;
       }
@@ -333,7 +333,7 @@ void collectMeetingPairs(const MinimaScene& scene, std::vector<MinimumSeed>& see
   const double margin = slack + 1e-14 * (origin + scene.size);
   std::vector<std::pair<std::uint32_t, std::uint32_t>> open{{0U, 0U}};
   while (!open.empty()) {
-    if (limit.isOverNow() || !limit.hasRoom(open, 2)) return;
+    if (limit.isOverNow() || !limit.makeRoom(open, 2)) return;
     const auto [i, j] = open.back();
     open.pop_back();
     const TriangleTree::Node& a = tree_a.nodes()[i];
@@ -348,7 +348,7 @@ void collectMeetingPairs(const MinimaScene& scene, std::vector<MinimumSeed>& see
           ++cost.candidates;
           if (triangleDistance(scene.cornersOfA(ta), scene.cornersOfB(tb)).squared_distance <=
               slack * slack) {
-            if (!limit.hasRoom(seeds)) return;
+            if (!limit.makeRoom(seeds)) return;
             seeds.push_back({ta, tb, 0.0});
           }
         }

@@ -139,7 +139,7 @@ class Flood {
   void consider(std::uint32_t from, TriangleIndex to_a, TriangleIndex to_b, double limit, double level) {
     const double above = std::max(level, cells_[from].reached);
     if (above > limit || cut_) return;
-    if (!limit_.hasRoom(steps_) || !limit_.hasRoom(cells_, 2) || !table_.hasRoom(limit_)) {
+    if (!limit_.makeRoom(steps_) || !limit_.makeRoom(cells_, 2) || !table_.makeRoom(limit_)) {
       cut_ = true;
       return;
     }

@@ -14,6 +14,8 @@ struct MinimaScene {
         b(body_b),
         adjacency_a(body_a.adjacency()),
         adjacency_b(body_b.adjacency()),
+        pieces_a(body_a.pieces()),
+        pieces_b(body_b.pieces()),
         a_from_b(pose),
         frames(body_a.surface().boundingBox().center(), body_b.surface().boundingBox().center(), pose) {
     size = 0.5 * (a.diameter() + b.diameter()) + frames.offset.norm();
@@ -31,6 +33,8 @@ struct MinimaScene {
   const BodyMesh& b;
   const CompressedRows<AdjacentTriangle>& adjacency_a;  ///< of the bodies, which build it on demand
   const CompressedRows<AdjacentTriangle>& adjacency_b;
+  const ConnectedPieces& pieces_a;
+  const ConnectedPieces& pieces_b;
   Eigen::Isometry3d a_from_b;
   LocalFrames frames;
   double size;      ///< no coordinate is larger

@@ -62,7 +62,7 @@ void BranchAndBound::add(Slot kept, std::uint32_t opened, std::uint32_t lane, bo
                          double squared_bound) {
   if (open_.size() == open_count_) {
     const std::size_t more = open_.size() + 256;
-    if (!limit_.hasRoom(open_, more)) {
+    if (!limit_.makeRoom(open_, more)) {
       exclude(std::sqrt(squared_bound));
       cut_ = true;
       return;
@@ -101,7 +101,7 @@ void BranchAndBound::expand(const OpenPair& pair) {
       exclude(bound);
       if (front_ == nullptr) continue;
       if (quad == nullptr) {
-        if (!limit_.hasRoom(front_->quads_)) {
+        if (!limit_.makeRoom(front_->quads_)) {
           dropFront();
           continue;
         }
@@ -127,7 +127,7 @@ void BranchAndBound::openLeaves(const OpenPair& pair) {
                                 measureLeaves(leafOf(a_, a_.child(pair.a)), leafOf(b_, b_.child(pair.b))));
   exclude(bound);
   if (front_ == nullptr) return;
-  if (!limit_.hasRoom(front_->leaf_pairs_)) {
+  if (!limit_.makeRoom(front_->leaf_pairs_)) {
     dropFront();
     return;
   }

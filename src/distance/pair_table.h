@@ -14,6 +14,10 @@ class PairTable {
  public:
   static constexpr std::uint32_t kAbsent = 0xffffffffU;
 
+  /// @param log_slots at first: logarithm of their number, from 1
+  explicit PairTable(std::uint32_t log_slots = 12)
+      : slots_(std::size_t{1} << log_slots), shift_(64 - log_slots) {}
+
   std::uint32_t find(TriangleIndex a, TriangleIndex b) const { return slots_[slotOf(pairKey(a, b))].number; }
 
   /// The pair must not be in the table yet.
@@ -29,12 +33,14 @@ class PairTable {
     return slots_.capacity() * sizeof(Slot) + used_.capacity() * sizeof(std::uint32_t);
   }
 
-  /// Whether another pair may be inserted, including the memory for the table's growth.
-  bool hasRoom(WorkLimit& limit) const {
-    if (!limit.hasRoom(used_)) return false;
+  /// Whether another pair may be inserted; lets the table grow at once.
+  bool makeRoom(WorkLimit& limit) {
+    if (!limit.makeRoom(used_)) return false;
     if (2 * (used_.size() + 1) <= slots_.size()) return true;
-    if (!limit.takeMemory(2 * slots_.size() * sizeof(Slot))) return false;
-    limit.returnMemory(slots_.size() * sizeof(Slot));
+    const std::size_t before = slots_.size() * sizeof(Slot);
+    if (!limit.takeMemory(2 * before)) return false;
+    grow();
+    limit.returnMemory(before);
     return true;
   }
 
@@ -70,8 +76,8 @@ class PairTable {
     }
   }
 
-  std::vector<Slot> slots_{std::size_t{1} << 12U};
-  std::uint32_t shift_ = 64 - 12;
+  std::vector<Slot> slots_;
+  std::uint32_t shift_;              ///< see slotOfKey()
   std::vector<std::uint32_t> used_;  ///< slots
 };
 

@@ -54,7 +54,7 @@ void addArea(BoundaryComponent& component, Side side, double area, const Eigen::
 }  // namespace
 
 void BoundaryComponents::build(WorkingFrame& frame, const CrossingCurves& curves, SurfacePieces (&pieces)[2],
-                               ElementSets& sets) {
+                               ElementSets& sets, WorkLimit& limit) {
   components_.clear();
   component_of_element_.assign(sets.size(), kNone);
   for (const CrossingSegment& segment : curves.segments()) {
@@ -75,12 +75,12 @@ void BoundaryComponents::build(WorkingFrame& frame, const CrossingCurves& curves
   }
   for (const Side side : {Side::A, Side::B}) measureSurface(frame, pieces[at(side)], side);
   measureLoops(curves, sets);
-  measureCommonFaces(frame, curves, pieces);
+  measureCommonFaces(frame, curves, pieces, limit);
   for (const Side side : {Side::A, Side::B}) {
     const std::uint32_t node = pieces[at(side)].contradiction();
     if (node != kNone) components_[component_of_element_[sets.find(node)]].consistent = false;
   }
-  joinCavities(frame, pieces);
+  joinCavities(frame, pieces, limit);
 }
 
 std::uint32_t BoundaryComponents::componentOf(std::uint32_t element, ElementSets& sets) {
@@ -167,9 +167,10 @@ void BoundaryComponents::measureSurface(WorkingFrame& frame, const SurfacePieces
 }
 
 void BoundaryComponents::measureCommonFaces(const WorkingFrame& frame, const CrossingCurves& curves,
-                                            const SurfacePieces (&pieces)[2]) {
+                                            const SurfacePieces (&pieces)[2], WorkLimit& limit) {
   component_of_common_face_.clear();
   for (const CommonFace& face : curves.commonFaces()) {
+    if (limit.isOverNow()) return;
     const TriangleIndex triangle = face.triangle[at(face.inside)];
     const Eigen::Vector3d normal = frame.normal(face.inside, triangle);
     component_of_common_face_.push_back(kNone);
@@ -210,13 +211,15 @@ double BoundaryComponents::windingOf(WorkingFrame& frame, const SurfacePieces (&
 }
 
 // A negative volume is the wall of a cavity of the region around it; of those it lies in, the smallest.
-void BoundaryComponents::joinCavities(WorkingFrame& frame, const SurfacePieces (&pieces)[2]) {
+void BoundaryComponents::joinCavities(WorkingFrame& frame, const SurfacePieces (&pieces)[2],
+                                      WorkLimit& limit) {
   const double rounding = frame.roundingBound() * frame.scale();
   for (std::uint32_t c = 0; c < components_.size(); ++c) {
     BoundaryComponent& cavity = components_[c];
     if (!cavity.closed || cavity.volume >= -2.0 * rounding * cavity.surface()) continue;
     std::uint32_t owner = kNone;
     for (std::uint32_t o = 0; o < components_.size(); ++o) {
+      if (limit.isOverNow()) return;
       const BoundaryComponent& around = components_[o];
       if (!around.closed || around.volume < -cavity.volume) continue;
       if (owner != kNone && around.volume >= components_[owner].volume) continue;

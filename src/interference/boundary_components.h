@@ -43,11 +43,11 @@ struct BoundaryComponent {
 };
 
 /// Sorts the pieces by component and triangle and measures each component by sums over its boundary edges;
-/// joins cavities to what is around them.
+/// joins cavities to what is around them. Incomplete once the limit is reached.
 class BoundaryComponents {
  public:
-  void build(WorkingFrame& frame, const CrossingCurves& curves, SurfacePieces (&pieces)[2],
-             ElementSets& sets);
+  void build(WorkingFrame& frame, const CrossingCurves& curves, SurfacePieces (&pieces)[2], ElementSets& sets,
+             WorkLimit& limit);
   const std::vector<BoundaryComponent>& all() const { return components_; }
   std::vector<BoundaryComponent>& all() { return components_; }
   /// Of each of the curves' common faces, the component that it belongs to; kNone where it belongs to none.
@@ -66,8 +66,8 @@ class BoundaryComponents {
   void measureLoops(const CrossingCurves& curves, ElementSets& sets);
   void measureSurface(WorkingFrame& frame, const SurfacePieces& pieces, Side side);
   void measureCommonFaces(const WorkingFrame& frame, const CrossingCurves& curves,
-                          const SurfacePieces (&pieces)[2]);
-  void joinCavities(WorkingFrame& frame, const SurfacePieces (&pieces)[2]);
+                          const SurfacePieces (&pieces)[2], WorkLimit& limit);
+  void joinCavities(WorkingFrame& frame, const SurfacePieces (&pieces)[2], WorkLimit& limit);
   double windingOf(WorkingFrame& frame, const SurfacePieces (&pieces)[2], const BoundaryComponent& component,
                    const Eigen::Vector3d& point) const;
 

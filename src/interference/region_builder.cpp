@@ -33,19 +33,21 @@ bool RegionBuilder::pass(const Motion& motion_of_b, std::vector<FoundRegion>& fo
   for (const Side side : {Side::A, Side::B})
     pieces_[at(side)].collect(frame_, predicates, containment_, curves_, side, sets_);
   for (const Side side : {Side::A, Side::B}) addSwallowedShells(predicates, side);
-  components_.build(frame_, curves_, pieces_, sets_);
-  found.clear();
+  components_.build(frame_, curves_, pieces_, sets_, limit);
   component_of_region_.clear();
   for (std::uint32_t c = 0; c < components_.all().size(); ++c) {
     const BoundaryComponent& component = components_.all()[c];
     if (component.is_cavity) continue;
+    if (limit.isOver()) break;
     found.emplace_back();
     component_of_region_.push_back(c);
     buildRegion(component, found.back());
   }
   measureReach(found);
-  addOpenRegions(found);
-  return predicates.tied();
+  addOpenRegions(found, limit);
+  cut_ = limit.isOver();
+  if (cut_) found.clear();
+  return predicates.tied() && !cut_;
 }
 
 void RegionBuilder::measureReach(std::vector<FoundRegion>& found) {
@@ -151,29 +153,43 @@ void RegionBuilder::measureDepth(const BoundaryComponent& component, bool solid,
   region.touching = component.loop_count > 0 && component.closed && !solid;
 }
 
-void RegionBuilder::addOpenRegions(std::vector<FoundRegion>& found) {
-  curve_seen_.assign(curves_.nodes().size(), 0);
-  for (const CrossingSegment& segment : curves_.segments()) {
-    if (segment.closed) continue;
-    const std::uint32_t curve = components_.loopOf(segment.start);
-    if (curve_seen_[curve] != 0) continue;
-    curve_seen_[curve] = 1;
+void RegionBuilder::addOpenRegions(std::vector<FoundRegion>& found, WorkLimit& limit) {
+  const std::vector<CrossingSegment>& segments = curves_.segments();
+  open_segments_.clear();
+  open_nodes_.clear();
+  for (std::uint32_t s = 0; s < segments.size(); ++s) {
+    if (segments[s].closed) continue;
+    const std::uint32_t curve = components_.loopOf(segments[s].start);
+    open_segments_.push_back({curve, s});
+    open_nodes_.push_back({curve, segments[s].start});
+    open_nodes_.push_back({curve, segments[s].end});
+  }
+  std::sort(open_segments_.begin(), open_segments_.end());
+  std::sort(open_nodes_.begin(), open_nodes_.end());
+  open_nodes_.erase(std::unique(open_nodes_.begin(), open_nodes_.end()), open_nodes_.end());
+  auto node = open_nodes_.begin();
+  for (auto first = open_segments_.begin(); first != open_segments_.end() && !limit.isOver();) {
+    const auto is_of_another = [curve = first->curve](const OfCurve& item) { return item.curve != curve; };
+    const auto last = std::find_if(first, open_segments_.end(), is_of_another);
+    const auto last_node = std::find_if(node, open_nodes_.end(), is_of_another);
     found.emplace_back();
-    found.back().region = openRegion(curve);
+    found.back().region =
+        openRegion(first->curve, &*first, &*first + (last - first), &*node, &*node + (last_node - node));
+    first = last;
+    node = last_node;
   }
 }
 
-InterferenceRegion RegionBuilder::openRegion(std::uint32_t curve) {
+InterferenceRegion RegionBuilder::openRegion(std::uint32_t curve, const OfCurve* first_segment,
+                                             const OfCurve* last_segment, const OfCurve* first_node,
+                                             const OfCurve* last_node) {
   const std::vector<CrossingNode>& nodes = curves_.nodes();
   double total = 0.0;
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   Eigen::Vector3d apart = Eigen::Vector3d::Zero();
   Eigen::Vector3d straight = Eigen::Vector3d::Zero();
-  std::size_t segments = 0;
-  std::size_t ends = 0;
-  for (std::uint32_t n = 0; n < nodes.size(); ++n) ends += components_.loopOf(n) == curve ? 1U : 0U;
-  for (const CrossingSegment& segment : curves_.segments()) {
-    if (components_.loopOf(segment.start) != curve) continue;
+  for (const OfCurve* item = first_segment; item != last_segment; ++item) {
+    const CrossingSegment& segment = curves_.segments()[item->index];
     const Eigen::Vector3d& start = nodes[segment.start].position;
     const Eigen::Vector3d& end = nodes[segment.end].position;
     const double length = (end - start).norm();
@@ -182,18 +198,17 @@ InterferenceRegion RegionBuilder::openRegion(std::uint32_t curve) {
     apart +=
         length * (frame_.normal(Side::A, segment.triangle[0]) - frame_.normal(Side::B, segment.triangle[1]));
     straight += end - start;
-    ++segments;
   }
   InterferenceRegion region;
   region.closed = false;
-  region.loop_count = segments == ends ? 1 : 0;
+  region.loop_count = last_segment - first_segment == last_node - first_node ? 1 : 0;
   Eigen::Vector3d centre = nodes[curve].position;
   if (total > 0.0) centre += middle / total;
   region.centroid_in_a = frame_.pointInA(centre);
   std::uint32_t nearest = curve;
   double farthest = 0.0;
-  for (std::uint32_t n = 0; n < nodes.size(); ++n) {
-    if (components_.loopOf(n) != curve) continue;
+  for (const OfCurve* item = first_node; item != last_node; ++item) {
+    const std::uint32_t n = item->index;
     const double squared_distance = (nodes[n].position - centre).squaredNorm();
     if (squared_distance < (nodes[nearest].position - centre).squaredNorm()) nearest = n;
     farthest = std::max(farthest, squared_distance);

@@ -34,8 +34,19 @@ class RegionBuilder {
   void measureReach(std::vector<FoundRegion>& found);
   void measureDepth(const BoundaryComponent& component, bool solid, const Eigen::Vector3d& vector_area,
                     InterferenceRegion& region);
-  void addOpenRegions(std::vector<FoundRegion>& found);
-  InterferenceRegion openRegion(std::uint32_t curve);
+  /// A segment or node of a curve on which a sheet is crossed.
+  struct OfCurve {
+    std::uint32_t curve;
+    std::uint32_t index;
+    bool operator<(const OfCurve& other) const {
+      return curve != other.curve ? curve < other.curve : index < other.index;
+    }
+    bool operator==(const OfCurve& other) const { return curve == other.curve && index == other.index; }
+  };
+  void addOpenRegions(std::vector<FoundRegion>& found, WorkLimit& limit);
+  InterferenceRegion openRegion(std::uint32_t curve, const OfCurve* first_segment,
+                                const OfCurve* last_segment, const OfCurve* first_node,
+                                const OfCurve* last_node);
 
   WorkingFrame frame_;
   bool cut_ = false;
@@ -48,7 +59,8 @@ class RegionBuilder {
   BoundaryComponents components_;
   OverlayDepth overlay_;
   std::vector<std::uint8_t> shell_seen_;
-  std::vector<std::uint8_t> curve_seen_;
+  std::vector<OfCurve> open_segments_;
+  std::vector<OfCurve> open_nodes_;
   std::vector<std::uint32_t> component_of_region_;
   std::vector<std::uint32_t> region_of_component_;
 };

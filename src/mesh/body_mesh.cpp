@@ -35,6 +35,7 @@ struct BodyMesh::OnDemand {
     std::atomic<std::size_t> bytes{0};
   };
   Part<CompressedRows<AdjacentTriangle>> adjacency;
+  Part<ConnectedPieces> pieces;
   std::array<Part<NormalConeTree>, 2> cones;  ///< by NormalSides
   std::once_flag nodes_once;
   SearchNodes nodes;
@@ -196,6 +197,15 @@ const CompressedRows<AdjacentTriangle>& BodyMesh::adjacency() const {
   return part.value;
 }
 
+const ConnectedPieces& BodyMesh::pieces() const {
+  auto& part = on_demand_->pieces;
+  std::call_once(part.once, [&] {
+    part.value = connectedPieces(surface());
+    part.bytes = part.value.memoryBytes();
+  });
+  return part.value;
+}
+
 const NormalConeTree& BodyMesh::normalCones(NormalSides sides) const {
   auto& part = on_demand_->cones.at(static_cast<std::size_t>(sides));
   std::call_once(part.once, [&] {
@@ -226,7 +236,7 @@ std::size_t BodyMesh::memoryBytes() const {
   if (const MeshMetric* metric = metricIfMade()) search_bytes += metric->memoryBytes();
   return sizeof(BodyMesh) + sizeof(OnDemand) + mesh_bytes(surface()) + topology_bytes + search_bytes +
          parts_.tree.memoryBytes() + parts_.hierarchy.memoryBytes() + on_demand_->adjacency.bytes +
-         on_demand_->cones[0].bytes + on_demand_->cones[1].bytes;
+         on_demand_->pieces.bytes + on_demand_->cones[0].bytes + on_demand_->cones[1].bytes;
 }
 
 }  // namespace concave_distance

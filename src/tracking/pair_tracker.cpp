@@ -87,6 +87,7 @@ void TrackerState::update(const Eigen::Isometry3d& pose, double time, PairSoluti
   const auto start = std::chrono::steady_clock::now();
   const auto since_start = [start] { return seconds(std::chrono::steady_clock::now() - start); };
   const bool was_cut = limit.hasRefused();
+  if (limit.hasRefusedMemory()) judging.verdicts = BasinVerdicts();  // the buffers of a flood too large
   limit = WorkLimit(start, parameters.time_budget, parameters.memory_limit, parameters.stop);
   limit.setTaken(memoryBytes());
   clear(solution);
@@ -219,6 +220,10 @@ void PairTracker::setParameters(const TrackerParameters& parameters) {
   state_->parameters = parameters;
   state_->proof.current = state_->completeness.current = false;
   state_->search_prepared = false;
+  // Up to another cutoff, or for another prominence.
+  state_->sweep.restart();
+  state_->swept.clear();
+  state_->swept_at_rest = false;
 }
 
 std::size_t TrackerState::memoryBytes() const {

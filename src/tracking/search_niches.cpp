@@ -149,7 +149,7 @@ void TrackerState::sweepCones(PairSolution& solution) {
   }
   swept_at_rest = cycles_at_rest > 0 && sweep.finished();
   auto taken = swept.begin();
-  for (; taken != swept.end() && !limit.isOver() && limit.hasRoom(candidates); ++taken) {
+  for (; taken != swept.end() && !limit.isOver() && limit.makeRoom(candidates); ++taken) {
     const MinimumSeed& pair = *taken;
     const WitnessRefinement refined = geometry.refine(pair.a, pair.b);
     candidates.push_back({refined.witness, geometry.nodePairNear(refined.witness), refined.proven, 0});

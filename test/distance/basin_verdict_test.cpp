@@ -1,6 +1,7 @@
 #include "concave_distance/distance/basin_verdict.h"
 
 #include <gtest/gtest.h>
+#include <pthread.h>
 
 #include <algorithm>
 #include <cmath>
@@ -52,6 +53,64 @@ std::vector<double> distancesOf(const std::vector<LocalMinimum>& niches) {
     if (niche.distance > 0.0) distances.push_back(niche.distance);
   }
   return distances;
+}
+
+/// A strip of teeth, each a little higher than the one before, and a bar along all of their tips.
+Scene washboard(std::size_t teeth) {
+  std::vector<Eigen::Vector3d> vertices;
+  std::vector<TriangleNodes> triangles;
+  for (std::size_t i = 0; i <= 2 * teeth; ++i) {
+    const double height = i % 2 == 0 ? 0.0 : 0.5 + 1e-6 * static_cast<double>(i);
+    for (const double y : {-1.0, 1.0}) vertices.emplace_back(0.1 * static_cast<double>(i), y, height);
+    if (i == 0) continue;
+    const NodeIndex a{2 * i - 2};
+    const NodeIndex b{2 * i - 1};
+    triangles.push_back({a, NodeIndex{2 * i}, b});
+    triangles.push_back({b, NodeIndex{2 * i}, NodeIndex{2 * i + 1}});
+  }
+  const double length = 0.2 * static_cast<double>(teeth);
+  const auto bar = test::makeCuboid({-1.0, -0.5, 0.0}, {length + 1.0, 0.5, 0.1});
+  return {makeBody(SurfaceMesh(vertices, triangles, "washboard")), makeBody(bar),
+          test::translation({0, 0, 1.5})};
+}
+
+// As deep a chain of basins as there are teeth, on a stack that a recursion would run out of.
+TEST(BasinVerdict, ALongWayDownNeedsNoStack) {
+  struct Run {
+    Scene scene = washboard(400);
+    std::size_t basins = 0;
+    std::uint32_t root = 0;
+  } run;
+  const auto judge = [](void* argument) -> void* {
+    Run& own = *static_cast<Run*>(argument);
+    const Scene& scene = own.scene;
+    RefinementWorkspace workspace;
+    WitnessPair first;
+    first.squared_distance = std::numeric_limits<double>::infinity();
+    for (std::uint32_t t = 0; t < scene.b->surface().triangleCount(); ++t) {
+      const WitnessPair found =
+          refineWitness(*scene.a, *scene.b, scene.pose, TriangleIndex{0}, TriangleIndex{t}, workspace)
+              .witness;
+      if (found.squared_distance < first.squared_distance) first = found;
+    }
+    BasinVerdicts verdicts;
+    judgeBasins(
+        *scene.a, *scene.b, scene.pose,
+        {{first.triangle_a, first.triangle_b, std::sqrt(first.squared_distance), 1.0, true, kNoLimit}},
+        verdicts);
+    own.basins = verdicts.basins().size();
+    own.root = verdicts.rootOf(verdicts.basinOf(0));
+    return nullptr;
+  };
+  pthread_attr_t attributes;
+  pthread_attr_init(&attributes);
+  pthread_attr_setstacksize(&attributes, std::size_t{64} << 10U);
+  pthread_t thread{};
+  ASSERT_EQ(pthread_create(&thread, &attributes, judge, &run), 0);
+  pthread_join(thread, nullptr);
+  pthread_attr_destroy(&attributes);
+  EXPECT_GT(run.basins, 200U);
+  EXPECT_EQ(run.root, run.basins - 1);
 }
 
 TEST(BasinVerdict, RootsAreTheNichesWhateverTheOrderOfTheSeeds) {

@@ -2,9 +2,12 @@
 #include <rapidcheck/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "concave_distance/mesh/refine_mesh.h"
+#include "concave_distance/mesh/repair_mesh.h"
 #include "distance/minima_checks.h"
+#include "support/painted_boxes.h"
 
 // Level `complete` on scenes whose niches are known, and what must not change its answer.
 
@@ -52,6 +55,25 @@ TEST(LocalMinimaOf, BoxOnItsEdgeAboveABoxIsOneSegment) {
   EXPECT_NEAR(found.niches[0].distance, 0.2, kError);
   EXPECT_EQ(found.niches[0].kind, NicheKind::Segment);
   EXPECT_NEAR(found.niches[0].extent, 0.6, 1e-9);
+}
+
+// Two shells, but a path leads from one to the other over the edge that they share.
+TEST(LocalMinimaOf, CubesThatShareAnEdgeHaveOneNicheSeenFromFarAway) {
+  TriangleSoup soup;
+  test::addBox(soup, {Vector3d(0, 0, 0), Vector3d(1, 1, 1)}, 0, false);
+  test::addBox(soup, {Vector3d(1, 1, 0), Vector3d(2, 2, 1)}, 0, false);
+  const Body a = makeBody(repairMesh(soup, {}, "cubes").mesh);
+  ASSERT_EQ(a->topology().shellCount(), 2U);
+  const Body b = makeBody(makeCuboid(Vector3d::Zero(), Vector3d(0.1, 0.1, 0.1)));
+  for (const double distance : {40.0, 300.0, 420.0, 1000.0, 1e6}) {
+    for (const double least_prominence : {0.01, 0.5}) {
+      LocalMinimaRequest request;
+      request.least_prominence = least_prominence;
+      request.cutoff = std::numeric_limits<double>::infinity();
+      const LocalMinima found = minimaOf(a, b, test::translation({distance, 0.3, 0.2}), request);
+      EXPECT_EQ(found.niches.size(), 1U) << distance << " m, " << least_prominence;
+    }
+  }
 }
 
 TEST(LocalMinimaOf, TeethBetweenTeethAreOnePatchInEachSlit) {

@@ -22,8 +22,9 @@ TEST(MemoryLimit, HoldsForFloodsOfALargeProminenceAndTheBracketHoldsToo) {
   parameters.prominence_limit = 50.0;
   // What belongs to the bodies is built before.
   comb->adjacency();
+  comb->pieces();
   comb->normalCones(NormalSides::Outside);
-  for (const std::size_t limit : {std::size_t{4} << 20U, std::size_t{16} << 20U}) {
+  for (const std::size_t limit : {std::size_t{4} << 20U, std::size_t{8} << 20U}) {
     parameters.memory_limit = limit;
     PairTracker tracker("pair", comb, comb, parameters);
     PairSolution solution;

@@ -46,7 +46,7 @@ Isometry3d poseApart(RandomEngine& engine) {
 void expectBracket(const PairSolution& solution, double exact) {
   ASSERT_FALSE(std::isnan(solution.distance)) << "there is always a distance";
   EXPECT_GE(solution.distance, exact - kRounding);
-  if (!std::isnan(solution.lower_bound)) EXPECT_LE(solution.lower_bound, exact + kRounding);
+  EXPECT_TRUE(std::isnan(solution.lower_bound) || solution.lower_bound <= exact + kRounding);
   for (const TrackedNiche& niche : solution.niches) {
     EXPECT_NEAR((niche.point_b_in_a - niche.point_a_in_a).norm(), niche.distance, 1e-8);
     EXPECT_GE(niche.distance, exact - kRounding);
@@ -67,8 +67,8 @@ TEST(WorkLimit, WithoutTimeEveryLevelGivesABracket) {
         parameters.niches_wanted = with_niches;
         const PairSolution solution = solveOnce("pair", a, b, parameters, pose);
         expectBracket(solution, exactDistance(a, b, pose));
-        if (solution.status != SolveStatus::Ok) EXPECT_EQ(solution.status, SolveStatus::BudgetExhausted);
-        if (with_niches) EXPECT_EQ(solution.status, SolveStatus::BudgetExhausted);
+        EXPECT_TRUE(solution.status == SolveStatus::BudgetExhausted ||
+                    (!with_niches && solution.status == SolveStatus::Ok));
         EXPECT_FALSE(solution.niches_complete);
       }
     }

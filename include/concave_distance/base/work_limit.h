@@ -21,7 +21,7 @@ class WorkLimit {
   WorkLimit() = default;
 
   /// @param seconds from `start`; infinite: no deadline
-  /// @param memory_bytes for all buffers that hasRoom() and takeMemory() count
+  /// @param memory_bytes for all buffers that makeRoom() and takeMemory() count
   /// @param stop ends the work as soon as it is set; nullptr: none
   WorkLimit(Clock::time_point start, double seconds, std::size_t memory_bytes, const std::atomic<bool>* stop)
       : start_(start), seconds_(seconds), stop_(stop), memory_(memory_bytes) {
@@ -55,14 +55,16 @@ class WorkLimit {
     return isOver();
   }
 
-  /// Whether `more` elements may be added. Counts the memory of the vector's growth.
+  /// Whether `more` elements may be added. Counts what the vector's growth takes and lets it grow at once.
   template <typename T>
-  bool hasRoom(const std::vector<T>& buffer, std::size_t more = 1) {
+  bool makeRoom(std::vector<T>& buffer, std::size_t more = 1) {
     const std::size_t needed = buffer.size() + more;
     if (needed <= buffer.capacity()) return true;
-    const std::size_t grown = std::max(needed, 2 * buffer.capacity()) * sizeof(T);
-    if (!takeMemory(grown)) return false;
-    returnMemory(buffer.capacity() * sizeof(T));  // freed after the new elements are in place
+    const std::size_t before = buffer.capacity();
+    const std::size_t grown = std::max(needed, 2 * before);
+    if (!takeMemory(grown * sizeof(T))) return false;
+    buffer.reserve(grown);
+    returnMemory(before * sizeof(T));  // the old elements go when the new ones are in place
     return true;
   }
 

@@ -12,7 +12,7 @@
 namespace concave_distance {
 
 namespace detail {
-struct FarShellBuffers;
+struct FarPieceBuffers;
 }
 
 /// A triangle pair whose closest points are a local minimum of the distance over both surfaces.
@@ -49,7 +49,7 @@ class ConeSweep {
 
  private:
   std::vector<std::pair<std::uint32_t, std::uint32_t>> open_;  ///< children of both trees
-  std::unique_ptr<detail::FarShellBuffers> far_;               ///< made when first needed
+  std::unique_ptr<detail::FarPieceBuffers> far_;               ///< made when first needed
 };
 
 }  // namespace concave_distance

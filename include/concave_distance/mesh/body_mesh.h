@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "concave_distance/mesh/bounding_volume_hierarchy.h"
+#include "concave_distance/mesh/connected_pieces.h"
 #include "concave_distance/mesh/mesh_metric.h"
 #include "concave_distance/mesh/mesh_topology.h"
 #include "concave_distance/mesh/metric_memory.h"
@@ -77,6 +78,8 @@ class BodyMesh {
   const BoundingVolumeHierarchy& hierarchy() const { return parts_.hierarchy; }
   /// Which triangles hang together. Built at the first call, for all threads; 40 bytes a triangle.
   const CompressedRows<AdjacentTriangle>& adjacency() const;
+  /// What hangs together as a whole. Built at the first call, for all threads; 4 bytes a triangle.
+  const ConnectedPieces& pieces() const;
   /// Of level `complete`. Built at the first call for each of the two, for all threads; about 450 bytes a
   /// triangle.
   const NormalConeTree& normalCones(NormalSides sides) const;

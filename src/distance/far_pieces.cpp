@@ -1,4 +1,4 @@
-#include "far_shells.h"
+#include "far_pieces.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,26 +9,26 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Steps after which the search of a pair of shells gives up; usually three are enough.
+/// Steps after which the search of a pair of pieces gives up; usually three are enough.
 constexpr int kMostSteps = 16;
 
 double reachOf(const BodyMesh& body) {
   return 0.5 * body.surface().boundingBox().diagonal().norm();
 }
 
-void groupByShell(const BodyMesh& body, TrianglesOfShells& grouped) {
-  const std::vector<std::uint32_t>& shell_of = body.topology().shell_of_triangle;
-  grouped.first.assign(body.topology().shellCount() + 1, 0);
-  for (const std::uint32_t shell : shell_of) ++grouped.first[shell + 1];
+void groupByPiece(const ConnectedPieces& pieces, TrianglesOfPieces& grouped) {
+  const std::vector<std::uint32_t>& piece_of = pieces.piece_of_triangle;
+  grouped.first.assign(pieces.count + 1, 0);
+  for (const std::uint32_t piece : piece_of) ++grouped.first[piece + 1];
   for (std::size_t i = 1; i < grouped.first.size(); ++i) grouped.first[i] += grouped.first[i - 1];
-  grouped.triangles.resize(shell_of.size());
-  // Filled from the back, so that the starts are correct afterwards.
+  grouped.triangles.resize(piece_of.size());
+  // Filled from the back, so that the starts are right afterwards.
   std::vector<std::uint32_t>& next = grouped.first;
-  for (std::size_t t = shell_of.size(); t-- > 0;) {
-    grouped.triangles[--next[shell_of[t] + 1]] = TriangleIndex{t};
+  for (std::size_t t = piece_of.size(); t-- > 0;) {
+    grouped.triangles[--next[piece_of[t] + 1]] = TriangleIndex{t};
   }
   for (std::size_t i = 1; i < next.size(); ++i) next[i - 1] = next[i];
-  next.back() = static_cast<std::uint32_t>(shell_of.size());
+  next.back() = static_cast<std::uint32_t>(piece_of.size());
 }
 
 struct Support {
@@ -36,11 +36,11 @@ struct Support {
   double along = -std::numeric_limits<double>::infinity();
 };
 
-/// The triangle of a shell that reaches farthest along a direction in the body's own axes.
-Support supportOf(const BodyMesh& body, const Vector3d& centre, const TrianglesOfShells& grouped,
-                  std::size_t shell, const Vector3d& direction) {
+/// The triangle of a piece that reaches farthest along a direction in the body's own axes.
+Support supportOf(const BodyMesh& body, const Vector3d& centre, const TrianglesOfPieces& grouped,
+                  std::size_t piece, const Vector3d& direction) {
   Support best;
-  for (std::uint32_t i = grouped.first[shell]; i < grouped.first[shell + 1]; ++i) {
+  for (std::uint32_t i = grouped.first[piece]; i < grouped.first[piece + 1]; ++i) {
     const TriangleIndex t = grouped.triangles[i];
     for (int k = 0; k < 3; ++k) {
       const double along = direction.dot(body.surface().corner(t, k) - centre);
@@ -50,18 +50,18 @@ Support supportOf(const BodyMesh& body, const Vector3d& centre, const TrianglesO
   return best;
 }
 
-/// Nearest points of two shells, or false.
-class ShellPair {
+/// Nearest points of two pieces, or false.
+class PiecePair {
  public:
-  ShellPair(const MinimaScene& scene, FarShellBuffers& buffers, std::size_t shell_a, std::size_t shell_b)
-      : scene_(scene), buffers_(buffers), shell_a_(shell_a), shell_b_(shell_b) {}
+  PiecePair(const MinimaScene& scene, FarPieceBuffers& buffers, std::size_t piece_a, std::size_t piece_b)
+      : scene_(scene), buffers_(buffers), piece_a_(piece_a), piece_b_(piece_b) {}
 
   bool findNearest(MinimumSeed& seed) {
     Vector3d direction = scene_.frames.offset.normalized();
     double least = std::numeric_limits<double>::infinity();
     for (int step = 0; step < kMostSteps; ++step) {
-      const Support a = supportOf(scene_.a, scene_.frames.centre_a, buffers_.a, shell_a_, direction);
-      const Support b = supportOf(scene_.b, scene_.frames.centre_b, buffers_.b, shell_b_,
+      const Support a = supportOf(scene_.a, scene_.frames.centre_a, buffers_.a, piece_a_, direction);
+      const Support b = supportOf(scene_.b, scene_.frames.centre_b, buffers_.b, piece_b_,
                                   scene_.frames.rotation.transpose() * -direction);
       const double separation = direction.dot(scene_.frames.offset) - a.along - b.along;
       if (separation >= least - 8.0 * scene_.rounding) return true;
@@ -84,32 +84,32 @@ class ShellPair {
 
  private:
   const MinimaScene& scene_;
-  FarShellBuffers& buffers_;
-  std::size_t shell_a_;
-  std::size_t shell_b_;
+  FarPieceBuffers& buffers_;
+  std::size_t piece_a_;
+  std::size_t piece_b_;
 };
 
 }  // namespace
 
-bool isNearestOfItsShells(const MinimaScene& scene, const WitnessPair& minimum) {
+bool isNearestOfItsPieces(const MinimaScene& scene, const WitnessPair& minimum) {
   const double distance = std::sqrt(minimum.squared_distance);
   const Vector3d direction = (minimum.point_b_in_a - minimum.point_a_in_a).normalized();
-  const auto reach = [](const BodyMesh& body, const Vector3d& centre, TriangleIndex of,
-                        const Vector3d& along) {
-    const std::vector<std::uint32_t>& shells = body.topology().shell_of_triangle;
+  const auto reach = [](const BodyMesh& body, const std::vector<std::uint32_t>& piece_of,
+                        const Vector3d& centre, TriangleIndex of, const Vector3d& along) {
     double most = -std::numeric_limits<double>::infinity();
-    for (std::uint32_t t = 0; t < shells.size(); ++t) {
-      if (shells[t] != shells[of.value]) continue;
+    for (std::uint32_t t = 0; t < piece_of.size(); ++t) {
+      if (piece_of[t] != piece_of[of.value]) continue;
       for (const NodeIndex node : body.surface().triangles()[t]) {
         most = std::max(most, along.dot(body.surface().vertex(node) - centre));
       }
     }
     return most;
   };
-  const double separation = direction.dot(scene.frames.offset) -
-                            reach(scene.a, scene.frames.centre_a, minimum.triangle_a, direction) -
-                            reach(scene.b, scene.frames.centre_b, minimum.triangle_b,
-                                  scene.frames.rotation.transpose() * -direction);
+  const double separation =
+      direction.dot(scene.frames.offset) -
+      reach(scene.a, scene.pieces_a.piece_of_triangle, scene.frames.centre_a, minimum.triangle_a, direction) -
+      reach(scene.b, scene.pieces_b.piece_of_triangle, scene.frames.centre_b, minimum.triangle_b,
+            scene.frames.rotation.transpose() * -direction);
   return separation >= distance - 8.0 * scene.rounding;
 }
 
@@ -122,18 +122,17 @@ bool isFar(const MinimaScene& scene, double least_prominence) {
   return least > 0.0 && largestDistance(scene) + 8.0 * scene.rounding < (1.0 + least_prominence) * least;
 }
 
-bool collectFarSeeds(const MinimaScene& scene, double cutoff, FarShellBuffers& buffers,
+bool collectFarSeeds(const MinimaScene& scene, double cutoff, FarPieceBuffers& buffers,
                      std::vector<MinimumSeed>& seeds, WorkLimit& limit) {
   const std::size_t before = seeds.size();
-  groupByShell(scene.a, buffers.a);
-  groupByShell(scene.b, buffers.b);
-  for (std::size_t i = 0; i + 1 < buffers.a.first.size(); ++i) {
-    if (buffers.a.first[i] == buffers.a.first[i + 1]) continue;
-    for (std::size_t k = 0; k + 1 < buffers.b.first.size(); ++k) {
-      if (buffers.b.first[k] == buffers.b.first[k + 1]) continue;
+  if (scene.frames.offset.norm() - reachOf(scene.a) - reachOf(scene.b) > cutoff) return true;
+  groupByPiece(scene.pieces_a, buffers.a);
+  groupByPiece(scene.pieces_b, buffers.b);
+  for (std::size_t i = 0; i < scene.pieces_a.count; ++i) {
+    for (std::size_t k = 0; k < scene.pieces_b.count; ++k) {
       MinimumSeed seed{};
-      const bool may_go_on = !limit.isOver() && limit.hasRoom(seeds);
-      if (!may_go_on || !ShellPair(scene, buffers, i, k).findNearest(seed)) {
+      const bool may_go_on = !limit.isOver() && limit.makeRoom(seeds);
+      if (!may_go_on || !PiecePair(scene, buffers, i, k).findNearest(seed)) {
         seeds.resize(before);
         return false;
       }
