@@ -23,6 +23,8 @@ TEST(MemoryLimit, HoldsForFloodsOfALargeProminenceAndTheBracketHoldsToo) {
   // What belongs to the bodies is built before.
   comb->adjacency();
   comb->pieces();
+  prepareSearch({comb.get()});
+  comb->geodesicExtent();
   comb->normalCones(NormalSides::Outside);
   for (const std::size_t limit : {std::size_t{4} << 20U, std::size_t{8} << 20U}) {
     parameters.memory_limit = limit;
