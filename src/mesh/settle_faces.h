@@ -15,8 +15,8 @@ struct SettledFaces {
 
 /// Reduces the triangles to the surface of the union of the solids they bound (resolveShells): drops walls
 /// between two solids and superfluous duplicates and, with `orient`, turns solids outwards, cavities inwards
-/// and each sheet to the winding of its majority. Keeps the order of the rest. O(n log n), and O(n) for each
-/// solid within another one's bounding box.
+/// and each sheet to the winding of its majority. Keeps the order of the rest. O(n log n), and
+/// findCavities() for solids within others.
 SettledFaces settleFaces(const std::vector<Eigen::Vector3d>& vertices, std::vector<TriangleNodes>& triangles,
                          bool orient);
 
