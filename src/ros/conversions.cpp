@@ -161,6 +161,19 @@ PairStatus toStatus(TransformStatus status, const std::string& text) {
   return message;
 }
 
+bool hasDistance(const PairStatus& status) {
+  switch (status.code) {
+    case PairStatus::OK:
+    case PairStatus::PENETRATING:
+    case PairStatus::WITHIN_TOLERANCE:
+    case PairStatus::BUDGET_EXHAUSTED:
+    case PairStatus::MEMORY_EXHAUSTED:
+      return true;
+    default:
+      return false;
+  }
+}
+
 std::uint8_t toAccuracyCode(AccuracyLevel level) {
   switch (level) {
     case AccuracyLevel::Nodes:

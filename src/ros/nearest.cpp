@@ -9,10 +9,6 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-bool isPartlyProven(SolveStatus status) {
-  return status == SolveStatus::BudgetExhausted || status == SolveStatus::WithinTolerance;
-}
-
 /// A summary of all pairs.
 struct Survey {
   const TrackedPair* nearest = nullptr;  ///< among pairs with a distance
@@ -49,8 +45,9 @@ struct Survey {
     const bool has_bound = !std::isnan(solution.lower_bound);
     all_proven = all_proven && has_bound;
     lower_bound = has_bound ? std::min(lower_bound, solution.lower_bound) : lower_bound;
-    number = std::min(
-        number, has_bound && isPartlyProven(solution.status) ? solution.lower_bound : solution.distance);
+    // A proof that was ended early, whatever ended it, leaves the distance an upper bound.
+    const bool ended_early = has_bound && solution.status != SolveStatus::Ok;
+    number = std::min(number, ended_early ? solution.lower_bound : solution.distance);
   }
 };
 

@@ -64,28 +64,25 @@ Alert toAlert(const TrackedPair& pair, const PairDistance& nearest) {
   return alert;
 }
 
+bool isSolved(const PairNiches& message) {
+  return message.nearest.has_distance != 0;
+}
+bool isSolved(const PairContactState& message) {
+  return hasDistance(message.status);
+}
+
 // The oldest time of the pairs that carry a distance; `now` when none does.
-template <typename Message, typename Carries>
-std_msgs::Header commonHeader(const std::vector<Message>& messages, const Carries& carries_distance,
-                              ros::Time now, const std::string& frame) {
+template <typename Message>
+std_msgs::Header commonHeader(const std::vector<Message>& messages, ros::Time now, const std::string& frame) {
   std_msgs::Header header;
   header.frame_id = frame;
   header.stamp = now;
   for (const Message& message : messages) {
-    if (carries_distance(message) && message.header.stamp < header.stamp) {
+    if (isSolved(message) && message.header.stamp < header.stamp) {
       header.stamp = message.header.stamp;
     }
   }
   return header;
-}
-
-bool hasDistance(const PairNiches& message) {
-  return message.nearest.has_distance != 0;
-}
-bool isSolved(const PairContactState& message) {
-  const std::uint8_t code = message.status.code;
-  return code == PairStatus::OK || code == PairStatus::PENETRATING || code == PairStatus::WITHIN_TOLERANCE ||
-         code == PairStatus::BUDGET_EXHAUSTED;
 }
 
 }  // namespace
@@ -242,7 +239,7 @@ void TopicPublishers::publishContacts(const ServedScene& served,
   }
   if (contacts_wanted_) {
     auto message = boost::make_shared<Contacts>();
-    message->header = commonHeader(contact_messages_, isSolved, now, reference_frame_);
+    message->header = commonHeader(contact_messages_, now, reference_frame_);
     message->pairs = contact_messages_;
     contacts_.publish(message);
   }
@@ -264,7 +261,7 @@ void TopicPublishers::publishNearest(const std::vector<std::unique_ptr<TrackedPa
 void TopicPublishers::publishLists(ros::Time now) {
   if (distances_wanted_) {
     auto message = boost::make_shared<Distances>();
-    message->header = commonHeader(messages_, hasDistance, now, reference_frame_);
+    message->header = commonHeader(messages_, now, reference_frame_);
     message->pairs.reserve(messages_.size());
     for (const PairNiches& pair : messages_) {
       message->pairs.push_back(pair.nearest);
@@ -273,7 +270,7 @@ void TopicPublishers::publishLists(ros::Time now) {
   }
   if (niches_wanted_) {
     auto message = boost::make_shared<Niches>();
-    message->header = commonHeader(messages_, hasDistance, now, reference_frame_);
+    message->header = commonHeader(messages_, now, reference_frame_);
     message->pairs = std::move(messages_);
     niches_.publish(message);
   }

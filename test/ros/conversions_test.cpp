@@ -269,5 +269,20 @@ TEST(ToBodyDescription, WantsOneGeometryAndAFrame) {
   EXPECT_THROW(toBodyDescription(request), Error);
 }
 
+TEST(HasDistance, IsTrueOfEveryStatusThatASolveReachesWithADistance) {
+  PairSolution solution;
+  solution.distance = 1.0;
+  for (const SolveStatus status : {SolveStatus::Ok, SolveStatus::Penetrating, SolveStatus::BudgetExhausted,
+                                   SolveStatus::WithinTolerance, SolveStatus::MemoryExhausted}) {
+    solution.status = status;
+    EXPECT_TRUE(hasDistance(toDistance(PairHeading(), solution).status)) << toString(status);
+  }
+  solution.distance = kNotComputed;
+  for (const SolveStatus status : {SolveStatus::Ok, SolveStatus::InvalidPose}) {
+    solution.status = status;
+    EXPECT_FALSE(hasDistance(toDistance(PairHeading(), solution).status)) << toString(status);
+  }
+}
+
 }  // namespace
 }  // namespace concave_distance

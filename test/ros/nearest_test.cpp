@@ -111,14 +111,17 @@ TEST_F(NearestTest, TheNumberIsTheBoundOfAProofThatEndedEarly) {
   cycle.setScene(scene);
   cycle.run({kDistance, kDistance}, now);
   PairSolution& solution = cycle.pairs()[1]->solution;  // a/c
-  solution.status = SolveStatus::BudgetExhausted;
   solution.distance = 1.5;
   solution.lower_bound = 0.25;
-  const Nearest nearest = nearestOf(cycle.pairs(), "world", now);
-  EXPECT_EQ(nearest.pair, "a/b");
-  EXPECT_FALSE(nearest.is_minimum) << "a/c may be nearer";
-  EXPECT_EQ(nearest.number, 0.25);
-  EXPECT_EQ(nearest.lower_bound, 0.25);
+  for (const SolveStatus status :
+       {SolveStatus::BudgetExhausted, SolveStatus::MemoryExhausted, SolveStatus::WithinTolerance}) {
+    solution.status = status;
+    const Nearest nearest = nearestOf(cycle.pairs(), "world", now);
+    EXPECT_EQ(nearest.pair, "a/b");
+    EXPECT_FALSE(nearest.is_minimum) << "a/c may be nearer";
+    EXPECT_EQ(nearest.number, 0.25) << toString(status);
+    EXPECT_EQ(nearest.lower_bound, 0.25);
+  }
 }
 
 TEST_F(NearestTest, SaysThatNoPairIsWatched) {

@@ -31,6 +31,8 @@ Eigen::Isometry3d poseFromMessage(const geometry_msgs::Pose& pose, const std::st
 
 PairStatus toStatus(SolveStatus status);
 PairStatus toStatus(TransformStatus status, const std::string& message);
+/// True for the codes that come with a distance.
+bool hasDistance(const PairStatus& status);
 std::uint8_t toAccuracyCode(AccuracyLevel level);
 
 /// Everything about a pair that its solution does not hold.
