@@ -2,7 +2,7 @@
 
 #include "concave_distance/base/error.h"
 #include "effects_reader.h"
-#include "name_pattern.h"
+#include "matching_pairs.h"
 #include "settings_reader.h"
 
 namespace concave_distance {
@@ -20,17 +20,11 @@ std::vector<std::string> setEffects(Scene& scene, const std::string& pattern, co
   }
   const detail::YamlValue value = detail::YamlValue::parse(yaml, "effects");
   std::vector<std::string> names;
-  for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
-    const std::string& name = scene.pairs[i].name;
-    if (name != pattern && !detail::matchesPattern(pattern, name)) continue;
-    names.push_back(name);
+  for (const std::size_t i : detail::matchingPairs(scene, pattern)) {
     ScenePair& pair = scene.pairs.edit(i);
+    names.push_back(pair.name);
     detail::readEffects(value, pair.settings.effects);
     detail::validatePairSettings(pair.settings, "pair '" + pair.name + "'");
-  }
-  if (names.empty()) {
-    throw Error("pair", "there is no pair '" + pattern + "'",
-                "list_bodies has their names; * matches any characters, ? one");
   }
   return names;
 }

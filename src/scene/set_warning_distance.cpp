@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "concave_distance/base/error.h"
-#include "name_pattern.h"
+#include "matching_pairs.h"
 
 namespace concave_distance {
 namespace {
@@ -23,17 +23,11 @@ std::vector<std::string> setWarningDistance(Scene& scene, const std::string& pat
     requireLength("warning_hysteresis", hysteresis);
   }
   std::vector<std::string> names;
-  for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
-    const std::string& name = scene.pairs[i].name;
-    if (name != pattern && !detail::matchesPattern(pattern, name)) continue;
-    names.push_back(name);
+  for (const std::size_t i : detail::matchingPairs(scene, pattern)) {
+    names.push_back(scene.pairs[i].name);
     PairSettings& settings = scene.pairs.edit(i).settings;
     settings.warning_distance = distance;
     if (distance) settings.warning_hysteresis = hysteresis;
-  }
-  if (names.empty()) {
-    throw Error("pair", "there is no pair '" + pattern + "'",
-                "list_bodies has their names; * matches any characters, ? one");
   }
   return names;
 }

@@ -115,6 +115,7 @@ TEST_F(SceneEffects, NoTextFromOutsideDoesHarm) {
   }
   EXPECT_THROW(setEffects(scene, std::string(1'000'000, '['), "none"), Error);
   EXPECT_THROW(setEffects(scene, repeated("*a", 1'000'000), "none"), Error);
+  EXPECT_THROW(setEffects(scene, std::string(4097, '*'), "interference"), Error) << "it would match";
   for (const ScenePair& pair : scene.pairs) EXPECT_FALSE(pair.settings.effects.any());
 }
 

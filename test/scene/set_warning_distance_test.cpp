@@ -43,5 +43,19 @@ TEST(SetWarningDistance, RefusesLengthsThatMeanNothingAndUnknownPairsAndChangesN
   for (const ScenePair& pair : scene.pairs) EXPECT_FALSE(pair.settings.warning_distance);
 }
 
+TEST(SetWarningDistance, RefusesAPatternThatIsTooLongWithoutRepeatingIt) {
+  Scene scene = threePairs();
+  EXPECT_EQ(setWarningDistance(scene, std::string(4096, '*'), 0.1, 0.0).size(), 3U);
+  try {
+    setWarningDistance(scene, std::string(4097, '*'), 0.2, 0.0);
+    ADD_FAILURE() << "accepted";
+  } catch (const Error& error) {
+    const std::string refusal = error.what();
+    EXPECT_NE(refusal.find("4097 characters"), std::string::npos) << refusal;
+    EXPECT_LT(refusal.size(), 200U);
+  }
+  EXPECT_EQ(scene.pairs[0].settings.warning_distance, 0.1);
+}
+
 }  // namespace
 }  // namespace concave_distance

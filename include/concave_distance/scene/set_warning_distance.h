@@ -9,7 +9,7 @@
 namespace concave_distance {
 
 /// Sets or removes the warning distance of every pair whose name matches.
-/// @param pattern a pair's name, or with * for any characters and ? for one
+/// @param pattern a pair's name, or with * for any characters and ? for one; at most 4096 characters
 /// @param distance metres; empty: no alert
 /// @param hysteresis metres; ignored without a distance
 /// @return the pairs' names, in the scene's order

@@ -1,0 +1,31 @@
+#include "matching_pairs.h"
+
+#include "concave_distance/base/error.h"
+#include "name_pattern.h"
+
+namespace concave_distance::detail {
+namespace {
+
+// Ten times the longest name of a pair: the time to match grows with the product of both lengths.
+constexpr std::size_t kLongestPattern = 4096;
+
+}  // namespace
+
+std::vector<std::size_t> matchingPairs(const Scene& scene, const std::string& pattern) {
+  if (pattern.size() > kLongestPattern) {
+    throw Error("pair", "the name or pattern has " + std::to_string(pattern.size()) + " characters",
+                "allowed: at most " + std::to_string(kLongestPattern));
+  }
+  std::vector<std::size_t> found;
+  for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
+    const std::string& name = scene.pairs[i].name;
+    if (name == pattern || matchesPattern(pattern, name)) found.push_back(i);
+  }
+  if (found.empty()) {
+    throw Error("pair", "there is no pair '" + pattern + "'",
+                "list_bodies has their names; * matches any characters, ? one");
+  }
+  return found;
+}
+
+}  // namespace concave_distance::detail
