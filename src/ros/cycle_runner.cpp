@@ -97,8 +97,8 @@ bool CycleRunner::adoptScene() {
   const bool scene_changed = served != served_;
   if (scene_changed) {
     const bool settings_changed = !served_ || served_->settings_revision != served->settings_revision;
+    cycle_.setScene(*served->scene, settings_changed);
     served_ = std::move(served);
-    cycle_.setScene(*served_->scene, settings_changed);
     publishers_.publishRetired(cycle_.takeRetired());
   }
   const RestartRequests::Pending pending = restarts_.take();

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string_view>
 #include <thread>
 #include <unordered_map>
@@ -36,6 +37,8 @@ void watchWarning(TrackedPair& pair) {
   pair.heading.warning = pair.warning.state() == WarningState::Warning;
 }
 
+constexpr std::size_t kNowhere = std::numeric_limits<std::size_t>::max();
+
 // The frame counts too: a body of the same name in another frame is another body.
 bool isOfTheSameBodies(const TrackedPair& tracked, const Scene& scene, const ScenePair& wanted) {
   const SceneBody& a = scene.bodies[wanted.body_a];
@@ -50,52 +53,71 @@ bool isOfTheSameBodies(const TrackedPair& tracked, const Scene& scene, const Sce
 DistanceCycle::DistanceCycle(const TransformBuffer& transforms, CycleOptions options)
     : transforms_(transforms), options_(std::move(options)), arena_(makeCycleArena(options_.threads)) {}
 
-void DistanceCycle::setScene(const Scene& scene, bool settings_changed) {
-  std::vector<std::unique_ptr<TrackedPair>> before = std::exchange(pairs_, {});
-  pairs_.resize(scene.pairs.size());
-  // Usually an edit leaves most pairs unchanged and at the same index.
+// Of each pair of the scene: where it is in pairs_, or kNowhere when it is new.
+std::vector<std::size_t> DistanceCycle::placesNow(const Scene& scene) const {
+  std::vector<std::size_t> places(scene.pairs.size(), kNowhere);
+  // Usually an edit leaves most pairs as they are, in their places.
   std::unordered_map<std::string_view, std::size_t> moved;
-  for (std::size_t index = 0; index < before.size(); ++index) {
-    if (index < pairs_.size() && before[index]->origin.get() == &scene.pairs[index]) {
-      pairs_[index] = std::move(before[index]);
+  for (std::size_t index = 0; index < pairs_.size(); ++index) {
+    if (index < places.size() && pairs_[index]->origin.get() == &scene.pairs[index]) {
+      places[index] = index;
     } else {
-      moved.emplace(before[index]->heading.pair, index);
+      moved.emplace(pairs_[index]->heading.pair, index);
     }
   }
-  for (std::size_t index = 0; index < pairs_.size(); ++index) {
-    if (pairs_[index]) continue;
+  for (std::size_t index = 0; index < places.size(); ++index) {
+    if (places[index] != kNowhere) continue;
     const ScenePair& wanted = scene.pairs[index];
     const auto found = moved.find(wanted.name);
-    if (found == moved.end() || !isOfTheSameBodies(*before[found->second], scene, wanted)) {
-      continue;
-    }
-    pairs_[index] = std::move(before[found->second]);
-    moved.erase(found);
-    TrackedPair& pair = *pairs_[index];
-    pair.origin = scene.pairs.share(index);
-    pair.settings = wanted.settings;
-    pair.enabled = wanted.enabled;
-    pair.stale_parameters = pair.stale_parameters || settings_changed;
-  }
-  for (std::unique_ptr<TrackedPair>& pair : before) {
-    if (pair) retire(std::move(pair));
-  }
-  for (std::size_t index = 0; index < pairs_.size(); ++index) {
-    if (!pairs_[index]) {
-      pairs_[index] =
-          std::make_unique<TrackedPair>(scene, index, options_.reference_frame, largest_retired_id_);
+    if (found != moved.end() && isOfTheSameBodies(*pairs_[found->second], scene, wanted)) {
+      places[index] = found->second;
     }
   }
+  return places;
 }
 
-// Ids are not used again: later pairs begin above those of all removed ones.
-void DistanceCycle::retire(std::unique_ptr<TrackedPair> pair) {
-  largest_retired_id_ = std::max(largest_retired_id_, pair->largest_id);
-  if (pair->warning.state() != WarningState::Clear) {
-    pair->status.message = "the pair was removed with one of its bodies";
-    stopWatching(*pair);
-    retired_.push_back(std::move(pair));
+void DistanceCycle::setScene(const Scene& scene, bool settings_changed) {
+  const std::vector<std::size_t> places = placesNow(scene);
+  std::vector<bool> stays(pairs_.size(), false);
+  for (const std::size_t place : places) {
+    if (place != kNowhere) stays[place] = true;
   }
+  // Ids are not used again: pairs that come later begin above all that are gone.
+  std::uint64_t largest_retired_id = largest_retired_id_;
+  std::vector<std::size_t> to_retire;
+  for (std::size_t place = 0; place < pairs_.size(); ++place) {
+    if (stays[place]) continue;
+    largest_retired_id = std::max(largest_retired_id, pairs_[place]->largest_id);
+    if (pairs_[place]->warning.state() != WarningState::Clear) to_retire.push_back(place);
+  }
+  std::vector<std::unique_ptr<TrackedPair>> next(places.size());
+  for (std::size_t index = 0; index < places.size(); ++index) {
+    if (places[index] == kNowhere) {
+      next[index] = std::make_unique<TrackedPair>(scene, index, options_.reference_frame, largest_retired_id);
+    }
+  }
+  retired_.reserve(retired_.size() + to_retire.size());
+  for (const std::size_t place : to_retire) {
+    pairs_[place]->status.message = "the pair was removed with one of its bodies";
+  }
+
+  // Nothing below allocates.
+  for (std::size_t index = 0; index < places.size(); ++index) {
+    if (places[index] == kNowhere) continue;
+    next[index] = std::move(pairs_[places[index]]);
+    TrackedPair& pair = *next[index];
+    if (pair.origin.get() == &scene.pairs[index]) continue;
+    pair.origin = scene.pairs.share(index);
+    pair.settings = pair.origin->settings;
+    pair.enabled = pair.origin->enabled;
+    pair.stale_parameters = pair.stale_parameters || settings_changed;
+  }
+  for (const std::size_t place : to_retire) {
+    stopWatching(*pairs_[place]);
+    retired_.push_back(std::move(pairs_[place]));
+  }
+  pairs_ = std::move(next);
+  largest_retired_id_ = largest_retired_id;
 }
 
 std::vector<std::unique_ptr<TrackedPair>> DistanceCycle::takeRetired() {
@@ -127,6 +149,11 @@ void DistanceCycle::restart(const std::string& name) {
 }
 
 CycleReport DistanceCycle::run(const std::vector<PairDemand>& demand, ros::Time now) {
+  if (std::exchange(interrupted_, true)) {
+    for (auto& pair : pairs_) {
+      pair->discard();
+    }
+  }
   const std::shared_ptr<const tf2::BufferCore> buffer = transforms_.current();
   CycleReport report;
   to_solve_.clear();
@@ -172,6 +199,7 @@ CycleReport DistanceCycle::run(const std::vector<PairDemand>& demand, ros::Time 
         status == SolveStatus::BudgetExhausted || status == SolveStatus::MemoryExhausted ? 1 : 0;
   }
   report.helper_cpu_seconds = 1e-9 * static_cast<double>(helper_cpu_nanoseconds_.load());
+  interrupted_ = false;
   return report;
 }
 

@@ -43,6 +43,14 @@ void TrackedPair::restart() {
   must_solve = true;
 }
 
+void TrackedPair::discard() {
+  tracker.reset();
+  effects.prepare(settings.effects, false);
+  heading.id_offset = largest_id;
+  solved = false;
+  must_solve = true;
+}
+
 void TrackedPair::prepare(const std::atomic<bool>* stop) {
   if (effects.prepare(settings.effects, demand.effects)) {
     must_solve = true;

@@ -41,12 +41,14 @@ class DistanceCycle {
  public:
   DistanceCycle(const TransformBuffer& transforms, CycleOptions options);
 
-  /// Pairs that are in both scenes with the same meshes go on, warm. The order becomes that of scene.pairs.
+  /// Pairs whose bodies are in both scenes go on, warm. The order becomes that of scene.pairs. When it
+  /// throws, the scene before is still followed.
   /// @param settings_changed false: no pair of both scenes has other settings, and none is solved anew
   void setScene(const Scene& scene, bool settings_changed = true);
   /// @param demand one per pair, in their order. A pair that is not watched costs nothing and starts cold
   /// when
   ///        it is watched again; one that is watched but not due keeps its state.
+  /// After a run that threw, all pairs start cold.
   CycleReport run(const std::vector<PairDemand>& demand, ros::Time now);
 
   /// Every pair, or the one named, starts cold in its next cycle.
@@ -60,7 +62,7 @@ class DistanceCycle {
  private:
   bool locate(TrackedPair& pair, const tf2::BufferCore& buffer, ros::Time now);
   void stopWatching(TrackedPair& pair);
-  void retire(std::unique_ptr<TrackedPair> pair);
+  std::vector<std::size_t> placesNow(const Scene& scene) const;
   void prepareSearches();
   void solveAll();
   void solve(TrackedPair& pair);
@@ -71,6 +73,7 @@ class DistanceCycle {
   std::vector<std::unique_ptr<TrackedPair>> pairs_;
   std::vector<std::unique_ptr<TrackedPair>> retired_;
   std::uint64_t largest_retired_id_ = 0;  ///< of removed pairs
+  bool interrupted_ = false;              ///< the last run threw, or the running one has not ended
   std::vector<TrackedPair*> to_solve_;
   std::vector<const BodyMesh*> to_prepare_;
   std::atomic<std::int64_t> helper_cpu_nanoseconds_{0};

@@ -70,6 +70,9 @@ struct TrackedPair {
 
   /// Forgets the niches; ids go on.
   void restart();
+  /// The same after an exception: tracker and effects may be half changed and are made anew. Allocates
+  /// nothing.
+  void discard();
   /// Gives tracker and effects what the settings and the demand say; makes them when there are none.
   /// @param stop flag of the node; when set, a solve ends with its results so far
   void prepare(const std::atomic<bool>* stop);

@@ -1,0 +1,100 @@
+// What becomes of a cycle and of a query when memory runs out, at each allocation in turn.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <vector>
+
+#include "box_scene.h"
+#include "concave_distance/ros/distance_cycle.h"
+#include "support/fail_allocations.h"
+
+namespace concave_distance {
+namespace {
+
+constexpr PairDemand kIdle{false, false, false};
+constexpr PairDemand kDistance{true, true, false};
+// Coordinates of order 1, a few operations: the distance of two boxes is right to this.
+constexpr double kRounding = 1e-12;
+
+/// @return whether `act` ended by std::bad_alloc
+bool failsAfter(std::size_t allocations, const std::function<void()>& act) {
+  try {
+    const FailingAllocations failing(allocations);
+    act();
+  } catch (const std::bad_alloc&) {
+    return true;
+  }
+  return false;
+}
+
+class OutOfMemoryTest : public ::testing::Test {
+ protected:
+  static ros::Time at(int step) { return ros::Time(100, 0) + ros::Duration(0.02 * step); }
+  // b in front of a, gap 1; c behind a, gap 2.
+  void moveAll(int step) {
+    place(buffer, "a", 1e-5 * step, at(step));
+    place(buffer, "b", 2.0, at(step));
+    place(buffer, "c", -3.0, at(step));
+  }
+
+  TransformBuffer buffer = timelessBuffer();
+  Scene scene = threeBoxes();
+};
+
+TEST_F(OutOfMemoryTest, ACycleThatCannotAdoptASceneFollowsTheOneBefore) {
+  Scene turned;  // c/a is new, a/b stays, a/c leaves
+  turned.bodies = scene.bodies;
+  ScenePair pair = scene.pairs[1];
+  pair.name = "c/a";
+  turned.pairs.push_back(pair);
+  turned.pairs.appendShared(scene.pairs, 0);
+  scene.pairs.edit(1).settings.warning_distance = 5.0;
+
+  DistanceCycle cycle(buffer, {"world", 1.0, 1});
+  cycle.setScene(scene);
+  moveAll(0);
+  cycle.run({kDistance, kDistance}, at(0));
+  std::size_t failures = 0;
+  while (failsAfter(failures, [&] { cycle.setScene(turned); })) {
+    ++failures;
+    ASSERT_EQ(cycle.pairs().size(), 2U);
+    ASSERT_TRUE(std::all_of(cycle.pairs().begin(), cycle.pairs().end(),
+                            [](const auto& tracked) { return tracked != nullptr; }))
+        << "after " << failures << " allocations";
+    EXPECT_EQ(cycle.pairs()[1]->heading.pair, "a/c");
+    EXPECT_TRUE(cycle.takeRetired().empty());
+  }
+  EXPECT_GT(failures, 5U);
+  EXPECT_EQ(cycle.pairs()[0]->heading.pair, "c/a");
+  EXPECT_EQ(cycle.pairs()[1]->heading.pair, "a/b");
+  EXPECT_EQ(cycle.takeRetired().size(), 1U) << "the alert of a/c is taken back";
+  moveAll(1);
+  EXPECT_EQ(cycle.run({kDistance, kDistance}, at(1)).solved, 2U);
+}
+
+TEST_F(OutOfMemoryTest, ACycleAfterOneThatFailedGivesNoOldDistanceUnderANewStamp) {
+  const std::vector<PairDemand> both = {kDistance, kDistance};
+  std::size_t failures = 0;
+  for (bool failed = true; failed; ++failures) {
+    const int step = 2 * static_cast<int>(failures);
+    DistanceCycle cycle(buffer, {"world", 1.0, 1});
+    cycle.setScene(scene);
+    moveAll(step);
+    cycle.run({kDistance, kIdle}, at(step));
+    moveAll(step + 1);
+    failed = failsAfter(failures, [&] { cycle.run(both, at(step + 1)); });
+    cycle.run({kDistance, kDistance}, at(step + 1));
+    const TrackedPair& pair = *cycle.pairs()[0];
+    EXPECT_EQ(pair.heading.stamp, at(step + 1));
+    ASSERT_TRUE(pair.solved);
+    ASSERT_NEAR(pair.solution.distance, 1.0 - 1e-5 * (step + 1), kRounding)
+        << "after " << failures << " allocations";
+    EXPECT_EQ(pair.solution.warm, !failed) << "a tracker that was interrupted is not trusted";
+  }
+  EXPECT_GT(failures, 20U);
+}
+
+}  // namespace
+}  // namespace concave_distance
