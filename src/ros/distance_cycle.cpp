@@ -39,13 +39,10 @@ void watchWarning(TrackedPair& pair) {
 
 constexpr std::size_t kNowhere = std::numeric_limits<std::size_t>::max();
 
-// The frame counts too: a body of the same name in another frame is another body.
+// An edit shares the bodies that it leaves as they are.
 bool isOfTheSameBodies(const TrackedPair& tracked, const Scene& scene, const ScenePair& wanted) {
-  const SceneBody& a = scene.bodies[wanted.body_a];
-  const SceneBody& b = scene.bodies[wanted.body_b];
-  return tracked.mesh_a == a.mesh && tracked.mesh_b == b.mesh && tracked.heading.body_a == a.name &&
-         tracked.heading.body_b == b.name && tracked.frames.frame_a == a.frame &&
-         tracked.frames.frame_b == b.frame;
+  return tracked.body_a.get() == &scene.bodies[wanted.body_a] &&
+         tracked.body_b.get() == &scene.bodies[wanted.body_b];
 }
 
 }  // namespace
@@ -221,7 +218,7 @@ bool DistanceCycle::locate(TrackedPair& pair, const tf2::BufferCore& buffer, ros
   pair.fixed = transforms.fixed;
   const double cutoff = pair.settings.tracker.cutoff;
   if (std::isfinite(cutoff)) {
-    const double bound = distanceLowerBound(pair.bounds_a, pair.bounds_b, transforms.a_from_b);
+    const double bound = distanceLowerBound(pair.body_a->bounds, pair.body_b->bounds, transforms.a_from_b);
     if (bound > cutoff) {
       pair.restart();
       pair.box_bound = bound;
@@ -248,7 +245,7 @@ void DistanceCycle::prepareSearches() {
     if (!pair->must_solve || (!pair->demand.niches && provesDistance(pair->settings.tracker.accuracy))) {
       continue;
     }
-    for (const BodyMesh* body : {pair->mesh_a.get(), pair->mesh_b.get()}) {
+    for (const BodyMesh* body : {pair->body_a->mesh.get(), pair->body_b->mesh.get()}) {
       if (body->metricIfMade() == nullptr) {
         to_prepare_.push_back(body);
       }

@@ -2,33 +2,19 @@
 
 namespace concave_distance {
 
-namespace {
-
-const SceneBody& bodyA(const Scene& scene, std::size_t pair) {
-  return scene.bodies[scene.pairs[pair].body_a];
-}
-
-const SceneBody& bodyB(const Scene& scene, std::size_t pair) {
-  return scene.bodies[scene.pairs[pair].body_b];
-}
-
-}  // namespace
-
 TrackedPair::TrackedPair(const Scene& scene, std::size_t index, const std::string& reference_frame,
                          std::uint64_t first_id)
     : origin(scene.pairs.share(index)),
-      mesh_a(bodyA(scene, index).mesh),
-      mesh_b(bodyB(scene, index).mesh),
-      bounds_a(bodyA(scene, index).bounds),
-      bounds_b(bodyB(scene, index).bounds),
-      frames{reference_frame, bodyA(scene, index).frame, bodyB(scene, index).frame},
+      body_a(scene.bodies.share(origin->body_a)),
+      body_b(scene.bodies.share(origin->body_b)),
+      frames{reference_frame, body_a->frame, body_b->frame},
       settings(origin->settings),
       enabled(origin->enabled),
-      effects(mesh_a, mesh_b, inContact(bodyA(scene, index).material, bodyB(scene, index).material)),
+      effects(body_a->mesh, body_b->mesh, inContact(body_a->material, body_b->material)),
       largest_id(first_id) {
   heading.pair = origin->name;
-  heading.body_a = bodyA(scene, index).name;
-  heading.body_b = bodyB(scene, index).name;
+  heading.body_a = body_a->name;
+  heading.body_b = body_b->name;
   heading.reference_frame = reference_frame;
   heading.accuracy = settings.tracker.accuracy;
   heading.id_offset = first_id;
@@ -64,7 +50,7 @@ void TrackedPair::prepare(const std::atomic<bool>* stop) {
   if (tracker) {
     tracker->setParameters(parameters);
   } else {
-    tracker = std::make_unique<PairTracker>(heading.pair, mesh_a, mesh_b, parameters);
+    tracker = std::make_unique<PairTracker>(heading.pair, body_a->mesh, body_b->mesh, parameters);
   }
   heading.accuracy = parameters.accuracy;
   stale_parameters = false;

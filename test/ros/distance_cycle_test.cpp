@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "box_scene.h"
+#include "concave_distance/ros/scene_edits.h"
 
 namespace concave_distance {
 namespace {
@@ -60,7 +61,7 @@ TEST_F(DistanceCycleTest, SolvesNothingMoreWhenTheNodeShutsDown) {
   stopped.run({kNiches, kNiches}, at(0));
   EXPECT_FALSE(stopped.pairs()[0]->solved);
   EXPECT_EQ(stopped.pairs()[0]->status.code, PairStatus::DISABLED) << "not OK without an answer";
-  EXPECT_EQ(stopped.pairs()[0]->mesh_a->metricIfMade(), nullptr) << "nor is anything prepared";
+  EXPECT_EQ(stopped.pairs()[0]->body_a->mesh->metricIfMade(), nullptr) << "nor is anything prepared";
 }
 
 TEST_F(DistanceCycleTest, RepeatsAnAnswerUntilNewTransformsCome) {
@@ -188,6 +189,28 @@ TEST_F(DistanceCycleTest, SolvesNoPairAnewForAnEditThatChangesNoSettings) {
   scene.pairs.edit(0).settings.tracker.least_prominence = 0.02;
   cycle.setScene(scene, true);
   EXPECT_EQ(run(2, kNiches, kNiches).solved, 1U) << "the pair whose settings have changed, and no other";
+}
+
+TEST_F(DistanceCycleTest, TracksABodyThatCameBackWithinACycleByItsNewSettings) {
+  SceneBody crate = unitBox("b");
+  PairSettings settings;
+  settings.tracker.accuracy = AccuracyLevel::Refined;
+  removeBody(scene, "b");
+  addBody(scene, crate, {{"a"}}, settings);
+  cycle.setScene(scene);
+  moveAll(0);
+  run(0, kNiches, kNiches);
+  ASSERT_EQ(pair(1).heading.pair, "b/a");
+  removeBody(scene, "b");
+  crate.material.youngs_modulus = 1e6;  // of the same mesh
+  settings.tracker.accuracy = AccuracyLevel::Certified;
+  addBody(scene, crate, {{"a"}}, settings);
+  cycle.setScene(scene, false);
+  moveAll(1);
+  EXPECT_EQ(run(1, kNiches, kNiches).cold, 1U) << "a/c goes on";
+  ASSERT_EQ(pair(1).heading.pair, "b/a");
+  EXPECT_EQ(pair(1).tracker->parameters().accuracy, AccuracyLevel::Certified);
+  EXPECT_EQ(pair(1).body_a->material.youngs_modulus, 1e6);
 }
 
 TEST_F(DistanceCycleTest, TakesBackTheAlertOfAPairThatIsSwitchedOffOrRemoved) {

@@ -14,7 +14,6 @@
 #include "concave_distance/ros/followed_effects.h"
 #include "concave_distance/ros/tf_poses.h"
 #include "concave_distance/ros/warning_monitor.h"
-#include "concave_distance/scene/broad_phase.h"
 #include "concave_distance/scene/scene.h"
 #include "concave_distance/tracking/pair_tracker.h"
 
@@ -36,10 +35,9 @@ struct TrackedPair {
 
   std::shared_ptr<const ScenePair> origin;  ///< the scene pair that it was last set up from
 
-  std::shared_ptr<const BodyMesh> mesh_a;
-  std::shared_ptr<const BodyMesh> mesh_b;
-  BodyBounds bounds_a;
-  BodyBounds bounds_b;
+  /// Bodies of the scene. One that is removed and added again is another, with settings of its own.
+  std::shared_ptr<const SceneBody> body_a;
+  std::shared_ptr<const SceneBody> body_b;
   PairFrames frames;
   PairAncestors ancestors;
   PairSettings settings;
