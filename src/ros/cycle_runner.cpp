@@ -105,8 +105,10 @@ bool CycleRunner::adoptScene() {
   if (pending.all) {
     cycle_.restart();
   }
-  for (const std::string& pair : pending.pairs) {
-    cycle_.restart(pair);
+  for (const std::string& name : pending.pairs) {
+    if (const auto place = served_->scene->pairs.find(name)) {
+      cycle_.restart(*place);
+    }
   }
   return scene_changed;
 }

@@ -137,12 +137,8 @@ void DistanceCycle::restart() {
   }
 }
 
-void DistanceCycle::restart(const std::string& name) {
-  for (auto& pair : pairs_) {
-    if (pair->heading.pair == name) {
-      pair->restart();
-    }
-  }
+void DistanceCycle::restart(std::size_t pair) {
+  pairs_[pair]->restart();
 }
 
 CycleReport DistanceCycle::run(const std::vector<PairDemand>& demand, ros::Time now) {

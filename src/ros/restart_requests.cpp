@@ -7,11 +7,12 @@ namespace concave_distance {
 void RestartRequests::requestAll() {
   const std::lock_guard<std::mutex> lock(mutex_);
   pending_.all = true;
+  pending_.pairs.clear();
 }
 
 void RestartRequests::request(const std::string& pair) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  pending_.pairs.push_back(pair);
+  if (!pending_.all) pending_.pairs.insert(pair);
 }
 
 RestartRequests::Pending RestartRequests::take() {

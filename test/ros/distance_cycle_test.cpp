@@ -260,7 +260,7 @@ TEST_F(DistanceCycleTest, GivesTheSameAnswersForAnyNumberOfThreads) {
 TEST_F(DistanceCycleTest, RestartsOnRequest) {
   moveAll(0);
   run(0, kNiches, kNiches);
-  cycle.restart("a/b");
+  cycle.restart(0);
   EXPECT_EQ(run(1, kNiches, kNiches).cold, 1U) << "even without new transforms";
   cycle.restart();
   EXPECT_EQ(run(2, kNiches, kNiches).cold, 2U);

@@ -51,9 +51,9 @@ class DistanceCycle {
   /// After a run that threw, all pairs start cold.
   CycleReport run(const std::vector<PairDemand>& demand, ros::Time now);
 
-  /// Every pair, or the one named, starts cold in its next cycle.
+  /// Every pair, or the one at this place in scene.pairs, starts cold in its next cycle.
   void restart();
-  void restart(const std::string& pair);
+  void restart(std::size_t pair);
 
   const std::vector<std::unique_ptr<TrackedPair>>& pairs() const { return pairs_; }
   /// Pairs that left the scene with an alert raised, which setScene took back; they are told of once.

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <mutex>
+#include <set>
 #include <string>
-#include <vector>
 
 namespace concave_distance {
 
@@ -11,7 +11,7 @@ class RestartRequests {
  public:
   struct Pending {
     bool all = false;
-    std::vector<std::string> pairs;
+    std::set<std::string> pairs;
   };
   void requestAll();
   void request(const std::string& pair);

@@ -1,0 +1,31 @@
+#include "concave_distance/ros/restart_requests.h"
+
+#include <gtest/gtest.h>
+
+namespace concave_distance {
+namespace {
+
+TEST(RestartRequests, KeepEachPairOnceHoweverOftenItIsAskedFor) {
+  RestartRequests requests;
+  for (int i = 0; i < 1000; ++i) {
+    requests.request("arm/table");
+    requests.request("arm/shelf");
+  }
+  const RestartRequests::Pending pending = requests.take();
+  EXPECT_EQ(pending.pairs.size(), 2U);
+  EXPECT_FALSE(pending.all);
+  EXPECT_TRUE(requests.take().pairs.empty()) << "what was taken is done";
+}
+
+TEST(RestartRequests, ForgetSinglePairsWhenAllAreAskedFor) {
+  RestartRequests requests;
+  requests.request("arm/table");
+  requests.requestAll();
+  requests.request("arm/shelf");
+  const RestartRequests::Pending pending = requests.take();
+  EXPECT_TRUE(pending.all);
+  EXPECT_TRUE(pending.pairs.empty());
+}
+
+}  // namespace
+}  // namespace concave_distance
