@@ -24,8 +24,8 @@ void SceneKeeper::replace(Scene scene) {
   serve(std::move(scene), true);
 }
 
-void SceneKeeper::edit(const std::function<void(Scene&)>& change) {
-  apply(change, false);
+void SceneKeeper::edit(const std::function<void(Scene&, const PairSettings&)>& change) {
+  apply([&](Scene& scene) { change(scene, defaults()); }, false);
 }
 
 void SceneKeeper::editSettings(const std::function<void(Scene&)>& change) {
@@ -40,13 +40,13 @@ void SceneKeeper::apply(const std::function<void(Scene&)>& change, bool settings
 }
 
 void SceneKeeper::changeSettings(const std::function<void(PairSettings&)>& change) {
-  apply(
-      [&](Scene& scene) {
-        for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
-          change(scene.pairs.edit(i).settings);
-        }
-      },
-      true);
+  const std::lock_guard<std::mutex> edit_lock(edit_mutex_);
+  Scene edited = *served()->scene;
+  for (std::size_t i = 0; i < edited.pairs.size(); ++i) {
+    change(edited.pairs.edit(i).settings);
+  }
+  serve(std::move(edited), true);
+  // Still within the edit: the next one must not create a pair with the old ones.
   const std::lock_guard<std::mutex> lock(mutex_);
   change(defaults_);
 }

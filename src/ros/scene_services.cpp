@@ -33,11 +33,15 @@ bool respond(Response& response, Act&& act) {
   return true;
 }
 
+void requireWarningLengths(const AddBody::Request& request) {
+  if (request.has_warning_distance != 0 &&
+      (!(request.warning_distance >= 0.0) || !(request.warning_hysteresis >= 0.0))) {
+    throw Error("warning_distance", "a length is negative or no number", "give metres, 0 or more");
+  }
+}
+
 PairSettings pairSettings(const AddBody::Request& request, PairSettings settings) {
   if (request.has_warning_distance != 0) {
-    if (!(request.warning_distance >= 0.0) || !(request.warning_hysteresis >= 0.0)) {
-      throw Error("warning_distance", "a length is negative or no number", "give metres, 0 or more");
-    }
     settings.warning_distance = request.warning_distance;
     settings.warning_hysteresis = request.warning_hysteresis;
   }
@@ -158,7 +162,7 @@ bool SceneServices::addBody(AddBody::Request& request, AddBody::Response& respon
   return respond(response, [&] {
     const RequestGate::Place place = gate_.enter();
     requireScene();
-    const PairSettings settings = pairSettings(request, keeper_.defaults());
+    requireWarningLengths(request);
     const std::shared_ptr<const Scene> scene = keeper_.served()->scene;
     requireRoomForBody(*scene);
     // Reading the mesh may take seconds: outside the edit.
@@ -174,7 +178,9 @@ bool SceneServices::addBody(AddBody::Request& request, AddBody::Response& respon
                                   return areFixed(*buffer, frame_a, frame_b);
                                 }};
     AddedPairs added;
-    keeper_.edit([&](Scene& edited) { added = concave_distance::addBody(edited, body, partners, settings); });
+    keeper_.edit([&](Scene& edited, const PairSettings& defaults) {
+      added = concave_distance::addBody(edited, body, partners, pairSettings(request, defaults));
+    });
     response.message = shortText(remarksOn(added, body.frame, isOnTf(*buffer, body.frame)));
     if (!response.message.empty()) {
       ROS_WARN_STREAM_THROTTLE(kRemarkPeriod, "add_body '" << body.name << "': " << response.message);
@@ -186,7 +192,7 @@ bool SceneServices::addBody(AddBody::Request& request, AddBody::Response& respon
 bool SceneServices::removeBody(RemoveBody::Request& request, RemoveBody::Response& response) {
   return respond(response, [&] {
     requireScene();
-    keeper_.edit([&](Scene& scene) {
+    keeper_.edit([&](Scene& scene, const PairSettings& /*defaults*/) {
       response.pairs = concave_distance::removeBody(scene, request.name, request.allow_robot_link != 0);
     });
   });
@@ -195,8 +201,7 @@ bool SceneServices::removeBody(RemoveBody::Request& request, RemoveBody::Respons
 bool SceneServices::setPairEnabled(SetPairEnabled::Request& request, SetPairEnabled::Response& response) {
   return respond(response, [&] {
     requireScene();
-    const PairSettings defaults = keeper_.defaults();
-    keeper_.edit([&](Scene& scene) {
+    keeper_.edit([&](Scene& scene, const PairSettings& defaults) {
       response.pair = concave_distance::setPairEnabled(scene, {request.pair, request.body_a, request.body_b},
                                                        request.enabled != 0, defaults);
     });

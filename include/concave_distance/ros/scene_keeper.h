@@ -19,13 +19,14 @@ class SceneKeeper {
   SceneKeeper(TopicPublishers& publishers, const PairSettings& defaults, const MarkerStyle& style);
 
   std::shared_ptr<const ServedScene> served();
-  /// Settings of pairs that a service creates.
+  /// Settings of bodies that are no pair.
   PairSettings defaults();
 
   void replace(Scene scene);
   /// Applies `change` to a copy and serves that; when `change` throws, nothing has happened. It leaves the
-  /// settings of pairs that are there as they are: such pairs are tracked on, untouched.
-  void edit(const std::function<void(Scene&)>& change);
+  /// settings of pairs that are there as they are: such pairs are tracked on, untouched. It is given the
+  /// settings of pairs that it creates; those read before the edit may be old by now.
+  void edit(const std::function<void(Scene&, const PairSettings& defaults)>& change);
   /// The same for a change of pairs' settings.
   void editSettings(const std::function<void(Scene&)>& change);
   /// Applies `change` to every pair and to the defaults.

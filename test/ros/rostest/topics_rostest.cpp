@@ -1,10 +1,12 @@
 // Topics of a running node: contents, who gets what, dropouts of tf, alerts, markers, reconfiguration.
+#include <concave_distance/AddBody.h>
 #include <concave_distance/Alert.h>
 #include <concave_distance/Distances.h>
 #include <concave_distance/ListBodies.h>
 #include <concave_distance/Nearest.h>
 #include <concave_distance/Niches.h>
 #include <concave_distance/PairNiches.h>
+#include <concave_distance/RemoveBody.h>
 #include <concave_distance/SetPairEnabled.h>
 #include <gtest/gtest.h>
 #include <ros/init.h>
@@ -16,6 +18,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <future>
 #include <iterator>
 #include <map>
 #include <set>
@@ -427,6 +430,32 @@ TEST_F(TopicsTest, AReconfigurationOutOfRangeChangesNothingAndTheAnswerSaysSo) {
   }
   EXPECT_EQ(cutoffOf(reconfigure("rate", -1.0)), 5.0);
   EXPECT_EQ(cutoffOf(reconfigure("cutoff", 0.0)), 0.0);
+}
+
+TEST_F(TopicsTest, ABodyAddedDuringAReconfigurationGetsItsSettings) {
+  std::future<AddBody> adding = std::async(std::launch::async, [] {
+    AddBody service;
+    service.request.name = "late";
+    service.request.frame_id = "late";
+    service.request.primitive = "sphere";
+    service.request.dimensions = {1.0};
+    service.request.chord_error = 1e-5;  // hundreds of thousands of triangles: a second of work
+    ros::service::call(kNode + "add_body", service);
+    return service;
+  });
+  ros::WallDuration(0.2).sleep();  // it is at work then; later the test sees nothing, but does not fail
+  reconfigure("cutoff", 5.0);
+  const AddBody added = adding.get();
+  ASSERT_TRUE(added.response.success) << added.response.message;
+  ListBodies list;
+  ASSERT_TRUE(ros::service::call(kNode + "list_bodies", list));
+  for (const PairInfo& pair : list.response.pairs) {
+    EXPECT_TRUE(pair.body_a != "late" || pair.cutoff == 5.0) << pair.name << ": " << pair.cutoff;
+  }
+  reconfigure("cutoff", 0.0);
+  RemoveBody removal;
+  removal.request.name = "late";
+  EXPECT_TRUE(ros::service::call(kNode + "remove_body", removal) && removal.response.success);
 }
 
 }  // namespace
