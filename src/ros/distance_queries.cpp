@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <exception>
 #include <new>
-#include <thread>
 #include <utility>
 
 #include "concave_distance/base/error.h"
 #include "concave_distance/ros/contact_conversions.h"
 #include "concave_distance/ros/conversions.h"
+#include "concave_distance/ros/helper_threads.h"
 #include "concave_distance/ros/scene_edits.h"
 #include "concave_distance/ros/short_text.h"
 #include "concave_distance/ros/tf_poses.h"
@@ -161,14 +161,9 @@ QueryAnswer answer(const DistanceQuery& query, const Scene& scene, const QueryCo
   return answer;
 }
 
-}  // namespace
-
-bool isAnswered(const PairNiches& answer) {
-  return answer.nearest.has_distance != 0;
-}
-
-QueryAnswer answerQuery(const DistanceQuery& query, const Scene& scene, const QueryContext& context,
-                        ros::Time now) {
+// Needs memory for what it says of a failure too.
+QueryAnswer answerOrExplain(const DistanceQuery& query, const Scene& scene, const QueryContext& context,
+                            ros::Time now) {
   PairHeading heading;
   heading.body_a = query.body_a;
   heading.body_b = query.body_b;
@@ -189,6 +184,25 @@ QueryAnswer answerQuery(const DistanceQuery& query, const Scene& scene, const Qu
     status.message = shortText(problem.what());
   }
   return {emptyNiches(heading, status), PairContactState()};
+}
+
+}  // namespace
+
+bool isAnswered(const PairNiches& answer) {
+  return answer.nearest.has_distance != 0;
+}
+
+QueryAnswer answerQuery(const DistanceQuery& query, const Scene& scene, const QueryContext& context,
+                        ros::Time now) noexcept {
+  try {
+    return answerOrExplain(query, scene, context, now);
+  } catch (...) {
+    // The texts are short enough to need no memory.
+    PairStatus status;
+    status.code = PairStatus::INVALID_REQUEST;
+    status.message = "out of memory";
+    return {emptyNiches(PairHeading(), status), PairContactState()};
+  }
 }
 
 DistanceQueries::DistanceQueries(ServiceQueues& queues, SceneKeeper& keeper, QueryContext context,
@@ -278,14 +292,7 @@ void DistanceQueries::answerAll(const std::vector<DistanceQuery>& queries, const
       response.contacts[index] = std::move(answered.contacts);
     }
   };
-  std::vector<std::thread> helpers;
-  while (helpers.size() + 1 < std::min(threads_, queries.size())) {
-    helpers.emplace_back(answer_some);
-  }
-  answer_some();
-  for (std::thread& helper : helpers) {
-    helper.join();
-  }
+  runWithHelpers(std::min(threads_, queries.size()) - 1, answer_some);
   std::size_t failed = 0;
   for (const PairNiches& result : response.results) {
     if (isAnswered(result)) {

@@ -8,6 +8,7 @@
 
 #include "box_scene.h"
 #include "concave_distance/ros/distance_cycle.h"
+#include "concave_distance/ros/distance_queries.h"
 #include "support/fail_allocations.h"
 
 namespace concave_distance {
@@ -92,6 +93,25 @@ TEST_F(OutOfMemoryTest, ACycleAfterOneThatFailedGivesNoOldDistanceUnderANewStamp
     ASSERT_NEAR(pair.solution.distance, 1.0 - 1e-5 * (step + 1), kRounding)
         << "after " << failures << " allocations";
     EXPECT_EQ(pair.solution.warm, !failed) << "a tracker that was interrupted is not trusted";
+  }
+  EXPECT_GT(failures, 20U);
+}
+
+TEST_F(OutOfMemoryTest, AQueryIsAnsweredWithoutAThrow) {
+  moveAll(0);
+  DistanceQuery query;
+  query.body_a = "a";
+  query.body_b = "b";
+  const QueryContext context{&buffer, "world", 0.0, 1.0, {}};
+  std::size_t failures = 0;
+  for (bool answered = false; !answered; ++failures) {
+    QueryAnswer answer;
+    ASSERT_FALSE(failsAfter(failures, [&] { answer = answerQuery(query, scene, context, at(0)); }));
+    answered = isAnswered(answer.result);
+    const PairDistance& nearest = answer.result.nearest;
+    EXPECT_EQ(nearest.status.code, answered ? PairStatus::OK : PairStatus::INVALID_REQUEST);
+    EXPECT_EQ(std::isnan(nearest.distance), !answered);
+    EXPECT_NE(nearest.status.message.empty(), !answered);
   }
   EXPECT_GT(failures, 20U);
 }

@@ -42,7 +42,7 @@ struct QueryAnswer {
 /// Answers one query by a solve of its own: nothing that is tracked is read or changed. Never throws: what
 /// cannot be answered has a status that says why.
 QueryAnswer answerQuery(const DistanceQuery& query, const Scene& scene, const QueryContext& context,
-                        ros::Time now);
+                        ros::Time now) noexcept;
 
 /// True when the answer carries a distance.
 bool isAnswered(const PairNiches& answer);
