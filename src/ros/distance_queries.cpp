@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <limits>
 #include <new>
 #include <utility>
 
@@ -19,6 +20,10 @@
 
 namespace concave_distance {
 namespace {
+
+// Bytes: once in the answer and about as much again where it is serialised.
+constexpr std::size_t kNicheBytes = 2 * (sizeof(Niche) + sizeof(NicheChange));
+constexpr std::size_t kContactBytes = 2 * sizeof(Contact);
 
 /// Where a body is: rigidly at `frame_from_body` in a tf frame.
 struct BodyPlace {
@@ -90,15 +95,32 @@ void forgetIds(PairNiches& answer) {
   }
 }
 
-// The regions of overlap at one pose, from nothing; no forces.
+std::uint32_t nichesWithin(const QueryContext& context) {
+  return static_cast<std::uint32_t>(std::clamp<std::size_t>(context.answer_limit / kNicheBytes, 1,
+                                                            std::numeric_limits<std::uint32_t>::max()));
+}
+
+PairContactState tooManyContacts(std::size_t count, const PairHeading& heading) {
+  PairStatus status;
+  status.code = PairStatus::MEMORY_EXHAUSTED;
+  status.message = std::to_string(count) +
+                   " regions of contact need more memory than this answer may take (send fewer queries in "
+                   "one call, or raise ~limits/query_memory_mb)";
+  return emptyContacts(heading, status);
+}
+
+// The regions of overlap at one pose, from nothing; no forces. At most `bytes` of them.
 PairContactState findContacts(const SceneBody& body_a, const SceneBody& body_b, const PairSolution& solution,
-                              const Eigen::Isometry3d& a_from_b, const PairHeading& heading,
-                              WorkLimit limit) {
+                              const Eigen::Isometry3d& a_from_b, const PairHeading& heading, WorkLimit limit,
+                              std::size_t bytes) {
   EffectSettings regions;
   regions.interference = true;
   PairEffects effects(body_a.mesh, body_b.mesh, regions, inContact(body_a.material, body_b.material));
   PairContacts contacts;
   effects.update(solution, a_from_b, RelativeTwist(), 0.0, contacts, &limit);
+  if (contacts.regions.size() > bytes / kContactBytes) {
+    return tooManyContacts(contacts.regions.size(), heading);
+  }
   for (ContactRegion& region : contacts.regions) {
     region.id = 0;
   }
@@ -147,6 +169,7 @@ QueryAnswer answer(const DistanceQuery& query, const Scene& scene, const QueryCo
   }
   parameters.time_budget = std::min(parameters.time_budget, left);
   parameters.memory_limit = context.memory_limit;
+  parameters.largest_niche_count = std::min(parameters.largest_niche_count, nichesWithin(context));
   parameters.stop = context.stop;
   const PairSolution solution =
       solveOnce(heading.pair, body_a.mesh, body_b.mesh, parameters, transforms.a_from_b);
@@ -155,8 +178,10 @@ QueryAnswer answer(const DistanceQuery& query, const Scene& scene, const QueryCo
   }
   answer.result = toNiches(heading, solution);
   if (query.with_contacts != 0) {
+    const std::size_t taken = answer.result.niches.size() * kNicheBytes;
     answer.contacts = findContacts(body_a, body_b, solution, transforms.a_from_b, heading,
-                                   remainingWork(parameters, solution.solve_seconds));
+                                   remainingWork(parameters, solution.solve_seconds),
+                                   context.answer_limit - std::min(taken, context.answer_limit));
   }
   return answer;
 }
@@ -216,11 +241,13 @@ DistanceQueries::DistanceQueries(ServiceQueues& queues, SceneKeeper& keeper, Que
       get_distance_(node_.advertiseService("get_distance", &DistanceQueries::getDistance, this)),
       get_distances_(node_.advertiseService("get_distances", &DistanceQueries::getDistances, this)) {}
 
-QueryContext DistanceQueries::currentContext(std::chrono::steady_clock::time_point arrival) {
+QueryContext DistanceQueries::currentContext(std::chrono::steady_clock::time_point arrival,
+                                             std::size_t queries) {
   QueryContext context = context_;
   context.defaults = keeper_.defaults();
   context.stop = &gate_.stopped();
   context.memory_limit = std::size_t{limits_.query_memory_mb} << 20U;
+  context.answer_limit = context.memory_limit / queries;
   context.deadline = arrival + std::chrono::duration_cast<std::chrono::steady_clock::duration>(
                                    std::chrono::duration<double>(limits_.query_seconds));
   return context;
@@ -230,7 +257,7 @@ bool DistanceQueries::getDistance(GetDistance::Request& request, GetDistance::Re
   const auto arrival = std::chrono::steady_clock::now();
   try {
     const RequestGate::Place place = gate_.enter();
-    answerOne(request.query, currentContext(arrival), response);
+    answerOne(request.query, currentContext(arrival, 1), response);
   } catch (const Error& refusal) {
     PairHeading heading;
     heading.body_a = request.query.body_a;
@@ -270,7 +297,7 @@ bool DistanceQueries::getDistances(GetDistances::Request& request, GetDistances:
                       std::to_string(limits_.largest_query_count));
     }
     const RequestGate::Place place = gate_.enter();
-    answerAll(request.queries, currentContext(arrival), response);
+    answerAll(request.queries, currentContext(arrival, request.queries.size()), response);
   } catch (const Error& refusal) {
     response.message = refusal.what();
   }

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "box_scene.h"
+#include "support/plain_shapes.h"
 
 namespace concave_distance {
 namespace {
@@ -161,6 +162,51 @@ TEST_F(DistanceQueriesTest, ReportOverlapAsPenetratingAtDistanceZero) {
   EXPECT_EQ(result.nearest.status.code, PairStatus::PENETRATING);
   EXPECT_TRUE(isAnswered(result));
   EXPECT_EQ(result.nearest.distance, 0.0);
+}
+
+// Two posts around a: when b stands where a does, each is in one half of a; moved away, each is a niche.
+SceneBody twoPosts(double half_distance) {
+  SceneBody body = unitBox("b");
+  const Eigen::Vector3d half = Eigen::Vector3d::Constant(0.5);
+  const Eigen::Vector3d aside = half_distance * Eigen::Vector3d::UnitX();
+  BodyMeshOptions options;
+  options.max_edge_length = 0.5;
+  body.mesh =
+      std::make_shared<const BodyMesh>("posts",
+                                       test::makeJoined(test::makeCuboid(aside - half, aside + half),
+                                                        test::makeCuboid(-aside - half, -aside + half)),
+                                       options);
+  body.bounds = boundsOf(body.mesh->surface());
+  return body;
+}
+
+TEST_F(DistanceQueriesTest, CutTheNichesToTheMemoryOfTheAnswer) {
+  scene.bodies.edit(1) = twoPosts(2.0);
+  query.with_niches = query.use_pose_b = 1;
+  query.largest_niche_count = std::numeric_limits<std::uint32_t>::max();
+  QueryContext context{&buffer, "world", 0.0, 1.0, {}};
+  const PairNiches whole = answerQuery(query, scene, context, now).result;
+  EXPECT_EQ(whole.niches.size(), 2U);
+  EXPECT_FALSE(whole.niches_cut);
+  context.answer_limit = 700;  // bytes, between those of one niche and of two
+  const PairNiches cut = answerQuery(query, scene, context, now).result;
+  EXPECT_EQ(cut.niches.size(), 1U);
+  EXPECT_TRUE(cut.niches_cut);
+  EXPECT_NEAR(cut.nearest.distance, 1.0, kRounding);
+}
+
+TEST_F(DistanceQueriesTest, RefuseContactsBeyondTheMemoryOfTheAnswer) {
+  scene.bodies.edit(1) = twoPosts(0.6);
+  query.with_contacts = query.use_pose_b = 1;
+  query.pose_b.pose.position.y = 0.25;
+  QueryContext context{&buffer, "world", 0.0, 1.0, {}};
+  EXPECT_EQ(answerQuery(query, scene, context, now).contacts.contacts.size(), 2U);
+  context.answer_limit = 1000;  // bytes, between those of one contact and of two
+  const QueryAnswer refused = answerQuery(query, scene, context, now);
+  EXPECT_TRUE(isAnswered(refused.result));
+  EXPECT_TRUE(refused.contacts.contacts.empty());
+  EXPECT_EQ(refused.contacts.status.code, PairStatus::MEMORY_EXHAUSTED);
+  EXPECT_NE(refused.contacts.status.message.find("2 regions"), std::string::npos);
 }
 
 }  // namespace

@@ -30,7 +30,9 @@ struct QueryContext {
   /// When all queries of a call end: running ones stop with the bound they have.
   std::chrono::steady_clock::time_point deadline = std::chrono::steady_clock::time_point::max();
   const std::atomic<bool>* stop = nullptr;                      ///< set: running queries end, no other begins
-  std::size_t memory_limit = TrackerParameters().memory_limit;  ///< bytes, of one query
+  std::size_t memory_limit = TrackerParameters().memory_limit;  ///< bytes, of one query's solve
+  std::size_t answer_limit = TrackerParameters().memory_limit;  ///< bytes, of the niches and contacts of one
+                                                                ///< answer, while it is kept and sent
 };
 
 /// The answer to one query.
@@ -61,7 +63,8 @@ class DistanceQueries {
   void answerAll(const std::vector<DistanceQuery>& queries, const QueryContext& context,
                  GetDistances::Response& response);
   /// @param arrival when the call arrived; its time counts from then
-  QueryContext currentContext(std::chrono::steady_clock::time_point arrival);
+  /// @param queries in the call, whose answers share the memory
+  QueryContext currentContext(std::chrono::steady_clock::time_point arrival, std::size_t queries);
 
   ros::NodeHandle node_;
   RequestGate& gate_;
