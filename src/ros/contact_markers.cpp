@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "concave_distance/ros/conversions.h"
-#include "concave_distance/ros/marker_labels.h"
 
 namespace concave_distance {
 namespace {
@@ -51,6 +50,11 @@ Marker emptyMarker(const PairContactState& pair, const char* kind, std::int32_t 
   marker.pose.orientation.w = 1.0;
   marker.lifetime = ros::Duration(lifetime);
   return marker;
+}
+
+std::int32_t markerId(const PairContactState& pair, std::size_t index) {
+  const std::uint64_t id = pair.contacts[index].id;
+  return id == 0 ? -1 - static_cast<std::int32_t>(index) : static_cast<std::int32_t>(id & 0x7fffffffU);
 }
 
 // A disc as large as the contact's area, across the normal.
@@ -104,12 +108,10 @@ std_msgs::ColorRGBA contactTextColor() {
 
 std::vector<Marker> contactMarkers(const PairContactState& pair, const MarkerStyle& style, double lifetime) {
   std::vector<Marker> markers;
-  std::int32_t without_id = 0;
-  for (const Contact& contact : pair.contacts) {
-    const std::int32_t id =
-        contact.id == 0 ? --without_id : static_cast<std::int32_t>(contact.id & 0x7fffffffU);
+  for (std::size_t k = 0; k < pair.contacts.size(); ++k) {
+    const Contact& contact = pair.contacts[k];
     const auto add = [&](const char* kind) -> Marker& {
-      markers.push_back(emptyMarker(pair, kind, id, lifetime));
+      markers.push_back(emptyMarker(pair, kind, markerId(pair, k), lifetime));
       return markers.back();
     };
     const bool has_normal = toEigen(contact.normal).allFinite();
@@ -132,15 +134,26 @@ std::vector<Marker> contactMarkers(const PairContactState& pair, const MarkerSty
       arrow.color = frictionColor();
       drawForce(contact.force_point, toEigen(contact.friction) / style.force_scale, style.scale, arrow);
     }
-    if (!toEigen(contact.centroid).allFinite()) continue;
-    Marker& text = add("contact_text");
-    text.type = Marker::TEXT_VIEW_FACING;
-    text.pose.position = contact.centroid;
-    text.scale.z = style.scale;
-    text.color = contactTextColor();
-    text.text = contactText(contact);
   }
   return markers;
+}
+
+std::vector<ContactLabel> contactLabels(const PairContactState& pair, double lifetime) {
+  std::vector<ContactLabel> labels;
+  for (std::size_t k = 0; k < pair.contacts.size(); ++k) {
+    const Contact& contact = pair.contacts[k];
+    if (!toEigen(contact.centroid).allFinite()) continue;
+    ContactLabel label;
+    label.depth = contact.has_depth != 0 ? contact.depth : 0.0;
+    label.label.from = label.label.to = toEigen(contact.centroid);
+    Marker& text = label.label.marker;
+    text = emptyMarker(pair, "contact_text", markerId(pair, k), lifetime);
+    text.type = Marker::TEXT_VIEW_FACING;
+    text.color = contactTextColor();
+    text.text = contactText(contact);
+    labels.push_back(std::move(label));
+  }
+  return labels;
 }
 
 }  // namespace concave_distance

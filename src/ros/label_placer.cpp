@@ -16,8 +16,9 @@ constexpr std::size_t kDirections = 8;  // to the side
 // Distance of a label from its line's end, in heights; 0: beside the middle of the line.
 constexpr std::array<double, 6> kRises = {1.2, 0.0, 3.0, 6.0, 10.0, -1.2};
 constexpr std::size_t kPlaces = kRises.size() * (kDirections + 1);
-constexpr double kPeriod = 1.0;  // s between two searches for a better place
-constexpr double kLeader = 2.0;  // distance in heights beyond which a thin line joins label and line
+constexpr std::size_t kMostLabels = 50;  // the time to place them grows with the square of their number
+constexpr double kPeriod = 1.0;          // s between two searches for a better place
+constexpr double kLeader = 2.0;          // distance in heights beyond which a thin line joins label and line
 // Costs of a place, for each view to which they apply.
 constexpr double kOnLabel = 2.0;
 constexpr double kHidden = 3.0;  // a third of it for either end and the middle
@@ -174,6 +175,7 @@ std::vector<visualization_msgs::Marker> LabelPlacer::place(std::vector<Label> la
                                                            const LabelSurroundings& surroundings,
                                                            double letter_height,
                                                            std::vector<LabelSpace> taken, double now) {
+  labels.resize(std::min(labels.size(), kMostLabels));
   std::vector<visualization_msgs::Marker> placed;
   decltype(choices_) choices;
   for (Label& label : labels) {

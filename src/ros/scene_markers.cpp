@@ -37,20 +37,14 @@ std::set<std::size_t> bodiesToTint(const Scene& scene, const std::vector<std::un
   return bodies;
 }
 
-// Takes the texts out of the contacts' markers.
-std::vector<Label> takeLabels(std::vector<Marker>& markers) {
+// As many as niches are drawn: to place a label takes long.
+std::vector<Label> deepestLabels(std::vector<ContactLabel> contacts, std::uint32_t niche_count) {
+  std::stable_sort(contacts.begin(), contacts.end(), [](const ContactLabel& left, const ContactLabel& right) {
+    return left.depth > right.depth;
+  });
+  if (niche_count != 0) contacts.resize(std::min<std::size_t>(contacts.size(), niche_count));
   std::vector<Label> labels;
-  for (const Marker& marker : markers) {
-    if (marker.type != Marker::TEXT_VIEW_FACING) continue;
-    Label label;
-    label.marker = marker;
-    label.from = {marker.pose.position.x, marker.pose.position.y, marker.pose.position.z};
-    label.to = label.from;
-    labels.push_back(std::move(label));
-  }
-  markers.erase(std::remove_if(markers.begin(), markers.end(),
-                               [](const Marker& marker) { return marker.type == Marker::TEXT_VIEW_FACING; }),
-                markers.end());
+  for (ContactLabel& contact : contacts) labels.push_back(std::move(contact.label));
   return labels;
 }
 
@@ -87,15 +81,16 @@ visualization_msgs::MarkerArray SceneMarkers::draw(const Scene& scene, const Mar
     const std::vector<LocatedBody> bodies = locateBodies(scene, pairs);
     layout_.update(bodies, style);
     const std::vector<DrawnPair> drawn = selectPairs(niches, layout_.style());
-    std::vector<Label> labels;
+    std::vector<ContactLabel> contact_labels;
     std::set<std::string> with_contacts;
     for (const PairContactState& contact : contacts) {
       std::vector<Marker> of_pair = contactMarkers(contact, layout_.style(), lifetime);
-      if (!of_pair.empty()) with_contacts.insert(contact.pair);
-      std::vector<Label> texts = takeLabels(of_pair);
-      std::move(texts.begin(), texts.end(), std::back_inserter(labels));
+      std::vector<ContactLabel> texts = contactLabels(contact, lifetime);
+      if (!of_pair.empty() || !texts.empty()) with_contacts.insert(contact.pair);
+      std::move(texts.begin(), texts.end(), std::back_inserter(contact_labels));
       append(std::move(of_pair), markers);
     }
+    std::vector<Label> labels = deepestLabels(std::move(contact_labels), style.niche_count);
     for (const DrawnPair& pair : drawn) {
       append(nicheMarkers(pair, layout_.style(), lifetime), markers);
       const bool with_names = &pair == &drawn.front() || pair.pair->nearest.warning != 0;

@@ -101,7 +101,7 @@ MarkerStyle style() {
   return style;
 }
 
-TEST(ContactMarkers, DrawAreaDepthForcesAndText) {
+TEST(ContactMarkers, DrawAreaDepthAndForces) {
   const std::vector<Marker> markers = contactMarkers(message(), style(), 1.0);
   std::set<std::string> kinds;
   for (const Marker& marker : markers) {
@@ -115,25 +115,26 @@ TEST(ContactMarkers, DrawAreaDepthForcesAndText) {
       EXPECT_NEAR(marker.points[1].y - marker.points[0].y, 10.0 / 50.0, kSums);
     } else if (marker.ns == "a/b/friction") {
       EXPECT_NEAR(marker.points[1].x - marker.points[0].x, -3.0 / 50.0, kSums);
-    } else if (marker.ns == "a/b/contact_text") {
-      EXPECT_EQ(marker.text, "2.00 mm deep  10.4 N");
     }
   }
-  EXPECT_EQ(kinds, (std::set<std::string>{"a/b/contact_area", "a/b/contact_depth", "a/b/contact_text",
-                                          "a/b/friction", "a/b/normal_force"}));
+  EXPECT_EQ(kinds, (std::set<std::string>{"a/b/contact_area", "a/b/contact_depth", "a/b/friction",
+                                          "a/b/normal_force"}));
 }
 
 TEST(ContactMarkers, DrawNothingThatWasNotComputedAndTellContactsWithoutIdsApart) {
   PairContactState state = message();
+  EXPECT_EQ(contactLabels(state, 1.0).front().label.marker.text, "2.00 mm deep  10.4 N");
   state.contacts[0].id = 0;
   state.contacts[0].has_force = state.contacts[0].has_friction = state.contacts[0].has_depth = 0;
   state.contacts[0].depth = state.contacts[0].contact_area = kNotComputed;
   state.contacts.push_back(state.contacts[0]);
-  const std::vector<Marker> markers = contactMarkers(state, style(), 1.0);
-  ASSERT_EQ(markers.size(), 2U) << "their texts";
-  EXPECT_NE(markers[0].id, markers[1].id);
+  EXPECT_TRUE(contactMarkers(state, style(), 1.0).empty());
+  const std::vector<ContactLabel> labels = contactLabels(state, 1.0);
+  ASSERT_EQ(labels.size(), 2U);
+  EXPECT_NE(labels[0].label.marker.id, labels[1].label.marker.id);
+  EXPECT_EQ(labels[0].depth, 0.0);
   state.contacts[0].centroid.x = kNotComputed;
-  EXPECT_EQ(contactMarkers(state, style(), 1.0).size(), 1U);
+  EXPECT_EQ(contactLabels(state, 1.0).size(), 1U);
 }
 
 class EffectsInTheCycle : public ::testing::Test {

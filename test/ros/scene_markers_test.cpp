@@ -53,7 +53,7 @@ class Picture {
   MarkerArray draw() {
     std::vector<PairNiches> messages;
     for (const auto& pair : pairs_) messages.push_back(toNiches(pair->heading, pair->solution));
-    return drawing_.draw(scene_, style, pairs_, messages, {}, header_, kLifetime);
+    return drawing_.draw(scene_, style, pairs_, messages, contacts, header_, kLifetime);
   }
   MarkerArray clear() { return drawing_.draw(scene_, style, pairs_, {}, {}, header_, kLifetime); }
   void warn(std::size_t pair, bool raised) { pairs_[pair]->heading.warning = raised; }
@@ -62,6 +62,7 @@ class Picture {
   std::vector<LocatedBody> bodies() const { return locateBodies(scene_, pairs_); }
 
   MarkerStyle style;
+  std::vector<PairContactState> contacts;
 
  private:
   // Eight directions in the plane, then the same one floor higher.
@@ -240,6 +241,40 @@ TEST(SceneMarkers, GrowWithTheScene) {
   const std::vector<double> large = sizes(1000.0);
   ASSERT_EQ(small.size(), large.size());
   for (std::size_t k = 0; k < small.size(); ++k) EXPECT_NEAR(small[k], large[k], 1e-9 * large[k]);
+}
+
+// A row of contacts far from each other, the last the deepest: k + 1 mm.
+PairContactState manyContacts(std::size_t count) {
+  PairContactState state;
+  state.pair = "middle/box_1";
+  for (std::size_t k = 0; k < count; ++k) {
+    Contact contact;
+    contact.id = k + 1;
+    contact.has_depth = 1;
+    contact.depth = 1e-3 * static_cast<double>(k + 1);
+    contact.centroid.x = 100.0 * static_cast<double>(k + 1);
+    state.contacts.push_back(contact);
+  }
+  return state;
+}
+
+TEST(SceneMarkers, LabelTheDeepestContactsAsManyAsNiches) {
+  Picture picture(2);
+  picture.style.niche_count = 12;
+  picture.contacts = {manyContacts(40)};
+  const MarkerArray message = picture.draw();
+  const std::vector<Marker> labels = withKind(message, "/contact_text");
+  ASSERT_EQ(labels.size(), 12U);
+  for (const Marker& label : labels) EXPECT_GT(label.id, 40 - 12);
+  EXPECT_EQ(withKind(message, "/contact_depth").size(), 40U);
+  EXPECT_FALSE(withKind(message, "box_2/text").empty()) << "the niches keep their labels";
+}
+
+TEST(SceneMarkers, PlaceAtMostFiftyLabels) {
+  Picture picture(2);
+  picture.style.niche_count = 0;
+  picture.contacts = {manyContacts(1000)};
+  EXPECT_EQ(withKind(picture.draw(), "/contact_text").size(), 50U);
 }
 
 TEST(UsualRegion, LeavesOutAFloorAndWhatLiesFarOff) {

@@ -24,7 +24,8 @@ struct LabelSurroundings {
 /// label. A label keeps its place for a while; a better one is looked for once a second.
 class LabelPlacer {
  public:
-  /// @param labels the most important first: a later one that would cover an earlier one is left out
+  /// @param labels the most important first: a later one that would cover an earlier one is left out, and so
+  ///        are those beyond the first 50
   /// @param taken spaces that no label may cover
   /// @param now s
   std::vector<visualization_msgs::Marker> place(std::vector<Label> labels,
