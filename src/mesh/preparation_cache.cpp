@@ -5,8 +5,6 @@
 #include <system_error>
 #include <utility>
 
-#include "concave_distance/base/error.h"
-#include "concave_distance/mesh/mesh_file.h"
 #include "preparation_fingerprint.h"
 
 namespace concave_distance {
@@ -57,14 +55,6 @@ PreparationCachePointer openPreparationCache(const std::string& folder_or_off) {
   if (folder_or_off == "off") return nullptr;
   std::string folder = folder_or_off.empty() ? PreparationCache::defaultFolder() : folder_or_off;
   return folder.empty() ? nullptr : std::make_shared<PreparationCache>(std::move(folder));
-}
-
-bool addMeshFile(ContentHasher& hasher, const std::string& path) {
-  try {
-    return addMeshFile(hasher, MeshFile(path), {});
-  } catch (const Error&) {
-    return false;
-  }
 }
 
 void addRepairOptions(ContentHasher& hasher, const RepairOptions& options) {

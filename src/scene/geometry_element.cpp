@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <sstream>
 #include <utility>
 
@@ -62,36 +63,63 @@ TriangleSoup soupOf(const SurfaceMesh& mesh) {
   return soup;
 }
 
-MeshFile meshFileOf(const GeometryElement& element) {
-  return MeshFile(element.mesh_resource, element.real_folders);
-}
-
-TriangleSoup loadElement(const GeometryElement& element) {
+/// The opened mesh file; nothing for a primitive.
+std::optional<MeshFile> openElement(const GeometryElement& element) {
   if (element.mesh_resource.empty() == element.primitive.empty()) {
     throw Error(element.where,
                 element.primitive.empty() ? "neither a mesh nor a primitive" : "both a mesh and a primitive",
                 "give one of them");
   }
-  if (!element.primitive.empty()) return soupOf(makePrimitive(element));
-  return importMesh(meshFileOf(element), element.scale, element.access.limits);
+  if (!element.primitive.empty()) return std::nullopt;
+  return std::optional<MeshFile>(std::in_place, element.mesh_resource, element.real_folders);
 }
 
-/// Of all that the surface is made from; nothing where that is not in the files and numbers named.
-std::optional<ContentKey> keyOf(const std::vector<GeometryElement>& elements, const RepairOptions& options) {
+/// Adds all that the element's surface is made from. False where that is not in the file and numbers named.
+bool addElement(ContentHasher& hasher, const GeometryElement& element, const std::optional<MeshFile>& file) {
+  hasher.add(element.primitive);
+  for (const double dimension : element.dimensions) hasher.add(dimension);
+  if (file) {
+    if (!addMeshFile(hasher, *file, element.access.limits)) return false;
+  } else if (!element.dimensions.empty()) {
+    hasher.add(chordErrorOf(element));
+  }
+  for (int i = 0; i < 3; ++i) hasher.add(element.scale[i]);
+  for (int i = 0; i < 16; ++i) hasher.add(element.frame_from_geometry.data()[i]);
+  return true;
+}
+
+ContentHasher hasherOf(const RepairOptions& options) {
   ContentHasher hasher = preparationHasher();
   addRepairOptions(hasher, options);
+  return hasher;
+}
+
+std::optional<ContentKey> keyOf(const std::vector<GeometryElement>& elements, const RepairOptions& options) {
+  ContentHasher hasher = hasherOf(options);
   for (const GeometryElement& element : elements) {
-    hasher.add(element.primitive);
-    for (const double dimension : element.dimensions) hasher.add(dimension);
-    if (element.primitive.empty()) {
-      if (!addMeshFile(hasher, meshFileOf(element), element.access.limits)) return std::nullopt;
-    } else if (!element.dimensions.empty()) {
-      hasher.add(chordErrorOf(element));
-    }
-    for (int i = 0; i < 3; ++i) hasher.add(element.scale[i]);
-    for (int i = 0; i < 16; ++i) hasher.add(element.frame_from_geometry.data()[i]);
+    if (!addElement(hasher, element, openElement(element))) return std::nullopt;
   }
   return hasher.key();
+}
+
+/// Each file is open from its import until it has been added to the key.
+KeyedMesh makeSurface(const std::vector<GeometryElement>& elements, const RepairOptions& options,
+                      const std::string& where, bool with_key) {
+  TriangleSoup body;
+  ContentHasher hasher = hasherOf(options);
+  for (const GeometryElement& element : elements) {
+    if (!element.frame_from_geometry.matrix().allFinite()) {
+      throw Error(element.where, "the pose is not finite", "give finite numbers");
+    }
+    const std::optional<MeshFile> file = openElement(element);
+    appendTransformed(
+        body, file ? importMesh(*file, element.scale, element.access.limits) : soupOf(makePrimitive(element)),
+        element.frame_from_geometry);
+    with_key = with_key && addElement(hasher, element, file);
+  }
+  const bool is_one_file = elements.size() == 1 && !elements.front().mesh_resource.empty();
+  return {repairMesh(body, options, is_one_file ? elements.front().mesh_resource : where),
+          with_key ? std::optional<ContentKey>(hasher.key()) : std::nullopt};
 }
 
 }  // namespace
@@ -120,17 +148,7 @@ RepairedMesh loadGeometry(const std::vector<GeometryElement>& elements, const st
   options.weld_tolerance = kSinglePrecisionWeld;
   return repairedMeshThrough(
       cache, [&] { return keyOf(elements, options); },
-      [&] {
-        TriangleSoup body;
-        for (const GeometryElement& element : elements) {
-          if (!element.frame_from_geometry.matrix().allFinite()) {
-            throw Error(element.where, "the pose is not finite", "give finite numbers");
-          }
-          appendTransformed(body, loadElement(element), element.frame_from_geometry);
-        }
-        const bool is_one_file = elements.size() == 1 && !elements.front().mesh_resource.empty();
-        return repairMesh(body, options, is_one_file ? elements.front().mesh_resource : where);
-      });
+      [&](bool with_key) { return makeSurface(elements, options, where, with_key); });
 }
 
 std::string describeApproximations(const std::vector<GeometryElement>& elements) {

@@ -30,16 +30,20 @@ std::shared_ptr<const BodyMesh> loadBody(const std::string& path, double scale,
                                          const PreparationCachePointer& cache, std::ostream& log) {
   RepairOptions repair;
   repair.weld_tolerance = kSinglePrecisionWeld;
-  const auto key_of = [&]() -> std::optional<ContentKey> {
+  const auto key_of = [&](const MeshFile& file) -> std::optional<ContentKey> {
     ContentHasher hasher = preparationHasher();
     addRepairOptions(hasher, repair);
     hasher.add(scale);
-    if (!addMeshFile(hasher, path)) return std::nullopt;
+    if (!addMeshFile(hasher, file, {})) return std::nullopt;
     return hasher.key();
   };
-  RepairedMesh repaired = repairedMeshThrough(cache.get(), key_of, [&] {
-    return repairMesh(importMesh(path, Eigen::Vector3d::Constant(scale)), repair, path);
-  });
+  RepairedMesh repaired = repairedMeshThrough(
+      cache.get(), [&] { return key_of(MeshFile(path)); },
+      [&](bool with_key) {
+        const MeshFile file(path);
+        const TriangleSoup soup = importMesh(file, Eigen::Vector3d::Constant(scale));
+        return KeyedMesh{repairMesh(soup, repair, path), with_key ? key_of(file) : std::nullopt};
+      });
   if (const std::string summary = repaired.report.summary(); !summary.empty()) {
     log << path << ": " << summary << '\n';
   }

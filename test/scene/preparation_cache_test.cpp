@@ -167,6 +167,34 @@ TEST_F(PreparationCacheTest, AChangedFileIsReadAnew) {
   EXPECT_NE(loadBoth().bodies[0].mesh->diameter(), before);
 }
 
+TEST_F(PreparationCacheTest, AFileThatIsReplacedWhileItIsReadIsNotKeptUnderItsOldContent) {
+  // The first import puts another file in the place of the second mesh; the second one may put it back.
+  const std::string worker = std::filesystem::path(CONCAVE_DISTANCE_DISTANCE_QUERY).parent_path();
+  const std::string robot =
+      "<robot name='r'><link name='l'><collision><geometry><mesh "
+      "filename='package://arm_description/comb.stl'/></geometry></collision>"
+      "<collision><geometry><mesh "
+      "filename='package://arm_description/ball.ply'/></geometry></collision></link></robot>";
+  const auto diameter = [&] { return loadRobot(robot).bodies.at(0).mesh->diameter(); };
+  const double expected = diameter();
+  for (const bool put_back : {false, true}) {
+    std::filesystem::remove_all(cache_folder());
+    exportMesh(makeSphere(4.0, 0.1), folder.path("other.ply"));
+    const std::string replacing = folder.write(
+        "worker", "#!/bin/sh\nPATH=/usr/bin:/bin\ncd '" + folder.path() +
+                      "'\nif [ -e other.ply ]; then mv ball.ply kept.ply; mv other.ply ball.ply\n" +
+                      (put_back ? "else mv kept.ply ball.ply\n" : "") + "fi\nexec '" + worker +
+                      "/mesh_import_worker' \"$@\"\n");
+    std::filesystem::permissions(replacing, std::filesystem::perms::owner_all);
+    ::setenv("CONCAVE_DISTANCE_IMPORT_WORKER", replacing.c_str(), 1);
+    EXPECT_GT(diameter(), expected + 1.0);
+    ::unsetenv("CONCAVE_DISTANCE_IMPORT_WORKER");
+    EXPECT_EQ(std::filesystem::exists(folder.path("kept.ply")), !put_back);
+    if (!put_back) std::filesystem::rename(folder.path("kept.ply"), folder.path("ball.ply"));
+    EXPECT_EQ(diameter(), expected) << "put back: " << put_back;
+  }
+}
+
 TEST_F(PreparationCacheTest, TwoProcessesAtOnceGetTheSame) {
   options.cache = nullptr;
   const auto expected = bytesOf(loadBoth());

@@ -46,11 +46,6 @@ using PreparationCachePointer = std::shared_ptr<PreparationCache>;
 /// From what a user says: "off" (no cache: nullptr), a folder, or "" (defaultFolder()).
 PreparationCachePointer openPreparationCache(const std::string& folder_or_off);
 
-/// Adds what a mesh file brings to a body: its bytes and its ending. False when it cannot be read, or when
-/// its format may refer to further files (only STL, OBJ, PLY and DAE hold all of a geometry): not to be
-/// cached.
-bool addMeshFile(ContentHasher& hasher, const std::string& path);
-
 /// A hasher to begin keys with: it holds a fingerprint of the sources, the compiler and its options that
 /// prepare bodies, so that no file outlives a change of the program.
 ContentHasher preparationHasher();
@@ -62,19 +57,24 @@ void addRepairOptions(ContentHasher& hasher, const RepairOptions& options);
 std::optional<RepairedMesh> findRepairedMesh(PreparationCache* cache, const ContentKey& key);
 void storeRepairedMesh(PreparationCache* cache, const ContentKey& key, const RepairedMesh& repaired);
 
+/// A repaired surface with the key of the very files it was made from.
+struct KeyedMesh {
+  RepairedMesh repaired;
+  std::optional<ContentKey> key;  ///< nothing: not to be cached
+};
+
 /// The cached surface or a made one, which is then stored.
-/// @param key_of gives std::optional<ContentKey>, nothing for what is not to be cached; asked again before
-///        storing, since a file may change while it is read
+/// @param key_of gives std::optional<ContentKey>, nothing for what is not to be cached
+/// @param make gives a KeyedMesh, with a key where its argument asks for one; files may change after key_of
 template <typename KeyOf, typename Make>
 RepairedMesh repairedMeshThrough(PreparationCache* cache, KeyOf key_of, Make make) {
-  if (cache == nullptr) return make();
-  const std::optional<ContentKey> key = key_of();
+  const std::optional<ContentKey> key = cache != nullptr ? key_of() : std::nullopt;
   if (key) {
     if (std::optional<RepairedMesh> found = findRepairedMesh(cache, *key)) return std::move(*found);
   }
-  RepairedMesh made = make();
-  if (key && key_of() == key) storeRepairedMesh(cache, *key, made);
-  return made;
+  KeyedMesh made = make(key.has_value());
+  if (key && made.key == key) storeRepairedMesh(cache, *key, made.repaired);
+  return std::move(made.repaired);
 }
 
 }  // namespace concave_distance
