@@ -1,9 +1,8 @@
 #!/usr/bin/env bash
-# Takes the pictures of the demos in doc/images: starts each scene at rest on a virtual display, waits until rviz
-# draws the same picture twice, and saves it.
+# Takes the pictures of the demos in doc/images: starts each scene at rest on a display of its own, waits until rviz
+# draws the same picture twice, and keeps it.
 #   scripts/take_pictures.sh [--output FOLDER] [insertion|contact|simulation|robot|interactive|cell|own_robot ...]   (default: all)
-# Needs a build by scripts/demo.sh, xvfb, imagemagick and, for own_robot, dart-doc. ROS_MASTER_URI sets the port of the
-# master, which must be free.
+# Needs what scripts/demo.sh builds, xvfb, imagemagick and, for own_robot, the robots of dart-doc. ROS_MASTER_URI says on which port; no master may run there.
 set -euo pipefail
 # shellcheck source=scripts/common.sh
 . "$(dirname "${BASH_SOURCE[0]}")/common.sh"
@@ -52,11 +51,11 @@ xvfb=$!
 read -r display <"$work/display" || die "Xvfb did not start"
 export DISPLAY=":$display"
 
-# Arguments of a scene's launch file that stop it at a clear picture.
+# Arguments of a scene's launch file that hold it still at a telling moment.
 launch_arguments() {
   case "$1" in
     insertion) echo "speed:=0 start:=6.6" ;;
-    contact) echo "speed:=0 start:=3.0" ;;
+    contact) echo "speed:=0 start:=6.0" ;;
     simulation) echo "at_end:=hold scene:=two_feet" ;;
     robot) echo "speed:=0 start:=17.0" ;;
     interactive) echo "idle_motion:=false" ;;
@@ -74,9 +73,9 @@ wait_for() {  # seconds, what, command...
   done
 }
 
-markers_came() { timeout 5 rostopic echo -n 1 /concave_distance/markers | grep -q 'points'; }
+markers_came() { grep -q ' mm' "$work/markers.txt"; }
 
-# Labels may move once a second; so two pictures more than a second apart have to be the same.
+# Labels look for a better place once a second: two pictures farther apart than that have to be the same.
 picture_settled() {
   mv -f "$work/now.png" "$work/before.png" 2>/dev/null || true
   sleep 1.5
@@ -93,6 +92,10 @@ for scene in "${scenes[@]}"; do
   read -ra arguments <<<"$(launch_arguments "$scene")"
   rm -f "$work"/*.png
   setsid roslaunch concave_distance "$scene.launch" rviz:=false "${arguments[@]}" >"$work/$scene.log" 2>&1 </dev/null &
+  processes+=($!)
+  wait_for 30 "the master" rostopic list
+  # Subscribed until the picture is taken: niches are computed while somebody wants them.
+  PYTHONUNBUFFERED=1 rostopic echo /concave_distance/markers >"$work/markers.txt" 2>/dev/null </dev/null &
   processes+=($!)
   wait_for 60 "the markers of $scene" markers_came
   rviz --fullscreen -s "" -d "$package_dir/config/$scene.rviz" >"$work/$scene.rviz.log" 2>&1 </dev/null &
