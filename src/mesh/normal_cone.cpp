@@ -10,6 +10,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kPi = 3.14159265358979323846;
+constexpr std::size_t kMostCorners = 256;
 /// A wider cap is not convex any more, nor would it rule anything out that is worth the trouble.
 constexpr double kWidest = 0.4999 * kPi;
 
@@ -79,7 +80,7 @@ void ConeClipper::clipPolygon(Polygon& polygon, const Vector3d& w, double slack)
 void ConeClipper::clip(const Vector3d& w, double slack) {
   // The faces' points are up to sqrt(3) long: for unit vectors that is a slack of more than half.
   for (Polygon& polygon : faces_) {
-    if (!polygon.empty()) clipPolygon(polygon, w, 2.0 * slack);
+    if (!polygon.empty() && polygon.size() <= kMostCorners) clipPolygon(polygon, w, 2.0 * slack);
   }
 }
 

@@ -22,7 +22,8 @@ DirectionCap capAround(const DirectionCap& l, const DirectionCap& r);
 class ConeClipper {
  public:
   void reset();  ///< every direction
-  /// Keeps the directions with w . u <= slack; |w| = 1.
+  /// Keeps the directions with w . u <= slack; |w| = 1. A face of more than 256 corners stays as it is: what
+  /// is left holds the cone all the same.
   void clip(const Eigen::Vector3d& w, double slack);
   /// The cap around what is left on the side with normal . u >= -kConeSlack; empty when nothing is. A zero
   /// normal leaves nothing out.

@@ -106,9 +106,13 @@ class Collector {
     const NodeIndex to = mesh_.triangle(t)[(k + 1U) % 3];
     if (from == to) return;
     around_.clear();
-    for (const TriangleIndex other : topology_.triangles_of_vertex.row(from.value)) {
+    const auto at_from = topology_.triangles_of_vertex.row(from.value);
+    const auto at_to = topology_.triangles_of_vertex.row(to.value);
+    const bool fewer_at_from = at_from.size() <= at_to.size();
+    const NodeIndex opposite = fewer_at_from ? to : from;
+    for (const TriangleIndex other : fewer_at_from ? at_from : at_to) {
       const TriangleNodes& nodes = mesh_.triangle(other);
-      if (std::find(nodes.begin(), nodes.end(), to) == nodes.end()) continue;
+      if (std::find(nodes.begin(), nodes.end(), opposite) == nodes.end()) continue;
       if (other < t) return;  // the edge was added with that triangle
       around_.push_back(other);
     }

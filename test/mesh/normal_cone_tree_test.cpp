@@ -85,6 +85,24 @@ TEST(NormalConeTree, LeadsToEveryClosestPointFromEveryTarget) {
   }
 }
 
+// The cone of the tip has as many corners as there are triangles: not all of them are kept.
+TEST(NormalConeTree, LeadsToATipOfManyTriangles) {
+  const SurfaceMesh mesh = test::makeFan(3000);
+  const NormalConeTree tree(mesh, buildMeshTopology(mesh), NormalSides::Both);
+  RandomEngine engine(4);
+  for (int k = 0; k < 100; ++k) {
+    const Vector3d target(test::uniformIn(engine, -2, 2), test::uniformIn(engine, -2, 2), 4.0);
+    const Vector3d closest = closestByForce(mesh, target);
+    EXPECT_TRUE(leadsTo(tree, closest, (target - closest).normalized(), 1e-12));
+  }
+}
+
+TEST(NormalConeTree, OfAFanOfManyTrianglesIsMadeInLinearTime) {
+  const SurfaceMesh mesh = test::makeFan(400'000);
+  const NormalConeTree tree(mesh, buildMeshTopology(mesh), NormalSides::Both);
+  EXPECT_GT(tree.items().size(), 1'000'000U);
+}
+
 TEST(NormalConeTree, OfABoxHasNoReflexFeatureOutsideAndNoConvexOneInside) {
   const SurfaceMesh box = test::makeCuboid(Vector3d(-1, -1, -1), Vector3d(1, 1, 1));
   const MeshTopology topology = buildMeshTopology(box);

@@ -57,20 +57,8 @@ SurfaceMesh makeBook(std::uint32_t pages) {
   return SurfaceMesh(std::move(vertices), std::move(triangles), "book");
 }
 
-/// Triangles around one vertex, without a gap.
-SurfaceMesh makeFan(std::uint32_t count) {
-  std::vector<Vector3d> vertices{Vector3d::UnitZ()};
-  std::vector<TriangleNodes> triangles;
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const double angle = 2.0 * M_PI * i / count;
-    vertices.emplace_back(std::cos(angle), std::sin(angle), 0.0);
-    triangles.push_back({NodeIndex{0}, NodeIndex{1 + i}, NodeIndex{1 + (i + 1) % count}});
-  }
-  return SurfaceMesh(std::move(vertices), std::move(triangles), "fan");
-}
-
 TEST(TriangleAdjacency, NamesEveryTriangleAcrossAnEdge) {
-  for (const SurfaceMesh& mesh : {test::makeComb(3), makeFan(50), makeBook(3), makeBook(8)}) {
+  for (const SurfaceMesh& mesh : {test::makeComb(3), test::makeFan(50), makeBook(3), makeBook(8)}) {
     const auto adjacency = adjacencyOf(mesh);
     for (std::size_t t = 0; t < mesh.triangleCount(); ++t) {
       EXPECT_EQ(stepsFrom(adjacency, t), stepsAcrossEdges(mesh, t)) << "triangle " << t;
@@ -106,7 +94,7 @@ TEST(TriangleAdjacency, ManyTrianglesAtAnEdgeMakeOneRing) {
 
 TEST(TriangleAdjacency, ManyTrianglesAroundAVertexCostNoMoreThanElsewhere) {
   constexpr std::uint32_t kTriangles = 1'000'000;
-  const auto adjacency = adjacencyOf(makeFan(kTriangles));
+  const auto adjacency = adjacencyOf(test::makeFan(kTriangles));
   EXPECT_EQ(adjacency.values.size(), 2 * kTriangles);
 }
 

@@ -8,8 +8,8 @@
 #include "concave_distance/mesh/triangle_tree.h"
 #include "mesh/mesh_measures.h"
 #include "support/body_pairs.h"
-#include "support/painted_boxes.h"
 #include "support/case_seed.h"
+#include "support/painted_boxes.h"
 
 /// Repair makes of a file's triangles the surface of the union of its solids, and the topology says what is
 /// inside it.

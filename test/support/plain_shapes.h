@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <cstdint>
 #include <initializer_list>
 #include <vector>
@@ -80,6 +81,18 @@ inline Eigen::Vector3d uniformInCube(RandomEngine& engine, double half_side) {
   const double y = uniformIn(engine, -half_side, half_side);
   const double z = uniformIn(engine, -half_side, half_side);
   return {x, y, z};
+}
+
+/// A cone's surface without its base: triangles around one vertex.
+inline SurfaceMesh makeFan(std::uint32_t count) {
+  std::vector<Eigen::Vector3d> vertices{Eigen::Vector3d::UnitZ()};
+  std::vector<TriangleNodes> triangles;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const double angle = 2.0 * M_PI * i / count;
+    vertices.emplace_back(std::cos(angle), std::sin(angle), 0.0);
+    triangles.push_back({NodeIndex{0}, NodeIndex{1 + i}, NodeIndex{1 + (i + 1) % count}});
+  }
+  return SurfaceMesh(std::move(vertices), std::move(triangles), "fan");
 }
 
 }  // namespace concave_distance::test
