@@ -103,7 +103,7 @@ TEST_F(TransformBufferTest, AStampFarBehindTheNewestIsRefusedAndARepeatedOneIgno
   put("b", 1.0, now);
   EXPECT_TRUE(put("b", 2.0, now)) << last_problem;
   EXPECT_EQ(gap(), 1.0);
-  expectRefusal(transformOf("b", 3.0, at(-11.0)), "behind");
+  expectRefusal(transformOf("b", 3.0, at(-11.0)), "older than");
 }
 
 TEST_F(TransformBufferTest, AStampOfZeroIsRefusedBecauseItWouldNeverBeStale) {
@@ -208,7 +208,7 @@ TEST_F(TransformBufferTest, AFrameThatWasFixedIsStaleWhenItMovesNoMore) {
   put("b", 1.0, now, "world", true);
   EXPECT_TRUE(look().fixed);
   now = at(0.1);
-  expectRefusal(transformOf("b", 2.0, now), "at once");
+  expectRefusal(transformOf("b", 2.0, now), "on both");
   now = at(2.0);
   ASSERT_TRUE(put("b", 2.0, now)) << last_problem;
   EXPECT_EQ(gap(), 2.0);
@@ -220,7 +220,7 @@ TEST_F(TransformBufferTest, AFrameThatMovedIsFixedWhenAStaticTransformSaysSo) {
   put("a", 0.0, now, "world", true);
   put("b", 1.0, now);
   now = at(0.1);
-  expectRefusal(transformOf("b", 2.0, now), "at once", true);
+  expectRefusal(transformOf("b", 2.0, now), "on both", true);
   EXPECT_EQ(gap(), 1.0) << "one static transform too many does not stop what moves";
   now = at(100.0);
   ASSERT_TRUE(put("b", 2.0, now, "world", true)) << last_problem;

@@ -103,7 +103,7 @@ TEST_F(ServicesTest, GetDistanceRefusesBadRequestsWithTheReason) {
   GetDistanceRequest request = boxes();
   request.query.body_b = "nobody";
   expectRefusal(request, "nobody");
-  expectRefusal(request, "list_bodies tells");
+  expectRefusal(request, "list_bodies has");
   request = boxes();
   request.query.body_b = "box_a";
   expectRefusal(request, "two different bodies");
