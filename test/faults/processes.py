@@ -43,6 +43,18 @@ def resident_mb(pid):
     return sum(own_mb(member) for member in family_of(pid))
 
 
+def shared_out_mb(pid):
+    """The same with each page counted once: a process just forked has its parent's pages until it executes its program."""
+    total = 0.0
+    for member in family_of(pid):
+        try:
+            with open("/proc/%d/smaps_rollup" % member) as rollup:
+                total += sum(int(line.split()[1]) for line in rollup if line.startswith("Pss:")) / 1024.0
+        except (OSError, IndexError, ValueError):
+            pass
+    return total
+
+
 def processor_seconds(pid):
     """User and system time of the process itself."""
     try:
