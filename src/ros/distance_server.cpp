@@ -134,6 +134,10 @@ void DistanceServer::tryToLoad() {
   }
   if (request.waiting_for.empty()) {
     last_load_message_ = ros::WallTime::now();
+    {
+      const boost::recursive_mutex::scoped_lock lock(reconfigure_mutex_);
+      config_of_loading_ = config_;
+    }
     loader_.start(parameters_, std::move(request));
     followLoading();
     return;
@@ -165,15 +169,23 @@ void DistanceServer::followLoading() {
   }
   load_timer_.stop();
   logScene(*outcome->scene, loader_.seconds());
-  if (outcome->scene->automatic_cutoff) {
+  // What is set from now on changes the new scene's pairs.
+  const boost::recursive_mutex::scoped_lock lock(reconfigure_mutex_);
+  if (outcome->scene->automatic_cutoff && config_.cutoff == config_of_loading_.cutoff) {
     adoptCutoff(*outcome->scene->automatic_cutoff);
+    config_of_loading_.cutoff = config_.cutoff;
+  }
+  if (concernsPairs(config_of_loading_, config_)) {
+    for (std::size_t i = 0; i < outcome->scene->pairs.size(); ++i) {
+      applyChanges(config_of_loading_, config_, outcome->scene->pairs.edit(i).settings);
+    }
   }
   keeper_.replace(std::move(*outcome->scene));
   keeper_.setWaitingFor("");
 }
 
+// The caller holds the mutex of the settings.
 void DistanceServer::adoptCutoff(double cutoff) {
-  const boost::recursive_mutex::scoped_lock lock(reconfigure_mutex_);
   keeper_.changeSettings([&](PairSettings& settings) { settings.tracker.cutoff = cutoff; });
   config_.cutoff = std::isfinite(cutoff) ? cutoff : 0.0;
   reconfigure_->updateConfig(config_);

@@ -80,6 +80,7 @@ class DistanceServer {
 
   boost::recursive_mutex reconfigure_mutex_;
   ConcaveDistanceConfig config_;
+  ConcaveDistanceConfig config_of_loading_;  ///< what the scene that is loading was given
   std::unique_ptr<dynamic_reconfigure::Server<ConcaveDistanceConfig>> reconfigure_;
 
   ros::Publisher body_markers_;

@@ -3,6 +3,7 @@
 #include <concave_distance/Distances.h>
 #include <concave_distance/GetDistance.h>
 #include <concave_distance/ListBodies.h>
+#include <dynamic_reconfigure/Reconfigure.h>
 #include <gtest/gtest.h>
 #include <ros/init.h>
 #include <ros/package.h>
@@ -219,6 +220,14 @@ void writeBumps(const std::string& path, int size) {
   }
 }
 
+dynamic_reconfigure::Config setCutoff(const std::string& node, double cutoff) {
+  dynamic_reconfigure::ReconfigureRequest request;
+  request.config.doubles.resize(1);
+  request.config.doubles[0].name = "cutoff";
+  request.config.doubles[0].value = cutoff;
+  return call<dynamic_reconfigure::Reconfigure>(node + "/set_parameters", request).config;
+}
+
 TEST(StartUp, PreparationIsReportedWhileServicesAnswer) {
   const std::string node = "/preparing";
   ASSERT_TRUE(eventually([&] { return list(node).message.find("large_description") != std::string::npos; }));
@@ -239,13 +248,20 @@ TEST(StartUp, PreparationIsReportedWhileServicesAnswer) {
   EXPECT_TRUE(eventually(
       [&] {
         const ListBodiesResponse scene = list(node);
-        reported = reported || scene.message.find("loading: prepared") != std::string::npos;
+        if (!reported && scene.message.find("loading: prepared") != std::string::npos) {
+          reported = true;
+          setCutoff(node, 0.123);
+        }
         return scene.ready != 0;
       },
       60.0))
       << list(node).message;
   EXPECT_TRUE(reported);
   EXPECT_EQ(list(node).bodies.size(), 4U);
+  ASSERT_EQ(list(node).pairs.size(), 3U);
+  for (const PairInfo& pair : list(node).pairs) {
+    EXPECT_EQ(pair.cutoff, 0.123) << "set while the scene was loading";
+  }
 }
 
 TEST(StartUp, AWrongSceneFileEndsTheNodeWithFileAndLine) {
