@@ -54,6 +54,7 @@ class Arena:
         self.memory_factor = 4.0 if sanitized else 1.0
         self.address_space_gb = None if sanitized else 6.0  # sanitizers reserve terabytes of addresses
         self.largest_mb = 3000.0 * (2.0 if sanitized else 1.0)
+        self.repeated_calls = 0  # connections that were closed unanswered by a node that lives
         self.running_node = None
         self.player = None
         self.listener = None

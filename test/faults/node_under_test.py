@@ -99,14 +99,19 @@ class Node:
         """The response; Failed when none comes."""
         if request is None:
             request = service_class._request_class()
-        try:
-            return ros_wire.call(self.service_uri(service), self.name + "/" + service, service_class, request,
-                                 timeout * self.arena.patience, replace)
-        except ros_wire.CallFailed as problem:
-            if "closed the connection" in str(problem):
-                self.wait_for_end(0.5)  # if the request crashed the node
-            self.require_alive()
-            raise Failed("%s: %s" % (service, shortened(problem, 300))) from None
+        for is_last in (False, True):
+            try:
+                return ros_wire.call(self.service_uri(service), self.name + "/" + service, service_class, request,
+                                     timeout * self.arena.patience, replace)
+            except ros_wire.CallFailed as problem:
+                closed = "closed the connection" in str(problem)
+                if closed:
+                    self.wait_for_end(0.5)  # a node that died of the request
+                self.require_alive()
+                # roscpp drops a connection unanswered once in many thousand calls under load (ros_comm issue 1976).
+                if is_last or not closed:
+                    raise Failed("%s: %s" % (service, shortened(problem, 300))) from None
+                self.arena.repeated_calls += 1
 
     def slave_uri(self):
         code, text, uri = self.arena.master().lookupNode("/faults", self.name)

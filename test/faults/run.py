@@ -166,6 +166,9 @@ class Runner:
                 writer.writerow(["attack", "passed", "seconds", "memory_mb", "failure"])
                 for name, seconds, memory_mb, failure in self.results:
                     writer.writerow([name, int(not failure), "%.2f" % seconds, "%.0f" % memory_mb, failure or ""])
+        if self.arena.repeated_calls:
+            print("%d calls were repeated: the node had closed their connection without an answer"
+                  % self.arena.repeated_calls)
         failed = [result for result in self.results if result[3]]
         if failed:
             print("failed: " + " ".join(result[0] for result in failed))
