@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+
 namespace concave_distance {
 namespace {
 
@@ -22,6 +24,14 @@ TEST(RestartRequests, ForgetSinglePairsWhenAllAreAskedFor) {
   requests.request("arm/table");
   requests.requestAll();
   requests.request("arm/shelf");
+  const RestartRequests::Pending pending = requests.take();
+  EXPECT_TRUE(pending.all);
+  EXPECT_TRUE(pending.pairs.empty());
+}
+
+TEST(RestartRequests, OfEverMorePairsAreOneForAll) {
+  RestartRequests requests;
+  for (int i = 0; i < 20'000; ++i) requests.request("arm/box_" + std::to_string(i));
   const RestartRequests::Pending pending = requests.take();
   EXPECT_TRUE(pending.all);
   EXPECT_TRUE(pending.pairs.empty());

@@ -14,6 +14,7 @@ class RestartRequests {
     std::set<std::string> pairs;
   };
   void requestAll();
+  /// Of more than 10,000 pairs at once all are restarted.
   void request(const std::string& pair);
   /// What has come in since the last call.
   Pending take();
