@@ -9,7 +9,7 @@
 #include "concave_distance/interference/interference.h"
 #include "concave_distance/mesh/repair_mesh.h"
 #include "fuzz/fuzz_input.h"
-#include "read_mesh.h"
+#include "import_worker/read_mesh.h"
 
 namespace {
 

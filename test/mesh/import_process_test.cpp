@@ -1,4 +1,4 @@
-#include "mesh/import_process.h"
+#include "import_process.h"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -16,7 +16,7 @@
 #include "concave_distance/base/error.h"
 #include "concave_distance/mesh/export_mesh.h"
 #include "concave_distance/mesh/primitives.h"
-#include "mesh/import_stream.h"
+#include "import_stream.h"
 #include "support/temporary_folder.h"
 
 namespace concave_distance {
