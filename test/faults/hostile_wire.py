@@ -88,7 +88,8 @@ sends("frame_that_is_said_to_be_2_gb", lambda arena: altered(arena, 29, b"\xff\x
 @group.attack()
 def array_that_is_said_to_have_4e9_entries(arena):
     uri = arena.node.service_uri("get_distances")
-    body = struct.pack("<I", 0xffffffff)
+    # AddressSanitizer ends a program that asks for more memory than there is.
+    body = struct.pack("<I", 1 << 20 if arena.sanitized else 0xffffffff)
     try:
         ros_wire.call_bytes(uri, arena.node.name + "/get_distances", arena.services.GetDistances._md5sum, body, 20.0)
     except ros_wire.CallFailed:

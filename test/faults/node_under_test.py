@@ -104,7 +104,7 @@ class Node:
                 return ros_wire.call(self.service_uri(service), self.name + "/" + service, service_class, request,
                                      timeout * self.arena.patience, replace)
             except ros_wire.CallFailed as problem:
-                closed = "closed the connection" in str(problem)
+                closed = "closed the connection" in str(problem) or "reset by peer" in str(problem)
                 if closed:
                     self.wait_for_end(0.5)  # a node that died of the request
                 self.require_alive()
