@@ -78,7 +78,8 @@ class Arena:
             "ROS_HOME": os.path.join(self.folder, "ros_home"),
             "XDG_CACHE_HOME": os.path.join(self.folder, "cache"),
             "PYTHONUNBUFFERED": "1",
-            "ASAN_OPTIONS": "detect_leaks=0:quarantine_size_mb=16:malloc_context_size=12:allocator_may_return_null=1",
+            "ASAN_OPTIONS": "detect_leaks=0:quarantine_size_mb=16:malloc_context_size=12:allocator_may_return_null=1"
+                            ":suppressions=%s/test/faults/asan_suppressions.txt" % REPOSITORY,
             "UBSAN_OPTIONS": "print_stacktrace=1",
         })
         os.environ.pop("ROS_IP", None)
