@@ -85,7 +85,7 @@ class SlabTest {
 /// A ray seen along itself: sheared so that it runs along one axis from the origin (Woop, Benthin and Wald
 /// 2013). Each vertex projects to the same plane point in every triangle, and a ray through an edge or a
 /// vertex is settled by moving it by an infinitesimal (e, e^2): a closed shell is crossed the right number of
-/// times, whatever the rounding.
+/// times, for any rounding.
 class ShearedRay {
  public:
   ShearedRay(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) : origin_(origin) {

@@ -45,7 +45,7 @@ struct Survey {
     const bool has_bound = !std::isnan(solution.lower_bound);
     all_proven = all_proven && has_bound;
     lower_bound = has_bound ? std::min(lower_bound, solution.lower_bound) : lower_bound;
-    // A proof that was ended early, whatever ended it, leaves the distance an upper bound.
+    // A proof that ended early, for any reason, leaves the distance an upper bound.
     const bool ended_early = has_bound && solution.status != SolveStatus::Ok;
     number = std::min(number, ended_early ? solution.lower_bound : solution.distance);
   }

@@ -73,8 +73,8 @@ class BasinVerdicts {
 /// start goes down from there; where that is no seed it is a new basin, judged like a seed. Exact up to the
 /// error of the triangle kernel in coordinates of the bodies' size. Never throws.
 /// Bodies so far apart that no pass can be prominent (doc/algorithm.md, section 7) are not flooded: the
-/// deepest seed of each pair of shells is the niche. Large floods without a limit are replaced by straight
-/// paths.
+/// deepest seed of each pair of connected pieces is the niche. Large floods without a limit are replaced by
+/// straight paths.
 /// @param limit ends floods: undecided seeds become roots that are `refused`; nullptr: none
 void judgeBasins(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
                  const std::vector<BasinSeed>& seeds, BasinVerdicts& verdicts, WorkLimit* limit = nullptr);

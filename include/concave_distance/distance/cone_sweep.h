@@ -34,7 +34,7 @@ class ConeSweep {
 
   /// Appends triangle pairs that hold local minima above 0 and up to `cutoff` (metres), some more than once.
   /// @param budget groups of four cones to compare
-  /// @param least_prominence when the bodies are so far apart that each pair of shells has one niche with it,
+  /// @param least_prominence when the bodies are so far apart that each pair of pieces has one niche with it,
   ///        these are found without comparing cones; 0: never
   /// @param limit may end a call early; the next one continues there
   /// @return pairs of features whose distance was computed

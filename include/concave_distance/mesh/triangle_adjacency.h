@@ -14,8 +14,8 @@ struct AdjacentTriangle {
 };
 
 /// For every triangle those across its edges, or the next one in a ring where more than 8 meet at an edge;
-/// and where triangles hang together at a vertex alone, a chain over that vertex. Whatever touches on the
-/// surface is connected by such steps without leaving the point where it touches. O(n log n) time, O(n)
+/// and where triangles hang together at a vertex alone, a chain over that vertex. Triangles that touch are
+/// connected by such steps, all of which contain the point where they touch. O(n log n) time, O(n)
 /// memory.
 CompressedRows<AdjacentTriangle> triangleAdjacency(const SurfaceMesh& mesh, const MeshTopology& topology);
 
