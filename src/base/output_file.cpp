@@ -110,13 +110,13 @@ void OutputFile::finish() {
 void requireDistinctFiles(const std::vector<NamedPath>& inputs, const std::vector<NamedPath>& outputs) {
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     if (outputs[i].path.empty()) continue;
-    const auto refuseSame = [&](const NamedPath& other) {
+    const auto refuse_same = [&](const NamedPath& other) {
       if (other.path.empty() || !areSameFile(outputs[i].path, other.path)) return;
       throw Error(outputs[i].path, outputs[i].name + " is the same file as " + other.name,
                   "name another file; nothing was written");
     };
-    for (const NamedPath& input : inputs) refuseSame(input);
-    for (std::size_t j = 0; j < i; ++j) refuseSame(outputs[j]);
+    for (const NamedPath& input : inputs) refuse_same(input);
+    for (std::size_t j = 0; j < i; ++j) refuse_same(outputs[j]);
   }
 }
 
