@@ -51,22 +51,22 @@ std::vector<bool> findFlatSets(const std::vector<Eigen::Vector3d>& vertices,
   for (const Eigen::Vector3d& vertex : vertices) box.extend(vertex);
   const double size = box.sizes().maxCoeff();  // squares of lengths may leave the range of exponents
   std::vector<Plane> planes(triangles.size());
-  const auto forEachCorner = [&](auto visit) {
+  const auto for_each_corner = [&](auto visit) {
     for (std::uint32_t t = 0; t < triangles.size(); ++t) {
       const std::uint32_t set = sets.find(t);
       for (const NodeIndex node : triangles[t]) visit(planes[set], (vertices[node.value] - box.min()) / size);
     }
   };
-  forEachCorner([](Plane& plane, const Eigen::Vector3d& corner) { plane.point = corner; });
-  forEachCorner([](Plane& plane, const Eigen::Vector3d& corner) {
+  for_each_corner([](Plane& plane, const Eigen::Vector3d& corner) { plane.point = corner; });
+  for_each_corner([](Plane& plane, const Eigen::Vector3d& corner) {
     const Eigen::Vector3d along = corner - plane.point;
     if (along.squaredNorm() > plane.along.squaredNorm()) plane.along = along;
   });
-  forEachCorner([](Plane& plane, const Eigen::Vector3d& corner) {
+  for_each_corner([](Plane& plane, const Eigen::Vector3d& corner) {
     const Eigen::Vector3d normal = plane.along.cross(corner - plane.point);
     if (normal.squaredNorm() > plane.normal.squaredNorm()) plane.normal = normal;
   });
-  forEachCorner([](Plane& plane, const Eigen::Vector3d& corner) {
+  for_each_corner([](Plane& plane, const Eigen::Vector3d& corner) {
     const double height = std::abs(plane.normal.stableNormalized().dot(corner - plane.point));
     plane.is_flat = plane.is_flat && height <= kRounding * plane.along.norm();
   });

@@ -27,14 +27,15 @@ UnitSolver::UnitSolver(const std::vector<Eigen::Vector3d>& vertices, const FaceT
 bool UnitSolver::solve(const std::vector<std::uint32_t>& faces, std::vector<FaceVerdict>& verdicts) {
   numberCells(faces);
   measureCells(faces);
-  std::vector<int> net;
-  for (const std::uint32_t face : faces) net.push_back(table_.faces[face].net());
+  std::vector<int> net(faces.size());
+  std::transform(faces.begin(), faces.end(), net.begin(),
+                 [&](std::uint32_t face) { return table_.faces[face].net(); });
   const auto each_once = [&] {
-    std::vector<int> once;
-    for (const int n : net) once.push_back(signOf(n));
+    std::vector<int> once(net.size());
+    std::transform(net.begin(), net.end(), once.begin(), signOf);
     return once;
   };
-  if (cellsAgree()) {
+  if (cellsAgree()) {  // NOLINT(bugprone-branch-clone): the order of the questions counts
     takeCells(faces, verdicts);
   } else if (edgesBalance(faces, net)) {
     takeWindings(faces, net, verdicts);
@@ -61,8 +62,8 @@ void UnitSolver::numberCells(const std::vector<std::uint32_t>& faces) {
   std::vector<FaceSide> names;
   names.reserve(2 * faces.size());
   for (const std::uint32_t face : faces) {
-    names.push_back(cells_[2 * face]);
-    names.push_back(cells_[2 * face + 1]);
+    for (const std::size_t side : {std::size_t{2} * face, std::size_t{2} * face + 1})
+      names.push_back(cells_[side]);
   }
   std::sort(names.begin(), names.end());
   names.erase(std::unique(names.begin(), names.end()), names.end());

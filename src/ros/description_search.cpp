@@ -31,7 +31,7 @@ std::optional<FoundDescription> searchDescription(const std::string& private_nam
   std::optional<FoundDescription> other;
   std::string space = private_namespace == "/" ? std::string() : private_namespace;
   for (bool is_private = true;; is_private = false) {
-    std::optional<FoundDescription> here = found(space + "/" + name);
+    std::optional<FoundDescription> here = found(std::string(space).append("/").append(name));
     if (here && here->is_xml) {
       return here;
     }

@@ -7,6 +7,7 @@
 
 #include "concave_distance/base/error.h"
 #include "concave_distance/ros/distance_server.h"
+#include "concave_distance/ros/memory_arenas.h"
 
 namespace {
 
@@ -15,6 +16,7 @@ constexpr int kThreads = 2;  // loading the scene does not hold up subscribers a
 }  // namespace
 
 int main(int argc, char** argv) {
+  concave_distance::limitMemoryArenas();
   ros::init(argc, argv, "concave_distance");
   const ros::NodeHandle node;
   const ros::NodeHandle private_node("~");

@@ -52,8 +52,8 @@ double widthOf(const visualization_msgs::Marker& text) {
 }
 
 const std::array<View, 8>& usualViews() {
-  static const std::array<View, 8> kViews = makeViews();
-  return kViews;
+  static const std::array<View, 8> views = makeViews();
+  return views;
 }
 
 bool overlap(const LabelSpace& a, const LabelSpace& b, const View& view) {

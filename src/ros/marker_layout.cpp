@@ -76,6 +76,7 @@ Eigen::AlignedBox3d usualRegion(const std::vector<LocatedBody>& bodies) {
   const double size = median(sizes);
   const Eigen::Vector3d middle(median(coordinates[0]), median(coordinates[1]), median(coordinates[2]));
   std::vector<double> distances;
+  distances.reserve(bodies.size());
   for (const LocatedBody& body : bodies) distances.push_back((body.box.center() - middle).norm());
   const double far = kFarOff * (median(distances) + size);
   for (std::size_t k = 0; k < bodies.size(); ++k) {

@@ -44,6 +44,7 @@ std::vector<Label> deepestLabels(std::vector<ContactLabel> contacts, std::uint32
   });
   if (niche_count != 0) contacts.resize(std::min<std::size_t>(contacts.size(), niche_count));
   std::vector<Label> labels;
+  labels.reserve(contacts.size());
   for (ContactLabel& contact : contacts) labels.push_back(std::move(contact.label));
   return labels;
 }

@@ -6,6 +6,7 @@
 #include <exception>
 
 #include "concave_distance/base/error.h"
+#include "concave_distance/ros/memory_arenas.h"
 #include "concave_distance/ros/scene_loading.h"
 #include "concave_distance/ros/simulation_runner.h"
 
@@ -41,6 +42,7 @@ void run() {
 }  // namespace
 
 int main(int argc, char** argv) {
+  concave_distance::limitMemoryArenas();
   ros::init(argc, argv, "simulation");
   try {
     run();

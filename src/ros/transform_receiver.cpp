@@ -34,7 +34,7 @@ TransformReceiver::~TransformReceiver() {
 }
 
 void TransformReceiver::receive(const Event& event, bool fixed) {
-  const std::string sender = event.getPublisherName();
+  const std::string& sender = event.getPublisherName();
   for (const geometry_msgs::TransformStamped& transform : event.getConstMessage()->transforms) {
     if (const auto problem = buffer_.insert(transform, sender, fixed)) {
       note(transform, sender, *problem);

@@ -34,13 +34,13 @@ std::string withoutLeadingSlash(const std::string& frame) {
 }
 
 std::string frameNameProblem(std::string_view frame) {
-  const std::string problem = tfFrameProblem(frame);
+  std::string problem = tfFrameProblem(frame);
   if (!problem.empty()) return problem;
   return frame.find(' ') == std::string_view::npos ? "" : "it contains a blank";
 }
 
 std::string requireFrameName(const std::string& frame, const std::string& where) {
-  const std::string name = withoutLeadingSlash(frame);
+  std::string name = withoutLeadingSlash(frame);
   const std::string problem = frameNameProblem(name);
   if (!problem.empty()) {
     throw Error(where, "it is not a valid tf frame name: " + problem,

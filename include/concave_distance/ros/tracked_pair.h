@@ -50,21 +50,20 @@ struct TrackedPair {
   PairStatus status;      ///< why there is no solution; OK when there is
   bool solved = false;    ///< `solution` is of this stamp
   bool repeated = false;  ///< no newer transforms: the last answer stands, nothing was computed
-  std::optional<double>
-      box_bound;       ///< m, with status BEYOND_CUTOFF: proven by boxes and spheres around the bodies
-  bool fixed = false;  ///< both bodies are connected by static transforms only
+  bool fixed = false;     ///< both bodies are connected by static transforms only
+  /// Metres, with status BEYOND_CUTOFF: proven by boxes and spheres around the bodies.
+  std::optional<double> box_bound;
   Eigen::Isometry3d located_a_from_b = Eigen::Isometry3d::Identity();  ///< of the last transforms
   Eigen::Isometry3d solved_a_from_b = Eigen::Isometry3d::Identity();
   PairSolution solution;
   FollowedEffects effects;
-  std::uint64_t largest_id = 0;  ///< told so far, with the offset
+  std::uint64_t largest_id = 0;  ///< reported so far, with the offset
 
   WarningMonitor warning;
-  bool warning_changed = false;
-
   std::unique_ptr<PairTracker> tracker;  ///< made when the pair is first watched
-  bool stale_parameters = false;         ///< the tracker has to be given the settings again
-  bool must_solve = true;                ///< even when the transforms are the last ones
+  bool warning_changed = false;
+  bool stale_parameters = false;  ///< the tracker has to be given the settings again
+  bool must_solve = true;         ///< even when the transforms are the last ones
 
   /// Forgets the niches; ids go on.
   void restart();

@@ -20,7 +20,7 @@ class WatchedTopic {
   /// @param on_subscribe called, from the node handle's queue, for every new subscriber
   template <typename Message>
   static WatchedTopic advertise(ros::NodeHandle& node, const std::string& name, std::uint32_t queue_length,
-                                std::function<void()> on_subscribe = {}) {
+                                const std::function<void()>& on_subscribe = {}) {
     WatchedTopic topic;
     topic.subscribers_ = std::make_shared<std::atomic<int>>(0);
     topic.publisher_ = node.advertise<Message>(

@@ -68,7 +68,7 @@ class NamedList {
   using value_type = T;
   using Pointer = std::shared_ptr<T>;
 
-  class const_iterator {
+  class const_iterator {  // NOLINT(readability-identifier-naming): named as in std::vector
    public:
     using iterator_category = std::random_access_iterator_tag;
     using value_type = T;
@@ -122,7 +122,9 @@ class NamedList {
                          [&](std::size_t place) { return values_[place]->name == name; });
   }
 
-  void push_back(T value) { append(std::make_shared<T>(std::move(value))); }
+  void push_back(T value) {  // NOLINT(readability-identifier-naming): named as in std::vector
+    append(std::make_shared<T>(std::move(value)));
+  }
   /// Appends value i of another list, shared with it.
   void appendShared(const NamedList& other, std::size_t i) { append(other.values_[i]); }
   /// For changing anything but the name: copies the value if other lists or users share it.
