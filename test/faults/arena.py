@@ -12,6 +12,7 @@ from attacks import Failed, expect
 REPOSITORY = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 
 SCENE = """\
+metric_memory_limit_mb: 64
 bodies:
   - {name: box_a, box: {size: [1, 1, 1]}}
   - {name: box_b, box: {size: [1, 1, 1]}}
