@@ -228,11 +228,10 @@ def good_mesh_beside_the_scene(arena):
     expect(response.success, response.message)
 
 
-@group.attack(deadline=120.0, growth_mb=200.0)
-def thousand_boxes(arena):
-    """Bodies are added and removed; each call is fast and frees its memory."""
+def add_and_remove(arena, count):
+    """Each call is fast, and removing frees the memory."""
     slowest = 0.0
-    names = ["many_%d" % index for index in range(1000)]
+    names = ["many_%d" % index for index in range(count)]
     for index, name in enumerate(names):
         began = time.monotonic()
         response = call(arena, "add_body", **dict(BOX, name=name, pose__position__x=float(index)))
@@ -241,3 +240,14 @@ def thousand_boxes(arena):
     for name in names:
         remove(arena, name)
     expect(slowest <= 2.0 * arena.patience, "an add_body took %.1f s" % slowest)
+
+
+@group.attack(deadline=60.0, growth_mb=200.0)
+def fifty_boxes(arena):
+    add_and_remove(arena, 50)
+
+
+@group.attack(deadline=120.0, growth_mb=200.0, storms=False)
+def thousand_boxes(arena):
+    """Too long for a storm: its bodies would be there most of the time."""
+    add_and_remove(arena, 1000)
