@@ -31,7 +31,7 @@ set -euo pipefail
   )
   debian_demo=(
     python3-roslaunch python3-rospy python3-rosservice python3-rostopic rosbash rviz ros-robot-state-publisher
-    python3-geometry-msgs python3-std-msgs python3-visualization-msgs python3-diagnostic-msgs  # what ours are made of
+    python3-geometry-msgs python3-std-msgs python3-std-srvs python3-visualization-msgs python3-diagnostic-msgs  # what ours are made of
   )
   debian_plot=(python3-matplotlib python3-yaml valgrind)
   debian_format=(clang-format)
