@@ -19,11 +19,13 @@ class WatchedTopic {
 
   /// @param on_subscribe called, from the node handle's queue, for every new subscriber
   template <typename Message>
-  static WatchedTopic advertise(ros::NodeHandle& node, const std::string& name, std::uint32_t queue_length,
-                                const std::function<void()>& on_subscribe = {}) {
+  static WatchedTopic advertise(const ros::NodeHandle& node, const std::string& name,
+                                std::uint32_t queue_length, const std::function<void()>& on_subscribe = {}) {
+    // A node handle keeps 300 bytes of every publisher that it ever made.
+    ros::NodeHandle own_node(node);
     WatchedTopic topic;
     topic.subscribers_ = std::make_shared<std::atomic<int>>(0);
-    topic.publisher_ = node.advertise<Message>(
+    topic.publisher_ = own_node.advertise<Message>(
         name, queue_length,
         [count = topic.subscribers_, on_subscribe](const ros::SingleSubscriberPublisher&) {
           ++*count;

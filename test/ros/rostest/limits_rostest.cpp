@@ -9,6 +9,7 @@
 #include <ros/init.h>
 #include <ros/package.h>
 #include <ros/spinner.h>
+#include <std_msgs/Float64.h>
 
 #include <cmath>
 #include <future>
@@ -16,12 +17,17 @@
 #include <string>
 #include <vector>
 
+#include "concave_distance/ros/watched_topic.h"
 #include "rostest_support.h"
 #include "started_node.h"
+#include "support/count_bytes.h"
 #include "tf_player.h"
 
 namespace concave_distance {
 namespace {
+
+// Bytes that a topic may leave behind; what roscpp's node handle keeps of a publisher is 272.
+constexpr double kLeftOfATopic = 64.0;
 
 constexpr const char* kLimited = "/limited/";
 constexpr double kManyTimesLonger = 30.0;  // s, than an end takes; far less than the queries would
@@ -151,6 +157,19 @@ TEST(TimeLimit, OfACallHoldsForAllItsQueriesTogether) {
   EXPECT_EQ(last.status.code, PairStatus::BUDGET_EXHAUSTED);
   EXPECT_NE(last.status.message.find("~limits/query_seconds"), std::string::npos) << last.status.message;
   EXPECT_FALSE(service.response.success);
+}
+
+// A scene that is edited for months advertises and drops topics without end.
+TEST(Limits, TopicsThatAreDroppedLeaveNoMemoryBehind) {
+  const ros::NodeHandle node("~");
+  const auto come_and_go = [&](int count) {
+    for (int k = 0; k < count; ++k) WatchedTopic::advertise<std_msgs::Float64>(node, "fleeting", 1);
+  };
+  come_and_go(200);
+  constexpr int kTopics = 2000;
+  const auto before = static_cast<double>(allocated_bytes);
+  come_and_go(kTopics);
+  EXPECT_LT(static_cast<double>(allocated_bytes) - before, kLeftOfATopic * kTopics);
 }
 
 }  // namespace
