@@ -15,6 +15,8 @@ namespace concave_distance::detail {
 namespace {
 
 constexpr std::size_t kLongestSeen = 60;
+// Of a document; 20,000 boxes and 50,000 pairs take 650,000.
+constexpr std::size_t kMostValues = 1'000'000;
 
 std::string joined(const std::vector<std::string>& words) {
   std::string text;
@@ -45,44 +47,49 @@ std::optional<double> parseNumber(const std::string& text) {
   return value;
 }
 
-// Checks whether a document is empty.
-class EmptinessHandler : public YAML::EventHandler {
+// Counts values without keeping them: a node of yaml-cpp takes half a kilobyte.
+class ValueCounter : public YAML::EventHandler {
  public:
   using Mark = YAML::Mark;
   using Anchor = YAML::anchor_t;
   using Style = YAML::EmitterStyle::value;
-  bool isEmpty() const { return is_empty_; }
+  std::size_t count() const { return count_; }
 
-  void OnDocumentStart(const Mark& /*mark*/) override { is_empty_ = true; }
+  void OnDocumentStart(const Mark& /*mark*/) override {}
   void OnDocumentEnd() override {}
   void OnNull(const Mark& /*mark*/, Anchor /*anchor*/) override {}
-  void OnAlias(const Mark& /*mark*/, Anchor /*anchor*/) override { is_empty_ = false; }
-  void OnScalar(const Mark& /*mark*/, const std::string& /*tag*/, Anchor /*anchor*/,
+  void OnAlias(const Mark& mark, Anchor /*anchor*/) override { add(mark); }
+  void OnScalar(const Mark& mark, const std::string& /*tag*/, Anchor /*anchor*/,
                 const std::string& /*value*/) override {
-    is_empty_ = false;
+    add(mark);
   }
-  void OnSequenceStart(const Mark& /*mark*/, const std::string& /*tag*/, Anchor /*anchor*/,
+  void OnSequenceStart(const Mark& mark, const std::string& /*tag*/, Anchor /*anchor*/,
                        Style /*style*/) override {
-    is_empty_ = false;
+    add(mark);
   }
   void OnSequenceEnd() override {}
-  void OnMapStart(const Mark& /*mark*/, const std::string& /*tag*/, Anchor /*anchor*/,
-                  Style /*style*/) override {
-    is_empty_ = false;
+  void OnMapStart(const Mark& mark, const std::string& /*tag*/, Anchor /*anchor*/, Style /*style*/) override {
+    add(mark);
   }
   void OnMapEnd() override {}
 
  private:
-  bool is_empty_ = true;
+  void add(const Mark& mark) {
+    if (++count_ > kMostValues) throw YAML::ParserException(mark, "");
+  }
+  std::size_t count_ = 0;
 };
 
 // 0, 1, or 2 for more; stops at an empty one, because YAML::LoadAll never returns from the text ",".
+// @throws YAML::Exception when it is no YAML, with an empty message for more values than are allowed
 std::size_t countDocuments(const std::string& yaml) {
   std::istringstream stream(yaml);
   YAML::Parser parser(stream);
-  EmptinessHandler handler;
   std::size_t count = 0;
-  while (count < 2 && parser.HandleNextDocument(handler) && !handler.isEmpty()) ++count;
+  for (ValueCounter counter; count < 2 && parser.HandleNextDocument(counter) && counter.count() > 0;
+       counter = ValueCounter()) {
+    ++count;
+  }
   return count;
 }
 
@@ -95,6 +102,10 @@ YamlValue YamlValue::parse(const std::string& yaml, const std::string& file) {
     documents = countDocuments(yaml);
     if (documents > 0) root = YAML::Load(yaml);
   } catch (const YAML::Exception& exception) {
+    if (exception.msg.empty()) {
+      throw Error(file, "more than " + std::to_string(kMostValues) + " values",
+                  "leave out what is not needed");
+    }
     throw Error(file + ":" + std::to_string(exception.mark.line + 1), "no YAML: " + exception.msg,
                 "mend the syntax");
   }

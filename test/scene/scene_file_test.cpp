@@ -68,6 +68,12 @@ TEST_F(SceneFile, BrokenYamlIsRefusedWithItsLine) {
   expectRefused("bodies: [1, 2\n", "scene.yaml:2", "no YAML", "mend the syntax");
 }
 
+TEST_F(SceneFile, MoreThanAMillionValuesAreRefused) {
+  std::string list = "bodies: [a";
+  for (int i = 0; i < 1'000'000; ++i) list += ",a";
+  expectRefused(list + "]\n", "scene.yaml", "more than 1000000 values", "leave out");
+}
+
 TEST_F(SceneFile, UnknownKeysAreRefusedEverywhere) {
   expectRefused("bodys: []\n", "scene.yaml:1, bodys", "key 'bodys' is not known", "robots, bodies, groups");
   expectRefused("defaults:\n  cutof: 1\n", "scene.yaml:2, defaults.cutof", "not known", "cutoff");
