@@ -3,7 +3,7 @@
 
     test/faults/compare.py BEFORE AFTER
 
-BEFORE and AFTER: what --results wrote, or what was printed. An attack that only one run has counts in that run alone.
+BEFORE and AFTER: what --results wrote. An attack that only one run has counts in that run alone.
 """
 import collections
 import csv
@@ -13,10 +13,7 @@ import sys
 def results_of(path):
     """Whether each attack passed."""
     with open(path, newline="") as stream:
-        if path.endswith(".csv"):
-            return {row["attack"]: row["passed"] == "1" for row in csv.DictReader(stream)}
-        lines = [line.split() for line in stream if line.startswith(("PASS ", "FAIL "))]
-        return {words[1]: words[0] == "PASS" for words in lines}
+        return {row["attack"]: row["passed"] == "1" for row in csv.DictReader(stream)}
 
 
 def counts_of(results):
