@@ -2,6 +2,7 @@
 
 import collections
 import random
+import statistics
 import threading
 import time
 
@@ -15,8 +16,7 @@ from node_under_test import Pulse
 WORKERS = 4
 SAMPLE = 1.0            # s between two samples of the memory
 REPORT = 60.0           # s between two lines of progress
-GROWTH_MB = 100.0       # largest growth of what the node's own memory falls back to, from the second quarter to the last
-FLOOR = 0.1             # share of the samples below it: between attacks that add a thousand bodies for a while
+GROWTH_MB = 100.0       # largest growth of the node's own memory from the second quarter to the last
 LONGEST_SILENCE = 60.0  # s without an answer to list_bodies; the machine is busy with attackers too
 # Small limits make memory without a limit visible. LARGEST_MB is for the node and the processes it starts.
 LIMITS = {"limits/query_memory_mb": 128, "limits/import_memory_mb": 256, "limits/largest_node_count": 50000,
@@ -134,13 +134,9 @@ class Storm:
         call(self.arena, "set_effects", 60.0, pair="*", effects="none")
 
     def growth_mb(self):
-        """Growth of the floor from the second quarter, when everything has been used once, to the last."""
+        """Growth from the second quarter, when everything has been used once, to the last."""
         quarter = max(1, len(self.own_mb) // 4)
-        return floor(self.own_mb[-quarter:]) - floor(self.own_mb[quarter:2 * quarter] or [0.0])
-
-
-def floor(samples):
-    return sorted(samples)[int(FLOOR * len(samples))]
+        return statistics.median(self.own_mb[-quarter:]) - statistics.median(self.own_mb[quarter:2 * quarter] or [0.0])
 
 
 def storm_setting():
