@@ -47,6 +47,9 @@ std::optional<double> parseNumber(const std::string& text) {
   return value;
 }
 
+// A document has more values than are allowed.
+struct TooManyValues {};
+
 // Counts values without keeping them: a node of yaml-cpp takes half a kilobyte.
 class ValueCounter : public YAML::EventHandler {
  public:
@@ -58,30 +61,31 @@ class ValueCounter : public YAML::EventHandler {
   void OnDocumentStart(const Mark& /*mark*/) override {}
   void OnDocumentEnd() override {}
   void OnNull(const Mark& /*mark*/, Anchor /*anchor*/) override {}
-  void OnAlias(const Mark& mark, Anchor /*anchor*/) override { add(mark); }
-  void OnScalar(const Mark& mark, const std::string& /*tag*/, Anchor /*anchor*/,
+  void OnAlias(const Mark& /*mark*/, Anchor /*anchor*/) override { add(); }
+  void OnScalar(const Mark& /*mark*/, const std::string& /*tag*/, Anchor /*anchor*/,
                 const std::string& /*value*/) override {
-    add(mark);
+    add();
   }
-  void OnSequenceStart(const Mark& mark, const std::string& /*tag*/, Anchor /*anchor*/,
+  void OnSequenceStart(const Mark& /*mark*/, const std::string& /*tag*/, Anchor /*anchor*/,
                        Style /*style*/) override {
-    add(mark);
+    add();
   }
   void OnSequenceEnd() override {}
-  void OnMapStart(const Mark& mark, const std::string& /*tag*/, Anchor /*anchor*/, Style /*style*/) override {
-    add(mark);
+  void OnMapStart(const Mark& /*mark*/, const std::string& /*tag*/, Anchor /*anchor*/,
+                  Style /*style*/) override {
+    add();
   }
   void OnMapEnd() override {}
 
  private:
-  void add(const Mark& mark) {
-    if (++count_ > kMostValues) throw YAML::ParserException(mark, "");
+  void add() {
+    if (++count_ > kMostValues) throw TooManyValues();
   }
   std::size_t count_ = 0;
 };
 
 // 0, 1, or 2 for more; stops at an empty one, because YAML::LoadAll never returns from the text ",".
-// @throws YAML::Exception when it is no YAML, with an empty message for more values than are allowed
+// @throws YAML::Exception when it is no YAML, TooManyValues
 std::size_t countDocuments(const std::string& yaml) {
   std::istringstream stream(yaml);
   YAML::Parser parser(stream);
@@ -101,11 +105,9 @@ YamlValue YamlValue::parse(const std::string& yaml, const std::string& file) {
   try {
     documents = countDocuments(yaml);
     if (documents > 0) root = YAML::Load(yaml);
+  } catch (const TooManyValues&) {
+    throw Error(file, "more than " + std::to_string(kMostValues) + " values", "leave out what is not needed");
   } catch (const YAML::Exception& exception) {
-    if (exception.msg.empty()) {
-      throw Error(file, "more than " + std::to_string(kMostValues) + " values",
-                  "leave out what is not needed");
-    }
     throw Error(file + ":" + std::to_string(exception.mark.line + 1), "no YAML: " + exception.msg,
                 "mend the syntax");
   }
