@@ -1,11 +1,7 @@
 # What is installed, and the exported target, for the devel space (or build tree) and for the install space.
 set(concave_distance_config_destination ${CONCAVE_DISTANCE_SHARE_DESTINATION}/cmake)
 
-set(concave_distance_libraries concave_distance_core)
-if(CONCAVE_DISTANCE_WITH_CGAL)
-  list(PREPEND concave_distance_libraries concave_distance_convex)
-endif()
-install(TARGETS ${concave_distance_libraries} EXPORT concave_distance-targets
+install(TARGETS concave_distance_core EXPORT concave_distance-targets
   ARCHIVE DESTINATION ${CONCAVE_DISTANCE_LIB_DESTINATION}
   LIBRARY DESTINATION ${CONCAVE_DISTANCE_LIB_DESTINATION}
   RUNTIME DESTINATION ${CONCAVE_DISTANCE_BIN_DESTINATION})
@@ -13,9 +9,9 @@ export(EXPORT concave_distance-targets NAMESPACE concave_distance::
   FILE ${CONCAVE_DISTANCE_DEVEL_SPACE}/${concave_distance_config_destination}/concave_distance-targets.cmake)
 install(EXPORT concave_distance-targets NAMESPACE concave_distance::
   DESTINATION ${concave_distance_config_destination})
-# The node's library is exported to nobody, and its headers are not installed.
+# The libraries of the node and of the thesis are not exported, and their headers are not installed.
 install(DIRECTORY include/concave_distance/ DESTINATION ${CONCAVE_DISTANCE_INCLUDE_DESTINATION}
-  PATTERN ros EXCLUDE)
+  PATTERN ros EXCLUDE PATTERN thesis EXCLUDE)
 
 # Without catkin the config file is the extras file itself.
 if(NOT CONCAVE_DISTANCE_WITH_ROS)

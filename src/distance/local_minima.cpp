@@ -135,11 +135,11 @@ LocalMinima findLocalMinima(const BodyMesh& a, const BodyMesh& b, const Eigen::I
   result.cost.minima = owned;
   if (limit.isOver()) {
     result.finished = false;
-    result.owners.assign(request.whose.size(), LocalMinima::kNoOwner);
+    result.owners.assign(request.asked_pairs.size(), LocalMinima::kNoOwner);
     return result;
   }
   RefinementWorkspace refinement;
-  for (const auto& [triangle_a, triangle_b] : request.whose) {
+  for (const auto& [triangle_a, triangle_b] : request.asked_pairs) {
     const WitnessPair settled = refineWitness(a, b, a_from_b, triangle_a, triangle_b, refinement).witness;
     seeds.push_back({settled.triangle_a, settled.triangle_b, std::sqrt(settled.squared_distance)});
   }

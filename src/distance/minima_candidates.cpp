@@ -22,13 +22,13 @@ constexpr double kNearlyParallel = 1e-6;
 struct Between {
   Vector3d from;  ///< A's closest point
   Vector3d to;    ///< B's
-  Vector3d way;
+  Vector3d displacement;
   double squared_distance;
 };
 
 Between between(const Vector3d& from, const Vector3d& to) {
-  const Vector3d way = to - from;
-  return {from, to, way, way.squaredNorm()};
+  const Vector3d displacement = to - from;
+  return {from, to, displacement, displacement.squaredNorm()};
 }
 
 double unitClamp(double x) {
@@ -198,13 +198,13 @@ class Traversal {
     if (distance <= slack_) return;  // meeting triangles are collected apart
     const double turn = std::min(0.5, kDirectionSlack + slack_ / distance);
     const double turn_cosine = 1.0 - 0.5 * turn * turn;
-    if (!cap_a.holds(found.way, distance, turn_cosine, turn) ||
-        !cap_b.holds(found.way, distance, turn_cosine, turn)) {
+    if (!cap_a.holds(found.displacement, distance, turn_cosine, turn) ||
+        !cap_b.holds(found.displacement, distance, turn_cosine, turn)) {
       return;
     }
-    if (!isPeak(scene_.a, a, found.from, found.way / distance, distance,
+    if (!isPeak(scene_.a, a, found.from, found.displacement / distance, distance,
                 [this](NodeIndex n) { return scene_.vertexOfA(n); }) ||
-        !isPeak(scene_.b, b, found.to, -found.way / distance, distance,
+        !isPeak(scene_.b, b, found.to, -found.displacement / distance, distance,
                 [this](NodeIndex n) { return scene_.vertexOfB(n); })) {
       return;
     }
@@ -236,10 +236,10 @@ class Traversal {
   bool isPeak(const BodyMesh& body, const Item& item, const Vector3d& point, const Vector3d& direction,
               double distance, const VertexOf& vertex_of) const {
     const auto rises = [&](NodeIndex node) {
-      const Vector3d way = vertex_of(node) - point;
-      const double over = direction.dot(way) - slack_;
+      const Vector3d displacement = vertex_of(node) - point;
+      const double over = direction.dot(displacement) - slack_;
       const double turn = slack_ / distance;
-      return over > 0.0 && over * over > turn * turn * way.squaredNorm();
+      return over > 0.0 && over * over > turn * turn * displacement.squaredNorm();
     };
     const TriangleNodes& nodes = body.surface().triangle(item.triangle);
     // The end of an edge counts with all that is around it.

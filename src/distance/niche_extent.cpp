@@ -120,8 +120,8 @@ class Flood {
     double turn = 0.0;
     for (std::size_t k = 0; k < 3; ++k) {
       const Vector2d edge = part.corners[(k + 1) % 3] - part.corners[k];
-      const Vector2d way = point - part.corners[k];
-      const double area = edge.x() * way.y() - edge.y() * way.x();
+      const Vector2d displacement = point - part.corners[k];
+      const double area = edge.x() * displacement.y() - edge.y() * displacement.x();
       if (area * area <= margin * margin * edge.squaredNorm() || area * turn < 0.0) return false;
       turn = area;
     }
@@ -281,15 +281,15 @@ NicheExtent measureExtent(const BodyMesh& a, const BodyMesh& b, const Eigen::Iso
 }
 
 bool isOnMeasuredSet(const ExtentWorkspace& workspace, const WitnessPair& witness) {
-  const Vector3d way = witness.point_a_in_a - workspace.origin;
-  if (std::abs(workspace.normal.dot(way)) > workspace.height_tolerance) return false;
+  const Vector3d displacement = witness.point_a_in_a - workspace.origin;
+  if (std::abs(workspace.normal.dot(displacement)) > workspace.height_tolerance) return false;
   // One point of A can be equally near to two places of B: the set leads to B along its normal.
   const Vector3d between = witness.point_b_in_a - witness.point_a_in_a;
   const Vector3d beside = between - workspace.normal.dot(between) * workspace.normal;
   if (workspace.normal.dot(between) < 0.0 || beside.squaredNorm() > 4.0 * workspace.reach * workspace.reach) {
     return false;
   }
-  const Vector2d point(workspace.axis_x.dot(way), workspace.axis_y.dot(way));
+  const Vector2d point(workspace.axis_x.dot(displacement), workspace.axis_y.dot(displacement));
   return std::any_of(
       workspace.pieces.begin(), workspace.pieces.end(), [&](const ExtentWorkspace::Piece& piece) {
         const Vector2d nearest = detail::nearestIn(&workspace.points[piece.first], piece.count, point);

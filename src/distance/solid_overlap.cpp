@@ -26,8 +26,8 @@ std::optional<bool> holdsShellOf(const BodyMesh& holder, const BodyMesh& held,
 
 }  // namespace
 
-std::optional<bool> holdsAnother(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
-                                 WorkLimit& limit) {
+std::optional<bool> isContained(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
+                                WorkLimit& limit) {
   const std::optional<bool> a_holds = holdsShellOf(a, b, a_from_b, limit);
   if (a_holds.value_or(false)) return true;
   const std::optional<bool> b_holds = holdsShellOf(b, a, a_from_b.inverse(Eigen::Isometry), limit);

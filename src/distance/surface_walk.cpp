@@ -76,14 +76,14 @@ SurfacePoint walkTowards(const BodyMesh& body, TriangleIndex start, const Eigen:
   for (bool moved = true; moved && best.feature != Feature::Face;) {
     moved = false;
     const SurfacePoint from = best;
-    const Eigen::Vector3d way = target - from.point;
+    const Eigen::Vector3d displacement = target - from.point;
     // Within rounding of sideways nothing is to be gained.
-    const double on_the_spot = 1e-15 * (way.squaredNorm() + from.point.squaredNorm());
+    const double on_the_spot = 1e-15 * (displacement.squaredNorm() + from.point.squaredNorm());
     // A triangle that holds the point has a closer one only if one of its corners lies ahead.
     const auto try_triangle = [&](TriangleIndex triangle) {
       const TriangleNodes& nodes = surface.triangle(triangle);
       const bool ahead = std::any_of(nodes.begin(), nodes.end(), [&](NodeIndex node) {
-        return way.dot(surface.vertex(node) - from.point) > -on_the_spot;
+        return displacement.dot(surface.vertex(node) - from.point) > -on_the_spot;
       });
       if (!ahead) {
         return;

@@ -7,7 +7,7 @@ namespace {
 
 /// Slanted against the axes and their diagonals. Both bodies measure less than 2 in the working frame: 16
 /// leads out.
-const Eigen::Vector3d kWayOut = 16.0 * Eigen::Vector3d(0.8431, 0.2749, 0.4620);
+const Eigen::Vector3d kExit = 16.0 * Eigen::Vector3d(0.8431, 0.2749, 0.4620);
 
 /// Whether a segment may meet a box, by separating axes with a margin.
 class SegmentMeetsBox {
@@ -17,15 +17,15 @@ class SegmentMeetsBox {
 
   bool operator()(const Eigen::AlignedBox3d& box) const {
     const Eigen::Vector3d reach = 0.5 * box.sizes() + Eigen::Vector3d::Constant(margin_);
-    const Eigen::Vector3d way = middle_ - box.center();
+    const Eigen::Vector3d displacement = middle_ - box.center();
     for (int i = 0; i < 3; ++i) {
-      if (std::abs(way[i]) > reach[i] + std::abs(half_[i])) return false;
+      if (std::abs(displacement[i]) > reach[i] + std::abs(half_[i])) return false;
     }
     for (int i = 0; i < 3; ++i) {
       const int j = (i + 1) % 3;
       const int k = (i + 2) % 3;
       const double slack = 1e-12 * (std::abs(half_[j]) + std::abs(half_[k])) * (reach[j] + reach[k]);
-      if (std::abs(way[j] * half_[k] - way[k] * half_[j]) >
+      if (std::abs(displacement[j] * half_[k] - displacement[k] * half_[j]) >
           reach[j] * std::abs(half_[k]) + reach[k] * std::abs(half_[j]) + slack)
         return false;
     }
@@ -39,39 +39,39 @@ class SegmentMeetsBox {
 };
 
 /// 1 where the segment leaves through the triangle's front, -1 where it enters, 0 where it misses.
-int crossing(PerturbedPredicates& predicates, const Corners& triangle, Side whose,
-             const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
-  const int side = predicates.side(triangle, whose, from);
-  if (side == 0 || predicates.side(triangle, whose, to) == side) return 0;
+int crossing(PerturbedPredicates& predicates, const Corners& triangle, Side body, const Eigen::Vector3d& from,
+             const Eigen::Vector3d& to) {
+  const int side = predicates.side(triangle, body, from);
+  if (side == 0 || predicates.side(triangle, body, to) == side) return 0;
   int passing[3];
   for (std::size_t k = 0; k < 3; ++k) {
     const Eigen::Vector3d& p = *triangle[k];
     const Eigen::Vector3d& q = *triangle[(k + 1) % 3];
-    passing[k] = whose == Side::A ? predicates.passing(from, to, p, q) : predicates.passing(p, q, from, to);
+    passing[k] = body == Side::A ? predicates.passing(from, to, p, q) : predicates.passing(p, q, from, to);
   }
   return passing[0] == passing[1] && passing[1] == passing[2] ? -side : 0;
 }
 
 }  // namespace
 
-int Containment::winding(WorkingFrame& frame, PerturbedPredicates& predicates, Side whose,
+int Containment::winding(WorkingFrame& frame, PerturbedPredicates& predicates, Side body,
                          const Eigen::Vector3d& point) {
-  const Side holder = other(whose);
-  const BodyMesh& body = frame.body(holder);
-  const MeshTopology& topology = body.topology();
-  const Eigen::Vector3d end = point + kWayOut;
+  const Side holder = other(body);
+  const BodyMesh& holding = frame.body(holder);
+  const MeshTopology& topology = holding.topology();
+  const Eigen::Vector3d end = point + kExit;
   const Eigen::Vector3d from = frame.pointInBody(holder, point);
   const Eigen::Vector3d to = frame.pointInBody(holder, end);
   const double margin = frame.roundingBound();
   const SegmentMeetsBox meets(from, to, margin);
-  const Eigen::AlignedBox3d& box = body.surface().boundingBox();
+  const Eigen::AlignedBox3d& box = holding.surface().boundingBox();
   if (box.squaredExteriorDistance(from) > margin * margin) return 0;
   int winding = 0;
   stack_.assign(1, 0U);
   while (!stack_.empty()) {
     const std::uint32_t index = stack_.back();
     stack_.pop_back();
-    const TriangleTree::Node& node = body.tree().nodes()[index];
+    const TriangleTree::Node& node = holding.tree().nodes()[index];
     if (!meets(node.box)) continue;
     if (node.count == 0) {
       stack_.push_back(node.first);
@@ -79,9 +79,9 @@ int Containment::winding(WorkingFrame& frame, PerturbedPredicates& predicates, S
       continue;
     }
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-      const TriangleIndex triangle = body.tree().order()[i];
+      const TriangleIndex triangle = holding.tree().order()[i];
       if (!topology.shell_is_closed[topology.shell_of_triangle[triangle.value]]) continue;
-      winding += crossing(predicates, frame.corners(holder, triangle), whose, point, end);
+      winding += crossing(predicates, frame.corners(holder, triangle), body, point, end);
     }
   }
   return winding;

@@ -30,12 +30,12 @@ struct Sides {
   bool mixed;
 };
 
-Sides sidesOf(PerturbedPredicates& predicates, const Corners& triangle, Side whose, const Corners& corners) {
+Sides sidesOf(PerturbedPredicates& predicates, const Corners& triangle, Side body, const Corners& corners) {
   Sides sides{};
   sides.in_plane = true;
   for (std::size_t k = 0; k < 3; ++k) {
     bool on_plane = false;
-    sides.of[k] = predicates.side(triangle, whose, *corners[k], on_plane);
+    sides.of[k] = predicates.side(triangle, body, *corners[k], on_plane);
     sides.in_plane = sides.in_plane && on_plane;
   }
   sides.flat = sides.of[0] == 0;

@@ -163,9 +163,9 @@ void OverlayDepth::edgeAcrossEdge(const Edge& a, const Edge& b) {
   const double length_a = along_a.norm();
   const double length_b = along_b.norm();
   if (std::abs(turn) > kEdgeOn * length_a * length_b) {
-    const Eigen::Vector2d way = (b.from - a.from).head<2>();
-    const double share_a = (way[0] * along_b[1] - way[1] * along_b[0]) / turn;
-    const double share_b = (way[0] * along_a[1] - way[1] * along_a[0]) / turn;
+    const Eigen::Vector2d displacement = (b.from - a.from).head<2>();
+    const double share_a = (displacement[0] * along_b[1] - displacement[1] * along_b[0]) / turn;
+    const double share_b = (displacement[0] * along_a[1] - displacement[1] * along_a[0]) / turn;
     if (share_a >= 0.0 && share_a <= 1.0 && share_b >= 0.0 && share_b <= 1.0)
       offer(along(a.from, a.to, share_a), along(b.from, b.to, share_b));
   }

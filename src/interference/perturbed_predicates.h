@@ -28,19 +28,19 @@ class PerturbedPredicates {
   /// Whether an exact coincidence was met, so that the motion may have mattered.
   bool tied() const { return tied_; }
 
-  /// 1 where `point`, of the body `whose`, lies above the other body's triangle, else -1; 0 for a triangle
+  /// 1 where `point`, of the body `body`, lies above the other body's triangle, else -1; 0 for a triangle
   /// without area. `on_plane` tells whether it lies on the plane but for the motion.
-  int side(const Corners& triangle, Side whose, const Eigen::Vector3d& point, bool& on_plane) {
+  int side(const Corners& triangle, Side body, const Eigen::Vector3d& point, bool& on_plane) {
     const int sign = orientationSign(*triangle[0], *triangle[1], *triangle[2], point);
     on_plane = sign == 0;
     if (sign != 0) return sign;
     tied_ = true;
-    return signAlong(motionOf(whose), *triangle[0], *triangle[1], *triangle[0], *triangle[2]);
+    return signAlong(motionOf(body), *triangle[0], *triangle[1], *triangle[0], *triangle[2]);
   }
 
-  int side(const Corners& triangle, Side whose, const Eigen::Vector3d& point) {
+  int side(const Corners& triangle, Side body, const Eigen::Vector3d& point) {
     bool on_plane = false;
-    return side(triangle, whose, point, on_plane);
+    return side(triangle, body, point, on_plane);
   }
 
   /// How the edge (p, q) of A and the edge (r, s) of B pass each other: the sign of the determinant of the
@@ -55,15 +55,15 @@ class PerturbedPredicates {
     return signAlong(of_b_, r, s, p, q);
   }
 
-  /// Which of two planes of the other body the segment (p, q) of the body `whose` meets first; see
+  /// Which of two planes of the other body the segment (p, q) of the body `body` meets first; see
   /// planeOrder.
   int order(const Eigen::Vector3d& p, const Eigen::Vector3d& q, const PlaneOnSegment& first,
-            const PlaneOnSegment& second, Side whose) {
-    return planeOrder(p, q, first, second, motionOf(whose));
+            const PlaneOnSegment& second, Side body) {
+    return planeOrder(p, q, first, second, motionOf(body));
   }
 
  private:
-  const Motion& motionOf(Side whose) const { return whose == Side::B ? of_b_ : of_a_; }
+  const Motion& motionOf(Side body) const { return body == Side::B ? of_b_ : of_a_; }
 
   Motion of_b_;
   Motion of_a_;  ///< relative to B

@@ -132,7 +132,7 @@ void RegionBuilder::measureDepth(const BoundaryComponent& component, bool solid,
   region.normal_is_fallback = true;
   if (component.loop_count == 0) {
     const Side side = region.a_swallowed ? Side::A : Side::B;
-    along = leastWayOut(frame_, side, pieces_[at(side)], component);
+    along = leastExit(frame_, side, pieces_[at(side)], component);
   } else if (region.contact_area > kCancelled * component.loop_area * length * length) {
     region.normal_is_fallback = false;
     along.normal = vector_area / region.contact_area;

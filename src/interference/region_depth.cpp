@@ -118,8 +118,8 @@ DepthAlong leastDepth(WorkingFrame& frame, const CrossingCurves& curves, const S
   return least;
 }
 
-DepthAlong leastWayOut(WorkingFrame& frame, Side side, const SurfacePieces& pieces,
-                       const BoundaryComponent& region) {
+DepthAlong leastExit(WorkingFrame& frame, Side side, const SurfacePieces& pieces,
+                     const BoundaryComponent& region) {
   Eigen::Matrix<double, 6, 3> directions;
   directions.topRows<3>() =
       frame.body(Side::A).hierarchy().box(BoundingVolumeHierarchy::kRoot).axes.transpose();

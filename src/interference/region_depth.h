@@ -25,7 +25,7 @@ DepthAlong leastDepth(WorkingFrame& frame, const CrossingCurves& curves, const S
 
 /// Of a shell of the body `side` that nothing crosses: the least way until its extent and the other body's
 /// part, along the axes of both bodies' boxes, each both ways.
-DepthAlong leastWayOut(WorkingFrame& frame, Side side, const SurfacePieces& pieces,
-                       const BoundaryComponent& region);
+DepthAlong leastExit(WorkingFrame& frame, Side side, const SurfacePieces& pieces,
+                     const BoundaryComponent& region);
 
 }  // namespace concave_distance::detail

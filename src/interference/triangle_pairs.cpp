@@ -16,12 +16,13 @@ class BoxesMeet {
   bool operator()(const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d& b) const {
     const Eigen::Vector3d half_a = 0.5 * a.sizes() + Eigen::Vector3d::Constant(margin_);
     const Eigen::Vector3d half_b = 0.5 * b.sizes() + Eigen::Vector3d::Constant(margin_);
-    const Eigen::Vector3d way = rotation_ * b.center() + translation_ - a.center();
+    const Eigen::Vector3d displacement = rotation_ * b.center() + translation_ - a.center();
     for (int i = 0; i < 3; ++i) {
-      if (std::abs(way[i]) > half_a[i] + magnitude_.row(i).dot(half_b)) return false;
+      if (std::abs(displacement[i]) > half_a[i] + magnitude_.row(i).dot(half_b)) return false;
     }
     for (int j = 0; j < 3; ++j) {
-      if (std::abs(rotation_.col(j).dot(way)) > half_b[j] + magnitude_.col(j).dot(half_a)) return false;
+      if (std::abs(rotation_.col(j).dot(displacement)) > half_b[j] + magnitude_.col(j).dot(half_a))
+        return false;
     }
     for (int i = 0; i < 3; ++i) {
       const int i1 = (i + 1) % 3;
@@ -31,7 +32,8 @@ class BoxesMeet {
         const int j2 = (j + 2) % 3;
         const double reach = half_a[i1] * magnitude_(i2, j) + half_a[i2] * magnitude_(i1, j) +
                              half_b[j1] * magnitude_(i, j2) + half_b[j2] * magnitude_(i, j1);
-        if (std::abs(way[i2] * rotation_(i1, j) - way[i1] * rotation_(i2, j)) > reach) return false;
+        if (std::abs(displacement[i2] * rotation_(i1, j) - displacement[i1] * rotation_(i2, j)) > reach)
+          return false;
       }
     }
     return true;

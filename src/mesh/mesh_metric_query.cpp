@@ -237,11 +237,11 @@ std::size_t MeshMetricQuery::makeRoom(std::size_t seats) {
     }
     next_entry_ = 0;
   }
-  const auto oldest_is_in_the_way = [&] {
+  const auto oldest_is_in_place = [&] {
     const Ball& oldest = balls_[oldest_ball_];
     return oldest.first < next_entry_ + seats && oldest.first + oldest.seats > next_entry_;
   };
-  while (ball_count_ > 0 && (ball_count_ == balls_.size() || oldest_is_in_the_way())) {
+  while (ball_count_ > 0 && (ball_count_ == balls_.size() || oldest_is_in_place())) {
     dropOldestBall();
   }
   const std::size_t first = next_entry_;

@@ -39,12 +39,12 @@ DirectionCap capAround(const DirectionCap& l, const DirectionCap& r) {
   if (between + angle_l <= angle_r) return r;
   const double angle = 0.5 * (between + angle_l + angle_r) + 1e-14;
   if (!(angle < kPi)) return {};
-  // On the great circle through both axes, `way` from l's.
-  const double way = angle - angle_l;
+  // On the great circle through both axes, `turn` from l's.
+  const double turn = angle - angle_l;
   const Vector3d across = r.axis - l.axis.dot(r.axis) * l.axis;
   const double length = across.norm();
   if (!(length > 1e-12)) return between < 1.0 ? capOfAngle(l.axis, angle + between) : DirectionCap{};
-  const Vector3d axis = (std::cos(way) * l.axis + std::sin(way) / length * across).normalized();
+  const Vector3d axis = (std::cos(turn) * l.axis + std::sin(turn) / length * across).normalized();
   return {axis, std::cos(angle), std::sin(angle)};
 }
 

@@ -78,8 +78,8 @@ class Collector {
     if (fan.empty()) return;
     clipper_.reset();
     for (const NodeIndex neighbour : topology_.neighbours_of_vertex.row(v.value)) {
-      const Vector3d way = (mesh_.vertex(neighbour) - mesh_.vertex(v)).stableNormalized();
-      if (!way.isZero(0.0)) clipper_.clip(way, kConeSlack);
+      const Vector3d displacement = (mesh_.vertex(neighbour) - mesh_.vertex(v)).stableNormalized();
+      if (!displacement.isZero(0.0)) clipper_.clip(displacement, kConeSlack);
     }
     const TriangleNodes& nodes = mesh_.triangle(fan[0]);
     const auto corner = static_cast<std::uint8_t>(std::find(nodes.begin(), nodes.end(), v) - nodes.begin());
@@ -131,8 +131,8 @@ class Collector {
       const TriangleNodes& nodes = mesh_.triangle(other);
       const NodeIndex apex =
           *std::find_if(nodes.begin(), nodes.end(), [&](NodeIndex n) { return n != from && n != to; });
-      const Vector3d way = mesh_.vertex(apex) - mesh_.vertex(from);
-      clipper_.clip((way - along.dot(way) * along).normalized(), slack + kConeSlack);
+      const Vector3d displacement = mesh_.vertex(apex) - mesh_.vertex(from);
+      clipper_.clip((displacement - along.dot(displacement) * along).normalized(), slack + kConeSlack);
     }
     addClipped(centre, radius, normal.normalized(), bothSidesOfAny(around_), t, Kind::Edge, k);
   }

@@ -47,7 +47,7 @@ void PreparationCache::noteProblem(const std::string& problem) {
 
 std::string PreparationCache::takeProblem() {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (problem_.empty() || std::exchange(told_, true)) return {};
+  if (problem_.empty() || std::exchange(reported_, true)) return {};
   return "prepared bodies are not stored, the next start takes as long as this one: " + problem_;
 }
 

@@ -53,9 +53,9 @@ detail::UnionFind cornerGroups(const std::vector<TriangleNodes>& triangles, cons
     const HalfEdge l = edges.half_edges[i - 1];
     const HalfEdge r = edges.half_edges[i];
     if (edges.edge_of_half_edge[l] != edges.edge_of_half_edge[r]) continue;
-    const bool same_way = detail::startOf(triangles, l) == detail::startOf(triangles, r);
-    groups.unite(l, same_way ? r : end_corner(r));
-    groups.unite(end_corner(l), same_way ? end_corner(r) : r);
+    const bool same_direction = detail::startOf(triangles, l) == detail::startOf(triangles, r);
+    groups.unite(l, same_direction ? r : end_corner(r));
+    groups.unite(end_corner(l), same_direction ? end_corner(r) : r);
   }
   return groups;
 }

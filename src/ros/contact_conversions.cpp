@@ -14,7 +14,7 @@ Contact toContact(const PairHeading& heading, const ContactRegion& region, const
   const Eigen::Matrix3d rotation = reference_from_a.linear();
   const InterferenceRegion& overlap = region.overlap;
   Contact message;
-  message.id = region.id == 0 ? 0 : region.id + heading.id_offset;
+  message.id = region.id;
   message.has_depth = static_cast<std::uint8_t>(!std::isnan(overlap.depth));
   message.depth = overlap.depth;
   message.contact_area = overlap.contact_area;

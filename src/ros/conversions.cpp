@@ -27,7 +27,7 @@ static_assert(NicheChange::MERGE == static_cast<int>(NicheEvent::Kind::Merge));
 
 Niche toNiche(const PairHeading& heading, const TrackedNiche& niche) {
   Niche message;
-  message.id = niche.id + heading.id_offset;
+  message.id = niche.id;
   message.distance = niche.distance;
   message.point_a = toPoint(heading.reference_from_a * niche.point_a_in_a);
   message.point_b = toPoint(heading.reference_from_a * niche.point_b_in_a);
@@ -48,8 +48,8 @@ Niche toNiche(const PairHeading& heading, const TrackedNiche& niche) {
 NicheChange toChange(const PairHeading& heading, const NicheEvent& event) {
   NicheChange message;
   message.kind = static_cast<std::uint8_t>(event.kind);
-  message.id = event.id + heading.id_offset;
-  message.into_id = event.kind == NicheEvent::Kind::Merge ? event.into_id + heading.id_offset : 0;
+  message.id = event.id;
+  message.into_id = event.kind == NicheEvent::Kind::Merge ? event.into_id : 0;
   return message;
 }
 
@@ -245,7 +245,7 @@ PairDistance toDistance(const PairHeading& heading, const PairSolution& solution
     message.normal = toVector(heading.reference_from_a.linear() * nearest.normal_in_a);
     message.has_closing_speed = !std::isnan(nearest.closing_speed);
     message.closing_speed = nearest.closing_speed;
-    message.nearest_niche_id = heading.with_niches ? nearest.id + heading.id_offset : 0;
+    message.nearest_niche_id = heading.with_niches ? nearest.id : 0;
   }
   return message;
 }

@@ -7,8 +7,8 @@
 #include <string>
 #include <utility>
 
+#include "concave_distance/base/thread_cpu.h"
 #include "concave_distance/ros/callback_guard.h"
-#include "concave_distance/ros/thread_cpu.h"
 #include "concave_distance/ros/time_difference.h"
 
 namespace concave_distance {
@@ -19,12 +19,12 @@ constexpr double kMarkerPeriods = 5.0;
 constexpr double kShortestMarkerLife = 0.5;
 constexpr double kWarningPeriod = 5.0;  // s, between two warnings of the same kind
 
-std::vector<std::string> failingPairs(const std::vector<std::unique_ptr<TrackedPair>>& pairs) {
+std::vector<std::string> failingPairs(const PublishedPairs& pairs) {
   std::vector<std::string> failing;
   for (const auto& pair : pairs) {
     const bool failed = pair->status.code == PairStatus::MISSING_TRANSFORM ||
                         pair->status.code == PairStatus::STALE_TRANSFORM;
-    if (pair->demand.due && failed) {
+    if (pair->demand().due && failed) {
       failing.push_back(pair->heading.pair + ": " + pair->status.message);
     }
   }

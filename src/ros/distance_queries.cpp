@@ -13,8 +13,8 @@
 #include "concave_distance/ros/scene_edits.h"
 #include "concave_distance/ros/short_text.h"
 #include "concave_distance/ros/tf_poses.h"
-#include "concave_distance/ros/thread_count.h"
 #include "concave_distance/scene/frame_name.h"
+#include "concave_distance/scene/solver_threads.h"
 #include "concave_distance/tracking/pair_effects.h"
 #include "concave_distance/tracking/pair_tracker.h"
 
@@ -237,7 +237,7 @@ DistanceQueries::DistanceQueries(ServiceQueues& queues, SceneKeeper& keeper, Que
       keeper_(keeper),
       context_(std::move(context)),
       limits_(limits),
-      threads_(static_cast<std::size_t>(arenaSize(threads))),
+      threads_(static_cast<std::size_t>(solverThreads(threads))),
       get_distance_(node_.advertiseService("get_distance", &DistanceQueries::getDistance, this)),
       get_distances_(node_.advertiseService("get_distances", &DistanceQueries::getDistances, this)) {}
 

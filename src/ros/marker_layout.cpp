@@ -34,16 +34,16 @@ Eigen::AlignedBox3d boxInReference(const BodyBounds& bounds, const Eigen::Isomet
   return {centre - half, centre + half};
 }
 
-bool hasPoses(const TrackedPair& pair) {
-  return pair.demand.due && pair.status.code != PairStatus::MISSING_TRANSFORM &&
+bool hasPoses(const PublishedPair& pair) {
+  return pair.demand().due && pair.status.code != PairStatus::MISSING_TRANSFORM &&
          pair.status.code != PairStatus::STALE_TRANSFORM && pair.status.code != PairStatus::INVALID_POSE &&
-         pair.located_a_from_b.matrix().allFinite() && pair.heading.reference_from_a.matrix().allFinite();
+         pair.tracked->input.a_from_b.matrix().allFinite() &&
+         pair.heading.reference_from_a.matrix().allFinite();
 }
 
 }  // namespace
 
-std::vector<LocatedBody> locateBodies(const Scene& scene,
-                                      const std::vector<std::unique_ptr<TrackedPair>>& pairs) {
+std::vector<LocatedBody> locateBodies(const Scene& scene, const PublishedPairs& pairs) {
   std::vector<LocatedBody> located;
   std::vector<bool> known(scene.bodies.size(), false);
   const auto add = [&](std::size_t index, const Eigen::Isometry3d& reference_from_body) {
@@ -56,7 +56,7 @@ std::vector<LocatedBody> locateBodies(const Scene& scene,
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     if (hasPoses(*pairs[k])) {
       add(scene.pairs[k].body_a, pairs[k]->heading.reference_from_a);
-      add(scene.pairs[k].body_b, pairs[k]->heading.reference_from_a * pairs[k]->located_a_from_b);
+      add(scene.pairs[k].body_b, pairs[k]->heading.reference_from_a * pairs[k]->tracked->input.a_from_b);
     }
   }
   return located;

@@ -11,23 +11,23 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// A summary of all pairs.
 struct Survey {
-  const TrackedPair* nearest = nullptr;  ///< among pairs with a distance
-  const TrackedPair* missing = nullptr;  ///< the first pair without distance and bound
-  double distance = kInfinity;           ///< of `nearest`
-  double number = kInfinity;             ///< Nearest::number, so far
+  const PublishedPair* nearest = nullptr;  ///< among pairs with a distance
+  const PublishedPair* missing = nullptr;  ///< the first pair without distance and bound
+  double distance = kInfinity;             ///< of `nearest`
+  double number = kInfinity;               ///< Nearest::number, so far
   double lower_bound = kInfinity;
   bool all_proven = true;
   std::uint32_t pairs = 0;
   std::uint32_t missing_count = 0;
   std::uint32_t beyond_cutoff = 0;
 
-  void add(const TrackedPair& pair) {
+  void add(const PublishedPair& pair) {
     ++pairs;
-    if (pair.box_bound) {
+    if (pair.tracked->box_bound) {
       ++beyond_cutoff;
-      number = std::min(number, *pair.box_bound);
-      lower_bound = std::min(lower_bound, *pair.box_bound);
-    } else if (pair.solved && !std::isnan(pair.solution.distance)) {
+      number = std::min(number, *pair.tracked->box_bound);
+      lower_bound = std::min(lower_bound, *pair.tracked->box_bound);
+    } else if (pair.tracked->solved() && !std::isnan(pair.tracked->solution.distance)) {
       addSolved(pair);
     } else {
       missing = missing == nullptr ? &pair : missing;
@@ -36,8 +36,8 @@ struct Survey {
   }
 
  private:
-  void addSolved(const TrackedPair& pair) {
-    const PairSolution& solution = pair.solution;
+  void addSolved(const PublishedPair& pair) {
+    const PairSolution& solution = pair.tracked->solution;
     if (nearest == nullptr || solution.distance < distance) {
       nearest = &pair;
       distance = solution.distance;
@@ -72,11 +72,10 @@ std::string explain(const Survey& survey) {
 
 }  // namespace
 
-Nearest nearestOf(const std::vector<std::unique_ptr<TrackedPair>>& pairs, const std::string& reference_frame,
-                  ros::Time now) {
+Nearest nearestOf(const PublishedPairs& pairs, const std::string& reference_frame, ros::Time now) {
   Survey survey;
   for (const auto& pair : pairs) {
-    if (pair->demand.due) {
+    if (pair->demand().due) {
       survey.add(*pair);
     }
   }

@@ -24,12 +24,11 @@ void append(std::vector<Marker> from, std::vector<Marker>& to) {
 }
 
 // Only bodies of pairs in warning, not of all that overlap: in many robots some links always do.
-std::set<std::size_t> bodiesToTint(const Scene& scene, const std::vector<std::unique_ptr<TrackedPair>>& pairs,
-                                   double largest) {
+std::set<std::size_t> bodiesToTint(const Scene& scene, const PublishedPairs& pairs, double largest) {
   std::set<std::size_t> bodies;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
-    const TrackedPair& pair = *pairs[k];
-    if (!pair.demand.due || !pair.heading.warning) continue;
+    const PublishedPair& pair = *pairs[k];
+    if (!pair.demand().due || !pair.heading.warning) continue;
     for (const std::size_t body : {scene.pairs[k].body_a, scene.pairs[k].body_b}) {
       if (scene.bodies[body].mesh->diameter() <= largest) bodies.insert(body);
     }
@@ -72,7 +71,7 @@ LegendContents contentsOf(const Scene& scene, const std::vector<PairNiches>& nic
 }  // namespace
 
 visualization_msgs::MarkerArray SceneMarkers::draw(const Scene& scene, const MarkerStyle& style,
-                                                   const std::vector<std::unique_ptr<TrackedPair>>& pairs,
+                                                   const PublishedPairs& pairs,
                                                    const std::vector<PairNiches>& niches,
                                                    const std::vector<PairContactState>& contacts,
                                                    const std_msgs::Header& header, double lifetime) {

@@ -45,27 +45,27 @@ std::vector<std::string> frameAndAncestors(const tf2::BufferCore& buffer, const 
   return chain;
 }
 
-struct Sight {
+struct Lookup {
   const std::string& target;
   const std::string& source;
   FrameTransform seen;
 };
 
 // All transforms at the same time. @param stamp zero: the newest common time. @return the first failure
-const Sight* lookUpAll(const tf2::BufferCore& buffer, ros::Time stamp, std::array<Sight, 4>& sights,
-                       ros::Time& common) {
-  for (Sight& sight : sights) {
-    sight.seen = lookUpFrame(buffer, sight.target, sight.source, stamp);
-    common = olderOf(common, sight.seen.stamp);
+const Lookup* lookUpAll(const tf2::BufferCore& buffer, ros::Time stamp, std::array<Lookup, 4>& lookups,
+                        ros::Time& common) {
+  for (Lookup& lookup : lookups) {
+    lookup.seen = lookUpFrame(buffer, lookup.target, lookup.source, stamp);
+    common = olderOf(common, lookup.seen.stamp);
   }
-  for (Sight& sight : sights) {
+  for (Lookup& lookup : lookups) {
     // Usually one message brings every frame of a robot and nothing has to be looked up again.
-    if (sight.seen.status == TransformStatus::Ok && !sight.seen.stamp.isZero() &&
-        sight.seen.stamp != common) {
-      sight.seen = lookUpFrame(buffer, sight.target, sight.source, common);
+    if (lookup.seen.status == TransformStatus::Ok && !lookup.seen.stamp.isZero() &&
+        lookup.seen.stamp != common) {
+      lookup.seen = lookUpFrame(buffer, lookup.target, lookup.source, common);
     }
-    if (sight.seen.status != TransformStatus::Ok) {
-      return &sight;
+    if (lookup.seen.status != TransformStatus::Ok) {
+      return &lookup;
     }
   }
   return nullptr;
@@ -86,12 +86,12 @@ PairTransforms locate(const tf2::BufferCore& buffer, const PairFrames& frames, r
   if (ancestors.of_reference.empty()) {
     return failed(lookUpFrame(buffer, frames.reference, frames.frame_a, stamp));
   }
-  std::array<Sight, 4> sights{{{ancestors.of_bodies, frames.frame_a, {}},
-                               {ancestors.of_bodies, frames.frame_b, {}},
-                               {ancestors.of_reference, frames.frame_a, {}},
-                               {ancestors.of_reference, frames.reference, {}}}};
+  std::array<Lookup, 4> lookups{{{ancestors.of_bodies, frames.frame_a, {}},
+                                 {ancestors.of_bodies, frames.frame_b, {}},
+                                 {ancestors.of_reference, frames.frame_a, {}},
+                                 {ancestors.of_reference, frames.reference, {}}}};
   ros::Time common;
-  if (const Sight* failure = lookUpAll(buffer, stamp, sights, common)) {
+  if (const Lookup* failure = lookUpAll(buffer, stamp, lookups, common)) {
     const PairTransforms transforms = failed(failure->seen);
     ancestors = {};  // the tree may have changed
     return transforms;
@@ -100,9 +100,9 @@ PairTransforms locate(const tf2::BufferCore& buffer, const PairFrames& frames, r
   transforms.status = TransformStatus::Ok;
   transforms.stamp = common;
   transforms.fixed = common.isZero();
-  transforms.a_from_b = sights[0].seen.target_from_source.inverse() * sights[1].seen.target_from_source;
+  transforms.a_from_b = lookups[0].seen.target_from_source.inverse() * lookups[1].seen.target_from_source;
   transforms.reference_from_a =
-      sights[3].seen.target_from_source.inverse() * sights[2].seen.target_from_source;
+      lookups[3].seen.target_from_source.inverse() * lookups[2].seen.target_from_source;
   return transforms;
 }
 

@@ -27,39 +27,39 @@ static_assert(Alert::CLEAR == static_cast<int>(WarningState::Clear));
 static_assert(Alert::WARNING == static_cast<int>(WarningState::Warning));
 static_assert(Alert::UNKNOWN == static_cast<int>(WarningState::Unknown));
 
-PairNiches toMessage(const TrackedPair& pair) {
-  if (pair.solved) {
-    return toNiches(pair.heading, pair.solution);
+PairNiches toMessage(const PublishedPair& pair) {
+  if (pair.tracked->solved()) {
+    return toNiches(pair.heading, pair.tracked->solution);
   }
   PairNiches message = emptyNiches(pair.heading, pair.status);
-  if (pair.box_bound) {
+  if (pair.tracked->box_bound) {
     message.nearest.has_lower_bound = 1;
-    message.nearest.lower_bound = *pair.box_bound;
+    message.nearest.lower_bound = *pair.tracked->box_bound;
   }
   return message;
 }
 
-PairContactState toContactMessage(const TrackedPair& pair) {
-  if (pair.solved && pair.effects.contacts() != nullptr) {
-    return toContacts(pair.heading, toDistance(pair.heading, pair.solution).status, *pair.effects.contacts(),
-                      pair.solved_a_from_b);
+PairContactState toContactMessage(const PublishedPair& pair) {
+  if (pair.tracked->solved() && pair.tracked->effects.contacts() != nullptr) {
+    return toContacts(pair.heading, toDistance(pair.heading, pair.tracked->solution).status,
+                      *pair.tracked->effects.contacts(), pair.tracked->input.a_from_b);
   }
-  if (pair.box_bound) {  // proven apart, although not solved
+  if (pair.tracked->box_bound) {  // proven apart, although not solved
     PairContacts apart;
-    if (pair.settings.effects.normal_force) {
+    if (pair.tracked->settings.effects.normal_force) {
       apart.on_b_in_a = Wrench{};
     }
-    return toContacts(pair.heading, pair.status, apart, pair.located_a_from_b);
+    return toContacts(pair.heading, pair.status, apart, pair.tracked->input.a_from_b);
   }
   return emptyContacts(pair.heading, pair.status);
 }
 
-Alert toAlert(const TrackedPair& pair, const PairDistance& nearest) {
+Alert toAlert(const PublishedPair& pair, const PairDistance& nearest) {
   Alert alert;
   alert.header = nearest.header;
-  alert.state = static_cast<std::uint8_t>(pair.warning.state());
-  alert.warning_distance = pair.settings.warning_distance.value_or(kNotComputed);
-  alert.hysteresis = pair.settings.warning_hysteresis;
+  alert.state = static_cast<std::uint8_t>(pair.tracked->warning.state());
+  alert.warning_distance = pair.tracked->settings.warning_distance.value_or(kNotComputed);
+  alert.hysteresis = pair.tracked->settings.warning_hysteresis;
   alert.nearest = nearest;
   return alert;
 }
@@ -117,7 +117,7 @@ std::shared_ptr<const ServedScene> TopicPublishers::serve(const std::shared_ptr<
   return served;
 }
 
-void TopicPublishers::readDemand(const ServedScene& served, const MarkerWish& markers,
+void TopicPublishers::readDemand(const ServedScene& served, const MarkerOptions& markers,
                                  std::vector<PairDemand>& demand) {
   nearest_wanted_ = nearest_.isWatched() || nearest_distance_.isWatched();
   distances_wanted_ = distances_.isWatched();
@@ -155,17 +155,16 @@ bool TopicPublishers::isIdle(const std::vector<PairDemand>& demand) const {
          std::none_of(demand.begin(), demand.end(), [](const PairDemand& pair) { return pair.watched; });
 }
 
-PublishReport TopicPublishers::publish(const ServedScene& served,
-                                       const std::vector<std::unique_ptr<TrackedPair>>& pairs,
+PublishReport TopicPublishers::publish(const ServedScene& served, const PublishedPairs& pairs,
                                        double marker_lifetime, ros::Time now) {
   messages_.clear();
   const bool in_lists = distances_wanted_ || niches_wanted_ || markers_due_;
   for (std::size_t index = 0; index < pairs.size(); ++index) {
-    const TrackedPair& pair = *pairs[index];
+    const PublishedPair& pair = *pairs[index];
     const PairTopics* own = served.topics[index].get();
     const bool own_distance = own != nullptr && own->distance.isWatched();
     const bool own_niches = own != nullptr && own->niches.isWatched();
-    if (!pair.demand.due || !(in_lists || own_distance || own_niches)) {
+    if (!pair.demand().due || !(in_lists || own_distance || own_niches)) {
       continue;
     }
     messages_.push_back(toMessage(pair));
@@ -187,30 +186,30 @@ PublishReport TopicPublishers::publish(const ServedScene& served,
   publishLists(now);
   const ros::Time end = ros::Time::now();
   for (const auto& pair : pairs) {
-    if (pair->demand.due && pair->solved && !pair->repeated && !pair->fixed) {
+    if (pair->demand().due && pair->tracked->solved() && !pair->tracked->repeated &&
+        !pair->tracked->input.fixed) {
       report.latency.add(secondsBetween(pair->heading.stamp, end));
     }
   }
   return report;
 }
 
-void TopicPublishers::publishAlerts(const std::vector<std::unique_ptr<TrackedPair>>& pairs) {
+void TopicPublishers::publishAlerts(const PublishedPairs& pairs) {
   const bool repeat = repeat_alerts_.exchange(false);
   for (const auto& pair : pairs) {
-    if (pair->warning_changed || (repeat && pair->warning.state() != WarningState::Clear)) {
+    if (pair->tracked->warning_changed || (repeat && pair->tracked->warning.state() != WarningState::Clear)) {
       alerts_.publish(boost::make_shared<Alert>(toAlert(*pair, toMessage(*pair).nearest)));
     }
   }
 }
 
-void TopicPublishers::publishRetired(const std::vector<std::unique_ptr<TrackedPair>>& pairs) {
+void TopicPublishers::publishRetired(const PublishedPairs& pairs) {
   for (const auto& pair : pairs) {
     alerts_.publish(boost::make_shared<Alert>(toAlert(*pair, toMessage(*pair).nearest)));
   }
 }
 
-std::size_t TopicPublishers::publishMarkers(const ServedScene& served,
-                                            const std::vector<std::unique_ptr<TrackedPair>>& pairs,
+std::size_t TopicPublishers::publishMarkers(const ServedScene& served, const PublishedPairs& pairs,
                                             double lifetime, ros::Time now) {
   std_msgs::Header header;
   header.frame_id = reference_frame_;
@@ -224,11 +223,10 @@ std::size_t TopicPublishers::publishMarkers(const ServedScene& served,
   return message->markers.size();
 }
 
-void TopicPublishers::publishContacts(const ServedScene& served,
-                                      const std::vector<std::unique_ptr<TrackedPair>>& pairs, ros::Time now) {
+void TopicPublishers::publishContacts(const ServedScene& served, const PublishedPairs& pairs, ros::Time now) {
   contact_messages_.clear();
   for (std::size_t index = 0; index < pairs.size(); ++index) {
-    if (!pairs[index]->demand.due || !pairs[index]->demand.effects) {
+    if (!pairs[index]->demand().due || !pairs[index]->demand().effects) {
       continue;
     }
     contact_messages_.push_back(toContactMessage(*pairs[index]));
@@ -245,7 +243,7 @@ void TopicPublishers::publishContacts(const ServedScene& served,
   }
 }
 
-void TopicPublishers::publishNearest(const std::vector<std::unique_ptr<TrackedPair>>& pairs, ros::Time now) {
+void TopicPublishers::publishNearest(const PublishedPairs& pairs, ros::Time now) {
   if (!nearest_wanted_) {
     return;
   }

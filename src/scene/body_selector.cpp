@@ -77,7 +77,7 @@ BodySelector::Selection BodySelector::select(const Selector& selector) const {
                                     [&](const std::string& link) { return matchesPattern(text, link); });
   }
   if (selection.sources.empty() && !matches_bare_link) {
-    if (parts_.robot_is_lost) return {{}, !isPattern(text), false, true};
+    if (parts_.robot_failed) return {{}, !isPattern(text), false, true};
     std::vector<std::string> bodies;
     for (const BodySource& source : parts_.sources) bodies.push_back(source.name);
     std::vector<std::string> groups;

@@ -105,7 +105,7 @@ void addRobot(const RobotSpec& spec, const std::string& base_folder, const Scene
     robot = detail::readRobotDescription(urdf.text, urdf.where, spec.geometry);
   } catch (const Error& error) {
     parts.problems.push_back(problemOf(error, "no link of this robot is served"));
-    parts.robot_is_lost = true;
+    parts.robot_failed = true;
     return;
   }
   detail::addRobot(spec, robot, urdf, parts);

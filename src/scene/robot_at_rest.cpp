@@ -44,7 +44,7 @@ bool overlap(const SceneBody& a, const SceneBody& b, const Poses& poses) {
       certifyDistance(*a.mesh, *b.mesh, a_from_b, nullptr, 0, request, workspace);
   if (proof.status == CertificateStatus::Penetrating) return true;
   WorkLimit no_limit;
-  return holdsAnother(*a.mesh, *b.mesh, a_from_b, no_limit).value_or(false);
+  return isContained(*a.mesh, *b.mesh, a_from_b, no_limit).value_or(false);
 }
 
 double robotDiagonal(const Scene& scene, const RobotDescription& robot) {

@@ -33,7 +33,7 @@ struct SceneParts {
   std::vector<std::pair<std::string, std::vector<std::string>>> groups;  ///< of robots and SRDFs: body names
   std::vector<std::string> notes;
   std::vector<SceneProblem> problems;  ///< URDFs and SRDFs that cannot be read
-  bool robot_is_lost = false;          ///< a name that nobody knows may be one of its links
+  bool robot_failed = false;           ///< a name that nobody knows may be one of its links
 
   /// Why a pair is not watched unless the scene file names both bodies; nullptr when it is.
   const char* filterReason(std::size_t source_a, std::size_t source_b) const;

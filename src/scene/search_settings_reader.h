@@ -1,6 +1,5 @@
 #pragma once
 
-#include "concave_distance/search/annealing_parameters.h"
 #include "concave_distance/search/genetic_parameters.h"
 #include "yaml_value.h"
 
@@ -12,6 +11,7 @@ void readNicheRadii(YamlMap& map, GeneticParameters& parameters);
 /// Sets what the map says and leaves the rest.
 /// @throws Error for an unknown key, a wrong type or a value out of range
 void readGeneticParameters(const YamlValue& value, GeneticParameters& parameters);
-void readAnnealingParameters(const YamlValue& value, AnnealingParameters& parameters);
+/// @throws Error for another word than those of `descent_moves`
+DescentMoves readDescentMoves(const YamlValue& value);
 
 }  // namespace concave_distance::detail

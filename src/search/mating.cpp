@@ -45,15 +45,16 @@ NodeIndex nearestNode(const NodeGraph& graph, const Eigen::Vector3d& point) {
 
 Genes mateOnLine(NodeIndex fitter, NodeIndex other, const Shares& shares, const NodeGraph& graph) {
   const Eigen::Vector3d& from = graph.positions[fitter.value];
-  const Eigen::Vector3d way = graph.positions[other.value] - from;
-  return {nearestNode(graph, from + shares.first * way), nearestNode(graph, from + shares.second * way)};
+  const Eigen::Vector3d displacement = graph.positions[other.value] - from;
+  return {nearestNode(graph, from + shares.first * displacement),
+          nearestNode(graph, from + shares.second * displacement)};
 }
 
 Genes mateIndices(NodeIndex fitter, NodeIndex other, const Shares& shares) {
   const double from = fitter.value;
-  const double way = static_cast<double>(other.value) - from;
-  return {NodeIndex{static_cast<std::uint32_t>(std::lround(from + shares.first * way))},
-          NodeIndex{static_cast<std::uint32_t>(std::lround(from + shares.second * way))}};
+  const double displacement = static_cast<double>(other.value) - from;
+  return {NodeIndex{static_cast<std::uint32_t>(std::lround(from + shares.first * displacement))},
+          NodeIndex{static_cast<std::uint32_t>(std::lround(from + shares.second * displacement))}};
 }
 
 Genes mateGene(MatingMethod method, NodeIndex fitter, NodeIndex other, const Shares& shares,

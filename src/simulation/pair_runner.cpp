@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <iterator>
+#include <numeric>
+#include <string>
 
 #include "concave_distance/base/error.h"
 
@@ -22,16 +25,13 @@ class StageTimer {
   Clock::time_point start_;
 };
 
-TrackerParameters parametersOf(const ScenePair& pair, SimulationTracking tracking) {
-  TrackerParameters parameters = pair.settings.tracker;
-  if (!provesDistance(parameters.accuracy)) {
-    throw Error("pair '" + pair.name + "'",
-                "accuracy is " + std::string(toString(parameters.accuracy)) +
-                    ", and a simulation's steps need a proven distance",
-                "allowed: certified, complete");
-  }
-  parameters.niches_wanted = tracking != SimulationTracking::SingleMinimum;
-  return parameters;
+void requireProof(const ScenePair& pair) {
+  const AccuracyLevel accuracy = pair.settings.tracker.accuracy;
+  if (provesDistance(accuracy)) return;
+  throw Error(
+      "pair '" + pair.name + "'",
+      "accuracy is " + std::string(toString(accuracy)) + ", and a simulation's steps need a proven distance",
+      "allowed: certified, complete");
 }
 
 // B's velocity against A at A's origin, A's axes.
@@ -45,61 +45,62 @@ RelativeTwist relativeTwist(const SimulatedBody& a, const SimulatedBody& b) {
 
 }  // namespace
 
-PairRunner::PairRunner(const Scene& scene, const ScenePair& pair, const SimulationSettings& settings)
-    : name_(pair.name),
-      mesh_a_(scene.bodies[pair.body_a].mesh),
-      mesh_b_(scene.bodies[pair.body_b].mesh),
-      bounds_a_(scene.bodies[pair.body_a].bounds),
-      bounds_b_(scene.bodies[pair.body_b].bounds),
-      parameters_(parametersOf(pair, settings.tracking)),
-      settings_(pair.settings.effects),
-      material_(inContact(scene.bodies[pair.body_a].material, scene.bodies[pair.body_b].material)),
-      tracker_(name_, mesh_a_, mesh_b_, parameters_),
-      effects_(mesh_a_, mesh_b_, settings_, material_) {
-  if (settings.tracking != SimulationTracking::Niches) single_.emplace(mesh_a_, mesh_b_);
+PairRunner::PairRunner(const Scene& scene, std::size_t index, const SimulationSettings& settings)
+    : tracked_(scene, index, 0), material_(inContact(tracked_.body_a->material, tracked_.body_b->material)) {
+  requireProof(*tracked_.origin);
+  const std::string where = "pair '" + tracked_.origin->name + "'";
+  tracked_.settings.tracker.validate(where);
+  tracked_.settings.effects.validate(where);
+  tracked_.demand = {true, true, settings.tracking != SimulationTracking::SingleMinimum, true};
+  if (settings.tracking != SimulationTracking::Niches) {
+    single_.emplace(tracked_.body_a->mesh, tracked_.body_b->mesh);
+  }
 }
 
 void PairRunner::update(double time, double step, const SimulatedBody& a, const SimulatedBody& b,
                         SimulatedPair& pair, SimulationCounters& counters) {
   pair.a_from_b = a.world_from_body.inverse(Eigen::Isometry) * b.world_from_body;
-  const double apart = distanceLowerBound(bounds_a_, bounds_b_, pair.a_from_b);
-  const bool solve = !(apart > parameters_.cutoff);
-  if (!solve) {
-    if (pair.solved) {  // what was tracked is of another place by the time the bodies come back
-      tracker_.reset();
-      effects_.reset();
-      pair.contacts = PairContacts();
-    }
+  PairInput input;
+  input.a_from_b = pair.a_from_b;
+  input.time = time;
+  input.step = step;
+  input.b_in_a = relativeTwist(a, b);
+  if (!tracked_.locate(input, nullptr) && tracked_.box_bound) {
+    pair.contacts = PairContacts();
     pair.solved = false;
-    pair.lower_bound = apart;
+    pair.lower_bound = *tracked_.box_bound;
     pair.single_distance = kNotComputed;
     pair.single_point_a_in_a = pair.single_point_b_in_a = Eigen::Vector3d::Constant(kNotComputed);
     pair.single_is_wrong = false;
     ++counters.broad_phase_only;
     return;
   }
-  {
-    const StageTimer timer(SimulationStage::Solve, counters);
-    tracker_.update(pair.a_from_b, time, pair.solution);
-    pair.solved = true;
-    pair.lower_bound = std::max(0.0, pair.solution.lower_bound);  // NaN: 0
-    ++counters.solves;
-  }
-  if (!effects_.plan().empty()) {
-    const StageTimer timer(SimulationStage::Effects, counters);
-    effects_.update(pair.solution, pair.a_from_b, relativeTwist(a, b), step, pair.contacts);
-  }
+  tracked_.solve();
+  pair.solved = true;
+  pair.solution = tracked_.solution;
+  pair.lower_bound = std::max(0.0, pair.solution.lower_bound);  // NaN: 0
+  if (tracked_.effects.contacts() != nullptr) pair.contacts = *tracked_.effects.contacts();
+  countSolve(counters);
   if (single_) {
     const StageTimer timer(SimulationStage::Single, counters);
     followSingle(pair);
   }
 }
 
+void PairRunner::countSolve(SimulationCounters& counters) {
+  ++counters.solves;
+  const EffectCounts effects = tracked_.effects.takeCounts();
+  counters.seconds[static_cast<std::size_t>(SimulationStage::Solve)] += tracked_.solution.solve_seconds;
+  counters.seconds[static_cast<std::size_t>(SimulationStage::Effects)] +=
+      std::accumulate(std::begin(effects.seconds), std::end(effects.seconds), 0.0);
+}
+
 void PairRunner::followSingle(SimulatedPair& pair) {
   if (!single_->started()) {
-    TrackerParameters parameters = parameters_;
+    TrackerParameters parameters = tracked_.settings.tracker;
     parameters.niches_wanted = true;
-    const PairSolution first = solveOnce(name_, mesh_a_, mesh_b_, parameters, pair.a_from_b);
+    const PairSolution first = solveOnce(tracked_.origin->name, tracked_.body_a->mesh, tracked_.body_b->mesh,
+                                         parameters, pair.a_from_b);
     if (first.niches.empty()) return;
     const WitnessPair& witness = first.niches.front().witness;
     single_->start(witness.triangle_a, witness.triangle_b);
@@ -127,10 +128,11 @@ ContactWrenches PairRunner::wrenchesOnB(const SimulatedPair& pair, const Eigen::
 }
 
 ContactRates PairRunner::ratesOf(const ContactRegion& region, double step) const {
-  if (!settings_.normal_force) return {};
+  const EffectSettings& settings = tracked_.settings.effects;
+  if (!settings.normal_force) return {};
   const ContactGeometry geometry{region.overlap.depth, region.depth_rate, region.overlap.contact_area,
                                  region.overlap.volume};
-  return contactRates(*settings_.normal_force, settings_.friction, material_, geometry, region.normal_force,
+  return contactRates(*settings.normal_force, settings.friction, material_, geometry, region.normal_force,
                       step);
 }
 

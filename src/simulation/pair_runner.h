@@ -5,11 +5,10 @@
 #include <optional>
 
 #include "concave_distance/scene/scene.h"
+#include "concave_distance/scene/tracked_pair.h"
 #include "concave_distance/simulation/contact_rates.h"
 #include "concave_distance/simulation/simulation.h"
 #include "concave_distance/simulation/single_minimum.h"
-#include "concave_distance/tracking/pair_effects.h"
-#include "concave_distance/tracking/pair_tracker.h"
 
 namespace concave_distance::detail {
 
@@ -30,7 +29,8 @@ struct ContactSpeeds {
 class PairRunner {
  public:
   /// @throws Error for a pair whose level proves no distance
-  PairRunner(const Scene& scene, const ScenePair& pair, const SimulationSettings& settings);
+  /// @param index of the pair in the scene
+  PairRunner(const Scene& scene, std::size_t index, const SimulationSettings& settings);
 
   /// Solves at the bodies' poses. @param step seconds since the last call
   void update(double time, double step, const SimulatedBody& a, const SimulatedBody& b, SimulatedPair& pair,
@@ -58,17 +58,10 @@ class PairRunner {
  private:
   ContactRates ratesOf(const ContactRegion& region, double step) const;
   void followSingle(SimulatedPair& pair);
+  void countSolve(SimulationCounters& counters);
 
-  std::string name_;
-  std::shared_ptr<const BodyMesh> mesh_a_;
-  std::shared_ptr<const BodyMesh> mesh_b_;
-  BodyBounds bounds_a_;
-  BodyBounds bounds_b_;
-  TrackerParameters parameters_;
-  EffectSettings settings_;
+  TrackedPair tracked_;
   ContactMaterial material_;
-  PairTracker tracker_;
-  PairEffects effects_;
   std::optional<SingleMinimum> single_;
 };
 

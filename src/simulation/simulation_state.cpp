@@ -52,9 +52,10 @@ Simulation::State::State(const Scene& scene, const SimulationSettings& given) : 
     simulated.motion = body_settings.motion;
     bodies.push_back(simulated);
   }
-  for (const ScenePair& pair : scene.pairs) {
+  for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
+    const ScenePair& pair = scene.pairs[i];
     if (!pair.enabled || !(moving[pair.body_a].moves() || moving[pair.body_b].moves())) continue;
-    runners.emplace_back(scene, pair, settings);
+    runners.emplace_back(scene, i, settings);
     SimulatedPair simulated;
     simulated.name = pair.name;
     simulated.body_a = pair.body_a;

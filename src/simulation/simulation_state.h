@@ -37,11 +37,11 @@ struct Simulation::State {
   double nextEvent(double until) const;
   double limitStep(double event, StepLimit& limit);
   detail::ContactSpeeds speedsOf(std::size_t index, double step) const;
-  double allowedWay(const SimulatedPair& pair) const {
+  double allowedDisplacement(const SimulatedPair& pair) const {
     return pair.lower_bound + settings.allowed_penetration;
   }
   /// The largest share of its allowed way that a pair has gone.
-  double shareOfWay() const;
+  double shareOfDisplacement() const;
   void evaluateContacts(double step);
   void report(double inside);
   void addWorks(double step);

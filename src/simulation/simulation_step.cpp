@@ -63,7 +63,7 @@ double Simulation::State::limitStep(double event, StepLimit& limit) {
     const MovingBody& b = moving[pair.body_b];
     const double speed = (b.referenceVelocity(inside) - a.referenceVelocity(inside)).norm() +
                          a.spinSpeed(inside) + b.spinSpeed(inside);
-    hold(allowedWay(pair) / speed, StepLimit::Distance);
+    hold(allowedDisplacement(pair) / speed, StepLimit::Distance);
   }
   // Every contact and drive of a body adds to what resists its motion.
   std::fill(speeds.begin(), speeds.end(), ContactSpeeds());
@@ -84,14 +84,14 @@ double Simulation::State::limitStep(double event, StepLimit& limit) {
   return step;
 }
 
-double Simulation::State::shareOfWay() const {
+double Simulation::State::shareOfDisplacement() const {
   double share = 0.0;
   for (const SimulatedPair& pair : pairs) {
     const Drift& a = drifts[pair.body_a];
     const Drift& b = drifts[pair.body_b];
-    const double way = (b.shift - a.shift).norm() + moving[pair.body_a].radius() * a.turn +
-                       moving[pair.body_b].radius() * b.turn;
-    share = std::max(share, way / allowedWay(pair));
+    const double displacement = (b.shift - a.shift).norm() + moving[pair.body_a].radius() * a.turn +
+                                moving[pair.body_b].radius() * b.turn;
+    share = std::max(share, displacement / allowedDisplacement(pair));
   }
   return share;
 }
@@ -127,7 +127,7 @@ double Simulation::State::step(double until) {
       }
       drifts[i] = body.advance(time, step, contacts[i].sum(), settings.gravity);
     }
-    const double share = shareOfWay();
+    const double share = shareOfDisplacement();
     if (share <= 1.0) break;
     for (MovingBody& body : moving) body.restore();
     ++counters.shortened;

@@ -4,9 +4,9 @@
 #include <ostream>
 
 #include "concave_distance/mesh/export_mesh.h"
-#include "concave_distance/partition/convex_hull.h"
-#include "concave_distance/partition/convex_partition.h"
-#include "concave_distance/partition/piece_file.h"
+#include "concave_distance/thesis/partition/convex_hull.h"
+#include "concave_distance/thesis/partition/convex_partition.h"
+#include "concave_distance/thesis/partition/piece_file.h"
 
 namespace concave_distance::tools {
 namespace {

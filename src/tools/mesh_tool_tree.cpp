@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "concave_distance/base/output_file.h"
-#include "concave_distance/continuous/build_constraint_tree.h"
-#include "concave_distance/continuous/constraint_tree_file.h"
-#include "concave_distance/continuous/piece_mesh.h"
+#include "concave_distance/thesis/continuous/build_constraint_tree.h"
+#include "concave_distance/thesis/continuous/constraint_tree_file.h"
+#include "concave_distance/thesis/continuous/piece_mesh.h"
 #include "mesh_tool_convex.h"
 
 namespace concave_distance::tools {

@@ -42,7 +42,7 @@ void TrackerState::completeNiches(double displacement, double elapsed, PairSolut
   request.largest_count = parameters.largest_niche_count;
   request.through_material = parameters.keep_through_material;
   for (const NicheRecord& record : records) {
-    request.whose.emplace_back(record.niche.witness.triangle_a, record.niche.witness.triangle_b);
+    request.asked_pairs.emplace_back(record.niche.witness.triangle_a, record.niche.witness.triangle_b);
   }
   const LocalMinima found = findLocalMinima(*geometry.a, *geometry.b, geometry.a_from_b, request);
   completeness.current = found.finished;

@@ -49,9 +49,9 @@ void TrackerState::followNiches(double displacement, double elapsed, SearchCost&
       record.niche.outward =
           classifyOutwardness(*geometry.a, *geometry.b, geometry.a_from_b, record.niche.witness);
       if (record.niche.outward == Outwardness::ThroughMaterial) {
-        if (!dark_side_met || record.niche.witness.squared_distance < dark_side.squared_distance) {
-          dark_side = record.niche.witness;
-          dark_side_met = true;
+        if (!inward_witness_met || record.niche.witness.squared_distance < inward_witness.squared_distance) {
+          inward_witness = record.niche.witness;
+          inward_witness_met = true;
         }
         archive.remove(i, events);
         continue;
@@ -63,8 +63,8 @@ void TrackerState::followNiches(double displacement, double elapsed, SearchCost&
 
 // What tells that a body is swallowed is in no archive: it is followed from cycle to cycle like a niche.
 // Where it has become one (keep_through_material, or the body has come out), it is admitted as such.
-void TrackerState::followDarkSide() {
-  const WitnessRefinement refined = geometry.refine(dark_side.triangle_a, dark_side.triangle_b);
+void TrackerState::followInwardWitness() {
+  const WitnessRefinement refined = geometry.refine(inward_witness.triangle_a, inward_witness.triangle_b);
   candidates.push_back({refined.witness, geometry.nodePairNear(refined.witness), refined.proven, 0});
 }
 
@@ -79,11 +79,11 @@ void TrackerState::follow(NicheRecord& record, double elapsed) {
   const Eigen::Vector3d before_b = record.point_b_in_b;
   // On a plateau witnesses wander without coming nearer: no way to go on with.
   if (parameters.extrapolate && elapsed > 0.0 && record.niche.kind == NicheKind::Point) {
-    const Eigen::Vector3d way_a = record.velocity_a_in_a * elapsed;
-    const Eigen::Vector3d way_b = record.velocity_b_in_b * elapsed;
-    if (way_a.squaredNorm() + way_b.squaredNorm() > 0.0) {
-      const SurfacePoint on_a = walkTowards(*geometry.a, start_a, before_a + way_a);
-      const SurfacePoint on_b = walkTowards(*geometry.b, start_b, before_b + way_b);
+    const Eigen::Vector3d displacement_a = record.velocity_a_in_a * elapsed;
+    const Eigen::Vector3d displacement_b = record.velocity_b_in_b * elapsed;
+    if (displacement_a.squaredNorm() + displacement_b.squaredNorm() > 0.0) {
+      const SurfacePoint on_a = walkTowards(*geometry.a, start_a, before_a + displacement_a);
+      const SurfacePoint on_b = walkTowards(*geometry.b, start_b, before_b + displacement_b);
       const double extrapolated = (geometry.a_from_b * on_b.point - on_a.point).norm();
       const double gain = (geometry.a_from_b * before_b - before_a).norm() - extrapolated;
       if (gain > kPlateauTolerance * geometry.scale()) {

@@ -76,7 +76,7 @@ void TrackerState::reset() {
   sweep.restart();
   swept.clear();
   warm = false;
-  dark_side_met = false;
+  inward_witness_met = false;
   swallowed = false;
   proof.front.clear();
   proof.seeded = proof.current = false;
@@ -157,12 +157,12 @@ void TrackerState::update(const Eigen::Isometry3d& pose, double time, PairSoluti
 void TrackerState::solveNiches(double displacement, double elapsed, PairSolution& solution) {
   const PairObjective objective(*geometry.a, *geometry.b, geometry.a_from_b);
   candidates.clear();
-  dark_side_met = dark_side_met && cycles_at_rest > 0;
+  inward_witness_met = inward_witness_met && cycles_at_rest > 0;
   search.basins.clear();
 
   if (warm) {
     if (swallowed) {
-      followDarkSide();
+      followInwardWitness();
     }
     followNiches(displacement, elapsed, solution.cost, solution.events);
   }
@@ -195,8 +195,11 @@ struct PairTracker::State : TrackerState {
 };
 
 PairTracker::PairTracker(std::string name, std::shared_ptr<const BodyMesh> a,
-                         std::shared_ptr<const BodyMesh> b, const TrackerParameters& parameters)
-    : state_(std::make_unique<State>(std::move(name), std::move(a), std::move(b), parameters)) {}
+                         std::shared_ptr<const BodyMesh> b, const TrackerParameters& parameters,
+                         std::uint64_t largest_used_id)
+    : state_(std::make_unique<State>(std::move(name), std::move(a), std::move(b), parameters)) {
+  state_->archive.beginIdsAfter(largest_used_id);
+}
 PairTracker::~PairTracker() = default;
 PairTracker::PairTracker(PairTracker&&) noexcept = default;
 PairTracker& PairTracker::operator=(PairTracker&&) noexcept = default;

@@ -57,7 +57,7 @@ void TrackerState::proveDistance(double displacement) {
   proof.seeded = proof.current = true;
   // Who holds whom cannot change while no point comes as far as the other surface.
   if (!(displacement + proof.error < last_bound)) {
-    const std::optional<bool> holds = holdsAnother(*geometry.a, *geometry.b, geometry.a_from_b, limit);
+    const std::optional<bool> holds = isContained(*geometry.a, *geometry.b, geometry.a_from_b, limit);
     proof.swallowed = holds.value_or(false);
     // Until it is known whether one body is inside the other, nothing is certain.
     if (!holds) {

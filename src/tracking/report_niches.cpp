@@ -114,26 +114,27 @@ void TrackerState::reportNearest(double displacement, PairSolution& solution) {
       solution.meeting_triangles = TrianglePair{nearest.witness.triangle_a, nearest.witness.triangle_b};
     }
   }
-  if (records.empty() && dark_side_met && limit.hasRefused()) {
+  if (records.empty() && inward_witness_met && limit.hasRefused()) {
     // Not a niche, but still a bound of the distance: there was no time to find another.
-    solution.distance = std::sqrt(dark_side.squared_distance);
-    solution.point_a_in_a = dark_side.point_a_in_a;
-    solution.point_b_in_a = dark_side.point_b_in_a;
+    solution.distance = std::sqrt(inward_witness.squared_distance);
+    solution.point_a_in_a = inward_witness.point_a_in_a;
+    solution.point_b_in_a = inward_witness.point_b_in_a;
   }
   // A segment that leaves a closed body inwards and meets no surface also ends in its material. Only the
   // closest pair can do that without a closer crossing of the surfaces.
-  const bool dark_side_nearest =
-      dark_side_met && (records.empty() || std::sqrt(dark_side.squared_distance) < solution.distance);
+  const bool inward_nearest =
+      inward_witness_met &&
+      (records.empty() || std::sqrt(inward_witness.squared_distance) < solution.distance);
   const bool overlap =
       solution.status != SolveStatus::Penetrating &&
-      (holdsAnother(*geometry.a, *geometry.b, geometry.a_from_b, limit).value_or(false) ||
-       (dark_side_nearest && isVisible(*geometry.a, *geometry.b, geometry.a_from_b, dark_side)));
-  swallowed = overlap && dark_side_nearest;
+      (isContained(*geometry.a, *geometry.b, geometry.a_from_b, limit).value_or(false) ||
+       (inward_nearest && isVisible(*geometry.a, *geometry.b, geometry.a_from_b, inward_witness)));
+  swallowed = overlap && inward_nearest;
   if (overlap) {
     if (swallowed) {
-      solution.distance = std::sqrt(dark_side.squared_distance);
-      solution.point_a_in_a = dark_side.point_a_in_a;
-      solution.point_b_in_a = dark_side.point_b_in_a;
+      solution.distance = std::sqrt(inward_witness.squared_distance);
+      solution.point_a_in_a = inward_witness.point_a_in_a;
+      solution.point_b_in_a = inward_witness.point_b_in_a;
     }
     solution.status = SolveStatus::Penetrating;
     solution.surface_distance = solution.distance;

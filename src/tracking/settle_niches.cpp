@@ -78,9 +78,9 @@ void TrackerState::report(const NicheCandidate& candidate, const AdmissionResult
 // Through material: not a niche, but what tells that a body is swallowed.
 bool TrackerState::isDark(const WitnessPair& witness, Outwardness outward) {
   if (outward != Outwardness::ThroughMaterial || parameters.keep_through_material) return false;
-  if (!dark_side_met || witness.squared_distance < dark_side.squared_distance) {
-    dark_side = witness;
-    dark_side_met = true;
+  if (!inward_witness_met || witness.squared_distance < inward_witness.squared_distance) {
+    inward_witness = witness;
+    inward_witness_met = true;
   }
   return true;
 }
@@ -110,7 +110,7 @@ std::optional<AdmissionResult> TrackerState::knownVerdict(const NicheCandidate& 
   return std::nullopt;
 }
 
-std::uint64_t TrackerState::bear(const NicheCandidate& candidate, Outwardness outward) {
+std::uint64_t TrackerState::addNiche(const NicheCandidate& candidate, Outwardness outward) {
   NicheRecord newborn;
   newborn.niche.id = archive.takeId();
   newborn.niche.birth_cycle = cycle;
@@ -160,7 +160,7 @@ void TrackerState::judge(PairSolution& solution) {
     }
     const WitnessPair& witness = candidate.witness;
     if (witness.squared_distance == 0.0) {
-      report(candidate, {Admission::Born, bear(candidate, outward)}, solution.events);
+      report(candidate, {Admission::Born, addNiche(candidate, outward)}, solution.events);
       continue;
     }
     judging.pending.push_back({k, outward});
@@ -194,7 +194,7 @@ void TrackerState::settleVerdicts(std::size_t known, PairSolution& solution) {
       const Pending& pending = judging.pending[seed - known];
       // Undecided, it may be a ripple; the nearest of all is still reported.
       if (basins[basin].refused && !isNearest(candidates[pending.candidate])) continue;
-      ids[basin] = bear(candidates[pending.candidate], pending.outward);
+      ids[basin] = addNiche(candidates[pending.candidate], pending.outward);
       continue;
     }
     // A place that no candidate but a flood has found.
@@ -202,7 +202,7 @@ void TrackerState::settleVerdicts(std::size_t known, PairSolution& solution) {
     const NicheCandidate found{refined.witness, geometry.nodePairNear(refined.witness), refined.proven, 0};
     Outwardness outward{};
     const auto verdict = knownVerdict(found, outward);
-    ids[basin] = verdict ? verdict->id : bear(found, outward);
+    ids[basin] = verdict ? verdict->id : addNiche(found, outward);
   }
   for (std::size_t k = 0; k < judging.pending.size(); ++k) {
     const NicheCandidate& candidate = candidates[judging.pending[k].candidate];

@@ -62,7 +62,7 @@ struct TrackerState {
   // follow_niches.cpp: every known niche to where its minimum has moved.
   void followNiches(double displacement, double elapsed, SearchCost& cost, std::vector<NicheEvent>& events);
   void follow(NicheRecord& record, double elapsed);
-  void followDarkSide();
+  void followInwardWitness();
 
   // search_niches.cpp: candidates from the genetic search and from projections.
   bool searchIsDue(double displacement);
@@ -79,7 +79,7 @@ struct TrackerState {
               std::vector<NicheEvent>& events);
   bool isDark(const WitnessPair& witness, Outwardness outward);
   std::optional<AdmissionResult> knownVerdict(const NicheCandidate& candidate, Outwardness& outward);
-  std::uint64_t bear(const NicheCandidate& candidate, Outwardness outward);
+  std::uint64_t addNiche(const NicheCandidate& candidate, Outwardness outward);
   bool isNearest(const NicheCandidate& candidate) const;
   void judge(PairSolution& solution);
   void settleVerdicts(std::size_t known, PairSolution& solution);
@@ -114,8 +114,8 @@ struct TrackerState {
   std::vector<TrialPoint> known;
   std::vector<TrialPoint> inherited;
   std::vector<double> scratch;
-  WitnessPair dark_side;  ///< the closest pair of this cycle that runs through material
-  bool dark_side_met = false;
+  WitnessPair inward_witness;  ///< the closest pair of this cycle that runs through material
+  bool inward_witness_met = false;
   bool swallowed = false;  ///< the last cycle found so by its dark side
   /// A candidate that waits for its verdict.
   struct Pending {

@@ -5,11 +5,13 @@
 #include <iterator>
 #include <regex>
 #include <sstream>
+#include <string_view>
 
 namespace concave_distance {
 namespace {
 
-const std::string kTopRoom = "ros";
+const std::string kTopFolder = "ros";
+const std::string kThesis = "thesis";
 const std::string kPackage = "concave_distance";
 
 std::vector<std::string> includesOf(const std::string& text) {
@@ -23,11 +25,22 @@ std::vector<std::string> includesOf(const std::string& text) {
   return included;
 }
 
-/// The room of an include of this package, empty for any other: "concave_distance/mesh/x.h" gives "mesh".
-std::string roomOf(const std::string& included) {
-  const std::filesystem::path path(included);
-  const std::vector<std::filesystem::path> parts(path.begin(), path.end());
-  return parts.size() == 3 && parts.front() == kPackage ? parts[1].string() : std::string();
+/// The listed folder that a path below src or include/concave_distance lies in, else the path's first folder.
+std::string folderOf(const std::filesystem::path& path) {
+  const std::string parent = path.parent_path().string() + "/";
+  std::string found;
+  for (const std::string& folder : foldersFromTheGround()) {
+    if (parent.compare(0, folder.size() + 1, folder + "/") == 0 && folder.size() > found.size())
+      found = folder;
+  }
+  return found.empty() && path.has_parent_path() ? path.begin()->string() : found;
+}
+
+/// The folder of an include of this package, empty for any other: "concave_distance/mesh/x.h" gives "mesh".
+std::string includedFolder(const std::string& included) {
+  const std::string prefix = kPackage + "/";
+  if (included.compare(0, prefix.size(), prefix) != 0) return {};
+  return folderOf(included.substr(prefix.size()));
 }
 
 bool belongsToRos(const std::string& included) {
@@ -35,7 +48,17 @@ bool belongsToRos(const std::string& included) {
       R"(^(ros|tf|tf2[a-z_]*|[a-z_]+_msgs|[a-z_]+_srvs|std_srvs|urdf|pluginlib|nodelet|dynamic_reconfigure|)"
       R"(diagnostic_updater|interactive_markers|resource_retriever|message_filters|rosbag|concave_distance)/)");
   const bool generated = std::filesystem::path(included).parent_path() == kPackage;
-  return generated || (std::regex_search(included, ros_header) && roomOf(included).empty());
+  return generated || (std::regex_search(included, ros_header) && includedFolder(included).empty());
+}
+
+bool isBelow(const std::string& folder, const std::string& other) {
+  return folder == other || folder.compare(0, other.size() + 1, other + "/") == 0;
+}
+
+/// The thesis's methods are for its experiments and for mesh_tool.
+bool mayUseTheThesis(const std::filesystem::path& file) {
+  return isBelow(folderOf(file), kThesis) ||
+         file.string().compare(0, std::string_view("tools/mesh_tool").size(), "tools/mesh_tool") == 0;
 }
 
 std::string contentOf(const std::filesystem::path& file) {
@@ -45,36 +68,41 @@ std::string contentOf(const std::filesystem::path& file) {
 
 }  // namespace
 
-const std::vector<std::string>& roomsFromTheGround() {
-  static const std::vector<std::string> rooms = {
-      "base",    "mesh",     "distance", "partition",  "continuous", "search",     "interference",
-      "contact", "tracking", "scene",    "simulation", "tools",      "evaluation", kTopRoom};
-  return rooms;
+const std::vector<std::string>& foldersFromTheGround() {
+  static const std::vector<std::string> folders = {
+      "base",     "mesh",  "distance",   "search",           "interference",      "contact",
+      "tracking", "scene", "simulation", "thesis/partition", "thesis/continuous", "thesis/annealing",
+      kThesis,    "tools", kTopFolder};
+  return folders;
 }
 
-std::vector<std::string> faultsOfIncludes(const std::string& text, const std::string& room,
+std::vector<std::string> faultsOfIncludes(const std::string& text, const std::filesystem::path& file,
                                           const std::string& own_header) {
-  const std::vector<std::string>& rooms = roomsFromTheGround();
-  const auto here = std::find(rooms.begin(), rooms.end(), room);
+  const std::vector<std::string>& folders = foldersFromTheGround();
+  const std::string folder = folderOf(file);
+  const auto here = std::find(folders.begin(), folders.end(), folder);
   std::vector<std::string> faults;
-  if (here == rooms.end()) faults.push_back("room '" + room + "' is not in the list of rooms");
+  if (here == folders.end()) faults.push_back("folder '" + folder + "' is not in the list of folders");
   const std::vector<std::string> included = includesOf(text);
   for (const std::string& header : included) {
-    if (room != kTopRoom && belongsToRos(header)) faults.push_back("includes ROS's " + header);
-    const std::string target = roomOf(header);
+    if (folder != kTopFolder && belongsToRos(header)) faults.push_back("includes ROS's " + header);
+    const std::string target = includedFolder(header);
     if (target.empty()) continue;
-    const auto there = std::find(rooms.begin(), rooms.end(), target);
-    if (there == rooms.end())
-      faults.push_back("includes " + header + ", which is in no listed room");
+    const auto there = std::find(folders.begin(), folders.end(), target);
+    if (there == folders.end())
+      faults.push_back("includes " + header + ", which is in no listed folder");
     else if (there > here)
       faults.push_back("includes " + header + ", an arrow upwards");
+    if (isBelow(target, kThesis) && !mayUseTheThesis(file)) {
+      faults.push_back("includes " + header + ", which only experiments may use");
+    }
   }
   if (!own_header.empty() && (included.empty() || included.front() != own_header))
     faults.push_back("does not include its own header " + own_header + " first");
   return faults;
 }
 
-std::vector<std::string> faultsOfRooms(const std::filesystem::path& package, std::size_t& files_seen) {
+std::vector<std::string> faultsOfFolders(const std::filesystem::path& package, std::size_t& files_seen) {
   namespace fs = std::filesystem;
   const fs::path headers = package / "include" / kPackage;
   const fs::path sources = package / "src";
@@ -83,11 +111,11 @@ std::vector<std::string> faultsOfRooms(const std::filesystem::path& package, std
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root)) {
       const fs::path& file = entry.path();
       if (file.extension() != ".h" && file.extension() != ".cpp") continue;
-      const std::string room = fs::relative(file, root).begin()->string();
-      const std::string header_name = file.stem().string() + ".h";
-      const bool has_header = file.extension() == ".cpp" && fs::exists(headers / room / header_name);
-      const std::string own_header = has_header ? (fs::path(kPackage) / room / header_name).string() : "";
-      for (const std::string& fault : faultsOfIncludes(contentOf(file), room, own_header))
+      const fs::path below = fs::relative(file, root);
+      const fs::path header = fs::path(folderOf(below)) / (file.stem().string() + ".h");
+      const bool has_header = file.extension() == ".cpp" && fs::exists(headers / header);
+      const std::string own_header = has_header ? (fs::path(kPackage) / header).string() : "";
+      for (const std::string& fault : faultsOfIncludes(contentOf(file), below, own_header))
         faults.push_back(file.string() + ": " + fault);
       ++files_seen;
     }

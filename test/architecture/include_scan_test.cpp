@@ -11,43 +11,54 @@ std::string joined(const std::vector<std::string>& lines) {
   return text;
 }
 
-TEST(Architecture, NoIncludeOfAnyRoomPointsUpwards) {
+TEST(Architecture, NoIncludePointsUpwards) {
   std::size_t files_seen = 0;
-  const std::vector<std::string> faults = faultsOfRooms(CONCAVE_DISTANCE_SOURCE_DIR, files_seen);
+  const std::vector<std::string> faults = faultsOfFolders(CONCAVE_DISTANCE_SOURCE_DIR, files_seen);
   EXPECT_TRUE(faults.empty()) << joined(faults);
   EXPECT_GT(files_seen, 30u) << "the scan did not find the package's files";
 }
 
-TEST(IncludeScan, AcceptsTheSameRoomALowerOneAndLibraries) {
+TEST(IncludeScan, AcceptsTheSameFolderALowerOneAndLibraries) {
   const std::string text =
       "#include \"concave_distance/search/a.h\"\n#include \"concave_distance/mesh/b.h\"\n#include <vector>\n";
-  EXPECT_TRUE(faultsOfIncludes(text, "search", "concave_distance/search/a.h").empty());
+  EXPECT_TRUE(faultsOfIncludes(text, "search/x.cpp", "concave_distance/search/a.h").empty());
 }
 
 TEST(IncludeScan, ReportsAnArrowUpwards) {
-  const auto faults = faultsOfIncludes("  #  include <concave_distance/search/a.h>\n", "mesh", "");
+  const auto faults = faultsOfIncludes("  #  include <concave_distance/search/a.h>\n", "mesh/x.cpp", "");
   ASSERT_EQ(faults.size(), 1u);
   EXPECT_NE(faults.front().find("upwards"), std::string::npos);
 }
 
-TEST(IncludeScan, ReportsARoomThatIsNotListed) {
-  EXPECT_EQ(faultsOfIncludes("#include \"concave_distance/attic/a.h\"\n", "mesh", "").size(), 1u);
-  EXPECT_EQ(faultsOfIncludes("", "attic", "").size(), 1u);
+TEST(IncludeScan, ReportsAFolderThatIsNotListed) {
+  EXPECT_EQ(faultsOfIncludes("#include \"concave_distance/attic/a.h\"\n", "mesh/x.cpp", "").size(), 1u);
+  EXPECT_EQ(faultsOfIncludes("", "attic/x.cpp", "").size(), 1u);
 }
 
-TEST(IncludeScan, ReportsRosHeadersBelowTheTopRoomOnly) {
+TEST(IncludeScan, ReportsRosHeadersBelowTheTopFolderOnly) {
   for (const std::string header : {"ros/ros.h", "tf2_ros/buffer.h", "geometry_msgs/Pose.h",
                                    "std_srvs/Empty.h", "concave_distance/Niche.h"}) {
     const std::string text = "#include <" + header + ">\n";
-    EXPECT_EQ(faultsOfIncludes(text, "scene", "").size(), 1u) << header;
-    EXPECT_TRUE(faultsOfIncludes(text, "ros", "").empty()) << header;
+    EXPECT_EQ(faultsOfIncludes(text, "scene/x.cpp", "").size(), 1u) << header;
+    EXPECT_TRUE(faultsOfIncludes(text, "ros/x.cpp", "").empty()) << header;
   }
-  EXPECT_TRUE(faultsOfIncludes("#include <urdf_parser/urdf_parser.h>\n", "scene", "").empty());
+  EXPECT_TRUE(faultsOfIncludes("#include <urdf_parser/urdf_parser.h>\n", "scene/x.cpp", "").empty());
+}
+
+TEST(IncludeScan, ReportsWhatReachesTheThesis) {
+  const std::string text = "#include \"concave_distance/thesis/annealing/a.h\"\n";
+  for (const char* file : {"search/x.cpp", "tools/distance_query.cpp", "ros/x.cpp"}) {
+    EXPECT_FALSE(faultsOfIncludes(text, file, "").empty()) << file;
+  }
+  for (const char* file : {"thesis/evaluation/x.cpp", "thesis/annealing/x.h", "tools/mesh_tool_tree.cpp"}) {
+    EXPECT_TRUE(faultsOfIncludes(text, file, "").empty()) << file;
+  }
+  EXPECT_FALSE(faultsOfIncludes(text, "thesis/continuous/x.cpp", "").empty()) << "an arrow upwards";
 }
 
 TEST(IncludeScan, ReportsASourceFileWhoseOwnHeaderIsNotFirst) {
   const std::string text = "#include <vector>\n#include \"concave_distance/mesh/a.h\"\n";
-  EXPECT_EQ(faultsOfIncludes(text, "mesh", "concave_distance/mesh/a.h").size(), 1u);
+  EXPECT_EQ(faultsOfIncludes(text, "mesh/x.cpp", "concave_distance/mesh/a.h").size(), 1u);
 }
 
 }  // namespace

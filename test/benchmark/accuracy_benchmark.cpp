@@ -24,12 +24,12 @@
 #include "benchmark/support/benchmark_main.h"
 #include "benchmark/support/benchmark_pairs.h"
 #include "benchmark/support/query_clock.h"
-#include "concave_distance/continuous/constraint_tree_file.h"
-#include "concave_distance/continuous/continuous_annealing.h"
-#include "concave_distance/continuous/continuous_genetic_search.h"
 #include "concave_distance/distance/certificate.h"
 #include "concave_distance/search/automatic_radii.h"
-#include "concave_distance/search/search_method.h"
+#include "concave_distance/thesis/continuous/constraint_tree_file.h"
+#include "concave_distance/thesis/continuous/continuous_annealing.h"
+#include "concave_distance/thesis/continuous/continuous_genetic_search.h"
+#include "concave_distance/thesis/evaluation/search_method.h"
 #include "concave_distance/tracking/pair_tracker.h"
 
 namespace concave_distance::benchmark {

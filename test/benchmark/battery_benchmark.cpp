@@ -20,10 +20,10 @@
 #include "benchmark/support/benchmark_main.h"
 #include "benchmark/support/reference_niches.h"
 #include "benchmark/support/statistics.h"
-#include "concave_distance/distance/enumeration.h"
 #include "concave_distance/search/automatic_radii.h"
 #include "concave_distance/search/genetic_search.h"
 #include "concave_distance/search/local_descent.h"
+#include "concave_distance/thesis/evaluation/enumeration.h"
 #include "concave_distance/tracking/pair_tracker.h"
 
 namespace concave_distance::benchmark {

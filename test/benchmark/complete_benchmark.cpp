@@ -32,9 +32,9 @@
 #include "benchmark/support/benchmark_main.h"
 #include "benchmark/support/flood_recall.h"
 #include "benchmark/support/statistics.h"
-#include "concave_distance/distance/enumeration.h"
 #include "concave_distance/distance/local_minima.h"
 #include "concave_distance/search/local_descent.h"
+#include "concave_distance/thesis/evaluation/enumeration.h"
 #include "concave_distance/tracking/pair_tracker.h"
 
 namespace concave_distance::benchmark {

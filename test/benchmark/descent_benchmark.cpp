@@ -23,6 +23,7 @@
 #include "benchmark/support/stopwatch.h"
 #include "concave_distance/distance/witness_refinement.h"
 #include "concave_distance/search/genetic_search.h"
+#include "concave_distance/thesis/evaluation/multi_start_descent.h"
 #include "concave_distance/tracking/pair_tracker.h"
 
 namespace concave_distance::benchmark {

@@ -13,8 +13,8 @@
 #include <limits>
 
 #include "benchmark/support/benchmark_main.h"
-#include "concave_distance/distance/enumeration.h"
 #include "concave_distance/distance/niche_properties.h"
+#include "concave_distance/thesis/evaluation/enumeration.h"
 #include "support/body_pairs.h"
 #include "support/triangle_pairs.h"
 

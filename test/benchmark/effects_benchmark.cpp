@@ -54,8 +54,8 @@ Eigen::Isometry3d pushedIn(const BenchmarkPair& pair, const Eigen::Isometry3d& p
   TrackerParameters parameters;
   parameters.niches_wanted = false;
   const PairSolution solution = solveOnce(pair.name, pair.a, pair.b, parameters, pose);
-  const Eigen::Vector3d way = solution.point_a_in_a - solution.point_b_in_a;
-  return Eigen::Translation3d(way * (1.0 + depth / solution.distance)) * pose;
+  const Eigen::Vector3d displacement = solution.point_a_in_a - solution.point_b_in_a;
+  return Eigen::Translation3d(displacement * (1.0 + depth / solution.distance)) * pose;
 }
 
 /// One combination along a motion.

@@ -27,8 +27,8 @@
 #include "benchmark/support/statistics.h"
 #include "concave_distance/base/error.h"
 #include "concave_distance/distance/certificate.h"
-#include "concave_distance/partition/convex_partition.h"
-#include "concave_distance/partition/piece_file.h"
+#include "concave_distance/thesis/partition/convex_partition.h"
+#include "concave_distance/thesis/partition/piece_file.h"
 
 namespace concave_distance::benchmark {
 namespace {

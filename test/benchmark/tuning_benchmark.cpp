@@ -144,14 +144,14 @@ std::vector<Figures> tryCycleVariants(const BenchmarkPair& pair, const std::vect
     const double nearest = fclDistance(*pair.fcl_a, *pair.fcl_b, pose).distance;
     for (std::size_t i = 0; i < variants.size(); ++i) {
       // Whoever comes first finds the meshes out of the caches: by turns.
-      const std::size_t whose = (i + static_cast<std::size_t>(k)) % variants.size();
-      trackers[whose].update(pose, 5.0 * t, solution);
+      const std::size_t turn = (i + static_cast<std::size_t>(k)) % variants.size();
+      trackers[turn].update(pose, 5.0 * t, solution);
       if (k > 0) {
-        figures[whose].seconds += solution.solve_seconds;
-        figures[whose].births += static_cast<double>(births(solution)) / (options.steps - 1);
+        figures[turn].seconds += solution.solve_seconds;
+        figures[turn].births += static_cast<double>(births(solution)) / (options.steps - 1);
       }
-      figures[whose].nearest -= solution.distance > nearest + kSameDistance ? 1.0 / options.steps : 0.0;
-      if (observed) compareWithFlood(pair, pose, cutoff, solution, shares[whose]);
+      figures[turn].nearest -= solution.distance > nearest + kSameDistance ? 1.0 / options.steps : 0.0;
+      if (observed) compareWithFlood(pair, pose, cutoff, solution, shares[turn]);
     }
   }
   setShares(shares, figures);

@@ -1,10 +1,11 @@
 // Writes pairs of the benchmarks as files that experiments/*.yaml can name: meshes/evaluation.
 //
 //   write_benchmark_scenes [--pairs obstacle_field,comb_in_comb,peg_in_hole,kr5_bicep_palm] [--steps 200]
-//                          [--output meshes/evaluation]
+//                          [--output meshes/evaluation] [--all-meshes]
 //
-// <pair>_a.stl and <pair>_b.stl of the pairs whose bodies have no files of their own, and <pair>.csv, `steps`
-// instants of the motion in its 5 seconds (40 Hz by default), pose of B in A's frame.
+// <pair>_a.stl and <pair>_b.stl of the pairs whose bodies have no files of their own (--all-meshes: of all
+// pairs, by default of every pair there is), and <pair>.csv, `steps` instants of the motion in its 5 seconds
+// (40 Hz by default), pose of B in A's frame.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
@@ -45,14 +46,17 @@ int benchmarkMain(int argc, char** argv) {
   app.add_option("--pairs", names, "Pairs to write")->delimiter(',');
   app.add_option("--steps", steps, "Instants of the motion")->check(CLI::PositiveNumber);
   app.add_option("--output", output, "Folder to write to")->capture_default_str();
+  bool all_meshes = false;
+  app.add_flag("--all-meshes", all_meshes, "Meshes of every pair; all pairs, unless --pairs names some");
   CLI11_PARSE(app, argc, argv);
+  if (all_meshes && app.count("--pairs") == 0) names = allPairs();
 
   const std::vector<std::string> with_files = robotPairs();
   std::filesystem::create_directories(output);
   for (const std::string& name : names) {
     const BenchmarkPair pair = loadBenchmarkPair(name);
     const std::filesystem::path file = std::filesystem::path(output) / name;
-    if (std::find(with_files.begin(), with_files.end(), name) == with_files.end()) {
+    if (all_meshes || std::find(with_files.begin(), with_files.end(), name) == with_files.end()) {
       exportMesh(pair.a->surface(), file.string() + "_a.stl");
       exportMesh(pair.b->surface(), file.string() + "_b.stl");
     }

@@ -52,7 +52,7 @@ double wayUnder(double push, double normal_force, double mass, FrictionModel mod
   FrictionSettings settings;
   BristleState state;
   double speed = 0.0;
-  double way = 0.0;
+  double displacement = 0.0;
   const double step = 1e-5;
   for (int k = 0; k < 100000; ++k) {
     const Eigen::Vector3d sliding(speed, 0.0, 0.0);
@@ -61,9 +61,9 @@ double wayUnder(double push, double normal_force, double mass, FrictionModel mod
             ? bristleForce(settings, kMaterial, normal_force, kUp, sliding, step, state)
             : regularisedCoulombForce(settings, kMaterial, normal_force, sliding);
     speed += step * (0.5 * (1.0 - std::cos(kPi * std::min(1.0, k / 50000.0))) * push + force.x()) / mass;
-    way += step * speed;
+    displacement += step * speed;
   }
-  return way;
+  return displacement;
 }
 
 TEST(Friction, BristlesStickBelowTheStaticLimitAndSlideAboveIt) {

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "concave_distance/distance/enumeration.h"
 #include "concave_distance/distance/surface_walk.h"
+#include "concave_distance/thesis/evaluation/enumeration.h"
 #include "support/body_pairs.h"
 
 namespace concave_distance {

@@ -198,19 +198,19 @@ TEST(LocalMinimaOf, TrianglePairsBelongToTheNicheTheyDescendTo) {
     request.least_prominence = 0.1;
     request.through_material = true;
     for (int k = 0; k < 50; ++k) {
-      request.whose.emplace_back(
+      request.asked_pairs.emplace_back(
           TriangleIndex{uniformIndex(engine, static_cast<std::uint32_t>(a->surface().triangleCount()))},
           TriangleIndex{uniformIndex(engine, static_cast<std::uint32_t>(b->surface().triangleCount()))});
     }
     const LocalMinima found = minimaOf(a, b, pose, request);
     EXPECT_EQ(found.cost.met_by_flood, 0U);
-    ASSERT_EQ(found.owners.size(), request.whose.size());
+    ASSERT_EQ(found.owners.size(), request.asked_pairs.size());
     RefinementWorkspace workspace;
     for (std::size_t k = 0; k < found.owners.size(); ++k) {
       ASSERT_LT(found.owners[k], found.niches.size());
-      const double settled =
-          std::sqrt(refineWitness(*a, *b, pose, request.whose[k].first, request.whose[k].second, workspace)
-                        .witness.squared_distance);
+      const double settled = std::sqrt(
+          refineWitness(*a, *b, pose, request.asked_pairs[k].first, request.asked_pairs[k].second, workspace)
+              .witness.squared_distance);
       EXPECT_LE(found.niches[found.owners[k]].distance, settled + kError);
     }
   }

@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "concave_distance/distance/certificate.h"
-#include "concave_distance/distance/enumeration.h"
 #include "concave_distance/distance/niche_properties.h"
 #include "concave_distance/mesh/refine_mesh.h"
+#include "concave_distance/thesis/evaluation/enumeration.h"
 #include "support/body_pairs.h"
 #include "support/mesh_variants.h"
 

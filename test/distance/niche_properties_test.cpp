@@ -6,7 +6,7 @@
 #include <limits>
 #include <map>
 
-#include "concave_distance/distance/enumeration.h"
+#include "concave_distance/thesis/evaluation/enumeration.h"
 #include "support/body_pairs.h"
 
 namespace concave_distance {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "concave_distance/distance/certificate.h"
-#include "concave_distance/distance/enumeration.h"
+#include "concave_distance/thesis/evaluation/enumeration.h"
 #include "support/body_pairs.h"
 
 namespace concave_distance {

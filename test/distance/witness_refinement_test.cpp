@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "concave_distance/distance/enumeration.h"
+#include "concave_distance/thesis/evaluation/enumeration.h"
 #include "support/body_pairs.h"
 
 namespace concave_distance {

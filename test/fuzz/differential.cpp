@@ -15,7 +15,7 @@
 
 #include "benchmark/support/fcl_distance.h"
 #include "concave_distance/distance/certificate.h"
-#include "concave_distance/distance/enumeration.h"
+#include "concave_distance/thesis/evaluation/enumeration.h"
 #include "concave_distance/tracking/pair_tracker.h"
 #include "fuzz/reproducer.h"
 #include "support/body_pairs.h"

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "concave_distance/distance/enumeration.h"
 #include "concave_distance/mesh/primitives.h"
 #include "concave_distance/mesh/repair_mesh.h"
+#include "concave_distance/thesis/evaluation/enumeration.h"
 #include "support/body_pairs.h"
 
 namespace concave_distance::test {

@@ -26,8 +26,9 @@ void query(const std::shared_ptr<const BodyMesh>& body) {
   // Whatever the triangles do: regions end, and say where they are.
   InterferenceWorkspace interference;
   Interference regions;
-  for (const double way : {0.0, 0.25}) {
-    findInterference(*body, *body, Eigen::Isometry3d(Eigen::Translation3d(way * body->diameter(), 0, 0)),
+  for (const double displacement : {0.0, 0.25}) {
+    findInterference(*body, *body,
+                     Eigen::Isometry3d(Eigen::Translation3d(displacement * body->diameter(), 0, 0)),
                      interference, regions);
     for (const InterferenceRegion& region : regions.regions) {
       if (!region.normal_in_a.allFinite() || !region.centroid_in_a.allFinite()) test::broken("region");

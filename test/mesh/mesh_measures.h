@@ -69,9 +69,9 @@ inline bool isClosedManifold(const SurfaceMesh& mesh) {
 inline std::map<std::pair<int, int>, double> unpairedLength(const SurfaceMesh& mesh) {
   std::map<std::pair<int, int>, double> length;
   for (const auto& [nodes, use] : edgeUses(mesh)) {
-    const std::pair<int, int> either_way = std::minmax(use.first, use.second);
-    if (either_way != std::pair<int, int>{1, 1}) {
-      length[either_way] +=
+    const std::pair<int, int> either_direction = std::minmax(use.first, use.second);
+    if (either_direction != std::pair<int, int>{1, 1}) {
+      length[either_direction] +=
           (mesh.vertex(NodeIndex{nodes.first}) - mesh.vertex(NodeIndex{nodes.second})).norm();
     }
   }

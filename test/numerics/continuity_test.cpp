@@ -20,11 +20,11 @@ struct Track {
   std::shared_ptr<const BodyMesh> b;
   Eigen::Vector3d axis;
   Eigen::Vector3d start;
-  Eigen::Vector3d way;
+  Eigen::Vector3d displacement;
 
   Eigen::Isometry3d pose(double t) const {
     Eigen::Isometry3d pose(Eigen::AngleAxisd(1.5 * std::sin(3.0 * t), axis));
-    pose.translation() = start + std::sin(2.0 * t) * way;
+    pose.translation() = start + std::sin(2.0 * t) * displacement;
     return pose;
   }
 };
@@ -39,7 +39,7 @@ Track randomTrack(std::uint32_t number) {
   track.axis = test::randomRotation(engine).col(0);
   const double reach = 0.5 * (a.diameter() + b.diameter());
   track.start = test::uniformIn(engine, 0.5, 1.2) * reach * test::randomRotation(engine).col(0);
-  track.way = 0.6 * reach * test::randomRotation(engine).col(0);
+  track.displacement = 0.6 * reach * test::randomRotation(engine).col(0);
   return track;
 }
 

@@ -50,7 +50,6 @@ PairHeading quarterTurn() {
   PairHeading heading;
   heading.pair = "a/b";
   heading.reference_frame = "world";
-  heading.id_offset = 100;
   heading.reference_from_a =
       Eigen::Translation3d(10.0, 0.0, 0.0) * Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitZ());
   return heading;
@@ -65,7 +64,7 @@ TEST(ToContacts, GivesPointsInTheReferenceFrameAndWrenchesAboutTheOriginOfB) {
   const PairContactState state = message();
   ASSERT_EQ(state.contacts.size(), 1U);
   const Contact& contact = state.contacts[0];
-  EXPECT_EQ(contact.id, 107U);
+  EXPECT_EQ(contact.id, 7U);
   EXPECT_NEAR(contact.centroid.x, 8.0, kSums);
   EXPECT_NEAR(contact.centroid.y, 1.0, kSums);
   EXPECT_NEAR(contact.normal.y, 1.0, kSums);
@@ -106,7 +105,7 @@ TEST(ContactMarkers, DrawAreaDepthAndForces) {
   std::set<std::string> kinds;
   for (const Marker& marker : markers) {
     kinds.insert(marker.ns);
-    EXPECT_EQ(marker.id, 107);
+    EXPECT_EQ(marker.id, 7);
     EXPECT_EQ(marker.header.frame_id, "world");
     if (marker.ns == "a/b/contact_area") {
       EXPECT_NEAR(marker.scale.x, 0.02, kSums);
@@ -149,16 +148,16 @@ class EffectsInTheCycle : public ::testing::Test {
   }
   static ros::Time at(int step) { return ros::Time(100, 0) + ros::Duration(0.01 * step); }
   // b dips into a, deeper by a millimetre a step of 10 ms.
-  CycleReport run(int step, const PairDemand& demand) {
+  CycleCounts run(int step, const PairDemand& demand) {
     place(buffer, "a", 0.0, at(step));
     place(buffer, "b", 0.99 - 0.001 * step, at(step));
     place(buffer, "c", -3.0, at(step));
     return cycle.run({demand, kIdle}, at(step));
   }
-  static std::uint64_t interferenceRuns(const CycleReport& report) {
+  static std::uint64_t interferenceRuns(const CycleCounts& report) {
     return report.effects.runs[static_cast<std::size_t>(EffectStage::Interference)];
   }
-  const PairContacts* contacts() { return cycle.pairs()[0]->effects.contacts(); }
+  const PairContacts* contacts() { return cycle.pairs()[0]->tracked->effects.contacts(); }
 
   TransformBuffer buffer = timelessBuffer();
   Scene scene = threeBoxes();

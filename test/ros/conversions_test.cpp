@@ -123,18 +123,17 @@ TEST(ToDistance, CarriesNoNumberWithoutItsFlag) {
   EXPECT_FALSE(toDistance(quarterTurnHeading(), solution).has_closing_speed);
 }
 
-TEST(ToNiches, AddsTheIdOffsetToEveryId) {
-  PairHeading heading = quarterTurnHeading();
-  heading.id_offset = 100;
+TEST(ToNiches, ReportsNichesAndChangesByTheirIds) {
+  const PairHeading heading = quarterTurnHeading();
   const PairNiches message = toNiches(heading, solutionWithOneNiche());
   ASSERT_EQ(message.niches.size(), 1U);
-  EXPECT_EQ(message.niches[0].id, 107U);
-  EXPECT_EQ(message.nearest.nearest_niche_id, 107U);
+  EXPECT_EQ(message.niches[0].id, 7U);
+  EXPECT_EQ(message.nearest.nearest_niche_id, 7U);
   EXPECT_TRUE(message.niches[0].has_prominence);
   ASSERT_EQ(message.changes.size(), 2U);
   EXPECT_EQ(message.changes[0].kind, NicheChange::MERGE);
-  EXPECT_EQ(message.changes[0].id, 108U);
-  EXPECT_EQ(message.changes[0].into_id, 107U);
+  EXPECT_EQ(message.changes[0].id, 8U);
+  EXPECT_EQ(message.changes[0].into_id, 7U);
   EXPECT_EQ(message.changes[1].into_id, 0U);
 }
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <memory>
 
 #include "box_scene.h"
 #include "concave_distance/ros/distance_cycle.h"
@@ -110,7 +111,11 @@ TEST_F(NearestTest, TheNumberIsTheBoundOfAProofThatEndedEarly) {
   DistanceCycle cycle(buffer, {"world", 1.0, 1});
   cycle.setScene(scene);
   cycle.run({kDistance, kDistance}, now);
-  PairSolution& solution = cycle.pairs()[1]->solution;  // a/c
+  const auto tracked = std::make_shared<TrackedPair>(scene, 1, 0);  // a/c
+  tracked->state = PairState::Solved;
+  tracked->demand = kDistance;
+  cycle.pairs()[1]->tracked = tracked;
+  PairSolution& solution = tracked->solution;
   solution.distance = 1.5;
   solution.lower_bound = 0.25;
   for (const SolveStatus status :

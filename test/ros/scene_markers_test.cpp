@@ -43,7 +43,9 @@ class Picture {
       pair.name = "middle/box_" + std::to_string(k + 1);
       pair.body_b = k + 1;
       scene_.pairs.push_back(pair);
-      pairs_.push_back(std::make_unique<TrackedPair>(scene_, k, "world", 0));
+      tracked_.push_back(std::make_shared<TrackedPair>(scene_, k, 0));
+      pairs_.push_back(std::make_unique<PublishedPair>(scene_, pair, "world"));
+      pairs_.back()->tracked = tracked_.back();
       solve(k);
     }
     header_.frame_id = "world";
@@ -52,7 +54,7 @@ class Picture {
 
   MarkerArray draw() {
     std::vector<PairNiches> messages;
-    for (const auto& pair : pairs_) messages.push_back(toNiches(pair->heading, pair->solution));
+    for (const auto& pair : pairs_) messages.push_back(toNiches(pair->heading, pair->tracked->solution));
     return drawing_.draw(scene_, style, pairs_, messages, contacts, header_, kLifetime);
   }
   MarkerArray clear() { return drawing_.draw(scene_, style, pairs_, {}, {}, header_, kLifetime); }
@@ -67,17 +69,17 @@ class Picture {
  private:
   // Eight directions in the plane, then the same one floor higher.
   void solve(std::size_t k) {
-    TrackedPair& pair = *pairs_[k];
+    TrackedPair& pair = *tracked_[k];
     const double angle = 2.0 * M_PI * static_cast<double>(k % 8) / 8.0;
     const Eigen::Vector3d away(std::cos(angle), std::sin(angle), 0.0);
     const double gap = unit_ * (0.1 + 0.05 * static_cast<double>(k));
     const Eigen::Vector3d from = 0.5 * unit_ * away;
     const Eigen::Vector3d to = from + gap * away;
     pair.demand.due = pair.demand.watched = pair.demand.niches = true;
-    pair.status.code = PairStatus::OK;
-    pair.solved = true;
-    pair.heading.with_niches = true;
-    pair.located_a_from_b.translation() = to + 0.75 * unit_ * away;
+    pairs_[k]->status.code = PairStatus::OK;
+    pairs_[k]->heading.with_niches = true;
+    pair.state = PairState::Solved;
+    pair.input.a_from_b.translation() = to + 0.75 * unit_ * away;
     pair.solution.status = SolveStatus::Ok;
     for (int niche = 0; niche < 2; ++niche) {
       TrackedNiche found;
@@ -95,7 +97,8 @@ class Picture {
 
   double unit_;
   Scene scene_;
-  std::vector<std::unique_ptr<TrackedPair>> pairs_;
+  std::vector<std::shared_ptr<TrackedPair>> tracked_;
+  PublishedPairs pairs_;
   SceneMarkers drawing_;
   std_msgs::Header header_;
 };

@@ -5,9 +5,10 @@
 #include <algorithm>
 #include <set>
 
-#include "concave_distance/distance/enumeration.h"
 #include "concave_distance/search/automatic_radii.h"
 #include "concave_distance/search/local_descent.h"
+#include "concave_distance/thesis/evaluation/enumeration.h"
+#include "concave_distance/thesis/evaluation/multi_start_descent.h"
 #include "search/search_scenes.h"
 
 namespace concave_distance {

@@ -62,9 +62,9 @@ RC_GTEST_PROP(MeshMating, ChildrenLieOnShortestPathsWithinTheWeightedRadii, ()) 
                          NodeIndex child_2) {
     const double length = query.distanceWithin(from, to, kInfinity);
     for (const NodeIndex child : {child_1, child_2}) {
-      const double way =
+      const double displacement =
           query.distanceWithin(from, child, kInfinity) + query.distanceWithin(child, to, kInfinity);
-      RC_ASSERT(std::abs(way - length) <= kRounding * length);
+      RC_ASSERT(std::abs(displacement - length) <= kRounding * length);
     }
     RC_ASSERT(query.distanceWithin(from, child_1, kInfinity) <= share * length + kRounding * length);
     RC_ASSERT(query.distanceWithin(to, child_2, kInfinity) <= (1.0 - share) * length + kRounding * length);
@@ -81,8 +81,8 @@ TEST(MeshMating, TheTwoChildrenTogetherReachTheWholePath) {
   const auto farthest = [](MeshMetricQuery& query, std::size_t nodes) {
     NodeIndex far{0};
     for (std::uint32_t n = 1; n < nodes; ++n) {
-      const double way = query.distanceWithin(NodeIndex{0}, NodeIndex{n}, kInfinity);
-      if (std::isfinite(way) && way > query.distanceWithin(NodeIndex{0}, far, kInfinity)) {
+      const double displacement = query.distanceWithin(NodeIndex{0}, NodeIndex{n}, kInfinity);
+      if (std::isfinite(displacement) && displacement > query.distanceWithin(NodeIndex{0}, far, kInfinity)) {
         far = NodeIndex{n};
       }
     }
@@ -157,16 +157,16 @@ RC_GTEST_PROP(PhenotypicMating, ChildrenAreTheNodesNearestToTheLineBetweenThePar
   const auto [first, second] = mate(MatingMethod::Phenotypic, c.objective, x, y, c.metric, kInfinity, engine);
   const NodeGraph& graph = c.scene.a->graph();
   const Eigen::Vector3d from = graph.positions[std::min(x, y).node_a.value];
-  const Eigen::Vector3d way = graph.positions[std::max(x, y).node_a.value] - from;
+  const Eigen::Vector3d displacement = graph.positions[std::max(x, y).node_a.value] - from;
   for (const NodeIndex child : {first.node_a, second.node_a}) {
     // Some point of the segment has this node as its nearest: no other is nearer to the child's foot on it.
     bool is_nearest_somewhere = false;
     for (int i = 0; i <= 400 && !is_nearest_somewhere; ++i) {
-      const Eigen::Vector3d point = from + i / 400.0 * way;
+      const Eigen::Vector3d point = from + i / 400.0 * displacement;
       const double reached = (graph.positions[child.value] - point).norm();
       is_nearest_somewhere =
           std::all_of(graph.positions.begin(), graph.positions.end(), [&](const Eigen::Vector3d& p) {
-            return (p - point).norm() >= reached - way.norm() / 400.0;  // points between the samples
+            return (p - point).norm() >= reached - displacement.norm() / 400.0;  // points between the samples
           });
     }
     RC_ASSERT(is_nearest_somewhere);

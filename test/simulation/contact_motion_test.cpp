@@ -186,8 +186,8 @@ TEST(ContactMotion, NoPointMovesFartherInAStepThanTheProvenDistanceAndTheAllowan
   for (int i = 0; i < 3000; ++i) {
     const SimulatedPair before = simulation.pairs()[0];
     simulation.step();
-    const double way = largestDisplacement(box, before.a_from_b, simulation.pairs()[0].a_from_b);
-    ASSERT_LE(way, before.lower_bound + 2e-4 + 1e-12) << i;
+    const double displacement = largestDisplacement(box, before.a_from_b, simulation.pairs()[0].a_from_b);
+    ASSERT_LE(displacement, before.lower_bound + 2e-4 + 1e-12) << i;
   }
   EXPECT_GT(simulation.counters().contact_steps, 0U);
   EXPECT_GT(simulation.counters().limited_by[static_cast<std::size_t>(StepLimit::Distance)], 0U);

@@ -11,7 +11,7 @@
 #include "concave_distance/mesh/mesh_topology.h"
 #include "concave_distance/mesh/repair_mesh.h"
 #include "concave_distance/mesh/triangle_tree.h"
-#include "concave_distance/partition/convex_piece.h"
+#include "concave_distance/thesis/partition/convex_piece.h"
 
 namespace concave_distance::test {
 

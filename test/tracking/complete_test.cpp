@@ -5,8 +5,8 @@
 #include <limits>
 #include <set>
 
-#include "concave_distance/distance/enumeration.h"
 #include "concave_distance/distance/local_minima.h"
+#include "concave_distance/thesis/evaluation/enumeration.h"
 #include "concave_distance/tracking/pair_tracker.h"
 #include "support/body_pairs.h"
 #include "support/thesis_scenes.h"

@@ -22,8 +22,8 @@ struct Draw {
   Eigen::Isometry3d pose(double least, double most) {
     const Eigen::Vector3d axis(real(-1.0, 1.0), real(-1.0, 1.0), real(0.1, 1.0));
     Eigen::Isometry3d pose(Eigen::AngleAxisd(real(0.0, 3.1), axis.normalized()));
-    const Eigen::Vector3d way(real(-1.0, 1.0), real(-1.0, 1.0), real(0.1, 1.0));
-    pose.translation() = real(least, most) * way.normalized();
+    const Eigen::Vector3d displacement(real(-1.0, 1.0), real(-1.0, 1.0), real(0.1, 1.0));
+    pose.translation() = real(least, most) * displacement.normalized();
     return pose;
   }
 };

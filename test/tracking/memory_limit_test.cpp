@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "concave_distance/distance/enumeration.h"
+#include "concave_distance/thesis/evaluation/enumeration.h"
 #include "concave_distance/tracking/pair_tracker.h"
 #include "support/body_pairs.h"
 #include "support/count_bytes.h"

@@ -7,8 +7,8 @@
 #include <map>
 #include <set>
 
-#include "concave_distance/distance/enumeration.h"
 #include "concave_distance/mesh/primitives.h"
+#include "concave_distance/thesis/evaluation/enumeration.h"
 #include "concave_distance/tracking/relative_motion.h"
 #include "support/concave_shapes.h"
 

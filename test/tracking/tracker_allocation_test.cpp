@@ -1,8 +1,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
+#include <vector>
 
+#include "concave_distance/scene/scene_tracker.h"
 #include "concave_distance/tracking/pair_tracker.h"
+#include "support/box_scene.h"
 #include "support/concave_shapes.h"
 #include "support/count_allocations.h"
 #include "support/thesis_scenes.h"
@@ -88,6 +92,22 @@ TEST(EffectsAllocation, AWarmCycleInContactAllocatesNothing) {
   const std::size_t before = allocations.load();
   scene.effects.update(scene.solution, pose(30), {}, 0.01, scene.contacts);
   EXPECT_EQ(allocations.load(), before);
+}
+
+TEST(SceneTrackerAllocation, AWarmCycleOfAllPairsAllocatesNothing) {
+  const Scene scene = threeBoxes();
+  SceneTracker tracker({1, nullptr});
+  tracker.setScene(scene);
+  std::vector<std::optional<Eigen::Isometry3d>> poses(3, Eigen::Isometry3d::Identity());
+  poses[2]->translation().x() = -3.0;
+  const auto move = [&](int cycle) {
+    poses[1]->translation() = Eigen::Vector3d(2.0, 0.3 * std::sin(0.05 * cycle), 0.0);
+    tracker.update(poses, 0.01 * cycle);
+  };
+  for (int cycle = 0; cycle < 1000; ++cycle) move(cycle);
+  const std::size_t before = allocations.load();
+  for (int cycle = 1000; cycle < 1100; ++cycle) move(cycle);
+  EXPECT_EQ(allocations.load() - before, 0U);
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ struct LocalMinimaRequest {
   bool through_material = false;
   /// Triangle pairs whose niches are asked for (LocalMinima::owners), e.g. those that a search has found:
   /// descended to the local minimum around them.
-  std::vector<std::pair<TriangleIndex, TriangleIndex>> whose;
+  std::vector<std::pair<TriangleIndex, TriangleIndex>> asked_pairs;
   /// When it is reached, the niches decided so far are the result (LocalMinima::finished); nullptr: none.
   WorkLimit* limit = nullptr;
 };

@@ -14,7 +14,7 @@ namespace concave_distance {
 /// meeting have a piece of surface inside the other. Where they do meet it says nothing that counts.
 /// Empty when the limit was reached first; it is not checked for the first 64 shells of each body.
 /// O(shells) where the points lie outside the other's box, O(log n) more for each that does not.
-std::optional<bool> holdsAnother(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
-                                 WorkLimit& limit);
+std::optional<bool> isContained(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
+                                WorkLimit& limit);
 
 }  // namespace concave_distance

@@ -38,7 +38,7 @@ class PreparationCache {
   std::string folder_;
   std::mutex mutex_;
   std::string problem_;
-  bool told_ = false;
+  bool reported_ = false;
 };
 
 using PreparationCachePointer = std::shared_ptr<PreparationCache>;

@@ -44,7 +44,6 @@ struct PairHeading {
   ros::Time stamp;
   Eigen::Isometry3d reference_from_a = Eigen::Isometry3d::Identity();
   AccuracyLevel accuracy = AccuracyLevel::Refined;
-  std::uint64_t id_offset = 0;  ///< added to every niche id, see TrackedPair
   bool warning = false;
   bool with_niches = false;  ///< false: the niches were not asked for and are not told
 };

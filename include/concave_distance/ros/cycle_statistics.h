@@ -21,7 +21,7 @@ struct Series {
 
 /// One cycle as the server saw it. Seconds.
 struct CycleRecord {
-  CycleReport report;
+  CycleCounts report;
   double duration = 0.0;             ///< from the timer's call to the last message published
   double cpu = 0.0;                  ///< processor time of all threads that worked on the cycle
   bool late = false;                 ///< ended after the next cycle was due
@@ -48,7 +48,7 @@ struct CycleWindow {
   EffectCounts effects;
   std::uint64_t messages = 0;
   std::uint64_t markers = 0;
-  CycleReport last;                  ///< of the last cycle
+  CycleCounts last;                  ///< of the last cycle
   std::vector<std::string> failing;  ///< in the last cycle
 };
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "concave_distance/ros/marker_style.h"
-#include "concave_distance/ros/tracked_pair.h"
+#include "concave_distance/ros/published_pair.h"
 #include "concave_distance/scene/scene.h"
 
 namespace concave_distance {
@@ -20,8 +20,7 @@ struct LocatedBody {
 
 /// The bodies of the pairs that are due and have transforms, each once.
 /// @param pairs in the order of scene.pairs
-std::vector<LocatedBody> locateBodies(const Scene& scene,
-                                      const std::vector<std::unique_ptr<TrackedPair>>& pairs);
+std::vector<LocatedBody> locateBodies(const Scene& scene, const PublishedPairs& pairs);
 
 /// The box around the bodies, metres, without those much larger than the median one (a floor) and those far
 /// from all others. Empty without bodies.

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "concave_distance/ros/tracked_pair.h"
+#include "concave_distance/ros/published_pair.h"
 
 namespace concave_distance {
 
@@ -15,7 +15,6 @@ namespace concave_distance {
 /// `number` is the smallest of: the distance of a pair that is exact or proves nothing; the lower bound of a
 /// pair whose proof was ended early; the bound of a pair beyond its cutoff. It is set when every pair has one
 /// of these, and it is 0 whenever bodies penetrate.
-Nearest nearestOf(const std::vector<std::unique_ptr<TrackedPair>>& pairs, const std::string& reference_frame,
-                  ros::Time now);
+Nearest nearestOf(const PublishedPairs& pairs, const std::string& reference_frame, ros::Time now);
 
 }  // namespace concave_distance

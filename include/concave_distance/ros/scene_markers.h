@@ -10,7 +10,7 @@
 #include "concave_distance/ros/label_placer.h"
 #include "concave_distance/ros/marker_layout.h"
 #include "concave_distance/ros/niche_markers.h"
-#include "concave_distance/ros/tracked_pair.h"
+#include "concave_distance/ros/published_pair.h"
 #include "concave_distance/ros/warning_tints.h"
 #include "concave_distance/scene/scene.h"
 
@@ -26,8 +26,7 @@ class SceneMarkers {
   /// @param header in the reference frame, stamped now
   /// @param lifetime seconds after which rviz drops a marker that is not renewed
   visualization_msgs::MarkerArray draw(const Scene& scene, const MarkerStyle& style,
-                                       const std::vector<std::unique_ptr<TrackedPair>>& pairs,
-                                       const std::vector<PairNiches>& niches,
+                                       const PublishedPairs& pairs, const std::vector<PairNiches>& niches,
                                        const std::vector<PairContactState>& contacts,
                                        const std_msgs::Header& header, double lifetime);
   /// For when there is no subscriber any more: nothing has to be deleted.

@@ -38,7 +38,7 @@ struct PublishReport {
 };
 
 /// What the parameters say of the markers, and the cycle.
-struct MarkerWish {
+struct MarkerOptions {
   bool publish = true;
   bool contacts = true;  ///< beside the niches
   bool due = true;       ///< they are sent in this cycle when somebody listens
@@ -58,29 +58,27 @@ class TopicPublishers {
                                            const ServedScene* before, const MarkerStyle& style,
                                            std::uint64_t settings_revision);
 
-  void readDemand(const ServedScene& served, const MarkerWish& markers, std::vector<PairDemand>& demand);
+  void readDemand(const ServedScene& served, const MarkerOptions& markers, std::vector<PairDemand>& demand);
 
   /// Whether no topic has a subscriber that needs anything computed or published.
   bool isIdle(const std::vector<PairDemand>& demand) const;
 
   /// Publishes the pairs that are due. A message is built once and not touched after it was published.
   /// @param marker_lifetime seconds
-  PublishReport publish(const ServedScene& served, const std::vector<std::unique_ptr<TrackedPair>>& pairs,
-                        double marker_lifetime, ros::Time now);
+  PublishReport publish(const ServedScene& served, const PublishedPairs& pairs, double marker_lifetime,
+                        ros::Time now);
 
   /// The alerts of pairs that left the scene (DistanceCycle::takeRetired).
-  void publishRetired(const std::vector<std::unique_ptr<TrackedPair>>& pairs);
+  void publishRetired(const PublishedPairs& pairs);
 
  private:
-  void publishAlerts(const std::vector<std::unique_ptr<TrackedPair>>& pairs);
+  void publishAlerts(const PublishedPairs& pairs);
   /// @return how many markers
-  std::size_t publishMarkers(const ServedScene& served,
-                             const std::vector<std::unique_ptr<TrackedPair>>& pairs, double lifetime,
+  std::size_t publishMarkers(const ServedScene& served, const PublishedPairs& pairs, double lifetime,
                              ros::Time now);
   void publishLists(ros::Time now);
-  void publishNearest(const std::vector<std::unique_ptr<TrackedPair>>& pairs, ros::Time now);
-  void publishContacts(const ServedScene& served, const std::vector<std::unique_ptr<TrackedPair>>& pairs,
-                       ros::Time now);
+  void publishNearest(const PublishedPairs& pairs, ros::Time now);
+  void publishContacts(const ServedScene& served, const PublishedPairs& pairs, ros::Time now);
 
   ros::NodeHandle node_;
   std::string reference_frame_;

@@ -46,9 +46,4 @@ GeneticResult geneticSearch(const PairObjective& objective, const GeneticParamet
                             RandomEngine& engine, SearchWorkspace& workspace,
                             const GenerationObserver& observer = {}, WorkLimit* limit = nullptr);
 
-/// The comparison of the ablation: `descents` random starts, each descended; minima in workspace.basins.
-/// @param evaluation_limit no further start once this many node pairs have been evaluated; 0: no limit
-GeneticResult multiStartDescent(const PairObjective& objective, std::uint32_t descents, RandomEngine& engine,
-                                SearchWorkspace& workspace, std::uint64_t evaluation_limit = 0);
-
 }  // namespace concave_distance

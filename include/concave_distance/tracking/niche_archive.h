@@ -28,6 +28,8 @@ class NicheArchive {
   std::vector<NicheRecord>& records() { return records_; }
   const std::vector<NicheRecord>& records() const { return records_; }
   std::uint64_t takeId() { return next_id_++; }
+  /// Ids that come are greater than this.
+  void beginIdsAfter(std::uint64_t id) { next_id_ = id + 1; }
 
   void reserve(std::size_t count) {
     records_.reserve(count);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -16,9 +17,10 @@ namespace concave_distance {
 class PairTracker {
  public:
   /// @param name keys the random streams, with the seed and the cycle
+  /// @param largest_used_id niche ids are greater than this
   /// @throws Error for parameters out of range
   PairTracker(std::string name, std::shared_ptr<const BodyMesh> a, std::shared_ptr<const BodyMesh> b,
-              const TrackerParameters& parameters);
+              const TrackerParameters& parameters, std::uint64_t largest_used_id = 0);
   ~PairTracker();
   PairTracker(PairTracker&&) noexcept;
   PairTracker& operator=(PairTracker&&) noexcept;

@@ -212,9 +212,9 @@ void printSlope(const ComparedScene& scene, const std::vector<Run>& runs) {
   const Eigen::Vector3d along = down / pull;
   for (const Run& run : runs) {
     const EngineSample& end = run.trajectory.back();
-    const Eigen::Vector3d way = end.centre - run.trajectory.front().centre;
-    std::printf("  %-32s %14.6g %14.6g %14.4f %14.4f\n", run.engine.c_str(), way.dot(along),
-                end.velocity.dot(along), -1e3 * way.z(), 1e3 * tiltOf(end, along));
+    const Eigen::Vector3d displacement = end.centre - run.trajectory.front().centre;
+    std::printf("  %-32s %14.6g %14.6g %14.4f %14.4f\n", run.engine.c_str(), displacement.dot(along),
+                end.velocity.dot(along), -1e3 * displacement.z(), 1e3 * tiltOf(end, along));
   }
 }
 

@@ -59,9 +59,9 @@ Motion loopAround(const BodyMesh& a, const BodyMesh& b, std::uint64_t seed, doub
   return [=](double t) {
     const double angle = 1.6 * kPi * t;
     const double breath = 1.0 + 0.15 * std::sin(3.0 * kPi * t);
-    const Eigen::Vector3d way(std::cos(angle), std::sin(angle), 0.4 * std::sin(2.0 * kPi * t));
+    const Eigen::Vector3d displacement(std::cos(angle), std::sin(angle), 0.4 * std::sin(2.0 * kPi * t));
     const Eigen::Quaterniond rotation = Eigen::Quaterniond(Eigen::AngleAxisd(1.2 * t, axis)) * start;
-    return poseOf(centre_a + reach * breath * (tilt * way) - rotation * centre_b, rotation);
+    return poseOf(centre_a + reach * breath * (tilt * displacement) - rotation * centre_b, rotation);
   };
 }
 
@@ -153,10 +153,11 @@ Eigen::Isometry3d hookPose(double t) {
 
 Eigen::Isometry3d combPose(double t) {
   // Teeth 0.1 wide in gaps of 0.15, turned about z by half a turn: parallel walls 0.025 apart.
-  const double way = 0.5 * (1.0 - std::cos(2.0 * kPi * t));
+  const double displacement = 0.5 * (1.0 - std::cos(2.0 * kPi * t));
   const Eigen::Quaterniond rotation(
       Eigen::AngleAxisd(kPi + 0.004 * std::sin(4.0 * t), Eigen::Vector3d::UnitZ()));
-  return poseOf({1.225 + 0.008 * std::sin(6.0 * t), 0.55 + 0.3 * way, 0.02 * std::sin(3.0 * t)}, rotation);
+  return poseOf({1.225 + 0.008 * std::sin(6.0 * t), 0.55 + 0.3 * displacement, 0.02 * std::sin(3.0 * t)},
+                rotation);
 }
 
 const std::vector<Recipe>& recipes() {

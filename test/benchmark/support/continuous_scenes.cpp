@@ -6,11 +6,11 @@
 #include <memory>
 #include <utility>
 
-#include "concave_distance/continuous/build_constraint_tree.h"
 #include "concave_distance/distance/local_minima.h"
-#include "continuous/tree_shapes.h"
+#include "concave_distance/thesis/continuous/build_constraint_tree.h"
 #include "support/plain_shapes.h"
 #include "support/thesis_scenes.h"
+#include "thesis/continuous/tree_shapes.h"
 
 namespace concave_distance::benchmark {
 namespace {

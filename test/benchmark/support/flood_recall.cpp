@@ -24,24 +24,24 @@ double floodCutoff(const BenchmarkPair& pair, const Eigen::Isometry3d& pose) {
 }
 
 LocalMinima trueNiches(const BenchmarkPair& pair, const Eigen::Isometry3d& pose, double cutoff,
-                       FloodStarts whose, double least_prominence) {
+                       FloodStarts starts, double least_prominence) {
   LocalMinimaRequest request;
   request.cutoff = cutoff;
   request.least_prominence = least_prominence;
   request.prominence_limit = kProminentNiche;
-  request.whose = std::move(whose);
+  request.asked_pairs = std::move(starts);
   return findLocalMinima(*pair.a, *pair.b, pose, request);
 }
 
 FloodComparison compareWithFlood(const BenchmarkPair& pair, const Eigen::Isometry3d& pose, double cutoff,
                                  const PairSolution& solution, RecallShares& shares) {
-  FloodStarts whose;
+  FloodStarts starts;
   for (const TrackedNiche& niche : solution.niches) {
     if (niche.distance <= cutoff) {
-      whose.emplace_back(niche.witness.triangle_a, niche.witness.triangle_b);
+      starts.emplace_back(niche.witness.triangle_a, niche.witness.triangle_b);
     }
   }
-  FloodComparison result{trueNiches(pair, pose, cutoff, whose), {}};
+  FloodComparison result{trueNiches(pair, pose, cutoff, starts), {}};
   const LocalMinima& truth = result.truth;
   std::vector<std::size_t> hits(truth.niches.size(), 0);
   for (const std::size_t owner : truth.owners) {
@@ -61,9 +61,9 @@ FloodComparison compareWithFlood(const BenchmarkPair& pair, const Eigen::Isometr
   }
   if (doubles(truth) > 0) {
     shares.stale +=
-        static_cast<double>(doubles(trueNiches(pair, pose, cutoff, whose, 0.5 * kLeastTrueProminence)));
+        static_cast<double>(doubles(trueNiches(pair, pose, cutoff, starts, 0.5 * kLeastTrueProminence)));
   }
-  shares.reported += static_cast<double>(whose.size());
+  shares.reported += static_cast<double>(starts.size());
   return result;
 }
 

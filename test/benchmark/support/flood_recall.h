@@ -41,7 +41,7 @@ using FloodStarts = std::vector<std::pair<TriangleIndex, TriangleIndex>>;
 /// The outward niches of level `complete` at a pose, and in which of them each start lies: decided by the
 /// same flood over all triangle pairs.
 LocalMinima trueNiches(const BenchmarkPair& pair, const Eigen::Isometry3d& pose, double cutoff,
-                       FloodStarts whose, double least_prominence = kLeastTrueProminence);
+                       FloodStarts starts, double least_prominence = kLeastTrueProminence);
 
 struct FloodComparison {
   LocalMinima truth;

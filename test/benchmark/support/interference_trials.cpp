@@ -80,10 +80,10 @@ InterferencePair latticeInterferencePair(std::uint64_t seed) {
   RandomEngine engine(seed);
   InterferencePair pair{latticeSolid(engine), latticeSolid(engine), Eigen::Isometry3d::Identity()};
   pair.a_from_b.linear() = rightAngles(engine);
-  const Eigen::Vector3d way = pair.a.boundingBox().center() -
-                              pair.a_from_b.linear() * pair.b.boundingBox().center() +
-                              test::uniformInCube(engine, 0.15 * (pair.a.diameter() + pair.b.diameter()));
-  pair.a_from_b.translation() = 0.125 * (8.0 * way).array().round().matrix();
+  const Eigen::Vector3d displacement =
+      pair.a.boundingBox().center() - pair.a_from_b.linear() * pair.b.boundingBox().center() +
+      test::uniformInCube(engine, 0.15 * (pair.a.diameter() + pair.b.diameter()));
+  pair.a_from_b.translation() = 0.125 * (8.0 * displacement).array().round().matrix();
   return pair;
 }
 

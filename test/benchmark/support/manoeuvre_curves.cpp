@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "concave_distance/base/error.h"
-#include "concave_distance/distance/enumeration.h"
+#include "concave_distance/thesis/evaluation/enumeration.h"
 
 namespace concave_distance::benchmark {
 

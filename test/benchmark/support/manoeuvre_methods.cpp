@@ -4,8 +4,8 @@
 #include "benchmark/support/processor_time.h"
 #include "concave_distance/mesh/import_mesh.h"
 #include "concave_distance/mesh/repair_mesh.h"
-#include "concave_distance/partition/hybrid_distance.h"
-#include "concave_distance/partition/partition_tracker.h"
+#include "concave_distance/thesis/partition/hybrid_distance.h"
+#include "concave_distance/thesis/partition/partition_tracker.h"
 #include "concave_distance/tracking/pair_tracker.h"
 
 namespace concave_distance::benchmark {

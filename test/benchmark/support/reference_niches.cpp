@@ -6,8 +6,8 @@
 
 #include "benchmark/support/grid_flood.h"
 #include "concave_distance/distance/basin_verdict.h"
-#include "concave_distance/distance/enumeration.h"
 #include "concave_distance/search/local_descent.h"
+#include "concave_distance/thesis/evaluation/enumeration.h"
 #include "concave_distance/tracking/pair_geometry.h"
 
 namespace concave_distance::benchmark {

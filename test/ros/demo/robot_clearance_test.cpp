@@ -85,11 +85,11 @@ class RobotDemo {
     travel_.push_back(0.0);
     for (double time = 0.0; time < wam_.path.period(); time += kStep) {
       const Eigen::VectorXd change = wam_.path.at(time + kStep) - wam_.path.at(time);
-      double way = 0.0;
+      double displacement = 0.0;
       for (Eigen::Index joint = 0; joint < change.size(); ++joint) {
-        way += std::abs(change[joint]) * reach[joint];
+        displacement += std::abs(change[joint]) * reach[joint];
       }
-      travel_.push_back(travel_.back() + way);
+      travel_.push_back(travel_.back() + displacement);
     }
   }
 

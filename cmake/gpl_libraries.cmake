@@ -1,0 +1,37 @@
+# What the convex partition and the building of constraint trees (src/thesis) need. Their exact constructions are CGAL's
+# (GPL-3), their quadratic programs ALGLIB's (GPL-2 or later), their GJK is FCL's (BSD): programs that link them,
+# mesh_tool, tests and benchmarks, are under the GPL as a whole. The core and the node stay BSD-3-Clause.
+find_package(CGAL QUIET)
+find_package(fcl QUIET)
+find_path(CONCAVE_DISTANCE_ALGLIB_HEADERS optimization.h PATH_SUFFIXES libalglib)
+find_library(CONCAVE_DISTANCE_ALGLIB alglib)
+mark_as_advanced(CONCAVE_DISTANCE_ALGLIB_HEADERS CONCAVE_DISTANCE_ALGLIB)
+
+set(concave_distance_gpl_missing)
+foreach(library CGAL fcl)
+  if(NOT ${library}_FOUND)
+    list(APPEND concave_distance_gpl_missing ${library})
+  endif()
+endforeach()
+if(NOT CONCAVE_DISTANCE_ALGLIB_HEADERS OR NOT CONCAVE_DISTANCE_ALGLIB)
+  list(APPEND concave_distance_gpl_missing ALGLIB)
+endif()
+if(concave_distance_gpl_missing)
+  set(concave_distance_gpl_default OFF)
+  if(NOT DEFINED CACHE{CONCAVE_DISTANCE_WITH_CGAL})
+    set(CONCAVE_DISTANCE_GPL_WAS_MISSING ON CACHE INTERNAL "WITH_CGAL is OFF because libraries were not found")
+  endif()
+  message(STATUS "No convex partition is built: not found: ${concave_distance_gpl_missing}")
+else()
+  set(concave_distance_gpl_default ON)
+  # Choose the default again if the libraries were installed after the first configuration (scripts/demo.sh).
+  if(CONCAVE_DISTANCE_GPL_WAS_MISSING)
+    unset(CONCAVE_DISTANCE_WITH_CGAL CACHE)
+    unset(CONCAVE_DISTANCE_GPL_WAS_MISSING CACHE)
+  endif()
+endif()
+option(CONCAVE_DISTANCE_WITH_CGAL "Build convex partition and constraint trees (GPL)" ${concave_distance_gpl_default})
+if(CONCAVE_DISTANCE_WITH_CGAL AND concave_distance_gpl_missing)
+  message(FATAL_ERROR "CONCAVE_DISTANCE_WITH_CGAL is ON, but these were not found: ${concave_distance_gpl_missing} "
+    "(scripts/install_dependencies.sh build)")
+endif()

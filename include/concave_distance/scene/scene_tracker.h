@@ -1,0 +1,96 @@
+#pragma once
+
+#include <tbb/task_arena.h>
+
+#include <Eigen/Geometry>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "concave_distance/scene/scene.h"
+#include "concave_distance/scene/tracked_pair.h"
+
+namespace concave_distance {
+
+struct SceneTrackerOptions {
+  std::uint32_t threads = 0;                ///< that solve pairs; 0: one per core, 1: only the caller's
+  const std::atomic<bool>* stop = nullptr;  ///< set: a cycle ends without solving the pairs that are left
+};
+
+/// What one cycle did.
+struct CycleCounts {
+  std::uint32_t watched = 0;
+  std::uint32_t solved = 0;
+  std::uint32_t cold = 0;      ///< of the solved, those from nothing
+  std::uint32_t repeated = 0;  ///< with the input of the cycle before
+  std::uint32_t beyond_cutoff = 0;
+  std::uint32_t not_located = 0;
+  std::uint32_t search_misses = 0;
+  std::uint32_t unproven = 0;       ///< solves at `certified` that the time budget ended before the proof
+  EffectCounts effects;             ///< of all pairs
+  double helper_cpu_seconds = 0.0;  ///< processor time of the threads that helped the caller's
+};
+
+/// Tracks every pair of a scene: leaves out what is beyond its cutoff, solves the rest in parallel and
+/// compares the distances with the warning distances. One thread at a time.
+class SceneTracker {
+ public:
+  using Pairs = std::vector<std::shared_ptr<TrackedPair>>;
+  /// Where the pair at this place in scene.pairs is. Called in the order of the pairs, by one thread.
+  using Locate = std::function<PairInput(std::size_t)>;
+
+  explicit SceneTracker(SceneTrackerOptions options = {});
+
+  /// Pairs whose bodies are in both scenes go on, warm. The order becomes that of scene.pairs. When it
+  /// throws, the scene before is still tracked.
+  /// @param settings_changed false: no pair of both scenes has other settings, and none is solved anew
+  void setScene(const Scene& scene, bool settings_changed = true);
+  /// Of each pair of a scene, its place in pairs() if setScene() would let it go on.
+  std::vector<std::optional<std::size_t>> placesNow(const Scene& scene) const;
+
+  /// One cycle over all enabled pairs. @param world_from_body one pose for each of scene.bodies, each rigid
+  /// (rotation orthonormal within 1e-3); empty where it is not known
+  /// @param time seconds of these poses, from any beginning
+  /// @param demand of each pair
+  CycleCounts update(const std::vector<std::optional<Eigen::Isometry3d>>& world_from_body, double time,
+                     const PairDemand& demand = {true, true, true, false});
+
+  /// One cycle. @param demand one per pair, in their order. A pair that is not watched costs nothing and
+  /// starts cold when it is watched again; one that is watched but not due keeps its state. What belongs to a
+  /// disabled pair is ignored.
+  /// After a cycle that threw, all pairs start cold.
+  CycleCounts update(const std::vector<PairDemand>& demand, const Locate& locate);
+
+  /// Every pair, or the one at this place in scene.pairs, starts cold in its next cycle.
+  void restart();
+  void restart(std::size_t pair);
+
+  /// In the order of scene.pairs.
+  const Pairs& pairs() const { return pairs_; }
+  /// Pairs that left the scene with an alert raised, which setScene took back; reported once.
+  Pairs takeRetired();
+
+ private:
+  void choosePairs(const std::vector<PairDemand>& demand, const Locate& locate, CycleCounts& counts);
+  void prepareSearches();
+  void solveAll();
+  void solve(TrackedPair& pair);
+  void count(CycleCounts& counts) const;
+
+  SceneTrackerOptions options_;
+  tbb::task_arena arena_;
+  Pairs pairs_;
+  Pairs retired_;
+  std::uint64_t largest_retired_id_ = 0;  ///< of removed pairs
+  bool interrupted_ = false;              ///< the last cycle threw, or the running one has not ended
+  std::vector<TrackedPair*> to_solve_;
+  std::vector<const BodyMesh*> to_prepare_;
+  std::vector<PairDemand> demand_;
+  std::atomic<std::int64_t> helper_cpu_nanoseconds_{0};
+};
+
+}  // namespace concave_distance

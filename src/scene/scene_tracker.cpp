@@ -1,0 +1,208 @@
+#include "concave_distance/scene/scene_tracker.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <string_view>
+#include <thread>
+#include <unordered_map>
+#include <utility>
+
+#include "concave_distance/base/thread_cpu.h"
+#include "concave_distance/scene/solver_threads.h"
+
+namespace concave_distance {
+namespace {
+
+// An edit shares the bodies that it leaves as they are.
+bool isOfTheSameBodies(const TrackedPair& tracked, const Scene& scene, const ScenePair& wanted) {
+  return tracked.body_a.get() == &scene.bodies[wanted.body_a] &&
+         tracked.body_b.get() == &scene.bodies[wanted.body_b];
+}
+
+}  // namespace
+
+SceneTracker::SceneTracker(SceneTrackerOptions options)
+    : options_(options), arena_(makeSolverArena(options_.threads)) {}
+
+std::vector<std::optional<std::size_t>> SceneTracker::placesNow(const Scene& scene) const {
+  std::vector<std::optional<std::size_t>> places(scene.pairs.size());
+  // Usually an edit leaves most pairs as they are, in their places.
+  std::unordered_map<std::string_view, std::size_t> moved;
+  for (std::size_t index = 0; index < pairs_.size(); ++index) {
+    if (index < places.size() && pairs_[index]->origin.get() == &scene.pairs[index]) {
+      places[index] = index;
+    } else {
+      moved.emplace(pairs_[index]->origin->name, index);
+    }
+  }
+  for (std::size_t index = 0; index < places.size(); ++index) {
+    if (places[index]) continue;
+    const ScenePair& wanted = scene.pairs[index];
+    const auto found = moved.find(wanted.name);
+    if (found != moved.end() && isOfTheSameBodies(*pairs_[found->second], scene, wanted)) {
+      places[index] = found->second;
+    }
+  }
+  return places;
+}
+
+void SceneTracker::setScene(const Scene& scene, bool settings_changed) {
+  const std::vector<std::optional<std::size_t>> places = placesNow(scene);
+  std::vector<bool> stays(pairs_.size(), false);
+  for (const std::optional<std::size_t>& place : places) {
+    if (place) stays[*place] = true;
+  }
+  // Ids are not used again: pairs that come later begin above all that are gone.
+  std::uint64_t largest_retired_id = largest_retired_id_;
+  Pairs retired;
+  for (std::size_t place = 0; place < pairs_.size(); ++place) {
+    if (stays[place]) continue;
+    largest_retired_id = std::max(largest_retired_id, pairs_[place]->largest_id);
+    if (pairs_[place]->warning.state() != WarningState::Clear) retired.push_back(pairs_[place]);
+  }
+  Pairs next(places.size());
+  for (std::size_t index = 0; index < places.size(); ++index) {
+    next[index] = places[index] ? pairs_[*places[index]]
+                                : std::make_shared<TrackedPair>(scene, index, largest_retired_id);
+  }
+  retired_.reserve(retired_.size() + retired.size());
+
+  // Nothing below allocates.
+  for (std::size_t index = 0; index < places.size(); ++index) {
+    if (!places[index] || next[index]->origin.get() == &scene.pairs[index]) continue;
+    next[index]->adopt(scene.pairs.share(index), settings_changed);
+  }
+  for (std::shared_ptr<TrackedPair>& pair : retired) {
+    pair->stopWatching();
+    retired_.push_back(std::move(pair));
+  }
+  pairs_ = std::move(next);
+  largest_retired_id_ = largest_retired_id;
+}
+
+SceneTracker::Pairs SceneTracker::takeRetired() {
+  return std::exchange(retired_, {});
+}
+
+void SceneTracker::restart() {
+  for (auto& pair : pairs_) pair->restart();
+}
+
+void SceneTracker::restart(std::size_t pair) {
+  pairs_[pair]->restart();
+}
+
+CycleCounts SceneTracker::update(const std::vector<std::optional<Eigen::Isometry3d>>& world_from_body,
+                                 double time, const PairDemand& demand) {
+  demand_.assign(pairs_.size(), demand);
+  const auto locate = [&](std::size_t index) {
+    const ScenePair& pair = *pairs_[index]->origin;
+    const std::optional<Eigen::Isometry3d>& world_from_a = world_from_body.at(pair.body_a);
+    const std::optional<Eigen::Isometry3d>& world_from_b = world_from_body.at(pair.body_b);
+    PairInput input;
+    input.time = time;
+    input.located = world_from_a && world_from_b;
+    if (input.located) input.a_from_b = world_from_a->inverse(Eigen::Isometry) * *world_from_b;
+    return input;
+  };
+  return update(demand_, std::cref(locate));  // a copy in std::function would allocate
+}
+
+CycleCounts SceneTracker::update(const std::vector<PairDemand>& demand, const Locate& locate) {
+  if (std::exchange(interrupted_, true)) {
+    for (auto& pair : pairs_) pair->discard();
+  }
+  CycleCounts counts;
+  choosePairs(demand, locate, counts);
+  helper_cpu_nanoseconds_ = 0;
+  prepareSearches();
+  solveAll();
+  for (auto& pair : pairs_) {
+    if (pair->demand.due) pair->watchWarning();
+  }
+  count(counts);
+  interrupted_ = false;
+  return counts;
+}
+
+void SceneTracker::choosePairs(const std::vector<PairDemand>& demand, const Locate& locate,
+                               CycleCounts& counts) {
+  to_solve_.clear();
+  for (std::size_t index = 0; index < pairs_.size(); ++index) {
+    TrackedPair& pair = *pairs_[index];
+    const bool was_watched = pair.demand.watched;
+    pair.demand = pair.origin->enabled ? demand.at(index) : PairDemand{};
+    if (!pair.demand.watched) {
+      pair.warning_changed = false;
+      if (was_watched) pair.stopWatching();
+      continue;
+    }
+    ++counts.watched;
+    if (pair.demand.due && pair.locate(locate(index), options_.stop)) to_solve_.push_back(&pair);
+  }
+}
+
+void SceneTracker::count(CycleCounts& counts) const {
+  for (const auto& pair : pairs_) {
+    if (!pair->demand.due) continue;
+    counts.repeated += pair->repeated ? 1 : 0;
+    counts.beyond_cutoff += pair->state == PairState::BeyondCutoff ? 1 : 0;
+    counts.not_located += pair->state == PairState::NotLocated ? 1 : 0;
+  }
+  for (TrackedPair* pair : to_solve_) {
+    ++counts.solved;
+    counts.effects += pair->effects.takeCounts();
+    counts.cold += pair->solution.warm ? 0 : 1;
+    counts.search_misses += pair->solution.search_miss ? 1 : 0;
+    const SolveStatus status = pair->solution.status;
+    counts.unproven +=
+        status == SolveStatus::BudgetExhausted || status == SolveStatus::MemoryExhausted ? 1 : 0;
+  }
+  counts.helper_cpu_seconds = 1e-9 * static_cast<double>(helper_cpu_nanoseconds_.load());
+}
+
+// Grids and metrics of bodies whose niches are searched for the first time are made together, in parallel.
+void SceneTracker::prepareSearches() {
+  if (options_.stop != nullptr && *options_.stop) return;
+  to_prepare_.clear();
+  for (const TrackedPair* pair : to_solve_) {
+    if (!pair->needsSearch()) continue;
+    for (const BodyMesh* body : {pair->body_a->mesh.get(), pair->body_b->mesh.get()}) {
+      if (body->metricIfMade() == nullptr) to_prepare_.push_back(body);
+    }
+  }
+  if (!to_prepare_.empty()) {
+    arena_.execute([&] { prepareSearch(to_prepare_); });
+  }
+}
+
+void SceneTracker::solveAll() {
+  if (options_.threads == 1 || to_solve_.size() < 2) {
+    for (TrackedPair* pair : to_solve_) solve(*pair);
+    return;
+  }
+  const std::thread::id caller = std::this_thread::get_id();
+  arena_.execute([&] {
+    tbb::parallel_for(
+        std::size_t{0}, to_solve_.size(),
+        [&](std::size_t index) {
+          const std::int64_t start = threadCpuNanoseconds();
+          solve(*to_solve_[index]);
+          if (std::this_thread::get_id() != caller) {
+            helper_cpu_nanoseconds_ += threadCpuNanoseconds() - start;
+          }
+        },
+        tbb::simple_partitioner());
+  });
+}
+
+void SceneTracker::solve(TrackedPair& pair) {
+  if (options_.stop != nullptr && *options_.stop) {
+    pair.state = PairState::Stopped;
+    return;
+  }
+  pair.solve();
+}
+
+}  // namespace concave_distance

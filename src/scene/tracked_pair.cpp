@@ -1,0 +1,116 @@
+#include "concave_distance/scene/tracked_pair.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "concave_distance/scene/broad_phase.h"
+
+namespace concave_distance {
+
+TrackedPair::TrackedPair(const Scene& scene, std::size_t index, std::uint64_t first_id)
+    : origin(scene.pairs.share(index)),
+      body_a(scene.bodies.share(origin->body_a)),
+      body_b(scene.bodies.share(origin->body_b)),
+      settings(origin->settings),
+      effects(body_a->mesh, body_b->mesh, inContact(body_a->material, body_b->material)),
+      largest_id(first_id) {}
+
+bool TrackedPair::locate(const PairInput& next, const std::atomic<bool>* stop) {
+  const bool was_solved = solved();
+  input = next;
+  repeated = false;
+  box_bound.reset();
+  if (!input.located) {
+    state = PairState::NotLocated;
+    return false;
+  }
+  if (std::isfinite(settings.tracker.cutoff)) {
+    const double bound = distanceLowerBound(body_a->bounds, body_b->bounds, input.a_from_b);
+    if (bound > settings.tracker.cutoff) {
+      restart();
+      box_bound = bound;
+      state = PairState::BeyondCutoff;
+      return false;
+    }
+  }
+  prepare(stop);
+  const bool same_input = input.fixed ? solved_input_.a_from_b.matrix() == input.a_from_b.matrix()
+                                      : solved_input_.time == input.time;
+  repeated = was_solved && same_input && !must_solve_;
+  return !repeated;
+}
+
+void TrackedPair::solve() {
+  tracker_->update(input.a_from_b, input.time, solution);
+  WorkLimit limit = remainingWork(settings.tracker, solution.solve_seconds);
+  const double step = input.step.value_or(input.time - solved_input_.time);
+  effects.update(solution, input.a_from_b, step, input.b_in_a, limit);
+  solved_input_ = input;
+  state = PairState::Solved;
+  must_solve_ = false;
+  for (const TrackedNiche& niche : solution.niches) largest_id = std::max(largest_id, niche.id);
+}
+
+void TrackedPair::watchWarning() {
+  warning_changed = false;
+  if (!settings.warning_distance) {
+    // Removed while it ran: a raised alert is cleared.
+    warning_changed = warning.state() != WarningState::Clear;
+    warning.reset();
+    return;
+  }
+  std::optional<double> distance = box_bound;
+  if (solved() && !std::isnan(solution.distance)) distance = solution.distance;
+  warning_changed = warning.update(distance, *settings.warning_distance, settings.warning_hysteresis);
+}
+
+bool TrackedPair::needsSearch() const {
+  return must_solve_ && (demand.niches || !provesDistance(settings.tracker.accuracy));
+}
+
+void TrackedPair::restart() {
+  if (tracker_) tracker_->reset();
+  effects.reset();
+  state = PairState::NotWatched;
+  must_solve_ = true;
+}
+
+void TrackedPair::stopWatching() {
+  restart();
+  effects.prepare(settings.effects, false);
+  warning_changed = warning.state() != WarningState::Clear;
+  warning.reset();
+}
+
+void TrackedPair::discard() {
+  tracker_.reset();
+  effects.prepare(settings.effects, false);
+  state = PairState::NotWatched;
+  must_solve_ = true;
+}
+
+void TrackedPair::adopt(std::shared_ptr<const ScenePair> pair, bool settings_changed) {
+  origin = std::move(pair);
+  settings = origin->settings;
+  stale_parameters_ = stale_parameters_ || settings_changed;
+}
+
+// Gives tracker and effects what the settings and the demand say; makes them when there are none.
+void TrackedPair::prepare(const std::atomic<bool>* stop) {
+  if (effects.prepare(settings.effects, demand.effects)) must_solve_ = true;
+  if (tracker_ && !stale_parameters_ && tracker_->parameters().niches_wanted == demand.niches) return;
+  TrackerParameters parameters = settings.tracker;
+  parameters.niches_wanted = demand.niches;
+  parameters.stop = stop;
+  if (tracker_) {
+    tracker_->setParameters(parameters);
+  } else {
+    tracker_ =
+        std::make_unique<PairTracker>(origin->name, body_a->mesh, body_b->mesh, parameters, largest_id);
+  }
+  stale_parameters_ = false;
+  must_solve_ = true;
+}
+
+}  // namespace concave_distance

@@ -1,0 +1,280 @@
+#include "experiment.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <optional>
+#include <set>
+#include <sstream>
+
+#include "annealing_reader.h"
+#include "concave_distance/base/error.h"
+#include "search_settings_reader.h"
+#include "setting_values.h"
+#include "settings_reader.h"
+
+namespace concave_distance::evaluation {
+namespace {
+
+using detail::count32;
+using detail::kShare;
+using detail::notNegativeFinite;
+using detail::share;
+using detail::YamlMap;
+using detail::YamlValue;
+
+std::string readText(const std::string& file) {
+  std::ifstream stream(file);
+  if (!stream)
+    throw Error(file, "cannot be opened", "name an experiment file, e.g. experiments/table_5_9.yaml");
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+/// Every method of a family whose name it is tried by.
+std::optional<SearchMethod> combinatorialNamed(const std::string& name, GeneticParameters genetic) {
+  if (name == "multi-start") return MultiStartParameters{};
+  for (const bool local : {true, false}) {
+    AnnealingParameters annealing;
+    annealing.local_optimization = local;
+    if (concave_distance::nameOf(SearchMethod(annealing)) == name) return annealing;
+  }
+  for (const auto local :
+       {LocalOptimization::None, LocalOptimization::Lamarckian, LocalOptimization::Baldwinian}) {
+    for (const auto niching :
+         {NichingMethod::None, NichingMethod::Sharing, NichingMethod::DynamicSharing,
+          NichingMethod::DeterministicCrowding, NichingMethod::DeterministicCrowdingWithSelection,
+          NichingMethod::SimpleCrowding}) {
+      genetic.local_optimization = local;
+      genetic.niching = niching;
+      if (concave_distance::nameOf(SearchMethod(genetic)) == name) return genetic;
+    }
+  }
+  return std::nullopt;
+}
+
+Method methodNamed(const YamlValue& value, bool from_thesis) {
+  const std::string name = value.text();
+  if (name == nameOf(Method(TrackerMethod()))) return TrackerMethod();
+  if (name == nameOf(Method(EnumerationMethod()))) return EnumerationMethod();
+  for (const bool local : {true, false}) {
+    ContinuousGeneticParameters genetic =
+        from_thesis ? thesisContinuousGenetic() : improvedContinuousGenetic();
+    ContinuousAnnealingParameters annealing =
+        from_thesis ? thesisContinuousAnnealing() : improvedContinuousAnnealing();
+    genetic.local_step.enabled = annealing.local_step.enabled = local;
+    if (nameOf(Method(genetic)) == name) return genetic;
+    if (nameOf(Method(annealing)) == name) return annealing;
+  }
+  const std::optional<SearchMethod> combinatorial =
+      combinatorialNamed(name, from_thesis ? thesisGeneticParameters() : GeneticParameters());
+  if (combinatorial) return *combinatorial;
+  value.refuse(
+      "comb-GA-wl, -nl or -bw, with -sh, -ds, -dc, -dcs or -sc or without; comb-SA-wl or -nl; multi-start; "
+      "cont-GA-wl or -nl; cont-SA-wl or -nl; tracker; enumeration");
+}
+
+void readContinuousGenetic(const YamlValue& value, ContinuousGeneticParameters& p) {
+  YamlMap map(value, "a map of parameters of cont-GA");
+  if (auto v = map.take("population_size")) p.population_size = count32(*v, 2);
+  if (auto v = map.take("max_generations")) p.max_generations = count32(*v, 0);
+  if (auto v = map.take("crossover_probability")) p.crossover_probability = v->number(kShare, share);
+  if (auto v = map.take("mutation_probability")) p.mutation_probability = v->number(kShare, share);
+  if (auto v = map.take("penalty_weight"))
+    p.penalty_weight = v->number("0 or more, finite", notNegativeFinite);
+  map.finish();
+}
+
+void readContinuousAnnealing(const YamlValue& value, ContinuousAnnealingParameters& p) {
+  YamlMap map(value, "a map of parameters of cont-SA");
+  if (auto v = map.take("initial_temperature")) {
+    p.initial_temperature = count32(*v, 1);
+  }
+  if (auto v = map.take("boltzmann_constant"))
+    p.boltzmann_constant = v->number("0 or more, finite", notNegativeFinite);
+  if (auto v = map.take("penalty_weight"))
+    p.penalty_weight = v->number("0 or more, finite", notNegativeFinite);
+  map.finish();
+}
+
+void readMultiStart(const YamlValue& value, MultiStartParameters& p) {
+  YamlMap map(value, "a map of parameters of random starts");
+  if (auto v = map.take("starts")) p.starts = count32(*v, 1);
+  if (auto v = map.take("evaluation_limit")) {
+    p.evaluation_limit = v->count(0, std::numeric_limits<std::uint64_t>::max());
+  }
+  map.finish();
+}
+
+/// The settings of a pair, as in a scene file (doc/scene_file.md).
+void readTracker(const YamlValue& value, TrackerMethod& method) {
+  YamlMap map(value, "settings of a pair");
+  if (auto v = map.take("forgets")) method.forgets = v->boolean();
+  PairSettings settings;
+  settings.tracker = method.parameters;
+  detail::readPairSettings(map, settings);
+  method.parameters = settings.tracker;
+  map.finish();
+}
+
+/// Reads the parameters of whatever method it is.
+struct ParameterReader {
+  const YamlValue& value;
+  void operator()(GeneticParameters& p) const { detail::readGeneticParameters(value, p); }
+  void operator()(AnnealingParameters& p) const { detail::readAnnealingParameters(value, p); }
+  void operator()(MultiStartParameters& p) const { readMultiStart(value, p); }
+  void operator()(SearchMethod& method) const { std::visit(*this, method); }
+  void operator()(ContinuousGeneticParameters& p) const { readContinuousGenetic(value, p); }
+  void operator()(ContinuousAnnealingParameters& p) const { readContinuousAnnealing(value, p); }
+  void operator()(TrackerMethod& method) const { readTracker(value, method); }
+  void operator()(EnumerationMethod&) const { value.fail("enumeration has no parameters", "leave them out"); }
+};
+
+struct Validator {
+  const std::string where;
+  void operator()(const MultiStartParameters&) const {}
+  void operator()(const EnumerationMethod&) const {}
+  void operator()(const TrackerMethod& method) const { method.parameters.validate(where); }
+  void operator()(const SearchMethod& method) const { std::visit(*this, method); }
+  template <typename Parameters>
+  void operator()(const Parameters& parameters) const {
+    parameters.validate(where);
+  }
+};
+
+bool isContinuous(const Method& method) {
+  return std::holds_alternative<ContinuousGeneticParameters>(method) ||
+         std::holds_alternative<ContinuousAnnealingParameters>(method);
+}
+
+Inheritance readInheritance(const YamlValue& value) {
+  YamlMap map(value, "what a population inherits: {per_niche: 3, limit: 30}");
+  Inheritance inheritance;
+  if (auto v = map.take("per_niche")) {
+    inheritance.per_niche = v->number("1 or more", [](double n) { return n >= 1.0 && std::isfinite(n); });
+  }
+  if (auto v = map.take("limit")) inheritance.limit = count32(*v, 0);
+  map.finish();
+  return inheritance;
+}
+
+/// Sets what a scene wants of a search.
+struct SceneSettings {
+  const ExperimentScene& scene;
+  bool has_own_limit;
+
+  void operator()(GeneticParameters& p) const {
+    if (scene.population_size) p.population_size = *scene.population_size;
+    limit(p.evaluation_limit);
+  }
+  void operator()(AnnealingParameters& p) const { limit(p.evaluation_limit); }
+  void operator()(MultiStartParameters& p) const { limit(p.evaluation_limit); }
+  void limit(std::uint64_t& evaluations) const {
+    if (scene.evaluation_limit && !has_own_limit) evaluations = *scene.evaluation_limit;
+  }
+};
+
+constexpr std::pair<const char*, bool> kBases[] = {{"thesis", true}, {"shipped", false}};
+
+ExperimentRow readRow(const YamlValue& value, const std::optional<YamlValue>& common) {
+  YamlMap map(value, "a row: name, algorithm, parameters, thesis");
+  ExperimentRow row;
+  const YamlValue name = map.require("name", "give every row a name of its own");
+  row.name = name.text();
+  if (row.name.find_first_of(",\"\n") != std::string::npos) name.refuse("a name without commas and quotes");
+  bool from_thesis = true;
+  if (auto v = map.take("base")) from_thesis = v->choice(kBases);
+  row.method = methodNamed(map.require("algorithm", "name the algorithm, e.g. comb-GA-wl-sh"), from_thesis);
+  const auto* combinatorial = std::get_if<SearchMethod>(&row.method);
+  const bool is_genetic =
+      std::holds_alternative<ContinuousGeneticParameters>(row.method) ||
+      (combinatorial != nullptr && std::holds_alternative<GeneticParameters>(*combinatorial));
+  if (common && is_genetic) std::visit(ParameterReader{*common}, row.method);
+  if (auto v = map.take("parameters")) {
+    std::visit(ParameterReader{*v}, row.method);
+    row.has_own_limit = YamlMap(*v, "a map of parameters").take("evaluation_limit").has_value();
+  }
+  if (auto v = map.take("inheritance")) row.inheritance = readInheritance(*v);
+  std::visit(Validator{value.where()}, row.method);
+  map.take("thesis");      // the thesis's own figures, for the report
+  map.take("variant_of");  // the thesis's row that it improves on
+  map.finish();
+  return row;
+}
+
+}  // namespace
+
+std::string nameOf(const Method& method) {
+  if (const auto* genetic = std::get_if<ContinuousGeneticParameters>(&method)) {
+    return genetic->local_step.enabled ? "cont-GA-wl" : "cont-GA-nl";
+  }
+  if (const auto* annealing = std::get_if<ContinuousAnnealingParameters>(&method)) {
+    return annealing->local_step.enabled ? "cont-SA-wl" : "cont-SA-nl";
+  }
+  if (std::holds_alternative<TrackerMethod>(method)) return "tracker";
+  if (std::holds_alternative<EnumerationMethod>(method)) return "enumeration";
+  return concave_distance::nameOf(std::get<SearchMethod>(method));
+}
+
+Method ExperimentRow::methodOn(const ExperimentScene& scene) const {
+  Method changed = method;
+  if (auto* search = std::get_if<SearchMethod>(&changed)) {
+    std::visit(SceneSettings{scene, has_own_limit}, *search);
+  }
+  return changed;
+}
+
+GeneticParameters thesisGeneticParameters() {
+  GeneticParameters parameters;
+  parameters.exchange_probability = 0.0;
+  parameters.immigrants = 0;
+  parameters.conserve_niches = false;
+  parameters.fitness_epsilon = 0.0;
+  return parameters;
+}
+
+Experiment loadExperiment(const std::string& file) {
+  YamlMap map(YamlValue::parse(readText(file), file), "an experiment: title, runs, scenes, rows");
+  Experiment experiment;
+  experiment.name = std::filesystem::path(file).stem().string();
+  experiment.title = map.require("title", "say what the table shows").text();
+  map.take("table");
+  map.take("figure");
+  map.take("columns");
+  map.take("layout");
+  map.take("remark");
+  map.take("note");
+  if (auto v = map.take("seed")) experiment.seed = v->count(0, std::numeric_limits<std::uint64_t>::max());
+  YamlMap runs(map.require("runs", "say how many runs: {quick: 20, full: 500}"), "{quick: 20, full: 500}");
+  experiment.quick_runs = count32(runs.require("quick", "a count"), 1);
+  experiment.full_runs = count32(runs.require("full", "a count"), 1);
+  runs.finish();
+  if (auto v = map.take("niches")) experiment.niches = v->boolean();
+  if (auto v = map.take("curves")) experiment.curves = v->boolean();
+  const YamlMap scenes(map.require("scenes", "name scenes and their grids: {battery_static: 0.05}"),
+                       "scenes and the edge length of their grids");
+  const std::string folder = std::filesystem::path(file).parent_path().string();
+  bool all_have_trees = true;
+  for (const auto& [name, scene] : scenes.entries()) {
+    experiment.scenes.push_back(readScene(name, scene, folder));
+    all_have_trees = all_have_trees && !experiment.scenes.back().thesis_scene.empty();
+  }
+  const std::optional<YamlValue> common = map.take("common");
+  std::set<std::string> names;
+  for (const YamlValue& value : map.require("rows", "list the rows").list("rows")) {
+    experiment.rows.push_back(readRow(value, common));
+    if (!names.insert(experiment.rows.back().name).second) {
+      value.fail("the name " + experiment.rows.back().name + " stands twice", "give every row its own");
+    }
+    if (isContinuous(experiment.rows.back().method) && !all_have_trees) {
+      value.fail("the continuous approach needs constraint trees", "use scenes of meshes/thesis only");
+    }
+  }
+  map.finish();
+  return experiment;
+}
+
+}  // namespace concave_distance::evaluation

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "concave_distance/thesis/continuous/continuous_parameters.h"
+#include "concave_distance/thesis/evaluation/search_method.h"
+#include "concave_distance/tracking/tracker_parameters.h"
+#include "concave_distance/tracking/warm_start.h"
+#include "experiment_scene.h"
+
+namespace concave_distance::evaluation {
+
+/// All node pairs (Carretero, app. D).
+struct EnumerationMethod {};
+
+/// What a node runs for a pair: every niche followed, the search one stage among others.
+struct TrackerMethod {
+  TrackerParameters parameters;
+  bool forgets = false;  ///< every instant is solved cold
+};
+
+/// Any algorithm of the thesis, and this package's own tracker.
+using Method = std::variant<SearchMethod, ContinuousGeneticParameters, ContinuousAnnealingParameters,
+                            TrackerMethod, EnumerationMethod>;
+
+/// {cont|comb}-{GA|SA}-{wl|nl}..., see search/search_method.h; tracker; enumeration.
+std::string nameOf(const Method& method);
+
+/// A row of a table: one algorithm with one set of parameters.
+struct ExperimentRow {
+  std::string name;
+  Method method;
+  bool has_own_limit = false;  ///< of evaluations, which a scene's does not replace
+  /// Of a GA along a motion: what each instant's population inherits from the niches of the last one's
+  /// (6.7), (6.8); other searches start anew at every instant.
+  Inheritance inheritance;
+
+  /// With what the scene wants.
+  Method methodOn(const ExperimentScene& scene) const;
+};
+
+/// One table or figure: every row on every scene, many times. Read from experiments/*.yaml.
+struct Experiment {
+  std::string name;  ///< of the file, without its ending
+  std::string title;
+  std::uint64_t seed = 1;
+  std::uint32_t quick_runs = 1;
+  std::uint32_t full_runs = 1;
+  bool niches = false;  ///< recall and precision of the final population are measured as well
+  bool curves = false;  ///< averages over the generations are kept
+  std::vector<ExperimentScene> scenes;
+  std::vector<ExperimentRow> rows;
+};
+
+/// @throws Error naming file, line and what is allowed
+Experiment loadExperiment(const std::string& file);
+
+/// What the thesis's algorithm is without what this package has added to it: no exchange of genes, no
+/// immigrants, niches are not conserved, no softening of the fitness. One elite stays (THESIS.md: universal
+/// sampling can lose the best).
+GeneticParameters thesisGeneticParameters();
+
+}  // namespace concave_distance::evaluation
