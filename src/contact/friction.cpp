@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "concave_distance/base/parameter_checks.h"
+#include "concave_distance/contact/contact_parameter_tables.h"
 
 namespace concave_distance {
 
@@ -19,10 +19,7 @@ std::string_view toString(FrictionModel model) {
 }
 
 void FrictionSettings::validate(const std::string& where) const {
-  detail::requirePositive(where, "regularisation_speed", regularisation_speed, "metres a second");
-  detail::requirePositive(where, "stribeck_speed", stribeck_speed, "metres a second");
-  detail::requirePositive(where, "bristle_stiffness", bristle_stiffness, "per metre");
-  detail::requireNotNegative(where, "bristle_damping", bristle_damping);
+  requireAllowed(frictionParameters(), *this, where);
 }
 
 double frictionCoefficient(const ContactMaterial& material, double stribeck_speed, double speed) {

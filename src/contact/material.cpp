@@ -3,21 +3,16 @@
 #include <cmath>
 
 #include "concave_distance/base/parameter_checks.h"
+#include "concave_distance/contact/contact_parameter_tables.h"
 
 namespace concave_distance {
 
 void Material::validate(const std::string& where) const {
-  detail::requirePositive(where, "youngs_modulus", youngs_modulus, "pascal");
-  if (!(poissons_ratio >= 0.0 && poissons_ratio < 0.5)) {
-    detail::refuse(where, "poissons_ratio", detail::toText(poissons_ratio), "from 0 to below 0.5");
-  }
-  detail::requireNotNegative(where, "dissipation", dissipation);
-  detail::requireNotNegative(where, "dynamic_friction", dynamic_friction);
-  if (!(static_friction >= dynamic_friction) || std::isinf(static_friction)) {
+  requireAllowed(materialParameters(), *this, where);
+  if (static_friction < dynamic_friction) {
     detail::refuse(where, "static_friction", detail::toText(static_friction),
                    "dynamic_friction (" + detail::toText(dynamic_friction) + ") or more, finite");
   }
-  detail::requireNotNegative(where, "viscous_friction", viscous_friction);
 }
 
 ContactMaterial inContact(const Material& a, const Material& b) {

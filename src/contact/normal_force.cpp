@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "concave_distance/base/parameter_checks.h"
+#include "concave_distance/contact/contact_parameter_tables.h"
 
 namespace concave_distance {
 namespace {
@@ -62,11 +62,7 @@ double radiusFromOverlap(const ContactGeometry& contact) {
 }
 
 void NormalForceSettings::validate(const std::string& where) const {
-  detail::requirePositive(where, "loading_coefficient", loading_coefficient, "without a unit");
-  detail::requirePositive(where, "stiffness", stiffness, "newtons a metre");
-  detail::requireNotNegative(where, "damping", damping);
-  detail::requirePositive(where, "foundation_stiffness", foundation_stiffness, "pascal a metre");
-  detail::requireNotNegative(where, "radius", radius);
+  requireAllowed(normalForceParameters(), *this, where);
 }
 
 double normalForce(const NormalForceSettings& settings, const ContactMaterial& material,

@@ -1,6 +1,5 @@
 #include "concave_distance/ros/parameter_reader.h"
 
-#include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <utility>
@@ -16,11 +15,42 @@ std::string shown(const XmlRpc::XmlRpcValue& value) {
   return text.str();
 }
 
-template <typename Number>
-std::string rangeText(Number lowest, Number highest) {
-  std::ostringstream text;
-  text << "allowed: " << lowest << " to " << highest;
-  return text.str();
+std::optional<ParameterValue> listOf(XmlRpc::XmlRpcValue& value) {
+  std::vector<std::string> list;
+  for (int i = 0; i < value.size(); ++i) {
+    if (value[i].getType() != XmlRpc::XmlRpcValue::TypeString) {
+      return std::nullopt;
+    }
+    list.push_back(static_cast<std::string>(value[i]));
+  }
+  return list;
+}
+
+// Nothing for a value of a type that no parameter has. A single text counts as a list of one.
+std::optional<ParameterValue> valueOf(XmlRpc::XmlRpcValue& value, ParameterType type) {
+  switch (value.getType()) {
+    case XmlRpc::XmlRpcValue::TypeDouble: {
+      const double number = static_cast<double>(value);
+      const bool is_count = type == ParameterType::Count && number >= 0.0 && number == std::floor(number) &&
+                            number < 1e15;
+      return is_count ? ParameterValue(static_cast<std::uint64_t>(number)) : ParameterValue(number);
+    }
+    case XmlRpc::XmlRpcValue::TypeInt: {
+      const int number = static_cast<int>(value);
+      const bool is_count = type == ParameterType::Count && number >= 0;
+      return is_count ? ParameterValue(static_cast<std::uint64_t>(number))
+                      : ParameterValue(static_cast<double>(number));
+    }
+    case XmlRpc::XmlRpcValue::TypeBoolean:
+      return ParameterValue(static_cast<bool>(value));
+    case XmlRpc::XmlRpcValue::TypeString:
+      if (type == ParameterType::List) return std::vector<std::string>{static_cast<std::string>(value)};
+      return ParameterValue(static_cast<std::string>(value));
+    case XmlRpc::XmlRpcValue::TypeArray:
+      return type == ParameterType::List ? listOf(value) : std::nullopt;
+    default:
+      return std::nullopt;
+  }
 }
 
 }  // namespace
@@ -37,90 +67,16 @@ bool ParameterReader::has(const std::string& name) {
   return values_.valid() && values_.hasMember(name);
 }
 
-double ParameterReader::number(const std::string& name, double fallback, double lowest, double highest) {
-  if (!has(name)) {
-    return fallback;
+std::optional<ParameterValue> ParameterReader::take(const ParameterInfo& info) {
+  if (!has(info.name)) {
+    return std::nullopt;
   }
-  XmlRpc::XmlRpcValue& value = values_[name];
-  double number = std::numeric_limits<double>::quiet_NaN();
-  if (value.getType() == XmlRpc::XmlRpcValue::TypeDouble) {
-    number = static_cast<double>(value);
-  } else if (value.getType() == XmlRpc::XmlRpcValue::TypeInt) {
-    number = static_cast<int>(value);
+  const std::optional<ParameterValue> value = valueOf(values_[info.name], info.type);
+  if (!value || !isAllowed(info, *value)) {
+    throw Error(prefix_ + info.name, "the value is " + shown(values_[info.name]),
+                "allowed: " + allowedValues(info));
   }
-  if (!(number >= lowest && number <= highest)) {
-    throw Error(prefix_ + name, "the value is " + shown(value), rangeText(lowest, highest));
-  }
-  return number;
-}
-
-std::uint32_t ParameterReader::count(const std::string& name, std::uint32_t fallback, std::uint32_t lowest,
-                                     std::uint32_t highest) {
-  const double value = number(name, fallback, lowest, highest);
-  if (value != std::floor(value)) {
-    throw Error(prefix_ + name, "the value is " + shown(values_[name]), "allowed: a whole number");
-  }
-  return static_cast<std::uint32_t>(value);
-}
-
-bool ParameterReader::flag(const std::string& name, bool fallback) {
-  if (!has(name)) {
-    return fallback;
-  }
-  XmlRpc::XmlRpcValue& value = values_[name];
-  if (value.getType() != XmlRpc::XmlRpcValue::TypeBoolean) {
-    throw Error(prefix_ + name, "the value is " + shown(value), "allowed: true, false");
-  }
-  return static_cast<bool>(value);
-}
-
-std::string ParameterReader::text(const std::string& name, const std::string& fallback) {
-  if (!has(name)) {
-    return fallback;
-  }
-  XmlRpc::XmlRpcValue& value = values_[name];
-  if (value.getType() != XmlRpc::XmlRpcValue::TypeString) {
-    throw Error(prefix_ + name, "the value is " + shown(value), "allowed: a text");
-  }
-  return static_cast<std::string>(value);
-}
-
-std::vector<std::string> ParameterReader::texts(const std::string& name) {
-  std::vector<std::string> list;
-  if (!has(name)) {
-    return list;
-  }
-  XmlRpc::XmlRpcValue& value = values_[name];
-  if (value.getType() == XmlRpc::XmlRpcValue::TypeString) {
-    return {static_cast<std::string>(value)};
-  }
-  const auto refuse = [&] {
-    throw Error(prefix_ + name, "the value is " + shown(value), "allowed: a list of texts");
-  };
-  if (value.getType() != XmlRpc::XmlRpcValue::TypeArray) {
-    refuse();
-  }
-  for (int i = 0; i < value.size(); ++i) {
-    if (value[i].getType() != XmlRpc::XmlRpcValue::TypeString) {
-      refuse();
-    }
-    list.push_back(static_cast<std::string>(value[i]));
-  }
-  return list;
-}
-
-std::size_t ParameterReader::choice(const std::string& name, std::size_t fallback,
-                                    const std::vector<std::string>& choices) {
-  const std::string value = text(name, choices[fallback]);
-  const auto found = std::find(choices.begin(), choices.end(), value);
-  if (found == choices.end()) {
-    std::string allowed = "allowed:";
-    for (const std::string& one : choices) {
-      allowed += " " + one;
-    }
-    throw Error(prefix_ + name, "the value is '" + value + "'", allowed);
-  }
-  return static_cast<std::size_t>(found - choices.begin());
+  return value;
 }
 
 ParameterReader ParameterReader::group(const std::string& name) {

@@ -1,111 +1,135 @@
 #include "concave_distance/ros/reconfiguration.h"
 
+#include <dynamic_reconfigure/Config.h>
+
+#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
-#include <vector>
+
+#include "concave_distance/base/error.h"
+#include "concave_distance/ros/node_parameter_table.h"
+#include "concave_distance/scene/pair_parameters.h"
 
 namespace concave_distance {
+namespace {
+
+using Message = dynamic_reconfigure::Config;
+
+// Shown to clients as the end of a range without end.
+constexpr double kHighestShown = 1e6;
+
+Message messageOf(const ConcaveDistanceConfig& config) {
+  Message message;
+  config.__toMessage__(message);
+  return message;
+}
+
+template <typename Values>
+auto* findValue(Values& values, const std::string& name) {
+  const auto found =
+      std::find_if(values.begin(), values.end(), [&](const auto& value) { return value.name == name; });
+  return found == values.end() ? nullptr : &*found;
+}
+
+// Numbers that may be a word are texts.
+ParameterValue valueIn(const Message& message, const ParameterInfo& info) {
+  if (const auto* text = findValue(message.strs, info.name)) return parseParameter(info, text->value);
+  if (const auto* number = findValue(message.doubles, info.name)) return double{number->value};
+  if (const auto* flag = findValue(message.bools, info.name)) return flag->value != 0;
+  if (const auto* count = findValue(message.ints, info.name)) {
+    if (count->value >= 0) return static_cast<std::uint64_t>(count->value);
+    return static_cast<double>(count->value);
+  }
+  throw Error(info.name, "dynamic_reconfigure does not know this parameter", "build the package again");
+}
+
+void setIn(Message& message, const ParameterInfo& info, const ParameterValue& value) {
+  if (auto* text = findValue(message.strs, info.name)) text->value = toText(value);
+  if (auto* number = findValue(message.doubles, info.name)) number->value = std::get<double>(value);
+  if (auto* flag = findValue(message.bools, info.name)) flag->value = std::get<bool>(value) ? 1 : 0;
+  if (auto* count = findValue(message.ints, info.name)) {
+    count->value = static_cast<int>(std::get<std::uint64_t>(value));
+  }
+}
+
+/// Calls visit(parameter) for each that may change while the node runs.
+template <typename Settings, typename Visit>
+void visitRunTime(const ParameterTable<Settings>& table, Visit&& visit) {
+  for (const Parameter<Settings>& parameter : table) {
+    if (parameter.info.at_run_time) visit(parameter);
+  }
+}
+
+ParameterValue endOfRange(const ParameterInfo& info, bool highest) {
+  if (info.type == ParameterType::Flag) return highest;
+  if (!info.word.empty()) return info.word;
+  const double end = highest ? std::min(info.highest, kHighestShown) : info.lowest;
+  if (info.type == ParameterType::Count) return static_cast<std::uint64_t>(end);
+  return end;
+}
+
+ConcaveDistanceConfig rangeEnd(bool highest) {
+  Message message = messageOf(ConcaveDistanceConfig::__getDefault__());
+  const auto set = [&](const auto& parameter) {
+    setIn(message, parameter.info, endOfRange(parameter.info, highest));
+  };
+  visitRunTime(nodeParameterTable(), set);
+  visitRunTime(pairParameters(), set);
+  ConcaveDistanceConfig config = ConcaveDistanceConfig::__getDefault__();
+  config.__fromMessage__(message);
+  return config;
+}
+
+}  // namespace
 
 ConcaveDistanceConfig toConfig(const NodeParameters& parameters) {
+  Message message = messageOf(ConcaveDistanceConfig::__getDefault__());
+  visitRunTime(nodeParameterTable(), [&](const Parameter<NodeParameters>& parameter) {
+    setIn(message, parameter.info, parameter.get(parameters));
+  });
+  visitRunTime(pairParameters(), [&](const Parameter<PairSettings>& parameter) {
+    setIn(message, parameter.info, parameter.get(parameters.pair));
+  });
   ConcaveDistanceConfig config = ConcaveDistanceConfig::__getDefault__();
-  const TrackerParameters& tracker = parameters.pair.tracker;
-  config.rate = parameters.rate;
-  config.marker_rate = parameters.marker_rate;
-  config.publish_markers = parameters.publish_markers;
-  config.publish_contact_markers = parameters.publish_contact_markers;
-  config.absolute_tolerance = tracker.absolute_tolerance;
-  config.relative_tolerance = tracker.relative_tolerance;
-  config.time_budget = std::isfinite(tracker.time_budget) ? tracker.time_budget : 0.0;
-  config.cutoff = std::isfinite(tracker.cutoff) ? tracker.cutoff : 0.0;
-  config.least_prominence = tracker.least_prominence;
-  config.largest_niche_count = static_cast<int>(tracker.largest_niche_count);
-  config.warm_population_size = static_cast<int>(tracker.warm.population_size);
-  config.warm_generations = static_cast<int>(tracker.warm.max_generations);
-  config.immigrants = static_cast<int>(tracker.immigrants);
+  config.__fromMessage__(message);
   return config;
 }
 
 ConcaveDistanceConfig lowestConfig() {
-  ConcaveDistanceConfig config = ConcaveDistanceConfig::__getDefault__();
-  config.rate = config.marker_rate = 0.1;
-  config.publish_markers = config.publish_contact_markers = false;
-  config.absolute_tolerance = config.relative_tolerance = 0.0;
-  config.time_budget = config.cutoff = config.least_prominence = 0.0;
-  config.largest_niche_count = 1;
-  config.warm_population_size = 2;
-  config.warm_generations = config.immigrants = 0;
-  return config;
+  return rangeEnd(false);
 }
 
 ConcaveDistanceConfig highestConfig() {
-  ConcaveDistanceConfig config = ConcaveDistanceConfig::__getDefault__();
-  config.rate = 2000.0;
-  config.marker_rate = 200.0;
-  config.publish_markers = config.publish_contact_markers = true;
-  config.absolute_tolerance = config.time_budget = config.cutoff = 1e6;
-  config.relative_tolerance = 1.0;
-  config.least_prominence = 1e3;
-  config.largest_niche_count = 100'000;
-  config.warm_population_size = config.warm_generations = config.immigrants = 10'000;
-  return config;
+  return rangeEnd(true);
 }
 
-// The values are read like private parameters, so that the ranges are defined only once.
 void checkConfig(const ConcaveDistanceConfig& config) {
-  XmlRpc::XmlRpcValue values;
-  values["rate"] = config.rate;
-  values["marker_rate"] = config.marker_rate;
-  values["absolute_tolerance"] = config.absolute_tolerance;
-  values["relative_tolerance"] = config.relative_tolerance;
-  values["time_budget"] = config.time_budget;
-  values["cutoff"] = config.cutoff;
-  values["least_prominence"] = config.least_prominence;
-  values["largest_niche_count"] = config.largest_niche_count;
-  values["warm_population_size"] = config.warm_population_size;
-  values["warm_generations"] = config.warm_generations;
-  values["immigrants"] = config.immigrants;
-  std::vector<std::string> unknown;
-  parseNodeParameters(values, unknown);
+  const Message message = messageOf(config);
+  const auto check = [&](const auto& parameter) {
+    requireAllowed(parameter.info, valueIn(message, parameter.info), "~");
+  };
+  visitRunTime(nodeParameterTable(), check);
+  visitRunTime(pairParameters(), check);
 }
 
 void applyChanges(const ConcaveDistanceConfig& before, const ConcaveDistanceConfig& after,
                   PairSettings& settings) {
-  TrackerParameters& tracker = settings.tracker;
-  if (after.absolute_tolerance != before.absolute_tolerance) {
-    tracker.absolute_tolerance = after.absolute_tolerance;
-  }
-  if (after.relative_tolerance != before.relative_tolerance) {
-    tracker.relative_tolerance = after.relative_tolerance;
-  }
-  if (after.time_budget != before.time_budget) {
-    tracker.time_budget =
-        after.time_budget == 0.0 ? std::numeric_limits<double>::infinity() : after.time_budget;
-  }
-  if (after.cutoff != before.cutoff) {
-    tracker.cutoff = after.cutoff == 0.0 ? std::numeric_limits<double>::infinity() : after.cutoff;
-  }
-  if (after.least_prominence != before.least_prominence) {
-    tracker.least_prominence = after.least_prominence;
-  }
-  const auto assign = [](int was, int is, std::uint32_t& value) {
-    if (is != was) {
-      value = static_cast<std::uint32_t>(is);
-    }
-  };
-  assign(before.largest_niche_count, after.largest_niche_count, tracker.largest_niche_count);
-  assign(before.warm_population_size, after.warm_population_size, tracker.warm.population_size);
-  assign(before.warm_generations, after.warm_generations, tracker.warm.max_generations);
-  assign(before.immigrants, after.immigrants, tracker.immigrants);
+  const Message was = messageOf(before);
+  const Message is = messageOf(after);
+  visitRunTime(pairParameters(), [&](const Parameter<PairSettings>& parameter) {
+    const ParameterValue value = valueIn(is, parameter.info);
+    if (value != valueIn(was, parameter.info)) parameter.assign(settings, value, "~");
+  });
 }
 
 bool concernsPairs(const ConcaveDistanceConfig& before, const ConcaveDistanceConfig& after) {
-  return after.absolute_tolerance != before.absolute_tolerance ||
-         after.relative_tolerance != before.relative_tolerance || after.time_budget != before.time_budget ||
-         after.cutoff != before.cutoff || after.least_prominence != before.least_prominence ||
-         after.largest_niche_count != before.largest_niche_count ||
-         after.warm_population_size != before.warm_population_size ||
-         after.warm_generations != before.warm_generations || after.immigrants != before.immigrants;
+  const Message was = messageOf(before);
+  const Message is = messageOf(after);
+  bool differs = false;
+  visitRunTime(pairParameters(), [&](const Parameter<PairSettings>& parameter) {
+    differs = differs || valueIn(is, parameter.info) != valueIn(was, parameter.info);
+  });
+  return differs;
 }
 
 }  // namespace concave_distance

@@ -76,7 +76,7 @@ SceneRequest requestScene(const NodeParameters& parameters, const ros::NodeHandl
 Scene loadScene(const NodeParameters& parameters, const SceneRequest& request, LoadProgress& progress) {
   SceneLoadOptions options;
   options.package_locator = rosPackagePath;
-  options.mesh_search_path = parameters.mesh_search_path;
+  options.mesh_search_path = parameters.mesh_search_folders;
   options.geometry = parameters.geometry;
   options.default_settings = parameters.pair;
   options.cache = openPreparationCache(parameters.cache);

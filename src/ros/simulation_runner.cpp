@@ -29,21 +29,51 @@ double secondsSince(Clock::time_point start) {
 
 }  // namespace
 
+const ParameterTable<SimulationNodeParameters>& simulationNodeParameters() {
+  using P = SimulationNodeParameters;
+  const std::vector<std::pair<std::string, SimulationEnd>> ends = {
+      {"hold", SimulationEnd::Hold}, {"loop", SimulationEnd::Loop}, {"exit", SimulationEnd::Exit}};
+  static const ParameterTable<P> table = {
+      text<P>(
+          "scene_file", "a path", [](auto& p) -> auto& { return p.scene_file; },
+          "scene YAML with a section `simulation` ([scene_file](scene_file.md#simulation))"),
+      text<P>(
+          "robot_description", "a name", [](auto& p) -> auto& { return p.robot_description; },
+          "as the distance node's"),
+      text<P>(
+          "world_frame", "a tf frame", [](auto& p) -> auto& { return p.world_frame; },
+          "tf frame of the simulation's world"),
+      text<P>(
+          "cache", "a path, or `off`", [](auto& p) -> auto& { return p.cache; }, "as the distance node's"),
+      number<P>(
+          "rate", [](auto& p) -> auto& { return p.rate; }, "publications a second of simulated time")
+          .from(0.1)
+          .to(10000.0),
+      number<P>(
+          "speed", [](auto& p) -> auto& { return p.speed; },
+          "simulated over real seconds; 0: as fast as it can")
+          .to(1000.0),
+      number<P>(
+          "start_delay", [](auto& p) -> auto& { return p.start_delay; },
+          "real time of standing still at the start")
+          .inUnit("s")
+          .to(3600.0),
+      flag<P>(
+          "publish_clock", [](auto& p) -> auto& { return p.publish_clock; }, "publish `/clock`"),
+      choice<P>(
+          "at_end", ends, [](auto& p) -> auto& { return p.at_end; }, "what happens at the end"),
+  };
+  return table;
+}
+
 SimulationNodeParameters parseSimulationParameters(const XmlRpc::XmlRpcValue& values) {
   ParameterReader reader(values, "~");
   SimulationNodeParameters p;
-  p.scene_file = reader.text("scene_file", p.scene_file);
+  reader.read(simulationNodeParameters(), false, p);
   if (p.scene_file.empty()) {
     throw Error("~scene_file", "it is empty", "name a scene file with a section `simulation`");
   }
-  p.robot_description = reader.text("robot_description", p.robot_description);
-  p.world_frame = requireFrameName(reader.text("world_frame", p.world_frame), "~world_frame");
-  p.cache = reader.text("cache", p.cache);
-  p.rate = reader.number("rate", p.rate, 0.1, 10000.0);
-  p.speed = reader.number("speed", p.speed, 0.0, 1000.0);
-  p.start_delay = reader.number("start_delay", p.start_delay, 0.0, 3600.0);
-  p.publish_clock = reader.flag("publish_clock", p.publish_clock);
-  p.at_end = static_cast<SimulationEnd>(reader.choice("at_end", 0, {"hold", "loop", "exit"}));
+  p.world_frame = requireFrameName(p.world_frame, "~world_frame");
   const std::vector<std::string> unknown = reader.unread({});
   if (!unknown.empty()) {
     throw Error("~" + unknown.front(), "there is no such parameter",

@@ -1,21 +1,24 @@
 #include "effects_reader.h"
 
 #include "concave_distance/base/error.h"
-#include "setting_values.h"
+#include "concave_distance/contact/contact_parameter_tables.h"
+#include "parameter_map.h"
 
 namespace concave_distance::detail {
 namespace {
 
-constexpr std::pair<const char*, NormalForceModel> kNormalForceModels[] = {
-    {"quasi_static", NormalForceModel::QuasiStatic},
-    {"spring_dashpot", NormalForceModel::SpringDashpot},
-    {"hertz", NormalForceModel::Hertz},
-    {"hunt_crossley", NormalForceModel::HuntCrossley},
-    {"elastic_foundation", NormalForceModel::ElasticFoundation}};
-constexpr std::pair<const char*, FrictionModel> kFrictionModels[] = {
-    {"none", FrictionModel::None},
-    {"regularised_coulomb", FrictionModel::RegularisedCoulomb},
-    {"bristle", FrictionModel::Bristle}};
+/// A map of parameters, or the word of its parameter `model` alone.
+template <typename Settings>
+void readModel(const YamlValue& value, const ParameterTable<Settings>& table, Settings& settings) {
+  if (!value.isMap()) {
+    const Parameter<Settings>& model = *findParameter(table, "model");
+    model.set(settings, readParameter(value, model.info));
+    return;
+  }
+  YamlMap map(value, "a map with model and its parameters");
+  readParameters(map, table, false, settings);
+  map.finish();
+}
 
 void readNormalForce(const YamlValue& value, std::optional<NormalForceSettings>& normal_force) {
   if (value.isText("none")) {
@@ -23,72 +26,14 @@ void readNormalForce(const YamlValue& value, std::optional<NormalForceSettings>&
     return;
   }
   NormalForceSettings settings = normal_force.value_or(NormalForceSettings());
-  if (value.isMap()) {
-    YamlMap map(value, "a map with model and its parameters");
-    if (auto v = map.take("model")) settings.model = v->choice(kNormalForceModels);
-    if (auto v = map.take("loading_coefficient")) {
-      settings.loading_coefficient = v->number("greater than 0", positiveFinite);
-    }
-    if (auto v = map.take("stiffness")) {
-      settings.stiffness = v->number("greater than 0, newtons a metre", positiveFinite);
-    }
-    if (auto v = map.take("damping")) {
-      settings.damping = v->number("0 or more, newton seconds a metre", notNegativeFinite);
-    }
-    if (auto v = map.take("foundation_stiffness")) {
-      settings.foundation_stiffness = v->number("greater than 0, pascal a metre", positiveFinite);
-    }
-    if (auto v = map.take("radius")) {
-      settings.radius = optionalNumber(*v, "from_overlap", kLength, positiveFinite).value_or(0.0);
-    }
-    map.finish();
-  } else {
-    settings.model = value.choice(kNormalForceModels);
-  }
+  readModel(value, normalForceParameters(), settings);
   normal_force = settings;
-}
-
-void readFriction(const YamlValue& value, FrictionSettings& friction) {
-  if (!value.isMap()) {
-    friction.model = value.choice(kFrictionModels);
-    return;
-  }
-  YamlMap map(value, "a map with model and its parameters");
-  if (auto v = map.take("model")) friction.model = v->choice(kFrictionModels);
-  const char* speed = "greater than 0, metres a second";
-  if (auto v = map.take("regularisation_speed"))
-    friction.regularisation_speed = v->number(speed, positiveFinite);
-  if (auto v = map.take("stribeck_speed")) friction.stribeck_speed = v->number(speed, positiveFinite);
-  if (auto v = map.take("bristle_stiffness")) {
-    friction.bristle_stiffness = v->number("greater than 0, per metre", positiveFinite);
-  }
-  if (auto v = map.take("bristle_damping")) {
-    friction.bristle_damping = v->number("0 or more, seconds a metre", notNegativeFinite);
-  }
-  map.finish();
 }
 
 Material readMaterialValues(const YamlValue& value) {
   YamlMap map(value, "a map of a material's values");
   Material material;
-  if (auto v = map.take("youngs_modulus")) {
-    material.youngs_modulus = v->number("greater than 0, pascal", positiveFinite);
-  }
-  if (auto v = map.take("poissons_ratio")) {
-    material.poissons_ratio =
-        v->number("from 0 to below 0.5", [](double nu) { return nu >= 0.0 && nu < 0.5; });
-  }
-  const char* coefficient = "0 or more";
-  if (auto v = map.take("dissipation")) {
-    material.dissipation = v->number("0 or more, seconds a metre", notNegativeFinite);
-  }
-  if (auto v = map.take("static_friction"))
-    material.static_friction = v->number(coefficient, notNegativeFinite);
-  if (auto v = map.take("dynamic_friction"))
-    material.dynamic_friction = v->number(coefficient, notNegativeFinite);
-  if (auto v = map.take("viscous_friction")) {
-    material.viscous_friction = v->number("0 or more, seconds a metre", notNegativeFinite);
-  }
+  readParameters(map, materialParameters(), false, material);
   map.finish();
   material.validate(value.where());
   return material;
@@ -105,7 +50,7 @@ void readEffects(const YamlValue& value, EffectSettings& effects) {
   YamlMap map(value, "a map with interference, normal_force, friction");
   if (auto v = map.take("interference")) effects.interference = v->boolean();
   if (auto v = map.take("normal_force")) readNormalForce(*v, effects.normal_force);
-  if (auto v = map.take("friction")) readFriction(*v, effects.friction);
+  if (auto v = map.take("friction")) readModel(*v, frictionParameters(), effects.friction);
   map.finish();
   effects.validate(value.where());
 }

@@ -12,6 +12,10 @@ namespace concave_distance::detail {
 /// @throws Error for a wrong type or a value out of range
 void readPairSettings(YamlMap& map, PairSettings& settings);
 
+/// The same of the genetic algorithm's parameters, which are all that the map may hold.
+/// @throws Error for an unknown key, a wrong type or a value out of range
+void readGeneticParameters(const YamlValue& value, GeneticParameters& parameters);
+
 /// Checks what only shows when all has been laid together. @throws Error naming `where`
 void validatePairSettings(const PairSettings& settings, const std::string& where);
 

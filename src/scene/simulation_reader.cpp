@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -9,15 +10,13 @@
 #include "concave_distance/base/error.h"
 #include "concave_distance/base/parameter_checks.h"
 #include "concave_distance/scene/query_poses.h"
+#include "concave_distance/scene/simulation_parameters.h"
+#include "parameter_map.h"
 #include "setting_values.h"
 
 namespace concave_distance::detail {
 namespace {
 
-constexpr std::pair<const char*, SimulationTracking> kTracking[] = {
-    {"niches", SimulationTracking::Niches},
-    {"single_minimum", SimulationTracking::SingleMinimum},
-    {"both", SimulationTracking::Both}};
 constexpr std::pair<const char*, bool> kLoadFrames[] = {{"world", false}, {"body", true}};
 
 class SimulationReader {
@@ -75,8 +74,9 @@ AppliedLoad readLoad(const YamlValue& value) {
   if (auto v = map.take("frame")) load.in_body_frame = v->choice(kLoadFrames);
   if (auto v = map.take("from")) load.from = v->number("0 or more, seconds", notNegativeFinite);
   if (auto v = map.take("until")) {
-    load.until = v->number("greater than from, seconds; .inf for ever",
-                           [&](double until) { return until > load.from; });
+    const auto later = [&](double until) { return until > load.from && std::isfinite(until); };
+    load.until = optionalNumber(*v, "none", "greater than from, seconds", later)
+                     .value_or(std::numeric_limits<double>::infinity());
   }
   map.finish();
   return load;
@@ -193,15 +193,7 @@ SimulationSettings readSimulation(const YamlValue& value, const std::string& bas
   YamlMap map(value, "a map with bodies, duration, gravity and steps");
   SimulationSettings settings;
   if (auto v = map.take("gravity")) settings.gravity = v->vector3("three numbers, m/s^2");
-  if (auto v = map.take("duration")) settings.duration = positive(*v, "seconds");
-  if (auto v = map.take("largest_step")) settings.largest_step = positive(*v, "seconds");
-  if (auto v = map.take("step_fraction")) {
-    settings.step_fraction =
-        v->number("greater than 0, at most 1", [](double f) { return f > 0.0 && f <= 1.0; });
-  }
-  if (auto v = map.take("allowed_penetration")) settings.allowed_penetration = positive(*v, "metres");
-  if (auto v = map.take("log_rate")) settings.log_rate = positive(*v, "lines a second");
-  if (auto v = map.take("tracking")) settings.tracking = v->choice(kTracking);
+  readParameters(map, simulationParameters(), false, settings);
   if (auto v = map.take("bodies")) {
     const SimulationReader reader(base_folder, package_locator);
     for (const YamlValue& item : v->list("a list of bodies")) {

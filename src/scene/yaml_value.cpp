@@ -142,6 +142,10 @@ bool YamlValue::isText(const char* text) const {
   return node_.IsScalar() && node_.Scalar() == text;
 }
 
+std::string YamlValue::plainText() const {
+  return node_.IsScalar() && node_.Tag() != "!" ? node_.Scalar() : std::string();
+}
+
 double YamlValue::number(const std::string& allowed) const {
   if (!node_.IsScalar() || node_.Tag() == "!" || node_.Scalar().empty()) refuse(allowed);
   const std::optional<double> value = parseNumber(node_.Scalar());

@@ -34,6 +34,8 @@ class YamlValue {
   bool isList() const { return node_.IsSequence(); }
   bool isMap() const { return node_.IsMap(); }
   bool isText(const char* text) const;
+  /// The text of a scalar; empty where it is quoted or none.
+  std::string plainText() const;
 
   /// A number, plain and finite or infinite (.inf); quoted ones are texts. @throws Error if it is none
   double number(const std::string& allowed) const;

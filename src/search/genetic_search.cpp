@@ -311,7 +311,7 @@ class GeneticRun {
   }
 
   void admitImmigrants() {
-    for (std::uint32_t i = 0; i < parameters_.immigrants && !outOfBudget(); ++i) {
+    for (std::uint32_t i = 0; i < parameters_.random_immigrants && !outOfBudget(); ++i) {
       TrialPoint point = randomTrialPoint(objective_, engine_);
       std::uint32_t place = 0;
       settle(point, place);

@@ -4,40 +4,30 @@
 #include <string>
 
 #include "concave_distance/base/output_file.h"
+#include "concave_distance/scene/pair_parameters.h"
 #include "distance_query_run.h"
+#include "parameter_options.h"
 
 namespace {
 
 using concave_distance::AccuracyLevel;
+using concave_distance::tools::addParameter;
 using concave_distance::tools::DistanceQueryOptions;
 
 constexpr int kFileProblem = 1;
 constexpr int kWrongCommandLine = 2;
 
-struct CommandLine {
-  DistanceQueryOptions options;
-  std::string accuracy = "certified";
-};
-
-AccuracyLevel accuracyOf(const std::string& name) {
-  if (name == "nodes") return AccuracyLevel::Nodes;
-  if (name == "refined") return AccuracyLevel::Refined;
-  if (name == "certified") return AccuracyLevel::Certified;
-  if (name == "complete") return AccuracyLevel::Complete;
-  throw CLI::ValidationError("--accuracy",
-                             "'" + name + "' is none of the levels: nodes, refined, certified, complete");
-}
+constexpr const char* kToleranceOption = "--tolerance";
 
 /// Stopping early only means something where a bound is proven.
-void refuseOnUnprovenLevels(const CLI::App& app, const char* option, const CommandLine& line) {
-  if (app.count(option) == 0 || concave_distance::provesDistance(line.options.accuracy)) return;
+void refuseOnUnprovenLevels(const CLI::App& app, const std::string& option, AccuracyLevel level) {
+  if (app.count(option) == 0 || concave_distance::provesDistance(level)) return;
   throw CLI::ValidationError(
-      option, "stops a proof early, and --accuracy " + line.accuracy +
+      option, "stops a proof early, and --accuracy " + std::string(toString(level)) +
                   " proves no bound; leave it out or ask for --accuracy certified or complete");
 }
 
-void addOptions(CLI::App& app, CommandLine& line) {
-  DistanceQueryOptions& options = line.options;
+void addOptions(CLI::App& app, DistanceQueryOptions& options) {
   app.add_option("--mesh-a", options.mesh_a, "body A (.stl, .obj, .ply, .dae)")
       ->required()
       ->type_name("FILE");
@@ -50,36 +40,18 @@ void addOptions(CLI::App& app, CommandLine& line) {
                  "factor on A's coordinates (0.001: the file is in millimetres)")
       ->capture_default_str();
   app.add_option("--scale-b", options.scale_b, "the same for B")->capture_default_str();
-  app.add_option(
-         "--accuracy", line.accuracy,
-         "nodes: between the nodes of the search grids; refined: exact local minima over the triangles; "
-         "certified: the distance with a proof; complete: every niche below the cutoff, with a proof")
-      ->capture_default_str()
-      ->type_name("LEVEL");
-  app.add_option("--cutoff", options.cutoff, "niches farther than this are not listed, metres")
-      ->check(CLI::PositiveNumber);
-  app.add_option("--least-prominence", options.least_prominence,
-                 "niches with less are part of their deeper neighbour")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
-  app.add_option("--prominence-limit", options.prominence_limit,
-                 "complete: prominences are measured up to this (0: none; inf: all below the cutoff, which "
-                 "takes long)")
-      ->check([](const std::string& text) -> std::string {
-        double value = 0.0;
-        const bool fits = CLI::detail::lexical_cast(text, value) && value >= 0.0;
-        return fits ? "" : "'" + text + "' is no number from 0, nor inf";
-      })
-      ->capture_default_str();
-  app.add_option("--tolerance", options.absolute_tolerance,
-                 "certified, complete: the proven lower bound may stay this far below the distance, metres")
-      ->check(CLI::NonNegativeNumber);
-  app.add_option("--relative-tolerance", options.relative_tolerance,
-                 "the same as a share of the distance; the larger of the two counts")
-      ->check(CLI::Range(0.0, 1.0));
-  app.add_option("--time-budget", options.time_budget,
-                 "seconds after which a query ends with its results so far")
-      ->check(CLI::PositiveNumber);
+  const auto add = [&](const char* parameter, const char* name = "") {
+    return addParameter(app, concave_distance::pairParameters(), parameter, options.settings, name);
+  };
+  add("accuracy");
+  add("cutoff");
+  add("least_prominence");
+  add("prominence_limit");
+  add("largest_niche_count");
+  add("absolute_tolerance", kToleranceOption);
+  add("relative_tolerance");
+  add("time_budget");
+  add("seed");
   app.add_option("--max-edge", options.max_edge_length,
                  "longest edge of the search grids, metres (automatic)")
       ->check(CLI::PositiveNumber);
@@ -89,12 +61,6 @@ void addOptions(CLI::App& app, CommandLine& line) {
       ->type_name("DIR|off");
   app.add_flag("--tracking", options.tracking,
                "lines are successive instants of one motion: warm starts, persistent niche numbers");
-  app.add_option("--seed", options.seed, "of the random streams: one seed, one answer")
-      ->check([](const std::string& text) -> std::string {
-        const bool digits = text.find_first_not_of("0123456789") == std::string::npos;
-        return digits ? "" : "'" + text + "' is not a whole number";
-      })
-      ->capture_default_str();
   app.add_option(
          "--output", options.output,
          "index,distance,lower_bound,ax,ay,az,bx,by,bz,niche_count,status,time_us,triangle_a,triangle_b")
@@ -108,23 +74,22 @@ void addOptions(CLI::App& app, CommandLine& line) {
 }
 
 int run(int argc, char** argv) {
-  CommandLine line;
+  DistanceQueryOptions options;
   CLI::App app("Distance and niches of two meshes at a list of poses. Metres, seconds; points in A's frame.",
                "distance_query");
   app.footer(
       "An empty cell was not computed. Status: ok, tolerance, budget, memory, penetrating, invalid_pose.\n"
       "Exit status: 0 done, 1 a file is at fault, 2 the command line is.");
-  addOptions(app, line);
+  addOptions(app, options);
   try {
     app.parse(argc, argv);
-    line.options.accuracy = accuracyOf(line.accuracy);
-    for (const char* option : {"--tolerance", "--relative-tolerance"}) {
-      refuseOnUnprovenLevels(app, option, line);
+    for (const std::string option : {kToleranceOption, "--relative-tolerance"}) {
+      refuseOnUnprovenLevels(app, option, options.settings.tracker.accuracy);
     }
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : kWrongCommandLine;
   }
-  runDistanceQuery(line.options, std::cerr);
+  runDistanceQuery(options, std::cerr);
   return 0;
 }
 

@@ -22,9 +22,6 @@ namespace {
 /// Keys the random streams: fixed, so that an answer depends on the meshes, the pose and the seed alone.
 constexpr const char* kPairName = "distance_query";
 
-/// More than any scene of rigid bodies has shown; a cut is logged.
-constexpr std::uint32_t kLargestNicheCount = 1000;
-
 std::shared_ptr<const BodyMesh> loadBody(const std::string& path, double scale,
                                          const DistanceQueryOptions& options,
                                          const PreparationCachePointer& cache, std::ostream& log) {
@@ -74,20 +71,12 @@ LoadedBodies loadBodies(const DistanceQueryOptions& options, std::ostream& log) 
 /// Solves pose after pose: one tracker for all when tracking, a new one for each otherwise.
 class Solver {
  public:
-  Solver(const DistanceQueryOptions& options, std::ostream& log) : bodies_(loadBodies(options, log)) {
-    parameters_.accuracy = options.accuracy;
-    parameters_.absolute_tolerance = options.absolute_tolerance;
-    parameters_.relative_tolerance = options.relative_tolerance;
-    parameters_.time_budget = options.time_budget;
-    parameters_.least_prominence = options.least_prominence;
-    parameters_.prominence_limit = options.prominence_limit;
-    parameters_.cutoff = options.cutoff;
-    parameters_.largest_niche_count = kLargestNicheCount;
+  Solver(const DistanceQueryOptions& options, std::ostream& log)
+      : bodies_(loadBodies(options, log)), parameters_(options.settings.tracker) {
     parameters_.niches_wanted = !options.niches_output.empty();
-    parameters_.seed = options.seed;
     // What is proven draws nothing from the random streams: a reset makes it cold, and buffers are kept.
-    resets_ = !options.tracking && (options.accuracy == AccuracyLevel::Complete ||
-                                    (provesDistance(options.accuracy) && !parameters_.niches_wanted));
+    resets_ = !options.tracking && (parameters_.accuracy == AccuracyLevel::Complete ||
+                                    (provesDistance(parameters_.accuracy) && !parameters_.niches_wanted));
     if (options.tracking || resets_)
       tracker_ = std::make_unique<PairTracker>(kPairName, bodies_.a, bodies_.b, parameters_);
   }
@@ -148,7 +137,7 @@ void runDistanceQuery(const DistanceQueryOptions& options, std::ostream& log) {
       std::uint64_t rank = 0;
       for (const TrackedNiche& niche : solution.niches) {
         niches->write(index, options.tracking ? niche.id : rank, niche,
-                      options.accuracy != AccuracyLevel::Nodes);
+                      options.settings.tracker.accuracy != AccuracyLevel::Nodes);
         ++rank;
       }
     }
@@ -159,8 +148,8 @@ void runDistanceQuery(const DistanceQueryOptions& options, std::ostream& log) {
   answers.finish();
   if (niches) niches->finish();
   if (cut_lists > 0) {
-    log << cut_lists << " queries have more niches than the " << kLargestNicheCount
-        << " that are listed; give a --cutoff\n";
+    log << cut_lists << " queries have more niches than the " << options.settings.tracker.largest_niche_count
+        << " that are listed; give a --cutoff or --largest-niche-count\n";
   }
 }
 

@@ -1,14 +1,19 @@
 #pragma once
 
-#include <cstdint>
 #include <iosfwd>
-#include <limits>
 #include <optional>
 #include <string>
 
-#include "concave_distance/tracking/pair_solution.h"
+#include "concave_distance/scene/scene.h"
 
 namespace concave_distance::tools {
+
+/// The tool's defaults: more niches than any scene of rigid bodies has shown; a cut is logged.
+inline PairSettings querySettings() {
+  PairSettings settings;
+  settings.tracker.largest_niche_count = 1000;
+  return settings;
+}
 
 struct DistanceQueryOptions {
   std::string mesh_a;
@@ -16,17 +21,10 @@ struct DistanceQueryOptions {
   std::string poses;
   double scale_a = 1.0;
   double scale_b = 1.0;
-  AccuracyLevel accuracy = AccuracyLevel::Certified;
-  double cutoff = std::numeric_limits<double>::infinity();  ///< metres; of the niches
-  double absolute_tolerance = 0.0;                          ///< metres; of level `certified`
-  double relative_tolerance = 0.0;                          ///< of the distance; of level `certified`
-  double least_prominence = 1e-2;
-  double prominence_limit = 0.0;                                 ///< of level `complete`
-  double time_budget = std::numeric_limits<double>::infinity();  ///< seconds per query
-  std::optional<double> max_edge_length;                         ///< metres; grid of the search, both bodies
-  std::string cache;  ///< folder of prepared bodies; empty: the user's, "off": none
+  PairSettings settings = querySettings();
+  std::optional<double> max_edge_length;  ///< metres; grid of the search, both bodies
+  std::string cache;                      ///< folder of prepared bodies; empty: the user's, "off": none
   bool tracking = false;
-  std::uint64_t seed = 1;
   std::string output;
   std::string niches_output;  ///< empty: niches are not asked for
 };

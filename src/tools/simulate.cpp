@@ -5,13 +5,14 @@
 #include <exception>
 #include <iostream>
 #include <memory>
-#include <optional>
 #include <string>
 
 #include "concave_distance/base/error.h"
 #include "concave_distance/base/output_file.h"
 #include "concave_distance/scene/load_scene.h"
+#include "concave_distance/scene/simulation_parameters.h"
 #include "concave_distance/simulation/simulation.h"
+#include "parameter_options.h"
 #include "simulation_log.h"
 
 namespace {
@@ -30,11 +31,7 @@ struct Options {
   std::string contacts;
   std::string niches;
   std::string cache;
-  std::optional<double> duration;
-  std::optional<std::string> tracking;
-  std::optional<double> step_fraction;
-  std::optional<double> allowed_penetration;
-  std::optional<double> largest_step;
+  SimulationSettings given;  ///< where the option is given
   bool progress = false;
 };
 
@@ -48,35 +45,22 @@ void addOptions(CLI::App& app, Options& options) {
   app.add_option("--contacts", options.contacts, "CSV: every region of overlap with its forces")
       ->type_name("FILE");
   app.add_option("--niches", options.niches, "CSV: every niche of every pair")->type_name("FILE");
-  app.add_option("--duration", options.duration, "seconds, instead of the scene's")
-      ->check(CLI::PositiveNumber);
-  app.add_option("--largest-step", options.largest_step, "seconds, instead of the scene's")
-      ->check(CLI::PositiveNumber);
-  app.add_option("--step-fraction", options.step_fraction, "instead of the scene's")
-      ->check(CLI::Range(0.0, 1.0));
-  app.add_option("--allowed-penetration", options.allowed_penetration, "metres, instead of the scene's")
-      ->check(CLI::PositiveNumber);
-  app.add_option("--tracking", options.tracking, "instead of the scene's")
-      ->check(CLI::IsMember({"niches", "single_minimum", "both"}));
+  for (const Parameter<SimulationSettings>& parameter : simulationParameters()) {
+    tools::addParameter(app, parameter, options.given)->default_str("the scene's");
+  }
   app.add_option("--cache", options.cache, "folder that keeps what was prepared of the meshes, or off")
       ->type_name("DIR|off");
   app.add_flag("--progress", options.progress, "show simulated time and real-time factor on the way");
 }
 
-SimulationSettings settingsOf(const Scene& scene, const Options& options) {
+SimulationSettings settingsOf(const Scene& scene, const CLI::App& app, const Options& options) {
   if (!scene.simulation) {
     throw Error(options.scene, "there is no section `simulation`", "add one: doc/scene_file.md");
   }
   SimulationSettings settings = *scene.simulation;
-  if (options.duration) settings.duration = *options.duration;
-  if (options.largest_step) settings.largest_step = *options.largest_step;
-  if (options.step_fraction) settings.step_fraction = *options.step_fraction;
-  if (options.allowed_penetration) settings.allowed_penetration = *options.allowed_penetration;
-  if (options.tracking) {
-    for (const SimulationTracking tracking :
-         {SimulationTracking::Niches, SimulationTracking::SingleMinimum, SimulationTracking::Both}) {
-      if (toString(tracking) == *options.tracking) settings.tracking = tracking;
-    }
+  for (const Parameter<SimulationSettings>& parameter : simulationParameters()) {
+    if (app.count(tools::optionName(parameter.info.name)) == 0) continue;
+    parameter.set(settings, parameter.get(options.given));
   }
   return settings;
 }
@@ -134,12 +118,12 @@ void summarise(const Simulation& simulation, double loop_seconds) {
               counters.largest_depth, counters.largest_quaternion_drift);
 }
 
-int simulate(const Options& options) {
+int simulate(const CLI::App& app, const Options& options) {
   requireDistinctFiles(
       {{"the scene", options.scene}},
       {{"--output", options.output}, {"--contacts", options.contacts}, {"--niches", options.niches}});
   const Scene scene = load(options);
-  Simulation simulation(scene, settingsOf(scene, options));
+  Simulation simulation(scene, settingsOf(scene, app, options));
   tools::TrajectoryLog trajectory(options.output, simulation);
   std::unique_ptr<tools::ContactLog> contacts;
   std::unique_ptr<tools::NicheLog> niches;
@@ -188,7 +172,7 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : kWrongCommandLine;
   }
-  return simulate(options);
+  return simulate(app, options);
 }
 
 }  // namespace

@@ -51,7 +51,7 @@ void TrackerState::evolve(const PairObjective& objective, PairSolution& solution
     const double softening = std::min(geometry.a->maxEdgeLength(), geometry.b->maxEdgeLength());
     inherit(known, {parameters.inherited_per_niche, parameters.inherited_limit}, softening, inherited,
             scratch);
-    const auto wanted = static_cast<std::uint32_t>(inherited.size()) + parameters.immigrants;
+    const auto wanted = static_cast<std::uint32_t>(inherited.size()) + parameters.random_starts;
     genetic.population_size = std::max(genetic.population_size, wanted + wanted % 2);
   }
   const GeneticResult result = geneticSearch(objective, genetic, as_warm ? warm_radii : cold_radii, inherited,
@@ -91,9 +91,9 @@ void TrackerState::projectNiches(PairSolution& solution) {
   }
   RandomEngine engine(streamSeed(parameters.seed ^ kProjectionStream, name, cycle));
   const std::uint32_t factor = warm ? 1 : kColdProjectionFactor;
-  const std::uint32_t immigrants = searching ? factor * parameters.projected_immigrants : 0;
+  const std::uint32_t node_count = searching ? factor * parameters.projected_nodes : 0;
   candidates.clear();
-  for (std::uint32_t k = 0; k < immigrants && !limit.isOver(); ++k) {
+  for (std::uint32_t k = 0; k < node_count && !limit.isOver(); ++k) {
     const Side side = k % 2 == 0 ? Side::A : Side::B;
     const NodeGraph& graph = (side == Side::A ? geometry.a : geometry.b)->graph();
     projectNode(geometry, side,

@@ -50,7 +50,7 @@ struct NicheRun {
 GeneticParameters combGaWl() {
   GeneticParameters parameters;  // Table 5.2
   parameters.exchange_probability = 0.0;
-  parameters.immigrants = 0;
+  parameters.random_immigrants = 0;
   parameters.population_size = 80;
   parameters.mutation_probability = 1.0 / 80.0;
   parameters.max_generations = 100;

@@ -95,7 +95,7 @@ std::vector<Method> methods(double scale) {
                 p.local_step.repeats = 3;
               }),
       genetic("thesis + crowding", thesis, [](Genetic& p) { p.deterministic_crowding = true; }),
-      genetic("thesis + immigrants 4", thesis, [](Genetic& p) { p.immigrants = 4; }),
+      genetic("thesis + immigrants 4", thesis, [](Genetic& p) { p.random_immigrants = 4; }),
       genetic("thesis + 5 repeats", thesis, [](Genetic& p) { p.local_step.repeats = 5; }),
       genetic("thesis + final 50", thesis, [](Genetic& p) { p.final_repeats = 50; }),
       genetic("cont-GA-wl, improved", improved),
@@ -109,11 +109,11 @@ std::vector<Method> methods(double scale) {
       genetic("improved - final 50", improved, [](Genetic& p) { p.final_repeats = 0; }),
       genetic("improved - feasible preferred", improved, [](Genetic& p) { p.prefer_feasible = false; }),
       genetic("improved - crowding", improved, [](Genetic& p) { p.deterministic_crowding = false; }),
-      genetic("improved - immigrants", improved, [](Genetic& p) { p.immigrants = 0; }),
+      genetic("improved - immigrants", improved, [](Genetic& p) { p.random_immigrants = 0; }),
       genetic("improved - crowding - immigrants", improved,
               [](Genetic& p) {
                 p.deterministic_crowding = false;
-                p.immigrants = 0;
+                p.random_immigrants = 0;
               }),
       genetic("improved + projected start", improved,
               [](Genetic& p) { p.initial_points = InitialPoints::Projected; }),

@@ -132,7 +132,7 @@ TEST(Friction, ParametersOutOfRangeAreNamed) {
     settings.validate("pairs.friction");
     FAIL() << "accepted";
   } catch (const Error& error) {
-    EXPECT_STREQ(error.what(), "pairs.friction: bristle_stiffness is 0 (allowed: greater than 0, per metre)");
+    EXPECT_STREQ(error.what(), "pairs.friction: bristle_stiffness is 0 (allowed: greater than 0 (1/m))");
   }
 }
 

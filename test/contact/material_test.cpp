@@ -69,7 +69,7 @@ TEST(Material, WhatNoMaterialHasIsRefusedByName) {
     return "accepted";
   };
   EXPECT_EQ(message([](Material& m) { m.youngs_modulus = -1.0; }),
-            "bodies.peg.material: youngs_modulus is -1 (allowed: greater than 0, pascal)");
+            "bodies.peg.material: youngs_modulus is -1 (allowed: greater than 0 (Pa))");
   EXPECT_EQ(message([](Material& m) { m.poissons_ratio = 0.5; }),
             "bodies.peg.material: poissons_ratio is 0.5 (allowed: from 0 to below 0.5)");
   EXPECT_EQ(message([](Material& m) { m.static_friction = 0.3; }),

@@ -71,8 +71,7 @@ TEST(NormalForce, ParametersOutOfRangeAreNamed) {
     settings.validate("pairs.normal_force");
     FAIL() << "accepted";
   } catch (const Error& error) {
-    EXPECT_STREQ(error.what(),
-                 "pairs.normal_force: stiffness is 0 (allowed: greater than 0, newtons a metre)");
+    EXPECT_STREQ(error.what(), "pairs.normal_force: stiffness is 0 (allowed: greater than 0 (N/m))");
   }
 }
 

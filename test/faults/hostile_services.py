@@ -83,6 +83,10 @@ def values_of(response):
             for parameter in kind}
 
 
+def texts_of(response):
+    return {parameter.name: parameter.value for parameter in response.config.strs}
+
+
 def reported(arena, name, value, accepted_range):
     """A value outside the range is refused or limited, and the log names the parameter."""
     mark = arena.node.log_length()
@@ -97,17 +101,32 @@ def reported(arena, name, value, accepted_range):
         reconfigure(arena, **{name: before[name]})
 
 
-OUTSIDE = {"cutoff": (-1.0, NAN, 1e300), "rate": (0.0, -5.0, 1e9, NAN), "marker_rate": (NAN, 1e9),
-           "time_budget": (-1.0, NAN), "absolute_tolerance": (-1.0, NAN), "relative_tolerance": (2.0, NAN),
-           "least_prominence": (-1.0, INF), "largest_niche_count": (0, -2**31), "warm_population_size": (-1, 2**31 - 1),
-           "immigrants": (-1,)}
-RANGES = {"cutoff": (0.0, 1e6), "rate": (0.1, 2000.0), "marker_rate": (0.1, 200.0), "time_budget": (0.0, 1e6),
-          "absolute_tolerance": (0.0, 1e6), "relative_tolerance": (0.0, 1.0), "least_prominence": (0.0, 1000.0),
-          "largest_niche_count": (1, 100000), "warm_population_size": (2, 10000), "immigrants": (0, 10000)}
+OUTSIDE = {"rate": (0.0, -5.0, 1e9, NAN), "marker_rate": (NAN, 1e9),
+           "absolute_tolerance": (-1.0, NAN), "relative_tolerance": (2.0, NAN),
+           "least_prominence": (-1.0, INF), "largest_niche_count": (0, -2**31)}
+RANGES = {"rate": (0.1, 2000.0), "marker_rate": (0.1, 200.0), "absolute_tolerance": (0.0, 1e6), "relative_tolerance": (0.0, 1.0), "least_prominence": (0.0, 1000.0),
+          "largest_niche_count": (1, 2**31 - 1)}
 for parameter, outside in OUTSIDE.items():
     for number in outside:
         group.add("reconfigure_%s_%g" % (parameter, number), lambda arena, parameter=parameter, number=number:
                   reported(arena, parameter, number, RANGES[parameter]), storms=False)
+
+
+def refused_text(arena, name, text):
+    """A text that is no value of the parameter changes nothing, and the log names the parameter."""
+    mark = arena.node.log_length()
+    before = texts_of(reconfigure(arena))
+    after = texts_of(reconfigure(arena, **{name: text}))
+    expect(after == before, "%s is %r now" % (name, after[name]))
+    arena.wait_until(lambda: name in arena.node.log(mark), 5.0, "the log does not name " + name)
+    arena.require_tracking()
+
+
+for parameter in ("cutoff", "time_budget"):
+    for label, text in {"negative": "-1", "zero": "0", "nan": "nan", "inf": "inf", "word": "far", "empty": "",
+                        "long": "9" * 100000}.items():
+        group.add("reconfigure_%s_%s" % (parameter, label), lambda arena, parameter=parameter, text=text:
+                  refused_text(arena, parameter, text), storms=False)
 
 
 @group.attack()

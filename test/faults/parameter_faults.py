@@ -50,8 +50,9 @@ for parameter, numbers in NUMBERS.items():
         refuse(parameter, "%g" % number, number)
     refuse(parameter, "text", TEXT)
     refuse(parameter, "list", LIST)
-COUNTS = {"threads": -1, "largest_niche_count": 0, "cold_population_size": 3, "cold_generations": -1,
-          "warm_population_size": 1, "warm_generations": -5, "immigrants": -2, "seed": -2147483648}
+COUNTS = {"threads": -1, "largest_niche_count": 0, "expert/cold/population_size": 3, "expert/cold/max_generations": -1,
+          "expert/warm/population_size": 1, "expert/warm/max_generations": -5, "expert/random_starts": -2,
+          "seed": -2147483648}
 for parameter, number in COUNTS.items():
     refuse(parameter, "%d" % number, number)
     refuse(parameter, "map", MAP)
@@ -60,7 +61,7 @@ TEXTS = ("scene_file", "robot_description", "reference_frame", "geometry", "cach
 for parameter in TEXTS:
     refuse(parameter, "number", 17)
     refuse(parameter, "list", ["a", "b"])
-for parameter in ("keep_through_material", "extrapolate", "publish_markers", "publish_contact_markers", "show_bodies"):
+for parameter in ("keep_through_material", "expert/extrapolate", "publish_markers", "publish_contact_markers", "show_bodies"):
     refuse(parameter, "text", "yes please")
     refuse(parameter, "number", 17)
 refuse("accuracy", "unknown", "perfect")

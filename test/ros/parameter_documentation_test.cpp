@@ -1,5 +1,8 @@
+// The tables of the documents and config/ConcaveDistance.cfg are made from the declarations of the
+// parameters. With CONCAVE_DISTANCE_WRITE_TABLES in the environment they are written, else compared.
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -7,13 +10,115 @@
 #include <set>
 #include <string>
 
+#include "concave_distance/contact/contact_parameter_tables.h"
+#include "concave_distance/ros/node_parameter_table.h"
+#include "concave_distance/ros/simulation_runner.h"
+#include "concave_distance/scene/pair_parameters.h"
+#include "concave_distance/scene/simulation_parameters.h"
+#include "concave_distance/search/genetic_parameter_table.h"
+#include "parameter_tables.h"
+
 namespace concave_distance {
 namespace {
 
-std::string readText(const std::string& path) {
-  std::ifstream stream(std::string(CONCAVE_DISTANCE_SOURCE_DIR) + "/" + path);
-  EXPECT_TRUE(stream.is_open()) << path;
+using test::tableHead;
+using test::tableRows;
+
+std::string pathOf(const std::string& name) {
+  return std::string(CONCAVE_DISTANCE_SOURCE_DIR) + "/" + name;
+}
+
+std::string readText(const std::string& name) {
+  std::ifstream stream(pathOf(name));
+  EXPECT_TRUE(stream.is_open()) << name;
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+void expectText(const std::string& name, const std::string& before, const std::string& made) {
+  if (std::getenv("CONCAVE_DISTANCE_WRITE_TABLES") != nullptr) {
+    std::ofstream(pathOf(name)) << made;
+  } else {
+    EXPECT_EQ(before, made) << name << ": run scripts/write_parameter_tables.sh";
+  }
+}
+
+/// What stands between `<!-- table: <name> -->` and `<!-- end -->`.
+void expectTable(const std::string& file, const std::string& name, const std::string& rows) {
+  const std::string text = readText(file);
+  const std::string begin = "<!-- table: " + name + " -->\n";
+  const std::size_t from = text.find(begin);
+  ASSERT_NE(from, std::string::npos) << file << " has no " << begin;
+  const std::size_t to = text.find("<!-- end -->", from);
+  ASSERT_NE(to, std::string::npos) << file << ": no end of " << begin;
+  expectText(file, text, text.substr(0, from) + begin + tableHead() + rows + text.substr(to));
+}
+
+TEST(ParameterDocumentation, HasTheNodesParameters) {
+  expectTable("doc/parameters.md", "node", tableRows(nodeParameterTable(), false));
+  expectTable("doc/parameters.md", "pair", tableRows(pairParameters(), false));
+  expectTable("doc/parameters.md", "limits", tableRows(limitParameters(), false, "limits/"));
+}
+
+TEST(ParameterDocumentation, HasTheSettingsForExperts) {
+  expectTable("doc/expert_settings.md", "pair", tableRows(pairParameters(), true));
+  const TrackerParameters defaults;
+  expectTable("doc/expert_settings.md", "cold",
+              tableRows(geneticParameters(), false, "cold.", defaults.cold));
+  expectTable("doc/expert_settings.md", "warm",
+              tableRows(geneticParameters(), false, "warm.", defaults.warm));
+}
+
+TEST(ParameterDocumentation, HasWhatASceneFileSaysOfContactAndSimulation) {
+  const std::string file = "doc/scene_file.md";
+  expectTable(file, "material", tableRows(materialParameters(), false));
+  expectTable(file, "normal_force", tableRows(normalForceParameters(), false));
+  expectTable(file, "friction", tableRows(frictionParameters(), false));
+  expectTable(file, "simulation", tableRows(simulationParameters(), false));
+}
+
+TEST(ParameterDocumentation, HasTheSimulationNodesParameters) {
+  expectTable("doc/simulation_node.md", "simulation", tableRows(simulationNodeParameters(), false));
+}
+
+template <typename Settings>
+std::string reconfigureLines(const ParameterTable<Settings>& table) {
+  std::string lines;
+  for (const Parameter<Settings>& parameter : table) {
+    const ParameterInfo& info = parameter.info;
+    if (!info.at_run_time) continue;
+    std::string value = toText(parameter.get(Settings()));
+    std::string type = info.type == ParameterType::Count ? "int_t" : "double_t";
+    if (!info.word.empty()) {
+      type = "str_t";
+      value = "\"" + value + "\"";
+    } else if (info.type == ParameterType::Flag) {
+      type = "bool_t";
+      value[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(value[0])));
+    } else if (info.type == ParameterType::Number && value.find_first_of(".e") == std::string::npos) {
+      value += ".0";
+    }
+    const std::string sentence = std::regex_replace(info.sentence, std::regex("[`\"]"), "'");
+    lines += "gen.add(\"" + info.name + "\", " + type + ", 0, \"" + sentence + "; " + allowedValues(info) +
+             "\", " + value + ")\n";
+  }
+  return lines;
+}
+
+TEST(ParameterDocumentation, AgreesWithWhatMayChangeWhileTheNodeRuns) {
+  const std::string file = "config/ConcaveDistance.cfg";
+  const std::string text = readText(file);
+  const std::size_t from = text.find("gen.add(");
+  const std::size_t to = text.find("exit(gen.generate(");
+  ASSERT_TRUE(from != std::string::npos && to != std::string::npos);
+  expectText(file, text,
+             text.substr(0, from) + reconfigureLines(nodeParameterTable()) +
+                 reconfigureLines(pairParameters()) + text.substr(to));
+}
+
+TEST(ParameterDocumentation, LeavesFewSettingsOfAPairToUsers) {
+  std::size_t users = 1;  // effects
+  for (const Parameter<PairSettings>& parameter : pairParameters()) users += parameter.info.is_expert ? 0 : 1;
+  EXPECT_LE(users, 12U);
 }
 
 std::set<std::string> matches(const std::string& text, const std::string& pattern) {
@@ -23,34 +128,6 @@ std::set<std::string> matches(const std::string& text, const std::string& patter
     found.insert((*match)[1]);
   }
   return found;
-}
-
-// The names in the first column of the table.
-std::set<std::string> documentedParameters() {
-  std::set<std::string> names;
-  for (const std::string& cell : matches(readText("doc/parameters.md"), "\\n\\| (`[^|]*) \\|")) {
-    names.merge(matches(cell, "`(\\w+)`"));
-  }
-  return names;
-}
-
-TEST(ParameterDocumentation, NamesEveryParameterThatTheNodeReadsAndNoOther) {
-  std::set<std::string> read =
-      matches(readText("src/ros/node_parameters.cpp"), R"(reader\.\w+\(\s*"(\w+)\")");
-  EXPECT_GT(read.size(), 20U);
-  EXPECT_EQ(documentedParameters(), read);
-}
-
-TEST(ParameterDocumentation, NamesEveryLimitThatTheNodeReadsAndNoOther) {
-  const std::set<std::string> read =
-      matches(readText("src/ros/limits_reader.cpp"), R"(reader\.\w+\(\s*"(\w+)\")");
-  EXPECT_GT(read.size(), 5U);
-  EXPECT_EQ(matches(readText("doc/parameters.md"), "\n\\| `limits/(\\w+)` \\|"), read);
-}
-
-TEST(ParameterDocumentation, MarksWhatMayChangeWhileRunning) {
-  const std::set<std::string> marked = matches(readText("doc/parameters.md"), "`(\\w+)`\\*");
-  EXPECT_EQ(marked, matches(readText("config/ConcaveDistance.cfg"), "gen\\.add\\(\"(\\w+)\""));
 }
 
 TEST(TestingDocumentation, NamesEveryRostestCaseAndNoOther) {

@@ -76,7 +76,7 @@ TEST_F(SceneEffects, WrongNamesAndValuesAreRefusedWithWhatIsAllowed) {
   expectRefused("{normal_force: hurtz}", ".normal_force",
                 "quasi_static, spring_dashpot, hertz, hunt_crossley");
   expectRefused("{normal_force: {model: hertz, stiffness: -1}}", ".normal_force.stiffness",
-                "greater than 0, newtons a metre");
+                "greater than 0 (N/m)");
   expectRefused("{normal_force: {damping: -1}}", ".normal_force.damping", "0 or more");
   expectRefused("{normal_force: {loading_coefficient: 0}}", ".normal_force.loading_coefficient",
                 "greater than 0");
@@ -84,7 +84,7 @@ TEST_F(SceneEffects, WrongNamesAndValuesAreRefusedWithWhatIsAllowed) {
   expectRefused("{normal_force: hertz, friction: {model: glue}}", ".friction.model",
                 "none, regularised_coulomb, bristle");
   expectRefused("{normal_force: hertz, friction: {bristle_stiffness: 0}}", ".friction.bristle_stiffness",
-                "greater than 0, per metre");
+                "greater than 0 (1/m)");
   expectRefused("{friction: bristle}", ".friction", "add normal_force, or leave friction out");
 }
 
@@ -143,7 +143,7 @@ TEST_F(SceneEffects, WrongMaterialsAreRefusedWithWhatIsAllowed) {
     EXPECT_TRUE(mentions(text, allowed)) << text;
   };
   refused("materials: {steel: {youngs_modulus: 0}}\n", "scene.yaml:1, materials.steel.youngs_modulus",
-          "greater than 0, pascal");
+          "greater than 0 (Pa)");
   refused("materials: {steel: {poissons_ratio: 0.5}}\n", "materials.steel.poissons_ratio",
           "from 0 to below 0.5");
   refused("materials: {steel: {colour: red}}\n", "materials.steel.colour", "youngs_modulus");

@@ -115,14 +115,14 @@ TEST_F(ScenePairs, FormOfPairsIsChecked) {
 
 TEST_F(ScenePairs, SettingsAreLaidOverOneAnotherAndThePairsOwnEntryLast) {
   const Scene scene = load(
-      "defaults: {max_edge_length: 100, cutoff: 9, least_prominence: 0.5, immigrants: 1}\n"
+      "defaults: {max_edge_length: 100, cutoff: 9, least_prominence: 0.5, expert: {random_starts: 1}}\n"
       "bodies:\n"
       "  - {name: a, box: {size: [1, 1, 1]}}\n  - {name: b, box: {size: [1, 1, 1]}}\n"
       "  - {name: c, box: {size: [1, 1, 1]}}\n"
       "pairs:\n"
       "  - {between: [b, c], cutoff: 5, name: own/name}\n"
       "  - {between: ['*', '*'], cutoff: 7, least_prominence: 0.25}\n"
-      "  - {between: [a, '*'], least_prominence: 0.125, warm: {population_size: 8}}\n");
+      "  - {between: [a, '*'], least_prominence: 0.125, expert: {warm: {population_size: 8}}}\n");
   EXPECT_EQ(pairNames(scene), Names({"own/name", "a/b", "a/c"}));
   const auto tracker = [&](std::size_t i) { return scene.pairs[i].settings.tracker; };
   EXPECT_EQ(tracker(0).cutoff, 5.0);  // its own entry stands first and wins all the same
@@ -131,7 +131,7 @@ TEST_F(ScenePairs, SettingsAreLaidOverOneAnotherAndThePairsOwnEntryLast) {
   EXPECT_EQ(tracker(1).least_prominence, 0.125);
   EXPECT_EQ(tracker(1).warm.population_size, 8U);
   EXPECT_EQ(tracker(0).warm.population_size, TrackerParameters().warm.population_size);
-  EXPECT_EQ(tracker(2).immigrants, 1U);
+  EXPECT_EQ(tracker(2).random_starts, 1U);
 }
 
 TEST_F(ScenePairs, DisabledPairsAreListedAndNotEnabled) {

@@ -170,7 +170,7 @@ TEST(GeneticSearch, GenerationGapReplacesThatManyAtMost) {
   Search search(test::hookAndStairs());
   GeneticParameters parameters = smallRun(NichingMethod::Sharing);
   parameters.local_optimization = LocalOptimization::None;  // individuals stay apart
-  parameters.immigrants = 0;
+  parameters.random_immigrants = 0;
   parameters.elite_count = 0;  // elites, immigrants and conserved niches take further seats
   parameters.conserve_niches = false;
   parameters.generation_gap = 0.25;
@@ -197,7 +197,7 @@ TEST(GeneticSearch, StopsWhenNothingChangesAnyMore) {
   GeneticParameters parameters = smallRun(NichingMethod::None);
   parameters.max_generations = 500;
   parameters.mutation_probability = 0.0;
-  parameters.immigrants = 0;
+  parameters.random_immigrants = 0;
   parameters.convergence_generations = 5;
   const GeneticResult result = search.run(parameters, 10);
   EXPECT_TRUE(result.converged);
@@ -268,7 +268,7 @@ TEST(GeneticSearch, SharingKeepsNichesThatPlainEvolutionLoses) {
   };
   GeneticParameters parameters = smallRun(NichingMethod::None);
   parameters.population_size = 100;
-  parameters.immigrants = 0;
+  parameters.random_immigrants = 0;
   parameters.exchange_probability = 0.0;  // which brings back what has been lost
   const double plain = recall(parameters);
   parameters.niching = NichingMethod::Sharing;
@@ -287,14 +287,14 @@ TEST(GeneticSearch, ImmigrantsFindWhatNoParentsLeadTo) {
   Search search(test::shellsAndShells());
   GeneticParameters parameters = smallRun(NichingMethod::Sharing);
   parameters.mutation_probability = 0.0;
-  parameters.immigrants = 0;
+  parameters.random_immigrants = 0;
   parameters.max_generations = 0;
   const TrialPoint somewhere = search.run(parameters, 13).best;
   const std::vector<TrialPoint> inherited(parameters.population_size, somewhere);
   parameters.max_generations = 30;
   search.run(parameters, 13, inherited);
   EXPECT_EQ(search.workspace.basins.minima().size(), 1U);
-  parameters.immigrants = 3;
+  parameters.random_immigrants = 3;
   search.run(parameters, 13, inherited);
   EXPECT_GT(search.workspace.basins.minima().size(), 5U);
   EXPECT_TRUE(std::any_of(search.workspace.population.begin(), search.workspace.population.end(),

@@ -34,11 +34,11 @@ TrackerParameters blind(AccuracyLevel level) {
   for (GeneticParameters* genetic : {&parameters.cold, &parameters.warm}) {
     genetic->population_size = 2;
     genetic->max_generations = 0;
-    genetic->immigrants = 0;
+    genetic->random_immigrants = 0;
   }
-  parameters.immigrants = 0;
+  parameters.random_starts = 0;
   parameters.projected_niches = 0;
-  parameters.projected_immigrants = 0;
+  parameters.projected_nodes = 0;
   parameters.swept_cones = 0;
   return parameters;
 }

@@ -4,8 +4,6 @@
 
 namespace concave_distance {
 
-class ParameterReader;
-
 /// The most that requests may cost: the private parameters below `~limits/` (doc/parameters.md).
 struct NodeLimits {
   std::uint32_t service_threads = 2;  ///< requests of get_distance, get_distances and add_body at one time
@@ -20,9 +18,5 @@ struct NodeLimits {
   std::uint32_t import_memory_mb = 1024;             ///< of the process that reads one mesh file
   double import_seconds = 30.0;                      ///< for one mesh file
 };
-
-/// @param parameters of the node's private namespace; the limits are its group `limits`
-/// @throws Error naming the limit, the value seen and what is allowed
-NodeLimits readLimits(ParameterReader& parameters);
 
 }  // namespace concave_distance

@@ -20,11 +20,14 @@ struct NodeParameters {
   std::string robot_description = "robot_description";  ///< name of the parameter with the URDF; empty: none
   std::string reference_frame = "world";                ///< tf frame of every output; a continuous one
   GeometrySource geometry = GeometrySource::Collision;
-  std::vector<std::string> mesh_search_path;  ///< as in SceneLoadOptions; so are the next two
+  std::string mesh_search_path;                  ///< folders, separated by `:`
+  std::vector<std::string> mesh_search_folders;  ///< the same; as in SceneLoadOptions, so are the next two
   bool automatic_cutoff = false;              ///< a robot without scene file, and `cutoff` is not set
   bool skip_overlapping_pairs = false;
   std::string cache;                 ///< folder of prepared bodies; empty: the user's, "off": none
-  MeshAccess mesh_access;            ///< of bodies that services add
+  /// Where services may read mesh files; nothing: every package and the scene file's folder.
+  std::optional<std::vector<std::string>> mesh_roots;
+  MeshAccess mesh_access;            ///< of bodies that services add, from the former and the limits
   double rate = 50.0;                ///< cycles per second
   double marker_rate = 20.0;         ///< marker messages per second, at most `rate`
   std::uint32_t threads = 0;         ///< that solve pairs in one cycle; 0: one per core

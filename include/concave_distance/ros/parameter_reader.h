@@ -2,33 +2,34 @@
 
 #include <xmlrpcpp/XmlRpcValue.h>
 
-#include <limits>
 #include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "concave_distance/base/parameter.h"
+
 namespace concave_distance {
 
 /// Reads named values out of an XML-RPC struct; every refusal is an Error with the parameter's name, the
-/// value seen and what is allowed. Remembers what was read, so that spelling mistakes can be told.
+/// value seen and what is allowed. Remembers what was read, so that spelling mistakes can be reported.
 class ParameterReader {
  public:
   /// @param values a struct; anything invalid (nothing set) counts as an empty one
   /// @param prefix put before names in messages, e.g. "~"
   ParameterReader(XmlRpc::XmlRpcValue values, std::string prefix);
 
+  /// Sets what is given and leaves the rest.
+  /// @param is_expert which parameters of the table: those for experts, or the others
+  /// @throws Error naming the parameter, the value seen and what is allowed
+  template <typename Settings>
+  void read(const ParameterTable<Settings>& table, bool is_expert, Settings& settings) {
+    for (const Parameter<Settings>& parameter : table) {
+      if (parameter.info.is_expert != is_expert) continue;
+      if (const auto value = take(parameter.info)) parameter.set(settings, *value);
+    }
+  }
   bool has(const std::string& name);
-  /// Doubles; integers are accepted.
-  double number(const std::string& name, double fallback, double lowest, double highest);
-  std::uint32_t count(const std::string& name, std::uint32_t fallback, std::uint32_t lowest,
-                      std::uint32_t highest);
-  bool flag(const std::string& name, bool fallback);
-  std::string text(const std::string& name, const std::string& fallback);
-  /// A list of texts; a single text counts as a list of one. Empty when it is not set.
-  std::vector<std::string> texts(const std::string& name);
-  /// Index into `choices`.
-  std::size_t choice(const std::string& name, std::size_t fallback, const std::vector<std::string>& choices);
 
   /// The parameters of a namespace within this one; an empty reader when it is not set.
   ParameterReader group(const std::string& name);
@@ -39,6 +40,9 @@ class ParameterReader {
   std::vector<std::string> unread(const std::set<std::string>& known) const;
 
  private:
+  /// Nothing when it is not set.
+  std::optional<ParameterValue> take(const ParameterInfo& info);
+
   XmlRpc::XmlRpcValue values_;
   std::string prefix_;
   std::set<std::string> read_;

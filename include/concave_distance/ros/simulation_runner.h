@@ -13,6 +13,7 @@
 #include <memory>
 #include <string>
 
+#include "concave_distance/base/parameter.h"
 #include "concave_distance/scene/scene.h"
 #include "concave_distance/simulation/simulation.h"
 
@@ -34,6 +35,8 @@ struct SimulationNodeParameters {
   SimulationEnd at_end = SimulationEnd::Hold;
 };
 
+/// The simulation node's parameters, declared once.
+const ParameterTable<SimulationNodeParameters>& simulationNodeParameters();
 /// @throws Error naming the parameter, the value seen and what is allowed
 SimulationNodeParameters parseSimulationParameters(const XmlRpc::XmlRpcValue& values);
 

@@ -59,7 +59,7 @@ struct GeneticParameters {
   /// Random individuals tried in each generation; one that stands where nobody does takes a seat of the most
   /// crowded place (random immigrants, Grefenstette 1992): what no parents lead to is found all the same.
   /// 0 for the thesis's own rows.
-  std::uint32_t immigrants = 5;
+  std::uint32_t random_immigrants = 5;
   std::uint32_t elite_count = 1;  ///< best individuals that always survive
   /// With sharing and dynamic sharing: the best of every niche (greedy identification with sigma_n) survives
   /// too, as long as these take no more than half of the population: species conservation (Li, Balazs, Parks

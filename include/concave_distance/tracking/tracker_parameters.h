@@ -34,13 +34,13 @@ struct TrackerParameters {
   GeneticParameters warm;            ///< every further cycle; usually a small population and few generations
   double inherited_per_niche = 3.0;  ///< alpha_Gamma (Carretero, eq. (6.8))
   std::uint32_t inherited_limit = 30;  ///< N_popGamma_max (6.8)
-  std::uint32_t immigrants = 8;        ///< random individuals a warm cycle descends besides
+  std::uint32_t random_starts = 8;        ///< random individuals a warm cycle descends besides
   /// Niches of which a warm cycle asks, the nearest always and the others in turn, whether the body opposite
   /// has a closer place anywhere (projectWitness); of the nearest the surroundings are asked too. A cold
   /// cycle asks all. 0: none.
   std::uint32_t projected_niches = 1;
   /// Random nodes that a warm cycle projects onto the other body and back; a cold one 16 times as many.
-  std::uint32_t projected_immigrants = 4;
+  std::uint32_t projected_nodes = 4;
   /// A warm cycle searches for newborn niches (evolution and projected immigrants) when B has moved by this
   /// fraction of the finer grid's longest edge since the last search, or after `search_interval` cycles at
   /// the latest; the cycles between follow the known niches and ask the nearest one only.

@@ -152,8 +152,8 @@ class Run {
   }
 
   void seatImmigrants() {
-    sortSeats(parameters_.immigrants);
-    for (std::uint32_t i = 0; i < parameters_.immigrants; ++i) {
+    sortSeats(parameters_.random_immigrants);
+    for (std::uint32_t i = 0; i < parameters_.random_immigrants; ++i) {
       ContinuousPoint stranger = startingPoint(objective_, parameters_.initial_points, engine_, cost);
       if (parameters_.local_step.enabled) {
         improveLocally(objective_, parameters_.local_step, stranger, cost);

@@ -47,7 +47,7 @@ void ContinuousGeneticParameters::validate(const std::string& where) const {
   require(penalty_weight >= 0.0 && std::isfinite(penalty_weight), where, "penalty_weight", penalty_weight,
           "a length of at least 0, metres");
   require(elite_count < population_size, where, "elite_count", elite_count, "less than population_size");
-  require(immigrants < population_size, where, "immigrants", immigrants, "less than population_size");
+  require(random_immigrants < population_size, where, "random_immigrants", random_immigrants, "less than population_size");
   validateLocalStep(local_step, where);
 }
 
@@ -60,7 +60,7 @@ ContinuousGeneticParameters improvedContinuousGenetic() {
   p.local_step = improvedLocalStep();
   p.elite_count = 1;
   p.deterministic_crowding = true;
-  p.immigrants = 4;
+  p.random_immigrants = 4;
   p.prefer_feasible = true;
   p.final_repeats = 50;
   return p;

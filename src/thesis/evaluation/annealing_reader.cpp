@@ -2,12 +2,13 @@
 
 #include <limits>
 
-#include "search_settings_reader.h"
 #include "setting_values.h"
 
 namespace concave_distance::detail {
 namespace {
 
+constexpr std::pair<const char*, DescentMoves> kDescentMoves[] = {{"one_node", DescentMoves::OneNode},
+                                                                  {"both_nodes", DescentMoves::BothNodes}};
 constexpr std::pair<const char*, AnnealingMove> kAnnealingMoves[] = {
     {"new_point", AnnealingMove::NewPoint}, {"random_move", AnnealingMove::RandomMove}};
 
@@ -23,7 +24,7 @@ void readAnnealingParameters(const YamlValue& value, AnnealingParameters& p) {
   if (auto v = map.take("move_radius")) p.move_radius = optionalNumber(*v, "auto", kLength, positiveFinite);
   if (auto v = map.take("variable_displacement")) p.variable_displacement = v->boolean();
   if (auto v = map.take("new_point_probability")) p.new_point_probability = v->number(kShare, share);
-  if (auto v = map.take("descent_moves")) p.descent_moves = readDescentMoves(*v);
+  if (auto v = map.take("descent_moves")) p.descent_moves = v->choice(kDescentMoves);
   if (auto v = map.take("evaluation_limit")) {
     p.evaluation_limit = v->count(0, std::numeric_limits<std::uint64_t>::max());
   }

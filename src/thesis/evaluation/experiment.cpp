@@ -11,7 +11,6 @@
 
 #include "annealing_reader.h"
 #include "concave_distance/base/error.h"
-#include "search_settings_reader.h"
 #include "setting_values.h"
 #include "settings_reader.h"
 
@@ -230,7 +229,7 @@ Method ExperimentRow::methodOn(const ExperimentScene& scene) const {
 GeneticParameters thesisGeneticParameters() {
   GeneticParameters parameters;
   parameters.exchange_probability = 0.0;
-  parameters.immigrants = 0;
+  parameters.random_immigrants = 0;
   parameters.conserve_niches = false;
   parameters.fitness_epsilon = 0.0;
   return parameters;

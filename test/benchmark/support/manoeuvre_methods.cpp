@@ -56,14 +56,14 @@ TrackerParameters thesisParameters() {
   search.sharing_radius = search.mating_radius = search.niche_radius = 0.6;
   search.sharing_exponent = 1.0;
   search.exchange_probability = 0.0;
-  search.immigrants = 0;
+  search.random_immigrants = 0;
   search.conserve_niches = false;
   search.fitness_epsilon = 0.0;
   parameters.warm = search;
   parameters.inherited_per_niche = 3.0;
   parameters.inherited_limit = 30;
-  parameters.immigrants = 0;
-  parameters.projected_niches = parameters.projected_immigrants = 0;
+  parameters.random_starts = 0;
+  parameters.projected_niches = parameters.projected_nodes = 0;
   parameters.search_motion = 0.0;
   parameters.search_interval = 1;
   parameters.extrapolate = false;

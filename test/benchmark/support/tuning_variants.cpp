@@ -44,7 +44,7 @@ std::vector<TuningVariant> searchVariants() {
   addValues<double>(
       "exchange_probability", {0.0, 0.4, 1.0}, [](P& p, double x) { p.cold.exchange_probability = x; }, v);
   addValues<Count>(
-      "immigrants", {0, 5, 10, 40}, [](P& p, Count n) { p.cold.immigrants = n; }, v);
+      "immigrants", {0, 5, 10, 40}, [](P& p, Count n) { p.cold.random_immigrants = n; }, v);
   v.push_back({"mating restriction", [](P& p) { p.cold.mating_restriction = true; }});
   return v;
 }
@@ -55,7 +55,7 @@ std::vector<TuningVariant> coldVariants() {
           {"before", [](P& p) { p.warm = {}; }},
           {"as at level nodes", [](P& p) { p.warm = p.cold; }},
           {"N_pop 2", [](P& p) { p.warm.population_size = 2; }},
-          {"no projections", [](P& p) { p.projected_niches = p.projected_immigrants = 0; }},
+          {"no projections", [](P& p) { p.projected_niches = p.projected_nodes = 0; }},
           {"no sweep, before",
            [](P& p) {
              p.swept_cones = 0;
@@ -78,7 +78,7 @@ std::vector<TuningVariant> cycleVariants() {
                                    }},
                                   {"no evolution", [](P& p) {
                                      p.warm.population_size = 2;
-                                     p.immigrants = 0;
+                                     p.random_starts = 0;
                                      p.inherited_limit = 0;
                                    }}};
   addValues<Count>(
@@ -91,12 +91,12 @@ std::vector<TuningVariant> cycleVariants() {
   addValues<Count>(
       "inherited_limit", {10, 60}, [](P& p, Count n) { p.inherited_limit = n; }, v);
   addValues<Count>(
-      "immigrants", {0, 4, 16}, [](P& p, Count n) { p.immigrants = n; }, v);
+      "immigrants", {0, 4, 16}, [](P& p, Count n) { p.random_starts = n; }, v);
   addValues<Count>(
       "projected_niches", {0, 3}, [](P& p, Count n) { p.projected_niches = n; }, v);
   addValues<Count>(
-      "projected_immigrants", {0, 16}, [](P& p, Count n) { p.projected_immigrants = n; }, v);
-  v.push_back({"no projections", [](P& p) { p.projected_niches = p.projected_immigrants = 0; }});
+      "projected_immigrants", {0, 16}, [](P& p, Count n) { p.projected_nodes = n; }, v);
+  v.push_back({"no projections", [](P& p) { p.projected_niches = p.projected_nodes = 0; }});
   addValues<double>(
       "search_motion", {0.1, 0.25, 1.0}, [](P& p, double x) { p.search_motion = x; }, v);
   addValues<Count>(

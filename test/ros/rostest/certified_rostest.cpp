@@ -167,9 +167,9 @@ TEST_F(CertifiedTest, DiagnosticsCountMissesAndProofsThatABudgetEnded) {
   };
   EXPECT_TRUE(counts("solves that ended unproven", [](double count) { return count == 0.0; }));
   EXPECT_TRUE(counts("search misses", [](double count) { return count >= 0.0; }));
-  reconfigure("time_budget", 1e-6);
+  reconfigure("time_budget", "1e-6");
   EXPECT_TRUE(counts("solves that ended unproven", [](double count) { return count > 0.0; }));
-  reconfigure("time_budget", 0.0);
+  reconfigure("time_budget", "none");
   EXPECT_TRUE(counts("solves that ended unproven", [](double count) { return count == 0.0; }));
 }
 

@@ -39,5 +39,13 @@ inline dynamic_reconfigure::Config reconfigure(const std::string& name, double v
   request.config.doubles[0].value = value;
   return call<dynamic_reconfigure::Reconfigure>(kNode + "set_parameters", request).config;
 }
+/// The same of a parameter that may be a word instead of a number.
+inline dynamic_reconfigure::Config reconfigure(const std::string& name, const std::string& value) {
+  dynamic_reconfigure::ReconfigureRequest request;
+  request.config.strs.resize(1);
+  request.config.strs[0].name = name;
+  request.config.strs[0].value = value;
+  return call<dynamic_reconfigure::Reconfigure>(kNode + "set_parameters", request).config;
+}
 
 }  // namespace concave_distance

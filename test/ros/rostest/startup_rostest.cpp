@@ -220,11 +220,11 @@ void writeBumps(const std::string& path, int size) {
   }
 }
 
-dynamic_reconfigure::Config setCutoff(const std::string& node, double cutoff) {
+dynamic_reconfigure::Config setCutoff(const std::string& node, const std::string& cutoff) {
   dynamic_reconfigure::ReconfigureRequest request;
-  request.config.doubles.resize(1);
-  request.config.doubles[0].name = "cutoff";
-  request.config.doubles[0].value = cutoff;
+  request.config.strs.resize(1);
+  request.config.strs[0].name = "cutoff";
+  request.config.strs[0].value = cutoff;
   return call<dynamic_reconfigure::Reconfigure>(node + "/set_parameters", request).config;
 }
 
@@ -250,7 +250,7 @@ TEST(StartUp, PreparationIsReportedWhileServicesAnswer) {
         const ListBodiesResponse scene = list(node);
         if (!reported && scene.message.find("loading: prepared") != std::string::npos) {
           reported = true;
-          setCutoff(node, 0.123);
+          setCutoff(node, "0.123");
         }
         return scene.ready != 0;
       },

@@ -164,7 +164,7 @@ TEST(ContinuousGeneticSearch, EverySwitchRunsAndImproves) {
           p.variable_displacement = crowding;
           p.deterministic_crowding = crowding;
           p.initial_points = crowding ? InitialPoints::Projected : InitialPoints::BoundingBoxes;
-          p.immigrants = 2;
+          p.random_immigrants = 2;
           double start = 0.0;
           const ContinuousResult result = run(scene, p, 5, [&](const ContinuousRecord& record) {
             if (record.generation == 0) start = record.best_so_far->objective;

@@ -265,7 +265,7 @@ TEST_F(Evaluation, ThesisRowsHaveNothingOfOurOwn) {
   const Experiment experiment = loadExperiment(write(kExperiment));
   const auto& genetic = std::get<GeneticParameters>(std::get<SearchMethod>(experiment.rows[0].method));
   EXPECT_EQ(genetic.exchange_probability, 0.0);
-  EXPECT_EQ(genetic.immigrants, 0U);
+  EXPECT_EQ(genetic.random_immigrants, 0U);
   EXPECT_FALSE(genetic.conserve_niches);
   EXPECT_EQ(genetic.population_size, 20U);  // from `common`
 }

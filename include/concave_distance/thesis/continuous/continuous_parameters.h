@@ -70,7 +70,7 @@ struct ContinuousGeneticParameters {
   std::uint32_t elite_count = 0;  ///< best individuals that always survive
   /// A child takes the seat of its closer parent, if it is better (Mahfoud 1992); no other selection.
   bool deterministic_crowding = false;
-  std::uint32_t immigrants = 0;     ///< random individuals a generation, in the seats of the worst
+  std::uint32_t random_immigrants = 0;     ///< random individuals a generation, in the seats of the worst
   bool prefer_feasible = false;     ///< the run's best is the best feasible point, as long as there is one
   std::uint32_t final_repeats = 0;  ///< local steps on the run's best at the end (sequential hybrid)
 

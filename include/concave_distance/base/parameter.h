@@ -1,0 +1,300 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "concave_distance/base/error.h"
+
+namespace concave_distance {
+
+/// A parameter's value as files, services and command lines give it. A text is one of the parameter's choices
+/// or its word.
+using ParameterValue = std::variant<double, std::uint64_t, bool, std::string, std::vector<std::string>>;
+
+enum class ParameterType : std::uint8_t { Number, Count, Flag, Choice, Text, List };
+
+/// What is said of a parameter, once: readers, messages and documents are made from it.
+struct ParameterInfo {
+  std::string name;
+  ParameterType type = ParameterType::Number;
+  std::string unit;     ///< of a number, e.g. "m"; empty: none
+  double lowest = 0.0;  ///< of numbers and counts
+  double highest = std::numeric_limits<double>::infinity();
+  bool above_lowest = false;   ///< the lowest number itself is not allowed
+  bool below_highest = false;  ///< nor is the highest
+  bool is_even = false;        ///< of counts
+  /// What stands for "no number": "none" (no limit) or "auto" (chosen by the program); empty: there is none.
+  /// Of a text or list: what it has to be.
+  std::string word;
+  std::vector<std::string> choices;
+  std::string sentence;      ///< what it does; Markdown
+  bool at_run_time = false;  ///< may change while the node runs
+  bool is_expert = false;    ///< below `expert`
+};
+
+/// "greater than 0, m, or none": what a value may be, for messages and documents.
+std::string allowedValues(const ParameterInfo& info);
+/// The value as it would be written in a file.
+std::string toText(const ParameterValue& value);
+/// The value that a text means for this parameter; any other text is returned as it is and refused by
+/// requireAllowed().
+ParameterValue parseParameter(const ParameterInfo& info, const std::string& text);
+bool isAllowed(const ParameterInfo& info, const ParameterValue& value);
+/// @throws Error naming `where` and the parameter, the value seen and what is allowed
+void requireAllowed(const ParameterInfo& info, const ParameterValue& value, const std::string& where);
+
+/// A parameter of a struct of settings.
+template <typename Settings>
+struct Parameter {
+  ParameterInfo info;
+  std::function<ParameterValue(const Settings&)> get;
+  std::function<void(Settings&, const ParameterValue&)> set;  ///< of an allowed value
+
+  /// @throws Error naming `where` and the parameter, the value seen and what is allowed
+  void assign(Settings& settings, const ParameterValue& value, const std::string& where) const {
+    requireAllowed(info, value, where);
+    set(settings, value);
+  }
+
+  Parameter& inUnit(std::string unit) {
+    info.unit = std::move(unit);
+    return *this;
+  }
+  Parameter& from(double lowest) {
+    info.lowest = lowest;
+    return *this;
+  }
+  Parameter& above(double lowest) {
+    info.lowest = lowest;
+    info.above_lowest = true;
+    return *this;
+  }
+  Parameter& to(double highest) {
+    info.highest = highest;
+    return *this;
+  }
+  Parameter& below(double highest) {
+    info.highest = highest;
+    info.below_highest = true;
+    return *this;
+  }
+  Parameter& even() {
+    info.is_even = true;
+    return *this;
+  }
+  Parameter& atRunTime() {
+    info.at_run_time = true;
+    return *this;
+  }
+  Parameter& forExperts() {
+    info.is_expert = true;
+    return *this;
+  }
+};
+
+template <typename Settings>
+using ParameterTable = std::vector<Parameter<Settings>>;
+
+/// A number. @param member generic: gives a reference to it, of settings and of constant settings
+template <typename Settings, typename Member>
+Parameter<Settings> number(std::string name, Member member, std::string sentence) {
+  Parameter<Settings> parameter;
+  parameter.info.name = std::move(name);
+  parameter.info.sentence = std::move(sentence);
+  parameter.get = [member](const Settings& settings) { return ParameterValue(double{member(settings)}); };
+  parameter.set = [member](Settings& settings, const ParameterValue& value) {
+    member(settings) = std::get<double>(value);
+  };
+  return parameter;
+}
+
+/// A number, or "none" for an infinite one.
+template <typename Settings, typename Member>
+Parameter<Settings> limit(std::string name, Member member, std::string sentence) {
+  Parameter<Settings> parameter;
+  parameter.info.name = std::move(name);
+  parameter.info.sentence = std::move(sentence);
+  parameter.info.word = "none";
+  parameter.get = [member](const Settings& settings) -> ParameterValue {
+    if (member(settings) == std::numeric_limits<double>::infinity()) return std::string("none");
+    return member(settings);
+  };
+  parameter.set = [member](Settings& settings, const ParameterValue& value) {
+    const double* number = std::get_if<double>(&value);
+    member(settings) = number == nullptr ? std::numeric_limits<double>::infinity() : *number;
+  };
+  return parameter;
+}
+
+/// A number, or the word for an empty one. @param member gives a std::optional<double>
+template <typename Settings, typename Member>
+Parameter<Settings> optionalNumber(std::string name, std::string word, Member member, std::string sentence) {
+  Parameter<Settings> parameter;
+  parameter.info.name = std::move(name);
+  parameter.info.sentence = std::move(sentence);
+  parameter.info.word = word;
+  parameter.get = [member, word](const Settings& settings) -> ParameterValue {
+    if (!member(settings)) return word;
+    return *member(settings);
+  };
+  parameter.set = [member](Settings& settings, const ParameterValue& value) {
+    const double* number = std::get_if<double>(&value);
+    if (number == nullptr) {
+      member(settings).reset();
+    } else {
+      member(settings) = *number;
+    }
+  };
+  return parameter;
+}
+
+/// A whole number.
+template <typename Settings, typename Member>
+Parameter<Settings> count(std::string name, Member member, std::string sentence) {
+  using Integer = std::decay_t<decltype(member(std::declval<Settings&>()))>;
+  Parameter<Settings> parameter;
+  parameter.info.name = std::move(name);
+  parameter.info.type = ParameterType::Count;
+  parameter.info.sentence = std::move(sentence);
+  parameter.info.highest = static_cast<double>(std::numeric_limits<Integer>::max());
+  parameter.get = [member](const Settings& settings) {
+    return ParameterValue(static_cast<std::uint64_t>(member(settings)));
+  };
+  parameter.set = [member](Settings& settings, const ParameterValue& value) {
+    member(settings) = static_cast<Integer>(std::get<std::uint64_t>(value));
+  };
+  return parameter;
+}
+
+/// true or false.
+template <typename Settings, typename Member>
+Parameter<Settings> flag(std::string name, Member member, std::string sentence) {
+  Parameter<Settings> parameter;
+  parameter.info.name = std::move(name);
+  parameter.info.type = ParameterType::Flag;
+  parameter.info.sentence = std::move(sentence);
+  parameter.get = [member](const Settings& settings) { return ParameterValue(bool{member(settings)}); };
+  parameter.set = [member](Settings& settings, const ParameterValue& value) {
+    member(settings) = std::get<bool>(value);
+  };
+  return parameter;
+}
+
+/// One of several words. @param choices the word of each enumerator
+template <typename Settings, typename Enum, typename Member>
+Parameter<Settings> choice(std::string name, std::vector<std::pair<std::string, Enum>> choices, Member member,
+                           std::string sentence) {
+  Parameter<Settings> parameter;
+  parameter.info.name = std::move(name);
+  parameter.info.type = ParameterType::Choice;
+  parameter.info.sentence = std::move(sentence);
+  for (const auto& one : choices) parameter.info.choices.push_back(one.first);
+  parameter.get = [member, choices](const Settings& settings) -> ParameterValue {
+    for (const auto& [word, value] : choices) {
+      if (value == member(settings)) return word;
+    }
+    return std::string();
+  };
+  parameter.set = [member, choices](Settings& settings, const ParameterValue& value) {
+    for (const auto& [word, enumerator] : choices) {
+      if (word == std::get<std::string>(value)) member(settings) = enumerator;
+    }
+  };
+  return parameter;
+}
+
+/// A number, or a word where it is 0: chosen by the program.
+template <typename Settings, typename Member>
+Parameter<Settings> automatic(std::string name, Member member, std::string sentence,
+                              std::string word = "auto") {
+  Parameter<Settings> parameter;
+  parameter.info.name = std::move(name);
+  parameter.info.sentence = std::move(sentence);
+  parameter.info.word = word;
+  parameter.info.above_lowest = true;
+  parameter.get = [member, word](const Settings& settings) -> ParameterValue {
+    if (member(settings) == 0.0) return word;
+    return member(settings);
+  };
+  parameter.set = [member](Settings& settings, const ParameterValue& value) {
+    const double* number = std::get_if<double>(&value);
+    member(settings) = number == nullptr ? 0.0 : *number;
+  };
+  return parameter;
+}
+
+/// Any text. @param allowed said of it in messages and documents, e.g. "a path"
+template <typename Settings, typename Member>
+Parameter<Settings> text(std::string name, std::string allowed, Member member, std::string sentence) {
+  Parameter<Settings> parameter;
+  parameter.info.name = std::move(name);
+  parameter.info.type = ParameterType::Text;
+  parameter.info.word = std::move(allowed);
+  parameter.info.sentence = std::move(sentence);
+  parameter.get = [member](const Settings& settings) -> ParameterValue {
+    return std::string(member(settings));
+  };
+  parameter.set = [member](Settings& settings, const ParameterValue& value) {
+    member(settings) = std::get<std::string>(value);
+  };
+  return parameter;
+}
+
+/// A list of texts. @param member gives a std::optional<std::vector<std::string>>
+template <typename Settings, typename Member>
+Parameter<Settings> list(std::string name, std::string allowed, Member member, std::string sentence) {
+  Parameter<Settings> parameter;
+  parameter.info.name = std::move(name);
+  parameter.info.type = ParameterType::List;
+  parameter.info.word = std::move(allowed);
+  parameter.info.sentence = std::move(sentence);
+  parameter.get = [member](const Settings& settings) -> ParameterValue {
+    return member(settings).value_or(std::vector<std::string>());
+  };
+  parameter.set = [member](Settings& settings, const ParameterValue& value) {
+    member(settings) = std::get<std::vector<std::string>>(value);
+  };
+  return parameter;
+}
+
+/// The same parameter of a struct that holds the settings. @param member gives a reference to them
+template <typename Whole, typename Settings, typename Member>
+Parameter<Whole> partOf(const Parameter<Settings>& parameter, Member member) {
+  Parameter<Whole> outer;
+  outer.info = parameter.info;
+  outer.get = [get = parameter.get, member](const Whole& whole) { return get(member(whole)); };
+  outer.set = [set = parameter.set, member](Whole& whole, const ParameterValue& value) {
+    set(member(whole), value);
+  };
+  return outer;
+}
+
+/// @throws Error naming `where` and the first parameter that has a value that is not allowed
+template <typename Settings>
+void requireAllowed(const ParameterTable<Settings>& table, const Settings& settings,
+                    const std::string& where) {
+  for (const Parameter<Settings>& parameter : table) {
+    const ParameterValue value = parameter.get(settings);
+    if (isAllowed(parameter.info, value)) continue;
+    throw Error(where, parameter.info.name + " is " + toText(value),
+                "allowed: " + allowedValues(parameter.info));
+  }
+}
+
+/// The parameter of this name, or null.
+template <typename Settings>
+const Parameter<Settings>* findParameter(const ParameterTable<Settings>& table, const std::string& name) {
+  for (const Parameter<Settings>& parameter : table) {
+    if (parameter.info.name == name) return &parameter;
+  }
+  return nullptr;
+}
+
+}  // namespace concave_distance

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "concave_distance/base/parameter.h"
+
+namespace concave_distance::tools {
+
+/// `--time-budget` of `time_budget`.
+inline std::string optionName(std::string parameter) {
+  std::replace(parameter.begin(), parameter.end(), '_', '-');
+  return "--" + parameter;
+}
+
+/// Adds the parameter as an option that sets it. @param settings outlives `app`; its value is the default
+/// @param name of the option, where it is not the parameter's
+template <typename Settings>
+CLI::Option* addParameter(CLI::App& app, const Parameter<Settings>& parameter, Settings& settings,
+                          std::string name = "") {
+  if (name.empty()) name = optionName(parameter.info.name);
+  const auto assign = [&parameter, &settings, name](const std::string& text) {
+    const ParameterValue value = parseParameter(parameter.info, text);
+    if (!isAllowed(parameter.info, value)) {
+      throw CLI::ValidationError(name, "'" + text + "' (allowed: " + allowedValues(parameter.info) + ")");
+    }
+    parameter.set(settings, value);
+  };
+  std::string sentence = parameter.info.sentence;
+  sentence.erase(std::remove(sentence.begin(), sentence.end(), '`'), sentence.end());
+  return app
+      .add_option_function<std::string>(name, assign, sentence + " (" + allowedValues(parameter.info) + ")")
+      ->default_str(toText(parameter.get(settings)))
+      ->type_name("");
+}
+
+/// The same of the parameter with this name. @throws std::logic_error when the table has none
+template <typename Settings>
+CLI::Option* addParameter(CLI::App& app, const ParameterTable<Settings>& table, const std::string& parameter,
+                          Settings& settings, std::string name = "") {
+  const Parameter<Settings>* found = findParameter(table, parameter);
+  if (found == nullptr) throw std::logic_error("no parameter " + parameter);
+  return addParameter(app, *found, settings, std::move(name));
+}
+
+}  // namespace concave_distance::tools
