@@ -1,5 +1,6 @@
-# The libraries of the core; none belongs to ROS. Collected in CONCAVE_DISTANCE_CORE_LIBRARIES (all private to it
-# except Eigen); only mesh_import_worker links assimp. Older distributions have variables instead of targets.
+# What the libraries need, besides Eigen; none belongs to ROS. CONCAVE_DISTANCE_NUMERIC_LIBRARIES is all that computing
+# needs, CONCAVE_DISTANCE_LOADING_LIBRARIES is for reading files; only mesh_import_worker links assimp. Older
+# distributions have variables instead of targets.
 find_package(Eigen3 REQUIRED)
 find_package(Threads REQUIRED)
 #catkin_lint: ignore_once missing_cmake_modules
@@ -14,11 +15,12 @@ endif()
 find_package(console_bridge REQUIRED)
 find_package(tinyxml2 REQUIRED)
 
-set(CONCAVE_DISTANCE_CORE_LIBRARIES Threads::Threads TBB::tbb)
+set(CONCAVE_DISTANCE_NUMERIC_LIBRARIES Threads::Threads TBB::tbb)
+set(CONCAVE_DISTANCE_LOADING_LIBRARIES Threads::Threads TBB::tbb ${CMAKE_DL_LIBS})
 if(TARGET yaml-cpp::yaml-cpp)
-  list(APPEND CONCAVE_DISTANCE_CORE_LIBRARIES yaml-cpp::yaml-cpp)
+  list(APPEND CONCAVE_DISTANCE_LOADING_LIBRARIES yaml-cpp::yaml-cpp)
 else()
-  list(APPEND CONCAVE_DISTANCE_CORE_LIBRARIES yaml-cpp)
+  list(APPEND CONCAVE_DISTANCE_LOADING_LIBRARIES yaml-cpp)
 endif()
 if(TARGET assimp::assimp)
   set(CONCAVE_DISTANCE_ASSIMP assimp::assimp)
@@ -26,13 +28,13 @@ else()
   set(CONCAVE_DISTANCE_ASSIMP ${ASSIMP_LIBRARIES})
 endif()
 if(TARGET urdfdom::urdfdom_model)
-  list(APPEND CONCAVE_DISTANCE_CORE_LIBRARIES urdfdom::urdfdom_model)
+  list(APPEND CONCAVE_DISTANCE_LOADING_LIBRARIES urdfdom::urdfdom_model)
 else()
-  list(APPEND CONCAVE_DISTANCE_CORE_LIBRARIES ${urdfdom_LIBRARIES})
+  list(APPEND CONCAVE_DISTANCE_LOADING_LIBRARIES ${urdfdom_LIBRARIES})
 endif()
 if(TARGET console_bridge::console_bridge)
-  list(APPEND CONCAVE_DISTANCE_CORE_LIBRARIES console_bridge::console_bridge)
+  list(APPEND CONCAVE_DISTANCE_LOADING_LIBRARIES console_bridge::console_bridge)
 else()
-  list(APPEND CONCAVE_DISTANCE_CORE_LIBRARIES ${console_bridge_LIBRARIES})
+  list(APPEND CONCAVE_DISTANCE_LOADING_LIBRARIES ${console_bridge_LIBRARIES})
 endif()
-list(APPEND CONCAVE_DISTANCE_CORE_LIBRARIES tinyxml2::tinyxml2)
+list(APPEND CONCAVE_DISTANCE_LOADING_LIBRARIES tinyxml2::tinyxml2)

@@ -1,17 +1,29 @@
-# What is installed, and the exported target, for the devel space (or build tree) and for the install space.
+# What is installed, in components (cmake --install build --component library):
+#   library   headers, concave_distance_core and concave_distance_loading, what find_package and pkg-config need
+#   tools     distance_query, mesh_tool, simulate and the robots and scenes they are tried with
+#   node      (with ROS) the node, nodelet, messages, launch files
+# Each brings the licence. Files of the exported targets are for the devel space (or build tree) too.
 set(concave_distance_config_destination ${CONCAVE_DISTANCE_SHARE_DESTINATION}/cmake)
 
-install(TARGETS concave_distance_core EXPORT concave_distance-targets
-  ARCHIVE DESTINATION ${CONCAVE_DISTANCE_LIB_DESTINATION}
-  LIBRARY DESTINATION ${CONCAVE_DISTANCE_LIB_DESTINATION}
-  RUNTIME DESTINATION ${CONCAVE_DISTANCE_BIN_DESTINATION})
+install(TARGETS concave_distance_core concave_distance_loading EXPORT concave_distance-targets
+  ARCHIVE DESTINATION ${CONCAVE_DISTANCE_LIB_DESTINATION} COMPONENT library
+  LIBRARY DESTINATION ${CONCAVE_DISTANCE_LIB_DESTINATION} COMPONENT library
+  RUNTIME DESTINATION ${CONCAVE_DISTANCE_BIN_DESTINATION} COMPONENT library)
+install(TARGETS mesh_import_worker RUNTIME DESTINATION ${CONCAVE_DISTANCE_BIN_DESTINATION} COMPONENT library)
+install(TARGETS concave_distance_internal
+  LIBRARY DESTINATION ${CONCAVE_DISTANCE_LIB_DESTINATION} COMPONENT tools)
 export(EXPORT concave_distance-targets NAMESPACE concave_distance::
   FILE ${CONCAVE_DISTANCE_DEVEL_SPACE}/${concave_distance_config_destination}/concave_distance-targets.cmake)
 install(EXPORT concave_distance-targets NAMESPACE concave_distance::
-  DESTINATION ${concave_distance_config_destination})
-# The libraries of the node and of the thesis are not exported, and their headers are not installed.
-install(DIRECTORY include/concave_distance/ DESTINATION ${CONCAVE_DISTANCE_INCLUDE_DESTINATION}
-  PATTERN ros EXCLUDE PATTERN thesis EXCLUDE)
+  DESTINATION ${concave_distance_config_destination} COMPONENT library)
+install(DIRECTORY include/concave_distance/ DESTINATION ${CONCAVE_DISTANCE_INCLUDE_DESTINATION} COMPONENT library)
+install(FILES LICENSE DESTINATION ${CONCAVE_DISTANCE_SHARE_DESTINATION} COMPONENT library)
+
+# pkg-config, for builds without CMake.
+configure_file(cmake/concave_distance.pc.in
+  ${CONCAVE_DISTANCE_DEVEL_SPACE}/${CONCAVE_DISTANCE_LIB_DESTINATION}/pkgconfig/concave_distance_loading.pc @ONLY)
+install(FILES ${CONCAVE_DISTANCE_DEVEL_SPACE}/${CONCAVE_DISTANCE_LIB_DESTINATION}/pkgconfig/concave_distance_loading.pc
+  DESTINATION ${CONCAVE_DISTANCE_LIB_DESTINATION}/pkgconfig COMPONENT library)
 
 # Without catkin the config file is the extras file itself.
 if(NOT CONCAVE_DISTANCE_WITH_ROS)
@@ -25,16 +37,13 @@ if(NOT CONCAVE_DISTANCE_WITH_ROS)
   install(FILES
     ${concave_distance_config_directory}/concave_distanceConfig.cmake
     ${concave_distance_config_directory}/concave_distanceConfigVersion.cmake
-    DESTINATION ${concave_distance_config_destination})
-  install(FILES package.xml DESTINATION ${CONCAVE_DISTANCE_SHARE_DESTINATION})
+    DESTINATION ${concave_distance_config_destination} COMPONENT library)
 endif()
 
-install(TARGETS distance_query evaluate mesh_tool simulate RUNTIME DESTINATION ${CONCAVE_DISTANCE_BIN_DESTINATION})
-foreach(folder config launch meshes urdf)
-  if(IS_DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}/${folder}")
-    install(DIRECTORY ${folder} DESTINATION ${CONCAVE_DISTANCE_SHARE_DESTINATION})
-  endif()
-endforeach()
+install(TARGETS distance_query evaluate mesh_tool simulate
+  RUNTIME DESTINATION ${CONCAVE_DISTANCE_BIN_DESTINATION} COMPONENT tools)
+install(DIRECTORY config meshes urdf DESTINATION ${CONCAVE_DISTANCE_SHARE_DESTINATION} COMPONENT tools)
 if(CONCAVE_DISTANCE_WITH_ROS)
+  install(DIRECTORY launch DESTINATION ${CONCAVE_DISTANCE_SHARE_DESTINATION} COMPONENT node)
   catkin_install_python(PROGRAMS scripts/show_distances.py DESTINATION ${CONCAVE_DISTANCE_BIN_DESTINATION})
 endif()

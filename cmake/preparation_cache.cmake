@@ -1,5 +1,7 @@
 # The preparation cache's keys hold a fingerprint of the sources that make bodies ready and of how they are compiled.
-get_target_property(sources concave_distance_core SOURCES)
+get_target_property(sources concave_distance_numeric_objects SOURCES)
+get_target_property(loading_sources concave_distance_loading_objects SOURCES)
+list(APPEND sources ${loading_sources})
 set(fingerprinted)
 foreach(source IN LISTS sources)
   if(source MATCHES "/src/(base|mesh)/")
@@ -8,11 +10,11 @@ foreach(source IN LISTS sources)
 endforeach()
 get_property(mesh_readers GLOBAL PROPERTY CONCAVE_DISTANCE_MESH_READERS)
 list(APPEND fingerprinted ${mesh_readers})
-file(GLOB headers CONFIGURE_DEPENDS
+file(GLOB_RECURSE headers CONFIGURE_DEPENDS
   ${PROJECT_SOURCE_DIR}/include/concave_distance/base/*.h
   ${PROJECT_SOURCE_DIR}/include/concave_distance/mesh/*.h
-  ${PROJECT_SOURCE_DIR}/src/mesh/*.h
-  ${PROJECT_SOURCE_DIR}/src/mesh/import_worker/*.h)
+  ${PROJECT_SOURCE_DIR}/src/base/*.h
+  ${PROJECT_SOURCE_DIR}/src/mesh/*.h)
 list(APPEND fingerprinted ${headers})
 list(SORT fingerprinted)
 string(REPLACE ";" "|" files "${fingerprinted}")
@@ -24,5 +26,5 @@ add_custom_command(OUTPUT ${fingerprint}
   DEPENDS ${fingerprinted} ${PROJECT_SOURCE_DIR}/cmake/preparation_fingerprint.cmake
   COMMENT "Fingerprint of the sources that make bodies ready"
   VERBATIM)
-target_sources(concave_distance_core PRIVATE ${fingerprint})
-target_include_directories(concave_distance_core PRIVATE ${PROJECT_BINARY_DIR})
+target_sources(concave_distance_numeric_objects PRIVATE ${fingerprint})
+target_include_directories(concave_distance_numeric_objects PRIVATE ${PROJECT_BINARY_DIR})

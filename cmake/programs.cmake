@@ -9,7 +9,8 @@ function(concave_distance_targets_below folder result)
   set(${result} ${targets} PARENT_SCOPE)
 endfunction()
 
-add_custom_target(concave_distance_programs DEPENDS concave_distance_core)
+add_custom_target(concave_distance_programs DEPENDS
+  concave_distance_core concave_distance_loading concave_distance_internal)
 concave_distance_targets_below(src/tools programs)
 concave_distance_targets_below(src/thesis thesis_programs)
 list(APPEND programs ${thesis_programs})

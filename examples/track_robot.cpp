@@ -1,7 +1,7 @@
 // Tracks the links of a robot without ROS: the nearest pair at every step of a motion of one joint.
 //   track_robot robot.urdf [folder with its meshes ...]
-#include <concave_distance/scene/load_scene.h>
-#include <concave_distance/scene/robot_poses.h>
+#include <concave_distance/loading/load_scene.h>
+#include <concave_distance/loading/robot_poses.h>
 #include <concave_distance/scene/scene_tracker.h>
 
 #include <cstdio>

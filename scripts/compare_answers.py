@@ -15,7 +15,6 @@ import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
 
-PACKAGE = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 LEVELS = ("nodes", "refined", "certified", "complete")
 TIMES = {"time_us", "microseconds"}
 
@@ -28,8 +27,18 @@ def program(build, name):
     sys.exit("%s has no program %s: build it first" % (build, name))
 
 
+def package_of(build):
+    """The folder that a build was made from: keys of experiments and scenes may have other names there."""
+    with open(os.path.join(build, "CMakeCache.txt")) as cache:
+        for line in cache:
+            if line.startswith("CMAKE_HOME_DIRECTORY:INTERNAL="):
+                return line.split("=", 1)[1].strip()
+    sys.exit(build + " is no build folder")
+
+
 def run(command):
-    environment = dict(os.environ, ROS_PACKAGE_PATH=PACKAGE)
+    build = command[0].split(os.sep + "devel" + os.sep)[0]
+    environment = dict(os.environ, ROS_PACKAGE_PATH=package_of(build))
     done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=environment)
     return done.returncode, done.stdout
 
@@ -77,7 +86,7 @@ def queries(scenes, folder, build):
 
 
 def simulations(folder, build):
-    config = os.path.join(PACKAGE, "config")
+    config = os.path.join(package_of(build), "config")
     for name in sorted(os.listdir(config)):
         path = os.path.join(config, name)
         if not name.endswith(".yaml") or "\nsimulation:" not in "\n" + open(path).read():
@@ -88,7 +97,7 @@ def simulations(folder, build):
 
 
 def evaluations(folder, build):
-    experiments = os.path.join(PACKAGE, "experiments")
+    experiments = os.path.join(package_of(build), "experiments")
     yield [program(build, "evaluate")] + sorted(os.path.join(experiments, name) for name in os.listdir(experiments)) \
         + ["--size", "quick", "--output", os.path.join(folder, "evaluate")]
 

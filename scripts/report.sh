@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Runs the experiments (experiments/*.yaml) and writes doc/evaluation.md with its plots.
+# Runs the experiments (experiments/*.yaml) and writes doc/results/evaluation.md with its plots.
 #
 #   scripts/report.sh [quick|full] [folder of the results]    quick: one to two minutes (default); full: the counts of runs of
 #                                                             the thesis, some minutes on two cores

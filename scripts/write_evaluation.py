@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""Writes doc/evaluation.md and its plots from the results of `evaluate`.
+"""Writes doc/results/evaluation.md and its plots from the results of `evaluate`.
 
-    scripts/write_evaluation.py RESULTS [MORE_RESULTS ...] [--output doc/evaluation.md]
+    scripts/write_evaluation.py RESULTS [MORE_RESULTS ...] [--output doc/results/evaluation.md]
 
 RESULTS are folders that `evaluate --output` has filled; the files of several, one for each shard, are joined.
 Every experiment of experiments/*.yaml that has results is written, with the thesis's figures beside ours.
@@ -298,7 +298,7 @@ def manoeuvre_section(folders, images):
     return ["", "## Figures 6.6, 6.7: The manoeuvre into the fixture", "",
             f"{len(curves['nodes'])} steps at 10 Hz, the partition by hand (126 sub-pairs), grid 0.05 m; by "
             "`partition_benchmark --curves-output`. Metres, microseconds of processor time; flops by the thesis's rules "
-            "([partition](partition.md#along-the-manoeuvre)).", "",
+            "([partition](../partition.md#along-the-manoeuvre)).", "",
             *manoeuvre_table(curves), "", f"![distance, error and time of every step](images/{file_name})"]
 
 
@@ -311,7 +311,7 @@ def order_of(experiment):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("results", nargs="+")
-    parser.add_argument("--output", default=str(ROOT / "doc" / "evaluation.md"))
+    parser.add_argument("--output", default=str(ROOT / "doc" / "results" / "evaluation.md"))
     options = parser.parse_args()
     images = pathlib.Path(options.output).parent / "images"
     images.mkdir(exist_ok=True)

@@ -1,4 +1,4 @@
-#include "concave_distance/base/array_file.h"
+#include "array_file.h"
 
 #include <unistd.h>
 

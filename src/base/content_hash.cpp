@@ -1,4 +1,4 @@
-#include "concave_distance/base/content_hash.h"
+#include "content_hash.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>

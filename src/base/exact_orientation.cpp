@@ -1,6 +1,6 @@
-#include "concave_distance/base/exact_orientation.h"
+#include "exact_orientation.h"
 
-#include "concave_distance/base/expansion.h"
+#include "expansion.h"
 
 namespace concave_distance::detail {
 namespace {

@@ -1,4 +1,4 @@
-#include "concave_distance/base/output_file.h"
+#include "output_file.h"
 
 #include <unistd.h>
 

@@ -1,4 +1,4 @@
-#include "concave_distance/base/parameter.h"
+#include "parameter.h"
 
 #include <algorithm>
 #include <cctype>

@@ -1,4 +1,4 @@
-#include "concave_distance/base/parameter_checks.h"
+#include "parameter_checks.h"
 
 #include <cmath>
 #include <sstream>

@@ -1,4 +1,4 @@
-#include "concave_distance/base/random_engine.h"
+#include "random_engine.h"
 
 namespace concave_distance {
 namespace {

@@ -1,4 +1,4 @@
-#include "concave_distance/base/run_together.h"
+#include "run_together.h"
 
 #include <tbb/parallel_for.h>
 

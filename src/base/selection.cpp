@@ -1,4 +1,4 @@
-#include "concave_distance/base/selection.h"
+#include "selection.h"
 
 #include <algorithm>
 #include <numeric>

@@ -1,4 +1,4 @@
-#include "concave_distance/base/thread_cpu.h"
+#include "thread_cpu.h"
 
 #include <ctime>
 

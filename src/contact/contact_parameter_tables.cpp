@@ -1,4 +1,4 @@
-#include "concave_distance/contact/contact_parameter_tables.h"
+#include "contact_parameter_tables.h"
 
 namespace concave_distance {
 

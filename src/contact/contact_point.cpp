@@ -1,4 +1,4 @@
-#include "concave_distance/contact/contact_point.h"
+#include "contact_point.h"
 
 namespace concave_distance {
 

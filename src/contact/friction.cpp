@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "concave_distance/contact/contact_parameter_tables.h"
+#include "contact_parameter_tables.h"
 
 namespace concave_distance {
 

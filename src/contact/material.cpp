@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "concave_distance/base/parameter_checks.h"
-#include "concave_distance/contact/contact_parameter_tables.h"
+#include "base/parameter_checks.h"
+#include "contact_parameter_tables.h"
 
 namespace concave_distance {
 

@@ -1,4 +1,4 @@
-#include "concave_distance/contact/motion_between.h"
+#include "motion_between.h"
 
 namespace concave_distance {
 

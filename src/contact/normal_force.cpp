@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "concave_distance/contact/contact_parameter_tables.h"
+#include "contact_parameter_tables.h"
 
 namespace concave_distance {
 namespace {

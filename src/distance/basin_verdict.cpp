@@ -1,4 +1,4 @@
-#include "concave_distance/distance/basin_verdict.h"
+#include "basin_verdict.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,6 +7,7 @@
 #include "cell_neighbours.h"
 #include "far_pieces.h"
 #include "level_path.h"
+#include "mesh/surface/connected_pieces.h"
 #include "pair_table.h"
 
 namespace concave_distance {

@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "concave_distance/mesh/bounding_volume_hierarchy.h"
+#include "mesh/trees/bounding_volume_hierarchy.h"
 
 namespace concave_distance::detail {
 
@@ -61,7 +61,7 @@ struct BoundScale {
 
 /// Squared lower bounds of the distances between `box` and each of the node's boxes; square metres.
 /// Separating axes: `direction` (unit, node's frame, from `box` towards the node) in double precision, which
-/// tells even ties between parallel walls; and in single precision the line of the centres and the axes of
+/// decides even ties between parallel walls; and in single precision the line of the centres and the axes of
 /// both boxes, where what separates along the three axes of one box adds up as in a vector. When `direction`
 /// alone separates all by `enough` (metres) the others are not looked at.
 inline Lanes squaredBounds(const BoundingVolumeHierarchy::Node& node, const ComparedBox& compared,

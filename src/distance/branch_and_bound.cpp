@@ -107,7 +107,8 @@ TrianglePairDistance BranchAndBound::measure(const TrianglePoints& a, const Tria
   triangle_a_ = triangle_a;
   triangle_b_ = triangle_b;
   distance_ = std::sqrt(found.squared_distance);
-  if (distance_ <= kTriangleDistanceError * scale_.scale) {  // nearer than the kernel tells from touching
+  if (distance_ <=
+      kTriangleDistanceError * scale_.scale) {  // nearer than the kernel can separate from touching
     closest_.point_b = closest_.point_a;
     closest_.squared_distance = distance_ = 0.0;
   }

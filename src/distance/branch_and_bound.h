@@ -1,11 +1,11 @@
 #pragma once
 
 #include "box_pair_bounds.h"
-#include "concave_distance/distance/certificate.h"
-#include "concave_distance/distance/proof_front.h"
+#include "certificate.h"
 #include "directional_support.h"
 #include "leaf_pair.h"
 #include "local_frames.h"
+#include "proof_front.h"
 
 namespace concave_distance::detail {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "concave_distance/distance/triangle_distance.h"
+#include "triangle_distance.h"
 
 namespace concave_distance::detail {
 

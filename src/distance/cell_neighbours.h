@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "cell_levels.h"
+#include "mesh/surface/triangle_adjacency.h"
 #include "minima_scene.h"
 
 namespace concave_distance::detail {

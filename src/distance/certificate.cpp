@@ -1,7 +1,7 @@
-#include "concave_distance/distance/certificate.h"
+#include "certificate.h"
 
+#include "base/coordinate_limit.h"
 #include "branch_and_bound.h"
-#include "concave_distance/base/coordinate_limit.h"
 
 namespace concave_distance {
 

@@ -1,6 +1,8 @@
-#include "concave_distance/distance/closest_point.h"
+#include "closest_point.h"
 
 #include <array>
+
+#include "mesh/trees/triangle_tree.h"
 
 namespace concave_distance {
 namespace {

@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <limits>
 
-#include "concave_distance/mesh/normal_cone_tree.h"
 #include "local_frames.h"
+#include "mesh/trees/normal_cone_tree.h"
 
 namespace concave_distance::detail {
 

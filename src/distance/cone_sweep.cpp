@@ -1,4 +1,4 @@
-#include "concave_distance/distance/cone_sweep.h"
+#include "cone_sweep.h"
 
 #include "far_pieces.h"
 #include "minima_candidates.h"

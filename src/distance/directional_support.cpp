@@ -46,7 +46,7 @@ double DirectionalSupport::refine(Hierarchy::Slot slot, double box_support) {
   return support;
 }
 
-// Infinite where it lies beyond the limit: then the box itself tells as much.
+// Infinite where it lies beyond the limit: then the box itself says as much.
 double DirectionalSupport::mostOfChildren(std::uint32_t child) {
   constexpr double kBeyond = std::numeric_limits<double>::infinity();
   const Hierarchy::Node& node = hierarchy_.nodes()[child];

@@ -1,14 +1,14 @@
 #pragma once
 
-#include "concave_distance/distance/certificate.h"
-#include "concave_distance/mesh/bounding_volume_hierarchy.h"
+#include "certificate.h"
+#include "mesh/trees/bounding_volume_hierarchy.h"
 
 namespace concave_distance::detail {
 
 /// How far the triangles below each box reach along one direction, by descending one tree alone. A box
 /// reaches beyond the surface it holds; near a witness point, where all of a convex neighbourhood lies behind
 /// the witness's plane, that little is what keeps boxes of both bodies from being parted along the witness
-/// direction. A few boxes of one tree tell for all pairs they are in.
+/// direction. A few boxes of one tree do for all pairs they are in.
 class DirectionalSupport {
  public:
   DirectionalSupport(const BoundingVolumeHierarchy& hierarchy, SupportCache& cache);

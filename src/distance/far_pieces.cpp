@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "mesh/surface/connected_pieces.h"
+
 namespace concave_distance::detail {
 namespace {
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "concave_distance/distance/cone_sweep.h"
+#include "cone_sweep.h"
 #include "minima_scene.h"
 
 namespace concave_distance::detail {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "concave_distance/mesh/bounding_volume_hierarchy.h"
+#include "mesh/trees/bounding_volume_hierarchy.h"
 
 namespace concave_distance::detail {
 

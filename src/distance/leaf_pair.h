@@ -1,7 +1,7 @@
 #pragma once
 
 #include "box_pair_bounds.h"
-#include "concave_distance/distance/triangle_distance.h"
+#include "triangle_distance.h"
 
 namespace concave_distance::detail {
 

@@ -7,8 +7,9 @@
 #include <vector>
 
 #include "cell_levels.h"
+#include "certificate.h"
 #include "concave_distance/base/work_limit.h"
-#include "concave_distance/distance/certificate.h"
+#include "mesh/surface/triangle_adjacency.h"
 #include "minima_scene.h"
 #include "pair_table.h"
 

@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
-#include "concave_distance/distance/witness_refinement.h"
+#include "witness_refinement.h"
 
 namespace concave_distance::detail {
 

@@ -1,10 +1,11 @@
-#include "concave_distance/distance/local_minima.h"
+#include "local_minima.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "concave_distance/distance/basin_verdict.h"
+#include "basin_verdict.h"
 #include "far_pieces.h"
+#include "mesh/trees/normal_cone_tree.h"
 #include "minima_candidates.h"
 #include "minima_flood.h"
 #include "minima_scene.h"

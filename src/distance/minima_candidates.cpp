@@ -5,6 +5,8 @@
 #include <limits>
 
 #include "cone_pair_bounds.h"
+#include "mesh/surface/triangle_adjacency.h"
+#include "mesh/trees/triangle_tree.h"
 
 namespace concave_distance::detail {
 namespace {

@@ -3,8 +3,8 @@
 #include <limits>
 #include <tuple>
 
-#include "concave_distance/distance/niche_properties.h"
 #include "local_frames.h"
+#include "niche_properties.h"
 #include "planar_set.h"
 #include "surface_ring.h"
 

@@ -1,9 +1,10 @@
-#include "concave_distance/distance/niche_properties.h"
+#include "niche_properties.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "concave_distance/mesh/triangle_tree.h"
+#include "mesh/surface/mesh_topology.h"
+#include "mesh/trees/triangle_tree.h"
 
 namespace concave_distance {
 namespace {

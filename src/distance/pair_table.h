@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/pair_key.h"
 #include "concave_distance/base/indices.h"
-#include "concave_distance/base/pair_key.h"
 #include "concave_distance/base/work_limit.h"
 
 namespace concave_distance::detail {

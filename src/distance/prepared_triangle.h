@@ -4,7 +4,7 @@
 #include <array>
 #include <cstddef>
 
-#include "concave_distance/distance/triangle_distance.h"
+#include "triangle_distance.h"
 
 namespace concave_distance::detail {
 

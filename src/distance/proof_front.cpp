@@ -1,4 +1,4 @@
-#include "concave_distance/distance/proof_front.h"
+#include "proof_front.h"
 
 #include <algorithm>
 #include <cmath>

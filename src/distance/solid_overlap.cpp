@@ -1,6 +1,9 @@
-#include "concave_distance/distance/solid_overlap.h"
+#include "solid_overlap.h"
 
 #include <algorithm>
+
+#include "mesh/surface/mesh_topology.h"
+#include "mesh/trees/triangle_tree.h"
 
 namespace concave_distance {
 namespace {

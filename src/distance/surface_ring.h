@@ -3,10 +3,10 @@
 #include <cstddef>
 #include <limits>
 
-#include "concave_distance/distance/triangle_distance.h"
-#include "concave_distance/distance/witness_refinement.h"
-#include "concave_distance/mesh/mesh_topology.h"
-#include "concave_distance/mesh/surface_mesh.h"
+#include "concave_distance/mesh/surface/surface_mesh.h"
+#include "mesh/surface/mesh_topology.h"
+#include "triangle_distance.h"
+#include "witness_refinement.h"
 
 namespace concave_distance::detail {
 

@@ -1,11 +1,13 @@
-#include "concave_distance/distance/surface_walk.h"
+#include "surface_walk.h"
 
 #include <algorithm>
+
+#include "mesh/surface/mesh_topology.h"
 
 namespace concave_distance {
 namespace {
 
-// Twice the area over the product of two edges, squared: below, the corners' regions are told apart by
+// Twice the area over the product of two edges, squared: below, the corners' regions are separated by
 // differences that cancel, and the kernel that measures every edge takes over.
 constexpr double kThinnestSquared = 1e-12;
 

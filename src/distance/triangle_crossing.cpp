@@ -1,6 +1,6 @@
 #include "triangle_crossing.h"
 
-#include "concave_distance/base/double_double.h"
+#include "base/double_double.h"
 
 namespace concave_distance::detail {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "concave_distance/distance/triangle_distance.h"
+#include "triangle_distance.h"
 
 namespace concave_distance::detail {
 

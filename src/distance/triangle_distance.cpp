@@ -1,4 +1,4 @@
-#include "concave_distance/distance/triangle_distance.h"
+#include "triangle_distance.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "concave_distance/distance/witness_refinement.h"
+#include "witness_refinement.h"
 
 #include <cmath>
 
@@ -13,7 +13,7 @@ using Eigen::Vector3d;
 /// Far above any descent seen; only a broken surface could ask for more.
 constexpr std::uint32_t kIterationLimit = 10000;
 
-/// A triangle this many times thinner than what the proof tells apart cannot show which way leads down across
+/// A triangle this many times thinner than what the proof resolves cannot show which way leads down across
 /// it; what lies beyond it is looked at as if it touched the witness.
 constexpr double kThinnest = 16.0;
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesh/surface/mesh_topology.h"
+
 namespace concave_distance::detail {
 namespace {
 

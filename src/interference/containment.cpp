@@ -2,6 +2,9 @@
 
 #include <cmath>
 
+#include "mesh/surface/mesh_topology.h"
+#include "mesh/trees/triangle_tree.h"
+
 namespace concave_distance::detail {
 namespace {
 

@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <array>
 
-#include "concave_distance/base/pair_key.h"
+#include "base/pair_key.h"
+#include "mesh/surface/mesh_topology.h"
 
 namespace concave_distance::detail {
 namespace {

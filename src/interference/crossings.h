@@ -60,7 +60,7 @@ class CrossingCurves {
   bool broken() const { return broken_; }
 
  private:
-  /// One end of a segment before ends at the same crossing are told to be one node.
+  /// One end of a segment before ends at the same crossing become one node.
   struct End {
     std::uint64_t edge;      ///< low and high
     std::uint64_t triangle;  ///< whose edge, and on which kind of curve

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "concave_distance/base/coordinate_limit.h"
+#include "base/coordinate_limit.h"
 #include "region_builder.h"
 
 namespace concave_distance {

@@ -7,7 +7,7 @@
 namespace concave_distance::detail {
 namespace {
 
-/// Below this a face is seen edge-on: its edges tell all.
+/// Below this a face is seen edge-on: its edges say all.
 constexpr double kEdgeOn = 1e-12;
 
 Eigen::Vector3d along(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double share) {

@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdint>
 
-#include "concave_distance/base/exact_orientation.h"
+#include "base/exact_orientation.h"
 
 namespace concave_distance::detail {
 
@@ -29,7 +29,7 @@ class PerturbedPredicates {
   bool tied() const { return tied_; }
 
   /// 1 where `point`, of the body `body`, lies above the other body's triangle, else -1; 0 for a triangle
-  /// without area. `on_plane` tells whether it lies on the plane but for the motion.
+  /// without area. `on_plane` says whether it lies on the plane but for the motion.
   int side(const Corners& triangle, Side body, const Eigen::Vector3d& point, bool& on_plane) {
     const int sign = orientationSign(*triangle[0], *triangle[1], *triangle[2], point);
     on_plane = sign == 0;

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "mesh/trees/bounding_volume_hierarchy.h"
+
 namespace concave_distance::detail {
 namespace {
 

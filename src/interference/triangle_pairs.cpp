@@ -1,5 +1,7 @@
 #include "triangle_pairs.h"
 
+#include "mesh/trees/triangle_tree.h"
+
 namespace concave_distance::detail {
 namespace {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "concave_distance/distance/certificate.h"
+#include "distance/certificate.h"
 
 namespace concave_distance::detail {
 namespace {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "concave_distance/mesh/body_mesh.h"
+#include "mesh/surface/mesh_topology.h"
 #include "perturbed_predicates.h"
 
 namespace concave_distance::detail {

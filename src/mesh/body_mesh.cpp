@@ -1,5 +1,7 @@
 #include "concave_distance/mesh/body_mesh.h"
 
+#include "body_mesh_parts.h"
+
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -10,9 +12,9 @@
 #include <sstream>
 #include <utility>
 
+#include "base/run_together.h"
 #include "cached_parts.h"
 #include "concave_distance/base/error.h"
-#include "concave_distance/base/run_together.h"
 
 namespace concave_distance {
 
@@ -27,13 +29,18 @@ struct BodyMesh::Measured {
   }
 };
 
-struct BodyMesh::OnDemand {
+struct BodyMesh::State {
   template <typename T>
   struct Part {
     std::once_flag once;
     T value;
     std::atomic<std::size_t> bytes{0};
   };
+  State(BodyMeshParts made, const BodyMeshOptions& given) : parts(std::move(made)), options(given) {}
+
+  BodyMeshParts parts;  ///< without the nodes
+  BodyMeshOptions options;
+  // Made on demand:
   Part<CompressedRows<AdjacentTriangle>> adjacency;
   Part<ConnectedPieces> pieces;
   std::array<Part<NormalConeTree>, 2> cones;  ///< by NormalSides
@@ -48,7 +55,7 @@ struct BodyMesh::OnDemand {
 namespace {
 
 SearchNodesOptions nodesOptions(const BodyMeshOptions& options) {
-  return {options.max_edge_length, options.search_node_limit, options.levels};
+  return {options.max_edge_length, options.search_node_limit};
 }
 
 void checkNodeCount(const std::string& name, const SurfaceMesh& surface, const BodyMeshOptions& options) {
@@ -64,6 +71,8 @@ void checkNodeCount(const std::string& name, const SurfaceMesh& surface, const B
 }
 
 BodyMeshParts makeExactParts(std::string name, SurfaceMesh surface, const BodyMeshOptions& options) {
+  if (surface.triangleCount() == 0)
+    throw Error(name, "the surface has no triangles", "load or make one first");
   checkEdgeLength(surface, options.max_edge_length, name);
   checkNodeCount(name, surface, options);
   BodyMeshParts parts;
@@ -107,15 +116,52 @@ BodyMeshParts makeBodyMeshParts(std::string name, SurfaceMesh surface, const Bod
 }
 
 BodyMesh::BodyMesh(std::string name, SurfaceMesh surface, const BodyMeshOptions& options)
-    : parts_(makeExactParts(std::move(name), std::move(surface), options)),
-      options_(options),
-      on_demand_(std::make_unique<OnDemand>()) {}
+    : state_(std::make_unique<State>(makeExactParts(std::move(name), std::move(surface), options), options)),
+      surface_(&state_->parts.surface),
+      topology_(&state_->parts.topology),
+      tree_(&state_->parts.tree),
+      hierarchy_(&state_->parts.hierarchy) {}
 
-BodyMesh::BodyMesh(BodyMeshParts parts, const MeshMetricOptions& metric)
-    : parts_(std::move(parts)), on_demand_(std::make_unique<OnDemand>()) {
-  options_.metric = metric;
-  std::call_once(on_demand_->nodes_once, [&] { on_demand_->nodes = std::exchange(parts_.nodes, {}); });
-  nodes_.store(&on_demand_->nodes, std::memory_order_release);
+BodyMesh::BodyMesh(BodyMeshParts parts, const BodyMeshOptions& options)
+    : state_(std::make_unique<State>(std::move(parts), options)),
+      surface_(&state_->parts.surface),
+      topology_(&state_->parts.topology),
+      tree_(&state_->parts.tree),
+      hierarchy_(&state_->parts.hierarchy) {
+  std::call_once(state_->nodes_once, [&] { state_->nodes = std::exchange(state_->parts.nodes, {}); });
+  nodes_.store(&state_->nodes, std::memory_order_release);
+}
+
+const std::string& BodyMesh::name() const {
+  return state_->parts.name;
+}
+
+const SurfaceMesh& BodyMesh::grid() const {
+  return searchNodes().grid;
+}
+
+const NodeGraph& BodyMesh::graph() const {
+  return searchNodes().graph;
+}
+
+const NodeLevels& BodyMesh::levels() const {
+  return searchNodes().levels;
+}
+
+bool BodyMesh::thinned() const {
+  return searchNodes().thinned();
+}
+
+double BodyMesh::maxEdgeLength() const {
+  return searchNodes().max_edge_length;
+}
+
+TriangleIndex BodyMesh::originalTriangle(NodeIndex graph_node) const {
+  return searchNodes().original_triangle_of_node[graph_node.value];
+}
+
+NodeIndex BodyMesh::graphNode(NodeIndex surface_vertex) const {
+  return thinned() ? searchNodes().graph_node_of_vertex[surface_vertex.value] : surface_vertex;
 }
 
 BodyMesh::~BodyMesh() = default;
@@ -123,36 +169,39 @@ BodyMesh::~BodyMesh() = default;
 // While a thread waits for its parallel parts it must not start another task, which might wait for the same
 // body.
 const SearchNodes& BodyMesh::makeNodes() const {
-  std::call_once(on_demand_->nodes_once, [&] {
-    tbb::this_task_arena::isolate([&] { on_demand_->nodes = makeCheckedNodes(parts_, options_); });
-    nodes_.store(&on_demand_->nodes, std::memory_order_release);
+  std::call_once(state_->nodes_once, [&] {
+    tbb::this_task_arena::isolate([&] { state_->nodes = makeCheckedNodes(state_->parts, state_->options); });
+    nodes_.store(&state_->nodes, std::memory_order_release);
   });
-  return on_demand_->nodes;
+  return state_->nodes;
 }
 
 void BodyMesh::reserveMetric() const {
-  std::call_once(on_demand_->reserved_once, [&] {
-    Measured& part = on_demand_->measured;
-    if (!options_.metric_memory || !MeshMetric::wantsMatrices(graph().nodeCount(), options_.metric)) return;
+  std::call_once(state_->reserved_once, [&] {
+    Measured& part = state_->measured;
+    if (!state_->options.metric_memory ||
+        !MeshMetric::wantsMatrices(graph().nodeCount(), MeshMetricOptions{state_->options.matrix_node_limit}))
+      return;
     const std::size_t wanted = MeshMetric::matrixBytes(graph().nodeCount());
-    part.has_room = options_.metric_memory->take(wanted);
+    part.has_room = state_->options.metric_memory->take(wanted);
     if (!part.has_room) return;
-    part.memory = options_.metric_memory;
+    part.memory = state_->options.metric_memory;
     part.taken = wanted;
   });
 }
 
 const BodyMesh::Measured& BodyMesh::measured() const {
-  Measured& part = on_demand_->measured;
-  if (on_demand_->is_measured.load(std::memory_order_acquire)) return part;
+  Measured& part = state_->measured;
+  if (state_->is_measured.load(std::memory_order_acquire)) return part;
   reserveMetric();
-  std::call_once(on_demand_->measured_once, [&] {
+  std::call_once(state_->measured_once, [&] {
     const NodeGraph& made = graph();
-    MeshMetricOptions options = options_.metric;
+    MeshMetricOptions options{state_->options.matrix_node_limit};
     if (!part.has_room) options.matrix_node_limit = 0;
-    tbb::this_task_arena::isolate(
-        [&] { part.metric = detail::metricOf(made, options, parts_.cache.get(), parts_.nodes_key); });
-    on_demand_->is_measured.store(true, std::memory_order_release);
+    tbb::this_task_arena::isolate([&] {
+      part.metric = detail::metricOf(made, options, state_->parts.cache.get(), state_->parts.nodes_key);
+    });
+    state_->is_measured.store(true, std::memory_order_release);
   });
   return part;
 }
@@ -162,7 +211,7 @@ const MeshMetric& BodyMesh::metric() const {
 }
 
 const MeshMetric* BodyMesh::metricIfMade() const {
-  return on_demand_->is_measured.load(std::memory_order_acquire) ? &metric() : nullptr;
+  return state_->is_measured.load(std::memory_order_acquire) ? &metric() : nullptr;
 }
 
 double BodyMesh::geodesicExtent() const {
@@ -188,7 +237,7 @@ void prepareSearch(const std::vector<const BodyMesh*>& bodies) {
 }
 
 const CompressedRows<AdjacentTriangle>& BodyMesh::adjacency() const {
-  auto& part = on_demand_->adjacency;
+  auto& part = state_->adjacency;
   std::call_once(part.once, [&] {
     part.value = triangleAdjacency(surface(), topology());
     part.bytes = part.value.offsets.capacity() * sizeof(std::uint32_t) +
@@ -198,7 +247,7 @@ const CompressedRows<AdjacentTriangle>& BodyMesh::adjacency() const {
 }
 
 const ConnectedPieces& BodyMesh::pieces() const {
-  auto& part = on_demand_->pieces;
+  auto& part = state_->pieces;
   std::call_once(part.once, [&] {
     part.value = connectedPieces(surface());
     part.bytes = part.value.memoryBytes();
@@ -207,7 +256,7 @@ const ConnectedPieces& BodyMesh::pieces() const {
 }
 
 const NormalConeTree& BodyMesh::normalCones(NormalSides sides) const {
-  auto& part = on_demand_->cones.at(static_cast<std::size_t>(sides));
+  auto& part = state_->cones.at(static_cast<std::size_t>(sides));
   std::call_once(part.once, [&] {
     part.value = NormalConeTree(surface(), topology(), sides);
     part.bytes = part.value.memoryBytes();
@@ -219,7 +268,7 @@ std::size_t BodyMesh::memoryBytes() const {
   const auto mesh_bytes = [](const SurfaceMesh& mesh) {
     return mesh.vertexCount() * sizeof(Eigen::Vector3d) + mesh.triangleCount() * sizeof(TriangleNodes);
   };
-  const MeshTopology& topology = parts_.topology;
+  const MeshTopology& topology = state_->parts.topology;
   const std::size_t topology_bytes =
       topology.triangles_of_vertex.values.size() * sizeof(TriangleIndex) +
       topology.neighbours_of_vertex.values.size() * sizeof(NodeIndex) +
@@ -234,9 +283,9 @@ std::size_t BodyMesh::memoryBytes() const {
                     nodes->levels.memoryBytes();
   }
   if (const MeshMetric* metric = metricIfMade()) search_bytes += metric->memoryBytes();
-  return sizeof(BodyMesh) + sizeof(OnDemand) + mesh_bytes(surface()) + topology_bytes + search_bytes +
-         parts_.tree.memoryBytes() + parts_.hierarchy.memoryBytes() + on_demand_->adjacency.bytes +
-         on_demand_->pieces.bytes + on_demand_->cones[0].bytes + on_demand_->cones[1].bytes;
+  return sizeof(BodyMesh) + sizeof(State) + mesh_bytes(surface()) + topology_bytes + search_bytes +
+         state_->parts.tree.memoryBytes() + state_->parts.hierarchy.memoryBytes() + state_->adjacency.bytes +
+         state_->pieces.bytes + state_->cones[0].bytes + state_->cones[1].bytes;
 }
 
 }  // namespace concave_distance

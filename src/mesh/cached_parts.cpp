@@ -4,8 +4,11 @@
 #include <optional>
 #include <utility>
 
-#include "concave_distance/base/array_file.h"
-#include "concave_distance/mesh/geodesic_extent.h"
+#include "base/array_file.h"
+#include "base/content_hash.h"
+#include "mesh/grid/geodesic_extent.h"
+#include "mesh/surface/mesh_topology.h"
+#include "repaired_mesh_cache.h"
 
 namespace concave_distance {
 
@@ -152,7 +155,6 @@ ContentKey keyOfNodes(const ContentKey& surface_key, const SearchNodesOptions& o
       .add(options.max_edge_length.has_value())
       .add(options.max_edge_length.value_or(0.0))
       .add(options.node_limit)
-      .add(options.levels)
       .key();
 }
 

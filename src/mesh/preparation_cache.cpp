@@ -5,7 +5,9 @@
 #include <system_error>
 #include <utility>
 
+#include "base/content_hash.h"
 #include "preparation_fingerprint.h"
+#include "repaired_mesh_cache.h"
 
 namespace concave_distance {
 namespace {

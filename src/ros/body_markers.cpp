@@ -1,8 +1,8 @@
-#include "concave_distance/ros/body_markers.h"
+#include "body_markers.h"
 
 #include <vector>
 
-#include "concave_distance/ros/conversions.h"
+#include "conversions.h"
 
 namespace concave_distance {
 namespace {

@@ -1,10 +1,10 @@
-#include "concave_distance/ros/callback_guard.h"
+#include "callback_guard.h"
 
 #include <ros/console.h>
 
 #include <mutex>
 
-#include "concave_distance/ros/log_throttle.h"
+#include "log_throttle.h"
 
 namespace concave_distance {
 

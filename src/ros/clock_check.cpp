@@ -1,4 +1,4 @@
-#include "concave_distance/ros/clock_check.h"
+#include "clock_check.h"
 
 #include <ros/time.h>
 

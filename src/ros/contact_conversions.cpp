@@ -1,4 +1,4 @@
-#include "concave_distance/ros/contact_conversions.h"
+#include "contact_conversions.h"
 
 #include <cmath>
 

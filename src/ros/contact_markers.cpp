@@ -1,4 +1,4 @@
-#include "concave_distance/ros/contact_markers.h"
+#include "contact_markers.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "concave_distance/ros/conversions.h"
+#include "conversions.h"
 
 namespace concave_distance {
 namespace {

@@ -1,13 +1,15 @@
-#include "concave_distance/ros/conversions.h"
+#include "conversions.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <sstream>
 
-#include "concave_distance/base/coordinate_limit.h"
+#include "base/coordinate_limit.h"
 #include "concave_distance/base/error.h"
-#include "concave_distance/scene/frame_name.h"
+#include "loading/frame_name.h"
+#include "mesh/grid/search_nodes.h"
+#include "mesh/surface/mesh_topology.h"
 
 namespace concave_distance {
 namespace {
@@ -240,12 +242,14 @@ PairDistance toDistance(const PairHeading& heading, const PairSolution& solution
   if (between.squaredNorm() > 0.0) {
     message.normal = toVector(heading.reference_from_a.linear() * between.normalized());
   }
-  if (!solution.niches.empty() && solution.niches.front().distance == solution.distance) {
-    const TrackedNiche& nearest = solution.niches.front();
-    message.normal = toVector(heading.reference_from_a.linear() * nearest.normal_in_a);
-    message.has_closing_speed = !std::isnan(nearest.closing_speed);
-    message.closing_speed = nearest.closing_speed;
-    message.nearest_niche_id = heading.with_niches ? nearest.id : 0;
+  if (solution.normal_in_a.allFinite()) {
+    message.normal = toVector(heading.reference_from_a.linear() * solution.normal_in_a);
+  }
+  message.has_closing_speed = !std::isnan(solution.closing_speed);
+  message.closing_speed = solution.closing_speed;
+  if (heading.with_niches && !solution.niches.empty() &&
+      solution.niches.front().distance == solution.distance) {
+    message.nearest_niche_id = solution.niches.front().id;
   }
   return message;
 }

@@ -1,4 +1,4 @@
-#include "concave_distance/ros/cycle_runner.h"
+#include "cycle_runner.h"
 
 #include <ros/console.h>
 
@@ -7,9 +7,9 @@
 #include <string>
 #include <utility>
 
-#include "concave_distance/base/thread_cpu.h"
-#include "concave_distance/ros/callback_guard.h"
-#include "concave_distance/ros/time_difference.h"
+#include "base/thread_cpu.h"
+#include "callback_guard.h"
+#include "time_difference.h"
 
 namespace concave_distance {
 namespace {

@@ -1,4 +1,4 @@
-#include "concave_distance/ros/cycle_statistics.h"
+#include "cycle_statistics.h"
 
 #include <algorithm>
 #include <utility>

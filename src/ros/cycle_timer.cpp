@@ -1,4 +1,4 @@
-#include "concave_distance/ros/cycle_timer.h"
+#include "cycle_timer.h"
 
 #include <ros/time.h>
 

@@ -1,4 +1,4 @@
-#include "concave_distance/ros/description_search.h"
+#include "description_search.h"
 
 namespace concave_distance {
 namespace {

@@ -1,4 +1,4 @@
-#include "concave_distance/ros/diagnostics.h"
+#include "diagnostics.h"
 
 #include <diagnostic_msgs/DiagnosticStatus.h>
 
@@ -12,7 +12,7 @@ using diagnostic_msgs::DiagnosticStatus;
 
 constexpr double kLateShare = 0.01;
 constexpr double kRateShare = 0.9;
-// Pairs and problems that are told one by one.
+// Pairs and problems that are listed one by one.
 constexpr std::size_t kListed = 20;
 
 void addSeries(const std::string& name, const Series& series,

@@ -1,11 +1,11 @@
-#include "concave_distance/ros/distance_cycle.h"
+#include "distance_cycle.h"
 
 #include <algorithm>
 #include <functional>
 #include <optional>
 #include <utility>
 
-#include "concave_distance/ros/time_difference.h"
+#include "time_difference.h"
 
 namespace concave_distance {
 

@@ -6,8 +6,8 @@
 #include <exception>
 
 #include "concave_distance/base/error.h"
-#include "concave_distance/ros/distance_server.h"
-#include "concave_distance/ros/memory_arenas.h"
+#include "distance_server.h"
+#include "memory_arenas.h"
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "concave_distance/base/error.h"
-#include "concave_distance/ros/distance_server.h"
+#include "distance_server.h"
 
 namespace concave_distance {
 

@@ -1,4 +1,4 @@
-#include "concave_distance/ros/distance_queries.h"
+#include "distance_queries.h"
 
 #include <algorithm>
 #include <exception>
@@ -7,16 +7,16 @@
 #include <utility>
 
 #include "concave_distance/base/error.h"
-#include "concave_distance/ros/contact_conversions.h"
-#include "concave_distance/ros/conversions.h"
-#include "concave_distance/ros/helper_threads.h"
-#include "concave_distance/ros/scene_edits.h"
-#include "concave_distance/ros/short_text.h"
-#include "concave_distance/ros/tf_poses.h"
-#include "concave_distance/scene/frame_name.h"
-#include "concave_distance/scene/solver_threads.h"
 #include "concave_distance/tracking/pair_effects.h"
 #include "concave_distance/tracking/pair_tracker.h"
+#include "contact_conversions.h"
+#include "conversions.h"
+#include "helper_threads.h"
+#include "loading/frame_name.h"
+#include "scene/solver_threads.h"
+#include "scene_edits.h"
+#include "short_text.h"
+#include "tf_poses.h"
 
 namespace concave_distance {
 namespace {
@@ -111,20 +111,19 @@ PairContactState tooManyContacts(std::size_t count, const PairHeading& heading) 
 
 // The regions of overlap at one pose, from nothing; no forces. At most `bytes` of them.
 PairContactState findContacts(const SceneBody& body_a, const SceneBody& body_b, const PairSolution& solution,
-                              const Eigen::Isometry3d& a_from_b, const PairHeading& heading, WorkLimit limit,
-                              std::size_t bytes) {
+                              const PairHeading& heading, WorkLimit limit, std::size_t bytes) {
   EffectSettings regions;
   regions.interference = true;
   PairEffects effects(body_a.mesh, body_b.mesh, regions, inContact(body_a.material, body_b.material));
   PairContacts contacts;
-  effects.update(solution, a_from_b, RelativeTwist(), 0.0, contacts, &limit);
+  effects.update(solution, RelativeTwist(), 0.0, contacts, &limit);
   if (contacts.regions.size() > bytes / kContactBytes) {
     return tooManyContacts(contacts.regions.size(), heading);
   }
   for (ContactRegion& region : contacts.regions) {
     region.id = 0;
   }
-  return toContacts(heading, toDistance(heading, solution).status, contacts, a_from_b);
+  return toContacts(heading, toDistance(heading, solution).status, contacts, solution.a_from_b);
 }
 
 QueryAnswer answer(const DistanceQuery& query, const Scene& scene, const QueryContext& context, ros::Time now,
@@ -141,7 +140,7 @@ QueryAnswer answer(const DistanceQuery& query, const Scene& scene, const QueryCo
   if (query.with_contacts != 0 && !provesDistance(parameters.accuracy)) {
     throw Error("with_contacts",
                 "it is true, but the accuracy is " + std::string(toString(parameters.accuracy)),
-                "ask for ACCURACY_CERTIFIED or ACCURACY_COMPLETE: their proof tells whether bodies touch");
+                "ask for ACCURACY_CERTIFIED or ACCURACY_COMPLETE: their proof shows whether bodies touch");
   }
   heading.accuracy = parameters.accuracy;
   heading.with_niches = parameters.niches_wanted;
@@ -179,9 +178,9 @@ QueryAnswer answer(const DistanceQuery& query, const Scene& scene, const QueryCo
   answer.result = toNiches(heading, solution);
   if (query.with_contacts != 0) {
     const std::size_t taken = answer.result.niches.size() * kNicheBytes;
-    answer.contacts = findContacts(body_a, body_b, solution, transforms.a_from_b, heading,
-                                   remainingWork(parameters, solution.solve_seconds),
-                                   context.answer_limit - std::min(taken, context.answer_limit));
+    answer.contacts =
+        findContacts(body_a, body_b, solution, heading, remainingWork(parameters, solution.solve_seconds),
+                     context.answer_limit - std::min(taken, context.answer_limit));
   }
   return answer;
 }

@@ -1,4 +1,4 @@
-#include "concave_distance/ros/distance_server.h"
+#include "distance_server.h"
 
 #include <ros/console.h>
 
@@ -7,13 +7,13 @@
 #include <thread>
 #include <utility>
 
-#include "concave_distance/ros/body_markers.h"
-#include "concave_distance/ros/callback_guard.h"
-#include "concave_distance/ros/clock_check.h"
-#include "concave_distance/ros/diagnostics.h"
-#include "concave_distance/ros/frame_report.h"
-#include "concave_distance/ros/reconfiguration.h"
-#include "concave_distance/ros/scene_loading.h"
+#include "body_markers.h"
+#include "callback_guard.h"
+#include "clock_check.h"
+#include "diagnostics.h"
+#include "frame_report.h"
+#include "reconfiguration.h"
+#include "scene_loading.h"
 
 namespace concave_distance {
 namespace {

@@ -1,4 +1,4 @@
-#include "concave_distance/ros/frame_report.h"
+#include "frame_report.h"
 
 #include <ros/time.h>
 

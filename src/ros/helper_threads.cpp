@@ -1,4 +1,4 @@
-#include "concave_distance/ros/helper_threads.h"
+#include "helper_threads.h"
 
 #include <exception>
 #include <thread>

@@ -1,4 +1,4 @@
-#include "concave_distance/ros/label_placer.h"
+#include "label_placer.h"
 
 #include <algorithm>
 #include <array>
@@ -6,8 +6,8 @@
 #include <limits>
 #include <optional>
 
-#include "concave_distance/mesh/triangle_tree.h"
-#include "concave_distance/ros/conversions.h"
+#include "conversions.h"
+#include "mesh/trees/triangle_tree.h"
 
 namespace concave_distance {
 namespace {

@@ -1,4 +1,4 @@
-#include "concave_distance/ros/lateness_monitor.h"
+#include "lateness_monitor.h"
 
 #include <cstdio>
 

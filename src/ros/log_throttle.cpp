@@ -1,4 +1,4 @@
-#include "concave_distance/ros/log_throttle.h"
+#include "log_throttle.h"
 
 #include <cctype>
 #include <cstdio>

@@ -1,4 +1,4 @@
-#include "concave_distance/ros/marker_labels.h"
+#include "marker_labels.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "concave_distance/ros/marker_layout.h"
+#include "marker_layout.h"
 
 #include <algorithm>
 #include <cmath>

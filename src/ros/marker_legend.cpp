@@ -1,11 +1,11 @@
-#include "concave_distance/ros/marker_legend.h"
+#include "marker_legend.h"
 
 #include <algorithm>
 #include <string>
 
-#include "concave_distance/ros/contact_markers.h"
-#include "concave_distance/ros/conversions.h"
-#include "concave_distance/ros/niche_markers.h"
+#include "contact_markers.h"
+#include "conversions.h"
+#include "niche_markers.h"
 
 namespace concave_distance {
 namespace {

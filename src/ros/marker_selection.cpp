@@ -1,4 +1,4 @@
-#include "concave_distance/ros/marker_selection.h"
+#include "marker_selection.h"
 
 #include <algorithm>
 #include <utility>

@@ -1,4 +1,4 @@
-#include "concave_distance/ros/memory_arenas.h"
+#include "memory_arenas.h"
 
 #include <malloc.h>
 

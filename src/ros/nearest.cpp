@@ -1,4 +1,4 @@
-#include "concave_distance/ros/nearest.h"
+#include "nearest.h"
 
 #include <algorithm>
 #include <cmath>

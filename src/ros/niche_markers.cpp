@@ -1,10 +1,10 @@
-#include "concave_distance/ros/niche_markers.h"
+#include "niche_markers.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "concave_distance/ros/conversions.h"
+#include "conversions.h"
 
 namespace concave_distance {
 namespace {

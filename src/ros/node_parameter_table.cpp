@@ -1,4 +1,4 @@
-#include "concave_distance/ros/node_parameter_table.h"
+#include "node_parameter_table.h"
 
 namespace concave_distance {
 namespace {

@@ -1,15 +1,15 @@
-#include "concave_distance/ros/node_parameters.h"
+#include "node_parameters.h"
 
 #include <filesystem>
 #include <sstream>
 #include <utility>
 
 #include "concave_distance/base/error.h"
-#include "concave_distance/ros/node_parameter_table.h"
-#include "concave_distance/ros/parameter_reader.h"
-#include "concave_distance/scene/frame_name.h"
-#include "concave_distance/scene/pair_parameters.h"
-#include "concave_distance/search/genetic_parameter_table.h"
+#include "loading/frame_name.h"
+#include "node_parameter_table.h"
+#include "parameter_reader.h"
+#include "scene/pair_parameters.h"
+#include "search/genetic_parameter_table.h"
 
 namespace concave_distance {
 namespace {

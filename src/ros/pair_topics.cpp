@@ -1,4 +1,4 @@
-#include "concave_distance/ros/pair_topics.h"
+#include "pair_topics.h"
 
 #include <concave_distance/PairContactState.h>
 #include <concave_distance/PairDistance.h>

@@ -1,4 +1,4 @@
-#include "concave_distance/ros/parameter_reader.h"
+#include "parameter_reader.h"
 
 #include <cmath>
 #include <sstream>
@@ -31,8 +31,8 @@ std::optional<ParameterValue> valueOf(XmlRpc::XmlRpcValue& value, ParameterType 
   switch (value.getType()) {
     case XmlRpc::XmlRpcValue::TypeDouble: {
       const double number = static_cast<double>(value);
-      const bool is_count = type == ParameterType::Count && number >= 0.0 && number == std::floor(number) &&
-                            number < 1e15;
+      const bool is_count =
+          type == ParameterType::Count && number >= 0.0 && number == std::floor(number) && number < 1e15;
       return is_count ? ParameterValue(static_cast<std::uint64_t>(number)) : ParameterValue(number);
     }
     case XmlRpc::XmlRpcValue::TypeInt: {

@@ -1,4 +1,4 @@
-#include "concave_distance/ros/published_pair.h"
+#include "published_pair.h"
 
 namespace concave_distance {
 

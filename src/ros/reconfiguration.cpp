@@ -1,4 +1,4 @@
-#include "concave_distance/ros/reconfiguration.h"
+#include "reconfiguration.h"
 
 #include <dynamic_reconfigure/Config.h>
 
@@ -7,8 +7,8 @@
 #include <string>
 
 #include "concave_distance/base/error.h"
-#include "concave_distance/ros/node_parameter_table.h"
-#include "concave_distance/scene/pair_parameters.h"
+#include "node_parameter_table.h"
+#include "scene/pair_parameters.h"
 
 namespace concave_distance {
 namespace {

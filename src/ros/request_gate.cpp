@@ -1,4 +1,4 @@
-#include "concave_distance/ros/request_gate.h"
+#include "request_gate.h"
 
 #include <algorithm>
 #include <string>

@@ -1,4 +1,4 @@
-#include "concave_distance/ros/scene_edits.h"
+#include "scene_edits.h"
 
 #include <cctype>
 #include <unordered_map>

@@ -1,4 +1,4 @@
-#include "concave_distance/ros/scene_keeper.h"
+#include "scene_keeper.h"
 
 #include <utility>
 

@@ -1,4 +1,4 @@
-#include "concave_distance/ros/scene_loader.h"
+#include "scene_loader.h"
 
 #include <cstdio>
 #include <exception>

@@ -1,4 +1,4 @@
-#include "concave_distance/ros/scene_loading.h"
+#include "scene_loading.h"
 
 #include <ros/package.h>
 
@@ -6,8 +6,9 @@
 #include <vector>
 
 #include "concave_distance/base/error.h"
-#include "concave_distance/ros/description_search.h"
-#include "concave_distance/scene/load_scene.h"
+#include "concave_distance/loading/load_scene.h"
+#include "description_search.h"
+#include "scene/body_pool.h"
 
 namespace concave_distance {
 namespace {

@@ -1,4 +1,4 @@
-#include "concave_distance/ros/scene_markers.h"
+#include "scene_markers.h"
 
 #include <algorithm>
 #include <iterator>
@@ -6,9 +6,9 @@
 #include <string>
 #include <utility>
 
-#include "concave_distance/ros/contact_markers.h"
-#include "concave_distance/ros/marker_legend.h"
-#include "concave_distance/ros/marker_selection.h"
+#include "contact_markers.h"
+#include "marker_legend.h"
+#include "marker_selection.h"
 
 namespace concave_distance {
 namespace {

@@ -1,4 +1,4 @@
-#include "concave_distance/ros/scene_services.h"
+#include "scene_services.h"
 
 #include <ros/console.h>
 
@@ -7,15 +7,16 @@
 #include <optional>
 #include <utility>
 
+#include "clock_check.h"
 #include "concave_distance/base/error.h"
-#include "concave_distance/ros/clock_check.h"
-#include "concave_distance/ros/conversions.h"
-#include "concave_distance/ros/scene_edits.h"
-#include "concave_distance/ros/short_text.h"
-#include "concave_distance/ros/tf_poses.h"
-#include "concave_distance/scene/load_scene.h"
-#include "concave_distance/scene/set_effects.h"
-#include "concave_distance/scene/set_warning_distance.h"
+#include "concave_distance/loading/load_scene.h"
+#include "conversions.h"
+#include "loading/set_effects.h"
+#include "mesh/grid/mesh_metric.h"
+#include "scene/set_warning_distance.h"
+#include "scene_edits.h"
+#include "short_text.h"
+#include "tf_poses.h"
 
 namespace concave_distance {
 namespace {

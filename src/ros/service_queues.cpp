@@ -1,4 +1,4 @@
-#include "concave_distance/ros/service_queues.h"
+#include "service_queues.h"
 
 #include <malloc.h>
 #include <ros/init.h>

@@ -6,9 +6,9 @@
 #include <exception>
 
 #include "concave_distance/base/error.h"
-#include "concave_distance/ros/memory_arenas.h"
-#include "concave_distance/ros/scene_loading.h"
-#include "concave_distance/ros/simulation_runner.h"
+#include "memory_arenas.h"
+#include "scene_loading.h"
+#include "simulation_runner.h"
 
 namespace {
 

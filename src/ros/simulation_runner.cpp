@@ -1,4 +1,4 @@
-#include "concave_distance/ros/simulation_runner.h"
+#include "simulation_runner.h"
 
 #include <ros/console.h>
 #include <ros/init.h>
@@ -8,11 +8,11 @@
 #include <algorithm>
 #include <utility>
 
+#include "callback_guard.h"
 #include "concave_distance/base/error.h"
-#include "concave_distance/ros/callback_guard.h"
-#include "concave_distance/ros/conversions.h"
-#include "concave_distance/ros/parameter_reader.h"
-#include "concave_distance/scene/frame_name.h"
+#include "conversions.h"
+#include "loading/frame_name.h"
+#include "parameter_reader.h"
 
 namespace concave_distance {
 namespace {

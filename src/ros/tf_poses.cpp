@@ -1,4 +1,4 @@
-#include "concave_distance/ros/tf_poses.h"
+#include "tf_poses.h"
 
 #include <ros/duration.h>
 #include <tf2/exceptions.h>
@@ -11,7 +11,7 @@
 #include <unordered_set>
 #include <vector>
 
-#include "concave_distance/ros/time_difference.h"
+#include "time_difference.h"
 
 namespace concave_distance {
 namespace {

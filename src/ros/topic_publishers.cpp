@@ -1,4 +1,4 @@
-#include "concave_distance/ros/topic_publishers.h"
+#include "topic_publishers.h"
 
 #include <concave_distance/Alert.h>
 #include <concave_distance/Contacts.h>
@@ -12,10 +12,10 @@
 #include <boost/make_shared.hpp>
 #include <utility>
 
-#include "concave_distance/ros/contact_conversions.h"
-#include "concave_distance/ros/nearest.h"
-#include "concave_distance/ros/scene_markers.h"
-#include "concave_distance/ros/time_difference.h"
+#include "contact_conversions.h"
+#include "nearest.h"
+#include "scene_markers.h"
+#include "time_difference.h"
 
 namespace concave_distance {
 namespace {

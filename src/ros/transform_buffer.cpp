@@ -1,11 +1,11 @@
-#include "concave_distance/ros/transform_buffer.h"
+#include "transform_buffer.h"
 
 #include <cmath>
 #include <limits>
 #include <utility>
 
-#include "concave_distance/ros/time_difference.h"
-#include "concave_distance/scene/frame_name.h"
+#include "loading/frame_name.h"
+#include "time_difference.h"
 
 namespace concave_distance {
 namespace {

@@ -1,12 +1,12 @@
-#include "concave_distance/ros/transform_checks.h"
+#include "transform_checks.h"
 
 #include <cmath>
 #include <limits>
 #include <sstream>
 
-#include "concave_distance/base/coordinate_limit.h"
-#include "concave_distance/ros/time_difference.h"
-#include "concave_distance/scene/frame_name.h"
+#include "base/coordinate_limit.h"
+#include "loading/frame_name.h"
+#include "time_difference.h"
 
 namespace concave_distance {
 namespace {

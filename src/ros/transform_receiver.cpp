@@ -1,10 +1,10 @@
-#include "concave_distance/ros/transform_receiver.h"
+#include "transform_receiver.h"
 
 #include <ros/console.h>
 
 #include <utility>
 
-#include "concave_distance/ros/callback_guard.h"
+#include "callback_guard.h"
 
 namespace concave_distance {
 namespace {

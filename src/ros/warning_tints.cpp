@@ -1,9 +1,9 @@
-#include "concave_distance/ros/warning_tints.h"
+#include "warning_tints.h"
 
 #include <iterator>
 
-#include "concave_distance/ros/body_markers.h"
-#include "concave_distance/ros/niche_markers.h"
+#include "body_markers.h"
+#include "niche_markers.h"
 
 namespace concave_distance {
 namespace {

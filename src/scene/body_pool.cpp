@@ -1,4 +1,4 @@
-#include "concave_distance/scene/body_pool.h"
+#include "body_pool.h"
 
 namespace concave_distance {
 

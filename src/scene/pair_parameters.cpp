@@ -1,6 +1,6 @@
-#include "concave_distance/scene/pair_parameters.h"
+#include "pair_parameters.h"
 
-#include "concave_distance/tracking/tracker_parameter_table.h"
+#include "tracking/tracker_parameter_table.h"
 
 namespace concave_distance {
 

@@ -8,8 +8,8 @@
 #include <unordered_map>
 #include <utility>
 
-#include "concave_distance/base/thread_cpu.h"
-#include "concave_distance/scene/solver_threads.h"
+#include "base/thread_cpu.h"
+#include "solver_threads.h"
 
 namespace concave_distance {
 namespace {
@@ -22,8 +22,14 @@ bool isOfTheSameBodies(const TrackedPair& tracked, const Scene& scene, const Sce
 
 }  // namespace
 
+struct SceneTracker::Arena {
+  tbb::task_arena threads;
+};
+
 SceneTracker::SceneTracker(SceneTrackerOptions options)
-    : options_(options), arena_(makeSolverArena(options_.threads)) {}
+    : options_(options), arena_(std::make_unique<Arena>(Arena{makeSolverArena(options_.threads)})) {}
+
+SceneTracker::~SceneTracker() = default;
 
 std::vector<std::optional<std::size_t>> SceneTracker::placesNow(const Scene& scene) const {
   std::vector<std::optional<std::size_t>> places(scene.pairs.size());
@@ -173,7 +179,7 @@ void SceneTracker::prepareSearches() {
     }
   }
   if (!to_prepare_.empty()) {
-    arena_.execute([&] { prepareSearch(to_prepare_); });
+    arena_->threads.execute([&] { prepareSearch(to_prepare_); });
   }
 }
 
@@ -183,7 +189,7 @@ void SceneTracker::solveAll() {
     return;
   }
   const std::thread::id caller = std::this_thread::get_id();
-  arena_.execute([&] {
+  arena_->threads.execute([&] {
     tbb::parallel_for(
         std::size_t{0}, to_solve_.size(),
         [&](std::size_t index) {

@@ -1,4 +1,4 @@
-#include "concave_distance/scene/set_warning_distance.h"
+#include "set_warning_distance.h"
 
 #include <cmath>
 

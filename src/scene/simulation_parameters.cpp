@@ -1,4 +1,4 @@
-#include "concave_distance/scene/simulation_parameters.h"
+#include "simulation_parameters.h"
 
 namespace concave_distance {
 

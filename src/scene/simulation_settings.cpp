@@ -1,7 +1,7 @@
 #include "concave_distance/scene/simulation_settings.h"
 
-#include "concave_distance/base/parameter_checks.h"
-#include "concave_distance/scene/simulation_parameters.h"
+#include "base/parameter_checks.h"
+#include "simulation_parameters.h"
 
 namespace concave_distance {
 

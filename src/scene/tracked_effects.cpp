@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "concave_distance/contact/motion_between.h"
+#include "contact/motion_between.h"
 
 namespace concave_distance {
 
@@ -29,7 +29,7 @@ bool TrackedEffects::prepare(const EffectSettings& settings, bool wanted) {
   return false;
 }
 
-void TrackedEffects::update(const PairSolution& solution, const Eigen::Isometry3d& a_from_b, double step,
+void TrackedEffects::update(const PairSolution& solution, double step,
                             const std::optional<RelativeTwist>& b_in_a, WorkLimit& limit) {
   if (!effects_) {
     return;
@@ -38,12 +38,12 @@ void TrackedEffects::update(const PairSolution& solution, const Eigen::Isometry3
     b_in_a_ = *b_in_a;
   } else if (!has_pose_ || step != 0.0) {
     // At the same time once more, for other settings, the velocity of that time still holds.
-    b_in_a_ = has_pose_ ? motionBetween(last_a_from_b_, a_from_b, step) : RelativeTwist{};
+    b_in_a_ = has_pose_ ? motionBetween(last_a_from_b_, solution.a_from_b, step) : RelativeTwist{};
   }
   const bool forward = step > 0.0 && (has_pose_ || b_in_a);
-  effects_->update(solution, a_from_b, b_in_a_, forward ? step : 0.0, contacts_, &limit);
+  effects_->update(solution, b_in_a_, forward ? step : 0.0, contacts_, &limit);
   has_pose_ = true;
-  last_a_from_b_ = a_from_b;
+  last_a_from_b_ = solution.a_from_b;
 }
 
 void TrackedEffects::reset() {

@@ -45,7 +45,7 @@ void TrackedPair::solve() {
   tracker_->update(input.a_from_b, input.time, solution);
   WorkLimit limit = remainingWork(settings.tracker, solution.solve_seconds);
   const double step = input.step.value_or(input.time - solved_input_.time);
-  effects.update(solution, input.a_from_b, step, input.b_in_a, limit);
+  effects.update(solution, step, input.b_in_a, limit);
   solved_input_ = input;
   state = PairState::Solved;
   must_solve_ = false;

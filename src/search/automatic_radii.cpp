@@ -1,4 +1,4 @@
-#include "concave_distance/search/automatic_radii.h"
+#include "automatic_radii.h"
 
 #include <algorithm>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "concave_distance/search/basin_memory.h"
+#include "basin_memory.h"
 
 namespace concave_distance {
 

@@ -1,4 +1,4 @@
-#include "concave_distance/search/convergence.h"
+#include "convergence.h"
 
 namespace concave_distance {
 

@@ -1,4 +1,4 @@
-#include "concave_distance/search/crowding.h"
+#include "crowding.h"
 
 #include <limits>
 

@@ -1,4 +1,4 @@
-#include "concave_distance/search/genetic_parameter_table.h"
+#include "genetic_parameter_table.h"
 
 namespace concave_distance {
 

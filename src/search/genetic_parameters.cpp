@@ -1,7 +1,7 @@
 #include "concave_distance/search/genetic_parameters.h"
 
-#include "concave_distance/base/parameter_checks.h"
-#include "concave_distance/search/genetic_parameter_table.h"
+#include "base/parameter_checks.h"
+#include "genetic_parameter_table.h"
 
 namespace concave_distance {
 

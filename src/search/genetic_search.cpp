@@ -1,17 +1,18 @@
-#include "concave_distance/search/genetic_search.h"
+#include "genetic_search.h"
 
 #include <algorithm>
 #include <limits>
 #include <numeric>
 
-#include "concave_distance/base/selection.h"
-#include "concave_distance/search/crowding.h"
-#include "concave_distance/search/local_descent.h"
-#include "concave_distance/search/mating.h"
-#include "concave_distance/search/mating_restriction.h"
-#include "concave_distance/search/mutation.h"
-#include "concave_distance/search/replacement.h"
-#include "concave_distance/search/sharing.h"
+#include "base/selection.h"
+#include "crowding.h"
+#include "local_descent.h"
+#include "mating.h"
+#include "mating_restriction.h"
+#include "mesh/grid/mesh_metric.h"
+#include "mutation.h"
+#include "replacement.h"
+#include "sharing.h"
 
 namespace concave_distance {
 namespace {

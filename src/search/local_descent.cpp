@@ -1,11 +1,11 @@
-#include "concave_distance/search/local_descent.h"
+#include "local_descent.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
 
-#include "concave_distance/base/pair_key.h"
+#include "base/pair_key.h"
 
 namespace concave_distance {
 namespace {

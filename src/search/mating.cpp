@@ -1,7 +1,10 @@
-#include "concave_distance/search/mating.h"
+#include "mating.h"
 
 #include <cmath>
 #include <limits>
+
+#include "mesh/grid/mesh_metric.h"
+#include "mesh/grid/node_graph.h"
 
 namespace concave_distance {
 namespace {

@@ -1,4 +1,4 @@
-#include "concave_distance/search/mating_restriction.h"
+#include "mating_restriction.h"
 
 #include <utility>
 

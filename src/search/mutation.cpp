@@ -1,8 +1,12 @@
-#include "concave_distance/search/mutation.h"
+#include "mutation.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "base/random_engine.h"
+#include "mesh/grid/mesh_metric.h"
+#include "mesh/grid/node_graph.h"
 
 namespace concave_distance {
 namespace {

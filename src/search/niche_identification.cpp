@@ -1,4 +1,4 @@
-#include "concave_distance/search/niche_identification.h"
+#include "niche_identification.h"
 
 #include <algorithm>
 #include <numeric>

@@ -1,8 +1,8 @@
-#include "concave_distance/search/node_pair_map.h"
+#include "node_pair_map.h"
 
 #include <algorithm>
 
-#include "concave_distance/base/pair_key.h"
+#include "base/pair_key.h"
 
 namespace concave_distance {
 

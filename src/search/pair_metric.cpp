@@ -1,6 +1,8 @@
-#include "concave_distance/search/pair_metric.h"
+#include "pair_metric.h"
 
 #include <limits>
+
+#include "mesh/grid/mesh_metric.h"
 
 namespace concave_distance {
 namespace {

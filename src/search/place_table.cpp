@@ -1,4 +1,4 @@
-#include "concave_distance/search/place_table.h"
+#include "place_table.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "concave_distance/search/replacement.h"
+#include "replacement.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "concave_distance/search/search_workspace.h"
+#include "search_workspace.h"
 
 namespace concave_distance {
 namespace {

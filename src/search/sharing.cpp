@@ -1,4 +1,4 @@
-#include "concave_distance/search/sharing.h"
+#include "sharing.h"
 
 #include <algorithm>
 #include <cmath>

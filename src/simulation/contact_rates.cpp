@@ -1,4 +1,4 @@
-#include "concave_distance/simulation/contact_rates.h"
+#include "contact_rates.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "concave_distance/simulation/drive_force.h"
+#include "drive_force.h"
 
 #include <cmath>
 

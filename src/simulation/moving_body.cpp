@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "concave_distance/base/error.h"
+#include "mesh/surface/mesh_topology.h"
 
 namespace concave_distance::detail {
 namespace {

@@ -5,10 +5,10 @@
 
 #include "concave_distance/scene/scene.h"
 #include "concave_distance/scene/simulation_settings.h"
-#include "concave_distance/simulation/drive_force.h"
-#include "concave_distance/simulation/pose_path.h"
-#include "concave_distance/simulation/rigid_body.h"
 #include "concave_distance/simulation/simulation.h"
+#include "drive_force.h"
+#include "pose_path.h"
+#include "rigid_body.h"
 
 namespace concave_distance::detail {
 

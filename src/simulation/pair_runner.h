@@ -6,9 +6,9 @@
 
 #include "concave_distance/scene/scene.h"
 #include "concave_distance/scene/tracked_pair.h"
-#include "concave_distance/simulation/contact_rates.h"
 #include "concave_distance/simulation/simulation.h"
-#include "concave_distance/simulation/single_minimum.h"
+#include "contact_rates.h"
+#include "single_minimum.h"
 
 namespace concave_distance::detail {
 

@@ -1,4 +1,4 @@
-#include "concave_distance/simulation/pose_path.h"
+#include "pose_path.h"
 
 #include <algorithm>
 #include <limits>

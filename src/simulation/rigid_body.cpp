@@ -1,4 +1,4 @@
-#include "concave_distance/simulation/rigid_body.h"
+#include "rigid_body.h"
 
 #include <Eigen/Eigenvalues>
 #include <cmath>

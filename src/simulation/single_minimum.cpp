@@ -1,4 +1,4 @@
-#include "concave_distance/simulation/single_minimum.h"
+#include "single_minimum.h"
 
 #include <cmath>
 #include <utility>

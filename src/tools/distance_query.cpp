@@ -3,10 +3,10 @@
 #include <iostream>
 #include <string>
 
-#include "concave_distance/base/output_file.h"
-#include "concave_distance/scene/pair_parameters.h"
+#include "base/output_file.h"
 #include "distance_query_run.h"
 #include "parameter_options.h"
+#include "scene/pair_parameters.h"
 
 namespace {
 

@@ -6,14 +6,13 @@
 #include <ostream>
 #include <sstream>
 
-#include "concave_distance/base/output_file.h"
-#include "concave_distance/base/run_together.h"
+#include "base/output_file.h"
+#include "base/run_together.h"
+#include "concave_distance/loading/load_body_mesh.h"
 #include "concave_distance/mesh/body_mesh.h"
-#include "concave_distance/mesh/import_mesh.h"
 #include "concave_distance/mesh/preparation_cache.h"
-#include "concave_distance/mesh/repair_mesh.h"
-#include "concave_distance/scene/query_poses.h"
 #include "concave_distance/tracking/pair_tracker.h"
+#include "loading/query_poses.h"
 #include "query_report.h"
 
 namespace concave_distance::tools {
@@ -23,31 +22,12 @@ namespace {
 constexpr const char* kPairName = "distance_query";
 
 std::shared_ptr<const BodyMesh> loadBody(const std::string& path, double scale,
-                                         const DistanceQueryOptions& options,
-                                         const PreparationCachePointer& cache, std::ostream& log) {
-  RepairOptions repair;
-  repair.weld_tolerance = kSinglePrecisionWeld;
-  const auto key_of = [&](const MeshFile& file) -> std::optional<ContentKey> {
-    ContentHasher hasher = preparationHasher();
-    addRepairOptions(hasher, repair);
-    hasher.add(scale);
-    if (!addMeshFile(hasher, file, {})) return std::nullopt;
-    return hasher.key();
-  };
-  RepairedMesh repaired = repairedMeshThrough(
-      cache.get(), [&] { return key_of(MeshFile(path)); },
-      [&](bool with_key) {
-        const MeshFile file(path);
-        const TriangleSoup soup = importMesh(file, Eigen::Vector3d::Constant(scale));
-        return KeyedMesh{repairMesh(soup, repair, path), with_key ? key_of(file) : std::nullopt};
-      });
-  if (const std::string summary = repaired.report.summary(); !summary.empty()) {
+                                         const LoadMeshOptions& options, std::ostream& log) {
+  LoadedBodyMesh loaded = loadBodyMesh(path, scale, options);
+  if (const std::string summary = loaded.repair.summary(); !summary.empty()) {
     log << path << ": " << summary << '\n';
   }
-  BodyMeshOptions body_options;
-  body_options.max_edge_length = options.max_edge_length;
-  body_options.cache = cache;
-  return std::make_shared<const BodyMesh>(path, std::move(repaired.mesh), body_options);
+  return std::move(loaded.mesh);
 }
 
 struct LoadedBodies {
@@ -56,14 +36,17 @@ struct LoadedBodies {
 };
 
 LoadedBodies loadBodies(const DistanceQueryOptions& options, std::ostream& log) {
-  const PreparationCachePointer cache = openPreparationCache(options.cache);
+  LoadMeshOptions load_options;
+  load_options.body.max_edge_length = options.max_edge_length;
+  load_options.body.cache = openPreparationCache(options.cache);
   LoadedBodies bodies;
   std::ostringstream log_b;  // both at once, what they say one after the other
-  runTogether({[&] { bodies.a = loadBody(options.mesh_a, options.scale_a, options, cache, log); },
-               [&] { bodies.b = loadBody(options.mesh_b, options.scale_b, options, cache, log_b); }});
+  runTogether({[&] { bodies.a = loadBody(options.mesh_a, options.scale_a, load_options, log); },
+               [&] { bodies.b = loadBody(options.mesh_b, options.scale_b, load_options, log_b); }});
   log << log_b.str();
-  if (cache) {
-    if (const std::string problem = cache->takeProblem(); !problem.empty()) log << problem << '\n';
+  if (load_options.body.cache) {
+    if (const std::string problem = load_options.body.cache->takeProblem(); !problem.empty())
+      log << problem << '\n';
   }
   return bodies;
 }

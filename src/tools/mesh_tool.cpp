@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "base/output_file.h"
 #include "concave_distance/base/error.h"
-#include "concave_distance/base/output_file.h"
 #include "mesh_tool_commands.h"
 #include "mesh_tool_convex.h"
 

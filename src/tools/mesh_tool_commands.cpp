@@ -6,10 +6,10 @@
 #include <limits>
 #include <ostream>
 
-#include "concave_distance/mesh/export_mesh.h"
-#include "concave_distance/mesh/import_mesh.h"
-#include "concave_distance/mesh/refine_mesh.h"
-#include "concave_distance/mesh/repair_mesh.h"
+#include "concave_distance/mesh/import/export_mesh.h"
+#include "concave_distance/mesh/import/import_mesh.h"
+#include "concave_distance/mesh/repair/repair_mesh.h"
+#include "mesh/surface/refine_mesh.h"
 
 namespace concave_distance::tools {
 namespace {

@@ -5,7 +5,7 @@
 #include <iosfwd>
 #include <string>
 
-#include "concave_distance/mesh/repair_mesh.h"
+#include "concave_distance/mesh/repair/repair_mesh.h"
 
 namespace concave_distance::tools {
 
@@ -13,9 +13,9 @@ struct MeshToolOptions {
   std::string input;
   std::string output;
   Eigen::Vector3d scale = Eigen::Vector3d::Ones();
-  double weld_tolerance = 0.0;   ///< relative to the bounding box's diagonal
-  bool orient = true;            ///< turn triangles that disagree
-  double max_edge_length = 0.0;  ///< metres
+  double weld_tolerance = kSinglePrecisionWeld;  ///< relative to the bounding box's diagonal
+  bool orient = true;                            ///< turn triangles that disagree
+  double max_edge_length = 0.0;                  ///< metres
   std::size_t reflex_edge_limit = 1500;
   double flatness = 1e-6;  ///< of a tree, relative to the bounding box's diagonal
   std::string pieces;      ///< a tree's convex pieces as .obj; empty: not written

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <ostream>
 
-#include "concave_distance/mesh/export_mesh.h"
-#include "concave_distance/thesis/partition/convex_hull.h"
-#include "concave_distance/thesis/partition/convex_partition.h"
-#include "concave_distance/thesis/partition/piece_file.h"
+#include "concave_distance/mesh/import/export_mesh.h"
+#include "thesis/partition/convex_hull.h"
+#include "thesis/partition/convex_partition.h"
+#include "thesis/partition/piece_file.h"
 
 namespace concave_distance::tools {
 namespace {

@@ -4,11 +4,11 @@
 #include <ostream>
 #include <utility>
 
-#include "concave_distance/base/output_file.h"
-#include "concave_distance/thesis/continuous/build_constraint_tree.h"
-#include "concave_distance/thesis/continuous/constraint_tree_file.h"
-#include "concave_distance/thesis/continuous/piece_mesh.h"
+#include "base/output_file.h"
 #include "mesh_tool_convex.h"
+#include "thesis/continuous/build_constraint_tree.h"
+#include "thesis/continuous/constraint_tree_file.h"
+#include "thesis/continuous/piece_mesh.h"
 
 namespace concave_distance::tools {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "concave_distance/base/parameter.h"
+#include "base/parameter.h"
 
 namespace concave_distance::tools {
 

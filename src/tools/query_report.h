@@ -7,9 +7,9 @@
 #include <optional>
 #include <string>
 
-#include "concave_distance/base/output_file.h"
-#include "concave_distance/distance/certificate.h"
+#include "base/output_file.h"
 #include "concave_distance/tracking/pair_solution.h"
+#include "distance/certificate.h"
 
 namespace concave_distance::tools {
 

@@ -7,12 +7,12 @@
 #include <memory>
 #include <string>
 
+#include "base/output_file.h"
 #include "concave_distance/base/error.h"
-#include "concave_distance/base/output_file.h"
-#include "concave_distance/scene/load_scene.h"
-#include "concave_distance/scene/simulation_parameters.h"
+#include "concave_distance/loading/load_scene.h"
 #include "concave_distance/simulation/simulation.h"
 #include "parameter_options.h"
+#include "scene/simulation_parameters.h"
 #include "simulation_log.h"
 
 namespace {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "concave_distance/base/output_file.h"
+#include "base/output_file.h"
 #include "concave_distance/simulation/simulation.h"
 
 namespace concave_distance::tools {

@@ -1,8 +1,8 @@
 #include <limits>
 
-#include "concave_distance/distance/surface_walk.h"
-#include "concave_distance/search/local_descent.h"
-#include "concave_distance/tracking/niche_admission.h"
+#include "distance/surface_walk.h"
+#include "niche_admission.h"
+#include "search/local_descent.h"
 #include "tracker_state.h"
 
 namespace concave_distance {
@@ -61,7 +61,7 @@ void TrackerState::followNiches(double displacement, double elapsed, SearchCost&
   }
 }
 
-// What tells that a body is swallowed is in no archive: it is followed from cycle to cycle like a niche.
+// What shows that a body is swallowed is in no archive: it is followed from cycle to cycle like a niche.
 // Where it has become one (keep_through_material, or the body has come out), it is admitted as such.
 void TrackerState::followInwardWitness() {
   const WitnessRefinement refined = geometry.refine(inward_witness.triangle_a, inward_witness.triangle_b);

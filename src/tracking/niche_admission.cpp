@@ -1,4 +1,4 @@
-#include "concave_distance/tracking/niche_admission.h"
+#include "niche_admission.h"
 
 namespace concave_distance {
 

@@ -1,4 +1,4 @@
-#include "concave_distance/tracking/niche_archive.h"
+#include "niche_archive.h"
 
 #include <algorithm>
 #include <utility>

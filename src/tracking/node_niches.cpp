@@ -1,4 +1,4 @@
-#include "concave_distance/tracking/node_niches.h"
+#include "node_niches.h"
 
 #include <algorithm>
 #include <limits>

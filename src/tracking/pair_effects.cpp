@@ -4,9 +4,10 @@
 #include <cmath>
 #include <utility>
 
-#include "concave_distance/contact/contact_point.h"
-#include "concave_distance/tracking/relative_motion.h"
+#include "concave_distance/base/error.h"
+#include "contact/contact_point.h"
 #include "region_identity.h"
+#include "relative_motion.h"
 
 namespace concave_distance {
 namespace {
@@ -49,9 +50,9 @@ struct PairEffects::State {
     }
   }
 
-  void identify(const PairSolution& solution, const Eigen::Isometry3d& a_from_b, PairContacts& contacts) {
+  void identify(const PairSolution& solution, PairContacts& contacts) {
     const double displacement =
-        in_contact ? largestDisplacement(b->surface().boundingBox(), last_pose, a_from_b) : 0.0;
+        in_contact ? largestDisplacement(b->surface().boundingBox(), last_pose, solution.a_from_b) : 0.0;
     identity.update(solution.niches, displacement, contacts.regions);
   }
 
@@ -109,6 +110,10 @@ struct PairEffects::State {
 PairEffects::PairEffects(std::shared_ptr<const BodyMesh> a, std::shared_ptr<const BodyMesh> b,
                          const EffectSettings& settings, const ContactMaterial& material)
     : state_(std::make_unique<State>()) {
+  if (!a || !b) {
+    throw Error("PairEffects", std::string("body ") + (a ? "B" : "A") + " is null",
+                "give a body that was loaded or made");
+  }
   state_->a = std::move(a);
   state_->b = std::move(b);
   setSettings(settings, material);
@@ -117,8 +122,8 @@ PairEffects::~PairEffects() = default;
 PairEffects::PairEffects(PairEffects&&) noexcept = default;
 PairEffects& PairEffects::operator=(PairEffects&&) noexcept = default;
 
-void PairEffects::update(const PairSolution& solution, const Eigen::Isometry3d& a_from_b,
-                         const RelativeTwist& b_in_a, double step, PairContacts& contacts, WorkLimit* limit) {
+void PairEffects::update(const PairSolution& solution, const RelativeTwist& b_in_a, double step,
+                         PairContacts& contacts, WorkLimit* limit) {
   State& state = *state_;
   contacts.possible = !state.plan.empty() && contactIsPossible(solution);
   contacts.regions.clear();
@@ -128,10 +133,10 @@ void PairEffects::update(const PairSolution& solution, const Eigen::Isometry3d& 
     const auto start = std::chrono::steady_clock::now();
     switch (stage) {
       case EffectStage::Interference:
-        state.findRegions(a_from_b, limit, contacts);
+        state.findRegions(solution.a_from_b, limit, contacts);
         break;
       case EffectStage::Identity:
-        state.identify(solution, a_from_b, contacts);
+        state.identify(solution, contacts);
         break;
       case EffectStage::NormalForce:
         state.push(b_in_a, contacts);
@@ -157,7 +162,7 @@ void PairEffects::update(const PairSolution& solution, const Eigen::Isometry3d& 
     }
   }
   state.in_contact = !contacts.regions.empty();
-  state.last_pose = a_from_b;
+  state.last_pose = solution.a_from_b;
 }
 
 void PairEffects::reset() {

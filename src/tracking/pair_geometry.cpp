@@ -1,9 +1,11 @@
-#include "concave_distance/tracking/pair_geometry.h"
+#include "pair_geometry.h"
 
 #include <cmath>
 #include <limits>
 
-#include "concave_distance/tracking/niche_archive.h"
+#include "mesh/grid/node_graph.h"
+#include "mesh/surface/mesh_topology.h"
+#include "niche_archive.h"
 
 namespace concave_distance {
 

@@ -1,13 +1,21 @@
 #include "concave_distance/tracking/pair_tracker.h"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
 #include <algorithm>
 #include <chrono>
 #include <limits>
 #include <utility>
 
-#include "concave_distance/tracking/niche_admission.h"
-#include "concave_distance/tracking/node_niches.h"
-#include "concave_distance/tracking/relative_motion.h"
+#include "concave_distance/base/error.h"
+#include "mesh/surface/connected_pieces.h"
+#include "mesh/surface/triangle_adjacency.h"
+#include "mesh/trees/normal_cone_tree.h"
+#include "niche_admission.h"
+#include "node_niches.h"
+#include "relative_motion.h"
 #include "tracker_state.h"
 
 namespace concave_distance {
@@ -20,6 +28,16 @@ constexpr std::size_t kUsualNiches = 256;
 // Shares of a time budget: of the niches, and of niches and proof together.
 constexpr double kShareOfNiches = 0.5;
 constexpr double kShareWithProof = 0.85;
+
+// So many that making a tracker does not count.
+constexpr std::size_t kPosesOfOneTracker = 16;
+
+void requireBodies(const std::string& name, const std::shared_ptr<const BodyMesh>& a,
+                   const std::shared_ptr<const BodyMesh>& b) {
+  if (a && b) return;
+  throw Error(name, std::string("body ") + (a ? "B" : "A") + " is null",
+              "give a body that was loaded or made");
+}
 
 double seconds(std::chrono::steady_clock::duration duration) {
   return std::chrono::duration<double>(duration).count();
@@ -57,6 +75,8 @@ void TrackerState::clear(PairSolution& solution) const {
   solution.distance = solution.lower_bound = solution.surface_distance = kNotComputed;
   solution.point_a_in_a.setConstant(kNotComputed);
   solution.point_b_in_a.setConstant(kNotComputed);
+  solution.normal_in_a.setConstant(kNotComputed);
+  solution.closing_speed = kNotComputed;
   solution.meeting_triangles.reset();
   solution.niches.clear();
   solution.events.clear();
@@ -83,6 +103,19 @@ void TrackerState::reset() {
   completeness.current = false;
 }
 
+void TrackerState::restart(std::uint64_t largest_used_id) {
+  reset();
+  archive.beginIdsAfter(largest_used_id);
+  cycle = 0;
+  next_review = next_projection = 0;
+  due_reviews = moved_since_search = 0.0;
+  due_share = 1.0;
+  cycles_since_search = cycles_at_rest = 0;
+  searching = true;
+  swept_at_rest = false;
+  limit = {};
+}
+
 void TrackerState::update(const Eigen::Isometry3d& pose, double time, PairSolution& solution) {
   const auto start = std::chrono::steady_clock::now();
   const auto since_start = [start] { return seconds(std::chrono::steady_clock::now() - start); };
@@ -91,6 +124,7 @@ void TrackerState::update(const Eigen::Isometry3d& pose, double time, PairSoluti
   limit = WorkLimit(start, parameters.time_budget, parameters.memory_limit, parameters.stop);
   limit.setTaken(memoryBytes());
   clear(solution);
+  solution.a_from_b = pose;
   const std::optional<Eigen::Isometry3d> rigid = rigidPose(pose);
   if (!rigid) {
     solution.status = SolveStatus::InvalidPose;
@@ -139,6 +173,10 @@ void TrackerState::update(const Eigen::Isometry3d& pose, double time, PairSoluti
       reportNearest(displacement, solution);
     }
     stage_clock.lap(SolveStage::Describe, solution.stages);
+  }
+  if (!solution.niches.empty() && solution.niches.front().distance == solution.distance) {
+    solution.normal_in_a = solution.niches.front().normal_in_a;
+    solution.closing_speed = solution.niches.front().closing_speed;
   }
   reportLimit(solution);
   if (!warm) {
@@ -192,41 +230,73 @@ void TrackerState::solveNiches(double displacement, double elapsed, PairSolution
 
 struct PairTracker::State : TrackerState {
   using TrackerState::TrackerState;
+
+  std::uint64_t largest_used_id = 0;
 };
 
 PairTracker::PairTracker(std::string name, std::shared_ptr<const BodyMesh> a,
                          std::shared_ptr<const BodyMesh> b, const TrackerParameters& parameters,
-                         std::uint64_t largest_used_id)
-    : state_(std::make_unique<State>(std::move(name), std::move(a), std::move(b), parameters)) {
+                         std::uint64_t largest_used_id) {
+  requireBodies(name, a, b);
+  state_ = std::make_unique<State>(std::move(name), std::move(a), std::move(b), parameters);
+  state_->largest_used_id = largest_used_id;
   state_->archive.beginIdsAfter(largest_used_id);
 }
 PairTracker::~PairTracker() = default;
 PairTracker::PairTracker(PairTracker&&) noexcept = default;
 PairTracker& PairTracker::operator=(PairTracker&&) noexcept = default;
 
+PairTracker::State& PairTracker::state() const {
+  if (state_ == nullptr) throw Error("PairTracker", "it was moved from", "use the one that it was moved to");
+  return *state_;
+}
+
 void PairTracker::update(const Eigen::Isometry3d& a_from_b, double time, PairSolution& solution) {
-  state_->update(a_from_b, time, solution);
+  state().update(a_from_b, time, solution);
+}
+
+void PairTracker::prepare(const std::vector<Eigen::Isometry3d>& a_from_b) {
+  State& tracker = state();
+  const TrackerParameters& parameters = tracker.parameters;
+  if (!provesDistance(parameters.accuracy) || parameters.niches_wanted) {
+    tracker.prepareSearch();
+    const NormalSides sides = parameters.keep_through_material ? NormalSides::Both : NormalSides::Outside;
+    for (const BodyMesh* body : {tracker.geometry.a.get(), tracker.geometry.b.get()}) {
+      body->adjacency();
+      body->pieces();
+      if (parameters.accuracy != AccuracyLevel::Nodes) body->normalCones(sides);
+    }
+  }
+  PairSolution solution;
+  double time = 0.0;
+  for (const Eigen::Isometry3d& pose : a_from_b) update(pose, time += 1.0, solution);
+  restart();
 }
 
 void PairTracker::reset() {
-  state_->reset();
+  state().reset();
+}
+
+void PairTracker::restart() {
+  state().restart(state().largest_used_id);
 }
 
 void PairTracker::setParameters(const TrackerParameters& parameters) {
-  parameters.validate(state_->name);
-  const TrackerParameters& before = state_->parameters;
+  State& tracker = state();
+  parameters.validate(tracker.name);
+  const TrackerParameters& before = tracker.parameters;
   const bool proves_alone =
       provesDistance(parameters.accuracy) && parameters.niches_wanted != before.niches_wanted;
   if (parameters.accuracy != before.accuracy || proves_alone) {
-    reset();  // node niches and refined ones are not the same places; a proof alone follows none
+    tracker.reset();  // node niches and refined ones are not the same places; a proof alone follows none
   }
-  state_->parameters = parameters;
-  state_->proof.current = state_->completeness.current = false;
-  state_->search_prepared = false;
+  tracker.parameters = parameters;
+  tracker.proof.current = tracker.completeness.current = false;
+  tracker.search_prepared = false;
   // Up to another cutoff, or for another prominence.
-  state_->sweep.restart();
-  state_->swept.clear();
-  state_->swept_at_rest = false;
+  tracker.sweep.restart();
+  tracker.swept.clear();
+  tracker.swept_at_rest = false;
 }
 
 std::size_t TrackerState::memoryBytes() const {
@@ -239,11 +309,11 @@ std::size_t TrackerState::memoryBytes() const {
 }
 
 std::size_t PairTracker::memoryBytes() const {
-  return state_->memoryBytes();
+  return state().memoryBytes();
 }
 
 const TrackerParameters& PairTracker::parameters() const {
-  return state_->parameters;
+  return state().parameters;
 }
 
 PairSolution solveOnce(const std::string& name, const std::shared_ptr<const BodyMesh>& a,
@@ -253,6 +323,27 @@ PairSolution solveOnce(const std::string& name, const std::shared_ptr<const Body
   PairSolution solution;
   tracker.update(a_from_b, 0.0, solution);
   return solution;
+}
+
+std::vector<PairSolution> solveEach(const std::string& name, const std::shared_ptr<const BodyMesh>& a,
+                                    const std::shared_ptr<const BodyMesh>& b,
+                                    const TrackerParameters& parameters,
+                                    const std::vector<Eigen::Isometry3d>& a_from_b, std::uint32_t threads) {
+  std::vector<PairSolution> solutions(a_from_b.size());
+  // What the bodies make on demand is made before threads would wait for it.
+  PairTracker(name, a, b, parameters).prepare();
+  tbb::task_arena arena(threads == 0 ? tbb::task_arena::automatic : static_cast<int>(threads));
+  arena.execute([&] {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, a_from_b.size(), kPosesOfOneTracker),
+                      [&](const tbb::blocked_range<std::size_t>& range) {
+                        PairTracker tracker(name, a, b, parameters);
+                        for (std::size_t i = range.begin(); i != range.end(); ++i) {
+                          tracker.restart();
+                          tracker.update(a_from_b[i], 0.0, solutions[i]);
+                        }
+                      });
+  });
+  return solutions;
 }
 
 }  // namespace concave_distance

@@ -1,6 +1,7 @@
-#include "concave_distance/tracking/projection.h"
+#include "projection.h"
 
-#include "concave_distance/distance/closest_point.h"
+#include "distance/closest_point.h"
+#include "mesh/grid/node_graph.h"
 
 namespace concave_distance {
 namespace {

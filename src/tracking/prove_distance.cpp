@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "concave_distance/distance/solid_overlap.h"
+#include "distance/solid_overlap.h"
 #include "tracker_state.h"
 
 namespace concave_distance {
@@ -142,29 +142,17 @@ void TrackerState::reportProven(PairSolution& solution) {
   }
 }
 
-// Without niches: nothing is searched. What is nearest is listed as a niche without an id, for its normal and
-// closing speed.
+// Without niches: nothing is searched.
 void TrackerState::proveAlone(double displacement, double elapsed, PairSolution& solution) {
   const double before = proof.certificate.distance;
   proveDistance(displacement);
   reportProven(solution);
-  if (proof.swallowed && !parameters.keep_through_material) {
-    return;
-  }
+  if (proof.swallowed && !parameters.keep_through_material) return;
   const DistanceCertificate& certificate = proof.certificate;
-  if (certificate.distance > parameters.cutoff) {
-    ++solution.niches_beyond_cutoff;
-    return;
-  }
   NicheRecord nearest;
   placeRecord(nearest, geometry, certificate.witness);
-  nearest.niche.distance = certificate.distance;
-  nearest.niche.closing_speed = elapsed > 0.0 ? (before - certificate.distance) / elapsed : kNotComputed;
-  nearest.niche.outward =
-      classifyOutwardness(*geometry.a, *geometry.b, geometry.a_from_b, certificate.witness);
-  nearest.niche.prominence = std::numeric_limits<double>::infinity();
-  nearest.niche.proven_local_minimum = certificate.status == CertificateStatus::Proven;
-  solution.niches.push_back(nearest.niche);
+  solution.normal_in_a = nearest.niche.normal_in_a;
+  if (elapsed > 0.0) solution.closing_speed = (before - certificate.distance) / elapsed;
 }
 
 }  // namespace concave_distance

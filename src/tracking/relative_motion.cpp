@@ -1,8 +1,8 @@
-#include "concave_distance/tracking/relative_motion.h"
+#include "relative_motion.h"
 
 #include <algorithm>
 
-#include "concave_distance/base/coordinate_limit.h"
+#include "base/coordinate_limit.h"
 
 namespace concave_distance {
 

@@ -2,14 +2,14 @@
 #include <cmath>
 #include <limits>
 
-#include "concave_distance/distance/niche_properties.h"
-#include "concave_distance/distance/solid_overlap.h"
+#include "distance/niche_properties.h"
+#include "distance/solid_overlap.h"
 #include "tracker_state.h"
 
 namespace concave_distance {
 namespace {
 
-// Triangle pairs that the extent of a niche is followed over at the most.
+// Triangle pairs that the extent of a niche is followed over, at most.
 constexpr std::size_t kExtentPairLimit = 256;
 // The archive holds half as many niches more than are reported, for those that come and go at the edge of the
 // list.

@@ -1,16 +1,17 @@
 #include <algorithm>
 #include <limits>
 
-#include "concave_distance/base/random_engine.h"
-#include "concave_distance/search/genetic_search.h"
-#include "concave_distance/tracking/projection.h"
-#include "concave_distance/tracking/warm_start.h"
+#include "base/random_engine.h"
+#include "mesh/trees/normal_cone_tree.h"
+#include "projection.h"
+#include "search/genetic_search.h"
 #include "tracker_state.h"
+#include "warm_start.h"
 
 namespace concave_distance {
 namespace {
 
-// Candidates that a warm cycle refines at the most, best first; a cold one takes them all.
+// Candidates that a warm cycle refines, at most, best first; a cold one takes them all.
 constexpr std::size_t kWarmCandidateLimit = 64;
 // Rounds of projections in a cold cycle: each asks what the last one brought.
 constexpr int kColdProjectionRounds = 4;

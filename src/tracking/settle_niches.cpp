@@ -2,13 +2,13 @@
 #include <cmath>
 #include <limits>
 
-#include "concave_distance/tracking/node_niches.h"
+#include "node_niches.h"
 #include "tracker_state.h"
 
 namespace concave_distance {
 namespace {
 
-// Triangle pairs that a flood visits at the most before its start counts as a niche.
+// Triangle pairs that a flood visits, at most, before its start counts as a niche.
 constexpr std::size_t kColdFlood = 20000;
 constexpr std::size_t kWarmFlood = 400;
 constexpr std::size_t kNearestFlood = 128;  // of the nearest niche, in every warm cycle
@@ -75,7 +75,7 @@ void TrackerState::report(const NicheCandidate& candidate, const AdmissionResult
                           : NicheEvent{NicheEvent::Kind::Death, candidate.left_by, 0});
 }
 
-// Through material: not a niche, but what tells that a body is swallowed.
+// Through material: not a niche, but what shows that a body is swallowed.
 bool TrackerState::isDark(const WitnessPair& witness, Outwardness outward) {
   if (outward != Outwardness::ThroughMaterial || parameters.keep_through_material) return false;
   if (!inward_witness_met || witness.squared_distance < inward_witness.squared_distance) {

@@ -1,4 +1,4 @@
-#include "concave_distance/tracking/tracker_parameter_table.h"
+#include "tracker_parameter_table.h"
 
 #include <utility>
 

@@ -1,10 +1,10 @@
 #include "concave_distance/tracking/tracker_parameters.h"
 
-#include "concave_distance/tracking/tracker_parameter_table.h"
+#include "tracker_parameter_table.h"
 
 namespace concave_distance {
 
-// Chosen by tuning_benchmark on every second of its pairs and checked on the others (doc/tuning.md).
+// Chosen by tuning_benchmark on every second of its pairs and checked on the others (doc/results/tuning.md).
 TrackerParameters::TrackerParameters() {
   cold.niching = NichingMethod::DeterministicCrowding;
   cold.mating_restriction = false;

@@ -6,19 +6,19 @@
 #include <string>
 #include <vector>
 
-#include "concave_distance/distance/basin_verdict.h"
-#include "concave_distance/distance/certificate.h"
-#include "concave_distance/distance/cone_sweep.h"
-#include "concave_distance/distance/local_minima.h"
-#include "concave_distance/search/automatic_radii.h"
-#include "concave_distance/search/pair_objective.h"
-#include "concave_distance/search/search_workspace.h"
-#include "concave_distance/tracking/niche_admission.h"
-#include "concave_distance/tracking/niche_archive.h"
-#include "concave_distance/tracking/pair_geometry.h"
 #include "concave_distance/tracking/pair_solution.h"
-#include "concave_distance/tracking/ripple_memory.h"
 #include "concave_distance/tracking/tracker_parameters.h"
+#include "distance/basin_verdict.h"
+#include "distance/certificate.h"
+#include "distance/cone_sweep.h"
+#include "distance/local_minima.h"
+#include "niche_admission.h"
+#include "niche_archive.h"
+#include "pair_geometry.h"
+#include "ripple_memory.h"
+#include "search/automatic_radii.h"
+#include "search/pair_objective.h"
+#include "search/search_workspace.h"
 
 namespace concave_distance {
 
@@ -54,6 +54,7 @@ struct TrackerState {
   void prepareSearch();
   void update(const Eigen::Isometry3d& pose, double time, PairSolution& solution);
   void reset();
+  void restart(std::uint64_t largest_used_id);
 
   std::size_t memoryBytes() const;
   void clear(PairSolution& solution) const;

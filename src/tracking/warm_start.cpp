@@ -1,4 +1,4 @@
-#include "concave_distance/tracking/warm_start.h"
+#include "warm_start.h"
 
 #include <algorithm>
 #include <cmath>

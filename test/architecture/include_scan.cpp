@@ -36,11 +36,18 @@ std::string folderOf(const std::filesystem::path& path) {
   return found.empty() && path.has_parent_path() ? path.begin()->string() : found;
 }
 
-/// The folder of an include of this package, empty for any other: "concave_distance/mesh/x.h" gives "mesh".
+bool isPublic(const std::string& included) {
+  return included.compare(0, kPackage.size() + 1, kPackage + "/") == 0;
+}
+
+/// The folder of an include of this package, empty for any other and for the file's own folder:
+/// "concave_distance/mesh/x.h" (public) and "mesh/x.h" (private) give "mesh".
 std::string includedFolder(const std::string& included) {
-  const std::string prefix = kPackage + "/";
-  if (included.compare(0, prefix.size(), prefix) != 0) return {};
-  return folderOf(included.substr(prefix.size()));
+  if (isPublic(included)) return folderOf(included.substr(kPackage.size() + 1));
+  const std::string folder = folderOf(included);
+  const std::vector<std::string>& known = foldersFromTheGround();
+  const bool is_ours = folder != kTopFolder && std::find(known.begin(), known.end(), folder) != known.end();
+  return is_ours ? folder : "";
 }
 
 bool belongsToRos(const std::string& included) {
@@ -66,13 +73,40 @@ std::string contentOf(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
+/// Includes in quotes that are not of public headers.
+std::vector<std::string> privateIncludes(const std::string& text) {
+  static const std::regex directive(R"x(#[ \t]*include[ \t]*"([^"]+)")x");
+  std::vector<std::string> found;
+  for (std::sregex_iterator match(text.begin(), text.end(), directive), end; match != end; ++match) {
+    if (!isPublic((*match)[1])) found.push_back((*match)[1]);
+  }
+  return found;
+}
+
 }  // namespace
 
 const std::vector<std::string>& foldersFromTheGround() {
-  static const std::vector<std::string> folders = {
-      "base",     "mesh",  "distance",   "search",           "interference",      "contact",
-      "tracking", "scene", "simulation", "thesis/partition", "thesis/continuous", "thesis/annealing",
-      kThesis,    "tools", kTopFolder};
+  static const std::vector<std::string> folders = {"base",
+                                                   "mesh/surface",
+                                                   "mesh/trees",
+                                                   "mesh/repair",
+                                                   "mesh/grid",
+                                                   "mesh",
+                                                   "mesh/import",
+                                                   "distance",
+                                                   "search",
+                                                   "interference",
+                                                   "contact",
+                                                   "tracking",
+                                                   "scene",
+                                                   "simulation",
+                                                   "loading",
+                                                   "thesis/partition",
+                                                   "thesis/continuous",
+                                                   "thesis/annealing",
+                                                   kThesis,
+                                                   "tools",
+                                                   kTopFolder};
   return folders;
 }
 
@@ -111,13 +145,22 @@ std::vector<std::string> faultsOfFolders(const std::filesystem::path& package, s
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root)) {
       const fs::path& file = entry.path();
       if (file.extension() != ".h" && file.extension() != ".cpp") continue;
+      ++files_seen;
       const fs::path below = fs::relative(file, root);
       const fs::path header = fs::path(folderOf(below)) / (file.stem().string() + ".h");
-      const bool has_header = file.extension() == ".cpp" && fs::exists(headers / header);
-      const std::string own_header = has_header ? (fs::path(kPackage) / header).string() : "";
-      for (const std::string& fault : faultsOfIncludes(contentOf(file), below, own_header))
+      std::string own_header;
+      if (file.extension() == ".cpp" && fs::exists(headers / header)) {
+        own_header = (fs::path(kPackage) / header).string();
+      } else if (file.extension() == ".cpp" && fs::exists(fs::path(file).replace_extension(".h"))) {
+        own_header = header.filename();
+      }
+      const std::string text = contentOf(file);
+      for (const std::string& fault : faultsOfIncludes(text, below, own_header))
         faults.push_back(file.string() + ": " + fault);
-      ++files_seen;
+      if (root != headers) continue;
+      for (const std::string& included : privateIncludes(text))
+        faults.push_back(file.string() + ": a public header includes " + included +
+                         ", which is not installed");
     }
   }
   return faults;

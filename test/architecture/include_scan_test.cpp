@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "architecture/include_scan.h"
 
 namespace concave_distance {
@@ -18,9 +20,20 @@ TEST(Architecture, NoIncludePointsUpwards) {
   EXPECT_GT(files_seen, 30u) << "the scan did not find the package's files";
 }
 
+TEST(Architecture, FewHeadersArePublic) {
+  namespace fs = std::filesystem;
+  std::size_t headers = 0;
+  for (const auto& entry :
+       fs::recursive_directory_iterator(fs::path(CONCAVE_DISTANCE_SOURCE_DIR) / "include")) {
+    headers += entry.path().extension() == ".h" ? 1 : 0;
+  }
+  EXPECT_GT(headers, 30U);
+  EXPECT_LE(headers, 60U) << "each is a promise to keep";
+}
+
 TEST(IncludeScan, AcceptsTheSameFolderALowerOneAndLibraries) {
   const std::string text =
-      "#include \"concave_distance/search/a.h\"\n#include \"concave_distance/mesh/b.h\"\n#include <vector>\n";
+      "#include \"concave_distance/search/a.h\"\n#include \"mesh/trees/b.h\"\n#include <vector>\n";
   EXPECT_TRUE(faultsOfIncludes(text, "search/x.cpp", "concave_distance/search/a.h").empty());
 }
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "concave_distance/mesh/surface_mesh.h"
+#include "concave_distance/mesh/surface/surface_mesh.h"
 
 namespace concave_distance {
 namespace {
@@ -30,7 +30,7 @@ TEST(Architecture, TheCoreLinksNoRosLibrary) {
   bool core_seen = false;
   for (const std::string& name : loadedLibraries()) {
     EXPECT_FALSE(std::regex_search(name, ros_library)) << name;
-    core_seen = core_seen || name.find("libconcave_distance_core") != std::string::npos;
+    core_seen = core_seen || name.find("libconcave_distance_internal") != std::string::npos;
   }
   EXPECT_TRUE(core_seen);
 }

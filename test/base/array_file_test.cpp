@@ -1,4 +1,4 @@
-#include "concave_distance/base/array_file.h"
+#include "base/array_file.h"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>

@@ -1,4 +1,4 @@
-#include "concave_distance/base/output_file.h"
+#include "base/output_file.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

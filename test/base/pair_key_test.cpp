@@ -1,4 +1,4 @@
-#include "concave_distance/base/pair_key.h"
+#include "base/pair_key.h"
 
 #include <gtest/gtest.h>
 

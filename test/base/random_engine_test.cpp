@@ -1,4 +1,4 @@
-#include "concave_distance/base/random_engine.h"
+#include "base/random_engine.h"
 
 #include <gtest/gtest.h>
 

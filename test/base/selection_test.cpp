@@ -1,4 +1,4 @@
-#include "concave_distance/base/selection.h"
+#include "base/selection.h"
 
 #include <gtest/gtest.h>
 

@@ -24,13 +24,13 @@
 #include "benchmark/support/benchmark_main.h"
 #include "benchmark/support/benchmark_pairs.h"
 #include "benchmark/support/query_clock.h"
-#include "concave_distance/distance/certificate.h"
-#include "concave_distance/search/automatic_radii.h"
-#include "concave_distance/thesis/continuous/constraint_tree_file.h"
-#include "concave_distance/thesis/continuous/continuous_annealing.h"
-#include "concave_distance/thesis/continuous/continuous_genetic_search.h"
-#include "concave_distance/thesis/evaluation/search_method.h"
 #include "concave_distance/tracking/pair_tracker.h"
+#include "distance/certificate.h"
+#include "search/automatic_radii.h"
+#include "thesis/continuous/constraint_tree_file.h"
+#include "thesis/continuous/continuous_annealing.h"
+#include "thesis/continuous/continuous_genetic_search.h"
+#include "thesis/evaluation/search_method.h"
 
 namespace concave_distance::benchmark {
 namespace {

@@ -20,11 +20,12 @@
 #include "benchmark/support/benchmark_main.h"
 #include "benchmark/support/reference_niches.h"
 #include "benchmark/support/statistics.h"
-#include "concave_distance/search/automatic_radii.h"
-#include "concave_distance/search/genetic_search.h"
-#include "concave_distance/search/local_descent.h"
-#include "concave_distance/thesis/evaluation/enumeration.h"
 #include "concave_distance/tracking/pair_tracker.h"
+#include "distance/niche_properties.h"
+#include "search/automatic_radii.h"
+#include "search/genetic_search.h"
+#include "search/local_descent.h"
+#include "thesis/evaluation/enumeration.h"
 
 namespace concave_distance::benchmark {
 namespace {

@@ -32,10 +32,11 @@
 #include "benchmark/support/benchmark_main.h"
 #include "benchmark/support/flood_recall.h"
 #include "benchmark/support/statistics.h"
-#include "concave_distance/distance/local_minima.h"
-#include "concave_distance/search/local_descent.h"
-#include "concave_distance/thesis/evaluation/enumeration.h"
 #include "concave_distance/tracking/pair_tracker.h"
+#include "distance/local_minima.h"
+#include "mesh/trees/normal_cone_tree.h"
+#include "search/local_descent.h"
+#include "thesis/evaluation/enumeration.h"
 
 namespace concave_distance::benchmark {
 namespace {

@@ -22,8 +22,8 @@
 #include "benchmark/support/continuous_scenes.h"
 #include "benchmark/support/statistics.h"
 #include "benchmark/support/stopwatch.h"
-#include "concave_distance/thesis/continuous/continuous_annealing.h"
-#include "concave_distance/thesis/continuous/continuous_genetic_search.h"
+#include "thesis/continuous/continuous_annealing.h"
+#include "thesis/continuous/continuous_genetic_search.h"
 
 namespace concave_distance::benchmark {
 namespace {

@@ -21,10 +21,11 @@
 #include "benchmark/support/benchmark_pairs.h"
 #include "benchmark/support/shapes.h"
 #include "benchmark/support/stopwatch.h"
-#include "concave_distance/distance/witness_refinement.h"
-#include "concave_distance/search/genetic_search.h"
-#include "concave_distance/thesis/evaluation/multi_start_descent.h"
 #include "concave_distance/tracking/pair_tracker.h"
+#include "distance/witness_refinement.h"
+#include "mesh/body_mesh_parts.h"
+#include "search/genetic_search.h"
+#include "thesis/evaluation/multi_start_descent.h"
 
 namespace concave_distance::benchmark {
 namespace {
@@ -106,15 +107,21 @@ void run(const Scene& scene, std::uint32_t descents, std::ofstream& csv) {
   }
 }
 
+std::shared_ptr<const BodyMesh> makeBody(const std::string& name, const SurfaceMesh& surface,
+                                         const BodyMeshOptions& options, bool with_levels) {
+  BodyMeshParts parts = makeBodyMeshParts(name, surface, options);
+  if (!with_levels) parts.nodes.levels = {};
+  return std::make_shared<const BodyMesh>(std::move(parts), options);
+}
+
 Scene makeScene(const std::string& name, const SurfaceMesh& a, const SurfaceMesh& b,
                 const Eigen::Isometry3d& pose, double spacing) {
   Scene scene{name, spacing, {}, {}, pose, {}};
   for (int k = 0; k < 2; ++k) {
     BodyMeshOptions options;
-    options.levels = k == 1;
     if (spacing > 0.0) options.max_edge_length = spacing * std::min(a.diameter(), b.diameter());
-    scene.a[k] = std::make_shared<const BodyMesh>(name, a, options);
-    scene.b[k] = std::make_shared<const BodyMesh>(name, b, options);
+    scene.a[k] = makeBody(name, a, options, k == 1);
+    scene.b[k] = makeBody(name, b, options, k == 1);
   }
   return scene;
 }

@@ -37,7 +37,7 @@ __attribute__((noinline)) double runCycles(CyclePair& pair, const std::vector<Ei
   for (const Eigen::Isometry3d& pose : poses) {
     pair.tracker.update(pose, time += 0.01, pair.solution);
 #ifndef CONCAVE_DISTANCE_WITHOUT_EFFECTS
-    if (pair.effects) pair.effects->update(pair.solution, pose, RelativeTwist(), 0.01, pair.contacts);
+    if (pair.effects) pair.effects->update(pair.solution, RelativeTwist(), 0.01, pair.contacts);
 #endif
     sum += pair.solution.distance;
   }

@@ -13,10 +13,10 @@
 #include <limits>
 
 #include "benchmark/support/benchmark_main.h"
-#include "concave_distance/distance/niche_properties.h"
-#include "concave_distance/thesis/evaluation/enumeration.h"
+#include "distance/niche_properties.h"
 #include "support/body_pairs.h"
 #include "support/triangle_pairs.h"
+#include "thesis/evaluation/enumeration.h"
 
 namespace concave_distance::benchmark {
 namespace {

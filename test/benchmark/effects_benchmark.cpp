@@ -71,7 +71,7 @@ class Run {
     const double start = processorMicroseconds();
     tracker_.update(pose, time, solution_);
     const double between = processorMicroseconds();
-    if (asks_) effects_.update(solution_, pose, still, step, contacts_);
+    if (asks_) effects_.update(solution_, still, step, contacts_);
     const double end = processorMicroseconds();
     if (step == 0.0) {
       before_ = effects_.counts();

@@ -16,11 +16,11 @@
 #include <fstream>
 #include <mutex>
 
+#include "base/random_engine.h"
 #include "benchmark/support/benchmark_main.h"
 #include "benchmark/support/benchmark_pairs.h"
 #include "benchmark/support/sphere_tree.h"
-#include "concave_distance/base/random_engine.h"
-#include "concave_distance/distance/certificate.h"
+#include "distance/certificate.h"
 #include "support/exact_query.h"
 
 namespace concave_distance::benchmark {

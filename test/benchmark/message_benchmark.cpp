@@ -17,9 +17,9 @@
 #include "benchmark/support/accuracy_pairs.h"
 #include "benchmark/support/benchmark_main.h"
 #include "benchmark/support/processor_time.h"
-#include "concave_distance/ros/conversions.h"
-#include "concave_distance/ros/niche_markers.h"
 #include "concave_distance/tracking/pair_tracker.h"
+#include "ros/conversions.h"
+#include "ros/niche_markers.h"
 
 namespace concave_distance::benchmark {
 namespace {

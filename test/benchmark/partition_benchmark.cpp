@@ -26,9 +26,9 @@
 #include "benchmark/support/manoeuvre_methods.h"
 #include "benchmark/support/statistics.h"
 #include "concave_distance/base/error.h"
-#include "concave_distance/distance/certificate.h"
-#include "concave_distance/thesis/partition/convex_partition.h"
-#include "concave_distance/thesis/partition/piece_file.h"
+#include "distance/certificate.h"
+#include "thesis/partition/convex_partition.h"
+#include "thesis/partition/piece_file.h"
 
 namespace concave_distance::benchmark {
 namespace {

@@ -13,7 +13,7 @@
 
 #include "benchmark/support/benchmark_main.h"
 #include "benchmark/support/search_trial.h"
-#include "concave_distance/search/automatic_radii.h"
+#include "search/automatic_radii.h"
 
 namespace concave_distance::benchmark {
 namespace {

@@ -24,6 +24,7 @@
 #include "benchmark/support/search_trial.h"
 #include "benchmark/support/statistics.h"
 #include "concave_distance/tracking/pair_tracker.h"
+#include "distance/witness_refinement.h"
 
 namespace concave_distance::benchmark {
 namespace {

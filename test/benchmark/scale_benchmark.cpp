@@ -20,14 +20,14 @@
 #include <filesystem>
 #include <fstream>
 
+#include "base/run_together.h"
 #include "benchmark/support/benchmark_main.h"
 #include "benchmark/support/fcl_distance.h"
 #include "benchmark/support/shapes.h"
 #include "benchmark/support/statistics.h"
 #include "benchmark/support/stopwatch.h"
-#include "concave_distance/base/run_together.h"
-#include "concave_distance/distance/certificate.h"
 #include "concave_distance/tracking/pair_tracker.h"
+#include "distance/certificate.h"
 
 namespace concave_distance::benchmark {
 namespace {

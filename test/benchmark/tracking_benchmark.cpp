@@ -20,6 +20,7 @@
 #include "benchmark/support/statistics.h"
 #include "benchmark/support/stopwatch.h"
 #include "concave_distance/tracking/pair_tracker.h"
+#include "mesh/grid/node_graph.h"
 
 namespace concave_distance::benchmark {
 namespace {

@@ -15,7 +15,7 @@
 #include "benchmark/support/benchmark_main.h"
 #include "benchmark/support/benchmark_pairs.h"
 #include "concave_distance/base/error.h"
-#include "concave_distance/mesh/export_mesh.h"
+#include "concave_distance/mesh/import/export_mesh.h"
 
 namespace concave_distance::benchmark {
 namespace {

@@ -1,4 +1,4 @@
-#include "concave_distance/contact/motion_between.h"
+#include "contact/motion_between.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "concave_distance/base/error.h"
-#include "concave_distance/contact/contact_point.h"
+#include "contact/contact_point.h"
 #include "support/hunt_crossley_rebound.h"
 
 namespace concave_distance {

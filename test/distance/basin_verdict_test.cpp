@@ -1,4 +1,5 @@
-#include "concave_distance/distance/basin_verdict.h"
+#include "distance/basin_verdict.h"
+#include "mesh/trees/normal_cone_tree.h"
 
 #include <gtest/gtest.h>
 #include <pthread.h>
@@ -7,7 +8,7 @@
 #include <cmath>
 #include <set>
 
-#include "concave_distance/distance/cone_sweep.h"
+#include "distance/cone_sweep.h"
 #include "distance/minima_checks.h"
 
 namespace concave_distance {

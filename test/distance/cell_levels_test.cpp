@@ -1,4 +1,4 @@
-#include "cell_levels.h"
+#include "distance/cell_levels.h"
 
 #include <gtest/gtest.h>
 

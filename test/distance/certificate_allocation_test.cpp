@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "concave_distance/distance/certificate.h"
+#include "distance/certificate.h"
 #include "support/body_pairs.h"
 #include "support/count_allocations.h"
 

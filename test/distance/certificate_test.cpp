@@ -1,10 +1,10 @@
-#include "concave_distance/distance/certificate.h"
+#include "distance/certificate.h"
 
 #include <gtest/gtest.h>
 
-#include "concave_distance/distance/surface_walk.h"
-#include "concave_distance/thesis/evaluation/enumeration.h"
+#include "distance/surface_walk.h"
 #include "support/body_pairs.h"
+#include "thesis/evaluation/enumeration.h"
 
 namespace concave_distance {
 namespace {

@@ -5,9 +5,9 @@
 
 #include <cmath>
 
-#include "concave_distance/thesis/evaluation/enumeration.h"
 #include "concave_distance/tracking/pair_tracker.h"
 #include "support/body_pairs.h"
+#include "thesis/evaluation/enumeration.h"
 
 namespace concave_distance {
 namespace {

@@ -4,9 +4,10 @@
 #include <cmath>
 #include <limits>
 
-#include "concave_distance/mesh/refine_mesh.h"
-#include "concave_distance/mesh/repair_mesh.h"
+#include "concave_distance/mesh/repair/repair_mesh.h"
 #include "distance/minima_checks.h"
+#include "mesh/surface/mesh_topology.h"
+#include "mesh/surface/refine_mesh.h"
 #include "support/painted_boxes.h"
 
 // Level `complete` on scenes whose niches are known, and what must not change its answer.

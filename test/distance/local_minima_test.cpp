@@ -1,4 +1,4 @@
-#include "concave_distance/distance/local_minima.h"
+#include "distance/local_minima.h"
 
 #include <gtest/gtest.h>
 

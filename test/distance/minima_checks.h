@@ -8,7 +8,7 @@
 #include <memory>
 #include <vector>
 
-#include "concave_distance/distance/local_minima.h"
+#include "distance/local_minima.h"
 #include "support/body_pairs.h"
 #include "support/brute_force_minima.h"
 

@@ -2,12 +2,13 @@
 
 #include <cmath>
 
-#include "concave_distance/distance/certificate.h"
-#include "concave_distance/distance/niche_properties.h"
-#include "concave_distance/mesh/refine_mesh.h"
-#include "concave_distance/thesis/evaluation/enumeration.h"
+#include "distance/certificate.h"
+#include "distance/niche_properties.h"
+#include "mesh/surface/mesh_topology.h"
+#include "mesh/surface/refine_mesh.h"
 #include "support/body_pairs.h"
 #include "support/mesh_variants.h"
+#include "thesis/evaluation/enumeration.h"
 
 namespace concave_distance {
 namespace {

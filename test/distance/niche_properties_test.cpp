@@ -1,4 +1,6 @@
-#include "concave_distance/distance/niche_properties.h"
+#include "distance/niche_properties.h"
+#include "mesh/surface/mesh_topology.h"
+#include "mesh/trees/triangle_tree.h"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +8,8 @@
 #include <limits>
 #include <map>
 
-#include "concave_distance/thesis/evaluation/enumeration.h"
 #include "support/body_pairs.h"
+#include "thesis/evaluation/enumeration.h"
 
 namespace concave_distance {
 namespace {

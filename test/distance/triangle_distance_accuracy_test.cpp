@@ -9,7 +9,7 @@
 #include <iostream>
 #include <limits>
 
-#include "concave_distance/distance/triangle_distance.h"
+#include "distance/triangle_distance.h"
 #include "support/case_seed.h"
 #include "support/exact_triangle_distance.h"
 #include "support/triangle_pairs.h"

@@ -1,4 +1,4 @@
-#include "concave_distance/distance/triangle_distance.h"
+#include "distance/triangle_distance.h"
 
 #include <gtest/gtest.h>
 

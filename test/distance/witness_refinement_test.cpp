@@ -1,11 +1,12 @@
-#include "concave_distance/distance/witness_refinement.h"
+#include "distance/witness_refinement.h"
+#include "mesh/surface/mesh_topology.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "concave_distance/thesis/evaluation/enumeration.h"
 #include "support/body_pairs.h"
+#include "thesis/evaluation/enumeration.h"
 
 namespace concave_distance {
 namespace {

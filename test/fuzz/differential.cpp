@@ -14,12 +14,12 @@
 #include <sstream>
 
 #include "benchmark/support/fcl_distance.h"
-#include "concave_distance/distance/certificate.h"
-#include "concave_distance/thesis/evaluation/enumeration.h"
 #include "concave_distance/tracking/pair_tracker.h"
+#include "distance/certificate.h"
 #include "fuzz/reproducer.h"
 #include "support/body_pairs.h"
 #include "support/query_bound.h"
+#include "thesis/evaluation/enumeration.h"
 
 namespace {
 

@@ -2,10 +2,10 @@
 
 #include <cmath>
 
-#include "concave_distance/mesh/primitives.h"
-#include "concave_distance/mesh/repair_mesh.h"
-#include "concave_distance/thesis/evaluation/enumeration.h"
+#include "concave_distance/mesh/repair/repair_mesh.h"
+#include "concave_distance/mesh/surface/primitives.h"
 #include "support/body_pairs.h"
+#include "thesis/evaluation/enumeration.h"
 
 namespace concave_distance::test {
 namespace {
@@ -83,9 +83,7 @@ SurfaceMesh asImported(const SurfaceMesh& mesh, double scale) {
   }
   for (const TriangleNodes& t : mesh.triangles())
     soup.triangles.push_back({t[0].value, t[1].value, t[2].value});
-  RepairOptions repair;
-  repair.weld_tolerance = kSinglePrecisionWeld;
-  return repairMesh(soup, repair, "drawn").mesh;
+  return repairMesh(soup, {}, "drawn").mesh;
 }
 
 /// B led along the shortest way until a gap of about `gap` is left.

@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "concave_distance/base/random_engine.h"
-#include "concave_distance/mesh/surface_mesh.h"
+#include "base/random_engine.h"
+#include "concave_distance/mesh/surface/surface_mesh.h"
 #include "support/exact_query.h"
 
 namespace concave_distance::test {

@@ -5,11 +5,11 @@
 #include <cmath>
 
 #include "concave_distance/base/error.h"
-#include "concave_distance/distance/certificate.h"
 #include "concave_distance/interference/interference.h"
-#include "concave_distance/mesh/repair_mesh.h"
+#include "concave_distance/mesh/repair/repair_mesh.h"
+#include "distance/certificate.h"
 #include "fuzz/fuzz_input.h"
-#include "import_worker/read_mesh.h"
+#include "mesh/import/import_worker/read_mesh.h"
 
 namespace {
 
@@ -48,11 +48,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string content = test::textOf(data + 1, size - 1);
   const std::string path = "fuzz";
   try {
-    RepairOptions repair;
-    repair.weld_tolerance = kSinglePrecisionWeld;
     RepairedMesh repaired = repairMesh(detail::readMesh(content, path, kFormats[data[0] % kFormats.size()],
                                                         Eigen::Vector3d::Ones(), kMostTrianglesRead),
-                                       repair, path);
+                                       {}, path);
     if (repaired.mesh.triangleCount() > kMostTriangles) return 0;
     BodyMeshOptions options;
     options.max_edge_length = 0.5 * repaired.mesh.diameter();

@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include "concave_distance/base/error.h"
-#include "concave_distance/scene/query_poses.h"
 #include "fuzz/fuzz_input.h"
+#include "loading/query_poses.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace concave_distance;

@@ -1,6 +1,6 @@
 // Any text as a robot description: a scene, perhaps with problems, or an Error.
 #include "concave_distance/base/error.h"
-#include "concave_distance/scene/load_scene.h"
+#include "concave_distance/loading/load_scene.h"
 #include "fuzz/fuzz_input.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -7,9 +7,9 @@
 #include <sstream>
 
 #include "concave_distance/base/error.h"
-#include "concave_distance/mesh/export_mesh.h"
-#include "concave_distance/mesh/import_mesh.h"
-#include "concave_distance/mesh/repair_mesh.h"
+#include "concave_distance/mesh/import/export_mesh.h"
+#include "concave_distance/mesh/import/import_mesh.h"
+#include "concave_distance/mesh/repair/repair_mesh.h"
 
 namespace concave_distance::test {
 namespace {
@@ -32,9 +32,7 @@ std::array<std::array<double, 3>, 3> sortedCorners(const SurfaceMesh& mesh, std:
 
 /// Whether the file brings the very triangles back that were tried, perhaps turned.
 bool bringsBack(const std::string& path, const SurfaceMesh& mesh) {
-  RepairOptions repair;
-  repair.weld_tolerance = kSinglePrecisionWeld;
-  const SurfaceMesh again = repairMesh(importMesh(path), repair, path).mesh;
+  const SurfaceMesh again = repairMesh(importMesh(path), {}, path).mesh;
   if (again.triangleCount() != mesh.triangleCount()) return false;
   for (std::size_t t = 0; t < mesh.triangleCount(); ++t) {
     if (sortedCorners(again, t) != sortedCorners(mesh, t)) return false;

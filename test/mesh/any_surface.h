@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "concave_distance/mesh/repair_mesh.h"
+#include "concave_distance/mesh/repair/repair_mesh.h"
 
 namespace concave_distance::test {
 

@@ -1,4 +1,4 @@
-#include "concave_distance/mesh/bounding_volume_hierarchy.h"
+#include "mesh/trees/bounding_volume_hierarchy.h"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "concave_distance/base/error.h"
-#include "concave_distance/mesh/import_mesh.h"
+#include "concave_distance/mesh/import/import_mesh.h"
 #include "support/temporary_folder.h"
 
 namespace concave_distance {

@@ -1,4 +1,4 @@
-#include "concave_distance/mesh/import_mesh.h"
+#include "concave_distance/mesh/import/import_mesh.h"
 
 #include <gtest/gtest.h>
 
@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "concave_distance/base/error.h"
-#include "concave_distance/mesh/export_mesh.h"
-#include "concave_distance/mesh/primitives.h"
-#include "concave_distance/mesh/repair_mesh.h"
+#include "concave_distance/mesh/import/export_mesh.h"
+#include "concave_distance/mesh/repair/repair_mesh.h"
+#include "concave_distance/mesh/surface/primitives.h"
 #include "mesh/mesh_measures.h"
 #include "support/temporary_folder.h"
 

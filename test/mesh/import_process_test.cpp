@@ -1,4 +1,4 @@
-#include "import_process.h"
+#include "mesh/import/import_process.h"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -14,9 +14,9 @@
 #include <thread>
 
 #include "concave_distance/base/error.h"
-#include "concave_distance/mesh/export_mesh.h"
-#include "concave_distance/mesh/primitives.h"
-#include "import_stream.h"
+#include "concave_distance/mesh/import/export_mesh.h"
+#include "concave_distance/mesh/surface/primitives.h"
+#include "mesh/import/import_stream.h"
 #include "support/temporary_folder.h"
 
 namespace concave_distance {

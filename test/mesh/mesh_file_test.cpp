@@ -1,4 +1,4 @@
-#include "concave_distance/mesh/mesh_file.h"
+#include "mesh/import/mesh_file.h"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "concave_distance/mesh/surface_mesh.h"
+#include "concave_distance/mesh/surface/surface_mesh.h"
 
 /// Plain measures of a surface, computed the obvious way. Metres.
 namespace concave_distance::test {

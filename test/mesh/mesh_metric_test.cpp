@@ -1,4 +1,4 @@
-#include "concave_distance/mesh/mesh_metric.h"
+#include "mesh/grid/mesh_metric.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <set>
 
-#include "concave_distance/base/random_engine.h"
+#include "base/random_engine.h"
 #include "support/concave_shapes.h"
 
 namespace concave_distance {

@@ -5,10 +5,10 @@
 #include <filesystem>
 #include <string>
 
-#include "concave_distance/mesh/export_mesh.h"
-#include "concave_distance/mesh/import_mesh.h"
-#include "concave_distance/mesh/primitives.h"
-#include "concave_distance/mesh/repair_mesh.h"
+#include "concave_distance/mesh/import/export_mesh.h"
+#include "concave_distance/mesh/import/import_mesh.h"
+#include "concave_distance/mesh/repair/repair_mesh.h"
+#include "concave_distance/mesh/surface/primitives.h"
 #include "mesh/mesh_measures.h"
 #include "support/temporary_folder.h"
 

@@ -1,4 +1,4 @@
-#include "concave_distance/mesh/mesh_topology.h"
+#include "mesh/surface/mesh_topology.h"
 
 #include <gtest/gtest.h>
 

@@ -2,11 +2,11 @@
 
 #include <cmath>
 
-#include "concave_distance/mesh/mesh_topology.h"
-#include "concave_distance/mesh/primitives.h"
-#include "concave_distance/mesh/repair_mesh.h"
-#include "concave_distance/mesh/triangle_tree.h"
+#include "concave_distance/mesh/repair/repair_mesh.h"
+#include "concave_distance/mesh/surface/primitives.h"
 #include "mesh/mesh_measures.h"
+#include "mesh/surface/mesh_topology.h"
+#include "mesh/trees/triangle_tree.h"
 #include "support/painted_boxes.h"
 
 /// Solids and cavities within others, by the thousands.

@@ -1,4 +1,4 @@
-#include "concave_distance/mesh/node_graph.h"
+#include "mesh/grid/node_graph.h"
 
 #include <gtest/gtest.h>
 

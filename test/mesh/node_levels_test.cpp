@@ -1,12 +1,13 @@
-#include "concave_distance/mesh/node_levels.h"
+#include "mesh/grid/node_levels.h"
+#include "mesh/grid/mesh_metric.h"
 
 #include <gtest/gtest.h>
 
 #include <numeric>
 
 #include "concave_distance/mesh/body_mesh.h"
-#include "concave_distance/mesh/primitives.h"
-#include "concave_distance/mesh/search_grid.h"
+#include "concave_distance/mesh/surface/primitives.h"
+#include "mesh/grid/search_grid.h"
 #include "support/concave_shapes.h"
 
 namespace concave_distance {

@@ -1,11 +1,11 @@
-#include "concave_distance/mesh/normal_cone_tree.h"
+#include "mesh/trees/normal_cone_tree.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "concave_distance/distance/triangle_distance.h"
+#include "distance/triangle_distance.h"
 #include "support/body_pairs.h"
 
 namespace concave_distance {

@@ -1,4 +1,4 @@
-#include "concave_distance/mesh/primitives.h"
+#include "concave_distance/mesh/surface/primitives.h"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "base/random_engine.h"
 #include "concave_distance/base/error.h"
-#include "concave_distance/base/random_engine.h"
 #include "mesh/mesh_measures.h"
 
 namespace concave_distance {

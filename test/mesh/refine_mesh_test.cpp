@@ -1,4 +1,4 @@
-#include "concave_distance/mesh/refine_mesh.h"
+#include "mesh/surface/refine_mesh.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "concave_distance/base/error.h"
-#include "concave_distance/mesh/primitives.h"
+#include "concave_distance/mesh/surface/primitives.h"
 #include "mesh/any_surface.h"
 #include "mesh/mesh_measures.h"
 

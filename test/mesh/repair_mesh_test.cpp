@@ -1,4 +1,4 @@
-#include "concave_distance/mesh/repair_mesh.h"
+#include "concave_distance/mesh/repair/repair_mesh.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "concave_distance/base/error.h"
-#include "concave_distance/mesh/mesh_topology.h"
-#include "concave_distance/mesh/primitives.h"
+#include "concave_distance/mesh/surface/primitives.h"
 #include "mesh/mesh_measures.h"
+#include "mesh/surface/mesh_topology.h"
 
 namespace concave_distance {
 namespace {

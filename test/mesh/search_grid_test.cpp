@@ -1,4 +1,4 @@
-#include "concave_distance/mesh/search_grid.h"
+#include "mesh/grid/search_grid.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -9,14 +9,14 @@
 #include <string>
 #include <vector>
 
+#include "base/random_engine.h"
 #include "concave_distance/base/error.h"
-#include "concave_distance/base/random_engine.h"
-#include "concave_distance/mesh/import_mesh.h"
-#include "concave_distance/mesh/primitives.h"
-#include "concave_distance/mesh/refine_mesh.h"
-#include "concave_distance/mesh/repair_mesh.h"
+#include "concave_distance/mesh/import/import_mesh.h"
+#include "concave_distance/mesh/repair/repair_mesh.h"
+#include "concave_distance/mesh/surface/primitives.h"
 #include "mesh/any_surface.h"
 #include "mesh/mesh_measures.h"
+#include "mesh/surface/refine_mesh.h"
 
 namespace concave_distance {
 namespace {

@@ -1,11 +1,11 @@
-#include "concave_distance/mesh/thin_graph.h"
+#include "mesh/grid/thin_graph.h"
 
 #include <gtest/gtest.h>
 
 #include <set>
 
-#include "concave_distance/mesh/primitives.h"
-#include "concave_distance/mesh/refine_mesh.h"
+#include "concave_distance/mesh/surface/primitives.h"
+#include "mesh/surface/refine_mesh.h"
 #include "support/concave_shapes.h"
 
 namespace concave_distance {

@@ -1,4 +1,4 @@
-#include "concave_distance/mesh/triangle_adjacency.h"
+#include "mesh/surface/triangle_adjacency.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
-#include "concave_distance/mesh/triangle_tree.h"
+#include "mesh/trees/triangle_tree.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "concave_distance/mesh/mesh_topology.h"
+#include "mesh/surface/mesh_topology.h"
 #include "support/plain_shapes.h"
 
 namespace concave_distance {

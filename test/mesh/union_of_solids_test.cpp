@@ -3,10 +3,10 @@
 #include <cmath>
 #include <numeric>
 
-#include "concave_distance/mesh/mesh_topology.h"
-#include "concave_distance/mesh/repair_mesh.h"
-#include "concave_distance/mesh/triangle_tree.h"
+#include "concave_distance/mesh/repair/repair_mesh.h"
 #include "mesh/mesh_measures.h"
+#include "mesh/surface/mesh_topology.h"
+#include "mesh/trees/triangle_tree.h"
 #include "support/body_pairs.h"
 #include "support/case_seed.h"
 #include "support/painted_boxes.h"
@@ -20,9 +20,7 @@ using Eigen::Vector3d;
 using test::Box;
 
 RepairedMesh repair(const TriangleSoup& soup) {
-  RepairOptions options;
-  options.weld_tolerance = kSinglePrecisionWeld;
-  return repairMesh(soup, options, "union");
+  return repairMesh(soup, {}, "union");
 }
 
 class Inside {

@@ -7,8 +7,8 @@
 #include <iostream>
 #include <set>
 
-#include "concave_distance/distance/certificate.h"
 #include "concave_distance/tracking/pair_tracker.h"
+#include "distance/certificate.h"
 #include "support/body_pairs.h"
 #include "support/query_bound.h"
 

@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "concave_distance/base/error.h"
-#include "concave_distance/distance/certificate.h"
-#include "concave_distance/mesh/export_mesh.h"
-#include "concave_distance/mesh/import_mesh.h"
-#include "concave_distance/mesh/repair_mesh.h"
+#include "concave_distance/mesh/import/export_mesh.h"
+#include "concave_distance/mesh/import/import_mesh.h"
+#include "concave_distance/mesh/repair/repair_mesh.h"
+#include "distance/certificate.h"
 #include "support/body_pairs.h"
 #include "support/temporary_folder.h"
 

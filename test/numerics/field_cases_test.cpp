@@ -3,8 +3,9 @@
 
 #include <cmath>
 
-#include "concave_distance/distance/certificate.h"
-#include "concave_distance/mesh/primitives.h"
+#include "concave_distance/mesh/surface/primitives.h"
+#include "distance/certificate.h"
+#include "mesh/surface/mesh_topology.h"
 #include "support/body_pairs.h"
 #include "support/exact_query.h"
 #include "support/query_bound.h"

@@ -1,7 +1,7 @@
 #include <cmath>
 
-#include "concave_distance/base/random_engine.h"
-#include "concave_distance/mesh/repair_mesh.h"
+#include "base/random_engine.h"
+#include "concave_distance/mesh/repair/repair_mesh.h"
 #include "numerics/numeric_cases.h"
 #include "support/concave_shapes.h"
 #include "support/plain_shapes.h"

@@ -6,8 +6,8 @@
 
 #include <cmath>
 
-#include "concave_distance/distance/certificate.h"
 #include "concave_distance/tracking/pair_tracker.h"
+#include "distance/certificate.h"
 #include "numerics/numeric_cases.h"
 #include "support/body_pairs.h"
 #include "support/mesh_variants.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "concave_distance/mesh/surface_mesh.h"
+#include "concave_distance/mesh/surface/surface_mesh.h"
 #include "support/exact_query.h"
 
 namespace concave_distance::test {

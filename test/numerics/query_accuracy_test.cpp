@@ -9,8 +9,8 @@
 #include <string>
 #include <tuple>
 
-#include "concave_distance/distance/certificate.h"
 #include "concave_distance/tracking/pair_tracker.h"
+#include "distance/certificate.h"
 #include "numerics/numeric_cases.h"
 #include "support/body_pairs.h"
 #include "support/query_bound.h"

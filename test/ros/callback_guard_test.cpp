@@ -1,10 +1,10 @@
-#include "concave_distance/ros/callback_guard.h"
+#include "ros/callback_guard.h"
 
 #include <gtest/gtest.h>
 
 #include <stdexcept>
 
-#include "concave_distance/ros/log_throttle.h"
+#include "ros/log_throttle.h"
 
 namespace concave_distance {
 namespace {

@@ -7,11 +7,11 @@
 
 #include "box_scene.h"
 #include "concave_distance/base/error.h"
-#include "concave_distance/ros/contact_conversions.h"
-#include "concave_distance/ros/contact_markers.h"
-#include "concave_distance/ros/diagnostics.h"
-#include "concave_distance/ros/distance_cycle.h"
-#include "concave_distance/scene/set_effects.h"
+#include "loading/set_effects.h"
+#include "ros/contact_conversions.h"
+#include "ros/contact_markers.h"
+#include "ros/diagnostics.h"
+#include "ros/distance_cycle.h"
 
 namespace concave_distance {
 namespace {

@@ -1,4 +1,4 @@
-#include "concave_distance/ros/conversions.h"
+#include "ros/conversions.h"
 
 #include <gtest/gtest.h>
 
@@ -55,6 +55,8 @@ PairSolution solutionWithOneNiche() {
   solution.niches.push_back(niche);
   solution.events.push_back({NicheEvent::Kind::Merge, 8, 7});
   solution.events.push_back({NicheEvent::Kind::Death, 9, 0});
+  solution.normal_in_a = solution.niches.front().normal_in_a;
+  solution.closing_speed = solution.niches.front().closing_speed;
   return solution;
 }
 
@@ -119,7 +121,7 @@ TEST(ToDistance, CarriesNoNumberWithoutItsFlag) {
   EXPECT_EQ(nothing.status.code, PairStatus::NOT_FOUND) << "no distance without a status that says so";
 
   solution = solutionWithOneNiche();
-  solution.niches.front().closing_speed = kNotComputed;
+  solution.closing_speed = kNotComputed;
   EXPECT_FALSE(toDistance(quarterTurnHeading(), solution).has_closing_speed);
 }
 

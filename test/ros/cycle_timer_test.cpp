@@ -1,4 +1,4 @@
-#include "concave_distance/ros/cycle_timer.h"
+#include "ros/cycle_timer.h"
 
 #include <gtest/gtest.h>
 #include <ros/time.h>

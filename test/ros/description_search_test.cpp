@@ -1,4 +1,4 @@
-#include "concave_distance/ros/description_search.h"
+#include "ros/description_search.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "concave_distance/ros/distance_cycle.h"
+#include "ros/distance_cycle.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "box_scene.h"
-#include "concave_distance/ros/scene_edits.h"
+#include "ros/scene_edits.h"
 
 namespace concave_distance {
 namespace {

@@ -1,4 +1,4 @@
-#include "concave_distance/ros/distance_queries.h"
+#include "ros/distance_queries.h"
 
 #include <gtest/gtest.h>
 

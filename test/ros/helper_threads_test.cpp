@@ -1,4 +1,4 @@
-#include "concave_distance/ros/helper_threads.h"
+#include "ros/helper_threads.h"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>

@@ -1,4 +1,4 @@
-#include "concave_distance/ros/lateness_monitor.h"
+#include "ros/lateness_monitor.h"
 
 #include <gtest/gtest.h>
 

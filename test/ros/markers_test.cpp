@@ -3,10 +3,10 @@
 #include <cmath>
 #include <memory>
 
-#include "concave_distance/mesh/primitives.h"
-#include "concave_distance/ros/body_markers.h"
-#include "concave_distance/ros/conversions.h"
-#include "concave_distance/ros/niche_markers.h"
+#include "concave_distance/mesh/surface/primitives.h"
+#include "ros/body_markers.h"
+#include "ros/conversions.h"
+#include "ros/niche_markers.h"
 
 namespace concave_distance {
 namespace {

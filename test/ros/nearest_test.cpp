@@ -1,4 +1,4 @@
-#include "concave_distance/ros/nearest.h"
+#include "ros/nearest.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "box_scene.h"
-#include "concave_distance/ros/distance_cycle.h"
+#include "ros/distance_cycle.h"
 
 namespace concave_distance {
 namespace {

@@ -1,12 +1,12 @@
-#include "concave_distance/ros/node_parameters.h"
+#include "ros/node_parameters.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "concave_distance/base/error.h"
-#include "concave_distance/ros/reconfiguration.h"
-#include "concave_distance/ros/simulation_runner.h"
+#include "ros/reconfiguration.h"
+#include "ros/simulation_runner.h"
 
 namespace concave_distance {
 namespace {

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "box_scene.h"
-#include "concave_distance/ros/distance_cycle.h"
-#include "concave_distance/ros/distance_queries.h"
+#include "ros/distance_cycle.h"
+#include "ros/distance_queries.h"
 #include "support/fail_allocations.h"
 
 namespace concave_distance {

@@ -10,13 +10,13 @@
 #include <set>
 #include <string>
 
-#include "concave_distance/contact/contact_parameter_tables.h"
-#include "concave_distance/ros/node_parameter_table.h"
-#include "concave_distance/ros/simulation_runner.h"
-#include "concave_distance/scene/pair_parameters.h"
-#include "concave_distance/scene/simulation_parameters.h"
-#include "concave_distance/search/genetic_parameter_table.h"
+#include "contact/contact_parameter_tables.h"
 #include "parameter_tables.h"
+#include "ros/node_parameter_table.h"
+#include "ros/simulation_runner.h"
+#include "scene/pair_parameters.h"
+#include "scene/simulation_parameters.h"
+#include "search/genetic_parameter_table.h"
 
 namespace concave_distance {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "concave_distance/base/parameter.h"
+#include "base/parameter.h"
 
 namespace concave_distance::test {
 

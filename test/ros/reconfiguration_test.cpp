@@ -1,4 +1,4 @@
-#include "concave_distance/ros/reconfiguration.h"
+#include "ros/reconfiguration.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "concave_distance/ros/request_gate.h"
+#include "ros/request_gate.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "concave_distance/ros/restart_requests.h"
+#include "ros/restart_requests.h"
 
 #include <gtest/gtest.h>
 

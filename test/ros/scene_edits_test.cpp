@@ -1,4 +1,4 @@
-#include "concave_distance/ros/scene_edits.h"
+#include "ros/scene_edits.h"
 
 #include <gtest/gtest.h>
 

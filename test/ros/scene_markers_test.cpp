@@ -6,11 +6,11 @@
 #include <set>
 
 #include "box_scene.h"
-#include "concave_distance/ros/conversions.h"
-#include "concave_distance/ros/marker_labels.h"
-#include "concave_distance/ros/marker_layout.h"
-#include "concave_distance/ros/marker_selection.h"
-#include "concave_distance/ros/scene_markers.h"
+#include "ros/conversions.h"
+#include "ros/marker_labels.h"
+#include "ros/marker_layout.h"
+#include "ros/marker_selection.h"
+#include "ros/scene_markers.h"
 
 namespace concave_distance {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "concave_distance/ros/cycle_statistics.h"
-#include "concave_distance/ros/diagnostics.h"
+#include "ros/cycle_statistics.h"
+#include "ros/diagnostics.h"
 
 namespace concave_distance {
 namespace {

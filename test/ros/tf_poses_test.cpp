@@ -1,4 +1,4 @@
-#include "concave_distance/ros/tf_poses.h"
+#include "ros/tf_poses.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "concave_distance/ros/transform_buffer.h"
+#include "ros/transform_buffer.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "concave_distance/ros/tf_poses.h"
+#include "ros/tf_poses.h"
 
 namespace concave_distance {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "concave_distance/base/random_engine.h"
+#include "base/random_engine.h"
 
 namespace concave_distance {
 namespace {

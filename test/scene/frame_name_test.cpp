@@ -1,4 +1,4 @@
-#include "concave_distance/scene/frame_name.h"
+#include "loading/frame_name.h"
 
 #include <gtest/gtest.h>
 

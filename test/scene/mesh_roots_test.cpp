@@ -1,4 +1,4 @@
-#include "concave_distance/scene/mesh_roots.h"
+#include "concave_distance/loading/mesh_roots.h"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -7,8 +7,8 @@
 #include <string>
 
 #include "concave_distance/base/error.h"
-#include "concave_distance/mesh/mesh_file.h"
-#include "concave_distance/scene/load_scene.h"
+#include "concave_distance/loading/load_scene.h"
+#include "mesh/import/mesh_file.h"
 #include "support/temporary_folder.h"
 
 namespace concave_distance {

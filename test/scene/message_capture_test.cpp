@@ -1,4 +1,4 @@
-#include "message_capture.h"
+#include "loading/message_capture.h"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "concave_distance/mesh/export_mesh.h"
+#include "concave_distance/mesh/import/export_mesh.h"
 #include "concave_distance/tracking/pair_tracker.h"
 #include "scene_fixture.h"
 #include "support/body_bytes.h"

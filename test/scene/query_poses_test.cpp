@@ -1,4 +1,4 @@
-#include "concave_distance/scene/query_poses.h"
+#include "loading/query_poses.h"
 
 #include <gtest/gtest.h>
 

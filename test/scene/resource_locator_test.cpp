@@ -1,4 +1,4 @@
-#include "concave_distance/scene/resource_locator.h"
+#include "concave_distance/loading/resource_locator.h"
 
 #include <gtest/gtest.h>
 
@@ -124,6 +124,14 @@ TEST_F(ResourceLocator, EnvironmentGivesPackagesOfWorkspacesPrefixesAndNestedRep
   ::unsetenv("ROS_PACKAGE_PATH");
   ::unsetenv("CMAKE_PREFIX_PATH");
   EXPECT_EQ(packagePathFromEnvironment("arm"), "");
+}
+
+TEST_F(ResourceLocator, PackagesAreFoundBelowFoldersThatAreNamed) {
+  folder.write("workspace/src/robots/hand/package.xml", "<package><name>hand</name></package>");
+  const std::string file = folder.write("workspace/src/robots/hand/palm.stl", "x");
+  const PackageLocator named = packagesBelow({folder.path("workspace/src")});
+  EXPECT_EQ(locateResource("package://hand/palm.stl", "", named), file);
+  EXPECT_EQ(named("no_such_package"), "");
 }
 
 }  // namespace

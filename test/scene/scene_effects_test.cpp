@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "concave_distance/scene/set_effects.h"
+#include "loading/set_effects.h"
 #include "scene/scene_fixture.h"
 
 namespace concave_distance {

@@ -5,9 +5,10 @@
 #include <regex>
 #include <set>
 
-#include "concave_distance/scene/pair_parameters.h"
-#include "concave_distance/search/genetic_parameter_table.h"
+#include "mesh/grid/node_graph.h"
+#include "scene/pair_parameters.h"
 #include "scene/scene_fixture.h"
+#include "search/genetic_parameter_table.h"
 
 namespace concave_distance {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "concave_distance/base/error.h"
-#include "concave_distance/scene/load_scene.h"
+#include "concave_distance/loading/load_scene.h"
 #include "support/temporary_folder.h"
 
 namespace concave_distance::test {

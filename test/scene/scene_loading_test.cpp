@@ -3,6 +3,9 @@
 
 #include <limits>
 
+#include "mesh/grid/mesh_metric.h"
+#include "mesh/grid/node_graph.h"
+#include "scene/body_pool.h"
 #include "scene/scene_fixture.h"
 
 namespace concave_distance {
@@ -323,6 +326,24 @@ TEST_F(SceneLoading, SingleBodyThatCannotBeLoadedIsRefusedByName) {
   description.dimensions = {1.0};
   description.chord_error = 0.0;
   EXPECT_TRUE(mentions(bodyRefusal(description), "body 'crate'"));
+}
+
+TEST_F(SceneLoading, StrictlyAProblemIsAnError) {
+  const std::string urdf =
+      "<robot name='r'><link name='base'><collision><geometry><mesh filename='package://unknown/a.stl'/>"
+      "</geometry></collision></link></robot>";
+  EXPECT_EQ(loadRobotScene(urdf, "robot", options).problems.size(), 1U);
+  options.strict = true;
+  try {
+    static_cast<void>(loadRobotScene(urdf, "robot", options));
+    FAIL() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_TRUE(mentions(error.what(), "package")) << error.what();
+    EXPECT_TRUE(mentions(error.what(), "unknown")) << error.what();
+  }
+  EXPECT_THROW(static_cast<void>(loadSceneText("bodies: [{name: a, mesh: missing.stl}]", "scene.yaml",
+                                               folder.path(), options)),
+               Error);
 }
 
 }  // namespace

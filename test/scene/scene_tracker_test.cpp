@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "concave_distance/base/error.h"
-#include "concave_distance/scene/robot_poses.h"
+#include "concave_distance/loading/robot_poses.h"
 #include "scene/scene_fixture.h"
 #include "support/box_scene.h"
 

@@ -1,9 +1,9 @@
-#include "concave_distance/search/automatic_radii.h"
+#include "search/automatic_radii.h"
 
 #include <gtest/gtest.h>
 
-#include "concave_distance/mesh/geodesic_extent.h"
-#include "concave_distance/mesh/primitives.h"
+#include "concave_distance/mesh/surface/primitives.h"
+#include "mesh/grid/geodesic_extent.h"
 #include "search/search_scenes.h"
 
 namespace concave_distance {

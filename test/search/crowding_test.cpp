@@ -1,4 +1,4 @@
-#include "concave_distance/search/crowding.h"
+#include "search/crowding.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "concave_distance/mesh/geodesic_extent.h"
+#include "mesh/grid/geodesic_extent.h"
 #include "search/search_scenes.h"
 
 namespace concave_distance {

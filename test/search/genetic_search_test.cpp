@@ -1,15 +1,15 @@
-#include "concave_distance/search/genetic_search.h"
+#include "search/genetic_search.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <set>
 
-#include "concave_distance/search/automatic_radii.h"
-#include "concave_distance/search/local_descent.h"
-#include "concave_distance/thesis/evaluation/enumeration.h"
-#include "concave_distance/thesis/evaluation/multi_start_descent.h"
+#include "search/automatic_radii.h"
+#include "search/local_descent.h"
 #include "search/search_scenes.h"
+#include "thesis/evaluation/enumeration.h"
+#include "thesis/evaluation/multi_start_descent.h"
 
 namespace concave_distance {
 namespace {

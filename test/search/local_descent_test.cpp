@@ -1,10 +1,10 @@
-#include "concave_distance/search/local_descent.h"
+#include "search/local_descent.h"
 
 #include <gtest/gtest.h>
 
 #include <rapidcheck/gtest.h>
 
-#include "concave_distance/search/mutation.h"
+#include "search/mutation.h"
 #include "search/search_scenes.h"
 
 namespace concave_distance {

@@ -1,4 +1,4 @@
-#include "concave_distance/search/mating.h"
+#include "search/mating.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "concave_distance/search/mutation.h"
+#include "search/mutation.h"
 #include "search/search_scenes.h"
 
 namespace concave_distance {

@@ -1,4 +1,4 @@
-#include "concave_distance/search/mutation.h"
+#include "search/mutation.h"
 
 #include <gtest/gtest.h>
 

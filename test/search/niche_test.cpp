@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <limits>
 
-#include "concave_distance/base/selection.h"
-#include "concave_distance/search/convergence.h"
-#include "concave_distance/search/local_descent.h"
-#include "concave_distance/search/mating_restriction.h"
-#include "concave_distance/search/mutation.h"
-#include "concave_distance/search/niche_identification.h"
-#include "concave_distance/search/place_table.h"
+#include "base/selection.h"
+#include "search/convergence.h"
+#include "search/local_descent.h"
+#include "search/mating_restriction.h"
+#include "search/mutation.h"
+#include "search/niche_identification.h"
+#include "search/place_table.h"
 #include "search/search_scenes.h"
 
 namespace concave_distance {

@@ -1,4 +1,4 @@
-#include "concave_distance/search/replacement.h"
+#include "search/replacement.h"
 
 #include <gtest/gtest.h>
 

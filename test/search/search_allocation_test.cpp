@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "concave_distance/search/automatic_radii.h"
-#include "concave_distance/search/genetic_search.h"
-#include "concave_distance/search/niche_identification.h"
+#include "search/automatic_radii.h"
+#include "search/genetic_search.h"
+#include "search/niche_identification.h"
 #include "search/search_scenes.h"
 #include "support/count_allocations.h"
 

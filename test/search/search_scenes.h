@@ -13,7 +13,7 @@ inline std::unique_ptr<BodyMesh> makeBody(const SurfaceMesh& surface, double max
                                           std::size_t matrix_node_limit = 65535) {
   BodyMeshOptions options;
   options.max_edge_length = max_edge_length;
-  options.metric.matrix_node_limit = matrix_node_limit;
+  options.matrix_node_limit = matrix_node_limit;
   return std::make_unique<BodyMesh>("test body", surface, options);
 }
 

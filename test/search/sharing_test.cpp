@@ -1,11 +1,11 @@
-#include "concave_distance/search/sharing.h"
+#include "search/sharing.h"
 
 #include <gtest/gtest.h>
 
 #include <rapidcheck/gtest.h>
 #include <cmath>
 
-#include "concave_distance/search/mutation.h"
+#include "search/mutation.h"
 #include "search/search_scenes.h"
 
 namespace concave_distance {

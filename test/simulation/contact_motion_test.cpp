@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "concave_distance/mesh/primitives.h"
-#include "concave_distance/tracking/relative_motion.h"
+#include "concave_distance/mesh/surface/primitives.h"
 #include "simulation/scene_builder.h"
 #include "support/hunt_crossley_rebound.h"
+#include "tracking/relative_motion.h"
 
 namespace concave_distance {
 namespace {

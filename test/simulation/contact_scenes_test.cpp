@@ -5,8 +5,8 @@
 #include <set>
 #include <string>
 
-#include "concave_distance/mesh/primitives.h"
-#include "concave_distance/scene/load_scene.h"
+#include "concave_distance/loading/load_scene.h"
+#include "concave_distance/mesh/surface/primitives.h"
 #include "simulation/scene_builder.h"
 
 namespace concave_distance {

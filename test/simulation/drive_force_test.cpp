@@ -1,4 +1,4 @@
-#include "concave_distance/simulation/drive_force.h"
+#include "simulation/drive_force.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "concave_distance/base/error.h"
-#include "concave_distance/mesh/primitives.h"
+#include "concave_distance/mesh/surface/primitives.h"
 #include "simulation/scene_builder.h"
 
 namespace concave_distance {

@@ -1,11 +1,11 @@
-#include "concave_distance/simulation/rigid_body.h"
+#include "simulation/rigid_body.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "concave_distance/base/error.h"
-#include "concave_distance/mesh/primitives.h"
+#include "concave_distance/mesh/surface/primitives.h"
 
 namespace concave_distance {
 namespace {

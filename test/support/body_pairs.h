@@ -5,9 +5,9 @@
 #include <string>
 #include <utility>
 
-#include "concave_distance/base/random_engine.h"
+#include "base/random_engine.h"
 #include "concave_distance/mesh/body_mesh.h"
-#include "concave_distance/mesh/primitives.h"
+#include "concave_distance/mesh/surface/primitives.h"
 #include "support/concave_shapes.h"
 #include "support/plain_shapes.h"
 #include "support/triangle_pairs.h"

@@ -3,7 +3,7 @@
 #include <memory>
 #include <string>
 
-#include "concave_distance/mesh/primitives.h"
+#include "concave_distance/mesh/surface/primitives.h"
 #include "concave_distance/scene/scene.h"
 
 namespace concave_distance {

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "concave_distance/mesh/surface_mesh.h"
+#include "concave_distance/mesh/surface/surface_mesh.h"
 
 /// The overlap of two closed surfaces by CGAL's Booleans (corefinement, Loriot et al.) with exact
 /// constructions: what interference/ is held against. CGAL is in cgal_overlap.cpp alone.

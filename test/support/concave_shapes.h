@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "concave_distance/mesh/surface_mesh.h"
+#include "concave_distance/mesh/surface/surface_mesh.h"
 
 /// Small concave bodies for tests: extruded outlines, closed, outward oriented, only the outline's own
 /// vertices. Metres.

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "concave_distance/mesh/surface_mesh.h"
+#include "concave_distance/mesh/surface/surface_mesh.h"
 #include "support/exact_triangle_distance.h"
 
 /// The truth of a whole query: the distance of two surfaces at a pose, from all pairs of their triangles, by

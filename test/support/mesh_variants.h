@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "concave_distance/base/random_engine.h"
-#include "concave_distance/mesh/surface_mesh.h"
+#include "base/random_engine.h"
+#include "concave_distance/mesh/surface/surface_mesh.h"
 
 /// The same surface in other words: moved, scaled, with other numbers for its vertices and triangles.
 namespace concave_distance::test {

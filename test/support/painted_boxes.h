@@ -8,8 +8,8 @@
 #include <limits>
 #include <vector>
 
-#include "concave_distance/base/random_engine.h"
-#include "concave_distance/mesh/surface_mesh.h"
+#include "base/random_engine.h"
+#include "concave_distance/mesh/surface/surface_mesh.h"
 #include "support/mesh_variants.h"
 #include "support/plain_shapes.h"
 

@@ -6,12 +6,12 @@
 #include <cmath>
 #include <string>
 
-#include "concave_distance/base/random_engine.h"
-#include "concave_distance/mesh/import_mesh.h"
-#include "concave_distance/mesh/mesh_topology.h"
-#include "concave_distance/mesh/repair_mesh.h"
-#include "concave_distance/mesh/triangle_tree.h"
-#include "concave_distance/thesis/partition/convex_piece.h"
+#include "base/random_engine.h"
+#include "concave_distance/mesh/import/import_mesh.h"
+#include "concave_distance/mesh/repair/repair_mesh.h"
+#include "mesh/surface/mesh_topology.h"
+#include "mesh/trees/triangle_tree.h"
+#include "thesis/partition/convex_piece.h"
 
 namespace concave_distance::test {
 

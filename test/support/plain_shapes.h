@@ -6,8 +6,8 @@
 #include <initializer_list>
 #include <vector>
 
-#include "concave_distance/base/random_engine.h"
-#include "concave_distance/mesh/surface_mesh.h"
+#include "base/random_engine.h"
+#include "concave_distance/mesh/surface/surface_mesh.h"
 
 /// Hand-sized surfaces that need nothing but the container. Metres.
 namespace concave_distance::test {

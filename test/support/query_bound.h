@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "concave_distance/mesh/surface_mesh.h"
+#include "concave_distance/mesh/surface/surface_mesh.h"
 
 /// The error bound of a whole query that doc/numerics.md states and derives.
 namespace concave_distance::test {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstdint>
 
-#include "concave_distance/base/random_engine.h"
-#include "concave_distance/mesh/primitives.h"
+#include "base/random_engine.h"
+#include "concave_distance/mesh/surface/primitives.h"
 #include "support/concave_shapes.h"
 #include "support/plain_shapes.h"
 #include "support/triangle_pairs.h"

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "concave_distance/mesh/body_mesh.h"
-#include "concave_distance/mesh/import_mesh.h"
-#include "concave_distance/mesh/repair_mesh.h"
+#include "concave_distance/mesh/import/import_mesh.h"
+#include "concave_distance/mesh/repair/repair_mesh.h"
 
 namespace concave_distance::test {
 

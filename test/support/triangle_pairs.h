@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "concave_distance/base/random_engine.h"
-#include "concave_distance/distance/triangle_distance.h"
+#include "base/random_engine.h"
+#include "distance/triangle_distance.h"
 #include "support/plain_shapes.h"
 
 /// Random triangle pairs that are hard for a distance kernel, by family.

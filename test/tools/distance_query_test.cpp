@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "concave_distance/mesh/export_mesh.h"
+#include "concave_distance/mesh/import/export_mesh.h"
 #include "support/concave_shapes.h"
 #include "support/csv_table.h"
 #include "support/painted_boxes.h"

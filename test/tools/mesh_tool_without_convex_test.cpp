@@ -3,7 +3,7 @@
 #include <sstream>
 
 #include "concave_distance/base/error.h"
-#include "mesh_tool_convex.h"
+#include "tools/mesh_tool_convex.h"
 
 namespace concave_distance::tools {
 namespace {

@@ -1,4 +1,4 @@
-#include "query_report.h"
+#include "tools/query_report.h"
 
 #include <gtest/gtest.h>
 

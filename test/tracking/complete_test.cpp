@@ -5,11 +5,11 @@
 #include <limits>
 #include <set>
 
-#include "concave_distance/distance/local_minima.h"
-#include "concave_distance/thesis/evaluation/enumeration.h"
 #include "concave_distance/tracking/pair_tracker.h"
+#include "distance/local_minima.h"
 #include "support/body_pairs.h"
 #include "support/thesis_scenes.h"
+#include "thesis/evaluation/enumeration.h"
 
 namespace concave_distance {
 namespace {

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "concave_distance/mesh/primitives.h"
+#include "concave_distance/mesh/surface/primitives.h"
 #include "concave_distance/tracking/pair_effects.h"
 #include "concave_distance/tracking/pair_tracker.h"
 
@@ -37,7 +37,7 @@ struct EffectScene {
   void update(const Eigen::Isometry3d& pose, double step = 0.01, const RelativeTwist& twist = {}) {
     time += step;
     tracker.update(pose, time, solution);
-    effects.update(solution, pose, twist, step, contacts);
+    effects.update(solution, twist, step, contacts);
   }
 
   PairTracker tracker;

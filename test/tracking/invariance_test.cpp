@@ -3,7 +3,7 @@
 #include <rapidcheck/gtest.h>
 #include <cmath>
 
-#include "concave_distance/base/random_engine.h"
+#include "base/random_engine.h"
 #include "concave_distance/tracking/pair_tracker.h"
 #include "support/concave_shapes.h"
 #include "support/mesh_variants.h"

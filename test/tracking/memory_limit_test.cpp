@@ -3,11 +3,12 @@
 
 #include <cmath>
 
-#include "concave_distance/thesis/evaluation/enumeration.h"
 #include "concave_distance/tracking/pair_tracker.h"
+#include "mesh/trees/normal_cone_tree.h"
 #include "support/body_pairs.h"
 #include "support/count_bytes.h"
 #include "support/mesh_variants.h"
+#include "thesis/evaluation/enumeration.h"
 
 namespace concave_distance {
 namespace {

@@ -1,4 +1,4 @@
-#include "concave_distance/tracking/niche_archive.h"
+#include "tracking/niche_archive.h"
 
 #include <gtest/gtest.h>
 

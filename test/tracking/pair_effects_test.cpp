@@ -6,7 +6,7 @@
 #include <set>
 
 #include "concave_distance/contact/normal_force.h"
-#include "concave_distance/mesh/primitives.h"
+#include "concave_distance/mesh/surface/primitives.h"
 #include "tracking/effect_scene.h"
 
 namespace concave_distance {
@@ -158,7 +158,7 @@ TEST(PairEffects, HertzianIndentationOfASphereIsWithinItsTessellation) {
   const double depth = 1e-3;
   const Eigen::Isometry3d pose = at(0.0013, 0.0007, 0.1 + radius - depth);
   tracker.update(pose, 0.0, solution);
-  effects.update(solution, pose, {}, 0.0, contacts);
+  effects.update(solution, {}, 0.0, contacts);
   ASSERT_EQ(contacts.regions.size(), 1U);
   const double expected = hertzForce(depth, inContact(Material(), Material()).contact_modulus, radius);
   EXPECT_NEAR(contacts.on_b_in_a.force.z(), expected, 0.02 * expected);

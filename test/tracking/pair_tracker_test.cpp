@@ -7,10 +7,10 @@
 #include <map>
 #include <set>
 
-#include "concave_distance/mesh/primitives.h"
-#include "concave_distance/thesis/evaluation/enumeration.h"
-#include "concave_distance/tracking/relative_motion.h"
+#include "concave_distance/mesh/surface/primitives.h"
 #include "support/concave_shapes.h"
+#include "thesis/evaluation/enumeration.h"
+#include "tracking/relative_motion.h"
 
 namespace concave_distance {
 namespace {

@@ -1,4 +1,4 @@
-#include "concave_distance/tracking/relative_motion.h"
+#include "tracking/relative_motion.h"
 
 #include <gtest/gtest.h>
 

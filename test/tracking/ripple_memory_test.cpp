@@ -1,4 +1,4 @@
-#include "concave_distance/tracking/ripple_memory.h"
+#include "tracking/ripple_memory.h"
 
 #include <gtest/gtest.h>
 

@@ -90,7 +90,7 @@ TEST(EffectsAllocation, AWarmCycleInContactAllocatesNothing) {
   ASSERT_EQ(scene.contacts.regions.size(), 2U);
   scene.tracker.update(pose(30), 10.0, scene.solution);
   const std::size_t before = allocations.load();
-  scene.effects.update(scene.solution, pose(30), {}, 0.01, scene.contacts);
+  scene.effects.update(scene.solution, {}, 0.01, scene.contacts);
   EXPECT_EQ(allocations.load(), before);
 }
 

@@ -6,8 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "concave_distance/mesh/primitives.h"
+#include "concave_distance/mesh/surface/primitives.h"
 #include "concave_distance/tracking/pair_tracker.h"
+#include "mesh/grid/mesh_metric.h"
+#include "mesh/grid/metric_memory.h"
+#include "mesh/grid/node_graph.h"
 #include "support/concave_shapes.h"
 
 namespace concave_distance {

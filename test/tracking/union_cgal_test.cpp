@@ -3,10 +3,11 @@
 #include <array>
 #include <memory>
 
-#include "concave_distance/mesh/repair_mesh.h"
-#include "concave_distance/mesh/triangle_tree.h"
+#include "concave_distance/mesh/repair/repair_mesh.h"
 #include "concave_distance/tracking/pair_tracker.h"
 #include "interference/interference_checks.h"
+#include "mesh/surface/mesh_topology.h"
+#include "mesh/trees/triangle_tree.h"
 #include "support/case_seed.h"
 #include "support/cgal_overlap.h"
 #include "support/mesh_variants.h"
@@ -86,9 +87,7 @@ File drawFile(RandomEngine& engine, bool with_overlaps) {
                            test::randomPose(engine, 0.4)));
     file.solids.push_back(test::movedSurface(test::randomStar(engine), test::randomPose(engine, 0.5)));
   }
-  RepairOptions options;
-  options.weld_tolerance = kSinglePrecisionWeld;
-  file.body = test::makeBody(repairMesh(joined(file.solids), options, "solids").mesh);
+  file.body = test::makeBody(repairMesh(joined(file.solids), {}, "solids").mesh);
   return file;
 }
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <memory>
 
-#include "concave_distance/mesh/repair_mesh.h"
+#include "concave_distance/mesh/repair/repair_mesh.h"
 #include "concave_distance/tracking/pair_tracker.h"
 #include "support/body_pairs.h"
 #include "support/case_seed.h"
@@ -52,9 +52,7 @@ Placed place(PaintedBoxes painted, double scale, RandomEngine& engine) {
   Placed placed{std::move(painted), Isometry3d::Identity(), nullptr};
   if (uniformIndex(engine, 4) != 0) placed.pose = test::randomPose(engine, 5.0 * scale);
   const TriangleSoup soup = test::rewritten(placed.painted.soup, placed.pose, scale, engine);
-  RepairOptions options;
-  options.weld_tolerance = kSinglePrecisionWeld;
-  placed.body = test::makeBody(repairMesh(soup, options, "union").mesh);
+  placed.body = test::makeBody(repairMesh(soup, {}, "union").mesh);
   return placed;
 }
 

@@ -1,4 +1,4 @@
-#include "concave_distance/tracking/warm_start.h"
+#include "tracking/warm_start.h"
 
 #include <gtest/gtest.h>
 

@@ -5,12 +5,12 @@
 #include <cmath>
 #include <limits>
 
-#include "concave_distance/distance/local_minima.h"
-#include "concave_distance/thesis/evaluation/enumeration.h"
 #include "concave_distance/tracking/pair_effects.h"
 #include "concave_distance/tracking/pair_tracker.h"
+#include "distance/local_minima.h"
 #include "support/body_pairs.h"
 #include "support/mesh_variants.h"
+#include "thesis/evaluation/enumeration.h"
 
 namespace concave_distance {
 namespace {
@@ -166,11 +166,11 @@ TEST(WorkLimit, ACutAnswerSaysThatItsRegionsAreMissing) {
   settings.interference = true;
   PairEffects effects(a, a, settings, ContactMaterial());
   PairContacts contacts;
-  effects.update(solution, pose, RelativeTwist(), 0.0, contacts);
+  effects.update(solution, RelativeTwist(), 0.0, contacts);
   ASSERT_EQ(contacts.regions.size(), 1U);
   EXPECT_FALSE(contacts.cut);
   WorkLimit limit(WorkLimit::Clock::now(), 1e-12, std::numeric_limits<std::size_t>::max(), nullptr);
-  effects.update(solution, pose, RelativeTwist(), 0.0, contacts, &limit);
+  effects.update(solution, RelativeTwist(), 0.0, contacts, &limit);
   EXPECT_TRUE(contacts.possible);
   EXPECT_TRUE(contacts.cut);
   EXPECT_TRUE(contacts.regions.empty());

@@ -28,8 +28,8 @@ using NodeIndex = Index<NodeTag>;
 using TriangleIndex = Index<TriangleTag>;
 
 }  // namespace concave_distance
-
+/// @cond
 template <typename Tag>
 struct std::hash<concave_distance::Index<Tag>> {
   std::size_t operator()(concave_distance::Index<Tag> index) const noexcept { return index.value; }
-};
+};  /// @endcond

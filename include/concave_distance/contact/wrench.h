@@ -2,6 +2,8 @@
 
 #include <Eigen/Geometry>
 
+#include "concave_distance/base/eigen_alignment.h"
+
 namespace concave_distance {
 
 /// Linear and angular velocity of B relative to A, of the point of B at A's origin, in A's frame.

@@ -2,7 +2,7 @@
 
 #include <Eigen/Geometry>
 
-#include "concave_distance/mesh/surface_mesh.h"
+#include "concave_distance/mesh/surface/surface_mesh.h"
 
 namespace concave_distance {
 

@@ -12,9 +12,8 @@
 #include "concave_distance/contact/effect_settings.h"
 #include "concave_distance/contact/material.h"
 #include "concave_distance/mesh/body_mesh.h"
-#include "concave_distance/mesh/mass_properties.h"
-#include "concave_distance/mesh/repair_mesh.h"
-#include "concave_distance/scene/body_pool.h"
+#include "concave_distance/mesh/repair/repair_mesh.h"
+#include "concave_distance/mesh/surface/mass_properties.h"
 #include "concave_distance/scene/broad_phase.h"
 #include "concave_distance/scene/named_list.h"
 #include "concave_distance/scene/rigid_frames.h"
@@ -23,6 +22,8 @@
 #include "concave_distance/tracking/tracker_parameters.h"
 
 namespace concave_distance {
+
+class BodyPool;
 
 /// One rigid piece of a scene. Its frame is a tf frame; the mesh is expressed in it.
 struct SceneBody {
@@ -58,7 +59,7 @@ struct ScenePair {
 };
 
 /// A body or element that could not be loaded: the rest of the scene is served without it. The message names
-/// the pairs that are lost with it.
+/// the pairs that are not served with it.
 struct SceneProblem {
   std::string where;
   std::string message;

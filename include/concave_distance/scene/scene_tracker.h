@@ -1,7 +1,5 @@
 #pragma once
 
-#include <tbb/task_arena.h>
-
 #include <Eigen/Geometry>
 #include <atomic>
 #include <cstddef>
@@ -44,6 +42,9 @@ class SceneTracker {
   using Locate = std::function<PairInput(std::size_t)>;
 
   explicit SceneTracker(SceneTrackerOptions options = {});
+  ~SceneTracker();
+  SceneTracker(const SceneTracker&) = delete;
+  SceneTracker& operator=(const SceneTracker&) = delete;
 
   /// Pairs whose bodies are in both scenes go on, warm. The order becomes that of scene.pairs. When it
   /// throws, the scene before is still tracked.
@@ -75,6 +76,7 @@ class SceneTracker {
   Pairs takeRetired();
 
  private:
+  struct Arena;
   void choosePairs(const std::vector<PairDemand>& demand, const Locate& locate, CycleCounts& counts);
   void prepareSearches();
   void solveAll();
@@ -82,7 +84,7 @@ class SceneTracker {
   void count(CycleCounts& counts) const;
 
   SceneTrackerOptions options_;
-  tbb::task_arena arena_;
+  std::unique_ptr<Arena> arena_;
   Pairs pairs_;
   Pairs retired_;
   std::uint64_t largest_retired_id_ = 0;  ///< of removed pairs

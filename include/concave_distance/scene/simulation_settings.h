@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "concave_distance/mesh/mass_properties.h"
+#include "concave_distance/mesh/surface/mass_properties.h"
 
 namespace concave_distance {
 
@@ -77,7 +77,7 @@ struct SimulationSettings {
   Eigen::Vector3d gravity = Eigen::Vector3d(0.0, 0.0, -9.81);  ///< m/s^2
   double duration = 1.0;                                       ///< seconds
   double largest_step = 1e-3;                                  ///< seconds
-  /// Of sqrt(m / k) of the stiffest contact or drive, and of a radian, that a step takes at the most.
+  /// Of sqrt(m / k) of the stiffest contact or drive, and of a radian, that a step takes at most.
   double step_fraction = 0.1;
   /// How far beyond the proven distance any point may move against the other body in one step, metres.
   double allowed_penetration = 1e-4;

@@ -21,8 +21,8 @@ class TrackedEffects {
   /// Does nothing while no effects are wanted.
   /// @param step seconds since the last call, for velocities; 0: the same time once more
   /// @param b_in_a velocity of B relative to A; empty: from this pose, the last one and the step
-  void update(const PairSolution& solution, const Eigen::Isometry3d& a_from_b, double step,
-              const std::optional<RelativeTwist>& b_in_a, WorkLimit& limit);
+  void update(const PairSolution& solution, double step, const std::optional<RelativeTwist>& b_in_a,
+              WorkLimit& limit);
   /// Forgets regions, bristles and the last pose.
   void reset();
 

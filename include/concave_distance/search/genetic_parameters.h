@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "concave_distance/base/selection.h"
+#include "concave_distance/base/selection_method.h"
 #include "concave_distance/search/descent_moves.h"
 
 namespace concave_distance {

@@ -51,15 +51,16 @@ class PairEffects {
   PairEffects(PairEffects&&) noexcept;
   PairEffects& operator=(PairEffects&&) noexcept;
 
-  /// @param solution of the same pose; its certificate decides whether contact is possible: a lower bound
+  /// Regions and forces at the solution's pose.
+  /// @param solution of this pair; its certificate decides whether contact is possible: a lower bound
   ///        above 0 excludes it. Without a certificate (`nodes`, `refined`) the distance found does, which is
   ///        why the scene file refuses effects there.
   /// @param b_in_a velocity of B relative to A; zero where it is not known
   /// @param step seconds since the last call, for the bristles; 0 leaves them as they are
   /// @param limit when it is reached there are no regions and no forces; known ones are kept for the next
   ///        call; nullptr: none
-  void update(const PairSolution& solution, const Eigen::Isometry3d& a_from_b, const RelativeTwist& b_in_a,
-              double step, PairContacts& contacts, WorkLimit* limit = nullptr);
+  void update(const PairSolution& solution, const RelativeTwist& b_in_a, double step, PairContacts& contacts,
+              WorkLimit* limit = nullptr);
 
   /// Forgets regions and bristles.
   void reset();

@@ -1,14 +1,16 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <limits>
 #include <optional>
 #include <string_view>
 #include <vector>
 
-#include "concave_distance/distance/certificate.h"
-#include "concave_distance/distance/niche_properties.h"
+#include "concave_distance/base/eigen_alignment.h"
+#include "concave_distance/distance/certificate_cost.h"
+#include "concave_distance/distance/niche_kind.h"
+#include "concave_distance/distance/witness.h"
 #include "concave_distance/search/trial_point.h"
 #include "concave_distance/tracking/stage_times.h"
 
@@ -66,6 +68,7 @@ struct NicheEvent {
 
 /// One pair's answer at one time. Not-computed numbers are NaN, never 0 or a sentinel.
 struct PairSolution {
+  Eigen::Isometry3d a_from_b = Eigen::Isometry3d::Identity();  ///< the pose that this is the answer for
   SolveStatus status = SolveStatus::Ok;
   /// The level reached; after the time budget or memory limit, the level of what was finished.
   AccuracyLevel accuracy = AccuracyLevel::Refined;
@@ -74,11 +77,15 @@ struct PairSolution {
   double lower_bound = kNotComputed;
   Eigen::Vector3d point_a_in_a = Eigen::Vector3d::Constant(kNotComputed);
   Eigen::Vector3d point_b_in_a = Eigen::Vector3d::Constant(kNotComputed);
+  /// Of the nearest place, as of a niche; NaN where no niche is the nearest.
+  Eigen::Vector3d normal_in_a = Eigen::Vector3d::Constant(kNotComputed);
+  double closing_speed = kNotComputed;  ///< m/s
   /// Distance of the surfaces where a closed body has swallowed the other (status penetrating).
   double surface_distance = kNotComputed;
   /// Original triangles that meet, where surfaces do (status penetrating); empty when swallowed.
   std::optional<TrianglePair> meeting_triangles;
-  std::vector<TrackedNiche> niches;  ///< ascending by distance; capacity is kept
+  /// Ascending by distance; empty unless they were asked for; capacity is kept.
+  std::vector<TrackedNiche> niches;
   std::vector<NicheEvent> events;
   bool niches_cut = false;  ///< more niches were known than the largest count allows
   /// The list is proven to be every niche up to the cutoff: level `complete`, and nothing cut it short.

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "concave_distance/mesh/body_mesh.h"
 #include "concave_distance/tracking/pair_solution.h"
@@ -18,10 +19,11 @@ class PairTracker {
  public:
   /// @param name keys the random streams, with the seed and the cycle
   /// @param largest_used_id niche ids are greater than this
-  /// @throws Error for parameters out of range
+  /// @throws Error for a body that is null, for parameters out of range
   PairTracker(std::string name, std::shared_ptr<const BodyMesh> a, std::shared_ptr<const BodyMesh> b,
               const TrackerParameters& parameters, std::uint64_t largest_used_id = 0);
   ~PairTracker();
+  /// The other one may only be destroyed or assigned to; anything else throws Error.
   PairTracker(PairTracker&&) noexcept;
   PairTracker& operator=(PairTracker&&) noexcept;
 
@@ -30,22 +32,41 @@ class PairTracker {
   /// `solution` keeps its capacity.
   void update(const Eigen::Isometry3d& a_from_b, double time, PairSolution& solution);
 
+  /// Before a loop in real time: makes what the parameters need of the bodies (grids, metrics, normal cones),
+  /// which the first solve would, and lets buffers grow by solving these poses. Then starts anew.
+  void prepare(const std::vector<Eigen::Isometry3d>& a_from_b = {});
+
   /// Forgets all niches: the next cycle is cold. Ids go on counting.
   void reset();
+  /// As if newly made, but buffers are kept: the next cycles give what those of a new tracker would.
+  void restart();
 
   /// Takes effect at the next cycle. @throws Error for parameters out of range
   void setParameters(const TrackerParameters& parameters);
-  const TrackerParameters& parameters() const;
-  std::size_t memoryBytes() const;
+  [[nodiscard]] const TrackerParameters& parameters() const;
+  [[nodiscard]] std::size_t memoryBytes() const;
 
  private:
   struct State;
+  [[nodiscard]] State& state() const;
   std::unique_ptr<State> state_;
 };
 
-/// A cold, independent solve: same answer as the first cycle of a tracker with that name and seed.
-PairSolution solveOnce(const std::string& name, const std::shared_ptr<const BodyMesh>& a,
-                       const std::shared_ptr<const BodyMesh>& b, const TrackerParameters& parameters,
-                       const Eigen::Isometry3d& a_from_b);
+/// A cold, independent solve: same answer as the first cycle of a tracker with that name and seed. For many
+/// poses solveEach() is faster.
+/// @throws Error as PairTracker
+[[nodiscard]] PairSolution solveOnce(const std::string& name, const std::shared_ptr<const BodyMesh>& a,
+                                     const std::shared_ptr<const BodyMesh>& b,
+                                     const TrackerParameters& parameters, const Eigen::Isometry3d& a_from_b);
+
+/// The same at each of these poses, in parallel: the answers of solveOnce(), in the order of the poses.
+/// @param threads 0: one per core
+/// @throws Error as PairTracker
+[[nodiscard]] std::vector<PairSolution> solveEach(const std::string& name,
+                                                  const std::shared_ptr<const BodyMesh>& a,
+                                                  const std::shared_ptr<const BodyMesh>& b,
+                                                  const TrackerParameters& parameters,
+                                                  const std::vector<Eigen::Isometry3d>& a_from_b,
+                                                  std::uint32_t threads = 0);
 
 }  // namespace concave_distance

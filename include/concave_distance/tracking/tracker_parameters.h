@@ -34,7 +34,7 @@ struct TrackerParameters {
   GeneticParameters warm;            ///< every further cycle; usually a small population and few generations
   double inherited_per_niche = 3.0;  ///< alpha_Gamma (Carretero, eq. (6.8))
   std::uint32_t inherited_limit = 30;  ///< N_popGamma_max (6.8)
-  std::uint32_t random_starts = 8;        ///< random individuals a warm cycle descends besides
+  std::uint32_t random_starts = 8;     ///< random individuals a warm cycle descends besides
   /// Niches of which a warm cycle asks, the nearest always and the others in turn, whether the body opposite
   /// has a closer place anywhere (projectWitness); of the nearest the surroundings are asked too. A cold
   /// cycle asks all. 0: none.
@@ -63,7 +63,7 @@ struct TrackerParameters {
   double cutoff = std::numeric_limits<double>::infinity();  ///< niches farther than this are not reported
   std::uint32_t largest_niche_count = 64;                   ///< of the report; a cut is always reported
   bool niches_wanted = true;                                ///< false: only the distance is asked for
-  bool keep_through_material = false;  ///< report niches of the dark side, flagged, instead of dropping them
+  bool keep_through_material = false;  ///< report niches through material, flagged, instead of dropping them
   std::uint64_t seed = 1;
 
   TrackerParameters();

@@ -3,7 +3,7 @@
 #include <ros/package.h>
 
 #include "concave_distance/base/error.h"
-#include "concave_distance/scene/resource_locator.h"
+#include "concave_distance/loading/resource_locator.h"
 
 namespace concave_distance::demo {
 

@@ -13,8 +13,8 @@
 #include <cmath>
 #include <optional>
 
+#include "../time_difference.h"
 #include "concave_distance/base/error.h"
-#include "concave_distance/ros/time_difference.h"
 #include "demo_parameters.h"
 
 namespace {

@@ -6,8 +6,8 @@
 #include <ros/ros.h>
 #include <tf2_ros/transform_broadcaster.h>
 
+#include "../time_difference.h"
 #include "concave_distance/base/error.h"
-#include "concave_distance/ros/time_difference.h"
 #include "demo_parameters.h"
 #include "pose_path.h"
 

@@ -14,8 +14,8 @@
 #include <cmath>
 #include <vector>
 
+#include "../description_search.h"
 #include "concave_distance/base/error.h"
-#include "concave_distance/ros/description_search.h"
 #include "demo_parameters.h"
 
 namespace {

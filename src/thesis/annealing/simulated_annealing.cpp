@@ -1,11 +1,11 @@
-#include "concave_distance/thesis/annealing/simulated_annealing.h"
+#include "simulated_annealing.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "concave_distance/base/parameter_checks.h"
-#include "concave_distance/search/local_descent.h"
-#include "concave_distance/search/mutation.h"
+#include "base/parameter_checks.h"
+#include "search/local_descent.h"
+#include "search/mutation.h"
 
 namespace concave_distance {
 

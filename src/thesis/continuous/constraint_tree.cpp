@@ -1,4 +1,4 @@
-#include "concave_distance/thesis/continuous/constraint_tree.h"
+#include "constraint_tree.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "concave_distance/thesis/continuous/constraint_tree_file.h"
+#include "constraint_tree_file.h"
 
 #include <yaml-cpp/yaml.h>
 
@@ -10,8 +10,8 @@
 #include <map>
 #include <ostream>
 
+#include "base/output_file.h"
 #include "concave_distance/base/error.h"
-#include "concave_distance/base/output_file.h"
 
 namespace concave_distance {
 namespace {

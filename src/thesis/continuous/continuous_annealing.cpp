@@ -1,6 +1,6 @@
-#include "concave_distance/thesis/continuous/continuous_annealing.h"
+#include "continuous_annealing.h"
 
-#include "concave_distance/thesis/continuous/local_step.h"
+#include "local_step.h"
 #include "search_steps.h"
 
 namespace concave_distance {

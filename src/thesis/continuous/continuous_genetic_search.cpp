@@ -1,14 +1,14 @@
-#include "concave_distance/thesis/continuous/continuous_genetic_search.h"
+#include "continuous_genetic_search.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <utility>
 
-#include "concave_distance/base/selection.h"
-#include "concave_distance/thesis/continuous/continuous_mating.h"
-#include "concave_distance/thesis/continuous/local_step.h"
-#include "concave_distance/thesis/continuous/random_moves.h"
+#include "base/selection.h"
+#include "continuous_mating.h"
+#include "local_step.h"
+#include "random_moves.h"
 #include "search_steps.h"
 
 namespace concave_distance {

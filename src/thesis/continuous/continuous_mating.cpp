@@ -1,4 +1,4 @@
-#include "concave_distance/thesis/continuous/continuous_mating.h"
+#include "continuous_mating.h"
 
 namespace concave_distance {
 namespace {

@@ -1,4 +1,4 @@
-#include "concave_distance/thesis/continuous/continuous_objective.h"
+#include "continuous_objective.h"
 
 namespace concave_distance {
 

@@ -1,4 +1,4 @@
-#include "concave_distance/thesis/continuous/continuous_parameters.h"
+#include "continuous_parameters.h"
 
 #include <cmath>
 
@@ -47,7 +47,8 @@ void ContinuousGeneticParameters::validate(const std::string& where) const {
   require(penalty_weight >= 0.0 && std::isfinite(penalty_weight), where, "penalty_weight", penalty_weight,
           "a length of at least 0, metres");
   require(elite_count < population_size, where, "elite_count", elite_count, "less than population_size");
-  require(random_immigrants < population_size, where, "random_immigrants", random_immigrants, "less than population_size");
+  require(random_immigrants < population_size, where, "random_immigrants", random_immigrants,
+          "less than population_size");
   validateLocalStep(local_step, where);
 }
 

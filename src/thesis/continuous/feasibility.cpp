@@ -1,4 +1,4 @@
-#include "concave_distance/thesis/continuous/feasibility.h"
+#include "feasibility.h"
 
 #include <algorithm>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "concave_distance/thesis/continuous/local_step.h"
+#include "local_step.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,11 +1,11 @@
-#include "concave_distance/thesis/continuous/piece_mesh.h"
+#include "piece_mesh.h"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "concave_distance/base/error.h"
-#include "concave_distance/mesh/repair_mesh.h"
+#include "concave_distance/mesh/repair/repair_mesh.h"
 
 namespace concave_distance {
 namespace {

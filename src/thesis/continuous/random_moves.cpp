@@ -1,4 +1,4 @@
-#include "concave_distance/thesis/continuous/random_moves.h"
+#include "random_moves.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "concave_distance/thesis/continuous/local_step.h"
+#include "local_step.h"
 
 namespace concave_distance {
 

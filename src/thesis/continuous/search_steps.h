@@ -3,11 +3,11 @@
 #include <cstdint>
 #include <limits>
 
-#include "concave_distance/base/random_engine.h"
-#include "concave_distance/thesis/continuous/continuous_objective.h"
-#include "concave_distance/thesis/continuous/continuous_parameters.h"
-#include "concave_distance/thesis/continuous/continuous_result.h"
-#include "concave_distance/thesis/continuous/random_moves.h"
+#include "base/random_engine.h"
+#include "continuous_objective.h"
+#include "continuous_parameters.h"
+#include "continuous_result.h"
+#include "random_moves.h"
 
 namespace concave_distance {
 

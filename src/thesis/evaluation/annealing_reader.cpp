@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "setting_values.h"
+#include "loading/setting_values.h"
 
 namespace concave_distance::detail {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "concave_distance/thesis/annealing/annealing_parameters.h"
-#include "yaml_value.h"
+#include "loading/yaml_value.h"
+#include "thesis/annealing/annealing_parameters.h"
 
 namespace concave_distance::detail {
 

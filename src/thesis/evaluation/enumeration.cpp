@@ -1,4 +1,4 @@
-#include "concave_distance/thesis/evaluation/enumeration.h"
+#include "enumeration.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_reduce.h>
@@ -6,7 +6,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "concave_distance/distance/surface_walk.h"
+#include "distance/surface_walk.h"
+#include "mesh/grid/node_graph.h"
 
 namespace concave_distance {
 namespace {

@@ -14,8 +14,8 @@
 #include <string>
 #include <vector>
 
+#include "base/output_file.h"
 #include "concave_distance/base/error.h"
-#include "concave_distance/base/output_file.h"
 #include "run_experiment.h"
 
 namespace {

@@ -11,8 +11,8 @@
 
 #include "annealing_reader.h"
 #include "concave_distance/base/error.h"
-#include "setting_values.h"
-#include "settings_reader.h"
+#include "loading/setting_values.h"
+#include "loading/settings_reader.h"
 
 namespace concave_distance::evaluation {
 namespace {

@@ -5,11 +5,11 @@
 #include <variant>
 #include <vector>
 
-#include "concave_distance/thesis/continuous/continuous_parameters.h"
-#include "concave_distance/thesis/evaluation/search_method.h"
 #include "concave_distance/tracking/tracker_parameters.h"
-#include "concave_distance/tracking/warm_start.h"
 #include "experiment_scene.h"
+#include "search_method.h"
+#include "thesis/continuous/continuous_parameters.h"
+#include "tracking/warm_start.h"
 
 namespace concave_distance::evaluation {
 

@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <limits>
 
-#include "setting_values.h"
-#include "yaml_value.h"
+#include "loading/setting_values.h"
+#include "loading/yaml_value.h"
 
 namespace concave_distance::evaluation {
 namespace {

@@ -6,10 +6,10 @@
 #include <functional>
 #include <memory>
 
-#include "concave_distance/search/automatic_radii.h"
-#include "concave_distance/search/niche_identification.h"
-#include "concave_distance/thesis/evaluation/enumeration.h"
 #include "concave_distance/tracking/pair_tracker.h"
+#include "enumeration.h"
+#include "search/automatic_radii.h"
+#include "search/niche_identification.h"
 
 namespace concave_distance::evaluation {
 namespace {

@@ -1,7 +1,7 @@
-#include "concave_distance/thesis/evaluation/multi_start_descent.h"
+#include "multi_start_descent.h"
 
-#include "concave_distance/search/local_descent.h"
-#include "concave_distance/search/mutation.h"
+#include "search/local_descent.h"
+#include "search/mutation.h"
 
 namespace concave_distance {
 

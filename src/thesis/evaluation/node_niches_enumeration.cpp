@@ -5,7 +5,8 @@
 #include <string>
 
 #include "concave_distance/base/error.h"
-#include "concave_distance/thesis/evaluation/enumeration.h"
+#include "enumeration.h"
+#include "mesh/grid/node_graph.h"
 
 namespace concave_distance {
 namespace {

@@ -1,4 +1,4 @@
-#include "concave_distance/thesis/evaluation/random_nodes.h"
+#include "random_nodes.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "concave_distance/base/error.h"
-#include "graph_regions.h"
+#include "mesh/grid/graph_regions.h"
+#include "mesh/surface/mesh_topology.h"
 #include "point_bins.h"
 
 namespace concave_distance {

@@ -6,7 +6,7 @@
 #include <mutex>
 #include <vector>
 
-#include "concave_distance/base/output_file.h"
+#include "base/output_file.h"
 #include "trial_files.h"
 
 namespace concave_distance::evaluation {

@@ -6,16 +6,17 @@
 #include <cmath>
 #include <filesystem>
 
+#include "base/random_engine.h"
 #include "concave_distance/base/error.h"
-#include "concave_distance/base/random_engine.h"
-#include "concave_distance/distance/certificate.h"
-#include "concave_distance/mesh/import_mesh.h"
-#include "concave_distance/mesh/repair_mesh.h"
-#include "concave_distance/scene/query_poses.h"
-#include "concave_distance/thesis/continuous/constraint_tree_file.h"
-#include "concave_distance/thesis/evaluation/enumeration.h"
-#include "concave_distance/thesis/evaluation/random_nodes.h"
-#include "concave_distance/thesis/evaluation/volume_nodes.h"
+#include "concave_distance/mesh/import/import_mesh.h"
+#include "concave_distance/mesh/repair/repair_mesh.h"
+#include "distance/certificate.h"
+#include "enumeration.h"
+#include "loading/query_poses.h"
+#include "mesh/body_mesh_parts.h"
+#include "random_nodes.h"
+#include "thesis/continuous/constraint_tree_file.h"
+#include "volume_nodes.h"
 
 namespace concave_distance::evaluation {
 namespace {
@@ -40,11 +41,11 @@ constexpr SceneFiles kScenes[] = {{"boxes", "box", "notched_box"},
                                   {"cylinder", "semi_extruded", "grooved_cylinder"},
                                   {"battery", "fixture", "battery"}};
 
-/// @param stream tells the two bodies' random points apart
+/// @param stream keeps the two bodies' random points apart
 std::shared_ptr<const BodyMesh> loadBody(const std::string& path, const ExperimentScene& scene,
                                          std::uint64_t stream) {
   RepairOptions repair;
-  if (scene.thesis_scene.empty()) repair.weld_tolerance = kSinglePrecisionWeld;
+  if (!scene.thesis_scene.empty()) repair.weld_tolerance = 0.0;  // made in double precision
   BodyMeshOptions options;
   options.max_edge_length = scene.max_edge_length;
   const std::string name = std::filesystem::path(path).stem().string();
@@ -59,7 +60,7 @@ std::shared_ptr<const BodyMesh> loadBody(const std::string& path, const Experime
     RandomEngine engine(streamSeed(scene.node_seed, "random points", stream));
     parts.nodes = makeRandomNodes(parts.surface, parts.topology, random, engine, path);
   }
-  return std::make_shared<const BodyMesh>(std::move(parts), options.metric);
+  return std::make_shared<const BodyMesh>(std::move(parts), options);
 }
 
 std::vector<QueryPose> posesOf(const ExperimentScene& scene, const std::string& path) {

@@ -6,10 +6,10 @@
 #include <optional>
 #include <vector>
 
-#include "concave_distance/distance/local_minima.h"
 #include "concave_distance/mesh/body_mesh.h"
-#include "concave_distance/thesis/continuous/constraint_tree.h"
+#include "distance/local_minima.h"
 #include "experiment_scene.h"
+#include "thesis/continuous/constraint_tree.h"
 
 namespace concave_distance::evaluation {
 

@@ -1,6 +1,6 @@
-#include "concave_distance/thesis/evaluation/search_method.h"
+#include "search_method.h"
 
-#include "concave_distance/thesis/evaluation/multi_start_descent.h"
+#include "multi_start_descent.h"
 
 namespace concave_distance {
 namespace {

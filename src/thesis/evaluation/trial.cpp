@@ -4,11 +4,11 @@
 #include <chrono>
 #include <cmath>
 
-#include "concave_distance/search/niche_identification.h"
-#include "concave_distance/thesis/continuous/continuous_annealing.h"
-#include "concave_distance/thesis/continuous/continuous_genetic_search.h"
 #include "motion_trial.h"
 #include "niche_questions.h"
+#include "search/niche_identification.h"
+#include "thesis/continuous/continuous_annealing.h"
+#include "thesis/continuous/continuous_genetic_search.h"
 
 namespace concave_distance::evaluation {
 namespace {

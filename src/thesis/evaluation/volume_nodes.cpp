@@ -1,4 +1,4 @@
-#include "concave_distance/thesis/evaluation/volume_nodes.h"
+#include "volume_nodes.h"
 
 #include <algorithm>
 #include <array>

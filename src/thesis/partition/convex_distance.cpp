@@ -1,10 +1,10 @@
-#include "concave_distance/thesis/partition/convex_distance.h"
+#include "convex_distance.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "concave_distance/distance/triangle_distance.h"
+#include "distance/triangle_distance.h"
 
 namespace concave_distance {
 namespace {

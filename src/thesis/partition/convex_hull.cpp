@@ -1,4 +1,4 @@
-#include "concave_distance/thesis/partition/convex_hull.h"
+#include "convex_hull.h"
 
 #include <CGAL/convex_hull_3.h>
 

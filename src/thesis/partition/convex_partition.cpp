@@ -1,4 +1,4 @@
-#include "concave_distance/thesis/partition/convex_partition.h"
+#include "convex_partition.h"
 
 #include <CGAL/Nef_polyhedron_3.h>
 #include <CGAL/convex_decomposition_3.h>
@@ -7,8 +7,8 @@
 #include <chrono>
 
 #include "concave_distance/base/error.h"
-#include "concave_distance/mesh/mesh_topology.h"
 #include "exact_solid.h"
+#include "mesh/surface/mesh_topology.h"
 
 namespace concave_distance {
 namespace {

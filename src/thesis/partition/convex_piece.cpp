@@ -1,4 +1,4 @@
-#include "concave_distance/thesis/partition/convex_piece.h"
+#include "convex_piece.h"
 
 #include <algorithm>
 #include <cmath>

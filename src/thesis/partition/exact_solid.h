@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "concave_distance/mesh/surface_mesh.h"
-#include "concave_distance/thesis/partition/convex_piece.h"
+#include "concave_distance/mesh/surface/surface_mesh.h"
+#include "convex_piece.h"
 
 namespace concave_distance::detail {
 

@@ -3,7 +3,7 @@
 
 #include <exception>
 
-#include "concave_distance/thesis/partition/piece_solvers.h"
+#include "piece_solvers.h"
 
 namespace concave_distance {
 namespace {

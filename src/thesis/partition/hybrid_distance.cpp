@@ -1,8 +1,8 @@
-#include "concave_distance/thesis/partition/hybrid_distance.h"
+#include "hybrid_distance.h"
 
 #include <chrono>
 
-#include "concave_distance/thesis/partition/pieces_at_point.h"
+#include "pieces_at_point.h"
 
 namespace concave_distance {
 

@@ -1,4 +1,4 @@
-#include "concave_distance/thesis/partition/pair_program.h"
+#include "pair_program.h"
 
 namespace concave_distance {
 

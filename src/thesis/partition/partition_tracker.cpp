@@ -1,4 +1,4 @@
-#include "concave_distance/thesis/partition/partition_tracker.h"
+#include "partition_tracker.h"
 
 #include <algorithm>
 #include <chrono>
@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "concave_distance/base/error.h"
-#include "concave_distance/thesis/partition/piece_solvers.h"
+#include "piece_solvers.h"
 
 namespace concave_distance {
 namespace {

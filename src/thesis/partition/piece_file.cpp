@@ -1,12 +1,12 @@
-#include "concave_distance/thesis/partition/piece_file.h"
+#include "piece_file.h"
 
 #include <filesystem>
 #include <fstream>
 #include <optional>
 #include <sstream>
 
+#include "base/output_file.h"
 #include "concave_distance/base/error.h"
-#include "concave_distance/base/output_file.h"
 
 namespace concave_distance {
 namespace {

@@ -1,4 +1,4 @@
-#include "concave_distance/thesis/partition/pieces_at_point.h"
+#include "pieces_at_point.h"
 
 #include <limits>
 

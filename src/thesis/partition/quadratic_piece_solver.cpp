@@ -4,14 +4,14 @@
 #include <cmath>
 #include <limits>
 
-#include "concave_distance/thesis/partition/pair_program.h"
-#include "concave_distance/thesis/partition/piece_solvers.h"
+#include "pair_program.h"
+#include "piece_solvers.h"
 
 namespace concave_distance {
 namespace {
 
 /// Steps smaller than this end the iteration, in units of the pieces' size. Half the digits of a double are
-/// what an active set on a nearly parallel pair can tell; judgeProposal says when they were not enough.
+/// what an active set on a nearly parallel pair can show; judgeProposal says when they were not enough.
 constexpr double kLeastStep = 1e-12;
 
 }  // namespace

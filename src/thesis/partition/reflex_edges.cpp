@@ -1,7 +1,7 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
-#include "concave_distance/mesh/mesh_topology.h"
-#include "concave_distance/thesis/partition/convex_partition.h"
+#include "convex_partition.h"
+#include "mesh/surface/mesh_topology.h"
 
 namespace concave_distance {
 

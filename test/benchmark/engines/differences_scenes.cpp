@@ -4,7 +4,7 @@
 
 #include "benchmark/engines/engine_differences.h"
 #include "concave_distance/base/error.h"
-#include "concave_distance/scene/load_scene.h"
+#include "concave_distance/loading/load_scene.h"
 #include "support/hunt_crossley_rebound.h"
 
 namespace concave_distance::benchmark {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "benchmark/engines/engine_differences.h"
-#include "concave_distance/mesh/refine_mesh.h"
+#include "mesh/surface/refine_mesh.h"
 
 namespace concave_distance::benchmark {
 namespace {

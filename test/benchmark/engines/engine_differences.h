@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "concave_distance/contact/material.h"
-#include "concave_distance/mesh/mass_properties.h"
+#include "concave_distance/mesh/surface/mass_properties.h"
 #include "concave_distance/scene/scene.h"
 
 namespace concave_distance::benchmark {

@@ -4,8 +4,8 @@
 
 #include "benchmark/support/query_clock.h"
 #include "concave_distance/base/error.h"
-#include "concave_distance/thesis/partition/convex_partition.h"
-#include "concave_distance/thesis/partition/partition_tracker.h"
+#include "thesis/partition/convex_partition.h"
+#include "thesis/partition/partition_tracker.h"
 
 namespace concave_distance::benchmark {
 namespace {

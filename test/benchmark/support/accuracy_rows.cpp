@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "benchmark/support/statistics.h"
-#include "concave_distance/distance/certificate.h"
+#include "distance/certificate.h"
 
 namespace concave_distance::benchmark {
 namespace {

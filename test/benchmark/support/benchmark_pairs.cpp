@@ -4,12 +4,12 @@
 #include <fstream>
 #include <sstream>
 
+#include "base/random_engine.h"
 #include "benchmark/support/shapes.h"
 #include "concave_distance/base/error.h"
-#include "concave_distance/base/random_engine.h"
-#include "concave_distance/mesh/import_mesh.h"
-#include "concave_distance/mesh/primitives.h"
-#include "concave_distance/mesh/repair_mesh.h"
+#include "concave_distance/mesh/import/import_mesh.h"
+#include "concave_distance/mesh/repair/repair_mesh.h"
+#include "concave_distance/mesh/surface/primitives.h"
 #include "support/concave_shapes.h"
 
 namespace concave_distance::benchmark {
@@ -24,9 +24,7 @@ std::string sourceFile(const std::string& relative) {
 
 SurfaceMesh loadSurface(const std::string& relative) {
   const std::string path = sourceFile(relative);
-  RepairOptions options;
-  options.weld_tolerance = kSinglePrecisionWeld;
-  return repairMesh(importMesh(path), options, path).mesh;
+  return repairMesh(importMesh(path), {}, path).mesh;
 }
 
 Eigen::Isometry3d poseOf(const Eigen::Vector3d& position, const Eigen::Quaterniond& rotation) {

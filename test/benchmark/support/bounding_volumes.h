@@ -9,7 +9,7 @@
 #include <cmath>
 #include <vector>
 
-#include "oriented_box_fit.h"
+#include "mesh/trees/oriented_box_fit.h"
 
 /// Bounding volumes to compare hierarchies with. Each has an Item (one volume, in some frame) and Lanes (the
 /// volumes of a node's W children, laid out lane by lane where the arithmetic can be done so).

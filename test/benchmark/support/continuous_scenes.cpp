@@ -6,10 +6,10 @@
 #include <memory>
 #include <utility>
 
-#include "concave_distance/distance/local_minima.h"
-#include "concave_distance/thesis/continuous/build_constraint_tree.h"
+#include "distance/local_minima.h"
 #include "support/plain_shapes.h"
 #include "support/thesis_scenes.h"
+#include "thesis/continuous/build_constraint_tree.h"
 #include "thesis/continuous/tree_shapes.h"
 
 namespace concave_distance::benchmark {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "concave_distance/thesis/continuous/constraint_tree.h"
+#include "thesis/continuous/constraint_tree.h"
 
 namespace concave_distance::benchmark {
 

@@ -6,8 +6,8 @@
 #include <Eigen/Geometry>
 #include <memory>
 
-#include "concave_distance/distance/triangle_distance.h"
-#include "concave_distance/mesh/surface_mesh.h"
+#include "concave_distance/mesh/surface/surface_mesh.h"
+#include "distance/triangle_distance.h"
 
 namespace concave_distance::benchmark {
 

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "benchmark/support/benchmark_pairs.h"
-#include "concave_distance/distance/local_minima.h"
 #include "concave_distance/tracking/pair_solution.h"
+#include "distance/local_minima.h"
 
 namespace concave_distance::benchmark {
 

@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "concave_distance/search/node_pair_map.h"
-#include "concave_distance/search/pair_objective.h"
+#include "search/node_pair_map.h"
+#include "search/pair_objective.h"
 
 namespace concave_distance::benchmark {
 

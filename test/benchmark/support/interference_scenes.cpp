@@ -8,8 +8,10 @@
 
 #include "benchmark/support/fcl_distance.h"
 #include "benchmark/support/shapes.h"
-#include "concave_distance/distance/closest_point.h"
-#include "concave_distance/mesh/primitives.h"
+#include "concave_distance/mesh/surface/primitives.h"
+#include "distance/closest_point.h"
+#include "mesh/surface/mesh_topology.h"
+#include "mesh/trees/triangle_tree.h"
 #include "support/body_pairs.h"
 #include "support/concave_shapes.h"
 #include "support/plain_shapes.h"

@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "concave_distance/interference/interference.h"
-#include "concave_distance/mesh/surface_mesh.h"
+#include "concave_distance/mesh/surface/surface_mesh.h"
 
 namespace concave_distance::benchmark {
 

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "concave_distance/base/error.h"
-#include "concave_distance/thesis/evaluation/enumeration.h"
+#include "thesis/evaluation/enumeration.h"
 
 namespace concave_distance::benchmark {
 

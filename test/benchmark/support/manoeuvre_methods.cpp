@@ -2,11 +2,12 @@
 
 #include "benchmark/support/fcl_distance.h"
 #include "benchmark/support/processor_time.h"
-#include "concave_distance/mesh/import_mesh.h"
-#include "concave_distance/mesh/repair_mesh.h"
-#include "concave_distance/thesis/partition/hybrid_distance.h"
-#include "concave_distance/thesis/partition/partition_tracker.h"
+#include "concave_distance/mesh/import/import_mesh.h"
+#include "concave_distance/mesh/repair/repair_mesh.h"
 #include "concave_distance/tracking/pair_tracker.h"
+#include "mesh/grid/node_graph.h"
+#include "thesis/partition/hybrid_distance.h"
+#include "thesis/partition/partition_tracker.h"
 
 namespace concave_distance::benchmark {
 namespace {

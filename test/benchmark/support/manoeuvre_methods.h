@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "concave_distance/mesh/body_mesh.h"
-#include "concave_distance/thesis/partition/convex_piece.h"
+#include "thesis/partition/convex_piece.h"
 
 namespace concave_distance::benchmark {
 

@@ -5,10 +5,10 @@
 #include <optional>
 
 #include "benchmark/support/grid_flood.h"
-#include "concave_distance/distance/basin_verdict.h"
-#include "concave_distance/search/local_descent.h"
-#include "concave_distance/thesis/evaluation/enumeration.h"
-#include "concave_distance/tracking/pair_geometry.h"
+#include "distance/basin_verdict.h"
+#include "search/local_descent.h"
+#include "thesis/evaluation/enumeration.h"
+#include "tracking/pair_geometry.h"
 
 namespace concave_distance::benchmark {
 

@@ -6,9 +6,9 @@
 #include <chrono>
 #include <cmath>
 
-#include "concave_distance/search/automatic_radii.h"
-#include "concave_distance/search/genetic_search.h"
-#include "concave_distance/thesis/evaluation/enumeration.h"
+#include "search/automatic_radii.h"
+#include "search/genetic_search.h"
+#include "thesis/evaluation/enumeration.h"
 
 namespace concave_distance::benchmark {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "concave_distance/base/random_engine.h"
+#include "base/random_engine.h"
 #include "support/concave_shapes.h"
 
 namespace concave_distance::benchmark {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "concave_distance/mesh/surface_mesh.h"
+#include "concave_distance/mesh/surface/surface_mesh.h"
 
 /// Bodies of the benchmark scenes, closed and outward oriented, metres; beside test/support/concave_shapes.h.
 namespace concave_distance::benchmark {

@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "concave_distance/mesh/surface_mesh.h"
+#include "concave_distance/mesh/surface/surface_mesh.h"
 
 namespace concave_distance::benchmark {
 

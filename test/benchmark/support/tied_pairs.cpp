@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "benchmark/support/stopwatch.h"
-#include "concave_distance/distance/triangle_distance.h"
+#include "distance/triangle_distance.h"
 
 namespace concave_distance::benchmark {
 namespace {

@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <vector>
 
-#include "concave_distance/distance/certificate.h"
+#include "distance/certificate.h"
 
 namespace concave_distance::benchmark {
 

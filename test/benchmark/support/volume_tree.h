@@ -3,9 +3,9 @@
 #include <limits>
 
 #include "benchmark/support/bounding_volumes.h"
-#include "concave_distance/distance/certificate.h"
-#include "concave_distance/distance/witness_refinement.h"
 #include "concave_distance/mesh/body_mesh.h"
+#include "distance/certificate.h"
+#include "distance/witness_refinement.h"
 
 namespace concave_distance::benchmark {
 

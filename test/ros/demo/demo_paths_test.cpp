@@ -4,9 +4,9 @@
 #include <string>
 
 #include "concave_distance/base/error.h"
-#include "csv_table.h"
-#include "joint_path.h"
-#include "pose_path.h"
+#include "ros/demo/csv_table.h"
+#include "ros/demo/joint_path.h"
+#include "ros/demo/pose_path.h"
 #include "support/temporary_folder.h"
 
 namespace concave_distance::demo {

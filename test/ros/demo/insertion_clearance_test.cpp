@@ -3,7 +3,7 @@
 #include <string>
 
 #include "fcl_model.h"
-#include "pose_path.h"
+#include "ros/demo/pose_path.h"
 
 namespace concave_distance::demo {
 namespace {

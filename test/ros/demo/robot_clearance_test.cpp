@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "concave_distance/scene/load_scene.h"
+#include "concave_distance/loading/load_scene.h"
 #include "fcl_model.h"
-#include "joint_path.h"
+#include "ros/demo/joint_path.h"
 
 namespace concave_distance::demo {
 namespace {

@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-#include "concave_distance/ros/watched_topic.h"
+#include "ros/watched_topic.h"
 #include "rostest_support.h"
 #include "started_node.h"
 #include "support/count_bytes.h"

@@ -1,4 +1,4 @@
-#include "concave_distance/thesis/annealing/simulated_annealing.h"
+#include "thesis/annealing/simulated_annealing.h"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <limits>
 
 #include "concave_distance/base/error.h"
-#include "concave_distance/thesis/evaluation/enumeration.h"
-#include "concave_distance/thesis/evaluation/search_method.h"
 #include "search/search_scenes.h"
+#include "thesis/evaluation/enumeration.h"
+#include "thesis/evaluation/search_method.h"
 
 namespace concave_distance {
 namespace {

@@ -1,4 +1,4 @@
-#include "concave_distance/thesis/continuous/build_constraint_tree.h"
+#include "thesis/continuous/build_constraint_tree.h"
 
 #include <gtest/gtest.h>
 
@@ -6,15 +6,15 @@
 #include <map>
 
 #include "concave_distance/base/error.h"
-#include "concave_distance/mesh/mesh_topology.h"
-#include "concave_distance/mesh/triangle_tree.h"
-#include "concave_distance/thesis/continuous/constraint_tree_file.h"
-#include "concave_distance/thesis/continuous/continuous_genetic_search.h"
-#include "concave_distance/thesis/evaluation/enumeration.h"
+#include "mesh/surface/mesh_topology.h"
+#include "mesh/trees/triangle_tree.h"
 #include "support/concave_shapes.h"
 #include "support/plain_shapes.h"
 #include "support/thesis_scenes.h"
+#include "thesis/continuous/constraint_tree_file.h"
+#include "thesis/continuous/continuous_genetic_search.h"
 #include "thesis/continuous/tree_checks.h"
+#include "thesis/evaluation/enumeration.h"
 
 namespace concave_distance {
 namespace {

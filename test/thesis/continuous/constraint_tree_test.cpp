@@ -1,4 +1,4 @@
-#include "concave_distance/thesis/continuous/constraint_tree.h"
+#include "thesis/continuous/constraint_tree.h"
 
 #include <gtest/gtest.h>
 
@@ -6,10 +6,10 @@
 #include <sstream>
 
 #include "concave_distance/base/error.h"
-#include "concave_distance/mesh/mesh_topology.h"
-#include "concave_distance/thesis/continuous/constraint_tree_file.h"
-#include "concave_distance/thesis/continuous/piece_mesh.h"
+#include "mesh/surface/mesh_topology.h"
 #include "support/temporary_folder.h"
+#include "thesis/continuous/constraint_tree_file.h"
+#include "thesis/continuous/piece_mesh.h"
 #include "thesis/continuous/tree_shapes.h"
 
 namespace concave_distance {

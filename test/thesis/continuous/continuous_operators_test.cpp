@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "concave_distance/thesis/continuous/continuous_mating.h"
-#include "concave_distance/thesis/continuous/random_moves.h"
+#include "thesis/continuous/continuous_mating.h"
+#include "thesis/continuous/random_moves.h"
 
 namespace concave_distance {
 namespace {

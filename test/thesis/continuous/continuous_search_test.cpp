@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "concave_distance/base/error.h"
-#include "concave_distance/thesis/continuous/continuous_annealing.h"
-#include "concave_distance/thesis/continuous/continuous_genetic_search.h"
+#include "thesis/continuous/continuous_annealing.h"
+#include "thesis/continuous/continuous_genetic_search.h"
 #include "thesis/continuous/tree_shapes.h"
 
 namespace concave_distance {

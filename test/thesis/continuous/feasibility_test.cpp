@@ -1,10 +1,10 @@
-#include "concave_distance/thesis/continuous/feasibility.h"
+#include "thesis/continuous/feasibility.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "concave_distance/base/random_engine.h"
+#include "base/random_engine.h"
 #include "support/plain_shapes.h"
 #include "thesis/continuous/tree_shapes.h"
 

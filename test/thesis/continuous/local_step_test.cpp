@@ -1,10 +1,10 @@
-#include "concave_distance/thesis/continuous/local_step.h"
+#include "thesis/continuous/local_step.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "concave_distance/base/random_engine.h"
+#include "base/random_engine.h"
 #include "support/plain_shapes.h"
 #include "thesis/continuous/tree_shapes.h"
 

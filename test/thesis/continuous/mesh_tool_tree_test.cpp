@@ -3,9 +3,9 @@
 
 #include <cstdlib>
 
-#include "concave_distance/thesis/continuous/constraint_tree_file.h"
 #include "support/temporary_folder.h"
 #include "support/thesis_scenes.h"
+#include "thesis/continuous/constraint_tree_file.h"
 
 namespace concave_distance {
 namespace {

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "support/plain_shapes.h"
+#include "thesis/continuous/construction/tree_of_solid.h"
 #include "thesis/continuous/tree_checks.h"
-#include "tree_of_solid.h"
 
 namespace concave_distance {
 namespace {

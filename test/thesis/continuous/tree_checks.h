@@ -2,9 +2,9 @@
 
 #include <Eigen/Core>
 
-#include "concave_distance/base/random_engine.h"
-#include "concave_distance/thesis/continuous/constraint_tree.h"
-#include "concave_distance/thesis/continuous/feasibility.h"
+#include "base/random_engine.h"
+#include "thesis/continuous/constraint_tree.h"
+#include "thesis/continuous/feasibility.h"
 
 namespace concave_distance::test {
 

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <string>
 
-#include "concave_distance/thesis/continuous/constraint_tree.h"
+#include "thesis/continuous/constraint_tree.h"
 
 /// Trees by hand. Metres.
 namespace concave_distance::test {

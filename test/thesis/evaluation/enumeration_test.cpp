@@ -1,4 +1,5 @@
-#include "concave_distance/thesis/evaluation/enumeration.h"
+#include "thesis/evaluation/enumeration.h"
+#include "mesh/grid/node_graph.h"
 
 #include <gtest/gtest.h>
 

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "concave_distance/base/error.h"
-#include "experiment.h"
-#include "run_experiment.h"
 #include "support/temporary_folder.h"
-#include "trial.h"
+#include "thesis/evaluation/experiment.h"
+#include "thesis/evaluation/run_experiment.h"
+#include "thesis/evaluation/trial.h"
 
 namespace concave_distance::evaluation {
 namespace {

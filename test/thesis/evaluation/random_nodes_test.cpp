@@ -1,4 +1,5 @@
-#include "concave_distance/thesis/evaluation/random_nodes.h"
+#include "thesis/evaluation/random_nodes.h"
+#include "mesh/body_mesh_parts.h"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +8,9 @@
 
 #include "concave_distance/base/error.h"
 #include "concave_distance/mesh/body_mesh.h"
-#include "concave_distance/mesh/primitives.h"
-#include "concave_distance/thesis/evaluation/enumeration.h"
+#include "concave_distance/mesh/surface/primitives.h"
 #include "support/concave_shapes.h"
+#include "thesis/evaluation/enumeration.h"
 
 namespace concave_distance {
 namespace {

@@ -1,14 +1,14 @@
-#include "concave_distance/thesis/partition/convex_partition.h"
+#include "thesis/partition/convex_partition.h"
 
 #include <gtest/gtest.h>
 
 #include "concave_distance/base/error.h"
-#include "concave_distance/mesh/primitives.h"
-#include "concave_distance/thesis/partition/piece_file.h"
+#include "concave_distance/mesh/surface/primitives.h"
 #include "support/concave_shapes.h"
 #include "support/partition_checks.h"
 #include "support/plain_shapes.h"
 #include "support/thesis_scenes.h"
+#include "thesis/partition/piece_file.h"
 
 namespace concave_distance {
 namespace {

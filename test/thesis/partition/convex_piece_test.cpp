@@ -1,15 +1,15 @@
-#include "concave_distance/thesis/partition/convex_piece.h"
+#include "thesis/partition/convex_piece.h"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 
 #include "concave_distance/base/error.h"
-#include "concave_distance/thesis/partition/convex_hull.h"
-#include "concave_distance/thesis/partition/piece_file.h"
 #include "support/partition_checks.h"
 #include "support/temporary_folder.h"
 #include "support/thesis_scenes.h"
+#include "thesis/partition/convex_hull.h"
+#include "thesis/partition/piece_file.h"
 
 namespace concave_distance {
 namespace {

@@ -3,12 +3,12 @@
 
 #include <cstdlib>
 
-#include "concave_distance/mesh/export_mesh.h"
-#include "concave_distance/thesis/partition/piece_file.h"
+#include "concave_distance/mesh/import/export_mesh.h"
 #include "support/concave_shapes.h"
 #include "support/partition_checks.h"
 #include "support/plain_shapes.h"
 #include "support/temporary_folder.h"
+#include "thesis/partition/piece_file.h"
 
 namespace concave_distance {
 namespace {

@@ -1,16 +1,17 @@
-#include "concave_distance/thesis/partition/partition_tracker.h"
+#include "thesis/partition/partition_tracker.h"
+#include "mesh/grid/node_graph.h"
 
 #include <gtest/gtest.h>
 
 #include "concave_distance/base/error.h"
-#include "concave_distance/distance/certificate.h"
-#include "concave_distance/thesis/partition/convex_partition.h"
-#include "concave_distance/thesis/partition/hybrid_distance.h"
-#include "concave_distance/thesis/partition/piece_file.h"
 #include "concave_distance/tracking/pair_tracker.h"
+#include "distance/certificate.h"
 #include "support/body_pairs.h"
 #include "support/partition_checks.h"
 #include "support/thesis_scenes.h"
+#include "thesis/partition/convex_partition.h"
+#include "thesis/partition/hybrid_distance.h"
+#include "thesis/partition/piece_file.h"
 
 namespace concave_distance {
 namespace {

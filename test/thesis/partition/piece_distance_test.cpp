@@ -5,11 +5,11 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "concave_distance/thesis/partition/convex_distance.h"
-#include "concave_distance/thesis/partition/convex_hull.h"
-#include "concave_distance/thesis/partition/pair_program.h"
-#include "concave_distance/thesis/partition/piece_solvers.h"
 #include "support/body_pairs.h"
+#include "thesis/partition/convex_distance.h"
+#include "thesis/partition/convex_hull.h"
+#include "thesis/partition/pair_program.h"
+#include "thesis/partition/piece_solvers.h"
 
 namespace concave_distance {
 namespace {

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "concave_distance/mesh/repair_mesh.h"
-#include "concave_distance/thesis/evaluation/enumeration.h"
+#include "concave_distance/mesh/repair/repair_mesh.h"
 #include "concave_distance/tracking/pair_tracker.h"
+#include "mesh/grid/mesh_metric.h"
 #include "support/thesis_scenes.h"
+#include "thesis/evaluation/enumeration.h"
 
 namespace concave_distance {
 namespace {

@@ -1,4 +1,4 @@
-#include "concave_distance/thesis/continuous/build_constraint_tree.h"
+#include "thesis/continuous/build_constraint_tree.h"
 
 #include <algorithm>
 #include <cmath>

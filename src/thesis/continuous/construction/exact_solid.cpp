@@ -14,7 +14,7 @@
 #include <utility>
 
 #include "concave_distance/base/error.h"
-#include "concave_distance/mesh/mesh_topology.h"
+#include "mesh/surface/mesh_topology.h"
 
 namespace concave_distance {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "concave_distance/mesh/surface_mesh.h"
+#include "concave_distance/mesh/surface/surface_mesh.h"
 #include "solid_facets.h"
 
 namespace concave_distance {

@@ -21,7 +21,7 @@ bool meetsAny(const SolidFacets& hull, const SolidFacet& facet,
               const std::vector<LinearConstraint>& constraints, double tolerance) {
   return std::any_of(constraints.begin(), constraints.end(), [&](const LinearConstraint& constraint) {
     // Half a right angle: a facet beside a sharp edge, thinner than the tolerance, lies on its neighbour's
-    // plane and is told by nothing else; one that faces the other way is another wall.
+    // plane and is decided by nothing else; one that faces the other way is another wall.
     return constraint.normal.dot(facet.normal) < 0.0 &&
            liesOnPlane(hull, facet, constraint.normal, constraint.offset, tolerance);
   });

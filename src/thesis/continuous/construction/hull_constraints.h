@@ -4,8 +4,8 @@
 #include <Eigen/Geometry>
 #include <vector>
 
-#include "concave_distance/thesis/continuous/constraint_tree.h"
 #include "solid_facets.h"
+#include "thesis/continuous/constraint_tree.h"
 
 namespace concave_distance {
 

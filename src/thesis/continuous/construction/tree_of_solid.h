@@ -3,8 +3,8 @@
 #include <Eigen/Geometry>
 #include <string>
 
-#include "concave_distance/thesis/continuous/build_constraint_tree.h"
 #include "exact_solid.h"
+#include "thesis/continuous/build_constraint_tree.h"
 
 namespace concave_distance {
 

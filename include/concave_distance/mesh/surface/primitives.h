@@ -1,0 +1,21 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "concave_distance/mesh/surface/surface_mesh.h"
+
+namespace concave_distance {
+
+/// Closed, outward-oriented meshes of URDF primitives, centred as URDF has them (cylinder and capsule along
+/// z). Round surfaces are inscribed: no point of the mesh lies outside the true solid, none of the true
+/// surface is farther than `chord_error` (metres) from the mesh.
+/// @throws Error (naming `where`) when a size or the chord error is not positive and finite
+SurfaceMesh makeBox(const Eigen::Vector3d& size, const std::string& where = "box");
+SurfaceMesh makeSphere(double radius, double chord_error, const std::string& where = "sphere");
+SurfaceMesh makeCylinder(double radius, double length, double chord_error,
+                         const std::string& where = "cylinder");
+/// `length` is that of the cylindrical part.
+SurfaceMesh makeCapsule(double radius, double length, double chord_error,
+                        const std::string& where = "capsule");
+
+}  // namespace concave_distance

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "concave_distance/base/work_limit.h"
+#include "concave_distance/mesh/body_mesh.h"
+#include "niche_properties.h"
+
+namespace concave_distance {
+
+struct LocalMinimaRequest {
+  double cutoff = std::numeric_limits<double>::infinity();  ///< metres; niches up to this are wanted
+  /// Niches with less are part of the deeper niche that they lead to.
+  double least_prominence = 1e-2;
+  /// Prominences are measured up to this and below the cutoff; what is higher is given as infinite. Its
+  /// price: the flood around a niche goes on until it reaches a deeper one or (1 + this) times its distance.
+  double prominence_limit = 1e-2;
+  std::size_t largest_count = std::numeric_limits<std::size_t>::max();  ///< the nearest are kept
+  /// Niches through the material of closed shells are listed, too, flagged.
+  bool through_material = false;
+  /// Triangle pairs whose niches are asked for (LocalMinima::owners), e.g. those that a search has found:
+  /// descended to the local minimum around them.
+  std::vector<std::pair<TriangleIndex, TriangleIndex>> asked_pairs;
+  /// When it is reached, the niches decided so far are the result (LocalMinima::finished); nullptr: none.
+  WorkLimit* limit = nullptr;
+};
+
+/// A niche as DESIGN calls it: a connected set of point pairs at one distance, none near it closer.
+struct LocalMinimum {
+  double distance = 0.0;  ///< metres
+  WitnessPair witness;    ///< for segments and patches the middle of the set (NicheExtent::representative)
+  NicheKind kind = NicheKind::Point;
+  double extent = 0.0;  ///< metres, NicheExtent::length
+  Outwardness outward = Outwardness::Outward;
+  bool visible = true;
+  /// Distance at the lowest pass to a deeper niche, divided by the own distance, minus 1. Infinite when no
+  /// deeper niche is reached below `flooded`; where the distance is 0.
+  double prominence = std::numeric_limits<double>::infinity();
+  double flooded = 0.0;  ///< metres: passes up to this were looked for
+};
+
+struct LocalMinimaCost {
+  std::uint64_t node_pairs = 0;     ///< of the cone trees
+  std::uint64_t feature_pairs = 0;  ///< whose distance was computed
+  std::uint64_t candidates = 0;     ///< triangle pairs tried for a local minimum
+  std::uint64_t minima = 0;         ///< triangle pairs that hold one, before ripples are united
+  std::uint64_t flooded_pairs = 0;  ///< triangle pairs visited for the prominences
+  /// Niches of the result that no cone led to but the flood ran into. A rounding more than the widened cones
+  /// allow for would show here; none has.
+  std::uint64_t met_by_flood = 0;
+};
+
+struct LocalMinima {
+  static constexpr std::size_t kNoOwner = std::numeric_limits<std::size_t>::max();
+  std::vector<LocalMinimum> niches;  ///< ascending by distance
+  bool cut = false;                  ///< there are more than largest_count
+  bool finished = true;              ///< false: the limit was reached, niches may be missing
+  /// For each of LocalMinimaRequest::whose the niche that it belongs to; kNoOwner when that is none of the
+  /// result (farther than the cutoff, through material, cut).
+  std::vector<std::size_t> owners;
+  LocalMinimaCost cost;
+};
+
+/// Every local minimum of |p - q| over both original surfaces with a distance of at most the cutoff and the
+/// least prominence: none is missed, none invented, up to the error of the triangle kernel in coordinates of
+/// the bodies' size (minima whose pass is higher by less than that are one). How and why: doc/algorithm.md,
+/// section 7. Bodies about 2 / (least prominence) times their size apart have one niche for each pair of
+/// shells, found without looking through their features. Where the bodies meet, every connected set of
+/// meeting points is one niche of distance 0. Outward niches of open shells include those marked Unknown.
+/// Uses the bodies' normalCones(). Never throws.
+LocalMinima findLocalMinima(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
+                            const LocalMinimaRequest& request);
+
+}  // namespace concave_distance

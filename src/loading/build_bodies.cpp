@@ -1,0 +1,142 @@
+#include "build_bodies.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <exception>
+#include <memory>
+#include <set>
+#include <sstream>
+#include <string>
+#include <utility>
+
+#include "base/content_hash.h"
+#include "concave_distance/base/error.h"
+#include "mesh/body_mesh_parts.h"
+#include "scene/body_pool.h"
+
+namespace concave_distance::detail {
+namespace {
+
+// A larger grid takes so long that it is made while loading, not at the first search.
+constexpr double kLargeGrid = 5000.0;
+constexpr double kFarthestCoordinate = 1e9;  // metres
+
+// Runs `step` for every body without a problem; what it throws becomes that body's problem.
+template <typename Step>
+void forEachBody(std::vector<BuiltBody>& built, LoadProgress* progress, const Step& step) {
+  // One body a task: their costs differ by orders of magnitude.
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, built.size(), 1),
+                    [&](const tbb::blocked_range<std::size_t>& range) {
+                      for (std::size_t i = range.begin(); i != range.end(); ++i) {
+                        if (progress != nullptr && progress->stop) built[i].problem = "loading was stopped";
+                        try {
+                          if (built[i].problem.empty()) step(i);
+                        } catch (const std::exception& exception) {
+                          built[i].problem = exception.what();
+                        }
+                        if (progress != nullptr) progress->finishBody();
+                      }
+                    });
+}
+
+// The caller's locator need not be safe between threads: files are looked up one by one, beforehand.
+void locateAll(std::vector<BodySource>& sources, const BuildOptions& options, std::vector<BuiltBody>& built) {
+  std::set<std::string> reported;
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    built[i].problem = sources[i].problem;
+    if (!built[i].problem.empty()) continue;
+    try {
+      const MeshFolders folders{sources[i].base_folder, options.mesh_search_path};
+      for (GeometryElement& element : sources[i].geometry) {
+        const std::string resource = element.mesh_resource;
+        const std::string below = locateGeometry(element, folders, options.package_locator);
+        if (below.empty()) continue;
+        sources[i].in_robot_model = false;  // rviz does not find the mesh
+        if (reported.insert(below).second) {
+          built[i].notes.push_back("'" + resource + "' was found below " + below +
+                                   "; other missing meshes are looked for there too");
+        }
+      }
+    } catch (const std::exception& exception) {
+      built[i].problem = exception.what();
+    }
+  }
+}
+
+void checkTriangleCount(const SurfaceMesh& surface, const BodySource& source, const SceneLimits& limits) {
+  if (surface.triangleCount() > limits.triangles) {
+    throw Error(source.source, std::to_string(surface.triangleCount()) + " triangles",
+                "reduce the mesh; the limit of a body is " + std::to_string(limits.triangles));
+  }
+}
+
+// With larger coordinates, squares lose all small terms; at 1e154 m they overflow.
+void checkExtent(const SurfaceMesh& surface, const BodySource& source) {
+  const Eigen::AlignedBox3d& box = surface.boundingBox();
+  const double farthest = box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff();
+  if (!(farthest <= kFarthestCoordinate)) {
+    std::ostringstream seen;
+    seen << "it reaches " << farthest << " m from the origin of its frame";
+    throw Error(source.source, seen.str(), "check its size, unit (scale) and pose; the limit is 1e9 m");
+  }
+}
+
+std::shared_ptr<const BodyMesh> sharedMesh(const BodySource& source, SurfaceMesh surface,
+                                           const std::shared_ptr<BodyPool>& pool,
+                                           const PreparationCachePointer& cache, const SceneLimits& limits) {
+  BodyMeshOptions options;
+  options.max_edge_length = source.max_edge_length;
+  options.largest_node_count = limits.nodes;
+  options.metric_memory = pool->metricMemory();
+  options.cache = cache;
+  const ContentKey key = bodyKey(surface, options);
+  return pool->share(key, [&] {
+    auto mesh = std::make_shared<const BodyMesh>(source.name, std::move(surface), options);
+    const double edge = source.max_edge_length.value_or(automaticEdgeLength(mesh->surface()));
+    if (estimatedNodeCount(mesh->surface(), edge) > kLargeGrid) mesh->graph();
+    return mesh;
+  });
+}
+
+SceneBody build(const BodySource& source, const std::shared_ptr<BodyPool>& pool,
+                const PreparationCachePointer& cache, const SceneLimits& limits) {
+  RepairedMesh repaired = loadGeometry(source.geometry, source.source, cache.get());
+  checkTriangleCount(repaired.mesh, source, limits);
+  checkExtent(repaired.mesh, source);
+  SceneBody body;
+  body.name = source.name;
+  body.frame = source.frame;
+  body.source = source.source;
+  body.colour = source.colour;
+  body.material = source.material;
+  body.in_robot_model = source.in_robot_model;
+  body.is_robot_link = source.is_robot_link;
+  body.repair = repaired.report;
+  body.inertia = source.inertia;
+  body.bounds = boundsOf(repaired.mesh);
+  body.mesh = sharedMesh(source, std::move(repaired.mesh), pool, cache, limits);
+  return body;
+}
+
+}  // namespace
+
+std::vector<BuiltBody> buildBodies(std::vector<BodySource> sources, const BuildOptions& options) {
+  std::vector<BuiltBody> built(sources.size());
+  if (options.progress != nullptr) options.progress->begin(sources.size());
+  locateAll(sources, options, built);
+  forEachBody(built, options.progress, [&](std::size_t i) {
+    built[i].body = build(sources[i], options.pool, options.cache, options.limits);
+  });
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    if (!built[i].body) continue;
+    for (const std::string& note :
+         {built[i].body->repair.summary(), describeApproximations(sources[i].geometry)}) {
+      if (!note.empty()) built[i].notes.push_back(note);
+    }
+  }
+  return built;
+}
+
+}  // namespace concave_distance::detail

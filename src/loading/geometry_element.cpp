@@ -1,0 +1,167 @@
+#include "geometry_element.h"
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <sstream>
+#include <utility>
+
+#include "base/content_hash.h"
+#include "concave_distance/base/error.h"
+#include "concave_distance/mesh/import/import_mesh.h"
+#include "concave_distance/mesh/surface/primitives.h"
+#include "mesh/import/mesh_file.h"
+#include "mesh/repaired_mesh_cache.h"
+
+namespace concave_distance::detail {
+namespace {
+
+constexpr double kDefaultChordErrorOfRadius = 0.01;
+
+struct PrimitiveKind {
+  const char* name;
+  std::size_t dimension_count;
+  bool round;
+};
+
+constexpr std::array<PrimitiveKind, 4> kPrimitives{
+    {{"box", 3, false}, {"sphere", 1, true}, {"cylinder", 2, true}, {"capsule", 2, true}}};
+
+const PrimitiveKind* findPrimitive(const std::string& name) {
+  for (const PrimitiveKind& kind : kPrimitives) {
+    if (name == kind.name) return &kind;
+  }
+  return nullptr;
+}
+
+double chordErrorOf(const GeometryElement& element) {
+  return element.chord_error.value_or(kDefaultChordErrorOfRadius * element.dimensions.front());
+}
+
+SurfaceMesh makePrimitive(const GeometryElement& element) {
+  const PrimitiveKind* kind = findPrimitive(element.primitive);
+  if (kind == nullptr) {
+    throw Error(element.where, "primitive '" + element.primitive + "' is not known",
+                "use box, sphere, cylinder or capsule");
+  }
+  const std::vector<double>& d = element.dimensions;
+  if (d.size() != kind->dimension_count) {
+    throw Error(element.where, "a " + element.primitive + " with " + std::to_string(d.size()) + " dimensions",
+                std::to_string(kind->dimension_count) + " are expected");
+  }
+  if (element.primitive == "box") return makeBox({d[0], d[1], d[2]}, element.where);
+  const double chord_error = chordErrorOf(element);
+  if (element.primitive == "sphere") return makeSphere(d[0], chord_error, element.where);
+  if (element.primitive == "cylinder") return makeCylinder(d[0], d[1], chord_error, element.where);
+  return makeCapsule(d[0], d[1], chord_error, element.where);
+}
+
+TriangleSoup soupOf(const SurfaceMesh& mesh) {
+  TriangleSoup soup;
+  soup.vertices = mesh.vertices();
+  soup.triangles.reserve(mesh.triangleCount());
+  for (const TriangleNodes& t : mesh.triangles()) {
+    soup.triangles.push_back({t[0].value, t[1].value, t[2].value});
+  }
+  return soup;
+}
+
+/// The opened mesh file; nothing for a primitive.
+std::optional<MeshFile> openElement(const GeometryElement& element) {
+  if (element.mesh_resource.empty() == element.primitive.empty()) {
+    throw Error(element.where,
+                element.primitive.empty() ? "neither a mesh nor a primitive" : "both a mesh and a primitive",
+                "give one of them");
+  }
+  if (!element.primitive.empty()) return std::nullopt;
+  return std::optional<MeshFile>(std::in_place, element.mesh_resource, element.real_folders);
+}
+
+/// Adds all that the element's surface is made from. False where that is not in the file and numbers named.
+bool addElement(ContentHasher& hasher, const GeometryElement& element, const std::optional<MeshFile>& file) {
+  hasher.add(element.primitive);
+  for (const double dimension : element.dimensions) hasher.add(dimension);
+  if (file) {
+    if (!addMeshFile(hasher, *file, element.access.limits)) return false;
+  } else if (!element.dimensions.empty()) {
+    hasher.add(chordErrorOf(element));
+  }
+  for (int i = 0; i < 3; ++i) hasher.add(element.scale[i]);
+  for (int i = 0; i < 16; ++i) hasher.add(element.frame_from_geometry.data()[i]);
+  return true;
+}
+
+ContentHasher hasherOf(const RepairOptions& options) {
+  ContentHasher hasher = preparationHasher();
+  addRepairOptions(hasher, options);
+  return hasher;
+}
+
+std::optional<ContentKey> keyOf(const std::vector<GeometryElement>& elements, const RepairOptions& options) {
+  ContentHasher hasher = hasherOf(options);
+  for (const GeometryElement& element : elements) {
+    if (!addElement(hasher, element, openElement(element))) return std::nullopt;
+  }
+  return hasher.key();
+}
+
+/// Each file is open from its import until it has been added to the key.
+KeyedMesh makeSurface(const std::vector<GeometryElement>& elements, const RepairOptions& options,
+                      const std::string& where, bool with_key) {
+  TriangleSoup body;
+  ContentHasher hasher = hasherOf(options);
+  for (const GeometryElement& element : elements) {
+    if (!element.frame_from_geometry.matrix().allFinite()) {
+      throw Error(element.where, "the pose is not finite", "give finite numbers");
+    }
+    const std::optional<MeshFile> file = openElement(element);
+    appendTransformed(
+        body, file ? importMesh(*file, element.scale, element.access.limits) : soupOf(makePrimitive(element)),
+        element.frame_from_geometry);
+    with_key = with_key && addElement(hasher, element, file);
+  }
+  const bool is_one_file = elements.size() == 1 && !elements.front().mesh_resource.empty();
+  return {repairMesh(body, options, is_one_file ? elements.front().mesh_resource : where),
+          with_key ? std::optional<ContentKey>(hasher.key()) : std::nullopt};
+}
+
+}  // namespace
+
+std::string locateGeometry(GeometryElement& element, const MeshFolders& folders,
+                           const PackageLocator& package_locator) {
+  if (!element.primitive.empty()) return "";
+  try {
+    if (element.access.roots) {
+      LocatedMesh located = locateMeshBelow(element.mesh_resource, *element.access.roots, package_locator);
+      element.mesh_resource = std::move(located.path);
+      element.real_folders = std::move(located.real_folders);
+      return "";
+    }
+    FoundMesh found = searchMesh(element.mesh_resource, folders, package_locator);
+    element.mesh_resource = std::move(found.path);
+    return std::move(found.below);
+  } catch (const Error& error) {
+    throw Error(element.where + ", " + error.where(), error.whatIsWrong(), error.remedy());
+  }
+}
+
+RepairedMesh loadGeometry(const std::vector<GeometryElement>& elements, const std::string& where,
+                          PreparationCache* cache) {
+  const RepairOptions options;
+  return repairedMeshThrough(
+      cache, [&] { return keyOf(elements, options); },
+      [&](bool with_key) { return makeSurface(elements, options, where, with_key); });
+}
+
+std::string describeApproximations(const std::vector<GeometryElement>& elements) {
+  std::ostringstream text;
+  for (const GeometryElement& element : elements) {
+    const PrimitiveKind* kind = findPrimitive(element.primitive);
+    if (kind == nullptr || !kind->round || element.dimensions.empty()) continue;
+    text << (text.tellp() > 0 ? "; " : "") << element.primitive << " meshed from inside, "
+         << chordErrorOf(element) << " m off at most";
+  }
+  return text.str();
+}
+
+}  // namespace concave_distance::detail

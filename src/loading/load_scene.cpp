@@ -1,0 +1,275 @@
+#include "concave_distance/loading/load_scene.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <system_error>
+#include <utility>
+
+#include "build_bodies.h"
+#include "concave_distance/base/error.h"
+#include "mesh/surface/mesh_topology.h"
+#include "robot_at_rest.h"
+#include "robot_description.h"
+#include "scene/body_pool.h"
+#include "scene_parts.h"
+#include "scene_spec.h"
+#include "select_pairs.h"
+#include "semantic_description.h"
+#include "settings_reader.h"
+
+namespace concave_distance {
+namespace {
+
+using detail::BuiltBody;
+using detail::DescriptionText;
+using detail::PairSelection;
+using detail::RobotDescription;
+using detail::RobotSpec;
+using detail::SceneParts;
+using detail::SceneSpec;
+using detail::SelectedPair;
+
+// Enough to see what is missing; a list cut short says so.
+constexpr std::size_t kMostPairsListed = 10;
+constexpr std::uintmax_t kLongestFile = 64'000'000;  // bytes, of a scene file, URDF or SRDF
+constexpr const char* kSemanticDescription = "robot_description_semantic";
+
+std::string readFile(const std::string& path, const std::string& where) {
+  std::error_code ignored;
+  std::ifstream stream;
+  // A folder can be opened, and fails only when it is read.
+  if (std::filesystem::is_regular_file(path, ignored)) stream.open(path, std::ios::binary);
+  if (const auto size = std::filesystem::file_size(path, ignored); stream.is_open() && size > kLongestFile) {
+    throw Error(where, "'" + path + "' has " + std::to_string(size) + " bytes",
+                "allowed: at most " + std::to_string(kLongestFile));
+  }
+  std::ostringstream text;
+  if (stream.is_open()) text << stream.rdbuf();
+  if (!stream.is_open() || stream.bad()) {
+    throw Error(where, "'" + path + "' cannot be read", "check the path and its permissions");
+  }
+  return text.str();
+}
+
+std::string folderOf(const std::string& path) {
+  const std::string folder = std::filesystem::path(path).parent_path().string();
+  return folder.empty() ? "." : folder;
+}
+
+DescriptionText textOfParameter(const std::string& parameter, const std::string& where,
+                                const SceneLoadOptions& options) {
+  const auto found = options.descriptions.find(parameter);
+  if (found == options.descriptions.end()) {
+    throw Error(where, "there is no parameter '" + parameter + "'",
+                "set it to the text of the description, or name a file by urdf or srdf");
+  }
+  return {found->second, "parameter " + parameter, ""};
+}
+
+DescriptionText textOfFile(const std::string& resource, const std::string& where,
+                           const std::string& base_folder, const SceneLoadOptions& options) {
+  try {
+    const std::string path = locateResource(resource, base_folder, options.package_locator);
+    return {readFile(path, path), path, folderOf(path)};
+  } catch (const Error& error) {
+    throw Error(where + ", " + error.where(), error.whatIsWrong(), error.remedy());
+  }
+}
+
+SceneProblem problemOf(const Error& error, const std::string& consequence) {
+  return {error.where(), error.whatIsWrong() + " (" + error.remedy() + "); " + consequence};
+}
+
+// An SRDF that cannot be read is a problem of the scene: the robot is served without it.
+void addSemantics(const RobotSpec& spec, const RobotDescription& robot, const std::string& base_folder,
+                  const SceneLoadOptions& options, SceneParts& parts) {
+  if (spec.srdf.empty() && spec.semantic_description.empty()) return;
+  DescriptionText srdf;
+  if (spec.srdf.empty()) srdf = textOfParameter(spec.semantic_description, spec.where, options);
+  try {
+    if (!spec.srdf.empty()) srdf = textOfFile(spec.srdf, spec.where, base_folder, options);
+    detail::addSemantics(spec, detail::readSemanticDescription(srdf.text, srdf.where, robot), parts);
+  } catch (const Error& error) {
+    parts.problems.push_back(problemOf(error, "no pair is disabled by it, and it gives no groups"));
+  }
+}
+
+// So is a URDF that cannot be read: the other robots and the bodies are served.
+void addRobot(const RobotSpec& spec, const std::string& base_folder, const SceneLoadOptions& options,
+              SceneParts& parts) {
+  DescriptionText urdf;
+  RobotDescription robot;
+  if (spec.urdf.empty()) urdf = textOfParameter(spec.description, spec.where, options);
+  try {
+    if (!spec.urdf.empty()) urdf = textOfFile(spec.urdf, spec.where, base_folder, options);
+    robot = detail::readRobotDescription(urdf.text, urdf.where, spec.geometry);
+  } catch (const Error& error) {
+    parts.problems.push_back(problemOf(error, "no link of this robot is served"));
+    parts.robot_failed = true;
+    return;
+  }
+  detail::addRobot(spec, robot, urdf, parts);
+  addSemantics(spec, robot, base_folder, options, parts);
+}
+
+// "a/b, a/c and 3 more": the pairs that go with a body that could not be loaded.
+std::string lostPairs(const std::vector<SelectedPair>& pairs, std::size_t source) {
+  std::string text;
+  std::size_t count = 0;
+  for (const SelectedPair& pair : pairs) {
+    if (pair.source_a != source && pair.source_b != source) continue;
+    if (count < kMostPairsListed) text += (count == 0 ? "" : ", ") + pair.name;
+    ++count;
+  }
+  if (count > kMostPairsListed) text += " and " + std::to_string(count - kMostPairsListed) + " more";
+  return count == 0 ? "no pairs are lost with it" : "pairs not served: " + text;
+}
+
+// An open surface has no inside, so nothing says how deep another body is in it.
+void noteOpenBodies(Scene& scene) {
+  for (const ScenePair& pair : scene.pairs) {
+    if (!pair.settings.effects.normal_force) continue;
+    for (const std::size_t index : {pair.body_a, pair.body_b}) {
+      const SceneBody& body = scene.bodies[index];
+      const std::vector<bool>& closed = body.mesh->topology().shell_is_closed;
+      if (std::find(closed.begin(), closed.end(), false) == closed.end()) continue;
+      scene.problems.push_back({body.source, "body '" + body.name + "' is not closed: pair '" + pair.name +
+                                                 "' has no normal force where its open surface is met (close "
+                                                 "the mesh, see mesh_tool repair)"});
+    }
+  }
+}
+
+void requireNoProblem(const Scene& scene) {
+  if (scene.problems.empty()) return;
+  const SceneProblem& first = scene.problems.front();
+  const std::size_t others = scene.problems.size() - 1;
+  throw Error(first.where, first.message + (others == 0 ? "" : ", and " + std::to_string(others) + " more"),
+              "mend it, or load without `strict`: the rest is served then");
+}
+
+Scene assemble(const SceneSpec& spec, SceneParts parts, const SceneLoadOptions& options) {
+  if (parts.sources.size() > options.limits.bodies) {
+    throw Error("scene", std::to_string(parts.sources.size()) + " bodies",
+                "the limit is " + std::to_string(options.limits.bodies) + " (largest_body_count)");
+  }
+  // Before the costly part, so that a mistake in the file is reported at once.
+  PairSelection selection = detail::selectPairs(spec, parts, options.limits.pairs);
+  detail::limitImports(parts, options.mesh_import);
+  Scene scene;
+  scene.rigid = parts.rigid;
+  scene.pool = std::make_shared<BodyPool>(spec.metric_memory_limit);
+  scene.limits = options.limits;
+  std::vector<BuiltBody> built =
+      detail::buildBodies(parts.sources, {options.package_locator, options.mesh_search_path, scene.pool,
+                                          spec.cache, options.limits, options.progress});
+  scene.cache = spec.cache;
+  scene.simulation = spec.simulation;
+  scene.notes = std::move(parts.notes);
+  scene.problems = std::move(parts.problems);
+  scene.problems.insert(scene.problems.end(), selection.problems.begin(), selection.problems.end());
+  std::vector<std::optional<std::size_t>> body_of_source(built.size());
+  for (std::size_t i = 0; i < built.size(); ++i) {
+    for (const std::string& note : built[i].notes) scene.notes.push_back(parts.sources[i].name + ": " + note);
+    if (built[i].body) {
+      body_of_source[i] = scene.bodies.size();
+      scene.bodies.push_back(std::move(*built[i].body));
+    } else {
+      scene.problems.push_back({parts.sources[i].source, "body '" + parts.sources[i].name +
+                                                             "' is not served: " + built[i].problem + "; " +
+                                                             lostPairs(selection.pairs, i)});
+    }
+  }
+  for (SelectedPair& pair : selection.pairs) {
+    const std::optional<std::size_t> a = body_of_source[pair.source_a];
+    const std::optional<std::size_t> b = body_of_source[pair.source_b];
+    if (a && b) scene.pairs.push_back({pair.name, *a, *b, pair.enabled, pair.settings});
+  }
+  noteOpenBodies(scene);
+  scene.notes.insert(scene.notes.end(), selection.notes.begin(), selection.notes.end());
+  if (spec.cache) {
+    if (std::string problem = spec.cache->takeProblem(); !problem.empty()) {
+      scene.notes.push_back(std::move(problem));
+    }
+  }
+  return scene;
+}
+
+}  // namespace
+
+Scene loadSceneText(const std::string& yaml, const std::string& where, const std::string& base_folder,
+                    const SceneLoadOptions& options) {
+  const SceneSpec spec = detail::readSceneSpec(yaml, where, base_folder, options);
+  SceneParts parts;
+  for (const RobotSpec& robot : spec.robots) addRobot(robot, base_folder, options, parts);
+  for (const detail::BodySpec& body : spec.bodies) detail::addBody(body, base_folder, parts);
+  Scene scene = assemble(spec, std::move(parts), options);
+  if (options.strict) requireNoProblem(scene);
+  return scene;
+}
+
+Scene loadSceneFile(const std::string& path, const SceneLoadOptions& options) {
+  return loadSceneText(readFile(path, "scene file"), path, folderOf(path), options);
+}
+
+std::vector<std::string> descriptionsOfSceneFile(const std::string& path) {
+  const SceneSpec spec =
+      detail::readSceneSpec(readFile(path, "scene file"), path, folderOf(path), SceneLoadOptions{});
+  std::vector<std::string> names;
+  for (const RobotSpec& robot : spec.robots) {
+    for (const std::string& name : {robot.description, robot.semantic_description}) {
+      if (!name.empty() && std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    }
+  }
+  return names;
+}
+
+Scene loadRobotScene(const std::string& urdf, const std::string& where, const SceneLoadOptions& options) {
+  SceneSpec spec;
+  spec.defaults = options.default_settings;
+  spec.metric_memory_limit = options.metric_memory_limit;
+  spec.cache = options.cache;
+  detail::validatePairSettings(spec.defaults, where);
+  RobotSpec robot;
+  robot.where = where;
+  robot.geometry = options.geometry;
+  std::error_code ignored;
+  const bool is_file = std::filesystem::is_regular_file(where, ignored);
+  // A text that comes from no file is what the parameter robot_description holds, and rviz draws it.
+  if (!is_file) robot.description = where;
+  SceneParts parts;
+  const DescriptionText text{urdf, where, is_file ? folderOf(where) : std::string()};
+  const RobotDescription description = detail::readRobotDescription(text.text, text.where, robot.geometry);
+  detail::addRobot(robot, description, text, parts);
+  if (options.descriptions.count(kSemanticDescription) != 0) {
+    robot.semantic_description = kSemanticDescription;
+    addSemantics(robot, description, "", options, parts);
+  }
+  Scene scene = assemble(spec, std::move(parts), options);
+  if (options.automatic_cutoff) detail::setAutomaticCutoff(scene, description);
+  detail::warnOfNoGeometry(scene, description, options.geometry);
+  detail::reportOverlappingPairs(scene, description, options);
+  if (options.strict) requireNoProblem(scene);
+  return scene;
+}
+
+SceneBody loadBody(const BodyDescription& description, const std::string& base_folder,
+                   const PackageLocator& package_locator, const std::shared_ptr<BodyPool>& pool,
+                   const PreparationCachePointer& cache, const SceneLimits& limits) {
+  std::vector<BuiltBody> built =
+      detail::buildBodies({detail::sourceOf(description, base_folder)},
+                          {package_locator,
+                           {},
+                           pool ? pool : std::make_shared<BodyPool>(kDefaultMetricMemoryLimit),
+                           cache,
+                           limits,
+                           nullptr});
+  if (!built.front().body) {
+    throw Error("body '" + description.name + "'", built.front().problem, "it is not added");
+  }
+  return std::move(*built.front().body);
+}
+
+}  // namespace concave_distance

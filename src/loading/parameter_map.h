@@ -1,0 +1,23 @@
+#pragma once
+
+#include "base/parameter.h"
+#include "yaml_value.h"
+
+namespace concave_distance::detail {
+
+/// The value of a parameter. @throws Error naming file, line and key, the value seen and what is allowed
+ParameterValue readParameter(const YamlValue& value, const ParameterInfo& info);
+
+/// Sets what the map says and leaves the rest. Takes the names of the parameters from the map.
+/// @param is_expert which of them: those below `expert`, or the others
+template <typename Settings>
+void readParameters(YamlMap& map, const ParameterTable<Settings>& table, bool is_expert, Settings& settings) {
+  for (const Parameter<Settings>& parameter : table) {
+    if (parameter.info.is_expert != is_expert) continue;
+    if (const auto value = map.take(parameter.info.name)) {
+      parameter.set(settings, readParameter(*value, parameter.info));
+    }
+  }
+}
+
+}  // namespace concave_distance::detail

@@ -1,0 +1,157 @@
+#include "robot_at_rest.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <string>
+
+#include "concave_distance/scene/broad_phase.h"
+#include "distance/certificate.h"
+#include "distance/solid_overlap.h"
+#include "link_poses.h"
+#include "wording.h"
+
+namespace concave_distance::detail {
+namespace {
+
+constexpr double kCutoffShare = 0.2;  // of the robot's diagonal
+constexpr std::size_t kRandomPoses = 20;
+constexpr std::uint64_t kSeed = 1;
+constexpr std::size_t kMostNamed = 8;
+constexpr double kEnoughToBeApart = 0.9;  // of the distance: the proof ends with a bound above 0
+
+using Poses = std::unordered_map<std::string, Eigen::Isometry3d>;
+
+const Eigen::Isometry3d* poseOf(const Poses& poses, const SceneBody& body) {
+  auto found = poses.find(body.name);
+  if (found == poses.end()) found = poses.find("/" + body.name);  // the URDF's name may begin with a slash
+  return found == poses.end() ? nullptr : &found->second;
+}
+
+bool overlap(const SceneBody& a, const SceneBody& b, const Poses& poses) {
+  const Eigen::Isometry3d* pose_a = poseOf(poses, a);
+  const Eigen::Isometry3d* pose_b = poseOf(poses, b);
+  if (pose_a == nullptr || pose_b == nullptr) return false;
+  const Eigen::Isometry3d a_from_b = pose_a->inverse() * *pose_b;
+  if (distanceLowerBound(a.bounds, b.bounds, a_from_b) > 0.0) return false;
+  CertificateWorkspace workspace;
+  CertificateRequest request;
+  request.relative_tolerance = kEnoughToBeApart;
+  const DistanceCertificate proof =
+      certifyDistance(*a.mesh, *b.mesh, a_from_b, nullptr, 0, request, workspace);
+  if (proof.status == CertificateStatus::Penetrating) return true;
+  WorkLimit no_limit;
+  return isContained(*a.mesh, *b.mesh, a_from_b, no_limit).value_or(false);
+}
+
+double robotDiagonal(const Scene& scene, const RobotDescription& robot) {
+  const Poses poses = linkPoses(robot, zeroPositions(robot));
+  Eigen::AlignedBox3d box;
+  for (const SceneBody& body : scene.bodies) {
+    const Eigen::Isometry3d* pose = poseOf(poses, body);
+    if (pose == nullptr) continue;
+    const Eigen::AlignedBox3d& own = body.mesh->surface().boundingBox();
+    for (int corner = 0; corner < 8; ++corner) {
+      box.extend(*pose * own.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner)));
+    }
+  }
+  return box.isEmpty() ? 0.0 : box.diagonal().norm();
+}
+
+double automaticCutoff(double diagonal) {
+  if (!(diagonal > 0.0) || !std::isfinite(diagonal)) return std::numeric_limits<double>::infinity();
+  const double wanted = kCutoffShare * diagonal;
+  const double unit = std::pow(10.0, std::floor(std::log10(wanted)) - 1.0);
+  return std::ceil(wanted / unit) * unit;
+}
+
+std::vector<std::size_t> pairsThatAlwaysOverlap(const Scene& scene, const RobotDescription& robot,
+                                                const LoadProgress* progress) {
+  std::vector<std::size_t> left;
+  for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
+    if (scene.pairs[i].enabled) left.push_back(i);
+  }
+  RandomEngine engine(kSeed);
+  for (std::size_t pose = 0; pose <= kRandomPoses && !left.empty(); ++pose) {
+    if (progress != nullptr && progress->stop) return {};
+    const Poses poses = linkPoses(robot, pose == 0 ? zeroPositions(robot) : randomPositions(robot, engine));
+    std::vector<char> overlaps(left.size(), 0);
+    tbb::parallel_for(std::size_t{0}, left.size(), [&](std::size_t i) {
+      const ScenePair& pair = scene.pairs[left[i]];
+      overlaps[i] = overlap(scene.bodies[pair.body_a], scene.bodies[pair.body_b], poses) ? 1 : 0;
+    });
+    std::vector<std::size_t> still;
+    for (std::size_t i = 0; i < left.size(); ++i) {
+      if (overlaps[i] != 0) still.push_back(left[i]);
+    }
+    left = std::move(still);
+  }
+  return left;
+}
+
+std::string describeOverlap(const Scene& scene, const std::vector<std::size_t>& pairs) {
+  std::string text = counted(pairs.size(), "pair") + (pairs.size() == 1 ? " overlaps" : " overlap") +
+                     " in the zero pose and in " + std::to_string(kRandomPoses) +
+                     " random poses, so that the distance is always 0: ";
+  for (std::size_t i = 0; i < std::min(pairs.size(), kMostNamed); ++i) {
+    text += (i == 0 ? "" : ", ") + scene.pairs[pairs[i]].name;
+  }
+  return text + (pairs.size() > kMostNamed ? ", ..." : "");
+}
+
+std::string metres(double length) {
+  std::ostringstream text;
+  text << length << " m";
+  return text.str();
+}
+
+}  // namespace
+
+void setAutomaticCutoff(Scene& scene, const RobotDescription& robot) {
+  const double diagonal = robotDiagonal(scene, robot);
+  const double cutoff = automaticCutoff(diagonal);
+  scene.automatic_cutoff = cutoff;
+  for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
+    scene.pairs.edit(i).settings.tracker.cutoff = cutoff;
+  }
+  if (!std::isfinite(cutoff)) return;
+  scene.notes.push_back("cutoff " + metres(cutoff) + ", a fifth of the robot's diagonal of " +
+                        metres(diagonal) + " in its zero pose: pairs farther apart have only a lower bound " +
+                        "(set ~cutoff to change it; 0: none)");
+}
+
+// Without this warning an empty robot would not be noticed.
+void warnOfNoGeometry(Scene& scene, const RobotDescription& robot, GeometrySource geometry) {
+  if (!scene.bodies.empty() || !scene.problems.empty()) return;
+  const bool collision = geometry == GeometrySource::Collision;
+  const std::string other = collision ? "visual" : "collision";
+  std::string text =
+      std::string("no link of the robot has ") + (collision ? "collision" : "visual") + " geometry";
+  if (robot.links_with_other_geometry > 0) {
+    text += ", but " + counted(robot.links_with_other_geometry, "link") + " with " + other +
+            " geometry: set ~geometry to " + other;
+  }
+  scene.warnings.push_back(text);
+}
+
+void reportOverlappingPairs(Scene& scene, const RobotDescription& robot, const SceneLoadOptions& options) {
+  const std::vector<std::size_t> pairs = pairsThatAlwaysOverlap(scene, robot, options.progress);
+  if (pairs.empty()) return;
+  const std::string text = describeOverlap(scene, pairs);
+  if (!options.skip_overlapping_pairs) {
+    scene.warnings.push_back(text + ". If this is intended, disable them in its SRDF, or set " +
+                             "~skip_overlapping_pairs");
+    return;
+  }
+  scene.notes.push_back(text + ". They are left out because ~skip_overlapping_pairs is set");
+  PairList kept;
+  for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
+    if (!std::binary_search(pairs.begin(), pairs.end(), i)) kept.appendShared(scene.pairs, i);
+  }
+  scene.pairs = std::move(kept);
+}
+
+}  // namespace concave_distance::detail

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "concave_distance/loading/load_scene.h"
+#include "concave_distance/scene/scene.h"
+#include "robot_description.h"
+
+namespace concave_distance::detail {
+
+// Checks of a robot's scene from the URDF alone, before anything moves it.
+
+/// Gives every pair a cutoff for the robot's size: a fifth of the diagonal of the box around it in its zero
+/// pose, rounded up to two digits; adds a note.
+void setAutomaticCutoff(Scene& scene, const RobotDescription& robot);
+
+/// Adds a warning when no link has geometry of the wanted kind.
+void warnOfNoGeometry(Scene& scene, const RobotDescription& robot, GeometrySource geometry);
+
+/// Adds a warning that names the enabled pairs whose bodies overlap in the zero pose and in each of 20 random
+/// poses: usually links that overlap by design. options.skip_overlapping_pairs leaves them out. Does nothing
+/// when loading was stopped.
+void reportOverlappingPairs(Scene& scene, const RobotDescription& robot, const SceneLoadOptions& options);
+
+}  // namespace concave_distance::detail

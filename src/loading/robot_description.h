@@ -1,0 +1,59 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "concave_distance/loading/load_scene.h"
+#include "concave_distance/mesh/surface/mass_properties.h"
+#include "geometry_element.h"
+
+namespace concave_distance::detail {
+
+struct RobotLink {
+  std::string name;                       ///< as in the URDF
+  std::vector<GeometryElement> geometry;  ///< of the chosen kind, link frame; empty: no body
+  std::optional<Eigen::Vector4d> colour;  ///< of the first visual element, when it has one
+  std::optional<MassProperties> inertia;  ///< as given, link frame
+  std::string problem;                    ///< why the geometry could not be read; empty: it could
+  bool hasGeometry() const { return !geometry.empty() || !problem.empty(); }
+};
+
+/// Of joints with one degree of freedom; the others stand still here.
+enum class JointMotion : std::uint8_t { None, Turns, Slides };
+
+struct RobotJoint {
+  std::string name;
+  std::string parent;
+  std::string child;
+  bool fixed = false;
+  Eigen::Isometry3d parent_from_joint = Eigen::Isometry3d::Identity();
+  JointMotion motion = JointMotion::None;
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  ///< unit, joint frame
+  bool has_limits = false;
+  double lower = 0.0;  ///< rad or m
+  double upper = 0.0;
+  std::string mimicked;  ///< the joint it follows; empty: none
+  double mimic_factor = 1.0;
+  double mimic_offset = 0.0;
+};
+
+/// What a URDF says that matters here; links and joints in the order of the text.
+struct RobotDescription {
+  std::string name;
+  std::vector<RobotLink> links;
+  std::vector<RobotJoint> joints;
+  std::vector<std::string> notes;
+  std::size_t links_with_other_geometry = 0;  ///< visual where collision is wanted, and the other way round
+  const RobotLink* findLink(const std::string& link) const;
+};
+
+/// Reads a URDF through urdfdom. A link whose geometry cannot be read carries a problem, the others go on.
+/// @param where named in the error: file or parameter
+/// @throws Error with what urdfdom says when it makes no model of the text
+RobotDescription readRobotDescription(const std::string& urdf, const std::string& where,
+                                      GeometrySource geometry);
+
+}  // namespace concave_distance::detail

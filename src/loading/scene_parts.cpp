@@ -1,0 +1,162 @@
+#include "scene_parts.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "concave_distance/base/error.h"
+#include "scene/name_pattern.h"
+#include "wording.h"
+
+namespace concave_distance::detail {
+namespace {
+
+// Link names with a leading slash come from the days of tf; robot_state_publisher drops it from the frames,
+// and tf2 refuses frames that have it.
+std::string withoutSlash(const std::string& link) {
+  return !link.empty() && link.front() == '/' ? link.substr(1) : link;
+}
+
+std::string bodyName(const RobotSpec& spec, const std::string& link) {
+  return spec.prefix + withoutSlash(link);
+}
+
+void addSource(BodySource source, const std::string& where, const std::string& remedy, SceneParts& parts) {
+  const auto same = std::find_if(parts.sources.begin(), parts.sources.end(),
+                                 [&](const BodySource& other) { return other.name == source.name; });
+  if (same != parts.sources.end()) {
+    throw Error(where, "the body name '" + source.name + "' is taken by " + same->source, remedy);
+  }
+  parts.sources.push_back(std::move(source));
+}
+
+// Links that `skip_links` takes out, each pattern of which must match one.
+std::set<std::string> skippedLinks(const RobotSpec& spec, const RobotDescription& robot) {
+  std::set<std::string> skipped;
+  for (const Selector& selector : spec.skipped_links) {
+    bool matched = false;
+    for (const RobotLink& link : robot.links) {
+      if (link.name != selector.text && !matchesPattern(selector.text, link.name) &&
+          !matchesPattern(selector.text, withoutSlash(link.name))) {
+        continue;
+      }
+      skipped.insert(link.name);
+      matched = true;
+    }
+    if (!matched) {
+      throw Error(selector.where, "'" + selector.text + "' matches no link of robot '" + robot.name + "'",
+                  "name a link as the URDF does");
+    }
+  }
+  return skipped;
+}
+
+BodySource linkSource(const RobotSpec& spec, const RobotLink& link, const DescriptionText& urdf) {
+  BodySource source;
+  source.name = bodyName(spec, link.name);
+  source.frame = source.name;
+  source.source = urdf.where + ", link '" + link.name + "'";
+  source.geometry = link.geometry;
+  source.base_folder = urdf.base_folder;
+  source.max_edge_length = spec.max_edge_length;
+  for (GeometryElement& element : source.geometry) element.chord_error = spec.chord_error;
+  if (link.colour) source.colour = *link.colour;
+  source.material = spec.material;
+  source.in_robot_model = !spec.description.empty();
+  source.is_robot_link = true;
+  source.inertia = link.inertia;
+  source.problem = link.problem;
+  return source;
+}
+
+void addLinks(const RobotSpec& spec, const RobotDescription& robot, const DescriptionText& urdf,
+              SceneParts& parts) {
+  const std::set<std::string> skipped = skippedLinks(spec, robot);
+  std::vector<std::string> members;
+  std::size_t bare = 0;
+  for (const RobotLink& link : robot.links) {
+    if (skipped.count(link.name) != 0) continue;
+    if (!link.hasGeometry()) {
+      parts.bare_links.insert(bodyName(spec, link.name));
+      ++bare;
+      continue;
+    }
+    addSource(linkSource(spec, link, urdf), spec.where, "give one of the robots a prefix, or skip the link",
+              parts);
+    members.push_back(bodyName(spec, link.name));
+  }
+  parts.notes.push_back(urdf.where + ": " + counted(members.size(), "link") + " with geometry, " +
+                        std::to_string(bare) + " without, " + std::to_string(skipped.size()) + " skipped");
+  parts.groups.emplace_back(spec.name.empty() ? spec.prefix + robot.name : spec.name, std::move(members));
+}
+
+}  // namespace
+
+const char* SceneParts::filterReason(std::size_t source_a, std::size_t source_b) const {
+  const BodySource& a = sources[source_a];
+  const BodySource& b = sources[source_b];
+  const LinkPair pair = linkPair(a.name, b.name);
+  if (disabled_by_srdf.count(pair) != 0) return "disabled in the SRDF";
+  if (rigid.areJoined(a.frame, b.frame)) return "no joint moves one against the other";
+  if (adjacent.count(pair) != 0) return "adjacent links";
+  return nullptr;
+}
+
+void addRobot(const RobotSpec& spec, const RobotDescription& robot, const DescriptionText& urdf,
+              SceneParts& parts) {
+  for (const std::string& note : robot.notes) parts.notes.push_back(urdf.where + ", " + note);
+  addLinks(spec, robot, urdf, parts);
+  for (const RobotJoint& joint : robot.joints) {
+    if (joint.fixed) parts.rigid.join(bodyName(spec, joint.parent), bodyName(spec, joint.child));
+  }
+  for (const LinkPair& pair : adjacentLinks(robot)) {
+    parts.adjacent.insert(linkPair(bodyName(spec, pair.first), bodyName(spec, pair.second)));
+  }
+}
+
+void addSemantics(const RobotSpec& spec, const SemanticDescription& semantics, SceneParts& parts) {
+  for (const LinkPair& pair : semantics.disabled) {
+    parts.disabled_by_srdf.insert(linkPair(bodyName(spec, pair.first), bodyName(spec, pair.second)));
+  }
+  for (const auto& [name, links] : semantics.groups) {
+    std::vector<std::string> members;
+    for (const std::string& link : links) members.push_back(bodyName(spec, link));
+    parts.groups.emplace_back(spec.prefix + name, std::move(members));
+  }
+  parts.notes.insert(parts.notes.end(), semantics.notes.begin(), semantics.notes.end());
+}
+
+void addBody(const BodySpec& spec, const std::string& base_folder, SceneParts& parts) {
+  BodySource source = sourceOf(spec.description, base_folder);
+  source.source = spec.where + ", " + source.source;
+  source.colour = spec.colour;
+  source.material = spec.material;
+  addSource(std::move(source), spec.where, "give it another name", parts);
+}
+
+void limitImports(SceneParts& parts, const MeshImportLimits& limits) {
+  for (BodySource& source : parts.sources) {
+    for (GeometryElement& element : source.geometry) element.access.limits = limits;
+  }
+}
+
+BodySource sourceOf(const BodyDescription& description, const std::string& base_folder) {
+  GeometryElement element;
+  element.mesh_resource = description.mesh_resource;
+  element.scale = description.scale;
+  element.primitive = description.primitive;
+  element.dimensions = description.dimensions;
+  element.chord_error = description.chord_error;
+  element.frame_from_geometry = description.frame_from_geometry;
+  element.access = description.mesh_access;
+  BodySource source;
+  source.name = description.name;
+  source.frame = description.frame;
+  source.source = "body '" + description.name + "'";
+  element.where = source.source;
+  source.geometry.push_back(std::move(element));
+  source.base_folder = base_folder;
+  source.max_edge_length = description.max_edge_length;
+  return source;
+}
+
+}  // namespace concave_distance::detail

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "concave_distance/loading/load_scene.h"
+#include "yaml_value.h"
+
+namespace concave_distance::detail {
+
+/// What a scene file says, checked as far as that goes without loading anything. `where` is the place in the
+/// file.
+
+/// A body's name, a group's name or a pattern, as the file has it.
+struct Selector {
+  std::string where;
+  std::string text;
+};
+
+struct RobotSpec {
+  std::string where;
+  std::string name;                  ///< of its group; empty: `<prefix><name in the URDF>`
+  std::string description;           ///< parameter with the URDF, or empty and
+  std::string urdf;                  ///< ... the file
+  std::string semantic_description;  ///< parameter with the SRDF, or
+  std::string srdf;                  ///< ... the file, or neither
+  std::string prefix;                ///< put before link names, in bodies and frames
+  GeometrySource geometry = GeometrySource::Collision;
+  std::vector<Selector> skipped_links;
+  std::optional<double> max_edge_length;
+  std::optional<double> chord_error;
+  Material material;
+};
+
+struct BodySpec {
+  std::string where;
+  BodyDescription description;
+  Eigen::Vector4d colour = SceneBody().colour;
+  Material material;
+};
+
+struct GroupSpec {
+  std::string where;
+  std::string name;
+  std::vector<Selector> members;
+};
+
+struct PairSpec {
+  std::array<Selector, 2> between;
+  std::string name;                ///< empty: from the bodies
+  std::optional<YamlValue> entry;  ///< for readPairEntry; nothing: all settings are the defaults
+};
+
+struct SceneSpec {
+  std::vector<RobotSpec> robots;
+  std::vector<BodySpec> bodies;
+  std::vector<GroupSpec> groups;
+  std::optional<std::vector<PairSpec>> pairs;  ///< nothing: every body against every other
+  std::vector<std::array<Selector, 2>> disabled;
+  PairSettings defaults;
+  std::size_t metric_memory_limit = 0;  ///< bytes
+  std::optional<SimulationSettings> simulation;
+  PreparationCachePointer cache;  ///< nullptr: none
+};
+
+/// @param base_folder where relative paths start; empty: the working directory
+/// @throws Error: file, line, key, what is wrong and what is allowed
+SceneSpec readSceneSpec(const std::string& yaml, const std::string& file, const std::string& base_folder,
+                        const SceneLoadOptions& options);
+
+/// Lays the settings of a pair's entry over `settings`, and says whether the pair is enabled when the entry
+/// does.
+void readPairEntry(const YamlValue& entry, PairSettings& settings, std::optional<bool>& enabled);
+
+}  // namespace concave_distance::detail

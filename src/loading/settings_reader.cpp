@@ -1,0 +1,106 @@
+#include "settings_reader.h"
+
+#include "concave_distance/base/error.h"
+#include "effects_reader.h"
+#include "parameter_map.h"
+#include "scene/pair_parameters.h"
+#include "search/genetic_parameter_table.h"
+#include "setting_values.h"
+
+namespace concave_distance::detail {
+namespace {
+
+/// Settings that had another name or place, and what to write instead.
+constexpr std::pair<const char*, const char*> kRenamed[] = {
+    {"immigrants", "expert: {random_starts: ...}"},
+    {"projected_immigrants", "expert: {projected_nodes: ...}"},
+    {"memory_limit", "expert: {memory_limit: ...}"},
+    {"prominence_limit", "expert: {prominence_limit: ...}"},
+    {"inherited_per_niche", "expert: {inherited_per_niche: ...}"},
+    {"inherited_limit", "expert: {inherited_limit: ...}"},
+    {"search_motion", "expert: {search_motion: ...}"},
+    {"search_interval", "expert: {search_interval: ...}"},
+    {"swept_cones", "expert: {swept_cones: ...}"},
+    {"reviewed_niches", "expert: {reviewed_niches: ...}"},
+    {"projected_niches", "expert: {projected_niches: ...}"},
+    {"extrapolate", "expert: {extrapolate: ...}"},
+    {"sharing_radius", "expert: {sharing_radius: ...}"},
+    {"mating_radius", "expert: {mating_radius: ...}"},
+    {"niche_radius", "expert: {niche_radius: ...}"},
+    {"cold", "expert: {cold: {...}}"},
+    {"warm", "expert: {warm: {...}}"}};
+
+void refuseRenamed(YamlMap& map) {
+  for (const auto& [name, instead] : kRenamed) {
+    if (const auto value = map.take(name)) {
+      value->fail(std::string("'") + name + "' is a setting for experts", std::string("write ") + instead);
+    }
+  }
+}
+
+/// The radii of niching, which may be given for cold and warm cycles at once.
+void readCommonRadii(YamlMap& map, TrackerParameters& tracker) {
+  for (const char* name : {"sharing_radius", "mating_radius", "niche_radius"}) {
+    const auto value = map.take(name);
+    if (!value) continue;
+    const Parameter<GeneticParameters>& radius = *findParameter(geneticParameters(), name);
+    const ParameterValue read = readParameter(*value, radius.info);
+    radius.set(tracker.cold, read);
+    radius.set(tracker.warm, read);
+  }
+}
+
+void readExpertSettings(const YamlValue& value, PairSettings& settings) {
+  YamlMap map(value, "a map of settings for experts");
+  readParameters(map, pairParameters(), true, settings);
+  // Before cold and warm, whose own radii apply.
+  readCommonRadii(map, settings.tracker);
+  if (auto v = map.take("cold")) readGeneticParameters(*v, settings.tracker.cold);
+  if (auto v = map.take("warm")) readGeneticParameters(*v, settings.tracker.warm);
+  map.finish();
+}
+
+}  // namespace
+
+void readPairSettings(YamlMap& map, PairSettings& settings) {
+  refuseRenamed(map);
+  readParameters(map, pairParameters(), false, settings);
+  if (auto v = map.take("effects")) readEffects(*v, settings.effects);
+  if (auto v = map.take("expert")) readExpertSettings(*v, settings);
+}
+
+void readGeneticParameters(const YamlValue& value, GeneticParameters& parameters) {
+  YamlMap map(value, "a map of parameters of the genetic algorithm");
+  if (const auto old = map.take("immigrants")) {
+    old->fail("'immigrants' has another name", "write random_immigrants");
+  }
+  readParameters(map, geneticParameters(), false, parameters);
+  map.finish();
+}
+
+void validatePairSettings(const PairSettings& settings, const std::string& where) {
+  settings.tracker.validate(where);
+  settings.effects.validate(where + ".effects");
+  if (settings.effects.any() && !provesDistance(settings.tracker.accuracy)) {
+    throw Error(where,
+                "effects are asked for at accuracy " + std::string(toString(settings.tracker.accuracy)) +
+                    ", which does not prove that bodies are apart",
+                "set accuracy to certified or complete, or effects to none");
+  }
+  if (settings.warning_distance && *settings.warning_distance > settings.tracker.cutoff) {
+    throw Error(where,
+                "warning_distance " + toText(*settings.warning_distance) + " m is beyond the cutoff of " +
+                    toText(settings.tracker.cutoff) + " m",
+                "nothing is computed there: raise cutoff or lower warning_distance");
+  }
+}
+
+std::optional<double> readEdgeLength(const YamlValue& value) {
+  return optionalNumber(value, "auto", kLength, positiveFinite);
+}
+
+double readLength(const YamlValue& value) {
+  return value.number(kLength, positiveFinite);
+}
+
+}  // namespace concave_distance::detail

@@ -1,0 +1,141 @@
+#include "settle_faces.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <numeric>
+
+#include "find_cavities.h"
+#include "mesh/surface/edge_table.h"
+#include "mesh/surface/resolve_shells.h"
+#include "orient_sheets.h"
+
+namespace concave_distance::detail {
+namespace {
+
+/// How many triangles of a face stay, in the winding of its corners and in the other one.
+struct Needed {
+  std::uint32_t along = 0;
+  std::uint32_t against = 0;
+};
+
+Needed neededOf(const Face& face, const FaceVerdict& verdict, bool is_cavity, bool first_runs_along) {
+  Needed needed;
+  if (verdict.role == FaceRole::Skin) {
+    const auto count = static_cast<std::uint32_t>(std::abs(verdict.coefficient));
+    ((verdict.coefficient > 0) != is_cavity ? needed.along : needed.against) = count;
+  } else if (verdict.role == FaceRole::Sheet) {
+    if (verdict.both_windings) {
+      needed = {1, 1};
+    } else {
+      (first_runs_along ? needed.along : needed.against) = 1;
+    }
+  }
+  const std::uint32_t copies = face.copies();
+  needed.along = std::min(needed.along, copies);
+  needed.against = std::min(needed.against, copies - needed.along);
+  return needed;
+}
+
+class Settler {
+ public:
+  Settler(std::vector<TriangleNodes>& triangles, std::vector<std::uint32_t>& origins, bool orient)
+      : triangles_(triangles),
+        origins_(origins),
+        orient_(orient),
+        stays_(triangles.size(), true),
+        is_sheet_(triangles.size()) {}
+
+  void settle(const FaceTable& table, const Face& face, const FaceVerdict& verdict, bool is_cavity) {
+    const std::uint32_t* const first = &table.triangles[face.first];
+    Needed needed = neededOf(face, verdict, is_cavity, runsAlong(triangles_[*first]));
+    const std::uint32_t count = needed.along + needed.against;
+    (verdict.role == FaceRole::Wall ? result.inner_walls : result.duplicates) += face.copies() - count;
+    std::uint32_t missing = count;
+    for (const std::uint32_t* t = first; t != first + face.copies(); ++t) {
+      is_sheet_[*t] = verdict.role == FaceRole::Sheet;
+      std::uint32_t& wanted = runsAlong(triangles_[*t]) ? needed.along : needed.against;
+      stays_[*t] = missing > 0 && (!orient_ || wanted > 0);
+      if (!stays_[*t]) continue;
+      if (wanted > 0) --wanted;
+      --missing;
+    }
+    // Missing ones are taken from those left out, turned.
+    for (const std::uint32_t* t = first; missing > 0; ++t) {
+      if (stays_[*t]) continue;
+      stays_[*t] = true;
+      std::swap(triangles_[*t][1], triangles_[*t][2]);
+      ++result.turned;
+      --missing;
+    }
+  }
+
+  void finish() {
+    std::size_t kept = 0;
+    for (std::size_t t = 0; t < triangles_.size(); ++t) {
+      if (!stays_[t]) continue;
+      is_sheet_[kept] = is_sheet_[t];
+      origins_[kept] = origins_[t];
+      triangles_[kept++] = triangles_[t];
+    }
+    triangles_.resize(kept);
+    origins_.resize(kept);
+    is_sheet_.resize(kept);
+    if (orient_) result.turned += orientSheets(triangles_, is_sheet_);
+  }
+
+  SettledFaces result;
+
+ private:
+  std::vector<TriangleNodes>& triangles_;
+  std::vector<std::uint32_t>& origins_;
+  bool orient_;
+  std::vector<bool> stays_;
+  std::vector<bool> is_sheet_;
+};
+
+SettledFaces settleOnce(const std::vector<Eigen::Vector3d>& vertices, std::vector<TriangleNodes>& triangles,
+                        std::vector<std::uint32_t>& origins, bool orient) {
+  const ResolvedShells resolved = resolveShells(vertices, triangles);
+  const std::vector<bool> is_cavity = findCavities(vertices, resolved);
+  Settler settler(triangles, origins, orient);
+  for (std::size_t f = 0; f < resolved.table.faces.size(); ++f) {
+    const std::uint32_t unit = resolved.units.unit_of_face[f];
+    settler.settle(resolved.table, resolved.table.faces[f], resolved.verdicts[f],
+                   unit != kSheet && is_cavity[unit]);
+  }
+  settler.finish();
+  return settler.result;
+}
+
+bool hasBranchingEdges(const std::vector<TriangleNodes>& triangles) {
+  const EdgeTable edges = buildEdgeTable(triangles);
+  for (std::size_t e = 0; e < edges.edgeCount(); ++e) {
+    if (edges.first[e + 1] - edges.first[e] > 2) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+SettledFaces settleFaces(const std::vector<Eigen::Vector3d>& vertices, std::vector<TriangleNodes>& triangles,
+                         bool orient) {
+  // If faces overlap in one plane, another one may be outside with the new windings.
+  constexpr int kMostRounds = 8;
+  const std::vector<TriangleNodes> before = triangles;
+  std::vector<std::uint32_t> origins(triangles.size());
+  std::iota(origins.begin(), origins.end(), 0U);
+  SettledFaces total;
+  for (int round = 0; round < kMostRounds; ++round) {
+    const SettledFaces settled = settleOnce(vertices, triangles, origins, orient);
+    total.duplicates += settled.duplicates;
+    total.inner_walls += settled.inner_walls;
+    if (settled.duplicates + settled.inner_walls + settled.turned == 0) break;
+    if (!hasBranchingEdges(triangles)) break;
+  }
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    total.turned += triangles[t] != before[origins[t]] ? 1U : 0U;
+  }
+  return total;
+}
+
+}  // namespace concave_distance::detail

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <vector>
+
+#include "normal_cone_tree.h"
+
+namespace concave_distance::detail {
+
+/// Every vertex, edge and face that has a local normal cone on the sides wanted, once for each side.
+std::vector<NormalConeTree::Item> collectConeItems(const SurfaceMesh& mesh, const MeshTopology& topology,
+                                                   NormalSides sides);
+
+}  // namespace concave_distance::detail

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "concave_distance/mesh/surface/surface_mesh.h"
+
+namespace concave_distance {
+
+/// Axis-aligned box hierarchy over a surface's triangles, in the body frame; boxes are rounded outwards.
+/// Built once in O(n log n) (surface area heuristic), 2 n nodes at most.
+class TriangleTree {
+ public:
+  struct Node {
+    Eigen::AlignedBox3d box;
+    std::uint32_t first =
+        0;  ///< inner: index of the second child (the first is next to the node); leaf: first entry
+    std::uint32_t count = 0;  ///< 0 for an inner node, else triangles in the leaf
+  };
+  TriangleTree() = default;
+  explicit TriangleTree(const SurfaceMesh& mesh);
+  /// From another tree's nodes() and order(), which are taken as they are.
+  TriangleTree(std::vector<Node> nodes, std::vector<TriangleIndex> order)
+      : nodes_(std::move(nodes)), order_(std::move(order)) {}
+  const std::vector<Node>& nodes() const { return nodes_; }
+  /// Triangles in leaf order: a leaf holds order()[first .. first + count).
+  const std::vector<TriangleIndex>& order() const { return order_; }
+  std::size_t memoryBytes() const;
+
+ private:
+  std::vector<Node> nodes_;
+  std::vector<TriangleIndex> order_;
+};
+
+/// True when some triangle meets the open segment (a, b), body frame, shortened at both ends by `margin`
+/// metres so that the surface an end lies on does not count.
+bool segmentHits(const TriangleTree& tree, const SurfaceMesh& mesh, const Eigen::Vector3d& a,
+                 const Eigen::Vector3d& b, double margin);
+
+/// True when the point lies inside the closed shells of an outward-oriented mesh: signed crossings of three
+/// slanted rays, majority. Shells that are open count as nothing.
+bool containsPoint(const TriangleTree& tree, const SurfaceMesh& mesh,
+                   const std::vector<bool>& shell_is_closed,
+                   const std::vector<std::uint32_t>& shell_of_triangle, const Eigen::Vector3d& point);
+
+}  // namespace concave_distance

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <concave_distance/AddBody.h>
+#include <concave_distance/BodyInfo.h>
+#include <concave_distance/DistanceQuery.h>
+#include <concave_distance/PairDistance.h>
+#include <concave_distance/PairInfo.h>
+#include <concave_distance/PairNiches.h>
+#include <concave_distance/PairStatus.h>
+#include <geometry_msgs/Pose.h>
+#include <geometry_msgs/Wrench.h>
+
+#include <Eigen/Geometry>
+#include <string>
+
+#include "concave_distance/contact/wrench.h"
+#include "concave_distance/loading/load_scene.h"
+#include "concave_distance/scene/scene.h"
+#include "concave_distance/tracking/pair_solution.h"
+#include "tf_poses.h"
+
+namespace concave_distance {
+
+geometry_msgs::Point toPoint(const Eigen::Vector3d& point);
+geometry_msgs::Vector3 toVector(const Eigen::Vector3d& vector);
+geometry_msgs::Wrench toWrench(const Wrench& wrench);
+
+/// @throws Error (naming `where`) for a NaN or infinite number and for a quaternion whose norm differs from 1
+///         by more than 1e-3; a smaller difference is normalised away
+Eigen::Isometry3d poseFromMessage(const geometry_msgs::Pose& pose, const std::string& where);
+
+PairStatus toStatus(SolveStatus status);
+PairStatus toStatus(TransformStatus status, const std::string& message);
+/// True for the codes that come with a distance.
+bool hasDistance(const PairStatus& status);
+std::uint8_t toAccuracyCode(AccuracyLevel level);
+
+/// Everything about a pair that its solution does not hold.
+struct PairHeading {
+  std::string pair;
+  std::string body_a;
+  std::string body_b;
+  std::string reference_frame;
+  ros::Time stamp;
+  Eigen::Isometry3d reference_from_a = Eigen::Isometry3d::Identity();
+  AccuracyLevel accuracy = AccuracyLevel::Refined;
+  bool warning = false;
+  bool with_niches = false;  ///< false: the niches were not asked for and are not reported
+};
+
+/// A pair without a distance: every number NaN, every has_ flag false.
+PairDistance emptyDistance(const PairHeading& heading, const PairStatus& status);
+/// The solution in the reference frame.
+PairDistance toDistance(const PairHeading& heading, const PairSolution& solution);
+PairNiches emptyNiches(const PairHeading& heading, const PairStatus& status);
+PairNiches toNiches(const PairHeading& heading, const PairSolution& solution);
+
+BodyInfo toBodyInfo(const SceneBody& body);
+PairInfo toPairInfo(const Scene& scene, const ScenePair& pair);
+
+/// The pair's settings with what the query asks for instead.
+/// @throws Error for a level that is none, for a tolerance or time budget that is out of range or that the
+///         level has no proof for, each with the value seen
+TrackerParameters queryParameters(const DistanceQuery& query, const TrackerParameters& configured);
+
+/// @throws Error for a request that names no geometry, two, or numbers out of range
+BodyDescription toBodyDescription(const AddBodyRequest& request);
+
+}  // namespace concave_distance

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "distance_cycle.h"
+
+namespace concave_distance {
+
+/// Mean and largest of a series.
+struct Series {
+  std::uint64_t count = 0;
+  double sum = 0.0;
+  double largest = -std::numeric_limits<double>::infinity();
+  void add(double value);
+  double mean() const;  ///< NaN when nothing was added
+};
+
+/// One cycle as the server saw it. Seconds.
+struct CycleRecord {
+  CycleCounts report;
+  double duration = 0.0;             ///< from the timer's call to the last message published
+  double cpu = 0.0;                  ///< processor time of all threads that worked on the cycle
+  bool late = false;                 ///< ended after the next cycle was due
+  Series latency;                    ///< from the transforms' time to the message, of each pair newly solved
+  std::uint32_t messages = 0;        ///< pairs turned into messages
+  std::uint32_t markers = 0;         ///< drawn or deleted
+  std::vector<std::string> failing;  ///< pairs without transforms, each with the reason
+};
+
+/// What the diagnostics report of the cycles since they were last published.
+struct CycleWindow {
+  double seconds = 0.0;  ///< wall time covered
+  std::uint64_t cycles = 0;
+  std::uint64_t late = 0;
+  std::uint64_t failed = 0;  ///< cycles ended by an exception
+  Series duration;
+  Series cpu;
+  Series latency;
+  std::uint64_t solved = 0;
+  std::uint64_t cold = 0;
+  std::uint64_t repeated = 0;
+  std::uint64_t search_misses = 0;
+  std::uint64_t unproven = 0;
+  EffectCounts effects;
+  std::uint64_t messages = 0;
+  std::uint64_t markers = 0;
+  CycleCounts last;                  ///< of the last cycle
+  std::vector<std::string> failing;  ///< in the last cycle
+};
+
+/// Collects records from the cycle's thread for the diagnostics' thread.
+class CycleStatistics {
+ public:
+  void add(CycleRecord record);
+  void addFailure();
+  /// @param wall_seconds now, of a clock that never jumps
+  CycleWindow take(double wall_seconds);
+  /// Since the start; for long measurements.
+  std::uint64_t totalCycles();
+  std::uint64_t totalLate();
+
+ private:
+  std::mutex mutex_;
+  CycleWindow window_;
+  double window_start_ = -1.0;
+  std::uint64_t total_cycles_ = 0;
+  std::uint64_t total_late_ = 0;
+};
+
+}  // namespace concave_distance

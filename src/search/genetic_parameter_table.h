@@ -1,0 +1,11 @@
+#pragma once
+
+#include "base/parameter.h"
+#include "concave_distance/search/genetic_parameters.h"
+
+namespace concave_distance {
+
+/// Every parameter of the genetic algorithm: files, messages and documents are made from it.
+const ParameterTable<GeneticParameters>& geneticParameters();
+
+}  // namespace concave_distance
