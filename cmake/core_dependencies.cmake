@@ -5,6 +5,11 @@ find_package(Eigen3 REQUIRED)
 find_package(Threads REQUIRED)
 #catkin_lint: ignore_once missing_cmake_modules
 find_package(TBB REQUIRED)
+# Read while compiling, and not linked.
+find_path(CONCAVE_DISTANCE_XXHASH_HEADERS xxhash.h)
+if(NOT CONCAVE_DISTANCE_XXHASH_HEADERS)
+  message(FATAL_ERROR "xxhash.h was not found (libxxhash-dev; scripts/install_dependencies.sh build)")
+endif()
 find_package(yaml-cpp REQUIRED)
 find_package(assimp REQUIRED)
 if(NOT TARGET urdfdom::urdfdom_model)

@@ -28,12 +28,23 @@ set_target_properties(concave_distance_numeric_objects concave_distance_loading_
 
 # Half of a source's compile time is reading these. Off by default: clang-tidy cannot read another compiler's.
 option(CONCAVE_DISTANCE_PRECOMPILED_HEADERS "Compile faster" OFF)
-if(CONCAVE_DISTANCE_PRECOMPILED_HEADERS)
-  foreach(objects numeric loading)
-    target_precompile_headers(concave_distance_${objects}_objects PRIVATE
-      <Eigen/Core> <Eigen/Geometry> <algorithm> <array> <cmath> <cstdint> <limits> <memory> <string> <vector>)
-  endforeach()
-endif()
+set(CONCAVE_DISTANCE_HEADERS_TO_PRECOMPILE
+  <Eigen/Core> <Eigen/Geometry> <algorithm> <array> <cmath> <cstdint> <functional> <limits> <map> <memory> <optional>
+  <string> <vector>)
+# concave_distance_precompile(<target> [headers ...]): of its own.
+function(concave_distance_precompile target)
+  if(CONCAVE_DISTANCE_PRECOMPILED_HEADERS)
+    target_precompile_headers(${target} PRIVATE ${CONCAVE_DISTANCE_HEADERS_TO_PRECOMPILE} ${ARGN})
+  endif()
+endfunction()
+# concave_distance_share_precompiled(<target> <from>): those of a target with the same compile options.
+function(concave_distance_share_precompiled target from)
+  if(CONCAVE_DISTANCE_PRECOMPILED_HEADERS)
+    target_precompile_headers(${target} REUSE_FROM ${from})
+  endif()
+endfunction()
+concave_distance_precompile(concave_distance_numeric_objects)
+concave_distance_precompile(concave_distance_loading_objects)
 
 function(concave_distance_public_library name)
   add_library(concave_distance::concave_distance_${name} ALIAS concave_distance_${name})

@@ -22,8 +22,7 @@ struct ContentKey {
   std::string text() const;
 };
 
-/// MurmurHash3_x64_128 (A. Appleby, public domain) of each MiB, large contents in parallel; the same whatever
-/// the number of threads. O(size), some GB/s.
+/// XXH3 with 128 bits (Y. Collet). O(size), some GB/s.
 ContentKey hashBytes(const void* data, std::size_t size);
 
 /// Puts a key together from several pieces; their order and their sizes count.

@@ -288,6 +288,13 @@ void requireAllowed(const ParameterTable<Settings>& table, const Settings& setti
   }
 }
 
+template <typename Settings>
+ParameterTable<Settings> joined(const std::vector<ParameterTable<Settings>>& tables) {
+  ParameterTable<Settings> all;
+  for (const ParameterTable<Settings>& table : tables) all.insert(all.end(), table.begin(), table.end());
+  return all;
+}
+
 /// The parameter of this name, or null.
 template <typename Settings>
 const Parameter<Settings>* findParameter(const ParameterTable<Settings>& table, const std::string& name) {

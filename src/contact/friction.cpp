@@ -80,4 +80,19 @@ Eigen::Vector3d frictionForce(const FrictionSettings& settings, const ContactMat
   return Eigen::Vector3d::Zero();
 }
 
+FrictionRates frictionRates(const FrictionSettings& settings, const ContactMaterial& material,
+                            double normal_force) {
+  switch (settings.model) {
+    case FrictionModel::None:
+      return {};
+    case FrictionModel::RegularisedCoulomb:
+      return {0.0, (material.static_friction / settings.regularisation_speed + material.viscous_friction) *
+                       normal_force};
+    case FrictionModel::Bristle:
+      return {settings.bristle_stiffness * normal_force,
+              (settings.bristle_damping + material.viscous_friction) * normal_force};
+  }
+  return {};
+}
+
 }  // namespace concave_distance

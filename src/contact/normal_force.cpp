@@ -9,6 +9,13 @@ namespace concave_distance {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
+// The stiffness of a round contact grows with the root of its depth; deeper than this at once, and what
+// limits the step is the penetration allowed.
+constexpr double kLargestGrowth = 10.0;
+
+double growthOfRoot(double depth, double deeper) {
+  return std::min(kLargestGrowth, std::sqrt(deeper / depth));
+}
 
 }  // namespace
 
@@ -65,25 +72,65 @@ void NormalForceSettings::validate(const std::string& where) const {
   requireAllowed(normalForceParameters(), *this, where);
 }
 
-double normalForce(const NormalForceSettings& settings, const ContactMaterial& material,
-                   const ContactGeometry& contact) {
+namespace {
+
+/// Hertz and, with a dissipation, Hunt and Crossley.
+NormalForce roundContact(const ContactGeometry& contact, double contact_modulus, double radius,
+                         double dissipation, double deeper, double growth) {
+  const double elastic = 2.0 * contact_modulus * std::sqrt(radius * contact.depth) * growth;
+  const double rate = 1.5 * dissipation;
+  NormalForce result;
+  result.force = dissipation > 0.0 ? huntCrossleyForce(contact.depth, contact.depth_rate, contact_modulus,
+                                                       radius, dissipation)
+                                   : hertzForce(contact.depth, contact_modulus, radius);
+  result.stiffness = elastic * std::max(0.0, 1.0 + rate * contact.depth_rate);
+  result.damping = rate * elastic / 1.5 * deeper;  // the elastic force is 2/3 of elastic * depth
+  return result;
+}
+
+NormalForce quasiStatic(const ContactGeometry& contact, double contact_modulus, double loading_coefficient,
+                        double damping, double growth) {
+  const double contact_radius = std::sqrt(contact.contact_area / kPi);
+  // The contact radius of a round body grows with the root of the depth: 3/2 of the constant part.
+  return {quasiStaticForce(contact, contact_modulus, loading_coefficient, damping),
+          1.5 * loading_coefficient * contact_modulus * contact_radius * growth, damping};
+}
+
+NormalForce elasticFoundation(const ContactGeometry& contact, double foundation_stiffness,
+                              double dissipation) {
+  const double rate = 1.5 * dissipation;
+  // dV = A dd.
+  return {elasticFoundationForce(contact.volume, contact.depth_rate, foundation_stiffness, dissipation),
+          foundation_stiffness * contact.contact_area * std::max(0.0, 1.0 + rate * contact.depth_rate),
+          rate * foundation_stiffness * contact.volume};
+}
+
+}  // namespace
+
+NormalForce normalForce(const NormalForceSettings& settings, const ContactMaterial& material,
+                        const ContactGeometry& contact, double step) {
+  if (!(contact.depth > 0.0)) {
+    if (settings.model != NormalForceModel::ElasticFoundation) return {};
+    return {elasticFoundation(contact, settings.foundation_stiffness, material.dissipation).force, 0.0, 0.0};
+  }
+  const double deeper = contact.depth + step * std::max(0.0, contact.depth_rate);
+  const double growth = growthOfRoot(contact.depth, deeper);
   const double radius = settings.radius > 0.0 ? settings.radius : radiusFromOverlap(contact);
   switch (settings.model) {
     case NormalForceModel::QuasiStatic:
-      return quasiStaticForce(contact, material.contact_modulus, settings.loading_coefficient,
-                              settings.damping);
+      return quasiStatic(contact, material.contact_modulus, settings.loading_coefficient, settings.damping,
+                         growth);
     case NormalForceModel::SpringDashpot:
-      return springDashpotForce(contact, settings.stiffness, settings.damping);
+      return {springDashpotForce(contact, settings.stiffness, settings.damping), settings.stiffness,
+              settings.damping};
     case NormalForceModel::Hertz:
-      return hertzForce(contact.depth, material.contact_modulus, radius);
+      return roundContact(contact, material.contact_modulus, radius, 0.0, deeper, growth);
     case NormalForceModel::HuntCrossley:
-      return huntCrossleyForce(contact.depth, contact.depth_rate, material.contact_modulus, radius,
-                               material.dissipation);
+      return roundContact(contact, material.contact_modulus, radius, material.dissipation, deeper, growth);
     case NormalForceModel::ElasticFoundation:
-      return elasticFoundationForce(contact.volume, contact.depth_rate, settings.foundation_stiffness,
-                                    material.dissipation);
+      return elasticFoundation(contact, settings.foundation_stiffness, material.dissipation);
   }
-  return 0.0;
+  return {};
 }
 
 }  // namespace concave_distance

@@ -48,7 +48,7 @@ Outwardness classifyOneSide(const BodyMesh& body, TriangleIndex triangle, Featur
   const Vector3d normal = pseudonormal(body, triangle, feature);
   if (normal.dot(direction) >= -kInPlane * normal.norm() * direction.norm()) return Outwardness::Outward;
   const MeshTopology& topology = body.topology();
-  const bool closed = topology.shell_is_closed[topology.shell_of_triangle[triangle.value]];
+  const bool closed = topology.isOnClosedShell(triangle);
   return closed ? Outwardness::ThroughMaterial : Outwardness::Unknown;
 }
 

@@ -148,8 +148,7 @@ void BoundaryComponents::measureSurface(WorkingFrame& frame, const SurfacePieces
       addArea(component, side, area, (*c[0] + *c[1] + *c[2]) / 3.0);
       component.facing += area * normal * normal.transpose();
       addCone(component, *c[0], *c[1], *c[2]);
-      component.closed =
-          component.closed && topology.shell_is_closed[topology.shell_of_triangle[triangle.value]];
+      component.closed = component.closed && topology.isOnClosedShell(triangle);
     }
     forEachCutTriangle(pieces, component, side,
                        [&](TriangleIndex triangle, std::uint32_t first, std::uint32_t last) {

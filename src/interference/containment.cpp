@@ -83,7 +83,7 @@ int Containment::winding(WorkingFrame& frame, PerturbedPredicates& predicates, S
     }
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
       const TriangleIndex triangle = holding.tree().order()[i];
-      if (!topology.shell_is_closed[topology.shell_of_triangle[triangle.value]]) continue;
+      if (!topology.isOnClosedShell(triangle)) continue;
       winding += crossing(predicates, frame.corners(holder, triangle), body, point, end);
     }
   }

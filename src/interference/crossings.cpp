@@ -84,7 +84,7 @@ void CrossingCurves::crossPair(WorkingFrame& frame, PerturbedPredicates& predica
   };
   const auto on_closed_shell = [&](Side side, TriangleIndex triangle) {
     const MeshTopology& topology = frame.body(side).topology();
-    return topology.shell_is_closed[topology.shell_of_triangle[triangle.value]];
+    return topology.isOnClosedShell(triangle);
   };
   const bool closed = on_closed_shell(Side::A, pair.a) && on_closed_shell(Side::B, pair.b);
   const std::size_t first_end = ends_.size();

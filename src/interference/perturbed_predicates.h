@@ -4,11 +4,10 @@
 #include <cstdint>
 
 #include "base/exact_orientation.h"
+#include "base/side.h"
 
 namespace concave_distance::detail {
 
-/// Which of the two bodies.
-enum class Side : std::uint8_t { A = 0, B = 1 };
 inline constexpr Side other(Side side) {
   return side == Side::A ? Side::B : Side::A;
 }

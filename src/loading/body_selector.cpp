@@ -83,7 +83,7 @@ BodySelector::Selection BodySelector::select(const Selector& selector) const {
     std::vector<std::string> groups;
     for (const auto& group : groups_) groups.push_back(group.first);
     throw Error(selector.where,
-                "'" + text + (isPattern(text) ? "' matches no body" : "' is no body, link or group"),
+                "'" + text + (isPattern(text) ? "' matches no body" : "' is not a body, link or group"),
                 "bodies: " + listed(bodies) + "; groups: " + listed(groups));
   }
   return selection;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/coordinate_limit.h"
+#include "base/unit_tolerance.h"
 #include "frame_name.h"
 #include "scene/name_pattern.h"
 #include "settings_reader.h"
@@ -12,7 +13,6 @@ namespace concave_distance::detail {
 namespace {
 
 // A quaternion is normalised when its norm is this near to 1, else refused (as for distance_query).
-constexpr double kQuaternionTolerance = 1e-3;
 
 constexpr std::pair<const char*, GeometrySource> kGeometrySources[] = {
     {"collision", GeometrySource::Collision}, {"visual", GeometrySource::Visual}};
@@ -110,7 +110,7 @@ Eigen::Isometry3d readPose(const YamlValue& value) {
     const char* allowed = "four numbers x, y, z, w of norm 1";
     const std::vector<double> q = quaternion->numbers(4, allowed);
     const Eigen::Quaterniond rotation(q[3], q[0], q[1], q[2]);
-    if (!(std::abs(rotation.norm() - 1.0) <= kQuaternionTolerance)) {
+    if (!(std::abs(rotation.norm() - 1.0) <= kUnitTolerance)) {
       quaternion->fail("the norm is " + std::to_string(rotation.norm()), std::string("allowed: ") + allowed);
     }
     pose.linear() = rotation.normalized().toRotationMatrix();

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "concave_distance/scene/simulation_settings.h"
+
 namespace concave_distance {
 
 /// A line of poses.csv as it stands there: pose of B in A's frame.
@@ -18,6 +20,9 @@ struct QueryPose {
 /// around a value too; numbers that are not finite are left to poseOf().
 /// @throws Error naming file and line
 std::vector<QueryPose> readQueryPoses(const std::string& path);
+
+/// The same as a path. @throws Error naming the file for what is no pose, times that do not ascend, no pose
+std::vector<TimedPose> readPosePath(const std::string& path);
 
 /// The pose with its quaternion normalised; empty when a number is not finite or the quaternion's norm is not
 /// within 1e-3 of 1.

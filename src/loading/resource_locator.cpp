@@ -97,7 +97,7 @@ detail::ResourcePaths pathsOfFileUri(const std::string& resource) {
   const std::size_t slash = rest.find('/');
   const std::string host = rest.substr(0, slash);
   if (slash == std::string::npos || !(host.empty() || host == "localhost")) {
-    throw Error(resource, "'" + host + "' stands where a host name is expected",
+    throw Error(resource, "'" + host + "' is where a host name is expected",
                 "write file:///<absolute path>, or a path without file:// for a relative one");
   }
   const std::string path = rest.substr(slash);

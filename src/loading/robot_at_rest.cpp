@@ -120,7 +120,7 @@ void setAutomaticCutoff(Scene& scene, const RobotDescription& robot) {
   if (!std::isfinite(cutoff)) return;
   scene.notes.push_back("cutoff " + metres(cutoff) + ", a fifth of the robot's diagonal of " +
                         metres(diagonal) + " in its zero pose: pairs farther apart have only a lower bound " +
-                        "(set ~cutoff to change it; 0: none)");
+                        "(set ~cutoff to change it; none: no cutoff)");
 }
 
 // Without this warning an empty robot would not be noticed.

@@ -95,7 +95,7 @@ class Selection {
     const std::size_t source_a = a.sources.front();
     const std::size_t source_b = b.sources.front();
     if (const char* reason = parts_.filterReason(source_a, source_b)) {
-      result_.notes.push_back(where + ": named, hence watched in spite of: " + reason);
+      result_.notes.push_back(where + ": named, so watched in spite of: " + reason);
     }
     candidateOf(source_a, source_b).own.push_back(&entry);
   }
@@ -143,7 +143,7 @@ class Selection {
         any = true;
       }
     }
-    if (!any) result_.notes.push_back(sides[0].where + ": disables no pair that would be watched");
+    if (!any) result_.notes.push_back(sides[0].where + ": disables no watched pair");
   }
 
   SelectedPair settle(const Candidate& candidate) const {

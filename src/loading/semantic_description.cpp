@@ -99,7 +99,7 @@ class Reader {
       if (joint.name == name) return add(links, joint.child);
     }
     // A virtual joint moves the whole robot and has no link of its own.
-    note(element, "joint '" + name + "' is no joint of the URDF; left out of its group");
+    note(element, "joint '" + name + "' is not a joint of the URDF; left out of its group");
   }
 
   void addChain(std::vector<std::string>& links, const XMLElement& element) {

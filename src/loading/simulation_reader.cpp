@@ -113,19 +113,11 @@ std::vector<TimedPose> SimulationReader::readPosesFile(const YamlValue& value) c
   map.finish();
   std::vector<TimedPose> path;
   try {
-    const std::string place = locateResource(file.text(), base_folder_, package_locator_);
-    for (const QueryPose& query : readQueryPoses(place)) {
-      const std::optional<Eigen::Isometry3d> pose = poseOf(query);
-      if (!pose || (!path.empty() && !(query.time + delay > path.back().time))) {
-        throw Error(place, "the pose at t = " + toText(query.time) + " is no pose, or not after the last",
-                    "finite numbers, unit quaternions and ascending times are needed");
-      }
-      path.push_back({query.time + delay, offset * *pose});
-    }
-    if (path.empty()) throw Error(place, "it holds no pose", "give one at least");
+    path = readPosePath(locateResource(file.text(), base_folder_, package_locator_));
   } catch (const Error& error) {
     throw Error(file.where() + ", " + error.where(), error.whatIsWrong(), error.remedy());
   }
+  for (TimedPose& pose : path) pose = {pose.time + delay, offset * pose.pose};
   return path;
 }
 
@@ -201,7 +193,7 @@ SimulationSettings readSimulation(const YamlValue& value, const std::string& bas
       const auto same = std::find_if(settings.bodies.begin(), settings.bodies.end(),
                                      [&](const auto& other) { return other.body == body.body; });
       if (same != settings.bodies.end()) {
-        throw Error(item.where(), "body '" + body.body + "' stands twice, first at " + same->where,
+        throw Error(item.where(), "body '" + body.body + "' is given twice, first at " + same->where,
                     "remove one of them");
       }
       settings.bodies.push_back(std::move(body));

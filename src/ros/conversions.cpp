@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "base/coordinate_limit.h"
+#include "base/unit_tolerance.h"
 #include "concave_distance/base/error.h"
 #include "loading/frame_name.h"
 #include "mesh/grid/search_nodes.h"
@@ -15,7 +16,6 @@ namespace concave_distance {
 namespace {
 
 // Departure of a quaternion's norm from 1 that is taken for rounding; the same as the command-line tools'.
-constexpr double kQuaternionTolerance = 1e-3;
 
 static_assert(Niche::KIND_POINT == static_cast<int>(NicheKind::Point));
 static_assert(Niche::KIND_SEGMENT == static_cast<int>(NicheKind::Segment));
@@ -111,7 +111,7 @@ Eigen::Isometry3d poseFromMessage(const geometry_msgs::Pose& pose, const std::st
     return result;  // an orientation that was not filled in
   }
   const double norm = rotation.norm();
-  if (std::abs(norm - 1.0) > kQuaternionTolerance) {
+  if (std::abs(norm - 1.0) > kUnitTolerance) {
     throw Error(where + ".orientation", "the quaternion's norm is " + std::to_string(norm),
                 "give a unit quaternion; no rotation is w: 1, or all zeros");
   }

@@ -135,6 +135,11 @@ ParameterTable<N> ofTheMarkers() {
           "far end, beyond `marker_near`; `auto`: from the size of the scene")
           .inUnit("m")
           .to(1e6),
+  };
+}
+
+ParameterTable<N> ofTheDrawing() {
+  return {
       flag<N>(
           "show_legend", [](auto& n) -> auto& { return n.marker.legend; },
           "show a text above the scene that explains the markers"),
@@ -156,18 +161,15 @@ ParameterTable<N> ofTheMarkers() {
 }  // namespace
 
 const ParameterTable<NodeParameters>& nodeParameterTable() {
-  static const ParameterTable<NodeParameters> table = [] {
-    ParameterTable<NodeParameters> all = ofTheScene();
-    for (const ParameterTable<NodeParameters>& part : {ofTheCycle(), ofTheMarkers()}) {
-      all.insert(all.end(), part.begin(), part.end());
-    }
-    return all;
-  }();
+  static const ParameterTable<N> table =
+      joined<N>({ofTheScene(), ofTheCycle(), ofTheMarkers(), ofTheDrawing()});
   return table;
 }
 
-const ParameterTable<NodeLimits>& limitParameters() {
-  static const ParameterTable<NodeLimits> table = {
+namespace {
+
+ParameterTable<L> ofRequests() {
+  return {
       count<L>(
           "service_threads", [](auto& l) -> auto& { return l.service_threads; },
           "calls of `get_distance`, `get_distances` and `add_body` that run at one time")
@@ -196,6 +198,11 @@ const ParameterTable<NodeLimits>& limitParameters() {
           "queries in one call of `get_distances`")
           .from(1.0)
           .to(1e6),
+  };
+}
+
+ParameterTable<L> ofSizes() {
+  return {
       count<L>(
           "largest_body_count", [](auto& l) -> auto& { return l.largest_body_count; }, "bodies of the scene")
           .from(1.0)
@@ -229,6 +236,12 @@ const ParameterTable<NodeLimits>& limitParameters() {
           .from(0.1)
           .to(3600.0),
   };
+}
+
+}  // namespace
+
+const ParameterTable<NodeLimits>& limitParameters() {
+  static const ParameterTable<L> table = joined<L>({ofRequests(), ofSizes()});
   return table;
 }
 

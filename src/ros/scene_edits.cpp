@@ -215,8 +215,7 @@ std::string setPairEnabled(Scene& scene, const PairReference& reference, bool en
     return scene.pairs[*found].name;
   }
   if (!enabled) {
-    throw Error("pair",
-                "'" + reference.body_a + "' and '" + reference.body_b + "' are no pair that is watched",
+    throw Error("pair", "'" + reference.body_a + "' and '" + reference.body_b + "' are not a watched pair",
                 "nothing to switch off");
   }
   requireRoomForPairs(scene, 1);

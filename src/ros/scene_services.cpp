@@ -37,7 +37,7 @@ bool respond(Response& response, Act&& act) {
 void requireWarningLengths(const AddBody::Request& request) {
   if (request.has_warning_distance != 0 &&
       (!(request.warning_distance >= 0.0) || !(request.warning_hysteresis >= 0.0))) {
-    throw Error("warning_distance", "a length is negative or no number", "give metres, 0 or more");
+    throw Error("warning_distance", "a length is negative or not a number", "give metres, 0 or more");
   }
 }
 

@@ -2,14 +2,12 @@
 
 namespace concave_distance {
 
-const ParameterTable<GeneticParameters>& geneticParameters() {
-  using G = GeneticParameters;
-  using Selections = std::vector<std::pair<std::string, SelectionMethod>>;
-  using Matings = std::vector<std::pair<std::string, MatingMethod>>;
-  using Nichings = std::vector<std::pair<std::string, NichingMethod>>;
-  using Optimizations = std::vector<std::pair<std::string, LocalOptimization>>;
-  using Moves = std::vector<std::pair<std::string, DescentMoves>>;
-  static const ParameterTable<GeneticParameters> table = {
+namespace {
+
+using G = GeneticParameters;
+
+ParameterTable<G> ofVariation() {
+  return {
       count<G>(
           "population_size", [](auto& g) -> auto& { return g.population_size; }, "individuals")
           .from(2.0)
@@ -39,6 +37,16 @@ const ParameterTable<GeneticParameters>& geneticParameters() {
       flag<G>(
           "shrinking_mutation_radius", [](auto& g) -> auto& { return g.shrinking_mutation_radius; },
           "with a `mutation_radius` only"),
+  };
+}
+
+ParameterTable<G> ofMethods() {
+  using Selections = std::vector<std::pair<std::string, SelectionMethod>>;
+  using Matings = std::vector<std::pair<std::string, MatingMethod>>;
+  using Nichings = std::vector<std::pair<std::string, NichingMethod>>;
+  using Optimizations = std::vector<std::pair<std::string, LocalOptimization>>;
+  using Moves = std::vector<std::pair<std::string, DescentMoves>>;
+  return {
       choice<G>(
           "selection",
           Selections{{"stochastic_universal_sampling", SelectionMethod::StochasticUniversalSampling},
@@ -74,6 +82,11 @@ const ParameterTable<GeneticParameters>& geneticParameters() {
           [](auto& g) -> auto& { return g.descent_moves; },
           "`one_node`: a descent moves one node at a time; `both_nodes`: where no such move is left, both at "
           "once"),
+  };
+}
+
+ParameterTable<G> ofNiching() {
+  return {
       optionalNumber<G>(
           "sharing_radius", "auto", [](auto& g) -> auto& { return g.sharing_radius; },
           "mesh distance over both bodies")
@@ -105,6 +118,11 @@ const ParameterTable<GeneticParameters>& geneticParameters() {
       count<G>(
           "crowding_factor", [](auto& g) -> auto& { return g.crowding_factor; }, "of simple crowding")
           .from(1.0),
+  };
+}
+
+ParameterTable<G> ofTheRun() {
+  return {
       number<G>(
           "generation_gap", [](auto& g) -> auto& { return g.generation_gap; },
           "share of the population replaced in a generation")
@@ -126,6 +144,12 @@ const ParameterTable<GeneticParameters>& geneticParameters() {
           "evaluation_limit", [](auto& g) -> auto& { return g.evaluation_limit; },
           "no further descent after so many evaluations; 0: no limit"),
   };
+}
+
+}  // namespace
+
+const ParameterTable<GeneticParameters>& geneticParameters() {
+  static const ParameterTable<G> table = joined<G>({ofVariation(), ofMethods(), ofNiching(), ofTheRun()});
   return table;
 }
 

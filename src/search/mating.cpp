@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "concave_distance/base/not_computed.h"
 #include "mesh/grid/mesh_metric.h"
 #include "mesh/grid/node_graph.h"
 
@@ -97,13 +98,11 @@ Children mate(MatingMethod method, const PairObjective& objective, const TrialPo
                            metric.onA(), path_bound);
   const Genes b = mateGene(method, fitter.node_b, other.node_b, draw(), objective.bodyB().graph(),
                            metric.onB(), path_bound);
-  constexpr double kNotComputed = std::numeric_limits<double>::quiet_NaN();
   return {{a.first, b.first, kNotComputed}, {a.second, b.second, kNotComputed}};
 }
 
 Children exchangeGenes(const TrialPoint& parent_1, const TrialPoint& donor_1, const TrialPoint& parent_2,
                        const TrialPoint& donor_2) {
-  constexpr double kNotComputed = std::numeric_limits<double>::quiet_NaN();
   return {{parent_1.node_a, donor_1.node_b, kNotComputed}, {donor_2.node_a, parent_2.node_b, kNotComputed}};
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/random_engine.h"
+#include "concave_distance/base/not_computed.h"
 #include "mesh/grid/mesh_metric.h"
 #include "mesh/grid/node_graph.h"
 
@@ -12,7 +13,6 @@ namespace concave_distance {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kNotComputed = std::numeric_limits<double>::quiet_NaN();
 // The decay of the radius over a run: e^-5 is 0.7 %.
 constexpr double kRadiusDecay = 5.0;
 

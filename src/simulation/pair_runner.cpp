@@ -129,11 +129,11 @@ ContactWrenches PairRunner::wrenchesOnB(const SimulatedPair& pair, const Eigen::
 
 ContactRates PairRunner::ratesOf(const ContactRegion& region, double step) const {
   const EffectSettings& settings = tracked_.settings.effects;
-  if (!settings.normal_force) return {};
+  if (!settings.normal_force || !(region.overlap.depth > 0.0)) return {};
   const ContactGeometry geometry{region.overlap.depth, region.depth_rate, region.overlap.contact_area,
                                  region.overlap.volume};
-  return contactRates(*settings.normal_force, settings.friction, material_, geometry, region.normal_force,
-                      step);
+  return {normalForce(*settings.normal_force, material_, geometry, step),
+          frictionRates(settings.friction, material_, region.normal_force)};
 }
 
 }  // namespace concave_distance::detail

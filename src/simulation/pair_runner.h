@@ -7,7 +7,6 @@
 #include "concave_distance/scene/scene.h"
 #include "concave_distance/scene/tracked_pair.h"
 #include "concave_distance/simulation/simulation.h"
-#include "contact_rates.h"
 #include "single_minimum.h"
 
 namespace concave_distance::detail {
@@ -16,6 +15,12 @@ namespace concave_distance::detail {
 struct ContactWrenches {
   Wrench normal;
   Wrench friction;
+};
+
+/// How stiff and how damped one contact is: what a step has to resolve.
+struct ContactRates {
+  NormalForce normal;
+  FrictionRates friction;
 };
 
 /// The sum of the stiffnesses and dampings of a pair's contacts, each with the compliance of the bodies
@@ -49,8 +54,8 @@ class PairRunner {
       const ContactRates rates = ratesOf(region, step);
       const double along = compliance.along(point, normal);
       const double across = compliance.largest(point);
-      speeds.stiffness_rate += rates.normal_stiffness * along + rates.tangential_stiffness * across;
-      speeds.damping_rate += rates.normal_damping * along + rates.tangential_damping * across;
+      speeds.stiffness_rate += rates.normal.stiffness * along + rates.friction.stiffness * across;
+      speeds.damping_rate += rates.normal.damping * along + rates.friction.damping * across;
     }
     return speeds;
   }

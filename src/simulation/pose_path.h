@@ -23,6 +23,8 @@ class PosePath {
   /// @param poses at least one, times ascending
   explicit PosePath(std::vector<TimedPose> poses);
 
+  double startTime() const { return poses_.front().time; }
+  double endTime() const { return poses_.back().time; }
   Eigen::Isometry3d poseAt(double time) const;
   /// Constant over each piece. @param inside a time within the piece that is meant
   FrameTwist twistAt(double inside) const;

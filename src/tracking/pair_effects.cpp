@@ -63,7 +63,7 @@ struct PairEffects::State {
       region.depth_rate = contact.geometry.depth_rate;
       region.sliding_in_a = contact.sliding_in_a;
       if (std::isnan(contact.geometry.depth)) continue;  // an open surface: no depth, no force
-      region.normal_force = normalForce(*settings.normal_force, material, contact.geometry);
+      region.normal_force = normalForce(*settings.normal_force, material, contact.geometry).force;
       region.on_b_in_a =
           wrenchAbout(region.normal_force * contact.normal_in_a, contact.point_in_a, Eigen::Vector3d::Zero());
     }

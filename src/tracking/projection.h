@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "base/side.h"
 #include "niche_archive.h"
 #include "pair_geometry.h"
 
@@ -14,8 +15,6 @@ namespace concave_distance {
 /// From both witnesses of a niche: is there a closer place anywhere opposite? Appends up to two candidates.
 void projectWitness(PairGeometry& geometry, const NicheRecord& record,
                     std::vector<NicheCandidate>& candidates);
-
-enum class Side { A, B };
 
 /// From one node of body A's or B's graph; appends a candidate.
 void projectNode(PairGeometry& geometry, Side side, NodeIndex node, std::vector<NicheCandidate>& candidates);

@@ -3,16 +3,16 @@
 #include <algorithm>
 
 #include "base/coordinate_limit.h"
+#include "base/unit_tolerance.h"
 
 namespace concave_distance {
 
 std::optional<Eigen::Isometry3d> rigidPose(const Eigen::Isometry3d& pose) {
-  constexpr double kOrthonormalTolerance = 1e-3;
   const Eigen::Matrix3d rotation = pose.linear();
   if (!pose.matrix().allFinite() || pose.translation().cwiseAbs().maxCoeff() > kLargestCoordinate ||
       rotation.determinant() <= 0.0 ||
       !((rotation.transpose() * rotation - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() <=
-        kOrthonormalTolerance)) {
+        kUnitTolerance)) {
     return std::nullopt;
   }
   Eigen::Isometry3d rigid = Eigen::Isometry3d::Identity();

@@ -9,7 +9,7 @@ constexpr double kLeastMemory = 1048576.0;  // bytes, smaller than the first buf
 
 using T = TrackerParameters;
 
-ParameterTable<T> userParameters() {
+ParameterTable<T> ofTheProof() {
   const std::vector<std::pair<std::string, AccuracyLevel>> levels = {{"nodes", AccuracyLevel::Nodes},
                                                                      {"refined", AccuracyLevel::Refined},
                                                                      {"certified", AccuracyLevel::Certified},
@@ -37,6 +37,11 @@ ParameterTable<T> userParameters() {
           .inUnit("s")
           .above(0.0)
           .atRunTime(),
+  };
+}
+
+ParameterTable<T> ofTheNiches() {
+  return {
       limit<T>(
           "cutoff", [](auto& t) -> auto& { return t.cutoff; },
           "niches farther than this are not reported, and pairs farther apart are not solved")
@@ -113,7 +118,7 @@ ParameterTable<T> expertParameters() {
 
 const ParameterTable<TrackerParameters>& trackerParameters() {
   static const ParameterTable<TrackerParameters> table = [] {
-    ParameterTable<TrackerParameters> all = userParameters();
+    ParameterTable<TrackerParameters> all = joined<T>({ofTheProof(), ofTheNiches()});
     for (Parameter<TrackerParameters>& parameter : expertParameters()) {
       all.push_back(std::move(parameter.forExperts()));
     }

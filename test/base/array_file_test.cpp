@@ -175,13 +175,11 @@ TEST(ContentHash, DependsOnOrderSizesAndEveryByteAndNotOnThreads) {
   EXPECT_NE(hashBytes(bytes.data(), bytes.size() - 1), whole);
 }
 
-TEST(ContentHash, IsMurmurHash3) {
-  // The reference implementation with seed 0, MurmurHash3_x64_128.
+TEST(ContentHash, IsXxh3) {
+  // As `xxhsum -H2` gives it.
   const std::string text = "The quick brown fox jumps over the lazy dog";
-  const ContentKey key = hashBytes(text.data(), text.size());
-  EXPECT_EQ(key.low, 0xe34bbc7bbc071b6cULL);
-  EXPECT_EQ(key.high, 0x7a433ca9c49a9347ULL);
-  EXPECT_EQ(key.text(), "7a433ca9c49a9347e34bbc7bbc071b6c");
+  EXPECT_EQ(hashBytes(text.data(), text.size()).text(), "ddd650205ca3e7fa24a1cc2e3a8a7651");
+  EXPECT_EQ(hashBytes(text.data(), 0).text(), "99aa06d3014798d86001c324468d497f");
 }
 
 }  // namespace

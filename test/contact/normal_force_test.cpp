@@ -58,9 +58,10 @@ TEST(NormalForce, NoModelPullsAndNoneActsWithoutDepth) {
   for (const NormalForceModel model : {NormalForceModel::QuasiStatic, NormalForceModel::SpringDashpot,
                                        NormalForceModel::Hertz, NormalForceModel::HuntCrossley}) {
     settings.model = model;
-    EXPECT_GT(normalForce(settings, material, sphereInPlane(0.1, 1e-4)), 0.0) << toString(model);
-    EXPECT_GE(normalForce(settings, material, sphereInPlane(0.1, 1e-4, -100.0)), 0.0) << toString(model);
-    EXPECT_EQ(normalForce(settings, material, {0.0, 1.0, 0.0}), 0.0) << toString(model);
+    EXPECT_GT(normalForce(settings, material, sphereInPlane(0.1, 1e-4)).force, 0.0) << toString(model);
+    EXPECT_GE(normalForce(settings, material, sphereInPlane(0.1, 1e-4, -100.0)).force, 0.0)
+        << toString(model);
+    EXPECT_EQ(normalForce(settings, material, {0.0, 1.0, 0.0}).force, 0.0) << toString(model);
   }
 }
 

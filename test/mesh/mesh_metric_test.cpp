@@ -9,6 +9,7 @@
 
 #include "base/random_engine.h"
 #include "support/concave_shapes.h"
+#include "support/shortest_path.h"
 
 namespace concave_distance {
 namespace {
@@ -136,35 +137,26 @@ RC_GTEST_PROP(MeshMetric, OnDemandQueriesEqualTheMatrices, ()) {
 RC_GTEST_PROP(MeshMetric, PathsRunAlongEdgesAndAreAsLongAsTheDistance, ()) {
   static const NodeGraph kGraph = buildNodeGraph(twoShells());
   static const MeshMetric kMatrices(kGraph, {});
-  static const MeshMetric kBounded(kGraph, kOnDemand);
   const NodeIndex from = drawNode(kGraph);
   const NodeIndex to = drawNode(kGraph);
   const float distance = kMatrices.matrixDistance(from, to);
-  const double bound = *rc::gen::element(0.2, 0.5, static_cast<double>(distance), kInfinity);
-  for (const MeshMetric* metric : {&kMatrices, &kBounded}) {
-    std::vector<NodeIndex> path{NodeIndex{7U}};
-    MeshMetricQuery(*metric).shortestPath(from, to, path, bound);
-    if (!std::isfinite(distance) || static_cast<double>(distance) > bound) {
-      RC_ASSERT(path.empty());
-      continue;
-    }
-    RC_ASSERT(path.front() == from);
-    RC_ASSERT(path.back() == to);
-    RC_ASSERT(static_cast<float>(pathLength(kGraph, path)) == distance);
+  const std::vector<NodeIndex> path = test::shortestPath(kGraph, from, to);
+  if (!std::isfinite(distance)) {
+    RC_ASSERT(path.empty());
+    return;
   }
+  RC_ASSERT(path.front() == from);
+  RC_ASSERT(path.back() == to);
+  RC_ASSERT(static_cast<float>(pathLength(kGraph, path)) == distance);
 }
 
-TEST(MeshMetric, IsInfiniteBetweenShellsAndHasNoPathThere) {
+TEST(MeshMetric, IsInfiniteBetweenShells) {
   const NodeGraph graph = buildNodeGraph(twoShells());
   const NodeIndex first{0};
   const NodeIndex last{graph.nodeCount() - 1};
   for (const MeshMetricOptions& options : {MeshMetricOptions{}, kOnDemand}) {
     const MeshMetric metric(graph, options);
-    MeshMetricQuery query(metric);
-    std::vector<NodeIndex> path;
-    query.shortestPath(first, last, path);
-    EXPECT_TRUE(path.empty());
-    EXPECT_EQ(query.distanceWithin(first, last, kInfinity), kInfinity);
+    EXPECT_EQ(MeshMetricQuery(metric).distanceWithin(first, last, kInfinity), kInfinity);
   }
 }
 
@@ -188,10 +180,8 @@ TEST(MeshMetric, MemoryOfQueriesBeyondTheMatricesIsLinearInNodes) {
     const NodeGraph graph = buildNodeGraph(test::makeSheet(n, n));
     const MeshMetric metric(graph, kOnDemand);
     MeshMetricQuery query(metric);
-    std::vector<NodeIndex> path;
     for (std::uint32_t i = 0; i < 25; ++i) {  // more full balls than there is room for
       query.distanceWithin(NodeIndex{i * 13}, NodeIndex{graph.nodeCount() - 1}, kInfinity);
-      query.shortestPath(NodeIndex{i * 13}, NodeIndex{graph.nodeCount() - 1}, path);
     }
     EXPECT_LE(query.memoryBytes(), std::max<std::size_t>(260 * graph.nodeCount(), 4'000'000));
   }

@@ -239,7 +239,7 @@ TEST_F(RobotScene, SrdfGroupsAreGroupsOfTheScene) {
       "<group name='both'><group name='joints'/><link name='a'/></group></robot>";
   EXPECT_EQ(pairNames(loadRobot(urdf, "pairs: [{between: [a, chain]}]\n", srdf)), Names({"a/c", "a/d"}));
   EXPECT_EQ(pairNames(loadRobot(urdf, "pairs: [{between: [both, both]}]\n", srdf)), Names({"a/e"}));
-  EXPECT_TRUE(hasNote(loadRobot(urdf, "", srdf), "joint 'virtual' is no joint of the URDF"));
+  EXPECT_TRUE(hasNote(loadRobot(urdf, "", srdf), "joint 'virtual' is not a joint of the URDF"));
 }
 
 TEST_F(RobotScene, WhatTheSrdfHasAndTheUrdfHasNotIsNoted) {

@@ -59,9 +59,9 @@ TEST_F(ScenePairs, AGroupAgainstItselfGivesItsSelfPairsOnce) {
 TEST_F(ScenePairs, GroupsMayHoldGroupsThatStandAboveThem) {
   EXPECT_EQ(pairNames(load(abc + "groups: {g: [c], h: [g, b]}\npairs: [{between: [a, h]}]\n")),
             Names({"a/c", "a/b"}));
-  EXPECT_TRUE(
-      mentions(refusal(abc + "groups:\n  h: [g, b]\n  g: [c]\n"),
-               "scene.yaml:7, groups.h[0]: 'g' is no body, link or group (bodies: a, b, c; groups: none)"));
+  EXPECT_TRUE(mentions(
+      refusal(abc + "groups:\n  h: [g, b]\n  g: [c]\n"),
+      "scene.yaml:7, groups.h[0]: 'g' is not a body, link or group (bodies: a, b, c; groups: none)"));
 }
 
 TEST_F(ScenePairs, RobotIsAGroupOfItsOwn) {
@@ -86,11 +86,11 @@ TEST_F(ScenePairs, TwoRobotsWithPrefixesAreTwoGroups) {
 TEST_F(ScenePairs, UnknownNamesAreRefusedWithWhatThereIs) {
   EXPECT_TRUE(mentions(
       refusal(abc + "groups: {g: [b]}\npairs:\n  - between: [a, d]\n"),
-      "scene.yaml:8, pairs[0].between[1]: 'd' is no body, link or group (bodies: a, b, c; groups: g)"));
+      "scene.yaml:8, pairs[0].between[1]: 'd' is not a body, link or group (bodies: a, b, c; groups: g)"));
   EXPECT_TRUE(mentions(refusal(abc + "pairs:\n  - between: [a, 'x*']\n"), "'x*' matches no body"));
   EXPECT_TRUE(
-      mentions(refusal(abc + "disable:\n  - [a, d]\n"), "scene.yaml:7, disable[0][1]: 'd' is no body"));
-  EXPECT_TRUE(mentions(refusal(abc + "groups:\n  g: [d]\n"), "scene.yaml:7, groups.g[0]: 'd' is no body"));
+      mentions(refusal(abc + "disable:\n  - [a, d]\n"), "scene.yaml:7, disable[0][1]: 'd' is not a body"));
+  EXPECT_TRUE(mentions(refusal(abc + "groups:\n  g: [d]\n"), "scene.yaml:7, groups.g[0]: 'd' is not a body"));
 }
 
 TEST_F(ScenePairs, FormOfPairsIsChecked) {
@@ -148,7 +148,7 @@ TEST_F(ScenePairs, DisabledPairsAreListedAndNotEnabled) {
 TEST_F(ScenePairs, DisablingWhatIsNotWatchedIsNoted) {
   const Scene scene = load(abc + "pairs: [{between: [a, b]}]\ndisable:\n  - [a, c]\n");
   EXPECT_EQ(pairNames(scene), Names({"a/b"}));
-  EXPECT_TRUE(hasNote(scene, "scene.yaml:8, disable[0][0]: disables no pair that would be watched"));
+  EXPECT_TRUE(hasNote(scene, "scene.yaml:8, disable[0][0]: disables no watched pair"));
 }
 
 TEST_F(ScenePairs, FilteredPairsAreWatchedOnlyWhenBothBodiesAreNamed) {
@@ -156,7 +156,7 @@ TEST_F(ScenePairs, FilteredPairsAreWatchedOnlyWhenBothBodiesAreNamed) {
             Names({"base/tool", "base/table", "arm/table", "tool/table"}));
   const Scene scene = load(robot_scene + "pairs: [{between: [base, arm]}]\n");
   EXPECT_EQ(pairNames(scene), Names({"base/arm"}));
-  EXPECT_TRUE(hasNote(scene, "named, hence watched in spite of: adjacent links"));
+  EXPECT_TRUE(hasNote(scene, "named, so watched in spite of: adjacent links"));
 }
 
 TEST_F(ScenePairs, BodiesInOneFrameAreNotWatchedAgainstEachOther) {

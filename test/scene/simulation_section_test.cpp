@@ -114,7 +114,7 @@ TEST_F(SimulationSection, WhatABodyCannotHaveTogetherIsRefused) {
   expectRefused(head + "      path: {file: nowhere.csv}\n", place + "path.file, nowhere.csv", "nowhere.csv",
                 "");
   expectRefused("  bodies: [{body: ball, mass: 1}, {body: ball, mass: 1}]\n",
-                "scene.yaml:5, simulation.bodies[1]", "stands twice", "remove one");
+                "scene.yaml:5, simulation.bodies[1]", "is given twice", "remove one");
 }
 
 TEST_F(SimulationSection, TheInertiaOfALinkComesInTheLinksAxes) {

@@ -8,6 +8,7 @@
 
 #include "mesh/grid/geodesic_extent.h"
 #include "search/search_scenes.h"
+#include "support/shortest_path.h"
 
 namespace concave_distance {
 namespace {
@@ -19,8 +20,8 @@ class Crowding : public testing::Test {
     places_.reset(std::numeric_limits<double>::infinity());
     const std::vector<double> length = pathLengthsFrom(scene_.a->graph(), {NodeIndex{0}});
     const auto farthest = std::max_element(length.begin(), length.end());
-    metric_.onA().shortestPath(NodeIndex{0}, NodeIndex{static_cast<std::size_t>(farthest - length.begin())},
-                               path_);
+    path_ = test::shortestPath(scene_.a->graph(), NodeIndex{0},
+                               NodeIndex{static_cast<std::size_t>(farthest - length.begin())});
   }
 
   Contestant at(std::size_t step, double squared_distance) {

@@ -60,6 +60,14 @@ Eigen::Vector3d bristleForce(const FrictionSettings& settings, const ContactMate
                              double normal_force, const Eigen::Vector3d& normal,
                              const Eigen::Vector3d& sliding, double step, BristleState& state);
 
+/// What a time step has to resolve of the chosen model: upper estimates, of the bristles and of the sliding.
+struct FrictionRates {
+  double stiffness = 0.0;  ///< N/m
+  double damping = 0.0;    ///< N s/m
+};
+FrictionRates frictionRates(const FrictionSettings& settings, const ContactMaterial& material,
+                            double normal_force);
+
 /// The force of the chosen model; see bristleForce. Newtons, on B.
 Eigen::Vector3d frictionForce(const FrictionSettings& settings, const ContactMaterial& material,
                               double normal_force, const Eigen::Vector3d& normal,

@@ -80,8 +80,17 @@ inline bool operator==(const NormalForceSettings& l, const NormalForceSettings& 
          std::tie(r.model, r.loading_coefficient, r.stiffness, r.damping, r.foundation_stiffness, r.radius);
 }
 
-/// The force of the chosen model, newtons, >= 0.
-double normalForce(const NormalForceSettings& settings, const ContactMaterial& material,
-                   const ContactGeometry& contact);
+/// A model's force with what a time step has to resolve of it.
+struct NormalForce {
+  double force = 0.0;      ///< N, >= 0
+  double stiffness = 0.0;  ///< N/m
+  double damping = 0.0;    ///< N s/m
+};
+
+/// The chosen model. Stiffness and damping are upper estimates from its derivatives, at the depth that a step
+/// reaches at the present rate; of an elastic foundation the present area and volume count.
+/// @param step seconds
+NormalForce normalForce(const NormalForceSettings& settings, const ContactMaterial& material,
+                        const ContactGeometry& contact, double step = 0.0);
 
 }  // namespace concave_distance

@@ -2,12 +2,12 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <string_view>
 #include <vector>
 
 #include "concave_distance/base/eigen_alignment.h"
+#include "concave_distance/base/not_computed.h"
 #include "concave_distance/distance/certificate_cost.h"
 #include "concave_distance/distance/niche_kind.h"
 #include "concave_distance/distance/witness.h"
@@ -34,8 +34,6 @@ enum class SolveStatus : std::uint8_t {
   MemoryExhausted   ///< the memory limit was reached before all was done; lower_bound holds
 };
 std::string_view toString(SolveStatus status);
-
-inline constexpr double kNotComputed = std::numeric_limits<double>::quiet_NaN();
 
 /// A local minimum of a pair's distance, followed over time.
 struct TrackedNiche {

@@ -69,12 +69,6 @@ class MeshMetricQuery {
   /// `bound` of `from`. Balls are dropped in the order they came.
   double distanceWithin(NodeIndex from, NodeIndex to, double bound);
 
-  /// Nodes of a shortest path, `from` and `to` included; empty between shells and when it is longer than
-  /// `bound`, metres. `path` keeps its capacity. Beyond the matrices a search guided by the straight
-  /// distance (A*, Hart, Nilsson and Raphael 1968).
-  void shortestPath(NodeIndex from, NodeIndex to, std::vector<NodeIndex>& path,
-                    double bound = std::numeric_limits<double>::infinity());
-
   /// The last node within `distance` of `from`, metres, on a shortest path to `to`; `from` itself when there
   /// is no path or none within `bound`. O(nodes walked) where distanceWithin() is O(1).
   NodeIndex nodeTowards(NodeIndex from, NodeIndex to, double distance, double bound);
@@ -103,11 +97,6 @@ class MeshMetricQuery {
     float key;
     std::uint32_t node;
   };
-  struct GuidedNode {
-    double key;
-    double path_length;
-    NodeIndex node;
-  };
   void allocate();
   void clearSearch();
   void reach(NodeIndex node, double path_length, NodeIndex predecessor);
@@ -130,7 +119,6 @@ class MeshMetricQuery {
   std::vector<NodeIndex> predecessor_;
   std::vector<NodeIndex> reached_;
   std::vector<Reached> open_;
-  std::vector<GuidedNode> guided_open_;
 };
 
 }  // namespace concave_distance

@@ -16,8 +16,6 @@ constexpr std::size_t kGenerousEntries = std::size_t{1} << 18U;
 constexpr std::size_t kBallSlots = 4096;
 // A distance is rounded to float once: what rounds down to a bound is less than this factor above it.
 constexpr double kFloatRounding = 1.0 + 0x1.0p-23;
-// The straight distance is itself rounded; scaled down by this it never exceeds a path's length.
-constexpr double kStraightRounding = 1.0 - 0x1.0p-48;
 
 /// A seat in [0, seats), well spread (Fibonacci hashing, then Lemire's multiplication for the remainder).
 std::size_t homeSeat(std::uint32_t node, std::size_t seats) {
@@ -56,7 +54,7 @@ std::size_t MeshMetricQuery::memoryBytes() const {
   return ball_entries_.capacity() * sizeof(BallEntry) + balls_.capacity() * sizeof(Ball) +
          ball_of_node_.capacity() * sizeof(std::uint32_t) + path_length_.capacity() * sizeof(double) +
          (predecessor_.capacity() + reached_.capacity()) * sizeof(NodeIndex) +
-         open_.capacity() * sizeof(Reached) + guided_open_.capacity() * sizeof(GuidedNode);
+         open_.capacity() * sizeof(Reached);
 }
 
 void MeshMetricQuery::clearSearch() {
@@ -65,7 +63,6 @@ void MeshMetricQuery::clearSearch() {
   }
   reached_.clear();
   open_.clear();
-  guided_open_.clear();
 }
 
 void MeshMetricQuery::reach(NodeIndex node, double path_length, NodeIndex predecessor) {
@@ -247,61 +244,6 @@ std::size_t MeshMetricQuery::makeRoom(std::size_t seats) {
   const std::size_t first = next_entry_;
   next_entry_ += seats;
   return first;
-}
-
-void MeshMetricQuery::shortestPath(NodeIndex from, NodeIndex to, std::vector<NodeIndex>& path, double bound) {
-  path.clear();
-  if (cannotReach(from, to, bound)) {
-    return;
-  }
-  if (metric_->hasMatrices()) {
-    if (static_cast<double>(metric_->matrixDistance(from, to)) > bound) {
-      return;
-    }
-    for (NodeIndex node = to; node != from; node = metric_->matrixPredecessor(from, node)) {
-      path.push_back(node);
-    }
-    path.push_back(from);
-    std::reverse(path.begin(), path.end());
-    return;
-  }
-  allocate();
-  // A*: the key never overestimates, and nodes are opened again when a shorter path turns up, so the path
-  // is shortest when `from` comes first. Searched from `to`, so that the predecessors lead there.
-  const NodeGraph& graph = metric_->graph();
-  const Eigen::Vector3d& goal = graph.positions[from.value];
-  const auto open = [&](NodeIndex node, double path_length, NodeIndex predecessor) {
-    reach(node, path_length, predecessor);
-    const double key = path_length + (graph.positions[node.value] - goal).norm() * kStraightRounding;
-    guided_open_.push_back({key, path_length, node});
-    std::push_heap(guided_open_.begin(), guided_open_.end(), ComesLater{});
-  };
-  const double limit = bound * kFloatRounding;
-  clearSearch();
-  open(to, 0.0, to);
-  bool found = false;
-  while (!found && !guided_open_.empty() && guided_open_.front().key <= limit) {
-    std::pop_heap(guided_open_.begin(), guided_open_.end(), ComesLater{});
-    const GuidedNode nearest = guided_open_.back();
-    guided_open_.pop_back();
-    found = nearest.node == from;
-    if (found || nearest.path_length > path_length_[nearest.node.value]) {
-      continue;
-    }
-    for (const NodeGraph::Edge& edge : graph.edges.row(nearest.node.value)) {
-      const double through = nearest.path_length + static_cast<double>(edge.length);
-      if (through < path_length_[edge.to.value]) {
-        open(edge.to, through, nearest.node);
-      }
-    }
-  }
-  if (!found || static_cast<double>(static_cast<float>(path_length_[from.value])) > bound) {
-    return;
-  }
-  for (NodeIndex node = from; node != to; node = predecessor_[node.value]) {
-    path.push_back(node);
-  }
-  path.push_back(to);
 }
 
 }  // namespace concave_distance

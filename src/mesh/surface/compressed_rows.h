@@ -22,7 +22,6 @@ struct CompressedRows {
     const T& operator[](std::size_t i) const { return first[i]; }
   };
   Row row(std::size_t i) const { return {values.data() + offsets[i], values.data() + offsets[i + 1]}; }
-  std::size_t rowCount() const { return offsets.empty() ? 0 : offsets.size() - 1; }
 };
 
 }  // namespace concave_distance

@@ -36,7 +36,7 @@ class Collector {
 
  private:
   bool bothSides(TriangleIndex t) const {
-    return sides_ == NormalSides::Both || !topology_.shell_is_closed[topology_.shell_of_triangle[t.value]];
+    return sides_ == NormalSides::Both || !topology_.isOnClosedShell(t);
   }
 
   /// Where shells meet, the sum of their normals is meaningless for each.

@@ -18,13 +18,6 @@ struct DirectionCap {
   bool isFull() const { return cosine <= -1.0; }
 };
 
-/// Whether two caps may have a direction in common, given the cosine of their axes' angle. Rounding makes no
-/// difference where the caps were widened by more (NormalConeTree: 1e-9).
-inline bool capsMeet(double cosine_between, const DirectionCap& l, const DirectionCap& r) {
-  const double sine_of_sum = l.sine * r.cosine + l.cosine * r.sine;
-  return sine_of_sum <= 0.0 || cosine_between >= l.cosine * r.cosine - l.sine * r.sine;
-}
-
 /// Which part of a surface's local normal cones: where they leave the body, or all of them. On shells that
 /// are open both sides count as outside.
 enum class NormalSides : std::uint8_t { Outside, Both };

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/csv_table.h"
 #include "concave_distance/base/error.h"
-#include "csv_table.h"
 
 namespace concave_distance::demo {
 namespace {
@@ -56,13 +56,38 @@ Eigen::VectorXd JointPath::at(double time) const {
       .transpose();
 }
 
+namespace {
+
+/// The first column as seconds. @throws Error naming `path` unless they rise strictly and all is finite
+std::vector<double> readTimes(const CsvTable& table, const std::string& path) {
+  std::vector<double> times;
+  for (std::size_t row = 0; row < table.rowCount(); ++row) {
+    const std::string where = path + ":" + std::to_string(table.lines[row]);
+    for (std::size_t column = 0; column < table.columns.size(); ++column) {
+      if (!std::isfinite(table.at(row, column))) {
+        throw Error(where, "column " + table.columns[column] + " is not finite", "correct the cell");
+      }
+    }
+    const double time = table.at(row, 0);
+    if (!times.empty() && !(time > times.back())) {
+      throw Error(
+          where, "time " + std::to_string(time) + " s does not follow " + std::to_string(times.back()) + " s",
+          "sort the rows by time");
+    }
+    times.push_back(time);
+  }
+  return times;
+}
+
+}  // namespace
+
 NamedJointPath readJointPath(const std::string& path) {
   const CsvTable table = readCsv(path);
   if (table.columns.size() < 2 || table.columns.front() != "t") {
     throw Error(path, "the columns are others than a joint path's",
                 "begin with the line t,<joint>,<joint>,...");
   }
-  std::vector<double> times = readRisingTimes(table, path);
+  std::vector<double> times = readTimes(table, path);
   if (times.size() < 4 || times.front() != 0.0) {
     throw Error(path, std::to_string(times.size()) + " rows from t = " + std::to_string(times.front()) + " s",
                 "give at least four rows, the first at t = 0");
@@ -71,7 +96,7 @@ NamedJointPath readJointPath(const std::string& path) {
   Eigen::MatrixXd waypoints(static_cast<Eigen::Index>(times.size()), joints);
   for (Eigen::Index row = 0; row < waypoints.rows(); ++row) {
     for (Eigen::Index joint = 0; joint < joints; ++joint) {
-      waypoints(row, joint) = table.rows[static_cast<std::size_t>(row)][static_cast<std::size_t>(joint) + 1];
+      waypoints(row, joint) = table.at(static_cast<std::size_t>(row), static_cast<std::size_t>(joint) + 1);
     }
   }
   const double gap = (waypoints.bottomRows<1>() - waypoints.topRows<1>()).cwiseAbs().maxCoeff();

@@ -9,7 +9,9 @@
 #include "../time_difference.h"
 #include "concave_distance/base/error.h"
 #include "demo_parameters.h"
-#include "pose_path.h"
+#include "loading/query_poses.h"
+#include "ping_pong.h"
+#include "simulation/pose_path.h"
 
 namespace {
 
@@ -17,7 +19,7 @@ using namespace concave_distance;
 
 void run() {
   const ros::NodeHandle node("~");
-  const demo::PosePath path = demo::readPosePath(demo::fileParameter(node, "poses"));
+  const PosePath path(readPosePath(demo::fileParameter(node, "poses")));
   const std::string parent = demo::requireParameter(node, "parent");
   const std::string child = demo::requireParameter(node, "child");
   const double rate = demo::numberParameter(node, "rate", 200.0, 0.1, 2000.0);
@@ -33,8 +35,8 @@ void run() {
     // A clock that jumps back starts the path anew.
     if (first.isZero() || now < first) first = now;
     const double elapsed = start + speed * secondsBetween(first, now);
-    const double time = path.startTime() + demo::pingPong(elapsed, path.duration(), pause);
-    broadcaster.sendTransform(demo::toTransform(path.at(time), now, parent, child));
+    const double time = path.startTime() + demo::pingPong(elapsed, path.endTime() - path.startTime(), pause);
+    broadcaster.sendTransform(demo::toTransform(path.poseAt(time), now, parent, child));
   });
   ros::spin();
 }

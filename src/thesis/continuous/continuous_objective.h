@@ -45,7 +45,6 @@ class ContinuousObjective {
   const ConstraintTree& a() const { return *a_; }
   const ConstraintTree& b() const { return *b_; }
   const Eigen::Isometry3d& aFromB() const { return a_from_b_; }
-  double penaltyWeight() const { return penalty_weight_; }
 
   /// @param point_a, point_b each in its body's frame
   ContinuousPoint evaluate(const Eigen::Vector3d& point_a, const Eigen::Vector3d& point_b,

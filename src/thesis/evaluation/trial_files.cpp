@@ -67,7 +67,7 @@ std::ofstream openToAppend(const std::string& path, const std::string& header) {
 // An incomplete last line is dropped by the next call, which appends to the file.
 void requireWritten(const std::ostream& stream, const std::string& file) {
   if (stream) return;
-  throw Error(file, "not everything could be written", "check the space on the device and begin again");
+  throw Error(file, "not everything could be written", "free space on the device and start again");
 }
 
 }  // namespace

@@ -2,10 +2,10 @@
 
 namespace concave_distance {
 
-PairObjective makePairObjective(const Eigen::Isometry3d& a_from_b) {
+PieceObjective makePairObjective(const Eigen::Isometry3d& a_from_b) {
   const Eigen::Matrix3d rotation = a_from_b.linear();
   const Eigen::Vector3d between = -a_from_b.translation();  // o1 - o2
-  PairObjective objective;
+  PieceObjective objective;
   objective.weights << Eigen::Matrix3d::Identity(), -rotation, -rotation.transpose(),
       Eigen::Matrix3d::Identity();
   objective.linear << 2.0 * between, -2.0 * (rotation.transpose() * between);
@@ -13,7 +13,7 @@ PairObjective makePairObjective(const Eigen::Isometry3d& a_from_b) {
   return objective;
 }
 
-double value(const PairObjective& objective, const Vector6& x) {
+double value(const PieceObjective& objective, const Vector6& x) {
   return x.dot(objective.weights * x) + objective.linear.dot(x) + objective.constant;
 }
 

@@ -77,7 +77,7 @@ class PieceReader {
       numbers >> vertex;
       if (numbers >> slash >> slash) numbers >> normal;
       if (vertex <= open.first_vertex || vertex > open.first_vertex + open.vertices.size()) {
-        fail("'" + corner + "' is no corner of this piece", "list a piece's corners after its `o` line");
+        fail("'" + corner + "' is not a corner of this piece", "list a piece's corners after its `o` line");
       }
       facet.push_back(static_cast<std::uint32_t>(vertex - open.first_vertex - 1));
     }

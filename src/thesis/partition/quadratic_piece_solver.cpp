@@ -64,7 +64,7 @@ PieceProposal QuadraticPieceSolver::solve(const Eigen::Isometry3d& a_from_b, con
   // x = [(p1 - centre 1) / unit; (p2 - centre 2) / unit].
   Eigen::Isometry3d scaled = a_from_b;
   scaled.translation() = (a_from_b * s.b->centre - s.a->centre) / s.unit;
-  const PairObjective objective = makePairObjective(scaled);
+  const PieceObjective objective = makePairObjective(scaled);
   PieceProposal proposal;
   proposal.points = {s.a->centre, s.b->centre};
   for (Eigen::Index i = 0; i < 6; ++i) {

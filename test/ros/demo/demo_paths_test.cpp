@@ -4,9 +4,10 @@
 #include <string>
 
 #include "concave_distance/base/error.h"
-#include "ros/demo/csv_table.h"
+#include "loading/query_poses.h"
 #include "ros/demo/joint_path.h"
-#include "ros/demo/pose_path.h"
+#include "ros/demo/ping_pong.h"
+#include "simulation/pose_path.h"
 #include "support/temporary_folder.h"
 
 namespace concave_distance::demo {
@@ -67,12 +68,12 @@ TEST(PosePath, IsStraightAndTurnsSteadilyBetweenPoses) {
   Eigen::Isometry3d second = Eigen::Isometry3d::Identity();
   second.translation() = Eigen::Vector3d(2, 0, 0);
   second.linear() = Eigen::AngleAxisd(1.0, Eigen::Vector3d::UnitZ()).toRotationMatrix();
-  const PosePath path({1.0, 3.0}, {first, second});
-  const Eigen::Isometry3d quarter = path.at(1.5);
+  const PosePath path({{1.0, first}, {3.0, second}});
+  const Eigen::Isometry3d quarter = path.poseAt(1.5);
   EXPECT_NEAR(quarter.translation().x(), 0.5, 1e-15);
   EXPECT_NEAR(Eigen::AngleAxisd(quarter.linear()).angle(), 0.25, 1e-14);
-  EXPECT_TRUE(path.at(0.0).isApprox(first));
-  EXPECT_TRUE(path.at(9.0).isApprox(second));
+  EXPECT_TRUE(path.poseAt(0.0).isApprox(first));
+  EXPECT_TRUE(path.poseAt(9.0).isApprox(second));
 }
 
 TEST(PingPong, GoesThereAndBackWithARestAtEitherEnd) {
@@ -86,13 +87,13 @@ TEST(PingPong, GoesThereAndBackWithARestAtEitherEnd) {
 
 TEST_F(FileTest, PoseFilesAreRefusedWithFileAndReason) {
   const std::string header = "t,x,y,z,qx,qy,qz,qw\n";
-  EXPECT_NE(errorOf("t,x,y,z\n0,0,0,0\n", false).find("columns"), std::string::npos);
-  EXPECT_NE(errorOf(header + "0,0,0,0,0,0,0,2\n", false).find("norm"), std::string::npos);
+  EXPECT_NE(errorOf("t,x,y,z\n0,0,0,0\n", false).find("header"), std::string::npos);
+  EXPECT_NE(errorOf(header + "0,0,0,0,0,0,0,2\n", false).find("is not a pose"), std::string::npos);
   EXPECT_NE(errorOf(header + "0,0,0,0,0,0,0,one\n", false).find("table.csv:2"), std::string::npos);
   EXPECT_NE(errorOf(header + "0,0,0,0,0,0,1\n", false).find("7 cells"), std::string::npos);
-  EXPECT_NE(errorOf(header + "1,0,0,0,0,0,0,1\n1,0,0,0,0,0,0,1\n", false).find("does not follow"),
+  EXPECT_NE(errorOf(header + "1,0,0,0,0,0,0,1\n1,0,0,0,0,0,0,1\n", false).find("not after the one before"),
             std::string::npos);
-  EXPECT_NE(errorOf(header, false).find("no rows"), std::string::npos);
+  EXPECT_NE(errorOf(header, false).find("holds no pose"), std::string::npos);
 }
 
 TEST_F(FileTest, JointFilesMustCloseAndBeginAtZero) {

@@ -3,7 +3,8 @@
 #include <string>
 
 #include "fcl_model.h"
-#include "ros/demo/pose_path.h"
+#include "loading/query_poses.h"
+#include "simulation/pose_path.h"
 
 namespace concave_distance::demo {
 namespace {
@@ -15,14 +16,14 @@ const std::string kFolder = std::string(CONCAVE_DISTANCE_SOURCE_DIR) + "/meshes/
 constexpr double kPinClearance = 0.0259807;
 
 TEST(InsertionManoeuvre, KeepsClearOfTheFixtureThroughoutAtAThousandHertz) {
-  const PosePath path = readPosePath(kFolder + "manoeuvre_200.csv");
+  const PosePath path(readPosePath(kFolder + "manoeuvre_200.csv"));
   const auto fixture = loadFclModel(kFolder + "fixture.stl");
   const auto battery = loadFclModel(kFolder + "battery.stl");
   double least = 1e9;
   double least_time = 0.0;
   for (int step = 0; step <= 20'000; ++step) {
     const double time = step * 1e-3;
-    const double distance = fclDistance(*fixture, Eigen::Isometry3d::Identity(), *battery, path.at(time));
+    const double distance = fclDistance(*fixture, Eigen::Isometry3d::Identity(), *battery, path.poseAt(time));
     if (distance < least) {
       least = distance;
       least_time = time;
@@ -32,14 +33,14 @@ TEST(InsertionManoeuvre, KeepsClearOfTheFixtureThroughoutAtAThousandHertz) {
 }
 
 TEST(InsertionManoeuvre, HasTwoHundredStepsAtTenHertzThatEndInserted) {
-  const PosePath path = readPosePath(kFolder + "manoeuvre_200.csv");
+  const PosePath path(readPosePath(kFolder + "manoeuvre_200.csv"));
   EXPECT_DOUBLE_EQ(path.startTime(), 0.1);
   EXPECT_DOUBLE_EQ(path.endTime(), 20.0);
-  EXPECT_TRUE(path.at(20.0).linear().isIdentity(1e-12));
+  EXPECT_TRUE(path.poseAt(20.0).linear().isIdentity(1e-12));
   // Approach with rotation, then a straight insertion.
-  EXPECT_GT(Eigen::AngleAxisd(path.at(0.1).linear()).angle(), 1.0);
-  EXPECT_TRUE(path.at(10.0).linear().isIdentity(1e-12));
-  EXPECT_LT(path.at(20.0).translation().z(), 0.1);
+  EXPECT_GT(Eigen::AngleAxisd(path.poseAt(0.1).linear()).angle(), 1.0);
+  EXPECT_TRUE(path.poseAt(10.0).linear().isIdentity(1e-12));
+  EXPECT_LT(path.poseAt(20.0).translation().z(), 0.1);
 }
 
 }  // namespace

@@ -48,7 +48,7 @@ PieceDistance byGjk(const ConvexPiece& a, const ConvexPiece& b, const Eigen::Iso
 
 /// The same program in exact arithmetic: CGAL's solver.
 double exactDistance(const ConvexPiece& a, const ConvexPiece& b, const Eigen::Isometry3d& a_from_b) {
-  const PairObjective objective = makePairObjective(a_from_b);
+  const PieceObjective objective = makePairObjective(a_from_b);
   const PairConstraints constraints = makePairConstraints(a, b);
   CGAL::Quadratic_program<double> program(CGAL::LARGER, false, 0, false, 0);
   for (int row = 0; row < constraints.rows.rows(); ++row) {
@@ -74,11 +74,11 @@ void expectSound(const PieceDistance& answer, const ConvexPiece& a, const Convex
   EXPECT_NEAR((a_from_b * answer.points.on_b - answer.points.on_a).norm(), answer.distance, 1e-12 * scale);
 }
 
-TEST(PairObjective, IsTheSquaredDistanceOfTheTwoPoints) {
+TEST(PieceObjective, IsTheSquaredDistanceOfTheTwoPoints) {
   RandomEngine engine(3);
   for (int k = 0; k < 50; ++k) {
     const Eigen::Isometry3d pose = randomPose(engine, 2.0);
-    const PairObjective objective = makePairObjective(pose);
+    const PieceObjective objective = makePairObjective(pose);
     Vector6 x;
     for (Eigen::Index i = 0; i < 6; ++i) x[i] = 2.0 * uniformUnit(engine) - 1.0;
     const double squared = (x.head<3>() - pose * Eigen::Vector3d(x.tail<3>())).squaredNorm();
@@ -86,9 +86,9 @@ TEST(PairObjective, IsTheSquaredDistanceOfTheTwoPoints) {
   }
 }
 
-TEST(PairObjective, HasRankThree) {
+TEST(PieceObjective, HasRankThree) {
   RandomEngine engine(4);
-  const PairObjective objective = makePairObjective(randomPose(engine, 2.0));
+  const PieceObjective objective = makePairObjective(randomPose(engine, 2.0));
   const Eigen::SelfAdjointEigenSolver<Matrix6> eigen(objective.weights);
   EXPECT_LT(eigen.eigenvalues().head<3>().cwiseAbs().maxCoeff(), 1e-15);
   EXPECT_LT((eigen.eigenvalues().tail<3>().array() - 2.0).abs().maxCoeff(), 1e-14);

@@ -103,7 +103,7 @@ std::string TreeBuildReport::summary() const {
   }
   for (const TreeFallback& fallback : fallbacks) {
     text << separator << fallback.parts << " convex pieces at level " << fallback.level
-         << (fallback.reason == TreeFallback::Reason::Stagnation ? ": hull minus piece would go on for ever"
+         << (fallback.reason == TreeFallback::Reason::Stagnation ? ": hull minus piece would never end"
                                                                  : ": the depth limit is reached")
          << (fallback.used_vertical_walls ? " (divided by vertical walls)" : "");
     separator = "; ";

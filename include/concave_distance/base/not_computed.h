@@ -1,0 +1,10 @@
+#pragma once
+
+#include <limits>
+
+namespace concave_distance {
+
+/// Of every number that was not computed: NaN, never 0.
+inline constexpr double kNotComputed = std::numeric_limits<double>::quiet_NaN();
+
+}  // namespace concave_distance

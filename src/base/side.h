@@ -1,0 +1,10 @@
+#pragma once
+
+#include <cstdint>
+
+namespace concave_distance {
+
+/// Of the two bodies of a pair.
+enum class Side : std::uint8_t { A = 0, B = 1 };
+
+}  // namespace concave_distance
