@@ -59,7 +59,7 @@ struct Experiment {
 Experiment loadExperiment(const std::string& file);
 
 /// What the thesis's algorithm is without what this package has added to it: no exchange of genes, no
-/// immigrants, niches are not conserved, no softening of the fitness. One elite stays (THESIS.md: universal
+/// immigrants, niches are not conserved, no softening of the fitness. One elite stays (Carretero: universal
 /// sampling can lose the best).
 GeneticParameters thesisGeneticParameters();
 
