@@ -21,6 +21,10 @@ set(CONCAVE_DISTANCE_ROS_PACKAGES
 
 set(CONCAVE_DISTANCE_ROS_FOUND OFF)
 set(CONCAVE_DISTANCE_ROS_MISSING catkin)
+# catkin leaves files in the install prefix even of a project that only looks for it.
+if(DEFINED CONCAVE_DISTANCE_WITH_ROS AND NOT CONCAVE_DISTANCE_WITH_ROS)
+  return()
+endif()
 find_package(catkin QUIET)
 if(catkin_FOUND)
   find_package(catkin QUIET COMPONENTS ${CONCAVE_DISTANCE_ROS_PACKAGES})

@@ -43,8 +43,9 @@ def run(command):
     return done.returncode, done.stdout
 
 
-def without_times(path):
-    """The cells of a CSV file but for times; the text of any other file."""
+def without_times(path, in_any_order):
+    """The cells of a CSV file but for times; the text of any other file. Runs of an experiment are written in the order
+    in which threads finish them: there the order does not count."""
     with open(path, newline="") as stream:
         if not path.endswith(".csv"):
             return stream.read()
@@ -52,10 +53,11 @@ def without_times(path):
     if not rows:
         return rows
     kept = [place for place, name in enumerate(rows[0]) if name not in TIMES]
-    return [[row[place] for place in kept if place < len(row)] for row in rows]
+    cells = [[row[place] for place in kept if place < len(row)] for row in rows]
+    return cells[:1] + sorted(cells[1:]) if in_any_order else cells
 
 
-def compare_folders(before, after):
+def compare_folders(before, after, in_any_order=False):
     """Names of files that differ or are missing on one side, each with the first difference."""
     differences = []
     for name in sorted(set(os.listdir(before)) | set(os.listdir(after))):
@@ -63,7 +65,7 @@ def compare_folders(before, after):
         if not all(os.path.exists(path) for path in paths):
             differences.append("%s: only one build wrote it" % name)
             continue
-        left, right = (without_times(path) for path in paths)
+        left, right = (without_times(path, in_any_order) for path in paths)
         if left == right:
             continue
         first = next((place for place, (l, r) in enumerate(zip(left, right)) if l != r), min(len(left), len(right)))
@@ -133,7 +135,7 @@ def main():
                         differences.append("%s (%s): exit status %d: %s" % (kind, side, status, output.strip()[-300:]))
         if kind == "evaluate":
             folders = [os.path.join(folder, "evaluate") for folder in folders]
-        found = compare_folders(*folders)
+        found = compare_folders(*folders, in_any_order=kind == "evaluate")
         print("%s: %d files, %d differ" % (kind, len(os.listdir(folders[0])), len(found)), flush=True)
         differences += found
     for difference in differences:

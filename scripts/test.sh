@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds everything and runs every test: unit tests, consumer package, rostests.
 #   scripts/test.sh [--format] [--precompiled]
-# --format: check the source formatting too; --precompiled: with precompiled headers, for a fresh build.
+# --format: check the source formatting too, and count a compiler's warning as an error; --precompiled: with precompiled headers, for a fresh build.
 # The last line is `N passed, N failed`, counted in test cases; the exit status is 0 only when none failed.
 set -euo pipefail
 # shellcheck source=scripts/common.sh
@@ -12,7 +12,10 @@ format=
 build_options=(-DCONCAVE_DISTANCE_WITH_ROS=ON -DCONCAVE_DISTANCE_BUILD_TESTS=ON)
 for argument in "$@"; do
   case "$argument" in
-    --format) format=1 ;;
+    --format)
+      format=1
+      build_options+=(-DCMAKE_COMPILE_WARNING_AS_ERROR=ON)
+      ;;
     --precompiled) build_options+=(-DCONCAVE_DISTANCE_PRECOMPILED_HEADERS=ON) ;;
     *) die "unknown option '$argument'" ;;
   esac
@@ -38,6 +41,8 @@ fi
 say "dependencies are there after $((SECONDS - started)) s"
 
 source_ros
+# A first build leaves out the benchmark programs, a quarter of all compile time: scripts/build.sh all makes them.
+[ -f "$build_dir/CMakeCache.txt" ] || build_options+=(-DCONCAVE_DISTANCE_BUILD_BENCHMARKS=OFF)
 "$package_dir/scripts/build.sh" all "${build_options[@]}" ||
   count_arguments+=(--failure "the build (see the first error above)")
 [ -f "$build_dir/CTestTestfile.cmake" ] || finish_without_tests "the build could not be configured"

@@ -1,5 +1,7 @@
 #include "conversions.h"
 
+#include <tf2_eigen/tf2_eigen.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -47,7 +49,7 @@ Niche toNiche(const PairHeading& heading, const TrackedNiche& niche) {
   return message;
 }
 
-NicheChange toChange(const PairHeading& heading, const NicheEvent& event) {
+NicheChange toChange(const NicheEvent& event) {
   NicheChange message;
   message.kind = static_cast<std::uint8_t>(event.kind);
   message.id = event.id;
@@ -69,19 +71,12 @@ Eigen::Vector3d scaleFromMessage(const geometry_msgs::Vector3& scale) {
 }  // namespace
 
 geometry_msgs::Point toPoint(const Eigen::Vector3d& point) {
-  geometry_msgs::Point message;
-  message.x = point.x();
-  message.y = point.y();
-  message.z = point.z();
-  return message;
+  return tf2::toMsg(point);
 }
 
 geometry_msgs::Vector3 toVector(const Eigen::Vector3d& vector) {
   geometry_msgs::Vector3 message;
-  message.x = vector.x();
-  message.y = vector.y();
-  message.z = vector.z();
-  return message;
+  return tf2::toMsg(vector, message);
 }
 
 geometry_msgs::Wrench toWrench(const Wrench& wrench) {
@@ -283,7 +278,7 @@ PairNiches toNiches(const PairHeading& heading, const PairSolution& solution) {
   }
   message.changes.reserve(solution.events.size());
   for (const NicheEvent& event : solution.events) {
-    message.changes.push_back(toChange(heading, event));
+    message.changes.push_back(toChange(event));
   }
   return message;
 }

@@ -187,7 +187,7 @@ void DistanceServer::followLoading() {
 // The caller holds the mutex of the settings.
 void DistanceServer::adoptCutoff(double cutoff) {
   keeper_.changeSettings([&](PairSettings& settings) { settings.tracker.cutoff = cutoff; });
-  config_.cutoff = std::isfinite(cutoff) ? cutoff : 0.0;
+  setCutoff(config_, cutoff);
   reconfigure_->updateConfig(config_);
   private_node_.deleteParam("cutoff");
 }

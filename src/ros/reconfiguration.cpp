@@ -95,6 +95,15 @@ ConcaveDistanceConfig toConfig(const NodeParameters& parameters) {
   return config;
 }
 
+void setCutoff(ConcaveDistanceConfig& config, double cutoff) {
+  PairSettings settings;
+  settings.tracker.cutoff = cutoff;
+  const Parameter<PairSettings>& parameter = *findParameter(pairParameters(), "cutoff");
+  Message message = messageOf(config);
+  setIn(message, parameter.info, parameter.get(settings));
+  config.__fromMessage__(message);
+}
+
 ConcaveDistanceConfig lowestConfig() {
   return rangeEnd(false);
 }

@@ -10,6 +10,8 @@ namespace concave_distance {
 /// The reconfigurable part of the parameters.
 ConcaveDistanceConfig toConfig(const NodeParameters& parameters);
 
+/// Writes a cutoff that the node has chosen, metres; infinite: none.
+void setCutoff(ConcaveDistanceConfig& config, double cutoff);
 /// The ranges, for clients to display.
 ConcaveDistanceConfig lowestConfig();
 ConcaveDistanceConfig highestConfig();

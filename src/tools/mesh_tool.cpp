@@ -3,6 +3,7 @@
 #include <exception>
 #include <iostream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/output_file.h"
@@ -12,7 +13,7 @@
 
 namespace {
 
-using concave_distance::tools::MeshToolOptions;
+using namespace concave_distance::tools;
 
 constexpr int kMeshProblem = 1;
 constexpr int kWrongCommandLine = 2;
@@ -61,12 +62,24 @@ void addRepair(CLI::App& command, CommandLine& line) {
   command.add_flag("--keep-winding{false}", line.options.orient, "turn no triangle");
 }
 
-int run(int argc, char** argv) {
-  CommandLine line;
-  CLI::App app("Looks at meshes and prepares them. Lengths are metres.", "mesh_tool");
-  app.footer("Exit status: 0 done, 1 the mesh or a file is at fault, 2 the command line is.");
-  app.require_subcommand(1);
+using Command = std::pair<CLI::App*, void (*)(const MeshToolOptions&, std::ostream&)>;
 
+void addOptionsOfCommands(CLI::App& refine, CLI::App& partition, CLI::App& tree, CommandLine& line) {
+  partition.add_option("output", line.options.output, "pieces to write (.obj, one object a piece)")
+      ->required();
+  tree.add_option("output", line.options.output, "tree to write (.yaml)")->required();
+  tree.add_option("--pieces", line.options.pieces, "write the convex pieces, too (.obj, one object a piece)");
+  tree.add_option("--flatness", line.options.flatness,
+                  "leave out pieces thinner than this fraction of the body's size")
+      ->capture_default_str();
+  partition
+      .add_option("--reflex-edge-limit", line.options.reflex_edge_limit,
+                  "refuse meshes with more edges that have more than half a turn of material around them")
+      ->capture_default_str();
+  refine.add_option("--max-edge", line.options.max_edge_length, "longest edge to leave, metres")->required();
+}
+
+std::vector<Command> addCommands(CLI::App& app, CommandLine& line) {
   CLI::App* inspect = app.add_subcommand("inspect", "Print size, shells, holes and what repair would change");
   CLI::App* repair = app.add_subcommand(
       "repair", "Weld vertices, drop zero-area and duplicate triangles, turn closed shells outwards");
@@ -82,50 +95,31 @@ int run(int argc, char** argv) {
   for (CLI::App* command : {inspect, repair, refine, convert, hull, partition, tree}) {
     addInput(*command, line);
   }
-  for (CLI::App* command : {repair, refine, convert, hull}) {
-    addOutput(*command, line);
-  }
-  partition->add_option("output", line.options.output, "pieces to write (.obj, one object a piece)")
-      ->required();
-  tree->add_option("output", line.options.output, "tree to write (.yaml)")->required();
-  tree->add_option("--pieces", line.options.pieces,
-                   "write the convex pieces, too (.obj, one object a piece)");
-  tree->add_option("--flatness", line.options.flatness,
-                   "leave out pieces thinner than this fraction of the body's size")
-      ->capture_default_str();
-  for (CLI::App* command : {inspect, repair, refine, hull, partition, tree}) {
-    addRepair(*command, line);
-  }
-  partition
-      ->add_option("--reflex-edge-limit", line.options.reflex_edge_limit,
-                   "refuse meshes with more edges that have more than half a turn of material around them")
-      ->capture_default_str();
-  refine->add_option("--max-edge", line.options.max_edge_length, "longest edge to leave, metres")->required();
+  for (CLI::App* command : {repair, refine, convert, hull}) addOutput(*command, line);
+  for (CLI::App* command : {inspect, repair, refine, hull, partition, tree}) addRepair(*command, line);
+  addOptionsOfCommands(*refine, *partition, *tree, line);
+  return {{inspect, inspectMeshFile}, {repair, repairMeshFile},       {refine, refineMeshFile},
+          {hull, hullOfMeshFile},     {partition, partitionMeshFile}, {tree, treeOfMeshFile},
+          {convert, convertMeshFile}};
+}
 
+int run(int argc, char** argv) {
+  CommandLine line;
+  CLI::App app("Looks at meshes and prepares them. Lengths are metres.", "mesh_tool");
+  app.footer("Exit status: 0 done, 1 the mesh or a file is at fault, 2 the command line is.");
+  app.require_subcommand(1);
+  const std::vector<Command> commands = addCommands(app, line);
   try {
     app.parse(argc, argv);
     line.options.scale = parseScale(line.scale);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : kWrongCommandLine;
   }
-
   concave_distance::requireDistinctFiles(
       {{"the input", line.options.input}},
       {{"the output", line.options.output}, {"--pieces", line.options.pieces}});
-  if (inspect->parsed()) {
-    inspectMeshFile(line.options, std::cout);
-  } else if (repair->parsed()) {
-    repairMeshFile(line.options, std::cout);
-  } else if (refine->parsed()) {
-    refineMeshFile(line.options, std::cout);
-  } else if (hull->parsed()) {
-    hullOfMeshFile(line.options, std::cout);
-  } else if (partition->parsed()) {
-    partitionMeshFile(line.options, std::cout);
-  } else if (tree->parsed()) {
-    treeOfMeshFile(line.options, std::cout);
-  } else {
-    convertMeshFile(line.options, std::cout);
+  for (const auto& [command, act] : commands) {
+    if (command->parsed()) act(line.options, std::cout);
   }
   return 0;
 }

@@ -103,7 +103,8 @@ std::vector<Figures> tryColdVariants(const BenchmarkPair& pair, const std::vecto
     const Eigen::Isometry3d pose =
         pair.motion((static_cast<double>(k) + 0.5) / static_cast<double>(options.seeds));
     const double cutoff = floodCutoff(pair, pose);
-    solveOnce(pair.name, pair.a, pair.b, shippedForMeasuring(), pose);  // brings the meshes into the caches
+    // Brings the meshes into the caches.
+    static_cast<void>(solveOnce(pair.name, pair.a, pair.b, shippedForMeasuring(), pose));
     for (std::size_t i = 0; i < variants.size(); ++i) {
       TrackerParameters parameters = shippedForMeasuring();
       parameters.seed = k + 1;

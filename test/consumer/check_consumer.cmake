@@ -35,3 +35,16 @@ if(NOT found MATCHES "=${prefix}/")
 endif()
 run_or_fail(${CMAKE_COMMAND} --build ${consumer_build})
 run_or_fail(${consumer_build}/bin/consumer)
+
+# A program whose Eigen types are aligned otherwise must not link.
+if(NOT USES_CATKIN AND NOT IS_NATIVE AND CMAKE_HOST_SYSTEM_PROCESSOR STREQUAL "x86_64")
+  set(avx_build ${WORK_DIRECTORY}/avx)
+  run_or_fail(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR}/package -B ${avx_build} -G ${GENERATOR}
+    -DCMAKE_CXX_COMPILER=${CXX_COMPILER} -DCMAKE_PREFIX_PATH=${prefix} -DPYTHON_EXECUTABLE=${PYTHON}
+    -DPython3_EXECUTABLE=${PYTHON} -DCONSUMER_USES_CATKIN=OFF -DCMAKE_CXX_FLAGS=-mavx)
+  execute_process(COMMAND ${CMAKE_COMMAND} --build ${avx_build}
+    RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  if(result EQUAL 0 OR NOT output MATCHES "EigenAlignmentOfTheLibrary<32>")
+    message(FATAL_ERROR "a program compiled with -mavx was linked: ${output}")
+  endif()
+endif()

@@ -362,8 +362,12 @@ TEST(NicheExtent, CostsNoMoreForBodiesFarApart) {
     const NicheExtent extent = measureExtent(*a, *a, pose, start, 2e-9, 256, workspace);
     EXPECT_LE(workspace.open.size(), 257U);
     EXPECT_LE(workspace.seen.size(), 257U);
-    if (distance >= 1e7) EXPECT_EQ(extent.kind, NicheKind::Point) << "no longer than twice the tolerance";
-    if (distance <= 1e4) EXPECT_EQ(extent.kind, NicheKind::Patch);
+    if (distance >= 1e7) {
+      EXPECT_EQ(extent.kind, NicheKind::Point) << "no longer than twice the tolerance";
+    }
+    if (distance <= 1e4) {
+      EXPECT_EQ(extent.kind, NicheKind::Patch);
+    }
   }
 }
 

@@ -59,7 +59,7 @@ class MeshRootsTest : public testing::Test {
     description.mesh_resource = resource;
     description.mesh_access.roots = roots;
     try {
-      loadBody(description, "", locator);
+      static_cast<void>(loadBody(description, "", locator));
     } catch (const Error& error) {
       return error.what();
     }

@@ -335,7 +335,7 @@ TEST_F(RobotScene, RelativeMeshInAParameterIsAProblem) {
 
 std::string robotRefusal(const std::string& urdf) {
   try {
-    loadRobotScene(urdf, "robot_description", SceneLoadOptions{});
+    static_cast<void>(loadRobotScene(urdf, "robot_description", SceneLoadOptions{}));
     return "accepted";
   } catch (const Error& error) {
     return error.what();

@@ -28,7 +28,7 @@ class SceneLoading : public test::SceneTest {
   }
   std::string bodyRefusal(const BodyDescription& description) const {
     try {
-      loadBody(description, folder.path(), options.package_locator);
+      static_cast<void>(loadBody(description, folder.path(), options.package_locator));
       return "accepted";
     } catch (const Error& error) {
       return error.what();

@@ -60,7 +60,10 @@ double geodesicExtent(const NodeGraph& graph) {
   return weighted / static_cast<double>(graph.nodeCount());
 }
 
-std::vector<Protrusion> findProtrusions(const NodeGraph& graph, double least_prominence) {
+namespace {
+
+/// Distance of every node from the centroid of all, metres.
+std::vector<double> heightsOf(const NodeGraph& graph) {
   const std::size_t nodes = graph.nodeCount();
   Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3d& position : graph.positions) {
@@ -70,6 +73,14 @@ std::vector<Protrusion> findProtrusions(const NodeGraph& graph, double least_pro
   for (std::size_t node = 0; node < nodes; ++node) {
     height[node] = (graph.positions[node] - centroid).norm();
   }
+  return height;
+}
+
+}  // namespace
+
+std::vector<Protrusion> findProtrusions(const NodeGraph& graph, double least_prominence) {
+  const std::size_t nodes = graph.nodeCount();
+  const std::vector<double> height = heightsOf(graph);
   std::vector<std::uint32_t> from_top(nodes);
   std::iota(from_top.begin(), from_top.end(), 0U);
   std::sort(from_top.begin(), from_top.end(), [&](std::uint32_t l, std::uint32_t r) {

@@ -129,12 +129,14 @@ std::string importWorkerPath() {
   }
   Dl_info library{};
   if (dladdr(reinterpret_cast<const void*>(&importWorkerPath), &library) == 0) return "mesh_import_worker";
-  // Below the library, or, where that is part of a program, beside the program or below the same prefix.
+  // Below the library, or, where that is part of a program, beside the program, below the same prefix or
+  // where it is installed.
   const std::filesystem::path folder = std::filesystem::absolute(library.dli_fname).parent_path();
   const std::filesystem::path below_the_library = folder / "concave_distance" / "mesh_import_worker";
   for (const std::filesystem::path& place :
        {below_the_library, folder / "mesh_import_worker",
-        folder.parent_path() / "lib" / "concave_distance" / "mesh_import_worker"}) {
+        folder.parent_path() / "lib" / "concave_distance" / "mesh_import_worker",
+        std::filesystem::path(CONCAVE_DISTANCE_INSTALLED_WORKER)}) {
     std::error_code ignored;
     if (std::filesystem::is_regular_file(place, ignored)) return place.string();
   }

@@ -7,19 +7,23 @@
 
 namespace concave_distance {
 
+namespace {
+
+// The longest edge of all is the longest of each of its triangles: taking edges in descending order is
+// Rivara's longest-edge bisection without its propagation path, and the mesh conforms after every split.
+struct Candidate {
+  double squared_length;
+  std::uint32_t edge;
+  bool operator<(const Candidate& r) const {  // longest first, then the lowest number
+    return squared_length != r.squared_length ? squared_length < r.squared_length : edge > r.edge;
+  }
+};
+
+}  // namespace
+
 RefinedMesh refineToEdgeLength(const SurfaceMesh& mesh, double max_edge_length, std::size_t node_limit) {
   detail::checkRefinement(mesh, max_edge_length);
   detail::checkNodeLimit(mesh, max_edge_length, node_limit);
-
-  // The longest edge of all is the longest of each of its triangles: taking edges in descending order is
-  // Rivara's longest-edge bisection without its propagation path, and the mesh conforms after every split.
-  struct Candidate {
-    double squared_length;
-    std::uint32_t edge;
-    bool operator<(const Candidate& r) const {  // longest first, then the lowest number
-      return squared_length != r.squared_length ? squared_length < r.squared_length : edge > r.edge;
-    }
-  };
   std::vector<std::uint32_t> original_triangle(mesh.triangleCount());
   std::iota(original_triangle.begin(), original_triangle.end(), 0U);
   detail::EditableMesh editable(mesh, std::move(original_triangle));

@@ -1,5 +1,7 @@
 #include "demo_parameters.h"
 
+#include <tf2_eigen/tf2_eigen.h>
+
 #include <ros/package.h>
 
 #include "concave_distance/base/error.h"
@@ -36,18 +38,10 @@ std::string fileParameter(const ros::NodeHandle& node, const std::string& name) 
 geometry_msgs::TransformStamped toTransform(const Eigen::Isometry3d& parent_from_child,
                                             const ros::Time& stamp, const std::string& parent,
                                             const std::string& child) {
-  geometry_msgs::TransformStamped message;
+  geometry_msgs::TransformStamped message = tf2::eigenToTransform(parent_from_child);
   message.header.stamp = stamp;
   message.header.frame_id = parent;
   message.child_frame_id = child;
-  const Eigen::Quaterniond rotation(parent_from_child.linear());
-  message.transform.translation.x = parent_from_child.translation().x();
-  message.transform.translation.y = parent_from_child.translation().y();
-  message.transform.translation.z = parent_from_child.translation().z();
-  message.transform.rotation.x = rotation.x();
-  message.transform.rotation.y = rotation.y();
-  message.transform.rotation.z = rotation.z();
-  message.transform.rotation.w = rotation.w();
   return message;
 }
 

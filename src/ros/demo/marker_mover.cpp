@@ -6,6 +6,7 @@
 
 #include <interactive_markers/interactive_marker_server.h>
 #include <ros/ros.h>
+#include <tf2_eigen/tf2_eigen.h>
 #include <tf2_ros/transform_broadcaster.h>
 #include <visualization_msgs/InteractiveMarker.h>
 
@@ -78,16 +79,6 @@ Eigen::Isometry3d sway(const Eigen::Isometry3d& start, double time) {
   return pose;
 }
 
-geometry_msgs::Pose toPose(const Eigen::Isometry3d& pose) {
-  const geometry_msgs::TransformStamped transform = demo::toTransform(pose, ros::Time(), "", "");
-  geometry_msgs::Pose message;
-  message.position.x = transform.transform.translation.x;
-  message.position.y = transform.transform.translation.y;
-  message.position.z = transform.transform.translation.z;
-  message.orientation = transform.transform.rotation;
-  return message;
-}
-
 Eigen::Isometry3d fromPose(const geometry_msgs::Pose& message) {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.translation() = Eigen::Vector3d(message.position.x, message.position.y, message.position.z);
@@ -119,7 +110,7 @@ void run() {
   std::optional<Eigen::Isometry3d> shown;
   const auto show_handles = [&] {
     if (shown && shown->matrix() == pose.matrix()) return;
-    server.setPose(child, toPose(pose));
+    server.setPose(child, tf2::toMsg(pose));
     server.applyChanges();
     shown = pose;
   };

@@ -61,6 +61,11 @@ TEST_F(Obstacles, ARobotAloneHasACutoffOfItsSizeAndSoHaveAddedBodies) {
   }
   remove("crate");
   EXPECT_FALSE(ros::param::has(kNode + "cutoff")) << "the next start would take it for the user's";
+  for (const auto& value : reconfigure("least_prominence", 0.02).strs) {
+    if (value.name == "cutoff") {
+      EXPECT_NEAR(std::stod(value.value), wanted, 0.1 * wanted) << value.value;
+    }
+  }
 }
 
 TEST_F(Obstacles, ABodyOnALinkIsNotWatchedAgainstTheLinksRigidNeighbours) {
