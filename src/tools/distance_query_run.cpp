@@ -51,38 +51,31 @@ LoadedBodies loadBodies(const DistanceQueryOptions& options, std::ostream& log) 
   return bodies;
 }
 
-/// Solves pose after pose: one tracker for all when tracking, a new one for each otherwise.
+/// Solves pose after pose; without tracking each as if it were the first.
 class Solver {
  public:
   Solver(const DistanceQueryOptions& options, std::ostream& log)
-      : bodies_(loadBodies(options, log)), parameters_(options.settings.tracker) {
-    parameters_.niches_wanted = !options.niches_output.empty();
-    // What is proven draws nothing from the random streams: a reset makes it cold, and buffers are kept.
-    resets_ = !options.tracking && (parameters_.accuracy == AccuracyLevel::Complete ||
-                                    (provesDistance(parameters_.accuracy) && !parameters_.niches_wanted));
-    if (options.tracking || resets_)
-      tracker_ = std::make_unique<PairTracker>(kPairName, bodies_.a, bodies_.b, parameters_);
-  }
+      : tracker_(makeTracker(options, loadBodies(options, log))), tracking_(options.tracking) {}
 
   /// Microseconds of the query alone: everything between the loaded bodies and the answer.
   double solve(const Eigen::Isometry3d& pose, double time) {
     const auto start = std::chrono::steady_clock::now();
-    if (tracker_) {
-      if (resets_) tracker_->reset();
-      tracker_->update(pose, time, solution_);
-    } else {
-      solution_ = solveOnce(kPairName, bodies_.a, bodies_.b, parameters_, pose);
-    }
+    if (!tracking_) tracker_.restart();
+    tracker_.update(pose, time, solution_);
     return std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
   }
 
   const PairSolution& solution() const { return solution_; }
 
  private:
-  LoadedBodies bodies_;
-  TrackerParameters parameters_;
-  std::unique_ptr<PairTracker> tracker_;
-  bool resets_ = false;
+  static PairTracker makeTracker(const DistanceQueryOptions& options, const LoadedBodies& bodies) {
+    TrackerParameters parameters = options.settings.tracker;
+    parameters.niches_wanted = !options.niches_output.empty();
+    return {kPairName, bodies.a, bodies.b, parameters};
+  }
+
+  PairTracker tracker_;
+  bool tracking_;
   PairSolution solution_;
 };
 
