@@ -35,7 +35,7 @@ int main(int argc, char** argv) try {
     std::this_thread::sleep_until(next);
     height -= speed * step;
     tracker.update(Eigen::Isometry3d(Eigen::Translation3d(0, 0, height)), cycle * step, solution);
-    // The bound is proven, whatever became of the cycle: never faster than what stops within it.
+    // The bound holds even when a cycle ends early: never faster than what stops within it.
     speed = std::min(0.5, 2.0 * solution.lower_bound);
     slowest = std::max(slowest, solution.solve_seconds);
   }

@@ -20,7 +20,7 @@ using ParameterValue = std::variant<double, std::uint64_t, bool, std::string, st
 
 enum class ParameterType : std::uint8_t { Number, Count, Flag, Choice, Text, List };
 
-/// What is said of a parameter, once: readers, messages and documents are made from it.
+/// The declaration of a parameter: readers, messages and documents are made from it.
 struct ParameterInfo {
   std::string name;
   ParameterType type = ParameterType::Number;
@@ -102,12 +102,40 @@ struct Parameter {
 template <typename Settings>
 using ParameterTable = std::vector<Parameter<Settings>>;
 
+namespace detail {
+
+template <typename Settings>
+Parameter<Settings> declared(std::string name, ParameterType type, std::string sentence) {
+  Parameter<Settings> parameter;
+  parameter.info.name = std::move(name);
+  parameter.info.type = type;
+  parameter.info.sentence = std::move(sentence);
+  return parameter;
+}
+
+/// A number, or a word that stands for `meant`.
+template <typename Settings, typename Member>
+Parameter<Settings> numberOrWord(std::string name, const std::string& word, double meant, Member member,
+                                 std::string sentence) {
+  auto parameter = declared<Settings>(std::move(name), ParameterType::Number, std::move(sentence));
+  parameter.info.word = word;
+  parameter.get = [member, word, meant](const Settings& settings) -> ParameterValue {
+    if (member(settings) == meant) return word;
+    return member(settings);
+  };
+  parameter.set = [member, meant](Settings& settings, const ParameterValue& value) {
+    const double* number = std::get_if<double>(&value);
+    member(settings) = number == nullptr ? meant : *number;
+  };
+  return parameter;
+}
+
+}  // namespace detail
+
 /// A number. @param member generic: gives a reference to it, of settings and of constant settings
 template <typename Settings, typename Member>
 Parameter<Settings> number(std::string name, Member member, std::string sentence) {
-  Parameter<Settings> parameter;
-  parameter.info.name = std::move(name);
-  parameter.info.sentence = std::move(sentence);
+  auto parameter = detail::declared<Settings>(std::move(name), ParameterType::Number, std::move(sentence));
   parameter.get = [member](const Settings& settings) { return ParameterValue(double{member(settings)}); };
   parameter.set = [member](Settings& settings, const ParameterValue& value) {
     member(settings) = std::get<double>(value);
@@ -118,27 +146,14 @@ Parameter<Settings> number(std::string name, Member member, std::string sentence
 /// A number, or "none" for an infinite one.
 template <typename Settings, typename Member>
 Parameter<Settings> limit(std::string name, Member member, std::string sentence) {
-  Parameter<Settings> parameter;
-  parameter.info.name = std::move(name);
-  parameter.info.sentence = std::move(sentence);
-  parameter.info.word = "none";
-  parameter.get = [member](const Settings& settings) -> ParameterValue {
-    if (member(settings) == std::numeric_limits<double>::infinity()) return std::string("none");
-    return member(settings);
-  };
-  parameter.set = [member](Settings& settings, const ParameterValue& value) {
-    const double* number = std::get_if<double>(&value);
-    member(settings) = number == nullptr ? std::numeric_limits<double>::infinity() : *number;
-  };
-  return parameter;
+  return detail::numberOrWord<Settings>(std::move(name), "none", std::numeric_limits<double>::infinity(),
+                                        member, std::move(sentence));
 }
 
 /// A number, or the word for an empty one. @param member gives a std::optional<double>
 template <typename Settings, typename Member>
 Parameter<Settings> optionalNumber(std::string name, std::string word, Member member, std::string sentence) {
-  Parameter<Settings> parameter;
-  parameter.info.name = std::move(name);
-  parameter.info.sentence = std::move(sentence);
+  auto parameter = detail::declared<Settings>(std::move(name), ParameterType::Number, std::move(sentence));
   parameter.info.word = word;
   parameter.get = [member, word](const Settings& settings) -> ParameterValue {
     if (!member(settings)) return word;
@@ -159,10 +174,7 @@ Parameter<Settings> optionalNumber(std::string name, std::string word, Member me
 template <typename Settings, typename Member>
 Parameter<Settings> count(std::string name, Member member, std::string sentence) {
   using Integer = std::decay_t<decltype(member(std::declval<Settings&>()))>;
-  Parameter<Settings> parameter;
-  parameter.info.name = std::move(name);
-  parameter.info.type = ParameterType::Count;
-  parameter.info.sentence = std::move(sentence);
+  auto parameter = detail::declared<Settings>(std::move(name), ParameterType::Count, std::move(sentence));
   parameter.info.highest = static_cast<double>(std::numeric_limits<Integer>::max());
   parameter.get = [member](const Settings& settings) {
     return ParameterValue(static_cast<std::uint64_t>(member(settings)));
@@ -176,10 +188,7 @@ Parameter<Settings> count(std::string name, Member member, std::string sentence)
 /// true or false.
 template <typename Settings, typename Member>
 Parameter<Settings> flag(std::string name, Member member, std::string sentence) {
-  Parameter<Settings> parameter;
-  parameter.info.name = std::move(name);
-  parameter.info.type = ParameterType::Flag;
-  parameter.info.sentence = std::move(sentence);
+  auto parameter = detail::declared<Settings>(std::move(name), ParameterType::Flag, std::move(sentence));
   parameter.get = [member](const Settings& settings) { return ParameterValue(bool{member(settings)}); };
   parameter.set = [member](Settings& settings, const ParameterValue& value) {
     member(settings) = std::get<bool>(value);
@@ -191,10 +200,7 @@ Parameter<Settings> flag(std::string name, Member member, std::string sentence) 
 template <typename Settings, typename Enum, typename Member>
 Parameter<Settings> choice(std::string name, std::vector<std::pair<std::string, Enum>> choices, Member member,
                            std::string sentence) {
-  Parameter<Settings> parameter;
-  parameter.info.name = std::move(name);
-  parameter.info.type = ParameterType::Choice;
-  parameter.info.sentence = std::move(sentence);
+  auto parameter = detail::declared<Settings>(std::move(name), ParameterType::Choice, std::move(sentence));
   for (const auto& one : choices) parameter.info.choices.push_back(one.first);
   parameter.get = [member, choices](const Settings& settings) -> ParameterValue {
     for (const auto& [word, value] : choices) {
@@ -213,31 +219,17 @@ Parameter<Settings> choice(std::string name, std::vector<std::pair<std::string, 
 /// A number, or a word where it is 0: chosen by the program.
 template <typename Settings, typename Member>
 Parameter<Settings> automatic(std::string name, Member member, std::string sentence,
-                              std::string word = "auto") {
-  Parameter<Settings> parameter;
-  parameter.info.name = std::move(name);
-  parameter.info.sentence = std::move(sentence);
-  parameter.info.word = word;
+                              const std::string& word = "auto") {
+  auto parameter = detail::numberOrWord<Settings>(std::move(name), word, 0.0, member, std::move(sentence));
   parameter.info.above_lowest = true;
-  parameter.get = [member, word](const Settings& settings) -> ParameterValue {
-    if (member(settings) == 0.0) return word;
-    return member(settings);
-  };
-  parameter.set = [member](Settings& settings, const ParameterValue& value) {
-    const double* number = std::get_if<double>(&value);
-    member(settings) = number == nullptr ? 0.0 : *number;
-  };
   return parameter;
 }
 
 /// Any text. @param allowed said of it in messages and documents, e.g. "a path"
 template <typename Settings, typename Member>
 Parameter<Settings> text(std::string name, std::string allowed, Member member, std::string sentence) {
-  Parameter<Settings> parameter;
-  parameter.info.name = std::move(name);
-  parameter.info.type = ParameterType::Text;
+  auto parameter = detail::declared<Settings>(std::move(name), ParameterType::Text, std::move(sentence));
   parameter.info.word = std::move(allowed);
-  parameter.info.sentence = std::move(sentence);
   parameter.get = [member](const Settings& settings) -> ParameterValue {
     return std::string(member(settings));
   };
@@ -250,11 +242,8 @@ Parameter<Settings> text(std::string name, std::string allowed, Member member, s
 /// A list of texts. @param member gives a std::optional<std::vector<std::string>>
 template <typename Settings, typename Member>
 Parameter<Settings> list(std::string name, std::string allowed, Member member, std::string sentence) {
-  Parameter<Settings> parameter;
-  parameter.info.name = std::move(name);
-  parameter.info.type = ParameterType::List;
+  auto parameter = detail::declared<Settings>(std::move(name), ParameterType::List, std::move(sentence));
   parameter.info.word = std::move(allowed);
-  parameter.info.sentence = std::move(sentence);
   parameter.get = [member](const Settings& settings) -> ParameterValue {
     return member(settings).value_or(std::vector<std::string>());
   };

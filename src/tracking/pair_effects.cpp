@@ -4,10 +4,10 @@
 #include <cmath>
 #include <utility>
 
-#include "concave_distance/base/error.h"
 #include "contact/contact_point.h"
 #include "region_identity.h"
 #include "relative_motion.h"
+#include "require_bodies.h"
 
 namespace concave_distance {
 namespace {
@@ -110,10 +110,7 @@ struct PairEffects::State {
 PairEffects::PairEffects(std::shared_ptr<const BodyMesh> a, std::shared_ptr<const BodyMesh> b,
                          const EffectSettings& settings, const ContactMaterial& material)
     : state_(std::make_unique<State>()) {
-  if (!a || !b) {
-    throw Error("PairEffects", std::string("body ") + (a ? "B" : "A") + " is null",
-                "give a body that was loaded or made");
-  }
+  requireBodies("PairEffects", a, b);
   state_->a = std::move(a);
   state_->b = std::move(b);
   setSettings(settings, material);

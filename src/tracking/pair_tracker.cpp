@@ -10,6 +10,7 @@
 #include "mesh/surface/connected_pieces.h"
 #include "mesh/surface/triangle_adjacency.h"
 #include "mesh/trees/normal_cone_tree.h"
+#include "require_bodies.h"
 #include "tracker_state.h"
 
 namespace concave_distance {
@@ -17,13 +18,6 @@ namespace {
 
 // So many that making a tracker does not count.
 constexpr std::size_t kPosesOfOneTracker = 16;
-
-void requireBodies(const std::string& name, const std::shared_ptr<const BodyMesh>& a,
-                   const std::shared_ptr<const BodyMesh>& b) {
-  if (a && b) return;
-  throw Error(name, std::string("body ") + (a ? "B" : "A") + " is null",
-              "give a body that was loaded or made");
-}
 
 }  // namespace
 
