@@ -26,25 +26,33 @@ target_link_libraries(concave_distance_loading_objects
 set_target_properties(concave_distance_numeric_objects concave_distance_loading_objects PROPERTIES
   POSITION_INDEPENDENT_CODE ON)
 
-# Half of a source's compile time is reading these. Off by default: clang-tidy cannot read another compiler's.
-option(CONCAVE_DISTANCE_PRECOMPILED_HEADERS "Compile faster" OFF)
+# Most of a source's compile time is reading headers. Off by default: sources are then compiled one by one, as
+# clang-tidy reads them, and each has to include what it uses.
+option(CONCAVE_DISTANCE_FAST_BUILD "Precompile headers and compile several sources at a time" OFF)
 set(CONCAVE_DISTANCE_HEADERS_TO_PRECOMPILE
   <Eigen/Core> <Eigen/Geometry> <algorithm> <array> <cmath> <cstdint> <functional> <limits> <map> <memory> <optional>
   <string> <vector>)
-# concave_distance_precompile(<target> [headers ...]): of its own.
-function(concave_distance_precompile target)
-  if(CONCAVE_DISTANCE_PRECOMPILED_HEADERS)
+# concave_distance_compile_fast(<target> [headers ...]): with these headers precompiled too.
+function(concave_distance_compile_fast target)
+  if(CONCAVE_DISTANCE_FAST_BUILD)
     target_precompile_headers(${target} PRIVATE ${CONCAVE_DISTANCE_HEADERS_TO_PRECOMPILE} ${ARGN})
   endif()
 endfunction()
-# concave_distance_share_precompiled(<target> <from>): those of a target with the same compile options.
-function(concave_distance_share_precompiled target from)
-  if(CONCAVE_DISTANCE_PRECOMPILED_HEADERS)
-    target_precompile_headers(${target} REUSE_FROM ${from})
+# concave_distance_compile_together(<target>): for sources that include much and compile to little.
+function(concave_distance_compile_together target)
+  if(CONCAVE_DISTANCE_FAST_BUILD)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
   endif()
 endfunction()
-concave_distance_precompile(concave_distance_numeric_objects)
-concave_distance_precompile(concave_distance_loading_objects)
+# concave_distance_compile_fast_like(<target> <other>): with the precompiled headers of a target with the same options.
+function(concave_distance_compile_fast_like target other)
+  if(CONCAVE_DISTANCE_FAST_BUILD)
+    target_precompile_headers(${target} REUSE_FROM ${other})
+  endif()
+endfunction()
+concave_distance_compile_fast(concave_distance_numeric_objects)
+concave_distance_compile_fast(concave_distance_loading_objects)
+concave_distance_compile_together(concave_distance_loading_objects)
 
 function(concave_distance_public_library name)
   add_library(concave_distance::concave_distance_${name} ALIAS concave_distance_${name})

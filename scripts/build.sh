@@ -17,7 +17,7 @@ first_options=()
 if [ ! -f "$build_dir/CMakeCache.txt" ]; then
   if command -v ninja >/dev/null; then first_options+=(-G Ninja); fi
   # Makes the first build for the demos faster.
-  if [ "$what" = demo ]; then first_options+=(-DCONCAVE_DISTANCE_PRECOMPILED_HEADERS=ON); fi
+  if [ "$what" = demo ]; then first_options+=(-DCONCAVE_DISTANCE_FAST_BUILD=ON); fi
 fi
 cmake -S "$package_dir" -B "$build_dir" "${first_options[@]}" "$@"
 

@@ -32,7 +32,7 @@ if [ -n "$sanitized" ]; then
   say "building with sanitizers in $build_dir"
   cmake -S "$package_dir" -B "$build_dir" "${generator[@]}" "${launcher[@]}" -DCMAKE_BUILD_TYPE=None \
     -DCMAKE_CXX_FLAGS="$flags" -DCONCAVE_DISTANCE_WITH_ROS=ON -DCONCAVE_DISTANCE_BUILD_TESTS=OFF \
-    -DCONCAVE_DISTANCE_BUILD_BENCHMARKS=OFF -DCONCAVE_DISTANCE_PRECOMPILED_HEADERS=ON
+    -DCONCAVE_DISTANCE_BUILD_BENCHMARKS=OFF -DCONCAVE_DISTANCE_FAST_BUILD=ON
   cmake --build "$build_dir" --parallel "$(job_count)" --target concave_distance_programs
 else
   "$package_dir/scripts/build.sh" programs -DCONCAVE_DISTANCE_WITH_ROS=ON

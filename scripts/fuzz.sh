@@ -26,7 +26,7 @@ if command -v ccache >/dev/null; then launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=cc
 generator=()
 if [ ! -f "$build_dir/CMakeCache.txt" ] && command -v ninja >/dev/null; then generator=(-G Ninja); fi
 cmake -S "$package_dir" -B "$build_dir" "${generator[@]}" "${launcher[@]}" -DCMAKE_CXX_COMPILER=clang++ \
-  -DCMAKE_BUILD_TYPE=None -DCONCAVE_DISTANCE_FUZZERS=ON -DCONCAVE_DISTANCE_WITH_ROS=OFF -DCONCAVE_DISTANCE_PRECOMPILED_HEADERS=ON \
+  -DCMAKE_BUILD_TYPE=None -DCONCAVE_DISTANCE_FUZZERS=ON -DCONCAVE_DISTANCE_WITH_ROS=OFF -DCONCAVE_DISTANCE_FAST_BUILD=ON \
   -DCONCAVE_DISTANCE_BUILD_BENCHMARKS=OFF \
   -DCMAKE_CXX_FLAGS="-O1 -g1 -fno-omit-frame-pointer -fsanitize=address,undefined,fuzzer-no-link -fno-sanitize-recover=undefined"
 cmake --build "$build_dir" --parallel "$(job_count)" --target "${targets[@]}"

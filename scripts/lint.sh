@@ -22,8 +22,8 @@ check_format() {
 check_tidy() {
   # clang-tidy cannot read the precompiled headers of a build for the demos, which are of another compiler.
   if [ ! -f "$build_dir/compile_commands.json" ] ||
-    grep -q '^CONCAVE_DISTANCE_PRECOMPILED_HEADERS:BOOL=ON' "$build_dir/CMakeCache.txt"; then
-    scripts/build.sh all -DCONCAVE_DISTANCE_PRECOMPILED_HEADERS=OFF
+    grep -q '^CONCAVE_DISTANCE_FAST_BUILD:BOOL=ON' "$build_dir/CMakeCache.txt"; then
+    scripts/build.sh all -DCONCAVE_DISTANCE_FAST_BUILD=OFF
   fi
   find src test \( -path test/consumer -o -path test/benchmark/engines \) -prune -o -name '*.cpp' -print0 |
     xargs -0 -n 1 -P "$(job_count)" clang-tidy --quiet -p "$build_dir" --extra-arg=-std=c++17 \

@@ -94,7 +94,7 @@ for kind in "${kinds[@]}"; do
   # Sanitizers slow programs down; -O1 keeps what they say readable.
   cmake -S "$package_dir" -B "$build_dir" "${generator[@]}" "${launcher[@]}" -DCMAKE_BUILD_TYPE=None \
     -DCMAKE_CXX_FLAGS="-O1 -g1 -fno-omit-frame-pointer $flags" -DCONCAVE_DISTANCE_WITH_ROS=OFF \
-    -DCONCAVE_DISTANCE_BUILD_BENCHMARKS=OFF -DCONCAVE_DISTANCE_PRECOMPILED_HEADERS=ON \
+    -DCONCAVE_DISTANCE_BUILD_BENCHMARKS=OFF -DCONCAVE_DISTANCE_FAST_BUILD=ON \
     -DCONCAVE_DISTANCE_TEST_TIMEOUT=1500
   cmake --build "$build_dir" --parallel "$(job_count)"
   if [ "$kind" = thread ]; then use_sanitized_tbb "$build_dir/tbb"; fi

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds everything and runs every test: unit tests, consumer package, rostests.
-#   scripts/test.sh [--format] [--precompiled]
-# --format: check the source formatting too, and count a compiler's warning as an error; --precompiled: with precompiled headers, for a fresh build.
+#   scripts/test.sh [--format]
+# --format: check the source formatting too, and count a warning of the compiler as an error.
 # The last line is `N passed, N failed`, counted in test cases; the exit status is 0 only when none failed.
 set -euo pipefail
 # shellcheck source=scripts/common.sh
@@ -16,7 +16,6 @@ for argument in "$@"; do
       format=1
       build_options+=(-DCMAKE_COMPILE_WARNING_AS_ERROR=ON)
       ;;
-    --precompiled) build_options+=(-DCONCAVE_DISTANCE_PRECOMPILED_HEADERS=ON) ;;
     *) die "unknown option '$argument'" ;;
   esac
 done
@@ -41,8 +40,11 @@ fi
 say "dependencies are there after $((SECONDS - started)) s"
 
 source_ros
-# A first build leaves out the benchmark programs, a quarter of all compile time: scripts/build.sh all makes them.
-[ -f "$build_dir/CMakeCache.txt" ] || build_options+=(-DCONCAVE_DISTANCE_BUILD_BENCHMARKS=OFF)
+# A first build is a fast one and leaves out the benchmark programs, a quarter of all compile time: scripts/build.sh all
+# makes them.
+if [ ! -f "$build_dir/CMakeCache.txt" ]; then
+  build_options+=(-DCONCAVE_DISTANCE_FAST_BUILD=ON -DCONCAVE_DISTANCE_BUILD_BENCHMARKS=OFF)
+fi
 "$package_dir/scripts/build.sh" all "${build_options[@]}" ||
   count_arguments+=(--failure "the build (see the first error above)")
 [ -f "$build_dir/CTestTestfile.cmake" ] || finish_without_tests "the build could not be configured"
@@ -67,6 +69,6 @@ run_tests() {
   say "$name tests are through after $((SECONDS - started)) s"
 }
 run_tests unit --exclude-regex _rostest_ --parallel "$(job_count)"
-run_tests node --tests-regex _rostest_  # one at a time: they measure time
+run_tests node --tests-regex _rostest_ --parallel "$(job_count)"
 
 /usr/bin/python3 "$package_dir/scripts/count_test_results.py" "$build_dir" "${count_arguments[@]}"

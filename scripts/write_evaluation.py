@@ -37,12 +37,13 @@ HEADINGS = {
 
 
 def read_rows(folders, file_name):
+    """Rows by column name; an empty cell was not computed and becomes "nan"."""
     rows = []
     for folder in folders:
         path = pathlib.Path(folder) / file_name
         if path.exists():
             with open(path, newline="", encoding="utf-8") as file:
-                rows += list(csv.DictReader(file))
+                rows += [{name: text or "nan" for name, text in row.items()} for row in csv.DictReader(file)]
     return rows
 
 

@@ -12,6 +12,7 @@
 #include "message_capture.h"
 #include "urdf_values.h"
 #include "wording.h"
+#include "xml_attribute.h"
 
 namespace concave_distance::detail {
 namespace {
@@ -88,11 +89,6 @@ std::size_t countChildren(const tinyxml2::XMLElement& parent, const char* name =
     ++count;
   }
   return count;
-}
-
-std::string attribute(const tinyxml2::XMLElement& element, const char* name) {
-  const char* value = element.Attribute(name);
-  return value != nullptr ? value : std::string();
 }
 
 RobotText scan(const tinyxml2::XMLElement& root, const char* wanted) {

@@ -6,16 +6,12 @@
 
 #include "concave_distance/base/error.h"
 #include "wording.h"
+#include "xml_attribute.h"
 
 namespace concave_distance::detail {
 namespace {
 
 using tinyxml2::XMLElement;
-
-std::string attribute(const XMLElement& element, const char* name) {
-  const char* value = element.Attribute(name);
-  return value != nullptr ? value : std::string();
-}
 
 template <typename Visit>
 void forEachChild(const XMLElement& parent, const char* name, const Visit& visit) {

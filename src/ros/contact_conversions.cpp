@@ -47,13 +47,7 @@ Contact toContact(const PairHeading& heading, const ContactRegion& region, const
 }  // namespace
 
 PairContactState emptyContacts(const PairHeading& heading, const PairStatus& status) {
-  PairContactState message;
-  message.header.stamp = heading.stamp;
-  message.header.frame_id = heading.reference_frame;
-  message.pair = heading.pair;
-  message.body_a = heading.body_a;
-  message.body_b = heading.body_b;
-  message.status = status;
+  auto message = headedMessage<PairContactState>(heading, status);
   const Eigen::Vector3d not_computed = Eigen::Vector3d::Constant(kNotComputed);
   message.wrench_point = toPoint(not_computed);
   message.wrench = toWrench({not_computed, not_computed});

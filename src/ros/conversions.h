@@ -1,20 +1,16 @@
 #pragma once
 
-#include <concave_distance/AddBody.h>
 #include <concave_distance/BodyInfo.h>
-#include <concave_distance/DistanceQuery.h>
 #include <concave_distance/PairDistance.h>
 #include <concave_distance/PairInfo.h>
 #include <concave_distance/PairNiches.h>
 #include <concave_distance/PairStatus.h>
-#include <geometry_msgs/Pose.h>
 #include <geometry_msgs/Wrench.h>
 
 #include <Eigen/Geometry>
 #include <string>
 
 #include "concave_distance/contact/wrench.h"
-#include "concave_distance/loading/load_scene.h"
 #include "concave_distance/scene/scene.h"
 #include "concave_distance/tracking/pair_solution.h"
 #include "tf_poses.h"
@@ -24,10 +20,6 @@ namespace concave_distance {
 geometry_msgs::Point toPoint(const Eigen::Vector3d& point);
 geometry_msgs::Vector3 toVector(const Eigen::Vector3d& vector);
 geometry_msgs::Wrench toWrench(const Wrench& wrench);
-
-/// @throws Error (naming `where`) for a NaN or infinite number and for a quaternion whose norm differs from 1
-///         by more than 1e-3; a smaller difference is normalised away
-Eigen::Isometry3d poseFromMessage(const geometry_msgs::Pose& pose, const std::string& where);
 
 PairStatus toStatus(SolveStatus status);
 PairStatus toStatus(TransformStatus status, const std::string& message);
@@ -48,6 +40,19 @@ struct PairHeading {
   bool with_niches = false;  ///< false: the niches were not asked for and are not reported
 };
 
+/// A message about a pair with nothing but its heading and status.
+template <typename Message>
+Message headedMessage(const PairHeading& heading, const PairStatus& status) {
+  Message message;
+  message.header.stamp = heading.stamp;
+  message.header.frame_id = heading.reference_frame;
+  message.pair = heading.pair;
+  message.body_a = heading.body_a;
+  message.body_b = heading.body_b;
+  message.status = status;
+  return message;
+}
+
 /// A pair without a distance: every number NaN, every has_ flag false.
 PairDistance emptyDistance(const PairHeading& heading, const PairStatus& status);
 /// The solution in the reference frame.
@@ -57,13 +62,5 @@ PairNiches toNiches(const PairHeading& heading, const PairSolution& solution);
 
 BodyInfo toBodyInfo(const SceneBody& body);
 PairInfo toPairInfo(const Scene& scene, const ScenePair& pair);
-
-/// The pair's settings with what the query asks for instead.
-/// @throws Error for a level that is none, for a tolerance or time budget that is out of range or that the
-///         level has no proof for, each with the value seen
-TrackerParameters queryParameters(const DistanceQuery& query, const TrackerParameters& configured);
-
-/// @throws Error for a request that names no geometry, two, or numbers out of range
-BodyDescription toBodyDescription(const AddBodyRequest& request);
 
 }  // namespace concave_distance

@@ -10,8 +10,8 @@ namespace {
 
 using diagnostic_msgs::DiagnosticStatus;
 
-constexpr double kLateShare = 0.01;
-constexpr double kRateShare = 0.9;
+constexpr double kNotableLateShare = 0.01;
+constexpr double kNotableRateShare = 0.9;
 // Pairs and problems that are listed one by one.
 constexpr std::size_t kListed = 20;
 
@@ -36,10 +36,10 @@ void describeCycle(const CycleWindow& window, double wanted_rate,
     status.summary(DiagnosticStatus::WARN, "no cycle ran (waiting for the scene, or the clock stands still)");
   } else if (window.last.watched == 0) {
     status.summary(DiagnosticStatus::OK, "nobody subscribes: nothing is computed");
-  } else if (static_cast<double>(window.late) > kLateShare * cycles) {
+  } else if (static_cast<double>(window.late) > kNotableLateShare * cycles) {
     status.summaryf(DiagnosticStatus::WARN, "%.1f %% of the cycles were late",
                     100.0 * static_cast<double>(window.late) / cycles);
-  } else if (window.seconds > 0.0 && rate < kRateShare * wanted_rate) {
+  } else if (window.seconds > 0.0 && rate < kNotableRateShare * wanted_rate) {
     status.summaryf(DiagnosticStatus::WARN, "%.1f cycles a second instead of %.1f", rate, wanted_rate);
   } else {
     status.summary(DiagnosticStatus::OK, "on time");

@@ -13,6 +13,7 @@
 #include "conversions.h"
 #include "helper_threads.h"
 #include "loading/frame_name.h"
+#include "request_conversions.h"
 #include "scene/solver_threads.h"
 #include "scene_edits.h"
 #include "short_text.h"

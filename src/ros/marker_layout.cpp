@@ -6,14 +6,14 @@
 namespace concave_distance {
 namespace {
 
-constexpr double kMuchLarger = 8.0;     // than the median body: a floor, a hall
-constexpr double kFarOff = 8.0;         // median distances from the median centre
-constexpr double kScaleShare = 0.009;   // diameter of the nearest points over the scene's size
-constexpr double kLetterShare = 2.2;    // height of the letters over that diameter
-constexpr double kFarShare = 0.25;      // end of the colour gradient over the scene's size
-constexpr double kResizeStep = 1.3;     // the size is updated when it has changed by this factor
-constexpr double kMoveStep = 0.1;       // the place is updated when it has moved by this share of the size
-constexpr double kSizeOfNothing = 1.0;  // m
+constexpr double kMuchLarger = 8.0;        // than the median body: a floor, a hall
+constexpr double kFarOff = 8.0;            // median distances from the median centre
+constexpr double kScaleShare = 0.009;      // diameter of the nearest points over the scene's size
+constexpr double kLabelLetterShare = 2.2;  // height of the letters over that diameter
+constexpr double kFarShare = 0.25;         // end of the colour gradient over the scene's size
+constexpr double kResizeStep = 1.3;        // the size is updated when it has changed by this factor
+constexpr double kMoveStep = 0.1;          // the place is updated when it has moved by this share of the size
+constexpr double kSizeOfNothing = 1.0;     // m
 
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -102,7 +102,7 @@ void MarkerLayout::update(const std::vector<LocatedBody>& bodies, const MarkerSt
 }
 
 double MarkerLayout::letterHeight() const {
-  return kLetterShare * style_.scale;
+  return kLabelLetterShare * style_.scale;
 }
 
 }  // namespace concave_distance

@@ -10,11 +10,11 @@
 namespace concave_distance {
 namespace {
 
-constexpr double kLetterShare = 0.9;     // height of the legend's letters over that of the labels
-constexpr double kSlope = 0.35;          // tangent of the pitch up to which the legend hides nothing
-constexpr double kLift = 1.5;            // height of the legend above the scene, in letters
-constexpr double kRvizLineSpace = 0.01;  // m between the rows of a text in rviz
-constexpr std::size_t kColumn = 26;      // spaces between two columns of a row
+constexpr double kLegendLetterShare = 0.9;  // height of the legend's letters over that of the labels
+constexpr double kSlope = 0.35;             // tangent of the pitch up to which the legend hides nothing
+constexpr double kLift = 1.5;               // height of the legend above the scene, in letters
+constexpr double kRvizLineSpace = 0.01;     // m between the rows of a text in rviz
+constexpr std::size_t kColumn = 26;         // spaces between two columns of a row
 
 struct Row {
   std::string text;
@@ -69,7 +69,7 @@ std::vector<visualization_msgs::Marker> legendMarkers(const LegendContents& cont
   std::vector<visualization_msgs::Marker> markers;
   if (layout.region().isEmpty()) return markers;
   const std::vector<Row> rows = rowsOf(contents, layout.style());
-  const double letters = kLetterShare * layout.letterHeight();
+  const double letters = kLegendLetterShare * layout.letterHeight();
   const std::size_t count = rows.back().row + 1;
   const double height =
       static_cast<double>(count) * letters + static_cast<double>(count - 1) * kRvizLineSpace;

@@ -14,8 +14,6 @@
 namespace concave_distance {
 namespace {
 
-constexpr std::uint32_t kQueueLength = 10;
-
 // Links may be called `link-1` or `arm.2`; topics may not.
 std::string topicName(const std::string& pair) {
   std::string name = pair;

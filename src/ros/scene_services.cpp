@@ -13,6 +13,7 @@
 #include "conversions.h"
 #include "loading/set_effects.h"
 #include "mesh/grid/mesh_metric.h"
+#include "request_conversions.h"
 #include "scene/set_warning_distance.h"
 #include "scene_edits.h"
 #include "short_text.h"

@@ -20,7 +20,6 @@
 namespace concave_distance {
 namespace {
 
-constexpr std::uint32_t kQueueLength = 10;
 constexpr std::uint32_t kAlertQueueLength = 100;  // none of them is to be lost
 
 static_assert(Alert::CLEAR == static_cast<int>(WarningState::Clear));

@@ -9,7 +9,7 @@
 namespace concave_distance {
 namespace {
 
-constexpr std::uint32_t kQueueLength = 100;  // messages, as in tf2_ros
+constexpr std::uint32_t kTransformQueueLength = 100;  // messages, as in tf2_ros
 
 }  // namespace
 
@@ -20,7 +20,7 @@ TransformReceiver::TransformReceiver(const ros::NodeHandle& node, TransformBuffe
     const boost::function<void(const Event&)> callback = [this, fixed](const Event& event) {
       guarded("receiving transforms", [&] { receive(event, fixed); });
     };
-    return node_.subscribe<tf2_msgs::TFMessage>(topic, kQueueLength, callback);
+    return node_.subscribe<tf2_msgs::TFMessage>(topic, kTransformQueueLength, callback);
   };
   moving_ = subscribe("/tf", false);
   fixed_ = subscribe("/tf_static", true);

@@ -11,6 +11,9 @@
 
 namespace concave_distance {
 
+/// Messages of a topic that wait for a slow subscriber.
+inline constexpr std::uint32_t kQueueLength = 10;
+
 /// A publisher that knows without a search whether anybody listens: roscpp's getNumSubscribers() looks
 /// through all topics of the node, too long for two topics a pair in every cycle. Copies share the topic.
 class WatchedTopic {

@@ -1,9 +1,8 @@
 #include <CLI/CLI.hpp>
-#include <exception>
 #include <iostream>
 #include <string>
 
-#include "base/output_file.h"
+#include "base/run_tool.h"
 #include "distance_query_run.h"
 #include "parameter_options.h"
 #include "scene/pair_parameters.h"
@@ -13,9 +12,6 @@ namespace {
 using concave_distance::AccuracyLevel;
 using concave_distance::tools::addParameter;
 using concave_distance::tools::DistanceQueryOptions;
-
-constexpr int kFileProblem = 1;
-constexpr int kWrongCommandLine = 2;
 
 constexpr const char* kToleranceOption = "--tolerance";
 
@@ -87,7 +83,7 @@ int run(int argc, char** argv) {
       refuseOnUnprovenLevels(app, option, options.settings.tracker.accuracy);
     }
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : kWrongCommandLine;
+    return app.exit(error) == 0 ? 0 : concave_distance::kWrongCommandLine;
   }
   runDistanceQuery(options, std::cerr);
   return 0;
@@ -96,13 +92,5 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    concave_distance::ignoreClosedPipes();
-    const int status = run(argc, argv);
-    concave_distance::finishStandardOutput();
-    return status;
-  } catch (const std::exception& error) {
-    std::cerr << "distance_query: " << error.what() << '\n';
-    return kFileProblem;
-  }
+  return concave_distance::runTool("distance_query", argc, argv, run);
 }

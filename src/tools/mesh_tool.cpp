@@ -1,12 +1,12 @@
 #include <CLI/CLI.hpp>
 #include <Eigen/Core>
-#include <exception>
 #include <iostream>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "base/output_file.h"
+#include "base/run_tool.h"
 #include "concave_distance/base/error.h"
 #include "mesh_tool_commands.h"
 #include "mesh_tool_convex.h"
@@ -14,9 +14,6 @@
 namespace {
 
 using namespace concave_distance::tools;
-
-constexpr int kMeshProblem = 1;
-constexpr int kWrongCommandLine = 2;
 
 struct CommandLine {
   MeshToolOptions options;
@@ -113,7 +110,7 @@ int run(int argc, char** argv) {
     app.parse(argc, argv);
     line.options.scale = parseScale(line.scale);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : kWrongCommandLine;
+    return app.exit(error) == 0 ? 0 : concave_distance::kWrongCommandLine;
   }
   concave_distance::requireDistinctFiles(
       {{"the input", line.options.input}},
@@ -127,13 +124,5 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    concave_distance::ignoreClosedPipes();
-    const int status = run(argc, argv);
-    concave_distance::finishStandardOutput();
-    return status;
-  } catch (const std::exception& error) {
-    std::cerr << "mesh_tool: " << error.what() << '\n';
-    return kMeshProblem;
-  }
+  return concave_distance::runTool("mesh_tool", argc, argv, run);
 }

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "base/output_file.h"
+#include "base/csv_writer.h"
 #include "concave_distance/tracking/pair_solution.h"
 #include "distance/certificate.h"
 
@@ -34,7 +34,7 @@ class AnswerWriter {
   void finish() { file_.finish(); }  ///< @throws Error when not everything could be written
 
  private:
-  OutputFile file_;
+  CsvFile file_;
 };
 
 /// Writes niches.csv, 17 digits, a line per niche.
@@ -48,7 +48,7 @@ class NicheWriter {
   void finish() { file_.finish(); }  ///< @throws Error when not everything could be written
 
  private:
-  OutputFile file_;
+  CsvFile file_;
 };
 
 }  // namespace concave_distance::tools

@@ -2,12 +2,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <exception>
 #include <iostream>
 #include <memory>
 #include <string>
 
 #include "base/output_file.h"
+#include "base/run_tool.h"
 #include "concave_distance/base/error.h"
 #include "concave_distance/loading/load_scene.h"
 #include "concave_distance/simulation/simulation.h"
@@ -20,8 +20,6 @@ namespace {
 using namespace concave_distance;
 using Clock = std::chrono::steady_clock;
 
-constexpr int kFileProblem = 1;
-constexpr int kWrongCommandLine = 2;
 constexpr int kDiverged = 3;
 constexpr double kProgressSeconds = 0.5;
 
@@ -170,7 +168,7 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : kWrongCommandLine;
+    return app.exit(error) == 0 ? 0 : concave_distance::kWrongCommandLine;
   }
   return simulate(app, options);
 }
@@ -178,13 +176,5 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    concave_distance::ignoreClosedPipes();
-    const int status = run(argc, argv);
-    concave_distance::finishStandardOutput();
-    return status;
-  } catch (const std::exception& error) {
-    std::cerr << "simulate: " << error.what() << '\n';
-    return kFileProblem;
-  }
+  return concave_distance::runTool("simulate", argc, argv, run);
 }

@@ -1,13 +1,7 @@
 #include "simulation_log.h"
 
-#include <array>
-#include <charconv>
-#include <cmath>
-
 namespace concave_distance::tools {
 namespace {
-
-constexpr int kDigits = 17;
 
 std::string trajectoryHeader(const Simulation& simulation) {
   std::string header =
@@ -30,60 +24,21 @@ std::string trajectoryHeader(const Simulation& simulation) {
 
 }  // namespace
 
-CsvFile::CsvFile(const std::string& path, const std::string& header) : file_(path) {
-  file_.stream() << header << '\n';
-}
-
-void CsvFile::separate() {
-  if (line_begun_) file_.stream() << ',';
-  line_begun_ = true;
-}
-
-CsvFile& CsvFile::operator<<(double value) {
-  separate();
-  if (std::isnan(value)) return *this;
-  std::array<char, 32> text{};
-  const auto end =
-      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, kDigits).ptr;
-  file_.stream().write(text.data(), end - text.data());
-  return *this;
-}
-
-CsvFile& CsvFile::operator<<(std::uint64_t value) {
-  separate();
-  file_.stream() << value;
-  return *this;
-}
-
-CsvFile& CsvFile::operator<<(const std::string& text) {
-  separate();
-  file_.stream() << text;
-  return *this;
-}
-
-CsvFile& CsvFile::operator<<(const Eigen::Vector3d& vector) {
-  return *this << vector.x() << vector.y() << vector.z();
-}
-
-void CsvFile::endLine() {
-  file_.stream() << '\n';
-  line_begun_ = false;
-}
-
 TrajectoryLog::TrajectoryLog(const std::string& path, const Simulation& simulation)
     : file_(path, trajectoryHeader(simulation)) {}
 
 void TrajectoryLog::write(const Simulation& simulation) {
   const EnergyAccount& energy = simulation.energy();
-  file_ << simulation.time() << simulation.counters().steps << energy.kinetic << energy.gravity_potential
-        << energy.drive_potential << energy.normal_work << energy.friction_work << energy.load_work
-        << energy.drive_work << energy.drive_loss << energy.balanceError();
+  file_.cells() << simulation.time() << simulation.counters().steps << energy.kinetic
+                << energy.gravity_potential << energy.drive_potential << energy.normal_work
+                << energy.friction_work << energy.load_work << energy.drive_work << energy.drive_loss
+                << energy.balanceError();
   for (const SimulatedBody& body : simulation.bodies()) {
     if (body.motion == BodyMotion::Fixed) continue;
     const Eigen::Quaterniond rotation(body.world_from_body.linear());
-    file_ << Eigen::Vector3d(body.world_from_body.translation()) << rotation.x() << rotation.y()
-          << rotation.z() << rotation.w() << body.velocity << body.angular_velocity
-          << body.contact_wrench.force << body.drive_wrench.force;
+    file_.cells() << Eigen::Vector3d(body.world_from_body.translation()) << rotation.x() << rotation.y()
+                  << rotation.z() << rotation.w() << body.velocity << body.angular_velocity
+                  << body.contact_wrench.force << body.drive_wrench.force;
   }
   for (const SimulatedPair& pair : simulation.pairs()) {
     double force = 0.0;
@@ -91,13 +46,13 @@ void TrajectoryLog::write(const Simulation& simulation) {
       if (region.normal_force > 0.0) force += region.normal_force;
     }
     const bool touches = !pair.contacts.regions.empty();
-    file_ << (pair.solved ? pair.solution.distance : kNotComputed) << pair.lower_bound
-          << (pair.solved ? static_cast<double>(pair.solution.niches.size()) : kNotComputed)
-          << std::uint64_t{pair.contacts.regions.size()}
-          << (touches ? pair.contacts.regions.front().overlap.depth : 0.0) << force << pair.single_distance
-          << std::uint64_t{pair.single_is_wrong ? 1U : 0U};
+    file_.cells() << (pair.solved ? pair.solution.distance : kNotComputed) << pair.lower_bound
+                  << (pair.solved ? static_cast<double>(pair.solution.niches.size()) : kNotComputed)
+                  << pair.contacts.regions.size()
+                  << (touches ? pair.contacts.regions.front().overlap.depth : 0.0) << force
+                  << pair.single_distance << (pair.single_is_wrong ? 1 : 0);
   }
-  file_.endLine();
+  file_.cells().endLine();
 }
 
 ContactLog::ContactLog(const std::string& path)
@@ -109,12 +64,13 @@ void ContactLog::write(const Simulation& simulation) {
   for (const SimulatedPair& pair : simulation.pairs()) {
     const Eigen::Isometry3d& world_from_a = simulation.bodies()[pair.body_a].world_from_body;
     for (const ContactRegion& region : pair.contacts.regions) {
-      file_ << simulation.time() << pair.name << region.id << region.overlap.depth << region.depth_rate
-            << region.overlap.contact_area << region.overlap.volume << region.normal_force
-            << Eigen::Vector3d(world_from_a.linear() * region.friction_on_b_in_a)
-            << Eigen::Vector3d(world_from_a * region.point_in_a)
-            << Eigen::Vector3d(world_from_a.linear() * region.overlap.normal_in_a);
-      file_.endLine();
+      file_.cells() << simulation.time() << pair.name << region.id << region.overlap.depth
+                    << region.depth_rate << region.overlap.contact_area << region.overlap.volume
+                    << region.normal_force
+                    << Eigen::Vector3d(world_from_a.linear() * region.friction_on_b_in_a)
+                    << Eigen::Vector3d(world_from_a * region.point_in_a)
+                    << Eigen::Vector3d(world_from_a.linear() * region.overlap.normal_in_a);
+      file_.cells().endLine();
     }
   }
 }
@@ -127,10 +83,10 @@ void NicheLog::write(const Simulation& simulation) {
     if (!pair.solved) continue;
     const Eigen::Isometry3d& world_from_a = simulation.bodies()[pair.body_a].world_from_body;
     for (const TrackedNiche& niche : pair.solution.niches) {
-      file_ << simulation.time() << pair.name << niche.id << niche.distance << niche.closing_speed
-            << Eigen::Vector3d(world_from_a * niche.point_a_in_a)
-            << Eigen::Vector3d(world_from_a * niche.point_b_in_a);
-      file_.endLine();
+      file_.cells() << simulation.time() << pair.name << niche.id << niche.distance << niche.closing_speed
+                    << Eigen::Vector3d(world_from_a * niche.point_a_in_a)
+                    << Eigen::Vector3d(world_from_a * niche.point_b_in_a);
+      file_.cells().endLine();
     }
   }
 }

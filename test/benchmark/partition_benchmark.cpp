@@ -27,8 +27,8 @@
 #include "benchmark/support/statistics.h"
 #include "concave_distance/base/error.h"
 #include "distance/certificate.h"
+#include "support/read_pieces.h"
 #include "thesis/partition/convex_partition.h"
-#include "thesis/partition/piece_file.h"
 
 namespace concave_distance::benchmark {
 namespace {
@@ -171,7 +171,7 @@ PartitionedPair loadPair(const std::string& folder, const std::string& fixture, 
   pair.a = loadBody(folder, fixture, kGrid);
   pair.b = loadBody(folder, battery, kGrid);
   const auto pieces = [&folder](const std::string& name) {
-    return std::make_shared<const ConvexPartition>(readPieces(folder + "/" + name + "_pieces.obj"));
+    return std::make_shared<const ConvexPartition>(test::readPieces(folder + "/" + name + "_pieces.obj"));
   };
   pair.hand_a = pieces(fixture);
   pair.hand_b = pieces(battery);

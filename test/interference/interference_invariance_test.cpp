@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "interference/interference_checks.h"
-#include "mesh/any_surface.h"
+#include "support/any_surface.h"
 #include "support/mesh_variants.h"
 #include "support/random_solids.h"
 

@@ -12,15 +12,16 @@
 #include "ros/contact_markers.h"
 #include "ros/diagnostics.h"
 #include "ros/distance_cycle.h"
+#include "ros/pair_demands.h"
 
 namespace concave_distance {
 namespace {
 
+using test::kContacts;
+using test::kDistance;
+using test::kIdle;
 using visualization_msgs::Marker;
 
-constexpr PairDemand kIdle{false, false, false, false};
-constexpr PairDemand kDistance{true, true, false, false};
-constexpr PairDemand kContacts{true, true, true, true};
 constexpr double kSums = 1e-9;
 
 // One region with a force of 10 N along x at (1, 2, 0) of A and 3 N of friction along y.
@@ -93,7 +94,7 @@ TEST(ToContacts, TellsWhatWasNotComputed) {
   EXPECT_TRUE(std::isnan(emptyContacts(quarterTurn(), PairStatus()).wrench_point.x));
 }
 
-MarkerStyle style() {
+MarkerStyle contactStyle() {
   MarkerStyle style;
   style.scale = 0.01;
   style.force_scale = 50.0;
@@ -101,7 +102,7 @@ MarkerStyle style() {
 }
 
 TEST(ContactMarkers, DrawAreaDepthAndForces) {
-  const std::vector<Marker> markers = contactMarkers(message(), style(), 1.0);
+  const std::vector<Marker> markers = contactMarkers(message(), contactStyle(), 1.0);
   std::set<std::string> kinds;
   for (const Marker& marker : markers) {
     kinds.insert(marker.ns);
@@ -127,7 +128,7 @@ TEST(ContactMarkers, DrawNothingThatWasNotComputedAndTellContactsWithoutIdsApart
   state.contacts[0].has_force = state.contacts[0].has_friction = state.contacts[0].has_depth = 0;
   state.contacts[0].depth = state.contacts[0].contact_area = kNotComputed;
   state.contacts.push_back(state.contacts[0]);
-  EXPECT_TRUE(contactMarkers(state, style(), 1.0).empty());
+  EXPECT_TRUE(contactMarkers(state, contactStyle(), 1.0).empty());
   const std::vector<ContactLabel> labels = contactLabels(state, 1.0);
   ASSERT_EQ(labels.size(), 2U);
   EXPECT_NE(labels[0].label.marker.id, labels[1].label.marker.id);

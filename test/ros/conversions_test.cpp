@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "concave_distance/base/error.h"
+#include "ros/request_conversions.h"
 
 namespace concave_distance {
 namespace {

@@ -1,4 +1,5 @@
 #include "ros/distance_cycle.h"
+#include "ros/pair_demands.h"
 
 #include <gtest/gtest.h>
 
@@ -11,12 +12,12 @@
 namespace concave_distance {
 namespace {
 
-constexpr PairDemand kIdle{false, false, false};
-constexpr PairDemand kDistance{true, true, false};
-constexpr PairDemand kNiches{true, true, true};
+using test::kDistance;
+using test::kIdle;
+using test::kNiches;
+using test::kRounding;
+
 constexpr PairDemand kNotDue{true, false, true};
-// Coordinates of order 1, a few operations: the distance of two boxes is right to this.
-constexpr double kRounding = 1e-12;
 
 class DistanceCycleTest : public ::testing::Test {
  protected:

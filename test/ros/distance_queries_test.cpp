@@ -1,4 +1,5 @@
 #include "ros/distance_queries.h"
+#include "ros/pair_demands.h"
 
 #include <gtest/gtest.h>
 
@@ -11,8 +12,7 @@
 namespace concave_distance {
 namespace {
 
-// Coordinates of order 1, a few operations: the distance of two boxes is right to this.
-constexpr double kRounding = 1e-12;
+using test::kRounding;
 
 class DistanceQueriesTest : public ::testing::Test {
  protected:

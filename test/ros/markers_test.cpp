@@ -44,7 +44,7 @@ PairNiches pairWithNiches(const std::vector<std::uint64_t>& ids) {
   return toNiches(heading, solution);
 }
 
-MarkerStyle style() {
+MarkerStyle nicheStyle() {
   MarkerStyle style;
   style.scale = 0.02;
   style.far = 0.5;
@@ -52,7 +52,7 @@ MarkerStyle style() {
 }
 
 std::vector<Marker> draw(const PairNiches& pair) {
-  return nicheMarkers({&pair, pair.niches.size()}, style(), 0.5);
+  return nicheMarkers({&pair, pair.niches.size()}, nicheStyle(), 0.5);
 }
 
 const Marker* find(const std::vector<Marker>& markers, const std::string& ns, int id) {
@@ -75,21 +75,21 @@ TEST(NicheMarkers, CarryTheNichesIdsAndEmphasiseTheNearest) {
   EXPECT_EQ(nearest->points.size(), 2U);
   EXPECT_EQ(nearest->lifetime, ros::Duration(0.5));
   EXPECT_EQ(find(markers, "a/b/points", 41)->type, Marker::SPHERE_LIST);
-  EXPECT_EQ(nicheMarkers({&pair, 1}, style(), 0.5).size(), 2U) << "no more niches than asked for";
+  EXPECT_EQ(nicheMarkers({&pair, 1}, nicheStyle(), 0.5).size(), 2U) << "no more niches than asked for";
 }
 
 TEST(NicheLabel, CarriesTheDistanceOfTheNearestNicheAndTheNamesOnRequest) {
   PairNiches pair = pairWithNiches({41, 7});
   pair.nearest.body_a = "arm";
   pair.nearest.body_b = "shelf";
-  const Label label = nicheLabel(pair, false, style(), 0.5);
+  const Label label = nicheLabel(pair, false, nicheStyle(), 0.5);
   EXPECT_EQ(label.marker.ns, "a/b/text");
   EXPECT_EQ(label.marker.id, 41);
   EXPECT_EQ(label.marker.text, "100 mm");
   EXPECT_EQ(label.to, Eigen::Vector3d(0.1, 0.0, 0.0));
-  EXPECT_EQ(nicheLabel(pair, true, style(), 0.5).marker.text, "arm - shelf: 100 mm");
+  EXPECT_EQ(nicheLabel(pair, true, nicheStyle(), 0.5).marker.text, "arm - shelf: 100 mm");
   pair.nearest.status.code = PairStatus::PENETRATING;
-  EXPECT_EQ(nicheLabel(pair, false, style(), 0.5).marker.text, "overlap");
+  EXPECT_EQ(nicheLabel(pair, false, nicheStyle(), 0.5).marker.text, "overlap");
 }
 
 TEST(NicheMarkers, DrawCirclesOfTheExtentAroundSegmentsAndPatchesAlone) {
@@ -151,7 +151,7 @@ TEST(NicheMarkers, AreDeletedOnceWhenTheirNicheDies) {
 }
 
 TEST(DistanceColor, RunsFromOrangeToGreenWithoutRed) {
-  MarkerStyle wide = style();
+  MarkerStyle wide = nicheStyle();
   wide.near = 0.1;
   wide.far = 0.5;
   const auto near = distanceColor(0.0, wide);

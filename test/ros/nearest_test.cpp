@@ -8,13 +8,13 @@
 
 #include "box_scene.h"
 #include "ros/distance_cycle.h"
+#include "ros/pair_demands.h"
 
 namespace concave_distance {
 namespace {
 
-constexpr PairDemand kDistance{true, true, false};
-// Coordinates of order 1, a few operations: the distance of two boxes is right to this.
-constexpr double kRounding = 1e-12;
+using test::kDistance;
+using test::kRounding;
 
 // Boxes of edge 1: b in front of a with a gap of 1, c behind a with a gap of 2, unless a test moves them.
 class NearestTest : public ::testing::Test {

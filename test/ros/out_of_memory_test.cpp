@@ -11,15 +11,15 @@
 #include "box_scene.h"
 #include "ros/distance_cycle.h"
 #include "ros/distance_queries.h"
+#include "ros/pair_demands.h"
 #include "support/fail_allocations.h"
 
 namespace concave_distance {
 namespace {
 
-constexpr PairDemand kIdle{false, false, false};
-constexpr PairDemand kDistance{true, true, false};
-// Coordinates of order 1, a few operations: the distance of two boxes is right to this.
-constexpr double kRounding = 1e-12;
+using test::kDistance;
+using test::kIdle;
+using test::kRounding;
 
 /// @return whether `act` ended by std::bad_alloc
 bool failsAfter(std::size_t allocations, const std::function<void()>& act) {

@@ -1,4 +1,5 @@
 #include "ros/tf_poses.h"
+#include "ros/transform_message.h"
 
 #include <gtest/gtest.h>
 
@@ -11,13 +12,7 @@ const ros::Time kStart(100, 0);
 
 void put(tf2::BufferCore& buffer, const std::string& parent, const std::string& child, double x,
          ros::Time stamp, bool fixed = false) {
-  geometry_msgs::TransformStamped transform;
-  transform.header.frame_id = parent;
-  transform.header.stamp = stamp;
-  transform.child_frame_id = child;
-  transform.transform.translation.x = x;
-  transform.transform.rotation.w = 1.0;
-  buffer.setTransform(transform, "test", fixed);
+  buffer.setTransform(test::transformOf(child, x, stamp, parent), "test", fixed);
 }
 
 PairTransforms look(const tf2::BufferCore& buffer, const PairFrames& frames, ros::Time now,

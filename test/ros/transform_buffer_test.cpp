@@ -7,22 +7,14 @@
 #include <limits>
 
 #include "ros/tf_poses.h"
+#include "ros/transform_message.h"
 
 namespace concave_distance {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using test::transformOf;
 
-geometry_msgs::TransformStamped transformOf(const std::string& child, double x, ros::Time stamp,
-                                            const std::string& parent = "world") {
-  geometry_msgs::TransformStamped transform;
-  transform.header.frame_id = parent;
-  transform.header.stamp = stamp;
-  transform.child_frame_id = child;
-  transform.transform.translation.x = x;
-  transform.transform.rotation.w = 1.0;
-  return transform;
-}
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 class TransformBufferTest : public ::testing::Test {
  protected:

@@ -5,8 +5,8 @@
 
 #include "concave_distance/base/error.h"
 #include "concave_distance/loading/robot_poses.h"
-#include "scene/scene_fixture.h"
 #include "support/box_scene.h"
+#include "support/scene_fixture.h"
 
 namespace concave_distance {
 namespace {

@@ -32,10 +32,10 @@ struct Place {
 /// Children of larger subtrees are built as tasks of their own.
 constexpr std::uint32_t kTaskSize = 32768;
 
-class Builder {
+class HierarchyBuilder {
  public:
-  Builder(const SurfaceMesh& mesh, const TriangleTree& tree, const Vector3d& origin, double margin,
-          std::vector<Hierarchy::Node>& nodes, std::vector<Hierarchy::Leaf>& leaves)
+  HierarchyBuilder(const SurfaceMesh& mesh, const TriangleTree& tree, const Vector3d& origin, double margin,
+                   std::vector<Hierarchy::Node>& nodes, std::vector<Hierarchy::Leaf>& leaves)
       : tree_(tree), margin_(margin), nodes_(nodes), leaves_(leaves) {
     corners_.reserve(3 * mesh.triangleCount());
     for (const TriangleIndex t : tree.order()) {
@@ -196,7 +196,7 @@ BoundingVolumeHierarchy::BoundingVolumeHierarchy(const SurfaceMesh& mesh, const 
     : origin_(0.5 * mesh.boundingBox().min() + 0.5 * mesh.boundingBox().max()) {
   for (const Vector3d& vertex : mesh.vertices()) reach_ = std::max(reach_, (vertex - origin_).norm());
   reach_ *= 1.0 + kBoxMargin;
-  Builder(mesh, tree, origin_, kBoxMargin * reach_, nodes_, leaves_).build();
+  HierarchyBuilder(mesh, tree, origin_, kBoxMargin * reach_, nodes_, leaves_).build();
   chooseRegions();
 }
 

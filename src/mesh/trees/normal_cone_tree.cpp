@@ -34,10 +34,10 @@ struct Bound {
 /// Single precision errs by less than this, relative to a body's size or as an angle.
 constexpr double kFloatMargin = 0x1.0p-21;
 
-class Builder {
+class ConeTreeBuilder {
  public:
-  Builder(std::vector<Item>& items, std::vector<Node>& nodes, const Vector3d& origin, double unit,
-          double diameter)
+  ConeTreeBuilder(std::vector<Item>& items, std::vector<Node>& nodes, const Vector3d& origin, double unit,
+                  double diameter)
       : items_(items),
         nodes_(nodes),
         origin_(origin),
@@ -193,7 +193,7 @@ NormalConeTree::NormalConeTree(const SurfaceMesh& mesh, const MeshTopology& topo
   const int exponent = mesh.diameter() > 0.0 ? std::ilogb(mesh.diameter()) : 0;
   unit_ = std::ldexp(1.0, std::max(exponent, kLeastExponent));
   nodes_.reserve(items_.size() / 2);
-  Builder(items_, nodes_, origin_, unit_, mesh.diameter()).build();
+  ConeTreeBuilder(items_, nodes_, origin_, unit_, mesh.diameter()).build();
   nodes_.shrink_to_fit();
 }
 

@@ -30,9 +30,9 @@ struct Split {
 
 using Nodes = std::vector<TriangleTree::Node>;
 
-class Builder {
+class TriangleTreeBuilder {
  public:
-  Builder(const SurfaceMesh& mesh, std::vector<TriangleIndex>& order)
+  TriangleTreeBuilder(const SurfaceMesh& mesh, std::vector<TriangleIndex>& order)
       : order_(order), boxes_(mesh.triangleCount()), centres_(mesh.triangleCount()) {
     order_.reserve(mesh.triangleCount());
     for (std::size_t t = 0; t < mesh.triangleCount(); ++t) {
@@ -161,7 +161,7 @@ class Builder {
 TriangleTree::TriangleTree(const SurfaceMesh& mesh) {
   if (mesh.triangleCount() == 0) return;
   nodes_.reserve(mesh.triangleCount());
-  Builder(mesh, order_).build(0, static_cast<std::uint32_t>(mesh.triangleCount()), 0, nodes_);
+  TriangleTreeBuilder(mesh, order_).build(0, static_cast<std::uint32_t>(mesh.triangleCount()), 0, nodes_);
   nodes_.shrink_to_fit();
 }
 

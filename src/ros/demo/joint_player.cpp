@@ -7,9 +7,9 @@
 #include <sensor_msgs/JointState.h>
 
 #include "../time_difference.h"
-#include "concave_distance/base/error.h"
 #include "demo_parameters.h"
 #include "joint_path.h"
+#include "run_node.h"
 
 namespace {
 
@@ -41,12 +41,5 @@ void run() {
 }  // namespace
 
 int main(int argc, char** argv) {
-  ros::init(argc, argv, "joint_player");
-  try {
-    run();
-  } catch (const Error& error) {
-    ROS_FATAL_STREAM(error.what());
-    return 1;
-  }
-  return 0;
+  return concave_distance::demo::runNode(argc, argv, "joint_player", run);
 }

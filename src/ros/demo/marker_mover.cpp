@@ -15,8 +15,8 @@
 #include <optional>
 
 #include "../time_difference.h"
-#include "concave_distance/base/error.h"
 #include "demo_parameters.h"
+#include "run_node.h"
 
 namespace {
 
@@ -134,12 +134,5 @@ void run() {
 }  // namespace
 
 int main(int argc, char** argv) {
-  ros::init(argc, argv, "marker_mover");
-  try {
-    run();
-  } catch (const Error& error) {
-    ROS_FATAL_STREAM(error.what());
-    return 1;
-  }
-  return 0;
+  return concave_distance::demo::runNode(argc, argv, "marker_mover", run);
 }

@@ -7,10 +7,10 @@
 #include <tf2_ros/transform_broadcaster.h>
 
 #include "../time_difference.h"
-#include "concave_distance/base/error.h"
 #include "demo_parameters.h"
 #include "loading/query_poses.h"
 #include "ping_pong.h"
+#include "run_node.h"
 #include "simulation/pose_path.h"
 
 namespace {
@@ -44,12 +44,5 @@ void run() {
 }  // namespace
 
 int main(int argc, char** argv) {
-  ros::init(argc, argv, "pose_player");
-  try {
-    run();
-  } catch (const Error& error) {
-    ROS_FATAL_STREAM(error.what());
-    return 1;
-  }
-  return 0;
+  return concave_distance::demo::runNode(argc, argv, "pose_player", run);
 }

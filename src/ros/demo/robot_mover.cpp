@@ -17,6 +17,7 @@
 #include "../description_search.h"
 #include "concave_distance/base/error.h"
 #include "demo_parameters.h"
+#include "run_node.h"
 
 namespace {
 
@@ -117,12 +118,5 @@ void run() {
 }  // namespace
 
 int main(int argc, char** argv) {
-  ros::init(argc, argv, "robot_mover");
-  try {
-    run();
-  } catch (const Error& error) {
-    ROS_FATAL_STREAM(error.what());
-    return 1;
-  }
-  return 0;
+  return concave_distance::demo::runNode(argc, argv, "robot_mover", run);
 }

@@ -10,11 +10,10 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdio>
-#include <exception>
 #include <string>
 #include <vector>
 
-#include "base/output_file.h"
+#include "base/run_tool.h"
 #include "concave_distance/base/error.h"
 #include "run_experiment.h"
 
@@ -101,13 +100,5 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    concave_distance::ignoreClosedPipes();
-    const int status = run(argc, argv);
-    concave_distance::finishStandardOutput();
-    return status;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "evaluate: %s\n", error.what());
-    return 1;
-  }
+  return concave_distance::runTool("evaluate", argc, argv, run);
 }

@@ -6,7 +6,7 @@
 #include <mutex>
 #include <vector>
 
-#include "base/output_file.h"
+#include "base/csv_writer.h"
 #include "trial_files.h"
 
 namespace concave_distance::evaluation {
@@ -18,11 +18,9 @@ constexpr std::uint32_t kRunsAtOnce = 10;
 /// What the scenes are, for the report.
 void writeScenes(const Experiment& experiment, const std::vector<SceneTruth>& scenes,
                  const std::string& folder) {
-  OutputFile output(folder + "/" + experiment.name + "_scenes.csv");
-  std::ostream& file = output.stream();
-  file.precision(6);
-  file << "scene,max_edge_length,nodes_a,nodes_b,exact_distance,node_distance,second_distance,niches,"
-          "instants\n";
+  CsvFile file(
+      folder + "/" + experiment.name + "_scenes.csv",
+      "scene,max_edge_length,nodes_a,nodes_b,exact_distance,node_distance,second_distance,niches,instants");
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     const SceneTruth& scene = scenes[i];
     const InstantTruth& truth = scene.first();
@@ -31,12 +29,12 @@ void writeScenes(const Experiment& experiment, const std::vector<SceneTruth>& sc
       niches +=
           static_cast<double>(instant.niches.niches.size()) / static_cast<double>(scene.instants.size());
     }
-    file << experiment.scenes[i].name << ',' << std::max(scene.a->maxEdgeLength(), scene.b->maxEdgeLength())
-         << ',' << scene.a->graph().nodeCount() << ',' << scene.b->graph().nodeCount() << ','
-         << truth.exact_distance << ',' << truth.node_distance << ',' << truth.second_distance << ','
-         << niches << ',' << scene.instants.size() << '\n';
+    file.cells() << experiment.scenes[i].name << std::max(scene.a->maxEdgeLength(), scene.b->maxEdgeLength())
+                 << scene.a->graph().nodeCount() << scene.b->graph().nodeCount() << truth.exact_distance
+                 << truth.node_distance << truth.second_distance << niches << scene.instants.size();
+    file.cells().endLine();
   }
-  output.finish();
+  file.finish();
 }
 
 }  // namespace

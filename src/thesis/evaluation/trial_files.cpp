@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <limits>
 #include <sstream>
 
+#include "base/csv_writer.h"
 #include "concave_distance/base/error.h"
 
 namespace concave_distance::evaluation {
@@ -60,7 +60,6 @@ std::ofstream openToAppend(const std::string& path, const std::string& header) {
   std::ofstream file(path, std::ios::app);
   if (!file) throw Error(path, "cannot be written", "name a folder that can be written with --output");
   if (is_new) file << header << '\n' << std::flush;
-  file.precision(std::numeric_limits<double>::max_digits10);
   return file;
 }
 
@@ -118,28 +117,29 @@ void TrialFiles::append(const WorkUnit& unit, const std::vector<TrialRecord>& re
   const ExperimentRow& row = experiment_.rows[unit.row];
   const std::string& scene = experiment_.scenes[unit.scene].name;
   const std::uint32_t stride = curveStride(row.method);
+  CsvWriter curve_cells(curves_);
   for (std::size_t i = 0; i < curve.size(); ++i) {
-    curves_ << row.name << ',' << scene << ',' << unit.first_run << ',' << unit.run_count << ',' << i * stride
-            << ',' << curve[i].best_distance << ',' << curve[i].mean_square << ',' << curve[i].niches << ','
-            << curve[i].acceptance << '\n';
+    curve_cells << row.name << scene << unit.first_run << unit.run_count << i * stride
+                << curve[i].best_distance << curve[i].mean_square << curve[i].niches << curve[i].acceptance;
+    curve_cells.endLine();
   }
   requireWritten(curves_.flush(), experiment_.name + "_curves.csv");
   std::ostringstream lines;
-  lines.precision(std::numeric_limits<double>::max_digits10);
+  CsvWriter cells(lines);
   for (std::size_t i = 0; i < records.size(); ++i) {
     const TrialRecord& r = records[i];
     const auto run = static_cast<std::uint32_t>(unit.first_run + i);
     // Of a unit that was cut off in the middle some runs are there already.
     if (!done_.emplace(row.name, scene, run).second) continue;
-    lines << row.name << ',' << nameOf(row.method) << ',' << scene << ',' << run << ',' << r.distance << ','
-          << r.best_iteration << ',' << r.exact << ',' << r.region << ',' << r.niches;
-    for (const std::uint32_t members : r.members) lines << ',' << members;
-    for (const double distance : r.niche_distances) lines << ',' << distance;
-    lines << ',' << r.best_convergence << ',' << r.population_convergence << ',' << r.below_second << ','
-          << r.feasible << ',' << r.cost.evaluations << ',' << r.cost.descents << ',' << r.cost.descent_steps
-          << ',' << r.flops << ',' << r.microseconds << ',' << r.recall << ',' << r.precision << ','
-          << r.archive_recall << ',' << r.nearest << ',' << r.wrong_instants << ',' << r.worst_excess << ','
-          << r.most_niches << ',' << r.proof_finds << '\n';
+    cells << row.name << nameOf(row.method) << scene << run << r.distance << r.best_iteration << r.exact
+          << r.region << r.niches;
+    for (const std::uint32_t members : r.members) cells << members;
+    for (const double distance : r.niche_distances) cells << distance;
+    cells << r.best_convergence << r.population_convergence << r.below_second << r.feasible
+          << r.cost.evaluations << r.cost.descents << r.cost.descent_steps << r.flops << r.microseconds
+          << r.recall << r.precision << r.archive_recall << r.nearest << r.wrong_instants << r.worst_excess
+          << r.most_niches << r.proof_finds;
+    cells.endLine();
   }
   requireWritten(runs_ << lines.str() << std::flush, experiment_.name + ".csv");
 }

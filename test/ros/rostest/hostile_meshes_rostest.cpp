@@ -15,6 +15,7 @@
 #include <sstream>
 
 #include "node_access.h"
+#include "support/hostile_mesh_files.h"
 #include "tf_player.h"
 
 namespace concave_distance {
@@ -26,27 +27,6 @@ namespace fs = std::filesystem;
 const std::string kFolder = "/tmp/concave_distance_hostile_rostest";
 const std::string kMeshes = kFolder + "/meshes";
 constexpr const char* kTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
-
-struct HostileMesh {
-  std::string expectation;
-  std::string name;
-  std::string path;
-};
-
-std::vector<HostileMesh> writeHostileMeshes() {
-  const std::string command =
-      "python3 '" CONCAVE_DISTANCE_SOURCE_DIR "/test/faults/hostile_meshes.py' '" + kMeshes + "'";
-  std::FILE* pipe = popen(command.c_str(), "r");
-  if (pipe == nullptr) return {};
-  std::string output;
-  char buffer[4096];
-  while (const std::size_t size = fread(buffer, 1, sizeof buffer, pipe)) output.append(buffer, size);
-  EXPECT_EQ(pclose(pipe), 0) << command;
-  std::vector<HostileMesh> meshes;
-  std::istringstream lines(output);
-  for (HostileMesh mesh; lines >> mesh.expectation >> mesh.name >> mesh.path;) meshes.push_back(mesh);
-  return meshes;
-}
 
 AddBodyResponse addMesh(const std::string& resource) {
   AddBodyRequest request;
@@ -85,9 +65,9 @@ class HostileMeshesTest : public ::testing::Test {
 };
 
 TEST_F(HostileMeshesTest, AreRefusedAndTheNodeAnswersOn) {
-  const std::vector<HostileMesh> meshes = writeHostileMeshes();
+  const std::vector<test::HostileMesh> meshes = test::writeHostileMeshes(kMeshes);
   ASSERT_GE(meshes.size(), 80U);
-  for (const HostileMesh& mesh : meshes) {
+  for (const test::HostileMesh& mesh : meshes) {
     const AddBodyResponse response = addMesh(mesh.path);
     if (response.success) {
       EXPECT_NE(mesh.expectation, "refused") << mesh.name;

@@ -11,22 +11,14 @@
 #include <string>
 
 #include "node_access.h"
+#include "ros/transform_message.h"
 #include "simulated_clock.h"
 #include "tf_player.h"
 
 namespace concave_distance {
 namespace {
 
-geometry_msgs::TransformStamped transformOf(const std::string& child, double x, ros::Time stamp,
-                                            const std::string& parent = "world") {
-  geometry_msgs::TransformStamped transform;
-  transform.header.frame_id = parent;
-  transform.header.stamp = stamp;
-  transform.child_frame_id = child;
-  transform.transform.translation.x = x;
-  transform.transform.rotation.w = 1.0;
-  return transform;
-}
+using test::transformOf;
 
 class HostileTfTest : public ::testing::Test {
  protected:

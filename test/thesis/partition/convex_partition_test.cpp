@@ -7,8 +7,8 @@
 #include "support/concave_shapes.h"
 #include "support/partition_checks.h"
 #include "support/plain_shapes.h"
+#include "support/read_pieces.h"
 #include "support/thesis_scenes.h"
-#include "thesis/partition/piece_file.h"
 
 namespace concave_distance {
 namespace {
@@ -42,8 +42,8 @@ INSTANTIATE_TEST_SUITE_P(Partition, ThesisBodies,
                                          "battery"));
 
 TEST(HandPartition, HasTheThesissFourteenTimesNinePiecesWhichAreTheBodies) {
-  const ConvexPartition battery = readPieces(test::thesisFile("battery_pieces.obj"));
-  const ConvexPartition fixture = readPieces(test::thesisFile("fixture_pieces.obj"));
+  const ConvexPartition battery = test::readPieces(test::thesisFile("battery_pieces.obj"));
+  const ConvexPartition fixture = test::readPieces(test::thesisFile("fixture_pieces.obj"));
   EXPECT_EQ(battery.pieces.size(), 14u);
   EXPECT_EQ(fixture.pieces.size(), 9u);
   for (const ConvexPartition* partition : {&battery, &fixture}) test::expectConvex(*partition);

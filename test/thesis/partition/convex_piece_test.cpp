@@ -6,6 +6,7 @@
 
 #include "concave_distance/base/error.h"
 #include "support/partition_checks.h"
+#include "support/read_pieces.h"
 #include "support/temporary_folder.h"
 #include "support/thesis_scenes.h"
 #include "thesis/partition/convex_hull.h"
@@ -61,9 +62,9 @@ TEST(ConvexPiece, WhatIsNotConvexIsRefused) {
 TEST(PieceFile, WhatIsWrittenIsReadBackBitForBit) {
   const test::TemporaryFolder folder;
   const std::string path = folder.path("pieces.obj");
-  const ConvexPartition hand = readPieces(test::thesisFile("battery_pieces.obj"));
+  const ConvexPartition hand = test::readPieces(test::thesisFile("battery_pieces.obj"));
   writePieces(hand, path);
-  const ConvexPartition again = readPieces(path);
+  const ConvexPartition again = test::readPieces(path);
   ASSERT_EQ(again.pieces.size(), hand.pieces.size());
   for (std::size_t p = 0; p < hand.pieces.size(); ++p) {
     EXPECT_EQ(again.pieces[p].vertices, hand.pieces[p].vertices);
@@ -78,7 +79,7 @@ TEST(PieceFile, FaultsNameTheFileAndTheLine) {
     const std::string path = folder.path("faulty.obj");
     std::ofstream(path) << text;
     try {
-      readPieces(path);
+      test::readPieces(path);
     } catch (const Error& error) {
       return std::string(error.what());
     }
@@ -89,7 +90,7 @@ TEST(PieceFile, FaultsNameTheFileAndTheLine) {
   EXPECT_NE(errorOf("o a\nv 0 0 0\nf 1 2 3\n").find("line 3"), std::string::npos);
   EXPECT_NE(errorOf("# nothing\n").find("no piece"), std::string::npos);
   EXPECT_NE(errorOf("o flat\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").find("piece flat"), std::string::npos);
-  EXPECT_THROW(readPieces(folder.path("missing.obj")), Error);
+  EXPECT_THROW(test::readPieces(folder.path("missing.obj")), Error);
   EXPECT_THROW(writePieces({}, folder.path("no_such_folder/pieces.obj")), Error);
 }
 

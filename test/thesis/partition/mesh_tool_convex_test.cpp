@@ -7,8 +7,8 @@
 #include "support/concave_shapes.h"
 #include "support/partition_checks.h"
 #include "support/plain_shapes.h"
+#include "support/read_pieces.h"
 #include "support/temporary_folder.h"
-#include "thesis/partition/piece_file.h"
 
 namespace concave_distance {
 namespace {
@@ -32,8 +32,8 @@ TEST_F(MeshToolConvex, PartitionWritesPiecesThatAreTheBody) {
   EXPECT_NE(test::contentOf(folder.path("out")).find("reflex edges: 6, shells: 1\n"), std::string::npos);
   // Import passes through single precision.
   const std::string path = folder.path("comb.obj");
-  test::expectSameSolid(readPieces(folder.path("pieces.obj")), repairMesh(importMesh(path), {}, path).mesh,
-                        1000);
+  test::expectSameSolid(test::readPieces(folder.path("pieces.obj")),
+                        repairMesh(importMesh(path), {}, path).mesh, 1000);
 }
 
 TEST_F(MeshToolConvex, HullWritesAClosedMeshAroundTheBody) {

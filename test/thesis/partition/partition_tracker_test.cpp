@@ -8,10 +8,10 @@
 #include "distance/certificate.h"
 #include "support/body_pairs.h"
 #include "support/partition_checks.h"
+#include "support/read_pieces.h"
 #include "support/thesis_scenes.h"
 #include "thesis/partition/convex_partition.h"
 #include "thesis/partition/hybrid_distance.h"
-#include "thesis/partition/piece_file.h"
 
 namespace concave_distance {
 namespace {
@@ -19,7 +19,7 @@ namespace {
 using PartitionPointer = std::shared_ptr<const ConvexPartition>;
 
 PartitionPointer handPartition(const std::string& body) {
-  return std::make_shared<const ConvexPartition>(readPieces(test::thesisFile(body + "_pieces.obj")));
+  return std::make_shared<const ConvexPartition>(test::readPieces(test::thesisFile(body + "_pieces.obj")));
 }
 
 PartitionPointer automaticPartition(const BodyMesh& body) {

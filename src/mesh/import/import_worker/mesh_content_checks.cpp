@@ -10,8 +10,6 @@
 namespace concave_distance::detail {
 namespace {
 
-constexpr const char* kExportAgain = "export the mesh again";
-
 std::string lowerCase(std::string_view text) {
   std::string lower(text);
   std::transform(lower.begin(), lower.end(), lower.begin(),

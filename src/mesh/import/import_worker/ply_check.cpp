@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "concave_distance/base/error.h"
+#include "mesh_content_checks.h"
 
 namespace concave_distance::detail {
 namespace {
 
-constexpr const char* kExportAgain = "export the mesh again";
 constexpr const char* kSpace = " \t\r\n\v\f";
 // Scanners write a few dozen; assimp compares all pairs.
 constexpr std::size_t kMostProperties = 1000;

@@ -20,8 +20,6 @@
 namespace concave_distance::detail {
 namespace {
 
-constexpr const char* kExportAgain = "export the mesh again";
-
 Eigen::Affine3d toEigen(const aiMatrix4x4& m) {
   Eigen::Matrix4d matrix;
   matrix << m.a1, m.a2, m.a3, m.a4, m.b1, m.b2, m.b3, m.b4, m.c1, m.c2, m.c3, m.c4, m.d1, m.d2, m.d3, m.d4;

@@ -8,37 +8,17 @@
 
 #include "concave_distance/base/error.h"
 #include "concave_distance/mesh/import/import_mesh.h"
+#include "support/hostile_mesh_files.h"
 #include "support/temporary_folder.h"
 
 namespace concave_distance {
 namespace {
 
-struct HostileMesh {
-  std::string expectation;
-  std::string name;
-  std::string path;
-};
-
-std::vector<HostileMesh> writeHostileMeshes(const std::string& folder) {
-  const std::string command =
-      "python3 '" CONCAVE_DISTANCE_SOURCE_DIR "/test/faults/hostile_meshes.py' '" + folder + "'";
-  std::FILE* pipe = popen(command.c_str(), "r");
-  if (pipe == nullptr) return {};
-  std::string output;
-  char buffer[4096];
-  while (const std::size_t size = fread(buffer, 1, sizeof buffer, pipe)) output.append(buffer, size);
-  EXPECT_EQ(pclose(pipe), 0) << command;
-  std::vector<HostileMesh> meshes;
-  std::istringstream lines(output);
-  for (HostileMesh mesh; lines >> mesh.expectation >> mesh.name >> mesh.path;) meshes.push_back(mesh);
-  return meshes;
-}
-
 TEST(HostileMeshes, AreServedOrRefusedAndNothingElse) {
   const test::TemporaryFolder folder;
-  const std::vector<HostileMesh> meshes = writeHostileMeshes(folder.path());
+  const std::vector<test::HostileMesh> meshes = test::writeHostileMeshes(folder.path());
   ASSERT_GE(meshes.size(), 80U);
-  for (const HostileMesh& mesh : meshes) {
+  for (const test::HostileMesh& mesh : meshes) {
     MeshImportLimits limits;
     limits.memory = 500'000'000;
     // What may be refused need not be given time.

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "scene/scene_fixture.h"
+#include "support/scene_fixture.h"
 
 namespace concave_distance {
 namespace {

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "scene/scene_fixture.h"
+#include "support/scene_fixture.h"
 
 namespace concave_distance {
 namespace {

@@ -6,7 +6,7 @@
 #include "mesh/grid/mesh_metric.h"
 #include "mesh/grid/node_graph.h"
 #include "scene/body_pool.h"
-#include "scene/scene_fixture.h"
+#include "support/scene_fixture.h"
 
 namespace concave_distance {
 namespace {

@@ -11,8 +11,8 @@
 
 #include "concave_distance/base/error.h"
 #include "concave_distance/mesh/surface/primitives.h"
-#include "mesh/mesh_measures.h"
 #include "mesh/surface/mesh_topology.h"
+#include "support/mesh_measures.h"
 
 namespace concave_distance {
 namespace {

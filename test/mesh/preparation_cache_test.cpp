@@ -9,9 +9,9 @@
 
 #include "concave_distance/mesh/import/export_mesh.h"
 #include "concave_distance/tracking/pair_tracker.h"
-#include "scene_fixture.h"
 #include "support/body_bytes.h"
 #include "support/body_pairs.h"
+#include "support/scene_fixture.h"
 
 namespace concave_distance {
 namespace {

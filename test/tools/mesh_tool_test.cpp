@@ -9,7 +9,7 @@
 #include "concave_distance/mesh/import/import_mesh.h"
 #include "concave_distance/mesh/repair/repair_mesh.h"
 #include "concave_distance/mesh/surface/primitives.h"
-#include "mesh/mesh_measures.h"
+#include "support/mesh_measures.h"
 #include "support/temporary_folder.h"
 
 namespace concave_distance {

@@ -11,8 +11,8 @@
 
 #include "concave_distance/base/error.h"
 #include "concave_distance/mesh/surface/primitives.h"
-#include "mesh/any_surface.h"
-#include "mesh/mesh_measures.h"
+#include "support/any_surface.h"
+#include "support/mesh_measures.h"
 
 namespace concave_distance {
 namespace {

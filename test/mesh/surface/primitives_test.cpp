@@ -11,7 +11,7 @@
 
 #include "base/random_engine.h"
 #include "concave_distance/base/error.h"
-#include "mesh/mesh_measures.h"
+#include "support/mesh_measures.h"
 
 namespace concave_distance {
 namespace {

@@ -4,11 +4,11 @@
 #include <numeric>
 
 #include "concave_distance/mesh/repair/repair_mesh.h"
-#include "mesh/mesh_measures.h"
 #include "mesh/surface/mesh_topology.h"
 #include "mesh/trees/triangle_tree.h"
 #include "support/body_pairs.h"
 #include "support/case_seed.h"
+#include "support/mesh_measures.h"
 #include "support/painted_boxes.h"
 
 /// Repair makes of a file's triangles the surface of the union of its solids, and the topology says what is

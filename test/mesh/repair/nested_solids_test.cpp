@@ -4,9 +4,9 @@
 
 #include "concave_distance/mesh/repair/repair_mesh.h"
 #include "concave_distance/mesh/surface/primitives.h"
-#include "mesh/mesh_measures.h"
 #include "mesh/surface/mesh_topology.h"
 #include "mesh/trees/triangle_tree.h"
+#include "support/mesh_measures.h"
 #include "support/painted_boxes.h"
 
 /// Solids and cavities within others, by the thousands.

@@ -7,8 +7,8 @@
 
 #include "mesh/grid/node_graph.h"
 #include "scene/pair_parameters.h"
-#include "scene/scene_fixture.h"
 #include "search/genetic_parameter_table.h"
+#include "support/scene_fixture.h"
 
 namespace concave_distance {
 namespace {

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "loading/set_effects.h"
-#include "scene/scene_fixture.h"
+#include "support/scene_fixture.h"
 
 namespace concave_distance {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "scene/scene_fixture.h"
+#include "support/scene_fixture.h"
 
 namespace concave_distance {
 namespace {

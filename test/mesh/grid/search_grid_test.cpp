@@ -14,9 +14,9 @@
 #include "concave_distance/mesh/import/import_mesh.h"
 #include "concave_distance/mesh/repair/repair_mesh.h"
 #include "concave_distance/mesh/surface/primitives.h"
-#include "mesh/any_surface.h"
-#include "mesh/mesh_measures.h"
 #include "mesh/surface/refine_mesh.h"
+#include "support/any_surface.h"
+#include "support/mesh_measures.h"
 
 namespace concave_distance {
 namespace {

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <concave_distance/AddBody.h>
+#include <concave_distance/DistanceQuery.h>
+#include <geometry_msgs/Pose.h>
+
+#include <Eigen/Geometry>
+#include <string>
+
+#include "concave_distance/loading/load_scene.h"
+#include "concave_distance/tracking/tracker_parameters.h"
+
+namespace concave_distance {
+
+/// @throws Error (naming `where`) for a NaN or infinite number and for a quaternion whose norm differs from 1
+///         by more than 1e-3; a smaller difference is normalised away
+Eigen::Isometry3d poseFromMessage(const geometry_msgs::Pose& pose, const std::string& where);
+
+/// The pair's settings with what the query asks for instead.
+/// @throws Error for a level that is none, for a tolerance or time budget that is out of range or that the
+///         level has no proof for, each with the value seen
+TrackerParameters queryParameters(const DistanceQuery& query, const TrackerParameters& configured);
+
+/// @throws Error for a request that names no geometry, two, or numbers out of range
+BodyDescription toBodyDescription(const AddBodyRequest& request);
+
+}  // namespace concave_distance
