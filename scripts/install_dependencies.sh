@@ -10,7 +10,7 @@ set -euo pipefail
 # shellcheck disable=SC2034  # the arrays are used by name
 {
   debian_node=(
-    g++ cmake ninja-build
+    g++ cmake make ninja-build
     libassimp-dev libeigen3-dev libtbb-dev liburdfdom-dev libyaml-cpp-dev libcli11-dev
     libconsole-bridge-dev libtinyxml2-dev libxxhash-dev zlib1g-dev
     catkin python3-dynamic-reconfigure ros-message-generation ros-message-runtime
@@ -42,7 +42,7 @@ set -euo pipefail
   debian_engines=(libsimbody-dev libode-dev)  # engine_differences: what the simulation is compared with
 
   noetic_node=(
-    g++ cmake ninja-build
+    g++ cmake make ninja-build
     libassimp-dev libeigen3-dev libtbb-dev liburdfdom-dev libyaml-cpp-dev
     libconsole-bridge-dev libtinyxml2-dev libxxhash-dev zlib1g-dev
     ros-noetic-catkin ros-noetic-diagnostic-updater ros-noetic-dynamic-reconfigure ros-noetic-geometry-msgs
