@@ -45,11 +45,21 @@ struct ConeLimits {
   float cutoff;
 };
 
-/// Above 0 where no local minimum with a distance of at most the cutoff can have one end in the kept child
-/// and the other in the node's: they are too far apart; or their caps do not face each other; or no line
-/// from the one sphere to the other lies in the caps of both. Not above 0 where a number is not one.
-inline ConeLanes excludes(const NormalConeTree::Node& node, const ComparedCone& kept,
-                          const ConeLimits& limits) {
+/// Why no local minimum with a distance of at most the cutoff can have one end in the kept child and the
+/// other in the node's: each is above 0 where it is a reason, and not where a number is not one. Lengths in
+/// the node's unit.
+struct ConeReasons {
+  ConeLanes turned_away;  ///< their caps do not face each other: radians that the bodies may turn, at least
+  ConeLanes too_far;      ///< beyond the cutoff by so much
+  ConeLanes
+      misses_kept;  ///< no line between the spheres is in the kept cap: so far may the node's centre move
+  ConeLanes misses_node;  ///< nor in the node's cap: so far may the kept centre move, as seen from the node
+
+  ConeLanes largest() const { return turned_away.max(too_far).max(misses_kept).max(misses_node); }
+};
+
+inline ConeReasons coneReasons(const NormalConeTree::Node& node, const ComparedCone& kept,
+                               const ConeLimits& limits) {
   const ConeLanes axis_x = coneLanes(node.axis[0]);
   const ConeLanes axis_y = coneLanes(node.axis[1]);
   const ConeLanes axis_z = coneLanes(node.axis[2]);
@@ -82,9 +92,8 @@ inline ConeLanes excludes(const NormalConeTree::Node& node, const ComparedCone& 
   const ConeLanes along_node = -(x * axis_x + y * axis_y + z * axis_z);
   const ConeLanes across_node =
       length(y * axis_z - z * axis_y, z * axis_x - x * axis_z, x * axis_y - y * axis_x);
-  return turned_away.max(beyond - limits.cutoff)
-      .max(misses(along_kept, across_kept, kept.cosine, kept.sine))
-      .max(misses(along_node, across_node, cosine, sine));
+  return {turned_away, beyond - limits.cutoff, misses(along_kept, across_kept, kept.cosine, kept.sine),
+          misses(along_node, across_node, cosine, sine)};
 }
 
 }  // namespace concave_distance::detail

@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "basin_verdict.h"
+#include "cone_front.h"
 #include "far_pieces.h"
+#include "meeting_pairs.h"
 #include "mesh/trees/normal_cone_tree.h"
 #include "minima_candidates.h"
 #include "minima_flood.h"
@@ -109,12 +111,21 @@ bool isFar(const detail::MinimaScene& scene, const LocalMinimaRequest& request) 
 }
 
 void collectSeeds(const detail::MinimaScene& scene, const LocalMinimaRequest& request,
-                  std::vector<MinimumSeed>& seeds, LocalMinimaCost& cost, WorkLimit& limit) {
+                  std::vector<MinimumSeed>& seeds, LocalMinimaCost& cost, WorkLimit& limit,
+                  LocalMinimaMemory* memory) {
   detail::FarPieceBuffers far_pieces;
   if (isFar(scene, request) && detail::collectFarSeeds(scene, request.cutoff, far_pieces, seeds, limit))
     return;
-  detail::collectMeetingPairs(scene, seeds, cost, limit);
+  if (!(request.certain_distance > 16.0 * scene.rounding))
+    detail::collectMeetingPairs(scene, seeds, cost, limit);
   const NormalSides sides = request.through_material ? NormalSides::Both : NormalSides::Outside;
+  if (memory != nullptr) {
+    detail::ConeFront& front = memory->front();
+    front.collect(scene, sides, request.cutoff, seeds, limit);
+    cost.node_pairs += front.counts().groups;
+    cost.feature_pairs += front.counts().features;
+    return;
+  }
   detail::OpenCones open;
   detail::collectConeSeeds(scene, sides, request.cutoff, std::numeric_limits<std::size_t>::max(), open, seeds,
                            cost, limit);
@@ -122,16 +133,29 @@ void collectSeeds(const detail::MinimaScene& scene, const LocalMinimaRequest& re
 
 }  // namespace
 
+LocalMinimaMemory::LocalMinimaMemory() : front_(std::make_unique<detail::ConeFront>()) {}
+LocalMinimaMemory::~LocalMinimaMemory() = default;
+LocalMinimaMemory::LocalMinimaMemory(LocalMinimaMemory&&) noexcept = default;
+LocalMinimaMemory& LocalMinimaMemory::operator=(LocalMinimaMemory&&) noexcept = default;
+
+void LocalMinimaMemory::clear() {
+  front_->clear();
+}
+
+std::size_t LocalMinimaMemory::memoryBytes() const {
+  return front_->memoryBytes();
+}
+
 LocalMinima findLocalMinima(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
-                            const LocalMinimaRequest& request) {
+                            const LocalMinimaRequest& request, LocalMinimaMemory* memory) {
   const detail::MinimaScene scene(a, b, a_from_b);
   WorkLimit none;
   WorkLimit& limit = request.limit != nullptr ? *request.limit : none;
-  const MemoryScope memory(limit);
+  const MemoryScope scope(limit);
   const bool refused_before = limit.hasRefusedMemory();
   LocalMinima result;
   std::vector<MinimumSeed> seeds;
-  collectSeeds(scene, request, seeds, result.cost, limit);
+  collectSeeds(scene, request, seeds, result.cost, limit, memory);
   const std::size_t owned = seeds.size();
   result.cost.minima = owned;
   if (limit.isOver()) {

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -11,6 +12,10 @@
 #include "niche_properties.h"
 
 namespace concave_distance {
+
+namespace detail {
+class ConeFront;
+}
 
 struct LocalMinimaRequest {
   double cutoff = std::numeric_limits<double>::infinity();  ///< metres; niches up to this are wanted
@@ -25,8 +30,26 @@ struct LocalMinimaRequest {
   /// Triangle pairs whose niches are asked for (LocalMinima::owners), e.g. those that a search has found:
   /// descended to the local minimum around them.
   std::vector<std::pair<TriangleIndex, TriangleIndex>> asked_pairs;
+  /// Metres; no two points are closer than this. Above 0, bodies that meet are not looked for.
+  double certain_distance = 0.0;
   /// When it is reached, the niches decided so far are the result (LocalMinima::finished); nullptr: none.
   WorkLimit* limit = nullptr;
+};
+
+/// What one call of findLocalMinima() leaves to the next one for the same bodies at a pose nearby.
+class LocalMinimaMemory {
+ public:
+  LocalMinimaMemory();
+  ~LocalMinimaMemory();
+  LocalMinimaMemory(LocalMinimaMemory&&) noexcept;
+  LocalMinimaMemory& operator=(LocalMinimaMemory&&) noexcept;
+
+  void clear();
+  std::size_t memoryBytes() const;
+  detail::ConeFront& front() { return *front_; }
+
+ private:
+  std::unique_ptr<detail::ConeFront> front_;
 };
 
 /// A niche as DESIGN calls it: a connected set of point pairs at one distance, none near it closer.
@@ -59,8 +82,8 @@ struct LocalMinima {
   std::vector<LocalMinimum> niches;  ///< ascending by distance
   bool cut = false;                  ///< there are more than largest_count
   bool finished = true;              ///< false: the limit was reached, niches may be missing
-  /// For each of LocalMinimaRequest::whose the niche that it belongs to; kNoOwner when that is none of the
-  /// result (farther than the cutoff, through material, cut).
+  /// For each of LocalMinimaRequest::asked_pairs the niche that it belongs to; kNoOwner when that is none of
+  /// the result (farther than the cutoff, through material, cut).
   std::vector<std::size_t> owners;
   LocalMinimaCost cost;
 };
@@ -72,7 +95,8 @@ struct LocalMinima {
 /// shells, found without looking through their features. Where the bodies meet, every connected set of
 /// meeting points is one niche of distance 0. Outward niches of open shells include those marked Unknown.
 /// Uses the bodies' normalCones(). Never throws.
+/// @param memory of the last call, made faster by it; nullptr: none
 LocalMinima findLocalMinima(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
-                            const LocalMinimaRequest& request);
+                            const LocalMinimaRequest& request, LocalMinimaMemory* memory = nullptr);
 
 }  // namespace concave_distance

@@ -21,8 +21,4 @@ void collectConeSeeds(const MinimaScene& scene, NormalSides sides, double cutoff
                       OpenCones& open, std::vector<MinimumSeed>& seeds, LocalMinimaCost& cost,
                       WorkLimit& limit);
 
-/// Every triangle pair that meets, up to rounding, until the limit is reached.
-void collectMeetingPairs(const MinimaScene& scene, std::vector<MinimumSeed>& seeds, LocalMinimaCost& cost,
-                         WorkLimit& limit);
-
 }  // namespace concave_distance::detail

@@ -44,7 +44,9 @@ void TrackerState::completeNiches(double displacement, double elapsed, PairSolut
   for (const NicheRecord& record : records) {
     request.asked_pairs.emplace_back(record.niche.witness.triangle_a, record.niche.witness.triangle_b);
   }
-  const LocalMinima found = findLocalMinima(*geometry.a, *geometry.b, geometry.a_from_b, request);
+  if (proof.seeded) request.certain_distance = proof.certificate.lower_bound - displacement;
+  const LocalMinima found =
+      findLocalMinima(*geometry.a, *geometry.b, geometry.a_from_b, request, &completeness.memory);
   completeness.current = found.finished;
   if (!found.finished && warm) {
     carryNiches(solution);

@@ -82,6 +82,7 @@ void TrackerState::reset() {
   proof.front.clear();
   proof.seeded = proof.current = false;
   completeness.current = false;
+  completeness.memory.clear();
 }
 
 void TrackerState::restart(std::uint64_t largest_used_id) {

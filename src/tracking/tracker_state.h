@@ -41,8 +41,9 @@ struct Completeness {
   std::vector<NicheRecord> records;  ///< of the last cycle, as a buffer
   bool current = false;              ///< the archive is complete at the last pose, as parameters want it
   bool cut = false;                  ///< and it was cut
+  LocalMinimaMemory memory;
 
-  std::size_t memoryBytes() const { return records.capacity() * sizeof(NicheRecord); }
+  std::size_t memoryBytes() const { return records.capacity() * sizeof(NicheRecord) + memory.memoryBytes(); }
 };
 
 /// What one pair keeps from cycle to cycle, and the stages of a cycle, in the order of update(). Each stage

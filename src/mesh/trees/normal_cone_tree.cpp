@@ -195,6 +195,64 @@ NormalConeTree::NormalConeTree(const SurfaceMesh& mesh, const MeshTopology& topo
   nodes_.reserve(items_.size() / 2);
   ConeTreeBuilder(items_, nodes_, origin_, unit_, mesh.diameter()).build();
   nodes_.shrink_to_fit();
+  chooseRegions();
+}
+
+Eigen::Vector3d NormalConeTree::centreOf(Slot slot) const {
+  const Node& node = nodes_[slot / kWidth];
+  const std::size_t lane = slot % kWidth;
+  return unit_ * Vector3d(node.centre[0][lane], node.centre[1][lane], node.centre[2][lane]);
+}
+
+void NormalConeTree::chooseRegions() {
+  // The largest spheres are opened until there are enough.
+  const auto radius = [this](Slot slot) { return nodes_[slot / kWidth].radius[slot % kWidth]; };
+  const auto isItem = [this](Slot slot) { return (child(slot) & kItemFlag) != 0; };
+  std::vector<Slot> tops{kRoot};
+  std::vector<Slot> opened;
+  while (tops.size() + kWidth - 1 <= kMostRegions) {
+    const auto largest = std::max_element(tops.begin(), tops.end(), [&](Slot l, Slot r) {
+      return isItem(l) != isItem(r) ? isItem(l) : radius(l) < radius(r);
+    });
+    if (isItem(*largest)) break;
+    const Slot slot = *largest;
+    tops.erase(largest);
+    opened.push_back(slot);
+    for (std::uint32_t lane = 0; lane < kWidth; ++lane) {
+      const Slot below = child(slot) * static_cast<Slot>(kWidth) + lane;
+      if (child(below) != kNoChild) tops.push_back(below);
+    }
+  }
+  region_of_slot_.assign(nodes_.size() * kWidth, 0);
+  const double rounding = kFloatMargin * unit_;
+  const auto put = [&](Slot slot, std::size_t region) {
+    region_of_slot_[slot] = static_cast<std::uint8_t>(region);
+    regions_[region].arm =
+        std::max(regions_[region].arm, (centreOf(slot) - regions_[region].centre).norm() + 4.0 * rounding);
+  };
+  regions_.reserve(tops.size());
+  for (const Slot top : tops) regions_.push_back({centreOf(top), 0.0});
+  std::vector<Slot> open;
+  for (std::size_t region = 0; region < tops.size(); ++region) {
+    open.assign(1, tops[region]);
+    while (!open.empty()) {
+      const Slot slot = open.back();
+      open.pop_back();
+      put(slot, region);
+      if (isItem(slot)) continue;
+      for (std::uint32_t lane = 0; lane < kWidth; ++lane) {
+        const Slot below = child(slot) * static_cast<Slot>(kWidth) + lane;
+        if (child(below) != kNoChild) open.push_back(below);
+      }
+    }
+  }
+  for (const Slot slot : opened) {
+    const auto nearest =
+        std::min_element(regions_.begin(), regions_.end(), [&](const Region& l, const Region& r) {
+          return (l.centre - centreOf(slot)).squaredNorm() < (r.centre - centreOf(slot)).squaredNorm();
+        });
+    put(slot, static_cast<std::size_t>(nearest - regions_.begin()));
+  }
 }
 
 }  // namespace concave_distance

@@ -28,7 +28,7 @@ enum class NormalSides : std::uint8_t { Outside, Both };
 /// surroundings. A reflex edge seen from outside has none and is left out; the edge of an open border has a
 /// half disc. Conservative: cones are widened by 1e-9 and by what the normals of thin triangles are
 /// uncertain. Four children to a node, compared in one go. Body frame, metres; built in O(n log n), about 3 n
-/// items of 88 bytes and n nodes of 176 bytes for n triangles.
+/// items of 88 bytes and n nodes of 180 bytes for n triangles.
 class NormalConeTree {
  public:
   enum class Kind : std::uint8_t { Vertex, Edge, Face };
@@ -57,6 +57,14 @@ class NormalConeTree {
   /// Where a child stands: node * kWidth + lane.
   using Slot = std::uint32_t;
   static constexpr Slot kRoot = 0;  ///< all items
+  /// A part of the tree. The centres of all its children, and the points of items without a radius, lie
+  /// within `arm` of `centre`, so that no centre moves farther than `centre` plus the turn (radians) times
+  /// `arm`.
+  struct Region {
+    Eigen::Vector3d centre;  ///< metres from origin()
+    double arm;              ///< metres
+  };
+  static constexpr std::size_t kMostRegions = 32;
 
   NormalConeTree() = default;
   NormalConeTree(const SurfaceMesh& mesh, const MeshTopology& topology, NormalSides sides);
@@ -66,15 +74,22 @@ class NormalConeTree {
   const Eigen::Vector3d& origin() const { return origin_; }  ///< centre of the surface's bounding box
   double unit() const { return unit_; }                      ///< metres, a power of two near the diameter
   std::uint32_t child(Slot slot) const { return nodes_[slot / kWidth].child[slot % kWidth]; }
+  const std::vector<Region>& regions() const { return regions_; }
+  std::uint8_t regionOf(Slot slot) const { return region_of_slot_[slot]; }
   std::size_t memoryBytes() const {
-    return nodes_.capacity() * sizeof(Node) + items_.capacity() * sizeof(Item);
+    return nodes_.capacity() * sizeof(Node) + items_.capacity() * sizeof(Item) + region_of_slot_.capacity();
   }
 
  private:
+  void chooseRegions();
+  Eigen::Vector3d centreOf(Slot slot) const;
+
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
   double unit_ = 1.0;
   std::vector<Node> nodes_;
   std::vector<Item> items_;
+  std::vector<Region> regions_;
+  std::vector<std::uint8_t> region_of_slot_;
 };
 
 }  // namespace concave_distance

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "base/expiry_queue.h"
+#include "cone_comparison.h"
+#include "cone_motion.h"
+#include "cone_sweep.h"
+#include "local_minima.h"
+
+namespace concave_distance::detail {
+
+/// What the last pose of a pair leaves to be looked at in the next one: every pair of cone groups, or of
+/// features, that holds no local minimum is kept with the motion that it stays so for. At every instant each
+/// pair of features has exactly one ancestor that is kept, or is live. Belongs to one pair of bodies, one
+/// cutoff and one choice of sides.
+class ConeFront {
+ public:
+  /// Of one call.
+  struct Counts {
+    std::uint32_t expired = 0;   ///< kept pairs whose slack was used up
+    std::uint32_t groups = 0;    ///< comparisons of a group with four others
+    std::uint32_t features = 0;  ///< pairs of features whose distance was computed
+    std::uint32_t kept = 0;      ///< pairs, at the end
+    std::uint32_t live = 0;      ///< features that hold a minimum or may do so at the next pose
+    bool began_anew = false;
+  };
+
+  /// The next call begins at the roots.
+  void clear() { valid_ = false; }
+
+  /// Appends at least one triangle pair of every local minimum between 0 and `cutoff` (metres).
+  /// @return false when the limit was reached: minima may be missing, and the next call goes on
+  bool collect(const MinimaScene& scene, NormalSides sides, double cutoff, std::vector<MinimumSeed>& seeds,
+               WorkLimit& limit);
+
+  const Counts& counts() const { return counts_; }
+  std::size_t memoryBytes() const;
+
+  /// Calls visit(slot of A, slot of B) for everything that is kept or live: what a test of completeness looks
+  /// at.
+  template <typename Visit>
+  void forEachPair(const Visit& visit) const {
+    for (const Entry& entry : pool_) {
+      if (entry.expiry != kFree) visit(entry.a, entry.b);
+    }
+    for (const auto& [a, b] : live_) visit(a, b);
+    for (const auto& [a, b] : open_) visit(a, b);
+  }
+
+ private:
+  using Slot = NormalConeTree::Slot;
+  using Pair = std::pair<Slot, Slot>;
+  struct Entry {
+    std::uint64_t expiry;
+    Slot a;
+    Slot b;
+    std::uint32_t next;
+  };
+  static constexpr std::uint64_t kFree = 0;
+
+  class Stage;
+
+  std::vector<Entry> pool_;
+  std::uint32_t free_ = ExpiryQueue<Entry>::kEnd;  ///< first of the chain of free elements
+  std::vector<ExpiryQueue<Entry>> queues_;         ///< one for each clock
+  ConeMotion motion_;
+  std::vector<Pair> live_;
+  std::vector<Pair> open_;  ///< to be compared
+  std::uint32_t kept_ = 0;
+  std::uint32_t kept_at_begin_ = 0;
+  bool valid_ = false;
+  double cutoff_ = 0.0;
+  NormalSides sides_ = NormalSides::Outside;
+  Counts counts_;
+};
+
+}  // namespace concave_distance::detail

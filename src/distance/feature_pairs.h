@@ -1,0 +1,72 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "cone_motion.h"
+#include "mesh/trees/normal_cone_tree.h"
+#include "minima_scene.h"
+
+namespace concave_distance::detail {
+
+/// Whether the closest points of two features are a local minimum of the distance over both surfaces, and if
+/// not, how far the bodies may move until they can be.
+class FeaturePairs {
+ public:
+  using Item = NormalConeTree::Item;
+
+  /// @param cutoff metres; minima up to this are wanted
+  FeaturePairs(const MinimaScene& scene, double cutoff);
+
+  /// Metres, of points and distances: what rounding may make of them.
+  double slack() const { return slack_; }
+  double cutoff() const { return cutoff_; }
+
+  /// Whether a pair of these kinds can hold a minimum: what faces have in common with faces or edges ends at
+  /// a vertex or an edge of one of them.
+  static bool isWanted(NormalConeTree::Kind l, NormalConeTree::Kind r) {
+    using Kind = NormalConeTree::Kind;
+    return l == Kind::Vertex || r == Kind::Vertex || (l == Kind::Edge && r == Kind::Edge);
+  }
+
+  /// The distance, metres, if it may be a local minimum up to the cutoff. Pairs that meet are none.
+  std::optional<double> findMinimum(const Item& a, const Item& b) const;
+
+  /// For a pair that holds none: offers slacks, each of which keeps it so until it is used up. None is
+  /// offered where the answer may change at once.
+  void offerSlacks(const Item& a, const Item& b, SlackOffers& offers) const;
+
+ private:
+  struct Between {
+    Eigen::Vector3d from;  ///< A's closest point
+    Eigen::Vector3d to;    ///< B's
+    Eigen::Vector3d displacement;
+    double squared_distance;
+  };
+  struct FacingCap;
+  struct Body;
+
+  static Between between(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
+  static Between betweenSegments(const Eigen::Vector3d& a0, const Eigen::Vector3d& a1,
+                                 const Eigen::Vector3d& b0, const Eigen::Vector3d& b1);
+  bool edgesMayFace(const Item& a, const Item& b, const FacingCap& cap_a, const FacingCap& cap_b) const;
+  template <typename VertexOf>
+  bool isPeak(const BodyMesh& body, const Item& item, const Eigen::Vector3d& point,
+              const Eigen::Vector3d& direction, double distance, const VertexOf& vertex_of) const;
+  Eigen::Vector3d edgeOfA(const Item& item) const;
+  Eigen::Vector3d edgeOfB(const Item& item) const;
+  Between closest(const Item& a, const Item& b) const;
+
+  void offerVertexToVertex(const Item& a, const Item& b, SlackOffers& offers) const;
+  void offerVertexToEdge(const Body& of_vertex, const Item& vertex, const Body& of_edge, const Item& edge,
+                         SlackOffers& offers) const;
+  void offerVertexToFace(const Body& of_vertex, const Item& vertex, const Body& of_face, const Item& face,
+                         SlackOffers& offers) const;
+  void offerEdgeToEdge(const Item& a, const Item& b, SlackOffers& offers) const;
+
+  const MinimaScene& scene_;
+  double slack_;
+  double cutoff_;
+};
+
+}  // namespace concave_distance::detail

@@ -1,0 +1,59 @@
+#include "meeting_pairs.h"
+
+#include "mesh/trees/triangle_tree.h"
+
+namespace concave_distance::detail {
+namespace {
+
+using Eigen::Vector3d;
+
+Eigen::AlignedBox3d movedBox(const Eigen::AlignedBox3d& box, const Eigen::Isometry3d& a_from_b) {
+  const Vector3d centre = a_from_b * box.center();
+  const Vector3d half = 0.5 * (a_from_b.linear().cwiseAbs() * box.sizes());
+  return {centre - half, centre + half};
+}
+
+}  // namespace
+
+void collectMeetingPairs(const MinimaScene& scene, std::vector<MinimumSeed>& seeds, LocalMinimaCost& cost,
+                         WorkLimit& limit) {
+  const TriangleTree& tree_a = scene.a.tree();
+  const TriangleTree& tree_b = scene.b.tree();
+  const double slack = 4.0 * scene.rounding;
+  // Boxes are compared in A's own frame, far from whose origin coordinates round coarser.
+  const double origin = scene.a.surface().boundingBox().center().cwiseAbs().maxCoeff() +
+                        scene.b.surface().boundingBox().center().cwiseAbs().maxCoeff();
+  const double margin = slack + 1e-14 * (origin + scene.size);
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> open{{0U, 0U}};
+  while (!open.empty()) {
+    if (limit.isOverNow() || !limit.makeRoom(open, 2)) return;
+    const auto [i, j] = open.back();
+    open.pop_back();
+    const TriangleTree::Node& a = tree_a.nodes()[i];
+    const TriangleTree::Node& b = tree_b.nodes()[j];
+    ++cost.node_pairs;
+    if (a.box.squaredExteriorDistance(movedBox(b.box, scene.a_from_b)) > margin * margin) continue;
+    if (a.count > 0 && b.count > 0) {
+      for (std::uint32_t k = a.first; k < a.first + a.count; ++k) {
+        for (std::uint32_t l = b.first; l < b.first + b.count; ++l) {
+          const TriangleIndex ta = tree_a.order()[k];
+          const TriangleIndex tb = tree_b.order()[l];
+          ++cost.candidates;
+          if (triangleDistance(scene.cornersOfA(ta), scene.cornersOfB(tb)).squared_distance <=
+              slack * slack) {
+            if (!limit.makeRoom(seeds)) return;
+            seeds.push_back({ta, tb, 0.0});
+          }
+        }
+      }
+    } else if (b.count > 0 || (a.count == 0 && a.box.sizes().sum() >= b.box.sizes().sum())) {
+      open.emplace_back(i + 1, j);
+      open.emplace_back(a.first, j);
+    } else {
+      open.emplace_back(i, j + 1);
+      open.emplace_back(i, b.first);
+    }
+  }
+}
+
+}  // namespace concave_distance::detail

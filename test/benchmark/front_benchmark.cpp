@@ -1,0 +1,157 @@
+// What the front of normal cones saves over a motion, beside FCL's one distance, in one run and one thread.
+//
+//   front_benchmark [--pairs name,name,...] [--steps 500,5000] [--instants 100] [--windows 4] [--output FILE]
+//
+// A row is a pair and a number of instants along its motion (5 s long: 500 is 100 Hz). In windows spread over
+// the motion consecutive instants are looked at: microseconds (medians) of FCL, of all cones from the roots,
+// of the front (and its 99th percentile); pairs that the front keeps, that have expired, groups compared,
+// features looked at and live pairs of features (means); windows' instants at which the front was begun anew;
+// local minima that only the cones from the roots (`missed`) or only the front (`more`) led to.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+
+#include "benchmark/support/benchmark_main.h"
+#include "benchmark/support/benchmark_pairs.h"
+#include "benchmark/support/statistics.h"
+#include "benchmark/support/stopwatch.h"
+#include "distance/cone_front.h"
+#include "distance/minima_candidates.h"
+#include "distance/witness_refinement.h"
+
+namespace concave_distance::benchmark {
+namespace {
+
+using detail::ConeFront;
+
+std::vector<WitnessPair> placesOf(const BenchmarkPair& pair, const Eigen::Isometry3d& pose,
+                                  const std::vector<MinimumSeed>& seeds) {
+  RefinementWorkspace workspace;
+  std::vector<WitnessPair> places;
+  places.reserve(seeds.size());
+  for (const MinimumSeed& seed : seeds) {
+    places.push_back(refineWitness(*pair.a, *pair.b, pose, seed.a, seed.b, workspace).witness);
+  }
+  return places;
+}
+
+/// Places of the one that are none of the other's.
+std::size_t countOnly(const std::vector<WitnessPair>& of, const std::vector<WitnessPair>& others,
+                      double tolerance) {
+  std::size_t count = 0;
+  for (const WitnessPair& place : of) {
+    const bool is_known = std::any_of(others.begin(), others.end(), [&](const WitnessPair& other) {
+      return (place.point_a_in_a - other.point_a_in_a).norm() +
+                 (place.point_b_in_a - other.point_b_in_a).norm() <=
+             tolerance;
+    });
+    count += is_known ? 0 : 1;
+  }
+  return count;
+}
+
+struct Sample {
+  std::vector<double> fcl_us;
+  std::vector<double> roots_us;
+  std::vector<double> front_us;
+  ConeFront::Counts sum;
+  double kept = 0.0;
+  double live = 0.0;
+  double expired = 0.0;
+  double groups = 0.0;
+  double features = 0.0;
+  int anew = 0;
+  std::size_t missed = 0;
+  std::size_t more = 0;
+  std::size_t seeds = 0;
+};
+
+void observe(const BenchmarkPair& pair, const Eigen::Isometry3d& pose, ConeFront& front, bool first,
+             Sample& sample) {
+  const double cutoff = std::numeric_limits<double>::infinity();
+  WorkLimit none;
+  auto start = std::chrono::steady_clock::now();
+  fclDistance(*pair.fcl_a, *pair.fcl_b, pose);
+  const double fcl_us = microsecondsSince(start);
+  const detail::MinimaScene scene(*pair.a, *pair.b, pose);
+  std::vector<MinimumSeed> from_roots;
+  detail::OpenCones open;
+  LocalMinimaCost cost;
+  start = std::chrono::steady_clock::now();
+  detail::collectConeSeeds(scene, NormalSides::Outside, cutoff, std::numeric_limits<std::size_t>::max(), open,
+                           from_roots, cost, none);
+  const double roots_us = microsecondsSince(start);
+  std::vector<MinimumSeed> from_front;
+  start = std::chrono::steady_clock::now();
+  front.collect(scene, NormalSides::Outside, cutoff, from_front, none);
+  const double front_us = microsecondsSince(start);
+  const auto of_roots = placesOf(pair, pose, from_roots);
+  const auto of_front = placesOf(pair, pose, from_front);
+  sample.missed += countOnly(of_roots, of_front, 1e-9 * scene.size);
+  sample.more += countOnly(of_front, of_roots, 1e-9 * scene.size);
+  if (first) return;
+  sample.fcl_us.push_back(fcl_us);
+  sample.roots_us.push_back(roots_us);
+  sample.front_us.push_back(front_us);
+  sample.seeds += of_roots.size();
+  const ConeFront::Counts& counts = front.counts();
+  sample.kept += counts.kept;
+  sample.live += counts.live;
+  sample.expired += counts.expired;
+  sample.groups += counts.groups;
+  sample.features += counts.features;
+  sample.anew += counts.began_anew ? 1 : 0;
+}
+
+}  // namespace
+
+int benchmarkMain(int argc, char** argv) {
+  std::vector<std::string> names = allPairs();
+  std::vector<int> steps{500, 5000};
+  int instants = 100;
+  int windows = 4;
+  std::string output;
+  CLI::App app("The front of normal cones over a motion");
+  app.add_option("--pairs", names, "names")->delimiter(',');
+  app.add_option("--steps", steps, "instants along the motion")->delimiter(',');
+  app.add_option("--instants", instants, "consecutive instants of a window");
+  app.add_option("--windows", windows, "windows along the motion");
+  app.add_option("--output", output, "CSV file");
+  CLI11_PARSE(app, argc, argv);
+  std::ofstream file;
+  if (!output.empty()) file.open(output);
+  const char* header =
+      "pair,steps,fcl_us,roots_us,front_us,front_99_us,front_over_fcl,kept,expired,groups,features,live,"
+      "seeds,anew,missed,more";
+  std::printf("%s\n", header);
+  if (file) file << header << '\n';
+  for (const std::string& name : names) {
+    const BenchmarkPair pair = loadBenchmarkPair(name);
+    for (const int count : steps) {
+      Sample sample;
+      for (int window = 0; window < windows; ++window) {
+        ConeFront front;
+        const int begin = (count - instants) * (2 * window + 1) / (2 * windows);
+        for (int i = 0; i < instants; ++i) {
+          observe(pair, pair.motion(static_cast<double>(begin + i) / count), front, i == 0, sample);
+        }
+      }
+      const double n = static_cast<double>(sample.front_us.size());
+      char line[512];
+      std::snprintf(
+          line, sizeof line, "%s,%d,%.1f,%.1f,%.1f,%.1f,%.3f,%.0f,%.0f,%.0f,%.0f,%.0f,%.1f,%d,%zu,%zu",
+          name.c_str(), count, median(sample.fcl_us), median(sample.roots_us), median(sample.front_us),
+          percentile(sample.front_us, 0.99), median(sample.front_us) / median(sample.fcl_us), sample.kept / n,
+          sample.expired / n, sample.groups / n, sample.features / n, sample.live / n,
+          static_cast<double>(sample.seeds) / n, sample.anew, sample.missed, sample.more);
+      std::printf("%s\n", line);
+      std::fflush(stdout);
+      if (file) file << line << '\n';
+    }
+  }
+  return 0;
+}
+
+}  // namespace concave_distance::benchmark

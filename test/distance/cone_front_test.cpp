@@ -1,0 +1,216 @@
+#include "distance/cone_front.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "distance/minima_candidates.h"
+#include "distance/witness_refinement.h"
+#include "support/body_pairs.h"
+
+// What the front keeps over a motion against all cones from the roots at every pose.
+
+namespace concave_distance::detail {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+using test::makeBody;
+
+using Body = std::shared_ptr<const BodyMesh>;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// A motion along a smooth path, turning about a changing axis.
+struct Motion {
+  Vector3d centre;
+  Vector3d reach;
+  Vector3d turns;
+  Isometry3d at(double t) const {
+    Isometry3d pose = Isometry3d::Identity();
+    pose.translation() = centre + Vector3d(reach.x() * std::sin(3.0 * t), reach.y() * std::cos(2.0 * t),
+                                           reach.z() * std::sin(t + 1.0));
+    pose.linear() = (Eigen::AngleAxisd(turns.x() * t, Vector3d::UnitX()) *
+                     Eigen::AngleAxisd(turns.y() * t, Vector3d::UnitY()) *
+                     Eigen::AngleAxisd(turns.z() * t, Vector3d::UnitZ()))
+                        .toRotationMatrix();
+    return pose;
+  }
+};
+
+Motion randomMotion(RandomEngine& engine) {
+  return {test::uniformInCube(engine, 1.5), test::uniformInCube(engine, 0.6),
+          test::uniformInCube(engine, 3.0)};
+}
+
+std::vector<WitnessPair> placesOf(const Body& a, const Body& b, const Isometry3d& pose,
+                                  const std::vector<MinimumSeed>& seeds) {
+  RefinementWorkspace workspace;
+  std::vector<WitnessPair> places;
+  for (const MinimumSeed& seed : seeds) {
+    places.push_back(refineWitness(*a, *b, pose, seed.a, seed.b, workspace).witness);
+  }
+  return places;
+}
+
+/// A place is known where the other list has one with the same distance whose points are near: two pairs of
+/// features of one plateau hold the same minimum.
+bool isKnown(const WitnessPair& place, const std::vector<WitnessPair>& others) {
+  return std::any_of(others.begin(), others.end(), [&](const WitnessPair& other) {
+    return std::abs(std::sqrt(place.squared_distance) - std::sqrt(other.squared_distance)) < 1e-12 &&
+           (place.point_a_in_a - other.point_a_in_a).norm() +
+                   (place.point_b_in_a - other.point_b_in_a).norm() <
+               1e-9;
+  });
+}
+
+void expectWhatTheRootsFind(const Body& a, const Body& b, const Isometry3d& pose, NormalSides sides,
+                            double cutoff, ConeFront& front) {
+  WorkLimit none;
+  const MinimaScene scene(*a, *b, pose);
+  std::vector<MinimumSeed> from_roots;
+  OpenCones open;
+  LocalMinimaCost cost;
+  collectConeSeeds(scene, sides, cutoff, std::numeric_limits<std::size_t>::max(), open, from_roots, cost,
+                   none);
+  std::vector<MinimumSeed> from_front;
+  ASSERT_TRUE(front.collect(scene, sides, cutoff, from_front, none));
+  const auto places = placesOf(a, b, pose, from_front);
+  for (const WitnessPair& place : placesOf(a, b, pose, from_roots)) {
+    EXPECT_TRUE(isKnown(place, places)) << "distance " << std::sqrt(place.squared_distance);
+  }
+}
+
+TEST(ConeFront, LeadsToEveryMinimumThatTheRootsLeadToOverAnyMotion) {
+  RandomEngine engine(11);
+  for (std::uint32_t run = 0; run < 300; ++run) {
+    const Body a = makeBody(test::concaveShape(run));
+    const Body b = makeBody(test::concaveShape(run / 6));
+    const Motion motion = randomMotion(engine);
+    const double step = std::pow(10.0, -5.0 + 4.0 * uniformUnit(engine));
+    const NormalSides sides = run % 3 == 0 ? NormalSides::Both : NormalSides::Outside;
+    const double cutoff = run % 2 == 0 ? kInfinity : 0.7;
+    SCOPED_TRACE("run " + std::to_string(run) + ", step " + std::to_string(step));
+    ConeFront front;
+    for (int k = 0; k < 60; ++k) {
+      expectWhatTheRootsFind(a, b, motion.at(step * k), sides, cutoff, front);
+      if (HasFailure()) return;
+    }
+  }
+}
+
+/// How many pairs of the front lie above a pair of items, for every pair.
+std::map<std::pair<std::uint32_t, std::uint32_t>, int> ancestorCounts(const NormalConeTree& a,
+                                                                      const NormalConeTree& b,
+                                                                      const ConeFront& front) {
+  const auto items_below = [](const NormalConeTree& tree, NormalConeTree::Slot slot) {
+    std::vector<std::uint32_t> items;
+    std::vector<NormalConeTree::Slot> open{slot};
+    while (!open.empty()) {
+      const std::uint32_t child = tree.child(open.back());
+      open.pop_back();
+      if (child == NormalConeTree::kNoChild) continue;
+      if (ConeComparison::isItem(child)) {
+        items.push_back(child & ~NormalConeTree::kItemFlag);
+        continue;
+      }
+      for (std::uint32_t lane = 0; lane < NormalConeTree::kWidth; ++lane) {
+        open.push_back(child * static_cast<std::uint32_t>(NormalConeTree::kWidth) + lane);
+      }
+    }
+    return items;
+  };
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> counts;
+  front.forEachPair([&](NormalConeTree::Slot slot_a, NormalConeTree::Slot slot_b) {
+    for (const std::uint32_t i : items_below(a, slot_a)) {
+      for (const std::uint32_t k : items_below(b, slot_b)) ++counts[{i, k}];
+    }
+  });
+  return counts;
+}
+
+TEST(ConeFront, HasOneAncestorForEveryPairOfFeaturesAtEveryInstant) {
+  RandomEngine engine(12);
+  for (std::uint32_t run = 0; run < 12; ++run) {
+    const Body a = makeBody(test::concaveShape(run % 4));
+    const Body b = makeBody(test::concaveShape(run % 5));
+    const NormalConeTree& cones_a = a->normalCones(NormalSides::Outside);
+    const NormalConeTree& cones_b = b->normalCones(NormalSides::Outside);
+    const Motion motion = randomMotion(engine);
+    ConeFront front;
+    for (int k = 0; k < 8; ++k) {
+      std::vector<MinimumSeed> seeds;
+      WorkLimit none;
+      const MinimaScene scene(*a, *b, motion.at(0.02 * k));
+      front.collect(scene, NormalSides::Outside, kInfinity, seeds, none);
+      const auto counts = ancestorCounts(cones_a, cones_b, front);
+      for (std::uint32_t i = 0; i < cones_a.items().size(); ++i) {
+        for (std::uint32_t j = 0; j < cones_b.items().size(); ++j) {
+          if (!FeaturePairs::isWanted(cones_a.items()[i].kind, cones_b.items()[j].kind)) continue;
+          const auto found = counts.find({i, j});
+          ASSERT_EQ(found != counts.end() ? found->second : 0, 1)
+              << "items " << i << " and " << j << ", instant " << k;
+        }
+      }
+    }
+  }
+}
+
+TEST(ConeFront, AsksNothingButLivePairsWhileTheBodiesStandStill) {
+  const Body a = makeBody(test::concaveShape(0));
+  const Body b = makeBody(test::concaveShape(3));
+  const MinimaScene scene(*a, *b, test::translation(Vector3d(0.3, 0.2, 2.0)));
+  ConeFront front;
+  WorkLimit none;
+  std::vector<MinimumSeed> first;
+  std::vector<MinimumSeed> second;
+  front.collect(scene, NormalSides::Outside, kInfinity, first, none);
+  EXPECT_TRUE(front.counts().began_anew);
+  EXPECT_GT(front.counts().kept, 0U);
+  front.collect(scene, NormalSides::Outside, kInfinity, second, none);
+  EXPECT_FALSE(front.counts().began_anew);
+  EXPECT_EQ(front.counts().expired, 0U);
+  EXPECT_EQ(front.counts().groups, 0U);
+  EXPECT_EQ(front.counts().features, front.counts().live);
+  EXPECT_EQ(placesOf(a, b, scene.a_from_b, first).size(), placesOf(a, b, scene.a_from_b, second).size());
+}
+
+TEST(ConeFront, GoesOnWhereALimitHasEndedIt) {
+  RandomEngine engine(13);
+  const Body a = makeBody(test::concaveShape(5));
+  const Body b = makeBody(test::concaveShape(1));
+  const Motion motion = randomMotion(engine);
+  ConeFront front;
+  const std::atomic<bool> stop{true};
+  for (int k = 0; k < 40; ++k) {
+    const Isometry3d pose = motion.at(0.01 * k);
+    if (k % 4 == 1) {
+      WorkLimit stopped(std::chrono::steady_clock::now(), kInfinity, std::numeric_limits<std::size_t>::max(),
+                        &stop);
+      std::vector<MinimumSeed> seeds;
+      const bool done =
+          front.collect(MinimaScene(*a, *b, pose), NormalSides::Outside, kInfinity, seeds, stopped);
+      EXPECT_FALSE(done && front.counts().expired > 0);
+    } else {
+      expectWhatTheRootsFind(a, b, pose, NormalSides::Outside, kInfinity, front);
+    }
+  }
+}
+
+TEST(ConeFront, BeginsAnewForAnotherCutoffAndOtherSides) {
+  const Body a = makeBody(test::concaveShape(2));
+  const Body b = makeBody(test::concaveShape(4));
+  const Isometry3d pose = test::translation(Vector3d(0.1, 0.2, 1.5));
+  ConeFront front;
+  expectWhatTheRootsFind(a, b, pose, NormalSides::Outside, 0.1, front);
+  expectWhatTheRootsFind(a, b, pose, NormalSides::Outside, kInfinity, front);
+  EXPECT_TRUE(front.counts().began_anew);
+  expectWhatTheRootsFind(a, b, pose, NormalSides::Both, kInfinity, front);
+  EXPECT_TRUE(front.counts().began_anew);
+}
+
+}  // namespace
+}  // namespace concave_distance::detail
