@@ -17,8 +17,6 @@ template <typename Entry>
 class ExpiryQueue {
  public:
   static constexpr std::uint32_t kEnd = 0xffffffffU;
-  /// Never expires; the clock stays below.
-  static constexpr std::uint64_t kNever = ~std::uint64_t{0};
 
   ExpiryQueue() { heads_.fill(kEnd); }
 

@@ -211,12 +211,17 @@ bool ConeFront::collect(const MinimaScene& scene, NormalSides sides, double cuto
   if (!valid_) {
     stage.begin(scene);
     done = stage.run();
-    kept_at_begin_ = kept_;
+    kept_at_begin_ = 0;
   } else {
     done = stage.askLive();
     stage.expire();
     done = stage.run() && done;
-    if (kept_ > kLargestGrowth * kept_at_begin_ + kSmallGrowth) valid_ = false;
+  }
+  // What a limit has ended grows until it is whole.
+  if (kept_at_begin_ == 0) {
+    kept_at_begin_ = done ? kept_ : 0;
+  } else if (kept_ > kLargestGrowth * kept_at_begin_ + kSmallGrowth) {
+    valid_ = false;
   }
   counts_.kept = kept_;
   counts_.live = static_cast<std::uint32_t>(live_.size());

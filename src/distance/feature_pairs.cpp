@@ -14,8 +14,6 @@ using Item = NormalConeTree::Item;
 
 /// Radians that the direction between two features may be off before its cone is asked, besides rounding.
 constexpr double kDirectionSlack = 1e-6;
-/// Sine of the angle between edges below which the direction across them is not believed.
-constexpr double kNearlyParallel = 1e-6;
 
 double unitClamp(double x) {
   return x < 0.0 ? 0.0 : (x > 1.0 ? 1.0 : x);

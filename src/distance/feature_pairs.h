@@ -9,6 +9,9 @@
 
 namespace concave_distance::detail {
 
+/// Sine of the angle between edges below which the direction across them is not believed.
+inline constexpr double kNearlyParallel = 1e-6;
+
 /// Whether the closest points of two features are a local minimum of the distance over both surfaces, and if
 /// not, how far the bodies may move until they can be.
 class FeaturePairs {

@@ -18,8 +18,6 @@ constexpr double kShortArc = 1e-6;
 constexpr double kNormalSlack = 4e-9;
 /// Two faces whose normals are nearly opposite have no arc between them.
 constexpr double kOpposite = -0.999;
-/// Sine of the angle between edges below which the direction across them is not believed.
-constexpr double kNearlyParallel = 1e-6;
 
 }  // namespace
 
