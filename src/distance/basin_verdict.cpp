@@ -177,7 +177,7 @@ class Judge {
       bool joined = false;
       bool has_room = true;
       forEachNeighbour(scene_, a, b, corners_a, corners_b, levels,
-                       [&](TriangleIndex to_a, TriangleIndex to_b, double squared_level) {
+                       [&](TriangleIndex to_a, TriangleIndex to_b, double squared_level, const SharedElement& /*element*/) {
                          if (joined || squared_level > limit * limit) return;
                          has_room = has_room && table_.makeRoom(limit_) && limit_.makeRoom(cells_) &&
                                     limit_.makeRoom(reached_);

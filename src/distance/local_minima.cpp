@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "basin_verdict.h"
 #include "cone_front.h"
 #include "far_pieces.h"
 #include "meeting_pairs.h"
@@ -11,14 +10,13 @@
 #include "minima_candidates.h"
 #include "minima_flood.h"
 #include "minima_scene.h"
+#include "minima_verdicts.h"
 
 namespace concave_distance {
 namespace {
 
 /// Of heights, relative to the size of both bodies; the same as the tracker's.
 constexpr double kPlateauTolerance = 1e-9;
-/// What judgeBasins() and decide() store for a seed.
-constexpr std::size_t kBytesPerSeed = sizeof(BasinSeed) + sizeof(Basin) + 64;
 /// No plateau seen comes near it; the flood has united the whole set before.
 constexpr std::size_t kExtentPairLimit = 100'000;
 
@@ -67,41 +65,28 @@ class Describer {
 
 /// Verdicts alone; no pass is measured.
 detail::FloodResult decide(const detail::MinimaScene& scene, const LocalMinimaRequest& request,
-                           const std::vector<MinimumSeed>& seeds, std::size_t owned, LocalMinimaCost& cost,
+                           std::vector<MinimumSeed>& seeds, const std::vector<MinimumSeed>& asked,
+                           detail::MinimaVerdicts& verdicts, bool keeps, LocalMinimaCost& cost,
                            WorkLimit& limit) {
-  const MemoryScope memory(limit);
+  using Verdict = detail::MinimaVerdicts::Verdict;
+  verdicts.judge(scene, seeds, asked, {request.least_prominence, request.through_material, keeps, {}}, limit);
+  cost.flooded_pairs += verdicts.counts().flooded_cells;
+  const auto& judged = verdicts.judged();
   detail::FloodResult result;
-  if (!limit.takeMemory(seeds.size() * kBytesPerSeed)) {
-    result.cut = true;
-    result.owners.assign(seeds.size() - owned, LocalMinima::kNoOwner);
-    return result;
+  std::vector<std::size_t> minimum_of(judged.size(), LocalMinima::kNoOwner);
+  for (std::size_t i = 0; i < judged.size(); ++i) {
+    result.cut = result.cut || judged[i].verdict == Verdict::Undecided;
+    if (judged[i].verdict != Verdict::Niche) continue;
+    const MinimumSeed& seed = judged[i].seed;
+    minimum_of[i] = result.minima.size();
+    const double flooded = (1.0 + request.least_prominence) * seed.distance;
+    result.minima.push_back(
+        {seed.a, seed.b, seed.distance, std::numeric_limits<double>::infinity(), flooded, i >= seeds.size()});
   }
-  std::vector<BasinSeed> basin_seeds;
-  basin_seeds.reserve(seeds.size());
-  for (const MinimumSeed& seed : seeds) {
-    basin_seeds.push_back({seed.a, seed.b, seed.distance, request.least_prominence, true,
-                           std::numeric_limits<std::size_t>::max()});
-  }
-  BasinVerdicts verdicts;
-  judgeBasins(scene.a, scene.b, scene.a_from_b, basin_seeds, verdicts, &limit);
-  cost.flooded_pairs += verdicts.floodedPairs();
-  const std::vector<Basin>& basins = verdicts.basins();
-  std::vector<std::size_t> minimum_of_basin(basins.size(), LocalMinima::kNoOwner);
-  // What no cone led to is met by a flood; what was asked for does not count.
-  std::vector<bool> led_to(basins.size(), false);
-  for (std::size_t i = 0; i < owned; ++i) {
-    const std::uint32_t root = verdicts.rootOf(verdicts.basinOf(i));
-    led_to[root] = led_to[root] || seeds[i].distance <= basins[root].distance + 16.0 * scene.rounding;
-  }
-  for (std::uint32_t i = 0; i < basins.size(); ++i) {
-    const Basin& basin = basins[i];
-    result.cut = result.cut || basin.refused;
-    if (basin.owner != i || basin.refused) continue;
-    minimum_of_basin[i] = result.minima.size();
-    result.minima.push_back({basin.a, basin.b, basin.distance, basin.pass, basin.flooded, !led_to[i]});
-  }
-  for (std::size_t i = owned; i < seeds.size(); ++i) {
-    result.owners.push_back(minimum_of_basin[verdicts.rootOf(verdicts.basinOf(i))]);
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    const std::uint32_t niche = verdicts.nicheOf(static_cast<std::uint32_t>(seeds.size() + i));
+    result.owners.push_back(niche == detail::MinimaVerdicts::kNone ? LocalMinima::kNoOwner
+                                                                   : minimum_of[niche]);
   }
   return result;
 }
@@ -133,17 +118,37 @@ void collectSeeds(const detail::MinimaScene& scene, const LocalMinimaRequest& re
 
 }  // namespace
 
-LocalMinimaMemory::LocalMinimaMemory() : front_(std::make_unique<detail::ConeFront>()) {}
+struct LocalMinimaMemory::Parts {
+  detail::ConeFront front;
+  detail::MinimaVerdicts verdicts;
+};
+
+LocalMinimaMemory::LocalMinimaMemory() = default;
 LocalMinimaMemory::~LocalMinimaMemory() = default;
 LocalMinimaMemory::LocalMinimaMemory(LocalMinimaMemory&&) noexcept = default;
 LocalMinimaMemory& LocalMinimaMemory::operator=(LocalMinimaMemory&&) noexcept = default;
 
+LocalMinimaMemory::Parts& LocalMinimaMemory::parts() {
+  if (parts_ == nullptr) parts_ = std::make_unique<Parts>();
+  return *parts_;
+}
+
+detail::ConeFront& LocalMinimaMemory::front() {
+  return parts().front;
+}
+
+detail::MinimaVerdicts& LocalMinimaMemory::verdicts() {
+  return parts().verdicts;
+}
+
 void LocalMinimaMemory::clear() {
-  front_->clear();
+  if (parts_ == nullptr) return;
+  parts_->front.clear();
+  parts_->verdicts.clear();
 }
 
 std::size_t LocalMinimaMemory::memoryBytes() const {
-  return front_->memoryBytes();
+  return parts_ != nullptr ? sizeof(Parts) + parts_->front.memoryBytes() + parts_->verdicts.memoryBytes() : 0;
 }
 
 LocalMinima findLocalMinima(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
@@ -164,14 +169,21 @@ LocalMinima findLocalMinima(const BodyMesh& a, const BodyMesh& b, const Eigen::I
     return result;
   }
   RefinementWorkspace refinement;
+  std::vector<MinimumSeed> asked;
   for (const auto& [triangle_a, triangle_b] : request.asked_pairs) {
     const WitnessPair settled = refineWitness(a, b, a_from_b, triangle_a, triangle_b, refinement).witness;
-    seeds.push_back({settled.triangle_a, settled.triangle_b, std::sqrt(settled.squared_distance)});
+    asked.push_back({settled.triangle_a, settled.triangle_b, std::sqrt(settled.squared_distance)});
   }
   const bool measures = request.prominence_limit > request.least_prominence && !isFar(scene, request);
-  const detail::FloodResult flood =
-      measures ? detail::floodMinima(scene, request, seeds, owned, result.cost, limit)
-               : decide(scene, request, seeds, owned, result.cost, limit);
+  detail::FloodResult flood;
+  if (measures) {
+    seeds.insert(seeds.end(), asked.begin(), asked.end());
+    flood = detail::floodMinima(scene, request, seeds, owned, result.cost, limit);
+  } else {
+    detail::MinimaVerdicts once;
+    flood = decide(scene, request, seeds, asked, memory != nullptr ? memory->verdicts() : once,
+                   memory != nullptr, result.cost, limit);
+  }
 
   std::vector<Described> described;
   Describer describer(scene, request, limit);

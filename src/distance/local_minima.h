@@ -15,7 +15,8 @@ namespace concave_distance {
 
 namespace detail {
 class ConeFront;
-}
+class MinimaVerdicts;
+}  // namespace detail
 
 struct LocalMinimaRequest {
   double cutoff = std::numeric_limits<double>::infinity();  ///< metres; niches up to this are wanted
@@ -46,10 +47,14 @@ class LocalMinimaMemory {
 
   void clear();
   std::size_t memoryBytes() const;
-  detail::ConeFront& front() { return *front_; }
+  detail::ConeFront& front();
+  detail::MinimaVerdicts& verdicts();
 
  private:
-  std::unique_ptr<detail::ConeFront> front_;
+  struct Parts;
+  Parts& parts();
+
+  std::unique_ptr<Parts> parts_;  ///< made when first needed
 };
 
 /// A niche as DESIGN calls it: a connected set of point pairs at one distance, none near it closer.

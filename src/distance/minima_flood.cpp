@@ -131,7 +131,7 @@ class Flood {
   void expand(std::uint32_t index) {
     const double limit = basins_[cells_[rootOf(index)].basin].limit;
     forEachNeighbour(scene_, cells_[index].a, cells_[index].b, corners_a_, corners_b_, levels_,
-                     [&](TriangleIndex to_a, TriangleIndex to_b, double squared_level) {
+                     [&](TriangleIndex to_a, TriangleIndex to_b, double squared_level, const SharedElement& /*element*/) {
                        consider(index, to_a, to_b, limit, std::sqrt(squared_level));
                      });
   }

@@ -1,4 +1,5 @@
-// What the front of normal cones saves over a motion, beside FCL's one distance, in one run and one thread.
+// What is kept from pose to pose saves over a motion, beside FCL's one distance, in one run and one thread:
+// of the front of normal cones and of the verdicts which minima are niches.
 //
 //   front_benchmark [--pairs name,name,...] [--steps 500,5000] [--instants 100] [--windows 4] [--output FILE]
 //
@@ -6,7 +7,11 @@
 // the motion consecutive instants are looked at: microseconds (medians) of FCL, of all cones from the roots,
 // of the front (and its 99th percentile); pairs that the front keeps, that have expired, groups compared,
 // features looked at and live pairs of features (means); windows' instants at which the front was begun anew;
-// local minima that only the cones from the roots (`missed`) or only the front (`more`) led to.
+// local minima that only the cones from the roots (`missed`) or only the front (`more`) led to. Then the
+// verdicts: microseconds (medians) of floods alone and of what is kept (and its 99th percentile); means of
+// niches, of ripples settled by a known path, niches by a known border and by one that was mended, floods,
+// cells flooded and border elements measured; instants at which the niches were others than those of floods
+// (`other`); kilobytes kept.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
@@ -19,12 +24,14 @@
 #include "benchmark/support/stopwatch.h"
 #include "distance/cone_front.h"
 #include "distance/minima_candidates.h"
+#include "distance/minima_verdicts.h"
 #include "distance/witness_refinement.h"
 
 namespace concave_distance::benchmark {
 namespace {
 
 using detail::ConeFront;
+using detail::MinimaVerdicts;
 
 std::vector<WitnessPair> placesOf(const BenchmarkPair& pair, const Eigen::Isometry3d& pose,
                                   const std::vector<MinimumSeed>& seeds) {
@@ -66,10 +73,64 @@ struct Sample {
   std::size_t missed = 0;
   std::size_t more = 0;
   std::size_t seeds = 0;
+  std::vector<double> floods_us;
+  std::vector<double> judge_us;
+  double niches = 0.0;
+  double by_path = 0.0;
+  double by_border = 0.0;
+  double mended = 0.0;
+  double floods = 0.0;
+  double cells = 0.0;
+  double measured = 0.0;
+  int other = 0;
+  std::size_t bytes = 0;
 };
 
-void observe(const BenchmarkPair& pair, const Eigen::Isometry3d& pose, ConeFront& front, bool first,
-             Sample& sample) {
+/// Ascending.
+std::vector<double> nichesOf(const MinimaVerdicts& verdicts) {
+  std::vector<double> distances;
+  for (const MinimaVerdicts::Judged& judged : verdicts.judged()) {
+    if (judged.verdict == MinimaVerdicts::Verdict::Niche) distances.push_back(judged.seed.distance);
+  }
+  std::sort(distances.begin(), distances.end());
+  return distances;
+}
+
+bool isSame(const std::vector<double>& l, const std::vector<double>& r, double tolerance) {
+  return std::equal(l.begin(), l.end(), r.begin(), r.end(),
+                    [&](double x, double y) { return std::abs(x - y) <= tolerance; });
+}
+
+void judge(const detail::MinimaScene& scene, std::vector<MinimumSeed> seeds, MinimaVerdicts& verdicts,
+           bool first, Sample& sample) {
+  WorkLimit none;
+  MinimaVerdicts::Request request;
+  auto start = std::chrono::steady_clock::now();
+  verdicts.judge(scene, seeds, {}, request, none);
+  const double judge_us = microsecondsSince(start);
+  request.keeps = false;
+  MinimaVerdicts alone;
+  start = std::chrono::steady_clock::now();
+  alone.judge(scene, seeds, {}, request, none);
+  const double floods_us = microsecondsSince(start);
+  const std::vector<double> niches = nichesOf(verdicts);
+  sample.other += isSame(niches, nichesOf(alone), 1e-9 * scene.size) ? 0 : 1;
+  if (first) return;
+  sample.judge_us.push_back(judge_us);
+  sample.floods_us.push_back(floods_us);
+  const MinimaVerdicts::Counts& counts = verdicts.counts();
+  sample.niches += static_cast<double>(niches.size());
+  sample.by_path += counts.by_path;
+  sample.by_border += counts.by_border;
+  sample.mended += counts.mended;
+  sample.floods += counts.floods;
+  sample.cells += counts.flooded_cells;
+  sample.measured += counts.measured;
+  sample.bytes = std::max(sample.bytes, verdicts.memoryBytes());
+}
+
+void observe(const BenchmarkPair& pair, const Eigen::Isometry3d& pose, ConeFront& front,
+             MinimaVerdicts& verdicts, bool first, Sample& sample) {
   const double cutoff = std::numeric_limits<double>::infinity();
   WorkLimit none;
   auto start = std::chrono::steady_clock::now();
@@ -91,6 +152,7 @@ void observe(const BenchmarkPair& pair, const Eigen::Isometry3d& pose, ConeFront
   const auto of_front = placesOf(pair, pose, from_front);
   sample.missed += countOnly(of_roots, of_front, 1e-9 * scene.size);
   sample.more += countOnly(of_front, of_roots, 1e-9 * scene.size);
+  judge(scene, from_front, verdicts, first, sample);
   if (first) return;
   sample.fcl_us.push_back(fcl_us);
   sample.roots_us.push_back(roots_us);
@@ -124,7 +186,9 @@ int benchmarkMain(int argc, char** argv) {
   if (!output.empty()) file.open(output);
   const char* header =
       "pair,steps,fcl_us,roots_us,front_us,front_99_us,front_over_fcl,kept,expired,groups,features,live,"
-      "seeds,anew,missed,more";
+      "seeds,anew,missed,more,floods_us,judge_us,judge_99_us,niches,by_path,by_border,mended,floods,cells,"
+      "measured,"
+      "other,kilobytes";
   std::printf("%s\n", header);
   if (file) file << header << '\n';
   for (const std::string& name : names) {
@@ -133,19 +197,26 @@ int benchmarkMain(int argc, char** argv) {
       Sample sample;
       for (int window = 0; window < windows; ++window) {
         ConeFront front;
+        MinimaVerdicts verdicts;
         const int begin = (count - instants) * (2 * window + 1) / (2 * windows);
         for (int i = 0; i < instants; ++i) {
-          observe(pair, pair.motion(static_cast<double>(begin + i) / count), front, i == 0, sample);
+          observe(pair, pair.motion(static_cast<double>(begin + i) / count), front, verdicts, i == 0, sample);
         }
       }
       const double n = static_cast<double>(sample.front_us.size());
-      char line[512];
+      char line[1024];
       std::snprintf(
-          line, sizeof line, "%s,%d,%.1f,%.1f,%.1f,%.1f,%.3f,%.0f,%.0f,%.0f,%.0f,%.0f,%.1f,%d,%zu,%zu",
+          line, sizeof line,
+          "%s,%d,%.1f,%.1f,%.1f,%.1f,%.3f,%.0f,%.0f,%.0f,%.0f,%.0f,%.1f,%d,%zu,%zu,%.1f,%.1f,%.1f,%.1f,%.1f,%"
+          ".1f,%.1f,"
+          "%.1f,%.0f,%.0f,%d,%.0f",
           name.c_str(), count, median(sample.fcl_us), median(sample.roots_us), median(sample.front_us),
           percentile(sample.front_us, 0.99), median(sample.front_us) / median(sample.fcl_us), sample.kept / n,
           sample.expired / n, sample.groups / n, sample.features / n, sample.live / n,
-          static_cast<double>(sample.seeds) / n, sample.anew, sample.missed, sample.more);
+          static_cast<double>(sample.seeds) / n, sample.anew, sample.missed, sample.more,
+          median(sample.floods_us), median(sample.judge_us), percentile(sample.judge_us, 0.99),
+          sample.niches / n, sample.by_path / n, sample.by_border / n, sample.mended / n, sample.floods / n,
+          sample.cells / n, sample.measured / n, sample.other, static_cast<double>(sample.bytes) / 1024.0);
       std::printf("%s\n", line);
       std::fflush(stdout);
       if (file) file << line << '\n';

@@ -10,6 +10,7 @@
 
 #include "distance/minima_candidates.h"
 #include "distance/witness_refinement.h"
+#include "support/body_motions.h"
 #include "support/body_pairs.h"
 
 // What the front keeps over a motion against all cones from the roots at every pose.
@@ -20,31 +21,11 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using test::makeBody;
+using test::Motion;
+using test::randomMotion;
 
 using Body = std::shared_ptr<const BodyMesh>;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-/// A motion along a smooth path, turning about a changing axis.
-struct Motion {
-  Vector3d centre;
-  Vector3d reach;
-  Vector3d turns;
-  Isometry3d at(double t) const {
-    Isometry3d pose = Isometry3d::Identity();
-    pose.translation() = centre + Vector3d(reach.x() * std::sin(3.0 * t), reach.y() * std::cos(2.0 * t),
-                                           reach.z() * std::sin(t + 1.0));
-    pose.linear() = (Eigen::AngleAxisd(turns.x() * t, Vector3d::UnitX()) *
-                     Eigen::AngleAxisd(turns.y() * t, Vector3d::UnitY()) *
-                     Eigen::AngleAxisd(turns.z() * t, Vector3d::UnitZ()))
-                        .toRotationMatrix();
-    return pose;
-  }
-};
-
-Motion randomMotion(RandomEngine& engine) {
-  return {test::uniformInCube(engine, 1.5), test::uniformInCube(engine, 0.6),
-          test::uniformInCube(engine, 3.0)};
-}
 
 std::vector<WitnessPair> placesOf(const Body& a, const Body& b, const Isometry3d& pose,
                                   const std::vector<MinimumSeed>& seeds) {

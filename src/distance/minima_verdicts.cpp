@@ -1,0 +1,592 @@
+#include "minima_verdicts.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "far_pieces.h"
+#include "mesh/surface/connected_pieces.h"
+#include "niche_properties.h"
+
+namespace concave_distance::detail {
+namespace {
+
+using Eigen::Vector3d;
+
+/// A flood that has visited this many cells may be replaced by cheaper tests.
+constexpr std::size_t kLongFlood = std::size_t{1} << 15U;
+/// Around more cells no border is kept.
+constexpr std::size_t kLargestRegion = std::size_t{1} << 16U;
+/// Steps of a path that are followed: links of different times may lead in a circle.
+constexpr int kLongestPath = 256;
+/// Cycles that a path is kept without being used.
+constexpr std::uint64_t kKeptCycles = 64;
+constexpr std::size_t kSmallTable = 4096;
+/// A region that has grown to more than twice its size and this many cells is made anew.
+constexpr std::size_t kSmallRegion = 64;
+
+}  // namespace
+
+/// One call of judge().
+class MinimaVerdicts::Stage {
+ public:
+  Stage(MinimaVerdicts& memory, const MinimaScene& scene, const Request& request, WorkLimit& limit)
+      : memory_(memory),
+        scene_(scene),
+        request_(request),
+        limit_(limit),
+        tolerance_(8.0 * scene.rounding),
+        were_long_(memory.floods_are_long_) {
+    memory_.floods_are_long_ = false;
+  }
+
+  /// Every seed with its cell, and every region with the deepest seed in it.
+  void enter(const std::vector<MinimumSeed>& seeds) {
+    for (Region& region : memory_.regions_) {
+      region.first = kNone;
+      region.confirmed = false;
+    }
+    for (const MinimumSeed& seed : seeds) {
+      const auto index = static_cast<std::uint32_t>(memory_.judged_.size());
+      Judged judged;
+      judged.seed = seed;
+      memory_.judged_.push_back(judged);
+      const std::uint32_t number = cellOf(seed.a, seed.b);
+      if (number == kNone) continue;
+      Cell& cell = memory_.cells_[number];
+      if (cell.cycle == memory_.cycle_) continue;
+      cell.cycle = memory_.cycle_;
+      cell.seed = index;
+      for (std::uint32_t m = cell.regions; m != kNone; m = memory_.memberships_[m].next) {
+        Region& region = memory_.regions_[memory_.memberships_[m].region];
+        if (region.first == kNone) region.first = index;
+      }
+    }
+    seed_count_ = static_cast<std::uint32_t>(memory_.judged_.size());
+  }
+
+  /// Of a minimum that no seed has to lead to.
+  std::uint32_t enterExtra(const MinimumSeed& seed, bool found_by_flood) {
+    Judged judged;
+    judged.seed = seed;
+    judged.found_by_flood = found_by_flood;
+    memory_.judged_.push_back(judged);
+    return static_cast<std::uint32_t>(memory_.judged_.size() - 1);
+  }
+
+  void decideFar() {
+    for (std::uint32_t i = 0; i < memory_.judged_.size(); ++i) {
+      const std::uint32_t deepest = deepestLike(i);
+      set(i, deepest == i ? Verdict::Niche : Verdict::Ripple, deepest == i ? kNone : deepest);
+    }
+  }
+
+  void decide(std::uint32_t i) {
+    const MinimumSeed seed = memory_.judged_[i].seed;
+    deepest_ = deepestLike(i);
+    const std::uint32_t number = cellOf(seed.a, seed.b);
+    if (number == kNone) return set(i, Verdict::Undecided);
+    if (const std::uint32_t other = seedOf(number); other != kNone && other != i && isEarlier(other, i)) {
+      return set(i, Verdict::Ripple, other);
+    }
+    if (followsDown(i, number)) return;
+    if (i < seed_count_ && request_.is_wanted && !request_.is_wanted(seed)) return set(i, Verdict::Unwanted);
+    std::uint64_t id = 0;
+    if (const std::uint32_t known = regionOf(number, i); known != kNone) {
+      if (isEnclosed(i, known)) {
+        memory_.regions_[known].confirmed = true;
+        memory_.judged_[i].region = memory_.regions_[known].id;
+        return set(i, Verdict::Niche);
+      }
+      id = memory_.regions_[known].id;
+      memory_.regions_[known].confirmed = limit_.isOver();
+      if (limit_.isOver()) return set(i, Verdict::Undecided);
+      ++memory_.counts_.broken;
+      drop(known);
+    }
+    flood(i, number, id);
+  }
+
+  /// The next deeper minimum of a ripple of which only a deeper place is known.
+  void resolve(std::uint32_t i) {
+    while (i != kNone && memory_.judged_[i].verdict == Verdict::Ripple) {
+      if (memory_.judged_[i].into == kNone) descend(i);
+      const std::uint32_t into = memory_.judged_[i].into;
+      if (into != kNone && memory_.judged_[into].verdict == Verdict::Open) decide(into);
+      i = into;
+    }
+  }
+
+  void dropUnconfirmed() {
+    for (std::uint32_t i = 0; i < memory_.regions_.size(); ++i) {
+      if (memory_.regions_[i].id != 0 && !memory_.regions_[i].confirmed) drop(i);
+    }
+  }
+
+  /// Cells of which nothing is known any more go.
+  void compact() {
+    if (memory_.cells_.size() <= 2 * memory_.live_cells_ + kSmallTable) return;
+    std::vector<char>& live = memory_.live_;
+    live.assign(memory_.cells_.size(), 0);
+    const auto isUsed = [&](std::uint32_t link) {
+      return link != kNone && memory_.links_[link].used + kKeptCycles > memory_.cycle_;
+    };
+    for (std::size_t i = 0; i < memory_.cells_.size(); ++i) {
+      const Cell& cell = memory_.cells_[i];
+      if (cell.regions != kNone || isUsed(cell.low)) live[i] = 1;
+      if (isUsed(cell.link)) live[i] = live[memory_.links_[cell.link].next] = 1;
+    }
+    std::vector<std::uint32_t>& places = memory_.places_;
+    places.assign(memory_.cells_.size(), kNone);
+    memory_.table_.clear();
+    std::uint32_t count = 0;
+    for (std::size_t i = 0; i < memory_.cells_.size(); ++i) {
+      if (live[i] == 0) continue;
+      places[i] = count;
+      memory_.cells_[count] = memory_.cells_[i];
+      memory_.table_.insert(memory_.cells_[count].a, memory_.cells_[count].b, count);
+      ++count;
+    }
+    memory_.cells_.resize(count);
+    memory_.live_cells_ = count;
+    std::vector<Link>& links = memory_.spare_links_;
+    links.clear();
+    const auto keep = [&](std::uint32_t& link) {
+      if (!isUsed(link)) {
+        link = kNone;
+        return;
+      }
+      links.push_back(memory_.links_[link]);
+      links.back().next = places[links.back().next];
+      link = static_cast<std::uint32_t>(links.size() - 1);
+    };
+    for (Cell& cell : memory_.cells_) {
+      keep(cell.link);
+      keep(cell.low);
+    }
+    memory_.links_.swap(links);
+    for (Region& region : memory_.regions_) {
+      for (std::uint32_t& cell : region.cells) cell = places[cell];
+    }
+  }
+
+ private:
+  /// Up to here nothing deeper may be reached.
+  double levelOf(double distance) const { return (1.0 + request_.least_prominence) * distance; }
+
+  void set(std::uint32_t i, Verdict verdict, std::uint32_t into = kNone) {
+    memory_.judged_[i].verdict = verdict;
+    memory_.judged_[i].into = into;
+  }
+
+  /// kNone without memory.
+  std::uint32_t cellOf(TriangleIndex a, TriangleIndex b) {
+    const std::uint32_t known = memory_.table_.find(a, b);
+    if (known != PairTable::kAbsent) return known;
+    if (!memory_.table_.makeRoom(limit_) || !limit_.makeRoom(memory_.cells_)) return kNone;
+    const auto number = static_cast<std::uint32_t>(memory_.cells_.size());
+    Cell cell;
+    cell.a = a;
+    cell.b = b;
+    memory_.cells_.push_back(cell);
+    memory_.table_.insert(a, b, number);
+    return number;
+  }
+
+  std::uint32_t seedOf(std::uint32_t number) const {
+    const Cell& cell = memory_.cells_[number];
+    return cell.cycle == memory_.cycle_ ? cell.seed : kNone;
+  }
+
+  /// Seeds are in ascending order; what is no seed belongs to one as deep as itself.
+  bool isEarlier(std::uint32_t other, std::uint32_t i) const {
+    if (i < seed_count_) return other < i;
+    return memory_.judged_[other].seed.distance <= memory_.judged_[i].seed.distance + tolerance_;
+  }
+
+  std::uint32_t deepestLike(std::uint32_t i) {
+    const MinimumSeed& seed = memory_.judged_[i].seed;
+    const TriangleIndex piece_a{scene_.pieces_a.piece_of_triangle[seed.a.value]};
+    const TriangleIndex piece_b{scene_.pieces_b.piece_of_triangle[seed.b.value]};
+    const std::uint32_t known = memory_.deepest_.find(piece_a, piece_b);
+    if (known != PairTable::kAbsent) return known;
+    memory_.deepest_.insert(piece_a, piece_b, i);
+    return i;
+  }
+
+  std::uint32_t regionOf(std::uint32_t number, std::uint32_t first) const {
+    for (std::uint32_t m = memory_.cells_[number].regions; m != kNone; m = memory_.memberships_[m].next) {
+      const std::uint32_t region = memory_.memberships_[m].region;
+      if (memory_.regions_[region].first == first) return region;
+    }
+    return kNone;
+  }
+
+  double squaredLevelOf(const Link& link) const {
+    return (scene_.frames.rotation * link.point_b + scene_.frames.offset - link.point_a).squaredNorm();
+  }
+
+  /// Whether known links lead below the start or to an earlier seed without rising to its level.
+  bool followsDown(std::uint32_t i, std::uint32_t number) {
+    const double distance = memory_.judged_[i].seed.distance;
+    const double level = levelOf(distance);
+    const double below = distance - tolerance_;
+    const auto settle = [&](std::uint32_t into, std::uint32_t cell) {
+      set(i, Verdict::Ripple, into);
+      memory_.judged_[i].below = {memory_.cells_[cell].a, memory_.cells_[cell].b};
+      ++memory_.counts_.by_path;
+      return true;
+    };
+    for (int step = 0; step < kLongestPath; ++step) {
+      const Cell& cell = memory_.cells_[number];
+      const std::uint32_t other = step > 0 ? seedOf(number) : kNone;
+      if (other != kNone && other != i && isEarlier(other, i)) return settle(other, number);
+      if (below > 0.0 && cell.low != kNone && squaredLevelOf(memory_.links_[cell.low]) < below * below) {
+        memory_.links_[cell.low].used = memory_.cycle_;
+        return settle(kNone, number);
+      }
+      if (cell.link == kNone) return false;
+      Link& link = memory_.links_[cell.link];
+      const double squared_level = squaredLevelOf(link);
+      if (!(squared_level < level * level)) return false;
+      link.used = memory_.cycle_;
+      number = link.next;
+      if (below > 0.0 && squared_level < below * below) return settle(kNone, number);
+    }
+    return false;
+  }
+
+  CellFlood::Levels levelsOf(double distance) const {
+    return {distance - tolerance_, distance + tolerance_, levelOf(distance) + tolerance_};
+  }
+
+  /// Whether the border around a region holds, or does so again with the cells beyond where it does not.
+  bool isEnclosed(std::uint32_t i, std::uint32_t index) {
+    Region& region = memory_.regions_[index];
+    const double distance = memory_.judged_[i].seed.distance;
+    const CellFlood::Levels levels = levelsOf(distance);
+    const std::vector<BorderElement>& crossed = region.border.takeCrossed(scene_, levels.highest);
+    memory_.counts_.measured += region.border.measured();
+    if (crossed.empty()) {
+      ++memory_.counts_.by_border;
+      return true;
+    }
+    const auto is_inside = [&](TriangleIndex a, TriangleIndex b) { return isIn(a, b, index); };
+    CellFlood& flood = memory_.flood_;
+    flood.beginBeyond(levels);
+    for (const BorderElement& element : crossed) {
+      const TrianglePair pair = element.pairBeyond();
+      if (!is_inside(pair.a, pair.b) && !flood.enterBeyond(pair.a, pair.b, 0.0, limit_)) return false;
+    }
+    const auto meets = [&](TriangleIndex a, TriangleIndex b) { return isOfEarlier(a, b, i); };
+    const std::size_t most = 2 * region.cells_at_begin + kSmallRegion -
+                             std::min(region.cells.size(), 2 * region.cells_at_begin + kSmallRegion);
+    const CellFlood::End end = flood.proceed(scene_, most, meets, is_inside, limit_);
+    memory_.counts_.flooded_cells += static_cast<std::uint32_t>(flood.lookedAt());
+    if (end == CellFlood::End::Enclosed && extend(index)) {
+      ++memory_.counts_.mended;
+      return true;
+    }
+    if (end == CellFlood::End::Cut) {
+      for (const BorderElement& element : crossed) region.border.add(scene_, element, 0.0, limit_);
+    }
+    return false;
+  }
+
+  bool isIn(TriangleIndex a, TriangleIndex b, std::uint32_t region) const {
+    const std::uint32_t cell = memory_.table_.find(a, b);
+    if (cell == PairTable::kAbsent) return false;
+    for (std::uint32_t m = memory_.cells_[cell].regions; m != kNone; m = memory_.memberships_[m].next) {
+      if (memory_.memberships_[m].region == region) return true;
+    }
+    return false;
+  }
+
+  std::uint32_t seedIn(TriangleIndex a, TriangleIndex b) const {
+    const std::uint32_t cell = memory_.table_.find(a, b);
+    return cell != PairTable::kAbsent ? seedOf(cell) : kNone;
+  }
+
+  /// Whether a cell is that of a minimum that i would belong to.
+  bool isOfEarlier(TriangleIndex a, TriangleIndex b, std::uint32_t i) const {
+    const std::uint32_t other = seedIn(a, b);
+    return other != kNone && other != i && isEarlier(other, i);
+  }
+
+  void flood(std::uint32_t i, std::uint32_t number, std::uint64_t id) {
+    const MinimumSeed seed = memory_.judged_[i].seed;
+    if (were_long_ && settlesLong(i)) return;
+    ++memory_.counts_.floods;
+    CellFlood& flood = memory_.flood_;
+    flood.begin(seed.a, seed.b, levelsOf(seed.distance));
+    const auto meets = [&](TriangleIndex a, TriangleIndex b) { return isOfEarlier(a, b, i); };
+    const auto is_inside = [](TriangleIndex, TriangleIndex) { return false; };
+    CellFlood::End end = flood.proceed(scene_, kLongFlood, meets, is_inside, limit_);
+    if (end == CellFlood::End::Long) {
+      if (settlesLong(i)) return;
+      end = flood.proceed(scene_, std::numeric_limits<std::size_t>::max(), meets, is_inside, limit_);
+    }
+    memory_.counts_.flooded_cells += static_cast<std::uint32_t>(flood.lookedAt());
+    switch (end) {
+      case CellFlood::End::Enclosed:
+        set(i, Verdict::Niche);
+        if (request_.keeps && seed.distance > tolerance_) keepRegion(i, id);
+        break;
+      case CellFlood::End::Below: {
+        set(i, Verdict::Ripple);
+        const CellFlood::Cell& last = flood.cells()[flood.last()];
+        memory_.judged_[i].below = {last.a, last.b};
+        if (request_.keeps) {
+          keepPath(number);
+          keepLow(last.a, last.b);
+        }
+        descend(i);
+        break;
+      }
+      case CellFlood::End::Met:
+        set(i, Verdict::Ripple, seedIn(flood.cells()[flood.last()].a, flood.cells()[flood.last()].b));
+        if (request_.keeps) keepPath(number);
+        break;
+      default:
+        set(i, Verdict::Undecided);
+        break;
+    }
+  }
+
+  /// From the place below a ripple to the minimum under it.
+  void descend(std::uint32_t i) {
+    const TrianglePair from = memory_.judged_[i].below;
+    const WitnessPair bottom =
+        refineWitness(scene_.a, scene_.b, scene_.a_from_b, from.a, from.b, memory_.refinement_).witness;
+    const std::uint32_t seed = seedIn(bottom.triangle_a, bottom.triangle_b);
+    if (seed != kNone) {
+      if (seed != i) memory_.judged_[i].into = seed;
+      return;
+    }
+    if (!request_.through_material &&
+        classifyOutwardness(scene_.a, scene_.b, scene_.a_from_b, bottom) == Outwardness::ThroughMaterial) {
+      return;
+    }
+    memory_.judged_[i].into =
+        enterExtra({bottom.triangle_a, bottom.triangle_b, std::sqrt(bottom.squared_distance)}, true);
+  }
+
+  /// Replaces a long flood: the deepest of its pieces is a niche if it is their nearest place; another one is
+  /// none if a path leads from it to one that is deeper.
+  bool settlesLong(std::uint32_t i) {
+    const bool settled = i == deepest_ ? isNearest(i) : hasPathDown(i);
+    memory_.floods_are_long_ = memory_.floods_are_long_ || settled;
+    return settled;
+  }
+
+  /// Seeds may leave out minima through material, so the deepest seed need not be the nearest place.
+  bool isNearest(std::uint32_t i) {
+    const MinimumSeed seed = memory_.judged_[i].seed;
+    const WitnessPair minimum =
+        refineWitness(scene_.a, scene_.b, scene_.a_from_b, seed.a, seed.b, memory_.refinement_).witness;
+    if (!isNearestOfItsPieces(scene_, minimum)) {
+      const TrianglePair pair{seed.a, seed.b};
+      CertificateRequest certificate;
+      certificate.limit = &limit_;
+      if (certifyDistance(scene_.a, scene_.b, scene_.a_from_b, &pair, 1, certificate, proof_).lower_bound <
+          seed.distance - tolerance_) {
+        return false;
+      }
+    }
+    set(i, Verdict::Niche);
+    return true;
+  }
+
+  bool hasPathDown(std::uint32_t i) {
+    std::uint32_t into = kNone;
+    const auto has_arrived = [&](TriangleIndex a, TriangleIndex b) {
+      into = seedIn(a, b);
+      return into != kNone && into != i && isEarlier(into, i);
+    };
+    const MinimumSeed& from = memory_.judged_[i].seed;
+    const MinimumSeed& to = memory_.judged_[deepest_].seed;
+    for (const int first_moves : {0, 1}) {
+      if (LevelPath(scene_, memory_.path_, limit_)
+              .find({from.a, from.b}, {to.a, to.b}, levelOf(from.distance), first_moves, has_arrived)) {
+        set(i, Verdict::Ripple, into != kNone && into != i ? into : deepest_);
+        return true;
+      }
+    }
+    return false;
+  }
+
+  /// The links of the way from the start of the last flood to its end.
+  void keepPath(std::uint32_t start) {
+    const std::vector<CellFlood::Cell>& visited = memory_.flood_.cells();
+    std::uint32_t at = memory_.flood_.last();
+    std::uint32_t next = cellOf(visited[at].a, visited[at].b);
+    while (next != kNone && visited[at].parent != CellFlood::kNone) {
+      const CellFlood::Cell& here = visited[at];
+      const std::uint32_t before =
+          here.parent == 0 ? start : cellOf(visited[here.parent].a, visited[here.parent].b);
+      if (before == kNone || !keepLink(memory_.cells_[before].link, closestOver(scene_, here.via), next))
+        return;
+      next = before;
+      at = here.parent;
+    }
+  }
+
+  void keepLow(TriangleIndex a, TriangleIndex b) {
+    const std::uint32_t number = cellOf(a, b);
+    if (number == kNone) return;
+    keepLink(memory_.cells_[number].low, triangleDistance(scene_.cornersOfA(a), scene_.cornersOfB(b)),
+             number);
+  }
+
+  bool keepLink(std::uint32_t& link, const TrianglePairDistance& closest, std::uint32_t next) {
+    if (link == kNone) {
+      if (!limit_.makeRoom(memory_.links_)) return false;
+      link = static_cast<std::uint32_t>(memory_.links_.size());
+      memory_.links_.emplace_back();
+    }
+    memory_.links_[link] = {closest.point_a, scene_.frames.pointInB(closest.point_b), next, memory_.cycle_};
+    return true;
+  }
+
+  /// What the last flood has visited.
+  void keepRegion(std::uint32_t i, std::uint64_t id) {
+    const std::vector<CellFlood::Cell>& visited = memory_.flood_.cells();
+    if (visited.size() > kLargestRegion) return;
+    auto free = std::find_if(memory_.regions_.begin(), memory_.regions_.end(),
+                             [](const Region& region) { return region.id == 0; });
+    if (free == memory_.regions_.end()) {
+      if (!limit_.makeRoom(memory_.regions_)) return;
+      memory_.regions_.emplace_back();
+      free = memory_.regions_.end() - 1;
+    }
+    const auto index = static_cast<std::uint32_t>(free - memory_.regions_.begin());
+    Region& region = *free;
+    region.id = id != 0 ? id : ++memory_.last_region_;
+    region.confirmed = true;
+    region.first = i;
+    region.cells.clear();
+    region.cells_at_begin = visited.size();
+    const MinimumSeed& seed = memory_.judged_[i].seed;
+    const TrianglePairDistance closest =
+        triangleDistance(scene_.cornersOfA(seed.a), scene_.cornersOfB(seed.b));
+    region.border.begin(closest.point_a, scene_.frames.pointInB(closest.point_b));
+    memory_.judged_[i].region = region.id;
+    if (!extend(index)) drop(index);
+  }
+
+  /// By what the last flood has visited. False without memory.
+  bool extend(std::uint32_t index) {
+    Region& region = memory_.regions_[index];
+    for (const CellFlood::Cell& cell : memory_.flood_.cells()) {
+      const std::uint32_t number = cellOf(cell.a, cell.b);
+      if (number == kNone || !limit_.makeRoom(region.cells) || !join(number, index)) return false;
+      region.cells.push_back(number);
+    }
+    bool has_room = true;
+    memory_.flood_.forEachBorderStep(
+        [&](TriangleIndex a, TriangleIndex b) { return isIn(a, b, index); },
+        [&](const CellFlood::BorderStep& step) {
+          const TriangleIndex beyond = step.element.side == Side::A ? step.beyond_a : step.beyond_b;
+          has_room = has_room &&
+                     region.border.add(scene_, {step.element, beyond}, std::sqrt(step.squared_level), limit_);
+        });
+    return has_room;
+  }
+
+  bool join(std::uint32_t number, std::uint32_t region) {
+    std::uint32_t m = memory_.free_membership_;
+    if (m != kNone) {
+      memory_.free_membership_ = memory_.memberships_[m].next;
+    } else {
+      if (!limit_.makeRoom(memory_.memberships_)) return false;
+      m = static_cast<std::uint32_t>(memory_.memberships_.size());
+      memory_.memberships_.emplace_back();
+    }
+    memory_.memberships_[m] = {region, memory_.cells_[number].regions};
+    memory_.cells_[number].regions = m;
+    return true;
+  }
+
+  void drop(std::uint32_t index) {
+    Region& region = memory_.regions_[index];
+    for (const std::uint32_t number : region.cells) {
+      std::uint32_t* at = &memory_.cells_[number].regions;
+      while (memory_.memberships_[*at].region != index) at = &memory_.memberships_[*at].next;
+      const std::uint32_t gone = *at;
+      *at = memory_.memberships_[gone].next;
+      memory_.memberships_[gone].next = memory_.free_membership_;
+      memory_.free_membership_ = gone;
+    }
+    region.cells.clear();
+    region.id = 0;
+  }
+
+  MinimaVerdicts& memory_;
+  const MinimaScene& scene_;
+  const Request& request_;
+  WorkLimit& limit_;
+  CertificateWorkspace proof_;
+  double tolerance_;
+  bool were_long_;
+  std::uint32_t seed_count_ = 0;
+  std::uint32_t deepest_ = kNone;  ///< of the pieces of the one that is decided
+};
+
+void MinimaVerdicts::clear() {
+  table_.clear();
+  cells_.clear();
+  links_.clear();
+  memberships_.clear();
+  free_membership_ = kNone;
+  for (Region& region : regions_) {
+    region.id = 0;
+    region.cells.clear();
+  }
+  live_cells_ = 0;
+  floods_are_long_ = false;
+}
+
+void MinimaVerdicts::judge(const MinimaScene& scene, std::vector<MinimumSeed>& seeds,
+                           const std::vector<MinimumSeed>& asked, const Request& request, WorkLimit& limit) {
+  ++cycle_;
+  counts_ = {};
+  judged_.clear();
+  deepest_.clear();
+  std::sort(seeds.begin(), seeds.end(), [](const MinimumSeed& l, const MinimumSeed& r) {
+    if (l.distance != r.distance) return l.distance < r.distance;
+    return l.a != r.a ? l.a < r.a : l.b < r.b;
+  });
+  Stage stage(*this, scene, request, limit);
+  stage.enter(seeds);
+  for (const MinimumSeed& seed : asked) stage.enterExtra(seed, false);
+  if (isFar(scene, request.least_prominence)) {
+    stage.decideFar();
+  } else {
+    for (std::uint32_t i = 0; i < judged_.size(); ++i) {
+      if (judged_[i].verdict == Verdict::Open) stage.decide(i);
+    }
+    for (std::size_t i = 0; i < asked.size(); ++i) {
+      stage.resolve(static_cast<std::uint32_t>(seeds.size() + i));
+    }
+  }
+  stage.dropUnconfirmed();
+  stage.compact();
+}
+
+std::uint32_t MinimaVerdicts::nicheOf(std::uint32_t index) const {
+  while (index != kNone && judged_[index].verdict == Verdict::Ripple) index = judged_[index].into;
+  return index != kNone && judged_[index].verdict == Verdict::Niche ? index : kNone;
+}
+
+std::size_t MinimaVerdicts::memoryBytes() const {
+  std::size_t bytes = table_.memoryBytes() + cells_.capacity() * sizeof(Cell) +
+                      (links_.capacity() + spare_links_.capacity()) * sizeof(Link) +
+                      memberships_.capacity() * sizeof(Membership) + regions_.capacity() * sizeof(Region) +
+                      judged_.capacity() * sizeof(Judged) + flood_.memoryBytes() + path_.memoryBytes() +
+                      live_.capacity() + places_.capacity() * sizeof(std::uint32_t);
+  for (const Region& region : regions_) {
+    bytes += region.border.memoryBytes() + region.cells.capacity() * sizeof(std::uint32_t);
+  }
+  return bytes;
+}
+
+}  // namespace concave_distance::detail

@@ -1,0 +1,123 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <vector>
+
+#include "cell_border.h"
+#include "cell_flood.h"
+#include "cone_sweep.h"
+#include "level_path.h"
+
+namespace concave_distance::detail {
+
+/// Which local minima are niches of their own, proven at each pose; and what proves it, kept for the next
+/// one: paths to deeper places and borders around niches. Belongs to one pair of bodies.
+class MinimaVerdicts {
+ public:
+  static constexpr std::uint32_t kNone = 0xffffffffU;
+
+  enum class Verdict : std::uint8_t {
+    Open,
+    Niche,      ///< nothing deeper is reached below (1 + least prominence) times its distance
+    Ripple,     ///< something deeper is, or the same set of minima has another seed
+    Undecided,  ///< the limit was reached
+    Unwanted    ///< neither a known ripple nor wanted
+  };
+  struct Judged {
+    MinimumSeed seed;
+    Verdict verdict = Verdict::Open;
+    bool found_by_flood = false;  ///< no seed led to it
+    std::uint32_t into = kNone;   ///< of a ripple: the deeper one, if known
+    TrianglePair below;           ///< and if not: a place deeper than it
+    std::uint64_t region = 0;     ///< of a niche: the same while its border is; 0: none
+  };
+  struct Counts {
+    std::uint32_t by_path = 0;    ///< ripples by known paths
+    std::uint32_t by_border = 0;  ///< niches by known borders
+    std::uint32_t mended = 0;     ///< niches by borders with more cells inside
+    std::uint32_t floods = 0;
+    std::uint32_t flooded_cells = 0;
+    std::uint32_t measured = 0;  ///< elements of borders, anew
+    std::uint32_t broken = 0;    ///< borders that a flood had to replace
+  };
+  struct Request {
+    double least_prominence = 1e-2;
+    /// Niches through material are wanted; else nothing is judged that begins there.
+    bool through_material = false;
+    bool keeps = true;  ///< what proves a verdict, for the next pose
+    /// Whether a seed that is no known ripple is wanted; empty: all are.
+    std::function<bool(const MinimumSeed&)> is_wanted;
+  };
+
+  void clear();
+
+  /// Judges all seeds, then those of the pairs `asked`: each is given as a minimum on its triangles. The
+  /// results stand in this order; places that floods found besides, after them.
+  void judge(const MinimaScene& scene, std::vector<MinimumSeed>& seeds, const std::vector<MinimumSeed>& asked,
+             const Request& request, WorkLimit& limit);
+
+  const std::vector<Judged>& judged() const { return judged_; }
+  /// The niche that a minimum belongs to; kNone when that is none of the judged.
+  std::uint32_t nicheOf(std::uint32_t index) const;
+  const Counts& counts() const { return counts_; }
+  std::size_t memoryBytes() const;
+
+ private:
+  class Stage;
+
+  /// A triangle pair that something is known of.
+  struct Cell {
+    TriangleIndex a;
+    TriangleIndex b;
+    std::uint32_t link = kNone;     ///< of links_: the way on
+    std::uint32_t low = kNone;      ///< of links_: a point pair in it
+    std::uint32_t regions = kNone;  ///< first of its memberships
+    std::uint32_t seed = kNone;     ///< of this cycle, if `cycle` is this one
+    std::uint64_t cycle = 0;
+  };
+  /// A point of each body, own axes in the scene's centre, in a cell and in the next one.
+  struct Link {
+    Eigen::Vector3d point_a;
+    Eigen::Vector3d point_b;
+    std::uint32_t next;
+    std::uint64_t used = 0;  ///< the last cycle
+  };
+  struct Membership {
+    std::uint32_t region;
+    std::uint32_t next;
+  };
+  /// Cells that are connected and enclosed.
+  struct Region {
+    std::uint64_t id = 0;         ///< 0: free
+    std::uint32_t first = kNone;  ///< seed of this cycle
+    bool confirmed = false;       ///< in this cycle
+    CellBorder border;
+    std::vector<std::uint32_t> cells;
+    std::size_t cells_at_begin = 0;
+  };
+
+  PairTable table_{8};
+  std::vector<Cell> cells_;
+  std::vector<Link> links_;
+  std::vector<Membership> memberships_;
+  std::uint32_t free_membership_ = kNone;
+  std::vector<Region> regions_;
+  std::uint64_t last_region_ = 0;
+  std::uint64_t cycle_ = 0;
+  std::size_t live_cells_ = 0;  ///< after the last compaction
+  // Buffers of a compaction.
+  std::vector<char> live_;
+  std::vector<std::uint32_t> places_;
+  std::vector<Link> spare_links_;
+  CellFlood flood_;
+  LevelPathBuffers path_;
+  RefinementWorkspace refinement_;
+  std::vector<Judged> judged_;
+  PairTable deepest_{4};  ///< first seed of each pair of pieces
+  bool floods_are_long_ = false;
+  Counts counts_;
+};
+
+}  // namespace concave_distance::detail

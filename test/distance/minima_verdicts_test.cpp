@@ -1,0 +1,235 @@
+#include "distance/minima_verdicts.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "distance/cone_front.h"
+#include "distance/meeting_pairs.h"
+#include "support/body_motions.h"
+#include "support/body_pairs.h"
+
+// Verdicts by what is kept from pose to pose against floods at every pose.
+
+namespace concave_distance::detail {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+using test::makeBody;
+using Body = std::shared_ptr<const BodyMesh>;
+using Verdict = MinimaVerdicts::Verdict;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+std::vector<MinimumSeed> seedsAt(const MinimaScene& scene) {
+  ConeFront front;
+  WorkLimit none;
+  std::vector<MinimumSeed> seeds;
+  LocalMinimaCost cost;
+  collectMeetingPairs(scene, seeds, cost, none);
+  front.collect(scene, NormalSides::Outside, kInfinity, seeds, none);
+  return seeds;
+}
+
+/// Ascending.
+std::vector<double> nichesOf(const MinimaVerdicts& verdicts) {
+  std::vector<double> distances;
+  for (const MinimaVerdicts::Judged& judged : verdicts.judged()) {
+    if (judged.verdict == Verdict::Niche) distances.push_back(judged.seed.distance);
+  }
+  std::sort(distances.begin(), distances.end());
+  return distances;
+}
+
+std::vector<double> nichesByFloods(const MinimaScene& scene, std::vector<MinimumSeed> seeds,
+                                   double least_prominence) {
+  MinimaVerdicts once;
+  WorkLimit none;
+  MinimaVerdicts::Request request;
+  request.least_prominence = least_prominence;
+  request.keeps = false;
+  once.judge(scene, seeds, {}, request, none);
+  return nichesOf(once);
+}
+
+void expectSame(const std::vector<double>& found, const std::vector<double>& truth) {
+  ASSERT_EQ(found.size(), truth.size());
+  for (std::size_t i = 0; i < truth.size(); ++i) EXPECT_NEAR(found[i], truth[i], 1e-11);
+}
+
+TEST(MinimaVerdicts, AreThoseOfFloodsAtEveryPoseOfAnyMotion) {
+  RandomEngine engine(21);
+  MinimaVerdicts::Counts sum;
+  for (std::uint32_t run = 0; run < 200; ++run) {
+    const Body a = makeBody(test::concaveShape(run));
+    const Body b = makeBody(test::concaveShape(run / 6));
+    const test::Motion motion = test::randomMotion(engine);
+    const double step = std::pow(10.0, -5.0 + 4.0 * uniformUnit(engine));
+    const double least_prominence = run % 2 == 0 ? 1e-2 : 0.3;
+    SCOPED_TRACE("run " + std::to_string(run) + ", step " + std::to_string(step));
+    MinimaVerdicts verdicts;
+    MinimaVerdicts::Request request;
+    request.least_prominence = least_prominence;
+    for (int k = 0; k < 40; ++k) {
+      const MinimaScene scene(*a, *b, motion.at(step * k));
+      std::vector<MinimumSeed> seeds = seedsAt(scene);
+      WorkLimit none;
+      verdicts.judge(scene, seeds, {}, request, none);
+      expectSame(nichesOf(verdicts), nichesByFloods(scene, seeds, least_prominence));
+      if (HasFailure()) return;
+      sum.by_path += verdicts.counts().by_path;
+      sum.by_border += verdicts.counts().by_border;
+      sum.mended += verdicts.counts().mended;
+      sum.floods += verdicts.counts().floods;
+    }
+  }
+  // All ways to a verdict were taken.
+  EXPECT_GT(sum.by_path, 1000U);
+  EXPECT_GT(sum.by_border, 1000U);
+  EXPECT_GT(sum.mended, 100U);
+  EXPECT_GT(sum.floods, 100U);
+}
+
+TEST(MinimaVerdicts, NeedNoFloodWhereNothingHasMoved) {
+  const Body a = makeBody(test::concaveShape(5));
+  const Body b = makeBody(test::concaveShape(1));
+  const MinimaScene scene(*a, *b, test::translation(Vector3d(0.3, 0.2, 2.0)));
+  std::vector<MinimumSeed> seeds = seedsAt(scene);
+  MinimaVerdicts verdicts;
+  WorkLimit none;
+  verdicts.judge(scene, seeds, {}, {}, none);
+  const std::vector<double> first = nichesOf(verdicts);
+  EXPECT_GT(verdicts.counts().floods, 0U);
+  verdicts.judge(scene, seeds, {}, {}, none);
+  EXPECT_EQ(verdicts.counts().floods, 0U);
+  EXPECT_EQ(verdicts.counts().flooded_cells, 0U);
+  EXPECT_EQ(verdicts.counts().measured, 0U);
+  EXPECT_EQ(verdicts.counts().by_border, first.size());
+  EXPECT_EQ(nichesOf(verdicts), first);
+}
+
+TEST(MinimaVerdicts, GiveANicheTheSameRegionWhileItStands) {
+  const Body a = makeBody(test::makeComb(4));
+  const Body b = makeBody(test::makeComb(3));
+  MinimaVerdicts verdicts;
+  std::set<std::uint64_t> first;
+  for (int k = 0; k < 20; ++k) {
+    const MinimaScene scene(*a, *b, test::translation(Vector3d(0.2 + 1e-4 * k, 0.1, 3.0 + 1e-4 * k)));
+    std::vector<MinimumSeed> seeds = seedsAt(scene);
+    WorkLimit none;
+    verdicts.judge(scene, seeds, {}, {}, none);
+    std::set<std::uint64_t> regions;
+    for (const MinimaVerdicts::Judged& judged : verdicts.judged()) {
+      if (judged.verdict != Verdict::Niche) continue;
+      EXPECT_TRUE(regions.insert(judged.region).second);
+    }
+    if (k == 0) first = regions;
+    EXPECT_EQ(regions, first);
+  }
+  EXPECT_FALSE(first.empty());
+}
+
+TEST(MinimaVerdicts, FloodNothingThatIsNotWanted) {
+  const Body a = makeBody(test::concaveShape(0));
+  const Body b = makeBody(test::concaveShape(3));
+  const MinimaScene scene(*a, *b, test::translation(Vector3d(0.3, 0.2, 2.0)));
+  std::vector<MinimumSeed> seeds = seedsAt(scene);
+  MinimaVerdicts verdicts;
+  MinimaVerdicts::Request request;
+  request.is_wanted = [](const MinimumSeed&) { return false; };
+  WorkLimit none;
+  verdicts.judge(scene, seeds, {}, request, none);
+  EXPECT_EQ(verdicts.counts().floods, 0U);
+  EXPECT_TRUE(nichesOf(verdicts).empty());
+  EXPECT_EQ(verdicts.judged().front().verdict, Verdict::Unwanted);
+}
+
+TEST(MinimaVerdicts, AreRightAgainAfterALimitHasEndedThem) {
+  RandomEngine engine(22);
+  const std::atomic<bool> stop{true};
+  bool was_undecided = false;
+  for (std::uint32_t run = 0; run < 30; ++run) {
+    const Body a = makeBody(test::concaveShape(run));
+    const Body b = makeBody(test::concaveShape(run / 6));
+    const test::Motion motion = test::randomMotion(engine);
+    MinimaVerdicts verdicts;
+    for (int k = 0; k < 24; ++k) {
+      const MinimaScene scene(*a, *b, motion.at(0.003 * k));
+      std::vector<MinimumSeed> seeds = seedsAt(scene);
+      if (k % 3 == 1) {
+        WorkLimit stopped(std::chrono::steady_clock::now(), kInfinity,
+                          k % 2 == 0 ? std::size_t{2000} : std::numeric_limits<std::size_t>::max(), &stop);
+        verdicts.judge(scene, seeds, {}, {}, stopped);
+        const std::vector<double> truth = nichesByFloods(scene, seeds, 1e-2);
+        for (const double distance : nichesOf(verdicts)) {
+          EXPECT_TRUE(std::any_of(truth.begin(), truth.end(),
+                                  [&](double d) { return std::abs(d - distance) < 1e-11; }));
+        }
+        for (const MinimaVerdicts::Judged& judged : verdicts.judged()) {
+          was_undecided = was_undecided || judged.verdict == Verdict::Undecided;
+        }
+        continue;
+      }
+      WorkLimit none;
+      verdicts.judge(scene, seeds, {}, {}, none);
+      expectSame(nichesOf(verdicts), nichesByFloods(scene, seeds, 1e-2));
+      if (HasFailure()) return;
+    }
+  }
+  EXPECT_TRUE(was_undecided);
+}
+
+// What is left of a border has its distance, and what leaves it has not, after any motion.
+TEST(CellBorder, LosesExactlyWhatComesNearerThanTheLevel) {
+  RandomEngine engine(23);
+  std::size_t lost = 0;
+  std::size_t kept = 0;
+  for (std::uint32_t run = 0; run < 200; ++run) {
+    const Body a = makeBody(test::concaveShape(run));
+    const Body b = makeBody(test::concaveShape(run / 6));
+    const test::Motion motion = test::randomMotion(engine);
+    const double step = std::pow(10.0, -4.0 + 3.0 * uniformUnit(engine));
+    const MinimaScene first(*a, *b, motion.at(0.0));
+    WorkLimit none;
+    CellBorder border;
+    border.begin(Vector3d::Zero(), Vector3d::Zero());
+    std::vector<SharedElement> left;
+    const double level = 0.3 + uniformUnit(engine);
+    for (std::uint32_t k = 0; k < 200; ++k) {
+      const Side side = uniformIndex(engine, 2) == 0 ? Side::A : Side::B;
+      const SurfaceMesh& own = (side == Side::A ? a : b)->surface();
+      const SurfaceMesh& other = (side == Side::A ? b : a)->surface();
+      const TriangleIndex t{uniformIndex(engine, static_cast<std::uint32_t>(own.triangleCount()))};
+      const SharedElement element{
+          side, own.triangle(t)[0], own.triangle(t)[k % 3],
+          TriangleIndex{uniformIndex(engine, static_cast<std::uint32_t>(other.triangleCount()))}};
+      const double distance = std::sqrt(closestOver(first, element).squared_distance);
+      if (distance < level) continue;
+      ASSERT_TRUE(border.add(first, {element, t}, distance, none));
+      left.push_back(element);
+    }
+    for (int k = 1; k < 30; ++k) {
+      const MinimaScene scene(*a, *b, motion.at(step * k));
+      const std::size_t crossed = border.takeCrossed(scene, level).size();
+      const auto nearer = [&](const SharedElement& element) {
+        return std::sqrt(closestOver(scene, element).squared_distance) < level;
+      };
+      const auto gone = std::remove_if(left.begin(), left.end(), nearer);
+      ASSERT_EQ(static_cast<std::size_t>(left.end() - gone), crossed) << "run " << run << ", instant " << k;
+      left.erase(gone, left.end());
+      ASSERT_EQ(border.size(), left.size());
+      lost += crossed;
+    }
+    kept += left.size();
+  }
+  EXPECT_GT(lost, 1000U);
+  EXPECT_GT(kept, 1000U);
+}
+
+}  // namespace
+}  // namespace concave_distance::detail
