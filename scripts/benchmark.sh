@@ -56,8 +56,8 @@ fi
 if [ -n "$(program continuous_benchmark)" ]; then  # built with CGAL only
   "$(program continuous_benchmark)" --seeds "$tree_seeds" --output "$results/continuous.csv"
 fi
-"$(program complete_benchmark)" --steps "$steps" --window "$window" --cold-runs 4 --swept-cones 4294967295 --reviewed-niches 4 \
-  --output "$results/complete_all_cones.csv" | tee "$results/complete_all_cones.txt"
+"$(program complete_benchmark)" --steps "$steps" --window "$window" --cold-runs 4 --accuracy refined \
+  --output "$results/complete_refined.csv" | tee "$results/complete_refined.txt"
 "$(program accuracy_benchmark)" --output "$results/accuracy.csv" --stages-output "$results/stages.csv" | tee "$results/accuracy.txt"
 if [ -n "$(program message_benchmark)" ]; then  # built with ROS only
   "$(program message_benchmark)" --output "$results/messages.csv" | tee "$results/messages.txt"

@@ -15,7 +15,7 @@ import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
 
-LEVELS = ("nodes", "refined", "certified", "complete")
+LEVELS = ("nodes", "refined", "certified")
 TIMES = {"time_us", "microseconds"}
 
 

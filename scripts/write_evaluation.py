@@ -369,7 +369,7 @@ def main():
             "- G_i: the generation (iteration) in which the run's best appeared; N_Gamma: niches of the final population: mean [least-most] deviation.",
             "- x*', x': averages of the best and of the mean objective over a run, over the optimum's (5.1, 5.2).",
             "- kflop: by the thesis's rule, 26 for each point pair looked at (a step of a descent looks at about five) and 6 for each constraint: median [least-most]. Times are of one core of a shared machine.",
-            "- recall, precision: of the outward niches of prominence 1e-2 that level `complete` proves, in the final population (of a",
+            "- recall, precision: of the outward niches of prominence 1e-2 that are proven to be all, in the final population (of a",
             "  tracker: those it lists). Nearest niche met: runs that have met it at all.",
             "- Along a motion (`instants`) every figure is a mean over them.", "",
             "![Figure 5.2: the sharing function](images/evaluation_sharing.png)"]

@@ -7,10 +7,7 @@ namespace concave_distance::detail {
 namespace {
 
 using Eigen::Vector3d;
-using FloatRow = Eigen::Map<const Eigen::ArrayXf>;
-
-/// Batches that the elements of a border are spread over, at most: then all are measured anew.
-constexpr std::uint32_t kMostBatches = 8;
+using Row = Eigen::Array<float, BorderPool::kWidth, 1>;
 
 /// What single precision may make of a bound, relative to the numbers in it (2^-24 for each of 16 roundings,
 /// and as much to spare).
@@ -43,8 +40,8 @@ Vector3d seen(Side fixed_in, const Eigen::Matrix3d& rotation, const Vector3d& of
                              : Vector3d(rotation.transpose() * (point - offset));
 }
 
-FloatRow rowOf(const std::vector<float>& row) {
-  return {row.data(), static_cast<Eigen::Index>(row.size())};
+Row rowOf(const std::array<float, BorderPool::kWidth>& row) {
+  return Eigen::Map<const Row>(row.data());
 }
 
 }  // namespace
@@ -61,169 +58,221 @@ struct CellBorder::Levers {
   float shorter;
 };
 
-void CellBorder::begin(const Vector3d& centre_a, const Vector3d& centre_b) {
+std::uint32_t BorderPool::take(std::uint32_t next, WorkLimit& limit) {
+  std::uint32_t chunk = free_;
+  if (chunk != kNone) {
+    free_ = chunks_[chunk].next;
+  } else {
+    if (!limit.makeRoom(chunks_)) return kNone;
+    chunk = static_cast<std::uint32_t>(chunks_.size());
+    chunks_.emplace_back();
+  }
+  chunks_[chunk].count = 0;
+  chunks_[chunk].next = next;
+  return chunk;
+}
+
+void BorderPool::release(std::uint32_t first) {
+  while (first != kNone) {
+    const std::uint32_t next = chunks_[first].next;
+    chunks_[first].next = free_;
+    free_ = first;
+    first = next;
+  }
+}
+
+void BorderPool::clear() {
+  chunks_.clear();
+  free_ = kNone;
+}
+
+std::size_t BorderPool::memoryBytes() const {
+  return chunks_.capacity() * sizeof(Chunk) + anew.capacity() * sizeof(Measured) +
+         crossed.capacity() * sizeof(BorderElement);
+}
+
+/// Of the gaps of a batch at another pose.
+struct CellBorder::Bound {
+  Bound(const MinimaScene& scene, const Batch& batch, const Vector3d& moving_centre, double level) {
+    const Vector3d motion = seen(batch.fixed_in, scene.frames.rotation, scene.frames.offset, moving_centre) -
+                            seen(batch.fixed_in, batch.rotation, batch.offset, moving_centre);
+    const double turn_now = (scene.frames.rotation - batch.rotation).norm() * std::sqrt(0.5);
+    const double reach = motion.norm();
+    double needed_now = level + 4.0 * scene.rounding;
+    needed_now += kSingleError * (needed_now + reach + turn_now * static_cast<double>(batch.longest));
+    if (!batch.directed) needed_now += reach;
+    needed = static_cast<float>(needed_now);
+    turn = static_cast<float>(turn_now);
+    along = batch.directed ? Eigen::Vector3f(motion.cast<float>()) : Eigen::Vector3f::Zero();
+  }
+
+  Row of(const BorderPool::Chunk& chunk) const {
+    return rowOf(chunk.gap) - turn * rowOf(chunk.lever) + along[0] * rowOf(chunk.direction[0]) +
+           along[1] * rowOf(chunk.direction[1]) + along[2] * rowOf(chunk.direction[2]);
+  }
+
+  float needed;
+  float turn;
+  Eigen::Vector3f along;
+};
+
+void CellBorder::begin(BorderPool& pool, const Vector3d& centre_a, const Vector3d& centre_b) {
+  clear(pool);
   centres_ = {centre_a, centre_b};
+}
+
+void CellBorder::clear(BorderPool& pool) {
+  for (std::uint32_t i = 0; i < used_; ++i) pool.release(batches_[i].first);
   used_ = 0;
 }
 
-std::size_t CellBorder::size() const {
+std::size_t CellBorder::size(const BorderPool& pool) const {
   std::size_t count = 0;
-  for (std::uint32_t i = 0; i < used_; ++i) count += batches_[i].elements.size();
+  for (std::uint32_t i = 0; i < used_; ++i) {
+    for (std::uint32_t c = batches_[i].first; c != BorderPool::kNone; c = pool[c].next)
+      count += pool[c].count;
+  }
   return count;
 }
 
-std::size_t CellBorder::memoryBytes() const {
-  std::size_t bytes = batches_.capacity() * sizeof(Batch) + anew_.capacity() * sizeof(Measured) +
-                      crossed_.capacity() * sizeof(BorderElement);
-  for (const Batch& batch : batches_) {
-    bytes +=
-        (batch.gap.capacity() + batch.lever.capacity() + 3 * batch.direction[0].capacity()) * sizeof(float) +
-        batch.elements.capacity() * sizeof(BorderElement);
-  }
-  return bytes;
-}
-
-CellBorder::Batch& CellBorder::batchAt(const MinimaScene& scene, Side fixed_in, bool directed) {
+CellBorder::Batch* CellBorder::batchAt(const MinimaScene& scene, Side fixed_in, bool directed) {
   for (std::uint32_t i = used_; i-- > 0;) {
     Batch& batch = batches_[i];
     if (batch.fixed_in == fixed_in && batch.directed == directed && batch.rotation == scene.frames.rotation &&
         batch.offset == scene.frames.offset) {
-      return batch;
+      return &batch;
     }
   }
-  if (used_ == batches_.size()) batches_.emplace_back();
+  if (used_ == kMostBatches) return nullptr;
   Batch& batch = batches_[used_++];
-  batch.fixed_in = fixed_in;
-  batch.directed = directed;
-  batch.rotation = scene.frames.rotation;
-  batch.offset = scene.frames.offset;
-  batch.longest = 0.0F;
-  batch.gap.clear();
-  for (std::vector<float>& component : batch.direction) component.clear();
-  batch.lever.clear();
-  batch.elements.clear();
-  return batch;
+  batch = {fixed_in, directed, scene.frames.rotation, scene.frames.offset, 0.0F, BorderPool::kNone};
+  return &batch;
 }
 
-bool CellBorder::add(const MinimaScene& scene, const BorderElement& element, double level, WorkLimit& limit) {
+std::uint32_t CellBorder::placeIn(BorderPool& pool, Batch& batch, WorkLimit& limit) {
+  if (batch.first == BorderPool::kNone || pool[batch.first].count == BorderPool::kWidth) {
+    const std::uint32_t chunk = pool.take(batch.first, limit);
+    if (chunk == BorderPool::kNone) return chunk;
+    batch.first = chunk;
+  }
+  return pool[batch.first].count++;
+}
+
+bool CellBorder::add(BorderPool& pool, const MinimaScene& scene, const BorderElement& element, double level,
+                     WorkLimit& limit) {
   const Levers levers(partOf(scene, Side::A, element.shared), partOf(scene, Side::B, element.shared),
                       centres_);
-  Batch& batch = batchAt(scene, levers.fixed_in, false);
-  if (!limit.makeRoom(batch.gap) || !limit.makeRoom(batch.lever) || !limit.makeRoom(batch.elements)) {
-    return false;
+  Batch* batch = batchAt(scene, levers.fixed_in, false);
+  if (batch == nullptr) {
+    measureAll(pool, scene);
+    batch = batchAt(scene, levers.fixed_in, false);
   }
-  batch.gap.push_back(static_cast<float>(level - 2.0 * scene.rounding));
-  batch.lever.push_back(levers.shorter);
-  batch.longest = std::max(batch.longest, levers.shorter);
-  batch.elements.push_back(element);
+  const std::uint32_t k = placeIn(pool, *batch, limit);
+  if (k == BorderPool::kNone) return false;
+  BorderPool::Chunk& chunk = pool[batch->first];
+  chunk.gap[k] = static_cast<float>(level - 2.0 * scene.rounding);
+  chunk.lever[k] = levers.shorter;
+  for (std::array<float, BorderPool::kWidth>& component : chunk.direction) component[k] = 0.0F;
+  chunk.elements[k] = element;
+  batch->longest = std::max(batch->longest, levers.shorter);
   return true;
 }
 
-bool CellBorder::addDirected(const MinimaScene& scene, const BorderElement& element,
-                             const TrianglePairDistance& closest, WorkLimit& limit) {
-  const Part part_a = partOf(scene, Side::A, element.shared);
-  const Part part_b = partOf(scene, Side::B, element.shared);
+void CellBorder::addDirected(BorderPool& pool, const MinimaScene& scene, const BorderPool::Measured& measured,
+                             WorkLimit& limit) {
+  const SharedElement& shared = measured.element.shared;
+  const Part part_a = partOf(scene, Side::A, shared);
+  const Part part_b = partOf(scene, Side::B, shared);
   const Levers levers(part_a, part_b, centres_);
-  const Vector3d direction = (closest.point_b - closest.point_a).normalized();
+  const Vector3d direction = (measured.closest.point_b - measured.closest.point_a).normalized();
   const Vector3d direction_in_b = scene.frames.rotation.transpose() * direction;
   const double gap = part_b.leastAlong(direction_in_b) + direction.dot(scene.frames.offset) +
                      part_a.leastAlong(-direction) - 2.0 * scene.rounding;
-  Batch& batch = batchAt(scene, levers.fixed_in, true);
   const Vector3d along = levers.fixed_in == Side::A ? direction : Vector3d(-direction_in_b);
-  if (!limit.makeRoom(batch.gap) || !limit.makeRoom(batch.lever) || !limit.makeRoom(batch.elements)) {
-    return false;
+  Batch& batch = *batchAt(scene, levers.fixed_in, true);
+  const std::uint32_t k = placeIn(pool, batch, limit);
+  BorderPool::Chunk& chunk = pool[batch.first];
+  chunk.gap[k] = static_cast<float>(gap);
+  chunk.lever[k] = levers.shorter;
+  for (std::size_t d = 0; d < 3; ++d) {
+    chunk.direction[d][k] = static_cast<float>(along[static_cast<Eigen::Index>(d)]);
   }
-  for (std::size_t k = 0; k < 3; ++k) {
-    if (!limit.makeRoom(batch.direction[k])) return false;
-  }
-  batch.gap.push_back(static_cast<float>(gap));
-  batch.lever.push_back(levers.shorter);
+  chunk.elements[k] = measured.element;
   batch.longest = std::max(batch.longest, levers.shorter);
-  for (std::size_t k = 0; k < 3; ++k) {
-    batch.direction[k].push_back(static_cast<float>(along[static_cast<Eigen::Index>(k)]));
-  }
-  batch.elements.push_back(element);
-  return true;
 }
 
 /// What may be nearer than the level is measured and leaves the batch.
-void CellBorder::look(const MinimaScene& scene, Batch& batch, double level) {
-  const Eigen::Matrix3d& rotation = scene.frames.rotation;
-  const Vector3d& centre = centres_[batch.fixed_in == Side::A ? 1 : 0];
-  const Vector3d motion = seen(batch.fixed_in, rotation, scene.frames.offset, centre) -
-                          seen(batch.fixed_in, batch.rotation, batch.offset, centre);
-  const double turn = (rotation - batch.rotation).norm() * std::sqrt(0.5);
-  const double reach = motion.norm();
-  double needed = level + 4.0 * scene.rounding;
-  needed += kSingleError * (needed + reach + turn * static_cast<double>(batch.longest));
-  if (!batch.directed) needed += reach;
-  const auto need = static_cast<float>(needed);
-  const auto turn_per_lever = static_cast<float>(turn);
-  const Eigen::Vector3f along = motion.cast<float>();
-  const auto boundOf = [&](std::size_t i) {
-    const float undirected = batch.gap[i] - turn_per_lever * batch.lever[i];
-    if (!batch.directed) return undirected;
-    return undirected + batch.direction[0][i] * along[0] + batch.direction[1][i] * along[1] +
-           batch.direction[2][i] * along[2];
-  };
-  const auto undirected = rowOf(batch.gap) - turn_per_lever * rowOf(batch.lever);
-  const float least = batch.directed
-                          ? (undirected + along[0] * rowOf(batch.direction[0]) +
-                             along[1] * rowOf(batch.direction[1]) + along[2] * rowOf(batch.direction[2]))
-                                .minCoeff()
-                          : undirected.minCoeff();
-  if (least > need) return;
-  for (std::size_t i = batch.elements.size(); i-- > 0;) {
-    // The two sums above may be rounded differently: one of them has to be clear.
-    if (boundOf(i) > need) continue;
-    ++measured_;
-    const BorderElement element = batch.elements[i];
-    const TrianglePairDistance closest = closestOver(scene, element.shared);
-    if (closest.squared_distance < level * level) {
-      crossed_.push_back(element);
-    } else {
-      anew_.push_back({element, closest});
+std::uint32_t CellBorder::look(BorderPool& pool, const MinimaScene& scene, Batch& batch, double level) const {
+  const Bound bound(scene, batch, centres_[batch.fixed_in == Side::A ? 1 : 0], level);
+  std::uint32_t measured = 0;
+  std::uint32_t* at = &batch.first;
+  while (*at != BorderPool::kNone) {
+    BorderPool::Chunk& chunk = pool[*at];
+    const Row bounds = bound.of(chunk);
+    for (std::uint32_t k = chunk.count; k-- > 0;) {
+      if (bounds[k] > bound.needed) continue;
+      ++measured;
+      const BorderElement element = chunk.elements[k];
+      const TrianglePairDistance closest = closestOver(scene, element.shared);
+      if (closest.squared_distance < level * level) {
+        pool.crossed.push_back(element);
+      } else {
+        pool.anew.push_back({element, closest});
+      }
+      const std::uint32_t last = --chunk.count;
+      chunk.gap[k] = chunk.gap[last];
+      chunk.lever[k] = chunk.lever[last];
+      for (std::array<float, BorderPool::kWidth>& component : chunk.direction) component[k] = component[last];
+      chunk.elements[k] = chunk.elements[last];
     }
-    const auto drop = [i](auto& row) {
-      row[i] = row.back();
-      row.pop_back();
-    };
-    drop(batch.gap);
-    drop(batch.lever);
-    if (batch.directed) {
-      for (std::vector<float>& component : batch.direction) drop(component);
+    if (chunk.count > 0) {
+      at = &chunk.next;
+      continue;
     }
-    drop(batch.elements);
+    const std::uint32_t empty = *at;
+    *at = chunk.next;
+    pool[empty].next = BorderPool::kNone;
+    pool.release(empty);
   }
+  return measured;
 }
 
-const std::vector<BorderElement>& CellBorder::takeCrossed(const MinimaScene& scene, double level) {
-  WorkLimit none;
-  measured_ = 0;
-  anew_.clear();
-  crossed_.clear();
+/// All elements, at this pose.
+std::uint32_t CellBorder::measureAll(BorderPool& pool, const MinimaScene& scene) {
+  const std::size_t before = pool.anew.size();
   for (std::uint32_t i = 0; i < used_; ++i) {
-    if (!batches_[i].elements.empty()) look(scene, batches_[i], level);
+    for (std::uint32_t c = batches_[i].first; c != BorderPool::kNone; c = pool[c].next) {
+      for (std::uint32_t k = 0; k < pool[c].count; ++k) {
+        const BorderElement& element = pool[c].elements[k];
+        pool.anew.push_back({element, closestOver(scene, element.shared)});
+      }
+    }
   }
-  if (anew_.empty()) return crossed_;
+  clear(pool);
+  WorkLimit none;
+  const auto measured = static_cast<std::uint32_t>(pool.anew.size() - before);
+  for (const BorderPool::Measured& element : pool.anew) addDirected(pool, scene, element, none);
+  pool.anew.clear();
+  return measured;
+}
+
+std::uint32_t CellBorder::takeCrossed(BorderPool& pool, const MinimaScene& scene, double level) {
+  pool.anew.clear();
+  pool.crossed.clear();
+  std::uint32_t measured = 0;
+  for (std::uint32_t i = 0; i < used_; ++i) measured += look(pool, scene, batches_[i], level);
+  if (pool.anew.empty()) return measured;
   std::uint32_t rest = 0;
   for (std::uint32_t i = 0; i < used_; ++i) {
-    if (batches_[i].elements.empty()) continue;
+    if (batches_[i].first == BorderPool::kNone) continue;
     if (i != rest) std::swap(batches_[i], batches_[rest]);
     ++rest;
   }
   used_ = rest;
-  if (used_ + 2 > kMostBatches) {
-    for (std::uint32_t i = 0; i < used_; ++i) {
-      for (const BorderElement& element : batches_[i].elements) {
-        ++measured_;
-        anew_.push_back({element, closestOver(scene, element.shared)});
-      }
-    }
-    used_ = 0;
-  }
-  for (const Measured& measured : anew_) addDirected(scene, measured.element, measured.closest, none);
-  return crossed_;
+  if (used_ + 2 > kMostBatches) return measured + measureAll(pool, scene);
+  WorkLimit none;
+  for (const BorderPool::Measured& element : pool.anew) addDirected(pool, scene, element, none);
+  return measured;
 }
 
 }  // namespace concave_distance::detail

@@ -20,6 +20,46 @@ struct BorderElement {
   }
 };
 
+/// Where the borders of a pair keep their elements, in groups of one measurement. Freed groups are used
+/// again, so that nothing is allocated once as many as ever are there.
+class BorderPool {
+ public:
+  static constexpr std::uint32_t kNone = 0xffffffffU;
+  static constexpr std::size_t kWidth = 16;
+
+  /// In single precision.
+  struct Chunk {
+    std::array<float, kWidth> gap;
+    std::array<float, kWidth> lever;
+    std::array<std::array<float, kWidth>, 3> direction;  ///< fixed body's axes; of directed ones
+    std::array<BorderElement, kWidth> elements;
+    std::uint32_t count = 0;
+    std::uint32_t next = kNone;
+  };
+  struct Measured {
+    BorderElement element;
+    TrianglePairDistance closest;
+  };
+
+  /// An empty group before `next`; kNone without memory.
+  std::uint32_t take(std::uint32_t next, WorkLimit& limit);
+  /// The group and all after it.
+  void release(std::uint32_t first);
+  Chunk& operator[](std::uint32_t chunk) { return chunks_[chunk]; }
+  const Chunk& operator[](std::uint32_t chunk) const { return chunks_[chunk]; }
+
+  void clear();
+  std::size_t memoryBytes() const;
+
+  // Of one look at a border.
+  std::vector<Measured> anew;
+  std::vector<BorderElement> crossed;
+
+ private:
+  std::vector<Chunk> chunks_;
+  std::uint32_t free_ = kNone;
+};
+
 /// What encloses a set of triangle pairs: elements over which the distance is at least a level. At another
 /// pose the distance over an element has changed by no more than one point has moved and the turn times a
 /// lever; where that is not enough it is measured anew, and from then on the gap along the direction of the
@@ -28,50 +68,47 @@ struct BorderElement {
 class CellBorder {
  public:
   /// An empty one around a point of each body, own axes in the scene's centre.
-  void begin(const Eigen::Vector3d& centre_a, const Eigen::Vector3d& centre_b);
+  void begin(BorderPool& pool, const Eigen::Vector3d& centre_a, const Eigen::Vector3d& centre_b);
+  void clear(BorderPool& pool);
 
   /// @param level metres, of the distance over the element at this pose. False without memory.
-  bool add(const MinimaScene& scene, const BorderElement& element, double level, WorkLimit& limit);
+  bool add(BorderPool& pool, const MinimaScene& scene, const BorderElement& element, double level,
+           WorkLimit& limit);
 
-  /// Looks for elements over which the distance is below `level` (metres): they leave the border.
-  const std::vector<BorderElement>& takeCrossed(const MinimaScene& scene, double level);
+  /// Looks for elements over which the distance is below `level` (metres): they leave the border and are
+  /// `pool.crossed`.
+  /// @return elements measured
+  std::uint32_t takeCrossed(BorderPool& pool, const MinimaScene& scene, double level);
 
-  std::size_t size() const;
-  std::uint32_t measured() const { return measured_; }  ///< elements, by the last takeCrossed()
-  std::size_t memoryBytes() const;
+  std::size_t size(const BorderPool& pool) const;
 
  private:
-  /// Elements measured at one pose, seen from the axes of one body while the other one moves; in single
-  /// precision. The moving body's part of each lies within the lever of its centre.
+  /// Elements measured at one pose, seen from the axes of one body while the other one moves, whose part of
+  /// each lies within the lever of its centre.
   struct Batch {
     Side fixed_in = Side::A;
     bool directed = false;
     Eigen::Matrix3d rotation;  ///< of the scene's frames, at the pose
     Eigen::Vector3d offset;
     float longest = 0.0F;  ///< lever
-    std::vector<float> gap;
-    std::array<std::vector<float>, 3> direction;  ///< fixed body's axes; of directed ones
-    std::vector<float> lever;
-    std::vector<BorderElement> elements;
+    std::uint32_t first = BorderPool::kNone;
   };
+  static constexpr std::uint32_t kMostBatches = 8;
+  struct Bound;
   struct Levers;
 
-  Batch& batchAt(const MinimaScene& scene, Side fixed_in, bool directed);
-  /// False without memory.
-  bool addDirected(const MinimaScene& scene, const BorderElement& element,
-                   const TrianglePairDistance& closest, WorkLimit& limit);
-  void look(const MinimaScene& scene, Batch& batch, double level);
+  /// Null when there are too many.
+  Batch* batchAt(const MinimaScene& scene, Side fixed_in, bool directed);
+  /// The place for another element; kNone without memory.
+  static std::uint32_t placeIn(BorderPool& pool, Batch& batch, WorkLimit& limit);
+  void addDirected(BorderPool& pool, const MinimaScene& scene, const BorderPool::Measured& measured,
+                   WorkLimit& limit);
+  std::uint32_t look(BorderPool& pool, const MinimaScene& scene, Batch& batch, double level) const;
+  std::uint32_t measureAll(BorderPool& pool, const MinimaScene& scene);
 
   std::array<Eigen::Vector3d, 2> centres_;
-  std::vector<Batch> batches_;
+  std::array<Batch, kMostBatches> batches_;
   std::uint32_t used_ = 0;  ///< batches
-  struct Measured {
-    BorderElement element;
-    TrianglePairDistance closest;
-  };
-  std::vector<Measured> anew_;
-  std::vector<BorderElement> crossed_;
-  std::uint32_t measured_ = 0;
 };
 
 }  // namespace concave_distance::detail

@@ -147,8 +147,8 @@ class ConeFront::Stage {
     ++front_.counts_.features;
     const Item& a = itemOfA(pair.first);
     const Item& b = itemOfB(pair.second);
-    if (const auto distance = features_.findMinimum(a, b)) {
-      seeds_.push_back({a.triangle, b.triangle, *distance});
+    if (const auto found = features_.findMinimum(a, b)) {
+      seeds_.push_back(*found);
       return false;
     }
     resetOffers(pair);

@@ -7,7 +7,6 @@
 #include "base/expiry_queue.h"
 #include "cone_comparison.h"
 #include "cone_motion.h"
-#include "cone_sweep.h"
 #include "local_minima.h"
 
 namespace concave_distance::detail {

@@ -3,8 +3,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "cone_sweep.h"
+#include "concave_distance/base/work_limit.h"
 #include "minima_scene.h"
+#include "witness_refinement.h"
 
 namespace concave_distance::detail {
 

@@ -14,6 +14,11 @@ using Item = NormalConeTree::Item;
 
 /// Radians that the direction between two features may be off before its cone is asked, besides rounding.
 constexpr double kDirectionSlack = 1e-6;
+/// Heights that differ by less, relative to the bodies' size, are looked at as equal: more than what extents
+/// are measured with.
+constexpr double kLevelTolerance = 1.5e-9;
+/// Sine of the angle between edges below which they may share more than a point.
+constexpr double kMayBeParallel = 1e-3;
 
 double unitClamp(double x) {
   return x < 0.0 ? 0.0 : (x > 1.0 ? 1.0 : x);
@@ -46,6 +51,7 @@ FeaturePairs::FeaturePairs(const MinimaScene& scene, double cutoff)
     : scene_(scene),
       // Spheres and distances carry the rounding of the scene.
       slack_(4.0 * scene.rounding),
+      level_(kLevelTolerance * (scene.a.diameter() + scene.b.diameter()) + 2.0 * slack_),
       cutoff_(cutoff + slack_) {}
 
 FeaturePairs::Between FeaturePairs::between(const Vector3d& from, const Vector3d& to) {
@@ -65,7 +71,7 @@ FeaturePairs::Between FeaturePairs::betweenSegments(const Vector3d& a0, const Ve
   return between(closestOnSegment(on_b, a0, a1), on_b);
 }
 
-std::optional<double> FeaturePairs::findMinimum(const Item& a, const Item& b) const {
+std::optional<MinimumSeed> FeaturePairs::findMinimum(const Item& a, const Item& b) const {
   const FacingCap cap_a{a.cap.axis, a.cap.cosine, a.cap.sine};
   const FacingCap cap_b{-(scene_.frames.rotation * b.cap.axis), b.cap.cosine, b.cap.sine};
   if (a.kind == Kind::Edge && b.kind == Kind::Edge && !edgesMayFace(a, b, cap_a, cap_b)) return std::nullopt;
@@ -79,13 +85,23 @@ std::optional<double> FeaturePairs::findMinimum(const Item& a, const Item& b) co
       !cap_b.holds(found.displacement, distance, turn_cosine, turn)) {
     return std::nullopt;
   }
-  if (!isPeak(scene_.a, a, found.from, found.displacement / distance, distance,
-              [this](NodeIndex n) { return scene_.vertexOfA(n); }) ||
-      !isPeak(scene_.b, b, found.to, -found.displacement / distance, distance,
-              [this](NodeIndex n) { return scene_.vertexOfB(n); })) {
-    return std::nullopt;
-  }
-  return distance;
+  const Vector3d direction = found.displacement / distance;
+  const Peak peak_a = peakAt(scene_.a, a, found.from, direction, distance,
+                             [this](NodeIndex n) { return scene_.vertexOfA(n); });
+  if (!peak_a.is_peak) return std::nullopt;
+  const Peak peak_b = peakAt(scene_.b, b, found.to, -direction, distance,
+                             [this](NodeIndex n) { return scene_.vertexOfB(n); });
+  if (!peak_b.is_peak) return std::nullopt;
+  const auto edgesCross = [&] {
+    const Vector3d along_a = edgeOfA(a);
+    const Vector3d along_b = edgeOfB(b);
+    return along_a.cross(along_b).squaredNorm() >
+           kMayBeParallel * kMayBeParallel * along_a.squaredNorm() * along_b.squaredNorm();
+  };
+  const bool is_point = peak_a.level_dimensions == 0 || peak_b.level_dimensions == 0 ||
+                        (peak_a.level_dimensions == 1 && peak_b.level_dimensions == 1 && edgesCross());
+  return MinimumSeed{a.triangle,     b.triangle,     distance,   true,    is_point,
+                     peak_a.feature, peak_b.feature, found.from, found.to};
 }
 
 /// Two edges at an angle are closest along the direction across both: whether that lies in the caps of
@@ -106,35 +122,45 @@ bool FeaturePairs::edgesMayFace(const Item& a, const Item& b, const FacingCap& c
   return both_hold(across) || both_hold(-across);
 }
 
-/// Whether no vertex next to the feature rises towards the other body by more than rounding: the normal
+/// A peak has no vertex next to it that rises towards the other body by more than rounding: the normal
 /// cone itself, which the cap is around. Points are off by less than the slack, the direction between them
 /// by that over their distance.
 template <typename VertexOf>
-bool FeaturePairs::isPeak(const BodyMesh& body, const Item& item, const Vector3d& point,
-                          const Vector3d& direction, double distance, const VertexOf& vertex_of) const {
+FeaturePairs::Peak FeaturePairs::peakAt(const BodyMesh& body, const Item& item, const Vector3d& point,
+                                        const Vector3d& direction, double distance,
+                                        const VertexOf& vertex_of) const {
+  const double turn = slack_ / distance;
+  bool any_level = false;
   const auto rises = [&](NodeIndex node) {
     const Vector3d displacement = vertex_of(node) - point;
-    const double over = direction.dot(displacement) - slack_;
-    const double turn = slack_ / distance;
+    const double height = direction.dot(displacement);
+    any_level = any_level || height > -level_;
+    const double over = height - slack_;
     return over > 0.0 && over * over > turn * turn * displacement.squaredNorm();
   };
   const TriangleNodes& nodes = body.surface().triangle(item.triangle);
   // The end of an edge counts with all that is around it.
-  for (const NodeIndex node : nodes) {
-    if ((vertex_of(node) - point).squaredNorm() > slack_ * slack_) continue;
-    const auto around = body.topology().neighbours_of_vertex.row(node.value);
-    return std::none_of(around.begin(), around.end(), rises);
+  for (std::uint8_t k = 0; k < 3; ++k) {
+    if ((vertex_of(nodes[k]) - point).squaredNorm() > slack_ * slack_) continue;
+    const auto around = body.topology().neighbours_of_vertex.row(nodes[k].value);
+    const bool is_peak = std::none_of(around.begin(), around.end(), rises);
+    return {is_peak, any_level ? 2 : 0, static_cast<Feature>(k)};
   }
-  if (std::any_of(nodes.begin(), nodes.end(), rises)) return false;
-  if (item.kind == Kind::Face) return true;
+  if (item.kind == Kind::Face) return {std::none_of(nodes.begin(), nodes.end(), rises), 2, Feature::Face};
   const NodeIndex from = nodes[item.element];
   const NodeIndex to = nodes[(item.element + 1U) % 3];
+  const auto feature = static_cast<Feature>(3 + item.element);
+  if (rises(from) || rises(to)) return {false, 2, feature};
+  any_level = false;
+  if (rises(nodes[(item.element + 2U) % 3])) return {false, 2, feature};
   for (const AdjacentTriangle& next : body.adjacency().row(item.triangle.value)) {
     if (next.from != from || next.to != to) continue;
     const TriangleNodes& beyond = body.surface().triangle(next.triangle);
-    if (std::any_of(beyond.begin(), beyond.end(), rises)) return false;
+    for (const NodeIndex node : beyond) {
+      if (node != from && node != to && rises(node)) return {false, 2, feature};
+    }
   }
-  return true;
+  return {true, any_level ? 2 : 1, feature};
 }
 
 namespace {

@@ -6,6 +6,7 @@
 #include "cone_motion.h"
 #include "mesh/trees/normal_cone_tree.h"
 #include "minima_scene.h"
+#include "minimum_seed.h"
 
 namespace concave_distance::detail {
 
@@ -32,8 +33,8 @@ class FeaturePairs {
     return l == Kind::Vertex || r == Kind::Vertex || (l == Kind::Edge && r == Kind::Edge);
   }
 
-  /// The distance, metres, if it may be a local minimum up to the cutoff. Pairs that meet are none.
-  std::optional<double> findMinimum(const Item& a, const Item& b) const;
+  /// The closest points, if they may be a local minimum up to the cutoff. Pairs that meet are none.
+  std::optional<MinimumSeed> findMinimum(const Item& a, const Item& b) const;
 
   /// For a pair that holds none: offers slacks, each of which keeps it so until it is used up. None is
   /// offered where the answer may change at once.
@@ -53,8 +54,14 @@ class FeaturePairs {
   static Between betweenSegments(const Eigen::Vector3d& a0, const Eigen::Vector3d& a1,
                                  const Eigen::Vector3d& b0, const Eigen::Vector3d& b1);
   bool edgesMayFace(const Item& a, const Item& b, const FacingCap& cap_a, const FacingCap& cap_b) const;
+  /// A point of a body as the foremost one of its surroundings.
+  struct Peak {
+    bool is_peak;
+    int level_dimensions;  ///< of what is as far forward: 0: the point alone, 1: an edge, 2: perhaps more
+    Feature feature;
+  };
   template <typename VertexOf>
-  bool isPeak(const BodyMesh& body, const Item& item, const Eigen::Vector3d& point,
+  Peak peakAt(const BodyMesh& body, const Item& item, const Eigen::Vector3d& point,
               const Eigen::Vector3d& direction, double distance, const VertexOf& vertex_of) const;
   Eigen::Vector3d edgeOfA(const Item& item) const;
   Eigen::Vector3d edgeOfB(const Item& item) const;
@@ -69,6 +76,7 @@ class FeaturePairs {
 
   const MinimaScene& scene_;
   double slack_;
+  double level_;  ///< metres; heights within this may be equal
   double cutoff_;
 };
 

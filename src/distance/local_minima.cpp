@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/refill.h"
 #include "cone_front.h"
 #include "far_pieces.h"
 #include "meeting_pairs.h"
@@ -11,133 +12,191 @@
 #include "minima_flood.h"
 #include "minima_scene.h"
 #include "minima_verdicts.h"
+#include "niche_describer.h"
 
 namespace concave_distance {
+namespace detail {
 namespace {
 
-/// Of heights, relative to the size of both bodies; the same as the tracker's.
-constexpr double kPlateauTolerance = 1e-9;
-/// No plateau seen comes near it; the flood has united the whole set before.
-constexpr std::size_t kExtentPairLimit = 100'000;
+constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
-struct Described {
-  LocalMinimum niche;
-  std::size_t minimum;  ///< of the flood
-};
-
-class Describer {
- public:
-  Describer(const detail::MinimaScene& scene, const LocalMinimaRequest& request, WorkLimit& limit)
-      : scene_(scene), request_(request), a_(scene.a), b_(scene.b), limit_(limit) {}
-
-  /// False for what is not wanted.
-  bool describe(const detail::FloodedMinimum& minimum, LocalMinimum& niche) {
-    niche.witness = refineWitness(a_, b_, scene_.a_from_b, minimum.a, minimum.b, refinement_).witness;
-    niche.distance = std::sqrt(niche.witness.squared_distance);
-    niche.flooded = minimum.flooded;
-    if (minimum.distance <= 4.0 * scene_.rounding) {
-      niche.distance = 0.0;
-      return true;
-    }
-    if (niche.distance > request_.cutoff) return false;
-    niche.outward = classifyOutwardness(a_, b_, scene_.a_from_b, niche.witness);
-    if (niche.outward == Outwardness::ThroughMaterial && !request_.through_material) return false;
-    niche.visible = isVisible(a_, b_, scene_.a_from_b, niche.witness);
-    niche.prominence = minimum.pass / niche.distance - 1.0;
-    const double tolerance = kPlateauTolerance * (a_.diameter() + b_.diameter());
-    const NicheExtent extent =
-        measureExtent(a_, b_, scene_.a_from_b, niche.witness, tolerance, kExtentPairLimit, extent_, &limit_);
-    niche.kind = extent.kind;
-    niche.extent = extent.length;
-    if (extent.kind != NicheKind::Point) niche.witness = extent.representative;
+/// False when the limit was reached.
+bool collectSeeds(const MinimaScene& scene, const LocalMinimaRequest& request,
+                  std::vector<MinimumSeed>& seeds, LocalMinimaCost& cost, WorkLimit& limit,
+                  ConeFront* front) {
+  seeds.clear();
+  if (request.given != nullptr) {
+    if (!limit.makeRoom(seeds, request.given->size())) return false;
+    seeds.assign(request.given->begin(), request.given->end());
     return true;
   }
-
- private:
-  const detail::MinimaScene& scene_;
-  const LocalMinimaRequest& request_;
-  const BodyMesh& a_;
-  const BodyMesh& b_;
-  WorkLimit& limit_;
-  RefinementWorkspace refinement_;
-  ExtentWorkspace extent_;
-};
-
-/// Verdicts alone; no pass is measured.
-detail::FloodResult decide(const detail::MinimaScene& scene, const LocalMinimaRequest& request,
-                           std::vector<MinimumSeed>& seeds, const std::vector<MinimumSeed>& asked,
-                           detail::MinimaVerdicts& verdicts, bool keeps, LocalMinimaCost& cost,
-                           WorkLimit& limit) {
-  using Verdict = detail::MinimaVerdicts::Verdict;
-  verdicts.judge(scene, seeds, asked, {request.least_prominence, request.through_material, keeps, {}}, limit);
-  cost.flooded_pairs += verdicts.counts().flooded_cells;
-  const auto& judged = verdicts.judged();
-  detail::FloodResult result;
-  std::vector<std::size_t> minimum_of(judged.size(), LocalMinima::kNoOwner);
-  for (std::size_t i = 0; i < judged.size(); ++i) {
-    result.cut = result.cut || judged[i].verdict == Verdict::Undecided;
-    if (judged[i].verdict != Verdict::Niche) continue;
-    const MinimumSeed& seed = judged[i].seed;
-    minimum_of[i] = result.minima.size();
-    const double flooded = (1.0 + request.least_prominence) * seed.distance;
-    result.minima.push_back(
-        {seed.a, seed.b, seed.distance, std::numeric_limits<double>::infinity(), flooded, i >= seeds.size()});
+  if (isFar(scene, request.least_prominence)) {
+    FarPieceBuffers far_pieces;
+    if (collectFarSeeds(scene, request.cutoff, far_pieces, seeds, limit)) return true;
   }
-  for (std::size_t i = 0; i < asked.size(); ++i) {
-    const std::uint32_t niche = verdicts.nicheOf(static_cast<std::uint32_t>(seeds.size() + i));
-    result.owners.push_back(niche == detail::MinimaVerdicts::kNone ? LocalMinima::kNoOwner
-                                                                   : minimum_of[niche]);
-  }
-  return result;
-}
-
-bool isFar(const detail::MinimaScene& scene, const LocalMinimaRequest& request) {
-  return detail::isFar(scene, request.least_prominence);
-}
-
-void collectSeeds(const detail::MinimaScene& scene, const LocalMinimaRequest& request,
-                  std::vector<MinimumSeed>& seeds, LocalMinimaCost& cost, WorkLimit& limit,
-                  LocalMinimaMemory* memory) {
-  detail::FarPieceBuffers far_pieces;
-  if (isFar(scene, request) && detail::collectFarSeeds(scene, request.cutoff, far_pieces, seeds, limit))
-    return;
-  if (!(request.certain_distance > 16.0 * scene.rounding))
-    detail::collectMeetingPairs(scene, seeds, cost, limit);
+  if (!(request.certain_distance > 16.0 * scene.rounding)) collectMeetingPairs(scene, seeds, cost, limit);
   const NormalSides sides = request.through_material ? NormalSides::Both : NormalSides::Outside;
-  if (memory != nullptr) {
-    detail::ConeFront& front = memory->front();
-    front.collect(scene, sides, request.cutoff, seeds, limit);
-    cost.node_pairs += front.counts().groups;
-    cost.feature_pairs += front.counts().features;
-    return;
+  if (front != nullptr) {
+    const bool done = front->collect(scene, sides, request.cutoff, seeds, limit);
+    cost.node_pairs += front->counts().groups;
+    cost.feature_pairs += front->counts().features;
+    return done;
   }
-  detail::OpenCones open;
-  detail::collectConeSeeds(scene, sides, request.cutoff, std::numeric_limits<std::size_t>::max(), open, seeds,
-                           cost, limit);
+  collectConeSeeds(scene, sides, request.cutoff, seeds, cost, limit);
+  return !limit.isOver();
 }
 
 }  // namespace
 
-struct LocalMinimaMemory::Parts {
-  detail::ConeFront front;
-  detail::MinimaVerdicts verdicts;
+/// Buffers and stages of a call.
+struct LocalMinimaParts {
+  struct Described {
+    LocalMinimum niche;
+    std::size_t minimum;  ///< of `minima`
+  };
+
+  /// Verdicts alone; no pass is measured.
+  bool decide(const MinimaScene& scene, const LocalMinimaRequest& request, bool keeps, LocalMinimaCost& cost,
+              WorkLimit& limit);
+  bool measure(const MinimaScene& scene, const LocalMinimaRequest& request, LocalMinimaCost& cost,
+               WorkLimit& limit);
+  void describe(const MinimaScene& scene, const LocalMinimaRequest& request, WorkLimit& limit);
+  void list(const LocalMinimaRequest& request, LocalMinima& result);
+
+  std::size_t memoryBytes() const {
+    return sizeof(LocalMinimaParts) + front.memoryBytes() + verdicts.memoryBytes() +
+           seeds.capacity() * sizeof(MinimumSeed) + minima.capacity() * sizeof(FloodedMinimum) +
+           described.capacity() * sizeof(Described) +
+           (places.capacity() + owners.capacity() + proposed.capacity()) * sizeof(std::size_t);
+  }
+
+  ConeFront front;
+  MinimaVerdicts verdicts;
+  NicheDescriber describer;
+  RefinementWorkspace refinement;
+  std::vector<MinimumSeed> seeds;
+  std::vector<FloodedMinimum> minima;
+  std::vector<Described> described;
+  std::vector<std::size_t> places;    ///< of the judged in `minima`, then of `minima` in the list
+  std::vector<std::size_t> owners;    ///< of each asked for, in `minima`
+  std::vector<std::size_t> proposed;  ///< of each proposal, in `minima`
 };
+
+bool LocalMinimaParts::decide(const MinimaScene& scene, const LocalMinimaRequest& request, bool keeps,
+                              LocalMinimaCost& cost, WorkLimit& limit) {
+  using Verdict = MinimaVerdicts::Verdict;
+  MinimaVerdicts::Request wanted;
+  wanted.least_prominence = request.least_prominence;
+  wanted.through_material = request.through_material;
+  wanted.keeps = keeps;
+  if (!request.hidden) {
+    // A set of minima is seen where its middle is.
+    wanted.is_wanted = [&scene](const MinimumSeed& seed, std::uint32_t& /*note*/) {
+      return !seed.is_point || seed.distance == 0.0 ||
+             isVisible(scene.a, scene.b, scene.a_from_b, scene.witnessOf(seed));
+    };
+  }
+  verdicts.judge(scene, seeds, wanted, limit);
+  const auto place = [](std::uint32_t judged) {
+    return judged == MinimaVerdicts::kNone ? kNone : std::size_t{judged};
+  };
+  for (std::size_t i = 0; i < request.asked_pairs.size(); ++i) {
+    const auto& [a, b] = request.asked_pairs[i];
+    std::uint32_t owner = MinimaVerdicts::kNone;
+    if (i < request.asked_regions.size()) owner = verdicts.nicheWith(request.asked_regions[i]);
+    if (owner == MinimaVerdicts::kNone) owner = verdicts.locate(scene, {a, b}, wanted, limit);
+    owners.push_back(place(owner));
+  }
+  for (const MinimumSeed& proposal : request.proposals) {
+    proposed.push_back(place(verdicts.locate(scene, {proposal.a, proposal.b}, wanted, limit)));
+  }
+  cost.flooded_pairs += verdicts.counts().flooded_cells;
+  bool cut = false;
+  const std::vector<MinimaVerdicts::Judged>& judged = verdicts.judged();
+  refill(places, judged.size(), kNone);
+  for (std::size_t i = 0; i < judged.size(); ++i) {
+    cut = cut || judged[i].verdict == Verdict::Undecided;
+    if (judged[i].verdict != Verdict::Niche) continue;
+    places[i] = minima.size();
+    minima.push_back({judged[i].seed, std::numeric_limits<double>::infinity(),
+                      (1.0 + request.least_prominence) * judged[i].seed.distance, judged[i].was_found,
+                      judged[i].region});
+  }
+  for (std::vector<std::size_t>* of : {&owners, &proposed}) {
+    for (std::size_t& owner : *of) owner = owner == kNone ? kNone : places[owner];
+  }
+  return !cut;
+}
+
+bool LocalMinimaParts::measure(const MinimaScene& scene, const LocalMinimaRequest& request,
+                               LocalMinimaCost& cost, WorkLimit& limit) {
+  const std::size_t owned = seeds.size();
+  for (const auto& [a, b] : request.asked_pairs) {
+    seeds.push_back(scene.seedOf(refineWitness(scene.a, scene.b, scene.a_from_b, a, b, refinement).witness));
+  }
+  seeds.insert(seeds.end(), request.proposals.begin(), request.proposals.end());
+  FloodResult flood = floodMinima(scene, request, seeds, owned, cost, limit);
+  minima = std::move(flood.minima);
+  const auto proposals = flood.owners.begin() + static_cast<std::ptrdiff_t>(request.asked_pairs.size());
+  owners.assign(flood.owners.begin(), proposals);
+  proposed.assign(proposals, flood.owners.end());
+  return !flood.cut;
+}
+
+void LocalMinimaParts::describe(const MinimaScene& scene, const LocalMinimaRequest& request,
+                                WorkLimit& limit) {
+  for (std::size_t i = 0; i < minima.size() && !limit.isOver(); ++i) {
+    LocalMinimum niche;
+    niche.prominence = minima[i].seed.distance > 0.0 ? minima[i].pass / minima[i].seed.distance - 1.0
+                                                     : std::numeric_limits<double>::infinity();
+    niche.flooded = minima[i].flooded;
+    niche.region = minima[i].region;
+    if (describer.describe(scene, request, minima[i].seed, niche, limit)) described.push_back({niche, i});
+  }
+  std::sort(described.begin(), described.end(), [&](const Described& l, const Described& r) {
+    if (l.niche.distance != r.niche.distance) return l.niche.distance < r.niche.distance;
+    const MinimumSeed& of_l = minima[l.minimum].seed;
+    const MinimumSeed& of_r = minima[r.minimum].seed;
+    return of_l.a != of_r.a ? of_l.a < of_r.a : of_l.b < of_r.b;
+  });
+}
+
+void LocalMinimaParts::list(const LocalMinimaRequest& request, LocalMinima& result) {
+  result.cut = described.size() > request.largest_count;
+  if (result.cut) described.resize(request.largest_count);
+  refill(places, minima.size(), kNone);
+  for (const Described& entry : described) {
+    places[entry.minimum] = result.niches.size();
+    result.niches.push_back(entry.niche);
+    result.cost.met_by_flood += minima[entry.minimum].met_by_flood ? 1 : 0;
+  }
+  for (const std::size_t owner : owners) {
+    result.owners.push_back(owner == kNone ? LocalMinima::kNoOwner : places[owner]);
+  }
+  for (std::size_t i = proposed.size(); i-- > 0;) {
+    if (proposed[i] != kNone && places[proposed[i]] != kNone) {
+      result.niches[places[proposed[i]]].proposal = i;
+    }
+  }
+}
+
+}  // namespace detail
 
 LocalMinimaMemory::LocalMinimaMemory() = default;
 LocalMinimaMemory::~LocalMinimaMemory() = default;
 LocalMinimaMemory::LocalMinimaMemory(LocalMinimaMemory&&) noexcept = default;
 LocalMinimaMemory& LocalMinimaMemory::operator=(LocalMinimaMemory&&) noexcept = default;
 
-LocalMinimaMemory::Parts& LocalMinimaMemory::parts() {
-  if (parts_ == nullptr) parts_ = std::make_unique<Parts>();
+detail::LocalMinimaParts& LocalMinimaMemory::parts() {
+  if (parts_ == nullptr) parts_ = std::make_unique<detail::LocalMinimaParts>();
   return *parts_;
 }
 
-detail::ConeFront& LocalMinimaMemory::front() {
+const detail::ConeFront& LocalMinimaMemory::front() {
   return parts().front;
 }
 
-detail::MinimaVerdicts& LocalMinimaMemory::verdicts() {
+const detail::MinimaVerdicts& LocalMinimaMemory::verdicts() {
   return parts().verdicts;
 }
 
@@ -148,67 +207,46 @@ void LocalMinimaMemory::clear() {
 }
 
 std::size_t LocalMinimaMemory::memoryBytes() const {
-  return parts_ != nullptr ? sizeof(Parts) + parts_->front.memoryBytes() + parts_->verdicts.memoryBytes() : 0;
+  return parts_ != nullptr ? parts_->memoryBytes() : 0;
 }
 
-LocalMinima findLocalMinima(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
-                            const LocalMinimaRequest& request, LocalMinimaMemory* memory) {
+void findLocalMinima(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
+                     const LocalMinimaRequest& request, LocalMinimaMemory& memory, LocalMinima& result) {
+  detail::LocalMinimaParts& parts = memory.parts();
   const detail::MinimaScene scene(a, b, a_from_b);
   WorkLimit none;
   WorkLimit& limit = request.limit != nullptr ? *request.limit : none;
-  const MemoryScope scope(limit);
   const bool refused_before = limit.hasRefusedMemory();
-  LocalMinima result;
-  std::vector<MinimumSeed> seeds;
-  collectSeeds(scene, request, seeds, result.cost, limit, memory);
-  const std::size_t owned = seeds.size();
-  result.cost.minima = owned;
-  if (limit.isOver()) {
-    result.finished = false;
-    result.owners.assign(request.asked_pairs.size(), LocalMinima::kNoOwner);
-    return result;
-  }
-  RefinementWorkspace refinement;
-  std::vector<MinimumSeed> asked;
-  for (const auto& [triangle_a, triangle_b] : request.asked_pairs) {
-    const WitnessPair settled = refineWitness(a, b, a_from_b, triangle_a, triangle_b, refinement).witness;
-    asked.push_back({settled.triangle_a, settled.triangle_b, std::sqrt(settled.squared_distance)});
-  }
-  const bool measures = request.prominence_limit > request.least_prominence && !isFar(scene, request);
-  detail::FloodResult flood;
-  if (measures) {
-    seeds.insert(seeds.end(), asked.begin(), asked.end());
-    flood = detail::floodMinima(scene, request, seeds, owned, result.cost, limit);
-  } else {
-    detail::MinimaVerdicts once;
-    flood = decide(scene, request, seeds, asked, memory != nullptr ? memory->verdicts() : once,
-                   memory != nullptr, result.cost, limit);
-  }
+  result.niches.clear();
+  result.owners.clear();
+  result.cost = {};
+  parts.minima.clear();
+  parts.described.clear();
+  parts.owners.clear();
+  parts.proposed.clear();
+  detail::ConeFront* front = request.is_tracked ? &parts.front : nullptr;
+  const auto start = WorkLimit::Clock::now();
+  const bool all = detail::collectSeeds(scene, request, parts.seeds, result.cost, limit, front);
+  result.cost.sweep_seconds = std::chrono::duration<double>(WorkLimit::Clock::now() - start).count();
+  result.cost.minima = parts.seeds.size();
+  // What is proposed counts while not everything has been looked at.
+  if (!all) parts.seeds.insert(parts.seeds.end(), request.proposals.begin(), request.proposals.end());
+  const bool measures =
+      request.prominence_limit > request.least_prominence && !detail::isFar(scene, request.least_prominence);
+  const bool decided = measures ? parts.measure(scene, request, result.cost, limit)
+                                : parts.decide(scene, request, request.is_tracked, result.cost, limit);
+  parts.describe(scene, request, limit);
+  result.finished = all && decided && !limit.isOver() && limit.hasRefusedMemory() == refused_before;
+  parts.list(request, result);
+}
 
-  std::vector<Described> described;
-  Describer describer(scene, request, limit);
-  for (std::size_t i = 0; i < flood.minima.size() && !limit.isOver(); ++i) {
-    LocalMinimum niche;
-    if (describer.describe(flood.minima[i], niche)) described.push_back({niche, i});
-  }
-  result.finished = !flood.cut && !limit.isOver() && limit.hasRefusedMemory() == refused_before;
-  std::sort(described.begin(), described.end(), [&](const Described& l, const Described& r) {
-    if (l.niche.distance != r.niche.distance) return l.niche.distance < r.niche.distance;
-    const detail::FloodedMinimum& of_l = flood.minima[l.minimum];
-    const detail::FloodedMinimum& of_r = flood.minima[r.minimum];
-    return of_l.a != of_r.a ? of_l.a < of_r.a : of_l.b < of_r.b;
-  });
-  result.cut = described.size() > request.largest_count;
-  if (result.cut) described.resize(request.largest_count);
-  std::vector<std::size_t> place(flood.minima.size(), LocalMinima::kNoOwner);
-  for (const Described& entry : described) {
-    place[entry.minimum] = result.niches.size();
-    result.niches.push_back(entry.niche);
-    result.cost.met_by_flood += flood.minima[entry.minimum].met_by_flood ? 1 : 0;
-  }
-  for (const std::size_t minimum : flood.owners) {
-    result.owners.push_back(minimum == LocalMinima::kNoOwner ? LocalMinima::kNoOwner : place[minimum]);
-  }
+LocalMinima findLocalMinima(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
+                            const LocalMinimaRequest& request) {
+  LocalMinimaMemory once;
+  LocalMinima result;
+  WorkLimit none;
+  const MemoryScope memory(request.limit != nullptr ? *request.limit : none);
+  findLocalMinima(a, b, a_from_b, request, once, result);
   return result;
 }
 

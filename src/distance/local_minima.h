@@ -9,6 +9,7 @@
 
 #include "concave_distance/base/work_limit.h"
 #include "concave_distance/mesh/body_mesh.h"
+#include "minimum_seed.h"
 #include "niche_properties.h"
 
 namespace concave_distance {
@@ -16,6 +17,7 @@ namespace concave_distance {
 namespace detail {
 class ConeFront;
 class MinimaVerdicts;
+struct LocalMinimaParts;
 }  // namespace detail
 
 struct LocalMinimaRequest {
@@ -28,9 +30,19 @@ struct LocalMinimaRequest {
   std::size_t largest_count = std::numeric_limits<std::size_t>::max();  ///< the nearest are kept
   /// Niches through the material of closed shells are listed, too, flagged.
   bool through_material = false;
+  /// Niches whose segment meets a triangle are listed, too, flagged. Others cost nothing but the look.
+  bool hidden = true;
+  /// Local minima that are known, instead of all there are; nullptr: all are looked for.
+  const std::vector<MinimumSeed>* given = nullptr;
   /// Triangle pairs whose niches are asked for (LocalMinima::owners), e.g. those that a search has found:
   /// descended to the local minimum around them.
   std::vector<std::pair<TriangleIndex, TriangleIndex>> asked_pairs;
+  std::vector<std::uint64_t> asked_regions;  ///< LocalMinimum::region of each, or empty
+  /// Minima that a search has found, on their triangle pairs. Those that become niches are told
+  /// (LocalMinimum::proposal); where the limit ends the look for all, they are judged with the rest.
+  std::vector<MinimumSeed> proposals;
+  /// What proves the answer is kept for the next pose.
+  bool is_tracked = false;
   /// Metres; no two points are closer than this. Above 0, bodies that meet are not looked for.
   double certain_distance = 0.0;
   /// When it is reached, the niches decided so far are the result (LocalMinima::finished); nullptr: none.
@@ -47,14 +59,12 @@ class LocalMinimaMemory {
 
   void clear();
   std::size_t memoryBytes() const;
-  detail::ConeFront& front();
-  detail::MinimaVerdicts& verdicts();
+  const detail::ConeFront& front();
+  const detail::MinimaVerdicts& verdicts();
+  detail::LocalMinimaParts& parts();
 
  private:
-  struct Parts;
-  Parts& parts();
-
-  std::unique_ptr<Parts> parts_;  ///< made when first needed
+  std::unique_ptr<detail::LocalMinimaParts> parts_;  ///< made when first needed
 };
 
 /// A niche as DESIGN calls it: a connected set of point pairs at one distance, none near it closer.
@@ -68,7 +78,10 @@ struct LocalMinimum {
   /// Distance at the lowest pass to a deeper niche, divided by the own distance, minus 1. Infinite when no
   /// deeper niche is reached below `flooded`; where the distance is 0.
   double prominence = std::numeric_limits<double>::infinity();
-  double flooded = 0.0;  ///< metres: passes up to this were looked for
+  double flooded = 0.0;      ///< metres: passes up to this were looked for
+  std::uint64_t region = 0;  ///< if tracked: the same from pose to pose while the niche stands; 0: none
+  static constexpr std::size_t kNoProposal = std::numeric_limits<std::size_t>::max();
+  std::size_t proposal = kNoProposal;  ///< the first of LocalMinimaRequest::proposals that leads to it
 };
 
 struct LocalMinimaCost {
@@ -80,6 +93,7 @@ struct LocalMinimaCost {
   /// Niches of the result that no cone led to but the flood ran into. A rounding more than the widened cones
   /// allow for would show here; none has.
   std::uint64_t met_by_flood = 0;
+  double sweep_seconds = 0.0;  ///< of the look for minima; the rest of the time is for what becomes of them
 };
 
 struct LocalMinima {
@@ -100,8 +114,11 @@ struct LocalMinima {
 /// shells, found without looking through their features. Where the bodies meet, every connected set of
 /// meeting points is one niche of distance 0. Outward niches of open shells include those marked Unknown.
 /// Uses the bodies' normalCones(). Never throws.
-/// @param memory of the last call, made faster by it; nullptr: none
 LocalMinima findLocalMinima(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
-                            const LocalMinimaRequest& request, LocalMinimaMemory* memory = nullptr);
+                            const LocalMinimaRequest& request);
+
+/// The same from pose to pose, with the buffers and, if the request says so, the knowledge of the last call.
+void findLocalMinima(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
+                     const LocalMinimaRequest& request, LocalMinimaMemory& memory, LocalMinima& result);
 
 }  // namespace concave_distance

@@ -42,7 +42,7 @@ void collectMeetingPairs(const MinimaScene& scene, std::vector<MinimumSeed>& see
           if (triangleDistance(scene.cornersOfA(ta), scene.cornersOfB(tb)).squared_distance <=
               slack * slack) {
             if (!limit.makeRoom(seeds)) return;
-            seeds.push_back({ta, tb, 0.0});
+            seeds.push_back(seedOn(ta, tb, 0.0));
           }
         }
       }

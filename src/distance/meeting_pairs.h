@@ -2,7 +2,6 @@
 
 #include <vector>
 
-#include "cone_sweep.h"
 #include "local_minima.h"
 #include "minima_scene.h"
 

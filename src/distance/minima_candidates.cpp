@@ -1,27 +1,18 @@
 #include "minima_candidates.h"
 
-#include <limits>
-
 #include "cone_comparison.h"
 
 namespace concave_distance::detail {
 
-void collectConeSeeds(const MinimaScene& scene, NormalSides sides, double cutoff, std::size_t budget,
-                      OpenCones& open, std::vector<MinimumSeed>& seeds, LocalMinimaCost& cost,
-                      WorkLimit& limit) {
-  constexpr std::uint64_t kAll = std::numeric_limits<std::uint64_t>::max();
+void collectConeSeeds(const MinimaScene& scene, NormalSides sides, double cutoff,
+                      std::vector<MinimumSeed>& seeds, LocalMinimaCost& cost, WorkLimit& limit) {
   constexpr std::uint32_t kWidth = ConeComparison::kWidth;
   const FeaturePairs features(scene, cutoff);
   ConeComparison cones(scene, features, sides);
   if (cones.a.empty() || cones.b.empty()) return;
-  if (open.empty()) open.emplace_back(NormalConeTree::kRoot, NormalConeTree::kRoot);
-  const std::uint64_t last = budget < kAll ? cost.node_pairs + budget : kAll;
-  while (!open.empty() && cost.node_pairs < last) {
-    if (limit.isOverNow()) return;
-    if (!limit.makeRoom(open, kWidth) || !limit.makeRoom(seeds)) {
-      open.clear();
-      return;
-    }
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> open{{NormalConeTree::kRoot, NormalConeTree::kRoot}};
+  while (!open.empty()) {
+    if (limit.isOverNow() || !limit.makeRoom(open, kWidth) || !limit.makeRoom(seeds)) return;
     const auto [a, b] = open.back();
     open.pop_back();
     const std::uint32_t child_a = cones.a.child(a);
@@ -31,10 +22,10 @@ void collectConeSeeds(const MinimaScene& scene, NormalSides sides, double cutoff
       const NormalConeTree::Item& item_b = ConeComparison::itemOf(cones.b, child_b);
       if (!FeaturePairs::isWanted(item_a.kind, item_b.kind)) continue;
       ++cost.feature_pairs;
-      const auto distance = features.findMinimum(item_a, item_b);
-      if (!distance) continue;
+      const auto found = features.findMinimum(item_a, item_b);
+      if (!found) continue;
       ++cost.candidates;
-      seeds.push_back({item_a.triangle, item_b.triangle, *distance});
+      seeds.push_back(*found);
       continue;
     }
     ++cost.node_pairs;

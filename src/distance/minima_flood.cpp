@@ -130,10 +130,11 @@ class Flood {
   /// Of the cell that was measured last.
   void expand(std::uint32_t index) {
     const double limit = basins_[cells_[rootOf(index)].basin].limit;
-    forEachNeighbour(scene_, cells_[index].a, cells_[index].b, corners_a_, corners_b_, levels_,
-                     [&](TriangleIndex to_a, TriangleIndex to_b, double squared_level, const SharedElement& /*element*/) {
-                       consider(index, to_a, to_b, limit, std::sqrt(squared_level));
-                     });
+    forEachNeighbour(
+        scene_, cells_[index].a, cells_[index].b, corners_a_, corners_b_, levels_,
+        [&](TriangleIndex to_a, TriangleIndex to_b, double squared_level, const SharedElement& /*element*/) {
+          consider(index, to_a, to_b, limit, std::sqrt(squared_level));
+        });
   }
 
   void consider(std::uint32_t from, TriangleIndex to_a, TriangleIndex to_b, double limit, double level) {
@@ -232,7 +233,8 @@ FloodResult floodMinima(const MinimaScene& scene, const LocalMinimaRequest& requ
     if (!flood.isProminent(basin) || !flood.isDecided(basin)) continue;
     const Cell& cell = flood.cell(basin.cell);
     minimum_of_basin[i] = result.minima.size();
-    result.minima.push_back({cell.a, cell.b, cell.distance, basin.pass, basin.limit, basin.met_by_flood});
+    result.minima.push_back(
+        {seedOn(cell.a, cell.b, cell.distance), basin.pass, basin.limit, basin.met_by_flood});
   }
   // A start belongs to the deepest basin that it is joined to by passes of less than the least prominence.
   for (std::size_t i = owned; i < starts.size(); ++i) {

@@ -8,12 +8,11 @@ namespace concave_distance::detail {
 
 /// A basin that no deeper one was found to join below its pass.
 struct FloodedMinimum {
-  TriangleIndex a;  ///< triangle pair that holds the minimum
-  TriangleIndex b;
-  double distance;
+  MinimumSeed seed;
   double pass;     ///< metres; infinite when none was reached
   double flooded;  ///< up to here passes were looked for
   bool met_by_flood;
+  std::uint64_t region = 0;  ///< MinimaVerdicts::Judged::region
 };
 
 struct FloodResult {

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "concave_distance/mesh/body_mesh.h"
 #include "local_frames.h"
+#include "minimum_seed.h"
 
 namespace concave_distance::detail {
 
@@ -28,6 +30,27 @@ struct MinimaScene {
   }
   TrianglePoints cornersOfA(TriangleIndex t) const { return frames.cornersOfA(a, t); }
   TrianglePoints cornersOfB(TriangleIndex t) const { return frames.cornersOfB(b, t); }
+
+  WitnessPair witnessOf(const MinimumSeed& seed) const {
+    return {(seed.point_b - seed.point_a).squaredNorm(),
+            seed.point_a + frames.centre_a,
+            seed.point_b + frames.centre_a,
+            seed.a,
+            seed.b,
+            seed.feature_a,
+            seed.feature_b};
+  }
+  MinimumSeed seedOf(const WitnessPair& witness) const {
+    return {witness.triangle_a,
+            witness.triangle_b,
+            std::sqrt(witness.squared_distance),
+            true,
+            false,
+            witness.feature_a,
+            witness.feature_b,
+            witness.point_a_in_a - frames.centre_a,
+            witness.point_b_in_a - frames.centre_a};
+  }
 
   const BodyMesh& a;
   const BodyMesh& b;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/refill.h"
 #include "far_pieces.h"
 #include "mesh/surface/connected_pieces.h"
 #include "niche_properties.h"
@@ -20,7 +21,7 @@ constexpr std::size_t kLargestRegion = std::size_t{1} << 16U;
 constexpr int kLongestPath = 256;
 /// Cycles that a path is kept without being used.
 constexpr std::uint64_t kKeptCycles = 64;
-constexpr std::size_t kSmallTable = 4096;
+constexpr std::size_t kSmallTable = 1024;
 /// A region that has grown to more than twice its size and this many cells is made anew.
 constexpr std::size_t kSmallRegion = 64;
 
@@ -47,9 +48,8 @@ class MinimaVerdicts::Stage {
     }
     for (const MinimumSeed& seed : seeds) {
       const auto index = static_cast<std::uint32_t>(memory_.judged_.size());
-      Judged judged;
-      judged.seed = seed;
-      memory_.judged_.push_back(judged);
+      memory_.judged_.emplace_back();
+      memory_.judged_.back().seed = seed;
       const std::uint32_t number = cellOf(seed.a, seed.b);
       if (number == kNone) continue;
       Cell& cell = memory_.cells_[number];
@@ -61,20 +61,52 @@ class MinimaVerdicts::Stage {
         if (region.first == kNone) region.first = index;
       }
     }
-    seed_count_ = static_cast<std::uint32_t>(memory_.judged_.size());
+    seed_count_ = memory_.seed_count_ = static_cast<std::uint32_t>(memory_.judged_.size());
   }
 
-  /// Of a minimum that no seed has to lead to.
-  std::uint32_t enterExtra(const MinimumSeed& seed, bool found_by_flood) {
-    Judged judged;
-    judged.seed = seed;
-    judged.found_by_flood = found_by_flood;
-    memory_.judged_.push_back(judged);
+  /// Goes on with what enter() of an earlier stage at this pose has left.
+  void resume() { seed_count_ = memory_.seed_count_; }
+
+  std::uint32_t placeAround(const TrianglePair& pair) {
+    const std::uint32_t in_cell = seedIn(pair.a, pair.b);
+    if (in_cell != kNone) return in_cell;
+    return enterPlace(
+        refineWitness(scene_.a, scene_.b, scene_.a_from_b, pair.a, pair.b, memory_.refinement_).witness);
+  }
+
+  /// The minimum among the judged: the seed at its place, or an entry of its own; kNone through material.
+  std::uint32_t enterPlace(const WitnessPair& minimum) {
+    const std::uint32_t in_cell = seedIn(minimum.triangle_a, minimum.triangle_b);
+    if (in_cell != kNone) return in_cell;
+    const MinimumSeed seed = scene_.seedOf(minimum);
+    const auto begin = memory_.judged_.begin();
+    const auto found = begin + seed_count_;
+    const auto is_there = [&](const Judged& other) {
+      return other.seed.is_measured && (other.seed.point_a - seed.point_a).squaredNorm() +
+                                               (other.seed.point_b - seed.point_b).squaredNorm() <=
+                                           tolerance_ * tolerance_;
+    };
+    const auto is_nearer = [](const Judged& judged, double distance) {
+      return judged.seed.distance < distance;
+    };
+    const auto nearest = std::lower_bound(begin, found, seed.distance - tolerance_, is_nearer);
+    const auto farthest = std::lower_bound(nearest, found, seed.distance + 2.0 * tolerance_, is_nearer);
+    auto known = std::find_if(nearest, farthest, is_there);
+    if (known == farthest) known = std::find_if(found, memory_.judged_.end(), is_there);
+    if (known != memory_.judged_.end()) return static_cast<std::uint32_t>(known - begin);
+    if (!request_.through_material &&
+        classifyOutwardness(scene_.a, scene_.b, scene_.a_from_b, minimum) == Outwardness::ThroughMaterial) {
+      return kNone;
+    }
+    memory_.judged_.emplace_back();
+    memory_.judged_.back().seed = seed;
+    memory_.judged_.back().was_found = true;
     return static_cast<std::uint32_t>(memory_.judged_.size() - 1);
   }
 
   void decideFar() {
     for (std::uint32_t i = 0; i < memory_.judged_.size(); ++i) {
+      if (memory_.judged_[i].verdict != Verdict::Open) continue;
       const std::uint32_t deepest = deepestLike(i);
       set(i, deepest == i ? Verdict::Niche : Verdict::Ripple, deepest == i ? kNone : deepest);
     }
@@ -89,9 +121,12 @@ class MinimaVerdicts::Stage {
       return set(i, Verdict::Ripple, other);
     }
     if (followsDown(i, number)) return;
-    if (i < seed_count_ && request_.is_wanted && !request_.is_wanted(seed)) return set(i, Verdict::Unwanted);
+    if (request_.is_wanted && !request_.is_wanted(seed, memory_.cells_[number].note)) {
+      return set(i, Verdict::Unwanted);
+    }
+    const std::uint32_t known = regionOf(number, i);
     std::uint64_t id = 0;
-    if (const std::uint32_t known = regionOf(number, i); known != kNone) {
+    if (known != kNone) {
       if (isEnclosed(i, known)) {
         memory_.regions_[known].confirmed = true;
         memory_.judged_[i].region = memory_.regions_[known].id;
@@ -126,7 +161,7 @@ class MinimaVerdicts::Stage {
   void compact() {
     if (memory_.cells_.size() <= 2 * memory_.live_cells_ + kSmallTable) return;
     std::vector<char>& live = memory_.live_;
-    live.assign(memory_.cells_.size(), 0);
+    refill(live, memory_.cells_.size(), char{0});
     const auto isUsed = [&](std::uint32_t link) {
       return link != kNone && memory_.links_[link].used + kKeptCycles > memory_.cycle_;
     };
@@ -136,7 +171,7 @@ class MinimaVerdicts::Stage {
       if (isUsed(cell.link)) live[i] = live[memory_.links_[cell.link].next] = 1;
     }
     std::vector<std::uint32_t>& places = memory_.places_;
-    places.assign(memory_.cells_.size(), kNone);
+    refill(places, memory_.cells_.size(), kNone);
     memory_.table_.clear();
     std::uint32_t count = 0;
     for (std::size_t i = 0; i < memory_.cells_.size(); ++i) {
@@ -164,8 +199,10 @@ class MinimaVerdicts::Stage {
       keep(cell.low);
     }
     memory_.links_.swap(links);
-    for (Region& region : memory_.regions_) {
-      for (std::uint32_t& cell : region.cells) cell = places[cell];
+    for (const Region& region : memory_.regions_) {
+      for (std::uint32_t m = region.members; m != kNone; m = memory_.memberships_[m].next_of_region) {
+        memory_.memberships_[m].cell = places[memory_.memberships_[m].cell];
+      }
     }
   }
 
@@ -264,8 +301,8 @@ class MinimaVerdicts::Stage {
     Region& region = memory_.regions_[index];
     const double distance = memory_.judged_[i].seed.distance;
     const CellFlood::Levels levels = levelsOf(distance);
-    const std::vector<BorderElement>& crossed = region.border.takeCrossed(scene_, levels.highest);
-    memory_.counts_.measured += region.border.measured();
+    memory_.counts_.measured += region.border.takeCrossed(memory_.borders_, scene_, levels.highest);
+    const std::vector<BorderElement>& crossed = memory_.borders_.crossed;
     if (crossed.empty()) {
       ++memory_.counts_.by_border;
       return true;
@@ -278,8 +315,8 @@ class MinimaVerdicts::Stage {
       if (!is_inside(pair.a, pair.b) && !flood.enterBeyond(pair.a, pair.b, 0.0, limit_)) return false;
     }
     const auto meets = [&](TriangleIndex a, TriangleIndex b) { return isOfEarlier(a, b, i); };
-    const std::size_t most = 2 * region.cells_at_begin + kSmallRegion -
-                             std::min(region.cells.size(), 2 * region.cells_at_begin + kSmallRegion);
+    const std::size_t largest = 2 * region.cells_at_begin + kSmallRegion;
+    const std::size_t most = largest - std::min(region.cells, largest);
     const CellFlood::End end = flood.proceed(scene_, most, meets, is_inside, limit_);
     memory_.counts_.flooded_cells += static_cast<std::uint32_t>(flood.lookedAt());
     if (end == CellFlood::End::Enclosed && extend(index)) {
@@ -287,7 +324,8 @@ class MinimaVerdicts::Stage {
       return true;
     }
     if (end == CellFlood::End::Cut) {
-      for (const BorderElement& element : crossed) region.border.add(scene_, element, 0.0, limit_);
+      for (const BorderElement& element : crossed)
+        region.border.add(memory_.borders_, scene_, element, 0.0, limit_);
     }
     return false;
   }
@@ -357,17 +395,8 @@ class MinimaVerdicts::Stage {
     const TrianglePair from = memory_.judged_[i].below;
     const WitnessPair bottom =
         refineWitness(scene_.a, scene_.b, scene_.a_from_b, from.a, from.b, memory_.refinement_).witness;
-    const std::uint32_t seed = seedIn(bottom.triangle_a, bottom.triangle_b);
-    if (seed != kNone) {
-      if (seed != i) memory_.judged_[i].into = seed;
-      return;
-    }
-    if (!request_.through_material &&
-        classifyOutwardness(scene_.a, scene_.b, scene_.a_from_b, bottom) == Outwardness::ThroughMaterial) {
-      return;
-    }
-    memory_.judged_[i].into =
-        enterExtra({bottom.triangle_a, bottom.triangle_b, std::sqrt(bottom.squared_distance)}, true);
+    const std::uint32_t place = enterPlace(bottom);
+    if (place != i) memory_.judged_[i].into = place;
   }
 
   /// Replaces a long flood: the deepest of its pieces is a niche if it is their nearest place; another one is
@@ -451,24 +480,23 @@ class MinimaVerdicts::Stage {
   void keepRegion(std::uint32_t i, std::uint64_t id) {
     const std::vector<CellFlood::Cell>& visited = memory_.flood_.cells();
     if (visited.size() > kLargestRegion) return;
-    auto free = std::find_if(memory_.regions_.begin(), memory_.regions_.end(),
-                             [](const Region& region) { return region.id == 0; });
-    if (free == memory_.regions_.end()) {
-      if (!limit_.makeRoom(memory_.regions_)) return;
+    if (memory_.free_regions_.empty()) {
+      if (!limit_.makeRoom(memory_.regions_) || !limit_.makeRoom(memory_.free_regions_)) return;
+      memory_.free_regions_.push_back(static_cast<std::uint32_t>(memory_.regions_.size()));
       memory_.regions_.emplace_back();
-      free = memory_.regions_.end() - 1;
     }
-    const auto index = static_cast<std::uint32_t>(free - memory_.regions_.begin());
-    Region& region = *free;
-    region.id = id != 0 ? id : ++memory_.last_region_;
+    // The one that was dropped last comes first: an id keeps its place.
+    const std::uint32_t index = memory_.free_regions_.back();
+    memory_.free_regions_.pop_back();
+    Region& region = memory_.regions_[index];
+    region.id = id != 0 ? id : (++memory_.regions_made_ << 32U) | index;
     region.confirmed = true;
     region.first = i;
-    region.cells.clear();
     region.cells_at_begin = visited.size();
     const MinimumSeed& seed = memory_.judged_[i].seed;
     const TrianglePairDistance closest =
         triangleDistance(scene_.cornersOfA(seed.a), scene_.cornersOfB(seed.b));
-    region.border.begin(closest.point_a, scene_.frames.pointInB(closest.point_b));
+    region.border.begin(memory_.borders_, closest.point_a, scene_.frames.pointInB(closest.point_b));
     memory_.judged_[i].region = region.id;
     if (!extend(index)) drop(index);
   }
@@ -478,16 +506,15 @@ class MinimaVerdicts::Stage {
     Region& region = memory_.regions_[index];
     for (const CellFlood::Cell& cell : memory_.flood_.cells()) {
       const std::uint32_t number = cellOf(cell.a, cell.b);
-      if (number == kNone || !limit_.makeRoom(region.cells) || !join(number, index)) return false;
-      region.cells.push_back(number);
+      if (number == kNone || !join(number, index)) return false;
     }
     bool has_room = true;
     memory_.flood_.forEachBorderStep(
         [&](TriangleIndex a, TriangleIndex b) { return isIn(a, b, index); },
         [&](const CellFlood::BorderStep& step) {
           const TriangleIndex beyond = step.element.side == Side::A ? step.beyond_a : step.beyond_b;
-          has_room = has_room &&
-                     region.border.add(scene_, {step.element, beyond}, std::sqrt(step.squared_level), limit_);
+          has_room = has_room && region.border.add(memory_.borders_, scene_, {step.element, beyond},
+                                                   std::sqrt(step.squared_level), limit_);
         });
     return has_room;
   }
@@ -501,23 +528,30 @@ class MinimaVerdicts::Stage {
       m = static_cast<std::uint32_t>(memory_.memberships_.size());
       memory_.memberships_.emplace_back();
     }
-    memory_.memberships_[m] = {region, memory_.cells_[number].regions};
-    memory_.cells_[number].regions = m;
+    Region& owner = memory_.regions_[region];
+    memory_.memberships_[m] = {region, number, memory_.cells_[number].regions, owner.members};
+    memory_.cells_[number].regions = owner.members = m;
+    ++owner.cells;
     return true;
   }
 
   void drop(std::uint32_t index) {
     Region& region = memory_.regions_[index];
-    for (const std::uint32_t number : region.cells) {
-      std::uint32_t* at = &memory_.cells_[number].regions;
-      while (memory_.memberships_[*at].region != index) at = &memory_.memberships_[*at].next;
-      const std::uint32_t gone = *at;
-      *at = memory_.memberships_[gone].next;
-      memory_.memberships_[gone].next = memory_.free_membership_;
-      memory_.free_membership_ = gone;
+    for (std::uint32_t m = region.members; m != kNone;) {
+      Membership& membership = memory_.memberships_[m];
+      std::uint32_t* at = &memory_.cells_[membership.cell].regions;
+      while (*at != m) at = &memory_.memberships_[*at].next;
+      *at = membership.next;
+      const std::uint32_t next = membership.next_of_region;
+      membership.next = memory_.free_membership_;
+      memory_.free_membership_ = m;
+      m = next;
     }
-    region.cells.clear();
+    region.members = kNone;
+    region.cells = 0;
+    region.border.clear(memory_.borders_);
     region.id = 0;
+    memory_.free_regions_.push_back(index);
   }
 
   MinimaVerdicts& memory_;
@@ -537,16 +571,15 @@ void MinimaVerdicts::clear() {
   links_.clear();
   memberships_.clear();
   free_membership_ = kNone;
-  for (Region& region : regions_) {
-    region.id = 0;
-    region.cells.clear();
-  }
+  regions_.clear();
+  free_regions_.clear();
+  borders_.clear();
   live_cells_ = 0;
   floods_are_long_ = false;
 }
 
-void MinimaVerdicts::judge(const MinimaScene& scene, std::vector<MinimumSeed>& seeds,
-                           const std::vector<MinimumSeed>& asked, const Request& request, WorkLimit& limit) {
+void MinimaVerdicts::judge(const MinimaScene& scene, std::vector<MinimumSeed>& seeds, const Request& request,
+                           WorkLimit& limit) {
   ++cycle_;
   counts_ = {};
   judged_.clear();
@@ -557,19 +590,41 @@ void MinimaVerdicts::judge(const MinimaScene& scene, std::vector<MinimumSeed>& s
   });
   Stage stage(*this, scene, request, limit);
   stage.enter(seeds);
-  for (const MinimumSeed& seed : asked) stage.enterExtra(seed, false);
-  if (isFar(scene, request.least_prominence)) {
+  is_far_ = isFar(scene, request.least_prominence);
+  if (is_far_) {
     stage.decideFar();
   } else {
     for (std::uint32_t i = 0; i < judged_.size(); ++i) {
       if (judged_[i].verdict == Verdict::Open) stage.decide(i);
     }
-    for (std::size_t i = 0; i < asked.size(); ++i) {
-      stage.resolve(static_cast<std::uint32_t>(seeds.size() + i));
-    }
   }
   stage.dropUnconfirmed();
   stage.compact();
+}
+
+std::uint32_t MinimaVerdicts::locate(const MinimaScene& scene, const TrianglePair& around,
+                                     const Request& request, WorkLimit& limit) {
+  Stage stage(*this, scene, request, limit);
+  stage.resume();
+  const std::uint32_t place = stage.placeAround(around);
+  if (place == kNone) return kNone;
+  if (judged_[place].verdict == Verdict::Open) {
+    if (is_far_) {
+      stage.decideFar();
+    } else {
+      stage.decide(place);
+    }
+  }
+  stage.resolve(place);
+  return nicheOf(place);
+}
+
+std::uint32_t MinimaVerdicts::nicheWith(std::uint64_t region) const {
+  const auto place = static_cast<std::uint32_t>(region & 0xffffffffU);
+  if (region == 0 || place >= regions_.size() || regions_[place].id != region || !regions_[place].confirmed) {
+    return kNone;
+  }
+  return nicheOf(regions_[place].first);
 }
 
 std::uint32_t MinimaVerdicts::nicheOf(std::uint32_t index) const {
@@ -578,15 +633,11 @@ std::uint32_t MinimaVerdicts::nicheOf(std::uint32_t index) const {
 }
 
 std::size_t MinimaVerdicts::memoryBytes() const {
-  std::size_t bytes = table_.memoryBytes() + cells_.capacity() * sizeof(Cell) +
-                      (links_.capacity() + spare_links_.capacity()) * sizeof(Link) +
-                      memberships_.capacity() * sizeof(Membership) + regions_.capacity() * sizeof(Region) +
-                      judged_.capacity() * sizeof(Judged) + flood_.memoryBytes() + path_.memoryBytes() +
-                      live_.capacity() + places_.capacity() * sizeof(std::uint32_t);
-  for (const Region& region : regions_) {
-    bytes += region.border.memoryBytes() + region.cells.capacity() * sizeof(std::uint32_t);
-  }
-  return bytes;
+  return borders_.memoryBytes() + table_.memoryBytes() + cells_.capacity() * sizeof(Cell) +
+         (links_.capacity() + spare_links_.capacity()) * sizeof(Link) +
+         memberships_.capacity() * sizeof(Membership) + regions_.capacity() * sizeof(Region) +
+         judged_.capacity() * sizeof(Judged) + flood_.memoryBytes() + path_.memoryBytes() + live_.capacity() +
+         places_.capacity() * sizeof(std::uint32_t);
 }
 
 }  // namespace concave_distance::detail

@@ -7,7 +7,6 @@
 
 #include "cell_border.h"
 #include "cell_flood.h"
-#include "cone_sweep.h"
 #include "level_path.h"
 
 namespace concave_distance::detail {
@@ -28,10 +27,10 @@ class MinimaVerdicts {
   struct Judged {
     MinimumSeed seed;
     Verdict verdict = Verdict::Open;
-    bool found_by_flood = false;  ///< no seed led to it
-    std::uint32_t into = kNone;   ///< of a ripple: the deeper one, if known
-    TrianglePair below;           ///< and if not: a place deeper than it
-    std::uint64_t region = 0;     ///< of a niche: the same while its border is; 0: none
+    bool was_found = false;      ///< not by a seed, but by a flood or by locate()
+    std::uint32_t into = kNone;  ///< of a ripple: the deeper one, if known
+    TrianglePair below;          ///< and if not: a place deeper than it
+    std::uint64_t region = 0;    ///< of a niche: the same while its border is; 0: none
   };
   struct Counts {
     std::uint32_t by_path = 0;    ///< ripples by known paths
@@ -47,25 +46,32 @@ class MinimaVerdicts {
     /// Niches through material are wanted; else nothing is judged that begins there.
     bool through_material = false;
     bool keeps = true;  ///< what proves a verdict, for the next pose
-    /// Whether a seed that is no known ripple is wanted; empty: all are.
-    std::function<bool(const MinimumSeed&)> is_wanted;
+    /// Whether a seed that is no known ripple is wanted; empty: all are. The number is kept with the seed's
+    /// triangle pair, 0 at first.
+    std::function<bool(const MinimumSeed&, std::uint32_t&)> is_wanted;
   };
 
   void clear();
 
-  /// Judges all seeds, then those of the pairs `asked`: each is given as a minimum on its triangles. The
-  /// results stand in this order; places that floods found besides, after them.
-  void judge(const MinimaScene& scene, std::vector<MinimumSeed>& seeds, const std::vector<MinimumSeed>& asked,
-             const Request& request, WorkLimit& limit);
+  /// Judges all seeds, which are put in ascending order: the results stand in the same, and after them places
+  /// that only floods have found.
+  void judge(const MinimaScene& scene, std::vector<MinimumSeed>& seeds, const Request& request,
+             WorkLimit& limit);
+
+  /// At the pose of the last judge(): the niche of the local minimum around a triangle pair, as an index of
+  /// judged(); kNone when that is none of them. A place that is a niche of its own is judged and added.
+  std::uint32_t locate(const MinimaScene& scene, const TrianglePair& around, const Request& request,
+                       WorkLimit& limit);
+  /// The niche with this region; kNone when there is none any more.
+  std::uint32_t nicheWith(std::uint64_t region) const;
 
   const std::vector<Judged>& judged() const { return judged_; }
-  /// The niche that a minimum belongs to; kNone when that is none of the judged.
-  std::uint32_t nicheOf(std::uint32_t index) const;
   const Counts& counts() const { return counts_; }
   std::size_t memoryBytes() const;
 
  private:
   class Stage;
+  std::uint32_t nicheOf(std::uint32_t index) const;
 
   /// A triangle pair that something is known of.
   struct Cell {
@@ -75,6 +81,7 @@ class MinimaVerdicts {
     std::uint32_t low = kNone;      ///< of links_: a point pair in it
     std::uint32_t regions = kNone;  ///< first of its memberships
     std::uint32_t seed = kNone;     ///< of this cycle, if `cycle` is this one
+    std::uint32_t note = 0;         ///< of Request::is_wanted
     std::uint64_t cycle = 0;
   };
   /// A point of each body, own axes in the scene's centre, in a cell and in the next one.
@@ -86,15 +93,18 @@ class MinimaVerdicts {
   };
   struct Membership {
     std::uint32_t region;
-    std::uint32_t next;
+    std::uint32_t cell;
+    std::uint32_t next;  ///< of the cell
+    std::uint32_t next_of_region;
   };
   /// Cells that are connected and enclosed.
   struct Region {
-    std::uint64_t id = 0;         ///< 0: free
+    std::uint64_t id = 0;         ///< 0: free; else its place in the list is the lower half
     std::uint32_t first = kNone;  ///< seed of this cycle
     bool confirmed = false;       ///< in this cycle
     CellBorder border;
-    std::vector<std::uint32_t> cells;
+    std::uint32_t members = kNone;  ///< first of its memberships
+    std::size_t cells = 0;
     std::size_t cells_at_begin = 0;
   };
 
@@ -104,7 +114,9 @@ class MinimaVerdicts {
   std::vector<Membership> memberships_;
   std::uint32_t free_membership_ = kNone;
   std::vector<Region> regions_;
-  std::uint64_t last_region_ = 0;
+  BorderPool borders_;
+  std::vector<std::uint32_t> free_regions_;
+  std::uint64_t regions_made_ = 0;
   std::uint64_t cycle_ = 0;
   std::size_t live_cells_ = 0;  ///< after the last compaction
   // Buffers of a compaction.
@@ -115,8 +127,10 @@ class MinimaVerdicts {
   LevelPathBuffers path_;
   RefinementWorkspace refinement_;
   std::vector<Judged> judged_;
-  PairTable deepest_{4};  ///< first seed of each pair of pieces
+  PairTable deepest_{4};          ///< first seed of each pair of pieces
+  std::uint32_t seed_count_ = 0;  ///< of judged_, the rest was found
   bool floods_are_long_ = false;
+  bool is_far_ = false;
   Counts counts_;
 };
 

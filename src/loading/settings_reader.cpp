@@ -13,24 +13,34 @@ namespace {
 /// Settings that had another name or place, and what to write instead.
 constexpr std::pair<const char*, const char*> kRenamed[] = {
     {"immigrants", "expert: {random_starts: ...}"},
-    {"projected_immigrants", "expert: {projected_nodes: ...}"},
     {"memory_limit", "expert: {memory_limit: ...}"},
+    {"keep_through_material", "expert: {keep_through_material: ...}"},
     {"prominence_limit", "expert: {prominence_limit: ...}"},
     {"inherited_per_niche", "expert: {inherited_per_niche: ...}"},
     {"inherited_limit", "expert: {inherited_limit: ...}"},
-    {"search_motion", "expert: {search_motion: ...}"},
-    {"search_interval", "expert: {search_interval: ...}"},
-    {"swept_cones", "expert: {swept_cones: ...}"},
-    {"reviewed_niches", "expert: {reviewed_niches: ...}"},
-    {"projected_niches", "expert: {projected_niches: ...}"},
-    {"extrapolate", "expert: {extrapolate: ...}"},
+    {"search_share", "expert: {search_share: ...}"},
     {"sharing_radius", "expert: {sharing_radius: ...}"},
     {"mating_radius", "expert: {mating_radius: ...}"},
     {"niche_radius", "expert: {niche_radius: ...}"},
     {"cold", "expert: {cold: {...}}"},
     {"warm", "expert: {warm: {...}}"}};
 
+/// Settings of what the proof of all niches has replaced.
+constexpr const char* kGone[] = {"projected_immigrants", "projected_nodes", "projected_niches",
+                                 "search_motion",        "search_interval", "swept_cones",
+                                 "reviewed_niches",      "extrapolate"};
+
+void refuseGone(YamlMap& map) {
+  for (const char* name : kGone) {
+    if (const auto value = map.take(name)) {
+      value->fail(std::string("'") + name + "' is no setting any more",
+                  "leave it out: level `certified` finds every niche in every cycle");
+    }
+  }
+}
+
 void refuseRenamed(YamlMap& map) {
+  refuseGone(map);
   for (const auto& [name, instead] : kRenamed) {
     if (const auto value = map.take(name)) {
       value->fail(std::string("'") + name + "' is a setting for experts", std::string("write ") + instead);
@@ -52,6 +62,7 @@ void readCommonRadii(YamlMap& map, TrackerParameters& tracker) {
 
 void readExpertSettings(const YamlValue& value, PairSettings& settings) {
   YamlMap map(value, "a map of settings for experts");
+  refuseGone(map);
   readParameters(map, pairParameters(), true, settings);
   // Before cold and warm, whose own radii apply.
   readCommonRadii(map, settings.tracker);
@@ -85,7 +96,7 @@ void validatePairSettings(const PairSettings& settings, const std::string& where
     throw Error(where,
                 "effects are asked for at accuracy " + std::string(toString(settings.tracker.accuracy)) +
                     ", which does not prove that bodies are apart",
-                "set accuracy to certified or complete, or effects to none");
+                "set accuracy to certified, or effects to none");
   }
   if (settings.warning_distance && *settings.warning_distance > settings.tracker.cutoff) {
     throw Error(where,

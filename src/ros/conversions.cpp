@@ -40,6 +40,7 @@ Niche toNiche(const PairHeading& heading, const TrackedNiche& niche) {
   message.extent = niche.extent;
   message.outwardness = static_cast<std::uint8_t>(niche.outward);
   message.visible = static_cast<std::uint8_t>(niche.visible);
+  message.origin = static_cast<std::uint8_t>(niche.origin);
   message.has_prominence = !std::isnan(niche.prominence);
   message.prominence = niche.prominence;
   message.proven_local_minimum = static_cast<std::uint8_t>(niche.proven_local_minimum);
@@ -137,8 +138,6 @@ std::uint8_t toAccuracyCode(AccuracyLevel level) {
       return PairDistance::ACCURACY_REFINED;
     case AccuracyLevel::Certified:
       return PairDistance::ACCURACY_CERTIFIED;
-    case AccuracyLevel::Complete:
-      return PairDistance::ACCURACY_COMPLETE;
   }
   return 0;
 }

@@ -67,6 +67,9 @@ void describePairs(const CycleWindow& window, diagnostic_updater::DiagnosticStat
   status.add("solves", window.solved);
   status.add("cold solves", window.cold);
   status.add("answers repeated without new transforms", window.repeated);
+  for (std::size_t i = 0; i < kNicheOriginCount; ++i) {
+    status.add("niches " + std::string(toString(static_cast<NicheOrigin>(i))), window.niches[i]);
+  }
   status.add("search misses", window.search_misses);
   status.add("solves that ended unproven", window.unproven);
   status.add("pairs turned into messages", window.messages);

@@ -141,7 +141,7 @@ QueryAnswer answer(const DistanceQuery& query, const Scene& scene, const QueryCo
   if (query.with_contacts != 0 && !provesDistance(parameters.accuracy)) {
     throw Error("with_contacts",
                 "it is true, but the accuracy is " + std::string(toString(parameters.accuracy)),
-                "ask for ACCURACY_CERTIFIED or ACCURACY_COMPLETE: their proof shows whether bodies touch");
+                "ask for ACCURACY_CERTIFIED: its proof shows whether bodies touch");
   }
   heading.accuracy = parameters.accuracy;
   heading.with_niches = parameters.niches_wanted;

@@ -21,7 +21,7 @@ constexpr std::pair<const char*, const char*> kRenamed[] = {
     {"warm_population_size", "expert/warm/population_size"},
     {"warm_generations", "expert/warm/max_generations"},
     {"immigrants", "expert/random_starts"},
-    {"extrapolate", "expert/extrapolate"}};
+    {"keep_through_material", "expert/keep_through_material"}};
 
 void refuseRenamed(ParameterReader& reader) {
   for (const auto& [name, now] : kRenamed) {

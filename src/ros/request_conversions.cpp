@@ -66,10 +66,8 @@ TrackerParameters queryParameters(const DistanceQuery& query, const TrackerParam
       parameters.accuracy = AccuracyLevel::Refined;
       break;
     case DistanceQuery::ACCURACY_CERTIFIED:
-      parameters.accuracy = AccuracyLevel::Certified;
-      break;
     case DistanceQuery::ACCURACY_COMPLETE:
-      parameters.accuracy = AccuracyLevel::Complete;
+      parameters.accuracy = AccuracyLevel::Certified;
       break;
     default:
       throw Error("accuracy", "the value is " + std::to_string(query.accuracy), "allowed: 0, 1, 2, 3, 4");
@@ -84,7 +82,7 @@ TrackerParameters queryParameters(const DistanceQuery& query, const TrackerParam
     }
     if (!provesDistance(parameters.accuracy)) {
       throw Error(name, "the value is " + std::to_string(value) + ", but it belongs to levels with a proof",
-                  "ask for ACCURACY_CERTIFIED or ACCURACY_COMPLETE, or leave it 0");
+                  "ask for ACCURACY_CERTIFIED, or leave it 0");
     }
     parameter = value;
   };

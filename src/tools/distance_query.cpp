@@ -18,9 +18,8 @@ constexpr const char* kToleranceOption = "--tolerance";
 /// Stopping early only means something where a bound is proven.
 void refuseOnUnprovenLevels(const CLI::App& app, const std::string& option, AccuracyLevel level) {
   if (app.count(option) == 0 || concave_distance::provesDistance(level)) return;
-  throw CLI::ValidationError(
-      option, "stops a proof early, and --accuracy " + std::string(toString(level)) +
-                  " proves no bound; leave it out or ask for --accuracy certified or complete");
+  throw CLI::ValidationError(option, "stops a proof early, and --accuracy " + std::string(toString(level)) +
+                                         " proves no bound; leave it out or ask for --accuracy certified");
 }
 
 void addOptions(CLI::App& app, DistanceQueryOptions& options) {
@@ -41,6 +40,9 @@ void addOptions(CLI::App& app, DistanceQueryOptions& options) {
   };
   add("accuracy");
   add("cutoff");
+  app.add_flag(
+      "--hidden", [&options](std::int64_t) { options.settings.tracker.hidden = true; },
+      "list niches whose segment meets a surface too");
   add("least_prominence");
   add("prominence_limit");
   add("largest_niche_count");

@@ -52,16 +52,16 @@ void AnswerWriter::write(std::size_t index, const QueryAnswer& answer) {
 }
 
 NicheWriter::NicheWriter(const std::string& path)
-    : file_(path, "index,niche,distance,ax,ay,az,bx,by,bz,kind,extent,outward,visible,prominence") {}
+    : file_(path, "index,niche,distance,ax,ay,az,bx,by,bz,kind,extent,outward,visible,prominence,origin") {}
 
 void NicheWriter::write(std::size_t index, std::uint64_t number, const TrackedNiche& niche, bool described) {
   CsvWriter& cells = file_.cells();
   cells << index << number << niche.distance << niche.point_a_in_a << niche.point_b_in_a;
   if (described) {
     cells << kindName(niche.kind) << niche.extent << outwardName(niche.outward) << (niche.visible ? 1 : 0)
-          << niche.prominence;
+          << niche.prominence << toString(niche.origin);
   } else {
-    cells.skipCells(5);
+    cells.skipCells(6);
   }
   cells.endLine();
 }

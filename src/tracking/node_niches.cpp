@@ -26,27 +26,71 @@ void collectRings(const NodeGraph& graph, NodeIndex centre, std::vector<NodeInde
 
 }  // namespace
 
-AdmissionResult admitNodePair(const NicheCandidate& candidate, const PairGeometry& geometry,
-                              double niche_radius, std::uint64_t cycle, PairMetric& metric,
-                              NicheArchive& archive) {
+void followNodePairs(PairGeometry& geometry, NicheSearch& search, double displacement, double elapsed,
+                     NicheArchive& archive, SearchCost& cost, WorkLimit& limit) {
+  const double rounding = 1e-9 * geometry.scale();
   for (NicheRecord& record : archive.records()) {
-    if (metric.distanceWithin(record.niche.node_pair, candidate.node_pair, niche_radius) <= niche_radius) {
-      if (candidate.witness.squared_distance < record.niche.witness.squared_distance) {
-        record.niche.node_pair = candidate.node_pair;
-        placeRecord(record, geometry, candidate.witness);
-      }
-      return {Admission::SamePlace, record.niche.id};
+    if (limit.isOver()) {
+      carryRecord(record, geometry);
+      continue;
     }
+    const double before = record.niche.distance;
+    // A minimum that was not descended may be far below its points.
+    record.least_distance =
+        record.carried ? -std::numeric_limits<double>::infinity() : before - displacement - rounding;
+    record.carried = false;
+    record.niche.node_pair = search.descendKnown(geometry, record.niche.node_pair, cost);
+    record.niche.origin = NicheOrigin::Inherited;
+    placeRecord(record, geometry, geometry.nodeWitness(record.niche.node_pair));
+    record.niche.closing_speed = elapsed > 0.0 ? (before - record.niche.distance) / elapsed : kNotComputed;
+  }
+}
+
+namespace {
+
+void admitNodePair(const TrialPoint& pair, const PairGeometry& geometry, double niche_radius,
+                   std::uint64_t cycle, PairMetric& metric, NicheArchive& archive) {
+  const WitnessPair witness = geometry.nodeWitness(pair);
+  for (NicheRecord& record : archive.records()) {
+    if (metric.distanceWithin(record.niche.node_pair, pair, niche_radius) > niche_radius) continue;
+    if (witness.squared_distance < record.niche.witness.squared_distance) {
+      record.niche.node_pair = pair;
+      placeRecord(record, geometry, witness);
+    }
+    return;
   }
   NicheRecord newborn;
   newborn.niche.id = archive.takeId();
   newborn.niche.birth_cycle = cycle;
-  newborn.niche.node_pair = candidate.node_pair;
-  newborn.niche.proven_local_minimum = candidate.proven;
+  newborn.niche.node_pair = pair;
+  newborn.niche.origin = NicheOrigin::Evolved;
   newborn.niche.outward = Outwardness::Unknown;  // this level does not look at faces
-  placeRecord(newborn, geometry, candidate.witness);
+  placeRecord(newborn, geometry, witness);
   archive.records().push_back(newborn);
-  return {Admission::Born, newborn.niche.id};
+}
+
+}  // namespace
+
+void admitNodePairs(PairGeometry& geometry, const TrackerParameters& parameters, NicheSearch& search,
+                    const std::vector<TrialPoint>& found, bool warm, std::uint64_t cycle,
+                    NicheArchive& archive, PairSolution& solution) {
+  const double niche_radius = search.radii(warm).niche;
+  PairMetric& metric = search.workspace().metric;
+  // Those that have run on into another basin are known no more, and found anew.
+  std::vector<NicheRecord>& records = archive.records();
+  for (std::size_t i = records.size(); i-- > 0;) {
+    if (records[i].niche.distance >= records[i].least_distance) continue;
+    const TrialPoint pair = records[i].niche.node_pair;
+    archive.remove(i, solution.events);
+    admitNodePair(pair, geometry, niche_radius, cycle, metric, archive);
+  }
+  for (const TrialPoint& pair : found) {
+    admitNodePair(pair, geometry, niche_radius, cycle, metric, archive);
+  }
+  archive.settle();
+  uniteWithinRadius(niche_radius, metric, archive, solution.events);
+  improveNodePairs(PairObjective(*geometry.a, *geometry.b, geometry.a_from_b), parameters.largest_niche_count,
+                   archive, geometry, solution.cost);
 }
 
 void improveNodePairs(const PairObjective& objective, std::size_t count, NicheArchive& archive,

@@ -3,17 +3,29 @@
 #include <cstdint>
 #include <vector>
 
-#include "niche_admission.h"
+#include "concave_distance/base/work_limit.h"
+#include "concave_distance/tracking/pair_solution.h"
+#include "concave_distance/tracking/tracker_parameters.h"
+#include "niche_archive.h"
+#include "niche_search.h"
+#include "pair_geometry.h"
 #include "search/pair_metric.h"
 #include "search/pair_objective.h"
 
 namespace concave_distance {
 
-/// Level `nodes`: a candidate within the niche radius (Delta, metres) of a record belongs to it, and becomes
-/// its place when closer; else it is born (greedy identification, Carretero sec. 4.6.4, over time).
-AdmissionResult admitNodePair(const NicheCandidate& candidate, const PairGeometry& geometry,
-                              double niche_radius, std::uint64_t cycle, PairMetric& metric,
-                              NicheArchive& archive);
+// Level `nodes`: the thesis's niches on the node graphs.
+
+/// Moves every known niche to the minimum below its node pair.
+void followNodePairs(PairGeometry& geometry, NicheSearch& search, double displacement, double elapsed,
+                     NicheArchive& archive, SearchCost& cost, WorkLimit& limit);
+
+/// What was found becomes a niche or belongs to one within the niche radius (greedy identification,
+/// Carretero sec. 4.6.4, over time); then records are united and the nearest improved.
+/// @param found node pairs, the nearest first
+void admitNodePairs(PairGeometry& geometry, const TrackerParameters& parameters, NicheSearch& search,
+                    const std::vector<TrialPoint>& found, bool warm, std::uint64_t cycle,
+                    NicheArchive& archive, PairSolution& solution);
 
 /// Moves both nodes of a record at once, over three edges on either body, as long as that comes closer (the
 /// local search over more than one node that Carretero, sec. 7.1, names): between parallel walls one gene at

@@ -22,7 +22,6 @@ struct PairGeometry {
   Eigen::Isometry3d a_from_b = Eigen::Isometry3d::Identity();
   Eigen::Isometry3d b_from_a = Eigen::Isometry3d::Identity();
   RefinementWorkspace refinement;
-  ExtentWorkspace extent;
   std::vector<NodeIndex> ring_a;  ///< nodes around a pair's genes, for level `nodes`
   std::vector<NodeIndex> ring_b;
 
@@ -51,13 +50,5 @@ void placeRecord(struct NicheRecord& record, const PairGeometry& geometry, const
 /// Keeps the points of a record on their bodies and measures them at the present pose: an upper bound of its
 /// minimum.
 void carryRecord(struct NicheRecord& record, const PairGeometry& geometry);
-
-/// A niche that was found and is not in the archive yet.
-struct NicheCandidate {
-  WitnessPair witness;
-  TrialPoint node_pair;
-  bool proven = false;
-  std::uint64_t left_by = 0;  ///< id of the reported niche whose basin vanished and led here; 0: none
-};
 
 }  // namespace concave_distance

@@ -10,8 +10,20 @@ std::string_view toString(AccuracyLevel level) {
       return "refined";
     case AccuracyLevel::Certified:
       return "certified";
-    case AccuracyLevel::Complete:
-      return "complete";
+  }
+  return "unknown";
+}
+
+std::string_view toString(NicheOrigin origin) {
+  switch (origin) {
+    case NicheOrigin::Inherited:
+      return "inherited";
+    case NicheOrigin::Evolved:
+      return "evolved";
+    case NicheOrigin::Swept:
+      return "swept";
+    case NicheOrigin::Proven:
+      return "proven";
   }
   return "unknown";
 }

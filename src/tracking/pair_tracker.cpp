@@ -7,11 +7,8 @@
 #include <utility>
 
 #include "concave_distance/base/error.h"
-#include "mesh/surface/connected_pieces.h"
-#include "mesh/surface/triangle_adjacency.h"
-#include "mesh/trees/normal_cone_tree.h"
+#include "pair_cycle.h"
 #include "require_bodies.h"
-#include "tracker_state.h"
 
 namespace concave_distance {
 namespace {
@@ -21,19 +18,15 @@ constexpr std::size_t kPosesOfOneTracker = 16;
 
 }  // namespace
 
-struct PairTracker::State : TrackerState {
-  using TrackerState::TrackerState;
-
-  std::uint64_t largest_used_id = 0;
+struct PairTracker::State : PairCycle {
+  using PairCycle::PairCycle;
 };
 
 PairTracker::PairTracker(std::string name, std::shared_ptr<const BodyMesh> a,
                          std::shared_ptr<const BodyMesh> b, const TrackerParameters& parameters,
                          std::uint64_t largest_used_id) {
   requireBodies(name, a, b);
-  state_ = std::make_unique<State>(std::move(name), std::move(a), std::move(b), parameters);
-  state_->largest_used_id = largest_used_id;
-  state_->archive.beginIdsAfter(largest_used_id);
+  state_ = std::make_unique<State>(std::move(name), std::move(a), std::move(b), parameters, largest_used_id);
 }
 PairTracker::~PairTracker() = default;
 PairTracker::PairTracker(PairTracker&&) noexcept = default;
@@ -49,17 +42,7 @@ void PairTracker::update(const Eigen::Isometry3d& a_from_b, double time, PairSol
 }
 
 void PairTracker::prepare(const std::vector<Eigen::Isometry3d>& a_from_b) {
-  State& tracker = state();
-  const TrackerParameters& parameters = tracker.parameters;
-  if (!provesDistance(parameters.accuracy) || parameters.niches_wanted) {
-    tracker.prepareSearch();
-    const NormalSides sides = parameters.keep_through_material ? NormalSides::Both : NormalSides::Outside;
-    for (const BodyMesh* body : {tracker.geometry.a.get(), tracker.geometry.b.get()}) {
-      body->adjacency();
-      body->pieces();
-      if (parameters.accuracy != AccuracyLevel::Nodes) body->normalCones(sides);
-    }
-  }
+  state().prepare();
   PairSolution solution;
   double time = 0.0;
   for (const Eigen::Isometry3d& pose : a_from_b) update(pose, time += 1.0, solution);
@@ -71,25 +54,11 @@ void PairTracker::reset() {
 }
 
 void PairTracker::restart() {
-  state().restart(state().largest_used_id);
+  state().restart();
 }
 
 void PairTracker::setParameters(const TrackerParameters& parameters) {
-  State& tracker = state();
-  parameters.validate(tracker.name);
-  const TrackerParameters& before = tracker.parameters;
-  const bool proves_alone =
-      provesDistance(parameters.accuracy) && parameters.niches_wanted != before.niches_wanted;
-  if (parameters.accuracy != before.accuracy || proves_alone) {
-    tracker.reset();  // node niches and refined ones are not the same places; a proof alone follows none
-  }
-  tracker.parameters = parameters;
-  tracker.proof.current = tracker.completeness.current = false;
-  tracker.search_prepared = false;
-  // Up to another cutoff, or for another prominence.
-  tracker.sweep.restart();
-  tracker.swept.clear();
-  tracker.swept_at_rest = false;
+  state().setParameters(parameters);
 }
 
 std::size_t PairTracker::memoryBytes() const {
@@ -97,7 +66,7 @@ std::size_t PairTracker::memoryBytes() const {
 }
 
 const TrackerParameters& PairTracker::parameters() const {
-  return state().parameters;
+  return state().parameters();
 }
 
 PairSolution solveOnce(const std::string& name, const std::shared_ptr<const BodyMesh>& a,

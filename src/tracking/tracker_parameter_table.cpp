@@ -13,16 +13,16 @@ ParameterTable<T> ofTheProof() {
   const std::vector<std::pair<std::string, AccuracyLevel>> levels = {{"nodes", AccuracyLevel::Nodes},
                                                                      {"refined", AccuracyLevel::Refined},
                                                                      {"certified", AccuracyLevel::Certified},
-                                                                     {"complete", AccuracyLevel::Complete}};
+                                                                     {"complete", AccuracyLevel::Certified}};
   return {
       choice<T>(
           "accuracy", levels, [](auto& t) -> auto& { return t.accuracy; },
-          "`nodes`: between grid nodes; `refined`: exact on the triangles around every niche; `certified`: "
-          "the same, and the distance proven in every cycle; `complete`: every niche below the cutoff "
-          "proven"),
+          "`nodes`: between grid nodes; `refined`: exact on the triangles around every niche found; "
+          "`certified`: the distance and every niche below the cutoff proven in every cycle (`complete`: the "
+          "same)"),
       number<T>(
           "absolute_tolerance", [](auto& t) -> auto& { return t.absolute_tolerance; },
-          "for `certified` and `complete`: how far the proven lower bound may stay below the distance")
+          "for `certified`: how far the proven lower bound may stay below the distance")
           .inUnit("m")
           .atRunTime(),
       number<T>(
@@ -58,8 +58,8 @@ ParameterTable<T> ofTheNiches() {
           .from(1.0)
           .atRunTime(),
       flag<T>(
-          "keep_through_material", [](auto& t) -> auto& { return t.keep_through_material; },
-          "report niches whose segment runs through material too, flagged"),
+          "hidden", [](auto& t) -> auto& { return t.hidden; },
+          "report niches whose segment meets a surface too, flagged"),
       count<T>(
           "seed", [](auto& t) -> auto& { return t.seed; },
           "of the random streams: one seed gives one answer, for any number of threads"),
@@ -75,7 +75,10 @@ ParameterTable<T> expertParameters() {
           .from(kLeastMemory),
       limit<T>(
           "prominence_limit", [](auto& t) -> auto& { return t.prominence_limit; },
-          "for `complete`: prominences are measured up to this; `none`: all below the cutoff"),
+          "prominences are measured up to this; `none`: all below the cutoff"),
+      flag<T>(
+          "keep_through_material", [](auto& t) -> auto& { return t.keep_through_material; },
+          "report niches whose segment runs through material too, flagged"),
       number<T>(
           "inherited_per_niche", [](auto& t) -> auto& { return t.inherited_per_niche; },
           "trial points that a niche hands on to the next cycle")
@@ -87,30 +90,9 @@ ParameterTable<T> expertParameters() {
           "random_starts", [](auto& t) -> auto& { return t.random_starts; },
           "random trial points that a warm cycle descends as well"),
       number<T>(
-          "search_motion", [](auto& t) -> auto& { return t.search_motion; },
-          "a warm cycle searches for new niches when the bodies have moved against each other by this many "
-          "grid edges since the last search ..."),
-      count<T>(
-          "search_interval", [](auto& t) -> auto& { return t.search_interval; },
-          "... or after this many cycles; 1: in every cycle")
-          .from(1.0),
-      count<T>(
-          "swept_cones", [](auto& t) -> auto& { return t.swept_cones; },
-          "groups of four normal cones that a warm cycle compares to find niches that the search has not "
-          "found, in proportion to the motion; more: new niches are found earlier; 0: none"),
-      count<T>(
-          "reviewed_niches", [](auto& t) -> auto& { return t.reviewed_niches; },
-          "niches whose prominence a warm cycle decides again, in turn; the nearest besides in every cycle"),
-      count<T>(
-          "projected_niches", [](auto& t) -> auto& { return t.projected_niches; },
-          "niches of which a warm cycle asks, in turn, whether the other body has a closer place"),
-      count<T>(
-          "projected_nodes", [](auto& t) -> auto& { return t.projected_nodes; },
-          "random nodes that a warm cycle projects onto the other body and back; a cold one 16 times as "
-          "many"),
-      flag<T>(
-          "extrapolate", [](auto& t) -> auto& { return t.extrapolate; },
-          "start from where the relative velocity has carried the witness points"),
+          "search_share", [](auto& t) -> auto& { return t.search_share; },
+          "for `certified`: work of the genetic search as a share of all other; 0: no search")
+          .to(1.0),
   };
 }
 

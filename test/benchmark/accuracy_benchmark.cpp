@@ -87,10 +87,6 @@ void addLevels(Rows& rows, const BenchmarkPair& pair) {
   parameters.accuracy = AccuracyLevel::Certified;
   parameters.niches_wanted = true;
   addTracker(rows, pair, "certified", "all niches", parameters);
-  parameters.accuracy = AccuracyLevel::Complete;
-  addTracker(rows, pair, "complete", "all niches", parameters);
-
-  parameters.accuracy = AccuracyLevel::Certified;
   parameters.niches_wanted = false;
   for (const double tolerance : {0.0, 1e-6, 1e-4, 1e-3, 1e-2, 1e-1}) {
     parameters.relative_tolerance = tolerance;
@@ -205,8 +201,7 @@ void writeStages(const BenchmarkPair& pair, int steps, std::ofstream& csv) {
   for (const Setting& setting :
        {Setting{"nodes", AccuracyLevel::Nodes, true}, Setting{"refined", AccuracyLevel::Refined, true},
         Setting{"certified", AccuracyLevel::Certified, true},
-        Setting{"certified, distance alone", AccuracyLevel::Certified, false},
-        Setting{"complete", AccuracyLevel::Complete, true}}) {
+        Setting{"certified, distance alone", AccuracyLevel::Certified, false}}) {
     TrackerParameters parameters;
     parameters.accuracy = setting.level;
     parameters.niches_wanted = setting.niches;

@@ -1,9 +1,7 @@
-// Recall and precision of the shipped search, cold and tracked, against level `complete`; and what level
-// `complete` costs.
+// Recall and precision of the shipped search, cold and tracked, against all niches, and what these cost anew.
 //
 //   complete_benchmark [--pairs ...] [--steps 200] [--windows 4] [--window 10] [--cold-runs 20]
-//                      [--list-misses 0] [--swept-cones 1000] [--reviewed-niches 1]
-//                      [--output doc/results/complete.csv]
+//                      [--list-misses 0] [--accuracy refined] [--output doc/results/complete.csv]
 //
 // A pair is tracked at every instant of its motion; in windows of consecutive instants, spread evenly, every
 // outward niche of prominence >= 1e-2 is found by findLocalMinima(), with a cutoff of 5 times the distance or
@@ -218,9 +216,9 @@ int benchmarkMain(int argc, char** argv) {
   app.add_option("--list-misses", options.list_misses,
                  "Of what the cold solves missed, list the most prominent");
   options.tracker.largest_niche_count = 2000;
-  app.add_option("--swept-cones", options.tracker.swept_cones, "The tracker's parameter of this name");
-  app.add_option("--reviewed-niches", options.tracker.reviewed_niches,
-                 "The tracker's parameter of this name");
+  app.add_option("--accuracy", options.tracker.accuracy, "level of the tracker")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, AccuracyLevel>{
+          {"refined", AccuracyLevel::Refined}, {"certified", AccuracyLevel::Certified}}));
   app.add_option("--output", output, "CSV file to write");
   CLI11_PARSE(app, argc, argv);
 

@@ -106,12 +106,12 @@ void judge(const detail::MinimaScene& scene, std::vector<MinimumSeed> seeds, Min
   WorkLimit none;
   MinimaVerdicts::Request request;
   auto start = std::chrono::steady_clock::now();
-  verdicts.judge(scene, seeds, {}, request, none);
+  verdicts.judge(scene, seeds, request, none);
   const double judge_us = microsecondsSince(start);
   request.keeps = false;
   MinimaVerdicts alone;
   start = std::chrono::steady_clock::now();
-  alone.judge(scene, seeds, {}, request, none);
+  alone.judge(scene, seeds, request, none);
   const double floods_us = microsecondsSince(start);
   const std::vector<double> niches = nichesOf(verdicts);
   sample.other += isSame(niches, nichesOf(alone), 1e-9 * scene.size) ? 0 : 1;
@@ -138,11 +138,9 @@ void observe(const BenchmarkPair& pair, const Eigen::Isometry3d& pose, ConeFront
   const double fcl_us = microsecondsSince(start);
   const detail::MinimaScene scene(*pair.a, *pair.b, pose);
   std::vector<MinimumSeed> from_roots;
-  detail::OpenCones open;
   LocalMinimaCost cost;
   start = std::chrono::steady_clock::now();
-  detail::collectConeSeeds(scene, NormalSides::Outside, cutoff, std::numeric_limits<std::size_t>::max(), open,
-                           from_roots, cost, none);
+  detail::collectConeSeeds(scene, NormalSides::Outside, cutoff, from_roots, cost, none);
   const double roots_us = microsecondsSince(start);
   std::vector<MinimumSeed> from_front;
   start = std::chrono::steady_clock::now();

@@ -157,8 +157,7 @@ int benchmarkMain(int argc, char** argv) {
     for (const Level& level :
          {Level{"nodes", AccuracyLevel::Nodes, true}, Level{"refined", AccuracyLevel::Refined, true},
           Level{"certified", AccuracyLevel::Certified, true},
-          Level{"certified, distance alone", AccuracyLevel::Certified, false},
-          Level{"complete", AccuracyLevel::Complete, true}}) {
+          Level{"certified, distance alone", AccuracyLevel::Certified, false}}) {
       const Sums sums = follow(pair, level, steps);
       const double count = steps - 1;
       std::printf("%-18s %-26s %9.2f %9.3f %9.3f %9.3f %7.1f %9.0f\n", name.c_str(), level.name,

@@ -53,10 +53,8 @@ void expectWhatTheRootsFind(const Body& a, const Body& b, const Isometry3d& pose
   WorkLimit none;
   const MinimaScene scene(*a, *b, pose);
   std::vector<MinimumSeed> from_roots;
-  OpenCones open;
   LocalMinimaCost cost;
-  collectConeSeeds(scene, sides, cutoff, std::numeric_limits<std::size_t>::max(), open, from_roots, cost,
-                   none);
+  collectConeSeeds(scene, sides, cutoff, from_roots, cost, none);
   std::vector<MinimumSeed> from_front;
   ASSERT_TRUE(front.collect(scene, sides, cutoff, from_front, none));
   const auto places = placesOf(a, b, pose, from_front);

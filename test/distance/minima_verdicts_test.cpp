@@ -1,6 +1,7 @@
 #include "distance/minima_verdicts.h"
 
 #include <gtest/gtest.h>
+#include <pthread.h>
 
 #include <algorithm>
 #include <atomic>
@@ -53,7 +54,7 @@ std::vector<double> nichesByFloods(const MinimaScene& scene, std::vector<Minimum
   MinimaVerdicts::Request request;
   request.least_prominence = least_prominence;
   request.keeps = false;
-  once.judge(scene, seeds, {}, request, none);
+  once.judge(scene, seeds, request, none);
   return nichesOf(once);
 }
 
@@ -79,7 +80,7 @@ TEST(MinimaVerdicts, AreThoseOfFloodsAtEveryPoseOfAnyMotion) {
       const MinimaScene scene(*a, *b, motion.at(step * k));
       std::vector<MinimumSeed> seeds = seedsAt(scene);
       WorkLimit none;
-      verdicts.judge(scene, seeds, {}, request, none);
+      verdicts.judge(scene, seeds, request, none);
       expectSame(nichesOf(verdicts), nichesByFloods(scene, seeds, least_prominence));
       if (HasFailure()) return;
       sum.by_path += verdicts.counts().by_path;
@@ -102,10 +103,10 @@ TEST(MinimaVerdicts, NeedNoFloodWhereNothingHasMoved) {
   std::vector<MinimumSeed> seeds = seedsAt(scene);
   MinimaVerdicts verdicts;
   WorkLimit none;
-  verdicts.judge(scene, seeds, {}, {}, none);
+  verdicts.judge(scene, seeds, {}, none);
   const std::vector<double> first = nichesOf(verdicts);
   EXPECT_GT(verdicts.counts().floods, 0U);
-  verdicts.judge(scene, seeds, {}, {}, none);
+  verdicts.judge(scene, seeds, {}, none);
   EXPECT_EQ(verdicts.counts().floods, 0U);
   EXPECT_EQ(verdicts.counts().flooded_cells, 0U);
   EXPECT_EQ(verdicts.counts().measured, 0U);
@@ -122,7 +123,7 @@ TEST(MinimaVerdicts, GiveANicheTheSameRegionWhileItStands) {
     const MinimaScene scene(*a, *b, test::translation(Vector3d(0.2 + 1e-4 * k, 0.1, 3.0 + 1e-4 * k)));
     std::vector<MinimumSeed> seeds = seedsAt(scene);
     WorkLimit none;
-    verdicts.judge(scene, seeds, {}, {}, none);
+    verdicts.judge(scene, seeds, {}, none);
     std::set<std::uint64_t> regions;
     for (const MinimaVerdicts::Judged& judged : verdicts.judged()) {
       if (judged.verdict != Verdict::Niche) continue;
@@ -141,9 +142,9 @@ TEST(MinimaVerdicts, FloodNothingThatIsNotWanted) {
   std::vector<MinimumSeed> seeds = seedsAt(scene);
   MinimaVerdicts verdicts;
   MinimaVerdicts::Request request;
-  request.is_wanted = [](const MinimumSeed&) { return false; };
+  request.is_wanted = [](const MinimumSeed&, std::uint32_t&) { return false; };
   WorkLimit none;
-  verdicts.judge(scene, seeds, {}, request, none);
+  verdicts.judge(scene, seeds, request, none);
   EXPECT_EQ(verdicts.counts().floods, 0U);
   EXPECT_TRUE(nichesOf(verdicts).empty());
   EXPECT_EQ(verdicts.judged().front().verdict, Verdict::Unwanted);
@@ -164,7 +165,7 @@ TEST(MinimaVerdicts, AreRightAgainAfterALimitHasEndedThem) {
       if (k % 3 == 1) {
         WorkLimit stopped(std::chrono::steady_clock::now(), kInfinity,
                           k % 2 == 0 ? std::size_t{2000} : std::numeric_limits<std::size_t>::max(), &stop);
-        verdicts.judge(scene, seeds, {}, {}, stopped);
+        verdicts.judge(scene, seeds, {}, stopped);
         const std::vector<double> truth = nichesByFloods(scene, seeds, 1e-2);
         for (const double distance : nichesOf(verdicts)) {
           EXPECT_TRUE(std::any_of(truth.begin(), truth.end(),
@@ -176,12 +177,103 @@ TEST(MinimaVerdicts, AreRightAgainAfterALimitHasEndedThem) {
         continue;
       }
       WorkLimit none;
-      verdicts.judge(scene, seeds, {}, {}, none);
+      verdicts.judge(scene, seeds, {}, none);
       expectSame(nichesOf(verdicts), nichesByFloods(scene, seeds, 1e-2));
       if (HasFailure()) return;
     }
   }
   EXPECT_TRUE(was_undecided);
+}
+
+struct Scene {
+  Body a;
+  Body b;
+  Isometry3d pose;
+};
+
+/// A strip of teeth, each a little higher than the one before, and a bar along all of their tips.
+Scene washboard(std::size_t teeth) {
+  std::vector<Eigen::Vector3d> vertices;
+  std::vector<TriangleNodes> triangles;
+  for (std::size_t i = 0; i <= 2 * teeth; ++i) {
+    const double height = i % 2 == 0 ? 0.0 : 0.5 + 1e-6 * static_cast<double>(i);
+    for (const double y : {-1.0, 1.0}) vertices.emplace_back(0.1 * static_cast<double>(i), y, height);
+    if (i == 0) continue;
+    const NodeIndex a{2 * i - 2};
+    const NodeIndex b{2 * i - 1};
+    triangles.push_back({a, NodeIndex{2 * i}, b});
+    triangles.push_back({b, NodeIndex{2 * i}, NodeIndex{2 * i + 1}});
+  }
+  const double length = 0.2 * static_cast<double>(teeth);
+  const auto bar = test::makeCuboid({-1.0, -0.5, 0.0}, {length + 1.0, 0.5, 0.1});
+  return {makeBody(SurfaceMesh(vertices, triangles, "washboard")), makeBody(bar),
+          test::translation({0, 0, 1.5})};
+}
+
+// As deep a chain of minima as there are teeth, on a stack that a recursion would run out of.
+TEST(MinimaVerdicts, NeedNoStackForALongWayDown) {
+  struct Run {
+    Scene scene = washboard(400);
+    std::size_t judged = 0;
+    std::uint32_t niche = 0;
+    bool is_last = false;
+  } run;
+  const auto judge = [](void* argument) -> void* {
+    Run& own = *static_cast<Run*>(argument);
+    const MinimaScene scene(*own.scene.a, *own.scene.b, own.scene.pose);
+    RefinementWorkspace workspace;
+    WitnessPair first;
+    first.squared_distance = kInfinity;
+    for (std::uint32_t t = 0; t < own.scene.b->surface().triangleCount(); ++t) {
+      const WitnessPair found =
+          refineWitness(scene.a, scene.b, scene.a_from_b, TriangleIndex{0}, TriangleIndex{t}, workspace)
+              .witness;
+      if (found.squared_distance < first.squared_distance) first = found;
+    }
+    std::vector<MinimumSeed> seeds{scene.seedOf(first)};
+    MinimaVerdicts verdicts;
+    MinimaVerdicts::Request request;
+    request.least_prominence = 1.0;
+    WorkLimit none;
+    verdicts.judge(scene, seeds, request, none);
+    own.niche = verdicts.locate(scene, {first.triangle_a, first.triangle_b}, request, none);
+    own.judged = verdicts.judged().size();
+    own.is_last = verdicts.judged()[own.niche].verdict == Verdict::Niche;
+    return nullptr;
+  };
+  pthread_attr_t attributes;
+  pthread_attr_init(&attributes);
+  pthread_attr_setstacksize(&attributes, std::size_t{64} << 10U);
+  pthread_t thread{};
+  ASSERT_EQ(pthread_create(&thread, &attributes, judge, &run), 0);
+  pthread_join(thread, nullptr);
+  pthread_attr_destroy(&attributes);
+  EXPECT_GT(run.judged, 200U);
+  EXPECT_EQ(run.niche, run.judged - 1);
+  EXPECT_TRUE(run.is_last);
+}
+
+// What is decided with and without passes is decided by two different floods.
+TEST(MinimaVerdicts, AreThoseOfMeasuredPassesWhateverTheOrderOfTheSeeds) {
+  RandomEngine engine(31);
+  std::size_t united = 0;
+  for (int run = 0; run < 40; ++run) {
+    const Scene drawn{makeBody(test::concaveShape(uniformIndex(engine, 6))),
+                      makeBody(test::concaveShape(uniformIndex(engine, 6))), test::randomPose(engine, 1.2)};
+    LocalMinimaRequest measured;
+    measured.least_prominence = 0.1;
+    measured.prominence_limit = 0.2;
+    const LocalMinima truth = findLocalMinima(*drawn.a, *drawn.b, drawn.pose, measured);
+    const MinimaScene scene(*drawn.a, *drawn.b, drawn.pose);
+    std::vector<MinimumSeed> seeds = seedsAt(scene);
+    if (!seeds.empty() && truth.niches.front().distance == 0.0) continue;  // many seeds, one niche
+    std::reverse(seeds.begin() + static_cast<std::ptrdiff_t>(seeds.size() / 3), seeds.end());
+    const std::vector<double> niches = nichesByFloods(scene, seeds, 0.1);
+    ASSERT_EQ(niches.size(), truth.niches.size()) << run;
+    for (std::size_t i = 0; i < niches.size(); ++i) EXPECT_NEAR(niches[i], truth.niches[i].distance, 1e-12);
+    united += seeds.size() - niches.size();
+  }
+  EXPECT_GT(united, 20U);
 }
 
 // What is left of a border has its distance, and what leaves it has not, after any motion.
@@ -197,7 +289,8 @@ TEST(CellBorder, LosesExactlyWhatComesNearerThanTheLevel) {
     const MinimaScene first(*a, *b, motion.at(0.0));
     WorkLimit none;
     CellBorder border;
-    border.begin(Vector3d::Zero(), Vector3d::Zero());
+    BorderPool pool;
+    border.begin(pool, Vector3d::Zero(), Vector3d::Zero());
     std::vector<SharedElement> left;
     const double level = 0.3 + uniformUnit(engine);
     for (std::uint32_t k = 0; k < 200; ++k) {
@@ -210,19 +303,20 @@ TEST(CellBorder, LosesExactlyWhatComesNearerThanTheLevel) {
           TriangleIndex{uniformIndex(engine, static_cast<std::uint32_t>(other.triangleCount()))}};
       const double distance = std::sqrt(closestOver(first, element).squared_distance);
       if (distance < level) continue;
-      ASSERT_TRUE(border.add(first, {element, t}, distance, none));
+      ASSERT_TRUE(border.add(pool, first, {element, t}, distance, none));
       left.push_back(element);
     }
     for (int k = 1; k < 30; ++k) {
       const MinimaScene scene(*a, *b, motion.at(step * k));
-      const std::size_t crossed = border.takeCrossed(scene, level).size();
+      border.takeCrossed(pool, scene, level);
+      const std::size_t crossed = pool.crossed.size();
       const auto nearer = [&](const SharedElement& element) {
         return std::sqrt(closestOver(scene, element).squared_distance) < level;
       };
       const auto gone = std::remove_if(left.begin(), left.end(), nearer);
       ASSERT_EQ(static_cast<std::size_t>(left.end() - gone), crossed) << "run " << run << ", instant " << k;
       left.erase(gone, left.end());
-      ASSERT_EQ(border.size(), left.size());
+      ASSERT_EQ(border.size(pool), left.size());
       lost += crossed;
     }
     kept += left.size();

@@ -61,7 +61,7 @@ TEXTS = ("scene_file", "robot_description", "reference_frame", "geometry", "cach
 for parameter in TEXTS:
     refuse(parameter, "number", 17)
     refuse(parameter, "list", ["a", "b"])
-for parameter in ("keep_through_material", "expert/extrapolate", "publish_markers", "publish_contact_markers", "show_bodies"):
+for parameter in ("hidden", "expert/keep_through_material", "publish_markers", "publish_contact_markers", "show_bodies"):
     refuse(parameter, "text", "yes please")
     refuse(parameter, "number", 17)
 refuse("accuracy", "unknown", "perfect")

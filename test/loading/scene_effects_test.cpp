@@ -91,7 +91,7 @@ TEST_F(SceneEffects, WrongNamesAndValuesAreRefusedWithWhatIsAllowed) {
 TEST_F(SceneEffects, EffectsNeedAProof) {
   const std::string text =
       refusal(kTwoBalls + "defaults: {accuracy: refined, effects: {interference: true}}\n");
-  EXPECT_TRUE(mentions(text, "set accuracy to certified or complete")) << text;
+  EXPECT_TRUE(mentions(text, "set accuracy to certified")) << text;
 }
 
 // What anybody on the network may send to set_effects: an Error, soon, and no pair is changed.

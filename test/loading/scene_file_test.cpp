@@ -261,7 +261,7 @@ TEST_F(SceneFile, SettingsOutOfRangeAreRefusedInDefaultsAndPairs) {
   expectSettingRefused("largest_niche_count", "0", "a whole number 1 or more");
   expectSettingRefused("largest_niche_count", "2.5", "a whole number");
   expectSettingRefused("largest_niche_count", "4294967296", "a whole number");
-  expectSettingRefused("keep_through_material", "2", "true or false");
+  expectSettingRefused("hidden", "2", "true or false");
   expectSettingRefused("seed", "-1", "a whole number 0 or more");
   expectSettingRefused("seed", "18446744073709551616", "a whole number 0 or more");
   expectSettingRefused("warning_distance", "-1", "0 or more (m), or none");
@@ -275,9 +275,8 @@ TEST_F(SceneFile, SettingsForExpertsOutOfRangeAreRefused) {
   expectExpertRefused("inherited_per_niche", "0.5", "1 or more");
   expectExpertRefused("inherited_limit", "-1", "a whole number 0 or more");
   expectExpertRefused("random_starts", "many", "a whole number 0 or more");
-  expectExpertRefused("projected_niches", "-1", "a whole number 0 or more");
-  expectExpertRefused("projected_nodes", "1.5", "a whole number 0 or more");
-  expectExpertRefused("extrapolate", "0", "true or false");
+  expectExpertRefused("search_share", "1.5", "from 0 to 1");
+  expectExpertRefused("keep_through_material", "2", "true or false");
   expectExpertRefused("sharing_radius", "0", "greater than 0 (m), or auto");
   expectExpertRefused("mating_radius", "-1", "greater than 0 (m), or auto");
   expectExpertRefused("niche_radius", "wide", "greater than 0 (m), or auto");
@@ -287,8 +286,8 @@ TEST_F(SceneFile, SettingsForExpertsOutOfRangeAreRefused) {
 
 TEST_F(SceneFile, SettingsThatHadAnotherNameAreRefusedWithTheNewOne) {
   for (const auto& [old, now] : {std::pair("immigrants: 3", "expert: {random_starts: ...}"),
-                                 std::pair("projected_immigrants: 3", "expert: {projected_nodes: ...}"),
-                                 std::pair("swept_cones: 3", "expert: {swept_cones: ...}"),
+                                 std::pair("projected_immigrants: 3", "leave it out"),
+                                 std::pair("expert: {swept_cones: 3}", "leave it out"),
                                  std::pair("cold: {elite_count: 1}", "expert: {cold: {...}}"),
                                  std::pair("expert: {cold: {immigrants: 1}}", "random_immigrants")}) {
     EXPECT_TRUE(mentions(refusal(std::string("defaults: {") + old + "}\n"), now)) << old;
@@ -370,12 +369,12 @@ TEST_F(SceneFile, EverySettingReachesItsParameter) {
       "pairs:\n"
       "  - between: [box, ball]\n"
       "    accuracy: nodes\n    cutoff: 2\n    least_prominence: 0.25\n"
-      "    largest_niche_count: 7\n    keep_through_material: true\n    seed: 18446744073709551615\n"
+      "    largest_niche_count: 7\n    hidden: true\n    seed: "
+      "18446744073709551615\n"
       "    warning_distance: 0.125\n    warning_hysteresis: 0.5\n"
       "    expert:\n"
       "      inherited_per_niche: 4.5\n      inherited_limit: 11\n      random_starts: 5\n"
-      "      swept_cones: 77\n      reviewed_niches: 9\n      projected_niches: 6\n"
-      "      projected_nodes: 13\n      extrapolate: false\n"
+      "      search_share: 0.5\n      keep_through_material: true\n"
       "      sharing_radius: 0.3\n      mating_radius: 0.4\n      niche_radius: 0.2\n"
       "      cold:\n        population_size: 80\n        max_generations: 9\n"
       "        crossover_probability: 0.75\n        mutation_probability: 0.0625\n"
@@ -396,15 +395,12 @@ TEST_F(SceneFile, EverySettingReachesItsParameter) {
   EXPECT_EQ(tracker.cutoff, 2.0);
   EXPECT_EQ(tracker.least_prominence, 0.25);
   EXPECT_EQ(tracker.largest_niche_count, 7U);
+  EXPECT_TRUE(tracker.hidden);
   EXPECT_TRUE(tracker.keep_through_material);
   EXPECT_EQ(tracker.inherited_per_niche, 4.5);
   EXPECT_EQ(tracker.inherited_limit, 11U);
   EXPECT_EQ(tracker.random_starts, 5U);
-  EXPECT_EQ(tracker.projected_niches, 6U);
-  EXPECT_EQ(tracker.swept_cones, 77U);
-  EXPECT_EQ(tracker.reviewed_niches, 9U);
-  EXPECT_EQ(tracker.projected_nodes, 13U);
-  EXPECT_FALSE(tracker.extrapolate);
+  EXPECT_EQ(tracker.search_share, 0.5);
   EXPECT_EQ(tracker.seed, 18446744073709551615ULL);
   EXPECT_EQ(settings.warning_distance, 0.125);
   EXPECT_EQ(settings.warning_hysteresis, 0.5);

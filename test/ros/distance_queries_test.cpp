@@ -128,7 +128,7 @@ TEST_F(DistanceQueriesTest, ProveTheDistanceWhenAsked) {
     query.with_niches = static_cast<std::uint8_t>(choice % 2);
     const PairDistance nearest = answer().nearest;
     EXPECT_EQ(nearest.status.code, PairStatus::OK);
-    EXPECT_EQ(nearest.accuracy, query.accuracy);
+    EXPECT_EQ(nearest.accuracy, PairDistance::ACCURACY_CERTIFIED);
     ASSERT_TRUE(nearest.has_lower_bound);
     EXPECT_LE(nearest.lower_bound, 1.0);
     EXPECT_GE(nearest.lower_bound, 1.0 - kRounding);

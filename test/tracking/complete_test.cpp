@@ -1,4 +1,4 @@
-// Level `complete`: every niche there is, in every cycle, with identities that persist.
+// Level `certified`: every niche there is, in every cycle, with identities that persist.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -18,9 +18,9 @@ using Body = std::shared_ptr<const BodyMesh>;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-TrackerParameters complete() {
+TrackerParameters complete(bool hidden = true) {
   TrackerParameters parameters;
-  parameters.accuracy = AccuracyLevel::Complete;
+  parameters.hidden = hidden;
   parameters.largest_niche_count = 1000;
   return parameters;
 }
@@ -39,20 +39,25 @@ Isometry3d swaying(double t) {
 }
 
 void expectEveryNiche(const Body& a, const Body& b, const Isometry3d& pose, const PairSolution& solution,
-                      double cutoff) {
+                      const TrackerParameters& parameters) {
   LocalMinimaRequest request;
-  request.cutoff = cutoff;
+  request.cutoff = parameters.cutoff;
+  request.hidden = parameters.hidden;
   const LocalMinima truth = findLocalMinima(*a, *b, pose, request);
   ASSERT_EQ(solution.niches.size(), truth.niches.size());
   for (std::size_t i = 0; i < truth.niches.size(); ++i) {
     EXPECT_NEAR(solution.niches[i].distance, truth.niches[i].distance, 1e-12);
     EXPECT_EQ(solution.niches[i].outward, truth.niches[i].outward);
+    EXPECT_EQ(solution.niches[i].visible, truth.niches[i].visible);
+    EXPECT_EQ(solution.niches[i].kind, truth.niches[i].kind);
     EXPECT_TRUE(solution.niches[i].proven_local_minimum);
   }
 }
 
-TEST(CompleteLevel, ListsEveryNicheAlongAMotionAndKeepsTheBooksOfTheirIds) {
-  TrackerParameters parameters = complete();
+class CompleteList : public testing::TestWithParam<bool> {};
+
+TEST_P(CompleteList, HasEveryNicheAlongAMotionAndKeepsTheBooksOfTheirIds) {
+  TrackerParameters parameters = complete(GetParam());
   parameters.cutoff = 0.3;
   PairTracker tracker("combs", comb(), comb(), parameters);
   PairSolution solution;
@@ -63,8 +68,9 @@ TEST(CompleteLevel, ListsEveryNicheAlongAMotionAndKeepsTheBooksOfTheirIds) {
     const Isometry3d pose = swaying(0.01 * k);
     tracker.update(pose, 0.01 * k, solution);
     EXPECT_EQ(solution.status, SolveStatus::Ok);
-    EXPECT_EQ(solution.accuracy, AccuracyLevel::Complete);
-    expectEveryNiche(comb(), comb(), pose, solution, parameters.cutoff);
+    EXPECT_EQ(solution.accuracy, AccuracyLevel::Certified);
+    EXPECT_TRUE(solution.niches_complete);
+    expectEveryNiche(comb(), comb(), pose, solution, parameters);
     for (const NicheEvent& event : solution.events) {
       if (event.kind == NicheEvent::Kind::Birth) {
         EXPECT_TRUE(alive.insert(event.id).second);
@@ -84,8 +90,9 @@ TEST(CompleteLevel, ListsEveryNicheAlongAMotionAndKeepsTheBooksOfTheirIds) {
   }
   EXPECT_LE(alive.size() + dead.size(), 60U) << "niches in small motions are not new every time";
 }
+INSTANTIATE_TEST_SUITE_P(HiddenOrNot, CompleteList, testing::Bool());
 
-TEST(CompleteLevel, KeepsEveryIdOfNichesThatLiveOn) {
+TEST(CompleteListOf, KeepsEveryIdOfNichesThatLiveOn) {
   // The battery is lowered by a millimetre in forty steps: its nine niches are the same all the way.
   const test::ThesisScene s = test::loadThesisScene("battery_static", 0.5);
   PairTracker tracker("battery", s.a, s.b, complete());
@@ -115,7 +122,7 @@ TEST(CompleteLevel, KeepsEveryIdOfNichesThatLiveOn) {
   EXPECT_EQ(solution.niches.front().closing_speed, 0.0);
 }
 
-TEST(CompleteLevel, SaysPenetratingWhereBodiesMeetOrSwallowEachOther) {
+TEST(CompleteListOf, SaysPenetratingWhereBodiesMeetOrSwallowEachOther) {
   const Body big = test::makeBody(test::makeCuboid(Vector3d(-1, -1, -1), Vector3d(1, 1, 1)));
   const Body small = test::makeBody(test::makeCuboid(Vector3d(-0.1, -0.1, -0.1), Vector3d(0.1, 0.1, 0.1)));
   const PairSolution meeting =
@@ -131,7 +138,7 @@ TEST(CompleteLevel, SaysPenetratingWhereBodiesMeetOrSwallowEachOther) {
   EXPECT_TRUE(inside.niches.empty());
 }
 
-TEST(CompleteLevel, ReportsACut) {
+TEST(CompleteListOf, ReportsACut) {
   TrackerParameters parameters = complete();
   parameters.largest_niche_count = 3;
   PairTracker tracker("combs", comb(), comb(), parameters);

@@ -19,7 +19,7 @@ TEST(MemoryLimit, HoldsForFloodsOfALargeProminenceAndTheBracketHoldsToo) {
   pose.translation() = Eigen::Vector3d(1.23, 0.65, 0.02);
   const double exact = std::sqrt(enumerateTrianglePairs(*comb, *comb, pose).squared_distance);
   TrackerParameters parameters;
-  parameters.accuracy = AccuracyLevel::Complete;
+  parameters.accuracy = AccuracyLevel::Certified;
   parameters.prominence_limit = 50.0;
   // What belongs to the bodies is built before.
   comb->adjacency();

@@ -78,7 +78,7 @@ TEST_P(SolveEach, APreparedTrackerAnswersAsAnotherOne) {
 
 INSTANTIATE_TEST_SUITE_P(EveryLevel, SolveEach,
                          ::testing::Values(AccuracyLevel::Nodes, AccuracyLevel::Refined,
-                                           AccuracyLevel::Certified, AccuracyLevel::Complete));
+                                           AccuracyLevel::Certified));
 
 TEST(PairTrackerUse, PreparingMakesWhatASearchNeeds) {
   const auto comb = std::make_shared<BodyMesh>("comb", test::makeComb(4));

@@ -21,8 +21,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr AccuracyLevel kLevels[] = {AccuracyLevel::Nodes, AccuracyLevel::Refined, AccuracyLevel::Certified,
-                                     AccuracyLevel::Complete};
+constexpr AccuracyLevel kLevels[] = {AccuracyLevel::Nodes, AccuracyLevel::Refined, AccuracyLevel::Certified};
 
 /// Corners of a lattice of 2 x 2 x 1 cells, each moved by less than would turn a tetrahedron inside out.
 class CrookedLattice {

@@ -31,8 +31,7 @@ struct Level {
 constexpr Level kLevels[] = {{AccuracyLevel::Nodes, true},
                              {AccuracyLevel::Refined, true},
                              {AccuracyLevel::Certified, true},
-                             {AccuracyLevel::Certified, false},
-                             {AccuracyLevel::Complete, true}};
+                             {AccuracyLevel::Certified, false}};
 
 TrackerParameters parametersOf(const Level& level) {
   TrackerParameters parameters;

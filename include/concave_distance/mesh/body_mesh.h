@@ -75,8 +75,8 @@ class BodyMesh {
   const CompressedRows<AdjacentTriangle>& adjacency() const;
   /// What hangs together as a whole. Built at the first call, for all threads; 4 bytes a triangle.
   const ConnectedPieces& pieces() const;
-  /// Of level `complete`. Built at the first call for each of the two, for all threads; about 450 bytes a
-  /// triangle.
+  /// Of level `certified` with niches. Built at the first call for each of the two, for all threads; about
+  /// 450 bytes a triangle.
   const NormalConeTree& normalCones(NormalSides sides) const;
 
   /// What the search moves on: the nodes of the grid or, where thinned() says so, an even choice of them.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <array>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
@@ -28,6 +29,8 @@ struct CycleCounts {
   std::uint32_t beyond_cutoff = 0;
   std::uint32_t not_located = 0;
   std::uint32_t search_misses = 0;
+  /// Niches listed, by NicheOrigin.
+  std::array<std::uint64_t, kNicheOriginCount> niches{};
   std::uint32_t unproven = 0;       ///< solves at `certified` that the time budget ended before the proof
   EffectCounts effects;             ///< of all pairs
   double helper_cpu_seconds = 0.0;  ///< processor time of the threads that helped the caller's

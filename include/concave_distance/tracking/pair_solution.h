@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -17,10 +18,10 @@
 namespace concave_distance {
 
 /// How exact an answer is (README.md, "Accuracy").
-enum class AccuracyLevel : std::uint8_t { Nodes, Refined, Certified, Complete };
-/// Whether the level proves the distance in every cycle.
+enum class AccuracyLevel : std::uint8_t { Nodes, Refined, Certified };
+/// Whether the level proves the distance, and the list of niches, in every cycle.
 constexpr bool provesDistance(AccuracyLevel level) {
-  return level == AccuracyLevel::Certified || level == AccuracyLevel::Complete;
+  return level == AccuracyLevel::Certified;
 }
 std::string_view toString(AccuracyLevel level);
 
@@ -35,6 +36,16 @@ enum class SolveStatus : std::uint8_t {
 };
 std::string_view toString(SolveStatus status);
 
+/// What has found a niche in a cycle.
+enum class NicheOrigin : std::uint8_t {
+  Inherited,  ///< known from the last cycle
+  Evolved,    ///< new, and proposed by the genetic search
+  Swept,      ///< new, found among the normal cones
+  Proven      ///< new, found by the proof of the distance alone
+};
+inline constexpr std::size_t kNicheOriginCount = 4;
+std::string_view toString(NicheOrigin origin);
+
 /// A local minimum of a pair's distance, followed over time.
 struct TrackedNiche {
   std::uint64_t id = 0;            ///< persistent while the niche lives, never used again afterwards
@@ -48,8 +59,9 @@ struct TrackedNiche {
   double extent = 0.0;  ///< metres, see NicheExtent::length
   Outwardness outward = Outwardness::Outward;
   bool visible = true;
-  /// (Lowest pass to a deeper niche) / distance - 1 where it was measured, at level `complete`; infinite for
-  /// the deepest.
+  NicheOrigin origin = NicheOrigin::Inherited;
+  /// (Lowest pass to a deeper niche) / distance - 1 where it was measured
+  /// (TrackerParameters::prominence_limit); infinite for the deepest.
   double prominence = kNotComputed;
   bool proven_local_minimum = false;
   std::uint64_t birth_cycle = 0;
@@ -86,14 +98,14 @@ struct PairSolution {
   std::vector<TrackedNiche> niches;
   std::vector<NicheEvent> events;
   bool niches_cut = false;  ///< more niches were known than the largest count allows
-  /// The list is proven to be every niche up to the cutoff: level `complete`, and nothing cut it short.
+  /// The list is proven to be every niche up to the cutoff: level `certified`, and nothing cut it short.
   bool niches_complete = false;
   std::uint32_t niches_beyond_cutoff = 0;
   std::uint64_t cycle = 0;
   bool warm = false;
   /// The search was late. At `nodes` and `refined`: this cycle found a niche closer than the last cycle's
-  /// nearest could have moved to. At `certified`: the proof found a pair closer than every niche by more than
-  /// its error, in this very cycle; that pair is among the niches now.
+  /// nearest could have moved to. At `certified`: the nearest niche is new and the search has not proposed
+  /// it.
   bool search_miss = false;
   std::uint64_t seed = 0;
   SearchCost cost;

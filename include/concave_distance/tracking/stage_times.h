@@ -9,17 +9,16 @@ namespace concave_distance {
 
 /// The stages of a solve, in their order.
 enum class SolveStage : std::uint8_t {
+  Prove,     ///< the distance
   Follow,    ///< known niches to where their minima have moved
-  Search,    ///< genetic search, its descents, refinement and judging of what it found
-  Project,   ///< closest points of the body opposite, from niches and random nodes
-  Sweep,     ///< normal cones for what no search finds; at level `complete` all of it
-  Review,    ///< known niches flooded again
-  Proof,     ///< of the distance
-  Describe,  ///< kind, extent, visibility of the reported niches, and their list
+  Propose,   ///< genetic search and refinement of what it found
+  Sweep,     ///< normal cones, for every minimum there is
+  Admit,     ///< which minima are niches, their kind, extent and visibility, their ids
+  Describe,  ///< the answer
 };
-inline constexpr std::size_t kSolveStageCount = 7;
-inline constexpr const char* kSolveStageNames[kSolveStageCount] = {"follow", "search", "project", "sweep",
-                                                                   "review", "proof",  "describe"};
+inline constexpr std::size_t kSolveStageCount = 6;
+inline constexpr const char* kSolveStageNames[kSolveStageCount] = {"prove", "follow", "propose",
+                                                                   "sweep", "admit",  "describe"};
 
 /// Seconds that each stage of one solve took.
 struct StageTimes {

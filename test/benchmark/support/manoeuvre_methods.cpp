@@ -64,10 +64,6 @@ TrackerParameters thesisParameters() {
   parameters.inherited_per_niche = 3.0;
   parameters.inherited_limit = 30;
   parameters.random_starts = 0;
-  parameters.projected_niches = parameters.projected_nodes = 0;
-  parameters.search_motion = 0.0;
-  parameters.search_interval = 1;
-  parameters.extrapolate = false;
   return parameters;
 }
 

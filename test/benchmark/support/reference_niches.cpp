@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "benchmark/support/grid_flood.h"
-#include "distance/basin_verdict.h"
+#include "distance/minima_verdicts.h"
 #include "search/local_descent.h"
 #include "thesis/evaluation/enumeration.h"
 #include "tracking/pair_geometry.h"
@@ -74,17 +74,17 @@ bool isSameNiche(const BenchmarkPair& pair, const Eigen::Isometry3d& pose, const
   if (isOnePlateau(pair, pose, found, reference, geometry.scale())) {
     return true;
   }
-  const bool deeper = found.squared_distance < reference.squared_distance;
-  constexpr std::size_t kLargestFlood = 100'000;
-  const auto seed = [&](const WitnessPair& witness, bool judged) {
-    return BasinSeed{
-        witness.triangle_a, witness.triangle_b, std::sqrt(witness.squared_distance), least_prominence, judged,
-        kLargestFlood};
+  const detail::MinimaScene scene(*pair.a, *pair.b, pose);
+  std::vector<MinimumSeed> seeds{scene.seedOf(found), scene.seedOf(reference)};
+  detail::MinimaVerdicts verdicts;
+  detail::MinimaVerdicts::Request request;
+  request.least_prominence = least_prominence;
+  WorkLimit none;
+  verdicts.judge(scene, seeds, request, none);
+  const auto nicheOf = [&](const WitnessPair& witness) {
+    return verdicts.locate(scene, {witness.triangle_a, witness.triangle_b}, request, none);
   };
-  BasinVerdicts verdicts;
-  judgeBasins(*pair.a, *pair.b, pose,
-              {seed(deeper ? found : reference, false), seed(deeper ? reference : found, true)}, verdicts);
-  return verdicts.rootOf(verdicts.basinOf(1)) == verdicts.rootOf(verdicts.basinOf(0));
+  return nicheOf(found) == nicheOf(reference);
 }
 
 namespace {

@@ -55,27 +55,14 @@ std::vector<TuningVariant> coldVariants() {
           {"before", [](P& p) { p.warm = {}; }},
           {"as at level nodes", [](P& p) { p.warm = p.cold; }},
           {"N_pop 2", [](P& p) { p.warm.population_size = 2; }},
-          {"no projections", [](P& p) { p.projected_niches = p.projected_nodes = 0; }},
-          {"no sweep, before",
-           [](P& p) {
-             p.swept_cones = 0;
-             p.cold = {};
-           }},
-          {"no sweep", [](P& p) { p.swept_cones = 0; }}};
+          {"no evolution", [](P& p) { p.search_share = 0.0; }}};
 }
 
 std::vector<TuningVariant> cycleVariants() {
   using P = TrackerParameters;
   using Count = std::uint32_t;
   std::vector<TuningVariant> v = {{"shipped", [](P&) {}},
-                                  {"before",
-                                   [](P& p) {
-                                     p.warm.population_size = 24;
-                                     p.projected_niches = 3;
-                                     p.search_interval = 4;
-                                     p.swept_cones = 1000;
-                                     p.extrapolate = true;
-                                   }},
+                                  {"before", [](P& p) { p.warm.population_size = 24; }},
                                   {"no evolution", [](P& p) {
                                      p.warm.population_size = 2;
                                      p.random_starts = 0;
@@ -92,20 +79,8 @@ std::vector<TuningVariant> cycleVariants() {
       "inherited_limit", {10, 60}, [](P& p, Count n) { p.inherited_limit = n; }, v);
   addValues<Count>(
       "immigrants", {0, 4, 16}, [](P& p, Count n) { p.random_starts = n; }, v);
-  addValues<Count>(
-      "projected_niches", {0, 3}, [](P& p, Count n) { p.projected_niches = n; }, v);
-  addValues<Count>(
-      "projected_immigrants", {0, 16}, [](P& p, Count n) { p.projected_nodes = n; }, v);
-  v.push_back({"no projections", [](P& p) { p.projected_niches = p.projected_nodes = 0; }});
   addValues<double>(
-      "search_motion", {0.1, 0.25, 1.0}, [](P& p, double x) { p.search_motion = x; }, v);
-  addValues<Count>(
-      "search_interval", {4, 8, 32}, [](P& p, Count n) { p.search_interval = n; }, v);
-  addValues<Count>(
-      "swept_cones", {0, 1000, 2000, 4000}, [](P& p, Count n) { p.swept_cones = n; }, v);
-  addValues<Count>(
-      "reviewed_niches", {0, 2, 4}, [](P& p, Count n) { p.reviewed_niches = n; }, v);
-  v.push_back({"extrapolation", [](P& p) { p.extrapolate = true; }});
+      "search_share", {0.0, 0.03, 0.3, 1.0}, [](P& p, double x) { p.search_share = x; }, v);
   return v;
 }
 

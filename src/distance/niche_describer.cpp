@@ -1,0 +1,56 @@
+#include "niche_describer.h"
+
+#include <cmath>
+
+#include "mesh/surface/mesh_topology.h"
+
+namespace concave_distance::detail {
+namespace {
+
+/// Of heights, relative to the size of both bodies; the same as the tracker's.
+constexpr double kPlateauTolerance = 1e-9;
+/// No plateau seen comes near it; the flood has united the whole set before.
+constexpr std::size_t kExtentPairLimit = 100'000;
+
+/// Whether every minimum that the cones lead to leaves both bodies outwards.
+bool areAllOutward(const MinimaScene& scene, const LocalMinimaRequest& request) {
+  return !request.through_material && request.given == nullptr && scene.a.topology().allShellsClosed() &&
+         scene.b.topology().allShellsClosed();
+}
+
+}  // namespace
+
+bool NicheDescriber::describe(const MinimaScene& scene, const LocalMinimaRequest& request,
+                              const MinimumSeed& minimum, LocalMinimum& niche, WorkLimit& limit) {
+  const BodyMesh& a = scene.a;
+  const BodyMesh& b = scene.b;
+  niche.witness = minimum.is_measured
+                      ? scene.witnessOf(minimum)
+                      : refineWitness(a, b, scene.a_from_b, minimum.a, minimum.b, refinement_).witness;
+  niche.distance = std::sqrt(niche.witness.squared_distance);
+  if (minimum.distance <= 4.0 * scene.rounding) {
+    niche.distance = 0.0;
+    return true;
+  }
+  if (niche.distance > request.cutoff) return false;
+  if (!areAllOutward(scene, request)) {
+    niche.outward = classifyOutwardness(a, b, scene.a_from_b, niche.witness);
+    if (niche.outward == Outwardness::ThroughMaterial && !request.through_material) return false;
+  }
+  if (!minimum.is_point) measure(scene, niche, limit);
+  niche.visible = isVisible(a, b, scene.a_from_b, niche.witness);
+  return niche.visible || request.hidden;
+}
+
+void NicheDescriber::measure(const MinimaScene& scene, LocalMinimum& niche, WorkLimit& limit) {
+  const BodyMesh& a = scene.a;
+  const BodyMesh& b = scene.b;
+  const double tolerance = kPlateauTolerance * (a.diameter() + b.diameter());
+  const NicheExtent extent =
+      measureExtent(a, b, scene.a_from_b, niche.witness, tolerance, kExtentPairLimit, extent_, &limit);
+  niche.kind = extent.kind;
+  niche.extent = extent.length;
+  if (extent.kind != NicheKind::Point) niche.witness = extent.representative;
+}
+
+}  // namespace concave_distance::detail

@@ -1,0 +1,113 @@
+#include "distance_proof.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "distance/solid_overlap.h"
+
+namespace concave_distance {
+namespace {
+
+// Room for the pairs that a usual proof opens.
+constexpr std::size_t kUsualOpenPairs = 256;
+
+TrianglePair trianglesOf(const WitnessPair& witness) {
+  return {witness.triangle_a, witness.triangle_b};
+}
+
+}  // namespace
+
+DistanceProof::DistanceProof() {
+  workspace_.open.reserve(kUsualOpenPairs);
+}
+
+void DistanceProof::prove(PairGeometry& geometry, const TrackerParameters& parameters,
+                          const std::optional<TrianglePair>& nearest, double displacement, WorkLimit& limit) {
+  if (displacement == 0.0 && current_ && certificate_.status != CertificateStatus::Budget) {
+    certificate_.cost = {};
+    return;
+  }
+  std::array<TrianglePair, 2> seeds{};
+  std::size_t count = 0;
+  if (nearest) seeds[count++] = *nearest;
+  const TrianglePair last = trianglesOf(certificate_.witness);
+  if (seeded_ && !(nearest && nearest->a == last.a && nearest->b == last.b)) seeds[count++] = last;
+  const double last_bound = seeded_ ? certificate_.lower_bound : 0.0;
+  CertificateRequest request;
+  request.absolute_tolerance = parameters.absolute_tolerance;
+  request.relative_tolerance = parameters.relative_tolerance;
+  request.limit = &limit;
+  certificate_ = certifyDistance(*geometry.a, *geometry.b, geometry.a_from_b, seeds.data(), count, request,
+                                 workspace_, &front_);
+  if (certificate_.status == CertificateStatus::Budget ||
+      certificate_.status == CertificateStatus::Tolerance) {
+    // Stopped on the way down.
+    const WitnessRefinement refined =
+        geometry.refine(certificate_.witness.triangle_a, certificate_.witness.triangle_b);
+    if (refined.witness.squared_distance < certificate_.witness.squared_distance) {
+      certificate_.witness = refined.witness;
+      certificate_.distance = std::sqrt(refined.witness.squared_distance);
+    }
+  }
+  error_ = kProofError * proofScale(*geometry.a, *geometry.b, geometry.a_from_b);
+  seeded_ = current_ = true;
+  // Who holds whom cannot change while no point comes as far as the other surface.
+  if (!(displacement + error_ < last_bound)) {
+    const std::optional<bool> holds = isContained(*geometry.a, *geometry.b, geometry.a_from_b, limit);
+    swallowed_ = holds.value_or(false);
+    // Until it is known whether one body is inside the other, nothing is certain.
+    if (!holds) {
+      certificate_.lower_bound = 0.0;
+      certificate_.status = CertificateStatus::Budget;
+    }
+  }
+}
+
+void DistanceProof::report(PairSolution& solution) const {
+  solution.proof_cost = certificate_.cost;
+  solution.distance = certificate_.distance;
+  solution.lower_bound = certificate_.lower_bound;
+  solution.point_a_in_a = certificate_.witness.point_a_in_a;
+  solution.point_b_in_a = certificate_.witness.point_b_in_a;
+  // Equally near but for the error of the proof: on a plateau the niche has the steadier points.
+  if (!solution.niches.empty() && solution.niches.front().distance <= certificate_.distance + error_) {
+    TrackedNiche& nearest = solution.niches.front();
+    nearest.distance = solution.distance = std::min(nearest.distance, certificate_.distance);
+    solution.point_a_in_a = nearest.point_a_in_a;
+    solution.point_b_in_a = nearest.point_b_in_a;
+  }
+  switch (certificate_.status) {
+    case CertificateStatus::Proven:
+      solution.status = SolveStatus::Ok;
+      break;
+    case CertificateStatus::Tolerance:
+      solution.status = SolveStatus::WithinTolerance;
+      break;
+    case CertificateStatus::Budget:
+      solution.status = SolveStatus::BudgetExhausted;
+      solution.accuracy = AccuracyLevel::Refined;
+      break;
+    case CertificateStatus::Penetrating:
+      solution.status = SolveStatus::Penetrating;
+      solution.meeting_triangles = trianglesOf(certificate_.witness);
+      return;
+  }
+  if (swallowed_) {
+    solution.status = SolveStatus::Penetrating;
+    solution.accuracy = AccuracyLevel::Certified;
+    solution.surface_distance = solution.distance;
+    solution.distance = solution.lower_bound = 0.0;
+  }
+}
+
+void DistanceProof::clear() {
+  front_.clear();
+  seeded_ = current_ = swallowed_ = false;
+}
+
+std::size_t DistanceProof::memoryBytes() const {
+  return workspace_.open.capacity() * sizeof(CertificateWorkspace::OpenPair) + front_.memoryBytes();
+}
+
+}  // namespace concave_distance

@@ -1,0 +1,231 @@
+#include "exact_niches.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/refill.h"
+#include "distance/cone_front.h"
+#include "distance/minima_verdicts.h"
+#include "plateau_tolerance.h"
+
+namespace concave_distance {
+namespace {
+
+constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+
+// Half as many niches more than are reported are kept, for those that come and go at the edge of the list.
+constexpr std::size_t archiveCapacity(std::size_t reported) {
+  return reported + (reported + 1) / 2;
+}
+
+MinimumSeed seedAt(const PairGeometry& geometry, const WitnessPair& witness) {
+  return detail::MinimaScene(*geometry.a, *geometry.b, geometry.a_from_b).seedOf(witness);
+}
+
+/// The niche of a local minimum; identity, birth and speed are the caller's.
+void placeMinimum(NicheRecord& record, const PairGeometry& geometry, const LocalMinimum& minimum) {
+  placeRecord(record, geometry, minimum.witness);
+  TrackedNiche& niche = record.niche;
+  niche.distance = minimum.distance;
+  niche.kind = minimum.kind;
+  niche.extent = minimum.extent;
+  niche.outward = minimum.outward;
+  niche.visible = minimum.visible;
+  niche.prominence = std::isfinite(minimum.prominence) ? minimum.prominence : kNotComputed;
+  niche.proven_local_minimum = true;
+  record.region = minimum.region;
+  record.carried = false;
+}
+
+}  // namespace
+
+void ExactNiches::stand(double elapsed, NicheArchive& archive) const {
+  for (NicheRecord& record : archive.records()) {
+    record.niche.closing_speed = elapsed > 0.0 ? 0.0 : kNotComputed;
+    record.niche.origin = NicheOrigin::Inherited;
+  }
+}
+
+void ExactNiches::follow(PairGeometry& geometry, const NicheArchive& archive, WorkLimit& limit) {
+  followed_.clear();
+  if (archive.records().empty() && nearest_) {
+    followed_.push_back(seedAt(geometry, geometry.refine(nearest_->a, nearest_->b).witness));
+  }
+  for (const NicheRecord& record : archive.records()) {
+    if (limit.isOver()) return;
+    const WitnessPair& witness = record.niche.witness;
+    followed_.push_back(seedAt(geometry, geometry.refine(witness.triangle_a, witness.triangle_b).witness));
+  }
+}
+
+void ExactNiches::propose(const PairGeometry& geometry, const WitnessPair& minimum) {
+  request_.proposals.push_back(seedAt(geometry, minimum));
+  searched_ = request_.proposals.size();
+}
+
+void ExactNiches::proposeProven(const PairGeometry& geometry, const WitnessPair& closest) {
+  request_.proposals.push_back(seedAt(geometry, closest));
+}
+
+void ExactNiches::admit(PairGeometry& geometry, const TrackerParameters& parameters, const Cycle& cycle,
+                        double certain_distance, NicheArchive& archive, PairSolution& solution,
+                        WorkLimit& limit) {
+  const bool looks_for_all = provesDistance(parameters.accuracy);
+  std::vector<NicheRecord>& records = archive.records();
+  request_.limit = &limit;
+  request_.is_tracked = true;
+  request_.cutoff = parameters.cutoff;
+  request_.least_prominence = parameters.least_prominence;
+  request_.prominence_limit = parameters.prominence_limit;
+  request_.largest_count = archiveCapacity(parameters.largest_niche_count);
+  request_.through_material = parameters.keep_through_material;
+  request_.hidden = parameters.hidden;
+  request_.certain_distance = certain_distance;
+  request_.given = nullptr;
+  if (!looks_for_all) {
+    followed_.insert(followed_.end(), request_.proposals.begin(), request_.proposals.end());
+    request_.given = &followed_;
+    const MinimumSeed* nearest = nearestProposed();
+    nearest_.reset();
+    if (nearest != nullptr) nearest_ = TrianglePair{nearest->a, nearest->b};
+  }
+  request_.asked_pairs.clear();
+  request_.asked_regions.clear();
+  for (const NicheRecord& record : records) {
+    request_.asked_pairs.emplace_back(record.niche.witness.triangle_a, record.niche.witness.triangle_b);
+    request_.asked_regions.push_back(record.region);
+  }
+  findLocalMinima(*geometry.a, *geometry.b, geometry.a_from_b, request_, memory_, found_);
+  current_ = found_.finished;
+  cut_ = found_.cut;
+  solution.cost.evaluations += found_.cost.feature_pairs + found_.cost.candidates + found_.cost.flooded_pairs;
+
+  findHeirs(archive, geometry, cycle.last_a_from_b);
+  if (found_.finished) endOthers(archive, solution.events);
+  next_.clear();
+  for (std::size_t k = 0; k < found_.niches.size(); ++k) {
+    const LocalMinimum& minimum = found_.niches[k];
+    const bool known = heirs_[k] != kNone;
+    NicheRecord& record = next_.emplace_back(known ? records[heirs_[k]] : NicheRecord());
+    TrackedNiche& niche = record.niche;
+    const bool is_searched = minimum.proposal != LocalMinimum::kNoProposal && minimum.proposal < searched_;
+    if (known) {
+      niche.origin = NicheOrigin::Inherited;
+    } else if (is_searched || !looks_for_all) {
+      niche.origin = NicheOrigin::Evolved;
+    } else {
+      const bool is_proven_alone = !found_.finished && minimum.proposal != LocalMinimum::kNoProposal;
+      niche.origin = is_proven_alone ? NicheOrigin::Proven : NicheOrigin::Swept;
+    }
+    if (!known) {
+      niche.id = archive.takeId();
+      niche.birth_cycle = cycle.number;
+    }
+    const double before = niche.distance;
+    placeMinimum(record, geometry, minimum);
+    niche.closing_speed =
+        known && cycle.elapsed > 0.0 ? (before - niche.distance) / cycle.elapsed : kNotComputed;
+  }
+  if (!found_.finished) carryOthers(geometry, archive, limit, solution.events);
+  records.swap(next_);
+  archive.settle();
+  request_.proposals.clear();
+  searched_ = 0;
+}
+
+// A known niche goes on as the one whose region it is in now, the oldest of them first. Before, no point pair
+// of the region was nearer than the niche: the minimum cannot be nearer by more than its point of B has moved
+// since, or it has come from elsewhere.
+void ExactNiches::findHeirs(const NicheArchive& archive, const PairGeometry& geometry,
+                            const Eigen::Isometry3d& last_a_from_b) {
+  const std::vector<NicheRecord>& records = archive.records();
+  const double rounding = kPlateauTolerance * geometry.scale();
+  refill(heirs_, found_.niches.size(), kNone);
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    const std::size_t owner = found_.owners[i];
+    if (owner == LocalMinima::kNoOwner) continue;
+    const LocalMinimum& minimum = found_.niches[owner];
+    const TrackedNiche& known = records[i].niche;
+    const Eigen::Vector3d& point = minimum.witness.point_b_in_a;
+    const double moved = (last_a_from_b * (geometry.b_from_a * point) - point).norm();
+    if (!records[i].carried && minimum.distance < known.distance - moved - rounding) continue;
+    if (heirs_[owner] == kNone || known.id < records[heirs_[owner]].niche.id) heirs_[owner] = i;
+  }
+}
+
+void ExactNiches::endOthers(const NicheArchive& archive, std::vector<NicheEvent>& events) const {
+  const std::vector<NicheRecord>& records = archive.records();
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    const std::size_t owner = found_.owners[i];
+    const std::size_t heir = owner == LocalMinima::kNoOwner ? kNone : heirs_[owner];
+    if (heir == i || !records[i].reported) continue;
+    if (heir == kNone) {
+      events.push_back({NicheEvent::Kind::Death, records[i].niche.id, 0});
+    } else {
+      events.push_back({NicheEvent::Kind::Merge, records[i].niche.id, records[heir].niche.id});
+    }
+  }
+}
+
+// A list cut by time or memory is no evidence against niches missing from it: known ones stay, each at the
+// minimum around its triangles.
+void ExactNiches::carryOthers(PairGeometry& geometry, NicheArchive& archive, WorkLimit& limit,
+                              std::vector<NicheEvent>& events) {
+  const double tolerance = geometry.samePlaceTolerance();
+  const std::size_t found = next_.size();
+  for (std::size_t i = 0; i < archive.records().size(); ++i) {
+    const std::size_t owner = found_.owners[i];
+    if (owner != LocalMinima::kNoOwner && heirs_[owner] == i) continue;
+    NicheRecord record = archive.records()[i];
+    if (!limit.isOver()) {
+      const WitnessPair& witness = record.niche.witness;
+      placeRecord(record, geometry, geometry.refine(witness.triangle_a, witness.triangle_b).witness);
+    }
+    carryRecord(record, geometry);
+    record.niche.origin = NicheOrigin::Inherited;
+    const auto same = std::find_if(
+        next_.begin(), next_.begin() + static_cast<std::ptrdiff_t>(found), [&](const NicheRecord& other) {
+          return (other.niche.point_a_in_a - record.niche.point_a_in_a).norm() <= tolerance &&
+                 (other.point_b_in_b - record.point_b_in_b).norm() <= tolerance;
+        });
+    if (same == next_.begin() + static_cast<std::ptrdiff_t>(found)) {
+      next_.push_back(record);
+    } else if (record.reported) {
+      events.push_back({NicheEvent::Kind::Merge, record.niche.id, same->niche.id});
+    }
+  }
+}
+
+const MinimumSeed* ExactNiches::nearestProposed() const {
+  const auto nearest =
+      std::min_element(followed_.begin(), followed_.end(),
+                       [](const MinimumSeed& l, const MinimumSeed& r) { return l.distance < r.distance; });
+  return nearest == followed_.end() ? nullptr : &*nearest;
+}
+
+double ExactNiches::work() {
+  // What each kind of step takes beside an evaluation of the search, roughly.
+  constexpr double kGroups = 4.0;
+  constexpr double kFeatures = 10.0;
+  constexpr double kCells = 12.0;
+  return kGroups * static_cast<double>(found_.cost.node_pairs) +
+         kFeatures * static_cast<double>(found_.cost.feature_pairs) +
+         kCells * static_cast<double>(found_.cost.flooded_pairs);
+}
+
+void ExactNiches::clear() {
+  memory_.clear();
+  nearest_.reset();
+  current_ = false;
+  request_.proposals.clear();
+  searched_ = 0;
+}
+
+std::size_t ExactNiches::memoryBytes() const {
+  return memory_.memoryBytes() + found_.niches.capacity() * sizeof(LocalMinimum) +
+         (followed_.capacity() + request_.proposals.capacity()) * sizeof(MinimumSeed) +
+         next_.capacity() * sizeof(NicheRecord) + heirs_.capacity() * sizeof(std::size_t);
+}
+
+}  // namespace concave_distance

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "concave_distance/base/work_limit.h"
+#include "concave_distance/tracking/pair_solution.h"
+#include "concave_distance/tracking/tracker_parameters.h"
+#include "distance/local_minima.h"
+#include "niche_archive.h"
+#include "pair_geometry.h"
+
+namespace concave_distance {
+
+/// Stages `follow` and `admit` of the exact levels: known niches to where their minima have moved, and which
+/// of all minima are niches. At `refined` the minima are those that are known and proposed; at `certified`
+/// all there are.
+class ExactNiches {
+ public:
+  struct Cycle {
+    std::uint64_t number;
+    Eigen::Isometry3d last_a_from_b;  ///< of the cycle before, if there was one
+    double elapsed;                   ///< seconds; 0: unknown
+  };
+
+  /// Whether nothing can have changed since the last admit().
+  bool stands(double displacement) const { return current_ && displacement == 0.0; }
+  /// The speeds of niches that stand still.
+  void stand(double elapsed, NicheArchive& archive) const;
+
+  /// Level `refined`: every known niche is a minimum to be admitted again; where none is known, as in a
+  /// body that has swallowed the other, the nearest of all minima is followed.
+  void follow(PairGeometry& geometry, const NicheArchive& archive, WorkLimit& limit);
+  /// A local minimum that was proposed, to be admitted.
+  void propose(const PairGeometry& geometry, const WitnessPair& minimum);
+  /// The closest points by a proof: where niches are missing, one of them.
+  void proposeProven(const PairGeometry& geometry, const WitnessPair& closest);
+
+  /// Admits what was followed and proposed since the last call: the archive's records are the niches
+  /// afterwards, with ids that go on and events for those that end.
+  /// @param certain_distance metres; no two points are closer
+  void admit(PairGeometry& geometry, const TrackerParameters& parameters, const Cycle& cycle,
+             double certain_distance, NicheArchive& archive, PairSolution& solution, WorkLimit& limit);
+
+  bool isFinished() const { return found_.finished; }
+  /// Level `refined`: of all that was followed and proposed, niche or not; nullptr: nothing was.
+  const MinimumSeed* nearestProposed() const;
+  /// Of the last admit(), in evaluations of the search.
+  double work();
+  const LocalMinimaCost& cost() const { return found_.cost; }
+
+  void clear();
+  void renew() { current_ = false; }
+  std::size_t memoryBytes() const;
+
+ private:
+  void findHeirs(const NicheArchive& archive, const PairGeometry& geometry,
+                 const Eigen::Isometry3d& last_a_from_b);
+  void endOthers(const NicheArchive& archive, std::vector<NicheEvent>& events) const;
+  void carryOthers(PairGeometry& geometry, NicheArchive& archive, WorkLimit& limit,
+                   std::vector<NicheEvent>& events);
+
+  LocalMinimaMemory memory_;
+  LocalMinimaRequest request_;
+  LocalMinima found_;
+  std::vector<MinimumSeed> followed_;
+  std::optional<TrianglePair> nearest_;  ///< of what was followed and proposed last
+  std::size_t searched_ = 0;             ///< of the proposals: those of the search
+  std::vector<std::size_t> heirs_;       ///< of every niche found: the record whose id it takes
+  std::vector<NicheRecord> next_;
+  bool current_ = false;  ///< the archive holds what the parameters ask for at the last pose
+  bool cut_ = false;      ///< and it was cut
+};
+
+}  // namespace concave_distance

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "concave_distance/base/work_limit.h"
+#include "concave_distance/tracking/pair_solution.h"
+#include "concave_distance/tracking/tracker_parameters.h"
+#include "pair_geometry.h"
+#include "search/automatic_radii.h"
+#include "search/search_workspace.h"
+
+namespace concave_distance {
+
+/// Stage `propose`: the niched genetic algorithm, warm-started from the niches that are known.
+class NicheSearch {
+ public:
+  NicheSearch(const BodyMesh& a, const BodyMesh& b) : workspace_(a, b) {}
+
+  /// For these parameters; needs the grids of the bodies.
+  void prepare(const PairGeometry& geometry, const TrackerParameters& parameters);
+  void forgetParameters() { prepared_ = false; }
+
+  /// What one run is for.
+  struct Run {
+    const std::string& pair;  ///< names the random stream, with the seed and the cycle
+    std::uint64_t cycle;
+    bool warm;   ///< inherits `known` and takes the warm parameters
+    bool exact;  ///< a level that finds niches by other means too: a cold run takes the warm parameters
+  };
+
+  /// Begins a cycle: what is known to be a local minimum is not descended again. Moves a node pair to the
+  /// minimum below it.
+  void begin() { workspace_.basins.clear(); }
+  TrialPoint descendKnown(const PairGeometry& geometry, const TrialPoint& pair, SearchCost& cost);
+
+  /// Runs with the niches known, given as node pairs.
+  /// @return local minima on the node graphs that the run has met beside those, the nearest first
+  const std::vector<TrialPoint>& propose(const PairGeometry& geometry, const TrackerParameters& parameters,
+                                         const std::vector<TrialPoint>& known, const Run& run,
+                                         SearchCost& cost, WorkLimit& limit);
+
+  /// Whether a run keeps within its share (TrackerParameters::search_share) of all work so far. Work is
+  /// counted, not timed, so that one seed gives one answer.
+  bool isAffordable() const { return credit_ >= 0.0; }
+  /// @param work of the other stages of a cycle, in evaluations of the search
+  void earn(double work, double share);
+
+  SearchWorkspace& workspace() { return workspace_; }
+  const NicheRadii& radii(bool warm) const { return warm ? warm_radii_ : cold_radii_; }
+  void restart() { credit_ = 0.0; }
+  std::size_t memoryBytes() const;
+
+ private:
+  bool prepared_ = false;
+  NicheRadii cold_radii_{};
+  NicheRadii warm_radii_{};
+  SearchWorkspace workspace_;
+  std::vector<TrialPoint> inherited_;
+  std::vector<TrialPoint> found_;
+  std::vector<double> scratch_;
+  double credit_ = 0.0;    ///< evaluations
+  double run_cost_ = 0.0;  ///< evaluations, of the last run
+};
+
+}  // namespace concave_distance

@@ -1,0 +1,327 @@
+#include "pair_cycle.h"
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+#include <utility>
+
+#include "distance/minima_scene.h"
+#include "distance/solid_overlap.h"
+#include "mesh/trees/normal_cone_tree.h"
+#include "node_niches.h"
+#include "plateau_tolerance.h"
+#include "relative_motion.h"
+
+namespace concave_distance {
+namespace {
+
+constexpr std::size_t kUsualNiches = 256;
+
+// Shares of a time budget, each of the whole time and with the stages before it.
+constexpr double kShareOfProof = 0.4;
+constexpr double kShareOfSearch = 0.55;
+constexpr double kShareOfNiches = 0.95;
+
+double seconds(std::chrono::steady_clock::duration duration) {
+  return std::chrono::duration<double>(duration).count();
+}
+
+}  // namespace
+
+PairCycle::PairCycle(std::string name, std::shared_ptr<const BodyMesh> a, std::shared_ptr<const BodyMesh> b,
+                     const TrackerParameters& parameters, std::uint64_t largest_used_id)
+    : name_(std::move(name)),
+      geometry_(std::move(a), std::move(b)),
+      parameters_(parameters),
+      largest_used_id_(largest_used_id),
+      search_(*geometry_.a, *geometry_.b) {
+  parameters_.validate(name_);
+  archive_.beginIdsAfter(largest_used_id);
+}
+
+void PairCycle::update(const Eigen::Isometry3d& pose, double time, PairSolution& solution) {
+  const auto start = std::chrono::steady_clock::now();
+  const auto since_start = [start] { return seconds(std::chrono::steady_clock::now() - start); };
+  limit_ = WorkLimit(start, parameters_.time_budget, parameters_.memory_limit, parameters_.stop);
+  limit_.setTaken(memoryBytes());
+  clear(solution);
+  solution.a_from_b = pose;
+  const std::optional<Eigen::Isometry3d> rigid = rigidPose(pose);
+  if (!rigid) {
+    solution.status = SolveStatus::InvalidPose;
+    solution.solve_seconds = since_start();
+    return;
+  }
+  geometry_.setPose(*rigid);
+  const double elapsed = warm_ && time > last_time_ ? time - last_time_ : 0.0;
+  const double displacement =
+      warm_ ? largestDisplacement(geometry_.b->surface().boundingBox(), last_pose_, *rigid)
+            : std::numeric_limits<double>::infinity();
+  stage_clock_.start();
+  solve(displacement, elapsed, solution);
+  report(displacement, elapsed, solution);
+  stage_clock_.lap(SolveStage::Describe, solution.stages);
+  last_pose_ = *rigid;
+  last_time_ = time;
+  last_distance_ = solution.distance;
+  warm_ = true;
+  ++cycle_;
+  solution.solve_seconds = since_start();
+}
+
+// Distance alone skips all but the proof.
+void PairCycle::solve(double displacement, double elapsed, PairSolution& solution) {
+  if (proves()) {
+    limit_.allowShare(wantsNiches() ? kShareOfProof : 1.0);
+    prove(displacement);
+    stage_clock_.lap(SolveStage::Prove, solution.stages);
+  }
+  if (!wantsNiches()) return;
+  search_.prepare(geometry_, parameters_);
+  search_.begin();
+  if (isExact()) {
+    solveExact(displacement, elapsed, solution);
+  } else {
+    solveNodes(displacement, elapsed, solution);
+  }
+}
+
+void PairCycle::prove(double displacement) {
+  std::optional<TrianglePair> nearest;
+  if (!archive_.records().empty()) {
+    const WitnessPair& witness = archive_.records().front().niche.witness;
+    nearest = TrianglePair{witness.triangle_a, witness.triangle_b};
+  }
+  proof_.prove(geometry_, parameters_, nearest, displacement, limit_);
+}
+
+void PairCycle::solveNodes(double displacement, double elapsed, PairSolution& solution) {
+  limit_.allowShare(kShareOfNiches);
+  followNodePairs(geometry_, search_, displacement, elapsed, archive_, solution.cost, limit_);
+  stage_clock_.lap(SolveStage::Follow, solution.stages);
+  known_.clear();
+  for (const NicheRecord& record : archive_.records()) known_.push_back(record.niche.node_pair);
+  const std::vector<TrialPoint>& found = search_.propose(
+      geometry_, parameters_, known_, {name_, cycle_, warm_, isExact()}, solution.cost, limit_);
+  stage_clock_.lap(SolveStage::Propose, solution.stages);
+  admitNodePairs(geometry_, parameters_, search_, found, warm_, cycle_, archive_, solution);
+  stage_clock_.lap(SolveStage::Admit, solution.stages);
+}
+
+void PairCycle::solveExact(double displacement, double elapsed, PairSolution& solution) {
+  if (niches_.stands(displacement)) return niches_.stand(elapsed, archive_);
+  limit_.allowShare(kShareOfSearch);
+  if (!proves()) niches_.follow(geometry_, archive_, limit_);
+  stage_clock_.lap(SolveStage::Follow, solution.stages);
+  if (searchIsDue()) proposeMinima(solution.cost);
+  if (proves() && !proof_.isPenetrating()) {
+    niches_.proposeProven(geometry_, proof_.certificate().witness);
+  }
+  stage_clock_.lap(SolveStage::Propose, solution.stages);
+  limit_.allowShare(kShareOfNiches);
+  niches_.admit(geometry_, parameters_, {cycle_, last_pose_, elapsed}, certainDistance(), archive_, solution,
+                limit_);
+  search_.earn(niches_.work(), parameters_.search_share);
+  stage_clock_.lap(SolveStage::Admit, solution.stages);
+  solution.stages[SolveStage::Sweep] = niches_.cost().sweep_seconds;
+  solution.stages[SolveStage::Admit] -= niches_.cost().sweep_seconds;
+}
+
+// Where all minima are looked for besides, the search keeps to its share.
+bool PairCycle::searchIsDue() const {
+  return !proves() || (parameters_.search_share > 0.0 && (!warm_ || search_.isAffordable()));
+}
+
+void PairCycle::proposeMinima(SearchCost& cost) {
+  known_.clear();
+  for (NicheRecord& record : archive_.records()) {
+    if (known_.size() == parameters_.inherited_limit) break;
+    known_.push_back(search_.descendKnown(geometry_, geometry_.nodePairNear(record.niche.witness), cost));
+  }
+  const std::vector<TrialPoint>& found =
+      search_.propose(geometry_, parameters_, known_, {name_, cycle_, warm_, proves()}, cost, limit_);
+  for (std::size_t i = 0; i < found.size() && (i == 0 || !limit_.isOver()); ++i) {
+    const WitnessPair node_pair = geometry_.nodeWitness(found[i]);
+    niches_.propose(geometry_, geometry_.refine(node_pair.triangle_a, node_pair.triangle_b).witness);
+  }
+}
+
+double PairCycle::certainDistance() const {
+  if (!proves() || proof_.isPenetrating()) return 0.0;
+  return proof_.certificate().lower_bound - proof_.error();
+}
+
+void PairCycle::report(double displacement, double elapsed, PairSolution& solution) {
+  limit_.allowShare(1.0);
+  if (!wantsNiches()) return reportAlone(elapsed, solution);
+  listNiches(solution);
+  if (proves()) {
+    proof_.report(solution);
+  } else {
+    reportNearest(solution);
+  }
+  reportMiss(displacement, solution);
+  if (!solution.niches.empty() && solution.niches.front().distance == solution.distance) {
+    solution.normal_in_a = solution.niches.front().normal_in_a;
+    solution.closing_speed = solution.niches.front().closing_speed;
+  }
+  reportLimit(solution);
+}
+
+void PairCycle::reportAlone(double elapsed, PairSolution& solution) {
+  const double before = warm_ ? last_distance_ : kNotComputed;
+  proof_.report(solution);
+  if (!proof_.isSwallowed() || parameters_.keep_through_material) {
+    NicheRecord nearest;
+    placeRecord(nearest, geometry_, proof_.certificate().witness);
+    solution.normal_in_a = nearest.niche.normal_in_a;
+    if (elapsed > 0.0) solution.closing_speed = (before - proof_.certificate().distance) / elapsed;
+  }
+  reportLimit(solution);
+}
+
+void PairCycle::listNiches(PairSolution& solution) {
+  std::vector<NicheRecord>& records = archive_.records();
+  if (!records.empty()) {
+    records.front().niche.prominence = std::numeric_limits<double>::infinity();
+  }
+  for (NicheRecord& record : records) {
+    if (record.niche.distance > parameters_.cutoff) {
+      ++solution.niches_beyond_cutoff;
+      continue;
+    }
+    if (solution.niches.size() == parameters_.largest_niche_count) {
+      solution.niches_cut = true;
+      continue;
+    }
+    if (&record != &records.front() && std::isinf(record.niche.prominence)) {
+      record.niche.prominence = kNotComputed;  // it was the deepest
+    }
+    if (!record.reported) {
+      solution.events.push_back({NicheEvent::Kind::Birth, record.niche.id, 0});
+      record.reported = true;
+    }
+    solution.niches.push_back(record.niche);
+  }
+}
+
+void PairCycle::reportNearest(PairSolution& solution) {
+  const std::vector<NicheRecord>& records = archive_.records();
+  if (!records.empty()) {
+    const TrackedNiche& nearest = records.front().niche;
+    solution.distance = nearest.distance;
+    solution.point_a_in_a = nearest.point_a_in_a;
+    solution.point_b_in_a = nearest.point_b_in_a;
+    if (nearest.distance == 0.0) {
+      solution.status = SolveStatus::Penetrating;
+      solution.meeting_triangles = TrianglePair{nearest.witness.triangle_a, nearest.witness.triangle_b};
+      return;
+    }
+  }
+  const bool overlap = isContained(*geometry_.a, *geometry_.b, geometry_.a_from_b, limit_).value_or(false);
+  const MinimumSeed* known = niches_.nearestProposed();
+  const bool is_known_alone = records.empty() && limit_.hasRefused();
+  if (isExact() && known != nullptr && (overlap || is_known_alone)) {
+    // Not a niche, but still a bound of the distance: through material, or there was no time to find one.
+    const WitnessPair witness =
+        detail::MinimaScene(*geometry_.a, *geometry_.b, geometry_.a_from_b).witnessOf(*known);
+    solution.distance = known->distance;
+    solution.point_a_in_a = witness.point_a_in_a;
+    solution.point_b_in_a = witness.point_b_in_a;
+  }
+  if (overlap) {
+    solution.status = SolveStatus::Penetrating;
+    solution.surface_distance = solution.distance;
+    solution.distance = 0.0;
+  }
+}
+
+// At level `certified`: what was neither known nor proposed.
+void PairCycle::reportMiss(double displacement, PairSolution& solution) const {
+  if (!warm_) return;
+  if (proves()) {
+    solution.search_miss =
+        std::any_of(solution.niches.begin(), solution.niches.end(), [](const TrackedNiche& niche) {
+          return niche.origin == NicheOrigin::Swept || niche.origin == NicheOrigin::Proven;
+        });
+    return;
+  }
+  const double rounding = kPlateauTolerance * geometry_.scale();
+  solution.search_miss = solution.distance < last_distance_ - displacement - rounding;
+}
+
+// After the limit the answer is incomplete, even with a finished proof.
+void PairCycle::reportLimit(PairSolution& solution) const {
+  const bool all = niches_.isFinished() && !limit_.hasRefused();
+  solution.niches_complete = proves() && parameters_.niches_wanted && all && !solution.niches_cut;
+  if (!limit_.hasRefused() || solution.status == SolveStatus::Penetrating) return;
+  solution.status = limit_.hasRefusedTime() ? SolveStatus::BudgetExhausted : SolveStatus::MemoryExhausted;
+}
+
+void PairCycle::clear(PairSolution& solution) const {
+  solution.status = SolveStatus::Ok;
+  solution.accuracy = parameters_.accuracy;
+  solution.distance = solution.lower_bound = solution.surface_distance = kNotComputed;
+  solution.point_a_in_a.setConstant(kNotComputed);
+  solution.point_b_in_a.setConstant(kNotComputed);
+  solution.normal_in_a.setConstant(kNotComputed);
+  solution.closing_speed = kNotComputed;
+  solution.meeting_triangles.reset();
+  solution.niches.clear();
+  solution.events.clear();
+  solution.niches_cut = solution.niches_complete = solution.search_miss = false;
+  solution.niches_beyond_cutoff = 0;
+  solution.cycle = cycle_;
+  solution.warm = warm_;
+  solution.seed = parameters_.seed;
+  solution.cost = {};
+  solution.proof_cost = {};
+  solution.stages = {};
+}
+
+void PairCycle::prepare() {
+  if (!wantsNiches()) return;
+  search_.prepare(geometry_, parameters_);
+  archive_.reserve(kUsualNiches);
+  const NormalSides sides = parameters_.keep_through_material ? NormalSides::Both : NormalSides::Outside;
+  for (const BodyMesh* body : {geometry_.a.get(), geometry_.b.get()}) {
+    body->adjacency();
+    body->pieces();
+    if (isExact()) body->normalCones(sides);
+  }
+}
+
+void PairCycle::reset() {
+  archive_.clear();
+  proof_.clear();
+  niches_.clear();
+  search_.restart();
+  warm_ = false;
+}
+
+void PairCycle::restart() {
+  reset();
+  archive_.beginIdsAfter(largest_used_id_);
+  cycle_ = 0;
+  limit_ = {};
+}
+
+void PairCycle::setParameters(const TrackerParameters& parameters) {
+  parameters.validate(name_);
+  const bool starts_or_ends_niches =
+      provesDistance(parameters.accuracy) && parameters.niches_wanted != parameters_.niches_wanted;
+  // Node niches and refined ones are not the same places; a proof alone follows none.
+  if (parameters.accuracy != parameters_.accuracy || starts_or_ends_niches) reset();
+  parameters_ = parameters;
+  proof_.renew();
+  niches_.renew();
+  search_.forgetParameters();
+}
+
+std::size_t PairCycle::memoryBytes() const {
+  return sizeof(PairCycle) + archive_.records().capacity() * sizeof(NicheRecord) +
+         known_.capacity() * sizeof(TrialPoint) + proof_.memoryBytes() + niches_.memoryBytes() +
+         search_.memoryBytes();
+}
+
+}  // namespace concave_distance

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "concave_distance/tracking/pair_solution.h"
+#include "concave_distance/tracking/tracker_parameters.h"
+#include "distance_proof.h"
+#include "exact_niches.h"
+#include "niche_archive.h"
+#include "niche_search.h"
+#include "pair_geometry.h"
+
+namespace concave_distance {
+
+/// The cycle of one pair: its stages, in their order, and what goes from one to the next. Each stage keeps
+/// what it needs of the last cycle itself.
+class PairCycle {
+ public:
+  PairCycle(std::string name, std::shared_ptr<const BodyMesh> a, std::shared_ptr<const BodyMesh> b,
+            const TrackerParameters& parameters, std::uint64_t largest_used_id);
+
+  void update(const Eigen::Isometry3d& pose, double time, PairSolution& solution);
+  /// Makes what the first cycle would make otherwise.
+  void prepare();
+  void reset();
+  void restart();
+  void setParameters(const TrackerParameters& parameters);
+
+  const std::string& name() const { return name_; }
+  const TrackerParameters& parameters() const { return parameters_; }
+  std::size_t memoryBytes() const;
+
+ private:
+  void solve(double displacement, double elapsed, PairSolution& solution);
+  void solveNodes(double displacement, double elapsed, PairSolution& solution);
+  void solveExact(double displacement, double elapsed, PairSolution& solution);
+  void prove(double displacement);
+  void proposeMinima(SearchCost& cost);
+  bool searchIsDue() const;
+  double certainDistance() const;
+  void report(double displacement, double elapsed, PairSolution& solution);
+  void reportAlone(double elapsed, PairSolution& solution);
+  void reportNearest(PairSolution& solution);
+  void reportMiss(double displacement, PairSolution& solution) const;
+  void reportLimit(PairSolution& solution) const;
+  void listNiches(PairSolution& solution);
+  void clear(PairSolution& solution) const;
+  bool proves() const { return provesDistance(parameters_.accuracy); }
+  bool isExact() const { return parameters_.accuracy != AccuracyLevel::Nodes; }
+  bool wantsNiches() const { return !proves() || parameters_.niches_wanted; }
+
+  std::string name_;
+  PairGeometry geometry_;
+  TrackerParameters parameters_;
+  std::uint64_t largest_used_id_;
+  DistanceProof proof_;
+  NicheSearch search_;
+  ExactNiches niches_;
+  NicheArchive archive_;
+  std::vector<TrialPoint> known_;  ///< node pairs, of the cycle
+  std::uint64_t cycle_ = 0;
+  bool warm_ = false;
+  Eigen::Isometry3d last_pose_ = Eigen::Isometry3d::Identity();
+  double last_time_ = 0.0;
+  double last_distance_ = kNotComputed;
+  StageClock stage_clock_;
+  WorkLimit limit_;  ///< of the present cycle
+};
+
+}  // namespace concave_distance

@@ -1,0 +1,8 @@
+#pragma once
+
+namespace concave_distance {
+
+// What a plateau's distance may vary by, relative to the bodies: far above the kernels' rounding.
+inline constexpr double kPlateauTolerance = 1e-9;
+
+}  // namespace concave_distance
