@@ -30,8 +30,8 @@ Part partOf(const MinimaScene& scene, Side side, const SharedElement& element) {
   const SurfaceMesh& mesh = (side == Side::A ? scene.a : scene.b).surface();
   const Vector3d& centre = side == Side::A ? scene.frames.centre_a : scene.frames.centre_b;
   if (element.side != side) return {localCorners(mesh, element.other, centre)};
-  const Vector3d to = mesh.vertex(element.to) - centre;
-  return {{mesh.vertex(element.from) - centre, to, to}};
+  const Vector3d to = scene.ownVertex(side, element.to);
+  return {{scene.ownVertex(side, element.from), to, to}};
 }
 
 /// A point of the body that moves, as the other sees it.

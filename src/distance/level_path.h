@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cell_levels.h"
+#include "cell_neighbours.h"
 #include "certificate.h"
 #include "concave_distance/base/work_limit.h"
 #include "mesh/surface/triangle_adjacency.h"
@@ -110,11 +111,10 @@ class LevelPath {
       const TriangleNodes& nodes = body.surface().triangle(next.triangle);
       for (const AdjacentTriangle& beyond : adjacency.row(next.triangle.value)) {
         if (known[beyond.triangle.value]) continue;
-        std::size_t k = 0;
-        while (k < 2 && nodes[k] != beyond.from) ++k;
-        const double squared = beyond.from != beyond.to
-                                   ? (side == 0 ? levels.edges_of_a : levels.edges_of_b)[k]
-                                   : pointTriangleDistance(corners[k], still).squared_distance;
+        const Side of = side == 0 ? Side::A : Side::B;
+        const double squared = squaredLevelOver(scene_, of, nodes, corners, beyond,
+                                                side == 0 ? levels.edges_of_a : levels.edges_of_b,
+                                                side == 0 ? here.b : here.a, still);
         if (squared > limit * limit) continue;
         if (!work_.makeRoom(buffers_.reached) || !work_.makeRoom(buffers_.open)) break;
         enter(beyond.triangle, std::max(squared, next.squared_level));

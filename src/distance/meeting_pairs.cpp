@@ -1,6 +1,7 @@
 #include "meeting_pairs.h"
 
 #include "mesh/trees/triangle_tree.h"
+#include "shell_material.h"
 
 namespace concave_distance::detail {
 namespace {
@@ -38,12 +39,14 @@ void collectMeetingPairs(const MinimaScene& scene, std::vector<MinimumSeed>& see
         for (std::uint32_t l = b.first; l < b.first + b.count; ++l) {
           const TriangleIndex ta = tree_a.order()[k];
           const TriangleIndex tb = tree_b.order()[l];
+          if (scene.a.joints().isHidden(ta) || scene.b.joints().isHidden(tb)) continue;
           ++cost.candidates;
-          if (triangleDistance(scene.cornersOfA(ta), scene.cornersOfB(tb)).squared_distance <=
-              slack * slack) {
-            if (!limit.makeRoom(seeds)) return;
-            seeds.push_back(seedOn(ta, tb, 0.0));
-          }
+          const TrianglePairDistance closest = triangleDistance(scene.cornersOfA(ta), scene.cornersOfB(tb));
+          if (closest.squared_distance > slack * slack) continue;
+          const Eigen::Vector3d point = closest.point_a + scene.frames.centre_a;
+          if (isInsideMaterial(scene, {0.0, point, point, ta, tb})) continue;
+          if (!limit.makeRoom(seeds)) return;
+          seeds.push_back(seedOn(ta, tb, 0.0));
         }
       }
     } else if (b.count > 0 || (a.count == 0 && a.box.sizes().sum() >= b.box.sizes().sum())) {

@@ -3,8 +3,11 @@
 #include <cmath>
 #include <vector>
 
+#include "base/side.h"
 #include "concave_distance/mesh/body_mesh.h"
 #include "local_frames.h"
+#include "mesh/surface/triangle_adjacency.h"
+#include "mesh/trees/shell_joints.h"
 #include "minimum_seed.h"
 
 namespace concave_distance::detail {
@@ -24,6 +27,20 @@ struct MinimaScene {
     rounding = kTriangleDistanceError * size;
   }
 
+  /// A vertex, or an end of a joint of shells (joinedAdjacency()), in the body's axes, relative to its
+  /// centre.
+  Eigen::Vector3d ownVertex(Side side, NodeIndex node) const {
+    const BodyMesh& body = side == Side::A ? a : b;
+    const Eigen::Vector3d& centre = side == Side::A ? frames.centre_a : frames.centre_b;
+    const std::size_t count = body.surface().vertexCount();
+    if (node.value < count) return body.surface().vertex(node) - centre;
+    const std::size_t end = node.value - count;
+    const ShellJoints::Joint& joint = body.joints().joints[end / 2];
+    return (end % 2 == 0 ? joint.from : joint.to) - centre;
+  }
+  static bool isJoint(const BodyMesh& body, const AdjacentTriangle& next) {
+    return next.from.value >= body.surface().vertexCount();
+  }
   Eigen::Vector3d vertexOfA(NodeIndex node) const { return a.surface().vertex(node) - frames.centre_a; }
   Eigen::Vector3d vertexOfB(NodeIndex node) const {
     return frames.rotation * (b.surface().vertex(node) - frames.centre_b) + frames.offset;

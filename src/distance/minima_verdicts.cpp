@@ -120,6 +120,7 @@ class MinimaVerdicts::Stage {
     if (const std::uint32_t other = seedOf(number); other != kNone && other != i && isEarlier(other, i)) {
       return set(i, Verdict::Ripple, other);
     }
+    if (i > 0 && i < seed_count_ && isSamePlace(i - 1, i)) return set(i, Verdict::Ripple, i - 1);
     if (followsDown(i, number)) return;
     if (request_.is_wanted && !request_.is_wanted(seed, memory_.cells_[number].note)) {
       return set(i, Verdict::Unwanted);
@@ -238,6 +239,15 @@ class MinimaVerdicts::Stage {
   bool isEarlier(std::uint32_t other, std::uint32_t i) const {
     if (i < seed_count_) return other < i;
     return memory_.judged_[other].seed.distance <= memory_.judged_[i].seed.distance + tolerance_;
+  }
+
+  /// Where shells of one body lie on each other, both have the minimum.
+  bool isSamePlace(std::uint32_t i, std::uint32_t k) const {
+    const MinimumSeed& l = memory_.judged_[i].seed;
+    const MinimumSeed& r = memory_.judged_[k].seed;
+    return l.is_measured && r.is_measured &&
+           (l.point_a - r.point_a).squaredNorm() + (l.point_b - r.point_b).squaredNorm() <=
+               tolerance_ * tolerance_;
   }
 
   std::uint32_t deepestLike(std::uint32_t i) {

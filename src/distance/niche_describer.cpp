@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "mesh/surface/mesh_topology.h"
+#include "shell_material.h"
 
 namespace concave_distance::detail {
 namespace {
@@ -38,7 +39,10 @@ bool NicheDescriber::describe(const MinimaScene& scene, const LocalMinimaRequest
     if (niche.outward == Outwardness::ThroughMaterial && !request.through_material) return false;
   }
   if (!minimum.is_point) measure(scene, niche, limit);
-  niche.visible = isVisible(a, b, scene.a_from_b, niche.witness);
+  // Bodies that overlap can be opposite to each other inside another shell of one of them.
+  const bool may_overlap = !(request.certain_distance > 16.0 * scene.rounding);
+  niche.visible = isVisible(a, b, scene.a_from_b, niche.witness) &&
+                  !(may_overlap && isInsideMaterial(scene, niche.witness));
   return niche.visible || request.hidden;
 }
 

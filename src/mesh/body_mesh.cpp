@@ -15,6 +15,7 @@
 #include "base/run_together.h"
 #include "cached_parts.h"
 #include "concave_distance/base/error.h"
+#include "mesh/trees/shell_joints.h"
 
 namespace concave_distance {
 
@@ -41,6 +42,7 @@ struct BodyMesh::State {
   BodyMeshParts parts;  ///< without the nodes
   BodyMeshOptions options;
   // Made on demand:
+  Part<ShellJoints> joints;
   Part<CompressedRows<AdjacentTriangle>> adjacency;
   Part<ConnectedPieces> pieces;
   std::array<Part<NormalConeTree>, 2> cones;  ///< by NormalSides
@@ -236,10 +238,20 @@ void prepareSearch(const std::vector<const BodyMesh*>& bodies) {
   tbb::parallel_for(std::size_t{0}, open.size(), [&](std::size_t i) { open[i]->metric(); });
 }
 
+const ShellJoints& BodyMesh::joints() const {
+  auto& part = state_->joints;
+  std::call_once(part.once, [&] {
+    part.value = joinShells(surface(), topology(), tree());
+    part.bytes = part.value.memoryBytes();
+  });
+  return part.value;
+}
+
 const CompressedRows<AdjacentTriangle>& BodyMesh::adjacency() const {
   auto& part = state_->adjacency;
   std::call_once(part.once, [&] {
     part.value = triangleAdjacency(surface(), topology());
+    if (!joints().isEmpty()) part.value = joinedAdjacency(surface(), joints(), part.value);
     part.bytes = part.value.offsets.capacity() * sizeof(std::uint32_t) +
                  part.value.values.capacity() * sizeof(AdjacentTriangle);
   });
@@ -250,6 +262,7 @@ const ConnectedPieces& BodyMesh::pieces() const {
   auto& part = state_->pieces;
   std::call_once(part.once, [&] {
     part.value = connectedPieces(surface());
+    joinPieces(joints(), part.value);
     part.bytes = part.value.memoryBytes();
   });
   return part.value;
@@ -258,7 +271,7 @@ const ConnectedPieces& BodyMesh::pieces() const {
 const NormalConeTree& BodyMesh::normalCones(NormalSides sides) const {
   auto& part = state_->cones.at(static_cast<std::size_t>(sides));
   std::call_once(part.once, [&] {
-    part.value = NormalConeTree(surface(), topology(), sides);
+    part.value = NormalConeTree(surface(), topology(), sides, joints().hidden);
     part.bytes = part.value.memoryBytes();
   });
   return part.value;
@@ -285,7 +298,7 @@ std::size_t BodyMesh::memoryBytes() const {
   if (const MeshMetric* metric = metricIfMade()) search_bytes += metric->memoryBytes();
   return sizeof(BodyMesh) + sizeof(State) + mesh_bytes(surface()) + topology_bytes + search_bytes +
          state_->parts.tree.memoryBytes() + state_->parts.hierarchy.memoryBytes() + state_->adjacency.bytes +
-         state_->pieces.bytes + state_->cones[0].bytes + state_->cones[1].bytes;
+         state_->joints.bytes + state_->pieces.bytes + state_->cones[0].bytes + state_->cones[1].bytes;
 }
 
 }  // namespace concave_distance

@@ -145,6 +145,32 @@ double fastestCorefinement(const SurfaceMesh& a, const SurfaceMesh& b_in_a) {
 
 }  // namespace
 
+std::optional<SurfaceMesh> cgalUnion(const std::vector<SurfaceMesh>& solids) {
+  ExactMesh united = meshOf<ExactMesh>(solids.front());
+  for (std::size_t i = 1; i < solids.size(); ++i) {
+    ExactMesh other = meshOf<ExactMesh>(solids[i]);
+    ExactMesh result;
+    if (!pmp::corefine_and_compute_union(united, other, result)) return std::nullopt;
+    united = std::move(result);
+  }
+  united.collect_garbage();
+  std::vector<Eigen::Vector3d> vertices;
+  for (const auto v : united.vertices()) {
+    const Exact::Point_3& p = united.point(v);
+    vertices.emplace_back(CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z()));
+  }
+  std::vector<TriangleNodes> triangles;
+  for (const Face face : united.faces()) {
+    TriangleNodes nodes;
+    std::size_t k = 0;
+    for (const auto v : vertices_around_face(united.halfedge(face), united)) {
+      nodes[k++] = NodeIndex{static_cast<std::uint32_t>(v)};
+    }
+    triangles.push_back(nodes);
+  }
+  return SurfaceMesh(std::move(vertices), std::move(triangles), "union");
+}
+
 OverlapTruth cgalOverlap(const SurfaceMesh& a, const SurfaceMesh& b_in_a) {
   OverlapTruth truth;
   ExactMesh mesh_a = meshOf<ExactMesh>(a);

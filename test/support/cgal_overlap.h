@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "concave_distance/mesh/surface/surface_mesh.h"
@@ -26,6 +27,10 @@ struct OverlapTruth {
 
 /// b already in A's frame. Meshes must bound volumes and not cross themselves.
 OverlapTruth cgalOverlap(const SurfaceMesh& a, const SurfaceMesh& b_in_a);
+
+/// The surface of the union of closed solids, corners rounded to double precision; empty where it would be no
+/// 2-manifold.
+std::optional<SurfaceMesh> cgalUnion(const std::vector<SurfaceMesh>& solids);
 
 /// Closed solids, asked by CGAL's winding numbers with exact arithmetic.
 class CgalSolids {

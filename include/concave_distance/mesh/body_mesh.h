@@ -26,6 +26,7 @@ struct MeshTopology;
 struct NodeGraph;
 struct NodeLevels;
 struct SearchNodes;
+struct ShellJoints;
 template <typename Value>
 struct CompressedRows;
 
@@ -71,7 +72,10 @@ class BodyMesh {
   const MeshTopology& topology() const { return *topology_; }
   const TriangleTree& tree() const { return *tree_; }
   const BoundingVolumeHierarchy& hierarchy() const { return *hierarchy_; }
-  /// Which triangles hang together. Built at the first call, for all threads; 40 bytes a triangle.
+  /// Where shells meet and what lies inside others. Built at the first call, for all threads.
+  const ShellJoints& joints() const;
+  /// Which triangles hang together, over the joints too; hidden ones with none. Built at the first call, for
+  /// all threads; 40 bytes a triangle.
   const CompressedRows<AdjacentTriangle>& adjacency() const;
   /// What hangs together as a whole. Built at the first call, for all threads; 4 bytes a triangle.
   const ConnectedPieces& pieces() const;

@@ -21,8 +21,9 @@ constexpr double kFlat = 1e-7;
 
 class Collector {
  public:
-  Collector(const SurfaceMesh& mesh, const MeshTopology& topology, NormalSides sides)
-      : mesh_(mesh), topology_(topology), sides_(sides) {}
+  Collector(const SurfaceMesh& mesh, const MeshTopology& topology, NormalSides sides,
+            const std::vector<bool>& hidden)
+      : mesh_(mesh), topology_(topology), sides_(sides), hidden_(hidden) {}
 
   std::vector<Item> collect() {
     items_.reserve(3 * mesh_.triangleCount());
@@ -35,6 +36,8 @@ class Collector {
   }
 
  private:
+  bool isHidden(TriangleIndex t) const { return !hidden_.empty() && hidden_[t.value]; }
+
   bool bothSides(TriangleIndex t) const {
     return sides_ == NormalSides::Both || !topology_.isOnClosedShell(t);
   }
@@ -75,7 +78,7 @@ class Collector {
 
   void addVertex(NodeIndex v) {
     const auto fan = topology_.triangles_of_vertex.row(v.value);
-    if (fan.empty()) return;
+    if (std::all_of(fan.begin(), fan.end(), [this](TriangleIndex t) { return isHidden(t); })) return;
     clipper_.reset();
     for (const NodeIndex neighbour : topology_.neighbours_of_vertex.row(v.value)) {
       const Vector3d displacement = (mesh_.vertex(neighbour) - mesh_.vertex(v)).stableNormalized();
@@ -89,7 +92,7 @@ class Collector {
 
   void addFace(TriangleIndex t) {
     const Vector3d& normal = topology_.triangle_normals[t.value];
-    if (normal.isZero(0.0)) return;  // its edges are all there is
+    if (isHidden(t) || normal.isZero(0.0)) return;  // or its edges are all there is
     const Vector3d low = mesh_.corner(t, 0).cwiseMin(mesh_.corner(t, 1)).cwiseMin(mesh_.corner(t, 2)).eval();
     const Vector3d high = mesh_.corner(t, 0).cwiseMax(mesh_.corner(t, 1)).cwiseMax(mesh_.corner(t, 2)).eval();
     const Vector3d centre = 0.5 * (low + high);
@@ -116,6 +119,7 @@ class Collector {
       if (other < t) return;  // the edge was added with that triangle
       around_.push_back(other);
     }
+    if (std::all_of(around_.begin(), around_.end(), [this](TriangleIndex o) { return isHidden(o); })) return;
     const Vector3d centre = 0.5 * (mesh_.vertex(from) + mesh_.vertex(to));
     const double radius = 0.5 * (mesh_.vertex(to) - mesh_.vertex(from)).norm();
     const Vector3d along = (mesh_.vertex(to) - mesh_.vertex(from)).stableNormalized();
@@ -162,6 +166,7 @@ class Collector {
   const SurfaceMesh& mesh_;
   const MeshTopology& topology_;
   NormalSides sides_;
+  const std::vector<bool>& hidden_;
   std::vector<Item> items_;
   std::vector<TriangleIndex> around_;
   ConeClipper clipper_;
@@ -169,8 +174,9 @@ class Collector {
 
 }  // namespace
 
-std::vector<Item> collectConeItems(const SurfaceMesh& mesh, const MeshTopology& topology, NormalSides sides) {
-  return Collector(mesh, topology, sides).collect();
+std::vector<Item> collectConeItems(const SurfaceMesh& mesh, const MeshTopology& topology, NormalSides sides,
+                                   const std::vector<bool>& hidden) {
+  return Collector(mesh, topology, sides, hidden).collect();
 }
 
 }  // namespace concave_distance::detail

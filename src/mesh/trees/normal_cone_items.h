@@ -6,8 +6,9 @@
 
 namespace concave_distance::detail {
 
-/// Every vertex, edge and face that has a local normal cone on the sides wanted, once for each side.
+/// Every vertex, edge and face that has a local normal cone on the sides wanted, once for each side; none
+/// with triangles that are all hidden (empty: none is).
 std::vector<NormalConeTree::Item> collectConeItems(const SurfaceMesh& mesh, const MeshTopology& topology,
-                                                   NormalSides sides);
+                                                   NormalSides sides, const std::vector<bool>& hidden);
 
 }  // namespace concave_distance::detail

@@ -185,8 +185,9 @@ class ConeTreeBuilder {
 
 }  // namespace
 
-NormalConeTree::NormalConeTree(const SurfaceMesh& mesh, const MeshTopology& topology, NormalSides sides)
-    : items_(detail::collectConeItems(mesh, topology, sides)) {
+NormalConeTree::NormalConeTree(const SurfaceMesh& mesh, const MeshTopology& topology, NormalSides sides,
+                               const std::vector<bool>& hidden)
+    : items_(detail::collectConeItems(mesh, topology, sides, hidden)) {
   items_.shrink_to_fit();
   if (items_.empty()) return;
   origin_ = mesh.boundingBox().center();

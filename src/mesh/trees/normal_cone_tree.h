@@ -67,7 +67,9 @@ class NormalConeTree {
   static constexpr std::size_t kMostRegions = 32;
 
   NormalConeTree() = default;
-  NormalConeTree(const SurfaceMesh& mesh, const MeshTopology& topology, NormalSides sides);
+  /// @param hidden triangles that are no surface (ShellJoints::hidden), or empty
+  NormalConeTree(const SurfaceMesh& mesh, const MeshTopology& topology, NormalSides sides,
+                 const std::vector<bool>& hidden = {});
   bool empty() const { return items_.empty(); }
   const std::vector<Node>& nodes() const { return nodes_; }
   const std::vector<Item>& items() const { return items_; }

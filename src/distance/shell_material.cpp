@@ -1,0 +1,32 @@
+#include "shell_material.h"
+
+#include "mesh/surface/mesh_topology.h"
+
+namespace concave_distance::detail {
+namespace {
+
+/// How far before a surface it is asked what is there, relative to the body.
+constexpr double kStepOff = 1e-7;
+
+/// @param towards unit vector, zero where there is no way to go
+bool isInside(const BodyMesh& body, TriangleIndex triangle, const Eigen::Vector3d& point,
+              const Eigen::Vector3d& towards) {
+  if (body.joints().joints.empty()) return false;
+  const Eigen::Vector3d& way =
+      towards.isZero(0.0) ? body.topology().triangle_normals[triangle.value] : towards;
+  return isInsideOtherShell(body.surface(), body.topology(), body.tree(), triangle,
+                            point + kStepOff * body.diameter() * way);
+}
+
+}  // namespace
+
+bool isInsideMaterial(const MinimaScene& scene, const WitnessPair& witness) {
+  if (scene.a.joints().joints.empty() && scene.b.joints().joints.empty()) return false;
+  const Eigen::Vector3d towards_b = (witness.point_b_in_a - witness.point_a_in_a).stableNormalized();
+  const Eigen::Isometry3d b_from_a = scene.a_from_b.inverse(Eigen::Isometry);
+  return isInside(scene.a, witness.triangle_a, witness.point_a_in_a, towards_b) ||
+         isInside(scene.b, witness.triangle_b, b_from_a * witness.point_b_in_a,
+                  -(b_from_a.linear() * towards_b));
+}
+
+}  // namespace concave_distance::detail
