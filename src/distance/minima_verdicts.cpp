@@ -486,10 +486,14 @@ class MinimaVerdicts::Stage {
     return true;
   }
 
+  /// Surfaces in the material of other shells hold minima that no cone leads to: what a region holds may come
+  /// nearer there without a seed.
+  bool hasJoints() const { return !scene_.a.joints().joints.empty() || !scene_.b.joints().joints.empty(); }
+
   /// What the last flood has visited.
   void keepRegion(std::uint32_t i, std::uint64_t id) {
     const std::vector<CellFlood::Cell>& visited = memory_.flood_.cells();
-    if (visited.size() > kLargestRegion) return;
+    if (visited.size() > kLargestRegion || hasJoints()) return;
     if (memory_.free_regions_.empty()) {
       if (!limit_.makeRoom(memory_.regions_) || !limit_.makeRoom(memory_.free_regions_)) return;
       memory_.free_regions_.push_back(static_cast<std::uint32_t>(memory_.regions_.size()));

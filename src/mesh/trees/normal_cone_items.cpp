@@ -18,6 +18,8 @@ using Kind = NormalConeTree::Kind;
 constexpr double kWorstSlack = 0.1;
 /// Edges whose normals differ by less may be convex or reflex, and count as both.
 constexpr double kFlat = 1e-7;
+/// Heights within this, relative to the diameter, are rounding: a fraction of what the kernels have.
+constexpr double kLevel = 0x1.0p-49;
 
 class Collector {
  public:
@@ -79,8 +81,11 @@ class Collector {
   void addVertex(NodeIndex v) {
     const auto fan = topology_.triangles_of_vertex.row(v.value);
     if (std::all_of(fan.begin(), fan.end(), [this](TriangleIndex t) { return isHidden(t); })) return;
+    const auto around = topology_.neighbours_of_vertex.row(v.value);
+    // As many neighbours as triangles: no border runs through.
+    if (around.size() == fan.size() && isInsidePlane(fan, around, mesh_.vertex(v))) return;
     clipper_.reset();
-    for (const NodeIndex neighbour : topology_.neighbours_of_vertex.row(v.value)) {
+    for (const NodeIndex neighbour : around) {
       const Vector3d displacement = (mesh_.vertex(neighbour) - mesh_.vertex(v)).stableNormalized();
       if (!displacement.isZero(0.0)) clipper_.clip(displacement, kConeSlack);
     }
@@ -88,6 +93,24 @@ class Collector {
     const auto corner = static_cast<std::uint8_t>(std::find(nodes.begin(), nodes.end(), v) - nodes.begin());
     addClipped(mesh_.vertex(v), 0.0, topology_.vertex_normals[v.value], bothSidesOfAny(fan), fan[0],
                Kind::Vertex, corner);
+  }
+
+  /// Whether a triangle's corner away from an edge lies in another triangle's plane.
+  bool isLevel(const Vector3d& normal, const Vector3d& point, NodeIndex node) const {
+    return std::abs(normal.dot(mesh_.vertex(node) - point)) <= kLevel * mesh_.diameter();
+  }
+
+  /// Within a plane: what is opposite to it is opposite to the faces around, too, or to a corner or an edge
+  /// of the plane's outline.
+  template <typename Triangles, typename Nodes>
+  bool isInsidePlane(const Triangles& triangles, const Nodes& nodes, const Vector3d& point) const {
+    const Vector3d& normal = topology_.triangle_normals[triangles.begin()->value];
+    return std::all_of(triangles.begin(), triangles.end(),
+                       [&](TriangleIndex t) {
+                         return topology_.triangle_normals[t.value].dot(normal) > 0.999 &&
+                                slackOf(t) < kWorstSlack;
+                       }) &&
+           std::all_of(nodes.begin(), nodes.end(), [&](NodeIndex n) { return isLevel(normal, point, n); });
   }
 
   void addFace(TriangleIndex t) {
@@ -120,6 +143,10 @@ class Collector {
       around_.push_back(other);
     }
     if (std::all_of(around_.begin(), around_.end(), [this](TriangleIndex o) { return isHidden(o); })) return;
+    if (around_.size() == 2 && isInsidePlane(around_, mesh_.triangle(around_[0]), mesh_.vertex(from)) &&
+        isInsidePlane(around_, mesh_.triangle(around_[1]), mesh_.vertex(from))) {
+      return;
+    }
     const Vector3d centre = 0.5 * (mesh_.vertex(from) + mesh_.vertex(to));
     const double radius = 0.5 * (mesh_.vertex(to) - mesh_.vertex(from)).norm();
     const Vector3d along = (mesh_.vertex(to) - mesh_.vertex(from)).stableNormalized();
