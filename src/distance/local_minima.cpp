@@ -56,7 +56,7 @@ struct LocalMinimaParts {
   };
 
   /// Verdicts alone; no pass is measured.
-  bool decide(const MinimaScene& scene, const LocalMinimaRequest& request, bool keeps, LocalMinimaCost& cost,
+  bool decide(const MinimaScene& scene, const LocalMinimaRequest& request, LocalMinimaCost& cost,
               WorkLimit& limit);
   bool measure(const MinimaScene& scene, const LocalMinimaRequest& request, LocalMinimaCost& cost,
                WorkLimit& limit);
@@ -82,13 +82,13 @@ struct LocalMinimaParts {
   std::vector<std::size_t> proposed;  ///< of each proposal, in `minima`
 };
 
-bool LocalMinimaParts::decide(const MinimaScene& scene, const LocalMinimaRequest& request, bool keeps,
+bool LocalMinimaParts::decide(const MinimaScene& scene, const LocalMinimaRequest& request,
                               LocalMinimaCost& cost, WorkLimit& limit) {
   using Verdict = MinimaVerdicts::Verdict;
   MinimaVerdicts::Request wanted;
   wanted.least_prominence = request.least_prominence;
   wanted.through_material = request.through_material;
-  wanted.keeps = keeps;
+  wanted.is_tracked = request.is_tracked;
   if (!request.hidden) {
     // A set of minima is seen where its middle is.
     wanted.is_wanted = [&scene](const MinimumSeed& seed, std::uint32_t& /*note*/) {
@@ -192,14 +192,6 @@ detail::LocalMinimaParts& LocalMinimaMemory::parts() {
   return *parts_;
 }
 
-const detail::ConeFront& LocalMinimaMemory::front() {
-  return parts().front;
-}
-
-const detail::MinimaVerdicts& LocalMinimaMemory::verdicts() {
-  return parts().verdicts;
-}
-
 void LocalMinimaMemory::clear() {
   if (parts_ == nullptr) return;
   parts_->front.clear();
@@ -234,7 +226,7 @@ void findLocalMinima(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry
   const bool measures =
       request.prominence_limit > request.least_prominence && !detail::isFar(scene, request.least_prominence);
   const bool decided = measures ? parts.measure(scene, request, result.cost, limit)
-                                : parts.decide(scene, request, request.is_tracked, result.cost, limit);
+                                : parts.decide(scene, request, result.cost, limit);
   parts.describe(scene, request, limit);
   result.finished = all && decided && !limit.isOver() && limit.hasRefusedMemory() == refused_before;
   parts.list(request, result);

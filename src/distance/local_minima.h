@@ -15,8 +15,6 @@
 namespace concave_distance {
 
 namespace detail {
-class ConeFront;
-class MinimaVerdicts;
 struct LocalMinimaParts;
 }  // namespace detail
 
@@ -38,8 +36,8 @@ struct LocalMinimaRequest {
   /// descended to the local minimum around them.
   std::vector<std::pair<TriangleIndex, TriangleIndex>> asked_pairs;
   std::vector<std::uint64_t> asked_regions;  ///< LocalMinimum::region of each, or empty
-  /// Minima that a search has found, on their triangle pairs. Those that become niches are told
-  /// (LocalMinimum::proposal); where the limit ends the look for all, they are judged with the rest.
+  /// Minima that a search has found. Niches that come from them say so (LocalMinimum::proposal). Where the
+  /// limit ends the search for all minima, they are judged with what was found.
   std::vector<MinimumSeed> proposals;
   /// What proves the answer is kept for the next pose.
   bool is_tracked = false;
@@ -59,8 +57,6 @@ class LocalMinimaMemory {
 
   void clear();
   std::size_t memoryBytes() const;
-  const detail::ConeFront& front();
-  const detail::MinimaVerdicts& verdicts();
   detail::LocalMinimaParts& parts();
 
  private:

@@ -31,17 +31,12 @@ constexpr std::size_t kSmallRegion = 64;
 class MinimaVerdicts::Stage {
  public:
   Stage(MinimaVerdicts& memory, const MinimaScene& scene, const Request& request, WorkLimit& limit)
-      : memory_(memory),
-        scene_(scene),
-        request_(request),
-        limit_(limit),
-        tolerance_(8.0 * scene.rounding),
-        were_long_(memory.floods_are_long_) {
-    memory_.floods_are_long_ = false;
-  }
+      : memory_(memory), scene_(scene), request_(request), limit_(limit), tolerance_(8.0 * scene.rounding) {}
 
   /// Every seed with its cell, and every region with the deepest seed in it.
   void enter(const std::vector<MinimumSeed>& seeds) {
+    were_long_ = memory_.floods_are_long_;
+    memory_.floods_are_long_ = false;
     for (Region& region : memory_.regions_) {
       region.first = kNone;
       region.confirmed = false;
@@ -65,7 +60,10 @@ class MinimaVerdicts::Stage {
   }
 
   /// Goes on with what enter() of an earlier stage at this pose has left.
-  void resume() { seed_count_ = memory_.seed_count_; }
+  void resume() {
+    seed_count_ = memory_.seed_count_;
+    were_long_ = memory_.floods_are_long_;
+  }
 
   std::uint32_t placeAround(const TrianglePair& pair) {
     const std::uint32_t in_cell = seedIn(pair.a, pair.b);
@@ -81,11 +79,7 @@ class MinimaVerdicts::Stage {
     const MinimumSeed seed = scene_.seedOf(minimum);
     const auto begin = memory_.judged_.begin();
     const auto found = begin + seed_count_;
-    const auto is_there = [&](const Judged& other) {
-      return other.seed.is_measured && (other.seed.point_a - seed.point_a).squaredNorm() +
-                                               (other.seed.point_b - seed.point_b).squaredNorm() <=
-                                           tolerance_ * tolerance_;
-    };
+    const auto is_there = [&](const Judged& other) { return isSamePlace(other.seed, seed); };
     const auto is_nearer = [](const Judged& judged, double distance) {
       return judged.seed.distance < distance;
     };
@@ -120,7 +114,8 @@ class MinimaVerdicts::Stage {
     if (const std::uint32_t other = seedOf(number); other != kNone && other != i && isEarlier(other, i)) {
       return set(i, Verdict::Ripple, other);
     }
-    if (i > 0 && i < seed_count_ && isSamePlace(i - 1, i)) return set(i, Verdict::Ripple, i - 1);
+    if (i > 0 && i < seed_count_ && isSamePlace(memory_.judged_[i - 1].seed, seed))
+      return set(i, Verdict::Ripple, i - 1);
     if (followsDown(i, number)) return;
     if (request_.is_wanted && !request_.is_wanted(seed, memory_.cells_[number].note)) {
       return set(i, Verdict::Unwanted);
@@ -136,7 +131,6 @@ class MinimaVerdicts::Stage {
       id = memory_.regions_[known].id;
       memory_.regions_[known].confirmed = limit_.isOver();
       if (limit_.isOver()) return set(i, Verdict::Undecided);
-      ++memory_.counts_.broken;
       drop(known);
     }
     flood(i, number, id);
@@ -242,9 +236,7 @@ class MinimaVerdicts::Stage {
   }
 
   /// Where shells of one body lie on each other, both have the minimum.
-  bool isSamePlace(std::uint32_t i, std::uint32_t k) const {
-    const MinimumSeed& l = memory_.judged_[i].seed;
-    const MinimumSeed& r = memory_.judged_[k].seed;
+  bool isSamePlace(const MinimumSeed& l, const MinimumSeed& r) const {
     return l.is_measured && r.is_measured &&
            (l.point_a - r.point_a).squaredNorm() + (l.point_b - r.point_b).squaredNorm() <=
                tolerance_ * tolerance_;
@@ -377,13 +369,13 @@ class MinimaVerdicts::Stage {
     switch (end) {
       case CellFlood::End::Enclosed:
         set(i, Verdict::Niche);
-        if (request_.keeps && seed.distance > tolerance_) keepRegion(i, id);
+        if (request_.is_tracked && seed.distance > tolerance_) keepRegion(i, id);
         break;
       case CellFlood::End::Below: {
         set(i, Verdict::Ripple);
         const CellFlood::Cell& last = flood.cells()[flood.last()];
         memory_.judged_[i].below = {last.a, last.b};
-        if (request_.keeps) {
+        if (request_.is_tracked) {
           keepPath(number);
           keepLow(last.a, last.b);
         }
@@ -392,7 +384,7 @@ class MinimaVerdicts::Stage {
       }
       case CellFlood::End::Met:
         set(i, Verdict::Ripple, seedIn(flood.cells()[flood.last()].a, flood.cells()[flood.last()].b));
-        if (request_.keeps) keepPath(number);
+        if (request_.is_tracked) keepPath(number);
         break;
       default:
         set(i, Verdict::Undecided);
@@ -574,7 +566,7 @@ class MinimaVerdicts::Stage {
   WorkLimit& limit_;
   CertificateWorkspace proof_;
   double tolerance_;
-  bool were_long_;
+  bool were_long_ = false;  ///< floods, the last time
   std::uint32_t seed_count_ = 0;
   std::uint32_t deepest_ = kNone;  ///< of the pieces of the one that is decided
 };

@@ -39,13 +39,12 @@ class MinimaVerdicts {
     std::uint32_t floods = 0;
     std::uint32_t flooded_cells = 0;
     std::uint32_t measured = 0;  ///< elements of borders, anew
-    std::uint32_t broken = 0;    ///< borders that a flood had to replace
   };
   struct Request {
     double least_prominence = 1e-2;
     /// Niches through material are wanted; else nothing is judged that begins there.
     bool through_material = false;
-    bool keeps = true;  ///< what proves a verdict, for the next pose
+    bool is_tracked = true;  ///< what proves a verdict is kept for the next pose
     /// Whether a seed that is no known ripple is wanted; empty: all are. The number is kept with the seed's
     /// triangle pair, 0 at first.
     std::function<bool(const MinimumSeed&, std::uint32_t&)> is_wanted;

@@ -3,13 +3,12 @@
 #include <cmath>
 
 #include "mesh/surface/mesh_topology.h"
+#include "plateau_tolerance.h"
 #include "shell_material.h"
 
 namespace concave_distance::detail {
 namespace {
 
-/// Of heights, relative to the size of both bodies; the same as the tracker's.
-constexpr double kPlateauTolerance = 1e-9;
 /// No plateau seen comes near it; the flood has united the whole set before.
 constexpr std::size_t kExtentPairLimit = 100'000;
 

@@ -5,7 +5,7 @@
 
 namespace concave_distance::detail {
 
-/// What is told of a niche beside its place. Keeps its buffers.
+/// Computes what is reported of a niche besides its place: kind, extent, direction and visibility.
 class NicheDescriber {
  public:
   /// @param minimum with its pass and level in `niche` already

@@ -5,9 +5,8 @@
 #include <limits>
 
 #include "base/refill.h"
-#include "distance/cone_front.h"
-#include "distance/minima_verdicts.h"
-#include "plateau_tolerance.h"
+#include "distance/minima_scene.h"
+#include "distance/plateau_tolerance.h"
 
 namespace concave_distance {
 namespace {
@@ -98,7 +97,6 @@ void ExactNiches::admit(PairGeometry& geometry, const TrackerParameters& paramet
   }
   findLocalMinima(*geometry.a, *geometry.b, geometry.a_from_b, request_, memory_, found_);
   current_ = found_.finished;
-  cut_ = found_.cut;
   solution.cost.evaluations += found_.cost.feature_pairs + found_.cost.candidates + found_.cost.flooded_pairs;
 
   findHeirs(archive, geometry, cycle.last_a_from_b);
@@ -127,8 +125,8 @@ void ExactNiches::admit(PairGeometry& geometry, const TrackerParameters& paramet
     niche.closing_speed =
         known && cycle.elapsed > 0.0 ? (before - niche.distance) / cycle.elapsed : kNotComputed;
   }
-  if (!found_.finished) carryOthers(geometry, archive, limit, solution.events);
   records.swap(next_);
+  if (!found_.finished) carryOthers(next_, geometry, archive, limit, solution.events);
   archive.settle();
   request_.proposals.clear();
   searched_ = 0;
@@ -170,27 +168,23 @@ void ExactNiches::endOthers(const NicheArchive& archive, std::vector<NicheEvent>
 
 // A list cut by time or memory is no evidence against niches missing from it: known ones stay, each at the
 // minimum around its triangles.
-void ExactNiches::carryOthers(PairGeometry& geometry, NicheArchive& archive, WorkLimit& limit,
-                              std::vector<NicheEvent>& events) {
+void ExactNiches::carryOthers(const std::vector<NicheRecord>& known, PairGeometry& geometry,
+                              NicheArchive& archive, WorkLimit& limit, std::vector<NicheEvent>& events) {
   const double tolerance = geometry.samePlaceTolerance();
-  const std::size_t found = next_.size();
-  for (std::size_t i = 0; i < archive.records().size(); ++i) {
+  for (std::size_t i = 0; i < known.size(); ++i) {
     const std::size_t owner = found_.owners[i];
     if (owner != LocalMinima::kNoOwner && heirs_[owner] == i) continue;
-    NicheRecord record = archive.records()[i];
+    NicheRecord record = known[i];
     if (!limit.isOver()) {
       const WitnessPair& witness = record.niche.witness;
       placeRecord(record, geometry, geometry.refine(witness.triangle_a, witness.triangle_b).witness);
     }
     carryRecord(record, geometry);
     record.niche.origin = NicheOrigin::Inherited;
-    const auto same = std::find_if(
-        next_.begin(), next_.begin() + static_cast<std::ptrdiff_t>(found), [&](const NicheRecord& other) {
-          return (other.niche.point_a_in_a - record.niche.point_a_in_a).norm() <= tolerance &&
-                 (other.point_b_in_b - record.point_b_in_b).norm() <= tolerance;
-        });
-    if (same == next_.begin() + static_cast<std::ptrdiff_t>(found)) {
-      next_.push_back(record);
+    const NicheRecord* same =
+        archive.findSamePlace(record.niche.point_a_in_a, record.point_b_in_b, tolerance);
+    if (same == nullptr) {
+      archive.records().push_back(record);
     } else if (record.reported) {
       events.push_back({NicheEvent::Kind::Merge, record.niche.id, same->niche.id});
     }
@@ -204,7 +198,7 @@ const MinimumSeed* ExactNiches::nearestProposed() const {
   return nearest == followed_.end() ? nullptr : &*nearest;
 }
 
-double ExactNiches::work() {
+double ExactNiches::work() const {
   // What each kind of step takes beside an evaluation of the search, roughly.
   constexpr double kGroups = 4.0;
   constexpr double kFeatures = 10.0;

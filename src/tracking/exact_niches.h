@@ -48,7 +48,7 @@ class ExactNiches {
   /// Level `refined`: of all that was followed and proposed, niche or not; nullptr: nothing was.
   const MinimumSeed* nearestProposed() const;
   /// Of the last admit(), in evaluations of the search.
-  double work();
+  double work() const;
   const LocalMinimaCost& cost() const { return found_.cost; }
 
   void clear();
@@ -59,8 +59,8 @@ class ExactNiches {
   void findHeirs(const NicheArchive& archive, const PairGeometry& geometry,
                  const Eigen::Isometry3d& last_a_from_b);
   void endOthers(const NicheArchive& archive, std::vector<NicheEvent>& events) const;
-  void carryOthers(PairGeometry& geometry, NicheArchive& archive, WorkLimit& limit,
-                   std::vector<NicheEvent>& events);
+  void carryOthers(const std::vector<NicheRecord>& known, PairGeometry& geometry, NicheArchive& archive,
+                   WorkLimit& limit, std::vector<NicheEvent>& events);
 
   LocalMinimaMemory memory_;
   LocalMinimaRequest request_;
@@ -71,7 +71,6 @@ class ExactNiches {
   std::vector<std::size_t> heirs_;       ///< of every niche found: the record whose id it takes
   std::vector<NicheRecord> next_;
   bool current_ = false;  ///< the archive holds what the parameters ask for at the last pose
-  bool cut_ = false;      ///< and it was cut
 };
 
 }  // namespace concave_distance

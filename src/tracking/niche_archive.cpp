@@ -16,26 +16,10 @@ bool isWithin(const NicheRecord& record, const Eigen::Vector3d& point_a_in_a,
 
 }  // namespace
 
-const NicheRecord* NicheArchive::find(std::uint64_t id) const {
-  const auto record =
-      std::find_if(records_.begin(), records_.end(), [id](const NicheRecord& r) { return r.niche.id == id; });
-  return record == records_.end() ? nullptr : &*record;
-}
-
 NicheRecord* NicheArchive::findSamePlace(const Eigen::Vector3d& point_a_in_a,
                                          const Eigen::Vector3d& point_b_in_b, double tolerance) {
   for (NicheRecord& record : records_) {
     if (isWithin(record, point_a_in_a, point_b_in_b, tolerance)) return &record;
-  }
-  return nullptr;
-}
-
-NicheRecord* NicheArchive::findTouching(const Eigen::Vector3d& point_a_in_a,
-                                        const Eigen::Vector3d& point_b_in_b, double tolerance) {
-  for (NicheRecord& record : records_) {
-    if (record.niche.distance == 0.0 && isWithin(record, point_a_in_a, point_b_in_b, tolerance)) {
-      return &record;
-    }
   }
   return nullptr;
 }

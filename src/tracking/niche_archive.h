@@ -37,16 +37,9 @@ class NicheArchive {
   /// Forgets the niches, not the count of ids.
   void clear() { records_.clear(); }
 
-  /// The record with this id, or null.
-  const NicheRecord* find(std::uint64_t id) const;
-
   /// The record at the same place (both points within `tolerance`, metres), or null.
   NicheRecord* findSamePlace(const Eigen::Vector3d& point_a_in_a, const Eigen::Vector3d& point_b_in_b,
                              double tolerance);
-
-  /// The same among the records at distance 0 alone.
-  NicheRecord* findTouching(const Eigen::Vector3d& point_a_in_a, const Eigen::Vector3d& point_b_in_b,
-                            double tolerance);
 
   /// Sorts by distance, then by id.
   void settle();

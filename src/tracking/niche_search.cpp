@@ -30,6 +30,11 @@ void NicheSearch::prepare(const PairGeometry& geometry, const TrackerParameters&
   warm_radii_ = automaticRadii(*geometry.a, *geometry.b, parameters.warm);
 }
 
+void NicheSearch::begin(const PairGeometry& geometry, const TrackerParameters& parameters) {
+  prepare(geometry, parameters);
+  workspace_.basins.clear();
+}
+
 TrialPoint NicheSearch::descendKnown(const PairGeometry& geometry, const TrialPoint& pair, SearchCost& cost) {
   const PairObjective objective(*geometry.a, *geometry.b, geometry.a_from_b);
   return descend(objective, objective.evaluate(pair.node_a, pair.node_b, cost), &workspace_.basins,
@@ -45,7 +50,7 @@ const std::vector<TrialPoint>& NicheSearch::propose(const PairGeometry& geometry
   const std::size_t known_minima = workspace_.basins.minima().size();
   RandomEngine engine(streamSeed(parameters.seed, run.pair, run.cycle));
   inherited_.clear();
-  const bool as_warm = run.warm || run.exact;
+  const bool as_warm = run.warm || run.is_helper;
   GeneticParameters genetic = as_warm ? parameters.warm : parameters.cold;
   if (run.warm) {
     const double softening = std::min(geometry.a->maxEdgeLength(), geometry.b->maxEdgeLength());

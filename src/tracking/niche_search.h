@@ -19,7 +19,7 @@ class NicheSearch {
  public:
   NicheSearch(const BodyMesh& a, const BodyMesh& b) : workspace_(a, b) {}
 
-  /// For these parameters; needs the grids of the bodies.
+  /// Makes what the first run needs for these parameters, the grids of the bodies among it.
   void prepare(const PairGeometry& geometry, const TrackerParameters& parameters);
   void forgetParameters() { prepared_ = false; }
 
@@ -27,13 +27,13 @@ class NicheSearch {
   struct Run {
     const std::string& pair;  ///< names the random stream, with the seed and the cycle
     std::uint64_t cycle;
-    bool warm;   ///< inherits `known` and takes the warm parameters
-    bool exact;  ///< a level that finds niches by other means too: a cold run takes the warm parameters
+    bool warm;       ///< inherits `known` and takes the warm parameters
+    bool is_helper;  ///< niches are found by other means too: a cold run takes the warm parameters as well
   };
 
-  /// Begins a cycle: what is known to be a local minimum is not descended again. Moves a node pair to the
-  /// minimum below it.
-  void begin() { workspace_.basins.clear(); }
+  /// Begins the search of a cycle: forgets the basins of the last one.
+  void begin(const PairGeometry& geometry, const TrackerParameters& parameters);
+  /// Moves a node pair to the minimum below it, which propose() then does not return.
   TrialPoint descendKnown(const PairGeometry& geometry, const TrialPoint& pair, SearchCost& cost);
 
   /// Runs with the niches known, given as node pairs.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "distance/plateau_tolerance.h"
+
 namespace concave_distance {
 namespace {
 
@@ -28,10 +30,12 @@ void collectRings(const NodeGraph& graph, NodeIndex centre, std::vector<NodeInde
 
 void followNodePairs(PairGeometry& geometry, NicheSearch& search, double displacement, double elapsed,
                      NicheArchive& archive, SearchCost& cost, WorkLimit& limit) {
-  const double rounding = 1e-9 * geometry.scale();
+  const double rounding = kPlateauTolerance * geometry.scale();
   for (NicheRecord& record : archive.records()) {
     if (limit.isOver()) {
       carryRecord(record, geometry);
+      TrialPoint& pair = record.niche.node_pair;
+      pair.squared_distance = geometry.nodeWitness(pair).squared_distance;
       continue;
     }
     const double before = record.niche.distance;

@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "distance/minima_scene.h"
+#include "distance/plateau_tolerance.h"
 #include "distance/solid_overlap.h"
 #include "mesh/trees/normal_cone_tree.h"
 #include "node_niches.h"
-#include "plateau_tolerance.h"
 #include "relative_motion.h"
 
 namespace concave_distance {
@@ -77,8 +77,6 @@ void PairCycle::solve(double displacement, double elapsed, PairSolution& solutio
     stage_clock_.lap(SolveStage::Prove, solution.stages);
   }
   if (!wantsNiches()) return;
-  search_.prepare(geometry_, parameters_);
-  search_.begin();
   if (isExact()) {
     solveExact(displacement, elapsed, solution);
   } else {
@@ -92,17 +90,19 @@ void PairCycle::prove(double displacement) {
     const WitnessPair& witness = archive_.records().front().niche.witness;
     nearest = TrianglePair{witness.triangle_a, witness.triangle_b};
   }
+  distance_before_ = warm_ ? proof_.certificate().distance : kNotComputed;
   proof_.prove(geometry_, parameters_, nearest, displacement, limit_);
 }
 
 void PairCycle::solveNodes(double displacement, double elapsed, PairSolution& solution) {
   limit_.allowShare(kShareOfNiches);
+  search_.begin(geometry_, parameters_);
   followNodePairs(geometry_, search_, displacement, elapsed, archive_, solution.cost, limit_);
   stage_clock_.lap(SolveStage::Follow, solution.stages);
   known_.clear();
   for (const NicheRecord& record : archive_.records()) known_.push_back(record.niche.node_pair);
-  const std::vector<TrialPoint>& found = search_.propose(
-      geometry_, parameters_, known_, {name_, cycle_, warm_, isExact()}, solution.cost, limit_);
+  const std::vector<TrialPoint>& found =
+      search_.propose(geometry_, parameters_, known_, {name_, cycle_, warm_, false}, solution.cost, limit_);
   stage_clock_.lap(SolveStage::Propose, solution.stages);
   admitNodePairs(geometry_, parameters_, search_, found, warm_, cycle_, archive_, solution);
   stage_clock_.lap(SolveStage::Admit, solution.stages);
@@ -133,6 +133,7 @@ bool PairCycle::searchIsDue() const {
 }
 
 void PairCycle::proposeMinima(SearchCost& cost) {
+  search_.begin(geometry_, parameters_);
   known_.clear();
   for (NicheRecord& record : archive_.records()) {
     if (known_.size() == parameters_.inherited_limit) break;
@@ -169,13 +170,12 @@ void PairCycle::report(double displacement, double elapsed, PairSolution& soluti
 }
 
 void PairCycle::reportAlone(double elapsed, PairSolution& solution) {
-  const double before = warm_ ? last_distance_ : kNotComputed;
   proof_.report(solution);
   if (!proof_.isSwallowed() || parameters_.keep_through_material) {
     NicheRecord nearest;
     placeRecord(nearest, geometry_, proof_.certificate().witness);
     solution.normal_in_a = nearest.niche.normal_in_a;
-    if (elapsed > 0.0) solution.closing_speed = (before - proof_.certificate().distance) / elapsed;
+    if (elapsed > 0.0) solution.closing_speed = (distance_before_ - proof_.certificate().distance) / elapsed;
   }
   reportLimit(solution);
 }

@@ -66,6 +66,7 @@ class PairCycle {
   Eigen::Isometry3d last_pose_ = Eigen::Isometry3d::Identity();
   double last_time_ = 0.0;
   double last_distance_ = kNotComputed;
+  double distance_before_ = kNotComputed;  ///< the proof's, of the cycle before
   StageClock stage_clock_;
   WorkLimit limit_;  ///< of the present cycle
 };

@@ -56,10 +56,6 @@ void carryRecord(NicheRecord& record, const PairGeometry& geometry) {
   witness.point_b_in_a = geometry.a_from_b * record.point_b_in_b;
   witness.squared_distance = (witness.point_b_in_a - witness.point_a_in_a).squaredNorm();
   placeRecord(record, geometry, witness);
-  record.niche.node_pair.squared_distance =
-      (geometry.a->graph().positions[record.niche.node_pair.node_a.value] -
-       geometry.a_from_b * geometry.b->graph().positions[record.niche.node_pair.node_b.value])
-          .squaredNorm();
   record.niche.closing_speed = kNotComputed;
   record.niche.proven_local_minimum = false;
   record.least_distance = -std::numeric_limits<double>::infinity();

@@ -108,7 +108,7 @@ void judge(const detail::MinimaScene& scene, std::vector<MinimumSeed> seeds, Min
   auto start = std::chrono::steady_clock::now();
   verdicts.judge(scene, seeds, request, none);
   const double judge_us = microsecondsSince(start);
-  request.keeps = false;
+  request.is_tracked = false;
   MinimaVerdicts alone;
   start = std::chrono::steady_clock::now();
   alone.judge(scene, seeds, request, none);

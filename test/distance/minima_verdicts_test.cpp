@@ -53,7 +53,7 @@ std::vector<double> nichesByFloods(const MinimaScene& scene, std::vector<Minimum
   WorkLimit none;
   MinimaVerdicts::Request request;
   request.least_prominence = least_prominence;
-  request.keeps = false;
+  request.is_tracked = false;
   once.judge(scene, seeds, request, none);
   return nichesOf(once);
 }

@@ -66,7 +66,7 @@ struct TrackedNiche {
   bool proven_local_minimum = false;
   std::uint64_t birth_cycle = 0;
   WitnessPair witness;   ///< triangles and features, for warm starts
-  TrialPoint node_pair;  ///< where the search grid has it
+  TrialPoint node_pair;  ///< level `nodes` only
 };
 
 struct NicheEvent {

@@ -191,7 +191,6 @@ class Joiner {
         }
       }
     }
-    std::vector<bool> others = topology_.shell_is_closed;
     std::vector<char> hidden(mesh_.triangleCount(), 0);
     for (std::uint32_t t = 0; t < mesh_.triangleCount(); ++t) {
       if (is_near_[t]) continue;
@@ -200,14 +199,10 @@ class Joiner {
         hidden[t] = hidden[part];
         continue;
       }
-      const std::uint32_t shell = shellOf(TriangleIndex{t});
-      if (isCavity(shell)) continue;
-      const bool closed = others[shell];
-      others[shell] = false;
+      if (isCavity(shellOf(TriangleIndex{t}))) continue;
       const Corners corners = cornersOf(TriangleIndex{t});
       const Vector3d middle = (corners[0] + corners[1] + corners[2]) / 3.0;
-      hidden[t] = containsPoint(tree_, mesh_, others, topology_.shell_of_triangle, middle) ? 1 : 0;
-      others[shell] = closed;
+      hidden[t] = isInsideOtherShell(mesh_, topology_, tree_, TriangleIndex{t}, middle) ? 1 : 0;
     }
     if (std::find(hidden.begin(), hidden.end(), 1) != hidden.end()) {
       joints_.hidden.assign(hidden.begin(), hidden.end());
