@@ -1,77 +1,145 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
+#include "concave_distance/base/work_limit.h"
+
 namespace concave_distance {
 
-/// Finds which of many entries have expired on a clock that never runs back, without looking at the others: a
-/// radix heap (Ahuja, Mehlhorn, Orlin and Tarjan 1990). An entry is moved at most once for each bit by which
-/// its expiry differs from the clock. The lists of all queues share one pool, so that a queue allocates
-/// nothing itself.
-///
-/// Entries are chained through `std::uint32_t next` members of the pool's elements, which also have a
-/// `std::uint64_t expiry`.
-template <typename Entry>
-class ExpiryQueue {
+/// Finds which of many entries have expired on clocks that never run back, without looking at the others: a
+/// radix heap for each clock (Ahuja, Mehlhorn, Orlin and Tarjan 1990). An entry is moved at most once for
+/// each bit by which its expiry differs from the clock. All queues share one pool of chunks.
+template <typename Key>
+class ExpiryQueues {
  public:
-  static constexpr std::uint32_t kEnd = 0xffffffffU;
-
-  ExpiryQueue() { heads_.fill(kEnd); }
-
-  std::uint64_t clock() const { return clock_; }
-
-  /// Chains an element of the pool with an expiry above the clock.
-  void insert(std::vector<Entry>& pool, std::uint32_t index) {
-    std::uint32_t& head = heads_[bucketOf(pool[index].expiry)];
-    pool[index].next = head;
-    head = index;
+  /// Forgets all entries; every clock begins at 0.
+  void begin(std::size_t clock_count) {
+    queues_.assign(clock_count, {});
+    chunks_.clear();
+    free_ = kEnd;
+    size_ = 0;
   }
 
-  /// Moves the clock on and takes out every entry whose expiry it has reached.
-  /// @param expired (index in the pool) may not insert into this queue
+  std::size_t size() const { return size_; }
+
+  /// @param expiry above the clock
+  /// @return false without memory
+  bool insert(std::uint32_t clock, std::uint64_t expiry, const Key& key, WorkLimit& limit) {
+    if (!put(queues_[clock], {expiry, key}, limit)) return false;
+    ++size_;
+    return true;
+  }
+
+  /// Moves a clock on and takes out every entry whose expiry it has reached; without memory others, too.
+  /// @param expired (key) may not insert for this clock
   template <typename Expired>
-  void advance(std::vector<Entry>& pool, std::uint64_t to, const Expired& expired) {
-    if (to <= clock_) return;
-    const std::uint32_t highest = widthOf(to ^ clock_);
-    clock_ = to;
-    for (std::uint32_t bucket = 1; bucket < highest; ++bucket) {
-      std::uint32_t index = heads_[bucket];
-      heads_[bucket] = kEnd;
-      while (index != kEnd) {
-        const std::uint32_t next = pool[index].next;
-        expired(index);
-        index = next;
-      }
+  void advance(std::uint32_t clock, std::uint64_t to, const Expired& expired, WorkLimit& limit) {
+    Queue& queue = queues_[clock];
+    if (to <= queue.now) return;
+    const std::uint64_t highest = highestBit(to ^ queue.now);
+    queue.now = to;
+    const std::uint64_t passed = queue.occupied & (highest - 1);
+    const bool is_mixed = (queue.occupied & highest) != 0;
+    queue.occupied &= ~(passed | highest);
+    for (std::uint64_t rest = passed; rest != 0; rest &= rest - 1) {
+      takeOut(queue.heads[bucketOf(rest & -rest)], [&](const Entry& entry) { report(entry, expired); });
     }
-    std::uint32_t index = heads_[highest];
-    heads_[highest] = kEnd;
-    while (index != kEnd) {
-      const std::uint32_t next = pool[index].next;
-      if (pool[index].expiry <= to) {
-        expired(index);
-      } else {
-        insert(pool, index);
+    if (!is_mixed) return;
+    takeOut(queue.heads[bucketOf(highest)], [&](const Entry& entry) {
+      if (entry.expiry <= to || !put(queue, entry, limit)) report(entry, expired);
+    });
+  }
+
+  /// Calls visit(key) for every entry.
+  template <typename Visit>
+  void forEach(const Visit& visit) const {
+    for (const Queue& queue : queues_) {
+      for (std::uint64_t rest = queue.occupied; rest != 0; rest &= rest - 1) {
+        std::uint32_t index = queue.heads[bucketOf(rest & -rest)];
+        for (; index != kEnd; index = chunks_[index].next) {
+          for (std::uint32_t k = 0; k < chunks_[index].count; ++k) visit(chunks_[index].entries[k].key);
+        }
       }
-      index = next;
     }
   }
 
-  /// Forgets its entries; the clock begins anew.
-  void clear() {
-    heads_.fill(kEnd);
-    clock_ = 0;
+  std::size_t memoryBytes() const {
+    return queues_.capacity() * sizeof(Queue) + chunks_.capacity() * sizeof(Chunk);
   }
 
  private:
-  static std::uint32_t widthOf(std::uint64_t value) {
-    return value == 0 ? 0U : 64U - static_cast<std::uint32_t>(__builtin_clzll(value));
-  }
-  std::uint32_t bucketOf(std::uint64_t expiry) const { return widthOf(expiry ^ clock_); }
+  static constexpr std::uint32_t kEnd = 0xffffffffU;
 
-  std::array<std::uint32_t, 65> heads_;  ///< by the number of bits below and with the highest that differs
-  std::uint64_t clock_ = 0;
+  struct Entry {
+    std::uint64_t expiry;
+    Key key;
+  };
+  /// Of two cache lines, with keys of 8 bytes.
+  struct Chunk {
+    std::uint32_t next;
+    std::uint32_t count;
+    std::array<Entry, 7> entries;
+  };
+  /// A bucket holds what differs from the clock in one bit and below it.
+  struct Queue {
+    std::uint64_t now = 0;
+    std::uint64_t occupied = 0;  ///< bits of the buckets that hold something
+    std::array<std::uint32_t, 64> heads;
+  };
+
+  static std::uint64_t highestBit(std::uint64_t value) {
+    return std::uint64_t{1} << (63U - static_cast<std::uint32_t>(__builtin_clzll(value)));
+  }
+  static std::size_t bucketOf(std::uint64_t bit) { return static_cast<std::size_t>(__builtin_ctzll(bit)); }
+
+  template <typename Expired>
+  void report(const Entry& entry, const Expired& expired) {
+    --size_;
+    expired(entry.key);
+  }
+
+  bool put(Queue& queue, const Entry& entry, WorkLimit& limit) {
+    const std::uint64_t bit = highestBit(entry.expiry ^ queue.now);
+    std::uint32_t& head = queue.heads[bucketOf(bit)];
+    if ((queue.occupied & bit) == 0) head = kEnd;
+    if (head == kEnd || chunks_[head].count == chunks_[head].entries.size()) {
+      std::uint32_t index = free_;
+      if (index != kEnd) {
+        free_ = chunks_[index].next;
+      } else {
+        if (!limit.makeRoom(chunks_)) return false;
+        index = static_cast<std::uint32_t>(chunks_.size());
+        chunks_.emplace_back();
+      }
+      chunks_[index].next = head;
+      chunks_[index].count = 0;
+      head = index;
+      queue.occupied |= bit;
+    }
+    Chunk& chunk = chunks_[head];
+    chunk.entries[chunk.count++] = entry;
+    return true;
+  }
+
+  /// Frees the chunks of a bucket as it goes.
+  template <typename Visit>
+  void takeOut(std::uint32_t index, const Visit& visit) {
+    while (index != kEnd) {
+      const Chunk chunk = chunks_[index];
+      chunks_[index].next = free_;
+      free_ = index;
+      for (std::uint32_t k = 0; k < chunk.count; ++k) visit(chunk.entries[k]);
+      index = chunk.next;
+    }
+  }
+
+  std::vector<Queue> queues_;
+  std::vector<Chunk> chunks_;
+  std::uint32_t free_ = kEnd;  ///< first of the chain of free chunks
+  std::size_t size_ = 0;
 };
 
 }  // namespace concave_distance

@@ -40,6 +40,13 @@ Vector3d seen(Side fixed_in, const Eigen::Matrix3d& rotation, const Vector3d& of
                              : Vector3d(rotation.transpose() * (point - offset));
 }
 
+/// The gap between an element's parts along a direction from A to B.
+double gapAlong(const MinimaScene& scene, const SharedElement& shared, const Vector3d& direction) {
+  return partOf(scene, Side::B, shared).leastAlong(scene.frames.rotation.transpose() * direction) +
+         direction.dot(scene.frames.offset) + partOf(scene, Side::A, shared).leastAlong(-direction) -
+         2.0 * scene.rounding;
+}
+
 Row rowOf(const std::array<float, BorderPool::kWidth>& row) {
   return Eigen::Map<const Row>(row.data());
 }
@@ -72,6 +79,10 @@ std::uint32_t BorderPool::take(std::uint32_t next, WorkLimit& limit) {
   return chunk;
 }
 
+bool BorderPool::makeRoom(WorkLimit& limit) {
+  return free_ != kNone || limit.makeRoom(chunks_);
+}
+
 void BorderPool::release(std::uint32_t first) {
   while (first != kNone) {
     const std::uint32_t next = chunks_[first].next;
@@ -92,28 +103,37 @@ std::size_t BorderPool::memoryBytes() const {
 }
 
 /// Of the gaps of a batch at another pose.
-struct CellBorder::Bound {
-  Bound(const MinimaScene& scene, const Batch& batch, const Vector3d& moving_centre, double level) {
+class CellBorder::Bound {
+ public:
+  Bound(const MinimaScene& scene, const Batch& batch, const Vector3d& moving_centre) {
     const Vector3d motion = seen(batch.fixed_in, scene.frames.rotation, scene.frames.offset, moving_centre) -
                             seen(batch.fixed_in, batch.rotation, batch.offset, moving_centre);
-    const double turn_now = (scene.frames.rotation - batch.rotation).norm() * std::sqrt(0.5);
+    const double turn = (scene.frames.rotation - batch.rotation).norm() * std::sqrt(0.5);
     const double reach = motion.norm();
-    double needed_now = level + 4.0 * scene.rounding;
-    needed_now += kSingleError * (needed_now + reach + turn_now * static_cast<double>(batch.longest));
-    if (!batch.directed) needed_now += reach;
-    needed = static_cast<float>(needed_now);
-    turn = static_cast<float>(turn_now);
-    along = batch.directed ? Eigen::Vector3f(motion.cast<float>()) : Eigen::Vector3f::Zero();
+    const double rounding = kSingleError * (reach + turn * static_cast<double>(batch.longest));
+    less_ = 4.0 * scene.rounding + rounding + (batch.directed ? 0.0 : reach);
+    turn_ = static_cast<float>(turn);
+    along_ = batch.directed ? Eigen::Vector3f(motion.cast<float>()) : Eigen::Vector3f::Zero();
   }
+
+  /// What of() must be above for a level (metres) to be certain.
+  float needed(double level) const { return static_cast<float>((level + less_) * (1.0 + kSingleError)); }
 
   Row of(const BorderPool::Chunk& chunk) const {
-    return rowOf(chunk.gap) - turn * rowOf(chunk.lever) + along[0] * rowOf(chunk.direction[0]) +
-           along[1] * rowOf(chunk.direction[1]) + along[2] * rowOf(chunk.direction[2]);
+    return rowOf(chunk.gap) - turn_ * rowOf(chunk.lever) + along_[0] * rowOf(chunk.direction[0]) +
+           along_[1] * rowOf(chunk.direction[1]) + along_[2] * rowOf(chunk.direction[2]);
   }
 
-  float needed;
-  float turn;
-  Eigen::Vector3f along;
+  /// Certain gaps at the pose.
+  Row gapsOf(const BorderPool::Chunk& chunk) const {
+    const auto error = static_cast<float>(2.0 * kSingleError);
+    return (of(chunk) - static_cast<float>(less_)) - error * rowOf(chunk.gap).abs();
+  }
+
+ private:
+  double less_;  ///< metres
+  float turn_;
+  Eigen::Vector3f along_;
 };
 
 void CellBorder::begin(BorderPool& pool, const Vector3d& centre_a, const Vector3d& centre_b) {
@@ -135,18 +155,17 @@ std::size_t CellBorder::size(const BorderPool& pool) const {
   return count;
 }
 
-CellBorder::Batch* CellBorder::batchAt(const MinimaScene& scene, Side fixed_in, bool directed) {
+CellBorder::Batch& CellBorder::batchAt(const MinimaScene& scene, Side fixed_in, bool directed) {
   for (std::uint32_t i = used_; i-- > 0;) {
     Batch& batch = batches_[i];
     if (batch.fixed_in == fixed_in && batch.directed == directed && batch.rotation == scene.frames.rotation &&
         batch.offset == scene.frames.offset) {
-      return &batch;
+      return batch;
     }
   }
-  if (used_ == kMostBatches) return nullptr;
   Batch& batch = batches_[used_++];
   batch = {fixed_in, directed, scene.frames.rotation, scene.frames.offset, 0.0F, BorderPool::kNone};
-  return &batch;
+  return batch;
 }
 
 std::uint32_t CellBorder::placeIn(BorderPool& pool, Batch& batch, WorkLimit& limit) {
@@ -158,72 +177,93 @@ std::uint32_t CellBorder::placeIn(BorderPool& pool, Batch& batch, WorkLimit& lim
   return pool[batch.first].count++;
 }
 
+CellBorder::Entry CellBorder::takeFrom(BorderPool::Chunk& chunk, std::uint32_t k) {
+  const Entry entry{chunk.gap[k],
+                    chunk.lever[k],
+                    {chunk.direction[0][k], chunk.direction[1][k], chunk.direction[2][k]},
+                    chunk.elements[k]};
+  const std::uint32_t last = --chunk.count;
+  chunk.gap[k] = chunk.gap[last];
+  chunk.lever[k] = chunk.lever[last];
+  for (std::array<float, BorderPool::kWidth>& component : chunk.direction) component[k] = component[last];
+  chunk.elements[k] = chunk.elements[last];
+  return entry;
+}
+
+void CellBorder::put(BorderPool& pool, Batch& batch, const Entry& entry, WorkLimit& limit) {
+  const std::uint32_t k = placeIn(pool, batch, limit);
+  if (k == BorderPool::kNone) return;
+  BorderPool::Chunk& chunk = pool[batch.first];
+  chunk.gap[k] = entry.gap;
+  chunk.lever[k] = entry.lever;
+  for (std::size_t d = 0; d < 3; ++d) chunk.direction[d][k] = entry.direction[static_cast<Eigen::Index>(d)];
+  chunk.elements[k] = entry.element;
+  batch.longest = std::max(batch.longest, entry.lever);
+}
+
 bool CellBorder::add(BorderPool& pool, const MinimaScene& scene, const BorderElement& element, double level,
                      WorkLimit& limit) {
   const Levers levers(partOf(scene, Side::A, element.shared), partOf(scene, Side::B, element.shared),
                       centres_);
-  Batch* batch = batchAt(scene, levers.fixed_in, false);
-  if (batch == nullptr) {
-    measureAll(pool, scene);
-    batch = batchAt(scene, levers.fixed_in, false);
+  if (used_ == kMostBatches) rebase(pool, scene);
+  Batch& batch = batchAt(scene, levers.fixed_in, false);
+  const std::uint32_t before = batch.first;
+  if ((before == BorderPool::kNone || pool[before].count == BorderPool::kWidth) && !pool.makeRoom(limit)) {
+    return false;
   }
-  const std::uint32_t k = placeIn(pool, *batch, limit);
-  if (k == BorderPool::kNone) return false;
-  BorderPool::Chunk& chunk = pool[batch->first];
-  chunk.gap[k] = static_cast<float>(level - 2.0 * scene.rounding);
-  chunk.lever[k] = levers.shorter;
-  for (std::array<float, BorderPool::kWidth>& component : chunk.direction) component[k] = 0.0F;
-  chunk.elements[k] = element;
-  batch->longest = std::max(batch->longest, levers.shorter);
+  put(pool, batch,
+      {static_cast<float>(level - 2.0 * scene.rounding), levers.shorter, Eigen::Vector3f::Zero(), element},
+      limit);
   return true;
 }
 
 void CellBorder::addDirected(BorderPool& pool, const MinimaScene& scene, const BorderPool::Measured& measured,
                              WorkLimit& limit) {
-  const SharedElement& shared = measured.element.shared;
-  const Part part_a = partOf(scene, Side::A, shared);
-  const Part part_b = partOf(scene, Side::B, shared);
-  const Levers levers(part_a, part_b, centres_);
-  const Vector3d direction = (measured.closest.point_b - measured.closest.point_a).normalized();
-  const Vector3d direction_in_b = scene.frames.rotation.transpose() * direction;
-  const double gap = part_b.leastAlong(direction_in_b) + direction.dot(scene.frames.offset) +
-                     part_a.leastAlong(-direction) - 2.0 * scene.rounding;
-  const Vector3d along = levers.fixed_in == Side::A ? direction : Vector3d(-direction_in_b);
-  Batch& batch = *batchAt(scene, levers.fixed_in, true);
-  const std::uint32_t k = placeIn(pool, batch, limit);
-  BorderPool::Chunk& chunk = pool[batch.first];
-  chunk.gap[k] = static_cast<float>(gap);
-  chunk.lever[k] = levers.shorter;
-  for (std::size_t d = 0; d < 3; ++d) {
-    chunk.direction[d][k] = static_cast<float>(along[static_cast<Eigen::Index>(d)]);
-  }
-  chunk.elements[k] = measured.element;
-  batch.longest = std::max(batch.longest, levers.shorter);
+  const Levers levers(partOf(scene, Side::A, measured.element.shared),
+                      partOf(scene, Side::B, measured.element.shared), centres_);
+  const Vector3d& direction = measured.direction;
+  const Vector3d along =
+      levers.fixed_in == Side::A ? direction : Vector3d(scene.frames.rotation.transpose() * -direction);
+  put(pool, batchAt(scene, levers.fixed_in, true),
+      {static_cast<float>(measured.gap), levers.shorter, along.cast<float>(), measured.element}, limit);
 }
 
-/// What may be nearer than the level is measured and leaves the batch.
+BorderPool::Measured CellBorder::measure(const MinimaScene& scene, const BorderElement& element,
+                                         const TrianglePairDistance& closest) {
+  const Vector3d direction = (closest.point_b - closest.point_a).normalized();
+  return {element, direction, gapAlong(scene, element.shared, direction)};
+}
+
+/// What may be nearer than the level leaves the batch: it is looked at along its direction, and measured
+/// where that does not do.
 std::uint32_t CellBorder::look(BorderPool& pool, const MinimaScene& scene, Batch& batch, double level) const {
-  const Bound bound(scene, batch, centres_[batch.fixed_in == Side::A ? 1 : 0], level);
+  const Bound bound(scene, batch, centres_[batch.fixed_in == Side::A ? 1 : 0]);
+  const float needed = bound.needed(level);
   std::uint32_t measured = 0;
   std::uint32_t* at = &batch.first;
   while (*at != BorderPool::kNone) {
     BorderPool::Chunk& chunk = pool[*at];
     const Row bounds = bound.of(chunk);
     for (std::uint32_t k = chunk.count; k-- > 0;) {
-      if (bounds[k] > bound.needed) continue;
-      ++measured;
-      const BorderElement element = chunk.elements[k];
-      const TrianglePairDistance closest = closestOver(scene, element.shared);
-      if (closest.squared_distance < level * level) {
-        pool.crossed.push_back(element);
-      } else {
-        pool.anew.push_back({element, closest});
+      if (bounds[k] > needed) continue;
+      const Entry entry = takeFrom(chunk, k);
+      if (batch.directed) {
+        const Vector3d along = entry.direction.cast<double>().normalized();
+        const Vector3d direction =
+            batch.fixed_in == Side::A ? along : Vector3d(scene.frames.rotation * -along);
+        const double gap = gapAlong(scene, entry.element.shared, direction);
+        if (gap > level) {
+          pool.anew.push_back({entry.element, direction, gap});
+          continue;
+        }
       }
-      const std::uint32_t last = --chunk.count;
-      chunk.gap[k] = chunk.gap[last];
-      chunk.lever[k] = chunk.lever[last];
-      for (std::array<float, BorderPool::kWidth>& component : chunk.direction) component[k] = component[last];
-      chunk.elements[k] = chunk.elements[last];
+      ++measured;
+      const TrianglePairDistance closest = closestOver(scene, entry.element.shared);
+      if (closest.squared_distance < level * level) {
+        pool.crossed.push_back(entry.element);
+      } else {
+        pool.anew.push_back(measure(scene, entry.element, closest));
+      }
     }
     if (chunk.count > 0) {
       at = &chunk.next;
@@ -237,23 +277,30 @@ std::uint32_t CellBorder::look(BorderPool& pool, const MinimaScene& scene, Batch
   return measured;
 }
 
-/// All elements, at this pose.
-std::uint32_t CellBorder::measureAll(BorderPool& pool, const MinimaScene& scene) {
-  const std::size_t before = pool.anew.size();
-  for (std::uint32_t i = 0; i < used_; ++i) {
-    for (std::uint32_t c = batches_[i].first; c != BorderPool::kNone; c = pool[c].next) {
-      for (std::uint32_t k = 0; k < pool[c].count; ++k) {
-        const BorderElement& element = pool[c].elements[k];
-        pool.anew.push_back({element, closestOver(scene, element.shared)});
+/// All elements to this pose: their bounds at it are gaps.
+void CellBorder::rebase(BorderPool& pool, const MinimaScene& scene) {
+  const std::array<Batch, kMostBatches> before = batches_;
+  const std::uint32_t count = used_;
+  used_ = 0;
+  WorkLimit none;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const Batch& batch = before[i];
+    if (batch.first == BorderPool::kNone) continue;
+    const Bound bound(scene, batch, centres_[batch.fixed_in == Side::A ? 1 : 0]);
+    Batch& at_this_pose = batchAt(scene, batch.fixed_in, batch.directed);
+    for (std::uint32_t c = batch.first; c != BorderPool::kNone;) {
+      BorderPool::Chunk chunk = pool[c];
+      const Row gaps = bound.gapsOf(chunk);
+      pool[c].next = BorderPool::kNone;
+      pool.release(c);
+      c = chunk.next;
+      for (std::uint32_t k = chunk.count; k-- > 0;) {
+        Entry entry = takeFrom(chunk, k);
+        entry.gap = gaps[k];
+        put(pool, at_this_pose, entry, none);
       }
     }
   }
-  clear(pool);
-  WorkLimit none;
-  const auto measured = static_cast<std::uint32_t>(pool.anew.size() - before);
-  for (const BorderPool::Measured& element : pool.anew) addDirected(pool, scene, element, none);
-  pool.anew.clear();
-  return measured;
 }
 
 std::uint32_t CellBorder::takeCrossed(BorderPool& pool, const MinimaScene& scene, double level) {
@@ -269,7 +316,7 @@ std::uint32_t CellBorder::takeCrossed(BorderPool& pool, const MinimaScene& scene
     ++rest;
   }
   used_ = rest;
-  if (used_ + 2 > kMostBatches) return measured + measureAll(pool, scene);
+  if (used_ + 2 > kMostBatches) rebase(pool, scene);
   WorkLimit none;
   for (const BorderPool::Measured& element : pool.anew) addDirected(pool, scene, element, none);
   return measured;

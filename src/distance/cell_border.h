@@ -38,11 +38,13 @@ class BorderPool {
   };
   struct Measured {
     BorderElement element;
-    TrianglePairDistance closest;
+    Eigen::Vector3d direction;  ///< from A to B
+    double gap;                 ///< metres along it
   };
 
   /// An empty group before `next`; kNone without memory.
   std::uint32_t take(std::uint32_t next, WorkLimit& limit);
+  bool makeRoom(WorkLimit& limit);
   /// The group and all after it.
   void release(std::uint32_t first);
   Chunk& operator[](std::uint32_t chunk) { return chunks_[chunk]; }
@@ -94,17 +96,27 @@ class CellBorder {
     std::uint32_t first = BorderPool::kNone;
   };
   static constexpr std::uint32_t kMostBatches = 8;
-  struct Bound;
+  struct Entry {
+    float gap;
+    float lever;
+    Eigen::Vector3f direction;
+    BorderElement element;
+  };
+  class Bound;
   struct Levers;
 
-  /// Null when there are too many.
-  Batch* batchAt(const MinimaScene& scene, Side fixed_in, bool directed);
+  /// There must be room for one more.
+  Batch& batchAt(const MinimaScene& scene, Side fixed_in, bool directed);
   /// The place for another element; kNone without memory.
   static std::uint32_t placeIn(BorderPool& pool, Batch& batch, WorkLimit& limit);
+  static Entry takeFrom(BorderPool::Chunk& chunk, std::uint32_t k);
+  static void put(BorderPool& pool, Batch& batch, const Entry& entry, WorkLimit& limit);
+  static BorderPool::Measured measure(const MinimaScene& scene, const BorderElement& element,
+                                      const TrianglePairDistance& closest);
   void addDirected(BorderPool& pool, const MinimaScene& scene, const BorderPool::Measured& measured,
                    WorkLimit& limit);
   std::uint32_t look(BorderPool& pool, const MinimaScene& scene, Batch& batch, double level) const;
-  std::uint32_t measureAll(BorderPool& pool, const MinimaScene& scene);
+  void rebase(BorderPool& pool, const MinimaScene& scene);
 
   std::array<Eigen::Vector3d, 2> centres_;
   std::array<Batch, kMostBatches> batches_;

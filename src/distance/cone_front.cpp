@@ -9,8 +9,10 @@ using Item = NormalConeTree::Item;
 
 /// A front that has grown by this factor since it was begun is begun anew: it looks at needlessly small
 /// groups.
-constexpr std::uint32_t kLargestGrowth = 2;
-constexpr std::uint32_t kSmallGrowth = 256;  // of the smallest, pairs
+constexpr std::size_t kLargestGrowth = 2;
+constexpr std::size_t kUsualMinima = 64;
+constexpr std::size_t kUsualOpen = 1024;
+constexpr std::size_t kSmallGrowth = 256;  // of the smallest, pairs
 
 }  // namespace
 
@@ -31,40 +33,30 @@ class ConeFront::Stage {
   void begin(const MinimaScene& scene) {
     front_.counts_.began_anew = true;
     front_.motion_.begin(cones_.a, cones_.b, scene.frames, scene.size);
-    front_.pool_.clear();
-    front_.free_ = ExpiryQueue<Entry>::kEnd;
-    front_.queues_.resize(front_.motion_.clockCount());
-    for (ExpiryQueue<Entry>& queue : front_.queues_) queue.clear();
-    front_.live_.clear();
+    front_.queues_.begin(front_.motion_.clockCount());
+    front_.minima_.clear();
+    front_.undecided_.clear();
+    // What most pairs never outgrow.
+    front_.minima_.reserve(kUsualMinima);
+    front_.undecided_.reserve(kUsualMinima);
+    front_.open_.reserve(kUsualOpen);
     front_.open_.assign(1, {NormalConeTree::kRoot, NormalConeTree::kRoot});
-    front_.kept_ = 0;
     front_.valid_ = true;
   }
 
   /// What has expired is taken out and is open again.
   void expire() {
-    for (std::uint32_t clock = 0; clock < front_.queues_.size(); ++clock) {
-      front_.queues_[clock].advance(front_.pool_, front_.motion_.now(clock), [&](std::uint32_t index) {
-        Entry& entry = front_.pool_[index];
-        front_.open_.emplace_back(entry.a, entry.b);
-        entry.expiry = kFree;
-        entry.next = front_.free_;
-        front_.free_ = index;
-        ++front_.counts_.expired;
-        --front_.kept_;
-      });
+    const std::size_t before = front_.queues_.size();
+    const auto open = [this](const Pair& pair) { front_.open_.push_back(pair); };
+    for (std::uint32_t clock = 0; clock < front_.motion_.clockCount(); ++clock) {
+      front_.queues_.advance(clock, front_.motion_.now(clock), open, limit_);
     }
+    front_.counts_.expired = static_cast<std::uint32_t>(before - front_.queues_.size());
   }
 
   bool run() {
+    if (!front_.counts_.began_anew && !compareOpen()) return false;
     std::vector<Pair>& open = front_.open_;
-    // Pairs that have expired are compared as they are, not opened at once.
-    for (std::size_t i = front_.counts_.began_anew ? 0 : open.size(); i-- > 0;) {
-      if (limit_.isOverNow()) return false;
-      if (!isExcluded(open[i])) continue;
-      open[i] = open.back();
-      open.pop_back();
-    }
     while (!open.empty()) {
       if (limit_.isOverNow()) return false;
       if (!limit_.makeRoom(open, ConeComparison::kWidth) || !limit_.makeRoom(seeds_)) return false;
@@ -79,20 +71,30 @@ class ConeFront::Stage {
     return true;
   }
 
-  /// Asks the live pairs of earlier poses.
+  /// Asks the live pairs of earlier poses: minima that stay are only measured. False when the limit was
+  /// reached.
   bool askLive() {
-    std::vector<Pair>& live = front_.live_;
+    if (!askUndecided()) return false;
+    std::vector<Minimum>& minima = front_.minima_;
     std::size_t rest = 0;
-    for (std::size_t i = 0; i < live.size(); ++i) {
-      const Pair pair = live[i];
+    for (std::size_t i = 0; i < minima.size(); ++i) {
       if (limit_.isOverNow() || !limit_.makeRoom(seeds_)) {
-        while (i < live.size()) live[rest++] = live[i++];
-        live.resize(rest);
+        minima.erase(minima.begin() + static_cast<std::ptrdiff_t>(rest),
+                     minima.begin() + static_cast<std::ptrdiff_t>(i));
         return false;
       }
-      if (!settles(pair)) live[rest++] = pair;
+      Minimum& minimum = minima[i];
+      const bool stays =
+          minimum.clock != ConeMotion::kNoClock && front_.motion_.now(minimum.clock) < minimum.expiry;
+      if (stays) {
+        measure(minimum);
+      } else if (!isMinimum(minimum.pair, minimum)) {
+        settle(minimum.pair);
+        continue;
+      }
+      minima[rest++] = minimum;
     }
-    live.resize(rest);
+    minima.resize(rest);
     return true;
   }
 
@@ -104,14 +106,32 @@ class ConeFront::Stage {
   const Item& itemOfA(Slot slot) const { return ConeComparison::itemOf(cones_.a, cones_.a.child(slot)); }
   const Item& itemOfB(Slot slot) const { return ConeComparison::itemOf(cones_.b, cones_.b.child(slot)); }
 
-  bool isExcluded(const Pair& pair) {
-    ++front_.counts_.groups;
-    const std::uint32_t node = pair.second / ConeComparison::kWidth;
-    const std::uint32_t lane = pair.second % ConeComparison::kWidth;
-    const ConeReasons reasons = cones_.withNodeOfB(pair.first, node);
-    if (!(reasons.largest()[lane] > 0.0F)) return false;
-    keepGroups(pair, reasons, lane, true);
-    return true;
+  /// Pairs that have expired as they are, before any of them is opened. False when the limit was reached.
+  bool compareOpen() {
+    constexpr std::size_t kAhead = 12;
+    std::vector<Pair>& open = front_.open_;
+    const std::size_t count = open.size();
+    front_.counts_.groups += static_cast<std::uint32_t>(count);
+    std::size_t rest = 0;
+    std::size_t i = 0;
+    while (i < count && !limit_.isOverNow()) {
+      const std::size_t size = std::min<std::size_t>(ConeComparison::kWidth, count - i);
+      Pair pairs[ConeComparison::kWidth];
+      for (std::size_t k = 0; k < ConeComparison::kWidth; ++k) pairs[k] = open[i + std::min(k, size - 1)];
+      for (std::size_t k = i + kAhead; k < std::min(i + kAhead + size, count); ++k) cones_.prefetch(open[k]);
+      const ConeReasons reasons = cones_.ofPairs(pairs);
+      const ConeLanes excluded = reasons.largest();
+      for (std::uint32_t lane = 0; lane < size; ++lane) {
+        if (!(excluded[lane] > 0.0F) || !keepGroups(pairs[lane], reasons, lane, true)) {
+          open[rest++] = pairs[lane];
+        }
+      }
+      i += size;
+    }
+    const bool done = i == count;
+    while (i < count) open[rest++] = open[i++];
+    open.resize(rest);
+    return done;
   }
 
   void expand(const Pair& pair) {
@@ -119,76 +139,109 @@ class ConeFront::Stage {
     const auto [a, b] = pair;
     const bool opens_b = cones_.opensB(a, b);
     const std::uint32_t opened = opens_b ? cones_.b.child(b) : cones_.a.child(a);
-    const ConeReasons reasons = opens_b ? cones_.withNodeOfB(a, opened) : cones_.withNodeOfA(opened, b);
+    const ConeReasons reasons = opens_b ? cones_.withPartsOfB(a, opened) : cones_.withPartsOfA(opened, b);
     const ConeLanes excluded = reasons.largest();
-    const NormalConeTree::Node& node = (opens_b ? cones_.b : cones_.a).nodes()[opened];
-    for (std::uint32_t lane = 0;
-         lane < ConeComparison::kWidth && node.child[lane] != NormalConeTree::kNoChild; ++lane) {
-      const Slot slot = opened * ConeComparison::kWidth + lane;
+    const NormalConeTree& tree = opens_b ? cones_.b : cones_.a;
+    for (std::uint32_t lane = 0; lane < ConeComparison::kWidth; ++lane) {
+      const Slot slot = opened + lane;
+      if (tree.child(slot) == NormalConeTree::kNoChild) break;
       const Pair child{opens_b ? a : slot, opens_b ? slot : b};
       if (isFeaturePair(child) &&
           !FeaturePairs::isWanted(itemOfA(child.first).kind, itemOfB(child.second).kind)) {
         continue;
       }
-      if (excluded[lane] > 0.0F) {
-        keepGroups(child, reasons, lane, opens_b);
-      } else {
+      if (!(excluded[lane] > 0.0F) || !keepGroups(child, reasons, lane, opens_b)) {
         front_.open_.push_back(child);
       }
     }
   }
 
   void look(const Pair& pair) {
-    if (!settles(pair)) front_.live_.push_back(pair);
+    Minimum minimum;
+    if (!isMinimum(pair, minimum)) {
+      settle(pair);
+    } else if (limit_.makeRoom(front_.minima_)) {
+      front_.minima_.push_back(minimum);
+    } else {
+      front_.undecided_.push_back(pair);
+    }
   }
 
-  /// False for a pair of features that is a minimum or has no slack.
-  bool settles(const Pair& pair) {
+  void measure(Minimum& minimum) {
+    ++front_.counts_.measured;
+    minimum.seed = features_.moved(itemOfA(minimum.pair.first), itemOfB(minimum.pair.second), minimum.seed);
+    seeds_.push_back(minimum.seed);
+  }
+
+  bool isMinimum(const Pair& pair, Minimum& minimum) {
     ++front_.counts_.features;
     const Item& a = itemOfA(pair.first);
     const Item& b = itemOfB(pair.second);
-    if (const auto found = features_.findMinimum(a, b)) {
-      seeds_.push_back(*found);
-      return false;
-    }
+    const auto found = features_.findMinimum(a, b);
+    if (!found) return false;
+    seeds_.push_back(*found);
     resetOffers(pair);
-    features_.offerSlacks(a, b, offers_);
+    const bool stays = features_.offerStay(a, b, *found, offers_);
+    minimum = {pair, offers_.clock(), stays ? offers_.expiry() : 0, *found};
+    return true;
+  }
+
+  /// A pair of features that holds no minimum.
+  void settle(const Pair& pair) {
+    if (!keepFeatures(pair)) front_.undecided_.push_back(pair);
+  }
+
+  /// False for what has no slack, and without memory.
+  bool keepFeatures(const Pair& pair) {
+    resetOffers(pair);
+    features_.offerSlacks(itemOfA(pair.first), itemOfB(pair.second), offers_);
     return !offers_.empty() && keep(pair);
+  }
+
+  bool askUndecided() {
+    std::vector<Pair>& undecided = front_.undecided_;
+    const std::size_t count = undecided.size();
+    std::size_t rest = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const Pair pair = undecided[i];
+      if (limit_.isOverNow() || !limit_.makeRoom(seeds_) || !limit_.makeRoom(front_.minima_)) {
+        undecided.erase(undecided.begin() + static_cast<std::ptrdiff_t>(rest),
+                        undecided.begin() + static_cast<std::ptrdiff_t>(i));
+        return false;
+      }
+      Minimum minimum;
+      if (isMinimum(pair, minimum)) {
+        front_.minima_.push_back(minimum);
+      } else if (!keepFeatures(pair)) {
+        undecided[rest++] = pair;
+      }
+    }
+    undecided.resize(rest);
+    return true;
   }
 
   void resetOffers(const Pair& pair) {
     offers_.reset(cones_.a.regionOf(pair.first), cones_.b.regionOf(pair.second));
   }
 
-  void keepGroups(const Pair& pair, const ConeReasons& reasons, std::uint32_t lane, bool node_is_b) {
+  /// False for what has no slack, and without memory. An offer that is hardly above 0 may be none.
+  bool keepGroups(const Pair& pair, const ConeReasons& reasons, std::uint32_t lane, bool kept_is_a) {
     resetOffers(pair);
-    const double unit = (node_is_b ? cones_.b : cones_.a).unit();
-    const Side of_node = node_is_b ? Side::B : Side::A;
-    const Side kept = node_is_b ? Side::A : Side::B;
+    const double unit = (kept_is_a ? cones_.b : cones_.a).unit();
+    const Side kept = kept_is_a ? Side::A : Side::B;
+    const Side other = kept_is_a ? Side::B : Side::A;
     offers_.offerTurn(static_cast<double>(reasons.turned_away[lane]));
     const double too_far = static_cast<double>(reasons.too_far[lane]) * unit;
-    offers_.offerMotion(of_node, std::max(too_far, static_cast<double>(reasons.misses_kept[lane]) * unit));
-    offers_.offerMotion(kept, std::max(too_far, static_cast<double>(reasons.misses_node[lane]) * unit));
-    // An offer that is hardly above 0 may be none: then the pair is asked again after any motion.
-    if (offers_.empty() || !keep(pair)) front_.open_.push_back(pair);
+    offers_.offerMotion(other, std::max(too_far, static_cast<double>(reasons.misses_kept[lane]) * unit));
+    offers_.offerMotion(kept, std::max(too_far, static_cast<double>(reasons.misses_other[lane]) * unit));
+    return !offers_.empty() && keep(pair);
   }
 
   /// False without memory.
   bool keep(const Pair& pair) {
-    std::uint32_t index = front_.free_;
-    if (index != ExpiryQueue<Entry>::kEnd) {
-      front_.free_ = front_.pool_[index].next;
-    } else {
-      if (!limit_.makeRoom(front_.pool_)) return false;
-      index = static_cast<std::uint32_t>(front_.pool_.size());
-      front_.pool_.emplace_back();
-    }
     const std::uint32_t clock = offers_.clock();
-    front_.pool_[index] = {std::max(offers_.expiry(), front_.motion_.now(clock) + 1), pair.first, pair.second,
-                           0};
-    front_.queues_[clock].insert(front_.pool_, index);
-    ++front_.kept_;
-    return true;
+    return front_.queues_.insert(clock, std::max(offers_.expiry(), front_.motion_.now(clock) + 1), pair,
+                                 limit_);
   }
 
   ConeFront& front_;
@@ -219,18 +272,19 @@ bool ConeFront::collect(const MinimaScene& scene, NormalSides sides, double cuto
   }
   // What a limit has ended grows until it is whole.
   if (kept_at_begin_ == 0) {
-    kept_at_begin_ = done ? kept_ : 0;
-  } else if (kept_ > kLargestGrowth * kept_at_begin_ + kSmallGrowth) {
+    kept_at_begin_ = done ? queues_.size() : 0;
+  } else if (queues_.size() > kLargestGrowth * kept_at_begin_ + kSmallGrowth) {
     valid_ = false;
   }
-  counts_.kept = kept_;
-  counts_.live = static_cast<std::uint32_t>(live_.size());
+  counts_.kept = static_cast<std::uint32_t>(queues_.size());
+  counts_.live = static_cast<std::uint32_t>(minima_.size() + undecided_.size());
+  counts_.undecided = static_cast<std::uint32_t>(undecided_.size());
   return done;
 }
 
 std::size_t ConeFront::memoryBytes() const {
-  return pool_.capacity() * sizeof(Entry) + queues_.capacity() * sizeof(queues_[0]) +
-         (live_.capacity() + open_.capacity()) * sizeof(Pair);
+  return queues_.memoryBytes() + minima_.capacity() * sizeof(Minimum) +
+         (undecided_.capacity() + open_.capacity()) * sizeof(Pair);
 }
 
 }  // namespace concave_distance::detail

@@ -19,16 +19,21 @@ class ConeFront {
  public:
   /// Of one call.
   struct Counts {
-    std::uint32_t expired = 0;   ///< kept pairs whose slack was used up
-    std::uint32_t groups = 0;    ///< comparisons of a group with four others
-    std::uint32_t features = 0;  ///< pairs of features whose distance was computed
-    std::uint32_t kept = 0;      ///< pairs, at the end
-    std::uint32_t live = 0;      ///< features that hold a minimum or may do so at the next pose
+    std::uint32_t expired = 0;    ///< kept pairs whose slack was used up
+    std::uint32_t groups = 0;     ///< comparisons of a group with four others
+    std::uint32_t features = 0;   ///< pairs of features that were asked whether they hold a minimum
+    std::uint32_t measured = 0;   ///< minima that have stayed
+    std::uint32_t kept = 0;       ///< pairs, at the end
+    std::uint32_t live = 0;       ///< features that hold a minimum or may do so at the next pose
+    std::uint32_t undecided = 0;  ///< of the live ones, those that hold none
     bool began_anew = false;
   };
 
-  /// The next call begins at the roots.
-  void clear() { valid_ = false; }
+  /// The next call begins at the roots and knows nothing of the motion.
+  void clear() {
+    valid_ = false;
+    motion_.forgetRates();
+  }
 
   /// Appends at least one triangle pair of every local minimum between 0 and `cutoff` (metres).
   /// @return false when the limit was reached: minima may be missing, and the next call goes on
@@ -42,34 +47,31 @@ class ConeFront {
   /// at.
   template <typename Visit>
   void forEachPair(const Visit& visit) const {
-    for (const Entry& entry : pool_) {
-      if (entry.expiry != kFree) visit(entry.a, entry.b);
-    }
-    for (const auto& [a, b] : live_) visit(a, b);
+    queues_.forEach([&](const Pair& pair) { visit(pair.first, pair.second); });
+    for (const Minimum& minimum : minima_) visit(minimum.pair.first, minimum.pair.second);
+    for (const auto& [a, b] : undecided_) visit(a, b);
     for (const auto& [a, b] : open_) visit(a, b);
   }
 
  private:
   using Slot = NormalConeTree::Slot;
   using Pair = std::pair<Slot, Slot>;
-  struct Entry {
-    std::uint64_t expiry;
-    Slot a;
-    Slot b;
-    std::uint32_t next;
-  };
-  static constexpr std::uint64_t kFree = 0;
 
+  /// A pair of features that holds a minimum, and stays one until its expiry.
+  struct Minimum {
+    Pair pair;
+    std::uint32_t clock;
+    std::uint64_t expiry;
+    MinimumSeed seed;
+  };
   class Stage;
 
-  std::vector<Entry> pool_;
-  std::uint32_t free_ = ExpiryQueue<Entry>::kEnd;  ///< first of the chain of free elements
-  std::vector<ExpiryQueue<Entry>> queues_;         ///< one for each clock
   ConeMotion motion_;
-  std::vector<Pair> live_;
-  std::vector<Pair> open_;  ///< to be compared
-  std::uint32_t kept_ = 0;
-  std::uint32_t kept_at_begin_ = 0;
+  ExpiryQueues<Pair> queues_;  ///< of the motion's clocks
+  std::vector<Minimum> minima_;
+  std::vector<Pair> undecided_;  ///< pairs of features that hold no minimum, without slack
+  std::vector<Pair> open_;       ///< to be compared
+  std::size_t kept_at_begin_ = 0;
   bool valid_ = false;
   double cutoff_ = 0.0;
   NormalSides sides_ = NormalSides::Outside;

@@ -31,12 +31,11 @@ void ConeMotion::begin(const NormalConeTree& a, const NormalConeTree& b, const L
   b_ = &b;
   rotation_ = frames.rotation;
   offset_ = frames.offset;
-  metres_per_quantum_ = size / kQuantaPerUnit;
+  quanta_per_metre_ = kQuantaPerUnit / size;
   rounding_ = kRounding * size;
   levers_[0] = 0.0;
   for (std::size_t k = 1; k < kLeverCount; ++k)
-    levers_[k] = kShortestLever * size * std::ldexp(1.0, static_cast<int>(k) - 1);
-  longest_lever_ = levers_[kLeverCount - 1];
+    levers_[k] = kShortestLever * size * std::ldexp(1.0, 2 * (static_cast<int>(k) - 1));
   first_of_b_ = 1 + static_cast<std::uint32_t>(a.regions().size() * kLeverCount);
   const std::size_t count = first_of_b_ + b.regions().size() * kLeverCount;
   quanta_.assign(count, 0);
@@ -44,17 +43,32 @@ void ConeMotion::begin(const NormalConeTree& a, const NormalConeTree& b, const L
     rates_.assign(count, kSizesPerRadian * size);
     rates_[kTurnClock] = 1.0;
   }
+  updateRates();
+}
+
+double ConeMotion::quantaPer(std::uint32_t clock) const {
+  return clock == kTurnClock ? kQuantaPerUnit : quanta_per_metre_;
+}
+
+void ConeMotion::updateRates() {
+  const double fastest = *std::max_element(rates_.begin() + 1, rates_.end());
+  rates_[kTurnClock] = std::max(rates_[kTurnClock], 1e-12);
+  for (std::size_t clock = 1; clock < rates_.size(); ++clock) {
+    rates_[clock] = std::max(rates_[clock], kLeastRate * fastest);
+  }
+  cycles_per_unit_.resize(rates_.size());
+  for (std::size_t clock = 0; clock < rates_.size(); ++clock) cycles_per_unit_[clock] = 1.0 / rates_[clock];
 }
 
 std::uint64_t ConeMotion::expiryAfter(std::uint32_t clock, double slack) const {
-  const double quanta = slack / (clock == kTurnClock ? 1.0 / kQuantaPerUnit : metres_per_quantum_);
+  const double quanta = slack * quantaPer(clock);
   const std::uint64_t room = kFull - quanta_[clock];
   return quanta < static_cast<double>(room) ? quanta_[clock] + static_cast<std::uint64_t>(quanta) : kFull;
 }
 
 bool ConeMotion::run(std::uint32_t clock, double by) {
   rates_[clock] += kRateShare * (by - rates_[clock]);
-  const double quanta = by / (clock == kTurnClock ? 1.0 / kQuantaPerUnit : metres_per_quantum_);
+  const double quanta = by * quantaPer(clock);
   if (!(quanta < static_cast<double>(kFull - quanta_[clock]))) return false;
   quanta_[clock] += static_cast<std::uint64_t>(quanta) + 1;
   return true;
@@ -84,11 +98,7 @@ bool ConeMotion::advance(const LocalFrames& frames) {
   };
   run_regions(*a_, 1, turn_in_b, shift_in_b);
   run_regions(*b_, first_of_b_, turn, shift);
-  const double fastest = *std::max_element(rates_.begin() + 1, rates_.end());
-  for (std::size_t clock = 1; clock < rates_.size(); ++clock) {
-    rates_[clock] = std::max(rates_[clock], kLeastRate * fastest);
-  }
-  rates_[kTurnClock] = std::max(rates_[kTurnClock], 1e-12);
+  updateRates();
   rotation_ = frames.rotation;
   offset_ = frames.offset;
   return has_room;

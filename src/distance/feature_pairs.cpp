@@ -24,11 +24,21 @@ double unitClamp(double x) {
   return x < 0.0 ? 0.0 : (x > 1.0 ? 1.0 : x);
 }
 
-Vector3d closestOnSegment(const Vector3d& point, const Vector3d& from, const Vector3d& to) {
+struct OnSegment {
+  Vector3d point;
+  bool is_end;
+};
+
+OnSegment closestOnSegment(const Vector3d& point, const Vector3d& from, const Vector3d& to) {
   const Vector3d edge = to - from;
   const double squared_length = edge.squaredNorm();
-  return squared_length > 0.0 ? Vector3d(from + unitClamp(edge.dot(point - from) / squared_length) * edge)
-                              : from;
+  if (!(squared_length > 0.0)) return {from, true};
+  const double share = unitClamp(edge.dot(point - from) / squared_length);
+  return {from + share * edge, share == 0.0 || share == 1.0};
+}
+
+NodeIndex nodeOf(const BodyMesh& body, const Item& item, std::size_t k) {
+  return body.surface().triangle(item.triangle)[k % 3];
 }
 
 }  // namespace
@@ -54,9 +64,9 @@ FeaturePairs::FeaturePairs(const MinimaScene& scene, double cutoff)
       level_(kLevelTolerance * (scene.a.diameter() + scene.b.diameter()) + 2.0 * slack_),
       cutoff_(cutoff + slack_) {}
 
-FeaturePairs::Between FeaturePairs::between(const Vector3d& from, const Vector3d& to) {
+FeaturePairs::Between FeaturePairs::between(const Vector3d& from, const Vector3d& to, bool is_end) {
   const Vector3d displacement = to - from;
-  return {from, to, displacement, displacement.squaredNorm()};
+  return {from, to, displacement, displacement.squaredNorm(), is_end};
 }
 
 /// Two segments, as in the triangle kernel: parallel ones may give any of their closest pairs.
@@ -67,8 +77,9 @@ FeaturePairs::Between FeaturePairs::betweenSegments(const Vector3d& a0, const Ve
   const Vector3d n = u.cross(v);
   const double nn = n.squaredNorm();
   const double s = nn > 0.0 ? unitClamp((b0 - a0).cross(v).dot(n) / nn) : 0.0;
-  const Vector3d on_b = closestOnSegment(a0 + s * u, b0, b1);
-  return between(closestOnSegment(on_b, a0, a1), on_b);
+  const OnSegment on_b = closestOnSegment(a0 + s * u, b0, b1);
+  const OnSegment on_a = closestOnSegment(on_b.point, a0, a1);
+  return between(on_a.point, on_b.point, on_a.is_end || on_b.is_end);
 }
 
 std::optional<MinimumSeed> FeaturePairs::findMinimum(const Item& a, const Item& b) const {
@@ -76,7 +87,7 @@ std::optional<MinimumSeed> FeaturePairs::findMinimum(const Item& a, const Item& 
   const FacingCap cap_b{-(scene_.frames.rotation * b.cap.axis), b.cap.cosine, b.cap.sine};
   if (a.kind == Kind::Edge && b.kind == Kind::Edge && !edgesMayFace(a, b, cap_a, cap_b)) return std::nullopt;
   const Between found = closest(a, b);
-  if (found.squared_distance > cutoff_ * cutoff_) return std::nullopt;
+  if (found.is_end || found.squared_distance > cutoff_ * cutoff_) return std::nullopt;
   const double distance = std::sqrt(found.squared_distance);
   if (distance <= slack_) return std::nullopt;  // meeting triangles are collected apart
   const double turn = std::min(0.5, kDirectionSlack + slack_ / distance);
@@ -86,11 +97,10 @@ std::optional<MinimumSeed> FeaturePairs::findMinimum(const Item& a, const Item& 
     return std::nullopt;
   }
   const Vector3d direction = found.displacement / distance;
-  const Peak peak_a = peakAt(scene_.a, a, found.from, direction, distance,
-                             [this](NodeIndex n) { return scene_.vertexOfA(n); });
+  const Peak peak_a = peakAt(Side::A, a, found.from, direction, distance);
   if (!peak_a.is_peak) return std::nullopt;
-  const Peak peak_b = peakAt(scene_.b, b, found.to, -direction, distance,
-                             [this](NodeIndex n) { return scene_.vertexOfB(n); });
+  const Peak peak_b = peakAt(Side::B, b, scene_.frames.pointInB(found.to),
+                             scene_.frames.rotation.transpose() * -direction, distance);
   if (!peak_b.is_peak) return std::nullopt;
   const auto edgesCross = [&] {
     const Vector3d along_a = edgeOfA(a);
@@ -102,6 +112,15 @@ std::optional<MinimumSeed> FeaturePairs::findMinimum(const Item& a, const Item& 
                         (peak_a.level_dimensions == 1 && peak_b.level_dimensions == 1 && edgesCross());
   return MinimumSeed{a.triangle,     b.triangle,     distance,   true,    is_point,
                      peak_a.feature, peak_b.feature, found.from, found.to};
+}
+
+MinimumSeed FeaturePairs::moved(const Item& a, const Item& b, const MinimumSeed& minimum) const {
+  const Between found = closest(a, b);
+  MinimumSeed seed = minimum;
+  seed.distance = std::sqrt(found.squared_distance);
+  seed.point_a = found.from;
+  seed.point_b = found.to;
+  return seed;
 }
 
 /// Two edges at an angle are closest along the direction across both: whether that lies in the caps of
@@ -125,10 +144,11 @@ bool FeaturePairs::edgesMayFace(const Item& a, const Item& b, const FacingCap& c
 /// A peak has no vertex next to it that rises towards the other body by more than rounding: the normal
 /// cone itself, which the cap is around. Points are off by less than the slack, the direction between them
 /// by that over their distance.
-template <typename VertexOf>
-FeaturePairs::Peak FeaturePairs::peakAt(const BodyMesh& body, const Item& item, const Vector3d& point,
-                                        const Vector3d& direction, double distance,
-                                        const VertexOf& vertex_of) const {
+FeaturePairs::Peak FeaturePairs::peakAt(Side side, const Item& item, const Vector3d& point,
+                                        const Vector3d& direction, double distance) const {
+  const BodyMesh& body = side == Side::A ? scene_.a : scene_.b;
+  const Vector3d& centre = side == Side::A ? scene_.frames.centre_a : scene_.frames.centre_b;
+  const auto vertex_of = [&](NodeIndex node) -> Vector3d { return body.surface().vertex(node) - centre; };
   const double turn = slack_ / distance;
   bool any_level = false;
   const auto rises = [&](NodeIndex node) {
@@ -180,23 +200,27 @@ Vector3d FeaturePairs::edgeOfB(const Item& item) const {
 }
 
 FeaturePairs::Between FeaturePairs::closest(const Item& a, const Item& b) const {
-  const TrianglePoints ta = scene_.cornersOfA(a.triangle);
-  const TrianglePoints tb = scene_.cornersOfB(b.triangle);
-  const Vector3d& a0 = ta[a.element];
-  const Vector3d& b0 = tb[b.element];
-  const auto next_of = [](const TrianglePoints& t, std::size_t k) -> const Vector3d& {
-    return t[k == 2 ? 0 : k + 1];
-  };
+  const auto corner_a = [&](std::size_t k) { return scene_.vertexOfA(nodeOf(scene_.a, a, k)); };
+  const auto corner_b = [&](std::size_t k) { return scene_.vertexOfB(nodeOf(scene_.b, b, k)); };
   if (a.kind == Kind::Vertex) {
-    if (b.kind == Kind::Vertex) return between(a0, b0);
-    if (b.kind == Kind::Edge) return between(a0, closestOnSegment(a0, b0, next_of(tb, b.element)));
-    return between(a0, pointTriangleDistance(a0, tb).point);
+    const Vector3d point = corner_a(a.element);
+    if (b.kind == Kind::Vertex) return between(point, corner_b(b.element));
+    if (b.kind == Kind::Face) {
+      return between(point, pointTriangleDistance(point, {corner_b(0), corner_b(1), corner_b(2)}).point);
+    }
+    const OnSegment foot = closestOnSegment(point, corner_b(b.element), corner_b(b.element + 1U));
+    return between(point, foot.point, foot.is_end);
   }
   if (b.kind == Kind::Vertex) {
-    if (a.kind == Kind::Edge) return between(closestOnSegment(b0, a0, next_of(ta, a.element)), b0);
-    return between(pointTriangleDistance(b0, ta).point, b0);
+    const Vector3d point = corner_b(b.element);
+    if (a.kind == Kind::Face) {
+      return between(pointTriangleDistance(point, {corner_a(0), corner_a(1), corner_a(2)}).point, point);
+    }
+    const OnSegment foot = closestOnSegment(point, corner_a(a.element), corner_a(a.element + 1U));
+    return between(foot.point, point, foot.is_end);
   }
-  return betweenSegments(a0, next_of(ta, a.element), b0, next_of(tb, b.element));
+  return betweenSegments(corner_a(a.element), corner_a(a.element + 1U), corner_b(b.element),
+                         corner_b(b.element + 1U));
 }
 
 }  // namespace concave_distance::detail

@@ -36,6 +36,13 @@ class FeaturePairs {
   /// The closest points, if they may be a local minimum up to the cutoff. Pairs that meet are none.
   std::optional<MinimumSeed> findMinimum(const Item& a, const Item& b) const;
 
+  /// The same minimum at a pose for which offerStay() holds.
+  MinimumSeed moved(const Item& a, const Item& b, const MinimumSeed& minimum) const;
+
+  /// For a pair that holds a minimum: offers a slack for which it stays one, on the same features. False
+  /// where there is none.
+  bool offerStay(const Item& a, const Item& b, const MinimumSeed& minimum, SlackOffers& offers) const;
+
   /// For a pair that holds none: offers slacks, each of which keeps it so until it is used up. None is
   /// offered where the answer may change at once.
   void offerSlacks(const Item& a, const Item& b, SlackOffers& offers) const;
@@ -46,11 +53,12 @@ class FeaturePairs {
     Eigen::Vector3d to;    ///< B's
     Eigen::Vector3d displacement;
     double squared_distance;
+    bool is_end;  ///< of an edge: the vertex has the minimum, if there is one
   };
   struct FacingCap;
   struct Body;
 
-  static Between between(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
+  static Between between(const Eigen::Vector3d& from, const Eigen::Vector3d& to, bool is_end = false);
   static Between betweenSegments(const Eigen::Vector3d& a0, const Eigen::Vector3d& a1,
                                  const Eigen::Vector3d& b0, const Eigen::Vector3d& b1);
   bool edgesMayFace(const Item& a, const Item& b, const FacingCap& cap_a, const FacingCap& cap_b) const;
@@ -60,9 +68,9 @@ class FeaturePairs {
     int level_dimensions;  ///< of what is as far forward: 0: the point alone, 1: an edge, 2: perhaps more
     Feature feature;
   };
-  template <typename VertexOf>
-  Peak peakAt(const BodyMesh& body, const Item& item, const Eigen::Vector3d& point,
-              const Eigen::Vector3d& direction, double distance, const VertexOf& vertex_of) const;
+  /// @param point, direction in the body's axes, relative to its centre in the scene
+  Peak peakAt(Side side, const Item& item, const Eigen::Vector3d& point, const Eigen::Vector3d& direction,
+              double distance) const;
   Eigen::Vector3d edgeOfA(const Item& item) const;
   Eigen::Vector3d edgeOfB(const Item& item) const;
   Between closest(const Item& a, const Item& b) const;
@@ -70,8 +78,15 @@ class FeaturePairs {
   void offerVertexToVertex(const Item& a, const Item& b, SlackOffers& offers) const;
   void offerVertexToEdge(const Body& of_vertex, const Item& vertex, const Body& of_edge, const Item& edge,
                          SlackOffers& offers) const;
+  void offerBesideEdge(const Body& of_edge, const Item& edge, const Eigen::Vector3d& first,
+                       const Eigen::Vector3d& last, double radius, SlackOffers& offers) const;
   void offerVertexToFace(const Body& of_vertex, const Item& vertex, const Body& of_face, const Item& face,
                          SlackOffers& offers) const;
+  double fallAround(const Body& body, const Item& item, const Eigen::Vector3d& displacement) const;
+  void offerStayOfVertex(const Body& of_vertex, const Item& vertex, const Body& of_other, const Item& other,
+                         const Eigen::Vector3d& to_other, SlackOffers& offers) const;
+  void offerStayOfEdges(const Body& body_a, const Item& a, const Body& body_b, const Item& b,
+                        const Eigen::Vector3d& displacement, SlackOffers& offers) const;
   void offerEdgeToEdge(const Item& a, const Item& b, SlackOffers& offers) const;
 
   const MinimaScene& scene_;

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "feature_pairs.h"
+#include "feature_body.h"
 
 // How far bodies may move until a pair of features can hold a local minimum (doc/algorithm.md, section 7).
 
@@ -19,52 +19,44 @@ constexpr double kNormalSlack = 4e-9;
 /// Two faces whose normals are nearly opposite have no arc between them.
 constexpr double kOpposite = -0.999;
 
-}  // namespace
+/// The shorter arc between two unit vectors.
+struct Arc {
+  Vector3d first;
+  Vector3d last;
+  Vector3d across;
+  double width = 0.0;  ///< length of `across`
 
-/// One body in its own axes, relative to its centre in the scene.
-struct FeaturePairs::Body {
-  Body(const MinimaScene& scene, Side of)
-      : side(of),
-        mesh(of == Side::A ? scene.a : scene.b),
-        centre(of == Side::A ? scene.frames.centre_a : scene.frames.centre_b),
-        frames(scene.frames) {}
+  bool isShort() const { return !(width > kShortArc); }
 
-  Vector3d vertex(NodeIndex node) const { return mesh.surface().vertex(node) - centre; }
-  Vector3d corner(const Item& item, std::size_t k) const {
-    return mesh.surface().corner(item.triangle, static_cast<int>(k % 3)) - centre;
+  /// Radians from a unit vector, or less. An arc's chord is no longer than the arc, nor its sine.
+  double partFrom(const Vector3d& direction) const {
+    const double to_end =
+        std::sqrt(std::min((direction - first).squaredNorm(), (direction - last).squaredNorm()));
+    if (isShort()) return to_end;
+    const bool is_beside =
+        first.cross(direction).dot(across) >= 0.0 && direction.cross(last).dot(across) >= 0.0;
+    return is_beside ? std::abs(across.dot(direction)) / width : to_end;
   }
-  NodeIndex node(const Item& item, std::size_t k) const {
-    return mesh.surface().triangle(item.triangle)[k % 3];
-  }
-
-  /// A point of this body in the other's axes, and a direction of the other body in this one's.
-  Vector3d inOther(const Vector3d& point) const {
-    return side == Side::A ? frames.pointInB(point) : Vector3d(frames.rotation * point + frames.offset);
-  }
-  Vector3d directionFromOther(const Vector3d& direction) const {
-    return side == Side::A ? Vector3d(frames.rotation * direction)
-                           : Vector3d(frames.rotation.transpose() * direction);
-  }
-
-  /// How far, at most, a neighbour of the vertex rises along `displacement`, per length of its edge; what is
-  /// within rounding does not count.
-  double rise(NodeIndex node, const Vector3d& displacement, double slack) const {
-    const Vector3d here = vertex(node);
-    const double reach = displacement.norm();
-    double most = 0.0;
-    for (const NodeIndex neighbour : mesh.topology().neighbours_of_vertex.row(node.value)) {
-      const Vector3d edge = vertex(neighbour) - here;
-      const double length = edge.norm();
-      most = std::max(most, (displacement.dot(edge) - 2.0 * slack * std::max(length, reach)) / length);
-    }
-    return most;
-  }
-
-  Side side;
-  const BodyMesh& mesh;
-  const Vector3d& centre;
-  const LocalFrames& frames;
 };
+
+/// Whether the arcs of two circles, neither of them short, have a point in common.
+bool doCross(const Arc& l, const Arc& r) {
+  const double first = l.across.dot(r.first);
+  const double last = l.across.dot(r.last);
+  if (first * last > 0.0 || r.across.dot(l.first) * r.across.dot(l.last) > 0.0) return false;
+  // Each crosses the other's circle: at one point, or at two that are opposite.
+  return l.across.cross(r.across).dot(l.first + l.last) * (last - first) >= 0.0;
+}
+
+/// Radians between two arcs, or less; not above 0 where they cross.
+double partOf(const Arc& l, const Arc& r) {
+  double less = 0.0;
+  for (const Arc* arc : {&l, &r}) less += arc->isShort() ? arc->width : 0.0;
+  if (less == 0.0 && doCross(l, r)) return 0.0;
+  return std::min({l.partFrom(r.first), l.partFrom(r.last), r.partFrom(l.first), r.partFrom(l.last)}) - less;
+}
+
+}  // namespace
 
 void FeaturePairs::offerSlacks(const Item& a, const Item& b, SlackOffers& offers) const {
   const Body body_a(scene_, Side::A);
@@ -94,38 +86,48 @@ void FeaturePairs::offerVertexToVertex(const Item& a, const Item& b, SlackOffers
   offers.offerMotion(Side::B, beyond);
 }
 
-void FeaturePairs::offerVertexToEdge(const Body& of_vertex, const Item& vertex, const Body& of_edge,
-                                     const Item& edge, SlackOffers& offers) const {
-  const Side side = of_vertex.side;
-  const Vector3d point = of_vertex.inOther(of_vertex.corner(vertex, vertex.element));
+// Beyond an end of an edge, that vertex is closer; in front of a face of the edge, the face is.
+void FeaturePairs::offerBesideEdge(const Body& of_edge, const Item& edge, const Vector3d& first,
+                                   const Vector3d& last, double radius, SlackOffers& offers) const {
+  const Side side = of_edge.side == Side::A ? Side::B : Side::A;
   const Vector3d from = of_edge.corner(edge, edge.element);
   const Vector3d span = of_edge.corner(edge, edge.element + 1U) - from;
   const double length = span.norm();
   const Vector3d along = span / length;
-  const Vector3d displacement = point - from;
-  const double position = along.dot(displacement);
-  // Beyond an end, that vertex is closer; in front of a face of the edge, the face is.
-  offers.offerMotion(side, std::max(-position, position - length) - slack_);
+  const Vector3d to_first = first - from;
+  const Vector3d to_last = last - from;
+  const double low = std::min(along.dot(to_first), along.dot(to_last));
+  const double high = std::max(along.dot(to_first), along.dot(to_last));
+  offers.offerMotion(side, std::max(-high, low - length) - slack_, radius);
+  const double reach = std::max(to_first.norm(), to_last.norm());
+  const NodeIndex begin = of_edge.node(edge, edge.element);
+  const NodeIndex end = of_edge.node(edge, edge.element + 1U);
   const auto offer_face = [&](TriangleIndex triangle) {
-    const SurfaceMesh& surface = of_edge.mesh.surface();
-    const TriangleNodes& nodes = surface.triangle(triangle);
-    const NodeIndex begin = of_edge.node(edge, edge.element);
-    const NodeIndex end = of_edge.node(edge, edge.element + 1U);
-    for (const NodeIndex apex : nodes) {
+    for (const NodeIndex apex : of_edge.mesh.surface().triangle(triangle)) {
       if (apex == begin || apex == end) continue;
       Vector3d inward = of_edge.vertex(apex) - from;
       inward -= along.dot(inward) * along;
       const double height = inward.norm();
-      offers.offerMotion(
-          side, (displacement.dot(inward) - 2.0 * slack_ * std::max(height, displacement.norm())) / height);
+      const double in_front = std::min(to_first.dot(inward), to_last.dot(inward));
+      offers.offerMotion(side, (in_front - 2.0 * slack_ * std::max(height, reach)) / height, radius);
     }
   };
   offer_face(edge.triangle);
   const TriangleIndex across =
       of_edge.mesh.topology().triangle_across_edge[edge.triangle.value][edge.element];
   if (across != kNoTriangle) offer_face(across);
+}
+
+void FeaturePairs::offerVertexToEdge(const Body& of_vertex, const Item& vertex, const Body& of_edge,
+                                     const Item& edge, SlackOffers& offers) const {
+  const Side side = of_vertex.side;
+  const Vector3d point = of_vertex.inOther(of_vertex.corner(vertex, vertex.element));
+  offerBesideEdge(of_edge, edge, point, point, 0.0, offers);
+  const Vector3d from = of_edge.corner(edge, edge.element);
+  const Vector3d along = (of_edge.corner(edge, edge.element + 1U) - from).normalized();
+  const Vector3d displacement = point - from;
   // The way to the foot turns with the bodies and moves with the foot.
-  const Vector3d to_foot = position * along - displacement;
+  const Vector3d to_foot = along.dot(displacement) * along - displacement;
   const double rise =
       of_vertex.rise(of_vertex.node(vertex, vertex.element), of_vertex.directionFromOther(to_foot), slack_);
   const double distance = to_foot.norm();
@@ -168,13 +170,11 @@ void FeaturePairs::offerEdgeToEdge(const Item& a, const Item& b, SlackOffers& of
   const double beyond =
       std::sqrt(betweenSegments(from_a, from_a + span_a, from_b, from_b + span_b).squared_distance) - cutoff_;
   offers.offerMotion(Side::B, beyond, b.radius);
+  offerBesideEdge(body_a, a, from_b, from_b + span_b, b.radius, offers);
+  const Vector3d first_of_a = body_a.inOther(from_a);
+  const Vector3d last_of_a = body_a.inOther(Vector3d(from_a + span_a));
+  offerBesideEdge(body_b, b, first_of_a, last_of_a, a.radius, offers);
 
-  struct Arc {
-    Vector3d first;
-    Vector3d last;
-    Vector3d across;
-    double width = 0.0;  ///< length of `across`
-  };
   const auto arc_of = [](const Body& body, const Item& item, Arc& arc) {
     const MeshTopology& topology = body.mesh.topology();
     const TriangleIndex beyond_edge = topology.triangle_across_edge[item.triangle.value][item.element];
@@ -200,13 +200,7 @@ void FeaturePairs::offerEdgeToEdge(const Item& a, const Item& b, SlackOffers& of
   if (!arc_of(body_a, a, arc_a) || !arc_of(body_b, b, arc_b)) return;
   for (Vector3d* normal : {&arc_b.first, &arc_b.last}) *normal = -(scene_.frames.rotation * *normal);
   arc_b.across = scene_.frames.rotation * arc_b.across;
-  const auto parted = [](const Arc& circle, const Arc& arc) {
-    if (!(circle.width > kShortArc)) return 0.0;
-    const double first = circle.across.dot(arc.first);
-    const double last = circle.across.dot(arc.last);
-    return first * last > 0.0 ? std::min(std::abs(first), std::abs(last)) / circle.width : 0.0;
-  };
-  offers.offerTurn(std::max(parted(arc_a, arc_b), parted(arc_b, arc_a)) - kNormalSlack);
+  offers.offerTurn(partOf(arc_a, arc_b) - kNormalSlack);
 
   const double length_a = span_a.norm();
   const double length_b = span_b.norm();

@@ -60,7 +60,10 @@ struct LocalMinimaParts {
               WorkLimit& limit);
   bool measure(const MinimaScene& scene, const LocalMinimaRequest& request, LocalMinimaCost& cost,
                WorkLimit& limit);
-  void describe(const MinimaScene& scene, const LocalMinimaRequest& request, WorkLimit& limit);
+  /// What has been judged a niche and is not described yet.
+  void describeNiches(const MinimaScene& scene, const LocalMinimaRequest& request, WorkLimit& limit);
+  /// The last of `minima`.
+  void describe(const MinimaScene& scene, const LocalMinimaRequest& request, bool is_seen, WorkLimit& limit);
   void list(const LocalMinimaRequest& request, LocalMinima& result);
 
   std::size_t memoryBytes() const {
@@ -84,19 +87,26 @@ struct LocalMinimaParts {
 
 bool LocalMinimaParts::decide(const MinimaScene& scene, const LocalMinimaRequest& request,
                               LocalMinimaCost& cost, WorkLimit& limit) {
-  using Verdict = MinimaVerdicts::Verdict;
   MinimaVerdicts::Request wanted;
   wanted.least_prominence = request.least_prominence;
   wanted.through_material = request.through_material;
   wanted.is_tracked = request.is_tracked;
+  // One more tells that the list is cut.
+  wanted.most_niches = std::max(request.largest_count, request.largest_count + 1);
   if (!request.hidden) {
     // A set of minima is seen where its middle is.
-    wanted.is_wanted = [&scene](const MinimumSeed& seed, std::uint32_t& /*note*/) {
+    wanted.is_wanted = [&scene](const MinimumSeed& seed, Occluder& occluder) {
       return !seed.is_point || seed.distance == 0.0 ||
-             isVisible(scene.a, scene.b, scene.a_from_b, scene.witnessOf(seed));
+             isVisible(scene.a, scene.b, scene.a_from_b, scene.witnessOf(seed), occluder);
     };
   }
+  places.clear();
   verdicts.judge(scene, seeds, wanted, limit);
+  describeNiches(scene, request, limit);
+  while (!verdicts.hasJudgedAll() && described.size() <= request.largest_count && !limit.isOver()) {
+    verdicts.judgeMore(scene, wanted, limit);
+    describeNiches(scene, request, limit);
+  }
   const auto place = [](std::uint32_t judged) {
     return judged == MinimaVerdicts::kNone ? kNone : std::size_t{judged};
   };
@@ -110,22 +120,29 @@ bool LocalMinimaParts::decide(const MinimaScene& scene, const LocalMinimaRequest
   for (const MinimumSeed& proposal : request.proposals) {
     proposed.push_back(place(verdicts.locate(scene, {proposal.a, proposal.b}, wanted, limit)));
   }
+  describeNiches(scene, request, limit);
   cost.flooded_pairs += verdicts.counts().flooded_cells;
-  bool cut = false;
-  const std::vector<MinimaVerdicts::Judged>& judged = verdicts.judged();
-  refill(places, judged.size(), kNone);
-  for (std::size_t i = 0; i < judged.size(); ++i) {
-    cut = cut || judged[i].verdict == Verdict::Undecided;
-    if (judged[i].verdict != Verdict::Niche) continue;
-    places[i] = minima.size();
-    minima.push_back({judged[i].seed, std::numeric_limits<double>::infinity(),
-                      (1.0 + request.least_prominence) * judged[i].seed.distance, judged[i].was_found,
-                      judged[i].region});
-  }
   for (std::vector<std::size_t>* of : {&owners, &proposed}) {
     for (std::size_t& owner : *of) owner = owner == kNone ? kNone : places[owner];
   }
-  return !cut;
+  return std::none_of(verdicts.judged().begin(), verdicts.judged().end(), [](const auto& judged) {
+    return judged.verdict == MinimaVerdicts::Verdict::Undecided;
+  });
+}
+
+void LocalMinimaParts::describeNiches(const MinimaScene& scene, const LocalMinimaRequest& request,
+                                      WorkLimit& limit) {
+  const std::vector<MinimaVerdicts::Judged>& judged = verdicts.judged();
+  places.resize(judged.size(), kNone);
+  for (std::size_t i = 0; i < judged.size(); ++i) {
+    if (judged[i].verdict != MinimaVerdicts::Verdict::Niche || places[i] != kNone) continue;
+    const MinimumSeed& seed = judged[i].seed;
+    places[i] = minima.size();
+    minima.push_back({seed, std::numeric_limits<double>::infinity(),
+                      (1.0 + request.least_prominence) * seed.distance, judged[i].was_found,
+                      judged[i].region});
+    describe(scene, request, !request.hidden && seed.is_point, limit);
+  }
 }
 
 bool LocalMinimaParts::measure(const MinimaScene& scene, const LocalMinimaRequest& request,
@@ -136,32 +153,37 @@ bool LocalMinimaParts::measure(const MinimaScene& scene, const LocalMinimaReques
   }
   seeds.insert(seeds.end(), request.proposals.begin(), request.proposals.end());
   FloodResult flood = floodMinima(scene, request, seeds, owned, cost, limit);
-  minima = std::move(flood.minima);
+  for (const FloodedMinimum& minimum : flood.minima) {
+    minima.push_back(minimum);
+    describe(scene, request, false, limit);
+  }
   const auto proposals = flood.owners.begin() + static_cast<std::ptrdiff_t>(request.asked_pairs.size());
   owners.assign(flood.owners.begin(), proposals);
   proposed.assign(proposals, flood.owners.end());
   return !flood.cut;
 }
 
-void LocalMinimaParts::describe(const MinimaScene& scene, const LocalMinimaRequest& request,
+void LocalMinimaParts::describe(const MinimaScene& scene, const LocalMinimaRequest& request, bool is_seen,
                                 WorkLimit& limit) {
-  for (std::size_t i = 0; i < minima.size() && !limit.isOver(); ++i) {
-    LocalMinimum niche;
-    niche.prominence = minima[i].seed.distance > 0.0 ? minima[i].pass / minima[i].seed.distance - 1.0
-                                                     : std::numeric_limits<double>::infinity();
-    niche.flooded = minima[i].flooded;
-    niche.region = minima[i].region;
-    if (describer.describe(scene, request, minima[i].seed, niche, limit)) described.push_back({niche, i});
+  if (limit.isOver()) return;
+  const FloodedMinimum& minimum = minima.back();
+  LocalMinimum niche;
+  niche.prominence = minimum.seed.distance > 0.0 ? minimum.pass / minimum.seed.distance - 1.0
+                                                 : std::numeric_limits<double>::infinity();
+  niche.flooded = minimum.flooded;
+  niche.region = minimum.region;
+  if (describer.describe(scene, request, minimum.seed, is_seen, niche, limit)) {
+    described.push_back({niche, minima.size() - 1});
   }
+}
+
+void LocalMinimaParts::list(const LocalMinimaRequest& request, LocalMinima& result) {
   std::sort(described.begin(), described.end(), [&](const Described& l, const Described& r) {
     if (l.niche.distance != r.niche.distance) return l.niche.distance < r.niche.distance;
     const MinimumSeed& of_l = minima[l.minimum].seed;
     const MinimumSeed& of_r = minima[r.minimum].seed;
     return of_l.a != of_r.a ? of_l.a < of_r.a : of_l.b < of_r.b;
   });
-}
-
-void LocalMinimaParts::list(const LocalMinimaRequest& request, LocalMinima& result) {
   result.cut = described.size() > request.largest_count;
   if (result.cut) described.resize(request.largest_count);
   refill(places, minima.size(), kNone);
@@ -212,6 +234,7 @@ void findLocalMinima(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry
   result.niches.clear();
   result.owners.clear();
   result.cost = {};
+  parts.describer.begin(scene, request);
   parts.minima.clear();
   parts.described.clear();
   parts.owners.clear();
@@ -227,7 +250,6 @@ void findLocalMinima(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry
       request.prominence_limit > request.least_prominence && !detail::isFar(scene, request.least_prominence);
   const bool decided = measures ? parts.measure(scene, request, result.cost, limit)
                                 : parts.decide(scene, request, result.cost, limit);
-  parts.describe(scene, request, limit);
   result.finished = all && decided && !limit.isOver() && limit.hasRefusedMemory() == refused_before;
   parts.list(request, result);
 }

@@ -32,11 +32,11 @@ void collectConeSeeds(const MinimaScene& scene, NormalSides sides, double cutoff
     const bool opens_b = cones.opensB(a, b);
     const std::uint32_t opened = opens_b ? child_b : child_a;
     const ConeLanes excluded =
-        (opens_b ? cones.withNodeOfB(a, opened) : cones.withNodeOfA(opened, b)).largest();
-    const NormalConeTree::Node& node = (opens_b ? cones.b : cones.a).nodes()[opened];
-    for (std::uint32_t lane = 0; lane < kWidth && node.child[lane] != NormalConeTree::kNoChild; ++lane) {
-      if (excluded[lane] > 0.0F) continue;
-      const std::uint32_t slot = opened * kWidth + lane;
+        (opens_b ? cones.withPartsOfB(a, opened) : cones.withPartsOfA(opened, b)).largest();
+    const NormalConeTree& tree = opens_b ? cones.b : cones.a;
+    for (std::uint32_t lane = 0; lane < kWidth; ++lane) {
+      const std::uint32_t slot = opened + lane;
+      if (excluded[lane] > 0.0F || tree.child(slot) == NormalConeTree::kNoChild) continue;
       open.emplace_back(opens_b ? a : slot, opens_b ? slot : b);
     }
   }

@@ -21,7 +21,8 @@ constexpr std::size_t kLargestRegion = std::size_t{1} << 16U;
 constexpr int kLongestPath = 256;
 /// Cycles that a path is kept without being used.
 constexpr std::uint64_t kKeptCycles = 64;
-constexpr std::size_t kSmallTable = 1024;
+/// Cells that are kept without being looked through.
+constexpr std::size_t kSmallTable = 256;
 /// A region that has grown to more than twice its size and this many cells is made anew.
 constexpr std::size_t kSmallRegion = 64;
 
@@ -106,6 +107,16 @@ class MinimaVerdicts::Stage {
     }
   }
 
+  /// The next ones, until there are as many niches as wanted.
+  void decideSeeds() {
+    std::size_t niches = 0;
+    for (; memory_.next_ < seed_count_ && niches < request_.most_niches; ++memory_.next_) {
+      const std::uint32_t i = memory_.next_;
+      if (memory_.judged_[i].verdict == Verdict::Open) decide(i);
+      niches += memory_.judged_[i].verdict == Verdict::Niche ? 1 : 0;
+    }
+  }
+
   void decide(std::uint32_t i) {
     const MinimumSeed seed = memory_.judged_[i].seed;
     deepest_ = deepestLike(i);
@@ -117,7 +128,7 @@ class MinimaVerdicts::Stage {
     if (i > 0 && i < seed_count_ && isSamePlace(memory_.judged_[i - 1].seed, seed))
       return set(i, Verdict::Ripple, i - 1);
     if (followsDown(i, number)) return;
-    if (request_.is_wanted && !request_.is_wanted(seed, memory_.cells_[number].note)) {
+    if (request_.is_wanted && !request_.is_wanted(seed, memory_.cells_[number].occluder)) {
       return set(i, Verdict::Unwanted);
     }
     const std::uint32_t known = regionOf(number, i);
@@ -131,7 +142,7 @@ class MinimaVerdicts::Stage {
       id = memory_.regions_[known].id;
       memory_.regions_[known].confirmed = limit_.isOver();
       if (limit_.isOver()) return set(i, Verdict::Undecided);
-      drop(known);
+      memory_.drop(known);
     }
     flood(i, number, id);
   }
@@ -143,61 +154,6 @@ class MinimaVerdicts::Stage {
       const std::uint32_t into = memory_.judged_[i].into;
       if (into != kNone && memory_.judged_[into].verdict == Verdict::Open) decide(into);
       i = into;
-    }
-  }
-
-  void dropUnconfirmed() {
-    for (std::uint32_t i = 0; i < memory_.regions_.size(); ++i) {
-      if (memory_.regions_[i].id != 0 && !memory_.regions_[i].confirmed) drop(i);
-    }
-  }
-
-  /// Cells of which nothing is known any more go.
-  void compact() {
-    if (memory_.cells_.size() <= 2 * memory_.live_cells_ + kSmallTable) return;
-    std::vector<char>& live = memory_.live_;
-    refill(live, memory_.cells_.size(), char{0});
-    const auto isUsed = [&](std::uint32_t link) {
-      return link != kNone && memory_.links_[link].used + kKeptCycles > memory_.cycle_;
-    };
-    for (std::size_t i = 0; i < memory_.cells_.size(); ++i) {
-      const Cell& cell = memory_.cells_[i];
-      if (cell.regions != kNone || isUsed(cell.low)) live[i] = 1;
-      if (isUsed(cell.link)) live[i] = live[memory_.links_[cell.link].next] = 1;
-    }
-    std::vector<std::uint32_t>& places = memory_.places_;
-    refill(places, memory_.cells_.size(), kNone);
-    memory_.table_.clear();
-    std::uint32_t count = 0;
-    for (std::size_t i = 0; i < memory_.cells_.size(); ++i) {
-      if (live[i] == 0) continue;
-      places[i] = count;
-      memory_.cells_[count] = memory_.cells_[i];
-      memory_.table_.insert(memory_.cells_[count].a, memory_.cells_[count].b, count);
-      ++count;
-    }
-    memory_.cells_.resize(count);
-    memory_.live_cells_ = count;
-    std::vector<Link>& links = memory_.spare_links_;
-    links.clear();
-    const auto keep = [&](std::uint32_t& link) {
-      if (!isUsed(link)) {
-        link = kNone;
-        return;
-      }
-      links.push_back(memory_.links_[link]);
-      links.back().next = places[links.back().next];
-      link = static_cast<std::uint32_t>(links.size() - 1);
-    };
-    for (Cell& cell : memory_.cells_) {
-      keep(cell.link);
-      keep(cell.low);
-    }
-    memory_.links_.swap(links);
-    for (const Region& region : memory_.regions_) {
-      for (std::uint32_t m = region.members; m != kNone; m = memory_.memberships_[m].next_of_region) {
-        memory_.memberships_[m].cell = places[memory_.memberships_[m].cell];
-      }
     }
   }
 
@@ -504,7 +460,7 @@ class MinimaVerdicts::Stage {
         triangleDistance(scene_.cornersOfA(seed.a), scene_.cornersOfB(seed.b));
     region.border.begin(memory_.borders_, closest.point_a, scene_.frames.pointInB(closest.point_b));
     memory_.judged_[i].region = region.id;
-    if (!extend(index)) drop(index);
+    if (!extend(index)) memory_.drop(index);
   }
 
   /// By what the last flood has visited. False without memory.
@@ -541,25 +497,6 @@ class MinimaVerdicts::Stage {
     return true;
   }
 
-  void drop(std::uint32_t index) {
-    Region& region = memory_.regions_[index];
-    for (std::uint32_t m = region.members; m != kNone;) {
-      Membership& membership = memory_.memberships_[m];
-      std::uint32_t* at = &memory_.cells_[membership.cell].regions;
-      while (*at != m) at = &memory_.memberships_[*at].next;
-      *at = membership.next;
-      const std::uint32_t next = membership.next_of_region;
-      membership.next = memory_.free_membership_;
-      memory_.free_membership_ = m;
-      m = next;
-    }
-    region.members = kNone;
-    region.cells = 0;
-    region.border.clear(memory_.borders_);
-    region.id = 0;
-    memory_.free_regions_.push_back(index);
-  }
-
   MinimaVerdicts& memory_;
   const MinimaScene& scene_;
   const Request& request_;
@@ -586,6 +523,12 @@ void MinimaVerdicts::clear() {
 
 void MinimaVerdicts::judge(const MinimaScene& scene, std::vector<MinimumSeed>& seeds, const Request& request,
                            WorkLimit& limit) {
+  dropUnconfirmed();
+  compact();
+  if (request.is_tracked) {
+    cells_.reserve(kSmallTable);
+    links_.reserve(kSmallTable);
+  }
   ++cycle_;
   counts_ = {};
   judged_.clear();
@@ -597,15 +540,94 @@ void MinimaVerdicts::judge(const MinimaScene& scene, std::vector<MinimumSeed>& s
   Stage stage(*this, scene, request, limit);
   stage.enter(seeds);
   is_far_ = isFar(scene, request.least_prominence);
+  next_ = 0;
   if (is_far_) {
     stage.decideFar();
+    next_ = seed_count_;
   } else {
-    for (std::uint32_t i = 0; i < judged_.size(); ++i) {
-      if (judged_[i].verdict == Verdict::Open) stage.decide(i);
+    stage.decideSeeds();
+  }
+}
+
+void MinimaVerdicts::judgeMore(const MinimaScene& scene, const Request& request, WorkLimit& limit) {
+  Stage stage(*this, scene, request, limit);
+  stage.resume();
+  stage.decideSeeds();
+}
+
+void MinimaVerdicts::dropUnconfirmed() {
+  for (std::uint32_t i = 0; i < regions_.size(); ++i) {
+    if (regions_[i].id != 0 && !regions_[i].confirmed) drop(i);
+  }
+}
+
+void MinimaVerdicts::drop(std::uint32_t index) {
+  Region& region = regions_[index];
+  for (std::uint32_t m = region.members; m != kNone;) {
+    Membership& membership = memberships_[m];
+    std::uint32_t* at = &cells_[membership.cell].regions;
+    while (*at != m) at = &memberships_[*at].next;
+    *at = membership.next;
+    const std::uint32_t next = membership.next_of_region;
+    membership.next = free_membership_;
+    free_membership_ = m;
+    m = next;
+  }
+  region.members = kNone;
+  region.cells = 0;
+  region.border.clear(borders_);
+  region.id = 0;
+  free_regions_.push_back(index);
+}
+
+/// Cells of which nothing is known any more go.
+void MinimaVerdicts::compact() {
+  if (cells_.size() <= 2 * live_cells_ + kSmallTable) return;
+  std::vector<char>& live = live_;
+  refill(live, cells_.size(), char{0});
+  const auto isUsed = [&](std::uint32_t link) {
+    return link != kNone && links_[link].used + kKeptCycles > cycle_;
+  };
+  for (std::size_t i = 0; i < cells_.size(); ++i) {
+    const Cell& cell = cells_[i];
+    const bool is_hidden = cell.cycle == cycle_ && cell.occluder.triangle != kNoTriangle;
+    if (is_hidden || cell.regions != kNone || isUsed(cell.low)) live[i] = 1;
+    if (isUsed(cell.link)) live[i] = live[links_[cell.link].next] = 1;
+  }
+  std::vector<std::uint32_t>& places = places_;
+  refill(places, cells_.size(), kNone);
+  table_.clear();
+  std::uint32_t count = 0;
+  for (std::size_t i = 0; i < cells_.size(); ++i) {
+    if (live[i] == 0) continue;
+    places[i] = count;
+    cells_[count] = cells_[i];
+    table_.insert(cells_[count].a, cells_[count].b, count);
+    ++count;
+  }
+  cells_.resize(count);
+  live_cells_ = count;
+  std::vector<Link>& links = spare_links_;
+  links.clear();
+  const auto keep = [&](std::uint32_t& link) {
+    if (!isUsed(link)) {
+      link = kNone;
+      return;
+    }
+    links.push_back(links_[link]);
+    links.back().next = places[links.back().next];
+    link = static_cast<std::uint32_t>(links.size() - 1);
+  };
+  for (Cell& cell : cells_) {
+    keep(cell.link);
+    keep(cell.low);
+  }
+  links_.swap(links);
+  for (const Region& region : regions_) {
+    for (std::uint32_t m = region.members; m != kNone; m = memberships_[m].next_of_region) {
+      memberships_[m].cell = places[memberships_[m].cell];
     }
   }
-  stage.dropUnconfirmed();
-  stage.compact();
 }
 
 std::uint32_t MinimaVerdicts::locate(const MinimaScene& scene, const TrianglePair& around,

@@ -8,6 +8,7 @@
 #include "cell_border.h"
 #include "cell_flood.h"
 #include "level_path.h"
+#include "niche_properties.h"
 
 namespace concave_distance::detail {
 
@@ -22,7 +23,7 @@ class MinimaVerdicts {
     Niche,      ///< nothing deeper is reached below (1 + least prominence) times its distance
     Ripple,     ///< something deeper is, or the same set of minima has another seed
     Undecided,  ///< the limit was reached
-    Unwanted    ///< neither a known ripple nor wanted
+    Unwanted    ///< neither a known ripple nor wanted, or after as many niches as are wanted
   };
   struct Judged {
     MinimumSeed seed;
@@ -42,20 +43,25 @@ class MinimaVerdicts {
   };
   struct Request {
     double least_prominence = 1e-2;
+    std::size_t most_niches = std::numeric_limits<std::size_t>::max();
     /// Niches through material are wanted; else nothing is judged that begins there.
     bool through_material = false;
     bool is_tracked = true;  ///< what proves a verdict is kept for the next pose
-    /// Whether a seed that is no known ripple is wanted; empty: all are. The number is kept with the seed's
-    /// triangle pair, 0 at first.
-    std::function<bool(const MinimumSeed&, std::uint32_t&)> is_wanted;
+    /// Whether a seed that is no known ripple is wanted; empty: all are. The occluder is kept with the seed's
+    /// triangle pair.
+    std::function<bool(const MinimumSeed&, Occluder&)> is_wanted;
   };
 
   void clear();
 
-  /// Judges all seeds, which are put in ascending order: the results stand in the same, and after them places
-  /// that only floods have found.
+  /// Judges seeds, which are put in ascending order, until there are Request::most_niches: the results stand
+  /// in the same order, and after them places that only floods have found.
   void judge(const MinimaScene& scene, std::vector<MinimumSeed>& seeds, const Request& request,
              WorkLimit& limit);
+
+  bool hasJudgedAll() const { return next_ >= seed_count_; }
+  /// Goes on with the seeds at the pose of the last judge(), until there are Request::most_niches more.
+  void judgeMore(const MinimaScene& scene, const Request& request, WorkLimit& limit);
 
   /// At the pose of the last judge(): the niche of the local minimum around a triangle pair, as an index of
   /// judged(); kNone when that is none of them. A place that is a niche of its own is judged and added.
@@ -70,6 +76,9 @@ class MinimaVerdicts {
 
  private:
   class Stage;
+  void dropUnconfirmed();
+  void drop(std::uint32_t region);
+  void compact();
   std::uint32_t nicheOf(std::uint32_t index) const;
 
   /// A triangle pair that something is known of.
@@ -80,7 +89,7 @@ class MinimaVerdicts {
     std::uint32_t low = kNone;      ///< of links_: a point pair in it
     std::uint32_t regions = kNone;  ///< first of its memberships
     std::uint32_t seed = kNone;     ///< of this cycle, if `cycle` is this one
-    std::uint32_t note = 0;         ///< of Request::is_wanted
+    Occluder occluder;
     std::uint64_t cycle = 0;
   };
   /// A point of each body, own axes in the scene's centre, in a cell and in the next one.
@@ -128,6 +137,7 @@ class MinimaVerdicts {
   std::vector<Judged> judged_;
   PairTable deepest_{4};          ///< first seed of each pair of pieces
   std::uint32_t seed_count_ = 0;  ///< of judged_, the rest was found
+  std::uint32_t next_ = 0;        ///< of the seeds, the first that is not judged
   bool floods_are_long_ = false;
   bool is_far_ = false;
   Counts counts_;

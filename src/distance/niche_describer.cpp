@@ -12,16 +12,16 @@ namespace {
 /// No plateau seen comes near it; the flood has united the whole set before.
 constexpr std::size_t kExtentPairLimit = 100'000;
 
-/// Whether every minimum that the cones lead to leaves both bodies outwards.
-bool areAllOutward(const MinimaScene& scene, const LocalMinimaRequest& request) {
-  return !request.through_material && request.given == nullptr && scene.a.topology().allShellsClosed() &&
-         scene.b.topology().allShellsClosed();
-}
-
 }  // namespace
 
+void NicheDescriber::begin(const MinimaScene& scene, const LocalMinimaRequest& request) {
+  all_outward_ = !request.through_material && request.given == nullptr &&
+                 scene.a.topology().allShellsClosed() && scene.b.topology().allShellsClosed();
+}
+
 bool NicheDescriber::describe(const MinimaScene& scene, const LocalMinimaRequest& request,
-                              const MinimumSeed& minimum, LocalMinimum& niche, WorkLimit& limit) {
+                              const MinimumSeed& minimum, bool is_seen, LocalMinimum& niche,
+                              WorkLimit& limit) {
   const BodyMesh& a = scene.a;
   const BodyMesh& b = scene.b;
   niche.witness = minimum.is_measured
@@ -33,14 +33,14 @@ bool NicheDescriber::describe(const MinimaScene& scene, const LocalMinimaRequest
     return true;
   }
   if (niche.distance > request.cutoff) return false;
-  if (!areAllOutward(scene, request)) {
+  if (!all_outward_) {
     niche.outward = classifyOutwardness(a, b, scene.a_from_b, niche.witness);
     if (niche.outward == Outwardness::ThroughMaterial && !request.through_material) return false;
   }
   if (!minimum.is_point) measure(scene, niche, limit);
   // Bodies that overlap can be opposite to each other inside another shell of one of them.
   const bool may_overlap = !(request.certain_distance > 16.0 * scene.rounding);
-  niche.visible = isVisible(a, b, scene.a_from_b, niche.witness) &&
+  niche.visible = (is_seen || isVisible(a, b, scene.a_from_b, niche.witness)) &&
                   !(may_overlap && isInsideMaterial(scene, niche.witness));
   return niche.visible || request.hidden;
 }

@@ -68,15 +68,27 @@ Outwardness classifyOutwardness(const BodyMesh& a, const BodyMesh& b, const Eige
 }
 
 bool isVisible(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
-               const WitnessPair& witness) {
+               const WitnessPair& witness, Occluder& occluder) {
   constexpr double kMargin = 1e-12;
-  const auto is_free = [](const BodyMesh& body, const Vector3d& from, const Vector3d& to) {
-    const double size = body.diameter() + std::max(from.cwiseAbs().maxCoeff(), to.cwiseAbs().maxCoeff());
-    return !segmentHits(body.tree(), body.surface(), from, to, kMargin * size);
-  };
   const Eigen::Isometry3d b_from_a = a_from_b.inverse(Eigen::Isometry);
-  return is_free(a, witness.point_a_in_a, witness.point_b_in_a) &&
-         is_free(b, b_from_a * witness.point_a_in_a, b_from_a * witness.point_b_in_a);
+  const auto is_free = [&](Side side) {
+    const BodyMesh& body = side == Side::A ? a : b;
+    const Vector3d from = side == Side::A ? witness.point_a_in_a : b_from_a * witness.point_a_in_a;
+    const Vector3d to = side == Side::A ? witness.point_b_in_a : b_from_a * witness.point_b_in_a;
+    const double size = body.diameter() + std::max(from.cwiseAbs().maxCoeff(), to.cwiseAbs().maxCoeff());
+    const TriangleIndex first = occluder.side == side ? occluder.triangle : kNoTriangle;
+    const TriangleIndex hit = findHit(body.tree(), body.surface(), from, to, kMargin * size, first);
+    if (hit != kNoTriangle) occluder = {side, hit};
+    return hit == kNoTriangle;
+  };
+  const Side before = occluder.side;
+  return is_free(before) && is_free(before == Side::A ? Side::B : Side::A);
+}
+
+bool isVisible(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
+               const WitnessPair& witness) {
+  Occluder unknown;
+  return isVisible(a, b, a_from_b, witness, unknown);
 }
 
 }  // namespace concave_distance

@@ -4,8 +4,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/side.h"
 #include "concave_distance/base/work_limit.h"
 #include "concave_distance/distance/niche_kind.h"
+#include "mesh/surface/mesh_topology.h"
 #include "witness_refinement.h"
 
 namespace concave_distance {
@@ -79,5 +81,14 @@ Outwardness classifyOutwardness(const BodyMesh& a, const BodyMesh& b, const Eige
 /// the bodies' size at its ends. O(log n) where nothing is near.
 bool isVisible(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
                const WitnessPair& witness);
+
+/// A triangle that was between witness points at an earlier pose.
+struct Occluder {
+  Side side = Side::A;
+  TriangleIndex triangle = kNoTriangle;
+};
+/// The same; the occluder is looked at first, and is what was found.
+bool isVisible(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
+               const WitnessPair& witness, Occluder& occluder);
 
 }  // namespace concave_distance

@@ -26,6 +26,8 @@ void NicheSearch::prepare(const PairGeometry& geometry, const TrackerParameters&
   // So large that a warm cycle does not have to grow them; a cold one may.
   workspace_.reserve(kUsualMinima);
   found_.reserve(kUsualMinima);
+  inherited_.reserve(kUsualMinima);
+  scratch_.reserve(kUsualMinima);
   cold_radii_ = automaticRadii(*geometry.a, *geometry.b, parameters.cold);
   warm_radii_ = automaticRadii(*geometry.a, *geometry.b, parameters.warm);
 }

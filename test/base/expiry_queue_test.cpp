@@ -9,50 +9,88 @@
 namespace concave_distance {
 namespace {
 
-struct Entry {
-  std::uint64_t expiry;
-  std::uint32_t next;
-};
-
-TEST(ExpiryQueue, TakesOutWhatTheClockHasReachedAndNothingElse) {
+TEST(ExpiryQueues, TakeOutWhatTheirClockHasReachedAndNothingElse) {
+  constexpr std::uint32_t kClocks = 3;
+  struct Inserted {
+    std::uint32_t clock;
+    std::uint64_t expiry;
+    bool is_in;
+  };
   RandomEngine engine(5);
-  std::vector<Entry> pool;
-  std::vector<bool> is_in;
-  ExpiryQueue<Entry> queue;
-  std::uint64_t clock = 0;
-  for (int round = 0; round < 2000; ++round) {
+  WorkLimit none;
+  ExpiryQueues<std::uint64_t> queues;
+  queues.begin(kClocks);
+  std::vector<Inserted> all;
+  std::uint64_t now[kClocks] = {};
+  for (int round = 0; round < 3000; ++round) {
+    const std::uint32_t clock = uniformIndex(engine, kClocks);
     for (int k = 0; k < 5; ++k) {
-      const std::uint64_t ahead = std::uint64_t{1} << uniformIndex(engine, 40);
-      pool.push_back(
-          {clock + 1 +
-               uniformIndex(engine, static_cast<std::uint32_t>(std::min<std::uint64_t>(ahead, 1U << 31U))),
-           0});
-      is_in.push_back(true);
-      queue.insert(pool, static_cast<std::uint32_t>(pool.size() - 1));
+      const std::uint64_t ahead = std::uint64_t{1} << uniformIndex(engine, 32);
+      const std::uint64_t expiry = now[clock] + 1 + uniformIndex(engine, static_cast<std::uint32_t>(ahead));
+      ASSERT_TRUE(queues.insert(clock, expiry, all.size(), none));
+      all.push_back({clock, expiry, true});
     }
-    clock += uniformIndex(engine, std::uint32_t{1} << uniformIndex(engine, 24));
-    queue.advance(pool, clock, [&](std::uint32_t index) {
-      EXPECT_TRUE(is_in[index]);
-      EXPECT_LE(pool[index].expiry, clock);
-      is_in[index] = false;
-    });
-    EXPECT_EQ(queue.clock(), clock);
-    for (std::size_t i = 0; i < pool.size(); ++i) ASSERT_EQ(is_in[i], pool[i].expiry > clock) << i;
+    now[clock] += uniformIndex(engine, std::uint32_t{1} << uniformIndex(engine, 24));
+    queues.advance(
+        clock, now[clock],
+        [&](std::uint64_t key) {
+          EXPECT_TRUE(all[key].is_in);
+          EXPECT_EQ(all[key].clock, clock);
+          all[key].is_in = false;
+        },
+        none);
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      ASSERT_EQ(all[i].is_in, all[i].expiry > now[all[i].clock]) << i;
+      count += all[i].is_in ? 1 : 0;
+    }
+    ASSERT_EQ(queues.size(), count);
   }
+  std::vector<bool> seen(all.size(), false);
+  queues.forEach([&](std::uint64_t key) {
+    EXPECT_FALSE(seen[key]);
+    seen[key] = true;
+  });
+  for (std::size_t i = 0; i < all.size(); ++i) EXPECT_EQ(seen[i], all[i].is_in);
 }
 
-TEST(ExpiryQueue, KeepsTheLargestExpiryAndForgetsAllWhenCleared) {
-  std::vector<Entry> pool{{~std::uint64_t{0}, 0}, {1, 0}};
-  ExpiryQueue<Entry> queue;
-  queue.insert(pool, 0);
-  queue.insert(pool, 1);
-  std::vector<std::uint32_t> expired;
-  const auto take = [&](std::uint32_t index) { expired.push_back(index); };
-  queue.advance(pool, std::uint64_t{1} << 62U, take);
-  EXPECT_EQ(expired, std::vector<std::uint32_t>{1});
-  queue.clear();
-  queue.advance(pool, ~std::uint64_t{0}, take);
+TEST(ExpiryQueues, KeepTheLargestExpiryAndForgetAllWhenBegunAnew) {
+  WorkLimit none;
+  ExpiryQueues<std::uint64_t> queues;
+  queues.begin(1);
+  queues.insert(0, ~std::uint64_t{0}, 10, none);
+  queues.insert(0, 1, 11, none);
+  std::vector<std::uint64_t> expired;
+  const auto take = [&](std::uint64_t key) { expired.push_back(key); };
+  queues.advance(0, std::uint64_t{1} << 62U, take, none);
+  EXPECT_EQ(expired, std::vector<std::uint64_t>{11});
+  queues.begin(1);
+  queues.advance(0, ~std::uint64_t{0}, take, none);
   EXPECT_EQ(expired.size(), 1U);
+}
+
+TEST(ExpiryQueues, WithoutMemoryTakeOutTooMuchRatherThanTooLittle) {
+  ExpiryQueues<std::uint64_t> queues;
+  queues.begin(1);
+  WorkLimit limit(WorkLimit::Clock::now(), 1e12, 4096, nullptr);
+  std::vector<std::uint64_t> expiries;
+  RandomEngine engine(6);
+  while (true) {
+    const std::uint64_t expiry = 1 + uniformIndex(engine, 1U << 31U);
+    if (!queues.insert(0, expiry, expiries.size(), limit)) break;
+    expiries.push_back(expiry);
+  }
+  EXPECT_TRUE(limit.hasRefusedMemory());
+  std::vector<bool> is_out(expiries.size(), false);
+  for (std::uint64_t now = 0; now < (std::uint64_t{1} << 31U); now += std::uint64_t{1} << 26U) {
+    queues.advance(
+        0, now, [&](std::uint64_t key) { is_out[key] = true; }, limit);
+    for (std::size_t i = 0; i < expiries.size(); ++i) {
+      if (expiries[i] <= now) {
+        EXPECT_TRUE(is_out[i]);
+      }
+    }
+  }
 }
 
 }  // namespace

@@ -142,7 +142,7 @@ TEST(MinimaVerdicts, FloodNothingThatIsNotWanted) {
   std::vector<MinimumSeed> seeds = seedsAt(scene);
   MinimaVerdicts verdicts;
   MinimaVerdicts::Request request;
-  request.is_wanted = [](const MinimumSeed&, std::uint32_t&) { return false; };
+  request.is_wanted = [](const MinimumSeed&, Occluder&) { return false; };
   WorkLimit none;
   verdicts.judge(scene, seeds, request, none);
   EXPECT_EQ(verdicts.counts().floods, 0U);

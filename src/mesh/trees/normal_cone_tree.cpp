@@ -13,13 +13,16 @@ namespace {
 
 using Eigen::Vector3d;
 using Item = NormalConeTree::Item;
-using Node = NormalConeTree::Node;
+using Group = NormalConeTree::Group;
 
 /// Half splits that put nearly everything on one side are redone by count, so that the depth stays bounded.
 constexpr std::uint32_t kMostUneven = 16;
 /// A turn of the normals by one radian counts like this fraction of the body's diameter: what directions to
 /// a point as far away change by over that length.
 constexpr double kDiametersPerRadian = 0.15;
+
+/// Bodies with few items have few regions.
+constexpr std::size_t kLeastItemsOfRegion = 16;
 
 /// Smaller bodies are compared in this unit: its reciprocal must not overflow.
 constexpr int kLeastExponent = -1000;
@@ -36,22 +39,20 @@ constexpr double kFloatMargin = 0x1.0p-21;
 
 class ConeTreeBuilder {
  public:
-  ConeTreeBuilder(std::vector<Item>& items, std::vector<Node>& nodes, const Vector3d& origin, double unit,
+  ConeTreeBuilder(std::vector<Item>& items, std::vector<Group>& groups, const Vector3d& origin, double unit,
                   double diameter)
       : items_(items),
-        nodes_(nodes),
+        groups_(groups),
         origin_(origin),
         unit_(unit),
         length_of_radian_(kDiametersPerRadian * diameter) {}
 
   void build() {
     const auto count = static_cast<std::uint32_t>(items_.size());
-    nodes_.emplace_back();
-    const std::uint32_t child = count == 1 ? NormalConeTree::kItemFlag : buildNode({0, count});
-    Node root{};
-    setLane(root, 0, bound({0, count}), child);
-    repeatLast(root, 1);
-    nodes_[0] = root;
+    groups_.resize(NormalConeTree::kWidth);
+    const std::uint32_t child = count == 1 ? NormalConeTree::kItemFlag : buildParts({0, count});
+    groups_[0] = groupOf(bound({0, count}), child);
+    repeatLast(0, 1);
   }
 
  private:
@@ -61,10 +62,10 @@ class ConeTreeBuilder {
     std::uint32_t count() const { return last - first; }
   };
 
-  /// A node over two items or more; returns where it stands.
-  std::uint32_t buildNode(Range range) {
-    const auto self = static_cast<std::uint32_t>(nodes_.size());
-    nodes_.emplace_back();
+  /// Of two items or more; returns the first one's slot.
+  std::uint32_t buildParts(Range range) {
+    const auto first = static_cast<std::uint32_t>(groups_.size());
+    groups_.resize(groups_.size() + NormalConeTree::kWidth);
     std::array<Range, NormalConeTree::kWidth> parts{range};
     std::size_t count = 1;
     while (count < parts.size()) {
@@ -76,48 +77,41 @@ class ConeTreeBuilder {
       parts[count++] = {middle, largest->last};
       largest->last = middle;
     }
-    Node node{};
-    for (std::size_t lane = 0; lane < count; ++lane) {
-      const Range& part = parts[lane];
+    for (std::size_t k = 0; k < count; ++k) {
+      const Range& part = parts[k];
       const std::uint32_t child =
-          part.count() == 1 ? part.first | NormalConeTree::kItemFlag : buildNode(part);
-      setLane(node, lane, bound(part), child);
+          part.count() == 1 ? part.first | NormalConeTree::kItemFlag : buildParts(part);
+      groups_[first + k] = groupOf(bound(part), child);
     }
-    repeatLast(node, count);
-    nodes_[self] = node;
-    return self;
+    repeatLast(first, count);
+    return first;
   }
 
-  void setLane(Node& node, std::size_t lane, const Bound& bound, std::uint32_t child) const {
+  Group groupOf(const Bound& bound, std::uint32_t child) const {
     const Vector3d centre = (bound.centre - origin_) / unit_;
     double missed = 0.0;
+    Group group{};
     for (std::size_t k = 0; k < 3; ++k) {
       const auto axis = static_cast<Eigen::Index>(k);
-      node.centre[k][lane] = static_cast<float>(centre[axis]);
-      missed += std::abs(centre[axis] - static_cast<double>(node.centre[k][lane]));
-      node.axis[k][lane] = static_cast<float>(bound.cap.axis[axis]);
+      group.centre[k] = static_cast<float>(centre[axis]);
+      missed += std::abs(centre[axis] - static_cast<double>(group.centre[k]));
+      group.axis[k] = static_cast<float>(bound.cap.axis[axis]);
     }
-    node.radius[lane] = static_cast<float>((bound.radius / unit_ + missed) * (1.0 + kFloatMargin));
+    group.radius = static_cast<float>((bound.radius / unit_ + missed) * (1.0 + kFloatMargin));
     const double angle = bound.cap.isFull()
                              ? M_PI
                              : std::min(M_PI, std::atan2(bound.cap.sine, bound.cap.cosine) + kFloatMargin);
-    node.angle[lane] = static_cast<float>(angle);
-    node.cosine[lane] = static_cast<float>(std::cos(angle));
-    node.sine[lane] = static_cast<float>(std::sin(angle));
-    node.child[lane] = child;
+    group.angle = static_cast<float>(angle);
+    group.cosine = static_cast<float>(std::cos(angle));
+    group.sine = static_cast<float>(std::sin(angle));
+    group.child = child;
+    return group;
   }
 
-  static void repeatLast(Node& node, std::size_t count) {
-    for (std::size_t lane = count; lane < NormalConeTree::kWidth; ++lane) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        node.centre[k][lane] = node.centre[k][count - 1];
-        node.axis[k][lane] = node.axis[k][count - 1];
-      }
-      node.radius[lane] = node.radius[count - 1];
-      node.angle[lane] = node.angle[count - 1];
-      node.cosine[lane] = node.cosine[count - 1];
-      node.sine[lane] = node.sine[count - 1];
-      node.child[lane] = NormalConeTree::kNoChild;
+  void repeatLast(std::size_t first, std::size_t count) {
+    for (std::size_t k = count; k < NormalConeTree::kWidth; ++k) {
+      groups_[first + k] = groups_[first + count - 1];
+      groups_[first + k].child = NormalConeTree::kNoChild;
     }
   }
 
@@ -177,7 +171,7 @@ class ConeTreeBuilder {
   }
 
   std::vector<Item>& items_;
-  std::vector<Node>& nodes_;
+  std::vector<Group>& groups_;
   Vector3d origin_;
   double unit_;
   double length_of_radian_;
@@ -193,25 +187,25 @@ NormalConeTree::NormalConeTree(const SurfaceMesh& mesh, const MeshTopology& topo
   origin_ = mesh.boundingBox().center();
   const int exponent = mesh.diameter() > 0.0 ? std::ilogb(mesh.diameter()) : 0;
   unit_ = std::ldexp(1.0, std::max(exponent, kLeastExponent));
-  nodes_.reserve(items_.size() / 2);
-  ConeTreeBuilder(items_, nodes_, origin_, unit_, mesh.diameter()).build();
-  nodes_.shrink_to_fit();
+  groups_.reserve(2 * items_.size());
+  ConeTreeBuilder(items_, groups_, origin_, unit_, mesh.diameter()).build();
+  groups_.shrink_to_fit();
   chooseRegions();
 }
 
 Eigen::Vector3d NormalConeTree::centreOf(Slot slot) const {
-  const Node& node = nodes_[slot / kWidth];
-  const std::size_t lane = slot % kWidth;
-  return unit_ * Vector3d(node.centre[0][lane], node.centre[1][lane], node.centre[2][lane]);
+  const Group& group = groups_[slot];
+  return unit_ * Vector3d(group.centre[0], group.centre[1], group.centre[2]);
 }
 
 void NormalConeTree::chooseRegions() {
   // The largest spheres are opened until there are enough.
-  const auto radius = [this](Slot slot) { return nodes_[slot / kWidth].radius[slot % kWidth]; };
+  const auto radius = [this](Slot slot) { return groups_[slot].radius; };
+  const std::size_t most = std::min(kMostRegions, 1 + items_.size() / kLeastItemsOfRegion);
   const auto isItem = [this](Slot slot) { return (child(slot) & kItemFlag) != 0; };
   std::vector<Slot> tops{kRoot};
   std::vector<Slot> opened;
-  while (tops.size() + kWidth - 1 <= kMostRegions) {
+  while (tops.size() + kWidth - 1 <= most) {
     const auto largest = std::max_element(tops.begin(), tops.end(), [&](Slot l, Slot r) {
       return isItem(l) != isItem(r) ? isItem(l) : radius(l) < radius(r);
     });
@@ -219,15 +213,13 @@ void NormalConeTree::chooseRegions() {
     const Slot slot = *largest;
     tops.erase(largest);
     opened.push_back(slot);
-    for (std::uint32_t lane = 0; lane < kWidth; ++lane) {
-      const Slot below = child(slot) * static_cast<Slot>(kWidth) + lane;
+    for (Slot below = child(slot); below < child(slot) + kWidth; ++below) {
       if (child(below) != kNoChild) tops.push_back(below);
     }
   }
-  region_of_slot_.assign(nodes_.size() * kWidth, 0);
   const double rounding = kFloatMargin * unit_;
   const auto put = [&](Slot slot, std::size_t region) {
-    region_of_slot_[slot] = static_cast<std::uint8_t>(region);
+    groups_[slot].region = static_cast<std::uint32_t>(region);
     regions_[region].arm =
         std::max(regions_[region].arm, (centreOf(slot) - regions_[region].centre).norm() + 4.0 * rounding);
   };
@@ -241,8 +233,7 @@ void NormalConeTree::chooseRegions() {
       open.pop_back();
       put(slot, region);
       if (isItem(slot)) continue;
-      for (std::uint32_t lane = 0; lane < kWidth; ++lane) {
-        const Slot below = child(slot) * static_cast<Slot>(kWidth) + lane;
+      for (Slot below = child(slot); below < child(slot) + kWidth; ++below) {
         if (child(below) != kNoChild) open.push_back(below);
       }
     }

@@ -27,8 +27,8 @@ enum class NormalSides : std::uint8_t { Outside, Both };
 /// near a point p of the feature. Only towards such a direction can p be the closest point of its
 /// surroundings. A reflex edge seen from outside has none and is left out; the edge of an open border has a
 /// half disc. Conservative: cones are widened by 1e-9 and by what the normals of thin triangles are
-/// uncertain. Four children to a node, compared in one go. Body frame, metres; built in O(n log n), about 3 n
-/// items of 88 bytes and n nodes of 180 bytes for n triangles.
+/// uncertain. Body frame, metres; built in O(n log n), about 3 n items of 88 bytes and 4 n groups of 48 bytes
+/// for n triangles.
 class NormalConeTree {
  public:
   enum class Kind : std::uint8_t { Vertex, Edge, Face };
@@ -43,43 +43,46 @@ class NormalConeTree {
   static constexpr std::size_t kWidth = 4;
   static constexpr std::uint32_t kNoChild = 0xffffffffU;
   static constexpr std::uint32_t kItemFlag = 0x80000000U;
-  /// Spheres and caps of up to four children, lane by lane, in single precision: widened by its rounding,
-  /// lengths in units of unit() from origin(). Unused lanes hold kNoChild and repeat the last one.
-  struct alignas(16) Node {
-    float centre[3][kWidth];  ///< [coordinate][lane]
-    float radius[kWidth];
-    float axis[3][kWidth];
-    float angle[kWidth];  ///< radians
-    float cosine[kWidth];
-    float sine[kWidth];
-    std::uint32_t child[kWidth];  ///< of a node, or of an item with kItemFlag
-  };
-  /// Where a child stands: node * kWidth + lane.
+  /// Where a group stands.
   using Slot = std::uint32_t;
+  /// The sphere and the cap around some items, or one, in single precision: widened by its rounding, lengths
+  /// in units of unit() from origin().
+  struct alignas(16) Group {
+    float centre[3];
+    float radius;
+    float axis[3];
+    float angle;  ///< radians
+    float cosine;
+    float sine;
+    /// The slot of the first of its kWidth parts, or an item with kItemFlag. Parts that are left over repeat
+    /// the one before and have kNoChild.
+    std::uint32_t child;
+    std::uint32_t region;  ///< of regions()
+  };
   static constexpr Slot kRoot = 0;  ///< all items
-  /// A part of the tree. The centres of all its children, and the points of items without a radius, lie
+  /// A part of the tree. The centres of all its groups, and the points of items without a radius, lie
   /// within `arm` of `centre`, so that no centre moves farther than `centre` plus the turn (radians) times
   /// `arm`.
   struct Region {
     Eigen::Vector3d centre;  ///< metres from origin()
     double arm;              ///< metres
   };
-  static constexpr std::size_t kMostRegions = 32;
+  static constexpr std::size_t kMostRegions = 16;
 
   NormalConeTree() = default;
   /// @param hidden triangles that are no surface (ShellJoints::hidden), or empty
   NormalConeTree(const SurfaceMesh& mesh, const MeshTopology& topology, NormalSides sides,
                  const std::vector<bool>& hidden = {});
   bool empty() const { return items_.empty(); }
-  const std::vector<Node>& nodes() const { return nodes_; }
+  const std::vector<Group>& groups() const { return groups_; }
   const std::vector<Item>& items() const { return items_; }
   const Eigen::Vector3d& origin() const { return origin_; }  ///< centre of the surface's bounding box
   double unit() const { return unit_; }                      ///< metres, a power of two near the diameter
-  std::uint32_t child(Slot slot) const { return nodes_[slot / kWidth].child[slot % kWidth]; }
+  std::uint32_t child(Slot slot) const { return groups_[slot].child; }
   const std::vector<Region>& regions() const { return regions_; }
-  std::uint8_t regionOf(Slot slot) const { return region_of_slot_[slot]; }
+  std::uint32_t regionOf(Slot slot) const { return groups_[slot].region; }
   std::size_t memoryBytes() const {
-    return nodes_.capacity() * sizeof(Node) + items_.capacity() * sizeof(Item) + region_of_slot_.capacity();
+    return groups_.capacity() * sizeof(Group) + items_.capacity() * sizeof(Item);
   }
 
  private:
@@ -88,10 +91,9 @@ class NormalConeTree {
 
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
   double unit_ = 1.0;
-  std::vector<Node> nodes_;
+  std::vector<Group> groups_;
   std::vector<Item> items_;
   std::vector<Region> regions_;
-  std::vector<std::uint8_t> region_of_slot_;
 };
 
 }  // namespace concave_distance

@@ -38,6 +38,11 @@ class TriangleTree {
 bool segmentHits(const TriangleTree& tree, const SurfaceMesh& mesh, const Eigen::Vector3d& a,
                  const Eigen::Vector3d& b, double margin);
 
+/// A triangle that does, or kNoTriangle.
+/// @param first tried before the others, unless it is kNoTriangle
+TriangleIndex findHit(const TriangleTree& tree, const SurfaceMesh& mesh, const Eigen::Vector3d& a,
+                      const Eigen::Vector3d& b, double margin, TriangleIndex first);
+
 /// True when the point lies inside the closed shells of an outward-oriented mesh: signed crossings of three
 /// slanted rays, majority. Shells that are open count as nothing.
 bool containsPoint(const TriangleTree& tree, const SurfaceMesh& mesh,

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "mesh/surface/mesh_topology.h"
 #include "ray_crossing.h"
 
 namespace concave_distance {
@@ -62,14 +63,24 @@ bool segmentMeets(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
 
 bool segmentHits(const TriangleTree& tree, const SurfaceMesh& mesh, const Eigen::Vector3d& a,
                  const Eigen::Vector3d& b, double margin) {
+  return findHit(tree, mesh, a, b, margin, kNoTriangle) != kNoTriangle;
+}
+
+TriangleIndex findHit(const TriangleTree& tree, const SurfaceMesh& mesh, const Eigen::Vector3d& a,
+                      const Eigen::Vector3d& b, double margin, TriangleIndex first) {
   const double length = (b - a).norm();
-  if (!(length > 2.0 * margin)) return false;
+  if (!(length > 2.0 * margin)) return kNoTriangle;
   const Eigen::Vector3d offset = (b - a) * (margin / length);
   const Eigen::Vector3d from = a + offset;
   const Eigen::Vector3d to = b - offset;
-  return detail::visitLeaves(tree, detail::SlabTest(from, to - from, 1.0), [&](TriangleIndex t) {
-    return segmentMeets(from, to, detail::cornersOf(mesh, t));
+  if (first != kNoTriangle && segmentMeets(from, to, detail::cornersOf(mesh, first))) return first;
+  TriangleIndex found = kNoTriangle;
+  detail::visitLeaves(tree, detail::SlabTest(from, to - from, 1.0), [&](TriangleIndex t) {
+    if (!segmentMeets(from, to, detail::cornersOf(mesh, t))) return false;
+    found = t;
+    return true;
   });
+  return found;
 }
 
 bool containsPoint(const TriangleTree& tree, const SurfaceMesh& mesh,

@@ -41,21 +41,20 @@ bool leadsTo(const NormalConeTree& tree, const Vector3d& point, const Vector3d& 
   while (!open.empty()) {
     const NormalConeTree::Slot slot = open.back();
     open.pop_back();
-    const NormalConeTree::Node& node = tree.nodes()[slot / NormalConeTree::kWidth];
-    const std::size_t lane = slot % NormalConeTree::kWidth;
-    const Vector3d centre(node.centre[0][lane], node.centre[1][lane], node.centre[2][lane]);
-    const Vector3d axis(node.axis[0][lane], node.axis[1][lane], node.axis[2][lane]);
-    if ((in_units - centre).norm() > node.radius[lane] + slack / tree.unit()) continue;
-    if (node.angle[lane] < 3.1415F && axis.dot(direction) < std::cos(node.angle[lane]) - 1e-7) continue;
-    const std::uint32_t child = node.child[lane];
+    const NormalConeTree::Group& group = tree.groups()[slot];
+    const Vector3d centre(group.centre[0], group.centre[1], group.centre[2]);
+    const Vector3d axis(group.axis[0], group.axis[1], group.axis[2]);
+    if ((in_units - centre).norm() > group.radius + slack / tree.unit()) continue;
+    if (group.angle < 3.1415F && axis.dot(direction) < std::cos(group.angle) - 1e-7) continue;
+    const std::uint32_t child = group.child;
     if ((child & NormalConeTree::kItemFlag) != 0) {
       const NormalConeTree::Item& item = tree.items()[child & ~NormalConeTree::kItemFlag];
       if ((point - item.centre).norm() <= item.radius + slack && holds(item.cap, direction)) return true;
       continue;
     }
-    for (std::uint32_t k = 0; k < NormalConeTree::kWidth; ++k) {
-      if (tree.nodes()[child].child[k] == NormalConeTree::kNoChild) break;
-      open.push_back(child * static_cast<std::uint32_t>(NormalConeTree::kWidth) + k);
+    for (std::uint32_t part = child; part < child + NormalConeTree::kWidth; ++part) {
+      if (tree.child(part) == NormalConeTree::kNoChild) break;
+      open.push_back(part);
     }
   }
   return false;

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <algorithm>
+
+#include "feature_pairs.h"
+
+namespace concave_distance::detail {
+
+/// One body in its own axes, relative to its centre in the scene.
+struct FeaturePairs::Body {
+  Body(const MinimaScene& scene, Side of)
+      : side(of),
+        mesh(of == Side::A ? scene.a : scene.b),
+        centre(of == Side::A ? scene.frames.centre_a : scene.frames.centre_b),
+        frames(scene.frames) {}
+
+  Eigen::Vector3d vertex(NodeIndex node) const { return mesh.surface().vertex(node) - centre; }
+  Eigen::Vector3d corner(const Item& item, std::size_t k) const {
+    return mesh.surface().corner(item.triangle, static_cast<int>(k % 3)) - centre;
+  }
+  NodeIndex node(const Item& item, std::size_t k) const {
+    return mesh.surface().triangle(item.triangle)[k % 3];
+  }
+
+  /// A point of this body in the other's axes, and a direction of the other body in this one's.
+  Eigen::Vector3d inOther(const Eigen::Vector3d& point) const {
+    return side == Side::A ? frames.pointInB(point)
+                           : Eigen::Vector3d(frames.rotation * point + frames.offset);
+  }
+  Eigen::Vector3d directionFromOther(const Eigen::Vector3d& direction) const {
+    return side == Side::A ? Eigen::Vector3d(frames.rotation * direction)
+                           : Eigen::Vector3d(frames.rotation.transpose() * direction);
+  }
+
+  /// How far, at most, a neighbour of the vertex rises along `displacement`, per length of its edge; what is
+  /// within rounding does not count.
+  double rise(NodeIndex node, const Eigen::Vector3d& displacement, double slack) const {
+    const Eigen::Vector3d here = vertex(node);
+    const double reach = displacement.norm();
+    double most = 0.0;
+    for (const NodeIndex neighbour : mesh.topology().neighbours_of_vertex.row(node.value)) {
+      const Eigen::Vector3d edge = vertex(neighbour) - here;
+      const double length = edge.norm();
+      most = std::max(most, (displacement.dot(edge) - 2.0 * slack * std::max(length, reach)) / length);
+    }
+    return most;
+  }
+
+  Side side;
+  const BodyMesh& mesh;
+  const Eigen::Vector3d& centre;
+  const LocalFrames& frames;
+};
+
+}  // namespace concave_distance::detail
