@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Draws the figures of doc/results from its CSV files: doc/images/proof_*.png, niche_recall.png,
+"""Draws the figures of doc/results from its CSV files: doc/images/proof_*.png, niche_*.png,
 accuracy_*.png, stages.png, manoeuvre.png.
 
     scripts/plot_results.py            (needs python3-matplotlib: scripts/install_dependencies.sh plot)
@@ -93,33 +93,57 @@ def plot_scale(rows):
     save(figure, "proof_scale.png")
 
 
-def plot_recall(default, all_cones, tracking):
-    """Recall of the tracked niches, and what a cycle costs beside FCL's one distance."""
-    pairs = [row["pair"] for row in default]
-    everything = {row["pair"]: row for row in all_cones}
-    fcl = {row["pair"]: float(row["fcl_us"]) for row in tracking}
-    figure, (above, below) = plt.subplots(2, 1, figsize=(11, 7.5), sharex=True)
-    places = range(len(pairs))
-    above.bar([i - 0.25 for i in places], [float(row["tracked_recall"]) for row in default], 0.25,
-              label="defaults, prominence >= 1e-2")
-    above.bar(places, [float(row["tracked_prominent_recall"]) for row in default], 0.25,
-              label="defaults, prominence >= 5e-2")
-    above.bar([i + 0.25 for i in places], [float(everything[pair]["tracked_recall"]) for pair in pairs], 0.25,
-              label="all cones swept, >= 1e-2")
-    above.set_ylabel("niches reported in the same cycle")
-    below.plot(places, [fcl[pair] for pair in pairs], "k_", markersize=18, label="FCL, one distance")
-    for rows, column, label in ((default, "cycle_ms", "all niches, defaults"),
-                                ([everything[pair] for pair in pairs], "cycle_ms", "all niches, all cones swept"),
-                                (default, "complete_ms", "level complete, anew")):
-        below.plot(places, [1000 * float(row[column]) for row in rows], "o", label=label)
-    below.set_yscale("log")
-    below.set_ylabel("microseconds a cycle (mean)")
-    below.set_xticks(list(places), pairs, rotation=40, ha="right")
-    for axes in (above, below):
-        axes.grid(axis="y", alpha=0.3)
-        axes.legend(fontsize=8, loc="upper left", bbox_to_anchor=(1.01, 1.0))
-    above.set_title("Tracked niches at 100 Hz")
+def mean_recall(rows, proposer, share):
+    """Budgets in microseconds, and the mean over the pairs of what is reported then."""
+    budgets = sorted({float(row["budget_us"]) for row in rows})
+    means = []
+    for budget in budgets:
+        recalls = [float(row["recall"]) for row in rows
+                   if float(row["budget_us"]) == budget and row["proposer"] == proposer and float(row["share"]) == share]
+        means.append(sum(recalls) / len(recalls))
+    return budgets, means
+
+
+def plot_recall(tracked, cold):
+    """What a time budget leaves of the list of niches, with the search and without."""
+    figure, panels = plt.subplots(1, 2, figsize=(11, 4.5), sharey=True)
+    for axes, rows, title in ((panels[0], tracked, "tracked at 100 Hz"), (panels[1], cold, "first cycles")):
+        for pair in dict.fromkeys(row["pair"] for row in rows):
+            of_pair = [row for row in rows if row["pair"] == pair]
+            axes.plot(*mean_recall(of_pair, "none", 0.0), color="0.8", linewidth=1)
+        for proposer, share, label in (("none", 0.0, "no search"), ("evolution", 0.05, "evolution, share 0.05"),
+                                       ("random", 0.05, "random starts, share 0.05")):
+            axes.plot(*mean_recall(rows, proposer, share), marker="o", label=label)
+        axes.set_xscale("log")
+        axes.set_xlabel("time budget of a cycle, microseconds")
+        axes.set_title(f"{title}: mean of 12 pairs (grey: each, no search)")
+        axes.grid(alpha=0.3)
+    panels[0].set_ylabel("visible niches reported with their place")
+    panels[1].legend(fontsize=9, loc="lower right")
     save(figure, "niche_recall.png")
+
+
+def plot_cycles(rows):
+    """All minima and which are niches, beside FCL's one distance."""
+    pairs = list(dict.fromkeys(row["pair"] for row in rows))
+    figure, axes = plt.subplots(figsize=(11, 4.5))
+    for k, (steps, rate) in enumerate((("500", "100 Hz"), ("5000", "1 kHz"))):
+        of_rate = {row["pair"]: row for row in rows if row["steps"] == steps}
+        places = [i + (k - 0.5) * 0.35 for i in range(len(pairs))]
+        bottom = [0.0] * len(pairs)
+        for column, label, shade in (("front_us", "normal cones", 0), ("judge_us", "verdicts", 1)):
+            heights = [float(of_rate[pair][column]) / float(of_rate[pair]["fcl_us"]) for pair in pairs]
+            axes.bar(places, heights, 0.32, bottom=bottom, color=plt.get_cmap("tab20")(2 * k + shade),
+                     label=f"{rate}, {label}")
+            bottom = [low + height for low, height in zip(bottom, heights)]
+    axes.axhline(1.0, color="black", linewidth=1)
+    axes.set_yscale("symlog", linthresh=1.0)
+    axes.set_yticks([0, 0.25, 0.5, 0.75, 1, 2, 5, 10], ["0", "0.25", "0.5", "0.75", "1", "2", "5", "10"])
+    axes.set_ylabel("median of a cycle / FCL's one distance")
+    axes.set_xticks(range(len(pairs)), pairs, rotation=40, ha="right")
+    axes.grid(axis="y", alpha=0.3)
+    axes.legend(fontsize=8)
+    save(figure, "niche_cycles.png")
 
 
 FLOOR = 1e-16  # errors below count as this on a logarithmic axis
@@ -222,7 +246,8 @@ def main():
     plot_speed(certificate)
     plot_steps(certificate)
     plot_scale(rows_of("scale.csv"))
-    plot_recall(rows_of("complete.csv"), rows_of("complete_all_cones.csv"), rows_of("tracking.csv"))
+    plot_recall(rows_of("budget.csv"), rows_of("budget_cold.csv"))
+    plot_cycles(rows_of("front.csv"))
     accuracy = rows_of("accuracy.csv")
     plot_accuracy(accuracy, "cold", "accuracy_cold.png")
     plot_accuracy(accuracy, "tracked", "accuracy_tracked.png")

@@ -11,7 +11,7 @@ using Item = NormalConeTree::Item;
 /// groups.
 constexpr std::size_t kLargestGrowth = 2;
 constexpr std::size_t kUsualMinima = 64;
-constexpr std::size_t kUsualOpen = 1024;
+constexpr std::size_t kUsualExpired = 1024;
 constexpr std::size_t kSmallGrowth = 256;  // of the smallest, pairs
 
 }  // namespace
@@ -39,27 +39,37 @@ class ConeFront::Stage {
     // What most pairs never outgrow.
     front_.minima_.reserve(kUsualMinima);
     front_.undecided_.reserve(kUsualMinima);
-    front_.open_.reserve(kUsualOpen);
+    front_.open_.reserve(kUsualMinima);
+    front_.expired_.reserve(kUsualExpired);
+    front_.expired_.clear();
+    front_.next_expired_ = 0;
     front_.open_.assign(1, {NormalConeTree::kRoot, NormalConeTree::kRoot});
     front_.valid_ = true;
   }
 
-  /// What has expired is taken out and is open again.
+  /// What has expired is taken out; what had before and was not looked at stays in front of it.
   void expire() {
+    std::vector<Pair>& expired = front_.expired_;
+    expired.erase(expired.begin(), expired.begin() + static_cast<std::ptrdiff_t>(front_.next_expired_));
+    front_.next_expired_ = 0;
     const std::size_t before = front_.queues_.size();
-    const auto open = [this](const Pair& pair) { front_.open_.push_back(pair); };
+    const auto take = [&](const Pair& pair) { expired.push_back(pair); };
     for (std::uint32_t clock = 0; clock < front_.motion_.clockCount(); ++clock) {
-      front_.queues_.advance(clock, front_.motion_.now(clock), open, limit_);
+      front_.queues_.advance(clock, front_.motion_.now(clock), take, limit_);
     }
     front_.counts_.expired = static_cast<std::uint32_t>(before - front_.queues_.size());
   }
 
+  /// Compares what has expired and opens what is excluded no more. False when the limit was reached.
   bool run() {
-    if (!front_.counts_.began_anew && !compareOpen()) return false;
     std::vector<Pair>& open = front_.open_;
-    while (!open.empty()) {
+    while (!open.empty() || front_.next_expired_ < front_.expired_.size()) {
       if (limit_.isOverNow()) return false;
       if (!limit_.makeRoom(open, ConeComparison::kWidth) || !limit_.makeRoom(seeds_)) return false;
+      if (open.empty()) {
+        compareExpired();
+        continue;
+      }
       const Pair pair = open.back();
       open.pop_back();
       if (isFeaturePair(pair)) {
@@ -106,32 +116,27 @@ class ConeFront::Stage {
   const Item& itemOfA(Slot slot) const { return ConeComparison::itemOf(cones_.a, cones_.a.child(slot)); }
   const Item& itemOfB(Slot slot) const { return ConeComparison::itemOf(cones_.b, cones_.b.child(slot)); }
 
-  /// Pairs that have expired as they are, before any of them is opened. False when the limit was reached.
-  bool compareOpen() {
+  /// The next pairs that have expired, as they are.
+  void compareExpired() {
     constexpr std::size_t kAhead = 12;
-    std::vector<Pair>& open = front_.open_;
-    const std::size_t count = open.size();
-    front_.counts_.groups += static_cast<std::uint32_t>(count);
-    std::size_t rest = 0;
-    std::size_t i = 0;
-    while (i < count && !limit_.isOverNow()) {
-      const std::size_t size = std::min<std::size_t>(ConeComparison::kWidth, count - i);
-      Pair pairs[ConeComparison::kWidth];
-      for (std::size_t k = 0; k < ConeComparison::kWidth; ++k) pairs[k] = open[i + std::min(k, size - 1)];
-      for (std::size_t k = i + kAhead; k < std::min(i + kAhead + size, count); ++k) cones_.prefetch(open[k]);
-      const ConeReasons reasons = cones_.ofPairs(pairs);
-      const ConeLanes excluded = reasons.largest();
-      for (std::uint32_t lane = 0; lane < size; ++lane) {
-        if (!(excluded[lane] > 0.0F) || !keepGroups(pairs[lane], reasons, lane, true)) {
-          open[rest++] = pairs[lane];
-        }
-      }
-      i += size;
+    const std::vector<Pair>& expired = front_.expired_;
+    const std::size_t first = front_.next_expired_;
+    const std::size_t size = std::min<std::size_t>(ConeComparison::kWidth, expired.size() - first);
+    Pair pairs[ConeComparison::kWidth];
+    for (std::size_t k = 0; k < ConeComparison::kWidth; ++k)
+      pairs[k] = expired[first + std::min(k, size - 1)];
+    for (std::size_t k = first + kAhead; k < std::min(first + kAhead + size, expired.size()); ++k) {
+      cones_.prefetch(expired[k]);
     }
-    const bool done = i == count;
-    while (i < count) open[rest++] = open[i++];
-    open.resize(rest);
-    return done;
+    const ConeReasons reasons = cones_.ofPairs(pairs);
+    const ConeLanes excluded = reasons.largest();
+    for (std::uint32_t lane = 0; lane < size; ++lane) {
+      if (!(excluded[lane] > 0.0F) || !keepGroups(pairs[lane], reasons, lane, true)) {
+        front_.open_.push_back(pairs[lane]);
+      }
+    }
+    front_.next_expired_ += size;
+    front_.counts_.groups += static_cast<std::uint32_t>(size);
   }
 
   void expand(const Pair& pair) {
@@ -284,7 +289,7 @@ bool ConeFront::collect(const MinimaScene& scene, NormalSides sides, double cuto
 
 std::size_t ConeFront::memoryBytes() const {
   return queues_.memoryBytes() + minima_.capacity() * sizeof(Minimum) +
-         (undecided_.capacity() + open_.capacity()) * sizeof(Pair);
+         (undecided_.capacity() + open_.capacity() + expired_.capacity()) * sizeof(Pair);
 }
 
 }  // namespace concave_distance::detail

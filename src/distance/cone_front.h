@@ -51,6 +51,8 @@ class ConeFront {
     for (const Minimum& minimum : minima_) visit(minimum.pair.first, minimum.pair.second);
     for (const auto& [a, b] : undecided_) visit(a, b);
     for (const auto& [a, b] : open_) visit(a, b);
+    for (std::size_t i = next_expired_; i < expired_.size(); ++i)
+      visit(expired_[i].first, expired_[i].second);
   }
 
  private:
@@ -70,7 +72,9 @@ class ConeFront {
   ExpiryQueues<Pair> queues_;  ///< of the motion's clocks
   std::vector<Minimum> minima_;
   std::vector<Pair> undecided_;  ///< pairs of features that hold no minimum, without slack
-  std::vector<Pair> open_;       ///< to be compared
+  std::vector<Pair> open_;       ///< to be opened
+  std::vector<Pair> expired_;    ///< to be compared, from next_expired_ on
+  std::size_t next_expired_ = 0;
   std::size_t kept_at_begin_ = 0;
   bool valid_ = false;
   double cutoff_ = 0.0;

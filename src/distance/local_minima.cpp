@@ -18,7 +18,8 @@ namespace concave_distance {
 namespace detail {
 namespace {
 
-constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+constexpr std::size_t kNone = LocalMinima::kNoOwner;
+constexpr std::size_t kUndecided = LocalMinima::kUndecided;
 
 /// False when the limit was reached.
 bool collectSeeds(const MinimaScene& scene, const LocalMinimaRequest& request,
@@ -101,13 +102,17 @@ bool LocalMinimaParts::decide(const MinimaScene& scene, const LocalMinimaRequest
     };
   }
   places.clear();
-  verdicts.judge(scene, seeds, wanted, limit);
-  describeNiches(scene, request, limit);
-  while (!verdicts.hasJudgedAll() && described.size() <= request.largest_count && !limit.isOver()) {
-    verdicts.judgeMore(scene, wanted, limit);
+  verdicts.begin(scene, seeds, wanted, limit);
+  do {
+    verdicts.judgeByMemory(scene, wanted, limit);
     describeNiches(scene, request, limit);
-  }
+    limit.allowShare(request.time_shares.floods);
+    verdicts.judgeByFloods(scene, wanted, limit);
+    limit.allowShare(request.time_shares.all);
+    describeNiches(scene, request, limit);
+  } while (!verdicts.hasJudgedAll() && described.size() <= request.largest_count && !limit.isOver());
   const auto place = [](std::uint32_t judged) {
+    if (judged == MinimaVerdicts::kUndecided) return kUndecided;
     return judged == MinimaVerdicts::kNone ? kNone : std::size_t{judged};
   };
   for (std::size_t i = 0; i < request.asked_pairs.size(); ++i) {
@@ -123,7 +128,10 @@ bool LocalMinimaParts::decide(const MinimaScene& scene, const LocalMinimaRequest
   describeNiches(scene, request, limit);
   cost.flooded_pairs += verdicts.counts().flooded_cells;
   for (std::vector<std::size_t>* of : {&owners, &proposed}) {
-    for (std::size_t& owner : *of) owner = owner == kNone ? kNone : places[owner];
+    for (std::size_t& owner : *of) {
+      if (owner == kNone || owner == kUndecided) continue;
+      owner = places[owner] != kNone ? places[owner] : kUndecided;  // there was no time to describe it
+    }
   }
   return std::none_of(verdicts.judged().begin(), verdicts.judged().end(), [](const auto& judged) {
     return judged.verdict == MinimaVerdicts::Verdict::Undecided;
@@ -136,6 +144,7 @@ void LocalMinimaParts::describeNiches(const MinimaScene& scene, const LocalMinim
   places.resize(judged.size(), kNone);
   for (std::size_t i = 0; i < judged.size(); ++i) {
     if (judged[i].verdict != MinimaVerdicts::Verdict::Niche || places[i] != kNone) continue;
+    if (limit.isOver()) return;
     const MinimumSeed& seed = judged[i].seed;
     places[i] = minima.size();
     minima.push_back({seed, std::numeric_limits<double>::infinity(),
@@ -154,18 +163,23 @@ bool LocalMinimaParts::measure(const MinimaScene& scene, const LocalMinimaReques
   seeds.insert(seeds.end(), request.proposals.begin(), request.proposals.end());
   FloodResult flood = floodMinima(scene, request, seeds, owned, cost, limit);
   for (const FloodedMinimum& minimum : flood.minima) {
+    if (limit.isOver()) break;
     minima.push_back(minimum);
     describe(scene, request, false, limit);
   }
   const auto proposals = flood.owners.begin() + static_cast<std::ptrdiff_t>(request.asked_pairs.size());
   owners.assign(flood.owners.begin(), proposals);
   proposed.assign(proposals, flood.owners.end());
+  for (std::vector<std::size_t>* of : {&owners, &proposed}) {
+    for (std::size_t& owner : *of) {
+      if (owner >= minima.size() && (flood.cut || owner != kNone)) owner = kUndecided;
+    }
+  }
   return !flood.cut;
 }
 
 void LocalMinimaParts::describe(const MinimaScene& scene, const LocalMinimaRequest& request, bool is_seen,
                                 WorkLimit& limit) {
-  if (limit.isOver()) return;
   const FloodedMinimum& minimum = minima.back();
   LocalMinimum niche;
   niche.prominence = minimum.seed.distance > 0.0 ? minimum.pass / minimum.seed.distance - 1.0
@@ -193,10 +207,10 @@ void LocalMinimaParts::list(const LocalMinimaRequest& request, LocalMinima& resu
     result.cost.met_by_flood += minima[entry.minimum].met_by_flood ? 1 : 0;
   }
   for (const std::size_t owner : owners) {
-    result.owners.push_back(owner == kNone ? LocalMinima::kNoOwner : places[owner]);
+    result.owners.push_back(owner == kNone || owner == kUndecided ? owner : places[owner]);
   }
   for (std::size_t i = proposed.size(); i-- > 0;) {
-    if (proposed[i] != kNone && places[proposed[i]] != kNone) {
+    if (proposed[i] != kNone && proposed[i] != kUndecided && places[proposed[i]] != kNone) {
       result.niches[places[proposed[i]]].proposal = i;
     }
   }
@@ -241,9 +255,11 @@ void findLocalMinima(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry
   parts.proposed.clear();
   detail::ConeFront* front = request.is_tracked ? &parts.front : nullptr;
   const auto start = WorkLimit::Clock::now();
+  limit.allowShare(request.time_shares.search);
   const bool all = detail::collectSeeds(scene, request, parts.seeds, result.cost, limit, front);
   result.cost.sweep_seconds = std::chrono::duration<double>(WorkLimit::Clock::now() - start).count();
   result.cost.minima = parts.seeds.size();
+  limit.allowShare(request.time_shares.all);
   // What is proposed counts while not everything has been looked at.
   if (!all) parts.seeds.insert(parts.seeds.end(), request.proposals.begin(), request.proposals.end());
   const bool measures =

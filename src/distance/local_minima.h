@@ -43,6 +43,13 @@ struct LocalMinimaRequest {
   bool is_tracked = false;
   /// Metres; no two points are closer than this. Above 0, bodies that meet are not looked for.
   double certain_distance = 0.0;
+  /// Shares of the limit's time (WorkLimit::allowShare) after which a step ends.
+  struct TimeShares {
+    double search = 1.0;  ///< for all minima
+    double floods = 1.0;  ///< to see which are niches
+    double all = 1.0;
+  };
+  TimeShares time_shares;
   /// When it is reached, the niches decided so far are the result (LocalMinima::finished); nullptr: none.
   WorkLimit* limit = nullptr;
 };
@@ -97,7 +104,9 @@ struct LocalMinima {
   std::vector<LocalMinimum> niches;  ///< ascending by distance
   bool cut = false;                  ///< there are more than largest_count
   bool finished = true;              ///< false: the limit was reached, niches may be missing
-  /// For each of LocalMinimaRequest::asked_pairs the niche that it belongs to; kNoOwner when that is none of
+  static constexpr std::size_t kUndecided = kNoOwner - 1;
+  /// For each of LocalMinimaRequest::asked_pairs the niche that it belongs to; kUndecided when the limit was
+  /// reached before that was seen, kNoOwner when that is none of
   /// the result (farther than the cutoff, through material, cut).
   std::vector<std::size_t> owners;
   LocalMinimaCost cost;

@@ -107,17 +107,56 @@ class MinimaVerdicts::Stage {
     }
   }
 
-  /// The next ones, until there are as many niches as wanted.
-  void decideSeeds() {
+  /// The next ones that are known, until there are as many niches as wanted.
+  void decideByMemory() {
     std::size_t niches = 0;
-    for (; memory_.next_ < seed_count_ && niches < request_.most_niches; ++memory_.next_) {
-      const std::uint32_t i = memory_.next_;
-      if (memory_.judged_[i].verdict == Verdict::Open) decide(i);
-      niches += memory_.judged_[i].verdict == Verdict::Niche ? 1 : 0;
+    for (std::uint32_t& end = memory_.end_; end < seed_count_ && niches < request_.most_niches; ++end) {
+      if (memory_.judged_[end].verdict == Verdict::Open) decideByMemory(end);
+      niches += memory_.judged_[end].verdict == Verdict::Niche ? 1 : 0;
     }
   }
 
+  /// Those that it has left open, in ascending order until there are as many niches as wanted.
+  void decideByFloods() {
+    if (limit_.isTimed()) floodInTurn();
+    std::size_t niches = 0;
+    for (std::uint32_t& i = memory_.next_; i < memory_.end_ && niches < request_.most_niches; ++i) {
+      if (memory_.judged_[i].verdict == Verdict::Open) flood(i);
+      niches += memory_.judged_[i].verdict == Verdict::Niche ? 1 : 0;
+    }
+    memory_.end_ = memory_.next_;
+  }
+
+  /// Where time may be short, others come first in every cycle.
+  void floodInTurn() {
+    const std::uint32_t count = memory_.end_ - memory_.next_;
+    if (count == 0) return;
+    std::uint32_t done = 0;
+    for (; done < count && !limit_.isOver(); ++done) {
+      const std::uint32_t i = memory_.next_ + (memory_.turn_ + done) % count;
+      if (memory_.judged_[i].verdict == Verdict::Open) flood(i);
+    }
+    memory_.turn_ = (memory_.turn_ + done) % count;
+  }
+
   void decide(std::uint32_t i) {
+    decideByMemory(i);
+    if (memory_.judged_[i].verdict == Verdict::Open) flood(i);
+  }
+
+  /// The next deeper minimum of a ripple of which only a deeper place is known.
+  void resolve(std::uint32_t i) {
+    while (i != kNone && memory_.judged_[i].verdict == Verdict::Ripple) {
+      if (memory_.judged_[i].into == kNone) descend(i);
+      const std::uint32_t into = memory_.judged_[i].into;
+      if (into != kNone && memory_.judged_[into].verdict == Verdict::Open) decide(into);
+      i = into;
+    }
+  }
+
+ private:
+  /// Leaves open what is not known.
+  void decideByMemory(std::uint32_t i) {
     const MinimumSeed seed = memory_.judged_[i].seed;
     deepest_ = deepestLike(i);
     const std::uint32_t number = cellOf(seed.a, seed.b);
@@ -132,32 +171,15 @@ class MinimaVerdicts::Stage {
       return set(i, Verdict::Unwanted);
     }
     const std::uint32_t known = regionOf(number, i);
-    std::uint64_t id = 0;
-    if (known != kNone) {
-      if (isEnclosed(i, known)) {
-        memory_.regions_[known].confirmed = true;
-        memory_.judged_[i].region = memory_.regions_[known].id;
-        return set(i, Verdict::Niche);
-      }
-      id = memory_.regions_[known].id;
-      memory_.regions_[known].confirmed = limit_.isOver();
-      if (limit_.isOver()) return set(i, Verdict::Undecided);
-      memory_.drop(known);
-    }
-    flood(i, number, id);
-  }
-
-  /// The next deeper minimum of a ripple of which only a deeper place is known.
-  void resolve(std::uint32_t i) {
-    while (i != kNone && memory_.judged_[i].verdict == Verdict::Ripple) {
-      if (memory_.judged_[i].into == kNone) descend(i);
-      const std::uint32_t into = memory_.judged_[i].into;
-      if (into != kNone && memory_.judged_[into].verdict == Verdict::Open) decide(into);
-      i = into;
+    if (known == kNone) return;
+    Region& region = memory_.regions_[known];
+    region.confirmed = isEnclosed(i, known);
+    if (region.confirmed) {
+      memory_.judged_[i].region = region.id;
+      return set(i, Verdict::Niche);
     }
   }
 
- private:
   /// Up to here nothing deeper may be reached.
   double levelOf(double distance) const { return (1.0 + request_.least_prominence) * distance; }
 
@@ -308,9 +330,20 @@ class MinimaVerdicts::Stage {
     return other != kNone && other != i && isEarlier(other, i);
   }
 
-  void flood(std::uint32_t i, std::uint32_t number, std::uint64_t id) {
+  void flood(std::uint32_t i) {
     const MinimumSeed seed = memory_.judged_[i].seed;
-    if (were_long_ && settlesLong(i)) return;
+    const std::uint32_t number = cellOf(seed.a, seed.b);
+    std::uint64_t id = 0;
+    if (const std::uint32_t broken = regionOf(number, i); broken != kNone) {
+      // Kept for the next pose when there is no time for a flood.
+      memory_.regions_[broken].confirmed = limit_.isOver();
+      if (limit_.isOver()) return set(i, Verdict::Undecided);
+      id = memory_.regions_[broken].id;
+      memory_.drop(broken);
+    }
+    deepest_ = deepestLike(i);
+    // Floods of this pose may have left a path.
+    if (followsDown(i, number) || (were_long_ && settlesLong(i))) return;
     ++memory_.counts_.floods;
     CellFlood& flood = memory_.flood_;
     flood.begin(seed.a, seed.b, levelsOf(seed.distance));
@@ -518,10 +551,11 @@ void MinimaVerdicts::clear() {
   free_regions_.clear();
   borders_.clear();
   live_cells_ = 0;
+  turn_ = 0;
   floods_are_long_ = false;
 }
 
-void MinimaVerdicts::judge(const MinimaScene& scene, std::vector<MinimumSeed>& seeds, const Request& request,
+void MinimaVerdicts::begin(const MinimaScene& scene, std::vector<MinimumSeed>& seeds, const Request& request,
                            WorkLimit& limit) {
   dropUnconfirmed();
   compact();
@@ -540,19 +574,29 @@ void MinimaVerdicts::judge(const MinimaScene& scene, std::vector<MinimumSeed>& s
   Stage stage(*this, scene, request, limit);
   stage.enter(seeds);
   is_far_ = isFar(scene, request.least_prominence);
-  next_ = 0;
-  if (is_far_) {
-    stage.decideFar();
-    next_ = seed_count_;
-  } else {
-    stage.decideSeeds();
-  }
+  next_ = end_ = 0;
+  if (!is_far_) return;
+  stage.decideFar();
+  next_ = end_ = seed_count_;
 }
 
-void MinimaVerdicts::judgeMore(const MinimaScene& scene, const Request& request, WorkLimit& limit) {
+void MinimaVerdicts::judgeByMemory(const MinimaScene& scene, const Request& request, WorkLimit& limit) {
   Stage stage(*this, scene, request, limit);
   stage.resume();
-  stage.decideSeeds();
+  stage.decideByMemory();
+}
+
+void MinimaVerdicts::judgeByFloods(const MinimaScene& scene, const Request& request, WorkLimit& limit) {
+  Stage stage(*this, scene, request, limit);
+  stage.resume();
+  stage.decideByFloods();
+}
+
+void MinimaVerdicts::judge(const MinimaScene& scene, std::vector<MinimumSeed>& seeds, const Request& request,
+                           WorkLimit& limit) {
+  begin(scene, seeds, request, limit);
+  judgeByMemory(scene, request, limit);
+  judgeByFloods(scene, request, limit);
 }
 
 void MinimaVerdicts::dropUnconfirmed() {
@@ -644,6 +688,8 @@ std::uint32_t MinimaVerdicts::locate(const MinimaScene& scene, const TrianglePai
     }
   }
   stage.resolve(place);
+  const std::uint32_t end = endOf(place);
+  if (end != kNone && judged_[end].verdict == Verdict::Undecided) return kUndecided;
   return nicheOf(place);
 }
 
@@ -655,8 +701,13 @@ std::uint32_t MinimaVerdicts::nicheWith(std::uint64_t region) const {
   return nicheOf(regions_[place].first);
 }
 
-std::uint32_t MinimaVerdicts::nicheOf(std::uint32_t index) const {
+std::uint32_t MinimaVerdicts::endOf(std::uint32_t index) const {
   while (index != kNone && judged_[index].verdict == Verdict::Ripple) index = judged_[index].into;
+  return index;
+}
+
+std::uint32_t MinimaVerdicts::nicheOf(std::uint32_t of) const {
+  const std::uint32_t index = endOf(of);
   return index != kNone && judged_[index].verdict == Verdict::Niche ? index : kNone;
 }
 

@@ -17,6 +17,7 @@ namespace concave_distance::detail {
 class MinimaVerdicts {
  public:
   static constexpr std::uint32_t kNone = 0xffffffffU;
+  static constexpr std::uint32_t kUndecided = 0xfffffffeU;
 
   enum class Verdict : std::uint8_t {
     Open,
@@ -54,17 +55,22 @@ class MinimaVerdicts {
 
   void clear();
 
-  /// Judges seeds, which are put in ascending order, until there are Request::most_niches: the results stand
-  /// in the same order, and after them places that only floods have found.
+  /// At a new pose: puts the seeds in ascending order; results stand in the same order, and after them places
+  /// that only floods have found.
+  void begin(const MinimaScene& scene, std::vector<MinimumSeed>& seeds, const Request& request,
+             WorkLimit& limit);
+  /// Judges seeds whose verdict needs no flood, until there are Request::most_niches more.
+  void judgeByMemory(const MinimaScene& scene, const Request& request, WorkLimit& limit);
+  /// Judges those that the last call has left open.
+  void judgeByFloods(const MinimaScene& scene, const Request& request, WorkLimit& limit);
+  bool hasJudgedAll() const { return next_ >= seed_count_; }
+  /// All of it, until there are Request::most_niches.
   void judge(const MinimaScene& scene, std::vector<MinimumSeed>& seeds, const Request& request,
              WorkLimit& limit);
 
-  bool hasJudgedAll() const { return next_ >= seed_count_; }
-  /// Goes on with the seeds at the pose of the last judge(), until there are Request::most_niches more.
-  void judgeMore(const MinimaScene& scene, const Request& request, WorkLimit& limit);
-
-  /// At the pose of the last judge(): the niche of the local minimum around a triangle pair, as an index of
-  /// judged(); kNone when that is none of them. A place that is a niche of its own is judged and added.
+  /// At the pose of the last begin(): the niche of the local minimum around a triangle pair, as an index of
+  /// judged(); kNone when that is none of them, kUndecided when the limit was reached. A place that is a
+  /// niche of its own is judged and added.
   std::uint32_t locate(const MinimaScene& scene, const TrianglePair& around, const Request& request,
                        WorkLimit& limit);
   /// The niche with this region; kNone when there is none any more.
@@ -79,6 +85,8 @@ class MinimaVerdicts {
   void dropUnconfirmed();
   void drop(std::uint32_t region);
   void compact();
+  /// Of a ripple and those it leads to, the last.
+  std::uint32_t endOf(std::uint32_t index) const;
   std::uint32_t nicheOf(std::uint32_t index) const;
 
   /// A triangle pair that something is known of.
@@ -138,6 +146,8 @@ class MinimaVerdicts {
   PairTable deepest_{4};          ///< first seed of each pair of pieces
   std::uint32_t seed_count_ = 0;  ///< of judged_, the rest was found
   std::uint32_t next_ = 0;        ///< of the seeds, the first that is not judged
+  std::uint32_t end_ = 0;         ///< of the seeds looked up in the memory
+  std::uint32_t turn_ = 0;        ///< of the seeds, whose is the next flood
   bool floods_are_long_ = false;
   bool is_far_ = false;
   Counts counts_;

@@ -13,6 +13,13 @@ namespace {
 
 constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
+// A descent to each known niche that is not reached is kept time for, up to a share of all.
+constexpr double kSecondsOfKnown = 3e-6;
+constexpr double kMostForKnown = 0.3;
+// Of the rest: when the look for all minima ends, and when the floods.
+constexpr double kShareOfSearch = 0.6;
+constexpr double kShareOfFloods = 0.9;
+
 // Half as many niches more than are reported are kept, for those that come and go at the edge of the list.
 constexpr std::size_t archiveCapacity(std::size_t reported) {
   return reported + (reported + 1) / 2;
@@ -68,8 +75,8 @@ void ExactNiches::proposeProven(const PairGeometry& geometry, const WitnessPair&
 }
 
 void ExactNiches::admit(PairGeometry& geometry, const TrackerParameters& parameters, const Cycle& cycle,
-                        double certain_distance, NicheArchive& archive, PairSolution& solution,
-                        WorkLimit& limit) {
+                        double certain_distance, double time_share, NicheArchive& archive,
+                        PairSolution& solution, WorkLimit& limit) {
   const bool looks_for_all = provesDistance(parameters.accuracy);
   std::vector<NicheRecord>& records = archive.records();
   request_.limit = &limit;
@@ -81,6 +88,9 @@ void ExactNiches::admit(PairGeometry& geometry, const TrackerParameters& paramet
   request_.through_material = parameters.keep_through_material;
   request_.hidden = parameters.hidden;
   request_.certain_distance = certain_distance;
+  const double for_known = kSecondsOfKnown * static_cast<double>(records.size());
+  const double all = time_share - std::min(kMostForKnown, limit.shareOf(for_known));
+  request_.time_shares = {kShareOfSearch * all, kShareOfFloods * all, all};
   request_.given = nullptr;
   if (!looks_for_all) {
     followed_.insert(followed_.end(), request_.proposals.begin(), request_.proposals.end());
@@ -100,7 +110,7 @@ void ExactNiches::admit(PairGeometry& geometry, const TrackerParameters& paramet
   solution.cost.evaluations += found_.cost.feature_pairs + found_.cost.candidates + found_.cost.flooded_pairs;
 
   findHeirs(archive, geometry, cycle.last_a_from_b);
-  if (found_.finished) endOthers(archive, solution.events);
+  endOthers(archive, solution.events);
   next_.clear();
   for (std::size_t k = 0; k < found_.niches.size(); ++k) {
     const LocalMinimum& minimum = found_.niches[k];
@@ -126,6 +136,7 @@ void ExactNiches::admit(PairGeometry& geometry, const TrackerParameters& paramet
         known && cycle.elapsed > 0.0 ? (before - niche.distance) / cycle.elapsed : kNotComputed;
   }
   records.swap(next_);
+  limit.allowShare(time_share);
   if (!found_.finished) carryOthers(next_, geometry, archive, limit, solution.events);
   archive.settle();
   request_.proposals.clear();
@@ -142,7 +153,7 @@ void ExactNiches::findHeirs(const NicheArchive& archive, const PairGeometry& geo
   refill(heirs_, found_.niches.size(), kNone);
   for (std::size_t i = 0; i < records.size(); ++i) {
     const std::size_t owner = found_.owners[i];
-    if (owner == LocalMinima::kNoOwner) continue;
+    if (owner >= found_.niches.size()) continue;
     const LocalMinimum& minimum = found_.niches[owner];
     const TrackedNiche& known = records[i].niche;
     const Eigen::Vector3d& point = minimum.witness.point_b_in_a;
@@ -156,6 +167,7 @@ void ExactNiches::endOthers(const NicheArchive& archive, std::vector<NicheEvent>
   const std::vector<NicheRecord>& records = archive.records();
   for (std::size_t i = 0; i < records.size(); ++i) {
     const std::size_t owner = found_.owners[i];
+    if (owner == LocalMinima::kUndecided) continue;
     const std::size_t heir = owner == LocalMinima::kNoOwner ? kNone : heirs_[owner];
     if (heir == i || !records[i].reported) continue;
     if (heir == kNone) {
@@ -166,14 +178,13 @@ void ExactNiches::endOthers(const NicheArchive& archive, std::vector<NicheEvent>
   }
 }
 
-// A list cut by time or memory is no evidence against niches missing from it: known ones stay, each at the
-// minimum around its triangles.
+// Known niches of which time or memory did not suffice to see what has become stay, each at the minimum
+// around its triangles.
 void ExactNiches::carryOthers(const std::vector<NicheRecord>& known, PairGeometry& geometry,
                               NicheArchive& archive, WorkLimit& limit, std::vector<NicheEvent>& events) {
   const double tolerance = geometry.samePlaceTolerance();
   for (std::size_t i = 0; i < known.size(); ++i) {
-    const std::size_t owner = found_.owners[i];
-    if (owner != LocalMinima::kNoOwner && heirs_[owner] == i) continue;
+    if (found_.owners[i] != LocalMinima::kUndecided) continue;
     NicheRecord record = known[i];
     if (!limit.isOver()) {
       const WitnessPair& witness = record.niche.witness;

@@ -41,8 +41,10 @@ class ExactNiches {
   /// Admits what was followed and proposed since the last call: the archive's records are the niches
   /// afterwards, with ids that go on and events for those that end.
   /// @param certain_distance metres; no two points are closer
+  /// @param time_share of the limit's time, after which it ends
   void admit(PairGeometry& geometry, const TrackerParameters& parameters, const Cycle& cycle,
-             double certain_distance, NicheArchive& archive, PairSolution& solution, WorkLimit& limit);
+             double certain_distance, double time_share, NicheArchive& archive, PairSolution& solution,
+             WorkLimit& limit);
 
   bool isFinished() const { return found_.finished; }
   /// Level `refined`: of all that was followed and proposed, niche or not; nullptr: nothing was.

@@ -118,9 +118,8 @@ void PairCycle::solveExact(double displacement, double elapsed, PairSolution& so
     niches_.proposeProven(geometry_, proof_.certificate().witness);
   }
   stage_clock_.lap(SolveStage::Propose, solution.stages);
-  limit_.allowShare(kShareOfNiches);
-  niches_.admit(geometry_, parameters_, {cycle_, last_pose_, elapsed}, certainDistance(), archive_, solution,
-                limit_);
+  niches_.admit(geometry_, parameters_, {cycle_, last_pose_, elapsed}, certainDistance(), kShareOfNiches,
+                archive_, solution, limit_);
   search_.earn(niches_.work(), parameters_.search_share);
   stage_clock_.lap(SolveStage::Admit, solution.stages);
   solution.stages[SolveStage::Sweep] = niches_.cost().sweep_seconds;

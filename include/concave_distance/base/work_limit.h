@@ -83,6 +83,8 @@ class WorkLimit {
   std::size_t taken() const { return taken_; }
 
   bool isTimed() const { return is_timed_; }
+  /// Of the whole time; 0 without a deadline.
+  double shareOf(double seconds) const { return seconds_ < kLongest ? seconds / seconds_ : 0.0; }
   /// Whether anything was refused, so that the results are incomplete.
   bool hasRefusedTime() const { return time_refused_; }
   bool hasRefusedMemory() const { return memory_refused_; }

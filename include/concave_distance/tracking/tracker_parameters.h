@@ -37,7 +37,7 @@ struct TrackerParameters {
   std::uint32_t random_starts = 8;     ///< random individuals a warm cycle descends besides
   /// Of level `certified`, where the search is not the only one to find niches: its share of the work of the
   /// other stages. 0: no search.
-  double search_share = 0.1;
+  double search_share = 0.05;
   double least_prominence = 1e-2;  ///< niches with less are merged into their deeper neighbour
   /// Prominences are measured up to this, at a price that grows with it; up to
   /// `least_prominence` none is: it is only decided who has the least.
