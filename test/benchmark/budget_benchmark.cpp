@@ -1,7 +1,8 @@
 // What a time budget leaves of the list of niches, and what the search is worth then: tracked cycles that end
 // early, beside a tracker that takes its time.
 //
-//   budget_benchmark [--pairs name,name,...] [--budgets 50,100,200,500] [--shares 0,0.05,0.1,0.3] [--steps 500]
+//   budget_benchmark [--pairs name,name,...] [--budgets 50,100,200,500] [--shares 0,0.05,0.1,0.3] [--steps
+//   500]
 //                    [--proposers evolution,random,near] [--cold] [--output FILE]
 //
 // A row is a pair, a budget (microseconds), what proposes niches and its share of the work
