@@ -5,10 +5,10 @@
 #include <limits>
 #include <vector>
 
-#include "cell_border.h"
 #include "cell_flood.h"
 #include "level_path.h"
 #include "niche_properties.h"
+#include "verdict_memory.h"
 
 namespace concave_distance::detail {
 
@@ -16,7 +16,7 @@ namespace concave_distance::detail {
 /// one: paths to deeper places and borders around niches. Belongs to one pair of bodies.
 class MinimaVerdicts {
  public:
-  static constexpr std::uint32_t kNone = 0xffffffffU;
+  static constexpr std::uint32_t kNone = VerdictMemory::kNone;
   static constexpr std::uint32_t kUndecided = 0xfffffffeU;
 
   enum class Verdict : std::uint8_t {
@@ -82,63 +82,11 @@ class MinimaVerdicts {
 
  private:
   class Stage;
-  void dropUnconfirmed();
-  void drop(std::uint32_t region);
-  void compact();
   /// Of a ripple and those it leads to, the last.
   std::uint32_t endOf(std::uint32_t index) const;
   std::uint32_t nicheOf(std::uint32_t index) const;
 
-  /// A triangle pair that something is known of.
-  struct Cell {
-    TriangleIndex a;
-    TriangleIndex b;
-    std::uint32_t link = kNone;     ///< of links_: the way on
-    std::uint32_t low = kNone;      ///< of links_: a point pair in it
-    std::uint32_t regions = kNone;  ///< first of its memberships
-    std::uint32_t seed = kNone;     ///< of this cycle, if `cycle` is this one
-    Occluder occluder;
-    std::uint64_t cycle = 0;
-  };
-  /// A point of each body, own axes in the scene's centre, in a cell and in the next one.
-  struct Link {
-    Eigen::Vector3d point_a;
-    Eigen::Vector3d point_b;
-    std::uint32_t next;
-    std::uint64_t used = 0;  ///< the last cycle
-  };
-  struct Membership {
-    std::uint32_t region;
-    std::uint32_t cell;
-    std::uint32_t next;  ///< of the cell
-    std::uint32_t next_of_region;
-  };
-  /// Cells that are connected and enclosed.
-  struct Region {
-    std::uint64_t id = 0;         ///< 0: free; else its place in the list is the lower half
-    std::uint32_t first = kNone;  ///< seed of this cycle
-    bool confirmed = false;       ///< in this cycle
-    CellBorder border;
-    std::uint32_t members = kNone;  ///< first of its memberships
-    std::size_t cells = 0;
-    std::size_t cells_at_begin = 0;
-  };
-
-  PairTable table_{8};
-  std::vector<Cell> cells_;
-  std::vector<Link> links_;
-  std::vector<Membership> memberships_;
-  std::uint32_t free_membership_ = kNone;
-  std::vector<Region> regions_;
-  BorderPool borders_;
-  std::vector<std::uint32_t> free_regions_;
-  std::uint64_t regions_made_ = 0;
-  std::uint64_t cycle_ = 0;
-  std::size_t live_cells_ = 0;  ///< after the last compaction
-  // Buffers of a compaction.
-  std::vector<char> live_;
-  std::vector<std::uint32_t> places_;
-  std::vector<Link> spare_links_;
+  VerdictMemory memory_;
   CellFlood flood_;
   LevelPathBuffers path_;
   RefinementWorkspace refinement_;

@@ -4,7 +4,7 @@
 //                      [--list-misses 0] [--accuracy refined] [--output doc/results/complete.csv]
 //
 // A pair is tracked at every instant of its motion; in windows of consecutive instants, spread evenly, every
-// outward niche of prominence >= 1e-2 is found by findLocalMinima(), with a cutoff of 5 times the distance or
+// visible niche of prominence >= 1e-2 is found by findLocalMinima(), with a cutoff of 5 times the distance or
 // a quarter of the smaller body's diameter, whichever is larger. Which true niche a reported one belongs to
 // is decided by the same flood: exactly, over all triangle pairs.
 //   niches   true niches at an instant
@@ -12,9 +12,7 @@
 //   cold     the same for fresh solves with other seeds in the middle of each window
 //   own      share of the tracker's niches below the cutoff that are the only ones in a true niche
 //   double   share that lie in a true niche which another reported one is nearer to the bottom of
-//   stale    share that would do so if half the prominence were asked for, too: what users know is given up
-//            at half the least prominence only, so that it does not flicker; these have less and stand longer
-//   false    share that belong to no outward niche of the list at all
+//   false    share that belong to no visible niche of the list at all
 //   complete, cold, cycle: milliseconds, means; one thread. Complete leaves out the indices, built once.
 // Reasons for what the cold solves missed: `grid`, no local minimum of the grids is refined to it; `unmet`,
 // one is.
@@ -226,15 +224,15 @@ int benchmarkMain(int argc, char** argv) {
   if (!output.empty()) {
     csv.open(output);
     csv << "pair,triangles_a,triangles_b,observed,niches_mean,tracked_recall,tracked_prominent_recall,"
-           "cold_recall,cold_prominent_recall,tracked_own,tracked_double,tracked_stale,tracked_false,cold_"
+           "cold_recall,cold_prominent_recall,tracked_own,tracked_double,tracked_false,cold_"
            "own,cold_double,"
            "cold_false,missed_grid,missed_unmet,index_ms,complete_ms,complete_"
            "max_ms,cold_ms,"
            "cycle_ms,met_by_flood\n";
   }
-  std::printf("%-19s %7s | %7s %7s %7s %7s | %6s %6s %6s %6s | %5s %5s | %8s %8s %8s %8s %8s\n", "pair",
-              "niches", "tracked", ">=5e-2", "cold", ">=5e-2", "own", "double", "stale", "false", "grid",
-              "unmet", "index", "complete", "max", "cold", "cycle");
+  std::printf("%-19s %7s | %7s %7s %7s %7s | %6s %6s %6s | %5s %5s | %8s %8s %8s %8s %8s\n", "pair", "niches",
+              "tracked", ">=5e-2", "cold", ">=5e-2", "own", "double", "false", "grid", "unmet", "index",
+              "complete", "max", "cold", "cycle");
   for (const std::string& name : names) {
     const BenchmarkPair pair = loadBenchmarkPair(name);
     Tally t = Comparison(pair, options).run();
@@ -245,19 +243,18 @@ int benchmarkMain(int argc, char** argv) {
                              t.cold.prominentRecall(),
                              RecallShares::share(t.tracked.own, t.tracked.reported),
                              RecallShares::share(t.tracked.doubled, t.tracked.reported),
-                             RecallShares::share(t.tracked.stale, t.tracked.reported),
                              RecallShares::share(t.tracked.none, t.tracked.reported),
                              RecallShares::share(t.cold.own, t.cold.reported),
                              RecallShares::share(t.cold.doubled, t.cold.reported),
                              RecallShares::share(t.cold.none, t.cold.reported)};
     const double longest = *std::max_element(t.complete_ms.begin(), t.complete_ms.end());
     std::printf(
-        "%-19s %7.2f | %7.4f %7.4f %7.4f %7.4f | %6.3f %6.3f %6.3f %6.3f | %5d %5d | %8.2f %8.2f %8.2f "
+        "%-19s %7.2f | %7.4f %7.4f %7.4f %7.4f | %6.3f %6.3f %6.3f | %5d %5d | %8.2f %8.2f %8.2f "
         "%8.2f "
         "%8.3f\n",
         name.c_str(), values[0], values[1], values[2], values[3], values[4], values[5], values[6], values[7],
-        values[8], t.missed["grid"], t.missed["unmet"], t.index_ms, mean(t.complete_ms), longest,
-        mean(t.cold_ms), mean(t.cycle_ms));
+        t.missed["grid"], t.missed["unmet"], t.index_ms, mean(t.complete_ms), longest, mean(t.cold_ms),
+        mean(t.cycle_ms));
     list(t.misses, options.list_misses);
     std::fflush(stdout);
     if (csv) {

@@ -4,7 +4,7 @@
 //                    [--output doc/results/recall.csv]
 //
 // A pair is tracked at every instant; the truth is known in some windows of consecutive instants, spread
-// evenly, because it costs a thousand times a cycle. Truth: the outward niches of prominence >= 1e-2 on the
+// evenly, because it costs a thousand times a cycle. Truth: the visible niches of prominence >= 1e-2 on the
 // grid (flood of the product graph, refined), cutoff 5 times the minimum or a quarter of the smaller body's
 // diameter, whichever is larger. A niche counts as missed in every cycle until it is reported. Births: true
 // niches that appear within a window and are reported in it; latency: cycles from the one to the other;
@@ -24,6 +24,7 @@
 #include "benchmark/support/search_trial.h"
 #include "benchmark/support/statistics.h"
 #include "concave_distance/tracking/pair_tracker.h"
+#include "distance/niche_properties.h"
 #include "distance/witness_refinement.h"
 
 namespace concave_distance::benchmark {
@@ -111,7 +112,12 @@ std::vector<std::vector<ReferenceNiche>> truthOf(const BenchmarkPair& pair,
   std::vector<std::vector<ReferenceNiche>> truth(poses.size());
   tbb::parallel_for(std::size_t{0}, instants.size(), [&](std::size_t i) {
     const Eigen::Isometry3d& pose = poses[instants[i]];
-    truth[instants[i]] = referenceNiches(pair, pose, truthCutoff(pair, pose), kLeastProminence);
+    std::vector<ReferenceNiche>& niches = truth[instants[i]];
+    niches = referenceNiches(pair, pose, truthCutoff(pair, pose), kLeastProminence);
+    const auto is_hidden = [&](const ReferenceNiche& niche) {
+      return !isVisible(*pair.a, *pair.b, pose, niche.witness);
+    };
+    niches.erase(std::remove_if(niches.begin(), niches.end(), is_hidden), niches.end());
   });
   return truth;
 }

@@ -1,23 +1,8 @@
 #include "benchmark/support/flood_recall.h"
 
 #include <algorithm>
-#include <set>
 
 namespace concave_distance::benchmark {
-namespace {
-
-// Reported places that are not the first one in their true niche.
-std::size_t doubles(const LocalMinima& truth) {
-  std::set<std::size_t> met;
-  std::size_t count = 0;
-  for (const std::size_t owner : truth.owners) {
-    count += owner != LocalMinima::kNoOwner && !met.insert(owner).second ? 1 : 0;
-  }
-  return count;
-}
-
-}  // namespace
-
 double floodCutoff(const BenchmarkPair& pair, const Eigen::Isometry3d& pose) {
   const double nearest = fclDistance(*pair.fcl_a, *pair.fcl_b, pose).distance;
   return std::max(5.0 * nearest, 0.25 * std::min(pair.a->diameter(), pair.b->diameter()));
@@ -29,6 +14,7 @@ LocalMinima trueNiches(const BenchmarkPair& pair, const Eigen::Isometry3d& pose,
   request.cutoff = cutoff;
   request.least_prominence = least_prominence;
   request.prominence_limit = kProminentNiche;
+  request.hidden = false;
   request.asked_pairs = std::move(starts);
   return findLocalMinima(*pair.a, *pair.b, pose, request);
 }
@@ -58,10 +44,6 @@ FloodComparison compareWithFlood(const BenchmarkPair& pair, const Eigen::Isometr
     shares.own += met;
     shares.doubled += hits[i] > 1 ? static_cast<double>(hits[i] - 1) : 0.0;
     if (hits[i] == 0) result.missed.push_back(i);
-  }
-  if (doubles(truth) > 0) {
-    shares.stale +=
-        static_cast<double>(doubles(trueNiches(pair, pose, cutoff, starts, 0.5 * kLeastTrueProminence)));
   }
   shares.reported += static_cast<double>(starts.size());
   return result;

@@ -22,7 +22,6 @@ struct RecallShares {
   double reported = 0.0;
   double own = 0.0;      ///< true niches that at least one reported place lies in
   double doubled = 0.0;  ///< reported places that are not the first one in their true niche
-  double stale = 0.0;    ///< such that are so too where half the prominence is asked for
   double none = 0.0;     ///< reported places in no true niche
 
   /// A part of a whole; 1 where there is nothing to have a part of.
@@ -38,8 +37,8 @@ double floodCutoff(const BenchmarkPair& pair, const Eigen::Isometry3d& pose);
 /// Pairs of triangles whose true niche is asked for.
 using FloodStarts = std::vector<std::pair<TriangleIndex, TriangleIndex>>;
 
-/// The outward niches of level `complete` at a pose, and in which of them each start lies: decided by the
-/// same flood over all triangle pairs.
+/// The visible niches at a pose, and in which of them each start lies: decided by the same flood over all
+/// triangle pairs.
 LocalMinima trueNiches(const BenchmarkPair& pair, const Eigen::Isometry3d& pose, double cutoff,
                        FloodStarts starts, double least_prominence = kLeastTrueProminence);
 
