@@ -54,10 +54,11 @@ double FeaturePairs::fallAround(const Body& body, const Item& item, const Vector
   }
   const NodeIndex begin = body.node(item, item.element);
   const NodeIndex end = body.node(item, item.element + 1U);
-  look(body.node(item, item.element + 2U));
-  for (const AdjacentTriangle& next : body.mesh.adjacency().row(item.triangle.value)) {
-    if (next.from != begin || next.to != end) continue;
-    for (const NodeIndex node : body.mesh.surface().triangle(next.triangle)) {
+  // Every triangle at the edge bounds its normal cone, hidden ones too.
+  for (const TriangleIndex triangle : body.mesh.topology().triangles_of_vertex.row(begin.value)) {
+    const TriangleNodes& nodes = body.mesh.surface().triangle(triangle);
+    if (std::find(nodes.begin(), nodes.end(), end) == nodes.end()) continue;
+    for (const NodeIndex node : nodes) {
       if (node != begin && node != end) look(node);
     }
   }

@@ -2,6 +2,10 @@
 // of the front of normal cones and of the verdicts which minima are niches.
 //
 //   front_benchmark [--pairs name,name,...] [--steps 500,5000] [--instants 100] [--windows 4] [--output FILE]
+//                   [--files a.stl:b.stl,...]
+//
+// With --files, pairs of mesh files instead: the second body circles the first one as near as it can without
+// touching it (at 32 instants), turning.
 //
 // A row is a pair and a number of instants along its motion (5 s long: 500 is 100 Hz). In windows spread over
 // the motion consecutive instants are looked at: microseconds (medians) of FCL, of all cones from the roots,
@@ -16,12 +20,14 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 
 #include "benchmark/support/benchmark_main.h"
 #include "benchmark/support/benchmark_pairs.h"
 #include "benchmark/support/statistics.h"
 #include "benchmark/support/stopwatch.h"
+#include "concave_distance/loading/load_body_mesh.h"
 #include "distance/cone_front.h"
 #include "distance/minima_candidates.h"
 #include "distance/minima_verdicts.h"
@@ -167,17 +173,66 @@ void observe(const BenchmarkPair& pair, const Eigen::Isometry3d& pose, ConeFront
 
 }  // namespace
 
+namespace {
+
+Eigen::Isometry3d circling(double t, double radius, const Eigen::Vector3d& centre_a,
+                           const Eigen::Vector3d& centre_b) {
+  const Eigen::AngleAxisd round(2.0 * t, Eigen::Vector3d(0.3, -0.5, 0.8).normalized());
+  const Eigen::AngleAxisd turn(1.5 * t, Eigen::Vector3d(0.7, 0.6, -0.2).normalized());
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.linear() = turn.toRotationMatrix();
+  pose.translation() =
+      centre_a + radius * (round * Eigen::Vector3d(0.8, 0.6, 0.0)) - pose.linear() * centre_b;
+  return pose;
+}
+
+/// @param names two files, with a colon between them
+BenchmarkPair loadFiles(const std::string& names) {
+  constexpr int kInstants = 32;
+  const std::size_t colon = names.find(':');
+  const auto stem = [](const std::string& path) { return std::filesystem::path(path).stem().string(); };
+  const std::string file_a = names.substr(0, colon);
+  const std::string file_b = colon == std::string::npos ? file_a : names.substr(colon + 1);
+  BenchmarkPair pair;
+  pair.name = stem(file_a) + "-" + stem(file_b);
+  pair.a = loadBodyMesh(file_a).mesh;
+  pair.b = loadBodyMesh(file_b).mesh;
+  pair.fcl_a = makeFclModel(pair.a->surface());
+  pair.fcl_b = makeFclModel(pair.b->surface());
+  const Eigen::Vector3d centre_a = pair.a->surface().boundingBox().center();
+  const Eigen::Vector3d centre_b = pair.b->surface().boundingBox().center();
+  const double apart = 0.5 * (pair.a->diameter() + pair.b->diameter());
+  double radius = 0.0;
+  for (int k = 0; k <= kInstants; ++k) {
+    double meets = 0.0;
+    double clear = apart;
+    while (clear - meets > 1e-3 * apart) {
+      const double middle = 0.5 * (meets + clear);
+      const Eigen::Isometry3d pose = circling(static_cast<double>(k) / kInstants, middle, centre_a, centre_b);
+      (fclDistance(*pair.fcl_a, *pair.fcl_b, pose).distance > 0.0 ? clear : meets) = middle;
+    }
+    radius = std::max(radius, clear);
+  }
+  radius *= 1.02;
+  pair.motion = [=](double t) { return circling(t, radius, centre_a, centre_b); };
+  return pair;
+}
+
+}  // namespace
+
 int benchmarkMain(int argc, char** argv) {
   std::vector<std::string> names = allPairs();
   std::vector<int> steps{500, 5000};
   int instants = 100;
   int windows = 4;
+  std::vector<std::string> files;
   std::string output;
   CLI::App app("The front of normal cones over a motion");
   app.add_option("--pairs", names, "names")->delimiter(',');
   app.add_option("--steps", steps, "instants along the motion")->delimiter(',');
   app.add_option("--instants", instants, "consecutive instants of a window");
   app.add_option("--windows", windows, "windows along the motion");
+  app.add_option("--files", files, "pairs of mesh files, a colon between two")->delimiter(',');
   app.add_option("--output", output, "CSV file");
   CLI11_PARSE(app, argc, argv);
   std::ofstream file;
@@ -189,8 +244,9 @@ int benchmarkMain(int argc, char** argv) {
       "other,kilobytes";
   std::printf("%s\n", header);
   if (file) file << header << '\n';
+  if (!files.empty()) names = files;
   for (const std::string& name : names) {
-    const BenchmarkPair pair = loadBenchmarkPair(name);
+    const BenchmarkPair pair = files.empty() ? loadBenchmarkPair(name) : loadFiles(name);
     for (const int count : steps) {
       Sample sample;
       for (int window = 0; window < windows; ++window) {
@@ -208,7 +264,7 @@ int benchmarkMain(int argc, char** argv) {
           "%s,%d,%.1f,%.1f,%.1f,%.1f,%.3f,%.0f,%.0f,%.0f,%.0f,%.0f,%.1f,%d,%zu,%zu,%.1f,%.1f,%.1f,%.1f,%.1f,%"
           ".1f,%.1f,"
           "%.1f,%.0f,%.0f,%d,%.0f",
-          name.c_str(), count, median(sample.fcl_us), median(sample.roots_us), median(sample.front_us),
+          pair.name.c_str(), count, median(sample.fcl_us), median(sample.roots_us), median(sample.front_us),
           percentile(sample.front_us, 0.99), median(sample.front_us) / median(sample.fcl_us), sample.kept / n,
           sample.expired / n, sample.groups / n, sample.features / n, sample.live / n,
           static_cast<double>(sample.seeds) / n, sample.anew, sample.missed, sample.more,

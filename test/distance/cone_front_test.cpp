@@ -8,6 +8,7 @@
 #include <limits>
 #include <map>
 
+#include "concave_distance/mesh/surface/primitives.h"
 #include "distance/minima_candidates.h"
 #include "distance/witness_refinement.h"
 #include "support/body_motions.h"
@@ -82,6 +83,28 @@ TEST(ConeFront, LeadsToTheMinimaThatTheRootsLeadToOverAnyMotion) {
     ConeFront front;
     for (int k = 0; k < 60; ++k) {
       expectWhatTheRootsFind(a, b, motion.at(step * k), sides, cutoff, front);
+      if (HasFailure()) return;
+    }
+  }
+}
+
+// Triangles of one sphere that lie in the other one are no surface; those around them have their cones by all
+// neighbours.
+TEST(ConeFront, LeadsToTheMinimaOfShellsThatCross) {
+  RandomEngine engine(12);
+  const SurfaceMesh sphere = makeSphere(0.6, 0.06);
+  const Body spheres = makeBody(test::makeUnion(sphere, sphere, Vector3d(0.7, 0.3, 0.2)));
+  ASSERT_FALSE(spheres->joints().hidden.empty());
+  for (std::uint32_t run = 0; run < 60; ++run) {
+    const Body other = makeBody(test::concaveShape(run));
+    const Motion motion = randomMotion(engine);
+    const double step = std::pow(10.0, -3.0 + 2.0 * uniformUnit(engine));
+    SCOPED_TRACE("run " + std::to_string(run) + ", step " + std::to_string(step));
+    ConeFront front;
+    for (int k = 0; k < 40; ++k) {
+      const bool is_first = run % 2 == 0;
+      expectWhatTheRootsFind(is_first ? spheres : other, is_first ? other : spheres, motion.at(step * k),
+                             NormalSides::Outside, kInfinity, front);
       if (HasFailure()) return;
     }
   }
