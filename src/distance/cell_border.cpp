@@ -79,10 +79,6 @@ std::uint32_t BorderPool::take(std::uint32_t next, WorkLimit& limit) {
   return chunk;
 }
 
-bool BorderPool::makeRoom(WorkLimit& limit) {
-  return free_ != kNone || limit.makeRoom(chunks_);
-}
-
 void BorderPool::release(std::uint32_t first) {
   while (first != kNone) {
     const std::uint32_t next = chunks_[first].next;
@@ -98,7 +94,7 @@ void BorderPool::clear() {
 }
 
 std::size_t BorderPool::memoryBytes() const {
-  return chunks_.capacity() * sizeof(Chunk) + anew.capacity() * sizeof(Measured) +
+  return chunks_.capacity() * sizeof(Chunk) + anew.capacity() * sizeof(Directed) +
          crossed.capacity() * sizeof(BorderElement);
 }
 
@@ -177,11 +173,11 @@ std::uint32_t CellBorder::placeIn(BorderPool& pool, Batch& batch, WorkLimit& lim
   return pool[batch.first].count++;
 }
 
-CellBorder::Entry CellBorder::takeFrom(BorderPool::Chunk& chunk, std::uint32_t k) {
-  const Entry entry{chunk.gap[k],
-                    chunk.lever[k],
-                    {chunk.direction[0][k], chunk.direction[1][k], chunk.direction[2][k]},
-                    chunk.elements[k]};
+BorderPool::Entry CellBorder::takeFrom(BorderPool::Chunk& chunk, std::uint32_t k) {
+  const BorderPool::Entry entry{chunk.gap[k],
+                                chunk.lever[k],
+                                {chunk.direction[0][k], chunk.direction[1][k], chunk.direction[2][k]},
+                                chunk.elements[k]};
   const std::uint32_t last = --chunk.count;
   chunk.gap[k] = chunk.gap[last];
   chunk.lever[k] = chunk.lever[last];
@@ -190,15 +186,16 @@ CellBorder::Entry CellBorder::takeFrom(BorderPool::Chunk& chunk, std::uint32_t k
   return entry;
 }
 
-void CellBorder::put(BorderPool& pool, Batch& batch, const Entry& entry, WorkLimit& limit) {
+bool CellBorder::put(BorderPool& pool, Batch& batch, const BorderPool::Entry& entry, WorkLimit& limit) {
   const std::uint32_t k = placeIn(pool, batch, limit);
-  if (k == BorderPool::kNone) return;
+  if (k == BorderPool::kNone) return false;
   BorderPool::Chunk& chunk = pool[batch.first];
   chunk.gap[k] = entry.gap;
   chunk.lever[k] = entry.lever;
   for (std::size_t d = 0; d < 3; ++d) chunk.direction[d][k] = entry.direction[static_cast<Eigen::Index>(d)];
   chunk.elements[k] = entry.element;
   batch.longest = std::max(batch.longest, entry.lever);
+  return true;
 }
 
 bool CellBorder::add(BorderPool& pool, const MinimaScene& scene, const BorderElement& element, double level,
@@ -206,32 +203,9 @@ bool CellBorder::add(BorderPool& pool, const MinimaScene& scene, const BorderEle
   const Levers levers(partOf(scene, Side::A, element.shared), partOf(scene, Side::B, element.shared),
                       centres_);
   if (used_ == kMostBatches) rebase(pool, scene);
-  Batch& batch = batchAt(scene, levers.fixed_in, false);
-  const std::uint32_t before = batch.first;
-  if ((before == BorderPool::kNone || pool[before].count == BorderPool::kWidth) && !pool.makeRoom(limit)) {
-    return false;
-  }
-  put(pool, batch,
-      {static_cast<float>(level - 2.0 * scene.rounding), levers.shorter, Eigen::Vector3f::Zero(), element},
-      limit);
-  return true;
-}
-
-void CellBorder::addDirected(BorderPool& pool, const MinimaScene& scene, const BorderPool::Measured& measured,
-                             WorkLimit& limit) {
-  const Levers levers(partOf(scene, Side::A, measured.element.shared),
-                      partOf(scene, Side::B, measured.element.shared), centres_);
-  const Vector3d& direction = measured.direction;
-  const Vector3d along =
-      levers.fixed_in == Side::A ? direction : Vector3d(scene.frames.rotation.transpose() * -direction);
-  put(pool, batchAt(scene, levers.fixed_in, true),
-      {static_cast<float>(measured.gap), levers.shorter, along.cast<float>(), measured.element}, limit);
-}
-
-BorderPool::Measured CellBorder::measure(const MinimaScene& scene, const BorderElement& element,
-                                         const TrianglePairDistance& closest) {
-  const Vector3d direction = (closest.point_b - closest.point_a).normalized();
-  return {element, direction, gapAlong(scene, element.shared, direction)};
+  const auto gap = static_cast<float>(level - 2.0 * scene.rounding);
+  return put(pool, batchAt(scene, levers.fixed_in, false),
+             {gap, levers.shorter, Eigen::Vector3f::Zero(), element}, limit);
 }
 
 /// What may be nearer than the level leaves the batch: it is looked at along its direction, and measured
@@ -246,14 +220,21 @@ std::uint32_t CellBorder::look(BorderPool& pool, const MinimaScene& scene, Batch
     const Row bounds = bound.of(chunk);
     for (std::uint32_t k = chunk.count; k-- > 0;) {
       if (bounds[k] > needed) continue;
-      const Entry entry = takeFrom(chunk, k);
+      BorderPool::Entry entry = takeFrom(chunk, k);
+      const auto enter = [&](const Vector3d& direction, double gap) {
+        const Vector3d along =
+            batch.fixed_in == Side::A ? direction : Vector3d(scene.frames.rotation.transpose() * -direction);
+        entry.direction = along.cast<float>();
+        entry.gap = static_cast<float>(gap);
+        pool.anew.push_back({batch.fixed_in, entry});
+      };
       if (batch.directed) {
         const Vector3d along = entry.direction.cast<double>().normalized();
         const Vector3d direction =
             batch.fixed_in == Side::A ? along : Vector3d(scene.frames.rotation * -along);
         const double gap = gapAlong(scene, entry.element.shared, direction);
         if (gap > level) {
-          pool.anew.push_back({entry.element, direction, gap});
+          enter(direction, gap);
           continue;
         }
       }
@@ -262,7 +243,8 @@ std::uint32_t CellBorder::look(BorderPool& pool, const MinimaScene& scene, Batch
       if (closest.squared_distance < level * level) {
         pool.crossed.push_back(entry.element);
       } else {
-        pool.anew.push_back(measure(scene, entry.element, closest));
+        const Vector3d direction = (closest.point_b - closest.point_a).normalized();
+        enter(direction, gapAlong(scene, entry.element.shared, direction));
       }
     }
     if (chunk.count > 0) {
@@ -295,7 +277,7 @@ void CellBorder::rebase(BorderPool& pool, const MinimaScene& scene) {
       pool.release(c);
       c = chunk.next;
       for (std::uint32_t k = chunk.count; k-- > 0;) {
-        Entry entry = takeFrom(chunk, k);
+        BorderPool::Entry entry = takeFrom(chunk, k);
         entry.gap = gaps[k];
         put(pool, at_this_pose, entry, none);
       }
@@ -318,7 +300,9 @@ std::uint32_t CellBorder::takeCrossed(BorderPool& pool, const MinimaScene& scene
   used_ = rest;
   if (used_ + 2 > kMostBatches) rebase(pool, scene);
   WorkLimit none;
-  for (const BorderPool::Measured& element : pool.anew) addDirected(pool, scene, element, none);
+  for (const BorderPool::Directed& directed : pool.anew) {
+    put(pool, batchAt(scene, directed.fixed_in, true), directed.entry, none);
+  }
   return measured;
 }
 

@@ -36,15 +36,19 @@ class BorderPool {
     std::uint32_t count = 0;
     std::uint32_t next = kNone;
   };
-  struct Measured {
+  struct Entry {
+    float gap;
+    float lever;
+    Eigen::Vector3f direction;
     BorderElement element;
-    Eigen::Vector3d direction;  ///< from A to B
-    double gap;                 ///< metres along it
+  };
+  struct Directed {
+    Side fixed_in;
+    Entry entry;
   };
 
   /// An empty group before `next`; kNone without memory.
   std::uint32_t take(std::uint32_t next, WorkLimit& limit);
-  bool makeRoom(WorkLimit& limit);
   /// The group and all after it.
   void release(std::uint32_t first);
   Chunk& operator[](std::uint32_t chunk) { return chunks_[chunk]; }
@@ -54,7 +58,7 @@ class BorderPool {
   std::size_t memoryBytes() const;
 
   // Of one look at a border.
-  std::vector<Measured> anew;
+  std::vector<Directed> anew;
   std::vector<BorderElement> crossed;
 
  private:
@@ -96,12 +100,6 @@ class CellBorder {
     std::uint32_t first = BorderPool::kNone;
   };
   static constexpr std::uint32_t kMostBatches = 8;
-  struct Entry {
-    float gap;
-    float lever;
-    Eigen::Vector3f direction;
-    BorderElement element;
-  };
   class Bound;
   struct Levers;
 
@@ -109,12 +107,9 @@ class CellBorder {
   Batch& batchAt(const MinimaScene& scene, Side fixed_in, bool directed);
   /// The place for another element; kNone without memory.
   static std::uint32_t placeIn(BorderPool& pool, Batch& batch, WorkLimit& limit);
-  static Entry takeFrom(BorderPool::Chunk& chunk, std::uint32_t k);
-  static void put(BorderPool& pool, Batch& batch, const Entry& entry, WorkLimit& limit);
-  static BorderPool::Measured measure(const MinimaScene& scene, const BorderElement& element,
-                                      const TrianglePairDistance& closest);
-  void addDirected(BorderPool& pool, const MinimaScene& scene, const BorderPool::Measured& measured,
-                   WorkLimit& limit);
+  static BorderPool::Entry takeFrom(BorderPool::Chunk& chunk, std::uint32_t k);
+  /// False without memory.
+  static bool put(BorderPool& pool, Batch& batch, const BorderPool::Entry& entry, WorkLimit& limit);
   std::uint32_t look(BorderPool& pool, const MinimaScene& scene, Batch& batch, double level) const;
   void rebase(BorderPool& pool, const MinimaScene& scene);
 

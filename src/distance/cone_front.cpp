@@ -47,7 +47,7 @@ class ConeFront::Stage {
     front_.valid_ = true;
   }
 
-  /// What has expired is taken out; what had before and was not looked at stays in front of it.
+  /// Appends what has expired to what earlier cycles have left.
   void expire() {
     std::vector<Pair>& expired = front_.expired_;
     expired.erase(expired.begin(), expired.begin() + static_cast<std::ptrdiff_t>(front_.next_expired_));
@@ -203,26 +203,18 @@ class ConeFront::Stage {
     return !offers_.empty() && keep(pair);
   }
 
+  /// Those that are undecided again come behind the ones that were not asked. False when the limit was
+  /// reached.
   bool askUndecided() {
     std::vector<Pair>& undecided = front_.undecided_;
     const std::size_t count = undecided.size();
-    std::size_t rest = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-      const Pair pair = undecided[i];
-      if (limit_.isOverNow() || !limit_.makeRoom(seeds_) || !limit_.makeRoom(front_.minima_)) {
-        undecided.erase(undecided.begin() + static_cast<std::ptrdiff_t>(rest),
-                        undecided.begin() + static_cast<std::ptrdiff_t>(i));
-        return false;
-      }
-      Minimum minimum;
-      if (isMinimum(pair, minimum)) {
-        front_.minima_.push_back(minimum);
-      } else if (!keepFeatures(pair)) {
-        undecided[rest++] = pair;
-      }
+    std::size_t asked = 0;
+    while (asked < count && !limit_.isOverNow() && limit_.makeRoom(seeds_)) {
+      const Pair pair = undecided[asked++];
+      look(pair);
     }
-    undecided.resize(rest);
-    return true;
+    undecided.erase(undecided.begin(), undecided.begin() + static_cast<std::ptrdiff_t>(asked));
+    return asked == count;
   }
 
   void resetOffers(const Pair& pair) {

@@ -29,7 +29,7 @@ struct Arc {
   bool isShort() const { return !(width > kShortArc); }
 
   /// Radians from a unit vector, or less. An arc's chord is no longer than the arc, nor its sine.
-  double partFrom(const Vector3d& direction) const {
+  double gapTo(const Vector3d& direction) const {
     const double to_end =
         std::sqrt(std::min((direction - first).squaredNorm(), (direction - last).squaredNorm()));
     if (isShort()) return to_end;
@@ -49,11 +49,11 @@ bool doCross(const Arc& l, const Arc& r) {
 }
 
 /// Radians between two arcs, or less; not above 0 where they cross.
-double partOf(const Arc& l, const Arc& r) {
+double gapBetween(const Arc& l, const Arc& r) {
   double less = 0.0;
   for (const Arc* arc : {&l, &r}) less += arc->isShort() ? arc->width : 0.0;
   if (less == 0.0 && doCross(l, r)) return 0.0;
-  return std::min({l.partFrom(r.first), l.partFrom(r.last), r.partFrom(l.first), r.partFrom(l.last)}) - less;
+  return std::min({l.gapTo(r.first), l.gapTo(r.last), r.gapTo(l.first), r.gapTo(l.last)}) - less;
 }
 
 }  // namespace
@@ -200,7 +200,7 @@ void FeaturePairs::offerEdgeToEdge(const Item& a, const Item& b, SlackOffers& of
   if (!arc_of(body_a, a, arc_a) || !arc_of(body_b, b, arc_b)) return;
   for (Vector3d* normal : {&arc_b.first, &arc_b.last}) *normal = -(scene_.frames.rotation * *normal);
   arc_b.across = scene_.frames.rotation * arc_b.across;
-  offers.offerTurn(partOf(arc_a, arc_b) - kNormalSlack);
+  offers.offerTurn(gapBetween(arc_a, arc_b) - kNormalSlack);
 
   const double length_a = span_a.norm();
   const double length_b = span_b.norm();

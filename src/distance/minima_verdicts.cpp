@@ -521,7 +521,7 @@ std::uint32_t MinimaVerdicts::locate(const MinimaScene& scene, const TrianglePai
   stage.resolve(place);
   const std::uint32_t end = endOf(place);
   if (end != kNone && judged_[end].verdict == Verdict::Undecided) return kUndecided;
-  return nicheOf(place);
+  return nicheOf(end);
 }
 
 std::uint32_t MinimaVerdicts::nicheWith(std::uint64_t region) const {

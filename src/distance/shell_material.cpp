@@ -8,14 +8,14 @@ namespace {
 /// How far before a surface it is asked what is there, relative to the body.
 constexpr double kStepOff = 1e-7;
 
-/// @param towards unit vector, zero where there is no way to go
+/// @param towards unit vector; zero: along the triangle's normal
 bool isInside(const BodyMesh& body, TriangleIndex triangle, const Eigen::Vector3d& point,
               const Eigen::Vector3d& towards) {
   if (body.joints().joints.empty()) return false;
-  const Eigen::Vector3d& way =
+  const Eigen::Vector3d& direction =
       towards.isZero(0.0) ? body.topology().triangle_normals[triangle.value] : towards;
   return isInsideOtherShell(body.surface(), body.topology(), body.tree(), triangle,
-                            point + kStepOff * body.diameter() * way);
+                            point + kStepOff * body.diameter() * direction);
 }
 
 }  // namespace

@@ -13,10 +13,10 @@ namespace {
 
 constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
-// A descent to each known niche that is not reached is kept time for, up to a share of all.
+// Time is reserved for a descent to each known niche, up to this share of all time.
 constexpr double kSecondsOfKnown = 3e-6;
 constexpr double kMostForKnown = 0.3;
-// Of the rest: when the look for all minima ends, and when the floods.
+// Of the rest: when the search for all minima ends, and when the floods end.
 constexpr double kShareOfSearch = 0.6;
 constexpr double kShareOfFloods = 0.9;
 
