@@ -32,12 +32,14 @@
 #include "distance/minima_candidates.h"
 #include "distance/minima_verdicts.h"
 #include "distance/witness_refinement.h"
+#include "support/judged_niches.h"
 
 namespace concave_distance::benchmark {
 namespace {
 
 using detail::ConeFront;
 using detail::MinimaVerdicts;
+using test::nichesOf;
 
 std::vector<WitnessPair> placesOf(const BenchmarkPair& pair, const Eigen::Isometry3d& pose,
                                   const std::vector<MinimumSeed>& seeds) {
@@ -91,16 +93,6 @@ struct Sample {
   int other = 0;
   std::size_t bytes = 0;
 };
-
-/// Ascending.
-std::vector<double> nichesOf(const MinimaVerdicts& verdicts) {
-  std::vector<double> distances;
-  for (const MinimaVerdicts::Judged& judged : verdicts.judged()) {
-    if (judged.verdict == MinimaVerdicts::Verdict::Niche) distances.push_back(judged.seed.distance);
-  }
-  std::sort(distances.begin(), distances.end());
-  return distances;
-}
 
 bool isSame(const std::vector<double>& l, const std::vector<double>& r, double tolerance) {
   return std::equal(l.begin(), l.end(), r.begin(), r.end(),

@@ -13,6 +13,7 @@
 #include "distance/meeting_pairs.h"
 #include "support/body_motions.h"
 #include "support/body_pairs.h"
+#include "support/judged_niches.h"
 
 // Verdicts by what is kept from pose to pose against floods at every pose.
 
@@ -22,6 +23,7 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using test::makeBody;
+using test::nichesOf;
 using Body = std::shared_ptr<const BodyMesh>;
 using Verdict = MinimaVerdicts::Verdict;
 
@@ -35,16 +37,6 @@ std::vector<MinimumSeed> seedsAt(const MinimaScene& scene) {
   collectMeetingPairs(scene, seeds, cost, none);
   front.collect(scene, NormalSides::Outside, kInfinity, seeds, none);
   return seeds;
-}
-
-/// Ascending.
-std::vector<double> nichesOf(const MinimaVerdicts& verdicts) {
-  std::vector<double> distances;
-  for (const MinimaVerdicts::Judged& judged : verdicts.judged()) {
-    if (judged.verdict == Verdict::Niche) distances.push_back(judged.seed.distance);
-  }
-  std::sort(distances.begin(), distances.end());
-  return distances;
 }
 
 std::vector<double> nichesByFloods(const MinimaScene& scene, std::vector<MinimumSeed> seeds,
