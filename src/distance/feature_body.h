@@ -32,17 +32,22 @@ struct FeaturePairs::Body {
                            : Eigen::Vector3d(frames.rotation.transpose() * direction);
   }
 
+  template <typename Visit>
+  void forEachNeighbour(NodeIndex node, const Visit& visit) const {
+    concave_distance::forEachNeighbour(mesh.surface(), mesh.topology(), mesh.joints().hidden, node, visit);
+  }
+
   /// How far, at most, a neighbour of the vertex rises along `displacement`, per length of its edge; what is
   /// within rounding does not count.
   double rise(NodeIndex node, const Eigen::Vector3d& displacement, double slack) const {
     const Eigen::Vector3d here = vertex(node);
     const double reach = displacement.norm();
     double most = 0.0;
-    for (const NodeIndex neighbour : mesh.topology().neighbours_of_vertex.row(node.value)) {
+    forEachNeighbour(node, [&](NodeIndex neighbour) {
       const Eigen::Vector3d edge = vertex(neighbour) - here;
       const double length = edge.norm();
       most = std::max(most, (displacement.dot(edge) - 2.0 * slack * std::max(length, reach)) / length);
-    }
+    });
     return most;
   }
 

@@ -162,8 +162,9 @@ FeaturePairs::Peak FeaturePairs::peakAt(Side side, const Item& item, const Vecto
   // The end of an edge counts with all that is around it.
   for (std::uint8_t k = 0; k < 3; ++k) {
     if ((vertex_of(nodes[k]) - point).squaredNorm() > slack_ * slack_) continue;
-    const auto around = body.topology().neighbours_of_vertex.row(nodes[k].value);
-    const bool is_peak = std::none_of(around.begin(), around.end(), rises);
+    bool is_peak = true;
+    forEachNeighbour(body.surface(), body.topology(), body.joints().hidden, nodes[k],
+                     [&](NodeIndex neighbour) { is_peak = is_peak && !rises(neighbour); });
     return {is_peak, any_level ? 2 : 0, static_cast<Feature>(k)};
   }
   if (item.kind == Kind::Face) return {std::none_of(nodes.begin(), nodes.end(), rises), 2, Feature::Face};

@@ -115,7 +115,7 @@ void FeaturePairs::offerBesideEdge(const Body& of_edge, const Item& edge, const 
   offer_face(edge.triangle);
   const TriangleIndex across =
       of_edge.mesh.topology().triangle_across_edge[edge.triangle.value][edge.element];
-  if (across != kNoTriangle) offer_face(across);
+  if (across != kNoTriangle && !of_edge.mesh.joints().isHidden(across)) offer_face(across);
 }
 
 void FeaturePairs::offerVertexToEdge(const Body& of_vertex, const Item& vertex, const Body& of_edge,
@@ -178,7 +178,8 @@ void FeaturePairs::offerEdgeToEdge(const Item& a, const Item& b, SlackOffers& of
   const auto arc_of = [](const Body& body, const Item& item, Arc& arc) {
     const MeshTopology& topology = body.mesh.topology();
     const TriangleIndex beyond_edge = topology.triangle_across_edge[item.triangle.value][item.element];
-    if (beyond_edge == kNoTriangle || item.cap.isFull()) return false;
+    if (beyond_edge == kNoTriangle || body.mesh.joints().isHidden(beyond_edge) || item.cap.isFull())
+      return false;
     arc.first = topology.triangle_normals[item.triangle.value];
     arc.last = topology.triangle_normals[beyond_edge.value];
     // Sides of one winding; the other winding has the edge in the other direction.

@@ -409,14 +409,10 @@ class MinimaVerdicts::Stage {
     return memory_.keepLink(link, closest.point_a, scene_.frames.pointInB(closest.point_b), next, limit_);
   }
 
-  /// Surfaces in the material of other shells hold minima that no cone leads to: what a region holds may come
-  /// nearer there without a seed.
-  bool hasJoints() const { return !scene_.a.joints().joints.empty() || !scene_.b.joints().joints.empty(); }
-
   /// What the last flood has visited.
   void keepRegion(std::uint32_t i, std::uint64_t id) {
     const std::vector<CellFlood::Cell>& visited = verdicts_.flood_.cells();
-    if (visited.size() > kLargestRegion || hasJoints()) return;
+    if (visited.size() > kLargestRegion) return;
     const std::uint32_t index = memory_.takeRegion(id, limit_);
     if (index == kNone) return;
     VerdictMemory::Region& region = memory_.region(index);

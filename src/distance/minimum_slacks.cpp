@@ -46,16 +46,13 @@ double FeaturePairs::fallAround(const Body& body, const Item& item, const Vector
     least = std::min(least, (-displacement.dot(edge) - slack) / (edge.norm() + level));
   };
   if (item.kind == Kind::Vertex) {
-    for (const NodeIndex node :
-         body.mesh.topology().neighbours_of_vertex.row(body.node(item, item.element).value)) {
-      look(node);
-    }
+    body.forEachNeighbour(body.node(item, item.element), look);
     return least;
   }
   const NodeIndex begin = body.node(item, item.element);
   const NodeIndex end = body.node(item, item.element + 1U);
-  // Every triangle at the edge bounds its normal cone, hidden ones too.
   for (const TriangleIndex triangle : body.mesh.topology().triangles_of_vertex.row(begin.value)) {
+    if (body.mesh.joints().isHidden(triangle)) continue;
     const TriangleNodes& nodes = body.mesh.surface().triangle(triangle);
     if (std::find(nodes.begin(), nodes.end(), end) == nodes.end()) continue;
     for (const NodeIndex node : nodes) {

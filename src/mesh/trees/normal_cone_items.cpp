@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "normal_cone.h"
+#include "shell_joints.h"
 
 namespace concave_distance::detail {
 namespace {
@@ -44,12 +45,17 @@ class Collector {
     return sides_ == NormalSides::Both || !topology_.isOnClosedShell(t);
   }
 
+  template <typename Triangles>
+  bool anyHidden(const Triangles& triangles) const {
+    return std::any_of(triangles.begin(), triangles.end(), [this](TriangleIndex t) { return isHidden(t); });
+  }
+
   /// Where shells meet, the sum of their normals is meaningless for each.
   template <typename Triangles>
   bool bothSidesOfAny(const Triangles& triangles) const {
     const std::uint32_t shell = topology_.shell_of_triangle[triangles.begin()->value];
     return std::any_of(triangles.begin(), triangles.end(), [&](TriangleIndex t) {
-      return bothSides(t) || topology_.shell_of_triangle[t.value] != shell;
+      return bothSides(t) || isHidden(t) || topology_.shell_of_triangle[t.value] != shell;
     });
   }
 
@@ -80,18 +86,19 @@ class Collector {
 
   void addVertex(NodeIndex v) {
     const auto fan = topology_.triangles_of_vertex.row(v.value);
-    if (std::all_of(fan.begin(), fan.end(), [this](TriangleIndex t) { return isHidden(t); })) return;
+    const auto seen = std::find_if(fan.begin(), fan.end(), [this](TriangleIndex t) { return !isHidden(t); });
+    if (seen == fan.end()) return;
     const auto around = topology_.neighbours_of_vertex.row(v.value);
     // As many neighbours as triangles: no border runs through.
-    if (around.size() == fan.size() && isInsidePlane(fan, around, mesh_.vertex(v))) return;
+    if (around.size() == fan.size() && !anyHidden(fan) && isInsidePlane(fan, around, mesh_.vertex(v))) return;
     clipper_.reset();
-    for (const NodeIndex neighbour : around) {
+    forEachNeighbour(mesh_, topology_, hidden_, v, [&](NodeIndex neighbour) {
       const Vector3d displacement = (mesh_.vertex(neighbour) - mesh_.vertex(v)).stableNormalized();
       if (!displacement.isZero(0.0)) clipper_.clip(displacement, kConeSlack);
-    }
-    const TriangleNodes& nodes = mesh_.triangle(fan[0]);
+    });
+    const TriangleNodes& nodes = mesh_.triangle(*seen);
     const auto corner = static_cast<std::uint8_t>(std::find(nodes.begin(), nodes.end(), v) - nodes.begin());
-    addClipped(mesh_.vertex(v), 0.0, topology_.vertex_normals[v.value], bothSidesOfAny(fan), fan[0],
+    addClipped(mesh_.vertex(v), 0.0, topology_.vertex_normals[v.value], bothSidesOfAny(fan), *seen,
                Kind::Vertex, corner);
   }
 
@@ -130,8 +137,9 @@ class Collector {
   void addEdge(TriangleIndex t, std::uint8_t k) {
     const NodeIndex from = mesh_.triangle(t)[k];
     const NodeIndex to = mesh_.triangle(t)[(k + 1U) % 3];
-    if (from == to) return;
+    if (from == to || isHidden(t)) return;
     around_.clear();
+    bool is_rim = false;
     const auto at_from = topology_.triangles_of_vertex.row(from.value);
     const auto at_to = topology_.triangles_of_vertex.row(to.value);
     const bool fewer_at_from = at_from.size() <= at_to.size();
@@ -139,10 +147,11 @@ class Collector {
     for (const TriangleIndex other : fewer_at_from ? at_from : at_to) {
       const TriangleNodes& nodes = mesh_.triangle(other);
       if (std::find(nodes.begin(), nodes.end(), opposite) == nodes.end()) continue;
+      is_rim = is_rim || isHidden(other);
+      if (isHidden(other)) continue;
       if (other < t) return;  // the edge was added with that triangle
       around_.push_back(other);
     }
-    if (std::all_of(around_.begin(), around_.end(), [this](TriangleIndex o) { return isHidden(o); })) return;
     if (around_.size() == 2 && isInsidePlane(around_, mesh_.triangle(around_[0]), mesh_.vertex(from)) &&
         isInsidePlane(around_, mesh_.triangle(around_[1]), mesh_.vertex(from))) {
       return;
@@ -150,7 +159,7 @@ class Collector {
     const Vector3d centre = 0.5 * (mesh_.vertex(from) + mesh_.vertex(to));
     const double radius = 0.5 * (mesh_.vertex(to) - mesh_.vertex(from)).norm();
     const Vector3d along = (mesh_.vertex(to) - mesh_.vertex(from)).stableNormalized();
-    if (addBetweenTwo(t, k, centre, radius, along)) return;
+    if (addBetweenTwo(t, k, centre, radius, along, is_rim)) return;
     clipper_.reset();
     clipper_.clip(along, kConeSlack);
     clipper_.clip(-along, kConeSlack);
@@ -165,13 +174,13 @@ class Collector {
       const Vector3d displacement = mesh_.vertex(apex) - mesh_.vertex(from);
       clipper_.clip((displacement - along.dot(displacement) * along).normalized(), slack + kConeSlack);
     }
-    addClipped(centre, radius, normal.normalized(), bothSidesOfAny(around_), t, Kind::Edge, k);
+    addClipped(centre, radius, normal.normalized(), is_rim || bothSidesOfAny(around_), t, Kind::Edge, k);
   }
 
   /// The common case in closed form: two sound triangles of one winding. False when it is another.
   bool addBetweenTwo(TriangleIndex t, std::uint8_t k, const Vector3d& centre, double radius,
-                     const Vector3d& along) {
-    if (around_.size() != 2) return false;
+                     const Vector3d& along, bool is_rim) {
+    if (is_rim || around_.size() != 2) return false;
     const TriangleIndex other = around_[0] == t ? around_[1] : around_[0];
     const TriangleNodes& nodes = mesh_.triangle(other);
     const auto at = static_cast<std::size_t>(

@@ -6,8 +6,8 @@
 
 namespace concave_distance::detail {
 
-/// Every vertex, edge and face that has a local normal cone on the sides wanted, once for each side; none
-/// with triangles that are all hidden (empty: none is).
+/// Every vertex, edge and face that has a local normal cone on the sides wanted, once for each side. Hidden
+/// triangles (empty: there are none) count as if they were not there.
 std::vector<NormalConeTree::Item> collectConeItems(const SurfaceMesh& mesh, const MeshTopology& topology,
                                                    NormalSides sides, const std::vector<bool>& hidden);
 

@@ -30,6 +30,22 @@ struct ShellJoints {
   std::size_t memoryBytes() const { return joints.capacity() * sizeof(Joint) + hidden.capacity() / 8; }
 };
 
+/// Calls visit(vertex) for those that triangles in sight have in common with `vertex`, some of them twice.
+template <typename Visit>
+void forEachNeighbour(const SurfaceMesh& mesh, const MeshTopology& topology, const std::vector<bool>& hidden,
+                      NodeIndex vertex, const Visit& visit) {
+  if (hidden.empty()) {
+    for (const NodeIndex neighbour : topology.neighbours_of_vertex.row(vertex.value)) visit(neighbour);
+    return;
+  }
+  for (const TriangleIndex t : topology.triangles_of_vertex.row(vertex.value)) {
+    if (hidden[t.value]) continue;
+    for (const NodeIndex node : mesh.triangle(t)) {
+      if (node != vertex) visit(node);
+    }
+  }
+}
+
 /// What is nearer than 1e-9 of the diameter touches. Hidden are triangles that meet no other shell and lie in
 /// one's material; those that another shell crosses count whole. O(n log n) and the pairs that meet; nothing
 /// for a body of one shell.
