@@ -271,7 +271,7 @@ const ConnectedPieces& BodyMesh::pieces() const {
 const NormalConeTree& BodyMesh::normalCones(NormalSides sides) const {
   auto& part = state_->cones.at(static_cast<std::size_t>(sides));
   std::call_once(part.once, [&] {
-    part.value = NormalConeTree(surface(), topology(), sides, joints().hidden);
+    part.value = NormalConeTree(surface(), topology(), sides, joints());
     part.bytes = part.value.memoryBytes();
   });
   return part.value;

@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "normal_cone.h"
-#include "shell_joints.h"
 
 namespace concave_distance::detail {
 namespace {
@@ -25,8 +24,14 @@ constexpr double kLevel = 0x1.0p-49;
 class Collector {
  public:
   Collector(const SurfaceMesh& mesh, const MeshTopology& topology, NormalSides sides,
-            const std::vector<bool>& hidden)
-      : mesh_(mesh), topology_(topology), sides_(sides), hidden_(hidden) {}
+            const ShellJoints& joints)
+      : mesh_(mesh), topology_(topology), sides_(sides), hidden_(joints.hidden) {
+    if (joints.joints.empty()) return;
+    is_joined_.assign(mesh.triangleCount(), false);
+    for (const ShellJoints::Joint& joint : joints.joints) {
+      is_joined_[joint.first.value] = is_joined_[joint.second.value] = true;
+    }
+  }
 
   std::vector<Item> collect() {
     items_.reserve(3 * mesh_.triangleCount());
@@ -42,7 +47,8 @@ class Collector {
   bool isHidden(TriangleIndex t) const { return !hidden_.empty() && hidden_[t.value]; }
 
   bool bothSides(TriangleIndex t) const {
-    return sides_ == NormalSides::Both || !topology_.isOnClosedShell(t);
+    return sides_ == NormalSides::Both || !topology_.isOnClosedShell(t) ||
+           (!is_joined_.empty() && is_joined_[t.value]);
   }
 
   template <typename Triangles>
@@ -203,6 +209,7 @@ class Collector {
   const MeshTopology& topology_;
   NormalSides sides_;
   const std::vector<bool>& hidden_;
+  std::vector<bool> is_joined_;  ///< empty: none is
   std::vector<Item> items_;
   std::vector<TriangleIndex> around_;
   ConeClipper clipper_;
@@ -211,8 +218,8 @@ class Collector {
 }  // namespace
 
 std::vector<Item> collectConeItems(const SurfaceMesh& mesh, const MeshTopology& topology, NormalSides sides,
-                                   const std::vector<bool>& hidden) {
-  return Collector(mesh, topology, sides, hidden).collect();
+                                   const ShellJoints& joints) {
+  return Collector(mesh, topology, sides, joints).collect();
 }
 
 }  // namespace concave_distance::detail

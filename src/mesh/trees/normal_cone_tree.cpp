@@ -180,8 +180,8 @@ class ConeTreeBuilder {
 }  // namespace
 
 NormalConeTree::NormalConeTree(const SurfaceMesh& mesh, const MeshTopology& topology, NormalSides sides,
-                               const std::vector<bool>& hidden)
-    : items_(detail::collectConeItems(mesh, topology, sides, hidden)) {
+                               const ShellJoints& joints)
+    : items_(detail::collectConeItems(mesh, topology, sides, joints)) {
   items_.shrink_to_fit();
   if (items_.empty()) return;
   origin_ = mesh.boundingBox().center();

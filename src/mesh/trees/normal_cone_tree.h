@@ -6,6 +6,7 @@
 
 #include "concave_distance/mesh/surface/surface_mesh.h"
 #include "mesh/surface/mesh_topology.h"
+#include "shell_joints.h"
 
 namespace concave_distance {
 
@@ -70,9 +71,9 @@ class NormalConeTree {
   static constexpr std::size_t kMostRegions = 16;
 
   NormalConeTree() = default;
-  /// @param hidden triangles that are no surface (ShellJoints::hidden), or empty
+  /// @param joints of its shells
   NormalConeTree(const SurfaceMesh& mesh, const MeshTopology& topology, NormalSides sides,
-                 const std::vector<bool>& hidden = {});
+                 const ShellJoints& joints = {});
   bool empty() const { return items_.empty(); }
   const std::vector<Group>& groups() const { return groups_; }
   const std::vector<Item>& items() const { return items_; }
