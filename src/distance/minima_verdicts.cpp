@@ -78,10 +78,7 @@ class MinimaVerdicts::Stage {
     auto known = std::find_if(nearest, farthest, is_there);
     if (known == farthest) known = std::find_if(found, verdicts_.judged_.end(), is_there);
     if (known != verdicts_.judged_.end()) return static_cast<std::uint32_t>(known - begin);
-    if (!request_.through_material &&
-        classifyOutwardness(scene_.a, scene_.b, scene_.a_from_b, minimum) == Outwardness::ThroughMaterial) {
-      return kNone;
-    }
+    if (!request_.through_material && isThroughMaterial(minimum)) return kNone;
     verdicts_.judged_.emplace_back();
     verdicts_.judged_.back().seed = seed;
     verdicts_.judged_.back().was_found = true;
@@ -160,6 +157,9 @@ class MinimaVerdicts::Stage {
     if (request_.is_wanted && !request_.is_wanted(seed, memory_.cell(number).occluder)) {
       return set(i, Verdict::Unwanted);
     }
+    if (!request_.through_material && hasJoints() && isThroughMaterial(scene_.witnessOf(seed))) {
+      return set(i, Verdict::Unwanted);
+    }
     const std::uint32_t known = memory_.regionOf(number, i);
     if (known == kNone) return;
     VerdictMemory::Region& region = memory_.region(known);
@@ -169,6 +169,13 @@ class MinimaVerdicts::Stage {
       return set(i, Verdict::Niche);
     }
   }
+
+  bool isThroughMaterial(const WitnessPair& minimum) const {
+    return classifyOutwardness(scene_.a, scene_.b, scene_.a_from_b, minimum) == Outwardness::ThroughMaterial;
+  }
+
+  /// Only then do seeds lie on both sides of a closed shell (collectConeItems()).
+  bool hasJoints() const { return !scene_.a.joints().joints.empty() || !scene_.b.joints().joints.empty(); }
 
   /// Up to here nothing deeper may be reached.
   double levelOf(double distance) const { return (1.0 + request_.least_prominence) * distance; }

@@ -9,6 +9,7 @@
 #include <limits>
 #include <set>
 
+#include "concave_distance/loading/load_body_mesh.h"
 #include "distance/cone_front.h"
 #include "distance/meeting_pairs.h"
 #include "support/body_motions.h"
@@ -86,6 +87,37 @@ TEST(MinimaVerdicts, AreThoseOfFloodsAtEveryPoseOfAnyMotion) {
   EXPECT_GT(sum.by_border, 1000U);
   EXPECT_GT(sum.mended, 100U);
   EXPECT_GT(sum.floods, 100U);
+}
+
+// Links of many shells: surfaces in the material of others hold deeper places, in sight of nobody.
+TEST(MinimaVerdicts, AreThoseOfFloodsForLinksOfManyShells) {
+  const std::string folder = CONCAVE_DISTANCE_SOURCE_DIR "/meshes/wam/";
+  const Body a = loadBodyMesh(folder + "wam_base.stl").mesh;
+  const Body b = loadBodyMesh(folder + "wam4.stl").mesh;
+  ASSERT_FALSE(a->joints().joints.empty() && b->joints().joints.empty());
+  RandomEngine engine(22);
+  std::uint32_t by_border = 0;
+  for (int run = 0; run < 6; ++run) {
+    test::Motion motion = test::randomMotion(engine);
+    motion.centre = 0.6 * a->diameter() * motion.centre.normalized();
+    motion.reach *= 0.3 * a->diameter();
+    SCOPED_TRACE("run " + std::to_string(run));
+    MinimaVerdicts verdicts;
+    const MinimaVerdicts::Request request;
+    for (int k = 0; k < 50; ++k) {
+      Isometry3d pose = motion.at(0.005 * k);
+      pose.translation() -= pose.linear() * b->surface().boundingBox().center();
+      pose.pretranslate(a->surface().boundingBox().center());
+      const MinimaScene scene(*a, *b, pose);
+      std::vector<MinimumSeed> seeds = seedsAt(scene);
+      WorkLimit none;
+      verdicts.judge(scene, seeds, request, none);
+      expectSame(nichesOf(verdicts), nichesByFloods(scene, seeds, request.least_prominence));
+      if (HasFailure()) return;
+      by_border += verdicts.counts().by_border;
+    }
+  }
+  EXPECT_GT(by_border, 200U);
 }
 
 TEST(MinimaVerdicts, NeedNoFloodWhereNothingHasMoved) {
