@@ -15,23 +15,33 @@ constexpr double kSingleError = 0x1.0p-18;
 
 /// The corners of an element's part on one body, in the body's own axes and the scene's centre.
 struct Part {
-  std::array<Vector3d, 3> corners;
+  std::array<Vector3d, 4> corners;
+  std::size_t count;
 
   double leastAlong(const Vector3d& direction) const {
-    return std::min({direction.dot(corners[0]), direction.dot(corners[1]), direction.dot(corners[2])});
+    double least = direction.dot(corners[0]);
+    for (std::size_t k = 1; k < count; ++k) least = std::min(least, direction.dot(corners[k]));
+    return least;
   }
   double leverOf(const Vector3d& centre) const {
-    return std::sqrt(std::max({(corners[0] - centre).squaredNorm(), (corners[1] - centre).squaredNorm(),
-                               (corners[2] - centre).squaredNorm()}));
+    double most = 0.0;
+    for (std::size_t k = 0; k < count; ++k) most = std::max(most, (corners[k] - centre).squaredNorm());
+    return std::sqrt(most);
   }
 };
 
 Part partOf(const MinimaScene& scene, Side side, const SharedElement& element) {
+  if (element.side == side) {
+    return {{scene.ownVertex(side, element.from), scene.ownVertex(side, element.to)}, 2};
+  }
   const SurfaceMesh& mesh = (side == Side::A ? scene.a : scene.b).surface();
+  const Facets& facets = side == Side::A ? scene.facets_a : scene.facets_b;
   const Vector3d& centre = side == Side::A ? scene.frames.centre_a : scene.frames.centre_b;
-  if (element.side != side) return {localCorners(mesh, element.other, centre)};
-  const Vector3d to = scene.ownVertex(side, element.to);
-  return {{scene.ownVertex(side, element.from), to, to}};
+  Part part{{}, facets.isQuad(element.other) ? std::size_t{4} : std::size_t{3}};
+  for (std::size_t k = 0; k < part.count; ++k) {
+    part.corners[k] = mesh.vertex(facets.nodes[element.other.value][k]) - centre;
+  }
+  return part;
 }
 
 /// A point of the body that moves, as the other sees it.
@@ -203,7 +213,8 @@ bool CellBorder::add(BorderPool& pool, const MinimaScene& scene, const BorderEle
   const Levers levers(partOf(scene, Side::A, element.shared), partOf(scene, Side::B, element.shared),
                       centres_);
   if (used_ == kMostBatches) rebase(pool, scene);
-  const auto gap = static_cast<float>(level - 2.0 * scene.rounding);
+  // Twice for the level, and as much for quadrangles that are not quite flat.
+  const auto gap = static_cast<float>(level - 4.0 * scene.rounding);
   return put(pool, batchAt(scene, levers.fixed_in, false),
              {gap, levers.shorter, Eigen::Vector3f::Zero(), element}, limit);
 }

@@ -10,10 +10,10 @@
 
 namespace concave_distance::detail {
 
-/// What parts a set of triangle pairs from one beyond it.
+/// What parts a set of cells from one beyond it.
 struct BorderElement {
   SharedElement shared;
-  TriangleIndex beyond;  ///< of the body that has the edge; with `shared.other` the pair beyond
+  TriangleIndex beyond;  ///< facet of the body that has the edge; with `shared.other` the cell beyond
 
   TrianglePair pairBeyond() const {
     return shared.side == Side::A ? TrianglePair{beyond, shared.other} : TrianglePair{shared.other, beyond};
@@ -66,7 +66,7 @@ class BorderPool {
   std::uint32_t free_ = kNone;
 };
 
-/// What encloses a set of triangle pairs: elements over which the distance is at least a level. At another
+/// What encloses a set of cells: elements over which the distance is at least a level. At another
 /// pose the distance over an element has changed by no more than one point has moved and the turn times a
 /// lever; where that is not enough it is measured anew, and from then on the gap along the direction of the
 /// closest points is what counts, which the motion across it leaves as it is. No history: what holds is seen

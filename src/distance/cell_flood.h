@@ -10,9 +10,9 @@
 
 namespace concave_distance::detail {
 
-/// Visits triangle pairs ("cells") from the one that holds a local minimum, lowest levels first. The distance
-/// is convex on a cell, and cells meet at the least distance over what they share: a graph with the very
-/// basins and passes of the surfaces. Buffers of one thread, kept from flood to flood.
+/// Visits pairs of facets ("cells") from the one that holds a local minimum, lowest levels first. The
+/// distance is convex on a cell, and cells meet at the least distance over what they share: a graph with the
+/// very basins and passes of the surfaces. Buffers of one thread, kept from flood to flood.
 class CellFlood {
  public:
   /// Metres.
@@ -30,7 +30,7 @@ class CellFlood {
   };
   static constexpr std::uint32_t kNone = 0xffffffffU;
   struct Cell {
-    TriangleIndex a;
+    TriangleIndex a;  ///< facets, as all below
     TriangleIndex b;
     std::uint32_t parent;  ///< where it was reached from; kNone for the first
     SharedElement via;     ///< what it has in common with its parent
@@ -67,7 +67,7 @@ class CellFlood {
     return true;
   }
 
-  /// @param meets (triangle of A, triangle of B) whether a cell as deep as the start is another minimum's
+  /// @param meets (facet of A, facet of B) whether a cell as deep as the start is another minimum's
   /// @param is_inside (the same) whether a cell needs no visit
   template <typename Meets, typename IsInside>
   End proceed(const MinimaScene& scene, std::size_t most_cells, const Meets& meets, const IsInside& is_inside,
@@ -81,14 +81,14 @@ class CellFlood {
       ++looked_at_;
       const TriangleIndex a = cells_[last_].a;
       const TriangleIndex b = cells_[last_].b;
-      const TrianglePoints corners_a = scene.cornersOfA(a);
-      const TrianglePoints corners_b = scene.cornersOfB(b);
-      const CellLevels levels = cellLevels(corners_a, corners_b);
+      const FacetPoints points_a = scene.facetOfA(a);
+      const FacetPoints points_b = scene.facetOfB(b);
+      const CellLevels levels = cellLevels(points_a, points_b);
       const double least = levels.least();
       if (levels_.below > 0.0 && least < levels_.below * levels_.below) return End::Below;
       const bool is_own = has_own_start_ && last_ == 0;
       if (!is_own && least <= levels_.equal * levels_.equal && meets(a, b)) return End::Met;
-      if (!expand(scene, a, b, corners_a, corners_b, levels, is_inside, limit)) return End::Cut;
+      if (!expand(scene, a, b, points_a, points_b, levels, is_inside, limit)) return End::Cut;
     }
     return End::Enclosed;
   }
@@ -138,13 +138,13 @@ class CellFlood {
 
   /// False without memory.
   template <typename IsInside>
-  bool expand(const MinimaScene& scene, TriangleIndex a, TriangleIndex b, const TrianglePoints& corners_a,
-              const TrianglePoints& corners_b, const CellLevels& levels, const IsInside& is_inside,
+  bool expand(const MinimaScene& scene, TriangleIndex a, TriangleIndex b, const FacetPoints& points_a,
+              const FacetPoints& points_b, const CellLevels& levels, const IsInside& is_inside,
               WorkLimit& limit) {
     const double highest = levels_.highest * levels_.highest;
     bool has_room = true;
     forEachNeighbour(
-        scene, a, b, corners_a, corners_b, levels,
+        scene, a, b, points_a, points_b, levels,
         [&](TriangleIndex to_a, TriangleIndex to_b, double squared_level, const SharedElement& element) {
           if (!has_room) return;
           if (squared_level > highest) {

@@ -11,7 +11,7 @@ namespace concave_distance::detail {
 namespace {
 
 using Eigen::Vector3d;
-/// Three edges or corners at once; the fourth lane repeats the first.
+/// Four edges or corners at once; of a triangle the fourth is the first again.
 using Lanes = Eigen::Array<double, 4, 1>;
 
 struct VectorLanes {
@@ -20,9 +20,10 @@ struct VectorLanes {
   Lanes z;
 };
 
-VectorLanes lanesOf(const Vector3d& v0, const Vector3d& v1, const Vector3d& v2) {
-  return {
-      {v0.x(), v1.x(), v2.x(), v0.x()}, {v0.y(), v1.y(), v2.y(), v0.y()}, {v0.z(), v1.z(), v2.z(), v0.z()}};
+VectorLanes lanesOf(const std::array<Vector3d, 4>& v) {
+  return {{v[0].x(), v[1].x(), v[2].x(), v[3].x()},
+          {v[0].y(), v[1].y(), v[2].y(), v[3].y()},
+          {v[0].z(), v[1].z(), v[2].z(), v[3].z()}};
 }
 
 VectorLanes operator-(const VectorLanes& l, const Vector3d& r) {
@@ -65,9 +66,28 @@ Lanes edgeToEdges(const Vector3d& from, const Vector3d& u, double inverse_uu, co
   return dot(between, between);
 }
 
-/// Squared distances of three points to the inside of a triangle; infinite for those not over it.
-Lanes pointsToInside(const VectorLanes& points, const PreparedTriangle& triangle) {
-  const FaceFrame face(triangle);
+/// A facet with what every kernel needs of it.
+struct PreparedFacet {
+  explicit PreparedFacet(const FacetPoints& points) : points(points), first(points.first()), triangle(first) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      edges[k] = points.corners[nextOf(k)] - points.corners[k];
+      inverse_squared_lengths[k] = inverseOrZero(edges[k].squaredNorm());
+    }
+  }
+  static std::size_t nextOf(std::size_t k) { return (k + 1) & 3U; }
+
+  double size() const { return triangle.size() + edges[2].squaredNorm() + edges[3].squaredNorm(); }
+
+  const FacetPoints& points;
+  TrianglePoints first;
+  PreparedTriangle triangle;  ///< the first
+  std::array<Vector3d, 4> edges;
+  std::array<double, 4> inverse_squared_lengths;
+};
+
+/// Squared distances of four points to the inside of a facet; infinite for those not over it.
+Lanes pointsToInside(const VectorLanes& points, const PreparedFacet& facet) {
+  const FaceFrame face(facet.triangle);
   if (face.flat()) return infinite();
   const Vector3d& edge = face.edge;
   const Vector3d& side = face.side;
@@ -78,79 +98,100 @@ Lanes pointsToInside(const VectorLanes& points, const PreparedTriangle& triangle
   const Lanes next = along - up * face.side_along;
   const VectorLanes left = {w.x - next * edge.x() - up * side.x(), w.y - next * edge.y() - up * side.y(),
                             w.z - next * edge.z() - up * side.z()};
-  const Lanes inside = along.min(1.0 - along).min(up).min(next).min(1.0 - next - up);
+  if (!facet.points.is_quad) {
+    const Lanes inside = along.min(1.0 - along).min(up).min(next).min(1.0 - next - up);
+    return (inside > 0.0).select(dot(left, left), infinite());
+  }
+  // In coordinates (next, up) the first triangle's corners are (0, 0), (1, 0) and (0, 1).
+  std::array<Eigen::Vector2d, 4> corners;
+  const std::size_t base = facet.triangle.longestEdge();
+  corners[base] = {0.0, 0.0};
+  corners[nextCorner(base)] = {1.0, 0.0};
+  corners[previousCorner(base)] = {0.0, 1.0};
+  const Vector3d last = facet.points.corners[3] - face.corner;
+  const double last_along = last.dot(edge) * face.inverse_ee;
+  const double last_up = (last - last_along * edge).dot(face.height) * face.inverse_hh;
+  corners[3] = {last_along - last_up * face.side_along, last_up};
+  Lanes inside = infinite();
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Eigen::Vector2d& from = corners[k];
+    const Eigen::Vector2d span = corners[PreparedFacet::nextOf(k)] - from;
+    inside = inside.min(span.x() * (up - from.y()) - span.y() * (next - from.x()));
+  }
   return (inside > 0.0).select(dot(left, left), infinite());
 }
 
 /// Each edge's own and what its two ends have over the other's inside.
-void lower(std::array<double, 3>& edges, const Lanes& corners) {
-  for (std::size_t k = 0; k < 3; ++k) {
+void lower(std::array<double, 4>& edges, const Lanes& corners) {
+  for (std::size_t k = 0; k < 4; ++k) {
     const auto here = static_cast<Eigen::Index>(k);
-    const auto next = static_cast<Eigen::Index>(nextCorner(k));
+    const auto next = static_cast<Eigen::Index>(PreparedFacet::nextOf(k));
     edges[k] = std::min({edges[k], corners[here], corners[next]});
   }
 }
 
-/// One by one, for triangles that cross, may cross or are out of range.
-CellLevels oneByOne(const TrianglePoints& a, const TrianglePoints& b) {
+/// One by one, for facets that cross, may cross or are out of range.
+CellLevels oneByOne(const FacetPoints& a, const FacetPoints& b) {
+  const auto squaredDistance = [](const Vector3d& from, const Vector3d& to, const FacetPoints& facet) {
+    const TrianglePoints edge{from, to, to};
+    const double first = triangleDistance(edge, facet.first()).squared_distance;
+    return facet.is_quad ? std::min(first, triangleDistance(edge, facet.second()).squared_distance) : first;
+  };
   CellLevels levels{};
-  for (std::size_t k = 0; k < 3; ++k) {
-    const std::size_t next = nextCorner(k);
-    levels.edges_of_a[k] = triangleDistance({a[k], a[next], a[next]}, b).squared_distance;
-    levels.edges_of_b[k] = triangleDistance(a, {b[k], b[next], b[next]}).squared_distance;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const std::size_t next = PreparedFacet::nextOf(k);
+    levels.edges_of_a[k] = squaredDistance(a.corners[k], a.corners[next], b);
+    levels.edges_of_b[k] = squaredDistance(b.corners[k], b.corners[next], a);
   }
   return levels;
 }
 
 /// Whether a's plane or b's, or a plane across the line between their middles, parts them by more than
 /// rounding.
-bool certainlyApart(const PreparedTriangle& a, const PreparedTriangle& b) {
+bool certainlyApart(const PreparedFacet& a, const PreparedFacet& b) {
   const auto parts = [&](const Vector3d& d) {
-    const double a0 = d.dot(a.corners[0]);
-    const double a1 = d.dot(a.corners[1]);
-    const double a2 = d.dot(a.corners[2]);
-    const double b0 = d.dot(b.corners[0]);
-    const double b1 = d.dot(b.corners[1]);
-    const double b2 = d.dot(b.corners[2]);
-    const double most_a = std::max({a0, a1, a2});
-    const double least_a = std::min({a0, a1, a2});
-    const double most_b = std::max({b0, b1, b2});
-    const double least_b = std::min({b0, b1, b2});
-    const double largest =
-        std::max({std::abs(most_a), std::abs(least_a), std::abs(most_b), std::abs(least_b)});
-    return std::max(least_b - most_a, least_a - most_b) > 1e-12 * largest;
+    const auto along = [&](const FacetPoints& points) {
+      const std::array<Vector3d, 4>& c = points.corners;
+      return Lanes(d.dot(c[0]), d.dot(c[1]), d.dot(c[2]), d.dot(c[3]));
+    };
+    const Lanes of_a = along(a.points);
+    const Lanes of_b = along(b.points);
+    const double largest = std::max(of_a.abs().maxCoeff(), of_b.abs().maxCoeff());
+    return std::max(of_b.minCoeff() - of_a.maxCoeff(), of_a.minCoeff() - of_b.maxCoeff()) > 1e-12 * largest;
   };
-  const Vector3d between =
-      (b.corners[0] + b.corners[1] + b.corners[2]) - (a.corners[0] + a.corners[1] + a.corners[2]);
-  return parts(between) || parts(a.edges[0].cross(a.edges[1])) || parts(b.edges[0].cross(b.edges[1]));
+  const auto middle = [](const FacetPoints& points) -> Vector3d {
+    return points.corners[0] + points.corners[1] + points.corners[2] + points.corners[3];
+  };
+  return parts(middle(b.points) - middle(a.points)) ||
+         parts(a.triangle.edges[0].cross(a.triangle.edges[1])) ||
+         parts(b.triangle.edges[0].cross(b.triangle.edges[1]));
 }
 
 }  // namespace
 
-CellLevels cellLevels(const TrianglePoints& a, const TrianglePoints& b) {
-  const PreparedTriangle side_a(a);
-  const PreparedTriangle side_b(b);
-  const double size = side_a.size() + side_b.size() + (b[0] - a[0]).squaredNorm();
+CellLevels cellLevels(const FacetPoints& a, const FacetPoints& b) {
+  const PreparedFacet side_a(a);
+  const PreparedFacet side_b(b);
+  const double size = side_a.size() + side_b.size() + (b.corners[0] - a.corners[0]).squaredNorm();
   if (!(size > kLeastSquare && size < kLargestSquare) || !certainlyApart(side_a, side_b)) {
     return oneByOne(a, b);
   }
-  const VectorLanes corners_b = lanesOf(b[0], b[1], b[2]);
-  const VectorLanes edges_b = lanesOf(side_b.edges[0], side_b.edges[1], side_b.edges[2]);
+  const VectorLanes corners_b = lanesOf(b.corners);
+  const VectorLanes edges_b = lanesOf(side_b.edges);
   const Lanes inverses_b(side_b.inverse_squared_lengths[0], side_b.inverse_squared_lengths[1],
-                         side_b.inverse_squared_lengths[2], side_b.inverse_squared_lengths[0]);
+                         side_b.inverse_squared_lengths[2], side_b.inverse_squared_lengths[3]);
   CellLevels levels{};
+  levels.edges_of_a[3] = std::numeric_limits<double>::infinity();
   Lanes least_b = infinite();
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Lanes squared =
-        edgeToEdges(a[k], side_a.edges[k], side_a.inverse_squared_lengths[k], corners_b, edges_b, inverses_b);
+  for (std::size_t k = 0; k < a.edgeCount(); ++k) {
+    const Lanes squared = edgeToEdges(a.corners[k], side_a.edges[k], side_a.inverse_squared_lengths[k],
+                                      corners_b, edges_b, inverses_b);
     levels.edges_of_a[k] = squared.minCoeff();
     least_b = least_b.min(squared);
   }
-  for (std::size_t k = 0; k < 3; ++k) levels.edges_of_b[k] = least_b[static_cast<Eigen::Index>(k)];
-  const Lanes corners_over_b = pointsToInside(lanesOf(a[0], a[1], a[2]), side_b);
-  const Lanes corners_over_a = pointsToInside(corners_b, side_a);
-  lower(levels.edges_of_a, corners_over_b);
-  lower(levels.edges_of_b, corners_over_a);
+  for (std::size_t k = 0; k < 4; ++k) levels.edges_of_b[k] = least_b[static_cast<Eigen::Index>(k)];
+  lower(levels.edges_of_a, pointsToInside(lanesOf(a.corners), side_b));
+  lower(levels.edges_of_b, pointsToInside(corners_b, side_a));
   // What a corner of b has over a's inside is no edge of a's, but the edges of a are no closer than the pair.
   return levels;
 }

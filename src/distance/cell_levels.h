@@ -3,23 +3,23 @@
 #include <algorithm>
 #include <array>
 
-#include "triangle_distance.h"
+#include "facet_points.h"
 
 namespace concave_distance::detail {
 
-/// Squared distances between two triangles and between the edges of each and the other triangle, m^2. Edge k
-/// goes from corner k to the next.
+/// Squared distances between two facets and between the edges of each and the other one, m^2. Edge k goes
+/// from corner k to the next.
 struct CellLevels {
-  std::array<double, 3> edges_of_a;
-  std::array<double, 3> edges_of_b;
+  std::array<double, 4> edges_of_a;  ///< a triangle's fourth is not below its first
+  std::array<double, 4> edges_of_b;
   double least() const {
-    return std::min(
-        {edges_of_a[0], edges_of_a[1], edges_of_a[2], edges_of_b[0], edges_of_b[1], edges_of_b[2]});
+    return std::min(*std::min_element(edges_of_a.begin(), edges_of_a.end()),
+                    *std::min_element(edges_of_b.begin(), edges_of_b.end()));
   }
 };
 
-/// All of them at once, each with the error of triangleDistance(): two triangles that do not cross are
-/// closest on an edge of one of them.
-CellLevels cellLevels(const TrianglePoints& a, const TrianglePoints& b);
+/// All of them at once, each with the error of triangleDistance() and what the quadrangles are not flat: two
+/// flat convex facets that do not cross are closest on an edge of one of them.
+CellLevels cellLevels(const FacetPoints& a, const FacetPoints& b);
 
 }  // namespace concave_distance::detail

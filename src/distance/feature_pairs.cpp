@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mesh/surface/triangle_adjacency.h"
-
 namespace concave_distance::detail {
 namespace {
 
@@ -174,9 +172,10 @@ FeaturePairs::Peak FeaturePairs::peakAt(Side side, const Item& item, const Vecto
   if (rises(from) || rises(to)) return {false, 2, feature};
   any_level = false;
   if (rises(nodes[(item.element + 2U) % 3])) return {false, 2, feature};
-  for (const AdjacentTriangle& next : body.adjacency().row(item.triangle.value)) {
-    if (next.from != from || next.to != to) continue;
-    const TriangleNodes& beyond = body.surface().triangle(next.triangle);
+  for (const TriangleIndex triangle : body.topology().triangles_of_vertex.row(from.value)) {
+    if (triangle == item.triangle || body.joints().isHidden(triangle)) continue;
+    const TriangleNodes& beyond = body.surface().triangle(triangle);
+    if (std::find(beyond.begin(), beyond.end(), to) == beyond.end()) continue;
     for (const NodeIndex node : beyond) {
       if (node != from && node != to && rises(node)) return {false, 2, feature};
     }

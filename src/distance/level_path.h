@@ -18,16 +18,16 @@ namespace concave_distance::detail {
 
 /// Buffers of one thread; cleared, never freed.
 struct LevelPathBuffers {
-  /// A triangle of the body that moves.
+  /// A facet of the body that moves.
   struct Reached {
-    TriangleIndex triangle;
+    TriangleIndex facet;
     double squared_level;  ///< the highest on the way here
   };
   struct Open {
     double remaining;  ///< square metres, to the target
     std::uint32_t reached;
   };
-  std::vector<bool> known[2];  ///< triangles of A and B; false between calls
+  std::vector<bool> known[2];  ///< facets of A and B; false between calls
   std::vector<Reached> reached;
   std::vector<Open> open;
 
@@ -37,16 +37,17 @@ struct LevelPathBuffers {
   }
 };
 
-/// Looks for a path over triangle pairs with the distance below a limit, moving one body at a time. The
+/// Looks for a path over cells with the distance below a limit, moving one body at a time. The
 /// highest distance on it, metres, bounds the pass between its ends.
 /// Unlike a flood in order of distance, which covers the whole basin of both bodies first, it visits at most
-/// the triangles of one body, those towards the target first.
+/// the facets of one body, those towards the target first.
 class LevelPath {
  public:
   LevelPath(const MinimaScene& scene, LevelPathBuffers& buffers, WorkLimit& work)
       : scene_(scene), buffers_(buffers), work_(work) {}
 
-  /// @param has_arrived (triangle of A, triangle of B) whether the path may end here
+  /// @param from, to cells
+  /// @param has_arrived (facet of A, facet of B) whether the path may end here
   /// @param first_moves the body that moves first, 0: A, 1: B
   /// @return empty when no such path was found, which proves nothing
   template <typename Arrived>
@@ -64,33 +65,33 @@ class LevelPath {
   }
 
  private:
-  TrianglePoints cornersOf(int side, TriangleIndex t) const {
-    return side == 0 ? scene_.cornersOfA(t) : scene_.cornersOfB(t);
+  FacetPoints pointsOf(int side, TriangleIndex facet) const {
+    return side == 0 ? scene_.facetOfA(facet) : scene_.facetOfB(facet);
   }
-  static Eigen::Vector3d middleOf(const TrianglePoints& corners) {
-    return (corners[0] + corners[1] + corners[2]) / 3.0;
+  static Eigen::Vector3d middleOf(const FacetPoints& points) {
+    return (points.corners[0] + points.corners[1] + points.corners[2]) / 3.0;
   }
   static bool isFarther(const LevelPathBuffers::Open& l, const LevelPathBuffers::Open& r) {
     if (l.remaining != r.remaining) return l.remaining > r.remaining;
     return l.reached > r.reached;
   }
 
-  /// Moves one body's triangle to the target's, or until the path may end.
+  /// Moves one body's facet to the target's, or until the path may end.
   template <typename Arrived>
   std::optional<double> move(int side, TrianglePair& here, TrianglePair to, double limit,
                              const Arrived& has_arrived) {
     const BodyMesh& body = side == 0 ? scene_.a : scene_.b;
     const auto& adjacency = side == 0 ? scene_.adjacency_a : scene_.adjacency_b;
-    const TrianglePoints still = cornersOf(1 - side, side == 0 ? here.b : here.a);
+    const FacetPoints still = pointsOf(1 - side, side == 0 ? here.b : here.a);
     const TriangleIndex target = side == 0 ? to.a : to.b;
-    const Eigen::Vector3d middle = middleOf(cornersOf(side, target));
+    const Eigen::Vector3d middle = middleOf(pointsOf(side, target));
     std::vector<bool>& known = buffers_.known[side];
     if (known.size() < body.surface().triangleCount()) known.resize(body.surface().triangleCount(), false);
     buffers_.reached.clear();
     buffers_.open.clear();
     const auto enter = [&](TriangleIndex t, double squared_level) {
       known[t.value] = true;
-      buffers_.open.push_back({(middleOf(cornersOf(side, t)) - middle).squaredNorm(),
+      buffers_.open.push_back({(middleOf(pointsOf(side, t)) - middle).squaredNorm(),
                                static_cast<std::uint32_t>(buffers_.reached.size())});
       buffers_.reached.push_back({t, squared_level});
       std::push_heap(buffers_.open.begin(), buffers_.open.end(), isFarther);
@@ -101,18 +102,19 @@ class LevelPath {
       std::pop_heap(buffers_.open.begin(), buffers_.open.end(), isFarther);
       const LevelPathBuffers::Reached next = buffers_.reached[buffers_.open.back().reached];
       buffers_.open.pop_back();
-      (side == 0 ? here.a : here.b) = next.triangle;
-      if (next.triangle == target || has_arrived(here.a, here.b)) {
+      (side == 0 ? here.a : here.b) = next.facet;
+      if (next.facet == target || has_arrived(here.a, here.b)) {
         result = next.squared_level;
         break;
       }
-      const TrianglePoints corners = cornersOf(side, next.triangle);
-      const CellLevels levels = side == 0 ? cellLevels(corners, still) : cellLevels(still, corners);
-      const TriangleNodes& nodes = body.surface().triangle(next.triangle);
-      for (const AdjacentTriangle& beyond : adjacency.row(next.triangle.value)) {
+      const FacetPoints points = pointsOf(side, next.facet);
+      const CellLevels levels = side == 0 ? cellLevels(points, still) : cellLevels(still, points);
+      const std::array<NodeIndex, 4>& nodes =
+          (side == 0 ? scene_.facets_a : scene_.facets_b).nodes[next.facet.value];
+      for (const AdjacentTriangle& beyond : adjacency.row(next.facet.value)) {
         if (known[beyond.triangle.value]) continue;
         const Side of = side == 0 ? Side::A : Side::B;
-        const double squared = squaredLevelOver(scene_, of, nodes, corners, beyond,
+        const double squared = squaredLevelOver(scene_, of, nodes, points, beyond,
                                                 side == 0 ? levels.edges_of_a : levels.edges_of_b,
                                                 side == 0 ? here.b : here.a, still);
         if (squared > limit * limit) continue;
@@ -120,7 +122,7 @@ class LevelPath {
         enter(beyond.triangle, std::max(squared, next.squared_level));
       }
     }
-    for (const LevelPathBuffers::Reached& reached : buffers_.reached) known[reached.triangle.value] = false;
+    for (const LevelPathBuffers::Reached& reached : buffers_.reached) known[reached.facet.value] = false;
     return result;
   }
 

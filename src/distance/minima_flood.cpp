@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// A triangle pair that the flood has reached.
+/// A pair of facets that the flood has reached.
 struct Cell {
   TriangleIndex a;
   TriangleIndex b;
@@ -51,8 +51,9 @@ class Flood {
       : scene_(scene), request_(request), tolerance_(8.0 * scene.rounding), limit_(limit) {}
 
   /// The cell of a local minimum, as a basin of its own if it is new.
-  std::uint32_t startAt(TriangleIndex a, TriangleIndex b, bool met_by_flood) {
+  std::uint32_t startAt(TriangleIndex of_a, TriangleIndex of_b, bool met_by_flood) {
     cut_ = cut_ || limit_.isOverNow();
+    const auto [a, b] = scene_.cellOf(of_a, of_b);
     if (const std::uint32_t known = table_.find(a, b); known != PairTable::kAbsent) return known;
     const std::uint32_t cell = addCell(a, b);
     cells_[cell].parent = cell;
@@ -122,16 +123,16 @@ class Flood {
   }
 
   void measure(TriangleIndex a, TriangleIndex b) {
-    corners_a_ = scene_.cornersOfA(a);
-    corners_b_ = scene_.cornersOfB(b);
-    levels_ = cellLevels(corners_a_, corners_b_);
+    points_a_ = scene_.facetOfA(a);
+    points_b_ = scene_.facetOfB(b);
+    levels_ = cellLevels(points_a_, points_b_);
   }
 
   /// Of the cell that was measured last.
   void expand(std::uint32_t index) {
     const double limit = basins_[cells_[rootOf(index)].basin].limit;
     forEachNeighbour(
-        scene_, cells_[index].a, cells_[index].b, corners_a_, corners_b_, levels_,
+        scene_, cells_[index].a, cells_[index].b, points_a_, points_b_, levels_,
         [&](TriangleIndex to_a, TriangleIndex to_b, double squared_level, const SharedElement& /*element*/) {
           consider(index, to_a, to_b, limit, std::sqrt(squared_level));
         });
@@ -167,13 +168,15 @@ class Flood {
 
   /// From a cell deeper than the flood's start to the minimum under it.
   void goDown(std::uint32_t index) {
-    const WitnessRefinement refined =
-        refineWitness(scene_.a, scene_.b, scene_.a_from_b, cells_[index].a, cells_[index].b, refinement_);
-    if (refined.witness.triangle_a == cells_[index].a && refined.witness.triangle_b == cells_[index].b) {
+    const TrianglePair from = scene_.closestIn({cells_[index].a, cells_[index].b}).first;
+    const WitnessPair witness =
+        refineWitness(scene_.a, scene_.b, scene_.a_from_b, from.a, from.b, refinement_).witness;
+    const TrianglePair cell = scene_.cellOf(witness.triangle_a, witness.triangle_b);
+    if (cell.a == cells_[index].a && cell.b == cells_[index].b) {
       cells_[index].basin = static_cast<std::uint32_t>(basins_.size());
       basins_.push_back({index, limitOf(cells_[index].distance), true});
     } else {
-      const std::uint32_t bottom = startAt(refined.witness.triangle_a, refined.witness.triangle_b, true);
+      const std::uint32_t bottom = startAt(cell.a, cell.b, true);
       cells_[index].parent = rootOf(bottom);
       measure(cells_[index].a, cells_[index].b);
     }
@@ -209,8 +212,8 @@ class Flood {
   std::vector<Step> steps_;
   RefinementWorkspace refinement_;
   // Of the cell measured last.
-  TrianglePoints corners_a_;
-  TrianglePoints corners_b_;
+  FacetPoints points_a_;
+  FacetPoints points_b_;
   CellLevels levels_{};
 };
 
@@ -233,8 +236,9 @@ FloodResult floodMinima(const MinimaScene& scene, const LocalMinimaRequest& requ
     if (!flood.isProminent(basin) || !flood.isDecided(basin)) continue;
     const Cell& cell = flood.cell(basin.cell);
     minimum_of_basin[i] = result.minima.size();
+    const TrianglePair closest = scene.closestIn({cell.a, cell.b}).first;
     result.minima.push_back(
-        {seedOn(cell.a, cell.b, cell.distance), basin.pass, basin.limit, basin.met_by_flood});
+        {seedOn(closest.a, closest.b, cell.distance), basin.pass, basin.limit, basin.met_by_flood});
   }
   // A start belongs to the deepest basin that it is joined to by passes of less than the least prominence.
   for (std::size_t i = owned; i < starts.size(); ++i) {

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "base/side.h"
 #include "concave_distance/mesh/body_mesh.h"
+#include "facet_points.h"
 #include "local_frames.h"
-#include "mesh/surface/triangle_adjacency.h"
+#include "mesh/surface/facets.h"
 #include "mesh/trees/shell_joints.h"
 #include "minimum_seed.h"
 
@@ -17,6 +19,8 @@ struct MinimaScene {
   MinimaScene(const BodyMesh& body_a, const BodyMesh& body_b, const Eigen::Isometry3d& pose)
       : a(body_a),
         b(body_b),
+        facets_a(body_a.facets()),
+        facets_b(body_b.facets()),
         adjacency_a(body_a.adjacency()),
         adjacency_b(body_b.adjacency()),
         pieces_a(body_a.pieces()),
@@ -45,6 +49,29 @@ struct MinimaScene {
   Eigen::Vector3d vertexOfB(NodeIndex node) const {
     return frames.rotation * (b.surface().vertex(node) - frames.centre_b) + frames.offset;
   }
+  /// The cell of a triangle pair: the facets, each named by its first triangle.
+  TrianglePair cellOf(TriangleIndex of_a, TriangleIndex of_b) const {
+    return {facets_a.facet_of_triangle[of_a.value], facets_b.facet_of_triangle[of_b.value]};
+  }
+  FacetPoints facetOfA(TriangleIndex facet) const {
+    const std::array<NodeIndex, 4>& nodes = facets_a.nodes[facet.value];
+    return {{vertexOfA(nodes[0]), vertexOfA(nodes[1]), vertexOfA(nodes[2]), vertexOfA(nodes[3])},
+            facets_a.isQuad(facet)};
+  }
+  FacetPoints facetOfB(TriangleIndex facet) const {
+    const std::array<NodeIndex, 4>& nodes = facets_b.nodes[facet.value];
+    FacetPoints points{{vertexOfB(nodes[0]), vertexOfB(nodes[1]), vertexOfB(nodes[2])},
+                       facets_b.isQuad(facet)};
+    points.corners[3] = points.is_quad ? vertexOfB(nodes[3]) : points.corners[0];
+    return points;
+  }
+  /// Of a cell, its closest triangles with their distance.
+  std::pair<TrianglePair, TrianglePairDistance> closestIn(const TrianglePair& cell) const {
+    const FacetPairDistance found = facetDistance(facetOfA(cell.a), facetOfB(cell.b));
+    return {{found.is_in_second_of_a ? facets_a.second[cell.a.value] : cell.a,
+             found.is_in_second_of_b ? facets_b.second[cell.b.value] : cell.b},
+            found.closest};
+  }
   TrianglePoints cornersOfA(TriangleIndex t) const { return frames.cornersOfA(a, t); }
   TrianglePoints cornersOfB(TriangleIndex t) const { return frames.cornersOfB(b, t); }
 
@@ -71,7 +98,9 @@ struct MinimaScene {
 
   const BodyMesh& a;
   const BodyMesh& b;
-  const CompressedRows<AdjacentTriangle>& adjacency_a;  ///< of the bodies, which build it on demand
+  const Facets& facets_a;  ///< of the bodies, which build it on demand, as the following
+  const Facets& facets_b;
+  const CompressedRows<AdjacentTriangle>& adjacency_a;
   const CompressedRows<AdjacentTriangle>& adjacency_b;
   const ConnectedPieces& pieces_a;
   const ConnectedPieces& pieces_b;

@@ -42,7 +42,7 @@ class MinimaVerdicts::Stage {
       const auto index = static_cast<std::uint32_t>(verdicts_.judged_.size());
       verdicts_.judged_.emplace_back();
       verdicts_.judged_.back().seed = seed;
-      const std::uint32_t number = memory_.cellOf(seed.a, seed.b, limit_);
+      const std::uint32_t number = numberOf(seed);
       if (number == kNone) continue;
       memory_.enterSeed(number, index);
     }
@@ -56,7 +56,7 @@ class MinimaVerdicts::Stage {
   }
 
   std::uint32_t placeAround(const TrianglePair& pair) {
-    const std::uint32_t in_cell = memory_.seedIn(pair.a, pair.b);
+    const std::uint32_t in_cell = seedAround(pair.a, pair.b);
     if (in_cell != kNone) return in_cell;
     return enterPlace(
         refineWitness(scene_.a, scene_.b, scene_.a_from_b, pair.a, pair.b, verdicts_.refinement_).witness);
@@ -64,7 +64,7 @@ class MinimaVerdicts::Stage {
 
   /// The minimum among the judged: the seed at its place, or an entry of its own; kNone through material.
   std::uint32_t enterPlace(const WitnessPair& minimum) {
-    const std::uint32_t in_cell = memory_.seedIn(minimum.triangle_a, minimum.triangle_b);
+    const std::uint32_t in_cell = seedAround(minimum.triangle_a, minimum.triangle_b);
     if (in_cell != kNone) return in_cell;
     const MinimumSeed seed = scene_.seedOf(minimum);
     const auto begin = verdicts_.judged_.begin();
@@ -145,7 +145,7 @@ class MinimaVerdicts::Stage {
   void decideByMemory(std::uint32_t i) {
     const MinimumSeed seed = verdicts_.judged_[i].seed;
     deepest_ = deepestLike(i);
-    const std::uint32_t number = memory_.cellOf(seed.a, seed.b, limit_);
+    const std::uint32_t number = numberOf(seed);
     if (number == kNone) return set(i, Verdict::Undecided);
     if (const std::uint32_t other = memory_.seedOf(number);
         other != kNone && other != i && isEarlier(other, i)) {
@@ -176,6 +176,18 @@ class MinimaVerdicts::Stage {
 
   /// Only then do seeds lie on both sides of a closed shell (collectConeItems()).
   bool hasJoints() const { return !scene_.a.joints().joints.empty() || !scene_.b.joints().joints.empty(); }
+
+  /// Of the seed's cell; kNone without memory.
+  std::uint32_t numberOf(const MinimumSeed& seed) {
+    const TrianglePair cell = scene_.cellOf(seed.a, seed.b);
+    return memory_.cellOf(cell.a, cell.b, limit_);
+  }
+
+  /// The seed in the cell of a triangle pair.
+  std::uint32_t seedAround(TriangleIndex a, TriangleIndex b) const {
+    const TrianglePair cell = scene_.cellOf(a, b);
+    return memory_.seedIn(cell.a, cell.b);
+  }
 
   /// Up to here nothing deeper may be reached.
   double levelOf(double distance) const { return (1.0 + request_.least_prominence) * distance; }
@@ -288,7 +300,7 @@ class MinimaVerdicts::Stage {
 
   void flood(std::uint32_t i) {
     const MinimumSeed seed = verdicts_.judged_[i].seed;
-    const std::uint32_t number = memory_.cellOf(seed.a, seed.b, limit_);
+    const std::uint32_t number = numberOf(seed);
     std::uint64_t id = 0;
     if (const std::uint32_t broken = memory_.regionOf(number, i); broken != kNone) {
       // Kept for the next pose when there is no time for a flood.
@@ -302,7 +314,8 @@ class MinimaVerdicts::Stage {
     if (followsDown(i, number) || (were_long_ && settlesLong(i))) return;
     ++verdicts_.counts_.floods;
     CellFlood& flood = verdicts_.flood_;
-    flood.begin(seed.a, seed.b, levelsOf(seed.distance));
+    const TrianglePair start = scene_.cellOf(seed.a, seed.b);
+    flood.begin(start.a, start.b, levelsOf(seed.distance));
     const auto meets = [&](TriangleIndex a, TriangleIndex b) { return isOfEarlier(a, b, i); };
     const auto is_inside = [](TriangleIndex, TriangleIndex) { return false; };
     CellFlood::End end = flood.proceed(scene_, kLongFlood, meets, is_inside, limit_);
@@ -339,7 +352,7 @@ class MinimaVerdicts::Stage {
 
   /// From the place below a ripple to the minimum under it.
   void descend(std::uint32_t i) {
-    const TrianglePair from = verdicts_.judged_[i].below;
+    const TrianglePair from = scene_.closestIn(verdicts_.judged_[i].below).first;
     const WitnessPair bottom =
         refineWitness(scene_.a, scene_.b, scene_.a_from_b, from.a, from.b, verdicts_.refinement_).witness;
     const std::uint32_t place = enterPlace(bottom);
@@ -382,7 +395,8 @@ class MinimaVerdicts::Stage {
     const MinimumSeed& to = verdicts_.judged_[deepest_].seed;
     for (const int first_moves : {0, 1}) {
       if (LevelPath(scene_, verdicts_.path_, limit_)
-              .find({from.a, from.b}, {to.a, to.b}, levelOf(from.distance), first_moves, has_arrived)) {
+              .find(scene_.cellOf(from.a, from.b), scene_.cellOf(to.a, to.b), levelOf(from.distance),
+                    first_moves, has_arrived)) {
         set(i, Verdict::Ripple, into != kNone && into != i ? into : deepest_);
         return true;
       }
@@ -409,7 +423,7 @@ class MinimaVerdicts::Stage {
   void keepLow(TriangleIndex a, TriangleIndex b) {
     const std::uint32_t number = memory_.cellOf(a, b, limit_);
     if (number == kNone) return;
-    keepLink(memory_.cell(number).low, triangleDistance(scene_.cornersOfA(a), scene_.cornersOfB(b)), number);
+    keepLink(memory_.cell(number).low, scene_.closestIn({a, b}).second, number);
   }
 
   bool keepLink(std::uint32_t& link, const TrianglePairDistance& closest, std::uint32_t next) {

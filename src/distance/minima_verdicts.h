@@ -31,7 +31,7 @@ class MinimaVerdicts {
     Verdict verdict = Verdict::Open;
     bool was_found = false;      ///< not by a seed, but by a flood or by locate()
     std::uint32_t into = kNone;  ///< of a ripple: the deeper one, if known
-    TrianglePair below;          ///< and if not: a place deeper than it
+    TrianglePair below;          ///< and if not: a cell deeper than it
     std::uint64_t region = 0;    ///< of a niche: the same while its border is; 0: none
   };
   struct Counts {

@@ -10,13 +10,13 @@
 
 namespace concave_distance::detail {
 
-/// What proves verdicts, kept from pose to pose: triangle pairs ("cells"), links of the paths that lead on
+/// What proves verdicts, kept from pose to pose: pairs of facets ("cells"), links of the paths that lead on
 /// from them, and regions, sets of cells with a border around each. Belongs to one pair of bodies.
 class VerdictMemory {
  public:
   static constexpr std::uint32_t kNone = 0xffffffffU;
 
-  /// A triangle pair that something is known of.
+  /// What is known of a cell.
   struct Cell {
     TriangleIndex a;
     TriangleIndex b;

@@ -15,6 +15,7 @@
 #include "base/run_together.h"
 #include "cached_parts.h"
 #include "concave_distance/base/error.h"
+#include "mesh/surface/facets.h"
 #include "mesh/trees/shell_joints.h"
 
 namespace concave_distance {
@@ -43,6 +44,7 @@ struct BodyMesh::State {
   BodyMeshOptions options;
   // Made on demand:
   Part<ShellJoints> joints;
+  Part<Facets> facets;
   Part<CompressedRows<AdjacentTriangle>> adjacency;
   Part<ConnectedPieces> pieces;
   std::array<Part<NormalConeTree>, 2> cones;  ///< by NormalSides
@@ -247,11 +249,21 @@ const ShellJoints& BodyMesh::joints() const {
   return part.value;
 }
 
+const Facets& BodyMesh::facets() const {
+  auto& part = state_->facets;
+  std::call_once(part.once, [&] {
+    part.value = joinFlatTriangles(surface(), topology(), joints().hidden);
+    part.bytes = part.value.memoryBytes();
+  });
+  return part.value;
+}
+
 const CompressedRows<AdjacentTriangle>& BodyMesh::adjacency() const {
   auto& part = state_->adjacency;
   std::call_once(part.once, [&] {
     part.value = triangleAdjacency(surface(), topology());
     if (!joints().isEmpty()) part.value = joinedAdjacency(surface(), joints(), part.value);
+    part.value = facetAdjacency(facets(), part.value);
     part.bytes = part.value.offsets.capacity() * sizeof(std::uint32_t) +
                  part.value.values.capacity() * sizeof(AdjacentTriangle);
   });
@@ -298,7 +310,8 @@ std::size_t BodyMesh::memoryBytes() const {
   if (const MeshMetric* metric = metricIfMade()) search_bytes += metric->memoryBytes();
   return sizeof(BodyMesh) + sizeof(State) + mesh_bytes(surface()) + topology_bytes + search_bytes +
          state_->parts.tree.memoryBytes() + state_->parts.hierarchy.memoryBytes() + state_->adjacency.bytes +
-         state_->joints.bytes + state_->pieces.bytes + state_->cones[0].bytes + state_->cones[1].bytes;
+         state_->joints.bytes + state_->facets.bytes + state_->pieces.bytes + state_->cones[0].bytes +
+         state_->cones[1].bytes;
 }
 
 }  // namespace concave_distance

@@ -16,7 +16,8 @@ TEST_P(EveryFamily, LevelsOfACellAreTheDistancesOfEachEdgeWithinTheKernelsBound)
   RandomEngine engine(20240301);
   for (int i = 0; i < 300; ++i) {
     const auto [a, b] = GetParam().draw(engine);
-    const detail::CellLevels levels = detail::cellLevels(a, b);
+    const detail::CellLevels levels =
+        detail::cellLevels({{a[0], a[1], a[2], a[0]}}, {{b[0], b[1], b[2], b[0]}});
     const double bound = kTriangleDistanceError * test::largestCoordinate(a, b);
     ASSERT_LE(test::exactDistanceError(std::sqrt(levels.least()), a, b), bound);
     for (std::size_t k = 0; k < 3; ++k) {

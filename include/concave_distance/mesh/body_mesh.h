@@ -22,6 +22,7 @@ enum class NormalSides : std::uint8_t;
 struct AdjacentTriangle;
 struct BodyMeshParts;
 struct ConnectedPieces;
+struct Facets;
 struct MeshTopology;
 struct NodeGraph;
 struct NodeLevels;
@@ -74,7 +75,9 @@ class BodyMesh {
   const BoundingVolumeHierarchy& hierarchy() const { return *hierarchy_; }
   /// Where shells meet and what lies inside others. Built at the first call, for all threads.
   const ShellJoints& joints() const;
-  /// Which triangles hang together, over the joints too; hidden ones with none. Built at the first call, for
+  /// Triangles and flat quadrangles. Built at the first call, for all threads; 24 bytes a triangle.
+  const Facets& facets() const;
+  /// Which facets hang together, over the joints too; hidden ones with none. Built at the first call, for
   /// all threads; 40 bytes a triangle.
   const CompressedRows<AdjacentTriangle>& adjacency() const;
   /// What hangs together as a whole. Built at the first call, for all threads; 4 bytes a triangle.
