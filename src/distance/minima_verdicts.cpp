@@ -239,19 +239,37 @@ class MinimaVerdicts::Stage {
       const VerdictMemory::Cell& cell = memory_.cell(number);
       const std::uint32_t other = step > 0 ? memory_.seedOf(number) : kNone;
       if (other != kNone && other != i && isEarlier(other, i)) return settle(other, number);
-      if (below > 0.0 && cell.low != kNone && squaredLevelOf(memory_.link(cell.low)) < below * below) {
+      if (below > 0.0 && cell.low != kNone &&
+          (squaredLevelOf(memory_.link(cell.low)) < below * below ||
+           (cell.link == kNone && aimLow(number) < below * below))) {
         memory_.use(cell.low);
         return settle(kNone, number);
       }
       if (cell.link == kNone) return false;
-      const VerdictMemory::Link& link = memory_.link(cell.link);
-      const double squared_level = squaredLevelOf(link);
+      double squared_level = squaredLevelOf(memory_.link(cell.link));
+      if (!(squared_level < level * level)) squared_level = aim(cell.link);
       if (!(squared_level < level * level)) return false;
       memory_.use(cell.link);
-      number = link.next;
+      number = memory_.link(cell.link).next;
       if (below > 0.0 && squared_level < below * below) return settle(kNone, number);
     }
     return false;
+  }
+
+  /// Gives a link the points at which the cells are closest over what they have in common, and their squared
+  /// distance.
+  double aim(std::uint32_t link) { return aim(link, closestOver(scene_, memory_.link(link).via)); }
+
+  /// The same for the points in a cell.
+  double aimLow(std::uint32_t number) {
+    const VerdictMemory::Cell& cell = memory_.cell(number);
+    return aim(cell.low, scene_.closestIn({cell.a, cell.b}).second);
+  }
+
+  double aim(std::uint32_t link, const TrianglePairDistance& closest) {
+    ++verdicts_.counts_.aimed;
+    memory_.aim(link, closest.point_a, scene_.frames.pointInB(closest.point_b));
+    return closest.squared_distance;
   }
 
   CellFlood::Levels levelsOf(double distance) const {
@@ -413,7 +431,8 @@ class MinimaVerdicts::Stage {
       const CellFlood::Cell& here = visited[at];
       const std::uint32_t before =
           here.parent == 0 ? start : memory_.cellOf(visited[here.parent].a, visited[here.parent].b, limit_);
-      if (before == kNone || !keepLink(memory_.cell(before).link, closestOver(scene_, here.via), next))
+      if (before == kNone ||
+          !keepLink(memory_.cell(before).link, closestOver(scene_, here.via), next, here.via))
         return;
       next = before;
       at = here.parent;
@@ -423,11 +442,13 @@ class MinimaVerdicts::Stage {
   void keepLow(TriangleIndex a, TriangleIndex b) {
     const std::uint32_t number = memory_.cellOf(a, b, limit_);
     if (number == kNone) return;
-    keepLink(memory_.cell(number).low, scene_.closestIn({a, b}).second, number);
+    keepLink(memory_.cell(number).low, scene_.closestIn({a, b}).second, number, {});
   }
 
-  bool keepLink(std::uint32_t& link, const TrianglePairDistance& closest, std::uint32_t next) {
-    return memory_.keepLink(link, closest.point_a, scene_.frames.pointInB(closest.point_b), next, limit_);
+  bool keepLink(std::uint32_t& link, const TrianglePairDistance& closest, std::uint32_t next,
+                const SharedElement& via) {
+    return memory_.keepLink(link, {closest.point_a, scene_.frames.pointInB(closest.point_b), next, via},
+                            limit_);
   }
 
   /// What the last flood has visited.

@@ -36,6 +36,7 @@ class MinimaVerdicts {
   };
   struct Counts {
     std::uint32_t by_path = 0;    ///< ripples by known paths
+    std::uint32_t aimed = 0;      ///< links of paths that have got other points
     std::uint32_t by_border = 0;  ///< niches by known borders
     std::uint32_t mended = 0;     ///< niches by borders with more cells inside
     std::uint32_t floods = 0;

@@ -64,14 +64,14 @@ void VerdictMemory::enterSeed(std::uint32_t number, std::uint32_t seed) {
   }
 }
 
-bool VerdictMemory::keepLink(std::uint32_t& number, const Eigen::Vector3d& point_a,
-                             const Eigen::Vector3d& point_b, std::uint32_t next, WorkLimit& limit) {
+bool VerdictMemory::keepLink(std::uint32_t& number, const Link& link, WorkLimit& limit) {
   if (number == kNone) {
     if (!limit.makeRoom(links_)) return false;
     number = static_cast<std::uint32_t>(links_.size());
     links_.emplace_back();
   }
-  links_[number] = {point_a, point_b, next, cycle_};
+  links_[number] = link;
+  use(number);
   return true;
 }
 

@@ -32,6 +32,7 @@ class VerdictMemory {
     Eigen::Vector3d point_a;
     Eigen::Vector3d point_b;
     std::uint32_t next;
+    SharedElement via;       ///< what the cells have in common; of a point pair in a cell without meaning
     std::uint64_t used = 0;  ///< the last cycle
   };
   /// Cells that are connected and enclosed.
@@ -68,8 +69,12 @@ class VerdictMemory {
   const Link& link(std::uint32_t number) const { return links_[number]; }
   void use(std::uint32_t link) { links_[link].used = cycle_; }
   /// Makes a link or puts another one in its place. False without memory.
-  bool keepLink(std::uint32_t& number, const Eigen::Vector3d& point_a, const Eigen::Vector3d& point_b,
-                std::uint32_t next, WorkLimit& limit);
+  bool keepLink(std::uint32_t& number, const Link& link, WorkLimit& limit);
+  /// Other points for a link.
+  void aim(std::uint32_t link, const Eigen::Vector3d& point_a, const Eigen::Vector3d& point_b) {
+    links_[link].point_a = point_a;
+    links_[link].point_b = point_b;
+  }
 
   Region& region(std::uint32_t index) { return regions_[index]; }
   const Region& region(std::uint32_t index) const { return regions_[index]; }

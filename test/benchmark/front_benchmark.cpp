@@ -13,8 +13,9 @@
 // features looked at and live pairs of features (means); windows' instants at which the front was begun anew;
 // local minima that only the cones from the roots (`missed`) or only the front (`more`) led to. Then the
 // verdicts: microseconds (medians) of floods alone and of what is kept (and its 99th percentile); means of
-// niches, of ripples settled by a known path, niches by a known border and by one that was mended, floods,
-// cells flooded and border elements measured; instants at which the niches were others than those of floods
+// niches, of ripples settled by a known path, links of paths that were given other points, niches by a known
+// border and by one that was mended, floods, cells flooded and border elements measured; instants at which
+// the niches were others than those of floods
 // (`other`); kilobytes kept.
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -85,6 +86,7 @@ struct Sample {
   std::vector<double> judge_us;
   double niches = 0.0;
   double by_path = 0.0;
+  double aimed = 0.0;
   double by_border = 0.0;
   double mended = 0.0;
   double floods = 0.0;
@@ -119,6 +121,7 @@ void judge(const detail::MinimaScene& scene, std::vector<MinimumSeed> seeds, Min
   const MinimaVerdicts::Counts& counts = verdicts.counts();
   sample.niches += static_cast<double>(niches.size());
   sample.by_path += counts.by_path;
+  sample.aimed += counts.aimed;
   sample.by_border += counts.by_border;
   sample.mended += counts.mended;
   sample.floods += counts.floods;
@@ -231,7 +234,8 @@ int benchmarkMain(int argc, char** argv) {
   if (!output.empty()) file.open(output);
   const char* header =
       "pair,steps,fcl_us,roots_us,front_us,front_99_us,front_over_fcl,kept,expired,groups,features,live,"
-      "seeds,anew,missed,more,floods_us,judge_us,judge_99_us,niches,by_path,by_border,mended,floods,cells,"
+      "seeds,anew,missed,more,floods_us,judge_us,judge_99_us,niches,by_path,aimed,by_border,mended,floods,"
+      "cells,"
       "measured,"
       "other,kilobytes";
   std::printf("%s\n", header);
@@ -251,18 +255,20 @@ int benchmarkMain(int argc, char** argv) {
       }
       const double n = static_cast<double>(sample.front_us.size());
       char line[1024];
-      std::snprintf(
-          line, sizeof line,
-          "%s,%d,%.1f,%.1f,%.1f,%.1f,%.3f,%.0f,%.0f,%.0f,%.0f,%.0f,%.1f,%d,%zu,%zu,%.1f,%.1f,%.1f,%.1f,%.1f,%"
-          ".1f,%.1f,"
-          "%.1f,%.0f,%.0f,%d,%.0f",
-          pair.name.c_str(), count, median(sample.fcl_us), median(sample.roots_us), median(sample.front_us),
-          percentile(sample.front_us, 0.99), median(sample.front_us) / median(sample.fcl_us), sample.kept / n,
-          sample.expired / n, sample.groups / n, sample.features / n, sample.live / n,
-          static_cast<double>(sample.seeds) / n, sample.anew, sample.missed, sample.more,
-          median(sample.floods_us), median(sample.judge_us), percentile(sample.judge_us, 0.99),
-          sample.niches / n, sample.by_path / n, sample.by_border / n, sample.mended / n, sample.floods / n,
-          sample.cells / n, sample.measured / n, sample.other, static_cast<double>(sample.bytes) / 1024.0);
+      std::snprintf(line, sizeof line,
+                    "%s,%d,%.1f,%.1f,%.1f,%.1f,%.3f,%.0f,%.0f,%.0f,%.0f,%.0f,%.1f,%d,%zu,%zu,%.1f,%.1f,%.1f,%"
+                    ".1f,%.1f,%.1f,%"
+                    ".1f,%.1f,"
+                    "%.1f,%.0f,%.0f,%d,%.0f",
+                    pair.name.c_str(), count, median(sample.fcl_us), median(sample.roots_us),
+                    median(sample.front_us), percentile(sample.front_us, 0.99),
+                    median(sample.front_us) / median(sample.fcl_us), sample.kept / n, sample.expired / n,
+                    sample.groups / n, sample.features / n, sample.live / n,
+                    static_cast<double>(sample.seeds) / n, sample.anew, sample.missed, sample.more,
+                    median(sample.floods_us), median(sample.judge_us), percentile(sample.judge_us, 0.99),
+                    sample.niches / n, sample.by_path / n, sample.aimed / n, sample.by_border / n,
+                    sample.mended / n, sample.floods / n, sample.cells / n, sample.measured / n, sample.other,
+                    static_cast<double>(sample.bytes) / 1024.0);
       std::printf("%s\n", line);
       std::fflush(stdout);
       if (file) file << line << '\n';
