@@ -35,6 +35,8 @@ BranchAndBound::BranchAndBound(const BodyMesh& a, const BodyMesh& b, const Eigen
       support_a_(a.hierarchy(), workspace.support_a),
       support_b_(b.hierarchy(), workspace.support_b),
       scale_(a.hierarchy().reach() + b.hierarchy().reach() + frames_.offset.norm(), kBoundError),
+      unit_a_(static_cast<float>(a.hierarchy().reach() * scale_.inverse_scale)),
+      unit_b_(static_cast<float>(b.hierarchy().reach() * scale_.inverse_scale)),
       error_(kProofError * proofScale(a, b, a_from_b)) {}
 
 DistanceCertificate BranchAndBound::run(const TrianglePair* seeds, std::size_t seed_count) {

@@ -72,6 +72,8 @@ class BranchAndBound {
   DirectionalSupport support_a_;  ///< along direction_
   DirectionalSupport support_b_;  ///< against it
   const BoundScale scale_;
+  const float unit_a_;  ///< reach of A relative to the scale
+  const float unit_b_;
   const double error_;
   DistanceCertificate result_;
 

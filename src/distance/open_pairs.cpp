@@ -162,8 +162,6 @@ double BranchAndBound::squaredBoundOfChild(Slot kept, Slot child, bool opens_b, 
 // Squared bounds of one box against the children of the other one.
 Lanes BranchAndBound::childBounds(Slot kept, std::uint32_t opened, bool opens_b) {
   result_.cost.box_bounds += static_cast<std::uint32_t>(Hierarchy::kWidth);
-  // What is kept for later is to be as far as it can.
-  const double enough = front_ == nullptr ? enough_ : kInfinity;
   if (opens_b) {
     if (kept != compared_slot_a_) {
       OrientedBox box = a_.box(kept);
@@ -172,7 +170,8 @@ Lanes BranchAndBound::childBounds(Slot kept, std::uint32_t opened, bool opens_b)
       compared_a_ = ComparedBox(box, scale_.inverse_scale);
       compared_slot_a_ = kept;
     }
-    return squaredBounds(b_.nodes()[opened], compared_a_, direction_in_b_, scale_, enough);
+    return squaredBounds(b_.singleNodes()[opened], compared_a_, unit_b_).cast<double>() *
+           scale_.squared_scale;
   }
   if (kept != compared_slot_b_) {
     OrientedBox box = b_.box(kept);
@@ -181,7 +180,7 @@ Lanes BranchAndBound::childBounds(Slot kept, std::uint32_t opened, bool opens_b)
     compared_b_ = ComparedBox(box, scale_.inverse_scale);
     compared_slot_b_ = kept;
   }
-  return squaredBounds(a_.nodes()[opened], compared_b_, -direction_, scale_, enough);
+  return squaredBounds(a_.singleNodes()[opened], compared_b_, unit_a_).cast<double>() * scale_.squared_scale;
 }
 
 // Returns a bound of the distance between the two leaves' triangles; measures those it cannot exclude.
