@@ -31,14 +31,29 @@ inline double reachAlong(const Eigen::Vector3d& direction, const OrientedBox& bo
   return (box.axes.transpose() * direction).cwiseAbs().dot(box.half);
 }
 
+/// A rotation and an offset relative to the scene's scale, single precision.
+struct SinglePose {
+  SinglePose(const Eigen::Matrix3d& turn, const Eigen::Vector3d& shift)
+      : rotation(turn.cast<float>()), offset(shift.cast<float>()) {}
+
+  Eigen::Matrix3f rotation;
+  Eigen::Vector3f offset;
+};
+
 /// A box as the other tree's nodes are compared with it: in their frame, lengths relative to the scene's
-/// scale, in single precision.
+/// scale. `unit`: the reach of the box's own body relative to the scale.
 struct ComparedBox {
   ComparedBox() = default;
-  ComparedBox(const OrientedBox& box_in_node_frame, double inverse_scale)
-      : centre((box_in_node_frame.centre * inverse_scale).cast<float>()),
-        axes(box_in_node_frame.axes.cast<float>()),
-        half((box_in_node_frame.half * inverse_scale).cast<float>()) {}
+  ComparedBox(const BoundingVolumeHierarchy::SingleNode& node, std::uint32_t lane, float unit,
+              const SinglePose& node_from_box) {
+    for (int k = 0; k < 3; ++k) {
+      centre[k] = node.centre[k][lane] * unit;
+      half[k] = node.half[k][lane] * unit;
+      for (int c = 0; c < 3; ++c) axes(c, k) = node.axes[k][c][lane];
+    }
+    centre = (node_from_box.rotation * centre + node_from_box.offset).eval();
+    axes = (node_from_box.rotation * axes).eval();
+  }
 
   Eigen::Vector3f centre;
   Eigen::Matrix3f axes;
@@ -54,9 +69,10 @@ struct BoundScale {
   double inverse_scale;  ///< of it
   double squared_scale;
   double slack;          ///< metres: rounding of a bound in double precision
-  /// The same in single precision, relative to `scale`: 64 of its machine epsilons. No term of a bound errs
-  /// by more than 4 of them (an axis by 1, a product by 1, an offset by 1, the sum by 1), and the weights of
-  /// a bound's 12 terms add up to less than 16.
+  /// The same in single precision, relative to `scale`: 64 of its machine epsilons. A box brought to the
+  /// other frame errs by 4 in its centre and by 2.5 in each axis, so that an offset along an axis errs by 11,
+  /// a cosine by 5 and all cosines' products with half lengths, which add up to less than 1.8, by 9; the sums'
+  /// own rounding is below 8.
   static constexpr float kFloatSlack = 0x1.0p-17F;
 };
 
@@ -64,47 +80,113 @@ inline FloatLanes lanes(const float* values) {
   return Eigen::Map<const FloatLanes, Eigen::Aligned16>(values);
 }
 
+/// A direction for each of a node's children, in the node's frame, with how far the child reaches against it:
+/// no point of the child is below `least` along it.
+struct LaneDirections {
+  FloatLanes direction[3];
+  FloatLanes least;  ///< relative to the reach of the node's body
+};
+
 /// Squared lower bounds of the distances between `box` and each of the node's boxes, relative to the squared
 /// scale. Separating axes: the line of the centres and the axes of both boxes, where what separates along the
 /// three axes of one box adds up as in a vector. `unit`: the reach of the node's body relative to the scale.
+/// `separating`, if given: the unit directions from `box` to the lanes that give the bounds.
 inline FloatLanes squaredBounds(const BoundingVolumeHierarchy::SingleNode& node, const ComparedBox& box,
-                                float unit) {
+                                float unit, LaneDirections* separating) {
   constexpr float kSlack = BoundScale::kFloatSlack;
-  const FloatLanes fx = lanes(node.centre[0]) * unit - box.centre.x();
-  const FloatLanes fy = lanes(node.centre[1]) * unit - box.centre.y();
-  const FloatLanes fz = lanes(node.centre[2]) * unit - box.centre.z();
-  const FloatLanes squared_gap = fx * fx + fy * fy + fz * fz;
+  const FloatLanes f[3] = {lanes(node.centre[0]) * unit - box.centre.x(),
+                           lanes(node.centre[1]) * unit - box.centre.y(),
+                           lanes(node.centre[2]) * unit - box.centre.z()};
+  const FloatLanes squared_gap = f[0] * f[0] + f[1] * f[1] + f[2] * f[2];
   FloatLanes along_centres = squared_gap;
-  FloatLanes along_box[3];
+  FloatLanes offset_box[3];
+  FloatLanes reach_box[3];
   for (int k = 0; k < 3; ++k) {
-    const FloatLanes offset = (box.axes(0, k) * fx + box.axes(1, k) * fy + box.axes(2, k) * fz).abs();
-    along_centres -= offset * box.half[k];
-    along_box[k] = offset - box.half[k];
+    offset_box[k] = box.axes(0, k) * f[0] + box.axes(1, k) * f[1] + box.axes(2, k) * f[2];
+    along_centres -= offset_box[k].abs() * box.half[k];
+    reach_box[k] = FloatLanes::Constant(box.half[k] + kSlack);
   }
+  FloatLanes gap_node[3];
   FloatLanes sum_node = FloatLanes::Zero();
   for (int i = 0; i < 3; ++i) {
     const FloatLanes x = lanes(node.axes[i][0]);
     const FloatLanes y = lanes(node.axes[i][1]);
     const FloatLanes z = lanes(node.axes[i][2]);
     const FloatLanes half = lanes(node.half[i]) * unit;
-    const FloatLanes offset = (x * fx + y * fy + z * fz).abs();
-    along_centres -= offset * half;
-    FloatLanes along_node = offset - half;
+    const FloatLanes offset = x * f[0] + y * f[1] + z * f[2];
+    along_centres -= offset.abs() * half;
+    FloatLanes reach = half + kSlack;
     for (int k = 0; k < 3; ++k) {
       const FloatLanes cosine = (x * box.axes(0, k) + y * box.axes(1, k) + z * box.axes(2, k)).abs();
-      along_node -= cosine * box.half[k];
-      along_box[k] -= cosine * half;
+      reach += cosine * box.half[k];
+      reach_box[k] += cosine * half;
     }
-    sum_node += (along_node - kSlack).max(0.0F).square();
+    gap_node[i] = offset - offset.min(reach).max(-reach);
+    sum_node += gap_node[i].square();
   }
-  const FloatLanes sum_box = (along_box[0] - kSlack).max(0.0F).square() +
-                             (along_box[1] - kSlack).max(0.0F).square() +
-                             (along_box[2] - kSlack).max(0.0F).square();
+  FloatLanes gap_box[3];
+  FloatLanes sum_box = FloatLanes::Zero();
+  for (int k = 0; k < 3; ++k) {
+    gap_box[k] = offset_box[k] - offset_box[k].min(reach_box[k]).max(-reach_box[k]);
+    sum_box += gap_box[k].square();
+  }
   // The gap is at most 1 in these units, so that the slack need not be multiplied with it. Where the centres
   // fall together nothing is left above.
   const FloatLanes centres = (along_centres - kSlack).max(0.0F);
   const FloatLanes sum_centres = centres.square() / squared_gap.max(0x1.0p-100F);
-  return sum_node.max(sum_box).max(sum_centres) * (1.0F - 0x1.0p-20F);
+  const FloatLanes best = sum_node.max(sum_box).max(sum_centres);
+  if (separating != nullptr) {
+    // Where several do as well, their sum is as good a direction as any.
+    const FloatLanes by_node = (sum_node >= best).cast<float>();
+    const FloatLanes by_box = (sum_box >= best).cast<float>();
+    const FloatLanes by_centres = (sum_centres >= best).cast<float>();
+    FloatLanes squared_length = FloatLanes::Zero();
+    for (int c = 0; c < 3; ++c) {
+      const FloatLanes along_node = gap_node[0] * lanes(node.axes[0][c]) +
+                                    gap_node[1] * lanes(node.axes[1][c]) +
+                                    gap_node[2] * lanes(node.axes[2][c]);
+      const FloatLanes along_box =
+          gap_box[0] * box.axes(c, 0) + gap_box[1] * box.axes(c, 1) + gap_box[2] * box.axes(c, 2);
+      separating->direction[c] = by_node * along_node + by_box * along_box + by_centres * f[c];
+      squared_length += separating->direction[c].square();
+    }
+    const FloatLanes inverse = squared_length.max(0x1.0p-100F).sqrt().inverse();
+    for (FloatLanes& direction : separating->direction) direction *= inverse;
+    const FloatLanes(&d)[3] = separating->direction;
+    FloatLanes least =
+        d[0] * lanes(node.centre[0]) + d[1] * lanes(node.centre[1]) + d[2] * lanes(node.centre[2]);
+    for (int i = 0; i < 3; ++i) {
+      least -= (d[0] * lanes(node.axes[i][0]) + d[1] * lanes(node.axes[i][1]) + d[2] * lanes(node.axes[i][2]))
+                   .abs() *
+               lanes(node.half[i]);
+    }
+    separating->least = least;
+  }
+  return best * (1.0F - 0x1.0p-20F);
+}
+
+/// How far each lane is from a box (single precision, own frame) along its direction, relative to the scale:
+/// node_from_box takes the box's points to the node's frame.
+inline FloatLanes separations(const LaneDirections& of_node, float unit,
+                              const BoundingVolumeHierarchy::SingleNode& other, std::uint32_t lane,
+                              float other_unit, const SinglePose& node_from_box) {
+  const Eigen::Matrix3f& rotation = node_from_box.rotation;
+  const Eigen::Vector3f& offset = node_from_box.offset;
+  const FloatLanes(&d)[3] = of_node.direction;
+  FloatLanes turned[3];
+  for (int c = 0; c < 3; ++c) {
+    turned[c] = rotation(0, c) * d[0] + rotation(1, c) * d[1] + rotation(2, c) * d[2];
+  }
+  FloatLanes most = turned[0] * other.centre[0][lane] + turned[1] * other.centre[1][lane] +
+                    turned[2] * other.centre[2][lane];
+  for (int k = 0; k < 3; ++k) {
+    most += (turned[0] * other.axes[k][0][lane] + turned[1] * other.axes[k][1][lane] +
+             turned[2] * other.axes[k][2][lane])
+                .abs() *
+            other.half[k][lane];
+  }
+  return of_node.least * unit - most * other_unit -
+         (d[0] * offset.x() + d[1] * offset.y() + d[2] * offset.z()) - BoundScale::kFloatSlack;
 }
 
 }  // namespace concave_distance::detail

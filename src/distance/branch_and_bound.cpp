@@ -37,6 +37,8 @@ BranchAndBound::BranchAndBound(const BodyMesh& a, const BodyMesh& b, const Eigen
       scale_(a.hierarchy().reach() + b.hierarchy().reach() + frames_.offset.norm(), kBoundError),
       unit_a_(static_cast<float>(a.hierarchy().reach() * scale_.inverse_scale)),
       unit_b_(static_cast<float>(b.hierarchy().reach() * scale_.inverse_scale)),
+      single_a_from_b_(frames_.rotation, frames_.offset * scale_.inverse_scale),
+      single_b_from_a_(turned_, turned_ * frames_.offset * -scale_.inverse_scale),
       error_(kProofError * proofScale(a, b, a_from_b)) {}
 
 DistanceCertificate BranchAndBound::run(const TrianglePair* seeds, std::size_t seed_count) {
@@ -60,7 +62,7 @@ DistanceCertificate BranchAndBound::run(const TrianglePair* seeds, std::size_t s
       front_->clear();  // not everything is in it
     } else {
       front_->decide(anew, result_.cost.box_bounds / static_cast<std::uint32_t>(Hierarchy::kWidth) +
-                               result_.cost.leaf_pairs);
+                               result_.cost.leaf_pairs + rechecked_ / 3);
     }
   }
   result_.improved = distance_ < seeded - error_;
@@ -89,7 +91,7 @@ void BranchAndBound::dive() {
     const bool opens_b = opensB(a, b);
     Slot& slot = opens_b ? b : a;
     const std::uint32_t opened = opens_b ? b_.child(b) : a_.child(a);
-    const Lanes bounds = childBounds(opens_b ? a : b, opened, opens_b);
+    const Lanes bounds = childBounds(opens_b ? a : b, opened, opens_b, nullptr);
     const Hierarchy::Node& node = (opens_b ? b_ : a_).nodes()[opened];
     std::uint32_t nearest = 0;
     for (std::uint32_t lane = 1; lane < Hierarchy::kWidth; ++lane) {
@@ -167,14 +169,10 @@ BranchAndBound::OpenPair BranchAndBound::take() {
   return open_[--open_count_];
 }
 
-void BranchAndBound::exclude(double bound) {
-  excluded_ = std::min(excluded_, bound);
-}
-
 DistanceCertificate BranchAndBound::conclude() {
   result_.witness = frames_.toWitness(closest_, triangle_a_, triangle_b_);
   result_.distance = distance_;
-  double bound = std::min(distance_ - error_, excluded_);
+  double bound = std::min({distance_ - error_, excluded_, std::sqrt(squared_excluded_)});
   for (std::size_t i = 0; i < open_count_; ++i) bound = std::min(bound, std::sqrt(open_[i].squared_bound));
   result_.lower_bound = bound > 0.0 ? std::nextafter(bound, 0.0) : 0.0;
   if (squared_distance_ == 0.0) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "box_pair_bounds.h"
 #include "mesh/trees/bounding_volume_hierarchy.h"
 
 namespace concave_distance {
@@ -33,6 +34,7 @@ class ProofFront {
     BoundingVolumeHierarchy::Slot a;
     BoundingVolumeHierarchy::Slot b;
     std::uint8_t region;
+    Eigen::Vector3d direction;  ///< from A to B, A's axes
   };
 
   void clear() { valid_ = false; }
@@ -40,7 +42,8 @@ class ProofFront {
   bool valid() const { return valid_; }
   std::size_t size() const { return quads_.size() + leaf_pairs_.size(); }
   std::size_t memoryBytes() const {
-    return quads_.capacity() * sizeof(Quad) + leaf_pairs_.capacity() * sizeof(LeafPair);
+    return quads_.capacity() * sizeof(Quad) + directions_.capacity() * sizeof(detail::LaneDirections) +
+           leaf_pairs_.capacity() * sizeof(LeafPair);
   }
 
  private:
@@ -56,6 +59,7 @@ class ProofFront {
   void decide(bool began_anew, std::uint32_t opened);
 
   std::vector<Quad> quads_;
+  std::vector<detail::LaneDirections> directions_;  ///< along which each quad was parted
   std::vector<LeafPair> leaf_pairs_;
   std::vector<double> odometers_;  ///< metres, of each region of B
   Eigen::Matrix3d rotation_ = Eigen::Matrix3d::Identity();

@@ -215,9 +215,12 @@ void BoundingVolumeHierarchy::roundNodes() {
     const Node& node = nodes_[i];
     SingleNode& single = single_nodes_[i];
     for (std::size_t lane = 0; lane < kWidth; ++lane) {
+      single.child[lane] = node.child[lane];
+      single.squared_size[lane] = 0.0F;
       for (int k = 0; k < 3; ++k) {
         single.centre[k][lane] = static_cast<float>(node.centre[k][lane] * unit);
         single.half[k][lane] = static_cast<float>(node.half[k][lane] * unit);
+        single.squared_size[lane] += single.half[k][lane] * single.half[k][lane];
         for (int c = 0; c < 3; ++c) single.axes[k][c][lane] = static_cast<float>(node.axes[k][c][lane]);
       }
     }

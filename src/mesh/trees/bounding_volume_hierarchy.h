@@ -42,6 +42,8 @@ class BoundingVolumeHierarchy {
     float centre[3][kWidth];
     float axes[3][3][kWidth];
     float half[3][kWidth];
+    float squared_size[kWidth];  ///< squared half diagonal
+    std::uint32_t child[kWidth];
   };
 
   /// Up to four triangles; unused lanes repeat the last one.
@@ -67,7 +69,7 @@ class BoundingVolumeHierarchy {
   const std::vector<Node>& nodes() const { return nodes_; }
   const std::vector<SingleNode>& singleNodes() const { return single_nodes_; }
   const std::vector<Leaf>& leaves() const { return leaves_; }
-  std::uint32_t child(Slot slot) const { return nodes_[slot / kWidth].child[slot % kWidth]; }
+  std::uint32_t child(Slot slot) const { return single_nodes_[slot / kWidth].child[slot % kWidth]; }
   OrientedBox box(Slot slot) const;
   /// Boxes of the first two levels, at most 21, the whole surface first: each holds what lies below the nodes
   /// of its region. How far any point of a node has moved is bounded by its region.
