@@ -63,21 +63,32 @@ struct ComparedBox {
 /// What every bound of one query shares.
 struct BoundScale {
   BoundScale(double metres, double relative_slack)
-      : scale(metres), inverse_scale(1.0 / metres), squared_scale(metres * metres), slack(relative_slack * metres) {}
+      : scale(metres),
+        inverse_scale(1.0 / metres),
+        squared_scale(metres * metres),
+        slack(relative_slack * metres) {}
 
   double scale;          ///< metres, no smaller than any distance between points of the two bodies
   double inverse_scale;  ///< of it
   double squared_scale;
-  double slack;          ///< metres: rounding of a bound in double precision
+  double slack;  ///< metres: rounding of a bound in double precision
   /// The same in single precision, relative to `scale`: 64 of its machine epsilons. A box brought to the
   /// other frame errs by 4 in its centre and by 2.5 in each axis, so that an offset along an axis errs by 11,
-  /// a cosine by 5 and all cosines' products with half lengths, which add up to less than 1.8, by 9; the sums'
-  /// own rounding is below 8.
+  /// a cosine by 5 and all cosines' products with half lengths, which add up to less than 1.8, by 9; the
+  /// sums' own rounding is below 8.
   static constexpr float kFloatSlack = 0x1.0p-17F;
 };
 
 inline FloatLanes lanes(const float* values) {
   return Eigen::Map<const FloatLanes, Eigen::Aligned16>(values);
+}
+
+/// Squared distances from the box's centre to those of the node's boxes, relative to the squared scale.
+inline FloatLanes squaredGaps(const BoundingVolumeHierarchy::SingleNode& node, const ComparedBox& box,
+                              float unit) {
+  return (lanes(node.centre[0]) * unit - box.centre.x()).square() +
+         (lanes(node.centre[1]) * unit - box.centre.y()).square() +
+         (lanes(node.centre[2]) * unit - box.centre.z()).square();
 }
 
 /// A direction for each of a node's children, in the node's frame, with how far the child reaches against it:
@@ -86,6 +97,22 @@ struct LaneDirections {
   FloatLanes direction[3];
   FloatLanes least;  ///< relative to the reach of the node's body
 };
+
+/// Makes the directions unit vectors (shorter, where they nearly vanish) and sets `least`.
+inline void normalise(const BoundingVolumeHierarchy::SingleNode& node, LaneDirections& lane_directions) {
+  FloatLanes(&d)[3] = lane_directions.direction;
+  const FloatLanes squared_length = d[0].square() + d[1].square() + d[2].square();
+  const FloatLanes inverse = squared_length.max(0x1.0p-100F).sqrt().inverse();
+  for (FloatLanes& coordinate : d) coordinate *= inverse;
+  FloatLanes least =
+      d[0] * lanes(node.centre[0]) + d[1] * lanes(node.centre[1]) + d[2] * lanes(node.centre[2]);
+  for (int i = 0; i < 3; ++i) {
+    const FloatLanes cosine =
+        d[0] * lanes(node.axes[i][0]) + d[1] * lanes(node.axes[i][1]) + d[2] * lanes(node.axes[i][2]);
+    least -= cosine.abs() * lanes(node.half[i]);
+  }
+  lane_directions.least = least;
+}
 
 /// Squared lower bounds of the distances between `box` and each of the node's boxes, relative to the squared
 /// scale. Separating axes: the line of the centres and the axes of both boxes, where what separates along the
@@ -140,7 +167,6 @@ inline FloatLanes squaredBounds(const BoundingVolumeHierarchy::SingleNode& node,
     const FloatLanes by_node = (sum_node >= best).cast<float>();
     const FloatLanes by_box = (sum_box >= best).cast<float>();
     const FloatLanes by_centres = (sum_centres >= best).cast<float>();
-    FloatLanes squared_length = FloatLanes::Zero();
     for (int c = 0; c < 3; ++c) {
       const FloatLanes along_node = gap_node[0] * lanes(node.axes[0][c]) +
                                     gap_node[1] * lanes(node.axes[1][c]) +
@@ -148,25 +174,14 @@ inline FloatLanes squaredBounds(const BoundingVolumeHierarchy::SingleNode& node,
       const FloatLanes along_box =
           gap_box[0] * box.axes(c, 0) + gap_box[1] * box.axes(c, 1) + gap_box[2] * box.axes(c, 2);
       separating->direction[c] = by_node * along_node + by_box * along_box + by_centres * f[c];
-      squared_length += separating->direction[c].square();
     }
-    const FloatLanes inverse = squared_length.max(0x1.0p-100F).sqrt().inverse();
-    for (FloatLanes& direction : separating->direction) direction *= inverse;
-    const FloatLanes(&d)[3] = separating->direction;
-    FloatLanes least =
-        d[0] * lanes(node.centre[0]) + d[1] * lanes(node.centre[1]) + d[2] * lanes(node.centre[2]);
-    for (int i = 0; i < 3; ++i) {
-      least -= (d[0] * lanes(node.axes[i][0]) + d[1] * lanes(node.axes[i][1]) + d[2] * lanes(node.axes[i][2]))
-                   .abs() *
-               lanes(node.half[i]);
-    }
-    separating->least = least;
+    normalise(node, *separating);
   }
   return best * (1.0F - 0x1.0p-20F);
 }
 
-/// How far each lane is from a box (single precision, own frame) along its direction, relative to the scale:
-/// node_from_box takes the box's points to the node's frame.
+/// How far each lane is from the box `other` in `lane` along the lane's direction, relative to the scale; may
+/// be negative. `node_from_box` takes the box's points to the node's frame.
 inline FloatLanes separations(const LaneDirections& of_node, float unit,
                               const BoundingVolumeHierarchy::SingleNode& other, std::uint32_t lane,
                               float other_unit, const SinglePose& node_from_box) {

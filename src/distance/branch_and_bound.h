@@ -31,20 +31,26 @@ class BranchAndBound {
   void seed(const TrianglePair* seeds, std::size_t seed_count);
   void descend(const TrianglePair& seed);
   void dive();
+  TrianglePair nearestTriangles(const Hierarchy::Leaf& leaf_a, const Hierarchy::Leaf& leaf_b) const;
   TrianglePairDistance measure(const TrianglePoints& a, const TrianglePoints& b, TriangleIndex triangle_a,
                                TriangleIndex triangle_b);
 
   void beginAtRoots();
   bool partsAtRoots();
+  bool isProvenAtOnce();
   void reopenFront();
   void search();
   OpenPair take();
   void add(Slot kept, std::uint32_t opened, std::uint32_t lane, bool opens_b, double squared_bound);
   void expand(const OpenPair& pair);
   void openLeaves(const OpenPair& pair);
-  double measureLeaves(const Hierarchy::Leaf& leaf_a, const Hierarchy::Leaf& leaf_b, Eigen::Vector3d& parting);
+  double measureLeaves(const Hierarchy::Leaf& leaf_a, const Hierarchy::Leaf& leaf_b,
+                       Eigen::Vector3d& parting);
   double leafSeparation(const Hierarchy::Leaf& leaf_a, const Hierarchy::Leaf& leaf_b,
                         const Eigen::Vector3d& direction) const;
+  double separationAlongNormals(const Hierarchy::Leaf& leaf_a, const LeafLanes& b,
+                                Eigen::Vector3d& parting) const;
+  bool raiseAlongWitnesses(Slot kept, Slot child, bool opens_b, double& squared_bound);
   bool stillParts(std::size_t i, double gone);
   bool opensB(Slot a, Slot b) const {
     if (isLeaf(a_.child(a))) return true;
@@ -77,7 +83,8 @@ class BranchAndBound {
   bool cut_ = false;             ///< the limit was reached
   std::vector<OpenPair>& open_;  ///< the first open_count_ of it
   std::size_t open_count_ = 0;
-  std::uint32_t rechecked_ = 0;
+  std::uint32_t asked_again_ = 0;  ///< quads along what parted them last
+  std::uint32_t leaves_asked_again_ = 0;
   RefinementWorkspace& refinement_;
   ProofFront* front_;             ///< null: nothing is kept
   DirectionalSupport support_a_;  ///< along direction_

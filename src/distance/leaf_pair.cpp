@@ -59,7 +59,7 @@ TrianglePoints LeafLanes::triangle(std::size_t lane) const {
   return points;
 }
 
-Vector3d meanNormal(const BoundingVolumeHierarchy::Leaf& leaf) {
+Vector3d sumOfNormals(const BoundingVolumeHierarchy::Leaf& leaf) {
   Lanes u[3];
   Lanes v[3];
   for (int c = 0; c < 3; ++c) {
@@ -70,7 +70,7 @@ Vector3d meanNormal(const BoundingVolumeHierarchy::Leaf& leaf) {
           (u[0] * v[1] - u[1] * v[0]).sum()};
 }
 
-Vector3d meanNormal(const LeafLanes& leaf) {
+Vector3d sumOfNormals(const LeafLanes& leaf) {
   return {leaf.normal[0].sum(), leaf.normal[1].sum(), leaf.normal[2].sum()};
 }
 

@@ -27,9 +27,9 @@ inline TrianglePoints triangleOf(const BoundingVolumeHierarchy::Leaf& leaf, std:
 }
 
 /// The sum of the lanes' normals, not normalised, frame of the leaf.
-Eigen::Vector3d meanNormal(const BoundingVolumeHierarchy::Leaf& leaf);
-/// Needs the leaf's normals.
-Eigen::Vector3d meanNormal(const LeafLanes& leaf);
+Eigen::Vector3d sumOfNormals(const BoundingVolumeHierarchy::Leaf& leaf);
+/// The same; needs the leaf's normals.
+Eigen::Vector3d sumOfNormals(const LeafLanes& leaf);
 
 /// Least value of `direction` over the corners of each lane.
 Lanes leastAlong(const LeafLanes& leaf, const Eigen::Vector3d& direction);

@@ -3,6 +3,7 @@
 
 #include "branch_and_bound.h"
 #include "hierarchy_access.h"
+#include "prepared_triangle.h"
 
 // What a proof does with a pair of boxes or leaves: bounds what lies below, excludes it or opens it further.
 
@@ -29,7 +30,7 @@ void BranchAndBound::reopenFront() {
       const Hierarchy::Leaf& leaf_a = leafOf(a_, a_.child(pair.a));
       const Hierarchy::Leaf& leaf_b = leafOf(b_, b_.child(pair.b));
       bound = leafSeparation(leaf_a, leaf_b, pair.direction);
-      ++rechecked_;
+      ++leaves_asked_again_;
       if (bound < enough_) bound = measureLeaves(leaf_a, leaf_b, pair.direction);
       pair.bound = bound + gone;
     }
@@ -45,16 +46,14 @@ void BranchAndBound::reopenFront() {
       exclude(least);
       continue;
     }
-    if (stillParts(i, gone)) continue;
+    if (quad.by_boxes && stillParts(i, gone)) continue;
+    quad.by_boxes = true;
     const Lanes bounds = childBounds(quad.kept, quad.opened, quad.opens_b, &front.directions_[i]);
     for (std::uint32_t lane = 0; lane < Hierarchy::kWidth; ++lane) {
       if (quad.bound[lane] == kInfinity) continue;
       double squared_bound = bounds[lane];
-      if (squared_bound < squared_enough_) {
-        const Slot child = slotOf(quad.opened, lane);
-        const double separation = separationAlongWitnesses(quad.opens_b ? quad.kept : child,
-                                                           quad.opens_b ? child : quad.kept);
-        if (separation >= enough_) squared_bound = separation * separation;
+      if (raiseAlongWitnesses(quad.kept, slotOf(quad.opened, lane), quad.opens_b, squared_bound)) {
+        quad.by_boxes = false;
       }
       if (squared_bound >= squared_enough_) {
         const double bound = std::sqrt(squared_bound);
@@ -68,16 +67,17 @@ void BranchAndBound::reopenFront() {
   }
 }
 
+// Whether an entry's children are still far enough along the directions that parted them last.
 bool BranchAndBound::stillParts(std::size_t i, double gone) {
   ProofFront& front = *front_;
   ProofFront::Quad& quad = front.quads_[i];
-  ++rechecked_;
+  ++asked_again_;
   const LaneDirections& d = front.directions_[i];
   const std::uint32_t node = quad.kept / Hierarchy::kWidth;
   const std::uint32_t lane = quad.kept % Hierarchy::kWidth;
-  const FloatLanes now = quad.opens_b
-                             ? separations(d, unit_b_, a_.singleNodes()[node], lane, unit_a_, single_b_from_a_)
-                             : separations(d, unit_a_, b_.singleNodes()[node], lane, unit_b_, single_a_from_b_);
+  const FloatLanes now =
+      quad.opens_b ? separations(d, unit_b_, a_.singleNodes()[node], lane, unit_a_, single_b_from_a_)
+                   : separations(d, unit_a_, b_.singleNodes()[node], lane, unit_b_, single_a_from_b_);
   const Lanes found = (now.cast<double>() * scale_.scale).max(lanes(quad.bound) - gone);
   const double least = found.minCoeff();
   if (!(least >= enough_)) return false;
@@ -124,17 +124,14 @@ void BranchAndBound::expand(const OpenPair& pair) {
     excludeSquared(bounds.minCoeff());
     return;
   }
+  bool by_boxes = true;
   ProofFront::Quad* quad = nullptr;
   std::uint32_t nearest = Hierarchy::kWidth;
   double nearest_bound = squared_enough_;
   for (std::uint32_t lane = 0; lane < Hierarchy::kWidth; ++lane) {
     if (node.child[lane] == Hierarchy::kNoChild) break;
     double squared_bound = bounds[lane];
-    if (squared_bound < squared_enough_) {
-      const Slot child = slotOf(opened, lane);
-      const double separation = separationAlongWitnesses(opens_b ? kept : child, opens_b ? child : kept);
-      if (separation >= enough_) squared_bound = separation * separation;
-    }
+    if (raiseAlongWitnesses(kept, slotOf(opened, lane), opens_b, squared_bound)) by_boxes = false;
     if (squared_bound >= squared_enough_) {
       excludeSquared(squared_bound);
       if (front_ == nullptr) continue;
@@ -145,7 +142,7 @@ void BranchAndBound::expand(const OpenPair& pair) {
         }
         const std::uint8_t region = opens_b ? b_.regionOfNode(opened) : regionOf(kept);
         front_->quads_.push_back(
-            {{kInfinity, kInfinity, kInfinity, kInfinity}, kept, opened, region, opens_b});
+            {{kInfinity, kInfinity, kInfinity, kInfinity}, kept, opened, region, opens_b, true});
         quad = &front_->quads_.back();
         front_->directions_.push_back(directions);
       }
@@ -158,6 +155,7 @@ void BranchAndBound::expand(const OpenPair& pair) {
       add(kept, opened, lane, opens_b, squared_bound);
     }
   }
+  if (quad != nullptr) quad->by_boxes = by_boxes;
   if (nearest != Hierarchy::kWidth) add(kept, opened, nearest, opens_b, nearest_bound);  // is taken next
 }
 
@@ -189,9 +187,17 @@ double BranchAndBound::separationAlongWitnesses(Slot a, Slot b) {
   return offset_along_ - support_a_.of(a) - support_b_.of(b) - scale_.slack;
 }
 
+// For a child that its box does not exclude: whether the witness direction does.
+bool BranchAndBound::raiseAlongWitnesses(Slot kept, Slot child, bool opens_b, double& squared_bound) {
+  if (squared_bound >= squared_enough_) return false;
+  const double separation = separationAlongWitnesses(opens_b ? kept : child, opens_b ? child : kept);
+  if (separation < enough_) return false;
+  squared_bound = separation * separation;
+  return true;
+}
+
 // Squared bounds of one box against the children of the other one.
-Lanes BranchAndBound::childBounds(Slot kept, std::uint32_t opened, bool opens_b,
-                                  LaneDirections* directions) {
+Lanes BranchAndBound::childBounds(Slot kept, std::uint32_t opened, bool opens_b, LaneDirections* directions) {
   result_.cost.box_bounds += static_cast<std::uint32_t>(Hierarchy::kWidth);
   const std::uint32_t node = kept / Hierarchy::kWidth;
   const std::uint32_t lane = kept % Hierarchy::kWidth;
@@ -217,7 +223,24 @@ double BranchAndBound::leafSeparation(const Hierarchy::Leaf& leaf_a, const Hiera
          mostAlong(leaf_b, -(turned_ * direction)).maxCoeff() - scale_.slack;
 }
 
+// Along the mean of either leaf's normals, which parts leaves that bend little; 0 where neither does.
+double BranchAndBound::separationAlongNormals(const Hierarchy::Leaf& leaf_a, const LeafLanes& b,
+                                              Vector3d& parting) const {
+  const Vector3d apart = b.triangle(0)[0] - triangleOf(leaf_a, 0)[0];
+  for (const Vector3d& sum : {sumOfNormals(leaf_a), sumOfNormals(b)}) {
+    if (!(sum.squaredNorm() > kLeastSquare)) continue;
+    const Vector3d normal = sum / (sum.dot(apart) < 0.0 ? -sum.norm() : sum.norm());
+    const double separation =
+        leastAlong(b, normal).minCoeff() - mostAlong(leaf_a, normal).maxCoeff() - scale_.slack;
+    if (separation < enough_) continue;
+    parting = normal;
+    return separation;
+  }
+  return 0.0;
+}
+
 // Returns a bound of the distance between the two leaves' triangles; measures those it cannot exclude.
+// `parting`: the direction most likely to part all of them at the next pose.
 double BranchAndBound::measureLeaves(const Hierarchy::Leaf& leaf_a, const Hierarchy::Leaf& leaf_b,
                                      Vector3d& parting) {
   ++result_.cost.leaf_pairs;
@@ -229,18 +252,9 @@ double BranchAndBound::measureLeaves(const Hierarchy::Leaf& leaf_a, const Hierar
   double parting_distance = kInfinity;
   if (together >= enough_) return together;
   b.computeNormals();
-  // Leaves that bend little are parted by the mean of either one's normals.
-  const Vector3d apart = b.triangle(0)[0] - triangleOf(leaf_a, 0)[0];
-  for (const Vector3d& sum : {meanNormal(leaf_a), meanNormal(b)}) {
-    if (front_ == nullptr) break;
-    const double length = sum.norm();
-    if (!(length > 0.0)) continue;
-    const Vector3d normal = sum / (sum.dot(apart) < 0.0 ? -length : length);
-    const double separation = leastAlong(b, normal).minCoeff() - mostAlong(leaf_a, normal).maxCoeff() - scale_.slack;
-    if (separation >= enough_) {
-      parting = normal;
-      return separation;
-    }
+  if (front_ != nullptr) {  // a fresh proof gains nothing from it
+    const double along_normals = separationAlongNormals(leaf_a, b, parting);
+    if (along_normals >= enough_) return along_normals;
   }
   // The direction between the last pair measured here parts its neighbours as well, as a rule.
   Lanes near_least = Lanes::Zero();

@@ -28,6 +28,7 @@ class ProofFront {
     std::uint32_t opened;  ///< node of the other body
     std::uint8_t region;   ///< of B
     bool opens_b;
+    bool by_boxes;  ///< all were parted by their boxes, along directions of their own
   };
   struct LeafPair {
     double bound;
