@@ -18,7 +18,7 @@ constexpr double kBoundError = 0x1.0p-48;  // 16 machine epsilons
 /// In a dive, of the squared distance of two boxes' centres beside their squared bound.
 constexpr double kWeightOfCentres = 0.1;
 
-/// Before a front of so many entries is reopened, it is tried without.
+/// Before a front of so many entries is reopened at another pose, it is tried without.
 constexpr std::size_t kWorthTrying = 128;
 
 }  // namespace
@@ -56,7 +56,7 @@ DistanceCertificate BranchAndBound::run(const TrianglePair* seeds, std::size_t s
     --front_->wait_;
     front_ = nullptr;
   }
-  if (front_ != nullptr && front_->valid() && front_->size() >= kWorthTrying && isProvenAtOnce()) {
+  if (front_ != nullptr && front_->valid() && isProvenAtOnce()) {
     result_.improved = distance_ < seeded - error_;
     return conclude();
   }
@@ -184,8 +184,9 @@ bool BranchAndBound::partsAtRoots() {
   return true;
 }
 
-// Whether the boxes below the roots prove it, so that what the front holds need not be asked.
+// Whether the boxes below the roots prove it, so that what a large front holds need not be asked.
 bool BranchAndBound::isProvenAtOnce() {
+  if (front_->size() < kWorthTrying || front_->isAt(frames_.rotation, frames_.offset)) return false;
   ProofFront* const front = std::exchange(front_, nullptr);
   beginAtRoots();
   expand(take());

@@ -50,6 +50,9 @@ class ProofFront {
  private:
   friend class detail::BranchAndBound;
 
+  bool isAt(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& offset) const {
+    return rotation == rotation_ && offset == offset_;
+  }
   /// Brings the odometers to a pose; rotation and offset as in the proof's local frames. `rounding` (metres)
   /// is what the displacement itself may be off.
   void advance(const BoundingVolumeHierarchy& b, const Eigen::Matrix3d& rotation,
