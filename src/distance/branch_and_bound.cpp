@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "hierarchy_access.h"
 
@@ -13,6 +14,12 @@ using Hierarchy = BoundingVolumeHierarchy;
 
 /// Of the rounding of one bound: see kProofError.
 constexpr double kBoundError = 0x1.0p-48;  // 16 machine epsilons
+
+/// In a dive, of the squared distance of two boxes' centres beside their squared bound.
+constexpr double kWeightOfCentres = 0.1;
+
+/// Before a front of so many entries is reopened at another pose, it is tried without.
+constexpr std::size_t kWorthTrying = 128;
 
 }  // namespace
 
@@ -35,6 +42,10 @@ BranchAndBound::BranchAndBound(const BodyMesh& a, const BodyMesh& b, const Eigen
       support_a_(a.hierarchy(), workspace.support_a),
       support_b_(b.hierarchy(), workspace.support_b),
       scale_(a.hierarchy().reach() + b.hierarchy().reach() + frames_.offset.norm(), kBoundError),
+      unit_a_(static_cast<float>(a.hierarchy().reach() * scale_.inverse_scale)),
+      unit_b_(static_cast<float>(b.hierarchy().reach() * scale_.inverse_scale)),
+      single_a_from_b_(frames_.rotation, frames_.offset * scale_.inverse_scale),
+      single_b_from_a_(turned_, turned_ * frames_.offset * -scale_.inverse_scale),
       error_(kProofError * proofScale(a, b, a_from_b)) {}
 
 DistanceCertificate BranchAndBound::run(const TrianglePair* seeds, std::size_t seed_count) {
@@ -44,6 +55,10 @@ DistanceCertificate BranchAndBound::run(const TrianglePair* seeds, std::size_t s
   if (front_ != nullptr && !front_->valid() && front_->wait_ > 0) {
     --front_->wait_;
     front_ = nullptr;
+  }
+  if (front_ != nullptr && front_->valid() && isProvenAtOnce()) {
+    result_.improved = distance_ < seeded - error_;
+    return conclude();
   }
   const bool anew = front_ == nullptr || !front_->valid();
   if (anew) {
@@ -58,7 +73,7 @@ DistanceCertificate BranchAndBound::run(const TrianglePair* seeds, std::size_t s
       front_->clear();  // not everything is in it
     } else {
       front_->decide(anew, result_.cost.box_bounds / static_cast<std::uint32_t>(Hierarchy::kWidth) +
-                               result_.cost.leaf_pairs);
+                               result_.cost.leaf_pairs + (asked_again_ + 2 * leaves_asked_again_) / 3);
     }
   }
   result_.improved = distance_ < seeded - error_;
@@ -79,7 +94,8 @@ void BranchAndBound::descend(const TrianglePair& seed) {
   measure(frames_.cornersOfA(body_a_, a), frames_.cornersOfB(body_b_, b), a, b);
 }
 
-// One way down to a pair of leaves, always to the nearer box, to have something to compare with.
+// One way down to a pair of leaves, always to the nearer box, to have something to compare with. Where boxes
+// overlap or tie, the nearer centre decides.
 void BranchAndBound::dive() {
   Slot a = Hierarchy::kRoot;
   Slot b = Hierarchy::kRoot;
@@ -87,15 +103,41 @@ void BranchAndBound::dive() {
     const bool opens_b = opensB(a, b);
     Slot& slot = opens_b ? b : a;
     const std::uint32_t opened = opens_b ? b_.child(b) : a_.child(a);
-    const Lanes bounds = childBounds(opens_b ? a : b, opened, opens_b);
-    const Hierarchy::Node& node = (opens_b ? b_ : a_).nodes()[opened];
+    const Lanes bounds = childBounds(opens_b ? a : b, opened, opens_b, nullptr);
+    const Hierarchy::SingleNode& node = (opens_b ? b_ : a_).singleNodes()[opened];
+    const FloatLanes gaps =
+        squaredGaps(node, opens_b ? compared_a_ : compared_b_, opens_b ? unit_b_ : unit_a_);
+    const Lanes keys = bounds + kWeightOfCentres * scale_.squared_scale * gaps.cast<double>();
     std::uint32_t nearest = 0;
     for (std::uint32_t lane = 1; lane < Hierarchy::kWidth; ++lane) {
-      if (node.child[lane] != Hierarchy::kNoChild && bounds[lane] < bounds[nearest]) nearest = lane;
+      if (node.child[lane] != Hierarchy::kNoChild && keys[lane] < keys[nearest]) nearest = lane;
     }
     slot = slotOf(opened, nearest);
   }
-  descend({leafOf(a_, a_.child(a)).triangle[0], leafOf(b_, b_.child(b)).triangle[0]});
+  descend(nearestTriangles(leafOf(a_, a_.child(a)), leafOf(b_, b_.child(b))));
+}
+
+// The pair whose centres are nearest to each other.
+TrianglePair BranchAndBound::nearestTriangles(const Hierarchy::Leaf& leaf_a,
+                                              const Hierarchy::Leaf& leaf_b) const {
+  const LeafLanes b(leaf_b, frames_.rotation, frames_.offset);
+  TrianglePair nearest{};
+  double least = std::numeric_limits<double>::infinity();
+  for (std::uint32_t i = 0; i < leaf_a.count; ++i) {
+    const TrianglePoints a = triangleOf(leaf_a, i);
+    const Vector3d sum = a[0] + a[1] + a[2];
+    Lanes squared = Lanes::Zero();
+    for (int c = 0; c < 3; ++c) {
+      squared += (b.corner[0][c] + b.corner[1][c] + b.corner[2][c] - sum[c]).square();
+    }
+    for (std::uint32_t lane = 0; lane < leaf_b.count; ++lane) {
+      if (squared[lane] < least) {
+        least = squared[lane];
+        nearest = {leaf_a.triangle[i], leaf_b.triangle[lane]};
+      }
+    }
+  }
+  return nearest;
 }
 
 TrianglePairDistance BranchAndBound::measure(const TrianglePoints& a, const TrianglePoints& b,
@@ -142,6 +184,16 @@ bool BranchAndBound::partsAtRoots() {
   return true;
 }
 
+// Whether the boxes below the roots prove it, so that what a large front holds need not be asked.
+bool BranchAndBound::isProvenAtOnce() {
+  if (front_->size() < kWorthTrying || front_->isAt(frames_.rotation, frames_.offset)) return false;
+  ProofFront* const front = std::exchange(front_, nullptr);
+  beginAtRoots();
+  expand(take());
+  front_ = front;
+  return std::exchange(open_count_, 0) == 0;
+}
+
 void BranchAndBound::search() {
   while (open_count_ > 0 && squared_distance_ > 0.0) {
     if (limit_.isOverNow()) {
@@ -165,14 +217,10 @@ BranchAndBound::OpenPair BranchAndBound::take() {
   return open_[--open_count_];
 }
 
-void BranchAndBound::exclude(double bound) {
-  excluded_ = std::min(excluded_, bound);
-}
-
 DistanceCertificate BranchAndBound::conclude() {
   result_.witness = frames_.toWitness(closest_, triangle_a_, triangle_b_);
   result_.distance = distance_;
-  double bound = std::min(distance_ - error_, excluded_);
+  double bound = std::min({distance_ - error_, excluded_, std::sqrt(squared_excluded_)});
   for (std::size_t i = 0; i < open_count_; ++i) bound = std::min(bound, std::sqrt(open_[i].squared_bound));
   result_.lower_bound = bound > 0.0 ? std::nextafter(bound, 0.0) : 0.0;
   if (squared_distance_ == 0.0) {

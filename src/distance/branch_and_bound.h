@@ -3,6 +3,7 @@
 #include "box_pair_bounds.h"
 #include "certificate.h"
 #include "directional_support.h"
+#include "hierarchy_access.h"
 #include "leaf_pair.h"
 #include "local_frames.h"
 #include "proof_front.h"
@@ -30,23 +31,38 @@ class BranchAndBound {
   void seed(const TrianglePair* seeds, std::size_t seed_count);
   void descend(const TrianglePair& seed);
   void dive();
+  TrianglePair nearestTriangles(const Hierarchy::Leaf& leaf_a, const Hierarchy::Leaf& leaf_b) const;
   TrianglePairDistance measure(const TrianglePoints& a, const TrianglePoints& b, TriangleIndex triangle_a,
                                TriangleIndex triangle_b);
 
   void beginAtRoots();
   bool partsAtRoots();
+  bool isProvenAtOnce();
   void reopenFront();
   void search();
   OpenPair take();
   void add(Slot kept, std::uint32_t opened, std::uint32_t lane, bool opens_b, double squared_bound);
   void expand(const OpenPair& pair);
   void openLeaves(const OpenPair& pair);
-  double measureLeaves(const Hierarchy::Leaf& leaf_a, const Hierarchy::Leaf& leaf_b);
-  bool opensB(Slot a, Slot b) const;
-  Lanes childBounds(Slot kept, std::uint32_t opened, bool opens_b);
+  double measureLeaves(const Hierarchy::Leaf& leaf_a, const Hierarchy::Leaf& leaf_b,
+                       Eigen::Vector3d& parting);
+  double leafSeparation(const Hierarchy::Leaf& leaf_a, const Hierarchy::Leaf& leaf_b,
+                        const Eigen::Vector3d& direction) const;
+  double separationAlongNormals(const Hierarchy::Leaf& leaf_a, const LeafLanes& b,
+                                Eigen::Vector3d& parting) const;
+  bool raiseAlongWitnesses(Slot kept, Slot child, bool opens_b, double& squared_bound);
+  bool stillParts(std::size_t i, double gone);
+  bool opensB(Slot a, Slot b) const {
+    if (isLeaf(a_.child(a))) return true;
+    return !isLeaf(b_.child(b)) &&
+           squaredSize(b_, b) * unit_b_ * unit_b_ >= squaredSize(a_, a) * unit_a_ * unit_a_;
+  }
+  Lanes childBounds(Slot kept, std::uint32_t opened, bool opens_b, LaneDirections* directions);
   double separationAlongWitnesses(Slot a, Slot b);
-  double squaredBoundOfChild(Slot kept, Slot child, bool opens_b, double squared_bound);
-  void exclude(double bound);
+  void exclude(double bound) { excluded_ = std::min(excluded_, bound); }
+  void excludeSquared(double squared_bound) {
+    squared_excluded_ = std::min(squared_excluded_, squared_bound);
+  }
   void dropFront();
   DistanceCertificate conclude();
 
@@ -67,11 +83,17 @@ class BranchAndBound {
   bool cut_ = false;             ///< the limit was reached
   std::vector<OpenPair>& open_;  ///< the first open_count_ of it
   std::size_t open_count_ = 0;
+  std::uint32_t asked_again_ = 0;  ///< quads along what parted them last
+  std::uint32_t leaves_asked_again_ = 0;
   RefinementWorkspace& refinement_;
   ProofFront* front_;             ///< null: nothing is kept
   DirectionalSupport support_a_;  ///< along direction_
   DirectionalSupport support_b_;  ///< against it
   const BoundScale scale_;
+  const float unit_a_;  ///< reach of A relative to the scale
+  const float unit_b_;
+  const SinglePose single_a_from_b_;
+  const SinglePose single_b_from_a_;
   const double error_;
   DistanceCertificate result_;
 
@@ -88,6 +110,8 @@ class BranchAndBound {
   double enough_ = std::numeric_limits<double>::infinity();  ///< farther than this need not be opened
   double squared_enough_ = std::numeric_limits<double>::infinity();
   double excluded_ = std::numeric_limits<double>::infinity();  ///< least bound of what was not opened
+
+  double squared_excluded_ = std::numeric_limits<double>::infinity();
 
   // Boxes are compared several times in a row.
   Slot compared_slot_a_ = Hierarchy::kNoChild;

@@ -13,12 +13,10 @@ inline const BoundingVolumeHierarchy::Leaf& leafOf(const BoundingVolumeHierarchy
   return hierarchy.leaves()[child & ~BoundingVolumeHierarchy::kLeafFlag];
 }
 
-/// Squared half diagonal of a slot's box.
-inline double squaredSize(const BoundingVolumeHierarchy& hierarchy, BoundingVolumeHierarchy::Slot slot) {
-  const BoundingVolumeHierarchy::Node& node = hierarchy.nodes()[slot / BoundingVolumeHierarchy::kWidth];
-  const std::size_t lane = slot % BoundingVolumeHierarchy::kWidth;
-  return node.half[0][lane] * node.half[0][lane] + node.half[1][lane] * node.half[1][lane] +
-         node.half[2][lane] * node.half[2][lane];
+/// Squared half diagonal of a slot's box, relative to the squared reach.
+inline float squaredSize(const BoundingVolumeHierarchy& hierarchy, BoundingVolumeHierarchy::Slot slot) {
+  return hierarchy.singleNodes()[slot / BoundingVolumeHierarchy::kWidth]
+      .squared_size[slot % BoundingVolumeHierarchy::kWidth];
 }
 
 inline BoundingVolumeHierarchy::Slot slotOf(std::uint32_t node, std::uint32_t lane) {

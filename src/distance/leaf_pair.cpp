@@ -59,6 +59,21 @@ TrianglePoints LeafLanes::triangle(std::size_t lane) const {
   return points;
 }
 
+Vector3d sumOfNormals(const BoundingVolumeHierarchy::Leaf& leaf) {
+  Lanes u[3];
+  Lanes v[3];
+  for (int c = 0; c < 3; ++c) {
+    u[c] = lanes(leaf.corner[1][c]) - lanes(leaf.corner[0][c]);
+    v[c] = lanes(leaf.corner[2][c]) - lanes(leaf.corner[0][c]);
+  }
+  return {(u[1] * v[2] - u[2] * v[1]).sum(), (u[2] * v[0] - u[0] * v[2]).sum(),
+          (u[0] * v[1] - u[1] * v[0]).sum()};
+}
+
+Vector3d sumOfNormals(const LeafLanes& leaf) {
+  return {leaf.normal[0].sum(), leaf.normal[1].sum(), leaf.normal[2].sum()};
+}
+
 Lanes leastAlong(const LeafLanes& leaf, const Vector3d& direction) {
   return along(direction, leaf.corner[0])
       .min(along(direction, leaf.corner[1]))

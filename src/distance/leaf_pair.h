@@ -26,6 +26,11 @@ inline TrianglePoints triangleOf(const BoundingVolumeHierarchy::Leaf& leaf, std:
   return points;
 }
 
+/// The sum of the lanes' normals, not normalised, frame of the leaf.
+Eigen::Vector3d sumOfNormals(const BoundingVolumeHierarchy::Leaf& leaf);
+/// The same; needs the leaf's normals.
+Eigen::Vector3d sumOfNormals(const LeafLanes& leaf);
+
 /// Least value of `direction` over the corners of each lane.
 Lanes leastAlong(const LeafLanes& leaf, const Eigen::Vector3d& direction);
 

@@ -33,6 +33,7 @@ void ProofFront::advance(const BoundingVolumeHierarchy& b, const Eigen::Matrix3d
 void ProofFront::begin(const BoundingVolumeHierarchy& b, const Eigen::Matrix3d& rotation,
                        const Eigen::Vector3d& offset) {
   quads_.clear();
+  directions_.clear();
   leaf_pairs_.clear();
   odometers_.assign(b.regions().size(), 0.0);
   rotation_ = rotation;

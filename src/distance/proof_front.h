@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "box_pair_bounds.h"
 #include "mesh/trees/bounding_volume_hierarchy.h"
 
 namespace concave_distance {
@@ -27,12 +28,14 @@ class ProofFront {
     std::uint32_t opened;  ///< node of the other body
     std::uint8_t region;   ///< of B
     bool opens_b;
+    bool by_boxes;  ///< all were parted by their boxes, along directions of their own
   };
   struct LeafPair {
     double bound;
     BoundingVolumeHierarchy::Slot a;
     BoundingVolumeHierarchy::Slot b;
     std::uint8_t region;
+    Eigen::Vector3d direction;  ///< from A to B, A's axes
   };
 
   void clear() { valid_ = false; }
@@ -40,12 +43,16 @@ class ProofFront {
   bool valid() const { return valid_; }
   std::size_t size() const { return quads_.size() + leaf_pairs_.size(); }
   std::size_t memoryBytes() const {
-    return quads_.capacity() * sizeof(Quad) + leaf_pairs_.capacity() * sizeof(LeafPair);
+    return quads_.capacity() * sizeof(Quad) + directions_.capacity() * sizeof(detail::LaneDirections) +
+           leaf_pairs_.capacity() * sizeof(LeafPair);
   }
 
  private:
   friend class detail::BranchAndBound;
 
+  bool isAt(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& offset) const {
+    return rotation == rotation_ && offset == offset_;
+  }
   /// Brings the odometers to a pose; rotation and offset as in the proof's local frames. `rounding` (metres)
   /// is what the displacement itself may be off.
   void advance(const BoundingVolumeHierarchy& b, const Eigen::Matrix3d& rotation,
@@ -56,6 +63,7 @@ class ProofFront {
   void decide(bool began_anew, std::uint32_t opened);
 
   std::vector<Quad> quads_;
+  std::vector<detail::LaneDirections> directions_;  ///< along which each quad was parted
   std::vector<LeafPair> leaf_pairs_;
   std::vector<double> odometers_;  ///< metres, of each region of B
   Eigen::Matrix3d rotation_ = Eigen::Matrix3d::Identity();

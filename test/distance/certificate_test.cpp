@@ -166,7 +166,8 @@ TEST(Certificate, NamesTheTrianglesThatMeet) {
   EXPECT_EQ(found.lower_bound, 0.0);
   const TrianglePoints ta = trianglePoints(a->surface(), found.witness.triangle_a);
   const TrianglePoints tb = trianglePoints(b->surface(), found.witness.triangle_b);
-  EXPECT_EQ(triangleDistance(ta, tb).squared_distance, 0.0);
+  // Up to the kernel's error, in coordinates up to 3.
+  EXPECT_LE(std::sqrt(triangleDistance(ta, tb).squared_distance), 3.0 * kTriangleDistanceError);
 }
 
 }  // namespace

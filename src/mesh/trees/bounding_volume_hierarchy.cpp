@@ -197,13 +197,34 @@ BoundingVolumeHierarchy::BoundingVolumeHierarchy(const SurfaceMesh& mesh, const 
   for (const Vector3d& vertex : mesh.vertices()) reach_ = std::max(reach_, (vertex - origin_).norm());
   reach_ *= 1.0 + kBoxMargin;
   HierarchyBuilder(mesh, tree, origin_, kBoxMargin * reach_, nodes_, leaves_).build();
+  roundNodes();
   chooseRegions();
 }
 
 BoundingVolumeHierarchy::BoundingVolumeHierarchy(const Eigen::Vector3d& origin, double reach,
                                                  std::vector<Node> nodes, std::vector<Leaf> leaves)
     : origin_(origin), reach_(reach), nodes_(std::move(nodes)), leaves_(std::move(leaves)) {
+  roundNodes();
   chooseRegions();
+}
+
+void BoundingVolumeHierarchy::roundNodes() {
+  const double unit = reach_ > 0.0 ? 1.0 / reach_ : 0.0;
+  single_nodes_.resize(nodes_.size());
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    const Node& node = nodes_[i];
+    SingleNode& single = single_nodes_[i];
+    for (std::size_t lane = 0; lane < kWidth; ++lane) {
+      single.child[lane] = node.child[lane];
+      single.squared_size[lane] = 0.0F;
+      for (int k = 0; k < 3; ++k) {
+        single.centre[k][lane] = static_cast<float>(node.centre[k][lane] * unit);
+        single.half[k][lane] = static_cast<float>(node.half[k][lane] * unit);
+        single.squared_size[lane] += single.half[k][lane] * single.half[k][lane];
+        for (int c = 0; c < 3; ++c) single.axes[k][c][lane] = static_cast<float>(node.axes[k][c][lane]);
+      }
+    }
+  }
 }
 
 void BoundingVolumeHierarchy::chooseRegions() {
@@ -240,7 +261,8 @@ OrientedBox BoundingVolumeHierarchy::box(Slot slot) const {
 }
 
 std::size_t BoundingVolumeHierarchy::memoryBytes() const {
-  return nodes_.capacity() * sizeof(Node) + leaves_.capacity() * sizeof(Leaf) + region_of_node_.capacity();
+  return nodes_.capacity() * sizeof(Node) + single_nodes_.capacity() * sizeof(SingleNode) +
+         leaves_.capacity() * sizeof(Leaf) + region_of_node_.capacity();
 }
 
 }  // namespace concave_distance

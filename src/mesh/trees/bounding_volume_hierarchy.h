@@ -37,6 +37,15 @@ class BoundingVolumeHierarchy {
     std::uint32_t child[kWidth];  ///< of a node, or of a leaf with kLeafFlag
   };
 
+  /// The same boxes in single precision, lengths relative to `reach`, each number rounded once.
+  struct alignas(16) SingleNode {
+    float centre[3][kWidth];
+    float axes[3][3][kWidth];
+    float half[3][kWidth];
+    float squared_size[kWidth];  ///< squared half diagonal
+    std::uint32_t child[kWidth];
+  };
+
   /// Up to four triangles; unused lanes repeat the last one.
   struct alignas(32) Leaf {
     double corner[3][3][kWidth];  ///< [corner][coordinate]
@@ -58,8 +67,9 @@ class BoundingVolumeHierarchy {
   /// Largest distance of a vertex from `origin`, rounded up; metres.
   double reach() const { return reach_; }
   const std::vector<Node>& nodes() const { return nodes_; }
+  const std::vector<SingleNode>& singleNodes() const { return single_nodes_; }
   const std::vector<Leaf>& leaves() const { return leaves_; }
-  std::uint32_t child(Slot slot) const { return nodes_[slot / kWidth].child[slot % kWidth]; }
+  std::uint32_t child(Slot slot) const { return single_nodes_[slot / kWidth].child[slot % kWidth]; }
   OrientedBox box(Slot slot) const;
   /// Boxes of the first two levels, at most 21, the whole surface first: each holds what lies below the nodes
   /// of its region. How far any point of a node has moved is bounded by its region.
@@ -68,11 +78,13 @@ class BoundingVolumeHierarchy {
   std::size_t memoryBytes() const;
 
  private:
+  void roundNodes();
   void chooseRegions();
 
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
   double reach_ = 0.0;
   std::vector<Node> nodes_;
+  std::vector<SingleNode> single_nodes_;
   std::vector<Leaf> leaves_;
   std::vector<Slot> regions_;
   std::vector<std::uint8_t> region_of_node_;
