@@ -79,7 +79,7 @@ class ConeFront::Stage {
   bool run() {
     const std::vector<SlotPair>& open = front_.lists_.open;
     while (!open.empty() || expiredCount() > 0) {
-      const bool much_expired = expiredCount() >= ConeSlices::kManyExpired;
+      const bool much_expired = expiredCount() >= front_.sliced_from_;
       if ((much_expired || open.size() >= ConeSlices::kManyOpen) && canSlice()) {
         if (limit_.isOver()) return false;
         much_expired ? runExpiredSlices() : runOpenSlices();

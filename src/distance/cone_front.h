@@ -30,6 +30,9 @@ class ConeFront {
     bool began_anew = false;
   };
 
+  /// @param sliced_from expired pairs from which on they are looked at in slices
+  explicit ConeFront(std::size_t sliced_from = ConeSlices::kManyExpired) : sliced_from_(sliced_from) {}
+
   /// The next call begins at the roots and knows nothing of the motion.
   void clear() {
     valid_ = false;
@@ -60,6 +63,7 @@ class ConeFront {
   class Stage;
   void count();
 
+  std::size_t sliced_from_;
   ConeMotion motion_;
   ExpiryQueues<SlotPair> queues_;  ///< of the motion's clocks
   SweepLists lists_;

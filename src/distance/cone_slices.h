@@ -14,8 +14,8 @@ namespace concave_distance::detail {
 class ConeSlices {
  public:
   static constexpr std::size_t kCount = 16;  ///< that are looked at together
-  /// A list from this length on: what takes longer than it takes to wake a thread.
-  static constexpr std::size_t kManyExpired = 1536;
+  /// From this length on a list takes longer than it takes to wake a thread (doc/results/cores.csv).
+  static constexpr std::size_t kManyExpired = 1024;
   static constexpr std::size_t kManyOpen = 128;
   static constexpr std::size_t kMostKept = 1024;  ///< by a slice
 

@@ -1,7 +1,7 @@
 // What idle cores save in a cycle of one pair: the front of normal cones with one thread and with several.
 //
 //   cores_benchmark [--pairs name,name,...] [--steps 500,5000] [--instants 50] [--windows 8] [--threads 2]
-//                   [--pause 2] [--output FILE]
+//                   [--pause 2] [--pinned] [--sliced-from 1024] [--output FILE]
 //
 // Beside the pairs that have a name, `scan` is a hook above a sheet of 70,000 triangles, rough as a depth
 // camera sees a table. In windows spread over a motion (5 s long: 500 steps are 100 Hz) consecutive instants
@@ -110,7 +110,8 @@ class OnOwnCores : public tbb::task_scheduler_observer {
 /// The same cycles in two arenas.
 class Comparison {
  public:
-  Comparison(int threads, int pause, bool pinned) : one_(1), many_(threads), pause_(pause) {
+  Comparison(int threads, int pause, bool pinned, std::size_t sliced_from)
+      : one_(1), many_(threads), pause_(pause), front_of_one_(sliced_from), front_of_many_(sliced_from) {
     one_.initialize();
     many_.initialize();
     if (pinned) on_own_cores_ = std::make_unique<OnOwnCores>(many_);
@@ -193,6 +194,7 @@ int benchmarkMain(int argc, char** argv) {
   int threads = 2;
   int pause = 2;
   bool pinned = false;
+  std::size_t sliced_from = detail::ConeSlices::kManyExpired;
   std::string output;
   CLI::App app("The front of normal cones with idle cores");
   app.add_option("--pairs", names, "names")->delimiter(',');
@@ -202,6 +204,7 @@ int benchmarkMain(int argc, char** argv) {
   app.add_option("--threads", threads, "of the second arena");
   app.add_option("--pause", pause, "milliseconds before a cycle");
   app.add_flag("--pinned", pinned, "every thread on a core of its own");
+  app.add_option("--sliced-from", sliced_from, "expired pairs from which on a warm cycle is sliced");
   app.add_option("--output", output, "CSV file");
   CLI11_PARSE(app, argc, argv);
   std::ofstream file;
@@ -214,7 +217,7 @@ int benchmarkMain(int argc, char** argv) {
     const BenchmarkPair pair = loadPair(name);
     for (const int count : steps) {
       Classes classes;
-      Comparison comparison(threads, pause, pinned);
+      Comparison comparison(threads, pause, pinned, sliced_from);
       for (int window = 0; window < windows; ++window) {
         comparison.begin();
         const int begin = (count - instants) * (2 * window + 1) / (2 * windows);
