@@ -1,11 +1,13 @@
 #include "cone_front.h"
 
 #include <algorithm>
+#include <limits>
+
+#include "base/run_in_order.h"
+#include "cone_sweep.h"
 
 namespace concave_distance::detail {
 namespace {
-
-using Item = NormalConeTree::Item;
 
 /// A front that has grown by this factor since it was begun is begun anew: it looks at needlessly small
 /// groups.
@@ -13,253 +15,167 @@ constexpr std::size_t kLargestGrowth = 2;
 constexpr std::size_t kUsualMinima = 64;
 constexpr std::size_t kUsualExpired = 1024;
 constexpr std::size_t kSmallGrowth = 256;  // of the smallest, pairs
+/// Steps of the one sweep after which few open pairs are known to hold much.
+constexpr std::size_t kManySteps = 8192;
+
+/// Behind what is there. What the limit refuses is added, too: no pair may be lost, and slices are small.
+template <typename T>
+void append(std::vector<T>& to, const std::vector<T>& from, WorkLimit& limit) {
+  limit.makeRoom(to, from.size());
+  to.insert(to.end(), from.begin(), from.end());
+}
 
 }  // namespace
 
 /// One call of collect().
 class ConeFront::Stage {
  public:
-  Stage(ConeFront& front, const MinimaScene& scene, NormalSides sides, double cutoff,
-        std::vector<MinimumSeed>& seeds, WorkLimit& limit)
+  Stage(ConeFront& front, const MinimaScene& scene, NormalSides sides, double cutoff, WorkLimit& limit)
       : front_(front),
-        features_(scene, cutoff),
-        cones_(scene, features_, sides),
-        offers_(front.motion_),
-        seeds_(seeds),
-        limit_(limit) {}
+        scene_(scene),
+        sides_(sides),
+        cutoff_(cutoff),
+        limit_(limit),
+        sweep_(scene, sides, cutoff, front.motion_, front.lists_, limit) {
+    sweep_.keepIn(front.queues_, limit);
+  }
 
-  bool isEmpty() const { return cones_.a.empty() || cones_.b.empty(); }
+  bool isEmpty() const { return sweep_.conesOfA().empty() || sweep_.conesOfB().empty(); }
 
-  void begin(const MinimaScene& scene) {
+  void begin() {
+    SweepLists& lists = front_.lists_;
     front_.counts_.began_anew = true;
-    front_.motion_.begin(cones_.a, cones_.b, scene.frames, scene.size);
+    front_.motion_.begin(sweep_.conesOfA(), sweep_.conesOfB(), scene_.frames, scene_.size);
     front_.queues_.begin(front_.motion_.clockCount());
-    front_.minima_.clear();
-    front_.undecided_.clear();
+    lists.minima.clear();
+    lists.undecided.clear();
     // What most pairs never outgrow.
-    front_.minima_.reserve(kUsualMinima);
-    front_.undecided_.reserve(kUsualMinima);
-    front_.open_.reserve(kUsualMinima);
+    lists.minima.reserve(kUsualMinima);
+    lists.undecided.reserve(kUsualMinima);
+    lists.open.reserve(kUsualMinima);
     front_.expired_.reserve(kUsualExpired);
     front_.expired_.clear();
     front_.next_expired_ = 0;
-    front_.open_.assign(1, {NormalConeTree::kRoot, NormalConeTree::kRoot});
+    lists.open.assign(1, {NormalConeTree::kRoot, NormalConeTree::kRoot});
     front_.valid_ = true;
   }
 
   /// Appends what has expired to what earlier cycles have left.
   void expire() {
-    std::vector<Pair>& expired = front_.expired_;
+    std::vector<SlotPair>& expired = front_.expired_;
     expired.erase(expired.begin(), expired.begin() + static_cast<std::ptrdiff_t>(front_.next_expired_));
     front_.next_expired_ = 0;
     const std::size_t before = front_.queues_.size();
-    const auto take = [&](const Pair& pair) { expired.push_back(pair); };
+    const auto take = [&](const SlotPair& pair) { expired.push_back(pair); };
     for (std::uint32_t clock = 0; clock < front_.motion_.clockCount(); ++clock) {
       front_.queues_.advance(clock, front_.motion_.now(clock), take, limit_);
     }
     front_.counts_.expired = static_cast<std::uint32_t>(before - front_.queues_.size());
   }
 
+  bool askLive() { return sweep_.askLive(); }
+
   /// Compares what has expired and opens what is excluded no more. False when the limit was reached.
   bool run() {
-    std::vector<Pair>& open = front_.open_;
-    while (!open.empty() || front_.next_expired_ < front_.expired_.size()) {
-      if (limit_.isOverNow()) return false;
-      if (!limit_.makeRoom(open, ConeComparison::kWidth) || !limit_.makeRoom(seeds_)) return false;
-      if (open.empty()) {
-        compareExpired();
-        continue;
-      }
-      const Pair pair = open.back();
-      open.pop_back();
-      if (isFeaturePair(pair)) {
-        look(pair);
-      } else {
-        expand(pair);
-      }
-    }
-    return true;
-  }
-
-  /// Asks the live pairs of earlier poses: minima that stay are only measured. False when the limit was
-  /// reached.
-  bool askLive() {
-    if (!askUndecided()) return false;
-    std::vector<Minimum>& minima = front_.minima_;
-    std::size_t rest = 0;
-    for (std::size_t i = 0; i < minima.size(); ++i) {
-      if (limit_.isOverNow() || !limit_.makeRoom(seeds_)) {
-        minima.erase(minima.begin() + static_cast<std::ptrdiff_t>(rest),
-                     minima.begin() + static_cast<std::ptrdiff_t>(i));
+    const std::vector<SlotPair>& open = front_.lists_.open;
+    while (!open.empty() || expiredCount() > 0) {
+      const bool much_expired = expiredCount() >= front_.sliced_from_;
+      if ((much_expired || open.size() >= ConeSlices::kManyOpen) && canSlice()) {
+        if (limit_.isOver()) return false;
+        much_expired ? runExpiredSlices() : runOpenSlices();
+      } else if (!runAlone()) {
         return false;
       }
-      Minimum& minimum = minima[i];
-      const bool stays =
-          minimum.clock != ConeMotion::kNoClock && front_.motion_.now(minimum.clock) < minimum.expiry;
-      if (stays) {
-        measure(minimum);
-      } else if (!isMinimum(minimum.pair, minimum)) {
-        settle(minimum.pair);
-        continue;
-      }
-      minima[rest++] = minimum;
     }
-    minima.resize(rest);
     return true;
   }
 
  private:
-  bool isFeaturePair(const Pair& pair) const {
-    return ConeComparison::isItem(cones_.a.child(pair.first)) &&
-           ConeComparison::isItem(cones_.b.child(pair.second));
-  }
-  const Item& itemOfA(Slot slot) const { return ConeComparison::itemOf(cones_.a, cones_.a.child(slot)); }
-  const Item& itemOfB(Slot slot) const { return ConeComparison::itemOf(cones_.b, cones_.b.child(slot)); }
+  std::size_t expiredCount() const { return front_.expired_.size() - front_.next_expired_; }
 
-  /// The next pairs that have expired, as they are.
-  void compareExpired() {
-    constexpr std::size_t kAhead = 12;
-    const std::vector<Pair>& expired = front_.expired_;
-    const std::size_t first = front_.next_expired_;
-    const std::size_t size = std::min<std::size_t>(ConeComparison::kWidth, expired.size() - first);
-    Pair pairs[ConeComparison::kWidth];
-    for (std::size_t k = 0; k < ConeComparison::kWidth; ++k)
-      pairs[k] = expired[first + std::min(k, size - 1)];
-    for (std::size_t k = first + kAhead; k < std::min(first + kAhead + size, expired.size()); ++k) {
-      cones_.prefetch(expired[k]);
+  /// Where memory was refused, the one sweep goes on without more.
+  bool canSlice() { return !limit_.hasRefusedMemory() && front_.slices_.prepare(limit_); }
+
+  /// The one sweep; few open pairs that hold much are opened until there are enough for slices.
+  bool runAlone() {
+    const SlotPair* const pairs = front_.expired_.data();
+    ExpiredPairs expired{pairs + front_.next_expired_, pairs + front_.expired_.size()};
+    std::size_t steps = kManySteps;
+    const bool done = sweep_.run(expired, steps);
+    front_.next_expired_ = static_cast<std::size_t>(expired.next - pairs);
+    return done || (steps == 0 && sweep_.widen(ConeSlices::kManyOpen));
+  }
+
+  void runExpiredSlices() {
+    ConeSlices& slices = front_.slices_;
+    const std::size_t taken =
+        slices.takeExpired(front_.expired_.data() + front_.next_expired_, expiredCount());
+    runSlices();
+    // What a full slice has left comes before what none has taken.
+    SlotPair* left = front_.expired_.data() + front_.next_expired_ + taken;
+    for (std::size_t i = slices.used(); i-- > 0;) {
+      left = std::move_backward(slices[i].expired.next, slices[i].expired.end, left);
     }
-    const ConeReasons reasons = cones_.ofPairs(pairs);
-    const ConeLanes excluded = reasons.largest();
-    for (std::uint32_t lane = 0; lane < size; ++lane) {
-      if (!(excluded[lane] > 0.0F) || !keepGroups(pairs[lane], reasons, lane, true)) {
-        front_.open_.push_back(pairs[lane]);
-      }
+    front_.next_expired_ = static_cast<std::size_t>(left - front_.expired_.data());
+  }
+
+  void runOpenSlices() {
+    front_.slices_.takeOpen(front_.lists_.open);
+    runSlices();
+  }
+
+  void runSlices() {
+    ConeSlices& slices = front_.slices_;
+    front_.counts_.slices += static_cast<std::uint32_t>(slices.used());
+    const std::size_t threads = HelpingThreads::countHere();
+    const WorkLimit time = limit_.withoutMemory();
+    const auto look = [&](std::size_t i) {
+      WorkLimit own = time;
+      ConeSweep sweep(scene_, sides_, cutoff_, front_.motion_, slices[i].lists, own, ConeSlices::kMostKept);
+      // One thread inserts in the same order without a buffer.
+      if (threads == 1) sweep.keepIn(front_.queues_, limit_);
+      std::size_t steps = std::numeric_limits<std::size_t>::max();
+      sweep.run(slices[i].expired, steps);
+    };
+    runInOrder<ConeSlices::kCount>(slices.used(), threads, look,
+                                   [&](std::size_t i) { add(slices[i].lists); });
+  }
+
+  void add(const SweepLists& found) {
+    SweepLists& lists = front_.lists_;
+    for (const KeptPair& kept : found.kept) {
+      if (!front_.queues_.insert(kept.clock, kept.expiry, kept.pair, limit_)) lists.open.push_back(kept.pair);
     }
-    front_.next_expired_ += size;
-    front_.counts_.groups += static_cast<std::uint32_t>(size);
-  }
-
-  void expand(const Pair& pair) {
-    ++front_.counts_.groups;
-    const auto [a, b] = pair;
-    const bool opens_b = cones_.opensB(a, b);
-    const std::uint32_t opened = opens_b ? cones_.b.child(b) : cones_.a.child(a);
-    const ConeReasons reasons = opens_b ? cones_.withPartsOfB(a, opened) : cones_.withPartsOfA(opened, b);
-    const ConeLanes excluded = reasons.largest();
-    const NormalConeTree& tree = opens_b ? cones_.b : cones_.a;
-    for (std::uint32_t lane = 0; lane < ConeComparison::kWidth; ++lane) {
-      const Slot slot = opened + lane;
-      if (tree.child(slot) == NormalConeTree::kNoChild) break;
-      const Pair child{opens_b ? a : slot, opens_b ? slot : b};
-      if (isFeaturePair(child) &&
-          !FeaturePairs::isWanted(itemOfA(child.first).kind, itemOfB(child.second).kind)) {
-        continue;
-      }
-      if (!(excluded[lane] > 0.0F) || !keepGroups(child, reasons, lane, opens_b)) {
-        front_.open_.push_back(child);
-      }
-    }
-  }
-
-  void look(const Pair& pair) {
-    Minimum minimum;
-    if (!isMinimum(pair, minimum)) {
-      settle(pair);
-    } else if (limit_.makeRoom(front_.minima_)) {
-      front_.minima_.push_back(minimum);
-    } else {
-      front_.undecided_.push_back(pair);
-    }
-  }
-
-  void measure(Minimum& minimum) {
-    ++front_.counts_.measured;
-    minimum.seed = features_.moved(itemOfA(minimum.pair.first), itemOfB(minimum.pair.second), minimum.seed);
-    seeds_.push_back(minimum.seed);
-  }
-
-  bool isMinimum(const Pair& pair, Minimum& minimum) {
-    ++front_.counts_.features;
-    const Item& a = itemOfA(pair.first);
-    const Item& b = itemOfB(pair.second);
-    const auto found = features_.findMinimum(a, b);
-    if (!found) return false;
-    seeds_.push_back(*found);
-    resetOffers(pair);
-    const bool stays = features_.offerStay(a, b, *found, offers_);
-    minimum = {pair, offers_.clock(), stays ? offers_.expiry() : 0, *found};
-    return true;
-  }
-
-  /// A pair of features that holds no minimum.
-  void settle(const Pair& pair) {
-    if (!keepFeatures(pair)) front_.undecided_.push_back(pair);
-  }
-
-  /// False for what has no slack, and without memory.
-  bool keepFeatures(const Pair& pair) {
-    resetOffers(pair);
-    features_.offerSlacks(itemOfA(pair.first), itemOfB(pair.second), offers_);
-    return !offers_.empty() && keep(pair);
-  }
-
-  /// Those that are undecided again come behind the ones that were not asked. False when the limit was
-  /// reached.
-  bool askUndecided() {
-    std::vector<Pair>& undecided = front_.undecided_;
-    const std::size_t count = undecided.size();
-    std::size_t asked = 0;
-    while (asked < count && !limit_.isOverNow() && limit_.makeRoom(seeds_)) {
-      const Pair pair = undecided[asked++];
-      look(pair);
-    }
-    undecided.erase(undecided.begin(), undecided.begin() + static_cast<std::ptrdiff_t>(asked));
-    return asked == count;
-  }
-
-  void resetOffers(const Pair& pair) {
-    offers_.reset(cones_.a.regionOf(pair.first), cones_.b.regionOf(pair.second));
-  }
-
-  /// False for what has no slack, and without memory. An offer that is hardly above 0 may be none.
-  bool keepGroups(const Pair& pair, const ConeReasons& reasons, std::uint32_t lane, bool kept_is_a) {
-    resetOffers(pair);
-    const double unit = (kept_is_a ? cones_.b : cones_.a).unit();
-    const Side kept = kept_is_a ? Side::A : Side::B;
-    const Side other = kept_is_a ? Side::B : Side::A;
-    offers_.offerTurn(static_cast<double>(reasons.turned_away[lane]));
-    const double too_far = static_cast<double>(reasons.too_far[lane]) * unit;
-    offers_.offerMotion(other, std::max(too_far, static_cast<double>(reasons.misses_kept[lane]) * unit));
-    offers_.offerMotion(kept, std::max(too_far, static_cast<double>(reasons.misses_other[lane]) * unit));
-    return !offers_.empty() && keep(pair);
-  }
-
-  /// False without memory.
-  bool keep(const Pair& pair) {
-    const std::uint32_t clock = offers_.clock();
-    return front_.queues_.insert(clock, std::max(offers_.expiry(), front_.motion_.now(clock) + 1), pair,
-                                 limit_);
+    append(lists.open, found.open, limit_);
+    append(lists.minima, found.minima, limit_);
+    append(lists.undecided, found.undecided, limit_);
+    append(lists.seeds, found.seeds, limit_);
+    lists.groups += found.groups;
+    lists.features += found.features;
+    lists.measured += found.measured;
   }
 
   ConeFront& front_;
-  FeaturePairs features_;
-  ConeComparison cones_;
-  SlackOffers offers_;
-  std::vector<MinimumSeed>& seeds_;
+  const MinimaScene& scene_;
+  NormalSides sides_;
+  double cutoff_;
   WorkLimit& limit_;
+  ConeSweep sweep_;
 };
 
 bool ConeFront::collect(const MinimaScene& scene, NormalSides sides, double cutoff,
                         std::vector<MinimumSeed>& seeds, WorkLimit& limit) {
   counts_ = {};
-  Stage stage(*this, scene, sides, cutoff, seeds, limit);
+  Stage stage(*this, scene, sides, cutoff, limit);
   if (stage.isEmpty()) return true;
+  lists_.groups = lists_.features = lists_.measured = 0;
+  lists_.seeds.swap(seeds);
   valid_ = valid_ && cutoff == cutoff_ && sides == sides_ && motion_.advance(scene.frames);
   cutoff_ = cutoff;
   sides_ = sides;
   bool done = true;
   if (!valid_) {
-    stage.begin(scene);
+    stage.begin();
     done = stage.run();
     kept_at_begin_ = 0;
   } else {
@@ -267,21 +183,29 @@ bool ConeFront::collect(const MinimaScene& scene, NormalSides sides, double cuto
     stage.expire();
     done = stage.run() && done;
   }
+  lists_.seeds.swap(seeds);
   // What a limit has ended grows until it is whole.
   if (kept_at_begin_ == 0) {
     kept_at_begin_ = done ? queues_.size() : 0;
   } else if (queues_.size() > kLargestGrowth * kept_at_begin_ + kSmallGrowth) {
     valid_ = false;
   }
-  counts_.kept = static_cast<std::uint32_t>(queues_.size());
-  counts_.live = static_cast<std::uint32_t>(minima_.size() + undecided_.size());
-  counts_.undecided = static_cast<std::uint32_t>(undecided_.size());
+  count();
   return done;
 }
 
+void ConeFront::count() {
+  counts_.groups = lists_.groups;
+  counts_.features = lists_.features;
+  counts_.measured = lists_.measured;
+  counts_.kept = static_cast<std::uint32_t>(queues_.size());
+  counts_.live = static_cast<std::uint32_t>(lists_.minima.size() + lists_.undecided.size());
+  counts_.undecided = static_cast<std::uint32_t>(lists_.undecided.size());
+}
+
 std::size_t ConeFront::memoryBytes() const {
-  return queues_.memoryBytes() + minima_.capacity() * sizeof(Minimum) +
-         (undecided_.capacity() + open_.capacity() + expired_.capacity()) * sizeof(Pair);
+  return queues_.memoryBytes() + lists_.memoryBytes() + slices_.memoryBytes() +
+         expired_.capacity() * sizeof(SlotPair);
 }
 
 }  // namespace concave_distance::detail

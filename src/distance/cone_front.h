@@ -1,13 +1,13 @@
 #pragma once
 
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 #include "base/expiry_queue.h"
-#include "cone_comparison.h"
 #include "cone_motion.h"
-#include "local_minima.h"
+#include "cone_slices.h"
+#include "minima_scene.h"
+#include "sweep_lists.h"
 
 namespace concave_distance::detail {
 
@@ -26,8 +26,12 @@ class ConeFront {
     std::uint32_t kept = 0;       ///< pairs, at the end
     std::uint32_t live = 0;       ///< features that hold a minimum or may do so at the next pose
     std::uint32_t undecided = 0;  ///< of the live ones, those that hold none
+    std::uint32_t slices = 0;     ///< that idle threads could look at
     bool began_anew = false;
   };
+
+  /// @param sliced_from expired pairs from which on they are looked at in slices
+  explicit ConeFront(std::size_t sliced_from = ConeSlices::kManyExpired) : sliced_from_(sliced_from) {}
 
   /// The next call begins at the roots and knows nothing of the motion.
   void clear() {
@@ -47,33 +51,24 @@ class ConeFront {
   /// at.
   template <typename Visit>
   void forEachPair(const Visit& visit) const {
-    queues_.forEach([&](const Pair& pair) { visit(pair.first, pair.second); });
-    for (const Minimum& minimum : minima_) visit(minimum.pair.first, minimum.pair.second);
-    for (const auto& [a, b] : undecided_) visit(a, b);
-    for (const auto& [a, b] : open_) visit(a, b);
+    queues_.forEach([&](const SlotPair& pair) { visit(pair.first, pair.second); });
+    for (const LiveMinimum& minimum : lists_.minima) visit(minimum.pair.first, minimum.pair.second);
+    for (const auto& [a, b] : lists_.undecided) visit(a, b);
+    for (const auto& [a, b] : lists_.open) visit(a, b);
     for (std::size_t i = next_expired_; i < expired_.size(); ++i)
       visit(expired_[i].first, expired_[i].second);
   }
 
  private:
-  using Slot = NormalConeTree::Slot;
-  using Pair = std::pair<Slot, Slot>;
-
-  /// A pair of features that holds a minimum, and stays one until its expiry.
-  struct Minimum {
-    Pair pair;
-    std::uint32_t clock;
-    std::uint64_t expiry;
-    MinimumSeed seed;
-  };
   class Stage;
+  void count();
 
+  std::size_t sliced_from_;
   ConeMotion motion_;
-  ExpiryQueues<Pair> queues_;  ///< of the motion's clocks
-  std::vector<Minimum> minima_;
-  std::vector<Pair> undecided_;  ///< pairs of features that hold no minimum, without slack
-  std::vector<Pair> open_;       ///< to be opened
-  std::vector<Pair> expired_;    ///< to be compared, from next_expired_ on
+  ExpiryQueues<SlotPair> queues_;  ///< of the motion's clocks
+  SweepLists lists_;
+  ConeSlices slices_;
+  std::vector<SlotPair> expired_;  ///< to be compared, from next_expired_ on
   std::size_t next_expired_ = 0;
   std::size_t kept_at_begin_ = 0;
   bool valid_ = false;

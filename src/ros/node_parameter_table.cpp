@@ -59,7 +59,8 @@ ParameterTable<N> ofTheCycle() {
           .atRunTime(),
       count<N>(
           "threads", [](auto& n) -> auto& { return n.threads; },
-          "threads that solve pairs in one cycle; 0: one per core (also the maximum), 1: serial")
+          "threads that solve pairs, and long pairs together, in one cycle; 0: one per core (also the "
+          "maximum), 1: serial")
           .to(1024.0),
       number<N>(
           "transform_timeout", [](auto& n) -> auto& { return n.transform_timeout; },

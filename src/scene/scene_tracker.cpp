@@ -4,11 +4,10 @@
 
 #include <algorithm>
 #include <string_view>
-#include <thread>
 #include <unordered_map>
 #include <utility>
 
-#include "base/thread_cpu.h"
+#include "base/helping_threads.h"
 #include "solver_threads.h"
 
 namespace concave_distance {
@@ -23,11 +22,14 @@ bool isOfTheSameBodies(const TrackedPair& tracked, const Scene& scene, const Sce
 }  // namespace
 
 struct SceneTracker::Arena {
+  explicit Arena(std::uint32_t count) : threads(makeSolverArena(count)) {}
+
   tbb::task_arena threads;
+  HelpingThreads helpers;
 };
 
 SceneTracker::SceneTracker(SceneTrackerOptions options)
-    : options_(options), arena_(std::make_unique<Arena>(Arena{makeSolverArena(options_.threads)})) {}
+    : options_(options), arena_(std::make_unique<Arena>(options_.threads)) {}
 
 SceneTracker::~SceneTracker() = default;
 
@@ -121,7 +123,7 @@ CycleCounts SceneTracker::update(const std::vector<PairDemand>& demand, const Lo
   }
   CycleCounts counts;
   choosePairs(demand, locate, counts);
-  helper_cpu_nanoseconds_ = 0;
+  arena_->helpers.begin();
   prepareSearches();
   solveAll();
   for (auto& pair : pairs_) {
@@ -167,7 +169,7 @@ void SceneTracker::count(CycleCounts& counts) const {
     counts.unproven +=
         status == SolveStatus::BudgetExhausted || status == SolveStatus::MemoryExhausted ? 1 : 0;
   }
-  counts.helper_cpu_seconds = 1e-9 * static_cast<double>(helper_cpu_nanoseconds_.load());
+  counts.helper_cpu_seconds = arena_->helpers.seconds();
 }
 
 // Grids and metrics of bodies whose niches are searched for the first time are made together, in parallel.
@@ -186,22 +188,15 @@ void SceneTracker::prepareSearches() {
 }
 
 void SceneTracker::solveAll() {
-  if (options_.threads == 1 || to_solve_.size() < 2) {
-    for (TrackedPair* pair : to_solve_) solve(*pair);
-    return;
-  }
-  const std::thread::id caller = std::this_thread::get_id();
+  if (to_solve_.empty()) return;
+  const auto solve_at = [&](std::size_t index) { arena_->helpers.share([&] { solve(*to_solve_[index]); }); };
+  // One pair, too, is solved in the arena: long ones use its idle threads.
   arena_->threads.execute([&] {
-    tbb::parallel_for(
-        std::size_t{0}, to_solve_.size(),
-        [&](std::size_t index) {
-          const std::int64_t start = threadCpuNanoseconds();
-          solve(*to_solve_[index]);
-          if (std::this_thread::get_id() != caller) {
-            helper_cpu_nanoseconds_ += threadCpuNanoseconds() - start;
-          }
-        },
-        tbb::simple_partitioner());
+    if (options_.threads == 1 || to_solve_.size() == 1) {
+      for (std::size_t index = 0; index < to_solve_.size(); ++index) solve_at(index);
+    } else {
+      tbb::parallel_for(std::size_t{0}, to_solve_.size(), solve_at, tbb::simple_partitioner());
+    }
   });
 }
 

@@ -2,11 +2,14 @@
 #include "concave_distance/scene/scene_tracker.h"
 
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 #include "concave_distance/base/error.h"
 #include "concave_distance/loading/robot_poses.h"
 #include "support/box_scene.h"
+#include "support/bumpy_ball.h"
 #include "support/scene_fixture.h"
+#include "support/solution_bytes.h"
 
 namespace concave_distance {
 namespace {
@@ -123,6 +126,41 @@ TEST_F(SceneTrackerTest, GivesTheSameAnswersForAnyNumberOfThreads) {
       EXPECT_EQ(pair(index).solution.niches.size(), serial.pairs()[index]->solution.niches.size());
     }
   }
+}
+
+struct Answers {
+  test::Bytes bytes;
+  double helper_cpu_seconds = 0.0;
+};
+
+Answers solveLongPair(const Scene& scene, std::uint32_t threads) {
+  const tbb::global_control workers(tbb::global_control::max_allowed_parallelism, 2);
+  SceneTracker tracker({threads, nullptr});
+  tracker.setScene(scene);
+  Answers answers;
+  for (int step = 0; step < 6; ++step) {
+    const CycleCounts counts = tracker.update({at(0.0), at(0.95 + 0.01 * step)}, 0.01 * step);
+    answers.helper_cpu_seconds += counts.helper_cpu_seconds;
+    test::appendSolution(tracker.pairs()[0]->solution, answers.bytes);
+  }
+  return answers;
+}
+
+TEST(SceneTrackerThreads, HelpWithALongPairOnlyWhereMoreThanOneIsAllowed) {
+  Scene long_pair;
+  for (const char* name : {"a", "b"}) {
+    SceneBody body = unitBox(name);
+    BodyMeshOptions options;
+    options.max_edge_length = 0.1;
+    body.mesh = std::make_shared<const BodyMesh>(name, test::makeBumpyBall(0.4, 1e-3, 9.0), options);
+    body.bounds = boundsOf(body.mesh->surface());
+    long_pair.bodies.push_back(body);
+  }
+  long_pair.pairs.push_back(threeBoxes().pairs[0]);
+  const Answers alone = solveLongPair(long_pair, 1);
+  const Answers together = solveLongPair(long_pair, 2);
+  EXPECT_TRUE(together.bytes == alone.bytes);
+  EXPECT_EQ(alone.helper_cpu_seconds, 0.0);
 }
 
 TEST_F(SceneTrackerTest, RefusesPosesOfAnotherNumberOfBodies) {

@@ -70,7 +70,7 @@ class WorkLimit {
 
   /// Counts memory as taken, or refuses it.
   bool takeMemory(std::size_t bytes) {
-    if (bytes > memory_ || taken_ > memory_ - bytes) {
+    if (!hasMemory(bytes)) {
       memory_refused_ = true;
       return false;
     }
@@ -81,6 +81,15 @@ class WorkLimit {
   /// Counts the memory of buffers from earlier solves.
   void setTaken(std::size_t bytes) { taken_ = bytes; }
   std::size_t taken() const { return taken_; }
+  /// Whether takeMemory() would succeed; nothing is remembered.
+  bool hasMemory(std::size_t bytes) const { return bytes <= memory_ && taken_ <= memory_ - bytes; }
+
+  /// The same time for a part that another thread may do, in buffers that have all the memory they get.
+  WorkLimit withoutMemory() const {
+    WorkLimit part = *this;
+    part.memory_ = 0;
+    return part;
+  }
 
   bool isTimed() const { return is_timed_; }
   /// Of the whole time; 0 without a deadline.

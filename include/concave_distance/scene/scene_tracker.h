@@ -95,7 +95,6 @@ class SceneTracker {
   std::vector<TrackedPair*> to_solve_;
   std::vector<const BodyMesh*> to_prepare_;
   std::vector<PairDemand> demand_;
-  std::atomic<std::int64_t> helper_cpu_nanoseconds_{0};
 };
 
 }  // namespace concave_distance
