@@ -25,6 +25,8 @@ target_link_libraries(concave_distance_loading_objects
   PRIVATE concave_distance_headers concave_distance_warnings ${CONCAVE_DISTANCE_LOADING_LIBRARIES})
 set_target_properties(concave_distance_numeric_objects concave_distance_loading_objects PROPERTIES
   POSITION_INDEPENDENT_CODE ON)
+# Nobody replaces functions of these libraries by others of the same name: calls within them may be inlined.
+target_compile_options(concave_distance_numeric_objects PRIVATE -fno-semantic-interposition)
 
 # Most of a source's compile time is reading headers. Off by default: sources are then compiled one by one, as
 # clang-tidy reads them, and each has to include what it uses.
