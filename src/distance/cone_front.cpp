@@ -16,7 +16,7 @@ constexpr std::size_t kUsualMinima = 64;
 constexpr std::size_t kUsualExpired = 1024;
 constexpr std::size_t kSmallGrowth = 256;  // of the smallest, pairs
 /// Steps of the one sweep after which few open pairs are known to hold much.
-constexpr std::size_t kManySteps = 8192;
+constexpr std::size_t kManySteps = 2048;
 
 /// Behind what is there. What the limit refuses is added, too: no pair may be lost, and slices are small.
 template <typename T>

@@ -25,6 +25,7 @@ using test::makeBumpyBall;
 using Body = std::shared_ptr<const BodyMesh>;
 using Bytes = std::vector<std::uint64_t>;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr std::size_t kSlicedFrom = 1024;  // expired pairs
 constexpr std::size_t kAllMemory = std::numeric_limits<std::size_t>::max();
 
 template <typename Work>
@@ -69,7 +70,7 @@ struct Tracked {
 Tracked track(const Body& a, const Body& b, const test::Motion& motion, std::size_t memory, int threads) {
   Tracked tracked;
   executeWith(threads, [&] {
-    ConeFront front;
+    ConeFront front(kSlicedFrom);
     double t = 0.0;
     for (int k = 0; k < 12; ++k) {
       if (k == 9) front.clear();
@@ -115,7 +116,7 @@ TEST(ConeSlices, LoseNoPairWhereALimitEndsThem) {
     int cut = 0;
     for (std::uint32_t run = 0; run < 5; ++run) {
       const test::Motion motion = test::randomMotion(engine);
-      ConeFront front;
+      ConeFront front(kSlicedFrom);
       for (int k = 0; k < 12; ++k) {
         SCOPED_TRACE("run " + std::to_string(run) + ", cycle " + std::to_string(k));
         const Eigen::Isometry3d pose = motion.at(0.03 * k);
@@ -141,7 +142,7 @@ TEST(ConeSlices, AllocateNothingInAWarmCycle) {
   const Body a = test::makeBody(makeBumpyBall(0.5, 4e-4, 9.0));
   const Body b = test::makeBody(makeBumpyBall(0.3, 4e-4, 6.0));
   executeWith(2, [&] {
-    ConeFront front;
+    ConeFront front(kSlicedFrom);
     std::vector<MinimumSeed> seeds;
     std::uint32_t slices = 0;
     // To and fro: after the first rounds all buffers are as large as they become.

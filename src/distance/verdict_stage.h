@@ -1,0 +1,165 @@
+#pragma once
+
+#include "minima_verdicts.h"
+
+namespace concave_distance::detail {
+
+/// One call of judge().
+class MinimaVerdicts::Stage {
+ public:
+  Stage(MinimaVerdicts& verdicts, const MinimaScene& scene, const Request& request, WorkLimit& limit)
+      : verdicts_(verdicts),
+        memory_(verdicts.memory_),
+        scene_(scene),
+        request_(request),
+        limit_(limit),
+        tolerance_(8.0 * scene.rounding) {}
+
+  /// Every seed with its cell, and every region with the deepest seed in it.
+  void enter(const std::vector<MinimumSeed>& seeds);
+
+  /// Goes on with what enter() of an earlier stage at this pose has left.
+  void resume() {
+    seed_count_ = verdicts_.seed_count_;
+    were_long_ = verdicts_.floods_are_long_;
+  }
+
+  std::uint32_t placeAround(const TrianglePair& pair);
+
+  /// The minimum among the judged: the seed at its place, or an entry of its own; kNone through material.
+  std::uint32_t enterPlace(const WitnessPair& minimum);
+
+  void decideFar();
+
+  /// The next ones that are known, until there are as many niches as wanted.
+  void decideByMemory();
+
+  /// Those that it has left open, in ascending order until there are as many niches as wanted.
+  void decideByFloods();
+
+  /// Where time may be short, others come first in every cycle.
+  void floodInTurn();
+
+  void decide(std::uint32_t i) {
+    decideByMemory(i);
+    if (verdicts_.judged_[i].verdict == Verdict::Open) flood(i);
+  }
+
+  /// The next deeper minimum of a ripple of which only a deeper place is known.
+  void resolve(std::uint32_t i);
+
+ private:
+  /// Leaves open what is not known.
+  void decideByMemory(std::uint32_t i);
+
+  bool isThroughMaterial(const WitnessPair& minimum) const {
+    return classifyOutwardness(scene_.a, scene_.b, scene_.a_from_b, minimum) == Outwardness::ThroughMaterial;
+  }
+
+  /// Only then do seeds lie on both sides of a closed shell (collectConeItems()).
+  bool hasJoints() const { return !scene_.a.joints().joints.empty() || !scene_.b.joints().joints.empty(); }
+
+  /// Of the seed's cell; kNone without memory.
+  std::uint32_t numberOf(const MinimumSeed& seed) {
+    const TrianglePair cell = scene_.cellOf(seed.a, seed.b);
+    return memory_.cellOf(cell.a, cell.b, limit_);
+  }
+
+  /// The seed in the cell of a triangle pair.
+  std::uint32_t seedAround(TriangleIndex a, TriangleIndex b) const {
+    const TrianglePair cell = scene_.cellOf(a, b);
+    return memory_.seedIn(cell.a, cell.b);
+  }
+
+  /// Up to here nothing deeper may be reached.
+  double levelOf(double distance) const { return (1.0 + request_.least_prominence) * distance; }
+
+  void set(std::uint32_t i, Verdict verdict, std::uint32_t into = kNone) {
+    verdicts_.judged_[i].verdict = verdict;
+    verdicts_.judged_[i].into = into;
+  }
+
+  /// Seeds are in ascending order; what is no seed belongs to one as deep as itself.
+  bool isEarlier(std::uint32_t other, std::uint32_t i) const {
+    if (i < seed_count_) return other < i;
+    return verdicts_.judged_[other].seed.distance <= verdicts_.judged_[i].seed.distance + tolerance_;
+  }
+
+  /// Where shells of one body lie on each other, both have the minimum.
+  bool isSamePlace(const MinimumSeed& l, const MinimumSeed& r) const;
+
+  std::uint32_t deepestLike(std::uint32_t i);
+
+  double squaredLevelOf(const VerdictMemory::Link& link) const {
+    return (scene_.frames.rotation * link.point_b + scene_.frames.offset - link.point_a).squaredNorm();
+  }
+
+  /// Whether known links lead below the start or to an earlier seed without rising to its level.
+  bool followsDown(std::uint32_t i, std::uint32_t number);
+
+  /// Gives a link the points at which the cells are closest over what they have in common, and their squared
+  /// distance.
+  double aim(std::uint32_t link) { return aim(link, closestOver(scene_, memory_.link(link).via)); }
+
+  /// The same for the points in a cell.
+  double aimLow(std::uint32_t number) {
+    const VerdictMemory::Cell& cell = memory_.cell(number);
+    return aim(cell.low, scene_.closestIn({cell.a, cell.b}).second);
+  }
+
+  double aim(std::uint32_t link, const TrianglePairDistance& closest);
+
+  CellFlood::Levels levelsOf(double distance) const {
+    return {distance - tolerance_, distance + tolerance_, levelOf(distance) + tolerance_};
+  }
+
+  /// Whether the border around a region holds, or does so again with the cells beyond where it does not.
+  bool isEnclosed(std::uint32_t i, std::uint32_t index);
+
+  /// Whether a cell is that of a minimum that i would belong to.
+  bool isOfEarlier(TriangleIndex a, TriangleIndex b, std::uint32_t i) const {
+    const std::uint32_t other = memory_.seedIn(a, b);
+    return other != kNone && other != i && isEarlier(other, i);
+  }
+
+  void flood(std::uint32_t i);
+
+  /// From the place below a ripple to the minimum under it.
+  void descend(std::uint32_t i);
+
+  /// Replaces a long flood: the deepest of its pieces is a niche if it is their nearest place; another one is
+  /// none if a path leads from it to one that is deeper.
+  bool settlesLong(std::uint32_t i);
+
+  /// Seeds may leave out minima through material, so the deepest seed need not be the nearest place.
+  bool isNearest(std::uint32_t i);
+
+  bool hasPathDown(std::uint32_t i);
+
+  /// The links of the way from the start of the last flood to its end.
+  void keepPath(std::uint32_t start);
+
+  void keepLow(TriangleIndex a, TriangleIndex b);
+
+  bool keepLink(std::uint32_t& link, const TrianglePairDistance& closest, std::uint32_t next,
+                const SharedElement& via);
+
+  /// What the last flood has visited.
+  void keepRegion(std::uint32_t i, std::uint64_t id);
+
+  /// By what the last flood has visited. False without memory.
+  bool extend(std::uint32_t index);
+
+  MinimaVerdicts& verdicts_;
+  VerdictMemory& memory_;
+  const MinimaScene& scene_;
+  const Request& request_;
+  WorkLimit& limit_;
+  CertificateWorkspace proof_;
+  double tolerance_;
+  bool were_long_ = false;  ///< floods, the last time
+  std::uint32_t seed_count_ = 0;
+  std::uint32_t deepest_ = kNone;  ///< of the pieces of the one that is decided
+};
+
+}  // namespace concave_distance::detail
