@@ -202,7 +202,7 @@ void list(std::vector<Miss> misses, std::size_t count) {
 }  // namespace
 
 int benchmarkMain(int argc, char** argv) {
-  CLI::App app("Recall and precision of the search against level complete");
+  CLI::App app("Recall and precision against the niches found from scratch");
   std::vector<std::string> names = allPairs();
   Options options;
   std::string output;

@@ -12,8 +12,8 @@
 //   search   level `nodes`, cold: the genetic search alone. Truth: the flood of the product graph, prominence
 //            >= 1e-2. `recall` counts every local minimum met, `prominent` those of the final population,
 //            `nearest` the share of runs that met the nearest niche.
-//   cold     level `certified`, cold: search, projections, sweep, proof. Truth: level `complete`.
-//   tracked  level `certified` along the motion. Truth: level `complete` at instants spread over it;
+//   cold     level `certified`, cold: proof, search, normal cones. Truth: the list of niches that is proven.
+//   tracked  level `certified` along the motion. Truth: the proven list at instants spread over it;
 //   `nearest`
 //            is the share of all instants whose distance is not above FCL's.
 //   refined  the same at level `refined`, where no proof mends what the search has missed.

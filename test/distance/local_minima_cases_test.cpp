@@ -10,7 +10,7 @@
 #include "mesh/surface/refine_mesh.h"
 #include "support/painted_boxes.h"
 
-// Level `complete` on scenes whose niches are known, and what must not change its answer.
+// The proven list of niches on scenes whose niches are known, and what must not change its answer.
 
 namespace concave_distance {
 namespace {

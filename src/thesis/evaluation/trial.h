@@ -38,7 +38,7 @@ struct TrialRecord {
   SearchCost cost;
   std::uint64_t flops = 0;  ///< by the thesis's rule: 26 a point pair, 6 a constraint (App. D, sec. 2.1.4)
   double microseconds = 0.0;
-  double recall = 0.0;          ///< of the outward niches of level complete, in the final population
+  double recall = 0.0;          ///< of the outward niches that are proven, in the final population
   double archive_recall = 0.0;  ///< the same of all local minima that the run has met
   double precision = 0.0;       ///< niches of the final population that are one of those, each counted once
   double nearest = 0.0;         ///< 1 where the nearest of those niches is among the minima met
