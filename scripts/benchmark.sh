@@ -13,7 +13,7 @@ case $size in
   *) echo "usage: scripts/benchmark.sh [quick|full]" >&2; exit 2 ;;
 esac
 program() { find "$root/build" -type f -perm -u+x -name "$1" | head -n 1; }
-for name in tracking battery budget front recall radii descent certificate hierarchy scale exactness complete accuracy; do
+for name in tracking battery budget cores front proposal recall radii descent certificate hierarchy scale exactness complete accuracy; do
   [ -n "$(program "${name}_benchmark")" ] || { echo "${name}_benchmark is not built: run scripts/build.sh" >&2; exit 1; }
 done
 results=$root/doc/results
@@ -59,6 +59,8 @@ fi
 moving=battery_insertion,kr5_bicep_palm,kr5_base_forearm,kr5_shoulder_elbow,wam3_wam5,wam_base_wam4,wam1_wam6
 moving=$moving,peg_in_hole,linked_hooks,comb_in_comb,stairs_leg,obstacle_field
 "$(program front_benchmark)" --steps 500,5000 --instants "$steps" --windows 1 --output "$results/front.csv"
+"$(program proposal_benchmark)" --pairs "$moving" --output "$results/proposals.csv"
+"$(program cores_benchmark)" --sliced-from 1024 --steps 500,2000 --windows 4 --instants 40 --output "$results/cores.csv"
 "$(program budget_benchmark)" --pairs "$moving" --steps "$steps" --output "$results/budget.csv"
 "$(program budget_benchmark)" --cold --pairs "$moving" --budgets 500,1000,2000,5000,10000,20000 --shares 0,0.05 \
   --proposers evolution,random --steps 60 --output "$results/budget_cold.csv"

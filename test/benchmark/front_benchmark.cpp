@@ -10,19 +10,21 @@
 // A row is a pair and a number of instants along its motion (5 s long: 500 is 100 Hz). In windows spread over
 // the motion consecutive instants are looked at: microseconds (medians) of FCL, of all cones from the roots,
 // of the front (and its 99th percentile); pairs that the front keeps, that have expired, groups compared,
-// features looked at and live pairs of features (means); windows' instants at which the front was begun anew;
-// local minima that only the cones from the roots (`missed`) or only the front (`more`) led to. Then the
-// verdicts: microseconds (medians) of floods alone and of what is kept (and its 99th percentile); means of
-// niches, of ripples settled by a known path, links of paths that were given other points, niches by a known
-// border and by one that was mended, floods, cells flooded and border elements measured; instants at which
-// the niches were others than those of floods
-// (`other`); kilobytes kept.
+// features looked at, live pairs of features, minima and pairs of features that begin or cease to hold one
+// (`events`; means); windows' instants at which the front was begun anew; local minima that only the cones
+// from the roots (`missed`) or only the front (`more`) led to. Then the verdicts: microseconds (medians) of
+// floods alone and of what is kept (and its 99th percentile); means of niches, of ripples settled by a known
+// path, links of paths that were given other points, niches by a known border and by one that was mended,
+// floods, cells flooded and border elements measured; instants at which the niches were others than those of
+// floods (`other`); kilobytes kept.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 
 #include "benchmark/support/benchmark_main.h"
 #include "benchmark/support/benchmark_pairs.h"
@@ -82,6 +84,8 @@ struct Sample {
   std::size_t missed = 0;
   std::size_t more = 0;
   std::size_t seeds = 0;
+  std::vector<std::array<std::uint32_t, 4>> alive;  ///< features that hold minima at the last instant
+  std::size_t events = 0;
   std::vector<double> floods_us;
   std::vector<double> judge_us;
   double niches = 0.0;
@@ -95,6 +99,23 @@ struct Sample {
   int other = 0;
   std::size_t bytes = 0;
 };
+
+/// Features that begin or cease to hold a minimum: what no way to keep anything could spare.
+void countEvents(const std::vector<MinimumSeed>& seeds, bool first, Sample& sample) {
+  std::vector<std::array<std::uint32_t, 4>> alive;
+  for (const MinimumSeed& seed : seeds) {
+    alive.push_back({seed.a.value, seed.b.value, static_cast<std::uint32_t>(seed.feature_a),
+                     static_cast<std::uint32_t>(seed.feature_b)});
+  }
+  std::sort(alive.begin(), alive.end());
+  if (!first) {
+    std::vector<std::array<std::uint32_t, 4>> changed;
+    std::set_symmetric_difference(alive.begin(), alive.end(), sample.alive.begin(), sample.alive.end(),
+                                  std::back_inserter(changed));
+    sample.events += changed.size();
+  }
+  sample.alive.swap(alive);
+}
 
 bool isSame(const std::vector<double>& l, const std::vector<double>& r, double tolerance) {
   return std::equal(l.begin(), l.end(), r.begin(), r.end(),
@@ -152,6 +173,7 @@ void observe(const BenchmarkPair& pair, const Eigen::Isometry3d& pose, ConeFront
   sample.missed += countOnly(of_roots, of_front, 1e-9 * scene.size);
   sample.more += countOnly(of_front, of_roots, 1e-9 * scene.size);
   judge(scene, from_front, verdicts, first, sample);
+  countEvents(from_front, first, sample);
   if (first) return;
   sample.fcl_us.push_back(fcl_us);
   sample.roots_us.push_back(roots_us);
@@ -234,7 +256,8 @@ int benchmarkMain(int argc, char** argv) {
   if (!output.empty()) file.open(output);
   const char* header =
       "pair,steps,fcl_us,roots_us,front_us,front_99_us,front_over_fcl,kept,expired,groups,features,live,"
-      "seeds,anew,missed,more,floods_us,judge_us,judge_99_us,niches,by_path,aimed,by_border,mended,floods,"
+      "seeds,events,anew,missed,more,floods_us,judge_us,judge_99_us,niches,by_path,aimed,by_border,mended,"
+      "floods,"
       "cells,"
       "measured,"
       "other,kilobytes";
@@ -255,20 +278,18 @@ int benchmarkMain(int argc, char** argv) {
       }
       const double n = static_cast<double>(sample.front_us.size());
       char line[1024];
-      std::snprintf(line, sizeof line,
-                    "%s,%d,%.1f,%.1f,%.1f,%.1f,%.3f,%.0f,%.0f,%.0f,%.0f,%.0f,%.1f,%d,%zu,%zu,%.1f,%.1f,%.1f,%"
-                    ".1f,%.1f,%.1f,%"
-                    ".1f,%.1f,"
-                    "%.1f,%.0f,%.0f,%d,%.0f",
-                    pair.name.c_str(), count, median(sample.fcl_us), median(sample.roots_us),
-                    median(sample.front_us), percentile(sample.front_us, 0.99),
-                    median(sample.front_us) / median(sample.fcl_us), sample.kept / n, sample.expired / n,
-                    sample.groups / n, sample.features / n, sample.live / n,
-                    static_cast<double>(sample.seeds) / n, sample.anew, sample.missed, sample.more,
-                    median(sample.floods_us), median(sample.judge_us), percentile(sample.judge_us, 0.99),
-                    sample.niches / n, sample.by_path / n, sample.aimed / n, sample.by_border / n,
-                    sample.mended / n, sample.floods / n, sample.cells / n, sample.measured / n, sample.other,
-                    static_cast<double>(sample.bytes) / 1024.0);
+      std::snprintf(
+          line, sizeof line,
+          "%s,%d,%.1f,%.1f,%.1f,%.1f,%.3f,%.0f,%.0f,%.0f,%.0f,%.0f,%.1f,%.1f,%d,%zu,%zu,%.1f,%.1f,"
+          "%.1f,%.1f,%.1f,%.1f,%.1f,%.1f,%.1f,%.0f,%.0f,%d,%.0f",
+          pair.name.c_str(), count, median(sample.fcl_us), median(sample.roots_us), median(sample.front_us),
+          percentile(sample.front_us, 0.99), median(sample.front_us) / median(sample.fcl_us), sample.kept / n,
+          sample.expired / n, sample.groups / n, sample.features / n, sample.live / n,
+          static_cast<double>(sample.seeds) / n, static_cast<double>(sample.events) / n, sample.anew,
+          sample.missed, sample.more, median(sample.floods_us), median(sample.judge_us),
+          percentile(sample.judge_us, 0.99), sample.niches / n, sample.by_path / n, sample.aimed / n,
+          sample.by_border / n, sample.mended / n, sample.floods / n, sample.cells / n, sample.measured / n,
+          sample.other, static_cast<double>(sample.bytes) / 1024.0);
       std::printf("%s\n", line);
       std::fflush(stdout);
       if (file) file << line << '\n';
