@@ -11,7 +11,7 @@ namespace {
 
 /// A front that has grown by this factor since it was begun is begun anew: it looks at needlessly small
 /// groups.
-constexpr std::size_t kLargestGrowth = 2;
+constexpr std::size_t kLargestGrowth = 3;
 constexpr std::size_t kUsualMinima = 64;
 constexpr std::size_t kUsualExpired = 1024;
 constexpr std::size_t kSmallGrowth = 256;  // of the smallest, pairs
