@@ -132,7 +132,7 @@ void lower(std::array<double, 4>& edges, const Lanes& corners) {
 
 /// One by one, for facets that cross, may cross or are out of range.
 CellLevels oneByOne(const FacetPoints& a, const FacetPoints& b) {
-  const auto squaredDistance = [](const Vector3d& from, const Vector3d& to, const FacetPoints& facet) {
+  const auto squared_distance = [](const Vector3d& from, const Vector3d& to, const FacetPoints& facet) {
     const TrianglePoints edge{from, to, to};
     const double first = triangleDistance(edge, facet.first()).squared_distance;
     return facet.is_quad ? std::min(first, triangleDistance(edge, facet.second()).squared_distance) : first;
@@ -140,8 +140,8 @@ CellLevels oneByOne(const FacetPoints& a, const FacetPoints& b) {
   CellLevels levels{};
   for (std::size_t k = 0; k < 4; ++k) {
     const std::size_t next = PreparedFacet::nextOf(k);
-    levels.edges_of_a[k] = squaredDistance(a.corners[k], a.corners[next], b);
-    levels.edges_of_b[k] = squaredDistance(b.corners[k], b.corners[next], a);
+    levels.edges_of_a[k] = squared_distance(a.corners[k], a.corners[next], b);
+    levels.edges_of_b[k] = squared_distance(b.corners[k], b.corners[next], a);
   }
   return levels;
 }

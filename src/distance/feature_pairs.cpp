@@ -100,14 +100,14 @@ std::optional<MinimumSeed> FeaturePairs::findMinimum(const Item& a, const Item& 
   const Peak peak_b = peakAt(Side::B, b, scene_.frames.pointInB(found.to),
                              scene_.frames.rotation.transpose() * -direction, distance);
   if (!peak_b.is_peak) return std::nullopt;
-  const auto edgesCross = [&] {
+  const auto edges_cross = [&] {
     const Vector3d along_a = edgeOfA(a);
     const Vector3d along_b = edgeOfB(b);
     return along_a.cross(along_b).squaredNorm() >
            kMayBeParallel * kMayBeParallel * along_a.squaredNorm() * along_b.squaredNorm();
   };
   const bool is_point = peak_a.level_dimensions == 0 || peak_b.level_dimensions == 0 ||
-                        (peak_a.level_dimensions == 1 && peak_b.level_dimensions == 1 && edgesCross());
+                        (peak_a.level_dimensions == 1 && peak_b.level_dimensions == 1 && edges_cross());
   return MinimumSeed{a.triangle,     b.triangle,     distance,   true,    is_point,
                      peak_a.feature, peak_b.feature, found.from, found.to};
 }

@@ -126,9 +126,11 @@ void PairCycle::solveExact(double displacement, double elapsed, PairSolution& so
   solution.stages[SolveStage::Admit] -= niches_.cost().sweep_seconds;
 }
 
-// Where all minima are looked for besides, the search keeps to its share.
+// Where all minima are looked for besides, the search keeps to its share: a first cycle has earned none, but
+// one that may have to end early is better for it.
 bool PairCycle::searchIsDue() const {
-  return !proves() || (parameters_.search_share > 0.0 && (!warm_ || search_.isAffordable()));
+  if (!proves()) return true;
+  return parameters_.search_share > 0.0 && (warm_ ? search_.isAffordable() : limit_.isTimed());
 }
 
 void PairCycle::proposeMinima(SearchCost& cost) {

@@ -89,7 +89,7 @@ TEST(RouletteWheel, SpreadsMoreThanUniversalSampling) {
   RandomEngine engine(4);
   std::vector<double> wheel;
   std::vector<std::uint32_t> selected;
-  const auto largestCount = [&](SelectionMethod method) {
+  const auto largest_count = [&](SelectionMethod method) {
     std::uint32_t largest = 0;
     for (int run = 0; run < 100; ++run) {
       select(method, weights, 10, engine, wheel, selected);
@@ -98,8 +98,8 @@ TEST(RouletteWheel, SpreadsMoreThanUniversalSampling) {
     }
     return largest;
   };
-  EXPECT_EQ(largestCount(SelectionMethod::StochasticUniversalSampling), 1U);
-  EXPECT_GT(largestCount(SelectionMethod::Roulette), 2U);
+  EXPECT_EQ(largest_count(SelectionMethod::StochasticUniversalSampling), 1U);
+  EXPECT_GT(largest_count(SelectionMethod::Roulette), 2U);
 }
 
 TEST(Shuffle, PermutesAndReachesEveryOrderEquallyOften) {

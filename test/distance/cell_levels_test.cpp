@@ -56,7 +56,7 @@ double exactError(double distance, const detail::FacetPoints& a, const detail::F
 
 TEST(CellLevels, OfQuadranglesAreTheDistancesOfTheirTriangles) {
   RandomEngine engine(20261123);
-  const auto edgeOf = [](const detail::FacetPoints& quad, std::size_t k) -> detail::FacetPoints {
+  const auto edge_of = [](const detail::FacetPoints& quad, std::size_t k) -> detail::FacetPoints {
     const Eigen::Vector3d& to = quad.corners[(k + 1) % 4];
     return {{quad.corners[k], to, to, quad.corners[k]}};
   };
@@ -82,10 +82,10 @@ TEST(CellLevels, OfQuadranglesAreTheDistancesOfTheirTriangles) {
     const double bound = 2.0 * kTriangleDistanceError * largest;
     ASSERT_LE(exactError(std::sqrt(levels.least()), a, b), bound) << i;
     for (std::size_t k = 0; k < a.edgeCount(); ++k) {
-      ASSERT_LE(exactError(std::sqrt(levels.edges_of_a[k]), edgeOf(a, k), b), bound) << i;
+      ASSERT_LE(exactError(std::sqrt(levels.edges_of_a[k]), edge_of(a, k), b), bound) << i;
     }
     for (std::size_t k = 0; k < b.edgeCount(); ++k) {
-      ASSERT_LE(exactError(std::sqrt(levels.edges_of_b[k]), a, edgeOf(b, k)), bound) << i;
+      ASSERT_LE(exactError(std::sqrt(levels.edges_of_b[k]), a, edge_of(b, k)), bound) << i;
     }
   }
 }

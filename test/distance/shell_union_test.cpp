@@ -49,13 +49,13 @@ std::vector<double> visibleNiches(const Body& a, const Body& b, const Isometry3d
 /// Where bodies overlap, places where they meet may hang together in the material of another shell: they are
 /// there in both lists or in none.
 bool isSame(std::vector<double> l, std::vector<double> r) {
-  const auto dropZeros = [](std::vector<double>& distances) {
+  const auto drop_zeros = [](std::vector<double>& distances) {
     const auto apart = std::find_if(distances.begin(), distances.end(), [](double d) { return d > 0.0; });
     const bool meets = apart != distances.begin();
     distances.erase(distances.begin(), apart);
     return meets;
   };
-  return dropZeros(l) == dropZeros(r) &&
+  return drop_zeros(l) == drop_zeros(r) &&
          std::equal(l.begin(), l.end(), r.begin(), r.end(),
                     [](double x, double y) { return std::abs(x - y) < 1e-9; });
 }

@@ -73,7 +73,7 @@ TEST_F(PreparationCacheTest, AHitIsAMissBitForBit) {
 }
 
 TEST_F(PreparationCacheTest, ATrackedRunIsTheSame) {
-  const auto distancesOf = [](const Scene& scene) {
+  const auto distances_of = [](const Scene& scene) {
     PairTracker tracker("pair", scene.bodies[0].mesh, scene.bodies[1].mesh, TrackerParameters());
     PairSolution solution;
     test::Bytes bytes;
@@ -90,8 +90,8 @@ TEST_F(PreparationCacheTest, ATrackedRunIsTheSame) {
     EXPECT_FALSE(bytes.empty());
     return bytes;
   };
-  const test::Bytes missed = distancesOf(loadBoth());
-  EXPECT_TRUE(distancesOf(loadBoth()) == missed);
+  const test::Bytes missed = distances_of(loadBoth());
+  EXPECT_TRUE(distances_of(loadBoth()) == missed);
 }
 
 TEST_F(PreparationCacheTest, FilesThatAreNotSoundAreMadeAnew) {
@@ -119,7 +119,7 @@ TEST_F(PreparationCacheTest, FilesThatAreNotSoundAreMadeAnew) {
 }
 
 TEST_F(PreparationCacheTest, EveryInputThatChangesIsAnotherKey) {
-  const auto filesAfter = [&](const std::string& body) {
+  const auto files_after = [&](const std::string& body) {
     std::filesystem::remove_all(cache_folder());
     bytesOf(load("bodies:\n  - {name: a, " + body + "}\n"));  // makes all parts
     return filesIn(cache_folder());
@@ -141,7 +141,7 @@ TEST_F(PreparationCacheTest, EveryInputThatChangesIsAnotherKey) {
   };
   std::map<std::string, std::string> body_of_file;
   for (const std::string& body : bodies) {
-    const std::vector<std::string> files = filesAfter(body);
+    const std::vector<std::string> files = files_after(body);
     EXPECT_EQ(files.size(), 5U) << body;
     for (const std::string& file : files) {
       const std::string ending = std::filesystem::path(file).extension().string();
@@ -150,12 +150,12 @@ TEST_F(PreparationCacheTest, EveryInputThatChangesIsAnotherKey) {
     }
   }
   // The same body, with memory for the matrices and without, and the same name with another content.
-  const std::vector<std::string> with = filesAfter("mesh: comb.stl");
+  const std::vector<std::string> with = files_after("mesh: comb.stl");
   options.metric_memory_limit = 0;
-  EXPECT_NE(filesAfter("mesh: comb.stl"), with);
+  EXPECT_NE(files_after("mesh: comb.stl"), with);
   options.metric_memory_limit = kDefaultMetricMemoryLimit;
   exportMesh(test::makeComb(5), folder.path("comb.stl"));
-  const std::vector<std::string> changed = filesAfter("mesh: comb.stl");
+  const std::vector<std::string> changed = files_after("mesh: comb.stl");
   for (const std::string& file : changed) {
     EXPECT_EQ(std::count(with.begin(), with.end(), file), 0) << file;
   }

@@ -121,13 +121,13 @@ SurfaceMesh makeIcosphere(double radius) {
     vertices.push_back(middle);
     return static_cast<std::uint32_t>(vertices.size() - 1);
   };
-  const auto isEdge = [&](std::uint32_t i, std::uint32_t j) {
+  const auto is_edge = [&](std::uint32_t i, std::uint32_t j) {
     return (vertices[i] - vertices[j]).norm() < 2.1;
   };
   for (std::uint32_t i = 0; i < 12; ++i) {
     for (std::uint32_t j = i + 1; j < 12; ++j) {
       for (std::uint32_t k = j + 1; k < 12; ++k) {
-        if (!isEdge(i, j) || !isEdge(j, k) || !isEdge(k, i)) continue;
+        if (!is_edge(i, j) || !is_edge(j, k) || !is_edge(k, i)) continue;
         const bool outwards = vertices[i].cross(vertices[j]).dot(vertices[k]) > 0.0;
         const std::uint32_t corner[3] = {i, outwards ? j : k, outwards ? k : j};
         const std::uint32_t middle[3] = {midpoint(corner[0], corner[1]), midpoint(corner[1], corner[2]),
@@ -156,7 +156,7 @@ TEST(FieldCases, MeshSpheresEdgeOnEdgeAndVertexOnVertex) {
     return pose;
   }();
   // A direction of the sphere turned to x, for both bodies alike.
-  const auto distanceAlong = [&](const Vector3d& direction) {
+  const auto distance_along = [&](const Vector3d& direction) {
     const Quaterniond to_x = Quaterniond::FromTwoVectors(direction, Vector3d::UnitX());
     std::vector<Vector3d> vertices = sphere.vertices();
     for (Vector3d& v : vertices) v = to_x * v;
@@ -164,9 +164,9 @@ TEST(FieldCases, MeshSpheresEdgeOnEdgeAndVertexOnVertex) {
     return certify(*turned, *turned, opposite).distance;
   };
   const double bound = kProofError * 1.5;
-  EXPECT_NEAR(distanceAlong(sphere.vertices()[13]), 0.5, bound);
+  EXPECT_NEAR(distance_along(sphere.vertices()[13]), 0.5, bound);
   const TriangleNodes& inner = sphere.triangles()[0];  // its edges span 36 degrees
-  EXPECT_NEAR(distanceAlong(sphere.vertex(inner[0]) + sphere.vertex(inner[1])),
+  EXPECT_NEAR(distance_along(sphere.vertex(inner[0]) + sphere.vertex(inner[1])),
               1.0 - 0.5 * std::cos(M_PI / 10.0), bound);
 }
 

@@ -53,12 +53,12 @@ const Bodies& bodiesOf(const NumericCase& numeric_case) {
   static std::string key;
   static Bodies bodies;
   if (key == keyOf(numeric_case)) return bodies;
-  const auto bodyOf = [&](const SurfaceMesh& surface) {
+  const auto body_of = [&](const SurfaceMesh& surface) {
     BodyMeshOptions options;
     if (numeric_case.coarse_grid) options.max_edge_length = 0.2 * surface.diameter();
     return std::make_shared<const BodyMesh>(numeric_case.name, surface, options);
   };
-  bodies = {bodyOf(numeric_case.a), bodyOf(numeric_case.b)};
+  bodies = {body_of(numeric_case.a), body_of(numeric_case.b)};
   key = keyOf(numeric_case);
   return bodies;
 }

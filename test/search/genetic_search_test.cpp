@@ -256,13 +256,13 @@ TEST(GeneticSearch, SharingKeepsNichesThatPlainEvolutionLoses) {
     double sum = 0.0;
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
       search.run(parameters, seed);
-      const auto isKept = [&](const NodeNiche& niche) {
+      const auto is_kept = [&](const NodeNiche& niche) {
         return std::any_of(search.workspace.population.begin(), search.workspace.population.end(),
                            [&](const TrialPoint& point) {
                              return point.node_a == niche.node_a && point.node_b == niche.node_b;
                            });
       };
-      sum += static_cast<double>(std::count_if(niches.begin(), niches.end(), isKept));
+      sum += static_cast<double>(std::count_if(niches.begin(), niches.end(), is_kept));
     }
     return sum / (20.0 * static_cast<double>(niches.size()));
   };

@@ -67,7 +67,7 @@ RC_GTEST_PROP(NicheIdentification, IsBestStripRepeat, ()) {
   const auto population = niches.drawPopulation(40, engine);
   const double radius = *rc::gen::element(0.1, 0.4, 1.0, 3.0);
 
-  const auto bestStripRepeat = [&](const auto& distance) {
+  const auto best_strip_repeat = [&](const auto& distance) {
     std::vector<IdentifiedNiche> expected;
     std::vector<TrialPoint> left = population;
     while (!left.empty()) {
@@ -82,7 +82,7 @@ RC_GTEST_PROP(NicheIdentification, IsBestStripRepeat, ()) {
   const auto distance = [&](const TrialPoint& l, const TrialPoint& r) {
     return niches.metric.distanceWithin(l, r, kInfinity);
   };
-  const std::vector<IdentifiedNiche> expected = bestStripRepeat(distance);
+  const std::vector<IdentifiedNiche> expected = best_strip_repeat(distance);
 
   std::vector<IdentifiedNiche> found;
   std::vector<std::uint32_t> order;
@@ -104,7 +104,7 @@ RC_GTEST_PROP(NicheIdentification, IsBestStripRepeat, ()) {
   std::vector<std::uint32_t> peaks;
   nichePeaks(census, radius, places, niches.metric, order, peaks);
   // The table keeps distances in single precision: one next to the radius may fall on its other side.
-  const std::vector<IdentifiedNiche> rounded = bestStripRepeat(
+  const std::vector<IdentifiedNiche> rounded = best_strip_repeat(
       [&](const TrialPoint& l, const TrialPoint& r) { return static_cast<float>(distance(l, r)); });
   RC_ASSERT(peaks.size() == rounded.size());
   for (std::size_t i = 0; i < peaks.size(); ++i) {
@@ -234,16 +234,16 @@ TEST_F(MatingRestriction, MatesMoreNeighboursThanChanceAndStillSomeStrangers) {
       pool[i] = i;
     }
     shuffle(pool, engine);
-    const auto countNear = [&] {
+    const auto count_near = [&] {
       int count = 0;
       for (std::size_t i = 0; i < pool.size(); i += 2) {
         count += near(pool[i], pool[i + 1]) ? 1 : 0;
       }
       return count;
     };
-    near_by_chance += countNear();
+    near_by_chance += count_near();
     restrictMating(pool, where_, kRadius, places_, niches_.metric, engine);
-    near_restricted += countNear();
+    near_restricted += count_near();
     couples += 20;
   }
   EXPECT_GT(near_restricted, near_by_chance * 3 / 2);

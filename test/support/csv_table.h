@@ -19,7 +19,7 @@ using Row = std::map<std::string, std::string>;
 /// A table by its header; every row has as many cells.
 inline std::vector<Row> readTable(const std::string& path) {
   std::istringstream stream(contentOf(path));
-  const auto cellsOf = [](const std::string& line) {
+  const auto cells_of = [](const std::string& line) {
     std::vector<std::string> cells(1);
     for (const char c : line) {
       if (c == ',') {
@@ -32,10 +32,10 @@ inline std::vector<Row> readTable(const std::string& path) {
   };
   std::string line;
   std::getline(stream, line);
-  const std::vector<std::string> header = cellsOf(line);
+  const std::vector<std::string> header = cells_of(line);
   std::vector<Row> rows;
   while (std::getline(stream, line)) {
-    const std::vector<std::string> cells = cellsOf(line);
+    const std::vector<std::string> cells = cells_of(line);
     EXPECT_EQ(cells.size(), header.size()) << line;
     Row row;
     for (std::size_t i = 0; i < cells.size(); ++i) {

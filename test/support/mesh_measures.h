@@ -115,7 +115,7 @@ template <typename Scalar>
 Scalar distanceToTriangle(const Eigen::Matrix<Scalar, 3, 1>& p, const Eigen::Matrix<Scalar, 3, 1>& a,
                           const Eigen::Matrix<Scalar, 3, 1>& b, const Eigen::Matrix<Scalar, 3, 1>& c) {
   using Vector = Eigen::Matrix<Scalar, 3, 1>;
-  const auto toSegment = [&p](const Vector& u, const Vector& v) {
+  const auto to_segment = [&p](const Vector& u, const Vector& v) {
     const Scalar s = std::clamp<Scalar>((p - u).dot(v - u) / (v - u).squaredNorm(), Scalar(0), Scalar(1));
     return Scalar((p - (u + s * (v - u))).norm());
   };
@@ -123,7 +123,7 @@ Scalar distanceToTriangle(const Eigen::Matrix<Scalar, 3, 1>& p, const Eigen::Mat
   const bool above =
       n.cross(b - a).dot(p - a) >= 0 && n.cross(c - b).dot(p - b) >= 0 && n.cross(a - c).dot(p - c) >= 0;
   if (above) return std::abs(Scalar(n.normalized().dot(p - a)));
-  return std::min({toSegment(a, b), toSegment(b, c), toSegment(c, a)});
+  return std::min({to_segment(a, b), to_segment(b, c), to_segment(c, a)});
 }
 
 inline double distanceToSurface(const Eigen::Vector3d& p, const SurfaceMesh& mesh) {

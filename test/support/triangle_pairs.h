@@ -120,7 +120,7 @@ inline TrianglePair touchingPair(RandomEngine& engine) {
   if (uniformIndex(engine, 2) == 0)
     b = moved(flatTriangle(engine, powerOfTen(engine, -16, 0)), randomRotation(engine),
               uniformInCube(engine, 1.0));
-  const auto pointOf = [&](const TrianglePoints& t) {
+  const auto point_of = [&](const TrianglePoints& t) {
     double s = uniformUnit(engine);
     double r = uniformUnit(engine);
     if (s + r > 1.0) {
@@ -136,7 +136,7 @@ inline TrianglePair touchingPair(RandomEngine& engine) {
       uniformIndex(engine, 2) == 0
           ? Eigen::Vector3d(Eigen::Vector3d::Zero())
           : Eigen::Vector3d(powerOfTen(engine, -17, -1) * randomRotation(engine).col(0));
-  return {a, moved(b, Eigen::Matrix3d::Identity(), pointOf(a) - pointOf(b) + pull)};
+  return {a, moved(b, Eigen::Matrix3d::Identity(), point_of(a) - point_of(b) + pull)};
 }
 
 struct TrianglePairFamily {

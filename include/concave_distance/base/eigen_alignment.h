@@ -9,11 +9,11 @@ namespace concave_distance::detail {
 /// with CONCAVE_DISTANCE_NATIVE, or the program with -DEIGEN_MAX_ALIGN_BYTES=16.
 template <int bytes>
 struct EigenAlignmentOfTheLibrary {
-  static const char is;
+  static const char is;  // NOLINT(readability-identifier-naming)
 };
 extern template struct EigenAlignmentOfTheLibrary<EIGEN_MAX_ALIGN_BYTES>;
 
-[[gnu::used]] static const char* const eigen_alignment =
+[[gnu::used]] static const char* const eigen_alignment =  // NOLINT(readability-identifier-naming)
     &EigenAlignmentOfTheLibrary<EIGEN_MAX_ALIGN_BYTES>::is;
 
 }  // namespace concave_distance::detail

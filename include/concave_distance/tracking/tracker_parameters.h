@@ -29,7 +29,7 @@ struct TrackerParameters {
   /// When set, a solve ends as if its time had run out; nullptr: none.
   const std::atomic<bool>* stop = nullptr;
   /// Of a first cycle, a service call, after a reset. At level `certified`, which finds every niche by other
-  /// means, a cold cycle searches as a warm one does.
+  /// means, a cold cycle searches as a warm one does, and only where it has a time budget.
   GeneticParameters cold;
   GeneticParameters warm;            ///< every further cycle; usually a small population and few generations
   double inherited_per_niche = 3.0;  ///< alpha_Gamma (Carretero, eq. (6.8))

@@ -126,7 +126,7 @@ CompressedRows<AdjacentTriangle> facetAdjacency(const Facets& facets,
   CompressedRows<AdjacentTriangle> rows;
   const std::size_t count = facets.facet_of_triangle.size();
   rows.offsets.assign(count + 1, 0);
-  const auto forEach = [&](const auto& visit) {
+  const auto for_each = [&](const auto& visit) {
     for (std::uint32_t t = 0; t < count; ++t) {
       const TriangleIndex facet = facets.facet_of_triangle[t];
       for (AdjacentTriangle next : adjacency.row(t)) {
@@ -135,11 +135,11 @@ CompressedRows<AdjacentTriangle> facetAdjacency(const Facets& facets,
       }
     }
   };
-  forEach([&](std::uint32_t facet, const AdjacentTriangle&) { ++rows.offsets[facet + 1]; });
+  for_each([&](std::uint32_t facet, const AdjacentTriangle&) { ++rows.offsets[facet + 1]; });
   std::partial_sum(rows.offsets.begin(), rows.offsets.end(), rows.offsets.begin());
   rows.values.resize(rows.offsets.back());
   std::vector<std::uint32_t> place(rows.offsets.begin(), rows.offsets.end() - 1);
-  forEach([&](std::uint32_t facet, const AdjacentTriangle& next) { rows.values[place[facet]++] = next; });
+  for_each([&](std::uint32_t facet, const AdjacentTriangle& next) { rows.values[place[facet]++] = next; });
   return rows;
 }
 

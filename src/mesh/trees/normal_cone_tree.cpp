@@ -202,14 +202,14 @@ void NormalConeTree::chooseRegions() {
   // The largest spheres are opened until there are enough.
   const auto radius = [this](Slot slot) { return groups_[slot].radius; };
   const std::size_t most = std::min(kMostRegions, 1 + items_.size() / kLeastItemsOfRegion);
-  const auto isItem = [this](Slot slot) { return (child(slot) & kItemFlag) != 0; };
+  const auto is_item = [this](Slot slot) { return (child(slot) & kItemFlag) != 0; };
   std::vector<Slot> tops{kRoot};
   std::vector<Slot> opened;
   while (tops.size() + kWidth - 1 <= most) {
     const auto largest = std::max_element(tops.begin(), tops.end(), [&](Slot l, Slot r) {
-      return isItem(l) != isItem(r) ? isItem(l) : radius(l) < radius(r);
+      return is_item(l) != is_item(r) ? is_item(l) : radius(l) < radius(r);
     });
-    if (isItem(*largest)) break;
+    if (is_item(*largest)) break;
     const Slot slot = *largest;
     tops.erase(largest);
     opened.push_back(slot);
@@ -232,7 +232,7 @@ void NormalConeTree::chooseRegions() {
       const Slot slot = open.back();
       open.pop_back();
       put(slot, region);
-      if (isItem(slot)) continue;
+      if (is_item(slot)) continue;
       for (Slot below = child(slot); below < child(slot) + kWidth; ++below) {
         if (child(below) != kNoChild) open.push_back(below);
       }

@@ -37,11 +37,11 @@ class Meeting {
     for (const Vector3d& point : points_) middle += point / static_cast<double>(count);
     const Vector3d x = (points_.front() - middle).stableNormalized();
     const Vector3d y = normal.cross(x);
-    const auto angleOf = [&](const Vector3d& point) {
+    const auto angle_of = [&](const Vector3d& point) {
       return std::atan2(y.dot(point - middle), x.dot(point - middle));
     };
     std::sort(points_.begin(), points_.end(),
-              [&](const Vector3d& l, const Vector3d& r) { return angleOf(l) < angleOf(r); });
+              [&](const Vector3d& l, const Vector3d& r) { return angle_of(l) < angle_of(r); });
     for (std::size_t k = 0; k < count; ++k) visit(points_[k], points_[k + 1 == count ? 0 : k + 1]);
   }
 
@@ -163,13 +163,13 @@ class Joiner {
   void comparePair(TriangleIndex a, TriangleIndex b) {
     const Corners corners_a = cornersOf(a);
     const Corners corners_b = cornersOf(b);
-    const auto boxOf = [](const Corners& c) {
+    const auto box_of = [](const Corners& c) {
       Eigen::AlignedBox3d box(c[0]);
       box.extend(c[1]);
       box.extend(c[2]);
       return box;
     };
-    if (!overlap(boxOf(corners_a), boxOf(corners_b))) return;
+    if (!overlap(box_of(corners_a), box_of(corners_b))) return;
     Meeting meeting(corners_a, corners_b, tolerance_);
     if (meeting.points().empty()) return;
     is_near_[a.value] = is_near_[b.value] = true;
@@ -249,7 +249,7 @@ CompressedRows<AdjacentTriangle> joinedAdjacency(const SurfaceMesh& mesh, const 
                                                  const CompressedRows<AdjacentTriangle>& adjacency) {
   CompressedRows<AdjacentTriangle> joined;
   joined.offsets.assign(mesh.triangleCount() + 1, 0);
-  const auto forEach = [&](const auto& visit) {
+  const auto for_each = [&](const auto& visit) {
     for (std::uint32_t t = 0; t < mesh.triangleCount(); ++t) {
       if (joints.isHidden(TriangleIndex{t})) continue;
       for (const AdjacentTriangle& next : adjacency.row(t)) {
@@ -264,11 +264,11 @@ CompressedRows<AdjacentTriangle> joinedAdjacency(const SurfaceMesh& mesh, const 
       visit(joint.second.value, AdjacentTriangle{joint.first, from, to});
     }
   };
-  forEach([&](std::uint32_t t, const AdjacentTriangle&) { ++joined.offsets[t + 1]; });
+  for_each([&](std::uint32_t t, const AdjacentTriangle&) { ++joined.offsets[t + 1]; });
   std::partial_sum(joined.offsets.begin(), joined.offsets.end(), joined.offsets.begin());
   joined.values.resize(joined.offsets.back());
   std::vector<std::uint32_t> next(joined.offsets.begin(), joined.offsets.end() - 1);
-  forEach([&](std::uint32_t t, const AdjacentTriangle& triangle) { joined.values[next[t]++] = triangle; });
+  for_each([&](std::uint32_t t, const AdjacentTriangle& triangle) { joined.values[next[t]++] = triangle; });
   return joined;
 }
 

@@ -81,10 +81,10 @@ bool isSameNiche(const BenchmarkPair& pair, const Eigen::Isometry3d& pose, const
   request.least_prominence = least_prominence;
   WorkLimit none;
   verdicts.judge(scene, seeds, request, none);
-  const auto nicheOf = [&](const WitnessPair& witness) {
+  const auto niche_of = [&](const WitnessPair& witness) {
     return verdicts.locate(scene, {witness.triangle_a, witness.triangle_b}, request, none);
   };
-  return nicheOf(found) == nicheOf(reference);
+  return niche_of(found) == niche_of(reference);
 }
 
 namespace {

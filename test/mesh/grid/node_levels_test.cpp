@@ -60,7 +60,7 @@ TEST(NodeLevels, SmallGraphsHaveNone) {
 
 // Four times the nodes, four times the memory: of the levels, the body and a search's metric.
 TEST(NodeLevels, MemoryIsLinearInTheNodes) {
-  const auto bytesPerNode = [](double edge, double& levels_share) {
+  const auto bytes_per_node = [](double edge, double& levels_share) {
     BodyMeshOptions options;
     options.max_edge_length = edge;
     const BodyMesh body("comb", test::makeComb(5), options);
@@ -72,9 +72,9 @@ TEST(NodeLevels, MemoryIsLinearInTheNodes) {
            static_cast<double>(body.graph().nodeCount());
   };
   double share = 0.0;
-  const double coarse = bytesPerNode(0.02, share);
+  const double coarse = bytes_per_node(0.02, share);
   EXPECT_LT(share, 0.3);
-  const double fine = bytesPerNode(0.01, share);
+  const double fine = bytes_per_node(0.01, share);
   EXPECT_LT(share, 0.3);
   EXPECT_LT(fine, 1.1 * coarse);
 }

@@ -60,7 +60,7 @@ TEST(NestedSolids, OfTooManyWithinOneAnotherTheInnermostAreSolids) {
   // At this angle the bounding boxes meet each other's surfaces, which takes the most work.
   const RepairedMesh repaired = repair(nestedCubes(5'000, 0.4));
   EXPECT_EQ(repaired.report.closed_shells, 5'000U);
-  const auto volumeOf = [&](std::size_t cube) {
+  const auto volume_of = [&](std::size_t cube) {
     double sum = 0.0;
     for (std::size_t t = 12 * cube; t < 12 * cube + 12; ++t) {
       const TriangleIndex triangle{t};
@@ -69,8 +69,8 @@ TEST(NestedSolids, OfTooManyWithinOneAnotherTheInnermostAreSolids) {
     }
     return sum;
   };
-  for (const std::size_t cube : {1U, 999U}) EXPECT_LT(volumeOf(cube), 0.0) << cube;
-  for (const std::size_t cube : {0U, 998U, 4'998U, 4'999U}) EXPECT_GT(volumeOf(cube), 0.0) << cube;
+  for (const std::size_t cube : {1U, 999U}) EXPECT_LT(volume_of(cube), 0.0) << cube;
+  for (const std::size_t cube : {0U, 998U, 4'998U, 4'999U}) EXPECT_GT(volume_of(cube), 0.0) << cube;
 }
 
 TEST(NestedSolids, ACavityMayTouchTheSkinFromInside) {

@@ -49,7 +49,7 @@ class CertifiedTest : public ::testing::Test {
 
 TEST_F(CertifiedTest, DistancesCarryTheirProofAndWhatItCost) {
   for (const std::string topic : {"distance", "niches"}) {
-    const auto isProven = [](const PairDistance& message) {
+    const auto is_proven = [](const PairDistance& message) {
       return message.status.code == PairStatus::OK && message.accuracy == PairDistance::ACCURACY_CERTIFIED &&
              message.has_lower_bound && message.lower_bound <= message.distance &&
              message.lower_bound >= message.distance - kRounding && message.cost.box_bounds > 0 &&
@@ -58,13 +58,13 @@ TEST_F(CertifiedTest, DistancesCarryTheirProofAndWhatItCost) {
     };
     if (topic == "distance") {
       Collector<PairDistance> distances(kNode + "pairs/insertion/distance");
-      ASSERT_TRUE(moveUntil([&] { return distances.last() && isProven(*distances.last()); }));
+      ASSERT_TRUE(moveUntil([&] { return distances.last() && is_proven(*distances.last()); }));
       EXPECT_EQ(distances.last()->cost.evaluations, 0U)
           << "nothing is searched where no niches are asked for";
     } else {
       Collector<PairNiches> niches(kNode + "pairs/insertion/niches");
       ASSERT_TRUE(moveUntil([&] {
-        return niches.last() && isProven(niches.last()->nearest) && niches.last()->evaluations > 0;
+        return niches.last() && is_proven(niches.last()->nearest) && niches.last()->evaluations > 0;
       }));
       const PairNiches message = *niches.last();
       ASSERT_FALSE(message.niches.empty());
@@ -78,18 +78,18 @@ TEST_F(CertifiedTest, APairThatPenetratesNamesTrianglesOrTheDistanceOfTheSurface
   for (const std::string topic : {"distance", "niches"}) {
     Collector<PairNiches> niches(kNode + "pairs/crate_box/" + (topic == "niches" ? topic : "unused"));
     Collector<PairDistance> distances(kNode + "pairs/crate_box/distance");
-    const auto waitFor = [&](std::uint8_t code) {
+    const auto wait_for = [&](std::uint8_t code) {
       return distances.waitFor([code](const PairDistance& message) { return message.status.code == code; });
     };
     player.place("box", 1.5, 10.0);
-    ASSERT_TRUE(waitFor(PairStatus::OK));
+    ASSERT_TRUE(wait_for(PairStatus::OK));
     PairDistance message = *distances.last();
     EXPECT_NEAR(message.distance, 0.4, kRounding);
     EXPECT_FALSE(message.has_meeting_triangles || message.has_surface_distance);
     EXPECT_TRUE(std::isnan(message.surface_distance));
 
     player.place("box", 0.2, 10.1);
-    ASSERT_TRUE(waitFor(PairStatus::PENETRATING)) << "swallowed";
+    ASSERT_TRUE(wait_for(PairStatus::PENETRATING)) << "swallowed";
     message = *distances.last();
     EXPECT_EQ(message.distance, 0.0);
     EXPECT_EQ(message.lower_bound, 0.0);
@@ -139,21 +139,21 @@ TEST_F(CertifiedTest, QueriesStopAProofAtATolerance) {
 }
 
 TEST_F(CertifiedTest, QueriesRefuseTolerancesThatMeanNothing) {
-  const auto expectRefusal = [](const GetDistanceRequest& request, const std::string& part) {
+  const auto expect_refusal = [](const GetDistanceRequest& request, const std::string& part) {
     const auto response = call<GetDistance>(kNode + "get_distance", request);
     EXPECT_FALSE(response.success);
     EXPECT_NE(response.message.find(part), std::string::npos) << response.message;
   };
   GetDistanceRequest request = insertion();
   request.query.absolute_tolerance = -0.1;
-  expectRefusal(request, "absolute_tolerance");
+  expect_refusal(request, "absolute_tolerance");
   request = insertion();
   request.query.time_budget = -1.0;
-  expectRefusal(request, "time_budget");
+  expect_refusal(request, "time_budget");
   request = insertion();
   request.query.accuracy = DistanceQuery::ACCURACY_REFINED;
   request.query.relative_tolerance = 0.1;
-  expectRefusal(request, "relative_tolerance");
+  expect_refusal(request, "relative_tolerance");
 }
 
 TEST_F(CertifiedTest, DiagnosticsCountMissesAndProofsThatABudgetEnded) {

@@ -164,8 +164,8 @@ TEST_F(EffectsTest, EffectsAreSwitchedOnAndOffWhileRunning) {
 }
 
 TEST_F(EffectsTest, WrongEffectsAreRefusedWithTheKeyAndWhatIsAllowed) {
-  const auto expectRefusal = [](const std::string& pair, const std::string& effects,
-                                const std::vector<std::string>& parts) {
+  const auto expect_refusal = [](const std::string& pair, const std::string& effects,
+                                 const std::vector<std::string>& parts) {
     const auto response = set(pair, effects);
     EXPECT_FALSE(response.success) << effects;
     EXPECT_TRUE(response.pairs.empty()) << effects;
@@ -173,29 +173,29 @@ TEST_F(EffectsTest, WrongEffectsAreRefusedWithTheKeyAndWhatIsAllowed) {
       EXPECT_NE(response.message.find(part), std::string::npos) << response.message;
     }
   };
-  expectRefusal("plain", "{normal_force: springy}", {"normal_force", "springy", "hunt_crossley"});
-  expectRefusal("plain", "{normal_farce: hertz}", {"normal_farce", "normal_force"});
-  expectRefusal("plain", "{normal_force: {model: spring_dashpot, stiffness: -1}}",
-                {"stiffness", "-1", "greater than 0"});
-  expectRefusal("plain", "{friction: bristle}", {"friction", "normal_force"});
-  expectRefusal("plain", "", {"none"});
-  expectRefusal("plain", "{interference: [", {"effects"});
-  expectRefusal("nobody", "none", {"nobody", "list_bodies"});
+  expect_refusal("plain", "{normal_force: springy}", {"normal_force", "springy", "hunt_crossley"});
+  expect_refusal("plain", "{normal_farce: hertz}", {"normal_farce", "normal_force"});
+  expect_refusal("plain", "{normal_force: {model: spring_dashpot, stiffness: -1}}",
+                 {"stiffness", "-1", "greater than 0"});
+  expect_refusal("plain", "{friction: bristle}", {"friction", "normal_force"});
+  expect_refusal("plain", "", {"none"});
+  expect_refusal("plain", "{interference: [", {"effects"});
+  expect_refusal("nobody", "none", {"nobody", "list_bodies"});
   Collector<Contacts> all(kNode + "contacts");
   EXPECT_TRUE(all.waitFor([](const Contacts& m) { return m.pairs.size() == 1; })) << "nothing was changed";
 }
 
 TEST_F(EffectsTest, WrongEffectsAndMaterialsEndTheNode) {
   const std::string folder = ros::package::getPath("concave_distance") + "/test/ros/rostest/";
-  const auto expectEnd = [&](const std::string& file, const std::vector<std::string>& parts) {
+  const auto expect_end = [&](const std::string& file, const std::vector<std::string>& parts) {
     const Ended ended = runNode("__name:=wrong _robot_description:='' _scene_file:=" + folder + file);
     EXPECT_EQ(ended.exit_code, 1);
     for (const std::string& part : parts) {
       EXPECT_NE(ended.output.find(part), std::string::npos) << ended.output;
     }
   };
-  expectEnd("broken_effects.yaml", {"broken_effects.yaml:4", "normal_force", "springy", "hunt_crossley"});
-  expectEnd("broken_material.yaml", {"broken_material.yaml:3", "poissons_ratio", "0.7", "below 0.5"});
+  expect_end("broken_effects.yaml", {"broken_effects.yaml:4", "normal_force", "springy", "hunt_crossley"});
+  expect_end("broken_material.yaml", {"broken_material.yaml:3", "poissons_ratio", "0.7", "below 0.5"});
 }
 
 TEST_F(EffectsTest, ContactMarkersComeAndGoWithTheContact) {

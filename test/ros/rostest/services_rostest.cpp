@@ -257,29 +257,29 @@ TEST_F(ServicesTest, AddBodyRefusesBadRequestsWithTheReason) {
   good.pose.orientation.w = 1.0;
   good.primitive = "sphere";
   good.dimensions = {0.1};
-  const auto expectBad = [](const AddBodyRequest& request, const std::string& part) {
+  const auto expect_bad = [](const AddBodyRequest& request, const std::string& part) {
     const auto response = call<AddBody>(kNode + "add_body", request);
     EXPECT_FALSE(response.success);
     EXPECT_NE(response.message.find(part), std::string::npos) << response.message;
   };
   AddBodyRequest request = good;
   request.primitive = "teapot";
-  expectBad(request, "teapot");
+  expect_bad(request, "teapot");
   request = good;
   request.dimensions = {-0.1};
-  expectBad(request, "cup");
+  expect_bad(request, "cup");
   request = good;
   request.primitive = "";
   request.mesh_resource = "/nowhere/cup.stl";
-  expectBad(request, "/nowhere/cup.stl");
+  expect_bad(request, "/nowhere/cup.stl");
   request.mesh_resource = "package://no_such_package/cup.stl";
-  expectBad(request, "no_such_package");
+  expect_bad(request, "no_such_package");
   request = good;
   request.pose.orientation.w = 0.5;
-  expectBad(request, "quaternion");
+  expect_bad(request, "quaternion");
   request = good;
   request.name = "my cup";
-  expectBad(request, "my cup");
+  expect_bad(request, "my cup");
   EXPECT_EQ(call<ListBodies>(kNode + "list_bodies", {}).bodies.size(), 4U);
 }
 

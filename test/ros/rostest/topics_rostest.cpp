@@ -144,10 +144,10 @@ TEST_F(TopicsTest, DistancesCarryEveryPairAtTheTimeOfItsTransforms) {
   const ros::Time start = ros::Time::now();
   Collector<Distances> distances(kNode + "distances");
   const auto message = distances.match([&](const Distances& each) {
-    const auto isFresh = [&](const PairDistance* pair) {
+    const auto is_fresh = [&](const PairDistance* pair) {
       return pair != nullptr && pair->has_distance != 0 && pair->header.stamp > start;
     };
-    return isFresh(find(each, "boxes")) && isFresh(find(each, "box_ball"));
+    return is_fresh(find(each, "boxes")) && is_fresh(find(each, "box_ball"));
   });
   ASSERT_TRUE(message);
   ASSERT_EQ(message->pairs.size(), 3U);
@@ -198,7 +198,7 @@ TEST_F(TopicsTest, NichesKeepTheirIdsFromCycleToCycle) {
 // The ball passes over two blocks, from one to the other and back: the distance to the one shrinks while that
 // to the other grows, and they cross in the middle.
 TEST_F(TopicsTest, NichesThatStayApartKeepTheirIdsWhileTheirDistancesCross) {
-  const auto isOver = [](double x) {
+  const auto is_over = [](double x) {
     return [x](const PairNiches& message) {
       return message.niches.size() == 2 &&
              std::abs(message.niches[0].point_b.x - std::copysign(0.75, x)) < 0.3;
@@ -206,7 +206,7 @@ TEST_F(TopicsTest, NichesThatStayApartKeepTheirIdsWhileTheirDistancesCross) {
   };
   player.place("ball", -0.6, 3.0, 11.0);
   Collector<PairNiches> niches(kNode + "pairs/ball_blocks/niches");
-  ASSERT_TRUE(niches.waitFor(isOver(-1.0)));
+  ASSERT_TRUE(niches.waitFor(is_over(-1.0)));
   niches.clear();
   for (int step = -60; step <= 180; ++step) {
     const double x = step <= 60 ? 0.01 * step : 0.01 * (120 - step);
@@ -217,7 +217,7 @@ TEST_F(TopicsTest, NichesThatStayApartKeepTheirIdsWhileTheirDistancesCross) {
       return message.nearest.has_distance != 0 && message.header.stamp > placed;
     }));
   }
-  ASSERT_TRUE(niches.waitFor(isOver(-1.0)));
+  ASSERT_TRUE(niches.waitFor(is_over(-1.0)));
   const std::vector<PairNiches> all = solved(niches.all());
   std::map<bool, std::set<std::uint64_t>> ids_of_side;  // of the block on the right: true
   std::size_t crossings = 0;
@@ -238,15 +238,15 @@ TEST_F(TopicsTest, NichesThatStayApartKeepTheirIdsWhileTheirDistancesCross) {
 TEST_F(TopicsTest, APairWithoutTransformsSaysSoAndTheOthersGoOn) {
   Collector<Distances> distances(kNode + "distances");
   Collector<diagnostic_msgs::DiagnosticArray> diagnostics("/diagnostics");
-  const auto statusOf = [&](const std::string& pair, std::uint8_t code) {
+  const auto status_of = [&](const std::string& pair, std::uint8_t code) {
     return distances.waitFor([&](const Distances& message) {
       const PairDistance* distance = find(message, pair);
       return distance != nullptr && distance->status.code == code;
     });
   };
-  ASSERT_TRUE(statusOf("box_ball", PairStatus::OK));
+  ASSERT_TRUE(status_of("box_ball", PairStatus::OK));
   player.drop("ball");
-  ASSERT_TRUE(statusOf("box_ball", PairStatus::STALE_TRANSFORM)) << "after ~stale_after";
+  ASSERT_TRUE(status_of("box_ball", PairStatus::STALE_TRANSFORM)) << "after ~stale_after";
   const Distances message = *distances.last();
   EXPECT_FALSE(find(message, "box_ball")->has_distance);
   EXPECT_TRUE(std::isnan(find(message, "box_ball")->distance));
@@ -258,7 +258,7 @@ TEST_F(TopicsTest, APairWithoutTransformsSaysSoAndTheOthersGoOn) {
   EXPECT_TRUE(diagnostics.waitFor(
       [](const auto& array) { return diagnosed(array, "pairs without transforms") == "2"; }));
   player.place("ball", 0.0, 3.0);
-  EXPECT_TRUE(statusOf("box_ball", PairStatus::OK)) << "it comes back by itself";
+  EXPECT_TRUE(status_of("box_ball", PairStatus::OK)) << "it comes back by itself";
 }
 
 TEST_F(TopicsTest, AlertsRiseAndClearWithHysteresis) {
@@ -360,7 +360,7 @@ TEST_F(TopicsTest, MarkersOfANicheThatVanishesAreDeleted) {
   using visualization_msgs::Marker;
   const std::string line = "ball_blocks/line";
   Collector<visualization_msgs::MarkerArray> markers(kNode + "markers");
-  const auto idsWith = [&](const visualization_msgs::MarkerArray& message, int action) {
+  const auto ids_with = [&](const visualization_msgs::MarkerArray& message, int action) {
     std::set<int> ids;
     for (const Marker& marker : message.markers) {
       if (marker.ns == line && marker.action == action) {
@@ -371,19 +371,19 @@ TEST_F(TopicsTest, MarkersOfANicheThatVanishesAreDeleted) {
   };
   player.place("ball", 0.0, 3.0, 11.0);
   const auto two =
-      markers.match([&](const auto& message) { return idsWith(message, Marker::ADD).size() == 2; });
+      markers.match([&](const auto& message) { return ids_with(message, Marker::ADD).size() == 2; });
   ASSERT_TRUE(two) << "one niche a block";
-  const std::set<int> both = idsWith(*two, Marker::ADD);
+  const std::set<int> both = ids_with(*two, Marker::ADD);
   markers.clear();
   player.place("ball", 2.0, 3.0, 11.0);  // one block is 2.3 m away now, beyond the pair's cutoff
   const auto one =
-      markers.match([&](const auto& message) { return idsWith(message, Marker::ADD).size() == 1; });
+      markers.match([&](const auto& message) { return ids_with(message, Marker::ADD).size() == 1; });
   ASSERT_TRUE(one);
-  const int kept = *idsWith(*one, Marker::ADD).begin();
+  const int kept = *ids_with(*one, Marker::ADD).begin();
   EXPECT_EQ(both.count(kept), 1U) << "the niche that stays keeps its id";
   std::set<int> deleted;
   for (const auto& message : markers.all()) {
-    deleted.merge(idsWith(message, Marker::DELETE));
+    deleted.merge(ids_with(message, Marker::DELETE));
   }
   std::set<int> gone = both;
   gone.erase(kept);
@@ -418,18 +418,18 @@ TEST_F(TopicsTest, ReconfigurationTakesEffectWhileRunning) {
 }
 
 TEST_F(TopicsTest, AReconfigurationOutOfRangeChangesNothingAndTheAnswerSaysSo) {
-  const auto cutoffOf = [](const dynamic_reconfigure::Config& config) {
+  const auto cutoff_of = [](const dynamic_reconfigure::Config& config) {
     for (const auto& value : config.strs) {
       if (value.name == "cutoff") return value.value;
     }
     return std::string();
   };
-  EXPECT_EQ(cutoffOf(reconfigure("cutoff", "5")), "5");
+  EXPECT_EQ(cutoff_of(reconfigure("cutoff", "5")), "5");
   for (const std::string value : {"-1", "0", "nan", "inf", "far", ""}) {
-    EXPECT_EQ(cutoffOf(reconfigure("cutoff", value)), "5") << value;
+    EXPECT_EQ(cutoff_of(reconfigure("cutoff", value)), "5") << value;
   }
-  EXPECT_EQ(cutoffOf(reconfigure("rate", -1.0)), "5");
-  EXPECT_EQ(cutoffOf(reconfigure("cutoff", "none")), "none");
+  EXPECT_EQ(cutoff_of(reconfigure("rate", -1.0)), "5");
+  EXPECT_EQ(cutoff_of(reconfigure("cutoff", "none")), "none");
 }
 
 TEST_F(TopicsTest, ABodyAddedDuringAReconfigurationGetsItsSettings) {

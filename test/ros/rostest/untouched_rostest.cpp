@@ -110,11 +110,11 @@ TEST(Services, LeaveWhatIsTrackedUntouchedToTheLastBit) {
     tf2_msgs::TFMessage message;
     message.transforms.push_back(hookAt(step, stamp));
     transforms.publish(message);
-    const auto isOfThisStep = [&](const PairNiches& message) {
+    const auto is_of_this_step = [&](const PairNiches& message) {
       return message.header.stamp == stamp && message.nearest.has_distance != 0;
     };
-    ASSERT_TRUE(asked.waitFor(isOfThisStep)) << step;
-    ASSERT_TRUE(left_alone.waitFor(isOfThisStep)) << step;
+    ASSERT_TRUE(asked.waitFor(is_of_this_step)) << step;
+    ASSERT_TRUE(left_alone.waitFor(is_of_this_step)) << step;
     ASSERT_EQ(tracked(*asked.last()), tracked(*left_alone.last()))
         << "step " << step << ": cycle " << asked.last()->cycle << " and " << left_alone.last()->cycle
         << ", evaluations " << asked.last()->evaluations << " and " << left_alone.last()->evaluations;

@@ -75,7 +75,7 @@ TEST(PieceFile, WhatIsWrittenIsReadBackBitForBit) {
 
 TEST(PieceFile, FaultsNameTheFileAndTheLine) {
   const test::TemporaryFolder folder;
-  const auto errorOf = [&folder](const std::string& text) {
+  const auto error_of = [&folder](const std::string& text) {
     const std::string path = folder.path("faulty.obj");
     std::ofstream(path) << text;
     try {
@@ -85,11 +85,11 @@ TEST(PieceFile, FaultsNameTheFileAndTheLine) {
     }
     return std::string("no error");
   };
-  EXPECT_NE(errorOf("v 0 0 0\n").find("line 1"), std::string::npos);
-  EXPECT_NE(errorOf("o a\nv 0 0\n").find("line 2"), std::string::npos);
-  EXPECT_NE(errorOf("o a\nv 0 0 0\nf 1 2 3\n").find("line 3"), std::string::npos);
-  EXPECT_NE(errorOf("# nothing\n").find("no piece"), std::string::npos);
-  EXPECT_NE(errorOf("o flat\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").find("piece flat"), std::string::npos);
+  EXPECT_NE(error_of("v 0 0 0\n").find("line 1"), std::string::npos);
+  EXPECT_NE(error_of("o a\nv 0 0\n").find("line 2"), std::string::npos);
+  EXPECT_NE(error_of("o a\nv 0 0 0\nf 1 2 3\n").find("line 3"), std::string::npos);
+  EXPECT_NE(error_of("# nothing\n").find("no piece"), std::string::npos);
+  EXPECT_NE(error_of("o flat\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").find("piece flat"), std::string::npos);
   EXPECT_THROW(test::readPieces(folder.path("missing.obj")), Error);
   EXPECT_THROW(writePieces({}, folder.path("no_such_folder/pieces.obj")), Error);
 }
