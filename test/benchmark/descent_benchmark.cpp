@@ -7,9 +7,9 @@
 // A row is a pair at one pose, a grid (the longest edge as a share of the smaller body's diameter; 0:
 // automatic) and a number of descents from random node pairs, all in one memory of basins: nodes of both
 // grids; microseconds and evaluations a descent with steps along edges only and with long steps; the share of
-// the true niches (the list that is proven, prominence 1e-2 or more, below 5 times the distance or a quarter of the
-// smaller body) that the minima met are refined to. The last rows are two bumpy rings of so many triangles
-// each, whose nodes are the search grid; they have no truth.
+// the true niches (the list that is proven, prominence 1e-2 or more, below 5 times the distance or a quarter
+// of the smaller body) that the minima met are refined to. The last rows are two bumpy rings of so many
+// triangles each, whose nodes are the search grid; they have no truth.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
