@@ -37,6 +37,19 @@ struct FeaturePairs::Body {
     concave_distance::forEachNeighbour(mesh.surface(), mesh.topology(), mesh.joints().hidden, node, visit);
   }
 
+  /// The corners away from an edge of the triangles in sight that have it.
+  template <typename Visit>
+  void forEachApex(NodeIndex from, NodeIndex to, const Visit& visit) const {
+    for (const TriangleIndex triangle : mesh.topology().triangles_of_vertex.row(from.value)) {
+      if (mesh.joints().isHidden(triangle)) continue;
+      const TriangleNodes& nodes = mesh.surface().triangle(triangle);
+      if (std::find(nodes.begin(), nodes.end(), to) == nodes.end()) continue;
+      for (const NodeIndex node : nodes) {
+        if (node != from && node != to) visit(node);
+      }
+    }
+  }
+
   /// How far, at most, a neighbour of the vertex rises along `displacement`, per length of its edge; what is
   /// within rounding does not count.
   double rise(NodeIndex node, const Eigen::Vector3d& displacement, double slack) const {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "feature_body.h"
+
 namespace concave_distance::detail {
 namespace {
 
@@ -144,25 +146,22 @@ bool FeaturePairs::edgesMayFace(const Item& a, const Item& b, const FacingCap& c
 /// by that over their distance.
 FeaturePairs::Peak FeaturePairs::peakAt(Side side, const Item& item, const Vector3d& point,
                                         const Vector3d& direction, double distance) const {
-  const BodyMesh& body = side == Side::A ? scene_.a : scene_.b;
-  const Vector3d& centre = side == Side::A ? scene_.frames.centre_a : scene_.frames.centre_b;
-  const auto vertex_of = [&](NodeIndex node) -> Vector3d { return body.surface().vertex(node) - centre; };
+  const Body body(scene_, side);
   const double turn = slack_ / distance;
   bool any_level = false;
   const auto rises = [&](NodeIndex node) {
-    const Vector3d displacement = vertex_of(node) - point;
+    const Vector3d displacement = body.vertex(node) - point;
     const double height = direction.dot(displacement);
     any_level = any_level || height > -level_;
     const double over = height - slack_;
     return over > 0.0 && over * over > turn * turn * displacement.squaredNorm();
   };
-  const TriangleNodes& nodes = body.surface().triangle(item.triangle);
+  const TriangleNodes& nodes = body.mesh.surface().triangle(item.triangle);
   // The end of an edge counts with all that is around it.
   for (std::uint8_t k = 0; k < 3; ++k) {
-    if ((vertex_of(nodes[k]) - point).squaredNorm() > slack_ * slack_) continue;
+    if ((body.vertex(nodes[k]) - point).squaredNorm() > slack_ * slack_) continue;
     bool is_peak = true;
-    forEachNeighbour(body.surface(), body.topology(), body.joints().hidden, nodes[k],
-                     [&](NodeIndex neighbour) { is_peak = is_peak && !rises(neighbour); });
+    body.forEachNeighbour(nodes[k], [&](NodeIndex neighbour) { is_peak = is_peak && !rises(neighbour); });
     return {is_peak, any_level ? 2 : 0, static_cast<Feature>(k)};
   }
   if (item.kind == Kind::Face) return {std::none_of(nodes.begin(), nodes.end(), rises), 2, Feature::Face};
@@ -171,16 +170,9 @@ FeaturePairs::Peak FeaturePairs::peakAt(Side side, const Item& item, const Vecto
   const auto feature = static_cast<Feature>(3 + item.element);
   if (rises(from) || rises(to)) return {false, 2, feature};
   any_level = false;
-  if (rises(nodes[(item.element + 2U) % 3])) return {false, 2, feature};
-  for (const TriangleIndex triangle : body.topology().triangles_of_vertex.row(from.value)) {
-    if (triangle == item.triangle || body.joints().isHidden(triangle)) continue;
-    const TriangleNodes& beyond = body.surface().triangle(triangle);
-    if (std::find(beyond.begin(), beyond.end(), to) == beyond.end()) continue;
-    for (const NodeIndex node : beyond) {
-      if (node != from && node != to && rises(node)) return {false, 2, feature};
-    }
-  }
-  return {true, any_level ? 2 : 1, feature};
+  bool is_peak = true;
+  body.forEachApex(from, to, [&](NodeIndex apex) { is_peak = is_peak && !rises(apex); });
+  return {is_peak, !is_peak || any_level ? 2 : 1, feature};
 }
 
 namespace {

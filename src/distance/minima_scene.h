@@ -42,6 +42,8 @@ struct MinimaScene {
     const ShellJoints::Joint& joint = body.joints().joints[end / 2];
     return (end % 2 == 0 ? joint.from : joint.to) - centre;
   }
+  /// Whether shells of either body meet.
+  bool hasJoints() const { return !a.joints().joints.empty() || !b.joints().joints.empty(); }
   static bool isJoint(const BodyMesh& body, const AdjacentTriangle& next) {
     return next.from.value >= body.surface().vertexCount();
   }

@@ -51,14 +51,7 @@ double FeaturePairs::fallAround(const Body& body, const Item& item, const Vector
   }
   const NodeIndex begin = body.node(item, item.element);
   const NodeIndex end = body.node(item, item.element + 1U);
-  for (const TriangleIndex triangle : body.mesh.topology().triangles_of_vertex.row(begin.value)) {
-    if (body.mesh.joints().isHidden(triangle)) continue;
-    const TriangleNodes& nodes = body.mesh.surface().triangle(triangle);
-    if (std::find(nodes.begin(), nodes.end(), end) == nodes.end()) continue;
-    for (const NodeIndex node : nodes) {
-      if (node != begin && node != end) look(node);
-    }
-  }
+  body.forEachApex(begin, end, look);
   return least;
 }
 

@@ -17,7 +17,7 @@ constexpr std::size_t kExtentPairLimit = 100'000;
 void NicheDescriber::begin(const MinimaScene& scene, const LocalMinimaRequest& request) {
   all_outward_ = !request.through_material && request.given == nullptr &&
                  scene.a.topology().allShellsClosed() && scene.b.topology().allShellsClosed() &&
-                 scene.a.joints().joints.empty() && scene.b.joints().joints.empty();
+                 !scene.hasJoints();
 }
 
 bool NicheDescriber::describe(const MinimaScene& scene, const LocalMinimaRequest& request,

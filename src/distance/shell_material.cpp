@@ -21,7 +21,7 @@ bool isInside(const BodyMesh& body, TriangleIndex triangle, const Eigen::Vector3
 }  // namespace
 
 bool isInsideMaterial(const MinimaScene& scene, const WitnessPair& witness) {
-  if (scene.a.joints().joints.empty() && scene.b.joints().joints.empty()) return false;
+  if (!scene.hasJoints()) return false;
   const Eigen::Vector3d towards_b = (witness.point_b_in_a - witness.point_a_in_a).stableNormalized();
   const Eigen::Isometry3d b_from_a = scene.a_from_b.inverse(Eigen::Isometry);
   return isInside(scene.a, witness.triangle_a, witness.point_a_in_a, towards_b) ||

@@ -94,7 +94,8 @@ void MinimaVerdicts::Stage::decideByMemory(std::uint32_t i) {
   if (request_.is_wanted && !request_.is_wanted(seed, memory_.cell(number).occluder)) {
     return set(i, Verdict::Unwanted);
   }
-  if (!request_.through_material && hasJoints() && isThroughMaterial(scene_.witnessOf(seed))) {
+  // Only then do seeds lie on both sides of a closed shell (collectConeItems()).
+  if (!request_.through_material && scene_.hasJoints() && isThroughMaterial(scene_.witnessOf(seed))) {
     return set(i, Verdict::Unwanted);
   }
   const std::uint32_t known = memory_.regionOf(number, i);

@@ -56,9 +56,6 @@ class MinimaVerdicts::Stage {
     return classifyOutwardness(scene_.a, scene_.b, scene_.a_from_b, minimum) == Outwardness::ThroughMaterial;
   }
 
-  /// Only then do seeds lie on both sides of a closed shell (collectConeItems()).
-  bool hasJoints() const { return !scene_.a.joints().joints.empty() || !scene_.b.joints().joints.empty(); }
-
   /// Of the seed's cell; kNone without memory.
   std::uint32_t numberOf(const MinimumSeed& seed) {
     const TrianglePair cell = scene_.cellOf(seed.a, seed.b);

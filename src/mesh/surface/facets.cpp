@@ -3,7 +3,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace concave_distance {
 namespace {
@@ -123,10 +122,8 @@ Facets joinFlatTriangles(const SurfaceMesh& mesh, const MeshTopology& topology,
 
 CompressedRows<AdjacentTriangle> facetAdjacency(const Facets& facets,
                                                 const CompressedRows<AdjacentTriangle>& adjacency) {
-  CompressedRows<AdjacentTriangle> rows;
   const std::size_t count = facets.facet_of_triangle.size();
-  rows.offsets.assign(count + 1, 0);
-  const auto for_each = [&](const auto& visit) {
+  return adjacencyRows(count, [&](const auto& visit) {
     for (std::uint32_t t = 0; t < count; ++t) {
       const TriangleIndex facet = facets.facet_of_triangle[t];
       for (AdjacentTriangle next : adjacency.row(t)) {
@@ -134,13 +131,7 @@ CompressedRows<AdjacentTriangle> facetAdjacency(const Facets& facets,
         if (next.triangle != facet) visit(facet.value, next);
       }
     }
-  };
-  for_each([&](std::uint32_t facet, const AdjacentTriangle&) { ++rows.offsets[facet + 1]; });
-  std::partial_sum(rows.offsets.begin(), rows.offsets.end(), rows.offsets.begin());
-  rows.values.resize(rows.offsets.back());
-  std::vector<std::uint32_t> place(rows.offsets.begin(), rows.offsets.end() - 1);
-  for_each([&](std::uint32_t facet, const AdjacentTriangle& next) { rows.values[place[facet]++] = next; });
-  return rows;
+  });
 }
 
 }  // namespace concave_distance

@@ -1,7 +1,6 @@
 #include "triangle_adjacency.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include "edge_table.h"
 #include "union_find.h"
@@ -88,14 +87,9 @@ CompressedRows<AdjacentTriangle> triangleAdjacency(const SurfaceMesh& mesh, cons
   joins.reserve(3 * mesh.triangleCount());
   joinAcrossEdges(mesh, edges, joins);
   joinOverVertices(mesh, topology, edges, joins);
-  CompressedRows<AdjacentTriangle> rows;
-  rows.offsets.assign(mesh.triangleCount() + 1, 0);
-  for (const Join& join : joins) ++rows.offsets[join.of + 1];
-  std::partial_sum(rows.offsets.begin(), rows.offsets.end(), rows.offsets.begin());
-  rows.values.resize(joins.size());
-  std::vector<std::uint32_t> next(rows.offsets.begin(), rows.offsets.end() - 1);
-  for (const Join& join : joins) rows.values[next[join.of]++] = join.to;
-  return rows;
+  return adjacencyRows(mesh.triangleCount(), [&](const auto& visit) {
+    for (const Join& join : joins) visit(join.of, join.to);
+  });
 }
 
 }  // namespace concave_distance

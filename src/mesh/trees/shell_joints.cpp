@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 
 #include "mesh/surface/union_find.h"
 
@@ -247,9 +246,7 @@ bool isInsideOtherShell(const SurfaceMesh& mesh, const MeshTopology& topology, c
 
 CompressedRows<AdjacentTriangle> joinedAdjacency(const SurfaceMesh& mesh, const ShellJoints& joints,
                                                  const CompressedRows<AdjacentTriangle>& adjacency) {
-  CompressedRows<AdjacentTriangle> joined;
-  joined.offsets.assign(mesh.triangleCount() + 1, 0);
-  const auto for_each = [&](const auto& visit) {
+  return adjacencyRows(mesh.triangleCount(), [&](const auto& visit) {
     for (std::uint32_t t = 0; t < mesh.triangleCount(); ++t) {
       if (joints.isHidden(TriangleIndex{t})) continue;
       for (const AdjacentTriangle& next : adjacency.row(t)) {
@@ -263,13 +260,7 @@ CompressedRows<AdjacentTriangle> joinedAdjacency(const SurfaceMesh& mesh, const 
       visit(joint.first.value, AdjacentTriangle{joint.second, from, to});
       visit(joint.second.value, AdjacentTriangle{joint.first, from, to});
     }
-  };
-  for_each([&](std::uint32_t t, const AdjacentTriangle&) { ++joined.offsets[t + 1]; });
-  std::partial_sum(joined.offsets.begin(), joined.offsets.end(), joined.offsets.begin());
-  joined.values.resize(joined.offsets.back());
-  std::vector<std::uint32_t> next(joined.offsets.begin(), joined.offsets.end() - 1);
-  for_each([&](std::uint32_t t, const AdjacentTriangle& triangle) { joined.values[next[t]++] = triangle; });
-  return joined;
+  });
 }
 
 void joinPieces(const ShellJoints& joints, ConnectedPieces& pieces) {
