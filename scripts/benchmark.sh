@@ -18,7 +18,7 @@ for name in tracking battery budget cores front proposal recall radii descent ce
 done
 results=$root/doc/results
 mkdir -p "$results"
-"$(program tracking_benchmark)" --steps "$steps" --list-misses --output "$results/tracking.csv" | tee "$results/tracking.txt"
+"$(program tracking_benchmark)" --steps "$steps" --output "$results/tracking.csv" | tee "$results/tracking.txt"
 "$(program battery_benchmark)" --runs "$runs" --niche-runs "$niche_runs" --output "$results/battery.csv" |
   tee "$results/battery.txt"
 "$(program recall_benchmark)" --steps 200 --window "$window" --output "$results/recall.csv" |
@@ -32,7 +32,7 @@ mkdir -p "$results"
 rm -f "$results/tuning.csv"  # rows are added
 "$(program tuning_benchmark)" --steps 120 --observed 8 --output "$results/tuning.csv" | tee "$results/tuning.txt"
 "$(program scale_benchmark)" --sizes "$sizes" --output "$results/scale.csv" | tee "$results/scale.txt"
-"$(program complete_benchmark)" --steps "$steps" --window "$window" --list-misses 8 --cold-runs 12 \
+"$(program complete_benchmark)" --steps "$steps" --window "$window" 8 --cold-runs 12 \
   --output "$results/complete.csv" | tee "$results/complete.txt"
 "$(program exactness_benchmark)" --poses "$proof_poses" --output "$results/exactness.csv" | tee "$results/exactness.txt"
 if [ -n "$(program partition_benchmark)" ]; then  # built with CGAL only

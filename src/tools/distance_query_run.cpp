@@ -60,8 +60,11 @@ class Solver {
   /// Microseconds of the query alone: everything between the loaded bodies and the answer.
   double solve(const Eigen::Isometry3d& pose, double time) {
     const auto start = std::chrono::steady_clock::now();
-    if (!tracking_) tracker_.restart();
-    tracker_.update(pose, time, solution_);
+    if (tracking_) {
+      tracker_.update(pose, time, solution_);
+    } else {
+      tracker_.solve(pose, solution_);
+    }
     return std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
   }
 

@@ -80,7 +80,7 @@ void ExactNiches::admit(PairGeometry& geometry, const TrackerParameters& paramet
   const bool looks_for_all = provesDistance(parameters.accuracy);
   std::vector<NicheRecord>& records = archive.records();
   request_.limit = &limit;
-  request_.is_tracked = true;
+  request_.is_tracked = cycle.is_tracked;
   request_.cutoff = parameters.cutoff;
   request_.least_prominence = parameters.least_prominence;
   request_.prominence_limit = parameters.prominence_limit;

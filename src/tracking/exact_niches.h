@@ -23,6 +23,7 @@ class ExactNiches {
     std::uint64_t number;
     Eigen::Isometry3d last_a_from_b;  ///< of the cycle before, if there was one
     double elapsed;                   ///< seconds; 0: unknown
+    bool is_tracked;                  ///< a next cycle uses what this one finds
   };
 
   /// Whether nothing can have changed since the last admit().

@@ -39,11 +39,12 @@ PairCycle::PairCycle(std::string name, std::shared_ptr<const BodyMesh> a, std::s
   archive_.beginIdsAfter(largest_used_id);
 }
 
-void PairCycle::update(const Eigen::Isometry3d& pose, double time, PairSolution& solution) {
+void PairCycle::update(const Eigen::Isometry3d& pose, double time, PairSolution& solution, bool is_tracked) {
   const auto start = std::chrono::steady_clock::now();
   const auto since_start = [start] { return seconds(std::chrono::steady_clock::now() - start); };
   limit_ = WorkLimit(start, parameters_.time_budget, parameters_.memory_limit, parameters_.stop);
   limit_.setTaken(memoryBytes());
+  is_tracked_ = is_tracked;
   clear(solution);
   solution.a_from_b = pose;
   const std::optional<Eigen::Isometry3d> rigid = rigidPose(pose);
@@ -58,7 +59,7 @@ void PairCycle::update(const Eigen::Isometry3d& pose, double time, PairSolution&
       warm_ ? largestDisplacement(geometry_.b->surface().boundingBox(), last_pose_, *rigid)
             : std::numeric_limits<double>::infinity();
   stage_clock_.start();
-  solve(displacement, elapsed, solution);
+  runStages(displacement, elapsed, solution);
   report(displacement, elapsed, solution);
   stage_clock_.lap(SolveStage::Describe, solution.stages);
   last_pose_ = *rigid;
@@ -69,8 +70,14 @@ void PairCycle::update(const Eigen::Isometry3d& pose, double time, PairSolution&
   solution.solve_seconds = since_start();
 }
 
+void PairCycle::solve(const Eigen::Isometry3d& pose, PairSolution& solution) {
+  restart();
+  update(pose, 0.0, solution, false);
+  restart();
+}
+
 // Distance alone skips all but the proof.
-void PairCycle::solve(double displacement, double elapsed, PairSolution& solution) {
+void PairCycle::runStages(double displacement, double elapsed, PairSolution& solution) {
   if (proves()) {
     limit_.allowShare(wantsNiches() ? kShareOfProof : 1.0);
     prove(displacement);
@@ -118,8 +125,8 @@ void PairCycle::solveExact(double displacement, double elapsed, PairSolution& so
     niches_.proposeProven(geometry_, proof_.certificate().witness);
   }
   stage_clock_.lap(SolveStage::Propose, solution.stages);
-  niches_.admit(geometry_, parameters_, {cycle_, last_pose_, elapsed}, certainDistance(), kShareOfNiches,
-                archive_, solution, limit_);
+  niches_.admit(geometry_, parameters_, {cycle_, last_pose_, elapsed, is_tracked_}, certainDistance(),
+                kShareOfNiches, archive_, solution, limit_);
   search_.earn(niches_.work(), parameters_.search_share);
   stage_clock_.lap(SolveStage::Admit, solution.stages);
   solution.stages[SolveStage::Sweep] = niches_.cost().sweep_seconds;

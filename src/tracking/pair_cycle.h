@@ -22,7 +22,10 @@ class PairCycle {
   PairCycle(std::string name, std::shared_ptr<const BodyMesh> a, std::shared_ptr<const BodyMesh> b,
             const TrackerParameters& parameters, std::uint64_t largest_used_id);
 
-  void update(const Eigen::Isometry3d& pose, double time, PairSolution& solution);
+  /// @param is_tracked a next cycle uses what this one finds
+  void update(const Eigen::Isometry3d& pose, double time, PairSolution& solution, bool is_tracked = true);
+  /// At one pose alone.
+  void solve(const Eigen::Isometry3d& pose, PairSolution& solution);
   /// Makes what the first cycle would make otherwise.
   void prepare();
   void reset();
@@ -34,7 +37,7 @@ class PairCycle {
   std::size_t memoryBytes() const;
 
  private:
-  void solve(double displacement, double elapsed, PairSolution& solution);
+  void runStages(double displacement, double elapsed, PairSolution& solution);
   void solveNodes(double displacement, double elapsed, PairSolution& solution);
   void solveExact(double displacement, double elapsed, PairSolution& solution);
   void prove(double displacement);
@@ -63,6 +66,7 @@ class PairCycle {
   std::vector<TrialPoint> known_;  ///< node pairs, of the cycle
   std::uint64_t cycle_ = 0;
   bool warm_ = false;
+  bool is_tracked_ = true;  ///< of the present cycle
   Eigen::Isometry3d last_pose_ = Eigen::Isometry3d::Identity();
   double last_time_ = 0.0;
   double last_distance_ = kNotComputed;

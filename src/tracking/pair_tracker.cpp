@@ -41,6 +41,10 @@ void PairTracker::update(const Eigen::Isometry3d& a_from_b, double time, PairSol
   state().update(a_from_b, time, solution);
 }
 
+void PairTracker::solve(const Eigen::Isometry3d& a_from_b, PairSolution& solution) {
+  state().solve(a_from_b, solution);
+}
+
 void PairTracker::prepare(const std::vector<Eigen::Isometry3d>& a_from_b) {
   state().prepare();
   PairSolution solution;
@@ -74,7 +78,7 @@ PairSolution solveOnce(const std::string& name, const std::shared_ptr<const Body
                        const Eigen::Isometry3d& a_from_b) {
   PairTracker tracker(name, a, b, parameters);
   PairSolution solution;
-  tracker.update(a_from_b, 0.0, solution);
+  tracker.solve(a_from_b, solution);
   return solution;
 }
 
@@ -91,8 +95,7 @@ std::vector<PairSolution> solveEach(const std::string& name, const std::shared_p
                       [&](const tbb::blocked_range<std::size_t>& range) {
                         PairTracker tracker(name, a, b, parameters);
                         for (std::size_t i = range.begin(); i != range.end(); ++i) {
-                          tracker.restart();
-                          tracker.update(a_from_b[i], 0.0, solutions[i]);
+                          tracker.solve(a_from_b[i], solutions[i]);
                         }
                       });
   });

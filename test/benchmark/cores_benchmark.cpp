@@ -93,8 +93,8 @@ bool isSame(const std::vector<MinimumSeed>& l, const std::vector<MinimumSeed>& r
   });
 }
 
-/// Every thread of an arena on a core of its own: some schedulers put a thread that wakes up behind the one
-/// that has woken it, whatever is idle.
+/// Every thread of an arena on a core of its own: some schedulers put a thread that wakes up on the core of
+/// the one that woke it, even while other cores are idle.
 class OnOwnCores : public tbb::task_scheduler_observer {
  public:
   explicit OnOwnCores(tbb::task_arena& arena) : tbb::task_scheduler_observer(arena) { observe(true); }

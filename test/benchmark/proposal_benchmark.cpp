@@ -153,26 +153,26 @@ int benchmarkMain(int argc, char** argv) {
       const Isometry3d pose = pair.motion(static_cast<double>(k) / steps);
       const Isometry3d before = solution.a_from_b;
       tracker.update(pose, 5.0 * k / steps, solution);
-      std::vector<TrackedNiche> born;
+      std::vector<TrackedNiche> new_niches;
       for (const TrackedNiche& niche : solution.niches) {
         if (k > 0 && niche.birth_cycle == solution.cycle && niche.kind == NicheKind::Point)
-          born.push_back(niche);
+          new_niches.push_back(niche);
       }
-      births += born.size();
+      births += new_niches.size();
       sweep_us.push_back(1e6 * solution.stages[SolveStage::Sweep]);
-      if (!born.empty()) {
+      if (!new_niches.empty()) {
         proposer.setKnown(known, before, pose);
         for (std::size_t w = 0; w < ways.size(); ++w) {
           for (int run = 0; run < runs; ++run) {
-            std::vector<bool> found(born.size(), false);
+            std::vector<bool> found(new_niches.size(), false);
             const auto start = std::chrono::steady_clock::now();
             for (int d = 0; d < descents; ++d) {
               const TrianglePair from = proposer.next(ways[w], d);
               const WitnessPair end =
                   refineWitness(*pair.a, *pair.b, pose, from.a, from.b, workspace).witness;
-              for (std::size_t n = 0; n < born.size(); ++n) {
-                found[n] = found[n] || ((end.point_a_in_a - born[n].point_a_in_a).norm() <= tolerance &&
-                                        (end.point_b_in_a - born[n].point_b_in_a).norm() <= tolerance);
+              for (std::size_t n = 0; n < new_niches.size(); ++n) {
+                found[n] = found[n] || ((end.point_a_in_a - new_niches[n].point_a_in_a).norm() <= tolerance &&
+                                        (end.point_b_in_a - new_niches[n].point_b_in_a).norm() <= tolerance);
               }
             }
             results[w].run_us.push_back(microsecondsSince(start));

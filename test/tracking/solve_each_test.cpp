@@ -19,6 +19,12 @@ test::Bytes bytesOf(const PairSolution& solution) {
   return bytes;
 }
 
+/// Without the work: a first cycle of a tracker also keeps what the next one needs.
+test::Bytes answerOf(PairSolution solution) {
+  solution.cost = {};
+  return bytesOf(solution);
+}
+
 class SolveEach : public ::testing::TestWithParam<AccuracyLevel> {
  protected:
   SolveEach() {
@@ -52,6 +58,25 @@ TEST_P(SolveEach, GivesTheAnswersOfSingleQueriesForAnyNumberOfThreads) {
   }
 }
 
+TEST_P(SolveEach, ATrackerSolvesPosesAloneAndThenStartsAnew) {
+  PairTracker tracker("pair", comb, rake, parameters);
+  PairTracker made_new("pair", comb, rake, parameters);
+  PairSolution solution;
+  PairSolution expected;
+  tracker.update(poses[0], 0.0, solution);
+  for (const Eigen::Isometry3d& pose : poses) {
+    tracker.solve(pose, solution);
+    PairTracker first("pair", comb, rake, parameters);
+    first.update(pose, 0.0, expected);
+    ASSERT_EQ(answerOf(solution), answerOf(expected));
+  }
+  for (int k = 0; k < 3; ++k) {
+    tracker.update(poses[2], 0.01 * k, solution);
+    made_new.update(poses[2], 0.01 * k, expected);
+    ASSERT_EQ(bytesOf(solution), bytesOf(expected)) << k;
+  }
+}
+
 TEST_P(SolveEach, ATrackerThatStartsAnewForgetsItsMotion) {
   PairTracker tracker("pair", comb, rake, parameters, 100);
   PairTracker made_new("pair", comb, rake, parameters, 100);
@@ -73,7 +98,7 @@ TEST_P(SolveEach, APreparedTrackerAnswersAsAnotherOne) {
   tracker.prepare(poses);
   PairSolution solution;
   tracker.update(poses[3], 0.0, solution);
-  EXPECT_EQ(bytesOf(solution), bytesOf(once(poses[3])));
+  EXPECT_EQ(answerOf(solution), answerOf(once(poses[3])));
 }
 
 INSTANTIATE_TEST_SUITE_P(EveryLevel, SolveEach,

@@ -31,6 +31,9 @@ class PairTracker {
   /// @param time seconds of the transforms, for velocities; a time not after the last one gives no velocity
   /// `solution` keeps its capacity.
   void update(const Eigen::Isometry3d& a_from_b, double time, PairSolution& solution);
+  /// Solves at one pose alone: the answer of the first update() after restart() (but for `cost`), sooner,
+  /// because nothing is kept for a next pose. Ends what was tracked.
+  void solve(const Eigen::Isometry3d& a_from_b, PairSolution& solution);
 
   /// Before a loop in real time: makes what the parameters need of the bodies (grids, metrics, normal cones),
   /// which the first solve would, and lets buffers grow by solving these poses. Then starts anew.
@@ -52,7 +55,7 @@ class PairTracker {
   std::unique_ptr<State> state_;
 };
 
-/// A cold, independent solve: same answer as the first cycle of a tracker with that name and seed. For many
+/// A cold, independent solve: PairTracker::solve() of a new tracker with that name. For many
 /// poses solveEach() is faster.
 /// @throws Error as PairTracker
 [[nodiscard]] PairSolution solveOnce(const std::string& name, const std::shared_ptr<const BodyMesh>& a,
