@@ -117,6 +117,8 @@ void PairCycle::solveNodes(double displacement, double elapsed, PairSolution& so
 
 void PairCycle::solveExact(double displacement, double elapsed, PairSolution& solution) {
   if (niches_.stands(displacement)) return niches_.stand(elapsed, archive_);
+  // Else the first warm cycle in which the search is due would make the grids.
+  if (!warm_ && is_tracked_ && parameters_.search_share > 0.0) prepare();
   limit_.allowShare(kShareOfSearch);
   if (!proves()) niches_.follow(geometry_, archive_, limit_);
   stage_clock_.lap(SolveStage::Follow, solution.stages);

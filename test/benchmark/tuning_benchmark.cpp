@@ -1,7 +1,7 @@
 // Which parameters the shipped ones should be: recall first, then time, chosen on some pairs and checked on
 // the others.
 //
-//   tuning_benchmark [--part search|cold|tracked|refined] [--steps 120] [--observed 12] [--seeds 4]
+//   tuning_benchmark [--part search|tracked|refined] [--steps 120] [--observed 12] [--seeds 4]
 //                    [--output doc/results/tuning.csv]
 //
 // The pairs are dealt out by turns: every second one of allPairs() for tuning, the rest for checking; both
@@ -12,10 +12,9 @@
 //   search   level `nodes`, cold: the genetic search alone. Truth: the flood of the product graph, prominence
 //            >= 1e-2. `recall` counts every local minimum met, `prominent` those of the final population,
 //            `nearest` the share of runs that met the nearest niche.
-//   cold     level `certified`, cold: proof, search, normal cones. Truth: the list of niches that is proven.
-//   tracked  level `certified` along the motion. Truth: the proven list at instants spread over it;
-//   `nearest`
-//            is the share of all instants whose distance is not above FCL's.
+//   tracked  level `certified` along the motion, where the search decides nothing but the time. Truth: the
+//            proven list at instants spread over it; `nearest` is the share of all instants whose distance is
+//            not above FCL's.
 //   refined  the same at level `refined`, where no proof mends what the search has missed.
 #include <CLI/CLI.hpp>
 
@@ -95,29 +94,6 @@ void setShares(const std::vector<RecallShares>& shares, std::vector<Figures>& fi
   }
 }
 
-std::vector<Figures> tryColdVariants(const BenchmarkPair& pair, const std::vector<TuningVariant>& variants,
-                                     const Options& options) {
-  std::vector<Figures> figures(variants.size());
-  std::vector<RecallShares> shares(variants.size());
-  for (std::uint64_t k = 0; k < options.seeds; ++k) {
-    const Eigen::Isometry3d pose =
-        pair.motion((static_cast<double>(k) + 0.5) / static_cast<double>(options.seeds));
-    const double cutoff = floodCutoff(pair, pose);
-    // Brings the meshes into the caches.
-    static_cast<void>(solveOnce(pair.name, pair.a, pair.b, shippedForMeasuring(), pose));
-    for (std::size_t i = 0; i < variants.size(); ++i) {
-      TrackerParameters parameters = shippedForMeasuring();
-      parameters.seed = k + 1;
-      variants[i].change(parameters);
-      const PairSolution solution = solveOnce(pair.name, pair.a, pair.b, parameters, pose);
-      figures[i].seconds += solution.solve_seconds;
-      compareWithFlood(pair, pose, cutoff, solution, shares[i]);
-    }
-  }
-  setShares(shares, figures);
-  return figures;
-}
-
 std::ptrdiff_t births(const PairSolution& solution) {
   return std::count_if(solution.events.begin(), solution.events.end(),
                        [](const NicheEvent& event) { return event.kind == NicheEvent::Kind::Birth; });
@@ -133,7 +109,7 @@ std::vector<Figures> tryCycleVariants(const BenchmarkPair& pair, const std::vect
     TrackerParameters parameters = shippedForMeasuring();
     parameters.accuracy = level;
     variant.change(parameters);
-    trackers.emplace_back(pair.name, pair.a, pair.b, parameters);
+    trackers.emplace_back(pair.name, pair.a, pair.b, parameters).prepare();
   }
   PairSolution solution;
   const int stride = std::max(1, options.steps / options.observed);
@@ -229,11 +205,10 @@ int benchmarkMain(int argc, char** argv) {
   CLI::App app("Variants of the shipped parameters: recall and time, on pairs for tuning and on others");
   const std::map<std::string, std::pair<Part, std::vector<TuningVariant> (*)()>> parts = {
       {"search", {trySearchVariants, searchVariants}},
-      {"cold", {tryColdVariants, coldVariants}},
-      {"tracked", {tryCycleVariants<AccuracyLevel::Certified>, cycleVariants}},
+      {"tracked", {tryCycleVariants<AccuracyLevel::Certified>, shareVariants}},
       {"refined", {tryCycleVariants<AccuracyLevel::Refined>, cycleVariants}}};
   Options options;
-  std::vector<std::string> wanted = {"search", "cold", "tracked", "refined"};
+  std::vector<std::string> wanted = {"search", "tracked", "refined"};
   std::vector<std::string> names = allPairs();
   std::string output;
   app.add_option("--part", wanted, "What to compare")->delimiter(',')->check(CLI::IsMember(parts));
@@ -243,8 +218,7 @@ int benchmarkMain(int argc, char** argv) {
   app.add_option("--steps", options.steps, "Instants along each motion")->check(CLI::PositiveNumber);
   app.add_option("--observed", options.observed, "Instants compared with the truth")
       ->check(CLI::PositiveNumber);
-  app.add_option("--seeds", options.seeds, "Runs of a cold search at each pose, cold cycles of a pair")
-      ->check(CLI::PositiveNumber);
+  app.add_option("--seeds", options.seeds, "Runs of a cold search at each pose")->check(CLI::PositiveNumber);
   app.add_option("--output", output, "CSV file that rows are added to");
   CLI11_PARSE(app, argc, argv);
 

@@ -49,15 +49,6 @@ std::vector<TuningVariant> searchVariants() {
   return v;
 }
 
-std::vector<TuningVariant> coldVariants() {
-  using P = TrackerParameters;
-  return {{"shipped", [](P&) {}},
-          {"before", [](P& p) { p.warm = {}; }},
-          {"as at level nodes", [](P& p) { p.warm = p.cold; }},
-          {"N_pop 2", [](P& p) { p.warm.population_size = 2; }},
-          {"no evolution", [](P& p) { p.search_share = 0.0; }}};
-}
-
 std::vector<TuningVariant> cycleVariants() {
   using P = TrackerParameters;
   using Count = std::uint32_t;
@@ -79,8 +70,14 @@ std::vector<TuningVariant> cycleVariants() {
       "inherited_limit", {10, 60}, [](P& p, Count n) { p.inherited_limit = n; }, v);
   addValues<Count>(
       "immigrants", {0, 4, 16}, [](P& p, Count n) { p.random_starts = n; }, v);
+  return v;
+}
+
+std::vector<TuningVariant> shareVariants() {
+  using P = TrackerParameters;
+  std::vector<TuningVariant> v = {{"shipped", [](P&) {}}};
   addValues<double>(
-      "search_share", {0.0, 0.03, 0.3, 1.0}, [](P& p, double x) { p.search_share = x; }, v);
+      "search_share", {0.0, 0.3, 1.0}, [](P& p, double x) { p.search_share = x; }, v);
   return v;
 }
 

@@ -14,11 +14,11 @@ struct TuningVariant {
   std::function<void(TrackerParameters&)> change;
 };
 
-/// One parameter changed at a time, most of them down and up. The first changes nothing, the second is what
-/// was shipped before. `searchVariants` change the cold search alone, `coldVariants` what else a cold
-/// cycle does, `cycleVariants` what a warm one does.
+/// One parameter changed at a time, most of them down and up. The first changes nothing, a `before` is what
+/// was shipped before. `searchVariants` change the cold search, `cycleVariants` a warm one, `shareVariants`
+/// the work that it may do beside the cones.
 std::vector<TuningVariant> searchVariants();
-std::vector<TuningVariant> coldVariants();
 std::vector<TuningVariant> cycleVariants();
+std::vector<TuningVariant> shareVariants();
 
 }  // namespace concave_distance::benchmark
