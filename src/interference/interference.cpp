@@ -15,6 +15,8 @@ struct InterferenceWorkspace::Implementation {
   std::vector<FoundRegion> solids;  ///< of the best pass so far
   std::vector<FoundRegion> others;  ///< what touches, and open surfaces
   std::vector<FoundRegion> found;
+  std::vector<OverlapFacet> facets;  ///< of the solids
+  std::vector<Eigen::Vector3d> loop_areas;
 };
 
 InterferenceWorkspace::InterferenceWorkspace() : implementation_(std::make_unique<Implementation>()) {}
@@ -62,11 +64,17 @@ Clarity clarityOf(const std::vector<FoundRegion>& found) {
   return clarity;
 }
 
-void takeSolids(const std::vector<FoundRegion>& found, std::vector<FoundRegion>& solids) {
-  solids.clear();
-  for (const FoundRegion& f : found) {
-    if (isSolid(f)) solids.push_back(f);
+void takeSolids(InterferenceWorkspace::Implementation& space) {
+  space.solids.clear();
+  for (const FoundRegion& f : space.found) {
+    if (isSolid(f)) space.solids.push_back(f);
   }
+  space.facets = space.builder.facets();
+  space.loop_areas = space.builder.loopAreas();
+}
+
+void dropSurfaces(InterferenceRegion& region) {
+  region.first_loop = region.first_facet = region.facet_count = 0;
 }
 
 /// Faces that touch do so after one of two opposite motions alone; curves of open surfaces are there after
@@ -80,7 +88,9 @@ void addOthers(const std::vector<FoundRegion>& found, double rounding, std::vect
              (other.region.centroid_in_a - f.region.centroid_in_a).norm() <= 16.0 * rounding;
     };
     const auto last = others.begin() + static_cast<std::ptrdiff_t>(known);
-    if (std::none_of(others.begin(), last, same)) others.push_back(f);
+    if (!std::none_of(others.begin(), last, same)) continue;
+    others.push_back(f);
+    dropSurfaces(others.back().region);
   }
 }
 
@@ -90,7 +100,7 @@ void findRegions(InterferenceWorkspace::Implementation& space, WorkLimit& limit)
   const double rounding = space.builder.frame().roundingBound();
   detail::Motion motion = {1, 1, 1};
   const bool tied = space.builder.pass(motion, space.found, limit);
-  takeSolids(space.found, space.solids);
+  takeSolids(space);
   space.others.clear();
   addOthers(space.found, rounding, space.others);
   if (!tied) return;
@@ -109,7 +119,7 @@ void findRegions(InterferenceWorkspace::Implementation& space, WorkLimit& limit)
     }
     if (!clarity.better(best)) continue;
     best = clarity;
-    takeSolids(space.found, space.solids);
+    takeSolids(space);
   }
 }
 
@@ -127,6 +137,8 @@ bool deeper(const FoundRegion& l, const FoundRegion& r) {
 void findInterference(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
                       InterferenceWorkspace& workspace, Interference& result, WorkLimit* limit) {
   result.regions.clear();
+  result.facets.clear();
+  result.loop_areas_in_a.clear();
   result.a_inside_b = result.b_inside_a = false;
   result.rounding_bound = std::numeric_limits<double>::quiet_NaN();
   result.status = isPose(a_from_b) ? InterferenceStatus::Ok : InterferenceStatus::InvalidPose;
@@ -146,6 +158,8 @@ void findInterference(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometr
     for (const FoundRegion& found : *list) space.found.push_back(found);
   }
   std::sort(space.found.begin(), space.found.end(), deeper);
+  result.facets = space.facets;
+  result.loop_areas_in_a = space.loop_areas;
   bool surfaces_meet = false;
   for (const FoundRegion& found : space.found) {
     result.regions.push_back(found.region);

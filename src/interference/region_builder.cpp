@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "mesh/surface/mesh_topology.h"
+#include "overlap_facets.h"
 
 namespace concave_distance::detail {
 namespace {
@@ -46,6 +47,8 @@ bool RegionBuilder::pass(const Motion& motion_of_b, std::vector<FoundRegion>& fo
     buildRegion(component, found.back());
   }
   measureReach(found);
+  listSurfaces(found);
+  listLoops(found);
   addOpenRegions(found, limit);
   cut_ = limit.isOver();
   if (cut_) found.clear();
@@ -55,7 +58,8 @@ bool RegionBuilder::pass(const Motion& motion_of_b, std::vector<FoundRegion>& fo
 void RegionBuilder::measureReach(std::vector<FoundRegion>& found) {
   region_of_component_.assign(components_.all().size(), kNone);
   for (std::uint32_t r = 0; r < component_of_region_.size(); ++r) {
-    region_of_component_[component_of_region_[r]] = r;
+    for (std::uint32_t c = component_of_region_[r]; c != kNone; c = components_.all()[c].next_cavity)
+      region_of_component_[c] = r;
   }
   const std::vector<CrossingNode>& nodes = curves_.nodes();
   for (std::uint32_t n = 0; n < nodes.size(); ++n) {
@@ -64,6 +68,39 @@ void RegionBuilder::measureReach(std::vector<FoundRegion>& found) {
     if (r == kNone) continue;
     InterferenceRegion& region = found[r].region;
     region.reach = std::max(region.reach, (frame_.pointInA(nodes[n].position) - region.centroid_in_a).norm());
+  }
+}
+
+void RegionBuilder::listSurfaces(std::vector<FoundRegion>& found) {
+  facets_.clear();
+  for (std::uint32_t r = 0; r < component_of_region_.size(); ++r) {
+    InterferenceRegion& region = found[r].region;
+    if (!region.closed || region.touching) continue;
+    region.first_facet = static_cast<std::uint32_t>(facets_.size());
+    appendFacets(frame_, pieces_, components_, components_.all()[component_of_region_[r]], facets_);
+    region.facet_count = static_cast<std::uint32_t>(facets_.size()) - region.first_facet;
+  }
+}
+
+// Needs region_of_component_ of measureReach.
+void RegionBuilder::listLoops(std::vector<FoundRegion>& found) {
+  std::uint32_t count = 0;
+  next_loop_.clear();
+  for (FoundRegion& f : found) {
+    f.region.first_loop = count;
+    next_loop_.push_back(count);
+    count += f.region.loop_count;
+  }
+  loop_areas_.assign(count, Eigen::Vector3d::Zero());
+  const double area = 1.0 / (frame_.scale() * frame_.scale());
+  for (std::uint32_t n = 0; n < curves_.nodes().size(); ++n) {
+    if (components_.loopOf(n) != n) continue;
+    const std::uint32_t component = components_.componentOfNode(n, sets_);
+    const std::uint32_t r = component == kNone ? kNone : region_of_component_[component];
+    if (r == kNone) continue;
+    const InterferenceRegion& region = found[r].region;
+    if (next_loop_[r] == region.first_loop + region.loop_count) continue;
+    loop_areas_[next_loop_[r]++] = components_.vectorAreaOfLoop(n) * area;
   }
 }
 

@@ -27,11 +27,16 @@ class RegionBuilder {
   bool wasCut() const { return cut_; }
 
   const WorkingFrame& frame() const { return frame_; }
+  /// Of the last pass, to which its regions' first_facet and first_loop refer.
+  const std::vector<OverlapFacet>& facets() const { return facets_; }
+  const std::vector<Eigen::Vector3d>& loopAreas() const { return loop_areas_; }
 
  private:
   void addSwallowedShells(PerturbedPredicates& predicates, Side side);
   void buildRegion(const BoundaryComponent& component, FoundRegion& found);
   void measureReach(std::vector<FoundRegion>& found);
+  void listSurfaces(std::vector<FoundRegion>& found);
+  void listLoops(std::vector<FoundRegion>& found);
   void measureDepth(const BoundaryComponent& component, bool solid, const Eigen::Vector3d& vector_area,
                     InterferenceRegion& region);
   /// A segment or node of a curve on which a sheet is crossed.
@@ -63,6 +68,9 @@ class RegionBuilder {
   std::vector<OfCurve> open_nodes_;
   std::vector<std::uint32_t> component_of_region_;
   std::vector<std::uint32_t> region_of_component_;
+  std::vector<OverlapFacet> facets_;
+  std::vector<Eigen::Vector3d> loop_areas_;
+  std::vector<std::uint32_t> next_loop_;  ///< by region
 };
 
 }  // namespace concave_distance::detail

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -11,6 +12,17 @@
 #include "concave_distance/mesh/body_mesh.h"
 
 namespace concave_distance {
+
+/// A triangle of one body's surface inside the other body. Of a triangle that is partly inside, the part is a
+/// fan; where it is not convex, some of the fan's triangles count negatively and some lie partly outside.
+struct OverlapFacet {
+  std::array<Eigen::Vector3d, 3> corners_in_a;
+  Eigen::Vector3d normal_in_a;  ///< unit, out of the body that owns it
+  TriangleIndex triangle;       ///< of that body
+  bool of_b = false;            ///< else of A
+  bool is_negative = false;
+  bool may_leave = false;  ///< parts of it may be outside the other body
+};
 
 /// One place where two bodies overlap: a connected component of the regularised intersection of the two
 /// solids, cavities counted to the region around them. What is not defined is NaN. All in A's frame.
@@ -35,8 +47,11 @@ struct InterferenceRegion {
   /// Where the depth is attained, one line along the normal: on A's surface, and `depth` below it on B's.
   Eigen::Vector3d point_a_in_a = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
   Eigen::Vector3d point_b_in_a = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
-  double reach = 0.0;            ///< of its curves from the centroid, metres; 0 for a swallowed shell
-  std::uint32_t loop_count = 0;  ///< closed intersection curves; 0 for a swallowed shell
+  double reach = 0.0;             ///< of its curves from the centroid, metres; 0 for a swallowed shell
+  std::uint32_t loop_count = 0;   ///< closed intersection curves; 0 for a swallowed shell
+  std::uint32_t first_loop = 0;   ///< in Interference::loop_areas_in_a
+  std::uint32_t first_facet = 0;  ///< in Interference::facets
+  std::uint32_t facet_count = 0;  ///< 0 where surfaces only touch or are open
   /// Every shell concerned is closed. Else the region is a connected piece of the intersection curve (or a
   /// swallowed open shell): areas, volume and depth are NaN, the normal is the curve's vector area or, where
   /// it is straight or undecided, any direction across it.
@@ -64,7 +79,10 @@ enum class InterferenceStatus : std::uint8_t {
 struct Interference {
   InterferenceStatus status = InterferenceStatus::Ok;
   std::vector<InterferenceRegion> regions;  ///< deepest first; those without a depth last
-  bool a_inside_b = false;                  ///< A lies in B's material, the surfaces do not meet
+  std::vector<OverlapFacet> facets;         ///< of all regions: each surface inside the other body
+  /// Of all regions: vector areas of A's side of their loops, m^2.
+  std::vector<Eigen::Vector3d> loop_areas_in_a;
+  bool a_inside_b = false;  ///< A lies in B's material, the surfaces do not meet
   bool b_inside_a = false;
   /// How far rounding of B's vertices into A's frame may move them, and what depths are sure to, metres.
   double rounding_bound = 0.0;
