@@ -1,5 +1,7 @@
 #include "concave_distance/contact/friction.h"
 
+#include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 #include "contact_parameter_tables.h"
@@ -38,7 +40,8 @@ Eigen::Vector3d regularisedCoulombForce(const FrictionSettings& settings, const 
 
 Eigen::Vector3d bristleForce(const FrictionSettings& settings, const ContactMaterial& material,
                              double normal_force, const Eigen::Vector3d& normal,
-                             const Eigen::Vector3d& sliding, double step, BristleState& state) {
+                             const Eigen::Vector3d& sliding, const Eigen::Vector3d& displacement,
+                             BristleState& state) {
   if (!(normal_force > 0.0)) {
     state.deflection.setZero();
     return Eigen::Vector3d::Zero();
@@ -56,7 +59,8 @@ Eigen::Vector3d bristleForce(const FrictionSettings& settings, const ContactMate
     return -normal_force * material.viscous_friction * sliding;
   }
   const double decay = settings.bristle_stiffness * speed / coefficient;
-  state.deflection = (before + step * sliding) / (1.0 + step * decay);
+  const double slip = settings.bristle_stiffness * displacement.norm() / coefficient;
+  state.deflection = (before + displacement) / (1.0 + slip);
   const Eigen::Vector3d rate = sliding - decay * state.deflection;
   Eigen::Vector3d friction = settings.bristle_stiffness * state.deflection + settings.bristle_damping * rate +
                              material.viscous_friction * sliding;
@@ -68,31 +72,64 @@ Eigen::Vector3d bristleForce(const FrictionSettings& settings, const ContactMate
 
 Eigen::Vector3d frictionForce(const FrictionSettings& settings, const ContactMaterial& material,
                               double normal_force, const Eigen::Vector3d& normal,
-                              const Eigen::Vector3d& sliding, double step, BristleState& state) {
+                              const Eigen::Vector3d& sliding, const Eigen::Vector3d& displacement,
+                              BristleState& state) {
   switch (settings.model) {
     case FrictionModel::None:
       break;
     case FrictionModel::RegularisedCoulomb:
       return regularisedCoulombForce(settings, material, normal_force, sliding);
     case FrictionModel::Bristle:
-      return bristleForce(settings, material, normal_force, normal, sliding, step, state);
+      return bristleForce(settings, material, normal_force, normal, sliding, displacement, state);
   }
   return Eigen::Vector3d::Zero();
 }
 
-FrictionRates frictionRates(const FrictionSettings& settings, const ContactMaterial& material,
-                            double normal_force) {
-  switch (settings.model) {
-    case FrictionModel::None:
-      return {};
-    case FrictionModel::RegularisedCoulomb:
-      return {0.0, (material.static_friction / settings.regularisation_speed + material.viscous_friction) *
-                       normal_force};
-    case FrictionModel::Bristle:
-      return {settings.bristle_stiffness * normal_force,
-              (settings.bristle_damping + material.viscous_friction) * normal_force};
+namespace {
+
+FrictionTangent coulombTangent(const FrictionSettings& settings, const ContactMaterial& material,
+                               double normal_force, double speed) {
+  const double coefficient = frictionCoefficient(material, settings.stribeck_speed, speed);
+  const double regularised = std::hypot(speed, settings.regularisation_speed);
+  const double share = settings.regularisation_speed / regularised;
+  FrictionTangent tangent;
+  tangent.damping_across = normal_force * (coefficient + material.viscous_friction * speed) / regularised;
+  // d/dv of v / sqrt(v^2 + v_r^2) is v_r^2 / (v^2 + v_r^2)^1.5.
+  tangent.damping_along =
+      normal_force * (coefficient * share * share / regularised + material.viscous_friction);
+  return tangent;
+}
+
+FrictionTangent bristleTangent(const FrictionSettings& settings, const ContactMaterial& material,
+                               double normal_force, double speed, const BristleState& state) {
+  const double coefficient = frictionCoefficient(material, settings.stribeck_speed, speed);
+  if (!(coefficient > 0.0)) return {};
+  // Of the bristles that are bent as far as they go, what follows them no longer gives way along.
+  const double bent = settings.bristle_stiffness * state.deflection.norm() / coefficient;
+  const double left = speed > 0.0 ? std::max(0.0, 1.0 - bent) : 1.0;
+  FrictionTangent tangent;
+  tangent.stiffness_across = normal_force * settings.bristle_stiffness;
+  tangent.stiffness_along = left * tangent.stiffness_across;
+  tangent.damping_across = normal_force * (settings.bristle_damping + material.viscous_friction);
+  tangent.damping_along = normal_force * (left * settings.bristle_damping + material.viscous_friction);
+  return tangent;
+}
+
+}  // namespace
+
+FrictionTangent frictionTangent(const FrictionSettings& settings, const ContactMaterial& material,
+                                double normal_force, const Eigen::Vector3d& normal,
+                                const Eigen::Vector3d& sliding, const BristleState& state) {
+  const double speed = sliding.norm();
+  FrictionTangent tangent;
+  if (settings.model == FrictionModel::RegularisedCoulomb) {
+    tangent = coulombTangent(settings, material, normal_force, speed);
+  } else if (settings.model == FrictionModel::Bristle) {
+    tangent = bristleTangent(settings, material, normal_force, speed, state);
   }
-  return {};
+  tangent.along = speed > 0.0 ? Eigen::Vector3d(sliding / speed) : normal.unitOrthogonal();
+  tangent.across = normal.cross(tangent.along);
+  return tangent;
 }
 
 }  // namespace concave_distance

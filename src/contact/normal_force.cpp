@@ -9,14 +9,6 @@ namespace concave_distance {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-// The stiffness of a round contact grows with the root of its depth; deeper than this at once, and what
-// limits the step is the penetration allowed.
-constexpr double kLargestGrowth = 10.0;
-
-double growthOfRoot(double depth, double deeper) {
-  return std::min(kLargestGrowth, std::sqrt(deeper / depth));
-}
-
 }  // namespace
 
 std::string_view toString(NormalForceModel model) {
@@ -76,24 +68,24 @@ namespace {
 
 /// Hertz and, with a dissipation, Hunt and Crossley.
 NormalForce roundContact(const ContactGeometry& contact, double contact_modulus, double radius,
-                         double dissipation, double deeper, double growth) {
-  const double elastic = 2.0 * contact_modulus * std::sqrt(radius * contact.depth) * growth;
+                         double dissipation) {
+  const double elastic = hertzForce(contact.depth, contact_modulus, radius);
   const double rate = 1.5 * dissipation;
   NormalForce result;
   result.force = dissipation > 0.0 ? huntCrossleyForce(contact.depth, contact.depth_rate, contact_modulus,
                                                        radius, dissipation)
-                                   : hertzForce(contact.depth, contact_modulus, radius);
-  result.stiffness = elastic * std::max(0.0, 1.0 + rate * contact.depth_rate);
-  result.damping = rate * elastic / 1.5 * deeper;  // the elastic force is 2/3 of elastic * depth
+                                   : elastic;
+  result.stiffness = 1.5 * elastic / contact.depth * std::max(0.0, 1.0 + rate * contact.depth_rate);
+  result.damping = rate * elastic;
   return result;
 }
 
 NormalForce quasiStatic(const ContactGeometry& contact, double contact_modulus, double loading_coefficient,
-                        double damping, double growth) {
+                        double damping) {
   const double contact_radius = std::sqrt(contact.contact_area / kPi);
   // The contact radius of a round body grows with the root of the depth: 3/2 of the constant part.
   return {quasiStaticForce(contact, contact_modulus, loading_coefficient, damping),
-          1.5 * loading_coefficient * contact_modulus * contact_radius * growth, damping};
+          1.5 * loading_coefficient * contact_modulus * contact_radius, damping};
 }
 
 NormalForce elasticFoundation(const ContactGeometry& contact, double foundation_stiffness,
@@ -108,29 +100,60 @@ NormalForce elasticFoundation(const ContactGeometry& contact, double foundation_
 }  // namespace
 
 NormalForce normalForce(const NormalForceSettings& settings, const ContactMaterial& material,
-                        const ContactGeometry& contact, double step) {
+                        const ContactGeometry& contact) {
   if (!(contact.depth > 0.0)) {
     if (settings.model != NormalForceModel::ElasticFoundation) return {};
     return {elasticFoundation(contact, settings.foundation_stiffness, material.dissipation).force, 0.0, 0.0};
   }
-  const double deeper = contact.depth + step * std::max(0.0, contact.depth_rate);
-  const double growth = growthOfRoot(contact.depth, deeper);
   const double radius = settings.radius > 0.0 ? settings.radius : radiusFromOverlap(contact);
   switch (settings.model) {
     case NormalForceModel::QuasiStatic:
-      return quasiStatic(contact, material.contact_modulus, settings.loading_coefficient, settings.damping,
-                         growth);
+      return quasiStatic(contact, material.contact_modulus, settings.loading_coefficient, settings.damping);
     case NormalForceModel::SpringDashpot:
       return {springDashpotForce(contact, settings.stiffness, settings.damping), settings.stiffness,
               settings.damping};
     case NormalForceModel::Hertz:
-      return roundContact(contact, material.contact_modulus, radius, 0.0, deeper, growth);
+      return roundContact(contact, material.contact_modulus, radius, 0.0);
     case NormalForceModel::HuntCrossley:
-      return roundContact(contact, material.contact_modulus, radius, material.dissipation, deeper, growth);
+      return roundContact(contact, material.contact_modulus, radius, material.dissipation);
     case NormalForceModel::ElasticFoundation:
       return elasticFoundation(contact, settings.foundation_stiffness, material.dissipation);
   }
   return {};
+}
+
+namespace {
+
+double depthOnSpring(const ContactLoad& load, double stiffness) {
+  return load.speed * std::sqrt(load.mass / stiffness) + load.force / stiffness;
+}
+
+// m v^2 / 2 = 8/15 E* sqrt(R) d^2.5 (Johnson 1985, sec. 11.4), and F = 4/3 E* sqrt(R) d^1.5.
+double depthOfRoundContact(const ContactLoad& load, double contact_modulus, double radius) {
+  const double modulus = contact_modulus * std::sqrt(radius);
+  return std::pow(15.0 / 16.0 * load.mass * load.speed * load.speed / modulus, 0.4) +
+         std::pow(0.75 * load.force / modulus, 2.0 / 3.0);
+}
+
+}  // namespace
+
+double expectedDepth(const NormalForceSettings& settings, const ContactMaterial& material,
+                     const ContactLoad& load, double size) {
+  switch (settings.model) {
+    case NormalForceModel::QuasiStatic:
+      return depthOnSpring(load, settings.loading_coefficient * material.contact_modulus * size);
+    case NormalForceModel::SpringDashpot:
+      return depthOnSpring(load, settings.stiffness);
+    case NormalForceModel::Hertz:
+    case NormalForceModel::HuntCrossley:
+      if (settings.radius > 0.0) return depthOfRoundContact(load, material.contact_modulus, settings.radius);
+      // radiusFromOverlap() makes a spring of a flat face: k = 4/3 E* sqrt(A / (2 pi)).
+      return std::min(depthOfRoundContact(load, material.contact_modulus, size),
+                      depthOnSpring(load, 4.0 / 3.0 * std::sqrt(0.5) * material.contact_modulus * size));
+    case NormalForceModel::ElasticFoundation:
+      return depthOnSpring(load, settings.foundation_stiffness * kPi * size * size);
+  }
+  return 0.0;
 }
 
 }  // namespace concave_distance

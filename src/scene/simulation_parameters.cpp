@@ -16,13 +16,21 @@ const ParameterTable<SimulationSettings>& simulationParameters() {
           .above(0.0),
       number<S>(
           "step_fraction", [](auto& s) -> auto& { return s.step_fraction; },
-          "share of sqrt(m / k) of the stiffest contact or drive, and of a radian, that a step takes at most")
+          "share of sqrt(m / k) of contacts and drives that swing, and of a radian, that a step takes at "
+          "most; "
+          "what is at rest in them holds no step back")
           .above(0.0)
           .to(1.0),
-      number<S>(
+      automatic<S>(
           "allowed_penetration", [](auto& s) -> auto& { return s.allowed_penetration; },
-          "how far beyond the proven distance any point may move against the other body in one step")
-          .inUnit("m")
+          "how far beyond the proven distance any point may move against the other body in one step, at "
+          "most; "
+          "`auto`: a share of the depth that the contact reaches by its stiffness, mass and speed")
+          .inUnit("m"),
+      number<S>(
+          "energy_tolerance", [](auto& s) -> auto& { return s.energy_tolerance; },
+          "error of the energy balance, as a share of the energy that went through, above which `simulate` "
+          "reports a failure")
           .above(0.0),
       number<S>(
           "log_rate", [](auto& s) -> auto& { return s.log_rate; }, "lines per second of simulated time")

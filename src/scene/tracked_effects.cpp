@@ -53,6 +53,14 @@ void TrackedEffects::reset() {
   }
 }
 
+void TrackedEffects::keep() {
+  if (effects_) effects_->keep();
+}
+
+void TrackedEffects::goBack() {
+  if (effects_) effects_->goBack();
+}
+
 EffectCounts TrackedEffects::takeCounts() {
   EffectCounts counts;
   if (!effects_) {

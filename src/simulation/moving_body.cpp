@@ -78,85 +78,84 @@ double MovingBody::nextEvent(double time) const {
   return next;
 }
 
-Eigen::Vector3d MovingBody::referenceVelocity(double inside) const {
-  if (rigid_) return state_.velocity;
-  return path_ ? path_->twistAt(inside).linear : Eigen::Vector3d(Eigen::Vector3d::Zero());
-}
-
-double MovingBody::angularSpeed(double inside) const {
-  if (rigid_) return rigid_->angularVelocity(state_).norm();
-  return path_ ? path_->twistAt(inside).angular.norm() : 0.0;
-}
-
-double MovingBody::spinSpeed(double inside) const {
-  return radius_ * angularSpeed(inside);
-}
-
-void MovingBody::evaluateExternal(double time, double inside, const RigidBodyState& state,
-                                  const Wrench& external) {
-  load_now_ = external;
-  if (!loads_.empty()) {
-    const Eigen::Isometry3d world_from_body = rigid_->worldFromBody(state);
-    for (const AppliedLoad& load : loads_) {
-      if (isActive(load, inside)) load_now_ += wrenchOf(load, world_from_body, state.centre);
-    }
+FrameMotion MovingBody::motionOf(const RigidBodyState& state, double time, double inside) const {
+  FrameMotion motion;
+  if (rigid_) {
+    motion.centre = state.centre;
+    motion.twist << state.velocity, rigid_->angularVelocity(state);
+  } else if (path_) {
+    const FrameTwist twist = path_->twistAt(inside);
+    motion.centre = path_->poseAt(time).translation();
+    motion.twist << twist.linear, twist.angular;
+  } else {
+    motion.centre = fixed_pose_.translation();
   }
-  if (drive_) drive_now_ = driveForce(*drive_, *target_, time, inside, *rigid_, state);
+  return motion;
+}
+
+StepEquations::Inertia MovingBody::inertia() const {
+  if (!rigid_) return {};
+  return {rigid_->mass(), rigid_->inertia(state_)};
+}
+
+void MovingBody::evaluateLoad(double inside, const RigidBodyState& state, const Wrench& external) {
+  load_now_ = external;
+  if (loads_.empty()) return;
+  const Eigen::Isometry3d world_from_body = rigid_->worldFromBody(state);
+  for (const AppliedLoad& load : loads_) {
+    if (isActive(load, inside)) load_now_ += wrenchOf(load, world_from_body, state.centre);
+  }
+}
+
+Wrench MovingBody::steadyWrench(const Eigen::Vector3d& gravity) const {
+  return {load_now_.force + rigid_->mass() * gravity, load_now_.torque};
 }
 
 void MovingBody::setDriveTarget(const Eigen::Isometry3d& pose) {
   target_.emplace(std::vector<TimedPose>{{0.0, pose}});
 }
 
-double MovingBody::driveStiffnessRate() const {
-  if (!drive_) return 0.0;
+FrameMotion MovingBody::targetMotion(double time, double inside) const {
+  const FrameTwist twist = target_->twistAt(inside);
+  FrameMotion motion;
+  motion.centre = target_->poseAt(time).translation();
+  motion.twist << twist.linear, twist.angular;
+  return motion;
+}
+
+void MovingBody::evaluateDrive(double time, double inside, const RigidBodyState& state) {
+  if (drive_) drive_now_ = driveForce(*drive_, *target_, time, inside, *rigid_, state);
+}
+
+ContactLinearisation MovingBody::driveLinearisation(double time) const {
   const Eigen::Vector3d point =
       rigid_->worldFromBody(state_) * Eigen::Vector3d(drive_->body_from_drive.translation());
-  return drive_->stiffness.maxCoeff() * rigid_->largestCompliance(state_, point) +
-         drive_->rotational_stiffness.maxCoeff() / rigid_->principalMoments()[0];
+  return linearisationOf(*drive_, targetPose(time).inverse(Eigen::Isometry) * point);
 }
 
-double MovingBody::driveDampingRate() const {
-  if (!drive_) return 0.0;
-  const Eigen::Vector3d point =
-      rigid_->worldFromBody(state_) * Eigen::Vector3d(drive_->body_from_drive.translation());
-  return drive_->damping.maxCoeff() * rigid_->largestCompliance(state_, point) +
-         drive_->rotational_damping.maxCoeff() / rigid_->principalMoments()[0];
+double MovingBody::driveStretch() const {
+  const double stiffest = drive_->stiffness.maxCoeff();
+  return stiffest > 0.0 ? drive_now_.on_body.force.norm() / stiffest : 0.0;
 }
 
-Wrench MovingBody::total(const Wrench& contact, const Eigen::Vector3d& gravity) const {
-  Wrench total = contact;
-  total += load_now_;
-  total += drive_now_.on_body;
-  total.force += rigid_->mass() * gravity;
-  return total;
-}
-
-Drift MovingBody::advance(double time, double step, const Wrench& contact, const Eigen::Vector3d& gravity) {
-  if (rigid_) {
-    before_ = state_;
-    rigid_->kick(total(contact, gravity), 0.5 * step, state_);
-    return rigid_->drift(step, state_);
-  }
+Drift MovingBody::drift(double time, double step) {
+  if (rigid_) return rigid_->drift(step, state_);
   Drift drift;
   if (path_) {
-    const Eigen::Isometry3d from = path_->poseAt(time);
-    const Eigen::Isometry3d to = path_->poseAt(time + step);
-    drift.shift = to.translation() - from.translation();
+    drift.shift = path_->poseAt(time + step).translation() - path_->poseAt(time).translation();
     drift.turn = path_->twistAt(time + 0.5 * step).angular.norm() * step;
   }
   return drift;
 }
 
-RigidBodyState MovingBody::extrapolated(double step, const Wrench& contact,
-                                        const Eigen::Vector3d& gravity) const {
-  RigidBodyState state = state_;
-  rigid_->kick(total(contact, gravity), 0.5 * step, state);
-  return state;
+void MovingBody::kick(const Wrench& about_centre, double step) {
+  rigid_->kick(about_centre, step, state_);
 }
 
-void MovingBody::kick(const Wrench& contact, const Eigen::Vector3d& gravity, double step) {
-  rigid_->kick(total(contact, gravity), step, state_);
+RigidBodyState MovingBody::kicked(const Wrench& about_centre, double step) const {
+  RigidBodyState state = state_;
+  rigid_->kick(about_centre, step, state);
+  return state;
 }
 
 void MovingBody::report(double time, double inside, SimulatedBody& body) const {

@@ -6,9 +6,11 @@
 #include "concave_distance/scene/scene.h"
 #include "concave_distance/scene/simulation_settings.h"
 #include "concave_distance/simulation/simulation.h"
+#include "coupling.h"
 #include "drive_force.h"
 #include "pose_path.h"
 #include "rigid_body.h"
+#include "step_equations.h"
 
 namespace concave_distance::detail {
 
@@ -33,30 +35,37 @@ class MovingBody {
 
   /// The first time after `time` at which something about the body's loads or paths changes.
   double nextEvent(double time) const;
-  /// A bound on the speed of any point against the reference point, m/s, at the present rates.
-  double spinSpeed(double inside) const;
-  Eigen::Vector3d referenceVelocity(double inside) const;
-  double angularSpeed(double inside) const;
+  /// Of the centre of mass, or the frame's origin of a body that is not free. @param inside a time within
+  /// the step
+  FrameMotion motionAt(double time, double inside) const { return motionOf(state_, time, inside); }
+  FrameMotion motionOf(const RigidBodyState& state, double time, double inside) const;
+  StepEquations::Inertia inertia() const;
 
-  /// Drives and loads at a state. @param inside a time within the step
-  void evaluateExternal(double time, double inside, const RigidBodyState& state, const Wrench& external);
-  const DriveForce& drive() const { return drive_now_; }
+  /// Loads at a state. @param external on top of the scene's, about the centre of mass
+  void evaluateLoad(double inside, const RigidBodyState& state, const Wrench& external);
   const Wrench& load() const { return load_now_; }
+  /// Gravity and loads about the centre of mass.
+  Wrench steadyWrench(const Eigen::Vector3d& gravity) const;
+
   bool hasDrive() const { return drive_.has_value(); }
   void setDriveTarget(const Eigen::Isometry3d& pose);
-  /// Square of the highest frequency and rate of damping of the drive, 1/s^2 and 1/s.
-  double driveStiffnessRate() const;
-  double driveDampingRate() const;
+  /// Of the drive's target.
+  Eigen::Isometry3d targetPose(double time) const { return target_->poseAt(time); }
+  FrameMotion targetMotion(double time, double inside) const;
+  void evaluateDrive(double time, double inside, const RigidBodyState& state);
+  const DriveForce& drive() const { return drive_now_; }
+  ContactLinearisation driveLinearisation(double time) const;
+  /// How far its force stretches the stiffest of its springs, metres.
+  double driveStretch() const;
 
-  /// The first half of a step: kick and drift. @param contact wrench about the centre @return path of the
-  /// reference point and turn
-  Drift advance(double time, double step, const Wrench& contact, const Eigen::Vector3d& gravity);
+  /// The parts of a step: begin, kick, drift, kick; restore() returns to the begin.
+  void begin() { before_ = state_; }
   void restore() { state_ = before_; }
   const RigidBodyState& before() const { return before_; }
-  /// The state with velocities extrapolated to the end of the step.
-  RigidBodyState extrapolated(double step, const Wrench& contact, const Eigen::Vector3d& gravity) const;
-  void kick(const Wrench& contact, const Eigen::Vector3d& gravity, double step);
-  Wrench total(const Wrench& contact, const Eigen::Vector3d& gravity) const;
+  /// @return path of the reference point and turn
+  Drift drift(double time, double step);
+  void kick(const Wrench& about_centre, double step);
+  RigidBodyState kicked(const Wrench& about_centre, double step) const;
 
   /// Pose and velocities as others see them. @param inside a time of the path's piece that counts
   void report(double time, double inside, SimulatedBody& body) const;

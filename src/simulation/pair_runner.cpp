@@ -127,13 +127,23 @@ ContactWrenches PairRunner::wrenchesOnB(const SimulatedPair& pair, const Eigen::
   return wrenches;
 }
 
-ContactRates PairRunner::ratesOf(const ContactRegion& region, double step) const {
-  const EffectSettings& settings = tracked_.settings.effects;
-  if (!settings.normal_force || !(region.overlap.depth > 0.0)) return {};
-  const ContactGeometry geometry{region.overlap.depth, region.depth_rate, region.overlap.contact_area,
-                                 region.overlap.volume};
-  return {normalForce(*settings.normal_force, material_, geometry, step),
-          frictionRates(settings.friction, material_, region.normal_force)};
+CouplingForce PairRunner::forceOnB(const SimulatedPair& pair, const SimulatedBody& a,
+                                   const SimulatedBody& b) {
+  const PairContacts& contacts = pair.contacts;
+  CouplingForce force;
+  force.acts = std::any_of(contacts.regions.begin(), contacts.regions.end(),
+                           [](const ContactRegion& region) { return region.normal_force > 0.0; });
+  if (!force.acts) return force;
+  const RelativeTwist twist = relativeTwist(a, b);
+  force.twist << twist.linear, twist.angular;
+  force.wrench << contacts.on_b_in_a.force, contacts.on_b_in_a.torque;
+  force.linearisation = contacts.linearisation;
+  return force;
+}
+
+double PairRunner::expectedDepth(const ContactLoad& load, double size) const {
+  if (!hasForces()) return 0.0;
+  return concave_distance::expectedDepth(*tracked_.settings.effects.normal_force, material_, load, size);
 }
 
 }  // namespace concave_distance::detail

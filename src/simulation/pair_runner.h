@@ -7,6 +7,7 @@
 #include "concave_distance/scene/scene.h"
 #include "concave_distance/scene/tracked_pair.h"
 #include "concave_distance/simulation/simulation.h"
+#include "coupling.h"
 #include "single_minimum.h"
 
 namespace concave_distance::detail {
@@ -15,19 +16,6 @@ namespace concave_distance::detail {
 struct ContactWrenches {
   Wrench normal;
   Wrench friction;
-};
-
-/// How stiff and how damped one contact is: what a step has to resolve.
-struct ContactRates {
-  NormalForce normal;
-  FrictionRates friction;
-};
-
-/// The sum of the stiffnesses and dampings of a pair's contacts, each with the compliance of the bodies
-/// there.
-struct ContactSpeeds {
-  double stiffness_rate = 0.0;  ///< 1/s^2
-  double damping_rate = 0.0;    ///< 1/s
 };
 
 /// One pair of a simulation: distance, contacts and the single minimum at each pose.
@@ -42,26 +30,19 @@ class PairRunner {
               SimulationCounters& counters);
   static ContactWrenches wrenchesOnB(const SimulatedPair& pair, const Eigen::Isometry3d& world_from_a);
 
-  /// @param compliance (point in the world, direction) -> 1/kg, of both bodies together
-  template <typename Compliance>
-  ContactSpeeds speeds(const SimulatedPair& pair, const Eigen::Isometry3d& world_from_a, double step,
-                       const Compliance& compliance) const {
-    ContactSpeeds speeds;
-    for (const ContactRegion& region : pair.contacts.regions) {
-      if (!(region.overlap.depth > 0.0) || !(region.normal_force >= 0.0)) continue;
-      const Eigen::Vector3d point = world_from_a * region.point_in_a;
-      const Eigen::Vector3d normal = world_from_a.linear() * region.overlap.normal_in_a;
-      const ContactRates rates = ratesOf(region, step);
-      const double along = compliance.along(point, normal);
-      const double across = compliance.largest(point);
-      speeds.stiffness_rate += rates.normal.stiffness * along + rates.friction.stiffness * across;
-      speeds.damping_rate += rates.normal.damping * along + rates.friction.damping * across;
-    }
-    return speeds;
-  }
+  /// What the forces of the pair's contacts come to, about A's origin, A's axes, on B.
+  static CouplingForce forceOnB(const SimulatedPair& pair, const SimulatedBody& a, const SimulatedBody& b);
+
+  /// Whether its effects bring forces: without, it holds no step back.
+  bool hasForces() const { return tracked_.settings.effects.normal_force.has_value(); }
+  /// A lower estimate of the depth that the pair's next contact reaches, metres; 0 without forces.
+  double expectedDepth(const ContactLoad& load, double size) const;
+
+  /// Bristles and regions of the last update() are kept, and returned to.
+  void keep() { tracked_.effects.keep(); }
+  void goBack() { tracked_.effects.goBack(); }
 
  private:
-  ContactRates ratesOf(const ContactRegion& region, double step) const;
   void followSingle(SimulatedPair& pair);
   void countSolve(SimulationCounters& counters);
 

@@ -51,26 +51,9 @@ double RigidBody::kineticEnergy(const RigidBodyState& state) const {
   return 0.5 * (mass_ * state.velocity.squaredNorm() + momentum.cwiseAbs2().cwiseQuotient(moments_).sum());
 }
 
-double RigidBody::compliance(const RigidBodyState& state, const Eigen::Vector3d& point,
-                             const Eigen::Vector3d& direction) const {
-  const Eigen::Vector3d moment = (point - state.centre).cross(direction);
-  return 1.0 / mass_ + moment.dot(turnOf(state, moment));
-}
-
-double RigidBody::largestCompliance(const RigidBodyState& state, const Eigen::Vector3d& point) const {
-  // In principal axes: 1/m - [r] I^-1 [r], symmetric; its largest eigenvalue.
-  const Eigen::Vector3d r = state.world_from_principal.conjugate() * Eigen::Vector3d(point - state.centre);
-  const Eigen::Vector3d inverse = moments_.cwiseInverse();
-  Eigen::Matrix3d matrix;
-  matrix(0, 0) = inverse[1] * r[2] * r[2] + inverse[2] * r[1] * r[1];
-  matrix(1, 1) = inverse[2] * r[0] * r[0] + inverse[0] * r[2] * r[2];
-  matrix(2, 2) = inverse[0] * r[1] * r[1] + inverse[1] * r[0] * r[0];
-  matrix(0, 1) = matrix(1, 0) = -inverse[2] * r[0] * r[1];
-  matrix(0, 2) = matrix(2, 0) = -inverse[1] * r[0] * r[2];
-  matrix(1, 2) = matrix(2, 1) = -inverse[0] * r[1] * r[2];
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
-  solver.computeDirect(matrix, Eigen::EigenvaluesOnly);
-  return 1.0 / mass_ + solver.eigenvalues()[2];
+Eigen::Matrix3d RigidBody::inertia(const RigidBodyState& state) const {
+  const Eigen::Matrix3d axes = state.world_from_principal.toRotationMatrix();
+  return axes * moments_.asDiagonal() * axes.transpose();
 }
 
 void RigidBody::kick(const Wrench& about_centre, double step, RigidBodyState& state) const {

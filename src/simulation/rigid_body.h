@@ -42,11 +42,7 @@ class RigidBody {
   double kineticEnergy(const RigidBodyState& state) const;             ///< J
   /// Change of the angular velocity, world axes, by a change of the angular momentum.
   Eigen::Vector3d turnOf(const RigidBodyState& state, const Eigen::Vector3d& angular_momentum) const;
-  /// Velocity of a point (world) by a unit of force along the unit vector `direction` at it, 1/kg.
-  double compliance(const RigidBodyState& state, const Eigen::Vector3d& point,
-                    const Eigen::Vector3d& direction) const;
-  /// The largest compliance in any direction at a point, 1/kg.
-  double largestCompliance(const RigidBodyState& state, const Eigen::Vector3d& point) const;
+  Eigen::Matrix3d inertia(const RigidBodyState& state) const;  ///< about the centre, world axes, kg m^2
 
   /// The impulse of a constant wrench about the centre, world axes, over `step` seconds.
   void kick(const Wrench& about_centre, double step, RigidBodyState& state) const;

@@ -20,7 +20,7 @@ const SimulationSettings& requireSection(const Scene& scene) {
 }  // namespace
 
 std::string_view toString(StepLimit limit) {
-  constexpr std::string_view kNames[] = {"largest", "event", "distance", "stiffness", "damping", "rotation"};
+  constexpr std::string_view kNames[] = {"largest", "event", "distance", "accuracy", "rotation"};
   return kNames[static_cast<std::size_t>(limit)];
 }
 
@@ -97,8 +97,8 @@ void Simulation::setDriveTarget(std::size_t body, const Eigen::Isometry3d& world
   }
   const double before = moving.drive().spring_energy;
   moving.setDriveTarget(world_from_target);
-  moving.evaluateExternal(state_->time, state_->time, moving.state(), state_->external[body]);
   // Moving the target at once puts energy into the spring.
+  state_->evaluateDrives(state_->time);
   state_->energy.drive_work += moving.drive().spring_energy - before;
   state_->sumEnergies();
 }

@@ -1,6 +1,7 @@
 #include "simulation_state.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "concave_distance/base/error.h"
 
@@ -44,6 +45,29 @@ Simulation::State::State(const Scene& scene, const SimulationSettings& given) : 
                   "name a body or link of the scene");
     }
   }
+  addBodies(scene);
+  addPairs(scene);
+  addDrives();
+  const double inside = 0.5 * std::min(settings.largest_step, settings.duration);
+  for (std::size_t i = 0; i < moving.size(); ++i) {
+    if (moving[i].isFree()) moving[i].evaluateLoad(inside, moving[i].state(), external[i]);
+  }
+  evaluateDrives(inside);
+  report(inside);
+  evaluateContacts(0.0);
+  report(inside);
+  sumEnergies();
+  energy.initial = energy.mechanical();
+  counters = {};  // the steps, without the cold solves of the start
+  beginStep(inside);
+  for (const detail::Coupling& coupling : couplings) {
+    if (coupling.begin.acts) {
+      proposed_step = std::min(proposed_step, settings.step_fraction / std::sqrt(coupling.stiffness_rate));
+    }
+  }
+}
+
+void Simulation::State::addBodies(const Scene& scene) {
   for (const SceneBody& body : scene.bodies) {
     const SimulatedBodySettings body_settings = settingsOf(body, settings);
     moving.emplace_back(body, body_settings);
@@ -52,31 +76,43 @@ Simulation::State::State(const Scene& scene, const SimulationSettings& given) : 
     simulated.motion = body_settings.motion;
     bodies.push_back(simulated);
   }
+  contacts.resize(bodies.size());
+  begins.resize(bodies.size());
+  drifts.resize(bodies.size());
+  external.resize(bodies.size());
+  motions.resize(bodies.size());
+  inertias.resize(bodies.size());
+  impulses.resize(bodies.size());
+  changes.resize(bodies.size());
+}
+
+void Simulation::State::addPairs(const Scene& scene) {
   for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
     const ScenePair& pair = scene.pairs[i];
-    if (!pair.enabled || !(moving[pair.body_a].moves() || moving[pair.body_b].moves())) continue;
+    if (!pair.enabled || !pair.settings.effects.any()) continue;
+    if (!(moving[pair.body_a].moves() || moving[pair.body_b].moves())) continue;
     runners.emplace_back(scene, i, settings);
     SimulatedPair simulated;
     simulated.name = pair.name;
     simulated.body_a = pair.body_a;
     simulated.body_b = pair.body_b;
     pairs.push_back(std::move(simulated));
+    detail::Coupling coupling;
+    coupling.body_a = pair.body_a;
+    coupling.body_b = pair.body_b;
+    couplings.push_back(coupling);
   }
-  contacts.resize(bodies.size());
-  begins.resize(bodies.size());
-  drifts.resize(bodies.size());
-  external.resize(bodies.size());
-  speeds.resize(bodies.size());
-  const double inside = 0.5 * std::min(settings.largest_step, settings.duration);
+  pair_begins.resize(pairs.size());
+}
+
+void Simulation::State::addDrives() {
   for (std::size_t i = 0; i < moving.size(); ++i) {
-    if (moving[i].isFree()) moving[i].evaluateExternal(0.0, inside, moving[i].state(), external[i]);
+    if (!moving[i].hasDrive()) continue;
+    detail::Coupling coupling;
+    coupling.body_b = i;
+    coupling.force.acts = true;
+    couplings.push_back(coupling);
   }
-  report(inside);
-  evaluateContacts(0.0);
-  report(inside);
-  sumEnergies();
-  energy.initial = energy.mechanical();
-  counters = {};  // the steps, without the cold solves of the start
 }
 
 void Simulation::State::evaluateContacts(double step) {
@@ -92,12 +128,30 @@ void Simulation::State::evaluateContacts(double step) {
     contacts[pair.body_b].friction += movedTo(b.centre, on_b.friction);
     contacts[pair.body_a].normal += movedTo(a.centre, opposite(on_b.normal));
     contacts[pair.body_a].friction += movedTo(a.centre, opposite(on_b.friction));
+    couplings[i].force = PairRunner::forceOnB(pair, a, b);
     for (const ContactRegion& region : pair.contacts.regions) {
       touched = touched || region.normal_force > 0.0;
       if (region.overlap.depth > counters.largest_depth) counters.largest_depth = region.overlap.depth;
     }
   }
   if (touched) ++counters.contact_steps;
+}
+
+void Simulation::State::evaluateDrives(double inside) {
+  for (std::size_t i = pairs.size(); i < couplings.size(); ++i) {
+    detail::Coupling& coupling = couplings[i];
+    MovingBody& body = moving[coupling.body_b];
+    body.evaluateDrive(time, inside, body.state());
+    const Eigen::Isometry3d world_from_target = body.targetPose(time);
+    const Eigen::Vector3d centre = body.state().centre;
+    // About the target's origin, its axes.
+    const Wrench about_target = movedTo(world_from_target.translation() - centre, body.drive().on_body);
+    const Eigen::Matrix3d axes = world_from_target.linear().transpose();
+    coupling.force.wrench << axes * about_target.force, axes * about_target.torque;
+    coupling.force.twist =
+        detail::twistBetween(world_from_target, body.targetMotion(time, inside), body.motionAt(time, inside));
+    coupling.force.linearisation = body.driveLinearisation(time);
+  }
 }
 
 void Simulation::State::report(double inside) {

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "concave_distance/simulation/simulation.h"
+#include "coupling.h"
 #include "moving_body.h"
 #include "pair_runner.h"
+#include "step_equations.h"
 
 namespace concave_distance {
 namespace detail {
@@ -28,25 +31,61 @@ struct StepBegin {
   double drive_loss = 0.0;
 };
 
+// What holds a pair's steps back, from the begin of the step.
+struct PairBegin {
+  double lower_bound = 0.0;  ///< metres
+  double allowance = 0.0;    ///< beyond it, metres
+  double depth = 0.0;        ///< of the deepest region, metres
+
+  /// How far any point may move against the other body. What is apart comes near first, and touches then.
+  double allowed() const { return lower_bound > allowance ? lower_bound : lower_bound + allowance; }
+};
+
 }  // namespace detail
 
 /// Everything of a simulation: bodies with what acts on them, pairs, and what they came to at `time`.
 struct Simulation::State {
   State(const Scene& scene, const SimulationSettings& given);
 
-  double nextEvent(double until) const;
-  double limitStep(double event, StepLimit& limit);
-  detail::ContactSpeeds speedsOf(std::size_t index, double step) const;
-  double allowedDisplacement(const SimulatedPair& pair) const {
-    return pair.lower_bound + settings.allowed_penetration;
-  }
-  /// The largest share of its allowed way that a pair has gone.
-  double shareOfDisplacement() const;
+  // simulation_state.cpp: the parts, and what is reported of them.
+  void addBodies(const Scene& scene);
+  void addPairs(const Scene& scene);
+  void addDrives();
   void evaluateContacts(double step);
+  void evaluateDrives(double inside);
   void report(double inside);
   void addWorks(double step);
   void sumEnergies();
+
+  // step_limits.cpp: how far a step may go before it is tried.
+  double nextEvent(double until) const;
+  double limitStep(double event, StepLimit& limit);
+  void allowDisplacements();
+  double speedBetween(const SimulatedPair& pair) const;
+  /// The largest share of its allowed displacement that a pair has moved.
+  double shareOfDisplacement() const;
+
+  // step_attempt.cpp: one step of a given size, tried.
+  void beginStep(double inside);
+  void setJacobians();
+  void setMotions(double inside);
+  void findLoads();
+  void predict(double step);
+  void drift(double step);
+  void evaluateEnd(double step, double inside);
+  void correct(double step);
+  void restore(double inside);
+  Wrench sumOn(std::size_t body, const Vector6d detail::Coupling::*wrench) const;
+  /// How many times the tolerance the step's error is.
+  double shareOfError(double step) const;
+  double energyOfMotion(const detail::Coupling& coupling) const;
+
+  // simulation_step.cpp: the step that is taken.
   double step(double until);
+  bool moveWithin(double& step, StepLimit& limit);
+  void proposeStep(double step, double error_share, StepLimit limit);
+  void finishStep(double step, double inside);
+  double solveSeconds() const;
 
   SimulationSettings settings;
   double time = 0.0;
@@ -56,12 +95,22 @@ struct Simulation::State {
   std::vector<SimulatedBody> bodies;
   std::vector<SimulatedPair> pairs;
   std::vector<detail::BodyContacts> contacts;
-  std::vector<detail::StepBegin> begins;
-  std::vector<Drift> drifts;
   std::vector<Wrench> external;
-  std::vector<detail::ContactSpeeds> speeds;  ///< of each body's contacts, for limitStep
   EnergyAccount energy;
   SimulationCounters counters;
+
+  // Of the step; by body, by pair, by coupling: first those of the pairs, in their order, then the drives.
+  std::vector<detail::StepBegin> begins;
+  std::vector<Drift> drifts;
+  std::vector<detail::FrameMotion> motions;
+  std::vector<detail::StepEquations::Inertia> inertias;
+  std::vector<Vector6d> impulses;
+  std::vector<Vector6d> changes;
+  std::vector<detail::PairBegin> pair_begins;
+  std::vector<detail::Coupling> couplings;
+  detail::StepEquations equations;
+  double time_at_begin = 0.0;
+  double proposed_step = std::numeric_limits<double>::infinity();  ///< by the error of the last one
 };
 
 }  // namespace concave_distance

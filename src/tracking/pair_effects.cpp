@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "contact/contact_point.h"
+#include "contact/motion_between.h"
+#include "lumped_linearisation.h"
 #include "region_identity.h"
 #include "relative_motion.h"
 #include "require_bodies.h"
@@ -36,6 +38,13 @@ struct PairEffects::State {
   RegionIdentity identity;
   Eigen::Isometry3d last_pose = Eigen::Isometry3d::Identity();
   bool in_contact = false;  ///< in the last cycle, at last_pose
+
+  struct Kept {
+    std::vector<RegionMemory> regions;
+    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+    bool in_contact = false;
+  };
+  Kept kept;
 
   void findRegions(const Eigen::Isometry3d& a_from_b, WorkLimit* limit, PairContacts& contacts) {
     findInterference(*a, *b, a_from_b, workspace, interference, limit);
@@ -69,15 +78,34 @@ struct PairEffects::State {
     }
   }
 
-  void rub(double step, PairContacts& contacts) {
+  /// Of B against A since the last cycle; `b_in_a` where it is not known.
+  RelativeTwist displacement(const Eigen::Isometry3d& a_from_b, const RelativeTwist& b_in_a,
+                             double step) const {
+    const RelativeTwist twist = in_contact && step > 0.0 ? motionBetween(last_pose, a_from_b, step) : b_in_a;
+    return {step * twist.linear, step * twist.angular};
+  }
+
+  void rub(const RelativeTwist& displacement, PairContacts& contacts) {
     for (std::size_t r = 0; r < contacts.regions.size(); ++r) {
       ContactRegion& region = contacts.regions[r];
       if (!(region.normal_force > 0.0)) continue;
+      const Eigen::Vector3d& normal = region.overlap.normal_in_a;
+      const Eigen::Vector3d shift = displacement.at(region.point_in_a);
       region.friction_on_b_in_a =
-          frictionForce(settings.friction, material, region.normal_force, region.overlap.normal_in_a,
-                        region.sliding_in_a, step, identity.memory()[r].bristles);
+          frictionForce(settings.friction, material, region.normal_force, normal, region.sliding_in_a,
+                        shift - normal.dot(shift) * normal, identity.memory()[r].bristles);
       region.on_b_in_a += wrenchAbout(region.friction_on_b_in_a, region.point_in_a, Eigen::Vector3d::Zero());
     }
+  }
+
+  void linearise(PairContacts& contacts) {
+    for (std::size_t r = 0; r < contacts.regions.size(); ++r) {
+      const ContactRegion& region = contacts.regions[r];
+      if (!(region.normal_force > 0.0)) continue;
+      addLumpedContact(settings, material, region, identity.memory()[r].bristles, contacts.linearisation);
+    }
+    mirrorUpper(contacts.linearisation.stiffness);
+    mirrorUpper(contacts.linearisation.damping);
   }
 
   static ContactPoint at(const ContactRegion& region) {
@@ -139,7 +167,7 @@ void PairEffects::update(const PairSolution& solution, const RelativeTwist& b_in
         state.push(b_in_a, contacts);
         break;
       case EffectStage::Friction:
-        state.rub(step, contacts);
+        state.rub(state.displacement(solution.a_from_b, b_in_a, step), contacts);
         break;
     }
     const auto index = static_cast<std::size_t>(stage);
@@ -147,6 +175,7 @@ void PairEffects::update(const PairSolution& solution, const RelativeTwist& b_in
     state.counts.seconds[index] +=
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
+  contacts.linearisation = {};
   if (contacts.cut) {
     contacts.on_b_in_a = notComputed();
     return;
@@ -157,6 +186,7 @@ void PairEffects::update(const PairSolution& solution, const RelativeTwist& b_in
     for (const ContactRegion& region : contacts.regions) {
       if (region.normal_force > 0.0) contacts.on_b_in_a += region.on_b_in_a;
     }
+    if (!contacts.regions.empty()) state.linearise(contacts);
   }
   state.in_contact = !contacts.regions.empty();
   state.last_pose = solution.a_from_b;
@@ -165,6 +195,18 @@ void PairEffects::update(const PairSolution& solution, const RelativeTwist& b_in
 void PairEffects::reset() {
   state_->identity.clear();
   state_->in_contact = false;
+}
+
+void PairEffects::keep() {
+  state_->kept.regions = state_->identity.memory();
+  state_->kept.pose = state_->last_pose;
+  state_->kept.in_contact = state_->in_contact;
+}
+
+void PairEffects::goBack() {
+  state_->identity.memory() = state_->kept.regions;
+  state_->last_pose = state_->kept.pose;
+  state_->in_contact = state_->kept.in_contact;
 }
 
 void PairEffects::setSettings(const EffectSettings& settings, const ContactMaterial& material) {

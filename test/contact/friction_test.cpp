@@ -40,7 +40,7 @@ TEST(Friction, BristlesEndInCoulombsForceWhileSliding) {
   BristleState state;
   Eigen::Vector3d force;
   for (int k = 0; k < 2000; ++k) {
-    force = bristleForce(settings, kMaterial, 100.0, kUp, {0.2, 0.0, 0.0}, 1e-4, state);
+    force = bristleForce(settings, kMaterial, 100.0, kUp, {0.2, 0.0, 0.0}, {0.2e-4, 0.0, 0.0}, state);
   }
   EXPECT_NEAR(force.x(), -40.0, 1e-9);
   EXPECT_NEAR(state.deflection.x(), 0.4 / settings.bristle_stiffness, 1e-12);
@@ -58,7 +58,7 @@ double wayUnder(double push, double normal_force, double mass, FrictionModel mod
     const Eigen::Vector3d sliding(speed, 0.0, 0.0);
     const Eigen::Vector3d force =
         model == FrictionModel::Bristle
-            ? bristleForce(settings, kMaterial, normal_force, kUp, sliding, step, state)
+            ? bristleForce(settings, kMaterial, normal_force, kUp, sliding, step * sliding, state)
             : regularisedCoulombForce(settings, kMaterial, normal_force, sliding);
     speed += step * (0.5 * (1.0 - std::cos(kPi * std::min(1.0, k / 50000.0))) * push + force.x()) / mass;
     displacement += step * speed;
@@ -88,7 +88,7 @@ TEST(Friction, TheRuleIsStableAtAnyStep) {
     for (int k = 0; k < 50; ++k) {
       const double speed = k % 2 == 0 ? 3.0 : -3.0;
       const Eigen::Vector3d force =
-          bristleForce(settings, kMaterial, 10.0, kUp, {speed, 0.0, 0.0}, step, state);
+          bristleForce(settings, kMaterial, 10.0, kUp, {speed, 0.0, 0.0}, {step * speed, 0.0, 0.0}, state);
       EXPECT_LE(force.norm(), 6.0 * (1.0 + 1e-12));
       EXPECT_LE(state.deflection.norm(), 0.6 / settings.bristle_stiffness * (1.0 + 1e-12));
     }
@@ -100,7 +100,7 @@ TEST(Friction, BristlesTurnWithTheirPlaneAndKeepTheirLength) {
   BristleState state;
   state.deflection = {1e-5, 0.0, 0.0};
   const Eigen::Vector3d tilted = Eigen::Vector3d(0.3, 0.0, 1.0).normalized();
-  bristleForce(settings, kMaterial, 10.0, tilted, Eigen::Vector3d::Zero(), 1e-3, state);
+  bristleForce(settings, kMaterial, 10.0, tilted, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), state);
   EXPECT_NEAR(state.deflection.norm(), 1e-5, 1e-20);
   EXPECT_NEAR(state.deflection.dot(tilted), 0.0, 1e-20);
 }
@@ -109,7 +109,8 @@ TEST(Friction, WithoutLoadBristlesForget) {
   const FrictionSettings settings;
   BristleState state;
   state.deflection = {1e-5, 0.0, 0.0};
-  EXPECT_EQ(bristleForce(settings, kMaterial, 0.0, kUp, {1.0, 0.0, 0.0}, 1e-3, state).norm(), 0.0);
+  EXPECT_EQ(bristleForce(settings, kMaterial, 0.0, kUp, {1.0, 0.0, 0.0}, {1e-3, 0.0, 0.0}, state).norm(),
+            0.0);
   EXPECT_EQ(state.deflection.norm(), 0.0);
 }
 
@@ -120,7 +121,7 @@ TEST(Friction, OverACycleNothingIsGained) {
   const double step = 1e-5;
   for (int k = 0; k < 40000; ++k) {
     const Eigen::Vector3d sliding(0.05 * std::sin(k * 1e-3), 0.02 * std::cos(k * 7e-4), 0.0);
-    work += step * bristleForce(settings, kMaterial, 10.0, kUp, sliding, step, state).dot(sliding);
+    work += step * bristleForce(settings, kMaterial, 10.0, kUp, sliding, step * sliding, state).dot(sliding);
   }
   EXPECT_LT(work, 0.0);
 }

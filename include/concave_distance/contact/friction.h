@@ -52,25 +52,37 @@ struct BristleState {
 
 /// LuGre (Canudas de Wit, Olsson, Astrom, Lischinsky 1995), per unit of normal force:
 /// z' = v - sigma_0 |v| z / g(v), F = -N (sigma_0 z + sigma_1 z' + mu_v v), g the Stribeck coefficient.
-/// The state goes on by `step` seconds with the implicit rule z = (z + step v) / (1 + step sigma_0 |v| / g),
-/// which is stable for every step. It is first turned into the plane that `normal` is perpendicular to; a
-/// force above the friction cone of mu_s N is cut to it. Without load the bristles stand up again.
+/// The state goes on with the implicit rule z = (z + s) / (1 + sigma_0 |s| / g), s the displacement since the
+/// last call, which is stable for every step. It is first turned into the plane that `normal` is
+/// perpendicular to; a force above the friction cone of mu_s N is cut to it. Without load the bristles stand
+/// up again.
 /// @param sliding velocity of B relative to A in the tangent plane, A's frame, m/s
+/// @param displacement of B against A in the tangent plane since the last call, A's frame, metres
 Eigen::Vector3d bristleForce(const FrictionSettings& settings, const ContactMaterial& material,
                              double normal_force, const Eigen::Vector3d& normal,
-                             const Eigen::Vector3d& sliding, double step, BristleState& state);
-
-/// What a time step has to resolve of the chosen model: upper estimates, of the bristles and of the sliding.
-struct FrictionRates {
-  double stiffness = 0.0;  ///< N/m
-  double damping = 0.0;    ///< N s/m
-};
-FrictionRates frictionRates(const FrictionSettings& settings, const ContactMaterial& material,
-                            double normal_force);
+                             const Eigen::Vector3d& sliding, const Eigen::Vector3d& displacement,
+                             BristleState& state);
 
 /// The force of the chosen model; see bristleForce. Newtons, on B.
 Eigen::Vector3d frictionForce(const FrictionSettings& settings, const ContactMaterial& material,
                               double normal_force, const Eigen::Vector3d& normal,
-                              const Eigen::Vector3d& sliding, double step, BristleState& state);
+                              const Eigen::Vector3d& sliding, const Eigen::Vector3d& displacement,
+                              BristleState& state);
+
+/// How friction changes with a small motion, in two directions of the tangent plane.
+struct FrictionTangent {
+  Eigen::Vector3d along = Eigen::Vector3d::Zero();  ///< unit, where they slide, or any direction of the plane
+  Eigen::Vector3d across = Eigen::Vector3d::Zero();  ///< unit, perpendicular to it
+  double stiffness_along = 0.0;                      ///< N/m, >= 0
+  double stiffness_across = 0.0;                     ///< N/m, >= 0
+  double damping_along = 0.0;                        ///< N s/m, >= 0
+  double damping_across = 0.0;                       ///< N s/m, >= 0
+};
+
+/// The derivatives of frictionForce() at the state that it has left behind, symmetric parts that are not
+/// negative: those of the sliding speed's part of the coefficient are left out.
+FrictionTangent frictionTangent(const FrictionSettings& settings, const ContactMaterial& material,
+                                double normal_force, const Eigen::Vector3d& normal,
+                                const Eigen::Vector3d& sliding, const BristleState& state);
 
 }  // namespace concave_distance

@@ -80,17 +80,28 @@ inline bool operator==(const NormalForceSettings& l, const NormalForceSettings& 
          std::tie(r.model, r.loading_coefficient, r.stiffness, r.damping, r.foundation_stiffness, r.radius);
 }
 
-/// A model's force with what a time step has to resolve of it.
+/// A model's force with its derivatives.
 struct NormalForce {
   double force = 0.0;      ///< N, >= 0
-  double stiffness = 0.0;  ///< N/m
-  double damping = 0.0;    ///< N s/m
+  double stiffness = 0.0;  ///< by the depth, N/m, >= 0; of an elastic foundation with the area as it is
+  double damping = 0.0;    ///< by the depth's rate, N s/m, >= 0
 };
 
-/// The chosen model. Stiffness and damping are upper estimates from its derivatives, at the depth that a step
-/// reaches at the present rate; of an elastic foundation the present area and volume count.
-/// @param step seconds
+/// The chosen model.
 NormalForce normalForce(const NormalForceSettings& settings, const ContactMaterial& material,
-                        const ContactGeometry& contact, double step = 0.0);
+                        const ContactGeometry& contact);
+
+/// What hits or presses on a contact.
+struct ContactLoad {
+  double mass = 0.0;   ///< reduced, of both bodies, kg
+  double speed = 0.0;  ///< of the bodies against each other, m/s
+  double force = 0.0;  ///< that presses them together, N
+};
+
+/// A lower estimate of the depth that a contact of this law reaches, metres: of an undamped impact at this
+/// speed and under this force, each alone, added up. @param size of the smaller body, metres: no contact has
+/// a larger radius
+double expectedDepth(const NormalForceSettings& settings, const ContactMaterial& material,
+                     const ContactLoad& load, double size);
 
 }  // namespace concave_distance

@@ -77,10 +77,14 @@ struct SimulationSettings {
   Eigen::Vector3d gravity = Eigen::Vector3d(0.0, 0.0, -9.81);  ///< m/s^2
   double duration = 1.0;                                       ///< seconds
   double largest_step = 1e-3;                                  ///< seconds
-  /// Of sqrt(m / k) of the stiffest contact or drive, and of a radian, that a step takes at most.
+  /// Of sqrt(m / k) of contacts and drives that swing, and of a radian, that a step takes at most. What is at
+  /// rest in them holds no step back.
   double step_fraction = 0.1;
-  /// How far beyond the proven distance any point may move against the other body in one step, metres.
-  double allowed_penetration = 1e-4;
+  /// How far beyond the proven distance any point may move against the other body in one step, metres, at
+  /// most; 0: a share of the depth that the next contact reaches by its stiffness, mass and speed.
+  double allowed_penetration = 0.0;
+  /// Error of the energy balance, as a share of the energy that went through, above which a run has failed.
+  double energy_tolerance = 0.05;
   double log_rate = 100.0;  ///< lines a second of simulated time
   SimulationTracking tracking = SimulationTracking::Niches;
   std::vector<SimulatedBodySettings> bodies;

@@ -26,6 +26,10 @@ class TrackedEffects {
   /// Forgets regions, bristles and the last pose.
   void reset();
 
+  /// As PairEffects::keep() and goBack(); nothing while no effects are wanted.
+  void keep();
+  void goBack();
+
   /// Of the last update(); nullptr while no effects are wanted.
   const PairContacts* contacts() const { return effects_ ? &contacts_ : nullptr; }
   /// What the stages did since the last call.

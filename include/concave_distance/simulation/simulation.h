@@ -53,14 +53,13 @@ struct SimulatedPair {
 
 /// What held a step back.
 enum class StepLimit : std::uint8_t {
-  Largest,    ///< largest_step
-  Event,      ///< the time asked for, a load's begin or end, a pose of a path
-  Distance,   ///< the proven distance and the allowed penetration
-  Stiffness,  ///< of a contact or a drive
-  Damping,    ///< of a contact, friction or a drive
-  Rotation    ///< step_fraction of a radian
+  Largest,   ///< largest_step
+  Event,     ///< the time asked for, a load's begin or end, a pose of a path
+  Distance,  ///< the proven distance and a share of the depth that the next contact reaches
+  Accuracy,  ///< of the motion in contacts and drives
+  Rotation   ///< step_fraction of a radian
 };
-inline constexpr std::size_t kStepLimits = 6;
+inline constexpr std::size_t kStepLimits = 5;
 std::string_view toString(StepLimit limit);
 
 /// What a simulation's time goes into.
@@ -76,6 +75,7 @@ std::string_view toString(SimulationStage stage);
 struct SimulationCounters {
   std::uint64_t steps = 0;
   std::uint64_t shortened = 0;  ///< drifts done again since they went too far
+  std::uint64_t rejected = 0;   ///< steps done again since a contact changed too much within them
   std::uint64_t solves = 0;
   std::uint64_t broad_phase_only = 0;  ///< pairs not solved since beyond their cutoff
   std::uint64_t contact_steps = 0;     ///< steps that ended with a force at some pair
@@ -91,11 +91,12 @@ enum class SimulationStatus : std::uint8_t {
   Diverged  ///< a state is not finite any more, or steps have shrunk to nothing: it stands still
 };
 
-/// Rigid bodies in contact over time: velocity Verlet (kick, drift, kick) with the exact splitting of
-/// RigidBody::drift, one evaluation of the contacts a step. Forces that depend on velocities are evaluated
-/// with velocities extrapolated to the end of the step, which keeps the second order. No point of a body
-/// moves in one step against another body farther than their proven distance and the allowed penetration: no
-/// body passes through another unseen. Deterministic. Not thread-safe.
+/// Rigid bodies in contact over time: kick, drift, kick with the exact splitting of RigidBody::drift, and
+/// kicks that contain the stiffness and damping of contacts and drives implicitly, of all coupled bodies
+/// together. Second order; one evaluation of the contacts a step, which is repeated with less where its error
+/// is too large. No point of a body moves in one step against another body farther than their proven distance
+/// and a share of the depth that the contact reaches: no body passes through another unseen. Deterministic.
+/// Not thread-safe.
 class Simulation {
  public:
   /// @throws Error when the scene has no section `simulation`, for a free body without mass, settings out of

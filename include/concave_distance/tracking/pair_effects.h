@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "concave_distance/contact/contact_linearisation.h"
 #include "concave_distance/contact/effect_settings.h"
 #include "concave_distance/contact/wrench.h"
 #include "concave_distance/interference/interference.h"
@@ -37,6 +38,7 @@ struct PairContacts {
   bool b_inside_a = false;
   /// Of all regions, about A's origin, on B; A gets the opposite. NaN where no force was asked for.
   Wrench on_b_in_a{Eigen::Vector3d::Constant(kNotComputed), Eigen::Vector3d::Constant(kNotComputed)};
+  ContactLinearisation linearisation;  ///< of on_b_in_a
 };
 
 /// The effects that one pair asks for, run after each of its solves. What the settings do not ask for is not
@@ -56,7 +58,8 @@ class PairEffects {
   ///        above 0 excludes it. Without a certificate (`nodes`, `refined`) the distance found does, which is
   ///        why the scene file refuses effects there.
   /// @param b_in_a velocity of B relative to A; zero where it is not known
-  /// @param step seconds since the last call, for the bristles; 0 leaves them as they are
+  /// @param step seconds since the last call; 0 leaves the bristles as they are, else they follow the
+  ///        displacement since then, or `b_in_a` where the bodies did not touch
   /// @param limit when it is reached there are no regions and no forces; known ones are kept for the next
   ///        call; nullptr: none
   void update(const PairSolution& solution, const RelativeTwist& b_in_a, double step, PairContacts& contacts,
@@ -64,6 +67,12 @@ class PairEffects {
 
   /// Forgets regions and bristles.
   void reset();
+
+  /// Keeps the regions and bristles of the last update(), for goBack() to return to. Allocates nothing once
+  /// it has been called with as many regions.
+  void keep();
+  /// Undoes every update() since keep(): the next one goes on from there.
+  void goBack();
 
   /// Another plan from the next cycle on; regions keep their ids, bristles are forgotten.
   /// @throws Error for settings out of range

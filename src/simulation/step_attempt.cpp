@@ -1,0 +1,275 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "simulation_state.h"
+#include "step_error.h"
+
+namespace concave_distance {
+namespace {
+
+using detail::Coupling;
+using detail::CouplingForce;
+using detail::FrameMotion;
+using detail::MovingBody;
+using detail::StepEquations;
+
+// A bound on the eigenvalues of M^-1 J^T K J: its trace.
+double rateOf(const Matrix6d& matrix, const Coupling& coupling,
+              const std::vector<StepEquations::Inertia>& inertias) {
+  double rate = 0.0;
+  const auto add = [&](std::size_t body, const Matrix6d& jacobian) {
+    if (body == detail::kNoBody || !(inertias[body].mass > 0.0)) return;
+    const Matrix6d on_body = jacobian.transpose() * matrix * jacobian;
+    rate += on_body.diagonal().head<3>().sum() / inertias[body].mass +
+            (inertias[body].inertia.inverse() * on_body.bottomRightCorner<3, 3>()).trace();
+  };
+  add(coupling.body_a, coupling.jacobian_a);
+  add(coupling.body_b, coupling.jacobian_b);
+  return rate;
+}
+
+}  // namespace
+
+void Simulation::State::setMotions(double inside) {
+  for (std::size_t i = 0; i < moving.size(); ++i) motions[i] = moving[i].motionAt(time, inside);
+}
+
+void Simulation::State::setJacobians() {
+  for (std::size_t i = 0; i < couplings.size(); ++i) {
+    Coupling& coupling = couplings[i];
+    const bool is_drive = coupling.body_a == detail::kNoBody;
+    const Eigen::Isometry3d world_from_a =
+        is_drive ? moving[coupling.body_b].targetPose(time) : bodies[coupling.body_a].world_from_body;
+    coupling.jacobian_b = detail::jacobianAt(world_from_a, motions[coupling.body_b].centre);
+    if (!is_drive) coupling.jacobian_a = -detail::jacobianAt(world_from_a, motions[coupling.body_a].centre);
+  }
+}
+
+void Simulation::State::beginStep(double inside) {
+  time_at_begin = time;
+  setMotions(inside);
+  setJacobians();
+  for (std::size_t i = 0; i < moving.size(); ++i) {
+    MovingBody& body = moving[i];
+    inertias[i] = body.inertia();
+    if (!body.isFree()) continue;
+    body.begin();
+    body.evaluateLoad(inside, body.state(), external[i]);
+    begins[i] = {contacts[i], body.load(), body.drive().power, body.drive().loss};
+  }
+  for (Coupling& coupling : couplings) {
+    const bool is_drive = coupling.body_a == detail::kNoBody;
+    coupling.twist = coupling.jacobian_b * motions[coupling.body_b].twist;
+    if (is_drive) {
+      const MovingBody& body = moving[coupling.body_b];
+      const FrameMotion target = body.targetMotion(time, inside);
+      coupling.twist -= detail::jacobianAt(body.targetPose(time), target.centre) * target.twist;
+    } else {
+      coupling.twist += coupling.jacobian_a * motions[coupling.body_a].twist;
+    }
+    coupling.begin = coupling.force;
+    coupling.begin.wrench = coupling.force.wrenchAt(coupling.twist);
+    coupling.begin.twist = coupling.twist;
+    coupling.stiffness_rate = coupling.damping_rate = 0.0;
+    if (!coupling.begin.acts) continue;
+    coupling.stiffness_rate = rateOf(coupling.begin.linearisation.stiffness, coupling, inertias);
+    coupling.damping_rate = rateOf(coupling.begin.linearisation.damping, coupling, inertias);
+  }
+  findLoads();
+  for (detail::PairRunner& runner : runners) runner.keep();
+  allowDisplacements();
+}
+
+// What presses on a pair from outside is what acts on the body less its own force: of two the smaller.
+void Simulation::State::findLoads() {
+  for (std::size_t i = 0; i < moving.size(); ++i) {
+    if (!moving[i].isFree()) continue;
+    const Wrench steady = moving[i].steadyWrench(settings.gravity);
+    impulses[i] << steady.force, steady.torque;
+  }
+  const auto add = [&](const Coupling& coupling, std::size_t body, const Matrix6d& jacobian) {
+    if (body != detail::kNoBody && coupling.begin.acts) {
+      impulses[body].noalias() += jacobian.transpose() * coupling.begin.wrench;
+    }
+  };
+  for (const Coupling& coupling : couplings) {
+    add(coupling, coupling.body_a, coupling.jacobian_a);
+    add(coupling, coupling.body_b, coupling.jacobian_b);
+  }
+  for (Coupling& coupling : couplings) {
+    coupling.load = std::numeric_limits<double>::infinity();
+    for (const std::size_t body : {coupling.body_a, coupling.body_b}) {
+      if (body == detail::kNoBody || !moving[body].isFree()) continue;
+      const Matrix6d& jacobian = body == coupling.body_b ? coupling.jacobian_b : coupling.jacobian_a;
+      const Vector6d others = impulses[body] - jacobian.transpose() * coupling.begin.wrench;
+      coupling.load = std::min(coupling.load, others.head<3>().norm());
+    }
+    if (std::isinf(coupling.load)) coupling.load = 0.0;
+  }
+}
+
+Wrench Simulation::State::sumOn(std::size_t body, const Vector6d Coupling::*wrench) const {
+  Vector6d sum = Vector6d::Zero();
+  for (const Coupling& coupling : couplings) {
+    if (coupling.body_b == body) sum.noalias() += coupling.jacobian_b.transpose() * (coupling.*wrench);
+    if (coupling.body_a == body) sum.noalias() += coupling.jacobian_a.transpose() * (coupling.*wrench);
+  }
+  return detail::toWrench(sum);
+}
+
+// The twists in the middle of the step: M (V - V0) = h/2 (w - K x - D dV), x = h V weighted by its end's
+// weight, dV = 2 (V - V0) by that of damping. The couplings' mean wrenches follow from them.
+void Simulation::State::predict(double step) {
+  const double half = 0.5 * step;
+  for (Coupling& coupling : couplings) {
+    coupling.used.setZero();
+    coupling.resistance.setZero();
+    if (!coupling.begin.acts) continue;
+    const ContactLinearisation& now = coupling.begin.linearisation;
+    coupling.forward_stiffness = detail::forwardWeightOfStiffness(coupling.stiffness_rate, step);
+    coupling.forward_damping = detail::forwardWeightOfDamping(coupling.damping_rate, step);
+    coupling.resistance = half * (step * coupling.forward_stiffness * now.stiffness +
+                                  2.0 * coupling.forward_damping * now.damping);
+    coupling.used =
+        coupling.begin.wrench - step * coupling.forward_stiffness * (now.stiffness * coupling.twist);
+  }
+  for (std::size_t i = 0; i < moving.size(); ++i) {
+    if (!moving[i].isFree()) continue;
+    Wrench wrench = moving[i].steadyWrench(settings.gravity);
+    wrench += sumOn(i, &Coupling::used);
+    impulses[i] << half * wrench.force, half * wrench.torque;
+  }
+  equations.solve(inertias, impulses, couplings, changes);
+  for (Coupling& coupling : couplings) {
+    coupling.used -= coupling.resistance * coupling.change / half;
+    coupling.displacement = step * (coupling.twist + coupling.change);
+  }
+}
+
+// Equal and opposite wrenches of each coupling, and not the solution, move the bodies: momentum is kept.
+void Simulation::State::drift(double step) {
+  for (std::size_t i = 0; i < moving.size(); ++i) {
+    MovingBody& body = moving[i];
+    if (body.isFree()) {
+      Wrench wrench = body.steadyWrench(settings.gravity);
+      wrench += sumOn(i, &Coupling::used);
+      body.kick(wrench, 0.5 * step);
+    }
+    drifts[i] = body.drift(time_at_begin, step);
+  }
+}
+
+void Simulation::State::evaluateEnd(double step, double inside) {
+  for (std::size_t i = 0; i < moving.size(); ++i) moving[i].report(time, inside, bodies[i]);
+  setMotions(inside);
+  setJacobians();
+  for (std::size_t i = 0; i < moving.size(); ++i) {
+    MovingBody& body = moving[i];
+    if (!body.isFree()) continue;
+    body.evaluateLoad(inside, body.state(), external[i]);
+    Wrench wrench = body.steadyWrench(settings.gravity);
+    wrench += sumOn(i, &Coupling::used);
+    body.kick(wrench, 0.5 * step);
+    body.report(time, inside, bodies[i]);
+  }
+  setMotions(inside);
+  evaluateDrives(inside);
+  evaluateContacts(step);
+  for (Coupling& coupling : couplings) {
+    const CouplingForce& begin = coupling.begin;
+    const CouplingForce& end = coupling.force;
+    coupling.residual = end.wrench - begin.wrench;
+    if (!begin.acts) continue;
+    Vector6d twist = end.twist;
+    if (!end.acts) twist = coupling.twist + 2.0 * coupling.change;
+    coupling.residual += begin.linearisation.stiffness * coupling.displacement +
+                         begin.linearisation.damping * (twist - begin.twist);
+  }
+}
+
+// The trapezoidal rule's other half: h/2 of the residual, against the stiffness and damping at the end.
+void Simulation::State::correct(double step) {
+  const double half = 0.5 * step;
+  for (Coupling& coupling : couplings) {
+    coupling.begin.acts = coupling.begin.acts || coupling.force.acts;
+    const ContactLinearisation& end = coupling.force.linearisation;
+    const double stiffness_rate = rateOf(end.stiffness, coupling, inertias);
+    const double damping_rate = rateOf(end.damping, coupling, inertias);
+    coupling.resistance =
+        half * (step * detail::forwardWeightOfStiffness(stiffness_rate, step) * end.stiffness +
+                2.0 * detail::forwardWeightOfDamping(damping_rate, step) * end.damping);
+    coupling.used = coupling.residual;
+  }
+  for (std::size_t i = 0; i < moving.size(); ++i) {
+    if (!moving[i].isFree()) continue;
+    inertias[i] = moving[i].inertia();
+    const Wrench wrench = sumOn(i, &Coupling::used);
+    impulses[i] << half * wrench.force, half * wrench.torque;
+  }
+  equations.solve(inertias, impulses, couplings, changes);
+  for (Coupling& coupling : couplings) coupling.used -= coupling.resistance * coupling.change / half;
+  for (std::size_t i = 0; i < moving.size(); ++i) {
+    if (moving[i].isFree()) moving[i].kick(sumOn(i, &Coupling::used), half);
+  }
+}
+
+void Simulation::State::restore(double inside) {
+  time = time_at_begin;
+  for (std::size_t i = 0; i < moving.size(); ++i) {
+    if (moving[i].isFree()) moving[i].restore();
+    moving[i].report(time, inside, bodies[i]);
+  }
+  setMotions(inside);
+  setJacobians();
+  for (std::size_t i = 0; i < moving.size(); ++i) {
+    if (moving[i].isFree()) moving[i].evaluateLoad(inside, moving[i].state(), external[i]);
+  }
+  for (detail::PairRunner& runner : runners) runner.goBack();
+}
+
+// Of the lighter body against the other.
+double Simulation::State::energyOfMotion(const Coupling& coupling) const {
+  const auto mass = [&](std::size_t body) {
+    return body != detail::kNoBody && moving[body].isFree() ? moving[body].rigid().mass()
+                                                            : std::numeric_limits<double>::infinity();
+  };
+  const bool b_is_lighter = mass(coupling.body_b) <= mass(coupling.body_a);
+  const std::size_t lighter = b_is_lighter ? coupling.body_b : coupling.body_a;
+  const std::size_t other = b_is_lighter ? coupling.body_a : coupling.body_b;
+  if (std::isinf(mass(lighter))) return 0.0;
+  FrameMotion against;
+  if (other != detail::kNoBody) {
+    against = motions[other];
+  } else {
+    against = moving[lighter].targetMotion(time, time);
+  }
+  const FrameMotion& body = motions[lighter];
+  const Eigen::Vector3d velocity = body.velocityAt(body.centre) - against.velocityAt(body.centre);
+  const Eigen::Vector3d spin = (body.twist - against.twist).tail<3>();
+  return 0.5 * (inertias[lighter].mass * velocity.squaredNorm() + spin.dot(inertias[lighter].inertia * spin));
+}
+
+double Simulation::State::shareOfError(double step) const {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < couplings.size(); ++i) {
+    const Coupling& coupling = couplings[i];
+    if (!coupling.begin.acts && !coupling.force.acts) continue;
+    detail::StepTolerance tolerance;
+    tolerance.step_fraction = settings.step_fraction;
+    tolerance.energy_of_motion = energyOfMotion(coupling);
+    double depth = 0.0;
+    if (i < pairs.size()) {
+      const auto& regions = pairs[i].contacts.regions;
+      depth = std::max(pair_begins[i].depth, regions.empty() ? 0.0 : regions.front().overlap.depth);
+    } else {
+      depth = moving[coupling.body_b].driveStretch();
+    }
+    tolerance.energy_at_rest = coupling.load * depth;
+    const double error = detail::errorOf(coupling, step);
+    if (error > 0.0) largest = std::max(largest, error / detail::allowedError(tolerance));
+  }
+  return largest;
+}
+
+}  // namespace concave_distance

@@ -1,0 +1,112 @@
+#include "step_equations.h"
+
+#include <Eigen/LU>
+
+namespace concave_distance::detail {
+namespace {
+
+bool isFree(const std::vector<StepEquations::Inertia>& bodies, std::size_t body) {
+  return body != kNoBody && bodies[body].mass > 0.0;
+}
+
+Matrix6d massMatrix(const StepEquations::Inertia& body) {
+  Matrix6d matrix = Matrix6d::Zero();
+  matrix.diagonal().head<3>().setConstant(body.mass);
+  matrix.bottomRightCorner<3, 3>() = body.inertia;
+  return matrix;
+}
+
+}  // namespace
+
+std::size_t StepEquations::rootOf(std::size_t body) {
+  while (parent_[body] != body) body = parent_[body] = parent_[parent_[body]];
+  return body;
+}
+
+void StepEquations::findIslands(const std::vector<Inertia>& bodies, const std::vector<Coupling>& couplings) {
+  parent_.resize(bodies.size());
+  for (std::size_t i = 0; i < bodies.size(); ++i) parent_[i] = i;
+  row_.assign(bodies.size(), -1);
+  size_.assign(bodies.size(), 0);
+  for (const Coupling& coupling : couplings) {
+    if (!coupling.begin.acts) continue;
+    if (!isFree(bodies, coupling.body_a) || !isFree(bodies, coupling.body_b)) continue;
+    parent_[rootOf(coupling.body_a)] = rootOf(coupling.body_b);
+  }
+  for (const Coupling& coupling : couplings) {
+    if (!coupling.begin.acts) continue;
+    for (const std::size_t body : {coupling.body_a, coupling.body_b}) {
+      if (!isFree(bodies, body) || row_[body] >= 0) continue;
+      Eigen::Index& size = size_[rootOf(body)];
+      row_[body] = size;
+      size += 6;
+    }
+  }
+}
+
+void StepEquations::solveAlone(const Inertia& body, const Vector6d& impulse, Vector6d& change) const {
+  change.head<3>() = impulse.head<3>() / body.mass;
+  change.tail<3>() = body.inertia.inverse() * impulse.tail<3>();
+}
+
+void StepEquations::assemble(const std::vector<Inertia>& bodies, const std::vector<Coupling>& couplings,
+                             std::size_t root, Eigen::Index size) {
+  if (matrix_.rows() < size) {
+    matrix_.resize(size, size);
+    vector_.resize(size);
+  }
+  matrix_.topLeftCorner(size, size).setZero();
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (row_[i] >= 0 && rootOf(i) == root) matrix_.block<6, 6>(row_[i], row_[i]) = massMatrix(bodies[i]);
+  }
+  for (const Coupling& coupling : couplings) {
+    if (!coupling.begin.acts) continue;
+    const bool free_a = isFree(bodies, coupling.body_a);
+    const bool free_b = isFree(bodies, coupling.body_b);
+    if (rootOf(free_b ? coupling.body_b : coupling.body_a) != root) continue;
+    const Matrix6d resisted_b = coupling.resistance * coupling.jacobian_b;
+    if (free_b) {
+      const Eigen::Index b = row_[coupling.body_b];
+      matrix_.block<6, 6>(b, b).noalias() += coupling.jacobian_b.transpose() * resisted_b;
+    }
+    if (!free_a) continue;
+    const Eigen::Index a = row_[coupling.body_a];
+    matrix_.block<6, 6>(a, a).noalias() +=
+        coupling.jacobian_a.transpose() * (coupling.resistance * coupling.jacobian_a).eval();
+    if (!free_b) continue;
+    const Eigen::Index b = row_[coupling.body_b];
+    const Matrix6d block = coupling.jacobian_a.transpose() * resisted_b;
+    matrix_.block<6, 6>(a, b) += block;
+    matrix_.block<6, 6>(b, a) += block.transpose();
+  }
+}
+
+void StepEquations::solve(const std::vector<Inertia>& bodies, const std::vector<Vector6d>& impulses,
+                          std::vector<Coupling>& couplings, std::vector<Vector6d>& changes) {
+  findIslands(bodies, couplings);
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    changes[i].setZero();
+    if (isFree(bodies, i) && row_[i] < 0) solveAlone(bodies[i], impulses[i], changes[i]);
+  }
+  for (std::size_t root = 0; root < bodies.size(); ++root) {
+    const Eigen::Index size = size_[root];
+    if (size == 0) continue;
+    assemble(bodies, couplings, root, size);
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      if (row_[i] >= 0 && rootOf(i) == root) vector_.segment<6>(row_[i]) = impulses[i];
+    }
+    Eigen::Ref<Eigen::MatrixXd> system = matrix_.topLeftCorner(size, size);
+    const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factors(system);
+    factors.solveInPlace(vector_.head(size));
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      if (row_[i] >= 0 && rootOf(i) == root) changes[i] = vector_.segment<6>(row_[i]);
+    }
+  }
+  for (Coupling& coupling : couplings) {
+    coupling.change.setZero();
+    if (isFree(bodies, coupling.body_b)) coupling.change += coupling.jacobian_b * changes[coupling.body_b];
+    if (isFree(bodies, coupling.body_a)) coupling.change += coupling.jacobian_a * changes[coupling.body_a];
+  }
+}
+
+}  // namespace concave_distance::detail

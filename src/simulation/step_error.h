@@ -1,0 +1,20 @@
+#pragma once
+
+#include "coupling.h"
+
+namespace concave_distance::detail {
+
+/// How large a coupling's part in the error of the energy may be in one step, joules.
+struct StepTolerance {
+  double energy_of_motion = 0.0;  ///< of B against A, J
+  double energy_at_rest = 0.0;    ///< the load that presses them together times the depth, J
+  double step_fraction = 0.1;
+};
+double allowedError(const StepTolerance& tolerance);
+
+/// An upper estimate of the energy, joules, that a coupling has gained or lost in a step by: what the linear
+/// model has missed, the trapezoidal rule's error in swinging and decaying, and the damping of what the step
+/// does not resolve.
+double errorOf(const Coupling& coupling, double step);
+
+}  // namespace concave_distance::detail
