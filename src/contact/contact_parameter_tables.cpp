@@ -14,6 +14,12 @@ const ParameterTable<NormalForceSettings>& normalForceParameters() {
                  {"hunt_crossley", NormalForceModel::HuntCrossley},
                  {"elastic_foundation", NormalForceModel::ElasticFoundation}},
           [](auto& n) -> auto& { return n.model; }, "of the force ([effects](effects.md))"),
+      choice<N>(
+          "distribution",
+          std::vector<std::pair<std::string, ForceDistribution>>{{"pressure", ForceDistribution::Pressure},
+                                                                 {"lumped", ForceDistribution::Lumped}},
+          [](auto& n) -> auto& { return n.distribution; },
+          "`pressure`: all over the surfaces of a region; `lumped`: one force at its centroid"),
       number<N>(
           "loading_coefficient", [](auto& n) -> auto& { return n.loading_coefficient; },
           "of `quasi_static`, the thesis's K_p; the default gives the Hertz force of a round contact")

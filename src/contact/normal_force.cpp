@@ -27,6 +27,10 @@ std::string_view toString(NormalForceModel model) {
   return "unknown";
 }
 
+std::string_view toString(ForceDistribution distribution) {
+  return distribution == ForceDistribution::Pressure ? "pressure" : "lumped";
+}
+
 double quasiStaticForce(const ContactGeometry& contact, double contact_modulus, double loading_coefficient,
                         double damping) {
   if (!(contact.depth > 0.0)) return 0.0;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/coordinate_limit.h"
+#include "overlap_samples.h"
 #include "region_builder.h"
 
 namespace concave_distance {
@@ -17,6 +18,7 @@ struct InterferenceWorkspace::Implementation {
   std::vector<FoundRegion> found;
   std::vector<OverlapFacet> facets;  ///< of the solids
   std::vector<Eigen::Vector3d> loop_areas;
+  OverlapSampler sampler;
 };
 
 InterferenceWorkspace::InterferenceWorkspace() : implementation_(std::make_unique<Implementation>()) {}
@@ -123,6 +125,26 @@ void findRegions(InterferenceWorkspace::Implementation& space, WorkLimit& limit)
   }
 }
 
+// Parts of a surface that hold less of the overlap than this share are not looked at more closely.
+constexpr double kSampleTolerance = 1e-3;
+
+void measureDepths(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
+                   InterferenceWorkspace::Implementation& space, Interference& result) {
+  space.sampler.begin(a, b, a_from_b);
+  for (FoundRegion& found : space.found) {
+    InterferenceRegion& region = found.region;
+    if (region.facet_count == 0) continue;
+    DeepestPoint deepest;
+    const OverlapFacet* first = result.facets.data() + region.first_facet;
+    region.first_sample = static_cast<std::uint32_t>(result.samples.size());
+    space.sampler.sample(first, first + region.facet_count, kSampleTolerance, result.samples, deepest);
+    region.sample_count = static_cast<std::uint32_t>(result.samples.size()) - region.first_sample;
+    region.depth = deepest.depth;
+    region.point_a_in_a = deepest.inside_is_of_b ? deepest.surface_in_a : deepest.inside_in_a;
+    region.point_b_in_a = deepest.inside_is_of_b ? deepest.inside_in_a : deepest.surface_in_a;
+  }
+}
+
 bool deeper(const FoundRegion& l, const FoundRegion& r) {
   const double depth_l = std::isnan(l.region.depth) ? -1.0 : l.region.depth;
   const double depth_r = std::isnan(r.region.depth) ? -1.0 : r.region.depth;
@@ -138,6 +160,7 @@ void findInterference(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometr
                       InterferenceWorkspace& workspace, Interference& result, WorkLimit* limit) {
   result.regions.clear();
   result.facets.clear();
+  result.samples.clear();
   result.loop_areas_in_a.clear();
   result.a_inside_b = result.b_inside_a = false;
   result.rounding_bound = std::numeric_limits<double>::quiet_NaN();
@@ -157,9 +180,10 @@ void findInterference(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometr
   for (const std::vector<FoundRegion>* list : {&space.solids, &space.others}) {
     for (const FoundRegion& found : *list) space.found.push_back(found);
   }
-  std::sort(space.found.begin(), space.found.end(), deeper);
   result.facets = space.facets;
   result.loop_areas_in_a = space.loop_areas;
+  measureDepths(a, b, a_from_b, space, result);
+  std::sort(space.found.begin(), space.found.end(), deeper);
   bool surfaces_meet = false;
   for (const FoundRegion& found : space.found) {
     result.regions.push_back(found.region);

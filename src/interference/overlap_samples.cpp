@@ -49,18 +49,16 @@ OverlapSampler::Corner OverlapSampler::look(const OverlapFacet& facet, const Eig
   const Eigen::Vector3d target = facet.of_b ? point : b_from_a_ * point;
   if (facet.may_leave && !containsPoint(body.tree(), body.surface(), body.topology().shell_is_closed,
                                         body.topology().shell_of_triangle, target)) {
-    return {point, 0.0};
+    return {point, pushOf(facet), 0.0};
   }
   const SurfacePoint nearest = closestPoint(body, target, last_nearest_[other]);
   last_nearest_[other] = nearest.triangle;
   const double depth = std::sqrt(nearest.squared_distance);
-  if (depth > deepest.depth) {
-    deepest.depth = depth;
-    deepest.inside_in_a = point;
-    deepest.surface_in_a = facet.of_b ? nearest.point : a_from_b_ * nearest.point;
-    deepest.inside_is_of_b = facet.of_b;
-  }
-  return {point, depth};
+  const Eigen::Vector3d surface = facet.of_b ? nearest.point : a_from_b_ * nearest.point;
+  if (depth > deepest.depth) deepest = {depth, point, surface, facet.of_b};
+  if (!(depth > 0.0)) return {point, pushOf(facet), depth};
+  const Eigen::Vector3d out = (surface - point) / depth;
+  return {point, facet.of_b ? out : Eigen::Vector3d(-out), depth};
 }
 
 OverlapSampler::Part OverlapSampler::wholeOf(const OverlapFacet& facet, DeepestPoint& deepest) {
@@ -75,7 +73,6 @@ OverlapSampler::Part OverlapSampler::wholeOf(const OverlapFacet& facet, DeepestP
 
 void OverlapSampler::sample(const OverlapFacet* first, const OverlapFacet* last, double tolerance,
                             std::vector<OverlapSample>& samples, DeepestPoint& deepest) {
-  samples.clear();
   deepest = {};
   double surface = 0.0;
   for (const OverlapFacet* facet = first; facet != last; ++facet) surface += areaOf(facet->corners_in_a);
@@ -88,7 +85,7 @@ void OverlapSampler::sample(const OverlapFacet* first, const OverlapFacet* last,
       const Eigen::Vector3d centre =
           (facet->corners_in_a[0] + facet->corners_in_a[1] + facet->corners_in_a[2]) / 3.0;
       const Corner at = look(*facet, centre, deepest);
-      samples.push_back({centre, pushOf(*facet), weightOf(*facet) * area, at.depth});
+      samples.push_back({centre, pushOf(*facet), at.exit, weightOf(*facet) * area, at.depth});
       integral += area * at.depth;
       continue;
     }
@@ -119,7 +116,8 @@ void OverlapSampler::integrate(const OverlapFacet& facet, const Part& whole, dou
       continue;
     }
     for (const Corner& middle : part.middles) {
-      samples.push_back({middle.point, pushOf(facet), weightOf(facet) * area * share / 3.0, middle.depth});
+      samples.push_back(
+          {middle.point, pushOf(facet), middle.exit, weightOf(facet) * area * share / 3.0, middle.depth});
     }
   }
 }

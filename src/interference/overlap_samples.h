@@ -8,16 +8,6 @@
 
 namespace concave_distance {
 
-/// A point of one body's surface inside the other, with its share of that surface. Sums over the samples of a
-/// region of area * f(point, depth) are integrals over the mean of both surfaces.
-struct OverlapSample {
-  Eigen::Vector3d point_in_a;
-  /// Unit, the way B is pushed there: out of A's surface, into B's.
-  Eigen::Vector3d push_in_a;
-  double area;   ///< m^2, half of the surface that it stands for; < 0 where a fan counts negatively
-  double depth;  ///< metres to the other body's surface
-};
-
 /// The greatest depth of a region, and its line.
 struct DeepestPoint {
   double depth = 0.0;
@@ -32,14 +22,15 @@ struct DeepestPoint {
 class OverlapSampler {
  public:
   void begin(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b);
-  /// Of the facets of one region.
-  /// @param tolerance share of the integral of the depth that may be missed, > 0
+  /// Adds the samples of the facets of one region.
+  /// @param tolerance parts whose share of the integral of the depth is smaller are not halved, > 0
   void sample(const OverlapFacet* first, const OverlapFacet* last, double tolerance,
               std::vector<OverlapSample>& samples, DeepestPoint& deepest);
 
  private:
   struct Corner {
     Eigen::Vector3d point;
+    Eigen::Vector3d exit;
     double depth;
   };
   struct Part {

@@ -185,7 +185,7 @@ void RegionBuilder::measureDepth(const BoundaryComponent& component, bool solid,
     const Eigen::Vector3d& point = curves_.nodes()[component.first_node].position;
     along.deepest = {0.0, point, point};
   }
-  region.depth = along.deepest.depth * length;
+  region.depth = region.depth_along_normal = along.deepest.depth * length;
   region.normal_in_a = along.normal;
   region.point_a_in_a = frame_.pointInA(along.deepest.point_a);
   region.point_b_in_a = frame_.pointInA(along.deepest.point_b);

@@ -43,6 +43,12 @@ RelativeTwist relativeTwist(const SimulatedBody& a, const SimulatedBody& b) {
   return {into_a * (velocity_b - velocity_a), into_a * (b.angular_velocity - a.angular_velocity)};
 }
 
+// About the world's origin, its axes; the wrench is about A's.
+Wrench inWorld(const Wrench& in_a, const Eigen::Isometry3d& world_from_a) {
+  const Eigen::Vector3d force = world_from_a.linear() * in_a.force;
+  return {force, world_from_a.linear() * in_a.torque + world_from_a.translation().cross(force)};
+}
+
 }  // namespace
 
 PairRunner::PairRunner(const Scene& scene, std::size_t index, const SimulationSettings& settings)
@@ -114,15 +120,11 @@ void PairRunner::followSingle(SimulatedPair& pair) {
 
 ContactWrenches PairRunner::wrenchesOnB(const SimulatedPair& pair, const Eigen::Isometry3d& world_from_a) {
   ContactWrenches wrenches;
-  const Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   for (const ContactRegion& region : pair.contacts.regions) {
-    if (!(region.normal_force > 0.0)) continue;
-    const Eigen::Vector3d point = world_from_a * region.point_in_a;
-    const Eigen::Vector3d normal = world_from_a.linear() * region.overlap.normal_in_a;
-    wrenches.normal += wrenchAbout(region.normal_force * normal, point, origin);
-    if (region.friction_on_b_in_a.allFinite()) {
-      wrenches.friction += wrenchAbout(world_from_a.linear() * region.friction_on_b_in_a, point, origin);
-    }
+    if (!(region.normal_force >= 0.0)) continue;
+    wrenches.normal += inWorld(region.normal_on_b_in_a, world_from_a);
+    if (region.rubbing_on_b_in_a.force.allFinite())
+      wrenches.friction += inWorld(region.rubbing_on_b_in_a, world_from_a);
   }
   return wrenches;
 }
@@ -132,7 +134,7 @@ CouplingForce PairRunner::forceOnB(const SimulatedPair& pair, const SimulatedBod
   const PairContacts& contacts = pair.contacts;
   CouplingForce force;
   force.acts = std::any_of(contacts.regions.begin(), contacts.regions.end(),
-                           [](const ContactRegion& region) { return region.normal_force > 0.0; });
+                           [](const ContactRegion& region) { return region.normal_force >= 0.0; });
   if (!force.acts) return force;
   const RelativeTwist twist = relativeTwist(a, b);
   force.twist << twist.linear, twist.angular;

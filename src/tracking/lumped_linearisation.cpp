@@ -15,9 +15,9 @@ void addLumpedContact(const EffectSettings& settings, const ContactMaterial& mat
                       const ContactRegion& region, const BristleState& bristles,
                       ContactLinearisation& linearisation) {
   const Eigen::Vector3d& normal = region.overlap.normal_in_a;
-  const NormalForce force = normalForce(
-      *settings.normal_force, material,
-      {region.overlap.depth, region.depth_rate, region.overlap.contact_area, region.overlap.volume});
+  const NormalForce force = normalForce(*settings.normal_force, material,
+                                        {region.overlap.depth_along_normal, region.depth_rate,
+                                         region.overlap.contact_area, region.overlap.volume});
   const FrictionTangent friction = frictionTangent(settings.friction, material, region.normal_force, normal,
                                                    region.sliding_in_a, bristles);
   const double spread = std::sqrt(kSquaredSpread) * region.overlap.reach;

@@ -1,9 +1,11 @@
 #include "concave_distance/tracking/pair_effects.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <utility>
 
+#include "contact/contact_patch.h"
 #include "contact/contact_point.h"
 #include "contact/motion_between.h"
 #include "lumped_linearisation.h"
@@ -36,6 +38,7 @@ struct PairEffects::State {
   InterferenceWorkspace workspace;
   Interference interference;
   RegionIdentity identity;
+  std::vector<ContactPatch> patches;  ///< by region
   Eigen::Isometry3d last_pose = Eigen::Isometry3d::Identity();
   bool in_contact = false;  ///< in the last cycle, at last_pose
 
@@ -65,17 +68,61 @@ struct PairEffects::State {
     identity.update(solution.niches, displacement, contacts.regions);
   }
 
-  void push(const RelativeTwist& b_in_a, PairContacts& contacts) const {
-    for (ContactRegion& region : contacts.regions) {
-      ContactPoint contact = at(region);
-      setRelativeMotion(b_in_a, contact);
-      region.depth_rate = contact.geometry.depth_rate;
-      region.sliding_in_a = contact.sliding_in_a;
-      if (std::isnan(contact.geometry.depth)) continue;  // an open surface: no depth, no force
-      region.normal_force = normalForce(*settings.normal_force, material, contact.geometry).force;
-      region.on_b_in_a =
-          wrenchAbout(region.normal_force * contact.normal_in_a, contact.point_in_a, Eigen::Vector3d::Zero());
+  bool isPatch(const ContactRegion& region) const {
+    return settings.normal_force->distribution == ForceDistribution::Pressure &&
+           region.overlap.facet_count > 0;
+  }
+
+  void push(const RelativeTwist& b_in_a, PairContacts& contacts) {
+    patches.resize(std::max(patches.size(), contacts.regions.size()));
+    for (std::size_t r = 0; r < contacts.regions.size(); ++r) {
+      ContactRegion& region = contacts.regions[r];
+      if (isPatch(region)) {
+        pushPatch(r, b_in_a, contacts);
+      } else {
+        pushLumped(b_in_a, region);
+      }
+      if (std::isnan(region.normal_force)) continue;
+      region.on_b_in_a = region.normal_on_b_in_a;
     }
+  }
+
+  void pushPatch(std::size_t r, const RelativeTwist& b_in_a, PairContacts& contacts) {
+    ContactRegion& region = contacts.regions[r];
+    PatchMemory& memory = identity.memory()[r].patch;
+    const PatchPressure pressure = patches[r].press(surfacesOf(region.overlap), *settings.normal_force,
+                                                    material, b_in_a, memory, contacts.linearisation);
+    if (region.overlap.normal_is_fallback && !memory.entered_in_a.isZero())
+      region.overlap.normal_in_a = memory.entered_in_a;
+    region.normal_on_b_in_a = pressure.on_b_in_a;
+    region.normal_force = pressure.on_b_in_a.force.norm();
+    region.force_direction_in_a = region.normal_force > 0.0
+                                      ? Eigen::Vector3d(pressure.on_b_in_a.force / region.normal_force)
+                                      : region.overlap.normal_in_a;
+    region.largest_pressure = pressure.largest_pressure;
+    region.depth_rate = pressure.depth_rate;
+    if (pressure.force > 0.0) region.point_in_a = pressure.centre_in_a;
+    const Eigen::Vector3d velocity = b_in_a.at(region.point_in_a);
+    const Eigen::Vector3d& along = region.force_direction_in_a;
+    region.sliding_in_a = velocity - along.dot(velocity) * along;
+  }
+
+  PatchSurfaces surfacesOf(const InterferenceRegion& region) const {
+    const OverlapSample* samples = interference.samples.data() + region.first_sample;
+    const Eigen::Vector3d* loops = interference.loop_areas_in_a.data() + region.first_loop;
+    return {samples, samples + region.sample_count, loops, loops + region.loop_count, region.depth};
+  }
+
+  void pushLumped(const RelativeTwist& b_in_a, ContactRegion& region) const {
+    ContactPoint contact = at(region);
+    setRelativeMotion(b_in_a, contact);
+    region.depth_rate = contact.geometry.depth_rate;
+    region.sliding_in_a = contact.sliding_in_a;
+    if (std::isnan(contact.geometry.depth)) return;  // an open surface: no depth, no force
+    region.normal_force = normalForce(*settings.normal_force, material, contact.geometry).force;
+    region.force_direction_in_a = contact.normal_in_a;
+    region.normal_on_b_in_a =
+        wrenchAbout(region.normal_force * contact.normal_in_a, contact.point_in_a, Eigen::Vector3d::Zero());
   }
 
   /// Of B against A since the last cycle; `b_in_a` where it is not known.
@@ -85,23 +132,37 @@ struct PairEffects::State {
     return {step * twist.linear, step * twist.angular};
   }
 
-  void rub(const RelativeTwist& displacement, PairContacts& contacts) {
+  void rub(const RelativeTwist& b_in_a, const RelativeTwist& displacement, PairContacts& contacts) {
     for (std::size_t r = 0; r < contacts.regions.size(); ++r) {
       ContactRegion& region = contacts.regions[r];
-      if (!(region.normal_force > 0.0)) continue;
-      const Eigen::Vector3d& normal = region.overlap.normal_in_a;
-      const Eigen::Vector3d shift = displacement.at(region.point_in_a);
-      region.friction_on_b_in_a =
-          frictionForce(settings.friction, material, region.normal_force, normal, region.sliding_in_a,
-                        shift - normal.dot(shift) * normal, identity.memory()[r].bristles);
-      region.on_b_in_a += wrenchAbout(region.friction_on_b_in_a, region.point_in_a, Eigen::Vector3d::Zero());
+      if (!(region.normal_force >= 0.0)) continue;
+      if (isPatch(region)) {
+        region.rubbing_on_b_in_a = patches[r].rub(settings.friction, material, b_in_a, displacement,
+                                                  identity.memory()[r].patch, contacts.linearisation);
+      } else if (region.normal_force > 0.0) {
+        region.rubbing_on_b_in_a = rubLumped(displacement, region, identity.memory()[r].bristles);
+      } else {
+        continue;
+      }
+      region.friction_on_b_in_a = region.rubbing_on_b_in_a.force;
+      region.on_b_in_a += region.rubbing_on_b_in_a;
     }
+  }
+
+  Wrench rubLumped(const RelativeTwist& displacement, const ContactRegion& region,
+                   BristleState& bristles) const {
+    const Eigen::Vector3d& normal = region.overlap.normal_in_a;
+    const Eigen::Vector3d shift = displacement.at(region.point_in_a);
+    const Eigen::Vector3d force =
+        frictionForce(settings.friction, material, region.normal_force, normal, region.sliding_in_a,
+                      shift - normal.dot(shift) * normal, bristles);
+    return wrenchAbout(force, region.point_in_a, Eigen::Vector3d::Zero());
   }
 
   void linearise(PairContacts& contacts) {
     for (std::size_t r = 0; r < contacts.regions.size(); ++r) {
       const ContactRegion& region = contacts.regions[r];
-      if (!(region.normal_force > 0.0)) continue;
+      if (isPatch(region) || !(region.normal_force > 0.0)) continue;
       addLumpedContact(settings, material, region, identity.memory()[r].bristles, contacts.linearisation);
     }
     mirrorUpper(contacts.linearisation.stiffness);
@@ -112,7 +173,7 @@ struct PairEffects::State {
     ContactPoint contact;
     contact.point_in_a = region.point_in_a;
     contact.normal_in_a = region.overlap.normal_in_a;
-    contact.geometry.depth = region.overlap.depth;
+    contact.geometry.depth = region.overlap.depth_along_normal;
     contact.geometry.contact_area = region.overlap.contact_area;
     contact.geometry.volume = region.overlap.volume;
     return contact;
@@ -126,10 +187,8 @@ struct PairEffects::State {
       case EffectStage::NormalForce:
         return !contacts.regions.empty();
       case EffectStage::Friction:
-        for (const ContactRegion& region : contacts.regions) {
-          if (region.normal_force > 0.0) return true;
-        }
-        return false;
+        return std::any_of(contacts.regions.begin(), contacts.regions.end(),
+                           [](const ContactRegion& region) { return region.normal_force >= 0.0; });
     }
     return false;
   }
@@ -153,6 +212,7 @@ void PairEffects::update(const PairSolution& solution, const RelativeTwist& b_in
   contacts.possible = !state.plan.empty() && contactIsPossible(solution);
   contacts.regions.clear();
   contacts.a_inside_b = contacts.b_inside_a = contacts.cut = false;
+  contacts.linearisation = {};
   for (const EffectStage stage : state.plan) {
     if (!state.isDue(stage, contacts)) continue;
     const auto start = std::chrono::steady_clock::now();
@@ -167,7 +227,7 @@ void PairEffects::update(const PairSolution& solution, const RelativeTwist& b_in
         state.push(b_in_a, contacts);
         break;
       case EffectStage::Friction:
-        state.rub(state.displacement(solution.a_from_b, b_in_a, step), contacts);
+        state.rub(b_in_a, state.displacement(solution.a_from_b, b_in_a, step), contacts);
         break;
     }
     const auto index = static_cast<std::size_t>(stage);
@@ -175,7 +235,6 @@ void PairEffects::update(const PairSolution& solution, const RelativeTwist& b_in
     state.counts.seconds[index] +=
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
-  contacts.linearisation = {};
   if (contacts.cut) {
     contacts.on_b_in_a = notComputed();
     return;
@@ -184,7 +243,7 @@ void PairEffects::update(const PairSolution& solution, const RelativeTwist& b_in
   contacts.on_b_in_a = state.settings.normal_force ? Wrench{} : notComputed();
   if (state.settings.normal_force) {
     for (const ContactRegion& region : contacts.regions) {
-      if (region.normal_force > 0.0) contacts.on_b_in_a += region.on_b_in_a;
+      if (region.normal_force >= 0.0) contacts.on_b_in_a += region.on_b_in_a;
     }
     if (!contacts.regions.empty()) state.linearise(contacts);
   }
@@ -214,7 +273,10 @@ void PairEffects::setSettings(const EffectSettings& settings, const ContactMater
   state_->settings = settings;
   state_->material = material;
   state_->plan = EffectPlan(settings);
-  for (RegionMemory& memory : state_->identity.memory()) memory.bristles = {};
+  for (RegionMemory& memory : state_->identity.memory()) {
+    memory.bristles = {};
+    memory.patch.bristles.clear();
+  }
 }
 
 const EffectSettings& PairEffects::settings() const {

@@ -43,7 +43,11 @@ void RegionIdentity::update(const std::vector<TrackedNiche>& niches, double disp
   before_.swap(memory_);
   memory_.resize(regions.size());
   for (std::size_t r = 0; r < regions.size(); ++r) {
-    memory_[r] = {0, regions[r].point_in_a, reachOf(regions[r].overlap), {}};
+    memory_[r].id = 0;
+    memory_[r].point_in_a = regions[r].point_in_a;
+    memory_[r].reach = reachOf(regions[r].overlap);
+    memory_[r].bristles = {};
+    memory_[r].patch.clear();
   }
   const auto within = [](const Eigen::Vector3d& p, const Eigen::Vector3d& q, double reach) {
     const double squared_distance = (p - q).squaredNorm();
@@ -58,6 +62,7 @@ void RegionIdentity::update(const std::vector<TrackedNiche>& niches, double disp
   for (const Match& match : matches_) {
     memory_[match.region].id = before_[match.other].id;
     memory_[match.region].bristles = before_[match.other].bristles;
+    std::swap(memory_[match.region].patch, before_[match.other].patch);
   }
 
   // The ids: of the niches that touch, each for one region. A known id stays where its niche still is.

@@ -5,6 +5,7 @@
 
 #include "concave_distance/contact/friction.h"
 #include "concave_distance/tracking/pair_effects.h"
+#include "contact/contact_patch.h"
 
 namespace concave_distance {
 
@@ -12,8 +13,9 @@ namespace concave_distance {
 struct RegionMemory {
   std::uint64_t id = 0;
   Eigen::Vector3d point_in_a = Eigen::Vector3d::Zero();
-  double reach = 0.0;  ///< metres: how wide the region was
-  BristleState bristles;
+  double reach = 0.0;     ///< metres: how wide the region was
+  BristleState bristles;  ///< of a lumped force
+  PatchMemory patch;      ///< of a pressure
 };
 
 /// Tells which of the last cycle's regions each region is, and which niche it has come from.

@@ -21,6 +21,13 @@ enum class NormalForceModel : std::uint8_t {
 };
 std::string_view toString(NormalForceModel model);
 
+/// Where the force of a region acts.
+enum class ForceDistribution : std::uint8_t {
+  Pressure,  ///< all over the surfaces of the overlap, in proportion to how deep they lie
+  Lumped     ///< at the centroid, along one normal: for one convex place
+};
+std::string_view toString(ForceDistribution distribution);
+
 /// What a force depends on of one interference region.
 struct ContactGeometry {
   double depth = 0.0;         ///< d, metres, >= 0
@@ -64,6 +71,7 @@ double radiusFromOverlap(const ContactGeometry& contact);
 
 struct NormalForceSettings {
   NormalForceModel model = NormalForceModel::HuntCrossley;
+  ForceDistribution distribution = ForceDistribution::Pressure;
   double loading_coefficient = kHertzLoadingCoefficient;  ///< quasi_static, > 0
   double stiffness = 1e5;                                 ///< spring_dashpot, N/m, > 0
   double damping = 0.0;                                   ///< quasi_static and spring_dashpot, N s/m, >= 0
@@ -76,8 +84,10 @@ struct NormalForceSettings {
 };
 
 inline bool operator==(const NormalForceSettings& l, const NormalForceSettings& r) {
-  return std::tie(l.model, l.loading_coefficient, l.stiffness, l.damping, l.foundation_stiffness, l.radius) ==
-         std::tie(r.model, r.loading_coefficient, r.stiffness, r.damping, r.foundation_stiffness, r.radius);
+  return std::tie(l.model, l.distribution, l.loading_coefficient, l.stiffness, l.damping,
+                  l.foundation_stiffness, l.radius) == std::tie(r.model, r.distribution,
+                                                                r.loading_coefficient, r.stiffness, r.damping,
+                                                                r.foundation_stiffness, r.radius);
 }
 
 /// A model's force with its derivatives.

@@ -24,14 +24,29 @@ struct OverlapFacet {
   bool may_leave = false;  ///< parts of it may be outside the other body
 };
 
+/// A point of one body's surface inside the other, with its share of that surface. Sums over the samples of a
+/// region of area * f(point, depth) are integrals over the mean of both surfaces.
+struct OverlapSample {
+  Eigen::Vector3d point_in_a;
+  /// Unit, the way B is pushed there: out of A's surface, into B's.
+  Eigen::Vector3d push_in_a;
+  /// Unit, the way for B on which the depth decreases fastest; push_in_a where the depth is 0.
+  Eigen::Vector3d exit_in_a;
+  double area;   ///< m^2, half of the surface that it stands for; < 0 where a fan counts negatively
+  double depth;  ///< metres to the other body's surface
+};
+
 /// One place where two bodies overlap: a connected component of the regularised intersection of the two
 /// solids, cavities counted to the region around them. What is not defined is NaN. All in A's frame.
 /// The definitions with their reasons and bounds: doc/interference.md.
 struct InterferenceRegion {
+  /// How deep the surfaces lie in each other, metres: the greatest distance of a point of either surface in
+  /// the region to the other body's surface. Changes by no more than the points move.
+  double depth = std::numeric_limits<double>::quiet_NaN();
   /// How far B must be moved along the normal to take this region apart, metres: over all lines along the
   /// normal, the greatest way from the region's part of B's surface up to its part of A's. Of a swallowed
   /// shell, which has no part of the other surface: how far until the bodies' extents along the normal part.
-  double depth = std::numeric_limits<double>::quiet_NaN();
+  double depth_along_normal = std::numeric_limits<double>::quiet_NaN();
   /// Length of the vector area of A's surface inside B, m^2: what the loops enclose, seen along the normal.
   /// Of a sphere of radius R pressed into a plane by delta pi 2 R delta at first order, as Carretero's a =
   /// sqrt(A / pi) of equation expects.
@@ -44,14 +59,17 @@ struct InterferenceRegion {
   /// Unit, from A to B: the direction of the vector area of A's surface inside B, which is minus that of B's
   /// inside A, since both have the same loops.
   Eigen::Vector3d normal_in_a = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
-  /// Where the depth is attained, one line along the normal: on A's surface, and `depth` below it on B's.
+  /// Where the depth is attained: on A's surface and on B's, one of them inside the other body and the other
+  /// the closest point of that body's surface.
   Eigen::Vector3d point_a_in_a = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
   Eigen::Vector3d point_b_in_a = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
-  double reach = 0.0;             ///< of its curves from the centroid, metres; 0 for a swallowed shell
-  std::uint32_t loop_count = 0;   ///< closed intersection curves; 0 for a swallowed shell
-  std::uint32_t first_loop = 0;   ///< in Interference::loop_areas_in_a
-  std::uint32_t first_facet = 0;  ///< in Interference::facets
-  std::uint32_t facet_count = 0;  ///< 0 where surfaces only touch or are open
+  double reach = 0.0;              ///< of its curves from the centroid, metres; 0 for a swallowed shell
+  std::uint32_t loop_count = 0;    ///< closed intersection curves; 0 for a swallowed shell
+  std::uint32_t first_loop = 0;    ///< in Interference::loop_areas_in_a
+  std::uint32_t first_facet = 0;   ///< in Interference::facets
+  std::uint32_t facet_count = 0;   ///< 0 where surfaces only touch or are open
+  std::uint32_t first_sample = 0;  ///< in Interference::samples
+  std::uint32_t sample_count = 0;
   /// Every shell concerned is closed. Else the region is a connected piece of the intersection curve (or a
   /// swallowed open shell): areas, volume and depth are NaN, the normal is the curve's vector area or, where
   /// it is straight or undecided, any direction across it.
@@ -80,7 +98,8 @@ struct Interference {
   InterferenceStatus status = InterferenceStatus::Ok;
   std::vector<InterferenceRegion> regions;  ///< deepest first; those without a depth last
   std::vector<OverlapFacet> facets;         ///< of all regions: each surface inside the other body
-  /// Of all regions: vector areas of A's side of their loops, m^2.
+  std::vector<OverlapSample> samples;       ///< of all regions
+  /// Of the regions with facets: vector areas of A's side of their loops, m^2.
   std::vector<Eigen::Vector3d> loop_areas_in_a;
   bool a_inside_b = false;  ///< A lies in B's material, the surfaces do not meet
   bool b_inside_a = false;

@@ -23,9 +23,14 @@ struct ContactRegion {
   Eigen::Vector3d point_in_a = Eigen::Vector3d::Constant(kNotComputed);    ///< where the force acts
   double depth_rate = kNotComputed;                                        ///< m/s, positive while it deepens
   Eigen::Vector3d sliding_in_a = Eigen::Vector3d::Constant(kNotComputed);  ///< of B against A, m/s
-  double normal_force = kNotComputed;                                      ///< N, >= 0
+  /// N, >= 0: of all pressures together, along force_direction_in_a.
+  double normal_force = kNotComputed;
+  Eigen::Vector3d force_direction_in_a = Eigen::Vector3d::Constant(kNotComputed);  ///< unit, on B
+  double largest_pressure = kNotComputed;  ///< Pa; NaN for a lumped force
   Eigen::Vector3d friction_on_b_in_a = Eigen::Vector3d::Constant(kNotComputed);  ///< N
-  /// Both forces, about A's origin.
+  /// About A's origin: of the pressures, of friction, and both.
+  Wrench normal_on_b_in_a{Eigen::Vector3d::Constant(kNotComputed), Eigen::Vector3d::Constant(kNotComputed)};
+  Wrench rubbing_on_b_in_a{Eigen::Vector3d::Constant(kNotComputed), Eigen::Vector3d::Constant(kNotComputed)};
   Wrench on_b_in_a{Eigen::Vector3d::Constant(kNotComputed), Eigen::Vector3d::Constant(kNotComputed)};
 };
 

@@ -1,0 +1,152 @@
+#include "contact_patch.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace concave_distance {
+namespace {
+
+// Sites along the width of a patch, about.
+constexpr double kSitesAcross = 6.0;
+// Cells change their size when they are this much too large or too small.
+constexpr double kCellSlack = 2.5;
+// A patch pushes one way while its pressures add up to this share of their sum, and any way below the second.
+constexpr double kOneWay = 0.5;
+constexpr double kAnyWay = 0.3;
+
+double cellSize(double area, double now) {
+  const double wanted = std::sqrt(area) / kSitesAcross;
+  if (now > wanted / kCellSlack && now < wanted * kCellSlack) return now;
+  return std::exp2(std::round(std::log2(wanted)));
+}
+
+/// Of space, and the axis that the push is nearest to: the two walls of a slot do not share a site.
+std::uint64_t cellOf(const Eigen::Vector3d& point, const Eigen::Vector3d& push, double size) {
+  constexpr std::int64_t kHalf = 1 << 19;
+  std::uint64_t key = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double cell = std::clamp(std::floor(point[axis] / size), -double(kHalf), double(kHalf - 1));
+    key = key << 20U | static_cast<std::uint64_t>(static_cast<std::int64_t>(cell) + kHalf);
+  }
+  Eigen::Index axis = 0;
+  push.cwiseAbs().maxCoeff(&axis);
+  return key << 3U | static_cast<std::uint64_t>(2 * axis + (push[axis] < 0.0 ? 1 : 0));
+}
+
+/// B has come out of A on the side away from where it entered, or A of B.
+bool isPierced(const Eigen::Vector3d* first_loop, const Eigen::Vector3d* last_loop,
+               const Eigen::Vector3d& entered) {
+  return std::any_of(first_loop, last_loop,
+                     [&](const Eigen::Vector3d& area) { return area.dot(entered) < -kOneWay * area.norm(); });
+}
+
+/// The state of the same cell, or after a change of their size that of the nearest one.
+const BristleState* findBristles(const PatchMemory& memory, const PatchSite& site, bool same_cells) {
+  const auto found =
+      std::lower_bound(memory.bristles.begin(), memory.bristles.end(), site.cell,
+                       [](const SiteBristles& known, std::uint64_t cell) { return known.cell < cell; });
+  if (found != memory.bristles.end() && found->cell == site.cell) return &found->bristles;
+  if (same_cells || memory.bristles.empty()) return nullptr;
+  const auto nearest = std::min_element(memory.bristles.begin(), memory.bristles.end(),
+                                        [&](const SiteBristles& l, const SiteBristles& r) {
+                                          return (l.point_in_a - site.point_in_a).squaredNorm() <
+                                                 (r.point_in_a - site.point_in_a).squaredNorm();
+                                        });
+  return &nearest->bristles;
+}
+
+}  // namespace
+
+PatchPressure ContactPatch::press(const PatchSurfaces& surfaces, const NormalForceSettings& settings,
+                                  const ContactMaterial& material, const RelativeTwist& b_in_a,
+                                  PatchMemory& memory, ContactLinearisation& linearisation) {
+  const PatchMeasure patch = measurePatch(surfaces.first_sample, surfaces.last_sample, surfaces.depth);
+  const PressureLaw law = pressureLaw(settings, material, patch);
+  PatchPressure result;
+  result.pierced = isPierced(surfaces.first_loop, surfaces.last_loop, memory.entered_in_a);
+  const double cell_size = patch.area > 0.0 ? cellSize(patch.area, memory.cell_size) : memory.cell_size;
+  same_cells_ = cell_size == memory.cell_size;
+  memory.cell_size = cell_size;
+  shares_.clear();
+  for (const OverlapSample* sample = surfaces.first_sample; sample != surfaces.last_sample; ++sample) {
+    const Eigen::Vector3d& push = sample->push_in_a;
+    if (result.pierced && push.dot(memory.entered_in_a) < 0.0) continue;
+    const double rate = -b_in_a.at(sample->point_in_a).dot(sample->exit_in_a);
+    const double per_depth = std::max(0.0, law.stiffness + law.damping * rate);
+    const double pressure = per_depth * sample->depth;
+    result.largest_pressure = std::max(result.largest_pressure, pressure);
+    const double force = sample->area * pressure;
+    const double along = std::max(0.0, push.dot(sample->exit_in_a));
+    result.force += force;
+    result.centre_in_a += force * sample->point_in_a;
+    result.depth_rate += force * rate;
+    result.on_b_in_a += wrenchAbout(force * push, sample->point_in_a, Eigen::Vector3d::Zero());
+    shares_.push_back({cellOf(sample->point_in_a, push, cell_size), force * sample->point_in_a, force * push,
+                       force, sample->area * per_depth * along,
+                       sample->area * law.damping * sample->depth * along});
+  }
+  if (result.force > 0.0) {
+    result.centre_in_a /= result.force;
+    result.depth_rate /= result.force;
+    const double one_way = result.on_b_in_a.force.norm() / result.force;
+    if (!result.pierced && one_way >= kOneWay) memory.entered_in_a = result.on_b_in_a.force.normalized();
+    if (!result.pierced && one_way < kAnyWay) memory.entered_in_a.setZero();
+  }
+  gatherSites();
+  for (const PatchSite& site : sites_) {
+    addDirection(site.stiffness, site.push_in_a, site.point_in_a, linearisation.stiffness);
+    addDirection(site.damping, site.push_in_a, site.point_in_a, linearisation.damping);
+  }
+  return result;
+}
+
+void ContactPatch::gatherSites() {
+  std::sort(shares_.begin(), shares_.end(),
+            [](const PatchSite& l, const PatchSite& r) { return l.cell < r.cell; });
+  sites_.clear();
+  for (auto share = shares_.begin(); share != shares_.end();) {
+    PatchSite sum = *share;
+    for (++share; share != shares_.end() && share->cell == sum.cell; ++share) {
+      sum.point_in_a += share->point_in_a;
+      sum.push_in_a += share->push_in_a;
+      sum.force += share->force;
+      sum.stiffness += share->stiffness;
+      sum.damping += share->damping;
+    }
+    const double length = sum.push_in_a.norm();
+    if (!(sum.force > 0.0 && length > 0.0)) continue;
+    sum.point_in_a /= sum.force;
+    sum.push_in_a /= length;
+    sum.stiffness = std::max(0.0, sum.stiffness);
+    sum.damping = std::max(0.0, sum.damping);
+    sites_.push_back(sum);
+  }
+}
+
+Wrench ContactPatch::rub(const FrictionSettings& settings, const ContactMaterial& material,
+                         const RelativeTwist& b_in_a, const RelativeTwist& displacement, PatchMemory& memory,
+                         ContactLinearisation& linearisation) {
+  next_.clear();
+  Wrench wrench;
+  for (const PatchSite& site : sites_) {
+    const BristleState* known = findBristles(memory, site, same_cells_);
+    SiteBristles& now = next_.emplace_back(
+        SiteBristles{site.cell, site.point_in_a, known != nullptr ? *known : BristleState()});
+    const Eigen::Vector3d& normal = site.push_in_a;
+    const auto across = [&](const Eigen::Vector3d& v) { return Eigen::Vector3d(v - normal.dot(v) * normal); };
+    const Eigen::Vector3d sliding = across(b_in_a.at(site.point_in_a));
+    const Eigen::Vector3d force = frictionForce(settings, material, site.force, normal, sliding,
+                                                across(displacement.at(site.point_in_a)), now.bristles);
+    wrench += wrenchAbout(force, site.point_in_a, Eigen::Vector3d::Zero());
+    const FrictionTangent tangent =
+        frictionTangent(settings, material, site.force, normal, sliding, now.bristles);
+    addDirection(tangent.stiffness_along, tangent.along, site.point_in_a, linearisation.stiffness);
+    addDirection(tangent.stiffness_across, tangent.across, site.point_in_a, linearisation.stiffness);
+    addDirection(tangent.damping_along, tangent.along, site.point_in_a, linearisation.damping);
+    addDirection(tangent.damping_across, tangent.across, site.point_in_a, linearisation.damping);
+  }
+  memory.bristles = next_;
+  return wrench;
+}
+
+}  // namespace concave_distance

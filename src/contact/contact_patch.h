@@ -1,0 +1,89 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "concave_distance/contact/contact_linearisation.h"
+#include "concave_distance/contact/effect_settings.h"
+#include "concave_distance/contact/wrench.h"
+#include "concave_distance/interference/interference.h"
+#include "pressure_law.h"
+
+namespace concave_distance {
+
+/// A small part of a patch, with the pressure on it added up.
+struct PatchSite {
+  std::uint64_t cell;          ///< of space, in A's frame, and the direction of the push
+  Eigen::Vector3d point_in_a;  ///< centre of the pressure
+  Eigen::Vector3d push_in_a;   ///< unit, on B
+  double force;                ///< N, > 0
+  double stiffness;            ///< N/m
+  double damping;              ///< N s/m
+};
+
+/// Bristles of one site.
+struct SiteBristles {
+  std::uint64_t cell;
+  Eigen::Vector3d point_in_a;
+  BristleState bristles;
+};
+
+/// The surfaces of one region (Interference).
+struct PatchSurfaces {
+  const OverlapSample* first_sample;
+  const OverlapSample* last_sample;
+  const Eigen::Vector3d* first_loop;
+  const Eigen::Vector3d* last_loop;
+  double depth;
+};
+
+/// What is kept of a patch from cycle to cycle.
+struct PatchMemory {
+  double cell_size = 0.0;              ///< of the sites, metres; 0: none yet
+  std::vector<SiteBristles> bristles;  ///< by cell, ascending
+  /// Unit, on B, while the patch pushed one way; zero: it never did.
+  Eigen::Vector3d entered_in_a = Eigen::Vector3d::Zero();
+
+  void clear() {
+    cell_size = 0.0;
+    bristles.clear();
+    entered_in_a.setZero();
+  }
+};
+
+/// The pressure of one region, sampled.
+struct PatchPressure {
+  Wrench on_b_in_a;                                       ///< about A's origin
+  Eigen::Vector3d centre_in_a = Eigen::Vector3d::Zero();  ///< of pressure
+  double force = 0.0;             ///< sum of the pressures' forces, whatever their directions, N
+  double largest_pressure = 0.0;  ///< Pa
+  double depth_rate = 0.0;        ///< mean by pressure, m/s
+  /// One body has come out of the other on the far side of where it entered: surfaces that would push it out
+  /// there carry no pressure.
+  bool pierced = false;
+};
+
+/// Pressure and friction over the surfaces of one region of overlap, with torque, and their linearisation.
+/// Keeps buffers only; what lasts is in PatchMemory.
+class ContactPatch {
+ public:
+  /// Sets the pressure, its wrench and its share of the linearisation.
+  PatchPressure press(const PatchSurfaces& surfaces, const NormalForceSettings& settings,
+                      const ContactMaterial& material, const RelativeTwist& b_in_a, PatchMemory& memory,
+                      ContactLinearisation& linearisation);
+  /// Friction of what press() has set, on B, about A's origin.
+  /// @param displacement of B against A since the last call, about A's origin
+  Wrench rub(const FrictionSettings& settings, const ContactMaterial& material, const RelativeTwist& b_in_a,
+             const RelativeTwist& displacement, PatchMemory& memory, ContactLinearisation& linearisation);
+  const std::vector<PatchSite>& sites() const { return sites_; }
+
+ private:
+  void gatherSites();
+
+  std::vector<PatchSite> shares_;  ///< one a sample, with sums instead of means; by cell
+  std::vector<PatchSite> sites_;
+  std::vector<SiteBristles> next_;
+  bool same_cells_ = true;  ///< as in the last cycle
+};
+
+}  // namespace concave_distance

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "concave_distance/contact/material.h"
+#include "concave_distance/contact/normal_force.h"
+#include "concave_distance/interference/interference.h"
+
+namespace concave_distance {
+
+/// What a normal force depends on of the surfaces of one overlap.
+struct PatchMeasure {
+  double depth = 0.0;   ///< the greatest, metres
+  double area = 0.0;    ///< m^2, mean of both surfaces
+  double volume = 0.0;  ///< integral of the depth over the surface, m^3
+  double moment = 0.0;  ///< half of the integral of its square, m^4
+};
+
+PatchMeasure measurePatch(const OverlapSample* first, const OverlapSample* last, double depth);
+
+/// Pressure at a place: depth * max(0, stiffness + damping * rate of the depth).
+struct PressureLaw {
+  double stiffness = 0.0;  ///< Pa/m
+  double damping = 0.0;    ///< Pa s/m^2
+};
+
+/// Of a model on a patch: shared out in proportion to the depth so that a round contact has the model's
+/// force. An elastic foundation has its own stiffness everywhere, which makes its force the gradient of a
+/// potential, half of the integral of the depth over the overlap for either surface. Hertz takes radius and
+/// depth of the paraboloid with the same volume and moment; its force 1.30 E* sqrt(moment) is that of a flat
+/// punch (Johnson 1985, eq. (3.36)) but for 18 %.
+PressureLaw pressureLaw(const NormalForceSettings& settings, const ContactMaterial& material,
+                        const PatchMeasure& patch);
+
+}  // namespace concave_distance
