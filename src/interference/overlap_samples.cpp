@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "distance/closest_point.h"
 #include "mesh/surface/mesh_topology.h"
@@ -14,6 +15,9 @@ namespace {
 constexpr double kSmallShare = 1.0 / 512.0;
 // A part this small a share of its facet is not halved again: 2^-kDeepest of its area.
 constexpr std::uint32_t kDeepestLevel = 12;
+// The greatest depth is looked for to this share, and in so many halvings.
+constexpr double kDepthShare = 1e-3;
+constexpr int kMostHalvings = 256;
 
 Eigen::Vector3d middleOf(const Eigen::Vector3d& l, const Eigen::Vector3d& r) {
   return 0.5 * (l + r);
@@ -49,16 +53,16 @@ OverlapSampler::Corner OverlapSampler::look(const OverlapFacet& facet, const Eig
   const Eigen::Vector3d target = facet.of_b ? point : b_from_a_ * point;
   if (facet.may_leave && !containsPoint(body.tree(), body.surface(), body.topology().shell_is_closed,
                                         body.topology().shell_of_triangle, target)) {
-    return {point, pushOf(facet), 0.0};
+    return {point, pushOf(facet), 0.0, last_nearest_[other]};
   }
   const SurfacePoint nearest = closestPoint(body, target, last_nearest_[other]);
   last_nearest_[other] = nearest.triangle;
   const double depth = std::sqrt(nearest.squared_distance);
   const Eigen::Vector3d surface = facet.of_b ? nearest.point : a_from_b_ * nearest.point;
   if (depth > deepest.depth) deepest = {depth, point, surface, facet.of_b};
-  if (!(depth > 0.0)) return {point, pushOf(facet), depth};
+  if (!(depth > 0.0)) return {point, pushOf(facet), depth, nearest.triangle};
   const Eigen::Vector3d out = (surface - point) / depth;
-  return {point, facet.of_b ? out : Eigen::Vector3d(-out), depth};
+  return {point, facet.of_b ? out : Eigen::Vector3d(-out), depth, nearest.triangle};
 }
 
 OverlapSampler::Part OverlapSampler::wholeOf(const OverlapFacet& facet, DeepestPoint& deepest) {
@@ -95,6 +99,47 @@ void OverlapSampler::sample(const OverlapFacet* first, const OverlapFacet* last,
   }
   for (std::size_t i = 0; i < large_.size(); ++i) {
     integrate(first[large_[i]], wholes_[i], tolerance * integral, samples, deepest);
+  }
+  findDeepest(first, last, deepest);
+}
+
+// No point of a part is farther from the other surface than the farthest of its corners is from one triangle
+// of it: the distance to a convex set is convex.
+double OverlapSampler::depthBound(const OverlapFacet& facet, const Part& part) const {
+  const BodyMesh& body = *body_[facet.of_b ? 0 : 1];
+  double bound = std::numeric_limits<double>::infinity();
+  for (const Corner& middle : part.middles) {
+    const TrianglePoints triangle = trianglePoints(body.surface(), middle.nearest);
+    double farthest = 0.0;
+    for (const Corner& corner : part.corners) {
+      const Eigen::Vector3d target = facet.of_b ? corner.point : b_from_a_ * corner.point;
+      farthest = std::max(farthest, pointTriangleDistance(target, triangle).squared_distance);
+    }
+    bound = std::min(bound, farthest);
+  }
+  return std::sqrt(bound);
+}
+
+void OverlapSampler::findDeepest(const OverlapFacet* first, const OverlapFacet* last, DeepestPoint& deepest) {
+  int halvings = 0;
+  for (const OverlapFacet* facet = first; facet != last; ++facet) {
+    // A point inside is no deeper than the shallowest corner and the way there.
+    const Eigen::Vector3d centre =
+        (facet->corners_in_a[0] + facet->corners_in_a[1] + facet->corners_in_a[2]) / 3.0;
+    double reach = 0.0;
+    for (const Eigen::Vector3d& corner : facet->corners_in_a)
+      reach = std::max(reach, (corner - centre).norm());
+    const double enough = (1.0 + kDepthShare) * deepest.depth;
+    if (look(*facet, centre, deepest).depth + reach <= enough) continue;
+    parts_.assign(1, wholeOf(*facet, deepest));
+    while (!parts_.empty() && halvings < kMostHalvings) {
+      const Part part = parts_.back();
+      parts_.pop_back();
+      if (part.level >= 2 * kDeepestLevel) continue;
+      if (depthBound(*facet, part) <= (1.0 + kDepthShare) * deepest.depth) continue;
+      ++halvings;
+      halve(*facet, part, deepest);
+    }
   }
 }
 

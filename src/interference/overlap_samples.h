@@ -32,6 +32,7 @@ class OverlapSampler {
     Eigen::Vector3d point;
     Eigen::Vector3d exit;
     double depth;
+    TriangleIndex nearest;  ///< of the other body
   };
   struct Part {
     std::array<Corner, 3> corners;
@@ -43,6 +44,8 @@ class OverlapSampler {
   Part wholeOf(const OverlapFacet& facet, DeepestPoint& deepest);
   void integrate(const OverlapFacet& facet, const Part& whole, double allowed,
                  std::vector<OverlapSample>& samples, DeepestPoint& deepest);
+  void findDeepest(const OverlapFacet* first, const OverlapFacet* last, DeepestPoint& deepest);
+  double depthBound(const OverlapFacet& facet, const Part& part) const;
   void halve(const OverlapFacet& facet, const Part& part, DeepestPoint& deepest);
 
   const BodyMesh* body_[2] = {nullptr, nullptr};
