@@ -1,14 +1,10 @@
 #include "coupling.h"
 
-#include <algorithm>
-
 namespace concave_distance::detail {
 namespace {
 
-// A weight of 1/2 as long as the rate times the step is at most 1, and towards 1 beyond.
-double forwardWeight(double steps) {
-  return steps > 1.0 ? 1.0 - 0.5 / steps : 0.5;
-}
+// What a step does not resolve keeps (1 - w) / w of itself from step to step.
+constexpr double kLargestEndWeight = 0.6;
 
 Eigen::Matrix3d crossMatrix(const Eigen::Vector3d& v) {
   Eigen::Matrix3d matrix;
@@ -49,12 +45,8 @@ ContactLinearisation linearisationOf(const CompliantDrive& drive, const Eigen::V
   return linearisation;
 }
 
-double forwardWeightOfStiffness(double stiffness_rate, double step) {
-  return forwardWeight(step * step * stiffness_rate);
-}
-
-double forwardWeightOfDamping(double damping_rate, double step) {
-  return forwardWeight(step * damping_rate);
+double endWeight(double time_scales) {
+  return time_scales > 1.0 ? 0.5 + (kLargestEndWeight - 0.5) * (1.0 - 1.0 / time_scales) : 0.5;
 }
 
 }  // namespace concave_distance::detail

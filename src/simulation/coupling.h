@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cstddef>
 
 #include "concave_distance/contact/contact_linearisation.h"
@@ -53,8 +54,7 @@ struct Coupling {
   Vector6d change = Vector6d::Zero();      ///< solution: of the relative twist
 
   // Of the step that is tried.
-  double forward_stiffness = 0.5;  ///< weight of the end of the step, 1/2 to 1
-  double forward_damping = 0.5;
+  double weight = 0.5;                       ///< of the end of the step: see endWeight()
   Vector6d used = Vector6d::Zero();          ///< mean wrench of the linear model
   Vector6d displacement = Vector6d::Zero();  ///< of B against A
   Vector6d residual = Vector6d::Zero();      ///< what the linear model has missed of the wrench at the end
@@ -72,9 +72,13 @@ inline Wrench toWrench(const Vector6d& wrench) {
 /// Of a drive's spring and damper. @param point of the drive's frame, in the target's frame
 ContactLinearisation linearisationOf(const CompliantDrive& drive, const Eigen::Vector3d& point_in_target);
 
-/// Weights of the end of a step for stiffness and damping: 1/2, the trapezoidal rule, while the step resolves
-/// the motion; towards 1, which damps, where it is longer than the time scale.
-double forwardWeightOfStiffness(double stiffness_rate, double step);
-double forwardWeightOfDamping(double damping_rate, double step);
+/// How many time scales of the coupling a step is long: the trapezoidal rule resolves up to about 1.
+inline double timeScales(double stiffness_rate, double damping_rate, double step) {
+  return std::max(step * step * stiffness_rate, step * damping_rate);
+}
+
+/// Weight of the end of a step: 1/2, the trapezoidal rule, which keeps energy, where it resolves the motion;
+/// more where it is longer than the time scales, so that what is not resolved decays.
+double endWeight(double time_scales);
 
 }  // namespace concave_distance::detail

@@ -82,6 +82,7 @@ void Simulation::State::addBodies(const Scene& scene) {
   external.resize(bodies.size());
   motions.resize(bodies.size());
   inertias.resize(bodies.size());
+  weights.resize(bodies.size());
   impulses.resize(bodies.size());
   changes.resize(bodies.size());
 }

@@ -70,6 +70,7 @@ struct Simulation::State {
   void setJacobians();
   void setMotions(double inside);
   void findLoads();
+  void chooseWeights(double step);
   void predict(double step);
   void drift(double step);
   void evaluateEnd(double step, double inside);
@@ -104,6 +105,7 @@ struct Simulation::State {
   std::vector<Drift> drifts;
   std::vector<detail::FrameMotion> motions;
   std::vector<detail::StepEquations::Inertia> inertias;
+  std::vector<double> weights;  ///< of the end of the step, by body: its island's
   std::vector<Vector6d> impulses;
   std::vector<Vector6d> changes;
   std::vector<detail::PairBegin> pair_begins;

@@ -50,6 +50,7 @@ void Simulation::State::beginStep(double inside) {
   time_at_begin = time;
   setMotions(inside);
   setJacobians();
+  evaluateDrives(inside);  // another piece of the path may have begun, or another target been set
   for (std::size_t i = 0; i < moving.size(); ++i) {
     MovingBody& body = moving[i];
     inertias[i] = body.inertia();
@@ -76,6 +77,7 @@ void Simulation::State::beginStep(double inside) {
     coupling.stiffness_rate = rateOf(coupling.begin.linearisation.stiffness, coupling, inertias);
     coupling.damping_rate = rateOf(coupling.begin.linearisation.damping, coupling, inertias);
   }
+  equations.findIslands(inertias, couplings);
   findLoads();
   for (detail::PairRunner& runner : runners) runner.keep();
   allowDisplacements();
@@ -118,31 +120,49 @@ Wrench Simulation::State::sumOn(std::size_t body, const Vector6d Coupling::*wren
   return detail::toWrench(sum);
 }
 
-// The twists in the middle of the step: M (V - V0) = h/2 (w - K x - D dV), x = h V weighted by its end's
-// weight, dV = 2 (V - V0) by that of damping. The couplings' mean wrenches follow from them.
+// One weight for all that hangs together, or what is at rest would be kicked unevenly and not stay so.
+void Simulation::State::chooseWeights(double step) {
+  std::fill(weights.begin(), weights.end(), 0.5);
+  for (const Coupling& coupling : couplings) {
+    if (!coupling.begin.acts) continue;
+    const double weight =
+        detail::endWeight(detail::timeScales(coupling.stiffness_rate, coupling.damping_rate, step));
+    for (const std::size_t body : {coupling.body_a, coupling.body_b}) {
+      if (body == detail::kNoBody || !moving[body].isFree()) continue;
+      double& island = weights[equations.islandOf(body)];
+      island = std::max(island, weight);
+    }
+  }
+  for (std::size_t i = 0; i < moving.size(); ++i) weights[i] = weights[equations.islandOf(i)];
+  for (Coupling& coupling : couplings) {
+    const bool free_b = moving[coupling.body_b].isFree();
+    coupling.weight = weights[free_b || coupling.body_a == detail::kNoBody ? coupling.body_b : coupling.body_a];
+  }
+}
+
+// The twists V of the drift: M (V - V0) = p h (w - p K h V - D (V - V0)), p the weight of the step's end. The
+// couplings' mean wrenches follow from them.
 void Simulation::State::predict(double step) {
-  const double half = 0.5 * step;
+  chooseWeights(step);
   for (Coupling& coupling : couplings) {
     coupling.used.setZero();
     coupling.resistance.setZero();
     if (!coupling.begin.acts) continue;
     const ContactLinearisation& now = coupling.begin.linearisation;
-    coupling.forward_stiffness = detail::forwardWeightOfStiffness(coupling.stiffness_rate, step);
-    coupling.forward_damping = detail::forwardWeightOfDamping(coupling.damping_rate, step);
-    coupling.resistance = half * (step * coupling.forward_stiffness * now.stiffness +
-                                  2.0 * coupling.forward_damping * now.damping);
-    coupling.used =
-        coupling.begin.wrench - step * coupling.forward_stiffness * (now.stiffness * coupling.twist);
+    const double part = coupling.weight * step;
+    coupling.resistance = part * (part * now.stiffness + now.damping);
+    coupling.used = coupling.begin.wrench - part * (now.stiffness * coupling.twist);
   }
   for (std::size_t i = 0; i < moving.size(); ++i) {
     if (!moving[i].isFree()) continue;
     Wrench wrench = moving[i].steadyWrench(settings.gravity);
     wrench += sumOn(i, &Coupling::used);
-    impulses[i] << half * wrench.force, half * wrench.torque;
+    const double part = weights[i] * step;
+    impulses[i] << part * wrench.force, part * wrench.torque;
   }
   equations.solve(inertias, impulses, couplings, changes);
   for (Coupling& coupling : couplings) {
-    coupling.used -= coupling.resistance * coupling.change / half;
+    coupling.used -= coupling.resistance * coupling.change / (coupling.weight * step);
     coupling.displacement = step * (coupling.twist + coupling.change);
   }
 }
@@ -154,7 +174,7 @@ void Simulation::State::drift(double step) {
     if (body.isFree()) {
       Wrench wrench = body.steadyWrench(settings.gravity);
       wrench += sumOn(i, &Coupling::used);
-      body.kick(wrench, 0.5 * step);
+      body.kick(wrench, weights[i] * step);
     }
     drifts[i] = body.drift(time_at_begin, step);
   }
@@ -170,7 +190,7 @@ void Simulation::State::evaluateEnd(double step, double inside) {
     body.evaluateLoad(inside, body.state(), external[i]);
     Wrench wrench = body.steadyWrench(settings.gravity);
     wrench += sumOn(i, &Coupling::used);
-    body.kick(wrench, 0.5 * step);
+    body.kick(wrench, (1.0 - weights[i]) * step);
     body.report(time, inside, bodies[i]);
   }
   setMotions(inside);
@@ -182,35 +202,36 @@ void Simulation::State::evaluateEnd(double step, double inside) {
     coupling.residual = end.wrench - begin.wrench;
     if (!begin.acts) continue;
     Vector6d twist = end.twist;
-    if (!end.acts) twist = coupling.twist + 2.0 * coupling.change;
+    if (!end.acts) twist = coupling.twist + coupling.change / coupling.weight;
     coupling.residual += begin.linearisation.stiffness * coupling.displacement +
                          begin.linearisation.damping * (twist - begin.twist);
   }
 }
 
-// The trapezoidal rule's other half: h/2 of the residual, against the stiffness and damping at the end.
+// What the linear model has missed of the wrench at the end, against the stiffness and damping there.
 void Simulation::State::correct(double step) {
-  const double half = 0.5 * step;
+  for (std::size_t i = 0; i < moving.size(); ++i) inertias[i] = moving[i].inertia();
   for (Coupling& coupling : couplings) {
-    coupling.begin.acts = coupling.begin.acts || coupling.force.acts;
     const ContactLinearisation& end = coupling.force.linearisation;
-    const double stiffness_rate = rateOf(end.stiffness, coupling, inertias);
-    const double damping_rate = rateOf(end.damping, coupling, inertias);
-    coupling.resistance =
-        half * (step * detail::forwardWeightOfStiffness(stiffness_rate, step) * end.stiffness +
-                2.0 * detail::forwardWeightOfDamping(damping_rate, step) * end.damping);
-    coupling.used = coupling.residual;
+    if (coupling.force.acts && !coupling.begin.acts) {
+      coupling.begin.acts = true;
+      coupling.weight =
+          detail::endWeight(detail::timeScales(rateOf(end.stiffness, coupling, inertias),
+                                               rateOf(end.damping, coupling, inertias), step));
+    }
+    const double part = coupling.weight * step;
+    coupling.resistance = part * (part * end.stiffness + end.damping);
+    coupling.used = part * coupling.residual;
   }
   for (std::size_t i = 0; i < moving.size(); ++i) {
-    if (!moving[i].isFree()) continue;
-    inertias[i] = moving[i].inertia();
-    const Wrench wrench = sumOn(i, &Coupling::used);
-    impulses[i] << half * wrench.force, half * wrench.torque;
+    const Wrench impulse = sumOn(i, &Coupling::used);
+    impulses[i] << impulse.force, impulse.torque;
   }
+  equations.findIslands(inertias, couplings);
   equations.solve(inertias, impulses, couplings, changes);
-  for (Coupling& coupling : couplings) coupling.used -= coupling.resistance * coupling.change / half;
+  for (Coupling& coupling : couplings) coupling.used -= coupling.resistance * coupling.change;
   for (std::size_t i = 0; i < moving.size(); ++i) {
-    if (moving[i].isFree()) moving[i].kick(sumOn(i, &Coupling::used), half);
+    if (moving[i].isFree()) moving[i].kick(sumOn(i, &Coupling::used), 1.0);
   }
 }
 
@@ -258,14 +279,15 @@ double Simulation::State::shareOfError(double step) const {
     detail::StepTolerance tolerance;
     tolerance.step_fraction = settings.step_fraction;
     tolerance.energy_of_motion = energyOfMotion(coupling);
-    double depth = 0.0;
+    tolerance.load = coupling.load;
     if (i < pairs.size()) {
       const auto& regions = pairs[i].contacts.regions;
-      depth = std::max(pair_begins[i].depth, regions.empty() ? 0.0 : regions.front().overlap.depth);
+      tolerance.depth = std::max(pair_begins[i].depth, regions.empty() ? 0.0 : regions.front().overlap.depth);
+      tolerance.size = std::min(moving[coupling.body_a].radius(), moving[coupling.body_b].radius());
     } else {
-      depth = moving[coupling.body_b].driveStretch();
+      tolerance.depth = moving[coupling.body_b].driveStretch();
+      tolerance.size = moving[coupling.body_b].radius();
     }
-    tolerance.energy_at_rest = coupling.load * depth;
     const double error = detail::errorOf(coupling, step);
     if (error > 0.0) largest = std::max(largest, error / detail::allowedError(tolerance));
   }

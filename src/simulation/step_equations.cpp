@@ -83,7 +83,6 @@ void StepEquations::assemble(const std::vector<Inertia>& bodies, const std::vect
 
 void StepEquations::solve(const std::vector<Inertia>& bodies, const std::vector<Vector6d>& impulses,
                           std::vector<Coupling>& couplings, std::vector<Vector6d>& changes) {
-  findIslands(bodies, couplings);
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     changes[i].setZero();
     if (isFree(bodies, i) && row_[i] < 0) solveAlone(bodies[i], impulses[i], changes[i]);

@@ -20,6 +20,12 @@ class StepEquations {
     Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
   };
 
+  /// Finds what hangs together by couplings that act.
+  void findIslands(const std::vector<Inertia>& bodies, const std::vector<Coupling>& couplings);
+  /// One body of the island that a free body belongs to, the same for all of them.
+  std::size_t islandOf(std::size_t body) { return rootOf(body); }
+
+  /// Of the islands found last.
   /// @param impulses of each body about its centre of mass, world axes; of others than free bodies ignored
   /// @param changes of the bodies' twists; and of the couplings' (Coupling::change)
   void solve(const std::vector<Inertia>& bodies, const std::vector<Vector6d>& impulses,
@@ -27,7 +33,6 @@ class StepEquations {
 
  private:
   std::size_t rootOf(std::size_t body);
-  void findIslands(const std::vector<Inertia>& bodies, const std::vector<Coupling>& couplings);
   void solveAlone(const Inertia& body, const Vector6d& impulse, Vector6d& change) const;
   void assemble(const std::vector<Inertia>& bodies, const std::vector<Coupling>& couplings, std::size_t root,
                 Eigen::Index size);

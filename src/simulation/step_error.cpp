@@ -6,8 +6,10 @@
 namespace concave_distance::detail {
 namespace {
 
-// A body at rest swings by a tenth of its depth at most before that is resolved: a hundredth of its energy.
-constexpr double kShareAtRest = 0.01;
+// What swings within the depth that its load presses it to is at rest but for this share of the energy there,
+// and for what lifts it by this share of its size.
+constexpr double kShareOfDepth = 1e-4;
+constexpr double kShareOfSize = 1e-6;
 
 }  // namespace
 
@@ -15,7 +17,7 @@ double allowedError(const StepTolerance& tolerance) {
   const double fraction = tolerance.step_fraction;
   // Of a swing of energy E the trapezoidal rule misses E (w h)^3 / 6 in a step.
   return fraction * fraction * fraction / 6.0 * tolerance.energy_of_motion +
-         kShareAtRest * tolerance.energy_at_rest;
+         tolerance.load * (kShareOfDepth * tolerance.depth + kShareOfSize * tolerance.size);
 }
 
 double errorOf(const Coupling& coupling, double step) {
@@ -24,11 +26,11 @@ double errorOf(const Coupling& coupling, double step) {
   const double missed = 0.5 * std::abs(coupling.residual.dot(displacement));
   const double stretched = displacement.dot(now.stiffness * displacement);
   const double swing = std::min(1.0, step * std::sqrt(coupling.stiffness_rate)) / 12.0;
-  // The displacement is step times the mean twist, and `change` half of the twist's.
-  const double slowed = 2.0 * std::abs(coupling.change.dot(now.damping * displacement));
+  // `change` is the weight's part of the change over the step.
+  const double slowed = std::abs(coupling.change.dot(now.damping * displacement)) / coupling.weight;
   const double decay = std::min(1.0, step * coupling.damping_rate) / 12.0;
-  return missed + (swing + coupling.forward_stiffness - 0.5) * stretched +
-         (decay + coupling.forward_damping - 0.5) * slowed;
+  const double damped = coupling.weight - 0.5;
+  return missed + (swing + damped) * stretched + (decay + damped) * slowed;
 }
 
 }  // namespace concave_distance::detail

@@ -7,7 +7,9 @@ namespace concave_distance::detail {
 /// How large a coupling's part in the error of the energy may be in one step, joules.
 struct StepTolerance {
   double energy_of_motion = 0.0;  ///< of B against A, J
-  double energy_at_rest = 0.0;    ///< the load that presses them together times the depth, J
+  double load = 0.0;              ///< that presses them together, N
+  double depth = 0.0;             ///< of the contact, or stretch of the drive, metres
+  double size = 0.0;              ///< of the smaller body, metres
   double step_fraction = 0.1;
 };
 double allowedError(const StepTolerance& tolerance);

@@ -76,7 +76,7 @@ std::string_view toString(SimulationTracking tracking);
 struct SimulationSettings {
   Eigen::Vector3d gravity = Eigen::Vector3d(0.0, 0.0, -9.81);  ///< m/s^2
   double duration = 1.0;                                       ///< seconds
-  double largest_step = 1e-3;                                  ///< seconds
+  double largest_step = 1e-2;                                  ///< seconds
   /// Of sqrt(m / k) of contacts and drives that swing, and of a radian, that a step takes at most. What is at
   /// rest in them holds no step back.
   double step_fraction = 0.1;
