@@ -170,23 +170,36 @@ void pegThroughPlate(SceneReport& report) {
   }
 }
 
-/// A peg of 60 mm whose middle is 5 mm above the plate's: 35 mm to go upwards, 45 mm downwards.
-void pegLeavesPlate(SceneReport& report, NormalForceModel model) {
+/// A peg of 60 mm, its middle 5 mm above the plate's, tilted a little: 35 mm to go upwards, 45 mm downwards.
+SceneRun leavePlate(NormalForceModel model, double tilt, const SceneReport& report) {
   ContactStage stage;
   stage.effects = effectsOf(model);
   stage.addFixed("plate", solidPlate(), at(0, 0, 0));
   stage.addFree("peg", makePolygonPrism(kHoleRadius, kLongPeg, kCorners), 0.15,
-                at(0, 0, 0.005) * Eigen::AngleAxisd(0.01, Eigen::Vector3d::UnitX()));
+                at(0, 0, 0.005) * Eigen::AngleAxisd(tilt, Eigen::Vector3d::UnitX()));
   stage.letMeet("plate", "peg");
   stage.settings.gravity.setZero();
-  SceneRun run(stage.simulation(), 0.5, report);
+  SceneRun run(stage.simulation(), 0.1, report);
   while (run.step()) {
     if (std::abs(run.body(1).centre.z()) > 0.06) run.stop("the peg has left");
   }
+  return run;
+}
+
+void pegLeavesPlate(SceneReport& report, NormalForceModel model) {
+  int by_the_longer_way = 0;
+  double fastest = 0.0;
+  RunFigures figures;
+  for (int i = 0; i < 10; ++i) {
+    const SceneRun run = leavePlate(model, 0.003 * i, report);
+    if (run.body(1).centre.z() < 0.0) ++by_the_longer_way;
+    fastest = std::max(fastest, run.body(1).velocity.norm());
+    figures = run.figures();
+  }
   const std::string with = "; " + std::string(toString(model));
-  report.atMost({"leaves by the longer way" + with, "1", run.body(1).centre.z() < 0.0 ? 1.0 : 0.0}, 0.0,
-                "35 mm up or 45 mm down", run.figures());
-  report.note({"speed upwards at the end" + with, "m/s", run.body(1).velocity.z()}, run.figures());
+  report.atMost({"leaves by the longer way; of 10 tilts" + with, "1", static_cast<double>(by_the_longer_way)},
+                0.0, "35 mm up or 45 mm down", figures);
+  report.note({"largest speed at the end" + with, "m/s", fastest}, figures);
 }
 
 }  // namespace

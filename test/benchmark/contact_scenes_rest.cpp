@@ -126,7 +126,6 @@ Rest standStill(const ContactStage& stage, double settling, double duration, con
 void tower(SceneReport& report, ContactStage stage, int count, double duration, double wanted_speed) {
   stage.addGround();
   stage.addTower(count, kSide, 1.0);
-  stage.settings.tracking = SimulationTracking::Niches;  // the default, whose speed counts
   const Rest rest = standStill(stage, 2.0, duration, report);
   const std::string span = std::to_string(std::lround(duration - 2.0)) + " s";
   report.atMost({"largest drift of a box over " + span, "um", 1e6 * rest.drift}, 1.0, "at rest",
@@ -134,6 +133,16 @@ void tower(SceneReport& report, ContactStage stage, int count, double duration, 
   report.atMost({"largest turn of a box over " + span, "mrad", 1e3 * rest.turn}, 0.01, "at rest",
                 rest.figures);
   report.realTimeFactor(rest.figures, wanted_speed);
+}
+
+/// The same where every niche is followed, which is the default, for its speed.
+void towerWithNiches(SceneReport& report, ContactStage stage, int count, double wanted_speed) {
+  stage.addGround();
+  stage.addTower(count, kSide, 1.0);
+  stage.settings.tracking = SimulationTracking::Niches;
+  SceneRun run(stage.simulation(), 2.0, report);
+  while (run.step()) continue;
+  report.realTimeFactor(run.figures(), wanted_speed);
 }
 
 /// A cube of 100 kg on one of 0.1 kg.
@@ -176,7 +185,12 @@ ContactScenes restScenes() {
   ContactStage defaults;
   defaults.effects = effectsOf(NormalForceModel::HuntCrossley, FrictionModel::Bristle);
   addStanding("defaults", defaults, scenes);
-  addStanding("bed", bedStage(FrictionModel::Bristle), scenes);
+  const ContactStage bed = bedStage(FrictionModel::Bristle);
+  addStanding("bed", bed, scenes);
+  scenes.push_back({"resting_box_niches", "the same with every niche",
+                    [=](SceneReport& report) { towerWithNiches(report, bed, 1, 100.0); }});
+  scenes.push_back({"stack_of_three_niches", "the same with every niche",
+                    [=](SceneReport& report) { towerWithNiches(report, bed, 3, 20.0); }});
   return scenes;
 }
 
