@@ -103,7 +103,7 @@ std::vector<ComparedScene> comparedScenes() {
   }
   scenes.push_back(diagonal);
   ComparedScene feet = load("two_feet", "two_feet", ComparedShape::Mesh);
-  NormalForceSettings& normal = *feet.scene.pairs[0].settings.effects.normal_force;
+  NormalForceSettings& normal = *feet.scene.pairs.edit(0).settings.effects.normal_force;
   normal.model = NormalForceModel::ElasticFoundation;
   normal.foundation_stiffness = feet.foundation_stiffness = kFeetFoundation;
   feet.spring_spacing = kFeetSpacing;

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <fstream>
 
+#include "benchmark/engines/engine_table.h"
 #include "benchmark/support/benchmark_main.h"
 #include "concave_distance/base/error.h"
 
@@ -93,10 +94,16 @@ void writeLines(std::ofstream& csv, const ComparedScene& scene, const Run& run) 
 int benchmarkMain(int argc, char** argv) {
   CLI::App app("Our simulation beside independent engines on the same scenes");
   std::string output;
+  std::string table;
   std::vector<std::string> names;
+  app.add_option("--table", table, "CSV file for the table of contact scenes; runs that table alone");
   app.add_option("--output", output, "CSV file to write");
   app.add_option("--scenes", names, "Some of the scenes; default: all")->delimiter(',');
   CLI11_PARSE(app, argc, argv);
+  if (!table.empty()) {
+    compareInTable(names, table);
+    return 0;
+  }
   std::ofstream csv;
   if (!output.empty()) {
     csv.open(output);

@@ -1,0 +1,107 @@
+#include <cmath>
+
+#include "benchmark/contact_scenes.h"
+#include "benchmark/support/contact_stage.h"
+#include "concave_distance/mesh/surface/primitives.h"
+
+namespace concave_distance::benchmark {
+namespace {
+
+using test::at;
+
+constexpr double kRadius = 0.1;
+constexpr double kMass = 1.0;
+constexpr double kFriction = 0.4;
+
+struct RoundBody {
+  std::string name;
+  SurfaceMesh mesh;
+  Eigen::Matrix3d turn;  ///< that it lies with
+  double inertia;        ///< about its axis over m R^2
+};
+
+RoundBody rollingSphere() {
+  return {"sphere", makeSphere(kRadius, 1e-4), Eigen::Matrix3d::Identity(), 0.4};
+}
+
+RoundBody rollingCylinder() {
+  const Eigen::AngleAxisd lying(0.5 * kPi, Eigen::Vector3d::UnitX());
+  return {"cylinder", makeCylinder(kRadius, 0.1, 1e-5), lying.toRotationMatrix(), 0.5};
+}
+
+/// The body on the ground, touching it by its lowest vertex.
+ContactStage rollingStage(const RoundBody& body) {
+  ContactStage stage;
+  stage.material.static_friction = stage.material.dynamic_friction = kFriction;
+  stage.effects = effectsOf(NormalForceModel::HuntCrossley, FrictionModel::Bristle);
+  stage.addGround();
+  Eigen::Isometry3d pose = at(0, 0, depthOfLowestVertex(body.mesh, body.turn));
+  pose.linear() = body.turn;
+  SimulatedBodySettings& settings = stage.addFree(body.name, body.mesh, kMass, pose);
+  // Of the round body, not of its mesh.
+  MassProperties mass;
+  mass.mass = kMass;
+  const double across = body.name == "sphere" ? 0.4 : 0.25 + 0.1 * 0.1 / (12.0 * kRadius * kRadius);
+  mass.inertia = kMass * kRadius * kRadius * Eigen::Vector3d(across, across, body.inertia).asDiagonal();
+  settings.mass.reset();
+  settings.inertia = mass;
+  stage.letMeet("ground", body.name);
+  return stage;
+}
+
+/// From rest, without slip: a = g sin / (1 + I / (m R^2)).
+void rollsDown(SceneReport& report, const RoundBody& body) {
+  const double angle = 0.2;
+  const double duration = 1.0;
+  ContactStage stage = rollingStage(body);
+  stage.settings.gravity = kGravity * Eigen::Vector3d(std::sin(angle), 0.0, -std::cos(angle));
+  SceneRun run(stage.simulation(), duration, report);
+  run.advanceTo(duration);
+  const bool complete = !run.step();
+  const double expected = kGravity * std::sin(angle) / (1.0 + body.inertia);
+  report.equals({"acceleration of a " + body.name + " down a slope of 0.2", "m/s^2",
+                 complete ? run.body(1).velocity.x() / run.time() : kNotComputed},
+                expected, 0.02 * expected, "g sin / (1 + I/(m R^2))", run.figures());
+}
+
+/// Slides with v0, without spin: friction turns it until it rolls with v0 / (1 + I / (m R^2)).
+void slidesUntilItRolls(SceneReport& report, const RoundBody& body) {
+  const double speed = 1.0;
+  const double changes = speed * body.inertia / ((1.0 + body.inertia) * kFriction * kGravity);
+  ContactStage stage = rollingStage(body);
+  stage.settings.bodies.back().velocity = {speed, 0.0, 0.0};
+  const double duration = 2.0 * changes;
+  SceneRun run(stage.simulation(), duration, report);
+  run.advanceTo(duration);
+  const bool complete = !run.step();
+  const double expected = speed / (1.0 + body.inertia);
+  report.equals({"speed of a " + body.name + " that slid with 1 m/s and rolls", "m/s",
+                 complete ? run.body(1).velocity.x() : kNotComputed},
+                expected, 0.02 * expected, "v0 / (1 + I/(m R^2))", run.figures());
+}
+
+/// A ball stands on the lowest vertex of its mesh.
+void ballOnVertex(SceneReport& report) {
+  const RoundBody body = {"sphere", makeSphere(kRadius, 0.01 * kRadius), Eigen::Matrix3d::Identity(), 0.4};
+  ContactStage stage = rollingStage(body);
+  const double duration = 10.0;
+  SceneRun run(stage.simulation(), duration, report);
+  double largest = 0.0;
+  while (run.step()) largest = std::max(largest, run.body(1).centre.head<2>().norm());
+  report.atMost({"how far a meshed ball rolls off its vertex in 10 s", "mm", 1e3 * largest}, 1.0,
+                "a ball stays where it is put", run.figures());
+}
+
+}  // namespace
+
+ContactScenes rollingScenes() {
+  return {
+      {"ball_on_vertex", "a meshed ball at rest", ballOnVertex},
+      {"rolling_cylinder", "down a slope", [](SceneReport& r) { rollsDown(r, rollingCylinder()); }},
+      {"rolling_sphere", "down a slope", [](SceneReport& r) { rollsDown(r, rollingSphere()); }},
+      {"sliding_cylinder", "until it rolls",
+       [](SceneReport& r) { slidesUntilItRolls(r, rollingCylinder()); }},
+      {"sliding_sphere", "until it rolls", [](SceneReport& r) { slidesUntilItRolls(r, rollingSphere()); }}};
+}
+
+}  // namespace concave_distance::benchmark

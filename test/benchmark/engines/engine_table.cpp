@@ -1,0 +1,51 @@
+#include "benchmark/engines/engine_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+
+#include "concave_distance/base/error.h"
+
+namespace concave_distance::benchmark {
+namespace {
+
+std::vector<TableEngine> allEngines() {
+  std::vector<TableEngine> all = {{"concave_distance", runOwnTable}};
+  for (const auto& engines : {simbodyEngines(), odeEngines(), bulletEngines()}) {
+    all.insert(all.end(), engines.begin(), engines.end());
+  }
+  return all;
+}
+
+}  // namespace
+
+void compareInTable(const std::vector<std::string>& names, const std::string& file) {
+  std::ofstream csv;
+  if (!file.empty()) {
+    csv.open(file);
+    if (!csv) throw Error(file, "cannot be written", "name a file in a folder that is there");
+    csv << "scene,what,unit,formula,engine,expected,found,error,seconds_per_second,complete\n";
+  }
+  std::printf("%-16s %-46s %-6s %-22s %12s %12s %12s %18s\n", "scene", "what", "unit", "engine", "expected",
+              "found", "error", "seconds a second");
+  for (const TableScene& scene : tableScenes()) {
+    if (!names.empty() && std::find(names.begin(), names.end(), scene.name) == names.end()) continue;
+    for (const TableEngine& engine : allEngines()) {
+      const TableRun run = engine.run(scene);
+      const double found = scene.figure(run);
+      const double simulated = run.bodies.front().back().time;
+      std::printf("%-16s %-46s %-6s %-22s %12.6g %12.6g %12.3g %18.3g%s\n", scene.name.c_str(),
+                  scene.what.c_str(), scene.unit.c_str(), engine.name.c_str(), scene.expected, found,
+                  std::abs(found - scene.expected), run.seconds / simulated,
+                  run.complete ? "" : " (not finished)");
+      std::fflush(stdout);
+      if (!csv.is_open()) continue;
+      csv << scene.name << ',' << scene.what << ',' << scene.unit << ',' << scene.formula << ','
+          << engine.name << ',' << scene.expected << ',' << found << ',' << std::abs(found - scene.expected)
+          << ',' << run.seconds / simulated << ',' << (run.complete ? "yes" : "no") << '\n';
+    }
+  }
+}
+
+}  // namespace concave_distance::benchmark
