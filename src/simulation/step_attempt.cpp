@@ -201,10 +201,8 @@ void Simulation::State::evaluateEnd(double step, double inside) {
     const CouplingForce& end = coupling.force;
     coupling.residual = end.wrench - begin.wrench;
     if (!begin.acts) continue;
-    Vector6d twist = end.twist;
-    if (!end.acts) twist = coupling.twist + coupling.change / coupling.weight;
     coupling.residual += begin.linearisation.stiffness * coupling.displacement +
-                         begin.linearisation.damping * (twist - begin.twist);
+                         begin.linearisation.damping * coupling.change / coupling.weight;
   }
 }
 
@@ -284,6 +282,10 @@ double Simulation::State::shareOfError(double step) const {
       const auto& regions = pairs[i].contacts.regions;
       tolerance.depth = std::max(pair_begins[i].depth, regions.empty() ? 0.0 : regions.front().overlap.depth);
       tolerance.size = std::min(moving[coupling.body_a].radius(), moving[coupling.body_b].radius());
+      if (!regions.empty()) {
+        tolerance.sliding = detail::shareAcross(coupling.displacement, regions.front().point_in_a,
+                                                regions.front().overlap.normal_in_a);
+      }
     } else {
       tolerance.depth = moving[coupling.body_b].driveStretch();
       tolerance.size = moving[coupling.body_b].radius();

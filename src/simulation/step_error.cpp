@@ -7,17 +7,28 @@ namespace concave_distance::detail {
 namespace {
 
 // What swings within the depth that its load presses it to is at rest but for this share of the energy there,
-// and for what lifts it by this share of its size.
+// and for what lifts it by this share of its size; what sticks by friction for what moves it by this share.
 constexpr double kShareOfDepth = 1e-4;
 constexpr double kShareOfSize = 1e-6;
+constexpr double kShareOfSizeAcross = 1e-8;
 
 }  // namespace
 
+double shareAcross(const Vector6d& displacement, const Eigen::Vector3d& point,
+                   const Eigen::Vector3d& normal) {
+  const Eigen::Vector3d shift =
+      displacement.head<3>() + Eigen::Vector3d(displacement.tail<3>()).cross(point);
+  const double length = shift.norm();
+  return length > 0.0 ? (shift - normal.dot(shift) * normal).norm() / length : 0.0;
+}
+
 double allowedError(const StepTolerance& tolerance) {
   const double fraction = tolerance.step_fraction;
+  const double share_of_size =
+      kShareOfSize + tolerance.sliding * (kShareOfSizeAcross - kShareOfSize);
   // Of a swing of energy E the trapezoidal rule misses E (w h)^3 / 6 in a step.
   return fraction * fraction * fraction / 6.0 * tolerance.energy_of_motion +
-         tolerance.load * (kShareOfDepth * tolerance.depth + kShareOfSize * tolerance.size);
+         tolerance.load * (kShareOfDepth * tolerance.depth + share_of_size * tolerance.size);
 }
 
 double errorOf(const Coupling& coupling, double step) {

@@ -4,12 +4,16 @@
 
 namespace concave_distance::detail {
 
+/// Across `normal`, of the displacement of a point, as a share of all of it; 0 without any.
+double shareAcross(const Vector6d& displacement, const Eigen::Vector3d& point, const Eigen::Vector3d& normal);
+
 /// How large a coupling's part in the error of the energy may be in one step, joules.
 struct StepTolerance {
   double energy_of_motion = 0.0;  ///< of B against A, J
   double load = 0.0;              ///< that presses them together, N
   double depth = 0.0;             ///< of the contact, or stretch of the drive, metres
   double size = 0.0;              ///< of the smaller body, metres
+  double sliding = 1.0;           ///< share of the displacement that is not along the normal, 0 to 1
   double step_fraction = 0.1;
 };
 double allowedError(const StepTolerance& tolerance);

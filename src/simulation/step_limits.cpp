@@ -10,12 +10,14 @@ namespace {
 using detail::MovingBody;
 using detail::PairBegin;
 
-// Shares of the depth that the next contact is expected to reach. What could stop a body is thicker than that
-// depth, so that half of it passes through nothing; the begin of a contact decides about its energy.
-constexpr double kShareInContact = 0.5;
+// Shares of the depth that the next contact is expected to reach. What can stop a body is thicker than that
+// depth, so that nothing is passed through; the begin of a contact decides about its energy.
+constexpr double kShareInContact = 1.0;
 constexpr double kShareAtBegin = 0.02;
 // Places are rounded: this far, relative to the body's size, it may always move.
 constexpr double kRoundedPlace = 1e-9;
+// Of the way allowed at the present speed, which changes a little within the step.
+constexpr double kAim = 0.99;
 
 double reducedMass(const MovingBody& a, const MovingBody& b) {
   if (!a.isFree()) return b.rigid().mass();
@@ -76,7 +78,7 @@ double Simulation::State::limitStep(double event, StepLimit& limit) {
     }
   }
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    hold(pair_begins[i].allowed() / speedBetween(pairs[i]), StepLimit::Distance);
+    hold(kAim * pair_begins[i].allowed() / speedBetween(pairs[i]), StepLimit::Distance);
   }
   return step;
 }
