@@ -38,6 +38,21 @@ Eigen::Vector3d regularisedCoulombForce(const FrictionSettings& settings, const 
   return -coefficient * normal_force / std::hypot(speed, settings.regularisation_speed) * sliding;
 }
 
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+// Of the greatest deflection: bristles that are bent less do not slip.
+constexpr double kBreakaway = 0.7;
+
+/// alpha of Dupont et al.: from 0 below the breakaway to 1 at the greatest deflection.
+double slippingShare(double bent) {
+  if (bent <= kBreakaway) return 0.0;
+  if (bent >= 1.0) return 1.0;
+  return 0.5 - 0.5 * std::cos(kPi * (bent - kBreakaway) / (1.0 - kBreakaway));
+}
+
+}  // namespace
+
 Eigen::Vector3d bristleForce(const FrictionSettings& settings, const ContactMaterial& material,
                              double normal_force, const Eigen::Vector3d& normal,
                              const Eigen::Vector3d& sliding, const Eigen::Vector3d& displacement,
@@ -58,8 +73,10 @@ Eigen::Vector3d bristleForce(const FrictionSettings& settings, const ContactMate
     state.deflection.setZero();
     return -normal_force * material.viscous_friction * sliding;
   }
-  const double decay = settings.bristle_stiffness * speed / coefficient;
-  const double slip = settings.bristle_stiffness * displacement.norm() / coefficient;
+  const double share =
+      slippingShare(settings.bristle_stiffness * (before + displacement).norm() / coefficient);
+  const double decay = share * settings.bristle_stiffness * speed / coefficient;
+  const double slip = share * settings.bristle_stiffness * displacement.norm() / coefficient;
   state.deflection = (before + displacement) / (1.0 + slip);
   const Eigen::Vector3d rate = sliding - decay * state.deflection;
   Eigen::Vector3d friction = settings.bristle_stiffness * state.deflection + settings.bristle_damping * rate +
@@ -106,7 +123,7 @@ FrictionTangent bristleTangent(const FrictionSettings& settings, const ContactMa
   if (!(coefficient > 0.0)) return {};
   // Of the bristles that are bent as far as they go, what follows them no longer gives way along.
   const double bent = settings.bristle_stiffness * state.deflection.norm() / coefficient;
-  const double left = speed > 0.0 ? std::max(0.0, 1.0 - bent) : 1.0;
+  const double left = speed > 0.0 ? std::max(0.0, 1.0 - slippingShare(bent) * bent) : 1.0;
   FrictionTangent tangent;
   tangent.stiffness_across = normal_force * settings.bristle_stiffness;
   tangent.stiffness_along = left * tangent.stiffness_across;

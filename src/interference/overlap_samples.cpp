@@ -12,12 +12,13 @@ namespace concave_distance {
 namespace {
 
 // A facet of less than this share of the region's surface has one sample.
-constexpr double kSmallShare = 1.0 / 512.0;
+constexpr double kSmallShare = 1.0 / 128.0;
 // A part this small a share of its facet is not halved again: 2^-kDeepest of its area.
 constexpr std::uint32_t kDeepestLevel = 12;
-// The greatest depth is looked for to this share, and in so many halvings.
-constexpr double kDepthShare = 1e-3;
-constexpr int kMostHalvings = 256;
+// The greatest depth is looked for to this share.
+constexpr double kDepthShare = 1e-6;
+// Planes whose normals differ by less are one, radians squared.
+constexpr double kSameDirection = 1e-28;
 
 Eigen::Vector3d middleOf(const Eigen::Vector3d& l, const Eigen::Vector3d& r) {
   return 0.5 * (l + r);
@@ -27,6 +28,16 @@ double areaOf(const std::array<Eigen::Vector3d, 3>& corners) {
   return 0.5 * (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm();
 }
 
+Eigen::Vector3d centreOf(const std::array<Eigen::Vector3d, 3>& corners) {
+  return (corners[0] + corners[1] + corners[2]) / 3.0;
+}
+
+double reachOf(const std::array<Eigen::Vector3d, 3>& corners, const Eigen::Vector3d& centre) {
+  double reach = 0.0;
+  for (const Eigen::Vector3d& corner : corners) reach = std::max(reach, (corner - centre).norm());
+  return reach;
+}
+
 Eigen::Vector3d pushOf(const OverlapFacet& facet) {
   return facet.of_b ? Eigen::Vector3d(-facet.normal_in_a) : facet.normal_in_a;
 }
@@ -34,6 +45,17 @@ Eigen::Vector3d pushOf(const OverlapFacet& facet) {
 // Both surfaces count half.
 double weightOf(const OverlapFacet& facet) {
   return facet.is_negative ? -0.5 : 0.5;
+}
+
+/// By how much the depth in the middle of an edge differs from the mean of its ends.
+template <typename Part>
+double bendOf(const Part& part) {
+  double bend = 0.0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double linear = 0.5 * (part.corners[k].depth + part.corners[(k + 1) % 3].depth);
+    bend = std::max(bend, std::abs(part.middles[k].depth - linear));
+  }
+  return bend;
 }
 
 }  // namespace
@@ -80,67 +102,29 @@ void OverlapSampler::sample(const OverlapFacet* first, const OverlapFacet* last,
   deepest = {};
   double surface = 0.0;
   for (const OverlapFacet* facet = first; facet != last; ++facet) surface += areaOf(facet->corners_in_a);
+  small_.clear();
   large_.clear();
   wholes_.clear();
   double integral = 0.0;
   for (const OverlapFacet* facet = first; facet != last; ++facet) {
     const double area = areaOf(facet->corners_in_a);
-    if (area < kSmallShare * surface) {
-      const Eigen::Vector3d centre =
-          (facet->corners_in_a[0] + facet->corners_in_a[1] + facet->corners_in_a[2]) / 3.0;
-      const Corner at = look(*facet, centre, deepest);
-      samples.push_back({centre, pushOf(*facet), at.exit, weightOf(*facet) * area, at.depth});
-      integral += area * at.depth;
+    const auto index = static_cast<std::uint32_t>(facet - first);
+    if (area >= kSmallShare * surface) {
+      large_.push_back(index);
+      const Part& whole = wholes_.emplace_back(wholeOf(*facet, deepest));
+      for (const Corner& middle : whole.middles) integral += area / 3.0 * middle.depth;
       continue;
     }
-    large_.push_back(static_cast<std::uint32_t>(facet - first));
-    const Part& whole = wholes_.emplace_back(wholeOf(*facet, deepest));
-    for (const Corner& middle : whole.middles) integral += area / 3.0 * middle.depth;
+    const Eigen::Vector3d centre = centreOf(facet->corners_in_a);
+    const Corner at = look(*facet, centre, deepest);
+    samples.push_back({centre, pushOf(*facet), at.exit, weightOf(*facet) * area, at.depth});
+    integral += area * at.depth;
+    small_.push_back({index, at.nearest, at.depth + reachOf(facet->corners_in_a, centre)});
   }
   for (std::size_t i = 0; i < large_.size(); ++i) {
     integrate(first[large_[i]], wholes_[i], tolerance * integral, samples, deepest);
   }
-  findDeepest(first, last, deepest);
-}
-
-// No point of a part is farther from the other surface than the farthest of its corners is from one triangle
-// of it: the distance to a convex set is convex.
-double OverlapSampler::depthBound(const OverlapFacet& facet, const Part& part) const {
-  const BodyMesh& body = *body_[facet.of_b ? 0 : 1];
-  double bound = std::numeric_limits<double>::infinity();
-  for (const Corner& middle : part.middles) {
-    const TrianglePoints triangle = trianglePoints(body.surface(), middle.nearest);
-    double farthest = 0.0;
-    for (const Corner& corner : part.corners) {
-      const Eigen::Vector3d target = facet.of_b ? corner.point : b_from_a_ * corner.point;
-      farthest = std::max(farthest, pointTriangleDistance(target, triangle).squared_distance);
-    }
-    bound = std::min(bound, farthest);
-  }
-  return std::sqrt(bound);
-}
-
-void OverlapSampler::findDeepest(const OverlapFacet* first, const OverlapFacet* last, DeepestPoint& deepest) {
-  int halvings = 0;
-  for (const OverlapFacet* facet = first; facet != last; ++facet) {
-    // A point inside is no deeper than the shallowest corner and the way there.
-    const Eigen::Vector3d centre =
-        (facet->corners_in_a[0] + facet->corners_in_a[1] + facet->corners_in_a[2]) / 3.0;
-    double reach = 0.0;
-    for (const Eigen::Vector3d& corner : facet->corners_in_a)
-      reach = std::max(reach, (corner - centre).norm());
-    const double enough = (1.0 + kDepthShare) * deepest.depth;
-    if (look(*facet, centre, deepest).depth + reach <= enough) continue;
-    parts_.assign(1, wholeOf(*facet, deepest));
-    while (!parts_.empty() && halvings < kMostHalvings) {
-      const Part part = parts_.back();
-      parts_.pop_back();
-      if (part.level >= 2 * kDeepestLevel) continue;
-      if (depthBound(*facet, part) <= (1.0 + kDepthShare) * deepest.depth) continue;
-      ++halvings;
-      halve(*facet, part, deepest);
-    }
-  }
+  lookAtCorners(first, deepest);
 }
 
 void OverlapSampler::integrate(const OverlapFacet& facet, const Part& whole, double allowed,
@@ -150,20 +134,126 @@ void OverlapSampler::integrate(const OverlapFacet& facet, const Part& whole, dou
   while (!parts_.empty()) {
     const Part part = parts_.back();
     parts_.pop_back();
-    double bend = 0.0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double linear = 0.5 * (part.corners[k].depth + part.corners[(k + 1) % 3].depth);
-      bend = std::max(bend, std::abs(part.middles[k].depth - linear));
-    }
-    const double share = std::ldexp(1.0, -static_cast<int>(part.level));
-    if (bend * area * share > allowed && part.level < kDeepestLevel) {
+    const double part_area = area * std::ldexp(1.0, -static_cast<int>(part.level));
+    findPlanes(facet, part);
+    if (worstHeight(facet, part, deepest) * part_area <= allowed) {
+      addBelowPlanes(facet, part, samples, deepest);
+    } else if (part.level < kDeepestLevel && bendOf(part) * part_area > allowed) {
       halve(facet, part, deepest);
-      continue;
+    } else {
+      addQuadratic(facet, part, samples);
     }
-    for (const Corner& middle : part.middles) {
-      samples.push_back(
-          {middle.point, pushOf(facet), middle.exit, weightOf(facet) * area * share / 3.0, middle.depth});
+  }
+}
+
+void OverlapSampler::addPlane(const OverlapFacet& facet, TriangleIndex nearest) {
+  const BodyMesh& body = *body_[facet.of_b ? 0 : 1];
+  const Eigen::Vector3d& normal = body.topology().triangle_normals[nearest.value];
+  const Eigen::Vector3d& corner = body.surface().corner(nearest, 0);
+  Plane plane;
+  plane.out = facet.of_b ? normal : Eigen::Vector3d(a_from_b_.linear() * normal);
+  plane.exit = facet.of_b ? plane.out : Eigen::Vector3d(-plane.out);
+  plane.offset = plane.out.dot(facet.of_b ? corner : Eigen::Vector3d(a_from_b_ * corner));
+  const auto same = [&](const Plane& known) {
+    return (known.out - plane.out).squaredNorm() < kSameDirection && known.offset == plane.offset;
+  };
+  if (std::none_of(planes_.begin(), planes_.end(), same)) planes_.push_back(plane);
+}
+
+void OverlapSampler::findPlanes(const OverlapFacet& facet, const Part& part) {
+  planes_.clear();
+  for (const Corner& corner : part.corners) addPlane(facet, corner.nearest);
+  for (const Corner& middle : part.middles) addPlane(facet, middle.nearest);
+}
+
+double OverlapSampler::leastHeight(const Eigen::Vector3d& point) const {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Plane& plane : planes_) least = std::min(least, plane.depth(point));
+  return std::max(0.0, least);
+}
+
+// By how much the planes are wrong, at the points that are known and at the centre.
+double OverlapSampler::worstHeight(const OverlapFacet& facet, const Part& part, DeepestPoint& deepest) {
+  double worst = 0.0;
+  const auto compare = [&](const Corner& at) {
+    worst = std::max(worst, std::abs(leastHeight(at.point) - at.depth));
+  };
+  for (const Corner& corner : part.corners) compare(corner);
+  for (const Corner& middle : part.middles) compare(middle);
+  if (planes_.size() > 1) {
+    compare(
+        look(facet, (part.corners[0].point + part.corners[1].point + part.corners[2].point) / 3.0, deepest));
+  }
+  return worst;
+}
+
+// Each plane has what it is the lowest over.
+void OverlapSampler::addBelowPlanes(const OverlapFacet& facet, const Part& part,
+                                    std::vector<OverlapSample>& samples, DeepestPoint& deepest) {
+  for (const Plane& plane : planes_) {
+    polygon_.assign({part.corners[0].point, part.corners[1].point, part.corners[2].point});
+    for (const Plane& other : planes_) {
+      if (&other != &plane) keepBelow(plane, other);
     }
+    for (const Eigen::Vector3d& corner : polygon_) {
+      if (plane.depth(corner) > (1.0 + kDepthShare) * deepest.depth) look(facet, corner, deepest);
+    }
+    for (std::size_t k = 2; k < polygon_.size(); ++k) {
+      const std::array<Eigen::Vector3d, 3> corners = {polygon_[0], polygon_[k - 1], polygon_[k]};
+      const double area = areaOf(corners);
+      if (!(area > 0.0)) continue;
+      for (std::size_t edge = 0; edge < 3; ++edge) {
+        const Eigen::Vector3d middle = middleOf(corners[edge], corners[(edge + 1) % 3]);
+        samples.push_back({middle, pushOf(facet), plane.exit, weightOf(facet) * area / 3.0,
+                           std::max(0.0, plane.depth(middle))});
+      }
+    }
+  }
+}
+
+// Cuts off the polygon where `other` is lower; where both are equal the first one keeps it.
+void OverlapSampler::keepBelow(const Plane& plane, const Plane& other) {
+  clipped_.clear();
+  const auto height = [&](const Eigen::Vector3d& p) { return other.depth(p) - plane.depth(p); };
+  for (std::size_t k = 0; k < polygon_.size(); ++k) {
+    const Eigen::Vector3d& from = polygon_[k];
+    const Eigen::Vector3d& to = polygon_[(k + 1) % polygon_.size()];
+    const double at_from = height(from);
+    const double at_to = height(to);
+    if (at_from >= 0.0) clipped_.push_back(from);
+    if ((at_from > 0.0 && at_to < 0.0) || (at_from < 0.0 && at_to > 0.0)) {
+      clipped_.push_back(from + at_from / (at_from - at_to) * (to - from));
+    }
+  }
+  polygon_.swap(clipped_);
+}
+
+void OverlapSampler::addQuadratic(const OverlapFacet& facet, const Part& part,
+                                  std::vector<OverlapSample>& samples) const {
+  const double area = areaOf({part.corners[0].point, part.corners[1].point, part.corners[2].point});
+  for (const Corner& middle : part.middles) {
+    samples.push_back({middle.point, pushOf(facet), middle.exit, weightOf(facet) * area / 3.0, middle.depth});
+  }
+}
+
+// No point of a facet is farther from the other surface than the farthest of its corners is from one triangle
+// of it: the distance to a convex set is convex.
+double OverlapSampler::depthBound(const OverlapFacet& facet, TriangleIndex nearest) const {
+  const TrianglePoints triangle = trianglePoints(body_[facet.of_b ? 0 : 1]->surface(), nearest);
+  double farthest = 0.0;
+  for (const Eigen::Vector3d& corner : facet.corners_in_a) {
+    const Eigen::Vector3d target = facet.of_b ? corner : b_from_a_ * corner;
+    farthest = std::max(farthest, pointTriangleDistance(target, triangle).squared_distance);
+  }
+  return std::sqrt(farthest);
+}
+
+void OverlapSampler::lookAtCorners(const OverlapFacet* first, DeepestPoint& deepest) {
+  for (const Candidate& candidate : small_) {
+    const OverlapFacet& facet = first[candidate.facet];
+    if (candidate.reachable <= (1.0 + kDepthShare) * deepest.depth) continue;
+    if (depthBound(facet, candidate.nearest) <= (1.0 + kDepthShare) * deepest.depth) continue;
+    for (const Eigen::Vector3d& corner : facet.corners_in_a) look(facet, corner, deepest);
   }
 }
 

@@ -16,14 +16,15 @@ struct DeepestPoint {
   bool inside_is_of_b = true;
 };
 
-/// Integrates over the surfaces of an overlap how deep they lie: each facet is halved until the depth is
-/// linear on its parts, to a share of the region's whole integral, and each part has the middles of its edges
-/// as samples. Facets far smaller than the region have one sample.
+/// Integrates over the surfaces of an overlap how deep they lie. A part of a facet takes the planes of the
+/// other surface that are nearest to its corners and the middles of its edges: where the least of their
+/// heights is the depth, which its centre shows, the integral is that of linear functions; else it is halved.
+/// Facets far smaller than the region have one sample.
 class OverlapSampler {
  public:
   void begin(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b);
   /// Adds the samples of the facets of one region.
-  /// @param tolerance parts whose share of the integral of the depth is smaller are not halved, > 0
+  /// @param tolerance parts that may be wrong by a smaller share of the integral of the depth are not halved
   void sample(const OverlapFacet* first, const OverlapFacet* last, double tolerance,
               std::vector<OverlapSample>& samples, DeepestPoint& deepest);
 
@@ -39,22 +40,48 @@ class OverlapSampler {
     std::array<Corner, 3> middles;  ///< of the edges k to k + 1
     std::uint32_t level;
   };
+  /// Depth below a plane of the other body: offset - out . point.
+  struct Plane {
+    Eigen::Vector3d out;   ///< of the other body, A's frame
+    Eigen::Vector3d exit;  ///< the way for B
+    double offset;
+    double depth(const Eigen::Vector3d& point) const { return offset - out.dot(point); }
+  };
+  using Polygon = std::vector<Eigen::Vector3d>;
+  /// A facet with one sample.
+  struct Candidate {
+    std::uint32_t facet;
+    TriangleIndex nearest;
+    double reachable;  ///< no point of it is deeper
+  };
 
   Corner look(const OverlapFacet& facet, const Eigen::Vector3d& point, DeepestPoint& deepest);
   Part wholeOf(const OverlapFacet& facet, DeepestPoint& deepest);
+  void halve(const OverlapFacet& facet, const Part& part, DeepestPoint& deepest);
   void integrate(const OverlapFacet& facet, const Part& whole, double allowed,
                  std::vector<OverlapSample>& samples, DeepestPoint& deepest);
-  void findDeepest(const OverlapFacet* first, const OverlapFacet* last, DeepestPoint& deepest);
-  double depthBound(const OverlapFacet& facet, const Part& part) const;
-  void halve(const OverlapFacet& facet, const Part& part, DeepestPoint& deepest);
+  void findPlanes(const OverlapFacet& facet, const Part& part);
+  void addPlane(const OverlapFacet& facet, TriangleIndex nearest);
+  double leastHeight(const Eigen::Vector3d& point) const;
+  double worstHeight(const OverlapFacet& facet, const Part& part, DeepestPoint& deepest);
+  void addBelowPlanes(const OverlapFacet& facet, const Part& part, std::vector<OverlapSample>& samples,
+                      DeepestPoint& deepest);
+  void keepBelow(const Plane& plane, const Plane& other);
+  void addQuadratic(const OverlapFacet& facet, const Part& part, std::vector<OverlapSample>& samples) const;
+  void lookAtCorners(const OverlapFacet* first, DeepestPoint& deepest);
+  double depthBound(const OverlapFacet& facet, TriangleIndex nearest) const;
 
   const BodyMesh* body_[2] = {nullptr, nullptr};
   Eigen::Isometry3d a_from_b_ = Eigen::Isometry3d::Identity();
   Eigen::Isometry3d b_from_a_ = Eigen::Isometry3d::Identity();
   TriangleIndex last_nearest_[2];
   std::vector<Part> parts_;
-  std::vector<std::uint32_t> large_;
-  std::vector<Part> wholes_;  ///< of large_
+  std::vector<Part> wholes_;
+  std::vector<std::uint32_t> large_;  ///< facets of wholes_
+  std::vector<Candidate> small_;
+  std::vector<Plane> planes_;
+  Polygon polygon_;
+  Polygon clipped_;
 };
 
 }  // namespace concave_distance
