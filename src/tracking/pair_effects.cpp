@@ -85,24 +85,30 @@ struct PairEffects::State {
     return {step * twist.linear, step * twist.angular};
   }
 
+  static Eigen::Vector3d acrossNormal(const RelativeTwist& displacement, const ContactRegion& region) {
+    const Eigen::Vector3d& normal = region.overlap.normal_in_a;
+    const Eigen::Vector3d shift = displacement.at(region.point_in_a);
+    return shift - normal.dot(shift) * normal;
+  }
+
   void rub(const RelativeTwist& displacement, PairContacts& contacts) {
     for (std::size_t r = 0; r < contacts.regions.size(); ++r) {
       ContactRegion& region = contacts.regions[r];
       if (!(region.normal_force > 0.0)) continue;
-      const Eigen::Vector3d& normal = region.overlap.normal_in_a;
-      const Eigen::Vector3d shift = displacement.at(region.point_in_a);
-      region.friction_on_b_in_a =
-          frictionForce(settings.friction, material, region.normal_force, normal, region.sliding_in_a,
-                        shift - normal.dot(shift) * normal, identity.memory()[r].bristles);
+      region.friction_on_b_in_a = frictionForce(
+          settings.friction, material, region.normal_force, region.overlap.normal_in_a, region.sliding_in_a,
+          acrossNormal(displacement, region), identity.memory()[r].bristles);
       region.on_b_in_a += wrenchAbout(region.friction_on_b_in_a, region.point_in_a, Eigen::Vector3d::Zero());
     }
   }
 
-  void linearise(PairContacts& contacts) {
+  void linearise(const RelativeTwist& displacement, double step, PairContacts& contacts) {
     for (std::size_t r = 0; r < contacts.regions.size(); ++r) {
       const ContactRegion& region = contacts.regions[r];
       if (!(region.normal_force > 0.0)) continue;
-      addLumpedContact(settings, material, region, identity.memory()[r].bristles, contacts.linearisation);
+      addLumpedContact(settings, material, region,
+                       {acrossNormal(displacement, region), step, identity.memory()[r].bristles},
+                       contacts.linearisation);
     }
     mirrorUpper(contacts.linearisation.stiffness);
     mirrorUpper(contacts.linearisation.damping);
@@ -153,6 +159,7 @@ void PairEffects::update(const PairSolution& solution, const RelativeTwist& b_in
   contacts.possible = !state.plan.empty() && contactIsPossible(solution);
   contacts.regions.clear();
   contacts.a_inside_b = contacts.b_inside_a = contacts.cut = false;
+  const RelativeTwist displacement = state.displacement(solution.a_from_b, b_in_a, step);
   for (const EffectStage stage : state.plan) {
     if (!state.isDue(stage, contacts)) continue;
     const auto start = std::chrono::steady_clock::now();
@@ -167,7 +174,7 @@ void PairEffects::update(const PairSolution& solution, const RelativeTwist& b_in
         state.push(b_in_a, contacts);
         break;
       case EffectStage::Friction:
-        state.rub(state.displacement(solution.a_from_b, b_in_a, step), contacts);
+        state.rub(displacement, contacts);
         break;
     }
     const auto index = static_cast<std::size_t>(stage);
@@ -186,7 +193,7 @@ void PairEffects::update(const PairSolution& solution, const RelativeTwist& b_in
     for (const ContactRegion& region : contacts.regions) {
       if (region.normal_force > 0.0) contacts.on_b_in_a += region.on_b_in_a;
     }
-    if (!contacts.regions.empty()) state.linearise(contacts);
+    if (!contacts.regions.empty()) state.linearise(displacement, step, contacts);
   }
   state.in_contact = !contacts.regions.empty();
   state.last_pose = solution.a_from_b;

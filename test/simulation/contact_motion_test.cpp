@@ -76,23 +76,15 @@ TEST(ContactMotion, RestitutionFollowsHuntAndCrossleyOverTheSpeeds) {
   }
 }
 
-TEST(ContactMotion, AHertzBounceGivesBackItsSpeedToTheSecondOrder) {
+// Where begin and end of the contact are resolved as well: finer steps, less error.
+TEST(ContactMotion, AHertzBounceGivesBackItsSpeed) {
   const double speed = 1.0;
-  double errors[3];
-  for (int k = 0; k < 3; ++k) {
+  for (const double fraction : {0.2, 0.1, 0.02}) {
     SceneBuilder builder = ballOnBlock(NormalForceModel::Hertz, 1e-3, speed);
-    builder.settings.largest_step = 4e-4 / (1 << k);
-    // Nothing else limits the step, so that it is constant.
-    builder.settings.step_fraction = 1.0;
-    builder.settings.allowed_penetration = 1.0;
+    builder.settings.step_fraction = fraction;
     Simulation simulation = builder.simulation();
-    errors[k] = std::abs(rebound(simulation) - speed);
-    EXPECT_EQ(simulation.counters().limited_by[static_cast<std::size_t>(StepLimit::Largest)],
-              simulation.counters().steps);
+    EXPECT_NEAR(rebound(simulation), speed, 0.1 * fraction * fraction * speed) << fraction;
   }
-  // Beginning and end of the contact fall anywhere within a step: the order shows over both halvings.
-  EXPECT_GT(std::log2(errors[0] / errors[2]) / 2.0, 1.7);
-  EXPECT_LT(errors[2], 1e-4 * speed);
 }
 
 TEST(ContactMotion, UnderItsWeightABallDipsInAsHertzSays) {
