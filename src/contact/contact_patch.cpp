@@ -7,7 +7,7 @@ namespace concave_distance {
 namespace {
 
 // Sites along the width of a patch, about.
-constexpr double kSitesAcross = 6.0;
+constexpr double kSitesAcross = 8.0;
 // Cells change their size when they are this much too large or too small.
 constexpr double kCellSlack = 2.5;
 // A patch pushes one way while its pressures add up to this share of their sum, and any way below the second.
@@ -124,7 +124,7 @@ void ContactPatch::gatherSites() {
 }
 
 Wrench ContactPatch::rub(const FrictionSettings& settings, const ContactMaterial& material,
-                         const RelativeTwist& b_in_a, const RelativeTwist& displacement, PatchMemory& memory,
+                         const PatchMotion& motion, PatchMemory& memory,
                          ContactLinearisation& linearisation) {
   next_.clear();
   Wrench wrench;
@@ -134,12 +134,13 @@ Wrench ContactPatch::rub(const FrictionSettings& settings, const ContactMaterial
         SiteBristles{site.cell, site.point_in_a, known != nullptr ? *known : BristleState()});
     const Eigen::Vector3d& normal = site.push_in_a;
     const auto across = [&](const Eigen::Vector3d& v) { return Eigen::Vector3d(v - normal.dot(v) * normal); };
-    const Eigen::Vector3d sliding = across(b_in_a.at(site.point_in_a));
-    const Eigen::Vector3d force = frictionForce(settings, material, site.force, normal, sliding,
-                                                across(displacement.at(site.point_in_a)), now.bristles);
+    const Eigen::Vector3d sliding = across(motion.b_in_a.at(site.point_in_a));
+    const Eigen::Vector3d shift = across(motion.displacement.at(site.point_in_a));
+    const Eigen::Vector3d force =
+        frictionForce(settings, material, site.force, normal, sliding, shift, now.bristles);
     wrench += wrenchAbout(force, site.point_in_a, Eigen::Vector3d::Zero());
     const FrictionTangent tangent =
-        frictionTangent(settings, material, site.force, normal, sliding, now.bristles);
+        frictionTangent(settings, material, site.force, normal, sliding, {shift, motion.step, now.bristles});
     addDirection(tangent.stiffness_along, tangent.along, site.point_in_a, linearisation.stiffness);
     addDirection(tangent.stiffness_across, tangent.across, site.point_in_a, linearisation.stiffness);
     addDirection(tangent.damping_along, tangent.along, site.point_in_a, linearisation.damping);

@@ -51,6 +51,13 @@ struct PatchMemory {
   }
 };
 
+/// Of B against A, about A's origin.
+struct PatchMotion {
+  const RelativeTwist& b_in_a;
+  const RelativeTwist& displacement;  ///< since the last call, metres and radians
+  double step;                        ///< seconds since then
+};
+
 /// The pressure of one region, sampled.
 struct PatchPressure {
   Wrench on_b_in_a;                                       ///< about A's origin
@@ -72,9 +79,8 @@ class ContactPatch {
                       const ContactMaterial& material, const RelativeTwist& b_in_a, PatchMemory& memory,
                       ContactLinearisation& linearisation);
   /// Friction of what press() has set, on B, about A's origin.
-  /// @param displacement of B against A since the last call, about A's origin
-  Wrench rub(const FrictionSettings& settings, const ContactMaterial& material, const RelativeTwist& b_in_a,
-             const RelativeTwist& displacement, PatchMemory& memory, ContactLinearisation& linearisation);
+  Wrench rub(const FrictionSettings& settings, const ContactMaterial& material, const PatchMotion& motion,
+             PatchMemory& memory, ContactLinearisation& linearisation);
   const std::vector<PatchSite>& sites() const { return sites_; }
 
  private:

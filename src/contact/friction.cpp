@@ -117,13 +117,23 @@ FrictionTangent coulombTangent(const FrictionSettings& settings, const ContactMa
   return tangent;
 }
 
+// Surfaces that slide by less than a tenth of their bristles' deflection in a step, and have lost a third of
+// the step's mean speed at its end, turn back in the next one.
+bool turnsBack(const RecentSliding& recent, double speed, double coefficient, double bristle_stiffness) {
+  constexpr double kShareOfDeflection = 0.1;
+  const double displacement = recent.displacement.norm();
+  return displacement * bristle_stiffness < kShareOfDeflection * coefficient &&
+         speed * recent.step < 2.0 / 3.0 * displacement;
+}
+
 FrictionTangent bristleTangent(const FrictionSettings& settings, const ContactMaterial& material,
-                               double normal_force, double speed, const BristleState& state) {
+                               double normal_force, double speed, const RecentSliding& recent) {
   const double coefficient = frictionCoefficient(material, settings.stribeck_speed, speed);
   if (!(coefficient > 0.0)) return {};
-  // Of the bristles that are bent as far as they go, what follows them no longer gives way along.
-  const double bent = settings.bristle_stiffness * state.deflection.norm() / coefficient;
-  const double left = speed > 0.0 ? std::max(0.0, 1.0 - slippingShare(bent) * bent) : 1.0;
+  // Bristles that are bent as far as they go give way along, unless they turn back.
+  const double bent = settings.bristle_stiffness * recent.bristles.deflection.norm() / coefficient;
+  const bool sticks = !(speed > 0.0) || turnsBack(recent, speed, coefficient, settings.bristle_stiffness);
+  const double left = sticks ? 1.0 : std::max(0.0, 1.0 - slippingShare(bent) * bent);
   FrictionTangent tangent;
   tangent.stiffness_across = normal_force * settings.bristle_stiffness;
   tangent.stiffness_along = left * tangent.stiffness_across;
@@ -136,13 +146,13 @@ FrictionTangent bristleTangent(const FrictionSettings& settings, const ContactMa
 
 FrictionTangent frictionTangent(const FrictionSettings& settings, const ContactMaterial& material,
                                 double normal_force, const Eigen::Vector3d& normal,
-                                const Eigen::Vector3d& sliding, const BristleState& state) {
+                                const Eigen::Vector3d& sliding, const RecentSliding& recent) {
   const double speed = sliding.norm();
   FrictionTangent tangent;
   if (settings.model == FrictionModel::RegularisedCoulomb) {
     tangent = coulombTangent(settings, material, normal_force, speed);
   } else if (settings.model == FrictionModel::Bristle) {
-    tangent = bristleTangent(settings, material, normal_force, speed, state);
+    tangent = bristleTangent(settings, material, normal_force, speed, recent);
   }
   tangent.along = speed > 0.0 ? Eigen::Vector3d(sliding / speed) : normal.unitOrthogonal();
   tangent.across = normal.cross(tangent.along);

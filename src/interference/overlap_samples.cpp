@@ -17,6 +17,8 @@ constexpr double kSmallShare = 1.0 / 128.0;
 constexpr std::uint32_t kDeepestLevel = 12;
 // The greatest depth is looked for to this share.
 constexpr double kDepthShare = 1e-6;
+// The same where parts have to be halved to find it.
+constexpr double kDepthShareOfHalving = 1e-2;
 // Planes whose normals differ by less are one, radians squared.
 constexpr double kSameDirection = 1e-28;
 
@@ -136,10 +138,14 @@ void OverlapSampler::integrate(const OverlapFacet& facet, const Part& whole, dou
     parts_.pop_back();
     const double part_area = area * std::ldexp(1.0, -static_cast<int>(part.level));
     findPlanes(facet, part);
-    if (worstHeight(facet, part, deepest) * part_area <= allowed) {
-      addBelowPlanes(facet, part, samples, deepest);
-    } else if (part.level < kDeepestLevel && bendOf(part) * part_area > allowed) {
+    const double worst = worstHeight(facet, part, deepest);
+    const bool is_flat = worst * part_area <= allowed;
+    const bool hides_depth =
+        worst > kDepthShareOfHalving * deepest.depth && mayBeDeeper(facet, part, deepest);
+    if (part.level < kDeepestLevel && (hides_depth || (!is_flat && bendOf(part) * part_area > allowed))) {
       halve(facet, part, deepest);
+    } else if (is_flat) {
+      addBelowPlanes(facet, part, samples, deepest);
     } else {
       addQuadratic(facet, part, samples);
     }
@@ -236,23 +242,34 @@ void OverlapSampler::addQuadratic(const OverlapFacet& facet, const Part& part,
   }
 }
 
-// No point of a facet is farther from the other surface than the farthest of its corners is from one triangle
-// of it: the distance to a convex set is convex.
-double OverlapSampler::depthBound(const OverlapFacet& facet, TriangleIndex nearest) const {
+// No point of a triangle is farther from the other surface than the farthest of its corners is from one
+// triangle of it: the distance to a convex set is convex.
+double OverlapSampler::depthBound(const OverlapFacet& facet, const std::array<Eigen::Vector3d, 3>& corners,
+                                  TriangleIndex nearest) const {
   const TrianglePoints triangle = trianglePoints(body_[facet.of_b ? 0 : 1]->surface(), nearest);
   double farthest = 0.0;
-  for (const Eigen::Vector3d& corner : facet.corners_in_a) {
+  for (const Eigen::Vector3d& corner : corners) {
     const Eigen::Vector3d target = facet.of_b ? corner : b_from_a_ * corner;
     farthest = std::max(farthest, pointTriangleDistance(target, triangle).squared_distance);
   }
   return std::sqrt(farthest);
 }
 
+bool OverlapSampler::mayBeDeeper(const OverlapFacet& facet, const Part& part,
+                                 const DeepestPoint& deepest) const {
+  const std::array<Eigen::Vector3d, 3> corners = {part.corners[0].point, part.corners[1].point,
+                                                  part.corners[2].point};
+  return std::all_of(part.middles.begin(), part.middles.end(), [&](const Corner& middle) {
+    return depthBound(facet, corners, middle.nearest) > (1.0 + kDepthShareOfHalving) * deepest.depth;
+  });
+}
+
 void OverlapSampler::lookAtCorners(const OverlapFacet* first, DeepestPoint& deepest) {
   for (const Candidate& candidate : small_) {
     const OverlapFacet& facet = first[candidate.facet];
     if (candidate.reachable <= (1.0 + kDepthShare) * deepest.depth) continue;
-    if (depthBound(facet, candidate.nearest) <= (1.0 + kDepthShare) * deepest.depth) continue;
+    if (depthBound(facet, facet.corners_in_a, candidate.nearest) <= (1.0 + kDepthShare) * deepest.depth)
+      continue;
     for (const Eigen::Vector3d& corner : facet.corners_in_a) look(facet, corner, deepest);
   }
 }

@@ -69,7 +69,9 @@ class OverlapSampler {
   void keepBelow(const Plane& plane, const Plane& other);
   void addQuadratic(const OverlapFacet& facet, const Part& part, std::vector<OverlapSample>& samples) const;
   void lookAtCorners(const OverlapFacet* first, DeepestPoint& deepest);
-  double depthBound(const OverlapFacet& facet, TriangleIndex nearest) const;
+  double depthBound(const OverlapFacet& facet, const std::array<Eigen::Vector3d, 3>& corners,
+                    TriangleIndex nearest) const;
+  bool mayBeDeeper(const OverlapFacet& facet, const Part& part, const DeepestPoint& deepest) const;
 
   const BodyMesh* body_[2] = {nullptr, nullptr};
   Eigen::Isometry3d a_from_b_ = Eigen::Isometry3d::Identity();

@@ -187,8 +187,8 @@ void RegionBuilder::measureDepth(const BoundaryComponent& component, bool solid,
   }
   region.depth = region.depth_along_normal = along.deepest.depth * length;
   region.normal_in_a = along.normal;
-  region.point_a_in_a = frame_.pointInA(along.deepest.point_a);
-  region.point_b_in_a = frame_.pointInA(along.deepest.point_b);
+  region.point_a_in_a = region.along_normal_a_in_a = frame_.pointInA(along.deepest.point_a);
+  region.point_b_in_a = region.along_normal_b_in_a = frame_.pointInA(along.deepest.point_b);
   region.touching = component.loop_count > 0 && component.closed && !solid;
 }
 

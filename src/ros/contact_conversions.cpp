@@ -22,7 +22,8 @@ Contact toContact(const PairHeading& heading, const ContactRegion& region, const
   message.surface_area_b = overlap.surface_area_b;
   message.volume = overlap.volume;
   message.centroid = toPoint(reference_from_a * overlap.centroid_in_a);
-  message.normal = toVector(rotation * overlap.normal_in_a);
+  const bool pushes = region.normal_force > 0.0;
+  message.normal = toVector(rotation * (pushes ? region.force_direction_in_a : overlap.normal_in_a));
   message.point_a = toPoint(reference_from_a * overlap.point_a_in_a);
   message.point_b = toPoint(reference_from_a * overlap.point_b_in_a);
   message.loop_count = overlap.loop_count;
@@ -38,6 +39,7 @@ Contact toContact(const PairHeading& heading, const ContactRegion& region, const
   message.depth_rate = region.depth_rate;
   message.sliding_velocity = toVector(rotation * region.sliding_in_a);
   message.normal_force = region.normal_force;
+  message.largest_pressure = region.largest_pressure;
   message.has_friction = static_cast<std::uint8_t>(region.friction_on_b_in_a.allFinite());
   message.friction = toVector(rotation * region.friction_on_b_in_a);
   message.wrench = toWrench(rotated(rotation, movedTo(origin_b, region.on_b_in_a)));

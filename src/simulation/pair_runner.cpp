@@ -73,6 +73,7 @@ void PairRunner::update(double time, double step, const SimulatedBody& a, const 
   input.b_in_a = relativeTwist(a, b);
   if (!tracked_.locate(input, nullptr) && tracked_.box_bound) {
     pair.contacts = PairContacts();
+    if (hasForces()) pair.contacts.on_b_in_a = Wrench{};
     pair.solved = false;
     pair.lower_bound = *tracked_.box_bound;
     pair.single_distance = kNotComputed;

@@ -68,6 +68,10 @@ const SimulationCounters& Simulation::counters() const {
   return state_->counters;
 }
 
+bool Simulation::energyIsBalanced() const {
+  return state_->energy.balanceShare() <= state_->settings.energy_tolerance;
+}
+
 Eigen::Vector3d Simulation::momentum() const {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const MovingBody& body : state_->moving) {

@@ -14,6 +14,8 @@ using detail::PairRunner;
 using detail::StepBegin;
 using detail::trapezoidalWork;
 
+constexpr double kNegligibleLift = 1e-3;  // of a body's radius
+
 Wrench opposite(const Wrench& wrench) {
   return {-wrench.force, -wrench.torque};
 }
@@ -58,6 +60,10 @@ Simulation::State::State(const Scene& scene, const SimulationSettings& given) : 
   report(inside);
   sumEnergies();
   energy.initial = energy.mechanical();
+  for (const MovingBody& body : moving) {
+    if (!body.isFree()) continue;
+    energy.negligible += kNegligibleLift * body.rigid().mass() * settings.gravity.norm() * body.radius();
+  }
   counters = {};  // the steps, without the cold solves of the start
   beginStep(inside);
   for (const detail::Coupling& coupling : couplings) {
@@ -186,6 +192,7 @@ void Simulation::State::sumEnergies() {
     energy.gravity_potential -= body.rigid().mass() * settings.gravity.dot(body.state().centre);
     energy.drive_potential += body.drive().spring_energy;
   }
+  energy.largest_kinetic = std::max(energy.largest_kinetic, energy.kinetic);
 }
 
 }  // namespace concave_distance

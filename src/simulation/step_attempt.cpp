@@ -136,7 +136,8 @@ void Simulation::State::chooseWeights(double step) {
   for (std::size_t i = 0; i < moving.size(); ++i) weights[i] = weights[equations.islandOf(i)];
   for (Coupling& coupling : couplings) {
     const bool free_b = moving[coupling.body_b].isFree();
-    coupling.weight = weights[free_b || coupling.body_a == detail::kNoBody ? coupling.body_b : coupling.body_a];
+    coupling.weight =
+        weights[free_b || coupling.body_a == detail::kNoBody ? coupling.body_b : coupling.body_a];
   }
 }
 
@@ -213,9 +214,8 @@ void Simulation::State::correct(double step) {
     const ContactLinearisation& end = coupling.force.linearisation;
     if (coupling.force.acts && !coupling.begin.acts) {
       coupling.begin.acts = true;
-      coupling.weight =
-          detail::endWeight(detail::timeScales(rateOf(end.stiffness, coupling, inertias),
-                                               rateOf(end.damping, coupling, inertias), step));
+      coupling.weight = detail::endWeight(detail::timeScales(rateOf(end.stiffness, coupling, inertias),
+                                                             rateOf(end.damping, coupling, inertias), step));
     }
     const double part = coupling.weight * step;
     coupling.resistance = part * (part * end.stiffness + end.damping);

@@ -16,16 +16,14 @@ constexpr double kShareOfSizeAcross = 1e-8;
 
 double shareAcross(const Vector6d& displacement, const Eigen::Vector3d& point,
                    const Eigen::Vector3d& normal) {
-  const Eigen::Vector3d shift =
-      displacement.head<3>() + Eigen::Vector3d(displacement.tail<3>()).cross(point);
+  const Eigen::Vector3d shift = displacement.head<3>() + Eigen::Vector3d(displacement.tail<3>()).cross(point);
   const double length = shift.norm();
   return length > 0.0 ? (shift - normal.dot(shift) * normal).norm() / length : 0.0;
 }
 
 double allowedError(const StepTolerance& tolerance) {
   const double fraction = tolerance.step_fraction;
-  const double share_of_size =
-      kShareOfSize + tolerance.sliding * (kShareOfSizeAcross - kShareOfSize);
+  const double share_of_size = kShareOfSize + tolerance.sliding * (kShareOfSizeAcross - kShareOfSize);
   // Of a swing of energy E the trapezoidal rule misses E (w h)^3 / 6 in a step.
   return fraction * fraction * fraction / 6.0 * tolerance.energy_of_motion +
          tolerance.load * (kShareOfDepth * tolerance.depth + share_of_size * tolerance.size);

@@ -21,6 +21,7 @@ using namespace concave_distance;
 using Clock = std::chrono::steady_clock;
 
 constexpr int kDiverged = 3;
+constexpr int kUnbalanced = 4;
 constexpr double kProgressSeconds = 0.5;
 
 struct Options {
@@ -91,11 +92,15 @@ void summarise(const Simulation& simulation, double loop_seconds) {
   const auto share = [&](double seconds) { return 100.0 * seconds / loop_seconds; };
   std::printf("simulated %.6g s in %.3f s: real-time factor %.3f\n", simulation.time(), loop_seconds,
               simulation.time() / loop_seconds);
-  std::printf("steps %llu (%.1f us each), smallest %.3g s, drifts done again %llu, with contact %llu\n",
-              static_cast<unsigned long long>(counters.steps),
-              1e6 * loop_seconds / static_cast<double>(std::max<std::uint64_t>(1, counters.steps)),
-              counters.smallest_step, static_cast<unsigned long long>(counters.shortened),
-              static_cast<unsigned long long>(counters.contact_steps));
+  std::printf(
+      "steps %llu (%.1f us each), smallest %.3g s, done again %llu before and %llu after they were solved, "
+      "with "
+      "contact %llu\n",
+      static_cast<unsigned long long>(counters.steps),
+      1e6 * loop_seconds / static_cast<double>(std::max<std::uint64_t>(1, counters.steps)),
+      counters.smallest_step, static_cast<unsigned long long>(counters.shortened),
+      static_cast<unsigned long long>(counters.rejected),
+      static_cast<unsigned long long>(counters.contact_steps));
   std::printf("steps held back by:");
   for (std::size_t i = 0; i < kStepLimits; ++i) {
     std::printf(" %s %llu", std::string(toString(static_cast<StepLimit>(i))).c_str(),
@@ -110,10 +115,25 @@ void summarise(const Simulation& simulation, double loop_seconds) {
   }
   std::printf(" writing %.1f %%\n", share(std::max(0.0, loop_seconds - inside)));
   const EnergyAccount& energy = simulation.energy();
-  std::printf("energy: mechanical %.9g J, at the start %.9g J, balance error %.3g J\n", energy.mechanical(),
-              energy.initial, energy.balanceError());
+  std::printf("energy: mechanical %.9g J, at the start %.9g J, balance error %.3g J (%.2g %% of %.3g J)\n",
+              energy.mechanical(), energy.initial, energy.balanceError(), 100.0 * energy.balanceShare(),
+              energy.throughput());
   std::printf("largest depth %.3g m, largest drift of a quaternion's norm in a step %.2g\n",
               counters.largest_depth, counters.largest_quaternion_drift);
+}
+
+int statusOf(const Simulation& simulation) {
+  if (simulation.status() != SimulationStatus::Ok) {
+    std::cerr << "simulate: diverged at t = " << simulation.time() << " s\n";
+    return kDiverged;
+  }
+  if (simulation.energyIsBalanced()) return 0;
+  std::cerr << "simulate: the energy balance is off by " << simulation.energy().balanceError() << " J, "
+            << 100.0 * simulation.energy().balanceShare() << " % of the energy that went through (allowed: "
+            << 100.0 * simulation.settings().energy_tolerance
+            << " %); make step_fraction smaller, then largest_step, or choose elastic_foundation for flat "
+               "faces\n";
+  return kUnbalanced;
 }
 
 int simulate(const CLI::App& app, const Options& options) {
@@ -153,9 +173,7 @@ int simulate(const CLI::App& app, const Options& options) {
   if (contacts) contacts->finish();
   if (niches) niches->finish();
   summarise(simulation, seconds);
-  if (simulation.status() == SimulationStatus::Ok) return 0;
-  std::cerr << "simulate: diverged at t = " << simulation.time() << " s\n";
-  return kDiverged;
+  return statusOf(simulation);
 }
 
 int run(int argc, char** argv) {
@@ -163,7 +181,9 @@ int run(int argc, char** argv) {
   CLI::App app("Rigid bodies of a scene in contact over time. Metres, seconds, newtons.", "simulate");
   app.footer(
       "An empty cell was not computed.\n"
-      "Exit status: 0 done, 1 a file is at fault, 2 the command line is, 3 the simulation diverged.");
+      "Exit status: 0 done, 1 a file is at fault, 2 the command line is, 3 the simulation diverged, 4 the "
+      "error "
+      "of the energy balance is above energy_tolerance.");
   addOptions(app, options);
   try {
     app.parse(argc, argv);

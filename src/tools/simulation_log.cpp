@@ -41,7 +41,8 @@ void TrajectoryLog::write(const Simulation& simulation) {
                   << body.contact_wrench.force << body.drive_wrench.force;
   }
   for (const SimulatedPair& pair : simulation.pairs()) {
-    double force = 0.0;
+    const bool has_force = pair.contacts.on_b_in_a.force.allFinite();
+    double force = has_force ? 0.0 : kNotComputed;
     for (const ContactRegion& region : pair.contacts.regions) {
       if (region.normal_force > 0.0) force += region.normal_force;
     }

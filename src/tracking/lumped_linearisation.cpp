@@ -12,14 +12,14 @@ constexpr double kSquaredSpread = 2.0 / 3.0;
 }  // namespace
 
 void addLumpedContact(const EffectSettings& settings, const ContactMaterial& material,
-                      const ContactRegion& region, const BristleState& bristles,
+                      const ContactRegion& region, const RecentSliding& recent,
                       ContactLinearisation& linearisation) {
   const Eigen::Vector3d& normal = region.overlap.normal_in_a;
   const NormalForce force = normalForce(*settings.normal_force, material,
                                         {region.overlap.depth_along_normal, region.depth_rate,
                                          region.overlap.contact_area, region.overlap.volume});
-  const FrictionTangent friction = frictionTangent(settings.friction, material, region.normal_force, normal,
-                                                   region.sliding_in_a, bristles);
+  const FrictionTangent friction =
+      frictionTangent(settings.friction, material, region.normal_force, normal, region.sliding_in_a, recent);
   const double spread = std::sqrt(kSquaredSpread) * region.overlap.reach;
   for (const Eigen::Vector3d& side : {friction.along, friction.across}) {
     for (const double sign : {-spread, spread}) {

@@ -132,12 +132,13 @@ struct PairEffects::State {
     return {step * twist.linear, step * twist.angular};
   }
 
-  void rub(const RelativeTwist& b_in_a, const RelativeTwist& displacement, PairContacts& contacts) {
+  void rub(const RelativeTwist& b_in_a, const RelativeTwist& displacement, double step,
+           PairContacts& contacts) {
     for (std::size_t r = 0; r < contacts.regions.size(); ++r) {
       ContactRegion& region = contacts.regions[r];
       if (!(region.normal_force >= 0.0)) continue;
       if (isPatch(region)) {
-        region.rubbing_on_b_in_a = patches[r].rub(settings.friction, material, b_in_a, displacement,
+        region.rubbing_on_b_in_a = patches[r].rub(settings.friction, material, {b_in_a, displacement, step},
                                                   identity.memory()[r].patch, contacts.linearisation);
       } else if (region.normal_force > 0.0) {
         region.rubbing_on_b_in_a = rubLumped(displacement, region, identity.memory()[r].bristles);
@@ -149,21 +150,27 @@ struct PairEffects::State {
     }
   }
 
-  Wrench rubLumped(const RelativeTwist& displacement, const ContactRegion& region,
-                   BristleState& bristles) const {
+  static Eigen::Vector3d acrossNormal(const RelativeTwist& displacement, const ContactRegion& region) {
     const Eigen::Vector3d& normal = region.overlap.normal_in_a;
     const Eigen::Vector3d shift = displacement.at(region.point_in_a);
+    return shift - normal.dot(shift) * normal;
+  }
+
+  Wrench rubLumped(const RelativeTwist& displacement, const ContactRegion& region,
+                   BristleState& bristles) const {
     const Eigen::Vector3d force =
-        frictionForce(settings.friction, material, region.normal_force, normal, region.sliding_in_a,
-                      shift - normal.dot(shift) * normal, bristles);
+        frictionForce(settings.friction, material, region.normal_force, region.overlap.normal_in_a,
+                      region.sliding_in_a, acrossNormal(displacement, region), bristles);
     return wrenchAbout(force, region.point_in_a, Eigen::Vector3d::Zero());
   }
 
-  void linearise(PairContacts& contacts) {
+  void linearise(const RelativeTwist& displacement, double step, PairContacts& contacts) {
     for (std::size_t r = 0; r < contacts.regions.size(); ++r) {
       const ContactRegion& region = contacts.regions[r];
       if (isPatch(region) || !(region.normal_force > 0.0)) continue;
-      addLumpedContact(settings, material, region, identity.memory()[r].bristles, contacts.linearisation);
+      addLumpedContact(settings, material, region,
+                       {acrossNormal(displacement, region), step, identity.memory()[r].bristles},
+                       contacts.linearisation);
     }
     mirrorUpper(contacts.linearisation.stiffness);
     mirrorUpper(contacts.linearisation.damping);
@@ -188,7 +195,7 @@ struct PairEffects::State {
         return !contacts.regions.empty();
       case EffectStage::Friction:
         return std::any_of(contacts.regions.begin(), contacts.regions.end(),
-                           [](const ContactRegion& region) { return region.normal_force >= 0.0; });
+                           [](const ContactRegion& region) { return region.normal_force > 0.0; });
     }
     return false;
   }
@@ -213,6 +220,7 @@ void PairEffects::update(const PairSolution& solution, const RelativeTwist& b_in
   contacts.regions.clear();
   contacts.a_inside_b = contacts.b_inside_a = contacts.cut = false;
   contacts.linearisation = {};
+  const RelativeTwist displacement = state.displacement(solution.a_from_b, b_in_a, step);
   for (const EffectStage stage : state.plan) {
     if (!state.isDue(stage, contacts)) continue;
     const auto start = std::chrono::steady_clock::now();
@@ -227,7 +235,7 @@ void PairEffects::update(const PairSolution& solution, const RelativeTwist& b_in
         state.push(b_in_a, contacts);
         break;
       case EffectStage::Friction:
-        state.rub(b_in_a, state.displacement(solution.a_from_b, b_in_a, step), contacts);
+        state.rub(b_in_a, displacement, step, contacts);
         break;
     }
     const auto index = static_cast<std::size_t>(stage);
@@ -245,7 +253,7 @@ void PairEffects::update(const PairSolution& solution, const RelativeTwist& b_in
     for (const ContactRegion& region : contacts.regions) {
       if (region.normal_force >= 0.0) contacts.on_b_in_a += region.on_b_in_a;
     }
-    if (!contacts.regions.empty()) state.linearise(contacts);
+    if (!contacts.regions.empty()) state.linearise(displacement, step, contacts);
   }
   state.in_contact = !contacts.regions.empty();
   state.last_pose = solution.a_from_b;

@@ -147,10 +147,10 @@ void writeRegions(const InterferenceScene& scene, std::ofstream& csv) {
   csv << ',' << rotation.x() << ',' << rotation.y() << ',' << rotation.z() << ',' << rotation.w() << '\n';
   csv << "table,scene,depth,contact_area,volume,cx,cy,cz,nx,ny,nz,ax,ay,az,bx,by,bz\n";
   for (const InterferenceRegion& region : result.regions) {
-    csv << "region," << scene.name << ',' << region.depth << ',' << region.contact_area << ','
+    csv << "region," << scene.name << ',' << region.depth_along_normal << ',' << region.contact_area << ','
         << region.volume;
-    for (const Eigen::Vector3d* v :
-         {&region.centroid_in_a, &region.normal_in_a, &region.point_a_in_a, &region.point_b_in_a}) {
+    for (const Eigen::Vector3d* v : {&region.centroid_in_a, &region.normal_in_a, &region.along_normal_a_in_a,
+                                     &region.along_normal_b_in_a}) {
       for (int k = 0; k < 3; ++k) csv << ',' << (*v)[k];
     }
     csv << '\n';
@@ -172,7 +172,7 @@ void compareHalvings(const InterferenceScene& scene, std::ofstream& csv) {
     const auto body_a = test::makeBody(a);
     const auto body_b = test::makeBody(b);
     findInterference(*body_a, *body_b, scene.pair.a_from_b, workspace, result);
-    ours[halving] = result.regions.empty() ? 0.0 : result.regions.front().depth;
+    ours[halving] = result.regions.empty() ? 0.0 : result.regions.front().depth_along_normal;
     of_vertices[halving] = vertexDepth(*body_a, *body_b, scene.pair.a_from_b);
   }
   std::printf("%-18s", scene.name.c_str());

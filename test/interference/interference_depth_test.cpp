@@ -61,11 +61,13 @@ TEST(InterferenceDepth, IsAttainedAndNoLineThroughTheRegionIsDeeper) {
     if (result.regions.size() != 1 || result.regions[0].loop_count == 0) continue;
     const InterferenceRegion& region = result.regions[0];
     ++compared;
-    EXPECT_NEAR((region.point_a_in_a - region.point_b_in_a - region.depth * region.normal_in_a).norm(), 0.0,
-                8.0 * result.rounding_bound);
+    EXPECT_NEAR((region.along_normal_a_in_a - region.along_normal_b_in_a -
+                 region.depth_along_normal * region.normal_in_a)
+                    .norm(),
+                0.0, 8.0 * result.rounding_bound);
     Eigen::Isometry3d upright(
         Eigen::Quaterniond::FromTwoVectors(region.normal_in_a, Eigen::Vector3d::UnitZ()));
-    upright.translation() = -(upright * region.point_b_in_a);
+    upright.translation() = -(upright * region.along_normal_b_in_a);
     const SurfaceMesh a_up = turned(a, upright);
     const SurfaceMesh b_up = turned(b, upright * pose);
     const Eigen::AlignedBox3d common = a_up.boundingBox().intersection(b_up.boundingBox());
@@ -78,11 +80,11 @@ TEST(InterferenceDepth, IsAttainedAndNoLineThroughTheRegionIsDeeper) {
       const double y = i % 2 == 0 ? test::uniformIn(engine, common.min().y(), common.max().y())
                                   : test::uniformIn(engine, -reach, reach);
       const double depth = depthOnLine(a_up, b_up, x, y);
-      EXPECT_LE(depth, region.depth + 1e-12) << x << " " << y;
+      EXPECT_LE(depth, region.depth_along_normal + 1e-12) << x << " " << y;
       deepest = std::max(deepest, depth);
     }
     if (region.normal_is_fallback) continue;  // along an axis of the bodies, often attained on a rim alone
-    EXPECT_GE(deepest, 0.98 * region.depth);
+    EXPECT_GE(deepest, 0.98 * region.depth_along_normal);
   }
   EXPECT_GT(compared, 80u);
 }
@@ -98,9 +100,9 @@ TEST(InterferenceDepth, IsTheTranslationThatTakesConvexBodiesApart) {
     if (result.regions.empty() || result.regions[0].loop_count == 0) continue;
     const InterferenceRegion& region = result.regions[0];
     Eigen::Isometry3d moved = pose;
-    moved.translation() = pose.translation() + (region.depth + 1e-12) * region.normal_in_a;
+    moved.translation() = pose.translation() + (region.depth_along_normal + 1e-12) * region.normal_in_a;
     EXPECT_TRUE(test::interferenceOf(*a, *b, moved).regions.empty());
-    moved.translation() = pose.translation() + (region.depth - 1e-6) * region.normal_in_a;
+    moved.translation() = pose.translation() + (region.depth_along_normal - 1e-6) * region.normal_in_a;
     EXPECT_FALSE(test::interferenceOf(*a, *b, moved).regions.empty());
   }
 }

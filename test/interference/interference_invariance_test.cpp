@@ -66,7 +66,7 @@ void expectSame(const Interference& expected, const Interference& result, const 
     if (e.normal_is_fallback || r.normal_is_fallback || area < 1e-3 * size * size) continue;
     const Eigen::Vector3d normal = (swapped ? -1.0 : 1.0) * (motion.linear() * e.normal_in_a);
     EXPECT_NEAR((r.normal_in_a - normal).norm(), 0.0, length * size / area);
-    EXPECT_NEAR(r.depth, factor * e.depth, length * size * size / area);
+    EXPECT_NEAR(r.depth_along_normal, factor * e.depth_along_normal, length * size * size / area);
   }
 }
 
@@ -180,7 +180,7 @@ TEST(InterferenceOfAlignedBoxes, HasVolumeAndAreaWhateverIsFlush) {
       EXPECT_NEAR(region.surface_area_a + region.surface_area_b,
                   2.0 * (extent.x() * extent.y() + extent.y() * extent.z() + extent.z() * extent.x()), 1e-13)
           << seed;
-      EXPECT_GE(region.depth, extent.minCoeff() - 1e-13) << seed;
+      EXPECT_GE(region.depth_along_normal, extent.minCoeff() - 1e-13) << seed;
     }
     EXPECT_NEAR(sum, volume, 1e-13) << seed;
     EXPECT_EQ(solid, volume > 0.0 ? 1u : 0u) << seed;
@@ -205,8 +205,8 @@ RC_GTEST_PROP(InterferenceOfAnySurfaces, EndsAndNumbersAreFiniteOrNotGiven, ()) 
   for (const InterferenceRegion& region : result.regions) {
     RC_ASSERT(region.centroid_in_a.allFinite());
     RC_ASSERT(region.normal_in_a.allFinite());
-    RC_ASSERT(region.point_a_in_a.allFinite() && region.point_b_in_a.allFinite());
-    RC_ASSERT(!region.closed || (std::isfinite(region.volume) && region.depth >= 0.0));
+    RC_ASSERT(region.along_normal_a_in_a.allFinite() && region.along_normal_b_in_a.allFinite());
+    RC_ASSERT(!region.closed || (std::isfinite(region.volume) && region.depth_along_normal >= 0.0));
   }
 }
 

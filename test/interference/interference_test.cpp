@@ -25,15 +25,15 @@ TEST(Interference, OfTwoBoxesIsABoxWithItsDepthAndAreas) {
   const Interference result = interferenceOf(a, b, Eigen::Isometry3d::Identity());
   ASSERT_EQ(result.regions.size(), 1u);
   const InterferenceRegion& region = result.regions[0];
-  EXPECT_NEAR(region.depth, 0.25, kRounding);
+  EXPECT_NEAR(region.depth_along_normal, 0.25, kRounding);
   EXPECT_NEAR(region.volume, 0.25 * 0.5 * 0.5, kRounding);
   EXPECT_NEAR(region.contact_area, 0.25, kRounding);
   EXPECT_NEAR(region.surface_area_a, 0.25, kRounding);
   EXPECT_NEAR(region.surface_area_b, 0.25 + 4 * 0.125, kRounding);
   EXPECT_NEAR(apart(region.normal_in_a, Eigen::Vector3d::UnitX()), 0.0, kRounding);
   EXPECT_NEAR(apart(region.centroid_in_a, {0.875, 0.5, 0.375}), 0.0, kRounding);
-  EXPECT_NEAR(region.point_a_in_a.x(), 1.0, kRounding);
-  EXPECT_NEAR(region.point_b_in_a.x(), 0.75, kRounding);
+  EXPECT_NEAR(region.along_normal_a_in_a.x(), 1.0, kRounding);
+  EXPECT_NEAR(region.along_normal_b_in_a.x(), 0.75, kRounding);
   EXPECT_EQ(region.loop_count, 1u);
   EXPECT_FALSE(region.touching || region.normal_is_fallback || !region.closed || !region.consistent);
 }
@@ -48,7 +48,7 @@ TEST(Interference, OfABoxThatIsTippedIntoAnotherIsAPrism) {
   const Interference result = interferenceOf(a, b, pose);
   ASSERT_EQ(result.regions.size(), 1u);
   const InterferenceRegion& region = result.regions[0];
-  EXPECT_NEAR(region.depth, depth, kRounding);
+  EXPECT_NEAR(region.depth_along_normal, depth, kRounding);
   EXPECT_NEAR(region.volume, depth * depth, kRounding);
   EXPECT_NEAR(region.contact_area, 2.0 * depth, kRounding);
   EXPECT_NEAR(region.surface_area_a, 2.0 * depth, kRounding);
@@ -62,7 +62,7 @@ TEST(Interference, OfFlushBoxesSharesTheFlushFaces) {
   const Interference result = interferenceOf(a, a, translation({0.5, 0, 0}));
   ASSERT_EQ(result.regions.size(), 1u);
   const InterferenceRegion& region = result.regions[0];
-  EXPECT_NEAR(region.depth, 0.5, kRounding);
+  EXPECT_NEAR(region.depth_along_normal, 0.5, kRounding);
   EXPECT_NEAR(region.volume, 0.5, kRounding);
   EXPECT_NEAR(region.contact_area, 1.0, kRounding);
   EXPECT_NEAR(region.surface_area_a, 2.0, kRounding);
@@ -75,7 +75,7 @@ TEST(Interference, OfABoxWithItselfIsTheBox) {
   const Interference result = interferenceOf(a, a, Eigen::Isometry3d::Identity());
   ASSERT_EQ(result.regions.size(), 1u);
   EXPECT_NEAR(result.regions[0].volume, 6.0, 6.0 * kRounding);
-  EXPECT_NEAR(result.regions[0].depth, 1.0, kRounding);
+  EXPECT_NEAR(result.regions[0].depth_along_normal, 1.0, kRounding);
   EXPECT_TRUE(result.regions[0].normal_is_fallback);
 }
 
@@ -89,7 +89,7 @@ TEST(Interference, OfBoxesThatTouchHasTheirCommonFace) {
       ASSERT_EQ(result.regions.size(), 1u) << shift.transpose();
       const InterferenceRegion& region = result.regions[0];
       EXPECT_TRUE(region.touching);
-      EXPECT_EQ(region.depth, 0.0);
+      EXPECT_EQ(region.depth_along_normal, 0.0);
       EXPECT_EQ(region.volume, 0.0);
       EXPECT_NEAR(region.contact_area, 0.75 * 0.75, kRounding);
       EXPECT_NEAR(apart(region.normal_in_a, sense * Eigen::Vector3d::Unit(axis)), 0.0, kRounding);
@@ -137,8 +137,8 @@ TEST(Interference, OfASphereOnAPlateIsACapWithinItsTessellation) {
   ASSERT_EQ(result.regions.size(), 1u);
   const InterferenceRegion& region = result.regions[0];
   const double cap_area = M_PI * (2.0 * radius * depth - depth * depth);
-  EXPECT_LE(region.depth, depth + kRounding);
-  EXPECT_GE(region.depth, depth - chord);
+  EXPECT_LE(region.depth_along_normal, depth + kRounding);
+  EXPECT_GE(region.depth_along_normal, depth - chord);
   // The rim moves by at most the chord error over the slope of the ball there.
   const double rim = 2.0 * M_PI * std::sqrt(cap_area / M_PI) * chord * radius / std::sqrt(cap_area / M_PI);
   EXPECT_NEAR(region.contact_area, cap_area, rim);
@@ -154,7 +154,7 @@ TEST(Interference, OfTwoSpheresIsALensWithinTheirTessellation) {
   const Interference result = interferenceOf(ball, ball, translation(distance * direction));
   ASSERT_EQ(result.regions.size(), 1u);
   const InterferenceRegion& region = result.regions[0];
-  EXPECT_NEAR(region.depth, 2.0 - distance, 2.0 * chord);
+  EXPECT_NEAR(region.depth_along_normal, 2.0 - distance, 2.0 * chord);
   const double height = 1.0 - 0.5 * distance;
   const double lens = 2.0 * M_PI * height * height * (3.0 - height) / 3.0;
   const double cap = 2.0 * M_PI * height;
@@ -174,7 +174,7 @@ TEST(Interference, OfACylinderLyingOnAPlateIsASegmentOfItsPrism) {
   const Interference result = interferenceOf(plate, cylinder, pose);
   ASSERT_EQ(result.regions.size(), 1u);
   const InterferenceRegion& region = result.regions[0];
-  EXPECT_NEAR(region.depth, depth, chord);
+  EXPECT_NEAR(region.depth_along_normal, depth, chord);
   const double angle = std::acos(1.0 - depth / 0.25);
   const double segment = 0.25 * 0.25 * (angle - std::sin(angle) * std::cos(angle));
   EXPECT_NEAR(region.volume, 0.8 * segment, 0.8 * chord * 2.0 * 0.25 * angle);
@@ -192,14 +192,14 @@ TEST(Interference, OfASwallowedBodyIsTheBodyAndSaysSo) {
   EXPECT_TRUE(region.b_swallowed && region.normal_is_fallback);
   EXPECT_EQ(region.loop_count, 0u);
   EXPECT_NEAR(region.volume, 0.25, kRounding);
-  EXPECT_NEAR(region.depth, 1.25, 8 * kRounding);
+  EXPECT_NEAR(region.depth_along_normal, 1.25, 8 * kRounding);
   EXPECT_NEAR(apart(region.normal_in_a, Eigen::Vector3d::UnitX()), 0.0, kRounding);
   EXPECT_NEAR(apart(region.centroid_in_a, {3.25, 1.75, 1.75}), 0.0, 4 * kRounding);
   const Interference swapped = interferenceOf(b, a, translation({-2.75, -1.5, -1.5}));
   EXPECT_TRUE(swapped.a_inside_b);
   ASSERT_EQ(swapped.regions.size(), 1u);
   EXPECT_TRUE(swapped.regions[0].a_swallowed);
-  EXPECT_NEAR(swapped.regions[0].depth, 1.25, 8 * kRounding);
+  EXPECT_NEAR(swapped.regions[0].depth_along_normal, 1.25, 8 * kRounding);
 }
 
 TEST(Interference, InACavityIsNoneAndTakesTheCavityOffWhatIsAroundIt) {
@@ -226,7 +226,8 @@ TEST(Interference, OfAPegThroughAPlateIsOneRegionWithTwoLoops) {
   EXPECT_NEAR(region.contact_area, 0.0, kRounding);
   EXPECT_NEAR(region.surface_area_a, 0.5, kRounding);
   EXPECT_NEAR(region.volume, 0.125, kRounding);
-  EXPECT_NEAR(region.depth, 0.25, kRounding);  // across the peg's thickness, less than the plate's
+  EXPECT_NEAR(region.depth_along_normal, 0.25,
+              kRounding);  // across the peg's thickness, less than the plate's
   EXPECT_NEAR(std::abs(region.normal_in_a.x()), 1.0, kRounding);
 }
 
@@ -250,7 +251,7 @@ TEST(Interference, OfACombAndABarHasARegionForEveryTooth) {
   const Interference result = interferenceOf(comb, bar, Eigen::Isometry3d::Identity());
   ASSERT_EQ(result.regions.size(), 5u);
   for (const InterferenceRegion& region : result.regions) {
-    EXPECT_NEAR(region.depth, 0.025, kRounding);
+    EXPECT_NEAR(region.depth_along_normal, 0.025, kRounding);
     EXPECT_NEAR(region.volume, 0.1 * 0.025 * 0.2, kRounding);
     EXPECT_NEAR(apart(region.normal_in_a, Eigen::Vector3d::UnitY()), 0.0, kRounding);
   }
@@ -268,9 +269,11 @@ TEST(Interference,
     most = std::max(most, result.regions.size());
     for (const InterferenceRegion& region : result.regions) {
       EXPECT_TRUE(region.closed && region.consistent);
-      EXPECT_GE(region.depth, 0.0);
-      EXPECT_NEAR((region.point_a_in_a - region.point_b_in_a - region.depth * region.normal_in_a).norm(), 0.0,
-                  4.0 * result.rounding_bound);
+      EXPECT_GE(region.depth_along_normal, 0.0);
+      EXPECT_NEAR((region.along_normal_a_in_a - region.along_normal_b_in_a -
+                   region.depth_along_normal * region.normal_in_a)
+                      .norm(),
+                  0.0, 4.0 * result.rounding_bound);
     }
   }
   EXPECT_GE(most, 2u);

@@ -143,6 +143,7 @@ class EffectsInTheCycle : public ::testing::Test {
     EffectSettings& effects = scene.pairs.edit(0).settings.effects;
     effects.normal_force.emplace();
     effects.normal_force->model = NormalForceModel::SpringDashpot;
+    effects.normal_force->distribution = ForceDistribution::Lumped;
     effects.normal_force->stiffness = 100.0;
     effects.normal_force->damping = 10.0;
     cycle.setScene(scene);

@@ -177,6 +177,15 @@ SurfaceMesh makeRingThrough(std::uint32_t around, std::uint32_t across, const Po
   return SurfaceMesh(std::move(vertices), std::move(triangles), "ring");
 }
 
+/// A round plate around z with a hole, both bodies' edges at `around` corners, metres.
+inline SurfaceMesh makePlateWithHole(double radius, double hole, double thickness, std::uint32_t around) {
+  return makeRingThrough(around, 4, [&](std::uint32_t i, std::uint32_t j) {
+    const double angle = 2.0 * M_PI * i / around;
+    const double r = j == 1 || j == 2 ? radius : hole;
+    return Eigen::Vector3d(r * std::cos(angle), r * std::sin(angle), (j < 2 ? -0.5 : 0.5) * thickness);
+  });
+}
+
 /// A ring around z whose tube has the radius `tube(along, over)`, angles in radians.
 template <typename Tube>
 SurfaceMesh makeRingOfTube(double radius, std::uint32_t around, std::uint32_t across, const Tube& tube) {

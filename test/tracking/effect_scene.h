@@ -23,6 +23,7 @@ inline EffectSettings spring(double stiffness, FrictionModel friction = Friction
   EffectSettings settings;
   settings.normal_force.emplace();
   settings.normal_force->model = NormalForceModel::SpringDashpot;
+  settings.normal_force->distribution = ForceDistribution::Lumped;
   settings.normal_force->stiffness = stiffness;
   settings.friction.model = friction;
   return settings;

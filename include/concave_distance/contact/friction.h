@@ -70,6 +70,13 @@ Eigen::Vector3d frictionForce(const FrictionSettings& settings, const ContactMat
                               const Eigen::Vector3d& sliding, const Eigen::Vector3d& displacement,
                               BristleState& state);
 
+/// How the surfaces slid in the last step.
+struct RecentSliding {
+  Eigen::Vector3d displacement = Eigen::Vector3d::Zero();  ///< in the tangent plane, A's frame, metres
+  double step = 0.0;                                       ///< seconds
+  BristleState bristles;                                   ///< at its end
+};
+
 /// How friction changes with a small motion, in two directions of the tangent plane.
 struct FrictionTangent {
   Eigen::Vector3d along = Eigen::Vector3d::Zero();  ///< unit, where they slide, or any direction of the plane
@@ -80,10 +87,10 @@ struct FrictionTangent {
   double damping_across = 0.0;                       ///< N s/m, >= 0
 };
 
-/// The derivatives of frictionForce() at the state that it has left behind, symmetric parts that are not
-/// negative: those of the sliding speed's part of the coefficient are left out.
+/// The derivatives of frictionForce() at the end of a step, symmetric parts that are not negative: those of
+/// the coefficient by the sliding speed are left out. Bristles that are about to turn back count as sticking.
 FrictionTangent frictionTangent(const FrictionSettings& settings, const ContactMaterial& material,
                                 double normal_force, const Eigen::Vector3d& normal,
-                                const Eigen::Vector3d& sliding, const BristleState& state);
+                                const Eigen::Vector3d& sliding, const RecentSliding& recent);
 
 }  // namespace concave_distance

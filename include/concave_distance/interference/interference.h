@@ -47,6 +47,9 @@ struct InterferenceRegion {
   /// normal, the greatest way from the region's part of B's surface up to its part of A's. Of a swallowed
   /// shell, which has no part of the other surface: how far until the bodies' extents along the normal part.
   double depth_along_normal = std::numeric_limits<double>::quiet_NaN();
+  /// The ends of that line, on A's surface and `depth_along_normal` below it on B's.
+  Eigen::Vector3d along_normal_a_in_a = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  Eigen::Vector3d along_normal_b_in_a = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
   /// Length of the vector area of A's surface inside B, m^2: what the loops enclose, seen along the normal.
   /// Of a sphere of radius R pressed into a plane by delta pi 2 R delta at first order, as Carretero's a =
   /// sqrt(A / pi) of equation expects.

@@ -144,7 +144,8 @@ void compareAnswers(const InterferencePair& pair, const Interference& one, const
     const InterferenceRegion& r = regions[i];
     note(off(area * factor * r.volume, e.volume, size * size * size), seed, errors.volume, errors);
     if (e.normal_is_fallback || r.normal_is_fallback) continue;
-    note(std::abs(factor * r.depth - e.depth) / (kRelative * size), seed, errors.depth, errors);
+    note(std::abs(factor * r.depth_along_normal - e.depth_along_normal) / (kRelative * size), seed,
+         errors.depth, errors);
   }
 }
 

@@ -1,0 +1,101 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "concave_distance/mesh/surface/primitives.h"
+#include "simulation/scene_builder.h"
+
+namespace concave_distance {
+namespace {
+
+using test::at;
+using test::SceneBuilder;
+
+constexpr double kGravity = 9.81;
+constexpr double kFoundation = 2e9;  // Pa/m
+constexpr double kArea = 0.2 * 0.2;  // m^2
+constexpr double kHeight = 0.1;      // of a box, m
+
+/// Boxes of these masses on each other, flush, on a floor at z = 0, with friction by bristles. Every setting
+/// of the simulation is the default.
+SceneBuilder stackOf(const std::vector<double>& masses) {
+  SceneBuilder builder;
+  Material material;
+  material.dissipation = 20.0;
+  builder.addBody("floor", makeBox({2.0, 2.0, 0.1})).material = material;
+  SimulatedBodySettings floor;
+  floor.body = "floor";
+  floor.motion = BodyMotion::Fixed;
+  floor.pose = at(0.0, 0.0, -0.05);
+  builder.settings.bodies.push_back(floor);
+  for (std::size_t i = 0; i < masses.size(); ++i) {
+    const std::string name = "box" + std::to_string(i);
+    builder.addBody(name, makeBox({0.2, 0.2, kHeight})).material = material;
+    builder.setFree(name, masses[i]).pose = at(0.0, 0.0, kHeight * (static_cast<double>(i) + 0.5));
+    ScenePair pair;
+    pair.name = name;
+    pair.body_a = i;
+    pair.body_b = i + 1;
+    pair.settings.effects.normal_force.emplace();
+    pair.settings.effects.normal_force->model = NormalForceModel::ElasticFoundation;
+    pair.settings.effects.normal_force->foundation_stiffness = kFoundation;
+    pair.settings.effects.friction.model = FrictionModel::Bristle;
+    builder.scene.pairs.push_back(pair);
+  }
+  builder.settings.tracking = SimulationTracking::SingleMinimum;
+  return builder;
+}
+
+/// Holds a stack that has come to rest to its closed form: each contact as deep as what is on it presses it.
+void expectAtRest(const Simulation& simulation, const std::vector<double>& masses) {
+  double load = 0.0;
+  for (std::size_t i = masses.size(); i-- > 0;) {
+    load += masses[i] * kGravity;
+    const SimulatedBody& body = simulation.bodies()[i + 1];
+    const auto& regions = simulation.pairs()[i].contacts.regions;
+    ASSERT_EQ(regions.size(), 1U) << i;
+    EXPECT_NEAR(regions[0].overlap.depth, load / (kFoundation * kArea), 1e-3 * load / (kFoundation * kArea));
+    EXPECT_NEAR(regions[0].normal_force, load, 1e-3 * load) << i;
+    EXPECT_LT(body.centre.head<2>().norm(), 1e-9) << i;
+    EXPECT_LT(body.velocity.norm(), 1e-6) << i;
+    EXPECT_LT(body.angular_velocity.norm(), 1e-6) << i;
+  }
+  EXPECT_LT(simulation.energy().mechanical(), simulation.energy().initial);
+  EXPECT_TRUE(simulation.energyIsBalanced());
+}
+
+TEST(RestingContact, ABoxStandsStill) {
+  const std::vector<double> masses = {1.0};
+  Simulation simulation = stackOf(masses).simulation();
+  simulation.advanceTo(5.0);
+  const Eigen::Isometry3d before = simulation.bodies()[1].world_from_body;
+  const double energy = simulation.energy().mechanical();
+  simulation.advanceTo(30.0);
+  expectAtRest(simulation, masses);
+  EXPECT_LT((simulation.bodies()[1].world_from_body.matrix() - before.matrix()).norm(), 1e-11);
+  EXPECT_NEAR(simulation.energy().mechanical(), energy, 1e-10);
+}
+
+TEST(RestingContact, StacksOfThreeAndFiveStandStill) {
+  for (const std::size_t count : {3, 5}) {
+    const std::vector<double> masses(count, 1.0);
+    Simulation simulation = stackOf(masses).simulation();
+    simulation.advanceTo(10.0);
+    expectAtRest(simulation, masses);
+    // A thousand steps of 10 ms, and what the first moments take.
+    EXPECT_LT(simulation.counters().steps, 2000U) << count;
+  }
+}
+
+TEST(RestingContact, AHundredKilogramsStandOnAHundredGrams) {
+  const std::vector<double> masses = {0.1, 100.0};
+  Simulation simulation = stackOf(masses).simulation();
+  simulation.advanceTo(5.0);
+  expectAtRest(simulation, masses);
+  EXPECT_LT(simulation.counters().steps, 1500U);
+}
+
+}  // namespace
+}  // namespace concave_distance
