@@ -4,7 +4,7 @@ namespace concave_distance::detail {
 namespace {
 
 // What a step does not resolve keeps (1 - w) / w of itself from step to step.
-constexpr double kLargestEndWeight = 0.6;
+constexpr double kLargestEndWeight = 0.75;
 
 Eigen::Matrix3d crossMatrix(const Eigen::Vector3d& v) {
   Eigen::Matrix3d matrix;

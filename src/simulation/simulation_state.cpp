@@ -14,7 +14,7 @@ using detail::PairRunner;
 using detail::StepBegin;
 using detail::trapezoidalWork;
 
-constexpr double kNegligibleLift = 1e-3;  // of a body's radius
+constexpr double kNegligibleLift = 1e-2;  // of a body's radius
 
 Wrench opposite(const Wrench& wrench) {
   return {-wrench.force, -wrench.torque};

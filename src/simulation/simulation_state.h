@@ -8,6 +8,7 @@
 #include "moving_body.h"
 #include "pair_runner.h"
 #include "step_equations.h"
+#include "step_error.h"
 
 namespace concave_distance {
 namespace detail {
@@ -77,8 +78,11 @@ struct Simulation::State {
   void correct(double step);
   void restore(double inside);
   Wrench sumOn(std::size_t body, const Vector6d detail::Coupling::*wrench) const;
+
+  // step_acceptance.cpp: how good the step was.
   /// How many times the tolerance the step's error is.
   double shareOfError(double step) const;
+  detail::StepTolerance toleranceOf(std::size_t coupling) const;
   double energyOfMotion(const detail::Coupling& coupling) const;
 
   // simulation_step.cpp: the step that is taken.

@@ -3,7 +3,6 @@
 #include <limits>
 
 #include "simulation_state.h"
-#include "step_error.h"
 
 namespace concave_distance {
 namespace {
@@ -245,55 +244,6 @@ void Simulation::State::restore(double inside) {
     if (moving[i].isFree()) moving[i].evaluateLoad(inside, moving[i].state(), external[i]);
   }
   for (detail::PairRunner& runner : runners) runner.goBack();
-}
-
-// Of the lighter body against the other.
-double Simulation::State::energyOfMotion(const Coupling& coupling) const {
-  const auto mass = [&](std::size_t body) {
-    return body != detail::kNoBody && moving[body].isFree() ? moving[body].rigid().mass()
-                                                            : std::numeric_limits<double>::infinity();
-  };
-  const bool b_is_lighter = mass(coupling.body_b) <= mass(coupling.body_a);
-  const std::size_t lighter = b_is_lighter ? coupling.body_b : coupling.body_a;
-  const std::size_t other = b_is_lighter ? coupling.body_a : coupling.body_b;
-  if (std::isinf(mass(lighter))) return 0.0;
-  FrameMotion against;
-  if (other != detail::kNoBody) {
-    against = motions[other];
-  } else {
-    against = moving[lighter].targetMotion(time, time);
-  }
-  const FrameMotion& body = motions[lighter];
-  const Eigen::Vector3d velocity = body.velocityAt(body.centre) - against.velocityAt(body.centre);
-  const Eigen::Vector3d spin = (body.twist - against.twist).tail<3>();
-  return 0.5 * (inertias[lighter].mass * velocity.squaredNorm() + spin.dot(inertias[lighter].inertia * spin));
-}
-
-double Simulation::State::shareOfError(double step) const {
-  double largest = 0.0;
-  for (std::size_t i = 0; i < couplings.size(); ++i) {
-    const Coupling& coupling = couplings[i];
-    if (!coupling.begin.acts && !coupling.force.acts) continue;
-    detail::StepTolerance tolerance;
-    tolerance.step_fraction = settings.step_fraction;
-    tolerance.energy_of_motion = energyOfMotion(coupling);
-    tolerance.load = coupling.load;
-    if (i < pairs.size()) {
-      const auto& regions = pairs[i].contacts.regions;
-      tolerance.depth = std::max(pair_begins[i].depth, regions.empty() ? 0.0 : regions.front().overlap.depth);
-      tolerance.size = std::min(moving[coupling.body_a].radius(), moving[coupling.body_b].radius());
-      if (!regions.empty()) {
-        tolerance.sliding = detail::shareAcross(coupling.displacement, regions.front().point_in_a,
-                                                regions.front().overlap.normal_in_a);
-      }
-    } else {
-      tolerance.depth = moving[coupling.body_b].driveStretch();
-      tolerance.size = moving[coupling.body_b].radius();
-    }
-    const double error = detail::errorOf(coupling, step);
-    if (error > 0.0) largest = std::max(largest, error / detail::allowedError(tolerance));
-  }
-  return largest;
 }
 
 }  // namespace concave_distance

@@ -1,53 +1,16 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <string>
 #include <vector>
 
-#include "concave_distance/mesh/surface/primitives.h"
-#include "simulation/scene_builder.h"
+#include "simulation/box_stack.h"
 
 namespace concave_distance {
 namespace {
 
-using test::at;
-using test::SceneBuilder;
+using test::stackOf;
 
 constexpr double kGravity = 9.81;
-constexpr double kFoundation = 2e9;  // Pa/m
-constexpr double kArea = 0.2 * 0.2;  // m^2
-constexpr double kHeight = 0.1;      // of a box, m
-
-/// Boxes of these masses on each other, flush, on a floor at z = 0, with friction by bristles. Every setting
-/// of the simulation is the default.
-SceneBuilder stackOf(const std::vector<double>& masses) {
-  SceneBuilder builder;
-  Material material;
-  material.dissipation = 20.0;
-  builder.addBody("floor", makeBox({2.0, 2.0, 0.1})).material = material;
-  SimulatedBodySettings floor;
-  floor.body = "floor";
-  floor.motion = BodyMotion::Fixed;
-  floor.pose = at(0.0, 0.0, -0.05);
-  builder.settings.bodies.push_back(floor);
-  for (std::size_t i = 0; i < masses.size(); ++i) {
-    const std::string name = "box" + std::to_string(i);
-    builder.addBody(name, makeBox({0.2, 0.2, kHeight})).material = material;
-    builder.setFree(name, masses[i]).pose = at(0.0, 0.0, kHeight * (static_cast<double>(i) + 0.5));
-    ScenePair pair;
-    pair.name = name;
-    pair.body_a = i;
-    pair.body_b = i + 1;
-    pair.settings.effects.normal_force.emplace();
-    pair.settings.effects.normal_force->model = NormalForceModel::ElasticFoundation;
-    pair.settings.effects.normal_force->foundation_stiffness = kFoundation;
-    pair.settings.effects.friction.model = FrictionModel::Bristle;
-    builder.scene.pairs.push_back(pair);
-  }
-  builder.settings.tracking = SimulationTracking::SingleMinimum;
-  return builder;
-}
-
 /// Holds a stack that has come to rest to its closed form: each contact as deep as what is on it presses it.
 void expectAtRest(const Simulation& simulation, const std::vector<double>& masses) {
   double load = 0.0;
@@ -56,7 +19,8 @@ void expectAtRest(const Simulation& simulation, const std::vector<double>& masse
     const SimulatedBody& body = simulation.bodies()[i + 1];
     const auto& regions = simulation.pairs()[i].contacts.regions;
     ASSERT_EQ(regions.size(), 1U) << i;
-    EXPECT_NEAR(regions[0].overlap.depth, load / (kFoundation * kArea), 1e-3 * load / (kFoundation * kArea));
+    EXPECT_NEAR(regions[0].overlap.depth, load / (test::kStackFoundation * test::kStackArea),
+                1e-3 * load / (test::kStackFoundation * test::kStackArea));
     EXPECT_NEAR(regions[0].normal_force, load, 1e-3 * load) << i;
     EXPECT_LT(body.centre.head<2>().norm(), 1e-9) << i;
     EXPECT_LT(body.velocity.norm(), 1e-6) << i;

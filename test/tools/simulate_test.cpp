@@ -81,6 +81,15 @@ TEST_F(Simulate, OptionsReplaceTheScenesValues) {
   EXPECT_LE(number(rows[10], "cube_ground.niches"), 1.0);  // the closest pair alone
 }
 
+TEST_F(Simulate, FailsWhereTheEnergyIsNotBalanced) {
+  EXPECT_EQ(run("scene.yaml --output out.csv --energy-tolerance 1e-9"), 4);
+  for (const char* part :
+       {"the energy balance is off by", "allowed: 1e-07 %", "make step_fraction smaller"}) {
+    EXPECT_TRUE(logHas(part)) << part << "\n" << log();
+  }
+  EXPECT_EQ(readTable(folder.path("out.csv")).size(), 21U);
+}
+
 TEST_F(Simulate, SaysWhatIsWrong) {
   folder.write("bare.yaml", "bodies: []\n");
   EXPECT_EQ(run("bare.yaml --output out.csv"), 1);

@@ -166,5 +166,40 @@ TEST(PairEffects, HertzianIndentationOfASphereIsWithinItsTessellation) {
               0.02 * kPi * 2.0 * radius * depth);
 }
 
+// A step that is tried again begins with the bristles of before.
+TEST(PairEffects, GoingBackForgetsWhatCameSinceItWasKept) {
+  EffectScene scene(body("a", makeBox({1, 1, 1})), body("b", makeBox({0.5, 0.5, 0.5})),
+                    spring(2e4, FrictionModel::Bristle));
+  scene.update(at(0, 0, 0.74));
+  scene.update(at(1e-6, 0, 0.74));
+  scene.effects.keep();
+  scene.update(at(3e-6, 0, 0.74));
+  const Eigen::Vector3d once = scene.contacts.on_b_in_a.force;
+  scene.update(at(7e-6, 0, 0.74));
+  EXPECT_LT(scene.contacts.on_b_in_a.force.x(), once.x());
+  scene.effects.goBack();
+  scene.update(at(3e-6, 0, 0.74));
+  EXPECT_EQ(scene.contacts.on_b_in_a.force, once);
+}
+
+TEST(PairEffects, ItsLinearisationIsThatOfItsWrench) {
+  EffectScene scene(body("a", makeBox({1, 1, 1})), body("b", makeBox({0.5, 0.5, 0.5})),
+                    spring(2e4, FrictionModel::Bristle));
+  scene.update(at(0.1, 0.0, 0.75 + 1e-6));
+  EXPECT_EQ(scene.contacts.linearisation.stiffness.norm(), 0.0);
+  scene.update(at(0.1, 0.0, 0.74));
+  const Vector6d before =
+      (Vector6d() << scene.contacts.on_b_in_a.force, scene.contacts.on_b_in_a.torque).finished();
+  const Matrix6d stiffness = scene.contacts.linearisation.stiffness;
+  EXPECT_EQ((stiffness - stiffness.transpose()).norm(), 0.0);
+  Vector6d shift = Vector6d::Zero();
+  shift.head<3>() << 1e-8, 0.0, -2e-8;
+  scene.update(at(0.1 + shift[0], 0.0, 0.74 + shift[2]));
+  const Vector6d after =
+      (Vector6d() << scene.contacts.on_b_in_a.force, scene.contacts.on_b_in_a.torque).finished();
+  // The bristles give way by the share of their limit that they are bent: 2e-4.
+  EXPECT_LT((after - before + stiffness * shift).head<3>().norm(), 1e-3 * (after - before).head<3>().norm());
+}
+
 }  // namespace
 }  // namespace concave_distance

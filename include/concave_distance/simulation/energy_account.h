@@ -21,7 +21,7 @@ struct EnergyAccount {
   double drive_loss = 0.0;     ///< taken by the drives' dampers, >= 0
 
   double largest_kinetic = 0.0;  ///< so far
-  double negligible = 0.0;       ///< what lifts every free body by a thousandth of its radius
+  double negligible = 0.0;       ///< what lifts every free body by a hundredth of its radius
 
   double mechanical() const { return kinetic + gravity_potential + drive_potential; }
   double work() const { return normal_work + friction_work + load_work + drive_work - drive_loss; }
