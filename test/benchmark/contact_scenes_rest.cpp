@@ -77,7 +77,7 @@ void corner(SceneReport& report, ContactStage stage, bool one_mesh) {
     last.add(run.time(), run.lastStep(), centre);
     sink = std::max({sink, 0.5 * kSide - centre.x(), 0.5 * kSide - centre.z()});
     kinetic = std::max(kinetic, run.simulation().energy().kinetic);
-    if (centre.norm() > 1.0) run.stop("the box has left");
+    if (centre.norm() > 1.0) run.giveUp("the box has left");
   }
   const RunFigures figures = run.figures();
   // From rest without overlap a spring is pressed in by twice what it is in equilibrium.
@@ -112,7 +112,7 @@ Rest standStill(const ContactStage& stage, double settling, double duration, con
       const Eigen::Quaterniond now(run.body(i).world_from_body.linear());
       if (settles) turned[i] = now;
       rest.turn = std::max(rest.turn, now.angularDistance(turned[i]));
-      if (run.body(i).centre.norm() > 1.0) run.stop("a box has left");
+      if (run.body(i).centre.norm() > 1.0) run.giveUp("a box has left");
     }
   }
   rest.figures = run.figures();
