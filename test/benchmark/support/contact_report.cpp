@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "benchmark/support/processor_time.h"
 #include "benchmark/support/stopwatch.h"
 #include "concave_distance/base/error.h"
 
@@ -127,7 +128,9 @@ bool SceneRun::step(double until) {
     return false;
   }
   const auto start = std::chrono::steady_clock::now();
+  const double processor_start = processorMicroseconds();
   last_step_ = simulation_.step(std::min(until, duration_));
+  processor_ += 1e-6 * (processorMicroseconds() - processor_start);
   wall_ += 1e-6 * microsecondsSince(start);
   observeEnergy();
   if (simulation_.status() == SimulationStatus::Ok) return true;
@@ -164,6 +167,7 @@ RunFigures SceneRun::figures() const {
   const SimulationCounters& counters = simulation_.counters();
   RunFigures figures;
   figures.simulated = simulation_.time();
+  figures.processor = processor_;
   figures.wall = wall_;
   figures.steps = counters.steps;
   figures.smallest_step = counters.smallest_step;

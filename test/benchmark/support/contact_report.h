@@ -18,7 +18,8 @@ enum class RunEnd : std::uint8_t {
 /// How a simulation went; all of it empty where nothing was simulated.
 struct RunFigures {
   double simulated = kNotComputed;  ///< seconds
-  double wall = kNotComputed;       ///< seconds that it took
+  double processor = kNotComputed;  ///< seconds of its thread
+  double wall = kNotComputed;       ///< seconds, with what else the machine did
   std::uint64_t steps = 0;
   double smallest_step = kNotComputed;  ///< seconds
   double balance_share = kNotComputed;  ///< largest error of the energy balance over the energy turned over
@@ -27,7 +28,7 @@ struct RunFigures {
   std::string ended_by;
   RunEnd end = RunEnd::Complete;
 
-  double realTimeFactor() const { return simulated / wall; }
+  double realTimeFactor() const { return simulated / processor; }
 };
 
 /// What was found.
@@ -106,6 +107,7 @@ class SceneRun {
   double duration_;
   double wall_limit_;
   double wall_ = 0.0;
+  double processor_ = 0.0;
   double last_step_ = 0.0;
   double largest_imbalance_ = 0.0;
   double energy_turned_over_ = 0.0;
