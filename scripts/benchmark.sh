@@ -70,4 +70,5 @@ if [ -n "$(program message_benchmark)" ]; then  # built with ROS only
 fi
 if [ -n "$(program engine_differences)" ]; then  # built with Simbody and ODE only
   "$(program engine_differences)" --output "$results/engine_differences.csv" | tee "$results/engine_differences.txt"
+  "$(program engine_differences)" --table "$results/engine_table.csv"
 fi

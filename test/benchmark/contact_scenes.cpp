@@ -3,13 +3,13 @@
 //   contact_scenes [--scenes NAME,NAME] [--output FILE.csv] [--wall 60] [--list]
 //
 // A row is one figure of a scene. `error`: |found - expected| in the row's unit, or what is missing to a
-// least value; `within`: whether that is at most `bound`, `cut` where it is but the run did not reach its
-// end, empty where the figure is only noted. `formula` names the closed form, or what the bound comes from.
-// Where a simulation ran: simulated over wall time, steps, the smallest one in seconds, what held back most
-// of them, the largest error of the energy balance over the energy turned over (kinetic plus all works), the
-// shares of the wall time by stage, and what ended it. A simulation that takes longer than `--wall` seconds
-// is cut. Materials, forces and steps are the defaults unless a row or the scene's source says otherwise.
-// Times compare within one machine only.
+// least value; `within`: whether that is at most `bound`: `no` also where the run failed, `cut` where nothing
+// is wrong but the run did not reach its end, empty where the figure is only noted. `formula` names the
+// closed form, or what the bound comes from. Where a simulation ran: simulated over processor time, steps,
+// the smallest one in seconds, what held back most of them, the largest error of the energy balance over the
+// energy turned over (kinetic plus all works), the shares of the wall time by stage, and what ended it. A
+// simulation that takes longer than `--wall` seconds is cut. Materials, forces and steps are the defaults
+// unless a row or the scene's source says otherwise. Times compare within one machine only.
 #include "benchmark/contact_scenes.h"
 
 #include <CLI/CLI.hpp>

@@ -72,7 +72,7 @@ double swingError(double step, const SceneReport& report) {
     const double expected = rest + 0.5 * settled * std::cos(frequency * run.time());
     largest = std::max(largest, std::abs(run.body(1).centre.z() - expected));
   }
-  return run.figures().complete ? largest : kNotComputed;
+  return run.figures().end == RunEnd::Complete ? largest : kNotComputed;
 }
 
 void order(SceneReport& report) {

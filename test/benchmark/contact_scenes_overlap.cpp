@@ -105,7 +105,7 @@ double letGo(SceneRun& run) {
   double largest = 0.0;
   while (run.step()) {
     largest = std::max(largest, run.simulation().energy().kinetic);
-    if (run.body(1).centre.norm() > 0.1) run.stop("the peg has left");
+    if (run.body(1).centre.norm() > 0.1) run.giveUp("the peg has left");
   }
   return largest;
 }

@@ -18,6 +18,18 @@ std::vector<TableEngine> allEngines() {
   return all;
 }
 
+void writeLine(std::ofstream& csv, const TableScene& scene, const std::string& engine, const TableRun& run,
+               double found) {
+  csv << scene.name << ',' << scene.what << ',' << scene.unit << ',' << scene.formula << ',' << engine << ','
+      << scene.expected << ',';
+  if (std::isnan(found)) {
+    csv << ',';
+  } else {
+    csv << found << ',' << std::abs(found - scene.expected);
+  }
+  csv << ',' << run.seconds / run.bodies.front().back().time << ',' << (run.complete ? "yes" : "no") << '\n';
+}
+
 }  // namespace
 
 void compareInTable(const std::vector<std::string>& names, const std::string& file) {
@@ -40,10 +52,7 @@ void compareInTable(const std::vector<std::string>& names, const std::string& fi
                   std::abs(found - scene.expected), run.seconds / simulated,
                   run.complete ? "" : " (not finished)");
       std::fflush(stdout);
-      if (!csv.is_open()) continue;
-      csv << scene.name << ',' << scene.what << ',' << scene.unit << ',' << scene.formula << ','
-          << engine.name << ',' << scene.expected << ',' << found << ',' << std::abs(found - scene.expected)
-          << ',' << run.seconds / simulated << ',' << (run.complete ? "yes" : "no") << '\n';
+      if (csv.is_open()) writeLine(csv, scene, engine.name, run, found);
     }
   }
 }

@@ -44,7 +44,7 @@ TableScene cornerScene() {
   scene.stage.addFree("box", makeBox({0.1, 0.1, 0.1}), 4.0, at(0.05, 0, 0.05)).loads = {push};
   scene.stage.letMeet("corner", "box");
   scene.shapes = {TableShape::Mesh, TableShape::Box};
-  scene.spring_spacing = 0.02;
+  scene.spring_spacing = 0.05;
   scene.duration = 10.0;
   scene.figure = drift(3.0, scene.duration);
   return scene;
@@ -57,8 +57,7 @@ TableScene discScene() {
   scene.stage = bedStage(FrictionModel::Bristle);
   scene.stage.material.static_friction = scene.stage.material.dynamic_friction = 0.4;
   scene.stage.addGround();
-  const double settled = kGravity / (scene.normal().foundation_stiffness * kPi * 0.01);
-  scene.stage.addFree("disc", makeCylinder(scene.radius, 0.02, 1e-4), 1.0, at(0, 0, 0.01 - settled))
+  scene.stage.addFree("disc", makeCylinder(scene.radius, 0.02, 1e-4), 1.0, at(0, 0, 0.01))
       .angular_velocity = {0.0, 0.0, spin};
   scene.stage.letMeet("ground", "disc");
   scene.shapes = {TableShape::HalfSpace, TableShape::Cylinder};
@@ -79,7 +78,7 @@ TableScene towerScene() {
   scene.stage.addGround();
   scene.stage.addTower(3, 0.1, 1.0);
   scene.shapes = {TableShape::HalfSpace, TableShape::Box, TableShape::Box, TableShape::Box};
-  scene.spring_spacing = 0.02;
+  scene.spring_spacing = 0.05;
   scene.duration = 10.0;
   scene.figure = drift(3.0, scene.duration);
   return scene;
@@ -94,7 +93,7 @@ TableScene heavyScene() {
   scene.stage.addFree("heavy", makeBox({0.1, 0.1, 0.1}), 100.0, at(0, 0, 0.15));
   scene.stage.letMeet("box_0", "heavy");
   scene.shapes = {TableShape::HalfSpace, TableShape::Box, TableShape::Box};
-  scene.spring_spacing = 0.02;
+  scene.spring_spacing = 0.05;
   scene.duration = 3.0;
   scene.figure = drift(1.0, scene.duration);
   return scene;

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "benchmark/support/processor_time.h"
 #include "benchmark/support/stopwatch.h"
 #include "concave_distance/base/error.h"
 
@@ -29,9 +30,9 @@ void writeCell(std::ofstream& csv, double value) {
 
 std::string SceneRow::within() const {
   if (std::isnan(bound)) return {};
-  if (std::isnan(error)) return run.complete ? "no" : "cut";
-  if (error > bound) return "no";
-  return run.complete ? "yes" : "cut";
+  if (error > bound || run.end == RunEnd::Failed) return "no";
+  if (run.end == RunEnd::Cut) return "cut";
+  return std::isnan(error) ? "no" : "yes";
 }
 
 SceneReport::SceneReport(const std::string& file, double wall_limit) : wall_limit_(wall_limit) {
@@ -117,8 +118,7 @@ SceneRun::SceneRun(Simulation simulation, double duration, const SceneReport& re
 bool SceneRun::step(double until) {
   if (!ended_by_.empty()) return false;
   if (simulation_.time() >= duration_) {
-    ended_by_ = "duration";
-    complete_ = true;
+    stop("duration");
     return false;
   }
   if (wall_ > wall_limit_) {
@@ -128,11 +128,13 @@ bool SceneRun::step(double until) {
     return false;
   }
   const auto start = std::chrono::steady_clock::now();
+  const double processor_start = processorMicroseconds();
   last_step_ = simulation_.step(std::min(until, duration_));
+  processor_ += 1e-6 * (processorMicroseconds() - processor_start);
   wall_ += 1e-6 * microsecondsSince(start);
   observeEnergy();
   if (simulation_.status() == SimulationStatus::Ok) return true;
-  ended_by_ = "diverged";
+  giveUp("diverged");
   return false;
 }
 
@@ -145,7 +147,12 @@ bool SceneRun::advanceTo(double time) {
 
 void SceneRun::stop(const std::string& why) {
   ended_by_ = why;
-  complete_ = true;
+  end_ = RunEnd::Complete;
+}
+
+void SceneRun::giveUp(const std::string& why) {
+  ended_by_ = why;
+  end_ = RunEnd::Failed;
 }
 
 void SceneRun::observeEnergy() {
@@ -160,6 +167,7 @@ RunFigures SceneRun::figures() const {
   const SimulationCounters& counters = simulation_.counters();
   RunFigures figures;
   figures.simulated = simulation_.time();
+  figures.processor = processor_;
   figures.wall = wall_;
   figures.steps = counters.steps;
   figures.smallest_step = counters.smallest_step;
@@ -167,7 +175,7 @@ RunFigures SceneRun::figures() const {
   for (std::size_t i = 0; i < kSimulationStages; ++i) figures.shares[i] = counters.seconds[i] / wall_;
   figures.limited_by = largestLimit(counters);
   figures.ended_by = ended_by_;
-  figures.complete = complete_;
+  figures.end = end_;
   return figures;
 }
 

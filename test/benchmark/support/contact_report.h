@@ -9,19 +9,26 @@
 
 namespace concave_distance::benchmark {
 
+enum class RunEnd : std::uint8_t {
+  Complete,
+  Cut,    ///< by the wall clock
+  Failed  ///< diverged, or a body went where nothing can be seen any more
+};
+
 /// How a simulation went; all of it empty where nothing was simulated.
 struct RunFigures {
   double simulated = kNotComputed;  ///< seconds
-  double wall = kNotComputed;       ///< seconds that it took
+  double processor = kNotComputed;  ///< seconds of its thread
+  double wall = kNotComputed;       ///< seconds, with what else the machine did
   std::uint64_t steps = 0;
   double smallest_step = kNotComputed;  ///< seconds
   double balance_share = kNotComputed;  ///< largest error of the energy balance over the energy turned over
   std::array<double, kSimulationStages> shares{};  ///< of the wall time
   std::string limited_by;                          ///< what held back most steps, and how many
   std::string ended_by;
-  bool complete = true;  ///< ran as long as asked for
+  RunEnd end = RunEnd::Complete;
 
-  double realTimeFactor() const { return simulated / wall; }
+  double realTimeFactor() const { return simulated / processor; }
 };
 
 /// What was found.
@@ -40,7 +47,7 @@ struct SceneRow {
   double error = kNotComputed;
   RunFigures run;
 
-  /// "yes", "no", "cut" (right so far, but the run did not reach its end); empty without a bound.
+  /// "yes", "no", "cut" (nothing wrong so far, but the run did not reach its end); empty without a bound.
   std::string within() const;
 };
 
@@ -84,7 +91,8 @@ class SceneRun {
   bool step(double until = std::numeric_limits<double>::infinity());
   /// @return false when the run ended before `time`
   bool advanceTo(double time);
-  void stop(const std::string& why);  ///< what the scene was to show has been seen
+  void stop(const std::string& why);    ///< what the scene was to show has been seen
+  void giveUp(const std::string& why);  ///< it cannot be seen any more: the run has failed
 
   Simulation& simulation() { return simulation_; }
   const SimulatedBody& body(std::size_t index) const { return simulation_.bodies()[index]; }
@@ -99,11 +107,12 @@ class SceneRun {
   double duration_;
   double wall_limit_;
   double wall_ = 0.0;
+  double processor_ = 0.0;
   double last_step_ = 0.0;
   double largest_imbalance_ = 0.0;
   double energy_turned_over_ = 0.0;
   std::string ended_by_;
-  bool complete_ = false;
+  RunEnd end_ = RunEnd::Cut;
 };
 
 }  // namespace concave_distance::benchmark
