@@ -117,28 +117,37 @@ FrictionTangent coulombTangent(const FrictionSettings& settings, const ContactMa
   return tangent;
 }
 
-// Surfaces that slide by less than a tenth of their bristles' deflection in a step, and have lost a third of
-// the step's mean speed at its end, turn back in the next one.
-bool turnsBack(const RecentSliding& recent, double speed, double coefficient, double bristle_stiffness) {
-  constexpr double kShareOfDeflection = 0.1;
+// Bristles count as sticking where the surfaces moved by less than a tenth of the deflection that they bear
+// in a step, unless they crept on steadily: those that turn back in the next step resist.
+bool sticks(const Eigen::Vector3d& sliding, const RecentSliding& recent, double largest_deflection) {
   const double displacement = recent.displacement.norm();
-  return displacement * bristle_stiffness < kShareOfDeflection * coefficient &&
-         speed * recent.step < 2.0 / 3.0 * displacement;
+  const double change = (recent.step * sliding - recent.displacement).norm();
+  return displacement < 0.1 * largest_deflection && !(change < displacement / 3.0);
 }
 
 FrictionTangent bristleTangent(const FrictionSettings& settings, const ContactMaterial& material,
-                               double normal_force, double speed, const RecentSliding& recent) {
+                               double normal_force, const Eigen::Vector3d& sliding,
+                               const RecentSliding& recent) {
+  const double speed = sliding.norm();
   const double coefficient = frictionCoefficient(material, settings.stribeck_speed, speed);
   if (!(coefficient > 0.0)) return {};
-  // Bristles that are bent as far as they go give way along, unless they turn back.
-  const double bent = settings.bristle_stiffness * recent.bristles.deflection.norm() / coefficient;
-  const bool sticks = !(speed > 0.0) || turnsBack(recent, speed, coefficient, settings.bristle_stiffness);
-  const double left = sticks ? 1.0 : std::max(0.0, 1.0 - slippingShare(bent) * bent);
+  const double largest_deflection = coefficient / settings.bristle_stiffness;
+  double along = 1.0;
+  double across = 1.0;
+  if (!(speed > 0.0) || sticks(sliding, recent, largest_deflection)) {
+    // Bent bristles resist the way back by more: too stiff is stable, too soft is not.
+    along = across = 1.0 + recent.bristles.deflection.norm() / largest_deflection;
+  } else {
+    // As far as they are bent along, they give way.
+    const double bent = recent.bristles.deflection.dot(sliding) / (speed * largest_deflection);
+    along = std::clamp(1.0 - slippingShare(std::abs(bent)) * bent, 0.0, 2.0);
+  }
   FrictionTangent tangent;
-  tangent.stiffness_across = normal_force * settings.bristle_stiffness;
-  tangent.stiffness_along = left * tangent.stiffness_across;
+  tangent.stiffness_along = along * normal_force * settings.bristle_stiffness;
+  tangent.stiffness_across = across * normal_force * settings.bristle_stiffness;
+  tangent.damping_along =
+      normal_force * (std::min(1.0, along) * settings.bristle_damping + material.viscous_friction);
   tangent.damping_across = normal_force * (settings.bristle_damping + material.viscous_friction);
-  tangent.damping_along = normal_force * (left * settings.bristle_damping + material.viscous_friction);
   return tangent;
 }
 
@@ -152,7 +161,7 @@ FrictionTangent frictionTangent(const FrictionSettings& settings, const ContactM
   if (settings.model == FrictionModel::RegularisedCoulomb) {
     tangent = coulombTangent(settings, material, normal_force, speed);
   } else if (settings.model == FrictionModel::Bristle) {
-    tangent = bristleTangent(settings, material, normal_force, speed, recent);
+    tangent = bristleTangent(settings, material, normal_force, sliding, recent);
   }
   tangent.along = speed > 0.0 ? Eigen::Vector3d(sliding / speed) : normal.unitOrthogonal();
   tangent.across = normal.cross(tangent.along);

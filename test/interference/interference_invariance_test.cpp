@@ -205,7 +205,7 @@ RC_GTEST_PROP(InterferenceOfAnySurfaces, EndsAndNumbersAreFiniteOrNotGiven, ()) 
   for (const InterferenceRegion& region : result.regions) {
     RC_ASSERT(region.centroid_in_a.allFinite());
     RC_ASSERT(region.normal_in_a.allFinite());
-    RC_ASSERT(region.along_normal_a_in_a.allFinite() && region.along_normal_b_in_a.allFinite());
+    RC_ASSERT(region.point_a_in_a.allFinite() && region.point_b_in_a.allFinite());
     RC_ASSERT(!region.closed || (std::isfinite(region.volume) && region.depth_along_normal >= 0.0));
   }
 }

@@ -39,6 +39,7 @@ PairContacts oneContact() {
   region.depth_rate = 0.5;
   region.sliding_in_a = Eigen::Vector3d(0.0, -0.1, 0.0);
   region.normal_force = 10.0;
+  region.force_direction_in_a = region.overlap.normal_in_a;
   region.friction_on_b_in_a = Eigen::Vector3d(0.0, 3.0, 0.0);
   const Eigen::Vector3d force(10.0, 3.0, 0.0);
   region.on_b_in_a = wrenchAbout(force, region.point_in_a, Eigen::Vector3d::Zero());

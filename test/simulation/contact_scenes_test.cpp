@@ -113,6 +113,16 @@ TEST(ContactScenes, BelowTheFrictionAngleTheBoxStaysForGood) {
   EXPECT_LT(simulation.bodies()[1].velocity.norm(), 1e-6);
 }
 
+// With steps far longer than the bristles' time scale, which is 3 ms.
+TEST(ContactScenes, ABoxOnASlopeStandsStillInDefaultSteps) {
+  Simulation simulation(loadConfig("box_sticks.yaml"));
+  simulation.advanceTo(1.0);
+  const Eigen::Vector3d place = simulation.bodies()[1].centre;
+  simulation.advanceTo(10.0);
+  EXPECT_LT((simulation.bodies()[1].centre - place).norm(), 1e-12);
+  EXPECT_LT(simulation.bodies()[1].velocity.norm(), 1e-12);
+}
+
 TEST(ContactScenes, AboveTheFrictionAngleItSlidesAsCoulombSays) {
   for (const double factor : {1.02, 1.5}) {
     const double tangent = 0.45 * factor;
