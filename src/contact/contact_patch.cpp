@@ -20,17 +20,21 @@ double cellSize(double area, double now) {
   return std::exp2(std::round(std::log2(wanted)));
 }
 
-/// Of space, and the axis that the push is nearest to: the two walls of a slot do not share a site.
+/// The axis that the push is nearest to, with its sign, and a cell of the plane across it: the two walls of a
+/// slot do not share a site, the two surfaces of one contact do. Places and pushes at round numbers are
+/// common, so that no limit between cells is at one: else rounding would decide.
 std::uint64_t cellOf(const Eigen::Vector3d& point, const Eigen::Vector3d& push, double size) {
-  constexpr std::int64_t kHalf = 1 << 19;
-  std::uint64_t key = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double cell = std::clamp(std::floor(point[axis] / size), -double(kHalf), double(kHalf - 1));
-    key = key << 20U | static_cast<std::uint64_t>(static_cast<std::int64_t>(cell) + kHalf);
-  }
+  constexpr double kOffset = 0.381966;
+  constexpr std::int64_t kHalf = 1 << 29;
   Eigen::Index axis = 0;
-  push.cwiseAbs().maxCoeff(&axis);
-  return key << 3U | static_cast<std::uint64_t>(2 * axis + (push[axis] < 0.0 ? 1 : 0));
+  push.cwiseAbs().cwiseProduct(Eigen::Vector3d(1.0, 1.03, 1.07)).maxCoeff(&axis);
+  std::uint64_t key = static_cast<std::uint64_t>(2 * axis + (push[axis] < 0.0 ? 1 : 0));
+  for (const Eigen::Index across : {(axis + 1) % 3, (axis + 2) % 3}) {
+    const double cell = std::clamp(std::floor(point[across] / size + kOffset), -static_cast<double>(kHalf),
+                                   static_cast<double>(kHalf - 1));
+    key = key << 30U | static_cast<std::uint64_t>(static_cast<std::int64_t>(cell) + kHalf);
+  }
+  return key;
 }
 
 /// B has come out of A on the side away from where it entered, or A of B.

@@ -56,7 +56,8 @@ TEST(ContactPatch, ADiscThatSpinsIsHeldBackByTwoThirdsOfItsRadius) {
     const double expected = 2.0 / 3.0 * Material().dynamic_friction * force * radius;
     EXPECT_NEAR(scene.contacts.on_b_in_a.torque.z(), -expected, 0.03 * expected) << toString(model);
     // What does not cancel comes from the sites' size.
-    EXPECT_LT(scene.contacts.regions[0].friction_on_b_in_a.norm() * radius, 0.1 * expected) << toString(model);
+    EXPECT_LT(scene.contacts.regions[0].friction_on_b_in_a.norm() * radius, 0.1 * expected)
+        << toString(model);
   }
 }
 

@@ -157,9 +157,10 @@ TEST_F(EffectsTest, EffectsAreSwitchedOnAndOffWhileRunning) {
 
   ASSERT_TRUE(set("*", "none").success);
   EXPECT_TRUE(eventually([&] { return all.last()->pairs.empty(); }));
-  ASSERT_TRUE(
-      set("press", "{normal_force: {model: spring_dashpot, stiffness: 1000}, friction: regularised_coulomb}")
-          .success);
+  ASSERT_TRUE(set("press",
+                  "{normal_force: {model: spring_dashpot, distribution: lumped, stiffness: 1000}, friction: "
+                  "regularised_coulomb}")
+                  .success);
   EXPECT_TRUE(eventually([&] { return state("press").has_wrench != 0; }));
 }
 
