@@ -12,4 +12,11 @@ void refill(std::vector<T>& buffer, std::size_t count, const T& value) {
   buffer.assign(count, value);
 }
 
+/// The same for copy assignment.
+template <typename T>
+void refill(std::vector<T>& buffer, const std::vector<T>& values) {
+  if (buffer.capacity() < values.size()) buffer.reserve(2 * values.size());
+  buffer.assign(values.begin(), values.end());
+}
+
 }  // namespace concave_distance

@@ -131,6 +131,7 @@ Wrench ContactPatch::rub(const FrictionSettings& settings, const ContactMaterial
                          const PatchMotion& motion, PatchMemory& memory,
                          ContactLinearisation& linearisation) {
   next_.clear();
+  if (next_.capacity() < sites_.size()) next_.reserve(2 * sites_.size());
   Wrench wrench;
   for (const PatchSite& site : sites_) {
     const BristleState* known = findBristles(memory, site, same_cells_);
@@ -150,7 +151,7 @@ Wrench ContactPatch::rub(const FrictionSettings& settings, const ContactMaterial
     addDirection(tangent.damping_along, tangent.along, site.point_in_a, linearisation.damping);
     addDirection(tangent.damping_across, tangent.across, site.point_in_a, linearisation.damping);
   }
-  memory.bristles = next_;
+  refill(memory.bristles, next_);
   return wrench;
 }
 

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/refill.h"
 #include "concave_distance/contact/contact_linearisation.h"
 #include "concave_distance/contact/effect_settings.h"
 #include "concave_distance/contact/wrench.h"
@@ -44,6 +45,18 @@ struct PatchMemory {
   /// Unit, on B, while the patch pushed one way; zero: it never did.
   Eigen::Vector3d entered_in_a = Eigen::Vector3d::Zero();
 
+  PatchMemory() = default;
+  ~PatchMemory() = default;
+  PatchMemory(const PatchMemory&) = default;
+  PatchMemory(PatchMemory&&) = default;
+  PatchMemory& operator=(PatchMemory&&) = default;
+  PatchMemory& operator=(const PatchMemory& other) {
+    if (this == &other) return *this;
+    cell_size = other.cell_size;
+    refill(bristles, other.bristles);
+    entered_in_a = other.entered_in_a;
+    return *this;
+  }
   void clear() {
     cell_size = 0.0;
     bristles.clear();

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/coordinate_limit.h"
+#include "base/refill.h"
 #include "overlap_samples.h"
 #include "region_builder.h"
 
@@ -71,8 +72,8 @@ void takeSolids(InterferenceWorkspace::Implementation& space) {
   for (const FoundRegion& f : space.found) {
     if (isSolid(f)) space.solids.push_back(f);
   }
-  space.facets = space.builder.facets();
-  space.loop_areas = space.builder.loopAreas();
+  refill(space.facets, space.builder.facets());
+  refill(space.loop_areas, space.builder.loopAreas());
 }
 
 void dropSurfaces(InterferenceRegion& region) {
@@ -180,8 +181,8 @@ void findInterference(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometr
   for (const std::vector<FoundRegion>* list : {&space.solids, &space.others}) {
     for (const FoundRegion& found : *list) space.found.push_back(found);
   }
-  result.facets = space.facets;
-  result.loop_areas_in_a = space.loop_areas;
+  refill(result.facets, space.facets);
+  refill(result.loop_areas_in_a, space.loop_areas);
   measureDepths(a, b, a_from_b, space, result);
   std::sort(space.found.begin(), space.found.end(), deeper);
   bool surfaces_meet = false;
