@@ -52,12 +52,14 @@ Wrench inWorld(const Wrench& in_a, const Eigen::Isometry3d& world_from_a) {
 }  // namespace
 
 PairRunner::PairRunner(const Scene& scene, std::size_t index, const SimulationSettings& settings)
-    : tracked_(scene, index, 0), material_(inContact(tracked_.body_a->material, tracked_.body_b->material)) {
+    : tracked_(scene, index, 0),
+      follows_niches_(settings.tracking != SimulationTracking::SingleMinimum),
+      material_(inContact(tracked_.body_a->material, tracked_.body_b->material)) {
   requireProof(*tracked_.origin);
   const std::string where = "pair '" + tracked_.origin->name + "'";
   tracked_.settings.tracker.validate(where);
   tracked_.settings.effects.validate(where);
-  tracked_.demand = {true, true, settings.tracking != SimulationTracking::SingleMinimum, true};
+  tracked_.demand = {true, true, follows_niches_, true};
   if (settings.tracking != SimulationTracking::Niches) {
     single_.emplace(tracked_.body_a->mesh, tracked_.body_b->mesh);
   }

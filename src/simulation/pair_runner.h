@@ -25,6 +25,9 @@ class PairRunner {
   /// @param index of the pair in the scene
   PairRunner(const Scene& scene, std::size_t index, const SimulationSettings& settings);
 
+  /// Whether the next update() lists the niches, in a simulation that follows them.
+  void wantNiches(bool wanted) { tracked_.demand.niches = follows_niches_ && wanted; }
+
   /// Solves at the bodies' poses. @param step seconds since the last call
   void update(double time, double step, const SimulatedBody& a, const SimulatedBody& b, SimulatedPair& pair,
               SimulationCounters& counters);
@@ -47,6 +50,7 @@ class PairRunner {
   void countSolve(SimulationCounters& counters);
 
   TrackedPair tracked_;
+  bool follows_niches_;
   ContactMaterial material_;
   std::optional<SingleMinimum> single_;
 };

@@ -108,7 +108,8 @@ double Simulation::State::step(double until) {
   double error_share = 0.0;
   while (true) {
     if (!moveWithin(step, limit)) return 0.0;
-    time = limit == StepLimit::Event ? event : time_at_begin + step;  // at an event, whatever the sum is
+    time = limit == StepLimit::Event ? event : time_at_begin + step;  // at an event, not at a sum near it
+    for (detail::PairRunner& runner : runners) runner.wantNiches(std::isinf(until) || time == until);
     evaluateEnd(step, soon);
     error_share = shareOfError(step);
     if (error_share <= 1.0) break;

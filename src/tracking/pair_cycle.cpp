@@ -54,20 +54,24 @@ void PairCycle::update(const Eigen::Isometry3d& pose, double time, PairSolution&
     return;
   }
   geometry_.setPose(*rigid);
-  const double elapsed = warm_ && time > last_time_ ? time - last_time_ : 0.0;
-  const double displacement =
-      warm_ ? largestDisplacement(geometry_.b->surface().boundingBox(), last_pose_, *rigid)
-            : std::numeric_limits<double>::infinity();
   stage_clock_.start();
-  runStages(displacement, elapsed, solution);
-  report(displacement, elapsed, solution);
+  const Moment now{*rigid, time, true};
+  const Passed since_cycle = passed(last_cycle_, now);
+  const Passed since_niches = passed(last_niches_, now);
+  runStages(since_cycle, since_niches, solution);
+  report(wantsNiches() ? since_niches : since_cycle, solution);
   stage_clock_.lap(SolveStage::Describe, solution.stages);
-  last_pose_ = *rigid;
-  last_time_ = time;
+  last_cycle_ = now;
+  if (wantsNiches()) last_niches_ = last_cycle_;
   last_distance_ = solution.distance;
-  warm_ = true;
   ++cycle_;
   solution.solve_seconds = since_start();
+}
+
+PairCycle::Passed PairCycle::passed(const Moment& before, const Moment& now) const {
+  if (!before.known) return {std::numeric_limits<double>::infinity(), 0.0};
+  return {largestDisplacement(geometry_.b->surface().boundingBox(), before.pose, now.pose),
+          std::max(0.0, now.time - before.time)};
 }
 
 void PairCycle::solve(const Eigen::Isometry3d& pose, PairSolution& solution) {
@@ -77,48 +81,48 @@ void PairCycle::solve(const Eigen::Isometry3d& pose, PairSolution& solution) {
 }
 
 // Distance alone skips all but the proof.
-void PairCycle::runStages(double displacement, double elapsed, PairSolution& solution) {
+void PairCycle::runStages(const Passed& since_cycle, const Passed& since_niches, PairSolution& solution) {
   if (proves()) {
     limit_.allowShare(wantsNiches() ? kShareOfProof : 1.0);
-    prove(displacement);
+    prove(since_cycle.displacement);
     stage_clock_.lap(SolveStage::Prove, solution.stages);
   }
   if (!wantsNiches()) return;
   if (isExact()) {
-    solveExact(displacement, elapsed, solution);
+    solveExact(since_niches, solution);
   } else {
-    solveNodes(displacement, elapsed, solution);
+    solveNodes(since_niches, solution);
   }
 }
 
 void PairCycle::prove(double displacement) {
   std::optional<TrianglePair> nearest;
-  if (!archive_.records().empty()) {
+  if (wantsNiches() && !archive_.records().empty()) {
     const WitnessPair& witness = archive_.records().front().niche.witness;
     nearest = TrianglePair{witness.triangle_a, witness.triangle_b};
   }
-  distance_before_ = warm_ ? proof_.certificate().distance : kNotComputed;
+  distance_before_ = isWarm() ? proof_.certificate().distance : kNotComputed;
   proof_.prove(geometry_, parameters_, nearest, displacement, limit_);
 }
 
-void PairCycle::solveNodes(double displacement, double elapsed, PairSolution& solution) {
+void PairCycle::solveNodes(const Passed& passed, PairSolution& solution) {
   limit_.allowShare(kShareOfNiches);
   search_.begin(geometry_, parameters_);
-  followNodePairs(geometry_, search_, displacement, elapsed, archive_, solution.cost, limit_);
+  followNodePairs(geometry_, search_, passed.displacement, passed.elapsed, archive_, solution.cost, limit_);
   stage_clock_.lap(SolveStage::Follow, solution.stages);
   known_.clear();
   for (const NicheRecord& record : archive_.records()) known_.push_back(record.niche.node_pair);
-  const std::vector<TrialPoint>& found =
-      search_.propose(geometry_, parameters_, known_, {name_, cycle_, warm_, false}, solution.cost, limit_);
+  const std::vector<TrialPoint>& found = search_.propose(
+      geometry_, parameters_, known_, {name_, cycle_, isWarm(), false}, solution.cost, limit_);
   stage_clock_.lap(SolveStage::Propose, solution.stages);
-  admitNodePairs(geometry_, parameters_, search_, found, warm_, cycle_, archive_, solution);
+  admitNodePairs(geometry_, parameters_, search_, found, isWarm(), cycle_, archive_, solution);
   stage_clock_.lap(SolveStage::Admit, solution.stages);
 }
 
-void PairCycle::solveExact(double displacement, double elapsed, PairSolution& solution) {
-  if (niches_.stands(displacement)) return niches_.stand(elapsed, archive_);
+void PairCycle::solveExact(const Passed& passed, PairSolution& solution) {
+  if (niches_.stands(passed.displacement)) return niches_.stand(passed.elapsed, archive_);
   // Else the first warm cycle in which the search is due would make the grids.
-  if (!warm_ && is_tracked_ && parameters_.search_share > 0.0) prepare();
+  if (!isWarm() && is_tracked_ && parameters_.search_share > 0.0) prepare();
   limit_.allowShare(kShareOfSearch);
   if (!proves()) niches_.follow(geometry_, archive_, limit_);
   stage_clock_.lap(SolveStage::Follow, solution.stages);
@@ -127,8 +131,8 @@ void PairCycle::solveExact(double displacement, double elapsed, PairSolution& so
     niches_.proposeProven(geometry_, proof_.certificate().witness);
   }
   stage_clock_.lap(SolveStage::Propose, solution.stages);
-  niches_.admit(geometry_, parameters_, {cycle_, last_pose_, elapsed, is_tracked_}, certainDistance(),
-                kShareOfNiches, archive_, solution, limit_);
+  niches_.admit(geometry_, parameters_, {cycle_, last_niches_.pose, passed.elapsed, is_tracked_},
+                certainDistance(), kShareOfNiches, archive_, solution, limit_);
   search_.earn(niches_.work(), parameters_.search_share);
   stage_clock_.lap(SolveStage::Admit, solution.stages);
   solution.stages[SolveStage::Sweep] = niches_.cost().sweep_seconds;
@@ -139,7 +143,7 @@ void PairCycle::solveExact(double displacement, double elapsed, PairSolution& so
 // one that may have to end early is better for it.
 bool PairCycle::searchIsDue() const {
   if (!proves()) return true;
-  return parameters_.search_share > 0.0 && (warm_ ? search_.isAffordable() : limit_.isTimed());
+  return parameters_.search_share > 0.0 && (isWarm() ? search_.isAffordable() : limit_.isTimed());
 }
 
 void PairCycle::proposeMinima(SearchCost& cost) {
@@ -150,7 +154,7 @@ void PairCycle::proposeMinima(SearchCost& cost) {
     known_.push_back(search_.descendKnown(geometry_, geometry_.nodePairNear(record.niche.witness), cost));
   }
   const std::vector<TrialPoint>& found =
-      search_.propose(geometry_, parameters_, known_, {name_, cycle_, warm_, proves()}, cost, limit_);
+      search_.propose(geometry_, parameters_, known_, {name_, cycle_, isWarm(), proves()}, cost, limit_);
   for (std::size_t i = 0; i < found.size() && (i == 0 || !limit_.isOver()); ++i) {
     const WitnessPair node_pair = geometry_.nodeWitness(found[i]);
     niches_.propose(geometry_, geometry_.refine(node_pair.triangle_a, node_pair.triangle_b).witness);
@@ -162,16 +166,16 @@ double PairCycle::certainDistance() const {
   return proof_.certificate().lower_bound - proof_.error();
 }
 
-void PairCycle::report(double displacement, double elapsed, PairSolution& solution) {
+void PairCycle::report(const Passed& passed, PairSolution& solution) {
   limit_.allowShare(1.0);
-  if (!wantsNiches()) return reportAlone(elapsed, solution);
+  if (!wantsNiches()) return reportAlone(passed.elapsed, solution);
   listNiches(solution);
   if (proves()) {
     proof_.report(solution);
   } else {
     reportNearest(solution);
   }
-  reportMiss(displacement, solution);
+  reportMiss(passed.displacement, solution);
   if (!solution.niches.empty() && solution.niches.front().distance == solution.distance) {
     solution.normal_in_a = solution.niches.front().normal_in_a;
     solution.closing_speed = solution.niches.front().closing_speed;
@@ -248,7 +252,7 @@ void PairCycle::reportNearest(PairSolution& solution) {
 
 // At level `certified`: what was neither known nor proposed.
 void PairCycle::reportMiss(double displacement, PairSolution& solution) const {
-  if (!warm_) return;
+  if (!isWarm()) return;
   if (proves()) {
     solution.search_miss =
         std::any_of(solution.niches.begin(), solution.niches.end(), [](const TrackedNiche& niche) {
@@ -282,7 +286,7 @@ void PairCycle::clear(PairSolution& solution) const {
   solution.niches_cut = solution.niches_complete = solution.search_miss = false;
   solution.niches_beyond_cutoff = 0;
   solution.cycle = cycle_;
-  solution.warm = warm_;
+  solution.warm = isWarm();
   solution.seed = parameters_.seed;
   solution.cost = {};
   solution.proof_cost = {};
@@ -306,7 +310,7 @@ void PairCycle::reset() {
   proof_.clear();
   niches_.clear();
   search_.restart();
-  warm_ = false;
+  last_cycle_.known = last_niches_.known = false;
 }
 
 void PairCycle::restart() {
@@ -318,11 +322,10 @@ void PairCycle::restart() {
 
 void PairCycle::setParameters(const TrackerParameters& parameters) {
   parameters.validate(name_);
-  const bool starts_or_ends_niches =
-      provesDistance(parameters.accuracy) && parameters.niches_wanted != parameters_.niches_wanted;
-  // Node niches and refined ones are not the same places; a proof alone follows none.
-  if (parameters.accuracy != parameters_.accuracy || starts_or_ends_niches) reset();
+  // Node niches and refined ones are not the same places.
+  const bool changes_niches = parameters.accuracy != parameters_.accuracy;
   parameters_ = parameters;
+  if (changes_niches || (wantsNiches() && !last_niches_.known)) reset();
   proof_.renew();
   niches_.renew();
   search_.forgetParameters();

@@ -37,14 +37,26 @@ class PairCycle {
   std::size_t memoryBytes() const;
 
  private:
-  void runStages(double displacement, double elapsed, PairSolution& solution);
-  void solveNodes(double displacement, double elapsed, PairSolution& solution);
-  void solveExact(double displacement, double elapsed, PairSolution& solution);
+  struct Moment {
+    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+    double time = 0.0;
+    bool known = false;
+  };
+  /// Since another cycle.
+  struct Passed {
+    double displacement;  ///< no point of B has moved farther, metres; infinite without a cycle before
+    double elapsed;       ///< seconds; 0 where not known
+  };
+  Passed passed(const Moment& before, const Moment& now) const;
+
+  void runStages(const Passed& since_cycle, const Passed& since_niches, PairSolution& solution);
+  void solveNodes(const Passed& passed, PairSolution& solution);
+  void solveExact(const Passed& passed, PairSolution& solution);
   void prove(double displacement);
   void proposeMinima(SearchCost& cost);
   bool searchIsDue() const;
   double certainDistance() const;
-  void report(double displacement, double elapsed, PairSolution& solution);
+  void report(const Passed& passed, PairSolution& solution);
   void reportAlone(double elapsed, PairSolution& solution);
   void reportNearest(PairSolution& solution);
   void reportMiss(double displacement, PairSolution& solution) const;
@@ -53,6 +65,7 @@ class PairCycle {
   void clear(PairSolution& solution) const;
   bool proves() const { return provesDistance(parameters_.accuracy); }
   bool isExact() const { return parameters_.accuracy != AccuracyLevel::Nodes; }
+  bool isWarm() const { return last_cycle_.known; }
   bool wantsNiches() const { return !proves() || parameters_.niches_wanted; }
 
   std::string name_;
@@ -65,10 +78,9 @@ class PairCycle {
   NicheArchive archive_;
   std::vector<TrialPoint> known_;  ///< node pairs, of the cycle
   std::uint64_t cycle_ = 0;
-  bool warm_ = false;
   bool is_tracked_ = true;  ///< of the present cycle
-  Eigen::Isometry3d last_pose_ = Eigen::Isometry3d::Identity();
-  double last_time_ = 0.0;
+  Moment last_cycle_;
+  Moment last_niches_;  ///< the last cycle that wanted niches
   double last_distance_ = kNotComputed;
   double distance_before_ = kNotComputed;  ///< the proof's, of the cycle before
   StageClock stage_clock_;

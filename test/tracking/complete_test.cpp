@@ -150,5 +150,41 @@ TEST(CompleteListOf, ReportsACut) {
   }
 }
 
+// Nobody asks for the niches in four cycles of five, as between the logged times of a simulation.
+TEST(CompleteListOf, GoesOnWithItsIdsAfterCyclesThatDidNotWantIt) {
+  TrackerParameters wanted = complete(false);
+  wanted.cutoff = 0.3;
+  TrackerParameters distance_alone = wanted;
+  distance_alone.niches_wanted = false;
+  PairTracker tracker("combs", comb(), comb(), wanted);
+  PairTracker always("combs", comb(), comb(), wanted);
+  PairSolution solution;
+  PairSolution reference;
+  std::set<std::uint64_t> at_first;
+  for (int k = 0; k <= 40; ++k) {
+    SCOPED_TRACE("instant " + std::to_string(k));
+    const bool is_wanted = k % 5 == 0;
+    tracker.setParameters(is_wanted ? wanted : distance_alone);
+    tracker.update(swaying(0.002 * k), 0.002 * k, solution);
+    always.update(swaying(0.002 * k), 0.002 * k, reference);
+    EXPECT_EQ(solution.distance, reference.distance);
+    EXPECT_EQ(solution.niches_complete, is_wanted);
+    if (!is_wanted) {
+      EXPECT_TRUE(solution.niches.empty());
+      continue;
+    }
+    expectEveryNiche(comb(), comb(), swaying(0.002 * k), solution, wanted);
+    if (k == 0) {
+      for (const TrackedNiche& niche : solution.niches) at_first.insert(niche.id);
+    }
+  }
+  std::size_t kept = 0;
+  for (const TrackedNiche& niche : solution.niches) {
+    kept += at_first.count(niche.id);
+    EXPECT_TRUE(std::isfinite(niche.closing_speed));
+  }
+  EXPECT_EQ(kept, at_first.size());
+}
+
 }  // namespace
 }  // namespace concave_distance

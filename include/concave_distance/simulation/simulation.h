@@ -107,9 +107,11 @@ class Simulation {
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;
 
-  /// One step, never beyond `until`. @return its size in seconds; 0 at `until` or when diverged
+  /// One step, never beyond `until`. Niches are listed at `until` alone (of an infinite one after every
+  /// step); in between only what the step needs is solved. @return its size in seconds; 0 at `until` or when
+  /// diverged
   double step(double until = std::numeric_limits<double>::infinity());
-  /// Steps until `time` is reached exactly.
+  /// Steps until `time` is reached exactly; the niches are those of that time.
   SimulationStatus advanceTo(double time);
 
   double time() const;
