@@ -1,6 +1,8 @@
 #include "closest_point.h"
 
 #include <array>
+#include <cmath>
+#include <limits>
 
 #include "mesh/trees/triangle_tree.h"
 
@@ -11,6 +13,23 @@ struct Waiting {
   std::uint32_t node;
   double squared_distance;
 };
+
+// Of e1 x e2, its product with r, and their squares together, over |e1| |e2| |r|.
+constexpr double kPlaneRounding = 16.0 * std::numeric_limits<double>::epsilon();
+
+/// Proves that no point of the triangle's plane is nearer: the product of the rounded
+/// cross product with a vector is off by no more than kPlaneRounding times the lengths.
+bool planeIsFarther(const TrianglePoints& triangle, const Eigen::Vector3d& target, double squared_distance) {
+  const Eigen::Vector3d first = triangle[1] - triangle[0];
+  const Eigen::Vector3d second = triangle[2] - triangle[0];
+  const Eigen::Vector3d from = target - triangle[0];
+  const Eigen::Vector3d normal = first.cross(second);
+  const double squared_lengths = first.squaredNorm() * second.squaredNorm();
+  const double height =
+      std::abs(normal.dot(from)) - kPlaneRounding * std::sqrt(squared_lengths * from.squaredNorm());
+  return height > 0.0 &&
+         height * height > squared_distance * (normal.squaredNorm() + 3.0 * kPlaneRounding * squared_lengths);
+}
 
 SurfacePoint closestOn(const BodyMesh& body, TriangleIndex triangle, const Eigen::Vector3d& target) {
   const PointTriangleDistance d = pointTriangleDistance(target, trianglePoints(body.surface(), triangle));
@@ -45,7 +64,9 @@ SurfacePoint closestPoint(const BodyMesh& body, const Eigen::Vector3d& target, T
       continue;
     }
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-      const SurfacePoint candidate = closestOn(body, tree.order()[i], target);
+      const TriangleIndex triangle = tree.order()[i];
+      if (planeIsFarther(trianglePoints(body.surface(), triangle), target, best.squared_distance)) continue;
+      const SurfacePoint candidate = closestOn(body, triangle, target);
       if (candidate.squared_distance < best.squared_distance) {
         best = candidate;
       }

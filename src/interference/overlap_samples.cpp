@@ -19,8 +19,6 @@ constexpr std::uint32_t kDeepestLevel = 12;
 constexpr double kDepthShare = 1e-6;
 // The same where parts have to be halved to find it.
 constexpr double kDepthShareOfHalving = 1e-2;
-// Planes whose normals differ by less are one, radians squared.
-constexpr double kSameDirection = 1e-28;
 
 Eigen::Vector3d middleOf(const Eigen::Vector3d& l, const Eigen::Vector3d& r) {
   return 0.5 * (l + r);
@@ -47,6 +45,11 @@ Eigen::Vector3d pushOf(const OverlapFacet& facet) {
 // Both surfaces count half.
 double weightOf(const OverlapFacet& facet) {
   return facet.is_negative ? -0.5 : 0.5;
+}
+
+template <typename Part>
+std::array<Eigen::Vector3d, 3> cornersOf(const Part& part) {
+  return {part.corners[0].point, part.corners[1].point, part.corners[2].point};
 }
 
 /// By how much the depth in the middle of an edge differs from the mean of its ends.
@@ -89,11 +92,20 @@ OverlapSampler::Corner OverlapSampler::look(const OverlapFacet& facet, const Eig
   return {point, facet.of_b ? out : Eigen::Vector3d(-out), depth, nearest.triangle};
 }
 
-OverlapSampler::Part OverlapSampler::wholeOf(const OverlapFacet& facet, DeepestPoint& deepest) {
+// The triangles of a fan share an edge with the one before.
+OverlapSampler::Part OverlapSampler::wholeOf(const OverlapFacet& facet, const Part* before,
+                                             DeepestPoint& deepest) {
   Part part;
   part.level = 0;
-  for (std::size_t k = 0; k < 3; ++k) part.corners[k] = look(facet, facet.corners_in_a[k], deepest);
-  for (std::size_t k = 0; k < 3; ++k) {
+  const bool continues = before != nullptr && before->corners[0].point == facet.corners_in_a[0] &&
+                         before->corners[2].point == facet.corners_in_a[1];
+  if (continues) {
+    part.corners = {before->corners[0], before->corners[2], look(facet, facet.corners_in_a[2], deepest)};
+    part.middles[0] = before->middles[2];
+  } else {
+    for (std::size_t k = 0; k < 3; ++k) part.corners[k] = look(facet, facet.corners_in_a[k], deepest);
+  }
+  for (std::size_t k = continues ? 1 : 0; k < 3; ++k) {
     part.middles[k] = look(facet, middleOf(facet.corners_in_a[k], facet.corners_in_a[(k + 1) % 3]), deepest);
   }
   return part;
@@ -108,12 +120,18 @@ void OverlapSampler::sample(const OverlapFacet* first, const OverlapFacet* last,
   large_.clear();
   wholes_.clear();
   double integral = 0.0;
+  const OverlapFacet* last_whole = nullptr;
   for (const OverlapFacet* facet = first; facet != last; ++facet) {
     const double area = areaOf(facet->corners_in_a);
     const auto index = static_cast<std::uint32_t>(facet - first);
     if (area >= kSmallShare * surface) {
       large_.push_back(index);
-      const Part& whole = wholes_.emplace_back(wholeOf(*facet, deepest));
+      const bool same_triangle =
+          facet != first && facet[-1].triangle == facet->triangle && facet[-1].of_b == facet->of_b;
+      const Part* before = same_triangle && last_whole == facet - 1 ? &wholes_.back() : nullptr;
+      wholes_.push_back(wholeOf(*facet, before, deepest));
+      last_whole = facet;
+      const Part& whole = wholes_.back();
       for (const Corner& middle : whole.middles) integral += area / 3.0 * middle.depth;
       continue;
     }
@@ -132,6 +150,8 @@ void OverlapSampler::sample(const OverlapFacet* first, const OverlapFacet* last,
 void OverlapSampler::integrate(const OverlapFacet& facet, const Part& whole, double allowed,
                                std::vector<OverlapSample>& samples, DeepestPoint& deepest) {
   const double area = areaOf(facet.corners_in_a);
+  planes_.begin(*body_[facet.of_b ? 0 : 1], facet.of_b ? Eigen::Isometry3d::Identity() : a_from_b_,
+                facet.of_b);
   parts_.assign(1, whole);
   while (!parts_.empty()) {
     const Part part = parts_.back();
@@ -152,91 +172,53 @@ void OverlapSampler::integrate(const OverlapFacet& facet, const Part& whole, dou
   }
 }
 
-void OverlapSampler::addPlane(const OverlapFacet& facet, TriangleIndex nearest) {
-  const BodyMesh& body = *body_[facet.of_b ? 0 : 1];
-  const Eigen::Vector3d& normal = body.topology().triangle_normals[nearest.value];
-  const Eigen::Vector3d& corner = body.surface().corner(nearest, 0);
-  Plane plane;
-  plane.out = facet.of_b ? normal : Eigen::Vector3d(a_from_b_.linear() * normal);
-  plane.exit = facet.of_b ? plane.out : Eigen::Vector3d(-plane.out);
-  plane.offset = plane.out.dot(facet.of_b ? corner : Eigen::Vector3d(a_from_b_ * corner));
-  const auto same = [&](const Plane& known) {
-    return (known.out - plane.out).squaredNorm() < kSameDirection && known.offset == plane.offset;
-  };
-  if (std::none_of(planes_.begin(), planes_.end(), same)) planes_.push_back(plane);
-}
-
 void OverlapSampler::findPlanes(const OverlapFacet& facet, const Part& part) {
   planes_.clear();
-  for (const Corner& corner : part.corners) addPlane(facet, corner.nearest);
-  for (const Corner& middle : part.middles) addPlane(facet, middle.nearest);
-}
-
-double OverlapSampler::leastHeight(const Eigen::Vector3d& point) const {
-  double least = std::numeric_limits<double>::infinity();
-  for (const Plane& plane : planes_) least = std::min(least, plane.depth(point));
-  return std::max(0.0, least);
+  const auto add = [&](const Corner& corner) {
+    const Eigen::Vector3d in_a = corner.point + (facet.of_b ? corner.depth : -corner.depth) * corner.exit;
+    planes_.addAround(corner.nearest, facet.of_b ? in_a : b_from_a_ * in_a);
+  };
+  for (const Corner& corner : part.corners) add(corner);
+  for (const Corner& middle : part.middles) add(middle);
 }
 
 // By how much the planes are wrong, at the points that are known and at the centre.
 double OverlapSampler::worstHeight(const OverlapFacet& facet, const Part& part, DeepestPoint& deepest) {
   double worst = 0.0;
   const auto compare = [&](const Corner& at) {
-    worst = std::max(worst, std::abs(leastHeight(at.point) - at.depth));
+    worst = std::max(worst, std::abs(planes_.leastDepth(at.point) - at.depth));
   };
   for (const Corner& corner : part.corners) compare(corner);
   for (const Corner& middle : part.middles) compare(middle);
   if (planes_.size() > 1) {
-    compare(
-        look(facet, (part.corners[0].point + part.corners[1].point + part.corners[2].point) / 3.0, deepest));
+    compare(look(facet, centreOf(cornersOf(part)), deepest));
   }
   return worst;
 }
 
-// Each plane has what it is the lowest over.
 void OverlapSampler::addBelowPlanes(const OverlapFacet& facet, const Part& part,
                                     std::vector<OverlapSample>& samples, DeepestPoint& deepest) {
-  for (const Plane& plane : planes_) {
-    polygon_.assign({part.corners[0].point, part.corners[1].point, part.corners[2].point});
-    for (const Plane& other : planes_) {
-      if (&other != &plane) keepBelow(plane, other);
-    }
-    for (const Eigen::Vector3d& corner : polygon_) {
-      if (plane.depth(corner) > (1.0 + kDepthShare) * deepest.depth) look(facet, corner, deepest);
-    }
-    for (std::size_t k = 2; k < polygon_.size(); ++k) {
-      const std::array<Eigen::Vector3d, 3> corners = {polygon_[0], polygon_[k - 1], polygon_[k]};
-      const double area = areaOf(corners);
-      if (!(area > 0.0)) continue;
-      for (std::size_t edge = 0; edge < 3; ++edge) {
-        const Eigen::Vector3d middle = middleOf(corners[edge], corners[(edge + 1) % 3]);
-        samples.push_back({middle, pushOf(facet), plane.exit, weightOf(facet) * area / 3.0,
-                           std::max(0.0, plane.depth(middle))});
-      }
-    }
-  }
-}
-
-// Cuts off the polygon where `other` is lower; where both are equal the first one keeps it.
-void OverlapSampler::keepBelow(const Plane& plane, const Plane& other) {
-  clipped_.clear();
-  const auto height = [&](const Eigen::Vector3d& p) { return other.depth(p) - plane.depth(p); };
-  for (std::size_t k = 0; k < polygon_.size(); ++k) {
-    const Eigen::Vector3d& from = polygon_[k];
-    const Eigen::Vector3d& to = polygon_[(k + 1) % polygon_.size()];
-    const double at_from = height(from);
-    const double at_to = height(to);
-    if (at_from >= 0.0) clipped_.push_back(from);
-    if ((at_from > 0.0 && at_to < 0.0) || (at_from < 0.0 && at_to > 0.0)) {
-      clipped_.push_back(from + at_from / (at_from - at_to) * (to - from));
-    }
-  }
-  polygon_.swap(clipped_);
+  planes_.forEachPart(
+      cornersOf(part), [&](const DepthPlane& plane, const std::vector<Eigen::Vector3d>& polygon) {
+        for (const Eigen::Vector3d& corner : polygon) {
+          if (plane.depth(corner) > (1.0 + kDepthShare) * deepest.depth) look(facet, corner, deepest);
+        }
+        for (std::size_t k = 2; k < polygon.size(); ++k) {
+          const std::array<Eigen::Vector3d, 3> corners = {polygon[0], polygon[k - 1], polygon[k]};
+          const double area = areaOf(corners);
+          if (!(area > 0.0)) continue;
+          for (std::size_t edge = 0; edge < 3; ++edge) {
+            const Eigen::Vector3d middle = middleOf(corners[edge], corners[(edge + 1) % 3]);
+            samples.push_back({middle, pushOf(facet), plane.exit, weightOf(facet) * area / 3.0,
+                               std::max(0.0, plane.depth(middle))});
+          }
+        }
+      });
 }
 
 void OverlapSampler::addQuadratic(const OverlapFacet& facet, const Part& part,
                                   std::vector<OverlapSample>& samples) const {
-  const double area = areaOf({part.corners[0].point, part.corners[1].point, part.corners[2].point});
+  const double area = areaOf(cornersOf(part));
   for (const Corner& middle : part.middles) {
     samples.push_back({middle.point, pushOf(facet), middle.exit, weightOf(facet) * area / 3.0, middle.depth});
   }
@@ -257,8 +239,7 @@ double OverlapSampler::depthBound(const OverlapFacet& facet, const std::array<Ei
 
 bool OverlapSampler::mayBeDeeper(const OverlapFacet& facet, const Part& part,
                                  const DeepestPoint& deepest) const {
-  const std::array<Eigen::Vector3d, 3> corners = {part.corners[0].point, part.corners[1].point,
-                                                  part.corners[2].point};
+  const std::array<Eigen::Vector3d, 3> corners = cornersOf(part);
   return std::all_of(part.middles.begin(), part.middles.end(), [&](const Corner& middle) {
     return depthBound(facet, corners, middle.nearest) > (1.0 + kDepthShareOfHalving) * deepest.depth;
   });

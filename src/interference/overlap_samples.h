@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "concave_distance/interference/interference.h"
+#include "depth_planes.h"
 
 namespace concave_distance {
 
@@ -40,14 +41,6 @@ class OverlapSampler {
     std::array<Corner, 3> middles;  ///< of the edges k to k + 1
     std::uint32_t level;
   };
-  /// Depth below a plane of the other body: offset - out . point.
-  struct Plane {
-    Eigen::Vector3d out;   ///< of the other body, A's frame
-    Eigen::Vector3d exit;  ///< the way for B
-    double offset;
-    double depth(const Eigen::Vector3d& point) const { return offset - out.dot(point); }
-  };
-  using Polygon = std::vector<Eigen::Vector3d>;
   /// A facet with one sample.
   struct Candidate {
     std::uint32_t facet;
@@ -56,17 +49,14 @@ class OverlapSampler {
   };
 
   Corner look(const OverlapFacet& facet, const Eigen::Vector3d& point, DeepestPoint& deepest);
-  Part wholeOf(const OverlapFacet& facet, DeepestPoint& deepest);
+  Part wholeOf(const OverlapFacet& facet, const Part* before, DeepestPoint& deepest);
   void halve(const OverlapFacet& facet, const Part& part, DeepestPoint& deepest);
   void integrate(const OverlapFacet& facet, const Part& whole, double allowed,
                  std::vector<OverlapSample>& samples, DeepestPoint& deepest);
   void findPlanes(const OverlapFacet& facet, const Part& part);
-  void addPlane(const OverlapFacet& facet, TriangleIndex nearest);
-  double leastHeight(const Eigen::Vector3d& point) const;
   double worstHeight(const OverlapFacet& facet, const Part& part, DeepestPoint& deepest);
   void addBelowPlanes(const OverlapFacet& facet, const Part& part, std::vector<OverlapSample>& samples,
                       DeepestPoint& deepest);
-  void keepBelow(const Plane& plane, const Plane& other);
   void addQuadratic(const OverlapFacet& facet, const Part& part, std::vector<OverlapSample>& samples) const;
   void lookAtCorners(const OverlapFacet* first, DeepestPoint& deepest);
   double depthBound(const OverlapFacet& facet, const std::array<Eigen::Vector3d, 3>& corners,
@@ -81,9 +71,7 @@ class OverlapSampler {
   std::vector<Part> wholes_;
   std::vector<std::uint32_t> large_;  ///< facets of wholes_
   std::vector<Candidate> small_;
-  std::vector<Plane> planes_;
-  Polygon polygon_;
-  Polygon clipped_;
+  DepthPlanes planes_;
 };
 
 }  // namespace concave_distance
