@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "patch_gradient.h"
+
 namespace concave_distance {
 namespace {
 
@@ -72,9 +74,12 @@ PatchPressure ContactPatch::press(const PatchSurfaces& surfaces, const NormalFor
   same_cells_ = cell_size == memory.cell_size;
   memory.cell_size = cell_size;
   shares_.clear();
+  PatchGradient gradient;
+  gradient.depth << surfaces.exit_in_a, surfaces.deepest_in_a.cross(surfaces.exit_in_a);
   for (const OverlapSample* sample = surfaces.first_sample; sample != surfaces.last_sample; ++sample) {
     const Eigen::Vector3d& push = sample->push_in_a;
     if (result.pierced && push.dot(memory.entered_in_a) < 0.0) continue;
+    gradient.add(*sample);
     const double rate = -b_in_a.at(sample->point_in_a).dot(sample->exit_in_a);
     const double per_depth = std::max(0.0, law.stiffness + law.damping * rate);
     const double pressure = per_depth * sample->depth;
@@ -96,6 +101,7 @@ PatchPressure ContactPatch::press(const PatchSurfaces& surfaces, const NormalFor
     if (!result.pierced && one_way >= kOneWay) memory.entered_in_a = result.on_b_in_a.force.normalized();
     if (!result.pierced && one_way < kAnyWay) memory.entered_in_a.setZero();
   }
+  addChangeOfLaw(law, gradient, patch.moment, linearisation.stiffness);
   gatherSites();
   for (const PatchSite& site : sites_) {
     addDirection(site.stiffness, site.push_in_a, site.point_in_a, linearisation.stiffness);

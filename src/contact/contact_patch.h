@@ -36,6 +36,8 @@ struct PatchSurfaces {
   const Eigen::Vector3d* first_loop;
   const Eigen::Vector3d* last_loop;
   double depth;
+  Eigen::Vector3d deepest_in_a;  ///< where the depth is attained, and the way for B on which it decreases
+  Eigen::Vector3d exit_in_a;
 };
 
 /// What is kept of a patch from cycle to cycle.

@@ -18,6 +18,17 @@ double hertzOverVolume(double contact_modulus, double given_radius, const PatchM
   return hertzForce(depth, contact_modulus, radius) / patch.volume;
 }
 
+// The force goes with the root of the moment, whether the radius is given or that of the overlap.
+PressureLaw hertzLaw(double stiffness, double rate, const PatchMeasure& patch) {
+  return {stiffness, rate * stiffness, -1.0 / patch.volume, 0.5 / patch.moment, 0.0};
+}
+
+/// A force of `stiffness` times the greatest depth. @param power of the volume that the pressure goes with
+PressureLaw overDepth(double stiffness, double damping, double power, const PatchMeasure& patch) {
+  return {stiffness * patch.depth / patch.volume, damping / patch.volume, power / patch.volume, 0.0,
+          patch.depth > 0.0 ? 1.0 / patch.depth : 0.0};
+}
+
 }  // namespace
 
 PatchMeasure measurePatch(const OverlapSample* first, const OverlapSample* last, double depth) {
@@ -39,16 +50,15 @@ PressureLaw pressureLaw(const NormalForceSettings& settings, const ContactMateri
     case NormalForceModel::QuasiStatic: {
       const double contact_radius = std::sqrt(patch.area / kPi);
       const double stiffness = settings.loading_coefficient * material.contact_modulus * contact_radius;
-      return {stiffness * patch.depth / patch.volume, settings.damping / patch.volume};
+      // The area grows with the root of the volume, as where a ball is pressed in, or less.
+      return overDepth(stiffness, settings.damping, -0.75, patch);
     }
     case NormalForceModel::SpringDashpot:
-      return {settings.stiffness * patch.depth / patch.volume, settings.damping / patch.volume};
+      return overDepth(settings.stiffness, settings.damping, -1.0, patch);
     case NormalForceModel::Hertz:
-      return {hertzOverVolume(material.contact_modulus, settings.radius, patch), 0.0};
-    case NormalForceModel::HuntCrossley: {
-      const double stiffness = hertzOverVolume(material.contact_modulus, settings.radius, patch);
-      return {stiffness, rate * stiffness};
-    }
+      return hertzLaw(hertzOverVolume(material.contact_modulus, settings.radius, patch), 0.0, patch);
+    case NormalForceModel::HuntCrossley:
+      return hertzLaw(hertzOverVolume(material.contact_modulus, settings.radius, patch), rate, patch);
     case NormalForceModel::ElasticFoundation:
       return {settings.foundation_stiffness, rate * settings.foundation_stiffness};
   }

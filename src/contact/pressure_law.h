@@ -20,6 +20,10 @@ PatchMeasure measurePatch(const OverlapSample* first, const OverlapSample* last,
 struct PressureLaw {
   double stiffness = 0.0;  ///< Pa/m
   double damping = 0.0;    ///< Pa s/m^2
+  /// Relative derivatives of the stiffness by the patch's measures: 1/m^3, 1/m^4, 1/m.
+  double by_volume = 0.0;
+  double by_moment = 0.0;
+  double by_depth = 0.0;
 };
 
 /// Of a model on a patch: shared out in proportion to the depth so that a round contact has the model's

@@ -110,7 +110,13 @@ struct PairEffects::State {
   PatchSurfaces surfacesOf(const InterferenceRegion& region) const {
     const OverlapSample* samples = interference.samples.data() + region.first_sample;
     const Eigen::Vector3d* loops = interference.loop_areas_in_a.data() + region.first_loop;
-    return {samples, samples + region.sample_count, loops, loops + region.loop_count, region.depth};
+    return {samples,
+            samples + region.sample_count,
+            loops,
+            loops + region.loop_count,
+            region.depth,
+            region.point_a_in_a,
+            (region.point_a_in_a - region.point_b_in_a).normalized()};
   }
 
   void pushLumped(const RelativeTwist& b_in_a, ContactRegion& region) const {

@@ -104,5 +104,71 @@ TEST(ContactPatch, TheLinearisationIsTheDerivativeOfTheWrench) {
               0.1 * linearisation.stiffness(3, 3));
 }
 
+/// How the force on B changes along a way, and what the linearisation says.
+struct Slope {
+  double measured;
+  double predicted;
+};
+
+Slope slopeOf(EffectScene& scene, const Eigen::Isometry3d& pose, const Eigen::Vector3d& along, double way) {
+  const auto force = [&](double shift) {
+    scene.update(Eigen::Translation3d(shift * along) * pose, 0.0);
+    return scene.contacts.on_b_in_a.force.dot(along);
+  };
+  const double measured = (force(-way) - force(way)) / (2.0 * way);
+  scene.update(pose, 0.0);
+  const Matrix6d& stiffness = scene.contacts.linearisation.stiffness;
+  return {measured, along.dot(stiffness.topLeftCorner<3, 3>() * along)};
+}
+
+EffectSettings undamped(NormalForceModel model) {
+  EffectSettings settings = foundation(1e10);
+  settings.normal_force->model = model;
+  return settings;
+}
+
+class EveryLaw : public testing::TestWithParam<NormalForceModel> {};
+
+TEST_P(EveryLaw, TheStiffnessIsTheForcesDerivativeForRoundAndFlatContactAndAPressFit) {
+  // A quasi-static force counts as if its area grew as a ball's: on a face it is stiffer than it is.
+  const double too_stiff = GetParam() == NormalForceModel::QuasiStatic ? 0.3 : 0.07;
+  const auto expect = [&](EffectScene& scene, const Eigen::Isometry3d& pose, const Eigen::Vector3d& along) {
+    const Slope slope = slopeOf(scene, pose, along, 1e-8);
+    EXPECT_GT(slope.predicted, 0.9 * slope.measured);
+    EXPECT_LT(slope.predicted, (1.0 + too_stiff) * slope.measured);
+  };
+  const auto plate = body("plate", makeBox({1, 1, 0.2}));
+  EffectScene box(plate, body("box", makeBox({0.1, 0.1, 0.1})), undamped(GetParam()));
+  EffectScene ball(plate, body("ball", makeSphere(0.05, 1e-5)), undamped(GetParam()));
+  for (const double depth : {1e-4, 3e-4, 1e-3}) {
+    SCOPED_TRACE(depth);
+    expect(box, at(0.0, 0.0, 0.15 - depth), Eigen::Vector3d::UnitZ());
+    expect(ball, at(0.0012, 0.0007, 0.15 - depth), Eigen::Vector3d::UnitZ());
+  }
+  EffectScene peg(body("plate", test::makePlateWithHole(0.03, 0.01, 0.02, 96)),
+                  body("peg", makeCylinder(0.01005, 0.04, 5e-6)), undamped(GetParam()));
+  for (const double shift : {2e-5, 6e-5, 1.5e-4}) {
+    SCOPED_TRACE(shift);
+    expect(peg, at(shift, 0.0, 0.01), Eigen::Vector3d::UnitX());
+  }
+}
+INSTANTIATE_TEST_SUITE_P(ContactPatch, EveryLaw,
+                         testing::Values(NormalForceModel::ElasticFoundation, NormalForceModel::HuntCrossley,
+                                         NormalForceModel::Hertz, NormalForceModel::QuasiStatic,
+                                         NormalForceModel::SpringDashpot));
+
+// What is decided by rounding must not be seen in the force: a step of a tenth of a nanometre changes it by
+// a millionth, and what rounding changed would be seen as a jump.
+TEST(ContactPatch, TheForceOfATessellatedBallChangesAsItsStiffnessSaysInTheSmallestSteps) {
+  EffectScene scene(body("plate", makeBox({1, 1, 0.2})), body("ball", makeSphere(0.05, 1e-5)),
+                    foundation(1e10));
+  const double way = 1e-10;
+  for (int i = 0; i < 24; ++i) {
+    const Slope slope =
+        slopeOf(scene, at(0.0012, 0.0007, 0.15 - 3e-4 - i * way), Eigen::Vector3d::UnitZ(), way);
+    EXPECT_NEAR(slope.measured, slope.predicted, 0.05 * slope.predicted) << i;
+  }
+}
+
 }  // namespace
 }  // namespace concave_distance

@@ -1,0 +1,38 @@
+#include "patch_gradient.h"
+
+#include <algorithm>
+
+namespace concave_distance {
+namespace {
+
+// Of the largest decrease that leaves the stiffness positive.
+constexpr double kLargestDecrease = 0.9;
+
+Vector6d rowOf(const Eigen::Vector3d& direction, const Eigen::Vector3d& point) {
+  Vector6d row;
+  row << direction, point.cross(direction);
+  return row;
+}
+
+}  // namespace
+
+void PatchGradient::add(const OverlapSample& sample) {
+  const Vector6d out = sample.area * rowOf(sample.exit_in_a, sample.point_in_a);
+  push += sample.area * sample.depth * rowOf(sample.push_in_a, sample.point_in_a);
+  volume += out;
+  moment += sample.depth * out;
+}
+
+void addChangeOfLaw(const PressureLaw& law, const PatchGradient& gradient, double moment,
+                    Matrix6d& stiffness) {
+  const double squared_push = gradient.push.head<3>().squaredNorm();
+  if (!(squared_push > 0.0 && moment > 0.0)) return;
+  const Vector6d change =
+      law.by_volume * gradient.volume + law.by_moment * gradient.moment + law.by_depth * gradient.depth;
+  const double along = std::max(change.head<3>().dot(gradient.push.head<3>()) / squared_push,
+                                -0.5 * kLargestDecrease / moment);
+  stiffness.triangularView<Eigen::Upper>() +=
+      law.stiffness * along * gradient.push * gradient.push.transpose();
+}
+
+}  // namespace concave_distance
