@@ -24,8 +24,9 @@ const ParameterTable<SimulationSettings>& simulationParameters() {
       automatic<S>(
           "allowed_penetration", [](auto& s) -> auto& { return s.allowed_penetration; },
           "how far beyond the proven distance any point may move against the other body in one step, at "
-          "most; "
-          "`auto`: a share of the depth that the contact reaches by its stiffness, mass and speed")
+          "most: nothing thicker is passed through unseen; "
+          "`auto`, and while the bodies are apart where it is less: a share of the depth that the contact "
+          "reaches by its stiffness, mass and speed")
           .inUnit("m"),
       number<S>(
           "energy_tolerance", [](auto& s) -> auto& { return s.energy_tolerance; },

@@ -28,6 +28,18 @@ double speedAlongNormal(const Coupling& coupling, const ContactRegion& region) {
   return std::max(speed(coupling.twist), speed(coupling.twist + coupling.change / coupling.weight));
 }
 
+// At the end of the step, over its displacement.
+double frictionWork(const std::vector<ContactRegion>& regions, const Vector6d& displacement) {
+  Vector6d sum = Vector6d::Zero();
+  for (const ContactRegion& region : regions) {
+    const Wrench& wrench = region.rubbing_on_b_in_a;
+    if (!wrench.force.allFinite()) continue;
+    sum.head<3>() += wrench.force;
+    sum.tail<3>() += wrench.torque;
+  }
+  return sum.dot(displacement);
+}
+
 }  // namespace
 
 // Of the lighter body against the other.
@@ -55,6 +67,7 @@ detail::StepTolerance Simulation::State::toleranceOf(std::size_t index) const {
   tolerance.step_fraction = settings.step_fraction;
   tolerance.energy_of_motion = energyOfMotion(coupling);
   tolerance.load = coupling.load;
+  tolerance.work = 0.5 * (coupling.begin.wrench + coupling.force.wrench).dot(coupling.displacement);
   if (index >= pairs.size()) {
     tolerance.depth = moving[coupling.body_b].driveStretch();
     tolerance.size = moving[coupling.body_b].radius();
@@ -64,6 +77,7 @@ detail::StepTolerance Simulation::State::toleranceOf(std::size_t index) const {
   tolerance.depth = pair_begins[index].depth;
   tolerance.size = std::min(moving[coupling.body_a].radius(), moving[coupling.body_b].radius());
   if (regions.empty()) return tolerance;
+  tolerance.friction_work = frictionWork(regions, coupling.displacement);
   const ContactRegion& deepest = regions.front();
   tolerance.depth = std::max(tolerance.depth, deepest.overlap.depth);
   tolerance.sliding =

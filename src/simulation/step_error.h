@@ -13,6 +13,8 @@ struct StepTolerance {
   double load = 0.0;              ///< that presses them together, N
   double depth = 0.0;             ///< of the contact, or stretch of the drive, metres
   double size = 0.0;              ///< of the smaller body, metres
+  double work = 0.0;              ///< of the coupling in the step, either sign, J
+  double friction_work = 0.0;     ///< the friction's part of it
   double sliding = 1.0;           ///< share of the displacement that is not along the normal, 0 to 1
   double step_fraction = 0.1;
 };

@@ -55,10 +55,10 @@ void Simulation::State::allowDisplacements() {
     const double size = std::min(a.radius(), b.radius());
     const ContactLoad load{reducedMass(a, b), speedBetween(pair), couplings[i].load};
     const double depth = runners[i].expectedDepth(load, size) + kRoundedPlace * size;
-    begin.allowance = (couplings[i].begin.acts ? kShareInContact : kShareAtBegin) * depth;
-    if (settings.allowed_penetration > 0.0) {
-      begin.allowance = std::min(begin.allowance, settings.allowed_penetration);
-    }
+    const bool acts = couplings[i].begin.acts;
+    const double expected = (acts ? kShareInContact : kShareAtBegin) * depth;
+    const double given = settings.allowed_penetration;
+    begin.allowance = given > 0.0 && (acts || given < expected) ? given : expected;
   }
 }
 

@@ -81,7 +81,8 @@ struct SimulationSettings {
   /// rest in them holds no step back.
   double step_fraction = 0.1;
   /// How far beyond the proven distance any point may move against the other body in one step, metres, at
-  /// most; 0: a share of the depth that the next contact reaches by its stiffness, mass and speed.
+  /// most: nothing thicker is passed through unseen; 0, and while the bodies are apart where it is less: a
+  /// share of the depth that the next contact reaches by its stiffness, mass and speed.
   double allowed_penetration = 0.0;
   /// Error of the energy balance, as a share of the energy that went through, above which a run has failed.
   double energy_tolerance = 0.05;
