@@ -16,7 +16,6 @@ Trajectory runOwn(const ComparedScene& scene, double rate, const OwnOptions& opt
   SimulationSettings settings = scene.settings();
   settings.largest_step *= options.step_scale;
   settings.step_fraction *= options.step_scale;
-  settings.allowed_penetration *= options.step_scale;
   for (SimulatedBodySettings& body : settings.bodies) {
     if (body.body != scene.scene.bodies[scene.body].name) continue;
     const Eigen::Translation3d centre(scene.mass.centre_in_body);
