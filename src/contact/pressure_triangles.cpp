@@ -1,0 +1,135 @@
+#include "pressure_triangles.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "distance/closest_point.h"
+#include "mesh/surface/mesh_topology.h"
+#include "mesh/trees/triangle_tree.h"
+
+namespace concave_distance {
+namespace {
+
+// Edges are at least this share of the longest facet's, whatever the area: slivers have many per area.
+constexpr double kLeastEdge = 1.0 / 64.0;
+// Area of a triangle that was halved across its longest edge until that is short enough, over its square.
+constexpr double kAreaOverEdge = 0.25;
+
+double squaredEdge(const std::array<Eigen::Vector3d, 3>& corners, std::size_t k) {
+  return (corners[k] - corners[(k + 1) % 3]).squaredNorm();
+}
+std::size_t longestEdge(const std::array<Eigen::Vector3d, 3>& corners) {
+  const std::size_t k = squaredEdge(corners, 1) > squaredEdge(corners, 0) ? 1 : 0;
+  return squaredEdge(corners, 2) > squaredEdge(corners, k) ? 2 : k;
+}
+
+double areaOf(const std::array<Eigen::Vector3d, 3>& corners) {
+  return 0.5 * (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm();
+}
+
+struct Corner {
+  Eigen::Vector3d point;
+  double pressure;
+};
+using Corners = std::array<Corner, 3>;
+
+/// Halves a triangle across its longest edge until that is at most `edge` long.
+/// @param at the corner at a point, asked once for each cut
+template <typename At, typename Leaf>
+void halve(const Corners& corners, double edge, const At& at, const Leaf& leaf) {
+  const std::array<Eigen::Vector3d, 3> points = {corners[0].point, corners[1].point, corners[2].point};
+  const std::size_t k = longestEdge(points);
+  if (!(squaredEdge(points, k) > edge * edge)) {
+    leaf(corners);
+    return;
+  }
+  const Corner& from = corners[k];
+  const Corner& to = corners[(k + 1) % 3];
+  const Corner& tip = corners[(k + 2) % 3];
+  const Corner cut = at(Eigen::Vector3d(0.5 * (from.point + to.point)));
+  halve({from, cut, tip}, edge, at, leaf);
+  halve({cut, to, tip}, edge, at, leaf);
+}
+
+template <typename At>
+Corners cornersOf(const OverlapFacet& facet, const At& at) {
+  return {at(facet.corners_in_a[0]), at(facet.corners_in_a[1]), at(facet.corners_in_a[2])};
+}
+
+class Cutter {
+ public:
+  explicit Cutter(const PressedSurface& surface) : surface_(surface) {}
+
+  bool isDrawn(const OverlapFacet& facet) const { return facet.of_b == surface_.of_b && !facet.is_negative; }
+
+  std::size_t count(double edge) const {
+    const auto at = [](const Eigen::Vector3d& point) { return Corner{point, 0.0}; };
+    std::size_t number = 0;
+    for (const OverlapFacet* facet = surface_.first; facet != surface_.last; ++facet) {
+      if (!isDrawn(*facet)) continue;
+      halve(cornersOf(*facet, at), edge, at, [&](const Corners&) { ++number; });
+    }
+    return number;
+  }
+
+  void cut(const OverlapFacet& facet, double edge, double lift, std::vector<PressureTriangle>& triangles) {
+    const auto at = [&](const Eigen::Vector3d& point) { return look(facet, point); };
+    const Eigen::Vector3d shift = lift * facet.normal_in_a;
+    halve(cornersOf(facet, at), edge, at, [&](const Corners& part) {
+      if (facet.may_leave && !isInside((part[0].point + part[1].point + part[2].point) / 3.0)) return;
+      PressureTriangle& triangle = triangles.emplace_back();
+      for (std::size_t k = 0; k < 3; ++k) triangle[k] = {part[k].point + shift, part[k].pressure};
+    });
+  }
+
+ private:
+  bool isInside(const Eigen::Vector3d& point_in_a) const {
+    const BodyMesh& other = surface_.other;
+    return containsPoint(other.tree(), other.surface(), other.topology().shell_is_closed,
+                         other.topology().shell_of_triangle, surface_.other_from_a * point_in_a);
+  }
+
+  Corner look(const OverlapFacet& facet, const Eigen::Vector3d& point) {
+    const Eigen::Vector3d push = facet.of_b ? Eigen::Vector3d(-facet.normal_in_a) : facet.normal_in_a;
+    if (!surface_.field.carries(push) || (facet.may_leave && !isInside(point))) return {point, 0.0};
+    const Eigen::Vector3d target = surface_.other_from_a * point;
+    const SurfacePoint nearest = closestPoint(surface_.other, target, last_);
+    last_ = nearest.triangle;
+    const double depth = std::sqrt(nearest.squared_distance);
+    if (!(depth > 0.0)) return {point, 0.0};
+    const Eigen::Vector3d out = surface_.other_from_a.linear().transpose() * (nearest.point - target) / depth;
+    const Eigen::Vector3d exit = facet.of_b ? out : Eigen::Vector3d(-out);
+    return {point, depth * surface_.field.perDepth(surface_.field.depthRate(point, exit))};
+  }
+
+  const PressedSurface& surface_;
+  TriangleIndex last_{0};  ///< nearest to the last point
+};
+
+}  // namespace
+
+std::vector<PressureTriangle> pressureTriangles(const PressedSurface& surface, double lift,
+                                                std::size_t most) {
+  std::vector<PressureTriangle> triangles;
+  Cutter cutter(surface);
+  double area = 0.0;
+  double longest = 0.0;
+  std::size_t facets = 0;
+  for (const OverlapFacet* facet = surface.first; facet != surface.last; ++facet) {
+    if (!cutter.isDrawn(*facet)) continue;
+    ++facets;
+    area += areaOf(facet->corners_in_a);
+    longest =
+        std::max(longest, std::sqrt(squaredEdge(facet->corners_in_a, longestEdge(facet->corners_in_a))));
+  }
+  if (facets == 0 || facets > most) return triangles;
+  double edge = std::max(std::sqrt(area / (kAreaOverEdge * kPressureTriangles)), kLeastEdge * longest);
+  while (edge < longest && cutter.count(edge) > most) edge *= 2.0;
+  triangles.reserve(facets);
+  for (const OverlapFacet* facet = surface.first; facet != surface.last; ++facet) {
+    if (cutter.isDrawn(*facet)) cutter.cut(*facet, edge, lift, triangles);
+  }
+  return triangles;
+}
+
+}  // namespace concave_distance
