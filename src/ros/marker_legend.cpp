@@ -6,6 +6,7 @@
 #include "contact_markers.h"
 #include "conversions.h"
 #include "niche_markers.h"
+#include "pressure_markers.h"
 
 namespace concave_distance {
 namespace {
@@ -29,14 +30,21 @@ std_msgs::ColorRGBA grey() {
   return color;
 }
 
-void addContactRows(const MarkerStyle& style, std::vector<Row>& rows) {
+void addContactRows(const LegendContents& contents, const MarkerStyle& style, std::vector<Row>& rows) {
   std::size_t row = rows.back().row;
   const std::string space(kColumn, ' ');
   ++row;
   rows.push_back({"red arrow: normal force" + space, normalForceColor(), row});
   rows.push_back({space + "blue arrow: friction", frictionColor(), row});
-  rows.push_back({"disc: area of a contact; an arrow of 1 m: " + forceText(style.force_scale),
-                  contactTextColor(), row + 1});
+  const double end = contents.pressure_end;
+  rows.push_back({(end > 0.0 ? "an arrow of 1 m: " : "disc: area of a contact; an arrow of 1 m: ") +
+                      forceText(style.force_scale),
+                  contactTextColor(), ++row});
+  if (!(end > 0.0)) return;
+  ++row;
+  rows.push_back({"surface: pressure 0" + space, pressureColor(0.0, end), row});
+  rows.push_back({pressureText(0.5 * end), pressureColor(0.5 * end, end), row});
+  rows.push_back({space + pressureText(end) + " or more", pressureColor(end, end), row});
 }
 
 std::vector<Row> rowsOf(const LegendContents& contents, const MarkerStyle& style) {
@@ -57,7 +65,7 @@ std::vector<Row> rowsOf(const LegendContents& contents, const MarkerStyle& style
   rows.push_back({lengthText(middle), distanceColor(middle, style), row});
   rows.push_back({space + lengthText(style.far) + " or more", distanceColor(style.far, style), row});
   if (contents.warnings) rows.push_back({"red: closer than the warning distance", warningColor(), ++row});
-  if (contents.contacts) addContactRows(style, rows);
+  if (contents.contacts) addContactRows(contents, style, rows);
   return rows;
 }
 
