@@ -14,46 +14,37 @@ namespace {
 constexpr double kLeastEdge = 1.0 / 64.0;
 // Area of a triangle that was halved across its longest edge until that is short enough, over its square.
 constexpr double kAreaOverEdge = 0.25;
+// From a corner to the middle of its triangle: on the border itself the depth is 0, however steeply it grows.
+constexpr double kInwards = 0.1;
 
-double squaredEdge(const std::array<Eigen::Vector3d, 3>& corners, std::size_t k) {
+using Corners = std::array<Eigen::Vector3d, 3>;
+
+double squaredEdge(const Corners& corners, std::size_t k) {
   return (corners[k] - corners[(k + 1) % 3]).squaredNorm();
 }
-std::size_t longestEdge(const std::array<Eigen::Vector3d, 3>& corners) {
+std::size_t longestEdge(const Corners& corners) {
   const std::size_t k = squaredEdge(corners, 1) > squaredEdge(corners, 0) ? 1 : 0;
   return squaredEdge(corners, 2) > squaredEdge(corners, k) ? 2 : k;
 }
 
-double areaOf(const std::array<Eigen::Vector3d, 3>& corners) {
+double areaOf(const Corners& corners) {
   return 0.5 * (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm();
 }
 
-struct Corner {
-  Eigen::Vector3d point;
-  double pressure;
-};
-using Corners = std::array<Corner, 3>;
-
 /// Halves a triangle across its longest edge until that is at most `edge` long.
-/// @param at the corner at a point, asked once for each cut
-template <typename At, typename Leaf>
-void halve(const Corners& corners, double edge, const At& at, const Leaf& leaf) {
-  const std::array<Eigen::Vector3d, 3> points = {corners[0].point, corners[1].point, corners[2].point};
-  const std::size_t k = longestEdge(points);
-  if (!(squaredEdge(points, k) > edge * edge)) {
+template <typename Leaf>
+void halve(const Corners& corners, double edge, const Leaf& leaf) {
+  const std::size_t k = longestEdge(corners);
+  if (!(squaredEdge(corners, k) > edge * edge)) {
     leaf(corners);
     return;
   }
-  const Corner& from = corners[k];
-  const Corner& to = corners[(k + 1) % 3];
-  const Corner& tip = corners[(k + 2) % 3];
-  const Corner cut = at(Eigen::Vector3d(0.5 * (from.point + to.point)));
-  halve({from, cut, tip}, edge, at, leaf);
-  halve({cut, to, tip}, edge, at, leaf);
-}
-
-template <typename At>
-Corners cornersOf(const OverlapFacet& facet, const At& at) {
-  return {at(facet.corners_in_a[0]), at(facet.corners_in_a[1]), at(facet.corners_in_a[2])};
+  const Eigen::Vector3d& from = corners[k];
+  const Eigen::Vector3d& to = corners[(k + 1) % 3];
+  const Eigen::Vector3d& tip = corners[(k + 2) % 3];
+  const Eigen::Vector3d cut = 0.5 * (from + to);
+  halve({from, cut, tip}, edge, leaf);
+  halve({cut, to, tip}, edge, leaf);
 }
 
 class Cutter {
@@ -63,22 +54,23 @@ class Cutter {
   bool isDrawn(const OverlapFacet& facet) const { return facet.of_b == surface_.of_b && !facet.is_negative; }
 
   std::size_t count(double edge) const {
-    const auto at = [](const Eigen::Vector3d& point) { return Corner{point, 0.0}; };
     std::size_t number = 0;
     for (const OverlapFacet* facet = surface_.first; facet != surface_.last; ++facet) {
       if (!isDrawn(*facet)) continue;
-      halve(cornersOf(*facet, at), edge, at, [&](const Corners&) { ++number; });
+      halve(facet->corners_in_a, edge, [&](const Corners&) { ++number; });
     }
     return number;
   }
 
   void cut(const OverlapFacet& facet, double edge, double lift, std::vector<PressureTriangle>& triangles) {
-    const auto at = [&](const Eigen::Vector3d& point) { return look(facet, point); };
     const Eigen::Vector3d shift = lift * facet.normal_in_a;
-    halve(cornersOf(facet, at), edge, at, [&](const Corners& part) {
-      if (facet.may_leave && !isInside((part[0].point + part[1].point + part[2].point) / 3.0)) return;
+    halve(facet.corners_in_a, edge, [&](const Corners& part) {
+      const Eigen::Vector3d middle = (part[0] + part[1] + part[2]) / 3.0;
+      if (facet.may_leave && !isInside(middle)) return;
       PressureTriangle& triangle = triangles.emplace_back();
-      for (std::size_t k = 0; k < 3; ++k) triangle[k] = {part[k].point + shift, part[k].pressure};
+      for (std::size_t k = 0; k < 3; ++k) {
+        triangle[k] = {part[k] + shift, pressureAt(facet, part[k] + kInwards * (middle - part[k]))};
+      }
     });
   }
 
@@ -89,17 +81,17 @@ class Cutter {
                          other.topology().shell_of_triangle, surface_.other_from_a * point_in_a);
   }
 
-  Corner look(const OverlapFacet& facet, const Eigen::Vector3d& point) {
+  double pressureAt(const OverlapFacet& facet, const Eigen::Vector3d& point) {
     const Eigen::Vector3d push = facet.of_b ? Eigen::Vector3d(-facet.normal_in_a) : facet.normal_in_a;
-    if (!surface_.field.carries(push) || (facet.may_leave && !isInside(point))) return {point, 0.0};
+    if (!surface_.field.carries(push) || (facet.may_leave && !isInside(point))) return 0.0;
     const Eigen::Vector3d target = surface_.other_from_a * point;
     const SurfacePoint nearest = closestPoint(surface_.other, target, last_);
     last_ = nearest.triangle;
     const double depth = std::sqrt(nearest.squared_distance);
-    if (!(depth > 0.0)) return {point, 0.0};
+    if (!(depth > 0.0)) return 0.0;
     const Eigen::Vector3d out = surface_.other_from_a.linear().transpose() * (nearest.point - target) / depth;
     const Eigen::Vector3d exit = facet.of_b ? out : Eigen::Vector3d(-out);
-    return {point, depth * surface_.field.perDepth(surface_.field.depthRate(point, exit))};
+    return depth * surface_.field.perDepth(surface_.field.depthRate(point, exit));
   }
 
   const PressedSurface& surface_;

@@ -22,7 +22,7 @@ struct PressedSurface {
 
 struct PressurePoint {
   Eigen::Vector3d point_in_a;
-  double pressure;  ///< Pa
+  double pressure;  ///< Pa, a tenth of the way from the point to the middle of its triangle
 };
 using PressureTriangle = std::array<PressurePoint, 3>;
 

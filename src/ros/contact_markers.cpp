@@ -38,7 +38,7 @@ Eigen::Vector3d toEigen(const geometry_msgs::Vector3& vector) {
 
 // For text and disc: visible on light and dark backgrounds.
 std_msgs::ColorRGBA contactColor() {
-  return color(0.70F, 0.15F, 0.60F, 1.0F);
+  return color(0.90F, 0.20F, 0.75F, 1.0F);
 }
 
 // A disc as large as the contact's area, across the normal.

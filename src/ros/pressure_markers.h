@@ -22,8 +22,8 @@ std_msgs::ColorRGBA pressureColor(double pressure, double end);
 /// The pressure that is drawn in the last colour, Pa.
 class PressureScale {
  public:
-  /// @param fixed 0: the largest pressure rounded up to 1, 2 or 5 times a power of ten, kept until it is
-  ///        exceeded or falls below 0.3 of it
+  /// @param fixed 0: the largest pressure rounded up to a number of one digit, 1.2, 1.5 or 2.5 times a
+  ///        power of ten; kept until that is exceeded or the largest pressure falls below half of it
   void update(double largest, double fixed);
   /// 0 before there was a pressure.
   double end() const { return end_; }

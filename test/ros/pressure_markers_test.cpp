@@ -13,6 +13,7 @@
 #include "ros/distance_cycle.h"
 #include "ros/marker_labels.h"
 #include "ros/pair_demands.h"
+#include "ros/scene_markers.h"
 
 namespace concave_distance {
 namespace {
@@ -69,10 +70,14 @@ TEST_F(PressureMarkers, ColourEachCornerByItsPressure) {
   EXPECT_EQ(marker.points.size() % 3, 0U);
   EXPECT_EQ(marker.points.size() / 3, kMostPressureTriangles - left);
   ASSERT_EQ(marker.colors.size(), marker.points.size());
-  const double half = 0.5;
+  const auto at = [&](std::size_t k) {
+    return Eigen::Vector3d(marker.points[k].x, marker.points[k].y, marker.points[k].z);
+  };
   for (std::size_t k = 0; k < marker.points.size(); ++k) {
-    const geometry_msgs::Point& p = marker.points[k];
-    const double border = std::min(half - std::abs(p.y), half - std::abs(p.z));
+    const std::size_t first = k - k % 3;
+    const Eigen::Vector3d middle = (at(first) + at(first + 1) + at(first + 2)) / 3.0;
+    const Eigen::Vector3d p = 0.9 * at(k) + 0.1 * middle;
+    const double border = std::min(0.5 - std::abs(p.y()), 0.5 - std::abs(p.z()));
     const auto expected = pressureColor(kFoundation * std::min(kDepth, border), kEnd);
     EXPECT_NEAR(marker.colors[k].r, expected.r, 1e-6);
     EXPECT_NEAR(marker.colors[k].g, expected.g, 1e-6);
@@ -108,6 +113,29 @@ TEST_F(PressureMarkers, AreOnTheBodyThatIsNotSeenThrough) {
   EXPECT_NEAR(place_of(), 0.5 - kDepth, 0.1 * style.scale) << "rviz draws the robot, opaque or not";
 }
 
+TEST_F(PressureMarkers, StandInTheSceneWithALegend) {
+  SceneMarkers drawing;
+  std_msgs::Header header;
+  header.frame_id = "world";
+  header.stamp = ros::Time(100.0);
+  std::vector<PairNiches> niches;
+  for (const auto& pair : cycle.pairs()) niches.push_back(toNiches(pair->heading, pair->tracked->solution));
+  const auto texts = [&](const std::vector<PairContactState>& of_contacts) {
+    std::string all;
+    for (const Marker& marker :
+         drawing.draw(scene, style, cycle.pairs(), niches, of_contacts, header, 1.0).markers) {
+      all += marker.ns + ": " + marker.text + "\n";
+    }
+    return all;
+  };
+  EXPECT_EQ(texts({}).find("pressure"), std::string::npos);
+  const std::string with_contact = texts({contacts});
+  EXPECT_NE(with_contact.find("a/b/pressure:"), std::string::npos);
+  EXPECT_NE(with_contact.find("10.0 MPa or more"), std::string::npos) << with_contact;
+  EXPECT_EQ(with_contact.find("disc"), std::string::npos);
+  EXPECT_NE(texts({}).find("10.0 MPa or more"), std::string::npos) << "the legend does not jump";
+}
+
 class LumpedMarkers : public PressureMarkers {
  protected:
   LumpedMarkers() : PressureMarkers(ForceDistribution::Lumped) {}
@@ -130,12 +158,12 @@ TEST(PressureScale, EndsAtARoundNumberAndIsKept) {
   PressureScale scale;
   scale.update(0.0, 0.0);
   EXPECT_EQ(scale.end(), 0.0);
-  scale.update(1.2e4, 0.0);
+  scale.update(1.7e4, 0.0);
   EXPECT_DOUBLE_EQ(scale.end(), 2e4);
-  scale.update(0.7e4, 0.0);
+  scale.update(1.1e4, 0.0);
   EXPECT_DOUBLE_EQ(scale.end(), 2e4) << "no flicker while a force swings";
   scale.update(2.1e4, 0.0);
-  EXPECT_DOUBLE_EQ(scale.end(), 5e4);
+  EXPECT_DOUBLE_EQ(scale.end(), 2.5e4);
   scale.update(1.0e4, 0.0);
   EXPECT_DOUBLE_EQ(scale.end(), 1e4);
   scale.update(1.0e4, 3e4);
