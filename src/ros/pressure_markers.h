@@ -23,7 +23,7 @@ std_msgs::ColorRGBA pressureColor(double pressure, double end);
 class PressureScale {
  public:
   /// @param fixed 0: the largest pressure rounded up to a number of one digit, 1.2, 1.5 or 2.5 times a
-  ///        power of ten; kept until that is exceeded or the largest pressure falls below half of it
+  ///        power of ten; kept until that is exceeded or the largest pressure falls below a quarter of it
   void update(double largest, double fixed);
   /// 0 before there was a pressure.
   double end() const { return end_; }

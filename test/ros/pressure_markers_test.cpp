@@ -160,12 +160,12 @@ TEST(PressureScale, EndsAtARoundNumberAndIsKept) {
   EXPECT_EQ(scale.end(), 0.0);
   scale.update(1.7e4, 0.0);
   EXPECT_DOUBLE_EQ(scale.end(), 2e4);
-  scale.update(1.1e4, 0.0);
+  scale.update(0.6e4, 0.0);
   EXPECT_DOUBLE_EQ(scale.end(), 2e4) << "no flicker while a force swings";
   scale.update(2.1e4, 0.0);
   EXPECT_DOUBLE_EQ(scale.end(), 2.5e4);
-  scale.update(1.0e4, 0.0);
-  EXPECT_DOUBLE_EQ(scale.end(), 1e4);
+  scale.update(0.5e4, 0.0);
+  EXPECT_DOUBLE_EQ(scale.end(), 5e3);
   scale.update(1.0e4, 3e4);
   EXPECT_DOUBLE_EQ(scale.end(), 3e4) << "as configured";
 }
