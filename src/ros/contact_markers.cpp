@@ -44,13 +44,9 @@ std_msgs::ColorRGBA contactColor() {
 // A disc as large as the contact's area, across the normal.
 void drawArea(const Contact& contact, double scale, Marker& marker) {
   marker.type = Marker::CYLINDER;
-  const Eigen::Quaterniond turn =
-      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), toEigen(contact.normal));
   marker.pose.position = contact.centroid;
-  marker.pose.orientation.x = turn.x();
-  marker.pose.orientation.y = turn.y();
-  marker.pose.orientation.z = turn.z();
-  marker.pose.orientation.w = turn.w();
+  marker.pose.orientation =
+      toQuaternion(Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), toEigen(contact.normal)));
   marker.scale.x = marker.scale.y = 2.0 * std::sqrt(contact.contact_area / M_PI);
   marker.scale.z = kDiscHeight * scale;
   marker.color = contactColor();

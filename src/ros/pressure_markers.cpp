@@ -27,15 +27,6 @@ double roundedUp(double value) {
   return 10.0 * power;
 }
 
-void setPose(const Eigen::Isometry3d& pose, Marker& marker) {
-  marker.pose.position = toPoint(pose.translation());
-  const Eigen::Quaterniond turn(pose.linear());
-  marker.pose.orientation.x = turn.x();
-  marker.pose.orientation.y = turn.y();
-  marker.pose.orientation.z = turn.z();
-  marker.pose.orientation.w = turn.w();
-}
-
 void drawTriangles(const std::vector<PressureTriangle>& triangles, double scale, Marker& marker) {
   marker.type = Marker::TRIANGLE_LIST;
   marker.scale.x = marker.scale.y = marker.scale.z = 1.0;
@@ -117,7 +108,8 @@ DrawnPressures pressureMarkers(const Scene& scene, const ScenePair& scene_pair, 
     triangles_left -= triangles.size();
     drawn.has_marker[k] = true;
     Marker& marker = drawn.markers.emplace_back(emptyContactMarker(contacts, "pressure", k, lifetime));
-    setPose(pair.heading.reference_from_a, marker);
+    marker.pose.position = toPoint(pair.heading.reference_from_a.translation());
+    marker.pose.orientation = toQuaternion(Eigen::Quaterniond(pair.heading.reference_from_a.linear()));
     drawTriangles(triangles, scale, marker);
   }
   return drawn;
