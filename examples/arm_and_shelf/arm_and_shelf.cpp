@@ -14,7 +14,8 @@ namespace {
 
 using namespace concave_distance;
 
-constexpr double kStep = 5e-4;             // s
+constexpr double kAccuracy = 1e-3;
+constexpr double kLargestStep = 2e-3;      // s
 constexpr double kRowEvery = 0.05;         // s
 constexpr double kTorqueTolerance = 5e-3;  // of the largest torque in a joint
 constexpr double kEnergyTolerance = 1e-3;  // of the energy at the beginning
@@ -106,10 +107,11 @@ bool isPassive(const EnergyBook& book) {
 }  // namespace
 
 int main(int argc, char** argv) try {
-  const double end = argc > 1 ? std::atof(argv[1]) : 2.5;
+  const double end = argc > 1 ? std::atof(argv[1]) : 2.0;
   ArmModel arm;
-  SimTK::RungeKutta2Integrator integrator(arm.system());
-  integrator.setFixedStepSize(kStep);
+  SimTK::RungeKuttaMersonIntegrator integrator(arm.system());
+  integrator.setAccuracy(kAccuracy);
+  integrator.setMaximumStepSize(kLargestStep);
   integrator.setReturnEveryInternalStep(true);
   integrator.setAllowInterpolation(false);
   integrator.initialize(arm.start());
@@ -127,6 +129,7 @@ int main(int argc, char** argv) try {
     printRow(arm, state);
     next_row += kRowEvery;
   }
+  std::printf("%d steps, %d tried\n", integrator.getNumStepsTaken(), integrator.getNumStepsAttempted());
   const bool rests = isAtRest(arm, integrator.getState());
   const bool passive = isPassive(book);
   return rests && passive ? 0 : 1;
