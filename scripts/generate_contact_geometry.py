@@ -18,7 +18,7 @@ def main():
         os.path.dirname(os.path.abspath(__file__)))
     folder = os.path.join(root, "meshes", "contact")
     os.makedirs(folder, exist_ok=True)
-    for make in (contact_solids.two_feet, contact_solids.holed_plate):
+    for make in (contact_solids.two_feet, contact_solids.holed_plate, contact_solids.press_fit_ring):
         solid = make()
         vertices, triangles = solid.mesh()
         write_binary_stl(os.path.join(folder, solid.name + ".stl"), vertices, triangles,

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Takes the pictures of the demos in doc/images: starts each scene at rest on a display of its own, waits until rviz
 # draws the same picture twice, and keeps it.
-#   scripts/take_pictures.sh [--output FOLDER] [insertion|contact|simulation|robot|interactive|cell|own_robot ...]   (default: all)
+#   scripts/take_pictures.sh [--output FOLDER] [insertion|contact|simulation|press_fit|robot|interactive|cell|own_robot ...]   (default: all)
 # Needs what scripts/demo.sh builds, xvfb, imagemagick and, for own_robot, the robots of dart-doc. ROS_MASTER_URI says on which port; no master may run there.
 set -euo pipefail
 # shellcheck source=scripts/common.sh
@@ -13,13 +13,13 @@ scenes=()
 while [ $# -gt 0 ]; do
   case "$1" in
     --output) output="${2:?--output needs a folder}" && shift ;;
-    insertion | contact | simulation | robot | interactive | cell | own_robot) scenes+=("$1") ;;
+    insertion | contact | simulation | press_fit | robot | interactive | cell | own_robot) scenes+=("$1") ;;
     -h | --help) sed -n '2,/^set/s/^# \{0,1\}//p' "${BASH_SOURCE[0]}" && exit 0 ;;
     *) die "unknown argument '$1': see --help" ;;
   esac
   shift
 done
-[ ${#scenes[@]} -gt 0 ] || scenes=(insertion contact simulation robot interactive cell own_robot)
+[ ${#scenes[@]} -gt 0 ] || scenes=(insertion contact simulation press_fit robot interactive cell own_robot)
 for tool in Xvfb import compare; do
   command -v "$tool" >/dev/null || die "$tool is missing: apt-get install xvfb imagemagick"
 done
@@ -51,12 +51,23 @@ xvfb=$!
 read -r display <"$work/display" || die "Xvfb did not start"
 export DISPLAY=":$display"
 
+launch_file() {
+  case "$1" in
+    press_fit) echo simulation.launch ;;
+    *) echo "$1.launch" ;;
+  esac
+}
+
+# Ends while the right foot is pressed on the ground.
+sed 's/^  duration: .*/  duration: 0.1325/' "$package_dir/config/two_feet.yaml" >"$work/two_feet.yaml"
+
 # Arguments of a scene's launch file that hold it still at a telling moment.
 launch_arguments() {
   case "$1" in
     insertion) echo "speed:=0 start:=6.6" ;;
     contact) echo "speed:=0 start:=6.0" ;;
-    simulation) echo "at_end:=hold scene:=two_feet" ;;
+    simulation) echo "at_end:=hold scene_file:=$work/two_feet.yaml" ;;
+    press_fit) echo "at_end:=hold speed:=0.02 scene:=press_fit view:=press_fit force_marker_scale:=25000" ;;
     robot) echo "speed:=0 start:=17.0" ;;
     interactive) echo "idle_motion:=false" ;;
     cell) echo "speed:=0 start:=5.6" ;;
@@ -73,7 +84,12 @@ wait_for() {  # seconds, what, command...
   done
 }
 
-markers_came() { grep -q ' mm' "$work/markers.txt"; }
+# The peg's load sets in some time after the start.
+markers_came() {
+  local text=' mm'
+  [ "$scene" != press_fit ] || text='deep .* kN'
+  grep -q "$text" "$work/markers.txt"
+}
 
 # Labels look for a better place once a second: two pictures farther apart than that have to be the same.
 picture_settled() {
@@ -91,7 +107,7 @@ for scene in "${scenes[@]}"; do
   say "$scene"
   read -ra arguments <<<"$(launch_arguments "$scene")"
   rm -f "$work"/*.png
-  setsid roslaunch concave_distance "$scene.launch" rviz:=false "${arguments[@]}" >"$work/$scene.log" 2>&1 </dev/null &
+  setsid roslaunch concave_distance "$(launch_file "$scene")" rviz:=false "${arguments[@]}" >"$work/$scene.log" 2>&1 </dev/null &
   processes+=($!)
   wait_for 30 "the master" rostopic list
   # Subscribed until the picture is taken: niches are computed while somebody wants them.

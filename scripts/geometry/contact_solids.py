@@ -19,6 +19,9 @@ HOLE_SIDES = 24
 HOLE_RADIUS = 0.0205  # of the corners; the flats are at 0.02033
 PEG_RADIUS = 0.0200
 
+# The plate of a press fit.
+RING_RADIUS, RING_HOLE, RING_THICKNESS, RING_SIDES = 0.030, 0.010, 0.020, 96
+
 
 def _foot(x):
     """Half-round from the bar's underside down and up again, from left to right."""
@@ -50,4 +53,17 @@ def holed_plate():
     solid.add_face(bottom, holes=[rim_bottom], outward=(0, 0, -1))
     solid.add_band(bottom, top)
     solid.add_band(rim_top, rim_bottom)
+    return solid
+
+
+def press_fit_ring():
+    """Frame: middle of the ring, z along the hole."""
+    solid = Solid("press_fit_ring")
+    (top, top_hole), (bottom, bottom_hole) = [
+        [regular_polygon((0.0, 0.0), radius, RING_SIDES, z) for radius in (RING_RADIUS, RING_HOLE)]
+        for z in (RING_THICKNESS / 2.0, -RING_THICKNESS / 2.0)]
+    solid.add_face(top, holes=[top_hole], outward=(0, 0, 1))
+    solid.add_face(bottom, holes=[bottom_hole], outward=(0, 0, -1))
+    solid.add_band(bottom, top)
+    solid.add_band(top_hole, bottom_hole)
     return solid

@@ -73,15 +73,17 @@ PatchPressure ContactPatch::press(const PatchSurfaces& surfaces, const NormalFor
   const double cell_size = patch.area > 0.0 ? cellSize(patch.area, memory.cell_size) : memory.cell_size;
   same_cells_ = cell_size == memory.cell_size;
   memory.cell_size = cell_size;
+  field_ = {law.stiffness, law.damping, b_in_a, Eigen::Vector3d::Zero()};
+  if (result.pierced) field_.entered_in_a = memory.entered_in_a;
   shares_.clear();
   PatchGradient gradient;
   gradient.depth << surfaces.exit_in_a, surfaces.deepest_in_a.cross(surfaces.exit_in_a);
   for (const OverlapSample* sample = surfaces.first_sample; sample != surfaces.last_sample; ++sample) {
     const Eigen::Vector3d& push = sample->push_in_a;
-    if (result.pierced && push.dot(memory.entered_in_a) < 0.0) continue;
+    if (!field_.carries(push)) continue;
     gradient.add(*sample);
-    const double rate = -b_in_a.at(sample->point_in_a).dot(sample->exit_in_a);
-    const double per_depth = std::max(0.0, law.stiffness + law.damping * rate);
+    const double rate = field_.depthRate(sample->point_in_a, sample->exit_in_a);
+    const double per_depth = field_.perDepth(rate);
     const double pressure = per_depth * sample->depth;
     result.largest_pressure = std::max(result.largest_pressure, pressure);
     const double force = sample->area * pressure;

@@ -6,6 +6,7 @@
 #include "base/refill.h"
 #include "concave_distance/contact/contact_linearisation.h"
 #include "concave_distance/contact/effect_settings.h"
+#include "concave_distance/contact/pressure_field.h"
 #include "concave_distance/contact/wrench.h"
 #include "concave_distance/interference/interference.h"
 #include "pressure_law.h"
@@ -97,6 +98,8 @@ class ContactPatch {
   Wrench rub(const FrictionSettings& settings, const ContactMaterial& material, const PatchMotion& motion,
              PatchMemory& memory, ContactLinearisation& linearisation);
   const std::vector<PatchSite>& sites() const { return sites_; }
+  /// Of the last press().
+  const PressureField& field() const { return field_; }
 
  private:
   void gatherSites();
@@ -105,6 +108,7 @@ class ContactPatch {
   std::vector<PatchSite> sites_;
   std::vector<SiteBristles> next_;
   bool same_cells_ = true;  ///< as in the last cycle
+  PressureField field_;
 };
 
 }  // namespace concave_distance

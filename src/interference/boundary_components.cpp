@@ -140,8 +140,7 @@ void BoundaryComponents::measureLoops(const CrossingCurves& curves, ElementSets&
 void BoundaryComponents::measureSurface(WorkingFrame& frame, const SurfacePieces& pieces, Side side) {
   const MeshTopology& topology = frame.body(side).topology();
   for (BoundaryComponent& component : components_) {
-    for (std::uint32_t i = component.first_whole[at(side)]; i < component.last_whole[at(side)]; ++i) {
-      const TriangleIndex triangle = pieces.wholes()[i].triangle;
+    forEachWholeTriangle(pieces, component, side, [&](TriangleIndex triangle) {
       const Corners c = frame.corners(side, triangle);
       const double area = 0.5 * (*c[1] - *c[0]).cross(*c[2] - *c[0]).norm();
       const Eigen::Vector3d normal = frame.normal(side, triangle);
@@ -149,7 +148,7 @@ void BoundaryComponents::measureSurface(WorkingFrame& frame, const SurfacePieces
       component.facing += area * normal * normal.transpose();
       addCone(component, *c[0], *c[1], *c[2]);
       component.closed = component.closed && topology.isOnClosedShell(triangle);
-    }
+    });
     forEachCutTriangle(pieces, component, side,
                        [&](TriangleIndex triangle, std::uint32_t first, std::uint32_t last) {
                          const Eigen::Vector3d& apex = pieces.edges()[first].from;
@@ -198,10 +197,10 @@ double BoundaryComponents::windingOf(WorkingFrame& frame, const SurfacePieces (&
   double angle = 0.0;
   for (const Side side : {Side::A, Side::B}) {
     const SurfacePieces& on_side = pieces[at(side)];
-    for (std::uint32_t i = component.first_whole[at(side)]; i < component.last_whole[at(side)]; ++i) {
-      const Corners c = frame.corners(side, on_side.wholes()[i].triangle);
+    forEachWholeTriangle(on_side, component, side, [&](TriangleIndex triangle) {
+      const Corners c = frame.corners(side, triangle);
       angle += solidAngle(*c[0] - point, *c[1] - point, *c[2] - point);
-    }
+    });
     forEachCutTriangle(on_side, component, side, [&](TriangleIndex, std::uint32_t first, std::uint32_t last) {
       const Eigen::Vector3d apex = on_side.edges()[first].from - point;
       for (std::uint32_t i = first; i < last; ++i)

@@ -79,6 +79,15 @@ class BoundaryComponents {
   std::vector<std::uint8_t> loop_seen_;
 };
 
+/// Calls visit(triangle) for each triangle of one side of a component that lies wholly inside.
+template <typename Visit>
+void forEachWholeTriangle(const SurfacePieces& pieces, const BoundaryComponent& component, Side side,
+                          const Visit& visit) {
+  for (std::uint32_t i = component.first_whole[at(side)]; i < component.last_whole[at(side)]; ++i) {
+    visit(pieces.wholes()[i].triangle);
+  }
+}
+
 /// Calls visit(triangle, first edge, last edge) for each crossed triangle's edges of one side of a component.
 template <typename Visit>
 void forEachCutTriangle(const SurfacePieces& pieces, const BoundaryComponent& component, Side side,

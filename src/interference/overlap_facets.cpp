@@ -60,11 +60,10 @@ void appendFacets(WorkingFrame& frame, const SurfacePieces (&pieces)[2], const B
   while (true) {
     for (const Side side : {Side::A, Side::B}) {
       const SurfacePieces& on_side = pieces[at(side)];
-      for (std::uint32_t i = part->first_whole[at(side)]; i < part->last_whole[at(side)]; ++i) {
-        const TriangleIndex triangle = on_side.wholes()[i].triangle;
+      forEachWholeTriangle(on_side, *part, side, [&](TriangleIndex triangle) {
         const Owner owner{side, triangle, frame.normal(side, triangle)};
         if (!owner.normal.isZero()) addWhole(frame, owner, facets);
-      }
+      });
       forEachCutTriangle(on_side, *part, side,
                          [&](TriangleIndex triangle, std::uint32_t first, std::uint32_t last) {
                            const Owner owner{side, triangle, frame.normal(side, triangle)};

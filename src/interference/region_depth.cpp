@@ -52,12 +52,11 @@ OverlayDepth::Result depthAlong(const Eigen::Vector3d& normal, WorkingFrame& fra
   while (true) {
     for (const Side side : {Side::A, Side::B}) {
       const SurfacePieces& on_side = pieces[at(side)];
-      for (std::uint32_t i = part->first_whole[at(side)]; i < part->last_whole[at(side)]; ++i) {
-        const TriangleIndex triangle = on_side.wholes()[i].triangle;
+      forEachWholeTriangle(on_side, *part, side, [&](TriangleIndex triangle) {
         const Corners c = frame.corners(side, triangle);
         overlay.addFace(side, frame.normal(side, triangle));
         for (std::size_t k = 0; k < 3; ++k) overlay.addEdge(side, *c[k], *c[(k + 1) % 3]);
-      }
+      });
       forEachCutTriangle(on_side, *part, side,
                          [&](TriangleIndex triangle, std::uint32_t first, std::uint32_t last) {
                            overlay.addFace(side, frame.normal(side, triangle));
@@ -130,10 +129,10 @@ DepthAlong leastExit(WorkingFrame& frame, Side side, const SurfacePieces& pieces
           .transpose();
   directions.rowwise().normalize();
   Extents extents[2];
-  for (std::uint32_t i = region.first_whole[at(side)]; i < region.last_whole[at(side)]; ++i) {
-    for (const NodeIndex node : frame.surface(side).triangle(pieces.wholes()[i].triangle))
+  forEachWholeTriangle(pieces, region, side, [&](TriangleIndex triangle) {
+    for (const NodeIndex node : frame.surface(side).triangle(triangle))
       extents[at(side)].add(directions, node, frame.point(side, node));
-  }
+  });
   for (std::uint32_t v = 0; v < frame.surface(other(side)).vertexCount(); ++v)
     extents[at(other(side))].add(directions, NodeIndex{v}, frame.point(other(side), NodeIndex{v}));
   DepthAlong least{Eigen::Vector3d::UnitX(),

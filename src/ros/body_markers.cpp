@@ -1,5 +1,8 @@
 #include "body_markers.h"
 
+#include <algorithm>
+#include <optional>
+#include <tuple>
 #include <vector>
 
 #include "conversions.h"
@@ -8,6 +11,7 @@ namespace concave_distance {
 namespace {
 
 constexpr float kBoxOpacity = 0.3F;
+constexpr double kSeenThroughOpacity = 0.5;
 
 std_msgs::ColorRGBA toColor(const Eigen::Vector4d& color) {
   std_msgs::ColorRGBA message;
@@ -30,7 +34,32 @@ std::vector<Eigen::Vector3d> vertexNormals(const SurfaceMesh& surface) {
   return normals;
 }
 
+bool pressesOnEachOther(const ScenePair& pair) {
+  const std::optional<NormalForceSettings>& force = pair.settings.effects.normal_force;
+  return force && force->distribution == ForceDistribution::Pressure;
+}
+
+std::vector<double> opacities(const Scene& scene) {
+  std::vector<double> result;
+  result.reserve(scene.bodies.size());
+  for (const SceneBody& body : scene.bodies) result.push_back(body.colour[3]);
+  for (const ScenePair& pair : scene.pairs) {
+    if (!pressesOnEachOther(pair)) continue;
+    double& opacity = result[seenThrough(scene, pair)];
+    opacity = std::min(opacity, kSeenThroughOpacity);
+  }
+  return result;
+}
+
 }  // namespace
+
+std::size_t seenThrough(const Scene& scene, const ScenePair& pair) {
+  const auto rank = [&](std::size_t index) {
+    const SceneBody& body = scene.bodies[index];
+    return std::tuple(body.in_robot_model, body.colour[3], body.mesh->diameter());
+  };
+  return rank(pair.body_a) < rank(pair.body_b) ? pair.body_a : pair.body_b;
+}
 
 void drawSurface(const SurfaceMesh& surface, double offset, visualization_msgs::Marker& marker) {
   if (surface.triangleCount() > kLargestShownBody) {
@@ -59,6 +88,7 @@ visualization_msgs::MarkerArray bodyMarkers(const Scene& scene) {
   clear.action = visualization_msgs::Marker::DELETEALL;
   clear.pose.orientation.w = 1.0;
   message.markers.push_back(clear);
+  const std::vector<double> opacity = opacities(scene);
   for (std::size_t index = 0; index < scene.bodies.size(); ++index) {
     const SceneBody& body = scene.bodies[index];
     if (body.in_robot_model) {
@@ -72,6 +102,7 @@ visualization_msgs::MarkerArray bodyMarkers(const Scene& scene) {
     marker.action = visualization_msgs::Marker::ADD;
     marker.pose.orientation.w = 1.0;
     marker.color = toColor(body.colour);
+    marker.color.a = static_cast<float>(opacity[index]);
     drawSurface(body.mesh->surface(), 0.0, marker);
     message.markers.push_back(std::move(marker));
   }

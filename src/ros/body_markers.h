@@ -16,8 +16,13 @@ inline constexpr std::size_t kLargestShownBody = 200'000;
 /// translucent, when there are too many triangles.
 void drawSurface(const SurfaceMesh& surface, double offset, visualization_msgs::Marker& marker);
 
+/// The body of a pair that is looked through to see the pressure on the other one's surface, an index into
+/// Scene::bodies: rather one that is drawn here than one of a robot model, the more translucent, the smaller.
+std::size_t seenThrough(const Scene& scene, const ScenePair& pair);
+
 /// The bodies that rviz cannot draw from a robot model, as triangle lists fixed to their tf frames. Begins
-/// with a DELETEALL, so that one latched message always says everything.
+/// with a DELETEALL, so that one latched message always says everything. A body that is looked through, where
+/// two press on each other, is at most half opaque.
 visualization_msgs::MarkerArray bodyMarkers(const Scene& scene);
 
 }  // namespace concave_distance

@@ -38,35 +38,15 @@ Eigen::Vector3d toEigen(const geometry_msgs::Vector3& vector) {
 
 // For text and disc: visible on light and dark backgrounds.
 std_msgs::ColorRGBA contactColor() {
-  return color(0.70F, 0.15F, 0.60F, 1.0F);
-}
-
-Marker emptyMarker(const PairContactState& pair, const char* kind, std::int32_t id, double lifetime) {
-  Marker marker;
-  marker.header = pair.header;
-  marker.ns = pair.pair + "/" + kind;
-  marker.id = id;
-  marker.action = Marker::ADD;
-  marker.pose.orientation.w = 1.0;
-  marker.lifetime = ros::Duration(lifetime);
-  return marker;
-}
-
-std::int32_t markerId(const PairContactState& pair, std::size_t index) {
-  const std::uint64_t id = pair.contacts[index].id;
-  return id == 0 ? -1 - static_cast<std::int32_t>(index) : static_cast<std::int32_t>(id & 0x7fffffffU);
+  return color(0.90F, 0.20F, 0.75F, 1.0F);
 }
 
 // A disc as large as the contact's area, across the normal.
 void drawArea(const Contact& contact, double scale, Marker& marker) {
   marker.type = Marker::CYLINDER;
-  const Eigen::Quaterniond turn =
-      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), toEigen(contact.normal));
   marker.pose.position = contact.centroid;
-  marker.pose.orientation.x = turn.x();
-  marker.pose.orientation.y = turn.y();
-  marker.pose.orientation.z = turn.z();
-  marker.pose.orientation.w = turn.w();
+  marker.pose.orientation =
+      toQuaternion(Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), toEigen(contact.normal)));
   marker.scale.x = marker.scale.y = 2.0 * std::sqrt(contact.contact_area / M_PI);
   marker.scale.z = kDiscHeight * scale;
   marker.color = contactColor();
@@ -91,6 +71,7 @@ std::string contactText(const Contact& contact) {
     const double newtons = toEigen(contact.wrench.force).norm();
     text += (text.empty() ? "" : "  ") + forceText(newtons);
   }
+  if (contact.largest_pressure > 0.0) text += "  up to " + pressureText(contact.largest_pressure);
   return text.empty() ? "contact" : text;
 }
 
@@ -106,16 +87,29 @@ std_msgs::ColorRGBA contactTextColor() {
   return contactColor();
 }
 
-std::vector<Marker> contactMarkers(const PairContactState& pair, const MarkerStyle& style, double lifetime) {
+Marker emptyContactMarker(const PairContactState& pair, const char* kind, std::size_t index,
+                          double lifetime) {
+  const std::uint64_t id = pair.contacts[index].id;
+  Marker marker;
+  marker.header = pair.header;
+  marker.ns = pair.pair + "/" + kind;
+  marker.id = id == 0 ? -1 - static_cast<std::int32_t>(index) : static_cast<std::int32_t>(id & 0x7fffffffU);
+  marker.action = Marker::ADD;
+  marker.pose.orientation.w = 1.0;
+  marker.lifetime = ros::Duration(lifetime);
+  return marker;
+}
+
+std::vector<Marker> contactMarkers(const PairContactState& pair, const std::vector<bool>& without_disc,
+                                   const MarkerStyle& style, double lifetime) {
   std::vector<Marker> markers;
   for (std::size_t k = 0; k < pair.contacts.size(); ++k) {
     const Contact& contact = pair.contacts[k];
     const auto add = [&](const char* kind) -> Marker& {
-      markers.push_back(emptyMarker(pair, kind, markerId(pair, k), lifetime));
-      return markers.back();
+      return markers.emplace_back(emptyContactMarker(pair, kind, k, lifetime));
     };
-    const bool has_normal = toEigen(contact.normal).allFinite();
-    if (contact.contact_area > 0.0 && has_normal) drawArea(contact, style.scale, add("contact_area"));
+    const bool has_disc = !without_disc[k] && toEigen(contact.normal).allFinite();
+    if (contact.contact_area > 0.0 && has_disc) drawArea(contact, style.scale, add("contact_area"));
     if (contact.depth > 0.0) {
       Marker& line = add("contact_depth");
       line.type = Marker::LINE_LIST;
@@ -147,7 +141,7 @@ std::vector<ContactLabel> contactLabels(const PairContactState& pair, double lif
     label.depth = contact.has_depth != 0 ? contact.depth : 0.0;
     label.label.from = label.label.to = toEigen(contact.centroid);
     Marker& text = label.label.marker;
-    text = emptyMarker(pair, "contact_text", markerId(pair, k), lifetime);
+    text = emptyContactMarker(pair, "contact_text", k, lifetime);
     text.type = Marker::TEXT_VIEW_FACING;
     text.color = contactTextColor();
     text.text = contactText(contact);

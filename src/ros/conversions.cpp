@@ -67,6 +67,10 @@ geometry_msgs::Vector3 toVector(const Eigen::Vector3d& vector) {
   return tf2::toMsg(vector, message);
 }
 
+geometry_msgs::Quaternion toQuaternion(const Eigen::Quaterniond& rotation) {
+  return tf2::toMsg(rotation);
+}
+
 geometry_msgs::Wrench toWrench(const Wrench& wrench) {
   geometry_msgs::Wrench message;
   message.force = toVector(wrench.force);

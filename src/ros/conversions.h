@@ -19,6 +19,7 @@ namespace concave_distance {
 
 geometry_msgs::Point toPoint(const Eigen::Vector3d& point);
 geometry_msgs::Vector3 toVector(const Eigen::Vector3d& vector);
+geometry_msgs::Quaternion toQuaternion(const Eigen::Quaterniond& rotation);
 geometry_msgs::Wrench toWrench(const Wrench& wrench);
 
 PairStatus toStatus(SolveStatus status);

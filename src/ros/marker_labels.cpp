@@ -47,6 +47,13 @@ std::string forceText(double newtons) {
   return newtons < 999.5 ? threeDigits(newtons, "N") : threeDigits(1e-3 * newtons, "kN");
 }
 
+std::string pressureText(double pascals) {
+  if (pascals == 0.0) return "0 Pa";
+  if (pascals < 999.5) return threeDigits(pascals, "Pa");
+  if (pascals < 999.5e3) return threeDigits(1e-3 * pascals, "kPa");
+  return pascals < 999.5e6 ? threeDigits(1e-6 * pascals, "MPa") : threeDigits(1e-9 * pascals, "GPa");
+}
+
 double widthOf(const visualization_msgs::Marker& text) {
   return kCharacterWidth * static_cast<double>(text.text.size()) * text.scale.z;
 }

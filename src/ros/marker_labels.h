@@ -12,6 +12,8 @@ namespace concave_distance {
 std::string lengthText(double metres);
 /// A force in the same way: "312 N", "3.58 kN".
 std::string forceText(double newtons);
+/// A pressure in the same way: "0 Pa", "312 Pa", "12.3 kPa", "3.58 MPa", "1.20 GPa".
+std::string pressureText(double pascals);
 
 /// A text beside a line of the picture.
 struct Label {

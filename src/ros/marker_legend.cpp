@@ -6,6 +6,7 @@
 #include "contact_markers.h"
 #include "conversions.h"
 #include "niche_markers.h"
+#include "pressure_markers.h"
 
 namespace concave_distance {
 namespace {
@@ -14,6 +15,7 @@ constexpr double kLegendLetterShare = 0.9;  // height of the legend's letters ov
 constexpr double kSlope = 0.35;             // tangent of the pitch up to which the legend hides nothing
 constexpr double kLift = 1.5;               // height of the legend above the scene, in letters
 constexpr double kRvizLineSpace = 0.01;     // m between the rows of a text in rviz
+constexpr double kSmallLineSpace = 0.5;     // of letters smaller than that: each row stands by itself
 constexpr std::size_t kColumn = 26;         // spaces between two columns of a row
 
 struct Row {
@@ -29,14 +31,21 @@ std_msgs::ColorRGBA grey() {
   return color;
 }
 
-void addContactRows(const MarkerStyle& style, std::vector<Row>& rows) {
+void addContactRows(const LegendContents& contents, const MarkerStyle& style, std::vector<Row>& rows) {
   std::size_t row = rows.back().row;
   const std::string space(kColumn, ' ');
   ++row;
   rows.push_back({"red arrow: normal force" + space, normalForceColor(), row});
   rows.push_back({space + "blue arrow: friction", frictionColor(), row});
-  rows.push_back({"disc: area of a contact; an arrow of 1 m: " + forceText(style.force_scale),
-                  contactTextColor(), row + 1});
+  const double end = contents.pressure_end;
+  rows.push_back({(end > 0.0 ? "an arrow of 1 m: " : "disc: area of a contact; an arrow of 1 m: ") +
+                      forceText(style.force_scale),
+                  contactTextColor(), ++row});
+  if (!(end > 0.0)) return;
+  ++row;
+  rows.push_back({"surface: pressure 0" + space, pressureColor(0.0, end), row});
+  rows.push_back({pressureText(0.5 * end), pressureColor(0.5 * end, end), row});
+  rows.push_back({space + pressureText(end) + " or more", pressureColor(end, end), row});
 }
 
 std::vector<Row> rowsOf(const LegendContents& contents, const MarkerStyle& style) {
@@ -57,7 +66,7 @@ std::vector<Row> rowsOf(const LegendContents& contents, const MarkerStyle& style
   rows.push_back({lengthText(middle), distanceColor(middle, style), row});
   rows.push_back({space + lengthText(style.far) + " or more", distanceColor(style.far, style), row});
   if (contents.warnings) rows.push_back({"red: closer than the warning distance", warningColor(), ++row});
-  if (contents.contacts) addContactRows(style, rows);
+  if (contents.contacts) addContactRows(contents, style, rows);
   return rows;
 }
 
@@ -71,8 +80,9 @@ std::vector<visualization_msgs::Marker> legendMarkers(const LegendContents& cont
   const std::vector<Row> rows = rowsOf(contents, layout.style());
   const double letters = kLegendLetterShare * layout.letterHeight();
   const std::size_t count = rows.back().row + 1;
-  const double height =
-      static_cast<double>(count) * letters + static_cast<double>(count - 1) * kRvizLineSpace;
+  const bool is_small = letters < kRvizLineSpace;
+  const double line = letters + (is_small ? kSmallLineSpace * letters : kRvizLineSpace);
+  const double height = static_cast<double>(count) * line;
   Eigen::Vector3d centre = layout.region().center();
   // From above, the far edges of the scene appear higher than the near ones.
   const double rear = kSlope * 0.5 * layout.region().diagonal().head<2>().norm();
@@ -89,21 +99,32 @@ std::vector<visualization_msgs::Marker> legendMarkers(const LegendContents& cont
     marker.scale.z = letters;
     marker.color = row.color;
     marker.lifetime = ros::Duration(lifetime);
-    // All markers have the same number of rows and the same place, so the rows never overlap in any view.
-    marker.text = std::string(row.row, '\n') + row.text + std::string(count - 1 - row.row, '\n');
+    if (is_small) {
+      marker.text = row.text;
+      marker.pose.position.z += (0.5 * static_cast<double>(count - 1) - static_cast<double>(row.row)) * line;
+    } else {
+      // All markers have the same number of rows and the same place, so the rows never overlap in any view.
+      marker.text = std::string(row.row, '\n') + row.text + std::string(count - 1 - row.row, '\n');
+    }
     markers.push_back(std::move(marker));
   }
   return markers;
 }
 
 LabelSpace spaceOfLegend(const std::vector<visualization_msgs::Marker>& legend) {
-  const visualization_msgs::Marker& first = legend.front();
   LabelSpace space;
-  space.centre = {first.pose.position.x, first.pose.position.y, first.pose.position.z};
-  for (const visualization_msgs::Marker& marker : legend)
+  double low = legend.front().pose.position.z;
+  double high = low;
+  for (const visualization_msgs::Marker& marker : legend) {
+    const auto rows = static_cast<double>(1 + std::count(marker.text.begin(), marker.text.end(), '\n'));
+    const double half = 0.5 * (rows * marker.scale.z + (rows - 1.0) * kRvizLineSpace);
+    low = std::min(low, marker.pose.position.z - half);
+    high = std::max(high, marker.pose.position.z + half);
     space.width = std::max(space.width, widthOf(marker));
-  const auto rows = static_cast<double>(1 + std::count(first.text.begin(), first.text.end(), '\n'));
-  space.height = rows * first.scale.z + (rows - 1.0) * kRvizLineSpace;
+  }
+  const geometry_msgs::Point& place = legend.front().pose.position;
+  space.centre = {place.x, place.y, 0.5 * (low + high)};
+  space.height = high - low;
   return space;
 }
 

@@ -14,11 +14,12 @@ namespace concave_distance {
 /// What the legend explains.
 struct LegendContents {
   std::size_t drawn_pairs = 0;
-  std::size_t pairs = 0;  ///< with a distance
-  bool others = false;    ///< thin lines are drawn
-  bool warnings = false;  ///< some pair has a warning distance
-  bool extents = false;   ///< circles are drawn
-  bool contacts = false;  ///< some pair has effects
+  std::size_t pairs = 0;      ///< with a distance
+  bool others = false;        ///< thin lines are drawn
+  bool warnings = false;      ///< some pair has a warning distance
+  bool extents = false;       ///< circles are drawn
+  bool contacts = false;      ///< some pair has effects
+  double pressure_end = 0.0;  ///< Pa, in the last colour; 0: no pressure is drawn
 };
 
 /// The legend above the scene: namespace `legend`, one text per row, in the colour that it explains.

@@ -154,6 +154,12 @@ ParameterTable<N> ofTheDrawing() {
           .inUnit("N")
           .from(1e-6)
           .to(1e12),
+      automatic<N>(
+          "pressure_marker_scale", [](auto& n) -> auto& { return n.marker.pressure_scale; },
+          "pressure drawn in the last colour; `auto`: the largest of all contacts, rounded up "
+          "([markers](markers.md#pressure))")
+          .inUnit("Pa")
+          .to(1e15),
       flag<N>(
           "show_bodies", [](auto& n) -> auto& { return n.show_bodies; }, "publish `body_markers`"),
   };

@@ -83,12 +83,11 @@ visualization_msgs::MarkerArray SceneMarkers::draw(const Scene& scene, const Mar
     const std::vector<DrawnPair> drawn = selectPairs(niches, layout_.style());
     std::vector<ContactLabel> contact_labels;
     std::set<std::string> with_contacts;
+    append(drawContacts(scene, pairs, contacts, lifetime), markers);
     for (const PairContactState& contact : contacts) {
-      std::vector<Marker> of_pair = contactMarkers(contact, layout_.style(), lifetime);
       std::vector<ContactLabel> texts = contactLabels(contact, lifetime);
-      if (!of_pair.empty() || !texts.empty()) with_contacts.insert(contact.pair);
+      if (!texts.empty()) with_contacts.insert(contact.pair);
       std::move(texts.begin(), texts.end(), std::back_inserter(contact_labels));
-      append(std::move(of_pair), markers);
     }
     std::vector<Label> labels = deepestLabels(std::move(contact_labels), style.niche_count);
     for (const DrawnPair& pair : drawn) {
@@ -103,6 +102,7 @@ visualization_msgs::MarkerArray SceneMarkers::draw(const Scene& scene, const Mar
     if (style.legend) {
       LegendContents contents = contentsOf(scene, niches, drawn);
       contents.extents = extents_seen_;
+      contents.pressure_end = pressures_.end();
       std::vector<Marker> legend = legendMarkers(contents, layout_, header, lifetime);
       if (!legend.empty()) taken.push_back(spaceOfLegend(legend));
       append(std::move(legend), markers);
@@ -116,6 +116,24 @@ visualization_msgs::MarkerArray SceneMarkers::draw(const Scene& scene, const Mar
   append(tints_.update(scene, tinted, kTintOffset * layout_.style().scale, lifetime, header.stamp),
          message.markers);
   return message;
+}
+
+// Contacts are in the order of the pairs.
+std::vector<Marker> SceneMarkers::drawContacts(const Scene& scene, const PublishedPairs& pairs,
+                                               const std::vector<PairContactState>& contacts,
+                                               double lifetime) {
+  std::vector<Marker> markers;
+  pressures_.update(largestPressure(contacts), layout_.style().pressure_scale);
+  std::size_t triangles_left = kMostPressureTriangles;
+  std::size_t k = 0;
+  for (const PairContactState& contact : contacts) {
+    while (k + 1 < pairs.size() && pairs[k]->heading.pair != contact.pair) ++k;
+    DrawnPressures pressures = pressureMarkers(scene, scene.pairs[k], *pairs[k], contact, layout_.style(),
+                                               pressures_.end(), lifetime, triangles_left);
+    append(contactMarkers(contact, pressures.has_marker, layout_.style(), lifetime), markers);
+    append(std::move(pressures.markers), markers);
+  }
+  return markers;
 }
 
 void SceneMarkers::forget() {

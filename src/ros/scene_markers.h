@@ -11,6 +11,7 @@
 #include "label_placer.h"
 #include "marker_layout.h"
 #include "niche_markers.h"
+#include "pressure_markers.h"
 #include "published_pair.h"
 #include "warning_tints.h"
 
@@ -34,10 +35,15 @@ class SceneMarkers {
   bool empty() const { return shown_.empty() && tints_.empty(); }
 
  private:
+  std::vector<visualization_msgs::Marker> drawContacts(const Scene& scene, const PublishedPairs& pairs,
+                                                       const std::vector<PairContactState>& contacts,
+                                                       double lifetime);
+
   MarkerLayout layout_;
   LabelPlacer placer_;
   WarningTints tints_;
   ShownMarkers shown_;
+  PressureScale pressures_;
   bool extents_seen_ = false;  ///< keeps that row, so that the legend does not move
 };
 

@@ -68,16 +68,15 @@ struct PairEffects::State {
     identity.update(solution.niches, displacement, contacts.regions);
   }
 
-  bool isPatch(const ContactRegion& region) const {
-    return settings.normal_force->distribution == ForceDistribution::Pressure &&
-           region.overlap.facet_count > 0;
+  bool isPatch(const InterferenceRegion& region) const {
+    return settings.normal_force->distribution == ForceDistribution::Pressure && region.facet_count > 0;
   }
 
   void push(const RelativeTwist& b_in_a, PairContacts& contacts) {
     patches.resize(std::max(patches.size(), contacts.regions.size()));
     for (std::size_t r = 0; r < contacts.regions.size(); ++r) {
       ContactRegion& region = contacts.regions[r];
-      if (isPatch(region)) {
+      if (isPatch(region.overlap)) {
         pushPatch(r, b_in_a, contacts);
       } else {
         pushLumped(b_in_a, region);
@@ -143,7 +142,7 @@ struct PairEffects::State {
     for (std::size_t r = 0; r < contacts.regions.size(); ++r) {
       ContactRegion& region = contacts.regions[r];
       if (!(region.normal_force >= 0.0)) continue;
-      if (isPatch(region)) {
+      if (isPatch(region.overlap)) {
         region.rubbing_on_b_in_a = patches[r].rub(settings.friction, material, {b_in_a, displacement, step},
                                                   identity.memory()[r].patch, contacts.linearisation);
       } else if (region.normal_force > 0.0) {
@@ -173,7 +172,7 @@ struct PairEffects::State {
   void linearise(const RelativeTwist& displacement, double step, PairContacts& contacts) {
     for (std::size_t r = 0; r < contacts.regions.size(); ++r) {
       const ContactRegion& region = contacts.regions[r];
-      if (isPatch(region) || !(region.normal_force > 0.0)) continue;
+      if (isPatch(region.overlap) || !(region.normal_force > 0.0)) continue;
       addLumpedContact(settings, material, region,
                        {acrossNormal(displacement, region), step, identity.memory()[r].bristles},
                        contacts.linearisation);
@@ -224,6 +223,7 @@ void PairEffects::update(const PairSolution& solution, const RelativeTwist& b_in
   State& state = *state_;
   contacts.possible = !state.plan.empty() && contactIsPossible(solution);
   contacts.regions.clear();
+  state.interference.regions.clear();
   contacts.a_inside_b = contacts.b_inside_a = contacts.cut = false;
   contacts.linearisation = {};
   const RelativeTwist displacement = state.displacement(solution.a_from_b, b_in_a, step);
@@ -265,6 +265,17 @@ void PairEffects::update(const PairSolution& solution, const RelativeTwist& b_in
   state.last_pose = solution.a_from_b;
 }
 
+const Interference& PairEffects::surfaces() const {
+  return state_->interference;
+}
+
+const PressureField* PairEffects::pressure(std::size_t index) const {
+  const State& state = *state_;
+  const bool has_pressure = state.settings.normal_force && index < state.interference.regions.size() &&
+                            state.isPatch(state.interference.regions[index]);
+  return has_pressure ? &state.patches[index].field() : nullptr;
+}
+
 void PairEffects::reset() {
   state_->identity.clear();
   state_->in_contact = false;
@@ -287,6 +298,7 @@ void PairEffects::setSettings(const EffectSettings& settings, const ContactMater
   state_->settings = settings;
   state_->material = material;
   state_->plan = EffectPlan(settings);
+  state_->interference.regions.clear();
   for (RegionMemory& memory : state_->identity.memory()) {
     memory.bristles = {};
     memory.patch.bristles.clear();

@@ -44,7 +44,7 @@ NUMBERS = {"rate": (0.0, -1.0, NAN), "marker_rate": (0.0,), "transform_timeout":
            "tf_cache": (-10.0, 1e300), "absolute_tolerance": (-1.0, NAN), "relative_tolerance": (1.5,),
            "time_budget": (-1.0, NAN), "cutoff": (-1.0, NAN), "least_prominence": (-1.0,), "warning_distance": (NAN, -1.0),
            "warning_hysteresis": (-1.0,), "marker_scale": (-1.0,), "force_marker_scale": (0.0,),
-           "diagnostic_period": (-5.0, 0.0, NAN, 1e300)}
+           "pressure_marker_scale": (-1.0,), "diagnostic_period": (-5.0, 0.0, NAN, 1e300)}
 for parameter, numbers in NUMBERS.items():
     for number in numbers:
         refuse(parameter, "%g" % number, number)

@@ -103,7 +103,7 @@ MarkerStyle contactStyle() {
 }
 
 TEST(ContactMarkers, DrawAreaDepthAndForces) {
-  const std::vector<Marker> markers = contactMarkers(message(), contactStyle(), 1.0);
+  const std::vector<Marker> markers = contactMarkers(message(), {false}, contactStyle(), 1.0);
   std::set<std::string> kinds;
   for (const Marker& marker : markers) {
     kinds.insert(marker.ns);
@@ -129,7 +129,7 @@ TEST(ContactMarkers, DrawNothingThatWasNotComputedAndTellContactsWithoutIdsApart
   state.contacts[0].has_force = state.contacts[0].has_friction = state.contacts[0].has_depth = 0;
   state.contacts[0].depth = state.contacts[0].contact_area = kNotComputed;
   state.contacts.push_back(state.contacts[0]);
-  EXPECT_TRUE(contactMarkers(state, contactStyle(), 1.0).empty());
+  EXPECT_TRUE(contactMarkers(state, {false, false}, contactStyle(), 1.0).empty());
   const std::vector<ContactLabel> labels = contactLabels(state, 1.0);
   ASSERT_EQ(labels.size(), 2U);
   EXPECT_NE(labels[0].label.marker.id, labels[1].label.marker.id);

@@ -335,6 +335,20 @@ TEST(SceneMarkers, HaveOneLegendThatCanBeSwitchedOff) {
   EXPECT_EQ(withKind(without, "legend", Marker::DELETE).size(), legend.size());
 }
 
+// rviz puts a centimetre between the rows of one text.
+TEST(SceneMarkers, RowsOfTheLegendOfASmallSceneStandByThemselves) {
+  Picture picture(3, 0.02);
+  const std::vector<Marker> legend = withKind(picture.draw(), "legend");
+  ASSERT_GE(legend.size(), 3U);
+  double above = legend.front().pose.position.z;
+  for (const Marker& marker : legend) {
+    EXPECT_EQ(marker.text.find('\n'), std::string::npos);
+    const double lower = above - marker.pose.position.z;
+    EXPECT_TRUE(lower == 0.0 || lower > 1.2 * marker.scale.z) << "rows " << lower << " apart";
+    above = marker.pose.position.z;
+  }
+}
+
 TEST(SceneMarkers, AreAllDeletedWhenNothingIsToBeDrawn) {
   Picture picture(3);
   picture.warn(0, true);

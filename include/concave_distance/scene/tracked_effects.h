@@ -32,6 +32,8 @@ class TrackedEffects {
 
   /// Of the last update(); nullptr while no effects are wanted.
   const PairContacts* contacts() const { return effects_ ? &contacts_ : nullptr; }
+  /// With the surfaces and pressures of contacts(); nullptr while no effects are wanted.
+  const PairEffects* effects() const { return effects_.get(); }
   /// What the stages did since the last call.
   EffectCounts takeCounts();
 

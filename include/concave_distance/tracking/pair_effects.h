@@ -1,12 +1,14 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <vector>
 
 #include "concave_distance/contact/contact_linearisation.h"
 #include "concave_distance/contact/effect_settings.h"
+#include "concave_distance/contact/pressure_field.h"
 #include "concave_distance/contact/wrench.h"
 #include "concave_distance/interference/interference.h"
 #include "concave_distance/mesh/body_mesh.h"
@@ -69,6 +71,13 @@ class PairEffects {
   ///        call; nullptr: none
   void update(const PairSolution& solution, const RelativeTwist& b_in_a, double step, PairContacts& contacts,
               WorkLimit* limit = nullptr);
+
+  /// The surfaces that the regions of the last update() are made of: what `overlap.first_facet` and
+  /// `overlap.first_sample` of its regions count in. Good until the next update().
+  const Interference& surfaces() const;
+  /// How the pressure of the last update()'s region `index` follows from the place, good until the next one;
+  /// nullptr where it has none: a lumped force, surfaces that touch or are open, no force asked for.
+  const PressureField* pressure(std::size_t index) const;
 
   /// Forgets regions and bristles.
   void reset();

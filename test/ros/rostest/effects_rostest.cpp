@@ -237,6 +237,19 @@ TEST_F(EffectsTest, ContactMarkersComeAndGoWithTheContact) {
   }
 }
 
+TEST_F(EffectsTest, ThePressureIsDrawnWhereAPairHasOne) {
+  using visualization_msgs::MarkerArray;
+  player.place("other", 0.5 + 0.5 * kSide - kPressed, -0.2);
+  ASSERT_TRUE(set("plain", "{normal_force: {model: elastic_foundation, foundation_stiffness: 1e6}}").success);
+  Collector<MarkerArray> markers(kNode + "markers");
+  EXPECT_TRUE(markers.waitFor([](const MarkerArray& message) {
+    return std::any_of(message.markers.begin(), message.markers.end(), [](const auto& marker) {
+      return marker.ns == "plain/pressure" && marker.points.size() > 300 &&
+             marker.colors.size() == marker.points.size();
+    });
+  }));
+}
+
 TEST_F(EffectsTest, QueriesFindContactsWhateverThePairAsksFor) {
   GetDistanceRequest request;
   request.query.body_a = "crate";

@@ -1,0 +1,127 @@
+#include "pressure_triangles.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "distance/closest_point.h"
+#include "mesh/surface/mesh_topology.h"
+#include "mesh/trees/triangle_tree.h"
+
+namespace concave_distance {
+namespace {
+
+// Edges are at least this share of the longest facet's, whatever the area: slivers have many per area.
+constexpr double kLeastEdge = 1.0 / 64.0;
+// Area of a triangle that was halved across its longest edge until that is short enough, over its square.
+constexpr double kAreaOverEdge = 0.25;
+// From a corner to the middle of its triangle: on the border itself the depth is 0, however steeply it grows.
+constexpr double kInwards = 0.1;
+
+using Corners = std::array<Eigen::Vector3d, 3>;
+
+double squaredEdge(const Corners& corners, std::size_t k) {
+  return (corners[k] - corners[(k + 1) % 3]).squaredNorm();
+}
+std::size_t longestEdge(const Corners& corners) {
+  const std::size_t k = squaredEdge(corners, 1) > squaredEdge(corners, 0) ? 1 : 0;
+  return squaredEdge(corners, 2) > squaredEdge(corners, k) ? 2 : k;
+}
+
+double areaOf(const Corners& corners) {
+  return 0.5 * (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm();
+}
+
+/// Halves a triangle across its longest edge until that is at most `edge` long.
+template <typename Leaf>
+void halve(const Corners& corners, double edge, const Leaf& leaf) {
+  const std::size_t k = longestEdge(corners);
+  if (!(squaredEdge(corners, k) > edge * edge)) {
+    leaf(corners);
+    return;
+  }
+  const Eigen::Vector3d& from = corners[k];
+  const Eigen::Vector3d& to = corners[(k + 1) % 3];
+  const Eigen::Vector3d& tip = corners[(k + 2) % 3];
+  const Eigen::Vector3d cut = 0.5 * (from + to);
+  halve({from, cut, tip}, edge, leaf);
+  halve({cut, to, tip}, edge, leaf);
+}
+
+class Cutter {
+ public:
+  explicit Cutter(const PressedSurface& surface) : surface_(surface) {}
+
+  bool isDrawn(const OverlapFacet& facet) const { return facet.of_b == surface_.of_b && !facet.is_negative; }
+
+  std::size_t count(double edge) const {
+    std::size_t number = 0;
+    for (const OverlapFacet* facet = surface_.first; facet != surface_.last; ++facet) {
+      if (!isDrawn(*facet)) continue;
+      halve(facet->corners_in_a, edge, [&](const Corners&) { ++number; });
+    }
+    return number;
+  }
+
+  void cut(const OverlapFacet& facet, double edge, double lift, std::vector<PressureTriangle>& triangles) {
+    const Eigen::Vector3d shift = lift * facet.normal_in_a;
+    halve(facet.corners_in_a, edge, [&](const Corners& part) {
+      const Eigen::Vector3d middle = (part[0] + part[1] + part[2]) / 3.0;
+      if (facet.may_leave && !isInside(middle)) return;
+      PressureTriangle& triangle = triangles.emplace_back();
+      for (std::size_t k = 0; k < 3; ++k) {
+        triangle[k] = {part[k] + shift, pressureAt(facet, part[k] + kInwards * (middle - part[k]))};
+      }
+    });
+  }
+
+ private:
+  bool isInside(const Eigen::Vector3d& point_in_a) const {
+    const BodyMesh& other = surface_.other;
+    return containsPoint(other.tree(), other.surface(), other.topology().shell_is_closed,
+                         other.topology().shell_of_triangle, surface_.other_from_a * point_in_a);
+  }
+
+  double pressureAt(const OverlapFacet& facet, const Eigen::Vector3d& point) {
+    const Eigen::Vector3d push = facet.of_b ? Eigen::Vector3d(-facet.normal_in_a) : facet.normal_in_a;
+    if (!surface_.field.carries(push) || (facet.may_leave && !isInside(point))) return 0.0;
+    const Eigen::Vector3d target = surface_.other_from_a * point;
+    const SurfacePoint nearest = closestPoint(surface_.other, target, last_);
+    last_ = nearest.triangle;
+    const double depth = std::sqrt(nearest.squared_distance);
+    if (!(depth > 0.0)) return 0.0;
+    const Eigen::Vector3d out = surface_.other_from_a.linear().transpose() * (nearest.point - target) / depth;
+    const Eigen::Vector3d exit = facet.of_b ? out : Eigen::Vector3d(-out);
+    return depth * surface_.field.perDepth(surface_.field.depthRate(point, exit));
+  }
+
+  const PressedSurface& surface_;
+  TriangleIndex last_{0};  ///< nearest to the last point
+};
+
+}  // namespace
+
+std::vector<PressureTriangle> pressureTriangles(const PressedSurface& surface, double lift,
+                                                std::size_t most) {
+  std::vector<PressureTriangle> triangles;
+  Cutter cutter(surface);
+  double area = 0.0;
+  double longest = 0.0;
+  std::size_t facets = 0;
+  for (const OverlapFacet* facet = surface.first; facet != surface.last; ++facet) {
+    if (!cutter.isDrawn(*facet)) continue;
+    ++facets;
+    area += areaOf(facet->corners_in_a);
+    longest =
+        std::max(longest, std::sqrt(squaredEdge(facet->corners_in_a, longestEdge(facet->corners_in_a))));
+  }
+  if (facets == 0 || facets > most) return triangles;
+  double edge = std::max(std::sqrt(area / (kAreaOverEdge * kPressureTriangles)), kLeastEdge * longest);
+  while (edge < longest && cutter.count(edge) > most) edge *= 2.0;
+  triangles.reserve(facets);
+  for (const OverlapFacet* facet = surface.first; facet != surface.last; ++facet) {
+    if (cutter.isDrawn(*facet)) cutter.cut(*facet, edge, lift, triangles);
+  }
+  return triangles;
+}
+
+}  // namespace concave_distance
