@@ -111,6 +111,16 @@ const ParameterTable<Material>& materialParameters() {
           "viscous_friction", [](auto& m) -> auto& { return m.viscous_friction; },
           "what the coefficient grows by with the speed")
           .inUnit("s/m"),
+      number<M>(
+          "rolling_friction", [](auto& m) -> auto& { return m.rolling_friction; },
+          "torque over normal force against rolling")
+          .inUnit("m"),
+      number<M>(
+          "spinning_friction", [](auto& m) -> auto& { return m.spinning_friction; },
+          "torque over normal force against spinning about the normal, beside what friction over the "
+          "contact's "
+          "width does")
+          .inUnit("m"),
   };
   return table;
 }
