@@ -267,6 +267,16 @@ TEST(PairEffects, AFallbackNormalKeepsItsDirectionOverTime) {
   }
 }
 
+TEST(PairEffects, WhatIsPushedThroughFromBelowKeepsItsNormalDownwards) {
+  const PegThroughPlate scene;
+  EffectScene pair(scene.plate, scene.peg, onlyInterference());
+  for (double height = -0.0395; height < 0.0; height += 1e-3) {
+    pair.update(at(0.0, 0.0, height));
+    EXPECT_LT(pair.contacts.regions.at(0).overlap.normal_in_a.z(), -0.99) << height;
+  }
+  EXPECT_TRUE(pair.contacts.regions.at(0).overlap.normal_is_fallback);
+}
+
 // Where the preferred one of two equal ways changes, and nowhere else.
 TEST(PairEffects, WithoutAMemoryAFallbackNormalTurnsOverSeldom) {
   const PegThroughPlate scene;
