@@ -195,12 +195,12 @@ TEST(PairEffects, GoingBackBendsTheBristlesOfRollingAndSpinningBack) {
   scene.update(turned(1e-7));
   scene.effects.keep();
   scene.update(turned(3e-7));
-  const Eigen::Vector3d once = scene.contacts.regions.at(0).rubbing_on_b_in_a.torque;
-  // Torsional springs of sigma_0 R^2 a newton, R half of B's width.
-  const double stiffness =
-      FrictionSettings().bristle_stiffness * 0.25 * 0.25 * scene.contacts.regions[0].normal_force;
-  EXPECT_NEAR(once.x(), -stiffness * 0.6 * 3e-7, 1e-6 * stiffness * 3e-7);
-  EXPECT_NEAR(once.z(), -stiffness * 0.8 * 3e-7, 1e-6 * stiffness * 3e-7);
+  const ContactRegion region = scene.contacts.regions.at(0);
+  const Eigen::Vector3d once = region.rubbing_on_b_in_a.torque;
+  // Torsional springs of sigma_0 R^2 a newton, R half of B's width, besides the friction at its point.
+  const double stiffness = FrictionSettings().bristle_stiffness * 0.25 * 0.25 * region.normal_force;
+  const Eigen::Vector3d turning = once - region.point_in_a.cross(region.friction_on_b_in_a);
+  EXPECT_LT((turning + stiffness * 3e-7 * Eigen::Vector3d(0.6, 0.0, 0.8)).norm(), 1e-6 * stiffness * 3e-7);
   scene.update(turned(7e-7));
   EXPECT_LT(scene.contacts.regions.at(0).rubbing_on_b_in_a.torque.z(), once.z());
   scene.effects.goBack();
@@ -225,73 +225,6 @@ TEST(PairEffects, ItsLinearisationIsThatOfItsWrench) {
       (Vector6d() << scene.contacts.on_b_in_a.force, scene.contacts.on_b_in_a.torque).finished();
   // The bristles give way by the share of their limit that they are bent: 2e-4.
   EXPECT_LT((after - before + stiffness * shift).head<3>().norm(), 1e-3 * (after - before).head<3>().norm());
-}
-
-/// A peg of 60 mm through a plate of 20 mm: both ways along it are as long, and all ways across.
-struct PegThroughPlate {
-  std::shared_ptr<const BodyMesh> plate = body("plate", makeBox({0.2, 0.2, 0.02}));
-  std::shared_ptr<const BodyMesh> peg = body("peg", makeCylinder(0.01, 0.06, 1e-4));
-
-  /// Turned by a milliradian each. @return how often the normal turns over
-  template <typename NormalAt>
-  static int flips(const Eigen::Vector3d& axis, const NormalAt& normal_at) {
-    int count = 0;
-    Eigen::Vector3d before = Eigen::Vector3d::Zero();
-    for (int i = 0; i < 1000; ++i) {
-      const Eigen::Vector3d normal = normal_at(Eigen::Isometry3d(Eigen::AngleAxisd(1e-3 * i, axis)));
-      if (normal.dot(before) < 0.0) ++count;
-      before = normal;
-    }
-    return count;
-  }
-};
-
-const Eigen::Vector3d kTurns[] = {Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitZ(),
-                                  Eigen::Vector3d(0.36, 0.48, 0.8)};
-
-TEST(PairEffects, AFallbackNormalKeepsItsDirectionOverTime) {
-  const PegThroughPlate scene;
-  for (const Eigen::Vector3d& axis : kTurns) {
-    EffectScene pair(scene.plate, scene.peg, onlyInterference());
-    TrackerParameters alone;
-    alone.niches_wanted = false;
-    pair.tracker.setParameters(alone);
-    EXPECT_EQ(PegThroughPlate::flips(axis,
-                                     [&](const Eigen::Isometry3d& pose) {
-                                       pair.update(pose);
-                                       EXPECT_TRUE(pair.contacts.regions.at(0).overlap.normal_is_fallback);
-                                       return pair.contacts.regions.at(0).overlap.normal_in_a;
-                                     }),
-              0)
-        << axis.transpose();
-  }
-}
-
-TEST(PairEffects, WhatIsPushedThroughFromBelowKeepsItsNormalDownwards) {
-  const PegThroughPlate scene;
-  EffectScene pair(scene.plate, scene.peg, onlyInterference());
-  for (double height = -0.0395; height < 0.0; height += 1e-3) {
-    pair.update(at(0.0, 0.0, height));
-    EXPECT_LT(pair.contacts.regions.at(0).overlap.normal_in_a.z(), -0.99) << height;
-  }
-  EXPECT_TRUE(pair.contacts.regions.at(0).overlap.normal_is_fallback);
-}
-
-// Where the preferred one of two equal ways changes, and nowhere else.
-TEST(PairEffects, WithoutAMemoryAFallbackNormalTurnsOverSeldom) {
-  const PegThroughPlate scene;
-  InterferenceWorkspace workspace;
-  Interference interference;
-  for (const Eigen::Vector3d& axis : kTurns) {
-    EXPECT_LE(PegThroughPlate::flips(axis,
-                                     [&](const Eigen::Isometry3d& pose) {
-                                       findInterference(*scene.plate, *scene.peg, pose, workspace,
-                                                        interference);
-                                       return interference.regions.at(0).normal_in_a;
-                                     }),
-              2)
-        << axis.transpose();
-  }
 }
 
 }  // namespace
