@@ -1,22 +1,50 @@
 #!/bin/sh
-# Instructions of the cycles of a scene that asks for distance alone, with the code of the effects and with it
-# compiled out, counted by valgrind's callgrind (scripts/install_dependencies.sh plot).
+# Instructions of the cycles of a pair that asks for distance alone, apart and in contact, with the code of the
+# effects and with it compiled out, counted by valgrind's callgrind (scripts/install_dependencies.sh plot).
+# Without a pair: of the usual ones, and writes doc/results/instructions.csv and the table of doc/effects.md.
+# Fails where any two counts differ.
 #
 #   scripts/count_instructions.sh [build folder] [pair ...]
 set -eu
 cd "$(dirname "$0")/.."
 build=${1:-build}
 [ $# -gt 0 ] && shift
-[ $# -gt 0 ] || set -- battery_insertion kr5_bicep_palm peg_in_hole
+file=
+if [ $# -eq 0 ]; then
+  file=doc/results/instructions.csv
+  set -- battery_insertion kr5_bicep_palm peg_in_hole
+fi
 programs=$build/devel/lib/concave_distance
+rows=$(mktemp)
+trap 'rm -f "$rows"' EXIT
+# LD_BIND_NOW: looking up a function at its first call takes more or less by the program's own symbols.
 counted() {
-  valgrind --tool=callgrind --callgrind-out-file=/dev/null --toggle-collect='*runCycles*' \
-    "$programs/$1" --pair "$2" 2>&1 | sed -n 's/.*Collected : //p'
+  program=$1
+  shift
+  LD_BIND_NOW=1 valgrind --tool=callgrind --callgrind-out-file=/dev/null --toggle-collect='*runCycles*' \
+    "$programs/$program" "$@" 2>&1 | sed -n 's/.*Collected : //p'
 }
-printf '%-20s %15s %15s %10s\n' pair 'with effects' 'compiled out' difference
+echo pair,state,with_effects,compiled_out >"$rows"
 for pair in "$@"; do
-  with=$(counted distance_cycle "$pair")
-  without=$(counted distance_cycle_without_effects "$pair")
-  awk -v pair="$pair" -v with="$with" -v without="$without" \
-    'BEGIN { printf "%-20s %15d %15d %9.4f%%\n", pair, with, without, 100 * (with - without) / without }'
+  for state in apart contact; do
+    option=
+    [ $state = contact ] && option=--contact
+    # shellcheck disable=SC2086
+    echo "$pair,$state,$(counted distance_cycle --pair "$pair" $option),$(
+      counted distance_cycle_without_effects --pair "$pair" $option)" | tee -a "$rows"
+  done
 done
+if [ -n "$file" ]; then
+  cp "$rows" "$file"
+  /usr/bin/python3 - "$file" doc/effects.md <<'END'
+import csv, re, sys
+table = "| pair | | with effects | compiled out | difference |\n| --- | --- | --- | --- | --- |\n"
+for row in csv.DictReader(open(sys.argv[1])):
+    counts = int(row["with_effects"]), int(row["compiled_out"])
+    table += f"| `{row['pair']}` | {row['state']} | {counts[0]:,} | {counts[1]:,} | {counts[0] - counts[1]} |\n"
+text = open(sys.argv[2]).read()
+begin, end = "<!-- table: instructions -->\n", "<!-- end -->"
+open(sys.argv[2], "w").write(re.sub(f"(?s)(?<={begin}).*?(?={end})", table, text))
+END
+fi
+awk -F, 'NR > 1 && $3 != $4 { different = 1 } END { exit different }' "$rows"

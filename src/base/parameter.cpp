@@ -82,6 +82,19 @@ std::string allowedValues(const ParameterInfo& info) {
   return text;
 }
 
+bool belongsTo(const ParameterInfo& info, const std::string& model) {
+  return info.models.empty() || std::find(info.models.begin(), info.models.end(), model) != info.models.end();
+}
+
+std::string modelsOf(const ParameterInfo& info, const std::string& last, const std::string& quote) {
+  std::string text;
+  for (std::size_t i = 0; i < info.models.size(); ++i) {
+    if (i > 0) text += i + 1 < info.models.size() ? ", " : " " + last + " ";
+    text += quote + info.models[i] + quote;
+  }
+  return text;
+}
+
 std::string toText(const ParameterValue& value) {
   if (const auto* text = std::get_if<std::string>(&value)) return *text;
   if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";

@@ -34,6 +34,8 @@ struct ParameterInfo {
   /// Of a text or list: what it has to be.
   std::string word;
   std::vector<std::string> choices;
+  /// Words of the parameter `model` of the same table to which it belongs; empty: to every one.
+  std::vector<std::string> models;
   std::string sentence;      ///< what it does; Markdown
   bool at_run_time = false;  ///< may change while the node runs
   bool is_expert = false;    ///< below `expert`
@@ -47,6 +49,11 @@ std::string toText(const ParameterValue& value);
 /// requireAllowed().
 ParameterValue parseParameter(const ParameterInfo& info, const std::string& text);
 bool isAllowed(const ParameterInfo& info, const ParameterValue& value);
+/// Whether a parameter means something to a model.
+bool belongsTo(const ParameterInfo& info, const std::string& model);
+/// The models that it belongs to: "a", "a and b", "a, b and c". @param last between the last two, "and"
+/// @param quote around each
+std::string modelsOf(const ParameterInfo& info, const std::string& last, const std::string& quote = "");
 /// @throws Error naming `where` and the parameter, the value seen and what is allowed
 void requireAllowed(const ParameterInfo& info, const ParameterValue& value, const std::string& where);
 
@@ -87,6 +94,10 @@ struct Parameter {
   }
   Parameter& even() {
     info.is_even = true;
+    return *this;
+  }
+  Parameter& ofModels(std::vector<std::string> models) {
+    info.models = std::move(models);
     return *this;
   }
   Parameter& atRunTime() {

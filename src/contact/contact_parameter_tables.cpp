@@ -22,25 +22,28 @@ const ParameterTable<NormalForceSettings>& normalForceParameters() {
           "`pressure`: all over the surfaces of a region; `lumped`: one force at its centroid"),
       number<N>(
           "loading_coefficient", [](auto& n) -> auto& { return n.loading_coefficient; },
-          "of `quasi_static`, the thesis's K_p; the default gives the Hertz force of a round contact")
+          "the thesis's K_p; the default gives the Hertz force of a round contact")
+          .ofModels({"quasi_static"})
           .above(0.0),
       number<N>(
-          "stiffness", [](auto& n) -> auto& { return n.stiffness; }, "of `spring_dashpot`")
+          "stiffness", [](auto& n) -> auto& { return n.stiffness; }, "force by depth")
+          .ofModels({"spring_dashpot"})
           .inUnit("N/m")
           .above(0.0),
       number<N>(
-          "damping", [](auto& n) -> auto& { return n.damping; }, "of `quasi_static` and `spring_dashpot`")
+          "damping", [](auto& n) -> auto& { return n.damping; }, "force by the rate of the depth")
+          .ofModels({"quasi_static", "spring_dashpot"})
           .inUnit("N s/m"),
       number<N>(
           "foundation_stiffness", [](auto& n) -> auto& { return n.foundation_stiffness; },
-          "of `elastic_foundation`: pressure by depth")
+          "pressure by depth")
+          .ofModels({"elastic_foundation"})
           .inUnit("Pa/m")
           .above(0.0),
       automatic<N>(
           "radius", [](auto& n) -> auto& { return n.radius; },
-          "of `hertz` and `hunt_crossley`: relative radius of curvature at the contact; `from_overlap`: each "
-          "region its own",
-          "from_overlap")
+          "relative radius of curvature at the contact; `from_overlap`: each region its own", "from_overlap")
+          .ofModels({"hertz", "hunt_crossley"})
           .inUnit("m"),
   };
   return table;
@@ -58,21 +61,26 @@ const ParameterTable<FrictionSettings>& frictionParameters() {
           [](auto& f) -> auto& { return f.model; }, "of friction ([effects](effects.md))"),
       number<F>(
           "regularisation_speed", [](auto& f) -> auto& { return f.regularisation_speed; },
-          "of `regularised_coulomb`: below about this sliding speed the force goes to 0")
+          "below about this sliding speed the force goes to 0")
+          .ofModels({"regularised_coulomb"})
           .inUnit("m/s")
           .above(0.0),
       number<F>(
           "stribeck_speed", [](auto& f) -> auto& { return f.stribeck_speed; },
           "where the coefficient has fallen from static towards dynamic")
+          .ofModels({"regularised_coulomb", "bristle"})
           .inUnit("m/s")
           .above(0.0),
       number<F>(
           "bristle_stiffness", [](auto& f) -> auto& { return f.bristle_stiffness; },
-          "of `bristle`: friction over normal force per metre")
+          "friction over normal force per metre that the bristles are bent by")
+          .ofModels({"bristle"})
           .inUnit("1/m")
           .above(0.0),
       number<F>(
-          "bristle_damping", [](auto& f) -> auto& { return f.bristle_damping; }, "of `bristle`")
+          "bristle_damping", [](auto& f) -> auto& { return f.bristle_damping; },
+          "friction over normal force per speed of their bending")
+          .ofModels({"bristle"})
           .inUnit("s/m"),
   };
   return table;
@@ -103,6 +111,16 @@ const ParameterTable<Material>& materialParameters() {
           "viscous_friction", [](auto& m) -> auto& { return m.viscous_friction; },
           "what the coefficient grows by with the speed")
           .inUnit("s/m"),
+      number<M>(
+          "rolling_friction", [](auto& m) -> auto& { return m.rolling_friction; },
+          "torque over normal force against rolling")
+          .inUnit("m"),
+      number<M>(
+          "spinning_friction", [](auto& m) -> auto& { return m.spinning_friction; },
+          "torque over normal force against spinning about the normal, beside what friction over the "
+          "contact's "
+          "width does")
+          .inUnit("m"),
   };
   return table;
 }

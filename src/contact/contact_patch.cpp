@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "patch_gradient.h"
 
@@ -12,6 +13,8 @@ namespace {
 constexpr double kSitesAcross = 8.0;
 // Cells change their size when they are this much too large or too small.
 constexpr double kCellSlack = 2.5;
+// Bristles of other cells go on at a site that is nearer than this many cells.
+constexpr double kBristleReach = 2.0;
 // A patch pushes one way while its pressures add up to this share of their sum, and any way below the second.
 constexpr double kOneWay = 0.5;
 constexpr double kAnyWay = 0.3;
@@ -39,6 +42,10 @@ std::uint64_t cellOf(const Eigen::Vector3d& point, const Eigen::Vector3d& push, 
   return key;
 }
 
+std::uint64_t wayOf(std::uint64_t cell) {
+  return cell >> 60U;
+}
+
 /// B has come out of A on the side away from where it entered, or A of B.
 bool isPierced(const Eigen::Vector3d* first_loop, const Eigen::Vector3d* last_loop,
                const Eigen::Vector3d& entered) {
@@ -46,19 +53,48 @@ bool isPierced(const Eigen::Vector3d* first_loop, const Eigen::Vector3d* last_lo
                      [&](const Eigen::Vector3d& area) { return area.dot(entered) < -kOneWay * area.norm(); });
 }
 
-/// The state of the same cell, or after a change of their size that of the nearest one.
-const BristleState* findBristles(const PatchMemory& memory, const PatchSite& site, bool same_cells) {
-  const auto found =
-      std::lower_bound(memory.bristles.begin(), memory.bristles.end(), site.cell,
-                       [](const SiteBristles& known, std::uint64_t cell) { return known.cell < cell; });
-  if (found != memory.bristles.end() && found->cell == site.cell) return &found->bristles;
-  if (same_cells || memory.bristles.empty()) return nullptr;
-  const auto nearest = std::min_element(memory.bristles.begin(), memory.bristles.end(),
-                                        [&](const SiteBristles& l, const SiteBristles& r) {
-                                          return (l.point_in_a - site.point_in_a).squaredNorm() <
-                                                 (r.point_in_a - site.point_in_a).squaredNorm();
-                                        });
-  return &nearest->bristles;
+/// The nearest bristles that are pushed the same way.
+class NearestBristles {
+ public:
+  NearestBristles(const PatchSite& site, double cell_size) : site_(site), cell_size_(cell_size) {}
+  void consider(const SiteBristles& known, double cell_size) {
+    const double reach = kBristleReach * std::max(cell_size, cell_size_);
+    const double squared_distance = (known.point_in_a - site_.point_in_a).squaredNorm();
+    if (wayOf(known.cell) != wayOf(site_.cell) || squared_distance > std::min(least_, reach * reach)) return;
+    least_ = squared_distance;
+    nearest_ = &known.bristles;
+  }
+  const BristleState* found() const { return nearest_; }
+
+ private:
+  const PatchSite& site_;
+  double cell_size_;
+  double least_ = std::numeric_limits<double>::infinity();
+  const BristleState* nearest_ = nullptr;
+};
+
+/// @param last_cell_size of the bristles in `memory`
+const BristleState* findBristles(const PatchMemory& memory, double last_cell_size, const PatchSite& site) {
+  if (last_cell_size == memory.cell_size) {
+    const auto found =
+        std::lower_bound(memory.bristles.begin(), memory.bristles.end(), site.cell,
+                         [](const SiteBristles& known, std::uint64_t cell) { return known.cell < cell; });
+    return found != memory.bristles.end() && found->cell == site.cell ? &found->bristles : nullptr;
+  }
+  NearestBristles nearest(site, memory.cell_size);
+  for (const SiteBristles& known : memory.bristles) nearest.consider(known, last_cell_size);
+  return nearest.found();
+}
+
+/// Of the same cell, or the nearest: the surfaces are cut into other samples where a region splits.
+const BristleState* findLoose(const std::vector<LooseBristles>& loose, double cell_size,
+                              const PatchSite& site) {
+  NearestBristles nearest(site, cell_size);
+  for (const LooseBristles& known : loose) {
+    if (known.cell_size == cell_size && known.site.cell == site.cell) return &known.site.bristles;
+    nearest.consider(known.site, known.cell_size);
+  }
+  return nearest.found();
 }
 
 }  // namespace
@@ -71,7 +107,7 @@ PatchPressure ContactPatch::press(const PatchSurfaces& surfaces, const NormalFor
   PatchPressure result;
   result.pierced = isPierced(surfaces.first_loop, surfaces.last_loop, memory.entered_in_a);
   const double cell_size = patch.area > 0.0 ? cellSize(patch.area, memory.cell_size) : memory.cell_size;
-  same_cells_ = cell_size == memory.cell_size;
+  last_cell_size_ = memory.cell_size;
   memory.cell_size = cell_size;
   field_ = {law.stiffness, law.damping, b_in_a, Eigen::Vector3d::Zero()};
   if (result.pierced) field_.entered_in_a = memory.entered_in_a;
@@ -136,13 +172,14 @@ void ContactPatch::gatherSites() {
 }
 
 Wrench ContactPatch::rub(const FrictionSettings& settings, const ContactMaterial& material,
-                         const PatchMotion& motion, PatchMemory& memory,
-                         ContactLinearisation& linearisation) {
+                         const PatchMotion& motion, const std::vector<LooseBristles>& loose,
+                         PatchMemory& memory, ContactLinearisation& linearisation) {
   next_.clear();
   if (next_.capacity() < sites_.size()) next_.reserve(2 * sites_.size());
   Wrench wrench;
   for (const PatchSite& site : sites_) {
-    const BristleState* known = findBristles(memory, site, same_cells_);
+    const BristleState* known = findBristles(memory, last_cell_size_, site);
+    if (known == nullptr && !loose.empty()) known = findLoose(loose, memory.cell_size, site);
     SiteBristles& now = next_.emplace_back(
         SiteBristles{site.cell, site.point_in_a, known != nullptr ? *known : BristleState()});
     const Eigen::Vector3d& normal = site.push_in_a;

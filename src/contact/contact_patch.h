@@ -30,6 +30,12 @@ struct SiteBristles {
   BristleState bristles;
 };
 
+/// Bristles that may belong to any region.
+struct LooseBristles {
+  SiteBristles site;
+  double cell_size;  ///< metres, of the cells that it was gathered in
+};
+
 /// The surfaces of one region (Interference).
 struct PatchSurfaces {
   const OverlapSample* first_sample;
@@ -95,8 +101,10 @@ class ContactPatch {
                       const ContactMaterial& material, const RelativeTwist& b_in_a, PatchMemory& memory,
                       ContactLinearisation& linearisation);
   /// Friction of what press() has set, on B, about A's origin.
+  /// @param loose where the patch's own memory has no bristles of a cell, these may
   Wrench rub(const FrictionSettings& settings, const ContactMaterial& material, const PatchMotion& motion,
-             PatchMemory& memory, ContactLinearisation& linearisation);
+             const std::vector<LooseBristles>& loose, PatchMemory& memory,
+             ContactLinearisation& linearisation);
   const std::vector<PatchSite>& sites() const { return sites_; }
   /// Of the last press().
   const PressureField& field() const { return field_; }
@@ -107,7 +115,7 @@ class ContactPatch {
   std::vector<PatchSite> shares_;  ///< one a sample, with sums instead of means; by cell
   std::vector<PatchSite> sites_;
   std::vector<SiteBristles> next_;
-  bool same_cells_ = true;  ///< as in the last cycle
+  double last_cell_size_ = 0.0;  ///< of the memory that press() has met
   PressureField field_;
 };
 

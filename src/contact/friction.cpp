@@ -41,14 +41,11 @@ Eigen::Vector3d regularisedCoulombForce(const FrictionSettings& settings, const 
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-// Of the greatest deflection: bristles that are bent less do not slip.
-constexpr double kBreakaway = 0.7;
-
 /// alpha of Dupont et al.: from 0 below the breakaway to 1 at the greatest deflection.
-double slippingShare(double bent) {
-  if (bent <= kBreakaway) return 0.0;
+double slippingShare(double bent, double breakaway) {
+  if (bent <= breakaway) return 0.0;
   if (bent >= 1.0) return 1.0;
-  return 0.5 - 0.5 * std::cos(kPi * (bent - kBreakaway) / (1.0 - kBreakaway));
+  return 0.5 - 0.5 * std::cos(kPi * (bent - breakaway) / (1.0 - breakaway));
 }
 
 }  // namespace
@@ -73,8 +70,8 @@ Eigen::Vector3d bristleForce(const FrictionSettings& settings, const ContactMate
     state.deflection.setZero();
     return -normal_force * material.viscous_friction * sliding;
   }
-  const double share =
-      slippingShare(settings.bristle_stiffness * (before + displacement).norm() / coefficient);
+  const double share = slippingShare(
+      settings.bristle_stiffness * (before + displacement).norm() / coefficient, material.breakaway);
   const double decay = share * settings.bristle_stiffness * speed / coefficient;
   const double slip = share * settings.bristle_stiffness * displacement.norm() / coefficient;
   state.deflection = (before + displacement) / (1.0 + slip);
@@ -140,7 +137,7 @@ FrictionTangent bristleTangent(const FrictionSettings& settings, const ContactMa
   } else {
     // As far as they are bent along, they give way.
     const double bent = recent.bristles.deflection.dot(sliding) / (speed * largest_deflection);
-    along = std::clamp(1.0 - slippingShare(std::abs(bent)) * bent, 0.0, 2.0);
+    along = std::clamp(1.0 - slippingShare(std::abs(bent), material.breakaway) * bent, 0.0, 2.0);
   }
   FrictionTangent tangent;
   tangent.stiffness_along = along * normal_force * settings.bristle_stiffness;

@@ -1,5 +1,6 @@
 #include "concave_distance/contact/material.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/parameter_checks.h"
@@ -24,6 +25,8 @@ ContactMaterial inContact(const Material& a, const Material& b) {
   pair.static_friction = std::sqrt(a.static_friction * b.static_friction);
   pair.dynamic_friction = std::sqrt(a.dynamic_friction * b.dynamic_friction);
   pair.viscous_friction = std::sqrt(a.viscous_friction * b.viscous_friction);
+  pair.rolling_friction = std::max(a.rolling_friction, b.rolling_friction);
+  pair.spinning_friction = std::max(a.spinning_friction, b.spinning_friction);
   return pair;
 }
 

@@ -158,7 +158,8 @@ bool deeper(const FoundRegion& l, const FoundRegion& r) {
 }  // namespace
 
 void findInterference(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
-                      InterferenceWorkspace& workspace, Interference& result, WorkLimit* limit) {
+                      InterferenceWorkspace& workspace, Interference& result, WorkLimit* limit,
+                      const std::vector<KnownNormal>& known) {
   result.regions.clear();
   result.facets.clear();
   result.samples.clear();
@@ -170,7 +171,7 @@ void findInterference(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometr
   InterferenceWorkspace::Implementation& space = workspace.implementation();
   WorkLimit none;
   WorkLimit& work = limit != nullptr ? *limit : none;
-  space.builder.findCandidates(a, b, a_from_b, work);
+  space.builder.findCandidates(a, b, a_from_b, known, work);
   result.rounding_bound = space.builder.frame().roundingBound();
   findRegions(space, work);
   if (space.builder.wasCut()) {

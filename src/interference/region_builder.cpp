@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "mesh/surface/mesh_topology.h"
 #include "overlap_facets.h"
@@ -22,7 +23,8 @@ Eigen::Vector3d centroidOf(const BoundaryComponent& region, double rounding) {
 }  // namespace
 
 void RegionBuilder::findCandidates(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
-                                   WorkLimit& limit) {
+                                   const std::vector<KnownNormal>& known, WorkLimit& limit) {
+  known_ = &known;
   frame_.reset(a, b, a_from_b);
   cut_ = !collectCandidates(frame_, stack_, candidates_, limit);
 }
@@ -171,13 +173,14 @@ void RegionBuilder::measureDepth(const BoundaryComponent& component, bool solid,
   region.normal_is_fallback = true;
   if (component.loop_count == 0) {
     const Side side = region.a_swallowed ? Side::A : Side::B;
-    along = leastExit(frame_, side, pieces_[at(side)], component);
+    along = leastExit(frame_, side, pieces_[at(side)], component, knownNormal(region.centroid_in_a));
   } else if (region.contact_area > kCancelled * component.loop_area * length * length) {
     region.normal_is_fallback = false;
     along.normal = vector_area / region.contact_area;
     along.deepest = depthAlong(along.normal, frame_, curves_, pieces_, components_, component, overlay_);
   } else {
-    along = leastDepth(frame_, curves_, pieces_, components_, component, sets_, overlay_);
+    along = leastDepth(frame_, curves_, pieces_, components_, component, sets_,
+                       knownNormal(region.centroid_in_a), overlay_);
   }
   // On average thinner than roundings: faces that touch, also where several do round a corner.
   if (component.loop_count > 0 && component.closed && !solid &&
@@ -190,6 +193,18 @@ void RegionBuilder::measureDepth(const BoundaryComponent& component, bool solid,
   region.point_a_in_a = region.along_normal_a_in_a = frame_.pointInA(along.deepest.point_a);
   region.point_b_in_a = region.along_normal_b_in_a = frame_.pointInA(along.deepest.point_b);
   region.touching = component.loop_count > 0 && component.closed && !solid;
+}
+
+Eigen::Vector3d RegionBuilder::knownNormal(const Eigen::Vector3d& centroid_in_a) const {
+  const KnownNormal* nearest = nullptr;
+  double least = std::numeric_limits<double>::infinity();
+  for (const KnownNormal& known : *known_) {
+    const double distance = (known.centroid_in_a - centroid_in_a).norm();
+    if (distance > std::min(known.reach, least)) continue;
+    least = distance;
+    nearest = &known;
+  }
+  return nearest != nullptr ? nearest->normal_in_a : Eigen::Vector3d::Zero();
 }
 
 void RegionBuilder::addOpenRegions(std::vector<FoundRegion>& found, WorkLimit& limit) {

@@ -19,9 +19,9 @@ struct FoundRegion {
 /// Finds the regions for one infinitesimal motion of B: a pass.
 class RegionBuilder {
  public:
-  /// Once the limit is reached, passes find nothing.
+  /// Once the limit is reached, passes find nothing. @param known for the passes, too
   void findCandidates(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
-                      WorkLimit& limit);
+                      const std::vector<KnownNormal>& known, WorkLimit& limit);
   /// Whether anything coincided exactly, so that another motion may give another answer.
   bool pass(const Motion& motion_of_b, std::vector<FoundRegion>& found, WorkLimit& limit);
   bool wasCut() const { return cut_; }
@@ -34,6 +34,8 @@ class RegionBuilder {
  private:
   void addSwallowedShells(PerturbedPredicates& predicates, Side side);
   void buildRegion(const BoundaryComponent& component, FoundRegion& found);
+  /// Of the known normals the nearest; zero: none.
+  Eigen::Vector3d knownNormal(const Eigen::Vector3d& centroid_in_a) const;
   void measureReach(std::vector<FoundRegion>& found);
   void listSurfaces(std::vector<FoundRegion>& found);
   void listLoops(std::vector<FoundRegion>& found);
@@ -54,6 +56,7 @@ class RegionBuilder {
                                 const OfCurve* last_node);
 
   WorkingFrame frame_;
+  const std::vector<KnownNormal>* known_ = nullptr;
   bool cut_ = false;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> stack_;
   std::vector<CandidatePair> candidates_;

@@ -12,6 +12,40 @@ namespace concave_distance::detail {
 namespace {
 
 constexpr std::size_t kLoopDirections = 4;
+// What is the least depth to this share may be preferred.
+constexpr double kPreferred = 0.01;
+
+/// Ways out of a region, of which the least one counts, or one nearly as short that is preferred.
+class Exits {
+ public:
+  /// @param known unit, or zero: then a direction that no symmetry of round numbers is across to
+  explicit Exits(const Eigen::Vector3d& known)
+      : preferred_(known.isZero() ? Eigen::Vector3d(0.2711, 0.5341, 0.8008) : known) {}
+
+  void add(const Eigen::Vector3d& normal, const OverlayDepth::Result& deepest) {
+    exits_[count_++] = {normal, deepest};
+    least_ = std::min(least_, deepest.depth);
+  }
+  /// @param otherwise where there is none
+  DepthAlong chosen(const DepthAlong& otherwise) const {
+    const DepthAlong* best = &otherwise;
+    double most_along = -std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < count_; ++i) {
+      const double along = exits_[i].normal.dot(preferred_);
+      if (exits_[i].deepest.depth > (1.0 + kPreferred) * least_ || along <= most_along) continue;
+      most_along = along;
+      best = &exits_[i];
+    }
+    return *best;
+  }
+
+ private:
+  static constexpr std::size_t kMost = 1 + 2 * (kLoopDirections + 3);
+  Eigen::Vector3d preferred_;
+  std::array<DepthAlong, kMost> exits_;
+  std::size_t count_ = 0;
+  double least_ = std::numeric_limits<double>::infinity();
+};
 
 /// A body's support along a few directions.
 struct Extents {
@@ -82,7 +116,7 @@ OverlayDepth::Result depthAlong(const Eigen::Vector3d& normal, WorkingFrame& fra
 
 DepthAlong leastDepth(WorkingFrame& frame, const CrossingCurves& curves, const SurfacePieces (&pieces)[2],
                       BoundaryComponents& components, const BoundaryComponent& region, ElementSets& sets,
-                      OverlayDepth& overlay) {
+                      const Eigen::Vector3d& known, OverlayDepth& overlay) {
   std::array<Eigen::Vector3d, kLoopDirections + 3> directions;
   std::size_t count = 0;
   const std::uint32_t own = components.componentOfNode(region.first_node, sets);
@@ -99,28 +133,27 @@ DepthAlong leastDepth(WorkingFrame& frame, const CrossingCurves& curves, const S
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(region.facing);
   for (int k = 2; k >= 0; --k) directions[count++] = principal.eigenvectors().col(k);
 
-  DepthAlong least{Eigen::Vector3d::UnitX(),
-                   {std::numeric_limits<double>::infinity(), region.reference, region.reference}};
   const double rounding = frame.roundingBound() * frame.scale();
   const double trivial = region.volume > 2.0 * rounding * region.surface() ? rounding : -1.0;
+  Exits exits(known);
+  const auto consider = [&](const Eigen::Vector3d& normal) {
+    const OverlayDepth::Result deepest =
+        depthAlong(normal, frame, curves, pieces, components, region, overlay);
+    // A way on which none of B's part is below A's is none: flush faces, of which each side has a part only.
+    if (deepest.depth > trivial) exits.add(normal, deepest);
+  };
+  if (!known.isZero()) consider(known);
   for (std::size_t k = 0; k < count; ++k) {
     const double length = directions[k].stableNorm();
     if (!(length > 0.0)) continue;
-    for (const double sense : {1.0, -1.0}) {
-      const Eigen::Vector3d normal = (sense / length) * directions[k];
-      const OverlayDepth::Result deepest =
-          depthAlong(normal, frame, curves, pieces, components, region, overlay);
-      // A way on which none of B's part is below A's is none: flush faces, of which each side has a part
-      // only.
-      if (deepest.depth > trivial && deepest.depth < least.deepest.depth) least = {normal, deepest};
-    }
+    consider(directions[k] / length);
+    consider(-directions[k] / length);
   }
-  if (!std::isfinite(least.deepest.depth)) least.deepest.depth = 0.0;
-  return least;
+  return exits.chosen({Eigen::Vector3d::UnitX(), {0.0, region.reference, region.reference}});
 }
 
 DepthAlong leastExit(WorkingFrame& frame, Side side, const SurfacePieces& pieces,
-                     const BoundaryComponent& region) {
+                     const BoundaryComponent& region, const Eigen::Vector3d& known) {
   Eigen::Matrix<double, 6, 3> directions;
   directions.topRows<3>() =
       frame.body(Side::A).hierarchy().box(BoundingVolumeHierarchy::kRoot).axes.transpose();
@@ -135,22 +168,17 @@ DepthAlong leastExit(WorkingFrame& frame, Side side, const SurfacePieces& pieces
   });
   for (std::uint32_t v = 0; v < frame.surface(other(side)).vertexCount(); ++v)
     extents[at(other(side))].add(directions, NodeIndex{v}, frame.point(other(side), NodeIndex{v}));
-  DepthAlong least{Eigen::Vector3d::UnitX(),
-                   {std::numeric_limits<double>::infinity(), region.reference, region.reference}};
+  Exits exits(known);
   for (std::size_t k = 0; k < Extents::kDirections; ++k) {
     const Eigen::Vector3d direction = directions.row(static_cast<Eigen::Index>(k)).transpose();
-    const double up = extents[0].greatest[k] - extents[1].least[k];
-    const double down = extents[1].greatest[k] - extents[0].least[k];
-    if (up < least.deepest.depth)
-      least = {direction,
-               {up, frame.point(Side::A, extents[0].greatest_at[k]),
-                frame.point(Side::B, extents[1].least_at[k])}};
-    if (down < least.deepest.depth)
-      least = {-direction,
-               {down, frame.point(Side::A, extents[0].least_at[k]),
-                frame.point(Side::B, extents[1].greatest_at[k])}};
+    exits.add(direction,
+              {extents[0].greatest[k] - extents[1].least[k], frame.point(Side::A, extents[0].greatest_at[k]),
+               frame.point(Side::B, extents[1].least_at[k])});
+    exits.add(-direction,
+              {extents[1].greatest[k] - extents[0].least[k], frame.point(Side::A, extents[0].least_at[k]),
+               frame.point(Side::B, extents[1].greatest_at[k])});
   }
-  return least;
+  return exits.chosen({Eigen::Vector3d::UnitX(), {0.0, region.reference, region.reference}});
 }
 
 }  // namespace concave_distance::detail

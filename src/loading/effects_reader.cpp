@@ -7,15 +7,28 @@
 namespace concave_distance::detail {
 namespace {
 
+/// A parameter of another model would change nothing.
+template <typename Settings>
+void refuseUnfit(const YamlMap& map, const ParameterTable<Settings>& table, const std::string& model) {
+  for (const auto& [key, value] : map.entries()) {
+    const Parameter<Settings>* parameter = findParameter(table, key);
+    if (parameter == nullptr || belongsTo(parameter->info, model)) continue;
+    value.fail("it is a parameter of " + modelsOf(parameter->info, "and") + ", and the model is " + model,
+               "leave it out, or write model: " + modelsOf(parameter->info, "or"));
+  }
+}
+
 /// A map of parameters, or the word of its parameter `model` alone.
 template <typename Settings>
 void readModel(const YamlValue& value, const ParameterTable<Settings>& table, Settings& settings) {
+  const Parameter<Settings>& model = *findParameter(table, "model");
   if (!value.isMap()) {
-    const Parameter<Settings>& model = *findParameter(table, "model");
     model.set(settings, readParameter(value, model.info));
     return;
   }
   YamlMap map(value, "a map with model and its parameters");
+  if (const auto word = map.take("model")) model.set(settings, readParameter(*word, model.info));
+  refuseUnfit(map, table, toText(model.get(settings)));
   readParameters(map, table, false, settings);
   map.finish();
 }

@@ -131,6 +131,7 @@ SimulationRunner::SimulationRunner(ros::NodeHandle node, ros::NodeHandle private
     : scene_(std::move(scene)), parameters_(std::move(parameters)) {
   zero_ = ros::Time(kFirstStamp);
   restart();
+  for (const std::string& warning : simulation_->warnings()) ROS_WARN_STREAM(warning);
   state_publisher_ = private_node.advertise<SimulationState>("state", 10);
   if (parameters_.publish_clock) clock_publisher_ = node.advertise<rosgraph_msgs::Clock>("/clock", 10);
   restart_service_ = private_node.advertiseService("restart", &SimulationRunner::onRestart, this);

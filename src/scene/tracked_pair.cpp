@@ -43,13 +43,17 @@ bool TrackedPair::locate(const PairInput& next, const std::atomic<bool>* stop) {
 
 void TrackedPair::solve() {
   tracker_->update(input.a_from_b, input.time, solution);
-  WorkLimit limit = remainingWork(settings.tracker, solution.solve_seconds);
-  const double step = input.step.value_or(input.time - solved_input_.time);
-  effects.update(solution, step, input.b_in_a, limit);
+  if (effects.contacts() != nullptr) updateEffects();
   solved_input_ = input;
   state = PairState::Solved;
   must_solve_ = false;
   for (const TrackedNiche& niche : solution.niches) largest_id = std::max(largest_id, niche.id);
+}
+
+void TrackedPair::updateEffects() {
+  WorkLimit limit = remainingWork(settings.tracker, solution.solve_seconds);
+  const double step = input.step.value_or(input.time - solved_input_.time);
+  effects.update(solution, step, input.b_in_a, limit);
 }
 
 void TrackedPair::watchWarning() {

@@ -68,6 +68,10 @@ const SimulationCounters& Simulation::counters() const {
   return state_->counters;
 }
 
+const std::vector<std::string>& Simulation::warnings() const {
+  return state_->warnings;
+}
+
 bool Simulation::energyIsBalanced() const {
   return state_->energy.balanceShare() <= state_->settings.energy_tolerance;
 }

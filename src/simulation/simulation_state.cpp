@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "concave_distance/base/error.h"
+#include "unheld_bodies.h"
 
 namespace concave_distance {
 namespace {
@@ -47,6 +48,7 @@ Simulation::State::State(const Scene& scene, const SimulationSettings& given) : 
                   "name a body or link of the scene");
     }
   }
+  warnings = detail::warnOfUnheldBodies(scene, settings);
   addBodies(scene);
   addPairs(scene);
   addDrives();

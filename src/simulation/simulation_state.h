@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "concave_distance/simulation/simulation.h"
@@ -103,6 +104,7 @@ struct Simulation::State {
   std::vector<Wrench> external;
   EnergyAccount energy;
   SimulationCounters counters;
+  std::vector<std::string> warnings;
 
   // Of the step; by body, by pair, by coupling: first those of the pairs, in their order, then the drives.
   std::vector<detail::StepBegin> begins;

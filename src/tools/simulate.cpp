@@ -5,6 +5,7 @@
 #include <iostream>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "base/output_file.h"
 #include "base/run_tool.h"
@@ -64,6 +65,10 @@ SimulationSettings settingsOf(const Scene& scene, const CLI::App& app, const Opt
   return settings;
 }
 
+void printWarnings(const std::vector<std::string>& warnings) {
+  for (const std::string& warning : warnings) std::cerr << "warning: " << warning << '\n';
+}
+
 Scene load(const Options& options) {
   SceneLoadOptions load_options;
   load_options.package_locator = packagePathFromEnvironment;
@@ -72,6 +77,7 @@ Scene load(const Options& options) {
   for (const SceneProblem& problem : scene.problems) {
     std::cerr << problem.where << ": " << problem.message << '\n';
   }
+  printWarnings(scene.warnings);
   return scene;
 }
 
@@ -142,6 +148,7 @@ int simulate(const CLI::App& app, const Options& options) {
       {{"--output", options.output}, {"--contacts", options.contacts}, {"--niches", options.niches}});
   const Scene scene = load(options);
   Simulation simulation(scene, settingsOf(scene, app, options));
+  printWarnings(simulation.warnings());
   tools::TrajectoryLog trajectory(options.output, simulation);
   std::unique_ptr<tools::ContactLog> contacts;
   std::unique_ptr<tools::NicheLog> niches;

@@ -5,10 +5,8 @@
 #include <cmath>
 #include <utility>
 
-#include "contact/contact_patch.h"
-#include "contact/contact_point.h"
 #include "contact/motion_between.h"
-#include "lumped_linearisation.h"
+#include "region_forces.h"
 #include "region_identity.h"
 #include "relative_motion.h"
 #include "require_bodies.h"
@@ -26,19 +24,29 @@ Wrench notComputed() {
   return {Eigen::Vector3d::Constant(kNotComputed), Eigen::Vector3d::Constant(kNotComputed)};
 }
 
+/// Half of the middle one of a body's widths: of a ball, a rod, a coin and a lying cylinder the radius.
+double radiusOf(const BodyMesh& body) {
+  Eigen::Vector3d widths = body.surface().boundingBox().sizes();
+  std::sort(widths.data(), widths.data() + 3);
+  return 0.5 * widths.y();
+}
+
 }  // namespace
 
 struct PairEffects::State {
+  State(std::shared_ptr<const BodyMesh> body_a, std::shared_ptr<const BodyMesh> body_b)
+      : a(std::move(body_a)), b(std::move(body_b)), forces(std::min(radiusOf(*a), radiusOf(*b))) {}
+
   std::shared_ptr<const BodyMesh> a;
   std::shared_ptr<const BodyMesh> b;
   EffectSettings settings;
-  ContactMaterial material;
   EffectPlan plan;
   EffectCounts counts;
   InterferenceWorkspace workspace;
   Interference interference;
   RegionIdentity identity;
-  std::vector<ContactPatch> patches;  ///< by region
+  RegionForces forces;
+  std::vector<KnownNormal> known_normals;
   Eigen::Isometry3d last_pose = Eigen::Isometry3d::Identity();
   bool in_contact = false;  ///< in the last cycle, at last_pose
 
@@ -50,7 +58,12 @@ struct PairEffects::State {
   Kept kept;
 
   void findRegions(const Eigen::Isometry3d& a_from_b, WorkLimit* limit, PairContacts& contacts) {
-    findInterference(*a, *b, a_from_b, workspace, interference, limit);
+    known_normals.clear();
+    for (const RegionMemory& region : identity.memory()) {
+      if (!region.normal_in_a.isZero())
+        known_normals.push_back({region.point_in_a, region.reach, region.normal_in_a});
+    }
+    findInterference(*a, *b, a_from_b, workspace, interference, limit, known_normals);
     contacts.cut = interference.status == InterferenceStatus::Cut;
     contacts.a_inside_b = interference.a_inside_b;
     contacts.b_inside_a = interference.b_inside_a;
@@ -68,127 +81,11 @@ struct PairEffects::State {
     identity.update(solution.niches, displacement, contacts.regions);
   }
 
-  bool isPatch(const InterferenceRegion& region) const {
-    return settings.normal_force->distribution == ForceDistribution::Pressure && region.facet_count > 0;
-  }
-
-  void push(const RelativeTwist& b_in_a, PairContacts& contacts) {
-    patches.resize(std::max(patches.size(), contacts.regions.size()));
-    for (std::size_t r = 0; r < contacts.regions.size(); ++r) {
-      ContactRegion& region = contacts.regions[r];
-      if (isPatch(region.overlap)) {
-        pushPatch(r, b_in_a, contacts);
-      } else {
-        pushLumped(b_in_a, region);
-      }
-      if (std::isnan(region.normal_force)) continue;
-      region.on_b_in_a = region.normal_on_b_in_a;
-    }
-  }
-
-  void pushPatch(std::size_t r, const RelativeTwist& b_in_a, PairContacts& contacts) {
-    ContactRegion& region = contacts.regions[r];
-    PatchMemory& memory = identity.memory()[r].patch;
-    const PatchPressure pressure = patches[r].press(surfacesOf(region.overlap), *settings.normal_force,
-                                                    material, b_in_a, memory, contacts.linearisation);
-    if (region.overlap.normal_is_fallback && !memory.entered_in_a.isZero())
-      region.overlap.normal_in_a = memory.entered_in_a;
-    region.normal_on_b_in_a = pressure.on_b_in_a;
-    region.normal_force = pressure.on_b_in_a.force.norm();
-    region.force_direction_in_a = region.normal_force > 0.0
-                                      ? Eigen::Vector3d(pressure.on_b_in_a.force / region.normal_force)
-                                      : region.overlap.normal_in_a;
-    region.largest_pressure = pressure.largest_pressure;
-    region.depth_rate = pressure.depth_rate;
-    if (pressure.force > 0.0) region.point_in_a = pressure.centre_in_a;
-    const Eigen::Vector3d velocity = b_in_a.at(region.point_in_a);
-    const Eigen::Vector3d& along = region.force_direction_in_a;
-    region.sliding_in_a = velocity - along.dot(velocity) * along;
-  }
-
-  PatchSurfaces surfacesOf(const InterferenceRegion& region) const {
-    const OverlapSample* samples = interference.samples.data() + region.first_sample;
-    const Eigen::Vector3d* loops = interference.loop_areas_in_a.data() + region.first_loop;
-    return {samples,
-            samples + region.sample_count,
-            loops,
-            loops + region.loop_count,
-            region.depth,
-            region.point_a_in_a,
-            (region.point_a_in_a - region.point_b_in_a).normalized()};
-  }
-
-  void pushLumped(const RelativeTwist& b_in_a, ContactRegion& region) const {
-    ContactPoint contact = at(region);
-    setRelativeMotion(b_in_a, contact);
-    region.depth_rate = contact.geometry.depth_rate;
-    region.sliding_in_a = contact.sliding_in_a;
-    if (std::isnan(contact.geometry.depth)) return;  // an open surface: no depth, no force
-    region.normal_force = normalForce(*settings.normal_force, material, contact.geometry).force;
-    region.force_direction_in_a = contact.normal_in_a;
-    region.normal_on_b_in_a =
-        wrenchAbout(region.normal_force * contact.normal_in_a, contact.point_in_a, Eigen::Vector3d::Zero());
-  }
-
   /// Of B against A since the last cycle; `b_in_a` where it is not known.
   RelativeTwist displacement(const Eigen::Isometry3d& a_from_b, const RelativeTwist& b_in_a,
                              double step) const {
     const RelativeTwist twist = in_contact && step > 0.0 ? motionBetween(last_pose, a_from_b, step) : b_in_a;
     return {step * twist.linear, step * twist.angular};
-  }
-
-  void rub(const RelativeTwist& b_in_a, const RelativeTwist& displacement, double step,
-           PairContacts& contacts) {
-    for (std::size_t r = 0; r < contacts.regions.size(); ++r) {
-      ContactRegion& region = contacts.regions[r];
-      if (!(region.normal_force >= 0.0)) continue;
-      if (isPatch(region.overlap)) {
-        region.rubbing_on_b_in_a = patches[r].rub(settings.friction, material, {b_in_a, displacement, step},
-                                                  identity.memory()[r].patch, contacts.linearisation);
-      } else if (region.normal_force > 0.0) {
-        region.rubbing_on_b_in_a = rubLumped(displacement, region, identity.memory()[r].bristles);
-      } else {
-        continue;
-      }
-      region.friction_on_b_in_a = region.rubbing_on_b_in_a.force;
-      region.on_b_in_a += region.rubbing_on_b_in_a;
-    }
-  }
-
-  static Eigen::Vector3d acrossNormal(const RelativeTwist& displacement, const ContactRegion& region) {
-    const Eigen::Vector3d& normal = region.overlap.normal_in_a;
-    const Eigen::Vector3d shift = displacement.at(region.point_in_a);
-    return shift - normal.dot(shift) * normal;
-  }
-
-  Wrench rubLumped(const RelativeTwist& displacement, const ContactRegion& region,
-                   BristleState& bristles) const {
-    const Eigen::Vector3d force =
-        frictionForce(settings.friction, material, region.normal_force, region.overlap.normal_in_a,
-                      region.sliding_in_a, acrossNormal(displacement, region), bristles);
-    return wrenchAbout(force, region.point_in_a, Eigen::Vector3d::Zero());
-  }
-
-  void linearise(const RelativeTwist& displacement, double step, PairContacts& contacts) {
-    for (std::size_t r = 0; r < contacts.regions.size(); ++r) {
-      const ContactRegion& region = contacts.regions[r];
-      if (isPatch(region.overlap) || !(region.normal_force > 0.0)) continue;
-      addLumpedContact(settings, material, region,
-                       {acrossNormal(displacement, region), step, identity.memory()[r].bristles},
-                       contacts.linearisation);
-    }
-    mirrorUpper(contacts.linearisation.stiffness);
-    mirrorUpper(contacts.linearisation.damping);
-  }
-
-  static ContactPoint at(const ContactRegion& region) {
-    ContactPoint contact;
-    contact.point_in_a = region.point_in_a;
-    contact.normal_in_a = region.overlap.normal_in_a;
-    contact.geometry.depth = region.overlap.depth_along_normal;
-    contact.geometry.contact_area = region.overlap.contact_area;
-    contact.geometry.volume = region.overlap.volume;
-    return contact;
   }
 
   bool isDue(EffectStage stage, const PairContacts& contacts) const {
@@ -207,11 +104,9 @@ struct PairEffects::State {
 };
 
 PairEffects::PairEffects(std::shared_ptr<const BodyMesh> a, std::shared_ptr<const BodyMesh> b,
-                         const EffectSettings& settings, const ContactMaterial& material)
-    : state_(std::make_unique<State>()) {
+                         const EffectSettings& settings, const ContactMaterial& material) {
   requireBodies("PairEffects", a, b);
-  state_->a = std::move(a);
-  state_->b = std::move(b);
+  state_ = std::make_unique<State>(std::move(a), std::move(b));
   setSettings(settings, material);
 }
 PairEffects::~PairEffects() = default;
@@ -238,10 +133,11 @@ void PairEffects::update(const PairSolution& solution, const RelativeTwist& b_in
         state.identify(solution, contacts);
         break;
       case EffectStage::NormalForce:
-        state.push(b_in_a, contacts);
+        state.forces.push(state.interference, b_in_a, state.identity.memory(), contacts);
         break;
       case EffectStage::Friction:
-        state.rub(b_in_a, displacement, step, contacts);
+        state.forces.rub({b_in_a, displacement, step}, state.identity.loose(), state.identity.memory(),
+                         contacts);
         break;
     }
     const auto index = static_cast<std::size_t>(stage);
@@ -259,8 +155,10 @@ void PairEffects::update(const PairSolution& solution, const RelativeTwist& b_in
     for (const ContactRegion& region : contacts.regions) {
       if (region.normal_force >= 0.0) contacts.on_b_in_a += region.on_b_in_a;
     }
-    if (!contacts.regions.empty()) state.linearise(displacement, step, contacts);
+    if (!contacts.regions.empty())
+      state.forces.linearise({b_in_a, displacement, step}, state.identity.memory(), contacts);
   }
+  state.identity.keepNormals(contacts.regions);
   state.in_contact = !contacts.regions.empty();
   state.last_pose = solution.a_from_b;
 }
@@ -271,9 +169,8 @@ const Interference& PairEffects::surfaces() const {
 
 const PressureField* PairEffects::pressure(std::size_t index) const {
   const State& state = *state_;
-  const bool has_pressure = state.settings.normal_force && index < state.interference.regions.size() &&
-                            state.isPatch(state.interference.regions[index]);
-  return has_pressure ? &state.patches[index].field() : nullptr;
+  if (!state.settings.normal_force || index >= state.interference.regions.size()) return nullptr;
+  return state.forces.pressure(state.interference.regions[index], index);
 }
 
 void PairEffects::reset() {
@@ -296,11 +193,12 @@ void PairEffects::goBack() {
 void PairEffects::setSettings(const EffectSettings& settings, const ContactMaterial& material) {
   settings.validate(state_->a->name() + "/" + state_->b->name() + ".effects");
   state_->settings = settings;
-  state_->material = material;
+  state_->forces.setSettings(settings, material);
   state_->plan = EffectPlan(settings);
   state_->interference.regions.clear();
   for (RegionMemory& memory : state_->identity.memory()) {
     memory.bristles = {};
+    memory.turning = {};
     memory.patch.bristles.clear();
   }
 }

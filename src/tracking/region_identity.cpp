@@ -38,6 +38,49 @@ void RegionIdentity::takeNearest(std::size_t regions, std::size_t others, const 
   matches_.resize(kept);
 }
 
+void RegionIdentity::inherit() {
+  for (const Match& match : matches_) {
+    RegionMemory& now = memory_[match.region];
+    RegionMemory& before = before_[match.other];
+    now.id = before.id;
+    now.normal_in_a = before.normal_in_a;
+    now.bristles = before.bristles;
+    now.turning = before.turning;
+    std::swap(now.patch, before.patch);
+    before.patch.entered_in_a = now.patch.entered_in_a;
+  }
+  loose_.clear();
+  if (before_.empty() || (matches_.size() == memory_.size() && matches_.size() == before_.size())) return;
+  for (const Match& match : matches_) loosen(memory_[match.region].patch);
+  for (std::size_t o = 0; o < before_.size(); ++o) {
+    if (other_taken_[o] == 0) loosen(before_[o].patch);
+  }
+  splitOff();
+}
+
+void RegionIdentity::loosen(const PatchMemory& patch) {
+  for (const SiteBristles& site : patch.bristles) loose_.push_back({site, patch.cell_size});
+}
+
+// A new region in the midst of a known one is a part of it. Both turn and slide as one.
+void RegionIdentity::splitOff() {
+  for (std::size_t r = 0; r < memory_.size(); ++r) {
+    if (region_taken_[r] != 0) continue;
+    for (const RegionMemory& before : before_) {
+      if ((memory_[r].point_in_a - before.point_in_a).norm() > before.reach) continue;
+      memory_[r].normal_in_a = before.normal_in_a;
+      memory_[r].bristles = before.bristles;
+      memory_[r].turning = before.turning;
+      memory_[r].patch.entered_in_a = before.patch.entered_in_a;
+      break;
+    }
+  }
+}
+
+void RegionIdentity::keepNormals(const std::vector<ContactRegion>& regions) {
+  for (std::size_t r = 0; r < regions.size(); ++r) memory_[r].normal_in_a = regions[r].overlap.normal_in_a;
+}
+
 void RegionIdentity::update(const std::vector<TrackedNiche>& niches, double displacement,
                             std::vector<ContactRegion>& regions) {
   before_.swap(memory_);
@@ -46,7 +89,9 @@ void RegionIdentity::update(const std::vector<TrackedNiche>& niches, double disp
     memory_[r].id = 0;
     memory_[r].point_in_a = regions[r].point_in_a;
     memory_[r].reach = reachOf(regions[r].overlap);
+    memory_[r].normal_in_a.setZero();
     memory_[r].bristles = {};
+    memory_[r].turning = {};
     memory_[r].patch.clear();
   }
   const auto within = [](const Eigen::Vector3d& p, const Eigen::Vector3d& q, double reach) {
@@ -59,11 +104,7 @@ void RegionIdentity::update(const std::vector<TrackedNiche>& niches, double disp
     return within(memory_[r].point_in_a, before_[o].point_in_a,
                   memory_[r].reach + before_[o].reach + displacement);
   });
-  for (const Match& match : matches_) {
-    memory_[match.region].id = before_[match.other].id;
-    memory_[match.region].bristles = before_[match.other].bristles;
-    std::swap(memory_[match.region].patch, before_[match.other].patch);
-  }
+  inherit();
 
   // The ids: of the niches that touch, each for one region. A known id stays where its niche still is.
   other_taken_.assign(niches.size(), 0);

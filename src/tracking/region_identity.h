@@ -3,20 +3,11 @@
 #include <cstdint>
 #include <vector>
 
-#include "concave_distance/contact/friction.h"
 #include "concave_distance/tracking/pair_effects.h"
 #include "contact/contact_patch.h"
+#include "region_memory.h"
 
 namespace concave_distance {
-
-/// What is kept of a region from cycle to cycle.
-struct RegionMemory {
-  std::uint64_t id = 0;
-  Eigen::Vector3d point_in_a = Eigen::Vector3d::Zero();
-  double reach = 0.0;     ///< metres: how wide the region was
-  BristleState bristles;  ///< of a lumped force
-  PatchMemory patch;      ///< of a pressure
-};
 
 /// Tells which of the last cycle's regions each region is, and which niche it has come from.
 class RegionIdentity {
@@ -28,9 +19,13 @@ class RegionIdentity {
   void update(const std::vector<TrackedNiche>& niches, double displacement,
               std::vector<ContactRegion>& regions);
   void clear() { memory_.clear(); }
+  /// For the next cycle; once the regions' forces are known.
+  void keepNormals(const std::vector<ContactRegion>& regions);
 
   /// Of the regions of the last update(), in their order.
   std::vector<RegionMemory>& memory() { return memory_; }
+  /// Where in the last update() a region came, went, split or took another in: all bristles that there were.
+  const std::vector<LooseBristles>& loose() const { return loose_; }
 
  private:
   struct Match {
@@ -40,9 +35,13 @@ class RegionIdentity {
   };
   template <typename Accept>
   void takeNearest(std::size_t regions, std::size_t others, const Accept& accept);
+  void inherit();
+  void splitOff();
+  void loosen(const PatchMemory& patch);
 
   std::vector<RegionMemory> memory_;
   std::vector<RegionMemory> before_;
+  std::vector<LooseBristles> loose_;
   std::vector<Match> matches_;
   std::vector<char> region_taken_;
   std::vector<char> other_taken_;

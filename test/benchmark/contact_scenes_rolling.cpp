@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "benchmark/contact_scenes.h"
@@ -30,8 +31,9 @@ RoundBody rollingCylinder() {
 }
 
 /// The body on the ground, touching it by its lowest vertex.
-ContactStage rollingStage(const RoundBody& body) {
+ContactStage rollingStage(const RoundBody& body, double rolling_friction = 0.0) {
   ContactStage stage;
+  stage.material.rolling_friction = rolling_friction;
   stage.material.static_friction = stage.material.dynamic_friction = kFriction;
   stage.effects = effectsOf(NormalForceModel::HuntCrossley, FrictionModel::Bristle);
   stage.addGround();
@@ -80,6 +82,40 @@ void slidesUntilItRolls(SceneReport& report, const RoundBody& body) {
                 expected, 0.02 * expected, "v0 / (1 + I/(m R^2))", run.figures());
 }
 
+constexpr double kRollingFriction = 5e-3;  // metres
+
+/// a = g (b/R) / (1 + I / (m R^2)) holds it back.
+void rollsOut(SceneReport& report, const RoundBody& body) {
+  const double speed = 0.5;
+  ContactStage stage = rollingStage(body, kRollingFriction);
+  stage.settings.bodies.back().velocity = {speed, 0.0, 0.0};
+  stage.settings.bodies.back().angular_velocity = {0.0, speed / kRadius, 0.0};
+  const double deceleration = kGravity * kRollingFriction / kRadius / (1.0 + body.inertia);
+  const double duration = 1.5 * speed / deceleration;
+  SceneRun run(stage.simulation(), duration, report);
+  run.advanceTo(duration);
+  const bool complete = !run.step();
+  const double expected = 0.5 * speed * speed / deceleration;
+  report.equals({"way of a " + body.name + " that rolls with 0.5 m/s to rest", "m",
+                 complete ? run.body(1).centre.x() : kNotComputed},
+                expected, 0.02 * expected, "v^2 / (2 g b/R) (1 + I/(m R^2))", run.figures());
+}
+
+/// On a slope of 0.9 of the angle whose tangent is b/R.
+void isHeldOnASlope(SceneReport& report, const RoundBody& body) {
+  const double angle = 0.9 * std::atan(kRollingFriction / kRadius);
+  ContactStage stage = rollingStage(body, kRollingFriction);
+  stage.settings.gravity = kGravity * Eigen::Vector3d(std::sin(angle), 0.0, -std::cos(angle));
+  const double duration = 10.0;
+  SceneRun run(stage.simulation(), duration, report);
+  run.advanceTo(0.5 * duration);
+  const Eigen::Vector3d place = run.body(1).centre;
+  double largest = 0.0;
+  while (run.step()) largest = std::max(largest, (run.body(1).centre - place).norm());
+  report.atMost({"how far a " + body.name + " creeps on a slope below atan(b/R) in 5 s", "um", 1e6 * largest},
+                1.0, "it stands still", run.figures());
+}
+
 /// A ball stands on the lowest vertex of its mesh.
 void ballOnVertex(SceneReport& report) {
   const RoundBody body = {"sphere", makeSphere(kRadius, 0.01 * kRadius), Eigen::Matrix3d::Identity(), 0.4};
@@ -99,6 +135,12 @@ ContactScenes rollingScenes() {
       {"ball_on_vertex", "a meshed ball at rest", ballOnVertex},
       {"rolling_cylinder", "down a slope", [](SceneReport& r) { rollsDown(r, rollingCylinder()); }},
       {"rolling_sphere", "down a slope", [](SceneReport& r) { rollsDown(r, rollingSphere()); }},
+      {"rolling_out_cylinder", "rolling friction stops it",
+       [](SceneReport& r) { rollsOut(r, rollingCylinder()); }},
+      {"rolling_out_sphere", "rolling friction stops it",
+       [](SceneReport& r) { rollsOut(r, rollingSphere()); }},
+      {"held_sphere", "on a slope, by rolling friction",
+       [](SceneReport& r) { isHeldOnASlope(r, rollingSphere()); }},
       {"sliding_cylinder", "until it rolls",
        [](SceneReport& r) { slidesUntilItRolls(r, rollingCylinder()); }},
       {"sliding_sphere", "until it rolls", [](SceneReport& r) { slidesUntilItRolls(r, rollingSphere()); }}};

@@ -17,6 +17,7 @@
 #include "benchmark/support/benchmark_main.h"
 #include "benchmark/support/benchmark_pairs.h"
 #include "benchmark/support/processor_time.h"
+#include "benchmark/support/pushed_in.h"
 #include "concave_distance/tracking/pair_effects.h"
 #include "concave_distance/tracking/pair_tracker.h"
 
@@ -47,15 +48,6 @@ std::vector<Combination> combinations() {
     }
   }
   return all;
-}
-
-/// The pose with B pushed into A until the place that was nearest is `depth` deep, metres.
-Eigen::Isometry3d pushedIn(const BenchmarkPair& pair, const Eigen::Isometry3d& pose, double depth) {
-  TrackerParameters parameters;
-  parameters.niches_wanted = false;
-  const PairSolution solution = solveOnce(pair.name, pair.a, pair.b, parameters, pose);
-  const Eigen::Vector3d displacement = solution.point_a_in_a - solution.point_b_in_a;
-  return Eigen::Translation3d(displacement * (1.0 + depth / solution.distance)) * pose;
 }
 
 /// One combination along a motion.
@@ -171,7 +163,7 @@ int benchmarkMain(int argc, char** argv) {
   std::vector<std::string> names = {"battery_insertion", "peg_in_hole", "comb_in_comb",
                                     "kr5_bicep_palm",    "wam3_wam5",   "stairs_leg"};
   int steps = 200;
-  double depth = 2e-3;
+  double depth = kUsualDepth;
   std::string output;
   app.add_option("--pairs", names, "Pairs to run")->delimiter(',');
   app.add_option("--steps", steps, "Instants along each motion")->check(CLI::Range(2, 1000000));
@@ -182,15 +174,8 @@ int benchmarkMain(int argc, char** argv) {
   Report report(output);
   for (const std::string& name : names) {
     const BenchmarkPair pair = loadBenchmarkPair(name);
-    const double metres = depth * std::min(pair.a->diameter(), pair.b->diameter());
-    std::vector<Eigen::Isometry3d> apart;
-    std::vector<Eigen::Isometry3d> contact;
-    for (int k = 0; k < steps; ++k) {
-      apart.push_back(pair.motion(static_cast<double>(k) / (steps - 1)));
-      contact.push_back(pushedIn(pair, apart.back(), metres));
-    }
-    runState(pair, "apart", apart, report);
-    runState(pair, "contact", contact, report);
+    runState(pair, "apart", posesApart(pair, steps), report);
+    runState(pair, "contact", posesInContact(pair, steps, depth), report);
   }
   return 0;
 }

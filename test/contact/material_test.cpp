@@ -57,6 +57,18 @@ TEST(Material, AFrictionlessBodySlidesOnEverything) {
   EXPECT_EQ(pair.dynamic_friction, 0.0);
 }
 
+TEST(Material, TheBodyThatResistsTurningMoreCounts) {
+  Material steel;
+  Material carpet;
+  steel.spinning_friction = 1e-4;
+  carpet.rolling_friction = 5e-3;
+  for (const ContactMaterial& pair : {inContact(steel, carpet), inContact(carpet, steel)}) {
+    EXPECT_EQ(pair.rolling_friction, 5e-3);
+    EXPECT_EQ(pair.spinning_friction, 1e-4);
+  }
+  EXPECT_EQ(inContact(Material{}, Material{}).rolling_friction, 0.0);
+}
+
 TEST(Material, WhatNoMaterialHasIsRefusedByName) {
   const auto message = [](auto change) -> std::string {
     Material material;
@@ -74,6 +86,10 @@ TEST(Material, WhatNoMaterialHasIsRefusedByName) {
             "bodies.peg.material: poissons_ratio is 0.5 (allowed: from 0 to below 0.5)");
   EXPECT_EQ(message([](Material& m) { m.static_friction = 0.3; }),
             "bodies.peg.material: static_friction is 0.3 (allowed: dynamic_friction (0.4) or more, finite)");
+  EXPECT_EQ(message([](Material& m) { m.rolling_friction = -1e-3; }),
+            "bodies.peg.material: rolling_friction is -0.001 (allowed: 0 or more (m))");
+  EXPECT_EQ(message([](Material& m) { m.spinning_friction = -1.0; }),
+            "bodies.peg.material: spinning_friction is -1 (allowed: 0 or more (m))");
   EXPECT_NE(message([](Material& m) { m.dissipation = std::nan(""); }), "accepted");
   EXPECT_EQ(message([](Material&) {}), "accepted");
 }

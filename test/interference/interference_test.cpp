@@ -231,6 +231,27 @@ TEST(Interference, OfAPegThroughAPlateIsOneRegionWithTwoLoops) {
   EXPECT_NEAR(std::abs(region.normal_in_a.x()), 1.0, kRounding);
 }
 
+TEST(Interference, AFallbackNormalKeepsAKnownOneAmongThoseOfLeastDepth) {
+  const auto plate = test::makeBody(test::makeCuboid({-2, -2, -0.25}, {2, 2, 0.25}));
+  const auto peg = test::makeBody(test::makeCuboid({-0.125, -0.5, -3}, {0.125, 0.5, 3}));
+  InterferenceWorkspace workspace;
+  Interference result;
+  const auto normal = [&](const std::vector<KnownNormal>& known) {
+    findInterference(*plate, *peg, translation({0.3, 0.2, 0.1}), workspace, result, nullptr, known);
+    return result.regions.at(0).normal_in_a;
+  };
+  const Eigen::Vector3d centroid(0.3, 0.2, 0.0);
+  const Eigen::Vector3d x = Eigen::Vector3d::UnitX();
+  EXPECT_NEAR(apart(normal({}), x), 0.0, kRounding);
+  EXPECT_NEAR(apart(normal({{centroid, 0.1, -x}}), -x), 0.0, kRounding);
+  EXPECT_NEAR(apart(normal({{centroid + x, 2.0, x}, {centroid, 0.1, -x}}), -x), 0.0, kRounding) << "nearest";
+  EXPECT_NEAR(apart(normal({{centroid + x, 0.5, -x}}), x), 0.0, kRounding) << "of another region";
+  // A little aside: 0.25 / cos, within 1 %. Along z it is twice as deep.
+  const Eigen::Vector3d aside = Eigen::Vector3d(-1.0, 0.0, 0.1).normalized();
+  EXPECT_NEAR(apart(normal({{centroid, 0.1, aside}}), aside), 0.0, kRounding);
+  EXPECT_NEAR(std::abs(normal({{centroid, 0.1, Eigen::Vector3d::UnitZ()}}).x()), 1.0, kRounding);
+}
+
 TEST(Interference, OfATubeThroughAPlateIsOneRegionAlsoWhereItsEndsAreInOneTriangle) {
   const SurfaceMesh plate = test::makeCuboid({-3, -3, -0.25}, {3, 3, 0.25});
   const SurfaceMesh tube = test::makeRingThrough(12, 4, [](std::uint32_t i, std::uint32_t j) {

@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <functional>
+
+#include "contact/contact_parameter_tables.h"
 #include "loading/set_effects.h"
 #include "support/scene_fixture.h"
 
@@ -75,17 +78,75 @@ TEST_F(SceneEffects, WrongNamesAndValuesAreRefusedWithWhatIsAllowed) {
   expectRefused("{gravity: 9.81}", ".gravity", "interference, normal_force, friction");
   expectRefused("{normal_force: hurtz}", ".normal_force",
                 "quasi_static, spring_dashpot, hertz, hunt_crossley");
-  expectRefused("{normal_force: {model: hertz, stiffness: -1}}", ".normal_force.stiffness",
+  expectRefused("{normal_force: {model: spring_dashpot, stiffness: -1}}", ".normal_force.stiffness",
                 "greater than 0 (N/m)");
-  expectRefused("{normal_force: {damping: -1}}", ".normal_force.damping", "0 or more");
-  expectRefused("{normal_force: {loading_coefficient: 0}}", ".normal_force.loading_coefficient",
-                "greater than 0");
+  expectRefused("{normal_force: {model: quasi_static, damping: -1}}", ".normal_force.damping", "0 or more");
+  expectRefused("{normal_force: {model: quasi_static, loading_coefficient: 0}}",
+                ".normal_force.loading_coefficient", "greater than 0");
   expectRefused("{normal_force: {radius: 0}}", ".normal_force.radius", "from_overlap");
   expectRefused("{normal_force: hertz, friction: {model: glue}}", ".friction.model",
                 "none, regularised_coulomb, bristle");
-  expectRefused("{normal_force: hertz, friction: {bristle_stiffness: 0}}", ".friction.bristle_stiffness",
-                "greater than 0 (1/m)");
+  expectRefused("{normal_force: hertz, friction: {model: bristle, bristle_stiffness: 0}}",
+                ".friction.bristle_stiffness", "greater than 0 (1/m)");
   expectRefused("{friction: bristle}", ".friction", "add normal_force, or leave friction out");
+}
+
+/// Every parameter of `table` but the model, with each model: taken or refused as the table says.
+template <typename Settings>
+void expectFitAlone(const ParameterTable<Settings>& table, const std::string& before, const std::string& key,
+                    const std::function<std::string(const std::string&)>& refusalOf) {
+  const Settings defaults;
+  std::size_t refused = 0;
+  for (const std::string& model : findParameter(table, "model")->info.choices) {
+    for (const Parameter<Settings>& parameter : table) {
+      const ParameterInfo& info = parameter.info;
+      if (info.name == "model") continue;
+      const std::string text = refusalOf("{" + before + key + ": {model: " + model + ", " + info.name + ": " +
+                                         toText(parameter.get(defaults)) + "}}");
+      if (belongsTo(info, model)) {
+        EXPECT_EQ(text, "") << model << ", " << info.name;
+        continue;
+      }
+      ++refused;
+      EXPECT_TRUE(mentions(text, "scene.yaml:4, defaults.effects." + key + "." + info.name + ": ")) << text;
+      EXPECT_TRUE(mentions(text, "and the model is " + model)) << text;
+      for (const std::string& other : info.models) EXPECT_TRUE(mentions(text, other)) << text;
+      EXPECT_TRUE(mentions(text, "leave it out, or write model: ")) << text;
+    }
+  }
+  EXPECT_GT(refused, 0U);
+}
+
+TEST_F(SceneEffects, AParameterOfAnotherModelIsRefusedWithTheModelsItBelongsTo) {
+  const auto refusal_of = [this](const std::string& effects) -> std::string {
+    try {
+      load(kTwoBalls + "defaults: {effects: " + effects + "}\n");
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  expectFitAlone(normalForceParameters(), "", "normal_force", refusal_of);
+  expectFitAlone(frictionParameters(), "normal_force: hertz, ", "friction", refusal_of);
+  expectRefused(
+      "{normal_force: {model: hertz, damping: 2}}", ".normal_force.damping",
+      "it is a parameter of quasi_static and spring_dashpot, and the model is hertz (leave it out, or "
+      "write model: quasi_static or spring_dashpot)");
+}
+
+TEST_F(SceneEffects, TheModelThatAParameterIsLaidOverCounts) {
+  const std::string defaults = "defaults: {effects: {normal_force: {model: spring_dashpot, stiffness: 5}}}\n";
+  const Scene scene =
+      load(kTwoBalls + defaults + "pairs:\n  - {between: [a, b], effects: {normal_force: {damping: 3}}}\n");
+  EXPECT_EQ(scene.pairs.at(0).settings.effects.normal_force->damping, 3.0);
+  const std::string text =
+      refusal(kTwoBalls + defaults + "pairs:\n  - {between: [a, b], effects: {normal_force: {radius: 1}}}\n");
+  EXPECT_TRUE(mentions(text, "and the model is spring_dashpot")) << text;
+  Scene served = load(kTwoBalls + defaults);
+  setEffects(served, "*", "{normal_force: {stiffness: 7}}");
+  EXPECT_EQ(served.pairs.at(0).settings.effects.normal_force->stiffness, 7.0);
+  EXPECT_THROW(setEffects(served, "*", "{normal_force: {foundation_stiffness: 7}}"), Error);
+  EXPECT_THROW(setEffects(served, "*", "{normal_force: {model: hertz, stiffness: 7}}"), Error);
 }
 
 TEST_F(SceneEffects, EffectsNeedAProof) {

@@ -185,7 +185,9 @@ TEST_F(EffectsInTheCycle, RunWhileSomebodyWantsThemAndWithTheVelocityOfTheTransf
 
 TEST_F(EffectsInTheCycle, ChangeWithTheSettings) {
   run(0, kContacts);
-  EXPECT_EQ(setEffects(scene, "a/?", "{normal_force: {stiffness: 200, damping: 0}}").size(), 2U);
+  EXPECT_EQ(
+      setEffects(scene, "a/?", "{normal_force: {model: spring_dashpot, stiffness: 200, damping: 0}}").size(),
+      2U);
   cycle.setScene(scene);
   EXPECT_EQ(interferenceRuns(cycle.run({kContacts, kIdle}, at(0))), 1U) << "without new transforms";
   EXPECT_NEAR(contacts()->on_b_in_a.force.x(), 200.0 * 0.01, kSums);

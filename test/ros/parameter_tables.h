@@ -22,8 +22,9 @@ inline std::string tableRow(const ParameterInfo& info, const ParameterValue& val
   }
   if (info.type == ParameterType::Flag) values.clear();
   const std::string star = info.at_run_time ? "*" : "";
-  return "| `" + prefix + info.name + "`" + star + " | " + shown + " | " + values + " | " + info.sentence +
-         " |\n";
+  const std::string of = info.models.empty() ? "" : "of " + modelsOf(info, "and", "`") + ": ";
+  return "| `" + prefix + info.name + "`" + star + " | " + shown + " | " + values + " | " + of +
+         info.sentence + " |\n";
 }
 
 template <typename Settings>

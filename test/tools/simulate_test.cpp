@@ -90,6 +90,17 @@ TEST_F(Simulate, FailsWhereTheEnergyIsNotBalanced) {
   EXPECT_EQ(readTable(folder.path("out.csv")).size(), 21U);
 }
 
+TEST_F(Simulate, NamesABodyThatNothingCanHold) {
+  ASSERT_EQ(run("scene.yaml --output out.csv"), 0) << log();
+  EXPECT_FALSE(logHas("warning")) << log();
+  std::string scene = kScene;
+  const std::string force = "{normal_force: {model: elastic_foundation, foundation_stiffness: 1e6}}";
+  scene.replace(scene.find(force), force.size(), "{interference: true}");
+  folder.write("scene.yaml", scene);
+  ASSERT_EQ(run("scene.yaml --output out.csv"), 0) << log();
+  EXPECT_TRUE(logHas("warning: scene.yaml:12, simulation.bodies[0]: body 'cube' falls for good")) << log();
+}
+
 TEST_F(Simulate, SaysWhatIsWrong) {
   folder.write("bare.yaml", "bodies: []\n");
   EXPECT_EQ(run("bare.yaml --output out.csv"), 1);

@@ -170,5 +170,96 @@ TEST(ContactPatch, TheForceOfATessellatedBallChangesAsItsStiffnessSaysInTheSmall
   }
 }
 
+// So shallow that what happens at the bumps' edges does not count.
+constexpr double kLedge = 2e-5;
+constexpr double kShallow = 1e-5;             // two regions
+constexpr double kDeep = 1.001 * kLedge;      // one: the ledge bears less than 1e-3 of the load
+constexpr double kShift = 1e-5;               // bends the bristles to 0.2 of what they bear
+constexpr double kBumps = 2.0 * 0.02 * 0.03;  // m^2
+constexpr double kStiff = 1e11;               // Pa/m
+
+/// A bar along y with two flat bumps, 20 mm wide and 40 mm apart, and between them a ledge that much lower.
+SurfaceMesh bumpyBar(double ledge) {
+  const SurfaceMesh profile = test::makeExtrusion({{-0.03, -0.02},
+                                                   {0.03, -0.02},
+                                                   {0.03, 0.0},
+                                                   {0.01, 0.0},
+                                                   {0.01, -ledge},
+                                                   {-0.01, -ledge},
+                                                   {-0.01, 0.0},
+                                                   {-0.03, 0.0}},
+                                                  0.04);
+  std::vector<Eigen::Vector3d> vertices;
+  for (const Eigen::Vector3d& v : profile.vertices()) vertices.emplace_back(v.x(), -v.z(), v.y());
+  return SurfaceMesh(std::move(vertices), profile.triangles(), "bumpy bar");
+}
+
+/// A block on the bar, `depth` below the tops of the bumps, `shift` along x.
+struct BridgedBumps {
+  EffectScene scene{body("bar", bumpyBar(kLedge)), body("block", makeBox({0.2, 0.03, 0.02})),
+                    foundation(kStiff, FrictionModel::Bristle)};
+  double depth = 0.0;
+  double shift = 0.0;
+
+  void goTo(double new_depth, double new_shift) {
+    RelativeTwist twist;
+    twist.linear = Eigen::Vector3d(new_shift - shift, 0.0, depth - new_depth) / 0.01;
+    depth = new_depth;
+    shift = new_shift;
+    scene.update(at(shift, 0.0, 0.01 - depth), 0.01, twist);
+    twist.linear.setZero();
+    scene.update(at(shift, 0.0, 0.01 - depth), 0.01, twist);  // at rest: without the bristles' damping
+  }
+  std::size_t regions() const { return scene.contacts.regions.size(); }
+  double friction() const { return -scene.contacts.on_b_in_a.force.x(); }
+};
+
+/// sigma_0 z N of bristles that were bent by kShift, whatever the regions did in between.
+double frictionAt(double depth) {
+  return FrictionSettings().bristle_stiffness * kShift * kStiff * kBumps * depth;
+}
+
+TEST(ContactPatch, BristlesGoOnWhenARegionSplits) {
+  BridgedBumps bumps;
+  bumps.goTo(kDeep, 0.0);
+  bumps.goTo(kDeep, kShift);
+  ASSERT_EQ(bumps.regions(), 1U);
+  EXPECT_NEAR(bumps.friction(), frictionAt(kDeep), 5e-3 * frictionAt(kDeep));
+  bumps.goTo(kShallow, kShift);
+  ASSERT_EQ(bumps.regions(), 2U);
+  EXPECT_NEAR(bumps.friction(), frictionAt(kShallow), 5e-3 * frictionAt(kShallow));
+}
+
+TEST(ContactPatch, BristlesGoOnWhenRegionsBecomeOne) {
+  BridgedBumps bumps;
+  bumps.goTo(kShallow, 0.0);
+  bumps.goTo(kShallow, kShift);
+  ASSERT_EQ(bumps.regions(), 2U);
+  bumps.goTo(kDeep, kShift);
+  ASSERT_EQ(bumps.regions(), 1U);
+  EXPECT_NEAR(bumps.friction(), frictionAt(kDeep), 5e-3 * frictionAt(kDeep));
+}
+
+// A tilted block touches one bump first and rubs there before it touches the other.
+TEST(ContactPatch, ANewRegionBesideAKnownOneHasNoBristles) {
+  EffectScene scene(body("bar", bumpyBar(1e-3)), body("block", makeBox({0.2, 0.03, 0.02})),
+                    foundation(1e9, FrictionModel::Bristle));
+  const auto pose = [](double depth, double shift) {
+    return at(shift, 0.0, 0.0) * Eigen::AngleAxisd(5e-3, Eigen::Vector3d::UnitY()) *
+           at(0.0, 0.0, 0.01 - depth);
+  };
+  scene.update(pose(0.0, 0.0));
+  scene.update(pose(0.0, kShift));
+  scene.update(pose(0.0, kShift));
+  ASSERT_EQ(scene.contacts.regions.size(), 1U);
+  scene.update(pose(8e-5, kShift));
+  ASSERT_EQ(scene.contacts.regions.size(), 2U);
+  for (const ContactRegion& region : scene.contacts.regions) {
+    const double bent =
+        -region.friction_on_b_in_a.x() / region.normal_force / FrictionSettings().bristle_stiffness;
+    EXPECT_NEAR(bent, region.point_in_a.x() > 0.0 ? kShift : 0.0, 0.2 * kShift) << region.point_in_a.x();
+  }
+}
+
 }  // namespace
 }  // namespace concave_distance

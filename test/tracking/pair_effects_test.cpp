@@ -182,6 +182,32 @@ TEST(PairEffects, GoingBackForgetsWhatCameSinceItWasKept) {
   EXPECT_EQ(scene.contacts.on_b_in_a.force, once);
 }
 
+TEST(PairEffects, GoingBackBendsTheBristlesOfRollingAndSpinningBack) {
+  EffectScene scene(body("a", makeBox({1, 1, 1})), body("b", makeBox({0.5, 0.5, 0.5})),
+                    spring(2e4, FrictionModel::Bristle));
+  Material carpet;
+  carpet.rolling_friction = carpet.spinning_friction = 0.01;
+  scene.effects.setSettings(scene.effects.settings(), inContact(carpet, carpet));
+  const auto turned = [](double angle) {
+    return at(0, 0, 0.74) * Eigen::AngleAxisd(angle, Eigen::Vector3d(0.6, 0.0, 0.8));
+  };
+  scene.update(turned(0.0));
+  scene.update(turned(1e-7));
+  scene.effects.keep();
+  scene.update(turned(3e-7));
+  const ContactRegion region = scene.contacts.regions.at(0);
+  const Eigen::Vector3d once = region.rubbing_on_b_in_a.torque;
+  // Torsional springs of sigma_0 R^2 a newton, R half of B's width, besides the friction at its point.
+  const double stiffness = FrictionSettings().bristle_stiffness * 0.25 * 0.25 * region.normal_force;
+  const Eigen::Vector3d turning = once - region.point_in_a.cross(region.friction_on_b_in_a);
+  EXPECT_LT((turning + stiffness * 3e-7 * Eigen::Vector3d(0.6, 0.0, 0.8)).norm(), 1e-6 * stiffness * 3e-7);
+  scene.update(turned(7e-7));
+  EXPECT_LT(scene.contacts.regions.at(0).rubbing_on_b_in_a.torque.z(), once.z());
+  scene.effects.goBack();
+  scene.update(turned(3e-7));
+  EXPECT_EQ(scene.contacts.regions.at(0).rubbing_on_b_in_a.torque, once);
+}
+
 TEST(PairEffects, ItsLinearisationIsThatOfItsWrench) {
   EffectScene scene(body("a", makeBox({1, 1, 1})), body("b", makeBox({0.5, 0.5, 0.5})),
                     spring(2e4, FrictionModel::Bristle));

@@ -29,7 +29,14 @@ inline void addDirection(double coefficient, const Eigen::Vector3d& direction, c
   }
 }
 
-/// Copies the upper triangle into the lower, after the last addDirection().
+/// The same of a torsional spring, or damper, about the unit vector `axis`.
+inline void addAxis(double coefficient, const Eigen::Vector3d& axis, Matrix6d& sum) {
+  for (int column = 0; column < 3; ++column) {
+    sum.col(3 + column).segment(3, column + 1) += coefficient * axis[column] * axis.head(column + 1);
+  }
+}
+
+/// Copies the upper triangle into the lower, after the last addDirection() or addAxis().
 inline void mirrorUpper(Matrix6d& sum) {
   for (int column = 0; column < 6; ++column) {
     for (int row = 0; row < column; ++row) sum(column, row) = sum(row, column);

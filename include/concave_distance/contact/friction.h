@@ -52,11 +52,11 @@ struct BristleState {
 
 /// LuGre (Canudas de Wit, Olsson, Astrom, Lischinsky 1995), per unit of normal force:
 /// z' = v - alpha sigma_0 |v| z / g(v), F = -N (sigma_0 z + sigma_1 z' + mu_v v), g the Stribeck coefficient;
-/// alpha is 0 while the bristles are bent to less than 0.7 of their limit, so that nothing creeps under a
-/// load that swings (Dupont, Hayward, Armstrong, Altpeter 2002). The state goes on with the implicit rule z =
-/// (z + s) / (1 + sigma_0 |s| / g), s the displacement since the last call, which is stable for every step.
-/// It is first turned into the plane that `normal` is perpendicular to; a force above the friction cone of
-/// mu_s N is cut to it. Without load the bristles stand up again.
+/// alpha is 0 while the bristles are bent to less than `breakaway` of their limit, so that nothing creeps
+/// under a load that swings (Dupont, Hayward, Armstrong, Altpeter 2002). The state goes on with the implicit
+/// rule z = (z + s) / (1 + sigma_0 |s| / g), s the displacement since the last call, which is stable for
+/// every step. It is first turned into the plane that `normal` is perpendicular to; a force above the
+/// friction cone of mu_s N is cut to it. Without load the bristles stand up again.
 /// @param sliding velocity of B relative to A in the tangent plane, A's frame, m/s
 /// @param displacement of B against A in the tangent plane since the last call, A's frame, metres
 Eigen::Vector3d bristleForce(const FrictionSettings& settings, const ContactMaterial& material,

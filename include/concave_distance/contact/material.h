@@ -12,6 +12,10 @@ struct Material {
   double static_friction = 0.5;   ///< coefficient at rest, >= dynamic_friction
   double dynamic_friction = 0.4;  ///< coefficient while sliding, >= 0
   double viscous_friction = 0.0;  ///< s/m: what the coefficient grows by with the sliding speed, >= 0
+  /// Torque over normal force against rolling, and against spinning about the normal beside what friction all
+  /// over the contact does, metres, >= 0.
+  double rolling_friction = 0.0;
+  double spinning_friction = 0.0;
 
   /// @throws Error naming the parameter, the value seen and the allowed range
   void validate(const std::string& where) const;
@@ -28,6 +32,12 @@ struct ContactMaterial {
   double static_friction;
   double dynamic_friction;
   double viscous_friction;
+  /// The larger ones, as MuJoCo does: a steel ball is held back by the carpet it rolls on. (Bullet: each
+  /// body's times the other's sliding coefficient, added up.)
+  double rolling_friction = 0.0;
+  double spinning_friction = 0.0;
+  /// Bristles that are bent by less than this share of their largest deflection do not slip.
+  double breakaway = 0.7;
 };
 
 ContactMaterial inContact(const Material& a, const Material& b);

@@ -82,7 +82,8 @@ struct InterferenceRegion {
   /// faces.
   bool touching = false;
   /// The vector areas of the loops cancel (a peg through a plate) or there is none (a swallowed shell): the
-  /// normal is then the one of least depth among a few candidates.
+  /// normal is then one of a few candidates whose depth is the least to 1 %: of those the one most along the
+  /// known normal, or without one along a fixed direction, so that rounding decides nothing.
   bool normal_is_fallback = false;
   bool a_swallowed = false;  ///< a shell of A inside B that meets no surface of B
   bool b_swallowed = false;  ///< the same of B in A
@@ -126,13 +127,24 @@ class InterferenceWorkspace {
   std::unique_ptr<Implementation> implementation_;
 };
 
+/// The normal that a region has had.
+struct KnownNormal {
+  Eigen::Vector3d centroid_in_a;
+  double reach;  ///< metres: regions farther from it are others
+  Eigen::Vector3d normal_in_a;
+};
+
 /// All regions where the bodies overlap. Exact but for the rounding of B's vertices into A's frame and of the
 /// crossing points: which triangles cross where is decided by exact predicates, exact coincidences by moving
 /// B by an infinitesimal and by minus that. a_from_b must be rigid to rounding. Time grows with the crossing
 /// triangles, the surface inside the other body and the logarithm of the rest. Never throws but for lack of
 /// memory; allocates nothing once workspace and result have grown.
 /// @param limit checked for every pair of boxes and of triangles, and between passes; nullptr: none
+/// @param known a moment ago: of these a fallback normal (normal_is_fallback) keeps the nearest while its
+/// depth
+///        is within 1 % of the least
 void findInterference(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
-                      InterferenceWorkspace& workspace, Interference& result, WorkLimit* limit = nullptr);
+                      InterferenceWorkspace& workspace, Interference& result, WorkLimit* limit = nullptr,
+                      const std::vector<KnownNormal>& known = {});
 
 }  // namespace concave_distance

@@ -94,6 +94,7 @@ struct TrackedPair {
 
  private:
   void prepare(const std::atomic<bool>* stop);
+  void updateEffects();
 
   std::unique_ptr<PairTracker> tracker_;  ///< made when the pair is first watched
   bool stale_parameters_ = false;         ///< the tracker has to be given the settings again

@@ -15,7 +15,7 @@ struct EnergyAccount {
 
   // Since the start, done on the free bodies.
   double normal_work = 0.0;    ///< of contact forces along the normal; < 0: lost, or still in a contact
-  double friction_work = 0.0;  ///< of friction
+  double friction_work = 0.0;  ///< of friction, against rolling and spinning too
   double load_work = 0.0;      ///< of applied loads
   double drive_work = 0.0;     ///< of moving the drives' targets
   double drive_loss = 0.0;     ///< taken by the drives' dampers, >= 0

@@ -121,6 +121,8 @@ class Simulation {
   const std::vector<SimulatedPair>& pairs() const;   ///< enabled ones with a body that moves
   const EnergyAccount& energy() const;
   const SimulationCounters& counters() const;
+  /// What is probably a mistake in the scene, each with a remedy: free bodies that nothing can hold.
+  const std::vector<std::string>& warnings() const;
   /// Whether the error of the energy balance is within SimulationSettings::energy_tolerance.
   bool energyIsBalanced() const;
   /// Total linear and angular (about the world's origin) momentum of the free bodies, kg m/s and kg m^2/s.

@@ -1,0 +1,71 @@
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "simulation/box_stack.h"
+#include "support/plain_shapes.h"
+
+namespace concave_distance {
+namespace {
+
+using test::SceneBuilder;
+using test::stackOf;
+
+std::vector<std::string> warningsOf(const SceneBuilder& builder) {
+  return builder.simulation().warnings();
+}
+
+TEST(UnheldBodies, AStackOnAFloorIsHeldOverAllItsBoxes) {
+  EXPECT_TRUE(warningsOf(stackOf({1.0, 1.0, 1.0})).empty());
+}
+
+TEST(UnheldBodies, WhatHangsOnNothingIsNamedWithARemedy) {
+  SceneBuilder builder = stackOf({1.0, 1.0, 1.0});
+  builder.scene.pairs.edit(1).settings.effects.normal_force.reset();  // box0/box1
+  builder.settings.bodies[2].where = "scene.yaml:7, simulation.bodies[2]";
+  const std::vector<std::string> warnings = warningsOf(builder);
+  ASSERT_EQ(warnings.size(), 2U);
+  EXPECT_EQ(
+      warnings[0],
+      "scene.yaml:7, simulation.bodies[2]: body 'box1' falls for good: no enabled pair with a normal_force "
+      "leads to a body that is held; give such a pair `effects: {normal_force: ...}`, give the body a "
+      "drive, or fix it");
+  EXPECT_EQ(warnings[1].substr(0, 28), "body 'box2' falls for good: ");
+}
+
+TEST(UnheldBodies, ADisabledPairHoldsNothing) {
+  SceneBuilder builder = stackOf({1.0});
+  builder.scene.pairs.edit(0).enabled = false;
+  EXPECT_EQ(warningsOf(builder).size(), 1U);
+}
+
+TEST(UnheldBodies, AnOpenSurfaceHoldsNothing) {
+  SceneBuilder builder;
+  builder.addBody("sheet", test::makeOpened(makeBox({1.0, 1.0, 0.1}), 0));
+  builder.addBody("box", makeBox({0.1, 0.1, 0.1}));
+  builder.addPair().effects.normal_force.emplace();
+  builder.setFree("box", 1.0).pose = test::at(0.0, 0.0, 1.0);
+  EXPECT_EQ(warningsOf(builder).size(), 1U);
+}
+
+TEST(UnheldBodies, ADriveOrALoadHoldsABodyAndWhatStandsOnIt) {
+  SceneBuilder builder = stackOf({1.0, 1.0});
+  builder.scene.pairs.edit(0).enabled = false;
+  EXPECT_EQ(warningsOf(builder).size(), 2U);
+  builder.settings.bodies[1].loads.emplace_back();
+  EXPECT_TRUE(warningsOf(builder).empty());
+  builder.settings.bodies[1].loads.clear();
+  builder.settings.bodies[1].drive.emplace();
+  builder.settings.bodies[1].drive->target = {{0.0, Eigen::Isometry3d::Identity()}};
+  EXPECT_TRUE(warningsOf(builder).empty());
+}
+
+TEST(UnheldBodies, WithoutGravityNothingFalls) {
+  SceneBuilder builder = stackOf({1.0});
+  builder.scene.pairs.edit(0).enabled = false;
+  builder.settings.gravity.setZero();
+  EXPECT_TRUE(warningsOf(builder).empty());
+}
+
+}  // namespace
+}  // namespace concave_distance
