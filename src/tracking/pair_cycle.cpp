@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <limits>
 #include <utility>
 
 #include "distance/minima_scene.h"
 #include "distance/plateau_tolerance.h"
+#include "distance/round_certificate.h"
 #include "distance/solid_overlap.h"
 #include "mesh/trees/normal_cone_tree.h"
 #include "node_niches.h"
@@ -37,6 +39,7 @@ PairCycle::PairCycle(std::string name, std::shared_ptr<const BodyMesh> a, std::s
       search_(*geometry_.a, *geometry_.b) {
   parameters_.validate(name_);
   archive_.beginIdsAfter(largest_used_id);
+  round_.beginIdsAfter(largest_used_id);
 }
 
 void PairCycle::update(const Eigen::Isometry3d& pose, double time, PairSolution& solution, bool is_tracked) {
@@ -55,9 +58,8 @@ void PairCycle::update(const Eigen::Isometry3d& pose, double time, PairSolution&
   }
   geometry_.setPose(*rigid);
   const double elapsed = warm_ && time > last_time_ ? time - last_time_ : 0.0;
-  const double displacement =
-      warm_ ? largestDisplacement(geometry_.b->surface().boundingBox(), last_pose_, *rigid)
-            : std::numeric_limits<double>::infinity();
+  const double displacement = warm_ ? largestDisplacement(geometry_.b->bounds(), last_pose_, *rigid)
+                                    : std::numeric_limits<double>::infinity();
   stage_clock_.start();
   runStages(displacement, elapsed, solution);
   report(displacement, elapsed, solution);
@@ -84,7 +86,9 @@ void PairCycle::runStages(double displacement, double elapsed, PairSolution& sol
     stage_clock_.lap(SolveStage::Prove, solution.stages);
   }
   if (!wantsNiches()) return;
-  if (isExact()) {
+  if (isRound()) {
+    solveRound(displacement, elapsed, solution);
+  } else if (isExact()) {
     solveExact(displacement, elapsed, solution);
   } else {
     solveNodes(displacement, elapsed, solution);
@@ -93,8 +97,8 @@ void PairCycle::runStages(double displacement, double elapsed, PairSolution& sol
 
 void PairCycle::prove(double displacement) {
   std::optional<TrianglePair> nearest;
-  if (!archive_.records().empty()) {
-    const WitnessPair& witness = archive_.records().front().niche.witness;
+  if (!niches().empty()) {
+    const WitnessPair& witness = niches().front().niche.witness;
     nearest = TrianglePair{witness.triangle_a, witness.triangle_b};
   }
   distance_before_ = warm_ ? proof_.certificate().distance : kNotComputed;
@@ -124,15 +128,33 @@ void PairCycle::solveExact(double displacement, double elapsed, PairSolution& so
   stage_clock_.lap(SolveStage::Follow, solution.stages);
   if (searchIsDue()) proposeMinima(solution.cost);
   if (proves() && !proof_.isPenetrating()) {
-    niches_.proposeProven(geometry_, proof_.certificate().witness);
+    niches_.proposeProven(geometry_, provenOnMeshes());
   }
   stage_clock_.lap(SolveStage::Propose, solution.stages);
-  niches_.admit(geometry_, parameters_, {cycle_, last_pose_, elapsed, is_tracked_}, certainDistance(),
-                kShareOfNiches, archive_, solution, limit_);
+  niches_.admit(geometry_, parameters_, {cycle_, last_pose_, elapsed, is_tracked_, cutoffOfMeshes()},
+                certainDistance(), kShareOfNiches, archive_, solution, limit_);
   search_.earn(niches_.work(), parameters_.search_share);
   stage_clock_.lap(SolveStage::Admit, solution.stages);
   solution.stages[SolveStage::Sweep] = niches_.cost().sweep_seconds;
   solution.stages[SolveStage::Admit] -= niches_.cost().sweep_seconds;
+}
+
+// Two round solids are convex: their one niche needs no search.
+void PairCycle::solveRound(double displacement, double elapsed, PairSolution& solution) {
+  const bool stands = warm_ && displacement == 0.0 && !round_.records().empty();
+  if (!isPairOfShapes()) solveExact(displacement, elapsed, solution);
+  if (stands && (isPairOfShapes() || niches_.stands(displacement))) return round_.stand(elapsed);
+  round_.update(geometry_, archive_, {cycle_, warm_ ? displacement : 0.0, elapsed}, solution.events);
+}
+
+// The certificate's is between the exact surfaces.
+WitnessPair PairCycle::provenOnMeshes() {
+  const WitnessPair& witness = proof_.certificate().witness;
+  return isRound() ? geometry_.refine(witness.triangle_a, witness.triangle_b).witness : witness;
+}
+
+double PairCycle::cutoffOfMeshes() const {
+  return parameters_.cutoff + (isRound() ? RoundNiches::meshExcess(geometry_) : 0.0);
 }
 
 // Where all minima are looked for besides, the search keeps to its share: a first cycle has earned none, but
@@ -191,7 +213,7 @@ void PairCycle::reportAlone(double elapsed, PairSolution& solution) {
 }
 
 void PairCycle::listNiches(PairSolution& solution) {
-  std::vector<NicheRecord>& records = archive_.records();
+  std::vector<NicheRecord>& records = niches();
   if (!records.empty()) {
     records.front().niche.prominence = std::numeric_limits<double>::infinity();
   }
@@ -216,7 +238,7 @@ void PairCycle::listNiches(PairSolution& solution) {
 }
 
 void PairCycle::reportNearest(PairSolution& solution) {
-  const std::vector<NicheRecord>& records = archive_.records();
+  const std::vector<NicheRecord>& records = niches();
   if (!records.empty()) {
     const TrackedNiche& nearest = records.front().niche;
     solution.distance = nearest.distance;
@@ -228,14 +250,17 @@ void PairCycle::reportNearest(PairSolution& solution) {
       return;
     }
   }
-  const bool overlap = isContained(*geometry_.a, *geometry_.b, geometry_.a_from_b, limit_).value_or(false);
+  const bool overlap =
+      isRound() ? isRoundContained(*geometry_.a, *geometry_.b, geometry_.a_from_b)
+                : isContained(*geometry_.a, *geometry_.b, geometry_.a_from_b, limit_).value_or(false);
   const MinimumSeed* known = niches_.nearestProposed();
   const bool is_known_alone = records.empty() && limit_.hasRefused();
   if (isExact() && known != nullptr && (overlap || is_known_alone)) {
     // Not a niche, but still a bound of the distance: through material, or there was no time to find one.
     const WitnessPair witness =
-        detail::MinimaScene(*geometry_.a, *geometry_.b, geometry_.a_from_b).witnessOf(*known);
-    solution.distance = known->distance;
+        isRound() ? refineRoundWitness(*geometry_.a, *geometry_.b, geometry_.a_from_b, {known->a, known->b})
+                  : detail::MinimaScene(*geometry_.a, *geometry_.b, geometry_.a_from_b).witnessOf(*known);
+    solution.distance = isRound() ? std::sqrt(witness.squared_distance) : known->distance;
     solution.point_a_in_a = witness.point_a_in_a;
     solution.point_b_in_a = witness.point_b_in_a;
   }
@@ -262,7 +287,7 @@ void PairCycle::reportMiss(double displacement, PairSolution& solution) const {
 
 // After the limit the answer is incomplete, even with a finished proof.
 void PairCycle::reportLimit(PairSolution& solution) const {
-  const bool all = niches_.isFinished() && !limit_.hasRefused();
+  const bool all = (niches_.isFinished() || isPairOfShapes()) && !limit_.hasRefused();
   solution.niches_complete = proves() && parameters_.niches_wanted && all && !solution.niches_cut;
   if (!limit_.hasRefused() || solution.status == SolveStatus::Penetrating) return;
   solution.status = limit_.hasRefusedTime() ? SolveStatus::BudgetExhausted : SolveStatus::MemoryExhausted;
@@ -303,6 +328,7 @@ void PairCycle::prepare() {
 
 void PairCycle::reset() {
   archive_.clear();
+  round_.clear();
   proof_.clear();
   niches_.clear();
   search_.restart();
@@ -312,6 +338,7 @@ void PairCycle::reset() {
 void PairCycle::restart() {
   reset();
   archive_.beginIdsAfter(largest_used_id_);
+  round_.beginIdsAfter(largest_used_id_);
   cycle_ = 0;
   limit_ = {};
 }
@@ -331,7 +358,7 @@ void PairCycle::setParameters(const TrackerParameters& parameters) {
 std::size_t PairCycle::memoryBytes() const {
   return sizeof(PairCycle) + archive_.records().capacity() * sizeof(NicheRecord) +
          known_.capacity() * sizeof(TrialPoint) + proof_.memoryBytes() + niches_.memoryBytes() +
-         search_.memoryBytes();
+         search_.memoryBytes() + round_.memoryBytes();
 }
 
 }  // namespace concave_distance

@@ -85,9 +85,10 @@ TEST_F(RobotScene, MirroringScaleKeepsNormalsOutwards) {
 TEST_F(RobotScene, RoundPrimitivesSayHowFarTheirMeshIsOff) {
   const SurfaceMesh& mesh = onlySurface(collision("<sphere radius='2'/>"), "    chord_error: 0.1\n");
   for (const Eigen::Vector3d& vertex : mesh.vertices()) EXPECT_LE(vertex.norm(), 2.0 + 1e-12);
-  EXPECT_TRUE(hasNote(last_scene, "sphere meshed from inside, 0.1 m off at most"));
+  EXPECT_TRUE(hasNote(last_scene, "sphere taken exactly; searched and drawn as a mesh, 0.1 m off at most"));
   onlySurface(collision("<cylinder radius='0.5' length='3'/>"));
-  EXPECT_TRUE(hasNote(last_scene, "cylinder meshed from inside, 0.005 m off at most"));
+  EXPECT_TRUE(
+      hasNote(last_scene, "cylinder taken exactly; searched and drawn as a mesh, 0.005 m off at most"));
 }
 
 TEST_F(RobotScene, VisualGeometryIsTakenWhenAskedFor) {

@@ -1,0 +1,120 @@
+#include "round_kernels.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "mesh/surface/round_geometry.h"
+
+namespace concave_distance {
+namespace {
+
+using detail::outwardDirection;
+using detail::signedDistance;
+using Eigen::Vector3d;
+
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+// Every other step halves the bracket, so that it always ends.
+constexpr int kMostSlopes = 120;
+
+LowestPoint lowerOf(const LowestPoint& l, const LowestPoint& r) {
+  return r.value < l.value ? r : l;
+}
+
+LowestPoint at(const RoundShape& shape, const Vector3d& point) {
+  return {signedDistance(shape, point), point};
+}
+
+/// Where on p + t d, t in [0, 1], the slope of the signed distance changes its sign.
+class SlopeSearch {
+ public:
+  SlopeSearch(const RoundShape& shape, const Vector3d& p, const Vector3d& d)
+      : shape_(shape), p_(p), d_(d), length_(d.norm()) {}
+
+  LowestPoint find() {
+    if (!(length_ > 0.0)) return at(shape_, p_);
+    low_slope_ = slope(0.0);
+    high_slope_ = slope(1.0);
+    if (low_slope_ >= 0.0) return at(shape_, p_);
+    if (high_slope_ <= 0.0) return at(shape_, p_ + d_);
+    for (int i = 0; i < kMostSlopes && high_ - low_ > 2.0 * kEpsilon * high_; ++i) {
+      double t = 0.5 * (low_ + high_);
+      if (i % 2 == 0) t = std::clamp(secant(), low_, high_);
+      if (t <= low_ || t >= high_) t = 0.5 * (low_ + high_);
+      const double now = slope(t);
+      if (now == 0.0) return at(shape_, p_ + t * d_);
+      (now < 0.0 ? low_ : high_) = t;
+      (now < 0.0 ? low_slope_ : high_slope_) = now;
+    }
+    return lowerOf(at(shape_, p_ + low_ * d_), at(shape_, p_ + high_ * d_));
+  }
+
+ private:
+  double slope(double t) const { return outwardDirection(shape_, p_ + t * d_).dot(d_); }
+  double secant() const { return low_ + (high_ - low_) * low_slope_ / (low_slope_ - high_slope_); }
+
+  const RoundShape& shape_;
+  const Vector3d& p_;
+  const Vector3d& d_;
+  double length_;
+  double low_ = 0.0;
+  double high_ = 1.0;
+  double low_slope_ = 0.0;
+  double high_slope_ = 0.0;
+};
+
+/// Over the plane, in the plane of symmetry: along the axis as seen on it.
+LowestPoint lowestOnPlane(const RoundShape& shape, const Vector3d& normal, double offset) {
+  const Vector3d foot = offset * normal;
+  if (shape.kind == RoundKind::Sphere) return at(shape, foot);
+  Vector3d along = Vector3d::UnitZ() - normal.z() * normal;
+  const double length = along.norm();
+  if (!(length > 16.0 * kEpsilon)) return at(shape, foot);
+  along *= detail::reachOf(shape) / length;
+  return lowestOnSegment(shape, foot - along, foot + along);
+}
+
+bool isInside(const TrianglePoints& triangle, const Vector3d& normal, const Vector3d& point) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vector3d& from = triangle[k];
+    const Vector3d& to = triangle[(k + 1) % 3];
+    if ((to - from).cross(point - from).dot(normal) < 0.0) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+LowestPoint lowestOnSegment(const RoundShape& shape, const Vector3d& p, const Vector3d& q) {
+  const Vector3d d = q - p;
+  if (shape.kind != RoundKind::Sphere) return SlopeSearch(shape, p, d).find();
+  const double squared_length = d.squaredNorm();
+  const double t = squared_length > 0.0 ? std::clamp(-p.dot(d) / squared_length, 0.0, 1.0) : 0.0;
+  return at(shape, t == 1.0 ? q : Vector3d(p + t * d));
+}
+
+LowestPoint lowestOnTriangle(const RoundShape& shape, const TrianglePoints& triangle) {
+  LowestPoint lowest = lowestOnSegment(shape, triangle[0], triangle[1]);
+  lowest = lowerOf(lowest, lowestOnSegment(shape, triangle[1], triangle[2]));
+  lowest = lowerOf(lowest, lowestOnSegment(shape, triangle[2], triangle[0]));
+  Vector3d normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);
+  const double area = normal.norm();
+  if (!(area > 0.0)) return lowest;
+  normal /= area;
+  // From the corner nearest to the shape, where rounding is least.
+  const auto nearest = std::min_element(
+      triangle.begin(), triangle.end(),
+      [](const Vector3d& l, const Vector3d& r) { return l.squaredNorm() < r.squaredNorm(); });
+  const LowestPoint face = lowestOnPlane(shape, normal, normal.dot(*nearest));
+  return face.value < lowest.value && isInside(triangle, normal, face.point) ? face : lowest;
+}
+
+double lowerBoundOnTriangle(const RoundShape& shape, const TrianglePoints& triangle) {
+  const Vector3d middle = (triangle[0] + triangle[1] + triangle[2]) / 3.0;
+  const Vector3d out = outwardDirection(shape, middle);
+  double least = 0.0;
+  for (const Vector3d& corner : triangle) least = std::min(least, out.dot(corner - middle));
+  return signedDistance(shape, middle) + least;
+}
+
+}  // namespace concave_distance
