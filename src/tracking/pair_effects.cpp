@@ -70,7 +70,7 @@ struct PairEffects::State {
 
   bool isPatch(const ContactRegion& region) const {
     return settings.normal_force->distribution == ForceDistribution::Pressure &&
-           region.overlap.facet_count > 0;
+           (region.overlap.facet_count > 0 || region.overlap.sample_count > 0);
   }
 
   void push(const RelativeTwist& b_in_a, PairContacts& contacts) {
