@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "concave_distance/mesh/surface/primitives.h"
 #include "simulation/scene_builder.h"
 #include "support/round_bodies.h"
 
@@ -44,6 +45,7 @@ SceneBuilder onGround(const RoundShape& shape, NormalForceModel model, const Mat
   ground.motion = BodyMotion::Fixed;
   ground.pose = at(0.0, 0.0, -1.0);
   builder.settings.bodies.push_back(ground);
+  builder.settings.tracking = SimulationTracking::SingleMinimum;
   return builder;
 }
 
