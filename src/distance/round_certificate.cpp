@@ -205,9 +205,11 @@ DistanceCertificate certifyWithMesh(const RoundRoles& roles, const BodyMesh& a, 
                                     const Eigen::Isometry3d& a_from_b, const TrianglePair* seeds,
                                     std::size_t seed_count, const CertificateRequest& request) {
   const RoundAndMesh pair = roles.pair(a, b, a_from_b);
-  RoundMinimum best = descendOnMesh(pair, pair.mesh.tree().order().front());
-  for (std::size_t i = 0; i < seed_count; ++i) {
-    const RoundMinimum other = descendOnMesh(pair, roles.a_is_shape ? seeds[i].b : seeds[i].a);
+  const auto seed = [&](std::size_t i) { return roles.a_is_shape ? seeds[i].b : seeds[i].a; };
+  RoundMinimum best =
+      descendOnMesh(pair, seed_count > 0 ? seed(0) : nearestTriangle(pair.mesh, pair.centre_in_mesh));
+  for (std::size_t i = 1; i < seed_count; ++i) {
+    const RoundMinimum other = descendOnMesh(pair, seed(i));
     if (other.lowest.value < best.lowest.value) best = other;
   }
   LowestSearch search(pair, request, best);

@@ -9,6 +9,7 @@
 #include "mesh/surface/round_geometry.h"
 #include "mesh/trees/triangle_tree.h"
 #include "support/body_pairs.h"
+#include "support/count_allocations.h"
 #include "support/round_bodies.h"
 
 namespace concave_distance {
@@ -338,6 +339,50 @@ TEST(RoundOverlap, SolidsWithinOrThroughEachOtherAreTakenAsMeshes) {
   const Body rod = makeRoundBody(roundShape(RoundKind::Capsule, 0.05, 2.0));
   EXPECT_EQ(overlapOf(large, rod, translation({0.1, 0.0, 0.0})).regions.size(), 1U);
   EXPECT_TRUE(overlapOf(large, small, translation({0.61, 0.0, 0.0})).regions.empty());
+}
+
+TEST(RoundOverlap, AWarmCallAllocatesNothing) {
+  const Body comb = makeBody(test::makeComb(3));
+  const Body cylinder = makeRoundBody(roundShape(RoundKind::Cylinder, 0.1, 0.15));
+  const Body ball = makeRoundBody(test::sphereOf(0.2));
+  InterferenceWorkspace workspace;
+  Interference result;
+  std::size_t before = 0;
+  for (int round = 0; round < 2; ++round) {
+    if (round == 1) before = allocations.load();
+    for (int i = 0; i < 50; ++i) {
+      const Isometry3d pose = turned(0.1 * i, {1.0, 0.5, 0.2}, {0.01 * i, 0.42, 0.1});
+      findInterference(*comb, *cylinder, pose, workspace, result);
+      findInterference(*ball, *cylinder, translation({0.25, 0.0, 0.005 * i}), workspace, result);
+    }
+  }
+  EXPECT_EQ(allocations.load() - before, 0U);
+}
+
+TEST(RoundOverlap, FarFromTheOriginAndInHugeMeshesItIsTheSame) {
+  const double depth = 1e-3;
+  const Body ball = makeRoundBody(test::sphereOf(0.05));
+  const Interference near = overlapOf(block(), ball, translation({0.3, 0.2, 0.05 - depth}));
+  RoundShape shape = test::sphereOf(0.05);
+  shape.body_from_shape.translation() = Vector3d(1e6, -1e6, 1e6);
+  const Interference far = overlapOf(block(), makeRoundBody(shape),
+                                     translation(Vector3d(0.3 - 1e6, 0.2 + 1e6, 0.05 - depth - 1e6)));
+  const Interference huge =
+      overlapOf(makeBody(makeBox({1e6, 1e6, 2.0})), ball, translation({0.3, 0.2, 1.05 - depth}));
+  for (const Interference* found : {&far, &huge}) {
+    ASSERT_EQ(found->regions.size(), 1U);
+    EXPECT_NEAR(found->regions[0].volume, near.regions[0].volume, 1e-5 * near.regions[0].volume);
+    EXPECT_NEAR(found->regions[0].depth, depth, 1e-9);
+  }
+}
+
+TEST(RoundOverlap, ACylinderThinnerThanAHairIsStillASolid) {
+  const Body needle = makeRoundBody(roundShape(RoundKind::Cylinder, 1e-8, 0.5));
+  const Interference found = overlapOf(block(), needle, turned(0.3, {0.0, 1.0, 0.0}, {0.0, 0.0, 0.2}));
+  ASSERT_EQ(found.regions.size(), 1U);
+  // What is below the plane: the axis' part.
+  const double length = 0.5 - 0.2 / std::cos(0.3);
+  EXPECT_NEAR(found.regions[0].volume, kPi * 1e-16 * length, 1e-3 * kPi * 1e-16 * length);
 }
 
 }  // namespace

@@ -17,23 +17,10 @@ using test::SceneBuilder;
 
 constexpr double kGravity = 9.80665;
 
-void addRound(SceneBuilder& builder, const std::string& name, const RoundShape& shape,
-              const Material& material) {
-  SceneBody body;
-  body.name = body.frame = name;
-  BodyMeshOptions options;
-  options.max_edge_length = 100.0;
-  options.shape = shape;
-  body.mesh = std::make_shared<const BodyMesh>(name, inscribedMesh(shape, name), options);
-  body.bounds = boundsOf(*body.mesh);
-  body.material = material;
-  builder.scene.bodies.push_back(std::move(body));
-}
-
 SceneBuilder onGround(const RoundShape& shape, NormalForceModel model, const Material& material) {
   SceneBuilder builder;
   builder.addBody("ground", makeBox({20.0, 4.0, 2.0})).material = material;
-  addRound(builder, "round", shape, material);
+  builder.addRoundBody("round", shape).material = material;
   NormalForceSettings force;
   force.model = model;
   force.foundation_stiffness = 1e9;
@@ -91,6 +78,10 @@ TEST(RoundMotion, ABallAtRestDoesNotRollOff) {
   const SimulatedBody& now = simulation.bodies()[1];
   EXPECT_NEAR((now.centre.head<2>() - Eigen::Vector2d(0.003, 0.002)).norm(), 0.0, 1e-9);
   EXPECT_NEAR(now.velocity.norm(), 0.0, 1e-6);
+  // Hertz's depth under its weight, from the integrals over the patch alone: no radius is given.
+  const double modulus = inContact(material, material).contact_modulus;
+  const double depth = std::pow(0.5 * kGravity / (4.0 / 3.0 * modulus * std::sqrt(radius)), 2.0 / 3.0);
+  EXPECT_NEAR(radius - now.centre.z(), depth, 2e-3 * depth);
 }
 
 /// Rolls down a slope of 0.1 for a second. @return its acceleration over g sin
@@ -118,6 +109,24 @@ TEST(RoundMotion, RollsDownASlopeWithItsMomentOfInertia) {
   const RoundShape capsule = test::roundShape(RoundKind::Capsule, 0.1, 0.1);
   const double moment = massPropertiesOfMass(capsule, 1.0, "capsule").inertia(2, 2) / 0.01;
   EXPECT_NEAR(rolled(capsule, lying, 1.0), 1.0 / (1.0 + moment), 5e-3);
+}
+
+// Pressure and friction the same all over the face: torque 2/3 mu m g R against an inertia of m R^2 / 2.
+TEST(RoundMotion, ASpinningDiscStopsAsEvenPressureSays) {
+  Material material;
+  material.static_friction = material.dynamic_friction = 0.4;
+  const RoundShape disc = test::roundShape(RoundKind::Cylinder, 0.1, 0.02);
+  SceneBuilder builder = onGround(disc, NormalForceModel::ElasticFoundation, material);
+  builder.scene.pairs.edit(0).settings.effects.friction.model = FrictionModel::Bristle;
+  const double depth = kGravity / (1e9 * M_PI * 0.01);
+  SimulatedBodySettings& spinning = builder.setFree("round", 1.0);
+  spinning.pose = at(0.01, 0.02, 0.02 - depth);
+  spinning.angular_velocity = {0.0, 0.0, 10.0};
+  Simulation simulation = builder.simulation();
+  const double expected = 10.0 * 0.1 * 0.75 / (0.4 * kGravity);
+  while (simulation.time() < 2.0 * expected && simulation.bodies()[1].angular_velocity.z() > 0.05)
+    simulation.step();
+  EXPECT_NEAR(simulation.time(), 0.995 * expected, 0.02 * expected);
 }
 
 TEST(RoundMotion, MassesAreThoseOfTheSolids) {
