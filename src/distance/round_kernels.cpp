@@ -16,6 +16,8 @@ using Eigen::Vector3d;
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 // Every other step halves the bracket, so that it always ends.
 constexpr int kMostSlopes = 120;
+// So that not only the value is right to rounding but its place to a ten-billionth of the shape.
+constexpr double kNoGain = 1e-4;
 
 LowestPoint lowerOf(const LowestPoint& l, const LowestPoint& r) {
   return r.value < l.value ? r : l;
@@ -37,7 +39,10 @@ class SlopeSearch {
     high_slope_ = slope(1.0);
     if (low_slope_ >= 0.0) return at(shape_, p_);
     if (high_slope_ <= 0.0) return at(shape_, p_ + d_);
+    // By how much the least value may be below those at the ends.
+    const double enough = kNoGain * kEpsilon * (shape_.radius + shape_.half_length);
     for (int i = 0; i < kMostSlopes && high_ - low_ > 2.0 * kEpsilon * high_; ++i) {
+      if (std::min(-low_slope_, high_slope_) * (high_ - low_) <= enough) break;
       double t = 0.5 * (low_ + high_);
       if (i % 2 == 0) t = std::clamp(secant(), low_, high_);
       if (t <= low_ || t >= high_) t = 0.5 * (low_ + high_);
@@ -74,6 +79,12 @@ LowestPoint lowestOnPlane(const RoundShape& shape, const Vector3d& normal, doubl
   return lowestOnSegment(shape, foot - along, foot + along);
 }
 
+/// From the tangent plane at the middle.
+double lowerBoundOnSegment(const RoundShape& shape, const Vector3d& p, const Vector3d& q) {
+  const Vector3d middle = 0.5 * (p + q);
+  return signedDistance(shape, middle) - 0.5 * std::abs(outwardDirection(shape, middle).dot(q - p));
+}
+
 bool isInside(const TrianglePoints& triangle, const Vector3d& normal, const Vector3d& point) {
   for (std::size_t k = 0; k < 3; ++k) {
     const Vector3d& from = triangle[k];
@@ -94,19 +105,25 @@ LowestPoint lowestOnSegment(const RoundShape& shape, const Vector3d& p, const Ve
 }
 
 LowestPoint lowestOnTriangle(const RoundShape& shape, const TrianglePoints& triangle) {
-  LowestPoint lowest = lowestOnSegment(shape, triangle[0], triangle[1]);
-  lowest = lowerOf(lowest, lowestOnSegment(shape, triangle[1], triangle[2]));
-  lowest = lowerOf(lowest, lowestOnSegment(shape, triangle[2], triangle[0]));
   Vector3d normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);
   const double area = normal.norm();
-  if (!(area > 0.0)) return lowest;
-  normal /= area;
-  // From the corner nearest to the shape, where rounding is least.
-  const auto nearest = std::min_element(
-      triangle.begin(), triangle.end(),
-      [](const Vector3d& l, const Vector3d& r) { return l.squaredNorm() < r.squaredNorm(); });
-  const LowestPoint face = lowestOnPlane(shape, normal, normal.dot(*nearest));
-  return face.value < lowest.value && isInside(triangle, normal, face.point) ? face : lowest;
+  if (area > 0.0) {
+    normal /= area;
+    // From the corner nearest to the shape, where rounding is least.
+    const auto nearest = std::min_element(
+        triangle.begin(), triangle.end(),
+        [](const Vector3d& l, const Vector3d& r) { return l.squaredNorm() < r.squaredNorm(); });
+    const LowestPoint face = lowestOnPlane(shape, normal, normal.dot(*nearest));
+    if (isInside(triangle, normal, face.point)) return face;
+  }
+  LowestPoint lowest = lowestOnSegment(shape, triangle[0], triangle[1]);
+  for (std::size_t k = 1; k < 3; ++k) {
+    const Vector3d& from = triangle[k];
+    const Vector3d& to = triangle[(k + 1) % 3];
+    if (lowerBoundOnSegment(shape, from, to) < lowest.value)
+      lowest = lowerOf(lowest, lowestOnSegment(shape, from, to));
+  }
+  return lowest;
 }
 
 double lowerBoundOnTriangle(const RoundShape& shape, const TrianglePoints& triangle) {

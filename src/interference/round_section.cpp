@@ -21,15 +21,24 @@ constexpr double kMedium = 0.3;
 constexpr double kNearCore = 0.8;
 constexpr int kMostRings = 6;
 constexpr double kWidestArc = kPi / 3.0;
+// A core farther than this share of the radius needs no rings about it.
+constexpr double kFarCore = 0.3;
+constexpr double kShortestAxis = 1e-14;
 
 /// Where a line from a point inside the solid changes from one piece of its depth to another, as shares of
 /// the way to `to`.
 struct Kinks {
-  std::array<double, 16> shares{};
+  std::array<double, 24> shares{};
   std::size_t count = 0;
 
   void add(double share) {
-    if (share > 0.0 && share <= 1.0 && count < shares.size()) shares[count++] = share;
+    if (share > 0.0 && share < 1.0 && count < shares.size()) shares[count++] = share;
+  }
+  /// Ascending, those that are not there are 1.
+  const std::array<double, 24>& sorted() {
+    std::fill(shares.begin() + static_cast<std::ptrdiff_t>(count), shares.end(), 1.0);
+    std::sort(shares.begin(), shares.begin() + static_cast<std::ptrdiff_t>(count));
+    return shares;
   }
   void addRoots(double a, double b, double c) {
     const double root = b * b - 4.0 * a * c;
@@ -110,6 +119,7 @@ void RoundSection::integrate(const RoundShape& shape, const TrianglePoints& tria
     return signedDistance(shape, corner) <= 0.0;
   });
   if (inside) return addInside(sparse);
+  if (shape.kind != RoundKind::Sphere && core_ > kFarCore * shape.radius) moveCentre();
   findPieces();
   if (piece_count_ == 0) return addArc(0.0, 2.0 * kPi, {border(0.0), border(0.0)});
   for (std::size_t k = 0; k < piece_count_; ++k) {
@@ -122,6 +132,23 @@ void RoundSection::integrate(const RoundShape& shape, const TrianglePoints& tria
     while (to <= from) to += 2.0 * kPi;
     addArc(from, to, {end, next});
   }
+}
+
+/// Where the depth hardly changes its deepest point may be at the border: to the middle of the plane's
+/// section, which is symmetrical about the axis as seen on the plane, or as far towards it as the triangle
+/// goes.
+void RoundSection::moveCentre() {
+  const Vector3d foot = normal_.dot(centre_) * normal_;
+  const Vector3d axis = Vector3d::UnitZ() - normal_.z() * normal_;
+  const Vector3d along = axis.norm() > kShortestAxis ? Vector3d(axis.normalized()) : axis_u_;
+  const double reach = 2.0 * reachOf(*shape_);
+  const LowestPoint lowest = lowestOnSegment(*shape_, foot - reach * along, foot + reach * along);
+  if (lowest.value >= 0.0) return;
+  const double ahead = wayOut(*shape_, lowest.point, along, reach);
+  const double behind = wayOut(*shape_, lowest.point, -along, reach);
+  const Vector3d middle = lowest.point + 0.5 * (ahead - behind) * along;
+  const Vector3d nearest = pointTriangleDistance(middle, triangle_).point;
+  if (signedDistance(*shape_, nearest) < 0.0) centre_ = nearest;
 }
 
 // The signed distance is convex along an edge: below 0 between two crossings at most.
@@ -172,18 +199,18 @@ void RoundSection::addStraight(const Piece& piece) {
   const double length = along.norm();
   const double nearest = (centre_ - piece.from).dot(along) / (length * length);
   const double width = std::max(core_, twice_area / length) / length;
-  std::array<double, 2 * kMostRings + 3> cuts;
-  std::size_t count = 0;
-  cuts[count++] = 0.0;
-  for (int side = kMostRings - 1; side >= 1 - kMostRings; --side) {
-    const double cut = nearest - std::copysign(width * std::pow(3.0, std::abs(side)), side);
-    if (core_ < kNearCore * length && cut > cuts[count - 1] && cut < 1.0) cuts[count++] = cut;
+  Kinks cuts = kinksOf(*shape_, piece.from, piece.to);
+  double ring = width;
+  for (int k = 0; k < kMostRings && core_ < kNearCore * length; ++k, ring *= 3.0) {
+    cuts.add(nearest - ring);
+    cuts.add(nearest + ring);
   }
-  cuts[count++] = 1.0;
-  for (std::size_t k = 0; k + 1 < count; ++k) {
-    const double share = cuts[k + 1] - cuts[k];
+  double from = 0.0;
+  for (const double to : cuts.sorted()) {
     for (const GaussPoint& at : kGaussFive)
-      addRay(piece.from + (cuts[k] + at.at * share) * along, at.weight * share * twice_area);
+      addRay(piece.from + (from + at.at * (to - from)) * along, at.weight * (to - from) * twice_area);
+    from = to;
+    if (to == 1.0) break;
   }
 }
 
@@ -267,16 +294,14 @@ void RoundSection::addRay(const Vector3d& end, double weight) {
   const double length = (end - centre_).norm();
   double ring = core_;
   for (int k = 0; k < kMostRings && ring < kNearCore * length; ++k, ring *= 3.0) kinks.add(ring / length);
-  kinks.add(1.0);
-  std::sort(kinks.shares.begin(), kinks.shares.begin() + static_cast<std::ptrdiff_t>(kinks.count));
   double from = 0.0;
-  for (std::size_t k = 0; k < kinks.count; ++k) {
-    const double width = kinks.shares[k] - from;
+  for (const double to : kinks.sorted()) {
     for (const GaussPoint& at : kGaussFour) {
-      const double share = from + at.at * width;
-      add(centre_ + share * (end - centre_), weight * share * at.weight * width);
+      const double share = from + at.at * (to - from);
+      add(centre_ + share * (end - centre_), weight * share * at.weight * (to - from));
     }
-    from = kinks.shares[k];
+    from = to;
+    if (to == 1.0) break;
   }
 }
 

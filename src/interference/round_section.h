@@ -41,6 +41,7 @@ class RoundSection {
     Eigen::Vector3d to;
   };
 
+  void moveCentre();
   void findPieces();
   void addInside(bool sparse);
   void addStraight(const Piece& piece);

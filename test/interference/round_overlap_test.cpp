@@ -341,6 +341,21 @@ TEST(RoundOverlap, SolidsWithinOrThroughEachOtherAreTakenAsMeshes) {
   EXPECT_TRUE(overlapOf(large, small, translation({0.61, 0.0, 0.0})).regions.empty());
 }
 
+TEST(RoundOverlap, ADiscThatIsHardlyTiltedHasItsWholeFace) {
+  const double r = 0.1;
+  const Body disc = makeRoundBody(roundShape(RoundKind::Cylinder, r, 0.02));
+  for (const double depth : {1e-7, 1e-5, 1e-3}) {
+    for (const double tilt : {0.0, 1e-12, 1e-9, 0.2 * depth, 2.0 * depth}) {
+      const Interference found =
+          overlapOf(block(), disc, turned(tilt, {1.0, 0.4, 0.0}, {0.01, 0.02, 0.02 - depth}));
+      ASSERT_EQ(found.regions.size(), 1U);
+      const double area = kPi * r * r;
+      EXPECT_NEAR(found.regions[0].surface_area_a, area, 1e-4 * area) << depth << " " << tilt;
+      EXPECT_NEAR(found.regions[0].volume, depth * area, 1e-3 * depth * area) << depth << " " << tilt;
+    }
+  }
+}
+
 TEST(RoundOverlap, AWarmCallAllocatesNothing) {
   const Body comb = makeBody(test::makeComb(3));
   const Body cylinder = makeRoundBody(roundShape(RoundKind::Cylinder, 0.1, 0.15));

@@ -91,6 +91,29 @@ TEST_F(RobotScene, RoundPrimitivesSayHowFarTheirMeshIsOff) {
       hasNote(last_scene, "cylinder taken exactly; searched and drawn as a mesh, 0.005 m off at most"));
 }
 
+TEST_F(RobotScene, ALinkOfOneRoundElementIsThatSolid) {
+  onlySurface(
+      "<collision><origin xyz='1 2 3' rpy='0.1 0.2 0.3'/><geometry>"
+      "<cylinder radius='0.5' length='3'/></geometry></collision>");
+  const SceneBody body = last_scene.bodies.front();
+  const RoundShape* shape = body.mesh->shape();
+  ASSERT_NE(shape, nullptr);
+  EXPECT_EQ(shape->kind, RoundKind::Cylinder);
+  EXPECT_EQ(shape->radius, 0.5);
+  EXPECT_EQ(shape->half_length, 1.5);
+  EXPECT_NEAR((shape->body_from_shape.translation() - Eigen::Vector3d(1, 2, 3)).norm(), 0.0, 1e-15);
+  for (const Eigen::Vector3d& vertex : body.mesh->surface().vertices()) {
+    const Eigen::Vector3d point = shape->body_from_shape.inverse() * vertex;
+    EXPECT_LE(point.head<2>().norm(), 0.5 + 1e-12);
+    EXPECT_LE(std::abs(point.z()), 1.5 + 1e-12);
+  }
+  onlySurface(collision("<cylinder radius='0.5' length='3'/>") + collision("<sphere radius='0.6'/>"));
+  EXPECT_EQ(last_scene.bodies.front().mesh->shape(), nullptr);
+  EXPECT_TRUE(hasNote(last_scene, "cylinder among several elements meshed from inside, 0.005 m off at most"));
+  onlySurface(collision("<box size='1 1 1'/>"));
+  EXPECT_EQ(last_scene.bodies.front().mesh->shape(), nullptr);
+}
+
 TEST_F(RobotScene, VisualGeometryIsTakenWhenAskedFor) {
   const std::string content =
       "<visual><geometry><box size='4 4 4'/></geometry></visual>" + collision("<box size='2 2 2'/>");

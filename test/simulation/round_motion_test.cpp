@@ -115,10 +115,12 @@ TEST(RoundMotion, RollsDownASlopeWithItsMomentOfInertia) {
 TEST(RoundMotion, ASpinningDiscStopsAsEvenPressureSays) {
   Material material;
   material.static_friction = material.dynamic_friction = 0.4;
+  material.dissipation = 20.0;
   const RoundShape disc = test::roundShape(RoundKind::Cylinder, 0.1, 0.02);
   SceneBuilder builder = onGround(disc, NormalForceModel::ElasticFoundation, material);
   builder.scene.pairs.edit(0).settings.effects.friction.model = FrictionModel::Bristle;
-  const double depth = kGravity / (1e9 * M_PI * 0.01);
+  builder.scene.pairs.edit(0).settings.effects.normal_force->foundation_stiffness = 2e6;
+  const double depth = kGravity / (2e6 * M_PI * 0.01);
   SimulatedBodySettings& spinning = builder.setFree("round", 1.0);
   spinning.pose = at(0.01, 0.02, 0.02 - depth);
   spinning.angular_velocity = {0.0, 0.0, 10.0};

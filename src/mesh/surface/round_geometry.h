@@ -35,20 +35,24 @@ inline Eigen::Vector3d corePoint(const RoundShape& shape, const Eigen::Vector3d&
 
 /// A subgradient of signedDistance(), of length 1: where several are, one of them.
 inline Eigen::Vector3d outwardDirection(const RoundShape& shape, const Eigen::Vector3d& p) {
-  Eigen::Vector3d out;
-  if (shape.kind == RoundKind::Cylinder) {
-    const double rho = std::hypot(p.x(), p.y());
-    const double across = rho - shape.radius;
-    const double beyond = std::abs(p.z()) - shape.half_length;
-    const bool around = across > 0.0 && beyond > 0.0;
-    out = Eigen::Vector3d::Zero();
-    if ((around || across > beyond) && rho > 0.0) out.head<2>() = (around ? across : 1.0) / rho * p.head<2>();
-    if (around || across <= beyond) out.z() = std::copysign(around ? beyond : 1.0, p.z());
-  } else {
-    out = p - corePoint(shape, p);
+  if (shape.kind != RoundKind::Cylinder) {
+    const Eigen::Vector3d out = p - corePoint(shape, p);
+    const double length = out.norm();
+    return length > 0.0 ? Eigen::Vector3d(out / length) : Eigen::Vector3d(Eigen::Vector3d::UnitX());
   }
-  const double length = out.norm();
-  return length > 0.0 ? Eigen::Vector3d(out / length) : Eigen::Vector3d(Eigen::Vector3d::UnitX());
+  const double rho = std::sqrt(p.x() * p.x() + p.y() * p.y());
+  const double across = rho - shape.radius;
+  const double beyond = std::abs(p.z()) - shape.half_length;
+  double radial = across > beyond ? 1.0 : 0.0;
+  double axial = 1.0 - radial;
+  if (across > 0.0 && beyond > 0.0) {
+    const double length = std::sqrt(across * across + beyond * beyond);
+    radial = across / length;
+    axial = beyond / length;
+  }
+  const double share = rho > 0.0 ? radial / rho : 0.0;
+  if (!(rho > 0.0) && radial > 0.0) return Eigen::Vector3d::UnitX();
+  return {share * p.x(), share * p.y(), std::copysign(axial, p.z())};
 }
 
 /// The point of the surface that is nearest to `p`; exact outside and, but on the medial axis, inside.
@@ -60,7 +64,7 @@ inline Eigen::Vector3d surfacePoint(const RoundShape& shape, const Eigen::Vector
 inline Eigen::Vector3d supportPoint(const RoundShape& shape, const Eigen::Vector3d& direction) {
   const Eigen::Vector3d end(0.0, 0.0, std::copysign(shape.half_length, direction.z()));
   if (shape.kind == RoundKind::Cylinder) {
-    const double across = std::hypot(direction.x(), direction.y());
+    const double across = std::sqrt(direction.x() * direction.x() + direction.y() * direction.y());
     if (!(across > 0.0)) return end;
     return end +
            Eigen::Vector3d(shape.radius / across * direction.x(), shape.radius / across * direction.y(), 0.0);
