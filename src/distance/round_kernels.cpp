@@ -14,8 +14,8 @@ using detail::signedDistance;
 using Eigen::Vector3d;
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-// Every other step halves the bracket, so that it always ends.
-constexpr int kMostSlopes = 120;
+// Every third step halves the bracket, so that it always ends.
+constexpr int kMostSlopes = 180;
 // So that not only the value is right to rounding but its place to a ten-billionth of the shape.
 constexpr double kNoGain = 1e-4;
 
@@ -43,9 +43,8 @@ class SlopeSearch {
     const double enough = kNoGain * kEpsilon * (shape_.radius + shape_.half_length);
     for (int i = 0; i < kMostSlopes && high_ - low_ > 2.0 * kEpsilon * high_; ++i) {
       if (std::min(-low_slope_, high_slope_) * (high_ - low_) <= enough) break;
-      double t = 0.5 * (low_ + high_);
-      if (i % 2 == 0) t = std::clamp(secant(), low_, high_);
-      if (t <= low_ || t >= high_) t = 0.5 * (low_ + high_);
+      double t = i % 3 == 0 ? secant() : i % 3 == 1 ? tangents() : 0.5 * (low_ + high_);
+      if (!(t > low_ && t < high_)) t = 0.5 * (low_ + high_);
       const double now = slope(t);
       if (now == 0.0) return at(shape_, p_ + t * d_);
       (now < 0.0 ? low_ : high_) = t;
@@ -57,6 +56,15 @@ class SlopeSearch {
  private:
   double slope(double t) const { return outwardDirection(shape_, p_ + t * d_).dot(d_); }
   double secant() const { return low_ + (high_ - low_) * low_slope_ / (low_slope_ - high_slope_); }
+
+  /// Where the tangents at both ends cross: at a kink at once. A little inside, so that its other side is
+  /// seen next.
+  double tangents() const {
+    const double rise = signedDistance(shape_, p_ + high_ * d_) - signedDistance(shape_, p_ + low_ * d_);
+    const double t = low_ + (rise - high_slope_ * (high_ - low_)) / (low_slope_ - high_slope_);
+    const double inside = 8.0 * kEpsilon;
+    return std::clamp(t, low_ + inside, std::max(low_ + inside, high_ - inside));
+  }
 
   const RoundShape& shape_;
   const Vector3d& p_;
