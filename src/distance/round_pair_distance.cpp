@@ -27,9 +27,9 @@ RoundPairDistance fromCore(const RoundShape& solid, const RoundShape& rounded,
   const Vector3d centre = solid_from_rounded.translation();
   const LowestPoint core = lowestOnSegment(solid, centre - axis, centre + axis);
   RoundPairDistance result;
-  result.normal = detail::outwardDirection(solid, core.point);
-  result.point_a = core.point - core.value * result.normal;
-  result.point_b = core.point - rounded.radius * result.normal;
+  const Vector3d out = detail::outwardDirection(solid, core.point);
+  result.point_a = core.point - core.value * out;
+  result.point_b = core.point - rounded.radius * out;
   result.overlap = core.value <= rounded.radius;
   result.distance = std::max(0.0, core.value - rounded.radius);
   result.lower_bound = result.distance;
@@ -179,9 +179,6 @@ RoundPairDistance ofCylinders(const RoundShape& a, const RoundShape& b, const Ei
     result.distance = (result.point_b - result.point_a).norm();
   }
   if (result.overlap) result.lower_bound = 0.0;
-  result.normal = unitOr(result.overlap ? detail::outwardDirection(a, result.point_b)
-                                        : Vector3d(result.point_b - result.point_a),
-                         Vector3d::UnitX());
   return result;
 }
 
@@ -195,7 +192,6 @@ RoundPairDistance roundPairDistance(const RoundShape& a, const RoundShape& b,
   RoundPairDistance result = mirrored;
   result.point_a = a_from_b * mirrored.point_b;
   result.point_b = a_from_b * mirrored.point_a;
-  result.normal = -(a_from_b.linear() * mirrored.normal);
   return result;
 }
 

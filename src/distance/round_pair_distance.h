@@ -13,8 +13,6 @@ struct RoundPairDistance {
   bool overlap = false;
   Eigen::Vector3d point_a = Eigen::Vector3d::Zero();
   Eigen::Vector3d point_b = Eigen::Vector3d::Zero();
-  /// Unit, from A to B: along the points, or where they overlap the way in which A is left soonest.
-  Eigen::Vector3d normal = Eigen::Vector3d::UnitX();
 };
 
 /// Closed forms and lowestOnSegment() where one is a sphere or a capsule. Two cylinders: the points of their
