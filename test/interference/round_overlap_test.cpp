@@ -341,6 +341,37 @@ TEST(RoundOverlap, SolidsWithinOrThroughEachOtherAreTakenAsMeshes) {
   EXPECT_TRUE(overlapOf(large, small, translation({0.61, 0.0, 0.0})).regions.empty());
 }
 
+TEST(RoundOverlap, SwappedBodiesMirrorTheRegions) {
+  RandomEngine engine(13);
+  const std::vector<RoundShape> shapes{test::sphereOf(0.2), roundShape(RoundKind::Capsule, 0.1, 0.2),
+                                       roundShape(RoundKind::Cylinder, 0.15, 0.1)};
+  int compared = 0;
+  for (std::uint32_t i = 0; i < 60; ++i) {
+    RoundShape placed = shapes[i % 3];
+    placed.body_from_shape = test::randomPose(engine, 0.2);
+    const Body round = makeRoundBody(placed);
+    const Body mesh = i % 5 == 0 ? makeRoundBody(shapes[(i + 1) % 3]) : makeBody(test::concaveShape(i / 3));
+    const Isometry3d pose = test::randomPose(engine, 0.4);
+    const Interference found = overlapOf(mesh, round, pose);
+    const Interference swapped = overlapOf(round, mesh, pose.inverse(Eigen::Isometry));
+    ASSERT_EQ(found.regions.size(), swapped.regions.size()) << i;
+    EXPECT_EQ(found.a_inside_b, swapped.b_inside_a);
+    for (std::size_t r = 0; r < found.regions.size(); ++r) {
+      const InterferenceRegion& there = found.regions[r];
+      const InterferenceRegion& back = swapped.regions[r];
+      if (!there.closed) continue;
+      ++compared;
+      EXPECT_NEAR(there.volume, back.volume, 1e-3 * there.volume + 1e-12) << i;
+      EXPECT_NEAR(there.depth, back.depth, 1e-2 * there.depth) << i;
+      EXPECT_NEAR(there.surface_area_a, back.surface_area_b, 1e-2 * there.surface_area_a + 1e-12) << i;
+      EXPECT_NEAR((pose * back.centroid_in_a - there.centroid_in_a).norm(), 0.0, 1e-3) << i;
+      if (there.normal_is_fallback) continue;
+      EXPECT_NEAR((pose.linear() * back.normal_in_a + there.normal_in_a).norm(), 0.0, 1e-3) << i;
+    }
+  }
+  EXPECT_GT(compared, 15);
+}
+
 TEST(RoundOverlap, ADiscThatIsHardlyTiltedHasItsWholeFace) {
   const double r = 0.1;
   const Body disc = makeRoundBody(roundShape(RoundKind::Cylinder, r, 0.02));

@@ -163,6 +163,33 @@ TEST(RoundPair, TheCutoffIsThatOfTheSolid) {
   EXPECT_TRUE(solveOnce("cutoff", table, ball(), parameters, pose).niches.empty());
 }
 
+TEST(RoundPair, ABudgetThatRunsOutLeavesABracket) {
+  const Body comb = std::make_shared<BodyMesh>("comb", test::makeComb(40), BodyMeshOptions());
+  const Body cylinder = test::makeRoundBody(test::roundShape(RoundKind::Cylinder, 0.06, 0.2));
+  TrackerParameters parameters = atLevel(AccuracyLevel::Certified);
+  const Isometry3d pose = turned(0.3, Vector3d(1.0, 0.2, 0.0), {4.0, 0.6, 0.1});
+  const PairSolution all = solveOnce("budget", comb, cylinder, parameters, pose);
+  EXPECT_EQ(all.status, SolveStatus::Ok);
+  for (const double budget : {1e-9, 1e-5, 1e-4}) {
+    parameters.time_budget = budget;
+    const PairSolution found = solveOnce("budget", comb, cylinder, parameters, pose);
+    EXPECT_LE(found.lower_bound, all.distance);
+    EXPECT_GE(found.distance, all.distance - 1e-14);
+    if (found.status == SolveStatus::BudgetExhausted) {
+      EXPECT_FALSE(found.niches_complete);
+    }
+  }
+}
+
+TEST(RoundPair, APoseThatIsNoneIsRefused) {
+  Isometry3d pose = Isometry3d::Identity();
+  pose.translation().x() = kNotComputed;
+  const PairSolution found =
+      solveOnce("pose", ball(), makeBody(makeBox({1.0, 1.0, 1.0})), atLevel(AccuracyLevel::Certified), pose);
+  EXPECT_EQ(found.status, SolveStatus::InvalidPose);
+  EXPECT_TRUE(std::isnan(found.distance));
+}
+
 TEST(RoundPair, AWarmCycleAllocatesNothing) {
   const Body comb = std::make_shared<BodyMesh>("comb", test::makeComb(5), BodyMeshOptions());
   const Body cylinder = test::makeRoundBody(test::roundShape(RoundKind::Cylinder, 0.06, 0.2));
