@@ -7,6 +7,8 @@
 #include "base/refill.h"
 #include "overlap_samples.h"
 #include "region_builder.h"
+#include "round_overlap.h"
+#include "round_pair_overlap.h"
 
 namespace concave_distance {
 
@@ -20,6 +22,7 @@ struct InterferenceWorkspace::Implementation {
   std::vector<OverlapFacet> facets;  ///< of the solids
   std::vector<Eigen::Vector3d> loop_areas;
   OverlapSampler sampler;
+  detail::RoundOverlap round;
 };
 
 InterferenceWorkspace::InterferenceWorkspace() : implementation_(std::make_unique<Implementation>()) {}
@@ -146,13 +149,26 @@ void measureDepths(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d
   }
 }
 
-bool deeper(const FoundRegion& l, const FoundRegion& r) {
-  const double depth_l = std::isnan(l.region.depth) ? -1.0 : l.region.depth;
-  const double depth_r = std::isnan(r.region.depth) ? -1.0 : r.region.depth;
+bool deeper(const InterferenceRegion& l, const InterferenceRegion& r) {
+  const double depth_l = std::isnan(l.depth) ? -1.0 : l.depth;
+  const double depth_r = std::isnan(r.depth) ? -1.0 : r.depth;
   if (depth_l != depth_r) return depth_l > depth_r;
-  const Eigen::Vector3d& at_l = l.region.centroid_in_a;
-  const Eigen::Vector3d& at_r = r.region.centroid_in_a;
+  const Eigen::Vector3d& at_l = l.centroid_in_a;
+  const Eigen::Vector3d& at_r = r.centroid_in_a;
   return std::lexicographical_compare(at_l.data(), at_l.data() + 3, at_r.data(), at_r.data() + 3);
+}
+
+/// Deepest first, and whether one body holds the other without a crossing.
+void sortRegions(Interference& result) {
+  std::sort(result.regions.begin(), result.regions.end(), deeper);
+  bool surfaces_meet = false;
+  for (const InterferenceRegion& region : result.regions) {
+    surfaces_meet = surfaces_meet || !(region.a_swallowed || region.b_swallowed);
+    result.a_inside_b = result.a_inside_b || region.a_swallowed;
+    result.b_inside_a = result.b_inside_a || region.b_swallowed;
+  }
+  result.a_inside_b = result.a_inside_b && !surfaces_meet;
+  result.b_inside_a = result.b_inside_a && !surfaces_meet;
 }
 
 }  // namespace
@@ -171,6 +187,15 @@ void findInterference(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometr
   InterferenceWorkspace::Implementation& space = workspace.implementation();
   WorkLimit none;
   WorkLimit& work = limit != nullptr ? *limit : none;
+  if ((a.shape() != nullptr) != (b.shape() != nullptr)) {
+    result.rounding_bound = kProofError * proofScale(a, b, a_from_b);
+    space.round.find(a, b, a_from_b, result, work);
+    return sortRegions(result);
+  }
+  if (a.shape() != nullptr && b.shape() != nullptr) {
+    result.rounding_bound = kProofError * proofScale(a, b, a_from_b);
+    if (detail::findRoundPairOverlap(a, b, a_from_b, result)) return;
+  }
   space.builder.findCandidates(a, b, a_from_b, known, work);
   result.rounding_bound = space.builder.frame().roundingBound();
   findRegions(space, work);
@@ -185,16 +210,8 @@ void findInterference(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometr
   refill(result.facets, space.facets);
   refill(result.loop_areas_in_a, space.loop_areas);
   measureDepths(a, b, a_from_b, space, result);
-  std::sort(space.found.begin(), space.found.end(), deeper);
-  bool surfaces_meet = false;
-  for (const FoundRegion& found : space.found) {
-    result.regions.push_back(found.region);
-    surfaces_meet = surfaces_meet || !(found.region.a_swallowed || found.region.b_swallowed);
-    result.a_inside_b = result.a_inside_b || found.region.a_swallowed;
-    result.b_inside_a = result.b_inside_a || found.region.b_swallowed;
-  }
-  result.a_inside_b = result.a_inside_b && !surfaces_meet;
-  result.b_inside_a = result.b_inside_a && !surfaces_meet;
+  for (const FoundRegion& found : space.found) result.regions.push_back(found.region);
+  sortRegions(result);
 }
 
 }  // namespace concave_distance

@@ -91,6 +91,7 @@ std::shared_ptr<const BodyMesh> sharedMesh(const BodySource& source, SurfaceMesh
   options.largest_node_count = limits.nodes;
   options.metric_memory = pool->metricMemory();
   options.cache = cache;
+  options.shape = roundShapeOf(source.geometry);
   const ContentKey key = bodyKey(surface, options);
   return pool->share(key, [&] {
     auto mesh = std::make_shared<const BodyMesh>(source.name, std::move(surface), options);
@@ -115,8 +116,8 @@ SceneBody build(const BodySource& source, const std::shared_ptr<BodyPool>& pool,
   body.is_robot_link = source.is_robot_link;
   body.repair = repaired.report;
   body.inertia = source.inertia;
-  body.bounds = boundsOf(repaired.mesh);
   body.mesh = sharedMesh(source, std::move(repaired.mesh), pool, cache, limits);
+  body.bounds = boundsOf(*body.mesh);
   return body;
 }
 

@@ -153,13 +153,38 @@ RepairedMesh loadGeometry(const std::vector<GeometryElement>& elements, const st
       [&](bool with_key) { return makeSurface(elements, options, where, with_key); });
 }
 
+std::optional<RoundShape> roundShapeOf(const std::vector<GeometryElement>& elements) {
+  if (elements.size() != 1) return std::nullopt;
+  const GeometryElement& element = elements.front();
+  const PrimitiveKind* kind = findPrimitive(element.primitive);
+  if (kind == nullptr || !kind->round || element.dimensions.size() != kind->dimension_count)
+    return std::nullopt;
+  RoundShape shape;
+  shape.kind = element.primitive == "sphere"     ? RoundKind::Sphere
+               : element.primitive == "cylinder" ? RoundKind::Cylinder
+                                                 : RoundKind::Capsule;
+  shape.radius = element.dimensions[0];
+  if (shape.kind != RoundKind::Sphere) shape.half_length = 0.5 * element.dimensions[1];
+  shape.body_from_shape.linear() =
+      Eigen::Quaterniond(element.frame_from_geometry.linear()).normalized().toRotationMatrix();
+  shape.body_from_shape.translation() = element.frame_from_geometry.translation();
+  shape.chord_error = chordErrorOf(element);
+  return shape;
+}
+
 std::string describeApproximations(const std::vector<GeometryElement>& elements) {
   std::ostringstream text;
+  const bool exact = roundShapeOf(elements).has_value();
   for (const GeometryElement& element : elements) {
     const PrimitiveKind* kind = findPrimitive(element.primitive);
     if (kind == nullptr || !kind->round || element.dimensions.empty()) continue;
-    text << (text.tellp() > 0 ? "; " : "") << element.primitive << " meshed from inside, "
-         << chordErrorOf(element) << " m off at most";
+    text << (text.tellp() > 0 ? "; " : "") << element.primitive;
+    if (exact) {
+      text << " taken exactly; searched and drawn as a mesh, ";
+    } else {
+      text << " among several elements meshed from inside, ";
+    }
+    text << chordErrorOf(element) << " m off at most";
   }
   return text.str();
 }

@@ -9,6 +9,7 @@
 #include "concave_distance/loading/resource_locator.h"
 #include "concave_distance/mesh/preparation_cache.h"
 #include "concave_distance/mesh/repair/repair_mesh.h"
+#include "concave_distance/mesh/surface/round_shape.h"
 #include "mesh_search.h"
 
 namespace concave_distance::detail {
@@ -38,6 +39,9 @@ std::string locateGeometry(GeometryElement& element, const MeshFolders& folders,
 /// @throws Error naming the element at fault: nothing of the body is served rather than a part of it
 RepairedMesh loadGeometry(const std::vector<GeometryElement>& elements, const std::string& where,
                           PreparationCache* cache);
+
+/// The solid of a body that is one round primitive, body frame; nothing for any other.
+std::optional<RoundShape> roundShapeOf(const std::vector<GeometryElement>& elements);
 
 /// One line for each element whose round surface became a mesh, with its chord error. May be empty.
 std::string describeApproximations(const std::vector<GeometryElement>& elements);

@@ -53,7 +53,7 @@ double robotDiagonal(const Scene& scene, const RobotDescription& robot) {
   for (const SceneBody& body : scene.bodies) {
     const Eigen::Isometry3d* pose = poseOf(poses, body);
     if (pose == nullptr) continue;
-    const Eigen::AlignedBox3d& own = body.mesh->surface().boundingBox();
+    const Eigen::AlignedBox3d& own = body.mesh->bounds();
     for (int corner = 0; corner < 8; ++corner) {
       box.extend(*pose * own.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner)));
     }

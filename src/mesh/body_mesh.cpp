@@ -38,10 +38,14 @@ struct BodyMesh::State {
     T value;
     std::atomic<std::size_t> bytes{0};
   };
-  State(BodyMeshParts made, const BodyMeshOptions& given) : parts(std::move(made)), options(given) {}
+  State(BodyMeshParts made, const BodyMeshOptions& given)
+      : parts(std::move(made)), options(given), bounds(parts.surface.boundingBox()) {
+    if (options.shape) bounds.extend(boundingBox(*options.shape));
+  }
 
   BodyMeshParts parts;  ///< without the nodes
   BodyMeshOptions options;
+  Eigen::AlignedBox3d bounds;
   // Made on demand:
   Part<ShellJoints> joints;
   Part<Facets> facets;
@@ -77,6 +81,7 @@ void checkNodeCount(const std::string& name, const SurfaceMesh& surface, const B
 BodyMeshParts makeExactParts(std::string name, SurfaceMesh surface, const BodyMeshOptions& options) {
   if (surface.triangleCount() == 0)
     throw Error(name, "the surface has no triangles", "load or make one first");
+  if (options.shape) options.shape->validate(name);
   checkEdgeLength(surface, options.max_edge_length, name);
   checkNodeCount(name, surface, options);
   BodyMeshParts parts;
@@ -138,6 +143,14 @@ BodyMesh::BodyMesh(BodyMeshParts parts, const BodyMeshOptions& options)
 
 const std::string& BodyMesh::name() const {
   return state_->parts.name;
+}
+
+const RoundShape* BodyMesh::shape() const {
+  return state_->options.shape ? &*state_->options.shape : nullptr;
+}
+
+const Eigen::AlignedBox3d& BodyMesh::bounds() const {
+  return state_->bounds;
 }
 
 const SurfaceMesh& BodyMesh::grid() const {
@@ -227,7 +240,13 @@ double BodyMesh::protrusionSpacing() const {
 }
 
 ContentKey bodyKey(const SurfaceMesh& surface, const BodyMeshOptions& options) {
-  return detail::keyOfNodes(detail::keyOf(surface), nodesOptions(options));
+  const ContentKey key = detail::keyOfNodes(detail::keyOf(surface), nodesOptions(options));
+  if (!options.shape) return key;
+  const RoundShape& shape = *options.shape;
+  ContentHasher hasher;
+  hasher.add(key).add(shape.kind).add(shape.radius).add(shape.half_length).add(shape.chord_error);
+  for (int i = 0; i < 16; ++i) hasher.add(shape.body_from_shape.data()[i]);
+  return hasher.key();
 }
 
 void prepareSearch(const std::vector<const BodyMesh*>& bodies) {

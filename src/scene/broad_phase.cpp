@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "mesh/surface/round_geometry.h"
+
 namespace concave_distance {
 namespace {
 
@@ -23,21 +25,33 @@ double lengthOfGaps(const Eigen::Vector3d& gaps) {
   return gaps.cwiseMax(0.0).norm();
 }
 
-}  // namespace
-
-BodyBounds boundsOf(const SurfaceMesh& surface) {
-  const Eigen::AlignedBox3d& box = surface.boundingBox();
+BodyBounds boundsOf(const Eigen::AlignedBox3d& box) {
   BodyBounds bounds;
   bounds.centre = box.center();
   for (int i = 0; i < 3; ++i) {
     bounds.half_extents[i] =
         roundedUp(std::max(box.max()[i] - bounds.centre[i], bounds.centre[i] - box.min()[i]));
   }
+  return bounds;
+}
+
+}  // namespace
+
+BodyBounds boundsOf(const SurfaceMesh& surface) {
+  BodyBounds bounds = boundsOf(surface.boundingBox());
   double squared_radius = 0.0;
   for (const Eigen::Vector3d& vertex : surface.vertices()) {
     squared_radius = std::max(squared_radius, (vertex - bounds.centre).squaredNorm());
   }
   bounds.radius = roundedUp(std::sqrt(squared_radius) * (1.0 + 8.0 * kUnitRoundoff));
+  return bounds;
+}
+
+BodyBounds boundsOf(const BodyMesh& body) {
+  if (body.shape() == nullptr) return boundsOf(body.surface());
+  BodyBounds bounds = boundsOf(body.bounds());
+  const double off = (bounds.centre - body.shape()->body_from_shape.translation()).norm();
+  bounds.radius = roundedUp((detail::reachOf(*body.shape()) + off) * (1.0 + 8.0 * kUnitRoundoff));
   return bounds;
 }
 

@@ -6,6 +6,7 @@
 
 #include "concave_distance/base/error.h"
 #include "mesh/surface/mesh_topology.h"
+#include "mesh/surface/round_geometry.h"
 
 namespace concave_distance::detail {
 namespace {
@@ -19,6 +20,10 @@ MassProperties massOf(const SceneBody& body, const SimulatedBodySettings& settin
       throw Error(where, "the mesh of body '" + body.name + "' is not closed: it has no volume to be filled",
                   "give `inertia`, or close the mesh");
     }
+    if (const RoundShape* shape = body.mesh->shape()) {
+      return settings.density ? massPropertiesOf(*shape, *settings.density, where)
+                              : massPropertiesOfMass(*shape, *settings.mass, where);
+    }
     return settings.density ? massPropertiesOf(body.mesh->surface(), *settings.density, where)
                             : massPropertiesOfMass(body.mesh->surface(), *settings.mass, where);
   }
@@ -27,9 +32,11 @@ MassProperties massOf(const SceneBody& body, const SimulatedBodySettings& settin
               "give one of inertia, density, mass, or fixed: true");
 }
 
-double radiusAbout(const SurfaceMesh& surface, const Eigen::Vector3d& point) {
+double radiusAbout(const BodyMesh& body, const Eigen::Vector3d& point) {
+  if (const RoundShape* shape = body.shape())
+    return farthestDistance(*shape, shape->body_from_shape.inverse(Eigen::Isometry) * point);
   double squared = 0.0;
-  for (const Eigen::Vector3d& vertex : surface.vertices())
+  for (const Eigen::Vector3d& vertex : body.surface().vertices())
     squared = std::max(squared, (vertex - point).squaredNorm());
   return std::sqrt(squared);
 }
@@ -51,14 +58,13 @@ Wrench wrenchOf(const AppliedLoad& load, const Eigen::Isometry3d& world_from_bod
 
 MovingBody::MovingBody(const SceneBody& body, const SimulatedBodySettings& settings)
     : motion_(settings.motion), fixed_pose_(settings.pose), loads_(settings.loads) {
-  const SurfaceMesh& surface = body.mesh->surface();
   if (motion_ == BodyMotion::Driven) path_.emplace(settings.path);
   if (motion_ != BodyMotion::Free) {
-    radius_ = radiusAbout(surface, Eigen::Vector3d::Zero());
+    radius_ = radiusAbout(*body.mesh, Eigen::Vector3d::Zero());
     return;
   }
   rigid_.emplace(massOf(body, settings), settings.where.empty() ? body.name : settings.where);
-  radius_ = radiusAbout(surface, rigid_->centreInBody());
+  radius_ = radiusAbout(*body.mesh, rigid_->centreInBody());
   state_ = rigid_->stateAt(settings.pose, settings.velocity, settings.angular_velocity);
   before_ = state_;
   if (settings.drive) {

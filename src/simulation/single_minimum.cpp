@@ -3,6 +3,8 @@
 #include <cmath>
 #include <utility>
 
+#include "distance/round_certificate.h"
+
 namespace concave_distance {
 
 SingleMinimum::SingleMinimum(std::shared_ptr<const BodyMesh> a, std::shared_ptr<const BodyMesh> b)
@@ -16,7 +18,9 @@ void SingleMinimum::start(TriangleIndex triangle_a, TriangleIndex triangle_b) {
 }
 
 const WitnessPair& SingleMinimum::update(const Eigen::Isometry3d& a_from_b) {
-  witness_ = refineWitness(*a_, *b_, a_from_b, witness_.triangle_a, witness_.triangle_b, workspace_).witness;
+  const TrianglePair last{witness_.triangle_a, witness_.triangle_b};
+  witness_ = hasRound(*a_, *b_) ? refineRoundWitness(*a_, *b_, a_from_b, last)
+                                : refineWitness(*a_, *b_, a_from_b, last.a, last.b, workspace_).witness;
   updated_ = true;
   return witness_;
 }

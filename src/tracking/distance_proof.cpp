@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "distance/round_certificate.h"
 #include "distance/solid_overlap.h"
 
 namespace concave_distance {
@@ -38,10 +39,15 @@ void DistanceProof::prove(PairGeometry& geometry, const TrackerParameters& param
   request.absolute_tolerance = parameters.absolute_tolerance;
   request.relative_tolerance = parameters.relative_tolerance;
   request.limit = &limit;
-  certificate_ = certifyDistance(*geometry.a, *geometry.b, geometry.a_from_b, seeds.data(), count, request,
-                                 workspace_, &front_);
-  if (certificate_.status == CertificateStatus::Budget ||
-      certificate_.status == CertificateStatus::Tolerance) {
+  const bool is_round = hasRound(*geometry.a, *geometry.b);
+  certificate_ = is_round ? certifyRoundDistance(*geometry.a, *geometry.b, geometry.a_from_b, seeds.data(),
+                                                 count, request)
+                          : certifyDistance(*geometry.a, *geometry.b, geometry.a_from_b, seeds.data(), count,
+                                            request, workspace_, &front_);
+  if (is_round) {
+    // Its closest points are a local minimum already.
+  } else if (certificate_.status == CertificateStatus::Budget ||
+             certificate_.status == CertificateStatus::Tolerance) {
     // Stopped on the way down.
     const WitnessRefinement refined =
         geometry.refine(certificate_.witness.triangle_a, certificate_.witness.triangle_b);
@@ -54,7 +60,9 @@ void DistanceProof::prove(PairGeometry& geometry, const TrackerParameters& param
   seeded_ = current_ = true;
   // Who holds whom cannot change while no point comes as far as the other surface.
   if (!(displacement + error_ < last_bound)) {
-    const std::optional<bool> holds = isContained(*geometry.a, *geometry.b, geometry.a_from_b, limit);
+    const std::optional<bool> holds = is_round
+                                          ? isRoundContained(*geometry.a, *geometry.b, geometry.a_from_b)
+                                          : isContained(*geometry.a, *geometry.b, geometry.a_from_b, limit);
     swallowed_ = holds.value_or(false);
     // Until it is known whether one body is inside the other, nothing is certain.
     if (!holds) {

@@ -81,7 +81,7 @@ void ExactNiches::admit(PairGeometry& geometry, const TrackerParameters& paramet
   std::vector<NicheRecord>& records = archive.records();
   request_.limit = &limit;
   request_.is_tracked = cycle.is_tracked;
-  request_.cutoff = parameters.cutoff;
+  request_.cutoff = cycle.cutoff;
   request_.least_prominence = parameters.least_prominence;
   request_.prominence_limit = parameters.prominence_limit;
   request_.largest_count = archiveCapacity(parameters.largest_niche_count);

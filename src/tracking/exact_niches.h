@@ -24,6 +24,7 @@ class ExactNiches {
     Eigen::Isometry3d last_a_from_b;  ///< of the cycle before, if there was one
     double elapsed;                   ///< seconds; 0: unknown
     bool is_tracked;                  ///< a next cycle uses what this one finds
+    double cutoff;                    ///< metres, of the niches of the meshes
   };
 
   /// Whether nothing can have changed since the last admit().

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <limits>
 #include <utility>
 
 #include "distance/minima_scene.h"
 #include "distance/plateau_tolerance.h"
+#include "distance/round_certificate.h"
 #include "distance/solid_overlap.h"
 #include "mesh/trees/normal_cone_tree.h"
 #include "node_niches.h"
@@ -37,6 +39,7 @@ PairCycle::PairCycle(std::string name, std::shared_ptr<const BodyMesh> a, std::s
       search_(*geometry_.a, *geometry_.b) {
   parameters_.validate(name_);
   archive_.beginIdsAfter(largest_used_id);
+  round_.beginIdsAfter(largest_used_id);
 }
 
 void PairCycle::update(const Eigen::Isometry3d& pose, double time, PairSolution& solution, bool is_tracked) {
@@ -70,7 +73,7 @@ void PairCycle::update(const Eigen::Isometry3d& pose, double time, PairSolution&
 
 PairCycle::Passed PairCycle::passed(const Moment& before, const Moment& now) const {
   if (!before.known) return {std::numeric_limits<double>::infinity(), 0.0};
-  return {largestDisplacement(geometry_.b->surface().boundingBox(), before.pose, now.pose),
+  return {largestDisplacement(geometry_.b->bounds(), before.pose, now.pose),
           std::max(0.0, now.time - before.time)};
 }
 
@@ -88,7 +91,9 @@ void PairCycle::runStages(const Passed& since_cycle, const Passed& since_niches,
     stage_clock_.lap(SolveStage::Prove, solution.stages);
   }
   if (!wantsNiches()) return;
-  if (isExact()) {
+  if (isRound()) {
+    solveRound(since_niches, solution);
+  } else if (isExact()) {
     solveExact(since_niches, solution);
   } else {
     solveNodes(since_niches, solution);
@@ -97,8 +102,8 @@ void PairCycle::runStages(const Passed& since_cycle, const Passed& since_niches,
 
 void PairCycle::prove(double displacement) {
   std::optional<TrianglePair> nearest;
-  if (wantsNiches() && !archive_.records().empty()) {
-    const WitnessPair& witness = archive_.records().front().niche.witness;
+  if (wantsNiches() && !niches().empty()) {
+    const WitnessPair& witness = niches().front().niche.witness;
     nearest = TrianglePair{witness.triangle_a, witness.triangle_b};
   }
   distance_before_ = isWarm() ? proof_.certificate().distance : kNotComputed;
@@ -128,15 +133,36 @@ void PairCycle::solveExact(const Passed& passed, PairSolution& solution) {
   stage_clock_.lap(SolveStage::Follow, solution.stages);
   if (searchIsDue()) proposeMinima(solution.cost);
   if (proves() && !proof_.isPenetrating()) {
-    niches_.proposeProven(geometry_, proof_.certificate().witness);
+    niches_.proposeProven(geometry_, provenOnMeshes());
   }
   stage_clock_.lap(SolveStage::Propose, solution.stages);
-  niches_.admit(geometry_, parameters_, {cycle_, last_niches_.pose, passed.elapsed, is_tracked_},
-                certainDistance(), kShareOfNiches, archive_, solution, limit_);
+  niches_.admit(geometry_, parameters_,
+                {cycle_, last_niches_.pose, passed.elapsed, is_tracked_, cutoffOfMeshes()}, certainDistance(),
+                kShareOfNiches, archive_, solution, limit_);
   search_.earn(niches_.work(), parameters_.search_share);
   stage_clock_.lap(SolveStage::Admit, solution.stages);
   solution.stages[SolveStage::Sweep] = niches_.cost().sweep_seconds;
   solution.stages[SolveStage::Admit] -= niches_.cost().sweep_seconds;
+}
+
+// Two round solids are convex: their one niche needs no search.
+void PairCycle::solveRound(const Passed& passed, PairSolution& solution) {
+  const bool stands = passed.displacement == 0.0 && !round_.records().empty();
+  if (!isPairOfShapes()) solveExact(passed, solution);
+  if (stands && (isPairOfShapes() || niches_.stands(passed.displacement)))
+    return round_.stand(passed.elapsed);
+  round_.update(geometry_, archive_, {cycle_, isWarm() ? passed.displacement : 0.0, passed.elapsed},
+                solution.events);
+}
+
+// The certificate's is between the exact surfaces.
+WitnessPair PairCycle::provenOnMeshes() {
+  const WitnessPair& witness = proof_.certificate().witness;
+  return isRound() ? geometry_.refine(witness.triangle_a, witness.triangle_b).witness : witness;
+}
+
+double PairCycle::cutoffOfMeshes() const {
+  return parameters_.cutoff + (isRound() ? RoundNiches::meshExcess(geometry_) : 0.0);
 }
 
 // Where all minima are looked for besides, the search keeps to its share: a first cycle has earned none, but
@@ -195,7 +221,7 @@ void PairCycle::reportAlone(double elapsed, PairSolution& solution) {
 }
 
 void PairCycle::listNiches(PairSolution& solution) {
-  std::vector<NicheRecord>& records = archive_.records();
+  std::vector<NicheRecord>& records = niches();
   if (!records.empty()) {
     records.front().niche.prominence = std::numeric_limits<double>::infinity();
   }
@@ -220,7 +246,7 @@ void PairCycle::listNiches(PairSolution& solution) {
 }
 
 void PairCycle::reportNearest(PairSolution& solution) {
-  const std::vector<NicheRecord>& records = archive_.records();
+  const std::vector<NicheRecord>& records = niches();
   if (!records.empty()) {
     const TrackedNiche& nearest = records.front().niche;
     solution.distance = nearest.distance;
@@ -232,14 +258,17 @@ void PairCycle::reportNearest(PairSolution& solution) {
       return;
     }
   }
-  const bool overlap = isContained(*geometry_.a, *geometry_.b, geometry_.a_from_b, limit_).value_or(false);
+  const bool overlap =
+      isRound() ? isRoundContained(*geometry_.a, *geometry_.b, geometry_.a_from_b)
+                : isContained(*geometry_.a, *geometry_.b, geometry_.a_from_b, limit_).value_or(false);
   const MinimumSeed* known = niches_.nearestProposed();
   const bool is_known_alone = records.empty() && limit_.hasRefused();
   if (isExact() && known != nullptr && (overlap || is_known_alone)) {
     // Not a niche, but still a bound of the distance: through material, or there was no time to find one.
     const WitnessPair witness =
-        detail::MinimaScene(*geometry_.a, *geometry_.b, geometry_.a_from_b).witnessOf(*known);
-    solution.distance = known->distance;
+        isRound() ? refineRoundWitness(*geometry_.a, *geometry_.b, geometry_.a_from_b, {known->a, known->b})
+                  : detail::MinimaScene(*geometry_.a, *geometry_.b, geometry_.a_from_b).witnessOf(*known);
+    solution.distance = isRound() ? std::sqrt(witness.squared_distance) : known->distance;
     solution.point_a_in_a = witness.point_a_in_a;
     solution.point_b_in_a = witness.point_b_in_a;
   }
@@ -266,7 +295,7 @@ void PairCycle::reportMiss(double displacement, PairSolution& solution) const {
 
 // After the limit the answer is incomplete, even with a finished proof.
 void PairCycle::reportLimit(PairSolution& solution) const {
-  const bool all = niches_.isFinished() && !limit_.hasRefused();
+  const bool all = (niches_.isFinished() || isPairOfShapes()) && !limit_.hasRefused();
   solution.niches_complete = proves() && parameters_.niches_wanted && all && !solution.niches_cut;
   if (!limit_.hasRefused() || solution.status == SolveStatus::Penetrating) return;
   solution.status = limit_.hasRefusedTime() ? SolveStatus::BudgetExhausted : SolveStatus::MemoryExhausted;
@@ -307,6 +336,7 @@ void PairCycle::prepare() {
 
 void PairCycle::reset() {
   archive_.clear();
+  round_.clear();
   proof_.clear();
   niches_.clear();
   search_.restart();
@@ -316,6 +346,7 @@ void PairCycle::reset() {
 void PairCycle::restart() {
   reset();
   archive_.beginIdsAfter(largest_used_id_);
+  round_.beginIdsAfter(largest_used_id_);
   cycle_ = 0;
   limit_ = {};
 }
@@ -334,7 +365,7 @@ void PairCycle::setParameters(const TrackerParameters& parameters) {
 std::size_t PairCycle::memoryBytes() const {
   return sizeof(PairCycle) + archive_.records().capacity() * sizeof(NicheRecord) +
          known_.capacity() * sizeof(TrialPoint) + proof_.memoryBytes() + niches_.memoryBytes() +
-         search_.memoryBytes();
+         search_.memoryBytes() + round_.memoryBytes();
 }
 
 }  // namespace concave_distance

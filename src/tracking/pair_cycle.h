@@ -12,6 +12,7 @@
 #include "niche_archive.h"
 #include "niche_search.h"
 #include "pair_geometry.h"
+#include "round_niches.h"
 
 namespace concave_distance {
 
@@ -52,6 +53,9 @@ class PairCycle {
   void runStages(const Passed& since_cycle, const Passed& since_niches, PairSolution& solution);
   void solveNodes(const Passed& passed, PairSolution& solution);
   void solveExact(const Passed& passed, PairSolution& solution);
+  void solveRound(const Passed& passed, PairSolution& solution);
+  WitnessPair provenOnMeshes();
+  double cutoffOfMeshes() const;
   void prove(double displacement);
   void proposeMinima(SearchCost& cost);
   bool searchIsDue() const;
@@ -67,6 +71,15 @@ class PairCycle {
   bool isExact() const { return parameters_.accuracy != AccuracyLevel::Nodes; }
   bool isWarm() const { return last_cycle_.known; }
   bool wantsNiches() const { return !proves() || parameters_.niches_wanted; }
+  /// At the exact levels the solids count, at `nodes` their meshes.
+  bool isRound() const {
+    return isExact() && (geometry_.a->shape() != nullptr || geometry_.b->shape() != nullptr);
+  }
+  bool isPairOfShapes() const {
+    return isExact() && geometry_.a->shape() != nullptr && geometry_.b->shape() != nullptr;
+  }
+  /// That are reported.
+  std::vector<NicheRecord>& niches() { return isRound() ? round_.records() : archive_.records(); }
 
   std::string name_;
   PairGeometry geometry_;
@@ -75,7 +88,8 @@ class PairCycle {
   DistanceProof proof_;
   NicheSearch search_;
   ExactNiches niches_;
-  NicheArchive archive_;
+  NicheArchive archive_;           ///< of the meshes
+  RoundNiches round_;              ///< of the solids, where there are any
   std::vector<TrialPoint> known_;  ///< node pairs, of the cycle
   std::uint64_t cycle_ = 0;
   bool is_tracked_ = true;  ///< of the present cycle

@@ -77,7 +77,7 @@ struct PairEffects::State {
 
   void identify(const PairSolution& solution, PairContacts& contacts) {
     const double displacement =
-        in_contact ? largestDisplacement(b->surface().boundingBox(), last_pose, solution.a_from_b) : 0.0;
+        in_contact ? largestDisplacement(b->bounds(), last_pose, solution.a_from_b) : 0.0;
     identity.update(solution.niches, displacement, contacts.regions);
   }
 

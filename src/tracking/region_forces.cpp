@@ -45,7 +45,8 @@ void RegionForces::setSettings(const EffectSettings& settings, const ContactMate
 }
 
 bool RegionForces::isPatch(const InterferenceRegion& region) const {
-  return settings_.normal_force->distribution == ForceDistribution::Pressure && region.facet_count > 0;
+  return settings_.normal_force->distribution == ForceDistribution::Pressure &&
+         (region.facet_count > 0 || region.sample_count > 0);
 }
 
 void RegionForces::push(const Interference& interference, const RelativeTwist& b_in_a,

@@ -128,11 +128,31 @@ void ballOnVertex(SceneReport& report) {
                 "a ball stays where it is put", run.figures());
 }
 
+/// An exact ball, turned anyhow.
+void exactBall(SceneReport& report) {
+  ContactStage stage;
+  stage.effects = effectsOf(NormalForceModel::HuntCrossley, FrictionModel::Bristle);
+  stage.addGround();
+  RoundShape shape;
+  shape.radius = kRadius;
+  shape.chord_error = 0.01 * kRadius;
+  Eigen::Isometry3d pose = at(0, 0, kRadius);
+  pose.linear() = Eigen::AngleAxisd(0.7, Eigen::Vector3d(1.0, 2.0, 2.0) / 3.0).toRotationMatrix();
+  stage.addFree("ball", shape, kMass, pose);
+  stage.letMeet("ground", "ball");
+  SceneRun run(stage.simulation(), 10.0, report);
+  double largest = 0.0;
+  while (run.step()) largest = std::max(largest, run.body(1).centre.head<2>().norm());
+  report.atMost({"how far an exact ball rolls in 10 s", "mm", 1e3 * largest}, 1e-3,
+                "a ball stays where it is put", run.figures());
+}
+
 }  // namespace
 
 ContactScenes rollingScenes() {
   return {
       {"ball_on_vertex", "a meshed ball at rest", ballOnVertex},
+      {"exact_ball", "an exact ball at rest", exactBall},
       {"rolling_cylinder", "down a slope", [](SceneReport& r) { rollsDown(r, rollingCylinder()); }},
       {"rolling_sphere", "down a slope", [](SceneReport& r) { rollsDown(r, rollingSphere()); }},
       {"rolling_out_cylinder", "rolling friction stops it",

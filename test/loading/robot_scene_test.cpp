@@ -85,9 +85,33 @@ TEST_F(RobotScene, MirroringScaleKeepsNormalsOutwards) {
 TEST_F(RobotScene, RoundPrimitivesSayHowFarTheirMeshIsOff) {
   const SurfaceMesh& mesh = onlySurface(collision("<sphere radius='2'/>"), "    chord_error: 0.1\n");
   for (const Eigen::Vector3d& vertex : mesh.vertices()) EXPECT_LE(vertex.norm(), 2.0 + 1e-12);
-  EXPECT_TRUE(hasNote(last_scene, "sphere meshed from inside, 0.1 m off at most"));
+  EXPECT_TRUE(hasNote(last_scene, "sphere taken exactly; searched and drawn as a mesh, 0.1 m off at most"));
   onlySurface(collision("<cylinder radius='0.5' length='3'/>"));
-  EXPECT_TRUE(hasNote(last_scene, "cylinder meshed from inside, 0.005 m off at most"));
+  EXPECT_TRUE(
+      hasNote(last_scene, "cylinder taken exactly; searched and drawn as a mesh, 0.005 m off at most"));
+}
+
+TEST_F(RobotScene, ALinkOfOneRoundElementIsThatSolid) {
+  onlySurface(
+      "<collision><origin xyz='1 2 3' rpy='0.1 0.2 0.3'/><geometry>"
+      "<cylinder radius='0.5' length='3'/></geometry></collision>");
+  const SceneBody body = last_scene.bodies.front();
+  const RoundShape* shape = body.mesh->shape();
+  ASSERT_NE(shape, nullptr);
+  EXPECT_EQ(shape->kind, RoundKind::Cylinder);
+  EXPECT_EQ(shape->radius, 0.5);
+  EXPECT_EQ(shape->half_length, 1.5);
+  EXPECT_NEAR((shape->body_from_shape.translation() - Eigen::Vector3d(1, 2, 3)).norm(), 0.0, 1e-15);
+  for (const Eigen::Vector3d& vertex : body.mesh->surface().vertices()) {
+    const Eigen::Vector3d point = shape->body_from_shape.inverse() * vertex;
+    EXPECT_LE(point.head<2>().norm(), 0.5 + 1e-12);
+    EXPECT_LE(std::abs(point.z()), 1.5 + 1e-12);
+  }
+  onlySurface(collision("<cylinder radius='0.5' length='3'/>") + collision("<sphere radius='0.6'/>"));
+  EXPECT_EQ(last_scene.bodies.front().mesh->shape(), nullptr);
+  EXPECT_TRUE(hasNote(last_scene, "cylinder among several elements meshed from inside, 0.005 m off at most"));
+  onlySurface(collision("<box size='1 1 1'/>"));
+  EXPECT_EQ(last_scene.bodies.front().mesh->shape(), nullptr);
 }
 
 TEST_F(RobotScene, VisualGeometryIsTakenWhenAskedFor) {

@@ -26,6 +26,19 @@ struct SceneBuilder {
     return scene.bodies.edit(scene.bodies.size() - 1);
   }
 
+  /// An exact round solid.
+  SceneBody& addRoundBody(const std::string& name, const RoundShape& shape) {
+    BodyMeshOptions options;
+    options.max_edge_length = 100.0;
+    options.shape = shape;
+    SceneBody body;
+    body.name = body.frame = name;
+    body.mesh = std::make_shared<const BodyMesh>(name, inscribedMesh(shape, name), options);
+    body.bounds = boundsOf(*body.mesh);
+    scene.bodies.push_back(std::move(body));
+    return scene.bodies.edit(scene.bodies.size() - 1);
+  }
+
   /// Gives the body free motion; the settings are valid until the next call.
   SimulatedBodySettings& setFree(const std::string& name, double mass) {
     SimulatedBodySettings body;

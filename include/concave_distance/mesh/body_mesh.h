@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "concave_distance/mesh/preparation_cache.h"
+#include "concave_distance/mesh/surface/round_shape.h"
 #include "concave_distance/mesh/surface/surface_mesh.h"
 
 namespace concave_distance {
@@ -46,6 +47,9 @@ struct BodyMeshOptions {
   std::shared_ptr<MetricMemory> metric_memory;
   /// Where prepared parts are looked for and stored; nullptr: nowhere.
   PreparationCachePointer cache;
+  /// The solid that the surface is the inscribed mesh of: answers are for that solid. Empty: the surface is
+  /// what it is.
+  std::optional<RoundShape> shape;
 };
 
 /// One body, ready for queries: the original surface with its topology and trees for the exact levels, an
@@ -55,8 +59,8 @@ struct BodyMeshOptions {
 class BodyMesh {
  public:
   /// @param surface repaired, original triangles, body frame, metres
-  /// @throws Error (naming the body) for a surface without triangles, options out of range, or a grid of more
-  ///         nodes than they allow
+  /// @throws Error (naming the body) for a surface without triangles, options out of range (a shape among
+  ///         them), or a grid of more nodes than they allow
   BodyMesh(std::string name, SurfaceMesh surface, const BodyMeshOptions& options = {});
   BodyMesh(BodyMeshParts parts, const BodyMeshOptions& options);
   ~BodyMesh();
@@ -67,6 +71,10 @@ class BodyMesh {
   const std::string& name() const;
   const SurfaceMesh& surface() const { return *surface_; }
   double diameter() const { return surface_->diameter(); }
+  /// The solid that the surface is the inscribed mesh of; nullptr: none.
+  const RoundShape* shape() const;
+  /// Holds the surface and the shape, body frame.
+  const Eigen::AlignedBox3d& bounds() const;
   /// Memory of the parts made so far.
   std::size_t memoryBytes() const;
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 
+#include "concave_distance/mesh/body_mesh.h"
 #include "concave_distance/mesh/surface/surface_mesh.h"
 
 namespace concave_distance {
@@ -15,6 +16,8 @@ struct BodyBounds {
 
 /// O(vertices).
 BodyBounds boundsOf(const SurfaceMesh& surface);
+/// Of the body's shape, where it has one.
+BodyBounds boundsOf(const BodyMesh& body);
 
 /// A distance that two bodies are never nearer than, metres: a pair whose bound exceeds its cutoff need not
 /// be searched. The best of the two spheres, of both boxes along each other's axes taken together, and of the

@@ -44,6 +44,14 @@ SimulatedBodySettings& ContactStage::addFree(const std::string& name, SurfaceMes
   return body;
 }
 
+SimulatedBodySettings& ContactStage::addFree(const std::string& name, const RoundShape& shape, double mass,
+                                             const Eigen::Isometry3d& pose) {
+  addRoundBody(name, shape).material = material;
+  SimulatedBodySettings& body = setFree(name, mass);
+  body.pose = pose;
+  return body;
+}
+
 void ContactStage::letMeet(const std::string& a, const std::string& b) {
   ScenePair pair;
   pair.name = a + "/" + b;

@@ -26,6 +26,9 @@ struct ContactStage : test::SceneBuilder {
   /// The settings are valid until the next body is added.
   SimulatedBodySettings& addFree(const std::string& name, SurfaceMesh mesh, double mass,
                                  const Eigen::Isometry3d& pose);
+  /// The same for an exact round solid.
+  SimulatedBodySettings& addFree(const std::string& name, const RoundShape& shape, double mass,
+                                 const Eigen::Isometry3d& pose);
   void letMeet(const std::string& a, const std::string& b);
   /// A block 0.2 m thick whose upper face is z = 0, and `count` cubes of `side` on it, each on the one below.
   void addGround(double side = 4.0);

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <string>
 
+#include "concave_distance/mesh/surface/round_shape.h"
 #include "concave_distance/mesh/surface/surface_mesh.h"
 
 namespace concave_distance {
@@ -27,5 +28,9 @@ MassProperties massPropertiesOf(const SurfaceMesh& closed, double density, const
 
 /// The same for a given mass, kg.
 MassProperties massPropertiesOfMass(const SurfaceMesh& closed, double mass, const std::string& where);
+
+/// Of a round solid, by closed forms. @throws Error when the density or mass is not positive
+MassProperties massPropertiesOf(const RoundShape& shape, double density, const std::string& where);
+MassProperties massPropertiesOfMass(const RoundShape& shape, double mass, const std::string& where);
 
 }  // namespace concave_distance

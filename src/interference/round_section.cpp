@@ -1,0 +1,314 @@
+#include "round_section.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "gauss_points.h"
+#include "mesh/surface/round_geometry.h"
+
+namespace concave_distance::detail {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr int kMostSteps = 100;
+// Of the distance from the core: triangles up to these sizes take 3 and 6 points.
+constexpr double kSmall = 0.05;
+constexpr double kMedium = 0.3;
+// Parts of a section are cut about the core where that is nearer than this share of their length.
+constexpr double kNearCore = 0.8;
+constexpr int kMostRings = 6;
+constexpr double kWidestArc = kPi / 3.0;
+// A core farther than this share of the radius needs no rings about it.
+constexpr double kFarCore = 0.3;
+constexpr double kShortestAxis = 1e-14;
+
+/// Where a line from a point inside the solid changes from one piece of its depth to another, as shares of
+/// the way to `to`.
+struct Kinks {
+  std::array<double, 24> shares{};
+  std::size_t count = 0;
+
+  void add(double share) {
+    if (share > 0.0 && share < 1.0 && count < shares.size()) shares[count++] = share;
+  }
+  /// Ascending, those that are not there are 1.
+  const std::array<double, 24>& sorted() {
+    std::fill(shares.begin() + static_cast<std::ptrdiff_t>(count), shares.end(), 1.0);
+    std::sort(shares.begin(), shares.begin() + static_cast<std::ptrdiff_t>(count));
+    return shares;
+  }
+  void addRoots(double a, double b, double c) {
+    const double root = b * b - 4.0 * a * c;
+    if (root < 0.0) return;
+    const double q = -0.5 * (b + std::copysign(std::sqrt(root), b));
+    if (a != 0.0) add(q / a);
+    if (q != 0.0) add(c / q);
+  }
+};
+
+Kinks kinksOf(const RoundShape& shape, const Vector3d& from, const Vector3d& to) {
+  Kinks kinks;
+  if (shape.kind == RoundKind::Sphere) return kinks;
+  const Vector3d d = to - from;
+  const double h = shape.half_length;
+  if (shape.kind == RoundKind::Capsule) {
+    for (const double end : {-h, h}) kinks.add((end - from.z()) / d.z());
+  } else {
+    // As far below the cap as below the side: rho = r - h + |z|.
+    kinks.add(-from.z() / d.z());
+    for (const double side : {-1.0, 1.0}) {
+      const double level = shape.radius - h + side * from.z();
+      kinks.addRoots(d.head<2>().squaredNorm() - d.z() * d.z(),
+                     2.0 * (from.head<2>().dot(d.head<2>()) - level * side * d.z()),
+                     from.head<2>().squaredNorm() - level * level);
+    }
+  }
+  return kinks;
+}
+
+}  // namespace
+
+double wayOut(const RoundShape& shape, const Vector3d& from, const Vector3d& direction, double farthest) {
+  const auto value = [&](double way) { return signedDistance(shape, from + way * direction); };
+  double low = 0.0;
+  double low_value = value(0.0);
+  double high = farthest;
+  double high_value = value(high);
+  if (high_value <= 0.0) return high;
+  if (low_value >= 0.0) return 0.0;
+  // Regula falsi with the Illinois weights, whose end moves from both sides.
+  int side = 0;
+  const double enough = 4.0 * std::numeric_limits<double>::epsilon() * farthest;
+  for (int i = 0; i < kMostSteps && high - low > enough; ++i) {
+    double middle = low - low_value * (high - low) / (high_value - low_value);
+    if (!(middle > low && middle < high)) middle = 0.5 * (low + high);
+    const double now = value(middle);
+    if (std::abs(now) <= 0.25 * enough) return middle;
+    if (now < 0.0) {
+      low = middle;
+      low_value = now;
+      if (side < 0) high_value *= 0.5;
+      side = -1;
+    } else {
+      high = middle;
+      high_value = now;
+      if (side > 0) low_value *= 0.5;
+      side = 1;
+    }
+  }
+  return low;
+}
+
+void RoundSection::integrate(const RoundShape& shape, const TrianglePoints& triangle,
+                             const LowestPoint& lowest, bool sparse, std::vector<RoundSample>& samples) {
+  shape_ = &shape;
+  triangle_ = triangle;
+  samples_ = &samples;
+  centre_ = lowest.point;
+  core_ = std::max(1e-3 * shape.radius, (lowest.point - corePoint(shape, lowest.point)).norm());
+  normal_ = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);
+  const double twice_area = normal_.norm();
+  if (!(twice_area > 0.0)) return;
+  normal_ /= twice_area;
+  axis_u_ = normal_.unitOrthogonal();
+  axis_v_ = normal_.cross(axis_u_);
+  const bool inside = std::all_of(triangle.begin(), triangle.end(), [&](const Vector3d& corner) {
+    return signedDistance(shape, corner) <= 0.0;
+  });
+  if (inside) return addInside(sparse);
+  if (shape.kind != RoundKind::Sphere && core_ > kFarCore * shape.radius) moveCentre();
+  findPieces();
+  if (piece_count_ == 0) return addArc(0.0, 2.0 * kPi, {border(0.0), border(0.0)});
+  for (std::size_t k = 0; k < piece_count_; ++k) {
+    addStraight(pieces_[k]);
+    const Vector3d& end = pieces_[k].to;
+    const Vector3d& next = pieces_[(k + 1) % piece_count_].from;
+    if (end == next) continue;
+    const double from = angleOf(end);
+    double to = angleOf(next);
+    while (to <= from) to += 2.0 * kPi;
+    addArc(from, to, {end, next});
+  }
+}
+
+/// Where the depth hardly changes its deepest point may be at the border: to the middle of the plane's
+/// section, which is symmetrical about the axis as seen on the plane, or as far towards it as the triangle
+/// goes.
+void RoundSection::moveCentre() {
+  const Vector3d foot = normal_.dot(centre_) * normal_;
+  const Vector3d axis = Vector3d::UnitZ() - normal_.z() * normal_;
+  const Vector3d along = axis.norm() > kShortestAxis ? Vector3d(axis.normalized()) : axis_u_;
+  const double reach = 2.0 * reachOf(*shape_);
+  const LowestPoint lowest = lowestOnSegment(*shape_, foot - reach * along, foot + reach * along);
+  if (lowest.value >= 0.0) return;
+  const double ahead = wayOut(*shape_, lowest.point, along, reach);
+  const double behind = wayOut(*shape_, lowest.point, -along, reach);
+  const Vector3d middle = lowest.point + 0.5 * (ahead - behind) * along;
+  const Vector3d nearest = pointTriangleDistance(middle, triangle_).point;
+  if (signedDistance(*shape_, nearest) < 0.0) centre_ = nearest;
+}
+
+// The signed distance is convex along an edge: below 0 between two crossings at most.
+void RoundSection::findPieces() {
+  piece_count_ = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vector3d& from = triangle_[k];
+    const Vector3d& to = triangle_[(k + 1) % 3];
+    const LowestPoint lowest = lowestOnSegment(*shape_, from, to);
+    if (lowest.value >= 0.0) continue;
+    const auto end = [&](const Vector3d& corner) {
+      const Vector3d way = corner - lowest.point;
+      const double length = way.norm();
+      if (signedDistance(*shape_, corner) <= 0.0 || !(length > 0.0)) return corner;
+      return Vector3d(lowest.point + wayOut(*shape_, lowest.point, way / length, length) / length * way);
+    };
+    pieces_[piece_count_++] = {end(from), end(to)};
+  }
+}
+
+void RoundSection::addInside(bool sparse) {
+  const Vector3d& a = triangle_[0];
+  const Vector3d& b = triangle_[1];
+  const Vector3d& c = triangle_[2];
+  const double area = 0.5 * (b - a).cross(c - a).norm();
+  if (sparse) return add((a + b + c) / 3.0, area);
+  const double size =
+      std::sqrt(std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()}));
+  const double room = shape_->radius + signedDistance(*shape_, centre_);
+  const bool bends = shape_->kind == RoundKind::Cylinder &&
+                     std::any_of(triangle_.begin(), triangle_.end(), [&](const Vector3d& corner) {
+                       return outwardDirection(*shape_, corner).dot(outwardDirection(*shape_, centre_)) < 0.5;
+                     });
+  if (size > kMedium * room || bends) {
+    for (std::size_t k = 0; k < 3; ++k) addStraight({triangle_[k], triangle_[(k + 1) % 3]});
+  } else if (size > kSmall * room) {
+    for (const TrianglePoint& p : kTriangleSix)
+      add(p.u * a + p.v * b + (1.0 - p.u - p.v) * c, p.weight * area);
+  } else {
+    for (std::size_t k = 0; k < 3; ++k) add(0.5 * (triangle_[k] + triangle_[(k + 1) % 3]), area / 3.0);
+  }
+}
+
+void RoundSection::addStraight(const Piece& piece) {
+  const Vector3d along = piece.to - piece.from;
+  const double twice_area = (piece.from - centre_).cross(along).dot(normal_);
+  if (!(twice_area > 0.0)) return;
+  const double length = along.norm();
+  const double nearest = (centre_ - piece.from).dot(along) / (length * length);
+  const double width = std::max(core_, twice_area / length) / length;
+  Kinks cuts = kinksOf(*shape_, piece.from, piece.to);
+  double ring = width;
+  for (int k = 0; k < kMostRings && core_ < kNearCore * length; ++k, ring *= 3.0) {
+    cuts.add(nearest - ring);
+    cuts.add(nearest + ring);
+  }
+  double from = 0.0;
+  for (const double to : cuts.sorted()) {
+    for (const GaussPoint& at : kGaussFive)
+      addRay(piece.from + (from + at.at * (to - from)) * along, at.weight * (to - from) * twice_area);
+    from = to;
+    if (to == 1.0) break;
+  }
+}
+
+double RoundSection::angleOf(const Vector3d& point) const {
+  const Vector3d way = point - centre_;
+  return std::atan2(way.dot(axis_v_), way.dot(axis_u_));
+}
+
+/// How far the triangle goes from the centre.
+double RoundSection::edgeWay(const Vector3d& direction) const {
+  double way = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vector3d outward = (triangle_[(k + 1) % 3] - triangle_[k]).cross(normal_);
+    const double rate = outward.dot(direction);
+    if (rate > 0.0) way = std::min(way, std::max(0.0, outward.dot(triangle_[k] - centre_) / rate));
+  }
+  return way;
+}
+
+/// Angles at which the rims of the solid's pieces cross the triangle's plane.
+void RoundSection::findBends(double from, double to) {
+  bend_count_ = 0;
+  bends_[bend_count_++] = from;
+  const double across = std::hypot(normal_.x(), normal_.y());
+  if (shape_->kind != RoundKind::Sphere && across > 0.0) {
+    for (const double end : {-shape_->half_length, shape_->half_length}) {
+      const double level = (normal_.dot(centre_) - normal_.z() * end) / across;
+      const double half_squared = shape_->radius * shape_->radius - level * level;
+      if (half_squared <= 0.0) continue;
+      const Vector3d out(normal_.x() / across, normal_.y() / across, 0.0);
+      const Vector3d side(-out.y(), out.x(), 0.0);
+      for (const double half : {-std::sqrt(half_squared), std::sqrt(half_squared)}) {
+        double angle = angleOf(level * out + half * side + end * Vector3d::UnitZ());
+        while (angle <= from) angle += 2.0 * kPi;
+        if (angle < to) bends_[bend_count_++] = angle;
+      }
+    }
+  }
+  std::sort(bends_.begin() + 1, bends_.begin() + static_cast<std::ptrdiff_t>(bend_count_));
+  bends_[bend_count_++] = to;
+}
+
+Vector3d RoundSection::border(double angle) const {
+  return towards(std::cos(angle) * axis_u_ + std::sin(angle) * axis_v_);
+}
+
+/// Where the solid ends, or the triangle.
+Vector3d RoundSection::towards(const Vector3d& direction) const {
+  return centre_ + wayOut(*shape_, centre_, direction, std::min(2.0 * reachOf(*shape_), edgeWay(direction))) *
+                       direction;
+}
+
+/// In parts along their chords: exact where the border is straight, as that of a cylinder on its side.
+/// @param ends the border's points at both angles
+void RoundSection::addArc(double from, double to, const Piece& ends) {
+  findBends(from, to);
+  Vector3d start = ends.from;
+  for (std::size_t b = 0; b + 1 < bend_count_; ++b) {
+    const double width = bends_[b + 1] - bends_[b];
+    const auto parts = std::max(1, static_cast<int>(std::ceil(width / kWidestArc - 1e-9)));
+    for (int part = 0; part < parts; ++part) {
+      const bool is_last = b + 2 == bend_count_ && part + 1 == parts;
+      const Vector3d end = is_last ? ends.to : border(bends_[b] + (part + 1) * width / parts);
+      const double twice_area = (start - centre_).cross(end - centre_).dot(normal_);
+      for (const GaussPoint& at : kGaussFive) {
+        const Vector3d chord = start + at.at * (end - start) - centre_;
+        const double length = chord.norm();
+        if (!(length > 0.0)) continue;
+        const Vector3d point = towards(chord / length);
+        addRay(point, at.weight * twice_area * (point - centre_).squaredNorm() / (length * length));
+      }
+      start = end;
+    }
+  }
+}
+
+/// In rings around the core where that is near, for the fields of RoundVolume, and cut at the kinks.
+/// @param weight of the whole ray: twice the area that it stands for
+void RoundSection::addRay(const Vector3d& end, double weight) {
+  Kinks kinks = kinksOf(*shape_, centre_, end);
+  const double length = (end - centre_).norm();
+  double ring = core_;
+  for (int k = 0; k < kMostRings && ring < kNearCore * length; ++k, ring *= 3.0) kinks.add(ring / length);
+  double from = 0.0;
+  for (const double to : kinks.sorted()) {
+    for (const GaussPoint& at : kGaussFour) {
+      const double share = from + at.at * (to - from);
+      add(centre_ + share * (end - centre_), weight * share * at.weight * (to - from));
+    }
+    from = to;
+    if (to == 1.0) break;
+  }
+}
+
+void RoundSection::add(const Vector3d& point, double area) {
+  if (!(area > 0.0)) return;
+  samples_->push_back({point, normal_, outwardDirection(*shape_, point), area,
+                       std::max(0.0, -signedDistance(*shape_, point))});
+}
+
+}  // namespace concave_distance::detail

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "distance/round_kernels.h"
+
+namespace concave_distance::detail {
+
+/// A point of a surface inside a round solid, in the solid's frame.
+struct RoundSample {
+  Eigen::Vector3d point;
+  Eigen::Vector3d normal;  ///< unit, of the surface
+  Eigen::Vector3d out;     ///< the shortest way out of the solid, unit
+  double area;             ///< m^2 that it stands for
+  double depth;            ///< metres below the solid's surface
+};
+
+/// How far from `from`, inside the solid, along a unit direction the solid ends, metres; no farther than
+/// `farthest`. To a few machine epsilons of the solid's size.
+double wayOut(const RoundShape& shape, const Eigen::Vector3d& from, const Eigen::Vector3d& direction,
+              double farthest);
+
+/// Integrates over the part of a triangle that is inside a round solid. That part is convex, and the depth is
+/// concave: polar coordinates about its deepest point, with Gauss points between the corners, the crossings
+/// of the edges and the places where the solid's surface changes from one piece to another. Small triangles
+/// wholly inside take 3 or 6 points.
+class RoundSection {
+ public:
+  /// Appends the samples.
+  /// @param lowest of the triangle (lowestOnTriangle), inside
+  /// @param sparse a triangle wholly inside has one sample: it is one of very many
+  void integrate(const RoundShape& shape, const TrianglePoints& triangle, const LowestPoint& lowest,
+                 bool sparse, std::vector<RoundSample>& samples);
+
+ private:
+  /// Of the boundary, counterclockwise.
+  struct Piece {
+    Eigen::Vector3d from;
+    Eigen::Vector3d to;
+  };
+
+  void moveCentre();
+  void findPieces();
+  void addInside(bool sparse);
+  void addStraight(const Piece& piece);
+  void addArc(double from, double to, const Piece& ends);
+  void addRay(const Eigen::Vector3d& end, double weight);
+  void add(const Eigen::Vector3d& point, double area);
+  void findBends(double from, double to);
+  Eigen::Vector3d border(double angle) const;
+  Eigen::Vector3d towards(const Eigen::Vector3d& direction) const;
+  double angleOf(const Eigen::Vector3d& point) const;
+  double edgeWay(const Eigen::Vector3d& direction) const;
+
+  const RoundShape* shape_ = nullptr;
+  TrianglePoints triangle_;
+  Eigen::Vector3d centre_;
+  double core_ = 0.0;  ///< distance of the centre from the core, metres
+  Eigen::Vector3d normal_;
+  Eigen::Vector3d axis_u_;
+  Eigen::Vector3d axis_v_;
+  std::vector<RoundSample>* samples_ = nullptr;
+  std::array<Piece, 3> pieces_;
+  std::size_t piece_count_ = 0;
+  std::array<double, 8> bends_;
+  std::size_t bend_count_ = 0;
+};
+
+}  // namespace concave_distance::detail

@@ -1,0 +1,78 @@
+#include "concave_distance/mesh/surface/round_shape.h"
+
+#include <cmath>
+#include <utility>
+
+#include "base/coordinate_limit.h"
+#include "base/parameter_checks.h"
+#include "concave_distance/mesh/surface/primitives.h"
+
+namespace concave_distance {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+// Of the rotation's columns against orthonormal ones.
+constexpr double kRigid = 1e-12;
+
+void requireShort(const std::string& where, const char* name, double length) {
+  detail::requirePositive(where, name, length, "m");
+  if (length > 0.5 * kLargestCoordinate)
+    detail::refuse(where, name, detail::toText(length), "a positive length of at most 5e17 m");
+}
+
+}  // namespace
+
+void RoundShape::validate(const std::string& where) const {
+  requireShort(where, "radius", radius);
+  requireShort(where, "chord_error", chord_error);
+  if (kind != RoundKind::Sphere) {
+    requireShort(where, "half_length", half_length);
+  } else if (half_length != 0.0) {
+    detail::refuse(where, "half_length", detail::toText(half_length), "0 for a sphere");
+  }
+  const Eigen::Matrix3d rotation = body_from_shape.linear();
+  const bool rigid =
+      body_from_shape.matrix().allFinite() && rotation.determinant() > 0.0 &&
+      (rotation.transpose() * rotation - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() <= kRigid &&
+      body_from_shape.translation().cwiseAbs().maxCoeff() <= kLargestCoordinate;
+  if (!rigid) detail::refuse(where, "body_from_shape", "not a rigid pose", "a rotation and a translation");
+}
+
+SurfaceMesh inscribedMesh(const RoundShape& shape, const std::string& where) {
+  shape.validate(where);
+  const SurfaceMesh mesh = [&] {
+    switch (shape.kind) {
+      case RoundKind::Capsule:
+        return makeCapsule(shape.radius, 2.0 * shape.half_length, shape.chord_error, where);
+      case RoundKind::Cylinder:
+        return makeCylinder(shape.radius, 2.0 * shape.half_length, shape.chord_error, where);
+      case RoundKind::Sphere:
+        break;
+    }
+    return makeSphere(shape.radius, shape.chord_error, where);
+  }();
+  std::vector<Eigen::Vector3d> vertices;
+  vertices.reserve(mesh.vertexCount());
+  for (const Eigen::Vector3d& vertex : mesh.vertices()) vertices.push_back(shape.body_from_shape * vertex);
+  return SurfaceMesh(std::move(vertices), mesh.triangles(), where);
+}
+
+Eigen::AlignedBox3d boundingBox(const RoundShape& shape) {
+  const Eigen::Vector3d axis = shape.body_from_shape.linear().col(2);
+  Eigen::Vector3d half = shape.half_length * axis.cwiseAbs();
+  if (shape.kind == RoundKind::Cylinder) {
+    half += shape.radius * (Eigen::Vector3d::Ones() - axis.cwiseAbs2()).cwiseMax(0.0).cwiseSqrt();
+  } else {
+    half += Eigen::Vector3d::Constant(shape.radius);
+  }
+  const Eigen::Vector3d centre = shape.body_from_shape.translation();
+  return {centre - half, centre + half};
+}
+
+double volumeOf(const RoundShape& shape) {
+  const double disc = kPi * shape.radius * shape.radius;
+  const double ends = shape.kind == RoundKind::Cylinder ? 0.0 : 4.0 / 3.0 * disc * shape.radius;
+  return ends + 2.0 * shape.half_length * disc;
+}
+
+}  // namespace concave_distance

@@ -1,0 +1,214 @@
+// Pairs with an exact round solid: distance, niches and identity are those of the solid and not of its mesh.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "concave_distance/tracking/pair_tracker.h"
+#include "distance/round_certificate.h"
+#include "support/body_pairs.h"
+#include "support/count_allocations.h"
+#include "support/round_bodies.h"
+
+namespace concave_distance {
+namespace {
+
+using Body = std::shared_ptr<const BodyMesh>;
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+using test::makeBody;
+using test::translation;
+
+TrackerParameters atLevel(AccuracyLevel level, bool niches = true) {
+  TrackerParameters parameters;
+  parameters.accuracy = level;
+  parameters.niches_wanted = niches;
+  return parameters;
+}
+
+Isometry3d turned(double angle, const Vector3d& axis, const Vector3d& at) {
+  Isometry3d pose(Eigen::AngleAxisd(angle, axis.normalized()));
+  pose.translation() = at;
+  return pose;
+}
+
+const Body& ball() {
+  static const Body kBall = test::makeRoundBody(test::sphereOf(0.1));
+  return kBall;
+}
+
+TEST(RoundPair, ABallThatRollsKeepsItsDistanceAndItsNiche) {
+  const Body table = makeBody(makeBox({2.0, 2.0, 0.1}));
+  for (const AccuracyLevel level : {AccuracyLevel::Certified, AccuracyLevel::Refined}) {
+    PairTracker tracker("roll", table, ball(), atLevel(level));
+    PairSolution solution;
+    std::uint64_t id = 0;
+    for (int i = 0; i < 200; ++i) {
+      const double x = -0.5 + 0.005 * i;
+      tracker.update(turned(x / 0.1, Vector3d(0.1, 1.0, 0.02), {x, 0.1, 0.16}), 0.01 * i, solution);
+      ASSERT_EQ(solution.status, SolveStatus::Ok);
+      ASSERT_NEAR(solution.distance, 0.01, 1e-15);
+      ASSERT_NEAR((solution.point_a_in_a - Vector3d(x, 0.1, 0.05)).norm(), 0.0, 1e-13);
+      ASSERT_NEAR((solution.point_b_in_a - Vector3d(x, 0.1, 0.06)).norm(), 0.0, 1e-13);
+      ASSERT_EQ(solution.niches.size(), 1U) << i;
+      ASSERT_EQ(solution.niches[0].kind, NicheKind::Point);
+      ASSERT_NEAR((solution.niches[0].normal_in_a - Vector3d::UnitZ()).norm(), 0.0, 1e-12);
+      if (i == 0) id = solution.niches[0].id;
+      ASSERT_EQ(solution.niches[0].id, id) << i;
+      ASSERT_EQ(solution.events.size(), i == 0 ? 1U : 0U) << i;
+      if (i > 0) {
+        ASSERT_NEAR(solution.closing_speed, 0.0, 1e-11);
+      }
+    }
+  }
+}
+
+TEST(RoundPair, ABallInACornerHasOneNicheForEachFace) {
+  const Body corner = makeBody(test::makeLShape(0.6, 0.15, 0.2));
+  // The inner faces are at x = 0.15 and y = 0.15.
+  PairTracker tracker("corner", corner, ball(), atLevel(AccuracyLevel::Certified));
+  PairSolution solution;
+  tracker.update(translation({0.27, 0.30, 0.1}), 0.0, solution);
+  ASSERT_GE(solution.niches.size(), 2U);
+  EXPECT_NEAR(solution.distance, 0.02, 1e-15);
+  EXPECT_NEAR(solution.niches[0].distance, 0.02, 1e-15);
+  EXPECT_NEAR(solution.niches[1].distance, 0.05, 1e-15);
+  EXPECT_TRUE(solution.niches_complete);
+}
+
+TEST(RoundPair, OverlapIsThatOfTheSolid) {
+  const Body table = makeBody(makeBox({2.0, 2.0, 0.1}));
+  // Rests on a facet: the mesh is 1e-3 above its sphere's lowest point.
+  const Body coarse = test::makeRoundBody(test::roundShape(RoundKind::Sphere, 0.1, 0.0, 0.01));
+  const Body mesh = test::makeRoundBody(test::roundShape(RoundKind::Sphere, 0.1, 0.0, 0.01), false);
+  const Isometry3d pose = turned(0.37, Vector3d(0.3, 1.0, 0.2), {0.0, 0.0, 0.15 - 1e-6});
+  const PairSolution of_mesh = solveOnce("mesh", table, mesh, atLevel(AccuracyLevel::Certified), pose);
+  EXPECT_EQ(of_mesh.status, SolveStatus::Ok);
+  for (const AccuracyLevel level : {AccuracyLevel::Certified, AccuracyLevel::Refined}) {
+    for (const bool swapped : {false, true}) {
+      const PairSolution found = swapped ? solveOnce("ball", coarse, table, atLevel(level), pose.inverse())
+                                         : solveOnce("ball", table, coarse, atLevel(level), pose);
+      EXPECT_EQ(found.status, SolveStatus::Penetrating);
+      EXPECT_EQ(found.distance, 0.0);
+      ASSERT_EQ(found.niches.size(), 1U);
+      EXPECT_EQ(found.niches[0].distance, 0.0);
+      ASSERT_TRUE(found.meeting_triangles.has_value());
+    }
+  }
+}
+
+TEST(RoundPair, ASwallowedBallPenetrates) {
+  const Body hall = makeBody(makeBox({2.0, 2.0, 2.0}));
+  const PairSolution found =
+      solveOnce("hall", hall, ball(), atLevel(AccuracyLevel::Certified), translation({0.5, 0.0, 0.0}));
+  EXPECT_EQ(found.status, SolveStatus::Penetrating);
+  EXPECT_NEAR(found.surface_distance, 0.4, 1e-15);
+}
+
+TEST(RoundPair, AnyPoseIsBracketedAndSwapsAndEveryNicheIsALocalMinimum) {
+  RandomEngine engine(23);
+  const std::vector<RoundShape> shapes{test::sphereOf(0.2), test::roundShape(RoundKind::Capsule, 0.1, 0.2),
+                                       test::roundShape(RoundKind::Cylinder, 0.15, 0.1)};
+  for (std::uint32_t i = 0; i < 36; ++i) {
+    const RoundShape& shape = shapes[i % 3];
+    const Body round = test::makeRoundBody(shape);
+    const Body mesh = makeBody(test::concaveShape(i));
+    const Isometry3d pose = test::randomPose(engine, 1.0);
+    const PairSolution found = solveOnce("any", mesh, round, atLevel(AccuracyLevel::Certified), pose);
+    const DistanceCertificate truth = certifyRoundDistance(*mesh, *round, pose, nullptr, 0, {});
+    const RoundAndMesh pair(shape, *mesh, pose);
+    EXPECT_EQ(found.status == SolveStatus::Penetrating,
+              truth.status == CertificateStatus::Penetrating || isRoundContained(*mesh, *round, pose));
+    if (found.status == SolveStatus::Penetrating) continue;
+    EXPECT_NEAR(found.distance, truth.distance, 1e-14);
+    EXPECT_LE(found.lower_bound, found.distance);
+    ASSERT_FALSE(found.niches.empty());
+    EXPECT_NEAR(found.niches[0].distance, found.distance, 1e-14);
+    const PairSolution swapped =
+        solveOnce("any", round, mesh, atLevel(AccuracyLevel::Certified), pose.inverse());
+    EXPECT_NEAR(swapped.distance, found.distance, 1e-14);
+    double before = 0.0;
+    for (const TrackedNiche& niche : found.niches) {
+      EXPECT_GE(niche.distance, before);
+      before = niche.distance;
+      const RoundMinimum again = descendOnMesh(pair, niche.witness.triangle_a);
+      EXPECT_NEAR(again.lowest.value, niche.distance, 1e-14);
+      EXPECT_NEAR((niche.point_b_in_a - niche.point_a_in_a).norm(), niche.distance, 1e-13);
+    }
+  }
+}
+
+TEST(RoundPair, TwoSolidsHaveOneProvenNiche) {
+  const Body capsule = test::makeRoundBody(test::roundShape(RoundKind::Capsule, 0.1, 0.3));
+  PairTracker tracker("solids", capsule, ball(), atLevel(AccuracyLevel::Certified));
+  PairSolution solution;
+  for (int i = 0; i < 50; ++i) {
+    const double x = 0.5 - 0.008 * i;
+    tracker.update(translation({x, 0.0, 0.1}), 0.01 * i, solution);
+    ASSERT_EQ(solution.niches.size(), 1U);
+    EXPECT_EQ(solution.niches[0].id, 1U);
+    EXPECT_TRUE(solution.niches_complete);
+    EXPECT_NEAR(solution.distance, std::max(0.0, x - 0.2), 1e-15);
+    EXPECT_EQ(solution.status, x > 0.2 + 1e-12 ? SolveStatus::Ok : SolveStatus::Penetrating);
+  }
+}
+
+TEST(RoundPair, TheCutoffIsThatOfTheSolid) {
+  const Body table = makeBody(makeBox({2.0, 2.0, 0.1}));
+  TrackerParameters parameters = atLevel(AccuracyLevel::Certified);
+  parameters.cutoff = 0.0201;
+  const Isometry3d pose = turned(0.37, Vector3d(0.3, 1.0, 0.2), {0.0, 0.0, 0.17});
+  EXPECT_EQ(solveOnce("cutoff", table, ball(), parameters, pose).niches.size(), 1U);
+  parameters.cutoff = 0.0199;
+  EXPECT_TRUE(solveOnce("cutoff", table, ball(), parameters, pose).niches.empty());
+}
+
+TEST(RoundPair, ABudgetThatRunsOutLeavesABracket) {
+  const Body comb = std::make_shared<BodyMesh>("comb", test::makeComb(40), BodyMeshOptions());
+  const Body cylinder = test::makeRoundBody(test::roundShape(RoundKind::Cylinder, 0.06, 0.2));
+  TrackerParameters parameters = atLevel(AccuracyLevel::Certified);
+  const Isometry3d pose = turned(0.3, Vector3d(1.0, 0.2, 0.0), {4.0, 0.6, 0.1});
+  const PairSolution all = solveOnce("budget", comb, cylinder, parameters, pose);
+  EXPECT_EQ(all.status, SolveStatus::Ok);
+  for (const double budget : {1e-9, 1e-5, 1e-4}) {
+    parameters.time_budget = budget;
+    const PairSolution found = solveOnce("budget", comb, cylinder, parameters, pose);
+    EXPECT_LE(found.lower_bound, all.distance);
+    EXPECT_GE(found.distance, all.distance - 1e-14);
+    if (found.status == SolveStatus::BudgetExhausted) {
+      EXPECT_FALSE(found.niches_complete);
+    }
+  }
+}
+
+TEST(RoundPair, APoseThatIsNoneIsRefused) {
+  Isometry3d pose = Isometry3d::Identity();
+  pose.translation().x() = kNotComputed;
+  const PairSolution found =
+      solveOnce("pose", ball(), makeBody(makeBox({1.0, 1.0, 1.0})), atLevel(AccuracyLevel::Certified), pose);
+  EXPECT_EQ(found.status, SolveStatus::InvalidPose);
+  EXPECT_TRUE(std::isnan(found.distance));
+}
+
+TEST(RoundPair, AWarmCycleAllocatesNothing) {
+  const Body comb = std::make_shared<BodyMesh>("comb", test::makeComb(5), BodyMeshOptions());
+  const Body cylinder = test::makeRoundBody(test::roundShape(RoundKind::Cylinder, 0.06, 0.2));
+  for (const Body& other : {comb, ball()}) {
+    PairTracker tracker("warm", other, cylinder, atLevel(AccuracyLevel::Certified));
+    PairSolution solution;
+    std::size_t before = 0;
+    for (int round = 0; round < 4; ++round) {
+      if (round == 3) before = allocations.load();
+      for (int k = 0; k < 100; ++k) {
+        const double t = 2.0 * 3.14159265358979323846 * k / 100.0;
+        tracker.update(turned(0.3 * std::sin(t), Vector3d(1.0, 0.2, 0.0),
+                              {0.5 + 0.2 * std::cos(t), 0.6 + 0.05 * std::sin(t), 0.1}),
+                       round + 0.01 * k, solution);
+      }
+    }
+    EXPECT_EQ(allocations.load() - before, 0U);
+  }
+}
+
+}  // namespace
+}  // namespace concave_distance
