@@ -90,7 +90,9 @@ std::string modelsOf(const ParameterInfo& info, const std::string& last, const s
   std::string text;
   for (std::size_t i = 0; i < info.models.size(); ++i) {
     if (i > 0) text += i + 1 < info.models.size() ? ", " : " " + last + " ";
-    text += quote + info.models[i] + quote;
+    text += quote;
+    text += info.models[i];
+    text += quote;
   }
   return text;
 }
