@@ -5,6 +5,7 @@
 
 #include "distance/closest_point.h"
 #include "mesh/surface/mesh_topology.h"
+#include "mesh/surface/round_geometry.h"
 #include "mesh/trees/triangle_tree.h"
 
 namespace concave_distance {
@@ -85,13 +86,24 @@ class Cutter {
     const Eigen::Vector3d push = facet.of_b ? Eigen::Vector3d(-facet.normal_in_a) : facet.normal_in_a;
     if (!surface_.field.carries(push) || (facet.may_leave && !isInside(point))) return 0.0;
     const Eigen::Vector3d target = surface_.other_from_a * point;
-    const SurfacePoint nearest = closestPoint(surface_.other, target, last_);
-    last_ = nearest.triangle;
-    const double depth = std::sqrt(nearest.squared_distance);
+    const Eigen::Vector3d way = wayOut(target);
+    const double depth = way.norm();
     if (!(depth > 0.0)) return 0.0;
-    const Eigen::Vector3d out = surface_.other_from_a.linear().transpose() * (nearest.point - target) / depth;
+    const Eigen::Vector3d out = surface_.other_from_a.linear().transpose() * way / depth;
     const Eigen::Vector3d exit = facet.of_b ? out : Eigen::Vector3d(-out);
     return depth * surface_.field.perDepth(surface_.field.depthRate(point, exit));
+  }
+
+  /// To the other body's surface, its frame.
+  Eigen::Vector3d wayOut(const Eigen::Vector3d& target) {
+    if (const RoundShape* shape = surface_.other.shape()) {
+      const Eigen::Vector3d in_shape = shape->body_from_shape.inverse(Eigen::Isometry) * target;
+      const double depth = std::max(0.0, -detail::signedDistance(*shape, in_shape));
+      return shape->body_from_shape.linear() * (depth * detail::outwardDirection(*shape, in_shape));
+    }
+    const SurfacePoint nearest = closestPoint(surface_.other, target, last_);
+    last_ = nearest.triangle;
+    return nearest.point - target;
   }
 
   const PressedSurface& surface_;

@@ -64,6 +64,7 @@ class RoundOverlap {
   void measureDepths(const Group& group, InterferenceRegion& region);
   void lookAtBottom(const Group& group, const Eigen::Vector3d& out_of_mesh, InterferenceRegion& region);
   void addSamples(const Group& group, Interference& result, InterferenceRegion& region) const;
+  void addFacets(const Group& group, Interference& result, InterferenceRegion& region) const;
   double depthAlong(const Group& group, const Eigen::Vector3d& out_of_mesh, Eigen::Vector3d* at) const;
   Eigen::Vector3d outOfMesh(const Eigen::Vector3d& normal_in_a) const;
   Eigen::Vector3d inA(const Eigen::Vector3d& point) const { return a_from_shape_ * point; }
@@ -83,6 +84,8 @@ class RoundOverlap {
   std::vector<std::uint32_t> deepest_;  ///< entry of each patch
   std::vector<Crossing> crossings_;
   std::vector<RoundSample> samples_;        ///< of the present region
+  std::vector<TrianglePoints> fan_;         ///< of the present region's entries, one after the other
+  std::vector<std::size_t> fan_ends_;       ///< by entry of the region
   std::vector<std::size_t> patch_samples_;  ///< where those of each of its patches begin, and their end
   RoundSection section_;
 };

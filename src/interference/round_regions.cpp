@@ -46,10 +46,13 @@ void RoundOverlap::addRegion(const Group& entries, bool is_only, Interference& r
   samples_.clear();
   const bool sparse = entries.last - entries.first > kManyTriangles;
   patch_samples_.clear();
+  fan_.clear();
+  fan_ends_.clear();
   for (const Entry* entry = entries.first; entry != entries.last; ++entry) {
     if (entry == entries.first || entry->patch != (entry - 1)->patch)
       patch_samples_.push_back(samples_.size());
-    section_.integrate(pair_->shape, entry->corners, entry->lowest, sparse, samples_);
+    section_.integrate(pair_->shape, entry->corners, entry->lowest, sparse, samples_, fan_);
+    fan_ends_.push_back(fan_.size());
   }
   patch_samples_.push_back(samples_.size());
   group.last_sample = samples_.size();
@@ -81,6 +84,7 @@ void RoundOverlap::addRegion(const Group& entries, bool is_only, Interference& r
     measureDepths(group, region);
     addLoops(group, result, region);
     addSamples(group, result, region);
+    addFacets(group, result, region);
   } else if (!region.closed) {
     region.loop_count = 1;
   }
@@ -262,6 +266,23 @@ void RoundOverlap::addSamples(const Group& group, Interference& result, Interfer
                               sample.area, sample.depth});
   }
   region.sample_count = static_cast<std::uint32_t>(result.samples.size()) - region.first_sample;
+}
+
+void RoundOverlap::addFacets(const Group& group, Interference& result, InterferenceRegion& region) const {
+  region.first_facet = static_cast<std::uint32_t>(result.facets.size());
+  std::size_t next = 0;
+  for (const Entry* entry = group.first; entry != group.last; ++entry) {
+    OverlapFacet facet;
+    facet.normal_in_a = a_from_shape_.linear() * entry->normal;
+    facet.triangle = entry->triangle;
+    facet.of_b = shape_is_a_;
+    for (const std::size_t end = fan_ends_[static_cast<std::size_t>(entry - group.first)]; next < end;
+         ++next) {
+      for (std::size_t k = 0; k < 3; ++k) facet.corners_in_a[k] = inA(fan_[next][k]);
+      result.facets.push_back(facet);
+    }
+  }
+  region.facet_count = static_cast<std::uint32_t>(result.facets.size()) - region.first_facet;
 }
 
 /// Nothing of the mesh is inside the solid: all of the solid is the region, its way out that along the axes

@@ -103,10 +103,12 @@ double wayOut(const RoundShape& shape, const Vector3d& from, const Vector3d& dir
 }
 
 void RoundSection::integrate(const RoundShape& shape, const TrianglePoints& triangle,
-                             const LowestPoint& lowest, bool sparse, std::vector<RoundSample>& samples) {
+                             const LowestPoint& lowest, bool sparse, std::vector<RoundSample>& samples,
+                             std::vector<TrianglePoints>& fan) {
   shape_ = &shape;
   triangle_ = triangle;
   samples_ = &samples;
+  fan_ = &fan;
   centre_ = lowest.point;
   core_ = std::max(1e-3 * shape.radius, (lowest.point - corePoint(shape, lowest.point)).norm());
   normal_ = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);
@@ -174,6 +176,7 @@ void RoundSection::addInside(bool sparse) {
   const Vector3d& b = triangle_[1];
   const Vector3d& c = triangle_[2];
   const double area = 0.5 * (b - a).cross(c - a).norm();
+  fan_->push_back(triangle_);
   if (sparse) return add((a + b + c) / 3.0, area);
   const double size =
       std::sqrt(std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()}));
@@ -183,6 +186,7 @@ void RoundSection::addInside(bool sparse) {
                        return outwardDirection(*shape_, corner).dot(outwardDirection(*shape_, centre_)) < 0.5;
                      });
   if (size > kMedium * room || bends) {
+    fan_->pop_back();
     for (std::size_t k = 0; k < 3; ++k) addStraight({triangle_[k], triangle_[(k + 1) % 3]});
   } else if (size > kSmall * room) {
     for (const TrianglePoint& p : kTriangleSix)
@@ -196,6 +200,7 @@ void RoundSection::addStraight(const Piece& piece) {
   const Vector3d along = piece.to - piece.from;
   const double twice_area = (piece.from - centre_).cross(along).dot(normal_);
   if (!(twice_area > 0.0)) return;
+  fan_->push_back({centre_, piece.from, piece.to});
   const double length = along.norm();
   const double nearest = (centre_ - piece.from).dot(along) / (length * length);
   const double width = std::max(core_, twice_area / length) / length;
@@ -275,13 +280,17 @@ void RoundSection::addArc(double from, double to, const Piece& ends) {
       const bool is_last = b + 2 == bend_count_ && part + 1 == parts;
       const Vector3d end = is_last ? ends.to : border(bends_[b] + (part + 1) * width / parts);
       const double twice_area = (start - centre_).cross(end - centre_).dot(normal_);
+      Vector3d before = start;
       for (const GaussPoint& at : kGaussFive) {
         const Vector3d chord = start + at.at * (end - start) - centre_;
         const double length = chord.norm();
         if (!(length > 0.0)) continue;
         const Vector3d point = towards(chord / length);
         addRay(point, at.weight * twice_area * (point - centre_).squaredNorm() / (length * length));
+        fan_->push_back({centre_, before, point});
+        before = point;
       }
+      fan_->push_back({centre_, before, end});
       start = end;
     }
   }

@@ -28,11 +28,11 @@ double wayOut(const RoundShape& shape, const Eigen::Vector3d& from, const Eigen:
 /// wholly inside take 3 or 6 points.
 class RoundSection {
  public:
-  /// Appends the samples.
+  /// Appends the samples, and to `fan` triangles that cover the part: corners on the border, chords of it.
   /// @param lowest of the triangle (lowestOnTriangle), inside
   /// @param sparse a triangle wholly inside has one sample: it is one of very many
   void integrate(const RoundShape& shape, const TrianglePoints& triangle, const LowestPoint& lowest,
-                 bool sparse, std::vector<RoundSample>& samples);
+                 bool sparse, std::vector<RoundSample>& samples, std::vector<TrianglePoints>& fan);
 
  private:
   /// Of the boundary, counterclockwise.
@@ -62,6 +62,7 @@ class RoundSection {
   Eigen::Vector3d axis_u_;
   Eigen::Vector3d axis_v_;
   std::vector<RoundSample>* samples_ = nullptr;
+  std::vector<TrianglePoints>* fan_ = nullptr;
   std::array<Piece, 3> pieces_;
   std::size_t piece_count_ = 0;
   std::array<double, 8> bends_;
