@@ -66,7 +66,7 @@ void meetAtMesh(const RoundRoles& roles, WitnessPair& witness) {
 /// Depth first, the nearer box first.
 class LowestSearch {
  public:
-  LowestSearch(const RoundAndMesh& pair, const CertificateRequest& request, RoundMinimum best)
+  LowestSearch(const RoundAndMesh& pair, const CertificateRequest& request, const RoundMinimum& best)
       : pair_(pair), request_(request), best_(best), least_skipped_(best.lowest.value) {}
 
   void run() {

@@ -121,7 +121,7 @@ LowestPoint lowestOnTriangle(const RoundShape& shape, const TrianglePoints& tria
     const auto nearest = std::min_element(
         triangle.begin(), triangle.end(),
         [](const Vector3d& l, const Vector3d& r) { return l.squaredNorm() < r.squaredNorm(); });
-    const LowestPoint face = lowestOnPlane(shape, normal, normal.dot(*nearest));
+    LowestPoint face = lowestOnPlane(shape, normal, normal.dot(*nearest));
     if (isInside(triangle, normal, face.point)) return face;
   }
   LowestPoint lowest = lowestOnSegment(shape, triangle[0], triangle[1]);
