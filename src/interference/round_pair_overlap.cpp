@@ -7,7 +7,7 @@
 #include "distance/round_kernels.h"
 #include "gauss_points.h"
 #include "mesh/surface/round_geometry.h"
-#include "round_section.h"
+#include "round_lines.h"
 
 namespace concave_distance::detail {
 namespace {
@@ -161,14 +161,14 @@ std::optional<double> PairOverlap::border(const Vector3d& direction) const {
 bool PairOverlap::integrate(std::vector<OverlapSample>& samples, bool solid_is_a,
                             const Isometry3d& a_from_solid) {
   const int parts = own_.kind == RoundKind::Sphere && solid_.kind == RoundKind::Sphere ? 6 : 16;
-  const auto directionAt = [&](double angle) {
+  const auto direction_at = [&](double angle) {
     return Vector3d(std::cos(angle) * axis_u_ + std::sin(angle) * axis_v_);
   };
-  std::optional<double> first = border(directionAt(0.0));
+  std::optional<double> first = border(direction_at(0.0));
   if (!first) return false;
-  Vector3d start = *first * directionAt(0.0);
+  Vector3d start = *first * direction_at(0.0);
   for (int part = 0; part < parts; ++part) {
-    const Vector3d direction = directionAt((part + 1) % parts * 2.0 * kPi / parts);
+    const Vector3d direction = direction_at((part + 1) % parts * 2.0 * kPi / parts);
     const std::optional<double> last = border(direction);
     if (!last) return false;
     const Vector3d end = *last * direction;

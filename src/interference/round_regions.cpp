@@ -6,6 +6,7 @@
 #include "distance/closest_point.h"
 #include "mesh/surface/mesh_topology.h"
 #include "mesh/surface/round_geometry.h"
+#include "round_lines.h"
 #include "round_overlap.h"
 
 namespace concave_distance::detail {

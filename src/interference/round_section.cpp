@@ -6,6 +6,7 @@
 
 #include "gauss_points.h"
 #include "mesh/surface/round_geometry.h"
+#include "round_lines.h"
 
 namespace concave_distance::detail {
 namespace {
@@ -13,7 +14,6 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr int kMostSteps = 100;
 // Of the distance from the core: triangles up to these sizes take 3 and 6 points.
 constexpr double kSmall = 0.05;
 constexpr double kMedium = 0.3;
@@ -25,82 +25,7 @@ constexpr double kWidestArc = kPi / 3.0;
 constexpr double kFarCore = 0.3;
 constexpr double kShortestAxis = 1e-14;
 
-/// Where a line from a point inside the solid changes from one piece of its depth to another, as shares of
-/// the way to `to`.
-struct Kinks {
-  std::array<double, 24> shares{};
-  std::size_t count = 0;
-
-  void add(double share) {
-    if (share > 0.0 && share < 1.0 && count < shares.size()) shares[count++] = share;
-  }
-  /// Ascending, those that are not there are 1.
-  const std::array<double, 24>& sorted() {
-    std::fill(shares.begin() + static_cast<std::ptrdiff_t>(count), shares.end(), 1.0);
-    std::sort(shares.begin(), shares.begin() + static_cast<std::ptrdiff_t>(count));
-    return shares;
-  }
-  void addRoots(double a, double b, double c) {
-    const double root = b * b - 4.0 * a * c;
-    if (root < 0.0) return;
-    const double q = -0.5 * (b + std::copysign(std::sqrt(root), b));
-    if (a != 0.0) add(q / a);
-    if (q != 0.0) add(c / q);
-  }
-};
-
-Kinks kinksOf(const RoundShape& shape, const Vector3d& from, const Vector3d& to) {
-  Kinks kinks;
-  if (shape.kind == RoundKind::Sphere) return kinks;
-  const Vector3d d = to - from;
-  const double h = shape.half_length;
-  if (shape.kind == RoundKind::Capsule) {
-    for (const double end : {-h, h}) kinks.add((end - from.z()) / d.z());
-  } else {
-    // As far below the cap as below the side: rho = r - h + |z|.
-    kinks.add(-from.z() / d.z());
-    for (const double side : {-1.0, 1.0}) {
-      const double level = shape.radius - h + side * from.z();
-      kinks.addRoots(d.head<2>().squaredNorm() - d.z() * d.z(),
-                     2.0 * (from.head<2>().dot(d.head<2>()) - level * side * d.z()),
-                     from.head<2>().squaredNorm() - level * level);
-    }
-  }
-  return kinks;
-}
-
 }  // namespace
-
-double wayOut(const RoundShape& shape, const Vector3d& from, const Vector3d& direction, double farthest) {
-  const auto value = [&](double way) { return signedDistance(shape, from + way * direction); };
-  double low = 0.0;
-  double low_value = value(0.0);
-  double high = farthest;
-  double high_value = value(high);
-  if (high_value <= 0.0) return high;
-  if (low_value >= 0.0) return 0.0;
-  // Regula falsi with the Illinois weights, whose end moves from both sides.
-  int side = 0;
-  const double enough = 4.0 * std::numeric_limits<double>::epsilon() * farthest;
-  for (int i = 0; i < kMostSteps && high - low > enough; ++i) {
-    double middle = low - low_value * (high - low) / (high_value - low_value);
-    if (!(middle > low && middle < high)) middle = 0.5 * (low + high);
-    const double now = value(middle);
-    if (std::abs(now) <= 0.25 * enough) return middle;
-    if (now < 0.0) {
-      low = middle;
-      low_value = now;
-      if (side < 0) high_value *= 0.5;
-      side = -1;
-    } else {
-      high = middle;
-      high_value = now;
-      if (side > 0) low_value *= 0.5;
-      side = 1;
-    }
-  }
-  return low;
-}
 
 void RoundSection::integrate(const RoundShape& shape, const TrianglePoints& triangle,
                              const LowestPoint& lowest, bool sparse, std::vector<RoundSample>& samples,
@@ -204,7 +129,7 @@ void RoundSection::addStraight(const Piece& piece) {
   const double length = along.norm();
   const double nearest = (centre_ - piece.from).dot(along) / (length * length);
   const double width = std::max(core_, twice_area / length) / length;
-  Kinks cuts = kinksOf(*shape_, piece.from, piece.to);
+  LineCuts cuts = kinksOf(*shape_, piece.from, piece.to);
   double ring = width;
   for (int k = 0; k < kMostRings && core_ < kNearCore * length; ++k, ring *= 3.0) {
     cuts.add(nearest - ring);
@@ -299,7 +224,7 @@ void RoundSection::addArc(double from, double to, const Piece& ends) {
 /// In rings around the core where that is near, for the fields of RoundVolume, and cut at the kinks.
 /// @param weight of the whole ray: twice the area that it stands for
 void RoundSection::addRay(const Vector3d& end, double weight) {
-  Kinks kinks = kinksOf(*shape_, centre_, end);
+  LineCuts kinks = kinksOf(*shape_, centre_, end);
   const double length = (end - centre_).norm();
   double ring = core_;
   for (int k = 0; k < kMostRings && ring < kNearCore * length; ++k, ring *= 3.0) kinks.add(ring / length);

@@ -17,11 +17,6 @@ struct RoundSample {
   double depth;            ///< metres below the solid's surface
 };
 
-/// How far from `from`, inside the solid, along a unit direction the solid ends, metres; no farther than
-/// `farthest`. To a few machine epsilons of the solid's size.
-double wayOut(const RoundShape& shape, const Eigen::Vector3d& from, const Eigen::Vector3d& direction,
-              double farthest);
-
 /// Integrates over the part of a triangle that is inside a round solid. That part is convex, and the depth is
 /// concave: polar coordinates about its deepest point, with Gauss points between the corners, the crossings
 /// of the edges and the places where the solid's surface changes from one piece to another. Small triangles

@@ -32,7 +32,9 @@ struct OverlapSample {
   Eigen::Vector3d push_in_a;
   /// Unit, the way for B on which the depth decreases fastest; push_in_a where the depth is 0.
   Eigen::Vector3d exit_in_a;
-  double area;   ///< m^2, half of the surface that it stands for; < 0 where a fan counts negatively
+  /// m^2, half of the surface that it stands for; < 0 where a fan counts negatively. Of an exact round body
+  /// all of it: samples are then on the other body's surface alone, or on one of two round ones.
+  double area;
   double depth;  ///< metres to the other body's surface
 };
 
@@ -70,7 +72,7 @@ struct InterferenceRegion {
   std::uint32_t loop_count = 0;    ///< closed intersection curves; 0 for a swallowed shell
   std::uint32_t first_loop = 0;    ///< in Interference::loop_areas_in_a
   std::uint32_t first_facet = 0;   ///< in Interference::facets
-  std::uint32_t facet_count = 0;   ///< 0 where surfaces only touch or are open
+  std::uint32_t facet_count = 0;   ///< 0 where surfaces only touch, are open or round
   std::uint32_t first_sample = 0;  ///< in Interference::samples
   std::uint32_t sample_count = 0;
   /// Every shell concerned is closed. Else the region is a connected piece of the intersection curve (or a
