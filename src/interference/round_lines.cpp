@@ -1,5 +1,6 @@
 #include "round_lines.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -10,39 +11,45 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int kMostSteps = 100;
+/// The way from a place inside a ball, or a circle, or towards it, to where it ends: the larger root of
+/// squared_speed t^2 + 2 along t + (place^2 - radius^2), without cancellation.
+double wayToBorder(double squared_speed, double along, double squared_place, double radius) {
+  const double left = radius * radius - squared_place;
+  const double root = std::sqrt(std::max(0.0, along * along + squared_speed * left));
+  return along > 0.0 ? std::max(0.0, left) / (along + root) : (root - along) / squared_speed;
+}
+
+double wayOutOfBall(const Vector3d& from, const Vector3d& direction, double radius) {
+  return wayToBorder(1.0, from.dot(direction), from.squaredNorm(), radius);
+}
+
+/// Out of the round side, infinite along the axis.
+double wayOutOfSide(const RoundShape& shape, const Vector3d& from, const Vector3d& direction) {
+  const Eigen::Vector2d across = direction.head<2>();
+  const double squared_speed = across.squaredNorm();
+  if (!(squared_speed > 0.0)) return std::numeric_limits<double>::infinity();
+  return wayToBorder(squared_speed, from.head<2>().dot(across), from.head<2>().squaredNorm(), shape.radius);
+}
+
+double wayOutOfSolid(const RoundShape& shape, const Vector3d& from, const Vector3d& direction) {
+  if (shape.kind == RoundKind::Sphere) return wayOutOfBall(from, direction, shape.radius);
+  const double side = wayOutOfSide(shape, from, direction);
+  if (shape.kind == RoundKind::Cylinder) {
+    if (direction.z() == 0.0) return side;
+    const double cap = std::copysign(shape.half_length, direction.z());
+    return std::min(side, (cap - from.z()) / direction.z());
+  }
+  const double level = direction.z() == 0.0 ? from.z() : from.z() + side * direction.z();
+  if (std::abs(level) <= shape.half_length) return side;
+  const double end = std::copysign(shape.half_length, level);
+  return wayOutOfBall(from - end * Vector3d::UnitZ(), direction, shape.radius);
+}
 
 }  // namespace
 
 double wayOut(const RoundShape& shape, const Vector3d& from, const Vector3d& direction, double farthest) {
-  const auto value = [&](double way) { return signedDistance(shape, from + way * direction); };
-  double low = 0.0;
-  double low_value = value(0.0);
-  double high = farthest;
-  double high_value = value(high);
-  if (high_value <= 0.0) return high;
-  if (low_value >= 0.0) return 0.0;
-  // Regula falsi with the Illinois weights, whose end moves from both sides.
-  int side = 0;
-  const double enough = 4.0 * std::numeric_limits<double>::epsilon() * farthest;
-  for (int i = 0; i < kMostSteps && high - low > enough; ++i) {
-    double middle = low - low_value * (high - low) / (high_value - low_value);
-    if (!(middle > low && middle < high)) middle = 0.5 * (low + high);
-    const double now = value(middle);
-    if (std::abs(now) <= 0.25 * enough) return middle;
-    if (now < 0.0) {
-      low = middle;
-      low_value = now;
-      if (side < 0) high_value *= 0.5;
-      side = -1;
-    } else {
-      high = middle;
-      high_value = now;
-      if (side > 0) low_value *= 0.5;
-      side = 1;
-    }
-  }
-  return low;
+  if (signedDistance(shape, from) >= 0.0) return 0.0;
+  return std::clamp(wayOutOfSolid(shape, from, direction), 0.0, farthest);
 }
 
 LineCuts kinksOf(const RoundShape& shape, const Vector3d& from, const Vector3d& to) {

@@ -11,7 +11,7 @@
 namespace concave_distance::detail {
 
 /// How far from `from`, inside the solid, along a unit direction the solid ends, metres; no farther than
-/// `farthest`. To a few machine epsilons of the solid's size.
+/// `farthest`. The point there is a few machine epsilons of the solid's size from its surface.
 double wayOut(const RoundShape& shape, const Eigen::Vector3d& from, const Eigen::Vector3d& direction,
               double farthest);
 
