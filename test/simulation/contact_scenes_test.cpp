@@ -71,14 +71,18 @@ TEST(ContactScenes, TheTiltedPegBearsOnTwoPlacesAtOnce) {
   Simulation simulation(loadConfig("peg_in_hole.yaml"));
   simulation.advanceTo(0.15);
   const SimulatedPair& pair = simulation.pairs().at(0);
-  ASSERT_EQ(pair.contacts.regions.size(), 2U);
-  const ContactRegion& a = pair.contacts.regions[0];
-  const ContactRegion& b = pair.contacts.regions[1];
-  EXPECT_GT(a.normal_force, 0.0);
-  EXPECT_GT(b.normal_force, 0.0);
-  EXPECT_NE(a.id, b.id);
-  // Both are on the rim, which has a radius of 20 mm, far from each other, and the drive pushes.
-  EXPECT_GT((a.point_in_a - b.point_in_a).norm(), 0.01);
+  const std::vector<ContactRegion>& regions = pair.contacts.regions;
+  ASSERT_GE(regions.size(), 2U);
+  // The rim's facets may divide a place; the places are on both sides of the rim, which has a radius of 20
+  // mm.
+  const auto across = [](const ContactRegion& l, const ContactRegion& r) {
+    return l.point_in_a.y() < r.point_in_a.y();
+  };
+  const auto [a, b] = std::minmax_element(regions.begin(), regions.end(), across);
+  EXPECT_GT((a->point_in_a - b->point_in_a).norm(), 0.01);
+  EXPECT_GT(a->normal_force, 0.0);
+  EXPECT_GT(b->normal_force, 0.0);
+  EXPECT_NE(a->id, b->id);
   EXPECT_LT(simulation.bodies()[1].drive_wrench.force.z(), -1.0);
 }
 
