@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "distance/closest_point.h"
 #include "mesh/surface/mesh_topology.h"
@@ -64,14 +65,19 @@ class Cutter {
   }
 
   void cut(const OverlapFacet& facet, double edge, double lift, std::vector<PressureTriangle>& triangles) {
-    const Eigen::Vector3d shift = lift * facet.normal_in_a;
+    // Into its body: out of the other one, whose surface is a depth away.
+    const auto shifted = [&](const Eigen::Vector3d& point) {
+      const double way = lift < 0.0 ? lift - wayOut(surface_.other_from_a * point).norm() : lift;
+      return Eigen::Vector3d(point + way * facet.normal_in_a);
+    };
     halve(facet.corners_in_a, edge, [&](const Corners& part) {
       const Eigen::Vector3d middle = (part[0] + part[1] + part[2]) / 3.0;
       if (facet.may_leave && !isInside(middle)) return;
       PressureTriangle& triangle = triangles.emplace_back();
       for (std::size_t k = 0; k < 3; ++k) {
-        triangle[k] = {part[k] + shift, pressureAt(facet, part[k] + kInwards * (middle - part[k]))};
+        triangle[k] = {shifted(part[k]), pressureAt(facet, part[k] + kInwards * (middle - part[k]))};
       }
+      if (lift < 0.0) std::swap(triangle[1], triangle[2]);
     });
   }
 

@@ -21,6 +21,8 @@ constexpr double kMedium = 0.3;
 constexpr double kNearCore = 0.8;
 constexpr int kMostRings = 6;
 constexpr double kWidestArc = kPi / 3.0;
+// An arc this much of its chord away from that counts as straight where the part is only to be drawn.
+constexpr double kStraight = 0.01;
 // A core farther than this share of the radius needs no rings about it.
 constexpr double kFarCore = 0.3;
 constexpr double kShortestAxis = 1e-14;
@@ -205,20 +207,35 @@ void RoundSection::addArc(double from, double to, const Piece& ends) {
       const bool is_last = b + 2 == bend_count_ && part + 1 == parts;
       const Vector3d end = is_last ? ends.to : border(bends_[b] + (part + 1) * width / parts);
       const double twice_area = (start - centre_).cross(end - centre_).dot(normal_);
-      Vector3d before = start;
-      for (const GaussPoint& at : kGaussFive) {
-        const Vector3d chord = start + at.at * (end - start) - centre_;
+      std::array<Vector3d, kGaussFive.size()> points;
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        const Vector3d chord = start + kGaussFive[i].at * (end - start) - centre_;
         const double length = chord.norm();
-        if (!(length > 0.0)) continue;
-        const Vector3d point = towards(chord / length);
-        addRay(point, at.weight * twice_area * (point - centre_).squaredNorm() / (length * length));
-        fan_->push_back({centre_, before, point});
-        before = point;
+        points[i] = length > 0.0 ? towards(chord / length) : centre_;
+        if (length > 0.0)
+          addRay(points[i],
+                 kGaussFive[i].weight * twice_area * (points[i] - centre_).squaredNorm() / (length * length));
       }
-      fan_->push_back({centre_, before, end});
+      addToFan(start, points, end);
       start = end;
     }
   }
+}
+
+/// One triangle where the border is straight.
+void RoundSection::addToFan(const Vector3d& start, const std::array<Vector3d, kGaussFive.size()>& points,
+                            const Vector3d& end) {
+  const double sagitta = (points[points.size() / 2] - 0.5 * (start + end)).norm();
+  if (sagitta <= kStraight * (end - start).norm()) {
+    fan_->push_back({centre_, start, end});
+    return;
+  }
+  Vector3d before = start;
+  for (const Vector3d& point : points) {
+    fan_->push_back({centre_, before, point});
+    before = point;
+  }
+  fan_->push_back({centre_, before, end});
 }
 
 /// In rings around the core where that is near, for the fields of RoundVolume, and cut at the kinks.

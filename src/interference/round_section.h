@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "distance/round_kernels.h"
+#include "gauss_points.h"
 
 namespace concave_distance::detail {
 
@@ -41,6 +42,8 @@ class RoundSection {
   void addInside(bool sparse);
   void addStraight(const Piece& piece);
   void addArc(double from, double to, const Piece& ends);
+  void addToFan(const Eigen::Vector3d& start, const std::array<Eigen::Vector3d, kGaussFive.size()>& points,
+                const Eigen::Vector3d& end);
   void addRay(const Eigen::Vector3d& end, double weight);
   void add(const Eigen::Vector3d& point, double area);
   void findBends(double from, double to);

@@ -55,7 +55,8 @@ std::vector<PressureTriangle> trianglesOf(const TrackedPair& pair, const Contact
                                  of_b ? *pair.body_a->mesh : *pair.body_b->mesh,
                                  of_b ? Eigen::Isometry3d::Identity() : a_from_b.inverse(Eigen::Isometry),
                                  field};
-    triangles = pressureTriangles(surface, lift, most);
+    // The other body's lies within the one that is drawn: out of that.
+    triangles = pressureTriangles(surface, of_b == of_b_first ? lift : -lift, most);
     if (!triangles.empty()) break;
   }
   return triangles;

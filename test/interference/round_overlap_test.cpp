@@ -59,6 +59,22 @@ double sumOf(const Interference& result, const InterferenceRegion& region, int p
   return sum;
 }
 
+/// Of the triangles that pressure is drawn on: chords of the border, so a little less than the surface.
+void expectFacetsCover(const Interference& found, const InterferenceRegion& region, bool of_b,
+                       double surface) {
+  double sum = 0.0;
+  for (std::uint32_t f = 0; f < region.facet_count; ++f) {
+    const OverlapFacet& facet = found.facets[region.first_facet + f];
+    const auto& [p, q, r] = facet.corners_in_a;
+    const Vector3d twice_area = (q - p).cross(r - p);
+    EXPECT_GE(twice_area.dot(facet.normal_in_a), 0.0);
+    EXPECT_EQ(facet.of_b, of_b);
+    sum += 0.5 * twice_area.norm();
+  }
+  EXPECT_LE(sum, 1.0001 * surface);
+  EXPECT_GE(sum, 0.985 * surface);
+}
+
 TEST(RoundOverlap, ABallInAPlaneIsACap) {
   const double r = 0.5;
   for (const double depth : {1e-5, 1e-3, 0.05, 0.3, 0.49, 0.6, 0.9}) {
@@ -71,6 +87,7 @@ TEST(RoundOverlap, ABallInAPlaneIsACap) {
     const double tolerance = depth < 0.2 ? 1e-5 : 2e-3;
     EXPECT_NEAR(region.surface_area_a, kPi * rim * rim, 1e-5 * rim * rim) << depth;
     EXPECT_NEAR(region.contact_area, kPi * rim * rim, 1e-5 * rim * rim) << depth;
+    expectFacetsCover(found, region, false, kPi * rim * rim);
     const double volume = kPi * depth * depth * (3.0 * r - depth) / 3.0;
     EXPECT_NEAR(region.volume, volume, tolerance * volume) << depth;
     EXPECT_NEAR(region.surface_area_b, 2.0 * kPi * r * depth, 10.0 * tolerance * r * depth) << depth;
@@ -107,6 +124,7 @@ TEST(RoundOverlap, CylindersAndCapsulesOnAPlaneHaveClosedForms) {
     const double width = 2.0 * std::sqrt(2.0 * r * depth - depth * depth);
     const double area = 2.0 * h * width + (kind == RoundKind::Capsule ? 0.25 * kPi * width * width : 0.0);
     EXPECT_NEAR(found.regions[0].surface_area_a, area, 3e-4 * area);
+    expectFacetsCover(found, found.regions[0], false, area);
   }
   const Interference found =
       overlapOf(makeRoundBody(roundShape(RoundKind::Cylinder, r, h)), block(), standing.inverse());

@@ -168,5 +168,37 @@ TEST_F(PressureTriangles, AreNoneOfALumpedForceAndAfterParting) {
   EXPECT_EQ(scene_->effects.pressure(0), nullptr);
 }
 
+// Of a solid there is the other body's surface alone: it is lifted out of the solid, to be seen on it.
+TEST_F(PressureTriangles, OfAnExactBallTheyLieOnItWithTheDepthsPressure) {
+  const double radius = 0.1;
+  const double depth = 1e-3;
+  const double lift = 1e-4;
+  a_ = body("plate", makeBox({1, 1, 0.2}));
+  RoundShape ball;
+  ball.radius = radius;
+  ball.chord_error = 0.005;  // more than the depth: what is exact is seen in the pressures
+  BodyMeshOptions options;
+  options.shape = ball;
+  b_ = std::make_shared<BodyMesh>("ball", inscribedMesh(ball, "ball"), options);
+  scene_.emplace(a_, b_, foundation());
+  const Eigen::Vector3d centre(0.03, 0.01, 0.1 + radius - depth);
+  scene_->update(at(centre.x(), centre.y(), centre.z()));
+  EXPECT_TRUE(cut(true).empty());
+  const std::vector<PressureTriangle> triangles = cut(false, -lift);
+  ASSERT_GT(triangles.size(), 100U);
+  double largest = 0.0;
+  for (const PressureTriangle& triangle : triangles) {
+    for (const PressurePoint& corner : triangle) {
+      largest = std::max(largest, corner.pressure);
+      EXPECT_LT(corner.point_in_a.z(), 0.1 - 0.99 * lift);
+      EXPECT_LT(corner.pressure, 1.0001 * kFoundation * depth);
+    }
+    const Eigen::Vector3d normal = (triangle[1].point_in_a - triangle[0].point_in_a)
+                                       .cross(triangle[2].point_in_a - triangle[0].point_in_a);
+    EXPECT_LE(normal.z(), 0.0);
+  }
+  EXPECT_GT(largest, 0.98 * kFoundation * depth);
+}
+
 }  // namespace
 }  // namespace concave_distance
