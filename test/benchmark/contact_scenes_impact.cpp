@@ -157,6 +157,8 @@ ContactScenes impactScenes() {
                     [](SceneReport& report) { steelBall(report, 0.02, 0.38, Ball::Mesh); }});
   scenes.push_back({"steel_ball_exact", "the same of 50 mm radius as an exact sphere",
                     [](SceneReport& report) { steelBall(report, 0.05, 1.8, Ball::Solid); }});
+  scenes.push_back({"small_steel_ball_exact", "the same of 20 mm radius as an exact sphere",
+                    [](SceneReport& report) { steelBall(report, 0.02, 0.38, Ball::Solid); }});
   scenes.push_back({"three_flush_boxes", "hop as they settle", flushBoxes});
   scenes.push_back({"wide_allowance", "a steel ball whose steps may go 0.05 m too far", wideAllowance});
   return scenes;
