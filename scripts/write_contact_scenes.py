@@ -15,7 +15,7 @@ VERDICTS = {"yes": "within", "no": "**not**", "cut": "cut short", "": ""}
 HEAD = """# Scenes of contact, before and now
 
 Written by `scripts/write_contact_scenes.py` from `contact_scenes_before.csv` and `contact_scenes.csv`, both by
-`contact_scenes --output FILE`. *Before* is one force, one normal and one depth per region; *now* pressure over
+`contact_scenes --wall 6 --output FILE` (before: 60). *Before* is one force, one normal and one depth per region; *now* pressure over
 the surfaces of the overlap, implicit steps and exact round solids. Each figure stands beside its closed form or
 bound; where a run was cut or failed before, its figure is that of its end. What the columns mean and what the
 scenes are: `test/benchmark/contact_scenes.cpp`.

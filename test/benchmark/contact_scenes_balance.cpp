@@ -97,7 +97,7 @@ void order(SceneReport& report) {
   const double difference = largestDifference(coarse, middle);
   report.equals({"order of convergence; a ball that swings on springs", "1",
                  std::log2(difference / largestDifference(middle, fine))},
-                2.0, 0.1, "log2 of the differences between h, h/2 and h/4");
+                2.0, 0.1, "log2 of the differences between h and h/2 and between h/2 and h/4");
   report.note(
       {"largest difference between a hundredth and a two-hundredth of the period", "um", 1e6 * difference});
 }
