@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/across_normal.h"
+
 namespace concave_distance::detail {
 namespace {
 
@@ -22,7 +24,7 @@ double shareAcross(const Vector6d& displacement, const Eigen::Vector3d& point,
                    const Eigen::Vector3d& normal) {
   const Eigen::Vector3d shift = displacement.head<3>() + Eigen::Vector3d(displacement.tail<3>()).cross(point);
   const double length = shift.norm();
-  return length > 0.0 ? (shift - normal.dot(shift) * normal).norm() / length : 0.0;
+  return length > 0.0 ? acrossNormal(normal, shift).norm() / length : 0.0;
 }
 
 double allowedError(const StepTolerance& tolerance) {
