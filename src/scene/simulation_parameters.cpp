@@ -17,8 +17,7 @@ const ParameterTable<SimulationSettings>& simulationParameters() {
       number<S>(
           "step_fraction", [](auto& s) -> auto& { return s.step_fraction; },
           "share of sqrt(m / k) of contacts and drives that swing, and of a radian, that a step takes at "
-          "most; "
-          "what is at rest in them holds no step back")
+          "most; what is at rest in them holds no step back")
           .above(0.0)
           .to(1.0),
       automatic<S>(
