@@ -28,6 +28,12 @@ const ParameterTable<SimulationSettings>& simulationParameters() {
           "reaches by its stiffness, mass and speed")
           .inUnit("m"),
       number<S>(
+          "work_tolerance", [](auto& s) -> auto& { return s.work_tolerance; },
+          "error that one step may make, as a share of the work that the contact or drive does in it; five "
+          "times as much of friction's")
+          .above(0.0)
+          .to(1.0),
+      number<S>(
           "energy_tolerance", [](auto& s) -> auto& { return s.energy_tolerance; },
           "error of the energy balance, as a share of the energy that went through, above which `simulate` "
           "reports a failure")

@@ -13,10 +13,8 @@ namespace {
 constexpr double kShareOfDepth = 1e-4;
 constexpr double kShareOfSize = 1e-6;
 constexpr double kShareOfSizeAcross = 1e-8;
-// Half of what pressures are sampled to: shorter steps would only resolve how they are sampled.
-constexpr double kShareOfWork = 5e-4;
-// The same of friction, whose sites come and go.
-constexpr double kShareOfFrictionWork = 2.5e-3;
+// Of friction, whose sites come and go, that much more of its work may be in error.
+constexpr double kFrictionsShare = 5.0;
 
 }  // namespace
 
@@ -32,7 +30,8 @@ double allowedError(const StepTolerance& tolerance) {
   const double share_of_size = kShareOfSize + tolerance.sliding * (kShareOfSizeAcross - kShareOfSize);
   // Of a swing of energy E the trapezoidal rule misses E (w h)^3 / 6 in a step.
   return fraction * fraction * fraction / 6.0 * tolerance.energy_of_motion +
-         kShareOfWork * std::abs(tolerance.work) + kShareOfFrictionWork * std::abs(tolerance.friction_work) +
+         tolerance.share_of_work *
+             (std::abs(tolerance.work) + kFrictionsShare * std::abs(tolerance.friction_work)) +
          tolerance.load * (kShareOfDepth * tolerance.depth + share_of_size * tolerance.size);
 }
 
