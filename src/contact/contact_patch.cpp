@@ -48,6 +48,15 @@ std::uint64_t wayOf(std::uint64_t cell) {
   return cell >> 60U;
 }
 
+/// Adds the sums of one share to those of another.
+void join(const PatchSite& share, PatchSite& sum) {
+  sum.point_in_a += share.point_in_a;
+  sum.push_in_a += share.push_in_a;
+  sum.force += share.force;
+  sum.stiffness += share.stiffness;
+  sum.damping += share.damping;
+}
+
 /// B has come out of A on the side away from where it entered, or A of B.
 bool isPierced(const Eigen::Vector3d* first_loop, const Eigen::Vector3d* last_loop,
                const Eigen::Vector3d& entered) {
@@ -131,9 +140,8 @@ PatchPressure ContactPatch::press(const PatchSurfaces& surfaces, const NormalFor
     result.centre_in_a += force * sample->point_in_a;
     result.depth_rate += force * rate;
     result.on_b_in_a += wrenchAbout(force * push, sample->point_in_a, Eigen::Vector3d::Zero());
-    shares_.push_back({cellOf(sample->point_in_a, push, cell_size), force * sample->point_in_a, force * push,
-                       force, sample->area * per_depth * along,
-                       sample->area * law.damping * sample->depth * along});
+    addShare({cellOf(sample->point_in_a, push, cell_size), force * sample->point_in_a, force * push, force,
+              sample->area * per_depth * along, sample->area * law.damping * sample->depth * along});
   }
   if (result.force > 0.0) {
     result.centre_in_a /= result.force;
@@ -151,19 +159,24 @@ PatchPressure ContactPatch::press(const PatchSurfaces& surfaces, const NormalFor
   return result;
 }
 
+// Neighbours in the list often share a cell.
+void ContactPatch::addShare(const PatchSite& share) {
+  if (!shares_.empty() && shares_.back().cell == share.cell) {
+    join(share, shares_.back());
+  } else {
+    shares_.push_back(share);
+  }
+}
+
 void ContactPatch::gatherSites() {
-  std::sort(shares_.begin(), shares_.end(),
-            [](const PatchSite& l, const PatchSite& r) { return l.cell < r.cell; });
+  order_.clear();
+  for (const PatchSite& share : shares_)
+    order_.emplace_back(share.cell, static_cast<std::uint32_t>(order_.size()));
+  std::sort(order_.begin(), order_.end());
   sites_.clear();
-  for (auto share = shares_.begin(); share != shares_.end();) {
-    PatchSite sum = *share;
-    for (++share; share != shares_.end() && share->cell == sum.cell; ++share) {
-      sum.point_in_a += share->point_in_a;
-      sum.push_in_a += share->push_in_a;
-      sum.force += share->force;
-      sum.stiffness += share->stiffness;
-      sum.damping += share->damping;
-    }
+  for (auto next = order_.begin(); next != order_.end();) {
+    PatchSite sum = shares_[next->second];
+    for (++next; next != order_.end() && next->first == sum.cell; ++next) join(shares_[next->second], sum);
     const double length = sum.push_in_a.norm();
     if (!(sum.force > 0.0 && length > 0.0)) continue;
     sum.point_in_a /= sum.force;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "base/refill.h"
@@ -106,9 +107,11 @@ class ContactPatch {
   const PressureField& field() const { return field_; }
 
  private:
+  void addShare(const PatchSite& share);
   void gatherSites();
 
-  std::vector<PatchSite> shares_;  ///< one a sample, with sums instead of means; by cell
+  std::vector<PatchSite> shares_;                               ///< of samples, with sums instead of means
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> order_;  ///< of the shares, by cell
   std::vector<PatchSite> sites_;
   std::vector<SiteBristles> next_;
   double last_cell_size_ = 0.0;  ///< of the memory that press() has met
