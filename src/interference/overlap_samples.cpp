@@ -66,7 +66,7 @@ double bendOf(const Part& part) {
 }  // namespace
 
 void OverlapSampler::begin(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b) {
-  if (body_[0] != &a || body_[1] != &b) last_nearest_[0] = last_nearest_[1] = TriangleIndex{0};
+  last_nearest_[0] = last_nearest_[1] = TriangleIndex{0};  // another pair may be at the last one's address
   body_[0] = &a;
   body_[1] = &b;
   a_from_b_ = a_from_b;

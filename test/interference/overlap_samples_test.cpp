@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 
 #include "base/random_engine.h"
 #include "interference/interference_checks.h"
@@ -51,6 +52,24 @@ TEST(OverlapSamples, OfABoxOnAPlateAddUpToThePrismAndTheFrustum) {
     EXPECT_NEAR(push.force.z(), 0.5 * (face + frustum), 5e-3 * face) << depth;
     EXPECT_NEAR(push.volume, 0.5 * (face + frustum + 2.0 * width * depth * depth), 5e-3 * face) << depth;
     EXPECT_LT(push.force.head<2>().norm(), 1e-3 * push.force.z()) << depth;
+  }
+}
+
+TEST(OverlapSamples, AWorkspaceMayBeUsedForOtherBodiesAtTheSameAddress) {
+  InterferenceWorkspace workspace;
+  std::optional<BodyMesh> ball;
+  std::optional<BodyMesh> plate;
+  for (const bool fine : {true, false, true, false}) {
+    ball.emplace("ball", makeSphere(0.1, fine ? 1e-4 : 0.02));
+    plate.emplace("plate", fine ? makeSphere(1.0, 1e-3) : makeBox({1, 1, 0.2}));
+    const Eigen::Isometry3d pose = at(0.01, 0.02, fine ? 1.09 : 0.19);
+    Interference used;
+    findInterference(*plate, *ball, pose, workspace, used);
+    InterferenceWorkspace fresh;
+    Interference alone;
+    findInterference(*plate, *ball, pose, fresh, alone);
+    ASSERT_EQ(used.regions.size(), 1U);
+    EXPECT_EQ(used.regions[0].depth, alone.regions[0].depth);
   }
 }
 
