@@ -72,4 +72,5 @@ fi
 if [ -n "$(program engine_differences)" ]; then  # built with Simbody and ODE only
   "$(program engine_differences)" --output "$results/engine_differences.csv" | tee "$results/engine_differences.txt"
   "$(program engine_differences)" --table "$results/engine_table.csv"
+  "$root/scripts/write_engine_table.py"
 fi
