@@ -26,8 +26,8 @@ struct InstantTruth {
   double exact_region_limit = 0.0;
   /// Of the second niche; infinite when there is but one.
   double second_distance = std::numeric_limits<double>::infinity();
-  double niche_cutoff = 0.0;
-  LocalMinima niches;  ///< outward, of prominence 1e-2, up to `niche_cutoff`
+  double niche_cutoff = 0.0;  ///< infinite for the thesis's static poses: no niche is left out
+  LocalMinima niches;         ///< outward, of prominence 1e-2, up to `niche_cutoff`
 };
 
 /// A scene with what its answers are held against.
@@ -41,8 +41,9 @@ struct SceneTruth {
   const InstantTruth& first() const { return instants.front(); }
 };
 
-/// Whether a niche is the nearest of its instant, or as near as that: another corner of the same rim.
-bool isNearest(const InstantTruth& truth, std::size_t niche);
+/// Whether a niche of this distance is the nearest of its instant, or as near as that: another corner of the
+/// same rim.
+bool isNearest(const InstantTruth& truth, double distance);
 
 /// @param folder that holds the thesis's meshes and poses
 /// @throws Error when a file is missing or wrong
