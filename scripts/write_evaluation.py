@@ -26,7 +26,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 NICHE_COUNT = 10
 ROUNDING = 1e-12  # metres; what is less is none
 HEADINGS = {
-    "exact": "Phi*", "region": "Phi", "best_iteration": "G_i", "niches": "N_Gamma", "distance": "distance",
+    "exact": "Phi*", "region": "Phi", "basin": "Region", "best_iteration": "G_i", "niches": "N_Gamma", "distance": "distance",
     "kflop": "kflop", "recall": "recall", "archive_recall": "recall of all minima met", "precision": "precision", "best_convergence": "x*'",
     "population_convergence": "x'", "niche_members": "individuals of the nearest niches",
     "niche_distances": "distances of the nearest niches", "below_second": "nearer than the second niche",
@@ -78,7 +78,7 @@ def niche_means(runs, column, digits):
 
 def ours(column, runs):
     """Our figure of a column over the runs of a row on a scene."""
-    if column in ("exact", "region", "below_second"):
+    if column in ("exact", "region", "basin", "below_second"):
         return f"{sum(int(run[column]) for run in runs)}/{len(runs)}"
     if column == "distance":
         return median_range([float(run["distance"]) for run in runs])
@@ -120,7 +120,7 @@ def has_column(row, column):
 
 def theirs(column, thesis):
     value = thesis.get(column)
-    if column == "region" and isinstance(value, bool):
+    if column == "basin" and isinstance(value, bool):
         return "yes" if value else "no"
     if column == "kflop" and value is None and "mflop" in thesis:
         return f"{1000 * thesis['mflop']:.0f}"
@@ -366,11 +366,13 @@ def main():
             "Rows that name something of this package's own (`shipped defaults`, `descents move both nodes`) stand below the thesis's.",
             "", "- Phi*: runs that end at the best node pair there is (by enumeration); Phi: in its region (1.1 times its distance, nearer than the",
             "  second local minimum). `(below)`: the thesis's rate is above the upper end of our 95 % interval (Wilson).",
+            "- Region (Tables 2.3 to 3.5): the thesis's sign of an answer in the neighbourhood of the optimum, which it gives at distances far above Phi's",
+            "  limit. Ours: Phi, or a descent over the nodes from the answer ends in the region of the optimum on the surfaces.",
             "- G_i: the generation (iteration) in which the run's best appeared; N_Gamma: niches of the final population: mean [least-most] deviation.",
             "- x*', x': averages of the best and of the mean objective over a run, over the optimum's (5.1, 5.2).",
             "- kflop: by the thesis's rule, 26 for each point pair looked at (a step of a descent looks at about five) and 6 for each constraint: median [least-most]. Times are of one core of a shared machine.",
             "- recall, precision: of the outward niches of prominence 1e-2 that are proven to be all, in the final population (of a",
-            "  tracker: those it lists). Nearest niche met: runs that have met it at all.",
+            "  tracker: those it lists), by regions of the surfaces ([experiments](../experiments.md)). Nearest niche met: runs that have met it at all.",
             "- Along a motion (`instants`) every figure is a mean over them.", "",
             "![Figure 5.2: the sharing function](images/evaluation_sharing.png)"]
     if less_robust:

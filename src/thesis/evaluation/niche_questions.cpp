@@ -14,18 +14,6 @@ double share(std::size_t part, std::size_t whole) {
   return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : 1.0;
 }
 
-bool isOutward(const LocalMinimum& minimum) {
-  return minimum.outward != Outwardness::ThroughMaterial;
-}
-
-/// Those through material, too: what leads to one of them has found no niche.
-std::vector<LocalMinimum> allMinima(const SceneTruth& scene, const InstantTruth& instant) {
-  LocalMinimaRequest request;
-  request.cutoff = instant.niche_cutoff;
-  request.through_material = true;
-  return findLocalMinima(*scene.a, *scene.b, instant.a_from_b, request).niches;
-}
-
 }  // namespace
 
 void NicheQuestions::ask(std::size_t instant, std::size_t run, FoundPlaces places) {
@@ -35,9 +23,9 @@ void NicheQuestions::ask(std::size_t instant, std::size_t run, FoundPlaces place
 void NicheQuestions::settle(std::vector<TrialRecord>& records) const {
   for (std::size_t k = 0; k < asked_.size(); ++k) {
     const InstantTruth& instant = scene_->instants[k];
-    const std::vector<LocalMinimum> minima = allMinima(*scene_, instant);
+    const std::vector<LocalMinimum>& minima = instant.minima;
     const SurfaceRegions regions(*scene_->a, *scene_->b, instant.a_from_b, minima);
-    const auto niche_count = static_cast<std::size_t>(std::count_if(minima.begin(), minima.end(), isOutward));
+    const std::size_t niche_count = nicheCount(instant);
     std::map<std::tuple<std::uint64_t, double>, std::size_t> known;  // runs find the same places again
     const auto owner_of = [&](const FoundPlace& place) {
       const auto [entry, is_new] =

@@ -87,11 +87,12 @@ InstantTruth truthOf(const SceneTruth& scene, const Eigen::Isometry3d& a_from_b,
                                             kNicheReachOfBody * std::min(a.diameter(), b.diameter()));
   LocalMinimaRequest request;
   request.cutoff = truth.niche_cutoff;
-  truth.niches = findLocalMinima(a, b, a_from_b, request);
+  request.through_material = true;
+  truth.minima = findLocalMinima(a, b, a_from_b, request).niches;
   truth.region_limit = kRegion * truth.node_distance;
   truth.exact_region_limit = kRegion * truth.exact_distance;
-  for (const LocalMinimum& niche : truth.niches.niches) {
-    if (!isNearest(truth, niche.distance)) {
+  for (const LocalMinimum& niche : truth.minima) {
+    if (isOutward(niche) && !isNearest(truth, niche.distance)) {
       truth.second_distance = std::min(truth.second_distance, niche.distance);
     }
   }
@@ -101,6 +102,14 @@ InstantTruth truthOf(const SceneTruth& scene, const Eigen::Isometry3d& a_from_b,
 }
 
 }  // namespace
+
+bool isOutward(const LocalMinimum& minimum) {
+  return minimum.outward != Outwardness::ThroughMaterial;
+}
+
+std::size_t nicheCount(const InstantTruth& truth) {
+  return static_cast<std::size_t>(std::count_if(truth.minima.begin(), truth.minima.end(), isOutward));
+}
 
 bool isNearest(const InstantTruth& truth, double distance) {
   return distance <= kTie * truth.exact_distance;

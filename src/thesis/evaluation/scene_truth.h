@@ -27,7 +27,9 @@ struct InstantTruth {
   /// Of the second niche; infinite when there is but one.
   double second_distance = std::numeric_limits<double>::infinity();
   double niche_cutoff = 0.0;  ///< infinite for the thesis's static poses: no niche is left out
-  LocalMinima niches;         ///< outward, of prominence 1e-2, up to `niche_cutoff`
+  /// Of prominence 1e-2, up to `niche_cutoff`, ascending. The outward ones are the niches; those through
+  /// material are there since what leads to one of them has found no niche.
+  std::vector<LocalMinimum> minima;
 };
 
 /// A scene with what its answers are held against.
@@ -40,6 +42,9 @@ struct SceneTruth {
 
   const InstantTruth& first() const { return instants.front(); }
 };
+
+bool isOutward(const LocalMinimum& minimum);
+std::size_t nicheCount(const InstantTruth& truth);
 
 /// Whether a niche of this distance is the nearest of its instant, or as near as that: another corner of the
 /// same rim.

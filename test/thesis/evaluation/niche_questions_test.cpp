@@ -2,12 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "distance/triangle_distance.h"
 #include "support/body_pairs.h"
 #include "support/concave_shapes.h"
 #include "support/plain_shapes.h"
+#include "thesis/evaluation/optimum_basin.h"
 
 namespace concave_distance::evaluation {
 namespace {
@@ -43,6 +45,10 @@ class SawOverPlate : public ::testing::Test {
     scene_.instants[0].a_from_b.setIdentity();
     scene_.instants[0].exact_distance = 0.5;
     scene_.instants[0].niche_cutoff = std::numeric_limits<double>::infinity();
+    LocalMinimaRequest request;
+    request.through_material = true;
+    scene_.instants[0].minima =
+        findLocalMinima(*scene_.a, *scene_.b, scene_.instants[0].a_from_b, request).niches;
   }
 
   enum class Pick { First, Last };
@@ -80,10 +86,14 @@ class SawOverPlate : public ::testing::Test {
 };
 
 TEST_F(SawOverPlate, HasTheThreeNichesOfItsEdges) {
-  const LocalMinima truth = findLocalMinima(*scene_.a, *scene_.b, scene_.instants[0].a_from_b, {});
-  ASSERT_EQ(truth.niches.size(), 3U);
+  ASSERT_EQ(nicheCount(scene_.instants[0]), 3U);
   const double expected[] = {0.5, 0.7, 0.9};
-  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(truth.niches[i].distance, expected[i], 1e-12);
+  std::size_t i = 0;
+  for (const LocalMinimum& minimum : scene_.instants[0].minima) {
+    if (!isOutward(minimum)) continue;
+    EXPECT_NEAR(minimum.distance, expected[i], 1e-12);
+    ++i;
+  }
 }
 
 TEST_F(SawOverPlate, AListOfAllNichesHasRecallOne) {
@@ -139,9 +149,22 @@ TEST_F(SawOverPlate, MinimaThatWereMetCountApartFromThoseReported) {
 
 TEST_F(SawOverPlate, BeyondTheCutoffNothingIsCounted) {
   scene_.instants[0].niche_cutoff = 0.8;
+  std::vector<LocalMinimum>& minima = scene_.instants[0].minima;
+  minima.erase(std::remove_if(minima.begin(), minima.end(),
+                              [](const LocalMinimum& minimum) { return minimum.distance > 0.8; }),
+               minima.end());
   const TrialRecord record = measured({above(-2.0, 0.5, 0.0), above(2.0, 0.9, 0.0)});
   EXPECT_DOUBLE_EQ(record.recall, 0.5);
   EXPECT_DOUBLE_EQ(record.precision, 0.5);
+}
+
+TEST_F(SawOverPlate, AnAnswerIsInTheRegionOfTheOptimumWhereADescentLeadsThere) {
+  scene_.instants[0].region_limit = 0.55;
+  // High on the first tooth: far above the optimum and above the second niche, but on the way down to it.
+  EXPECT_TRUE(leadsToOptimum(scene_, Vector3d(-1.4, 1.1, 0.2), Vector3d(-1.4, 0.0, 0.3)));
+  EXPECT_TRUE(leadsToOptimum(scene_, Vector3d(-2.6, 1.1, 0.2), Vector3d(-2.9, 0.0, 0.3)));
+  EXPECT_FALSE(leadsToOptimum(scene_, Vector3d(-0.3, 0.94, 0.2), Vector3d(-0.3, 0.0, 0.3)));
+  EXPECT_FALSE(leadsToOptimum(scene_, Vector3d(2.0, 0.9, 0.2), Vector3d(2.0, 0.0, 0.3)));
 }
 
 }  // namespace
