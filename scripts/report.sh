@@ -28,4 +28,7 @@ if [ ! -d build ] || [ -z "$(program evaluate)" ]; then scripts/build.sh; fi
 if [ -n "$(program partition_benchmark)" ]; then  # built with CGAL only
   "$(program partition_benchmark)" --curves-output "$results/manoeuvre.csv"
 fi
+if [ "$size" = full ] && [ -n "$(program run_flops)" ]; then  # built with benchmarks and valgrind's headers only
+  scripts/count_run_flops.py --program "$(program run_flops)" --output "$results/run_flops.csv"
+fi
 /usr/bin/python3 scripts/write_evaluation.py "$results"

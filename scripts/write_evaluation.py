@@ -26,8 +26,8 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 NICHE_COUNT = 10
 ROUNDING = 1e-12  # metres; what is less is none
 HEADINGS = {
-    "exact": "Phi*", "region": "Phi", "best_iteration": "G_i", "niches": "N_Gamma", "distance": "distance",
-    "kflop": "kflop", "recall": "recall", "archive_recall": "recall of all minima met", "precision": "precision", "best_convergence": "x*'",
+    "exact": "Phi*", "region": "Phi", "basin": "Region", "best_iteration": "G_i", "niches": "N_Gamma", "distance": "distance",
+    "kflop": "kflop", "kflop_executed": "kflop executed", "kinstructions": "thousand instructions", "recall": "recall", "archive_recall": "recall of all minima met", "precision": "precision", "best_convergence": "x*'",
     "population_convergence": "x'", "niche_members": "individuals of the nearest niches",
     "niche_distances": "distances of the nearest niches", "below_second": "nearer than the second niche",
     "nearest": "nearest niche met", "exact_instants": "exact", "proof_finds": "found by the proof",
@@ -45,6 +45,19 @@ def read_rows(folders, file_name):
             with open(path, newline="", encoding="utf-8") as file:
                 rows += [{name: text or "nan" for name, text in row.items()} for row in csv.DictReader(file)]
     return rows
+
+
+def with_counted_work(experiment, runs_of, counted):
+    """The columns, after `kflop` those of everything that a run does, where scripts/count_run_flops.py has counted it."""
+    works = {(row["row"], row["scene"]): row for row in counted if row["experiment"] == experiment["name"]}
+    if not works or "kflop" not in experiment["columns"]:
+        return experiment["columns"]
+    for key, runs in runs_of.items():
+        work = works.get(key, {})
+        runs[0]["kflop_executed"] = work.get("kflop", "not counted")
+        runs[0]["kinstructions"] = work.get("kinstructions", "not counted")
+    after = experiment["columns"].index("kflop") + 1
+    return [*experiment["columns"][:after], "kflop_executed", "kinstructions", *experiment["columns"][after:]]
 
 
 def wilson(successes, runs, z=1.959964):
@@ -78,12 +91,14 @@ def niche_means(runs, column, digits):
 
 def ours(column, runs):
     """Our figure of a column over the runs of a row on a scene."""
-    if column in ("exact", "region", "below_second"):
+    if column in ("exact", "region", "basin", "below_second"):
         return f"{sum(int(run[column]) for run in runs)}/{len(runs)}"
     if column == "distance":
         return median_range([float(run["distance"]) for run in runs])
     if column == "kflop":
         return median_range([int(run["flops"]) / 1000 for run in runs], 0)
+    if column in ("kflop_executed", "kinstructions"):
+        return runs[0][column]
     if column == "wrong_instants":
         return spread([int(run[column]) for run in runs], 1)
     if column in ("best_iteration", "niches"):
@@ -120,7 +135,7 @@ def has_column(row, column):
 
 def theirs(column, thesis):
     value = thesis.get(column)
-    if column == "region" and isinstance(value, bool):
+    if column == "basin" and isinstance(value, bool):
         return "yes" if value else "no"
     if column == "kflop" and value is None and "mflop" in thesis:
         return f"{1000 * thesis['mflop']:.0f}"
@@ -325,6 +340,7 @@ def main():
 
     body = []
     less_robust = []
+    counted = read_rows(options.results, "run_flops.csv")
     manoeuvre = manoeuvre_section(options.results, images)
     for experiment in experiments:
         if order_of(experiment) > [6, 7]:
@@ -345,6 +361,7 @@ def main():
         for (_, scene), runs in runs_of.items():
             for run in runs:
                 run["instants"] = scenes[scene]["instants"]
+        experiment["columns"] = with_counted_work(experiment, runs_of, counted)
         write = write_by_scene if experiment.get("layout") == "by_scene" else write_table
         write(lines, experiment, runs_of, counts, scenes)
         places = "; ".join(described(scene, scenes[scene]) for scene in experiment["scenes"] if scene in scenes)
@@ -366,11 +383,17 @@ def main():
             "Rows that name something of this package's own (`shipped defaults`, `descents move both nodes`) stand below the thesis's.",
             "", "- Phi*: runs that end at the best node pair there is (by enumeration); Phi: in its region (1.1 times its distance, nearer than the",
             "  second local minimum). `(below)`: the thesis's rate is above the upper end of our 95 % interval (Wilson).",
+            "- Region (Tables 2.3 to 3.5): the thesis's sign of an answer in the neighbourhood of the optimum, which it gives at distances far above Phi's",
+            "  limit. Ours: Phi, or a descent over the nodes from the answer ends in the region of the optimum on the surfaces.",
             "- G_i: the generation (iteration) in which the run's best appeared; N_Gamma: niches of the final population: mean [least-most] deviation.",
             "- x*', x': averages of the best and of the mean objective over a run, over the optimum's (5.1, 5.2).",
-            "- kflop: by the thesis's rule, 26 for each point pair looked at (a step of a descent looks at about five) and 6 for each constraint: median [least-most]. Times are of one core of a shared machine.",
+            "- kflop: by the thesis's rule, 26 for each point pair looked at (a step of a descent looks at about five) and 6 for each constraint: median [least-most].",
+            "  These are the evaluations alone; the thesis does not say whether its counts hold more. kflop executed, thousand instructions: of all that a run does,",
+            "  selection, sharing, sorting and random numbers included, counted by `scripts/count_run_flops.py` (each addition, multiplication, division and root;",
+            "  median of a few runs). An evaluation in a descent takes fewer than 26, as the moving body is not transformed for each neighbour.",
+            "  Times are of one core of a shared machine.",
             "- recall, precision: of the outward niches of prominence 1e-2 that are proven to be all, in the final population (of a",
-            "  tracker: those it lists). Nearest niche met: runs that have met it at all.",
+            "  tracker: those it lists), by regions of the surfaces ([experiments](../experiments.md)). Nearest niche met: runs that have met it at all.",
             "- Along a motion (`instants`) every figure is a mean over them.", "",
             "![Figure 5.2: the sharing function](images/evaluation_sharing.png)"]
     if less_robust:

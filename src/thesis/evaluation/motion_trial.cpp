@@ -104,7 +104,7 @@ class TrackerFollower {
     answer.found_by_proof = provesDistance(tracker_.parameters().accuracy) && solution_.search_miss;
     for (const TrackedNiche& niche : solution_.niches) {
       if (niche.distance > instant.niche_cutoff) break;  // ascending; beyond, no truth is known
-      answer.places.reported.emplace_back(niche.witness.triangle_a, niche.witness.triangle_b);
+      answer.places.reported.push_back({niche.witness.triangle_a, niche.witness.triangle_b, niche.distance});
     }
     answer.places.met = answer.places.reported;
   }
@@ -151,7 +151,8 @@ NicheRadii radiiOf(const SceneTruth& scene, const SearchMethod& method) {
 FoundPlaces placesOf(const SceneTruth& scene, const std::vector<IdentifiedNiche>& reported,
                      const std::vector<TrialPoint>& met) {
   const auto place_of = [&](const TrialPoint& point) {
-    return TrianglePlace(scene.a->originalTriangle(point.node_a), scene.b->originalTriangle(point.node_b));
+    return FoundPlace{scene.a->originalTriangle(point.node_a), scene.b->originalTriangle(point.node_b),
+                      std::sqrt(point.squared_distance)};
   };
   FoundPlaces places;
   for (const IdentifiedNiche& niche : reported) places.reported.push_back(place_of(niche.best));

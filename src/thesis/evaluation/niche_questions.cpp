@@ -3,25 +3,12 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <tuple>
+
+#include "base/pair_key.h"
 
 namespace concave_distance::evaluation {
 namespace {
-
-/// Each place once, with its number.
-class Places {
- public:
-  std::size_t numberOf(const TrianglePlace& place) {
-    const std::uint64_t key = std::uint64_t{place.first.value} << 32U | place.second.value;
-    const auto [found, is_new] = numbers_.emplace(key, places_.size());
-    if (is_new) places_.push_back(place);
-    return found->second;
-  }
-  std::vector<TrianglePlace> take() { return std::move(places_); }
-
- private:
-  std::map<std::uint64_t, std::size_t> numbers_;
-  std::vector<TrianglePlace> places_;
-};
 
 double share(std::size_t part, std::size_t whole) {
   return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : 1.0;
@@ -36,21 +23,24 @@ void NicheQuestions::ask(std::size_t instant, std::size_t run, FoundPlaces place
 void NicheQuestions::settle(std::vector<TrialRecord>& records) const {
   for (std::size_t k = 0; k < asked_.size(); ++k) {
     const InstantTruth& instant = scene_->instants[k];
-    Places places;
-    for (const Asked& asked : asked_[k]) {
-      for (const auto* list : {&asked.places.reported, &asked.places.met}) {
-        for (const TrianglePlace& place : *list) places.numberOf(place);
-      }
-    }
-    Places numbers = places;
-    LocalMinimaRequest request;
-    request.cutoff = instant.niche_cutoff;
-    request.asked_pairs = places.take();
-    const LocalMinima truth = findLocalMinima(*scene_->a, *scene_->b, instant.a_from_b, request);
-    const auto owners_of = [&](const std::vector<TrianglePlace>& list) {
+    const std::vector<LocalMinimum>& minima = instant.minima;
+    const SurfaceRegions regions(*scene_->a, *scene_->b, instant.a_from_b, minima);
+    const std::size_t niche_count = nicheCount(instant);
+    std::map<std::tuple<std::uint64_t, double>, std::size_t> known;  // runs find the same places again
+    const auto owner_of = [&](const FoundPlace& place) {
+      const auto [entry, is_new] =
+          known.emplace(std::make_tuple(pairKey(place.triangle_a, place.triangle_b), place.distance),
+                        SurfaceRegions::kNoOwner);
+      // Beyond the cutoff not every minimum is known.
+      if (is_new && place.distance <= instant.niche_cutoff) entry->second = regions.ownerOf(place);
+      return entry->second;
+    };
+    const auto owners_of = [&](const std::vector<FoundPlace>& list) {
       std::set<std::size_t> owners;
-      for (const TrianglePlace& place : list) owners.insert(truth.owners[numbers.numberOf(place)]);
-      owners.erase(LocalMinima::kNoOwner);
+      for (const FoundPlace& place : list) {
+        const std::size_t owner = owner_of(place);
+        if (owner != SurfaceRegions::kNoOwner && isOutward(minima[owner])) owners.insert(owner);
+      }
       return owners;
     };
     const double weight = 1.0 / static_cast<double>(asked_.size());
@@ -59,11 +49,12 @@ void NicheQuestions::settle(std::vector<TrialRecord>& records) const {
       std::set<std::size_t> met = owners_of(asked.places.met);
       met.insert(reported.begin(), reported.end());  // who descends nowhere keeps no list of minima
       TrialRecord& record = records[asked.run];
-      record.recall += weight * share(reported.size(), truth.niches.size());
+      record.recall += weight * share(reported.size(), niche_count);
       record.precision += weight * share(reported.size(), asked.places.reported.size());
-      record.archive_recall += weight * share(met.size(), truth.niches.size());
-      const bool has_nearest =
-          std::any_of(met.begin(), met.end(), [&](std::size_t niche) { return isNearest(instant, niche); });
+      record.archive_recall += weight * share(met.size(), niche_count);
+      const bool has_nearest = std::any_of(met.begin(), met.end(), [&](std::size_t niche) {
+        return isNearest(instant, minima[niche].distance);
+      });
       record.nearest += has_nearest ? weight : 0.0;
     }
   }

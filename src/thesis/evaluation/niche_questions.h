@@ -1,25 +1,23 @@
 #pragma once
 
 #include <cstddef>
-#include <utility>
 #include <vector>
 
 #include "scene_truth.h"
+#include "surface_regions.h"
 #include "trial.h"
 
 namespace concave_distance::evaluation {
 
-using TrianglePlace = std::pair<TriangleIndex, TriangleIndex>;
-
 /// What one run has found at one instant.
 struct FoundPlaces {
-  std::vector<TrianglePlace>
-      reported;  ///< niches of the final population, or a tracker's up to the truth's cutoff
-  std::vector<TrianglePlace> met;  ///< all local minima that the search has met
+  std::vector<FoundPlace>
+      reported;                 ///< niches of the final population, or a tracker's up to the truth's cutoff
+  std::vector<FoundPlace> met;  ///< all local minima that the search has met
 };
 
-/// Gathers what runs have found and then has the truth decide, once for each instant, whose niches these are:
-/// the flood that made the truth costs more than a run.
+/// Gathers what runs have found and then decides, once for each instant, in whose regions of the surfaces it
+/// lies (SurfaceRegions): finding all minima costs more than a run.
 class NicheQuestions {
  public:
   explicit NicheQuestions(const SceneTruth& scene) : scene_(&scene), asked_(scene.instants.size()) {}

@@ -26,8 +26,7 @@ void writeScenes(const Experiment& experiment, const std::vector<SceneTruth>& sc
     const InstantTruth& truth = scene.first();
     double niches = 0.0;
     for (const InstantTruth& instant : scene.instants) {
-      niches +=
-          static_cast<double>(instant.niches.niches.size()) / static_cast<double>(scene.instants.size());
+      niches += static_cast<double>(nicheCount(instant)) / static_cast<double>(scene.instants.size());
     }
     file.cells() << experiment.scenes[i].name << std::max(scene.a->maxEdgeLength(), scene.b->maxEdgeLength())
                  << scene.a->graph().nodeCount() << scene.b->graph().nodeCount() << truth.exact_distance

@@ -24,11 +24,8 @@ namespace {
 constexpr double kRegion = 1.1;
 /// Niches as near as this to the nearest are the optimum again, at another corner of the same rim.
 constexpr double kTie = 1.001;
-/// Niches of the thesis's static poses are asked for up to this many times the distance (the battery's nine
-/// reach 5.3 times).
-constexpr double kNicheReach = 6.0;
-/// Of other scenes: this many times, or this share of the smaller body, whichever is more (a distance may be
-/// near 0).
+/// Niches are asked for up to this many times the distance, or this share of the smaller body, whichever is
+/// more (a distance may be near 0); of the thesis's static poses without a limit.
 constexpr double kMotionNicheReach = 5.0;
 constexpr double kNicheReachOfBody = 0.25;
 
@@ -85,17 +82,18 @@ InstantTruth truthOf(const SceneTruth& scene, const Eigen::Isometry3d& a_from_b,
   CertificateWorkspace workspace;
   truth.exact_distance = certifyDistance(a, b, a_from_b, nullptr, 0, {}, workspace).distance;
   truth.node_distance = std::sqrt(enumerateNodePairs(a, b, a_from_b).squared_distance);
-  truth.niche_cutoff = of_thesis ? kNicheReach * truth.exact_distance
+  truth.niche_cutoff = of_thesis ? std::numeric_limits<double>::infinity()
                                  : std::max(kMotionNicheReach * truth.exact_distance,
                                             kNicheReachOfBody * std::min(a.diameter(), b.diameter()));
   LocalMinimaRequest request;
   request.cutoff = truth.niche_cutoff;
-  truth.niches = findLocalMinima(a, b, a_from_b, request);
+  request.through_material = true;
+  truth.minima = findLocalMinima(a, b, a_from_b, request).niches;
   truth.region_limit = kRegion * truth.node_distance;
   truth.exact_region_limit = kRegion * truth.exact_distance;
-  for (std::size_t i = 0; i < truth.niches.niches.size(); ++i) {
-    if (!isNearest(truth, i)) {
-      truth.second_distance = std::min(truth.second_distance, truth.niches.niches[i].distance);
+  for (const LocalMinimum& niche : truth.minima) {
+    if (isOutward(niche) && !isNearest(truth, niche.distance)) {
+      truth.second_distance = std::min(truth.second_distance, niche.distance);
     }
   }
   truth.region_limit = std::min(truth.region_limit, truth.second_distance);
@@ -105,8 +103,16 @@ InstantTruth truthOf(const SceneTruth& scene, const Eigen::Isometry3d& a_from_b,
 
 }  // namespace
 
-bool isNearest(const InstantTruth& truth, std::size_t niche) {
-  return truth.niches.niches[niche].distance <= kTie * truth.exact_distance;
+bool isOutward(const LocalMinimum& minimum) {
+  return minimum.outward != Outwardness::ThroughMaterial;
+}
+
+std::size_t nicheCount(const InstantTruth& truth) {
+  return static_cast<std::size_t>(std::count_if(truth.minima.begin(), truth.minima.end(), isOutward));
+}
+
+bool isNearest(const InstantTruth& truth, double distance) {
+  return distance <= kTie * truth.exact_distance;
 }
 
 SceneTruth loadScene(const ExperimentScene& scene, const std::string& folder) {

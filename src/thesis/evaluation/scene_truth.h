@@ -26,8 +26,10 @@ struct InstantTruth {
   double exact_region_limit = 0.0;
   /// Of the second niche; infinite when there is but one.
   double second_distance = std::numeric_limits<double>::infinity();
-  double niche_cutoff = 0.0;
-  LocalMinima niches;  ///< outward, of prominence 1e-2, up to `niche_cutoff`
+  double niche_cutoff = 0.0;  ///< infinite for the thesis's static poses: no niche is left out
+  /// Of prominence 1e-2, up to `niche_cutoff`, ascending. The outward ones are the niches; those through
+  /// material are there since what leads to one of them has found no niche.
+  std::vector<LocalMinimum> minima;
 };
 
 /// A scene with what its answers are held against.
@@ -41,8 +43,12 @@ struct SceneTruth {
   const InstantTruth& first() const { return instants.front(); }
 };
 
-/// Whether a niche is the nearest of its instant, or as near as that: another corner of the same rim.
-bool isNearest(const InstantTruth& truth, std::size_t niche);
+bool isOutward(const LocalMinimum& minimum);
+std::size_t nicheCount(const InstantTruth& truth);
+
+/// Whether a niche of this distance is the nearest of its instant, or as near as that: another corner of the
+/// same rim.
+bool isNearest(const InstantTruth& truth, double distance);
 
 /// @param folder that holds the thesis's meshes and poses
 /// @throws Error when a file is missing or wrong

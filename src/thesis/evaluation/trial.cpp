@@ -6,6 +6,7 @@
 
 #include "motion_trial.h"
 #include "niche_questions.h"
+#include "optimum_basin.h"
 #include "search/niche_identification.h"
 #include "thesis/continuous/continuous_annealing.h"
 #include "thesis/continuous/continuous_genetic_search.h"
@@ -97,6 +98,7 @@ TrialRecord runCombinatorial(const SearchMethod& method, const SceneTruth& scene
   record.best_iteration = outcome.best_iteration;
   record.exact = record.distance <= truth.node_distance * kSame;
   record.region = record.exact || record.distance < truth.region_limit;
+  record.basin = record.region || leadsToOptimum(scene, outcome.best);
   record.below_second = record.distance < truth.second_distance;
   record.wrong_instants = record.exact ? 0 : 1;
   record.worst_excess = record.distance - truth.node_distance;
@@ -116,7 +118,8 @@ TrialRecord runCombinatorial(const SearchMethod& method, const SceneTruth& scene
 
 /// @param search what runs, given an observer
 template <typename Search>
-TrialRecord runContinuous(const InstantTruth& truth, Diary& diary, const Search& search) {
+TrialRecord runContinuous(const SceneTruth& scene, Diary& diary, const Search& search) {
+  const InstantTruth& truth = scene.first();
   const auto look = [&diary](const ContinuousRecord& record) {
     diary.startLooking();
     double sum = 0.0;
@@ -133,6 +136,7 @@ TrialRecord runContinuous(const InstantTruth& truth, Diary& diary, const Search&
   record.feasible = result.is_feasible;
   record.exact = record.feasible && record.distance <= truth.exact_distance * kSame;
   record.region = record.feasible && record.distance < truth.exact_region_limit;
+  record.basin = record.region || leadsToOptimum(scene, result.best.point_a, result.best.point_b);
   record.below_second = record.distance < truth.second_distance;
   record.cost.evaluations = result.cost.evaluations;
   record.cost.descent_steps = result.cost.local_steps;
@@ -157,12 +161,12 @@ TrialRecord runOnce(const Method& method, const SceneTruth& scene, RandomEngine&
   Diary diary(curveStride(method), curve);
   const Eigen::Isometry3d& a_from_b = scene.first().a_from_b;
   if (const auto* genetic = std::get_if<ContinuousGeneticParameters>(&method)) {
-    return runContinuous(scene.first(), diary, [&](const ContinuousObserver& observer) {
+    return runContinuous(scene, diary, [&](const ContinuousObserver& observer) {
       return continuousGeneticSearch(*scene.tree_a, *scene.tree_b, a_from_b, *genetic, engine, observer);
     });
   }
   if (const auto* annealing = std::get_if<ContinuousAnnealingParameters>(&method)) {
-    return runContinuous(scene.first(), diary, [&](const ContinuousObserver& observer) {
+    return runContinuous(scene, diary, [&](const ContinuousObserver& observer) {
       return continuousAnnealing(*scene.tree_a, *scene.tree_b, a_from_b, *annealing, engine, observer);
     });
   }

@@ -20,7 +20,7 @@ std::string runsHeader() {
   return header +
          ",best_convergence,population_convergence,below_second,feasible,evaluations,descents,descent_steps,"
          "flops,microseconds,recall,precision,archive_recall,nearest,wrong_instants,worst_excess,most_niches,"
-         "proof_finds";
+         "proof_finds,basin";
 }
 constexpr const char* kCurvesHeader =
     "row,scene,first_run,runs,iteration,best_distance_sum,mean_square_sum,niches_sum,acceptance_sum";
@@ -138,7 +138,7 @@ void TrialFiles::append(const WorkUnit& unit, const std::vector<TrialRecord>& re
     cells << r.best_convergence << r.population_convergence << r.below_second << r.feasible
           << r.cost.evaluations << r.cost.descents << r.cost.descent_steps << r.flops << r.microseconds
           << r.recall << r.precision << r.archive_recall << r.nearest << r.wrong_instants << r.worst_excess
-          << r.most_niches << r.proof_finds;
+          << r.most_niches << r.proof_finds << r.basin;
     cells.endLine();
   }
   requireWritten(runs_ << lines.str() << std::flush, experiment_.name + ".csv");
