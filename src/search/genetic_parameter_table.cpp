@@ -116,6 +116,10 @@ ParameterTable<G> ofNiching() {
       flag<G>(
           "mating_restriction", [](auto& g) -> auto& { return g.mating_restriction; },
           "mate within the mating radius"),
+      flag<G>(
+          "strict_mating_restriction", [](auto& g) -> auto& { return g.strict_mating_restriction; },
+          "who finds no partner within the mating radius does not mate; otherwise, after two tries, with "
+          "anybody"),
       optionalNumber<G>(
           "niche_radius", "auto", [](auto& g) -> auto& { return g.niche_radius; },
           "mesh distance; `auto`: the sharing radius")

@@ -203,8 +203,13 @@ class GeneticRun {
 
   void mateCouples() {
     if (parameters_.mating_restriction) {
-      restrictMating(work_.selected, work_.population_places, radii_.mating, work_.places, work_.metric,
-                     engine_);
+      if (parameters_.strict_mating_restriction) {
+        restrictMatingStrictly(work_.selected, work_.population_places, radii_.mating, work_.places,
+                               work_.metric);
+      } else {
+        restrictMating(work_.selected, work_.population_places, radii_.mating, work_.places, work_.metric,
+                       engine_);
+      }
     }
     work_.offspring.clear();
     work_.offspring_places.clear();
@@ -216,7 +221,7 @@ class GeneticRun {
     for (std::size_t i = 0; i + 1 < work_.offspring.size(); i += 2) {
       // Parents on one place have children on it: nothing to mate.
       if (uniformUnit(engine_) < parameters_.crossover_probability &&
-          work_.offspring_places[i] != work_.offspring_places[i + 1] && !outOfBudget()) {
+          work_.offspring_places[i] != work_.offspring_places[i + 1] && mayMate(i) && !outOfBudget()) {
         const Children children = mateCouple(work_.offspring[i], work_.offspring[i + 1]);
         work_.offspring[i] = children.first;
         work_.offspring[i + 1] = children.second;
@@ -224,6 +229,13 @@ class GeneticRun {
         work_.offspring_is_new[i + 1] = true;
       }
     }
+  }
+
+  /// Whether the couple of offspring i and i + 1 is near enough.
+  bool mayMate(std::size_t i) {
+    return !(parameters_.mating_restriction && parameters_.strict_mating_restriction) ||
+           work_.places.delta(work_.offspring_places[i], work_.offspring_places[i + 1], work_.metric) <=
+               radii_.mating;
   }
 
   const TrialPoint& anyMinimumMet() {

@@ -369,6 +369,23 @@ TEST(GeneticSearch, TheFirstPopulationMayStayWhereItIs) {
   EXPECT_EQ(minima_later, parameters.population_size) << "mated, mutated or neither: all are descended";
 }
 
+// Carretero, sec. 4.6.3: parents have to lie within the mating radius to be allowed to mate.
+TEST(GeneticSearch, StrictlyRestrictedStrangersDoNotMate) {
+  Search search(test::facingCombs());
+  search.radii.mating = 0.0;  // nobody is near but who stands on the same place, and has nothing to mate
+  GeneticParameters parameters = smallRun(NichingMethod::Sharing);
+  parameters.mutation_probability = 0.0;
+  parameters.exchange_probability = 0.0;
+  parameters.random_immigrants = 0;
+  parameters.max_generations = 5;
+  const auto descents = [&](bool strict) {
+    parameters.strict_mating_restriction = strict;
+    return search.run(parameters, 17).cost.descents;
+  };
+  EXPECT_EQ(descents(true), parameters.population_size) << "those of the first population";
+  EXPECT_GT(descents(false), parameters.population_size);
+}
+
 // Carretero, fig. 4.4: the contest of crowding stands between mating and mutation, before the descent.
 TEST(GeneticSearch, ChildrenOfTheThesisCompeteBeforeTheyDescend) {
   Search search(test::facingCombs());

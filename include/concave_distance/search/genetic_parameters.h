@@ -59,6 +59,9 @@ struct GeneticParameters {
   std::uint32_t dynamic_niche_limit = 20;  ///< most peaks of dynamic sharing
   std::optional<double> mating_radius;     ///< sigma_m; empty: 1.25 sigma_s
   bool mating_restriction = true;
+  /// Who finds no partner within the mating radius does not mate (Carretero, sec. 4.6.3); else, after two
+  /// tries, with anybody (Deb and Goldberg 1989).
+  bool strict_mating_restriction = false;
   /// Share of the couples whose children, instead of standing between their parents, each take one node from
   /// their parent and the other from any local minimum met so far (without local optimisation: from the other
   /// parent). A niche is a pair of places, one on each body; a place that is part of one niche is likely to

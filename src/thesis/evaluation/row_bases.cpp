@@ -7,6 +7,7 @@ GeneticParameters thesisGeneticParameters(NichingMethod niching) {
   parameters.niching = niching;
   parameters.mating = MatingMethod::MeshNearFitter;
   parameters.mating_restriction = niching == NichingMethod::Sharing;
+  parameters.strict_mating_restriction = true;
   parameters.descent_moves = DescentMoves::OneNodeAlongEdges;
   parameters.descend_first_population = false;
   parameters.exchange_probability = 0.0;

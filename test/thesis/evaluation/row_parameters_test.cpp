@@ -62,6 +62,7 @@ void expectThesisGenetic(const Values& values) {
   EXPECT_EQ(values.at("mating"), "mesh_near_fitter");
   EXPECT_EQ(values.at("descent_moves"), "one_node_along_edges");
   EXPECT_EQ(values.at("selection"), "stochastic_universal_sampling");
+  EXPECT_EQ(values.at("strict_mating_restriction"), "true");
   EXPECT_EQ(values.at("generation_gap"), "1");
   EXPECT_EQ(values.at("convergence_generations"), "0");
 }
