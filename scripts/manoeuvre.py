@@ -25,6 +25,9 @@ def read_curves(path):
             for row in csv.DictReader(file):
                 curves.setdefault(row["method"], []).append(
                     {key: float(value) for key, value in row.items() if key != "method"})
+        missing = [method for method, _, _ in METHODS if method not in curves]
+        if missing:
+            raise SystemExit(f"{path}: has no {', '.join(missing)}; make it again with partition_benchmark --curves-output")
     return curves
 
 
