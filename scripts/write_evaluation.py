@@ -215,8 +215,10 @@ def parameters_section(experiment, folders):
         sets = [values for scenes in rows.values() for values in scenes.values()]
         shared = {name: value for name, value in sets[0].items() if all(one.get(name) == value for one in sets)}
         shown = ", ".join(f"{name} {value}" for name, value in shared.items())
-        unnamed = "as shipped but for what is named" if kind == "tracker" else "none"
-        out.append(f"- {kind}, all rows: {', '.join(words for words in (shown, kind == 'tracker' and unnamed) if words) or unnamed}")
+        words = [shown] if shown else []
+        if kind == "tracker":
+            words.append("as shipped but for what is named")
+        out.append(f"- {kind}, all rows: {', '.join(words) or 'none'}")
         for row, scenes in rows.items():
             own = {scene: ", ".join(f"{name} {value}" for name, value in values.items() if name not in shared)
                    for scene, values in scenes.items()}
