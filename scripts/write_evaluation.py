@@ -213,6 +213,39 @@ def described(scene, truth):
             f"{float(truth['node_distance']):.4f}, exact {float(truth['exact_distance']):.4f}")
 
 
+def parameters_section(experiment, folders):
+    """What every row has run, from the file that `evaluate` writes beside its results: what all rows of a kind share
+    once, then what each adds."""
+    lines = read_rows(folders, experiment["name"] + "_rows.csv")
+    if not lines:
+        raise SystemExit(f"{experiment['name']}: its results have no {experiment['name']}_rows.csv; run `evaluate` on it "
+                         "again, which adds the file and repeats no run")
+    kinds = collections.defaultdict(lambda: collections.defaultdict(dict))
+    for line in lines:
+        text = "" if line["parameters"] == "nan" else line["parameters"]
+        kinds["-".join(line["algorithm"].split("-")[:2])][line["row"]][line["scene"]] = dict(
+            item.split("=", 1) for item in text.split("; ") if item)
+    out = ["", "<details><summary>The parameters of every row</summary>", ""]
+    for kind, rows in kinds.items():
+        sets = [values for scenes in rows.values() for values in scenes.values()]
+        shared = {name: value for name, value in sets[0].items() if all(one.get(name) == value for one in sets)}
+        shown = ", ".join(f"{name} {value}" for name, value in shared.items())
+        words = [shown] if shown else []
+        if kind == "tracker":
+            words.append("as shipped but for what is named")
+        out.append(f"- {kind}, all rows: {', '.join(words) or 'none'}")
+        for row, scenes in rows.items():
+            own = {scene: ", ".join(f"{name} {value}" for name, value in values.items() if name not in shared)
+                   for scene, values in scenes.items()}
+            texts = sorted(set(own.values()))
+            if texts == [""]:
+                continue
+            words = texts[0] if len(texts) == 1 else "; ".join(
+                f"{scene.replace('_', ' ')}: {text or 'the same'}" for scene, text in own.items())
+            out.append(f"  - {row.replace(';', ',')}: {words}")
+    return out + ["", "</details>"]
+
+
 def lost_rows(experiment, runs_of):
     """The thesis's rows in which it is more robust than its algorithm here and every variant of it."""
     lost = []
@@ -369,6 +402,7 @@ def main():
                  + (f" {experiment['remark']}" if experiment.get("remark") else ""), ""] + lines
         if experiment.get("note"):
             body += ["", experiment["note"].strip()]
+        body += parameters_section(experiment, options.results)
         less_robust += lost_rows(experiment, runs_of)
         curves = curves_of(options.results, experiment["name"])
         if curves:
@@ -380,8 +414,14 @@ def main():
     head = ["# The thesis's algorithms, evaluated", "",
             "Every table of the thesis (Carretero) that its algorithms fill, with its figures beside ours. Written by",
             "`scripts/report.sh` (`quick`, or `full` for the counts of runs kept here); the experiments are `experiments/*.yaml`.",
-            "Rows that name something of this package's own (`shipped defaults`, `descents move both nodes`) stand below the thesis's.",
-            "", "- Phi*: runs that end at the best node pair there is (by enumeration); Phi: in its region (1.1 times its distance, nearer than the",
+            "Below each table stands what every row has run.",
+            "", "- **Rows of the thesis** come first and have nothing of ours: no elite, both children near the fitter parent (sec. 3.3.2.b),",
+            "  descents along edges and after mutation only (fig. 2.13), mating restriction with sharing only (4.7) and strict (4.6.3), annealing",
+            "  without new points (5.3.1.b), inheritance by (6.7) alone. A row that changes something names it.",
+            "- **`our operators`** are this package's: exchange of genes, random immigrants, an elite, conserved niches, an epsilon in the fitness,",
+            "  children on all of the path, mating restriction, descents in long steps, also of the first population. One at a time: see",
+            "  [the switches](#from-the-thesiss-algorithm-to-ours-one-switch-at-a-time). **`shipped`** is what a pair's tracker runs by default,",
+            "  of a search its cold one.", "- Phi*: runs that end at the best node pair there is (by enumeration); Phi: in its region (1.1 times its distance, nearer than the",
             "  second local minimum). `(below)`: the thesis's rate is above the upper end of our 95 % interval (Wilson).",
             "- Region (Tables 2.3 to 3.5): the thesis's sign of an answer in the neighbourhood of the optimum, which it gives at distances far above Phi's",
             "  limit. Ours: Phi, or a descent over the nodes from the answer ends in the region of the optimum on the surfaces.",

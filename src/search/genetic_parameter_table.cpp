@@ -55,6 +55,7 @@ ParameterTable<G> ofMethods() {
       choice<G>(
           "mating",
           Matings{{"mesh", MatingMethod::Mesh},
+                  {"mesh_near_fitter", MatingMethod::MeshNearFitter},
                   {"phenotypic", MatingMethod::Phenotypic},
                   {"genotypic", MatingMethod::Genotypic}},
           [](auto& g) -> auto& { return g.mating; }, "where children stand between their parents"),
@@ -78,10 +79,15 @@ ParameterTable<G> ofMethods() {
           "it counts as fit as that minimum and stays"),
       choice<G>(
           "descent_moves",
-          Moves{{"one_node", DescentMoves::OneNode}, {"both_nodes", DescentMoves::BothNodes}},
+          Moves{{"one_node", DescentMoves::OneNode},
+                {"both_nodes", DescentMoves::BothNodes},
+                {"one_node_along_edges", DescentMoves::OneNodeAlongEdges}},
           [](auto& g) -> auto& { return g.descent_moves; },
           "`one_node`: a descent moves one node at a time; `both_nodes`: where no such move is left, both at "
-          "once"),
+          "once; `one_node_along_edges`: never in longer steps than an edge"),
+      flag<G>(
+          "descend_first_population", [](auto& g) -> auto& { return g.descend_first_population; },
+          "descend the first population before parents are selected from it"),
   };
 }
 
@@ -110,6 +116,10 @@ ParameterTable<G> ofNiching() {
       flag<G>(
           "mating_restriction", [](auto& g) -> auto& { return g.mating_restriction; },
           "mate within the mating radius"),
+      flag<G>(
+          "strict_mating_restriction", [](auto& g) -> auto& { return g.strict_mating_restriction; },
+          "who finds no partner within the mating radius does not mate; otherwise, after two tries, with "
+          "anybody"),
       optionalNumber<G>(
           "niche_radius", "auto", [](auto& g) -> auto& { return g.niche_radius; },
           "mesh distance; `auto`: the sharing radius")

@@ -1,6 +1,7 @@
 #include "genetic_search.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -40,8 +41,7 @@ class GeneticRun {
         engine_(engine),
         work_(workspace),
         limit_(limit),
-        epsilon_(parameters.fitness_epsilon *
-                 std::max(objective.bodyA().maxEdgeLength(), objective.bodyB().maxEdgeLength())),
+        epsilon_(fitnessEpsilon(parameters, objective.bodyA(), objective.bodyB())),
         offspring_count_(offspringCount(parameters.population_size, parameters.generation_gap)) {
     work_.places.reset(distanceBound(objective, parameters, radii));
     work_.convergence.reset(parameters.convergence_generations);
@@ -88,10 +88,21 @@ class GeneticRun {
         work_.population_places[i] = work_.population_places[i - settled];
         continue;
       }
-      settle(work_.population[i], work_.population_places[i]);
+      if (parameters_.descend_first_population) {
+        settle(work_.population[i], work_.population_places[i]);
+      } else {
+        evaluate(work_.population[i], work_.population_places[i]);
+      }
       ++settled;
     }
+    is_descended_ = parameters_.descend_first_population;
     work_.census.take(work_.population_places, work_.places.size());
+  }
+
+  /// Where it stands.
+  void evaluate(TrialPoint& point, std::uint32_t& place) {
+    point = objective_.evaluate(point.node_a, point.node_b, result_.cost);
+    place = work_.places.placeOf(point);
   }
 
   /// A new individual's distance, or that of the local minimum below it.
@@ -112,6 +123,11 @@ class GeneticRun {
   }
 
   void step() {
+    stepAsNiching();
+    is_descended_ = true;
+  }
+
+  void stepAsNiching() {
     switch (parameters_.niching) {
       case NichingMethod::None:
       case NichingMethod::Sharing:
@@ -141,7 +157,7 @@ class GeneticRun {
       case NichingMethod::DeterministicCrowdingWithSelection:
         selectParents();
         mateCouples();
-        settleOffspring();  // a child that has not been descended would lose to any parent that has
+        evaluateOffspring();
         compete();
         mutateOffspring();
         settleOffspring();
@@ -187,8 +203,13 @@ class GeneticRun {
 
   void mateCouples() {
     if (parameters_.mating_restriction) {
-      restrictMating(work_.selected, work_.population_places, radii_.mating, work_.places, work_.metric,
-                     engine_);
+      if (parameters_.strict_mating_restriction) {
+        restrictMatingStrictly(work_.selected, work_.population_places, radii_.mating, work_.places,
+                               work_.metric);
+      } else {
+        restrictMating(work_.selected, work_.population_places, radii_.mating, work_.places, work_.metric,
+                       engine_);
+      }
     }
     work_.offspring.clear();
     work_.offspring_places.clear();
@@ -196,11 +217,11 @@ class GeneticRun {
       work_.offspring.push_back(work_.population[parent]);
       work_.offspring_places.push_back(work_.population_places[parent]);
     }
-    work_.offspring_is_new.assign(work_.offspring.size(), false);
+    work_.offspring_is_new.assign(work_.offspring.size(), !is_descended_);
     for (std::size_t i = 0; i + 1 < work_.offspring.size(); i += 2) {
       // Parents on one place have children on it: nothing to mate.
       if (uniformUnit(engine_) < parameters_.crossover_probability &&
-          work_.offspring_places[i] != work_.offspring_places[i + 1] && !outOfBudget()) {
+          work_.offspring_places[i] != work_.offspring_places[i + 1] && mayMate(i) && !outOfBudget()) {
         const Children children = mateCouple(work_.offspring[i], work_.offspring[i + 1]);
         work_.offspring[i] = children.first;
         work_.offspring[i + 1] = children.second;
@@ -208,6 +229,13 @@ class GeneticRun {
         work_.offspring_is_new[i + 1] = true;
       }
     }
+  }
+
+  /// Whether the couple of offspring i and i + 1 is near enough.
+  bool mayMate(std::size_t i) {
+    return !(parameters_.mating_restriction && parameters_.strict_mating_restriction) ||
+           work_.places.delta(work_.offspring_places[i], work_.offspring_places[i + 1], work_.metric) <=
+               radii_.mating;
   }
 
   const TrialPoint& anyMinimumMet() {
@@ -236,6 +264,13 @@ class GeneticRun {
     }
   }
 
+  /// New individuals stay where they are, to be descended later.
+  void evaluateOffspring() {
+    for (std::size_t i = 0; i < work_.offspring.size(); ++i) {
+      if (work_.offspring_is_new[i]) evaluate(work_.offspring[i], work_.offspring_places[i]);
+    }
+  }
+
   void settleOffspring() {
     for (std::size_t i = 0; i < work_.offspring.size(); ++i) {
       if (!work_.offspring_is_new[i]) {
@@ -252,7 +287,8 @@ class GeneticRun {
     }
   }
 
-  /// The contest of deterministic crowding; afterwards the offspring are those who won.
+  /// The contest of deterministic crowding; afterwards the offspring are those who won, new where a child
+  /// has.
   void compete() {
     const auto rules = parameters_.niching == NichingMethod::DeterministicCrowding ? &competePaired
                                                                                    : &competeWithCloserParent;
@@ -270,6 +306,10 @@ class GeneticRun {
       work_.offspring_places[i] = first.place;
       work_.offspring[i + 1] = second.point;
       work_.offspring_places[i + 1] = second.place;
+      for (const std::size_t k : {i, i + 1}) {
+        const bool is_child = work_.offspring_places[k] != work_.population_places[work_.selected[k]];
+        work_.offspring_is_new[k] = is_child || !is_descended_;
+      }
     }
   }
 
@@ -327,7 +367,7 @@ class GeneticRun {
   }
 
   void noteBest(std::uint32_t generation) {
-    const TrialPoint best = parameters_.local_optimization == LocalOptimization::Baldwinian
+    const TrialPoint best = std::isfinite(best_below_.squared_distance)
                                 ? best_below_
                                 : *std::min_element(work_.population.begin(), work_.population.end());
     if (generation == 0 || best < result_.best) {
@@ -353,7 +393,8 @@ class GeneticRun {
   std::uint32_t offspring_count_;
   double mutation_probability_ = 0.0;
   double mutation_radius_ = 0.0;
-  /// Of all local minima met, where individuals do not stand on them.
+  bool is_descended_ = true;  ///< the population, where individuals are descended at all
+  /// Of all local minima met, where individuals do not stand on them: Baldwinian only, else infinitely far.
   TrialPoint best_below_{NodeIndex{}, NodeIndex{}, std::numeric_limits<double>::infinity()};
   GeneticResult result_;
 };

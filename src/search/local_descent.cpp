@@ -152,10 +152,11 @@ struct Approach {
 };
 
 /// Walks in float to where no neighbour looks closer to `target` (in the graph's frame).
-Approach approach(const BodyMesh& body, NodeIndex node, const Eigen::Vector3d& target, SearchCost& cost) {
+Approach approach(const BodyMesh& body, NodeIndex node, const Eigen::Vector3d& target, DescentMoves moves,
+                  SearchCost& cost) {
   const NodeGraph& graph = body.graph();
   const Eigen::Vector3f local = localTarget(graph, target);
-  const bool has_levels = !body.levels().levels.empty();
+  const bool has_levels = moves != DescentMoves::OneNodeAlongEdges && !body.levels().levels.empty();
   Place place = walk(graph, node, local, has_levels ? kStepsOnALevel : kNoLimit, cost);
   if (!place.is_minimum) {
     const NodeIndex far = walkInLongSteps(body.levels().levels, NodeIndex{place.node}, target, cost);
@@ -229,7 +230,7 @@ class Descent {
   /// True when A's node has moved; then none of its neighbours is closer.
   bool moveA() {
     const NodeIndex start = point_.node_a;
-    const auto [reached, proven] = approach(objective_.bodyA(), start, b_in_a_, cost_);
+    const auto [reached, proven] = approach(objective_.bodyA(), start, b_in_a_, moves_, cost_);
     if (reached != start) {
       const double reached_distance = squaredDistanceBetween(graph_a_.positions[reached.value], b_in_a_);
       if (reached_distance < point_.squared_distance) {
@@ -262,7 +263,8 @@ class Descent {
   bool moveB() {
     const Eigen::Vector3d& a = graph_a_.positions[point_.node_a.value];
     const NodeIndex start = point_.node_b;
-    const auto [reached, proven] = approach(objective_.bodyB(), start, objective_.bFromA() * a, cost_);
+    const auto [reached, proven] =
+        approach(objective_.bodyB(), start, objective_.bFromA() * a, moves_, cost_);
     if (reached != start) {
       const Eigen::Vector3d reached_in_a = objective_.aFromB() * graph_b_.positions[reached.value];
       const double reached_distance = squaredDistanceBetween(a, reached_in_a);

@@ -1,5 +1,6 @@
 #include "mating.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -47,6 +48,32 @@ NodeIndex nearestNode(const NodeGraph& graph, const Eigen::Vector3d& point) {
   return NodeIndex{nearest};
 }
 
+/// One node of the path within `radius` of the fitter parent, its last one with as much of the draws as the
+/// others: hence an edge more than the radius.
+NodeIndex nodeWithin(NodeIndex fitter, NodeIndex other, double radius, MeshMetricQuery& query,
+                     double path_bound, RandomEngine& engine) {
+  const double edge = static_cast<double>(query.metric().graph().edges.row(fitter.value)[0].length);
+  return query.nodeTowards(fitter, other, std::min(radius, uniformUnit(engine) * (radius + edge)),
+                           path_bound);
+}
+
+/// Both children within a radius of the fitter parent, `share` of the way to the other.
+Genes mateNearFitter(NodeIndex fitter, NodeIndex other, double share, MeshMetricQuery& query,
+                     double path_bound, RandomEngine& engine) {
+  if (fitter == other) {
+    return {fitter, other};
+  }
+  if (query.metric().hasMatrices()) {
+    path_bound = std::numeric_limits<double>::infinity();
+  }
+  const double length = query.distanceWithin(fitter, other, path_bound);
+  if (!std::isfinite(length)) {
+    return {fitter, other};
+  }
+  const NodeIndex first = nodeWithin(fitter, other, share * length, query, path_bound, engine);
+  return {first, nodeWithin(fitter, other, share * length, query, path_bound, engine)};
+}
+
 Genes mateOnLine(NodeIndex fitter, NodeIndex other, const Shares& shares, const NodeGraph& graph) {
   const Eigen::Vector3d& from = graph.positions[fitter.value];
   const Eigen::Vector3d displacement = graph.positions[other.value] - from;
@@ -68,6 +95,7 @@ Genes mateGene(MatingMethod method, NodeIndex fitter, NodeIndex other, const Sha
   }
   switch (method) {
     case MatingMethod::Mesh:
+    case MatingMethod::MeshNearFitter:  // has a function of its own
       return mateOnMesh(fitter, other, shares, query, path_bound);
     case MatingMethod::Phenotypic:
       return mateOnLine(fitter, other, shares, graph);
@@ -90,6 +118,11 @@ Children mate(MatingMethod method, const PairObjective& objective, const TrialPo
   const TrialPoint& fitter = first_is_fitter ? parent_1 : parent_2;
   const TrialPoint& other = first_is_fitter ? parent_2 : parent_1;
   const double share = fitterShare(fitter.squared_distance, other.squared_distance);
+  if (method == MatingMethod::MeshNearFitter) {
+    const Genes a = mateNearFitter(fitter.node_a, other.node_a, share, metric.onA(), path_bound, engine);
+    const Genes b = mateNearFitter(fitter.node_b, other.node_b, share, metric.onB(), path_bound, engine);
+    return {{a.first, b.first, kNotComputed}, {a.second, b.second, kNotComputed}};
+  }
   const auto draw = [&] {
     const double first = share * uniformUnit(engine);
     return Shares{first, share + (1.0 - share) * uniformUnit(engine)};

@@ -28,6 +28,10 @@ double potentialFitness(double squared_distance, double epsilon) {
   return denominator > 1.0 / kTouchingFitness ? 1.0 / denominator : kTouchingFitness;
 }
 
+double fitnessEpsilon(const GeneticParameters& parameters, const BodyMesh& a, const BodyMesh& b) {
+  return parameters.fitness_epsilon * std::max(a.maxEdgeLength(), b.maxEdgeLength());
+}
+
 double sharingValue(double delta, double radius, double exponent) {
   if (!(delta < radius)) {
     return delta == 0.0 ? 1.0 : 0.0;  // with radius 0 a place still shares with itself

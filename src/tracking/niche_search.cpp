@@ -6,6 +6,7 @@
 #include "search/genetic_search.h"
 #include "search/local_descent.h"
 #include "search/pair_objective.h"
+#include "search/sharing.h"
 #include "warm_start.h"
 
 namespace concave_distance {
@@ -55,9 +56,8 @@ const std::vector<TrialPoint>& NicheSearch::propose(const PairGeometry& geometry
   const bool as_warm = run.warm || run.is_helper;
   GeneticParameters genetic = as_warm ? parameters.warm : parameters.cold;
   if (run.warm) {
-    const double softening = std::min(geometry.a->maxEdgeLength(), geometry.b->maxEdgeLength());
-    inherit(known, {parameters.inherited_per_niche, parameters.inherited_limit}, softening, inherited_,
-            scratch_);
+    inherit(known, {parameters.inherited_per_niche, parameters.inherited_limit},
+            fitnessEpsilon(genetic, *geometry.a, *geometry.b), inherited_, scratch_);
     const auto wanted = static_cast<std::uint32_t>(inherited_.size()) + parameters.random_starts;
     genetic.population_size = std::max(genetic.population_size, wanted + wanted % 2);
   }

@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "search/sharing.h"
 
 namespace concave_distance {
 
-void inherit(const std::vector<TrialPoint>& niches, const Inheritance& inheritance, double softening,
+void inherit(const std::vector<TrialPoint>& niches, const Inheritance& inheritance, double epsilon,
              std::vector<TrialPoint>& population, std::vector<double>& scratch) {
   population.clear();
   if (niches.empty()) {
@@ -15,7 +16,7 @@ void inherit(const std::vector<TrialPoint>& niches, const Inheritance& inheritan
   const auto niche_count = static_cast<double>(niches.size());
   const auto total = static_cast<std::size_t>(
       std::min(std::floor(inheritance.per_niche * niche_count), static_cast<double>(inheritance.limit)));
-  const std::size_t one_each = std::min(total, niches.size());
+  const std::size_t one_each = inheritance.one_each ? std::min(total, niches.size()) : 0;
   for (std::size_t i = 0; i < one_each; ++i) {
     population.push_back(niches[i]);
   }
@@ -23,16 +24,15 @@ void inherit(const std::vector<TrialPoint>& niches, const Inheritance& inheritan
   if (to_share == 0) {
     return;
   }
-  const double smallest = std::numeric_limits<double>::min();
   double sum = 0.0;
   for (const TrialPoint& niche : niches) {
-    sum += 1.0 / std::max(niche.squared_distance + softening * softening, smallest);
+    sum += potentialFitness(niche.squared_distance, epsilon);
   }
   scratch.clear();
   std::size_t given = 0;
   for (const TrialPoint& niche : niches) {
-    const double phi = 1.0 / std::max(niche.squared_distance + softening * softening, smallest);
-    const double share = static_cast<double>(to_share) * (phi / sum);  // phi alone may be near overflow
+    const double phi = potentialFitness(niche.squared_distance, epsilon);
+    const double share = static_cast<double>(to_share) * (phi / sum);
     const auto whole = static_cast<std::size_t>(share);
     population.insert(population.end(), std::min(whole, to_share - given), niche);
     given += std::min(whole, to_share - given);

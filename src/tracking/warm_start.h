@@ -11,14 +11,16 @@ namespace concave_distance {
 struct Inheritance {
   double per_niche = 3.0;    ///< alpha_Gamma
   std::uint32_t limit = 30;  ///< N_popGamma_max
+  /// Each niche gets one copy before any gets a second, where the total allows: a share rounded to nothing
+  /// would forget the niche. The thesis does not (6.7).
+  bool one_each = true;
 };
 
 /// N_popGamma = min(alpha_Gamma N_Gamma, N_popGamma_max) copies (Carretero, eq. (6.8)), shared among the
 /// niches in proportion to phi = 1 / (d^2 + eps^2) (6.7) by largest remainders, so that the copies sum up
-/// exactly. Each niche gets one before any gets a second where the total allows: a share rounded to nothing
-/// would forget the niche.
-/// @param softening eps, metres; 0 allowed when no distance is 0
-void inherit(const std::vector<TrialPoint>& niches, const Inheritance& inheritance, double softening,
+/// exactly.
+/// @param epsilon fitnessEpsilon() of the search that inherits
+void inherit(const std::vector<TrialPoint>& niches, const Inheritance& inheritance, double epsilon,
              std::vector<TrialPoint>& population, std::vector<double>& scratch);
 
 }  // namespace concave_distance

@@ -1,8 +1,8 @@
 // The dynamic comparison of Carretero, ch. 6: the battery follows its manoeuvre into the fixture (20 s at 10
 // Hz, 200 solves) by convex partition with quadratic programming (6.4)-(6.6), cold and warm, by GJK on the
-// same pieces, by the hybrid of the conclusions, and by this package's tracker; and the number of sub-pairs
-// from which the search is cheaper than the partition, by batteries with more hole facets and fixtures with
-// more protrusions.
+// same pieces, by the hybrid of the conclusions, by the thesis's search and by this package's tracker; and
+// the number of sub-pairs from which the search is cheaper than the partition, by batteries with more hole
+// facets and fixtures with more protrusions.
 //
 //   partition_benchmark [--family FOLDER --hole-facets 6,12,20,40 --protrusions 1,4,8,16,32] [--repeats 2]
 //                       [--output doc/results/partition.csv] [--curves-output doc/results/manoeuvre.csv]
@@ -12,7 +12,7 @@
 // microseconds of processor time a step (mean, median, the first step's; the fastest of the repeats at every
 // step); of the quadratic programs, the mean iterations of one at the first step and at the others, and the
 // most that one took; sub-pairs solved a step; sub-pairs a step whose solver was not good enough; Mflop a
-// step by the thesis's rules (26 a node pair, 2221 a QP iteration). The curves' file has four of the methods
+// step by the thesis's rules (26 a node pair, 2221 a QP iteration). The curves' file has six of the methods
 // instant by instant: seconds, metres, microseconds; the thesis's figures 6.6 and 6.7.
 #include <CLI/CLI.hpp>
 #include <cstdio>

@@ -49,6 +49,13 @@ GeneticParameters smallRun(NichingMethod niching) {
   return parameters;
 }
 
+/// Where a descent without any memory ends.
+TrialPoint descendAnew(const PairObjective& objective, const TrialPoint& point) {
+  std::vector<std::uint64_t> trail;
+  SearchCost cost;
+  return descend(objective, point, nullptr, trail, cost);
+}
+
 bool samePopulation(const std::vector<TrialPoint>& l, const std::vector<TrialPoint>& r) {
   return std::equal(l.begin(), l.end(), r.begin(), r.end(), [](const TrialPoint& x, const TrialPoint& y) {
     return samePlace(x, y) && x.squared_distance == y.squared_distance;
@@ -339,6 +346,77 @@ TEST(GeneticSearch, DescendsNoMoreOnceTheEvaluationsAreSpent) {
       EXPECT_EQ(again.descents, cost.descents);
     }
   }
+}
+
+// Carretero, fig. 2.13: individuals are descended after mutation, so the first parents are random points.
+TEST(GeneticSearch, TheFirstPopulationMayStayWhereItIs) {
+  Search search(test::hookAndStairs());
+  GeneticParameters parameters = smallRun(NichingMethod::None);
+  parameters.descend_first_population = false;
+  parameters.random_immigrants = 0;
+  parameters.elite_count = 0;
+  std::size_t minima_at_first = 0;
+  std::size_t minima_later = 0;
+  search.run(parameters, 15, {}, [&](const GenerationRecord& record) {
+    for (const TrialPoint& point : *record.population) {
+      const TrialPoint bottom = descendAnew(search.objective, point);
+      const bool is_minimum = samePlace(bottom, point);
+      if (record.generation == 0) minima_at_first += is_minimum ? 1 : 0;
+      if (record.generation == 1) minima_later += is_minimum ? 1 : 0;
+    }
+  });
+  EXPECT_LT(minima_at_first, 10U);
+  EXPECT_EQ(minima_later, parameters.population_size) << "mated, mutated or neither: all are descended";
+}
+
+// Carretero, sec. 4.6.3: parents have to lie within the mating radius to be allowed to mate.
+TEST(GeneticSearch, StrictlyRestrictedStrangersDoNotMate) {
+  Search search(test::facingCombs());
+  search.radii.mating = 0.0;  // nobody is near but who stands on the same place, and has nothing to mate
+  GeneticParameters parameters = smallRun(NichingMethod::Sharing);
+  parameters.mutation_probability = 0.0;
+  parameters.exchange_probability = 0.0;
+  parameters.random_immigrants = 0;
+  parameters.max_generations = 5;
+  const auto descents = [&](bool strict) {
+    parameters.strict_mating_restriction = strict;
+    return search.run(parameters, 17).cost.descents;
+  };
+  EXPECT_EQ(descents(true), parameters.population_size) << "those of the first population";
+  EXPECT_GT(descents(false), parameters.population_size);
+}
+
+// Carretero, fig. 4.4: the contest of crowding stands between mating and mutation, before the descent.
+TEST(GeneticSearch, ChildrenOfTheThesisCompeteBeforeTheyDescend) {
+  Search search(test::facingCombs());
+  GeneticParameters parameters = smallRun(NichingMethod::DeterministicCrowdingWithSelection);
+  parameters.population_size = 10;
+  parameters.max_generations = 1;
+  parameters.mutation_probability = 0.0;
+  parameters.exchange_probability = 0.0;
+  parameters.random_immigrants = 0;
+  parameters.crossover_probability = 1.0;
+  parameters.mating_restriction = false;
+  const auto newcomers = [&](NichingMethod niching) {
+    parameters.niching = niching;
+    std::size_t count = 0;
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+      std::set<std::pair<std::uint32_t, std::uint32_t>> parents;
+      search.run(parameters, seed, {}, [&](const GenerationRecord& record) {
+        for (const TrialPoint& point : *record.population) {
+          EXPECT_TRUE(samePlace(descendAnew(search.objective, point), point)) << "descended in the end";
+          const std::pair<std::uint32_t, std::uint32_t> place(point.node_a.value, point.node_b.value);
+          if (record.generation == 0) parents.insert(place);
+          if (record.generation == 1) count += parents.count(place) == 0 ? 1 : 0;
+        }
+      });
+    }
+    return count;
+  };
+  const std::size_t replaced = newcomers(NichingMethod::None);  // every child stays
+  EXPECT_GT(replaced, 20U);
+  EXPECT_LT(newcomers(NichingMethod::DeterministicCrowdingWithSelection), replaced / 4)
+      << "children that have not been descended lose to parents that have";
 }
 
 TEST(MultiStartDescent, MeetsMoreMinimaWithMoreStarts) {

@@ -74,6 +74,56 @@ RC_GTEST_PROP(MeshMating, ChildrenLieOnShortestPathsWithinTheWeightedRadii, ()) 
   check(c.metric.onB(), fitter.node_b, other.node_b, first.node_b, second.node_b);
 }
 
+// Carretero, sec. 3.3.2.b: "this radius is centered around the parent with best fitness".
+RC_GTEST_PROP(MeshMating, NearTheFitterParentBothChildrenStayWithinItsRadius, ()) {
+  static MatingCase c(test::facingCombs());
+  RandomEngine engine(*rc::gen::arbitrary<std::uint64_t>());
+  const TrialPoint x = drawPoint(c.objective, engine);
+  const TrialPoint y = drawPoint(c.objective, engine);
+  const auto [first, second] =
+      mate(MatingMethod::MeshNearFitter, c.objective, x, y, c.metric, kInfinity, engine);
+  const TrialPoint& fitter = x < y ? x : y;
+  const TrialPoint& other = x < y ? y : x;
+  const double share = fitterShare(fitter.squared_distance, other.squared_distance);
+  for (const TrialPoint& child : {first, second}) {
+    for (const bool on_a : {true, false}) {
+      MeshMetricQuery& query = on_a ? c.metric.onA() : c.metric.onB();
+      const NodeIndex from = on_a ? fitter.node_a : fitter.node_b;
+      const NodeIndex to = on_a ? other.node_a : other.node_b;
+      const NodeIndex node = on_a ? child.node_a : child.node_b;
+      const double length = query.distanceWithin(from, to, kInfinity);
+      const double gone = query.distanceWithin(from, node, kInfinity);
+      RC_ASSERT(gone <= share * length + kRounding * length);
+      const double left = query.distanceWithin(node, to, kInfinity);
+      RC_ASSERT(std::abs(gone + left - length) <= kRounding * length);
+    }
+  }
+}
+
+// A radius of one edge holds the parent's node and, as likely, the one at the edge's end.
+TEST(MeshMating, NearTheFitterParentTheLastNodeWithinTheRadiusIsDrawnToo) {
+  MatingCase c(test::hookAndStairs());
+  RandomEngine engine(15);
+  int at_parent = 0;
+  int beyond = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const TrialPoint x = drawPoint(c.objective, engine);
+    TrialPoint y = x;
+    // Parents of equal fitness two edges apart: the radius is one edge.
+    const auto edges = c.scene.a->graph().edges.row(x.node_a.value);
+    y.node_a = c.scene.a->graph().edges.row(edges[0].to.value)[0].to;
+    if (y.node_a == x.node_a) continue;
+    const double length = c.metric.onA().distanceWithin(x.node_a, y.node_a, kInfinity);
+    if (length < 1.9 * static_cast<double>(edges[0].length)) continue;
+    const Children children =
+        mate(MatingMethod::MeshNearFitter, c.objective, x, y, c.metric, kInfinity, engine);
+    (children.first.node_a == std::min(x, y).node_a ? at_parent : beyond) += 1;
+  }
+  ASSERT_GT(at_parent + beyond, 100);
+  EXPECT_GT(beyond, (at_parent + beyond) / 5);
+  EXPECT_GT(at_parent, (at_parent + beyond) / 5);
+}
+
 TEST(MeshMating, TheTwoChildrenTogetherReachTheWholePath) {
   MatingCase c(test::hookAndStairs());
   RandomEngine engine(11);
@@ -192,7 +242,8 @@ TEST(Mating, ParentsOnOnePlaceHaveTheirChildrenThere) {
   MatingCase c(test::facingCombs());
   RandomEngine engine(14);
   const TrialPoint x = drawPoint(c.objective, engine);
-  for (const MatingMethod method : {MatingMethod::Mesh, MatingMethod::Phenotypic, MatingMethod::Genotypic}) {
+  for (const MatingMethod method : {MatingMethod::Mesh, MatingMethod::MeshNearFitter,
+                                    MatingMethod::Phenotypic, MatingMethod::Genotypic}) {
     const auto [first, second] = mate(method, c.objective, x, x, c.metric, kInfinity, engine);
     EXPECT_TRUE(samePlace(first, x));
     EXPECT_TRUE(samePlace(second, x));

@@ -223,6 +223,30 @@ TEST_F(MatingRestriction, OnlyRearrangesThePoolAndKeepsFirstParentsTheirSeats) {
   }
 }
 
+TEST_F(MatingRestriction, StrictItLeavesStrangersOnlyWhereNobodyBehindIsNear) {
+  RandomEngine engine(64);
+  for (int run = 0; run < 100; ++run) {
+    std::vector<std::uint32_t> pool(40);
+    for (std::uint32_t i = 0; i < 40; ++i) {
+      pool[i] = i;
+    }
+    shuffle(pool, engine);
+    const std::uint32_t first_parent = pool[0];
+    restrictMatingStrictly(pool, where_, kRadius, places_, niches_.metric);
+    EXPECT_EQ(pool[0], first_parent);
+    for (std::size_t first = 0; first < pool.size(); first += 2) {
+      if (near(pool[first], pool[first + 1])) continue;
+      for (std::size_t behind = first + 1; behind < pool.size(); ++behind) {
+        EXPECT_FALSE(near(pool[first], pool[behind]));
+      }
+    }
+    std::sort(pool.begin(), pool.end());
+    for (std::uint32_t i = 0; i < 40; ++i) {
+      ASSERT_EQ(pool[i], i);
+    }
+  }
+}
+
 TEST_F(MatingRestriction, MatesMoreNeighboursThanChanceAndStillSomeStrangers) {
   RandomEngine engine(63);
   int near_by_chance = 0;

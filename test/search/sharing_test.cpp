@@ -28,6 +28,18 @@ TEST(Sharing, FitnessGrowsAsTheDistanceFalls) {
   EXPECT_GT(potentialFitness(0.0, 0.0), potentialFitness(1e-12, 0.0));
 }
 
+TEST(Sharing, EpsilonIsAShareOfTheLongestEdgeOfBothGrids) {
+  const auto fine = test::makeBody(test::makeLShape(), 0.1);
+  const auto coarse = test::makeBody(test::makeLShape(), 0.3);
+  ASSERT_LT(fine->maxEdgeLength(), coarse->maxEdgeLength());
+  GeneticParameters parameters;
+  parameters.fitness_epsilon = 0.5;
+  EXPECT_DOUBLE_EQ(fitnessEpsilon(parameters, *fine, *coarse), 0.5 * coarse->maxEdgeLength());
+  EXPECT_DOUBLE_EQ(fitnessEpsilon(parameters, *coarse, *fine), 0.5 * coarse->maxEdgeLength());
+  parameters.fitness_epsilon = 0.0;
+  EXPECT_EQ(fitnessEpsilon(parameters, *fine, *coarse), 0.0);
+}
+
 // Table 5.19, alpha_s = 10, has 46.9/16.4/13.1/7.6/4.1 points in the first five niches of battery and
 // fixture; (4.4) with this potential fitness and the node distances of Table 4.6 predicts them.
 TEST(Sharing, FitnessPredictsTheNichesOfTheThesis) {

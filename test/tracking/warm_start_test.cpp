@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+
+#include "search/sharing.h"
 
 namespace concave_distance {
 namespace {
@@ -29,6 +32,32 @@ TEST(WarmStart, SharesCopiesInProportionToFitness) {
   std::vector<double> scratch;
   inherit(nichesAt({0.5, 1.0, 1.0}), {3.0, 30}, 0.0, population, scratch);
   EXPECT_EQ(copiesOf(population, 3), (std::vector<int>{5, 2, 2}));
+}
+
+TEST(WarmStart, WithoutOneEachTheSharesAreThoseOfTheThesisAlone) {
+  // phi = 1/d^2: 100, 1, 1. Eq. (6.8): 9 copies; (6.7): 8.82, 0.09, 0.09.
+  const std::vector<TrialPoint> niches = nichesAt({0.1, 1.0, 1.0});
+  Inheritance inheritance;
+  std::vector<TrialPoint> population;
+  std::vector<double> scratch;
+  inherit(niches, inheritance, 0.0, population, scratch);
+  EXPECT_EQ(copiesOf(population, 3), (std::vector<int>{7, 1, 1}));
+  inheritance.one_each = false;
+  inherit(niches, inheritance, 0.0, population, scratch);
+  EXPECT_EQ(copiesOf(population, 3), (std::vector<int>{9, 0, 0}));
+}
+
+// (6.7) speaks of the potential fitness that selection has.
+TEST(WarmStart, SharesByTheFitnessOfSelection) {
+  Inheritance inheritance;
+  inheritance.one_each = false;
+  std::vector<TrialPoint> population;
+  std::vector<double> scratch;
+  const double epsilon = 0.75;
+  inherit(nichesAt({0.0, 1.0}), inheritance, epsilon, population, scratch);
+  const double nearest = potentialFitness(0.0, epsilon);
+  const double share = 6.0 * nearest / (nearest + potentialFitness(1.0, epsilon));
+  EXPECT_EQ(copiesOf(population, 2)[0], std::lround(share));
 }
 
 TEST(WarmStart, StopsAtTheLimit) {

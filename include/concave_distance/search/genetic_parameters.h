@@ -9,13 +9,20 @@
 
 namespace concave_distance {
 
-enum class MatingMethod : std::uint8_t { Mesh, Phenotypic, Genotypic };
+enum class MatingMethod : std::uint8_t {
+  Mesh,            ///< children on all of the path between the parents
+  MeshNearFitter,  ///< the thesis's: both within a radius of the fitter parent (Carretero, sec. 3.3.2.b)
+  Phenotypic,
+  Genotypic
+};
 enum class NichingMethod : std::uint8_t {
   None,
   Sharing,
   DynamicSharing,
-  DeterministicCrowding,               ///< Mahfoud's: no selection but the contest with the parents
-  DeterministicCrowdingWithSelection,  ///< the thesis's: parents are selected as without niching
+  DeterministicCrowding,  ///< Mahfoud's: no selection but the contest with the parents
+  /// The thesis's (Carretero, fig. 4.4): parents are selected as without niching, and children compete with
+  /// them before mutation and descent.
+  DeterministicCrowdingWithSelection,
   SimpleCrowding
 };
 /// What becomes of a new individual (Carretero, sec. 3.1.5, 5.2.1.a).
@@ -40,14 +47,21 @@ struct GeneticParameters {
   NichingMethod niching = NichingMethod::Sharing;
   LocalOptimization local_optimization = LocalOptimization::Lamarckian;
   DescentMoves descent_moves = DescentMoves::OneNode;
+  /// Whether the first population is descended before parents are selected from it. The thesis descends after
+  /// mutation only (Carretero, fig. 2.13), but for populations that inherit (sec. 6.2.2).
+  bool descend_first_population = true;
   std::optional<double> sharing_radius;  ///< sigma_s; empty: automaticRadii()
   double sharing_exponent = 1.0;         ///< alpha_s
   /// epsilon of the potential fitness 1 / (d^2 + epsilon^2), as a share of the longer of both grids' maximum
-  /// edge lengths: differences of distance below it are the grid's. 0 for the thesis's tables.
+  /// edge lengths: differences of distance below it are the grid's. Selection and inheritance use the same.
+  /// The thesis has none: 0.
   double fitness_epsilon = 1.0;
   std::uint32_t dynamic_niche_limit = 20;  ///< most peaks of dynamic sharing
   std::optional<double> mating_radius;     ///< sigma_m; empty: 1.25 sigma_s
   bool mating_restriction = true;
+  /// Who finds no partner within the mating radius does not mate (Carretero, sec. 4.6.3); else, after two
+  /// tries, with anybody (Deb and Goldberg 1989).
+  bool strict_mating_restriction = false;
   /// Share of the couples whose children, instead of standing between their parents, each take one node from
   /// their parent and the other from any local minimum met so far (without local optimisation: from the other
   /// parent). A niche is a pair of places, one on each body; a place that is part of one niche is likely to

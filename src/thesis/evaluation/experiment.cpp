@@ -33,11 +33,19 @@ std::string readText(const std::string& file) {
   return text.str();
 }
 
+GeneticParameters geneticOf(RowBase base, NichingMethod niching) {
+  if (base == RowBase::Thesis) return thesisGeneticParameters(niching);
+  GeneticParameters genetic = base == RowBase::Shipped ? TrackerParameters().cold : GeneticParameters();
+  genetic.niching = niching;
+  return genetic;
+}
+
 /// Every method of a family whose name it is tried by.
-std::optional<SearchMethod> combinatorialNamed(const std::string& name, GeneticParameters genetic) {
+std::optional<SearchMethod> combinatorialNamed(const std::string& name, RowBase base) {
   if (name == "multi-start") return MultiStartParameters{};
   for (const bool local : {true, false}) {
-    AnnealingParameters annealing;
+    AnnealingParameters annealing =
+        base == RowBase::Thesis ? thesisAnnealingParameters() : AnnealingParameters();
     annealing.local_optimization = local;
     if (concave_distance::nameOf(SearchMethod(annealing)) == name) return annealing;
   }
@@ -47,16 +55,24 @@ std::optional<SearchMethod> combinatorialNamed(const std::string& name, GeneticP
          {NichingMethod::None, NichingMethod::Sharing, NichingMethod::DynamicSharing,
           NichingMethod::DeterministicCrowding, NichingMethod::DeterministicCrowdingWithSelection,
           NichingMethod::SimpleCrowding}) {
+      GeneticParameters genetic = geneticOf(base, niching);
       genetic.local_optimization = local;
-      genetic.niching = niching;
       if (concave_distance::nameOf(SearchMethod(genetic)) == name) return genetic;
     }
   }
   return std::nullopt;
 }
 
-Method methodNamed(const YamlValue& value, bool from_thesis) {
+Method methodNamed(const YamlValue& value, RowBase base) {
   const std::string name = value.text();
+  if (base == RowBase::Shipped) {
+    const SearchMethod shipped = TrackerParameters().cold;
+    if (name != concave_distance::nameOf(shipped)) {
+      value.refuse(concave_distance::nameOf(shipped) + ", what is shipped; `base: ours` for another");
+    }
+    return shipped;
+  }
+  const bool from_thesis = base == RowBase::Thesis;
   if (name == nameOf(Method(TrackerMethod()))) return TrackerMethod();
   if (name == nameOf(Method(EnumerationMethod()))) return EnumerationMethod();
   for (const bool local : {true, false}) {
@@ -68,8 +84,7 @@ Method methodNamed(const YamlValue& value, bool from_thesis) {
     if (nameOf(Method(genetic)) == name) return genetic;
     if (nameOf(Method(annealing)) == name) return annealing;
   }
-  const std::optional<SearchMethod> combinatorial =
-      combinatorialNamed(name, from_thesis ? thesisGeneticParameters() : GeneticParameters());
+  const std::optional<SearchMethod> combinatorial = combinatorialNamed(name, base);
   if (combinatorial) return *combinatorial;
   value.refuse(
       "comb-GA-wl, -nl or -bw, with -sh, -ds, -dc, -dcs or -sc or without; comb-SA-wl or -nl; multi-start; "
@@ -149,13 +164,13 @@ bool isContinuous(const Method& method) {
          std::holds_alternative<ContinuousAnnealingParameters>(method);
 }
 
-Inheritance readInheritance(const YamlValue& value) {
-  YamlMap map(value, "what a population inherits: {per_niche: 3, limit: 30}");
-  Inheritance inheritance;
+Inheritance readInheritance(const YamlValue& value, Inheritance inheritance) {
+  YamlMap map(value, "what a population inherits: {per_niche: 3, limit: 30, one_each: true}");
   if (auto v = map.take("per_niche")) {
     inheritance.per_niche = v->number("1 or more", [](double n) { return n >= 1.0 && std::isfinite(n); });
   }
   if (auto v = map.take("limit")) inheritance.limit = count32(*v, 0);
+  if (auto v = map.take("one_each")) inheritance.one_each = v->boolean();
   map.finish();
   return inheritance;
 }
@@ -164,9 +179,10 @@ Inheritance readInheritance(const YamlValue& value) {
 struct SceneSettings {
   const ExperimentScene& scene;
   bool has_own_limit;
+  bool has_own_population;
 
   void operator()(GeneticParameters& p) const {
-    if (scene.population_size) p.population_size = *scene.population_size;
+    if (scene.population_size && !has_own_population) p.population_size = *scene.population_size;
     limit(p.evaluation_limit);
   }
   void operator()(AnnealingParameters& p) const { limit(p.evaluation_limit); }
@@ -176,7 +192,8 @@ struct SceneSettings {
   }
 };
 
-constexpr std::pair<const char*, bool> kBases[] = {{"thesis", true}, {"shipped", false}};
+constexpr std::pair<const char*, RowBase> kBases[] = {
+    {"thesis", RowBase::Thesis}, {"ours", RowBase::Ours}, {"shipped", RowBase::Shipped}};
 
 ExperimentRow readRow(const YamlValue& value, const std::optional<YamlValue>& common) {
   YamlMap map(value, "a row: name, algorithm, parameters, thesis");
@@ -184,19 +201,20 @@ ExperimentRow readRow(const YamlValue& value, const std::optional<YamlValue>& co
   const YamlValue name = map.require("name", "give every row a name of its own");
   row.name = name.text();
   if (row.name.find_first_of(",\"\n") != std::string::npos) name.refuse("a name without commas and quotes");
-  bool from_thesis = true;
-  if (auto v = map.take("base")) from_thesis = v->choice(kBases);
-  row.method = methodNamed(map.require("algorithm", "name the algorithm, e.g. comb-GA-wl-sh"), from_thesis);
+  if (auto v = map.take("base")) row.base = v->choice(kBases);
+  row.method = methodNamed(map.require("algorithm", "name the algorithm, e.g. comb-GA-wl-sh"), row.base);
   const auto* combinatorial = std::get_if<SearchMethod>(&row.method);
   const bool is_genetic =
       std::holds_alternative<ContinuousGeneticParameters>(row.method) ||
       (combinatorial != nullptr && std::holds_alternative<GeneticParameters>(*combinatorial));
-  if (common && is_genetic) std::visit(ParameterReader{*common}, row.method);
+  // What is shipped is not what an experiment has in common.
+  if (common && is_genetic && row.base != RowBase::Shipped) std::visit(ParameterReader{*common}, row.method);
   if (auto v = map.take("parameters")) {
     std::visit(ParameterReader{*v}, row.method);
     row.has_own_limit = YamlMap(*v, "a map of parameters").take("evaluation_limit").has_value();
   }
-  if (auto v = map.take("inheritance")) row.inheritance = readInheritance(*v);
+  if (row.base == RowBase::Thesis) row.inheritance = thesisInheritance();
+  if (auto v = map.take("inheritance")) row.inheritance = readInheritance(*v, row.inheritance);
   std::visit(Validator{value.where()}, row.method);
   map.take("thesis");      // the thesis's own figures, for the report
   map.take("variant_of");  // the thesis's row that it improves on
@@ -221,18 +239,9 @@ std::string nameOf(const Method& method) {
 Method ExperimentRow::methodOn(const ExperimentScene& scene) const {
   Method changed = method;
   if (auto* search = std::get_if<SearchMethod>(&changed)) {
-    std::visit(SceneSettings{scene, has_own_limit}, *search);
+    std::visit(SceneSettings{scene, has_own_limit, base == RowBase::Shipped}, *search);
   }
   return changed;
-}
-
-GeneticParameters thesisGeneticParameters() {
-  GeneticParameters parameters;
-  parameters.exchange_probability = 0.0;
-  parameters.random_immigrants = 0;
-  parameters.conserve_niches = false;
-  parameters.fitness_epsilon = 0.0;
-  return parameters;
 }
 
 Experiment loadExperiment(const std::string& file) {

@@ -7,9 +7,9 @@
 
 #include "concave_distance/tracking/tracker_parameters.h"
 #include "experiment_scene.h"
+#include "row_bases.h"
 #include "search_method.h"
 #include "thesis/continuous/continuous_parameters.h"
-#include "tracking/warm_start.h"
 
 namespace concave_distance::evaluation {
 
@@ -32,6 +32,7 @@ std::string nameOf(const Method& method);
 /// A row of a table: one algorithm with one set of parameters.
 struct ExperimentRow {
   std::string name;
+  RowBase base = RowBase::Thesis;
   Method method;
   bool has_own_limit = false;  ///< of evaluations, which a scene's does not replace
   /// Of a GA along a motion: what each instant's population inherits from the niches of the last one's
@@ -57,10 +58,5 @@ struct Experiment {
 
 /// @throws Error naming file, line and what is allowed
 Experiment loadExperiment(const std::string& file);
-
-/// What the thesis's algorithm is without what this package has added to it: no exchange of genes, no
-/// immigrants, niches are not conserved, no softening of the fitness. One elite stays (Carretero: universal
-/// sampling can lose the best).
-GeneticParameters thesisGeneticParameters();
 
 }  // namespace concave_distance::evaluation

@@ -5,9 +5,11 @@
 #include <cmath>
 #include <functional>
 #include <memory>
+#include <optional>
 
 #include "concave_distance/tracking/pair_tracker.h"
 #include "enumeration.h"
+#include "inheriting_search.h"
 #include "search/automatic_radii.h"
 #include "search/niche_identification.h"
 
@@ -39,54 +41,46 @@ void take(const SearchCost& cost, Answer& answer) {
   answer.descent_steps = cost.descent_steps;
 }
 
-/// Searches with what it has found before.
+/// A search at every instant; a GA inherits.
 class SearchFollower {
  public:
   SearchFollower(const SearchMethod& method, const Inheritance& inheritance, const SceneTruth& scene,
                  std::uint64_t seed, SearchWorkspace& workspace)
       : method_(&method),
-        inheritance_(inheritance),
         scene_(&scene),
         engine_(seed),
         workspace_(&workspace),
-        radii_(radiiOf(scene, method)) {}
+        radii_(radiiOf(scene, method)) {
+    if (const auto* genetic = std::get_if<GeneticParameters>(method_)) {
+      genetic_.emplace(*genetic, inheritance, *scene.a, *scene.b, seed, workspace);
+    }
+  }
 
   void operator()(const InstantTruth& instant, Answer& answer) {
-    const PairObjective objective(*scene_->a, *scene_->b, instant.a_from_b);
-    workspace_->basins.clear();
-    if (const auto* genetic = std::get_if<GeneticParameters>(method_)) {
-      const GeneticResult result =
-          geneticSearch(objective, *genetic, radii_, inherited_, engine_, *workspace_);
+    if (genetic_) {
+      const GeneticResult result = genetic_->search(instant.a_from_b);
       answer.distance = std::sqrt(result.best.squared_distance);
       take(result.cost, answer);
     } else {
+      const PairObjective objective(*scene_->a, *scene_->b, instant.a_from_b);
+      workspace_->basins.clear();
       const SearchOutcome outcome = searchPair(objective, *method_, radii_, engine_, *workspace_);
       answer.distance = std::sqrt(outcome.best.squared_distance);
       take(outcome.cost, answer);
+      identifyNiches(workspace_->population, radii_.niche, workspace_->metric, workspace_->niches,
+                     workspace_->order);
     }
-    identifyNiches(workspace_->population, radii_.niche, workspace_->metric, workspace_->niches,
-                   workspace_->order);
     answer.niches = workspace_->niches.size();
     answer.places = placesOf(*scene_, workspace_->niches, workspace_->basins.minima());
-    if (const auto* genetic = std::get_if<GeneticParameters>(method_)) {
-      known_.clear();
-      for (const IdentifiedNiche& niche : workspace_->niches) known_.push_back(niche.best);
-      const double softening =
-          genetic->fitness_epsilon * std::max(scene_->a->maxEdgeLength(), scene_->b->maxEdgeLength());
-      inherit(known_, inheritance_, softening, inherited_, scratch_);
-    }
   }
 
  private:
   const SearchMethod* method_;
-  Inheritance inheritance_;
   const SceneTruth* scene_;
-  RandomEngine engine_;
+  RandomEngine engine_;  ///< of all but a GA, which has its own
   SearchWorkspace* workspace_;
   NicheRadii radii_;
-  std::vector<TrialPoint> known_;
-  std::vector<TrialPoint> inherited_;
-  std::vector<double> scratch_;
+  std::optional<InheritingSearch> genetic_;
 };
 
 class TrackerFollower {

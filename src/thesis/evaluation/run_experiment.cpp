@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/csv_writer.h"
+#include "row_parameters.h"
 #include "trial_files.h"
 
 namespace concave_distance::evaluation {
@@ -44,6 +45,7 @@ void runExperiment(const Experiment& experiment, const EvaluationOptions& option
   for (const ExperimentScene& scene : experiment.scenes) scenes.push_back(loadScene(scene, options.meshes));
   TrialFiles files(experiment, options.output);
   writeScenes(experiment, scenes, options.output);
+  writeRows(experiment, options.output);
   std::vector<WorkUnit> units;
   std::uint64_t done = 0;
   std::uint64_t all = 0;

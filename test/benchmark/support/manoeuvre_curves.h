@@ -11,8 +11,8 @@ namespace concave_distance::benchmark {
 
 /// The curves of Carretero, figures 6.6 and 6.7, and the time of each step beside them, as a CSV file:
 /// a line a method and an instant, of the convex partition with quadratic programs (warm, all sub-pairs, cut
-/// by hand) and of the search at `nodes` (with the thesis's Table 6.1, too), `refined` and `certified` with
-/// all niches.
+/// by hand), of the thesis's search with its Table 6.1, and of the pair tracker at `nodes` (with that search,
+/// too), `refined` and `certified` with all niches.
 class ManoeuvreCurves {
  public:
   /// @throws Error when the file cannot be written

@@ -1,11 +1,15 @@
 #include "benchmark/support/manoeuvre_methods.h"
 
+#include <cmath>
+
 #include "benchmark/support/fcl_distance.h"
 #include "benchmark/support/processor_time.h"
 #include "concave_distance/mesh/import/import_mesh.h"
 #include "concave_distance/mesh/repair/repair_mesh.h"
 #include "concave_distance/tracking/pair_tracker.h"
 #include "mesh/grid/node_graph.h"
+#include "thesis/evaluation/inheriting_search.h"
+#include "thesis/evaluation/row_bases.h"
 #include "thesis/partition/hybrid_distance.h"
 #include "thesis/partition/partition_tracker.h"
 
@@ -46,25 +50,42 @@ TrackerParameters parametersOf(AccuracyLevel level, bool niches_wanted) {
   return parameters;
 }
 
-/// Carretero, Table 6.1, and nothing of this package's own: the same search in every step, which inherits up
-/// to 30 points of the last one's niches.
-TrackerParameters thesisParameters() {
-  TrackerParameters parameters = parametersOf(AccuracyLevel::Nodes, true);
-  GeneticParameters& search = parameters.cold;
+/// Carretero, Table 6.1: the same search in every step.
+GeneticParameters tableParameters() {
+  GeneticParameters search = evaluation::thesisGeneticParameters(NichingMethod::Sharing);
   search.population_size = 100;
   search.max_generations = 20;
   search.mutation_probability = 0.01;
+  search.crossover_probability = 0.6;
   search.sharing_radius = search.mating_radius = search.niche_radius = 0.6;
   search.sharing_exponent = 1.0;
-  search.exchange_probability = 0.0;
-  search.random_immigrants = 0;
-  search.conserve_niches = false;
-  search.fitness_epsilon = 0.0;
-  parameters.warm = search;
-  parameters.inherited_per_niche = 3.0;
-  parameters.inherited_limit = 30;
+  search.descend_first_population = true;  // sec. 6.2.2
+  return search;
+}
+
+/// This package's tracker with the search of Table 6.1: it follows every niche and keeps an archive besides.
+TrackerParameters trackerWithTableParameters() {
+  TrackerParameters parameters = parametersOf(AccuracyLevel::Nodes, true);
+  parameters.cold = parameters.warm = tableParameters();
   parameters.random_starts = 0;
   return parameters;
+}
+
+/// comb-GA-wl-sh of the thesis with the parameters of Table 6.1 and nothing else.
+Method searchMethod(const std::string& name, const PartitionedPair& pair) {
+  auto workspace = std::make_shared<SearchWorkspace>(*pair.a, *pair.b);
+  auto search = std::make_shared<evaluation::InheritingSearch>(
+      tableParameters(), evaluation::thesisInheritance(), *pair.a, *pair.b, 1, *workspace);
+  return {name, "none", [workspace, search](const Eigen::Isometry3d& pose, double) {
+            const double start = processorMicroseconds();
+            const GeneticResult result = search->search(pose);
+            MethodStep step;
+            step.time_us = processorMicroseconds() - start;
+            step.distance = std::sqrt(result.best.squared_distance);
+            step.niches = search->niches().size();
+            step.flops = kFlopsPerNodePair * static_cast<double>(result.cost.evaluations);
+            return step;
+          }};
 }
 
 Method trackerMethod(const std::string& name, const PartitionedPair& pair,
@@ -148,7 +169,8 @@ std::vector<Method> manoeuvreMethods(const PartitionedPair& pair, bool cold) {
     addPartitionMethods(pair, "automatic", pair.automatic_a, pair.automatic_b, cold, methods);
   }
   methods.push_back(trackerMethod("nodes", pair, parametersOf(AccuracyLevel::Nodes, true)));
-  methods.push_back(trackerMethod("nodes, Table 6.1", pair, thesisParameters()));
+  methods.push_back(searchMethod("comb-GA-wl-sh, Table 6.1", pair));
+  methods.push_back(trackerMethod("nodes, search of Table 6.1", pair, trackerWithTableParameters()));
   methods.push_back(trackerMethod("refined", pair, parametersOf(AccuracyLevel::Refined, true)));
   methods.push_back(trackerMethod("certified", pair, parametersOf(AccuracyLevel::Certified, true)));
   methods.push_back(

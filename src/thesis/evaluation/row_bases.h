@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+
+#include "concave_distance/search/genetic_parameters.h"
+#include "thesis/annealing/annealing_parameters.h"
+#include "tracking/warm_start.h"
+
+namespace concave_distance::evaluation {
+
+/// What a row's parameters are before its own are read.
+enum class RowBase : std::uint8_t {
+  Thesis,  ///< the thesis's algorithm and nothing else
+  Ours,    ///< with this package's operators (GeneticParameters(), AnnealingParameters())
+  Shipped  ///< what a pair's tracker searches with in a first cycle (TrackerParameters().cold)
+};
+
+/// comb-GA as the thesis has it: no elite, no exchange of genes, no immigrants, niches are not conserved, no
+/// epsilon in the fitness; both children near the fitter parent (Carretero, sec. 3.3.2.b); descents along
+/// edges (3.1.5), after mutation and not before the first selection (fig. 2.13); mating restriction with
+/// sharing only (4.7), and strict (4.6.3).
+GeneticParameters thesisGeneticParameters(NichingMethod niching);
+
+/// comb-SA as the thesis has it: random moves with variable displacement (sec. 5.3.1.b), no new points
+/// between them, descents along edges.
+AnnealingParameters thesisAnnealingParameters();
+
+/// (6.7), (6.8) alone: a niche whose share is rounded to nothing is not handed on.
+Inheritance thesisInheritance();
+
+}  // namespace concave_distance::evaluation
