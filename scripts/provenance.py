@@ -3,7 +3,7 @@
 
     scripts/provenance.py record doc/results/front.csv            a line that is there, after its command was run again
     scripts/provenance.py record doc/results/new.csv --defaults tracker --command new_benchmark [--inputs PATTERN,...]
-    scripts/provenance.py fingerprint tracker,thesis              of the defaults as they are now
+    scripts/provenance.py commit                                  with +changes where sources are not committed
 
 A line has the file (or a pattern) and its digest; the commit of the program; the groups of parameter defaults that it
 used, with their fingerprint; the files that it was made from, with their digest. `test/scripts/check_results.py`
@@ -141,15 +141,15 @@ def record(names, options):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("action", choices=["record", "fingerprint"])
-    parser.add_argument("names", nargs="+")
+    parser.add_argument("action", choices=["record", "commit"])
+    parser.add_argument("names", nargs="*")
     for option in ("--defaults", "--inputs", "--command", "--commit"):
         parser.add_argument(option)
     options = parser.parse_args()
     if options.action == "record":
         record(options.names, options)
     else:
-        print(fingerprint(Tree(), ",".join(options.names)))
+        print(head_commit(Tree()))
 
 
 if __name__ == "__main__":
