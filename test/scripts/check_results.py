@@ -15,8 +15,8 @@
 The comment names the file from its page. Every number on the left stands in the paragraph or table before the comment
 and is the rounded value of the Python expression on the right: value, min, max, median, mean, total and count of an
 expression of columns, over the rows with the given cells (`pair="peg_in_hole"`, or a list of them); found("regex") is
-the number that matches the group in a text file. `<!-- results/tuning.csv: table -->`: every cell of the table before
-it stands so in the file.
+the number that matches the group in a text file. `<!-- results/tuning.txt: table -->`: the numbers of each row of the
+table before it stand, rounded, in one line of the file.
 """
 import csv
 import io
@@ -30,7 +30,9 @@ import provenance  # noqa: E402  (the path comes first)
 
 MOST_OLDER = 27  # results made with other defaults than those of now: lower it as they are made again, never raise it
 QUOTE = re.compile(r"<!-- (\S+\.(?:csv|txt)): (.*?) -->", re.DOTALL)
-NUMBER = r"\d[\d,]*(?:\.\d+)?(?:e[-+]?\d+)?"
+NUMBER = r"(?:\d{1,3}(?:,\d{3})+|\d+)(?:\.\d+)?(?:e[-+]?\d+)?"
+FIGURE_END = r";\s*(?=-?" + NUMBER + r"\s*=)"
+PLAIN_NUMBER = r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?"  # of a CSV file, in which commas part cells
 
 
 def pages(root):
@@ -128,6 +130,10 @@ def rounding(token):
     return 0.5 * 10.0 ** (zeros - len(decimals) + int(exponent or 0)) * (1 + 1e-9)
 
 
+def is_rounded(value, token):
+    return abs(value - float(token.replace(",", ""))) <= rounding(token)
+
+
 def paragraph_before(text, position):
     """The paragraph, list item or table that a comment belongs to, without other comments."""
     before = re.sub(r"<!--.*?-->", "", text[:position], flags=re.DOTALL).rstrip()
@@ -135,9 +141,17 @@ def paragraph_before(text, position):
 
 
 def check_table(table, quoted):
-    kept = set(re.findall(r"[^\s,|\"]+", quoted.text))
-    cells = {word for line in table.strip().splitlines()[2:] for word in re.findall(NUMBER, line.replace(",", ""))}
-    return [f"{word} is not in it" for word in sorted(cells - kept)]
+    """Every row of a table stands, rounded, in one line of the file that names one of the row's other cells."""
+    faults = []
+    for row in [line for line in table.strip().splitlines() if line.startswith("|")][2:]:
+        cells = [cell.strip(" `") for cell in row.strip("|").split("|")]
+        numbers = [cell for cell in cells if re.fullmatch("-?" + NUMBER, cell)]
+        names = [cell for cell in cells if cell and cell not in numbers]
+        lines = [line for line in quoted.text.splitlines() if any(name in line for name in names)]
+        if not any(all(any(is_rounded(float(found), number) for found in re.findall(PLAIN_NUMBER, line))
+                       for number in numbers) for line in lines):
+            faults.append("no line has the figures of " + row)
+    return faults
 
 
 def check_figure(figure, paragraph, quoted):
@@ -150,7 +164,7 @@ def check_figure(figure, paragraph, quoted):
         value = float(eval(expression, {"__builtins__": {}}, quoted.names()))
     except Exception as error:  # whatever is wrong with an expression is a fault of the page
         return [f"{expression}: {type(error).__name__}: {error}"]
-    if abs(value - float(token.replace(",", ""))) <= rounding(token):
+    if is_rounded(value, token):
         return []
     return [f"{token} is {value:.6g} there: {expression}"]
 
@@ -169,7 +183,7 @@ def check_quotes(root, rows):
             quoted = Quoted(path.read_text(encoding="utf-8"), path.suffix == ".csv")
             paragraph = paragraph_before(text, match.start())
             found = []
-            for figure in match[2].split(";"):
+            for figure in re.split(FIGURE_END, match[2]):
                 count += 1
                 found += check_table(paragraph, quoted) if figure.strip() == "table" else check_figure(figure, paragraph, quoted)
             faults += [f"{name}: {match[1]}: {fault}" for fault in found]
