@@ -120,19 +120,17 @@ def head_commit(tree):
     return commit + ("+changes" if tree.git("status", "--porcelain", "--", *SOURCES).strip() else "")
 
 
-def record(names, options):
+def record(names, commit=None, **given):
+    """Renews lines of the manifest; `given` (defaults, inputs, command) replaces what a line says, and makes a new one."""
     tree = Tree()
     rows = read_manifest()
     for name in names:
-        if not any(character in name for character in "*?["):
-            name = pathlib.Path(name).resolve().relative_to(ROOT).as_posix()
+        name = pathlib.Path(name).absolute().relative_to(ROOT).as_posix()
         row = dict(rows.get(name) or dict.fromkeys(COLUMNS, ""), file=name)
-        for key in ("defaults", "inputs", "command"):
-            if getattr(options, key) is not None:
-                row[key] = getattr(options, key)
+        row.update({key: value for key, value in given.items() if value is not None})
         if not row["command"]:
             raise SystemExit(f"{name} has no line in {MANIFEST} yet: name its --command and --defaults")
-        row.update(commit=options.commit or head_commit(tree), state="")
+        row.update(commit=commit or head_commit(tree), state="")
         rows[name] = entry(tree, row)
         if not rows[name]["digest"]:
             raise SystemExit(f"{name}: there is no such file")
@@ -147,7 +145,7 @@ def main():
         parser.add_argument(option)
     options = parser.parse_args()
     if options.action == "record":
-        record(options.names, options)
+        record(options.names, options.commit, defaults=options.defaults, inputs=options.inputs, command=options.command)
     else:
         print(head_commit(Tree()))
 
