@@ -105,6 +105,7 @@ class CheckResults(unittest.TestCase):
         self.mark("doc/results/log.txt", state="older")
         self.assertEqual(self.faults(most_older=2), "")
         self.expect("2 results are older than the defaults, 1 may be", most_older=1)
+        self.expect("lower MOST_OLDER", most_older=3)
 
     def test_a_file_that_is_older_no_more(self):
         self.mark(RESULT, state="older")
