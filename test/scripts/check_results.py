@@ -3,8 +3,8 @@
 
     test/scripts/check_results.py [package folder]
 
-- a file of doc/results without a line in doc/results/provenance.csv, a line without a file, or a file that is not the
-  recorded one (edited by hand);
+- a file of doc/results without a line in doc/results/provenance.csv, a line without a file, a file that is not the
+  recorded one (edited by hand), or one made by a program that was not committed;
 - a file made with other parameter defaults, or from other files, than those of now, unless its state is `older`; more
   of those than MOST_OLDER, or one that is not older;
 - a figure of a document that is not what its file says:
@@ -51,6 +51,8 @@ def check_files(root, rows):
             faults.append(f"{name}: {provenance.MANIFEST} lists it, but there is no such file")
         elif provenance.digest(tree, name) != row["digest"]:
             faults.append(f"{name}: not the file that {row['command']} wrote: run it again and record it")
+        if row["commit"].endswith("+changes"):
+            faults.append(f"{name}: made by a program that is in no commit: commit, then run {row['command']} again")
     return faults
 
 

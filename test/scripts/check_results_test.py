@@ -78,6 +78,10 @@ class CheckResults(unittest.TestCase):
         self.change(RESULT, "52.6", "52.5")
         self.expect(f"{RESULT}: not the file that run wrote")
 
+    def test_a_program_that_is_in_no_commit(self):
+        self.mark(RESULT, commit="0123abc+changes")
+        self.expect("in no commit")
+
     def test_defaults_that_changed(self):
         self.change("src/tracking/tracker_parameters.cpp", "cold.population_size = 300", "cold.population_size = 200")
         self.expect(f"{RESULT} (0123abc): defaults have changed")
