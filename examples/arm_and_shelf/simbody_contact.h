@@ -16,7 +16,7 @@ struct ContactBody {
 
 /// Bristles have a state, and an integrator tries steps that it gives up again. So every evaluation begins
 /// from what was kept at the last step that the integrator has accepted: the force is a function of the
-/// engine's state alone, however often and in whatever order it is asked for. accept() ends a step.
+/// engine's state alone, however often and in any order it is asked for. accept() ends a step.
 class SimbodyContact : public SimTK::Force::Custom::Implementation {
  public:
   void add(const ContactBody& a, const ContactBody& b, const concave_distance::EffectSettings& settings,

@@ -118,8 +118,7 @@ const ParameterTable<Material>& materialParameters() {
       number<M>(
           "spinning_friction", [](auto& m) -> auto& { return m.spinning_friction; },
           "torque over normal force against spinning about the normal, beside what friction over the "
-          "contact's "
-          "width does")
+          "contact's width does")
           .inUnit("m"),
   };
   return table;

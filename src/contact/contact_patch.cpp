@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/across_normal.h"
+#include "friction_linearisation.h"
 #include "patch_gradient.h"
 
 namespace concave_distance {
@@ -44,6 +46,15 @@ std::uint64_t cellOf(const Eigen::Vector3d& point, const Eigen::Vector3d& push, 
 
 std::uint64_t wayOf(std::uint64_t cell) {
   return cell >> 60U;
+}
+
+/// Adds the sums of one share to those of another.
+void join(const PatchSite& share, PatchSite& sum) {
+  sum.point_in_a += share.point_in_a;
+  sum.push_in_a += share.push_in_a;
+  sum.force += share.force;
+  sum.stiffness += share.stiffness;
+  sum.damping += share.damping;
 }
 
 /// B has come out of A on the side away from where it entered, or A of B.
@@ -105,15 +116,16 @@ PatchPressure ContactPatch::press(const PatchSurfaces& surfaces, const NormalFor
   const PatchMeasure patch = measurePatch(surfaces.first_sample, surfaces.last_sample, surfaces.depth);
   const PressureLaw law = pressureLaw(settings, material, patch);
   PatchPressure result;
-  result.pierced = isPierced(surfaces.first_loop, surfaces.last_loop, memory.entered_in_a);
+  // Then surfaces that would push B out on the far side carry no pressure.
+  const bool pierced = isPierced(surfaces.first_loop, surfaces.last_loop, memory.entered_in_a);
   const double cell_size = patch.area > 0.0 ? cellSize(patch.area, memory.cell_size) : memory.cell_size;
   last_cell_size_ = memory.cell_size;
   memory.cell_size = cell_size;
   field_ = {law.stiffness, law.damping, b_in_a, Eigen::Vector3d::Zero()};
-  if (result.pierced) field_.entered_in_a = memory.entered_in_a;
+  if (pierced) field_.entered_in_a = memory.entered_in_a;
   shares_.clear();
   PatchGradient gradient;
-  gradient.depth << surfaces.exit_in_a, surfaces.deepest_in_a.cross(surfaces.exit_in_a);
+  gradient.depth = wrenchRow(surfaces.exit_in_a, surfaces.deepest_in_a);
   for (const OverlapSample* sample = surfaces.first_sample; sample != surfaces.last_sample; ++sample) {
     const Eigen::Vector3d& push = sample->push_in_a;
     if (!field_.carries(push)) continue;
@@ -128,16 +140,15 @@ PatchPressure ContactPatch::press(const PatchSurfaces& surfaces, const NormalFor
     result.centre_in_a += force * sample->point_in_a;
     result.depth_rate += force * rate;
     result.on_b_in_a += wrenchAbout(force * push, sample->point_in_a, Eigen::Vector3d::Zero());
-    shares_.push_back({cellOf(sample->point_in_a, push, cell_size), force * sample->point_in_a, force * push,
-                       force, sample->area * per_depth * along,
-                       sample->area * law.damping * sample->depth * along});
+    addShare({cellOf(sample->point_in_a, push, cell_size), force * sample->point_in_a, force * push, force,
+              sample->area * per_depth * along, sample->area * law.damping * sample->depth * along});
   }
   if (result.force > 0.0) {
     result.centre_in_a /= result.force;
     result.depth_rate /= result.force;
     const double one_way = result.on_b_in_a.force.norm() / result.force;
-    if (!result.pierced && one_way >= kOneWay) memory.entered_in_a = result.on_b_in_a.force.normalized();
-    if (!result.pierced && one_way < kAnyWay) memory.entered_in_a.setZero();
+    if (!pierced && one_way >= kOneWay) memory.entered_in_a = result.on_b_in_a.force.normalized();
+    if (!pierced && one_way < kAnyWay) memory.entered_in_a.setZero();
   }
   addChangeOfLaw(law, gradient, patch.moment, linearisation.stiffness);
   gatherSites();
@@ -148,19 +159,24 @@ PatchPressure ContactPatch::press(const PatchSurfaces& surfaces, const NormalFor
   return result;
 }
 
+// Neighbours in the list often share a cell.
+void ContactPatch::addShare(const PatchSite& share) {
+  if (!shares_.empty() && shares_.back().cell == share.cell) {
+    join(share, shares_.back());
+  } else {
+    shares_.push_back(share);
+  }
+}
+
 void ContactPatch::gatherSites() {
-  std::sort(shares_.begin(), shares_.end(),
-            [](const PatchSite& l, const PatchSite& r) { return l.cell < r.cell; });
+  order_.clear();
+  for (const PatchSite& share : shares_)
+    order_.emplace_back(share.cell, static_cast<std::uint32_t>(order_.size()));
+  std::sort(order_.begin(), order_.end());
   sites_.clear();
-  for (auto share = shares_.begin(); share != shares_.end();) {
-    PatchSite sum = *share;
-    for (++share; share != shares_.end() && share->cell == sum.cell; ++share) {
-      sum.point_in_a += share->point_in_a;
-      sum.push_in_a += share->push_in_a;
-      sum.force += share->force;
-      sum.stiffness += share->stiffness;
-      sum.damping += share->damping;
-    }
+  for (auto next = order_.begin(); next != order_.end();) {
+    PatchSite sum = shares_[next->second];
+    for (++next; next != order_.end() && next->first == sum.cell; ++next) join(shares_[next->second], sum);
     const double length = sum.push_in_a.norm();
     if (!(sum.force > 0.0 && length > 0.0)) continue;
     sum.point_in_a /= sum.force;
@@ -183,18 +199,14 @@ Wrench ContactPatch::rub(const FrictionSettings& settings, const ContactMaterial
     SiteBristles& now = next_.emplace_back(
         SiteBristles{site.cell, site.point_in_a, known != nullptr ? *known : BristleState()});
     const Eigen::Vector3d& normal = site.push_in_a;
-    const auto across = [&](const Eigen::Vector3d& v) { return Eigen::Vector3d(v - normal.dot(v) * normal); };
-    const Eigen::Vector3d sliding = across(motion.b_in_a.at(site.point_in_a));
-    const Eigen::Vector3d shift = across(motion.displacement.at(site.point_in_a));
+    const Eigen::Vector3d sliding = acrossNormal(normal, motion.b_in_a.at(site.point_in_a));
+    const Eigen::Vector3d shift = acrossNormal(normal, motion.displacement.at(site.point_in_a));
     const Eigen::Vector3d force =
         frictionForce(settings, material, site.force, normal, sliding, shift, now.bristles);
     wrench += wrenchAbout(force, site.point_in_a, Eigen::Vector3d::Zero());
     const FrictionTangent tangent =
         frictionTangent(settings, material, site.force, normal, sliding, {shift, motion.step, now.bristles});
-    addDirection(tangent.stiffness_along, tangent.along, site.point_in_a, linearisation.stiffness);
-    addDirection(tangent.stiffness_across, tangent.across, site.point_in_a, linearisation.stiffness);
-    addDirection(tangent.damping_along, tangent.along, site.point_in_a, linearisation.damping);
-    addDirection(tangent.damping_across, tangent.across, site.point_in_a, linearisation.damping);
+    addFriction(tangent, site.point_in_a, linearisation);
   }
   refill(memory.bristles, next_);
   return wrench;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "base/refill.h"
@@ -84,12 +85,9 @@ struct PatchMotion {
 struct PatchPressure {
   Wrench on_b_in_a;                                       ///< about A's origin
   Eigen::Vector3d centre_in_a = Eigen::Vector3d::Zero();  ///< of pressure
-  double force = 0.0;             ///< sum of the pressures' forces, whatever their directions, N
-  double largest_pressure = 0.0;  ///< Pa
-  double depth_rate = 0.0;        ///< mean by pressure, m/s
-  /// One body has come out of the other on the far side of where it entered: surfaces that would push it out
-  /// there carry no pressure.
-  bool pierced = false;
+  double force = 0.0;                                     ///< sum of the sizes of the pressures' forces, N
+  double largest_pressure = 0.0;                          ///< Pa
+  double depth_rate = 0.0;                                ///< mean by pressure, m/s
 };
 
 /// Pressure and friction over the surfaces of one region of overlap, with torque, and their linearisation.
@@ -105,14 +103,15 @@ class ContactPatch {
   Wrench rub(const FrictionSettings& settings, const ContactMaterial& material, const PatchMotion& motion,
              const std::vector<LooseBristles>& loose, PatchMemory& memory,
              ContactLinearisation& linearisation);
-  const std::vector<PatchSite>& sites() const { return sites_; }
   /// Of the last press().
   const PressureField& field() const { return field_; }
 
  private:
+  void addShare(const PatchSite& share);
   void gatherSites();
 
-  std::vector<PatchSite> shares_;  ///< one a sample, with sums instead of means; by cell
+  std::vector<PatchSite> shares_;                               ///< of samples, with sums instead of means
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> order_;  ///< of the shares, by cell
   std::vector<PatchSite> sites_;
   std::vector<SiteBristles> next_;
   double last_cell_size_ = 0.0;  ///< of the memory that press() has met

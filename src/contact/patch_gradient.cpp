@@ -8,17 +8,11 @@ namespace {
 // Of the largest decrease that leaves the stiffness positive.
 constexpr double kLargestDecrease = 0.9;
 
-Vector6d rowOf(const Eigen::Vector3d& direction, const Eigen::Vector3d& point) {
-  Vector6d row;
-  row << direction, point.cross(direction);
-  return row;
-}
-
 }  // namespace
 
 void PatchGradient::add(const OverlapSample& sample) {
-  const Vector6d out = sample.area * rowOf(sample.exit_in_a, sample.point_in_a);
-  push += sample.area * sample.depth * rowOf(sample.push_in_a, sample.point_in_a);
+  const Vector6d out = sample.area * wrenchRow(sample.exit_in_a, sample.point_in_a);
+  push += sample.area * sample.depth * wrenchRow(sample.push_in_a, sample.point_in_a);
   volume += out;
   moment += sample.depth * out;
 }

@@ -29,9 +29,8 @@ struct PressureLaw {
 /// Of a model on a patch: shared out in proportion to the depth so that a round contact has the model's
 /// force. An elastic foundation has its own stiffness everywhere, which makes its force the gradient of a
 /// potential, half of the integral of the depth over the overlap for either surface; of an exact round body
-/// all of that below its surface. Hertz takes radius and
-/// depth of the paraboloid with the same volume and moment; its force 1.30 E* sqrt(moment) is that of a flat
-/// punch (Johnson 1985, eq. (3.36)) but for 18 %.
+/// all of that below its surface. Hertz takes radius and depth of the paraboloid with the same volume and
+/// moment; its force 1.30 E* sqrt(moment) is that of a flat punch (Johnson 1985, eq. (3.36)) but for 18 %.
 PressureLaw pressureLaw(const NormalForceSettings& settings, const ContactMaterial& material,
                         const PatchMeasure& patch);
 

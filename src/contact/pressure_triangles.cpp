@@ -12,7 +12,8 @@
 namespace concave_distance {
 namespace {
 
-// Edges are at least this share of the longest facet's, whatever the area: slivers have many per area.
+// Edges are at least this share of the longest facet's, also where the area asks for less:
+// slivers have many per area.
 constexpr double kLeastEdge = 1.0 / 64.0;
 // Area of a triangle that was halved across its longest edge until that is short enough, over its square.
 constexpr double kAreaOverEdge = 0.25;

@@ -29,8 +29,7 @@ using PressureTriangle = std::array<PressurePoint, 3>;
 /// The surface cut into triangles so small that the pressure between their corners is nearly linear: about
 /// `kPressureTriangles`, fewer where that is more than `most`.
 /// @param lift metres that each triangle is moved out of its body; negative: out of the other body, and
-/// turned
-///        over, to be seen from there
+///        turned over, to be seen from there
 /// @return nothing when the facets alone are more than `most`
 std::vector<PressureTriangle> pressureTriangles(const PressedSurface& surface, double lift, std::size_t most);
 inline constexpr double kPressureTriangles = 1000.0;

@@ -1,5 +1,8 @@
 #include "turning_friction.h"
 
+#include "base/across_normal.h"
+#include "friction_linearisation.h"
+
 namespace concave_distance {
 namespace {
 
@@ -18,19 +21,14 @@ Eigen::Vector3d resistRolling(const FrictionSettings& settings, double rolling_f
                               const TurningContact& contact, const TurningMotion& motion,
                               BristleState& bristles, ContactLinearisation& linearisation) {
   const Eigen::Vector3d& normal = contact.normal_in_a;
-  const auto across = [&](const Eigen::Vector3d& v) { return Eigen::Vector3d(v - normal.dot(v) * normal); };
   const ContactMaterial material = withCoefficient(rolling_friction / contact.arm);
-  const Eigen::Vector3d sliding = contact.arm * across(motion.rate);
-  const Eigen::Vector3d shift = contact.arm * across(motion.angle);
+  const Eigen::Vector3d sliding = contact.arm * acrossNormal(normal, motion.rate);
+  const Eigen::Vector3d shift = contact.arm * acrossNormal(normal, motion.angle);
   const Eigen::Vector3d force =
       frictionForce(settings, material, contact.force, normal, sliding, shift, bristles);
   const FrictionTangent tangent =
       frictionTangent(settings, material, contact.force, normal, sliding, {shift, motion.step, bristles});
-  const double squared_arm = contact.arm * contact.arm;
-  addAxis(squared_arm * tangent.stiffness_along, tangent.along, linearisation.stiffness);
-  addAxis(squared_arm * tangent.stiffness_across, tangent.across, linearisation.stiffness);
-  addAxis(squared_arm * tangent.damping_along, tangent.along, linearisation.damping);
-  addAxis(squared_arm * tangent.damping_across, tangent.across, linearisation.damping);
+  addTorsionalFriction(tangent, contact.arm * contact.arm, linearisation);
   return contact.arm * force;
 }
 

@@ -17,8 +17,8 @@ struct Waiting {
 // Of e1 x e2, its product with r, and their squares together, over |e1| |e2| |r|.
 constexpr double kPlaneRounding = 16.0 * std::numeric_limits<double>::epsilon();
 
-/// Proves that no point of the triangle's plane is nearer: the product of the rounded
-/// cross product with a vector is off by no more than kPlaneRounding times the lengths.
+/// Proves that no point of the triangle's plane is nearer: the product of the rounded cross product with a
+/// vector is off by no more than kPlaneRounding times the lengths.
 bool planeIsFarther(const TrianglePoints& triangle, const Eigen::Vector3d& target, double squared_distance) {
   const Eigen::Vector3d first = triangle[1] - triangle[0];
   const Eigen::Vector3d second = triangle[2] - triangle[0];
@@ -31,8 +31,8 @@ bool planeIsFarther(const TrianglePoints& triangle, const Eigen::Vector3d& targe
          height * height > squared_distance * (normal.squaredNorm() + 3.0 * kPlaneRounding * squared_lengths);
 }
 
-SurfacePoint closestOn(const BodyMesh& body, TriangleIndex triangle, const Eigen::Vector3d& target) {
-  const PointTriangleDistance d = pointTriangleDistance(target, trianglePoints(body.surface(), triangle));
+SurfacePoint closestOn(TriangleIndex triangle, const TrianglePoints& points, const Eigen::Vector3d& target) {
+  const PointTriangleDistance d = pointTriangleDistance(target, points);
   return {triangle, d.feature, d.point, d.squared_distance};
 }
 
@@ -40,7 +40,7 @@ SurfacePoint closestOn(const BodyMesh& body, TriangleIndex triangle, const Eigen
 
 SurfacePoint closestPoint(const BodyMesh& body, const Eigen::Vector3d& target, TriangleIndex hint) {
   const TriangleTree& tree = body.tree();
-  SurfacePoint best = closestOn(body, hint, target);
+  SurfacePoint best = closestOn(hint, trianglePoints(body.surface(), hint), target);
   const auto box_distance = [&](std::uint32_t node) {
     return tree.nodes()[node].box.squaredExteriorDistance(target);
   };
@@ -65,8 +65,9 @@ SurfacePoint closestPoint(const BodyMesh& body, const Eigen::Vector3d& target, T
     }
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
       const TriangleIndex triangle = tree.order()[i];
-      if (planeIsFarther(trianglePoints(body.surface(), triangle), target, best.squared_distance)) continue;
-      const SurfacePoint candidate = closestOn(body, triangle, target);
+      const TrianglePoints points = trianglePoints(body.surface(), triangle);
+      if (planeIsFarther(points, target, best.squared_distance)) continue;
+      const SurfacePoint candidate = closestOn(triangle, points, target);
       if (candidate.squared_distance < best.squared_distance) {
         best = candidate;
       }

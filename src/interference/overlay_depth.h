@@ -23,7 +23,7 @@ class OverlayDepth {
     Eigen::Vector3d point_b;
   };
 
-  /// @param start a common point of both pieces: depth 0, whatever comes
+  /// @param start a common point of both pieces, of depth 0
   void begin(const Eigen::Vector3d& normal, const Eigen::Vector3d& start, double lateral);
   /// A plane face with boundary edges that close up, in any order; then its edges.
   void addFace(Side side, const Eigen::Vector3d& normal);

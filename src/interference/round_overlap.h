@@ -54,7 +54,10 @@ class RoundOverlap {
   bool meshHolds(const Eigen::Vector3d& point) const;
 
   void addSwallowedShape(Interference& result);
-  void addRegion(const Group& entries, bool is_only, Interference& result);
+  static const Entry& deepestOf(const Entry* first, const Entry* last);
+  static bool has(const Group& group, std::uint32_t patch);
+  void gatherSamples(Group& group);
+  void addRegion(Group group, bool is_only, Interference& result);
   void measureVolume(const Group& group, bool is_only, InterferenceRegion& region);
   void addCore(const Group& group, bool is_only, RoundVolume& volume);
   bool holdsCentre(const Group& group, bool is_only);

@@ -38,25 +38,37 @@ Vector3d RoundOverlap::outOfMesh(const Vector3d& normal_in_a) const {
   return shape_is_a_ ? Vector3d(-normal) : normal;
 }
 
-void RoundOverlap::addRegion(const Group& entries, bool is_only, Interference& result) {
-  InterferenceRegion region;
-  region.closed = std::all_of(entries.first, entries.last, [&](const Entry& entry) {
-    return pair_->mesh.topology().isOnClosedShell(entry.triangle);
-  });
-  Group group = entries;
+const RoundOverlap::Entry& RoundOverlap::deepestOf(const Entry* first, const Entry* last) {
+  return *std::min_element(first, last,
+                           [](const Entry& l, const Entry& r) { return l.lowest.value < r.lowest.value; });
+}
+
+bool RoundOverlap::has(const Group& group, std::uint32_t patch) {
+  return std::any_of(group.first, group.last, [&](const Entry& entry) { return entry.patch == patch; });
+}
+
+/// Samples and facets of a region.
+void RoundOverlap::gatherSamples(Group& group) {
   samples_.clear();
-  const bool sparse = entries.last - entries.first > kManyTriangles;
   patch_samples_.clear();
   fan_.clear();
   fan_ends_.clear();
-  for (const Entry* entry = entries.first; entry != entries.last; ++entry) {
-    if (entry == entries.first || entry->patch != (entry - 1)->patch)
-      patch_samples_.push_back(samples_.size());
+  const bool sparse = group.last - group.first > kManyTriangles;
+  for (const Entry* entry = group.first; entry != group.last; ++entry) {
+    if (entry == group.first || entry->patch != (entry - 1)->patch) patch_samples_.push_back(samples_.size());
     section_.integrate(pair_->shape, entry->corners, entry->lowest, sparse, samples_, fan_);
     fan_ends_.push_back(fan_.size());
   }
   patch_samples_.push_back(samples_.size());
   group.last_sample = samples_.size();
+}
+
+void RoundOverlap::addRegion(Group group, bool is_only, Interference& result) {
+  InterferenceRegion region;
+  region.closed = std::all_of(group.first, group.last, [&](const Entry& entry) {
+    return pair_->mesh.topology().isOnClosedShell(entry.triangle);
+  });
+  gatherSamples(group);
   double surface = 0.0;
   Vector3d vector_area = Vector3d::Zero();
   Vector3d middle = Vector3d::Zero();
@@ -65,18 +77,15 @@ void RoundOverlap::addRegion(const Group& entries, bool is_only, Interference& r
     vector_area += sample.area * sample.normal;
     middle += sample.area * sample.point;
   }
-  const double deepest = -std::min_element(entries.first, entries.last, [](const Entry& l, const Entry& r) {
-                            return l.lowest.value < r.lowest.value;
-                          })->lowest.value;
-  region.touching = region.closed && deepest <= rounding_;
-  region.centroid_in_a = inA(surface > 0.0 ? Vector3d(middle / surface) : entries.first->lowest.point);
+  region.touching = region.closed && -deepestOf(group.first, group.last).lowest.value <= rounding_;
+  region.centroid_in_a = inA(surface > 0.0 ? Vector3d(middle / surface) : group.first->lowest.point);
   chooseNormal(group, surface, vector_area, region);
   region.contact_area = region.closed ? vector_area.norm() : region.contact_area;
   if (region.closed) {
     (shape_is_a_ ? region.surface_area_b : region.surface_area_a) = surface;
     (shape_is_a_ ? region.surface_area_a : region.surface_area_b) = 0.0;
     region.depth = region.depth_along_normal = region.volume = 0.0;
-    place(entries.first->lowest.point, entries.first->lowest.point, region.point_a_in_a, region.point_b_in_a);
+    place(group.first->lowest.point, group.first->lowest.point, region.point_a_in_a, region.point_b_in_a);
   }
   for (const RoundSample& sample : samples_)
     region.reach = std::max(region.reach, (inA(sample.point) - region.centroid_in_a).norm());
@@ -129,29 +138,22 @@ void RoundOverlap::addCore(const Group& group, bool is_only, RoundVolume& volume
     if (holdsCentre(group, is_only)) volume.addCore(-h, h);
     return;
   }
-  const auto is_of_group = [&](const Crossing& crossing) {
-    return std::any_of(group.first, group.last,
-                       [&](const Entry& entry) { return entry.patch == crossing.patch; });
-  };
   double inside_from = -h;
   for (const Crossing& crossing : crossings_) {
     const double height = (2.0 * crossing.at - 1.0) * h;
-    if (crossing.outward > 0.0 && is_of_group(crossing)) volume.addCore(inside_from, height);
+    if (crossing.outward > 0.0 && has(group, crossing.patch)) volume.addCore(inside_from, height);
     inside_from = height;
   }
   const Crossing& last = crossings_.back();
-  if (last.outward < 0.0 && is_of_group(last)) volume.addCore(inside_from, h);
+  if (last.outward < 0.0 && has(group, last.patch)) volume.addCore(inside_from, h);
 }
 
 bool RoundOverlap::holdsCentre(const Group& group, bool is_only) {
   if (!meshHolds(Vector3d::Zero())) return false;
   if (is_only) return true;
-  const Entry* const deepest =
-      std::min_element(entries_.data(), entries_.data() + entries_.size(),
-                       [](const Entry& l, const Entry& r) { return l.lowest.value < r.lowest.value; });
-  findCrossings(Vector3d::Zero(), deepest->lowest.point);
-  const std::uint32_t patch = crossings_.empty() ? deepest->patch : crossings_.front().patch;
-  return std::any_of(group.first, group.last, [&](const Entry& entry) { return entry.patch == patch; });
+  const Entry& deepest = deepestOf(entries_.data(), entries_.data() + entries_.size());
+  findCrossings(Vector3d::Zero(), deepest.lowest.point);
+  return has(group, crossings_.empty() ? deepest.patch : crossings_.front().patch);
 }
 
 /// A patch with a border counts as one loop, the vector area of which is the patch's.
@@ -221,9 +223,7 @@ double RoundOverlap::depthAlong(const Group& group, const Vector3d& out_of_mesh,
 }
 
 void RoundOverlap::measureDepths(const Group& group, InterferenceRegion& region) {
-  const Entry& deepest = *std::min_element(group.first, group.last, [](const Entry& l, const Entry& r) {
-    return l.lowest.value < r.lowest.value;
-  });
+  const Entry& deepest = deepestOf(group.first, group.last);
   region.depth = -deepest.lowest.value;
   place(deepest.lowest.point, surfacePoint(pair_->shape, deepest.lowest.point), region.point_a_in_a,
         region.point_b_in_a);
@@ -241,9 +241,7 @@ void RoundOverlap::lookAtBottom(const Group& group, const Vector3d& out_of_mesh,
   findCrossings(bottom, bottom + reach * out_of_mesh);
   if (crossings_.empty() || crossings_.front().outward <= 0.0) return;
   const Crossing& above = crossings_.front();
-  const bool is_here =
-      std::any_of(group.first, group.last, [&](const Entry& entry) { return entry.patch == above.patch; });
-  if (!is_here) return;
+  if (!has(group, above.patch)) return;
   const double height = above.at * reach;
   if (height > region.depth_along_normal) {
     region.depth_along_normal = height;

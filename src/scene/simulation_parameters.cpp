@@ -17,8 +17,7 @@ const ParameterTable<SimulationSettings>& simulationParameters() {
       number<S>(
           "step_fraction", [](auto& s) -> auto& { return s.step_fraction; },
           "share of sqrt(m / k) of contacts and drives that swing, and of a radian, that a step takes at "
-          "most; "
-          "what is at rest in them holds no step back")
+          "most; what is at rest in them holds no step back")
           .above(0.0)
           .to(1.0),
       automatic<S>(
@@ -28,6 +27,12 @@ const ParameterTable<SimulationSettings>& simulationParameters() {
           "`auto`, and while the bodies are apart where it is less: a share of the depth that the contact "
           "reaches by its stiffness, mass and speed")
           .inUnit("m"),
+      number<S>(
+          "work_tolerance", [](auto& s) -> auto& { return s.work_tolerance; },
+          "error that one step may make, as a share of the work that the contact or drive does in it; five "
+          "times as much of friction's")
+          .above(0.0)
+          .to(1.0),
       number<S>(
           "energy_tolerance", [](auto& s) -> auto& { return s.energy_tolerance; },
           "error of the energy balance, as a share of the energy that went through, above which `simulate` "

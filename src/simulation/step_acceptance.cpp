@@ -65,6 +65,7 @@ detail::StepTolerance Simulation::State::toleranceOf(std::size_t index) const {
   const Coupling& coupling = couplings[index];
   detail::StepTolerance tolerance;
   tolerance.step_fraction = settings.step_fraction;
+  tolerance.share_of_work = settings.work_tolerance;
   tolerance.energy_of_motion = energyOfMotion(coupling);
   tolerance.load = coupling.load;
   tolerance.work = 0.5 * (coupling.begin.wrench + coupling.force.wrench).dot(coupling.displacement);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/across_normal.h"
+
 namespace concave_distance::detail {
 namespace {
 
@@ -11,10 +13,8 @@ namespace {
 constexpr double kShareOfDepth = 1e-4;
 constexpr double kShareOfSize = 1e-6;
 constexpr double kShareOfSizeAcross = 1e-8;
-// Half of what pressures are sampled to: shorter steps would only resolve how they are sampled.
-constexpr double kShareOfWork = 5e-4;
-// The same of friction, whose sites come and go.
-constexpr double kShareOfFrictionWork = 2.5e-3;
+// Of friction, whose sites come and go, that much more of its work may be in error.
+constexpr double kFrictionsShare = 5.0;
 
 }  // namespace
 
@@ -22,7 +22,7 @@ double shareAcross(const Vector6d& displacement, const Eigen::Vector3d& point,
                    const Eigen::Vector3d& normal) {
   const Eigen::Vector3d shift = displacement.head<3>() + Eigen::Vector3d(displacement.tail<3>()).cross(point);
   const double length = shift.norm();
-  return length > 0.0 ? (shift - normal.dot(shift) * normal).norm() / length : 0.0;
+  return length > 0.0 ? acrossNormal(normal, shift).norm() / length : 0.0;
 }
 
 double allowedError(const StepTolerance& tolerance) {
@@ -30,7 +30,8 @@ double allowedError(const StepTolerance& tolerance) {
   const double share_of_size = kShareOfSize + tolerance.sliding * (kShareOfSizeAcross - kShareOfSize);
   // Of a swing of energy E the trapezoidal rule misses E (w h)^3 / 6 in a step.
   return fraction * fraction * fraction / 6.0 * tolerance.energy_of_motion +
-         kShareOfWork * std::abs(tolerance.work) + kShareOfFrictionWork * std::abs(tolerance.friction_work) +
+         tolerance.share_of_work *
+             (std::abs(tolerance.work) + kFrictionsShare * std::abs(tolerance.friction_work)) +
          tolerance.load * (kShareOfDepth * tolerance.depth + share_of_size * tolerance.size);
 }
 

@@ -17,6 +17,7 @@ struct StepTolerance {
   double friction_work = 0.0;     ///< the friction's part of it
   double sliding = 1.0;           ///< share of the displacement that is not along the normal, 0 to 1
   double step_fraction = 0.1;
+  double share_of_work = 5e-4;  ///< SimulationSettings::work_tolerance
 };
 double allowedError(const StepTolerance& tolerance);
 

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "contact/friction_linearisation.h"
+
 namespace concave_distance {
 namespace {
 
@@ -29,10 +31,7 @@ void addLumpedContact(const EffectSettings& settings, const ContactMaterial& mat
   }
   const Eigen::Vector3d& point = region.point_in_a;
   addDirection(force.damping, normal, point, linearisation.damping);
-  addDirection(friction.stiffness_along, friction.along, point, linearisation.stiffness);
-  addDirection(friction.stiffness_across, friction.across, point, linearisation.stiffness);
-  addDirection(friction.damping_along, friction.along, point, linearisation.damping);
-  addDirection(friction.damping_across, friction.across, point, linearisation.damping);
+  addFriction(friction, point, linearisation);
 }
 
 }  // namespace concave_distance

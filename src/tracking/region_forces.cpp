@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/across_normal.h"
 #include "contact/contact_point.h"
 #include "lumped_linearisation.h"
 
@@ -31,10 +32,8 @@ ContactPoint at(const ContactRegion& region) {
   return contact;
 }
 
-Eigen::Vector3d acrossNormal(const RelativeTwist& displacement, const ContactRegion& region) {
-  const Eigen::Vector3d& normal = region.overlap.normal_in_a;
-  const Eigen::Vector3d shift = displacement.at(region.point_in_a);
-  return shift - normal.dot(shift) * normal;
+Eigen::Vector3d shiftAcross(const RelativeTwist& displacement, const ContactRegion& region) {
+  return acrossNormal(region.overlap.normal_in_a, displacement.at(region.point_in_a));
 }
 
 }  // namespace
@@ -79,9 +78,7 @@ void RegionForces::pushPatch(const PatchSurfaces& surfaces, const RelativeTwist&
   region.largest_pressure = pressure.largest_pressure;
   region.depth_rate = pressure.depth_rate;
   if (pressure.force > 0.0) region.point_in_a = pressure.centre_in_a;
-  const Eigen::Vector3d velocity = b_in_a.at(region.point_in_a);
-  const Eigen::Vector3d& along = region.force_direction_in_a;
-  region.sliding_in_a = velocity - along.dot(velocity) * along;
+  region.sliding_in_a = acrossNormal(region.force_direction_in_a, b_in_a.at(region.point_in_a));
 }
 
 void RegionForces::pushLumped(const RelativeTwist& b_in_a, ContactRegion& region) const {
@@ -119,7 +116,7 @@ Wrench RegionForces::rubLumped(const RelativeTwist& displacement, const ContactR
                                BristleState& bristles) const {
   const Eigen::Vector3d force =
       frictionForce(settings_.friction, material_, region.normal_force, region.overlap.normal_in_a,
-                    region.sliding_in_a, acrossNormal(displacement, region), bristles);
+                    region.sliding_in_a, shiftAcross(displacement, region), bristles);
   return wrenchAbout(force, region.point_in_a, Eigen::Vector3d::Zero());
 }
 
@@ -142,7 +139,7 @@ void RegionForces::linearise(const PatchMotion& motion, const std::vector<Region
     const ContactRegion& region = contacts.regions[r];
     if (isPatch(region.overlap) || !(region.normal_force > 0.0)) continue;
     addLumpedContact(settings_, material_, region,
-                     {acrossNormal(motion.displacement, region), motion.step, memory[r].bristles},
+                     {shiftAcross(motion.displacement, region), motion.step, memory[r].bristles},
                      contacts.linearisation);
   }
   mirrorUpper(contacts.linearisation.stiffness);

@@ -12,10 +12,12 @@ namespace concave_distance::benchmark {
 namespace {
 
 /// A scene of config/ as `simulate` runs it, without writing.
-void runConfig(SceneReport& report, const std::string& name, double wanted) {
+void runConfig(SceneReport& report, const std::string& name, double wanted,
+               double work_tolerance = SimulationSettings().work_tolerance) {
   SceneLoadOptions options;
   options.package_locator = [](const std::string&) { return std::string(CONCAVE_DISTANCE_SOURCE_DIR); };
-  const Scene scene = loadSceneFile(std::string(CONCAVE_DISTANCE_SOURCE_DIR) + "/config/" + name, options);
+  Scene scene = loadSceneFile(std::string(CONCAVE_DISTANCE_SOURCE_DIR) + "/config/" + name, options);
+  scene.simulation->work_tolerance = work_tolerance;
   Simulation simulation(scene);
   const double duration = simulation.settings().duration;
   SceneRun run(std::move(simulation), duration, report);
@@ -66,6 +68,8 @@ void regions(SceneReport& report) {
 ContactScenes speedScenes() {
   return {{"peg_in_hole", "config/peg_in_hole.yaml",
            [](SceneReport& report) { runConfig(report, "peg_in_hole.yaml", 5.0); }},
+          {"peg_in_hole_coarse", "the same with a work_tolerance of 0.05",
+           [](SceneReport& report) { runConfig(report, "peg_in_hole.yaml", 5.0, 0.05); }},
           {"insertion", "config/insertion_simulation.yaml",
            [](SceneReport& report) { runConfig(report, "insertion_simulation.yaml", 10.0); }},
           {"regions", "time of the regions of 1000 to 100,000 triangles", regions}};

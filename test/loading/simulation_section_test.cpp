@@ -85,8 +85,8 @@ TEST_F(SimulationSection, EveryKeyIsRead) {
 }
 
 TEST_F(SimulationSection, NumbersOutOfRangeAreRefusedWithPlaceValueAndRange) {
-  for (const char* key :
-       {"duration", "largest_step", "allowed_penetration", "energy_tolerance", "log_rate"}) {
+  for (const char* key : {"duration", "largest_step", "allowed_penetration", "work_tolerance",
+                          "energy_tolerance", "log_rate"}) {
     expectRefused("  " + std::string(key) + ": 0\n", "scene.yaml:5, simulation." + std::string(key),
                   "the value is '0'", "greater than 0");
   }

@@ -27,6 +27,12 @@ inline Eigen::Isometry3d translation(const Eigen::Vector3d& v) {
   return pose;
 }
 
+inline Eigen::Isometry3d turned(double angle, const Eigen::Vector3d& axis, const Eigen::Vector3d& position) {
+  Eigen::Isometry3d pose(Eigen::AngleAxisd(angle, axis.normalized()));
+  pose.translation() = position;
+  return pose;
+}
+
 inline Eigen::Isometry3d randomPose(RandomEngine& engine, double reach) {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.linear() = randomRotation(engine);

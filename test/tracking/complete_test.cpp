@@ -150,7 +150,7 @@ TEST(CompleteListOf, ReportsACut) {
   }
 }
 
-// Nobody asks for the niches in four cycles of five, as between the logged times of a simulation.
+// Niches are asked for in one cycle of five, as between the logged times of a simulation.
 TEST(CompleteListOf, GoesOnWithItsIdsAfterCyclesThatDidNotWantIt) {
   TrackerParameters wanted = complete(false);
   wanted.cutoff = 0.3;

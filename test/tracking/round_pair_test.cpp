@@ -18,18 +18,13 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using test::makeBody;
 using test::translation;
+using test::turned;
 
 TrackerParameters atLevel(AccuracyLevel level, bool niches = true) {
   TrackerParameters parameters;
   parameters.accuracy = level;
   parameters.niches_wanted = niches;
   return parameters;
-}
-
-Isometry3d turned(double angle, const Vector3d& axis, const Vector3d& at) {
-  Isometry3d pose(Eigen::AngleAxisd(angle, axis.normalized()));
-  pose.translation() = at;
-  return pose;
 }
 
 const Body& ball() {

@@ -18,15 +18,20 @@ struct ContactLinearisation {
   Matrix6d damping = Matrix6d::Zero();
 };
 
-/// Adds J^T k J with J = [n^T, (x cross n)^T]: a spring, or damper, of `coefficient` (>= 0) along the unit
-/// vector `direction` at `point`. The upper triangle alone; see mirrorUpper().
-inline void addDirection(double coefficient, const Eigen::Vector3d& direction, const Eigen::Vector3d& point,
-                         Matrix6d& sum) {
+/// [n^T, (x cross n)^T]: the wrench about the origin of a unit force along `direction` at `point`.
+inline Vector6d wrenchRow(const Eigen::Vector3d& direction, const Eigen::Vector3d& point) {
   Vector6d row;
   row << direction, point.cross(direction);
-  for (int column = 0; column < 6; ++column) {
-    sum.col(column).head(column + 1) += coefficient * row[column] * row.head(column + 1);
-  }
+  return row;
+}
+
+/// Adds J^T k J with J of wrenchRow(): a spring, or damper, of `coefficient` (>= 0) along the unit
+/// vector `direction` at `point`. Of the sum the upper triangle counts; see mirrorUpper().
+inline void addDirection(double coefficient, const Eigen::Vector3d& direction, const Eigen::Vector3d& point,
+                         Matrix6d& sum) {
+  const Vector6d row = wrenchRow(direction, point);
+  const Vector6d scaled = coefficient * row;
+  sum.noalias() += row * scaled.transpose();
 }
 
 /// The same of a torsional spring, or damper, about the unit vector `axis`.

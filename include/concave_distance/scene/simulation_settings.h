@@ -84,6 +84,9 @@ struct SimulationSettings {
   /// most: nothing thicker is passed through unseen; 0, and while the bodies are apart where it is less: a
   /// share of the depth that the next contact reaches by its stiffness, mass and speed.
   double allowed_penetration = 0.0;
+  /// Error that one step may make, as a share of the work that the contact or drive does in it; five times as
+  /// much of friction's. The default is half of what pressures are sampled to.
+  double work_tolerance = 5e-4;
   /// Error of the energy balance, as a share of the energy that went through, above which a run has failed.
   double energy_tolerance = 0.05;
   double log_rate = 100.0;  ///< lines a second of simulated time

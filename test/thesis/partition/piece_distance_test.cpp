@@ -16,6 +16,7 @@ namespace {
 
 using test::randomPose;
 using test::translation;
+using test::turned;
 
 ConvexPiece box(const Eigen::Vector3d& size) {
   std::vector<Eigen::Vector3d> corners;
@@ -99,12 +100,6 @@ struct Case {
   Eigen::Isometry3d pose;  ///< of a box 1 x 2 x 3 in the frame of a cube of side 1
   double distance;
 };
-
-Eigen::Isometry3d turned(double angle, const Eigen::Vector3d& axis, const Eigen::Vector3d& position) {
-  Eigen::Isometry3d pose = translation(position);
-  pose.linear() = Eigen::AngleAxisd(angle, axis).toRotationMatrix();
-  return pose;
-}
 
 TEST(PieceDistance, OfBoxesAtKnownDistancesIsExactByBothSolvers) {
   const ConvexPiece cube = box({1, 1, 1});
