@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# Runs the benchmark programs of a finished build and writes their figures to doc/results.
+# Runs the benchmark programs of a finished build.
 #
-#   scripts/benchmark.sh [quick|full]     quick: minutes (default); full: the counts kept in doc/results,
-#                                         a quarter of an hour on two cores
+#   scripts/benchmark.sh [quick|full]     quick: minutes, into build/results_quick (default); full: the counts kept in
+#                                         doc/results, a quarter of an hour on two cores, and recorded there
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 size=${1:-quick}
@@ -16,7 +16,13 @@ program() { find "$root/build" -type f -perm -u+x -name "$1" | head -n 1; }
 for name in tracking battery budget cores front proposal recall radii descent certificate hierarchy scale exactness complete accuracy; do
   [ -n "$(program "${name}_benchmark")" ] || { echo "${name}_benchmark is not built: run scripts/build.sh" >&2; exit 1; }
 done
-results=$root/doc/results
+results=$root/build/results_quick
+if [ "$size" = full ]; then
+  results=$root/doc/results
+  cmake --build "$root/build"  # the recorded commit is that of the programs
+fi
+started=$(mktemp)  # older than every file that this run writes
+trap 'rm -rf "$started" "${folder:-}"' EXIT
 mkdir -p "$results"
 "$(program tracking_benchmark)" --steps "$steps" --output "$results/tracking.csv" | tee "$results/tracking.txt"
 "$(program battery_benchmark)" --runs "$runs" --niche-runs "$niche_runs" --output "$results/battery.csv" |
@@ -40,7 +46,6 @@ if [ -n "$(program partition_benchmark)" ]; then  # built with CGAL only
   family=()
   if /usr/bin/python3 -c "import numpy" 2>/dev/null; then
     folder=$(mktemp -d)
-    trap 'rm -rf "$folder"' EXIT
     /usr/bin/python3 "$root/scripts/generate_partition_family.py" "$folder" --hole-facets "$hole_facets" \
       --protrusions "$protrusions"
     family=(--family "$folder" --hole-facets "$hole_facets" --protrusions "$protrusions")
@@ -73,4 +78,8 @@ if [ -n "$(program engine_differences)" ]; then  # built with Simbody and ODE on
   "$(program engine_differences)" --output "$results/engine_differences.csv" | tee "$results/engine_differences.txt"
   "$(program engine_differences)" --table "$results/engine_table.csv"
   "$root/scripts/write_engine_table.py"
+fi
+if [ "$size" = full ]; then
+  find "$results" -maxdepth 1 \( -name '*.csv' -o -name '*.txt' \) ! -name provenance.csv -newer "$started" \
+    -exec "$root/scripts/provenance.py" record {} +
 fi

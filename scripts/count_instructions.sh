@@ -46,5 +46,6 @@ text = open(sys.argv[2]).read()
 begin, end = "<!-- table: instructions -->\n", "<!-- end -->"
 open(sys.argv[2], "w").write(re.sub(f"(?s)(?<={begin}).*?(?={end})", table, text))
 END
+  scripts/provenance.py record "$file"
 fi
 awk -F, 'NR > 1 && $3 != $4 { different = 1 } END { exit different }' "$rows"

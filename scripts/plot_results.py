@@ -10,6 +10,7 @@ import pathlib
 
 import matplotlib
 
+import provenance
 from manoeuvre import draw_manoeuvre, read_curves
 
 matplotlib.use("Agg")
@@ -257,6 +258,8 @@ def main():
     if curves:  # of a build with CGAL
         draw_manoeuvre(curves, plt, IMAGES / "manoeuvre.png")
         print("doc/images/manoeuvre.png")
+    provenance.record([IMAGES / name for name in ("proof_*.png", "niche_cycles.png", "niche_recall.png", "accuracy_*.png",
+                                                  "stages.png", "manoeuvre.png")])
 
 
 if __name__ == "__main__":

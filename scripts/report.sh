@@ -1,13 +1,14 @@
 #!/usr/bin/env bash
-# Runs the experiments (experiments/*.yaml) and writes doc/results/evaluation.md with its plots.
+# Runs the experiments (experiments/*.yaml) and writes evaluation.md with its plots.
 #
-#   scripts/report.sh [quick|full] [folder of the results]    quick: one to two minutes (default); full: the counts of runs of
-#                                                             the thesis, some minutes on two cores
+#   scripts/report.sh [quick|full] [folder of the rows]    quick: one to two minutes, the page beside its rows in
+#       build/evaluation_quick (default); full: the counts of runs of the thesis, the page in doc/results, its rows in
+#       doc/results/evaluation
 #
 # It installs and builds what is missing, and goes on where an interrupted run has ended. On several machines, each shard
 # into a folder of its own; here eight with GNU parallel over two hosts, then the join:
 #   parallel -S host1,host2 'cd concave_distance && build/devel/lib/concave_distance/evaluate experiments/*.yaml --size full --shard {}/8 --output shard_{}' ::: {0..7}
-#   scripts/write_evaluation.py shard_*
+#   scripts/keep_rows.py shard_* --output doc/results/evaluation && scripts/write_evaluation.py doc/results/evaluation
 # As a Slurm array: sbatch --array=0-7 --wrap 'build/devel/lib/concave_distance/evaluate experiments/*.yaml --size full
 # --shard $SLURM_ARRAY_TASK_ID/8 --output shard_$SLURM_ARRAY_TASK_ID'.
 set -euo pipefail
@@ -23,7 +24,24 @@ results=${2:-build/evaluation_$size}
 # Tests install copies of their own below build/test.
 program() { find build -path build/test -prune -o -type f -perm -u+x -name "$1" -print | head -n 1; }
 scripts/install_dependencies.sh build plot
-if [ ! -d build ] || [ -z "$(program evaluate)" ]; then scripts/build.sh; fi
+if [ -d build ]; then cmake --build build --target evaluate; else scripts/build.sh; fi
+# Rows that are there are not run again: they have to be of this program and of these experiments.
+mkdir -p "$results"
+commit=$(scripts/provenance.py commit)
+first=$(cat "$results/commit" 2>/dev/null || true)
+if [ -n "$first$(ls "$results"/*.csv 2>/dev/null)" ] && [ "$first" != "$commit" ] &&
+  ! git diff --quiet "${first:-none}" HEAD -- include src 2>/dev/null; then
+  die "the rows in $results were made by another program (${first:-of unknown commit}): move the folder away"
+fi
+[ -n "$first" ] || echo "$commit" >"$results/commit"
+for experiment in experiments/*.yaml; do
+  name=$(basename "$experiment" .yaml)
+  if [ -f "$results/$name.yaml" ] && ! cmp -s "$experiment" "$results/$name.yaml"; then
+    die "$experiment has changed since its rows were made: remove $results/$name*.csv and $name.yaml (where only words" \
+      "have changed, the latter alone)"
+  fi
+  cp "$experiment" "$results/$name.yaml"
+done
 "$(program evaluate)" experiments/*.yaml --size "$size" --output "$results"
 if [ -n "$(program partition_benchmark)" ]; then  # built with CGAL only
   "$(program partition_benchmark)" --curves-output "$results/manoeuvre.csv"
@@ -31,4 +49,19 @@ fi
 if [ "$size" = full ] && [ -n "$(program run_flops)" ]; then  # built with benchmarks and valgrind's headers only
   scripts/count_run_flops.py --program "$(program run_flops)" --output "$results/run_flops.csv"
 fi
-/usr/bin/python3 scripts/write_evaluation.py "$results"
+if [ "$size" = quick ]; then
+  /usr/bin/python3 scripts/write_evaluation.py "$results" --output "$results/evaluation.md"
+  exit
+fi
+kept=doc/results/evaluation
+if [ -f "$results/manoeuvre.csv" ]; then
+  cp "$results/manoeuvre.csv" doc/results/
+  scripts/provenance.py record doc/results/manoeuvre.csv --commit "${first:-$commit}"
+fi
+/usr/bin/python3 scripts/keep_rows.py "$results" --output "$kept"
+/usr/bin/python3 scripts/write_evaluation.py "$kept"
+scripts/provenance.py record "$kept/*.csv.xz" --defaults tracker,thesis --inputs 'experiments/*.yaml' \
+  --command 'scripts/report.sh full' --commit "${first:-$commit}"
+scripts/provenance.py record doc/results/evaluation.md 'doc/results/images/evaluation_*.png' --defaults tracker,thesis \
+  --inputs "experiments/*.yaml,$kept/*.csv.xz,doc/results/manoeuvre.csv" --command 'scripts/report.sh full' \
+  --commit "${first:-$commit}"

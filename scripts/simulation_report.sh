@@ -21,3 +21,5 @@ mkdir -p "$output"
   "$simulate" "$root/config/insertion_simulation.yaml" --output "$output/insertion_single.csv" --tracking single_minimum
 } | tee "$root/doc/results/simulation.txt"
 /usr/bin/python3 "$root/scripts/plot_simulation.py" "$output"
+cd "$root"
+scripts/provenance.py record doc/results/simulation.txt doc/results/two_feet.csv 'doc/images/simulation_*.png'

@@ -10,6 +10,8 @@ import argparse
 import csv
 import os
 
+import provenance
+
 RESULTS = os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "doc", "results")
 VERDICTS = {"yes": "within", "no": "**not**", "cut": "cut short", "": ""}
 HEAD = """# Scenes of contact, before and now
@@ -81,6 +83,8 @@ def main():
     lines += speeds(rows, before)
     with open(options.output, "w") as file:
         file.write("\n".join(lines) + "\n")
+    if options.output == parser.get_default("output"):
+        provenance.record([options.output])
 
 
 if __name__ == "__main__":

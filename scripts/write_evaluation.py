@@ -3,12 +3,14 @@
 
     scripts/write_evaluation.py RESULTS [MORE_RESULTS ...] [--output doc/results/evaluation.md]
 
-RESULTS are folders that `evaluate --output` has filled; the files of several, one for each shard, are joined.
+RESULTS are folders that `evaluate --output` or `keep_rows.py` has filled; the files of several, one for each shard, are
+joined.
 Every experiment of experiments/*.yaml that has results is written, with the thesis's figures beside ours.
 """
 import argparse
 import collections
 import csv
+import lzma
 import math
 import pathlib
 import re
@@ -40,9 +42,10 @@ def read_rows(folders, file_name):
     """Rows by column name; an empty cell was not computed and becomes "nan"."""
     rows = []
     for folder in folders:
-        path = pathlib.Path(folder) / file_name
-        if path.exists():
-            with open(path, newline="", encoding="utf-8") as file:
+        for path in (pathlib.Path(folder) / file_name, pathlib.Path(folder) / (file_name + ".xz")):
+            if not path.exists():
+                continue
+            with (lzma.open if path.suffix == ".xz" else open)(path, "rt", newline="", encoding="utf-8") as file:
                 rows += [{name: text or "nan" for name, text in row.items()} for row in csv.DictReader(file)]
     return rows
 

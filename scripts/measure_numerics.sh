@@ -1,0 +1,15 @@
+#!/usr/bin/env bash
+# Writes the worst errors of doc/numerics.md to doc/results/numerics.txt: ten minutes on one idle core. Needs a finished
+# build (scripts/build.sh all).
+set -euo pipefail
+# shellcheck source=scripts/common.sh
+. "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+cd "$package_dir"
+cmake --build "$build_dir" --target triangle_distance_accuracy_test query_accuracy_test
+found=$(mktemp)
+trap 'rm -f "$found"' EXIT
+CONCAVE_DISTANCE_ACCURACY_PAIRS=100000 "$build_dir/test/bin/triangle_distance_accuracy_test" \
+  --gtest_filter='*StaysWithinTheStatedBounds*' | grep worst: >"$found"
+"$build_dir/test/bin/query_accuracy_test" | grep worst: >>"$found"
+cp "$found" doc/results/numerics.txt
+scripts/provenance.py record doc/results/numerics.txt --defaults tracker --command scripts/measure_numerics.sh

@@ -1,0 +1,161 @@
+#!/usr/bin/env python3
+"""Turns check_results.py red on purpose, once for each thing that it is to find, in a copy of the documents."""
+import pathlib
+import shutil
+import sys
+import tempfile
+import unittest
+
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE))
+import check_results  # noqa: E402  (the path comes first)
+from check_results import provenance  # noqa: E402
+
+RESULT = "doc/results/tracking.csv"
+PAGE = "doc/results/page.md"
+
+
+class CheckResults(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.root = pathlib.Path(folder.name)
+        for name in ("doc/results", "experiments"):
+            (self.root / name).mkdir(parents=True)
+        for name in {path for paths in provenance.GROUPS.values() for path in paths}:
+            (self.root / name).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(provenance.ROOT / name, self.root / name)
+        self.write("README.md", "")
+        self.write("CONTRIBUTING.md", "")
+        self.write("experiments/table.yaml", "rows: []\n")
+        self.write(RESULT, "pair,us,level\npeg,31.4,nodes\nhooks,52.6,nodes\nhooks,7,refined\n")
+        self.write("doc/results/log.txt", "worst case: 1,234 us\n")
+        rows = {}
+        for name in (RESULT, "doc/results/log.txt"):
+            row = dict.fromkeys(provenance.COLUMNS, "")
+            row.update(file=name, commit="0123abc", defaults="tracker,contact", inputs="experiments/*.yaml", command="run")
+            rows[name] = provenance.entry(provenance.Tree(self.root), row)
+        provenance.write_manifest(rows, self.root)
+        self.quote('The peg takes 31 us, 30 in the middle.\n<!-- tracking.csv: 31 = value("us", pair="peg"); 30 = '
+                   'mean("us"); 31 = median("us") -->')
+
+    def write(self, name, text):
+        (self.root / name).write_text(text, encoding="utf-8")
+
+    def quote(self, text):
+        self.write(PAGE, "# Page\n\n" + text + "\n\nMore 31.\n")
+
+    def change(self, name, before, after):
+        text = (self.root / name).read_text(encoding="utf-8")
+        self.assertIn(before, text)
+        self.write(name, text.replace(before, after))
+
+    def mark(self, name, **cells):
+        rows = provenance.read_manifest(self.root)
+        rows[name].update(cells)
+        provenance.write_manifest(rows, self.root)
+
+    def faults(self, most_older=0):
+        return "\n".join(check_results.check(self.root, most_older)[0])
+
+    def expect(self, *texts, most_older=0):
+        faults = self.faults(most_older)
+        for text in texts:
+            self.assertIn(text, faults)
+
+    def test_good_results_have_no_fault(self):
+        self.assertEqual(self.faults(), "")
+
+    def test_a_file_without_a_line(self):
+        self.write("doc/results/new.csv", "a\n1\n")
+        self.expect("doc/results/new.csv: no line")
+
+    def test_a_line_without_a_file(self):
+        (self.root / "doc/results/log.txt").unlink()
+        self.expect("there is no such file")
+
+    def test_a_file_edited_by_hand(self):
+        self.change(RESULT, "52.6", "52.5")
+        self.expect(f"{RESULT}: not the file that run wrote")
+
+    def test_a_program_that_is_in_no_commit(self):
+        self.mark(RESULT, commit="0123abc+changes")
+        self.expect("in no commit")
+
+    def test_defaults_that_changed(self):
+        self.change("src/tracking/tracker_parameters.cpp", "cold.population_size = 300", "cold.population_size = 200")
+        self.expect(f"{RESULT} (0123abc): defaults have changed")
+
+    def test_defaults_of_another_group_that_changed(self):
+        self.change("include/concave_distance/scene/simulation_settings.h", "step_fraction = 0.1", "step_fraction = 0.2")
+        self.assertEqual(self.faults(), "")
+
+    def test_a_default_that_came(self):
+        self.change("include/concave_distance/contact/material.h", "struct Material {",
+                    "struct Material {\n  double stickiness = 1.0;")
+        self.expect("defaults have changed")
+
+    def test_a_comment_in_a_header_is_no_default(self):
+        self.change("include/concave_distance/contact/material.h", "struct Material {", "struct Material {\n  // x = 1;")
+        self.assertEqual(self.faults(), "")
+
+    def test_inputs_that_changed(self):
+        self.write("experiments/table.yaml", "rows: [1]\n")
+        self.expect("experiments/*.yaml has changed")
+
+    def test_older_files_are_warned_of_up_to_their_number(self):
+        self.write("experiments/table.yaml", "rows: [1]\n")
+        self.mark(RESULT, state="older")
+        self.mark("doc/results/log.txt", state="older")
+        self.assertEqual(self.faults(most_older=2), "")
+        self.expect("2 results are older than the defaults, 1 may be", most_older=1)
+        self.expect("lower MOST_OLDER", most_older=3)
+
+    def test_a_file_that_is_older_no_more(self):
+        self.mark(RESULT, state="older")
+        self.expect("is not older", most_older=9)
+
+    def test_a_figure_that_differs(self):
+        self.quote('The peg takes 32 us.\n<!-- tracking.csv: 32 = value("us", pair="peg") -->')
+        self.expect("32 is 31.4 there")
+
+    def test_a_figure_that_is_not_in_the_text(self):
+        self.quote('The peg takes 3.1 us.\n<!-- tracking.csv: 31 = value("us", pair="peg") -->')
+        self.expect("31 is not in the paragraph")
+
+    def test_a_figure_of_another_paragraph_does_not_count(self):
+        self.quote('At 31 us.\n\nThe peg.\n<!-- tracking.csv: 31 = value("us", pair="peg") -->')
+        self.expect("31 is not in the paragraph")
+
+    def test_an_expression_that_matches_several_rows(self):
+        self.quote('Hooks take 53 us.\n<!-- tracking.csv: 53 = value("us", pair="hooks") -->')
+        self.expect("2 rows match")
+
+    def test_an_expression_that_names_no_column(self):
+        self.quote('Hooks take 53 us.\n<!-- tracking.csv: 53 = max("ms") -->')
+        self.expect("NameError")
+
+    def test_a_number_from_a_text_file(self):
+        self.quote('At most 1.23 ms.\n<!-- log.txt: 1.23 = found(r"worst case: ([\\d,]+)") / 1000 -->')
+        self.assertEqual(self.faults(), "")
+        self.quote('At most 1.24 ms.\n<!-- log.txt: 1.24 = found(r"worst case: ([\\d,]+)") / 1000 -->')
+        self.expect("1.24 is 1.234 there")
+
+    def test_a_table(self):
+        self.quote("| pair | us |\n|---|---|\n| `peg` | 31.4 |\n| hooks | 53 |\n<!-- tracking.csv: table -->")
+        self.assertEqual(self.faults(), "")
+        for row in ("| `peg` | 31.5 |", "| `peg` | 52.6 |", "| pegs | 31.4 |"):
+            self.quote(f"| pair | us |\n|---|---|\n{row}\n<!-- tracking.csv: table -->")
+            self.expect("no line has the figures of " + row)
+
+    def test_a_quoted_file_that_is_not_there_or_not_recorded(self):
+        self.quote("31 us\n<!-- trucking.csv: 31 = max(\"us\") -->")
+        self.expect("trucking.csv is no recorded result")
+
+    def test_how_exactly_a_number_is_meant(self):
+        for token, expected in (("49", 0.5), ("2,120", 5), ("1000", 5), ("100", 0.5), ("0.58", 0.005), ("2.1e-14", 5e-16)):
+            self.assertAlmostEqual(check_results.rounding(token) / expected, 1, places=6)
+
+
+if __name__ == "__main__":
+    unittest.main()
