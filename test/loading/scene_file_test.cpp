@@ -330,7 +330,7 @@ TEST_F(SceneFile, GeneticParametersOutOfRangeAreRefused) {
   expectGeneticRefused("mutation_radius", "0", "greater than 0 (m), or none");
   expectGeneticRefused("shrinking_mutation_radius", "maybe", "true or false");
   expectGeneticRefused("selection", "tournament", "stochastic_universal_sampling, roulette");
-  expectGeneticRefused("mating", "average", "mesh, phenotypic, genotypic");
+  expectGeneticRefused("mating", "average", "mesh, mesh_near_fitter, phenotypic, genotypic");
   expectGeneticRefused("niching", "clearing", "none, sharing, dynamic_sharing, deterministic_crowding");
   expectGeneticRefused("descent_moves", "many", "one_node, both_nodes");
   expectGeneticRefused("local_optimization", "1", "none, lamarckian, baldwinian");
