@@ -4,8 +4,8 @@
     scripts/count_run_flops.py [experiments/table_3_4.yaml ...] [--program build/devel/lib/concave_distance/run_flops]
                                [--runs 3] [--output build/evaluation_full/run_flops.csv]
 
-Without files: the experiments that show the thesis's flops. What the output already has is not counted again. callgrind (scripts/install_dependencies.sh plot) says how
-often each instruction was executed, objdump what it is. Counted are additions, subtractions, multiplications, divisions
+Without files: the experiments that show the thesis's flops. What the output already has is not counted again.
+callgrind (scripts/install_dependencies.sh plot) says how often each instruction was executed, objdump what it is. Counted are additions, subtractions, multiplications, divisions
 and square roots, each lane of a vector and both halves of a fused one; those of the C library, too. Comparisons, moves
 and conversions are none. Instructions are all there are. Before anything else the count of known work is checked.
 """

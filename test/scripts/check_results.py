@@ -166,7 +166,7 @@ def check_figure(figure, paragraph, quoted):
         return [f"{token} is not in the paragraph before it"]
     try:
         value = float(eval(expression, {"__builtins__": {}}, quoted.names()))
-    except Exception as error:  # whatever is wrong with an expression is a fault of the page
+    except Exception as error:  # any fault of an expression is a fault of the page
         return [f"{expression}: {type(error).__name__}: {error}"]
     if is_rounded(value, token):
         return []

@@ -64,7 +64,7 @@ void addLocalStep(const LocalStepParameters& p, RowParameters& all) {
   all.emplace_back("repeats", text(p.repeats));
 }
 
-/// Every parameter of whatever method it is.
+/// Every parameter of a method of any kind.
 struct Describer {
   RowParameters operator()(const GeneticParameters& p) const { return allOf(geneticParameters(), p); }
 

@@ -26,7 +26,7 @@ struct TrialRecord {
   /// distance; at every instant.
   bool exact = false;
   bool region = false;  ///< counts for Phi: within the region of the optimum, at every instant
-  /// In the region of the optimum by place alone, whatever the distance: a descent over the nodes from the
+  /// In the region of the optimum by place alone, at any distance: a descent over the nodes from the
   /// answer ends in it. Of runs at one pose.
   bool basin = false;
   double niches = 0.0;  ///< N_Gamma of the final population
