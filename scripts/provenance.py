@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Records what results were made with: doc/results/provenance.csv.
 
     scripts/provenance.py record doc/results/front.csv            a line that is there, after its command was run again
@@ -13,9 +13,12 @@ import argparse
 import csv
 import fnmatch
 import hashlib
+import json
 import pathlib
 import re
 import subprocess
+
+import yaml
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 MANIFEST = "doc/results/provenance.csv"
@@ -33,6 +36,9 @@ GROUPS = {
 # What programs are made of: a change that is not committed makes the commit say less than it seems to.
 SOURCES = ["include", "src", "test/benchmark", "experiments", "config", "meshes"]
 
+# Keys of an experiment and of its rows that only the report reads.
+WORDS = {"title", "table", "figure", "columns", "layout", "remark", "note", "thesis", "variant_of", "reason"}
+
 
 class Tree:
     """The files of a working tree, or those of a commit."""
@@ -45,7 +51,11 @@ class Tree:
         return subprocess.run(["git", *arguments], cwd=self.root, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
                               check=True).stdout
 
-    def matching(self, pattern):
+    def matching(self, patterns):
+        """The files of one of the patterns, between which commas stand."""
+        return [name for pattern in patterns.split(",") if pattern for name in self.matching_one(pattern)]
+
+    def matching_one(self, pattern):
         if self.commit is None:
             return sorted(path.relative_to(self.root).as_posix() for path in self.root.glob(pattern) if path.is_file())
         names = self.git("ls-tree", "-r", "--name-only", self.commit).decode().splitlines()
@@ -55,12 +65,22 @@ class Tree:
         return (self.root / name).read_bytes() if self.commit is None else self.git("show", f"{self.commit}:{name}")
 
 
+def what_runs(experiment):
+    """What an experiment file says of its runs, as bytes: without its words and the thesis's figures."""
+    read = {key: value for key, value in yaml.safe_load(experiment).items() if key not in WORDS}
+    rows = [{key: value for key, value in row.items() if key not in WORDS} for row in read.pop("rows", [])]
+    return json.dumps({**read, "rows": rows}, sort_keys=True).encode()
+
+
 def digest(tree, patterns):
     """Of the files that match, with their names when there are several; empty when there is none."""
-    names = [name for pattern in patterns.split(",") if pattern for name in tree.matching(pattern)]
+    names = tree.matching(patterns)
     hashed = hashlib.sha256()
     for name in names:
-        hashed.update((name if len(names) > 1 else "").encode() + tree.read(name))
+        content = tree.read(name)
+        if fnmatch.fnmatch(name, "experiments/*.yaml"):
+            content = what_runs(content)
+        hashed.update((name if len(names) > 1 else "").encode() + content)
     return hashed.hexdigest()[:16] if names else ""
 
 
@@ -125,7 +145,7 @@ def record(names, commit=None, **given):
     tree = Tree()
     rows = read_manifest()
     for name in names:
-        name = pathlib.Path(name).absolute().relative_to(ROOT).as_posix()
+        name = ",".join(pathlib.Path(part).absolute().relative_to(ROOT).as_posix() for part in name.split(","))
         row = dict(rows.get(name) or dict.fromkeys(COLUMNS, ""), file=name)
         row.update({key: value for key, value in given.items() if value is not None})
         if not row["command"]:

@@ -25,23 +25,8 @@ results=${2:-build/evaluation_$size}
 program() { find build -path build/test -prune -o -type f -perm -u+x -name "$1" -print | head -n 1; }
 scripts/install_dependencies.sh build plot
 if [ -d build ]; then cmake --build build --target evaluate; else scripts/build.sh; fi
-# Rows that are there are not run again: they have to be of this program and of these experiments.
-mkdir -p "$results"
-commit=$(scripts/provenance.py commit)
-first=$(cat "$results/commit" 2>/dev/null || true)
-if [ -n "$first$(ls "$results"/*.csv 2>/dev/null)" ] && [ "$first" != "$commit" ] &&
-  ! git diff --quiet "${first:-none}" HEAD -- include src 2>/dev/null; then
-  die "the rows in $results were made by another program (${first:-of unknown commit}): move the folder away"
-fi
-[ -n "$first" ] || echo "$commit" >"$results/commit"
-for experiment in experiments/*.yaml; do
-  name=$(basename "$experiment" .yaml)
-  if [ -f "$results/$name.yaml" ] && ! cmp -s "$experiment" "$results/$name.yaml"; then
-    die "$experiment has changed since its rows were made: remove $results/$name*.csv and $name.yaml (where only words" \
-      "have changed, the latter alone)"
-  fi
-  cp "$experiment" "$results/$name.yaml"
-done
+# Rows that are there are not run again: they have to be what this program makes of these experiments.
+scripts/report_rows.py prepare "$results" --program "$(program evaluate)"
 "$(program evaluate)" experiments/*.yaml --size "$size" --output "$results"
 if [ -n "$(program partition_benchmark)" ]; then  # built with CGAL only
   "$(program partition_benchmark)" --curves-output "$results/manoeuvre.csv"
@@ -56,12 +41,14 @@ fi
 kept=doc/results/evaluation
 if [ -f "$results/manoeuvre.csv" ]; then
   cp "$results/manoeuvre.csv" doc/results/
-  scripts/provenance.py record doc/results/manoeuvre.csv --commit "${first:-$commit}"
+  scripts/provenance.py record doc/results/manoeuvre.csv
 fi
-/usr/bin/python3 scripts/keep_rows.py "$results" --output "$kept"
+scripts/keep_rows.py "$results" --output "$kept"
+scripts/report_rows.py record "$results" "$kept"
+if [ -f "$kept/run_flops.csv.xz" ]; then
+  scripts/provenance.py record "$kept/run_flops.csv.xz" --defaults tracker,thesis --inputs 'experiments/table_*.yaml' \
+    --command 'scripts/report.sh full'
+fi
 /usr/bin/python3 scripts/write_evaluation.py "$kept"
-scripts/provenance.py record "$kept/*.csv.xz" --defaults tracker,thesis --inputs 'experiments/*.yaml' \
-  --command 'scripts/report.sh full' --commit "${first:-$commit}"
 scripts/provenance.py record doc/results/evaluation.md 'doc/results/images/evaluation_*.png' --defaults tracker,thesis \
-  --inputs "experiments/*.yaml,$kept/*.csv.xz,doc/results/manoeuvre.csv" --command 'scripts/report.sh full' \
-  --commit "${first:-$commit}"
+  --inputs "experiments/*.yaml,$kept/*.csv.xz,doc/results/manoeuvre.csv" --command 'scripts/report.sh full'

@@ -27,7 +27,7 @@ class CheckResults(unittest.TestCase):
             shutil.copy(provenance.ROOT / name, self.root / name)
         self.write("README.md", "")
         self.write("CONTRIBUTING.md", "")
-        self.write("experiments/table.yaml", "rows: []\n")
+        self.write("experiments/table.yaml", "rows: [{name: a}]\n")
         self.write(RESULT, "pair,us,level\npeg,31.4,nodes\nhooks,52.6,nodes\nhooks,7,refined\n")
         self.write("doc/results/log.txt", "worst case: 1,234 us\n")
         rows = {}
@@ -100,11 +100,29 @@ class CheckResults(unittest.TestCase):
         self.assertEqual(self.faults(), "")
 
     def test_inputs_that_changed(self):
-        self.write("experiments/table.yaml", "rows: [1]\n")
+        self.write("experiments/table.yaml", "rows: [{name: b}]\n")
         self.expect("experiments/*.yaml has changed")
 
+    def test_words_of_an_experiment_are_no_inputs(self):
+        self.write("experiments/table.yaml", 'remark: "why"\nrows: [{name: a, thesis: {scene: {exact: 1/2}}}]\n')
+        self.assertEqual(self.faults(), "")
+
+    def test_a_parameter_of_an_experiment_is_an_input(self):
+        self.write("experiments/table.yaml", "rows: [{name: a, parameters: {population_size: 20}}]\n")
+        self.expect("experiments/*.yaml has changed")
+
+    def test_a_line_of_several_files(self):
+        rows = provenance.read_manifest(self.root)
+        row = dict(rows.pop("doc/results/log.txt"), file="doc/results/log.txt,doc/results/more.txt")
+        self.write("doc/results/more.txt", "x\n")
+        rows[row["file"]] = provenance.entry(provenance.Tree(self.root), row)
+        provenance.write_manifest(rows, self.root)
+        self.assertEqual(self.faults(), "")
+        self.write("doc/results/more.txt", "y\n")
+        self.expect("not the file that run wrote")
+
     def test_older_files_are_warned_of_up_to_their_number(self):
-        self.write("experiments/table.yaml", "rows: [1]\n")
+        self.write("experiments/table.yaml", "rows: [{name: b}]\n")
         self.mark(RESULT, state="older")
         self.mark("doc/results/log.txt", state="older")
         self.assertEqual(self.faults(most_older=2), "")
