@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Turns check_results.py red on purpose, once for each thing that it is to find, in a copy of the documents."""
+"""Turns check_results.py red on purpose, once for each thing that it is to find, in a copy of the documents; and has
+refresh_quotes.py mend what it can."""
 import pathlib
 import shutil
 import sys
@@ -9,13 +10,14 @@ import unittest
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE))
 import check_results  # noqa: E402  (the path comes first)
+import refresh_quotes  # noqa: E402  (check_results adds its folder)
 from check_results import provenance  # noqa: E402
 
 RESULT = "doc/results/tracking.csv"
 PAGE = "doc/results/page.md"
 
 
-class CheckResults(unittest.TestCase):
+class Documents(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
@@ -63,6 +65,8 @@ class CheckResults(unittest.TestCase):
         for text in texts:
             self.assertIn(text, faults)
 
+
+class CheckResults(Documents):
     def test_good_results_have_no_fault(self):
         self.assertEqual(self.faults(), "")
 
@@ -173,6 +177,71 @@ class CheckResults(unittest.TestCase):
     def test_how_exactly_a_number_is_meant(self):
         for token, expected in (("49", 0.5), ("2,120", 5), ("1000", 5), ("100", 0.5), ("0.58", 0.005), ("2.1e-14", 5e-16)):
             self.assertAlmostEqual(check_results.rounding(token) / expected, 1, places=6)
+
+
+class RefreshQuotes(Documents):
+    def refresh(self, list_only=False):
+        _, left = refresh_quotes.refresh(self.root, [self.root / PAGE], list_only)
+        return "\n".join(left)
+
+    def expect_page(self, text, left=""):
+        self.assertEqual(self.refresh(), left)
+        self.assertEqual((self.root / PAGE).read_text(encoding="utf-8"), "# Page\n\n" + text + "\n\nMore 31.\n")
+        self.assertEqual(check_results.check_quotes(self.root, provenance.read_manifest(self.root))[0], [])
+
+    def test_figures_that_hold_stay(self):
+        self.expect_page('The peg takes 31 us, 30 in the middle.\n<!-- tracking.csv: 31 = value("us", pair="peg"); 30 = '
+                         'mean("us"); 31 = median("us") -->')
+
+    def test_a_figure_is_replaced_in_text_and_comment(self):
+        self.quote('The peg (31.4 mm) takes 32 us.\n<!-- tracking.csv: 32 = value("us", pair="peg") -->')
+        self.expect_page('The peg (31.4 mm) takes 31 us.\n<!-- tracking.csv: 31 = value("us", pair="peg") -->')
+
+    def test_nothing_is_written_where_a_list_is_asked_for(self):
+        self.quote('The peg takes 32 us.\n<!-- tracking.csv: 32 = value("us", pair="peg") -->')
+        self.assertEqual(self.refresh(list_only=True), "")
+        self.expect("32 is 31.4 there")
+
+    def test_a_number_quoted_once_and_written_twice_is_left(self):
+        self.quote('In 32 runs the peg takes 32 us.\n<!-- tracking.csv: 32 = value("us", pair="peg") -->')
+        self.assertIn("page.md:4: 32 stands 2 times in the text and is quoted 1 times: 31 =", self.refresh())
+        self.expect("32 is 31.4 there")
+
+    def test_equal_numbers_that_become_different_are_left(self):
+        self.quote('From 32 to 32 us.\n<!-- tracking.csv: 32 = value("us", pair="peg"); 32 = max("us") -->')
+        self.assertIn("32 stands for several figures: 31 = value", self.refresh())
+
+    def test_equal_numbers_in_the_order_of_the_comment(self):
+        self.quote('| 8 | 32 | 31 | 32 |\n<!-- tracking.csv: 8 = min("us"); 32 = value("us", pair="peg"); '
+                   '31 = median("us"); 32 = max("us") -->')
+        self.expect_page('| 7 | 31 | 31 | 53 |\n<!-- tracking.csv: 7 = min("us"); 31 = value("us", pair="peg"); '
+                         '31 = median("us"); 53 = max("us") -->')
+
+    def test_equal_numbers_in_another_order_are_left(self):
+        self.quote('| 8 | 32 | 32 | 30 |\n<!-- tracking.csv: 30 = mean("us"); 32 = value("us", pair="peg"); '
+                   '32 = max("us"); 8 = min("us") -->')
+        self.assertIn("32 stands for several figures", self.refresh())
+
+    def test_each_comment_has_the_text_after_the_one_before(self):
+        self.quote('- 32 us\n  <!-- tracking.csv: 32 = value("us", pair="peg") -->\n- 32 us\n  <!-- tracking.csv: 32 = max("us") -->')
+        self.expect_page('- 31 us\n  <!-- tracking.csv: 31 = value("us", pair="peg") -->\n- 53 us\n  <!-- tracking.csv: 53 = max("us") -->')
+
+    def test_expressions_and_tables_that_fail_are_left(self):
+        self.quote('9 us\n<!-- tracking.csv: 9 = value("us", pair="pegs") -->')
+        self.assertIn("0 rows match", self.refresh())
+        self.quote("| pair | us |\n|---|---|\n| peg | 32 |\n<!-- tracking.csv: table -->")
+        self.assertIn("no line has the figures of | peg | 32 |", self.refresh())
+
+    def test_numbers_keep_their_form_and_mean_what_the_check_reads(self):
+        for token, value, expected in (
+                ("49", 31.44, "31"), ("49", 104.4, "104"), ("9", 11.77, "12"), ("7", 0.634, "0.6"), ("98", 1234, "1230"),
+                ("2,120", 3456.7, "3,460"), ("2120", 3456.7, "3460"), ("170,000", 98765, "98,800"), ("944", 12345, "12,300"),
+                ("203,910", 203914, "203,910"), ("1,234", 987, "987"), ("0.58", 0.0521, "0.052"), ("9.9", 9.96, "10"),
+                ("1.000", 0.9951, "0.995"), ("0.995", 0.9999, "1.000"), ("0.00", 0.031, "0.03"), ("0.2", 0, "0.0"),
+                ("2.1e-14", 3.456e-15, "3.5e-15"), ("5e-3", 0, "0"), ("-12", -13.7, "-14")):
+            written = refresh_quotes.rewritten(value, token)
+            self.assertEqual(written, expected, f"{value} as {token}")
+            self.assertTrue(check_results.is_rounded(value, written), written)
 
 
 if __name__ == "__main__":
