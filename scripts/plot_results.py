@@ -11,6 +11,7 @@ import pathlib
 import matplotlib
 
 import provenance
+from accuracy_plots import draw_budgets, draw_pairs, draw_summary
 from manoeuvre import draw_manoeuvre, read_curves
 
 matplotlib.use("Agg")
@@ -147,69 +148,12 @@ def plot_cycles(rows):
     save(figure, "niche_cycles.png")
 
 
-FLOOR = 1e-16  # errors below count as this on a logarithmic axis
-
-
-def colour_of(method):
-    order = ["nodes", "refined", "certified", "complete", "comb-SA-wl", "comb-SA-nl", "multi-start descent",
-             "cont-GA-wl", "cont-SA-wl", "FCL"]
-    partition = {"partition QP": "black", "partition GJK": "darkviolet"}
-    return plt.get_cmap("tab10")(order.index(method)) if method in order else partition[method]
-
-
-def plot_accuracy(rows, mode, name):
-    """Error against time of every method and setting, pair by pair."""
-    pairs = list(dict.fromkeys(row["pair"] for row in rows))
-    figure, all_axes = plt.subplots(2, 3, figsize=(14, 8), sharex=True, sharey=True)
-    for axes, pair in zip(all_axes.flat, pairs):
-        for row in rows:
-            if row["pair"] != pair or row["mode"] != mode:
-                continue
-            marker, label = "o", row["method"]
-            if row["method"] == "certified" and row["setting"].startswith("all"):
-                marker = "s"
-            elif row["method"].startswith("partition"):
-                culled = row["setting"].endswith("culled")
-                marker, label = ("v", label + ", culled") if culled else ("^", label + ", all")
-            axes.plot(float(row["median_us"]), max(FLOOR, float(row["median_error"])),
-                      marker, color=colour_of(row["method"]), markersize=6, alpha=0.8,
-                      label=label)
-            axes.plot([float(row["median_us"])] * 2,
-                      [max(FLOOR, float(row["median_error"])), max(FLOOR, float(row["largest_error"]))],
-                      color=colour_of(row["method"]), linewidth=0.8, alpha=0.5)
-        axes.set_xscale("log")
-        axes.set_yscale("log")
-        axes.set_title(pair, fontsize=10)
-        axes.grid(alpha=0.3)
-    for axes in all_axes[-1]:
-        axes.set_xlabel("microseconds a query (median)")
-    for axes in all_axes[:, 0]:
-        axes.set_ylabel("error / diameter: median, line to the largest")
-    found = {}
-    for axes in all_axes.flat:
-        for handle, label in zip(*axes.get_legend_handles_labels()):
-            found.setdefault(label, handle)
-    figure.legend(found.values(), found.keys(), loc="lower center", ncol=(len(found) + 1) // 2, fontsize=9)
-    figure.tight_layout(rect=(0, 0.06, 1, 1))
-    figure.savefig(IMAGES / name, dpi=90)
-    plt.close(figure)
-    print(f"doc/images/{name}")
-
-
-def plot_budgets(rows):
-    """What a proof that is cut short leaves open."""
-    figure, axes = plt.subplots(figsize=(8, 5))
-    for pair in dict.fromkeys(row["pair"] for row in rows):
-        points = [(float(row["setting"].split()[1]), float(row["p90_gap"])) for row in rows
-                  if row["pair"] == pair and row["mode"] == "cold" and row["setting"].startswith("budget")]
-        axes.plot([time for time, _ in points], [max(FLOOR, gap) for _, gap in points], marker="o", label=pair)
-    axes.set_xscale("log")
-    axes.set_yscale("log")
-    axes.set_xlabel("time budget of a cold proof, microseconds")
-    axes.set_ylabel("distance less lower bound / diameter\n(90th percentile)")
-    axes.grid(alpha=0.3)
-    axes.legend(fontsize=8)
-    save(figure, "accuracy_budget.png")
+def plot_accuracy(rows):
+    draw_summary(rows, plt, IMAGES / "accuracy_summary.png")
+    draw_pairs(rows, "cold", plt, IMAGES / "accuracy_cold.png")
+    draw_pairs(rows, "tracked", plt, IMAGES / "accuracy_tracked.png")
+    draw_budgets(rows, plt, IMAGES / "accuracy_budget.png")
+    print("doc/images/accuracy_*.png")
 
 
 def plot_stages(rows, message_rows):
@@ -249,10 +193,7 @@ def main():
     plot_scale(rows_of("scale.csv"))
     plot_recall(rows_of("budget.csv"), rows_of("budget_cold.csv"))
     plot_cycles(rows_of("front.csv"))
-    accuracy = rows_of("accuracy.csv")
-    plot_accuracy(accuracy, "cold", "accuracy_cold.png")
-    plot_accuracy(accuracy, "tracked", "accuracy_tracked.png")
-    plot_budgets(accuracy)
+    plot_accuracy(rows_of("accuracy.csv"))
     plot_stages(rows_of("stages.csv"), rows_of("messages.csv"))
     curves = read_curves(RESULTS / "manoeuvre.csv")
     if curves:  # of a build with CGAL

@@ -18,12 +18,13 @@ constexpr double kMissed = 1e-2;
 Rows::Rows(const std::string& output, int steps, int cold) : steps_(steps), cold_(cold) {
   if (output.empty()) return;
   csv_.open(output);
-  csv_ << "pair,method,setting,mode,instants,median_error,p99_error,largest_error,median_gap,p90_gap,"
+  csv_ << "pair,set,method,setting,mode,instants,median_error,p99_error,largest_error,median_gap,p90_gap,"
           "median_us,p99_us,missed\n";
 }
 
-void Rows::begin(const BenchmarkPair& pair) {
+void Rows::begin(const BenchmarkPair& pair, const std::string& set) {
   name_ = pair.name;
+  set_ = set;
   unit_ = std::min(pair.a->diameter(), pair.b->diameter());
   tracked_ = instants(pair, steps_);
   colds_ = instants(pair, cold_);
@@ -65,13 +66,13 @@ void Rows::add(const std::string& method, const std::string& setting, const char
   }
   const double largest = *std::max_element(errors.begin(), errors.end());
   const double gap = gaps.empty() ? std::nan("") : median(gaps);
-  std::printf("%-18s %-22s %-28s %-8s %9.2e %9.2e %9.2e %9.2e %10.2f %10.2f %4d\n", name_.c_str(),
+  std::printf("%-21s %-22s %-28s %-8s %9.2e %9.2e %9.2e %9.2e %10.2f %10.2f %4d\n", name_.c_str(),
               method.c_str(), setting.c_str(), mode, median(errors), percentile(errors, 0.99), largest, gap,
               median(times), percentile(times, 0.99), missed);
   std::fflush(stdout);
   if (!csv_) return;
-  csv_ << name_ << ',' << method << ',' << setting << ',' << mode << ',' << errors.size() << ','
-       << median(errors) << ',' << percentile(errors, 0.99) << ',' << largest << ',';
+  csv_ << name_ << ',' << set_ << ',' << method << ',' << setting << ',' << mode << ',' << errors.size()
+       << ',' << median(errors) << ',' << percentile(errors, 0.99) << ',' << largest << ',';
   if (!gaps.empty()) csv_ << gap << ',' << percentile(gaps, 0.9);
   if (gaps.empty()) csv_ << ',';
   csv_ << ',' << median(times) << ',' << percentile(times, 0.99) << ',' << missed << '\n';

@@ -27,8 +27,8 @@ class Rows {
   /// @param output CSV file; empty: none @param steps instants tracked @param cold instants of cold queries
   Rows(const std::string& output, int steps, int cold);
 
-  /// Takes the truth of the pair's instants.
-  void begin(const BenchmarkPair& pair);
+  /// Takes the truth of the pair's instants. @param set `tuned` or `held out`
+  void begin(const BenchmarkPair& pair, const std::string& set);
 
   void cold(const std::string& method, const std::string& setting, const Query& query);
   void tracked(const std::string& method, const std::string& setting, const Query& query);
@@ -48,6 +48,7 @@ class Rows {
   int cold_;
   std::ofstream csv_;
   std::string name_;
+  std::string set_;
   double unit_ = 1.0;
   std::vector<Instant> tracked_;
   std::vector<Instant> colds_;
