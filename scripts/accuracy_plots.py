@@ -25,6 +25,9 @@ STRIP = [
     (("FCL",), BLACK, "o", "FCL, distance"),
     (("partition",), PURPLE, "^", "convex partition"),
 ]
+# Where an exact method makes an error, it stands above like the others.
+STYLES = {**{kind: (colour, marker) for kinds, colour, marker, _ in STRIP for kind in kinds},
+          **{kind: (colour, marker) for kind, (colour, marker, _) in APPROXIMATE.items()}}
 
 
 def kind_of(row):
@@ -43,7 +46,8 @@ def kind_of(row):
 
 
 def has_no_error(row):
-    return float(row["largest_error"]) <= NO_ERROR
+    """Of the kinds that the strip has a row for."""
+    return float(row["largest_error"]) <= NO_ERROR and any(kind_of(row) in kinds for kinds, *_ in STRIP)
 
 
 def largest_errors_in_strip(rows):
@@ -57,14 +61,13 @@ def largest_errors_in_strip(rows):
 
 
 def draw_errors(axes, rows, hollow=False):
-    """Largest errors, with a line down to the median; below the axis stands what makes none."""
+    """Largest errors, with a line down to the median; what is less than the axis shows stands at its bottom."""
     for row in rows:
-        kind = kind_of(row)
-        if has_no_error(row) or kind not in APPROXIMATE:
+        if has_no_error(row):
             continue
-        colour, marker, _ = APPROXIMATE[kind]
-        time, largest = float(row["median_us"]), float(row["largest_error"])
-        median = max(float(row["median_error"]), LEAST_SHOWN)
+        colour, marker = STYLES[kind_of(row)]
+        time = float(row["median_us"])
+        median, largest = (min(max(float(row[name]), LEAST_SHOWN), MOST_SHOWN) for name in ("median_error", "largest_error"))
         axes.plot([time, time], [median, largest], color=colour, linewidth=0.8, alpha=0.5, zorder=1)
         axes.plot(time, largest, marker, color=colour, markersize=5, alpha=0.85, markeredgewidth=0.9, zorder=2,
                   markerfacecolor="white" if hollow else colour)
@@ -76,10 +79,10 @@ def draw_errors(axes, rows, hollow=False):
 
 def draw_strip(axes, rows, strip=STRIP, hollow=False, shift=0.0):
     """Times of what makes no error, a row for each kind."""
-    for place, (kinds, colour, marker, _) in enumerate(strip):
+    for place, (kinds, *_) in enumerate(strip):
         for row in rows:
             if kind_of(row) in kinds and has_no_error(row):
-                colour, marker, *_ = APPROXIMATE.get(kind_of(row), (colour, marker))
+                colour, marker = STYLES[kind_of(row)]
                 axes.plot(float(row["median_us"]), place + shift, marker, color=colour, markersize=5, alpha=0.85,
                           markeredgewidth=0.9, markerfacecolor="white" if hollow else colour)
     axes.set_ylim(len(strip) - 0.5, -0.5)
@@ -100,13 +103,14 @@ def draw_pairs(rows, mode, plt, path):
     groups = [(name, list(dict.fromkeys(row["pair"] for row in rows if row["set"] == name))) for name in ("tuned", "held out")]
     lines = [(name, pairs[i:i + 3]) for name, pairs in groups for i in range(0, len(pairs), 3)]
     figure = plt.figure(figsize=(11, 0.7 + 3.4 * len(lines)))
-    outer = figure.add_gridspec(len(lines), 3, left=0.16, right=0.985, top=0.965, bottom=0.105, wspace=0.06, hspace=0.22)
+    outer = figure.add_gridspec(len(lines), 3, left=0.16, right=0.985, top=0.965, bottom=0.09, wspace=0.06, hspace=0.22)
     times = [float(row["median_us"]) for row in rows]
     limits = (0.6 * min(times), 1.6 * max(times))
     for line, (name, pairs) in enumerate(lines):
         for column, pair in enumerate(pairs):
             of_pair = [row for row in rows if row["pair"] == pair]
-            upper, lower = outer[line, column].subgridspec(2, 1, height_ratios=(1.5, 1), hspace=0.04).subplots(sharex=True)
+            parts = outer[line, column].subgridspec(2, 1, height_ratios=(1.5, 1), hspace=0.04)
+            upper, lower = parts.subplots(sharex=True)
             draw_errors(upper, of_pair)
             draw_strip(lower, of_pair)
             upper.set_title(f"{pair} ({name})", fontsize=10)
@@ -130,7 +134,8 @@ def draw_pairs(rows, mode, plt, path):
 
 # The summary has what a user can choose: (kind, setting, label) above the strip, and these rows of it.
 SUMMARY = [("nodes", "shipped", "nodes, as shipped"), ("tolerance", "tolerance 0.1", "certified, tolerance 10 %"),
-           ("budget", "budget 10 us", "certified, time budget 10 us"), ("refined", "all niches", "refined, where it missed the nearest")]
+           ("budget", "budget 10 us", "certified, time budget 10 us"),
+           ("refined", "all niches", "refined, where it missed the nearest")]
 SUMMARY_STRIP = [(("proof",), RED, "o", "certified: distance"), (("tolerance", "budget"), ORANGE, "D", "the same, bounded"),
                  (("all niches",), RED, "s", "certified: all niches"), (("refined",), GREEN, "s", "refined: niches found"),
                  (("FCL",), BLACK, "o", "FCL: distance")]
@@ -147,7 +152,8 @@ def draw_summary(rows, plt, path):
     """What the levels cost on all pairs: filled where the package was developed with them, hollow where not."""
     rows = [row for row in rows if of_summary(row)]
     figure, axes = plt.subplots(2, 2, figsize=(10, 5.8), sharex="all", sharey="row", height_ratios=(1.3, 1))
-    for column, (mode, title) in enumerate((("cold", "cold: nothing is known"), ("tracked", "tracked at 40 Hz: the last answer is known"))):
+    titles = {"cold": "cold: nothing is known", "tracked": "tracked at 40 Hz: the last answer is known"}
+    for column, (mode, title) in enumerate(titles.items()):
         upper, lower = axes[:, column]
         of_mode = [row for row in rows if row["mode"] == mode]
         for name, hollow, shift in (("tuned", False, -0.19), ("held out", True, 0.19)):
@@ -179,7 +185,8 @@ def draw_budgets(rows, plt, path):
             gaps = [(float(row["setting"].split()[1]), float(row["p90_gap"])) for row in rows if row["pair"] == pair]
             left = [(budget, gap) for budget, gap in gaps if gap > NO_ERROR]
             upper.plot(*zip(*left or [(math.nan, math.nan)]), marker=marker, color=colour)
-            lower.plot([budget for budget, gap in gaps if gap <= NO_ERROR], [place] * (len(gaps) - len(left)), marker, color=colour)
+            done = [budget for budget, gap in gaps if gap <= NO_ERROR]
+            lower.plot(done, [place] * len(done), marker, color=colour)
         upper.set_xscale("log")
         upper.set_yscale("log")
         upper.set_ylim(1e-4, MOST_SHOWN)

@@ -223,8 +223,10 @@ class RefreshQuotes(Documents):
         self.assertIn("32 stands for several figures", self.refresh())
 
     def test_each_comment_has_the_text_after_the_one_before(self):
-        self.quote('- 32 us\n  <!-- tracking.csv: 32 = value("us", pair="peg") -->\n- 32 us\n  <!-- tracking.csv: 32 = max("us") -->')
-        self.expect_page('- 31 us\n  <!-- tracking.csv: 31 = value("us", pair="peg") -->\n- 53 us\n  <!-- tracking.csv: 53 = max("us") -->')
+        self.quote('- 32 us\n  <!-- tracking.csv: 32 = value("us", pair="peg") -->\n'
+                   '- 32 us\n  <!-- tracking.csv: 32 = max("us") -->')
+        self.expect_page('- 31 us\n  <!-- tracking.csv: 31 = value("us", pair="peg") -->\n'
+                         '- 53 us\n  <!-- tracking.csv: 53 = max("us") -->')
 
     def test_expressions_and_tables_that_fail_are_left(self):
         self.quote('9 us\n<!-- tracking.csv: 9 = value("us", pair="pegs") -->')
