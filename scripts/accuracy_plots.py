@@ -2,7 +2,7 @@
 import math
 
 NO_ERROR = 1e-9  # of the smaller body's diameter: an answer that differs less is the exact one and rounding
-LEAST_SHOWN, MOST_SHOWN = 1e-7, 5.0
+LEAST_SHOWN, MOST_SHOWN = 1e-7, 5.0  # of the axis
 # Okabe and Ito's colours, which differ for every kind of eye.
 BLUE, SKY, GREEN, ORANGE, RED, PURPLE, BLACK, GREY = ("#0072B2", "#56B4E9", "#009E73", "#E69F00", "#D55E00", "#CC79A7",
                                                       "black", "0.45")
@@ -72,7 +72,7 @@ def draw_errors(axes, rows, hollow=False):
         axes.plot(time, largest, marker, color=colour, markersize=5, alpha=0.85, markeredgewidth=0.9, zorder=2,
                   markerfacecolor="white" if hollow else colour)
     axes.set_yscale("log")
-    axes.set_ylim(LEAST_SHOWN, MOST_SHOWN)
+    axes.set_ylim(0.7 * LEAST_SHOWN, MOST_SHOWN)
     axes.set_yticks([1e-6, 1e-4, 1e-2, 1], ["1e-6", "1e-4", "0.01", "1"], fontsize=8)
     axes.grid(alpha=0.3)
 
