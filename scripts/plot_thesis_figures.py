@@ -116,7 +116,7 @@ def plot_figure_5_6(folders, images):
             axes = figure.add_subplot(len(scenes), len(rows), i * len(rows) + k + 1, projection="3d")
             places = draw_points(axes, scene, runs)
             axes.set_title(f"{row}\n{scene}: {len(runs)} runs, {places} pairs, {at_best} runs at the nearest", fontsize=10, y=0.97)
-    figure.subplots_adjust(left=0.0, right=1.0, bottom=0.0, top=0.96, wspace=0.0, hspace=0.06)
+    figure.subplots_adjust(left=0.0, right=1.0, bottom=0.0, top=0.95, wspace=0.0, hspace=0.1)
     save(figure, images / "evaluation_figure_5_6.png")
 
 

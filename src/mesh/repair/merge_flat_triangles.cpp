@@ -4,6 +4,7 @@
 #include <functional>
 #include <limits>
 #include <queue>
+#include <set>
 #include <utility>
 
 #include "mesh/surface/ear_clipping.h"
@@ -55,16 +56,15 @@ class FlatMerger {
   /// What takes the place of the triangles around a node.
   struct Replacement {
     std::vector<std::pair<TriangleNodes, std::uint32_t>> triangles;  ///< with their patches
-    std::vector<Edge> edges;
+    std::set<Edge> edges;
   };
 
   void enqueue(NodeIndex node) { queue_.emplace(patched_.degree(node), node.value); }
 
+  static Edge edgeOf(NodeIndex a, NodeIndex b) { return {std::min(a, b), std::max(a, b)}; }
+
   bool mayJoin(NodeIndex a, NodeIndex b, const Replacement& replacement) const {
-    return patched_.trianglesAt(a, b) == 0 &&
-           std::none_of(replacement.edges.begin(), replacement.edges.end(), [&](const Edge& edge) {
-             return edge == Edge{a, b} || edge == Edge{b, a};
-           });
+    return patched_.trianglesAt(a, b) == 0 && replacement.edges.count(edgeOf(a, b)) == 0;
   }
 
   /// A fan of one triangle has both ends joined already: it is a sliver on the border that goes with its
@@ -137,7 +137,7 @@ class FlatMerger {
     if (ears.empty() || (rim.size() == 3 && patched_.hasTriangle({rim[0], rim[1], rim[2]}))) return false;
     for (const auto& [i, j, k] : ears) {
       replacement.triangles.push_back({{rim[i], rim[j], rim[k]}, fan.patch});
-      replacement.edges.emplace_back(rim[i], rim[k]);
+      replacement.edges.insert(edgeOf(rim[i], rim[k]));
     }
     return true;
   }

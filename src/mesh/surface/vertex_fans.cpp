@@ -86,7 +86,7 @@ class Wheel {
 }  // namespace
 
 PatchedMesh::PatchedMesh(const SurfaceMesh& mesh, std::vector<std::uint32_t> patch_of_triangle)
-    : triangles_of_node_(mesh.vertexCount()) {
+    : triangles_of_node_(mesh.vertexCount()), degrees_(mesh.vertexCount(), 0) {
   for (std::size_t t = 0; t < mesh.triangleCount(); ++t) {
     add(mesh.triangles()[t], patch_of_triangle[t]);
   }
@@ -95,6 +95,7 @@ PatchedMesh::PatchedMesh(const SurfaceMesh& mesh, std::vector<std::uint32_t> pat
 std::vector<VertexFan> PatchedMesh::fansOf(NodeIndex node) const {
   Wheel wheel;
   for (const std::uint32_t t : triangles_of_node_[node.value]) {
+    if (is_removed_[t]) continue;
     const TriangleNodes& nodes = triangles_[t];
     const std::size_t k = nodes[0] == node ? 0 : nodes[1] == node ? 1 : 2;
     wheel.add({nodes[(k + 1) % 3], nodes[(k + 2) % 3], t, patches_[t]});
@@ -108,20 +109,22 @@ std::size_t PatchedMesh::trianglesAt(NodeIndex a, NodeIndex b) const {
   const NodeIndex other = fewer == a ? b : a;
   const std::vector<std::uint32_t>& around = triangles_of_node_[fewer.value];
   return static_cast<std::size_t>(std::count_if(around.begin(), around.end(), [&](std::uint32_t t) {
-    return std::find(triangles_[t].begin(), triangles_[t].end(), other) != triangles_[t].end();
+    return !is_removed_[t] &&
+           std::find(triangles_[t].begin(), triangles_[t].end(), other) != triangles_[t].end();
   }));
 }
 
 bool PatchedMesh::hasTriangle(const TriangleNodes& nodes) const {
   const std::vector<std::uint32_t>& around = triangles_of_node_[nodes[0].value];
   return std::any_of(around.begin(), around.end(), [&](std::uint32_t t) {
-    return std::is_permutation(nodes.begin(), nodes.end(), triangles_[t].begin());
+    return !is_removed_[t] && std::is_permutation(nodes.begin(), nodes.end(), triangles_[t].begin());
   });
 }
 
 void PatchedMesh::add(const TriangleNodes& nodes, std::uint32_t patch) {
   for (const NodeIndex node : nodes) {
     triangles_of_node_[node.value].push_back(static_cast<std::uint32_t>(triangles_.size()));
+    ++degrees_[node.value];
   }
   triangles_.push_back(nodes);
   patches_.push_back(patch);
@@ -129,18 +132,20 @@ void PatchedMesh::add(const TriangleNodes& nodes, std::uint32_t patch) {
 }
 
 void PatchedMesh::remove(std::uint32_t triangle) {
+  is_removed_[triangle] = true;
   for (const NodeIndex node : triangles_[triangle]) {
     std::vector<std::uint32_t>& around = triangles_of_node_[node.value];
-    around.erase(std::find(around.begin(), around.end(), triangle));
+    if (2 * --degrees_[node.value] >= around.size()) continue;
+    const auto gone = [&](std::uint32_t t) { return is_removed_[t]; };
+    around.erase(std::remove_if(around.begin(), around.end(), gone), around.end());
   }
-  is_removed_[triangle] = true;
 }
 
 SurfaceMesh PatchedMesh::compacted(const std::vector<Eigen::Vector3d>& vertices) const {
   std::vector<Eigen::Vector3d> kept;
   std::vector<NodeIndex> number(vertices.size());
   for (std::size_t node = 0; node < vertices.size(); ++node) {
-    if (triangles_of_node_[node].empty()) continue;
+    if (degrees_[node] == 0) continue;
     number[node] = NodeIndex{kept.size()};
     kept.push_back(vertices[node]);
   }

@@ -21,7 +21,7 @@ class PatchedMesh {
   PatchedMesh(const SurfaceMesh& mesh, std::vector<std::uint32_t> patch_of_triangle);
 
   std::size_t nodeCount() const { return triangles_of_node_.size(); }
-  std::size_t degree(NodeIndex node) const { return triangles_of_node_[node.value].size(); }
+  std::size_t degree(NodeIndex node) const { return degrees_[node.value]; }
   const TriangleNodes& triangle(std::uint32_t triangle) const { return triangles_[triangle]; }
 
   /// Every triangle at the node is in one of the fans.
@@ -39,9 +39,10 @@ class PatchedMesh {
 
  private:
   std::vector<TriangleNodes> triangles_;
-  std::vector<std::uint32_t> patches_;  ///< by triangle
-  std::vector<bool> is_removed_;        ///< by triangle
-  std::vector<std::vector<std::uint32_t>> triangles_of_node_;
+  std::vector<std::uint32_t> patches_;                         ///< by triangle
+  std::vector<bool> is_removed_;                               ///< by triangle
+  std::vector<std::vector<std::uint32_t>> triangles_of_node_;  ///< those removed as well, until they are most
+  std::vector<std::size_t> degrees_;                           ///< by node: triangles that are there
 };
 
 }  // namespace concave_distance::detail
