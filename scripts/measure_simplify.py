@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Refines bodies of meshes/ with mesh_tool, merges their coplanar triangles and writes what is left.
 
-    scripts/measure_simplify.py [--output doc/results/simplify.csv]      (needs a finished build)
+    scripts/measure_simplify.py [--output simplify.csv] [--tolerance 2e-6]      (needs a finished build)
 
 A row: triangles of the file, of the file simplified, of the file refined to edges of a fortieth of its diagonal, and of that simplified;
 the relative change of volume and area that the last step made.
@@ -40,20 +40,21 @@ def inspected(tool, path):
             float(volume[1]) if volume else None, sum(length * length for length in size) ** 0.5)
 
 
-def measure(tool, body, folder):
+def measure(tool, body, folder, tolerance):
     mesh, fine, coarse = ROOT / "meshes" / body, folder / "fine.ply", folder / "coarse.ply"
     triangles, _, _, diagonal = inspected(tool, mesh)
     simplified = written(run(tool, "simplify", mesh, coarse))
     refined = written(run(tool, "refine", mesh, fine, "--max-edge", diagonal / 40))
-    refined_simplified = written(run(tool, "simplify", fine, coarse))
+    refined_simplified = written(run(tool, "simplify", fine, coarse, "--tolerance", tolerance))
     (_, area, volume, _), (_, area_after, volume_after, _) = inspected(tool, fine), inspected(tool, coarse)
     return [body, triangles, simplified, refined, refined_simplified,
-            "" if volume is None else f"{volume_after / volume - 1:.1e}", f"{area_after / area - 1:.1e}"]
+            "" if volume is None or volume_after is None else f"{volume_after / volume - 1:.1e}", f"{area_after / area - 1:.1e}"]
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--output", default=ROOT / "doc" / "results" / "simplify.csv", type=pathlib.Path)
+    parser.add_argument("--output", default="simplify.csv", type=pathlib.Path)
+    parser.add_argument("--tolerance", default="2e-6", help="of the refined files, whose coordinates are in single precision")
     options = parser.parse_args()
     tool = next((path for path in sorted((ROOT / "build").rglob("mesh_tool")) if path.is_file()), None)
     if tool is None:
@@ -62,7 +63,7 @@ def main():
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(COLUMNS)
         for body in BODIES:
-            writer.writerow(measure(tool, body, pathlib.Path(folder)))
+            writer.writerow(measure(tool, body, pathlib.Path(folder), options.tolerance))
             file.flush()
     print(options.output)
 

@@ -105,8 +105,8 @@ def plot_figure_5_6(folders, images):
     if not points:
         print("no figure_5_6_points.csv: figure 5.6 is left out")
         return
-    rows = list(dict.fromkeys(row for row, _ in points))
-    scenes = list(dict.fromkeys(scene for _, scene in points))
+    rows = sorted({row for row, _ in points})
+    scenes = sorted({scene for _, scene in points}, reverse=True)
     figure = plt.figure(figsize=(6 * len(rows), 5 * len(scenes)))
     for i, scene in enumerate(scenes):
         for k, row in enumerate(rows):
@@ -170,7 +170,7 @@ def plot_partitions(images):
                 (whole, (0, 0, 0), f"{solid.name.replace('_', ' ')}: {len(triangles)} triangles"),
                 (pieces, spread, f"{len(pieces)} convex pieces (deepest dent {deepest_dent(pieces):.0e} m)"))):
             axes = figure.add_subplot(1, 2, place + 1, projection="3d", computed_zorder=False)
-            draw_pieces(axes, shown, title, apart, elevation, azimuth)
+            draw_pieces(axes, shown, title, apart, elevation, azimuth, zoom=0.9)
         figure.subplots_adjust(left=0.0, right=1.0, bottom=0.0, top=0.93, wspace=0.0)
         save(figure, images / f"evaluation_figure_{number}.png")
 
