@@ -28,7 +28,7 @@ def main():
     options.output.mkdir(parents=True, exist_ok=True)
     for path in options.output.glob("*.csv.xz"):
         path.unlink()
-    for name in [experiment + end for experiment in experiments for end in ("", "_scenes", "_curves", "_rows")] + ["run_flops"]:
+    for name in [experiment + end for experiment in experiments for end in ("", "_scenes", "_curves", "_points", "_rows")] + ["run_flops"]:
         paths = [folder / f"{name}.csv" for folder in options.results if (folder / f"{name}.csv").exists()]
         if paths:
             (options.output / f"{name}.csv.xz").write_bytes(lzma.compress(joined(paths).encode(), preset=9))

@@ -55,7 +55,7 @@ def automatic_pieces(body, folder):
     return read_pieces(path)
 
 
-def draw_pieces(axes, pieces, title, spread, elevation, azimuth):
+def draw_pieces(axes, pieces, title, spread, elevation, azimuth, zoom=1.12):
     """Each piece moved away from the body's middle by `spread` (an axis each) times its own distance from it."""
     everything = np.vstack([corners for corners, _ in pieces])
     middle = 0.5 * (everything.min(axis=0) + everything.max(axis=0))
@@ -87,7 +87,7 @@ def draw_pieces(axes, pieces, title, spread, elevation, azimuth):
     axes.set_xlim(low[0], high[0])
     axes.set_ylim(low[1], high[1])
     axes.set_zlim(low[2], high[2])
-    axes.set_box_aspect(high - low, zoom=1.12)
+    axes.set_box_aspect(high - low, zoom=zoom)
     axes.view_init(elev=elevation, azim=azimuth)
     axes.set_proj_type("ortho")
     axes.set_axis_off()

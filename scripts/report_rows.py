@@ -71,7 +71,7 @@ def prepare(results, program):
 
 def record(results, kept):
     for file in experiments():
-        files = [kept / f"{file.stem}{end}.csv.xz" for end in ("", "_scenes", "_curves", "_rows")]
+        files = [kept / f"{file.stem}{end}.csv.xz" for end in ("", "_scenes", "_curves", "_points", "_rows")]
         names = ",".join(str(path) for path in files if path.exists())
         provenance.record([names], (results / f"{file.stem}.commit").read_text(encoding="utf-8").strip(),
                           defaults="tracker,thesis", inputs=f"experiments/{file.name}", command="scripts/report.sh full")

@@ -61,7 +61,13 @@ void addRepair(CLI::App& command, CommandLine& line) {
 
 using Command = std::pair<CLI::App*, void (*)(const MeshToolOptions&, std::ostream&)>;
 
-void addOptionsOfCommands(CLI::App& refine, CLI::App& partition, CLI::App& tree, CommandLine& line) {
+void addOptionsOfCommands(CLI::App& refine, CLI::App& simplify, CLI::App& partition, CLI::App& tree,
+                          CommandLine& line) {
+  simplify
+      .add_option("--tolerance", line.options.merge_tolerance,
+                  "no point of the surface moves farther than this fraction of the body's size")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
   partition.add_option("output", line.options.output, "pieces to write (.obj, one object a piece)")
       ->required();
   tree.add_option("output", line.options.output, "tree to write (.yaml)")->required();
@@ -82,6 +88,8 @@ std::vector<Command> addCommands(CLI::App& app, CommandLine& line) {
       "repair", "Weld vertices, drop zero-area and duplicate triangles, turn closed shells outwards");
   CLI::App* refine =
       app.add_subcommand("refine", "Repair, then split edges until none is longer than --max-edge");
+  CLI::App* simplify = app.add_subcommand(
+      "simplify", "Repair, then merge the triangles of each plane into as few as possible");
   CLI::App* convert =
       app.add_subcommand("convert", "Write in another format or scale; equal vertices are welded, no more");
   CLI::App* hull = app.add_subcommand("hull", "Repair, then write the convex hull");
@@ -89,15 +97,16 @@ std::vector<Command> addCommands(CLI::App& app, CommandLine& line) {
       app.add_subcommand("partition", "Repair, then cut a closed mesh into convex pieces, exactly");
   CLI::App* tree = app.add_subcommand(
       "tree", "Repair, then write the constraint tree: hull, concavities, what stands in them, and so on");
-  for (CLI::App* command : {inspect, repair, refine, convert, hull, partition, tree}) {
+  for (CLI::App* command : {inspect, repair, refine, simplify, convert, hull, partition, tree}) {
     addInput(*command, line);
   }
-  for (CLI::App* command : {repair, refine, convert, hull}) addOutput(*command, line);
-  for (CLI::App* command : {inspect, repair, refine, hull, partition, tree}) addRepair(*command, line);
-  addOptionsOfCommands(*refine, *partition, *tree, line);
-  return {{inspect, inspectMeshFile}, {repair, repairMeshFile},       {refine, refineMeshFile},
-          {hull, hullOfMeshFile},     {partition, partitionMeshFile}, {tree, treeOfMeshFile},
-          {convert, convertMeshFile}};
+  for (CLI::App* command : {repair, refine, simplify, convert, hull}) addOutput(*command, line);
+  for (CLI::App* command : {inspect, repair, refine, simplify, hull, partition, tree})
+    addRepair(*command, line);
+  addOptionsOfCommands(*refine, *simplify, *partition, *tree, line);
+  return {{inspect, inspectMeshFile},   {repair, repairMeshFile},  {refine, refineMeshFile},
+          {simplify, simplifyMeshFile}, {hull, hullOfMeshFile},    {partition, partitionMeshFile},
+          {tree, treeOfMeshFile},       {convert, convertMeshFile}};
 }
 
 int run(int argc, char** argv) {

@@ -100,6 +100,18 @@ void refineMeshFile(const MeshToolOptions& options, std::ostream& out) {
   out << "longest edge (m): " << measure(refined.mesh).longest_edge << '\n';
 }
 
+void simplifyMeshFile(const MeshToolOptions& options, std::ostream& out) {
+  const RepairedMesh repaired = readRepaired(options);
+  const double tolerance = options.merge_tolerance * repaired.mesh.diameter();
+  const MergedMesh merged = mergeFlatTriangles(repaired.mesh, tolerance);
+  exportMesh(merged.mesh, options.output);
+  printRepairs(repaired.report, out);
+  printSizes("repaired: ", repaired.mesh, out);
+  out << "flat patches: " << merged.flat_patches << '\n';
+  printSizes("written: ", merged.mesh, out);
+  out << "no point of the surface moved by more than (m): " << tolerance << '\n';
+}
+
 void convertMeshFile(const MeshToolOptions& options, std::ostream& out) {
   const SurfaceMesh mesh = weldEqualVertices(importMesh(options.input, options.scale), options.input);
   exportMesh(mesh, options.output);

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "concave_distance/mesh/repair/repair_mesh.h"
+#include "mesh/repair/merge_flat_triangles.h"
 
 namespace concave_distance::tools {
 
@@ -16,6 +17,7 @@ struct MeshToolOptions {
   double weld_tolerance = kSinglePrecisionWeld;  ///< relative to the bounding box's diagonal
   bool orient = true;                            ///< turn triangles that disagree
   double max_edge_length = 0.0;                  ///< metres
+  double merge_tolerance = kMergeTolerance;      ///< relative to the bounding box's diagonal
   std::size_t reflex_edge_limit = 1500;
   double flatness = 1e-6;  ///< of a tree, relative to the bounding box's diagonal
   std::string pieces;      ///< a tree's convex pieces as .obj; empty: not written
@@ -29,6 +31,7 @@ RepairedMesh readRepaired(const MeshToolOptions& options);
 void inspectMeshFile(const MeshToolOptions& options, std::ostream& out);
 void repairMeshFile(const MeshToolOptions& options, std::ostream& out);
 void refineMeshFile(const MeshToolOptions& options, std::ostream& out);
+void simplifyMeshFile(const MeshToolOptions& options, std::ostream& out);
 void convertMeshFile(const MeshToolOptions& options, std::ostream& out);
 
 }  // namespace concave_distance::tools

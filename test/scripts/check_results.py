@@ -12,14 +12,15 @@
     The middle of 15 pairs is 49, the worst 217.
     <!-- results/tracking.csv: 49 = median("fcl_over_alone"); 217 = max("fcl_over_alone"); 15 = count("1") -->
 
-The comment names the file from its page. Every number on the left stands in the paragraph or table before the comment
-and is the rounded value of the Python expression on the right: value, min, max, median, mean, total and count of an
+The comment names the file, compressed (.csv.xz) or not, from its page. Every number on the left stands in the paragraph
+or table before the comment and is the rounded value of the Python expression on the right: value, min, max, median, mean, total and count of an
 expression of columns, over the rows with the given cells (`pair="peg_in_hole"`, or a list of them); found("regex") is
 the number that matches the group in a text file. `<!-- results/tuning.txt: table -->`: the numbers of each row of the
 table before it stand, rounded, in one line of the file.
 """
 import csv
 import io
+import lzma
 import pathlib
 import re
 import statistics
@@ -29,7 +30,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent.parent / "
 import provenance  # noqa: E402  (the path comes first)
 
 MOST_OLDER = 25  # results made with other defaults than those of now: lower it as they are made again, never raise it
-QUOTE = re.compile(r"(?<!`)<!-- (\S+\.(?:csv|txt)): (.*?) -->", re.DOTALL)  # one in backticks is an example
+QUOTE = re.compile(r"(?<!`)<!-- (\S+\.(?:csv|csv\.xz|txt)): (.*?) -->", re.DOTALL)  # one in backticks is an example
 NUMBER = r"(?:\d{1,3}(?:,\d{3})+|\d+)(?:\.\d+)?(?:e[-+]?\d+)?"
 FIGURE_END = r";\s*(?=-?" + NUMBER + r"\s*=)"
 PLAIN_NUMBER = r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?"  # of a CSV file, in which commas part cells
@@ -173,18 +174,24 @@ def check_figure(figure, paragraph, quoted):
     return [f"{token} is {value:.6g} there: {expression}"]
 
 
+def read_result(path):
+    return (lzma.decompress(path.read_bytes()) if path.suffix == ".xz" else path.read_bytes()).decode()
+
+
 def check_quotes(root, rows):
     faults, count = [], 0
+    tree = provenance.Tree(root)
+    recorded = {name for patterns in rows for pattern in patterns.split(",") for name in tree.matching(pattern)}
     for page in pages(root):
         text = page.read_text(encoding="utf-8")
         name = page.relative_to(root).as_posix()
         for match in QUOTE.finditer(text):
             path = (page.parent / match[1]).resolve()
             source = path.relative_to(root.resolve()).as_posix()
-            if source not in rows or not path.exists():
+            if source not in recorded:
                 faults.append(f"{name}: {match[1]} is no recorded result")
                 continue
-            quoted = Quoted(path.read_text(encoding="utf-8"), path.suffix == ".csv")
+            quoted = Quoted(read_result(path), ".csv" in path.suffixes)
             paragraph = paragraph_before(text, match.start())
             found = []
             for figure in re.split(FIGURE_END, match[2]):

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Turns check_results.py red on purpose, once for each thing that it is to find, in a copy of the documents; and has
 refresh_quotes.py mend what it can."""
+import lzma
 import pathlib
 import shutil
 import sys
@@ -162,6 +163,21 @@ class CheckResults(Documents):
         self.assertEqual(self.faults(), "")
         self.quote('At most 1.24 ms.\n<!-- log.txt: 1.24 = found(r"worst case: ([\\d,]+)") / 1000 -->')
         self.expect("1.24 is 1.234 there")
+
+    def test_a_figure_of_compressed_rows(self):
+        folder = self.root / "doc/results/evaluation"
+        folder.mkdir()
+        (folder / "table.csv.xz").write_bytes(lzma.compress(b"row,us\npeg,31.4\nhooks,52.6\n"))
+        text = '%s us.\n<!-- evaluation/table.csv.xz: %s = value("us", row="peg") -->'
+        self.quote(text % (31, 31))
+        self.expect("evaluation/table.csv.xz is no recorded result")
+        rows = provenance.read_manifest(self.root)
+        row = dict(rows["doc/results/log.txt"], file="doc/results/evaluation/*.csv.xz")
+        rows[row["file"]] = provenance.entry(provenance.Tree(self.root), row)
+        provenance.write_manifest(rows, self.root)
+        self.assertEqual(self.faults(), "")
+        self.quote(text % (32, 32))
+        self.expect("32 is 31.4 there")
 
     def test_a_table(self):
         self.quote("| pair | us |\n|---|---|\n| `peg` | 31.4 |\n| hooks | 53 |\n<!-- tracking.csv: table -->")

@@ -9,6 +9,7 @@
 #include "concave_distance/mesh/import/import_mesh.h"
 #include "concave_distance/mesh/repair/repair_mesh.h"
 #include "concave_distance/mesh/surface/primitives.h"
+#include "support/hostile_mesh_files.h"
 #include "support/mesh_measures.h"
 #include "support/temporary_folder.h"
 
@@ -105,6 +106,28 @@ TEST_F(MeshTool, RefineReachesTheEdgeLength) {
   EXPECT_TRUE(contains(outcome.out, std::to_string(fine.vertexCount()) + " vertices"));
 }
 
+TEST_F(MeshTool, SimplifyTakesBackWhatRefineAdded) {
+  exportMesh(makeBox({1, 1, 1}), path("box.stl"));
+  ASSERT_EQ(run("refine " + path("box.stl") + " " + path("fine.ply") + " --max-edge 0.2").status, 0);
+  const Outcome outcome = run("simplify " + path("fine.ply") + " " + path("coarse.obj"));
+  EXPECT_EQ(outcome.status, 0) << outcome.errors;
+  EXPECT_TRUE(contains(outcome.out, "flat patches: 6\nwritten: 8 vertices, 12 triangles\n")) << outcome.out;
+  const SurfaceMesh coarse = read("coarse.obj");
+  EXPECT_EQ(coarse.triangleCount(), 12U);
+  EXPECT_TRUE(test::isClosedManifold(coarse));
+  EXPECT_NEAR(test::signedVolume(coarse), 1.0, 1e-12);
+}
+
+TEST_F(MeshTool, SimplifyServesEveryUnusualMesh) {
+  for (const test::HostileMesh& mesh : test::writeHostileMeshes(path("hostile"))) {
+    if (mesh.expectation != "served") continue;
+    ASSERT_EQ(run("repair " + mesh.path + " " + path("repaired.ply")).status, 0) << mesh.name;
+    const Outcome outcome = run("simplify " + mesh.path + " " + path("simple.ply"));
+    EXPECT_EQ(outcome.status, 0) << mesh.name << ": " << outcome.errors;
+    EXPECT_LE(read("simple.ply").triangleCount(), read("repaired.ply").triangleCount()) << mesh.name;
+  }
+}
+
 TEST_F(MeshTool, ConvertScalesAndMirrors) {
   exportMesh(makeBox({1000, 2000, 3000}), path("millimetres.obj"));
   ASSERT_EQ(run("convert --scale 0.001 " + path("millimetres.obj") + " " + path("metres.stl")).status, 0);
@@ -134,7 +157,8 @@ TEST_F(MeshTool, AWrongCommandLineEndsWithStatusTwo) {
   for (const std::string& arguments :
        {std::string(), std::string("polish a.stl"), "refine " + path("box.stl") + " " + path("fine.stl"),
         "convert " + path("box.stl"), "inspect --scale 1,2 " + path("box.stl"),
-        "inspect --scale big " + path("box.stl")}) {
+        "inspect --scale big " + path("box.stl"),
+        "simplify --tolerance -1 " + path("box.stl") + " " + path("simple.stl")}) {
     const Outcome outcome = run(arguments);
     EXPECT_EQ(outcome.status, 2) << arguments;
     EXPECT_NE(outcome.errors, "") << arguments;
@@ -143,7 +167,7 @@ TEST_F(MeshTool, AWrongCommandLineEndsWithStatusTwo) {
 
 TEST_F(MeshTool, HelpGoesToStandardOutput) {
   for (const std::string arguments :
-       {"--help", "inspect --help", "repair --help", "refine --help", "convert --help"}) {
+       {"--help", "inspect --help", "repair --help", "refine --help", "simplify --help", "convert --help"}) {
     const Outcome outcome = run(arguments);
     EXPECT_EQ(outcome.status, 0);
     EXPECT_TRUE(contains(outcome.out, "Usage: mesh_tool"));

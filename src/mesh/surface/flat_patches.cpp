@@ -32,6 +32,31 @@ std::uint32_t acrossEdge(const SurfaceMesh& surface, const EdgeTable& edges, Hal
   return startOf(surface.triangles(), h) == startOf(surface.triangles(), other) ? h / 3 : other / 3;
 }
 
+/// What lies close to a plane and faces its way.
+struct Slab {
+  Eigen::Vector3d normal;
+  Eigen::Vector3d on_plane;
+  double flatness;      ///< metres, to either side
+  double least_height;  ///< of a triangle
+
+  bool holds(const SurfaceMesh& surface, std::uint32_t t) const {
+    double longest = 0.0;
+    for (int k = 0; k < 3; ++k) {
+      const Eigen::Vector3d& corner = surface.corner(TriangleIndex{t}, k);
+      longest = std::max(longest, (surface.corner(TriangleIndex{t}, (k + 1) % 3) - corner).norm());
+      if (std::abs(normal.dot(corner - on_plane)) > flatness) {
+        return false;
+      }
+    }
+    return normal.dot(areaVector(surface, t)) > 0.5 * least_height * longest;
+  }
+};
+
+/// A height below this is lost in the rounding of plane coordinates: which way the triangle faces is unknown.
+double leastHeightOf(const SurfaceMesh& surface) {
+  return 1e3 * std::numeric_limits<double>::epsilon() * surface.diameter();
+}
+
 /// Takes the direction of the longest edge on the patch's border.
 PatchFrame frameOf(const SurfaceMesh& surface, const EdgeTable& edges,
                    const std::vector<std::uint32_t>& patch_of_triangle,
@@ -92,33 +117,20 @@ FlatPatches findFlatPatches(const SurfaceMesh& surface, const EdgeTable& edges, 
 
   FlatPatches patches;
   patches.patch_of_triangle.assign(triangle_count, kNoPatch);
-  // A height below this is lost in the rounding of plane coordinates: which way the triangle faces is
-  // unknown.
-  const double least_height = 1e3 * std::numeric_limits<double>::epsilon() * surface.diameter();
+  const double least_height = leastHeightOf(surface);
   for (const std::uint32_t seed : by_area) {
     if (patches.patch_of_triangle[seed] != kNoPatch) {
       continue;
     }
     const auto patch = static_cast<std::uint32_t>(patches.frames.size());
     const Eigen::Vector3d normal = areaVector(surface, seed).stableNormalized();
-    const Eigen::Vector3d& on_plane = surface.corner(TriangleIndex{seed}, 0);
-    const auto fits = [&](std::uint32_t t) {
-      double longest = 0.0;
-      for (int k = 0; k < 3; ++k) {
-        const Eigen::Vector3d& corner = surface.corner(TriangleIndex{t}, k);
-        longest = std::max(longest, (surface.corner(TriangleIndex{t}, (k + 1) % 3) - corner).norm());
-        if (std::abs(normal.dot(corner - on_plane)) > flatness) {
-          return false;
-        }
-      }
-      return normal.dot(areaVector(surface, t)) > 0.5 * least_height * longest;
-    };
+    const Slab slab{normal, surface.corner(TriangleIndex{seed}, 0), flatness, least_height};
     std::vector<std::uint32_t> members{seed};
     patches.patch_of_triangle[seed] = patch;
     for (std::size_t next = 0; next < members.size(); ++next) {
       for (HalfEdge h = 3 * members[next]; h < 3 * members[next] + 3; ++h) {
         const std::uint32_t other = acrossEdge(surface, edges, h);
-        if (patches.patch_of_triangle[other] == kNoPatch && fits(other)) {
+        if (patches.patch_of_triangle[other] == kNoPatch && slab.holds(surface, other)) {
           patches.patch_of_triangle[other] = patch;
           members.push_back(other);
         }
@@ -128,6 +140,41 @@ FlatPatches findFlatPatches(const SurfaceMesh& surface, const EdgeTable& edges, 
     patches.triangles_of_patch.push_back(std::move(members));
   }
   return patches;
+}
+
+FlatPatches joinFlatPatches(const SurfaceMesh& surface, const EdgeTable& edges, const FlatPatches& patches,
+                            double flatness) {
+  FlatPatches joined;
+  joined.patch_of_triangle.assign(surface.triangleCount(), kNoPatch);
+  // Patches come in the order of their first triangles' areas.
+  for (const std::vector<std::uint32_t>& first : patches.triangles_of_patch) {
+    if (joined.patch_of_triangle[first.front()] != kNoPatch) {
+      continue;
+    }
+    const auto patch = static_cast<std::uint32_t>(joined.frames.size());
+    const Eigen::Vector3d normal = areaVector(surface, first.front()).stableNormalized();
+    const Slab slab{normal, surface.corner(TriangleIndex{first.front()}, 0), flatness,
+                    leastHeightOf(surface)};
+    std::vector<std::uint32_t> members;
+    const auto take = [&](const std::vector<std::uint32_t>& triangles) {
+      for (const std::uint32_t t : triangles) joined.patch_of_triangle[t] = patch;
+      members.insert(members.end(), triangles.begin(), triangles.end());
+    };
+    take(first);
+    for (std::size_t next = 0; next < members.size(); ++next) {
+      for (HalfEdge h = 3 * members[next]; h < 3 * members[next] + 3; ++h) {
+        const std::uint32_t other = acrossEdge(surface, edges, h);
+        const auto& candidate = patches.triangles_of_patch[patches.patch_of_triangle[other]];
+        if (joined.patch_of_triangle[other] == kNoPatch &&
+            std::all_of(candidate.begin(), candidate.end(), [&](auto t) { return slab.holds(surface, t); })) {
+          take(candidate);
+        }
+      }
+    }
+    joined.frames.push_back(frameOf(surface, edges, joined.patch_of_triangle, members, normal));
+    joined.triangles_of_patch.push_back(std::move(members));
+  }
+  return joined;
 }
 
 }  // namespace concave_distance::detail

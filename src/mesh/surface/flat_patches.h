@@ -30,4 +30,10 @@ struct FlatPatches {
 /// of the plane of the patch's first and largest triangle and they face its way. O(n log n).
 FlatPatches findFlatPatches(const SurfaceMesh& surface, const EdgeTable& edges, double flatness);
 
+/// Joins whole patches over such edges while all of their vertices stay within `flatness` metres of the plane
+/// of the joined patch's largest part: triangles that lie in one plane up to rounding are not parted where a
+/// plane close by meets theirs. O(triangles) for each patch that a patch is compared with.
+FlatPatches joinFlatPatches(const SurfaceMesh& surface, const EdgeTable& edges, const FlatPatches& patches,
+                            double flatness);
+
 }  // namespace concave_distance::detail

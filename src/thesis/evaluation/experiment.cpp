@@ -262,6 +262,7 @@ Experiment loadExperiment(const std::string& file) {
   runs.finish();
   if (auto v = map.take("niches")) experiment.niches = v->boolean();
   if (auto v = map.take("curves")) experiment.curves = v->boolean();
+  if (auto v = map.take("points")) experiment.points = v->boolean();
   const YamlMap scenes(map.require("scenes", "name scenes and their grids: {battery_static: 0.05}"),
                        "scenes and the edge length of their grids");
   const std::string folder = std::filesystem::path(file).parent_path().string();

@@ -52,6 +52,7 @@ struct Experiment {
   std::uint32_t full_runs = 1;
   bool niches = false;  ///< recall and precision of the final population are measured as well
   bool curves = false;  ///< averages over the generations are kept
+  bool points = false;  ///< the best points of the final populations are kept
   std::vector<ExperimentScene> scenes;
   std::vector<ExperimentRow> rows;
 };

@@ -112,6 +112,9 @@ TrialRecord runCombinatorial(const SearchMethod& method, const SceneTruth& scene
     record.members[i] = niches[i].member_count;
     record.niche_distances[i] = std::sqrt(niches[i].best.squared_distance);
   }
+  const auto best = std::min_element(workspace.population.begin(), workspace.population.end());
+  record.point_a = scene.a->graph().positions[best->node_a.value];
+  record.point_b = scene.b->graph().positions[best->node_b.value];
   if (places != nullptr) *places = placesOf(scene, niches, workspace.basins.minima());
   return record;
 }
@@ -134,6 +137,8 @@ TrialRecord runContinuous(const SceneTruth& scene, Diary& diary, const Search& s
   record.distance = result.distance;
   record.best_iteration = result.best_generation;
   record.feasible = result.is_feasible;
+  record.point_a = result.best.point_a;
+  record.point_b = result.best.point_b;
   record.exact = record.feasible && record.distance <= truth.exact_distance * kSame;
   record.region = record.feasible && record.distance < truth.exact_region_limit;
   record.basin = record.region || leadsToOptimum(scene, result.best.point_a, result.best.point_b);

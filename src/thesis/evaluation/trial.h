@@ -1,7 +1,9 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "experiment.h"
@@ -50,6 +52,9 @@ struct TrialRecord {
   std::uint32_t most_niches = 0;     ///< at one instant
   /// Instants at which the proof found a nearer place than every niche that the search had met.
   std::uint32_t proof_finds = 0;
+  /// The best point pair of the final population, each point in its body's frame. Of runs at one pose.
+  Eigen::Vector3d point_a = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  Eigen::Vector3d point_b = point_a;
 };
 
 /// Iterations between two points of a curve: every generation of a GA, every tenth iteration of annealing.

@@ -25,6 +25,8 @@ std::string runsHeader() {
 constexpr const char* kCurvesHeader =
     "row,scene,first_run,runs,iteration,best_distance_sum,mean_square_sum,niches_sum,acceptance_sum";
 
+constexpr const char* kPointsHeader = "row,scene,run,distance,ax,ay,az,bx,by,bz";
+
 /// A last line without an end was cut off by a crash or a full disk: nothing says that its last cell is
 /// whole, and what is appended would go on in it. It is dropped, after the header has said whose file it is.
 /// Returns whether anything is left. @throws Error
@@ -78,6 +80,8 @@ TrialFiles::TrialFiles(const Experiment& experiment, const std::string& folder) 
   readDone(path);
   if (experiment.curves)
     curves_ = openToAppend(folder + "/" + experiment.name + "_curves.csv", kCurvesHeader);
+  if (experiment.points)
+    points_ = openToAppend(folder + "/" + experiment.name + "_points.csv", kPointsHeader);
 }
 
 void TrialFiles::readDone(const std::string& path) {
@@ -124,6 +128,7 @@ void TrialFiles::append(const WorkUnit& unit, const std::vector<TrialRecord>& re
     curve_cells.endLine();
   }
   requireWritten(curves_.flush(), experiment_.name + "_curves.csv");
+  if (experiment_.points) appendPoints(unit, records);
   std::ostringstream lines;
   CsvWriter cells(lines);
   for (std::size_t i = 0; i < records.size(); ++i) {
@@ -142,6 +147,17 @@ void TrialFiles::append(const WorkUnit& unit, const std::vector<TrialRecord>& re
     cells.endLine();
   }
   requireWritten(runs_ << lines.str() << std::flush, experiment_.name + ".csv");
+}
+
+void TrialFiles::appendPoints(const WorkUnit& unit, const std::vector<TrialRecord>& records) {
+  CsvWriter cells(points_);
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    const TrialRecord& r = records[i];
+    cells << experiment_.rows[unit.row].name << experiment_.scenes[unit.scene].name << unit.first_run + i
+          << r.distance << r.point_a << r.point_b;
+    cells.endLine();
+  }
+  requireWritten(points_.flush(), experiment_.name + "_points.csv");
 }
 
 }  // namespace concave_distance::evaluation

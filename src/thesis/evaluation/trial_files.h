@@ -19,10 +19,11 @@ struct WorkUnit {
   std::uint32_t run_count;
 };
 
-/// The two files of an experiment: `<folder>/<name>.csv`, a line a run, and with curves
-/// `<folder>/<name>_curves.csv`, sums over the runs of a unit at each generation. Both are appended to, unit
-/// by unit, the runs' file last: what an interrupted evaluation has left is gone on from (a last line that
-/// was cut off is dropped, its run done again), and the files of several shards are merged by joining them.
+/// The files of an experiment: `<folder>/<name>.csv`, a line a run; with curves `<folder>/<name>_curves.csv`,
+/// sums over the runs of a unit at each generation; with points `<folder>/<name>_points.csv`, a line a run.
+/// They are appended to, unit by unit, the runs' file last: what an interrupted evaluation has left is gone
+/// on from (a last line that was cut off is dropped, its run done again), and the files of several shards are
+/// merged by joining them.
 class TrialFiles {
  public:
   /// Opens or begins the files. @throws Error when they cannot be written, belong to another experiment or
@@ -35,11 +36,13 @@ class TrialFiles {
               const std::vector<CurvePoint>& curve);
 
  private:
+  void appendPoints(const WorkUnit& unit, const std::vector<TrialRecord>& records);
   void readDone(const std::string& path);
 
   const Experiment& experiment_;
   std::ofstream runs_;
   std::ofstream curves_;
+  std::ofstream points_;
   std::set<std::tuple<std::string, std::string, std::uint32_t>> done_;  ///< row, scene, run
 };
 

@@ -183,6 +183,18 @@ TEST_F(Evaluation, MeasuresContinuousRunsByPointsInTheBodies) {
   EXPECT_GT(record.flops, 26 * record.cost.evaluations);  // constraints count, too
 }
 
+TEST_F(Evaluation, KeepsTheBestPointsOfFinalPopulations) {
+  const Experiment experiment = loadExperiment(write(std::string(kExperiment) + "points: true\n"));
+  run(experiment, options("points", 10));
+  EXPECT_EQ(linesOf("points", "small_points.csv").size(), 30U);
+  const SceneTruth scene = loadScene(experiment.scenes[0], kSource + "/meshes/thesis");
+  const TrialRecord annealed = runOne(experiment, 1, scene, nullptr);  // its population is its best
+  EXPECT_NEAR((annealed.point_a - scene.first().a_from_b * annealed.point_b).norm(), annealed.distance,
+              1e-12);
+  const TrialRecord shared = runOne(experiment, 0, scene, nullptr);  // without an elite: the best may be lost
+  EXPECT_GE((shared.point_a - scene.first().a_from_b * shared.point_b).norm(), shared.distance - 1e-12);
+}
+
 TEST_F(Evaluation, FollowsAMotion) {
   const std::string meshes = kSource + "/meshes/";
   const Experiment experiment = loadExperiment(write(R"(
