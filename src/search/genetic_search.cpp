@@ -57,7 +57,7 @@ void startPopulation(GeneticState& state, const std::vector<TrialPoint>& inherit
 void runGeneration(GeneticState& state, std::uint32_t generation) {
   SearchWorkspace& work = state.work;
   state.mutation_probability = mutationProbability(state.parameters, generation);
-  state.mutation_radius = mutationRadius(state.parameters, generation);
+  state.mutation_radius = mutationRadius(state.parameters, state.objective, generation);
   chooseElites(state);
   breed(state);
   work.census.take(work.population_places, work.places.size());
