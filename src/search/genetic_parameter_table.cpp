@@ -103,7 +103,7 @@ ParameterTable<G> ofMethods() {
                 {"one_node_along_edges", DescentMoves::OneNodeAlongEdges}},
           [](auto& g) -> auto& { return g.descent_moves; },
           "`one_node`: a descent moves one node at a time; `both_nodes`: where no such move is left, both at "
-          "once; `one_node_along_edges`: never in longer steps than an edge")
+          "once")
           .withExperimentChoices({"one_node_along_edges"}),
       flag<G>(
           "descend_first_population", [](auto& g) -> auto& { return g.descend_first_population; },
