@@ -3,11 +3,13 @@
 
     scripts/provenance.py record doc/results/front.csv            a line that is there, after its command was run again
     scripts/provenance.py record doc/results/new.csv --defaults tracker --command new_benchmark [--inputs PATTERN,...]
+    scripts/provenance.py unchanged --commit BEFORE               after declarations changed and no answer did
     scripts/provenance.py commit                                  with +changes where sources are not committed
 
 A line has the file (or a pattern) and its digest; the commit of the program; the groups of parameter defaults that it
 used, with their fingerprint; the files that it was made from, with their digest. `test/scripts/check_results.py`
-compares them with what there is now. Groups: tracker, thesis, contact, simulation.
+compares them with what there is now. `unchanged` is for members that are new, gone or renamed while
+`scripts/compare_answers.py` finds the same bytes: lines that were up to date at the commit before get the fingerprints of now. Groups: tracker, thesis, contact, simulation.
 """
 import argparse
 import csv
@@ -157,15 +159,29 @@ def record(names, commit=None, **given):
     write_manifest(rows)
 
 
+def keep_unchanged(commit):
+    """Renews the fingerprints of lines that agree with the defaults of a commit."""
+    before, now = Tree(commit=commit), Tree()
+    rows = read_manifest()
+    for row in rows.values():
+        if row["defaults"] and row["fingerprint"] == fingerprint(before, row["defaults"]):
+            row["fingerprint"] = fingerprint(now, row["defaults"])
+    write_manifest(rows)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("action", choices=["record", "commit"])
+    parser.add_argument("action", choices=["record", "unchanged", "commit"])
     parser.add_argument("names", nargs="*")
     for option in ("--defaults", "--inputs", "--command", "--commit"):
         parser.add_argument(option)
     options = parser.parse_args()
     if options.action == "record":
         record(options.names, options.commit, defaults=options.defaults, inputs=options.inputs, command=options.command)
+    elif options.action == "unchanged":
+        if not options.commit:
+            raise SystemExit("name the commit before the change: unchanged --commit BEFORE")
+        keep_unchanged(options.commit)
     else:
         print(head_commit(Tree()))
 

@@ -39,6 +39,9 @@ struct ParameterInfo {
   std::string sentence;      ///< what it does; Markdown
   bool at_run_time = false;  ///< may change while the node runs
   bool is_expert = false;    ///< below `expert`
+  /// Read by the program `evaluate` alone (doc/experiments.md), the whole parameter or some choices of it.
+  bool is_of_experiments = false;
+  std::vector<std::string> experiment_choices;
 };
 
 /// "greater than 0, m, or none": what a value may be, for messages and documents.
@@ -49,6 +52,13 @@ std::string toText(const ParameterValue& value);
 /// requireAllowed().
 ParameterValue parseParameter(const ParameterInfo& info, const std::string& text);
 bool isAllowed(const ParameterInfo& info, const ParameterValue& value);
+/// Whether the value is a choice of experiments, which this declaration does not allow.
+bool isExperimentChoice(const ParameterInfo& info, const ParameterValue& value);
+ParameterInfo withoutExperimentChoices(ParameterInfo info);
+/// What is wrong with a parameter, or a choice of one, that experiments alone read; and what to do.
+std::string saysOfExperiments(const std::string& name);
+inline constexpr const char* kLeaveToExperiments =
+    "leave it out: only the program evaluate reads it (doc/experiments.md)";
 /// Whether a parameter means something to a model.
 bool belongsTo(const ParameterInfo& info, const std::string& model);
 /// The models that it belongs to: "a", "a and b", "a, b and c". @param last between the last two, "and"
@@ -106,6 +116,14 @@ struct Parameter {
   }
   Parameter& forExperts() {
     info.is_expert = true;
+    return *this;
+  }
+  Parameter& forExperiments() {
+    info.is_of_experiments = true;
+    return *this;
+  }
+  Parameter& withExperimentChoices(std::vector<std::string> choices) {
+    info.experiment_choices = std::move(choices);
     return *this;
   }
 };
@@ -293,6 +311,18 @@ ParameterTable<Settings> joined(const std::vector<ParameterTable<Settings>>& tab
   ParameterTable<Settings> all;
   for (const ParameterTable<Settings>& table : tables) all.insert(all.end(), table.begin(), table.end());
   return all;
+}
+
+/// Without the parameters and choices of experiments.
+template <typename Settings>
+ParameterTable<Settings> withoutExperiments(const ParameterTable<Settings>& table) {
+  ParameterTable<Settings> kept;
+  for (const Parameter<Settings>& parameter : table) {
+    if (parameter.info.is_of_experiments) continue;
+    kept.push_back(parameter);
+    kept.back().info = withoutExperimentChoices(parameter.info);
+  }
+  return kept;
 }
 
 /// The parameter of this name, or null.

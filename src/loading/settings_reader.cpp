@@ -60,32 +60,34 @@ void readCommonRadii(YamlMap& map, TrackerParameters& tracker) {
   }
 }
 
-void readExpertSettings(const YamlValue& value, PairSettings& settings) {
+void readExpertSettings(const YamlValue& value, PairSettings& settings, SettingsReader reader) {
   YamlMap map(value, "a map of settings for experts");
   refuseGone(map);
   readParameters(map, pairParameters(), true, settings);
   // Before cold and warm, whose own radii apply.
   readCommonRadii(map, settings.tracker);
-  if (auto v = map.take("cold")) readGeneticParameters(*v, settings.tracker.cold);
-  if (auto v = map.take("warm")) readGeneticParameters(*v, settings.tracker.warm);
+  if (auto v = map.take("cold")) readGeneticParameters(*v, settings.tracker.cold, reader);
+  if (auto v = map.take("warm")) readGeneticParameters(*v, settings.tracker.warm, reader);
   map.finish();
 }
 
 }  // namespace
 
-void readPairSettings(YamlMap& map, PairSettings& settings) {
+void readPairSettings(YamlMap& map, PairSettings& settings, SettingsReader reader) {
   refuseRenamed(map);
   readParameters(map, pairParameters(), false, settings);
   if (auto v = map.take("effects")) readEffects(*v, settings.effects);
-  if (auto v = map.take("expert")) readExpertSettings(*v, settings);
+  if (auto v = map.take("expert")) readExpertSettings(*v, settings, reader);
 }
 
-void readGeneticParameters(const YamlValue& value, GeneticParameters& parameters) {
+void readGeneticParameters(const YamlValue& value, GeneticParameters& parameters, SettingsReader reader) {
   YamlMap map(value, "a map of parameters of the genetic algorithm");
   if (const auto old = map.take("immigrants")) {
     old->fail("'immigrants' has another name", "write random_immigrants");
   }
-  readParameters(map, geneticParameters(), false, parameters);
+  const bool is_experiment = reader == SettingsReader::Experiment;
+  if (!is_experiment) refuseExperiments(map, allGeneticParameters());
+  readParameters(map, is_experiment ? allGeneticParameters() : geneticParameters(), false, parameters);
   map.finish();
 }
 

@@ -6,6 +6,13 @@ namespace {
 
 using G = GeneticParameters;
 
+std::vector<std::pair<std::string, Cooling>> coolings() {
+  return {{"constant", Cooling::Constant},
+          {"linear", Cooling::Linear},
+          {"exponential", Cooling::Exponential},
+          {"boltzmann", Cooling::Boltzmann}};
+}
+
 ParameterTable<G> ofVariation() {
   return {
       count<G>(
@@ -28,15 +35,22 @@ ParameterTable<G> ofVariation() {
       number<G>(
           "final_mutation_probability_factor",
           [](auto& g) -> auto& { return g.final_mutation_probability_factor; },
-          "the mutation probability changes linearly to this multiple"),
+          "the mutation probability ends at this multiple")
+          .forExperiments(),
+      choice<G>(
+          "mutation_probability_cooling", coolings(),
+          [](auto& g) -> auto& { return g.mutation_probability_cooling; }, "how it gets there")
+          .forExperiments(),
       optionalNumber<G>(
           "mutation_radius", "none", [](auto& g) -> auto& { return g.mutation_radius; },
           "mesh distance of a mutation; `none`: anywhere on the shell")
           .inUnit("m")
-          .above(0.0),
-      flag<G>(
-          "shrinking_mutation_radius", [](auto& g) -> auto& { return g.shrinking_mutation_radius; },
-          "with a `mutation_radius` only"),
+          .above(0.0)
+          .forExperiments(),
+      choice<G>(
+          "mutation_radius_cooling", coolings(), [](auto& g) -> auto& { return g.mutation_radius_cooling; },
+          "how the radius falls over the generations; from the larger body's extent where none is given")
+          .forExperiments(),
   };
 }
 
@@ -51,14 +65,16 @@ ParameterTable<G> ofMethods() {
           "selection",
           Selections{{"stochastic_universal_sampling", SelectionMethod::StochasticUniversalSampling},
                      {"roulette", SelectionMethod::Roulette}},
-          [](auto& g) -> auto& { return g.selection; }, "of parents"),
+          [](auto& g) -> auto& { return g.selection; }, "of parents")
+          .forExperiments(),
       choice<G>(
           "mating",
           Matings{{"mesh", MatingMethod::Mesh},
                   {"mesh_near_fitter", MatingMethod::MeshNearFitter},
                   {"phenotypic", MatingMethod::Phenotypic},
                   {"genotypic", MatingMethod::Genotypic}},
-          [](auto& g) -> auto& { return g.mating; }, "where children stand between their parents"),
+          [](auto& g) -> auto& { return g.mating; }, "where children stand between their parents")
+          .forExperiments(),
       choice<G>(
           "niching",
           Nichings{
@@ -68,7 +84,9 @@ ParameterTable<G> ofMethods() {
               {"deterministic_crowding", NichingMethod::DeterministicCrowding},
               {"deterministic_crowding_with_selection", NichingMethod::DeterministicCrowdingWithSelection},
               {"simple_crowding", NichingMethod::SimpleCrowding}},
-          [](auto& g) -> auto& { return g.niching; }, "what keeps several niches in the population"),
+          [](auto& g) -> auto& { return g.niching; }, "what keeps several niches in the population")
+          .withExperimentChoices(
+              {"dynamic_sharing", "deterministic_crowding_with_selection", "simple_crowding"}),
       choice<G>(
           "local_optimization",
           Optimizations{{"none", LocalOptimization::None},
@@ -76,7 +94,8 @@ ParameterTable<G> ofMethods() {
                         {"baldwinian", LocalOptimization::Baldwinian}},
           [](auto& g) -> auto& { return g.local_optimization; },
           "`lamarckian`: every new trial point moves to the local minimum that it descends to; `baldwinian`: "
-          "it counts as fit as that minimum and stays"),
+          "it counts as fit as that minimum and stays")
+          .forExperiments(),
       choice<G>(
           "descent_moves",
           Moves{{"one_node", DescentMoves::OneNode},
@@ -84,10 +103,12 @@ ParameterTable<G> ofMethods() {
                 {"one_node_along_edges", DescentMoves::OneNodeAlongEdges}},
           [](auto& g) -> auto& { return g.descent_moves; },
           "`one_node`: a descent moves one node at a time; `both_nodes`: where no such move is left, both at "
-          "once; `one_node_along_edges`: never in longer steps than an edge"),
+          "once")
+          .withExperimentChoices({"one_node_along_edges"}),
       flag<G>(
           "descend_first_population", [](auto& g) -> auto& { return g.descend_first_population; },
-          "descend the first population before parents are selected from it"),
+          "descend the first population before parents are selected from it")
+          .forExperiments(),
   };
 }
 
@@ -107,7 +128,8 @@ ParameterTable<G> ofNiching() {
       count<G>(
           "dynamic_niche_limit", [](auto& g) -> auto& { return g.dynamic_niche_limit; },
           "peaks of dynamic sharing")
-          .from(1.0),
+          .from(1.0)
+          .forExperiments(),
       optionalNumber<G>(
           "mating_radius", "auto", [](auto& g) -> auto& { return g.mating_radius; },
           "mesh distance; `auto`: 1.25 sharing radii")
@@ -119,7 +141,8 @@ ParameterTable<G> ofNiching() {
       flag<G>(
           "strict_mating_restriction", [](auto& g) -> auto& { return g.strict_mating_restriction; },
           "who finds no partner within the mating radius does not mate; otherwise, after two tries, with "
-          "anybody"),
+          "anybody")
+          .forExperiments(),
       optionalNumber<G>(
           "niche_radius", "auto", [](auto& g) -> auto& { return g.niche_radius; },
           "mesh distance; `auto`: the sharing radius")
@@ -127,7 +150,8 @@ ParameterTable<G> ofNiching() {
           .above(0.0),
       count<G>(
           "crowding_factor", [](auto& g) -> auto& { return g.crowding_factor; }, "of simple crowding")
-          .from(1.0),
+          .from(1.0)
+          .forExperiments(),
   };
 }
 
@@ -137,7 +161,8 @@ ParameterTable<G> ofTheRun() {
           "generation_gap", [](auto& g) -> auto& { return g.generation_gap; },
           "share of the population replaced in a generation")
           .above(0.0)
-          .to(1.0),
+          .to(1.0)
+          .forExperiments(),
       count<G>(
           "random_immigrants", [](auto& g) -> auto& { return g.random_immigrants; },
           "random trial points tried in each generation"),
@@ -149,7 +174,8 @@ ParameterTable<G> ofTheRun() {
           "with sharing: the best of every niche survives too"),
       count<G>(
           "convergence_generations", [](auto& g) -> auto& { return g.convergence_generations; },
-          "stop after so many generations without change; 0: never early"),
+          "stop after so many generations without change; 0: never early")
+          .forExperiments(),
       count<G>(
           "evaluation_limit", [](auto& g) -> auto& { return g.evaluation_limit; },
           "no further descent after so many evaluations; 0: no limit"),
@@ -158,8 +184,13 @@ ParameterTable<G> ofTheRun() {
 
 }  // namespace
 
-const ParameterTable<GeneticParameters>& geneticParameters() {
+const ParameterTable<GeneticParameters>& allGeneticParameters() {
   static const ParameterTable<G> table = joined<G>({ofVariation(), ofMethods(), ofNiching(), ofTheRun()});
+  return table;
+}
+
+const ParameterTable<GeneticParameters>& geneticParameters() {
+  static const ParameterTable<G> table = withoutExperiments(allGeneticParameters());
   return table;
 }
 

@@ -13,8 +13,8 @@ namespace concave_distance {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// The decay of the radius over a run: e^-5 is 0.7 %.
-constexpr double kRadiusDecay = 5.0;
+// Over a run: e^-5 is 0.7 %.
+constexpr double kExponentialDecay = 5.0;
 
 NodeIndex randomNode(const NodeGraph& graph, RandomEngine& engine) {
   return NodeIndex{uniformIndex(engine, static_cast<std::uint32_t>(graph.nodeCount()))};
@@ -64,19 +64,42 @@ TrialPoint randomTrialPoint(const PairObjective& objective, RandomEngine& engine
   return {node_a, randomNode(objective.bodyB().graph(), engine), kNotComputed};
 }
 
-double mutationRadius(const GeneticParameters& parameters, std::uint32_t generation) {
-  const double radius = parameters.mutation_radius.value_or(kInfinity);
-  if (!parameters.shrinking_mutation_radius) {
-    return radius;
+double coolingFactor(Cooling cooling, std::uint32_t generation, std::uint32_t max_generations) {
+  const double all = std::max(1U, max_generations);
+  const double temperature = std::max(1.0, all + 1.0 - generation);
+  switch (cooling) {
+    case Cooling::Constant:
+      return 1.0;
+    case Cooling::Linear:
+      return temperature / all;
+    case Cooling::Exponential:
+      return std::exp(-kExponentialDecay * generation / all);
+    case Cooling::Boltzmann:
+      return std::exp(1.0 - all / temperature);
   }
-  return radius * std::exp(-kRadiusDecay * generation / std::max(1U, parameters.max_generations));
+  return 1.0;
+}
+
+double mutationRadius(const GeneticParameters& parameters, const PairObjective& objective,
+                      std::uint32_t generation) {
+  if (parameters.mutation_radius_cooling == Cooling::Constant) {
+    return parameters.mutation_radius.value_or(kInfinity);
+  }
+  const double radius = parameters.mutation_radius ? *parameters.mutation_radius
+                                                   : std::max(objective.bodyA().geodesicExtent(),
+                                                              objective.bodyB().geodesicExtent());
+  return radius * coolingFactor(parameters.mutation_radius_cooling, generation, parameters.max_generations);
 }
 
 double mutationProbability(const GeneticParameters& parameters, std::uint32_t generation) {
   const double first = parameters.mutation_probability.value_or(1.0 / parameters.population_size);
-  const double share = parameters.max_generations > 1
-                           ? static_cast<double>(generation - 1) / (parameters.max_generations - 1)
-                           : 0.0;
+  double share = parameters.max_generations > 1
+                     ? static_cast<double>(generation - 1) / (parameters.max_generations - 1)
+                     : 0.0;
+  if (parameters.mutation_probability_cooling != Cooling::Linear) {
+    share =
+        1.0 - coolingFactor(parameters.mutation_probability_cooling, generation, parameters.max_generations);
+  }
   return std::min(1.0, first * (1.0 + share * (parameters.final_mutation_probability_factor - 1.0)));
 }
 

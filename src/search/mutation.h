@@ -21,12 +21,14 @@ TrialPoint moveBoth(const TrialPoint& point, double radius, PairMetric& metric, 
 /// A uniformly random node pair, its distance not computed.
 TrialPoint randomTrialPoint(const PairObjective& objective, RandomEngine& engine);
 
-/// r_max of a generation: as given, or shrinking with exp(-5 g / G_max) (Carretero,
-/// sec. 3.2.2.c scales it by the annealing's Boltzmann factor, which a GA has not), so that the last
-/// generation moves by less than 1 % of it. An infinite radius does not shrink.
-double mutationRadius(const GeneticParameters& parameters, std::uint32_t generation);
+/// The share of its first value that a quantity has in a generation, from 1; at most 1.
+double coolingFactor(Cooling cooling, std::uint32_t generation, std::uint32_t max_generations);
 
-/// p_m of a generation: falls or rises linearly from its value in the first to `factor` times it in the last.
+/// r_max of a generation (Carretero, sec. 3.3.2.c), metres; infinite: anywhere on the shell.
+double mutationRadius(const GeneticParameters& parameters, const PairObjective& objective,
+                      std::uint32_t generation);
+
+/// p_m of a generation: cools, or rises, from its value in the first to `factor` times it in the last.
 double mutationProbability(const GeneticParameters& parameters, std::uint32_t generation);
 
 }  // namespace concave_distance

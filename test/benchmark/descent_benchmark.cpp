@@ -13,16 +13,14 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <cstdio>
 #include <fstream>
 
 #include "benchmark/support/benchmark_main.h"
 #include "benchmark/support/benchmark_pairs.h"
+#include "benchmark/support/proven_niches.h"
 #include "benchmark/support/shapes.h"
 #include "benchmark/support/stopwatch.h"
-#include "concave_distance/tracking/pair_tracker.h"
-#include "distance/witness_refinement.h"
 #include "mesh/body_mesh_parts.h"
 #include "search/genetic_search.h"
 #include "thesis/evaluation/multi_start_descent.h"
@@ -41,46 +39,6 @@ struct Scene {
   std::vector<TrackedNiche> truth;
 };
 
-std::vector<TrackedNiche> truthOf(const Scene& scene) {
-  TrackerParameters parameters;
-  parameters.accuracy = AccuracyLevel::Certified;
-  parameters.hidden = true;
-  parameters.least_prominence = 1e-2;
-  parameters.largest_niche_count = 10000;
-  parameters.niches_wanted = true;
-  PairSolution solution = solveOnce(scene.name, scene.a[0], scene.b[0], parameters, scene.pose);
-  const double smaller = std::min(scene.a[0]->diameter(), scene.b[0]->diameter());
-  const double cutoff = std::max(5.0 * solution.distance, 0.25 * smaller);
-  std::vector<TrackedNiche> truth;
-  for (const TrackedNiche& niche : solution.niches) {
-    // A prominence that was too high to be measured is not a number.
-    if (niche.distance <= cutoff && !(niche.prominence < 1e-2)) truth.push_back(niche);
-  }
-  return truth;
-}
-
-/// Share of the truth that the minima are refined to: the same distance, and the same point unless the niche
-/// has an extent.
-double recallOf(const Scene& scene, const std::vector<TrialPoint>& minima) {
-  if (scene.truth.empty()) return 1.0;
-  const BodyMesh& a = *scene.a[0];
-  const BodyMesh& b = *scene.b[0];
-  const double size = std::min(a.diameter(), b.diameter());
-  RefinementWorkspace workspace;
-  std::vector<bool> met(scene.truth.size());
-  for (const TrialPoint& minimum : minima) {
-    const WitnessPair found = refineWitness(a, b, scene.pose, a.originalTriangle(minimum.node_a),
-                                            b.originalTriangle(minimum.node_b), workspace)
-                                  .witness;
-    for (std::size_t i = 0; i < met.size(); ++i) {
-      const TrackedNiche& niche = scene.truth[i];
-      if (std::abs(std::sqrt(found.squared_distance) - niche.distance) > 1e-6 * size) continue;
-      if (niche.extent > 0.0 || (found.point_a_in_a - niche.point_a_in_a).norm() < 1e-3 * size) met[i] = true;
-    }
-  }
-  return static_cast<double>(std::count(met.begin(), met.end(), true)) / static_cast<double>(met.size());
-}
-
 void run(const Scene& scene, std::uint32_t descents, std::ofstream& csv) {
   double microseconds[2];
   double evaluations[2];
@@ -93,7 +51,7 @@ void run(const Scene& scene, std::uint32_t descents, std::ofstream& csv) {
     const GeneticResult result = multiStartDescent(objective, descents, engine, workspace);
     microseconds[k] = microsecondsSince(start) / descents;
     evaluations[k] = static_cast<double>(result.cost.evaluations) / descents;
-    recall[k] = recallOf(scene, workspace.basins.minima());
+    recall[k] = shareMet(*scene.a[0], *scene.b[0], scene.pose, scene.truth, workspace.basins.minima());
   }
   const std::size_t nodes_a = scene.a[0]->graph().nodeCount();
   const std::size_t nodes_b = scene.b[0]->graph().nodeCount();
@@ -155,7 +113,7 @@ int benchmarkMain(int argc, char** argv) {
     const BenchmarkPair pair = loadBenchmarkPair(name);
     for (const double spacing : spacings) {
       Scene scene = makeScene(name, pair.a->surface(), pair.b->surface(), pair.motion(0.3), spacing);
-      scene.truth = truthOf(scene);
+      scene.truth = provenNiches(scene.name, scene.a[0], scene.b[0], scene.pose);
       for (const std::uint32_t count : descents) run(scene, count, csv);
     }
   }

@@ -67,7 +67,7 @@ double flopsOfRun(const ExperimentRow& row, const ExperimentScene& place, const 
   }
   if (place.isMotion() || !std::holds_alternative<SearchMethod>(method)) {
     return perform(count, [&] {
-      return static_cast<double>(runAlong(method, row.inheritance, scene, seed, workspace, nullptr, 0).flops);
+      return static_cast<double>(runAlong(method, row.motion, scene, seed, workspace, nullptr, 0).flops);
     });
   }
   const auto& search = std::get<SearchMethod>(method);

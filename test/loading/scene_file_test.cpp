@@ -326,29 +326,33 @@ TEST_F(SceneFile, GeneticParametersOutOfRangeAreRefused) {
   expectGeneticRefused("crossover_probability", "1.1", "from 0 to 1");
   expectGeneticRefused("exchange_probability", "-1", "from 0 to 1");
   expectGeneticRefused("mutation_probability", "-0.1", "from 0 to 1, or auto");
-  expectGeneticRefused("final_mutation_probability_factor", "-1", "0 or more");
-  expectGeneticRefused("mutation_radius", "0", "greater than 0 (m), or none");
-  expectGeneticRefused("shrinking_mutation_radius", "maybe", "true or false");
-  expectGeneticRefused("selection", "tournament", "stochastic_universal_sampling, roulette");
-  expectGeneticRefused("mating", "average", "mesh, mesh_near_fitter, phenotypic, genotypic");
-  expectGeneticRefused("niching", "clearing", "none, sharing, dynamic_sharing, deterministic_crowding");
-  expectGeneticRefused("descent_moves", "many", "one_node, both_nodes");
-  expectGeneticRefused("local_optimization", "1", "none, lamarckian, baldwinian");
+  expectGeneticRefused("niching", "clearing", "none, sharing, deterministic_crowding");
   expectGeneticRefused("sharing_radius", "0", "greater than 0 (m), or auto");
   expectGeneticRefused("sharing_exponent", "0", "greater than 0");
   expectGeneticRefused("mating_radius", "0", "greater than 0 (m), or auto");
   expectGeneticRefused("mating_restriction", "''", "true or false");
   expectGeneticRefused("niche_radius", ".inf", "greater than 0 (m), or auto");
-  expectGeneticRefused("crowding_factor", "0", "a whole number 1 or more");
-  expectGeneticRefused("generation_gap", "0", "greater than 0, at most 1");
-  expectGeneticRefused("generation_gap", "1.5", "greater than 0, at most 1");
   expectGeneticRefused("elite_count", "-1", "a whole number 0 or more");
   expectGeneticRefused("fitness_epsilon", "-1", "0 or more");
-  expectGeneticRefused("dynamic_niche_limit", "0", "a whole number 1 or more");
   expectGeneticRefused("random_immigrants", "-1", "a whole number 0 or more");
   expectGeneticRefused("conserve_niches", "2", "true or false");
   expectGeneticRefused("evaluation_limit", "-1", "a whole number 0 or more");
-  expectGeneticRefused("convergence_generations", "x", "a whole number 0 or more");
+}
+
+TEST_F(SceneFile, OptionsOfExperimentsAreRefusedAsSuch) {
+  for (const Parameter<GeneticParameters>& parameter : allGeneticParameters()) {
+    if (!parameter.info.is_of_experiments) continue;
+    const std::string& name = parameter.info.name;
+    const std::string value = toText(parameter.get(GeneticParameters()));
+    for (const std::string map : {"cold", "warm"}) {
+      const std::string said = refusal("defaults: {expert: {" + map + ": {" + name + ": " + value + "}}}\n");
+      EXPECT_TRUE(mentions(said, "'" + name + "' is an option of experiments")) << said;
+      EXPECT_TRUE(mentions(said, "doc/experiments.md")) << said;
+    }
+  }
+  const std::string said = refusal("defaults: {expert: {warm: {niching: dynamic_sharing}}}\n");
+  EXPECT_TRUE(mentions(said, "'dynamic_sharing' is an option of experiments")) << said;
+  EXPECT_TRUE(mentions(said, "none, sharing, deterministic_crowding")) << said;
 }
 
 TEST_F(SceneFile, SettingsThatDoNotGoTogetherAreRefused) {
@@ -379,15 +383,10 @@ TEST_F(SceneFile, EverySettingReachesItsParameter) {
       "      cold:\n        population_size: 80\n        max_generations: 9\n"
       "        crossover_probability: 0.75\n        mutation_probability: 0.0625\n"
       "        exchange_probability: 0.25\n"
-      "        final_mutation_probability_factor: 0.5\n        mutation_radius: 1.5\n"
-      "        shrinking_mutation_radius: true\n        selection: roulette\n"
-      "        mating: phenotypic\n        niching: simple_crowding\n"
-      "        local_optimization: none\n        descent_moves: both_nodes\n        sharing_exponent: 10\n"
-      "        mating_restriction: false\n        crowding_factor: 4\n"
-      "        generation_gap: 0.5\n        elite_count: 2\n        convergence_generations: 3\n"
-      "        sharing_radius: auto\n        fitness_epsilon: 0\n        dynamic_niche_limit: 6\n"
+      "        niching: none\n        sharing_exponent: 10\n        mating_restriction: true\n"
+      "        elite_count: 2\n        sharing_radius: auto\n        fitness_epsilon: 0\n"
       "        random_immigrants: 4\n        conserve_niches: false\n        evaluation_limit: 5000000000\n"
-      "      warm: {population_size: 10, niching: dynamic_sharing, mating: genotypic}\n");
+      "      warm: {population_size: 10, niching: deterministic_crowding}\n");
   ASSERT_EQ(scene.pairs.size(), 1U);
   const PairSettings& settings = scene.pairs[0].settings;
   const TrackerParameters& tracker = settings.tracker;
@@ -410,22 +409,11 @@ TEST_F(SceneFile, EverySettingReachesItsParameter) {
   EXPECT_EQ(cold.crossover_probability, 0.75);
   EXPECT_EQ(cold.exchange_probability, 0.25);
   EXPECT_EQ(cold.mutation_probability, 0.0625);
-  EXPECT_EQ(cold.final_mutation_probability_factor, 0.5);
-  EXPECT_EQ(cold.mutation_radius, 1.5);
-  EXPECT_TRUE(cold.shrinking_mutation_radius);
-  EXPECT_EQ(cold.selection, SelectionMethod::Roulette);
-  EXPECT_EQ(cold.mating, MatingMethod::Phenotypic);
-  EXPECT_EQ(cold.niching, NichingMethod::SimpleCrowding);
-  EXPECT_EQ(cold.local_optimization, LocalOptimization::None);
-  EXPECT_EQ(cold.descent_moves, DescentMoves::BothNodes);
+  EXPECT_EQ(cold.niching, NichingMethod::None);
   EXPECT_EQ(cold.sharing_exponent, 10.0);
-  EXPECT_FALSE(cold.mating_restriction);
-  EXPECT_EQ(cold.crowding_factor, 4U);
-  EXPECT_EQ(cold.generation_gap, 0.5);
+  EXPECT_TRUE(cold.mating_restriction);
   EXPECT_EQ(cold.elite_count, 2U);
-  EXPECT_EQ(cold.convergence_generations, 3U);
   EXPECT_EQ(cold.fitness_epsilon, 0.0);
-  EXPECT_EQ(cold.dynamic_niche_limit, 6U);
   EXPECT_EQ(cold.random_immigrants, 4U);
   EXPECT_FALSE(cold.conserve_niches);
   EXPECT_EQ(cold.evaluation_limit, 5000000000U);
@@ -435,8 +423,7 @@ TEST_F(SceneFile, EverySettingReachesItsParameter) {
   EXPECT_EQ(tracker.warm.mating_radius, 0.4);
   EXPECT_EQ(tracker.warm.niche_radius, 0.2);
   EXPECT_EQ(tracker.warm.population_size, 10U);
-  EXPECT_EQ(tracker.warm.niching, NichingMethod::DynamicSharing);
-  EXPECT_EQ(tracker.warm.mating, MatingMethod::Genotypic);
+  EXPECT_EQ(tracker.warm.niching, NichingMethod::DeterministicCrowding);
   EXPECT_EQ(tracker.warm.max_generations, TrackerParameters().warm.max_generations);
 }
 
@@ -461,7 +448,7 @@ std::set<std::string> namesOf(const ParameterTable<Settings>& table) {
 }
 
 TEST(PairParameters, DeclareEveryMemberAndGiveItsDefault) {
-  EXPECT_EQ(namesOf(geneticParameters()), membersOf("search/genetic_parameters.h", "GeneticParameters"));
+  EXPECT_EQ(namesOf(allGeneticParameters()), membersOf("search/genetic_parameters.h", "GeneticParameters"));
   std::set<std::string> tracker = membersOf("tracking/tracker_parameters.h", "TrackerParameters");
   // What is asked for follows from who listens; cold and warm have a table of their own.
   for (const char* name : {"niches_wanted", "cold", "warm"}) tracker.erase(name);
@@ -501,11 +488,10 @@ TEST_F(SceneFile, WordsStandForNothing) {
   options.default_settings.warning_distance = 0.5;
   options.default_settings.tracker.cold.mutation_probability = 0.5;
   options.default_settings.tracker.cutoff = 3.0;
-  const Scene scene =
-      load(kBall +
-           "  - {name: box, box: {size: [1, 1, 1]}, max_edge_length: 100}\n"
-           "defaults: {warning_distance: none, cutoff: none, expert: {cold: {mutation_probability: auto, "
-           "mutation_radius: none}}}\n");
+  const Scene scene = load(
+      kBall +
+      "  - {name: box, box: {size: [1, 1, 1]}, max_edge_length: 100}\n"
+      "defaults: {warning_distance: none, cutoff: none, expert: {cold: {mutation_probability: auto}}}\n");
   const PairSettings& settings = scene.pairs.at(0).settings;
   EXPECT_EQ(settings.warning_distance, std::nullopt);
   EXPECT_EQ(settings.tracker.cutoff, std::numeric_limits<double>::infinity());

@@ -94,6 +94,14 @@ TEST(NodeParameters, RefuseWithNameValueAndRange) {
   XmlRpc::XmlRpcValue experts;
   experts["warm"]["population_size"] = 21;
   EXPECT_NE(refusal("expert", experts).find("an even number"), std::string::npos);
+  XmlRpc::XmlRpcValue option;
+  option["cold"]["generation_gap"] = 0.5;
+  EXPECT_NE(refusal("expert", option).find("'generation_gap' is an option of experiments"),
+            std::string::npos);
+  XmlRpc::XmlRpcValue choice;
+  choice["warm"]["niching"] = "dynamic_sharing";
+  EXPECT_NE(refusal("expert", choice).find("'dynamic_sharing' is an option of experiments"),
+            std::string::npos);
   EXPECT_NE(refusal("marker_far", -1.0), "");
   XmlRpc::XmlRpcValue crossed;
   crossed["marker_near"] = 0.2;

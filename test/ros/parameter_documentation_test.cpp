@@ -68,6 +68,15 @@ TEST(ParameterDocumentation, HasTheSettingsForExperts) {
               tableRows(geneticParameters(), false, "warm.", defaults.warm));
 }
 
+TEST(ParameterDocumentation, HasTheOptionsOfExperiments) {
+  ParameterTable<GeneticParameters> options;
+  for (const Parameter<GeneticParameters>& parameter : allGeneticParameters()) {
+    const bool has_choices = !parameter.info.experiment_choices.empty();
+    if (parameter.info.is_of_experiments || has_choices) options.push_back(parameter);
+  }
+  expectTable("doc/experiments.md", "genetic", tableRows(options, false));
+}
+
 TEST(ParameterDocumentation, HasWhatASceneFileSaysOfContactAndSimulation) {
   const std::string file = "doc/scene_file.md";
   expectTable(file, "material", tableRows(materialParameters(), false));

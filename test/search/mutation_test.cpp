@@ -81,16 +81,39 @@ TEST(Mutation, ReachesTheWholeBodyWithoutARadius) {
   EXPECT_EQ(std::count(reached.begin(), reached.end(), false), 0);
 }
 
-TEST(Mutation, RadiusShrinksToLessThanAHundredthOverTheRun) {
+// Sec. 3.3.2.c: linear or Boltzmann; 2.3.2.c: exponential.
+TEST(Mutation, RadiusFallsFromItsFirstValueAsTheCoolingSays) {
+  const test::PairScene scene = test::facingCombs();
+  const PairObjective objective(*scene.a, *scene.b, scene.a_from_b);
   GeneticParameters parameters;
   parameters.max_generations = 20;
-  EXPECT_EQ(mutationRadius(parameters, 7), kInfinity);
+  EXPECT_EQ(mutationRadius(parameters, objective, 7), kInfinity) << "anywhere on the shell";
   parameters.mutation_radius = 0.4;
-  EXPECT_EQ(mutationRadius(parameters, 20), 0.4);
-  parameters.shrinking_mutation_radius = true;
-  EXPECT_DOUBLE_EQ(mutationRadius(parameters, 0), 0.4);
-  EXPECT_DOUBLE_EQ(mutationRadius(parameters, 10), 0.4 * std::exp(-2.5));
-  EXPECT_LT(mutationRadius(parameters, 20), 0.004);
+  EXPECT_EQ(mutationRadius(parameters, objective, 20), 0.4);
+  parameters.mutation_radius_cooling = Cooling::Linear;
+  EXPECT_DOUBLE_EQ(mutationRadius(parameters, objective, 1), 0.4);
+  EXPECT_DOUBLE_EQ(mutationRadius(parameters, objective, 11), 0.2);
+  EXPECT_DOUBLE_EQ(mutationRadius(parameters, objective, 20), 0.02);
+  parameters.mutation_radius_cooling = Cooling::Exponential;
+  EXPECT_DOUBLE_EQ(mutationRadius(parameters, objective, 10), 0.4 * std::exp(-2.5));
+  EXPECT_LT(mutationRadius(parameters, objective, 20), 0.004);
+  parameters.mutation_radius.reset();
+  parameters.mutation_radius_cooling = Cooling::Linear;
+  EXPECT_DOUBLE_EQ(mutationRadius(parameters, objective, 1),
+                   std::max(scene.a->geodesicExtent(), scene.b->geodesicExtent()));
+}
+
+// (2.6) with the same loss at every temperature, over its value in the first generation.
+TEST(Mutation, BoltzmannCoolingIsTheAnnealingsFactorAtFallingTemperatures) {
+  constexpr std::uint32_t kGenerations = 25;
+  const auto p_b = [](double temperature) { return std::exp(-2.0 / (0.08 * temperature)); };  // k_B G_max = 2
+  double last = 1.0;
+  for (std::uint32_t g = 1; g <= kGenerations; ++g) {
+    const double factor = coolingFactor(Cooling::Boltzmann, g, kGenerations);
+    EXPECT_NEAR(factor, p_b(kGenerations + 1.0 - g) / p_b(kGenerations), 1e-15);
+    EXPECT_TRUE(g == 1 ? factor == 1.0 : factor < last) << g;
+    last = factor;
+  }
 }
 
 TEST(Mutation, ProbabilityRunsLinearlyToItsFinalFactor) {
@@ -106,6 +129,12 @@ TEST(Mutation, ProbabilityRunsLinearlyToItsFinalFactor) {
   EXPECT_DOUBLE_EQ(mutationProbability(parameters, 11), 0.02);
   parameters.final_mutation_probability_factor = 100.0;
   EXPECT_DOUBLE_EQ(mutationProbability(parameters, 11), 1.0) << "a probability at most";
+  parameters.final_mutation_probability_factor = 0.2;
+  parameters.mutation_probability_cooling = Cooling::Boltzmann;
+  EXPECT_DOUBLE_EQ(mutationProbability(parameters, 1), 0.1);
+  EXPECT_DOUBLE_EQ(mutationProbability(parameters, 6),
+                   0.02 + 0.08 * coolingFactor(Cooling::Boltzmann, 6, 11));
+  EXPECT_NEAR(mutationProbability(parameters, 11), 0.02, 1e-5);
 }
 
 }  // namespace

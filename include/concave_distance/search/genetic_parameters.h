@@ -32,16 +32,29 @@ enum class LocalOptimization : std::uint8_t {
   Baldwinian   ///< it stays where it is and counts as fit as that local minimum
 };
 
-/// Every parameter of the combinatorial genetic algorithm (Carretero, ch. 3 and 4). Lengths in metres.
+/// How a quantity falls over the generations (Carretero, sec. 3.3.2.c). A temperature T falls by one a
+/// generation, from G_max in the first to 1 in the last.
+enum class Cooling : std::uint8_t {
+  Constant,
+  Linear,       ///< T / G_max
+  Exponential,  ///< exp(-5 g / G_max) (sec. 2.3.2.c: "exponentially decreases")
+  /// p_b = exp(-E / (k_B T)) (2.6) for an energy E of k_B G_max, over that of the first generation.
+  Boltzmann
+};
+
+/// Every parameter of the combinatorial genetic algorithm (Carretero, ch. 3 and 4). Lengths in metres. A
+/// scene file and the node have those that geneticParameters() lists, experiments all.
 struct GeneticParameters {
-  std::uint32_t population_size = 100;         ///< N_pop, even, >= 2
-  std::uint32_t max_generations = 30;          ///< G_max
-  double crossover_probability = 0.6;          ///< p_x
-  std::optional<double> mutation_probability;  ///< p_m per individual; empty: 1 / N_pop (Table 5.22)
-  double final_mutation_probability_factor =
-      1.0;                                 ///< variable mutation rate: p_m is scaled linearly to this factor
-  std::optional<double> mutation_radius;   ///< r_max, mesh distance; empty: anywhere on the shell
-  bool shrinking_mutation_radius = false;  ///< r_max decays over the generations as exp(-5 g / G_max)
+  std::uint32_t population_size = 100;             ///< N_pop, even, >= 2
+  std::uint32_t max_generations = 30;              ///< G_max
+  double crossover_probability = 0.6;              ///< p_x
+  std::optional<double> mutation_probability;      ///< p_m per individual; empty: 1 / N_pop (Table 5.22)
+  double final_mutation_probability_factor = 1.0;  ///< variable mutation rate: p_m ends at this multiple
+  Cooling mutation_probability_cooling = Cooling::Linear;  ///< how it gets there
+  /// r_max, mesh distance; empty: anywhere on the shell, or when it cools, at first the longer of both
+  /// bodies' geodesic extents.
+  std::optional<double> mutation_radius;
+  Cooling mutation_radius_cooling = Cooling::Constant;
   SelectionMethod selection = SelectionMethod::StochasticUniversalSampling;
   MatingMethod mating = MatingMethod::Mesh;
   NichingMethod niching = NichingMethod::Sharing;

@@ -13,6 +13,7 @@
 #include "concave_distance/base/error.h"
 #include "loading/setting_values.h"
 #include "loading/settings_reader.h"
+#include "search_readers.h"
 
 namespace concave_distance::evaluation {
 namespace {
@@ -43,6 +44,7 @@ GeneticParameters geneticOf(RowBase base, NichingMethod niching) {
 /// Every method of a family whose name it is tried by.
 std::optional<SearchMethod> combinatorialNamed(const std::string& name, RowBase base) {
   if (name == "multi-start") return MultiStartParameters{};
+  if (name == "islands") return IslandParameters{2, 5, 10, geneticOf(base, NichingMethod::Sharing)};
   for (const bool local : {true, false}) {
     AnnealingParameters annealing =
         base == RowBase::Thesis ? thesisAnnealingParameters() : AnnealingParameters();
@@ -72,6 +74,14 @@ Method methodNamed(const YamlValue& value, RowBase base) {
     }
     return shipped;
   }
+  if (base == RowBase::ShippedCycles) {
+    const TrackerParameters shipped;
+    if (name == "islands") return SearchMethod(IslandParameters{2, 5, 10, shipped.cold});
+    if (name != concave_distance::nameOf(SearchMethod(shipped.cold))) {
+      value.refuse(concave_distance::nameOf(SearchMethod(shipped.cold)) + ", the shipped search; islands");
+    }
+    return SearchMethod(shipped.cold);
+  }
   const bool from_thesis = base == RowBase::Thesis;
   if (name == nameOf(Method(TrackerMethod()))) return TrackerMethod();
   if (name == nameOf(Method(EnumerationMethod()))) return EnumerationMethod();
@@ -88,6 +98,7 @@ Method methodNamed(const YamlValue& value, RowBase base) {
   if (combinatorial) return *combinatorial;
   value.refuse(
       "comb-GA-wl, -nl or -bw, with -sh, -ds, -dc, -dcs or -sc or without; comb-SA-wl or -nl; multi-start; "
+      "islands; "
       "cont-GA-wl or -nl; cont-SA-wl or -nl; tracker; enumeration");
 }
 
@@ -114,22 +125,13 @@ void readContinuousAnnealing(const YamlValue& value, ContinuousAnnealingParamete
   map.finish();
 }
 
-void readMultiStart(const YamlValue& value, MultiStartParameters& p) {
-  YamlMap map(value, "a map of parameters of random starts");
-  if (auto v = map.take("starts")) p.starts = count32(*v, 1);
-  if (auto v = map.take("evaluation_limit")) {
-    p.evaluation_limit = v->count(0, std::numeric_limits<std::uint64_t>::max());
-  }
-  map.finish();
-}
-
 /// The settings of a pair, as in a scene file (doc/scene_file.md).
 void readTracker(const YamlValue& value, TrackerMethod& method) {
   YamlMap map(value, "settings of a pair");
   if (auto v = map.take("forgets")) method.forgets = v->boolean();
   PairSettings settings;
   settings.tracker = method.parameters;
-  detail::readPairSettings(map, settings);
+  detail::readPairSettings(map, settings, detail::SettingsReader::Experiment);
   method.parameters = settings.tracker;
   map.finish();
 }
@@ -137,9 +139,12 @@ void readTracker(const YamlValue& value, TrackerMethod& method) {
 /// Reads the parameters of whatever method it is.
 struct ParameterReader {
   const YamlValue& value;
-  void operator()(GeneticParameters& p) const { detail::readGeneticParameters(value, p); }
+  void operator()(GeneticParameters& p) const {
+    detail::readGeneticParameters(value, p, detail::SettingsReader::Experiment);
+  }
   void operator()(AnnealingParameters& p) const { detail::readAnnealingParameters(value, p); }
   void operator()(MultiStartParameters& p) const { readMultiStart(value, p); }
+  void operator()(IslandParameters& p) const { readIslands(value, p); }
   void operator()(SearchMethod& method) const { std::visit(*this, method); }
   void operator()(ContinuousGeneticParameters& p) const { readContinuousGenetic(value, p); }
   void operator()(ContinuousAnnealingParameters& p) const { readContinuousAnnealing(value, p); }
@@ -164,36 +169,25 @@ bool isContinuous(const Method& method) {
          std::holds_alternative<ContinuousAnnealingParameters>(method);
 }
 
-Inheritance readInheritance(const YamlValue& value, Inheritance inheritance) {
-  YamlMap map(value, "what a population inherits: {per_niche: 3, limit: 30, one_each: true}");
-  if (auto v = map.take("per_niche")) {
-    inheritance.per_niche = v->number("1 or more", [](double n) { return n >= 1.0 && std::isfinite(n); });
+constexpr std::pair<const char*, RowBase> kBases[] = {{"thesis", RowBase::Thesis},
+                                                      {"ours", RowBase::Ours},
+                                                      {"shipped", RowBase::Shipped},
+                                                      {"shipped_cycles", RowBase::ShippedCycles}};
+
+/// The warm search of a tracker with a row's parameters, its method's kind.
+MotionOptions shippedMotion(const ExperimentRow& row, const YamlValue& value,
+                            const std::optional<YamlValue>& parameters) {
+  Method warm = row.method;
+  auto& search = std::get<SearchMethod>(warm);
+  if (auto* islands = std::get_if<IslandParameters>(&search)) {
+    islands->genetic = TrackerParameters().warm;
+  } else {
+    search = TrackerParameters().warm;
   }
-  if (auto v = map.take("limit")) inheritance.limit = count32(*v, 0);
-  if (auto v = map.take("one_each")) inheritance.one_each = v->boolean();
-  map.finish();
-  return inheritance;
+  if (parameters) std::visit(ParameterReader{*parameters}, warm);
+  std::visit(Validator{value.where()}, warm);
+  return {shippedFirstGuess(), std::get<SearchMethod>(warm)};
 }
-
-/// Sets what a scene wants of a search.
-struct SceneSettings {
-  const ExperimentScene& scene;
-  bool has_own_limit;
-  bool has_own_population;
-
-  void operator()(GeneticParameters& p) const {
-    if (scene.population_size && !has_own_population) p.population_size = *scene.population_size;
-    limit(p.evaluation_limit);
-  }
-  void operator()(AnnealingParameters& p) const { limit(p.evaluation_limit); }
-  void operator()(MultiStartParameters& p) const { limit(p.evaluation_limit); }
-  void limit(std::uint64_t& evaluations) const {
-    if (scene.evaluation_limit && !has_own_limit) evaluations = *scene.evaluation_limit;
-  }
-};
-
-constexpr std::pair<const char*, RowBase> kBases[] = {
-    {"thesis", RowBase::Thesis}, {"ours", RowBase::Ours}, {"shipped", RowBase::Shipped}};
 
 ExperimentRow readRow(const YamlValue& value, const std::optional<YamlValue>& common) {
   YamlMap map(value, "a row: name, algorithm, parameters, thesis");
@@ -207,14 +201,17 @@ ExperimentRow readRow(const YamlValue& value, const std::optional<YamlValue>& co
   const bool is_genetic =
       std::holds_alternative<ContinuousGeneticParameters>(row.method) ||
       (combinatorial != nullptr && std::holds_alternative<GeneticParameters>(*combinatorial));
+  const bool is_shipped = row.base == RowBase::Shipped || row.base == RowBase::ShippedCycles;
   // What is shipped is not what an experiment has in common.
-  if (common && is_genetic && row.base != RowBase::Shipped) std::visit(ParameterReader{*common}, row.method);
-  if (auto v = map.take("parameters")) {
-    std::visit(ParameterReader{*v}, row.method);
-    row.has_own_limit = YamlMap(*v, "a map of parameters").take("evaluation_limit").has_value();
+  if (common && is_genetic && !is_shipped) std::visit(ParameterReader{*common}, row.method);
+  const std::optional<YamlValue> parameters = map.take("parameters");
+  if (parameters) {
+    std::visit(ParameterReader{*parameters}, row.method);
+    row.has_own_limit = YamlMap(*parameters, "a map of parameters").take("evaluation_limit").has_value();
   }
-  if (row.base == RowBase::Thesis) row.inheritance = thesisInheritance();
-  if (auto v = map.take("inheritance")) row.inheritance = readInheritance(*v, row.inheritance);
+  if (row.base == RowBase::Thesis) row.motion.guess = thesisFirstGuess();
+  if (row.base == RowBase::ShippedCycles) row.motion = shippedMotion(row, value, parameters);
+  if (auto v = map.take("inheritance")) row.motion.guess = readFirstGuess(*v, row.motion.guess);
   std::visit(Validator{value.where()}, row.method);
   map.take("thesis");      // the thesis's own figures, for the report
   map.take("variant_of");  // the thesis's row that it improves on
@@ -223,26 +220,6 @@ ExperimentRow readRow(const YamlValue& value, const std::optional<YamlValue>& co
 }
 
 }  // namespace
-
-std::string nameOf(const Method& method) {
-  if (const auto* genetic = std::get_if<ContinuousGeneticParameters>(&method)) {
-    return genetic->local_step.enabled ? "cont-GA-wl" : "cont-GA-nl";
-  }
-  if (const auto* annealing = std::get_if<ContinuousAnnealingParameters>(&method)) {
-    return annealing->local_step.enabled ? "cont-SA-wl" : "cont-SA-nl";
-  }
-  if (std::holds_alternative<TrackerMethod>(method)) return "tracker";
-  if (std::holds_alternative<EnumerationMethod>(method)) return "enumeration";
-  return concave_distance::nameOf(std::get<SearchMethod>(method));
-}
-
-Method ExperimentRow::methodOn(const ExperimentScene& scene) const {
-  Method changed = method;
-  if (auto* search = std::get_if<SearchMethod>(&changed)) {
-    std::visit(SceneSettings{scene, has_own_limit, base == RowBase::Shipped}, *search);
-  }
-  return changed;
-}
 
 Experiment loadExperiment(const std::string& file) {
   YamlMap map(YamlValue::parse(readText(file), file), "an experiment: title, runs, scenes, rows");

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -29,15 +30,19 @@ using Method = std::variant<SearchMethod, ContinuousGeneticParameters, Continuou
 /// {cont|comb}-{GA|SA}-{wl|nl}..., see search/search_method.h; tracker; enumeration.
 std::string nameOf(const Method& method);
 
+/// Of a GA along a motion; other searches start anew at every instant.
+struct MotionOptions {
+  FirstGuess guess;
+  std::optional<SearchMethod> further;  ///< what searches at all instants but the first; empty: the same
+};
+
 /// A row of a table: one algorithm with one set of parameters.
 struct ExperimentRow {
   std::string name;
   RowBase base = RowBase::Thesis;
   Method method;
   bool has_own_limit = false;  ///< of evaluations, which a scene's does not replace
-  /// Of a GA along a motion: what each instant's population inherits from the niches of the last one's
-  /// (6.7), (6.8); other searches start anew at every instant.
-  Inheritance inheritance;
+  MotionOptions motion;
 
   /// With what the scene wants.
   Method methodOn(const ExperimentScene& scene) const;

@@ -1,12 +1,16 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <variant>
 #include <vector>
 
 #include "base/random_engine.h"
+#include "first_guess.h"
+#include "island_workspaces.h"
+#include "niche_motion.h"
 #include "search/genetic_search.h"
 #include "search/niche_identification.h"
-#include "tracking/warm_start.h"
+#include "search_method.h"
 
 namespace concave_distance::evaluation {
 
@@ -15,24 +19,42 @@ namespace concave_distance::evaluation {
 class InheritingSearch {
  public:
   /// All but `workspace` and the bodies are copied.
-  InheritingSearch(const GeneticParameters& parameters, const Inheritance& inheritance, const BodyMesh& a,
-                   const BodyMesh& b, std::uint64_t seed, SearchWorkspace& workspace);
+  /// @param first what searches at the first instant: a GA or islands of one
+  /// @param further the same at all others
+  InheritingSearch(const SearchMethod& first, const SearchMethod& further, const FirstGuess& guess,
+                   const BodyMesh& a, const BodyMesh& b, std::uint64_t seed, SearchWorkspace& workspace);
 
   GeneticResult search(const Eigen::Isometry3d& a_from_b);
   /// Of the final population, the nearest first.
   const std::vector<IdentifiedNiche>& niches() const { return workspace_->niches; }
 
  private:
-  GeneticParameters parameters_;
-  Inheritance inheritance_;
+  /// Of one instant.
+  struct Step {
+    SearchMethod method;
+    NicheRadii radii;
+
+    const GeneticParameters& genetic() const;
+  };
+  GeneticResult run(const PairObjective& objective, Step& step);
+  void handOn(const Step& next);
+
+  Step first_;
+  Step further_;
+  bool is_first_ = true;
+  FirstGuess guess_;
   const BodyMesh* a_;
   const BodyMesh* b_;
   RandomEngine engine_;
   SearchWorkspace* workspace_;
-  NicheRadii radii_;
+  IslandWorkspaces islands_;
+  NicheMotion motion_;
   std::vector<TrialPoint> known_;
   std::vector<TrialPoint> inherited_;
   std::vector<double> scratch_;
 };
+
+/// The parameters of a GA, alone or on islands; null for any other method.
+const GeneticParameters* geneticOf(const SearchMethod& method);
 
 }  // namespace concave_distance::evaluation

@@ -44,15 +44,16 @@ void take(const SearchCost& cost, Answer& answer) {
 /// A search at every instant; a GA inherits.
 class SearchFollower {
  public:
-  SearchFollower(const SearchMethod& method, const Inheritance& inheritance, const SceneTruth& scene,
+  SearchFollower(const SearchMethod& method, const MotionOptions& motion, const SceneTruth& scene,
                  std::uint64_t seed, SearchWorkspace& workspace)
       : method_(&method),
         scene_(&scene),
         engine_(seed),
         workspace_(&workspace),
         radii_(radiiOf(scene, method)) {
-    if (const auto* genetic = std::get_if<GeneticParameters>(method_)) {
-      genetic_.emplace(*genetic, inheritance, *scene.a, *scene.b, seed, workspace);
+    if (geneticOf(method) != nullptr) {
+      genetic_.emplace(method, motion.further.value_or(method), motion.guess, *scene.a, *scene.b, seed,
+                       workspace);
     }
   }
 
@@ -118,14 +119,14 @@ void enumerate(const SceneTruth& scene, const InstantTruth& instant, Answer& ans
   answer.evaluations = scene.a->graph().nodeCount() * scene.b->graph().nodeCount();
 }
 
-Follower followerOf(const Method& method, const Inheritance& inheritance, const SceneTruth& scene,
+Follower followerOf(const Method& method, const MotionOptions& motion, const SceneTruth& scene,
                     std::uint64_t seed, SearchWorkspace& workspace) {
   if (const auto* tracker = std::get_if<TrackerMethod>(&method)) {
     return [follower = std::make_shared<TrackerFollower>(*tracker, scene, seed)](
                const InstantTruth& instant, Answer& answer) { (*follower)(instant, answer); };
   }
   if (const auto* search = std::get_if<SearchMethod>(&method)) {
-    return SearchFollower(*search, inheritance, scene, seed, workspace);
+    return SearchFollower(*search, motion, scene, seed, workspace);
   }
   return [&scene](const InstantTruth& instant, Answer& answer) { enumerate(scene, instant, answer); };
 }
@@ -138,7 +139,7 @@ std::uint64_t meanOf(std::uint64_t sum, std::size_t count) {
 }  // namespace
 
 NicheRadii radiiOf(const SceneTruth& scene, const SearchMethod& method) {
-  const auto* genetic = std::get_if<GeneticParameters>(&method);
+  const GeneticParameters* genetic = geneticOf(method);
   return automaticRadii(*scene.a, *scene.b, genetic != nullptr ? *genetic : GeneticParameters());
 }
 
@@ -154,10 +155,10 @@ FoundPlaces placesOf(const SceneTruth& scene, const std::vector<IdentifiedNiche>
   return places;
 }
 
-TrialRecord runAlong(const Method& method, const Inheritance& inheritance, const SceneTruth& scene,
+TrialRecord runAlong(const Method& method, const MotionOptions& motion, const SceneTruth& scene,
                      std::uint64_t seed, SearchWorkspace& workspace, NicheQuestions* questions,
                      std::size_t run) {
-  const Follower follow = followerOf(method, inheritance, scene, seed, workspace);
+  const Follower follow = followerOf(method, motion, scene, seed, workspace);
   const std::size_t count = scene.instants.size();
   const double weight = 1.0 / static_cast<double>(count);
   TrialRecord record;

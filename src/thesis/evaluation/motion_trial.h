@@ -23,7 +23,7 @@ FoundPlaces placesOf(const SceneTruth& scene, const std::vector<IdentifiedNiche>
 /// GA inherits from the niches of the last one's (Carretero, sec. 6.2.2); every other method starts anew.
 /// @param method none of the continuous approach
 /// @param questions asked what niches were found, under the number `run`; null: none
-TrialRecord runAlong(const Method& method, const Inheritance& inheritance, const SceneTruth& scene,
+TrialRecord runAlong(const Method& method, const MotionOptions& motion, const SceneTruth& scene,
                      std::uint64_t seed, SearchWorkspace& workspace, NicheQuestions* questions,
                      std::size_t run);
 

@@ -1,5 +1,7 @@
 #include "row_bases.h"
 
+#include "concave_distance/tracking/tracker_parameters.h"
+
 namespace concave_distance::evaluation {
 
 GeneticParameters thesisGeneticParameters(NichingMethod niching) {
@@ -25,10 +27,19 @@ AnnealingParameters thesisAnnealingParameters() {
   return parameters;
 }
 
-Inheritance thesisInheritance() {
-  Inheritance inheritance;
-  inheritance.one_each = false;
-  return inheritance;
+FirstGuess thesisFirstGuess() {
+  FirstGuess guess;
+  guess.inheritance.one_each = false;
+  return guess;
+}
+
+FirstGuess shippedFirstGuess() {
+  const TrackerParameters shipped;
+  FirstGuess guess;
+  guess.inheritance.per_niche = shipped.inherited_per_niche;
+  guess.inheritance.limit = shipped.inherited_limit;
+  guess.random_starts = shipped.random_starts;
+  return guess;
 }
 
 }  // namespace concave_distance::evaluation

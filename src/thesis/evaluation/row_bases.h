@@ -3,16 +3,18 @@
 #include <cstdint>
 
 #include "concave_distance/search/genetic_parameters.h"
+#include "first_guess.h"
 #include "thesis/annealing/annealing_parameters.h"
-#include "tracking/warm_start.h"
 
 namespace concave_distance::evaluation {
 
 /// What a row's parameters are before its own are read.
 enum class RowBase : std::uint8_t {
-  Thesis,  ///< the thesis's algorithm and nothing else
-  Ours,    ///< with this package's operators (GeneticParameters(), AnnealingParameters())
-  Shipped  ///< what a pair's tracker searches with in a first cycle (TrackerParameters().cold)
+  Thesis,   ///< the thesis's algorithm and nothing else
+  Ours,     ///< with this package's operators (GeneticParameters(), AnnealingParameters())
+  Shipped,  ///< what a pair's tracker searches with in a first cycle (TrackerParameters().cold)
+  /// The same, and along a motion what it searches with in each further cycle (TrackerParameters().warm).
+  ShippedCycles
 };
 
 /// comb-GA as the thesis has it: no elite, no exchange of genes, no immigrants, niches are not conserved, no
@@ -26,6 +28,9 @@ GeneticParameters thesisGeneticParameters(NichingMethod niching);
 AnnealingParameters thesisAnnealingParameters();
 
 /// (6.7), (6.8) alone: a niche whose share is rounded to nothing is not handed on.
-Inheritance thesisInheritance();
+FirstGuess thesisFirstGuess();
+
+/// What a warm cycle of a tracker begins with, but for what it has followed and kept.
+FirstGuess shippedFirstGuess();
 
 }  // namespace concave_distance::evaluation

@@ -1,7 +1,10 @@
 #include "row_parameters.h"
 
+#include <utility>
+
 #include "base/csv_writer.h"
 #include "base/parameter.h"
+#include "inheriting_search.h"
 #include "search/genetic_parameter_table.h"
 #include "tracking/tracker_parameter_table.h"
 
@@ -66,7 +69,7 @@ void addLocalStep(const LocalStepParameters& p, RowParameters& all) {
 
 /// Every parameter of a method of any kind.
 struct Describer {
-  RowParameters operator()(const GeneticParameters& p) const { return allOf(geneticParameters(), p); }
+  RowParameters operator()(const GeneticParameters& p) const { return allOf(allGeneticParameters(), p); }
 
   RowParameters operator()(const AnnealingParameters& p) const {
     return {{"initial_temperature", text(p.initial_temperature)},
@@ -82,6 +85,14 @@ struct Describer {
 
   RowParameters operator()(const MultiStartParameters& p) const {
     return {{"starts", text(p.starts)}, {"evaluation_limit", text(p.evaluation_limit)}};
+  }
+
+  RowParameters operator()(const IslandParameters& p) const {
+    RowParameters all = {
+        {"islands", text(p.islands)}, {"epochs", text(p.epochs)}, {"migrants", text(p.migrants)}};
+    for (RowParameter& parameter : allOf(allGeneticParameters(), p.genetic))
+      all.push_back(std::move(parameter));
+    return all;
   }
 
   RowParameters operator()(const SearchMethod& method) const { return std::visit(*this, method); }
@@ -127,8 +138,8 @@ struct Describer {
     RowParameters changes;
     if (method.forgets) changes.emplace_back("forgets", "true");
     addChanges(trackerParameters(), method.parameters, shipped, "", changes);
-    addChanges(geneticParameters(), method.parameters.cold, shipped.cold, "cold.", changes);
-    addChanges(geneticParameters(), method.parameters.warm, shipped.warm, "warm.", changes);
+    addChanges(allGeneticParameters(), method.parameters.cold, shipped.cold, "cold.", changes);
+    addChanges(allGeneticParameters(), method.parameters.warm, shipped.warm, "warm.", changes);
     return changes;
   }
 
@@ -137,7 +148,27 @@ struct Describer {
 
 bool isGenetic(const Method& method) {
   const auto* search = std::get_if<SearchMethod>(&method);
-  return search != nullptr && std::holds_alternative<GeneticParameters>(*search);
+  return search != nullptr && geneticOf(*search) != nullptr;
+}
+
+void addFirstGuess(const FirstGuess& guess, RowParameters& all) {
+  if (guess.fixed_per_niche) {
+    all.emplace_back("inheritance.fixed_per_niche", text(*guess.fixed_per_niche));
+  } else {
+    all.emplace_back("inheritance.per_niche", text(guess.inheritance.per_niche));
+    all.emplace_back("inheritance.limit", text(guess.inheritance.limit));
+    all.emplace_back("inheritance.one_each", text(guess.inheritance.one_each));
+  }
+  if (guess.extrapolation != Extrapolation::None) {
+    all.emplace_back("inheritance.extrapolation",
+                     guess.extrapolation == Extrapolation::Velocity ? "velocity" : "acceleration");
+  }
+  if (guess.random_starts) all.emplace_back("random_starts", text(*guess.random_starts));
+}
+
+/// Of all instants but the first.
+void addFurther(const SearchMethod& method, RowParameters& all) {
+  for (auto& [name, value] : std::visit(Describer{}, method)) all.emplace_back("further." + name, value);
 }
 
 }  // namespace
@@ -145,9 +176,8 @@ bool isGenetic(const Method& method) {
 std::vector<RowParameter> rowParameters(const ExperimentRow& row, const ExperimentScene& scene) {
   RowParameters all = std::visit(Describer{}, row.methodOn(scene));
   if (scene.isMotion() && isGenetic(row.method)) {
-    all.emplace_back("inheritance.per_niche", text(row.inheritance.per_niche));
-    all.emplace_back("inheritance.limit", text(row.inheritance.limit));
-    all.emplace_back("inheritance.one_each", text(row.inheritance.one_each));
+    if (row.motion.further) addFurther(*row.motion.further, all);
+    addFirstGuess(row.motion.guess, all);
   }
   return all;
 }

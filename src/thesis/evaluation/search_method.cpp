@@ -1,5 +1,6 @@
 #include "search_method.h"
 
+#include "island_workspaces.h"
 #include "multi_start_descent.h"
 
 namespace concave_distance {
@@ -74,6 +75,13 @@ struct Runner {
     workspace.population.assign(1, result.best);
     return {result.best, 0, 0, result.cost};
   }
+
+  SearchOutcome operator()(const IslandParameters& parameters) const {
+    IslandWorkspaces islands(objective.bodyA(), objective.bodyB(), parameters.islands, workspace);
+    const GeneticResult result =
+        islandSearch(objective, parameters, radii, {}, engine, islands.all()).genetic;
+    return {result.best, result.best_generation, result.generations, result.cost};
+  }
 };
 
 }  // namespace
@@ -85,7 +93,7 @@ std::string nameOf(const SearchMethod& method) {
   if (const auto* annealing = std::get_if<AnnealingParameters>(&method)) {
     return annealing->local_optimization ? "comb-SA-wl" : "comb-SA-nl";
   }
-  return "multi-start descent";
+  return std::holds_alternative<IslandParameters>(method) ? "islands" : "multi-start descent";
 }
 
 SearchOutcome searchPair(const PairObjective& objective, const SearchMethod& method, const NicheRadii& radii,

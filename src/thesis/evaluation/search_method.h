@@ -6,6 +6,7 @@
 #include <string>
 #include <variant>
 
+#include "island_search.h"
 #include "search/genetic_search.h"
 #include "thesis/annealing/simulated_annealing.h"
 
@@ -18,11 +19,12 @@ struct MultiStartParameters {
 };
 
 /// Any search over node pairs, so that each can be compared with the others.
-using SearchMethod = std::variant<GeneticParameters, AnnealingParameters, MultiStartParameters>;
+using SearchMethod =
+    std::variant<GeneticParameters, AnnealingParameters, MultiStartParameters, IslandParameters>;
 
 /// The thesis's name of a method (Carretero, sec. 2.4): comb-{GA|SA}-{wl|nl}[-sh|-dc], with -bw for the
 /// Baldwin variant, -ds for dynamic sharing, -sc for simple crowding; -dc is Mahfoud's deterministic crowding
-/// and -dcs the thesis's, which selects the parents.
+/// and -dcs the thesis's, which selects the parents. Islands of any of them are "islands".
 std::string nameOf(const SearchMethod& method);
 
 /// A generation of a GA or an iteration of the annealing.

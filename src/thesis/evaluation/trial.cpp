@@ -196,7 +196,7 @@ std::vector<TrialRecord> runTrials(const Experiment& experiment, std::size_t row
     const std::uint64_t seed = streamSeed(experiment.seed, "evaluate", first_run + i);
     if (instant_by_instant) {
       records.push_back(
-          runAlong(method, what.inheritance, truth, seed, workspace, has_niches ? &questions : nullptr, i));
+          runAlong(method, what.motion, truth, seed, workspace, has_niches ? &questions : nullptr, i));
       continue;
     }
     RandomEngine engine(seed);

@@ -75,7 +75,7 @@ TrackerParameters trackerWithTableParameters() {
 Method searchMethod(const std::string& name, const PartitionedPair& pair) {
   auto workspace = std::make_shared<SearchWorkspace>(*pair.a, *pair.b);
   auto search = std::make_shared<evaluation::InheritingSearch>(
-      tableParameters(), evaluation::thesisInheritance(), *pair.a, *pair.b, 1, *workspace);
+      tableParameters(), tableParameters(), evaluation::thesisFirstGuess(), *pair.a, *pair.b, 1, *workspace);
   return {name, "none", [workspace, search](const Eigen::Isometry3d& pose, double) {
             const double start = processorMicroseconds();
             const GeneticResult result = search->search(pose);

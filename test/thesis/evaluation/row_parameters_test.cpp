@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "concave_distance/base/error.h"
+#include "search/genetic_parameter_table.h"
 #include "support/temporary_folder.h"
 #include "thesis/evaluation/experiment.h"
 
@@ -105,6 +106,46 @@ TEST_F(Rows, ThatAreShippedAreWhatTheTrackerShips) {
   EXPECT_EQ(values.at("niche_radius"), "auto");
   EXPECT_THROW(experimentOf("  - {name: row, algorithm: comb-GA-wl-sh, base: shipped}\n"), Error);
   EXPECT_THROW(experimentOf("  - {name: row, algorithm: cont-GA-wl, base: shipped}\n"), Error);
+}
+
+TEST_F(Rows, OfShippedCyclesAreTheTrackersColdAndWarmSearch) {
+  const Experiment experiment =
+      loadExperiment(std::string(CONCAVE_DISTANCE_SOURCE_DIR) + "/experiments/options.yaml");
+  const ExperimentRow& row = experiment.rows[0];
+  const ExperimentScene* motion = nullptr;
+  for (const ExperimentScene& scene : experiment.scenes) motion = scene.isMotion() ? &scene : motion;
+  ASSERT_NE(motion, nullptr);
+  const Values values = valuesOf(row, *motion);
+  const TrackerParameters shipped;
+  for (const Parameter<GeneticParameters>& parameter : allGeneticParameters()) {
+    const std::string& name = parameter.info.name;
+    EXPECT_EQ(values.at(name), toText(parameter.get(shipped.cold))) << name;
+    EXPECT_EQ(values.at("further." + name), toText(parameter.get(shipped.warm))) << name;
+  }
+  EXPECT_EQ(values.at("inheritance.per_niche"), toText(shipped.inherited_per_niche));
+  EXPECT_EQ(values.at("inheritance.limit"), std::to_string(shipped.inherited_limit));
+  EXPECT_EQ(values.at("random_starts"), std::to_string(shipped.random_starts));
+}
+
+// Of experiments/options.yaml: a row changes what it names and nothing else.
+TEST(ExperimentRows, OfOptionsChangeFewParameters) {
+  const Experiment experiment =
+      loadExperiment(std::string(CONCAVE_DISTANCE_SOURCE_DIR) + "/experiments/options.yaml");
+  for (const ExperimentScene& scene : experiment.scenes) {
+    const Values shipped = valuesOf(experiment.rows[0], scene);
+    for (std::size_t i = 1; i < experiment.rows.size(); ++i) {
+      std::size_t differences = 0;
+      for (const auto& [name, value] : valuesOf(experiment.rows[i], scene)) {
+        const bool is_further = name.rfind("further.", 0) == 0;
+        const bool is_own = name.find("island") != std::string::npos ||
+                            name.find("epochs") != std::string::npos ||
+                            name.find("migrants") != std::string::npos;
+        const auto known = shipped.find(name);
+        differences += !is_further && !is_own && (known == shipped.end() || known->second != value) ? 1 : 0;
+      }
+      EXPECT_LE(differences, 3U) << experiment.rows[i].name << " on " << scene.name;
+    }
+  }
 }
 
 // "shipped" in a name is a promise: the defaults of src/tracking, and of a tracker no more than another
