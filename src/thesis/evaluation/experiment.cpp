@@ -91,6 +91,12 @@ Method methodNamed(const YamlValue& value, RowBase base) {
       "cont-GA-wl or -nl; cont-SA-wl or -nl; tracker; enumeration");
 }
 
+constexpr std::pair<const char*, ContinuousMating> kContinuousMatings[] = {
+    {"linear_scaling", ContinuousMating::LinearScaling},
+    {"fitness_weighted", ContinuousMating::FitnessWeighted}};
+constexpr std::pair<const char*, RandomMove> kRandomMoves[] = {
+    {"cartesian", RandomMove::Cartesian}, {"random_direction", RandomMove::RandomDirection}};
+
 void readContinuousGenetic(const YamlValue& value, ContinuousGeneticParameters& p) {
   YamlMap map(value, "a map of parameters of cont-GA");
   if (auto v = map.take("population_size")) p.population_size = count32(*v, 2);
@@ -99,6 +105,9 @@ void readContinuousGenetic(const YamlValue& value, ContinuousGeneticParameters& 
   if (auto v = map.take("mutation_probability")) p.mutation_probability = v->number(kShare, share);
   if (auto v = map.take("penalty_weight"))
     p.penalty_weight = v->number("0 or more, finite", notNegativeFinite);
+  if (auto v = map.take("mating")) p.mating = v->choice(kContinuousMatings);
+  if (auto v = map.take("mutation")) p.mutation = v->choice(kRandomMoves);
+  if (auto v = map.take("variable_displacement")) p.variable_displacement = v->boolean();
   map.finish();
 }
 
