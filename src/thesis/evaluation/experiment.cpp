@@ -102,6 +102,12 @@ Method methodNamed(const YamlValue& value, RowBase base) {
       "cont-GA-wl or -nl; cont-SA-wl or -nl; tracker; enumeration");
 }
 
+constexpr std::pair<const char*, ContinuousMating> kContinuousMatings[] = {
+    {"linear_scaling", ContinuousMating::LinearScaling},
+    {"fitness_weighted", ContinuousMating::FitnessWeighted}};
+constexpr std::pair<const char*, RandomMove> kRandomMoves[] = {
+    {"cartesian", RandomMove::Cartesian}, {"random_direction", RandomMove::RandomDirection}};
+
 void readContinuousGenetic(const YamlValue& value, ContinuousGeneticParameters& p) {
   YamlMap map(value, "a map of parameters of cont-GA");
   if (auto v = map.take("population_size")) p.population_size = count32(*v, 2);
@@ -110,6 +116,9 @@ void readContinuousGenetic(const YamlValue& value, ContinuousGeneticParameters& 
   if (auto v = map.take("mutation_probability")) p.mutation_probability = v->number(kShare, share);
   if (auto v = map.take("penalty_weight"))
     p.penalty_weight = v->number("0 or more, finite", notNegativeFinite);
+  if (auto v = map.take("mating")) p.mating = v->choice(kContinuousMatings);
+  if (auto v = map.take("mutation")) p.mutation = v->choice(kRandomMoves);
+  if (auto v = map.take("variable_displacement")) p.variable_displacement = v->boolean();
   map.finish();
 }
 
@@ -215,6 +224,7 @@ ExperimentRow readRow(const YamlValue& value, const std::optional<YamlValue>& co
   std::visit(Validator{value.where()}, row.method);
   map.take("thesis");      // the thesis's own figures, for the report
   map.take("variant_of");  // the thesis's row that it improves on
+  map.take("reasons");     // why a figure is worse than the thesis's
   map.finish();
   return row;
 }
@@ -232,6 +242,7 @@ Experiment loadExperiment(const std::string& file) {
   map.take("layout");
   map.take("remark");
   map.take("note");
+  map.take("reasons");
   if (auto v = map.take("seed")) experiment.seed = v->count(0, std::numeric_limits<std::uint64_t>::max());
   YamlMap runs(map.require("runs", "say how many runs: {quick: 20, full: 500}"), "{quick: 20, full: 500}");
   experiment.quick_runs = count32(runs.require("quick", "a count"), 1);

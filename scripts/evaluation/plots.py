@@ -1,0 +1,101 @@
+"""The figures of the page."""
+import collections
+import pathlib
+
+import matplotlib
+
+from manoeuvre import draw_manoeuvre, manoeuvre_table, read_curves
+
+from .rows import ROOT, read_rows
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402  (the backend comes first)
+
+
+def curves_of(folders, name):
+    """Averages over all runs: {(row, scene): [(iteration, best, mean square, niches, p_b)]}."""
+    units = {}
+    for line in read_rows(folders, name + "_curves.csv"):
+        unit = (line["row"], line["scene"], line["first_run"], int(line["iteration"]))
+        # A unit that was written twice, once with fewer runs, counts once.
+        if unit not in units or int(units[unit]["runs"]) < int(line["runs"]):
+            units[unit] = line
+    sums = collections.defaultdict(lambda: collections.defaultdict(lambda: [0.0] * 5))
+    for (row, scene, _, iteration), line in units.items():
+        point = sums[(row, scene)][iteration]
+        point[0] += int(line["runs"])
+        for i, column in enumerate(("best_distance_sum", "mean_square_sum", "niches_sum", "acceptance_sum")):
+            point[i + 1] += float(line[column])
+    return {key: [(iteration, *(value / p[0] for value in p[1:])) for iteration, p in sorted(points.items())]
+            for key, points in sums.items()}
+
+
+def plot_curves(experiment, curves, images):
+    """The figures that an experiment's curves stand for; returns their names and what they show."""
+    scenes = list(experiment["scenes"])
+    name = experiment["name"]
+    wanted = [("best", 1, "distance of the best, m", True)]
+    if any(key[0] for key in curves) and any(point[3] > 0 for points in curves.values() for point in points):
+        wanted += [("niches", 3, "niches of the population", False),
+                   ("average", 2, "average objective, m^2", True)]
+    if any("SA" in row["algorithm"] for row in experiment["rows"]):
+        wanted.append(("acceptance", 4, "acceptance probability p_b", False))
+    written = []
+    for kind, column, label, logarithmic in wanted:
+        figure, all_axes = plt.subplots(1, len(scenes), figsize=(5.5 * len(scenes), 4), squeeze=False)
+        for axes, scene in zip(all_axes[0], scenes):
+            for row in experiment["rows"]:
+                points = curves.get((row["name"], scene), [])
+                annealing = "SA" in row["algorithm"]
+                if not points or (kind == "acceptance") != annealing and kind != "best" or (
+                        annealing and kind in ("niches", "average")):
+                    continue
+                # An iteration of annealing is a trial point, a generation is N_pop of them: shares of the run.
+                last = points[-1][0] or 1
+                axes.plot([point[0] / last for point in points], [point[column] for point in points],
+                          label=row["name"].replace(";", ","))
+            if logarithmic:
+                axes.set_yscale("log")
+            axes.set_title(scene.replace("_", " "))
+            axes.set_xlabel("share of the run")
+            axes.set_ylabel(label)
+            axes.grid(alpha=0.3)
+            axes.legend(fontsize=8)
+        figure.tight_layout()
+        file_name = f"evaluation_{name}_{kind}.png"
+        figure.savefig(images / file_name, dpi=90)
+        plt.close(figure)
+        written.append((file_name, label))
+    return written
+
+
+def plot_sharing(images):
+    """Figure 5.2: the sharing function for five exponents."""
+    figure, axes = plt.subplots(figsize=(5.5, 4))
+    shares = [i / 200 for i in range(201)]
+    for exponent in (0.1, 0.3, 1, 3, 10):
+        axes.plot(shares, [1 - share ** exponent for share in shares], label=f"alpha_s = {exponent:g}")
+    axes.set_xlabel("mesh distance / sharing radius")
+    axes.set_ylabel("S")
+    axes.grid(alpha=0.3)
+    axes.legend()
+    figure.tight_layout()
+    figure.savefig(images / "evaluation_sharing.png", dpi=90)
+    plt.close(figure)
+
+
+def manoeuvre_section(folders, images):
+    """Figures 6.6 and 6.7; nothing without their data (a build without CGAL)."""
+    kept = ROOT / "doc" / "results" / "manoeuvre.csv"
+    paths = [pathlib.Path(folder) / kept.name for folder in folders] + [kept]
+    path = next((path for path in paths if path.exists()), None)
+    if path is None:
+        return []
+    curves = read_curves(path)
+    file_name = "evaluation_figure_6_6.png"
+    draw_manoeuvre(curves, plt, images / file_name)
+    return ["", "## Figures 6.6, 6.7: The manoeuvre into the fixture", "",
+            f"{len(curves['nodes'])} steps at 10 Hz, the partition by hand (126 sub-pairs), grid 0.05 m; by "
+            "`partition_benchmark --curves-output`. Metres, microseconds of processor time; flops by the thesis's rules "
+            "([partition](../partition.md#along-the-manoeuvre)).", "",
+            *manoeuvre_table(curves), "", f"![distance, error and time of every step](images/{file_name})"]
