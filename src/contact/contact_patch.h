@@ -1,35 +1,20 @@
 #pragma once
 
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 #include "base/refill.h"
+#include "cell_sums.h"
 #include "concave_distance/contact/contact_linearisation.h"
 #include "concave_distance/contact/effect_settings.h"
 #include "concave_distance/contact/pressure_field.h"
 #include "concave_distance/contact/wrench.h"
 #include "concave_distance/interference/interference.h"
 #include "pressure_law.h"
+#include "rubbing_sites.h"
+#include "site_friction.h"
 
 namespace concave_distance {
-
-/// A small part of a patch, with the pressure on it added up.
-struct PatchSite {
-  std::uint64_t cell;          ///< of space, in A's frame, and the direction of the push
-  Eigen::Vector3d point_in_a;  ///< centre of the pressure
-  Eigen::Vector3d push_in_a;   ///< unit, on B
-  double force;                ///< N, > 0
-  double stiffness;            ///< N/m
-  double damping;              ///< N s/m
-};
-
-/// Bristles of one site.
-struct SiteBristles {
-  std::uint64_t cell;
-  Eigen::Vector3d point_in_a;
-  BristleState bristles;
-};
 
 /// Bristles that may belong to any region.
 struct LooseBristles {
@@ -74,13 +59,6 @@ struct PatchMemory {
   }
 };
 
-/// Of B against A, about A's origin.
-struct PatchMotion {
-  const RelativeTwist& b_in_a;
-  const RelativeTwist& displacement;  ///< since the last call, metres and radians
-  double step;                        ///< seconds since then
-};
-
 /// The pressure of one region, sampled.
 struct PatchPressure {
   Wrench on_b_in_a;                                       ///< about A's origin
@@ -98,7 +76,7 @@ class ContactPatch {
   PatchPressure press(const PatchSurfaces& surfaces, const NormalForceSettings& settings,
                       const ContactMaterial& material, const RelativeTwist& b_in_a, PatchMemory& memory,
                       ContactLinearisation& linearisation);
-  /// Friction of what press() has set, on B, about A's origin.
+  /// Friction of what press() has set, on B, about A's origin. The surfaces of then must still be there.
   /// @param loose where the patch's own memory has no bristles of a cell, these may
   Wrench rub(const FrictionSettings& settings, const ContactMaterial& material, const PatchMotion& motion,
              const std::vector<LooseBristles>& loose, PatchMemory& memory,
@@ -107,12 +85,30 @@ class ContactPatch {
   const PressureField& field() const { return field_; }
 
  private:
-  void addShare(const PatchSite& share);
-  void gatherSites();
+  /// Part of the pressure's linearisation.
+  struct Spring {
+    std::uint64_t cell;
+    double force;
+    Eigen::Vector3d place;  ///< times the force
+    Eigen::Vector3d push;   ///< times the force
+    double stiffness;       ///< N/m
+    double damping;         ///< N s/m
 
-  std::vector<PatchSite> shares_;                               ///< of samples, with sums instead of means
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> order_;  ///< of the shares, by cell
-  std::vector<PatchSite> sites_;
+    void join(const Spring& other) {
+      force += other.force;
+      place += other.place;
+      push += other.push;
+      stiffness += other.stiffness;
+      damping += other.damping;
+    }
+  };
+  static void addSpring(const Spring& sum, ContactLinearisation& linearisation);
+
+  const OverlapSample* first_sample_ = nullptr;  ///< of the last press()
+  const OverlapSample* last_sample_ = nullptr;
+  std::vector<double> forces_;  ///< of these samples
+  CellSums<Spring> springs_;
+  RubbingSites sites_;
   std::vector<SiteBristles> next_;
   double last_cell_size_ = 0.0;  ///< of the memory that press() has met
   PressureField field_;

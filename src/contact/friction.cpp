@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "contact_parameter_tables.h"
+#include "friction_laws.h"
 
 namespace concave_distance {
 
@@ -50,31 +51,34 @@ double slippingShare(double bent, double breakaway) {
 
 }  // namespace
 
-Eigen::Vector3d bristleForce(const FrictionSettings& settings, const ContactMaterial& material,
-                             double normal_force, const Eigen::Vector3d& normal,
-                             const Eigen::Vector3d& sliding, const Eigen::Vector3d& displacement,
-                             BristleState& state) {
+Eigen::Vector3d turnedInto(const Eigen::Vector3d& normal, const Eigen::Vector3d& deflection) {
+  const Eigen::Vector3d in_plane = deflection - normal * normal.dot(deflection);
+  const double length = in_plane.norm();
+  return length > 0.0 ? Eigen::Vector3d(in_plane * (deflection.norm() / length)) : Eigen::Vector3d::Zero();
+}
+
+namespace {
+
+/// Of bristles that lie in the plane.
+Eigen::Vector3d bentBristleForce(const FrictionSettings& settings, const ContactMaterial& material,
+                                 double normal_force, const Eigen::Vector3d& sliding,
+                                 const Eigen::Vector3d& displacement, BristleState& state) {
   if (!(normal_force > 0.0)) {
     state.deflection.setZero();
     return Eigen::Vector3d::Zero();
   }
-  // Turned, not projected: a region that rolls keeps the length of its bristles.
-  const double length = state.deflection.norm();
-  Eigen::Vector3d before = state.deflection - normal * normal.dot(state.deflection);
-  const double in_plane = before.norm();
-  before = in_plane > 0.0 ? Eigen::Vector3d(before * (length / in_plane)) : Eigen::Vector3d::Zero();
-
   const double speed = sliding.norm();
   const double coefficient = frictionCoefficient(material, settings.stribeck_speed, speed);
   if (!(coefficient > 0.0)) {
     state.deflection.setZero();
     return -normal_force * material.viscous_friction * sliding;
   }
-  const double share = slippingShare(
-      settings.bristle_stiffness * (before + displacement).norm() / coefficient, material.breakaway);
+  const Eigen::Vector3d bent = state.deflection + displacement;
+  const double share =
+      slippingShare(settings.bristle_stiffness * bent.norm() / coefficient, material.breakaway);
   const double decay = share * settings.bristle_stiffness * speed / coefficient;
   const double slip = share * settings.bristle_stiffness * displacement.norm() / coefficient;
-  state.deflection = (before + displacement) / (1.0 + slip);
+  state.deflection = bent / (1.0 + slip);
   const Eigen::Vector3d rate = sliding - decay * state.deflection;
   Eigen::Vector3d friction = settings.bristle_stiffness * state.deflection + settings.bristle_damping * rate +
                              material.viscous_friction * sliding;
@@ -84,19 +88,36 @@ Eigen::Vector3d bristleForce(const FrictionSettings& settings, const ContactMate
   return -normal_force * friction;
 }
 
-Eigen::Vector3d frictionForce(const FrictionSettings& settings, const ContactMaterial& material,
-                              double normal_force, const Eigen::Vector3d& normal,
-                              const Eigen::Vector3d& sliding, const Eigen::Vector3d& displacement,
-                              BristleState& state) {
+}  // namespace
+
+Eigen::Vector3d bristleForce(const FrictionSettings& settings, const ContactMaterial& material,
+                             double normal_force, const Eigen::Vector3d& normal,
+                             const Eigen::Vector3d& sliding, const Eigen::Vector3d& displacement,
+                             BristleState& state) {
+  state.deflection = turnedInto(normal, state.deflection);
+  return bentBristleForce(settings, material, normal_force, sliding, displacement, state);
+}
+
+Eigen::Vector3d frictionAlong(const FrictionSettings& settings, const ContactMaterial& material,
+                              double normal_force, const Eigen::Vector3d& sliding,
+                              const Eigen::Vector3d& displacement, BristleState& state) {
   switch (settings.model) {
     case FrictionModel::None:
       break;
     case FrictionModel::RegularisedCoulomb:
       return regularisedCoulombForce(settings, material, normal_force, sliding);
     case FrictionModel::Bristle:
-      return bristleForce(settings, material, normal_force, normal, sliding, displacement, state);
+      return bentBristleForce(settings, material, normal_force, sliding, displacement, state);
   }
   return Eigen::Vector3d::Zero();
+}
+
+Eigen::Vector3d frictionForce(const FrictionSettings& settings, const ContactMaterial& material,
+                              double normal_force, const Eigen::Vector3d& normal,
+                              const Eigen::Vector3d& sliding, const Eigen::Vector3d& displacement,
+                              BristleState& state) {
+  if (settings.model == FrictionModel::Bristle) state.deflection = turnedInto(normal, state.deflection);
+  return frictionAlong(settings, material, normal_force, sliding, displacement, state);
 }
 
 namespace {
@@ -150,16 +171,25 @@ FrictionTangent bristleTangent(const FrictionSettings& settings, const ContactMa
 
 }  // namespace
 
+FrictionTangent frictionSlopes(const FrictionSettings& settings, const ContactMaterial& material,
+                               double normal_force, const Eigen::Vector3d& sliding,
+                               const RecentSliding& recent) {
+  switch (settings.model) {
+    case FrictionModel::None:
+      break;
+    case FrictionModel::RegularisedCoulomb:
+      return coulombTangent(settings, material, normal_force, sliding.norm());
+    case FrictionModel::Bristle:
+      return bristleTangent(settings, material, normal_force, sliding, recent);
+  }
+  return {};
+}
+
 FrictionTangent frictionTangent(const FrictionSettings& settings, const ContactMaterial& material,
                                 double normal_force, const Eigen::Vector3d& normal,
                                 const Eigen::Vector3d& sliding, const RecentSliding& recent) {
+  FrictionTangent tangent = frictionSlopes(settings, material, normal_force, sliding, recent);
   const double speed = sliding.norm();
-  FrictionTangent tangent;
-  if (settings.model == FrictionModel::RegularisedCoulomb) {
-    tangent = coulombTangent(settings, material, normal_force, speed);
-  } else if (settings.model == FrictionModel::Bristle) {
-    tangent = bristleTangent(settings, material, normal_force, sliding, recent);
-  }
   tangent.along = speed > 0.0 ? Eigen::Vector3d(sliding / speed) : normal.unitOrthogonal();
   tangent.across = normal.cross(tangent.along);
   return tangent;

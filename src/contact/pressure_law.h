@@ -16,7 +16,7 @@ struct PatchMeasure {
 
 PatchMeasure measurePatch(const OverlapSample* first, const OverlapSample* last, double depth);
 
-/// Pressure at a place: depth * max(0, stiffness + damping * rate of the depth).
+/// Pressure at a place: depth * max(0, stiffness + damping * PressureField::approachRate()).
 struct PressureLaw {
   double stiffness = 0.0;  ///< Pa/m
   double damping = 0.0;    ///< Pa s/m^2

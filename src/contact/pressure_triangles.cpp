@@ -92,13 +92,8 @@ class Cutter {
   double pressureAt(const OverlapFacet& facet, const Eigen::Vector3d& point) {
     const Eigen::Vector3d push = facet.of_b ? Eigen::Vector3d(-facet.normal_in_a) : facet.normal_in_a;
     if (!surface_.field.carries(push) || (facet.may_leave && !isInside(point))) return 0.0;
-    const Eigen::Vector3d target = surface_.other_from_a * point;
-    const Eigen::Vector3d way = wayOut(target);
-    const double depth = way.norm();
-    if (!(depth > 0.0)) return 0.0;
-    const Eigen::Vector3d out = surface_.other_from_a.linear().transpose() * way / depth;
-    const Eigen::Vector3d exit = facet.of_b ? out : Eigen::Vector3d(-out);
-    return depth * surface_.field.perDepth(surface_.field.depthRate(point, exit));
+    const double depth = wayOut(surface_.other_from_a * point).norm();
+    return depth * surface_.field.perDepth(surface_.field.approachRate(point, push));
   }
 
   /// To the other body's surface, its frame.

@@ -1,7 +1,10 @@
 // Pressure over the surfaces of an overlap, with torque and friction, against closed forms.
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
 #include <cmath>
+#include <string>
+#include <utility>
 
 #include "effect_scene.h"
 #include "support/concave_shapes.h"
@@ -40,24 +43,120 @@ TEST(ContactPatch, ATiltedBoxIsTurnedUpright) {
   EXPECT_NEAR(scene.contacts.regions[0].largest_pressure, 1e9 * (depth + tilt * 0.05), 2e3);
 }
 
-TEST(ContactPatch, ADiscThatSpinsIsHeldBackByTwoThirdsOfItsRadius) {
-  const double radius = 0.05;
+/// Friction on a flat body, pressed evenly on a plate, that slides along x and spins about z at the same
+/// time.
+struct FlatFriction {
+  double force;   ///< along x, over the greatest
+  double torque;  ///< about z, over the greatest force, metres
+};
+
+FlatFriction frictionOf(SurfaceMesh mesh, double half_height, FrictionModel model, double speed,
+                        double spin) {
+  EffectScene scene(body("plate", makeBox({1, 1, 0.2})), body("flat", std::move(mesh)),
+                    foundation(1e9, model));
+  const double step = 1e-3;
+  for (int k = -20; k <= 0; ++k) {
+    const Eigen::Vector3d place(step * speed * k, 0.0, 0.1 + half_height - 1e-5);
+    Eigen::Isometry3d pose = at(place.x(), place.y(), place.z());
+    pose.rotate(Eigen::AngleAxisd(step * spin * k, Eigen::Vector3d::UnitZ()));
+    RelativeTwist twist;
+    twist.angular.z() = spin;
+    twist.linear = Eigen::Vector3d(speed, 0.0, 0.0) - twist.angular.cross(place);
+    scene.update(pose, step, twist);
+  }
+  const double greatest = Material().dynamic_friction * scene.contacts.regions[0].normal_force;
+  return {-scene.contacts.on_b_in_a.force.x() / greatest, -scene.contacts.on_b_in_a.torque.z() / greatest};
+}
+
+/// Sums over a grid of cells whose middle is inside.
+template <typename Inside>
+FlatFriction summed(double half_width, double speed, double spin, const Inside& inside) {
+  const int count = 1000;
+  FlatFriction sum{0.0, 0.0};
+  int cells = 0;
+  for (int i = 0; i < count * count; ++i) {
+    const double x = half_width * (2.0 * (i % count + 0.5) / count - 1.0);
+    const double y = half_width * (2.0 * (i / count + 0.5) / count - 1.0);
+    if (!inside(x, y)) continue;
+    const double along = speed - spin * y;
+    const double across = spin * x;
+    const double size = std::hypot(along, across);
+    sum.force += along / size;
+    sum.torque += (x * across - y * along) / size;
+    ++cells;
+  }
+  return {sum.force / cells, sum.torque / cells};
+}
+
+constexpr double kHalf = 0.05;                 // metres: half of a face's width
+constexpr double kDrifts[] = {0.0, 0.2, 1.0};  // sliding over spinning at the rim
+
+class FlatFaces : public testing::TestWithParam<FrictionModel> {};
+
+TEST_P(FlatFaces, ADiscThatSpinsAndSlidesIsHeldBackAsTheIntegralSays) {
+  EXPECT_NEAR(frictionOf(makeCylinder(kHalf, 0.02, 1e-4), 0.01, GetParam(), 0.0, 10.0).torque,
+              2.0 / 3.0 * kHalf, 0.02 * 2.0 / 3.0 * kHalf);
+  for (const double drift : kDrifts) {
+    const double speed = drift * 10.0 * kHalf;
+    const FlatFriction found = frictionOf(makeCylinder(kHalf, 0.02, 1e-5), 0.01, GetParam(), speed, 10.0);
+    const FlatFriction expected =
+        summed(kHalf, speed, 10.0, [](double x, double y) { return std::hypot(x, y) < kHalf; });
+    EXPECT_NEAR(found.torque, expected.torque, 0.03 * kHalf) << drift;
+    EXPECT_NEAR(found.force, expected.force, 0.05) << drift;
+  }
+}
+
+TEST_P(FlatFaces, ABoxThatSpinsAndSlidesIsHeldBackAsTheIntegralSays) {
+  for (const double drift : kDrifts) {
+    const double speed = drift * 10.0 * kHalf;
+    const FlatFriction found =
+        frictionOf(makeBox({2.0 * kHalf, 2.0 * kHalf, 0.02}), 0.01, GetParam(), speed, 10.0);
+    const FlatFriction expected = summed(kHalf, speed, 10.0, [](double, double) { return true; });
+    EXPECT_NEAR(found.torque, expected.torque, 0.03 * kHalf) << drift;
+    EXPECT_NEAR(found.force, expected.force, 0.05) << drift;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(ContactPatch, FlatFaces,
+                         testing::Values(FrictionModel::RegularisedCoulomb, FrictionModel::Bristle),
+                         [](const auto& info) { return std::string(toString(info.param)); });
+
+TEST(ContactPatch, FrictionOfAFaceHasATangentThatIsNotNegative) {
   for (const FrictionModel model : {FrictionModel::RegularisedCoulomb, FrictionModel::Bristle}) {
-    EffectScene scene(body("plate", makeBox({1, 1, 0.2})), body("disc", makeCylinder(radius, 0.02, 1e-5)),
+    EffectScene scene(body("plate", makeBox({1, 1, 0.2})), body("box", makeBox({0.1, 0.1, 0.1})),
                       foundation(1e9, model));
-    RelativeTwist spin;
-    spin.angular.z() = 10.0;
-    for (int k = 0; k < 20; ++k) {
-      Eigen::Isometry3d pose = at(0.0, 0.0, 0.11 - 1e-5);
-      pose.rotate(Eigen::AngleAxisd(0.01 * k, Eigen::Vector3d::UnitZ()));
-      scene.update(pose, 1e-3, spin);
+    for (const double spin : {0.0, 1e-6, 1e-3, 1.0}) {
+      RelativeTwist twist;
+      twist.linear.x() = 0.02 * spin;
+      twist.angular.z() = spin;
+      for (int k = 0; k < 3; ++k) scene.update(at(0.02 * spin * 1e-3 * k, 0.0, 0.15 - 1e-4), 1e-3, twist);
+      for (const Matrix6d& part :
+           {scene.contacts.linearisation.stiffness, scene.contacts.linearisation.damping}) {
+        const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(part);
+        EXPECT_GE(solver.eigenvalues().minCoeff(), -1e-12 * solver.eigenvalues().maxCoeff())
+            << toString(model) << " " << spin;
+      }
     }
-    const double force = scene.contacts.regions[0].normal_force;
-    const double expected = 2.0 / 3.0 * Material().dynamic_friction * force * radius;
-    EXPECT_NEAR(scene.contacts.on_b_in_a.torque.z(), -expected, 0.03 * expected) << toString(model);
-    // What does not cancel comes from the sites' size.
-    EXPECT_LT(scene.contacts.regions[0].friction_on_b_in_a.norm() * radius, 0.1 * expected)
-        << toString(model);
+  }
+}
+
+TEST(ContactPatch, DampingTakesEnergyWhereABallComesThroughAThinWall) {
+  const double thickness = 1e-3;
+  EffectSettings settings = foundation(1e10);
+  settings.normal_force->model = NormalForceModel::HuntCrossley;
+  EffectScene scene(body("wall", makeBox({1, 1, thickness})), body("ball", makeSphere(0.05, 5e-4)), settings);
+  RelativeTwist twist;
+  twist.linear.z() = -1.0;
+  const double rate = 1.5 * Material().dissipation;
+  for (const double depth : {2e-4, 6e-4, 1.2e-3, 2e-3}) {
+    const Eigen::Isometry3d pose = at(0.003, 0.002, 0.5 * thickness + 0.05 - depth);
+    scene.update(pose, 0.0);
+    const double still = scene.contacts.on_b_in_a.force.z();
+    scene.update(pose, 0.0, twist);
+    // By place: less where the ball's surface is steep.
+    const double share = (scene.contacts.on_b_in_a.force.z() / still - 1.0) / rate;
+    EXPECT_LE(share, 1.0 + 1e-9) << depth;
+    EXPECT_GE(share, 1.0 - 2.0 * depth / 0.05 - 0.02) << depth;
   }
 }
 
