@@ -24,7 +24,7 @@ results=${2:-build/evaluation_$size}
 # Tests install copies of their own below build/test.
 program() { find build -path build/test -prune -o -type f -perm -u+x -name "$1" -print | head -n 1; }
 scripts/install_dependencies.sh build plot
-if [ -d build ]; then cmake --build build --target evaluate; else scripts/build.sh; fi
+if [ -d build ]; then cmake --build build --target evaluate mesh_tool; else scripts/build.sh; fi
 # Rows that are there are not run again: they have to be what this program makes of these experiments.
 scripts/report_rows.py prepare "$results" --program "$(program evaluate)"
 "$(program evaluate)" experiments/*.yaml --size "$size" --output "$results"
@@ -35,6 +35,8 @@ if [ "$size" = full ] && [ -n "$(program run_flops)" ]; then  # built with bench
   scripts/count_run_flops.py --program "$(program run_flops)" --output "$results/run_flops.csv"
 fi
 if [ "$size" = quick ]; then
+  mkdir -p "$results/images"
+  scripts/plot_thesis_figures.py "$results" --output "$results/images"
   /usr/bin/python3 scripts/write_evaluation.py "$results" --output "$results/evaluation.md"
   exit
 fi
@@ -49,6 +51,7 @@ if [ -f "$kept/run_flops.csv.xz" ]; then
   scripts/provenance.py record "$kept/run_flops.csv.xz" --defaults tracker,thesis --inputs 'experiments/table_*.yaml' \
     --command 'scripts/report.sh full'
 fi
+scripts/plot_thesis_figures.py "$kept" --output doc/results/images
 /usr/bin/python3 scripts/write_evaluation.py "$kept"
 scripts/provenance.py record doc/results/evaluation.md 'doc/results/images/evaluation_*.png' --defaults tracker,thesis \
   --inputs "experiments/*.yaml,$kept/*.csv.xz,doc/results/manoeuvre.csv" --command 'scripts/report.sh full'

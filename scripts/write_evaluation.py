@@ -14,7 +14,7 @@ import pathlib
 from evaluation.figures import their_number, values_of
 from evaluation.introduction import INTRODUCTION
 from evaluation.losses import losses_of, losses_section
-from evaluation.plots import curves_of, manoeuvre_section, plot_curves, plot_sharing
+from evaluation.plots import curves_of, drawn_section, manoeuvre_section, plot_curves, plot_sharing
 from evaluation.rows import ROOT, Results, order_of, read_experiments, read_rows, with_counted_work
 from evaluation.tables import described, parameters_section, write_by_scene, write_table
 from evaluation.texts import Quoter
@@ -42,6 +42,8 @@ def experiment_section(experiment, results, quoter, counted, images):
     curves = curves_of(results.folders, name)
     for file_name, label in plot_curves(experiment, curves, images) if curves else []:
         section += ["", f"![{label}](images/{file_name})"]
+    if (images / f"evaluation_{name}.png").exists():  # by scripts/plot_thesis_figures.py
+        section += ["", f"![{experiment['title']}](images/evaluation_{name}.png)"]
     return section
 
 
@@ -49,7 +51,7 @@ def page(results, images):
     """All lines of the page; its plots are written on the way."""
     quoter = Quoter(results, their_number, values_of)
     counted = read_rows(results.folders, "run_flops.csv")
-    manoeuvre = manoeuvre_section(results.folders, images)
+    manoeuvre = drawn_section(images) + manoeuvre_section(results.folders, images)
     plot_sharing(images)
     body = []
     losses = []

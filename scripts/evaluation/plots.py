@@ -99,3 +99,18 @@ def manoeuvre_section(folders, images):
             "`partition_benchmark --curves-output`. Metres, microseconds of processor time; flops by the thesis's rules "
             "([partition](../partition.md#along-the-manoeuvre)).", "",
             *manoeuvre_table(curves), "", f"![distance, error and time of every step](images/{file_name})"]
+
+
+def drawn_section(images):
+    """Figures 6.1 to 6.3 and 6.5, where scripts/plot_thesis_figures.py has drawn them."""
+    figures = [("6_1", "a holed block in convex pieces"), ("6_2", "a slotted block in convex pieces"),
+               ("6_3", "the semi-extruded body in convex pieces"), ("6_5", "position and orientation of the battery over time")]
+    drawn = [(f"evaluation_figure_{number}.png", label) for number, label in figures
+             if (images / f"evaluation_figure_{number}.png").exists()]
+    if not drawn:
+        return []
+    lines = ["", "## Figures 6.1 to 6.3, 6.5: Partitions, and the manoeuvre's poses", "",
+             "The bodies that the thesis partitioned are lost: these are ours, cut by this package ([partition](../partition.md))."]
+    for file_name, label in drawn:
+        lines += ["", f"![{label}](images/{file_name})"]
+    return lines
