@@ -26,6 +26,13 @@ constexpr double kStraight = 0.01;
 // A core farther than this share of the radius needs no rings about it.
 constexpr double kFarCore = 0.3;
 constexpr double kShortestAxis = 1e-14;
+// Over lengths across the core of less than this share of the distance from it the depth is so nearly
+// quadratic that three points leave a millionth.
+constexpr double kBendsLittle = 0.4;
+// A border that goes this share beyond its chord, as seen from the centre, is integrated along that with
+// three points, and no wider than this angle.
+constexpr double kBeyondChord = 0.05;
+constexpr double kWidestChord = 0.95 * kPi;
 
 }  // namespace
 
@@ -139,7 +146,9 @@ void RoundSection::addStraight(const Piece& piece) {
   }
   double from = 0.0;
   for (const double to : cuts.sorted()) {
-    for (const GaussPoint& at : kGaussFive)
+    const Vector3d start = piece.from + from * along;
+    const Vector3d end = piece.from + to * along;
+    for (const GaussPoint& at : bendsLittle(start, end) ? GaussRule(kGaussThree) : GaussRule(kGaussFive))
       addRay(piece.from + (from + at.at * (to - from)) * along, at.weight * (to - from) * twice_area);
     from = to;
     if (to == 1.0) break;
@@ -195,6 +204,13 @@ Vector3d RoundSection::towards(const Vector3d& direction) const {
                        direction;
 }
 
+/// Whether the depth is as good as quadratic between two points.
+bool RoundSection::bendsLittle(const Vector3d& from, const Vector3d& to) const {
+  const Vector3d way = to - from;
+  const double across = shape_->kind == RoundKind::Cylinder ? way.head<2>().norm() : way.norm();
+  return across <= kBendsLittle * core_;
+}
+
 /// In parts along their chords: exact where the border is straight, as that of a cylinder on its side.
 /// @param ends the border's points at both angles
 void RoundSection::addArc(double from, double to, const Piece& ends) {
@@ -202,38 +218,53 @@ void RoundSection::addArc(double from, double to, const Piece& ends) {
   Vector3d start = ends.from;
   for (std::size_t b = 0; b + 1 < bend_count_; ++b) {
     const double width = bends_[b + 1] - bends_[b];
+    const Vector3d last = b + 2 == bend_count_ ? ends.to : border(bends_[b + 1]);
+    if (width < kWidestChord && isNearlyStraight(start, last)) {
+      addArcPart(GaussRule(kGaussThree), start, last);
+      start = last;
+      continue;
+    }
     const auto parts = std::max(1, static_cast<int>(std::ceil(width / kWidestArc - 1e-9)));
     for (int part = 0; part < parts; ++part) {
-      const bool is_last = b + 2 == bend_count_ && part + 1 == parts;
-      const Vector3d end = is_last ? ends.to : border(bends_[b] + (part + 1) * width / parts);
-      const double twice_area = (start - centre_).cross(end - centre_).dot(normal_);
-      std::array<Vector3d, kGaussFive.size()> points;
-      for (std::size_t i = 0; i < points.size(); ++i) {
-        const Vector3d chord = start + kGaussFive[i].at * (end - start) - centre_;
-        const double length = chord.norm();
-        points[i] = length > 0.0 ? towards(chord / length) : centre_;
-        if (length > 0.0)
-          addRay(points[i],
-                 kGaussFive[i].weight * twice_area * (points[i] - centre_).squaredNorm() / (length * length));
-      }
-      addToFan(start, points, end);
+      const Vector3d end = part + 1 == parts ? last : border(bends_[b] + (part + 1) * width / parts);
+      addArcPart(GaussRule(kGaussFive), start, end);
       start = end;
     }
   }
 }
 
+bool RoundSection::isNearlyStraight(const Vector3d& start, const Vector3d& end) const {
+  const Vector3d middle = 0.5 * (start + end) - centre_;
+  const double length = middle.norm();
+  return length > 0.0 && bendsLittle(start, end) &&
+         (towards(middle / length) - centre_).norm() <= (1.0 + kBeyondChord) * length;
+}
+
+void RoundSection::addArcPart(const GaussRule& rule, const Vector3d& start, const Vector3d& end) {
+  const double twice_area = (start - centre_).cross(end - centre_).dot(normal_);
+  std::size_t count = 0;
+  for (const GaussPoint& at : rule) {
+    const Vector3d chord = start + at.at * (end - start) - centre_;
+    const double length = chord.norm();
+    Vector3d& point = arc_points_[count++];
+    point = length > 0.0 ? towards(chord / length) : centre_;
+    if (length > 0.0)
+      addRay(point, at.weight * twice_area * (point - centre_).squaredNorm() / (length * length));
+  }
+  addToFan(start, count, end);
+}
+
 /// One triangle where the border is straight.
-void RoundSection::addToFan(const Vector3d& start, const std::array<Vector3d, kGaussFive.size()>& points,
-                            const Vector3d& end) {
-  const double sagitta = (points[points.size() / 2] - 0.5 * (start + end)).norm();
+void RoundSection::addToFan(const Vector3d& start, std::size_t count, const Vector3d& end) {
+  const double sagitta = (arc_points_[count / 2] - 0.5 * (start + end)).norm();
   if (sagitta <= kStraight * (end - start).norm()) {
     fan_->push_back({centre_, start, end});
     return;
   }
   Vector3d before = start;
-  for (const Vector3d& point : points) {
-    fan_->push_back({centre_, before, point});
-    before = point;
+  for (std::size_t i = 0; i < count; ++i) {
+    fan_->push_back({centre_, before, arc_points_[i]});
+    before = arc_points_[i];
   }
   fan_->push_back({centre_, before, end});
 }
@@ -245,9 +276,10 @@ void RoundSection::addRay(const Vector3d& end, double weight) {
   const double length = (end - centre_).norm();
   double ring = core_;
   for (int k = 0; k < kMostRings && ring < kNearCore * length; ++k, ring *= 3.0) kinks.add(ring / length);
+  const GaussRule rule = bendsLittle(centre_, end) ? GaussRule(kGaussThree) : GaussRule(kGaussFour);
   double from = 0.0;
   for (const double to : kinks.sorted()) {
-    for (const GaussPoint& at : kGaussFour) {
+    for (const GaussPoint& at : rule) {
       const double share = from + at.at * (to - from);
       add(centre_ + share * (end - centre_), weight * share * at.weight * (to - from));
     }

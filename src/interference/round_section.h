@@ -20,8 +20,9 @@ struct RoundSample {
 
 /// Integrates over the part of a triangle that is inside a round solid. That part is convex, and the depth is
 /// concave: polar coordinates about its deepest point, with Gauss points between the corners, the crossings
-/// of the edges and the places where the solid's surface changes from one piece to another. Small triangles
-/// wholly inside take 3 or 6 points.
+/// of the edges and the places where the solid's surface changes from one piece to another: 3 by 3 where the
+/// depth is as good as quadratic, as in shallow contact, else more. Small triangles wholly inside take 3
+/// or 6.
 class RoundSection {
  public:
   /// Appends the samples, and to `fan` triangles that cover the part: corners on the border, chords of it.
@@ -41,9 +42,11 @@ class RoundSection {
   void findPieces();
   void addInside(bool sparse);
   void addStraight(const Piece& piece);
+  bool bendsLittle(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const;
   void addArc(double from, double to, const Piece& ends);
-  void addToFan(const Eigen::Vector3d& start, const std::array<Eigen::Vector3d, kGaussFive.size()>& points,
-                const Eigen::Vector3d& end);
+  void addArcPart(const GaussRule& rule, const Eigen::Vector3d& start, const Eigen::Vector3d& end);
+  bool isNearlyStraight(const Eigen::Vector3d& start, const Eigen::Vector3d& end) const;
+  void addToFan(const Eigen::Vector3d& start, std::size_t count, const Eigen::Vector3d& end);
   void addRay(const Eigen::Vector3d& end, double weight);
   void add(const Eigen::Vector3d& point, double area);
   void findBends(double from, double to);
@@ -61,6 +64,7 @@ class RoundSection {
   Eigen::Vector3d axis_v_;
   std::vector<RoundSample>* samples_ = nullptr;
   std::vector<TrianglePoints>* fan_ = nullptr;
+  std::array<Eigen::Vector3d, kGaussFive.size()> arc_points_;
   std::array<Piece, 3> pieces_;
   std::size_t piece_count_ = 0;
   std::array<double, 8> bends_;

@@ -14,7 +14,11 @@ constexpr double kPi = 3.14159265358979323846;
 
 /// (r / x)^power, with what is at the core itself left out.
 double ratio(double radius, double distance, int power) {
-  return distance > 1e-9 * radius ? std::pow(radius / distance, power) : 0.0;
+  if (!(distance > 1e-9 * radius)) return 0.0;
+  const double share = radius / distance;
+  double product = share;
+  for (int k = 1; k < power; ++k) product *= share;
+  return product;
 }
 
 }  // namespace
