@@ -96,20 +96,21 @@ PatchPressure ContactPatch::press(const PatchSurfaces& surfaces, const NormalFor
     const Eigen::Vector3d& push = sample->push_in_a;
     if (!field_.carries(push)) continue;
     gradient.add(*sample);
-    const double rate = field_.approachRate(sample->point_in_a, push);
+    const double rate = field_.approachRate(sample->point_in_a, push, sample->exit_in_a);
     const double per_depth = field_.perDepth(rate);
     const double pressure = per_depth * sample->depth;
     result.largest_pressure = std::max(result.largest_pressure, pressure);
     const double force = sample->area * pressure;
     forces_[static_cast<std::size_t>(sample - first_sample_)] = force;
-    const double along = std::max(0.0, push.dot(sample->exit_in_a));
+    const double share = push.dot(sample->exit_in_a);
+    const double along = std::max(0.0, share);
     result.force += force;
     result.centre_in_a += force * sample->point_in_a;
     result.depth_rate += force * rate;
     result.on_b_in_a += wrenchAbout(force * push, sample->point_in_a, Eigen::Vector3d::Zero());
     springs_.add({cellOf(sample->point_in_a, push, cell_size / kSpringsAcross), force,
                   force * sample->point_in_a, force * push, sample->area * per_depth * along,
-                  sample->area * law.damping * sample->depth});
+                  sample->area * law.damping * sample->depth * share * share});
   }
   if (result.force > 0.0) {
     result.centre_in_a /= result.force;

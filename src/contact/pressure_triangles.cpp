@@ -92,8 +92,11 @@ class Cutter {
   double pressureAt(const OverlapFacet& facet, const Eigen::Vector3d& point) {
     const Eigen::Vector3d push = facet.of_b ? Eigen::Vector3d(-facet.normal_in_a) : facet.normal_in_a;
     if (!surface_.field.carries(push) || (facet.may_leave && !isInside(point))) return 0.0;
-    const double depth = wayOut(surface_.other_from_a * point).norm();
-    return depth * surface_.field.perDepth(surface_.field.approachRate(point, push));
+    const Eigen::Vector3d way = wayOut(surface_.other_from_a * point);
+    const double depth = way.norm();
+    if (!(depth > 0.0)) return 0.0;
+    const Eigen::Vector3d exit = surface_.other_from_a.linear().transpose() * way / depth;
+    return depth * surface_.field.perDepth(surface_.field.approachRate(point, push, exit));
   }
 
   /// To the other body's surface, its frame.

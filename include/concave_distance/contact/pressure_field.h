@@ -17,12 +17,15 @@ struct PressureField {
   /// far side. Zero: every place carries some.
   Eigen::Vector3d entered_in_a = Eigen::Vector3d::Zero();
 
-  /// m/s, positive while the surfaces press into each other there. Along the push and not along the way out
-  /// of the material, so that damping takes energy at every place, also where that way leads out on the far
-  /// side.
+  /// m/s, positive while the surfaces press into each other there: along the push, so that damping takes
+  /// energy at every place, also where the shortest way out leads to the far side; times the square of their
+  /// cosine, so that a side that slides along the other body is not damped.
   /// @param push_in_a unit, the way B is pushed there
-  double approachRate(const Eigen::Vector3d& point_in_a, const Eigen::Vector3d& push_in_a) const {
-    return -b_in_a.at(point_in_a).dot(push_in_a);
+  /// @param exit_in_a unit, the shortest way out there, of either sign
+  double approachRate(const Eigen::Vector3d& point_in_a, const Eigen::Vector3d& push_in_a,
+                      const Eigen::Vector3d& exit_in_a) const {
+    const double share = push_in_a.dot(exit_in_a);
+    return -share * share * b_in_a.at(point_in_a).dot(push_in_a);
   }
   /// @param push_in_a unit, the way B is pushed there
   bool carries(const Eigen::Vector3d& push_in_a) const { return !(push_in_a.dot(entered_in_a) < 0.0); }
