@@ -54,7 +54,8 @@ void RubbingSites::gather(const OverlapSample* first_sample, const OverlapSample
   shares_.forEach([this](const Share& sum) { addSite(sum); });
 }
 
-// See OverlapSample: the triangle between the middles of the edges has a quarter of the area.
+// A whole triangle is sampled at the middles of its edges; the triangle between these has a quarter of its
+// area.
 bool RubbingSites::isTriangle(const OverlapSample* sample) {
   for (int k = 1; k < 3; ++k) {
     if (sample[k].area != sample->area || sample[k].push_in_a != sample->push_in_a) return false;

@@ -19,7 +19,7 @@ enum class Extrapolation : std::uint8_t {
 /// rest random.
 struct FirstGuess {
   Inheritance inheritance;
-  /// So many trial points of every niche, whatever its fitness (sec. 6.2.2), in place of `inheritance`;
+  /// So many trial points of every niche, regardless of its fitness (sec. 6.2.2), in place of `inheritance`;
   /// empty: (6.7), (6.8).
   std::optional<std::uint32_t> fixed_per_niche;
   Extrapolation extrapolation = Extrapolation::None;

@@ -10,7 +10,7 @@
 namespace concave_distance::evaluation {
 namespace {
 
-// Sec. 6.2.2: "two for each niche", whatever its fitness.
+// Sec. 6.2.2: "two for each niche", regardless of its fitness.
 TEST(FirstGuess, AFixedCountIsTheSameForEveryNiche) {
   const std::vector<TrialPoint> niches = {{NodeIndex{4}, NodeIndex{7}, 0.01},
                                           {NodeIndex{5}, NodeIndex{8}, 9.0}};
