@@ -32,9 +32,6 @@ void run() {
   if (!ros::ok()) return;
   LoadProgress progress;
   Scene scene = loadScene(loading, request, progress);
-  for (const SceneProblem& problem : scene.problems) {
-    ROS_ERROR_STREAM(problem.where << ": " << problem.message);
-  }
   const SimulationRunner runner(node, private_node, std::move(scene), parameters);
   ros::spin();
 }

@@ -17,6 +17,15 @@ const SimulationSettings& requireSection(const Scene& scene) {
   return *scene.simulation;
 }
 
+/// What is lost holds nothing: the rest would move as in another scene.
+const Scene& requireWhole(const Scene& scene) {
+  if (!scene.problems.empty()) {
+    throw Error(scene.problems.front().where, scene.problems.front().message,
+                "a simulation needs the whole scene: mend the entry or remove it");
+  }
+  return scene;
+}
+
 }  // namespace
 
 std::string_view toString(StepLimit limit) {
@@ -31,7 +40,7 @@ std::string_view toString(SimulationStage stage) {
 
 Simulation::Simulation(const Scene& scene) : Simulation(scene, requireSection(scene)) {}
 Simulation::Simulation(const Scene& scene, const SimulationSettings& settings)
-    : state_(std::make_unique<State>(scene, settings)) {}
+    : state_(std::make_unique<State>(requireWhole(scene), settings)) {}
 Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;

@@ -74,9 +74,6 @@ Scene load(const Options& options) {
   load_options.package_locator = packagePathFromEnvironment;
   load_options.cache = openPreparationCache(options.cache);
   Scene scene = loadSceneFile(options.scene, load_options);
-  for (const SceneProblem& problem : scene.problems) {
-    std::cerr << problem.where << ": " << problem.message << '\n';
-  }
   printWarnings(scene.warnings);
   return scene;
 }

@@ -101,6 +101,15 @@ TEST_F(Simulate, NamesABodyThatNothingCanHold) {
   EXPECT_TRUE(logHas("warning: scene.yaml:12, simulation.bodies[0]: body 'cube' falls for good")) << log();
 }
 
+TEST_F(Simulate, RefusesASceneOfWhichABodyIsMissing) {
+  std::string scene = kScene;
+  scene.replace(scene.find("box: {size: [1, 1, 0.1]}"), 24, "mesh: file:///nowhere/ground.stl");
+  folder.write("lost.yaml", scene);
+  EXPECT_EQ(run("lost.yaml --output lost.csv"), 1);
+  EXPECT_TRUE(logHas("ground.stl")) << log();
+  EXPECT_TRUE(logHas("needs the whole scene")) << log();
+}
+
 TEST_F(Simulate, SaysWhatIsWrong) {
   folder.write("bare.yaml", "bodies: []\n");
   EXPECT_EQ(run("bare.yaml --output out.csv"), 1);

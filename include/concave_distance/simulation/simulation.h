@@ -99,8 +99,8 @@ enum class SimulationStatus : std::uint8_t {
 /// Not thread-safe.
 class Simulation {
  public:
-  /// @throws Error when the scene has no section `simulation`, for a free body without mass, settings out of
-  ///         range, a pair whose level proves no distance
+  /// @throws Error when the scene has no section `simulation` or lacks what could not be loaded, for a free
+  ///         body without mass, settings out of range, a pair whose level proves no distance
   explicit Simulation(const Scene& scene);
   Simulation(const Scene& scene, const SimulationSettings& settings);
   ~Simulation();
