@@ -87,8 +87,6 @@ void RoundOverlap::addRegion(Group group, bool is_only, Interference& result) {
     region.depth = region.depth_along_normal = region.volume = 0.0;
     place(group.first->lowest.point, group.first->lowest.point, region.point_a_in_a, region.point_b_in_a);
   }
-  for (const RoundSample& sample : samples_)
-    region.reach = std::max(region.reach, (inA(sample.point) - region.centroid_in_a).norm());
   if (region.closed && !region.touching) {
     measureVolume(group, is_only, region);
     measureDepths(group, region);
@@ -97,6 +95,10 @@ void RoundOverlap::addRegion(Group group, bool is_only, Interference& result) {
     addFacets(group, result, region);
   } else if (!region.closed) {
     region.loop_count = 1;
+  }
+  for (const TrianglePoints& drawn : fan_) {
+    for (const Vector3d& corner : drawn)
+      region.reach = std::max(region.reach, (inA(corner) - region.centroid_in_a).norm());
   }
   result.regions.push_back(region);
 }

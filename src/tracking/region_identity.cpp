@@ -12,6 +12,12 @@ double reachOf(const InterferenceRegion& overlap) {
   return 1.001 * overlap.reach + (overlap.depth > 0.0 ? overlap.depth : 0.0);
 }
 
+/// The squared distance of two points; -1 beyond the reach.
+double within(const Eigen::Vector3d& p, const Eigen::Vector3d& q, double reach) {
+  const double squared_distance = (p - q).squaredNorm();
+  return squared_distance <= reach * reach ? squared_distance : -1.0;
+}
+
 }  // namespace
 
 // All pairs that may belong together, nearest first; every region and every other only once. `accept` gives
@@ -81,6 +87,33 @@ void RegionIdentity::keepNormals(const std::vector<ContactRegion>& regions) {
   for (std::size_t r = 0; r < regions.size(); ++r) memory_[r].normal_in_a = regions[r].overlap.normal_in_a;
 }
 
+// Of the niches, each for one region. A known id stays where its niche still is, then niches that touch give
+// theirs to the regions they lie on, and where none does a region keeps the id of a niche that has gone on.
+void RegionIdentity::takeIds(const std::vector<TrackedNiche>& niches, double displacement) {
+  region_taken_.assign(memory_.size(), 0);
+  other_taken_.assign(niches.size(), 0);
+  const auto squaredDistance = [&](std::size_t r, std::size_t o) {
+    return within(memory_[r].point_in_a, niches[o].point_a_in_a, memory_[r].reach + displacement);
+  };
+  const auto keepKnown = [&](const auto& accept) {
+    takeNearest(memory_.size(), niches.size(), [&](std::size_t r, std::size_t o) {
+      const bool is_known = niches[o].id != 0 && niches[o].id == memory_[r].id && other_taken_[o] == 0;
+      return is_known ? accept(r, o) : -1.0;
+    });
+  };
+  keepKnown(squaredDistance);
+  takeNearest(memory_.size(), niches.size(), [&](std::size_t r, std::size_t o) {
+    const bool is_free = other_taken_[o] == 0 && niches[o].id != 0 && !(niches[o].distance > 0.0);
+    return is_free ? squaredDistance(r, o) : -1.0;
+  });
+  found_ = matches_;
+  keepKnown([](std::size_t, std::size_t) { return 0.0; });
+  for (std::size_t r = 0; r < memory_.size(); ++r) {
+    if (region_taken_[r] == 0) memory_[r].id = 0;
+  }
+  for (const Match& match : found_) memory_[match.region].id = niches[match.other].id;
+}
+
 void RegionIdentity::update(const std::vector<TrackedNiche>& niches, double displacement,
                             std::vector<ContactRegion>& regions) {
   before_.swap(memory_);
@@ -94,10 +127,6 @@ void RegionIdentity::update(const std::vector<TrackedNiche>& niches, double disp
     memory_[r].turning = {};
     memory_[r].patch.clear();
   }
-  const auto within = [](const Eigen::Vector3d& p, const Eigen::Vector3d& q, double reach) {
-    const double squared_distance = (p - q).squaredNorm();
-    return squared_distance <= reach * reach ? squared_distance : -1.0;
-  };
   region_taken_.assign(regions.size(), 0);
   other_taken_.assign(before_.size(), 0);
   takeNearest(regions.size(), before_.size(), [&](std::size_t r, std::size_t o) {
@@ -106,21 +135,7 @@ void RegionIdentity::update(const std::vector<TrackedNiche>& niches, double disp
   });
   inherit();
 
-  // The ids: of the niches that touch, each for one region. A known id stays where its niche still is.
-  other_taken_.assign(niches.size(), 0);
-  for (std::size_t r = 0; r < regions.size(); ++r) {
-    const auto niche = std::find_if(niches.begin(), niches.end(), [&](const TrackedNiche& n) {
-      return n.id != 0 && n.id == memory_[r].id;
-    });
-    region_taken_[r] = niche != niches.end() ? 1 : 0;
-    if (niche != niches.end()) other_taken_[static_cast<std::size_t>(niche - niches.begin())] = 1;
-  }
-  takeNearest(regions.size(), niches.size(), [&](std::size_t r, std::size_t o) {
-    const TrackedNiche& niche = niches[o];
-    if (other_taken_[o] != 0 || niche.id == 0 || niche.distance > 0.0) return -1.0;
-    return within(memory_[r].point_in_a, niche.point_a_in_a, memory_[r].reach + displacement);
-  });
-  for (const Match& match : matches_) memory_[match.region].id = niches[match.other].id;
+  takeIds(niches, displacement);
   for (std::size_t r = 0; r < regions.size(); ++r) regions[r].id = memory_[r].id;
 }
 

@@ -13,9 +13,9 @@ namespace concave_distance {
 class RegionIdentity {
  public:
   /// Sets the ids of `regions` and the order of memory() to theirs. A region is the last cycle's nearest one
-  /// within both their widths and `displacement` (how far B can have moved, metres); its id goes on while the
-  /// tracker has that niche. Otherwise it takes the id of the nearest niche at distance 0, each only once,
-  /// and of no niche farther from it than its curves are.
+  /// within both their widths and `displacement` (how far B can have moved, metres). Its id goes on while that
+  /// niche lies on it; otherwise it takes that of the nearest niche at distance 0, each only once and of none
+  /// farther from it than its curves are, and keeps its own where there is none while the tracker has it.
   void update(const std::vector<TrackedNiche>& niches, double displacement,
               std::vector<ContactRegion>& regions);
   void clear() { memory_.clear(); }
@@ -36,6 +36,7 @@ class RegionIdentity {
   template <typename Accept>
   void takeNearest(std::size_t regions, std::size_t others, const Accept& accept);
   void inherit();
+  void takeIds(const std::vector<TrackedNiche>& niches, double displacement);
   void splitOff();
   void loosen(const PatchMemory& patch);
 
@@ -43,6 +44,7 @@ class RegionIdentity {
   std::vector<RegionMemory> before_;
   std::vector<LooseBristles> loose_;
   std::vector<Match> matches_;
+  std::vector<Match> found_;  ///< regions and niches that touch
   std::vector<char> region_taken_;
   std::vector<char> other_taken_;
 };

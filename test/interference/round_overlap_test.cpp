@@ -198,6 +198,28 @@ TEST(RoundOverlap, APlateThroughABallIsOneRegionAndTeethAreSeveral) {
   EXPECT_EQ(teeth.regions.size(), 3U);
 }
 
+TEST(RoundOverlap, ARegionReachesToItsCurves) {
+  RandomEngine engine(8);
+  const std::vector<RoundShape> shapes{test::sphereOf(0.3), roundShape(RoundKind::Capsule, 0.2, 0.2),
+                                       roundShape(RoundKind::Cylinder, 0.25, 0.2)};
+  int compared = 0;
+  for (std::uint32_t i = 0; i < 24; ++i) {
+    const Interference found = overlapOf(makeBody(test::concaveShape(i % 4)), makeRoundBody(shapes[i % 3]),
+                                         test::randomPose(engine, 0.4));
+    for (const InterferenceRegion& region : found.regions) {
+      if (region.facet_count == 0) continue;
+      double farthest = 0.0;
+      for (std::uint32_t f = 0; f < region.facet_count; ++f) {
+        for (const Vector3d& corner : found.facets[region.first_facet + f].corners_in_a)
+          farthest = std::max(farthest, (corner - region.centroid_in_a).norm());
+      }
+      EXPECT_NEAR(region.reach, farthest, 1e-12) << i;
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, 12);
+}
+
 TEST(RoundOverlap, WhatIsSwallowedIsARegion) {
   const Body ball = makeRoundBody(test::sphereOf(0.5));
   const Interference held = overlapOf(block(), ball, translation({0.0, 0.0, -1.0}));

@@ -2,11 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
 #include "concave_distance/contact/normal_force.h"
 #include "concave_distance/mesh/surface/primitives.h"
+#include "support/concave_shapes.h"
+#include "support/round_bodies.h"
 #include "tracking/effect_scene.h"
 
 namespace concave_distance {
@@ -120,6 +123,27 @@ TEST(PairEffects, ANicheKeepsItsIdThroughContactAndBack) {
   EXPECT_TRUE(scene.contacts.regions.empty());
   ASSERT_FALSE(scene.solution.niches.empty());
   EXPECT_EQ(scene.solution.niches[0].id, first) << "the region has become another niche";
+}
+
+// The shape of config/peg_in_hole.yaml: the peg bears on several facets of the hole at once, each a region.
+TEST(PairEffects, EveryRegionOfAPegInAHoleHasAnIdOfItsOwn) {
+  EffectScene scene(body("plate", test::makePlateWithHole(0.04, 0.0205, 0.02, 24)),
+                    test::makeRoundBody(test::roundShape(RoundKind::Cylinder, 0.02, 0.06, 1e-4)),
+                    onlyInterference());
+  std::size_t most = 0;
+  for (int k = 0; k <= 60; ++k) {
+    // Askew and to one side.
+    scene.update(Eigen::Isometry3d(Eigen::Translation3d(-0.0006 + 0.0004 * k / 60.0, 1e-5, 0.03) *
+                                   Eigen::AngleAxisd(-0.02, Eigen::Vector3d::UnitY())));
+    std::set<std::uint64_t> ids;
+    for (const ContactRegion& region : scene.contacts.regions) {
+      EXPECT_NE(region.id, 0U) << "step " << k;
+      ids.insert(region.id);
+    }
+    EXPECT_EQ(ids.size(), scene.contacts.regions.size()) << "step " << k;
+    most = std::max(most, ids.size());
+  }
+  EXPECT_GE(most, 4U);
 }
 
 TEST(PairEffects, BristlesOfARegionGoOnFromCycleToCycle) {
