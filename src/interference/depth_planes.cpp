@@ -36,6 +36,7 @@ void DepthPlanes::add(TriangleIndex triangle) {
   plane.out = a_from_other_.linear() * other_->topology().triangle_normals[triangle.value];
   plane.exit = exit_sign_ * plane.out;
   plane.offset = plane.out.dot(a_from_other_ * other_->surface().corner(triangle, 0));
+  plane.triangle = triangle;
   const auto same = [&](const DepthPlane& known) {
     return (known.out - plane.out).squaredNorm() < kSameDirection && known.offset == plane.offset;
   };

@@ -13,6 +13,7 @@ struct DepthPlane {
   Eigen::Vector3d out;   ///< unit, out of the other body
   Eigen::Vector3d exit;  ///< unit, the way for B on which the depth decreases
   double offset;
+  TriangleIndex triangle;  ///< of the other body
 
   double depth(const Eigen::Vector3d& point) const { return offset - out.dot(point); }
 };

@@ -138,10 +138,10 @@ void measureDepths(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d
   for (FoundRegion& found : space.found) {
     InterferenceRegion& region = found.region;
     if (region.facet_count == 0) continue;
-    DeepestPoint deepest;
     const OverlapFacet* first = result.facets.data() + region.first_facet;
     region.first_sample = static_cast<std::uint32_t>(result.samples.size());
-    space.sampler.sample(first, first + region.facet_count, kSampleTolerance, result.samples, deepest);
+    const DeepestPoint deepest =
+        space.sampler.sample(first, first + region.facet_count, kSampleTolerance, result.samples);
     region.sample_count = static_cast<std::uint32_t>(result.samples.size()) - region.first_sample;
     region.depth = deepest.depth;
     region.point_a_in_a = deepest.inside_is_of_b ? deepest.surface_in_a : deepest.inside_in_a;

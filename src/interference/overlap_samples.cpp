@@ -15,10 +15,14 @@ namespace {
 constexpr double kSmallShare = 1.0 / 128.0;
 // A part this small a share of its facet is not halved again: 2^-kDeepest of its area.
 constexpr std::uint32_t kDeepestLevel = 12;
-// The greatest depth is looked for to this share.
-constexpr double kDepthShare = 1e-6;
-// The same where parts have to be halved to find it.
-constexpr double kDepthShareOfHalving = 1e-2;
+// The depth is known to 1 %: twice this share, once of the search and once of what it has to win. The search
+// likes ridges, where the way out is not unique.
+constexpr double kDepthShare = 5e-3;
+// Parts are halved where the planes are wrong by this share of the depth.
+constexpr double kUnevenShare = 1e-2;
+constexpr std::size_t kDepthParts = 4000;
+// Corners that may be deeper by this share are looked at, so that the depth is continuous.
+constexpr double kCornerShare = 1e-6;
 
 Eigen::Vector3d middleOf(const Eigen::Vector3d& l, const Eigen::Vector3d& r) {
   return 0.5 * (l + r);
@@ -36,10 +40,6 @@ double reachOf(const std::array<Eigen::Vector3d, 3>& corners, const Eigen::Vecto
   double reach = 0.0;
   for (const Eigen::Vector3d& corner : corners) reach = std::max(reach, (corner - centre).norm());
   return reach;
-}
-
-Eigen::Vector3d pushOf(const OverlapFacet& facet) {
-  return facet.of_b ? Eigen::Vector3d(-facet.normal_in_a) : facet.normal_in_a;
 }
 
 // Both surfaces count half.
@@ -65,58 +65,30 @@ double bendOf(const Part& part) {
 
 }  // namespace
 
-void OverlapSampler::begin(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b) {
-  last_nearest_[0] = last_nearest_[1] = TriangleIndex{0};  // another pair may be at the last one's address
-  body_[0] = &a;
-  body_[1] = &b;
-  a_from_b_ = a_from_b;
-  b_from_a_ = a_from_b.inverse(Eigen::Isometry);
-}
-
-OverlapSampler::Corner OverlapSampler::look(const OverlapFacet& facet, const Eigen::Vector3d& point,
-                                            DeepestPoint& deepest) {
-  const std::size_t other = facet.of_b ? 0 : 1;
-  const BodyMesh& body = *body_[other];
-  const Eigen::Vector3d target = facet.of_b ? point : b_from_a_ * point;
-  if (facet.may_leave && !containsPoint(body.tree(), body.surface(), body.topology().shell_is_closed,
-                                        body.topology().shell_of_triangle, target)) {
-    return {point, pushOf(facet), 0.0, last_nearest_[other]};
-  }
-  const SurfacePoint nearest = closestPoint(body, target, last_nearest_[other]);
-  last_nearest_[other] = nearest.triangle;
-  const double depth = std::sqrt(nearest.squared_distance);
-  const Eigen::Vector3d surface = facet.of_b ? nearest.point : a_from_b_ * nearest.point;
-  if (depth > deepest.depth) deepest = {depth, point, surface, facet.of_b};
-  if (!(depth > 0.0)) return {point, pushOf(facet), depth, nearest.triangle};
-  const Eigen::Vector3d out = (surface - point) / depth;
-  return {point, facet.of_b ? out : Eigen::Vector3d(-out), depth, nearest.triangle};
-}
-
 // The triangles of a fan share an edge with the one before.
-OverlapSampler::Part OverlapSampler::wholeOf(const OverlapFacet& facet, const Part* before,
-                                             DeepestPoint& deepest) {
+OverlapSampler::Part OverlapSampler::wholeOf(const OverlapFacet& facet, const Part* before) {
   Part part;
   part.level = 0;
   const bool continues = before != nullptr && before->corners[0].point == facet.corners_in_a[0] &&
                          before->corners[2].point == facet.corners_in_a[1];
   if (continues) {
-    part.corners = {before->corners[0], before->corners[2], look(facet, facet.corners_in_a[2], deepest)};
+    part.corners = {before->corners[0], before->corners[2], probe_.look(facet, facet.corners_in_a[2])};
     part.middles[0] = before->middles[2];
   } else {
-    for (std::size_t k = 0; k < 3; ++k) part.corners[k] = look(facet, facet.corners_in_a[k], deepest);
+    for (std::size_t k = 0; k < 3; ++k) part.corners[k] = probe_.look(facet, facet.corners_in_a[k]);
   }
   for (std::size_t k = continues ? 1 : 0; k < 3; ++k) {
-    part.middles[k] = look(facet, middleOf(facet.corners_in_a[k], facet.corners_in_a[(k + 1) % 3]), deepest);
+    part.middles[k] = probe_.look(facet, middleOf(facet.corners_in_a[k], facet.corners_in_a[(k + 1) % 3]));
   }
   return part;
 }
 
-void OverlapSampler::sample(const OverlapFacet* first, const OverlapFacet* last, double tolerance,
-                            std::vector<OverlapSample>& samples, DeepestPoint& deepest) {
-  deepest = {};
+DeepestPoint OverlapSampler::sample(const OverlapFacet* first, const OverlapFacet* last, double tolerance,
+                                    std::vector<OverlapSample>& samples) {
+  probe_.beginRegion();
   double surface = 0.0;
   for (const OverlapFacet* facet = first; facet != last; ++facet) surface += areaOf(facet->corners_in_a);
-  small_.clear();
+  candidates_.clear();
   large_.clear();
   wholes_.clear();
   double integral = 0.0;
@@ -129,43 +101,40 @@ void OverlapSampler::sample(const OverlapFacet* first, const OverlapFacet* last,
       const bool same_triangle =
           facet != first && facet[-1].triangle == facet->triangle && facet[-1].of_b == facet->of_b;
       const Part* before = same_triangle && last_whole == facet - 1 ? &wholes_.back() : nullptr;
-      wholes_.push_back(wholeOf(*facet, before, deepest));
+      wholes_.push_back(wholeOf(*facet, before));
       last_whole = facet;
-      const Part& whole = wholes_.back();
-      for (const Corner& middle : whole.middles) integral += area / 3.0 * middle.depth;
+      for (const ProbedPoint& middle : wholes_.back().middles) integral += area / 3.0 * middle.depth;
       continue;
     }
     const Eigen::Vector3d centre = centreOf(facet->corners_in_a);
-    const Corner at = look(*facet, centre, deepest);
+    const ProbedPoint at = probe_.look(*facet, centre);
     samples.push_back({centre, pushOf(*facet), at.exit, weightOf(*facet) * area, at.depth});
     integral += area * at.depth;
-    small_.push_back({index, at.nearest, at.depth + reachOf(facet->corners_in_a, centre)});
+    candidates_.push_back(candidateOf(*facet, index, at));
   }
   for (std::size_t i = 0; i < large_.size(); ++i) {
-    integrate(first[large_[i]], wholes_[i], tolerance * integral, samples, deepest);
+    integrate(first[large_[i]], wholes_[i], tolerance * integral, samples);
   }
-  lookAtCorners(first, deepest);
+  return findDeepest(first);
 }
 
 void OverlapSampler::integrate(const OverlapFacet& facet, const Part& whole, double allowed,
-                               std::vector<OverlapSample>& samples, DeepestPoint& deepest) {
+                               std::vector<OverlapSample>& samples) {
   const double area = areaOf(facet.corners_in_a);
-  planes_.begin(*body_[facet.of_b ? 0 : 1], facet.of_b ? Eigen::Isometry3d::Identity() : a_from_b_,
-                facet.of_b);
+  planes_.begin(probe_.other(facet), probe_.aFromOther(facet), facet.of_b);
   parts_.assign(1, whole);
   while (!parts_.empty()) {
     const Part part = parts_.back();
     parts_.pop_back();
     const double part_area = area * std::ldexp(1.0, -static_cast<int>(part.level));
     findPlanes(facet, part);
-    const double worst = worstHeight(facet, part, deepest);
+    const double worst = worstHeight(facet, part);
     const bool is_flat = worst * part_area <= allowed;
-    const bool hides_depth =
-        worst > kDepthShareOfHalving * deepest.depth && mayBeDeeper(facet, part, deepest);
-    if (part.level < kDeepestLevel && (hides_depth || (!is_flat && bendOf(part) * part_area > allowed))) {
-      halve(facet, part, deepest);
+    const bool is_uneven = worst > kUnevenShare * probe_.deepest().depth && mayBeDeeper(facet, part);
+    if (part.level < kDeepestLevel && (is_uneven || (!is_flat && bendOf(part) * part_area > allowed))) {
+      halve(facet, part);
     } else if (is_flat) {
-      addBelowPlanes(facet, part, samples, deepest);
+      addBelowPlanes(facet, part, samples);
     } else {
       addQuadratic(facet, part, samples);
     }
@@ -174,34 +143,33 @@ void OverlapSampler::integrate(const OverlapFacet& facet, const Part& whole, dou
 
 void OverlapSampler::findPlanes(const OverlapFacet& facet, const Part& part) {
   planes_.clear();
-  const auto add = [&](const Corner& corner) {
-    const Eigen::Vector3d in_a = corner.point + (facet.of_b ? corner.depth : -corner.depth) * corner.exit;
-    planes_.addAround(corner.nearest, facet.of_b ? in_a : b_from_a_ * in_a);
-  };
-  for (const Corner& corner : part.corners) add(corner);
-  for (const Corner& middle : part.middles) add(middle);
+  for (const std::array<ProbedPoint, 3>* points : {&part.corners, &part.middles}) {
+    for (const ProbedPoint& at : *points) {
+      if (!at.is_outside) planes_.addAround(at.nearest, probe_.footInOther(facet, at));
+    }
+  }
 }
 
 // By how much the planes are wrong, at the points that are known and at the centre.
-double OverlapSampler::worstHeight(const OverlapFacet& facet, const Part& part, DeepestPoint& deepest) {
+double OverlapSampler::worstHeight(const OverlapFacet& facet, const Part& part) {
   double worst = 0.0;
-  const auto compare = [&](const Corner& at) {
+  const auto compare = [&](const ProbedPoint& at) {
     worst = std::max(worst, std::abs(planes_.leastDepth(at.point) - at.depth));
   };
-  for (const Corner& corner : part.corners) compare(corner);
-  for (const Corner& middle : part.middles) compare(middle);
+  for (const ProbedPoint& corner : part.corners) compare(corner);
+  for (const ProbedPoint& middle : part.middles) compare(middle);
   if (planes_.size() > 1) {
-    compare(look(facet, centreOf(cornersOf(part)), deepest));
+    compare(probe_.look(facet, centreOf(cornersOf(part))));
   }
   return worst;
 }
 
 void OverlapSampler::addBelowPlanes(const OverlapFacet& facet, const Part& part,
-                                    std::vector<OverlapSample>& samples, DeepestPoint& deepest) {
+                                    std::vector<OverlapSample>& samples) {
   planes_.forEachPart(
       cornersOf(part), [&](const DepthPlane& plane, const std::vector<Eigen::Vector3d>& polygon) {
         for (const Eigen::Vector3d& corner : polygon) {
-          if (plane.depth(corner) > (1.0 + kDepthShare) * deepest.depth) look(facet, corner, deepest);
+          if (plane.depth(corner) > (1.0 + kCornerShare) * probe_.deepest().depth) probe_.look(facet, corner);
         }
         for (std::size_t k = 2; k < polygon.size(); ++k) {
           const std::array<Eigen::Vector3d, 3> corners = {polygon[0], polygon[k - 1], polygon[k]};
@@ -219,44 +187,50 @@ void OverlapSampler::addBelowPlanes(const OverlapFacet& facet, const Part& part,
 void OverlapSampler::addQuadratic(const OverlapFacet& facet, const Part& part,
                                   std::vector<OverlapSample>& samples) const {
   const double area = areaOf(cornersOf(part));
-  for (const Corner& middle : part.middles) {
+  for (const ProbedPoint& middle : part.middles) {
     samples.push_back({middle.point, pushOf(facet), middle.exit, weightOf(facet) * area / 3.0, middle.depth});
   }
 }
 
-// No point of a triangle is farther from the other surface than the farthest of its corners is from one
-// triangle of it: the distance to a convex set is convex.
-double OverlapSampler::depthBound(const OverlapFacet& facet, const std::array<Eigen::Vector3d, 3>& corners,
-                                  TriangleIndex nearest) const {
-  const TrianglePoints triangle = trianglePoints(body_[facet.of_b ? 0 : 1]->surface(), nearest);
-  double farthest = 0.0;
-  for (const Eigen::Vector3d& corner : corners) {
-    const Eigen::Vector3d target = facet.of_b ? corner : b_from_a_ * corner;
-    farthest = std::max(farthest, pointTriangleDistance(target, triangle).squared_distance);
-  }
-  return std::sqrt(farthest);
-}
-
-bool OverlapSampler::mayBeDeeper(const OverlapFacet& facet, const Part& part,
-                                 const DeepestPoint& deepest) const {
+bool OverlapSampler::mayBeDeeper(const OverlapFacet& facet, const Part& part) const {
   const std::array<Eigen::Vector3d, 3> corners = cornersOf(part);
-  return std::all_of(part.middles.begin(), part.middles.end(), [&](const Corner& middle) {
-    return depthBound(facet, corners, middle.nearest) > (1.0 + kDepthShareOfHalving) * deepest.depth;
+  return std::all_of(part.middles.begin(), part.middles.end(), [&](const ProbedPoint& middle) {
+    return probe_.depthBound(facet, corners, middle.nearest) > (1.0 + kUnevenShare) * probe_.deepest().depth;
   });
 }
 
-void OverlapSampler::lookAtCorners(const OverlapFacet* first, DeepestPoint& deepest) {
-  for (const Candidate& candidate : small_) {
+// No point is deeper than a known one by more than its distance.
+OverlapSampler::Candidate OverlapSampler::candidateOf(const OverlapFacet& facet, std::uint32_t index,
+                                                      const ProbedPoint& at) {
+  return {index, at.nearest, at.depth + reachOf(facet.corners_in_a, at.point)};
+}
+
+void OverlapSampler::lookAtCorners(const OverlapFacet* first) {
+  for (const Candidate& candidate : candidates_) {
+    const double enough = (1.0 + kCornerShare) * probe_.deepest().depth;
     const OverlapFacet& facet = first[candidate.facet];
-    if (candidate.reachable <= (1.0 + kDepthShare) * deepest.depth) continue;
-    if (depthBound(facet, facet.corners_in_a, candidate.nearest) <= (1.0 + kDepthShare) * deepest.depth)
+    if (candidate.reachable <= enough ||
+        probe_.depthBound(facet, facet.corners_in_a, candidate.nearest) <= enough)
       continue;
-    for (const Eigen::Vector3d& corner : facet.corners_in_a) look(facet, corner, deepest);
+    for (const Eigen::Vector3d& corner : facet.corners_in_a) probe_.look(facet, corner);
   }
 }
 
+DeepestPoint OverlapSampler::findDeepest(const OverlapFacet* first) {
+  lookAtCorners(first);
+  const DeepestPoint seen = probe_.deepest();
+  search_.begin();
+  for (std::size_t i = 0; i < large_.size(); ++i) search_.add(first, large_[i], wholes_[i].corners, probe_);
+  for (const Candidate& candidate : candidates_) {
+    if (candidate.reachable > (1.0 + kDepthShare) * probe_.deepest().depth)
+      search_.add(first, candidate.facet, candidate.nearest, probe_);
+  }
+  search_.run(first, kDepthShare, kDepthParts, probe_);
+  return probe_.deepest().depth > (1.0 + kDepthShare) * seen.depth ? probe_.deepest() : seen;
+}
+
 // Across the longest edge, whose middle is known.
-void OverlapSampler::halve(const OverlapFacet& facet, const Part& part, DeepestPoint& deepest) {
+void OverlapSampler::halve(const OverlapFacet& facet, const Part& part) {
   std::size_t k = 0;
   double longest = -1.0;
   for (std::size_t edge = 0; edge < 3; ++edge) {
@@ -266,13 +240,13 @@ void OverlapSampler::halve(const OverlapFacet& facet, const Part& part, DeepestP
       k = edge;
     }
   }
-  const Corner& from = part.corners[k];
-  const Corner& to = part.corners[(k + 1) % 3];
-  const Corner& tip = part.corners[(k + 2) % 3];
-  const Corner& cut = part.middles[k];
-  const Corner across = look(facet, middleOf(cut.point, tip.point), deepest);
-  const Corner first = look(facet, middleOf(from.point, cut.point), deepest);
-  const Corner second = look(facet, middleOf(cut.point, to.point), deepest);
+  const ProbedPoint& from = part.corners[k];
+  const ProbedPoint& to = part.corners[(k + 1) % 3];
+  const ProbedPoint& tip = part.corners[(k + 2) % 3];
+  const ProbedPoint& cut = part.middles[k];
+  const ProbedPoint across = probe_.look(facet, middleOf(cut.point, tip.point));
+  const ProbedPoint first = probe_.look(facet, middleOf(from.point, cut.point));
+  const ProbedPoint second = probe_.look(facet, middleOf(cut.point, to.point));
   parts_.push_back({{from, cut, tip}, {first, across, part.middles[(k + 2) % 3]}, part.level + 1});
   parts_.push_back({{cut, to, tip}, {second, part.middles[(k + 1) % 3], across}, part.level + 1});
 }

@@ -13,9 +13,10 @@ namespace concave_distance {
 class RegionIdentity {
  public:
   /// Sets the ids of `regions` and the order of memory() to theirs. A region is the last cycle's nearest one
-  /// within both their widths and `displacement` (how far B can have moved, metres). Its id goes on while that
-  /// niche lies on it; otherwise it takes that of the nearest niche at distance 0, each only once and of none
-  /// farther from it than its curves are, and keeps its own where there is none while the tracker has it.
+  /// within both their widths and `displacement` (how far B can have moved, metres). Its id goes on while
+  /// that niche lies on it; otherwise it takes that of the nearest niche at distance 0, each only once and of
+  /// none farther from it than its curves are, and keeps its own where there is none while the tracker has
+  /// it.
   void update(const std::vector<TrackedNiche>& niches, double displacement,
               std::vector<ContactRegion>& regions);
   void clear() { memory_.clear(); }

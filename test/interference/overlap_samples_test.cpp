@@ -1,11 +1,15 @@
 // How deep the surfaces of an overlap lie in each other: integrals against closed forms, and the depth.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "base/random_engine.h"
+#include "distance/closest_point.h"
 #include "interference/interference_checks.h"
+#include "mesh/surface/mesh_topology.h"
+#include "mesh/trees/triangle_tree.h"
 #include "support/concave_shapes.h"
 #include "support/random_solids.h"
 
@@ -139,6 +143,55 @@ TEST(OverlapSamples, PushWithoutGivingEnergyOnAClosedWay) {
     way += std::abs(step);
   }
   EXPECT_LT(std::abs(work), 5e-3 * way);
+}
+
+/// The deepest of a grid of points on all facets of a region.
+double deepestOfGrid(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
+                     const Interference& found, const InterferenceRegion& region) {
+  constexpr int kSteps = 24;
+  double deepest = 0.0;
+  for (std::uint32_t f = 0; f < region.facet_count; ++f) {
+    const OverlapFacet& facet = found.facets[region.first_facet + f];
+    const auto& [p, q, r] = facet.corners_in_a;
+    const BodyMesh& other = facet.of_b ? a : b;
+    TriangleIndex hint{0};
+    for (int i = 0; i <= kSteps; ++i) {
+      for (int j = 0; i + j <= kSteps; ++j) {
+        const Eigen::Vector3d point = p + (q - p) * i / kSteps + (r - p) * j / kSteps;
+        const Eigen::Vector3d target = facet.of_b ? point : Eigen::Vector3d(a_from_b.inverse() * point);
+        if (!containsPoint(other.tree(), other.surface(), other.topology().shell_is_closed,
+                           other.topology().shell_of_triangle, target))
+          continue;
+        const SurfacePoint nearest = closestPoint(other, target, hint);
+        hint = nearest.triangle;
+        deepest = std::max(deepest, std::sqrt(nearest.squared_distance));
+      }
+    }
+  }
+  return deepest;
+}
+
+TEST(OverlapSamples, NoPlaceOfARegionIsMuchDeeper) {
+  int regions = 0;
+  int off = 0;
+  for (std::uint64_t seed = 0; seed < 80; ++seed) {
+    RandomEngine engine(seed);
+    const SurfaceMesh a = test::randomSolid(engine);
+    const SurfaceMesh b = test::randomSolid(engine);
+    const Eigen::Isometry3d pose = test::randomOverlappingPose(a, b, engine);
+    const BodyMesh body_a("a", a);
+    const BodyMesh body_b("b", b);
+    const Interference found = test::interferenceOf(body_a, body_b, pose);
+    for (const InterferenceRegion& region : found.regions) {
+      if (!(region.depth > 0.0) || region.facet_count == 0) continue;
+      const double deepest = deepestOfGrid(body_a, body_b, pose, found, region);
+      EXPECT_GE(region.depth, 0.97 * deepest) << seed;
+      off += region.depth < deepest / 1.01 ? 1 : 0;
+      ++regions;
+    }
+  }
+  EXPECT_GT(regions, 80);
+  EXPECT_LE(off, regions / 100);
 }
 
 TEST(OverlapSamples, TheDepthChangesByNoMoreThanTheWay) {
