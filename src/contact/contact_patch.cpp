@@ -95,7 +95,7 @@ PatchPressure ContactPatch::press(const PatchSurfaces& surfaces, const NormalFor
   for (const OverlapSample* sample = surfaces.first_sample; sample != surfaces.last_sample; ++sample) {
     const Eigen::Vector3d& push = sample->push_in_a;
     if (!field_.carries(push)) continue;
-    gradient.add(*sample);
+    if (law.dependsOnPatch()) gradient.add(*sample);
     const double rate = field_.approachRate(sample->point_in_a, push, sample->exit_in_a);
     const double per_depth = field_.perDepth(rate);
     const double pressure = per_depth * sample->depth;
@@ -119,7 +119,7 @@ PatchPressure ContactPatch::press(const PatchSurfaces& surfaces, const NormalFor
     if (!pierced && one_way >= kOneWay) memory.entered_in_a = result.on_b_in_a.force.normalized();
     if (!pierced && one_way < kAnyWay) memory.entered_in_a.setZero();
   }
-  addChangeOfLaw(law, gradient, patch.moment, linearisation.stiffness);
+  if (law.dependsOnPatch()) addChangeOfLaw(law, gradient, patch.moment, linearisation.stiffness);
   springs_.forEach([&](const Spring& sum) { addSpring(sum, linearisation); });
   return result;
 }

@@ -24,6 +24,8 @@ struct PressureLaw {
   double by_volume = 0.0;
   double by_moment = 0.0;
   double by_depth = 0.0;
+
+  bool dependsOnPatch() const { return by_volume != 0.0 || by_moment != 0.0 || by_depth != 0.0; }
 };
 
 /// Of a model on a patch: shared out in proportion to the depth so that a round contact has the model's
