@@ -97,10 +97,11 @@ def losses_of(experiment, runs_of, fill):
             for column in HEADINGS:
                 if not runs or not is_worse(column, thesis, runs):
                     continue
-                text, tested, _ = reason_of(experiment, row, column)
+                text, tested, is_known = reason_of(experiment, row, column)
                 words = single_run_words if is_single_run(column, thesis) else rate_words
                 is_chance, chance = words(column, thesis, runs)
-                text = fill(text, experiment["name"], scene) if text else "" if is_chance else f"**{NO_REASON}**."
+                text = text if is_known else "" if is_chance else text or f"**{NO_REASON}**."
+                text = fill(text, experiment["name"], scene)
                 reason = " ".join(filter(None, [text, chance])) + tested_words(runs_of, scene, column, tested)
                 lines.append(f"| {experiment.get('table', '')} | {row['name'].replace(';', ',')} | {scene.replace('_', ' ')} | "
                              f"{HEADINGS[column]} | {theirs(column, thesis)} | {ours(column, runs)} | {reason} |")
