@@ -67,6 +67,7 @@ def plot_curves(experiment, curves, images):
                 axes.tick_params(axis="y", which="minor", labelsize=8)
             if not has_annealing:  # most happens in the first generations
                 axes.set_xscale("symlog", linthresh=1.0)
+                axes.set_xlim(left=0.0)
                 axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
             axes.set_title(scene.replace("_", " "))
             axes.set_xlabel("share of the run" if has_annealing else "generation (0: the first population)")
