@@ -94,7 +94,7 @@ def draw_points(axes, scene, runs):
     axes.set_xlim(low[0], high[0])
     axes.set_ylim(low[1], high[1])
     axes.set_zlim(low[2], high[2])
-    axes.set_box_aspect(high - low, zoom=1.25)
+    axes.set_box_aspect(high - low, zoom=1.08)
     axes.set_proj_type("ortho")
     axes.view_init(elev=elevation, azim=azimuth)
     axes.set_axis_off()
