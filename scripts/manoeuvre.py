@@ -3,6 +3,7 @@
 Its data are `partition_benchmark --curves-output FILE`: six methods along the battery's manoeuvre.
 """
 import csv
+import math
 import statistics
 
 METHODS = [("partition", "convex partition + QP", "tab:brown"),
@@ -14,7 +15,8 @@ METHODS = [("partition", "convex partition + QP", "tab:brown"),
 # Carretero, sec. 6.3.3: Mflop of the first step and of all, steps that missed the best node pair and by how much, niches.
 THESIS = {"partition": ("2.27", "1.545", "", ""),
           "comb-GA-wl-sh, Table 6.1": ("2.16", "2.032", "3 (9.88e-4)", "7.93 [11]")}
-FLOOR = 1e-17  # an error of nothing, on a logarithmic axis
+EXACT = 1e-12  # metres: an error of rounding alone; such points are drawn as a strip below the axis, a line for each method
+STRIP = 1e-10
 
 
 def read_curves(path):
@@ -33,30 +35,39 @@ def read_curves(path):
 
 def draw_manoeuvre(curves, plt, path):
     """Distance, error against the proven distance and processor time of every step over time."""
-    figure, (distance, error, time) = plt.subplots(3, 1, figsize=(9, 10), sharex=True,
+    figure, (distance, error, time) = plt.subplots(3, 1, figsize=(9, 10), sharex=True, layout="constrained",
                                                    gridspec_kw={"height_ratios": [1, 1.4, 1.2]})
+    rows = {method: STRIP / 1.6 ** number for number, (method, _, _) in enumerate(METHODS)}
+
+    def shown(value, row):
+        return value if value > EXACT else row
+
     for method, label, colour in METHODS:
         steps = curves[method]
         times = [step["time"] for step in steps]
         distance.plot(times, [step["distance"] for step in steps], color=colour, label=label,
                       linewidth=1.2 if method == "certified" else 2.2, linestyle="--" if method == "certified" else "-")
-        error.plot(times, [max(FLOOR, abs(step["distance"] - step["exact"])) for step in steps], ".-", color=colour,
-                   label=label, markersize=3, linewidth=0.6)
+        error.plot(times, [shown(abs(step["distance"] - step["exact"]), rows[method]) for step in steps], ".", color=colour,
+                   label=label, markersize=4)
         time.plot(times, [step["us"] for step in steps], color=colour, label=label, linewidth=1.0)
     nodes = curves["nodes"]
-    error.plot([step["time"] for step in nodes], [max(FLOOR, step["best_nodes"] - step["exact"]) for step in nodes],
+    error.plot([step["time"] for step in nodes],
+               [step["best_nodes"] - step["exact"] if step["best_nodes"] - step["exact"] > EXACT else math.nan for step in nodes],
                "k:", linewidth=1.0, label="best node pair (enumeration)")
-    distance.set_ylabel("distance, m")
+    error.axhspan(0.5 * min(rows.values()), 2 * STRIP, color="0.93", zorder=0)
+    error.set_ylim(0.5 * min(rows.values()), 2e-2)
     error.set_yscale("log")
+    error.set_yticks([10.0 ** k for k in range(-9, -1)])
+    error.text(-0.012, 0.04, "exact", transform=error.transAxes, ha="right", fontsize=9)
+    distance.set_ylabel("distance, m")
     error.set_ylabel("error against the proven distance, m")
     time.set_yscale("log")
     time.set_ylabel("microseconds a step")
     time.set_xlabel("time, s")
     for axes in (distance, error, time):
         axes.grid(alpha=0.3)
-    error.legend(fontsize=8, loc="upper left", bbox_to_anchor=(0.0, 0.6))
+    time.legend(*error.get_legend_handles_labels(), loc="upper center", bbox_to_anchor=(0.5, -0.17), ncol=3, fontsize=8)
     distance.set_title("The battery's manoeuvre: approach until 10 s, then insertion")
-    figure.tight_layout()
     figure.savefig(path, dpi=90)
     plt.close(figure)
 

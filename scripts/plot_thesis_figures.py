@@ -34,6 +34,7 @@ COLOURS = ("tab:blue", "tab:orange")
 SCENES = {"boxes_position_1": ("box", "notched_box", 35, -70), "battery_static": ("fixture", "battery", 20, -62)}
 RUNS = {"comb-GA-nl": 200, "comb-GA-wl": 500}  # the thesis's
 SAME = 1e-9  # metres
+ROUNDING = 1e-16  # metres: what is less is none
 
 
 def corners_of(body):
@@ -107,7 +108,7 @@ def plot_figure_5_6(folders, images):
         return
     rows = sorted({row for row, _ in points})
     scenes = sorted({scene for _, scene in points}, reverse=True)
-    figure = plt.figure(figsize=(6 * len(rows), 5 * len(scenes)))
+    figure = plt.figure(figsize=(6 * len(rows), 4.4 * len(scenes)))
     for i, scene in enumerate(scenes):
         for k, row in enumerate(rows):
             runs = [line for run, line in sorted(points[row, scene].items()) if run < RUNS[row.split(";")[0]]]
@@ -115,8 +116,11 @@ def plot_figure_5_6(folders, images):
             at_best = sum(float(line["distance"]) < best + SAME for line in runs)
             axes = figure.add_subplot(len(scenes), len(rows), i * len(rows) + k + 1, projection="3d")
             places = draw_points(axes, scene, runs)
-            axes.set_title(f"{row}\n{scene}: {len(runs)} runs, {places} pairs, {at_best} runs at the nearest", fontsize=10, y=0.97)
-    figure.subplots_adjust(left=0.0, right=1.0, bottom=0.0, top=0.95, wspace=0.0, hspace=0.1)
+            axes.set_title(f"{row.replace(';', ',')}, {scene.replace('_', ' ')}\n{len(runs)} runs end at {places} "
+                           f"pair{'s' * (places != 1)}, {at_best} of them at the nearest", fontsize=11, y=0.97)
+    figure.text(0.5, 0.015, "Each line joins the best pair of a run's last population; the larger its ends, the more runs have it.",
+                ha="center", fontsize=11)
+    figure.subplots_adjust(left=0.0, right=1.0, bottom=0.03, top=0.95, wspace=0.0, hspace=0.06)
     save(figure, images / "evaluation_figure_5_6.png")
 
 
@@ -168,7 +172,7 @@ def plot_partitions(images):
         whole = [(vertices, [list(triangle) for triangle in triangles])]
         for place, (shown, apart, title) in enumerate((
                 (whole, (0, 0, 0), f"{solid.name.replace('_', ' ')}: {len(triangles)} triangles"),
-                (pieces, spread, f"{len(pieces)} convex pieces (deepest dent {deepest_dent(pieces):.0e} m)"))):
+                (pieces, spread, f"{len(pieces)} pieces, moved apart; convex to {max(deepest_dent(pieces), ROUNDING):.0e} m"))):
             axes = figure.add_subplot(1, 2, place + 1, projection="3d", computed_zorder=False)
             draw_pieces(axes, shown, title, apart, elevation, azimuth, zoom=0.9)
         figure.subplots_adjust(left=0.0, right=1.0, bottom=0.0, top=0.93, wspace=0.0)

@@ -39,7 +39,7 @@ GROUPS = {
 SOURCES = ["include", "src", "test/benchmark", "experiments", "config", "meshes"]
 
 # Keys of an experiment and of its rows that only the report reads.
-WORDS = {"title", "table", "figure", "columns", "layout", "remark", "note", "thesis", "variant_of", "reasons"}
+WORDS = {"title", "table", "figure", "columns", "layout", "remark", "note", "thesis", "variant_of", "reasons", "better"}
 
 
 class Tree:
@@ -147,7 +147,7 @@ def record(names, commit=None, **given):
     tree = Tree()
     rows = read_manifest()
     for name in names:
-        name = ",".join(pathlib.Path(part).absolute().relative_to(ROOT).as_posix() for part in name.split(","))
+        name = ",".join(pathlib.Path(part).absolute().relative_to(ROOT).as_posix() for part in str(name).split(","))
         row = dict(rows.get(name) or dict.fromkeys(COLUMNS, ""), file=name)
         row.update({key: value for key, value in given.items() if value is not None})
         if not row["command"]:

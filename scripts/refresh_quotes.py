@@ -85,7 +85,7 @@ def figures_of(page, text, block, recorded):
         if not path.exists() or path not in recorded:
             by_hand.append((match.start(), f"{match[1]} is no recorded result"))
             continue
-        quoted = check_results.Quoted(path.read_text(encoding="utf-8"), path.suffix == ".csv")
+        quoted = check_results.Quoted(check_results.read_result(path), ".csv" in path.suffixes)
         begin = match.start(2)
         for part in re.split(f"({check_results.FIGURE_END})", match[2]):
             token, _, expression = (piece.strip() for piece in part.partition("="))
@@ -166,7 +166,7 @@ def refreshed(page, text, recorded):
 def refresh(root, pages, list_only=False):
     """What was changed and what is left to a reader, as lines."""
     rows = provenance.read_manifest(root)
-    recorded = {(root / name).resolve() for name in rows}
+    recorded = {(root / name).resolve() for names in rows for name in names.split(",")}
     changes, left = [], []
     for page in pages:
         if page.resolve() in recorded:  # written by a program

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # Runs the experiments (experiments/*.yaml) and writes evaluation.md with its plots.
 #
-#   scripts/report.sh [quick|full] [folder of the rows]    quick: one to two minutes, the page beside its rows in
-#       build/evaluation_quick (default); full: the counts of runs of the thesis, the page in doc/results, its rows in
-#       doc/results/evaluation
+#   scripts/report.sh [quick|full] [folder of the rows]    quick: two to three minutes, the page beside its rows in
+#       build/evaluation_quick (default); full: a quarter of an hour on two cores, the counts of runs of the thesis, the
+#       page in doc/results, its rows in doc/results/evaluation
 #
 # It installs and builds what is missing, and goes on where an interrupted run has ended. On several machines, each shard
 # into a folder of its own; here eight with GNU parallel over two hosts, then the join:

@@ -5,14 +5,15 @@
 
 RESULTS are folders that `evaluate --output` or `keep_rows.py` has filled; the files of several, one for each shard, are
 joined.
-Every experiment of experiments/*.yaml that has results is written, with the thesis's figures beside ours, then every figure
-in which ours is worse. How a remark quotes a figure: scripts/evaluation/texts.py.
+Every experiment of experiments/*.yaml that has results is written, with the thesis's figures beside ours, before them every
+figure in which ours is worse or better. How a remark quotes a figure: scripts/evaluation/texts.py.
 """
 import argparse
 import pathlib
 
 from evaluation.figures import their_number, values_of
-from evaluation.introduction import INTRODUCTION
+from evaluation.gains import gains_of, gains_section
+from evaluation.introduction import introduction
 from evaluation.losses import losses_of, losses_section
 from evaluation.plots import curves_of, drawn_section, manoeuvre_section, plot_curves, plot_sharing
 from evaluation.rows import ROOT, Results, order_of, read_experiments, read_rows, with_counted_work
@@ -54,7 +55,7 @@ def page(results, images):
     manoeuvre = drawn_section(images) + manoeuvre_section(results.folders, images)
     plot_sharing(images)
     body = []
-    losses = []
+    losses, gains = [], []
     for name, experiment in results.experiments.items():
         if order_of(experiment) > [6, 7]:
             body += manoeuvre
@@ -62,7 +63,8 @@ def page(results, images):
         if results.runs[name]:
             body += experiment_section(experiment, results, quoter, counted, images)
             losses += losses_of(experiment, results.runs[name], quoter.fill)
-    return INTRODUCTION.splitlines() + losses_section(losses) + body + manoeuvre
+            gains += gains_of(experiment, results.runs[name], quoter.fill)
+    return introduction(quoter) + losses_section(losses) + gains_section(gains) + body + manoeuvre
 
 
 def main():

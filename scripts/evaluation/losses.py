@@ -41,17 +41,39 @@ def is_worse(column, thesis, runs):
     return column in MORE_IS_WORSE and statistics.median(values) > number + MORE_IS_WORSE[column]
 
 
-def reason_of(experiment, row, column):
-    """(text, rows that tested it); the row's own comes before its experiment's."""
-    for reasons in (row.get("reasons", {}), experiment.get("reasons", {})):
+def reason_of(experiment, row, column, key="reasons"):
+    """(text, rows that tested it, whether the reason is known); the row's own comes before its experiment's."""
+    for reasons in (row.get(key, {}), experiment.get(key, {})):
         if column in reasons:
             reason = reasons[column]
-            return (reason, []) if isinstance(reason, str) else (reason.get("text", ""), reason.get("tested", []))
-    return "", []
+            if isinstance(reason, str):
+                return reason, [], True
+            text = reason.get("text", "")
+            return (f"**{NO_REASON}**. {text}" if reason.get("unknown") else text), reason.get("tested", []), not reason.get("unknown")
+    return "", [], False
 
 
 def is_single_run(column, thesis):
     return column not in ("exact", "region", "below_second", "kflop", "best_convergence") and "[" not in theirs(column, thesis)
+
+
+def chance_of_counts(more, of_more, fewer, of_fewer):
+    """Of two rates that are one: how often counts so far apart, or farther, are drawn (Fisher's exact test, one-sided)."""
+    successes = more + fewer
+    ways = sum(math.comb(of_more, i) * math.comb(of_fewer, successes - i)
+               for i in range(more, min(of_more, successes) + 1))
+    return ways / math.comb(of_more + of_fewer, successes)
+
+
+def rate_words(column, thesis, runs):
+    """(whether chance is reason enough, what it says) of two rates."""
+    rate = re.fullmatch(r"(\d+)/(\d+)", theirs(column, thesis))
+    if not rate:
+        return False, ""
+    chance = chance_of_counts(int(rate[1]), int(rate[2]), round(sum(values_of(column, runs))), len(runs))
+    if chance < 0.05:
+        return False, ""
+    return True, f"{rate[2]} runs there: by chance counts are as far apart in {chance:.0%} of all cases (Fisher)."
 
 
 def single_run_words(column, thesis, runs):
@@ -75,9 +97,11 @@ def losses_of(experiment, runs_of, fill):
             for column in HEADINGS:
                 if not runs or not is_worse(column, thesis, runs):
                     continue
-                text, tested = reason_of(experiment, row, column)
-                is_chance, chance = single_run_words(column, thesis, runs) if is_single_run(column, thesis) else (False, "")
-                text = fill(text, experiment["name"], scene) if text else "" if is_chance else f"**{NO_REASON}**."
+                text, tested, is_known = reason_of(experiment, row, column)
+                words = single_run_words if is_single_run(column, thesis) else rate_words
+                is_chance, chance = words(column, thesis, runs)
+                text = text if is_known else "" if is_chance else text or f"**{NO_REASON}**."
+                text = fill(text, experiment["name"], scene)
                 reason = " ".join(filter(None, [text, chance])) + tested_words(runs_of, scene, column, tested)
                 lines.append(f"| {experiment.get('table', '')} | {row['name'].replace(';', ',')} | {scene.replace('_', ' ')} | "
                              f"{HEADINGS[column]} | {theirs(column, thesis)} | {ours(column, runs)} | {reason} |")
@@ -91,6 +115,7 @@ def losses_section(lines):
             f"{unexplained} of them without a known reason.",
             "A rate, a mean or a count of niches is worse when the thesis's is outside of our 95 % interval; a median when it",
             "is worse by more than half of the thesis's last digit. Region: in any run, where the thesis's one run has it.",
-            "Where the thesis has a single run, the reason is chance when at least one in twenty of ours is as good. New pairs: see",
+            "Where the thesis has a single run, the reason is chance when at least one in twenty of ours is as good; of two rates,",
+            "when runs of one rate differ as much in at least one of twenty cases. New pairs: see",
             "[what the losses come from](#what-the-losses-come-from-the-battery).", "",
             "| table | row | scene | figure | thesis | ours | reason |", "|---|---|---|---|---|---|---|", *lines]

@@ -10,6 +10,9 @@ from .rows import ROOT, read_rows
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402  (the backend comes first)
+from matplotlib.ticker import FuncFormatter, LogLocator  # noqa: E402
+
+STYLES = ("-", "--", "-.", ":")  # lines that lie on each other stay visible
 
 
 def curves_of(folders, name):
@@ -38,26 +41,36 @@ def plot_curves(experiment, curves, images):
     if any(key[0] for key in curves) and any(point[3] > 0 for points in curves.values() for point in points):
         wanted += [("niches", 3, "niches of the population", False),
                    ("average", 2, "average objective, m^2", True)]
-    if any("SA" in row["algorithm"] for row in experiment["rows"]):
+    has_annealing = any("SA" in row["algorithm"] for row in experiment["rows"])
+    if has_annealing:
         wanted.append(("acceptance", 4, "acceptance probability p_b", False))
     written = []
     for kind, column, label, logarithmic in wanted:
         figure, all_axes = plt.subplots(1, len(scenes), figsize=(5.5 * len(scenes), 4), squeeze=False)
         for axes, scene in zip(all_axes[0], scenes):
-            for row in experiment["rows"]:
+            for number, row in enumerate(experiment["rows"]):
                 points = curves.get((row["name"], scene), [])
                 annealing = "SA" in row["algorithm"]
                 if not points or (kind == "acceptance") != annealing and kind != "best" or (
                         annealing and kind in ("niches", "average")):
                     continue
                 # An iteration of annealing is a trial point, a generation is N_pop of them: shares of the run.
-                last = points[-1][0] or 1
+                last = (points[-1][0] or 1) if has_annealing else 1
                 axes.plot([point[0] / last for point in points], [point[column] for point in points],
-                          label=row["name"].replace(";", ","))
+                          STYLES[number % len(STYLES)], label=row["name"].replace(";", ","))
             if logarithmic:
                 axes.set_yscale("log")
+                for axis, steps in ((axes.yaxis.set_major_locator, (1.0,)), (axes.yaxis.set_minor_locator, (2.0, 3.0, 5.0))):
+                    axis(LogLocator(subs=steps))
+                axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+                axes.yaxis.set_minor_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+                axes.tick_params(axis="y", which="minor", labelsize=8)
+            if not has_annealing:  # most happens in the first generations
+                axes.set_xscale("symlog", linthresh=1.0)
+                axes.set_xlim(left=0.0)
+                axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
             axes.set_title(scene.replace("_", " "))
-            axes.set_xlabel("share of the run")
+            axes.set_xlabel("share of the run" if has_annealing else "generation (0: the first population)")
             axes.set_ylabel(label)
             axes.grid(alpha=0.3)
             axes.legend(fontsize=8)
@@ -110,7 +123,7 @@ def drawn_section(images):
     if not drawn:
         return []
     lines = ["", "## Figures 6.1 to 6.3, 6.5: Partitions, and the manoeuvre's poses", "",
-             "The bodies that the thesis partitioned are lost: these are ours, cut by this package ([partition](../partition.md))."]
+             "The bodies that the thesis partitioned are lost: these are ours, cut by this package ([partition](../partition.md)); the pieces are moved apart."]
     for file_name, label in drawn:
         lines += ["", f"![{label}](images/{file_name})"]
     return lines

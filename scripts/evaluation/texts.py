@@ -4,9 +4,11 @@
     scripts/evaluation/texts.py [EXPERIMENT.yaml ...]     fails on a figure that is typed by hand
 
 A figure is a Python expression in braces, with a format: `{mean("N_pop 20", "exact"):.0%}`. Functions of a row and a column:
-mean, median, least, greatest, total and runs of ours, thesis the thesis's. Functions of a column alone: truth of a scene.
-All take scene="..." (by default the experiment's only scene) and table="..." (by default the experiment itself).
+mean, median, least, greatest, total and runs of ours, mean_root (of the square roots), thesis the thesis's; of a value, too:
+share, of the runs that have at least that. Functions of a column alone: truth of a scene. All take scene="..." (by default
+the experiment's only scene) and table="..." (by default the experiment itself).
 """
+import math
 import pathlib
 import re
 import statistics
@@ -35,10 +37,11 @@ def fault_of(text):
 def texts_of(experiment):
     """All texts of an experiment that may quote figures: {where: text}."""
     texts = {key: experiment[key] for key in ("remark", "note") if key in experiment}
-    for owner, reasons in [("", experiment.get("reasons", {}))] + [
-            (row["name"] + ", ", row.get("reasons", {})) for row in experiment["rows"]]:
-        for column, reason in reasons.items():
-            texts[f"{owner}reason of {column}"] = reason if isinstance(reason, str) else reason.get("text", "")
+    for owner, holder in [("", experiment)] + [(row["name"] + ", ", row) for row in experiment["rows"]]:
+        reasons = [(f"{owner}{key} of {column}", reason) for key in ("reasons", "better")
+                   for column, reason in holder.get(key, {}).items()]
+        for place, reason in reasons:
+            texts[place] = reason if isinstance(reason, str) else reason.get("text", "")
     return texts
 
 
@@ -68,6 +71,9 @@ class Quoter:
             name, where = place(scene, table)
             return self.their_number(column, self.results.row(name, row)["thesis"][where])
 
+        def share(row, column, value, **place_of):
+            return statistics.fmean(one >= value for one in values(row, column, **place_of))
+
         def truth(column, scene=None, table=None):
             name, where = place(scene, table)
             return float(self.results.scenes[name][where][column])
@@ -76,7 +82,8 @@ class Quoter:
             return lambda *args, **named: function(values(*args, **named))
 
         return {"mean": of(statistics.fmean), "median": of(statistics.median), "least": of(min), "greatest": of(max),
-                "total": of(sum), "runs": of(len), "thesis": thesis, "truth": truth, "__builtins__": {}}
+                "total": of(sum), "runs": of(len), "mean_root": of(lambda all: statistics.fmean(map(math.sqrt, all))),
+                "share": share, "thesis": thesis, "truth": truth, "__builtins__": {}}
 
     def fill(self, text, experiment, scene=None):
         names = self.functions(experiment, scene)

@@ -7,7 +7,7 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 sys.path.insert(0, str(ROOT / "scripts"))
-from evaluation import losses, texts  # noqa: E402  (the path comes first)
+from evaluation import gains, losses, texts  # noqa: E402  (the path comes first)
 from evaluation.figures import their_number, values_of  # noqa: E402
 from evaluation.rows import Results  # noqa: E402
 
@@ -17,7 +17,8 @@ EXPERIMENT = {
         {"name": "search; N_pop 20", "algorithm": "comb-GA-wl",
          "thesis": {"boxes": {"exact": "19/20", "region": "20/20", "niches": "3.0 [1-7] 1.2", "distance": 0.3}},
          "reasons": {"exact": {"text": "{total('search; N_pop 20', 'exact'):.0f} of {runs('search; N_pop 20', 'exact')}.",
-                               "tested": ["elite 1"]}}},
+                               "tested": ["elite 1"]}},
+         "better": {"niches": {"unknown": True, "text": "Tried: {mean('elite 1', 'niches'):.0f}."}}},
         {"name": "elite 1", "algorithm": "comb-GA-wl", "variant_of": "search; N_pop 20",
          "thesis": {"boxes": {"exact": "19/20"}}},
     ],
@@ -51,6 +52,25 @@ class EvaluationPage(unittest.TestCase):
         self.assertEqual([line[3] for line in self.losses(exact=19, niches=3, distance=0.31)], ["distance"])
         self.assertEqual(self.losses(exact=20, niches=4), [])
 
+    def gains(self, **figures):
+        results = self.results(**figures)
+        quoter = texts.Quoter(results, their_number, values_of)
+        return [line.split(" | ") for line in gains.gains_of(EXPERIMENT, results.runs["table"], quoter.fill)]
+
+    def test_each_better_figure_is_listed_and_no_other(self):
+        self.assertEqual([line[3] for line in self.gains(niches=4)], ["N_Gamma", "distance"])
+        self.assertEqual(self.gains(niches=3, distance=0.3), [])
+
+    def test_a_gain_without_a_known_reason_says_what_was_tried(self):
+        self.assertIn(f"**{gains.NO_REASON}**. Tried: 3.", self.gains(niches=4)[0][6])
+
+    def test_rates_that_chance_makes_differ_have_chance_as_their_reason(self):
+        self.assertAlmostEqual(losses.chance_of_counts(3, 4, 1, 4), 17 / 70)  # Fisher's tea
+        self.assertEqual(losses.rate_words("exact", {"exact": "19/20"}, [{"exact": "1"}] * 5 + [{"exact": "0"}] * 15), (False, ""))
+        is_chance, words = losses.rate_words("exact", {"exact": "20/20"}, [{"exact": "1"}] * 18 + [{"exact": "0"}] * 2)
+        self.assertTrue(is_chance)
+        self.assertIn("in 24% of all cases", words)
+
     def test_a_rate_within_the_interval_of_our_runs_is_not_worse(self):
         self.assertEqual(self.losses(exact=18, niches=3), [])
         self.assertEqual(len(self.losses(exact=17, niches=3)), 1)
@@ -70,7 +90,8 @@ class EvaluationPage(unittest.TestCase):
     def test_placeholders_quote_rows_thesis_and_scene(self):
         quoter = texts.Quoter(self.results(), their_number, values_of)
         self.assertEqual(quoter.fill("{mean('search; N_pop 20', 'exact'):.0%}, {thesis('search; N_pop 20', 'exact'):.0%}, "
-                                     "{truth('node_distance'):.4f}", "table"), "25%, 95%, 0.2985")
+                                     "{truth('node_distance'):.4f}, {share('elite 1', 'niches', 3):.0%}, {mean_root('elite 1', 'exact'):.1f}", "table"),
+                         "25%, 95%, 0.2985, 100%, 1.0")
 
     def test_a_figure_typed_by_hand_is_found(self):
         for text in ("in 39 % of the runs", "a chance of 0.08", "7.95 niches", "N_pop 20 loses 3 runs"):

@@ -225,6 +225,7 @@ ExperimentRow readRow(const YamlValue& value, const std::optional<YamlValue>& co
   map.take("thesis");      // the thesis's own figures, for the report
   map.take("variant_of");  // the thesis's row that it improves on
   map.take("reasons");     // why a figure is worse than the thesis's
+  map.take("better");      // why one is better
   map.finish();
   return row;
 }
@@ -243,6 +244,7 @@ Experiment loadExperiment(const std::string& file) {
   map.take("remark");
   map.take("note");
   map.take("reasons");
+  map.take("better");
   if (auto v = map.take("seed")) experiment.seed = v->count(0, std::numeric_limits<std::uint64_t>::max());
   YamlMap runs(map.require("runs", "say how many runs: {quick: 20, full: 500}"), "{quick: 20, full: 500}");
   experiment.quick_runs = count32(runs.require("quick", "a count"), 1);
