@@ -19,7 +19,7 @@ done
 results=$root/build/results_quick
 if [ "$size" = full ]; then
   results=$root/doc/results
-  cmake --build "$root/build"  # the recorded commit is that of the programs
+  cmake --build "$root/build" --target concave_distance_benchmarks  # the recorded commit is that of the programs
 fi
 started=$(mktemp)  # older than every file that this run writes
 trap 'rm -rf "$started" "${folder:-}"' EXIT
