@@ -10,6 +10,9 @@ namespace {
 
 // The longest edge, in cells, of a part whose pressure is added to one cell.
 constexpr double kLongestEdge = 1.5;
+// No triangle is cut finer than this share of its longest edge: a line of contact has cells as wide as
+// itself.
+constexpr double kShortestShare = 0.25;
 
 std::size_t longestEdge(const std::array<Eigen::Vector3d, 3>& corners, double& length) {
   std::size_t longest = 0;
@@ -45,7 +48,7 @@ void RubbingSites::gather(const OverlapSample* first_sample, const OverlapSample
       longestEdge(triangle.corners, longest);
     }
     if (longest > kLongestEdge * cell_size) {
-      spread(triangle, sample->push_in_a);
+      spread(triangle, sample->push_in_a, std::max(kLongestEdge * cell_size, kShortestShare * longest));
     } else {
       for (int k = 0; k < count; ++k) addPoint(sample[k].point_in_a, sample[k].push_in_a, force[k]);
     }
@@ -87,15 +90,15 @@ RubbingSites::Triangle RubbingSites::triangleOf(const OverlapSample* sample, con
   return triangle;
 }
 
-// Halves across the longest edge.
-void RubbingSites::spread(const Triangle& triangle, const Eigen::Vector3d& push) {
+// Halves across the longest edge, metres.
+void RubbingSites::spread(const Triangle& triangle, const Eigen::Vector3d& push, double longest_edge) {
   parts_.assign(1, triangle);
   while (!parts_.empty()) {
     const Triangle part = parts_.back();
     parts_.pop_back();
     double length = 0.0;
     const std::size_t k = longestEdge(part.corners, length);
-    if (length <= kLongestEdge * cell_size_) {
+    if (!(length > longest_edge)) {
       addPart(part, push);
       continue;
     }

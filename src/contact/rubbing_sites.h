@@ -52,7 +52,7 @@ class RubbingSites {
 
   static bool isTriangle(const OverlapSample* sample);
   static Triangle triangleOf(const OverlapSample* sample, const double* forces);
-  void spread(const Triangle& triangle, const Eigen::Vector3d& push);
+  void spread(const Triangle& triangle, const Eigen::Vector3d& push, double longest_edge);
   void addPart(const Triangle& part, const Eigen::Vector3d& push);
   void addPoint(const Eigen::Vector3d& point, const Eigen::Vector3d& push, double force);
   void addSite(const Share& sum);
