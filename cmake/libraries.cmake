@@ -53,6 +53,7 @@ function(concave_distance_compile_fast_like target other)
   endif()
 endfunction()
 concave_distance_compile_fast(concave_distance_numeric_objects)
+concave_distance_compile_together(concave_distance_numeric_objects)
 concave_distance_compile_fast(concave_distance_loading_objects)
 concave_distance_compile_together(concave_distance_loading_objects)
 

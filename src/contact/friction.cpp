@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/pi.h"
 #include "contact_parameter_tables.h"
 #include "friction_laws.h"
 
@@ -41,7 +42,6 @@ Eigen::Vector3d regularisedCoulombForce(const FrictionSettings& settings, const 
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 /// alpha of Dupont et al.: from 0 below the breakaway to 1 at the greatest deflection.
 double slippingShare(double bent, double breakaway) {
   if (bent <= breakaway) return 0.0;

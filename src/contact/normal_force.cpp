@@ -3,13 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/pi.h"
 #include "contact_parameter_tables.h"
 
 namespace concave_distance {
-namespace {
-
-constexpr double kPi = 3.14159265358979323846;
-}  // namespace
 
 std::string_view toString(NormalForceModel model) {
   switch (model) {

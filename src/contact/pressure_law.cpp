@@ -2,10 +2,10 @@
 
 #include <cmath>
 
+#include "base/pi.h"
+
 namespace concave_distance {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 /// A paraboloid pressed into a plane: volume pi R d^2, moment pi R d^3 / 3.
 double hertzOverVolume(double contact_modulus, double given_radius, const PatchMeasure& patch) {

@@ -18,7 +18,7 @@ namespace concave_distance {
 namespace detail {
 namespace {
 
-constexpr std::size_t kNone = LocalMinima::kNoOwner;
+constexpr std::size_t kNoOwner = LocalMinima::kNoOwner;
 constexpr std::size_t kUndecided = LocalMinima::kUndecided;
 
 /// False when the limit was reached.
@@ -113,7 +113,7 @@ bool LocalMinimaParts::decide(const MinimaScene& scene, const LocalMinimaRequest
   } while (!verdicts.hasJudgedAll() && described.size() <= request.largest_count && !limit.isOver());
   const auto place = [](std::uint32_t judged) {
     if (judged == MinimaVerdicts::kUndecided) return kUndecided;
-    return judged == MinimaVerdicts::kNone ? kNone : std::size_t{judged};
+    return judged == MinimaVerdicts::kNone ? kNoOwner : std::size_t{judged};
   };
   for (std::size_t i = 0; i < request.asked_pairs.size(); ++i) {
     const auto& [a, b] = request.asked_pairs[i];
@@ -129,8 +129,8 @@ bool LocalMinimaParts::decide(const MinimaScene& scene, const LocalMinimaRequest
   cost.flooded_pairs += verdicts.counts().flooded_cells;
   for (std::vector<std::size_t>* of : {&owners, &proposed}) {
     for (std::size_t& owner : *of) {
-      if (owner == kNone || owner == kUndecided) continue;
-      owner = places[owner] != kNone ? places[owner] : kUndecided;  // there was no time to describe it
+      if (owner == kNoOwner || owner == kUndecided) continue;
+      owner = places[owner] != kNoOwner ? places[owner] : kUndecided;  // there was no time to describe it
     }
   }
   return std::none_of(verdicts.judged().begin(), verdicts.judged().end(), [](const auto& judged) {
@@ -141,9 +141,9 @@ bool LocalMinimaParts::decide(const MinimaScene& scene, const LocalMinimaRequest
 void LocalMinimaParts::describeNiches(const MinimaScene& scene, const LocalMinimaRequest& request,
                                       WorkLimit& limit) {
   const std::vector<MinimaVerdicts::Judged>& judged = verdicts.judged();
-  places.resize(judged.size(), kNone);
+  places.resize(judged.size(), kNoOwner);
   for (std::size_t i = 0; i < judged.size(); ++i) {
-    if (judged[i].verdict != MinimaVerdicts::Verdict::Niche || places[i] != kNone) continue;
+    if (judged[i].verdict != MinimaVerdicts::Verdict::Niche || places[i] != kNoOwner) continue;
     if (limit.isOver()) return;
     const MinimumSeed& seed = judged[i].seed;
     places[i] = minima.size();
@@ -172,7 +172,7 @@ bool LocalMinimaParts::measure(const MinimaScene& scene, const LocalMinimaReques
   proposed.assign(proposals, flood.owners.end());
   for (std::vector<std::size_t>* of : {&owners, &proposed}) {
     for (std::size_t& owner : *of) {
-      if (owner >= minima.size() && (flood.cut || owner != kNone)) owner = kUndecided;
+      if (owner >= minima.size() && (flood.cut || owner != kNoOwner)) owner = kUndecided;
     }
   }
   return !flood.cut;
@@ -200,17 +200,17 @@ void LocalMinimaParts::list(const LocalMinimaRequest& request, LocalMinima& resu
   });
   result.cut = described.size() > request.largest_count;
   if (result.cut) described.resize(request.largest_count);
-  refill(places, minima.size(), kNone);
+  refill(places, minima.size(), kNoOwner);
   for (const Described& entry : described) {
     places[entry.minimum] = result.niches.size();
     result.niches.push_back(entry.niche);
     result.cost.met_by_flood += minima[entry.minimum].met_by_flood ? 1 : 0;
   }
   for (const std::size_t owner : owners) {
-    result.owners.push_back(owner == kNone || owner == kUndecided ? owner : places[owner]);
+    result.owners.push_back(owner == kNoOwner || owner == kUndecided ? owner : places[owner]);
   }
   for (std::size_t i = proposed.size(); i-- > 0;) {
-    if (proposed[i] != kNone && proposed[i] != kUndecided && places[proposed[i]] != kNone) {
+    if (proposed[i] != kNoOwner && proposed[i] != kUndecided && places[proposed[i]] != kNoOwner) {
       result.niches[places[proposed[i]]].proposal = i;
     }
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "base/pi.h"
 #include "distance/round_kernels.h"
 #include "gauss_points.h"
 #include "mesh/surface/round_geometry.h"
@@ -15,7 +16,6 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-constexpr double kPi = 3.14159265358979323846;
 // A core may lie along the other surface: the patch's middle is that of what is within this share of the
 // depth.
 constexpr double kPlateau = 0.1;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/pi.h"
 #include "gauss_points.h"
 #include "mesh/surface/round_geometry.h"
 #include "round_lines.h"
@@ -13,7 +14,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kPi = 3.14159265358979323846;
 // Of the distance from the core: triangles up to these sizes take 3 and 6 points.
 constexpr double kSmall = 0.05;
 constexpr double kMedium = 0.3;

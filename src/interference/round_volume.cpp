@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/pi.h"
 #include "mesh/surface/round_geometry.h"
 
 namespace concave_distance::detail {
 namespace {
 
 using Eigen::Vector3d;
-
-constexpr double kPi = 3.14159265358979323846;
 
 /// (r / x)^power, with what is at the core itself left out.
 double ratio(double radius, double distance, int power) {

@@ -17,7 +17,7 @@ constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 constexpr double kSecondsOfKnown = 3e-6;
 constexpr double kMostForKnown = 0.3;
 // Of the rest: when the search for all minima ends, and when the floods end.
-constexpr double kShareOfSearch = 0.6;
+constexpr double kShareOfMinima = 0.6;
 constexpr double kShareOfFloods = 0.9;
 
 // Half as many niches more than are reported are kept, for those that come and go at the edge of the list.
@@ -90,7 +90,7 @@ void ExactNiches::admit(PairGeometry& geometry, const TrackerParameters& paramet
   request_.certain_distance = certain_distance;
   const double for_known = kSecondsOfKnown * static_cast<double>(records.size());
   const double all = time_share - std::min(kMostForKnown, limit.shareOf(for_known));
-  request_.time_shares = {kShareOfSearch * all, kShareOfFloods * all, all};
+  request_.time_shares = {kShareOfMinima * all, kShareOfFloods * all, all};
   request_.given = nullptr;
   if (!looks_for_all) {
     followed_.insert(followed_.end(), request_.proposals.begin(), request_.proposals.end());

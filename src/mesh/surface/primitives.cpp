@@ -5,12 +5,12 @@
 #include <sstream>
 
 #include "base/coordinate_limit.h"
+#include "base/pi.h"
 #include "concave_distance/base/error.h"
 
 namespace concave_distance {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 /// A finer mesh than this is surely a chord error given in the wrong unit.
 constexpr double kMaxTriangles = 4e6;
 

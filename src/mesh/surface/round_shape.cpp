@@ -5,12 +5,12 @@
 
 #include "base/coordinate_limit.h"
 #include "base/parameter_checks.h"
+#include "base/pi.h"
 #include "concave_distance/mesh/surface/primitives.h"
 
 namespace concave_distance {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 // Of the rotation's columns against orthonormal ones.
 constexpr double kRigid = 1e-12;
 

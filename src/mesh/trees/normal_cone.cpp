@@ -4,12 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/pi.h"
+
 namespace concave_distance::detail {
 namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr std::size_t kMostCorners = 256;
 /// A wider cap is not convex any more, nor would it rule anything out that is worth the trouble.
 constexpr double kWidest = 0.4999 * kPi;
