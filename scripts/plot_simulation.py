@@ -98,9 +98,11 @@ def plot_two_feet(folder):
     events = []
     for time, niche, x in zip(contacts["t"], contacts["id"], contacts["point_x"]):
         foot = "right" if x > 0 else "left"
-        if not events or events[-1][1] != foot or time - events[-1][3] > 1.5e-3:
-            events.append([time, foot, int(niche), time])
-        events[-1][3] = time
+        going = next((event for event in reversed(events) if event[1] == foot), None)
+        if going is None or time - going[3] > 1.5e-3:
+            going = [time, foot, int(niche), time]
+            events.append(going)
+        going[3] = time
     with open(ROOT / "doc" / "results" / "two_feet.csv", "w", encoding="utf-8") as file:
         file.write("from,until,what,niche\n")
         rows = [(begin, end, f"contact of the {foot} foot", niche) for begin, foot, niche, end in events]

@@ -26,6 +26,10 @@ constexpr double kLargestShare = 0.7;
 // smallest.
 constexpr double kSmallestPart = 0.02;
 
+bool isSameTime(double time, double event) {
+  return std::isfinite(event) && event - time <= kSameTime * std::max(1.0, std::abs(event));
+}
+
 double factorFor(double error_share) {
   return kAim * std::pow(error_share, -1.0 / kOrder);
 }
@@ -96,7 +100,7 @@ double Simulation::State::step(double until) {
   const auto start = std::chrono::steady_clock::now();
   const double elsewhere = solveSeconds();
   double event = nextEvent(until);
-  while (std::isfinite(event) && event - time <= kSameTime * std::max(1.0, std::abs(event))) {
+  while (isSameTime(time, event)) {
     time = event;
     if (!(until > time)) return 0.0;
     event = nextEvent(until);
@@ -108,7 +112,8 @@ double Simulation::State::step(double until) {
   double error_share = 0.0;
   while (true) {
     if (!moveWithin(step, limit)) return 0.0;
-    time = limit == StepLimit::Event ? event : time_at_begin + step;  // at an event, not at a sum near it
+    const double end = time_at_begin + step;
+    time = limit == StepLimit::Event || isSameTime(end, event) ? event : end;
     for (detail::PairRunner& runner : runners) runner.wantNiches(std::isinf(until) || time == until);
     evaluateEnd(step, soon);
     error_share = shareOfError(step);

@@ -246,6 +246,18 @@ TEST(ContactMotion, OneSceneOneAnswer) {
   EXPECT_EQ(run(), run());
 }
 
+TEST(ContactMotion, NichesAreThereAtEveryTimeThatIsAskedFor) {
+  SceneBuilder builder = ballOnBlock(NormalForceModel::HuntCrossley, 0.5, 0.0);
+  builder.settings.tracking = SimulationTracking::Niches;
+  builder.settings.duration = 10.0;
+  builder.settings.largest_step = 1e-3;  // sums of it miss the times by rounding
+  Simulation simulation = builder.simulation();
+  for (int line = 1; line <= 500; ++line) {
+    simulation.advanceTo(line / 50.0);
+    ASSERT_FALSE(simulation.pairs()[0].solution.niches.empty()) << simulation.time();
+  }
+}
+
 TEST(ContactMotion, APairBeyondItsCutoffIsNotSolved) {
   SceneBuilder builder = ballOnBlock(NormalForceModel::HuntCrossley, 0.5, 1.0);
   builder.scene.pairs.edit(0).settings.tracker.cutoff = 0.1;
