@@ -25,8 +25,8 @@ struct OverlapFacet {
 };
 
 /// A point of one body's surface inside the other, with its share of that surface. Sums over the samples of a
-/// region of area * f(point, depth) are integrals over the mean of both surfaces. A triangle of a mesh that is
-/// sampled whole gives three in turn, at the middles of its edges and of equal area and push.
+/// region of area * f(point, depth) are integrals over the mean of both surfaces. A triangle of a mesh that
+/// is sampled whole gives three in turn, at the middles of its edges and of equal area and push.
 struct OverlapSample {
   Eigen::Vector3d point_in_a;
   /// Unit, the way B is pushed there: out of A's surface, into B's.
