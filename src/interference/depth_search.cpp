@@ -57,18 +57,18 @@ void DepthSearch::run(const OverlapFacet* first, double share, std::size_t large
 }
 
 void DepthSearch::split(const OverlapFacet& facet, Part part, double share, DepthProbe& probe) {
-  const auto isShallow = [&] { return part.bound <= (1.0 + share) * probe.deepest().depth; };
+  const auto is_shallow = [&] { return part.bound <= (1.0 + share) * probe.deepest().depth; };
   if (!part.corners_are_known) {
     for (Corner& corner : part.corners) corner = cornerOf(facet, probe.look(facet, corner.point), probe);
     part.corners_are_known = true;
     tighten(facet, probe, part);
-    if (isShallow()) return;
+    if (is_shallow()) return;
   }
   const std::array<Eigen::Vector3d, 3> corners = pointsOf(part.corners);
   const Eigen::Vector3d middle = (corners[0] + corners[1] + corners[2]) / 3.0;
   const ProbedPoint at = probe.look(facet, middle);
   part.bound = std::min(part.bound, probe.depthBound(facet, corners, at.nearest));
-  if (isShallow()) return;
+  if (is_shallow()) return;
   planes_.begin(probe.other(facet), probe.aFromOther(facet), facet.of_b);
   planes_.add(at.nearest);
   if (areExplained(part, at, probe.deepest().depth)) return;
@@ -81,12 +81,12 @@ void DepthSearch::split(const OverlapFacet& facet, Part part, double share, Dept
 
 // Whether the corners and the middle are as deep as below the planes.
 bool DepthSearch::areExplained(const Part& part, const ProbedPoint& middle, double deepest) const {
-  const auto isExplained = [&](const Eigen::Vector3d& point, double depth) {
+  const auto is_explained = [&](const Eigen::Vector3d& point, double depth) {
     return std::abs(planes_.leastDepth(point) - depth) <= kSameDepth * deepest;
   };
-  return isExplained(middle.point, middle.depth) &&
+  return is_explained(middle.point, middle.depth) &&
          std::all_of(part.corners.begin(), part.corners.end(),
-                     [&](const Corner& corner) { return isExplained(corner.point, corner.depth); });
+                     [&](const Corner& corner) { return is_explained(corner.point, corner.depth); });
 }
 
 // Where the planes meet. Each piece is bounded by the triangle of the plane that is the lowest there.

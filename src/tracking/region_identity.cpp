@@ -92,22 +92,22 @@ void RegionIdentity::keepNormals(const std::vector<ContactRegion>& regions) {
 void RegionIdentity::takeIds(const std::vector<TrackedNiche>& niches, double displacement) {
   region_taken_.assign(memory_.size(), 0);
   other_taken_.assign(niches.size(), 0);
-  const auto squaredDistance = [&](std::size_t r, std::size_t o) {
+  const auto squared_distance_of = [&](std::size_t r, std::size_t o) {
     return within(memory_[r].point_in_a, niches[o].point_a_in_a, memory_[r].reach + displacement);
   };
-  const auto keepKnown = [&](const auto& accept) {
+  const auto keep_known = [&](const auto& accept) {
     takeNearest(memory_.size(), niches.size(), [&](std::size_t r, std::size_t o) {
       const bool is_known = niches[o].id != 0 && niches[o].id == memory_[r].id && other_taken_[o] == 0;
       return is_known ? accept(r, o) : -1.0;
     });
   };
-  keepKnown(squaredDistance);
+  keep_known(squared_distance_of);
   takeNearest(memory_.size(), niches.size(), [&](std::size_t r, std::size_t o) {
     const bool is_free = other_taken_[o] == 0 && niches[o].id != 0 && !(niches[o].distance > 0.0);
-    return is_free ? squaredDistance(r, o) : -1.0;
+    return is_free ? squared_distance_of(r, o) : -1.0;
   });
   found_ = matches_;
-  keepKnown([](std::size_t, std::size_t) { return 0.0; });
+  keep_known([](std::size_t, std::size_t) { return 0.0; });
   for (std::size_t r = 0; r < memory_.size(); ++r) {
     if (region_taken_[r] == 0) memory_[r].id = 0;
   }
