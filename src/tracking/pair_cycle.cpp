@@ -169,6 +169,7 @@ double PairCycle::cutoffOfMeshes() const {
 // one that may have to end early is better for it.
 bool PairCycle::searchIsDue() const {
   if (!proves()) return true;
+  if (certainDistance() > cutoffOfMeshes()) return false;  // there is no niche to find
   return parameters_.search_share > 0.0 && (isWarm() ? search_.isAffordable() : limit_.isTimed());
 }
 

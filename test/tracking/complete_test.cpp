@@ -54,6 +54,22 @@ void expectEveryNiche(const Body& a, const Body& b, const Isometry3d& pose, cons
   }
 }
 
+// Where the proof says that all of a pair is beyond the cutoff there is no niche to search for.
+TEST(Complete, NothingIsSearchedForBeyondTheCutoff) {
+  TrackerParameters parameters = complete();
+  parameters.cutoff = 0.001;
+  PairTracker tracker("combs", comb(), comb(), parameters);
+  PairSolution solution;
+  std::uint64_t evaluations = 0;
+  for (int i = 0; i < 300; ++i) {
+    tracker.update(swaying(0.01 * i), 0.01 * i, solution);
+    ASSERT_GT(solution.lower_bound, parameters.cutoff);
+    EXPECT_TRUE(solution.niches.empty());
+    evaluations += solution.cost.evaluations;
+  }
+  EXPECT_LT(evaluations, 10000U);  // of the sweep alone; the search took twice as many besides
+}
+
 class CompleteList : public testing::TestWithParam<bool> {};
 
 TEST_P(CompleteList, HasEveryNicheAlongAMotionAndKeepsTheBooksOfTheirIds) {
