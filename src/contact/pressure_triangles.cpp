@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/longest_edge.h"
 #include "distance/closest_point.h"
 #include "mesh/surface/mesh_topology.h"
 #include "mesh/surface/round_geometry.h"
@@ -21,14 +22,6 @@ constexpr double kAreaOverEdge = 0.25;
 constexpr double kInwards = 0.1;
 
 using Corners = std::array<Eigen::Vector3d, 3>;
-
-double squaredEdge(const Corners& corners, std::size_t k) {
-  return (corners[k] - corners[(k + 1) % 3]).squaredNorm();
-}
-std::size_t longestEdge(const Corners& corners) {
-  const std::size_t k = squaredEdge(corners, 1) > squaredEdge(corners, 0) ? 1 : 0;
-  return squaredEdge(corners, 2) > squaredEdge(corners, k) ? 2 : k;
-}
 
 double areaOf(const Corners& corners) {
   return 0.5 * (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/longest_edge.h"
 #include "patch_cells.h"
 
 namespace concave_distance {
@@ -13,20 +14,6 @@ constexpr double kLongestEdge = 1.5;
 // No triangle is cut finer than this share of its longest edge: a line of contact has cells as wide as
 // itself.
 constexpr double kShortestShare = 0.25;
-
-std::size_t longestEdge(const std::array<Eigen::Vector3d, 3>& corners, double& length) {
-  std::size_t longest = 0;
-  double squared = -1.0;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const double here = (corners[(k + 1) % 3] - corners[k]).squaredNorm();
-    if (here > squared) {
-      squared = here;
-      longest = k;
-    }
-  }
-  length = std::sqrt(squared);
-  return longest;
-}
 
 }  // namespace
 
@@ -45,7 +32,7 @@ void RubbingSites::gather(const OverlapSample* first_sample, const OverlapSample
     Triangle triangle;
     if (is_triangle) {
       triangle = triangleOf(sample, force);
-      longestEdge(triangle.corners, longest);
+      longest = std::sqrt(squaredEdge(triangle.corners, longestEdge(triangle.corners)));
     }
     if (longest > kLongestEdge * cell_size) {
       spread(triangle, sample->push_in_a, std::max(kLongestEdge * cell_size, kShortestShare * longest));
@@ -96,9 +83,8 @@ void RubbingSites::spread(const Triangle& triangle, const Eigen::Vector3d& push,
   while (!parts_.empty()) {
     const Triangle part = parts_.back();
     parts_.pop_back();
-    double length = 0.0;
-    const std::size_t k = longestEdge(part.corners, length);
-    if (!(length > longest_edge)) {
+    const std::size_t k = longestEdge(part.corners);
+    if (!(squaredEdge(part.corners, k) > longest_edge * longest_edge)) {
       addPart(part, push);
       continue;
     }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <tuple>
 
+#include "base/longest_edge.h"
+
 namespace concave_distance {
 namespace {
 
@@ -133,15 +135,7 @@ void DepthSearch::tighten(const OverlapFacet& facet, const DepthProbe& probe, Pa
 
 // Across the longest edge.
 void DepthSearch::halve(const OverlapFacet& facet, const Part& part, double share, DepthProbe& probe) {
-  std::size_t k = 0;
-  double longest = -1.0;
-  for (std::size_t edge = 0; edge < 3; ++edge) {
-    const double length = (part.corners[edge].point - part.corners[(edge + 1) % 3].point).squaredNorm();
-    if (length > longest) {
-      longest = length;
-      k = edge;
-    }
-  }
+  const std::size_t k = longestEdge(pointsOf(part.corners));
   const std::size_t end = (k + 1) % 3;
   const Eigen::Vector3d between = 0.5 * (part.corners[k].point + part.corners[end].point);
   const Corner middle = cornerOf(facet, probe.look(facet, between), probe);

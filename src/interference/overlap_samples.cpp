@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/longest_edge.h"
 #include "distance/closest_point.h"
 #include "mesh/surface/mesh_topology.h"
 #include "mesh/trees/triangle_tree.h"
@@ -231,15 +232,7 @@ DeepestPoint OverlapSampler::findDeepest(const OverlapFacet* first) {
 
 // Across the longest edge, whose middle is known.
 void OverlapSampler::halve(const OverlapFacet& facet, const Part& part) {
-  std::size_t k = 0;
-  double longest = -1.0;
-  for (std::size_t edge = 0; edge < 3; ++edge) {
-    const double length = (part.corners[edge].point - part.corners[(edge + 1) % 3].point).squaredNorm();
-    if (length > longest) {
-      longest = length;
-      k = edge;
-    }
-  }
+  const std::size_t k = longestEdge(cornersOf(part));
   const ProbedPoint& from = part.corners[k];
   const ProbedPoint& to = part.corners[(k + 1) % 3];
   const ProbedPoint& tip = part.corners[(k + 2) % 3];
