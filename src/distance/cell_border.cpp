@@ -78,34 +78,36 @@ struct CellBorder::Levers {
 std::uint32_t BorderPool::take(std::uint32_t next, WorkLimit& limit) {
   std::uint32_t chunk = free_;
   if (chunk != kNone) {
-    free_ = chunks_[chunk].next;
+    free_ = (*this)[chunk].next;
   } else {
-    if (!limit.makeRoom(chunks_)) return kNone;
-    chunk = static_cast<std::uint32_t>(chunks_.size());
-    chunks_.emplace_back();
+    if (chunk_count_ == blocks_.size() * kBlockSize) {
+      if (!limit.makeRoom(blocks_) || !limit.takeMemory(sizeof(Block))) return kNone;
+      blocks_.push_back(std::make_unique<Block>());
+    }
+    chunk = chunk_count_++;
   }
-  chunks_[chunk].count = 0;
-  chunks_[chunk].next = next;
+  (*this)[chunk].count = 0;
+  (*this)[chunk].next = next;
   return chunk;
 }
 
 void BorderPool::release(std::uint32_t first) {
   while (first != kNone) {
-    const std::uint32_t next = chunks_[first].next;
-    chunks_[first].next = free_;
+    const std::uint32_t next = (*this)[first].next;
+    (*this)[first].next = free_;
     free_ = first;
     first = next;
   }
 }
 
 void BorderPool::clear() {
-  chunks_.clear();
+  chunk_count_ = 0;
   free_ = kNone;
 }
 
 std::size_t BorderPool::memoryBytes() const {
-  return chunks_.capacity() * sizeof(Chunk) + anew.capacity() * sizeof(Directed) +
-         crossed.capacity() * sizeof(BorderElement);
+  return blocks_.size() * sizeof(Block) + blocks_.capacity() * sizeof(blocks_[0]) +
+         anew.capacity() * sizeof(Directed) + crossed.capacity() * sizeof(BorderElement);
 }
 
 /// Of the gaps of a batch at another pose.

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "cell_neighbours.h"
@@ -51,8 +52,10 @@ class BorderPool {
   std::uint32_t take(std::uint32_t next, WorkLimit& limit);
   /// The group and all after it.
   void release(std::uint32_t first);
-  Chunk& operator[](std::uint32_t chunk) { return chunks_[chunk]; }
-  const Chunk& operator[](std::uint32_t chunk) const { return chunks_[chunk]; }
+  Chunk& operator[](std::uint32_t chunk) { return (*blocks_[chunk / kBlockSize])[chunk % kBlockSize]; }
+  const Chunk& operator[](std::uint32_t chunk) const {
+    return (*blocks_[chunk / kBlockSize])[chunk % kBlockSize];
+  }
 
   void clear();
   std::size_t memoryBytes() const;
@@ -62,7 +65,11 @@ class BorderPool {
   std::vector<BorderElement> crossed;
 
  private:
-  std::vector<Chunk> chunks_;
+  static constexpr std::uint32_t kBlockSize = 64;
+  using Block = std::array<Chunk, kBlockSize>;
+
+  std::vector<std::unique_ptr<Block>> blocks_;  ///< borders of large regions would be slow to copy
+  std::uint32_t chunk_count_ = 0;
   std::uint32_t free_ = kNone;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "base/refill.h"
 #include "cone_front.h"
@@ -21,6 +22,16 @@ namespace {
 constexpr std::size_t kNoOwner = LocalMinima::kNoOwner;
 constexpr std::size_t kUndecided = LocalMinima::kUndecided;
 
+bool isWithinCutoff(const MinimaScene& scene, const LocalMinimaRequest& request, const MinimumSeed& seed) {
+  return seed.distance <= request.cutoff + scene.rounding;
+}
+
+void appendNear(const MinimaScene& scene, const LocalMinimaRequest& request,
+                const std::vector<MinimumSeed>& from, std::vector<MinimumSeed>& seeds) {
+  std::copy_if(from.begin(), from.end(), std::back_inserter(seeds),
+               [&](const MinimumSeed& seed) { return isWithinCutoff(scene, request, seed); });
+}
+
 /// False when the limit was reached.
 bool collectSeeds(const MinimaScene& scene, const LocalMinimaRequest& request,
                   std::vector<MinimumSeed>& seeds, LocalMinimaCost& cost, WorkLimit& limit,
@@ -28,7 +39,7 @@ bool collectSeeds(const MinimaScene& scene, const LocalMinimaRequest& request,
   seeds.clear();
   if (request.given != nullptr) {
     if (!limit.makeRoom(seeds, request.given->size())) return false;
-    seeds.assign(request.given->begin(), request.given->end());
+    appendNear(scene, request, *request.given, seeds);
     return true;
   }
   if (isFar(scene, request.least_prominence)) {
@@ -89,6 +100,7 @@ struct LocalMinimaParts {
 bool LocalMinimaParts::decide(const MinimaScene& scene, const LocalMinimaRequest& request,
                               LocalMinimaCost& cost, WorkLimit& limit) {
   MinimaVerdicts::Request wanted;
+  wanted.cutoff = request.cutoff + scene.rounding;
   wanted.least_prominence = request.least_prominence;
   wanted.through_material = request.through_material;
   wanted.is_tracked = request.is_tracked;
@@ -123,7 +135,9 @@ bool LocalMinimaParts::decide(const MinimaScene& scene, const LocalMinimaRequest
     owners.push_back(place(owner));
   }
   for (const MinimumSeed& proposal : request.proposals) {
-    proposed.push_back(place(verdicts.locate(scene, {proposal.a, proposal.b}, wanted, limit)));
+    const bool is_near = isWithinCutoff(scene, request, proposal);
+    proposed.push_back(is_near ? place(verdicts.locate(scene, {proposal.a, proposal.b}, wanted, limit))
+                               : kNoOwner);
   }
   describeNiches(scene, request, limit);
   cost.flooded_pairs += verdicts.counts().flooded_cells;
@@ -157,19 +171,27 @@ void LocalMinimaParts::describeNiches(const MinimaScene& scene, const LocalMinim
 bool LocalMinimaParts::measure(const MinimaScene& scene, const LocalMinimaRequest& request,
                                LocalMinimaCost& cost, WorkLimit& limit) {
   const std::size_t owned = seeds.size();
+  // Of each that is asked for and proposed its place among the seeds.
+  places.clear();
+  const auto start_at = [&](const MinimumSeed& seed) {
+    const bool is_near = isWithinCutoff(scene, request, seed);
+    places.push_back(is_near ? seeds.size() - owned : kNoOwner);
+    if (is_near) seeds.push_back(seed);
+  };
   for (const auto& [a, b] : request.asked_pairs) {
-    seeds.push_back(scene.seedOf(refineWitness(scene.a, scene.b, scene.a_from_b, a, b, refinement).witness));
+    start_at(scene.seedOf(refineWitness(scene.a, scene.b, scene.a_from_b, a, b, refinement).witness));
   }
-  seeds.insert(seeds.end(), request.proposals.begin(), request.proposals.end());
+  for (const MinimumSeed& proposal : request.proposals) start_at(proposal);
   FloodResult flood = floodMinima(scene, request, seeds, owned, cost, limit);
   for (const FloodedMinimum& minimum : flood.minima) {
     if (limit.isOver()) break;
     minima.push_back(minimum);
     describe(scene, request, false, limit);
   }
-  const auto proposals = flood.owners.begin() + static_cast<std::ptrdiff_t>(request.asked_pairs.size());
-  owners.assign(flood.owners.begin(), proposals);
-  proposed.assign(proposals, flood.owners.end());
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    std::vector<std::size_t>& of = i < request.asked_pairs.size() ? owners : proposed;
+    of.push_back(places[i] == kNoOwner ? kNoOwner : flood.owners[places[i]]);
+  }
   for (std::vector<std::size_t>* of : {&owners, &proposed}) {
     for (std::size_t& owner : *of) {
       if (owner >= minima.size() && (flood.cut || owner != kNoOwner)) owner = kUndecided;
@@ -261,7 +283,7 @@ void findLocalMinima(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry
   result.cost.minima = parts.seeds.size();
   limit.allowShare(request.time_shares.all);
   // What is proposed counts while not everything has been looked at.
-  if (!all) parts.seeds.insert(parts.seeds.end(), request.proposals.begin(), request.proposals.end());
+  if (!all) detail::appendNear(scene, request, request.proposals, parts.seeds);
   const bool measures =
       request.prominence_limit > request.least_prominence && !detail::isFar(scene, request.least_prominence);
   const bool decided = measures ? parts.measure(scene, request, result.cost, limit)

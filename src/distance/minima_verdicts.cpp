@@ -56,7 +56,7 @@ std::uint32_t MinimaVerdicts::locate(const MinimaScene& scene, const TrianglePai
   Stage stage(*this, scene, request, limit);
   stage.resume();
   const std::uint32_t place = stage.placeAround(around);
-  if (place == kNone) return kNone;
+  if (place == kNone || judged_[place].seed.distance > request.cutoff) return kNone;
   if (judged_[place].verdict == Verdict::Open) {
     if (is_far_) {
       stage.decideFar();

@@ -44,6 +44,7 @@ class MinimaVerdicts {
     std::uint32_t measured = 0;  ///< elements of borders, anew
   };
   struct Request {
+    double cutoff = std::numeric_limits<double>::infinity();  ///< metres; no place beyond it is judged
     double least_prominence = 1e-2;
     std::size_t most_niches = std::numeric_limits<std::size_t>::max();
     /// Niches through material are wanted; else nothing is judged that begins there.
@@ -70,8 +71,8 @@ class MinimaVerdicts {
              WorkLimit& limit);
 
   /// At the pose of the last begin(): the niche of the local minimum around a triangle pair, as an index of
-  /// judged(); kNone when that is none of them, kUndecided when the limit was reached. A place that is a
-  /// niche of its own is judged and added.
+  /// judged(); kNone when that is none of them or beyond the cutoff, kUndecided when the limit was reached. A
+  /// place that is a niche of its own is judged and added.
   std::uint32_t locate(const MinimaScene& scene, const TrianglePair& around, const Request& request,
                        WorkLimit& limit);
   /// The niche with this region; kNone when there is none any more.

@@ -9,9 +9,9 @@ namespace concave_distance::detail {
 namespace {
 
 /// A flood that has visited this many cells may be replaced by cheaper tests.
-constexpr std::size_t kLongFlood = std::size_t{1} << 15U;
+constexpr std::size_t kLongFlood = 512;
 /// Around more cells no border is kept.
-constexpr std::size_t kLargestRegion = std::size_t{1} << 16U;
+constexpr std::size_t kLargestRegion = std::size_t{1} << 18U;
 /// A region that has grown to more than twice its size and this many cells is made anew.
 constexpr std::size_t kSmallRegion = 64;
 

@@ -72,7 +72,9 @@ void MinimaVerdicts::Stage::descend(std::uint32_t i) {
 }
 
 bool MinimaVerdicts::Stage::settlesLong(std::uint32_t i) {
-  const bool settled = i == deepest_ ? isNearest(i) : hasPathDown(i);
+  // Where not all seeds are known, what was found may be deeper than all of them.
+  const bool is_deepest = i == deepest_ || !isEarlier(deepest_, i);
+  const bool settled = is_deepest ? isNearest(i) : hasPathDown(i);
   verdicts_.floods_are_long_ = verdicts_.floods_are_long_ || settled;
   return settled;
 }

@@ -6,6 +6,7 @@
 
 #include "concave_distance/mesh/repair/repair_mesh.h"
 #include "distance/minima_checks.h"
+#include "distance/minima_scene.h"
 #include "mesh/surface/mesh_topology.h"
 #include "mesh/surface/refine_mesh.h"
 #include "support/painted_boxes.h"
@@ -214,6 +215,34 @@ TEST(LocalMinimaOf, TrianglePairsBelongToTheNicheTheyDescendTo) {
               .witness.squared_distance);
       EXPECT_LE(found.niches[found.owners[k]].distance, settled + kError);
     }
+  }
+}
+
+// What is asked for or proposed beyond the cutoff can be no niche of the list: nothing is flooded for it.
+TEST(LocalMinimaOf, NothingIsFloodedBeyondTheCutoff) {
+  const Body comb = makeBody(test::makeComb(5));
+  const Isometry3d pose = test::translation(Vector3d(0.1, 0.2, 3.0));
+  LocalMinimaRequest request;
+  for (const double prominence_limit : {0.0, 1.0}) {
+    request.prominence_limit = prominence_limit;
+    request.cutoff = std::numeric_limits<double>::infinity();
+    request.asked_pairs.clear();
+    request.proposals.clear();
+    const LocalMinima all = minimaOf(comb, comb, pose, request);
+    ASSERT_FALSE(all.niches.empty());
+    const LocalMinimum& nearest = all.niches.front();
+    request.cutoff = 0.99 * nearest.distance;
+    request.asked_pairs.emplace_back(nearest.witness.triangle_a, nearest.witness.triangle_b);
+    request.proposals.push_back(detail::MinimaScene(*comb, *comb, pose).seedOf(nearest.witness));
+    LocalMinima near = minimaOf(comb, comb, pose, request);
+    EXPECT_TRUE(near.niches.empty());
+    EXPECT_EQ(near.cost.flooded_pairs, 0U);
+    EXPECT_EQ(near.owners, std::vector<std::size_t>{LocalMinima::kNoOwner});
+    // The same for minima that are given.
+    request.given = &request.proposals;
+    near = minimaOf(comb, comb, pose, request);
+    EXPECT_EQ(near.cost.flooded_pairs, 0U);
+    request.given = nullptr;
   }
 }
 
