@@ -24,6 +24,7 @@
 #include <ros/node_handle.h>
 #include <ros/service.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <string>
 
@@ -37,12 +38,18 @@ namespace {
 constexpr double kWarmUp = 5.0;          // s, after the first solved message
 constexpr double kLongestStart = 120.0;  // s, that the scene may take to load
 
+/// False when the node does not take it.
 bool setCutoff(const std::string& node, double cutoff) {
   dynamic_reconfigure::Reconfigure service;
-  service.request.config.doubles.resize(1);
-  service.request.config.doubles[0].name = "cutoff";
-  service.request.config.doubles[0].value = cutoff;
-  return ros::service::call(node + "/set_parameters", service);
+  dynamic_reconfigure::StrParameter parameter;  // a text, as it may be `none`
+  parameter.name = "cutoff";
+  parameter.value = std::to_string(cutoff);
+  service.request.config.strs.push_back(parameter);
+  if (!ros::service::call(node + "/set_parameters", service)) return false;
+  const auto& taken = service.response.config.strs;
+  return std::any_of(taken.begin(), taken.end(), [&](const dynamic_reconfigure::StrParameter& other) {
+    return other.name == parameter.name && other.value != "none" && std::stod(other.value) == cutoff;
+  });
 }
 
 /// Handles messages for that long, or until the condition holds.
