@@ -31,6 +31,10 @@ target_compile_options(concave_distance_numeric_objects PRIVATE -fno-semantic-in
 # Most of a source's compile time is reading headers. Off by default: sources are then compiled one by one, as
 # clang-tidy reads them, and each has to include what it uses.
 option(CONCAVE_DISTANCE_FAST_BUILD "Precompile headers and compile several sources at a time" OFF)
+if(CONCAVE_DISTANCE_FAST_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  # A tenth of the time for a tenth more memory: the compiler clears up after itself less often.
+  add_compile_options(--param=ggc-min-heapsize=1000000)
+endif()
 set(CONCAVE_DISTANCE_HEADERS_TO_PRECOMPILE
   <Eigen/Core> <Eigen/Geometry> <algorithm> <array> <cmath> <cstdint> <functional> <limits> <map> <memory> <optional>
   <string> <vector>)
@@ -43,7 +47,7 @@ endfunction()
 # concave_distance_compile_together(<target>): for sources that include much and compile to little.
 function(concave_distance_compile_together target)
   if(CONCAVE_DISTANCE_FAST_BUILD)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)
   endif()
 endfunction()
 # concave_distance_compile_fast_like(<target> <other>): with the precompiled headers of a target with the same options.

@@ -11,8 +11,6 @@
 namespace concave_distance {
 namespace {
 
-using Problem = std::optional<TransformProblem>;
-
 // tf2's own tolerance on the squared norm.
 constexpr double kQuaternionTolerance = 1e-2;
 constexpr std::uint32_t kNanosecondsPerSecond = 1'000'000'000;
@@ -23,7 +21,7 @@ std::string numberText(double value) {
   return text.str();
 }
 
-Problem findFrameProblem(const geometry_msgs::TransformStamped& transform) {
+std::optional<TransformProblem> findFrameProblem(const geometry_msgs::TransformStamped& transform) {
   for (const auto& [name, frame] :
        {std::pair<const char*, const std::string&>{"frame_id", transform.header.frame_id},
         {"child_frame_id", transform.child_frame_id}}) {
@@ -39,7 +37,7 @@ Problem findFrameProblem(const geometry_msgs::TransformStamped& transform) {
   return std::nullopt;
 }
 
-Problem findPoseProblem(const geometry_msgs::Transform& transform) {
+std::optional<TransformProblem> findPoseProblem(const geometry_msgs::Transform& transform) {
   const auto& offset = transform.translation;
   for (const double value : {offset.x, offset.y, offset.z}) {
     if (!(std::abs(value) <= kLargestCoordinate)) {
@@ -57,7 +55,8 @@ Problem findPoseProblem(const geometry_msgs::Transform& transform) {
   return std::nullopt;
 }
 
-Problem findStampProblem(ros::Time stamp, ros::Time now, const TransformLimits& limits) {
+std::optional<TransformProblem> findStampProblem(ros::Time stamp, ros::Time now,
+                                                 const TransformLimits& limits) {
   if (now.isZero()) {
     return TransformProblem{"simulated time has not begun",
                             "start what publishes /clock, or set /use_sim_time to false"};
@@ -87,9 +86,10 @@ Problem findStampProblem(ros::Time stamp, ros::Time now, const TransformLimits& 
 
 }  // namespace
 
-Problem findTransformProblem(const geometry_msgs::TransformStamped& transform, bool fixed, ros::Time now,
-                             const TransformLimits& limits) {
-  Problem problem = findFrameProblem(transform);
+std::optional<TransformProblem> findTransformProblem(const geometry_msgs::TransformStamped& transform,
+                                                     bool fixed, ros::Time now,
+                                                     const TransformLimits& limits) {
+  std::optional<TransformProblem> problem = findFrameProblem(transform);
   if (!problem) problem = findPoseProblem(transform.transform);
   if (!problem && !fixed) problem = findStampProblem(transform.header.stamp, now, limits);
   return problem;

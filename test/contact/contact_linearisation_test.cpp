@@ -10,8 +10,8 @@
 namespace concave_distance {
 namespace {
 
-const ContactMaterial kMaterial{1e9, 0.4, 0.6, 0.4, 0.0};
-const Eigen::Vector3d kUp = Eigen::Vector3d::UnitZ();
+const ContactMaterial kElastic{1e9, 0.4, 0.6, 0.4, 0.0};
+const Eigen::Vector3d kSurfaceNormal = Eigen::Vector3d::UnitZ();
 
 TEST(ContactLinearisation, ADirectionResistsAsASpringAtItsPoint) {
   const Eigen::Vector3d point(0.3, -0.2, 0.5);
@@ -39,9 +39,9 @@ TEST(ContactLinearisation, StiffnessAndDampingAreTheDerivativesOfTheNormalForce)
        {NormalForceModel::SpringDashpot, NormalForceModel::Hertz, NormalForceModel::HuntCrossley}) {
     settings.model = model;
     const auto force = [&](double depth, double rate) {
-      return normalForce(settings, kMaterial, {depth, rate, 1e-5, 1e-9}).force;
+      return normalForce(settings, kElastic, {depth, rate, 1e-5, 1e-9}).force;
     };
-    const NormalForce now = normalForce(settings, kMaterial, {1e-4, 0.2, 1e-5, 1e-9});
+    const NormalForce now = normalForce(settings, kElastic, {1e-4, 0.2, 1e-5, 1e-9});
     const double stiffness = (force(1e-4 + 1e-4 * h, 0.2) - force(1e-4 - 1e-4 * h, 0.2)) / (2e-4 * h);
     const double damping = (force(1e-4, 0.2 + h) - force(1e-4, 0.2 - h)) / (2.0 * h);
     // Central differences: rounding 1e-16 F / h.
@@ -53,12 +53,12 @@ TEST(ContactLinearisation, StiffnessAndDampingAreTheDerivativesOfTheNormalForce)
 TEST(ContactLinearisation, RegularisedCoulombResistsAsItsDerivatives) {
   FrictionSettings settings;
   settings.model = FrictionModel::RegularisedCoulomb;
-  ContactMaterial material = kMaterial;
+  ContactMaterial material = kElastic;
   material.static_friction = material.dynamic_friction;  // the coefficient's own derivative is left out
   const double h = 1e-9;
   for (const double speed : {0.0, 3e-4, 2e-3, 0.1}) {
     const Eigen::Vector3d sliding = speed * Eigen::Vector3d(0.6, 0.8, 0.0);
-    const FrictionTangent tangent = frictionTangent(settings, material, 50.0, kUp, sliding, {});
+    const FrictionTangent tangent = frictionTangent(settings, material, 50.0, kSurfaceNormal, sliding, {});
     const auto derivative = [&](const Eigen::Vector3d& direction) {
       const auto force = [&](double step) {
         return regularisedCoulombForce(settings, material, 50.0, sliding + step * direction);
@@ -75,15 +75,16 @@ TEST(ContactLinearisation, BristlesResistWhileTheyStickAndGiveWayAlongWhileTheyS
   FrictionSettings settings;
   settings.model = FrictionModel::Bristle;
   const double load = 20.0;
-  const FrictionTangent stuck = frictionTangent(settings, kMaterial, load, kUp, Eigen::Vector3d::Zero(), {});
+  const FrictionTangent stuck =
+      frictionTangent(settings, kElastic, load, kSurfaceNormal, Eigen::Vector3d::Zero(), {});
   EXPECT_EQ(stuck.stiffness_along, load * settings.bristle_stiffness);
   EXPECT_EQ(stuck.damping_across, load * settings.bristle_damping);
   const Eigen::Vector3d sliding(0.2, 0.0, 0.0);
   RecentSliding recent;
   recent.step = 1e-3;
   recent.displacement = recent.step * sliding;
-  recent.bristles.deflection = {kMaterial.dynamic_friction / settings.bristle_stiffness, 0.0, 0.0};
-  const FrictionTangent slides = frictionTangent(settings, kMaterial, load, kUp, sliding, recent);
+  recent.bristles.deflection = {kElastic.dynamic_friction / settings.bristle_stiffness, 0.0, 0.0};
+  const FrictionTangent slides = frictionTangent(settings, kElastic, load, kSurfaceNormal, sliding, recent);
   EXPECT_NEAR(slides.stiffness_along, 0.0, 1e-9 * stuck.stiffness_along);
   EXPECT_EQ(slides.stiffness_across, stuck.stiffness_across);
 }
@@ -92,15 +93,15 @@ TEST(ContactLinearisation, TheExpectedDepthIsThatOfAnUndampedImpactOrTheWeight) 
   NormalForceSettings settings;
   settings.model = NormalForceModel::SpringDashpot;
   settings.stiffness = 4e4;
-  EXPECT_NEAR(expectedDepth(settings, kMaterial, {1.0, 2.0, 0.0}, 0.1), 2.0 / 200.0, 1e-15);
-  EXPECT_NEAR(expectedDepth(settings, kMaterial, {1.0, 0.0, 8.0}, 0.1), 2e-4, 1e-17);
+  EXPECT_NEAR(expectedDepth(settings, kElastic, {1.0, 2.0, 0.0}, 0.1), 2.0 / 200.0, 1e-15);
+  EXPECT_NEAR(expectedDepth(settings, kElastic, {1.0, 0.0, 8.0}, 0.1), 2e-4, 1e-17);
   settings.model = NormalForceModel::Hertz;
   settings.radius = 0.1;
-  const double depth = expectedDepth(settings, kMaterial, {1.0, 2.0, 0.0}, 0.1);
+  const double depth = expectedDepth(settings, kElastic, {1.0, 2.0, 0.0}, 0.1);
   // m v^2 / 2 is the spring's energy at the turn, 2/5 F d.
-  EXPECT_NEAR(0.4 * hertzForce(depth, kMaterial.contact_modulus, 0.1) * depth, 2.0, 1e-12);
-  const double dip = expectedDepth(settings, kMaterial, {1.0, 0.0, 9.81}, 0.1);
-  EXPECT_NEAR(hertzForce(dip, kMaterial.contact_modulus, 0.1), 9.81, 1e-12);
+  EXPECT_NEAR(0.4 * hertzForce(depth, kElastic.contact_modulus, 0.1) * depth, 2.0, 1e-12);
+  const double dip = expectedDepth(settings, kElastic, {1.0, 0.0, 9.81}, 0.1);
+  EXPECT_NEAR(hertzForce(dip, kElastic.contact_modulus, 0.1), 9.81, 1e-12);
 }
 
 }  // namespace

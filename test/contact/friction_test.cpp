@@ -7,13 +7,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/pi.h"
 #include "concave_distance/base/error.h"
 
 namespace concave_distance {
 namespace {
 
 const ContactMaterial kMaterial{1e9, 0.1, 0.6, 0.4, 0.0};
-constexpr double kPi = 3.14159265358979323846;
 const Eigen::Vector3d kUp = Eigen::Vector3d::UnitZ();
 
 TEST(Friction, CoefficientFallsFromStaticToDynamic) {

@@ -4,14 +4,13 @@
 
 #include <cmath>
 
+#include "base/pi.h"
 #include "concave_distance/base/error.h"
 #include "contact/contact_point.h"
 #include "support/hunt_crossley_rebound.h"
 
 namespace concave_distance {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 /// A sphere of radius R that dips into a plane by d: the circle that the plane cuts from it.
 ContactGeometry sphereInPlane(double radius, double depth, double depth_rate = 0.0) {

@@ -9,6 +9,7 @@
 #include "distance/front_checks.h"
 #include "support/body_motions.h"
 #include "support/body_pairs.h"
+#include "support/infinity.h"
 
 // What the front keeps over a motion against all cones from the roots at every pose.
 
@@ -25,7 +26,6 @@ using test::placesOf;
 using test::randomMotion;
 
 using Body = std::shared_ptr<const BodyMesh>;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 TEST(ConeFront, LeadsToTheMinimaThatTheRootsLeadToOverAnyMotion) {
   RandomEngine engine(11);

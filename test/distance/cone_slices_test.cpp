@@ -14,6 +14,7 @@
 #include "support/body_pairs.h"
 #include "support/bumpy_ball.h"
 #include "support/count_allocations.h"
+#include "support/infinity.h"
 
 // A front that is looked at in slices, by one thread or by several.
 
@@ -24,7 +25,6 @@ using test::makeBumpyBall;
 
 using Body = std::shared_ptr<const BodyMesh>;
 using Bytes = std::vector<std::uint64_t>;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t kSlicedFrom = 1024;  // expired pairs
 constexpr std::size_t kAllMemory = std::numeric_limits<std::size_t>::max();
 

@@ -14,6 +14,7 @@
 #include "distance/meeting_pairs.h"
 #include "support/body_motions.h"
 #include "support/body_pairs.h"
+#include "support/infinity.h"
 #include "support/judged_niches.h"
 
 // Verdicts by what is kept from pose to pose against floods at every pose.
@@ -27,8 +28,6 @@ using test::makeBody;
 using test::nichesOf;
 using Body = std::shared_ptr<const BodyMesh>;
 using Verdict = MinimaVerdicts::Verdict;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 std::vector<MinimumSeed> seedsAt(const MinimaScene& scene) {
   ConeFront front;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "base/pi.h"
 #include "base/random_engine.h"
 #include "distance/closest_point.h"
 #include "interference/interference_checks.h"
@@ -15,8 +16,6 @@
 
 namespace concave_distance {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 /// Sums over a region's samples, with unit stiffness.
 struct Push {

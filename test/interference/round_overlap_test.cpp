@@ -19,7 +19,6 @@ using Body = std::shared_ptr<const BodyMesh>;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using test::block;
-using test::kPi;
 using test::makeBody;
 using test::makeRoundBody;
 using test::overlapOf;

@@ -6,12 +6,11 @@
 #include <cmath>
 #include <limits>
 
+#include "base/pi.h"
 #include "base/random_engine.h"
 
 namespace concave_distance {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 BodyBounds box(const Eigen::Vector3d& half_extents, const Eigen::Vector3d& centre = {0, 0, 0}) {
   return {centre, half_extents, half_extents.norm()};

@@ -8,12 +8,12 @@
 
 #include "search/mutation.h"
 #include "search/search_scenes.h"
+#include "support/infinity.h"
 #include "support/shortest_path.h"
 
 namespace concave_distance {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Delta of three nodes adds up along a shortest path but for the rounding of the matrices.
 constexpr double kRounding = 0x1.0p-21;
 

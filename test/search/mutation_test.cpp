@@ -6,11 +6,10 @@
 #include <cmath>
 
 #include "search/search_scenes.h"
+#include "support/infinity.h"
 
 namespace concave_distance {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 RC_GTEST_PROP(Mutation, MovesWithinTheRadiusOnTheShell, ()) {
   static const test::PairScene kMatrices = test::facingCombs();

@@ -12,11 +12,10 @@
 #include "search/niche_identification.h"
 #include "search/place_table.h"
 #include "search/search_scenes.h"
+#include "support/infinity.h"
 
 namespace concave_distance {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 struct Niches {
   test::PairScene scene;

@@ -55,7 +55,7 @@ TEST(Sharing, FitnessPredictsTheNichesOfTheThesis) {
 }
 
 /// Individuals on few places, as after descents.
-struct Population {
+struct SharedPopulation {
   test::PairScene scene = test::shellsAndShells();
   PairObjective objective{*scene.a, *scene.b, scene.a_from_b};
   PairMetric metric{*scene.a, *scene.b};
@@ -85,7 +85,7 @@ struct Population {
 };
 
 RC_GTEST_PROP(Sharing, NicheCountsEqualTheSumOverAllIndividuals, ()) {
-  static Population population;
+  static SharedPopulation population;
   RandomEngine engine(*rc::gen::arbitrary<std::uint64_t>());
   population.fill(60, *rc::gen::inRange(1U, 40U), engine);
   const double radius = *rc::gen::element(0.1, 0.5, 2.0);
@@ -104,7 +104,7 @@ RC_GTEST_PROP(Sharing, NicheCountsEqualTheSumOverAllIndividuals, ()) {
 }
 
 RC_GTEST_PROP(DynamicSharing, NicheMembersCountEverybodyInTheirNiche, ()) {
-  static Population population;
+  static SharedPopulation population;
   RandomEngine engine(*rc::gen::arbitrary<std::uint64_t>());
   population.fill(60, *rc::gen::inRange(1U, 40U), engine);
   const double radius = *rc::gen::element(0.2, 0.7, 2.0);

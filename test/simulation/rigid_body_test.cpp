@@ -4,13 +4,12 @@
 
 #include <cmath>
 
+#include "base/pi.h"
 #include "concave_distance/base/error.h"
 #include "concave_distance/mesh/surface/primitives.h"
 
 namespace concave_distance {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 MassProperties brick(const Eigen::Vector3d& moments) {
   MassProperties properties;

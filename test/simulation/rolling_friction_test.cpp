@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/pi.h"
 #include "concave_distance/mesh/surface/primitives.h"
 #include "simulation/scene_builder.h"
 
@@ -16,7 +17,6 @@ using test::SceneBuilder;
 constexpr double kRadius = 0.1;
 constexpr double kMass = 1.0;
 constexpr double kGravity = 9.81;
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kFoundation = 1e8;  // Pa/m
 constexpr double kArm = 0.01;        // of rolling and spinning friction, metres
 constexpr double kShare = kArm / kRadius;

@@ -4,12 +4,11 @@
 #include <memory>
 #include <vector>
 
+#include "base/pi.h"
 #include "concave_distance/interference/interference.h"
 #include "support/body_pairs.h"
 
 namespace concave_distance::test {
-
-inline constexpr double kPi = 3.14159265358979323846;
 
 inline Interference overlapOf(const std::shared_ptr<const BodyMesh>& a,
                               const std::shared_ptr<const BodyMesh>& b, const Eigen::Isometry3d& pose) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/pi.h"
 #include "concave_distance/tracking/pair_tracker.h"
 #include "distance/certificate.h"
 #include "distance/surface_walk.h"
@@ -18,8 +19,6 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using test::makeBody;
 using test::translation;
-
-constexpr double kPi = 3.14159265358979323846;
 
 TrackerParameters certified(bool with_niches = true) {
   TrackerParameters parameters;

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "base/pi.h"
 #include "effect_scene.h"
 #include "support/concave_shapes.h"
 
@@ -15,8 +16,6 @@ namespace {
 using test::at;
 using test::body;
 using test::EffectScene;
-
-constexpr double kPi = 3.14159265358979323846;
 
 EffectSettings foundation(double stiffness, FrictionModel friction = FrictionModel::None) {
   EffectSettings settings;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "base/pi.h"
 #include "concave_distance/contact/normal_force.h"
 #include "concave_distance/mesh/surface/primitives.h"
 #include "support/concave_shapes.h"
@@ -20,8 +21,6 @@ using test::body;
 using test::EffectScene;
 using test::spring;
 using test::twoFeet;
-
-constexpr double kPi = 3.14159265358979323846;
 
 EffectSettings onlyInterference() {
   EffectSettings settings;

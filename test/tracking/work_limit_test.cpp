@@ -9,6 +9,7 @@
 #include "concave_distance/tracking/pair_tracker.h"
 #include "distance/local_minima.h"
 #include "support/body_pairs.h"
+#include "support/infinity.h"
 #include "support/mesh_variants.h"
 #include "thesis/evaluation/enumeration.h"
 
@@ -19,7 +20,6 @@ using Body = std::shared_ptr<const BodyMesh>;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kRounding = 1e-11;  // far above the kernel's at these sizes
 constexpr AccuracyLevel kLevels[] = {AccuracyLevel::Nodes, AccuracyLevel::Refined, AccuracyLevel::Certified};
 

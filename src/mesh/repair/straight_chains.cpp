@@ -8,7 +8,7 @@ namespace {
 
 using Ends = std::array<NodeIndex, 2>;
 
-double distanceToSegment(const Eigen::Vector3d& point, const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+double distanceToChord(const Eigen::Vector3d& point, const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   const Eigen::Vector3d along = b - a;
   const double squared = along.squaredNorm();
   const double s = squared > 0.0 ? std::clamp((point - a).dot(along) / squared, 0.0, 1.0) : 0.0;
@@ -29,7 +29,7 @@ class ChainReducer {
       std::size_t farthest = first;
       double distance = tolerance_;
       for (std::size_t i = first + 1; i < last; ++i) {
-        const double d = distanceToSegment(at(chain[i]), at(chain[first]), at(chain[last]));
+        const double d = distanceToChord(at(chain[i]), at(chain[first]), at(chain[last]));
         if (d > distance) {
           distance = d;
           farthest = i;

@@ -34,7 +34,7 @@ std::string readText(const std::string& file) {
   return text.str();
 }
 
-GeneticParameters geneticOf(RowBase base, NichingMethod niching) {
+GeneticParameters geneticBase(RowBase base, NichingMethod niching) {
   if (base == RowBase::Thesis) return thesisGeneticParameters(niching);
   GeneticParameters genetic = base == RowBase::Shipped ? TrackerParameters().cold : GeneticParameters();
   genetic.niching = niching;
@@ -44,7 +44,7 @@ GeneticParameters geneticOf(RowBase base, NichingMethod niching) {
 /// Every method of a family whose name it is tried by.
 std::optional<SearchMethod> combinatorialNamed(const std::string& name, RowBase base) {
   if (name == "multi-start") return MultiStartParameters{};
-  if (name == "islands") return IslandParameters{2, 5, 10, geneticOf(base, NichingMethod::Sharing)};
+  if (name == "islands") return IslandParameters{2, 5, 10, geneticBase(base, NichingMethod::Sharing)};
   for (const bool local : {true, false}) {
     AnnealingParameters annealing =
         base == RowBase::Thesis ? thesisAnnealingParameters() : AnnealingParameters();
@@ -57,7 +57,7 @@ std::optional<SearchMethod> combinatorialNamed(const std::string& name, RowBase 
          {NichingMethod::None, NichingMethod::Sharing, NichingMethod::DynamicSharing,
           NichingMethod::DeterministicCrowding, NichingMethod::DeterministicCrowdingWithSelection,
           NichingMethod::SimpleCrowding}) {
-      GeneticParameters genetic = geneticOf(base, niching);
+      GeneticParameters genetic = geneticBase(base, niching);
       genetic.local_optimization = local;
       if (concave_distance::nameOf(SearchMethod(genetic)) == name) return genetic;
     }

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "base/pi.h"
 #include "base/random_engine.h"
 #include "benchmark/support/shapes.h"
 #include "concave_distance/base/error.h"
@@ -15,7 +16,6 @@
 namespace concave_distance::benchmark {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 using Motion = std::function<Eigen::Isometry3d(double)>;
 
 std::string sourceFile(const std::string& relative) {

@@ -3,13 +3,13 @@
 #include <memory>
 #include <string>
 
+#include "base/pi.h"
 #include "concave_distance/tracking/pair_effects.h"
 #include "concave_distance/tracking/pair_tracker.h"
 #include "simulation/scene_builder.h"
 
 namespace concave_distance::benchmark {
 
-inline constexpr double kPi = 3.14159265358979323846;
 inline constexpr double kGravity = 9.81;  // m/s^2, the simulation's default
 
 EffectSettings effectsOf(NormalForceModel normal, FrictionModel friction = FrictionModel::None);

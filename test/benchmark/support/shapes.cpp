@@ -2,13 +2,12 @@
 
 #include <cmath>
 
+#include "base/pi.h"
 #include "base/random_engine.h"
 #include "support/concave_shapes.h"
 
 namespace concave_distance::benchmark {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 using Ring = std::vector<Eigen::Vector3d>;
 

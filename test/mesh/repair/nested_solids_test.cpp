@@ -16,7 +16,7 @@ namespace {
 using Eigen::Vector3d;
 using test::Box;
 
-RepairedMesh repair(const TriangleSoup& soup) {
+RepairedMesh repairedNest(const TriangleSoup& soup) {
   return repairMesh(soup, RepairOptions(), "nested solids");
 }
 
@@ -45,20 +45,20 @@ TEST(NestedSolids, ThousandsOfCavitiesInAFineSkinTakeSeconds) {
     cavities += i % 3 != 0 ? 1U : 0U;
     test::addBox(soup, Box(low, low + Vector3d::Constant(0.5)), 0, i % 3 != 0);
   }
-  const RepairedMesh repaired = repair(soup);
+  const RepairedMesh repaired = repairedNest(soup);
   EXPECT_EQ(repaired.report.closed_shells, 20'001U);
   EXPECT_EQ(repaired.report.turned_triangles, 0U);
 }
 
 TEST(NestedSolids, TwoThousandWithinOneAnotherAreSolidsAndCavitiesByTurns) {
-  const RepairedMesh repaired = repair(nestedCubes(2'000, 0.0));
+  const RepairedMesh repaired = repairedNest(nestedCubes(2'000, 0.0));
   EXPECT_EQ(repaired.report.closed_shells, 2'000U);
   EXPECT_EQ(repaired.report.turned_triangles, 0U);
 }
 
 TEST(NestedSolids, OfTooManyWithinOneAnotherTheInnermostAreSolids) {
   // At this angle the bounding boxes meet each other's surfaces, which takes the most work.
-  const RepairedMesh repaired = repair(nestedCubes(5'000, 0.4));
+  const RepairedMesh repaired = repairedNest(nestedCubes(5'000, 0.4));
   EXPECT_EQ(repaired.report.closed_shells, 5'000U);
   const auto volume_of = [&](std::size_t cube) {
     double sum = 0.0;
@@ -82,7 +82,7 @@ TEST(NestedSolids, ACavityMayTouchTheSkinFromInside) {
       const Eigen::Matrix3d turn =
           Eigen::AngleAxisd(angle, Vector3d(3, 2, 1).normalized()).toRotationMatrix();
       for (Vector3d& vertex : soup.vertices) vertex = turn * (scale * (vertex + Vector3d::Constant(0.1)));
-      const RepairedMesh repaired = repair(soup);
+      const RepairedMesh repaired = repairedNest(soup);
       EXPECT_EQ(repaired.report.turned_triangles, 0U) << "scale " << scale << ", angle " << angle;
     }
   }

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "base/pi.h"
 #include "base/random_engine.h"
 #include "concave_distance/base/error.h"
 #include "support/mesh_measures.h"
@@ -18,7 +19,6 @@ namespace {
 
 using test::distanceToSurface;
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 /// A solid by its signed distance and a way to draw points of its surface.
