@@ -43,7 +43,7 @@ SceneBuilder ballOnPlane(const Ball& ball) {
   material.rolling_friction = ball.rolling_friction;
   material.spinning_friction = ball.spinning_friction;
   builder.addBody("plane", makeBox({6.0, 1.0, 0.2})).material = material;
-  builder.addBody("ball", makeSphere(kRadius, 2e-5)).material = material;
+  builder.addBody("ball", makeSphere(kRadius, 5e-5)).material = material;
   EffectSettings& effects = builder.addPair().effects;
   effects.normal_force.emplace();
   effects.normal_force->model = NormalForceModel::ElasticFoundation;
