@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "feature_body.h"
+#include "prepared_triangle.h"
 
 namespace concave_distance::detail {
 namespace {
@@ -20,21 +21,37 @@ constexpr double kLevelTolerance = 1.5e-9;
 /// Sine of the angle between edges below which they may share more than a point.
 constexpr double kMayBeParallel = 1e-3;
 
-double unitClamp(double x) {
-  return x < 0.0 ? 0.0 : (x > 1.0 ? 1.0 : x);
-}
-
-struct OnSegment {
+struct Foot {
   Vector3d point;
-  bool is_end;
+  bool is_beyond;
 };
 
-OnSegment closestOnSegment(const Vector3d& point, const Vector3d& from, const Vector3d& to) {
+/// @param error metres that the foot may be off by
+Foot footOnSegment(const Vector3d& point, const Vector3d& from, const Vector3d& to, double error) {
   const Vector3d edge = to - from;
   const double squared_length = edge.squaredNorm();
   if (!(squared_length > 0.0)) return {from, true};
-  const double share = unitClamp(edge.dot(point - from) / squared_length);
-  return {from + share * edge, share == 0.0 || share == 1.0};
+  const double share = edge.dot(point - from) / squared_length;
+  const double beyond = std::max(-share, share - 1.0);
+  return {from + std::clamp(share, 0.0, 1.0) * edge,
+          beyond > 0.0 && beyond * beyond * squared_length > error * error};
+}
+
+/// @param angle radians that the face's normal may be off by
+Foot footOnFace(const Vector3d& point, const TrianglePoints& corners, double error, double angle) {
+  const PreparedTriangle triangle(corners);
+  const FaceFrame face(triangle);
+  Vector3d foot;
+  if (!face.flat() && face.isOver(point, foot)) return {foot, false};
+  const PointTriangleDistance closest = pointTriangleDistance(point, corners);
+  if (face.flat()) return {closest.point, false};
+  const double gap = std::sqrt(closest.squared_distance);
+  return {closest.point, face.distanceBeside(point, triangle) > error + angle * gap};
+}
+
+/// Radians that the normal of a face may be off by.
+double normalErrorOf(const Item& face) {
+  return face.cap.isFull() ? 0.5 : face.cap.sine;
 }
 
 NodeIndex nodeOf(const BodyMesh& body, const Item& item, std::size_t k) {
@@ -64,22 +81,23 @@ FeaturePairs::FeaturePairs(const MinimaScene& scene, double cutoff)
       level_(kLevelTolerance * (scene.a.diameter() + scene.b.diameter()) + 2.0 * slack_),
       cutoff_(cutoff + slack_) {}
 
-FeaturePairs::Between FeaturePairs::between(const Vector3d& from, const Vector3d& to, bool is_end) {
+FeaturePairs::Between FeaturePairs::between(const Vector3d& from, const Vector3d& to, bool is_beyond,
+                                            double direction_error) {
   const Vector3d displacement = to - from;
-  return {from, to, displacement, displacement.squaredNorm(), is_end};
+  return {from, to, displacement, displacement.squaredNorm(), is_beyond, direction_error};
 }
 
 /// Two segments, as in the triangle kernel: parallel ones may give any of their closest pairs.
 FeaturePairs::Between FeaturePairs::betweenSegments(const Vector3d& a0, const Vector3d& a1,
-                                                    const Vector3d& b0, const Vector3d& b1) {
+                                                    const Vector3d& b0, const Vector3d& b1) const {
   const Vector3d u = a1 - a0;
   const Vector3d v = b1 - b0;
   const Vector3d n = u.cross(v);
   const double nn = n.squaredNorm();
-  const double s = nn > 0.0 ? unitClamp((b0 - a0).cross(v).dot(n) / nn) : 0.0;
-  const OnSegment on_b = closestOnSegment(a0 + s * u, b0, b1);
-  const OnSegment on_a = closestOnSegment(on_b.point, a0, a1);
-  return between(on_a.point, on_b.point, on_a.is_end || on_b.is_end);
+  const double s = nn > 0.0 ? std::clamp((b0 - a0).cross(v).dot(n) / nn, 0.0, 1.0) : 0.0;
+  const Foot on_b = footOnSegment(a0 + s * u, b0, b1, slack_);
+  const Foot on_a = footOnSegment(on_b.point, a0, a1, slack_);
+  return between(on_a.point, on_b.point, on_a.is_beyond || on_b.is_beyond);
 }
 
 std::optional<MinimumSeed> FeaturePairs::findMinimum(const Item& a, const Item& b) const {
@@ -87,20 +105,21 @@ std::optional<MinimumSeed> FeaturePairs::findMinimum(const Item& a, const Item& 
   const FacingCap cap_b{-(scene_.frames.rotation * b.cap.axis), b.cap.cosine, b.cap.sine};
   if (a.kind == Kind::Edge && b.kind == Kind::Edge && !edgesMayFace(a, b, cap_a, cap_b)) return std::nullopt;
   const Between found = closest(a, b);
-  if (found.is_end || found.squared_distance > cutoff_ * cutoff_) return std::nullopt;
+  if (found.is_beyond || found.squared_distance > cutoff_ * cutoff_) return std::nullopt;
   const double distance = std::sqrt(found.squared_distance);
   if (distance <= slack_) return std::nullopt;  // meeting triangles are collected apart
-  const double turn = std::min(0.5, kDirectionSlack + slack_ / distance);
-  const double turn_cosine = 1.0 - 0.5 * turn * turn;
-  if (!cap_a.holds(found.displacement, distance, turn_cosine, turn) ||
-      !cap_b.holds(found.displacement, distance, turn_cosine, turn)) {
+  const double turn = found.direction_error + 2.0 * slack_ / distance;
+  const double cap_turn = std::min(0.5, kDirectionSlack + turn);
+  const double cap_turn_cosine = 1.0 - 0.5 * cap_turn * cap_turn;
+  if (!cap_a.holds(found.displacement, distance, cap_turn_cosine, cap_turn) ||
+      !cap_b.holds(found.displacement, distance, cap_turn_cosine, cap_turn)) {
     return std::nullopt;
   }
   const Vector3d direction = found.displacement / distance;
-  const Peak peak_a = peakAt(Side::A, a, found.from, direction, distance);
+  const Peak peak_a = peakAt(Side::A, a, found.from, direction, turn);
   if (!peak_a.is_peak) return std::nullopt;
   const Peak peak_b = peakAt(Side::B, b, scene_.frames.pointInB(found.to),
-                             scene_.frames.rotation.transpose() * -direction, distance);
+                             scene_.frames.rotation.transpose() * -direction, turn);
   if (!peak_b.is_peak) return std::nullopt;
   const auto edges_cross = [&] {
     const Vector3d along_a = edgeOfA(a);
@@ -142,12 +161,10 @@ bool FeaturePairs::edgesMayFace(const Item& a, const Item& b, const FacingCap& c
 }
 
 /// A peak has no vertex next to it that rises towards the other body by more than rounding: the normal
-/// cone itself, which the cap is around. Points are off by less than the slack, the direction between them
-/// by that over their distance.
+/// cone itself, which the cap is around. Points are off by less than the slack.
 FeaturePairs::Peak FeaturePairs::peakAt(Side side, const Item& item, const Vector3d& point,
-                                        const Vector3d& direction, double distance) const {
+                                        const Vector3d& direction, double turn) const {
   const Body body(scene_, side);
-  const double turn = slack_ / distance;
   bool any_level = false;
   const auto rises = [&](NodeIndex node) {
     const Vector3d displacement = body.vertex(node) - point;
@@ -194,22 +211,28 @@ Vector3d FeaturePairs::edgeOfB(const Item& item) const {
 FeaturePairs::Between FeaturePairs::closest(const Item& a, const Item& b) const {
   const auto corner_a = [&](std::size_t k) { return scene_.vertexOfA(nodeOf(scene_.a, a, k)); };
   const auto corner_b = [&](std::size_t k) { return scene_.vertexOfB(nodeOf(scene_.b, b, k)); };
+  // A foot beside the face by its error tilts the displacement by as much again.
+  const auto foot_on_face = [&](const Vector3d& point, const Item& face, const auto& corner) {
+    return footOnFace(point, {corner(0), corner(1), corner(2)}, slack_, normalErrorOf(face));
+  };
   if (a.kind == Kind::Vertex) {
     const Vector3d point = corner_a(a.element);
     if (b.kind == Kind::Vertex) return between(point, corner_b(b.element));
     if (b.kind == Kind::Face) {
-      return between(point, pointTriangleDistance(point, {corner_b(0), corner_b(1), corner_b(2)}).point);
+      const Foot foot = foot_on_face(point, b, corner_b);
+      return between(point, foot.point, foot.is_beyond, 2.0 * normalErrorOf(b));
     }
-    const OnSegment foot = closestOnSegment(point, corner_b(b.element), corner_b(b.element + 1U));
-    return between(point, foot.point, foot.is_end);
+    const Foot foot = footOnSegment(point, corner_b(b.element), corner_b(b.element + 1U), slack_);
+    return between(point, foot.point, foot.is_beyond);
   }
   if (b.kind == Kind::Vertex) {
     const Vector3d point = corner_b(b.element);
     if (a.kind == Kind::Face) {
-      return between(pointTriangleDistance(point, {corner_a(0), corner_a(1), corner_a(2)}).point, point);
+      const Foot foot = foot_on_face(point, a, corner_a);
+      return between(foot.point, point, foot.is_beyond, 2.0 * normalErrorOf(a));
     }
-    const OnSegment foot = closestOnSegment(point, corner_a(a.element), corner_a(a.element + 1U));
-    return between(foot.point, point, foot.is_end);
+    const Foot foot = footOnSegment(point, corner_a(a.element), corner_a(a.element + 1U), slack_);
+    return between(foot.point, point, foot.is_beyond);
   }
   return betweenSegments(corner_a(a.element), corner_a(a.element + 1U), corner_b(b.element),
                          corner_b(b.element + 1U));

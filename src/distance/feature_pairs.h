@@ -53,14 +53,19 @@ class FeaturePairs {
     Eigen::Vector3d to;    ///< B's
     Eigen::Vector3d displacement;
     double squared_distance;
-    bool is_end;  ///< of an edge: the vertex has the minimum, if there is one
+    /// The foot lies beyond the end of an edge or the border of a face by more than its error: what is there
+    /// has the minimum, if there is one.
+    bool is_beyond;
+    /// Radians that the displacement may be off by, besides the error of its ends over the distance.
+    double direction_error = 0.0;
   };
   struct FacingCap;
   struct Body;
 
-  static Between between(const Eigen::Vector3d& from, const Eigen::Vector3d& to, bool is_end = false);
-  static Between betweenSegments(const Eigen::Vector3d& a0, const Eigen::Vector3d& a1,
-                                 const Eigen::Vector3d& b0, const Eigen::Vector3d& b1);
+  static Between between(const Eigen::Vector3d& from, const Eigen::Vector3d& to, bool is_beyond = false,
+                         double direction_error = 0.0);
+  Between betweenSegments(const Eigen::Vector3d& a0, const Eigen::Vector3d& a1, const Eigen::Vector3d& b0,
+                          const Eigen::Vector3d& b1) const;
   bool edgesMayFace(const Item& a, const Item& b, const FacingCap& cap_a, const FacingCap& cap_b) const;
   /// A point of a body as the foremost one of its surroundings.
   struct Peak {
@@ -69,8 +74,9 @@ class FeaturePairs {
     Feature feature;
   };
   /// @param point, direction in the body's axes, relative to its centre in the scene
+  /// @param turn radians that the direction may be off by
   Peak peakAt(Side side, const Item& item, const Eigen::Vector3d& point, const Eigen::Vector3d& direction,
-              double distance) const;
+              double turn) const;
   Eigen::Vector3d edgeOfA(const Item& item) const;
   Eigen::Vector3d edgeOfB(const Item& item) const;
   Between closest(const Item& a, const Item& b) const;

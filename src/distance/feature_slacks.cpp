@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "feature_body.h"
+#include "mesh/trees/normal_cone.h"
 
 // How far bodies may move until a pair of features can hold a local minimum (doc/algorithm.md, section 7).
 
@@ -144,15 +145,19 @@ void FeaturePairs::offerVertexToFace(const Body& of_vertex, const Item& vertex, 
   const double height = normal.dot(point - of_face.corner(face, 0));
   // Behind the face, or beside it, it is not closest; what rises along its normal is closer than the vertex.
   double outside = -height;
+  double reach = 0.0;
   for (std::size_t k = 0; k < 3; ++k) {
     const Vector3d from = of_face.corner(face, k);
+    reach = std::max(reach, (point - from).norm());
     const Vector3d along = (of_face.corner(face, k + 1) - from).normalized();
     Vector3d outward = from - of_face.corner(face, k + 2);
     outward -= along.dot(outward) * along;
     outside = std::max(outside, outward.normalized().dot(point - from));
   }
-  offers.offerMotion(side, outside - 2.0 * slack_);
-  offers.offerMotion(side, height - cutoff_);
+  // Directions across and along the face of a thin triangle are as uncertain as its normal.
+  const double error = 2.0 * slack_ + face.cap.sine * reach;
+  offers.offerMotion(side, outside - error);
+  offers.offerMotion(side, height - error - cutoff_);
   const double rise =
       of_vertex.rise(of_vertex.node(vertex, vertex.element), of_vertex.directionFromOther(-normal), slack_);
   offers.offerTurn(rise - face.cap.sine);
@@ -178,8 +183,10 @@ void FeaturePairs::offerEdgeToEdge(const Item& a, const Item& b, SlackOffers& of
   const auto arc_of = [](const Body& body, const Item& item, Arc& arc) {
     const MeshTopology& topology = body.mesh.topology();
     const TriangleIndex beyond_edge = topology.triangle_across_edge[item.triangle.value][item.element];
-    if (beyond_edge == kNoTriangle || body.mesh.joints().isHidden(beyond_edge) || item.cap.isFull())
-      return false;
+    if (beyond_edge == kNoTriangle || body.mesh.joints().isHidden(beyond_edge)) return false;
+    const double error =
+        normalError(body.mesh.surface(), item.triangle) + normalError(body.mesh.surface(), beyond_edge);
+    if (!(2.0 * error < kNormalSlack)) return false;
     arc.first = topology.triangle_normals[item.triangle.value];
     arc.last = topology.triangle_normals[beyond_edge.value];
     // Sides of one winding; the other winding has the edge in the other direction.

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 #include "triangle_distance.h"
@@ -76,6 +78,22 @@ struct FaceFrame {
     if (!(up > 0.0 && weight_next > 0.0 && weight_next + up < 1.0)) return false;
     foot = corner + (weight_next * edge + up * side);
     return true;
+  }
+
+  /// Metres by which `point` projects beyond an edge's line, the most of the three; negative inside.
+  double distanceBeside(const Eigen::Vector3d& point, const PreparedTriangle& t) const {
+    const Eigen::Vector3d w = point - corner;
+    const double along = w.dot(edge) * inverse_ee;
+    const double up = (w - along * edge).dot(height) * inverse_hh;
+    const double weight_next = along - up * side_along;
+    const std::size_t base = t.longestEdge();
+    // A weight times twice the area over the length of the edge opposite to it.
+    const double area = std::sqrt(t.squared_lengths[base] * height.squaredNorm());
+    const auto beside = [&](double weight, std::size_t opposite_edge) {
+      return -weight * area / std::sqrt(t.squared_lengths[opposite_edge]);
+    };
+    return std::max({beside(up, base), beside(weight_next, previousCorner(base)),
+                     beside(1.0 - weight_next - up, nextCorner(base))});
   }
 
   Eigen::Vector3d corner;  ///< where the longest edge starts

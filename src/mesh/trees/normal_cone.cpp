@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/pi.h"
 
@@ -24,6 +25,18 @@ double angleBetween(const Vector3d& l, const Vector3d& r) {
 }
 
 }  // namespace
+
+double normalError(const SurfaceMesh& mesh, TriangleIndex triangle) {
+  double longest = 0.0;
+  for (int k = 0; k < 3; ++k) {
+    longest =
+        std::max(longest, (mesh.corner(triangle, (k + 1) % 3) - mesh.corner(triangle, k)).squaredNorm());
+  }
+  const Vector3d u = mesh.corner(triangle, 1) - mesh.corner(triangle, 0);
+  const Vector3d v = mesh.corner(triangle, 2) - mesh.corner(triangle, 0);
+  const double area = u.cross(v).norm();
+  return area > 0.0 ? 1e-14 * longest / area : std::numeric_limits<double>::infinity();
+}
 
 DirectionCap capOfAngle(const Vector3d& axis, double angle) {
   const double widened = angle + kConeSlack;

@@ -11,6 +11,10 @@ namespace concave_distance::detail {
 
 inline constexpr double kConeSlack = 1e-9;  ///< radians that every cone of a feature is widened by
 
+/// Radians by which rounding may have turned a triangle's normal: 1e-14 times its longest edge over the
+/// height on it. Infinite without an area.
+double normalError(const SurfaceMesh& mesh, TriangleIndex triangle);
+
 /// The cap around `axis` (unit) with an angle, radians, widened by the slack.
 DirectionCap capOfAngle(const Eigen::Vector3d& axis, double angle);
 

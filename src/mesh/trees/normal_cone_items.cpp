@@ -3,7 +3,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "normal_cone.h"
 
@@ -65,17 +64,7 @@ class Collector {
     });
   }
 
-  /// Radians by which rounding may have turned the normal: the longest edge over the height on it.
-  double slackOf(TriangleIndex t) const {
-    double longest = 0.0;
-    for (int k = 0; k < 3; ++k) {
-      longest = std::max(longest, (mesh_.corner(t, (k + 1) % 3) - mesh_.corner(t, k)).squaredNorm());
-    }
-    const Vector3d u = mesh_.corner(t, 1) - mesh_.corner(t, 0);
-    const Vector3d v = mesh_.corner(t, 2) - mesh_.corner(t, 0);
-    const double area = u.cross(v).norm();
-    return area > 0.0 ? 1e-14 * longest / area : std::numeric_limits<double>::infinity();
-  }
+  double slackOf(TriangleIndex t) const { return normalError(mesh_, t); }
 
   void add(const Vector3d& centre, double radius, const DirectionCap& cap, TriangleIndex t, Kind kind,
            std::uint8_t element) {
@@ -114,15 +103,19 @@ class Collector {
   }
 
   /// Within a plane: what is opposite to it is opposite to the faces around, too, or to a corner or an edge
-  /// of the plane's outline.
+  /// of the plane's outline. The normals differ by no more than the caps of the faces are widened by.
   template <typename Triangles, typename Nodes>
   bool isInsidePlane(const Triangles& triangles, const Nodes& nodes, const Vector3d& point) const {
-    const Vector3d& normal = topology_.triangle_normals[triangles.begin()->value];
-    return std::all_of(triangles.begin(), triangles.end(),
-                       [&](TriangleIndex t) {
-                         return topology_.triangle_normals[t.value].dot(normal) > 0.999 &&
-                                slackOf(t) < kWorstSlack;
-                       }) &&
+    const TriangleIndex first = *triangles.begin();
+    const Vector3d& normal = topology_.triangle_normals[first.value];
+    const double slack = kConeSlack + slackOf(first);
+    const auto has_normal = [&](TriangleIndex t) {
+      const Vector3d& other = topology_.triangle_normals[t.value];
+      const double slack_of_other = slackOf(t);
+      return slack_of_other < kWorstSlack && other.dot(normal) > 0.0 &&
+             other.cross(normal).norm() <= slack + slack_of_other;
+    };
+    return std::all_of(triangles.begin(), triangles.end(), has_normal) &&
            std::all_of(nodes.begin(), nodes.end(), [&](NodeIndex n) { return isLevel(normal, point, n); });
   }
 
