@@ -2,61 +2,63 @@
 
 #include <array>
 
+#include "base/exact_orientation.h"
 #include "mesh/surface/mesh_topology.h"
 #include "ray_crossing.h"
 
 namespace concave_distance {
 namespace {
 
-using detail::orientation;
+using detail::orientationSign;
+using Eigen::Vector3d;
+using Corners = std::array<Vector3d, 3>;
 
-int orientation(const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return orientation(a - p, b - p);
+/// Exact orientation of a plane triangle, of points whose coordinate along `axis` is 0.
+int planeOrientation(const Vector3d& p, const Vector3d& q, const Vector3d& r, Eigen::Index axis) {
+  return orientationSign(p, q, r, p + Vector3d::Unit(axis));
 }
 
-bool segmentsCross(const Eigen::Vector2d& p, const Eigen::Vector2d& q, const Eigen::Vector2d& a,
-                   const Eigen::Vector2d& b) {
+bool segmentsCross(const Vector3d& p, const Vector3d& q, const Vector3d& a, const Vector3d& b,
+                   Eigen::Index axis) {
   if ((p.cwiseMax(q).array() < a.cwiseMin(b).array()).any()) return false;
   if ((a.cwiseMax(b).array() < p.cwiseMin(q).array()).any()) return false;
-  return orientation(p, a, b) * orientation(q, a, b) <= 0 && orientation(a, p, q) * orientation(b, p, q) <= 0;
+  return planeOrientation(p, a, b, axis) * planeOrientation(q, a, b, axis) <= 0 &&
+         planeOrientation(a, p, q, axis) * planeOrientation(b, p, q, axis) <= 0;
 }
 
 /// A segment in the plane of the triangle: it meets the triangle when an end is inside or it crosses an edge.
-bool coplanarMeets(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-                   const std::array<Eigen::Vector3d, 3>& t, Eigen::Index dropped_axis) {
-  const Eigen::Index x = (dropped_axis + 1) % 3;
-  const Eigen::Index y = (dropped_axis + 2) % 3;
-  const auto flat = [&](const Eigen::Vector3d& v) { return Eigen::Vector2d(v[x], v[y]); };
-  const Eigen::Vector2d p = flat(a);
-  const Eigen::Vector2d q = flat(b);
-  const std::array<Eigen::Vector2d, 3> c = {flat(t[0]), flat(t[1]), flat(t[2])};
-  const int s0 = orientation(p, c[0], c[1]);
-  const int s1 = orientation(p, c[1], c[2]);
-  const int s2 = orientation(p, c[2], c[0]);
+bool coplanarMeets(const Vector3d& a, const Vector3d& b, const Corners& t, Eigen::Index dropped_axis) {
+  const auto flat = [&](Vector3d v) {
+    v[dropped_axis] = 0.0;
+    return v;
+  };
+  const Vector3d p = flat(a);
+  const Vector3d q = flat(b);
+  const Corners c = {flat(t[0]), flat(t[1]), flat(t[2])};
+  const int s0 = planeOrientation(p, c[0], c[1], dropped_axis);
+  const int s1 = planeOrientation(p, c[1], c[2], dropped_axis);
+  const int s2 = planeOrientation(p, c[2], c[0], dropped_axis);
   if ((s0 >= 0 && s1 >= 0 && s2 >= 0) || (s0 <= 0 && s1 <= 0 && s2 <= 0)) return true;
-  return segmentsCross(p, q, c[0], c[1]) || segmentsCross(p, q, c[1], c[2]) ||
-         segmentsCross(p, q, c[2], c[0]);
+  return segmentsCross(p, q, c[0], c[1], dropped_axis) || segmentsCross(p, q, c[1], c[2], dropped_axis) ||
+         segmentsCross(p, q, c[2], c[0], dropped_axis);
 }
 
-bool segmentMeets(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-                  const std::array<Eigen::Vector3d, 3>& t) {
-  const Eigen::Vector3d normal = (t[1] - t[0]).cross(t[2] - t[0]);
-  const double side_a = normal.dot(a - t[0]);
-  const double side_b = normal.dot(b - t[0]);
-  if ((side_a > 0.0 && side_b > 0.0) || (side_a < 0.0 && side_b < 0.0)) return false;
-  if (side_a == 0.0 && side_b == 0.0) {
+/// Exact: a segment that runs in the plane of a triangle far away shows only zeros and roundings to sums of
+/// doubles. A triangle without area is met by nothing.
+bool segmentMeets(const Vector3d& a, const Vector3d& b, const Corners& t) {
+  const int side_a = orientationSign(t[0], t[1], t[2], a);
+  const int side_b = orientationSign(t[0], t[1], t[2], b);
+  if (side_a * side_b > 0) return false;
+  if (side_a == 0 && side_b == 0) {
     Eigen::Index axis = 0;
+    const Vector3d normal = (t[1] - t[0]).cross(t[2] - t[0]);
     normal.cwiseAbs().maxCoeff(&axis);
     return normal[axis] != 0.0 && coplanarMeets(a, b, t, axis);
   }
-  const Eigen::Vector3d d = b - a;
-  const Eigen::Vector3d t0 = t[0] - a;
-  const Eigen::Vector3d t1 = t[1] - a;
-  const Eigen::Vector3d t2 = t[2] - a;
-  const double w0 = d.dot(t1.cross(t2));
-  const double w1 = d.dot(t2.cross(t0));
-  const double w2 = d.dot(t0.cross(t1));
-  return (w0 >= 0.0 && w1 >= 0.0 && w2 >= 0.0) || (w0 <= 0.0 && w1 <= 0.0 && w2 <= 0.0);
+  const int w0 = orientationSign(a, b, t[1], t[2]);
+  const int w1 = orientationSign(a, b, t[2], t[0]);
+  const int w2 = orientationSign(a, b, t[0], t[1]);
+  return (w0 >= 0 && w1 >= 0 && w2 >= 0) || (w0 <= 0 && w1 <= 0 && w2 <= 0);
 }
 
 }  // namespace
