@@ -100,26 +100,83 @@ inline void measure(const std::vector<Eigen::Vector3d>& points, double& length, 
   for (const Eigen::Vector3d& p : points) width = std::max(width, along.cross(p - from).norm());
 }
 
-/// Two triangles and the corners that they share.
+/// The corners of what two triangles have in common, up to `tolerance`.
+inline std::vector<Eigen::Vector3d> commonPoints(const TrianglePoints& points_a,
+                                                 const TrianglePoints& points_b, long double tolerance) {
+  const ExactTriangle<long double> a = exactTriangle<long double>(points_a);
+  const ExactTriangle<long double> b = exactTriangle<long double>(points_b);
+  std::vector<Eigen::Vector3d> common;
+  const auto add = [&](const WidePoint& p) {
+    const Eigen::Vector3d point(static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z));
+    const auto is_here = [&](const Eigen::Vector3d& other) {
+      return (other - point).norm() <= static_cast<double>(tolerance);
+    };
+    if (std::none_of(common.begin(), common.end(), is_here)) common.push_back(point);
+  };
+  const auto add_if_on = [&](const WidePoint& p, const ExactTriangle<long double>& t) {
+    if (std::sqrt((closestOnTriangle(p, t) - p).squaredNorm()) <= tolerance) add(p);
+  };
+  const auto add_crossings = [&](const ExactTriangle<long double>& edges,
+                                 const ExactTriangle<long double>& face) {
+    const WidePoint normal = (face[1] - face[0]).cross(face[2] - face[0]);
+    for (std::size_t k = 0; k < 3; ++k) {
+      add_if_on(edges[k], face);
+      const WidePoint edge = edges[(k + 1) % 3] - edges[k];
+      const long double rise = normal.dot(edge);
+      if (rise == 0.0L) continue;
+      const long double share = normal.dot(face[0] - edges[k]) / rise;
+      if (share > 0.0L && share < 1.0L) add_if_on(edges[k] + edge * share, face);
+    }
+  };
+  add_crossings(a, b);
+  add_crossings(b, a);
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      const WidePoint u = a[(i + 1) % 3] - a[i];
+      const WidePoint v = b[(j + 1) % 3] - b[j];
+      const WidePoint n = u.cross(v);
+      if (!(n.squaredNorm() > 1e-20L * u.squaredNorm() * v.squaredNorm())) continue;
+      const long double s = (b[j] - a[i]).cross(v).dot(n) / n.squaredNorm();
+      const long double t = (b[j] - a[i]).cross(u).dot(n) / n.squaredNorm();
+      if (s < 0.0L || s > 1.0L || t < 0.0L || t > 1.0L) continue;
+      const WidePoint on_a = a[i] + u * s;
+      if (std::sqrt((b[j] + v * t - on_a).squaredNorm()) <= tolerance) add(on_a);
+    }
+  }
+  return common;
+}
+
+/// Two triangles and a part of what they have in common.
 struct Neighbours {
   std::uint32_t l;
   std::uint32_t r;
   TrianglePoints shared;
 };
 
-/// All triangles that have an edge in common, by comparing every two; and those with one vertex in common.
+/// All triangles that have an edge or a vertex in common or touch, by comparing every two. What is nearer
+/// than 1e-9 of the diameter touches.
 inline std::vector<Neighbours> neighbourPairs(const SurfaceMesh& mesh, const Eigen::Isometry3d& pose) {
   std::vector<Neighbours> pairs;
+  const Eigen::Isometry3d stay = Eigen::Isometry3d::Identity();
   for (std::uint32_t l = 0; l < mesh.triangleCount(); ++l) {
     for (std::uint32_t r = 0; r < l; ++r) {
-      std::vector<Eigen::Vector3d> shared;
+      std::vector<Eigen::Vector3d> shared =
+          commonPoints(movedCorners(mesh, l, stay), movedCorners(mesh, r, stay), 1e-9L * mesh.diameter());
       for (const NodeIndex node : mesh.triangles()[l]) {
         const TriangleNodes& other = mesh.triangles()[r];
-        if (std::find(other.begin(), other.end(), node) != other.end()) {
-          shared.push_back(pose * mesh.vertex(node));
+        if (std::find(other.begin(), other.end(), node) == other.end()) continue;
+        shared.push_back(mesh.vertex(node));
+      }
+      for (Eigen::Vector3d& point : shared) point = pose * point;
+      // Every point of a convex polygon lies in a triangle of three of its corners.
+      for (std::size_t i = 0; i < shared.size(); ++i) {
+        for (std::size_t j = i; j < shared.size(); ++j) {
+          for (std::size_t k = j; k < shared.size(); ++k) {
+            if (shared.size() > 2 && (i == j || j == k)) continue;
+            pairs.push_back({l, r, {shared[i], shared[j], shared[k]}});
+          }
         }
       }
-      if (!shared.empty()) pairs.push_back({l, r, {shared.front(), shared.back(), shared.back()}});
     }
   }
   return pairs;

@@ -48,6 +48,10 @@ class Meeting {
   /// Where edges of one triangle meet the other. True when all of it lies in the other's plane.
   bool addEdges(const Corners& edges, const Corners& face) {
     const Vector3d normal = (face[1] - face[0]).cross(face[2] - face[0]).stableNormalized();
+    if (normal.isZero(0.0)) {
+      for (const Vector3d& corner : edges) addIfOnBorder(corner, face);
+      return false;
+    }
     std::array<double, 3> heights{};
     bool flat = true;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -63,6 +67,16 @@ class Meeting {
       addIfInside(edges[k] + share * (edges[next] - edges[k]), face, normal);
     }
     return flat;
+  }
+
+  void addIfOnBorder(const Vector3d& point, const Corners& face) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vector3d edge = face[k == 2 ? 0 : k + 1] - face[k];
+      const double squared_length = edge.squaredNorm();
+      const double share =
+          squared_length > 0.0 ? std::clamp(edge.dot(point - face[k]) / squared_length, 0.0, 1.0) : 0.0;
+      if ((face[k] + share * edge - point).norm() <= tolerance_) return add(point);
+    }
   }
 
   void addIfInside(const Vector3d& point, const Corners& face, const Vector3d& normal) {
@@ -101,13 +115,30 @@ class Meeting {
   std::vector<Vector3d> points_;
 };
 
+/// Whether two triangles with the corner `v` in common may have more in common: false only where a plane
+/// through v parts the rest of them.
+bool mayMeetBeside(const Vector3d& v, const std::array<Vector3d, 2>& a, const std::array<Vector3d, 2>& b,
+                   double tolerance) {
+  const auto are_beyond = [&](const std::array<Vector3d, 2>& points, const Vector3d& normal) {
+    const double least = tolerance * normal.norm();
+    return normal.dot(points[0] - v) > least && normal.dot(points[1] - v) > least;
+  };
+  const auto parts = [&](const std::array<Vector3d, 2>& of, const std::array<Vector3d, 2>& other) {
+    const Vector3d first = of[0] - v;
+    const Vector3d last = of[1] - v;
+    const Vector3d normal = first.cross(last);
+    return are_beyond(other, normal) || are_beyond(other, -normal) ||
+           are_beyond(other, first.cross(normal)) || are_beyond(other, normal.cross(last));
+  };
+  return !parts(a, b) && !parts(b, a);
+}
+
 class Joiner {
  public:
   Joiner(const SurfaceMesh& mesh, const MeshTopology& topology, const TriangleTree& tree)
       : mesh_(mesh), topology_(topology), tree_(tree), tolerance_(kTouch * mesh.diameter()) {}
 
   ShellJoints join() {
-    if (topology_.shellCount() < 2) return {};
     is_near_.assign(mesh_.triangleCount(), false);
     compare();
     hide();
@@ -124,7 +155,7 @@ class Joiner {
     return l.squaredExteriorDistance(r) <= tolerance_ * tolerance_;
   }
 
-  /// Every pair of triangles of different shells whose boxes meet.
+  /// Every pair of triangles whose boxes meet.
   void compare() {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> open{{0U, 0U}};
     while (!open.empty()) {
@@ -154,7 +185,7 @@ class Joiner {
       for (std::uint32_t j = same ? i + 1 : r.first; j < r.first + r.count; ++j) {
         const TriangleIndex a = tree_.order()[i];
         const TriangleIndex b = tree_.order()[j];
-        if (shellOf(a) != shellOf(b)) comparePair(a, b);
+        comparePair(a, b);
       }
     }
   }
@@ -169,13 +200,56 @@ class Joiner {
       return box;
     };
     if (!overlap(box_of(corners_a), box_of(corners_b))) return;
+    const Shared shared = sharedBy(a, b);
+    if (shared.count == 3 ||
+        (shared.count == 1 && !mayMeetBeside(shared.corner, shared.rest_a, shared.rest_b, tolerance_))) {
+      return;
+    }
     Meeting meeting(corners_a, corners_b, tolerance_);
-    if (meeting.points().empty()) return;
-    is_near_[a.value] = is_near_[b.value] = true;
+    if (!reachesBeyond(shared, meeting.points())) return;
+    if (shellOf(a) != shellOf(b)) is_near_[a.value] = is_near_[b.value] = true;
     const Vector3d normal =
         (corners_a[1] - corners_a[0]).cross(corners_a[2] - corners_a[0]).stableNormalized();
     meeting.forEachSide(normal, [&](const Vector3d& from, const Vector3d& to) {
       joints_.joints.push_back({a, b, from, to});
+    });
+  }
+
+  /// The corners that two triangles have in common by their numbers.
+  struct Shared {
+    std::size_t count = 0;
+    Vector3d corner = Vector3d::Zero();  ///< one of them
+    Vector3d other = Vector3d::Zero();   ///< the second of two
+    std::array<Vector3d, 2> rest_a;      ///< the others of each, where one is shared
+    std::array<Vector3d, 2> rest_b;
+  };
+
+  Shared sharedBy(TriangleIndex a, TriangleIndex b) const {
+    const TriangleNodes& nodes_a = mesh_.triangle(a);
+    const TriangleNodes& nodes_b = mesh_.triangle(b);
+    Shared shared;
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (nodes_a[i] != nodes_b[k]) continue;
+        (shared.count == 0 ? shared.corner : shared.other) = mesh_.vertex(nodes_a[i]);
+        shared.rest_a = {mesh_.vertex(nodes_a[(i + 1) % 3]), mesh_.vertex(nodes_a[(i + 2) % 3])};
+        shared.rest_b = {mesh_.vertex(nodes_b[(k + 1) % 3]), mesh_.vertex(nodes_b[(k + 2) % 3])};
+        ++shared.count;
+      }
+    }
+    return shared;
+  }
+
+  /// Whether points in common lie elsewhere than at the shared corner or along the shared edge.
+  bool reachesBeyond(const Shared& shared, const std::vector<Vector3d>& points) const {
+    const Vector3d edge = shared.count == 2 ? Vector3d(shared.other - shared.corner) : Vector3d::Zero();
+    const double squared_length = edge.squaredNorm();
+    return std::any_of(points.begin(), points.end(), [&](const Vector3d& point) {
+      if (shared.count == 0) return true;
+      const Vector3d from_corner = point - shared.corner;
+      const double share =
+          squared_length > 0.0 ? std::clamp(from_corner.dot(edge) / squared_length, 0.0, 1.0) : 0.0;
+      return (from_corner - share * edge).norm() > 2.0 * tolerance_;
     });
   }
 

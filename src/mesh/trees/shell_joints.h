@@ -11,11 +11,11 @@
 
 namespace concave_distance {
 
-/// A body is the union of its closed shells: where the surfaces of two shells meet, a path goes over from one
-/// to the other, and what lies in the material of another shell is no surface.
+/// A body is the union of its closed shells: where surfaces meet, those of two shells or two parts of one, a
+/// path goes over from one to the other, and what lies in the material of another shell is no surface.
 struct ShellJoints {
-  /// Two triangles of different shells and the ends of a straight part of what they have in common; the same
-  /// point twice where they touch in one.
+  /// Two triangles and the ends of a straight part of what they have in common besides shared corners and
+  /// edges; the same point twice where they touch in one.
   struct Joint {
     TriangleIndex first;
     TriangleIndex second;
@@ -47,8 +47,7 @@ void forEachNeighbour(const SurfaceMesh& mesh, const MeshTopology& topology, con
 }
 
 /// What is nearer than 1e-9 of the diameter touches. Hidden are triangles that meet no other shell and lie in
-/// one's material; those that another shell crosses count whole. O(n log n) and the pairs that meet; nothing
-/// for a body of one shell.
+/// one's material; those that another shell crosses count whole. O(n log n) and the pairs that meet.
 ShellJoints joinShells(const SurfaceMesh& mesh, const MeshTopology& topology, const TriangleTree& tree);
 
 /// Whether a point of a triangle's shell lies in the material of another shell.
