@@ -19,14 +19,6 @@ std::string_view toString(CertificateStatus status) {
   return "unknown";
 }
 
-namespace {
-
-/// What a pose and its product with a far centre lose to rounding is at most 16 machine epsilons of their
-/// size, an eighth of kProofError.
-constexpr double kPoseShare = 0.125;
-
-}  // namespace
-
 double proofScale(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b) {
   const Eigen::Vector3d offset = a_from_b * b.hierarchy().origin() - a.hierarchy().origin();
   const double far =

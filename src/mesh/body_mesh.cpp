@@ -47,6 +47,7 @@ struct BodyMesh::State {
   BodyMeshOptions options;
   Eigen::AlignedBox3d bounds;
   // Made on demand:
+  Part<RecentredBody> recentred;
   Part<ShellJoints> joints;
   Part<Facets> facets;
   Part<CompressedRows<AdjacentTriangle>> adjacency;
@@ -259,6 +260,38 @@ void prepareSearch(const std::vector<const BodyMesh*>& bodies) {
   tbb::parallel_for(std::size_t{0}, open.size(), [&](std::size_t i) { open[i]->metric(); });
 }
 
+namespace {
+
+/// Along an axis, in diameters: from here on the centre is subtracted. All coordinates are then within a
+/// factor of two of each other, so that the differences are exact (Sterbenz).
+constexpr double kFarFromOrigin = 16.0;
+
+Eigen::Vector3d farOrigin(const Eigen::AlignedBox3d& box, double diameter) {
+  const Eigen::Vector3d centre = box.center();
+  return (centre.array().abs() > kFarFromOrigin * diameter).select(centre, 0.0);
+}
+
+SurfaceMesh movedTo(const SurfaceMesh& surface, const Eigen::Vector3d& origin, const std::string& where) {
+  std::vector<Eigen::Vector3d> vertices = surface.vertices();
+  for (Eigen::Vector3d& vertex : vertices) vertex -= origin;
+  return SurfaceMesh(std::move(vertices), surface.triangles(), where);
+}
+
+}  // namespace
+
+const RecentredBody& BodyMesh::recentred() const {
+  auto& part = state_->recentred;
+  std::call_once(part.once, [&] {
+    const Eigen::Vector3d origin = farOrigin(bounds(), bounds().diagonal().norm());
+    if (origin.isZero(0.0)) return;
+    BodyMeshOptions options = state_->options;
+    if (options.shape) options.shape->body_from_shape.pretranslate(-origin);
+    part.value.mesh = std::make_shared<BodyMesh>(name(), movedTo(surface(), origin, name()), options);
+    part.value.origin = origin;
+  });
+  return part.value;
+}
+
 const ShellJoints& BodyMesh::joints() const {
   auto& part = state_->joints;
   std::call_once(part.once, [&] {
@@ -330,7 +363,7 @@ std::size_t BodyMesh::memoryBytes() const {
   return sizeof(BodyMesh) + sizeof(State) + mesh_bytes(surface()) + topology_bytes + search_bytes +
          state_->parts.tree.memoryBytes() + state_->parts.hierarchy.memoryBytes() + state_->adjacency.bytes +
          state_->joints.bytes + state_->facets.bytes + state_->pieces.bytes + state_->cones[0].bytes +
-         state_->cones[1].bytes;
+         state_->cones[1].bytes + (asSolved().surface_ != surface_ ? asSolved().memoryBytes() : 0);
 }
 
 }  // namespace concave_distance

@@ -245,7 +245,7 @@ BodyInfo toBodyInfo(const SceneBody& body) {
   message.source = body.source;
   message.vertices = static_cast<std::uint32_t>(body.mesh->surface().vertexCount());
   message.triangles = static_cast<std::uint32_t>(body.mesh->surface().triangleCount());
-  if (const SearchNodes* nodes = body.mesh->nodesIfMade()) {
+  if (const SearchNodes* nodes = body.mesh->asSolved().nodesIfMade()) {
     message.grid_nodes = static_cast<std::uint32_t>(nodes->grid.vertexCount());
     message.max_edge_length = nodes->max_edge_length;
   }

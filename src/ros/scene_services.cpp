@@ -150,7 +150,7 @@ bool SceneServices::listBodies(ListBodies::Request& /*request*/, ListBodies::Res
   response.notes = scene->warnings;
   response.notes.insert(response.notes.end(), scene->notes.begin(), scene->notes.end());
   for (const SceneBody& body : scene->bodies) {
-    const MeshMetric* metric = body.mesh->metricIfMade();
+    const MeshMetric* metric = body.mesh->asSolved().metricIfMade();
     if (metric != nullptr && !metric->hasMatrices()) {
       response.notes.push_back(body.name +
                                ": mesh distances are computed on demand, because its matrices exceed "

@@ -179,7 +179,7 @@ void SceneTracker::prepareSearches() {
   for (const TrackedPair* pair : to_solve_) {
     if (!pair->needsSearch()) continue;
     for (const BodyMesh* body : {pair->body_a->mesh.get(), pair->body_b->mesh.get()}) {
-      if (body->metricIfMade() == nullptr) to_prepare_.push_back(body);
+      if (body->asSolved().metricIfMade() == nullptr) to_prepare_.push_back(&body->asSolved());
     }
   }
   if (!to_prepare_.empty()) {

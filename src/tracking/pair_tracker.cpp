@@ -4,10 +4,12 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include <optional>
 #include <utility>
 
 #include "concave_distance/base/error.h"
 #include "pair_cycle.h"
+#include "recentred_pair.h"
 #include "require_bodies.h"
 
 namespace concave_distance {
@@ -18,15 +20,28 @@ constexpr std::size_t kPosesOfOneTracker = 16;
 
 }  // namespace
 
-struct PairTracker::State : PairCycle {
-  using PairCycle::PairCycle;
+struct PairTracker::State {
+  State(std::string name, const std::shared_ptr<const BodyMesh>& a, const std::shared_ptr<const BodyMesh>& b,
+        const TrackerParameters& parameters, std::uint64_t largest_used_id)
+      : bodies(a, b), cycle(std::move(name), bodies.a(), bodies.b(), parameters, largest_used_id) {}
+
+  /// Calls solve(pose) with the pose of the bodies as they are solved.
+  template <typename Solve>
+  void solveRecentred(const Eigen::Isometry3d& a_from_b, PairSolution& solution, const Solve& solve) const {
+    const std::optional<Eigen::Isometry3d> pose = bodies.isMoved() ? bodies.poseOf(a_from_b) : std::nullopt;
+    solve(pose ? *pose : a_from_b);
+    if (pose) bodies.moveBack(a_from_b, solution);
+  }
+
+  RecentredPair bodies;
+  PairCycle cycle;
 };
 
 PairTracker::PairTracker(std::string name, std::shared_ptr<const BodyMesh> a,
                          std::shared_ptr<const BodyMesh> b, const TrackerParameters& parameters,
                          std::uint64_t largest_used_id) {
   requireBodies(name, a, b);
-  state_ = std::make_unique<State>(std::move(name), std::move(a), std::move(b), parameters, largest_used_id);
+  state_ = std::make_unique<State>(std::move(name), a, b, parameters, largest_used_id);
 }
 PairTracker::~PairTracker() = default;
 PairTracker::PairTracker(PairTracker&&) noexcept = default;
@@ -38,15 +53,19 @@ PairTracker::State& PairTracker::state() const {
 }
 
 void PairTracker::update(const Eigen::Isometry3d& a_from_b, double time, PairSolution& solution) {
-  state().update(a_from_b, time, solution);
+  State& state = this->state();
+  state.solveRecentred(a_from_b, solution,
+                       [&](const Eigen::Isometry3d& pose) { state.cycle.update(pose, time, solution); });
 }
 
 void PairTracker::solve(const Eigen::Isometry3d& a_from_b, PairSolution& solution) {
-  state().solve(a_from_b, solution);
+  State& state = this->state();
+  state.solveRecentred(a_from_b, solution,
+                       [&](const Eigen::Isometry3d& pose) { state.cycle.solve(pose, solution); });
 }
 
 void PairTracker::prepare(const std::vector<Eigen::Isometry3d>& a_from_b) {
-  state().prepare();
+  state().cycle.prepare();
   PairSolution solution;
   double time = 0.0;
   for (const Eigen::Isometry3d& pose : a_from_b) update(pose, time += 1.0, solution);
@@ -54,23 +73,23 @@ void PairTracker::prepare(const std::vector<Eigen::Isometry3d>& a_from_b) {
 }
 
 void PairTracker::reset() {
-  state().reset();
+  state().cycle.reset();
 }
 
 void PairTracker::restart() {
-  state().restart();
+  state().cycle.restart();
 }
 
 void PairTracker::setParameters(const TrackerParameters& parameters) {
-  state().setParameters(parameters);
+  state().cycle.setParameters(parameters);
 }
 
 std::size_t PairTracker::memoryBytes() const {
-  return state().memoryBytes();
+  return state().cycle.memoryBytes();
 }
 
 const TrackerParameters& PairTracker::parameters() const {
-  return state().parameters();
+  return state().cycle.parameters();
 }
 
 PairSolution solveOnce(const std::string& name, const std::shared_ptr<const BodyMesh>& a,

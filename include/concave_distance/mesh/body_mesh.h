@@ -52,6 +52,14 @@ struct BodyMeshOptions {
   std::optional<RoundShape> shape;
 };
 
+class BodyMesh;
+
+/// A body as it is solved where it was modelled far from the origin of its frame.
+struct RecentredBody {
+  std::shared_ptr<const BodyMesh> mesh;              ///< nullptr: the body itself is near enough
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< of the frame of `mesh`, body frame, metres
+};
+
 /// One body, ready for queries: the original surface with its topology and trees for the exact levels, an
 /// even grid with its graph and metric for the search. Immutable to its users; shared between pairs and
 /// threads. What only a search needs is made at its first use, once for all threads; a body that is never
@@ -75,6 +83,11 @@ class BodyMesh {
   const RoundShape* shape() const;
   /// Holds the surface and the shape, body frame.
   const Eigen::AlignedBox3d& bounds() const;
+  /// The body with the origin of its frame moved to its centre along every axis on which that is more than 16
+  /// diameters away; each vertex is subtracted without rounding. Built at the first call, for all threads.
+  const RecentredBody& recentred() const;
+  /// The mesh of recentred(), or this one.
+  const BodyMesh& asSolved() const { return recentred().mesh ? *recentred().mesh : *this; }
   /// Memory of the parts made so far.
   std::size_t memoryBytes() const;
 

@@ -1,0 +1,49 @@
+#include "recentred_pair.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "distance/certificate.h"
+#include "relative_motion.h"
+
+namespace concave_distance {
+namespace {
+
+std::shared_ptr<const BodyMesh> nearItsOrigin(const std::shared_ptr<const BodyMesh>& body) {
+  return body->recentred().mesh != nullptr ? body->recentred().mesh : body;
+}
+
+}  // namespace
+
+RecentredPair::RecentredPair(const std::shared_ptr<const BodyMesh>& a,
+                             const std::shared_ptr<const BodyMesh>& b)
+    : origin_a_(a->recentred().origin),
+      origin_b_(b->recentred().origin),
+      a_(nearItsOrigin(a)),
+      b_(nearItsOrigin(b)),
+      is_moved_(a_ != a || b_ != b) {}
+
+std::optional<Eigen::Isometry3d> RecentredPair::poseOf(const Eigen::Isometry3d& a_from_b) const {
+  std::optional<Eigen::Isometry3d> pose = rigidPose(a_from_b);
+  if (pose) pose->translation() = *pose * origin_b_ - origin_a_;
+  return pose;
+}
+
+void RecentredPair::moveBack(const Eigen::Isometry3d& a_from_b, PairSolution& solution) const {
+  solution.a_from_b = a_from_b;
+  solution.point_a_in_a += origin_a_;
+  solution.point_b_in_a += origin_a_;
+  for (TrackedNiche& niche : solution.niches) {
+    niche.point_a_in_a += origin_a_;
+    niche.point_b_in_a += origin_a_;
+    niche.witness.point_a_in_a += origin_a_;
+    niche.witness.point_b_in_a += origin_a_;
+  }
+  const double pose_error =
+      kProofError * kPoseShare * (origin_a_.norm() + origin_b_.norm() + a_from_b.translation().norm());
+  if (solution.lower_bound > 0.0) {
+    solution.lower_bound = std::max(0.0, std::nextafter(solution.lower_bound - pose_error, 0.0));
+  }
+}
+
+}  // namespace concave_distance

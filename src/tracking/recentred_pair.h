@@ -1,0 +1,38 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <memory>
+#include <optional>
+
+#include "concave_distance/mesh/body_mesh.h"
+#include "concave_distance/tracking/pair_solution.h"
+
+namespace concave_distance {
+
+/// Two bodies as they are solved: each near the origin of its own frame (BodyMesh::recentred()), so that all
+/// tolerances are relative to the bodies and the gap, wherever the bodies were modelled.
+class RecentredPair {
+ public:
+  RecentredPair(const std::shared_ptr<const BodyMesh>& a, const std::shared_ptr<const BodyMesh>& b);
+
+  const std::shared_ptr<const BodyMesh>& a() const { return a_; }
+  const std::shared_ptr<const BodyMesh>& b() const { return b_; }
+  /// Whether a body is not where it was modelled.
+  bool isMoved() const { return is_moved_; }
+
+  /// The pose of the bodies as they are solved; empty for one that is not rigid.
+  std::optional<Eigen::Isometry3d> poseOf(const Eigen::Isometry3d& a_from_b) const;
+
+  /// Brings a solution for poseOf(a_from_b) into the frame that A was modelled in. The lower bound loses what
+  /// the pose does: the rounding of its product with the origin of B.
+  void moveBack(const Eigen::Isometry3d& a_from_b, PairSolution& solution) const;
+
+ private:
+  Eigen::Vector3d origin_a_;  ///< of a() in the frame that A was modelled in, metres
+  Eigen::Vector3d origin_b_;
+  std::shared_ptr<const BodyMesh> a_;
+  std::shared_ptr<const BodyMesh> b_;
+  bool is_moved_;
+};
+
+}  // namespace concave_distance
