@@ -1,0 +1,29 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <string>
+#include <vector>
+
+#include "base/random_engine.h"
+#include "concave_distance/mesh/surface/surface_mesh.h"
+
+namespace concave_distance::test {
+
+/// Two surfaces as they are after import, and poses of B in A's frame along which the pair is tracked.
+struct NicheScene {
+  SurfaceMesh a;
+  SurfaceMesh b;
+  std::vector<Eigen::Isometry3d> poses;
+};
+
+struct NicheFamily {
+  const char* name;
+  const char* description;
+  NicheScene (*draw)(RandomEngine&);
+};
+
+const std::vector<NicheFamily>& nicheFamilies();
+/// @throws Error when no family has this name
+const NicheFamily& nicheFamily(const std::string& name);
+
+}  // namespace concave_distance::test
