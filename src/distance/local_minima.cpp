@@ -22,14 +22,15 @@ namespace {
 constexpr std::size_t kNoOwner = LocalMinima::kNoOwner;
 constexpr std::size_t kUndecided = LocalMinima::kUndecided;
 
-bool isWithinCutoff(const MinimaScene& scene, const LocalMinimaRequest& request, const MinimumSeed& seed) {
-  return seed.distance <= request.cutoff + scene.rounding;
+/// Whether a minimum that was found elsewhere, by a search or at an earlier pose, can be a niche.
+bool isCandidate(const MinimaScene& scene, const LocalMinimaRequest& request, const MinimumSeed& seed) {
+  return seed.distance <= request.cutoff + scene.rounding && scene.areOnSurface(seed.a, seed.b);
 }
 
-void appendNear(const MinimaScene& scene, const LocalMinimaRequest& request,
-                const std::vector<MinimumSeed>& from, std::vector<MinimumSeed>& seeds) {
+void appendCandidates(const MinimaScene& scene, const LocalMinimaRequest& request,
+                      const std::vector<MinimumSeed>& from, std::vector<MinimumSeed>& seeds) {
   std::copy_if(from.begin(), from.end(), std::back_inserter(seeds),
-               [&](const MinimumSeed& seed) { return isWithinCutoff(scene, request, seed); });
+               [&](const MinimumSeed& seed) { return isCandidate(scene, request, seed); });
 }
 
 /// False when the limit was reached.
@@ -39,7 +40,7 @@ bool collectSeeds(const MinimaScene& scene, const LocalMinimaRequest& request,
   seeds.clear();
   if (request.given != nullptr) {
     if (!limit.makeRoom(seeds, request.given->size())) return false;
-    appendNear(scene, request, *request.given, seeds);
+    appendCandidates(scene, request, *request.given, seeds);
     return true;
   }
   if (isFar(scene, request.least_prominence)) {
@@ -135,9 +136,9 @@ bool LocalMinimaParts::decide(const MinimaScene& scene, const LocalMinimaRequest
     owners.push_back(place(owner));
   }
   for (const MinimumSeed& proposal : request.proposals) {
-    const bool is_near = isWithinCutoff(scene, request, proposal);
-    proposed.push_back(is_near ? place(verdicts.locate(scene, {proposal.a, proposal.b}, wanted, limit))
-                               : kNoOwner);
+    const bool is_candidate = isCandidate(scene, request, proposal);
+    proposed.push_back(is_candidate ? place(verdicts.locate(scene, {proposal.a, proposal.b}, wanted, limit))
+                                    : kNoOwner);
   }
   describeNiches(scene, request, limit);
   cost.flooded_pairs += verdicts.counts().flooded_cells;
@@ -174,9 +175,9 @@ bool LocalMinimaParts::measure(const MinimaScene& scene, const LocalMinimaReques
   // Of each that is asked for and proposed its place among the seeds.
   places.clear();
   const auto start_at = [&](const MinimumSeed& seed) {
-    const bool is_near = isWithinCutoff(scene, request, seed);
-    places.push_back(is_near ? seeds.size() - owned : kNoOwner);
-    if (is_near) seeds.push_back(seed);
+    const bool is_candidate = isCandidate(scene, request, seed);
+    places.push_back(is_candidate ? seeds.size() - owned : kNoOwner);
+    if (is_candidate) seeds.push_back(seed);
   };
   for (const auto& [a, b] : request.asked_pairs) {
     start_at(scene.seedOf(refineWitness(scene.a, scene.b, scene.a_from_b, a, b, refinement).witness));
@@ -208,7 +209,7 @@ void LocalMinimaParts::describe(const MinimaScene& scene, const LocalMinimaReque
                                                  : std::numeric_limits<double>::infinity();
   niche.flooded = minimum.flooded;
   niche.region = minimum.region;
-  if (describer.describe(scene, request, minimum.seed, is_seen, niche, limit)) {
+  if (describer.describe(scene, request, minimum.seed, minimum.met_by_flood, is_seen, niche, limit)) {
     described.push_back({niche, minima.size() - 1});
   }
 }
@@ -283,7 +284,7 @@ void findLocalMinima(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry
   result.cost.minima = parts.seeds.size();
   limit.allowShare(request.time_shares.all);
   // What is proposed counts while not everything has been looked at.
-  if (!all) detail::appendNear(scene, request, request.proposals, parts.seeds);
+  if (!all) detail::appendCandidates(scene, request, request.proposals, parts.seeds);
   const bool measures =
       request.prominence_limit > request.least_prominence && !detail::isFar(scene, request.least_prominence);
   const bool decided = measures ? parts.measure(scene, request, result.cost, limit)

@@ -42,6 +42,10 @@ struct MinimaScene {
     const ShellJoints::Joint& joint = body.joints().joints[end / 2];
     return (end % 2 == 0 ? joint.from : joint.to) - centre;
   }
+  /// False where one of them lies in the material of another shell of its body.
+  bool areOnSurface(TriangleIndex of_a, TriangleIndex of_b) const {
+    return !a.joints().isHidden(of_a) && !b.joints().isHidden(of_b);
+  }
   /// Whether shells of either body meet.
   bool hasJoints() const { return !a.joints().joints.empty() || !b.joints().joints.empty(); }
   static bool isJoint(const BodyMesh& body, const AdjacentTriangle& next) {

@@ -21,8 +21,8 @@ void NicheDescriber::begin(const MinimaScene& scene, const LocalMinimaRequest& r
 }
 
 bool NicheDescriber::describe(const MinimaScene& scene, const LocalMinimaRequest& request,
-                              const MinimumSeed& minimum, bool is_seen, LocalMinimum& niche,
-                              WorkLimit& limit) {
+                              const MinimumSeed& minimum, bool met_by_flood, bool is_seen,
+                              LocalMinimum& niche, WorkLimit& limit) {
   const BodyMesh& a = scene.a;
   const BodyMesh& b = scene.b;
   niche.witness = minimum.is_measured
@@ -34,7 +34,7 @@ bool NicheDescriber::describe(const MinimaScene& scene, const LocalMinimaRequest
     return true;
   }
   if (niche.distance > request.cutoff) return false;
-  if (!all_outward_) {
+  if (!all_outward_ || met_by_flood) {
     niche.outward = classifyOutwardness(a, b, scene.a_from_b, niche.witness);
     if (niche.outward == Outwardness::ThroughMaterial && !request.through_material) return false;
   }

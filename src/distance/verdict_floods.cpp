@@ -30,35 +30,51 @@ void MinimaVerdicts::Stage::floodInTurn() {
 
 bool MinimaVerdicts::Stage::isEnclosed(std::uint32_t i, std::uint32_t index) {
   VerdictMemory::Region& region = memory_.region(index);
-  const double distance = verdicts_.judged_[i].seed.distance;
-  const CellFlood::Levels levels = levelsOf(distance);
+  const CellFlood::Levels levels = levelsOf(verdicts_.judged_[i].seed.distance);
   verdicts_.counts_.measured += region.border.takeCrossed(memory_.borders(), scene_, levels.highest);
-  const std::vector<BorderElement>& crossed = memory_.borders().crossed;
-  if (crossed.empty()) {
+  if (memory_.borders().crossed.empty()) {
     ++verdicts_.counts_.by_border;
     return true;
   }
+  const CellFlood::End end = floodBeyond(i, index, levels);
+  if (end != CellFlood::End::Enclosed) {
+    restoreBorder(index);
+    return false;
+  }
+  if (!extend(index)) {
+    memory_.drop(index);
+    return false;
+  }
+  ++verdicts_.counts_.mended;
+  return true;
+}
+
+CellFlood::End MinimaVerdicts::Stage::floodBeyond(std::uint32_t i, std::uint32_t index,
+                                                  const CellFlood::Levels& levels) {
+  const VerdictMemory::Region& region = memory_.region(index);
   const auto is_inside = [&](TriangleIndex a, TriangleIndex b) { return memory_.isIn(a, b, index); };
   CellFlood& flood = verdicts_.flood_;
   flood.beginBeyond(levels);
-  for (const BorderElement& element : crossed) {
+  for (const BorderElement& element : memory_.borders().crossed) {
     const TrianglePair pair = element.pairBeyond();
-    if (!is_inside(pair.a, pair.b) && !flood.enterBeyond(pair.a, pair.b, 0.0, limit_)) return false;
+    if (!is_inside(pair.a, pair.b) && !flood.enterBeyond(pair.a, pair.b, 0.0, limit_)) {
+      return CellFlood::End::Cut;
+    }
   }
   const auto meets = [&](TriangleIndex a, TriangleIndex b) { return isOfEarlier(a, b, i); };
   const std::size_t largest = 2 * region.cells_at_begin + kSmallRegion;
   const std::size_t most = largest - std::min(region.cells, largest);
   const CellFlood::End end = flood.proceed(scene_, most, meets, is_inside, limit_);
   verdicts_.counts_.flooded_cells += static_cast<std::uint32_t>(flood.lookedAt());
-  if (end == CellFlood::End::Enclosed && extend(index)) {
-    ++verdicts_.counts_.mended;
-    return true;
+  return end;
+}
+
+void MinimaVerdicts::Stage::restoreBorder(std::uint32_t index) {
+  for (const BorderElement& element : memory_.borders().crossed) {
+    if (!memory_.region(index).border.add(memory_.borders(), scene_, element, 0.0, limit_)) {
+      return memory_.drop(index);
+    }
   }
-  if (end == CellFlood::End::Cut) {
-    for (const BorderElement& element : crossed)
-      region.border.add(memory_.borders(), scene_, element, 0.0, limit_);
-  }
-  return false;
 }
 
 void MinimaVerdicts::Stage::flood(std::uint32_t i) {

@@ -29,6 +29,7 @@ std::uint32_t MinimaVerdicts::Stage::placeAround(const TrianglePair& pair) {
 }
 
 std::uint32_t MinimaVerdicts::Stage::enterPlace(const WitnessPair& minimum) {
+  if (!scene_.areOnSurface(minimum.triangle_a, minimum.triangle_b)) return kNone;
   const MinimumSeed seed = scene_.seedOf(minimum);
   const std::uint32_t in_cell = seedAround(minimum.triangle_a, minimum.triangle_b);
   // Given seeds may lie a little above the minimum of their cell.

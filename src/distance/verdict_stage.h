@@ -26,7 +26,8 @@ class MinimaVerdicts::Stage {
 
   std::uint32_t placeAround(const TrianglePair& pair);
 
-  /// The minimum among the judged: the seed at its place, or an entry of its own; kNone through material.
+  /// The minimum among the judged: the seed at its place, or an entry of its own; kNone through or in
+  /// material.
   std::uint32_t enterPlace(const WitnessPair& minimum);
 
   void decideFar();
@@ -110,8 +111,14 @@ class MinimaVerdicts::Stage {
     return {distance - tolerance_, distance + tolerance_, levelOf(distance) + tolerance_};
   }
 
-  /// Whether the border around a region holds, or does so again with the cells beyond where it does not.
+  /// Whether the border around a region holds, or does so again with the cells beyond where it does not. The
+  /// border is whole afterwards in either case, because a region may be asked for again at this pose or the
+  /// next one; the region is dropped where memory does not suffice for that.
   bool isEnclosed(std::uint32_t i, std::uint32_t index);
+  /// Floods the cells beyond the elements that have left the region's border.
+  CellFlood::End floodBeyond(std::uint32_t i, std::uint32_t index, const CellFlood::Levels& levels);
+  /// Puts these elements back.
+  void restoreBorder(std::uint32_t index);
 
   /// Whether a cell is that of a minimum that i would belong to.
   bool isOfEarlier(TriangleIndex a, TriangleIndex b, std::uint32_t i) const {

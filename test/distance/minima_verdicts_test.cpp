@@ -208,6 +208,43 @@ TEST(MinimaVerdicts, AreRightAgainAfterALimitHasEndedThem) {
   EXPECT_TRUE(was_undecided);
 }
 
+// Niches that a short list leaves open are asked for one by one: what is found wrong on the way stays wrong.
+TEST(MinimaVerdicts, AreRightAfterAListThatWasCut) {
+  RandomEngine engine(24);
+  std::size_t asked_for = 0;
+  for (std::uint32_t run = 0; run < 60; ++run) {
+    SCOPED_TRACE("run " + std::to_string(run));
+    const Body a = makeBody(test::concaveShape(run));
+    const Body b = makeBody(test::concaveShape(run / 6));
+    const test::Motion motion = test::randomMotion(engine);
+    MinimaVerdicts verdicts;
+    std::vector<TrianglePair> known;
+    for (int k = 0; k < 24; ++k) {
+      const MinimaScene scene(*a, *b, motion.at(0.01 * (k - k % 2)));
+      std::vector<MinimumSeed> seeds = seedsAt(scene);
+      const std::vector<double> truth = nichesByFloods(scene, seeds, 1e-2);
+      MinimaVerdicts::Request request;
+      if (k % 2 == 0) request.most_niches = 1;
+      WorkLimit none;
+      verdicts.judge(scene, seeds, request, none);
+      for (const TrianglePair& pair : known) verdicts.locate(scene, pair, request, none);
+      for (const double distance : nichesOf(verdicts)) {
+        EXPECT_TRUE(std::any_of(truth.begin(), truth.end(),
+                                [&](double d) { return std::abs(d - distance) < 1e-11; }));
+      }
+      asked_for += known.size();
+      if (k % 2 == 0) continue;
+      expectSame(nichesOf(verdicts), truth);
+      if (HasFailure()) return;
+      known.clear();
+      for (const MinimaVerdicts::Judged& judged : verdicts.judged()) {
+        if (judged.verdict == Verdict::Niche) known.push_back({judged.seed.a, judged.seed.b});
+      }
+    }
+  }
+  EXPECT_GT(asked_for, 1000U);
+}
+
 struct Scene {
   Body a;
   Body b;

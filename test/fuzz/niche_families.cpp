@@ -45,14 +45,15 @@ void walk(RandomEngine& engine, double size, bool turns, NicheScene& scene) {
   }
 }
 
-/// B beside A in a random direction, with a gap.
-NicheScene besideEachOther(RandomEngine& engine, const SurfaceMesh& a, const SurfaceMesh& b,
-                           const Eigen::Matrix3d& turn) {
+/// B beside A in a random direction: they overlap, or there is a gap.
+NicheScene besideEachOther(RandomEngine& engine, const SurfaceMesh& a, const SurfaceMesh& b) {
   NicheScene scene{a, b, {Isometry3d::Identity()}};
   const double size = 0.5 * (a.diameter() + b.diameter());
   Isometry3d& pose = scene.poses.front();
+  const Eigen::Matrix3d turn = randomRotation(engine);
   pose.linear() = turn;
-  const Vector3d away = randomRotation(engine).col(0) * size * uniformIn(engine, 0.3, 1.6);
+  const double least = uniformIndex(engine, 3) == 0 ? 0.3 : 0.8;
+  const Vector3d away = randomRotation(engine).col(0) * size * uniformIn(engine, least, 1.6);
   pose.translation() = a.boundingBox().center() - turn * b.boundingBox().center() + away;
   return scene;
 }
@@ -124,7 +125,7 @@ NicheScene drawCoplanar(RandomEngine& engine) {
 NicheScene drawConcave(RandomEngine& engine) {
   const SurfaceMesh a = randomSolid(engine);
   const SurfaceMesh b = randomSolid(engine);
-  NicheScene scene = besideEachOther(engine, a, b, randomRotation(engine));
+  NicheScene scene = besideEachOther(engine, a, b);
   walk(engine, 0.3, true, scene);
   return scene;
 }
@@ -141,7 +142,7 @@ NicheScene drawRings(RandomEngine& engine) {
   };
   const SurfaceMesh a = ring();
   const SurfaceMesh b = ring();
-  NicheScene scene = besideEachOther(engine, a, b, randomRotation(engine));
+  NicheScene scene = besideEachOther(engine, a, b);
   walk(engine, 1.0, true, scene);
   return scene;
 }
@@ -195,7 +196,7 @@ NicheScene drawTouching(RandomEngine& engine) {
 NicheScene drawNeedles(RandomEngine& engine) {
   const SurfaceMesh a = uniformIndex(engine, 2) == 0 ? needleSoup(engine) : spikyPrism(engine);
   const SurfaceMesh b = uniformIndex(engine, 3) == 0 ? needleSoup(engine) : spikyPrism(engine);
-  NicheScene scene = besideEachOther(engine, a, b, randomRotation(engine));
+  NicheScene scene = besideEachOther(engine, a, b);
   walk(engine, 0.5, true, scene);
   return scene;
 }
@@ -203,7 +204,7 @@ NicheScene drawNeedles(RandomEngine& engine) {
 NicheScene drawSoup(RandomEngine& engine) {
   const SurfaceMesh a = randomSoup(engine);
   const SurfaceMesh b = randomSoup(engine);
-  NicheScene scene = besideEachOther(engine, a, b, randomRotation(engine));
+  NicheScene scene = besideEachOther(engine, a, b);
   walk(engine, 1.0, true, scene);
   return scene;
 }
@@ -212,7 +213,7 @@ NicheScene drawSelfTouching(RandomEngine& engine) {
   const SurfaceMesh a = selfTouchingShape(engine);
   const SurfaceMesh b = uniformIndex(engine, 2) == 0 ? plainShape(engine) : selfTouchingShape(engine);
   if (uniformIndex(engine, 2) == 0) return onALattice(engine, a, b, 0.125, 14, 0.0);
-  NicheScene scene = besideEachOther(engine, a, b, randomRotation(engine));
+  NicheScene scene = besideEachOther(engine, a, b);
   walk(engine, 0.3, true, scene);
   return scene;
 }
@@ -221,20 +222,24 @@ NicheScene drawShells(RandomEngine& engine) {
   const SurfaceMesh a = severalShells(engine);
   const SurfaceMesh b = uniformIndex(engine, 2) == 0 ? plainShape(engine) : severalShells(engine);
   if (uniformIndex(engine, 2) == 0) return onALattice(engine, a, b, 0.125, 16, 0.0);
-  NicheScene scene = besideEachOther(engine, a, b, randomRotation(engine));
+  NicheScene scene = besideEachOther(engine, a, b);
   walk(engine, 0.3, true, scene);
   return scene;
 }
 
-/// Draws until the enumeration can afford it, and brings the surfaces as a file would.
+/// Draws until the enumeration can afford it and repair leaves something; the surfaces are as from a file.
 template <NicheScene (*draw)(RandomEngine&)>
 NicheScene affordable(RandomEngine& engine) {
   for (;;) {
     NicheScene scene = draw(engine);
     if (scene.a.triangleCount() * scene.b.triangleCount() > kMostPairs) continue;
-    scene.a = imported(scene.a);
-    scene.b = imported(scene.b);
-    return scene;
+    try {
+      scene.a = imported(scene.a);
+      scene.b = imported(scene.b);
+      return scene;
+    } catch (const Error&) {
+      // Needles of which repair leaves none.
+    }
   }
 }
 
