@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/exact_orientation.h"
 
@@ -29,7 +30,6 @@ double doubleArea(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eige
 void PolygonCutter::readCorners(const std::vector<Eigen::Vector3d>& vertices, const std::uint32_t* corners,
                                 std::size_t count) {
   corners_.clear();
-  double largest = 0.0;
   for (std::size_t i = 0; i < count; ++i) {
     const Eigen::Vector3d& place = vertices[corners[i]];
     if (!corners_.empty() && corners_.back().in_space == place) continue;
@@ -37,10 +37,8 @@ void PolygonCutter::readCorners(const std::vector<Eigen::Vector3d>& vertices, co
     corner.in_space = place;
     corner.vertex = corners[i];
     corners_.push_back(corner);
-    largest = std::max(largest, place.cwiseAbs().maxCoeff());
   }
   while (corners_.size() > 1 && corners_.back().in_space == corners_.front().in_space) corners_.pop_back();
-  thin_ = kCornerTolerance * largest;
 }
 
 void PolygonCutter::link() {
@@ -152,20 +150,7 @@ void PolygonCutter::clip(std::uint32_t corner, std::vector<Triangle>& triangles)
     judge(neighbour);
     ++corners_[neighbour].version;
   }
-  for (const std::uint32_t neighbour : {b.previous, b.next}) {
-    if (corners_[neighbour].turn == Turn::Left && isClear(neighbour)) {
-      ears_.push({shapeOf(neighbour), neighbour, corners_[neighbour].version});
-    }
-  }
-}
-
-void PolygonCutter::findEars() {
-  for (std::uint32_t i = 0; i < corners_.size(); ++i) {
-    const Corner& corner = corners_[i];
-    if (!corner.is_clipped && corner.turn == Turn::Left && isClear(i)) {
-      ears_.push({shapeOf(i), i, corner.version});
-    }
-  }
+  for (const std::uint32_t neighbour : {b.previous, b.next}) pushIfEar(neighbour);
 }
 
 /// Whether the border turns back at the corner, so that the corner ends a spike.
@@ -174,7 +159,22 @@ bool PolygonCutter::turnsBack(std::uint32_t corner) const {
   return (corners_[b.previous].in_space - b.in_space).dot(corners_[b.next].in_space - b.in_space) >= 0.0;
 }
 
-/// Comes where a border that touches itself, up to rounding, leaves no clear ear: clips the thinnest spike,
+/// Spikes without any width come first: clipping one changes nothing, and an ear beside it could swallow it.
+void PolygonCutter::pushIfEar(std::uint32_t corner) {
+  const Corner& b = corners_[corner];
+  if (b.is_clipped) return;
+  if (b.turn == Turn::Straight && turnsBack(corner) && isThin(corner)) {
+    ears_.push({std::numeric_limits<double>::infinity(), corner, b.version});
+  } else if (b.turn == Turn::Left && isClear(corner)) {
+    ears_.push({shapeOf(corner), corner, b.version});
+  }
+}
+
+void PolygonCutter::findEars() {
+  for (std::uint32_t i = 0; i < corners_.size(); ++i) pushIfEar(i);
+}
+
+/// Comes where a border that touches itself up to rounding leaves no clear ear: clips the thinnest spike,
 /// else the best of the left turns, else the thinnest corner. False when there is none of these.
 bool PolygonCutter::clipWithoutEar(std::vector<Triangle>& triangles) {
   Ear best{-1.0, 0, 0};

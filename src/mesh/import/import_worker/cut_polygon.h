@@ -9,23 +9,21 @@
 
 namespace concave_distance::detail {
 
-/// Corners of two triangles can be told apart when they are farther apart than this share of their largest
-/// coordinate: single precision, in which most mesh files were written, rounds each of two corners' three
-/// coordinates by up to 6e-8 of its size.
-inline constexpr double kCornerTolerance = 2e-7;
-
 /// Cuts polygons, convex or concave, into triangles by clipping ears. Its buffers are kept between polygons.
 ///
 /// The polygon is seen along the axis that is nearest to Newell's normal, where its coordinates are exact; if
 /// it cannot be cut there, along the normal itself, where warped polygons are widest. Signs of areas are
 /// exact. The triangles' areas seen in this direction add up to the polygon's area by Newell, whatever is
 /// clipped in which order: each ear's area is subtracted from the rest. So if none is negative they cover the
-/// polygon and nothing else. A negative triangle is allowed only where rounding can have turned it over: its
-/// height in space is at most kCornerTolerance of the largest coordinate. A corner in the middle of an edge
-/// becomes a corner of a triangle, so that no gap opens beside the polygon behind that edge.
+/// polygon and nothing else, each place as often as the border winds round it. A negative triangle is allowed
+/// only where its height in space is at most `thin`: rounding may have turned it over. A corner in the middle
+/// of an edge becomes a corner of a triangle, so that no gap opens beside the polygon behind that edge.
 class PolygonCutter {
  public:
   using Triangle = std::array<std::uint32_t, 3>;
+
+  /// @param thin m
+  explicit PolygonCutter(double thin) : thin_(thin) {}
 
   /// Appends at most `count` - 2 triangles with the polygon's winding. A hole may be joined to the border by
   /// an edge that is passed in both directions. Corners of a warped polygon need not be in a plane: any cut
@@ -66,6 +64,7 @@ class PolygonCutter {
   void seeAlongAxisNearest(const Eigen::Vector3d& normal);
   void seeAlong(const Eigen::Vector3d& normal);
   bool clipAll(std::vector<Triangle>& triangles);
+  void pushIfEar(std::uint32_t corner);
   void findEars();
   bool turnsBack(std::uint32_t corner) const;
   bool clipWithoutEar(std::vector<Triangle>& triangles);
@@ -81,7 +80,7 @@ class PolygonCutter {
   std::vector<std::uint32_t> obstacles_;  ///< corners that do not turn left, and some that did not
   std::priority_queue<Ear> ears_;
   std::size_t left_ = 0;
-  double thin_ = 0.0;  ///< m
+  double thin_;
 };
 
 }  // namespace concave_distance::detail

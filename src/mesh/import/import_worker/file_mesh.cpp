@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "concave_distance/base/error.h"
+#include "concave_distance/mesh/repair/repair_mesh.h"
 #include "cut_polygon.h"
 #include "text_words.h"
 
@@ -97,8 +98,10 @@ TriangleSoup FileMesh::takeTriangles(const std::string& path, std::uint64_t most
 }
 
 void FileMesh::cutPolygons(const std::string& path) {
+  if (polygons_.empty()) return;
   soup_.triangles.reserve(soup_.triangles.size() + polygon_corners_.size() - 2 * polygons_.size());
-  PolygonCutter cutter;
+  // What is thinner than this rounding has no side; repair joins such corners.
+  PolygonCutter cutter(kSinglePrecisionWeld * boxOf(soup_.vertices).diagonal().norm());
   std::size_t first = 0;
   for (const Polygon& polygon : polygons_) {
     const std::size_t count = polygon.end - first;
