@@ -267,8 +267,8 @@ TEST(ImportMesh, RefusesABodyWhoseShapeSinglePrecisionLoses) {
   EXPECT_NE(errorOf(box_at(1e6)).find("seven digits"), std::string::npos);
   EXPECT_NE(errorOf(box_at(1e15)).find("seven digits"), std::string::npos);
   const std::string far_dae = folder.write(
-      "far.dae", replaced(replaced(contentOf(fixture("tetrahedron.dae")), "-250 0 0", "1000000250 0 0"),
-                          "750 0 0", "1000001250 0 0"));
+      "far.dae", replaced(contentOf(fixture("tetrahedron.dae")), "-250 0 0 -250 -500 0 750 0 0 -250 0 1500",
+                          "1e9 0 0 1e9 -500 0 1000001000 0 0 1e9 0 1500"));
   EXPECT_NE(errorOf(far_dae).find("seven digits"), std::string::npos);
 }
 

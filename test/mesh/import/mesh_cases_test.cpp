@@ -388,9 +388,29 @@ TEST(DaeFiles, AreReadInEveryWayXmlAllows) {
   }
 }
 
-TEST(DaeFiles, AreRefusedWhereAPolygonHasHoles) {
+TEST(DaeFiles, AreRefusedWhereAPartOfTheSurfaceWouldBeLost) {
   const std::string usual = test::contentOf(dataOf("tetrahedron.dae"));
   EXPECT_TRUE(says(refusalOf(replaced(usual, "<p>", "<ph><p>0 1 2</p><h>0</h></ph><p>"), ".dae"), "<ph>"));
+  EXPECT_TRUE(says(refusalOf(replaced(usual, "</geometry>", "<brep/></geometry>"), ".dae"), "<brep>"));
+  const std::string input = "<input semantic=\"VERTEX\" source=\"#vertices\" offset=\"0\"/>";
+  const auto with = [&](const std::string& lists) { return replaced(usual, "</mesh>", lists + "</mesh>"); };
+  EXPECT_TRUE(says(refusalOf(with("<triangles>" + input + "<p>0 1 2</p></triangles>"), ".dae"),
+                   "<triangles> does not state its count"));
+  EXPECT_TRUE(says(refusalOf(with("<triangles count=\"0\">" + input + "<p>0 1 2</p></triangles>"), ".dae"),
+                   "count of 0"));
+  for (const std::string kind : {"tristrips", "trifans", "polygons"}) {
+    const std::string lists = input + "<p>0 1 2</p><p>0 1 3</p></" + kind + ">";
+    EXPECT_EQ(read(with("<" + kind + " count=\"2\">" + lists), ".dae").triangles.size(), 6U);
+    EXPECT_TRUE(says(refusalOf(with("<" + kind + " count=\"1\">" + lists), ".dae"), "has 2 <p>"));
+  }
+}
+
+TEST(DaeFiles, ReadNothingBeyondTheirArrays) {
+  // Vertex 4 is none of the array's four, whatever the accessor says.
+  const std::string usual = test::contentOf(dataOf("tetrahedron.dae"));
+  const std::string longer = replaced(usual, "count=\"4\" stride=\"3\"", "count=\"6\" stride=\"3\"");
+  expectTetrahedron(read(longer, ".dae"));
+  EXPECT_TRUE(says(refusalOf(replaced(longer, "<p>0 2 1", "<p>0 2 4"), ".dae"), "4"));
 }
 
 // ---------------------------------------------------------------------------------------------- Locales
