@@ -1,6 +1,6 @@
 # What the libraries need, besides Eigen; none belongs to ROS. CONCAVE_DISTANCE_NUMERIC_LIBRARIES is all that computing
-# needs, CONCAVE_DISTANCE_LOADING_LIBRARIES is for reading files; only mesh_import_worker links assimp. Older
-# distributions have variables instead of targets.
+# needs, CONCAVE_DISTANCE_LOADING_LIBRARIES is for reading files; only mesh_import_worker links
+# assimp and pugixml. Older distributions have variables instead of targets.
 find_package(Eigen3 REQUIRED)
 find_package(Threads REQUIRED)
 #catkin_lint: ignore_once missing_cmake_modules
@@ -12,6 +12,7 @@ if(NOT CONCAVE_DISTANCE_XXHASH_HEADERS)
 endif()
 find_package(yaml-cpp REQUIRED)
 find_package(assimp REQUIRED)
+find_package(pugixml REQUIRED)
 if(NOT TARGET urdfdom::urdfdom_model)
   # Its rosdep key is liburdfdom-dev; catkin_lint expects the name of the CMake package.
   #catkin_lint: skip
@@ -31,6 +32,11 @@ if(TARGET assimp::assimp)
   set(CONCAVE_DISTANCE_ASSIMP assimp::assimp)
 else()
   set(CONCAVE_DISTANCE_ASSIMP ${ASSIMP_LIBRARIES})
+endif()
+if(TARGET pugixml::pugixml)
+  set(CONCAVE_DISTANCE_PUGIXML pugixml::pugixml)
+else()
+  set(CONCAVE_DISTANCE_PUGIXML pugixml)
 endif()
 if(TARGET urdfdom::urdfdom_model)
   list(APPEND CONCAVE_DISTANCE_LOADING_LIBRARIES urdfdom::urdfdom_model)

@@ -21,7 +21,7 @@ string(REPLACE ";" "|" files "${fingerprinted}")
 set(fingerprint ${PROJECT_BINARY_DIR}/preparation_fingerprint.h)
 add_custom_command(OUTPUT ${fingerprint}
   COMMAND ${CMAKE_COMMAND} "-DFILES=${files}" "-DOUTPUT=${fingerprint}"
-    "-DCOMPILER=${CMAKE_CXX_COMPILER_ID} ${CMAKE_CXX_COMPILER_VERSION} ${CMAKE_CXX_FLAGS} ${CMAKE_BUILD_TYPE} ${CONCAVE_DISTANCE_NATIVE} ${EIGEN3_VERSION_STRING} ${assimp_VERSION}"
+    "-DCOMPILER=${CMAKE_CXX_COMPILER_ID} ${CMAKE_CXX_COMPILER_VERSION} ${CMAKE_CXX_FLAGS} ${CMAKE_BUILD_TYPE} ${CONCAVE_DISTANCE_NATIVE} ${EIGEN3_VERSION_STRING} ${assimp_VERSION} ${pugixml_VERSION}"
     -P ${PROJECT_SOURCE_DIR}/cmake/preparation_fingerprint.cmake
   DEPENDS ${fingerprinted} ${PROJECT_SOURCE_DIR}/cmake/preparation_fingerprint.cmake
   COMMENT "Fingerprint of the sources that make bodies ready"

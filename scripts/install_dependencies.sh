@@ -12,7 +12,7 @@ set -euo pipefail
   debian_node=(
     g++ cmake make ninja-build
     libassimp-dev libeigen3-dev libtbb-dev liburdfdom-dev libyaml-cpp-dev libcli11-dev
-    libconsole-bridge-dev libtinyxml2-dev libxxhash-dev zlib1g-dev
+    libconsole-bridge-dev libpugixml-dev libtinyxml2-dev libxxhash-dev zlib1g-dev
     catkin python3-dynamic-reconfigure ros-message-generation ros-message-runtime
     libdiagnostic-updater-dev libdynamic-reconfigure-config-init-mutex-dev libgeometry-msgs-dev
     libinteractive-markers-dev libnodelet-dev libnodeletlib-dev libros-rosgraph-msgs-dev libroscpp-dev libroslib-dev libsensor-msgs-dev libstd-msgs-dev
@@ -45,7 +45,7 @@ set -euo pipefail
   noetic_node=(
     g++ cmake make ninja-build
     libassimp-dev libeigen3-dev libtbb-dev liburdfdom-dev libyaml-cpp-dev
-    libconsole-bridge-dev libtinyxml2-dev libxxhash-dev zlib1g-dev
+    libconsole-bridge-dev libpugixml-dev libtinyxml2-dev libxxhash-dev zlib1g-dev
     ros-noetic-catkin ros-noetic-diagnostic-updater ros-noetic-dynamic-reconfigure ros-noetic-geometry-msgs
     ros-noetic-interactive-markers ros-noetic-message-generation ros-noetic-nodelet ros-noetic-pluginlib
     ros-noetic-roscpp ros-noetic-rosgraph-msgs ros-noetic-roslib ros-noetic-sensor-msgs ros-noetic-std-msgs ros-noetic-std-srvs ros-noetic-tf2

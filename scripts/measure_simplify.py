@@ -54,7 +54,7 @@ def measure(tool, body, folder, tolerance):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--output", default="simplify.csv", type=pathlib.Path)
-    parser.add_argument("--tolerance", default="2e-6", help="of the refined files, whose coordinates are in single precision")
+    parser.add_argument("--tolerance", default="2e-6", help="of the refined files")
     options = parser.parse_args()
     tool = next((path for path in sorted((ROOT / "build").rglob("mesh_tool")) if path.is_file()), None)
     if tool is None:

@@ -133,6 +133,30 @@ TEST_F(DistanceQuery, TakesAFileOfStackedBoxesForOneSolid) {
   }
 }
 
+TEST_F(DistanceQuery, ConcavePolygonsAreTheBodyThatIsCutByHand) {
+  const std::string cases = CONCAVE_DISTANCE_TEST_DATA "/mesh/cases/";
+  const auto query = [&](const std::string& mesh) {
+    EXPECT_EQ(run("--mesh-a " + cases + mesh + " --mesh-b " + cases + "probe.obj --poses " + cases +
+                  "poses.csv --output out.csv"),
+              0)
+        << log();
+    return answers();
+  };
+  // A cube of side 0.02 beside an L of boxes: closed form.
+  const std::vector<Row> by_hand = query("L_triangles.obj");
+  ASSERT_EQ(by_hand.size(), 6U);
+  EXPECT_NEAR(number(by_hand[0], "distance"), 0.24, 1e-12);
+  EXPECT_NEAR(number(by_hand[5], "distance"), 0.19, 1e-12);
+  for (const std::string mesh : {"concave_L.obj", "concave_L.ply"}) {
+    const std::vector<Row> rows = query(mesh);
+    ASSERT_EQ(rows.size(), by_hand.size());
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      EXPECT_NEAR(number(rows[i], "distance"), number(by_hand[i], "distance"), 1e-12) << mesh << " " << i;
+      EXPECT_EQ(rows[i].at("status"), by_hand[i].at("status")) << mesh << " " << i;
+    }
+  }
+}
+
 TEST_F(DistanceQuery, AnswersEveryLineInOrder) {
   ASSERT_EQ(runBoxes(""), 0) << log();
   const std::string text = test::contentOf(folder_.path("out.csv"));

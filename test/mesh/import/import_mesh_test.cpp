@@ -193,7 +193,7 @@ TEST(ImportMesh, RefusesFilesThatBreakOff) {
   std::string binary = contentOf(binary_path);
   errorOf(folder.write("binary.stl", binary.substr(0, binary.size() - 20)));
   errorOf(folder.write("header.stl", binary.substr(0, 60)));
-  errorOf(folder.write("longer.stl", binary + "xx"));
+  errorOf(folder.write("longer.stl", binary + std::string(50, 'x')));  // as long as another facet
   binary.replace(0, 5, "solid");
   errorOf(folder.write("binary_solid.stl", binary.substr(0, binary.size() - 50)));
 
@@ -255,14 +255,29 @@ TEST(ImportMesh, RefusesCorruptFiles) {
 
 TEST(ImportMesh, RefusesABodyWhoseShapeSinglePrecisionLoses) {
   const TemporaryFolder folder;
-  const auto tetrahedron_at = [&](const std::string& x, const std::string& next_x) {
-    return folder.write("far.obj", "v " + x + " 0 0\nv " + next_x + " 0 0\nv " + x + " 1 0\nv " + x +
-                                       " 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+  const auto box_at = [&](double x) {
+    TriangleSoup box;
+    appendTransformed(box, {makeBox({1, 1, 1}).vertices(), {{0, 1, 2}, {1, 2, 3}, {2, 3, 4}}},
+                      Eigen::Isometry3d(Eigen::Translation3d(x, 0, 0)));
+    const std::string path = folder.path("far.stl");
+    exportMesh(weldEqualVertices(box, "box"), path);
+    return path;
   };
-  EXPECT_EQ(importMesh(tetrahedron_at("10000", "10001")).triangles.size(), 4U);
-  EXPECT_NE(errorOf(tetrahedron_at("1000000", "1000001")).find("seven digits"), std::string::npos);
-  EXPECT_NE(errorOf(tetrahedron_at("1000000000000000", "1000000000000001")).find("seven digits"),
-            std::string::npos);
+  EXPECT_EQ(importMesh(box_at(1e4)).triangles.size(), 3U);
+  EXPECT_NE(errorOf(box_at(1e6)).find("seven digits"), std::string::npos);
+  EXPECT_NE(errorOf(box_at(1e15)).find("seven digits"), std::string::npos);
+  const std::string far_dae = folder.write(
+      "far.dae", replaced(contentOf(fixture("tetrahedron.dae")), "-250 0 0 -250 -500 0 750 0 0 -250 0 1500",
+                          "1e9 0 0 1e9 -500 0 1000001000 0 0 1e9 0 1500"));
+  EXPECT_NE(errorOf(far_dae).find("seven digits"), std::string::npos);
+}
+
+TEST(ImportMesh, ReadsAllDigitsOfATextFarFromItsOrigin) {
+  const TemporaryFolder folder;
+  const std::string path =
+      folder.write("far.obj", "v 1e15 0 0\nv 1000000000000001 0.1 0\nv 1e15 1 0\nf 1 2 3\n");
+  const TriangleSoup soup = importMesh(path);
+  EXPECT_EQ(soup.vertices[1], Eigen::Vector3d(1000000000000001.0, 0.1, 0.0));
 }
 
 TEST(ImportMesh, RefusesFilesWithoutFaces) {

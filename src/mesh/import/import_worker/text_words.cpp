@@ -1,0 +1,108 @@
+#include "text_words.h"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <system_error>
+
+namespace concave_distance::detail {
+namespace {
+
+constexpr std::string_view kBlanks = " \t\v\f";
+constexpr std::string_view kEndsOfWord = " \t\v\f\r\n";
+constexpr std::string_view kEndsOfLine = "\r\n";
+
+std::string_view withoutPlus(std::string_view word) {
+  // from_chars reads no plus sign.
+  if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
+  return word;
+}
+
+}  // namespace
+
+void TextWords::passBlanks() {
+  at_ = std::min(text_.find_first_not_of(kBlanks, at_), text_.size());
+}
+
+std::string_view TextWords::wordInLine() {
+  passBlanks();
+  const std::size_t end = std::min(text_.find_first_of(kEndsOfWord, at_), text_.size());
+  const std::string_view found = text_.substr(at_, end - at_);
+  at_ = end;
+  return found;
+}
+
+std::string_view TextWords::word() {
+  for (;;) {
+    const std::string_view found = wordInLine();
+    if (!found.empty() || at_ == text_.size()) return found;
+    line();
+  }
+}
+
+std::string_view TextWords::line() {
+  const std::size_t end = std::min(text_.find_first_of(kEndsOfLine, at_), text_.size());
+  const std::string_view found = text_.substr(at_, end - at_);
+  at_ = end;
+  if (at_ == text_.size()) return found;
+  at_ += text_.compare(at_, 2, "\r\n") == 0 ? 2 : 1;
+  ++line_number_;
+  return found;
+}
+
+bool parseNumber(std::string_view word, double& value) {
+  const std::string_view digits = withoutPlus(word);
+  const char* last = digits.data() + digits.size();
+  const auto [end, error] = std::from_chars(digits.data(), last, value);
+  if (error == std::errc::result_out_of_range && end == last) {
+    // Too large or too small: only the latter has a negative exponent or begins with 0.
+    const std::size_t exponent = digits.find_first_of("eE");
+    const bool is_small = exponent != std::string_view::npos ? digits.substr(exponent + 1).front() == '-'
+                                                             : digits.find("0.0") <= 1;
+    value = 0.0;
+    return is_small;
+  }
+  return error == std::errc() && end == last;
+}
+
+bool parseWhole(std::string_view word, std::int64_t& value) {
+  const std::string_view digits = withoutPlus(word);
+  const char* last = digits.data() + digits.size();
+  const auto [end, error] = std::from_chars(digits.data(), last, value);
+  return error == std::errc() && end == last;
+}
+
+std::string lowerCase(std::string_view text) {
+  std::string lower(text);
+  std::transform(lower.begin(), lower.end(), lower.begin(),
+                 [](unsigned char c) { return static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c); });
+  return lower;
+}
+
+bool equalsInAnyCase(std::string_view text, std::string_view lower) {
+  return text.size() == lower.size() &&
+         std::equal(text.begin(), text.end(), lower.begin(), [](char a, char b) {
+           return (a >= 'A' && a <= 'Z' ? static_cast<char>(a - 'A' + 'a') : a) == b;
+         });
+}
+
+std::string quoted(std::string_view text) {
+  std::string shown(text.substr(0, 40));
+  for (char& c : shown) {
+    if (c < ' ' || c > '~') c = '?';
+  }
+  return "'" + shown + "'";
+}
+
+std::string_view withoutByteOrderMark(std::string_view text) {
+  constexpr std::string_view kMark = "\xef\xbb\xbf";
+  if (text.substr(0, kMark.size()) == kMark) text.remove_prefix(kMark.size());
+  return text;
+}
+
+bool isPadding(std::string_view bytes) {
+  using namespace std::string_view_literals;
+  return bytes.find_first_not_of(" \t\r\n\v\f\0\x1a\xff"sv) == std::string_view::npos;
+}
+
+}  // namespace concave_distance::detail
