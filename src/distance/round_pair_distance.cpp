@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
+#include "cylinder_pair_search.h"
 #include "mesh/surface/round_geometry.h"
 #include "round_kernels.h"
 
@@ -14,6 +16,8 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr int kMostSupports = 200;
+// Distance and bound this close are both right, with room for the roundings of either.
+constexpr double kEnough = 0.5 * kRoundDistanceError;
 
 Vector3d unitOr(const Vector3d& vector, const Vector3d& other) {
   const double length = vector.norm();
@@ -52,13 +56,14 @@ class Simplex {
                        [&](const Corner& c) { return c.difference == difference; });
   }
 
-  /// Keeps the part nearest to the origin. False when the origin is inside.
-  bool reduce() {
+  /// Keeps the part nearest to the origin. False when the origin is inside, by more than `least` from each
+  /// face.
+  bool reduce(double least) {
     if (count_ < 4) {
       keep(nearestOf({0, std::min<std::size_t>(1, count_ - 1), count_ - 1}));
       return true;
     }
-    if (holdsOrigin()) return false;
+    if (holdsOrigin(least)) return false;
     constexpr std::array<std::array<std::size_t, 3>, 4> kFaces{{{0, 1, 2}, {0, 1, 3}, {0, 2, 3}, {1, 2, 3}}};
     Part best = nearestOf(kFaces[0]);
     for (std::size_t f = 1; f < kFaces.size(); ++f) {
@@ -88,13 +93,14 @@ class Simplex {
                                                         corners_[c[2]].difference})};
   }
 
-  bool holdsOrigin() const {
+  bool holdsOrigin(double least) const {
     for (std::size_t k = 0; k < 4; ++k) {
       const Vector3d& a = corners_[(k + 1) % 4].difference;
       const Vector3d normal =
           (corners_[(k + 2) % 4].difference - a).cross(corners_[(k + 3) % 4].difference - a);
       const double apex = normal.dot(corners_[k].difference - a);
-      if (apex * normal.dot(-a) < 0.0 || apex == 0.0) return false;
+      const double inside = std::copysign(1.0, apex) * normal.dot(-a);
+      if (!(std::min(inside, std::abs(apex)) > least * normal.norm())) return false;
     }
     return true;
   }
@@ -140,7 +146,10 @@ class Simplex {
   Vector3d nearest_ = Vector3d::Zero();
 };
 
-RoundPairDistance ofCylinders(const RoundShape& a, const RoundShape& b, const Eigen::Isometry3d& a_from_b) {
+/// The points of the difference nearest to the origin. Nothing where rounding hides whether they are: where
+/// faces or sides are nearly parallel a simplex of points on rims is as good as flat.
+std::optional<RoundPairDistance> bySupports(const RoundShape& a, const RoundShape& b,
+                                            const Eigen::Isometry3d& a_from_b, double allowed) {
   const auto support = [&](const Vector3d& direction) {
     Corner corner;
     corner.on_a = detail::supportPoint(a, -direction);
@@ -148,38 +157,38 @@ RoundPairDistance ofCylinders(const RoundShape& a, const RoundShape& b, const Ei
     corner.difference = corner.on_a - corner.on_b;
     return corner;
   };
-  const double scale = a_from_b.translation().norm() + detail::reachOf(a) + detail::reachOf(b);
-  const double allowed = kRoundDistanceError * scale;
   RoundPairDistance result;
   Simplex simplex;
   simplex.add(support(-unitOr(a_from_b.translation(), Vector3d::UnitX())));
-  simplex.reduce();
+  simplex.reduce(allowed);
   for (int i = 0; i < kMostSupports; ++i) {
     const double distance = simplex.nearest().norm();
-    if (distance <= allowed) {
-      result.overlap = true;
-      break;
-    }
+    if (distance <= allowed) return std::nullopt;
     const Vector3d direction = simplex.nearest() / distance;
     const Corner corner = support(direction);
     result.lower_bound = std::max(result.lower_bound, direction.dot(corner.difference));
     if (distance - result.lower_bound <= allowed || simplex.holds(corner.difference)) break;
     simplex.add(corner);
-    if (!simplex.reduce()) {
+    if (!simplex.reduce(allowed)) {
       result.overlap = true;
-      break;
+      result.lower_bound = 0.0;
+      simplex.points(result.point_a, result.point_b);
+      return result;
     }
   }
   simplex.points(result.point_a, result.point_b);
-  if (!result.overlap) {
-    // The corners' shares lose digits in a flat simplex: back onto the surfaces, which brings them no
-    // farther.
-    result.point_a = detail::surfacePoint(a, result.point_b);
-    result.point_b = a_from_b * detail::surfacePoint(b, a_from_b.inverse(Eigen::Isometry) * result.point_a);
-    result.distance = (result.point_b - result.point_a).norm();
-  }
-  if (result.overlap) result.lower_bound = 0.0;
+  // The corners' shares lose digits in a flat simplex: back onto the surfaces, which brings them no farther.
+  result.point_a = detail::surfacePoint(a, result.point_b);
+  result.point_b = a_from_b * detail::surfacePoint(b, a_from_b.inverse(Eigen::Isometry) * result.point_a);
+  result.distance = (result.point_b - result.point_a).norm();
+  if (!(result.distance - result.lower_bound <= allowed)) return std::nullopt;
   return result;
+}
+
+RoundPairDistance ofCylinders(const RoundShape& a, const RoundShape& b, const Eigen::Isometry3d& a_from_b) {
+  const double scale = a_from_b.translation().norm() + detail::reachOf(a) + detail::reachOf(b);
+  const std::optional<RoundPairDistance> found = bySupports(a, b, a_from_b, kEnough * scale);
+  return found ? *found : detail::searchCylinders(a, b, a_from_b);
 }
 
 }  // namespace

@@ -18,6 +18,19 @@ using Eigen::Vector3d;
 // More patches than these are not compared each with each.
 constexpr std::size_t kMostPatches = 32;
 
+/// A triangle enters the solid where one of its edges does, also where rounding hides it: the triangle across
+/// that edge enters, and both bound the region.
+LowestPoint lowestOf(const RoundShape& shape, const TrianglePoints& corners) {
+  LowestPoint lowest = lowestOnTriangle(shape, corners);
+  if (lowest.value < 0.0 || lowest.value > kRoundDistanceError * (lowest.point.norm() + reachOf(shape)))
+    return lowest;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const LowestPoint edge = lowestOnEdge(shape, corners[k], corners[(k + 1) % 3]);
+    if (edge.value < lowest.value) lowest = edge;
+  }
+  return lowest;
+}
+
 }  // namespace
 
 void RoundOverlap::find(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
@@ -64,7 +77,7 @@ bool RoundOverlap::collect(WorkLimit& limit) {
     stack_.pop_back();
     const Vector3d middle = pair_->inShape(node.box.center());
     const Vector3d out = pair_->shape_from_mesh.transpose() * outwardDirection(shape, middle);
-    if (signedDistance(shape, middle) - 0.5 * out.cwiseAbs().dot(node.box.sizes()) >= 0.0) continue;
+    if (signedDistance(shape, middle) - 0.5 * out.cwiseAbs().dot(node.box.sizes()) > rounding_) continue;
     if (node.count == 0) {
       stack_.push_back(node.first);
       stack_.push_back(index + 1);
@@ -73,8 +86,8 @@ bool RoundOverlap::collect(WorkLimit& limit) {
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
       const TriangleIndex triangle = mesh.tree().order()[i];
       const TrianglePoints corners = pair_->triangleInShape(triangle);
-      if (lowerBoundOnTriangle(shape, corners) >= 0.0 || mesh.joints().isHidden(triangle)) continue;
-      const LowestPoint lowest = lowestOnTriangle(shape, corners);
+      if (lowerBoundOnTriangle(shape, corners) > rounding_ || mesh.joints().isHidden(triangle)) continue;
+      const LowestPoint lowest = lowestOf(shape, corners);
       const Vector3d& normal = mesh.topology().triangle_normals[triangle.value];
       if (lowest.value >= 0.0 || normal.isZero()) continue;
       const bool leaves = std::any_of(corners.begin(), corners.end(), [&](const Vector3d& corner) {
@@ -122,7 +135,7 @@ void RoundOverlap::joinEntries() {
       const std::uint32_t other = place_of_triangle_[across.value];
       if (root(other) == root(static_cast<std::uint32_t>(i))) continue;
       const TrianglePoints& corners = entries_[i].corners;
-      if (lowestOnSegment(pair_->shape, corners[k], corners[(k + 1) % 3]).value < 0.0)
+      if (lowestOnEdge(pair_->shape, corners[k], corners[(k + 1) % 3]).value < 0.0)
         unite(static_cast<std::uint32_t>(i), other);
     }
   }

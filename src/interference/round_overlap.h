@@ -9,6 +9,7 @@
 #include "distance/round_certificate.h"
 #include "round_section.h"
 #include "round_volume.h"
+#include "shallow_round_volume.h"
 
 namespace concave_distance::detail {
 
@@ -59,7 +60,11 @@ class RoundOverlap {
   void gatherSamples(Group& group);
   void addRegion(Group group, bool is_only, Interference& result);
   void measureVolume(const Group& group, bool is_only, InterferenceRegion& region);
-  void addCore(const Group& group, bool is_only, RoundVolume& volume);
+  void measureShallowVolume(const Group& group, bool is_only, int side, InterferenceRegion& region);
+  void setVolume(double volume, const Eigen::Vector3d& moment, double area, InterferenceRegion& region) const;
+  double leastFromCore(int side) const;
+  int sideOf() const;
+  void addCore(const Group& group, bool is_only, ShallowRoundVolume& volume);
   bool holdsCentre(const Group& group, bool is_only);
   void addLoops(const Group& group, Interference& result, InterferenceRegion& region);
   void chooseNormal(const Group& group, double surface, const Eigen::Vector3d& vector_area,
@@ -91,6 +96,7 @@ class RoundOverlap {
   std::vector<std::size_t> fan_ends_;       ///< by entry of the region
   std::vector<std::size_t> patch_samples_;  ///< where those of each of its patches begin, and their end
   RoundSection section_;
+  RoundVolume volume_;
 };
 
 }  // namespace concave_distance::detail

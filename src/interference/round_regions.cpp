@@ -18,6 +18,13 @@ using Eigen::Vector3d;
 constexpr double kCancels = 1e-6;
 // Triangles wholly inside have one sample each where a region has more triangles than these.
 constexpr std::ptrdiff_t kManyTriangles = 400;
+// Of a region that is a smaller share of the solid, or leaves a smaller share of it, roundings of the solid's
+// volume are worth more than the errors of ShallowRoundVolume, which needs a surface this share of the radius
+// from the core.
+constexpr double kSmallShare = 1e-8;
+constexpr double kFarFromCore = 0.5;
+// A share this small may be rounded below 0, and then seems to be all of the solid.
+constexpr double kRoundedAway = 1e-12;
 
 Vector3d unitOr(const Vector3d& vector, const Vector3d& other) {
   const double length = vector.norm();
@@ -53,10 +60,11 @@ void RoundOverlap::gatherSamples(Group& group) {
   patch_samples_.clear();
   fan_.clear();
   fan_ends_.clear();
+  volume_.begin(pair_->shape);
   const bool sparse = group.last - group.first > kManyTriangles;
   for (const Entry* entry = group.first; entry != group.last; ++entry) {
     if (entry == group.first || entry->patch != (entry - 1)->patch) patch_samples_.push_back(samples_.size());
-    section_.integrate(pair_->shape, entry->corners, entry->lowest, sparse, samples_, fan_);
+    section_.integrate(pair_->shape, entry->corners, entry->lowest, sparse, samples_, fan_, volume_);
     fan_ends_.push_back(fan_.size());
   }
   patch_samples_.push_back(samples_.size());
@@ -104,28 +112,58 @@ void RoundOverlap::addRegion(Group group, bool is_only, Interference& result) {
 }
 
 void RoundOverlap::measureVolume(const Group& group, bool is_only, InterferenceRegion& region) {
+  volume_.finish();
+  const double rest = std::min(volume_.share(), 1.0 - volume_.share());
+  const int side = sideOf();
+  if (rest < kSmallShare && leastFromCore(side) > kFarFromCore * pair_->shape.radius)
+    return measureShallowVolume(group, is_only, side, region);
+  const bool is_rounded_away = rest < kRoundedAway && volume_.share() > 0.5 && !holdsCentre(group, is_only);
+  setVolume(is_rounded_away ? 0.0 : volume_.volume(), volume_.moment(), volume_.area(), region);
+}
+
+void RoundOverlap::setVolume(double volume, const Vector3d& moment, double area,
+                             InterferenceRegion& region) const {
+  region.volume = std::clamp(volume, 0.0, volumeOf(pair_->shape));
+  if (volume > 0.0) region.centroid_in_a = inA(moment / volume);
+  (shape_is_a_ ? region.surface_area_a : region.surface_area_b) = area;
+}
+
+/// Of a cylinder the end that all samples are well on the way to, 1 or -1; else 0.
+int RoundOverlap::sideOf() const {
+  if (pair_->shape.kind != RoundKind::Cylinder) return 0;
   double least = std::numeric_limits<double>::infinity();
   double most = -least;
   for (const RoundSample& sample : samples_) {
     least = std::min(least, sample.point.z());
     most = std::max(most, sample.point.z());
   }
-  const bool is_cylinder = pair_->shape.kind == RoundKind::Cylinder;
   const double margin = 0.05 * pair_->shape.half_length;
-  const int side = is_cylinder && least > margin ? 1 : is_cylinder && most < -margin ? -1 : 0;
-  const bool whole = std::none_of(group.first, group.last, [](const Entry& entry) { return entry.leaves; });
-  // A shell that faces inwards is a cavity in what holds the solid.
-  const bool encloses = whole && !holdsCentre(group, is_only);
-  RoundVolume volume(pair_->shape, side, encloses);
+  return least > margin ? 1 : most < -margin ? -1 : 0;
+}
+
+/// How far the samples stay from where the fields of ShallowRoundVolume are singular, metres.
+double RoundOverlap::leastFromCore(int side) const {
+  double least = std::numeric_limits<double>::infinity();
+  if (side != 0) return least;
+  for (const RoundSample& sample : samples_) {
+    const Vector3d out = sample.point - corePoint(pair_->shape, sample.point);
+    least = std::min(least, pair_->shape.kind == RoundKind::Cylinder
+                                ? std::hypot(sample.point.x(), sample.point.y())
+                                : out.norm());
+  }
+  return least;
+}
+
+void RoundOverlap::measureShallowVolume(const Group& group, bool is_only, int side,
+                                        InterferenceRegion& region) {
+  ShallowRoundVolume volume(pair_->shape, side);
   for (const RoundSample& sample : samples_) volume.add(sample);
-  if (!encloses) addCore(group, is_only, volume);
-  region.volume = std::clamp(volume.volume(), 0.0, volumeOf(pair_->shape));
-  if (volume.volume() > 0.0) region.centroid_in_a = inA(volume.moment() / volume.volume());
-  (shape_is_a_ ? region.surface_area_a : region.surface_area_b) = volume.area();
+  addCore(group, is_only, volume);
+  setVolume(volume.volume(), volume.moment(), volume.area(), region);
 }
 
 /// Parts of the axis inside the mesh belong to the region that their ends are on, or that the centre is in.
-void RoundOverlap::addCore(const Group& group, bool is_only, RoundVolume& volume) {
+void RoundOverlap::addCore(const Group& group, bool is_only, ShallowRoundVolume& volume) {
   const double h = pair_->shape.half_length;
   if (h == 0.0) {
     if (holdsCentre(group, is_only)) volume.addCore(0.0, 0.0);
@@ -296,9 +334,7 @@ void RoundOverlap::addSwallowedShape(Interference& result) {
   region.volume = volumeOf(shape);
   region.centroid_in_a = inA(Vector3d::Zero());
   region.contact_area = 0.0;
-  RoundVolume whole(shape, 0);
-  whole.addCore(-shape.half_length, shape.half_length);
-  (shape_is_a_ ? region.surface_area_a : region.surface_area_b) = whole.area();
+  (shape_is_a_ ? region.surface_area_a : region.surface_area_b) = surfaceAreaOf(shape);
   (shape_is_a_ ? region.surface_area_b : region.surface_area_a) = 0.0;
   const Eigen::AlignedBox3d& box = pair_->mesh.surface().boundingBox();
   region.depth_along_normal = std::numeric_limits<double>::infinity();

@@ -8,6 +8,7 @@
 #include "gauss_points.h"
 #include "mesh/surface/round_geometry.h"
 #include "round_lines.h"
+#include "round_volume.h"
 
 namespace concave_distance::detail {
 namespace {
@@ -38,35 +39,31 @@ constexpr double kWidestChord = 0.95 * kPi;
 
 void RoundSection::integrate(const RoundShape& shape, const TrianglePoints& triangle,
                              const LowestPoint& lowest, bool sparse, std::vector<RoundSample>& samples,
-                             std::vector<TrianglePoints>& fan) {
+                             std::vector<TrianglePoints>& fan, RoundVolume& volume) {
   shape_ = &shape;
   triangle_ = triangle;
   samples_ = &samples;
   fan_ = &fan;
+  volume_ = &volume;
   centre_ = lowest.point;
   core_ = std::max(1e-3 * shape.radius, (lowest.point - corePoint(shape, lowest.point)).norm());
   normal_ = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);
   const double twice_area = normal_.norm();
   if (!(twice_area > 0.0)) return;
   normal_ /= twice_area;
-  axis_u_ = normal_.unitOrthogonal();
-  axis_v_ = normal_.cross(axis_u_);
   const bool inside = std::all_of(triangle.begin(), triangle.end(), [&](const Vector3d& corner) {
     return signedDistance(shape, corner) <= 0.0;
   });
   if (inside) return addInside(sparse);
   if (shape.kind != RoundKind::Sphere && core_ > kFarCore * shape.radius) moveCentre();
-  findPieces();
-  if (piece_count_ == 0) return addArc(0.0, 2.0 * kPi, {border(0.0), border(0.0)});
-  for (std::size_t k = 0; k < piece_count_; ++k) {
-    addStraight(pieces_[k]);
-    const Vector3d& end = pieces_[k].to;
-    const Vector3d& next = pieces_[(k + 1) % piece_count_].from;
-    if (end == next) continue;
-    const double from = angleOf(end);
-    double to = angleOf(next);
-    while (to <= from) to += 2.0 * kPi;
-    addArc(from, to, {end, next});
+  outline_.find(shape, triangle, normal_, centre_);
+  for (const RoundOutline::Straight& straight : outline_.straights()) {
+    volume.addTriangle({centre_, straight.from, straight.to});
+    addStraight(straight);
+  }
+  for (const RoundOutline::Arc& arc : outline_.arcs()) {
+    volume.addSector(outline_, arc);
+    addArc(arc);
   }
 }
 
@@ -76,7 +73,7 @@ void RoundSection::integrate(const RoundShape& shape, const TrianglePoints& tria
 void RoundSection::moveCentre() {
   const Vector3d foot = normal_.dot(centre_) * normal_;
   const Vector3d axis = Vector3d::UnitZ() - normal_.z() * normal_;
-  const Vector3d along = axis.norm() > kShortestAxis ? Vector3d(axis.normalized()) : axis_u_;
+  const Vector3d along = axis.norm() > kShortestAxis ? Vector3d(axis.normalized()) : normal_.unitOrthogonal();
   const double reach = 2.0 * reachOf(*shape_);
   const LowestPoint lowest = lowestOnSegment(*shape_, foot - reach * along, foot + reach * along);
   if (lowest.value >= 0.0) return;
@@ -87,30 +84,13 @@ void RoundSection::moveCentre() {
   if (signedDistance(*shape_, nearest) < 0.0) centre_ = nearest;
 }
 
-// The signed distance is convex along an edge: below 0 between two crossings at most.
-void RoundSection::findPieces() {
-  piece_count_ = 0;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Vector3d& from = triangle_[k];
-    const Vector3d& to = triangle_[(k + 1) % 3];
-    const LowestPoint lowest = lowestOnSegment(*shape_, from, to);
-    if (lowest.value >= 0.0) continue;
-    const auto end = [&](const Vector3d& corner) {
-      const Vector3d way = corner - lowest.point;
-      const double length = way.norm();
-      if (signedDistance(*shape_, corner) <= 0.0 || !(length > 0.0)) return corner;
-      return Vector3d(lowest.point + wayOut(*shape_, lowest.point, way / length, length) / length * way);
-    };
-    pieces_[piece_count_++] = {end(from), end(to)};
-  }
-}
-
 void RoundSection::addInside(bool sparse) {
   const Vector3d& a = triangle_[0];
   const Vector3d& b = triangle_[1];
   const Vector3d& c = triangle_[2];
   const double area = 0.5 * (b - a).cross(c - a).norm();
   fan_->push_back(triangle_);
+  volume_->addTriangle(triangle_);
   if (sparse) return add((a + b + c) / 3.0, area);
   const double size =
       std::sqrt(std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()}));
@@ -130,7 +110,7 @@ void RoundSection::addInside(bool sparse) {
   }
 }
 
-void RoundSection::addStraight(const Piece& piece) {
+void RoundSection::addStraight(const RoundOutline::Straight& piece) {
   const Vector3d along = piece.to - piece.from;
   const double twice_area = (piece.from - centre_).cross(along).dot(normal_);
   if (!(twice_area > 0.0)) return;
@@ -155,55 +135,6 @@ void RoundSection::addStraight(const Piece& piece) {
   }
 }
 
-double RoundSection::angleOf(const Vector3d& point) const {
-  const Vector3d way = point - centre_;
-  return std::atan2(way.dot(axis_v_), way.dot(axis_u_));
-}
-
-/// How far the triangle goes from the centre.
-double RoundSection::edgeWay(const Vector3d& direction) const {
-  double way = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Vector3d outward = (triangle_[(k + 1) % 3] - triangle_[k]).cross(normal_);
-    const double rate = outward.dot(direction);
-    if (rate > 0.0) way = std::min(way, std::max(0.0, outward.dot(triangle_[k] - centre_) / rate));
-  }
-  return way;
-}
-
-/// Angles at which the rims of the solid's pieces cross the triangle's plane.
-void RoundSection::findBends(double from, double to) {
-  bend_count_ = 0;
-  bends_[bend_count_++] = from;
-  const double across = std::hypot(normal_.x(), normal_.y());
-  if (shape_->kind != RoundKind::Sphere && across > 0.0) {
-    for (const double end : {-shape_->half_length, shape_->half_length}) {
-      const double level = (normal_.dot(centre_) - normal_.z() * end) / across;
-      const double half_squared = shape_->radius * shape_->radius - level * level;
-      if (half_squared <= 0.0) continue;
-      const Vector3d out(normal_.x() / across, normal_.y() / across, 0.0);
-      const Vector3d side(-out.y(), out.x(), 0.0);
-      for (const double half : {-std::sqrt(half_squared), std::sqrt(half_squared)}) {
-        double angle = angleOf(level * out + half * side + end * Vector3d::UnitZ());
-        while (angle <= from) angle += 2.0 * kPi;
-        if (angle < to) bends_[bend_count_++] = angle;
-      }
-    }
-  }
-  std::sort(bends_.begin() + 1, bends_.begin() + static_cast<std::ptrdiff_t>(bend_count_));
-  bends_[bend_count_++] = to;
-}
-
-Vector3d RoundSection::border(double angle) const {
-  return towards(std::cos(angle) * axis_u_ + std::sin(angle) * axis_v_);
-}
-
-/// Where the solid ends, or the triangle.
-Vector3d RoundSection::towards(const Vector3d& direction) const {
-  return centre_ + wayOut(*shape_, centre_, direction, std::min(2.0 * reachOf(*shape_), edgeWay(direction))) *
-                       direction;
-}
-
 /// Whether the depth is as good as quadratic between two points.
 bool RoundSection::bendsLittle(const Vector3d& from, const Vector3d& to) const {
   const Vector3d way = to - from;
@@ -212,24 +143,16 @@ bool RoundSection::bendsLittle(const Vector3d& from, const Vector3d& to) const {
 }
 
 /// In parts along their chords: exact where the border is straight, as that of a cylinder on its side.
-/// @param ends the border's points at both angles
-void RoundSection::addArc(double from, double to, const Piece& ends) {
-  findBends(from, to);
-  Vector3d start = ends.from;
-  for (std::size_t b = 0; b + 1 < bend_count_; ++b) {
-    const double width = bends_[b + 1] - bends_[b];
-    const Vector3d last = b + 2 == bend_count_ ? ends.to : border(bends_[b + 1]);
-    if (width < kWidestChord && isNearlyStraight(start, last)) {
-      addArcPart(GaussRule(kGaussThree), start, last);
-      start = last;
-      continue;
-    }
-    const auto parts = std::max(1, static_cast<int>(std::ceil(width / kWidestArc - 1e-9)));
-    for (int part = 0; part < parts; ++part) {
-      const Vector3d end = part + 1 == parts ? last : border(bends_[b] + (part + 1) * width / parts);
-      addArcPart(GaussRule(kGaussFive), start, end);
-      start = end;
-    }
+void RoundSection::addArc(const RoundOutline::Arc& arc) {
+  const double width = arc.to - arc.from;
+  if (width < kWidestChord && isNearlyStraight(arc.start, arc.end))
+    return addArcPart(GaussRule(kGaussThree), arc.start, arc.end);
+  const auto parts = std::max(1, static_cast<int>(std::ceil(width / kWidestArc - 1e-9)));
+  Vector3d start = arc.start;
+  for (int part = 1; part <= parts; ++part) {
+    const Vector3d end = part == parts ? arc.end : outline_.border(arc.from + part * width / parts);
+    addArcPart(GaussRule(kGaussFive), start, end);
+    start = end;
   }
 }
 
@@ -237,7 +160,7 @@ bool RoundSection::isNearlyStraight(const Vector3d& start, const Vector3d& end) 
   const Vector3d middle = 0.5 * (start + end) - centre_;
   const double length = middle.norm();
   return length > 0.0 && bendsLittle(start, end) &&
-         (towards(middle / length) - centre_).norm() <= (1.0 + kBeyondChord) * length;
+         (outline_.towards(middle / length) - centre_).norm() <= (1.0 + kBeyondChord) * length;
 }
 
 void RoundSection::addArcPart(const GaussRule& rule, const Vector3d& start, const Vector3d& end) {
@@ -247,7 +170,7 @@ void RoundSection::addArcPart(const GaussRule& rule, const Vector3d& start, cons
     const Vector3d chord = start + at.at * (end - start) - centre_;
     const double length = chord.norm();
     Vector3d& point = arc_points_[count++];
-    point = length > 0.0 ? towards(chord / length) : centre_;
+    point = length > 0.0 ? outline_.towards(chord / length) : centre_;
     if (length > 0.0)
       addRay(point, at.weight * twice_area * (point - centre_).squaredNorm() / (length * length));
   }

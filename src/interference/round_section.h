@@ -6,8 +6,11 @@
 
 #include "distance/round_kernels.h"
 #include "gauss_points.h"
+#include "round_outline.h"
 
 namespace concave_distance::detail {
+
+class RoundVolume;
 
 /// A point of a surface inside a round solid, in the solid's frame.
 struct RoundSample {
@@ -25,50 +28,35 @@ struct RoundSample {
 /// or 6.
 class RoundSection {
  public:
-  /// Appends the samples, and to `fan` triangles that cover the part: corners on the border, chords of it.
+  /// Appends the samples, to `fan` triangles that cover the part: corners on the border, chords of it, and
+  /// the part itself to `volume`.
   /// @param lowest of the triangle (lowestOnTriangle), inside
   /// @param sparse a triangle wholly inside has one sample: it is one of very many
   void integrate(const RoundShape& shape, const TrianglePoints& triangle, const LowestPoint& lowest,
-                 bool sparse, std::vector<RoundSample>& samples, std::vector<TrianglePoints>& fan);
+                 bool sparse, std::vector<RoundSample>& samples, std::vector<TrianglePoints>& fan,
+                 RoundVolume& volume);
 
  private:
-  /// Of the boundary, counterclockwise.
-  struct Piece {
-    Eigen::Vector3d from;
-    Eigen::Vector3d to;
-  };
-
   void moveCentre();
-  void findPieces();
   void addInside(bool sparse);
-  void addStraight(const Piece& piece);
+  void addStraight(const RoundOutline::Straight& piece);
   bool bendsLittle(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const;
-  void addArc(double from, double to, const Piece& ends);
+  void addArc(const RoundOutline::Arc& arc);
   void addArcPart(const GaussRule& rule, const Eigen::Vector3d& start, const Eigen::Vector3d& end);
   bool isNearlyStraight(const Eigen::Vector3d& start, const Eigen::Vector3d& end) const;
   void addToFan(const Eigen::Vector3d& start, std::size_t count, const Eigen::Vector3d& end);
   void addRay(const Eigen::Vector3d& end, double weight);
   void add(const Eigen::Vector3d& point, double area);
-  void findBends(double from, double to);
-  Eigen::Vector3d border(double angle) const;
-  Eigen::Vector3d towards(const Eigen::Vector3d& direction) const;
-  double angleOf(const Eigen::Vector3d& point) const;
-  double edgeWay(const Eigen::Vector3d& direction) const;
-
   const RoundShape* shape_ = nullptr;
   TrianglePoints triangle_;
   Eigen::Vector3d centre_;
   double core_ = 0.0;  ///< distance of the centre from the core, metres
   Eigen::Vector3d normal_;
-  Eigen::Vector3d axis_u_;
-  Eigen::Vector3d axis_v_;
   std::vector<RoundSample>* samples_ = nullptr;
   std::vector<TrianglePoints>* fan_ = nullptr;
+  RoundVolume* volume_ = nullptr;
+  RoundOutline outline_;
   std::array<Eigen::Vector3d, kGaussFive.size()> arc_points_;
-  std::array<Piece, 3> pieces_;
-  std::size_t piece_count_ = 0;
-  std::array<double, 8> bends_;
-  std::size_t bend_count_ = 0;
 };
 
 }  // namespace concave_distance::detail

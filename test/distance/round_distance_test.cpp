@@ -13,6 +13,7 @@
 #include "mesh/surface/round_geometry.h"
 #include "support/body_pairs.h"
 #include "support/round_bodies.h"
+#include "support/wide_cylinder_distance.h"
 
 namespace concave_distance {
 namespace {
@@ -20,7 +21,7 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using test::roundShape;
-using WideVector = Eigen::Matrix<long double, 3, 1>;
+using test::WideVector;
 
 std::vector<RoundShape> allShapes() {
   return {test::sphereOf(0.4), roundShape(RoundKind::Capsule, 0.2, 0.5),
@@ -155,6 +156,56 @@ TEST(RoundPairDistance, CylindersAnyhowAreBracketedAndAgreeWithFineMeshes) {
     EXPECT_NEAR((found.point_b - found.point_a).norm(), found.distance, 1e-13) << i;
   }
   EXPECT_GT(apart, 50);
+}
+
+/// Stacked, side by side or anyhow, with axes and faces as nearly parallel as doubles can have them.
+Isometry3d nearlyAligned(RandomEngine& engine, const RoundShape& a, const RoundShape& b, int i) {
+  const auto tiny = [&] { return std::pow(10.0, test::uniformIn(engine, -17.0, -3.0)); };
+  const Vector3d around = test::uniformInCube(engine, 1.0).normalized();
+  Isometry3d pose(Eigen::AngleAxisd(i % 11 == 0 ? 0.0 : tiny(), around));
+  if (i % 4 == 3) pose = pose * Eigen::AngleAxisd(0.5 * kPi, Vector3d::UnitX());
+  const double gap = std::pow(10.0, test::uniformIn(engine, -15.0, 0.5));
+  const double aside = (i % 2 == 0 ? tiny() : 1.0) * (a.radius + b.radius);
+  pose.translation() = aside * test::uniformInCube(engine, 1.0);
+  const double reach = i % 4 == 3 ? b.radius : b.half_length;
+  if (i % 4 != 2) {
+    pose.translation().z() = a.half_length + reach + gap;
+  } else {
+    pose.translation().x() = a.radius + b.radius + gap;
+  }
+  return pose;
+}
+
+TEST(RoundPairDistance, NearlyAlignedCylindersAreWithinTheBoundEitherWayRound) {
+  RandomEngine engine(33);
+  double worst = 0.0;
+  double worst_bound = 0.0;
+  double worst_points = 0.0;
+  int apart = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const auto size = [&] { return std::pow(10.0, test::uniformIn(engine, -2.0, 0.0)); };
+    const RoundShape a = roundShape(RoundKind::Cylinder, size(), size());
+    const RoundShape b = roundShape(RoundKind::Cylinder, size(), size());
+    const Isometry3d pose = i % 8 == 7 ? test::randomPose(engine, 3.0) : nearlyAligned(engine, a, b, i);
+    const auto truth = static_cast<double>(test::WideCylinderDistance(a, b, pose).find());
+    const double scale = pose.translation().norm() + detail::reachOf(a) + detail::reachOf(b);
+    if (truth > kRoundDistanceError * scale) ++apart;
+    const RoundPairDistance swapped = roundPairDistance(b, a, pose.inverse(Eigen::Isometry));
+    for (const RoundPairDistance& found : {roundPairDistance(a, b, pose), swapped}) {
+      const double error = std::abs(found.distance - std::max(0.0, truth)) / scale;
+      const double bound = std::abs(found.lower_bound - std::max(0.0, truth)) / scale;
+
+      worst = std::max(worst, error);
+      worst_bound = std::max(worst_bound, bound);
+      if (found.overlap) continue;
+      worst_points =
+          std::max({worst_points, std::abs((found.point_b - found.point_a).norm() - found.distance) / scale});
+    }
+  }
+  EXPECT_GT(apart, 2000);
+  EXPECT_LE(worst, kRoundDistanceError);
+  EXPECT_LE(worst_bound, kRoundDistanceError);
+  EXPECT_LE(worst_points, kRoundDistanceError);
 }
 
 double everyTriangle(const RoundAndMesh& pair) {

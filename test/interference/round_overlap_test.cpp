@@ -52,7 +52,7 @@ TEST(RoundOverlap, ABallInAPlaneIsACap) {
     const InterferenceRegion& region = found.regions[0];
     const double h = r - depth;
     const double rim = std::sqrt(r * r - h * h);
-    const double tolerance = depth < 0.2 ? 1e-5 : 2e-3;
+    const double tolerance = 1e-5;
     EXPECT_NEAR(region.surface_area_a, kPi * rim * rim, 1e-5 * rim * rim) << depth;
     EXPECT_NEAR(region.contact_area, kPi * rim * rim, 1e-5 * rim * rim) << depth;
     expectFacetsCover(found, region, false, kPi * rim * rim);

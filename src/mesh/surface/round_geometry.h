@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/pi.h"
 #include "concave_distance/mesh/surface/round_shape.h"
 
 namespace concave_distance::detail {
@@ -77,6 +78,12 @@ inline Eigen::Vector3d supportPoint(const RoundShape& shape, const Eigen::Vector
 inline double reachOf(const RoundShape& shape) {
   return shape.kind == RoundKind::Cylinder ? std::hypot(shape.radius, shape.half_length)
                                            : shape.radius + shape.half_length;
+}
+
+/// Of the solid's surface, m^2.
+inline double surfaceAreaOf(const RoundShape& shape) {
+  const double ends = shape.kind == RoundKind::Cylinder ? shape.radius : 2.0 * shape.radius;
+  return 2.0 * kPi * shape.radius * (ends + 2.0 * shape.half_length);
 }
 
 /// Of the solid's points from `p` (shape frame), metres.
