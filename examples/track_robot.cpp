@@ -10,6 +10,7 @@
 #include <iterator>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 int main(int argc, char** argv) try {
   using namespace concave_distance;
@@ -23,7 +24,9 @@ int main(int argc, char** argv) try {
   for (const SceneProblem& problem : scene.problems)
     std::printf("%s: %s\n", problem.where.c_str(), problem.message.c_str());
   const RobotPoses robot(urdf, argv[1]);
-  const std::string joint = robot.jointNames().at(1);
+  const std::vector<std::string> joints = robot.jointNames();
+  if (joints.empty()) throw std::runtime_error("no joint of the robot moves");
+  const std::string& joint = joints[joints.size() / 2];
 
   SceneTracker tracker;
   tracker.setScene(scene);
@@ -31,9 +34,10 @@ int main(int argc, char** argv) try {
     tracker.update(robot.of(scene, {{joint, 0.02 * step}}), 0.02 * step);
     const TrackedPair* nearest = nullptr;
     for (const auto& pair : tracker.pairs()) {
+      if (!pair->solved()) continue;  // its status is in pair->state
       if (nearest == nullptr || pair->solution.distance < nearest->solution.distance) nearest = pair.get();
     }
-    if (nearest == nullptr) break;
+    if (nearest == nullptr) throw std::runtime_error("no pair of the robot could be solved");
     std::printf("%s %+.2f: %s %.4f m, %zu niches\n", joint.c_str(), 0.02 * step,
                 nearest->origin->name.c_str(), nearest->solution.distance, nearest->solution.niches.size());
   }

@@ -1,12 +1,13 @@
 #include "csv_table.h"
 
-#include <charconv>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <string_view>
 #include <system_error>
 
 #include "concave_distance/base/error.h"
+#include "number_text.h"
 
 namespace concave_distance {
 namespace {
@@ -28,16 +29,13 @@ void splitLine(std::string_view line, std::vector<std::string_view>& cells) {
   }
 }
 
-double parseNumber(std::string_view cell, const std::string& column, const std::string& where) {
-  std::string_view digits = cell;
-  if (!digits.empty() && digits.front() == '+') digits.remove_prefix(1);
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  if (error != std::errc() || end != digits.data() + digits.size()) {
+double readNumber(std::string_view cell, const std::string& column, const std::string& where) {
+  const std::optional<double> value = parseNumber(cell);
+  if (!value) {
     throw Error(where, "column " + column + " is '" + std::string(cell) + "'",
                 "write a number with a point, such as -0.25 or 1e-3");
   }
-  return value;
+  return *value;
 }
 
 std::string joined(const std::vector<std::string>& names) {
@@ -98,7 +96,7 @@ CsvTable readCsv(const std::string& path, const std::string& header) {
                   "write " + std::to_string(table.columns.size()) + ": " + joined(table.columns));
     }
     for (std::size_t i = 0; i < cells.size(); ++i) {
-      table.values.push_back(parseNumber(cells[i], table.columns[i], where));
+      table.values.push_back(readNumber(cells[i], table.columns[i], where));
     }
     table.lines.push_back(number);
   }

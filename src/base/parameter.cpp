@@ -1,13 +1,13 @@
 #include "parameter.h"
 
 #include <algorithm>
-#include <cctype>
-#include <cerrno>
+#include <charconv>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
+#include <optional>
+#include <system_error>
 
 #include "concave_distance/base/error.h"
+#include "number_text.h"
 
 namespace concave_distance {
 namespace {
@@ -21,12 +21,11 @@ std::string shortest(double value) {
   if (value == std::floor(value) && std::fabs(value) < kPlainBelow) {
     return std::to_string(static_cast<std::int64_t>(value));
   }
-  char digits[32];
+  std::string text;
   for (int count = 1; count <= 17; ++count) {
-    std::snprintf(digits, sizeof digits, "%.*g", count, value);
-    if (std::strtod(digits, nullptr) == value) break;
+    text = numberText(value, count);
+    if (parseNumber(text) == value) break;
   }
-  std::string text = digits;
   const std::size_t exponent = text.find('e');
   if (exponent != std::string::npos) {  // 1e+06 and 1e-06 are 1e6 and 1e-6
     std::size_t first = exponent + (text[exponent + 1] == '+' ? 1 : 2);
@@ -156,18 +155,16 @@ bool isAllowed(const ParameterInfo& info, const ParameterValue& value) {
 }
 
 ParameterValue parseParameter(const ParameterInfo& info, const std::string& text) {
-  if (text.empty() || std::isspace(static_cast<unsigned char>(text.front())) != 0) return text;
-  char* end = nullptr;
   switch (info.type) {
     case ParameterType::Number: {
-      const double value = std::strtod(text.c_str(), &end);
-      return *end == '\0' ? ParameterValue(value) : ParameterValue(text);
+      const std::optional<double> value = parseNumber(text);
+      return value ? ParameterValue(*value) : ParameterValue(text);
     }
     case ParameterType::Count: {
-      if (text.find_first_not_of("0123456789") != std::string::npos) return text;
-      errno = 0;
-      const std::uint64_t value = std::strtoull(text.c_str(), &end, 10);
-      return errno == ERANGE ? ParameterValue(text) : ParameterValue(value);
+      std::uint64_t value = 0;
+      const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+      const bool is_count = error == std::errc() && end == text.data() + text.size();
+      return is_count ? ParameterValue(value) : ParameterValue(text);
     }
     case ParameterType::Flag:
       if (text == "true" || text == "false") return text == "true";

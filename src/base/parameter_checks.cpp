@@ -1,9 +1,9 @@
 #include "parameter_checks.h"
 
 #include <cmath>
-#include <sstream>
 
 #include "concave_distance/base/error.h"
+#include "number_text.h"
 
 namespace concave_distance::detail {
 
@@ -13,9 +13,7 @@ void refuse(const std::string& where, const std::string& parameter, const std::s
 }
 
 std::string toText(double value) {
-  std::ostringstream text;
-  text << value;
-  return text.str();
+  return numberText(value);
 }
 
 void requireShare(const std::string& where, const std::string& parameter, double value) {

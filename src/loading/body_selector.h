@@ -29,6 +29,9 @@ class BodySelector {
   ///         could be read
   Selection select(const Selector& selector) const;
 
+  /// Numbers in SceneParts::sources, by group.
+  const std::map<std::string, std::vector<std::size_t>>& groups() const { return groups_; }
+
  private:
   const SceneParts& parts_;
   std::map<std::string, std::size_t> source_of_name_;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/coordinate_limit.h"
+#include "base/number_text.h"
 #include "base/unit_tolerance.h"
 #include "frame_name.h"
 #include "scene/name_pattern.h"
@@ -111,7 +112,7 @@ Eigen::Isometry3d readPose(const YamlValue& value) {
     const std::vector<double> q = quaternion->numbers(4, allowed);
     const Eigen::Quaterniond rotation(q[3], q[0], q[1], q[2]);
     if (!(std::abs(rotation.norm() - 1.0) <= kUnitTolerance)) {
-      quaternion->fail("the norm is " + std::to_string(rotation.norm()), std::string("allowed: ") + allowed);
+      quaternion->fail("the norm is " + numberText(rotation.norm()), std::string("allowed: ") + allowed);
     }
     pose.linear() = rotation.normalized().toRotationMatrix();
   }
@@ -137,7 +138,7 @@ RobotSpec readRobotSpec(const YamlValue& value, const BodyDefaults& defaults) {
     if (isPattern(robot.name)) v->refuse("a text without * ? [");
   }
   if (auto v = map.take("prefix")) {
-    robot.prefix = v->text();
+    robot.prefix = withoutLeadingSlash(v->text());  // else tf2 would refuse every frame
     if (isPattern(robot.prefix)) v->refuse("a text without * ? [");
   }
   robot.geometry = defaults.geometry;

@@ -7,11 +7,11 @@
 #include <exception>
 #include <memory>
 #include <set>
-#include <sstream>
 #include <string>
 #include <utility>
 
 #include "base/content_hash.h"
+#include "base/number_text.h"
 #include "concave_distance/base/error.h"
 #include "mesh/body_mesh_parts.h"
 #include "scene/body_pool.h"
@@ -77,7 +77,7 @@ void checkExtent(const SurfaceMesh& surface, const BodySource& source) {
   const Eigen::AlignedBox3d& box = surface.boundingBox();
   const double farthest = box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff();
   if (!(farthest <= kFarthestCoordinate)) {
-    std::ostringstream seen;
+    TextStream seen;
     seen << "it reaches " << farthest << " m from the origin of its frame";
     throw Error(source.source, seen.str(), "check its size, unit (scale) and pose; the limit is 1e9 m");
   }

@@ -1,8 +1,8 @@
 #include "frame_name.h"
 
 #include <algorithm>
-#include <cctype>
 
+#include "base/ascii.h"
 #include "concave_distance/base/error.h"
 
 namespace concave_distance {
@@ -20,8 +20,7 @@ std::string tfFrameProblem(std::string_view frame) {
            std::to_string(kLongestFrameName);
   }
   if (frame.front() == '/') return "it begins with a slash that tf2 does not look up";
-  const auto control = std::find_if(frame.begin(), frame.end(),
-                                    [](char c) { return std::iscntrl(static_cast<unsigned char>(c)) != 0; });
+  const auto control = std::find_if(frame.begin(), frame.end(), isControl);
   if (control != frame.end()) {
     return "it contains the control character with code " +
            std::to_string(static_cast<int>(static_cast<unsigned char>(*control)));

@@ -3,10 +3,10 @@
 #include <array>
 #include <cstddef>
 #include <optional>
-#include <sstream>
 #include <utility>
 
 #include "base/content_hash.h"
+#include "base/number_text.h"
 #include "concave_distance/base/error.h"
 #include "concave_distance/mesh/import/import_mesh.h"
 #include "concave_distance/mesh/surface/primitives.h"
@@ -173,7 +173,7 @@ std::optional<RoundShape> roundShapeOf(const std::vector<GeometryElement>& eleme
 }
 
 std::string describeApproximations(const std::vector<GeometryElement>& elements) {
-  std::ostringstream text;
+  TextStream text;
   const bool exact = roundShapeOf(elements).has_value();
   for (const GeometryElement& element : elements) {
     const PrimitiveKind* kind = findPrimitive(element.primitive);

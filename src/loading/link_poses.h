@@ -19,7 +19,7 @@ JointPositions zeroPositions(const RobotDescription& robot);
 /// Every joint at random within its limits; joints without limits within one turn.
 JointPositions randomPositions(const RobotDescription& robot, RandomEngine& engine);
 
-/// Poses of the links in the frame of the root link, by their names in the URDF. Joints of more than one
+/// Poses of the links in the frame of the root link, by their names. Joints of more than one
 /// degree of freedom stay at zero.
 std::unordered_map<std::string, Eigen::Isometry3d> linkPoses(const RobotDescription& robot,
                                                              const JointPositions& positions);

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 #include <system_error>
 #include <utility>
 
+#include "base/number_text.h"
 #include "build_bodies.h"
 #include "concave_distance/base/error.h"
 #include "mesh/surface/mesh_topology.h"
@@ -45,7 +45,7 @@ std::string readFile(const std::string& path, const std::string& where) {
     throw Error(where, "'" + path + "' has " + std::to_string(size) + " bytes",
                 "allowed: at most " + std::to_string(kLongestFile));
   }
-  std::ostringstream text;
+  TextStream text;
   if (stream.is_open()) text << stream.rdbuf();
   if (!stream.is_open() || stream.bad()) {
     throw Error(where, "'" + path + "' cannot be read", "check the path and its permissions");
@@ -167,7 +167,10 @@ Scene assemble(const SceneSpec& spec, SceneParts parts, const SceneLoadOptions& 
                                           spec.cache, options.limits, options.progress});
   scene.cache = spec.cache;
   scene.simulation = spec.simulation;
+  scene.defaults = spec.defaults;
+  scene.groups = std::move(selection.groups);
   scene.notes = std::move(parts.notes);
+  scene.warnings = std::move(parts.warnings);
   scene.problems = std::move(parts.problems);
   scene.problems.insert(scene.problems.end(), selection.problems.begin(), selection.problems.end());
   std::vector<std::optional<std::size_t>> body_of_source(built.size());
@@ -228,10 +231,10 @@ std::vector<std::string> descriptionsOfSceneFile(const std::string& path) {
 
 Scene loadRobotScene(const std::string& urdf, const std::string& where, const SceneLoadOptions& options) {
   SceneSpec spec;
-  spec.defaults = options.default_settings;
+  spec.defaults.pairs = options.default_settings;
   spec.metric_memory_limit = options.metric_memory_limit;
   spec.cache = options.cache;
-  detail::validatePairSettings(spec.defaults, where);
+  detail::validatePairSettings(spec.defaults.pairs, where);
   RobotSpec robot;
   robot.where = where;
   robot.geometry = options.geometry;

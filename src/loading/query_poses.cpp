@@ -4,6 +4,7 @@
 
 #include "base/coordinate_limit.h"
 #include "base/csv_table.h"
+#include "base/number_text.h"
 #include "base/unit_tolerance.h"
 #include "concave_distance/base/error.h"
 
@@ -16,7 +17,7 @@ std::vector<QueryPose> readQueryPoses(const std::string& path) {
   for (std::size_t row = 0; row < table.rowCount(); ++row) {
     const auto v = [&](std::size_t column) { return table.at(row, column); };
     if (!std::isfinite(v(0))) {
-      throw Error(path + ":" + std::to_string(table.lines[row]), "column t is '" + std::to_string(v(0)) + "'",
+      throw Error(path + ":" + std::to_string(table.lines[row]), "column t is '" + numberText(v(0)) + "'",
                   "give each line a time in seconds");
     }
     poses.push_back({v(0), {v(1), v(2), v(3)}, {v(4), v(5), v(6), v(7)}});
@@ -29,10 +30,9 @@ std::vector<TimedPose> readPosePath(const std::string& path) {
   for (const QueryPose& query : readQueryPoses(path)) {
     const std::optional<Eigen::Isometry3d> pose = poseOf(query);
     if (!pose || (!poses.empty() && !(query.time > poses.back().time))) {
-      throw Error(
-          path,
-          "the pose at t = " + std::to_string(query.time) + " is not a pose, or not after the one before",
-          "finite numbers, unit quaternions and ascending times are needed");
+      throw Error(path,
+                  "the pose at t = " + numberText(query.time) + " is not a pose, or not after the one before",
+                  "finite numbers, unit quaternions and ascending times are needed");
     }
     poses.push_back({query.time, *pose});
   }

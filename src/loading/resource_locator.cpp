@@ -3,7 +3,6 @@
 #include <tinyxml2.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cstdlib>
 #include <filesystem>
 #include <sstream>
@@ -12,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/ascii.h"
 #include "concave_distance/base/error.h"
 
 namespace concave_distance {
@@ -76,10 +76,9 @@ detail::ResourcePaths pathsInPackage(const std::string& resource, const PackageL
     throw Error(resource, "a package and a file in it are expected", "write package://<package>/<path>");
   }
   // Names that rospack would take for options or further arguments are not passed to it.
-  const bool is_name =
-      package.front() != '-' && std::all_of(package.begin(), package.end(), [](unsigned char c) {
-        return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.';
-      });
+  const bool is_name = package.front() != '-' && std::all_of(package.begin(), package.end(), [](char c) {
+                         return isLetterOrDigit(c) || c == '_' || c == '-' || c == '.';
+                       });
   const std::string folder = is_name && package_locator ? package_locator(package) : std::string();
   if (folder.empty()) {
     throw Error(resource, "package '" + package + "' is not known",

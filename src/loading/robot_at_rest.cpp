@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <string>
 
+#include "base/number_text.h"
 #include "concave_distance/scene/broad_phase.h"
 #include "distance/certificate.h"
 #include "distance/solid_overlap.h"
@@ -26,8 +26,7 @@ constexpr double kEnoughToBeApart = 0.9;  // of the distance: the proof ends wit
 using Poses = std::unordered_map<std::string, Eigen::Isometry3d>;
 
 const Eigen::Isometry3d* poseOf(const Poses& poses, const SceneBody& body) {
-  auto found = poses.find(body.name);
-  if (found == poses.end()) found = poses.find("/" + body.name);  // the URDF's name may begin with a slash
+  const auto found = poses.find(body.name);
   return found == poses.end() ? nullptr : &found->second;
 }
 
@@ -103,9 +102,7 @@ std::string describeOverlap(const Scene& scene, const std::vector<std::size_t>& 
 }
 
 std::string metres(double length) {
-  std::ostringstream text;
-  text << length << " m";
-  return text.str();
+  return numberText(length) + " m";
 }
 
 }  // namespace
@@ -114,6 +111,7 @@ void setAutomaticCutoff(Scene& scene, const RobotDescription& robot) {
   const double diagonal = robotDiagonal(scene, robot);
   const double cutoff = automaticCutoff(diagonal);
   scene.automatic_cutoff = cutoff;
+  scene.defaults.pairs.tracker.cutoff = cutoff;
   for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
     scene.pairs.edit(i).settings.tracker.cutoff = cutoff;
   }

@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <cstddef>
 #include <map>
-#include <sstream>
+#include <set>
 
+#include "base/number_text.h"
 #include "concave_distance/base/error.h"
+#include "frame_name.h"
 #include "message_capture.h"
 #include "urdf_values.h"
 #include "wording.h"
@@ -188,7 +190,7 @@ template <typename Elements>
 std::vector<GeometryElement> toElements(const Elements& elements, const std::string& link, const char* kind) {
   std::vector<GeometryElement> converted;
   for (const auto& element : elements) {
-    std::ostringstream where;
+    TextStream where;
     where << "link '" << link << "', " << kind;
     if (elements.size() > 1) where << " " << converted.size() + 1;
     converted.push_back(toElement(*element->geometry, element->origin, where.str()));
@@ -207,6 +209,16 @@ std::optional<Eigen::Vector4d> colourOf(const urdf::Link& link) {
   }
   const urdf::Color& colour = link.visual->material->color;
   return Eigen::Vector4d(colour.r, colour.g, colour.b, colour.a);
+}
+
+// '/a' and 'a' are two links for urdfdom and one frame for tf2.
+void requireDistinctLinks(const RobotDescription& robot, const std::string& where) {
+  std::set<std::string> names;
+  for (const RobotLink& link : robot.links) {
+    if (names.insert(link.name).second) continue;
+    throw Error(where, "two links are called '" + link.name + "', one of them with a leading slash",
+                "rename one: both would have the same tf frame");
+  }
 }
 
 }  // namespace
@@ -266,6 +278,7 @@ RobotDescription readRobotDescription(const std::string& urdf, const std::string
                             " geometry is read all the same");
     }
     if (!link.problem.empty()) link.geometry.clear();
+    link.name = withoutLeadingSlash(link.name);
     robot.links.push_back(std::move(link));
   }
   for (const std::string& name : text.joints) {
@@ -273,6 +286,7 @@ RobotDescription readRobotDescription(const std::string& urdf, const std::string
     if (!joint) continue;  // urdfdom refuses the whole text instead
     robot.joints.push_back(toJoint(*joint));
   }
+  requireDistinctLinks(robot, where);
   return robot;
 }
 

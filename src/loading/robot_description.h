@@ -13,7 +13,7 @@
 namespace concave_distance::detail {
 
 struct RobotLink {
-  std::string name;                       ///< as in the URDF
+  std::string name;                       ///< without a leading slash
   std::vector<GeometryElement> geometry;  ///< of the chosen kind, link frame; empty: no body
   std::optional<Eigen::Vector4d> colour;  ///< of the first visual element, when it has one
   std::optional<MassProperties> inertia;  ///< as given, link frame
@@ -40,7 +40,8 @@ struct RobotJoint {
   double mimic_offset = 0.0;
 };
 
-/// What a URDF says that matters here; links and joints in the order of the text.
+/// What a URDF says that matters here; links and joints in the order of the text. Link names have no leading
+/// slash: they come from the days of tf, robot_state_publisher drops it from the frames, and tf2 refuses it.
 struct RobotDescription {
   std::string name;
   std::vector<RobotLink> links;
@@ -52,7 +53,7 @@ struct RobotDescription {
 
 /// Reads a URDF through urdfdom. A link whose geometry cannot be read carries a problem, the others go on.
 /// @param where named in the error: file or parameter
-/// @throws Error with what urdfdom says when it makes no model of the text
+/// @throws Error with what urdfdom says when it makes no model of the text, and for links of one name
 RobotDescription readRobotDescription(const std::string& urdf, const std::string& where,
                                       GeometrySource geometry);
 

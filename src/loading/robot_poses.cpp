@@ -1,20 +1,40 @@
 #include "concave_distance/loading/robot_poses.h"
 
 #include <algorithm>
+#include <cmath>
+#include <unordered_map>
 #include <utility>
 
 #include "concave_distance/base/error.h"
+#include "frame_name.h"
 #include "link_poses.h"
 
 namespace concave_distance {
 
+namespace {
+
+std::string framesOf(const Scene& scene) {
+  constexpr std::size_t kMostNamed = 5;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(scene.bodies.size(), kMostNamed); ++i) {
+    text += (i == 0 ? "'" : ", '") + scene.bodies[i].frame + "'";
+  }
+  return text + (scene.bodies.size() > kMostNamed ? ", ..." : "");
+}
+
+}  // namespace
+
 struct RobotPoses::Robot {
+  std::string where;
+  std::string prefix;
   detail::RobotDescription description;
   detail::JointPositions at_rest;
 };
 
-RobotPoses::RobotPoses(const std::string& urdf, const std::string& where)
+RobotPoses::RobotPoses(const std::string& urdf, const std::string& where, const std::string& prefix)
     : robot_(std::make_unique<Robot>()) {
+  robot_->where = where;
+  robot_->prefix = withoutLeadingSlash(prefix);
   robot_->description = detail::readRobotDescription(urdf, where, GeometrySource::Collision);
   robot_->at_rest = detail::zeroPositions(robot_->description);
 }
@@ -42,14 +62,27 @@ std::vector<std::optional<Eigen::Isometry3d>> RobotPoses::of(
       throw Error("joint '" + name + "'", "no joint of the robot has this name and moves by itself",
                   "take the names from jointNames()");
     }
+    if (!std::isfinite(position))
+      throw Error("joint '" + name + "'", "its position is not finite", "give rad or m");
     all[static_cast<std::size_t>(found - joints.begin())] = position;
   }
-  const auto links = detail::linkPoses(robot_->description, all);
+  std::unordered_map<std::string, Eigen::Isometry3d> links;
+  for (const auto& [link, pose] : detail::linkPoses(robot_->description, all)) {
+    links.emplace(robot_->prefix + link, pose);
+  }
+  bool any = scene.bodies.empty();
   std::vector<std::optional<Eigen::Isometry3d>> poses;
   poses.reserve(scene.bodies.size());
   for (const SceneBody& body : scene.bodies) {
     const auto link = links.find(body.frame);
     poses.push_back(link == links.end() ? std::nullopt : std::optional(link->second));
+    any = any || link != links.end();
+  }
+  if (!any) {
+    throw Error(robot_->where,
+                "no body of the scene is fixed to a link '" + robot_->prefix + "...' of robot '" +
+                    robot_->description.name + "'; the bodies' frames are " + framesOf(scene),
+                "give RobotPoses the URDF of the scene, and the prefix that the scene file gives the robot");
   }
   return poses;
 }

@@ -4,20 +4,15 @@
 #include <utility>
 
 #include "concave_distance/base/error.h"
+#include "frame_name.h"
 #include "scene/name_pattern.h"
 #include "wording.h"
 
 namespace concave_distance::detail {
 namespace {
 
-// Link names with a leading slash come from the days of tf; robot_state_publisher drops it from the frames,
-// and tf2 refuses frames that have it.
-std::string withoutSlash(const std::string& link) {
-  return !link.empty() && link.front() == '/' ? link.substr(1) : link;
-}
-
 std::string bodyName(const RobotSpec& spec, const std::string& link) {
-  return spec.prefix + withoutSlash(link);
+  return spec.prefix + link;
 }
 
 void addSource(BodySource source, const std::string& where, const std::string& remedy, SceneParts& parts) {
@@ -33,12 +28,10 @@ void addSource(BodySource source, const std::string& where, const std::string& r
 std::set<std::string> skippedLinks(const RobotSpec& spec, const RobotDescription& robot) {
   std::set<std::string> skipped;
   for (const Selector& selector : spec.skipped_links) {
+    const std::string wanted = withoutLeadingSlash(selector.text);
     bool matched = false;
     for (const RobotLink& link : robot.links) {
-      if (link.name != selector.text && !matchesPattern(selector.text, link.name) &&
-          !matchesPattern(selector.text, withoutSlash(link.name))) {
-        continue;
-      }
+      if (link.name != wanted && !matchesPattern(wanted, link.name)) continue;
       skipped.insert(link.name);
       matched = true;
     }
@@ -123,6 +116,7 @@ void addSemantics(const RobotSpec& spec, const SemanticDescription& semantics, S
     parts.groups.emplace_back(spec.prefix + name, std::move(members));
   }
   parts.notes.insert(parts.notes.end(), semantics.notes.begin(), semantics.notes.end());
+  parts.warnings.insert(parts.warnings.end(), semantics.warnings.begin(), semantics.warnings.end());
 }
 
 void addBody(const BodySpec& spec, const std::string& base_folder, SceneParts& parts) {

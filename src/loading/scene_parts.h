@@ -32,6 +32,7 @@ struct SceneParts {
   std::set<LinkPair> disabled_by_srdf;                                   ///< by body name
   std::vector<std::pair<std::string, std::vector<std::string>>> groups;  ///< of robots and SRDFs: body names
   std::vector<std::string> notes;
+  std::vector<std::string> warnings;
   std::vector<SceneProblem> problems;  ///< URDFs and SRDFs that cannot be read
   bool robot_failed = false;           ///< a name that nobody knows may be one of its links
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 
+#include "base/ascii.h"
 #include "body_spec_reader.h"
 #include "concave_distance/base/error.h"
 #include "scene/name_pattern.h"
@@ -43,9 +44,7 @@ std::array<Selector, 2> readTwoSelectors(const YamlValue& value) {
 }
 
 bool isPairName(const std::string& name) {
-  const auto allowed = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '/';
-  };
+  const auto allowed = [](char c) { return isLetterOrDigit(c) || c == '_' || c == '/'; };
   return std::all_of(name.begin(), name.end(), allowed) && name.front() != '/' && name.back() != '/' &&
          name.find("//") == std::string::npos;
 }
@@ -112,7 +111,7 @@ SceneSpec readSceneSpec(const std::string& yaml, const std::string& file, const 
                         const SceneLoadOptions& options) {
   YamlMap map(YamlValue::parse(yaml, file), "a map with robots, bodies, groups, pairs, defaults");
   SceneSpec spec;
-  spec.defaults = options.default_settings;
+  spec.defaults.pairs = options.default_settings;
   spec.metric_memory_limit = options.metric_memory_limit;
   spec.cache = options.cache;
   BodyDefaults body_defaults;
@@ -121,10 +120,13 @@ SceneSpec readSceneSpec(const std::string& yaml, const std::string& file, const 
   // Before all that they are the defaults of, wherever they stand in the file.
   if (auto v = map.take("defaults")) {
     YamlMap defaults(*v, "a map of settings");
-    readPairSettings(defaults, spec.defaults);
+    readPairSettings(defaults, spec.defaults.pairs);
     readBodyDefaults(defaults, body_defaults);
     defaults.finish();
-    validatePairSettings(spec.defaults, v->where());
+    validatePairSettings(spec.defaults.pairs, v->where());
+    spec.defaults.max_edge_length = body_defaults.max_edge_length;
+    spec.defaults.chord_error = body_defaults.chord_error;
+    spec.defaults.material = body_defaults.material;
   }
   if (auto v = map.take("metric_memory_limit_mb")) {
     spec.metric_memory_limit = v->count(0, kMostMegabytes, "megabytes") * kBytesPerMegabyte;
@@ -147,7 +149,7 @@ SceneSpec readSceneSpec(const std::string& yaml, const std::string& file, const 
   }
   if (auto v = map.take("groups")) spec.groups = readGroups(*v, body_names);
   Names pair_names;
-  if (auto v = map.take("pairs")) spec.pairs = readPairs(*v, spec.defaults, pair_names);
+  if (auto v = map.take("pairs")) spec.pairs = readPairs(*v, spec.defaults.pairs, pair_names);
   if (auto v = map.take("disable")) {
     for (const YamlValue& item : v->list("a list of pairs")) spec.disabled.push_back(readTwoSelectors(item));
   }

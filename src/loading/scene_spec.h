@@ -61,7 +61,7 @@ struct SceneSpec {
   std::vector<GroupSpec> groups;
   std::optional<std::vector<PairSpec>> pairs;  ///< nothing: every body against every other
   std::vector<std::array<Selector, 2>> disabled;
-  PairSettings defaults;
+  SceneDefaults defaults;
   std::size_t metric_memory_limit = 0;  ///< bytes
   std::optional<SimulationSettings> simulation;
   PreparationCachePointer cache;  ///< nullptr: none

@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "base/ascii.h"
 #include "body_selector.h"
 #include "concave_distance/base/error.h"
 #include "settings_reader.h"
@@ -24,8 +25,7 @@ SourcePair unordered(std::size_t a, std::size_t b) {
 std::string topicPart(const std::string& body) {
   std::string part = body;
   for (char& c : part) {
-    const bool allowed = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
-    if (!allowed) c = '_';
+    if (!isLetterOrDigit(c)) c = '_';
   }
   return part;
 }
@@ -57,6 +57,10 @@ class Selection {
       result_.notes.push_back(counted(pairs.size(), "pair") + " left out: " + reason);
     }
     finish();
+    for (const auto& [name, sources] : selector_.groups()) {
+      std::vector<std::string>& members = result_.groups[name];
+      for (const std::size_t source : sources) members.push_back(parts_.sources[source].name);
+    }
     return std::move(result_);
   }
 
@@ -150,7 +154,7 @@ class Selection {
     SelectedPair pair;
     pair.source_a = candidate.source_a;
     pair.source_b = candidate.source_b;
-    pair.settings = spec_.defaults;
+    pair.settings = spec_.defaults.pairs;
     std::optional<bool> enabled;
     std::string where = "pair of '" + parts_.sources[candidate.source_a].name + "' and '" +
                         parts_.sources[candidate.source_b].name + "'";

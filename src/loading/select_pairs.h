@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,7 @@ struct PairSelection {
   std::vector<SelectedPair> pairs;     ///< in the order in which the file's entries give them
   std::vector<SceneProblem> problems;  ///< pairs asked for by name that cannot be
   std::vector<std::string> notes;
+  std::map<std::string, std::vector<std::string>> groups;  ///< names of their sources
 };
 
 /// Applies the file's groups, pairs and disabled pairs, and the filters of the robots.

@@ -3,8 +3,11 @@
 #include <tinyxml2.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <optional>
 
 #include "concave_distance/base/error.h"
+#include "frame_name.h"
 #include "wording.h"
 #include "xml_attribute.h"
 
@@ -21,6 +24,10 @@ void forEachChild(const XMLElement& parent, const char* name, const Visit& visit
   }
 }
 
+std::string linkName(const XMLElement& element, const char* name) {
+  return withoutLeadingSlash(attribute(element, name));
+}
+
 // Reads one SRDF against one robot; notes gather in the result.
 class Reader {
  public:
@@ -31,7 +38,7 @@ class Reader {
   // by name.
   void readDisabledPairs(const XMLElement& root) {
     forEachChild(root, "disable_default_collisions", [&](const XMLElement& element) {
-      const std::string link = attribute(element, "link");
+      const std::string link = linkName(element, "link");
       if (!isLink(link, element)) return;
       for (const RobotLink& other : robot_.links) {
         if (other.name != link) result_.disabled.insert(linkPair(link, other.name));
@@ -48,7 +55,8 @@ class Reader {
       if (findGroup(name) != nullptr) return note(group, "a second group '" + name + "' is left out");
       std::vector<std::string> links;
       forEachChild(group, "link", [&](const XMLElement& element) {
-        if (isLink(attribute(element, "name"), element)) add(links, attribute(element, "name"));
+        const std::string link = linkName(element, "name");
+        if (isLink(link, element)) add(links, link);
       });
       forEachChild(group, "joint", [&](const XMLElement& element) { addJoint(links, element); });
       forEachChild(group, "chain", [&](const XMLElement& element) { addChain(links, element); });
@@ -57,12 +65,29 @@ class Reader {
     });
   }
 
+  // Disabled by mistake, a pair would never be watched, and nobody would notice.
+  void requireThisRobot(const std::string& name) {
+    const bool has_other_links = unknown_link_ && (name != robot_.name || known_links_ == 0);
+    if (has_other_links) {
+      throw Error(where_,
+                  "it is the SRDF of robot '" + name + "' with the link '" + *unknown_link_ +
+                      "', and this is robot '" + robot_.name + "' without that link",
+                  "give the SRDF of this robot");
+    }
+    if (name != robot_.name) {
+      result_.warnings.push_back(
+          where_ + ": it is for robot '" + name + "', read for '" + robot_.name +
+          "', which has all the links that it names. If it is not meant for this robot, pairs are "
+          "missing; if it is, give both the same name");
+    }
+  }
+
  private:
   template <typename Visit>
   void forEachPair(const XMLElement& root, const char* name, const Visit& visit) {
     forEachChild(root, name, [&](const XMLElement& element) {
-      const std::string a = attribute(element, "link1");
-      const std::string b = attribute(element, "link2");
+      const std::string a = linkName(element, "link1");
+      const std::string b = linkName(element, "link2");
       if (isLink(a, element) && isLink(b, element)) visit(linkPair(a, b));
     });
   }
@@ -76,7 +101,11 @@ class Reader {
   }
 
   bool isLink(const std::string& link, const XMLElement& element) {
-    if (robot_.findLink(link) != nullptr) return true;
+    if (robot_.findLink(link) != nullptr) {
+      ++known_links_;
+      return true;
+    }
+    unknown_link_ = link;
     note(element, std::string(element.Name()) + " names '" + link + "', no link of robot '" + robot_.name +
                       "'; left out");
     return false;
@@ -99,8 +128,8 @@ class Reader {
   }
 
   void addChain(std::vector<std::string>& links, const XMLElement& element) {
-    const std::string base = attribute(element, "base_link");
-    std::string link = attribute(element, "tip_link");
+    const std::string base = linkName(element, "base_link");
+    std::string link = linkName(element, "tip_link");
     if (!isLink(base, element) || !isLink(link, element)) return;
     std::vector<std::string> from_tip;
     while (link != base) {
@@ -129,6 +158,8 @@ class Reader {
   const RobotDescription& robot_;
   std::string where_;
   SemanticDescription& result_;
+  std::size_t known_links_ = 0;              ///< in all elements
+  std::optional<std::string> unknown_link_;  ///< one of them
 };
 
 }  // namespace
@@ -143,13 +174,10 @@ SemanticDescription readSemanticDescription(const std::string& srdf, const std::
   const XMLElement* root = document.FirstChildElement("robot");
   if (root == nullptr) throw Error(where, "the SRDF has no <robot> element", "give an SRDF");
   SemanticDescription result;
-  const std::string name = attribute(*root, "name");
-  if (name != robot.name) {
-    result.notes.push_back(where + ": is for robot '" + name + "', read for '" + robot.name + "'");
-  }
   Reader reader(robot, where, result);
   reader.readDisabledPairs(*root);
   reader.readGroups(*root);
+  reader.requireThisRobot(attribute(*root, "name"));
   return result;
 }
 

@@ -1,5 +1,7 @@
 #include "urdf_values.h"
 
+#include "frame_name.h"
+
 namespace concave_distance::detail {
 
 Eigen::Isometry3d toIsometry(const urdf::Pose& pose) {
@@ -26,8 +28,8 @@ std::optional<MassProperties> inertiaOf(const urdf::Link& link) {
 RobotJoint toJoint(const urdf::Joint& given) {
   RobotJoint joint;
   joint.name = given.name;
-  joint.parent = given.parent_link_name;
-  joint.child = given.child_link_name;
+  joint.parent = withoutLeadingSlash(given.parent_link_name);
+  joint.child = withoutLeadingSlash(given.child_link_name);
   joint.fixed = given.type == urdf::Joint::FIXED;
   joint.parent_from_joint = toIsometry(given.parent_to_joint_origin_transform);
   const bool turns = given.type == urdf::Joint::REVOLUTE || given.type == urdf::Joint::CONTINUOUS;

@@ -9,6 +9,7 @@
 #include <sstream>
 #include <system_error>
 
+#include "base/number_text.h"
 #include "concave_distance/base/error.h"
 
 namespace concave_distance::detail {
@@ -29,22 +30,16 @@ int lineOf(const YAML::Node& node, int line_of_key) {
   return node.IsNull() || node.Mark().is_null() ? line_of_key : node.Mark().line + 1;
 }
 
-std::optional<double> parseNumber(const std::string& text) {
+std::optional<double> numberOf(const std::string& text) {
   if (text == ".inf" || text == "+.inf" || text == ".Inf" || text == ".INF") {
     return std::numeric_limits<double>::infinity();
   }
   if (text == "-.inf" || text == "-.Inf" || text == "-.INF") {
     return -std::numeric_limits<double>::infinity();
   }
-  // from_chars reads no plus sign.
-  const bool has_plus = text.size() > 1 && text[0] == '+' && text[1] != '-';
-  const char* first = text.data() + (has_plus ? 1 : 0);
-  const char* last = text.data() + text.size();
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(first, last, value);
+  const std::optional<double> value = parseNumber(text);
   // "inf" and "nan" without the dot are texts in YAML.
-  if (error != std::errc() || end != last || !std::isfinite(value)) return std::nullopt;
-  return value;
+  return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
 // A document has more values than are allowed.
@@ -148,7 +143,7 @@ std::string YamlValue::plainText() const {
 
 double YamlValue::number(const std::string& allowed) const {
   if (!node_.IsScalar() || node_.Tag() == "!" || node_.Scalar().empty()) refuse(allowed);
-  const std::optional<double> value = parseNumber(node_.Scalar());
+  const std::optional<double> value = numberOf(node_.Scalar());
   if (!value) refuse(allowed);
   return *value;
 }

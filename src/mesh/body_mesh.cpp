@@ -1,5 +1,6 @@
 #include "concave_distance/mesh/body_mesh.h"
 
+#include "base/number_text.h"
 #include "body_mesh_parts.h"
 
 #include <tbb/parallel_for.h>
@@ -9,7 +10,6 @@
 #include <array>
 #include <iterator>
 #include <mutex>
-#include <sstream>
 #include <utility>
 
 #include "base/run_together.h"
@@ -71,7 +71,7 @@ void checkNodeCount(const std::string& name, const SurfaceMesh& surface, const B
   if (!options.max_edge_length) return;
   const double nodes = estimatedNodeCount(surface, *options.max_edge_length);
   if (nodes <= static_cast<double>(options.largest_node_count)) return;
-  std::ostringstream seen;
+  TextStream seen;
   seen << "max_edge_length " << *options.max_edge_length << " m makes a search grid of about " << nodes
        << " nodes";
   throw Error(name, seen.str(),

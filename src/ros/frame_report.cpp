@@ -3,7 +3,8 @@
 #include <ros/time.h>
 
 #include <set>
-#include <sstream>
+
+#include "base/number_text.h"
 
 namespace concave_distance {
 namespace {
@@ -12,7 +13,7 @@ namespace {
 constexpr int kLongestChain = 1000;
 
 std::string listed(const std::set<std::string>& names) {
-  std::ostringstream list;
+  TextStream list;
   for (const std::string& name : names) {
     list << (list.tellp() > 0 ? ", " : "") << "'" << name << "'";
   }
@@ -45,7 +46,7 @@ std::string describeMissingFrames(const tf2::BufferCore& buffer, const Scene& sc
       unknown.insert(body.frame);
     }
   }
-  std::ostringstream text;
+  TextStream text;
   if (!unknown.empty()) {
     text << unknown.size() << " frames of bodies are not on tf: " << listed(unknown)
          << "; check that robot_state_publisher runs and that the joint states name every joint.";

@@ -1,7 +1,8 @@
 #include "log_throttle.h"
 
-#include <cctype>
 #include <cstdio>
+
+#include "base/ascii.h"
 
 namespace concave_distance {
 namespace {
@@ -26,7 +27,7 @@ bool LogThrottle::isDue(const std::string& subject) {
 std::string printable(const std::string& text) {
   std::string result;
   for (const char c : text.substr(0, kLongestText)) {
-    if (std::iscntrl(static_cast<unsigned char>(c)) == 0) {
+    if (!isControl(c)) {
       result += c;
       continue;
     }

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <utility>
+
+#include "base/number_text.h"
 
 namespace concave_distance {
 namespace {
@@ -13,9 +14,7 @@ constexpr double kCharacterWidth = 0.5;  // over the height
 // The digits are those of the rounded value: 9.999 is 10.0, not 10.00.
 std::string threeDigits(double value, const char* unit) {
   const int decimals = value < 9.995 ? 2 : value < 99.95 ? 1 : 0;
-  char text[64];
-  std::snprintf(text, sizeof(text), "%.*f %s", decimals, value, unit);
-  return text;
+  return fixedText(value, decimals) + " " + unit;
 }
 
 constexpr double kPitches[2] = {0.35, 0.75};  // radians, of the views in turn

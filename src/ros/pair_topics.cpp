@@ -3,13 +3,14 @@
 #include <concave_distance/PairContactState.h>
 #include <concave_distance/PairDistance.h>
 #include <concave_distance/PairNiches.h>
-#include <fnmatch.h>
 #include <ros/console.h>
 
 #include <algorithm>
-#include <cctype>
 #include <unordered_map>
 #include <utility>
+
+#include "base/ascii.h"
+#include "scene/name_pattern.h"
 
 namespace concave_distance {
 namespace {
@@ -18,7 +19,7 @@ namespace {
 std::string topicName(const std::string& pair) {
   std::string name = pair;
   for (char& c : name) {
-    const bool allowed = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '/';
+    const bool allowed = isLetterOrDigit(c) || c == '_' || c == '/';
     c = allowed ? c : '_';
   }
   return "pairs/" + name;
@@ -69,7 +70,7 @@ bool PairTopicKeeper::isWanted(const std::string& pair, std::size_t pair_count) 
     return pair_count <= kMostUnnamed;
   }
   return std::any_of(patterns_->begin(), patterns_->end(), [&](const std::string& pattern) {
-    return pattern == pair || ::fnmatch(pattern.c_str(), pair.c_str(), 0) == 0;
+    return pattern == pair || detail::matchesPattern(pattern, pair);
   });
 }
 

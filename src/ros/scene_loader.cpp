@@ -1,8 +1,9 @@
 #include "scene_loader.h"
 
-#include <cstdio>
 #include <exception>
 #include <utility>
+
+#include "base/number_text.h"
 
 namespace concave_distance {
 
@@ -36,10 +37,8 @@ double SceneLoader::seconds() const {
 }
 
 std::string SceneLoader::progress() const {
-  char text[100];
-  std::snprintf(text, sizeof text, "prepared %zu of %zu bodies, %.1f s", progress_->prepared(),
-                progress_->bodies(), seconds());
-  return text;
+  return "prepared " + std::to_string(progress_->prepared()) + " of " + std::to_string(progress_->bodies()) +
+         " bodies, " + fixedText(seconds(), 1) + " s";
 }
 
 std::optional<SceneLoader::Outcome> SceneLoader::take() {

@@ -6,11 +6,11 @@
 
 #include <algorithm>
 #include <array>
-#include <sstream>
 #include <stdexcept>
 #include <unordered_set>
 #include <vector>
 
+#include "base/number_text.h"
 #include "time_difference.h"
 
 namespace concave_distance {
@@ -162,7 +162,7 @@ PairTransforms lookUpPair(const tf2::BufferCore& buffer, const PairFrames& frame
   }
   const double age = secondsBetween(transforms.stamp, now);
   if (age > stale_after) {
-    std::ostringstream message;
+    TextStream message;
     message << "the newest transform between '" << frames.frame_a << "', '" << frames.frame_b << "' and '"
             << frames.reference << "' is " << age << " s old; ~stale_after is " << stale_after << " s";
     transforms.status = TransformStatus::Stale;

@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/number_text.h"
 #include "loading/frame_name.h"
 #include "time_difference.h"
 
@@ -84,9 +85,9 @@ std::optional<TransformProblem> TransformBuffer::admitFrame(const geometry_msgs:
   }
   const double behind = secondsBetween(transform.header.stamp, frame->second.latest.header.stamp);
   if (!fixed && !frame->second.fixed && behind > limits_.cache) {
-    return TransformProblem{"its stamp is " + std::to_string(behind) + " s older than the newest one, from " +
-                                frame->second.sender,
-                            "stop one of the two publishers, or correct the clock of its machine"};
+    return TransformProblem{
+        "its stamp is " + numberText(behind) + " s older than the newest one, from " + frame->second.sender,
+        "stop one of the two publishers, or correct the clock of its machine"};
   }
   return changeKind(frame->second, fixed, now);
 }

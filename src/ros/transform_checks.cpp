@@ -2,9 +2,9 @@
 
 #include <cmath>
 #include <limits>
-#include <sstream>
 
 #include "base/coordinate_limit.h"
+#include "base/number_text.h"
 #include "loading/frame_name.h"
 #include "time_difference.h"
 
@@ -14,12 +14,6 @@ namespace {
 // tf2's own tolerance on the squared norm.
 constexpr double kQuaternionTolerance = 1e-2;
 constexpr std::uint32_t kNanosecondsPerSecond = 1'000'000'000;
-
-std::string numberText(double value) {
-  std::ostringstream text;
-  text << value;
-  return text.str();
-}
 
 std::optional<TransformProblem> findFrameProblem(const geometry_msgs::TransformStamped& transform) {
   for (const auto& [name, frame] :

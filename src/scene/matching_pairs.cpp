@@ -4,18 +4,8 @@
 #include "name_pattern.h"
 
 namespace concave_distance::detail {
-namespace {
-
-// Ten times the longest name of a pair: the time to match grows with the product of both lengths.
-constexpr std::size_t kLongestPattern = 4096;
-
-}  // namespace
-
 std::vector<std::size_t> matchingPairs(const Scene& scene, const std::string& pattern) {
-  if (pattern.size() > kLongestPattern) {
-    throw Error("pair", "the name or pattern has " + std::to_string(pattern.size()) + " characters",
-                "allowed: at most " + std::to_string(kLongestPattern));
-  }
+  requirePatternLength(pattern, "pair");
   std::vector<std::size_t> found;
   for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
     const std::string& name = scene.pairs[i].name;

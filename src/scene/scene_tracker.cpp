@@ -8,10 +8,35 @@
 #include <utility>
 
 #include "base/helping_threads.h"
+#include "concave_distance/base/error.h"
 #include "solver_threads.h"
 
 namespace concave_distance {
 namespace {
+
+void requireBodies(const Scene& scene, const ScenePair& pair) {
+  const auto where = [&] { return "scene, pair '" + pair.name + "'"; };
+  const std::size_t count = scene.bodies.size();
+  for (const std::size_t body : {pair.body_a, pair.body_b}) {
+    if (body >= count) {
+      throw Error(where(), "it names body " + std::to_string(body) + " of " + std::to_string(count),
+                  "bodies are numbered from 0 in the order of scene.bodies");
+    }
+    if (!scene.bodies[body].mesh) {
+      throw Error(where(), "body '" + scene.bodies[body].name + "' has no mesh", "set SceneBody::mesh");
+    }
+  }
+  if (pair.body_a == pair.body_b) {
+    throw Error(where(), "both its bodies are '" + scene.bodies[pair.body_a].name + "'", "name two bodies");
+  }
+}
+
+void requireCount(const std::string& what, std::size_t given, std::size_t needed, const std::string& each) {
+  if (given == needed) return;
+  throw Error("SceneTracker::update",
+              std::to_string(given) + " " + what + " for " + std::to_string(needed) + " " + each,
+              "give one for each, in their order");
+}
 
 // An edit shares the bodies that it leaves as they are.
 bool isOfTheSameBodies(const TrackedPair& tracked, const Scene& scene, const ScenePair& wanted) {
@@ -37,8 +62,10 @@ std::vector<std::optional<std::size_t>> SceneTracker::placesNow(const Scene& sce
   std::vector<std::optional<std::size_t>> places(scene.pairs.size());
   // Usually an edit leaves most pairs as they are, in their places.
   std::unordered_map<std::string_view, std::size_t> moved;
+  for (const ScenePair& pair : scene.pairs) requireBodies(scene, pair);
   for (std::size_t index = 0; index < pairs_.size(); ++index) {
-    if (index < places.size() && pairs_[index]->origin.get() == &scene.pairs[index]) {
+    if (index < places.size() && pairs_[index]->origin.get() == &scene.pairs[index] &&
+        isOfTheSameBodies(*pairs_[index], scene, scene.pairs[index])) {
       places[index] = index;
     } else {
       moved.emplace(pairs_[index]->origin->name, index);
@@ -87,6 +114,7 @@ void SceneTracker::setScene(const Scene& scene, bool settings_changed) {
   }
   pairs_ = std::move(next);
   largest_retired_id_ = largest_retired_id;
+  body_count_ = scene.bodies.size();
 }
 
 SceneTracker::Pairs SceneTracker::takeRetired() {
@@ -98,16 +126,22 @@ void SceneTracker::restart() {
 }
 
 void SceneTracker::restart(std::size_t pair) {
+  if (pair >= pairs_.size()) {
+    throw Error("SceneTracker::restart",
+                "pair " + std::to_string(pair) + " of " + std::to_string(pairs_.size()),
+                "pairs are numbered from 0 in the order of scene.pairs");
+  }
   pairs_[pair]->restart();
 }
 
 CycleCounts SceneTracker::update(const std::vector<std::optional<Eigen::Isometry3d>>& world_from_body,
                                  double time, const PairDemand& demand) {
+  requireCount("poses", world_from_body.size(), body_count_, "bodies");
   demand_.assign(pairs_.size(), demand);
   const auto locate = [&](std::size_t index) {
     const ScenePair& pair = *pairs_[index]->origin;
-    const std::optional<Eigen::Isometry3d>& world_from_a = world_from_body.at(pair.body_a);
-    const std::optional<Eigen::Isometry3d>& world_from_b = world_from_body.at(pair.body_b);
+    const std::optional<Eigen::Isometry3d>& world_from_a = world_from_body[pair.body_a];
+    const std::optional<Eigen::Isometry3d>& world_from_b = world_from_body[pair.body_b];
     PairInput input;
     input.time = time;
     input.located = world_from_a && world_from_b;
@@ -118,6 +152,7 @@ CycleCounts SceneTracker::update(const std::vector<std::optional<Eigen::Isometry
 }
 
 CycleCounts SceneTracker::update(const std::vector<PairDemand>& demand, const Locate& locate) {
+  requireCount("demands", demand.size(), pairs_.size(), "pairs");
   if (std::exchange(interrupted_, true)) {
     for (auto& pair : pairs_) pair->discard();
   }
@@ -140,7 +175,7 @@ void SceneTracker::choosePairs(const std::vector<PairDemand>& demand, const Loca
   for (std::size_t index = 0; index < pairs_.size(); ++index) {
     TrackedPair& pair = *pairs_[index];
     const bool was_watched = pair.demand.watched;
-    pair.demand = pair.origin->enabled ? demand.at(index) : PairDemand{};
+    pair.demand = pair.origin->enabled ? demand[index] : PairDemand{};
     if (!pair.demand.watched) {
       pair.warning_changed = false;
       if (was_watched) pair.stopWatching();
@@ -159,6 +194,7 @@ void SceneTracker::count(CycleCounts& counts) const {
     counts.not_located += pair->state == PairState::NotLocated ? 1 : 0;
   }
   for (TrackedPair* pair : to_solve_) {
+    if (!pair->solved()) continue;  // stopped before its turn
     ++counts.solved;
     counts.effects += pair->effects.takeCounts();
     counts.cold += pair->solution.warm ? 0 : 1;
@@ -202,7 +238,7 @@ void SceneTracker::solveAll() {
 
 void SceneTracker::solve(TrackedPair& pair) {
   if (options_.stop != nullptr && *options_.stop) {
-    pair.state = PairState::Stopped;
+    pair.stop();
     return;
   }
   pair.solve();

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "base/number_text.h"
 #include "concave_distance/base/error.h"
 #include "matching_pairs.h"
 
@@ -10,7 +11,7 @@ namespace {
 
 void requireLength(const std::string& field, double value) {
   if (!(value >= 0.0) || !std::isfinite(value)) {
-    throw Error(field, "the value is " + std::to_string(value), "give metres: a finite number, 0 or more");
+    throw Error(field, "the value is " + numberText(value), "give metres: a finite number, 0 or more");
   }
 }
 

@@ -46,6 +46,13 @@ void TrackedEffects::update(const PairSolution& solution, double step,
   last_a_from_b_ = solution.a_from_b;
 }
 
+void TrackedEffects::forgetAnswer() {
+  std::vector<ContactRegion> regions = std::move(contacts_.regions);
+  regions.clear();
+  contacts_ = {};
+  contacts_.regions = std::move(regions);
+}
+
 void TrackedEffects::reset() {
   has_pose_ = false;
   if (effects_) {

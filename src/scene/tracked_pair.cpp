@@ -22,7 +22,7 @@ bool TrackedPair::locate(const PairInput& next, const std::atomic<bool>* stop) {
   repeated = false;
   box_bound.reset();
   if (!input.located) {
-    state = PairState::NotLocated;
+    endWithoutAnswer(PairState::NotLocated);
     return false;
   }
   if (std::isfinite(settings.tracker.cutoff)) {
@@ -30,7 +30,7 @@ bool TrackedPair::locate(const PairInput& next, const std::atomic<bool>* stop) {
     if (bound > settings.tracker.cutoff) {
       restart();
       box_bound = bound;
-      state = PairState::BeyondCutoff;
+      endWithoutAnswer(PairState::BeyondCutoff);
       return false;
     }
   }
@@ -69,6 +69,25 @@ void TrackedPair::watchWarning() {
   warning_changed = warning.update(distance, *settings.warning_distance, settings.warning_hysteresis);
 }
 
+void TrackedPair::stop() {
+  endWithoutAnswer(PairState::Stopped);
+}
+
+// What is old is not left where a caller would read it as the answer; buffers are kept.
+void TrackedPair::endWithoutAnswer(PairState now) {
+  if (solved()) {
+    std::vector<TrackedNiche> niches = std::move(solution.niches);
+    std::vector<NicheEvent> events = std::move(solution.events);
+    niches.clear();
+    events.clear();
+    solution = PairSolution();
+    solution.niches = std::move(niches);
+    solution.events = std::move(events);
+    effects.forgetAnswer();
+  }
+  state = now;
+}
+
 bool TrackedPair::needsSearch() const {
   return must_solve_ && (demand.niches || !provesDistance(settings.tracker.accuracy));
 }
@@ -76,7 +95,7 @@ bool TrackedPair::needsSearch() const {
 void TrackedPair::restart() {
   if (tracker_) tracker_->reset();
   effects.reset();
-  state = PairState::NotWatched;
+  endWithoutAnswer(PairState::NotWatched);
   must_solve_ = true;
 }
 
@@ -90,7 +109,7 @@ void TrackedPair::stopWatching() {
 void TrackedPair::discard() {
   tracker_.reset();
   effects.prepare(settings.effects, false);
-  state = PairState::NotWatched;
+  endWithoutAnswer(PairState::NotWatched);
   must_solve_ = true;
 }
 

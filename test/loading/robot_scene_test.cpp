@@ -151,6 +151,18 @@ TEST_F(RobotScene, LeadingSlashesOfLinkNamesAreDroppedAsRobotStatePublisherDoes)
   EXPECT_EQ(scene.bodies[1].frame, "b");
 }
 
+TEST_F(RobotScene, LinksAreTheSameWithAndWithoutALeadingSlash) {
+  const std::string urdf = robot(boxLink("/a") + boxLink("/b") + boxLink("/c") +
+                                 joint("floating", "/a", "/b") + joint("floating", "/b", "/c"));
+  EXPECT_EQ(pairNames(loadRobot(urdf)), Names({"a/c"}));
+  const std::string srdf = "<robot name='arm'><disable_collisions link1='a' link2='/c'/></robot>";
+  EXPECT_EQ(pairNames(loadRobot(urdf, "", srdf)), Names());
+  EXPECT_EQ(bodyNames(loadRobot(urdf, "    skip_links: [/b, c]\n")), Names({"a"}));
+  const Scene twice = loadRobot(robot(boxLink("/a") + bareLink("a") + joint("fixed", "/a", "a")));
+  ASSERT_EQ(twice.problems.size(), 1U);
+  EXPECT_TRUE(mentions(twice.problems[0].message, "two links are called 'a'")) << twice.problems[0].message;
+}
+
 TEST_F(RobotScene, PrefixGoesBeforeNamesAndFrames) {
   const Scene scene = loadRobot(robot(boxLink("a") + boxLink("b") + boxLink("c") +
                                       joint("continuous", "a", "b") + joint("continuous", "b", "c")),
@@ -268,11 +280,32 @@ TEST_F(RobotScene, SrdfGroupsAreGroupsOfTheScene) {
 
 TEST_F(RobotScene, WhatTheSrdfHasAndTheUrdfHasNotIsNoted) {
   const Scene scene = loadRobot(robot(boxLink("a")), "",
-                                "<robot name='other'>\n<disable_collisions link1='a' link2='gone'/>\n"
+                                "<robot name='arm'>\n<disable_collisions link1='a' link2='gone'/>\n"
                                 "<enable_collisions link1='a' link2='gone'/></robot>");
-  EXPECT_TRUE(hasNote(scene, "is for robot 'other', read for 'arm'"));
   EXPECT_TRUE(hasNote(scene, "parameter semantics:2: disable_collisions names 'gone'"));
   EXPECT_TRUE(hasNote(scene, "parameter semantics:3: enable_collisions names 'gone'"));
+}
+
+// A pair disabled by mistake would not be watched, and nobody would notice.
+TEST_F(RobotScene, TheSrdfOfAnotherRobotIsNotAppliedOrAppliedWithAWarning) {
+  const std::string urdf = robot(boxLink("a") + boxLink("b") + boxLink("c") + joint("floating", "a", "b") +
+                                 joint("floating", "b", "c"));
+  const std::string disables = "<disable_collisions link1='a' link2='c'/>";
+  const std::string unknown = "<disable_collisions link1='a' link2='gone'/>";
+  const Scene renamed = loadRobot(urdf, "", "<robot name='other'>" + disables + "</robot>");
+  EXPECT_TRUE(renamed.pairs.empty());
+  EXPECT_TRUE(renamed.problems.empty());
+  ASSERT_EQ(renamed.warnings.size(), 1U);
+  EXPECT_TRUE(mentions(renamed.warnings[0], "parameter semantics: it is for robot 'other', read for 'arm'"));
+  for (const std::string& srdf :
+       {"<robot name='other'>" + disables + unknown + "</robot>",
+        "<robot name='arm'><group name='g'><link name='x'/></group></robot>" + std::string()}) {
+    const Scene scene = loadRobot(urdf, "", srdf);
+    EXPECT_EQ(pairNames(scene), Names({"a/c"})) << srdf;
+    ASSERT_EQ(scene.problems.size(), 1U) << srdf;
+    EXPECT_TRUE(mentions(scene.problems[0].message, "it is the SRDF of robot")) << scene.problems[0].message;
+  }
+  EXPECT_TRUE(loadRobot(urdf, "", "<robot name='arm'>" + disables + unknown + "</robot>").pairs.empty());
 }
 
 TEST_F(RobotScene, BrokenSrdfIsAProblemAndTheRobotIsServedWithoutIt) {

@@ -223,5 +223,21 @@ TEST_F(ScenePairs, ALongListOfLostPairsSaysHowManyMore) {
   EXPECT_TRUE(mentions(scene.problems[0].message, "missing/b9 and 4 more")) << scene.problems[0].message;
 }
 
+TEST_F(ScenePairs, GroupsAndDefaultsStayWithTheSceneForBodiesThatComeLater) {
+  const Scene scene = load(
+      "robots: [{description: robot, name: links}]\ndefaults: {max_edge_length: 100, chord_error: 0.5,\n"
+      "  cutoff: 1.5, warning_distance: 0.25, material: {youngs_modulus: 1e6}}\n"
+      "bodies: [{name: missing, mesh: missing.stl}, {name: table, box: {size: [1, 1, 1]}}]\n"
+      "groups: {room: [missing, table], all: [room, arm, t*]}\n");
+  EXPECT_EQ(scene.groups.at("links"), Names({"base", "arm", "tool"}));
+  EXPECT_EQ(scene.groups.at("room"), Names({"missing", "table"}));
+  EXPECT_EQ(scene.groups.at("all"), Names({"missing", "table", "arm", "tool"}));
+  EXPECT_EQ(scene.defaults.pairs.tracker.cutoff, 1.5);
+  EXPECT_EQ(scene.defaults.pairs.warning_distance, 0.25);
+  EXPECT_EQ(scene.defaults.max_edge_length, 100.0);
+  EXPECT_EQ(scene.defaults.chord_error, 0.5);
+  EXPECT_EQ(scene.defaults.material.youngs_modulus, 1e6);
+}
+
 }  // namespace
 }  // namespace concave_distance

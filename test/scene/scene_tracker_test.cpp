@@ -4,6 +4,11 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include <atomic>
+#include <cmath>
+#include <functional>
+#include <limits>
+
 #include "concave_distance/base/error.h"
 #include "concave_distance/loading/robot_poses.h"
 #include "support/box_scene.h"
@@ -163,8 +168,101 @@ TEST(SceneTrackerThreads, HelpWithALongPairOnlyWhereMoreThanOneIsAllowed) {
   EXPECT_EQ(alone.helper_cpu_seconds, 0.0);
 }
 
-TEST_F(SceneTrackerTest, RefusesPosesOfAnotherNumberOfBodies) {
-  EXPECT_THROW(tracker.update(Poses{at(0.0)}, 0.0), std::out_of_range);
+// Whoever reads the answer without looking at the state must not read that of another pose.
+TEST_F(SceneTrackerTest, LeavesNoOldAnswerWhereAPairHasNone) {
+  Scene near = threeBoxes();
+  for (std::size_t index = 0; index < near.pairs.size(); ++index) {
+    near.pairs.edit(index).settings.tracker.cutoff = 1.5;
+    near.pairs.edit(index).settings.effects.normal_force.emplace();
+  }
+  std::atomic<bool> stop{false};
+  SceneTracker cut({1, &stop});
+  cut.setScene(near);
+  const auto expect_nothing = [&](PairState state) {
+    const TrackedPair& pair = *cut.pairs()[0];
+    EXPECT_EQ(pair.state, state);
+    EXPECT_TRUE(std::isnan(pair.solution.distance));
+    EXPECT_TRUE(std::isnan(pair.solution.lower_bound));
+    EXPECT_TRUE(std::isnan(pair.solution.point_a_in_a.x()));
+    EXPECT_TRUE(pair.solution.niches.empty());
+    if (pair.effects.contacts() != nullptr) {
+      EXPECT_TRUE(pair.effects.contacts()->regions.empty());
+      EXPECT_TRUE(std::isnan(pair.effects.contacts()->on_b_in_a.force.x()));
+    }
+  };
+  double time = 0.0;
+  const auto touch = [&] {
+    stop = false;
+    cut.update({at(0.0), at(0.9), at(-3.0)}, ++time, {true, true, true, true});
+    ASSERT_EQ(cut.pairs()[0]->solution.distance, 0.0);
+    ASSERT_GT(cut.pairs()[0]->effects.contacts()->on_b_in_a.force.x(), 0.0);
+  };
+  touch();
+  cut.update({at(0.0), at(9.0), at(-3.0)}, ++time, {true, true, true, true});
+  expect_nothing(PairState::BeyondCutoff);
+  touch();
+  cut.update({at(0.0), std::nullopt, at(-3.0)}, ++time, {true, true, true, true});
+  expect_nothing(PairState::NotLocated);
+  touch();
+  stop = true;
+  const CycleCounts stopped = cut.update({at(0.0), at(0.8), at(-3.0)}, ++time, {true, true, true, true});
+  EXPECT_EQ(stopped.solved, 0U);
+  expect_nothing(PairState::Stopped);
+  touch();
+  cut.restart(0);
+  expect_nothing(PairState::NotWatched);
+  touch();
+  cut.update({at(0.0), at(0.9), at(-3.0)}, ++time, PairDemand{});
+  expect_nothing(PairState::NotWatched);
+}
+
+std::string messageOf(const std::function<void()>& act) {
+  try {
+    act();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST_F(SceneTrackerTest, RefusesAnotherNumberOfPosesOrDemandsByName) {
+  for (const Poses& poses : {Poses{}, Poses{at(0.0)}, Poses(4, at(0.0))}) {
+    EXPECT_TRUE(test::mentions(messageOf([&] { tracker.update(poses, 0.0); }),
+                               std::to_string(poses.size()) + " poses for 3 bodies"));
+  }
+  const auto nowhere = [](std::size_t) { return PairInput{}; };
+  EXPECT_TRUE(test::mentions(messageOf([&] { tracker.update(std::vector<PairDemand>(1), nowhere); }),
+                             "1 demands for 2 pairs"));
+  EXPECT_TRUE(test::mentions(messageOf([&] { tracker.restart(2); }), "pair 2 of 2"));
+  EXPECT_EQ(tracker.update(posesAt(0.0), 0.0).solved, 2U);
+}
+
+TEST_F(SceneTrackerTest, RefusesPairsThatAreNotTwoBodiesWithMeshesAndKeepsTheSceneBefore) {
+  const auto message = [&](std::size_t body_a, std::size_t body_b) {
+    Scene wrong = threeBoxes();
+    SceneBody bare;
+    bare.name = "bare";
+    wrong.bodies.push_back(bare);
+    wrong.pairs.edit(1).body_a = body_a;
+    wrong.pairs.edit(1).body_b = body_b;
+    return messageOf([&] { tracker.setScene(wrong); });
+  };
+  EXPECT_TRUE(test::mentions(message(0, 4), "pair 'a/c': it names body 4 of 4"));
+  EXPECT_TRUE(test::mentions(message(std::numeric_limits<std::size_t>::max(), 1), "of 4"));
+  EXPECT_TRUE(test::mentions(message(0, 3), "body 'bare' has no mesh"));
+  EXPECT_TRUE(test::mentions(message(2, 2), "both its bodies are 'c'"));
+  EXPECT_EQ(tracker.update(posesAt(0.0), 0.0).solved, 2U);
+}
+
+TEST_F(SceneTrackerTest, FollowsABodyThatIsExchangedInItsPlace) {
+  tracker.update(posesAt(0.0), 0.0);
+  SceneBody& body = scene.bodies.edit(1);
+  body.mesh =
+      std::make_shared<const BodyMesh>("b", makeBox(Eigen::Vector3d(2.0, 1.0, 1.0)), BodyMeshOptions{});
+  body.bounds = boundsOf(body.mesh->surface());
+  tracker.setScene(scene);
+  tracker.update(posesAt(0.0), 0.0);
+  EXPECT_NEAR(pair(0).solution.distance, 0.5, kRounding);
 }
 
 class RobotPosesTest : public test::SceneTest {};
@@ -186,6 +284,44 @@ TEST_F(RobotPosesTest, AreThoseOfTheJointPositions) {
   EXPECT_TRUE(poses[1]->isApprox(turned, kRounding));
   EXPECT_FALSE(poses[2].has_value()) << "no link of this robot";
   EXPECT_THROW(robot.of(scene, {{"trun", 0.5}}), Error);
+  EXPECT_THROW(robot.of(scene, {{"turn", std::nan("")}}), Error);
+}
+
+std::string oneJoint(const std::string& slash) {
+  return test::robot(test::boxLink(slash + "a") + test::boxLink(slash + "b") +
+                     "<joint name='slide' type='prismatic'>"
+                     "<parent link='" +
+                     slash + "a'/><child link='" + slash +
+                     "b'/><axis xyz='1 0 0'/>"
+                     "<limit lower='0' upper='9' effort='1' velocity='1'/></joint>");
+}
+
+TEST_F(RobotPosesTest, AreThoseOfLinksWithALeadingSlash) {
+  const Scene scene = loadRobotScene(oneJoint("/"), "URDF", options);
+  const auto poses = RobotPoses(oneJoint("/")).of(scene, {{"slide", 3.0}});
+  ASSERT_EQ(poses.size(), 2U);
+  ASSERT_TRUE(poses[0] && poses[1]);
+  EXPECT_EQ(poses[1]->translation(), Eigen::Vector3d(3.0, 0.0, 0.0));
+}
+
+TEST_F(RobotPosesTest, AreThoseOfTheRobotWithThePrefix) {
+  options.descriptions["robot_description"] = oneJoint("/");
+  const Scene scene = load(
+      "robots: [{description: robot_description, prefix: left_},\n"
+      "         {description: robot_description, prefix: /right_}]\nbodies: [{name: table, sphere: {radius: "
+      "1}}]\n");
+  ASSERT_EQ(test::bodyNames(scene),
+            std::vector<std::string>({"left_a", "left_b", "right_a", "right_b", "table"}));
+  const auto left = RobotPoses(oneJoint("/"), "left", "left_").of(scene, {{"slide", 1.0}});
+  const auto right = RobotPoses(oneJoint("/"), "right", "/right_").of(scene, {{"slide", 2.0}});
+  ASSERT_TRUE(left[0] && left[1] && right[2] && right[3]);
+  EXPECT_FALSE(left[2] || left[3] || left[4] || right[0] || right[1] || right[4]);
+  EXPECT_EQ(left[1]->translation().x(), 1.0);
+  EXPECT_EQ(right[3]->translation().x(), 2.0);
+  EXPECT_TRUE(
+      test::mentions(messageOf([&] { RobotPoses(oneJoint("/")).of(scene, {}); }),
+                     "no body of the scene is fixed to a link '...' of robot 'arm'; the bodies' frames "
+                     "are 'left_a', 'left_b'"));
 }
 
 }  // namespace

@@ -15,8 +15,10 @@ namespace concave_distance {
 class RobotPoses {
  public:
   /// @param urdf its text @param where names it in errors
+  /// @param prefix what a scene file gives the robot as `prefix`; with two robots, one RobotPoses for each
   /// @throws Error when urdfdom cannot parse the text
-  explicit RobotPoses(const std::string& urdf, const std::string& where = "URDF");
+  explicit RobotPoses(const std::string& urdf, const std::string& where = "URDF",
+                      const std::string& prefix = "");
   ~RobotPoses();
   RobotPoses(RobotPoses&&) noexcept;
   RobotPoses& operator=(RobotPoses&&) noexcept;
@@ -28,7 +30,8 @@ class RobotPoses {
   /// fixed to no link of this robot. For SceneTracker::update.
   /// @param positions rad or m; joints that are not named stay at zero, or in the middle of their range if
   ///        zero is outside. Joints of more than one degree of freedom stay at zero.
-  /// @throws Error for a name that is none of jointNames()
+  /// @throws Error for a name that is none of jointNames(), for a position that is not finite, and when the
+  ///         scene has bodies but none that is fixed to a link of this robot: another URDF or prefix
   std::vector<std::optional<Eigen::Isometry3d>> of(const Scene& scene,
                                                    const std::map<std::string, double>& positions) const;
 

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -91,13 +92,24 @@ class PairList : public NamedList<ScenePair> {
   PlaceIndex by_bodies_;
 };
 
+/// What bodies added later, and their pairs, have where nothing else is said: a scene file's `defaults`.
+struct SceneDefaults {
+  PairSettings pairs;
+  std::optional<double> max_edge_length;  ///< m; empty: automatic
+  std::optional<double> chord_error;      ///< m; empty: 1 % of the radius
+  Material material;
+};
+
 struct Scene {
   NamedList<SceneBody> bodies;
   PairList pairs;  ///< enabled ones and those disabled by name; filtered pairs are not listed
   std::vector<SceneProblem> problems;
-  std::vector<std::string> notes;                ///< repairs and filters applied, one line each
-  std::vector<std::string> warnings;             ///< served, but probably mistakes; each with a remedy
-  RigidFrames rigid;                             ///< frames that fixed joints connect
+  std::vector<std::string> notes;     ///< repairs and filters applied, one line each
+  std::vector<std::string> warnings;  ///< served, but probably mistakes; each with a remedy
+  RigidFrames rigid;                  ///< frames that fixed joints connect
+  SceneDefaults defaults;
+  /// Names of bodies by group: of the scene file, robots and SRDFs. Not all of them need to be in `bodies`.
+  std::map<std::string, std::vector<std::string>> groups;
   std::optional<double> automatic_cutoff;        ///< m, if SceneLoadOptions requests one
   std::optional<SimulationSettings> simulation;  ///< the section `simulation`, where there is one
   PreparationCachePointer cache;                 ///< of its bodies, used for later ones too; nullptr: none

@@ -52,24 +52,29 @@ class SceneTracker {
   /// Pairs whose bodies are in both scenes go on, warm. The order becomes that of scene.pairs. When it
   /// throws, the scene before is still tracked.
   /// @param settings_changed false: no pair of both scenes has other settings, and none is solved anew
+  /// @throws Error for a pair whose bodies are not two bodies with meshes of the scene
   void setScene(const Scene& scene, bool settings_changed = true);
-  /// Of each pair of a scene, its place in pairs() if setScene() would let it go on.
+  /// Of each pair of a scene, its place in pairs() if setScene() would let it go on. @throws Error as
+  /// setScene()
   std::vector<std::optional<std::size_t>> placesNow(const Scene& scene) const;
 
   /// One cycle over all enabled pairs. @param world_from_body one pose for each of scene.bodies, each rigid
   /// (rotation orthonormal within 1e-3); empty where it is not known
   /// @param time seconds of these poses, from any beginning
   /// @param demand of each pair
+  /// @throws Error for another number of poses than the scene has bodies
   CycleCounts update(const std::vector<std::optional<Eigen::Isometry3d>>& world_from_body, double time,
                      const PairDemand& demand = {true, true, true, false});
 
   /// One cycle. @param demand one per pair, in their order. A pair that is not watched costs nothing and
   /// starts cold when it is watched again; one that is watched but not due keeps its state. What belongs to a
   /// disabled pair is ignored.
+  /// @throws Error for another number of demands than pairs
   /// After a cycle that threw, all pairs start cold.
   CycleCounts update(const std::vector<PairDemand>& demand, const Locate& locate);
 
-  /// Every pair, or the one at this place in scene.pairs, starts cold in its next cycle.
+  /// Every pair, or the one at this place in scene.pairs, starts cold in its next cycle. @throws Error when
+  /// there is no such place
   void restart();
   void restart(std::size_t pair);
 
@@ -90,6 +95,7 @@ class SceneTracker {
   std::unique_ptr<Arena> arena_;
   Pairs pairs_;
   Pairs retired_;
+  std::size_t body_count_ = 0;            ///< of the scene
   std::uint64_t largest_retired_id_ = 0;  ///< of removed pairs
   bool interrupted_ = false;              ///< the last cycle threw, or the running one has not ended
   std::vector<TrackedPair*> to_solve_;

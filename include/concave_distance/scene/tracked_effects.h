@@ -23,6 +23,8 @@ class TrackedEffects {
   /// @param b_in_a velocity of B relative to A; empty: from this pose, the last one and the step
   void update(const PairSolution& solution, double step, const std::optional<RelativeTwist>& b_in_a,
               WorkLimit& limit);
+  /// Empties contacts(): the pair has no answer in this cycle.
+  void forgetAnswer();
   /// Forgets regions, bristles and the last pose.
   void reset();
 
@@ -30,7 +32,7 @@ class TrackedEffects {
   void keep();
   void goBack();
 
-  /// Of the last update(); nullptr while no effects are wanted.
+  /// Of the last update(), unless forgotten; nullptr while no effects are wanted.
   const PairContacts* contacts() const { return effects_ ? &contacts_ : nullptr; }
   /// With the surfaces and pressures of contacts(); nullptr while no effects are wanted.
   const PairEffects* effects() const { return effects_.get(); }

@@ -60,7 +60,7 @@ struct TrackedPair {
   PairInput input;        ///< the last one
   bool repeated = false;  ///< the input is that of the last answer, which stands: nothing was computed
   std::optional<double> box_bound;  ///< metres, with BeyondCutoff
-  PairSolution solution;            ///< with Solved
+  PairSolution solution;            ///< with Solved; otherwise NaN and empty, as not computed
   TrackedEffects effects;
   WarningMonitor warning;
   bool warning_changed = false;  ///< in this cycle
@@ -79,6 +79,8 @@ struct TrackedPair {
   /// A grid and metric will be needed that the bodies may not have yet.
   bool needsSearch() const;
 
+  /// Ends a cycle without an answer; the niches are kept for the next one.
+  void stop();
   /// Forgets the niches; ids go on.
   void restart();
   /// The same when it is no longer watched; an alert that is raised is taken back.
@@ -95,6 +97,7 @@ struct TrackedPair {
  private:
   void prepare(const std::atomic<bool>* stop);
   void updateEffects();
+  void endWithoutAnswer(PairState now);
 
   std::unique_ptr<PairTracker> tracker_;  ///< made when the pair is first watched
   bool stale_parameters_ = false;         ///< the tracker has to be given the settings again

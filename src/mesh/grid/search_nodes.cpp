@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "base/number_text.h"
 #include "concave_distance/base/error.h"
 #include "thin_graph.h"
 
@@ -34,7 +35,7 @@ double areaOf(const SurfaceMesh& surface) {
 void checkEdgeLength(const SurfaceMesh& surface, const std::optional<double>& max_edge_length,
                      const std::string& where) {
   if (max_edge_length && (!(*max_edge_length > 0.0) || !std::isfinite(*max_edge_length))) {
-    throw Error(where, "max_edge_length is " + std::to_string(*max_edge_length),
+    throw Error(where, "max_edge_length is " + numberText(*max_edge_length),
                 "give a positive, finite length in metres or leave it out");
   }
   for (const TriangleNodes& t : surface.triangles()) {

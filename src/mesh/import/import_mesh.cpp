@@ -1,19 +1,18 @@
 #include "concave_distance/mesh/import/import_mesh.h"
 
-#include "mesh_file.h"
-
 #include <Eigen/Geometry>
-#include <sstream>
 
+#include "base/number_text.h"
 #include "concave_distance/base/error.h"
 #include "import_process.h"
+#include "mesh_file.h"
 
 namespace concave_distance {
 namespace {
 
 void checkScale(const std::string& path, const Eigen::Vector3d& scale) {
   if (!scale.allFinite() || (scale.array() == 0.0).any()) {
-    std::ostringstream seen;
+    TextStream seen;
     seen << "the mesh scale is " << scale.x() << ' ' << scale.y() << ' ' << scale.z();
     throw Error(path, seen.str(), "give three finite factors other than zero");
   }

@@ -8,10 +8,10 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <sstream>
 #include <system_error>
 #include <vector>
 
+#include "base/number_text.h"
 #include "child_process.h"
 #include "concave_distance/base/error.h"
 #include "import_stream.h"
@@ -25,33 +25,28 @@ constexpr const char* kReinstall =
     "mesh_import_worker";
 constexpr const char* kExportAgain = "the file is broken: export the mesh again";
 
-template <typename Number>
-std::string textOf(Number value, int digits) {
-  std::ostringstream text;
-  text.precision(digits);
-  text << value;
-  return text.str();
-}
-
-template <typename Number>
-std::string exactText(Number value) {
-  return textOf(value, 17);
+std::string exactText(double value) {
+  return numberText(value, 17);
 }
 
 std::vector<std::string> argumentsOf(const MeshFile& file, const Eigen::Vector3d& scale,
                                      const MeshImportLimits& limits) {
-  return {exactText(limits.memory), exactText(limits.seconds), exactText(limits.largest_triangle_count),
-          file.extension(),         exactText(scale.x()),      exactText(scale.y()),
+  return {std::to_string(limits.memory),
+          exactText(limits.seconds),
+          std::to_string(limits.largest_triangle_count),
+          file.extension(),
+          exactText(scale.x()),
+          exactText(scale.y()),
           exactText(scale.z())};
 }
 
 Error tooMuchMemory(const std::string& path, const MeshImportLimits& limits) {
-  return {path, "reading it needs more than " + textOf(static_cast<double>(limits.memory) * 1e-6, 6) + " MB",
+  return {path, "reading it needs more than " + numberText(static_cast<double>(limits.memory) * 1e-6) + " MB",
           "simplify the mesh, or raise the limit (of the node: ~limits/import_memory_mb)"};
 }
 
 Error tooMuchTime(const std::string& path, const MeshImportLimits& limits) {
-  return {path, "reading it takes more than " + textOf(limits.seconds, 6) + " s",
+  return {path, "reading it takes more than " + numberText(limits.seconds) + " s",
           "simplify the mesh, or raise the limit (of the node: ~limits/import_seconds)"};
 }
 

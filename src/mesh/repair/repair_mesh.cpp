@@ -1,9 +1,9 @@
 #include "concave_distance/mesh/repair/repair_mesh.h"
 
 #include <algorithm>
-#include <sstream>
 
 #include "base/coordinate_limit.h"
+#include "base/number_text.h"
 #include "concave_distance/base/error.h"
 #include "dissolve_flat_triangles.h"
 #include "drop_unused.h"
@@ -18,7 +18,7 @@ namespace {
 
 void checkSoup(const TriangleSoup& soup, const RepairOptions& options, const std::string& where) {
   if (!(options.weld_tolerance >= 0.0) || !(options.weld_tolerance < 1.0)) {
-    std::ostringstream seen;
+    TextStream seen;
     seen << "the weld tolerance is " << options.weld_tolerance;
     throw Error(where, seen.str(), "give a fraction of the size, from 0 to below 1");
   }
@@ -114,7 +114,7 @@ void countEdges(const std::vector<TriangleNodes>& triangles, RepairReport& repor
 }  // namespace
 
 std::string RepairReport::summary() const {
-  std::ostringstream text;
+  TextStream text;
   const auto add = [&](std::size_t count, const char* one, const char* many) {
     if (count != 0) {
       text << (text.tellp() > 0 ? ", " : "") << count << ' ' << (count == 1 ? one : many);

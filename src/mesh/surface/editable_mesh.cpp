@@ -1,8 +1,8 @@
 #include "editable_mesh.h"
 
 #include <cmath>
-#include <sstream>
 
+#include "base/number_text.h"
 #include "concave_distance/base/error.h"
 
 namespace concave_distance::detail {
@@ -145,7 +145,7 @@ void EditableMesh::splitTriangle(HalfEdge half_edge, NodeIndex m, std::size_t ed
 
 void checkRefinement(const SurfaceMesh& mesh, double max_edge_length) {
   if (!(max_edge_length > 0.0) || !std::isfinite(max_edge_length)) {
-    std::ostringstream seen;
+    TextStream seen;
     seen << "the largest edge length is " << max_edge_length;
     throw Error("refinement", seen.str(), "give a positive, finite length in metres");
   }
@@ -159,7 +159,7 @@ void checkRefinement(const SurfaceMesh& mesh, double max_edge_length) {
 }
 
 void throwTooManyNodes(double max_edge_length, std::size_t node_limit) {
-  std::ostringstream seen;
+  TextStream seen;
   seen << "a largest edge of " << max_edge_length << " m needs more than " << node_limit << " nodes";
   throw Error("refinement", seen.str(), "give a larger edge length");
 }

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "base/coordinate_limit.h"
+#include "base/number_text.h"
 #include "base/pi.h"
 #include "concave_distance/base/error.h"
 
@@ -19,14 +19,14 @@ constexpr double kLongest = 0.5 * kLargestCoordinate;
 
 void requirePositive(double value, const char* name, const std::string& where) {
   if (!(value > 0.0) || !(value <= kLongest)) {
-    std::ostringstream seen;
+    TextStream seen;
     seen << name << " is " << value;
     throw Error(where, seen.str(), "give a positive length of at most 5e17 m");
   }
 }
 
 [[noreturn]] void throwTooFine(double radius, double chord_error, const std::string& where) {
-  std::ostringstream seen;
+  TextStream seen;
   seen << "a chord error of " << chord_error << " m on a radius of " << radius << " m needs more than "
        << kMaxTriangles << " triangles";
   throw Error(where, seen.str(), "give a larger chord error");

@@ -4,6 +4,7 @@
 
 #include <ros/package.h>
 
+#include "base/number_text.h"
 #include "concave_distance/base/error.h"
 #include "concave_distance/loading/resource_locator.h"
 
@@ -24,8 +25,8 @@ double numberParameter(const ros::NodeHandle& node, const std::string& name, dou
     throw Error(node.resolveName(name), "is no number", "set it to a number");
   }
   if (!(value >= least && value <= most)) {
-    throw Error(node.resolveName(name), "is " + std::to_string(value),
-                "set it from " + std::to_string(least) + " to " + std::to_string(most));
+    throw Error(node.resolveName(name), "is " + numberText(value),
+                "set it from " + numberText(least) + " to " + numberText(most));
   }
   return value;
 }

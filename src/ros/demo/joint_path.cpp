@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/csv_table.h"
+#include "base/number_text.h"
 #include "concave_distance/base/error.h"
 
 namespace concave_distance::demo {
@@ -70,9 +71,8 @@ std::vector<double> readTimes(const CsvTable& table, const std::string& path) {
     }
     const double time = table.at(row, 0);
     if (!times.empty() && !(time > times.back())) {
-      throw Error(
-          where, "time " + std::to_string(time) + " s does not follow " + std::to_string(times.back()) + " s",
-          "sort the rows by time");
+      throw Error(where, "time " + numberText(time) + " s does not follow " + numberText(times.back()) + " s",
+                  "sort the rows by time");
     }
     times.push_back(time);
   }
@@ -89,7 +89,7 @@ NamedJointPath readJointPath(const std::string& path) {
   }
   std::vector<double> times = readTimes(table, path);
   if (times.size() < 4 || times.front() != 0.0) {
-    throw Error(path, std::to_string(times.size()) + " rows from t = " + std::to_string(times.front()) + " s",
+    throw Error(path, std::to_string(times.size()) + " rows from t = " + numberText(times.front()) + " s",
                 "give at least four rows, the first at t = 0");
   }
   const auto joints = static_cast<Eigen::Index>(table.columns.size()) - 1;
@@ -101,7 +101,7 @@ NamedJointPath readJointPath(const std::string& path) {
   }
   const double gap = (waypoints.bottomRows<1>() - waypoints.topRows<1>()).cwiseAbs().maxCoeff();
   if (!(gap <= kClosingTolerance)) {
-    throw Error(path, "the path does not close: its ends differ by " + std::to_string(gap),
+    throw Error(path, "the path does not close: its ends differ by " + numberText(gap),
                 "repeat the first row as the last one, at the end of the period");
   }
   const double period = times.back();
