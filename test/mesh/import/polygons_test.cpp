@@ -360,6 +360,23 @@ TEST(Polygons, WarpedOnesAreCutSoThatTheirTrianglesFaceNewellsNormal) {
   }
 }
 
+TEST(Polygons, OfFourCornersAreCutHoweverWarped) {
+  RandomEngine engine(test::caseSeed(38));
+  for (int i = 0; i < 1000; ++i) {
+    SCOPED_TRACE(i);
+    // A field of heights much larger than its steps.
+    std::vector<Eigen::Vector3d> corners{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+    for (Eigen::Vector3d& corner : corners) corner.z() = 100.0 * uniformUnit(engine);
+    const Cut result = cut(corners);
+    ASSERT_TRUE(result.is_cut);
+    ASSERT_EQ(result.triangles.size(), 2U);
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (const auto& t : result.triangles)
+      sum += test::areaVector(corners[t[0]], corners[t[1]], corners[t[2]]);
+    EXPECT_LE((sum - result.newell).norm(), 1e-10);
+  }
+}
+
 TEST(Polygons, ThatCrossThemselvesAreRefusedWithTheirPlace) {
   const PolygonBody bow{{{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 2, 0}}, {{0, 1, 2, 3}}};
   const PolygonBody eight{{{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2, 3}}};

@@ -213,6 +213,28 @@ bool PolygonCutter::clipAll(std::vector<Triangle>& triangles) {
   return true;
 }
 
+/// Four corners that are not in a plane: no two of their edges meet, whatever they look like along any axis.
+bool PolygonCutter::isSkewQuad() const {
+  if (corners_.size() != 4) return false;
+  double largest_face = 0.0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    largest_face = std::max(largest_face, doubleArea(corners_[i].in_space, corners_[(i + 1) % 4].in_space,
+                                                     corners_[(i + 2) % 4].in_space));
+  }
+  const Eigen::Vector3d& a = corners_[0].in_space;
+  const double volume =
+      (corners_[1].in_space - a).cross(corners_[2].in_space - a).dot(corners_[3].in_space - a);
+  return std::abs(volume) > thin_ * largest_face;
+}
+
+/// By the diagonal whose worse triangle is the better one.
+void PolygonCutter::cutSkewQuad(std::vector<Triangle>& triangles) {
+  link();
+  const bool from_first = std::min(shapeOf(1), shapeOf(3)) >= std::min(shapeOf(0), shapeOf(2));
+  clip(from_first ? 1 : 0, triangles);
+  clip(from_first ? 3 : 2, triangles);
+}
+
 bool PolygonCutter::cut(const std::vector<Eigen::Vector3d>& vertices, const std::uint32_t* corners,
                         std::size_t count, std::vector<Triangle>& triangles) {
   readCorners(vertices, corners, count);
@@ -227,7 +249,9 @@ bool PolygonCutter::cut(const std::vector<Eigen::Vector3d>& vertices, const std:
     if (clipAll(triangles)) return true;
     triangles.resize(before);
   }
-  return false;
+  if (!isSkewQuad()) return false;
+  cutSkewQuad(triangles);
+  return true;
 }
 
 }  // namespace concave_distance::detail

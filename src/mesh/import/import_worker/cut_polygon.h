@@ -26,11 +26,12 @@ class PolygonCutter {
   explicit PolygonCutter(double thin) : thin_(thin) {}
 
   /// Appends at most `count` - 2 triangles with the polygon's winding. A hole may be joined to the border by
-  /// an edge that is passed in both directions. Corners of a warped polygon need not be in a plane: any cut
-  /// whose triangles face Newell's normal is as good as another. O(n log n + n r) for n corners, r of them
-  /// reflex; several times that for polygons that touch themselves.
+  /// an edge that is passed in both directions. Corners need not be in a plane: any cut of a warped polygon
+  /// whose triangles face Newell's normal is as good as another, and any of four corners so warped that none
+  /// has such. O(n log n + n r) for n corners, r of them reflex; several times that for polygons that touch
+  /// themselves.
   /// @param corners `count` indices into `vertices`, at least 3
-  /// @return false, with `triangles` as before, when the polygon crosses itself
+  /// @return false, with `triangles` as before, when the polygon crosses itself, seen along its normal
   bool cut(const std::vector<Eigen::Vector3d>& vertices, const std::uint32_t* corners, std::size_t count,
            std::vector<Triangle>& triangles);
 
@@ -75,6 +76,8 @@ class PolygonCutter {
   bool entersAt(const Corner& other, const Corner& before, const Corner& at, const Corner& after) const;
   double shapeOf(std::uint32_t corner) const;
   bool isThin(std::uint32_t corner) const;
+  bool isSkewQuad() const;
+  void cutSkewQuad(std::vector<Triangle>& triangles);
 
   std::vector<Corner> corners_;
   std::vector<std::uint32_t> obstacles_;  ///< corners that do not turn left, and some that did not

@@ -108,7 +108,7 @@ void FileMesh::cutPolygons(const std::string& path) {
     if (!cutter.cut(soup_.vertices, polygon_corners_.data() + first, count, soup_.triangles)) {
       throw Error(path,
                   names_.kind + " " + std::to_string(polygon.number) + names_.of + " is a polygon of " +
-                      std::to_string(count) + " corners whose border crosses itself",
+                      std::to_string(count) + " corners whose border crosses itself, seen along its normal",
                   "cut its faces into triangles in the program that made the mesh, and export it again");
     }
     first = polygon.end;

@@ -24,7 +24,6 @@ class FileMesh {
   explicit FileMesh(FaceNames names) : names_(std::move(names)) {}
 
   std::vector<Eigen::Vector3d>& vertices() { return soup_.vertices; }
-  const std::vector<Eigen::Vector3d>& vertices() const { return soup_.vertices; }
 
   /// Points and lines (fewer than three corners) have no surface and are passed over.
   /// @param number what errors name the face by

@@ -1,7 +1,6 @@
 #include "text_words.h"
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <system_error>
 
@@ -70,13 +69,6 @@ bool parseWhole(std::string_view word, std::int64_t& value) {
   const char* last = digits.data() + digits.size();
   const auto [end, error] = std::from_chars(digits.data(), last, value);
   return error == std::errc() && end == last;
-}
-
-std::string lowerCase(std::string_view text) {
-  std::string lower(text);
-  std::transform(lower.begin(), lower.end(), lower.begin(),
-                 [](unsigned char c) { return static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c); });
-  return lower;
 }
 
 bool equalsInAnyCase(std::string_view text, std::string_view lower) {

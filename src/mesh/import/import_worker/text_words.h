@@ -40,7 +40,6 @@ class TextWords {
 bool parseNumber(std::string_view word, double& value);
 bool parseWhole(std::string_view word, std::int64_t& value);
 
-std::string lowerCase(std::string_view text);
 /// For ASCII letters; `lower` is in lower case.
 bool equalsInAnyCase(std::string_view text, std::string_view lower);
 /// The text in quotes for an error: at most 40 characters, none of them invisible.
