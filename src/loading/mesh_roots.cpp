@@ -6,6 +6,7 @@
 
 #include "concave_distance/base/error.h"
 #include "mesh/import/mesh_file.h"
+#include "resource_paths.h"
 
 namespace concave_distance {
 namespace {

@@ -13,6 +13,7 @@
 
 #include "base/ascii.h"
 #include "concave_distance/base/error.h"
+#include "resource_paths.h"
 
 namespace concave_distance {
 namespace {

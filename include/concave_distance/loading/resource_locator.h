@@ -1,7 +1,6 @@
 #pragma once
 
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,23 +24,4 @@ PackageLocator packagesBelow(std::vector<std::string> folders);
 std::string locateResource(const std::string& resource, const std::string& base_folder,
                            const PackageLocator& package_locator);
 
-namespace detail {
-
-/// The paths that a resource may mean, before anything is looked up in the file system.
-struct ResourcePaths {
-  std::vector<std::string> candidates;  ///< absolute, or relative to the working folder; at least one
-  std::string package_folder;           ///< empty: no package://
-};
-
-/// The package of a package:// resource; nothing for any other resource.
-std::optional<std::string> packageOf(const std::string& resource);
-
-/// @throws Error as locateResource, except for missing files
-ResourcePaths resourcePaths(const std::string& resource, const std::string& base_folder,
-                            const PackageLocator& package_locator);
-
-/// The first candidate that is a regular file. @throws Error naming the resource when none is
-std::string firstFile(const std::string& resource, const std::vector<std::string>& candidates);
-
-}  // namespace detail
 }  // namespace concave_distance
