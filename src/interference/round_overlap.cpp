@@ -52,14 +52,16 @@ void RoundOverlap::find(const BodyMesh& a, const BodyMesh& b, const Eigen::Isome
   joinEntries();
   joinPatches();
   std::sort(entries_.begin(), entries_.end(), [](const Entry& l, const Entry& r) {
-    return std::tie(l.region, l.patch, l.triangle.value) < std::tie(r.region, r.patch, r.triangle.value);
+    return std::tie(l.region, l.hidden, l.patch, l.triangle.value) <
+           std::tie(r.region, r.hidden, r.patch, r.triangle.value);
   });
   const bool is_only = entries_.front().region == entries_.back().region;
   const Entry* const end = entries_.data() + entries_.size();
   for (const Entry* first = entries_.data(); first != end;) {
     const Entry* last =
         std::find_if(first, end, [&](const Entry& entry) { return entry.region != first->region; });
-    addRegion({first, last, 0, 0}, is_only, result);
+    const Entry* last_seen = std::find_if(first, last, [](const Entry& entry) { return entry.hidden; });
+    if (last_seen != first) addRegion({first, last_seen, last, 0, 0}, is_only, result);
     first = last;
   }
 }
@@ -86,14 +88,15 @@ bool RoundOverlap::collect(WorkLimit& limit) {
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
       const TriangleIndex triangle = mesh.tree().order()[i];
       const TrianglePoints corners = pair_->triangleInShape(triangle);
-      if (lowerBoundOnTriangle(shape, corners) > rounding_ || mesh.joints().isHidden(triangle)) continue;
+      if (lowerBoundOnTriangle(shape, corners) > rounding_) continue;
       const LowestPoint lowest = lowestOf(shape, corners);
       const Vector3d& normal = mesh.topology().triangle_normals[triangle.value];
       if (lowest.value >= 0.0 || normal.isZero()) continue;
       const bool leaves = std::any_of(corners.begin(), corners.end(), [&](const Vector3d& corner) {
         return signedDistance(shape, corner) > 0.0;
       });
-      entries_.push_back({triangle, 0, 0, lowest, corners, pair_->shape_from_mesh * normal, leaves});
+      entries_.push_back({triangle, 0, 0, lowest, corners, pair_->shape_from_mesh * normal, leaves,
+                          mesh.joints().isHidden(triangle)});
     }
   }
   return true;
@@ -147,6 +150,7 @@ void RoundOverlap::joinEntries() {
 void RoundOverlap::joinPatches() {
   deepest_.clear();
   for (std::size_t i = 0; i < entries_.size(); ++i) {
+    if (entries_[i].hidden) continue;
     const auto known = std::find_if(deepest_.begin(), deepest_.end(), [&](std::uint32_t entry) {
       return entries_[entry].patch == entries_[i].patch;
     });
@@ -164,7 +168,25 @@ void RoundOverlap::joinPatches() {
       if (root(from.patch) != root(to.patch)) joinAlong(from, to);
     }
   }
+  joinHidden();
   for (Entry& entry : entries_) entry.region = root(entry.patch);
+}
+
+/// A patch that is hidden all over bounds what another patch of its shell does.
+void RoundOverlap::joinHidden() {
+  const std::vector<std::uint32_t>& shells = pair_->mesh.topology().shell_of_triangle;
+  for (const Entry& entry : entries_) {
+    if (!entry.hidden) continue;
+    const auto is_seen = [&](std::uint32_t other) {
+      return root(entries_[other].patch) == root(entry.patch);
+    };
+    if (std::any_of(deepest_.begin(), deepest_.end(), is_seen)) continue;
+    const std::uint32_t shell = shells[entry.triangle.value];
+    const auto same = std::find_if(deepest_.begin(), deepest_.end(), [&](std::uint32_t other) {
+      return shells[entries_[other].triangle.value] == shell;
+    });
+    if (same != deepest_.end()) unite(entries_[*same].patch, entry.patch);
+  }
 }
 
 void RoundOverlap::joinAlong(const Entry& from, const Entry& to) {

@@ -31,16 +31,22 @@ class RoundOverlap {
     TrianglePoints corners;
     Eigen::Vector3d normal;
     bool leaves;  ///< the solid
+    bool hidden;  ///< inside another shell of the mesh: no surface
   };
   struct Crossing {
     double at;
     double outward;  ///< > 0 where the line leaves the mesh
     std::uint32_t patch;
   };
+  struct ShellVolume {
+    std::uint32_t shell = 0;
+    RoundVolume volume;
+  };
   /// Samples of one region, in samples_.
   struct Group {
     const Entry* first;
     const Entry* last;
+    const Entry* last_hidden;  ///< those that are hidden follow
     std::size_t first_sample;
     std::size_t last_sample;
   };
@@ -48,6 +54,7 @@ class RoundOverlap {
   bool collect(WorkLimit& limit);
   void joinEntries();
   void joinPatches();
+  void joinHidden();
   void joinAlong(const Entry& from, const Entry& to);
   std::uint32_t root(std::uint32_t entry);
   void unite(std::uint32_t l, std::uint32_t r);
@@ -59,6 +66,9 @@ class RoundOverlap {
   static bool has(const Group& group, std::uint32_t patch);
   void gatherSamples(Group& group);
   void addRegion(Group group, bool is_only, Interference& result);
+  RoundVolume& volumeOfShell(TriangleIndex triangle);
+  void addShells(InterferenceRegion& region) const;
+  bool isCavity(std::uint32_t shell) const;
   void measureVolume(const Group& group, bool is_only, InterferenceRegion& region);
   void measureShallowVolume(const Group& group, bool is_only, int side, InterferenceRegion& region);
   void setVolume(double volume, const Eigen::Vector3d& moment, double area, InterferenceRegion& region) const;
@@ -96,7 +106,8 @@ class RoundOverlap {
   std::vector<std::size_t> fan_ends_;       ///< by entry of the region
   std::vector<std::size_t> patch_samples_;  ///< where those of each of its patches begin, and their end
   RoundSection section_;
-  RoundVolume volume_;
+  std::vector<ShellVolume> volumes_;  ///< of the present region
+  std::size_t volume_count_ = 0;
 };
 
 }  // namespace concave_distance::detail

@@ -18,13 +18,6 @@ using Eigen::Vector3d;
 constexpr double kCancels = 1e-6;
 // Triangles wholly inside have one sample each where a region has more triangles than these.
 constexpr std::ptrdiff_t kManyTriangles = 400;
-// Of a region that is a smaller share of the solid, or leaves a smaller share of it, roundings of the solid's
-// volume are worth more than the errors of ShallowRoundVolume, which needs a surface this share of the radius
-// from the core.
-constexpr double kSmallShare = 1e-8;
-constexpr double kFarFromCore = 0.5;
-// A share this small may be rounded below 0, and then seems to be all of the solid.
-constexpr double kRoundedAway = 1e-12;
 
 Vector3d unitOr(const Vector3d& vector, const Vector3d& other) {
   const double length = vector.norm();
@@ -54,21 +47,29 @@ bool RoundOverlap::has(const Group& group, std::uint32_t patch) {
   return std::any_of(group.first, group.last, [&](const Entry& entry) { return entry.patch == patch; });
 }
 
-/// Samples and facets of a region.
+/// Samples and facets of a region; what is hidden counts for the volumes of its shells alone.
 void RoundOverlap::gatherSamples(Group& group) {
   samples_.clear();
   patch_samples_.clear();
   fan_.clear();
   fan_ends_.clear();
-  volume_.begin(pair_->shape);
+  volume_count_ = 0;
   const bool sparse = group.last - group.first > kManyTriangles;
   for (const Entry* entry = group.first; entry != group.last; ++entry) {
     if (entry == group.first || entry->patch != (entry - 1)->patch) patch_samples_.push_back(samples_.size());
-    section_.integrate(pair_->shape, entry->corners, entry->lowest, sparse, samples_, fan_, volume_);
+    section_.integrate(pair_->shape, entry->corners, entry->lowest, sparse, samples_, fan_,
+                       volumeOfShell(entry->triangle));
     fan_ends_.push_back(fan_.size());
   }
   patch_samples_.push_back(samples_.size());
   group.last_sample = samples_.size();
+  const std::size_t drawn = fan_.size();
+  for (const Entry* entry = group.last; entry != group.last_hidden; ++entry) {
+    section_.integrate(pair_->shape, entry->corners, entry->lowest, true, samples_, fan_,
+                       volumeOfShell(entry->triangle));
+  }
+  samples_.resize(group.last_sample);
+  fan_.resize(drawn);
 }
 
 void RoundOverlap::addRegion(Group group, bool is_only, Interference& result) {
@@ -109,91 +110,6 @@ void RoundOverlap::addRegion(Group group, bool is_only, Interference& result) {
       region.reach = std::max(region.reach, (inA(corner) - region.centroid_in_a).norm());
   }
   result.regions.push_back(region);
-}
-
-void RoundOverlap::measureVolume(const Group& group, bool is_only, InterferenceRegion& region) {
-  volume_.finish();
-  const double rest = std::min(volume_.share(), 1.0 - volume_.share());
-  const int side = sideOf();
-  if (rest < kSmallShare && leastFromCore(side) > kFarFromCore * pair_->shape.radius)
-    return measureShallowVolume(group, is_only, side, region);
-  const bool is_rounded_away = rest < kRoundedAway && volume_.share() > 0.5 && !holdsCentre(group, is_only);
-  setVolume(is_rounded_away ? 0.0 : volume_.volume(), volume_.moment(), volume_.area(), region);
-}
-
-void RoundOverlap::setVolume(double volume, const Vector3d& moment, double area,
-                             InterferenceRegion& region) const {
-  region.volume = std::clamp(volume, 0.0, volumeOf(pair_->shape));
-  if (volume > 0.0) region.centroid_in_a = inA(moment / volume);
-  (shape_is_a_ ? region.surface_area_a : region.surface_area_b) = area;
-}
-
-/// Of a cylinder the end that all samples are well on the way to, 1 or -1; else 0.
-int RoundOverlap::sideOf() const {
-  if (pair_->shape.kind != RoundKind::Cylinder) return 0;
-  double least = std::numeric_limits<double>::infinity();
-  double most = -least;
-  for (const RoundSample& sample : samples_) {
-    least = std::min(least, sample.point.z());
-    most = std::max(most, sample.point.z());
-  }
-  const double margin = 0.05 * pair_->shape.half_length;
-  return least > margin ? 1 : most < -margin ? -1 : 0;
-}
-
-/// How far the samples stay from where the fields of ShallowRoundVolume are singular, metres.
-double RoundOverlap::leastFromCore(int side) const {
-  double least = std::numeric_limits<double>::infinity();
-  if (side != 0) return least;
-  for (const RoundSample& sample : samples_) {
-    const Vector3d out = sample.point - corePoint(pair_->shape, sample.point);
-    least = std::min(least, pair_->shape.kind == RoundKind::Cylinder
-                                ? std::hypot(sample.point.x(), sample.point.y())
-                                : out.norm());
-  }
-  return least;
-}
-
-void RoundOverlap::measureShallowVolume(const Group& group, bool is_only, int side,
-                                        InterferenceRegion& region) {
-  ShallowRoundVolume volume(pair_->shape, side);
-  for (const RoundSample& sample : samples_) volume.add(sample);
-  addCore(group, is_only, volume);
-  setVolume(volume.volume(), volume.moment(), volume.area(), region);
-}
-
-/// Parts of the axis inside the mesh belong to the region that their ends are on, or that the centre is in.
-void RoundOverlap::addCore(const Group& group, bool is_only, ShallowRoundVolume& volume) {
-  const double h = pair_->shape.half_length;
-  if (h == 0.0) {
-    if (holdsCentre(group, is_only)) volume.addCore(0.0, 0.0);
-    return;
-  }
-  // Beside the axis, so that it does not run along an edge: scenes are symmetrical.
-  const double beside = 1e-9 * pair_->shape.radius;
-  const Vector3d from(beside, 0.71 * beside, -h);
-  const Vector3d to(beside, 0.71 * beside, h);
-  findCrossings(from, to);
-  if (crossings_.empty()) {
-    if (holdsCentre(group, is_only)) volume.addCore(-h, h);
-    return;
-  }
-  double inside_from = -h;
-  for (const Crossing& crossing : crossings_) {
-    const double height = (2.0 * crossing.at - 1.0) * h;
-    if (crossing.outward > 0.0 && has(group, crossing.patch)) volume.addCore(inside_from, height);
-    inside_from = height;
-  }
-  const Crossing& last = crossings_.back();
-  if (last.outward < 0.0 && has(group, last.patch)) volume.addCore(inside_from, h);
-}
-
-bool RoundOverlap::holdsCentre(const Group& group, bool is_only) {
-  if (!meshHolds(Vector3d::Zero())) return false;
-  if (is_only) return true;
-  const Entry& deepest = deepestOf(entries_.data(), entries_.data() + entries_.size());
-  findCrossings(Vector3d::Zero(), deepest.lowest.point);
-  return has(group, crossings_.empty() ? deepest.patch : crossings_.front().patch);
 }
 
 /// A patch with a border counts as one loop, the vector area of which is the patch's.

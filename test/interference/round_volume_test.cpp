@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "mesh/surface/refine_mesh.h"
 #include "mesh/surface/round_geometry.h"
 #include "support/round_bodies.h"
 #include "support/round_cuts.h"
@@ -218,6 +219,51 @@ TEST(RoundVolume, ARodThroughABallIsTheIntegralOfItsLength) {
     }
   }
   expectRight(worst, 1e-7);
+}
+
+/// Two boxes that share the slab -0.1 <= x <= 0.1, one shell each, the second finely cut so that some of its
+/// triangles are hidden in the first.
+TEST(RoundVolume, ShellsThatOverlapCountTwiceWhatTheyShareAndNeverMoreThanTheSolid) {
+  const auto box_at = [](double x, double edge) {
+    SurfaceMesh box = makeBox({2.0, 2.0, 2.0});
+    if (edge > 0.0) box = refineToEdgeLength(box, edge).mesh;
+    std::vector<Vector3d> vertices;
+    for (const Vector3d& vertex : box.vertices()) vertices.push_back(vertex + Vector3d(x, 0.0, -1.0));
+    return SurfaceMesh(vertices, box.triangles(), "box");
+  };
+  const SurfaceMesh first = box_at(-0.9, 0.0);
+  int compared = 0;
+  for (const double edge : {0.0, 0.15}) {
+    const SurfaceMesh second = box_at(0.9, edge);
+    std::vector<Vector3d> vertices = first.vertices();
+    std::vector<TriangleNodes> triangles = first.triangles();
+    const auto offset = static_cast<std::uint32_t>(vertices.size());
+    vertices.insert(vertices.end(), second.vertices().begin(), second.vertices().end());
+    for (TriangleNodes nodes : second.triangles()) {
+      for (NodeIndex& node : nodes) node.value += offset;
+      triangles.push_back(nodes);
+    }
+    const Body both = makeBody(SurfaceMesh(vertices, triangles, "two boxes"));
+    const Body one = makeBody(first);
+    const Body other = makeBody(second);
+    const RoundShape ball = test::sphereOf(0.3);
+    for (const double x : {-0.5, -0.31, -0.1, 0.0, 0.05, 0.2, 0.37}) {
+      for (const double z : {-0.2, -0.05, 0.0, 0.1}) {
+        const Isometry3d pose = test::translation({x, 0.0, z});
+        const auto volume = [&](const Body& body) {
+          double sum = 0.0;
+          for (const InterferenceRegion& region : overlapOf(body, makeRoundBody(ball), pose).regions)
+            sum += region.volume;
+          return sum;
+        };
+        const double expected = std::min(volumeOf(ball), volume(one) + volume(other));
+        if (overlapOf(both, makeRoundBody(ball), pose).regions.size() != 1) continue;
+        ++compared;
+        EXPECT_NEAR(volume(both), expected, 1e-9) << edge << " " << x << " " << z;
+      }
+    }
+  }
+  EXPECT_GT(compared, 40);
 }
 
 TEST(RoundVolume, WhatIsSwallowedHasItsOwnVolumeWhereverItLies) {
