@@ -17,7 +17,8 @@ struct RoundPairDistance {
 
 /// Closed forms and lowestOnSegment() where one is a sphere or a capsule. Two cylinders: the points of their
 /// difference nearest to the origin (Gilbert, Johnson and Keerthi 1988), until the plane through them that
-/// separates the solids is as far as they are, but for kRoundDistanceError.
+/// separates the solids is as far as they are; where rounding hides that, searchCylinders(). Distance and
+/// lower bound are wrong by at most kRoundDistanceError of the distance of the centres and both reaches.
 /// @param a_from_b of the shapes' frames
 RoundPairDistance roundPairDistance(const RoundShape& a, const RoundShape& b,
                                     const Eigen::Isometry3d& a_from_b);

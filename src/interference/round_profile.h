@@ -24,7 +24,7 @@ class RoundProfile {
   ProfileTail below(double height, double rho) const;
   /// Over all of the solid, divided by nothing.
   const ProfileTail& whole() const { return whole_; }
-  /// The surface is at least 0.8 radii from the axis between this height and minus it, or at its lower half.
+  /// Between this height and minus it the surface is at least 0.95 radii from the axis.
   double wideHeight() const { return wide_height_; }
   const RoundShape& shape() const { return shape_; }
 
