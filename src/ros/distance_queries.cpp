@@ -135,7 +135,7 @@ QueryAnswer answer(const DistanceQuery& query, const Scene& scene, const QueryCo
     throw Error("body_b", "both bodies are '" + query.body_a + "'", "name two different bodies");
   }
   const auto found = scene.findPair(query.body_a, query.body_b);
-  const PairSettings& settings = found ? scene.pairs[*found].settings : context.defaults;
+  const PairSettings& settings = found ? scene.pairs[*found].settings : scene.defaults.pairs;
   heading.pair = found ? scene.pairs[*found].name : query.body_a + "/" + query.body_b;
   TrackerParameters parameters = queryParameters(query, settings.tracker);
   if (query.with_contacts != 0 && !provesDistance(parameters.accuracy)) {
@@ -244,7 +244,6 @@ DistanceQueries::DistanceQueries(ServiceQueues& queues, SceneKeeper& keeper, Que
 QueryContext DistanceQueries::currentContext(std::chrono::steady_clock::time_point arrival,
                                              std::size_t queries) {
   QueryContext context = context_;
-  context.defaults = keeper_.defaults();
   context.stop = &gate_.stopped();
   context.memory_limit = std::size_t{limits_.query_memory_mb} << 20U;
   context.answer_limit = context.memory_limit / queries;

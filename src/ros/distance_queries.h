@@ -26,7 +26,6 @@ struct QueryContext {
   std::string reference_frame;
   double transform_timeout = 0.2;  ///< s
   double stale_after = 1.0;        ///< s
-  PairSettings defaults;           ///< for bodies that are no pair of the scene
   /// When all queries of a call end: running ones stop with the bound they have.
   std::chrono::steady_clock::time_point deadline = std::chrono::steady_clock::time_point::max();
   const std::atomic<bool>* stop = nullptr;                      ///< set: running queries end, no other begins

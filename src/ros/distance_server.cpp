@@ -52,36 +52,23 @@ bool isDue(ros::WallTime& last, double period) {
   return true;
 }
 
-void logScene(const Scene& scene, double seconds) {
-  for (const std::string& note : scene.notes) {
-    ROS_INFO_STREAM(note);
-  }
-  for (const std::string& warning : scene.warnings) {
-    ROS_WARN_STREAM(warning);
-  }
-  for (const SceneProblem& problem : scene.problems) {
-    ROS_ERROR_STREAM("Not loaded: " << problem.where << ": " << problem.message);
-  }
-  ROS_INFO("The scene has %zu bodies and %zu pairs; %zu parts could not be loaded. It took %.1f s.",
-           scene.bodies.size(), scene.pairs.size(), scene.problems.size(), seconds);
-}
-
 }  // namespace
 
 DistanceServer::DistanceServer(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
                                std::string name, FatalCallback on_fatal)
     : private_node_(private_node),
       parameters_(readParameters(private_node)),
+      cutoff_is_automatic_(parameters_.automatic_cutoff),
       on_fatal_(std::move(on_fatal)),
       transforms_({parameters_.tf_cache, parameters_.tf_future_tolerance}),
       receiver_(node, transforms_),
       publishers_(private_node, parameters_.reference_frame, parameters_.pair_topics),
       keeper_(publishers_, parameters_.pair, parameters_.marker),
       service_queues_(private_node, parameters_.limits),
-      queries_(service_queues_, keeper_,
-               {&transforms_, parameters_.reference_frame, parameters_.transform_timeout,
-                parameters_.stale_after, parameters_.pair},
-               parameters_.limits, parameters_.threads),
+      queries_(
+          service_queues_, keeper_,
+          {&transforms_, parameters_.reference_frame, parameters_.transform_timeout, parameters_.stale_after},
+          parameters_.limits, parameters_.threads),
       scene_services_(service_queues_, keeper_, restarts_, transforms_, parameters_.reference_frame,
                       rosPackagePath, parameters_.mesh_access),
       runner_(transforms_, keeper_, publishers_, restarts_,
@@ -95,17 +82,15 @@ DistanceServer::DistanceServer(const ros::NodeHandle& node, const ros::NodeHandl
   runner_.setMarkers(parameters_.publish_markers, parameters_.publish_contact_markers);
   runner_.start(parameters_.rate);
   config_ = toConfig(parameters_);
+  // The reconfigure server begins with what it finds, and overlooks a number where it expects a text.
+  config_.__toServer__(private_node_);
   reconfigure_ =
       std::make_unique<dynamic_reconfigure::Server<ConcaveDistanceConfig>>(reconfigure_mutex_, private_node_);
   reconfigure_->setConfigMin(lowestConfig());
   reconfigure_->setConfigMax(highestConfig());
   reconfigure_->setCallback(
       [this](ConcaveDistanceConfig& config, std::uint32_t level) { onReconfigure(config, level); });
-  if (parameters_.automatic_cutoff) {
-    // The reconfigure server has written its default there; the next start would take it for the user's
-    // setting.
-    private_node_.deleteParam("cutoff");
-  }
+  forgetAutomaticCutoff();
   load_timer_ = startTimer(kLoadPeriod, "Loading the scene", &DistanceServer::tryToLoad);
   housekeeping_timer_ = startTimer(kHousekeepingPeriod, "Housekeeping", &DistanceServer::doHousekeeping);
 }
@@ -179,6 +164,7 @@ void DistanceServer::followLoading() {
     for (std::size_t i = 0; i < outcome->scene->pairs.size(); ++i) {
       applyChanges(config_of_loading_, config_, outcome->scene->pairs.edit(i).settings);
     }
+    applyChanges(config_of_loading_, config_, outcome->scene->defaults.pairs);
   }
   keeper_.replace(std::move(*outcome->scene));
   keeper_.setWaitingFor("");
@@ -186,10 +172,16 @@ void DistanceServer::followLoading() {
 
 // The caller holds the mutex of the settings.
 void DistanceServer::adoptCutoff(double cutoff) {
-  keeper_.changeSettings([&](PairSettings& settings) { settings.tracker.cutoff = cutoff; });
   setCutoff(config_, cutoff);
   reconfigure_->updateConfig(config_);
-  private_node_.deleteParam("cutoff");
+  forgetAutomaticCutoff();
+}
+
+// The reconfigure server writes every value to the parameter server, and the next start would take this one
+// for the user's setting.
+void DistanceServer::forgetAutomaticCutoff() {
+  if (cutoff_is_automatic_) private_node_.deleteParam("cutoff");
+  settings_were_written_ = false;
 }
 
 void DistanceServer::setUpDiagnostics() {
@@ -219,6 +211,10 @@ void DistanceServer::publishDiagnostics() {
 }
 
 void DistanceServer::doHousekeeping() {
+  if (settings_were_written_) {
+    const boost::recursive_mutex::scoped_lock lock(reconfigure_mutex_);
+    forgetAutomaticCutoff();
+  }
   reportMissingClock();
   publishBodies();
   reportLateness();
@@ -277,13 +273,11 @@ void DistanceServer::reportMissingFrames() {
 
 void DistanceServer::onReconfigure(ConcaveDistanceConfig& config, std::uint32_t /*level*/) {
   const ConcaveDistanceConfig before = config_;
+  settings_were_written_ = true;  // as soon as this returns
   try {
     checkConfig(config);
     if (concernsPairs(before, config)) {
-      keeper_.changeSettings([&](PairSettings& settings) {
-        applyChanges(before, config, settings);
-        settings.tracker.validate("reconfigure");
-      });
+      keeper_.changeSettings([&](PairSettings& settings) { applyRequest(before, config, settings); });
     }
   } catch (const std::exception& problem) {
     ROS_ERROR_STREAM("Reconfiguration refused, nothing was changed: " << problem.what());
@@ -293,6 +287,7 @@ void DistanceServer::onReconfigure(ConcaveDistanceConfig& config, std::uint32_t 
   runner_.setRates(config.rate, config.marker_rate);
   runner_.setMarkers(config.publish_markers, config.publish_contact_markers);
   config_ = config;
+  cutoff_is_automatic_ = cutoff_is_automatic_ && config.cutoff == before.cutoff;
 }
 
 }  // namespace concave_distance

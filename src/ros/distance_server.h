@@ -7,6 +7,7 @@
 #include <ros/publisher.h>
 #include <ros/wall_timer.h>
 
+#include <atomic>
 #include <boost/thread/recursive_mutex.hpp>
 #include <functional>
 #include <memory>
@@ -52,6 +53,7 @@ class DistanceServer {
   void giveUpLoading(const Error& problem);
   /// The cutoff scaled to a robot, for pairs added later and for reconfiguration.
   void adoptCutoff(double cutoff);
+  void forgetAutomaticCutoff();
   void reportLateness();
   void doHousekeeping();
   void publishDiagnostics();
@@ -65,6 +67,7 @@ class DistanceServer {
 
   ros::NodeHandle private_node_;
   NodeParameters parameters_;
+  bool cutoff_is_automatic_;  ///< nobody has set one
   FatalCallback on_fatal_;
   TransformBuffer transforms_;
   TransformReceiver receiver_;
@@ -80,7 +83,8 @@ class DistanceServer {
 
   boost::recursive_mutex reconfigure_mutex_;
   ConcaveDistanceConfig config_;
-  ConcaveDistanceConfig config_of_loading_;  ///< what the scene that is loading was given
+  std::atomic<bool> settings_were_written_{false};  ///< by the reconfigure server
+  ConcaveDistanceConfig config_of_loading_;         ///< what the scene that is loading was given
   std::unique_ptr<dynamic_reconfigure::Server<ConcaveDistanceConfig>> reconfigure_;
 
   ros::Publisher body_markers_;

@@ -1,16 +1,16 @@
 #include "parameter_reader.h"
 
 #include <cmath>
-#include <sstream>
 #include <utility>
 
+#include "base/number_text.h"
 #include "concave_distance/base/error.h"
 
 namespace concave_distance {
 namespace {
 
 std::string shown(const XmlRpc::XmlRpcValue& value) {
-  std::ostringstream text;
+  TextStream text;
   value.write(text);
   return text.str();
 }
@@ -26,8 +26,11 @@ std::optional<ParameterValue> listOf(XmlRpc::XmlRpcValue& value) {
   return list;
 }
 
-// Nothing for a value of a type that no parameter has. A single text counts as a list of one.
-std::optional<ParameterValue> valueOf(XmlRpc::XmlRpcValue& value, ParameterType type) {
+// Nothing for a value of a type that no parameter has. A single text counts as a list of one. Of a number
+// that may be a word, dynamic_reconfigure leaves the number as a text on the parameter server, too.
+std::optional<ParameterValue> valueOf(XmlRpc::XmlRpcValue& value, const ParameterInfo& info) {
+  const ParameterType type = info.type;
+  const bool is_number = type == ParameterType::Number || type == ParameterType::Count;
   switch (value.getType()) {
     case XmlRpc::XmlRpcValue::TypeDouble: {
       const double number = static_cast<double>(value);
@@ -45,6 +48,7 @@ std::optional<ParameterValue> valueOf(XmlRpc::XmlRpcValue& value, ParameterType 
       return ParameterValue(static_cast<bool>(value));
     case XmlRpc::XmlRpcValue::TypeString:
       if (type == ParameterType::List) return std::vector<std::string>{static_cast<std::string>(value)};
+      if (is_number && !info.word.empty()) return parseParameter(info, static_cast<std::string>(value));
       return ParameterValue(static_cast<std::string>(value));
     case XmlRpc::XmlRpcValue::TypeArray:
       return type == ParameterType::List ? listOf(value) : std::nullopt;
@@ -71,7 +75,7 @@ std::optional<ParameterValue> ParameterReader::take(const ParameterInfo& info) {
   if (!has(info.name)) {
     return std::nullopt;
   }
-  const std::optional<ParameterValue> value = valueOf(values_[info.name], info.type);
+  const std::optional<ParameterValue> value = valueOf(values_[info.name], info);
   if (value && isExperimentChoice(info, *value)) {
     throw Error(prefix_ + info.name, saysOfExperiments(toText(*value)),
                 "allowed here: " + allowedValues(info));

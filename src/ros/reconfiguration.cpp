@@ -7,6 +7,7 @@
 #include <string>
 
 #include "concave_distance/base/error.h"
+#include "loading/settings_reader.h"
 #include "node_parameter_table.h"
 #include "scene/pair_parameters.h"
 
@@ -129,6 +130,13 @@ void applyChanges(const ConcaveDistanceConfig& before, const ConcaveDistanceConf
     const ParameterValue value = valueIn(is, parameter.info);
     if (value != valueIn(was, parameter.info)) parameter.assign(settings, value, "~");
   });
+}
+
+void applyRequest(const ConcaveDistanceConfig& before, const ConcaveDistanceConfig& after,
+                  PairSettings& settings) {
+  applyChanges(before, after, settings);
+  settings.tracker.validate("reconfigure");
+  if (before.cutoff != after.cutoff) detail::validatePairSettings(settings, "reconfigure");
 }
 
 bool concernsPairs(const ConcaveDistanceConfig& before, const ConcaveDistanceConfig& after) {

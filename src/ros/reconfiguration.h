@@ -24,6 +24,11 @@ void checkConfig(const ConcaveDistanceConfig& config);
 void applyChanges(const ConcaveDistanceConfig& before, const ConcaveDistanceConfig& after,
                   PairSettings& settings);
 
+/// The same when a client asks for it. @throws Error for what the next start would refuse, when it finds
+/// `after` on the parameter server
+void applyRequest(const ConcaveDistanceConfig& before, const ConcaveDistanceConfig& after,
+                  PairSettings& settings);
+
 /// True when `after` differs from `before` in a value that pairs are configured with.
 bool concernsPairs(const ConcaveDistanceConfig& before, const ConcaveDistanceConfig& after);
 

@@ -2,9 +2,9 @@
 
 #include <cmath>
 #include <limits>
-#include <sstream>
 
 #include "base/coordinate_limit.h"
+#include "base/number_text.h"
 #include "base/unit_tolerance.h"
 #include "concave_distance/base/error.h"
 #include "loading/frame_name.h"
@@ -14,7 +14,7 @@ namespace {
 
 void checkFinite(double value, const std::string& where) {
   if (!std::isfinite(value)) {
-    throw Error(where, "a number is " + std::to_string(value), "every number must be finite");
+    throw Error(where, "a number is " + numberText(value), "every number must be finite");
   }
 }
 
@@ -29,7 +29,7 @@ Eigen::Isometry3d poseFromMessage(const geometry_msgs::Pose& pose, const std::st
   for (const double value : {pose.position.x, pose.position.y, pose.position.z}) {
     checkFinite(value, where + ".position");
     if (std::abs(value) > kLargestCoordinate) {
-      std::ostringstream seen;
+      TextStream seen;
       seen << "a coordinate is " << value << " m";
       throw Error(where + ".position", seen.str(), "allowed: up to 1e18 m");
     }
@@ -46,7 +46,7 @@ Eigen::Isometry3d poseFromMessage(const geometry_msgs::Pose& pose, const std::st
   }
   const double norm = rotation.norm();
   if (std::abs(norm - 1.0) > kUnitTolerance) {
-    throw Error(where + ".orientation", "the quaternion's norm is " + std::to_string(norm),
+    throw Error(where + ".orientation", "the quaternion's norm is " + numberText(norm),
                 "give a unit quaternion; no rotation is w: 1, or all zeros");
   }
   rotation.normalize();
@@ -81,7 +81,7 @@ TrackerParameters queryParameters(const DistanceQuery& query, const TrackerParam
       return;
     }
     if (!provesDistance(parameters.accuracy)) {
-      throw Error(name, "the value is " + std::to_string(value) + ", but it belongs to levels with a proof",
+      throw Error(name, "the value is " + numberText(value) + ", but it belongs to levels with a proof",
                   "ask for ACCURACY_CERTIFIED, or leave it 0");
     }
     parameter = value;
@@ -97,7 +97,7 @@ TrackerParameters queryParameters(const DistanceQuery& query, const TrackerParam
   return parameters;
 }
 
-BodyDescription toBodyDescription(const AddBodyRequest& request) {
+BodyDescription toBodyDescription(const AddBodyRequest& request, const SceneDefaults& defaults) {
   if (request.mesh_resource.empty() == request.primitive.empty()) {
     throw Error("geometry",
                 request.primitive.empty() ? "neither a mesh nor a primitive" : "a mesh and a primitive",
@@ -111,6 +111,8 @@ BodyDescription toBodyDescription(const AddBodyRequest& request) {
   description.primitive = request.primitive;
   description.dimensions = request.dimensions;
   description.frame_from_geometry = poseFromMessage(request.pose, "pose");
+  description.max_edge_length = defaults.max_edge_length;
+  description.chord_error = defaults.chord_error;
   if (request.max_edge_length != 0.0) {
     description.max_edge_length = request.max_edge_length;
   }

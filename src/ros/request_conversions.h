@@ -21,7 +21,8 @@ Eigen::Isometry3d poseFromMessage(const geometry_msgs::Pose& pose, const std::st
 ///         level has no proof for, each with the value seen
 TrackerParameters queryParameters(const DistanceQuery& query, const TrackerParameters& configured);
 
+/// @param defaults of the scene, for what the request leaves at 0
 /// @throws Error for a request that names no geometry, two, or numbers out of range
-BodyDescription toBodyDescription(const AddBodyRequest& request);
+BodyDescription toBodyDescription(const AddBodyRequest& request, const SceneDefaults& defaults);
 
 }  // namespace concave_distance

@@ -1,11 +1,13 @@
 #include "scene_edits.h"
 
-#include <cctype>
-#include <unordered_map>
-#include <unordered_set>
+#include <algorithm>
+#include <set>
 #include <utility>
 
+#include "base/ascii.h"
 #include "concave_distance/base/error.h"
+#include "scene/matching_bodies.h"
+#include "scene/matching_pairs.h"
 
 namespace concave_distance {
 namespace {
@@ -39,73 +41,42 @@ void requireRoomForPairs(const Scene& scene, std::size_t more) {
   }
 }
 
-// Each body once, in the order of the request.
-std::vector<std::size_t> partnersNamed(const Scene& scene, const SceneBody& body,
-                                       const std::vector<std::string>& names) {
-  std::vector<std::size_t> indices;
-  std::unordered_set<std::size_t> seen;
-  for (const std::string& name : names) {
-    if (name == body.name) {
-      throw Error("pair_with", "it names the new body '" + name + "' itself", "name other bodies");
-    }
-    const std::size_t index = requireBody(scene, name);
-    if (seen.insert(index).second) {
-      indices.push_back(index);
-    }
-  }
-  return indices;
+// Whether a filter can have left out the pair of two bodies that a scene has not.
+bool mayBeFiltered(const Scene& scene, std::size_t body_a, std::size_t body_b) {
+  const SceneBody& a = scene.bodies[body_a];
+  const SceneBody& b = scene.bodies[body_b];
+  return a.frame == b.frame || scene.rigid.areJoined(a.frame, b.frame) ||
+         (a.is_robot_link && b.is_robot_link);
 }
 
-// In the order of the scene.
-std::vector<std::size_t> partnersThatMove(const Scene& scene, const SceneBody& body,
-                                          const PairPartners& partners, AddedPairs& added) {
-  std::unordered_set<std::size_t> touched;
-  for (const std::string& name : partners.may_touch) {
-    if (const auto index = scene.findBody(name)) {
-      touched.insert(*index);
-    } else {
-      added.unknown.push_back(name);
-    }
-  }
-  // tf is asked once for each frame, because many bodies share few frames.
-  std::unordered_map<std::string, bool> rigid;
-  const auto is_rigid = [&](const std::string& frame) {
-    const auto [place, is_new] = rigid.emplace(frame, false);
-    if (is_new) {
-      place->second = scene.rigid.areJoined(frame, body.frame) ||
-                      (partners.is_rigid && partners.is_rigid(frame, body.frame));
-    }
-    return place->second;
-  };
-  std::vector<std::size_t> indices;
-  for (std::size_t index = 0; index < scene.bodies.size(); ++index) {
-    const SceneBody& other = scene.bodies[index];
-    if (other.frame == body.frame || touched.count(index) != 0) {
-      continue;
-    }
-    if (is_rigid(other.frame)) {
-      added.rigid_neighbours.push_back(other.name);
-    } else {
-      indices.push_back(index);
-    }
-  }
-  return indices;
-}
+// Every pair of the two sides, once: the places of those in the scene, and the bodies of those to create.
+struct SidesPairs {
+  std::vector<std::size_t> there;
+  std::vector<std::pair<std::size_t, std::size_t>> missing;
+};
 
-std::vector<std::size_t> partnersOf(const Scene& scene, const SceneBody& body, const PairPartners& partners,
-                                    AddedPairs& added) {
-  if (partners.none && !partners.names.empty()) {
-    throw Error("pair_with", "it names '" + partners.names.front() + "', and without_pairs is set",
-                "give one of the two");
+SidesPairs pairsOfSides(const Scene& scene, const PairReference& reference) {
+  const detail::MatchingBodies a = detail::matchingBodies(scene, reference.body_a, "body_a");
+  const detail::MatchingBodies b = detail::matchingBodies(scene, reference.body_b, "body_b");
+  const bool is_one_pair = a.is_one_by_name && b.is_one_by_name;
+  if (is_one_pair && a.bodies == b.bodies) {
+    throw Error("pair", "both bodies are '" + reference.body_a + "'", "name two different bodies");
   }
-  if (!partners.names.empty() && !partners.may_touch.empty()) {
-    throw Error("touch_links", "pair_with names the bodies to watch already", "leave one of the two empty");
+  SidesPairs pairs;
+  std::set<std::pair<std::size_t, std::size_t>> seen;
+  for (const std::size_t body_a : a.bodies) {
+    for (const std::size_t body_b : b.bodies) {
+      if (body_a == body_b || !seen.insert(std::minmax(body_a, body_b)).second) {
+        continue;
+      }
+      if (const auto found = scene.pairs.find(body_a, body_b)) {
+        pairs.there.push_back(*found);
+      } else if (is_one_pair || !mayBeFiltered(scene, body_a, body_b)) {
+        pairs.missing.emplace_back(body_a, body_b);
+      }
+    }
   }
-  if (partners.none) {
-    return {};
-  }
-  return partners.names.empty() ? partnersThatMove(scene, body, partners, added)
-                                : partnersNamed(scene, body, partners.names);
+  return pairs;
 }
 
 }  // namespace
@@ -117,13 +88,12 @@ bool isRosName(const std::string& name) {
   }
   bool part_begins = true;
   for (const char c : name) {
-    const auto letter = static_cast<unsigned char>(c);
-    if (c == '/' ? part_begins : std::isalnum(letter) == 0 && c != '_') {
+    if (c == '/' ? part_begins : !isLetterOrDigit(c) && c != '_') {
       return false;
     }
     part_begins = c == '/';
   }
-  return !part_begins && std::isalpha(static_cast<unsigned char>(name.front())) != 0;
+  return !part_begins && isLetter(name.front());
 }
 
 std::size_t requireBody(const Scene& scene, const std::string& name) {
@@ -199,27 +169,31 @@ std::vector<std::string> removeBody(Scene& scene, const std::string& name, bool 
   return names;
 }
 
-std::string setPairEnabled(Scene& scene, const PairReference& reference, bool enabled,
-                           const PairSettings& settings) {
-  if (!reference.pair.empty()) {
-    scene.pairs.edit(requirePair(scene, reference.pair)).enabled = enabled;
-    return reference.pair;
+std::vector<std::string> setPairEnabled(Scene& scene, const PairReference& reference, bool enabled,
+                                        const PairSettings& settings) {
+  SidesPairs pairs;
+  if (reference.pair.empty()) {
+    pairs = pairsOfSides(scene, reference);
+  } else {
+    pairs.there = detail::matchingPairs(scene, reference.pair);
   }
-  const std::size_t body_a = requireBody(scene, reference.body_a);
-  const std::size_t body_b = requireBody(scene, reference.body_b);
-  if (body_a == body_b) {
-    throw Error("pair", "both bodies are '" + reference.body_a + "'", "name two different bodies");
-  }
-  if (const auto found = scene.findPair(reference.body_a, reference.body_b)) {
-    scene.pairs.edit(*found).enabled = enabled;
-    return scene.pairs[*found].name;
-  }
-  if (!enabled) {
+  if (pairs.there.empty() && (pairs.missing.empty() || !enabled)) {
     throw Error("pair", "'" + reference.body_a + "' and '" + reference.body_b + "' are not a watched pair",
-                "nothing to switch off");
+                enabled ? "name two bodies: groups and patterns do not watch links against links of a robot"
+                        : "nothing to switch off");
   }
-  requireRoomForPairs(scene, 1);
-  return appendPair(scene, body_a, body_b, settings);
+  std::vector<std::string> names;
+  for (const std::size_t index : pairs.there) {
+    scene.pairs.edit(index).enabled = enabled;
+    names.push_back(scene.pairs[index].name);
+  }
+  if (enabled) {
+    requireRoomForPairs(scene, pairs.missing.size());
+    for (const auto& [body_a, body_b] : pairs.missing) {
+      names.push_back(appendPair(scene, body_a, body_b, settings));
+    }
+  }
+  return names;
 }
 
 }  // namespace concave_distance

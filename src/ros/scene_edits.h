@@ -1,10 +1,10 @@
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 
 #include "concave_distance/scene/scene.h"
+#include "pair_partners.h"
 
 namespace concave_distance {
 
@@ -15,21 +15,6 @@ bool isRosName(const std::string& name);
 /// @throws Error when the scene has its largest number of bodies
 void requireRoomForBody(const Scene& scene);
 
-/// Which bodies a new one is paired with.
-struct PairPartners {
-  std::vector<std::string> names;        ///< empty: every body that can move relative to its frame
-  bool none = false;                     ///< no body at all
-  std::vector<std::string> may_touch{};  ///< bodies left out; not together with `names`
-  /// Whether two frames do not move relative to each other, besides those that Scene::rigid joins.
-  std::function<bool(const std::string& frame_a, const std::string& frame_b)> is_rigid{};
-};
-
-struct AddedPairs {
-  std::vector<std::string> names;
-  std::vector<std::string> rigid_neighbours;  ///< bodies of other frames left out as rigidly connected
-  std::vector<std::string> unknown;           ///< names in PairPartners::may_touch without a body
-};
-
 /// Adds a body and its pairs with its partners.
 /// @throws Error when the name is taken or not a ROS name, when a partner is unknown or the body itself, or
 ///         when the scene would exceed its limits
@@ -39,18 +24,20 @@ AddedPairs addBody(Scene& scene, SceneBody body, const PairPartners& partners, c
 /// @return names of the pairs removed with it. @throws Error when there is no such body
 std::vector<std::string> removeBody(Scene& scene, const std::string& name, bool allow_robot_link = false);
 
-/// How a request names a pair: by its name or, when that is empty, by its bodies in either order.
+/// How a request names pairs: by a name or a pattern or, when that is empty, by the bodies of both sides in
+/// either order, each a body, a group or a pattern.
 struct PairReference {
   std::string pair;
   std::string body_a;
   std::string body_b;
 };
 
-/// A pair that a filter left out (adjacent links) is created with `settings` when it is enabled by its
-/// bodies.
-/// @return the pair's name. @throws Error when there is no such pair or body
-std::string setPairEnabled(Scene& scene, const PairReference& reference, bool enabled,
-                           const PairSettings& settings);
+/// Pairs of the two sides that are not in the scene are created with `settings` when they are enabled: of two
+/// bodies named by themselves also one that a filter left out (adjacent links), of groups and patterns those
+/// that no filter concerns.
+/// @return the pairs' names. @throws Error when there is no such pair or body
+std::vector<std::string> setPairEnabled(Scene& scene, const PairReference& reference, bool enabled,
+                                        const PairSettings& settings);
 
 /// Index of the pair with this name. @throws Error when there is none
 std::size_t requirePair(const Scene& scene, const std::string& name);

@@ -5,8 +5,10 @@
 namespace concave_distance {
 
 SceneKeeper::SceneKeeper(TopicPublishers& publishers, const PairSettings& defaults, const MarkerStyle& style)
-    : publishers_(publishers), style_(style), defaults_(defaults) {
-  serve(Scene(), true);
+    : publishers_(publishers), style_(style) {
+  Scene empty;
+  empty.defaults.pairs = defaults;
+  serve(std::move(empty), true);
 }
 
 std::shared_ptr<const ServedScene> SceneKeeper::served() {
@@ -14,18 +16,13 @@ std::shared_ptr<const ServedScene> SceneKeeper::served() {
   return served_;
 }
 
-PairSettings SceneKeeper::defaults() {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  return defaults_;
-}
-
 void SceneKeeper::replace(Scene scene) {
   const std::lock_guard<std::mutex> edit_lock(edit_mutex_);
   serve(std::move(scene), true);
 }
 
-void SceneKeeper::edit(const std::function<void(Scene&, const PairSettings&)>& change) {
-  apply([&](Scene& scene) { change(scene, defaults()); }, false);
+void SceneKeeper::edit(const std::function<void(Scene&)>& change) {
+  apply(change, false);
 }
 
 void SceneKeeper::editSettings(const std::function<void(Scene&)>& change) {
@@ -45,10 +42,8 @@ void SceneKeeper::changeSettings(const std::function<void(PairSettings&)>& chang
   for (std::size_t i = 0; i < edited.pairs.size(); ++i) {
     change(edited.pairs.edit(i).settings);
   }
+  change(edited.defaults.pairs);
   serve(std::move(edited), true);
-  // Still within the edit: the next one must not create a pair with the old ones.
-  const std::lock_guard<std::mutex> lock(mutex_);
-  change(defaults_);
 }
 
 std::string SceneKeeper::waitingFor() {

@@ -19,17 +19,14 @@ class SceneKeeper {
   SceneKeeper(TopicPublishers& publishers, const PairSettings& defaults, const MarkerStyle& style);
 
   std::shared_ptr<const ServedScene> served();
-  /// Settings of bodies that are no pair.
-  PairSettings defaults();
-
   void replace(Scene scene);
   /// Applies `change` to a copy and serves that; when `change` throws, nothing has happened. It leaves the
-  /// settings of pairs that are there as they are: such pairs are tracked on, untouched. It is given the
-  /// settings of pairs that it creates; those read before the edit may be old by now.
-  void edit(const std::function<void(Scene&, const PairSettings& defaults)>& change);
+  /// settings of pairs that are there as they are: such pairs are tracked on, untouched. Pairs that it
+  /// creates get the defaults of the scene that it is given; those read before the edit may be old by now.
+  void edit(const std::function<void(Scene&)>& change);
   /// The same for a change of pairs' settings.
   void editSettings(const std::function<void(Scene&)>& change);
-  /// Applies `change` to every pair and to the defaults.
+  /// Applies `change` to every pair and to the scene's defaults.
   void changeSettings(const std::function<void(PairSettings&)>& change);
 
   /// What the scene still waits for; empty once it is loaded.
@@ -45,7 +42,6 @@ class SceneKeeper {
   std::mutex edit_mutex_;  ///< one edit at a time; it may talk to the master
   std::mutex mutex_;       ///< guards what follows, held for a copy only
   std::shared_ptr<const ServedScene> served_;
-  PairSettings defaults_;
   std::string waiting_for_ = "loading";  ///< services may be called before the first attempt to load
 };
 

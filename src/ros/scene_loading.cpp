@@ -1,5 +1,6 @@
 #include "scene_loading.h"
 
+#include <ros/console.h>
 #include <ros/package.h>
 
 #include <utility>
@@ -30,6 +31,7 @@ Scene emptyScene(const SceneLoadOptions& options) {
   scene.cache = options.cache;
   scene.pool = std::make_shared<BodyPool>(options.metric_memory_limit);
   scene.limits = options.limits;
+  scene.defaults.pairs = options.default_settings;
   return scene;
 }
 
@@ -44,6 +46,20 @@ Scene loadRobot(const std::string& urdf, const std::string& name, const SceneLoa
 }
 
 }  // namespace
+
+void logScene(const Scene& scene, double seconds) {
+  for (const std::string& note : scene.notes) {
+    ROS_INFO_STREAM(note);
+  }
+  for (const std::string& warning : scene.warnings) {
+    ROS_WARN_STREAM(warning);
+  }
+  for (const SceneProblem& problem : scene.problems) {
+    ROS_ERROR_STREAM("Not loaded: " << problem.where << ": " << problem.message);
+  }
+  ROS_INFO("The scene has %zu bodies and %zu pairs; %zu parts could not be loaded. It took %.1f s.",
+           scene.bodies.size(), scene.pairs.size(), scene.problems.size(), seconds);
+}
 
 std::string rosPackagePath(const std::string& package) {
   return ros::package::getPath(package);

@@ -26,6 +26,9 @@ struct SceneRequest {
 /// @throws Error for a wrong scene file
 SceneRequest requestScene(const NodeParameters& parameters, const ros::NodeHandle& node);
 
+/// Logs notes, warnings and problems, and how long it took. @param seconds of wall time
+void logScene(const Scene& scene, double seconds);
+
 /// Loads the scene. A robot whose URDF cannot be read becomes a problem of the scene, as does a broken mesh.
 /// Takes as long as preparing the bodies; calls ROS only to find packages.
 /// @throws Error for a wrong scene file

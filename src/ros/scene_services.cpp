@@ -168,20 +168,21 @@ bool SceneServices::addBody(AddBody::Request& request, AddBody::Response& respon
     const std::shared_ptr<const Scene> scene = keeper_.served()->scene;
     requireRoomForBody(*scene);
     // Reading the mesh may take seconds: outside the edit.
-    BodyDescription description = toBodyDescription(request);
+    BodyDescription description = toBodyDescription(request, scene->defaults);
     description.mesh_access = mesh_access_;
     description.mesh_access.limits.stop = &gate_.stopped();
     SceneBody body = loadBody(description, "", package_locator_, scene->pool,
                               request.primitive.empty() ? scene->cache : nullptr, scene->limits);
     body.colour = toColour(request.color, body.colour);
+    body.material = scene->defaults.material;
     const std::shared_ptr<const tf2::BufferCore> buffer = transforms_.current();
     const PairPartners partners{request.pair_with, request.without_pairs != 0, request.touch_links,
                                 [&](const std::string& frame_a, const std::string& frame_b) {
                                   return areFixed(*buffer, frame_a, frame_b);
                                 }};
     AddedPairs added;
-    keeper_.edit([&](Scene& edited, const PairSettings& defaults) {
-      added = concave_distance::addBody(edited, body, partners, pairSettings(request, defaults));
+    keeper_.edit([&](Scene& edited) {
+      added = concave_distance::addBody(edited, body, partners, pairSettings(request, edited.defaults.pairs));
     });
     response.message = shortText(remarksOn(added, body.frame, isOnTf(*buffer, body.frame)));
     if (!response.message.empty()) {
@@ -194,7 +195,7 @@ bool SceneServices::addBody(AddBody::Request& request, AddBody::Response& respon
 bool SceneServices::removeBody(RemoveBody::Request& request, RemoveBody::Response& response) {
   return respond(response, [&] {
     requireScene();
-    keeper_.edit([&](Scene& scene, const PairSettings& /*defaults*/) {
+    keeper_.edit([&](Scene& scene) {
       response.pairs = concave_distance::removeBody(scene, request.name, request.allow_robot_link != 0);
     });
   });
@@ -203,10 +204,11 @@ bool SceneServices::removeBody(RemoveBody::Request& request, RemoveBody::Respons
 bool SceneServices::setPairEnabled(SetPairEnabled::Request& request, SetPairEnabled::Response& response) {
   return respond(response, [&] {
     requireScene();
-    keeper_.edit([&](Scene& scene, const PairSettings& defaults) {
-      response.pair = concave_distance::setPairEnabled(scene, {request.pair, request.body_a, request.body_b},
-                                                       request.enabled != 0, defaults);
+    keeper_.edit([&](Scene& scene) {
+      response.pairs = concave_distance::setPairEnabled(scene, {request.pair, request.body_a, request.body_b},
+                                                        request.enabled != 0, scene.defaults.pairs);
     });
+    response.pair = response.pairs.front();
   });
 }
 

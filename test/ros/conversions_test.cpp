@@ -255,20 +255,27 @@ TEST(ToBodyDescription, WantsOneGeometryAndAFrame) {
   request.pose = unitPose();
   request.primitive = "sphere";
   request.dimensions = {0.1};
-  const BodyDescription description = toBodyDescription(request);
+  const BodyDescription description = toBodyDescription(request, {});
   EXPECT_EQ(description.frame, "gripper");
   EXPECT_EQ(description.scale, Eigen::Vector3d::Ones()) << "0 0 0 counts as not given";
   EXPECT_FALSE(description.max_edge_length.has_value());
+  SceneDefaults defaults;
+  defaults.max_edge_length = 0.5;
+  defaults.chord_error = 0.25;
+  EXPECT_EQ(toBodyDescription(request, defaults).max_edge_length, 0.5);
+  EXPECT_EQ(toBodyDescription(request, defaults).chord_error, 0.25);
+  request.max_edge_length = 0.125;
+  EXPECT_EQ(toBodyDescription(request, defaults).max_edge_length, 0.125);
   request.mesh_resource = "cup.stl";
-  EXPECT_THROW(toBodyDescription(request), Error);
+  EXPECT_THROW(toBodyDescription(request, {}), Error);
   request.primitive.clear();
   request.scale.x = request.scale.y = request.scale.z = 0.001;
-  EXPECT_EQ(toBodyDescription(request).scale.x(), 0.001);
+  EXPECT_EQ(toBodyDescription(request, {}).scale.x(), 0.001);
   request.mesh_resource.clear();
-  EXPECT_THROW(toBodyDescription(request), Error);
+  EXPECT_THROW(toBodyDescription(request, {}), Error);
   request.primitive = "box";
   request.frame_id.clear();
-  EXPECT_THROW(toBodyDescription(request), Error);
+  EXPECT_THROW(toBodyDescription(request, {}), Error);
 }
 
 TEST(HasDistance, IsTrueOfEveryStatusThatASolveReachesWithADistance) {

@@ -24,7 +24,7 @@ class DistanceQueriesTest : public ::testing::Test {
     query.body_b = "b";
     query.pose_a.pose.orientation.w = query.pose_b.pose.orientation.w = 1.0;
   }
-  QueryAnswer answerAll() { return answerQuery(query, scene, {&buffer, "world", 0.0, 1.0, {}}, now); }
+  QueryAnswer answerAll() { return answerQuery(query, scene, {&buffer, "world", 0.0, 1.0}, now); }
   PairNiches answer() { return answerAll().result; }
   void expectRefusal(const std::string& part) {
     const PairNiches result = answer();
@@ -76,7 +76,7 @@ TEST_F(DistanceQueriesTest, NeedNoTransformWhenBothPosesAreGiven) {
   const TransformBuffer empty = timelessBuffer();
   query.use_pose_a = query.use_pose_b = 1;
   query.pose_b.pose.position.x = 3.0;
-  const PairNiches result = answerQuery(query, scene, {&empty, "world", 0.0, 1.0, {}}, now).result;
+  const PairNiches result = answerQuery(query, scene, {&empty, "world", 0.0, 1.0}, now).result;
   ASSERT_TRUE(isAnswered(result)) << result.nearest.status.message;
   EXPECT_NEAR(result.nearest.distance, 2.0, kRounding);
 }
@@ -184,7 +184,7 @@ TEST_F(DistanceQueriesTest, CutTheNichesToTheMemoryOfTheAnswer) {
   scene.bodies.edit(1) = twoPosts(2.0);
   query.with_niches = query.use_pose_b = 1;
   query.largest_niche_count = std::numeric_limits<std::uint32_t>::max();
-  QueryContext context{&buffer, "world", 0.0, 1.0, {}};
+  QueryContext context{&buffer, "world", 0.0, 1.0};
   const PairNiches whole = answerQuery(query, scene, context, now).result;
   EXPECT_EQ(whole.niches.size(), 2U);
   EXPECT_FALSE(whole.niches_cut);
@@ -199,7 +199,7 @@ TEST_F(DistanceQueriesTest, RefuseContactsBeyondTheMemoryOfTheAnswer) {
   scene.bodies.edit(1) = twoPosts(0.6);
   query.with_contacts = query.use_pose_b = 1;
   query.pose_b.pose.position.y = 0.25;
-  QueryContext context{&buffer, "world", 0.0, 1.0, {}};
+  QueryContext context{&buffer, "world", 0.0, 1.0};
   EXPECT_EQ(answerQuery(query, scene, context, now).contacts.contacts.size(), 2U);
   context.answer_limit = 1000;  // bytes, between those of one contact and of two
   const QueryAnswer refused = answerQuery(query, scene, context, now);

@@ -1,5 +1,6 @@
 #include "ros/node_parameters.h"
 
+#include <dynamic_reconfigure/Config.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -161,6 +162,54 @@ TEST(Reconfiguration, BeginsWithTheDefaultsOfTheNode) {
   EXPECT_EQ(ours.rate, generated.rate);
   EXPECT_EQ(ours.marker_rate, generated.marker_rate);
   EXPECT_EQ(ours.publish_markers, generated.publish_markers);
+}
+
+// As dynamic_reconfigure leaves it on the parameter server.
+XmlRpc::XmlRpcValue onTheServer(const ConcaveDistanceConfig& config) {
+  dynamic_reconfigure::Config message;
+  config.__toMessage__(message);
+  XmlRpc::XmlRpcValue values;
+  for (const auto& value : message.strs) values[value.name] = value.value;
+  for (const auto& value : message.doubles) values[value.name] = value.value;
+  for (const auto& value : message.ints) values[value.name] = static_cast<int>(value.value);
+  for (const auto& value : message.bools) values[value.name] = value.value != 0;
+  return values;
+}
+
+TEST(Reconfiguration, IsReadAtTheNextStart) {
+  for (const std::string text :
+       {"0.5", "5", "none", "1e-3", "+2", "0", "-1", "", "far", " 1", "0x1", "inf"}) {
+    for (const bool of_cutoff : {true, false}) {
+      ConcaveDistanceConfig config = ConcaveDistanceConfig::__getDefault__();
+      (of_cutoff ? config.cutoff : config.time_budget) = text;
+      bool is_accepted = true;
+      try {
+        checkConfig(config);
+      } catch (const Error&) {
+        is_accepted = false;
+      }
+      try {
+        const NodeParameters read = parse(onTheServer(config));
+        EXPECT_TRUE(is_accepted) << text;
+        PairSettings applied;
+        applyChanges(ConcaveDistanceConfig::__getDefault__(), config, applied);
+        EXPECT_EQ(read.pair.tracker.cutoff, applied.tracker.cutoff) << text;
+        EXPECT_EQ(read.pair.tracker.time_budget, applied.tracker.time_budget) << text;
+      } catch (const Error& error) {
+        EXPECT_FALSE(is_accepted) << text << ": " << error.what();
+      }
+    }
+  }
+  ConcaveDistanceConfig all = ConcaveDistanceConfig::__getDefault__();
+  all.rate = 12.5;
+  all.marker_rate = 7.0;
+  all.publish_markers = all.publish_contact_markers = false;
+  all.absolute_tolerance = 0.25;
+  all.relative_tolerance = 0.125;
+  all.least_prominence = 3.0;
+  all.largest_niche_count = 2147483647;
+  const ConcaveDistanceConfig read = toConfig(parse(onTheServer(all)));
+  EXPECT_EQ(onTheServer(read), onTheServer(all));
 }
 
 TEST(Reconfiguration, ChangesWhatDiffersAndNothingElse) {

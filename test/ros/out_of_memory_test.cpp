@@ -132,7 +132,7 @@ TEST_F(OutOfMemoryTest, AQueryIsAnsweredWithoutAThrow) {
   DistanceQuery query;
   query.body_a = "a";
   query.body_b = "b";
-  const QueryContext context{&buffer, "world", 0.0, 1.0, {}};
+  const QueryContext context{&buffer, "world", 0.0, 1.0};
   std::size_t failures = 0;
   for (bool answered = false; !answered; ++failures) {
     QueryAnswer answer;

@@ -7,6 +7,8 @@
 namespace concave_distance {
 namespace {
 
+using Names = std::vector<std::string>;
+
 SceneBody body(const std::string& name, const std::string& frame) {
   SceneBody result;
   result.name = name;
@@ -157,9 +159,9 @@ TEST(RemoveBody, TakesItsPairsAndKeepsTheOthersRight) {
 
 TEST(SetPairEnabled, FindsPairsByNameAndByBodiesInEitherOrder) {
   Scene scene = threeBodies();
-  EXPECT_EQ(setPairEnabled(scene, {"table/arm", "", ""}, false, {}), "table/arm");
+  EXPECT_EQ(setPairEnabled(scene, {"table/arm", "", ""}, false, {}), Names{"table/arm"});
   EXPECT_FALSE(scene.pairs[0].enabled);
-  EXPECT_EQ(setPairEnabled(scene, {"", "arm", "table"}, true, {}), "table/arm");
+  EXPECT_EQ(setPairEnabled(scene, {"", "arm", "table"}, true, {}), Names{"table/arm"});
   EXPECT_TRUE(scene.pairs[0].enabled);
   EXPECT_THROW(setPairEnabled(scene, {"nobody/arm", "", ""}, true, {}), Error);
   EXPECT_THROW(setPairEnabled(scene, {"", "arm", "nobody"}, true, {}), Error);
@@ -171,8 +173,71 @@ TEST(SetPairEnabled, CreatesAPairThatAFilterLeftOut) {
   PairSettings settings;
   settings.warning_distance = 0.5;
   EXPECT_THROW(setPairEnabled(scene, {"", "table", "shelf"}, false, settings), Error);
-  EXPECT_EQ(setPairEnabled(scene, {"", "table", "shelf"}, true, settings), "table/shelf");
+  EXPECT_EQ(setPairEnabled(scene, {"", "table", "shelf"}, true, settings), Names{"table/shelf"});
   EXPECT_EQ(scene.pairs.back().settings.warning_distance, 0.5);
+}
+
+// Two fingers on a hand, a table and a shelf in the world; the group names a body that is not there, too.
+Scene handAndRoom() {
+  Scene scene;
+  for (const char* name : {"hand", "finger_l", "finger_r"}) {
+    SceneBody link = body(name, name);
+    link.is_robot_link = true;
+    scene.bodies.push_back(link);
+  }
+  for (const char* name : {"table", "shelf"}) scene.bodies.push_back(body(name, "world"));
+  scene.rigid.join("hand", "finger_l");
+  scene.groups["fingers"] = {"finger_l", "gone", "finger_r"};
+  scene.groups["empty"] = {"gone"};
+  return scene;
+}
+
+TEST(AddBody, TakesGroupsAndPatternsForBodies) {
+  Scene scene = handAndRoom();
+  EXPECT_EQ(addBody(scene, body("cup", "cup"), {{"fingers", "t*", "table"}}, {}).names,
+            Names({"cup/table", "cup/finger_l", "cup/finger_r"}));
+  EXPECT_EQ(addBody(scene, body("mug", "mug"), {{}, false, {"finger_?", "cup", "nobody", "no*"}}, {}).names,
+            Names({"mug/hand", "mug/table", "mug/shelf"}));
+  const AddedPairs held = addBody(scene, body("ring", "finger_l"), {{}, false, {"fingers"}}, {});
+  EXPECT_EQ(held.names, Names({"ring/table", "ring/shelf", "ring/cup", "ring/mug"}));
+  EXPECT_TRUE(held.unknown.empty());
+  EXPECT_EQ(held.rigid_neighbours, Names{"hand"});
+}
+
+TEST(AddBody, LeavesOutOfGroupsWhatCannotMoveAgainstItUnlessItIsNamed) {
+  Scene scene = handAndRoom();
+  const AddedPairs of_group = addBody(scene, body("palm", "hand"), {{"fingers"}}, {});
+  EXPECT_EQ(of_group.names, Names{"palm/finger_r"});
+  EXPECT_EQ(of_group.rigid_neighbours, Names{"finger_l"});
+  const AddedPairs named = addBody(scene, body("back", "hand"), {{"fingers", "finger_l"}}, {});
+  EXPECT_EQ(named.names, Names({"back/finger_l", "back/finger_r"}));
+}
+
+TEST(AddBody, RefusesGroupsAndPatternsWithoutABody) {
+  Scene scene = handAndRoom();
+  for (const std::string& name : Names{"empty", "x*", "nobody", "[", std::string(5000, '*')}) {
+    EXPECT_THROW(addBody(scene, body("cup", "cup"), {{name}}, {}), Error) << name;
+  }
+  EXPECT_EQ(scene.bodies.size(), 5U);
+}
+
+TEST(SetPairEnabled, TakesGroupsAndPatternsForBodies) {
+  Scene scene = handAndRoom();
+  addBody(scene, body("cup", "cup"), {{"fingers", "table"}}, {});
+  EXPECT_EQ(setPairEnabled(scene, {"", "fingers", "cup"}, false, {}),
+            Names({"cup/finger_l", "cup/finger_r"}));
+  EXPECT_FALSE(scene.pairs[*scene.pairs.find("cup/finger_l")].enabled);
+  EXPECT_TRUE(scene.pairs[*scene.pairs.find("cup/table")].enabled);
+  EXPECT_EQ(setPairEnabled(scene, {"cup/*", "", ""}, false, {}),
+            Names({"cup/table", "cup/finger_l", "cup/finger_r"}));
+  // What is not there yet is created where no filter of a robot or of rigid frames can have left it out.
+  EXPECT_EQ(setPairEnabled(scene, {"", "cup", "*"}, true, {}),
+            Names({"cup/finger_l", "cup/finger_r", "cup/table", "cup/hand", "cup/shelf"}));
+  EXPECT_THROW(setPairEnabled(scene, {"", "fingers", "h*"}, true, {}), Error) << "links of a robot";
+  EXPECT_THROW(setPairEnabled(scene, {"", "table", "sh*"}, true, {}), Error) << "one frame";
+  EXPECT_THROW(setPairEnabled(scene, {"", "fingers", "table"}, false, {}), Error) << "no pair to switch off";
+  EXPECT_THROW(setPairEnabled(scene, {"", "empty", "table"}, true, {}), Error);
+  EXPECT_EQ(setPairEnabled(scene, {"", "finger_l", "hand"}, true, {}), Names{"finger_l/hand"}) << "named";
 }
 
 }  // namespace

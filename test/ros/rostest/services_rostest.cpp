@@ -250,6 +250,31 @@ TEST_F(ServicesTest, AddedBodiesAreWatchedAndRemovedOnesNot) {
   EXPECT_EQ(call<ListBodies>(kNode + "list_bodies", {}).bodies.size(), 4U);
 }
 
+TEST_F(ServicesTest, AddedBodiesHaveTheScenesDefaultsAndGroupsCountAsBodies) {
+  AddBodyRequest request;
+  request.name = "cup";
+  request.frame_id = "cup";
+  request.primitive = "sphere";
+  request.dimensions = {0.5};
+  request.pair_with = {"both"};
+  const auto added = call<AddBody>(kNode + "add_body", request);
+  ASSERT_TRUE(added.success) << added.message;
+  EXPECT_EQ(added.pairs, std::vector<std::string>({"cup/box_a", "cup/box_b"}));
+  for (const PairInfo& pair : call<ListBodies>(kNode + "list_bodies", {}).pairs) {
+    EXPECT_TRUE(pair.body_a != "cup" || pair.cutoff == 1000.0) << pair.name << ": " << pair.cutoff;
+  }
+  SetPairEnabledRequest off;
+  off.body_a = "cup";
+  off.body_b = "both";
+  const auto switched = call<SetPairEnabled>(kNode + "set_pair_enabled", off);
+  EXPECT_TRUE(switched.success) << switched.message;
+  EXPECT_EQ(switched.pair, "cup/box_a");
+  EXPECT_EQ(switched.pairs, added.pairs);
+  RemoveBodyRequest removal;
+  removal.name = "cup";
+  EXPECT_TRUE(call<RemoveBody>(kNode + "remove_body", removal).success);
+}
+
 TEST_F(ServicesTest, AddBodyRefusesBadRequestsWithTheReason) {
   AddBodyRequest good;
   good.name = "cup";

@@ -23,6 +23,7 @@
 
 #include "rostest_support.h"
 #include "run_node.h"
+#include "started_node.h"
 #include "support/temporary_folder.h"
 #include "tf_player.h"
 
@@ -226,6 +227,44 @@ dynamic_reconfigure::Config setCutoff(const std::string& node, const std::string
   request.config.strs[0].name = "cutoff";
   request.config.strs[0].value = cutoff;
   return call<dynamic_reconfigure::Reconfigure>(node + "/set_parameters", request).config;
+}
+
+// The parameter server keeps what dynamic_reconfigure was told, as texts.
+TEST(StartUp, WhatWasReconfiguredIsReadAtTheNextStart) {
+  const std::string node = "/restarted";
+  const auto cutoff_of_next_start = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"__name:=restarted", "_robot_description:=both_geometries"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    StartedNode started(arguments);
+    EXPECT_TRUE(isReady(node));
+    const ListBodiesResponse scene = list(node);
+    const double cutoff = scene.pairs.empty() ? -1.0 : scene.pairs.front().cutoff;
+    setCutoff(node, "0.5");
+    started.interrupt();
+    EXPECT_EQ(started.waitForEnd(20.0), 0);
+    return cutoff;
+  };
+  EXPECT_EQ(cutoff_of_next_start({"_cutoff:=0.25", "_time_budget:=0.125"}), 0.25) << "a number of YAML";
+  EXPECT_EQ(cutoff_of_next_start({}), 0.5);
+  std::string budget;
+  EXPECT_TRUE(ros::param::get(node + "/time_budget", budget));
+  EXPECT_EQ(budget, "0.125");
+}
+
+// A cutoff that suits this robot is nobody's setting, also when the reconfigure server has written all
+// values.
+TEST(StartUp, TheAutomaticCutoffDoesNotStayOnTheParameterServer) {
+  const StartedNode started({"__name:=automatic", "_robot_description:=both_geometries"});
+  ASSERT_TRUE(isReady("/automatic"));
+  dynamic_reconfigure::ReconfigureRequest request;
+  request.config.doubles.resize(1);
+  request.config.doubles[0].name = "rate";
+  request.config.doubles[0].value = 12.5;
+  call<dynamic_reconfigure::Reconfigure>("/automatic/set_parameters", request);
+  double rate = 0.0;
+  EXPECT_TRUE(ros::param::get("/automatic/rate", rate));
+  EXPECT_EQ(rate, 12.5);
+  EXPECT_TRUE(eventually([] { return !ros::param::has("/automatic/cutoff"); }));
 }
 
 TEST(StartUp, PreparationIsReportedWhileServicesAnswer) {

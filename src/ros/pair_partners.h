@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "concave_distance/scene/scene.h"
+
+namespace concave_distance {
+
+/// Which bodies a new one is paired with. A name may be that of a group, or a pattern: of these, bodies that
+/// do not move relative to the new one's frame are left out.
+struct PairPartners {
+  std::vector<std::string> names;        ///< empty: every body that can move relative to its frame
+  bool none = false;                     ///< no body at all
+  std::vector<std::string> may_touch{};  ///< bodies left out; not together with `names`
+  /// Whether two frames do not move relative to each other, besides those that Scene::rigid joins.
+  std::function<bool(const std::string& frame_a, const std::string& frame_b)> is_rigid{};
+};
+
+struct AddedPairs {
+  std::vector<std::string> names;
+  std::vector<std::string> rigid_neighbours;  ///< bodies of other frames left out as rigidly connected
+  std::vector<std::string> unknown;           ///< names in PairPartners::may_touch without a body
+};
+
+/// Indices of the bodies that a new one is paired with. Fills what `added` says of those left out.
+/// @throws Error when a partner is unknown or the body itself, and for wishes that exclude each other
+std::vector<std::size_t> partnersOf(const Scene& scene, const SceneBody& body, const PairPartners& partners,
+                                    AddedPairs& added);
+
+}  // namespace concave_distance
