@@ -64,6 +64,7 @@ void CycleRunner::setMarkers(bool publish, bool contacts) {
 void CycleRunner::runTimedCycle(std::int64_t due) {
   const std::int64_t cpu_start = threadCpuNanoseconds();
   const ros::WallTime start = ros::WallTime::now();
+  statistics_.begin(start.toSec());
   const ros::Time now = ros::Time::now();
   checkClock(now);
   CycleRecord record = runCycle(now);
