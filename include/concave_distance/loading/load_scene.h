@@ -41,8 +41,8 @@ struct SceneLoadOptions {
   PackageLocator package_locator = packagePathFromEnvironment;
   /// What cannot be loaded is an error, and not a problem of the scene whose rest is served.
   bool strict = false;
-  /// Folders to search for meshes that are not found at their package:// or relative path; a file, such as the
-  /// URDF, means its folder and the three above that.
+  /// Folders to search for meshes that are not found at their package:// or relative path; a file, such as
+  /// the URDF, means its folder and the three above that.
   std::vector<std::string> mesh_search_path;
   LoadProgress* progress = nullptr;  ///< nullptr: none
   /// For loadRobotScene: a cutoff scaled to the robot instead of that in `default_settings`.
