@@ -19,7 +19,7 @@ from concave_distance.srv import ListBodies
 
 LOADING_SECONDS = 60.0  # at most, until the bodies are loaded
 FRAMES_SECONDS = 5.0  # at most, until their frames are known
-LEGEND = 0.15  # height of the markers' legend above the robot, over the robot's size
+LEGEND = 0.3  # height of the markers' legend above the robot, over the robot's size
 NEARER = 0.9  # than the distance from which a ball around the robot fits: robots are no balls
 GRID_CELLS = 8.0  # along the robot's size
 
