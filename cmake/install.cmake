@@ -45,5 +45,5 @@ install(TARGETS distance_query evaluate mesh_tool simulate
 install(DIRECTORY config meshes urdf DESTINATION ${CONCAVE_DISTANCE_SHARE_DESTINATION} COMPONENT tools)
 if(CONCAVE_DISTANCE_WITH_ROS)
   install(DIRECTORY launch DESTINATION ${CONCAVE_DISTANCE_SHARE_DESTINATION} COMPONENT node)
-  catkin_install_python(PROGRAMS scripts/show_distances.py DESTINATION ${CONCAVE_DISTANCE_BIN_DESTINATION})
+  catkin_install_python(PROGRAMS scripts/show_distances.py scripts/view_robot.py DESTINATION ${CONCAVE_DISTANCE_BIN_DESTINATION})
 endif()

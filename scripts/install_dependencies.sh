@@ -32,6 +32,7 @@ set -euo pipefail
   )
   debian_demo=(
     python3-roslaunch python3-rospy python3-rosservice python3-rostopic rosbash rviz ros-robot-state-publisher
+    python3-rospkg python3-tf2-ros python3-yaml  # scripts/view_robot.py
     python3-geometry-msgs python3-std-msgs python3-std-srvs python3-visualization-msgs python3-diagnostic-msgs  # what ours are made of
   )
   debian_plot=(python3-matplotlib python3-yaml valgrind)
@@ -56,6 +57,7 @@ set -euo pipefail
   noetic_demo=(
     ros-noetic-roslaunch ros-noetic-rospy ros-noetic-rosservice ros-noetic-rostopic ros-noetic-rosbash ros-noetic-rviz
     ros-noetic-robot-state-publisher
+    python3-rospkg python3-yaml  # scripts/view_robot.py
   )
   noetic_plot=(python3-matplotlib python3-yaml valgrind)
   noetic_format=(clang-format)

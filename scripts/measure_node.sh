@@ -1,13 +1,14 @@
 #!/usr/bin/env bash
-# Measures the node on two moving scenes and writes the figures to doc/results/node_timing.txt.
+# Measures the node on moving scenes and writes the figures to doc/results/node_timing.txt.
 #   scripts/measure_node.sh [--seconds N] [--output FILE] [--prefix COMMAND] [--wait-idle] [scenes]
 # Scenes: pair: the battery in its fixture, one pair, poses and cycles at 500 Hz, its distance alone and with all niches;
 # oversampled: four cycles a pose, for the latency; robot: the arm in the shelf, 35 pairs, poses and cycles at 50 Hz;
-# robot_all: the same without the cutoff, so that all 35 pairs are solved in every cycle. All of them by default, 60 s
-# each. --prefix "chrt -f 20" runs the node with real-time priority (needs the right to), which keeps
-# other programs' load out of the figures. --wait-idle begins each measurement when the machine has been idle for three
-# seconds (how idle it was during one is printed). Needs a finished build (scripts/build.sh all). How to read the figures:
-# test/ros/timing/node_timing.cpp.
+# robot_all: the same without the cutoff, so that all 35 pairs are solved in every cycle; pairs_168 and pairs_768: Atlas and
+# DRC-Hubo of Debian's dart-doc with that many pairs, every joint moving, first with a subscriber of distances alone, then
+# with one of markers beside it, as rviz is. All but the last two by default, 60 s each. --prefix "chrt -f 20" runs the node
+# with real-time priority (needs the right to), which keeps other programs' load out of the figures. --wait-idle begins each
+# measurement when the machine has been idle for three seconds (how idle it was during one is printed). Needs a finished
+# build (scripts/build.sh all). How to read the figures: test/ros/timing/node_timing.cpp.
 set -euo pipefail
 # shellcheck source=scripts/common.sh
 . "$(dirname "${BASH_SOURCE[0]}")/common.sh"
@@ -24,8 +25,8 @@ while [ $# -gt 0 ]; do
     --output) output="${2:?--output needs a file}" && shift ;;
     --prefix) prefix="${2:?--prefix needs a command}" && shift ;;
     --wait-idle) wait_idle=1 ;;
-    pair | oversampled | robot | robot_all) scenes+=("$1") ;;
-    *) die "unknown argument '$1': expected pair, oversampled, robot, robot_all, --seconds N, --output FILE, --prefix COMMAND or --wait-idle" ;;
+    pair | oversampled | robot | robot_all | pairs_168 | pairs_768) scenes+=("$1") ;;
+    *) die "unknown argument '$1': expected pair, oversampled, robot, robot_all, pairs_168, pairs_768, --seconds N, --output FILE, --prefix COMMAND or --wait-idle" ;;
   esac
   shift
 done
@@ -59,9 +60,10 @@ idle_share() {
   echo "$before $after" | awk '{ for (i = 2; i <= 9; ++i) all += $(i + 11) - $i; print int(100 * ($16 - $5) / all) }'
 }
 
-measure() { # <title> <topic> <cutoff or -1> <roslaunch arguments ...>
-  local title="$1" topic="$2" cutoff="$3" load
+measure() { # <title> <topic, or distances+markers: without and with markers> <cutoff or -1> <roslaunch arguments ...>
+  local title="$1" topic="$2" cutoff="$3" load markers=(false)
   shift 3
+  if [ "$topic" = distances+markers ]; then topic=distances markers=(false true); fi
   if [ -n "$wait_idle" ]; then
     until [ "$(idle_share)" -ge 90 ]; do :; done
   fi
@@ -72,12 +74,24 @@ measure() { # <title> <topic> <cutoff or -1> <roslaunch arguments ...>
     kill -0 "$launch_pid" 2>/dev/null || { tail -n 30 "$ROS_LOG_DIR/measure_node.log" >&2 && die "the scene did not start"; }
     sleep 0.2
   done
-  echo "$title; subscribed: $topic; roslaunch concave_distance $*"
-  "$build_dir/devel/lib/concave_distance/node_timing" _node:=/concave_distance _seconds:="$seconds" \
-    _topic:="$topic" _cutoff:="$cutoff"
+  local with
+  for with in "${markers[@]}"; do
+    echo "$title; subscribed: $topic$([ "$with" = false ] || echo " and markers"); roslaunch concave_distance $*"
+    "$build_dir/devel/lib/concave_distance/node_timing" _node:=/concave_distance _seconds:="$seconds" \
+      _topic:="$topic" _cutoff:="$cutoff" _markers:="$with"
+  done
   echo "  load average   before: $load; after: $(cut -d ' ' -f 1-3 /proc/loadavg) (this measurement included)"
   echo
   end_scene
+}
+
+robots=/usr/share/doc/dart/data
+measure_robot() { # <URDF> <pairs>
+  [ -f "$1" ] || die "$1 is missing: apt-get install dart-doc"
+  local srdf="$build_dir/$(basename "$1" .urdf).srdf"
+  "$package_dir/scripts/write_srdf.py" "$1" "$2" >"$srdf"
+  measure "$(basename "$1" .urdf), $2 pairs at 50 Hz" distances+markers -1 own_robot.launch urdf:="$1" srdf:="$srdf" \
+    joints:=sway rate:=50
 }
 
 exec > >(tee "$output")
@@ -97,5 +111,7 @@ for scene in "${scenes[@]}"; do
     robot_all)
       measure "robot scene at 50 Hz, no cutoff: all 35 pairs solved" niches 1000 robot.launch rate:=50 pose_rate:=50
       ;;
+    pairs_168) measure_robot "$robots/sdf/atlas/atlas_v3_no_head.urdf" 168 ;;
+    pairs_768) measure_robot "$robots/urdf/drchubo/drchubo.urdf" 768 ;;
   esac
 done

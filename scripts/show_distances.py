@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Prints what the node measures, some lines a second: the nearest pair with its niches, and which came and went.
 
-rosrun concave_distance show_distances.py [_topic:=/concave_distance/niches] [_rate:=2] [_pairs:=1]
+rosrun concave_distance show_distances.py [_topic:=concave_distance/niches] [_rate:=2] [_pairs:=1]
                                           [_least_messages:=0] [_seconds:=0]
-With _seconds it ends after that time, with status 1 unless _least_messages messages with a distance have come.
+Each line begins with the time of the transforms, in seconds since those of the first message. With _seconds it ends after that time, with status 1 unless _least_messages messages with a distance have come.
 """
 
 import sys
@@ -36,6 +36,7 @@ class Printer:
         self.period = 1.0 / rate
         self.pairs = pairs
         self.printed_at = 0.0
+        self.first_stamp = None
         self.events = []
         self.solved_messages = 0
         self.lock = threading.Lock()
@@ -50,12 +51,18 @@ class Printer:
                 self.printed_at = time.monotonic()
                 self.show(message)
 
+    def seconds_since_start(self, stamp):
+        """Of ROS time; a clock that jumps back starts again."""
+        if self.first_stamp is None or stamp < self.first_stamp:
+            self.first_stamp = stamp
+        return (stamp - self.first_stamp).to_sec()
+
     def show(self, message):
+        moment = "{:9.2f} s".format(self.seconds_since_start(message.header.stamp))
         by_distance = sorted(message.pairs, key=lambda pair: pair.nearest.distance if pair.nearest.has_distance
                              else float("inf"))
         for index, pair in enumerate(by_distance[:self.pairs]):
-            moment = "{:9.2f} s".format(message.header.stamp.to_sec() % 1e5) if index == 0 else " " * 11
-            print("{}  {}".format(moment, line_of(pair)))
+            print("{}  {}".format(moment if index == 0 else " " * 11, line_of(pair)))
         if len(by_distance) > self.pairs:
             print("{}  ({} pairs are watched)".format(" " * 11, len(by_distance)))
         shown = {pair.nearest.pair for pair in by_distance[:self.pairs]}
@@ -73,7 +80,7 @@ def main():
     printer = Printer(max(0.1, rospy.get_param("~rate", 2.0)), max(1, rospy.get_param("~pairs", 1)))
     seconds = rospy.get_param("~seconds", 0.0)
     least_messages = rospy.get_param("~least_messages", 0)
-    topic = rospy.get_param("~topic", "/concave_distance/niches")
+    topic = rospy.get_param("~topic", "concave_distance/niches")
     rospy.Subscriber(topic, Niches, printer.receive, queue_size=1000)
     started = time.monotonic()
     complained = started

@@ -238,6 +238,7 @@ Scene loadRobotScene(const std::string& urdf, const std::string& where, const Sc
   RobotSpec robot;
   robot.where = where;
   robot.geometry = options.geometry;
+  robot.chord_error = options.chord_error;
   std::error_code ignored;
   const bool is_file = std::filesystem::is_regular_file(where, ignored);
   // A text that comes from no file is what the parameter robot_description holds, and rviz draws it.

@@ -29,6 +29,7 @@ struct RobotJoint {
   std::string parent;
   std::string child;
   bool fixed = false;
+  bool floating = false;
   Eigen::Isometry3d parent_from_joint = Eigen::Isometry3d::Identity();
   JointMotion motion = JointMotion::None;
   Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  ///< unit, joint frame

@@ -100,6 +100,13 @@ void addRobot(const RobotSpec& spec, const RobotDescription& robot, const Descri
   addLinks(spec, robot, urdf, parts);
   for (const RobotJoint& joint : robot.joints) {
     if (joint.fixed) parts.rigid.join(bodyName(spec, joint.parent), bodyName(spec, joint.child));
+    if (joint.floating) {
+      parts.notes.push_back(urdf.where + ", joint '" + joint.name +
+                            "' floats, so robot_state_publisher leaves out " + "the transform from '" +
+                            bodyName(spec, joint.parent) + "' to '" + bodyName(spec, joint.child) +
+                            "': what is below it has no distance until " +
+                            "something publishes that (robot_mover publishes the joint's origin)");
+    }
   }
   for (const LinkPair& pair : adjacentLinks(robot)) {
     parts.adjacent.insert(linkPair(bodyName(spec, pair.first), bodyName(spec, pair.second)));

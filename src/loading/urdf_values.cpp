@@ -31,6 +31,7 @@ RobotJoint toJoint(const urdf::Joint& given) {
   joint.parent = withoutLeadingSlash(given.parent_link_name);
   joint.child = withoutLeadingSlash(given.child_link_name);
   joint.fixed = given.type == urdf::Joint::FIXED;
+  joint.floating = given.type == urdf::Joint::FLOATING;
   joint.parent_from_joint = toIsometry(given.parent_to_joint_origin_transform);
   const bool turns = given.type == urdf::Joint::REVOLUTE || given.type == urdf::Joint::CONTINUOUS;
   const Eigen::Vector3d axis(given.axis.x, given.axis.y, given.axis.z);

@@ -17,6 +17,7 @@ namespace {
 // A marker lives for this many marker periods, but never shorter than the seconds below.
 constexpr double kMarkerPeriods = 5.0;
 constexpr double kShortestMarkerLife = 0.5;
+constexpr double kMarkerShare = 0.25;   // of the period, for niches that nobody but the markers needs
 constexpr double kWarningPeriod = 5.0;  // s, between two warnings of the same kind
 
 std::vector<std::string> failingPairs(const PublishedPairs& pairs) {
@@ -64,6 +65,7 @@ void CycleRunner::setMarkers(bool publish, bool contacts) {
 void CycleRunner::runTimedCycle(std::int64_t due) {
   const std::int64_t cpu_start = threadCpuNanoseconds();
   const ros::WallTime start = ros::WallTime::now();
+  statistics_.begin(start.toSec());
   const ros::Time now = ros::Time::now();
   checkClock(now);
   CycleRecord record = runCycle(now);
@@ -119,7 +121,8 @@ CycleRecord CycleRunner::runCycle(ros::Time now) {
   const bool marker_cycle = cycles_until_markers_ == 0;
   cycles_until_markers_ = marker_cycle ? static_cast<std::uint64_t>(std::lround(rate_ / marker_rate)) - 1
                                        : cycles_until_markers_ - 1;
-  publishers_.readDemand(*served_, {publish_markers_, contact_markers_, marker_cycle}, demand_);
+  publishers_.readDemand(*served_, {publish_markers_, contact_markers_, marker_cycle, kMarkerShare / rate_},
+                         demand_);
   CycleRecord record;
   // One more cycle after the last subscriber has gone ends what it needed. After that, pairs without
   // subscribers cost nothing.

@@ -24,8 +24,14 @@ double Series::mean() const {
   return count == 0 ? std::numeric_limits<double>::quiet_NaN() : sum / static_cast<double>(count);
 }
 
+void CycleStatistics::begin(double wall_seconds) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  cycle_start_ = wall_seconds;
+}
+
 void CycleStatistics::add(CycleRecord record) {
   const std::lock_guard<std::mutex> lock(mutex_);
+  cycle_start_ = -1.0;
   ++window_.cycles;
   ++total_cycles_;
   window_.late += record.late ? 1 : 0;
@@ -48,6 +54,7 @@ void CycleStatistics::add(CycleRecord record) {
 
 void CycleStatistics::addFailure() {
   const std::lock_guard<std::mutex> lock(mutex_);
+  cycle_start_ = -1.0;
   ++window_.failed;
 }
 
@@ -55,6 +62,7 @@ CycleWindow CycleStatistics::take(double wall_seconds) {
   const std::lock_guard<std::mutex> lock(mutex_);
   CycleWindow window = std::move(window_);
   window.seconds = window_start_ < 0.0 ? 0.0 : wall_seconds - window_start_;
+  window.running = cycle_start_ < 0.0 ? 0.0 : wall_seconds - cycle_start_;
   window_ = CycleWindow();
   window_start_ = wall_seconds;
   return window;

@@ -34,6 +34,7 @@ struct CycleRecord {
 /// What the diagnostics report of the cycles since they were last published.
 struct CycleWindow {
   double seconds = 0.0;  ///< wall time covered
+  double running = 0.0;  ///< s for which a cycle had run that had not ended by then; 0: none
   std::uint64_t cycles = 0;
   std::uint64_t late = 0;
   std::uint64_t failed = 0;  ///< cycles ended by an exception
@@ -56,6 +57,8 @@ struct CycleWindow {
 /// Collects records from the cycle's thread for the diagnostics' thread.
 class CycleStatistics {
  public:
+  /// A cycle begins, which add() or addFailure() ends. @param wall_seconds as in take()
+  void begin(double wall_seconds);
   void add(CycleRecord record);
   void addFailure();
   /// @param wall_seconds now, of a clock that never jumps
@@ -68,6 +71,7 @@ class CycleStatistics {
   std::mutex mutex_;
   CycleWindow window_;
   double window_start_ = -1.0;
+  double cycle_start_ = -1.0;  ///< negative: none is running
   std::uint64_t total_cycles_ = 0;
   std::uint64_t total_late_ = 0;
 };

@@ -32,6 +32,8 @@ void describeCycle(const CycleWindow& window, double wanted_rate,
   const auto cycles = static_cast<double>(std::max<std::uint64_t>(window.cycles, 1));
   if (window.failed > 0) {
     status.summary(DiagnosticStatus::ERROR, "errors ended cycles (see the node's log)");
+  } else if (window.cycles == 0 && window.running > 0.0) {
+    status.summaryf(DiagnosticStatus::WARN, "a cycle has been running for %.1f s", window.running);
   } else if (window.cycles == 0) {
     status.summary(DiagnosticStatus::WARN, "no cycle ran (waiting for the scene, or the clock stands still)");
   } else if (window.last.watched == 0) {

@@ -22,7 +22,7 @@ constexpr double kLoadPeriod = 0.1;          // s, between two looks for the rob
 constexpr double kHousekeepingPeriod = 0.2;  // s
 constexpr const char* kRemedies =
     "fewer pairs (an SRDF, the scene file's pairs, ~skip_overlapping_pairs), a shorter ~cutoff, a lower "
-    "~rate, more ~threads, subscribers of distances instead of niches or markers, ~relative_tolerance";
+    "~rate, more ~threads, subscribers of distances instead of niches, ~relative_tolerance";
 constexpr double kProgressPeriod = 2.0;  // s, between two messages about loading
 constexpr double kMessagePeriod = 5.0;   // s, between two messages about what is missing
 

@@ -16,7 +16,8 @@ struct LatenessSample {
 };
 
 /// Reports once when cycles become late, again when the rate halves or doubles, and when they are on time
-/// again. Looks at spans of some seconds, so that one slow cycle is not reported.
+/// again. Looks at spans of some seconds and reports what several in a row agree on, so that neither a slow
+/// cycle nor a start is reported. A span in which the clock starts or jumps does not count.
 class LatenessMonitor {
  public:
   struct News {
@@ -30,11 +31,15 @@ class LatenessMonitor {
   bool isLate() const { return reported_rate_.has_value(); }
 
  private:
+  bool clockJumped(const LatenessSample& sample) const;
   std::optional<News> judge(double rate, double late_share, double wanted_rate);
 
   std::optional<LatenessSample> span_start_;
+  std::optional<LatenessSample> last_;
+  double last_step_ = 0.0;               ///< s of ROS time, between the last two samples
   std::optional<double> reported_rate_;  ///< Hz, of the last warning; empty: on time
   int good_spans_ = 0;                   ///< in a row
+  int late_spans_ = 0;                   ///< in a row
 };
 
 }  // namespace concave_distance

@@ -1,6 +1,7 @@
 #include "marker_selection.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace concave_distance {
@@ -31,24 +32,28 @@ bool hasMarkers(const PairNiches& pair) {
   return pair.nearest.has_distance != 0 && (!pair.niches.empty() || swallowed);
 }
 
-std::vector<DrawnPair> selectPairs(const std::vector<PairNiches>& pairs, const MarkerStyle& style) {
-  std::vector<DrawnPair> drawn;
-  for (const PairNiches& pair : pairs) {
-    if (hasMarkers(pair)) {
-      drawn.push_back({&pair, std::min<std::size_t>(1, pair.niches.size())});
+MarkerSelection selectPairs(const std::vector<MarkedPair>& pairs, const MarkerStyle& style) {
+  std::vector<MarkedPair> by_distance;
+  std::copy_if(pairs.begin(), pairs.end(), std::back_inserter(by_distance),
+               [](const MarkedPair& marked) { return marked.pair->nearest.has_distance != 0; });
+  std::stable_sort(by_distance.begin(), by_distance.end(),
+                   [](const MarkedPair& left, const MarkedPair& right) {
+                     return left.pair->nearest.distance < right.pair->nearest.distance;
+                   });
+  MarkerSelection selection;
+  for (const MarkedPair& marked : by_distance) {
+    const PairNiches& pair = *marked.pair;
+    const bool has_place = style.pair_count == 0 || selection.candidates < style.pair_count;
+    const bool selected = has_place || pair.nearest.warning != 0;
+    if (selected) selection.wanted.push_back(&pair);
+    if (marked.knows_niches && !hasMarkers(pair)) continue;
+    ++selection.candidates;
+    if (selected && marked.knows_niches) {
+      selection.drawn.push_back({&pair, std::min<std::size_t>(1, pair.niches.size())});
     }
   }
-  std::stable_sort(drawn.begin(), drawn.end(), [](const DrawnPair& left, const DrawnPair& right) {
-    return left.pair->nearest.distance < right.pair->nearest.distance;
-  });
-  if (style.pair_count != 0 && drawn.size() > style.pair_count) {
-    const auto farther = drawn.begin() + static_cast<std::ptrdiff_t>(style.pair_count);
-    drawn.erase(std::remove_if(farther, drawn.end(),
-                               [](const DrawnPair& pair) { return pair.pair->nearest.warning == 0; }),
-                drawn.end());
-  }
-  addFartherNiches(drawn, style.niche_count);
-  return drawn;
+  addFartherNiches(selection.drawn, style.niche_count);
+  return selection;
 }
 
 }  // namespace concave_distance

@@ -18,8 +18,22 @@ struct DrawnPair {
 /// Whether there is something to draw: a niche, or the closest points of a body inside another.
 bool hasMarkers(const PairNiches& pair);
 
-/// The style.pair_count nearest pairs and every pair in warning, ascending by distance. Of each, the nearest
-/// niche is drawn; other niches of these pairs follow, nearest first, up to style.niche_count in all.
-std::vector<DrawnPair> selectPairs(const std::vector<PairNiches>& pairs, const MarkerStyle& style);
+/// A pair that could be drawn.
+struct MarkedPair {
+  const PairNiches* pair = nullptr;
+  bool knows_niches = false;  ///< false: its niches were not asked for
+};
+
+/// What the markers show, and what they need for it.
+struct MarkerSelection {
+  std::vector<DrawnPair> drawn;           ///< ascending by distance
+  std::vector<const PairNiches*> wanted;  ///< pairs whose niches are needed, also of those drawn
+  std::size_t candidates = 0;             ///< pairs that are drawn, or would be if there were fewer
+};
+
+/// Selects the style.pair_count nearest pairs and every pair in warning. Of each, the nearest niche is drawn;
+/// other niches of these pairs follow, nearest first, up to style.niche_count in all. A pair whose niches are
+/// not known is wanted, and drawn when they are.
+MarkerSelection selectPairs(const std::vector<MarkedPair>& pairs, const MarkerStyle& style);
 
 }  // namespace concave_distance

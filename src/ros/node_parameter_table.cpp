@@ -30,12 +30,20 @@ ParameterTable<N> ofTheScene() {
       text<N>(
           "mesh_search_path", "paths, separated by `:`", [](auto& n) -> auto& { return n.mesh_search_path; },
           "folders to search for meshes that are not found at their `package://` or relative path ([your own "
-          "robot](your_own_robot.md#meshes-that-are-not-found)); a file means its folder"),
+          "robot](your_own_robot.md#meshes-that-are-not-found)); a file means its folder and the three above "
+          "it"),
       flag<N>(
           "skip_overlapping_pairs", [](auto& n) -> auto& { return n.skip_overlapping_pairs; },
           "for a robot without a scene file: leave out pairs of links that overlap in every pose tried, "
           "instead of "
           "only warning ([your own robot](your_own_robot.md#links-that-always-overlap))"),
+      automatic<N>(
+          "chord_error", [](auto& n) -> auto& { return n.chord_error; },
+          "for a robot without a scene file: how far the mesh of a sphere, cylinder or capsule may be from "
+          "its "
+          "surface ([round bodies](scene_file.md#bodies)); `auto`: 1 % of the radius")
+          .inUnit("m")
+          .to(1e6),
       text<N>(
           "cache", "a path, or `off`", [](auto& n) -> auto& { return n.cache; },
           "folder for prepared bodies, used at the next start, unless the scene file names one; empty: the "

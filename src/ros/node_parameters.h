@@ -24,7 +24,8 @@ struct NodeParameters {
   std::vector<std::string> mesh_search_folders;  ///< the same; as in SceneLoadOptions, so are the next two
   bool automatic_cutoff = false;                 ///< a robot without scene file, and `cutoff` is not set
   bool skip_overlapping_pairs = false;
-  std::string cache;  ///< folder of prepared bodies; empty: the user's, "off": none
+  double chord_error = 0.0;  ///< m, of a robot without scene file; 0: 1 % of the radius
+  std::string cache;         ///< folder of prepared bodies; empty: the user's, "off": none
   /// Where services may read mesh files; nothing: every package and the scene file's folder.
   std::optional<std::vector<std::string>> mesh_roots;
   MeshAccess mesh_access;            ///< of bodies that services add, from the former and the limits

@@ -105,6 +105,7 @@ Scene loadScene(const NodeParameters& parameters, const SceneRequest& request, L
   options.progress = &progress;
   options.automatic_cutoff = parameters.automatic_cutoff;
   options.skip_overlapping_pairs = parameters.skip_overlapping_pairs;
+  if (parameters.chord_error > 0.0) options.chord_error = parameters.chord_error;
   if (!parameters.scene_file.empty()) {
     return loadSceneFile(parameters.scene_file, options);
   }

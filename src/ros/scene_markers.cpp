@@ -54,18 +54,31 @@ bool hasExtent(const std::vector<Marker>& markers) {
   });
 }
 
-LegendContents contentsOf(const Scene& scene, const std::vector<PairNiches>& niches,
-                          const std::vector<DrawnPair>& drawn) {
+LegendContents contentsOf(const Scene& scene, const MarkerSelection& selection) {
   LegendContents contents;
-  contents.drawn_pairs = drawn.size();
-  contents.pairs = static_cast<std::size_t>(std::count_if(niches.begin(), niches.end(), hasMarkers));
-  contents.others =
-      std::any_of(drawn.begin(), drawn.end(), [](const DrawnPair& pair) { return pair.niche_count > 1; });
+  contents.drawn_pairs = selection.drawn.size();
+  contents.pairs = selection.candidates;
+  contents.others = std::any_of(selection.drawn.begin(), selection.drawn.end(),
+                                [](const DrawnPair& pair) { return pair.niche_count > 1; });
   for (const ScenePair& pair : scene.pairs) {
     contents.warnings = contents.warnings || pair.settings.warning_distance.has_value();
     contents.contacts = contents.contacts || pair.settings.effects.any();
   }
   return contents;
+}
+
+// Both are in the order of the scene's pairs.
+std::vector<MarkedPair> markedPairs(const std::vector<PairNiches>& niches, const PublishedPairs& pairs,
+                                    MarkerDemand& demand) {
+  std::vector<MarkedPair> marked;
+  marked.reserve(niches.size());
+  std::size_t k = 0;
+  for (const PairNiches& message : niches) {
+    while (k + 1 < pairs.size() && pairs[k]->heading.pair != message.nearest.pair) ++k;
+    const PairNiches* kept = pairs[k]->heading.with_niches ? &message : demand.withNiches(message);
+    marked.push_back({kept != nullptr ? kept : &message, kept != nullptr});
+  }
+  return marked;
 }
 
 }  // namespace
@@ -80,7 +93,9 @@ visualization_msgs::MarkerArray SceneMarkers::draw(const Scene& scene, const Mar
   if (!niches.empty()) {
     const std::vector<LocatedBody> bodies = locateBodies(scene, pairs);
     layout_.update(bodies, style);
-    const std::vector<DrawnPair> drawn = selectPairs(niches, layout_.style());
+    const MarkerSelection selection = selectPairs(markedPairs(niches, pairs, demand_), layout_.style());
+    const std::vector<DrawnPair>& drawn = selection.drawn;
+    demand_.select(selection.wanted, header.stamp);
     std::vector<ContactLabel> contact_labels;
     std::set<std::string> with_contacts;
     append(drawContacts(scene, pairs, contacts, lifetime), markers);
@@ -100,7 +115,7 @@ visualization_msgs::MarkerArray SceneMarkers::draw(const Scene& scene, const Mar
     extents_seen_ = extents_seen_ || hasExtent(markers);
     std::vector<LabelSpace> taken;
     if (style.legend) {
-      LegendContents contents = contentsOf(scene, niches, drawn);
+      LegendContents contents = contentsOf(scene, selection);
       contents.extents = extents_seen_;
       contents.pressure_end = pressures_.end();
       std::vector<Marker> legend = legendMarkers(contents, layout_, header, lifetime);
@@ -137,6 +152,7 @@ std::vector<Marker> SceneMarkers::drawContacts(const Scene& scene, const Publish
 }
 
 void SceneMarkers::forget() {
+  demand_.forget();
   shown_.clear();
   tints_.forget();
 }

@@ -9,6 +9,7 @@
 
 #include "concave_distance/scene/scene.h"
 #include "label_placer.h"
+#include "marker_demand.h"
 #include "marker_layout.h"
 #include "niche_markers.h"
 #include "pressure_markers.h"
@@ -30,6 +31,8 @@ class SceneMarkers {
                                        const PublishedPairs& pairs, const std::vector<PairNiches>& niches,
                                        const std::vector<PairContactState>& contacts,
                                        const std_msgs::Header& header, double lifetime);
+  /// Which niches are needed for it, in which cycle.
+  MarkerDemand& demand() { return demand_; }
   /// For when there is no subscriber any more: nothing has to be deleted.
   void forget();
   bool empty() const { return shown_.empty() && tints_.empty(); }
@@ -39,6 +42,7 @@ class SceneMarkers {
                                                        const std::vector<PairContactState>& contacts,
                                                        double lifetime);
 
+  MarkerDemand demand_;
   MarkerLayout layout_;
   LabelPlacer placer_;
   WarningTints tints_;

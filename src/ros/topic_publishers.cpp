@@ -133,6 +133,7 @@ void TopicPublishers::readDemand(const ServedScene& served, const MarkerOptions&
   markers_due_ = markers.due && (markers_wanted_ || !drawing_->empty());
   demand.assign(served.topics.size(), PairDemand());
   static const PairTopics kNoTopics;
+  drawing_->demand().begin(markers.niche_seconds);
   for (std::size_t index = 0; index < demand.size(); ++index) {
     const PairTopics& own = served.topics[index] ? *served.topics[index] : kNoTopics;
     const bool own_niches = own.niches.isWatched();
@@ -143,9 +144,10 @@ void TopicPublishers::readDemand(const ServedScene& served, const MarkerOptions&
     pair.due = nearest_wanted_ || distances_wanted_ || niches_wanted_ || alert || own_niches || contacts ||
                own.distance.isWatched() || (markers_wanted_ && markers.due);
     pair.watched = pair.due || markers_wanted_;
-    // A contact's id is its niche's.
-    pair.niches = niches_wanted_ || own_niches || contacts || markers_wanted_;
     pair.effects = contacts || (contact_markers_wanted_ && served.scene->pairs[index].settings.effects.any());
+    // A contact's id is its niche's.
+    pair.niches = niches_wanted_ || own_niches || pair.effects ||
+                  (markers_wanted_ && drawing_->demand().wantsNiches(served.scene->pairs[index].name));
   }
 }
 
@@ -157,6 +159,7 @@ bool TopicPublishers::isIdle(const std::vector<PairDemand>& demand) const {
 PublishReport TopicPublishers::publish(const ServedScene& served, const PublishedPairs& pairs,
                                        double marker_lifetime, ros::Time now) {
   messages_.clear();
+  drawing_->demand().take(pairs);
   const bool in_lists = distances_wanted_ || niches_wanted_ || markers_due_;
   for (std::size_t index = 0; index < pairs.size(); ++index) {
     const PublishedPair& pair = *pairs[index];

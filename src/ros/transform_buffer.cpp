@@ -1,5 +1,6 @@
 #include "transform_buffer.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -48,19 +49,28 @@ std::optional<TransformProblem> TransformBuffer::insert(geometry_msgs::Transform
   if (problem) return problem;
   normalize(transform.transform.rotation);
   if (fixed) transform.header.stamp = ros::Time();
-  if (!fixed && transform.header.stamp == frames_[transform.child_frame_id].latest.header.stamp) {
+  Frame& frame = frames_[transform.child_frame_id];
+  if (!fixed && !noteStamp(frame, transform.header.stamp)) {
     return std::nullopt;  // tf2 keeps the first and logs each of the others
   }
   if (!outdated_) buffer_->setTransform(transform, sender, fixed);
   names_.insert(transform.child_frame_id);
   names_.insert(transform.header.frame_id);
-  Frame& frame = frames_[transform.child_frame_id];
   if (fixed || frame.latest.header.stamp <= transform.header.stamp) {
     frame.latest = std::move(transform);
     frame.sender = sender;
     frame.taken = now;
   }
   return std::nullopt;
+}
+
+// False when the frame has a transform of that stamp already, not only as its newest one.
+bool TransformBuffer::noteStamp(Frame& frame, ros::Time stamp) const {
+  const auto place = std::lower_bound(frame.stamps.begin(), frame.stamps.end(), stamp);
+  if (place != frame.stamps.end() && *place == stamp) return false;
+  frame.stamps.insert(place, stamp);
+  while (secondsBetween(frame.stamps.front(), frame.stamps.back()) > limits_.cache) frame.stamps.pop_front();
+  return true;
 }
 
 // Checks the transform against the known ones.
@@ -102,7 +112,8 @@ std::optional<TransformProblem> TransformBuffer::changeKind(Frame& frame, bool f
         "stop one of the two publishers"};
   }
   frame.fixed = fixed;
-  frame.latest = geometry_msgs::TransformStamped();  // its earlier transform is ignored
+  frame.latest = geometry_msgs::TransformStamped();  // its earlier transforms are ignored
+  frame.stamps.clear();
   outdated_ = true;
   return std::nullopt;
 }

@@ -4,6 +4,7 @@
 #include <tf2/buffer_core.h>
 
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -47,12 +48,15 @@ class TransformBuffer {
     std::string sender;
     bool fixed = false;
     ros::Time taken;  ///< when `latest` came
+    /// Of the moving transforms taken, ascending, as far back as tf2 keeps them.
+    std::deque<ros::Time> stamps;
   };
 
   void noteClock(ros::Time now);
   std::optional<TransformProblem> admitFrame(const geometry_msgs::TransformStamped& transform, bool fixed,
                                              ros::Time now);
   std::optional<TransformProblem> changeKind(Frame& frame, bool fixed, ros::Time now);
+  bool noteStamp(Frame& frame, ros::Time stamp) const;
   bool makesLoop(const std::string& child, const std::string& parent) const;
   bool hasSpace(ros::Time now);
   void rebuild() const;

@@ -60,6 +60,31 @@ TEST_F(OwnRobot, MeshesOfAnUnknownPackageAreFoundBelowTheSearchPath) {
   }
 }
 
+// As in the repositories of Fetch, ABB and UR, whose URDFs stand beside the folder of the meshes.
+TEST_F(OwnRobot, MeshesAreFoundInFoldersBesideThatOfTheUrdf) {
+  folder.write("src/arm_description/urdf/arm.urdf", "only its folder counts");
+  folder.write("src/arm_description/meshes/link/t.stl", test::tetrahedronStl());
+  folder.write("src/arm_description/stray.stl", test::tetrahedronStl());
+  folder.write("src/gripper_description/meshes/t.stl", test::tetrahedronStl());
+  options.mesh_search_path = {folder.path("src/arm_description/urdf/arm.urdf")};
+  const Scene scene = loadAlone(robot(meshLink("own", "package://renamed/meshes/link/t.stl") +
+                                      meshLink("other", "package://gripper_description/meshes/t.stl") +
+                                      meshLink("stray", "package://arm/meshes/stray.stl") +
+                                      joint("revolute", "own", "other") + joint("revolute", "own", "stray")));
+  EXPECT_EQ(bodyNames(scene), Names({"own", "other"}));
+  ASSERT_EQ(scene.problems.size(), 1U) << "a file name alone is not looked for above the URDF's folder";
+  EXPECT_TRUE(mentions(scene.problems[0].where, "stray")) << scene.problems[0].where;
+}
+
+TEST_F(OwnRobot, AMeshNamedWithItsPackageIsPreferredToANearerOneOfThatName) {
+  folder.write("src/arm/urdf/arm.urdf", "only its folder counts");
+  folder.write("src/arm/meshes/t.stl", "not a mesh");
+  folder.write("src/gripper/meshes/t.stl", test::tetrahedronStl());
+  options.mesh_search_path = {folder.path("src/arm/urdf/arm.urdf")};
+  const Scene scene = loadAlone(robot(meshLink("a", "package://gripper/meshes/t.stl")));
+  EXPECT_TRUE(scene.problems.empty()) << scene.problems.front().message;
+}
+
 TEST_F(OwnRobot, AMeshThatIsNowhereNamesTheFoldersThatWereTried) {
   options.mesh_search_path = {folder.path("data")};
   const Scene scene = loadAlone(robot(meshLink("a", "package://unknown/meshes/t.stl")));
@@ -139,6 +164,25 @@ TEST_F(OwnRobot, FixedJointsJoinFramesAndLinksAreKnownAsLinks) {
   EXPECT_TRUE(scene.rigid.areJoined("a", "b"));
   EXPECT_FALSE(scene.rigid.areJoined("a", "c"));
   EXPECT_TRUE(scene.bodies.front().is_robot_link);
+}
+
+TEST_F(OwnRobot, FloatingJointsAreNotedBecauseRobotStatePublisherLeavesThemOut) {
+  const Scene scene = loadAlone(robot(boxLink("a") + boxLink("b") + boxLink("c") +
+                                      joint("floating", "a", "b") + joint("revolute", "b", "c")));
+  EXPECT_TRUE(hasNote(scene, "floats, so robot_state_publisher leaves out the transform from 'a' to 'b'"));
+  EXPECT_FALSE(hasNote(scene, "from 'b' to 'c'"));
+}
+
+TEST_F(OwnRobot, TheChordErrorIsThatOfTheMeshesOfRoundLinks) {
+  const std::string urdf =
+      robot("<link name='a'><collision><geometry><sphere radius='1'/></geometry></collision></link>");
+  const auto triangles = [&] { return loadAlone(urdf).bodies.at(0).mesh->surface().triangleCount(); };
+  const std::size_t usual = triangles();
+  options.chord_error = 0.1;  // instead of 1 % of the radius
+  const std::size_t coarse = triangles();
+  EXPECT_LT(4 * coarse, usual);
+  options.chord_error = 0.01;
+  EXPECT_EQ(triangles(), usual);
 }
 
 TEST_F(OwnRobot, PreparationIsCountedAndStops) {

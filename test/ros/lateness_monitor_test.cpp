@@ -64,6 +64,35 @@ TEST_F(LatenessMonitorTest, ACycleThatDoesNotEndIsNoticed) {
   EXPECT_NE(news[0].find("no cycle has finished"), std::string::npos) << news[0];
 }
 
+// Bodies are made ready in the first cycles.
+TEST_F(LatenessMonitorTest, AnOrdinaryStartIsNotLate) {
+  for (const double slow : {0.4, 0.8, 2.0, 4.8}) {
+    for (const double before : {0.2, 2.4, 4.6}) {
+      monitor_.restart();
+      std::vector<std::string> news = run(before, kWanted, 0.0);
+      for (const auto& later : {run(slow, 0.0, 0.0), run(30.0, kWanted, 0.0)}) {
+        news.insert(news.end(), later.begin(), later.end());
+      }
+      EXPECT_TRUE(news.empty()) << slow << " s, " << before << " s after the start: " << news.front();
+    }
+  }
+}
+
+TEST_F(LatenessMonitorTest, AClockThatStartsOrJumpsIsNotLate) {
+  EXPECT_TRUE(run(8.0, kWanted, 0.0, 0.0).empty()) << "no /clock yet";
+  for (const double jump : {1.7e9, 60.0, 3.0}) {
+    sample_.ros_time += jump;
+    const auto news = run(8.0, kWanted, 0.0);
+    EXPECT_TRUE(news.empty()) << "after " << jump << " s: " << news.front();
+  }
+}
+
+TEST_F(LatenessMonitorTest, AFastSimulationThatCannotBeFollowedIsLate) {
+  const auto news = run(30.0, 5.0, 1.0, 10.0);
+  ASSERT_EQ(news.size(), 1U);
+  EXPECT_NE(news[0].find("5 cycles a second instead of 50"), std::string::npos) << news[0];
+}
+
 TEST_F(LatenessMonitorTest, AClockThatStandsStillIsNotLate) {
   EXPECT_TRUE(run(60.0, kWanted, 0.0, 0.0).empty());
 }

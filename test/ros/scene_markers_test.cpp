@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 #include <memory>
 #include <set>
 
@@ -58,6 +60,25 @@ class Picture {
     return drawing_.draw(scene_, style, pairs_, messages, contacts, header_, kLifetime);
   }
   MarkerArray clear() { return drawing_.draw(scene_, style, pairs_, {}, {}, header_, kLifetime); }
+  // One cycle of the node with nobody but the markers. @return the pairs whose niches were asked for
+  std::vector<std::string> runCycle(double seconds) {
+    std::vector<std::string> asked;
+    drawing_.demand().begin(seconds);
+    for (std::size_t k = 0; k < pairs_.size(); ++k) {
+      const bool wanted = drawing_.demand().wantsNiches(pairs_[k]->heading.pair);
+      tracked_[k]->demand.niches = pairs_[k]->heading.with_niches = wanted;
+      tracked_[k]->solution.solve_seconds = solve_seconds;
+      if (wanted) asked.push_back(pairs_[k]->heading.pair);
+    }
+    drawing_.demand().take(pairs_);
+    return asked;
+  }
+  void moveNearest(std::size_t pair, double distance) {
+    PairSolution& solution = tracked_[pair]->solution;
+    const Eigen::Vector3d away = (solution.point_b_in_a - solution.point_a_in_a).normalized();
+    solution.distance = distance;
+    solution.point_b_in_a = solution.point_a_in_a + distance * away;
+  }
   void warn(std::size_t pair, bool raised) { pairs_[pair]->heading.warning = raised; }
   void wait(double seconds) { header_.stamp += ros::Duration(seconds); }
   SceneMarkers& drawing() { return drawing_; }
@@ -65,6 +86,7 @@ class Picture {
 
   MarkerStyle style;
   std::vector<PairContactState> contacts;
+  double solve_seconds = 0.0;
 
  private:
   // Eight directions in the plane, then the same one floor higher.
@@ -154,7 +176,9 @@ TEST(SelectPairs, TakesTheNearestAndThoseInWarning) {
   MarkerStyle style;
   style.pair_count = 3;
   style.niche_count = 6;
-  const std::vector<DrawnPair> drawn = selectPairs(pairs, style);
+  std::vector<MarkedPair> marked;
+  for (const PairNiches& pair : pairs) marked.push_back({&pair, true});
+  const std::vector<DrawnPair> drawn = selectPairs(marked, style).drawn;
   ASSERT_EQ(drawn.size(), 4U);
   EXPECT_EQ(drawn[0].pair, &pairs[7]);
   EXPECT_EQ(drawn[1].pair, &pairs[6]);
@@ -163,9 +187,96 @@ TEST(SelectPairs, TakesTheNearestAndThoseInWarning) {
   EXPECT_EQ(drawn[0].niche_count, 3U) << "what the four nearest leave of six goes to the next nearest";
   EXPECT_EQ(drawn[1].niche_count, 1U);
   style.pair_count = style.niche_count = 0;
-  const std::vector<DrawnPair> all = selectPairs(pairs, style);
+  const std::vector<DrawnPair> all = selectPairs(marked, style).drawn;
   ASSERT_EQ(all.size(), 7U);
   for (const DrawnPair& pair : all) EXPECT_EQ(pair.niche_count, 3U);
+}
+
+TEST(SelectPairs, WantsTheNichesOfWhatItWouldDraw) {
+  std::vector<PairNiches> pairs(6);  // ascending by distance
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    pairs[k].nearest.has_distance = k != 1;  // without transforms
+    pairs[k].nearest.distance = 0.1 * static_cast<double>(k);
+  }
+  std::vector<MarkedPair> marked;
+  for (const PairNiches& pair : pairs) marked.push_back({&pair, false});
+  marked[0].knows_niches = true;  // they are all beyond the cutoff: it takes no place
+  marked[2].knows_niches = true;
+  pairs[2].niches.resize(1);
+  pairs[5].nearest.warning = 1;
+  MarkerStyle style;
+  style.pair_count = 2;
+  const MarkerSelection selection = selectPairs(marked, style);
+  ASSERT_EQ(selection.drawn.size(), 1U);
+  EXPECT_EQ(selection.drawn[0].pair, &pairs[2]);
+  EXPECT_EQ(selection.wanted, (std::vector<const PairNiches*>{&pairs[0], &pairs[2], &pairs[3], &pairs[5]}));
+  EXPECT_EQ(selection.candidates, 4U);
+}
+
+// Cycles until each selected pair was asked; how often each was.
+std::map<std::string, int> askedIn(Picture& picture, int cycles, double seconds) {
+  std::map<std::string, int> asked;
+  for (int cycle = 0; cycle < cycles; ++cycle) {
+    for (const std::string& pair : picture.runCycle(seconds)) ++asked[pair];
+    picture.draw();
+  }
+  return asked;
+}
+
+TEST(SceneMarkers, AskForTheNichesOfTheNearestPairsAndDrawThemWhenTheyCome) {
+  Picture picture(12);
+  picture.style.pair_count = 5;
+  picture.runCycle(1.0);
+  EXPECT_TRUE(withKind(picture.draw(), "/line").empty());
+  EXPECT_EQ(askedIn(picture, 6, 1.0).size(), 5U);
+  const MarkerArray message = picture.draw();
+  EXPECT_EQ(withKind(message, "middle/box_5/line").size(), 2U);
+  EXPECT_TRUE(withKind(message, "middle/box_6/line").empty());
+  EXPECT_NE(withKind(message, "legend").front().text.find("5 nearest of 12"), std::string::npos);
+  picture.warn(11, true);
+  picture.draw();
+  EXPECT_EQ(askedIn(picture, 8, 1.0).size(), 6U) << "and of every pair in warning";
+  picture.warn(11, false);
+  picture.wait(0.9);
+  picture.draw();
+  EXPECT_EQ(askedIn(picture, 2, 1.0).size(), 6U) << "it may come back";
+  picture.wait(0.2);
+  picture.draw();
+  EXPECT_EQ(askedIn(picture, 2, 1.0).size(), 5U);
+  picture.drawing().forget();
+  EXPECT_TRUE(picture.runCycle(1.0).empty()) << "nobody looks";
+}
+
+TEST(SceneMarkers, AskInTurnsForNoMoreThanTheirShareOfTheTime) {
+  Picture picture(12);
+  picture.style.pair_count = 5;
+  picture.solve_seconds = 0.008;
+  picture.runCycle(0.005);
+  picture.draw();
+  const std::map<std::string, int> asked = askedIn(picture, 400, 0.005);
+  EXPECT_EQ(asked.size(), 5U);
+  for (const auto& [pair, count] : asked) EXPECT_NEAR(count, 400 * 0.005 / 0.008 / 5, 1.0) << pair;
+  picture.solve_seconds = 0.0005;
+  askedIn(picture, 20, 0.005);
+  for (const auto& [pair, count] : askedIn(picture, 10, 0.005)) EXPECT_EQ(count, 10) << pair;
+  picture.solve_seconds = 10.0;  // a first solve
+  askedIn(picture, 1, 0.005);
+  picture.solve_seconds = 0.0;
+  EXPECT_TRUE(askedIn(picture, 198, 0.005).empty());
+  EXPECT_FALSE(askedIn(picture, 6, 0.005).empty()) << "the debt has an end";
+}
+
+TEST(SceneMarkers, DrawTheNearestPointsOfThePresentCycleBetweenTwoQuestions) {
+  Picture picture(3);
+  picture.runCycle(1.0);
+  picture.draw();
+  askedIn(picture, 4, 1.0);
+  picture.runCycle(0.0);  // nothing is asked
+  picture.moveNearest(0, 0.07);
+  const std::vector<Marker> lines = withKind(picture.draw(), "middle/box_1/line");
+  ASSERT_EQ(lines.size(), 2U) << "the other niche is that of the last question";
+  const geometry_msgs::Point& to = lines[0].points[1];
+  EXPECT_NEAR(std::hypot(to.x - lines[0].points[0].x, to.y - lines[0].points[0].y), 0.07, 1e-12);
 }
 
 TEST(SceneMarkers, ShowTheNearestPairsAndSayHowManyThereAre) {

@@ -70,6 +70,26 @@ TEST(DescribeCycle, WarnsOfLateCyclesAndOfARateNotReached) {
   EXPECT_EQ(status.level, DiagnosticStatus::WARN) << "no cycle at all";
 }
 
+TEST(DescribeCycle, SaysThatALongCycleIsRunning) {
+  CycleStatistics statistics;
+  diagnostic_updater::DiagnosticStatusWrapper status;
+  const auto described = [&](double now) {
+    describeCycle(statistics.take(now), 50.0, status);
+    return status.message;
+  };
+  EXPECT_NE(described(0.0).find("no cycle ran"), std::string::npos);
+  statistics.begin(0.5);
+  EXPECT_EQ(described(1.0), "a cycle has been running for 0.5 s");
+  EXPECT_EQ(described(2.0), "a cycle has been running for 1.5 s");
+  EXPECT_EQ(status.level, DiagnosticStatus::WARN);
+  statistics.add(record(2.0, true));
+  EXPECT_EQ(described(3.0), "100.0 % of the cycles were late");
+  EXPECT_NE(described(4.0).find("no cycle ran"), std::string::npos);
+  statistics.begin(4.5);
+  statistics.addFailure();
+  EXPECT_EQ(described(5.0), "errors ended cycles (see the node's log)");
+}
+
 TEST(DescribePairs, NamesThePairsWithoutTransforms) {
   CycleWindow window;
   window.last.watched = 3;

@@ -1,10 +1,14 @@
 #include "ros/transform_buffer.h"
 
+#include <console_bridge/console.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <string>
+#include <vector>
 
 #include "ros/tf_poses.h"
 #include "ros/transform_message.h"
@@ -96,6 +100,44 @@ TEST_F(TransformBufferTest, AStampFarBehindTheNewestIsRefusedAndARepeatedOneIgno
   EXPECT_TRUE(put("b", 2.0, now)) << last_problem;
   EXPECT_EQ(gap(), 1.0);
   expectRefusal(transformOf("b", 3.0, at(-11.0)), "older than");
+}
+
+// Counts what tf2 logs while it lives.
+class CountedLog : public console_bridge::OutputHandler {
+ public:
+  CountedLog() { console_bridge::useOutputHandler(this); }
+  ~CountedLog() override { console_bridge::restorePreviousOutputHandler(); }
+  void log(const std::string& text, console_bridge::LogLevel /*level*/, const char* /*file*/,
+           int /*line*/) override {
+    lines.push_back(text);
+  }
+  std::vector<std::string> lines;
+};
+
+TEST_F(TransformBufferTest, ARepeatedStampIsIgnoredWithoutALineInTheLogWhicheverItIs) {
+  CountedLog log;
+  put("a", 0.0, now, "world", true);
+  for (int step = 0; step < 10; ++step) put("b", step, at(0.1 * step - 1.0));
+  for (int step = 9; step >= 0; --step) {
+    EXPECT_TRUE(put("b", 100.0, at(0.1 * step - 1.0))) << last_problem;
+  }
+  EXPECT_TRUE(put("b", 4.5, at(-0.55))) << "one between them is taken";
+  EXPECT_TRUE(put("b", 100.0, at(-0.55)));
+  EXPECT_TRUE(log.lines.empty()) << log.lines.size() << " lines, the first: " << log.lines.front();
+  EXPECT_EQ(gap(), 9.0);
+  const auto before = buffer.current()->lookupTransform("a", "b", at(-0.55));
+  EXPECT_NEAR(before.transform.translation.x, 4.5, 1e-12);
+}
+
+TEST_F(TransformBufferTest, StampsAreKnownAsLongAsTf2KeepsTheirTransforms) {
+  CountedLog log;
+  for (int step = 0; step <= 400; ++step) {
+    now = at(0.05 * step);
+    put("b", step, now);
+    put("b", 0.0, at(0.05 * std::max(0, step - 190)));
+    put("b", 0.0, at(0.05 * std::max(0, step - 200)));
+  }
+  EXPECT_TRUE(log.lines.empty()) << log.lines.size() << " lines, the first: " << log.lines.front();
 }
 
 TEST_F(TransformBufferTest, AStampOfZeroIsRefusedBecauseItWouldNeverBeStale) {

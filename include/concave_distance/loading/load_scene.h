@@ -41,14 +41,16 @@ struct SceneLoadOptions {
   PackageLocator package_locator = packagePathFromEnvironment;
   /// What cannot be loaded is an error, and not a problem of the scene whose rest is served.
   bool strict = false;
-  /// Folders to search for meshes that are not found at their package:// or relative path; a file means its
-  /// folder.
+  /// Folders to search for meshes that are not found at their package:// or relative path; a file, such as
+  /// the URDF, means its folder and the three above that.
   std::vector<std::string> mesh_search_path;
   LoadProgress* progress = nullptr;  ///< nullptr: none
   /// For loadRobotScene: a cutoff scaled to the robot instead of that in `default_settings`.
   bool automatic_cutoff = false;
   /// For loadRobotScene: leave out pairs whose bodies overlap in every pose tried.
   bool skip_overlapping_pairs = false;
+  /// For loadRobotScene: of the meshes of round primitives, metres; empty: 1 % of the radius.
+  std::optional<double> chord_error;
   GeometrySource geometry = GeometrySource::Collision;  ///< default; a scene file's robot may override
   /// URDF texts by parameter name, e.g. {"robot_description", ...}; a scene file refers to them by name.
   std::map<std::string, std::string> descriptions;

@@ -1,5 +1,6 @@
 /// Moves a robot without a driver: publishes its joint states and the transform from `root_frame` to its root
-/// link, for robot_state_publisher and the distance node.
+/// link, for robot_state_publisher and the distance node. A floating joint, which joint states do not have,
+/// stands at its origin: its transform is on /tf_static until something publishes it on /tf.
 ///
 /// Private parameters: `robot_description` (name of the parameter with the URDF), `motion` (zero: every joint
 /// at zero, or in the middle of its range if zero is outside; sway: each joint moves around that), `rate`
@@ -17,6 +18,8 @@
 #include "../description_search.h"
 #include "concave_distance/base/error.h"
 #include "demo_parameters.h"
+#include "loading/frame_name.h"
+#include "loading/urdf_values.h"
 #include "run_node.h"
 
 namespace {
@@ -68,10 +71,26 @@ std::string waitForDescription(const ros::NodeHandle& node) {
   return "";
 }
 
-void publishRoot(tf2_ros::StaticTransformBroadcaster& broadcaster, const std::string& frame,
-                 const std::string& root) {
-  if (frame.empty() || frame == root) return;
-  broadcaster.sendTransform(demo::toTransform(Eigen::Isometry3d::Identity(), ros::Time::now(), frame, root));
+// The root link in its frame and floating joints at their origins.
+void publishWhatStands(tf2_ros::StaticTransformBroadcaster& broadcaster, const urdf::ModelInterface& model,
+                       const std::string& root_frame) {
+  const ros::Time now = ros::Time::now();
+  std::vector<geometry_msgs::TransformStamped> transforms;
+  const std::string root = withoutLeadingSlash(model.getRoot()->name);
+  if (!root_frame.empty() && root_frame != root) {
+    transforms.push_back(demo::toTransform(Eigen::Isometry3d::Identity(), now, root_frame, root));
+  }
+  for (const auto& [name, joint] : model.joints_) {
+    if (joint->type != urdf::Joint::FLOATING) continue;
+    const std::string parent = withoutLeadingSlash(joint->parent_link_name);
+    const std::string child = withoutLeadingSlash(joint->child_link_name);
+    transforms.push_back(
+        demo::toTransform(detail::toIsometry(joint->parent_to_joint_origin_transform), now, parent, child));
+    ROS_INFO_STREAM("The floating joint '" << name << "' stands at its origin until something publishes the "
+                                           << "transform from '" << parent << "' to '" << child
+                                           << "' on /tf.");
+  }
+  if (!transforms.empty()) broadcaster.sendTransform(transforms);
 }
 
 void run() {
@@ -88,7 +107,7 @@ void run() {
     throw Error("robot_description", "the URDF cannot be read", "check it with check_urdf");
   }
   tf2_ros::StaticTransformBroadcaster broadcaster;
-  publishRoot(broadcaster, node.param<std::string>("root_frame", "world"), model->getRoot()->name);
+  publishWhatStands(broadcaster, *model, node.param<std::string>("root_frame", "world"));
 
   sensor_msgs::JointState message;
   std::vector<MovedJoint> joints;

@@ -9,6 +9,8 @@
 #include <ros/spinner.h>
 
 #include <algorithm>
+#include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string>
@@ -38,6 +40,13 @@ void expectDistances(LaunchedFile& launched) {
   EXPECT_TRUE(distances.waitFor(hasDistance, kStart)) << launched.output();
   launched.expectAllUp();
   EXPECT_TRUE(launched.end());
+}
+
+// A file that switches the cutoff off.
+std::string cutoffFile() {
+  const std::string path = std::filesystem::temp_directory_path() / "launch_files_rostest_cutoff.yaml";
+  std::ofstream(path) << "cutoff: none\n";
+  return path;
 }
 
 void removeRobot() {
@@ -114,6 +123,29 @@ TEST(LaunchFiles, OwnRobotMovesARobotThatIsAFile) {
   const std::string file = ros::package::getPath("concave_distance") + "/test/ros/rostest/own_robot.urdf";
   LaunchedFile launched({"own_robot.launch", "rviz:=false", "urdf:=" + file});
   expectDistances(launched);
+  removeRobot();
+}
+
+TEST(LaunchFiles, OwnRobotHoldsFloatingJointsAtTheirOriginsUntilSomethingMovesThem) {
+  removeRobot();
+  ros::param::set("/use_sim_time", false);
+  const std::string file =
+      ros::package::getPath("concave_distance") + "/test/ros/rostest/floating_joints.urdf";
+  LaunchedFile launched({"own_robot.launch", "rviz:=false", "urdf:=" + file, "config_file:=" + cutoffFile()});
+  Collector<Distances> distances(std::string(kNode) + "/distances");
+  const auto measures = [](double distance) {
+    return [distance](const Distances& message) {
+      return message.pairs.size() == 1 && message.pairs[0].has_distance != 0 &&
+             std::abs(message.pairs[0].distance - distance) < 1e-9;
+    };
+  };
+  EXPECT_TRUE(distances.waitFor(measures(3.0), kStart)) << launched.output();
+  TfPlayer player;
+  player.place("load", 7.0, 0.0, 1.0);
+  EXPECT_TRUE(distances.waitFor(measures(6.0))) << "something moves it now";
+  EXPECT_TRUE(launched.end());
+  EXPECT_NE(launched.output().find("floating joint 'grip' stands at its origin"), std::string::npos)
+      << launched.output();
   removeRobot();
 }
 

@@ -140,6 +140,37 @@ TEST(PairTopics, PairsHaveTopicsOnlyWhereAPatternNamesThem) {
                                    "/chosen/pairs/box_ball/niches", "/chosen/pairs/box_ball/contacts"}));
 }
 
+// The distance of a pair names its nearest niche while niches are computed.
+TEST_F(TopicsTest, MarkersAskForNichesOfNoPairButThoseTheyDraw) {
+  const std::string scene = ros::package::getPath("concave_distance") + "/test/ros/rostest/boxes.yaml";
+  const StartedNode drawing({"__name:=drawing", "_scene_file:=" + scene, "_marker_pair_count:=1"});
+  Collector<Distances> distances("/drawing/distances");
+  Collector<visualization_msgs::MarkerArray> markers("/drawing/markers");
+  const auto with_niches = [](const Distances& message) {
+    std::set<std::string> pairs;
+    for (const PairDistance& pair : message.pairs) {
+      if (pair.nearest_niche_id != 0) pairs.insert(pair.pair);
+    }
+    return pairs;
+  };
+  const auto draws = [](const std::string& ns) {
+    return [ns](const visualization_msgs::MarkerArray& message) {
+      return std::any_of(message.markers.begin(), message.markers.end(), [&](const auto& marker) {
+        return marker.ns == ns && marker.action == visualization_msgs::Marker::ADD;
+      });
+    };
+  };
+  ASSERT_TRUE(markers.waitFor(draws("boxes/line")));
+  for (const Distances& message : distances.all()) {
+    EXPECT_EQ(with_niches(message).count("box_ball"), 0U) << "only the nearest pair is drawn";
+  }
+  player.place("ball", 0.0, 1.5);  // nearer than the boxes
+  ASSERT_TRUE(markers.waitFor(draws("box_ball/line")));
+  EXPECT_TRUE(distances.waitFor([&](const Distances& message) {
+    return with_niches(message) == std::set<std::string>{"box_ball"};
+  })) << "the other one is let go after a second";
+}
+
 TEST_F(TopicsTest, DistancesCarryEveryPairAtTheTimeOfItsTransforms) {
   const ros::Time start = ros::Time::now();
   Collector<Distances> distances(kNode + "distances");

@@ -1,11 +1,12 @@
 // How a running node keeps time: late cycles, processor time, latency from transforms to messages.
 //
 //   rosrun concave_distance node_timing [_node:=/concave_distance] [_seconds:=60] [_topic:=niches]
-//   [_cutoff:=-1]
+//   [_cutoff:=-1] [_markers:=false]
 //
-// _topic is `niches` or `distances`; a _cutoff that is not negative (m) is first set for every pair.
-// Subscribes to that topic and to the diagnostics, warms up, listens for that many seconds and
-// prints figures, one a line. scripts/measure_node.sh starts it beside the demo scenes. How to read them:
+// _topic is `niches` or `distances`; with _markers it subscribes to `markers` too, as rviz does; a _cutoff
+// that is not negative (m) is first set for every pair. Subscribes to that topic and to the diagnostics,
+// warms up, listens for that many seconds and prints figures, one a line. scripts/measure_node.sh starts it
+// beside the demo scenes. How to read them:
 //   cycles         the node's own count from its diagnostics; late: ended after the next one was due
 //   messages       on the topic, counted here: what a subscriber got; the largest gap between two of them
 //   solved         pairs a cycle; repeated: answers that stand because no newer transforms had come
@@ -23,6 +24,7 @@
 #include <ros/init.h>
 #include <ros/node_handle.h>
 #include <ros/service.h>
+#include <visualization_msgs/MarkerArray.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -81,6 +83,11 @@ int run() {
   }
   ros::NodeHandle node;
   Measurement measurement(node, measured, topic);
+  ros::Subscriber markers;
+  if (parameters.param("markers", false)) {
+    const boost::function<void(const visualization_msgs::MarkerArrayConstPtr&)> ignore = [](const auto&) {};
+    markers = node.subscribe<visualization_msgs::MarkerArray>(measured + "/markers", 10, ignore);
+  }
   if (!spinFor(kLongestStart, [&] { return measurement.hasSeenADistance(); })) {
     std::fprintf(stderr, "No distance came on %s/%s within %.0f s.\n", measured.c_str(), topic.c_str(),
                  kLongestStart);
