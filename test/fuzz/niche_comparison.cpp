@@ -133,8 +133,10 @@ class Comparison {
       if (std::find(listed_.begin(), listed_.end(), i) != listed_.end() || !isWanted(niches_[i])) continue;
       ++left_out;
       if (is_full && niches_[i].distance > last - truth_.tolerance()) continue;
-      text_ << "missing " << niches_[i].distance << at(truth_.minimisers(niches_[i].cells.front()).back())
-            << ", pass " << niches_[i].pass << "; ";
+      const std::vector<WitnessPoints> corners = truth_.minimisers(niches_[i].cells.front());
+      text_ << "missing " << niches_[i].distance
+            << (corners.empty() ? " where triangles cross" : at(corners.back())) << ", pass "
+            << niches_[i].pass << "; ";
     }
     if (is_full && left_out > 0 && !solution_.niches_cut) text_ << "cut, and does not say so; ";
     if (!is_full && solution_.niches_cut) text_ << "says that it is cut; ";

@@ -126,18 +126,20 @@ std::vector<EnumeratedNiche> NicheEnumeration::niches(double least_prominence) c
   }
   std::sort(found.begin(), found.end(),
             [](const EnumeratedNiche& l, const EnumeratedNiche& r) { return l.distance < r.distance; });
-  for (EnumeratedNiche& niche : found) {
-    const std::vector<std::size_t> bottoms = niche.cells;
-    niche.cells.clear();
-    for (const std::size_t cell : bottoms) {
-      if (distance_[cell] <= niche.distance + rounding) {
-        appendPlateau(cell, niche.distance + rounding, niche.cells);
-      }
-    }
-    std::sort(niche.cells.begin(), niche.cells.end());
-    niche.cells.erase(std::unique(niche.cells.begin(), niche.cells.end()), niche.cells.end());
-  }
+  for (EnumeratedNiche& niche : found) spread(niche);
   return found;
+}
+
+/// From the cells of its minima to all that are level with them.
+void NicheEnumeration::spread(EnumeratedNiche& niche) const {
+  const long double level = niche.distance + 2.0L * tolerance_;
+  const std::vector<std::size_t> bottoms = niche.cells;
+  niche.cells.clear();
+  for (const std::size_t cell : bottoms) {
+    if (distance_[cell] <= level) appendPlateau(cell, level, niche.cells);
+  }
+  std::sort(niche.cells.begin(), niche.cells.end());
+  niche.cells.erase(std::unique(niche.cells.begin(), niche.cells.end()), niche.cells.end());
 }
 
 void NicheEnumeration::appendPlateau(std::size_t cell, long double level,

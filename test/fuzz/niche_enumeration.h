@@ -63,6 +63,7 @@ class NicheEnumeration {
     std::size_t r;
   };
   void measurePasses();
+  void spread(EnumeratedNiche& niche) const;
   /// Cells that are connected with one below a level.
   void appendPlateau(std::size_t cell, long double level, std::vector<std::size_t>& cells) const;
   Clarity leaves(const WideBody& body, const WidePoint& from, const WidePoint& to, bool is_of_b) const;
