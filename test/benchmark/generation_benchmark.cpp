@@ -21,11 +21,14 @@
 // expected).
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <cstdio>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <optional>
+#include <sstream>
 
 #include "benchmark/support/benchmark_main.h"
 #include "benchmark/support/benchmark_pairs.h"
@@ -191,7 +194,7 @@ class JointPath {
 
 Row runRobot(const std::string& folder) {
   SceneLoadOptions options;
-  options.package_locator = [&](const std::string&) { return std::optional<std::string>(folder); };
+  options.package_locator = [&](const std::string&) { return folder; };
   options.strict = true;
   const std::string urdf = textOf(folder + "/urdf/wam.urdf");
   options.descriptions["robot_description"] = urdf;
