@@ -83,7 +83,8 @@ struct LocalMinimaParts {
     return sizeof(LocalMinimaParts) + front.memoryBytes() + verdicts.memoryBytes() +
            seeds.capacity() * sizeof(MinimumSeed) + minima.capacity() * sizeof(FloodedMinimum) +
            described.capacity() * sizeof(Described) +
-           (places.capacity() + owners.capacity() + proposed.capacity()) * sizeof(std::size_t);
+           (described_as.capacity() + places.capacity() + owners.capacity() + proposed.capacity()) *
+               sizeof(std::size_t);
   }
 
   ConeFront front;
@@ -93,13 +94,13 @@ struct LocalMinimaParts {
   std::vector<MinimumSeed> seeds;
   std::vector<FloodedMinimum> minima;
   std::vector<Described> described;
-  std::vector<std::size_t> places;    ///< of the judged in `minima`, then of `minima` in the list
-  std::vector<std::size_t> owners;    ///< of each asked for, in `minima`
-  std::vector<std::size_t> proposed;  ///< of each proposal, in `minima`
+  std::vector<std::size_t> described_as;  ///< of the judged, in `minima`
+  std::vector<std::size_t> places;        ///< of `minima`, in the list
+  std::vector<std::size_t> owners;        ///< of each asked for, in `minima`
+  std::vector<std::size_t> proposed;      ///< of each proposal, in `minima`
 };
 
-bool LocalMinimaParts::decide(const MinimaScene& scene, const LocalMinimaRequest& request,
-                              LocalMinimaCost& cost, WorkLimit& limit) {
+MinimaVerdicts::Request verdictsFor(const MinimaScene& scene, const LocalMinimaRequest& request) {
   MinimaVerdicts::Request wanted;
   wanted.cutoff = request.cutoff + scene.rounding;
   wanted.least_prominence = request.least_prominence;
@@ -114,7 +115,13 @@ bool LocalMinimaParts::decide(const MinimaScene& scene, const LocalMinimaRequest
              isVisible(scene.a, scene.b, scene.a_from_b, scene.witnessOf(seed), occluder);
     };
   }
-  places.clear();
+  return wanted;
+}
+
+bool LocalMinimaParts::decide(const MinimaScene& scene, const LocalMinimaRequest& request,
+                              LocalMinimaCost& cost, WorkLimit& limit) {
+  const MinimaVerdicts::Request wanted = verdictsFor(scene, request);
+  described_as.clear();
   verdicts.begin(scene, seeds, wanted, limit);
   do {
     verdicts.judgeByMemory(scene, wanted, limit);
@@ -145,7 +152,8 @@ bool LocalMinimaParts::decide(const MinimaScene& scene, const LocalMinimaRequest
   for (std::vector<std::size_t>* of : {&owners, &proposed}) {
     for (std::size_t& owner : *of) {
       if (owner == kNoOwner || owner == kUndecided) continue;
-      owner = places[owner] != kNoOwner ? places[owner] : kUndecided;  // there was no time to describe it
+      owner = described_as[owner] != kNoOwner ? described_as[owner]
+                                              : kUndecided;  // there was no time to describe it
     }
   }
   return std::none_of(verdicts.judged().begin(), verdicts.judged().end(), [](const auto& judged) {
@@ -156,12 +164,12 @@ bool LocalMinimaParts::decide(const MinimaScene& scene, const LocalMinimaRequest
 void LocalMinimaParts::describeNiches(const MinimaScene& scene, const LocalMinimaRequest& request,
                                       WorkLimit& limit) {
   const std::vector<MinimaVerdicts::Judged>& judged = verdicts.judged();
-  places.resize(judged.size(), kNoOwner);
+  described_as.resize(judged.size(), kNoOwner);
   for (std::size_t i = 0; i < judged.size(); ++i) {
-    if (judged[i].verdict != MinimaVerdicts::Verdict::Niche || places[i] != kNoOwner) continue;
+    if (judged[i].verdict != MinimaVerdicts::Verdict::Niche || described_as[i] != kNoOwner) continue;
     if (limit.isOver()) return;
     const MinimumSeed& seed = judged[i].seed;
-    places[i] = minima.size();
+    described_as[i] = minima.size();
     minima.push_back({seed, std::numeric_limits<double>::infinity(),
                       (1.0 + request.least_prominence) * seed.distance, judged[i].was_found,
                       judged[i].region});
@@ -291,6 +299,24 @@ void findLocalMinima(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry
                                 : parts.decide(scene, request, result.cost, limit);
   result.finished = all && decided && !limit.isOver() && limit.hasRefusedMemory() == refused_before;
   parts.list(request, result);
+}
+
+void attributeProposals(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
+                        const LocalMinimaRequest& request, LocalMinimaMemory& memory, LocalMinima& result) {
+  detail::LocalMinimaParts& parts = memory.parts();
+  const detail::MinimaScene scene(a, b, a_from_b);
+  const detail::MinimaVerdicts::Request wanted = detail::verdictsFor(scene, request);
+  WorkLimit none;
+  WorkLimit& limit = request.limit != nullptr ? *request.limit : none;
+  for (std::size_t i = request.proposals.size(); i-- > 0;) {
+    const MinimumSeed& proposal = request.proposals[i];
+    if (!detail::isWithinCutoff(scene, request, proposal)) continue;
+    const std::uint32_t judged = parts.verdicts.locate(scene, {proposal.a, proposal.b}, wanted, limit);
+    // What locate() was the first to meet is not in the list.
+    if (judged >= parts.described_as.size() || parts.described_as[judged] >= parts.places.size()) continue;
+    const std::size_t place = parts.places[parts.described_as[judged]];
+    if (place != LocalMinima::kNoOwner) result.niches[place].proposal = i;
+  }
 }
 
 LocalMinima findLocalMinima(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,

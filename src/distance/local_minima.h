@@ -126,4 +126,10 @@ LocalMinima findLocalMinima(const BodyMesh& a, const BodyMesh& b, const Eigen::I
 void findLocalMinima(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
                      const LocalMinimaRequest& request, LocalMinimaMemory& memory, LocalMinima& result);
 
+/// Says of the niches of a result which of request.proposals lead to them, for proposals that came after the
+/// list: where everything was looked at they change nothing else. At the pose of the last findLocalMinima()
+/// with this memory, which measured no prominence.
+void attributeProposals(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
+                        const LocalMinimaRequest& request, LocalMinimaMemory& memory, LocalMinima& result);
+
 }  // namespace concave_distance

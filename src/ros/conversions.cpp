@@ -162,6 +162,9 @@ PairDistance toDistance(const PairHeading& heading, const PairSolution& solution
   message.accuracy = toAccuracyCode(solution.accuracy);
   message.cost.solve_time = solution.solve_seconds;
   message.cost.evaluations = solution.cost.evaluations;
+  message.cost.generations = solution.cost.generations;
+  message.cost.inherited = solution.cost.inherited;
+  message.cost.children = solution.cost.children;
   message.cost.box_bounds = solution.proof_cost.box_bounds;
   message.cost.triangle_pairs = solution.proof_cost.triangle_pairs;
   if (std::isnan(solution.distance)) {

@@ -45,6 +45,7 @@ struct CycleWindow {
   std::uint64_t cold = 0;
   std::uint64_t repeated = 0;
   std::uint64_t search_misses = 0;
+  std::uint64_t generations = 0;                          ///< of the genetic search
   std::array<std::uint64_t, kNicheOriginCount> niches{};  ///< by NicheOrigin
   std::uint64_t unproven = 0;
   EffectCounts effects;

@@ -73,6 +73,7 @@ void describePairs(const CycleWindow& window, diagnostic_updater::DiagnosticStat
     status.add("niches " + std::string(toString(static_cast<NicheOrigin>(i))), window.niches[i]);
   }
   status.add("search misses", window.search_misses);
+  status.add("search generations", window.generations);
   status.add("solves that ended unproven", window.unproven);
   status.add("pairs turned into messages", window.messages);
   status.add("markers built", window.markers);

@@ -199,6 +199,7 @@ void SceneTracker::count(CycleCounts& counts) const {
     counts.effects += pair->effects.takeCounts();
     counts.cold += pair->solution.warm ? 0 : 1;
     counts.search_misses += pair->solution.search_miss ? 1 : 0;
+    counts.generations += pair->solution.cost.generations;
     for (const TrackedNiche& niche : pair->solution.niches)
       ++counts.niches[static_cast<std::size_t>(niche.origin)];
     const SolveStatus status = pair->solution.status;

@@ -51,11 +51,13 @@ void startPopulation(GeneticState& state, const std::vector<TrialPoint>& inherit
     ++settled;
   }
   state.is_descended = parameters.descend_first_population;
+  state.cost.inherited += static_cast<std::uint32_t>(std::min(kept, settled));
   work.census.take(work.population_places, work.places.size());
 }
 
 void runGeneration(GeneticState& state, std::uint32_t generation) {
   SearchWorkspace& work = state.work;
+  ++state.cost.generations;
   state.mutation_probability = mutationProbability(state.parameters, generation);
   state.mutation_radius = mutationRadius(state.parameters, state.objective, generation);
   chooseElites(state);
@@ -82,7 +84,7 @@ void noteBest(const GeneticState& state, std::uint32_t generation, GeneticResult
 GeneticResult geneticSearch(const PairObjective& objective, const GeneticParameters& parameters,
                             const NicheRadii& radii, const std::vector<TrialPoint>& inherited,
                             RandomEngine& engine, SearchWorkspace& workspace,
-                            const GenerationObserver& observer, WorkLimit* limit) {
+                            const GenerationObserver& observer, WorkLimit* limit, Couples couples) {
   workspace.places.reset(distanceBound(objective, parameters, radii));
   workspace.convergence.reset(parameters.convergence_generations);
   GeneticState state{objective,
@@ -92,7 +94,8 @@ GeneticResult geneticSearch(const PairObjective& objective, const GeneticParamet
                      workspace,
                      limit,
                      fitnessEpsilon(parameters, objective.bodyA(), objective.bodyB()),
-                     offspringCount(parameters.population_size, parameters.generation_gap)};
+                     offspringCount(parameters.population_size, parameters.generation_gap),
+                     couples};
   GeneticResult result;
   const auto observe = [&](std::uint32_t generation) {
     if (observer) observer({generation, &workspace.population, &result.best});

@@ -7,6 +7,7 @@
 #include "base/random_engine.h"
 #include "concave_distance/base/work_limit.h"
 #include "concave_distance/search/genetic_parameters.h"
+#include "genetic_state.h"
 #include "pair_objective.h"
 #include "search_workspace.h"
 
@@ -39,11 +40,13 @@ struct GeneticResult {
 /// @param inherited node pairs to start from, evaluated and descended anew; what exceeds the population is
 ///        left out
 /// @param limit ends the run with its results so far, once one individual is settled; nullptr: none
+/// @param couples AtLeastOne: every generation has a child of two parents, also one that the limit cuts short
 /// @param observer called once a generation when not empty; the only call that may allocate in a warm run
 /// Otherwise allocates only while the workspace warms up. Never throws.
 GeneticResult geneticSearch(const PairObjective& objective, const GeneticParameters& parameters,
                             const NicheRadii& radii, const std::vector<TrialPoint>& inherited,
                             RandomEngine& engine, SearchWorkspace& workspace,
-                            const GenerationObserver& observer = {}, WorkLimit* limit = nullptr);
+                            const GenerationObserver& observer = {}, WorkLimit* limit = nullptr,
+                            Couples couples = Couples::AsDrawn);
 
 }  // namespace concave_distance

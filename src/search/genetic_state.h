@@ -11,6 +11,12 @@
 
 namespace concave_distance {
 
+/// Which couples of a generation mate.
+enum class Couples : std::uint8_t {
+  AsDrawn,     ///< those that crossover_probability draws, of parents on two places
+  AtLeastOne,  ///< the same; where that leaves no child of two parents, the first couple all the same
+};
+
 /// What all operators of one run of the genetic algorithm work on.
 struct GeneticState {
   const PairObjective& objective;
@@ -21,6 +27,7 @@ struct GeneticState {
   WorkLimit* limit;               ///< null: none
   double epsilon;                 ///< fitnessEpsilon()
   std::uint32_t offspring_count;  ///< of a generation
+  Couples couples;
   double mutation_probability = 0.0;
   double mutation_radius = 0.0;
   bool is_descended = true;  ///< the population, where individuals are descended at all

@@ -48,18 +48,49 @@ const TrialPoint& anyMinimumMet(GeneticState& state) {
   return minima[uniformIndex(state.engine, static_cast<std::uint32_t>(minima.size()))];
 }
 
+/// The children of a couple, each counted that has genes of two places.
 Children mateCouple(GeneticState& state, const TrialPoint& parent_1, const TrialPoint& parent_2) {
   SearchWorkspace& work = state.work;
   const double exchange = state.parameters.exchange_probability;
   if (exchange > 0.0 && uniformUnit(state.engine) < exchange) {
-    if (work.basins.minima().empty()) {
-      return exchangeGenes(parent_1, parent_2, parent_2, parent_1);
-    }
-    const TrialPoint& donor = anyMinimumMet(state);
-    return exchangeGenes(parent_1, donor, parent_2, anyMinimumMet(state));
+    const bool has_minima = !work.basins.minima().empty();
+    const TrialPoint donor_1 = has_minima ? anyMinimumMet(state) : parent_2;
+    const TrialPoint donor_2 = has_minima ? anyMinimumMet(state) : parent_1;
+    state.cost.children +=
+        (samePlace(parent_1, donor_1) ? 0U : 1U) + (samePlace(parent_2, donor_2) ? 0U : 1U);
+    return exchangeGenes(parent_1, donor_1, parent_2, donor_2);
   }
+  state.cost.children += 2;
   return mate(state.parameters.mating, state.objective, parent_1, parent_2, work.metric, state.radii.mating,
               state.engine);
+}
+
+/// The partner of the first parent: its mate if that stands on another place, else one of the population
+/// that does, else a newcomer.
+TrialPoint partnerElsewhere(GeneticState& state) {
+  const SearchWorkspace& work = state.work;
+  const std::uint32_t place = work.population_places[work.selected[0]];
+  if (work.population_places[work.selected[1]] != place) return work.population[work.selected[1]];
+  for (std::size_t i = 0; i < work.population.size(); ++i) {
+    if (work.population_places[i] != place) return work.population[i];
+  }
+  const TrialPoint newcomer = randomTrialPoint(state.objective, state.engine);
+  return state.objective.evaluate(newcomer.node_a, newcomer.node_b, state.cost);
+}
+
+/// Mates the first couple: each child takes a node from either parent, or a place on the way between them.
+void mateFirstCouple(GeneticState& state) {
+  SearchWorkspace& work = state.work;
+  const TrialPoint first = work.population[work.selected[0]];
+  const TrialPoint second = partnerElsewhere(state);
+  const bool exchanges = uniformUnit(state.engine) < state.parameters.exchange_probability;
+  const Children children = exchanges ? exchangeGenes(first, second, first, second)
+                                      : mate(state.parameters.mating, state.objective, first, second,
+                                             work.metric, state.radii.mating, state.engine);
+  work.offspring[0] = children.first;
+  work.offspring[1] = children.second;
+  work.offspring_is_new[0] = work.offspring_is_new[1] = true;
+  state.cost.children += 2;
 }
 
 }  // namespace
@@ -92,6 +123,7 @@ void mateCouples(GeneticState& state) {
   }
   work.offspring.clear();
   work.offspring_places.clear();
+  const std::uint32_t children_before = state.cost.children;
   for (const std::uint32_t parent : work.selected) {
     work.offspring.push_back(work.population[parent]);
     work.offspring_places.push_back(work.population_places[parent]);
@@ -109,6 +141,7 @@ void mateCouples(GeneticState& state) {
       work.offspring_is_new[i + 1] = true;
     }
   }
+  if (state.couples == Couples::AtLeastOne && state.cost.children == children_before) mateFirstCouple(state);
 }
 
 void mutateOffspring(GeneticState& state) {
@@ -130,11 +163,12 @@ void evaluateOffspring(GeneticState& state) {
 
 void settleOffspring(GeneticState& state) {
   SearchWorkspace& work = state.work;
+  bool may_stop = state.couples == Couples::AsDrawn;
   for (std::size_t i = 0; i < work.offspring.size(); ++i) {
     if (!work.offspring_is_new[i]) {
       continue;
     }
-    if (state.outOfBudget()) {
+    if (may_stop && state.outOfBudget()) {
       const std::uint32_t parent = work.selected[i];
       work.offspring[i] = work.population[parent];
       work.offspring_places[i] = work.population_places[parent];
@@ -142,6 +176,7 @@ void settleOffspring(GeneticState& state) {
       state.settle(work.offspring[i], work.offspring_places[i]);
     }
     work.offspring_is_new[i] = false;
+    may_stop = true;
   }
 }
 

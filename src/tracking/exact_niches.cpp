@@ -11,6 +11,8 @@
 namespace concave_distance {
 namespace {
 
+// Of a warm cycle; buffers grow beyond it.
+constexpr std::size_t kUsualProposals = 256;
 constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
 // Time is reserved for a descent to each known niche, up to this share of all time.
@@ -80,6 +82,7 @@ void ExactNiches::admit(PairGeometry& geometry, const TrackerParameters& paramet
   const bool looks_for_all = provesDistance(parameters.accuracy);
   std::vector<NicheRecord>& records = archive.records();
   request_.limit = &limit;
+  if (cycle.is_tracked) request_.proposals.reserve(kUsualProposals);
   request_.is_tracked = cycle.is_tracked;
   request_.cutoff = cycle.cutoff;
   request_.least_prominence = parameters.least_prominence;
@@ -110,18 +113,20 @@ void ExactNiches::admit(PairGeometry& geometry, const TrackerParameters& paramet
   solution.cost.evaluations += found_.cost.feature_pairs + found_.cost.candidates + found_.cost.flooded_pairs;
 
   findHeirs(archive, geometry, cycle.last_a_from_b);
+  attributeOffered(geometry);
   endOthers(archive, solution.events);
   next_.clear();
+  evolved_ = 0;
   for (std::size_t k = 0; k < found_.niches.size(); ++k) {
     const LocalMinimum& minimum = found_.niches[k];
     const bool known = heirs_[k] != kNone;
     NicheRecord& record = next_.emplace_back(known ? records[heirs_[k]] : NicheRecord());
     TrackedNiche& niche = record.niche;
-    const bool is_searched = minimum.proposal != LocalMinimum::kNoProposal && minimum.proposal < searched_;
     if (known) {
       niche.origin = NicheOrigin::Inherited;
-    } else if (is_searched || !looks_for_all) {
+    } else if (isSearched(minimum) || !looks_for_all) {
       niche.origin = NicheOrigin::Evolved;
+      ++evolved_;
     } else {
       const bool is_proven_alone = !found_.finished && minimum.proposal != LocalMinimum::kNoProposal;
       niche.origin = is_proven_alone ? NicheOrigin::Proven : NicheOrigin::Swept;
@@ -141,6 +146,37 @@ void ExactNiches::admit(PairGeometry& geometry, const TrackerParameters& paramet
   archive.settle();
   request_.proposals.clear();
   searched_ = 0;
+  offered_ = nullptr;
+}
+
+// Where prominences were measured, no verdict says to which niche a minimum belongs.
+void ExactNiches::attributeOffered(PairGeometry& geometry) {
+  if (offered_ == nullptr || !found_.finished) return;
+  if (std::find(heirs_.begin(), heirs_.end(), kNone) == heirs_.end()) return;
+  const bool measured = request_.prominence_limit > request_.least_prominence;
+  request_.proposals.clear();
+  for (LocalMinimum& niche : found_.niches) niche.proposal = LocalMinimum::kNoProposal;
+  for (std::size_t i = 0; i < offered_->size(); ++i) {
+    const WitnessPair nodes = geometry.nodeWitness((*offered_)[i]);
+    const WitnessPair minimum = geometry.refine(nodes.triangle_a, nodes.triangle_b).witness;
+    propose(geometry, minimum);
+    if (measured) attributeByPlace(minimum, i, geometry.samePlaceTolerance());
+  }
+  if (!measured) {
+    attributeProposals(*geometry.a, *geometry.b, geometry.a_from_b, request_, memory_, found_);
+  }
+}
+
+void ExactNiches::attributeByPlace(const WitnessPair& minimum, std::size_t proposal, double tolerance) {
+  const double distance = std::sqrt(minimum.squared_distance);
+  for (LocalMinimum& niche : found_.niches) {
+    const double reach = niche.extent + tolerance;
+    if (std::abs(niche.distance - distance) <= tolerance &&
+        (niche.witness.point_a_in_a - minimum.point_a_in_a).norm() <= reach &&
+        (niche.witness.point_b_in_a - minimum.point_b_in_a).norm() <= reach) {
+      niche.proposal = proposal;
+    }
+  }
 }
 
 // A known niche goes on as the one whose region it is in now, the oldest of them first. Before, no point pair
@@ -225,6 +261,7 @@ void ExactNiches::clear() {
   current_ = false;
   request_.proposals.clear();
   searched_ = 0;
+  offered_ = nullptr;
 }
 
 std::size_t ExactNiches::memoryBytes() const {

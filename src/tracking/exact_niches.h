@@ -35,8 +35,11 @@ class ExactNiches {
   /// Level `refined`: every known niche is a minimum to be admitted again; where none is known, as in a
   /// body that has swallowed the other, the nearest of all minima is followed.
   void follow(PairGeometry& geometry, const NicheArchive& archive, WorkLimit& limit);
-  /// A local minimum that was proposed, to be admitted.
+  /// A local minimum that was proposed, to be admitted with all others.
   void propose(const PairGeometry& geometry, const WitnessPair& minimum);
+  /// Level `certified`: what the search has found, looked at only where a niche is new, to say whether the
+  /// search has proposed it: the list is proven without. To stay as it is until the next admit().
+  void offer(const std::vector<TrialPoint>& found) { offered_ = &found; }
   /// The closest points by a proof: where niches are missing, one of them.
   void proposeProven(const PairGeometry& geometry, const WitnessPair& closest);
 
@@ -51,6 +54,8 @@ class ExactNiches {
   bool isFinished() const { return found_.finished; }
   /// Level `refined`: of all that was followed and proposed, niche or not; nullptr: nothing was.
   const MinimumSeed* nearestProposed() const;
+  /// New niches of the last admit() that the search has proposed.
+  std::size_t evolved() const { return evolved_; }
   /// Of the last admit(), in evaluations of the search.
   double work() const;
   const LocalMinimaCost& cost() const { return found_.cost; }
@@ -62,6 +67,11 @@ class ExactNiches {
  private:
   void findHeirs(const NicheArchive& archive, const PairGeometry& geometry,
                  const Eigen::Isometry3d& last_a_from_b);
+  void attributeOffered(PairGeometry& geometry);
+  void attributeByPlace(const WitnessPair& minimum, std::size_t proposal, double tolerance);
+  bool isSearched(const LocalMinimum& minimum) const {
+    return minimum.proposal != LocalMinimum::kNoProposal && minimum.proposal < searched_;
+  }
   void endOthers(const NicheArchive& archive, std::vector<NicheEvent>& events) const;
   void carryOthers(const std::vector<NicheRecord>& known, PairGeometry& geometry, NicheArchive& archive,
                    WorkLimit& limit, std::vector<NicheEvent>& events);
@@ -72,7 +82,9 @@ class ExactNiches {
   std::vector<MinimumSeed> followed_;
   std::optional<TrianglePair> nearest_;  ///< of what was followed and proposed last
   std::size_t searched_ = 0;             ///< of the proposals: those of the search
-  std::vector<std::size_t> heirs_;       ///< of every niche found: the record whose id it takes
+  const std::vector<TrialPoint>* offered_ = nullptr;
+  std::size_t evolved_ = 0;
+  std::vector<std::size_t> heirs_;  ///< of every niche found: the record whose id it takes
   std::vector<NicheRecord> next_;
   bool current_ = false;  ///< the archive holds what the parameters ask for at the last pose
 };

@@ -16,8 +16,17 @@ namespace {
 constexpr std::size_t kUsualMinima = 1024;
 // Node pairs that a warm run may propose, the best first; a cold one proposes them all.
 constexpr std::size_t kWarmProposals = 64;
-// A share is saved up for this many runs, at most.
-constexpr double kMostRunsSaved = 4.0;
+// Of its share, what a search takes that finds nothing.
+constexpr double kLeastOfShare = 0.125;
+constexpr double kMostCouples = 1e6;
+// What an individual takes besides the evaluations of its descents, in evaluations.
+constexpr double kBookkeeping = 200.0;
+
+/// Of a warm run that need not keep to a share.
+std::uint32_t wholePopulation(std::size_t inherited, const TrackerParameters& parameters) {
+  const auto wanted = static_cast<std::uint32_t>(inherited) + parameters.random_starts;
+  return std::max(parameters.warm.population_size, wanted + wanted % 2);
+}
 
 }  // namespace
 
@@ -49,37 +58,53 @@ const std::vector<TrialPoint>& NicheSearch::propose(const PairGeometry& geometry
                                                     const std::vector<TrialPoint>& known, const Run& run,
                                                     SearchCost& cost, WorkLimit& limit) {
   const PairObjective objective(*geometry.a, *geometry.b, geometry.a_from_b);
-  const std::uint64_t before = cost.evaluations;
   const std::size_t known_minima = workspace_.basins.minima().size();
   RandomEngine engine(streamSeed(parameters.seed, run.pair, run.cycle));
   inherited_.clear();
   const bool as_warm = run.warm || run.is_helper;
   GeneticParameters genetic = as_warm ? parameters.warm : parameters.cold;
   if (run.warm) {
-    inherit(known, {parameters.inherited_per_niche, parameters.inherited_limit},
+    const std::uint32_t limit_of_inherited =
+        run.population > 0 ? inheritedOf(run.population, parameters) : parameters.inherited_limit;
+    inherit(known, {parameters.inherited_per_niche, limit_of_inherited},
             fitnessEpsilon(genetic, *geometry.a, *geometry.b), inherited_, scratch_);
-    const auto wanted = static_cast<std::uint32_t>(inherited_.size()) + parameters.random_starts;
-    genetic.population_size = std::max(genetic.population_size, wanted + wanted % 2);
+    genetic.population_size =
+        run.population > 0 ? run.population : wholePopulation(inherited_.size(), parameters);
   }
+  const Couples couples = run.breeds ? Couples::AtLeastOne : Couples::AsDrawn;
   const GeneticResult result =
-      geneticSearch(objective, genetic, radii(as_warm), inherited_, engine, workspace_, {}, &limit);
-  cost.evaluations += result.cost.evaluations;
-  cost.descents += result.cost.descents;
-  cost.descents_joined += result.cost.descents_joined;
-  cost.descent_steps += result.cost.descent_steps;
+      geneticSearch(objective, genetic, radii(as_warm), inherited_, engine, workspace_, {}, &limit, couples);
+  cost += result.cost;
   if (genetic.local_optimization == LocalOptimization::None) workspace_.basins.addMinimum(result.best);
   const std::vector<TrialPoint>& minima = workspace_.basins.minima();
   found_.assign(minima.begin() + static_cast<std::ptrdiff_t>(known_minima), minima.end());
   std::sort(found_.begin(), found_.end());
   if (run.warm && found_.size() > kWarmProposals) found_.resize(kWarmProposals);
   if (!run.warm) workspace_.shrink();
-  run_cost_ = static_cast<double>(cost.evaluations - before);
-  credit_ -= run_cost_;
+  last_population_ = genetic.population_size;
+  last_cost_ = static_cast<double>(result.cost.evaluations) + kBookkeeping * last_population_;
   return found_;
 }
 
-void NicheSearch::earn(double work, double share) {
-  credit_ = std::min(credit_ + share * work, kMostRunsSaved * run_cost_);
+std::uint32_t NicheSearch::helpersPopulation(std::size_t niche_count,
+                                             const TrackerParameters& parameters) const {
+  const double copies = parameters.inherited_per_niche * static_cast<double>(niche_count);
+  const double inherited = std::min<double>(copies, parameters.inherited_limit);
+  return std::min(2 * couples_, wholePopulation(static_cast<std::size_t>(inherited), parameters));
+}
+
+std::uint32_t NicheSearch::inheritedOf(std::uint32_t population, const TrackerParameters& parameters) {
+  return population - std::min(parameters.random_starts, population / 4);
+}
+
+void NicheSearch::earn(std::size_t found, double work, double share) {
+  if (last_population_ == 0) return;
+  const std::uint32_t last_couples = last_population_ / 2;
+  const double wanted = found > 0 ? 2.0 * last_couples : last_couples - 1.0;
+  const double affordable = share * work * last_couples / last_cost_;
+  const double couples = std::clamp(wanted, kLeastOfShare * affordable, std::max(1.0, affordable));
+  couples_ = static_cast<std::uint32_t>(std::clamp(couples, 1.0, kMostCouples));
+  last_population_ = 0;
 }
 
 std::size_t NicheSearch::memoryBytes() const {

@@ -29,6 +29,8 @@ class NicheSearch {
     std::uint64_t cycle;
     bool warm;       ///< inherits `known` and takes the warm parameters
     bool is_helper;  ///< niches are found by other means too: a cold run takes the warm parameters as well
+    bool breeds;     ///< has a child of two parents, whatever is drawn and whatever the limit says
+    std::uint32_t population = 0;  ///< 0: as the parameters say
   };
 
   /// Begins the search of a cycle: forgets the basins of the last one.
@@ -42,15 +44,21 @@ class NicheSearch {
                                          const std::vector<TrialPoint>& known, const Run& run,
                                          SearchCost& cost, WorkLimit& limit);
 
-  /// Whether a run keeps within its share (TrackerParameters::search_share) of all work so far. Work is
-  /// counted, not timed, so that one seed gives one answer.
-  bool isAffordable() const { return credit_ >= 0.0; }
-  /// @param work of the other stages of a cycle, in evaluations of the search
-  void earn(double work, double share);
+  /// The population of a helper's next warm run, where so many niches are known.
+  std::uint32_t helpersPopulation(std::size_t niche_count, const TrackerParameters& parameters) const;
+  /// Of these, how many inherit: not more than a quarter are random.
+  static std::uint32_t inheritedOf(std::uint32_t population, const TrackerParameters& parameters);
+  /// Sets the population of a helper's next run: twice as many couples where the last one has found a new
+  /// niche, one less where it has not, between an eighth of what its share (TrackerParameters::search_share)
+  /// of the other work pays for and all of it; one at least. Work is counted, not timed, so that one seed
+  /// gives one answer.
+  /// @param found new niches that the search has proposed in this cycle
+  /// @param work of the other stages, in evaluations of the search
+  void earn(std::size_t found, double work, double share);
 
   SearchWorkspace& workspace() { return workspace_; }
   const NicheRadii& radii(bool warm) const { return warm ? warm_radii_ : cold_radii_; }
-  void restart() { credit_ = 0.0; }
+  void restart() { couples_ = 1; }
   std::size_t memoryBytes() const;
 
  private:
@@ -61,8 +69,9 @@ class NicheSearch {
   std::vector<TrialPoint> inherited_;
   std::vector<TrialPoint> found_;
   std::vector<double> scratch_;
-  double credit_ = 0.0;    ///< evaluations
-  double run_cost_ = 0.0;  ///< evaluations, of the last run
+  std::uint32_t couples_ = 1;  ///< of a helper's next warm run
+  std::uint32_t last_population_ = 0;
+  double last_cost_ = 0.0;  ///< evaluations, of the last run
 };
 
 }  // namespace concave_distance

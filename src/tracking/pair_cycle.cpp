@@ -13,6 +13,7 @@
 #include "mesh/trees/normal_cone_tree.h"
 #include "node_niches.h"
 #include "relative_motion.h"
+#include "search_stage.h"
 
 namespace concave_distance {
 namespace {
@@ -118,7 +119,7 @@ void PairCycle::solveNodes(const Passed& passed, PairSolution& solution) {
   known_.clear();
   for (const NicheRecord& record : archive_.records()) known_.push_back(record.niche.node_pair);
   const std::vector<TrialPoint>& found = search_.propose(
-      geometry_, parameters_, known_, {name_, cycle_, isWarm(), false}, solution.cost, limit_);
+      geometry_, parameters_, known_, {name_, cycle_, isWarm(), false, isWarm()}, solution.cost, limit_);
   stage_clock_.lap(SolveStage::Propose, solution.stages);
   admitNodePairs(geometry_, parameters_, search_, found, isWarm(), cycle_, archive_, solution);
   stage_clock_.lap(SolveStage::Admit, solution.stages);
@@ -126,12 +127,11 @@ void PairCycle::solveNodes(const Passed& passed, PairSolution& solution) {
 
 void PairCycle::solveExact(const Passed& passed, PairSolution& solution) {
   if (niches_.stands(passed.displacement)) return niches_.stand(passed.elapsed, archive_);
-  // Else the first warm cycle in which the search is due would make the grids.
   if (!isWarm() && is_tracked_ && parameters_.search_share > 0.0) prepare();
   limit_.allowShare(kShareOfSearch);
   if (!proves()) niches_.follow(geometry_, archive_, limit_);
   stage_clock_.lap(SolveStage::Follow, solution.stages);
-  if (searchIsDue()) proposeMinima(solution.cost);
+  if (searchIsDue()) propose(solution.cost);
   if (proves() && !proof_.isPenetrating()) {
     niches_.proposeProven(geometry_, provenOnMeshes());
   }
@@ -139,7 +139,7 @@ void PairCycle::solveExact(const Passed& passed, PairSolution& solution) {
   niches_.admit(geometry_, parameters_,
                 {cycle_, last_niches_.pose, passed.elapsed, is_tracked_, cutoffOfMeshes()}, certainDistance(),
                 kShareOfNiches, archive_, solution, limit_);
-  search_.earn(niches_.work(), parameters_.search_share);
+  search_.earn(niches_.evolved(), niches_.work(), parameters_.search_share);
   stage_clock_.lap(SolveStage::Admit, solution.stages);
   solution.stages[SolveStage::Sweep] = niches_.cost().sweep_seconds;
   solution.stages[SolveStage::Admit] -= niches_.cost().sweep_seconds;
@@ -165,26 +165,20 @@ double PairCycle::cutoffOfMeshes() const {
   return parameters_.cutoff + (isRound() ? RoundNiches::meshExcess(geometry_) : 0.0);
 }
 
-// Where all minima are looked for besides, the search keeps to its share: a first cycle has earned none, but
-// one that may have to end early is better for it.
+// Whenever a tracked pair has moved. A pose alone has nothing to inherit: there the search is for those that
+// may have to end early.
 bool PairCycle::searchIsDue() const {
   if (!proves()) return true;
   if (certainDistance() > cutoffOfMeshes()) return false;  // there is no niche to find
-  return parameters_.search_share > 0.0 && (isWarm() ? search_.isAffordable() : limit_.isTimed());
+  return parameters_.search_share > 0.0 && (is_tracked_ || limit_.isTimed());
 }
 
-void PairCycle::proposeMinima(SearchCost& cost) {
-  search_.begin(geometry_, parameters_);
-  known_.clear();
-  for (NicheRecord& record : archive_.records()) {
-    if (known_.size() == parameters_.inherited_limit) break;
-    known_.push_back(search_.descendKnown(geometry_, geometry_.nodePairNear(record.niche.witness), cost));
-  }
-  const std::vector<TrialPoint>& found =
-      search_.propose(geometry_, parameters_, known_, {name_, cycle_, isWarm(), proves()}, cost, limit_);
-  for (std::size_t i = 0; i < found.size() && (i == 0 || !limit_.isOver()); ++i) {
-    const WitnessPair node_pair = geometry_.nodeWitness(found[i]);
-    niches_.propose(geometry_, geometry_.refine(node_pair.triangle_a, node_pair.triangle_b).witness);
+void PairCycle::propose(SearchCost& cost) {
+  const SearchStage stage{geometry_, parameters_, archive_, search_, niches_, known_};
+  if (proves()) {
+    proposeAsHelper(stage, {name_, cycle_, isWarm(), true, is_tracked_}, cost, limit_);
+  } else {
+    proposeMinima(stage, {name_, cycle_, isWarm(), false, isWarm()}, cost, limit_);
   }
 }
 
@@ -327,6 +321,7 @@ void PairCycle::prepare() {
   if (!wantsNiches()) return;
   search_.prepare(geometry_, parameters_);
   archive_.reserve(kUsualNiches);
+  known_.reserve(kUsualNiches);
   const NormalSides sides = parameters_.keep_through_material ? NormalSides::Both : NormalSides::Outside;
   for (const BodyMesh* body : {geometry_.a.get(), geometry_.b.get()}) {
     body->adjacency();

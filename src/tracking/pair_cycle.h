@@ -57,7 +57,7 @@ class PairCycle {
   WitnessPair provenOnMeshes();
   double cutoffOfMeshes() const;
   void prove(double displacement);
-  void proposeMinima(SearchCost& cost);
+  void propose(SearchCost& cost);
   bool searchIsDue() const;
   double certainDistance() const;
   void report(const Passed& passed, PairSolution& solution);

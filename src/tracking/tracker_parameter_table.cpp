@@ -91,7 +91,8 @@ ParameterTable<T> expertParameters() {
           "random trial points that a warm cycle descends as well"),
       number<T>(
           "search_share", [](auto& t) -> auto& { return t.search_share; },
-          "for `certified`: work of the genetic search as a share of all other; 0: no search")
+          "for `certified`: work of the genetic search as a share of all other, for more than two "
+          "individuals; 0: no search")
           .to(1.0),
   };
 }

@@ -166,6 +166,9 @@ TEST(ToDistance, TellsTheProofAndWhatMeets) {
   solution.status = SolveStatus::WithinTolerance;
   solution.proof_cost = {100, 20, 30};
   solution.cost.evaluations = 7;
+  solution.cost.generations = 1;
+  solution.cost.inherited = 2;
+  solution.cost.children = 3;
   solution.solve_seconds = 1e-3;
   PairDistance message = toDistance(quarterTurnHeading(), solution);
   EXPECT_EQ(message.status.code, PairStatus::WITHIN_TOLERANCE);
@@ -175,6 +178,9 @@ TEST(ToDistance, TellsTheProofAndWhatMeets) {
   EXPECT_EQ(message.cost.box_bounds, 100U);
   EXPECT_EQ(message.cost.triangle_pairs, 30U);
   EXPECT_EQ(message.cost.evaluations, 7U);
+  EXPECT_EQ(message.cost.generations, 1U);
+  EXPECT_EQ(message.cost.inherited, 2U);
+  EXPECT_EQ(message.cost.children, 3U);
   EXPECT_EQ(message.cost.solve_time, 1e-3);
   EXPECT_FALSE(message.has_meeting_triangles || message.has_surface_distance);
 

@@ -18,6 +18,7 @@ CycleRecord record(double duration, bool late) {
   result.late = late;
   result.report.watched = 2;
   result.report.solved = 2;
+  result.report.generations = 2;
   return result;
 }
 
@@ -40,6 +41,10 @@ TEST(CycleStatistics, CoverTheTimeSinceTheLastLook) {
   EXPECT_EQ(window.cycles, 50U);
   EXPECT_EQ(window.late, 1U);
   EXPECT_EQ(window.solved, 100U);
+  EXPECT_EQ(window.generations, 100U);
+  diagnostic_updater::DiagnosticStatusWrapper status;
+  describePairs(window, status);
+  EXPECT_EQ(valueOf(status, "search generations"), "100");
   EXPECT_DOUBLE_EQ(window.seconds, 1.0);
   EXPECT_NEAR(window.duration.mean(), (49 * 0.010 + 0.030) / 50, 1e-12);
   EXPECT_DOUBLE_EQ(window.duration.largest, 0.030);

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <set>
+#include <utility>
 
 #include "search/automatic_radii.h"
 #include "search/local_descent.h"
@@ -429,6 +431,76 @@ TEST(MultiStartDescent, MeetsMoreMinimaWithMoreStarts) {
   EXPECT_EQ(more.cost.descents, 500U);
   EXPECT_GT(search.workspace.basins.minima().size(), met_by_few);
   EXPECT_LE(more.best.squared_distance, few.best.squared_distance);
+}
+
+/// Two individuals who neither descend nor mutate, and no draw that lets them mate.
+GeneticParameters abstinentCouple() {
+  GeneticParameters parameters;
+  parameters.population_size = 2;
+  parameters.max_generations = 1;
+  parameters.crossover_probability = 0.0;
+  parameters.mutation_probability = 0.0;
+  parameters.exchange_probability = 1.0;
+  parameters.random_immigrants = 0;
+  parameters.elite_count = 0;
+  parameters.conserve_niches = false;
+  parameters.local_optimization = LocalOptimization::None;
+  return parameters;
+}
+
+TEST(GeneticSearch, ACertainCoupleHasChildrenWithANodeOfEitherParent) {
+  Search search(test::facingCombs());
+  const std::vector<TrialPoint> parents = {{NodeIndex{3U}, NodeIndex{40U}, 0.0},
+                                           {NodeIndex{70U}, NodeIndex{11U}, 0.0}};
+  const std::set<std::pair<std::uint32_t, std::uint32_t>> children = {{3, 11}, {70, 40}};
+  for (const NichingMethod niching : {NichingMethod::None, NichingMethod::Sharing}) {
+    GeneticParameters parameters = abstinentCouple();
+    parameters.niching = niching;
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+      for (const Couples couples : {Couples::AsDrawn, Couples::AtLeastOne}) {
+        RandomEngine engine(seed);
+        search.workspace.basins.clear();
+        const SearchCost cost = geneticSearch(search.objective, parameters, search.radii, parents, engine,
+                                              search.workspace, {}, nullptr, couples)
+                                    .cost;
+        EXPECT_EQ(cost.generations, 1U);
+        EXPECT_EQ(cost.inherited, 2U);
+        EXPECT_EQ(cost.children, couples == Couples::AtLeastOne ? 2U : 0U);
+        std::set<std::pair<std::uint32_t, std::uint32_t>> population;
+        for (const TrialPoint& point : search.workspace.population) {
+          population.insert({point.node_a.value, point.node_b.value});
+        }
+        EXPECT_EQ(population == children, couples == Couples::AtLeastOne) << "seed " << seed;
+      }
+    }
+  }
+}
+
+TEST(GeneticSearch, ACertainCoupleBreedsOnOnePlaceAndAfterTheTime) {
+  Search search(test::facingCombs());
+  const std::atomic<bool> stop{true};
+  for (const NichingMethod niching : kAllNichings) {
+    GeneticParameters parameters = abstinentCouple();
+    parameters.niching = niching;
+    parameters.local_optimization = LocalOptimization::Lamarckian;
+    // One niche, twice: the other parent is a newcomer.
+    const TrialPoint niche = descendAnew(search.objective, {NodeIndex{3U}, NodeIndex{40U}, 0.0});
+    for (const bool is_over : {false, true}) {
+      WorkLimit limit(WorkLimit::Clock::now(), std::numeric_limits<double>::infinity(), 1U << 30U,
+                      is_over ? &stop : nullptr);
+      RandomEngine engine(5);
+      search.workspace.basins.clear();
+      const SearchCost cost = geneticSearch(search.objective, parameters, search.radii, {niche, niche},
+                                            engine, search.workspace, {}, &limit, Couples::AtLeastOne)
+                                  .cost;
+      EXPECT_EQ(cost.generations, 1U);
+      EXPECT_EQ(cost.children, 2U);
+      // The thesis's crowding lets children compete before they descend.
+      if (niching != NichingMethod::DeterministicCrowdingWithSelection) {
+        EXPECT_GT(cost.descents, is_over ? 1U : 2U) << "the parents, and a child at least";
+      }
+    }
+  }
 }
 
 }  // namespace

@@ -154,21 +154,118 @@ TEST(Certified, IsRightWhereTheSearchIsBlindAndCountsItsMisses) {
   EXPECT_GT(born, 0);
 }
 
-int missesOf(const TrackerParameters& parameters) {
+/// New niches that the search has not proposed, along a motion in leaps.
+int missedBy(const TrackerParameters& parameters) {
   PairTracker tracker("combs", comb(), comb(), parameters);
   PairSolution solution;
-  int misses = 0;
-  for (int k = 0; k < 100; ++k) {
-    tracker.update(swaying(0.02 * k), 0.02 * k, solution);
-    misses += solution.search_miss ? 1 : 0;
+  int missed = 0;
+  for (int k = 0; k < 200; ++k) {
+    tracker.update(swaying(0.3 * k), 0.02 * k, solution);
+    int now = 0;
+    for (const TrackedNiche& niche : solution.niches) {
+      now += niche.origin == NicheOrigin::Swept || niche.origin == NicheOrigin::Proven ? 1 : 0;
+    }
+    EXPECT_EQ(solution.search_miss, k > 0 && now > 0);
+    missed += k > 0 ? now : 0;
   }
-  return misses;
+  return missed;
 }
 
 TEST(Certified, ASearchThatSeesMissesLess) {
   TrackerParameters seeing = certified();
   seeing.search_share = 1.0;
-  EXPECT_LT(missesOf(seeing), missesOf(blind(AccuracyLevel::Certified)));
+  const int by_default = missedBy(certified());
+  EXPECT_LT(missedBy(seeing), by_default);
+  EXPECT_LT(by_default, missedBy(blind(AccuracyLevel::Certified)));
+}
+
+/// One generation with a child of two parents, its population inherited where niches were known; or none.
+void expectGeneration(const SearchCost& cost, bool runs, std::size_t known) {
+  EXPECT_EQ(cost.generations, runs ? 1U : 0U);
+  EXPECT_EQ(cost.children > 0, runs);
+  EXPECT_EQ(cost.inherited > 0, runs && known > 0);
+}
+
+TEST(Certified, EveryCycleThatMovesBreedsFromTheLastNiches) {
+  const Body box = makeBody(makeBox({1.0, 1.0, 1.0}), 0.3);
+  for (const auto& [a, b] : {std::pair{comb(), comb()}, std::pair{box, box}}) {
+    const Isometry3d offset = a == box ? translation({1.5, 0.1, 0.2}) : Isometry3d::Identity();
+    PairTracker tracker("pair", a, b, certified());
+    PairSolution solution;
+    for (int k = 0; k < 60; ++k) {
+      const std::size_t known = k == 0 || k == 30 ? 0 : solution.niches.size();
+      if (k == 30) tracker.reset();
+      tracker.update(offset * swaying(0.02 * k), 0.02 * k, solution);
+      ASSERT_FALSE(solution.niches.empty());
+      expectGeneration(solution.cost, true, known);
+      // Nothing has moved.
+      tracker.update(offset * swaying(0.02 * k), 0.02 * k + 0.01, solution);
+      expectGeneration(solution.cost, false, solution.niches.size());
+    }
+  }
+}
+
+TEST(Certified, NoGenerationRunsWhereNoneIsDue) {
+  PairSolution solution;
+  TrackerParameters near = certified();
+  near.cutoff = 1e-3;
+  TrackerParameters idle = certified();
+  idle.search_share = 0.0;
+  for (const TrackerParameters& parameters : {near, idle, certified(false)}) {
+    PairTracker tracker("combs", comb(), comb(), parameters);
+    for (int k = 0; k < 3; ++k) {
+      tracker.update(translation({0.01 * k, 0.0, 4.0}), 0.01 * k, solution);
+      expectGeneration(solution.cost, false, 0);
+    }
+  }
+  PairTracker tracker("combs", comb(), comb(), certified());
+  tracker.solve(swaying(0.0), solution);
+  expectGeneration(solution.cost, false, 0);
+  expectGeneration(solveOnce("combs", comb(), comb(), certified(), swaying(0.0)).cost, false, 0);
+}
+
+TEST(Certified, ABudgetThatIsSpentEndsNoGeneration) {
+  TrackerParameters hasty = certified();
+  hasty.time_budget = 1e-9;
+  PairTracker tracker("combs", comb(), comb(), hasty);
+  PairSolution solution;
+  for (int k = 0; k < 10; ++k) {
+    tracker.update(swaying(0.02 * k), 0.02 * k, solution);
+    EXPECT_EQ(solution.status, SolveStatus::BudgetExhausted);
+    EXPECT_EQ(solution.cost.generations, 1U);
+    EXPECT_GT(solution.cost.children, 0U);
+  }
+}
+
+TEST(Certified, TheSearchChangesNoAnswer) {
+  for (const double prominence_limit : {0.0, 0.3}) {
+    TrackerParameters parameters = certified();
+    parameters.prominence_limit = prominence_limit;
+    PairTracker with("combs", comb(), comb(), parameters);
+    parameters.search_share = 1.0;
+    PairTracker with_more("combs", comb(), comb(), parameters);
+    parameters.search_share = 0.0;
+    PairTracker without("combs", comb(), comb(), parameters);
+    PairSolution expected;
+    PairSolution solution;
+    int evolved = 0;
+    for (int k = 0; k < 60; ++k) {
+      without.update(swaying(0.05 * k), 0.05 * k, expected);
+      for (PairTracker* tracker : {&with, &with_more}) {
+        tracker->update(swaying(0.05 * k), 0.05 * k, solution);
+        EXPECT_TRUE(solution.niches_complete);
+        EXPECT_EQ(solution.distance, expected.distance);
+        ASSERT_EQ(solution.niches.size(), expected.niches.size());
+        for (std::size_t i = 0; i < solution.niches.size(); ++i) {
+          EXPECT_EQ(solution.niches[i].id, expected.niches[i].id);
+          EXPECT_EQ(solution.niches[i].point_a_in_a, expected.niches[i].point_a_in_a);
+          EXPECT_EQ(solution.niches[i].point_b_in_a, expected.niches[i].point_b_in_a);
+          evolved += solution.niches[i].origin == NicheOrigin::Evolved ? 1 : 0;
+        }
+      }
+    }
+    EXPECT_GT(evolved, 0) << "prominence limit " << prominence_limit;
+  }
 }
 
 TEST(Certified, BoundsHoldForEveryToleranceAndBudget) {

@@ -29,6 +29,7 @@ struct CycleCounts {
   std::uint32_t beyond_cutoff = 0;
   std::uint32_t not_located = 0;
   std::uint32_t search_misses = 0;
+  std::uint32_t generations = 0;  ///< of the genetic search, of all pairs
   /// Niches listed, by NicheOrigin.
   std::array<std::uint64_t, kNicheOriginCount> niches{};
   std::uint32_t unproven = 0;       ///< solves at `certified` that the time budget ended before the proof

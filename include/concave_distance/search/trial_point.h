@@ -23,12 +23,26 @@ struct TrialPoint {
   }
 };
 
-/// What a search has cost so far.
+/// What a search has cost so far, and what ran.
 struct SearchCost {
   std::uint64_t evaluations = 0;      ///< node pair distances computed
   std::uint64_t descents = 0;         ///< local descents started
   std::uint64_t descents_joined = 0;  ///< of these, ended early in a basin already descended this cycle
   std::uint64_t descent_steps = 0;
+  std::uint32_t generations = 0;  ///< of the genetic algorithm
+  std::uint32_t inherited = 0;    ///< individuals of its first populations that stood on known niches
+  std::uint32_t children = 0;     ///< individuals that took one node or place from either of two parents
+
+  SearchCost& operator+=(const SearchCost& more) {
+    evaluations += more.evaluations;
+    descents += more.descents;
+    descents_joined += more.descents_joined;
+    descent_steps += more.descent_steps;
+    generations += more.generations;
+    inherited += more.inherited;
+    children += more.children;
+    return *this;
+  }
 };
 
 }  // namespace concave_distance

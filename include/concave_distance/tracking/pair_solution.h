@@ -103,12 +103,12 @@ struct PairSolution {
   std::uint32_t niches_beyond_cutoff = 0;
   std::uint64_t cycle = 0;
   bool warm = false;
-  /// The search was late. At `nodes` and `refined`: this cycle found a niche closer than the last cycle's
-  /// nearest could have moved to. At `certified`: the nearest niche is new and the search has not proposed
-  /// it.
+  /// The genetic search has missed a niche, seen in this warm cycle. At `certified`: a niche listed is new
+  /// and the search has not proposed it (NicheOrigin::Swept or Proven). At `nodes` and `refined`, where only
+  /// later cycles show it: the distance is less than the last cycle's nearest niche can have come to.
   bool search_miss = false;
   std::uint64_t seed = 0;
-  SearchCost cost;
+  SearchCost cost;             ///< of the genetic search, and how much of it ran
   CertificateCost proof_cost;  ///< of level `certified`
   double solve_seconds = kNotComputed;
   StageTimes stages;  ///< their sum is solve_seconds but for the frame around them

@@ -31,8 +31,8 @@ class PairTracker {
   /// @param time seconds of the transforms, for velocities; a time not after the last one gives no velocity
   /// `solution` keeps its capacity.
   void update(const Eigen::Isometry3d& a_from_b, double time, PairSolution& solution);
-  /// Solves at one pose alone: the answer of the first update() after restart() (but for `cost`), sooner,
-  /// because nothing is kept for a next pose. Ends what was tracked.
+  /// Solves at one pose alone: the answer of the first update() after restart() (but for `cost` and the
+  /// niches' origins), sooner, because nothing is kept for a next pose. Ends what was tracked.
   void solve(const Eigen::Isometry3d& a_from_b, PairSolution& solution);
 
   /// Before a loop in real time: makes what the parameters need of the bodies (grids, metrics, normal cones),

@@ -28,15 +28,17 @@ struct TrackerParameters {
   std::size_t memory_limit = std::size_t{512} << 20U;
   /// When set, a solve ends as if its time had run out; nullptr: none.
   const std::atomic<bool>* stop = nullptr;
-  /// Of a first cycle, a service call, after a reset. At level `certified`, which finds every niche by other
-  /// means, a cold cycle searches as a warm one does, and only where it has a time budget.
+  /// Of a first cycle, a service call, after a reset. Level `certified`, which finds every niche by other
+  /// means, takes the warm ones then, too; at a pose alone (PairTracker::solve(), solveOnce()) it searches
+  /// only where it has a time budget.
   GeneticParameters cold;
   GeneticParameters warm;            ///< every further cycle; usually a small population and few generations
   double inherited_per_niche = 3.0;  ///< alpha_Gamma (Carretero, eq. (6.8))
   std::uint32_t inherited_limit = 30;  ///< N_popGamma_max (6.8)
   std::uint32_t random_starts = 8;     ///< random individuals a warm cycle descends besides
-  /// Of level `certified`, where the search is not the only one to find niches: its share of the work of the
-  /// other stages. 0: no search.
+  /// Of level `certified`, where the search is not the only one to find niches: the share of the other
+  /// stages' work that it may grow to while it finds new niches. At least two individuals breed in every
+  /// cycle that moves; 0: no search.
   double search_share = 0.05;
   double least_prominence = 1e-2;  ///< niches with less are merged into their deeper neighbour
   /// Prominences are measured up to this, at a price that grows with it; up to

@@ -251,6 +251,7 @@ Experiment loadExperiment(const std::string& file) {
   experiment.full_runs = count32(runs.require("full", "a count"), 1);
   runs.finish();
   if (auto v = map.take("niches")) experiment.niches = v->boolean();
+  if (auto v = map.take("visible_niches")) experiment.visible_niches = v->boolean();
   if (auto v = map.take("curves")) experiment.curves = v->boolean();
   if (auto v = map.take("points")) experiment.points = v->boolean();
   const YamlMap scenes(map.require("scenes", "name scenes and their grids: {battery_static: 0.05}"),

@@ -56,6 +56,8 @@ struct Experiment {
   std::uint32_t quick_runs = 1;
   std::uint32_t full_runs = 1;
   bool niches = false;  ///< recall and precision of the final population are measured as well
+  /// Of the niches, the visible ones alone count, which are those that a tracker lists.
+  bool visible_niches = false;
   bool curves = false;  ///< averages over the generations are kept
   bool points = false;  ///< the best points of the final populations are kept
   std::vector<ExperimentScene> scenes;

@@ -39,7 +39,7 @@ void NicheQuestions::settle(std::vector<TrialRecord>& records) const {
       std::set<std::size_t> owners;
       for (const FoundPlace& place : list) {
         const std::size_t owner = owner_of(place);
-        if (owner != SurfaceRegions::kNoOwner && isOutward(minima[owner])) owners.insert(owner);
+        if (owner != SurfaceRegions::kNoOwner && isNiche(instant, minima[owner])) owners.insert(owner);
       }
       return owners;
     };

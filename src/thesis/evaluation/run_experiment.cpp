@@ -43,6 +43,9 @@ void runExperiment(const Experiment& experiment, const EvaluationOptions& option
                    const ProgressObserver& progress) {
   std::vector<SceneTruth> scenes;
   for (const ExperimentScene& scene : experiment.scenes) scenes.push_back(loadScene(scene, options.meshes));
+  for (SceneTruth& scene : scenes) {
+    for (InstantTruth& instant : scene.instants) instant.hidden_count = !experiment.visible_niches;
+  }
   TrialFiles files(experiment, options.output);
   writeScenes(experiment, scenes, options.output);
   writeRows(experiment, options.output);

@@ -92,7 +92,7 @@ InstantTruth truthOf(const SceneTruth& scene, const Eigen::Isometry3d& a_from_b,
   truth.region_limit = kRegion * truth.node_distance;
   truth.exact_region_limit = kRegion * truth.exact_distance;
   for (const LocalMinimum& niche : truth.minima) {
-    if (isOutward(niche) && !isNearest(truth, niche.distance)) {
+    if (isNiche(truth, niche) && !isNearest(truth, niche.distance)) {
       truth.second_distance = std::min(truth.second_distance, niche.distance);
     }
   }
@@ -103,12 +103,13 @@ InstantTruth truthOf(const SceneTruth& scene, const Eigen::Isometry3d& a_from_b,
 
 }  // namespace
 
-bool isOutward(const LocalMinimum& minimum) {
-  return minimum.outward != Outwardness::ThroughMaterial;
+bool isNiche(const InstantTruth& truth, const LocalMinimum& minimum) {
+  return minimum.outward != Outwardness::ThroughMaterial && (minimum.visible || truth.hidden_count);
 }
 
 std::size_t nicheCount(const InstantTruth& truth) {
-  return static_cast<std::size_t>(std::count_if(truth.minima.begin(), truth.minima.end(), isOutward));
+  return static_cast<std::size_t>(std::count_if(truth.minima.begin(), truth.minima.end(),
+                                                [&](const LocalMinimum& m) { return isNiche(truth, m); }));
 }
 
 bool isNearest(const InstantTruth& truth, double distance) {

@@ -27,9 +27,10 @@ struct InstantTruth {
   /// Of the second niche; infinite when there is but one.
   double second_distance = std::numeric_limits<double>::infinity();
   double niche_cutoff = 0.0;  ///< infinite for the thesis's static poses: no niche is left out
-  /// Of prominence 1e-2, up to `niche_cutoff`, ascending. The outward ones are the niches; those through
-  /// material are there since what leads to one of them has found no niche.
+  /// Of prominence 1e-2, up to `niche_cutoff`, ascending. Not all are niches (isNiche()); the others are
+  /// there since what leads to one of them has found no niche.
   std::vector<LocalMinimum> minima;
+  bool hidden_count = true;  ///< niches that a triangle hides are niches
 };
 
 /// A scene with what its answers are held against.
@@ -43,7 +44,8 @@ struct SceneTruth {
   const InstantTruth& first() const { return instants.front(); }
 };
 
-bool isOutward(const LocalMinimum& minimum);
+/// Whether a minimum of the instant leaves the bodies outwards and is not hidden, where that counts.
+bool isNiche(const InstantTruth& truth, const LocalMinimum& minimum);
 std::size_t nicheCount(const InstantTruth& truth);
 
 /// Whether a niche of this distance is the nearest of its instant, or as near as that: another corner of the

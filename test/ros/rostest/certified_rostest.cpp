@@ -74,6 +74,36 @@ TEST_F(CertifiedTest, DistancesCarryTheirProofAndWhatItCost) {
   }
 }
 
+TEST_F(CertifiedTest, EveryCycleThatMovesBreedsFromTheLastNiches) {
+  Collector<PairNiches> niches(kNode + "pairs/insertion/niches");
+  Collector<diagnostic_msgs::DiagnosticArray> diagnostics("/diagnostics");
+  ASSERT_TRUE(moveUntil([&] { return niches.all().size() > 50; }));
+  std::size_t bred = 0;
+  std::size_t known = 0;
+  std::uint64_t last_cycle = 0;
+  geometry_msgs::Point last_point;
+  for (const PairNiches& message : niches.all()) {
+    const SolveCost& cost = message.nearest.cost;
+    const bool is_next = known > 0 && message.cycle == last_cycle + 1;
+    if (cost.generations > 0) {
+      ++bred;
+      EXPECT_EQ(cost.generations, 1U);
+      EXPECT_GT(cost.children, 0U);
+      if (is_next) {
+        EXPECT_GT(cost.inherited, 0U) << known << " niches were known";
+      }
+    } else if (is_next) {
+      EXPECT_EQ(message.nearest.point_b.z, last_point.z) << "it has moved and bred nothing";
+    }
+    known = message.niches.size();
+    last_cycle = message.cycle;
+    last_point = message.nearest.point_b;
+  }
+  EXPECT_GT(bred, 10U);
+  EXPECT_TRUE(moveUntil(
+      [&] { return diagnostics.last() && counted(*diagnostics.last(), "search generations") > 0.0; }));
+}
+
 TEST_F(CertifiedTest, APairThatPenetratesNamesTrianglesOrTheDistanceOfTheSurfaces) {
   for (const std::string topic : {"distance", "niches"}) {
     Collector<PairNiches> niches(kNode + "pairs/crate_box/" + (topic == "niches" ? topic : "unused"));

@@ -90,10 +90,29 @@ TEST_F(SawOverPlate, HasTheThreeNichesOfItsEdges) {
   const double expected[] = {0.5, 0.7, 0.9};
   std::size_t i = 0;
   for (const LocalMinimum& minimum : scene_.instants[0].minima) {
-    if (!isOutward(minimum)) continue;
+    if (!isNiche(scene_.instants[0], minimum)) continue;
     EXPECT_NEAR(minimum.distance, expected[i], 1e-12);
     ++i;
   }
+}
+
+TEST_F(SawOverPlate, HiddenNichesCountUnlessTheVisibleAloneAreAskedFor) {
+  // As if something stood before the second edge.
+  std::vector<LocalMinimum>& minima = scene_.instants[0].minima;
+  const auto second = std::find_if(minima.begin(), minima.end(), [](const LocalMinimum& minimum) {
+    return std::abs(minimum.distance - 0.7) < 1e-12;
+  });
+  ASSERT_NE(second, minima.end());
+  second->visible = false;
+  const std::vector<FoundPlace> visible = {above(-2.0, 0.5, 0.3), above(2.0, 0.9, 0.0)};
+  const std::vector<FoundPlace> hidden = {above(0.0, 0.7, -0.9)};
+  EXPECT_EQ(nicheCount(scene_.instants[0]), 3U);
+  EXPECT_NEAR(measured(visible).recall, 2.0 / 3.0, 1e-12);
+  scene_.instants[0].hidden_count = false;
+  EXPECT_EQ(nicheCount(scene_.instants[0]), 2U);
+  EXPECT_EQ(measured(visible).recall, 1.0);
+  EXPECT_EQ(measured(hidden).recall, 0.0);
+  EXPECT_EQ(measured(hidden).precision, 0.0);
 }
 
 TEST_F(SawOverPlate, AListOfAllNichesHasRecallOne) {
