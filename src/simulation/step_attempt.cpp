@@ -119,42 +119,6 @@ Wrench Simulation::State::sumOn(std::size_t body, const Vector6d Coupling::*wren
   return detail::toWrench(sum);
 }
 
-// What a step resolves it leaves to the trapezoidal rule, by direction: of each coupling, how its wrench is
-// taken over the step, and of each body, how much of its impulse comes at the begin.
-void Simulation::State::chooseWeights(double step) {
-  for (std::size_t i = 0; i < moving.size(); ++i) masses[i].setZero();
-  for (Coupling& coupling : couplings) {
-    coupling.weights.reset();
-    if (!coupling.begin.acts) continue;
-    const ContactLinearisation& now = coupling.begin.linearisation;
-    const Matrix6d resistance = step * (step * now.stiffness + now.damping);
-    weigh(coupling, resistance);
-    for (const std::size_t body : {coupling.body_a, coupling.body_b}) {
-      if (body == detail::kNoBody || !moving[body].isFree()) continue;
-      const Matrix6d& jacobian = body == coupling.body_b ? coupling.jacobian_b : coupling.jacobian_a;
-      masses[body].noalias() += jacobian.transpose() * (resistance * jacobian).eval();
-    }
-  }
-  for (std::size_t i = 0; i < moving.size(); ++i) {
-    weights[i].reset();
-    if (!moving[i].isFree()) continue;
-    weights[i].choose(inertias[i].inverse(), masses[i]);
-    masses[i] = weights[i].massInStep(inertias[i].matrix());
-  }
-}
-
-/// @param resistance step^2 times the stiffness and step times the damping
-void Simulation::State::weigh(Coupling& coupling, const Matrix6d& resistance) const {
-  Matrix6d mobility = Matrix6d::Zero();
-  const auto add = [&](std::size_t body, const Matrix6d& jacobian) {
-    if (body == detail::kNoBody || !(inertias[body].mass > 0.0)) return;
-    mobility.noalias() += jacobian * (inertias[body].inverse() * jacobian.transpose()).eval();
-  };
-  add(coupling.body_a, coupling.jacobian_a);
-  add(coupling.body_b, coupling.jacobian_b);
-  if (mobility(0, 0) > 0.0) coupling.weights.choose(mobility, resistance);
-}
-
 // The twists V of the drift: M (V - V0) = p h (w - p K h V - D (V - V0)), p the weight of the step's end. The
 // couplings' mean wrenches follow from them. All of it over 2 p, which leaves it symmetric.
 void Simulation::State::predict(double step) {

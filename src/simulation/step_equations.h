@@ -25,6 +25,8 @@ class StepEquations {
 
   /// Finds what hangs together by couplings that act.
   void findIslands(const std::vector<Inertia>& bodies, const std::vector<Coupling>& couplings);
+  /// One body of the island that a free body belongs to, the same for all of them.
+  std::size_t islandOf(std::size_t body) { return rootOf(body); }
 
   /// Of the islands found last.
   /// @param masses of each free body: its matrix(), or what its kick meets instead of it where couplings act
