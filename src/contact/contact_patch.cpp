@@ -47,14 +47,17 @@ class NearestBristles {
   const SiteBristles* nearest_ = nullptr;
 };
 
-/// @param last_cell_size of the bristles in `memory`
-const SiteBristles* findBristles(const PatchMemory& memory, double last_cell_size, const RubbingSite& site) {
-  if (last_cell_size == memory.cell_size) {
-    const auto found =
-        std::lower_bound(memory.bristles.begin(), memory.bristles.end(), site.cell,
-                         [](const SiteBristles& known, std::uint64_t cell) { return known.cell < cell; });
-    return found != memory.bristles.end() && found->cell == site.cell ? &*found : nullptr;
-  }
+/// Of the same cell.
+const SiteBristles* findBristles(const PatchMemory& memory, const RubbingSite& site) {
+  const auto found =
+      std::lower_bound(memory.bristles.begin(), memory.bristles.end(), site.cell,
+                       [](const SiteBristles& known, std::uint64_t cell) { return known.cell < cell; });
+  return found != memory.bristles.end() && found->cell == site.cell ? &*found : nullptr;
+}
+
+/// Of the nearest one: where a body rolls on under a force, what it comes to is bent as what it leaves, or it
+/// would creep. @param last_cell_size of the bristles in `memory`
+const SiteBristles* findNearest(const PatchMemory& memory, double last_cell_size, const RubbingSite& site) {
   NearestBristles nearest(site, memory.cell_size);
   for (const SiteBristles& known : memory.bristles) nearest.consider(known, last_cell_size);
   return nearest.found();
@@ -141,8 +144,11 @@ Wrench ContactPatch::rub(const FrictionSettings& settings, const ContactMaterial
   if (next_.capacity() < sites_.all().size()) next_.reserve(2 * sites_.all().size());
   Wrench wrench;
   for (const RubbingSite& site : sites_.all()) {
-    const SiteBristles* known = findBristles(memory, last_cell_size_, site);
+    const bool same_cells = last_cell_size_ == memory.cell_size;
+    const SiteBristles* known =
+        same_cells ? findBristles(memory, site) : findNearest(memory, last_cell_size_, site);
     if (known == nullptr && !loose.empty()) known = findLoose(loose, memory.cell_size, site);
+    if (known == nullptr && same_cells) known = findNearest(memory, last_cell_size_, site);
     SiteBristles& now = next_.emplace_back(SiteBristles{site.cell, site.point_in_a, BristleState(), 0.0});
     if (known != nullptr) {
       now.bristles = known->bristles;

@@ -3,9 +3,6 @@
 namespace concave_distance::detail {
 namespace {
 
-// What a step does not resolve keeps (1 - w) / w of itself from step to step.
-constexpr double kLargestEndWeight = 0.75;
-
 Eigen::Matrix3d crossMatrix(const Eigen::Vector3d& v) {
   Eigen::Matrix3d matrix;
   matrix << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
@@ -43,10 +40,6 @@ ContactLinearisation linearisationOf(const CompliantDrive& drive, const Eigen::V
   mirrorUpper(linearisation.stiffness);
   mirrorUpper(linearisation.damping);
   return linearisation;
-}
-
-double endWeight(double time_scales) {
-  return time_scales > 1.0 ? 0.5 + (kLargestEndWeight - 0.5) * (1.0 - 1.0 / time_scales) : 0.5;
 }
 
 }  // namespace concave_distance::detail

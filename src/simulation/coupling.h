@@ -1,13 +1,13 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <cstddef>
 
 #include "concave_distance/contact/contact_linearisation.h"
 #include "concave_distance/contact/wrench.h"
 #include "concave_distance/scene/simulation_settings.h"
 #include "pose_path.h"
+#include "step_weights.h"
 
 namespace concave_distance::detail {
 
@@ -54,9 +54,11 @@ struct Coupling {
   Vector6d change = Vector6d::Zero();      ///< solution: of the relative twist
 
   // Of the step that is tried.
-  double weight = 0.5;                       ///< of the end of the step: see endWeight()
+  StepWeights weights;                       ///< of the end of the step
   Vector6d used = Vector6d::Zero();          ///< mean wrench of the linear model
   Vector6d displacement = Vector6d::Zero();  ///< of B against A
+  Vector6d full_change = Vector6d::Zero();   ///< of the relative twist over all of the step, as predicted
+  double loss = 0.0;                         ///< J, >= 0: what weights above 1/2 take of its bodies' energy
   Vector6d residual = Vector6d::Zero();      ///< what the linear model has missed of the wrench at the end
 };
 
@@ -71,14 +73,5 @@ inline Wrench toWrench(const Vector6d& wrench) {
 
 /// Of a drive's spring and damper. @param point of the drive's frame, in the target's frame
 ContactLinearisation linearisationOf(const CompliantDrive& drive, const Eigen::Vector3d& point_in_target);
-
-/// How many time scales of the coupling a step is long: the trapezoidal rule resolves up to about 1.
-inline double timeScales(double stiffness_rate, double damping_rate, double step) {
-  return std::max(step * step * stiffness_rate, step * damping_rate);
-}
-
-/// Weight of the end of a step: 1/2, the trapezoidal rule, which keeps energy, where it resolves the motion;
-/// more where it is longer than the time scales, so that what is not resolved decays.
-double endWeight(double time_scales);
 
 }  // namespace concave_distance::detail

@@ -89,19 +89,20 @@ void PairRunner::update(double time, double step, const SimulatedBody& a, const 
   pair.solution = tracked_.solution;
   pair.lower_bound = std::max(0.0, pair.solution.lower_bound);  // NaN: 0
   if (tracked_.effects.contacts() != nullptr) pair.contacts = *tracked_.effects.contacts();
-  countSolve(counters);
+  countSolve(pair, counters);
   if (single_) {
     const StageTimer timer(SimulationStage::Single, counters);
     followSingle(pair);
   }
 }
 
-void PairRunner::countSolve(SimulationCounters& counters) {
+void PairRunner::countSolve(SimulatedPair& pair, SimulationCounters& counters) {
   ++counters.solves;
   const EffectCounts effects = tracked_.effects.takeCounts();
   counters.seconds[static_cast<std::size_t>(SimulationStage::Solve)] += tracked_.solution.solve_seconds;
-  counters.seconds[static_cast<std::size_t>(SimulationStage::Effects)] +=
-      std::accumulate(std::begin(effects.seconds), std::end(effects.seconds), 0.0);
+  const double seconds = std::accumulate(std::begin(effects.seconds), std::end(effects.seconds), 0.0);
+  counters.seconds[static_cast<std::size_t>(SimulationStage::Effects)] += seconds;
+  pair.seconds += tracked_.solution.solve_seconds + seconds;
 }
 
 void PairRunner::followSingle(SimulatedPair& pair) {

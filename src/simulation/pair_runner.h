@@ -47,7 +47,7 @@ class PairRunner {
 
  private:
   void followSingle(SimulatedPair& pair);
-  void countSolve(SimulationCounters& counters);
+  void countSolve(SimulatedPair& pair, SimulationCounters& counters);
 
   TrackedPair tracked_;
   bool follows_niches_;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "concave_distance/base/error.h"
+#include "suspicious_start.h"
 #include "unheld_bodies.h"
 
 namespace concave_distance {
@@ -49,7 +50,9 @@ Simulation::State::State(const Scene& scene, const SimulationSettings& given) : 
     }
   }
   warnings = detail::warnOfUnheldBodies(scene, settings);
+  warn(detail::warnOfMissingPairs(scene, settings));
   addBodies(scene);
+  warn(detail::warnOfMasses(scene, settings, moving));
   addPairs(scene);
   addDrives();
   const double inside = 0.5 * std::min(settings.largest_step, settings.duration);
@@ -60,6 +63,9 @@ Simulation::State::State(const Scene& scene, const SimulationSettings& given) : 
   report(inside);
   evaluateContacts(0.0);
   report(inside);
+  std::vector<Eigen::Vector3d> normal;
+  for (const BodyContacts& on_body : contacts) normal.push_back(on_body.normal.force);
+  warn(detail::warnOfDeepStarts(settings, moving, bodies, pairs, normal));
   sumEnergies();
   energy.initial = energy.mechanical();
   for (const MovingBody& body : moving) {
@@ -73,6 +79,10 @@ Simulation::State::State(const Scene& scene, const SimulationSettings& given) : 
       proposed_step = std::min(proposed_step, settings.step_fraction / std::sqrt(coupling.stiffness_rate));
     }
   }
+}
+
+void Simulation::State::warn(const std::vector<std::string>& more) {
+  warnings.insert(warnings.end(), more.begin(), more.end());
 }
 
 void Simulation::State::addBodies(const Scene& scene) {
@@ -90,7 +100,10 @@ void Simulation::State::addBodies(const Scene& scene) {
   external.resize(bodies.size());
   motions.resize(bodies.size());
   inertias.resize(bodies.size());
+  masses.resize(bodies.size());
   weights.resize(bodies.size());
+  losses.resize(bodies.size());
+  left_of_begin.resize(bodies.size());
   impulses.resize(bodies.size());
   changes.resize(bodies.size());
 }

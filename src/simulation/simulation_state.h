@@ -50,6 +50,7 @@ struct Simulation::State {
   State(const Scene& scene, const SimulationSettings& given);
 
   // simulation_state.cpp: the parts, and what is reported of them.
+  void warn(const std::vector<std::string>& more);
   void addBodies(const Scene& scene);
   void addPairs(const Scene& scene);
   void addDrives();
@@ -65,7 +66,7 @@ struct Simulation::State {
   void allowDisplacements();
   double speedBetween(const SimulatedPair& pair) const;
   /// The largest share of its allowed displacement that a pair has moved.
-  double shareOfDisplacement() const;
+  double shareOfDisplacement();
 
   // step_attempt.cpp: one step of a given size, tried.
   void beginStep(double inside);
@@ -73,6 +74,9 @@ struct Simulation::State {
   void setMotions(double inside);
   void findLoads();
   void chooseWeights(double step);
+  void weigh(detail::Coupling& coupling, const Matrix6d& resistance) const;
+  void findChange(detail::Coupling& coupling) const;
+  Vector6d wrenchOn(std::size_t body) const;
   void predict(double step);
   void drift(double step);
   void evaluateEnd(double step, double inside);
@@ -82,7 +86,7 @@ struct Simulation::State {
 
   // step_acceptance.cpp: how good the step was.
   /// How many times the tolerance the step's error is.
-  double shareOfError(double step) const;
+  double shareOfError(double step);
   detail::StepTolerance toleranceOf(std::size_t coupling) const;
   double energyOfMotion(const detail::Coupling& coupling) const;
 
@@ -91,6 +95,7 @@ struct Simulation::State {
   bool moveWithin(double& step, StepLimit& limit);
   void proposeStep(double step, double error_share, StepLimit limit);
   void finishStep(double step, double inside);
+  void countStep(double step, StepLimit limit);
   double solveSeconds() const;
 
   SimulationSettings settings;
@@ -111,7 +116,10 @@ struct Simulation::State {
   std::vector<Drift> drifts;
   std::vector<detail::FrameMotion> motions;
   std::vector<detail::StepEquations::Inertia> inertias;
-  std::vector<double> weights;  ///< of the end of the step, by body: its island's
+  std::vector<Matrix6d> masses;              ///< that a kick meets in the equations
+  std::vector<detail::StepWeights> weights;  ///< of the end of the step, by body
+  std::vector<Vector6d> left_of_begin;       ///< wrench at the begin that the end still owes, by body
+  std::vector<double> losses;                ///< J, by body: what the weights take in the kicks
   std::vector<Vector6d> impulses;
   std::vector<Vector6d> changes;
   std::vector<detail::PairBegin> pair_begins;
@@ -119,6 +127,9 @@ struct Simulation::State {
   detail::StepEquations equations;
   double time_at_begin = 0.0;
   double proposed_step = std::numeric_limits<double>::infinity();  ///< by the error of the last one
+  std::size_t least_accurate = 0;  ///< coupling with the largest share of its error in the last attempt
+  std::size_t holds_accuracy = 0;  ///< coupling whose error has shortened the step
+  std::size_t holds_distance = 0;  ///< pair whose distance has shortened the step
 };
 
 }  // namespace concave_distance

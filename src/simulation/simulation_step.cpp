@@ -95,6 +95,19 @@ void Simulation::State::finishStep(double step, double inside) {
   sumEnergies();
 }
 
+void Simulation::State::countStep(double step, StepLimit limit) {
+  ++counters.steps;
+  ++counters.limited_by[static_cast<std::size_t>(limit)];
+  if (limit != StepLimit::Event) counters.smallest_step = std::min(counters.smallest_step, step);
+  if (limit == StepLimit::Distance) ++pairs[holds_distance].held_back_by_distance;
+  if (limit != StepLimit::Accuracy) return;
+  if (holds_accuracy < pairs.size()) {
+    ++pairs[holds_accuracy].held_back_by_accuracy;
+  } else {
+    ++bodies[couplings[holds_accuracy].body_b].held_back_by_drive;
+  }
+}
+
 double Simulation::State::step(double until) {
   if (status != SimulationStatus::Ok || !(until > time)) return 0.0;
   const auto start = std::chrono::steady_clock::now();
@@ -124,13 +137,13 @@ double Simulation::State::step(double until) {
     restore(soon);
     ++counters.rejected;
     limit = StepLimit::Accuracy;
+    holds_accuracy = least_accurate;
     step *= std::clamp(factorFor(error_share), kSmallestShare, kLargestShare);
   }
+  countStep(step, limit);
   proposeStep(step, error_share, limit);
+  holds_accuracy = least_accurate;
   finishStep(step, soon);
-  ++counters.steps;
-  ++counters.limited_by[static_cast<std::size_t>(limit)];
-  if (limit != StepLimit::Event) counters.smallest_step = std::min(counters.smallest_step, step);
   counters.seconds[static_cast<std::size_t>(SimulationStage::Integration)] +=
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() -
       (solveSeconds() - elsewhere);

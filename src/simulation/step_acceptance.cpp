@@ -25,7 +25,7 @@ double speedAlongNormal(const Coupling& coupling, const ContactRegion& region) {
     const RelativeTwist motion{twist.head<3>(), twist.tail<3>()};
     return std::abs(motion.at(region.point_in_a).dot(region.overlap.normal_in_a));
   };
-  return std::max(speed(coupling.twist), speed(coupling.twist + coupling.change / coupling.weight));
+  return std::max(speed(coupling.twist), speed(coupling.twist + coupling.full_change));
 }
 
 // At the end of the step, over its displacement.
@@ -91,12 +91,15 @@ detail::StepTolerance Simulation::State::toleranceOf(std::size_t index) const {
   return tolerance;
 }
 
-double Simulation::State::shareOfError(double step) const {
+double Simulation::State::shareOfError(double step) {
   double largest = 0.0;
   for (std::size_t i = 0; i < couplings.size(); ++i) {
     if (!couplings[i].begin.acts && !couplings[i].force.acts) continue;
     const double error = detail::errorOf(couplings[i], step);
-    if (error > 0.0) largest = std::max(largest, error / detail::allowedError(toleranceOf(i)));
+    const double share = error > 0.0 ? error / detail::allowedError(toleranceOf(i)) : 0.0;
+    if (!(share > largest)) continue;
+    largest = share;
+    least_accurate = i;
   }
   return largest;
 }

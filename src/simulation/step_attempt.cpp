@@ -119,29 +119,8 @@ Wrench Simulation::State::sumOn(std::size_t body, const Vector6d Coupling::*wren
   return detail::toWrench(sum);
 }
 
-// One weight for all that hangs together, or what is at rest would be kicked unevenly and not stay so.
-void Simulation::State::chooseWeights(double step) {
-  std::fill(weights.begin(), weights.end(), 0.5);
-  for (const Coupling& coupling : couplings) {
-    if (!coupling.begin.acts) continue;
-    const double weight =
-        detail::endWeight(detail::timeScales(coupling.stiffness_rate, coupling.damping_rate, step));
-    for (const std::size_t body : {coupling.body_a, coupling.body_b}) {
-      if (body == detail::kNoBody || !moving[body].isFree()) continue;
-      double& island = weights[equations.islandOf(body)];
-      island = std::max(island, weight);
-    }
-  }
-  for (std::size_t i = 0; i < moving.size(); ++i) weights[i] = weights[equations.islandOf(i)];
-  for (Coupling& coupling : couplings) {
-    const bool free_b = moving[coupling.body_b].isFree();
-    coupling.weight =
-        weights[free_b || coupling.body_a == detail::kNoBody ? coupling.body_b : coupling.body_a];
-  }
-}
-
 // The twists V of the drift: M (V - V0) = p h (w - p K h V - D (V - V0)), p the weight of the step's end. The
-// couplings' mean wrenches follow from them.
+// couplings' mean wrenches follow from them. All of it over 2 p, which leaves it symmetric.
 void Simulation::State::predict(double step) {
   chooseWeights(step);
   for (Coupling& coupling : couplings) {
@@ -149,22 +128,26 @@ void Simulation::State::predict(double step) {
     coupling.resistance.setZero();
     if (!coupling.begin.acts) continue;
     const ContactLinearisation& now = coupling.begin.linearisation;
-    const double part = coupling.weight * step;
-    coupling.resistance = part * (part * now.stiffness + now.damping);
-    coupling.used = coupling.begin.wrench - part * (now.stiffness * coupling.twist);
+    const Matrix6d stiffness = coupling.weights.ofResistance(now.stiffness, 1.0);
+    coupling.resistance = 0.5 * step * (step * stiffness + now.damping);
+    coupling.used = coupling.begin.wrench - step * (stiffness * coupling.twist);
   }
   for (std::size_t i = 0; i < moving.size(); ++i) {
-    if (!moving[i].isFree()) continue;
-    Wrench wrench = moving[i].steadyWrench(settings.gravity);
-    wrench += sumOn(i, &Coupling::used);
-    const double part = weights[i] * step;
-    impulses[i] << part * wrench.force, part * wrench.torque;
+    if (moving[i].isFree()) impulses[i] = 0.5 * step * wrenchOn(i);
   }
-  equations.solve(inertias, impulses, couplings, changes);
+  equations.solve(inertias, masses, impulses, couplings, changes);
   for (Coupling& coupling : couplings) {
-    coupling.used -= coupling.resistance * coupling.change / (coupling.weight * step);
+    coupling.used -= coupling.resistance * coupling.change / (0.5 * step);
     coupling.displacement = step * (coupling.twist + coupling.change);
   }
+}
+
+Vector6d Simulation::State::wrenchOn(std::size_t body) const {
+  Wrench wrench = moving[body].steadyWrench(settings.gravity);
+  wrench += sumOn(body, &Coupling::used);
+  Vector6d vector;
+  vector << wrench.force, wrench.torque;
+  return vector;
 }
 
 // Equal and opposite wrenches of each coupling, and not the solution, move the bodies: momentum is kept.
@@ -172,14 +155,43 @@ void Simulation::State::drift(double step) {
   for (std::size_t i = 0; i < moving.size(); ++i) {
     MovingBody& body = moving[i];
     if (body.isFree()) {
-      Wrench wrench = body.steadyWrench(settings.gravity);
-      wrench += sumOn(i, &Coupling::used);
-      body.kick(wrench, weights[i] * step);
+      const Vector6d wrench = wrenchOn(i);
+      const Vector6d first = weights[i].ofWrench(wrench);
+      body.kick(detail::toWrench(first), step);
+      left_of_begin[i] = 0.5 * wrench - first;
+      changes[i] *= 2.0;
+      if (!weights[i].even()) changes[i].noalias() = inertias[i].inverse() * (step * wrench);
+      losses[i] = -step * changes[i].dot(left_of_begin[i]);
     }
     drifts[i] = body.drift(time_at_begin, step);
   }
+  for (Coupling& coupling : couplings) findChange(coupling);
 }
 
+// With its loss: the mean wrench is that of the trapezoidal rule but for what acts against the displacement.
+void Simulation::State::findChange(Coupling& coupling) const {
+  coupling.full_change.setZero();
+  coupling.loss = 0.0;
+  bool even = coupling.weights.even();
+  const auto add = [&](std::size_t body, const Matrix6d& jacobian) {
+    if (body == detail::kNoBody || !moving[body].isFree()) return;
+    coupling.full_change.noalias() += jacobian * changes[body];
+    coupling.loss += losses[body];
+    even = even && weights[body].even();
+  };
+  add(coupling.body_b, coupling.jacobian_b);
+  add(coupling.body_a, coupling.jacobian_a);
+  if (even || !coupling.begin.acts) {
+    coupling.loss = 0.0;
+    return;
+  }
+  const ContactLinearisation& now = coupling.begin.linearisation;
+  const Vector6d missed = 0.5 * (now.stiffness * coupling.displacement + now.damping * coupling.full_change);
+  coupling.loss += std::abs(coupling.displacement.dot(coupling.begin.wrench - missed - coupling.used));
+}
+
+// Half of the wrenches act where the bodies were at the begin, half where they are: so each coupling's stay
+// equal and opposite, however the weights of its bodies differ.
 void Simulation::State::evaluateEnd(double step, double inside) {
   for (std::size_t i = 0; i < moving.size(); ++i) moving[i].report(time, inside, bodies[i]);
   setMotions(inside);
@@ -188,9 +200,9 @@ void Simulation::State::evaluateEnd(double step, double inside) {
     MovingBody& body = moving[i];
     if (!body.isFree()) continue;
     body.evaluateLoad(inside, body.state(), external[i]);
-    Wrench wrench = body.steadyWrench(settings.gravity);
-    wrench += sumOn(i, &Coupling::used);
-    body.kick(wrench, (1.0 - weights[i]) * step);
+    Wrench wrench = detail::toWrench(0.5 * wrenchOn(i));
+    if (!weights[i].even()) wrench += movedTo(drifts[i].shift, detail::toWrench(left_of_begin[i]));
+    body.kick(wrench, step);
     body.report(time, inside, bodies[i]);
   }
   setMotions(inside);
@@ -198,34 +210,35 @@ void Simulation::State::evaluateEnd(double step, double inside) {
   evaluateContacts(step);
   for (Coupling& coupling : couplings) {
     const CouplingForce& begin = coupling.begin;
-    const CouplingForce& end = coupling.force;
-    coupling.residual = end.wrench - begin.wrench;
+    coupling.residual = coupling.force.wrench - begin.wrench;
     if (!begin.acts) continue;
     coupling.residual += begin.linearisation.stiffness * coupling.displacement +
-                         begin.linearisation.damping * coupling.change / coupling.weight;
+                         begin.linearisation.damping * coupling.full_change;
   }
 }
 
 // What the linear model has missed of the wrench at the end, against the stiffness and damping there.
 void Simulation::State::correct(double step) {
-  for (std::size_t i = 0; i < moving.size(); ++i) inertias[i] = moving[i].inertia();
+  for (std::size_t i = 0; i < moving.size(); ++i) {
+    inertias[i] = moving[i].inertia();
+    if (moving[i].isFree()) masses[i] = inertias[i].matrix();
+  }
   for (Coupling& coupling : couplings) {
     const ContactLinearisation& end = coupling.force.linearisation;
     if (coupling.force.acts && !coupling.begin.acts) {
       coupling.begin.acts = true;
-      coupling.weight = detail::endWeight(detail::timeScales(rateOf(end.stiffness, coupling, inertias),
-                                                             rateOf(end.damping, coupling, inertias), step));
+      weigh(coupling, step * (step * end.stiffness + end.damping));
     }
-    const double part = coupling.weight * step;
-    coupling.resistance = part * (part * end.stiffness + end.damping);
-    coupling.used = part * coupling.residual;
+    coupling.resistance = step * (step * coupling.weights.ofResistance(end.stiffness, 2.0) +
+                                  coupling.weights.ofResistance(end.damping, 1.0));
+    coupling.used = step * coupling.weights.ofWrench(coupling.residual);
   }
   for (std::size_t i = 0; i < moving.size(); ++i) {
     const Wrench impulse = sumOn(i, &Coupling::used);
     impulses[i] << impulse.force, impulse.torque;
   }
   equations.findIslands(inertias, couplings);
-  equations.solve(inertias, impulses, couplings, changes);
+  equations.solve(inertias, masses, impulses, couplings, changes);
   for (Coupling& coupling : couplings) coupling.used -= coupling.resistance * coupling.change;
   for (std::size_t i = 0; i < moving.size(); ++i) {
     if (moving[i].isFree()) moving[i].kick(sumOn(i, &Coupling::used), 1.0);

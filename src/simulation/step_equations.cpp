@@ -9,14 +9,21 @@ bool isFree(const std::vector<StepEquations::Inertia>& bodies, std::size_t body)
   return body != kNoBody && bodies[body].mass > 0.0;
 }
 
-Matrix6d massMatrix(const StepEquations::Inertia& body) {
+}  // namespace
+
+Matrix6d StepEquations::Inertia::matrix() const {
   Matrix6d matrix = Matrix6d::Zero();
-  matrix.diagonal().head<3>().setConstant(body.mass);
-  matrix.bottomRightCorner<3, 3>() = body.inertia;
+  matrix.diagonal().head<3>().setConstant(mass);
+  matrix.bottomRightCorner<3, 3>() = inertia;
   return matrix;
 }
 
-}  // namespace
+Matrix6d StepEquations::Inertia::inverse() const {
+  Matrix6d matrix = Matrix6d::Zero();
+  matrix.diagonal().head<3>().setConstant(1.0 / mass);
+  matrix.bottomRightCorner<3, 3>() = inertia.inverse();
+  return matrix;
+}
 
 std::size_t StepEquations::rootOf(std::size_t body) {
   while (parent_[body] != body) body = parent_[body] = parent_[parent_[body]];
@@ -44,20 +51,15 @@ void StepEquations::findIslands(const std::vector<Inertia>& bodies, const std::v
   }
 }
 
-void StepEquations::solveAlone(const Inertia& body, const Vector6d& impulse, Vector6d& change) const {
-  change.head<3>() = impulse.head<3>() / body.mass;
-  change.tail<3>() = body.inertia.inverse() * impulse.tail<3>();
-}
-
-void StepEquations::assemble(const std::vector<Inertia>& bodies, const std::vector<Coupling>& couplings,
-                             std::size_t root, Eigen::Index size) {
+void StepEquations::assemble(const std::vector<Inertia>& bodies, const std::vector<Matrix6d>& masses,
+                             const std::vector<Coupling>& couplings, std::size_t root, Eigen::Index size) {
   if (matrix_.rows() < size) {
     matrix_.resize(size, size);
     vector_.resize(size);
   }
   matrix_.topLeftCorner(size, size).setZero();
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    if (row_[i] >= 0 && rootOf(i) == root) matrix_.block<6, 6>(row_[i], row_[i]) = massMatrix(bodies[i]);
+    if (row_[i] >= 0 && rootOf(i) == root) matrix_.block<6, 6>(row_[i], row_[i]) = masses[i];
   }
   for (const Coupling& coupling : couplings) {
     if (!coupling.begin.acts) continue;
@@ -81,16 +83,19 @@ void StepEquations::assemble(const std::vector<Inertia>& bodies, const std::vect
   }
 }
 
-void StepEquations::solve(const std::vector<Inertia>& bodies, const std::vector<Vector6d>& impulses,
-                          std::vector<Coupling>& couplings, std::vector<Vector6d>& changes) {
+void StepEquations::solve(const std::vector<Inertia>& bodies, const std::vector<Matrix6d>& masses,
+                          const std::vector<Vector6d>& impulses, std::vector<Coupling>& couplings,
+                          std::vector<Vector6d>& changes) {
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     changes[i].setZero();
-    if (isFree(bodies, i) && row_[i] < 0) solveAlone(bodies[i], impulses[i], changes[i]);
+    if (!isFree(bodies, i) || row_[i] >= 0) continue;
+    changes[i].head<3>() = impulses[i].head<3>() / bodies[i].mass;
+    changes[i].tail<3>() = bodies[i].inertia.inverse() * impulses[i].tail<3>();
   }
   for (std::size_t root = 0; root < bodies.size(); ++root) {
     const Eigen::Index size = size_[root];
     if (size == 0) continue;
-    assemble(bodies, couplings, root, size);
+    assemble(bodies, masses, couplings, root, size);
     for (std::size_t i = 0; i < bodies.size(); ++i) {
       if (row_[i] >= 0 && rootOf(i) == root) vector_.segment<6>(row_[i]) = impulses[i];
     }

@@ -18,6 +18,9 @@ class StepEquations {
   struct Inertia {
     double mass = 0.0;  ///< 0: not free, its twist does not change
     Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
+
+    Matrix6d matrix() const;
+    Matrix6d inverse() const;
   };
 
   /// Finds what hangs together by couplings that act.
@@ -26,16 +29,17 @@ class StepEquations {
   std::size_t islandOf(std::size_t body) { return rootOf(body); }
 
   /// Of the islands found last.
+  /// @param masses of each free body: its matrix(), or what its kick meets instead of it where couplings act
   /// @param impulses of each body about its centre of mass, world axes; of others than free bodies ignored
   /// @param changes of the bodies' twists; and of the couplings' (Coupling::change)
-  void solve(const std::vector<Inertia>& bodies, const std::vector<Vector6d>& impulses,
-             std::vector<Coupling>& couplings, std::vector<Vector6d>& changes);
+  void solve(const std::vector<Inertia>& bodies, const std::vector<Matrix6d>& masses,
+             const std::vector<Vector6d>& impulses, std::vector<Coupling>& couplings,
+             std::vector<Vector6d>& changes);
 
  private:
   std::size_t rootOf(std::size_t body);
-  void solveAlone(const Inertia& body, const Vector6d& impulse, Vector6d& change) const;
-  void assemble(const std::vector<Inertia>& bodies, const std::vector<Coupling>& couplings, std::size_t root,
-                Eigen::Index size);
+  void assemble(const std::vector<Inertia>& bodies, const std::vector<Matrix6d>& masses,
+                const std::vector<Coupling>& couplings, std::size_t root, Eigen::Index size);
 
   std::vector<std::size_t> parent_;
   std::vector<Eigen::Index> row_;   ///< of each body in its island's matrix

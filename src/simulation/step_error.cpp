@@ -41,11 +41,9 @@ double errorOf(const Coupling& coupling, double step) {
   const double missed = 0.5 * std::abs(coupling.residual.dot(displacement));
   const double stretched = displacement.dot(now.stiffness * displacement);
   const double swing = std::min(1.0, step * std::sqrt(coupling.stiffness_rate)) / 12.0;
-  // `change` is the weight's part of the change over the step.
-  const double slowed = std::abs(coupling.change.dot(now.damping * displacement)) / coupling.weight;
+  const double slowed = std::abs(coupling.full_change.dot(now.damping * displacement));
   const double decay = std::min(1.0, step * coupling.damping_rate) / 12.0;
-  const double damped = coupling.weight - 0.5;
-  return missed + (swing + damped) * stretched + (decay + damped) * slowed;
+  return missed + swing * stretched + decay * slowed + coupling.loss;
 }
 
 }  // namespace concave_distance::detail

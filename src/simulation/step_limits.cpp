@@ -78,21 +78,26 @@ double Simulation::State::limitStep(double event, StepLimit& limit) {
     }
   }
   for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const double before = step;
     hold(kAim * pair_begins[i].allowed() / speedBetween(pairs[i]), StepLimit::Distance);
+    if (step < before) holds_distance = i;
   }
   return step;
 }
 
-double Simulation::State::shareOfDisplacement() const {
-  double share = 0.0;
+double Simulation::State::shareOfDisplacement() {
+  double largest = 0.0;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const Drift& a = drifts[pairs[i].body_a];
     const Drift& b = drifts[pairs[i].body_b];
     const double displacement = (b.shift - a.shift).norm() + moving[pairs[i].body_a].radius() * a.turn +
                                 moving[pairs[i].body_b].radius() * b.turn;
-    share = std::max(share, displacement / pair_begins[i].allowed());
+    const double share = displacement / pair_begins[i].allowed();
+    if (!(share > largest)) continue;
+    largest = share;
+    if (share > 1.0) holds_distance = i;
   }
-  return share;
+  return largest;
 }
 
 }  // namespace concave_distance

@@ -15,6 +15,7 @@
 #include "parameter_options.h"
 #include "scene/simulation_parameters.h"
 #include "simulation_log.h"
+#include "slow_simulation.h"
 
 namespace {
 
@@ -177,6 +178,8 @@ int simulate(const CLI::App& app, const Options& options) {
   if (contacts) contacts->finish();
   if (niches) niches->finish();
   summarise(simulation, seconds);
+  const std::string slow = tools::whatHeldBack(simulation, seconds);
+  if (!slow.empty()) std::cerr << "simulate: " << slow << '\n';
   return statusOf(simulation);
 }
 

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "simulation/box_stack.h"
+#include "simulation/unheld_bodies.h"
 #include "support/plain_shapes.h"
 
 namespace concave_distance {
@@ -12,7 +13,13 @@ using test::SceneBuilder;
 using test::stackOf;
 
 std::vector<std::string> warningsOf(const SceneBuilder& builder) {
-  return builder.simulation().warnings();
+  return detail::warnOfUnheldBodies(builder.scene, builder.settings);
+}
+
+TEST(UnheldBodies, ASimulationSaysSo) {
+  SceneBuilder builder = stackOf({1.0});
+  builder.scene.pairs.edit(0).enabled = false;
+  EXPECT_EQ(builder.simulation().warnings(), warningsOf(builder));
 }
 
 TEST(UnheldBodies, AStackOnAFloorIsHeldOverAllItsBoxes) {

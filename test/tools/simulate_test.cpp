@@ -101,6 +101,48 @@ TEST_F(Simulate, NamesABodyThatNothingCanHold) {
   EXPECT_TRUE(logHas("warning: scene.yaml:12, simulation.bodies[0]: body 'cube' falls for good")) << log();
 }
 
+// Steel that rolls: its depth under its weight is 0.2 nm, which is as far as a point may move in a step.
+TEST_F(Simulate, SaysWhichContactHoldsItBackBelowATenthOfRealTime) {
+  ASSERT_EQ(run("scene.yaml --output out.csv"), 0) << log();
+  EXPECT_FALSE(logHas("of real time: ")) << log();
+  folder.write(
+      "hard.yaml",
+      "bodies:\n"
+      "  - {name: ground, box: {size: [1, 1, 0.1]}, pose: {xyz: [0, 0, -0.05]}, max_edge_length: 1}\n"
+      "  - {name: bead, sphere: {radius: 0.001}, material: {youngs_modulus: 2e11}}\n"
+      "  - {name: far, box: {size: [0.1, 0.1, 0.1]}, pose: {xyz: [5, 0, 0]}, max_edge_length: 1}\n"
+      "defaults: {effects: {normal_force: hertz, friction: bristle}}\n"
+      "pairs:\n"
+      "  - {between: [far, bead]}\n"
+      "  - {between: [ground, bead]}\n"
+      "simulation:\n"
+      "  duration: 1e-5\n"
+      "  bodies:\n"
+      "    - {body: bead, density: 7850, pose: {xyz: [0, 0, 0.001]}, velocity: [1, 0, 0],"
+      " angular_velocity: [0, 1000, 0]}\n");
+  ASSERT_EQ(run("hard.yaml --output hard.csv"), 0) << log();
+  EXPECT_TRUE(logHas("of real time: contact 'ground/bead' held it back: ")) << log();
+  EXPECT_TRUE(logHas("youngs_modulus")) << log();
+}
+
+// The scenes that doc/effects.md begins with.
+TEST_F(Simulate, RunsTheScenesOfTheDocument) {
+  const std::string page = test::contentOf(std::string(CONCAVE_DISTANCE_SOURCE_DIR) + "/doc/effects.md");
+  const std::string fence = "```yaml\n";
+  int count = 0;
+  for (std::size_t begin = page.find(fence); begin != std::string::npos; begin = page.find(fence, begin)) {
+    begin += fence.size();
+    const std::size_t end = page.find("```", begin);
+    folder.write("ready.yaml", page.substr(begin, end - begin));
+    EXPECT_EQ(run("ready.yaml --output ready.csv"), 0) << log();
+    EXPECT_FALSE(logHas("warning")) << log();
+    EXPECT_EQ(number(readTable(folder.path("ready.csv")).back(), "t"), 2.0);
+    begin = end + 3;
+    ++count;
+  }
+  EXPECT_EQ(count, 3);
+}
+
 TEST_F(Simulate, RefusesASceneOfWhichABodyIsMissing) {
   std::string scene = kScene;
   scene.replace(scene.find("box: {size: [1, 1, 0.1]}"), 24, "mesh: file:///nowhere/ground.stl");

@@ -31,6 +31,7 @@ struct SimulatedBody {
   Wrench contact_wrench;
   Wrench drive_wrench;
   Wrench load_wrench;
+  std::uint64_t held_back_by_drive = 0;  ///< steps so far that the drive's accuracy has made shorter
 };
 
 /// A pair as it is now.
@@ -49,6 +50,10 @@ struct SimulatedPair {
   Eigen::Vector3d single_point_a_in_a = Eigen::Vector3d::Constant(kNotComputed);
   Eigen::Vector3d single_point_b_in_a = Eigen::Vector3d::Constant(kNotComputed);
   bool single_is_wrong = false;
+  /// Steps so far that this pair has made shorter: StepLimit::Accuracy, StepLimit::Distance.
+  std::uint64_t held_back_by_accuracy = 0;
+  std::uint64_t held_back_by_distance = 0;
+  double seconds = 0.0;  ///< so far, of wall clock, for its distance and its effects
 };
 
 /// What held a step back.
@@ -121,7 +126,8 @@ class Simulation {
   const std::vector<SimulatedPair>& pairs() const;   ///< enabled ones with a body that moves
   const EnergyAccount& energy() const;
   const SimulationCounters& counters() const;
-  /// What is probably a mistake in the scene, each with a remedy: free bodies that nothing can hold.
+  /// What is probably a mistake in the scene, each with a remedy: free bodies that nothing can hold, that
+  /// have no pair, whose mass cannot lie within them, or that begin deep in another.
   const std::vector<std::string>& warnings() const;
   /// Whether the error of the energy balance is within SimulationSettings::energy_tolerance.
   bool energyIsBalanced() const;

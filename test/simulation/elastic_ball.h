@@ -1,0 +1,136 @@
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include "base/pi.h"
+#include "concave_distance/mesh/surface/primitives.h"
+#include "simulation/scene_builder.h"
+
+namespace concave_distance::test {
+
+/// An exact ball without any loss but friction's, on a body of the same material. All lengths go with the
+/// radius, and Young's modulus too, so that the ball sinks in by the same share of it at every scale.
+struct ElasticBall {
+  double radius = 1.0;  ///< metres
+  FrictionModel friction = FrictionModel::Bristle;
+  /// Of the defaults' bristles, which suit a radius of about 0.1 m: this many times as stiff, and damped so
+  /// that they decay in the same number of the scene's own times.
+  double bristles = 1.0;
+
+  double modulus() const { return inContact(material(), material()).contact_modulus; }
+  Material material() const {
+    Material material;
+    material.youngs_modulus = 1e8 * radius;
+    material.poissons_ratio = 0.3;
+    material.dissipation = 0.0;
+    material.static_friction = material.dynamic_friction = 0.6;
+    return material;
+  }
+  double mass() const { return 1000.0 * 4.0 / 3.0 * kPi * radius * radius * radius; }
+  /// Hertz's, of the load on a body whose surface and the ball's make this radius.
+  double depthUnder(double load, double relative_radius) const {
+    return std::pow(0.75 * load / (modulus() * std::sqrt(relative_radius)), 2.0 / 3.0);
+  }
+
+  /// On the body "ground"; the ball is body 1.
+  SceneBuilder on(SurfaceMesh ground, const Eigen::Vector3d& centre) const {
+    SceneBuilder builder;
+    builder.addBody("ground", std::move(ground)).material = material();
+    RoundShape shape;
+    shape.radius = radius;
+    shape.chord_error = 0.01 * radius;
+    builder.addRoundBody("ball", shape).material = material();
+    EffectSettings& effects = builder.addPair().effects;
+    effects.normal_force.emplace();
+    effects.normal_force->model = NormalForceModel::Hertz;
+    effects.friction.model = friction;
+    effects.friction.bristle_stiffness *= bristles;
+    effects.friction.bristle_damping *= std::sqrt(bristles);
+    builder.setFree("ball", mass()).pose = at(centre.x(), centre.y(), centre.z());
+    builder.settings.tracking = SimulationTracking::SingleMinimum;
+    return builder;
+  }
+
+  /// Over a plane at z = 0, `height` below its lowest point.
+  SceneBuilder overPlane(double height) const {
+    SceneBuilder builder = on(makeBox({20.0 * radius, 20.0 * radius, 4.0 * radius}), {0, 0, radius + height});
+    addGround(builder, at(0.0, 0.0, -2.0 * radius));
+    return builder;
+  }
+
+  /// Rolls along x on a plane that is long enough for that time.
+  SceneBuilder rollingOnPlane(double speed, double duration) const {
+    const double length = 2.0 * (speed * duration + 4.0 * radius);
+    SceneBuilder builder =
+        on(makeBox({length, 8.0 * radius, 4.0 * radius}), {0, 0, radius - depthUnder(9.81 * mass(), radius)});
+    SimulatedBodySettings& ball = builder.settings.bodies.back();
+    ball.velocity = {speed, 0.0, 0.0};
+    ball.angular_velocity = {0.0, speed / radius, 0.0};
+    addGround(builder, at(0.0, 0.0, -2.0 * radius));
+    return builder;
+  }
+
+  /// At rest in a bowl of five times its radius, `angle` from the bowl's lowest point.
+  SceneBuilder inBowl(double angle) const;
+
+  static void addGround(SceneBuilder& builder, const Eigen::Isometry3d& pose) {
+    SimulatedBodySettings ground;
+    ground.body = "ground";
+    ground.motion = BodyMotion::Fixed;
+    ground.pose = pose;
+    builder.settings.bodies.push_back(ground);
+  }
+};
+
+/// A spherical shell that is open above: the centre is the origin, the rim 1.1 rad from the lowest point.
+inline SurfaceMesh makeBowl(double inner_radius, double outer_radius) {
+  constexpr std::size_t kRings = 40;
+  constexpr std::size_t kAround = 120;
+  constexpr double kRim = 1.1;
+  std::vector<Eigen::Vector3d> vertices;
+  std::vector<std::array<NodeIndex, 3>> triangles;
+  const auto add = [&](std::size_t a, std::size_t b, std::size_t c, bool turned) {
+    triangles.push_back({NodeIndex(a), NodeIndex(turned ? c : b), NodeIndex(turned ? b : c)});
+  };
+  // Of the sheet that begins at `first` with its lowest point.
+  const auto index = [&](std::size_t first, std::size_t ring, std::size_t k) {
+    return ring == 0 ? first : first + 1 + (ring - 1) * kAround + k % kAround;
+  };
+  for (const double radius : {inner_radius, outer_radius}) {
+    const std::size_t first = vertices.size();
+    const bool turned = first > 0;
+    vertices.emplace_back(0.0, 0.0, -radius);
+    for (std::size_t ring = 1; ring <= kRings; ++ring) {
+      const double angle = kRim * static_cast<double>(ring) / kRings;
+      for (std::size_t k = 0; k < kAround; ++k) {
+        const double turn = 2.0 * kPi * static_cast<double>(k) / kAround;
+        vertices.push_back(radius * Eigen::Vector3d(std::sin(angle) * std::cos(turn),
+                                                    std::sin(angle) * std::sin(turn), -std::cos(angle)));
+      }
+      for (std::size_t k = 0; k < kAround; ++k) {
+        add(index(first, ring - 1, k), index(first, ring, k), index(first, ring, k + 1), turned);
+        if (ring > 1)
+          add(index(first, ring - 1, k), index(first, ring, k + 1), index(first, ring - 1, k + 1), turned);
+      }
+    }
+  }
+  const std::size_t outer = vertices.size() / 2;
+  for (std::size_t k = 0; k < kAround; ++k) {
+    add(index(0, kRings, k), index(outer, kRings, k), index(outer, kRings, k + 1), false);
+    add(index(0, kRings, k), index(outer, kRings, k + 1), index(0, kRings, k + 1), false);
+  }
+  return SurfaceMesh(vertices, triangles, "bowl");
+}
+
+inline SceneBuilder ElasticBall::inBowl(double angle) const {
+  const double bowl = 5.0 * radius;
+  const double relative_radius = 1.0 / (1.0 / radius - 1.0 / bowl);
+  const double arm = bowl - radius + depthUnder(9.81 * mass() * std::cos(angle), relative_radius);
+  SceneBuilder builder =
+      on(makeBowl(bowl, 6.0 * radius), {arm * std::sin(angle), 0.0, -arm * std::cos(angle)});
+  addGround(builder, at(0.0, 0.0, 0.0));
+  return builder;
+}
+
+}  // namespace concave_distance::test
