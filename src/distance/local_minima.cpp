@@ -310,7 +310,7 @@ void attributeProposals(const BodyMesh& a, const BodyMesh& b, const Eigen::Isome
   WorkLimit& limit = request.limit != nullptr ? *request.limit : none;
   for (std::size_t i = request.proposals.size(); i-- > 0;) {
     const MinimumSeed& proposal = request.proposals[i];
-    if (!detail::isWithinCutoff(scene, request, proposal)) continue;
+    if (!detail::isCandidate(scene, request, proposal)) continue;
     const std::uint32_t judged = parts.verdicts.locate(scene, {proposal.a, proposal.b}, wanted, limit);
     // What locate() was the first to meet is not in the list.
     if (judged >= parts.described_as.size() || parts.described_as[judged] >= parts.places.size()) continue;

@@ -2,15 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "base/infinity.h"
 #include "cell_neighbours.h"
 #include "pair_table.h"
 
 namespace concave_distance::detail {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// A pair of facets that the flood has reached.
 struct Cell {

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/infinity.h"
 #include "branch_and_bound.h"
 #include "hierarchy_access.h"
 #include "prepared_triangle.h"
@@ -12,8 +13,6 @@ namespace {
 
 using Eigen::Vector3d;
 using Hierarchy = BoundingVolumeHierarchy;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
 

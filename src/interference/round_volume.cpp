@@ -20,7 +20,7 @@ constexpr double kWidestSector = kPi / 3.0;
 // then leave some 1e-10 of it.
 constexpr double kParabola = 0.005;
 // Nor where it is no farther from its chord than this share of the solid.
-constexpr double kStraight = 1e-10;
+constexpr double kFlat = 1e-10;
 constexpr int kMostHalvings = 16;
 // Gauss points on [0, 1], exact for cubic functions.
 constexpr std::array<double, 2> kBetween{{0.2113248654051871177, 0.7886751345948128823}};
@@ -32,7 +32,7 @@ double heightOver(const RoundShape& shape, const Vector3d& on_chord, const Vecto
 bool isParabola(const RoundShape& shape, const Vector3d& start, const Vector3d& along,
                 const Vector3d& across) {
   const double middle = heightOver(shape, start + 0.5 * along, across);
-  if (middle <= kStraight * reachOf(shape)) return true;
+  if (middle <= kFlat * reachOf(shape)) return true;
   return std::abs(heightOver(shape, start + 0.25 * along, across) - 0.75 * middle) <= kParabola * middle &&
          std::abs(heightOver(shape, start + 0.75 * along, across) - 0.75 * middle) <= kParabola * middle;
 }

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "base/infinity.h"
 #include "base/random_engine.h"
 #include "concave_distance/base/not_computed.h"
 #include "mesh/grid/mesh_metric.h"
@@ -12,7 +12,6 @@
 namespace concave_distance {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Over a run: e^-5 is 0.7 %.
 constexpr double kExponentialDecay = 5.0;
 

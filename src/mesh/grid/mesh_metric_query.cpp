@@ -1,11 +1,11 @@
 #include <algorithm>
 
+#include "base/infinity.h"
 #include "mesh_metric.h"
 
 namespace concave_distance {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::uint32_t kNoBall = std::numeric_limits<std::uint32_t>::max();
 constexpr std::uint32_t kNoNode = std::numeric_limits<std::uint32_t>::max();
 // Room for ten balls that each cover the whole mesh, smaller ones in greater number; small meshes are

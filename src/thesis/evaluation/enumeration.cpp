@@ -4,15 +4,13 @@
 #include <tbb/parallel_reduce.h>
 
 #include <algorithm>
-#include <limits>
 
+#include "base/infinity.h"
 #include "distance/surface_walk.h"
 #include "mesh/grid/node_graph.h"
 
 namespace concave_distance {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 std::vector<Eigen::Vector3d> inFrameOfA(const std::vector<Eigen::Vector3d>& points_in_b,
                                         const Eigen::Isometry3d& a_from_b) {

@@ -31,7 +31,7 @@ bool leadsToOptimum(const SceneTruth& scene, const TrialPoint& answer) {
   const SurfaceRegions regions(*scene.a, *scene.b, truth.a_from_b, truth.minima);
   const std::size_t owner = regions.ownerOf(
       {scene.a->originalTriangle(end.node_a), scene.b->originalTriangle(end.node_b), distance});
-  return owner != SurfaceRegions::kNoOwner && isOutward(truth.minima[owner]) &&
+  return owner != SurfaceRegions::kNoOwner && isNiche(truth, truth.minima[owner]) &&
          isNearest(truth, truth.minima[owner].distance);
 }
 
