@@ -9,7 +9,7 @@
 #include "distance/front_checks.h"
 #include "support/body_motions.h"
 #include "support/body_pairs.h"
-#include "support/infinity.h"
+#include "base/infinity.h"
 
 // What the front keeps over a motion against all cones from the roots at every pose.
 

@@ -14,7 +14,7 @@
 #include "support/body_pairs.h"
 #include "support/bumpy_ball.h"
 #include "support/count_allocations.h"
-#include "support/infinity.h"
+#include "base/infinity.h"
 
 // A front that is looked at in slices, by one thread or by several.
 

@@ -14,7 +14,7 @@
 #include "distance/meeting_pairs.h"
 #include "support/body_motions.h"
 #include "support/body_pairs.h"
-#include "support/infinity.h"
+#include "base/infinity.h"
 #include "support/judged_niches.h"
 
 // Verdicts by what is kept from pose to pose against floods at every pose.

@@ -8,7 +8,7 @@
 
 #include "search/mutation.h"
 #include "search/search_scenes.h"
-#include "support/infinity.h"
+#include "base/infinity.h"
 #include "support/shortest_path.h"
 
 namespace concave_distance {

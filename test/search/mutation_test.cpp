@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "search/search_scenes.h"
-#include "support/infinity.h"
+#include "base/infinity.h"
 
 namespace concave_distance {
 namespace {

@@ -12,7 +12,7 @@
 #include "search/niche_identification.h"
 #include "search/place_table.h"
 #include "search/search_scenes.h"
-#include "support/infinity.h"
+#include "base/infinity.h"
 
 namespace concave_distance {
 namespace {

@@ -9,7 +9,7 @@
 #include "concave_distance/tracking/pair_tracker.h"
 #include "distance/local_minima.h"
 #include "support/body_pairs.h"
-#include "support/infinity.h"
+#include "base/infinity.h"
 #include "support/mesh_variants.h"
 #include "thesis/evaluation/enumeration.h"
 
