@@ -5,11 +5,11 @@
 #include <atomic>
 #include <cmath>
 
+#include "base/infinity.h"
 #include "concave_distance/mesh/surface/primitives.h"
 #include "distance/front_checks.h"
 #include "support/body_motions.h"
 #include "support/body_pairs.h"
-#include "base/infinity.h"
 
 // What the front keeps over a motion against all cones from the roots at every pose.
 

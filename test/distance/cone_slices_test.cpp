@@ -8,13 +8,13 @@
 #include <cstring>
 
 #include "base/helping_threads.h"
+#include "base/infinity.h"
 #include "distance/cone_front.h"
 #include "distance/front_checks.h"
 #include "support/body_motions.h"
 #include "support/body_pairs.h"
 #include "support/bumpy_ball.h"
 #include "support/count_allocations.h"
-#include "base/infinity.h"
 
 // A front that is looked at in slices, by one thread or by several.
 

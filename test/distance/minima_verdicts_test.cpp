@@ -9,12 +9,12 @@
 #include <limits>
 #include <set>
 
+#include "base/infinity.h"
 #include "concave_distance/loading/load_body_mesh.h"
 #include "distance/cone_front.h"
 #include "distance/meeting_pairs.h"
 #include "support/body_motions.h"
 #include "support/body_pairs.h"
-#include "base/infinity.h"
 #include "support/judged_niches.h"
 
 // Verdicts by what is kept from pose to pose against floods at every pose.

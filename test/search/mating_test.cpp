@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/infinity.h"
 #include "search/mutation.h"
 #include "search/search_scenes.h"
-#include "base/infinity.h"
 #include "support/shortest_path.h"
 
 namespace concave_distance {

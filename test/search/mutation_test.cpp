@@ -5,8 +5,8 @@
 #include <rapidcheck/gtest.h>
 #include <cmath>
 
-#include "search/search_scenes.h"
 #include "base/infinity.h"
+#include "search/search_scenes.h"
 
 namespace concave_distance {
 namespace {

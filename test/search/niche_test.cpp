@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "base/infinity.h"
 #include "base/selection.h"
 #include "search/convergence.h"
 #include "search/local_descent.h"
@@ -12,7 +13,6 @@
 #include "search/niche_identification.h"
 #include "search/place_table.h"
 #include "search/search_scenes.h"
-#include "base/infinity.h"
 
 namespace concave_distance {
 namespace {

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <limits>
 
+#include "base/infinity.h"
 #include "concave_distance/tracking/pair_effects.h"
 #include "concave_distance/tracking/pair_tracker.h"
 #include "distance/local_minima.h"
 #include "support/body_pairs.h"
-#include "base/infinity.h"
 #include "support/mesh_variants.h"
 #include "thesis/evaluation/enumeration.h"
 
