@@ -12,25 +12,25 @@ namespace {
 using test::SceneBuilder;
 using test::stackOf;
 
-std::vector<std::string> warningsOf(const SceneBuilder& builder) {
+std::vector<std::string> unheldIn(const SceneBuilder& builder) {
   return detail::warnOfUnheldBodies(builder.scene, builder.settings);
 }
 
 TEST(UnheldBodies, ASimulationSaysSo) {
   SceneBuilder builder = stackOf({1.0});
   builder.scene.pairs.edit(0).enabled = false;
-  EXPECT_EQ(builder.simulation().warnings(), warningsOf(builder));
+  EXPECT_EQ(builder.simulation().warnings(), unheldIn(builder));
 }
 
 TEST(UnheldBodies, AStackOnAFloorIsHeldOverAllItsBoxes) {
-  EXPECT_TRUE(warningsOf(stackOf({1.0, 1.0, 1.0})).empty());
+  EXPECT_TRUE(unheldIn(stackOf({1.0, 1.0, 1.0})).empty());
 }
 
 TEST(UnheldBodies, WhatHangsOnNothingIsNamedWithARemedy) {
   SceneBuilder builder = stackOf({1.0, 1.0, 1.0});
   builder.scene.pairs.edit(1).settings.effects.normal_force.reset();  // box0/box1
   builder.settings.bodies[2].where = "scene.yaml:7, simulation.bodies[2]";
-  const std::vector<std::string> warnings = warningsOf(builder);
+  const std::vector<std::string> warnings = unheldIn(builder);
   ASSERT_EQ(warnings.size(), 2U);
   EXPECT_EQ(
       warnings[0],
@@ -43,7 +43,7 @@ TEST(UnheldBodies, WhatHangsOnNothingIsNamedWithARemedy) {
 TEST(UnheldBodies, ADisabledPairHoldsNothing) {
   SceneBuilder builder = stackOf({1.0});
   builder.scene.pairs.edit(0).enabled = false;
-  EXPECT_EQ(warningsOf(builder).size(), 1U);
+  EXPECT_EQ(unheldIn(builder).size(), 1U);
 }
 
 TEST(UnheldBodies, AnOpenSurfaceHoldsNothing) {
@@ -52,26 +52,26 @@ TEST(UnheldBodies, AnOpenSurfaceHoldsNothing) {
   builder.addBody("box", makeBox({0.1, 0.1, 0.1}));
   builder.addPair().effects.normal_force.emplace();
   builder.setFree("box", 1.0).pose = test::at(0.0, 0.0, 1.0);
-  EXPECT_EQ(warningsOf(builder).size(), 1U);
+  EXPECT_EQ(unheldIn(builder).size(), 1U);
 }
 
 TEST(UnheldBodies, ADriveOrALoadHoldsABodyAndWhatStandsOnIt) {
   SceneBuilder builder = stackOf({1.0, 1.0});
   builder.scene.pairs.edit(0).enabled = false;
-  EXPECT_EQ(warningsOf(builder).size(), 2U);
+  EXPECT_EQ(unheldIn(builder).size(), 2U);
   builder.settings.bodies[1].loads.emplace_back();
-  EXPECT_TRUE(warningsOf(builder).empty());
+  EXPECT_TRUE(unheldIn(builder).empty());
   builder.settings.bodies[1].loads.clear();
   builder.settings.bodies[1].drive.emplace();
   builder.settings.bodies[1].drive->target = {{0.0, Eigen::Isometry3d::Identity()}};
-  EXPECT_TRUE(warningsOf(builder).empty());
+  EXPECT_TRUE(unheldIn(builder).empty());
 }
 
 TEST(UnheldBodies, WithoutGravityNothingFalls) {
   SceneBuilder builder = stackOf({1.0});
   builder.scene.pairs.edit(0).enabled = false;
   builder.settings.gravity.setZero();
-  EXPECT_TRUE(warningsOf(builder).empty());
+  EXPECT_TRUE(unheldIn(builder).empty());
 }
 
 }  // namespace

@@ -102,7 +102,7 @@ class DaeChecks : public pugi::xml_tree_walker {
     std::int64_t value = -1;
     if (!parseWhole(word, value) || value < 0 || static_cast<std::uint64_t>(value) > file_size_) {
       throw Error(path_,
-                  tag + " states a " + name + " of " + quoted(word) + " in a file of " +
+                  tag + " states a " + name + " of " + inQuotes(word) + " in a file of " +
                       std::to_string(file_size_) + " bytes",
                   kExportAgain);
     }
@@ -144,7 +144,7 @@ class DaeChecks : public pugi::xml_tree_walker {
       if (parseWhole(word, index) && index >= 0 && index <= std::numeric_limits<std::int32_t>::max())
         continue;
       throw Error(path_,
-                  "a <" + std::string(element) + "> contains " + quoted(word) + ", which is not an index",
+                  "a <" + std::string(element) + "> contains " + inQuotes(word) + ", which is not an index",
                   kExportAgain);
     }
   }

@@ -30,7 +30,7 @@ PlyType typeOf(std::string_view name, const std::string& path) {
   for (const auto& [names, type] : types) {
     if (name == names[0] || name == names[1]) return type;
   }
-  refuse(path, "names the type " + quoted(name));
+  refuse(path, "names the type " + inQuotes(name));
 }
 
 PlyProperty readProperty(TextWords& words, const std::string& path) {
@@ -40,7 +40,7 @@ PlyProperty readProperty(TextWords& words, const std::string& path) {
   if (property.is_list) {
     const std::string_view count = words.wordInLine();
     property.count = typeOf(count, path);
-    if (!property.count.is_whole) refuse(path, "counts a list in numbers of the type " + quoted(count));
+    if (!property.count.is_whole) refuse(path, "counts a list in numbers of the type " + inQuotes(count));
     type = words.wordInLine();
   }
   property.value = typeOf(type, path);
@@ -54,12 +54,12 @@ PlyElement readElement(TextWords& words, const std::string& path, std::size_t fi
   const std::string_view word = words.wordInLine();
   std::int64_t count = -1;
   if (!parseWhole(word, count) || count < 0) {
-    refuse(path, "gives the element " + quoted(element.name) + " the count " + quoted(word));
+    refuse(path, "gives the element " + inQuotes(element.name) + " the count " + inQuotes(word));
   }
   element.count = static_cast<std::uint64_t>(count);
   // Every element takes a byte at least.
   if (element.count > file_size) {
-    refuse(path, "announces " + std::to_string(count) + " elements " + quoted(element.name) +
+    refuse(path, "announces " + std::to_string(count) + " elements " + inQuotes(element.name) +
                      " in a file of " + std::to_string(file_size) + " bytes");
   }
   return element;
@@ -70,7 +70,7 @@ void readFormat(TextWords& words, PlyHeader& header, const std::string& path) {
   header.is_text = format == "ascii";
   header.little_endian = format == "binary_little_endian";
   if (!header.is_text && !header.little_endian && format != "binary_big_endian") {
-    refuse(path, "names the format " + quoted(format));
+    refuse(path, "names the format " + inQuotes(format));
   }
 }
 
@@ -99,7 +99,7 @@ void giveCoordinateRoles(PlyElement& element, const std::string& path) {
   for (const auto& [name, role] : {std::pair{"x", PlyRole::X}, {"y", PlyRole::Y}, {"z", PlyRole::Z}}) {
     PlyProperty* coordinate = find(element, name);
     if (coordinate == nullptr || coordinate->is_list) {
-      refuse(path, "gives the element 'vertex' no number " + quoted(name));
+      refuse(path, "gives the element 'vertex' no number " + inQuotes(name));
     }
     coordinate->role = role;
   }
@@ -107,18 +107,19 @@ void giveCoordinateRoles(PlyElement& element, const std::string& path) {
 
 void giveRoles(PlyElement& element, const std::string& path) {
   if (element.count == 0) return;
-  if (element.properties.empty()) refuse(path, "gives the element " + quoted(element.name) + " no property");
+  if (element.properties.empty())
+    refuse(path, "gives the element " + inQuotes(element.name) + " no property");
   if (element.name == "vertex") return giveCoordinateRoles(element, path);
   PlyProperty* corners = findCorners(element);
   const bool is_face = element.name == "face";
   if (is_face || element.name == "tristrips") {
     if (corners == nullptr || !corners->value.is_whole) {
       refuse(path,
-             "gives the element " + quoted(element.name) + " no list 'vertex_indices' of whole numbers");
+             "gives the element " + inQuotes(element.name) + " no list 'vertex_indices' of whole numbers");
     }
     corners->role = is_face ? PlyRole::Corners : PlyRole::Strip;
   } else if (corners != nullptr) {
-    throw Error(path, "the PLY element " + quoted(element.name) + " has corners, but is not known",
+    throw Error(path, "the PLY element " + inQuotes(element.name) + " has corners, but is not known",
                 "export the mesh with elements 'face' or 'tristrips'");
   }
 }
@@ -156,7 +157,7 @@ PlyHeader readPlyHeader(std::string_view content, const std::string& path) {
       header.body_line = words.lineNumber() + 1;
       return header;
     } else if (!word.empty() && word != "comment" && word != "obj_info") {
-      refuse(path, "has the word " + quoted(word) + " in line " + std::to_string(words.lineNumber()));
+      refuse(path, "has the word " + inQuotes(word) + " in line " + std::to_string(words.lineNumber()));
     }
     properties += word == "property" || word == "element" ? 1 : 0;
     if (properties > kMostProperties) {

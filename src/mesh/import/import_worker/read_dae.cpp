@@ -25,7 +25,7 @@ Eigen::Affine3d toEigen(const aiMatrix4x4& m) {
 }
 
 FileMesh toFileMesh(const aiMesh& mesh) {
-  FileMesh converted({"face", " of mesh " + quoted(mesh.mName.C_Str())});
+  FileMesh converted({"face", " of mesh " + inQuotes(mesh.mName.C_Str())});
   converted.vertices().reserve(mesh.mNumVertices);
   for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
     const aiVector3D& p = mesh.mVertices[v];

@@ -31,9 +31,9 @@ class ObjReader {
       readFace();
     } else if (statement == "surf" || statement == "bsp" || statement == "bzp" || statement == "cdc" ||
                statement == "cdp" || statement == "res") {
-      throw Error(path_,
-                  "line " + std::to_string(line_) + " is a surface of free form (" + quoted(statement) + ")",
-                  "export the mesh with its surfaces as polygons");
+      throw Error(
+          path_, "line " + std::to_string(line_) + " is a surface of free form (" + inQuotes(statement) + ")",
+          "export the mesh with its surfaces as polygons");
     }
   }
 
@@ -62,7 +62,7 @@ class ObjReader {
 
   [[noreturn]] void refuse(std::string_view word, const std::string& expected) const {
     throw Error(path_,
-                "line " + std::to_string(line_) + " has " + (word.empty() ? "an end" : quoted(word)) +
+                "line " + std::to_string(line_) + " has " + (word.empty() ? "an end" : inQuotes(word)) +
                     " instead of " + expected,
                 kExportAgain);
   }

@@ -63,7 +63,7 @@ class PlyNumbers {
   void endRecord() {
     if (!header_.is_text) return;
     const std::string_view word = words_.wordInLine();
-    if (!word.empty()) refuse("is followed by " + quoted(word) + " in line " + line());
+    if (!word.empty()) refuse("is followed by " + inQuotes(word) + " in line " + line());
   }
 
   void endBody() const {
@@ -82,20 +82,20 @@ class PlyNumbers {
 
   [[noreturn]] void refuse(const std::string& what) const {
     throw Error(path_,
-                "the PLY element " + quoted(element_->name) + " " + std::to_string(index_) + " " + what,
+                "the PLY element " + inQuotes(element_->name) + " " + std::to_string(index_) + " " + what,
                 kExportAgain);
   }
 
  private:
   [[noreturn]] void refuseEnd() const {
     throw Error(path_,
-                "the PLY file breaks off in " + quoted(element_->name) + " " + std::to_string(index_) +
+                "the PLY file breaks off in " + inQuotes(element_->name) + " " + std::to_string(index_) +
                     " of " + std::to_string(element_->count),
                 kExportAgain);
   }
 
   [[noreturn]] void refuseWord(std::string_view word, const std::string& expected) const {
-    refuse("has " + quoted(word) + " instead of " + expected + " in line " + line());
+    refuse("has " + inQuotes(word) + " instead of " + expected + " in line " + line());
   }
 
   std::string line() const { return std::to_string(header_.body_line + words_.lineNumber() - 1); }

@@ -52,7 +52,7 @@ class TextReader {
       throw Error(path_, "the STL file breaks off in " + line + ", where " + expected + " is missing",
                   kExportAgain);
     }
-    throw Error(path_, line + " has " + quoted(word) + " instead of " + expected, kExportAgain);
+    throw Error(path_, line + " has " + inQuotes(word) + " instead of " + expected, kExportAgain);
   }
 
   void expect(const char* wanted) {

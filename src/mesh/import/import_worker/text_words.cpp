@@ -78,7 +78,7 @@ bool equalsInAnyCase(std::string_view text, std::string_view lower) {
          });
 }
 
-std::string quoted(std::string_view text) {
+std::string inQuotes(std::string_view text) {
   std::string shown(text.substr(0, 40));
   for (char& c : shown) {
     if (c < ' ' || c > '~') c = '?';

@@ -43,7 +43,7 @@ bool parseWhole(std::string_view word, std::int64_t& value);
 /// For ASCII letters; `lower` is in lower case.
 bool equalsInAnyCase(std::string_view text, std::string_view lower);
 /// The text in quotes for an error: at most 40 characters, none of them invisible.
-std::string quoted(std::string_view text);
+std::string inQuotes(std::string_view text);
 
 /// The text without the byte order mark of UTF-8.
 std::string_view withoutByteOrderMark(std::string_view text);
