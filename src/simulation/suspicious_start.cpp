@@ -1,8 +1,8 @@
 #include "suspicious_start.h"
+#include "base/number_text.h"
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace concave_distance::detail {
 namespace {
@@ -40,7 +40,7 @@ std::vector<std::string> warnOfMasses(const Scene& scene, const SimulationSettin
     const double width = box.diagonal().norm();
     const std::string name = nameOf(settings, scene.bodies[i].name);
     const double outside = distanceTo(box, rigid.centreInBody());
-    std::ostringstream text;
+    TextStream text;
     text.imbue(std::locale::classic());
     if (outside > width) {
       text << name << " has its centre of mass " << outside << " m outside its surface, which is " << width
@@ -111,7 +111,7 @@ std::vector<std::string> warnOfDeepStarts(const SimulationSettings& settings,
     const double usual = std::max(mass * kGravityOnEarth * moving[i].radius(),
                                   moving[i].rigid().kineticEnergy(moving[i].state()));
     if (!(stored > usual)) continue;
-    std::ostringstream text;
+    TextStream text;
     text.imbue(std::locale::classic());
     text.precision(3);
     text << nameOf(settings, bodies[i].name) << " begins " << depth << " m deep in '" << bodies[other].name
