@@ -1,8 +1,9 @@
 #include "suspicious_start.h"
-#include "base/number_text.h"
 
 #include <algorithm>
 #include <cmath>
+
+#include "base/number_text.h"
 
 namespace concave_distance::detail {
 namespace {
