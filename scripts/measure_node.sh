@@ -88,7 +88,8 @@ measure() { # <title> <topic, or distances+markers: without and with markers> <c
 robots=/usr/share/doc/dart/data
 measure_robot() { # <URDF> <pairs>
   [ -f "$1" ] || die "$1 is missing: apt-get install dart-doc"
-  local srdf="$build_dir/$(basename "$1" .urdf).srdf"
+  local srdf
+  srdf="$build_dir/$(basename "$1" .urdf).srdf"
   "$package_dir/scripts/write_srdf.py" "$1" "$2" >"$srdf"
   measure "$(basename "$1" .urdf), $2 pairs at 50 Hz" distances+markers -1 own_robot.launch urdf:="$1" srdf:="$srdf" \
     joints:=sway rate:=50
