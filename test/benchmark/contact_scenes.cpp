@@ -25,7 +25,7 @@ namespace {
 ContactScenes allScenes() {
   ContactScenes all;
   for (const auto& group : {overlapScenes(), impactScenes(), restScenes(), frictionScenes(), rollingScenes(),
-                            balanceScenes(), untouchedScenes(), speedScenes()}) {
+                            elasticScenes(), balanceScenes(), untouchedScenes(), speedScenes()}) {
     all.insert(all.end(), group.begin(), group.end());
   }
   return all;

@@ -21,6 +21,7 @@ ContactScenes impactScenes();     ///< thin walls, bounces
 ContactScenes restScenes();       ///< corners, stacks, heavy on light
 ContactScenes frictionScenes();   ///< spinning, twisting, a swinging load
 ContactScenes rollingScenes();    ///< round bodies
+ContactScenes elasticScenes();    ///< balls without loss at three scales, friction on and off
 ContactScenes balanceScenes();    ///< momentum, order of convergence, works
 ContactScenes untouchedScenes();  ///< a pair that asks for no effects
 ContactScenes speedScenes();      ///< scenes of config/, regions of large meshes
