@@ -52,9 +52,10 @@ void rolls(SceneReport& report, const ElasticBall& ball) {
       1.0, 0.01, "no loss", run.figures());
 }
 
-/// Swings: the largest kinetic energy of the last quarter over that of the first.
+/// Swings: the largest kinetic energy of the last quarter over that of the first. A swing in a bowl for a
+/// ball of 100 m takes longer than 10 s.
 void rollsInBowl(SceneReport& report, const ElasticBall& ball) {
-  const double duration = 10.0;
+  const double duration = 10.0 * std::max(1.0, std::sqrt(ball.radius));
   SceneRun run(ball.inBowl(0.3).simulation(), duration, report);
   double first = 0.0;
   double last = 0.0;
@@ -63,9 +64,8 @@ void rollsInBowl(SceneReport& report, const ElasticBall& ball) {
     if (run.time() < 0.25 * duration) first = std::max(first, kinetic);
     if (run.time() > 0.75 * duration) last = std::max(last, kinetic);
   }
-  report.equals(
-      {"largest kinetic energy in a bowl from 7.5 s to 10 s over that of the first 2.5 s", "1", last / first},
-      1.0, 0.01, "no loss", run.figures());
+  report.equals({"largest kinetic energy in a bowl, last quarter over the first", "1", last / first}, 1.0,
+                0.01, "no loss", run.figures());
   report.atMost({"energy balance over the largest kinetic energy", "1",
                  run.simulation().energy().balanceError() / run.simulation().energy().largest_kinetic},
                 0.01, "1 %", run.figures());
