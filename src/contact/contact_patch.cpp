@@ -47,7 +47,7 @@ class NearestBristles {
   const SiteBristles* nearest_ = nullptr;
 };
 
-/// Of the same cell.
+/// Returns the bristles that the cell of this site had.
 const SiteBristles* findBristles(const PatchMemory& memory, const RubbingSite& site) {
   const auto found =
       std::lower_bound(memory.bristles.begin(), memory.bristles.end(), site.cell,
@@ -55,8 +55,8 @@ const SiteBristles* findBristles(const PatchMemory& memory, const RubbingSite& s
   return found != memory.bristles.end() && found->cell == site.cell ? &*found : nullptr;
 }
 
-/// Of the nearest one: where a body rolls on under a force, what it comes to is bent as what it leaves, or it
-/// would creep. @param last_cell_size of the bristles in `memory`
+/// Returns the bristles of the nearest cell. A body that rolls on under a force would creep if the cells that
+/// it comes to began unbent. @param last_cell_size of the bristles in `memory`
 const SiteBristles* findNearest(const PatchMemory& memory, double last_cell_size, const RubbingSite& site) {
   NearestBristles nearest(site, memory.cell_size);
   for (const SiteBristles& known : memory.bristles) nearest.consider(known, last_cell_size);

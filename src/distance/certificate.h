@@ -44,8 +44,8 @@ struct DistanceCertificate {
 /// E: the error of a proof, relative to the scene's scale (proofScale). Composed of the kernel's 32 machine
 /// epsilons, the widening of the boxes (32) and the rounding of their bounds (2 x 16): doc/numerics.md.
 inline constexpr double kProofError = 0x1.0p-45;  // 128 machine epsilons
-/// What a pose and its product with a far centre lose to rounding is at most 16 machine epsilons of their
-/// size: this share of kProofError.
+/// A pose and its product with a far centre lose at most 16 machine epsilons of their size to rounding: this
+/// share of kProofError.
 inline constexpr double kPoseShare = 0.125;
 
 /// The scene's scale that errors are relative to: how far the bodies' surfaces reach from their centres, how

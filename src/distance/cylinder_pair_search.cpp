@@ -20,8 +20,7 @@ constexpr int kMostSections = 80;
 // Two features closer to parallel than this have no normal in common that says anything.
 constexpr double kParallel = 1e-300;
 
-/// Of the chords of the disc at an end of `owner` (own frame), the point with the least signed distance to
-/// `solid`.
+/// Finds the point with the least signed distance to `solid` on the disc at an end of `owner` (own frame).
 class DiscSearch {
  public:
   DiscSearch(const RoundShape& solid, const RoundShape& owner, const Isometry3d& solid_from_owner, double end)

@@ -312,7 +312,7 @@ void attributeProposals(const BodyMesh& a, const BodyMesh& b, const Eigen::Isome
     const MinimumSeed& proposal = request.proposals[i];
     if (!detail::isCandidate(scene, request, proposal)) continue;
     const std::uint32_t judged = parts.verdicts.locate(scene, {proposal.a, proposal.b}, wanted, limit);
-    // What locate() was the first to meet is not in the list.
+    // A place that locate() was the first to meet is not in the list.
     if (judged >= parts.described_as.size() || parts.described_as[judged] >= parts.places.size()) continue;
     const std::size_t place = parts.places[parts.described_as[judged]];
     if (place != LocalMinima::kNoOwner) result.niches[place].proposal = i;

@@ -24,7 +24,7 @@ class ShallowRoundVolume {
 
   double volume() const { return ends_ + middle_; }
   Eigen::Vector3d moment() const { return moment_; }
-  /// Of the solid's surface inside the mesh.
+  /// Returns the area of the solid's surface inside the mesh, m^2.
   double area() const;
 
  private:

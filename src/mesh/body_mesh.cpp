@@ -288,6 +288,7 @@ const RecentredBody& BodyMesh::recentred() const {
     if (options.shape) options.shape->body_from_shape.pretranslate(-origin);
     part.value.mesh = std::make_shared<BodyMesh>(name(), movedTo(surface(), origin, name()), options);
     part.value.origin = origin;
+    part.bytes = part.value.mesh->memoryBytes();
   });
   return part.value;
 }
@@ -360,10 +361,12 @@ std::size_t BodyMesh::memoryBytes() const {
                     nodes->levels.memoryBytes();
   }
   if (const MeshMetric* metric = metricIfMade()) search_bytes += metric->memoryBytes();
+  // A body that nobody has solved far from its origin is not made for its size.
+  if (state_->recentred.bytes > 0) search_bytes += recentred().mesh->memoryBytes();
   return sizeof(BodyMesh) + sizeof(State) + mesh_bytes(surface()) + topology_bytes + search_bytes +
          state_->parts.tree.memoryBytes() + state_->parts.hierarchy.memoryBytes() + state_->adjacency.bytes +
          state_->joints.bytes + state_->facets.bytes + state_->pieces.bytes + state_->cones[0].bytes +
-         state_->cones[1].bytes + (asSolved().surface_ != surface_ ? asSolved().memoryBytes() : 0);
+         state_->cones[1].bytes;
 }
 
 }  // namespace concave_distance

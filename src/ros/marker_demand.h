@@ -12,9 +12,10 @@
 
 namespace concave_distance {
 
-/// Of which pairs the markers need niches, and in which cycle these are computed. Niches cost far more than
-/// distances, and a picture must not slow the cycle down: only pairs that were selected in the last second
-/// are asked, those with the oldest niches first, a few in each cycle. In between, the last niches are drawn.
+/// Decides of which pairs the markers need niches, and in which cycle these are computed. Niches cost far
+/// more than distances, and a picture must not slow the cycle down: only pairs that were selected in the last
+/// second are asked, those with the oldest niches first, a few in each cycle. In between, the last niches are
+/// drawn.
 class MarkerDemand {
  public:
   /// Before a cycle: chooses the pairs that are asked in it. @param seconds that they may take, on average

@@ -24,7 +24,7 @@ struct MarkedPair {
   bool knows_niches = false;  ///< false: its niches were not asked for
 };
 
-/// What the markers show, and what they need for it.
+/// The pairs that the markers show, and those whose niches they need for it.
 struct MarkerSelection {
   std::vector<DrawnPair> drawn;           ///< ascending by distance
   std::vector<const PairNiches*> wanted;  ///< pairs whose niches are needed, also of those drawn

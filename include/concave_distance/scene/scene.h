@@ -92,7 +92,7 @@ class PairList : public NamedList<ScenePair> {
   PlaceIndex by_bodies_;
 };
 
-/// What bodies added later, and their pairs, have where nothing else is said: a scene file's `defaults`.
+/// The `defaults` of a scene file, which bodies that are added later and their pairs start from.
 struct SceneDefaults {
   PairSettings pairs;
   std::optional<double> max_edge_length;  ///< m; empty: automatic

@@ -55,7 +55,7 @@ class SceneTracker {
   /// @param settings_changed false: no pair of both scenes has other settings, and none is solved anew
   /// @throws Error for a pair whose bodies are not two bodies with meshes of the scene
   void setScene(const Scene& scene, bool settings_changed = true);
-  /// Of each pair of a scene, its place in pairs() if setScene() would let it go on. @throws Error as
+  /// Returns for each pair of a scene its place in pairs() if setScene() would let it go on. @throws Error as
   /// setScene()
   std::vector<std::optional<std::size_t>> placesNow(const Scene& scene) const;
 

@@ -32,7 +32,7 @@ class TrackedEffects {
   void keep();
   void goBack();
 
-  /// Of the last update(), unless forgotten; nullptr while no effects are wanted.
+  /// Returns the contacts of the last update(), unless forgotten; nullptr while no effects are wanted.
   const PairContacts* contacts() const { return effects_ ? &contacts_ : nullptr; }
   /// With the surfaces and pressures of contacts(); nullptr while no effects are wanted.
   const PairEffects* effects() const { return effects_.get(); }

@@ -213,7 +213,7 @@ bool PolygonCutter::clipAll(std::vector<Triangle>& triangles) {
   return true;
 }
 
-/// Four corners that are not in a plane: no two of their edges meet, whatever they look like along any axis.
+/// True for four corners that are not in a plane: no two of their edges meet, seen along any axis.
 bool PolygonCutter::isSkewQuad() const {
   if (corners_.size() != 4) return false;
   double largest_face = 0.0;

@@ -16,7 +16,7 @@ class TextWords {
  public:
   explicit TextWords(std::string_view text) : text_(text) {}
 
-  /// The next word, on whatever line. Empty at the end of the text.
+  /// Returns the next word, on this line or a later one. Empty at the end of the text.
   std::string_view word();
   /// The next word of this line. Empty at its end.
   std::string_view wordInLine();
@@ -35,8 +35,8 @@ class TextWords {
   std::uint64_t line_number_ = 1;
 };
 
-/// Reads a whole word as a number, whatever the locale. False when it is none or too large; what is too small
-/// for a double is 0.
+/// Reads a whole word as a number, in the same way in every locale. False when it is none or too large; what
+/// is too small for a double is 0.
 bool parseNumber(std::string_view word, double& value);
 bool parseWhole(std::string_view word, std::int64_t& value);
 
