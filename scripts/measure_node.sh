@@ -76,7 +76,7 @@ measure() { # <title> <topic, or distances+markers: without and with markers> <c
   done
   local with
   for with in "${markers[@]}"; do
-    echo "$title; subscribed: $topic$([ "$with" = false ] || echo " and markers"); roslaunch concave_distance $*"
+    echo "$title; subscribed: $topic$([ "$with" = false ] || echo " and markers"); roslaunch concave_distance ${*//$package_dir\//}"
     "$build_dir/devel/lib/concave_distance/node_timing" _node:=/concave_distance _seconds:="$seconds" \
       _topic:="$topic" _cutoff:="$cutoff" _markers:="$with"
   done
