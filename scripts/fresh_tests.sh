@@ -27,17 +27,15 @@ done
 test_dir="$package_dir/test"
 # Properties that draw with the package's own engine (test/support/case_seed.h).
 declare -A own=(
-  [triangle_distance_accuracy_test]='*'
-  [union_of_solids_test]='*ContainsExactlyTheMaterial*:*ARepairedUnionStays*'
-  [union_of_solids_query_test]='*'
-  [union_cgal_test]='*'
+  [distance_tests]='EveryFamily*:ExactTriangleDistance.*'
+  [mesh_tests]='*ContainsExactlyTheMaterial*:*ARepairedUnionStays*'
+  [tracking_tests]='QueriesOfUnions.*'
+  [cgal_tests]='UnionAgainstCgal.*'
 )
 if [ ${#programs[@]} -eq 0 ]; then
-  mapfile -t programs < <(sed -n 's/^target_link_libraries(\(\w*\) PRIVATE concave_distance_property_tests.*/\1/p' \
-    "$test_dir"/*/CMakeLists.txt | sort)
-  programs+=("${!own[@]}")
+  mapfile -t programs < <(printf '%s\n' "${!own[@]}" base_tests interference_tests scene_tests search_tests | sort)
 fi
-properties="$(sed -n 's/^RC_GTEST_PROP(\(\w*\), *\(\w*\),.*/\1.\2/p' "$test_dir"/*/*.cpp | paste -sd:)"
+properties="$(find "$test_dir" -name '*_test.cpp' -exec sed -n 's/^RC_GTEST_PROP(\(\w*\), *\(\w*\),.*/\1.\2/p' {} + | paste -sd:)"
 
 missing=()
 for program in "${programs[@]}"; do
@@ -59,7 +57,7 @@ failed=0
 for program in "${programs[@]}"; do
   log="$results/$program.log"
   status=0
-  filter="${only:-${own[$program]:-$properties}}"
+  filter="${only:-$properties:${own[$program]:-}}"
   "$build_dir/test/bin/$program" --gtest_filter="$filter" >"$log" 2>&1 || status=$?
   good="$(grep -c '^\[       OK \]' "$log" || true)"
   bad="$(grep -c '^\[  FAILED  \] .*ms)$' "$log" || true)"

@@ -3,4 +3,4 @@
 set -euo pipefail
 # shellcheck source=scripts/common.sh
 . "$(dirname "${BASH_SOURCE[0]}")/common.sh"
-CONCAVE_DISTANCE_WRITE_TABLES=1 "$build_dir/test/bin/ros_units_test" --gtest_filter='ParameterDocumentation.*'
+CONCAVE_DISTANCE_WRITE_TABLES=1 "$build_dir/test/bin/ros_tests" --gtest_filter='ParameterDocumentation.*'

@@ -4,7 +4,7 @@
 
 #include "architecture/include_scan.h"
 
-namespace concave_distance {
+namespace concave_distance::include_scan_test {
 namespace {
 
 std::string joined(const std::vector<std::string>& lines) {
@@ -75,4 +75,4 @@ TEST(IncludeScan, ReportsASourceFileWhoseOwnHeaderIsNotFirst) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::include_scan_test

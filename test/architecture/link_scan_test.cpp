@@ -13,7 +13,7 @@
 
 #include "concave_distance/mesh/surface/surface_mesh.h"
 
-namespace concave_distance {
+namespace concave_distance::link_scan_test {
 namespace {
 
 /// Every shared object of this process, which links the core and GoogleTest and nothing else.
@@ -104,4 +104,4 @@ TEST(Architecture, NoMessageIsWrittenByAStreamOfTheGlobalLocale) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::link_scan_test

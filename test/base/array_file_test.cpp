@@ -11,7 +11,7 @@
 
 #include "support/temporary_folder.h"
 
-namespace concave_distance {
+namespace concave_distance::array_file_test {
 namespace {
 
 constexpr ContentKey kKey{3, 5};
@@ -183,4 +183,4 @@ TEST(ContentHash, IsXxh3) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::array_file_test

@@ -6,7 +6,7 @@
 
 #include "base/random_engine.h"
 
-namespace concave_distance {
+namespace concave_distance::expiry_queue_test {
 namespace {
 
 TEST(ExpiryQueues, TakeOutWhatTheirClockHasReachedAndNothingElse) {
@@ -94,4 +94,4 @@ TEST(ExpiryQueues, WithoutMemoryTakeOutTooMuchRatherThanTooLittle) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::expiry_queue_test

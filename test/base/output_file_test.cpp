@@ -8,7 +8,7 @@
 #include "concave_distance/base/error.h"
 #include "support/temporary_folder.h"
 
-namespace concave_distance {
+namespace concave_distance::output_file_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -101,4 +101,4 @@ TEST_F(OutputFileTest, RefusesAFileThatIsAnInputOrAnotherOutputByAnyLink) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::output_file_test

@@ -7,7 +7,7 @@
 #include <set>
 #include <vector>
 
-namespace concave_distance {
+namespace concave_distance::pair_key_test {
 namespace {
 
 TEST(PairKey, DiffersForEveryPairAndForTheSwappedOne) {
@@ -35,4 +35,4 @@ TEST(PairKey, NeighbouringPairsSpreadOverTheTable) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::pair_key_test

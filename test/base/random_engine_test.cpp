@@ -4,7 +4,7 @@
 
 #include <array>
 
-namespace concave_distance {
+namespace concave_distance::random_engine_test {
 namespace {
 
 TEST(RandomEngine, GivesTheSameStreamOnEveryPlatform) {
@@ -53,4 +53,4 @@ TEST(StreamSeed, DependsOnEachOfItsKeys) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::random_engine_test

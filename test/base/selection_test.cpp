@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace concave_distance {
+namespace concave_distance::selection_test {
 namespace {
 
 std::vector<std::uint32_t> countEach(const std::vector<std::uint32_t>& selected, std::size_t individuals) {
@@ -120,4 +120,4 @@ TEST(Shuffle, PermutesAndReachesEveryOrderEquallyOften) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::selection_test

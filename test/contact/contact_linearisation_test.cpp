@@ -7,7 +7,7 @@
 #include "concave_distance/contact/friction.h"
 #include "concave_distance/contact/normal_force.h"
 
-namespace concave_distance {
+namespace concave_distance::contact_linearisation_test {
 namespace {
 
 const ContactMaterial kElastic{1e9, 0.4, 0.6, 0.4, 0.0};
@@ -105,4 +105,4 @@ TEST(ContactLinearisation, TheExpectedDepthIsThatOfAnUndampedImpactOrTheWeight) 
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::contact_linearisation_test

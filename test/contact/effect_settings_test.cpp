@@ -6,7 +6,7 @@
 
 #include "concave_distance/base/error.h"
 
-namespace concave_distance {
+namespace concave_distance::effect_settings_test {
 namespace {
 
 std::vector<EffectStage> stagesOf(const EffectSettings& settings) {
@@ -75,4 +75,4 @@ TEST(EffectSettings, FrictionWithoutANormalForceIsRefused) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::effect_settings_test

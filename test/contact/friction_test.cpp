@@ -10,7 +10,7 @@
 #include "base/pi.h"
 #include "concave_distance/base/error.h"
 
-namespace concave_distance {
+namespace concave_distance::friction_test {
 namespace {
 
 const ContactMaterial kMaterial{1e9, 0.1, 0.6, 0.4, 0.0};
@@ -137,4 +137,4 @@ TEST(Friction, ParametersOutOfRangeAreNamed) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::friction_test

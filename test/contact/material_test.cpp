@@ -6,7 +6,7 @@
 
 #include "concave_distance/base/error.h"
 
-namespace concave_distance {
+namespace concave_distance::material_test {
 namespace {
 
 TEST(Material, ContactModulusIsTheFractionOfEquationA2) {
@@ -95,4 +95,4 @@ TEST(Material, WhatNoMaterialHasIsRefusedByName) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::material_test

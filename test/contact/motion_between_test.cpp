@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace concave_distance {
+namespace concave_distance::motion_between_test {
 namespace {
 
 TEST(MotionBetween, IsTheWayOverTheTimeWithoutATurn) {
@@ -40,4 +40,4 @@ TEST(MotionBetween, IsZeroWhereNoTimeHasPassed) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::motion_between_test

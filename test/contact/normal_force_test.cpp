@@ -9,7 +9,7 @@
 #include "contact/contact_point.h"
 #include "support/hunt_crossley_rebound.h"
 
-namespace concave_distance {
+namespace concave_distance::normal_force_test {
 namespace {
 
 /// A sphere of radius R that dips into a plane by d: the circle that the plane cuts from it.
@@ -154,4 +154,4 @@ TEST(ContactPoint, TheMomentOfAForceIsTakenAboutTheGivenPoint) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::normal_force_test

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace concave_distance {
+namespace concave_distance::rubbing_sites_test {
 namespace {
 
 /// As a triangle of a mesh is sampled that lies whole in the overlap: at the middles of its edges.
@@ -49,4 +49,4 @@ TEST(RubbingSites, AStripHasFewSites) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::rubbing_sites_test

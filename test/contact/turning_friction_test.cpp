@@ -5,7 +5,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-namespace concave_distance {
+namespace concave_distance::turning_friction_test {
 namespace {
 
 constexpr double kArm = 0.05;
@@ -139,4 +139,4 @@ TEST(TurningFriction, WithoutCoefficientsThereIsNone) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::turning_friction_test

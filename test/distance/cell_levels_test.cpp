@@ -7,7 +7,7 @@
 #include "support/exact_triangle_distance.h"
 #include "support/triangle_pairs.h"
 
-namespace concave_distance {
+namespace concave_distance::cell_levels_test {
 namespace {
 
 class EveryFamily : public testing::TestWithParam<test::TrianglePairFamily> {};
@@ -98,4 +98,4 @@ INSTANTIATE_TEST_SUITE_P(CellLevels, EveryFamily, testing::ValuesIn(test::kTrian
                          });
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::cell_levels_test

@@ -4,7 +4,7 @@
 #include "support/body_pairs.h"
 #include "support/count_allocations.h"
 
-namespace concave_distance {
+namespace concave_distance::certificate_allocation_test {
 namespace {
 
 TEST(Certificate, AllocatesNothingOnceItsWorkspaceHasGrown) {
@@ -19,4 +19,4 @@ TEST(Certificate, AllocatesNothingOnceItsWorkspaceHasGrown) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::certificate_allocation_test

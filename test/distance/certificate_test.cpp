@@ -6,7 +6,7 @@
 #include "support/body_pairs.h"
 #include "thesis/evaluation/enumeration.h"
 
-namespace concave_distance {
+namespace concave_distance::certificate_test {
 namespace {
 
 using Eigen::Isometry3d;
@@ -171,4 +171,4 @@ TEST(Certificate, NamesTheTrianglesThatMeet) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::certificate_test

@@ -13,7 +13,7 @@
 
 // What the front keeps over a motion against all cones from the roots at every pose.
 
-namespace concave_distance::detail {
+namespace concave_distance::detail::cone_front_test {
 namespace {
 
 using Eigen::Isometry3d;
@@ -139,4 +139,4 @@ TEST(ConeFront, BeginsAnewForAnotherCutoffAndOtherSides) {
 }
 
 }  // namespace
-}  // namespace concave_distance::detail
+}  // namespace concave_distance::detail::cone_front_test

@@ -18,7 +18,7 @@
 
 // A front that is looked at in slices, by one thread or by several.
 
-namespace concave_distance::detail {
+namespace concave_distance::detail::cone_slices_test {
 namespace {
 
 using test::makeBumpyBall;
@@ -165,4 +165,4 @@ TEST(ConeSlices, AllocateNothingInAWarmCycle) {
 }
 
 }  // namespace
-}  // namespace concave_distance::detail
+}  // namespace concave_distance::detail::cone_slices_test

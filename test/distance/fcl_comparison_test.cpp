@@ -9,7 +9,7 @@
 #include "support/body_pairs.h"
 #include "thesis/evaluation/enumeration.h"
 
-namespace concave_distance {
+namespace concave_distance::fcl_comparison_test {
 namespace {
 
 using FclModel = fcl::BVHModel<fcl::OBBRSSd>;
@@ -84,4 +84,4 @@ TEST(CertifiedDistance, AgreesWithFclOnConcavePairsColdAndTracked) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::fcl_comparison_test

@@ -13,7 +13,7 @@
 
 // The proven list of niches on scenes whose niches are known, and what must not change its answer.
 
-namespace concave_distance {
+namespace concave_distance::local_minima_cases_test {
 namespace {
 
 using Eigen::AngleAxisd;
@@ -306,4 +306,4 @@ RC_GTEST_PROP(LocalMinimaProperty, ScalingTheSceneScalesTheDistances, ()) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::local_minima_cases_test

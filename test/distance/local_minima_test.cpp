@@ -7,7 +7,7 @@
 
 // The proven list of niches against brute force over all triangle pairs: none invented, none missing.
 
-namespace concave_distance {
+namespace concave_distance::local_minima_test {
 namespace {
 
 using Eigen::AngleAxisd;
@@ -140,4 +140,4 @@ TEST(LocalMinima, OfTheBatteryInItsFixtureAreNineOutwards) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::local_minima_test

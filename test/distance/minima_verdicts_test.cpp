@@ -19,7 +19,7 @@
 
 // Verdicts by what is kept from pose to pose against floods at every pose.
 
-namespace concave_distance::detail {
+namespace concave_distance::detail::minima_verdicts_test {
 namespace {
 
 using Eigen::Isometry3d;
@@ -386,4 +386,4 @@ TEST(CellBorder, LosesExactlyWhatComesNearerThanTheLevel) {
 }
 
 }  // namespace
-}  // namespace concave_distance::detail
+}  // namespace concave_distance::detail::minima_verdicts_test

@@ -10,7 +10,7 @@
 #include "support/mesh_variants.h"
 #include "thesis/evaluation/enumeration.h"
 
-namespace concave_distance {
+namespace concave_distance::niche_extent_test {
 namespace {
 
 using Eigen::AngleAxisd;
@@ -372,4 +372,4 @@ TEST(NicheExtent, CostsNoMoreForBodiesFarApart) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::niche_extent_test

@@ -11,7 +11,7 @@
 #include "support/body_pairs.h"
 #include "thesis/evaluation/enumeration.h"
 
-namespace concave_distance {
+namespace concave_distance::niche_properties_test {
 namespace {
 
 using Eigen::Isometry3d;
@@ -194,4 +194,4 @@ TEST(IsVisible, TheClosestPairAlwaysIs) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::niche_properties_test

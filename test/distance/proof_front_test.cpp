@@ -6,7 +6,7 @@
 #include "support/body_pairs.h"
 #include "thesis/evaluation/enumeration.h"
 
-namespace concave_distance {
+namespace concave_distance::proof_front_test {
 namespace {
 
 using Eigen::Isometry3d;
@@ -130,4 +130,4 @@ TEST(ProofFront, BeginsAnewOnceCleared) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::proof_front_test

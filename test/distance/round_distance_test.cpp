@@ -15,7 +15,7 @@
 #include "support/round_bodies.h"
 #include "support/wide_cylinder_distance.h"
 
-namespace concave_distance {
+namespace concave_distance::round_distance_test {
 namespace {
 
 using Eigen::Isometry3d;
@@ -288,4 +288,4 @@ TEST(RoundCertificate, WhoHoldsWhomIsKnown) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::round_distance_test

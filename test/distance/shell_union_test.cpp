@@ -11,7 +11,7 @@
 #include "support/body_pairs.h"
 #include "support/cgal_overlap.h"
 
-namespace concave_distance {
+namespace concave_distance::shell_union_test {
 namespace {
 
 using Eigen::Isometry3d;
@@ -172,4 +172,4 @@ TEST(UnionOfShells, HasNoConesForWhatIsHidden) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::shell_union_test

@@ -14,7 +14,7 @@
 #include "support/exact_triangle_distance.h"
 #include "support/triangle_pairs.h"
 
-namespace concave_distance {
+namespace concave_distance::triangle_distance_accuracy_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -158,4 +158,4 @@ TEST(ExactTriangleDistance, AgreesWithRationalArithmetic) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::triangle_distance_accuracy_test

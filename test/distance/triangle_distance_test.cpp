@@ -8,7 +8,7 @@
 #include "support/exact_triangle_distance.h"
 #include "support/triangle_pairs.h"
 
-namespace concave_distance {
+namespace concave_distance::triangle_distance_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -178,4 +178,4 @@ TEST(PointTriangleDistance, ReachesEveryFeature) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::triangle_distance_test

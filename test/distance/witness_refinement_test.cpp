@@ -8,7 +8,7 @@
 #include "support/body_pairs.h"
 #include "thesis/evaluation/enumeration.h"
 
-namespace concave_distance {
+namespace concave_distance::witness_refinement_test {
 namespace {
 
 using Eigen::Isometry3d;
@@ -267,4 +267,4 @@ TEST(RefineWitness, DescendsAcrossAFineMeshAllTheWay) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::witness_refinement_test

@@ -31,10 +31,6 @@ WidePoint movedBack(const Eigen::Isometry3d& pose, const WidePoint& p) {
   return {row(0), row(1), row(2)};
 }
 
-long double length(const WidePoint& v) {
-  return std::sqrt(v.squaredNorm());
-}
-
 long double distanceOfTriangles(const WideTriangle& l, const WideTriangle& r) {
   return std::sqrt(exactSquaredDistance(l, r));
 }

@@ -13,7 +13,7 @@
 namespace concave_distance::test {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 constexpr const char* kPairName = "niche_hunt";
 /// Poses that are tried around one where the lists differ.
 constexpr int kNearbyPoses = 8;
@@ -34,9 +34,9 @@ void toggle(RandomEngine& engine, double size, TrackerParameters& parameters) {
   if (changes())
     parameters.largest_niche_count = uniformIndex(engine, 2) == 0 ? 64 : 1 + uniformIndex(engine, 3);
   if (changes())
-    parameters.cutoff = uniformIndex(engine, 2) == 0 ? kInfinity : uniformIn(engine, 0.05, 1.5) * size;
+    parameters.cutoff = uniformIndex(engine, 2) == 0 ? kUnlimited : uniformIn(engine, 0.05, 1.5) * size;
   if (changes()) {
-    const double limits[] = {0.0, 0.5, 4.0, kInfinity};
+    const double limits[] = {0.0, 0.5, 4.0, kUnlimited};
     parameters.prominence_limit = limits[uniformIndex(engine, 4)];
   }
   if (changes())

@@ -7,7 +7,7 @@
 #include "fuzz/niche_comparison.h"
 #include "fuzz/niche_hunt_scene.h"
 
-namespace concave_distance::test {
+namespace concave_distance::test::niche_hunt_test {
 namespace {
 
 constexpr std::uint64_t kSeed = 20250101;
@@ -89,4 +89,4 @@ TEST_F(TrackedRings, HaveNoFalseNicheAfterAListThatWasCut) {
 }
 
 }  // namespace
-}  // namespace concave_distance::test
+}  // namespace concave_distance::test::niche_hunt_test

@@ -140,7 +140,7 @@ SurfaceMesh skyline(RandomEngine& engine) {
   for (std::size_t i = 0; i < outline.size(); ++i) {
     const Eigen::Vector2d before = outline[(i + outline.size() - 1) % outline.size()];
     const Eigen::Vector2d after = outline[(i + 1) % outline.size()];
-    if (detail::turn(before, outline[i], after) != 0.0) corners.push_back(outline[i]);
+    if (parts::turn(before, outline[i], after) != 0.0) corners.push_back(outline[i]);
   }
   return makeExtrusion(corners, 2.0 * (1 + uniformIndex(engine, 2)));
 }

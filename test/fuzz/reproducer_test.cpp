@@ -11,7 +11,7 @@
 #include "support/csv_table.h"
 #include "support/query_bound.h"
 
-namespace concave_distance::test {
+namespace concave_distance::test::reproducer_test {
 namespace {
 
 constexpr std::uint64_t kScenes = 20;
@@ -63,4 +63,4 @@ TEST(Reproducer, IsAnsweredByDistanceQueryAsTheSceneWas) {
 }
 
 }  // namespace
-}  // namespace concave_distance::test
+}  // namespace concave_distance::test::reproducer_test

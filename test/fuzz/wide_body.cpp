@@ -16,10 +16,6 @@ std::uint32_t rootOf(std::vector<std::uint32_t>& parent, std::uint32_t i) {
   return i;
 }
 
-long double length(const WidePoint& v) {
-  return std::sqrt(v.squaredNorm());
-}
-
 void addPoint(const WidePoint& point, long double tolerance, std::vector<WidePoint>& points) {
   const auto is_same = [&](const WidePoint& other) { return length(other - point) <= tolerance; };
   if (std::none_of(points.begin(), points.end(), is_same)) points.push_back(point);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -55,6 +56,10 @@ class WideBody {
 };
 
 /// The point of a triangle, a segment or a point (repeated corners) that is nearest to p.
+inline long double length(const WidePoint& v) {
+  return std::sqrt(v.squaredNorm());
+}
+
 WidePoint closestOnTriangle(const WidePoint& p, const WideTriangle& triangle);
 
 }  // namespace concave_distance::test

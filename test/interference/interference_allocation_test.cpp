@@ -4,7 +4,7 @@
 #include "support/body_pairs.h"
 #include "support/count_allocations.h"
 
-namespace concave_distance {
+namespace concave_distance::interference_allocation_test {
 namespace {
 
 TEST(Interference, AllocatesNothingOnceItsWorkspaceHasGrown) {
@@ -28,4 +28,4 @@ TEST(Interference, AllocatesNothingOnceItsWorkspaceHasGrown) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::interference_allocation_test

@@ -8,7 +8,7 @@
 #include "support/mesh_variants.h"
 #include "support/random_solids.h"
 
-namespace concave_distance {
+namespace concave_distance::interference_cgal_test {
 namespace {
 
 TEST(InterferenceOfRandomConcavePairs, HasTheRegionsVolumesAndAreasOfCgalsBooleans) {
@@ -54,4 +54,4 @@ TEST(InterferenceOfRandomConcavePairs, HasTheRegionsVolumesAndAreasOfCgalsBoolea
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::interference_cgal_test

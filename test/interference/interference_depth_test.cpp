@@ -5,7 +5,7 @@
 #include "interference/interference_checks.h"
 #include "support/random_solids.h"
 
-namespace concave_distance {
+namespace concave_distance::interference_depth_test {
 namespace {
 
 /// Where a line along z meets a surface whose vertices have been turned there: heights and triangles.
@@ -108,4 +108,4 @@ TEST(InterferenceDepth, IsTheTranslationThatTakesConvexBodiesApart) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::interference_depth_test

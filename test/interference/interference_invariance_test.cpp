@@ -8,7 +8,7 @@
 #include "support/mesh_variants.h"
 #include "support/random_solids.h"
 
-namespace concave_distance {
+namespace concave_distance::interference_invariance_test {
 namespace {
 
 struct RandomPair {
@@ -211,4 +211,4 @@ RC_GTEST_PROP(InterferenceOfAnySurfaces, EndsAndNumbersAreFiniteOrNotGiven, ()) 
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::interference_invariance_test

@@ -6,7 +6,7 @@
 #include "support/mesh_variants.h"
 #include "support/thesis_scenes.h"
 
-namespace concave_distance {
+namespace concave_distance::interference_test {
 namespace {
 
 using test::interferenceOf;
@@ -374,4 +374,4 @@ TEST(Interference, RefusesWhatIsNoPose) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::interference_test

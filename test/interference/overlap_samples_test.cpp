@@ -14,7 +14,7 @@
 #include "support/concave_shapes.h"
 #include "support/random_solids.h"
 
-namespace concave_distance {
+namespace concave_distance::overlap_samples_test {
 namespace {
 
 /// Sums over a region's samples, with unit stiffness.
@@ -217,4 +217,4 @@ TEST(OverlapSamples, TheDepthChangesByNoMoreThanTheWay) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::overlap_samples_test

@@ -12,7 +12,7 @@
 #include "support/round_bodies.h"
 #include "support/round_overlaps.h"
 
-namespace concave_distance {
+namespace concave_distance::round_overlap_test {
 namespace {
 
 using Body = std::shared_ptr<const BodyMesh>;
@@ -360,4 +360,4 @@ TEST(RoundOverlap, ACylinderThinnerThanAHairIsStillASolid) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::round_overlap_test

@@ -8,7 +8,7 @@
 #include "support/round_bodies.h"
 #include "support/round_overlaps.h"
 
-namespace concave_distance {
+namespace concave_distance::round_pair_overlap_test {
 namespace {
 
 using Body = std::shared_ptr<const BodyMesh>;
@@ -102,4 +102,4 @@ TEST(RoundOverlap, SwappedBodiesMirrorTheRegions) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::round_pair_overlap_test

@@ -12,7 +12,7 @@
 #include "support/round_cuts.h"
 #include "support/round_overlaps.h"
 
-namespace concave_distance {
+namespace concave_distance::round_volume_test {
 namespace {
 
 using Body = std::shared_ptr<const BodyMesh>;
@@ -285,4 +285,4 @@ TEST(RoundVolume, WhatIsSwallowedHasItsOwnVolumeWhereverItLies) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::round_volume_test

@@ -4,7 +4,7 @@
 
 #include "concave_distance/base/error.h"
 
-namespace concave_distance {
+namespace concave_distance::frame_name_test {
 namespace {
 
 TEST(FrameName, TakesWhatTf2CanLookUp) {
@@ -33,4 +33,4 @@ TEST(FrameName, OfAnotherPublisherMayHaveBlanks) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::frame_name_test

@@ -31,7 +31,7 @@
 #include "scene/set_warning_distance.h"
 #include "support/scene_fixture.h"
 
-namespace concave_distance {
+namespace concave_distance::locale_test {
 namespace {
 
 const std::string kUrdf = test::robot(
@@ -292,4 +292,4 @@ TEST_F(LocaleTest, OfCAndCppChangesNothing) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::locale_test

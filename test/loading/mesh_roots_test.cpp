@@ -11,7 +11,7 @@
 #include "mesh/import/mesh_file.h"
 #include "support/temporary_folder.h"
 
-namespace concave_distance {
+namespace concave_distance::mesh_roots_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -191,4 +191,4 @@ TEST(MeshImport, LimitsReachTheFilesOfAScene) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::mesh_roots_test

@@ -6,7 +6,7 @@
 #include <thread>
 #include <vector>
 
-namespace concave_distance {
+namespace concave_distance::message_capture_test {
 namespace {
 
 using detail::MessageCapture;
@@ -91,4 +91,4 @@ TEST_F(MessageCaptureTest, OneAtATimeInAProcess) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::message_capture_test

@@ -6,7 +6,7 @@
 
 #include "support/scene_fixture.h"
 
-namespace concave_distance {
+namespace concave_distance::own_robot_test {
 namespace {
 
 using test::bodyNames;
@@ -219,4 +219,4 @@ TEST_F(OwnRobot, AnSrdfOfMoveItLeavesThePairsThatItDoesNotDisable) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::own_robot_test

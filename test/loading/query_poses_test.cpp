@@ -7,7 +7,7 @@
 #include "concave_distance/base/error.h"
 #include "support/temporary_folder.h"
 
-namespace concave_distance {
+namespace concave_distance::query_poses_test {
 namespace {
 
 using test::TemporaryFolder;
@@ -110,4 +110,4 @@ TEST(PoseOf, RefusesOtherQuaternionsAndNumbersThatAreNotFinite) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::query_poses_test

@@ -8,7 +8,7 @@
 #include "concave_distance/base/error.h"
 #include "support/temporary_folder.h"
 
-namespace concave_distance {
+namespace concave_distance::resource_locator_test {
 namespace {
 
 class ResourceLocator : public ::testing::Test {
@@ -135,4 +135,4 @@ TEST_F(ResourceLocator, PackagesAreFoundBelowFoldersThatAreNamed) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::resource_locator_test

@@ -4,7 +4,7 @@
 
 #include "support/scene_fixture.h"
 
-namespace concave_distance {
+namespace concave_distance::robot_scene_test {
 namespace {
 
 using test::bareLink;
@@ -505,4 +505,4 @@ TEST(RobotSceneAlone, ReadsTheSrdfBesideTheRobotDescription) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::robot_scene_test

@@ -6,7 +6,7 @@
 #include "loading/set_effects.h"
 #include "support/scene_fixture.h"
 
-namespace concave_distance {
+namespace concave_distance::scene_effects_test {
 namespace {
 
 using test::mentions;
@@ -231,4 +231,4 @@ TEST_F(SceneEffects, AnOpenBodyThatIsToPushIsToldOf) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::scene_effects_test

@@ -10,7 +10,7 @@
 #include "search/genetic_parameter_table.h"
 #include "support/scene_fixture.h"
 
-namespace concave_distance {
+namespace concave_distance::scene_file_test {
 namespace {
 
 using test::bodyNames;
@@ -517,4 +517,4 @@ TEST_F(SceneFile, NamesTheParametersItNeeds) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::scene_file_test

@@ -8,7 +8,7 @@
 #include "scene/body_pool.h"
 #include "support/scene_fixture.h"
 
-namespace concave_distance {
+namespace concave_distance::scene_loading_test {
 namespace {
 
 using test::bodyNames;
@@ -347,4 +347,4 @@ TEST_F(SceneLoading, StrictlyAProblemIsAnError) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::scene_loading_test

@@ -2,7 +2,7 @@
 
 #include "support/scene_fixture.h"
 
-namespace concave_distance {
+namespace concave_distance::scene_pairs_test {
 namespace {
 
 using test::boxLink;
@@ -240,4 +240,4 @@ TEST_F(ScenePairs, GroupsAndDefaultsStayWithTheSceneForBodiesThatComeLater) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::scene_pairs_test

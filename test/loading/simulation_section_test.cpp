@@ -2,7 +2,7 @@
 
 #include "support/scene_fixture.h"
 
-namespace concave_distance {
+namespace concave_distance::simulation_section_test {
 namespace {
 
 using test::mentions;
@@ -134,4 +134,4 @@ TEST_F(SimulationSection, TheInertiaOfALinkComesInTheLinksAxes) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::simulation_section_test

@@ -5,7 +5,7 @@
 
 #include "support/body_bytes.h"
 
-namespace concave_distance {
+namespace concave_distance::parallel_build_test {
 namespace {
 
 /// A bumpy torus: enough triangles that its trees are built in several tasks on several levels.
@@ -65,4 +65,4 @@ TEST(ParallelBuild, ErrorsNameTheBodyAndLeaveNoHalfBuiltPartsBehind) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::parallel_build_test

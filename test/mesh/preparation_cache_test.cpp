@@ -13,7 +13,7 @@
 #include "support/body_pairs.h"
 #include "support/scene_fixture.h"
 
-namespace concave_distance {
+namespace concave_distance::preparation_cache_test {
 namespace {
 
 using test::mentions;
@@ -262,4 +262,4 @@ TEST(PreparationCache, TheDefaultFolderIsTheUsers) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::preparation_cache_test

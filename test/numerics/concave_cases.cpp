@@ -10,14 +10,6 @@ namespace {
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-GivenPose at(double x, double y, double z) {
-  return givenPose(Quaterniond::Identity(), {x, y, z});
-}
-
-Quaterniond turn(double angle, const Vector3d& axis) {
-  return Quaterniond(Eigen::AngleAxisd(angle, axis.normalized()));
-}
-
 SurfaceMesh makeCube(double half) {
   return makeCuboid(Vector3d::Constant(-half), Vector3d::Constant(half));
 }

@@ -10,11 +10,6 @@ namespace {
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-/// About an axis by an angle, as exact in double precision as a quaternion can say it.
-Quaterniond turn(double angle, const Vector3d& axis) {
-  return Quaterniond(Eigen::AngleAxisd(angle, axis.normalized()));
-}
-
 /// Regular, one corner down at the origin of its frame, one unit across.
 SurfaceMesh makeOctahedron() {
   return makeSurface(

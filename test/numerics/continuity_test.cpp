@@ -12,7 +12,7 @@
 #include "support/body_pairs.h"
 #include "support/query_bound.h"
 
-namespace concave_distance {
+namespace concave_distance::continuity_test {
 namespace {
 
 struct Track {
@@ -144,4 +144,4 @@ INSTANTIATE_TEST_SUITE_P(Continuity, ContinuityOfLevel,
                          [](const auto& info) { return std::string(toString(info.param)); });
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::continuity_test

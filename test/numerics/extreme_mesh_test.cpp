@@ -11,7 +11,7 @@
 #include "support/body_pairs.h"
 #include "support/temporary_folder.h"
 
-namespace concave_distance {
+namespace concave_distance::extreme_mesh_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -70,4 +70,4 @@ TEST(ExtremeMesh, ABodyWithoutExtentInDoublePrecisionIsRefused) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::extreme_mesh_test

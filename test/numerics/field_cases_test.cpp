@@ -10,7 +10,7 @@
 #include "support/exact_query.h"
 #include "support/query_bound.h"
 
-namespace concave_distance {
+namespace concave_distance::field_cases_test {
 namespace {
 
 using Eigen::Quaterniond;
@@ -213,4 +213,4 @@ TEST(FieldCases, WitnessesTellHowFarToMoveUntilContact) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::field_cases_test

@@ -12,10 +12,6 @@ namespace {
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-GivenPose at(double x, double y, double z) {
-  return givenPose(Quaterniond::Identity(), {x, y, z});
-}
-
 GivenPose askew(double x, double y, double z) {
   return givenPose(Quaterniond(Eigen::AngleAxisd(1.3, Vector3d(0.2, 0.9, -0.5).normalized())), {x, y, z});
 }

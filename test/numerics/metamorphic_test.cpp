@@ -13,7 +13,7 @@
 #include "support/mesh_variants.h"
 #include "support/query_bound.h"
 
-namespace concave_distance {
+namespace concave_distance::metamorphic_test {
 namespace {
 
 using Eigen::Isometry3d;
@@ -150,4 +150,4 @@ TEST(MetamorphicOfRandomPairs, APowerOfTwoScalesTheAnswerExactly) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::metamorphic_test

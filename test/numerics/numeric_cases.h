@@ -39,4 +39,14 @@ std::vector<NumericCase> poseCases();
 /// Nested, swallowed and linked bodies, combs, pegs.
 std::vector<NumericCase> concaveCases();
 
+/// Shifted and not turned.
+inline GivenPose at(double x, double y, double z) {
+  return givenPose(Eigen::Quaterniond::Identity(), {x, y, z});
+}
+
+/// About an axis by an angle, as exact in double precision as a quaternion can say it.
+inline Eigen::Quaterniond turn(double angle, const Eigen::Vector3d& axis) {
+  return Eigen::Quaterniond(Eigen::AngleAxisd(angle, axis.normalized()));
+}
+
 }  // namespace concave_distance::test

@@ -15,10 +15,6 @@ SurfaceMesh shifted(const SurfaceMesh& mesh, const Vector3d& shift) {
   return movedSurface(mesh, Eigen::Isometry3d(Eigen::Translation3d(shift)));
 }
 
-Quaterniond turn(double angle, const Vector3d& axis) {
-  return Quaterniond(Eigen::AngleAxisd(angle, axis.normalized()));
-}
-
 }  // namespace
 
 std::vector<NumericCase> poseCases() {

@@ -15,7 +15,7 @@
 #include "support/body_pairs.h"
 #include "support/query_bound.h"
 
-namespace concave_distance {
+namespace concave_distance::query_accuracy_test {
 namespace {
 
 using test::NumericCase;
@@ -248,4 +248,4 @@ INSTANTIATE_TEST_SUITE_P(ConcaveBodies, HardCase,
                          nameOf);
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::query_accuracy_test

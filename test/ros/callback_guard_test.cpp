@@ -6,7 +6,7 @@
 
 #include "ros/log_throttle.h"
 
-namespace concave_distance {
+namespace concave_distance::callback_guard_test {
 namespace {
 
 TEST(CallbackGuard, KeepsEveryExceptionInside) {
@@ -28,4 +28,4 @@ TEST(Printable, WritesControlCharactersAsCodesAndCutsLongTexts) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::callback_guard_test

@@ -14,7 +14,7 @@
 #include "ros/distance_cycle.h"
 #include "ros/pair_demands.h"
 
-namespace concave_distance {
+namespace concave_distance::contacts_test {
 namespace {
 
 using test::kContacts;
@@ -214,4 +214,4 @@ TEST(DescribeEffects, TellsRunsAndShares) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::contacts_test

@@ -9,7 +9,7 @@
 #include "concave_distance/base/error.h"
 #include "ros/request_conversions.h"
 
-namespace concave_distance {
+namespace concave_distance::conversions_test {
 namespace {
 
 geometry_msgs::Pose unitPose() {
@@ -300,4 +300,4 @@ TEST(HasDistance, IsTrueOfEveryStatusThatASolveReachesWithADistance) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::conversions_test

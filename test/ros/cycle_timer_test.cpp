@@ -8,7 +8,7 @@
 #include <functional>
 #include <thread>
 
-namespace concave_distance {
+namespace concave_distance::cycle_timer_test {
 namespace {
 
 bool comesTrue(const std::function<bool()>& condition, double seconds) {
@@ -63,4 +63,4 @@ TEST_F(CycleTimerTest, TakesAnotherRate) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::cycle_timer_test

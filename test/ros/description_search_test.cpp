@@ -4,7 +4,7 @@
 
 #include <map>
 
-namespace concave_distance {
+namespace concave_distance::description_search_test {
 namespace {
 
 using Parameters = std::map<std::string, std::string>;
@@ -56,4 +56,4 @@ TEST(DescriptionSearch, WhatIsNoXmlIsFoundOnlyWhenNothingElseIs) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::description_search_test

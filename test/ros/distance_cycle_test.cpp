@@ -9,7 +9,7 @@
 #include "box_scene.h"
 #include "ros/scene_edits.h"
 
-namespace concave_distance {
+namespace concave_distance::distance_cycle_test {
 namespace {
 
 using test::kDistance;
@@ -269,4 +269,4 @@ TEST_F(DistanceCycleTest, RestartsOnRequest) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::distance_cycle_test

@@ -9,7 +9,7 @@
 #include "box_scene.h"
 #include "support/plain_shapes.h"
 
-namespace concave_distance {
+namespace concave_distance::distance_queries_test {
 namespace {
 
 using test::kRounding;
@@ -210,4 +210,4 @@ TEST_F(DistanceQueriesTest, RefuseContactsBeyondTheMemoryOfTheAnswer) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::distance_queries_test

@@ -10,7 +10,7 @@
 #include <fstream>
 #include <thread>
 
-namespace concave_distance {
+namespace concave_distance::helper_threads_test {
 namespace {
 
 std::size_t runs(std::size_t helpers) {
@@ -50,4 +50,4 @@ TEST(RunWithHelpersDeathTest, GoesOnWithTheThreadsThatThereAre) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::helper_threads_test

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace concave_distance {
+namespace concave_distance::lateness_monitor_test {
 namespace {
 
 constexpr double kWanted = 50.0;
@@ -102,4 +102,4 @@ TEST_F(LatenessMonitorTest, ASlowSimulationIsNotLate) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::lateness_monitor_test

@@ -8,7 +8,7 @@
 #include "ros/conversions.h"
 #include "ros/niche_markers.h"
 
-namespace concave_distance {
+namespace concave_distance::markers_test {
 namespace {
 
 using visualization_msgs::Marker;
@@ -178,4 +178,4 @@ TEST(BodyMarkers, ShowWhatTheRobotModelDoesNot) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::markers_test

@@ -10,7 +10,7 @@
 #include "ros/distance_cycle.h"
 #include "ros/pair_demands.h"
 
-namespace concave_distance {
+namespace concave_distance::nearest_test {
 namespace {
 
 using test::kDistance;
@@ -138,4 +138,4 @@ TEST_F(NearestTest, SaysThatNoPairIsWatched) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::nearest_test

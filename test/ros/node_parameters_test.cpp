@@ -9,7 +9,7 @@
 #include "ros/reconfiguration.h"
 #include "ros/simulation_runner.h"
 
-namespace concave_distance {
+namespace concave_distance::node_parameters_test {
 namespace {
 
 NodeParameters parse(const XmlRpc::XmlRpcValue& values) {
@@ -312,4 +312,4 @@ TEST(NodeParameters, LimitsOfTheImportReachIt) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::node_parameters_test

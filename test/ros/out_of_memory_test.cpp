@@ -14,7 +14,7 @@
 #include "ros/pair_demands.h"
 #include "support/fail_allocations.h"
 
-namespace concave_distance {
+namespace concave_distance::out_of_memory_test {
 namespace {
 
 using test::kDistance;
@@ -147,4 +147,4 @@ TEST_F(OutOfMemoryTest, AQueryIsAnsweredWithoutAThrow) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::out_of_memory_test

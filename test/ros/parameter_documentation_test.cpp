@@ -18,7 +18,7 @@
 #include "scene/simulation_parameters.h"
 #include "search/genetic_parameter_table.h"
 
-namespace concave_distance {
+namespace concave_distance::parameter_documentation_test {
 namespace {
 
 using test::tableHead;
@@ -155,4 +155,4 @@ TEST(TestingDocumentation, NamesEveryRostestCaseAndNoOther) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::parameter_documentation_test

@@ -15,7 +15,7 @@
 #include "ros/pair_demands.h"
 #include "ros/scene_markers.h"
 
-namespace concave_distance {
+namespace concave_distance::pressure_markers_test {
 namespace {
 
 using test::kContacts;
@@ -198,4 +198,4 @@ TEST_F(PressureMarkers, LetOneBodyOfThePairBeSeenThrough) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::pressure_markers_test

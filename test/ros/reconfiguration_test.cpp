@@ -8,7 +8,7 @@
 
 #include "concave_distance/base/error.h"
 
-namespace concave_distance {
+namespace concave_distance::reconfiguration_test {
 namespace {
 
 using Config = ConcaveDistanceConfig;
@@ -57,4 +57,4 @@ TEST(Reconfiguration, IsNotClampedBeforeTheNodeSeesIt) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::reconfiguration_test

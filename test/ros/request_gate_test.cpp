@@ -7,7 +7,7 @@
 
 #include "concave_distance/base/error.h"
 
-namespace concave_distance {
+namespace concave_distance::request_gate_test {
 namespace {
 
 constexpr double kLong = 600.0;  // s
@@ -93,4 +93,4 @@ TEST(RequestGate, StoppingRefusesThoseWhoWaitOrComeAndSaysSoToThoseWhoWork) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::request_gate_test

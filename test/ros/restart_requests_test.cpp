@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace concave_distance {
+namespace concave_distance::restart_requests_test {
 namespace {
 
 TEST(RestartRequests, KeepEachPairOnceHoweverOftenItIsAskedFor) {
@@ -38,4 +38,4 @@ TEST(RestartRequests, OfEverMorePairsAreOneForAll) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::restart_requests_test

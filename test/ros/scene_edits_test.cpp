@@ -4,7 +4,7 @@
 
 #include "concave_distance/base/error.h"
 
-namespace concave_distance {
+namespace concave_distance::scene_edits_test {
 namespace {
 
 using Names = std::vector<std::string>;
@@ -241,4 +241,4 @@ TEST(SetPairEnabled, TakesGroupsAndPatternsForBodies) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::scene_edits_test

@@ -14,7 +14,7 @@
 #include "ros/marker_selection.h"
 #include "ros/scene_markers.h"
 
-namespace concave_distance {
+namespace concave_distance::scene_markers_test {
 namespace {
 
 using visualization_msgs::Marker;
@@ -492,4 +492,4 @@ TEST(WarningTints, ABodyThatTakesAnothersNumberTakesItsTintOver) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::scene_markers_test

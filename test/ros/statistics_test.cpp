@@ -6,7 +6,7 @@
 #include "ros/cycle_statistics.h"
 #include "ros/diagnostics.h"
 
-namespace concave_distance {
+namespace concave_distance::statistics_test {
 namespace {
 
 using diagnostic_msgs::DiagnosticStatus;
@@ -121,4 +121,4 @@ TEST(DescribeScene, TellsWhatCouldNotBeLoaded) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::statistics_test

@@ -5,7 +5,7 @@
 
 #include <limits>
 
-namespace concave_distance {
+namespace concave_distance::tf_poses_test {
 namespace {
 
 const ros::Time kStart(100, 0);
@@ -136,4 +136,4 @@ TEST(TfPoses, WaitNoLongerThanTold) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::tf_poses_test

@@ -13,7 +13,7 @@
 #include "ros/tf_poses.h"
 #include "ros/transform_message.h"
 
-namespace concave_distance {
+namespace concave_distance::transform_buffer_test {
 namespace {
 
 using test::transformOf;
@@ -293,4 +293,4 @@ TEST(TfPosesOfFarTimes, AreMissingAndDoNotThrow) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::transform_buffer_test

@@ -9,7 +9,7 @@
 #include "base/pi.h"
 #include "base/random_engine.h"
 
-namespace concave_distance {
+namespace concave_distance::broad_phase_test {
 namespace {
 
 BodyBounds box(const Eigen::Vector3d& half_extents, const Eigen::Vector3d& centre = {0, 0, 0}) {
@@ -178,4 +178,4 @@ RC_GTEST_PROP(BroadPhase, APoseThatShrinksOrStretchesALittleIsTakenAsItIs, (std:
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::broad_phase_test

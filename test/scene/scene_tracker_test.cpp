@@ -16,7 +16,7 @@
 #include "support/scene_fixture.h"
 #include "support/solution_bytes.h"
 
-namespace concave_distance {
+namespace concave_distance::scene_tracker_test {
 namespace {
 
 using Poses = std::vector<std::optional<Eigen::Isometry3d>>;
@@ -325,4 +325,4 @@ TEST_F(RobotPosesTest, AreThoseOfTheRobotWithThePrefix) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::scene_tracker_test

@@ -6,7 +6,7 @@
 
 #include "concave_distance/base/error.h"
 
-namespace concave_distance {
+namespace concave_distance::set_warning_distance_test {
 namespace {
 
 Scene threePairs() {
@@ -58,4 +58,4 @@ TEST(SetWarningDistance, RefusesAPatternThatIsTooLongWithoutRepeatingIt) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::set_warning_distance_test

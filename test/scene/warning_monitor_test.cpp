@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace concave_distance {
+namespace concave_distance::warning_monitor_test {
 namespace {
 
 constexpr double kWarning = 0.10;
@@ -49,4 +49,4 @@ TEST(WarningMonitor, ComesBackClearWhenItWasClearBeforeTheGap) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::warning_monitor_test

@@ -6,11 +6,11 @@
 #include "mesh/grid/geodesic_extent.h"
 #include "search/search_scenes.h"
 
-namespace concave_distance {
+namespace concave_distance::automatic_radii_test {
 namespace {
 
 TEST(GeodesicExtent, OfABoxIsTheWayBetweenOppositeCorners) {
-  const auto body = test::makeBody(makeBox({1.0, 1.0, 1.0}), 0.2);
+  const auto body = test::makeSearchBody(makeBox({1.0, 1.0, 1.0}), 0.2);
   // On the surface it is sqrt(5); along the grid's edges more, at most the three edges of the box.
   const double extent = geodesicExtent(body->graph());
   EXPECT_GE(extent, std::sqrt(5.0));
@@ -27,7 +27,7 @@ TEST(GeodesicExtent, IsAveragedOverShellsByTheirNodes) {
 }
 
 TEST(Protrusions, OfABoxAreItsCorners) {
-  const auto body = test::makeBody(makeBox({1.0, 0.8, 0.6}), 0.1);
+  const auto body = test::makeSearchBody(makeBox({1.0, 0.8, 0.6}), 0.1);
   const auto protrusions = findProtrusions(body->graph(), 0.02);
   ASSERT_EQ(protrusions.size(), 8U);
   for (const Protrusion& corner : protrusions) {
@@ -36,7 +36,7 @@ TEST(Protrusions, OfABoxAreItsCorners) {
 }
 
 TEST(Protrusions, OfACombAreItsTeeth) {
-  const auto body = test::makeBody(test::makeComb(6), 0.1);
+  const auto body = test::makeSearchBody(test::makeComb(6), 0.1);
   const auto protrusions = findProtrusions(body->graph(), 0.05);
   // The two outermost ends of the bar belong to the outer teeth's sides; every inner tooth has one tip.
   std::vector<int> of_tooth(6, 0);
@@ -52,8 +52,8 @@ TEST(Protrusions, OfACombAreItsTeeth) {
 }
 
 TEST(AutomaticRadii, GrowWithTheBodies) {
-  const auto small = test::makeBody(makeBox({1.0, 1.0, 1.0}), 0.1);
-  const auto large = test::makeBody(makeBox({3.0, 3.0, 3.0}), 0.3);
+  const auto small = test::makeSearchBody(makeBox({1.0, 1.0, 1.0}), 0.1);
+  const auto large = test::makeSearchBody(makeBox({3.0, 3.0, 3.0}), 0.3);
   const NicheRadii of_small = automaticRadii(*small, *small, {});
   const NicheRadii of_large = automaticRadii(*large, *large, {});
   EXPECT_NEAR(of_large.sharing, 3.0 * of_small.sharing, 1e-5 * of_large.sharing) << "a length: scale 3";
@@ -65,18 +65,18 @@ TEST(AutomaticRadii, StayBelowTheSpacingOfTeeth) {
   // Twenty teeth, 0.1 long and wide, 0.05 apart: from tip to tip it is 0.25 and at most a tip's width more,
   // along the edges of a triangular lattice up to 2 / sqrt(3) times that, while a tenth of the way across
   // both is more than 0.4.
-  const auto rake = test::makeBody(test::makeComb(20, 0.05, 0.05, 0.1, 0.3), 0.08, 0);
+  const auto rake = test::makeSearchBody(test::makeComb(20, 0.05, 0.05, 0.1, 0.3), 0.08, 0);
   EXPECT_GT(0.2 * geodesicExtent(rake->graph()), 0.4);
   EXPECT_LE(automaticRadii(*rake, *rake, {}).sharing, 2.0 / std::sqrt(3.0) * 0.3);
 }
 
 TEST(AutomaticRadii, SpanSomeEdgesOfACoarseGrid) {
-  const auto coarse = test::makeBody(makeBox({1.0, 1.0, 0.02}), 1.0);
+  const auto coarse = test::makeSearchBody(makeBox({1.0, 1.0, 0.02}), 1.0);
   EXPECT_GE(automaticRadii(*coarse, *coarse, {}).sharing, 2.0 * coarse->maxEdgeLength());
 }
 
 TEST(AutomaticRadii, ExplicitValuesWin) {
-  const auto body = test::makeBody(makeBox({1.0, 1.0, 1.0}), 0.2);
+  const auto body = test::makeSearchBody(makeBox({1.0, 1.0, 1.0}), 0.2);
   GeneticParameters parameters;
   parameters.sharing_radius = 0.6;
   const NicheRadii radii = automaticRadii(*body, *body, parameters);
@@ -90,4 +90,4 @@ TEST(AutomaticRadii, ExplicitValuesWin) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::automatic_radii_test

@@ -10,7 +10,7 @@
 #include "search/search_scenes.h"
 #include "support/shortest_path.h"
 
-namespace concave_distance {
+namespace concave_distance::crowding_test {
 namespace {
 
 /// Places along the edge of one tooth: node k of A's path, always the same node of B, with distances given.
@@ -90,4 +90,4 @@ TEST_F(Crowding, SimpleCrowdingTakesTheSeatOfTheClosestOfItsDraw) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::crowding_test

@@ -8,7 +8,7 @@
 #include "concave_distance/base/error.h"
 #include "search/genetic_parameter_table.h"
 
-namespace concave_distance {
+namespace concave_distance::genetic_parameters_test {
 namespace {
 
 TEST(GeneticParameters, DefaultsAreValid) {
@@ -78,4 +78,4 @@ TEST(GeneticParameters, OfTheNodeAreThoseThatItsDefaultsUse) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::genetic_parameters_test

@@ -13,7 +13,7 @@
 #include "thesis/evaluation/enumeration.h"
 #include "thesis/evaluation/multi_start_descent.h"
 
-namespace concave_distance {
+namespace concave_distance::genetic_search_test {
 namespace {
 
 constexpr NichingMethod kAllNichings[] = {NichingMethod::None,
@@ -504,4 +504,4 @@ TEST(GeneticSearch, ACertainCoupleBreedsOnOnePlaceAndAfterTheTime) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::genetic_search_test

@@ -7,7 +7,7 @@
 #include "search/mutation.h"
 #include "search/search_scenes.h"
 
-namespace concave_distance {
+namespace concave_distance::local_descent_test {
 namespace {
 
 bool isLocalMinimum(const PairObjective& objective, const TrialPoint& point) {
@@ -114,8 +114,8 @@ RC_GTEST_PROP(LocalDescent, EndsAtADiscreteLocalMinimumWithItsDistance, ()) {
 
 // On a grid fine enough for levels: where steps along edges lead, followed here one by one.
 TEST(LocalDescent, AlongEdgesItMovesFromNeighbourToNeighbour) {
-  const auto a = test::makeBody(test::makeStairs(4), 0.04, 0);
-  const auto b = test::makeBody(test::makeLShape(), 0.04, 0);
+  const auto a = test::makeSearchBody(test::makeStairs(4), 0.04, 0);
+  const auto b = test::makeSearchBody(test::makeLShape(), 0.04, 0);
   ASSERT_FALSE(a->levels().levels.empty());
   const PairObjective objective(*a, *b, test::makePose(0.4, {0.2, 1.0, 0.4}, {0.3, 1.4, 0.2}));
   const auto walk = [](const NodeGraph& graph, NodeIndex node, const auto& value) {
@@ -154,8 +154,8 @@ TEST(LocalDescent, AlongEdgesItMovesFromNeighbourToNeighbour) {
 // Parallel edges with nodes at different spacings: pairs of nodes that face each other are closest one by
 // one.
 TEST(LocalDescent, MovesBothNodesWhereOneAloneIsStuck) {
-  const auto a = test::makeBody(test::makeStairs(4), 0.05, 0);
-  const auto b = test::makeBody(test::makeStairs(4), 0.06, 0);
+  const auto a = test::makeSearchBody(test::makeStairs(4), 0.05, 0);
+  const auto b = test::makeSearchBody(test::makeStairs(4), 0.06, 0);
   // Slightly askew, so that the distance falls along the edges.
   const PairObjective objective(*a, *b, test::makePose(0.01, {0, 1, 0}, {0.02, 1.2, 0.03}));
   RandomEngine engine(5);
@@ -181,8 +181,8 @@ TEST(LocalDescent, MovesBothNodesWhereOneAloneIsStuck) {
 
 // Faces in parallel: whole plateaus of node pairs differ by nothing but rounding, each frame its own.
 TEST(LocalDescent, EndsOnParallelFacesToo) {
-  const auto a = test::makeBody(test::makeStairs(4), 0.05, 0);
-  const auto b = test::makeBody(test::makeStairs(4), 0.05, 0);
+  const auto a = test::makeSearchBody(test::makeStairs(4), 0.05, 0);
+  const auto b = test::makeSearchBody(test::makeStairs(4), 0.05, 0);
   RandomEngine engine(5);
   std::vector<std::uint64_t> trail;
   SearchCost cost;
@@ -334,4 +334,4 @@ TEST(LocalDescent, MemoryListsEveryMinimumOnce) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::local_descent_test

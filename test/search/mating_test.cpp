@@ -11,7 +11,7 @@
 #include "search/search_scenes.h"
 #include "support/shortest_path.h"
 
-namespace concave_distance {
+namespace concave_distance::mating_test {
 namespace {
 
 // Delta of three nodes adds up along a shortest path but for the rounding of the matrices.
@@ -252,4 +252,4 @@ TEST(Mating, ParentsOnOnePlaceHaveTheirChildrenThere) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::mating_test

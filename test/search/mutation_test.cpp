@@ -8,7 +8,7 @@
 #include "base/infinity.h"
 #include "search/search_scenes.h"
 
-namespace concave_distance {
+namespace concave_distance::mutation_test {
 namespace {
 
 RC_GTEST_PROP(Mutation, MovesWithinTheRadiusOnTheShell, ()) {
@@ -137,4 +137,4 @@ TEST(Mutation, ProbabilityRunsLinearlyToItsFinalFactor) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::mutation_test

@@ -14,7 +14,7 @@
 #include "search/place_table.h"
 #include "search/search_scenes.h"
 
-namespace concave_distance {
+namespace concave_distance::niche_test {
 namespace {
 
 struct Niches {
@@ -301,4 +301,4 @@ TEST(Convergence, ComesAfterThatManyGenerationsWithoutANewBestOrNiche) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::niche_test

@@ -7,7 +7,7 @@
 #include <limits>
 #include <set>
 
-namespace concave_distance {
+namespace concave_distance::replacement_test {
 namespace {
 
 TEST(GenerationGap, TellsHowManyOffspringTakeASeat) {
@@ -110,4 +110,4 @@ TEST(Elites, MoreThanSeatsKeepTheBest) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::replacement_test

@@ -6,7 +6,7 @@
 #include "search/search_scenes.h"
 #include "support/count_allocations.h"
 
-namespace concave_distance {
+namespace concave_distance::search_allocation_test {
 namespace {
 
 TEST(SearchAllocation, AWarmRunAllocatesNothing) {
@@ -60,4 +60,4 @@ TEST(SearchAllocation, WorkspaceTellsItsMemory) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::search_allocation_test

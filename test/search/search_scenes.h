@@ -9,7 +9,7 @@
 /// Bodies and poses of the search's tests.
 namespace concave_distance::test {
 
-inline std::unique_ptr<BodyMesh> makeBody(const SurfaceMesh& surface, double max_edge_length,
+inline std::unique_ptr<BodyMesh> makeSearchBody(const SurfaceMesh& surface, double max_edge_length,
                                           std::size_t matrix_node_limit = 65535) {
   BodyMeshOptions options;
   options.max_edge_length = max_edge_length;
@@ -34,8 +34,8 @@ struct PairScene {
 
 /// Two combs, teeth towards each other, slightly askew: every tooth has its niches.
 inline PairScene facingCombs(double max_edge_length = 0.1, std::size_t matrix_node_limit = 65535) {
-  PairScene scene{makeBody(makeComb(4), max_edge_length, matrix_node_limit),
-                  makeBody(makeComb(4), max_edge_length, matrix_node_limit),
+  PairScene scene{makeSearchBody(makeComb(4), max_edge_length, matrix_node_limit),
+                  makeSearchBody(makeComb(4), max_edge_length, matrix_node_limit),
                   {}};
   scene.a_from_b = makePose(3.05, Eigen::Vector3d::UnitZ(), {0.9, 0.95, 0.03}) *
                    Eigen::Isometry3d(Eigen::AngleAxisd(0.12, Eigen::Vector3d(1.0, 0.3, 0.0).normalized()));
@@ -44,15 +44,15 @@ inline PairScene facingCombs(double max_edge_length = 0.1, std::size_t matrix_no
 
 /// A hook beside stairs.
 inline PairScene hookAndStairs(double max_edge_length = 0.1, std::size_t matrix_node_limit = 65535) {
-  return {makeBody(makeStairs(5), max_edge_length, matrix_node_limit),
-          makeBody(makeHook(), max_edge_length, matrix_node_limit),
+  return {makeSearchBody(makeStairs(5), max_edge_length, matrix_node_limit),
+          makeSearchBody(makeHook(), max_edge_length, matrix_node_limit),
           makePose(0.5, {1.0, 2.0, 3.0}, {0.1, 0.75, 0.1})};
 }
 
 /// Two shells each, so that some nodes have no path between them.
 inline PairScene shellsAndShells(double max_edge_length = 0.15) {
-  return {makeBody(makeUnion(makeLShape(), makeHook(), {1.2, 0.0, 0.0}), max_edge_length),
-          makeBody(makeUnion(makeComb(3), makeLShape(), {0.0, 0.9, 0.3}), max_edge_length),
+  return {makeSearchBody(makeUnion(makeLShape(), makeHook(), {1.2, 0.0, 0.0}), max_edge_length),
+          makeSearchBody(makeUnion(makeComb(3), makeLShape(), {0.0, 0.9, 0.3}), max_edge_length),
           makePose(0.4, {0.2, 1.0, 0.4}, {0.2, 1.0, 0.6})};
 }
 

@@ -8,7 +8,7 @@
 #include "search/mutation.h"
 #include "search/search_scenes.h"
 
-namespace concave_distance {
+namespace concave_distance::sharing_test {
 namespace {
 
 TEST(Sharing, ValueIsThePowerLawOfTheThesis) {
@@ -29,8 +29,8 @@ TEST(Sharing, FitnessGrowsAsTheDistanceFalls) {
 }
 
 TEST(Sharing, EpsilonIsAShareOfTheLongestEdgeOfBothGrids) {
-  const auto fine = test::makeBody(test::makeLShape(), 0.1);
-  const auto coarse = test::makeBody(test::makeLShape(), 0.3);
+  const auto fine = test::makeSearchBody(test::makeLShape(), 0.1);
+  const auto coarse = test::makeSearchBody(test::makeLShape(), 0.3);
   ASSERT_LT(fine->maxEdgeLength(), coarse->maxEdgeLength());
   GeneticParameters parameters;
   parameters.fitness_epsilon = 0.5;
@@ -145,4 +145,4 @@ RC_GTEST_PROP(DynamicSharing, NicheMembersCountEverybodyInTheirNiche, ()) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::sharing_test

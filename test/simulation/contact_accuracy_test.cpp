@@ -6,7 +6,7 @@
 #include "concave_distance/mesh/surface/primitives.h"
 #include "simulation/scene_builder.h"
 
-namespace concave_distance {
+namespace concave_distance::contact_accuracy_test {
 namespace {
 
 using test::at;
@@ -166,4 +166,4 @@ TEST(ContactAccuracy, TheEnergyBalanceIsHeldToItsTolerance) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::contact_accuracy_test

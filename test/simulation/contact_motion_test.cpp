@@ -8,7 +8,7 @@
 #include "support/hunt_crossley_rebound.h"
 #include "tracking/relative_motion.h"
 
-namespace concave_distance {
+namespace concave_distance::contact_motion_test {
 namespace {
 
 using test::at;
@@ -273,4 +273,4 @@ TEST(ContactMotion, APairBeyondItsCutoffIsNotSolved) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::contact_motion_test

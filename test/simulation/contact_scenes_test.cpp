@@ -9,7 +9,7 @@
 #include "concave_distance/mesh/surface/primitives.h"
 #include "simulation/scene_builder.h"
 
-namespace concave_distance {
+namespace concave_distance::contact_scenes_test {
 namespace {
 
 using test::at;
@@ -189,4 +189,4 @@ TEST(ContactScenes, EveryFileLoadsAndMoves) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::contact_scenes_test

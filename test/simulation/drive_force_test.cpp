@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace concave_distance {
+namespace concave_distance::drive_force_test {
 namespace {
 
 RigidBody brick() {
@@ -96,4 +96,4 @@ TEST(PosePath, GoesStraightBetweenItsPosesAndRestsOutside) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::drive_force_test

@@ -6,7 +6,7 @@
 #include "concave_distance/mesh/surface/primitives.h"
 #include "simulation/scene_builder.h"
 
-namespace concave_distance {
+namespace concave_distance::free_motion_test {
 namespace {
 
 using test::at;
@@ -266,4 +266,4 @@ TEST(Simulation, AFreeLinkTakesTheInertiaOfItsUrdf) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::free_motion_test

@@ -8,7 +8,7 @@
 
 #include "simulation/elastic_ball.h"
 
-namespace concave_distance {
+namespace concave_distance::friction_energy_test {
 namespace {
 
 using test::ElasticBall;
@@ -71,4 +71,4 @@ TEST(FrictionEnergy, ABallRollsInABowlWithFrictionOn) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::friction_energy_test

@@ -5,7 +5,7 @@
 
 #include "simulation/box_stack.h"
 
-namespace concave_distance {
+namespace concave_distance::resting_contact_test {
 namespace {
 
 using test::stackOf;
@@ -62,4 +62,4 @@ TEST(RestingContact, AHundredKilogramsStandOnAHundredGrams) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::resting_contact_test

@@ -8,7 +8,7 @@
 #include "concave_distance/base/error.h"
 #include "concave_distance/mesh/surface/primitives.h"
 
-namespace concave_distance {
+namespace concave_distance::rigid_body_test {
 namespace {
 
 MassProperties brick(const Eigen::Vector3d& moments) {
@@ -182,4 +182,4 @@ TEST(RigidBody, DriftTellsHowFarPointsMayHaveGone) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::rigid_body_test

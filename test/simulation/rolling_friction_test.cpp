@@ -8,7 +8,7 @@
 #include "concave_distance/mesh/surface/primitives.h"
 #include "simulation/scene_builder.h"
 
-namespace concave_distance {
+namespace concave_distance::rolling_friction_test {
 namespace {
 
 using test::at;
@@ -176,4 +176,4 @@ TEST(RollingFriction, TheRegularisedModelCreeps) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::rolling_friction_test

@@ -8,7 +8,7 @@
 #include "simulation/scene_builder.h"
 #include "support/round_bodies.h"
 
-namespace concave_distance {
+namespace concave_distance::round_motion_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -145,4 +145,4 @@ TEST(RoundMotion, MassesAreThoseOfTheSolids) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::round_motion_test

@@ -5,7 +5,7 @@
 #include "simulation/box_stack.h"
 #include "support/count_allocations.h"
 
-namespace concave_distance {
+namespace concave_distance::simulation_allocation_test {
 namespace {
 
 TEST(SimulationAllocation, ASteadyStepAllocatesNothing) {
@@ -20,4 +20,4 @@ TEST(SimulationAllocation, ASteadyStepAllocatesNothing) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::simulation_allocation_test

@@ -5,7 +5,7 @@
 #include <Eigen/LU>
 #include <random>
 
-namespace concave_distance::detail {
+namespace concave_distance::detail::step_weights_test {
 namespace {
 
 Matrix6d randomMatrix(std::mt19937& engine) {
@@ -69,4 +69,4 @@ TEST(StepWeights, AreEvenWhereNothingIsShorterThanTheStep) {
 }
 
 }  // namespace
-}  // namespace concave_distance::detail
+}  // namespace concave_distance::detail::step_weights_test

@@ -6,7 +6,7 @@
 #include "simulation/box_stack.h"
 #include "simulation/elastic_ball.h"
 
-namespace concave_distance {
+namespace concave_distance::suspicious_start_test {
 namespace {
 
 using test::ElasticBall;
@@ -86,4 +86,4 @@ TEST(SuspiciousStart, FreeBodiesWithoutAPairAreNamedOnce) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::suspicious_start_test

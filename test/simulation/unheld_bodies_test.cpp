@@ -6,7 +6,7 @@
 #include "simulation/unheld_bodies.h"
 #include "support/plain_shapes.h"
 
-namespace concave_distance {
+namespace concave_distance::unheld_bodies_test {
 namespace {
 
 using test::SceneBuilder;
@@ -75,4 +75,4 @@ TEST(UnheldBodies, WithoutGravityNothingFalls) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::unheld_bodies_test

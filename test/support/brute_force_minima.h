@@ -25,7 +25,7 @@ struct BruteForceMinimum {
   double width;
 };
 
-namespace detail {
+namespace parts {
 
 inline TrianglePoints movedCorners(const SurfaceMesh& mesh, std::size_t t, const Eigen::Isometry3d& pose) {
   TrianglePoints points;
@@ -182,7 +182,7 @@ inline std::vector<Neighbours> neighbourPairs(const SurfaceMesh& mesh, const Eig
   return pairs;
 }
 
-}  // namespace detail
+}  // namespace parts
 
 /// Minima up to `cutoff` of at least that prominence, ascending by distance. Passes up to (1 +
 /// least_prominence) times the cutoff are known, higher ones are infinite. Minima whose pass is not higher
@@ -198,16 +198,16 @@ inline std::vector<BruteForceMinimum> bruteForceMinima(const BodyMesh& a, const 
   std::vector<TrianglePoints> corners_a;
   std::vector<TrianglePoints> corners_b;
   for (std::size_t t = 0; t < a.surface().triangleCount(); ++t) {
-    corners_a.push_back(detail::movedCorners(a.surface(), t, stay));
+    corners_a.push_back(parts::movedCorners(a.surface(), t, stay));
   }
   for (std::size_t t = 0; t < count_b; ++t) {
-    corners_b.push_back(detail::movedCorners(b.surface(), t, a_from_b));
+    corners_b.push_back(parts::movedCorners(b.surface(), t, a_from_b));
   }
 
   std::vector<double> distance(corners_a.size() * count_b);
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < distance.size(); ++i) {
-    distance[i] = detail::longDoubleDistance(corners_a[i / count_b], corners_b[i % count_b]);
+    distance[i] = parts::longDoubleDistance(corners_a[i / count_b], corners_b[i % count_b]);
     if (distance[i] <= top) order.push_back(i);
   }
   const auto deeper = [&](std::size_t l, std::size_t r) {
@@ -223,15 +223,15 @@ inline std::vector<BruteForceMinimum> bruteForceMinima(const BodyMesh& a, const 
   const auto join = [&](std::size_t l, std::size_t r, const TrianglePoints& shared,
                         const TrianglePoints& other) {
     if (distance[l] > top || distance[r] > top) return;
-    const double level = detail::longDoubleDistance(shared, other);
+    const double level = parts::longDoubleDistance(shared, other);
     if (level <= top) passes.push_back({std::max({level, distance[l], distance[r]}), l, r});
   };
-  for (const auto& pair : detail::neighbourPairs(a.surface(), stay)) {
+  for (const auto& pair : parts::neighbourPairs(a.surface(), stay)) {
     for (std::size_t t = 0; t < count_b; ++t) {
       join(pair.l * count_b + t, pair.r * count_b + t, pair.shared, corners_b[t]);
     }
   }
-  for (const auto& pair : detail::neighbourPairs(b.surface(), a_from_b)) {
+  for (const auto& pair : parts::neighbourPairs(b.surface(), a_from_b)) {
     for (std::size_t t = 0; t < corners_a.size(); ++t) {
       join(t * count_b + pair.l, t * count_b + pair.r, pair.shared, corners_a[t]);
     }
@@ -287,10 +287,10 @@ inline std::vector<BruteForceMinimum> bruteForceMinima(const BodyMesh& a, const 
     std::vector<Eigen::Vector3d> points;
     for (std::size_t i = 0; i < on_plateau.size(); ++i) {
       if (!on_plateau[i]) continue;
-      detail::appendMinimisers(corners_a[i / count_b], corners_b[i % count_b], minimum.distance, plateau,
+      parts::appendMinimisers(corners_a[i / count_b], corners_b[i % count_b], minimum.distance, plateau,
                                points);
     }
-    detail::measure(points, minimum.length, minimum.width);
+    parts::measure(points, minimum.length, minimum.width);
   }
   return minima;
 }

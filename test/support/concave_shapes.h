@@ -16,7 +16,7 @@ namespace concave_distance::test {
 
 using Outline = std::vector<Eigen::Vector2d>;  ///< simple polygon, counter-clockwise
 
-namespace detail {
+namespace parts {
 
 inline double turn(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
   return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
@@ -57,7 +57,7 @@ inline std::vector<std::array<std::uint32_t, 3>> triangulate(const Outline& outl
   return triangles;
 }
 
-}  // namespace detail
+}  // namespace parts
 
 /// The prism over `outline` between z = -height / 2 and z = +height / 2.
 inline SurfaceMesh makeExtrusion(const Outline& outline, double height) {
@@ -69,7 +69,7 @@ inline SurfaceMesh makeExtrusion(const Outline& outline, double height) {
   }
   const auto n = static_cast<std::uint32_t>(outline.size());
   std::vector<TriangleNodes> triangles;
-  for (const auto& t : detail::triangulate(outline)) {
+  for (const auto& t : parts::triangulate(outline)) {
     triangles.push_back({NodeIndex{t[2]}, NodeIndex{t[1]}, NodeIndex{t[0]}});
     triangles.push_back({NodeIndex{t[0] + n}, NodeIndex{t[1] + n}, NodeIndex{t[2] + n}});
   }

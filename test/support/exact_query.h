@@ -53,7 +53,7 @@ inline std::vector<ExactVector<Wide>> exactlyMoved(const std::vector<Eigen::Vect
   return moved;
 }
 
-namespace detail {
+namespace parts {
 
 template <typename Real>
 ExactTriangle<Real> cornersOf(const std::vector<ExactVector<Wide>>& points, const TriangleNodes& t) {
@@ -88,7 +88,7 @@ inline long double squaredGap(const LongBox& a, const LongBox& b) {
   return sum;
 }
 
-}  // namespace detail
+}  // namespace parts
 
 /// The distance of the surfaces in 100 digits. Every pair of triangles is looked at in `long double`; what
 /// comes within 1e-9 of the scene's size of the least (the naive formulas' error is 2e-10 of it at worst) is
@@ -98,7 +98,7 @@ inline Wide exactSurfaceDistance(const SurfaceMesh& a, const SurfaceMesh& b, con
   const std::vector<ExactVector<Wide>> points_a = exactlyMoved(a.vertices(), GivenPose(), centre);
   const std::vector<ExactVector<Wide>> points_b = exactlyMoved(b.vertices(), b_in_a, centre);
   std::vector<ExactTriangle<long double>> triangles_b;
-  std::vector<detail::LongBox> boxes_b;
+  std::vector<parts::LongBox> boxes_b;
   long double size = 0.0L;
   for (const auto* points : {&points_a, &points_b}) {
     for (const ExactVector<Wide>& p : *points) {
@@ -108,8 +108,8 @@ inline Wide exactSurfaceDistance(const SurfaceMesh& a, const SurfaceMesh& b, con
     }
   }
   for (const TriangleNodes& t : b.triangles()) {
-    triangles_b.push_back(detail::cornersOf<long double>(points_b, t));
-    boxes_b.push_back(detail::boxOf(triangles_b.back()));
+    triangles_b.push_back(parts::cornersOf<long double>(points_b, t));
+    boxes_b.push_back(parts::boxOf(triangles_b.back()));
   }
   struct Contender {
     long double distance;
@@ -120,11 +120,11 @@ inline Wide exactSurfaceDistance(const SurfaceMesh& a, const SurfaceMesh& b, con
   std::vector<Contender> contenders;
   long double least = std::numeric_limits<long double>::infinity();
   for (std::size_t i = 0; i < a.triangleCount(); ++i) {
-    const auto triangle_a = detail::cornersOf<long double>(points_a, a.triangles()[i]);
-    const detail::LongBox box_a = detail::boxOf(triangle_a);
+    const auto triangle_a = parts::cornersOf<long double>(points_a, a.triangles()[i]);
+    const parts::LongBox box_a = parts::boxOf(triangle_a);
     for (std::size_t j = 0; j < triangles_b.size(); ++j) {
       const long double limit = least + margin;
-      if (detail::squaredGap(box_a, boxes_b[j]) > limit * limit) continue;
+      if (parts::squaredGap(box_a, boxes_b[j]) > limit * limit) continue;
       const long double distance = std::sqrt(exactSquaredDistance(triangle_a, triangles_b[j]));
       least = std::min(least, distance);
       if (distance <= least + margin) contenders.push_back({distance, i, j});
@@ -136,8 +136,8 @@ inline Wide exactSurfaceDistance(const SurfaceMesh& a, const SurfaceMesh& b, con
   for (const Contender& contender : contenders) {
     if (contender.distance > least + margin || squared == 0) break;
     squared = std::min(squared,
-                       exactSquaredDistance(detail::cornersOf<Wide>(points_a, a.triangles()[contender.a]),
-                                            detail::cornersOf<Wide>(points_b, b.triangles()[contender.b])));
+                       exactSquaredDistance(parts::cornersOf<Wide>(points_a, a.triangles()[contender.a]),
+                                            parts::cornersOf<Wide>(points_b, b.triangles()[contender.b])));
   }
   return boost::multiprecision::sqrt(squared);
 }

@@ -9,6 +9,7 @@
 
 #include "concave_distance/base/error.h"
 #include "concave_distance/loading/load_scene.h"
+#include "support/mesh_measures.h"
 #include "support/temporary_folder.h"
 
 namespace concave_distance::test {
@@ -30,15 +31,6 @@ inline std::string tetrahedronStl() {
          "facet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex 0 0 3\nvertex 0 2 0\nendloop\nendfacet\n"
          "facet normal 0 0 0\nouter loop\nvertex 1 0 0\nvertex 0 2 0\nvertex 0 0 3\nendloop\nendfacet\n"
          "endsolid t\n";
-}
-
-/// Positive when the normals point outwards.
-inline double signedVolume(const SurfaceMesh& mesh) {
-  double volume = 0.0;
-  for (const TriangleNodes& t : mesh.triangles()) {
-    volume += mesh.vertex(t[0]).dot(mesh.vertex(t[1]).cross(mesh.vertex(t[2]))) / 6.0;
-  }
-  return volume;
 }
 
 /// Scenes from texts and small files in a folder of their own. Grids are coarse: no test here needs a search.

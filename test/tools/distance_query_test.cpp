@@ -16,7 +16,7 @@
 #include "support/plain_shapes.h"
 #include "support/temporary_folder.h"
 
-namespace concave_distance {
+namespace concave_distance::distance_query_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -406,4 +406,4 @@ TEST_F(DistanceQuery, NamesTheFileThatIsAtFault) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::distance_query_test

@@ -13,7 +13,7 @@
 #include "support/mesh_measures.h"
 #include "support/temporary_folder.h"
 
-namespace concave_distance {
+namespace concave_distance::mesh_tool_test {
 namespace {
 
 /// The program as a user runs it.
@@ -175,4 +175,4 @@ TEST_F(MeshTool, HelpGoesToStandardOutput) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::mesh_tool_test

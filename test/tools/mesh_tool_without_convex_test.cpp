@@ -5,7 +5,7 @@
 #include "concave_distance/base/error.h"
 #include "tools/mesh_tool_convex.h"
 
-namespace concave_distance::tools {
+namespace concave_distance::tools::mesh_tool_without_convex_test {
 namespace {
 
 TEST(MeshToolWithoutCgal, SaysWhatToInstallAndWhichOptionToTurnOn) {
@@ -21,4 +21,4 @@ TEST(MeshToolWithoutCgal, SaysWhatToInstallAndWhichOptionToTurnOn) {
 }
 
 }  // namespace
-}  // namespace concave_distance::tools
+}  // namespace concave_distance::tools::mesh_tool_without_convex_test

@@ -7,7 +7,7 @@
 #include "concave_distance/base/error.h"
 #include "support/temporary_folder.h"
 
-namespace concave_distance::tools {
+namespace concave_distance::tools::query_report_test {
 namespace {
 
 using test::contentOf;
@@ -78,4 +78,4 @@ TEST(AnswerWriter, SaysWhereItCannotWrite) {
 }
 
 }  // namespace
-}  // namespace concave_distance::tools
+}  // namespace concave_distance::tools::query_report_test

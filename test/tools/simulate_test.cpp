@@ -9,7 +9,7 @@
 #include "support/csv_table.h"
 #include "support/temporary_folder.h"
 
-namespace concave_distance {
+namespace concave_distance::simulate_test {
 namespace {
 
 using test::number;
@@ -170,4 +170,4 @@ TEST_F(Simulate, SaysWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::simulate_test

@@ -11,7 +11,7 @@
 #include "support/body_pairs.h"
 #include "thesis/evaluation/enumeration.h"
 
-namespace concave_distance {
+namespace concave_distance::certified_test {
 namespace {
 
 using Body = std::shared_ptr<const BodyMesh>;
@@ -429,4 +429,4 @@ TEST(Certified, RefusesTolerancesAndBudgetsThatMeanNothing) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::certified_test

@@ -11,7 +11,7 @@
 #include "support/thesis_scenes.h"
 #include "thesis/evaluation/enumeration.h"
 
-namespace concave_distance {
+namespace concave_distance::complete_test {
 namespace {
 
 using Body = std::shared_ptr<const BodyMesh>;
@@ -203,4 +203,4 @@ TEST(CompleteListOf, GoesOnWithItsIdsAfterCyclesThatDidNotWantIt) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::complete_test

@@ -10,7 +10,7 @@
 #include "effect_scene.h"
 #include "support/concave_shapes.h"
 
-namespace concave_distance {
+namespace concave_distance::contact_patch_test {
 namespace {
 
 using test::at;
@@ -360,4 +360,4 @@ TEST(ContactPatch, ANewRegionBesideAKnownOneHasNoBristles) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::contact_patch_test

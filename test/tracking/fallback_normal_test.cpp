@@ -4,7 +4,7 @@
 #include "concave_distance/mesh/surface/primitives.h"
 #include "tracking/effect_scene.h"
 
-namespace concave_distance {
+namespace concave_distance::fallback_normal_test {
 namespace {
 
 using test::at;
@@ -89,4 +89,4 @@ TEST(FallbackNormal, OfWhatIsPushedThroughFromBelowStaysDownwards) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::fallback_normal_test

@@ -8,7 +8,7 @@
 #include "support/concave_shapes.h"
 #include "support/mesh_variants.h"
 
-namespace concave_distance {
+namespace concave_distance::invariance_test {
 namespace {
 
 // What should not change an answer does not: the distance of a cold `refined` solve of two concave bodies.
@@ -98,4 +98,4 @@ RC_GTEST_PROP(Invariance, Scale, (std::uint64_t seed)) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::invariance_test

@@ -6,11 +6,11 @@
 #include "concave_distance/tracking/pair_tracker.h"
 #include "mesh/trees/normal_cone_tree.h"
 #include "support/body_pairs.h"
-#include "support/count_bytes.h"
+#include "support/count_allocations.h"
 #include "support/mesh_variants.h"
 #include "thesis/evaluation/enumeration.h"
 
-namespace concave_distance {
+namespace concave_distance::memory_limit_test {
 namespace {
 
 TEST(MemoryLimit, HoldsForFloodsOfALargeProminenceAndTheBracketHoldsToo) {
@@ -52,4 +52,4 @@ TEST(MemoryLimit, HoldsForFloodsOfALargeProminenceAndTheBracketHoldsToo) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::memory_limit_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace concave_distance {
+namespace concave_distance::niche_archive_test {
 namespace {
 
 NicheRecord recordAt(NicheArchive& archive, double distance, bool reported) {
@@ -76,4 +76,4 @@ TEST(NicheArchive, FindsARecordOnlyWhereBothPointsAgree) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::niche_archive_test

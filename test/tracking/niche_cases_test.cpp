@@ -8,7 +8,7 @@
 
 // Small inputs whose lists were wrong once (test/data/niches), each with the right answer.
 
-namespace concave_distance {
+namespace concave_distance::niche_cases_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -135,4 +135,4 @@ TEST(NicheCases, VisibilityDoesNotDependOnAFarTriangleInOnePlane) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::niche_cases_test

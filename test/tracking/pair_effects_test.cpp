@@ -13,7 +13,7 @@
 #include "support/round_bodies.h"
 #include "tracking/effect_scene.h"
 
-namespace concave_distance {
+namespace concave_distance::pair_effects_test {
 namespace {
 
 using test::at;
@@ -251,4 +251,4 @@ TEST(PairEffects, ItsLinearisationIsThatOfItsWrench) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::pair_effects_test

@@ -12,7 +12,7 @@
 #include "thesis/evaluation/enumeration.h"
 #include "tracking/relative_motion.h"
 
-namespace concave_distance {
+namespace concave_distance::pair_tracker_test {
 namespace {
 
 std::shared_ptr<const BodyMesh> body(const std::string& name, SurfaceMesh surface) {
@@ -264,4 +264,4 @@ TEST(PairTracker, ClosingSpeedIsTheSpeedOfApproach) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::pair_tracker_test

@@ -13,7 +13,7 @@
 #include "effect_scene.h"
 #include "support/concave_shapes.h"
 
-namespace concave_distance {
+namespace concave_distance::pressure_triangles_test {
 namespace {
 
 using test::at;
@@ -201,4 +201,4 @@ TEST_F(PressureTriangles, OfAnExactBallTheyLieOnItWithTheDepthsPressure) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::pressure_triangles_test

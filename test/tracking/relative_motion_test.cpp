@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace concave_distance {
+namespace concave_distance::relative_motion_test {
 namespace {
 
 TEST(RigidPose, RefusesWhatIsNoRotation) {
@@ -55,4 +55,4 @@ TEST(LargestDisplacement, IsTheChordOfTheFarthestCornerWhenTurning) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::relative_motion_test

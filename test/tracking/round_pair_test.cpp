@@ -10,7 +10,7 @@
 #include "support/count_allocations.h"
 #include "support/round_bodies.h"
 
-namespace concave_distance {
+namespace concave_distance::round_pair_test {
 namespace {
 
 using Body = std::shared_ptr<const BodyMesh>;
@@ -206,4 +206,4 @@ TEST(RoundPair, AWarmCycleAllocatesNothing) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::round_pair_test

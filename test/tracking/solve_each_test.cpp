@@ -10,7 +10,7 @@
 #include "support/concave_shapes.h"
 #include "support/solution_bytes.h"
 
-namespace concave_distance {
+namespace concave_distance::solve_each_test {
 namespace {
 
 test::Bytes bytesOf(const PairSolution& solution) {
@@ -161,4 +161,4 @@ TEST(PairTrackerUse, WithoutNichesNoneIsListed) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::solve_each_test

@@ -11,7 +11,7 @@
 #include "support/body_pairs.h"
 #include "support/solution_bytes.h"
 
-namespace concave_distance {
+namespace concave_distance::threads_test {
 namespace {
 
 using test::appendSolution;
@@ -92,4 +92,4 @@ INSTANTIATE_TEST_SUITE_P(Levels, Threads,
                          });
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::threads_test

@@ -12,7 +12,7 @@
 #include "support/thesis_scenes.h"
 #include "tracking/effect_scene.h"
 
-namespace concave_distance {
+namespace concave_distance::tracker_allocation_test {
 namespace {
 
 // Buffers have grown to what a motion needs when it has been run once: the same motion again must not
@@ -111,4 +111,4 @@ TEST(SceneTrackerAllocation, AWarmCycleOfAllPairsAllocatesNothing) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::tracker_allocation_test

@@ -13,7 +13,7 @@
 #include "mesh/grid/node_graph.h"
 #include "support/concave_shapes.h"
 
-namespace concave_distance {
+namespace concave_distance::tracker_memory_test {
 namespace {
 
 constexpr int kCycles = 20;
@@ -89,4 +89,4 @@ TEST(BodyMesh, PreparingBodiesGivesMatricesInTheirOrder) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::tracker_memory_test

@@ -16,7 +16,7 @@
 
 /// Files of many solids that share slanted faces, against CGAL: its winding numbers, and the exact Booleans
 /// of each solid by itself, whose volumes add up.
-namespace concave_distance {
+namespace concave_distance::union_cgal_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -154,4 +154,4 @@ TEST(UnionAgainstCgal, OverlapsAsMuchAsItsSolidsDo) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::union_cgal_test

@@ -11,7 +11,7 @@
 
 /// Queries between unions of solids as files hold them: penetrating exactly where the unions overlap, and
 /// else the distance of the unions; at every level, in both orders, cold and warm.
-namespace concave_distance {
+namespace concave_distance::union_of_solids_query_test {
 namespace {
 
 using Eigen::Isometry3d;
@@ -169,4 +169,4 @@ TEST(QueriesOfUnions, StayRightWhileABodyMovesThrough) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::union_of_solids_query_test

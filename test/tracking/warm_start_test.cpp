@@ -7,7 +7,7 @@
 
 #include "search/sharing.h"
 
-namespace concave_distance {
+namespace concave_distance::warm_start_test {
 namespace {
 
 std::vector<TrialPoint> nichesAt(const std::vector<double>& distances) {
@@ -92,4 +92,4 @@ TEST(WarmStart, InheritsNothingFromNothing) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::warm_start_test

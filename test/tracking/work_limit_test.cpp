@@ -13,7 +13,7 @@
 #include "support/mesh_variants.h"
 #include "thesis/evaluation/enumeration.h"
 
-namespace concave_distance {
+namespace concave_distance::work_limit_test {
 namespace {
 
 using Body = std::shared_ptr<const BodyMesh>;
@@ -175,4 +175,4 @@ TEST(WorkLimit, ACutAnswerSaysThatItsRegionsAreMissing) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::work_limit_test

@@ -11,7 +11,7 @@
 #include "support/concave_shapes.h"
 #include "support/shortest_path.h"
 
-namespace concave_distance {
+namespace concave_distance::mesh_metric_test {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -235,4 +235,4 @@ TEST(MeshMetric, NodeInBallStaysWithinTheRadiusAndReachesEveryNodeOfIt) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::mesh_metric_test

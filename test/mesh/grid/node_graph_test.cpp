@@ -7,7 +7,7 @@
 
 #include "support/concave_shapes.h"
 
-namespace concave_distance {
+namespace concave_distance::node_graph_test {
 namespace {
 
 TEST(NodeGraph, HasEveryMeshEdgeOnceInBothDirections) {
@@ -110,4 +110,4 @@ TEST(NodeGraph, ATriangleThatNamesANodeTwiceGivesNoLoop) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::node_graph_test

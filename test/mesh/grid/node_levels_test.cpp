@@ -10,7 +10,7 @@
 #include "mesh/grid/search_grid.h"
 #include "support/concave_shapes.h"
 
-namespace concave_distance {
+namespace concave_distance::node_levels_test {
 namespace {
 
 NodeGraph graphOf(const SurfaceMesh& surface, double edge) {
@@ -80,4 +80,4 @@ TEST(NodeLevels, MemoryIsLinearInTheNodes) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::node_levels_test

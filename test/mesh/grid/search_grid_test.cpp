@@ -18,7 +18,7 @@
 #include "support/any_surface.h"
 #include "support/mesh_measures.h"
 
-namespace concave_distance {
+namespace concave_distance::search_grid_test {
 namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
@@ -256,4 +256,4 @@ TEST(SearchGrid, ANeedleTakesNoMoreNodesThanItsEdgesDo) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::search_grid_test

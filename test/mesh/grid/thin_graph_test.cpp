@@ -8,7 +8,7 @@
 #include "mesh/surface/refine_mesh.h"
 #include "support/concave_shapes.h"
 
-namespace concave_distance {
+namespace concave_distance::thin_graph_test {
 namespace {
 
 TEST(ThinGraph, KeepsTheNumberAskedForAndTheirPlaces) {
@@ -52,4 +52,4 @@ TEST(ThinGraph, LeavesASmallGraphWhole) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::thin_graph_test

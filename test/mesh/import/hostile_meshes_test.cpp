@@ -11,7 +11,7 @@
 #include "support/hostile_mesh_files.h"
 #include "support/temporary_folder.h"
 
-namespace concave_distance {
+namespace concave_distance::hostile_meshes_test {
 namespace {
 
 TEST(HostileMeshes, AreServedOrRefusedAndNothingElse) {
@@ -36,4 +36,4 @@ TEST(HostileMeshes, AreServedOrRefusedAndNothingElse) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::hostile_meshes_test

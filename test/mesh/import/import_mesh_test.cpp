@@ -15,7 +15,7 @@
 #include "support/mesh_measures.h"
 #include "support/temporary_folder.h"
 
-namespace concave_distance {
+namespace concave_distance::import_mesh_test {
 namespace {
 
 using test::contentOf;
@@ -358,4 +358,4 @@ TEST(AppendTransformed, PlacesEachPartInTheBodysFrame) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::import_mesh_test

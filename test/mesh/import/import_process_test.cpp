@@ -19,7 +19,7 @@
 #include "mesh/import/import_stream.h"
 #include "support/temporary_folder.h"
 
-namespace concave_distance {
+namespace concave_distance::import_process_test {
 namespace {
 
 using detail::ImportHeader;
@@ -252,4 +252,4 @@ TEST_F(ImportProcess, WorksWhenTheStandardStreamsAreClosed) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::import_process_test

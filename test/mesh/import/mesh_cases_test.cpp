@@ -14,7 +14,7 @@
 #include "support/mesh_measures.h"
 #include "support/temporary_folder.h"
 
-namespace concave_distance {
+namespace concave_distance::mesh_cases_test {
 namespace {
 
 std::string dataOf(const std::string& name) {
@@ -433,4 +433,4 @@ TEST(MeshFiles, AreReadAlikeInALocaleWithDecimalCommas) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::mesh_cases_test

@@ -10,7 +10,7 @@
 
 #include "support/temporary_folder.h"
 
-namespace concave_distance {
+namespace concave_distance::mesh_file_test {
 namespace {
 
 using test::TemporaryFolder;
@@ -92,4 +92,4 @@ TEST(MeshFile, IsBelowComparesWholeNames) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::mesh_file_test

@@ -18,7 +18,7 @@
 #include "support/case_seed.h"
 #include "support/mesh_measures.h"
 
-namespace concave_distance {
+namespace concave_distance::polygons_test {
 namespace {
 
 using Face = std::vector<std::uint32_t>;
@@ -450,4 +450,4 @@ TEST(Polygons, OfThousandsOfCornersTakeNoTime) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::polygons_test

@@ -14,7 +14,7 @@
 #include "support/plain_shapes.h"
 #include "support/random_solids.h"
 
-namespace concave_distance {
+namespace concave_distance::merge_flat_triangles_test {
 namespace {
 
 constexpr double kRounding = 1e-12;  // metres, of bodies a metre across
@@ -220,4 +220,4 @@ TEST(MergeFlatTriangles, WithoutAToleranceOnlyWhatIsExactlyFlatIsMerged) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::merge_flat_triangles_test

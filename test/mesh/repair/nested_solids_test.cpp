@@ -10,7 +10,7 @@
 #include "support/painted_boxes.h"
 
 /// Solids and cavities within others, by the thousands.
-namespace concave_distance {
+namespace concave_distance::nested_solids_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -89,4 +89,4 @@ TEST(NestedSolids, ACavityMayTouchTheSkinFromInside) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::nested_solids_test

@@ -14,7 +14,7 @@
 #include "mesh/surface/mesh_topology.h"
 #include "support/mesh_measures.h"
 
-namespace concave_distance {
+namespace concave_distance::repair_mesh_test {
 namespace {
 
 /// As an STL file holds it: three vertices of its own for each triangle.
@@ -433,4 +433,4 @@ TEST(RepairMesh, RefusesNonFiniteCoordinatesAndIndicesOutOfRange) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::repair_mesh_test

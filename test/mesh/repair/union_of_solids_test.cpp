@@ -13,7 +13,7 @@
 
 /// Repair makes of a file's triangles the surface of the union of its solids, and the topology says what is
 /// inside it.
-namespace concave_distance {
+namespace concave_distance::union_of_solids_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -269,4 +269,4 @@ TEST(UnionOfSolids, ARepairedUnionStaysAsItIs) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::union_of_solids_test

@@ -4,7 +4,7 @@
 
 #include <map>
 
-namespace concave_distance {
+namespace concave_distance::concave_shapes_test {
 namespace {
 
 double volume(const SurfaceMesh& mesh) {
@@ -43,4 +43,4 @@ TEST(ConcaveShapes, AreClosedAndEncloseTheVolumeOfTheirOutline) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::concave_shapes_test

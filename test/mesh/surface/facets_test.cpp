@@ -11,7 +11,7 @@
 #include "support/exact_triangle_distance.h"
 #include "support/plain_shapes.h"
 
-namespace concave_distance {
+namespace concave_distance::facets_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -102,4 +102,4 @@ TEST(Facets, AreNotReflex) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::facets_test

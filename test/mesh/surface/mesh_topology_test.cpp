@@ -6,7 +6,7 @@
 
 #include "support/plain_shapes.h"
 
-namespace concave_distance {
+namespace concave_distance::mesh_topology_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -185,4 +185,4 @@ TEST(MeshTopology, NormalOfANeedleKeepsItsDirection) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::mesh_topology_test

@@ -14,7 +14,7 @@
 #include "concave_distance/base/error.h"
 #include "support/mesh_measures.h"
 
-namespace concave_distance {
+namespace concave_distance::primitives_test {
 namespace {
 
 using test::distanceToSurface;
@@ -207,4 +207,4 @@ TEST(Primitives, ErrorsNameTheirElement) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::primitives_test

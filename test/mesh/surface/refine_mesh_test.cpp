@@ -14,7 +14,7 @@
 #include "support/any_surface.h"
 #include "support/mesh_measures.h"
 
-namespace concave_distance {
+namespace concave_distance::refine_mesh_test {
 namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
@@ -173,4 +173,4 @@ TEST(RefineMesh, RefusesATriangleWithARepeatedCorner) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::refine_mesh_test

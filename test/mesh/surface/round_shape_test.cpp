@@ -9,7 +9,7 @@
 #include "mesh/surface/round_geometry.h"
 #include "support/round_bodies.h"
 
-namespace concave_distance {
+namespace concave_distance::round_shape_test {
 namespace {
 
 using test::roundShape;
@@ -80,4 +80,4 @@ TEST(RoundShape, ASolidAndItsMeshAreTwoBodies) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::round_shape_test

@@ -9,7 +9,7 @@
 #include "support/body_pairs.h"
 #include "support/plain_shapes.h"
 
-namespace concave_distance {
+namespace concave_distance::triangle_adjacency_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -99,4 +99,4 @@ TEST(TriangleAdjacency, ManyTrianglesAroundAVertexCostNoMoreThanElsewhere) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::triangle_adjacency_test

@@ -6,7 +6,7 @@
 
 #include "support/body_pairs.h"
 
-namespace concave_distance {
+namespace concave_distance::bounding_volume_hierarchy_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -112,4 +112,4 @@ TEST(BoundingVolumeHierarchy, StaysSmall) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::bounding_volume_hierarchy_test

@@ -8,7 +8,7 @@
 #include "distance/triangle_distance.h"
 #include "support/body_pairs.h"
 
-namespace concave_distance {
+namespace concave_distance::normal_cone_tree_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -132,4 +132,4 @@ TEST(NormalConeTree, OfABoxHasNoReflexFeatureOutsideAndNoConvexOneInside) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::normal_cone_tree_test

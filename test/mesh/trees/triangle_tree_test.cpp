@@ -8,7 +8,7 @@
 #include "mesh/surface/mesh_topology.h"
 #include "support/plain_shapes.h"
 
-namespace concave_distance {
+namespace concave_distance::triangle_tree_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -262,4 +262,4 @@ TEST(ContainsPoint, WindingOfAWavyShellAgreesWithItsVolume) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::triangle_tree_test

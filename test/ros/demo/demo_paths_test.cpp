@@ -10,7 +10,7 @@
 #include "simulation/pose_path.h"
 #include "support/temporary_folder.h"
 
-namespace concave_distance::demo {
+namespace concave_distance::demo::demo_paths_test {
 namespace {
 
 class FileTest : public ::testing::Test {
@@ -125,4 +125,4 @@ TEST(WamPath, StaysWithinTheLimitsOfTheUrdfInPositionAndSpeed) {
 }
 
 }  // namespace
-}  // namespace concave_distance::demo
+}  // namespace concave_distance::demo::demo_paths_test

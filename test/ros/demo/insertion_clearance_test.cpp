@@ -6,7 +6,7 @@
 #include "loading/query_poses.h"
 #include "simulation/pose_path.h"
 
-namespace concave_distance::demo {
+namespace concave_distance::demo::insertion_clearance_test {
 namespace {
 
 const std::string kFolder = std::string(CONCAVE_DISTANCE_SOURCE_DIR) + "/meshes/thesis/";
@@ -44,4 +44,4 @@ TEST(InsertionManoeuvre, HasTwoHundredStepsAtTenHertzThatEndInserted) {
 }
 
 }  // namespace
-}  // namespace concave_distance::demo
+}  // namespace concave_distance::demo::insertion_clearance_test

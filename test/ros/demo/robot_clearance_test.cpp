@@ -14,7 +14,7 @@
 #include "fcl_model.h"
 #include "ros/demo/joint_path.h"
 
-namespace concave_distance::demo {
+namespace concave_distance::demo::robot_clearance_test {
 namespace {
 
 const std::string kPackage = CONCAVE_DISTANCE_SOURCE_DIR;
@@ -169,4 +169,4 @@ TEST(RobotDemo, NeverComesNearerThanACentimetre) {
 }
 
 }  // namespace
-}  // namespace concave_distance::demo
+}  // namespace concave_distance::demo::robot_clearance_test

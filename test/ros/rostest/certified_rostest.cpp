@@ -2,8 +2,6 @@
 #include <concave_distance/GetDistance.h>
 #include <concave_distance/PairNiches.h>
 #include <gtest/gtest.h>
-#include <ros/init.h>
-#include <ros/spinner.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +10,7 @@
 #include "node_access.h"
 #include "tf_player.h"
 
-namespace concave_distance {
+namespace concave_distance::certified_rostest {
 namespace {
 
 // Metres, of the battery over the fixture: inserted, near walls on every side.
@@ -204,12 +202,4 @@ TEST_F(CertifiedTest, DiagnosticsCountMissesAndProofsThatABudgetEnded) {
 }
 
 }  // namespace
-}  // namespace concave_distance
-
-int main(int argc, char** argv) {
-  ::testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "certified_rostest");
-  ros::AsyncSpinner spinner(2);
-  spinner.start();
-  return RUN_ALL_TESTS();
-}
+}  // namespace concave_distance::certified_rostest

@@ -3,8 +3,6 @@
 #include <concave_distance/GetDistance.h>
 #include <concave_distance/PairNiches.h>
 #include <gtest/gtest.h>
-#include <ros/init.h>
-#include <ros/spinner.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 
 #include <algorithm>
@@ -15,7 +13,7 @@
 #include "simulated_clock.h"
 #include "tf_player.h"
 
-namespace concave_distance {
+namespace concave_distance::clock_rostest {
 namespace {
 
 geometry_msgs::TransformStamped standInWorld() {
@@ -84,12 +82,4 @@ TEST(SimulatedClock, IsWaitedForFollowedAndMayJumpBack) {
 }
 
 }  // namespace
-}  // namespace concave_distance
-
-int main(int argc, char** argv) {
-  ::testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "clock_rostest");
-  ros::AsyncSpinner spinner(2);
-  spinner.start();
-  return RUN_ALL_TESTS();
-}
+}  // namespace concave_distance::clock_rostest

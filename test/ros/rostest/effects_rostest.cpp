@@ -6,9 +6,7 @@
 #include <concave_distance/Niches.h>
 #include <concave_distance/SetEffects.h>
 #include <gtest/gtest.h>
-#include <ros/init.h>
 #include <ros/package.h>
-#include <ros/spinner.h>
 #include <visualization_msgs/MarkerArray.h>
 
 #include <algorithm>
@@ -19,7 +17,7 @@
 #include "run_node.h"
 #include "tf_player.h"
 
-namespace concave_distance {
+namespace concave_distance::effects_rostest {
 namespace {
 
 // Metres that the block is pressed into the crate's face, its side and the spring's stiffness in N/m.
@@ -274,12 +272,4 @@ TEST_F(EffectsTest, QueriesFindContactsWhateverThePairAsksFor) {
 }
 
 }  // namespace
-}  // namespace concave_distance
-
-int main(int argc, char** argv) {
-  ::testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "effects_rostest");
-  ros::AsyncSpinner spinner(2);
-  spinner.start();
-  return RUN_ALL_TESTS();
-}
+}  // namespace concave_distance::effects_rostest

@@ -1,8 +1,6 @@
 // The handles of the interactive demo: in every rviz they are where tf says the body is.
 #include <gtest/gtest.h>
-#include <ros/init.h>
 #include <ros/publisher.h>
-#include <ros/spinner.h>
 #include <tf2_msgs/TFMessage.h>
 #include <visualization_msgs/InteractiveMarkerFeedback.h>
 #include <visualization_msgs/InteractiveMarkerInit.h>
@@ -11,7 +9,7 @@
 
 #include "rostest_support.h"
 
-namespace concave_distance {
+namespace concave_distance::handles_rostest {
 namespace {
 
 using Feedback = visualization_msgs::InteractiveMarkerFeedback;
@@ -53,12 +51,4 @@ TEST(Handles, FollowTheBodyWhileItSwaysAndAfterItWasDragged) {
 }
 
 }  // namespace
-}  // namespace concave_distance
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "handles_rostest");
-  ros::AsyncSpinner spinner(2);
-  spinner.start();
-  return RUN_ALL_TESTS();
-}
+}  // namespace concave_distance::handles_rostest

@@ -6,8 +6,6 @@
 #include <concave_distance/RemoveBody.h>
 #include <concave_distance/SetEffects.h>
 #include <gtest/gtest.h>
-#include <ros/init.h>
-#include <ros/spinner.h>
 
 #include <cstdio>
 #include <filesystem>
@@ -18,7 +16,7 @@
 #include "support/hostile_mesh_files.h"
 #include "tf_player.h"
 
-namespace concave_distance {
+namespace concave_distance::hostile_meshes_rostest {
 namespace {
 
 namespace fs = std::filesystem;
@@ -46,6 +44,10 @@ AddBodyResponse addMesh(const std::string& resource) {
 
 class HostileMeshesTest : public ::testing::Test {
  protected:
+  static void TearDownTestSuite() {
+    std::error_code ignored;
+    fs::remove_all(kFolder, ignored);
+  }
   HostileMeshesTest() {
     player.place("box_a", 0.0);
     player.place("box_b", 2.0);
@@ -126,15 +128,4 @@ TEST_F(HostileMeshesTest, NorDoTextsForEffectsDoHarm) {
 }
 
 }  // namespace
-}  // namespace concave_distance
-
-int main(int argc, char** argv) {
-  ::testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "hostile_meshes_rostest");
-  ros::AsyncSpinner spinner(2);
-  spinner.start();
-  const int result = RUN_ALL_TESTS();
-  std::error_code ignored;
-  std::filesystem::remove_all(concave_distance::kFolder, ignored);
-  return result;
-}
+}  // namespace concave_distance::hostile_meshes_rostest

@@ -3,7 +3,6 @@
 #include <concave_distance/PairDistance.h>
 #include <gtest/gtest.h>
 #include <ros/init.h>
-#include <ros/spinner.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include <cmath>
@@ -15,7 +14,7 @@
 #include "simulated_clock.h"
 #include "tf_player.h"
 
-namespace concave_distance {
+namespace concave_distance::hostile_tf_rostest {
 namespace {
 
 using test::transformOf;
@@ -133,12 +132,4 @@ TEST_F(HostileTfTest, AQueryAtAnImpossibleTimeIsAnswered) {
 }
 
 }  // namespace
-}  // namespace concave_distance
-
-int main(int argc, char** argv) {
-  ::testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "hostile_tf_rostest");
-  ros::AsyncSpinner spinner(2);
-  spinner.start();
-  return RUN_ALL_TESTS();
-}
+}  // namespace concave_distance::hostile_tf_rostest

@@ -3,10 +3,8 @@
 #include <concave_distance/Distances.h>
 #include <concave_distance/ListBodies.h>
 #include <gtest/gtest.h>
-#include <ros/init.h>
 #include <ros/package.h>
 #include <ros/param.h>
-#include <ros/spinner.h>
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +17,7 @@
 #include "rostest_support.h"
 #include "tf_player.h"
 
-namespace concave_distance {
+namespace concave_distance::launch_files_rostest {
 namespace {
 
 constexpr double kStart = 60.0;  // s, for roslaunch and the nodes to start on a busy machine
@@ -158,12 +156,4 @@ INSTANTIATE_TEST_SUITE_P(Demos, DemoLaunchFile,
                          });
 
 }  // namespace
-}  // namespace concave_distance
-
-int main(int argc, char** argv) {
-  ::testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "launch_files_rostest");
-  ros::AsyncSpinner spinner(2);
-  spinner.start();
-  return RUN_ALL_TESTS();
-}
+}  // namespace concave_distance::launch_files_rostest

@@ -6,9 +6,7 @@
 #include <concave_distance/GetDistances.h>
 #include <concave_distance/ListBodies.h>
 #include <gtest/gtest.h>
-#include <ros/init.h>
 #include <ros/package.h>
-#include <ros/spinner.h>
 #include <std_msgs/Float64.h>
 
 #include <cmath>
@@ -20,10 +18,10 @@
 #include "ros/watched_topic.h"
 #include "rostest_support.h"
 #include "started_node.h"
-#include "support/count_bytes.h"
+#include "support/count_allocations.h"
 #include "tf_player.h"
 
-namespace concave_distance {
+namespace concave_distance::limits_rostest {
 namespace {
 
 // Bytes that a topic may leave behind; what roscpp's node handle keeps of a publisher is 272.
@@ -173,13 +171,4 @@ TEST(Limits, TopicsThatAreDroppedLeaveNoMemoryBehind) {
 }
 
 }  // namespace
-}  // namespace concave_distance
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "limits_rostest");
-  ros::NodeHandle node;
-  ros::AsyncSpinner spinner(2);
-  spinner.start();
-  return RUN_ALL_TESTS();
-}
+}  // namespace concave_distance::limits_rostest

@@ -4,13 +4,11 @@
 #include <concave_distance/ListBodies.h>
 #include <gtest/gtest.h>
 #include <nodelet/NodeletUnload.h>
-#include <ros/init.h>
-#include <ros/spinner.h>
 
 #include "rostest_support.h"
 #include "tf_player.h"
 
-namespace concave_distance {
+namespace concave_distance::nodelet_rostest {
 namespace {
 
 TEST(Nodelet, ServesAsTheNodeDoesAndCanBeUnloaded) {
@@ -44,12 +42,4 @@ TEST(Nodelet, WithAWrongSceneFileLeavesItsManagerAlive) {
 }
 
 }  // namespace
-}  // namespace concave_distance
-
-int main(int argc, char** argv) {
-  ::testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "nodelet_rostest");
-  ros::AsyncSpinner spinner(2);
-  spinner.start();
-  return RUN_ALL_TESTS();
-}
+}  // namespace concave_distance::nodelet_rostest

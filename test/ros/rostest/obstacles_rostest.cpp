@@ -8,9 +8,7 @@
 #include <concave_distance/SetPairEnabled.h>
 #include <concave_distance/SetWarningDistance.h>
 #include <gtest/gtest.h>
-#include <ros/init.h>
 #include <ros/param.h>
-#include <ros/spinner.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 
 #include <algorithm>
@@ -21,7 +19,7 @@
 #include "node_access.h"
 #include "tf_player.h"
 
-namespace concave_distance {
+namespace concave_distance::obstacles_rostest {
 namespace {
 
 AddBodyRequest box(const std::string& name, const std::string& frame) {
@@ -174,12 +172,4 @@ TEST_F(Obstacles, WarningDistancesAreSetAndTakenAwayWhileItRuns) {
 }
 
 }  // namespace
-}  // namespace concave_distance
-
-int main(int argc, char** argv) {
-  ::testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "obstacles_rostest");
-  ros::AsyncSpinner spinner(2);
-  spinner.start();
-  return RUN_ALL_TESTS();
-}
+}  // namespace concave_distance::obstacles_rostest

@@ -9,8 +9,6 @@
 #include <concave_distance/ResetTracking.h>
 #include <concave_distance/SetPairEnabled.h>
 #include <gtest/gtest.h>
-#include <ros/init.h>
-#include <ros/spinner.h>
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +18,7 @@
 #include "node_access.h"
 #include "tf_player.h"
 
-namespace concave_distance {
+namespace concave_distance::services_rostest {
 namespace {
 
 GetDistanceRequest boxes() {
@@ -309,12 +307,4 @@ TEST_F(ServicesTest, AddBodyRefusesBadRequestsWithTheReason) {
 }
 
 }  // namespace
-}  // namespace concave_distance
-
-int main(int argc, char** argv) {
-  ::testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "services_rostest");
-  ros::AsyncSpinner spinner(2);
-  spinner.start();
-  return RUN_ALL_TESTS();
-}
+}  // namespace concave_distance::services_rostest

@@ -3,8 +3,6 @@
 #include <concave_distance/Distances.h>
 #include <concave_distance/SimulationState.h>
 #include <gtest/gtest.h>
-#include <ros/init.h>
-#include <ros/spinner.h>
 #include <std_srvs/SetBool.h>
 #include <std_srvs/Trigger.h>
 
@@ -13,7 +11,7 @@
 
 #include "rostest_support.h"
 
-namespace concave_distance {
+namespace concave_distance::simulation_rostest {
 namespace {
 
 constexpr double kGravity = 9.81;
@@ -93,12 +91,4 @@ TEST(SimulationNode, PausesAndBeginsAnewWhileTheClockGoesOn) {
 }
 
 }  // namespace
-}  // namespace concave_distance
-
-int main(int argc, char** argv) {
-  ros::init(argc, argv, "simulation_rostest");
-  testing::InitGoogleTest(&argc, argv);
-  ros::AsyncSpinner spinner(1);
-  spinner.start();
-  return RUN_ALL_TESTS();
-}
+}  // namespace concave_distance::simulation_rostest

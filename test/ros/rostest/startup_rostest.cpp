@@ -5,10 +5,8 @@
 #include <concave_distance/ListBodies.h>
 #include <dynamic_reconfigure/Reconfigure.h>
 #include <gtest/gtest.h>
-#include <ros/init.h>
 #include <ros/package.h>
 #include <ros/param.h>
-#include <ros/spinner.h>
 
 #include <algorithm>
 #include <array>
@@ -27,7 +25,7 @@
 #include "support/temporary_folder.h"
 #include "tf_player.h"
 
-namespace concave_distance {
+namespace concave_distance::startup_rostest {
 namespace {
 
 ListBodiesResponse list(const std::string& node) {
@@ -325,12 +323,4 @@ TEST(StartUp, AWrongParameterEndsTheNodeWithNameValueAndRange) {
 }
 
 }  // namespace
-}  // namespace concave_distance
-
-int main(int argc, char** argv) {
-  ::testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "startup_rostest");
-  ros::AsyncSpinner spinner(2);
-  spinner.start();
-  return RUN_ALL_TESTS();
-}
+}  // namespace concave_distance::startup_rostest

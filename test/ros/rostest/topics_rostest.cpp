@@ -9,10 +9,8 @@
 #include <concave_distance/RemoveBody.h>
 #include <concave_distance/SetPairEnabled.h>
 #include <gtest/gtest.h>
-#include <ros/init.h>
 #include <ros/master.h>
 #include <ros/package.h>
-#include <ros/spinner.h>
 #include <std_msgs/Float64.h>
 #include <visualization_msgs/MarkerArray.h>
 
@@ -28,7 +26,7 @@
 #include "started_node.h"
 #include "tf_player.h"
 
-namespace concave_distance {
+namespace concave_distance::topics_rostest {
 namespace {
 
 // A period in which cycles did nothing but look who listens.
@@ -490,12 +488,4 @@ TEST_F(TopicsTest, ABodyAddedDuringAReconfigurationGetsItsSettings) {
 }
 
 }  // namespace
-}  // namespace concave_distance
-
-int main(int argc, char** argv) {
-  ::testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "topics_rostest");
-  ros::AsyncSpinner spinner(2);
-  spinner.start();
-  return RUN_ALL_TESTS();
-}
+}  // namespace concave_distance::topics_rostest

@@ -8,9 +8,7 @@
 #include <concave_distance/RemoveBody.h>
 #include <concave_distance/SetPairEnabled.h>
 #include <gtest/gtest.h>
-#include <ros/init.h>
 #include <ros/serialization.h>
-#include <ros/spinner.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include <cmath>
@@ -20,7 +18,7 @@
 
 #include "rostest_support.h"
 
-namespace concave_distance {
+namespace concave_distance::untouched_rostest {
 namespace {
 
 constexpr int kSteps = 60;
@@ -129,12 +127,4 @@ TEST(Services, LeaveWhatIsTrackedUntouchedToTheLastBit) {
 }
 
 }  // namespace
-}  // namespace concave_distance
-
-int main(int argc, char** argv) {
-  ::testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "untouched_rostest");
-  ros::AsyncSpinner spinner(2);
-  spinner.start();
-  return RUN_ALL_TESTS();
-}
+}  // namespace concave_distance::untouched_rostest

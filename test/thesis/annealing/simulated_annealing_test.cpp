@@ -11,7 +11,7 @@
 #include "thesis/evaluation/enumeration.h"
 #include "thesis/evaluation/search_method.h"
 
-namespace concave_distance {
+namespace concave_distance::simulated_annealing_test {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -249,4 +249,4 @@ TEST(SearchMethod, NamesThemAsTheThesisDoes) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::simulated_annealing_test

@@ -16,7 +16,7 @@
 #include "thesis/continuous/tree_checks.h"
 #include "thesis/evaluation/enumeration.h"
 
-namespace concave_distance {
+namespace concave_distance::build_constraint_tree_test {
 namespace {
 
 SurfaceMesh loadMesh(const std::string& file) {
@@ -206,4 +206,4 @@ TEST(ContinuousGeneticSearch, SolvesTheBatteryAndFixtureInMoreThanHalfOfTheRuns)
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::build_constraint_tree_test

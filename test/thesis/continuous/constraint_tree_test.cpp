@@ -12,7 +12,7 @@
 #include "thesis/continuous/piece_mesh.h"
 #include "thesis/continuous/tree_shapes.h"
 
-namespace concave_distance {
+namespace concave_distance::constraint_tree_test {
 namespace {
 
 using test::boxPiece;
@@ -138,4 +138,4 @@ TEST(PieceMesh, SaysWhatIsNoPiece) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::constraint_tree_test

@@ -6,7 +6,7 @@
 #include "thesis/continuous/continuous_mating.h"
 #include "thesis/continuous/random_moves.h"
 
-namespace concave_distance {
+namespace concave_distance::continuous_operators_test {
 namespace {
 
 const Eigen::AlignedBox3d kBoxA(Eigen::Vector3d(-1, 0, 2), Eigen::Vector3d(1, 4, 3));
@@ -147,4 +147,4 @@ TEST(ContinuousMating, FitnessWeightedIsDefinedWhereBothParentsArePerfect) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::continuous_operators_test

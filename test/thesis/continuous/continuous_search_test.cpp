@@ -7,7 +7,7 @@
 #include "thesis/continuous/continuous_genetic_search.h"
 #include "thesis/continuous/tree_shapes.h"
 
-namespace concave_distance {
+namespace concave_distance::continuous_search_test {
 namespace {
 
 using test::boxTree;
@@ -217,4 +217,4 @@ TEST(ContinuousParameters, SayWhatIsOutOfRange) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::continuous_search_test

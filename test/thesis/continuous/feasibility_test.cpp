@@ -8,7 +8,7 @@
 #include "support/plain_shapes.h"
 #include "thesis/continuous/tree_shapes.h"
 
-namespace concave_distance {
+namespace concave_distance::feasibility_test {
 namespace {
 
 using test::boxPiece;
@@ -115,4 +115,4 @@ TEST(Feasibility, CountsTheConstraintsOfTheWalk) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::feasibility_test

@@ -8,7 +8,7 @@
 #include "support/plain_shapes.h"
 #include "thesis/continuous/tree_shapes.h"
 
-namespace concave_distance {
+namespace concave_distance::local_step_test {
 namespace {
 
 using test::boxTree;
@@ -134,4 +134,4 @@ TEST(LocalStep, PointsThatMeetDoNotPassEachOther) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::local_step_test

@@ -7,7 +7,7 @@
 #include "support/thesis_scenes.h"
 #include "thesis/continuous/constraint_tree_file.h"
 
-namespace concave_distance {
+namespace concave_distance::mesh_tool_tree_test {
 namespace {
 
 /// The program as a user runs it.
@@ -42,4 +42,4 @@ TEST_F(MeshToolTree, RefusesAnOpenMeshByName) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::mesh_tool_tree_test

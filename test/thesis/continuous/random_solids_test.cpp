@@ -7,7 +7,7 @@
 #include "thesis/continuous/construction/tree_of_solid.h"
 #include "thesis/continuous/tree_checks.h"
 
-namespace concave_distance {
+namespace concave_distance::random_solids_test {
 namespace {
 
 /// A box with corners on the grid of metres, or the half of it below its diagonal plane along one axis.
@@ -100,4 +100,4 @@ TEST(RandomConcaveSolids, HaveTreesThatHoldExactlyTheirPoints) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::random_solids_test

@@ -12,7 +12,7 @@
 #include "concave_distance/base/error.h"
 #include "support/body_pairs.h"
 
-namespace concave_distance {
+namespace concave_distance::enumeration_test {
 namespace {
 
 using Eigen::Isometry3d;
@@ -238,4 +238,4 @@ TEST(EnumerateNodeNiches, RefusesMorePairsThanAllowed) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::enumeration_test

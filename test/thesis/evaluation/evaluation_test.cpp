@@ -13,7 +13,7 @@
 #include "thesis/evaluation/run_experiment.h"
 #include "thesis/evaluation/trial.h"
 
-namespace concave_distance::evaluation {
+namespace concave_distance::evaluation::evaluation_test {
 namespace {
 
 const std::string kSource = CONCAVE_DISTANCE_SOURCE_DIR;
@@ -315,4 +315,4 @@ TEST_F(Evaluation, DoesNotWriteIntoAnotherPrograms) {
 }
 
 }  // namespace
-}  // namespace concave_distance::evaluation
+}  // namespace concave_distance::evaluation::evaluation_test

@@ -7,7 +7,7 @@
 #include "search/search_scenes.h"
 #include "thesis/evaluation/niche_motion.h"
 
-namespace concave_distance::evaluation {
+namespace concave_distance::evaluation::first_guess_test {
 namespace {
 
 // Sec. 6.2.2: "two for each niche", regardless of its fitness.
@@ -49,7 +49,7 @@ class MovingNiche : public ::testing::Test {
     return graph.positions[niches[0].node_a.value].x();
   }
 
-  const std::unique_ptr<BodyMesh> bar_ = test::makeBody(makeBox({8.0, 1.0, 1.0}), 0.1);
+  const std::unique_ptr<BodyMesh> bar_ = test::makeSearchBody(makeBox({8.0, 1.0, 1.0}), 0.1);
   const double edge_ = bar_->maxEdgeLength();
 };
 
@@ -77,4 +77,4 @@ TEST_F(MovingNiche, FarFromAllOfTheLastInstantIsANewOne) {
 }
 
 }  // namespace
-}  // namespace concave_distance::evaluation
+}  // namespace concave_distance::evaluation::first_guess_test

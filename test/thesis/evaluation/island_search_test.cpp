@@ -10,7 +10,7 @@
 #include "thesis/evaluation/enumeration.h"
 #include "thesis/evaluation/island_workspaces.h"
 
-namespace concave_distance {
+namespace concave_distance::island_search_test {
 namespace {
 
 bool areSame(const std::vector<TrialPoint>& l, const std::vector<TrialPoint>& r) {
@@ -118,4 +118,4 @@ TEST(IslandParameters, AreRefusedByName) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::island_search_test

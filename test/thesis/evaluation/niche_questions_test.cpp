@@ -11,7 +11,7 @@
 #include "support/plain_shapes.h"
 #include "thesis/evaluation/optimum_basin.h"
 
-namespace concave_distance::evaluation {
+namespace concave_distance::evaluation::niche_questions_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -187,4 +187,4 @@ TEST_F(SawOverPlate, AnAnswerIsInTheRegionOfTheOptimumWhereADescentLeadsThere) {
 }
 
 }  // namespace
-}  // namespace concave_distance::evaluation
+}  // namespace concave_distance::evaluation::niche_questions_test

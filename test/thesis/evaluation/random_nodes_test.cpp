@@ -12,7 +12,7 @@
 #include "support/concave_shapes.h"
 #include "thesis/evaluation/enumeration.h"
 
-namespace concave_distance {
+namespace concave_distance::random_nodes_test {
 namespace {
 
 SearchNodes nodesOf(const SurfaceMesh& surface, std::size_t count, bool vertices_and_edges,
@@ -143,4 +143,4 @@ TEST(RandomNodes, NoneAtAllAreRefused) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::random_nodes_test

@@ -13,7 +13,7 @@
 #include "support/temporary_folder.h"
 #include "thesis/evaluation/experiment.h"
 
-namespace concave_distance::evaluation {
+namespace concave_distance::evaluation::row_parameters_test {
 namespace {
 
 using Values = std::map<std::string, std::string>;
@@ -265,4 +265,4 @@ TEST_F(Rows, AreWrittenWithEveryParameter) {
 }
 
 }  // namespace
-}  // namespace concave_distance::evaluation
+}  // namespace concave_distance::evaluation::row_parameters_test

@@ -11,7 +11,7 @@
 #include "support/concave_shapes.h"
 #include "thesis/evaluation/enumeration.h"
 
-namespace concave_distance {
+namespace concave_distance::volume_nodes_test {
 namespace {
 
 BodyMeshParts partsOf(SurfaceMesh surface, double edge) {
@@ -85,4 +85,4 @@ TEST(VolumeNodes, RefuseALatticeWithoutASize) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::volume_nodes_test

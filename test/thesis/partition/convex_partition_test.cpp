@@ -10,7 +10,7 @@
 #include "support/read_pieces.h"
 #include "support/thesis_scenes.h"
 
-namespace concave_distance {
+namespace concave_distance::convex_partition_test {
 namespace {
 
 SurfaceMesh together(const SurfaceMesh& a, const SurfaceMesh& b, bool turn_b = false) {
@@ -126,4 +126,4 @@ TEST(ConvexPartition, MoreReflexEdgesThanTheLimitAreRefusedWithTheirCount) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::convex_partition_test

@@ -12,7 +12,7 @@
 #include "thesis/partition/convex_hull.h"
 #include "thesis/partition/piece_file.h"
 
-namespace concave_distance {
+namespace concave_distance::convex_piece_test {
 namespace {
 
 ConvexPiece unitCube() {
@@ -95,4 +95,4 @@ TEST(PieceFile, FaultsNameTheFileAndTheLine) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::convex_piece_test

@@ -10,7 +10,7 @@
 #include "support/read_pieces.h"
 #include "support/temporary_folder.h"
 
-namespace concave_distance {
+namespace concave_distance::mesh_tool_convex_test {
 namespace {
 
 /// The program as a user runs it.
@@ -63,4 +63,4 @@ TEST_F(MeshToolConvex, MoreReflexEdgesThanAllowedAreRefused) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::mesh_tool_convex_test

@@ -13,7 +13,7 @@
 #include "thesis/partition/convex_partition.h"
 #include "thesis/partition/hybrid_distance.h"
 
-namespace concave_distance {
+namespace concave_distance::partition_tracker_test {
 namespace {
 
 using PartitionPointer = std::shared_ptr<const ConvexPartition>;
@@ -213,4 +213,4 @@ TEST(HybridDistance, IsTheBodiesDistanceWhateverThePlacesAre) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::partition_tracker_test

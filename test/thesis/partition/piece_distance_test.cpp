@@ -11,7 +11,7 @@
 #include "thesis/partition/pair_program.h"
 #include "thesis/partition/piece_solvers.h"
 
-namespace concave_distance {
+namespace concave_distance::piece_distance_test {
 namespace {
 
 using test::randomPose;
@@ -217,4 +217,4 @@ TEST(PieceDistance, OfASolverThatFailedTheFacetsDecide) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::piece_distance_test

@@ -9,7 +9,7 @@
 #include "support/thesis_scenes.h"
 #include "thesis/evaluation/enumeration.h"
 
-namespace concave_distance {
+namespace concave_distance::thesis_scenes_test {
 namespace {
 
 // STL carries single precision: 1.6 m with a relative error of 2^-24 at six coordinates of a witness pair.
@@ -110,4 +110,4 @@ TEST(BatteryAtRest, IsOnePatchOverThePlateHoweverOftenItIsMet) {
 }
 
 }  // namespace
-}  // namespace concave_distance
+}  // namespace concave_distance::thesis_scenes_test
