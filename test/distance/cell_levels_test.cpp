@@ -10,9 +10,9 @@
 namespace concave_distance::cell_levels_test {
 namespace {
 
-class EveryFamily : public testing::TestWithParam<test::TrianglePairFamily> {};
+class LevelsOfEveryFamily : public testing::TestWithParam<test::TrianglePairFamily> {};
 
-TEST_P(EveryFamily, LevelsOfACellAreTheDistancesOfEachEdgeWithinTheKernelsBound) {
+TEST_P(LevelsOfEveryFamily, LevelsOfACellAreTheDistancesOfEachEdgeWithinTheKernelsBound) {
   RandomEngine engine(20240301);
   for (int i = 0; i < 300; ++i) {
     const auto [a, b] = GetParam().draw(engine);
@@ -90,7 +90,7 @@ TEST(CellLevels, OfQuadranglesAreTheDistancesOfTheirTriangles) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(CellLevels, EveryFamily, testing::ValuesIn(test::kTrianglePairFamilies),
+INSTANTIATE_TEST_SUITE_P(CellLevels, LevelsOfEveryFamily, testing::ValuesIn(test::kTrianglePairFamilies),
                          [](const auto& info) {
                            std::string name = info.param.name;
                            std::replace(name.begin(), name.end(), ' ', '_');
