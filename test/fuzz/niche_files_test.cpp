@@ -29,12 +29,14 @@ std::string pathOf(const std::string& file) {
 
 /// Settings that were toggled or combined where lists were wrong. The last one's count is cut in some cycles.
 std::vector<TrackerParameters> settingsOfTheCases() {
-  std::vector<TrackerParameters> settings(5);
+  std::vector<TrackerParameters> settings(6);
   settings[1].largest_niche_count = 3;
   settings[2].hidden = true;
   settings[2].prominence_limit = 0.5;
   settings[3].hidden = true;
   settings[3].least_prominence = 0.0;
+  settings[4].hidden = true;
+  settings[4].keep_through_material = true;
   return settings;
 }
 
