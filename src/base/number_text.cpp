@@ -1,7 +1,8 @@
 #include "number_text.h"
 
+#include <algorithm>
 #include <charconv>
-#include <limits>
+#include <cstdint>
 #include <locale>
 #include <system_error>
 
@@ -14,6 +15,24 @@ std::string written(double value, std::chars_format format, int precision) {
   const auto end = std::to_chars(text.data(), text.data() + text.size(), value, format, precision).ptr;
   text.resize(static_cast<std::size_t>(end - text.data()));
   return text;
+}
+
+/// Whether a decimal number beyond the range of a double is below 1: too small, not too large.
+bool isBelowOne(std::string_view text) {
+  const std::size_t end = std::min(text.find_first_of("eE"), text.size());
+  const std::string_view digits = text.substr(0, end);
+  const std::size_t first = digits.find_first_of("123456789");
+  if (first == std::string_view::npos) return true;
+  const std::size_t point = std::min(digits.find('.'), digits.size());
+  const auto power =
+      static_cast<std::int64_t>(point) - static_cast<std::int64_t>(first) - (first < point ? 1 : 0);
+  std::string_view exponent = text.substr(std::min(end + 1, text.size()));
+  const bool is_negative = !exponent.empty() && exponent.front() == '-';
+  if (!exponent.empty() && exponent.front() == '+') exponent.remove_prefix(1);
+  std::int32_t value = 0;
+  const auto read = std::from_chars(exponent.data(), exponent.data() + exponent.size(), value);
+  if (read.ec == std::errc::result_out_of_range) return is_negative;
+  return power + value < 0;
 }
 
 }  // namespace
@@ -37,7 +56,9 @@ std::optional<double> parseNumber(std::string_view text) {
   const char* last = text.data() + text.size();
   double value = 0.0;
   const auto [end, error] = std::from_chars(text.data(), last, value);
-  return error == std::errc() && end == last ? std::optional(value) : std::nullopt;
+  if (end != last) return std::nullopt;
+  if (error == std::errc::result_out_of_range && isBelowOne(text)) return 0.0;
+  return error == std::errc() ? std::optional(value) : std::nullopt;
 }
 
 }  // namespace concave_distance

@@ -20,8 +20,9 @@ class TextStream : public std::ostringstream {
 std::string numberText(double value, int digits = 6);
 /// With this many digits after the point, as %f writes them.
 std::string fixedText(double value, int decimals);
-/// The number that all of a text stands for: digits with a point, an exponent, inf or nan. Nothing for any
-/// other text, also for a number beyond the range of a double or a hexadecimal one.
+/// The number that all of a text stands for: digits with a point, an exponent, inf or nan. One that is too
+/// small for a double is 0. Nothing for any other text, also for a number too large for a double or a
+/// hexadecimal one.
 std::optional<double> parseNumber(std::string_view text);
 
 }  // namespace concave_distance

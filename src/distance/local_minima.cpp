@@ -2,18 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 #include "base/refill.h"
-#include "cone_front.h"
-#include "far_pieces.h"
-#include "meeting_pairs.h"
-#include "mesh/trees/normal_cone_tree.h"
-#include "minima_candidates.h"
 #include "minima_flood.h"
 #include "minima_scene.h"
 #include "minima_verdicts.h"
 #include "niche_describer.h"
+#include "seed_collector.h"
 
 namespace concave_distance {
 namespace detail {
@@ -21,43 +16,6 @@ namespace {
 
 constexpr std::size_t kNoOwner = LocalMinima::kNoOwner;
 constexpr std::size_t kUndecided = LocalMinima::kUndecided;
-
-/// Whether a minimum that was found elsewhere, by a search or at an earlier pose, can be a niche.
-bool isCandidate(const MinimaScene& scene, const LocalMinimaRequest& request, const MinimumSeed& seed) {
-  return seed.distance <= request.cutoff + scene.rounding && scene.areOnSurface(seed.a, seed.b);
-}
-
-void appendCandidates(const MinimaScene& scene, const LocalMinimaRequest& request,
-                      const std::vector<MinimumSeed>& from, std::vector<MinimumSeed>& seeds) {
-  std::copy_if(from.begin(), from.end(), std::back_inserter(seeds),
-               [&](const MinimumSeed& seed) { return isCandidate(scene, request, seed); });
-}
-
-/// False when the limit was reached.
-bool collectSeeds(const MinimaScene& scene, const LocalMinimaRequest& request,
-                  std::vector<MinimumSeed>& seeds, LocalMinimaCost& cost, WorkLimit& limit,
-                  ConeFront* front) {
-  seeds.clear();
-  if (request.given != nullptr) {
-    if (!limit.makeRoom(seeds, request.given->size())) return false;
-    appendCandidates(scene, request, *request.given, seeds);
-    return true;
-  }
-  if (isFar(scene, request.least_prominence)) {
-    FarPieceBuffers far_pieces;
-    if (collectFarSeeds(scene, request.cutoff, far_pieces, seeds, limit)) return true;
-  }
-  if (!(request.certain_distance > 16.0 * scene.rounding)) collectMeetingPairs(scene, seeds, cost, limit);
-  const NormalSides sides = request.through_material ? NormalSides::Both : NormalSides::Outside;
-  if (front != nullptr) {
-    const bool done = front->collect(scene, sides, request.cutoff, seeds, limit);
-    cost.node_pairs += front->counts().groups;
-    cost.feature_pairs += front->counts().features;
-    return done;
-  }
-  collectConeSeeds(scene, sides, request.cutoff, seeds, cost, limit);
-  return !limit.isOver();
-}
 
 }  // namespace
 
@@ -80,14 +38,14 @@ struct LocalMinimaParts {
   void list(const LocalMinimaRequest& request, LocalMinima& result);
 
   std::size_t memoryBytes() const {
-    return sizeof(LocalMinimaParts) + front.memoryBytes() + verdicts.memoryBytes() +
+    return sizeof(LocalMinimaParts) + collector.memoryBytes() + verdicts.memoryBytes() +
            seeds.capacity() * sizeof(MinimumSeed) + minima.capacity() * sizeof(FloodedMinimum) +
            described.capacity() * sizeof(Described) +
            (described_as.capacity() + places.capacity() + owners.capacity() + proposed.capacity()) *
                sizeof(std::size_t);
   }
 
-  ConeFront front;
+  SeedCollector collector;
   MinimaVerdicts verdicts;
   NicheDescriber describer;
   RefinementWorkspace refinement;
@@ -261,7 +219,7 @@ detail::LocalMinimaParts& LocalMinimaMemory::parts() {
 
 void LocalMinimaMemory::clear() {
   if (parts_ == nullptr) return;
-  parts_->front.clear();
+  parts_->collector.clear();
   parts_->verdicts.clear();
 }
 
@@ -284,10 +242,9 @@ void findLocalMinima(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry
   parts.described.clear();
   parts.owners.clear();
   parts.proposed.clear();
-  detail::ConeFront* front = request.is_tracked ? &parts.front : nullptr;
   const auto start = WorkLimit::Clock::now();
   limit.allowShare(request.time_shares.search);
-  const bool all = detail::collectSeeds(scene, request, parts.seeds, result.cost, limit, front);
+  const bool all = parts.collector.collect(scene, request, parts.seeds, result.cost, limit);
   result.cost.sweep_seconds = std::chrono::duration<double>(WorkLimit::Clock::now() - start).count();
   result.cost.minima = parts.seeds.size();
   limit.allowShare(request.time_shares.all);

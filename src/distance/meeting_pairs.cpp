@@ -16,8 +16,8 @@ Eigen::AlignedBox3d movedBox(const Eigen::AlignedBox3d& box, const Eigen::Isomet
 
 }  // namespace
 
-void collectMeetingPairs(const MinimaScene& scene, std::vector<MinimumSeed>& seeds, LocalMinimaCost& cost,
-                         WorkLimit& limit) {
+void collectMeetingPairs(const MinimaScene& scene, std::vector<TreeNodePair>& open,
+                         std::vector<MinimumSeed>& seeds, LocalMinimaCost& cost, WorkLimit& limit) {
   const TriangleTree& tree_a = scene.a.tree();
   const TriangleTree& tree_b = scene.b.tree();
   const double slack = 4.0 * scene.rounding;
@@ -25,7 +25,9 @@ void collectMeetingPairs(const MinimaScene& scene, std::vector<MinimumSeed>& see
   const double origin = scene.a.surface().boundingBox().center().cwiseAbs().maxCoeff() +
                         scene.b.surface().boundingBox().center().cwiseAbs().maxCoeff();
   const double margin = slack + 1e-14 * (origin + scene.size);
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> open{{0U, 0U}};
+  open.clear();
+  if (!limit.makeRoom(open)) return;
+  open.emplace_back(0U, 0U);
   while (!open.empty()) {
     if (limit.isOverNow() || !limit.makeRoom(open, 2)) return;
     const auto [i, j] = open.back();

@@ -34,7 +34,8 @@ std::vector<MinimumSeed> seedsAt(const MinimaScene& scene) {
   WorkLimit none;
   std::vector<MinimumSeed> seeds;
   LocalMinimaCost cost;
-  collectMeetingPairs(scene, seeds, cost, none);
+  std::vector<TreeNodePair> open;
+  collectMeetingPairs(scene, open, seeds, cost, none);
   front.collect(scene, NormalSides::Outside, kInfinity, seeds, none);
   return seeds;
 }

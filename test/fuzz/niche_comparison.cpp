@@ -69,8 +69,8 @@ class Comparison {
         truth_.offTriangles(cell, points) > truth_.tolerance()) {
       return complain("the points are not on the triangles at that distance");
     }
-    const std::size_t own = nicheOf(cell);
-    if (own == kNone || !isEqual(niches_[own].distance, niche.distance)) return complain("no niche");
+    const std::size_t own = nicheOf(cell, niche.distance);
+    if (own == kNone) return complain("no niche");
     if (std::find(listed_.begin(), listed_.end(), own) != listed_.end()) return complain("listed twice");
     listed_.push_back(own);
     if (niches_[own].distance <= truth_.tolerance()) return;
@@ -97,9 +97,10 @@ class Comparison {
     }
   }
 
-  std::size_t nicheOf(std::size_t cell) const {
+  std::size_t nicheOf(std::size_t cell, double distance) const {
     std::size_t best = kNone;
     for (std::size_t i = 0; i < niches_.size(); ++i) {
+      if (!isEqual(niches_[i].distance, distance)) continue;
       if (!std::binary_search(niches_[i].cells.begin(), niches_[i].cells.end(), cell)) continue;
       const bool is_free = std::find(listed_.begin(), listed_.end(), i) == listed_.end();
       if (best == kNone || is_free) best = i;

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 #include <optional>
 #include <vector>
@@ -50,18 +51,25 @@ TEST(TrackerAllocation, AWarmCycleOfTheBatteryAllocatesNothing) {
   }
 }
 
-// Two combs, the teeth of one swaying in the other's gaps.
-void expectNoAllocationOfCombs(const TrackerParameters& parameters) {
+// Two combs, the teeth of one swaying in the other's gaps, or beside that by `shift`. With `cut_every`,
+// cycles of that period are ended at their first look at the limit, which is what a time budget does at
+// moments that the machine decides.
+void expectNoAllocationOfCombs(TrackerParameters parameters, int cut_every = 0,
+                               const Eigen::Vector3d& shift = Eigen::Vector3d::Zero()) {
   const auto comb = std::make_shared<BodyMesh>("comb", test::makeComb(5), BodyMeshOptions());
+  std::atomic<bool> stop{false};
+  if (cut_every > 0) parameters.stop = &stop;
   PairTracker tracker("combs", comb, comb, parameters);
   expectNoAllocation(
       tracker,
-      [](int k) {
+      [&](int k) {
+        stop = cut_every > 0 && k % cut_every == 0;
         const double t = 2.0 * 3.14159265358979323846 * k / 200.0;
         Eigen::Isometry3d pose(
             Eigen::AngleAxisd(3.14159265358979323846 + 0.01 * std::sin(t), Eigen::Vector3d::UnitZ()));
         pose.translation() =
             Eigen::Vector3d(1.225 + 0.008 * std::sin(2.0 * t), 0.6 + 0.1 * std::sin(t), 0.02 * std::sin(t));
+        pose.translation() += shift;
         return pose;
       },
       200, 3);
@@ -77,9 +85,28 @@ TEST(TrackerAllocation, AProvenCycleAllocatesNothingWithAndWithoutNiches) {
   expectNoAllocationOfCombs(parameters);
   parameters.niches_wanted = false;
   expectNoAllocationOfCombs(parameters);
-  // A budget makes the proof go by another order.
-  parameters.time_budget = 1e-4;
+  // A budget, here one that is never used up, makes the proof go by another order.
+  parameters.time_budget = 1e6;
   expectNoAllocationOfCombs(parameters);
+}
+
+// The proof after a cut one begins at the roots again, which takes more room than to go on from the last.
+TEST(TrackerAllocation, ACycleAfterOneThatWasCutAllocatesNothing) {
+  for (const bool niches_wanted : {true, false}) {
+    TrackerParameters parameters;
+    parameters.niches_wanted = niches_wanted;
+    parameters.time_budget = 1e6;
+    expectNoAllocationOfCombs(parameters, 4);
+  }
+}
+
+TEST(TrackerAllocation, ACycleWithTeethInTeethOrFarAwayAllocatesNothing) {
+  for (const bool niches_wanted : {true, false}) {
+    TrackerParameters parameters;
+    parameters.niches_wanted = niches_wanted;
+    expectNoAllocationOfCombs(parameters, 0, {-0.3, 0.0, 0.0});
+    expectNoAllocationOfCombs(parameters, 0, {1e4, 0.0, 0.0});
+  }
 }
 
 TEST(EffectsAllocation, AWarmCycleInContactAllocatesNothing) {

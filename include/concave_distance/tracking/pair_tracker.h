@@ -14,7 +14,7 @@ namespace concave_distance {
 
 /// One pair of bodies over time: each cycle is warm-started from the niches of the last one (Carretero, sec.
 /// 6.2.2), every niche is re-descended, refined and matched to its persistent id. Not thread-safe; different
-/// trackers may run in parallel. A warm cycle allocates nothing once buffers have grown.
+/// trackers may run in parallel. Once buffers have grown, a cycle without prominences allocates nothing.
 class PairTracker {
  public:
   /// @param name keys the random streams, with the seed and the cycle

@@ -1,8 +1,10 @@
 #include "read_obj.h"
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
+#include "base/number_text.h"
 #include "concave_distance/base/error.h"
 #include "file_mesh.h"
 #include "text_words.h"
@@ -68,9 +70,9 @@ class ObjReader {
   }
 
   double number(std::string_view word) const {
-    double value = 0.0;
-    if (!parseNumber(word, value)) refuse(word, "a number");
-    return value;
+    const std::optional<double> value = parseNumber(word);
+    if (!value) refuse(word, "a number");
+    return *value;
   }
 
   void readVertex() {

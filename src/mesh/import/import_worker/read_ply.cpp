@@ -2,8 +2,10 @@
 
 #include <Eigen/Core>
 #include <limits>
+#include <optional>
 #include <vector>
 
+#include "base/number_text.h"
 #include "binary_numbers.h"
 #include "concave_distance/base/error.h"
 #include "file_mesh.h"
@@ -31,9 +33,9 @@ class PlyNumbers {
                            : brokenNumber(bytes, header_.little_endian);
     }
     const std::string_view word = nextWord();
-    double value = 0.0;
-    if (!parseNumber(word, value)) refuseWord(word, "a number");
-    return value;
+    const std::optional<double> value = parseNumber(word);
+    if (!value) refuseWord(word, "a number");
+    return *value;
   }
 
   std::int64_t whole(const PlyType& type) {

@@ -1,8 +1,10 @@
 #include "read_stl.h"
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
+#include "base/number_text.h"
 #include "binary_numbers.h"
 #include "concave_distance/base/error.h"
 #include "file_mesh.h"
@@ -68,9 +70,9 @@ class TextReader {
 
   double number() {
     const std::string_view word = words_.word();
-    double value = 0.0;
-    if (!parseNumber(word, value)) refuse(word, "a number");
-    return value;
+    const std::optional<double> value = parseNumber(word);
+    if (!value) refuse(word, "a number");
+    return *value;
   }
 
   /// Passes over the rest of the line, which is a name, but not over facets that follow in the same line.

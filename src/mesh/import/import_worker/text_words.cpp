@@ -49,21 +49,6 @@ std::string_view TextWords::line() {
   return found;
 }
 
-bool parseNumber(std::string_view word, double& value) {
-  const std::string_view digits = withoutPlus(word);
-  const char* last = digits.data() + digits.size();
-  const auto [end, error] = std::from_chars(digits.data(), last, value);
-  if (error == std::errc::result_out_of_range && end == last) {
-    // Too large or too small: only the latter has a negative exponent or begins with 0.
-    const std::size_t exponent = digits.find_first_of("eE");
-    const bool is_small = exponent != std::string_view::npos ? digits.substr(exponent + 1).front() == '-'
-                                                             : digits.find("0.0") <= 1;
-    value = 0.0;
-    return is_small;
-  }
-  return error == std::errc() && end == last;
-}
-
 bool parseWhole(std::string_view word, std::int64_t& value) {
   const std::string_view digits = withoutPlus(word);
   const char* last = digits.data() + digits.size();

@@ -35,9 +35,7 @@ class TextWords {
   std::uint64_t line_number_ = 1;
 };
 
-/// Reads a whole word as a number, in the same way in every locale. False when it is none or too large; what
-/// is too small for a double is 0.
-bool parseNumber(std::string_view word, double& value);
+/// Reads a word that is a whole number, in the same way in every locale. False when it is none or too large.
 bool parseWhole(std::string_view word, std::int64_t& value);
 
 /// For ASCII letters; `lower` is in lower case.
