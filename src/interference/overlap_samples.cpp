@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "base/longest_edge.h"
-#include "distance/closest_point.h"
+#include "distance/kernels/closest_point.h"
 #include "mesh/surface/mesh_topology.h"
 #include "mesh/trees/triangle_tree.h"
 

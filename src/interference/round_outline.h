@@ -4,7 +4,7 @@
 #include <array>
 #include <cstddef>
 
-#include "distance/round_kernels.h"
+#include "distance/kernels/round_kernels.h"
 
 namespace concave_distance::detail {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "concave_distance/interference/interference.h"
-#include "distance/round_certificate.h"
+#include "distance/bound/round_certificate.h"
 #include "round_section.h"
 #include "round_volume.h"
 #include "shallow_round_volume.h"

@@ -5,7 +5,7 @@
 #include <tuple>
 
 #include "base/pi.h"
-#include "distance/round_kernels.h"
+#include "distance/kernels/round_kernels.h"
 #include "gauss_points.h"
 #include "mesh/surface/round_geometry.h"
 #include "round_lines.h"

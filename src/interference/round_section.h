@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "distance/round_kernels.h"
+#include "distance/kernels/round_kernels.h"
 #include "gauss_points.h"
 #include "round_outline.h"
 

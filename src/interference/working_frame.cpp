@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "distance/certificate.h"
+#include "distance/bound/certificate.h"
 
 namespace concave_distance::detail {
 namespace {

@@ -9,8 +9,8 @@
 
 #include "base/number_text.h"
 #include "concave_distance/scene/broad_phase.h"
-#include "distance/certificate.h"
-#include "distance/solid_overlap.h"
+#include "distance/bound/certificate.h"
+#include "distance/bound/solid_overlap.h"
 #include "link_poses.h"
 #include "wording.h"
 

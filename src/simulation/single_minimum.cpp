@@ -3,7 +3,7 @@
 #include <cmath>
 #include <utility>
 
-#include "distance/round_certificate.h"
+#include "distance/bound/round_certificate.h"
 
 namespace concave_distance {
 

@@ -5,7 +5,7 @@
 
 #include "concave_distance/mesh/body_mesh.h"
 #include "concave_distance/tracking/pair_solution.h"
-#include "distance/witness_refinement.h"
+#include "distance/kernels/witness_refinement.h"
 
 namespace concave_distance {
 

@@ -9,7 +9,7 @@
 
 #include "base/csv_writer.h"
 #include "concave_distance/tracking/pair_solution.h"
-#include "distance/certificate.h"
+#include "distance/bound/certificate.h"
 
 namespace concave_distance::tools {
 

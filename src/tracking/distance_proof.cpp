@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "distance/round_certificate.h"
-#include "distance/solid_overlap.h"
+#include "distance/bound/round_certificate.h"
+#include "distance/bound/solid_overlap.h"
 
 namespace concave_distance {
 namespace {

@@ -6,7 +6,7 @@
 #include "concave_distance/base/work_limit.h"
 #include "concave_distance/tracking/pair_solution.h"
 #include "concave_distance/tracking/tracker_parameters.h"
-#include "distance/certificate.h"
+#include "distance/bound/certificate.h"
 #include "pair_geometry.h"
 
 namespace concave_distance {

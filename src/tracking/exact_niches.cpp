@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "base/refill.h"
-#include "distance/minima_scene.h"
-#include "distance/plateau_tolerance.h"
+#include "distance/kernels/minima_scene.h"
+#include "distance/niches/plateau_tolerance.h"
 
 namespace concave_distance {
 namespace {

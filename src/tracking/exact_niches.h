@@ -8,7 +8,7 @@
 #include "concave_distance/base/work_limit.h"
 #include "concave_distance/tracking/pair_solution.h"
 #include "concave_distance/tracking/tracker_parameters.h"
-#include "distance/local_minima.h"
+#include "distance/niches/local_minima.h"
 #include "niche_archive.h"
 #include "pair_geometry.h"
 

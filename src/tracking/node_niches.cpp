@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "distance/plateau_tolerance.h"
+#include "distance/niches/plateau_tolerance.h"
 
 namespace concave_distance {
 namespace {

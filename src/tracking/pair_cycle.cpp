@@ -6,10 +6,10 @@
 #include <limits>
 #include <utility>
 
-#include "distance/minima_scene.h"
-#include "distance/plateau_tolerance.h"
-#include "distance/round_certificate.h"
-#include "distance/solid_overlap.h"
+#include "distance/bound/round_certificate.h"
+#include "distance/bound/solid_overlap.h"
+#include "distance/kernels/minima_scene.h"
+#include "distance/niches/plateau_tolerance.h"
 #include "mesh/trees/normal_cone_tree.h"
 #include "node_niches.h"
 #include "relative_motion.h"

@@ -7,8 +7,8 @@
 #include "concave_distance/mesh/body_mesh.h"
 #include "concave_distance/search/trial_point.h"
 #include "concave_distance/tracking/pair_solution.h"
-#include "distance/niche_properties.h"
-#include "distance/witness_refinement.h"
+#include "distance/kernels/witness_refinement.h"
+#include "distance/niches/niche_properties.h"
 
 namespace concave_distance {
 

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "distance/closest_point.h"
-#include "distance/plateau_tolerance.h"
-#include "distance/round_certificate.h"
+#include "distance/bound/round_certificate.h"
+#include "distance/kernels/closest_point.h"
+#include "distance/niches/plateau_tolerance.h"
 #include "mesh/surface/round_geometry.h"
 
 namespace concave_distance {

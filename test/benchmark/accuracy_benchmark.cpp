@@ -27,7 +27,7 @@
 #include "benchmark/support/benchmark_pairs.h"
 #include "benchmark/support/query_clock.h"
 #include "concave_distance/tracking/pair_tracker.h"
-#include "distance/certificate.h"
+#include "distance/bound/certificate.h"
 #include "search/automatic_radii.h"
 #include "thesis/continuous/constraint_tree_file.h"
 #include "thesis/continuous/continuous_annealing.h"

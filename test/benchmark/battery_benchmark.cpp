@@ -21,7 +21,7 @@
 #include "benchmark/support/reference_niches.h"
 #include "benchmark/support/statistics.h"
 #include "concave_distance/tracking/pair_tracker.h"
-#include "distance/niche_properties.h"
+#include "distance/niches/niche_properties.h"
 #include "search/automatic_radii.h"
 #include "search/genetic_search.h"
 #include "search/local_descent.h"

@@ -24,7 +24,7 @@
 #include "benchmark/support/statistics.h"
 #include "benchmark/support/stopwatch.h"
 #include "benchmark/support/tied_pairs.h"
-#include "distance/certificate.h"
+#include "distance/bound/certificate.h"
 
 namespace concave_distance::benchmark {
 namespace {

@@ -29,7 +29,7 @@
 #include "benchmark/support/flood_recall.h"
 #include "benchmark/support/statistics.h"
 #include "concave_distance/tracking/pair_tracker.h"
-#include "distance/local_minima.h"
+#include "distance/niches/local_minima.h"
 #include "mesh/trees/normal_cone_tree.h"
 #include "search/local_descent.h"
 #include "thesis/evaluation/enumeration.h"

@@ -30,8 +30,8 @@
 #include "benchmark/support/shapes.h"
 #include "benchmark/support/statistics.h"
 #include "benchmark/support/stopwatch.h"
-#include "distance/cone_front.h"
-#include "distance/minima_scene.h"
+#include "distance/kernels/minima_scene.h"
+#include "distance/minima/cone_front.h"
 
 namespace concave_distance::benchmark {
 namespace {

@@ -13,7 +13,7 @@
 #include <limits>
 
 #include "benchmark/support/benchmark_main.h"
-#include "distance/niche_properties.h"
+#include "distance/niches/niche_properties.h"
 #include "support/body_pairs.h"
 #include "support/triangle_pairs.h"
 #include "thesis/evaluation/enumeration.h"

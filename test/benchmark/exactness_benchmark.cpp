@@ -20,7 +20,7 @@
 #include "benchmark/support/benchmark_main.h"
 #include "benchmark/support/benchmark_pairs.h"
 #include "benchmark/support/sphere_tree.h"
-#include "distance/certificate.h"
+#include "distance/bound/certificate.h"
 #include "support/exact_query.h"
 
 namespace concave_distance::benchmark {

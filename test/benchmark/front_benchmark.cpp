@@ -31,10 +31,10 @@
 #include "benchmark/support/circling_pair.h"
 #include "benchmark/support/statistics.h"
 #include "benchmark/support/stopwatch.h"
-#include "distance/cone_front.h"
-#include "distance/minima_candidates.h"
-#include "distance/minima_verdicts.h"
-#include "distance/witness_refinement.h"
+#include "distance/kernels/witness_refinement.h"
+#include "distance/minima/cone_front.h"
+#include "distance/minima/minima_candidates.h"
+#include "distance/niches/minima_verdicts.h"
 #include "support/judged_niches.h"
 
 namespace concave_distance::benchmark {

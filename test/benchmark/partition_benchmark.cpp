@@ -26,7 +26,7 @@
 #include "benchmark/support/manoeuvre_methods.h"
 #include "benchmark/support/statistics.h"
 #include "concave_distance/base/error.h"
-#include "distance/certificate.h"
+#include "distance/bound/certificate.h"
 #include "support/read_pieces.h"
 #include "thesis/partition/convex_partition.h"
 

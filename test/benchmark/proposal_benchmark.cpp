@@ -20,8 +20,8 @@
 #include "benchmark/support/statistics.h"
 #include "benchmark/support/stopwatch.h"
 #include "concave_distance/tracking/pair_tracker.h"
-#include "distance/closest_point.h"
-#include "distance/witness_refinement.h"
+#include "distance/kernels/closest_point.h"
+#include "distance/kernels/witness_refinement.h"
 #include "mesh/surface/mesh_topology.h"
 
 namespace concave_distance::benchmark {

@@ -24,8 +24,8 @@
 #include "benchmark/support/search_trial.h"
 #include "benchmark/support/statistics.h"
 #include "concave_distance/tracking/pair_tracker.h"
-#include "distance/niche_properties.h"
-#include "distance/witness_refinement.h"
+#include "distance/kernels/witness_refinement.h"
+#include "distance/niches/niche_properties.h"
 
 namespace concave_distance::benchmark {
 namespace {

@@ -27,7 +27,7 @@
 #include "benchmark/support/statistics.h"
 #include "benchmark/support/stopwatch.h"
 #include "concave_distance/tracking/pair_tracker.h"
-#include "distance/certificate.h"
+#include "distance/bound/certificate.h"
 
 namespace concave_distance::benchmark {
 namespace {

@@ -15,7 +15,7 @@
 
 #include "benchmark/support/fcl_distance.h"
 #include "concave_distance/tracking/pair_tracker.h"
-#include "distance/certificate.h"
+#include "distance/bound/certificate.h"
 #include "fuzz/reproducer.h"
 #include "support/body_pairs.h"
 #include "support/query_bound.h"

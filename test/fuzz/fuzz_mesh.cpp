@@ -7,7 +7,7 @@
 #include "concave_distance/base/error.h"
 #include "concave_distance/interference/interference.h"
 #include "concave_distance/mesh/repair/repair_mesh.h"
-#include "distance/certificate.h"
+#include "distance/bound/certificate.h"
 #include "fuzz/fuzz_input.h"
 #include "mesh/import/import_worker/read_mesh.h"
 

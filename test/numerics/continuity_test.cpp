@@ -8,7 +8,7 @@
 #include <set>
 
 #include "concave_distance/tracking/pair_tracker.h"
-#include "distance/certificate.h"
+#include "distance/bound/certificate.h"
 #include "support/body_pairs.h"
 #include "support/query_bound.h"
 

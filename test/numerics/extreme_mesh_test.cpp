@@ -7,7 +7,7 @@
 #include "concave_distance/mesh/import/export_mesh.h"
 #include "concave_distance/mesh/import/import_mesh.h"
 #include "concave_distance/mesh/repair/repair_mesh.h"
-#include "distance/certificate.h"
+#include "distance/bound/certificate.h"
 #include "support/body_pairs.h"
 #include "support/temporary_folder.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "concave_distance/mesh/surface/primitives.h"
-#include "distance/certificate.h"
+#include "distance/bound/certificate.h"
 #include "mesh/surface/mesh_topology.h"
 #include "support/body_pairs.h"
 #include "support/exact_query.h"

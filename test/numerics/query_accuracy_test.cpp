@@ -10,7 +10,7 @@
 #include <tuple>
 
 #include "concave_distance/tracking/pair_tracker.h"
-#include "distance/certificate.h"
+#include "distance/bound/certificate.h"
 #include "numerics/numeric_cases.h"
 #include "support/body_pairs.h"
 #include "support/query_bound.h"

@@ -6,7 +6,7 @@
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <boost/multiprecision/cpp_int.hpp>
 
-#include "distance/triangle_distance.h"
+#include "distance/kernels/triangle_distance.h"
 
 /// The distance of two triangles from its definition, in a number type wide enough that rounding does not
 /// matter: the least over every pair of features whose affine hulls have their closest points inside both

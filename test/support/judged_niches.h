@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "distance/minima_verdicts.h"
+#include "distance/niches/minima_verdicts.h"
 
 namespace concave_distance::test {
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "base/random_engine.h"
-#include "distance/triangle_distance.h"
+#include "distance/kernels/triangle_distance.h"
 #include "support/plain_shapes.h"
 
 /// Random triangle pairs that are hard for a distance kernel, by family.

@@ -6,8 +6,8 @@
 
 #include "base/pi.h"
 #include "concave_distance/tracking/pair_tracker.h"
-#include "distance/certificate.h"
-#include "distance/surface_walk.h"
+#include "distance/bound/certificate.h"
+#include "distance/kernels/surface_walk.h"
 #include "support/body_pairs.h"
 #include "thesis/evaluation/enumeration.h"
 

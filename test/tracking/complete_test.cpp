@@ -6,7 +6,7 @@
 #include <set>
 
 #include "concave_distance/tracking/pair_tracker.h"
-#include "distance/local_minima.h"
+#include "distance/niches/local_minima.h"
 #include "support/body_pairs.h"
 #include "support/thesis_scenes.h"
 #include "thesis/evaluation/enumeration.h"

@@ -5,7 +5,7 @@
 #include <set>
 
 #include "concave_distance/tracking/pair_tracker.h"
-#include "distance/round_certificate.h"
+#include "distance/bound/round_certificate.h"
 #include "support/body_pairs.h"
 #include "support/count_allocations.h"
 #include "support/round_bodies.h"

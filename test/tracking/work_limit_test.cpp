@@ -8,7 +8,7 @@
 #include "base/infinity.h"
 #include "concave_distance/tracking/pair_effects.h"
 #include "concave_distance/tracking/pair_tracker.h"
-#include "distance/local_minima.h"
+#include "distance/niches/local_minima.h"
 #include "support/body_pairs.h"
 #include "support/mesh_variants.h"
 #include "thesis/evaluation/enumeration.h"

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "base/infinity.h"
-#include "distance/surface_walk.h"
+#include "distance/kernels/surface_walk.h"
 #include "mesh/grid/node_graph.h"
 
 namespace concave_distance {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "concave_distance/mesh/body_mesh.h"
-#include "distance/witness_refinement.h"
+#include "distance/kernels/witness_refinement.h"
 
 namespace concave_distance {
 

@@ -10,7 +10,7 @@
 #include "concave_distance/base/error.h"
 #include "concave_distance/mesh/import/import_mesh.h"
 #include "concave_distance/mesh/repair/repair_mesh.h"
-#include "distance/certificate.h"
+#include "distance/bound/certificate.h"
 #include "enumeration.h"
 #include "loading/query_poses.h"
 #include "mesh/body_mesh_parts.h"

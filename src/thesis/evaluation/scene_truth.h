@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "concave_distance/mesh/body_mesh.h"
-#include "distance/local_minima.h"
+#include "distance/niches/local_minima.h"
 #include "experiment_scene.h"
 #include "thesis/continuous/constraint_tree.h"
 

@@ -3,7 +3,7 @@
 #include <unordered_set>
 
 #include "base/pair_key.h"
-#include "distance/cell_neighbours.h"
+#include "distance/niches/cell_neighbours.h"
 
 namespace concave_distance::evaluation {
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "concave_distance/mesh/body_mesh.h"
-#include "distance/local_minima.h"
-#include "distance/minima_scene.h"
+#include "distance/kernels/minima_scene.h"
+#include "distance/niches/local_minima.h"
 
 namespace concave_distance::evaluation {
 

@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "benchmark/support/statistics.h"
-#include "distance/certificate.h"
+#include "distance/bound/certificate.h"
 
 namespace concave_distance::benchmark {
 namespace {

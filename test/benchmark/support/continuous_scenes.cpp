@@ -6,7 +6,7 @@
 #include <memory>
 #include <utility>
 
-#include "distance/local_minima.h"
+#include "distance/niches/local_minima.h"
 #include "support/plain_shapes.h"
 #include "support/thesis_scenes.h"
 #include "thesis/continuous/build_constraint_tree.h"

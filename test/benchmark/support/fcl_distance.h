@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "concave_distance/mesh/surface/surface_mesh.h"
-#include "distance/triangle_distance.h"
+#include "distance/kernels/triangle_distance.h"
 
 namespace concave_distance::benchmark {
 

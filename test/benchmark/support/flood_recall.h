@@ -5,7 +5,7 @@
 
 #include "benchmark/support/benchmark_pairs.h"
 #include "concave_distance/tracking/pair_solution.h"
-#include "distance/local_minima.h"
+#include "distance/niches/local_minima.h"
 
 namespace concave_distance::benchmark {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "concave_distance/tracking/pair_tracker.h"
-#include "distance/witness_refinement.h"
+#include "distance/kernels/witness_refinement.h"
 
 namespace concave_distance::benchmark {
 

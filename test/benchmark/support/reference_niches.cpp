@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "benchmark/support/grid_flood.h"
-#include "distance/minima_verdicts.h"
+#include "distance/niches/minima_verdicts.h"
 #include "search/local_descent.h"
 #include "thesis/evaluation/enumeration.h"
 #include "tracking/pair_geometry.h"

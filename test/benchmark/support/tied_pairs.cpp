@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "benchmark/support/stopwatch.h"
-#include "distance/triangle_distance.h"
+#include "distance/kernels/triangle_distance.h"
 
 namespace concave_distance::benchmark {
 namespace {

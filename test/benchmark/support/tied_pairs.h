@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <vector>
 
-#include "distance/certificate.h"
+#include "distance/bound/certificate.h"
 
 namespace concave_distance::benchmark {
 

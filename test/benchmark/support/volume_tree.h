@@ -4,8 +4,8 @@
 
 #include "benchmark/support/bounding_volumes.h"
 #include "concave_distance/mesh/body_mesh.h"
-#include "distance/certificate.h"
-#include "distance/witness_refinement.h"
+#include "distance/bound/certificate.h"
+#include "distance/kernels/witness_refinement.h"
 
 namespace concave_distance::benchmark {
 

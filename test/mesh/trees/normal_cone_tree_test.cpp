@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "distance/triangle_distance.h"
+#include "distance/kernels/triangle_distance.h"
 #include "support/body_pairs.h"
 
 namespace concave_distance::normal_cone_tree_test {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "distance/triangle_distance.h"
+#include "distance/kernels/triangle_distance.h"
 #include "support/body_pairs.h"
 #include "support/concave_shapes.h"
 #include "support/plain_shapes.h"

@@ -5,7 +5,7 @@
 
 #include "concave_distance/base/error.h"
 #include "concave_distance/tracking/pair_tracker.h"
-#include "distance/certificate.h"
+#include "distance/bound/certificate.h"
 #include "support/body_pairs.h"
 #include "support/partition_checks.h"
 #include "support/read_pieces.h"

@@ -1,0 +1,44 @@
+#pragma once
+
+#include "box_pair_bounds.h"
+#include "distance/kernels/triangle_distance.h"
+
+namespace concave_distance::detail {
+
+/// The triangles of one of B's leaves in the local frame of A, lane by lane.
+struct LeafLanes {
+  LeafLanes(const BoundingVolumeHierarchy::Leaf& leaf, const Eigen::Matrix3d& rotation,
+            const Eigen::Vector3d& offset);
+
+  void computeNormals();
+  TrianglePoints triangle(std::size_t lane) const;
+
+  Lanes corner[3][3];    ///< [corner][coordinate]
+  Lanes normal[3];       ///< of each triangle, not normalised; set by computeNormals()
+  Lanes squared_normal;  ///< squared lengths of `normal`
+};
+
+inline TrianglePoints triangleOf(const BoundingVolumeHierarchy::Leaf& leaf, std::size_t lane) {
+  TrianglePoints points;
+  for (std::size_t k = 0; k < 3; ++k) {
+    points[k] = {leaf.corner[k][0][lane], leaf.corner[k][1][lane], leaf.corner[k][2][lane]};
+  }
+  return points;
+}
+
+/// The sum of the lanes' normals, not normalised, frame of the leaf.
+Eigen::Vector3d sumOfNormals(const BoundingVolumeHierarchy::Leaf& leaf);
+/// The same; needs the leaf's normals.
+Eigen::Vector3d sumOfNormals(const LeafLanes& leaf);
+
+/// Least value of `direction` over the corners of each lane.
+Lanes leastAlong(const LeafLanes& leaf, const Eigen::Vector3d& direction);
+
+/// Greatest value of `direction` over the corners of each lane, frame of the leaf.
+Lanes mostAlong(const BoundingVolumeHierarchy::Leaf& leaf, const Eigen::Vector3d& direction);
+
+/// How far a's plane or the lane's own plane parts triangle `a` from each lane; metres, 0 where neither does.
+/// Needs the leaf's normals.
+Lanes planeSeparation(const TrianglePoints& a, const LeafLanes& b);
+
+}  // namespace concave_distance::detail

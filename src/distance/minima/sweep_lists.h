@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "distance/kernels/minimum_seed.h"
+#include "mesh/trees/normal_cone_tree.h"
+
+namespace concave_distance::detail {
+
+using SlotPair = std::pair<NormalConeTree::Slot, NormalConeTree::Slot>;  ///< of A and of B
+
+/// A pair of features that holds a minimum, and stays one until its expiry.
+struct LiveMinimum {
+  SlotPair pair;
+  std::uint32_t clock;
+  std::uint64_t expiry;
+  MinimumSeed seed;
+};
+
+/// A pair that holds no minimum until its clock reaches its expiry.
+struct KeptPair {
+  SlotPair pair;
+  std::uint32_t clock;
+  std::uint64_t expiry;
+};
+
+/// What sweeps work off and what they leave.
+struct SweepLists {
+  std::vector<SlotPair> open;  ///< to be opened
+  std::vector<LiveMinimum> minima;
+  std::vector<SlotPair> undecided;  ///< pairs of features that hold no minimum, without slack
+  std::vector<MinimumSeed> seeds;
+  std::vector<KeptPair> kept;  ///< of a sweep without queues
+  std::uint32_t groups = 0;    ///< comparisons of a group with four others
+  std::uint32_t features = 0;  ///< pairs of features that were asked whether they hold a minimum
+  std::uint32_t measured = 0;  ///< minima that have stayed
+
+  std::size_t memoryBytes() const {
+    return (open.capacity() + undecided.capacity()) * sizeof(SlotPair) +
+           minima.capacity() * sizeof(LiveMinimum) + seeds.capacity() * sizeof(MinimumSeed) +
+           kept.capacity() * sizeof(KeptPair);
+  }
+};
+
+/// Pairs that are to be compared as they are.
+struct ExpiredPairs {
+  const SlotPair* next;
+  const SlotPair* end;
+
+  bool empty() const { return next == end; }
+};
+
+}  // namespace concave_distance::detail

@@ -1,0 +1,250 @@
+#include "minima_flood.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/infinity.h"
+#include "cell_neighbours.h"
+#include "distance/kernels/pair_table.h"
+
+namespace concave_distance::detail {
+namespace {
+
+/// A pair of facets that the flood has reached.
+struct Cell {
+  TriangleIndex a;
+  TriangleIndex b;
+  double distance;       ///< the least over the pair
+  double reached;        ///< the highest distance on the way here from the basin's start
+  std::uint32_t parent;  ///< union-find; the root of a basin is its deepest seed
+  std::uint32_t basin;   ///< of a root: its entry in basins_
+};
+
+constexpr std::uint32_t kNone = 0xffffffffU;
+
+struct Basin {
+  std::uint32_t cell;
+  double limit;
+  bool met_by_flood;
+  double pass = kInfinity;
+  std::uint32_t into = kNone;  ///< the deeper basin beyond the pass
+};
+
+/// The way from a cell to a neighbour that may not be reached yet.
+struct Step {
+  double level;
+  std::uint32_t from;
+  TriangleIndex to_a;
+  TriangleIndex to_b;
+};
+
+bool laterStep(const Step& l, const Step& r) {
+  if (l.level != r.level) return l.level > r.level;
+  return l.from > r.from;  // any order will do, as long as it is always the same
+}
+
+class Flood {
+ public:
+  Flood(const MinimaScene& scene, const LocalMinimaRequest& request, WorkLimit& limit)
+      : scene_(scene), request_(request), tolerance_(8.0 * scene.rounding), limit_(limit) {}
+
+  /// The cell of a local minimum, as a basin of its own if it is new.
+  std::uint32_t startAt(TriangleIndex of_a, TriangleIndex of_b, bool met_by_flood) {
+    cut_ = cut_ || limit_.isOverNow();
+    const auto [a, b] = scene_.cellOf(of_a, of_b);
+    if (const std::uint32_t known = table_.find(a, b); known != PairTable::kAbsent) return known;
+    const std::uint32_t cell = addCell(a, b);
+    cells_[cell].parent = cell;
+    cells_[cell].basin = static_cast<std::uint32_t>(basins_.size());
+    basins_.push_back({cell, limitOf(cells_[cell].distance), met_by_flood});
+    expand(cell);
+    return cell;
+  }
+
+  void run() {
+    while (!steps_.empty() && !cut_) {
+      std::pop_heap(steps_.begin(), steps_.end(), laterStep);
+      const Step step = steps_.back();
+      steps_.pop_back();
+      reached_ = step.level;
+      if (limit_.isOverNow()) {
+        cut_ = true;
+      } else {
+        take(step);
+      }
+    }
+  }
+
+  bool wasCut() const { return cut_; }
+  /// Whether everything that could end a basin has been checked.
+  bool isDecided(const Basin& basin) const { return !cut_ || basin.limit < reached_; }
+
+  std::uint32_t rootOf(std::uint32_t cell) {
+    while (cells_[cell].parent != cell) {
+      cells_[cell].parent = cells_[cells_[cell].parent].parent;
+      cell = cells_[cell].parent;
+    }
+    return cell;
+  }
+
+  const std::vector<Basin>& basins() const { return basins_; }
+  const Cell& cell(std::uint32_t i) const { return cells_[i]; }
+  std::size_t cellCount() const { return cells_.size(); }
+
+  /// Up to here a basin that starts at `distance` has to be flooded to know all that is asked for.
+  double limitOf(double distance) const {
+    const double decides = (1.0 + request_.least_prominence) * distance;
+    const double wanted = std::min((1.0 + request_.prominence_limit) * distance, request_.cutoff);
+    return std::max(decides, wanted) + tolerance_;
+  }
+
+  /// The basin that a start belongs to: its own or the next deeper one that is prominent.
+  std::uint32_t ownerOf(std::uint32_t start) const {
+    std::uint32_t basin = cells_[start].basin;
+    while (!isProminent(basins_[basin])) basin = basins_[basin].into;
+    return basin;
+  }
+
+  bool isProminent(const Basin& basin) const {
+    const double distance = cells_[basin.cell].distance;
+    return basin.pass > distance + tolerance_ && basin.pass >= (1.0 + request_.least_prominence) * distance;
+  }
+
+ private:
+  std::uint32_t addCell(TriangleIndex a, TriangleIndex b) {
+    measure(a, b);
+    const auto index = static_cast<std::uint32_t>(cells_.size());
+    const double distance = std::sqrt(levels_.least());
+    cells_.push_back({a, b, distance, distance, index, 0});
+    table_.insert(a, b, index);
+    return index;
+  }
+
+  void measure(TriangleIndex a, TriangleIndex b) {
+    points_a_ = scene_.facetOfA(a);
+    points_b_ = scene_.facetOfB(b);
+    levels_ = cellLevels(points_a_, points_b_);
+  }
+
+  /// Of the cell that was measured last.
+  void expand(std::uint32_t index) {
+    const double limit = basins_[cells_[rootOf(index)].basin].limit;
+    forEachNeighbour(
+        scene_, cells_[index].a, cells_[index].b, points_a_, points_b_, levels_,
+        [&](TriangleIndex to_a, TriangleIndex to_b, double squared_level, const SharedElement& /*element*/) {
+          consider(index, to_a, to_b, limit, std::sqrt(squared_level));
+        });
+  }
+
+  void consider(std::uint32_t from, TriangleIndex to_a, TriangleIndex to_b, double limit, double level) {
+    const double above = std::max(level, cells_[from].reached);
+    if (above > limit || cut_) return;
+    if (!limit_.makeRoom(steps_) || !limit_.makeRoom(cells_, 2) || !table_.makeRoom(limit_)) {
+      cut_ = true;
+      return;
+    }
+    steps_.push_back({above, from, to_a, to_b});
+    std::push_heap(steps_.begin(), steps_.end(), laterStep);
+  }
+
+  void take(const Step& step) {
+    const std::uint32_t here = rootOf(step.from);
+    if (step.level > basins_[cells_[here].basin].limit) return;
+    std::uint32_t there = table_.find(step.to_a, step.to_b);
+    if (there == PairTable::kAbsent) {
+      there = addCell(step.to_a, step.to_b);
+      if (cells_[there].distance >= cells_[here].distance - tolerance_) {
+        cells_[there].parent = here;
+        cells_[there].reached = step.level;
+        expand(there);
+        return;
+      }
+      goDown(there);
+    }
+    unite(here, rootOf(there), std::max(step.level, cells_[there].reached));
+  }
+
+  /// From a cell deeper than the flood's start to the minimum under it.
+  void goDown(std::uint32_t index) {
+    const TrianglePair from = scene_.closestIn({cells_[index].a, cells_[index].b}).first;
+    const WitnessPair witness =
+        refineWitness(scene_.a, scene_.b, scene_.a_from_b, from.a, from.b, refinement_).witness;
+    const TrianglePair cell = scene_.cellOf(witness.triangle_a, witness.triangle_b);
+    if (cell.a == cells_[index].a && cell.b == cells_[index].b) {
+      cells_[index].basin = static_cast<std::uint32_t>(basins_.size());
+      basins_.push_back({index, limitOf(cells_[index].distance), true});
+    } else {
+      const std::uint32_t bottom = startAt(cell.a, cell.b, true);
+      cells_[index].parent = rootOf(bottom);
+      measure(cells_[index].a, cells_[index].b);
+    }
+    expand(index);
+  }
+
+  void unite(std::uint32_t l, std::uint32_t r, double level) {
+    if (l == r) return;
+    const bool l_deeper = cells_[l].distance < cells_[r].distance ||
+                          (cells_[l].distance == cells_[r].distance && cells_[l].basin < cells_[r].basin);
+    const std::uint32_t deep = l_deeper ? l : r;
+    const std::uint32_t shallow = l_deeper ? r : l;
+    cells_[shallow].parent = deep;
+    Basin& ended = basins_[cells_[shallow].basin];
+    Basin& goes_on = basins_[cells_[deep].basin];
+    ended.pass = std::max(level, cells_[shallow].distance);
+    ended.into = cells_[deep].basin;
+    // One place that both were led to, apart by rounding alone.
+    if (ended.pass <= cells_[deep].distance + tolerance_) {
+      goes_on.met_by_flood = goes_on.met_by_flood && ended.met_by_flood;
+    }
+  }
+
+  const MinimaScene& scene_;
+  const LocalMinimaRequest& request_;
+  double tolerance_;
+  WorkLimit& limit_;
+  bool cut_ = false;
+  double reached_ = 0.0;  ///< metres, the level of the last step
+  PairTable table_;
+  std::vector<Cell> cells_;
+  std::vector<Basin> basins_;
+  std::vector<Step> steps_;
+  RefinementWorkspace refinement_;
+  // Of the cell measured last.
+  FacetPoints points_a_;
+  FacetPoints points_b_;
+  CellLevels levels_{};
+};
+
+}  // namespace
+
+FloodResult floodMinima(const MinimaScene& scene, const LocalMinimaRequest& request,
+                        const std::vector<MinimumSeed>& seeds, std::size_t owned, LocalMinimaCost& cost,
+                        WorkLimit& limit) {
+  const MemoryScope memory(limit);
+  Flood flood(scene, request, limit);
+  std::vector<std::uint32_t> starts;
+  for (std::size_t i = 0; i < seeds.size(); ++i) {
+    starts.push_back(flood.startAt(seeds[i].a, seeds[i].b, i >= owned));
+  }
+  flood.run();
+  FloodResult result;
+  std::vector<std::size_t> minimum_of_basin(flood.basins().size(), LocalMinima::kNoOwner);
+  for (std::size_t i = 0; i < flood.basins().size(); ++i) {
+    const Basin& basin = flood.basins()[i];
+    if (!flood.isProminent(basin) || !flood.isDecided(basin)) continue;
+    const Cell& cell = flood.cell(basin.cell);
+    minimum_of_basin[i] = result.minima.size();
+    const TrianglePair closest = scene.closestIn({cell.a, cell.b}).first;
+    result.minima.push_back(
+        {seedOn(closest.a, closest.b, cell.distance), basin.pass, basin.limit, basin.met_by_flood});
+  }
+  // A start belongs to the deepest basin that it is joined to by passes of less than the least prominence.
+  for (std::size_t i = owned; i < starts.size(); ++i) {
+    result.owners.push_back(minimum_of_basin[flood.ownerOf(starts[i])]);
+  }
+  cost.flooded_pairs += flood.cellCount();
+  result.cut = flood.wasCut();
+  return result;
+}
+
+}  // namespace concave_distance::detail
