@@ -12,8 +12,8 @@ COLOURS = ("tab:blue", "tab:orange")
 # Of each scene its bodies, and elevation and azimuth of the view in degrees.
 SCENES = {
     "boxes_position_1": ("box", "notched_box", 35, -70), "boxes_position_2": ("box", "notched_box", 35, -70),
-    "cylinder_position_1": ("grooved_cylinder", "semi_extruded", 20, -60),
-    "cylinder_position_2": ("grooved_cylinder", "semi_extruded", 20, -60),
+    "cylinder_position_1": ("semi_extruded", "grooved_cylinder", 25, -60),
+    "cylinder_position_2": ("semi_extruded", "grooved_cylinder", 25, -60),
     "battery_static": ("fixture", "battery", 20, -62),
 }
 
@@ -41,6 +41,11 @@ def draw_body(axes, corners, pose, colour):
     axes.add_collection3d(Line3DCollection([poses.apply(pose, np.array(edge)) for edge in sharp_edges(corners)],
                                            colors=colour, linewidths=0.7))
     return placed.reshape(-1, 3)
+
+
+def colour_words(scene):
+    """Which body has which colour."""
+    return f"Blue: {SCENES[scene][0].replace('_', ' ')}; orange: {SCENES[scene][1].replace('_', ' ')}."
 
 
 def pose_of(scene):
@@ -75,11 +80,13 @@ def counted_pairs(lines, scene):
     return collections.Counter(tuple(np.round(pair_of(line, pose), 9)) for line in lines)
 
 
-def draw_pairs(axes, pairs, colour="black", width=0.6, whole=200.0):
-    """A line for each pair. Its ends are the larger the more of all there are; `whole` is the area of all together."""
-    axes.add_collection3d(Line3DCollection([(pair[:3], pair[3:]) for pair in pairs], colors=colour, linewidths=width))
+def draw_pairs(axes, pairs, colour="black", width=0.6, least=12.0, whole=200.0, edge=0.5, above=3):
+    """A line for each pair. Its ends are the larger the more of all there are, from the area `least` for none to `whole`
+    more for all."""
+    axes.add_collection3d(Line3DCollection([(pair[:3], pair[3:]) for pair in pairs], colors=colour, linewidths=width,
+                                           zorder=above))
     total = sum(pairs.values())
     for body_colour, first in zip(COLOURS, (0, 3)):
         ends = np.array([pair[first:first + 3] for pair in pairs])
-        axes.scatter(*ends.T, s=[12 + whole * count / total for count in pairs.values()], color=body_colour, edgecolors="black",
-                     linewidths=0.5, depthshade=False)
+        axes.scatter(*ends.T, s=[least + whole * count / total for count in pairs.values()], color=body_colour, edgecolors="black",
+                     linewidths=edge, depthshade=False, zorder=above + 1)

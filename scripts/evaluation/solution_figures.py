@@ -5,7 +5,7 @@ import statistics
 import matplotlib
 
 from .rows import read_experiments, read_rows
-from .scene_drawing import counted_pairs, draw_pairs, draw_scene
+from .scene_drawing import colour_words, counted_pairs, draw_pairs, draw_scene
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402  (the backend comes first)
@@ -40,12 +40,12 @@ def row_title(row, scene):
 def panels(rows, columns, height=4.4):
     """A figure, and its axes one after another."""
     figure = plt.figure(figsize=(6 * columns, height * rows))
-    return figure, (figure.add_subplot(rows, columns, place + 1, projection="3d") for place in range(rows * columns))
+    return figure, (figure.add_subplot(rows, columns, place + 1, projection="3d", computed_zorder=False) for place in range(rows * columns))
 
 
 def finish(figure, explanation, path):
     figure.text(0.5, 0.015, explanation, ha="center", fontsize=11)
-    figure.subplots_adjust(left=0.0, right=1.0, bottom=0.03, top=0.95, wspace=0.0, hspace=0.06)
+    figure.subplots_adjust(left=0.0, right=1.0, bottom=0.04, top=0.94, wspace=0.0, hspace=0.06)
     figure.savefig(path, dpi=90)
     plt.close(figure)
     print(path)
@@ -68,12 +68,13 @@ def plot_answers(experiment, folders, path):
             lines = sorted(points[row["name"], scene], key=lambda line: float(line["distance"]))
             middle = lines[(len(lines) - 1) // 2]
             draw_scene(axes, scene)
-            draw_pairs(axes, counted_pairs(lines, scene), colour="0.55", width=0.3, whole=0.0)
-            draw_pairs(axes, counted_pairs([middle], scene), width=2.0, whole=40.0)
+            draw_pairs(axes, counted_pairs(lines, scene), colour="0.6", width=0.3, least=3.0, whole=0.0, edge=0.0)
+            draw_pairs(axes, counted_pairs([middle], scene), width=2.5, whole=70.0, edge=1.5, above=10)
             axes.set_title(f"{row_title(row['name'], scene)}\nmedian run {float(middle['distance']):.4f} m; the thesis's run "
-                           f"{row['thesis'][scene]['distance']} m", fontsize=11, y=0.97)
+                           f"{row['thesis'][scene]['distance']} m", fontsize=11, y=0.99)
     finish(figure, f"Each line joins the two points that a run answers with ({len(lines)} runs); black: the run of the median distance. "
-           "Points may lie off the bodies.", path)
+           "Points may lie off the bodies, or inside.\n"
+           + colour_words(scenes[0]), path)
     return True
 
 
@@ -100,18 +101,21 @@ def plot_populations(experiments, folders, path):
         axes.set_title(f"{row_title(row['name'], scene)}: N_Gamma {float(run['niches']):.0f} ({row['thesis'][scene]['niches']} in the thesis)\n"
                        + ", ".join(niches[:half]) + (",\n" + ", ".join(niches[half:]) if niches[half:] else ""), fontsize=10, y=0.95)
     finish(figure, "The final population of the first run; above: distance in metres (and individuals) of each niche, by number in the "
-           "picture.\nEach line joins the two nodes of an individual; the larger its ends, the more individuals are there.", path)
+           "picture.\nEach line joins the two nodes of an individual; the larger its ends, the more individuals are there. "
+           + colour_words(chosen[0][1]), path)
     return True
 
 
 def draw_niche_numbers(axes, run, lines, scene):
-    """The number of each niche beside the individual that stands for it, in the middle of its line."""
+    """The number of each niche in the middle of the line of the individual that stands for it."""
+    numbered = set()
     for i in range(1, 11):
         distance = float(run[f"niche_distance_{i}"])
         best = [line for line in lines if abs(float(line["distance"]) - distance) < SAME]
-        if run[f"members_{i}"] == "0" or not best:
+        pair = next((pair for pair in counted_pairs(best, scene) if pair not in numbered), None)
+        if run[f"members_{i}"] == "0" or pair is None:
             continue
-        pair = next(iter(counted_pairs(best[:1], scene)))
+        numbered.add(pair)
         middle = [0.5 * (pair[axis] + pair[axis + 3]) for axis in range(3)]
         axes.text(*middle, str(i), fontsize=9, fontweight="bold", ha="center", va="center",
                   bbox={"facecolor": "white", "edgecolor": "0.4", "pad": 1.2, "alpha": 0.85}, zorder=100)
@@ -135,7 +139,7 @@ def plot_best_points(experiment, folders, path):
             pairs = counted_pairs(lines, scene)
             draw_pairs(axes, pairs)
             axes.set_title(f"{row_title(row, scene)}\n{len(lines)} runs end at {len(pairs)} pair{'s' * (len(pairs) != 1)}, {at_best} of "
-                           "them at the nearest", fontsize=11, y=0.97)
+                           "them at the nearest", fontsize=11, y=0.99)
     finish(figure, "Each line joins the best pair of a run's last population; the larger its ends, the more runs have it.", path)
     return True
 
