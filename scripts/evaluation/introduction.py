@@ -24,10 +24,7 @@ _STRICT = """\
   {thesis('N_pop 100', 'niches', table='table_5_9'):.1f} niches in the thesis, {mean('N_pop 100', 'niches', table='table_5_9'):.1f} here when strict,
   {mean('comb-GA-wl-sh; N_pop 100; sigma_m 0.65; two tries; then anybody', 'niches', table='losses_battery'):.1f} with two tries; p_x 0.6 of Table 5.17
   {thesis('p_x 0.6', 'niches', table='table_5_17'):.1f}, {mean('p_x 0.6', 'niches', table='table_5_17'):.1f} and
-  {mean('comb-GA-wl-sh; N_pop 100; G_max 15; two tries; then anybody', 'niches', table='losses_battery'):.1f}. In Table 5.15 the restriction makes crossover harmless:
-  with p_x 1 Phi* is {thesis('p_x 1', 'exact', table='table_5_15'):.1%} there, {mean('p_x 1', 'exact', table='table_5_15'):.1%} when strict,
-  {mean('comb-GA-wl; N_pop 40; G_max 30; p_x 1; two tries; then anybody', 'exact', table='losses_battery'):.1%} with two tries and
-  {mean('p_x 1', 'exact', table='table_5_14'):.1%} without restriction (Table 5.14).
+  {mean('comb-GA-wl-sh; N_pop 100; G_max 15; two tries; then anybody', 'niches', table='losses_battery'):.1f}.
 """
 
 _TEXT = """\
@@ -68,7 +65,7 @@ def introduction(quoter):
     runs = quoter.results.runs
     text = _TEXT
     for mark, words, tables in (("@MUTATION@", _MUTATION, ("table_5_3", "table_5_14", "table_5_18", "losses_no_descent")),
-                                ("@STRICT@", _STRICT, ("table_5_9", "table_5_14", "table_5_15", "table_5_17"))):
+                                ("@STRICT@", _STRICT, ("table_5_9", "table_5_17"))):
         decided = all(runs.get(name) for name in (*tables, "losses_battery"))
         text = text.replace(mark, quoter.fill(words, "losses_battery") if decided else "")
     return text.splitlines()
