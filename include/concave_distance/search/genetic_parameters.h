@@ -57,7 +57,7 @@ struct GeneticParameters {
   std::uint32_t population_size = 100;  ///< N_pop, even, >= 2
   std::uint32_t max_generations = 30;   ///< G_max
   double crossover_probability = 0.6;   ///< p_x
-  MutationMethod mutation{MutationMethod::RandomMove};
+  MutationMethod mutation = MutationMethod::RandomMove;
   std::optional<double> mutation_probability;      ///< p_m; empty: 1 / N_pop (Table 5.22)
   double final_mutation_probability_factor = 1.0;  ///< variable mutation rate: p_m ends at this multiple
   Cooling mutation_probability_cooling = Cooling::Linear;  ///< how it gets there
