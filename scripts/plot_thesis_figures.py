@@ -1,22 +1,21 @@
 #!/usr/bin/python3
-"""Draws figures of the thesis that stand for no table: 5.6, 6.1 to 6.3 and 6.5 (evaluation_figure_*.png).
+"""Draws the thesis's pictures of bodies: solutions 2.19 to 2.35, populations 4.6, 4.8 and 4.12, best points 5.6, partitions
+6.1 to 6.3, and the poses 6.5 (evaluation_figure_*.png).
 
     scripts/plot_thesis_figures.py RESULTS [MORE_RESULTS ...] [--output doc/results/images]
 
-RESULTS are folders that `evaluate --output` or `keep_rows.py` has filled: figure 5.6 is drawn from
-figure_5_6_points.csv, and left out where it is missing. Figures 6.1 to 6.3 need a finished build for mesh_tool with CGAL.
+RESULTS are folders that `evaluate --output` or `keep_rows.py` has filled: pictures up to 5.6 are drawn from *_points.csv,
+and left out where it is missing. Figures 6.1 to 6.3 need a finished build for mesh_tool with CGAL.
 Needs python3-matplotlib: scripts/install_dependencies.sh plot.
 """
 import argparse
-import collections
-import csv
-import lzma
 import pathlib
 import subprocess
 import tempfile
 
 import matplotlib
 
+from evaluation.solution_figures import plot_pictures
 from geometry import poses, thesis_solids
 from geometry.manoeuvre import APPROACH
 from geometry.solid import Solid, write_binary_stl
@@ -25,103 +24,10 @@ from plot_partition import draw_pieces, read_pieces
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402  (the backend comes first)
 import numpy as np  # noqa: E402
-from mpl_toolkits.mplot3d.art3d import Line3DCollection, Poly3DCollection  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 MESHES = ROOT / "meshes" / "thesis"
-COLOURS = ("tab:blue", "tab:orange")
-# Of each scene its bodies, and elevation and azimuth of the view in degrees.
-SCENES = {"boxes_position_1": ("box", "notched_box", 35, -70), "battery_static": ("fixture", "battery", 20, -62)}
-RUNS = {"comb-GA-nl": 200, "comb-GA-wl": 500}  # the thesis's
-SAME = 1e-9  # metres
 ROUNDING = 1e-16  # metres: what is less is none
-
-
-def corners_of(body):
-    """The triangles of an STL file, (n, 3, 3)."""
-    data = (MESHES / f"{body}.stl").read_bytes()[84:]
-    return np.frombuffer(data, dtype=np.dtype([("f", "<f4", 12), ("a", "<u2")]))["f"][:, 3:].reshape(-1, 3, 3).astype(float)
-
-
-def sharp_edges(corners):
-    """Edges between triangles that are not in one plane."""
-    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
-    found = collections.defaultdict(list)
-    for triangle, normal in zip(corners, normals):
-        for k in range(3):
-            found[tuple(sorted((tuple(triangle[k]), tuple(triangle[(k + 1) % 3]))))].append(normal)
-    return [edge for edge, around in found.items() if len(around) != 2 or around[0] @ around[1] < 0.999]
-
-
-def draw_body(axes, corners, pose, colour):
-    placed = poses.apply(pose, corners)
-    axes.add_collection3d(Poly3DCollection(placed, facecolors=colour, alpha=0.06, edgecolors="none"))
-    axes.add_collection3d(Line3DCollection([poses.apply(pose, np.array(edge)) for edge in sharp_edges(corners)],
-                                           colors=colour, linewidths=0.7))
-    return placed.reshape(-1, 3)
-
-
-def read_points(folders):
-    """{(row, scene): {run: line}} of figure_5_6_points.csv; of a run that was done again the last line."""
-    found = collections.defaultdict(dict)
-    for folder in folders:
-        for path in (pathlib.Path(folder) / "figure_5_6_points.csv", pathlib.Path(folder) / "figure_5_6_points.csv.xz"):
-            if path.exists():
-                with (lzma.open if path.suffix == ".xz" else open)(path, "rt", newline="", encoding="utf-8") as file:
-                    for line in csv.DictReader(file):
-                        found[line["row"], line["scene"]][int(line["run"])] = line
-    return found
-
-
-def draw_points(axes, scene, runs):
-    """The best pairs of all runs, in the frame of the first body."""
-    body_a, body_b, elevation, azimuth = SCENES[scene]
-    pose = poses.read_poses(MESHES / f"{scene}.csv")[0][1]
-    extent = np.vstack([draw_body(axes, corners_of(body_a), np.eye(4), COLOURS[0]),
-                        draw_body(axes, corners_of(body_b), pose, COLOURS[1])])
-    pairs = collections.Counter()
-    for run in runs:
-        a = np.array([float(run[name]) for name in ("ax", "ay", "az")])
-        b = poses.apply(pose, np.array([float(run[name]) for name in ("bx", "by", "bz")]))
-        pairs[tuple(np.round(np.concatenate((a, b)), 9))] += 1
-    axes.add_collection3d(Line3DCollection([(pair[:3], pair[3:]) for pair in pairs], colors="black", linewidths=0.6))
-    for colour, first in zip(COLOURS, (0, 3)):
-        ends = np.array([pair[first:first + 3] for pair in pairs])
-        axes.scatter(*ends.T, s=[12 + 200 * count / len(runs) for count in pairs.values()], color=colour, edgecolors="black",
-                     linewidths=0.5, depthshade=False)
-    low, high = extent.min(axis=0), extent.max(axis=0)
-    axes.set_xlim(low[0], high[0])
-    axes.set_ylim(low[1], high[1])
-    axes.set_zlim(low[2], high[2])
-    axes.set_box_aspect(high - low, zoom=1.08)
-    axes.set_proj_type("ortho")
-    axes.view_init(elev=elevation, azim=azimuth)
-    axes.set_axis_off()
-    return len(pairs)
-
-
-def plot_figure_5_6(folders, images):
-    points = read_points(folders)
-    if not points:
-        print("no figure_5_6_points.csv: figure 5.6 is left out")
-        return
-    rows = sorted({row for row, _ in points})
-    scenes = sorted({scene for _, scene in points}, reverse=True)
-    figure = plt.figure(figsize=(6 * len(rows), 4.4 * len(scenes)))
-    for i, scene in enumerate(scenes):
-        for k, row in enumerate(rows):
-            runs = [line for run, line in sorted(points[row, scene].items()) if run < RUNS[row.split(";")[0]]]
-            best = min(float(line["distance"]) for of_row in rows for line in points[of_row, scene].values())
-            at_best = sum(float(line["distance"]) < best + SAME for line in runs)
-            axes = figure.add_subplot(len(scenes), len(rows), i * len(rows) + k + 1, projection="3d")
-            places = draw_points(axes, scene, runs)
-            axes.set_title(f"{row.replace(';', ',')}, {scene.replace('_', ' ')}\n{len(runs)} runs end at {places} "
-                           f"pair{'s' * (places != 1)}, {at_best} of them at the nearest", fontsize=11, y=0.97)
-    figure.text(0.5, 0.015, "Each line joins the best pair of a run's last population; the larger its ends, the more runs have it.",
-                ha="center", fontsize=11)
-    figure.subplots_adjust(left=0.0, right=1.0, bottom=0.03, top=0.95, wspace=0.0, hspace=0.06)
-    save(figure, images / "evaluation_figure_5_6.png")
 
 
 def holed_block(sides):
@@ -215,7 +121,7 @@ def main():
     parser.add_argument("--output", default=ROOT / "doc" / "results" / "images", type=pathlib.Path)
     options = parser.parse_args()
     options.output.mkdir(parents=True, exist_ok=True)
-    plot_figure_5_6(options.results, options.output)
+    plot_pictures(options.results, options.output)
     plot_partitions(options.output)
     plot_figure_6_5(options.output)
 

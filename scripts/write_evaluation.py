@@ -17,6 +17,7 @@ from evaluation.introduction import introduction
 from evaluation.losses import losses_of, losses_section
 from evaluation.plots import curves_of, drawn_section, manoeuvre_section, plot_curves, plot_sharing
 from evaluation.rows import ROOT, Results, order_of, read_experiments, read_rows, with_counted_work
+from evaluation.solution_figures import pictures_of
 from evaluation.tables import described, parameters_section, write_by_scene, write_table
 from evaluation.texts import Quoter
 
@@ -43,8 +44,8 @@ def experiment_section(experiment, results, quoter, counted, images):
     curves = curves_of(results.folders, name)
     for file_name, label in plot_curves(experiment, curves, images) if curves else []:
         section += ["", f"![{label}](images/{file_name})"]
-    if (images / f"evaluation_{name}.png").exists():  # by scripts/plot_thesis_figures.py
-        section += ["", f"![{experiment['title']}](images/evaluation_{name}.png)"]
+    for file_name, label in pictures_of(name, images):  # by scripts/plot_thesis_figures.py
+        section += ["", f"![{label}](images/{file_name})"]
     return section
 
 

@@ -6,7 +6,7 @@ import statistics
 NICHE_COUNT = 10
 ROUNDING = 1e-12  # metres; what is less is none
 HEADINGS = {
-    "exact": "Phi*", "region": "Phi", "basin": "Region", "best_iteration": "G_i", "niches": "N_Gamma",
+    "exact": "Phi*", "standing": "Phi* of who stands there", "region": "Phi", "basin": "Region", "best_iteration": "G_i", "niches": "N_Gamma",
     "distance": "distance", "kflop": "kflop", "kflop_executed": "kflop executed",
     "kinstructions": "thousand instructions", "recall": "recall", "archive_recall": "recall of all minima met",
     "precision": "precision", "best_convergence": "x*'", "population_convergence": "x'",
@@ -16,7 +16,7 @@ HEADINGS = {
     "wrong_instants": "instants not the optimum", "worst_excess": "worst excess, m", "most_niches": "most niches",
     "ms": "ms",
 }
-SHARES = ("exact", "region", "basin", "below_second")
+SHARES = ("exact", "standing", "region", "basin", "below_second")
 
 
 def wilson(successes, runs, z=1.959964):

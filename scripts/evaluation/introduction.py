@@ -1,5 +1,23 @@
 """What stands above the tables of evaluation.md."""
 
+# Sec. 3.3.2.c leaves open how far a mutant goes, and whose probability p_m is; the figures decide.
+_MUTATION = """\
+- **Mutation**: each gene becomes a random node with probability p_m. In sec. 3.3.2.c one gene of x or both are modified at random, to x_rand, and the
+  mutant is any offspring of x and x_rand within an r_max that is not stated; whether p_m is a gene's or an individual's is not said. The tables
+  decide: x_rand itself, each gene for itself. With p_m 0.05 Table 5.18 finds the best pair in generation
+  {thesis('comb-GA-wl; p_m 0.05', 'best_iteration', table='table_5_18'):.1f} in the thesis, {mean('comb-GA-wl; p_m 0.05', 'best_iteration', table='table_5_18'):.1f} here,
+  {mean('comb-GA-wl; N_pop 20; G_max 100; random moves', 'best_iteration', table='losses_battery'):.1f} when an individual goes a part of the way (`random moves`); with p_m 0.02
+  {thesis('comb-GA-wl; p_m 0.02', 'exact', table='table_5_18'):.0%} of the runs end at it there, {mean('comb-GA-wl; p_m 0.02', 'exact', table='table_5_18'):.0%} here. Phi* of p_x 0.6 in
+  Table 5.14: {thesis('p_x 0.6', 'exact', table='table_5_14'):.1%}, {mean('p_x 0.6', 'exact', table='table_5_14'):.1%} and
+  {mean('comb-GA-wl; N_pop 40; G_max 30; random moves', 'exact', table='losses_battery'):.1%} with random moves. A random pair a generation in place of mutation does as well on the
+  battery ({mean('comb-GA-wl; N_pop 40; G_max 30; one new pair a generation', 'exact', table='losses_battery'):.1%}), but not without descents: Phi of comb-GA-nl in
+  position 1 of Table 5.3 is {thesis('comb-GA-nl; N_pop 80', 'region', table='table_5_3', scene='boxes_position_1'):.0%} there,
+  {mean('comb-GA-nl; N_pop 80', 'region', table='table_5_3', scene='boxes_position_1'):.0%} here,
+  {mean('comb-GA-nl; N_pop 80; G_max 100; random moves', 'region', table='losses_no_descent', scene='boxes_position_1'):.0%} with random moves,
+  {mean('comb-GA-nl; N_pop 80; G_max 100; one new pair a generation', 'region', table='losses_no_descent', scene='boxes_position_1'):.0%} with a random pair.
+  Not run again since, and with random moves still: Tables 3.5 and D.1, figures 5.6 and 5.7, random points, the thesis's row of the ablation.
+"""
+
 # Sec. 4.6.3 leaves open what happens to a parent without a partner; where their rows are there, the figures decide.
 _STRICT = """\
 - **Strict mating restriction**: who finds no partner within sigma_m does not mate. Sec. 4.6.3 seeks another couple and names no limit; that
@@ -7,10 +25,7 @@ _STRICT = """\
   {thesis('N_pop 100', 'niches', table='table_5_9'):.1f} niches in the thesis, {mean('N_pop 100', 'niches', table='table_5_9'):.1f} here when strict,
   {mean('comb-GA-wl-sh; N_pop 100; sigma_m 0.65; two tries; then anybody', 'niches', table='losses_battery'):.1f} with two tries; p_x 0.6 of Table 5.17
   {thesis('p_x 0.6', 'niches', table='table_5_17'):.1f}, {mean('p_x 0.6', 'niches', table='table_5_17'):.1f} and
-  {mean('comb-GA-wl-sh; N_pop 100; G_max 15; two tries; then anybody', 'niches', table='losses_battery'):.1f}. In Table 5.15 the restriction makes crossover harmless:
-  with p_x 1 Phi* is {thesis('p_x 1', 'exact', table='table_5_15'):.1%} there, {mean('p_x 1', 'exact', table='table_5_15'):.1%} when strict,
-  {mean('comb-GA-wl; N_pop 40; G_max 30; p_x 1; two tries; then anybody', 'exact', table='losses_battery'):.1%} with two tries and
-  {mean('p_x 1', 'exact', table='table_5_14'):.1%} without restriction (Table 5.14).
+  {mean('comb-GA-wl-sh; N_pop 100; G_max 15; two tries; then anybody', 'niches', table='losses_battery'):.1f}.
 """
 
 _TEXT = """\
@@ -23,8 +38,8 @@ Below each table stands what every row has run.
 - **Rows of the thesis** come first and have nothing of ours: no elite, both children near the fitter parent (sec. 3.3.2.b),
   descents along edges and after mutation only (fig. 2.13), mating restriction with sharing only (4.7) and strict (below), annealing
   without new points (5.3.1.b), inheritance by (6.7) alone. A row that changes something names it.
-@STRICT@- **`our operators`** are this package's: exchange of genes, random immigrants, an elite, conserved niches, an epsilon in the fitness,
-  children on all of the path, mating restriction, descents in long steps, also of the first population. One at a time: see
+@MUTATION@@STRICT@- **`our operators`** are this package's: exchange of genes, random immigrants, an elite, conserved niches, an epsilon in the fitness,
+  children on all of the path, random moves, mating restriction, descents in long steps, also of the first population. One at a time: see
   [the switches](#from-the-thesiss-algorithm-to-ours-one-switch-at-a-time). **`shipped`** is what a pair's tracker runs by default,
   of a search its cold one.
 - Phi*: runs that end at the best node pair there is (by enumeration); Phi: in its region (1.1 times its distance, nearer than the
@@ -47,7 +62,11 @@ Below each table stands what every row has run.
 
 
 def introduction(quoter):
-    """Its lines; without the rows that decide on mating restriction also without their figures."""
+    """Its lines; without the rows that decide on what the thesis leaves open also without their figures."""
     runs = quoter.results.runs
-    decided = all(runs.get(name) for name in ("table_5_9", "table_5_14", "table_5_15", "table_5_17", "losses_battery"))
-    return _TEXT.replace("@STRICT@", quoter.fill(_STRICT, "losses_battery") if decided else "").splitlines()
+    text = _TEXT
+    for mark, words, tables in (("@MUTATION@", _MUTATION, ("table_5_3", "table_5_14", "table_5_18", "losses_no_descent")),
+                                ("@STRICT@", _STRICT, ("table_5_9", "table_5_17"))):
+        decided = all(runs.get(name) for name in (*tables, "losses_battery"))
+        text = text.replace(mark, quoter.fill(words, "losses_battery") if decided else "")
+    return text.splitlines()

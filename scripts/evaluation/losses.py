@@ -54,7 +54,7 @@ def reason_of(experiment, row, column, key="reasons"):
 
 
 def is_single_run(column, thesis):
-    return column not in ("exact", "region", "below_second", "kflop", "best_convergence") and "[" not in theirs(column, thesis)
+    return column not in ("exact", "standing", "region", "below_second", "kflop", "best_convergence") and "[" not in theirs(column, thesis)
 
 
 def chance_of_counts(more, of_more, fewer, of_fewer):

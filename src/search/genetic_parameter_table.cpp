@@ -28,6 +28,14 @@ ParameterTable<G> ofVariation() {
           "exchange_probability", [](auto& g) -> auto& { return g.exchange_probability; },
           "share of the couples whose children each take one node from any local minimum met so far")
           .to(1.0),
+      choice<G>(
+          "mutation",
+          std::vector<std::pair<std::string, MutationMethod>>{{"random_move", MutationMethod::RandomMove},
+                                                              {"random_nodes", MutationMethod::RandomNodes}},
+          [](auto& g) -> auto& { return g.mutation; },
+          "`random_move`: an individual moves one node or both towards random ones; `random_nodes`: each of "
+          "its nodes, with the mutation probability, becomes a random one")
+          .forExperiments(),
       optionalNumber<G>(
           "mutation_probability", "auto", [](auto& g) -> auto& { return g.mutation_probability; },
           "of an individual; `auto`: 1 / `population_size`")

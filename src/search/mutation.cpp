@@ -53,6 +53,20 @@ TrialPoint mutate(const TrialPoint& point, double radius, PairMetric& metric, Ra
   return moved;
 }
 
+bool mutateByChance(TrialPoint& point, MutationMethod method, double probability, double radius,
+                    PairMetric& metric, RandomEngine& engine) {
+  const bool is_hit = uniformUnit(engine) < probability;
+  if (method == MutationMethod::RandomMove) {
+    if (is_hit) point = mutate(point, radius, metric, engine);
+    return is_hit;
+  }
+  const bool is_b_hit = uniformUnit(engine) < probability;
+  if (is_hit) point.node_a = randomNode(metric.onA().metric().graph(), engine);
+  if (is_b_hit) point.node_b = randomNode(metric.onB().metric().graph(), engine);
+  if (is_hit || is_b_hit) point.squared_distance = kNotComputed;
+  return is_hit || is_b_hit;
+}
+
 TrialPoint moveBoth(const TrialPoint& point, double radius, PairMetric& metric, RandomEngine& engine) {
   const NodeIndex node_a = moveGene(point.node_a, radius, metric.onA(), engine);
   return {node_a, moveGene(point.node_b, radius, metric.onB(), engine), kNotComputed};

@@ -18,6 +18,13 @@ TrialPoint mutate(const TrialPoint& point, double radius, PairMetric& metric, Ra
 /// The same of both genes (Carretero, sec. 3.2.2.b).
 TrialPoint moveBoth(const TrialPoint& point, double radius, PairMetric& metric, RandomEngine& engine);
 
+/// Mutates an individual, or not, as the dice fall (MutationMethod). True when it was mutated; its distance
+/// is not computed then.
+/// @param probability p_m, of the individual or of each gene
+/// @param radius r_max of random moves, metres
+bool mutateByChance(TrialPoint& point, MutationMethod method, double probability, double radius,
+                    PairMetric& metric, RandomEngine& engine);
+
 /// A uniformly random node pair, its distance not computed.
 TrialPoint randomTrialPoint(const PairObjective& objective, RandomEngine& engine);
 

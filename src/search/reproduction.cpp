@@ -147,8 +147,8 @@ void mateCouples(GeneticState& state) {
 void mutateOffspring(GeneticState& state) {
   SearchWorkspace& work = state.work;
   for (std::size_t i = 0; i < work.offspring.size(); ++i) {
-    if (uniformUnit(state.engine) < state.mutation_probability) {
-      work.offspring[i] = mutate(work.offspring[i], state.mutation_radius, work.metric, state.engine);
+    if (mutateByChance(work.offspring[i], state.parameters.mutation, state.mutation_probability,
+                       state.mutation_radius, work.metric, state.engine)) {
       work.offspring_is_new[i] = true;
     }
   }

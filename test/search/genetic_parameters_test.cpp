@@ -72,7 +72,7 @@ TEST(GeneticParameters, OfTheNodeAreThoseThatItsDefaultsUse) {
     }
   }
   for (const char* name : {"mating", "selection", "descend_first_population", "generation_gap",
-                           "strict_mating_restriction", "mutation_radius_cooling"}) {
+                           "strict_mating_restriction", "mutation_radius_cooling", "mutation"}) {
     EXPECT_EQ(findParameter(geneticParameters(), name), nullptr) << name;
   }
 }

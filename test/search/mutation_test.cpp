@@ -53,6 +53,58 @@ TEST(Mutation, MovesOneGeneOrTheOtherOrBoth) {
   }
 }
 
+// Sec. 3.3.2.c as the thesis's figures have it: no gene depends on the other, and none stays near.
+TEST(Mutation, MakesEachGeneARandomNodeWithItsProbability) {
+  const test::PairScene scene = test::facingCombs();
+  PairMetric metric(*scene.a, *scene.b);
+  RandomEngine engine(24);
+  constexpr double kProbability = 0.3;
+  constexpr int kIndividuals = 20000;
+  const TrialPoint start{NodeIndex{0}, NodeIndex{0}, 1.0};
+  int changed[4] = {0, 0, 0, 0};  // neither, A alone, B alone, both
+  std::vector<int> reached(scene.b->graph().nodeCount(), 0);
+  for (int i = 0; i < kIndividuals; ++i) {
+    TrialPoint point = start;
+    const bool mutated =
+        mutateByChance(point, MutationMethod::RandomNodes, kProbability, 0.1, metric, engine);
+    EXPECT_EQ(std::isnan(point.squared_distance), mutated);
+    ++changed[(point.node_a != start.node_a ? 1 : 0) + (point.node_b != start.node_b ? 2 : 0)];
+    if (point.node_b != start.node_b) ++reached[point.node_b.value];
+  }
+  // A gene is changed with p_m, but for the draws of the node that it was.
+  const auto share = [](const std::unique_ptr<BodyMesh>& body) {
+    return kProbability * (1.0 - 1.0 / static_cast<double>(body->graph().nodeCount()));
+  };
+  const double a = share(scene.a);
+  const double b = share(scene.b);
+  const double expected[4] = {(1 - a) * (1 - b), a * (1 - b), (1 - a) * b, a * b};
+  for (int k = 0; k < 4; ++k) {
+    const double deviation = std::sqrt(kIndividuals * expected[k] * (1 - expected[k]));
+    EXPECT_NEAR(changed[k], kIndividuals * expected[k], 5 * deviation) << k;
+  }
+  // Every node as often: chi squared of n - 1 degrees of freedom, within five deviations of its mean.
+  const double nodes = static_cast<double>(reached.size()) - 1.0;
+  const double each = (changed[2] + changed[3]) / nodes;
+  double chi_squared = 0.0;
+  for (std::size_t i = 1; i < reached.size(); ++i)
+    chi_squared += (reached[i] - each) * (reached[i] - each) / each;
+  EXPECT_NEAR(chi_squared, nodes - 1.0, 5 * std::sqrt(2 * nodes));
+}
+
+TEST(Mutation, MovesAnIndividualWithItsProbability) {
+  const test::PairScene scene = test::facingCombs();
+  PairMetric metric(*scene.a, *scene.b);
+  RandomEngine engine(25);
+  int mutated = 0;
+  for (int i = 0; i < 5000; ++i) {
+    TrialPoint point{NodeIndex{0}, NodeIndex{0}, 1.0};
+    const bool is_hit = mutateByChance(point, MutationMethod::RandomMove, 0.2, kInfinity, metric, engine);
+    EXPECT_EQ(std::isnan(point.squared_distance), is_hit);
+    mutated += is_hit ? 1 : 0;
+  }
+  EXPECT_NEAR(mutated, 1000, 5 * std::sqrt(800.0));
+}
+
 TEST(Mutation, JumpsToOtherShellsWhateverTheRadius) {
   const test::PairScene scene = test::shellsAndShells();
   const PairObjective objective(*scene.a, *scene.b, scene.a_from_b);

@@ -32,6 +32,15 @@ enum class LocalOptimization : std::uint8_t {
   Baldwinian   ///< it stays where it is and counts as fit as that local minimum
 };
 
+/// What a mutation does (Carretero, sec. 3.3.2.c).
+enum class MutationMethod : std::uint8_t {
+  /// An individual is moved with probability p_m: one gene or both go a part of the way to a random node.
+  RandomMove,
+  /// Each gene becomes a random node with probability p_m: the text's x_rand itself, to which the thesis's
+  /// figures are closer than to what lies between it and x.
+  RandomNodes
+};
+
 /// How a quantity falls over the generations (Carretero, sec. 3.3.2.c). A temperature T falls by one a
 /// generation, from G_max in the first to 1 in the last.
 enum class Cooling : std::uint8_t {
@@ -45,14 +54,15 @@ enum class Cooling : std::uint8_t {
 /// Every parameter of the combinatorial genetic algorithm (Carretero, ch. 3 and 4). Lengths in metres. A
 /// scene file and the node have those that geneticParameters() lists, experiments all.
 struct GeneticParameters {
-  std::uint32_t population_size = 100;             ///< N_pop, even, >= 2
-  std::uint32_t max_generations = 30;              ///< G_max
-  double crossover_probability = 0.6;              ///< p_x
-  std::optional<double> mutation_probability;      ///< p_m per individual; empty: 1 / N_pop (Table 5.22)
+  std::uint32_t population_size = 100;  ///< N_pop, even, >= 2
+  std::uint32_t max_generations = 30;   ///< G_max
+  double crossover_probability = 0.6;   ///< p_x
+  MutationMethod mutation = MutationMethod::RandomMove;
+  std::optional<double> mutation_probability;      ///< p_m; empty: 1 / N_pop (Table 5.22)
   double final_mutation_probability_factor = 1.0;  ///< variable mutation rate: p_m ends at this multiple
   Cooling mutation_probability_cooling = Cooling::Linear;  ///< how it gets there
-  /// r_max, mesh distance; empty: anywhere on the shell, or when it cools, at first the longer of both
-  /// bodies' geodesic extents.
+  /// r_max of random moves, mesh distance; empty: anywhere on the shell, or when it cools, at first the
+  /// longer of both bodies' geodesic extents.
   std::optional<double> mutation_radius;
   Cooling mutation_radius_cooling = Cooling::Constant;
   SelectionMethod selection = SelectionMethod::StochasticUniversalSampling;

@@ -24,6 +24,7 @@ std::pair<PointPair, PointPair> mateContinuous(ContinuousMating mating, const Co
   const double sum = parent_1.objective + parent_2.objective;
   const double share = sum > 0.0 ? parent_1.objective / sum : 0.5;
   const PointPair child = between(first, second, share, share);
+  if (mating == ContinuousMating::FitnessWeightedTwice) return {child, child};
   const double share_on = uniformUnit(engine);
   const PointPair& better = parent_1.objective <= parent_2.objective ? first : second;
   return {child, between(child, better, share_on, share_on)};

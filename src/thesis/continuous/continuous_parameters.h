@@ -40,8 +40,11 @@ enum class RandomMove : std::uint8_t {
 };
 
 enum class ContinuousMating : std::uint8_t {
-  LinearScaling,   ///< a random point on the line between the parents (2.14)
-  FitnessWeighted  ///< nearer to the fitter parent (2.15)
+  LinearScaling,    ///< a random point on the line between the parents (2.14)
+  FitnessWeighted,  ///< nearer to the fitter parent (2.15); the second child between the first and that
+                    ///< parent
+  /// (2.15) to the letter, which gives both children the same place.
+  FitnessWeightedTwice
 };
 
 enum class InitialPoints : std::uint8_t {

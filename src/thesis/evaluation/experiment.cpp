@@ -104,7 +104,8 @@ Method methodNamed(const YamlValue& value, RowBase base) {
 
 constexpr std::pair<const char*, ContinuousMating> kContinuousMatings[] = {
     {"linear_scaling", ContinuousMating::LinearScaling},
-    {"fitness_weighted", ContinuousMating::FitnessWeighted}};
+    {"fitness_weighted", ContinuousMating::FitnessWeighted},
+    {"fitness_weighted_twice", ContinuousMating::FitnessWeightedTwice}};
 constexpr std::pair<const char*, RandomMove> kRandomMoves[] = {
     {"cartesian", RandomMove::Cartesian}, {"random_direction", RandomMove::RandomDirection}};
 
@@ -230,6 +231,22 @@ ExperimentRow readRow(const YamlValue& value, const std::optional<YamlValue>& co
   return row;
 }
 
+/// Points of final populations: of searches over node pairs at one pose, and one kind of points in a file.
+void requirePopulations(const Experiment& experiment, const std::optional<YamlValue>& asked) {
+  if (!experiment.population_points) return;
+  if (experiment.points) {
+    asked->fail("points are kept of every run already", "leave out points or population_points");
+  }
+  for (const ExperimentRow& row : experiment.rows) {
+    if (!std::holds_alternative<SearchMethod>(row.method)) {
+      asked->fail("the row " + row.name + " has no population of node pairs", "leave out one of them");
+    }
+  }
+  for (const ExperimentScene& scene : experiment.scenes) {
+    if (scene.isMotion()) asked->fail("the scene " + scene.name + " is a motion", "give it one instant");
+  }
+}
+
 }  // namespace
 
 Experiment loadExperiment(const std::string& file) {
@@ -254,6 +271,8 @@ Experiment loadExperiment(const std::string& file) {
   if (auto v = map.take("visible_niches")) experiment.visible_niches = v->boolean();
   if (auto v = map.take("curves")) experiment.curves = v->boolean();
   if (auto v = map.take("points")) experiment.points = v->boolean();
+  const std::optional<YamlValue> population_points = map.take("population_points");
+  if (population_points) experiment.population_points = population_points->boolean();
   const YamlMap scenes(map.require("scenes", "name scenes and their grids: {battery_static: 0.05}"),
                        "scenes and the edge length of their grids");
   const std::string folder = std::filesystem::path(file).parent_path().string();
@@ -274,6 +293,7 @@ Experiment loadExperiment(const std::string& file) {
     }
   }
   map.finish();
+  requirePopulations(experiment, population_points);
   return experiment;
 }
 

@@ -58,8 +58,9 @@ struct Experiment {
   bool niches = false;  ///< recall and precision of the final population are measured as well
   /// Of the niches, the visible ones alone count, which are those that a tracker lists.
   bool visible_niches = false;
-  bool curves = false;  ///< averages over the generations are kept
-  bool points = false;  ///< the best points of the final populations are kept
+  bool curves = false;             ///< averages over the generations are kept
+  bool points = false;             ///< the best points of the final populations are kept
+  bool population_points = false;  ///< every individual of the first run's final populations is kept
   std::vector<ExperimentScene> scenes;
   std::vector<ExperimentRow> rows;
 };

@@ -187,6 +187,7 @@ TrialRecord runAlong(const Method& method, const MotionOptions& motion, const Sc
     if (questions != nullptr) questions->ask(k, run, std::move(answer.places));
   }
   record.exact = record.wrong_instants == 0;
+  record.standing = record.exact;
   record.cost.evaluations = meanOf(record.cost.evaluations, count);
   record.cost.descents = meanOf(record.cost.descents, count);
   record.cost.descent_steps = meanOf(record.cost.descent_steps, count);

@@ -7,6 +7,7 @@ namespace concave_distance::evaluation {
 GeneticParameters thesisGeneticParameters(NichingMethod niching) {
   GeneticParameters parameters;
   parameters.niching = niching;
+  parameters.mutation = MutationMethod::RandomNodes;
   parameters.mating = MatingMethod::MeshNearFitter;
   parameters.mating_restriction = niching == NichingMethod::Sharing;
   parameters.strict_mating_restriction = true;

@@ -18,7 +18,8 @@ enum class RowBase : std::uint8_t {
 };
 
 /// comb-GA as the thesis has it: no elite, no exchange of genes, no immigrants, niches are not conserved, no
-/// epsilon in the fitness; both children near the fitter parent (Carretero, sec. 3.3.2.b); descents along
+/// epsilon in the fitness; each gene mutates with p_m, to a random node (Carretero, sec. 3.3.2.c); both
+/// children near the fitter parent (sec. 3.3.2.b); descents along
 /// edges (3.1.5), after mutation and not before the first selection (fig. 2.13); mating restriction with
 /// sharing only (4.7), and strict (4.6.3).
 GeneticParameters thesisGeneticParameters(NichingMethod niching);

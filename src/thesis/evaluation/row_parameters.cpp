@@ -11,6 +11,18 @@
 namespace concave_distance::evaluation {
 namespace {
 
+const char* nameOf(ContinuousMating mating) {
+  switch (mating) {
+    case ContinuousMating::LinearScaling:
+      return "linear_scaling";
+    case ContinuousMating::FitnessWeighted:
+      return "fitness_weighted";
+    case ContinuousMating::FitnessWeightedTwice:
+      return "fitness_weighted_twice";
+  }
+  return "";
+}
+
 using RowParameters = std::vector<RowParameter>;
 
 std::string text(double value) {
@@ -106,7 +118,7 @@ struct Describer {
         {"penalty_weight", text(p.penalty_weight)},
         {"selection",
          p.selection == SelectionMethod::Roulette ? "roulette" : "stochastic_universal_sampling"},
-        {"mating", p.mating == ContinuousMating::LinearScaling ? "linear_scaling" : "fitness_weighted"},
+        {"mating", nameOf(p.mating)},
         {"mutation", p.mutation == RandomMove::Cartesian ? "cartesian" : "random_direction"},
         {"variable_displacement", text(p.variable_displacement)},
         {"initial_points", p.initial_points == InitialPoints::Projected ? "projected" : "bounding_boxes"},

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 
 #include "motion_trial.h"
 #include "niche_questions.h"
@@ -23,6 +24,32 @@ struct Moment {
   double mean_square;
   double niches;
   double acceptance;
+};
+
+/// Looks for an individual that stands on the best node pair. A Baldwinian individual's squared distance is
+/// that of the local minimum below it, so where it stands is computed here.
+class StandingWatch {
+ public:
+  StandingWatch(const SearchMethod& method, const PairObjective& objective) : objective_(objective) {
+    const auto* genetic = std::get_if<GeneticParameters>(&method);
+    is_needed_ = genetic != nullptr && genetic->local_optimization == LocalOptimization::Baldwinian;
+  }
+
+  void look(const SearchRecord& record) {
+    for (std::size_t i = 0; is_needed_ && i < record.point_count; ++i) {
+      const TrialPoint& point = record.points[i];
+      nearest_ = std::min(nearest_, objective_.evaluate(point.node_a, point.node_b, cost_).squared_distance);
+    }
+  }
+
+  /// The least distance at which an individual stood; `answer`, metres, of searches that answer with one.
+  double nearest(double answer) const { return is_needed_ ? std::sqrt(nearest_) : answer; }
+
+ private:
+  const PairObjective& objective_;
+  bool is_needed_;
+  double nearest_ = std::numeric_limits<double>::infinity();
+  SearchCost cost_;  // of looking, which is not the search's
 };
 
 /// Adds up what a run shows on its way, and the time that looking takes.
@@ -77,8 +104,10 @@ TrialRecord runCombinatorial(const SearchMethod& method, const SceneTruth& scene
   std::vector<TrialPoint> population;
   std::vector<IdentifiedNiche> seen;
   std::vector<std::uint32_t> order;
+  StandingWatch standing(method, objective);
   const auto look = [&](const SearchRecord& record) {
     diary.startLooking();
+    standing.look(record);
     double sum = 0.0;
     for (std::size_t i = 0; i < record.point_count; ++i) sum += record.points[i].squared_distance;
     if (diary.keeps(record.iteration) && record.point_count > 1) {
@@ -97,6 +126,7 @@ TrialRecord runCombinatorial(const SearchMethod& method, const SceneTruth& scene
   record.distance = std::sqrt(outcome.best.squared_distance);
   record.best_iteration = outcome.best_iteration;
   record.exact = record.distance <= truth.node_distance * kSame;
+  record.standing = standing.nearest(record.distance) <= truth.node_distance * kSame;
   record.region = record.exact || record.distance < truth.region_limit;
   record.basin = record.region || leadsToOptimum(scene, outcome.best);
   record.below_second = record.distance < truth.second_distance;
@@ -140,6 +170,7 @@ TrialRecord runContinuous(const SceneTruth& scene, Diary& diary, const Search& s
   record.point_a = result.best.point_a;
   record.point_b = result.best.point_b;
   record.exact = record.feasible && record.distance <= truth.exact_distance * kSame;
+  record.standing = record.exact;
   record.region = record.feasible && record.distance < truth.exact_region_limit;
   record.basin = record.region || leadsToOptimum(scene, result.best.point_a, result.best.point_b);
   record.below_second = record.distance < truth.second_distance;
@@ -178,6 +209,17 @@ TrialRecord runOnce(const Method& method, const SceneTruth& scene, RandomEngine&
   return runCombinatorial(std::get<SearchMethod>(method), scene, engine, workspace, diary, places);
 }
 
+/// Of the search that has used the workspace last.
+std::vector<IndividualPoints> populationPoints(const SceneTruth& scene, const SearchWorkspace& workspace) {
+  std::vector<IndividualPoints> points;
+  for (const TrialPoint& individual : workspace.population) {
+    const Eigen::Vector3d& a = scene.a->graph().positions[individual.node_a.value];
+    const Eigen::Vector3d& b = scene.b->graph().positions[individual.node_b.value];
+    points.push_back({(scene.first().a_from_b * b - a).norm(), a, b});
+  }
+  return points;
+}
+
 }  // namespace
 
 std::vector<TrialRecord> runTrials(const Experiment& experiment, std::size_t row, std::size_t scene,
@@ -202,6 +244,9 @@ std::vector<TrialRecord> runTrials(const Experiment& experiment, std::size_t row
     RandomEngine engine(seed);
     FoundPlaces places;
     records.push_back(runOnce(method, truth, engine, workspace, curve, has_niches ? &places : nullptr));
+    if (experiment.population_points && first_run + i == 0) {
+      records.back().population = populationPoints(truth, workspace);
+    }
     if (has_niches) questions.ask(0, i, std::move(places));
   }
   if (has_niches) questions.settle(records);

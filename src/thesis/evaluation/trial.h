@@ -19,6 +19,13 @@ struct CurvePoint {
   double acceptance = 0.0;     ///< p_b, of annealing
 };
 
+/// A node pair, each point in its body's frame.
+struct IndividualPoints {
+  double distance = 0.0;  ///< metres
+  Eigen::Vector3d point_a;
+  Eigen::Vector3d point_b;
+};
+
 /// What one run gave (Carretero, sec. 5.1). Along a motion distance, counts, cost, shares and time are means
 /// over its instants.
 struct TrialRecord {
@@ -27,6 +34,9 @@ struct TrialRecord {
   /// Counts for Phi*: the best node pair there is, or for who answers with points of the surfaces the exact
   /// distance; at every instant.
   bool exact = false;
+  /// An individual of some generation stood on the best node pair. The same as `exact` but for Baldwinian
+  /// searches at one pose, whose answer is the local minimum below an individual.
+  bool standing = false;
   bool region = false;  ///< counts for Phi: within the region of the optimum, at every instant
   /// In the region of the optimum by place alone, at any distance: a descent over the nodes from the
   /// answer ends in it. Of runs at one pose.
@@ -55,6 +65,7 @@ struct TrialRecord {
   /// The best point pair of the final population, each point in its body's frame. Of runs at one pose.
   Eigen::Vector3d point_a = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
   Eigen::Vector3d point_b = point_a;
+  std::vector<IndividualPoints> population;  ///< of the first run, where the experiment keeps it
 };
 
 /// Iterations between two points of a curve: every generation of a GA, every tenth iteration of annealing.

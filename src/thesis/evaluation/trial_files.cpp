@@ -20,12 +20,12 @@ std::string runsHeader() {
   return header +
          ",best_convergence,population_convergence,below_second,feasible,evaluations,descents,descent_steps,"
          "flops,microseconds,recall,precision,archive_recall,nearest,wrong_instants,worst_excess,most_niches,"
-         "proof_finds,basin";
+         "proof_finds,basin,standing";
 }
 constexpr const char* kCurvesHeader =
     "row,scene,first_run,runs,iteration,best_distance_sum,mean_square_sum,niches_sum,acceptance_sum";
 
-constexpr const char* kPointsHeader = "row,scene,run,distance,ax,ay,az,bx,by,bz";
+constexpr const char* kPointsHeader = "row,scene,run,individual,distance,ax,ay,az,bx,by,bz";
 
 /// A last line without an end was cut off by a crash or a full disk: nothing says that its last cell is
 /// whole, and what is appended would go on in it. It is dropped, after the header has said whose file it is.
@@ -80,7 +80,7 @@ TrialFiles::TrialFiles(const Experiment& experiment, const std::string& folder) 
   readDone(path);
   if (experiment.curves)
     curves_ = openToAppend(folder + "/" + experiment.name + "_curves.csv", kCurvesHeader);
-  if (experiment.points)
+  if (experiment.points || experiment.population_points)
     points_ = openToAppend(folder + "/" + experiment.name + "_points.csv", kPointsHeader);
 }
 
@@ -128,7 +128,7 @@ void TrialFiles::append(const WorkUnit& unit, const std::vector<TrialRecord>& re
     curve_cells.endLine();
   }
   requireWritten(curves_.flush(), experiment_.name + "_curves.csv");
-  if (experiment_.points) appendPoints(unit, records);
+  if (points_.is_open()) appendPoints(unit, records);
   std::ostringstream lines;
   CsvWriter cells(lines);
   for (std::size_t i = 0; i < records.size(); ++i) {
@@ -143,7 +143,7 @@ void TrialFiles::append(const WorkUnit& unit, const std::vector<TrialRecord>& re
     cells << r.best_convergence << r.population_convergence << r.below_second << r.feasible
           << r.cost.evaluations << r.cost.descents << r.cost.descent_steps << r.flops << r.microseconds
           << r.recall << r.precision << r.archive_recall << r.nearest << r.wrong_instants << r.worst_excess
-          << r.most_niches << r.proof_finds << r.basin;
+          << r.most_niches << r.proof_finds << r.basin << r.standing;
     cells.endLine();
   }
   requireWritten(runs_ << lines.str() << std::flush, experiment_.name + ".csv");
@@ -153,9 +153,15 @@ void TrialFiles::appendPoints(const WorkUnit& unit, const std::vector<TrialRecor
   CsvWriter cells(points_);
   for (std::size_t i = 0; i < records.size(); ++i) {
     const TrialRecord& r = records[i];
-    cells << experiment_.rows[unit.row].name << experiment_.scenes[unit.scene].name << unit.first_run + i
-          << r.distance << r.point_a << r.point_b;
-    cells.endLine();
+    // The lines of a population differ at least in the number: joined files keep each line once.
+    std::size_t number = 0;
+    const auto write = [&](const IndividualPoints& pair) {
+      cells << experiment_.rows[unit.row].name << experiment_.scenes[unit.scene].name << unit.first_run + i
+            << number++ << pair.distance << pair.point_a << pair.point_b;
+      cells.endLine();
+    };
+    if (experiment_.points) write({r.distance, r.point_a, r.point_b});
+    std::for_each(r.population.begin(), r.population.end(), write);
   }
   requireWritten(points_.flush(), experiment_.name + "_points.csv");
 }

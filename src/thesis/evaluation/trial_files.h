@@ -20,7 +20,8 @@ struct WorkUnit {
 };
 
 /// The files of an experiment: `<folder>/<name>.csv`, a line a run; with curves `<folder>/<name>_curves.csv`,
-/// sums over the runs of a unit at each generation; with points `<folder>/<name>_points.csv`, a line a run.
+/// sums over the runs of a unit at each generation; with points `<folder>/<name>_points.csv`, a line a run,
+/// or with population_points a line an individual of the first run.
 /// They are appended to, unit by unit, the runs' file last: what an interrupted evaluation has left is gone
 /// on from (a last line that was cut off is dropped, its run done again), and the files of several shards are
 /// merged by joining them.

@@ -134,6 +134,11 @@ TEST(ContinuousMating, FitnessWeightedPutsTheFirstChildWhereEquation215Says) {
     const double share = shareOf(second.point_a, mother.point_a, father.point_a);
     EXPECT_GE(share, 0.75 - 1e-14) << "between the first child and the better parent";
     EXPECT_LE(share, 1.0);
+    const auto twice = mateContinuous(ContinuousMating::FitnessWeightedTwice, mother, father, engine);
+    EXPECT_EQ(twice.first.point_a, first.point_a);
+    EXPECT_EQ(twice.first.point_b, first.point_b);
+    EXPECT_EQ(twice.second.point_a, first.point_a);
+    EXPECT_EQ(twice.second.point_b, first.point_b);
   }
 }
 

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include "concave_distance/base/error.h"
+#include "search/genetic_search.h"
 #include "support/temporary_folder.h"
 #include "thesis/evaluation/experiment.h"
 #include "thesis/evaluation/run_experiment.h"
@@ -193,6 +195,69 @@ TEST_F(Evaluation, KeepsTheBestPointsOfFinalPopulations) {
               1e-12);
   const TrialRecord shared = runOne(experiment, 0, scene, nullptr);  // without an elite: the best may be lost
   EXPECT_GE((shared.point_a - scene.first().a_from_b * shared.point_b).norm(), shared.distance - 1e-12);
+}
+
+TEST_F(Evaluation, KeepsEveryIndividualOfTheFirstRunsFinalPopulation) {
+  std::string yaml = std::string(kExperiment) + "population_points: true\n";
+  EXPECT_THROW(loadExperiment(write(yaml)), Error);  // the continuous row has no node pairs
+  yaml.erase(yaml.find("  - {name: continuous"),
+             yaml.find("base: ours}\n") + 12 - yaml.find("  - {name: continuous"));
+  EXPECT_THROW(loadExperiment(write(yaml + "points: true\n")), Error);
+  const Experiment experiment = loadExperiment(write(yaml));
+  run(experiment, options("population", 20));
+  // Twenty individuals of the search and the best of the annealing, however many runs there are.
+  EXPECT_EQ(linesOf("population", "small_points.csv").size(), 21U);
+  const SceneTruth scene = loadScene(experiment.scenes[0], kSource + "/meshes/thesis");
+  SearchWorkspace workspace(*scene.a, *scene.b);
+  const TrialRecord first = runTrials(experiment, 0, 0, scene, 0, 2, workspace, nullptr).front();
+  ASSERT_EQ(first.population.size(), 20U);
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const IndividualPoints& pair : first.population) {
+    EXPECT_NEAR((pair.point_a - scene.first().a_from_b * pair.point_b).norm(), pair.distance, 1e-12);
+    nearest = std::min(nearest, pair.distance);
+  }
+  EXPECT_NEAR(nearest, first.niche_distances[0], 1e-12);
+}
+
+TEST_F(Evaluation, CountsWhoStandsOnTheBestPairApartFromWhoDescendsToIt) {
+  const Experiment experiment = loadExperiment(write(R"(
+title: "Baldwin and Lamarck"
+runs: {quick: 1, full: 1}
+scenes: {boxes_position_1: 0.3}
+common: {population_size: 50, max_generations: 20, mutation_probability: 0.1, mating_restriction: false}
+rows:
+  - {name: lamarckian, algorithm: comb-GA-wl}
+  - {name: baldwinian, algorithm: comb-GA-bw}
+)"));
+  constexpr std::uint32_t kRuns = 40;
+  const SceneTruth scene = loadScene(experiment.scenes[0], kSource + "/meshes/thesis");
+  const double best = scene.first().node_distance * scene.first().node_distance * (1.0 + 1e-12);
+  SearchWorkspace workspace(*scene.a, *scene.b);
+  for (const TrialRecord& run : runTrials(experiment, 0, 0, scene, 0, kRuns, workspace, nullptr)) {
+    EXPECT_EQ(run.standing, run.exact);
+  }
+  const std::vector<TrialRecord> runs = runTrials(experiment, 1, 0, scene, 0, kRuns, workspace, nullptr);
+  const PairObjective objective(*scene.a, *scene.b, scene.first().a_from_b);
+  const auto& parameters = std::get<GeneticParameters>(std::get<SearchMethod>(experiment.rows[1].method));
+  std::uint32_t descended = 0;
+  std::uint32_t stood = 0;
+  for (std::uint32_t i = 0; i < kRuns; ++i) {
+    bool stands = false;
+    RandomEngine engine(streamSeed(experiment.seed, "evaluate", i));
+    workspace.basins.clear();
+    geneticSearch(objective, parameters, {1.0, 1.0, 1.0}, {}, engine, workspace,
+                  [&](const GenerationRecord& record) {
+                    for (const TrialPoint& point : *record.population) {
+                      stands = stands || objective.squaredDistance(point.node_a, point.node_b) <= best;
+                    }
+                  });
+    EXPECT_EQ(runs[i].standing, stands) << "run " << i;
+    EXPECT_LE(runs[i].standing, runs[i].exact);
+    descended += runs[i].exact ? 1 : 0;
+    stood += stands ? 1 : 0;
+  }
+  EXPECT_LT(stood, descended);
+  EXPECT_GT(stood, 0U);
 }
 
 TEST_F(Evaluation, FollowsAMotion) {

@@ -60,6 +60,7 @@ void expectThesisGenetic(const Values& values) {
   EXPECT_EQ(values.at("random_immigrants"), "0");
   EXPECT_EQ(values.at("conserve_niches"), "false");
   EXPECT_EQ(values.at("fitness_epsilon"), "0");
+  EXPECT_EQ(values.at("mutation"), "random_nodes");
   EXPECT_EQ(values.at("mating"), "mesh_near_fitter");
   EXPECT_EQ(values.at("descent_moves"), "one_node_along_edges");
   EXPECT_EQ(values.at("selection"), "stochastic_universal_sampling");
