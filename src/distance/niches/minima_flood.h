@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "distance/minima/minima_candidates.h"
+#include "local_minima.h"
 
 namespace concave_distance::detail {
 
