@@ -28,7 +28,7 @@ bool isPierced(const Eigen::Vector3d* first_loop, const Eigen::Vector3d* last_lo
 /// The nearest bristles that are pushed the same way.
 class NearestBristles {
  public:
-  NearestBristles(const RubbingSite& site, double cell_size) : site_(site), cell_size_(cell_size) {}
+  NearestBristles(const FrictionSite& site, double cell_size) : site_(site), cell_size_(cell_size) {}
   void consider(const SiteBristles& known, double cell_size) {
     const double reach = kBristleReach * std::max(cell_size, cell_size_);
     const double squared_distance = (known.point_in_a - site_.point_in_a).squaredNorm();
@@ -41,14 +41,14 @@ class NearestBristles {
   const SiteBristles* found() const { return nearest_; }
 
  private:
-  const RubbingSite& site_;
+  const FrictionSite& site_;
   double cell_size_;
   double least_ = std::numeric_limits<double>::infinity();
   const SiteBristles* nearest_ = nullptr;
 };
 
 /// Returns the bristles that the cell of this site had.
-const SiteBristles* findBristles(const PatchMemory& memory, const RubbingSite& site) {
+const SiteBristles* findBristles(const PatchMemory& memory, const FrictionSite& site) {
   const auto found =
       std::lower_bound(memory.bristles.begin(), memory.bristles.end(), site.cell,
                        [](const SiteBristles& known, std::uint64_t cell) { return known.cell < cell; });
@@ -57,17 +57,17 @@ const SiteBristles* findBristles(const PatchMemory& memory, const RubbingSite& s
 
 /// Returns the bristles of the nearest cell. A body that rolls on under a force would creep if the cells that
 /// it comes to began unbent. @param last_cell_size of the bristles in `memory`
-const SiteBristles* findNearest(const PatchMemory& memory, double last_cell_size, const RubbingSite& site) {
+const SiteBristles* findNearest(const PatchMemory& memory, double last_cell_size, const FrictionSite& site) {
   NearestBristles nearest(site, memory.cell_size);
   for (const SiteBristles& known : memory.bristles) nearest.consider(known, last_cell_size);
   return nearest.found();
 }
 
 /// Of the same cell, or the nearest: the surfaces are cut into other samples where a region splits.
-const SiteBristles* findLoose(const std::vector<LooseBristles>& loose, double cell_size,
-                              const RubbingSite& site) {
+const SiteBristles* findLoose(const std::vector<UnmatchedBristles>& loose, double cell_size,
+                              const FrictionSite& site) {
   NearestBristles nearest(site, cell_size);
-  for (const LooseBristles& known : loose) {
+  for (const UnmatchedBristles& known : loose) {
     if (known.cell_size == cell_size && known.site.cell == site.cell) return &known.site;
     nearest.consider(known.site, known.cell_size);
   }
@@ -137,13 +137,13 @@ void ContactPatch::addSpring(const Spring& sum, ContactLinearisation& linearisat
 }
 
 Wrench ContactPatch::rub(const FrictionSettings& settings, const ContactMaterial& material,
-                         const PatchMotion& motion, const std::vector<LooseBristles>& loose,
+                         const PatchMotion& motion, const std::vector<UnmatchedBristles>& loose,
                          PatchMemory& memory, ContactLinearisation& linearisation) {
   sites_.gather(first_sample_, last_sample_, forces_, memory.cell_size);
   next_.clear();
   if (next_.capacity() < sites_.all().size()) next_.reserve(2 * sites_.all().size());
   Wrench wrench;
-  for (const RubbingSite& site : sites_.all()) {
+  for (const FrictionSite& site : sites_.all()) {
     const bool same_cells = last_cell_size_ == memory.cell_size;
     const SiteBristles* known =
         same_cells ? findBristles(memory, site) : findNearest(memory, last_cell_size_, site);

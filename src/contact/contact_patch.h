@@ -10,14 +10,14 @@
 #include "concave_distance/contact/pressure_field.h"
 #include "concave_distance/contact/wrench.h"
 #include "concave_distance/interference/interference.h"
+#include "friction_sites.h"
 #include "pressure_law.h"
-#include "rubbing_sites.h"
 #include "site_friction.h"
 
 namespace concave_distance {
 
 /// Bristles that may belong to any region.
-struct LooseBristles {
+struct UnmatchedBristles {
   SiteBristles site;
   double cell_size;  ///< metres, of the cells that it was gathered in
 };
@@ -79,7 +79,7 @@ class ContactPatch {
   /// Friction of what press() has set, on B, about A's origin. The surfaces of then must still be there.
   /// @param loose where the patch's own memory has no bristles of a cell, these may
   Wrench rub(const FrictionSettings& settings, const ContactMaterial& material, const PatchMotion& motion,
-             const std::vector<LooseBristles>& loose, PatchMemory& memory,
+             const std::vector<UnmatchedBristles>& loose, PatchMemory& memory,
              ContactLinearisation& linearisation);
   /// Of the last press().
   const PressureField& field() const { return field_; }
@@ -108,7 +108,7 @@ class ContactPatch {
   const OverlapSample* last_sample_ = nullptr;
   std::vector<double> forces_;  ///< of these samples
   CellSums<Spring> springs_;
-  RubbingSites sites_;
+  FrictionSites sites_;
   std::vector<SiteBristles> next_;
   double last_cell_size_ = 0.0;  ///< of the memory that press() has met
   PressureField field_;

@@ -8,7 +8,7 @@ namespace {
 /// Coordinates of one site: two directions across the normal, and spinning about it as metres at the spread.
 class SiteAxes {
  public:
-  explicit SiteAxes(const RubbingSite& site) : site_(site) {
+  explicit SiteAxes(const FrictionSite& site) : site_(site) {
     axes_.row(0) = site.push_in_a.unitOrthogonal();
     axes_.row(1) = site.push_in_a.cross(axes_.row(0).transpose());
     axes_.row(2).setZero();
@@ -28,7 +28,7 @@ class SiteAxes {
   }
 
  private:
-  const RubbingSite& site_;
+  const FrictionSite& site_;
   Eigen::Matrix3d axes_;
 };
 
@@ -41,7 +41,7 @@ void addRow(double coefficient, const Vector6d& row, Matrix6d& sum) {
 }  // namespace
 
 Wrench siteFriction(const FrictionSettings& settings, const ContactMaterial& material,
-                    const RubbingSite& site, const PatchMotion& motion, SiteBristles& state,
+                    const FrictionSite& site, const PatchMotion& motion, SiteBristles& state,
                     ContactLinearisation& linearisation) {
   const SiteAxes axes(site);
   const Eigen::Vector3d sliding = axes.of(motion.b_in_a);

@@ -6,7 +6,7 @@
 #include "concave_distance/contact/contact_linearisation.h"
 #include "concave_distance/contact/friction.h"
 #include "concave_distance/contact/wrench.h"
-#include "rubbing_sites.h"
+#include "friction_sites.h"
 
 namespace concave_distance {
 
@@ -30,7 +30,7 @@ struct SiteBristles {
 /// force is along v and the torque about the normal. The mean speed over the site is that to second order
 /// where v is large, and where it is 0 at most 25 % more. Adds its share of the linearisation.
 Wrench siteFriction(const FrictionSettings& settings, const ContactMaterial& material,
-                    const RubbingSite& site, const PatchMotion& motion, SiteBristles& state,
+                    const FrictionSite& site, const PatchMotion& motion, SiteBristles& state,
                     ContactLinearisation& linearisation);
 
 }  // namespace concave_distance

@@ -5,7 +5,7 @@
 
 #include "mesh/surface/mesh_topology.h"
 #include "mesh/surface/round_geometry.h"
-#include "mesh/trees/shell_joints.h"
+#include "mesh/trees/shell_contacts.h"
 #include "round_overlap.h"
 
 namespace concave_distance::detail {

@@ -16,7 +16,7 @@
 #include "cached_parts.h"
 #include "concave_distance/base/error.h"
 #include "mesh/surface/facets.h"
-#include "mesh/trees/shell_joints.h"
+#include "mesh/trees/shell_contacts.h"
 
 namespace concave_distance {
 
@@ -48,7 +48,7 @@ struct BodyMesh::State {
   Eigen::AlignedBox3d bounds;
   // Made on demand:
   Part<RecentredBody> recentred;
-  Part<ShellJoints> joints;
+  Part<ShellContacts> joints;
   Part<Facets> facets;
   Part<CompressedRows<AdjacentTriangle>> adjacency;
   Part<ConnectedPieces> pieces;
@@ -293,7 +293,7 @@ const RecentredBody& BodyMesh::recentred() const {
   return part.value;
 }
 
-const ShellJoints& BodyMesh::joints() const {
+const ShellContacts& BodyMesh::joints() const {
   auto& part = state_->joints;
   std::call_once(part.once, [&] {
     part.value = joinShells(surface(), topology(), tree());

@@ -34,7 +34,7 @@ std::vector<std::string> failingPairs(const PublishedPairs& pairs) {
 
 }  // namespace
 
-CycleRunner::CycleRunner(TransformBuffer& transforms, SceneKeeper& keeper, TopicPublishers& publishers,
+CycleRunner::CycleRunner(TransformBuffer& transforms, SceneStore& keeper, TopicPublishers& publishers,
                          RestartRequests& restarts, const CycleOptions& options)
     : transforms_(transforms),
       keeper_(keeper),

@@ -11,7 +11,7 @@
 #include "cycle_timer.h"
 #include "distance_cycle.h"
 #include "restart_requests.h"
-#include "scene_keeper.h"
+#include "scene_store.h"
 #include "topic_publishers.h"
 
 namespace concave_distance {
@@ -20,7 +20,7 @@ namespace concave_distance {
 /// of simulated time).
 class CycleRunner {
  public:
-  CycleRunner(TransformBuffer& transforms, SceneKeeper& keeper, TopicPublishers& publishers,
+  CycleRunner(TransformBuffer& transforms, SceneStore& keeper, TopicPublishers& publishers,
               RestartRequests& restarts, const CycleOptions& options);
   CycleRunner(const CycleRunner&) = delete;
   CycleRunner& operator=(const CycleRunner&) = delete;
@@ -43,7 +43,7 @@ class CycleRunner {
   CycleRecord runCycle(ros::Time now);
 
   TransformBuffer& transforms_;
-  SceneKeeper& keeper_;
+  SceneStore& keeper_;
   TopicPublishers& publishers_;
   RestartRequests& restarts_;
   CycleStatistics statistics_;

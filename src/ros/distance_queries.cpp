@@ -230,7 +230,7 @@ QueryAnswer answerQuery(const DistanceQuery& query, const Scene& scene, const Qu
   }
 }
 
-DistanceQueries::DistanceQueries(ServiceQueues& queues, SceneKeeper& keeper, QueryContext context,
+DistanceQueries::DistanceQueries(ServiceQueues& queues, SceneStore& keeper, QueryContext context,
                                  const NodeLimits& limits, std::uint32_t threads)
     : node_(queues.heavy()),
       gate_(queues.gate()),

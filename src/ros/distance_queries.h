@@ -14,7 +14,7 @@
 
 #include "concave_distance/scene/scene.h"
 #include "node_limits.h"
-#include "scene_keeper.h"
+#include "scene_store.h"
 #include "service_queues.h"
 #include "transform_buffer.h"
 
@@ -52,7 +52,7 @@ bool isAnswered(const PairNiches& answer);
 class DistanceQueries {
  public:
   /// @param threads number of threads for the queries of one call
-  DistanceQueries(ServiceQueues& queues, SceneKeeper& keeper, QueryContext context, const NodeLimits& limits,
+  DistanceQueries(ServiceQueues& queues, SceneStore& keeper, QueryContext context, const NodeLimits& limits,
                   std::uint32_t threads);
 
  private:
@@ -67,7 +67,7 @@ class DistanceQueries {
 
   ros::NodeHandle node_;
   RequestGate& gate_;
-  SceneKeeper& keeper_;
+  SceneStore& keeper_;
   QueryContext context_;
   NodeLimits limits_;
   std::size_t threads_;

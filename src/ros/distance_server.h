@@ -19,9 +19,9 @@
 #include "lateness_monitor.h"
 #include "node_parameters.h"
 #include "restart_requests.h"
-#include "scene_keeper.h"
 #include "scene_loader.h"
 #include "scene_services.h"
+#include "scene_store.h"
 #include "topic_publishers.h"
 #include "transform_buffer.h"
 #include "transform_receiver.h"
@@ -72,7 +72,7 @@ class DistanceServer {
   TransformBuffer transforms_;
   TransformReceiver receiver_;
   TopicPublishers publishers_;
-  SceneKeeper keeper_;
+  SceneStore keeper_;
   RestartRequests restarts_;
   ServiceQueues service_queues_;
   DistanceQueries queries_;

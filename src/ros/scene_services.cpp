@@ -99,7 +99,7 @@ Eigen::Vector4d toColour(const std_msgs::ColorRGBA& color, const Eigen::Vector4d
 
 }  // namespace
 
-SceneServices::SceneServices(ServiceQueues& queues, SceneKeeper& keeper, RestartRequests& restarts,
+SceneServices::SceneServices(ServiceQueues& queues, SceneStore& keeper, RestartRequests& restarts,
                              const TransformBuffer& transforms, std::string reference_frame,
                              PackageLocator package_locator, MeshAccess mesh_access)
     : light_(queues.light()),

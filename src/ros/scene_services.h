@@ -15,7 +15,7 @@
 #include "concave_distance/loading/mesh_roots.h"
 #include "concave_distance/loading/resource_locator.h"
 #include "restart_requests.h"
-#include "scene_keeper.h"
+#include "scene_store.h"
 #include "service_queues.h"
 #include "transform_buffer.h"
 
@@ -27,7 +27,7 @@ class SceneServices {
  public:
   /// add_body passes the gate for long requests, the others do not.
   /// @param transforms tf, for the frames of added bodies
-  SceneServices(ServiceQueues& queues, SceneKeeper& keeper, RestartRequests& restarts,
+  SceneServices(ServiceQueues& queues, SceneStore& keeper, RestartRequests& restarts,
                 const TransformBuffer& transforms, std::string reference_frame,
                 PackageLocator package_locator, MeshAccess mesh_access);
 
@@ -45,7 +45,7 @@ class SceneServices {
   ros::NodeHandle light_;
   ros::NodeHandle heavy_;
   RequestGate& gate_;
-  SceneKeeper& keeper_;
+  SceneStore& keeper_;
   RestartRequests& restarts_;
   const TransformBuffer& transforms_;
   std::string reference_frame_;

@@ -8,7 +8,7 @@ void ConvergenceCheck::reset(std::uint32_t generations) {
   last_niches_.clear();
 }
 
-bool ConvergenceCheck::update(const Census& census, double niche_radius, PlaceTable& places,
+bool ConvergenceCheck::update(const Census& census, double niche_radius, TrialPointTable& places,
                               PairMetric& metric) {
   if (generations_ == 0) {
     return false;

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "place_table.h"
+#include "trial_point_table.h"
 
 namespace concave_distance {
 
@@ -14,7 +14,7 @@ class ConvergenceCheck {
   /// @param generations without change after which a run has converged; 0: never
   void reset(std::uint32_t generations);
   /// Call once a generation. True when the run has converged.
-  bool update(const Census& census, double niche_radius, PlaceTable& places, PairMetric& metric);
+  bool update(const Census& census, double niche_radius, TrialPointTable& places, PairMetric& metric);
   std::size_t memoryBytes() const;
 
  private:

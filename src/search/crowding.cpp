@@ -14,7 +14,7 @@ void compete(Contestant& seat, const Contestant& child) {
 }  // namespace
 
 void competePaired(Contestant& parent_1, Contestant& parent_2, const Contestant& child_1,
-                   const Contestant& child_2, PlaceTable& places, PairMetric& metric) {
+                   const Contestant& child_2, TrialPointTable& places, PairMetric& metric) {
   const double straight = places.delta(parent_1.place, child_1.place, metric) +
                           places.delta(parent_2.place, child_2.place, metric);
   const double crossed = places.delta(parent_1.place, child_2.place, metric) +
@@ -29,7 +29,7 @@ void competePaired(Contestant& parent_1, Contestant& parent_2, const Contestant&
 }
 
 void competeWithCloserParent(Contestant& parent_1, Contestant& parent_2, const Contestant& child_1,
-                             const Contestant& child_2, PlaceTable& places, PairMetric& metric) {
+                             const Contestant& child_2, TrialPointTable& places, PairMetric& metric) {
   const auto is_closer_to_first = [&](const Contestant& child) {
     return places.delta(parent_1.place, child.place, metric) <=
            places.delta(parent_2.place, child.place, metric);
@@ -42,7 +42,7 @@ void competeWithCloserParent(Contestant& parent_1, Contestant& parent_2, const C
 }
 
 std::uint32_t crowdedOut(const std::vector<std::uint32_t>& population_places, std::uint32_t child_place,
-                         std::uint32_t crowding_factor, PlaceTable& places, PairMetric& metric,
+                         std::uint32_t crowding_factor, TrialPointTable& places, PairMetric& metric,
                          RandomEngine& engine) {
   std::uint32_t closest = 0;
   double least = std::numeric_limits<double>::infinity();

@@ -5,7 +5,7 @@
 namespace concave_distance {
 
 void restrictMating(std::vector<std::uint32_t>& pool, const std::vector<std::uint32_t>& population_places,
-                    double mating_radius, PlaceTable& places, PairMetric& metric, RandomEngine& engine) {
+                    double mating_radius, TrialPointTable& places, PairMetric& metric, RandomEngine& engine) {
   constexpr int kTries = 2;
   for (std::size_t first = 0; first + 1 < pool.size(); first += 2) {
     const std::size_t mate = first + 1;
@@ -22,7 +22,7 @@ void restrictMating(std::vector<std::uint32_t>& pool, const std::vector<std::uin
 
 void restrictMatingStrictly(std::vector<std::uint32_t>& pool,
                             const std::vector<std::uint32_t>& population_places, double mating_radius,
-                            PlaceTable& places, PairMetric& metric) {
+                            TrialPointTable& places, PairMetric& metric) {
   for (std::size_t first = 0; first + 1 < pool.size(); first += 2) {
     for (std::size_t mate = first + 1; mate < pool.size(); ++mate) {
       if (places.delta(population_places[pool[first]], population_places[pool[mate]], metric) <=

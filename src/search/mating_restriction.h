@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "base/random_engine.h"
-#include "place_table.h"
+#include "trial_point_table.h"
 
 namespace concave_distance {
 
@@ -15,12 +15,12 @@ namespace concave_distance {
 /// @param pool individuals, an even number of them
 /// @param population_places the place of each individual
 void restrictMating(std::vector<std::uint32_t>& pool, const std::vector<std::uint32_t>& population_places,
-                    double mating_radius, PlaceTable& places, PairMetric& metric, RandomEngine& engine);
+                    double mating_radius, TrialPointTable& places, PairMetric& metric, RandomEngine& engine);
 
 /// The same, but the mate is the first of all behind that is within the radius (the pool has been shuffled).
 /// Where there is none, the couple stays as it is, farther apart than the radius, and is not to mate.
 void restrictMatingStrictly(std::vector<std::uint32_t>& pool,
                             const std::vector<std::uint32_t>& population_places, double mating_radius,
-                            PlaceTable& places, PairMetric& metric);
+                            TrialPointTable& places, PairMetric& metric);
 
 }  // namespace concave_distance

@@ -52,7 +52,7 @@ void drawSeats(std::uint32_t population_size, std::uint32_t count, RandomEngine&
   seats.resize(count);
 }
 
-void findElites(const Census& census, const PlaceTable& places, std::uint32_t elite_count,
+void findElites(const Census& census, const TrialPointTable& places, std::uint32_t elite_count,
                 std::vector<std::uint32_t>& elites) {
   elites.clear();
   while (elites.size() < std::min<std::size_t>(elite_count, census.places.size())) {
@@ -66,8 +66,8 @@ void findElites(const Census& census, const PlaceTable& places, std::uint32_t el
   }
 }
 
-bool seatNewcomer(std::uint32_t place, const std::vector<std::uint32_t>& elites, const PlaceTable& places,
-                  Census& census, std::vector<TrialPoint>& population,
+bool seatNewcomer(std::uint32_t place, const std::vector<std::uint32_t>& elites,
+                  const TrialPointTable& places, Census& census, std::vector<TrialPoint>& population,
                   std::vector<std::uint32_t>& population_places) {
   if (place < census.entry_of_place.size() && census.entry_of_place[place] != Census::kNone) {
     return true;
@@ -82,7 +82,7 @@ bool seatNewcomer(std::uint32_t place, const std::vector<std::uint32_t>& elites,
   return true;
 }
 
-void restoreElites(const std::vector<std::uint32_t>& elites, const PlaceTable& places, Census& census,
+void restoreElites(const std::vector<std::uint32_t>& elites, const TrialPointTable& places, Census& census,
                    std::vector<TrialPoint>& population, std::vector<std::uint32_t>& population_places) {
   for (const std::uint32_t elite : elites) {
     if (!seatNewcomer(elite, elites, places, census, population, population_places)) {

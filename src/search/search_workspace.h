@@ -7,8 +7,8 @@
 #include "convergence.h"
 #include "niche_identification.h"
 #include "pair_metric.h"
-#include "place_table.h"
 #include "sharing.h"
+#include "trial_point_table.h"
 
 namespace concave_distance {
 
@@ -44,7 +44,7 @@ struct SearchWorkspace {
   std::vector<std::uint32_t> order;
   std::vector<IdentifiedNiche> niches;
 
-  PlaceTable places;
+  TrialPointTable places;
   std::vector<std::uint32_t> population_places;  ///< of each individual
   Census census;                                 ///< of the population
   std::vector<TrialPoint> offspring;

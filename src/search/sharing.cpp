@@ -11,7 +11,7 @@ namespace {
 constexpr double kTouchingFitness = 1e200;
 
 /// Sum of S over everybody, for one place.
-double nicheCount(const Census& census, std::size_t entry, PlaceTable& places, PairMetric& metric,
+double nicheCount(const Census& census, std::size_t entry, TrialPointTable& places, PairMetric& metric,
                   double sharing_radius, double sharing_exponent) {
   double count = 0.0;
   for (std::size_t i = 0; i < census.places.size(); ++i) {
@@ -40,7 +40,7 @@ double sharingValue(double delta, double radius, double exponent) {
   return 1.0 - (exponent == 1.0 || share == 0.0 ? share : std::pow(share, exponent));
 }
 
-void nicheCounts(const Census& census, PlaceTable& places, PairMetric& metric, double sharing_radius,
+void nicheCounts(const Census& census, TrialPointTable& places, PairMetric& metric, double sharing_radius,
                  double sharing_exponent, std::vector<double>& niche_counts) {
   niche_counts.clear();
   for (const std::uint32_t count : census.counts) {
@@ -58,9 +58,9 @@ void nicheCounts(const Census& census, PlaceTable& places, PairMetric& metric, d
   }
 }
 
-void dynamicNicheCounts(const Census& census, PlaceTable& places, PairMetric& metric, double sharing_radius,
-                        double sharing_exponent, std::uint32_t niche_limit, DynamicNicheBuffers& buffers,
-                        std::vector<double>& niche_counts) {
+void dynamicNicheCounts(const Census& census, TrialPointTable& places, PairMetric& metric,
+                        double sharing_radius, double sharing_exponent, std::uint32_t niche_limit,
+                        DynamicNicheBuffers& buffers, std::vector<double>& niche_counts) {
   constexpr std::uint32_t kNoPeak = 0xffffffffU;
   auto& [order, peaks, peak_of_entry] = buffers;
   order.resize(census.places.size());

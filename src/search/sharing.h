@@ -5,7 +5,7 @@
 
 #include "concave_distance/mesh/body_mesh.h"
 #include "concave_distance/search/genetic_parameters.h"
-#include "place_table.h"
+#include "trial_point_table.h"
 
 namespace concave_distance {
 
@@ -27,7 +27,7 @@ double sharingValue(double delta, double radius, double exponent);
 /// m' of every place in the census (Carretero, eq. (4.2), (4.6)): the sum over all individuals of S(Delta to
 /// them), itself included, so at least 1. O(places^2) distances.
 /// @param niche_counts beside census.places; keeps its capacity
-void nicheCounts(const Census& census, PlaceTable& places, PairMetric& metric, double sharing_radius,
+void nicheCounts(const Census& census, TrialPointTable& places, PairMetric& metric, double sharing_radius,
                  double sharing_exponent, std::vector<double>& niche_counts);
 
 /// Buffers of dynamicNicheCounts(); keep their capacity.
@@ -41,8 +41,8 @@ struct DynamicNicheBuffers {
 /// sharing radius of an earlier peak becomes one, until there are `niche_limit`; whoever is within the radius
 /// of a peak (of several, the fittest) counts all individuals of that peak's niche, whoever is not shares as
 /// above. O(places * peaks) distances while the limit is not reached.
-void dynamicNicheCounts(const Census& census, PlaceTable& places, PairMetric& metric, double sharing_radius,
-                        double sharing_exponent, std::uint32_t niche_limit, DynamicNicheBuffers& buffers,
-                        std::vector<double>& niche_counts);
+void dynamicNicheCounts(const Census& census, TrialPointTable& places, PairMetric& metric,
+                        double sharing_radius, double sharing_exponent, std::uint32_t niche_limit,
+                        DynamicNicheBuffers& buffers, std::vector<double>& niche_counts);
 
 }  // namespace concave_distance

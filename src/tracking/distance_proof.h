@@ -38,7 +38,7 @@ class DistanceProof {
 
  private:
   CertificateWorkspace workspace_;
-  ProofFront front_;
+  BoundCache front_;
   DistanceCertificate certificate_;  ///< of the last cycle
   double error_ = 0.0;
   bool seeded_ = false;   ///< there is a last certificate

@@ -27,7 +27,7 @@ constexpr std::size_t archiveCapacity(std::size_t reported) {
   return reported + (reported + 1) / 2;
 }
 
-MinimumSeed seedAt(const PairGeometry& geometry, const WitnessPair& witness) {
+MinimumCandidate seedAt(const PairGeometry& geometry, const WitnessPair& witness) {
   return detail::MinimaScene(*geometry.a, *geometry.b, geometry.a_from_b).seedOf(witness);
 }
 
@@ -98,7 +98,7 @@ void ExactNiches::admit(PairGeometry& geometry, const TrackerParameters& paramet
   if (!looks_for_all) {
     followed_.insert(followed_.end(), request_.proposals.begin(), request_.proposals.end());
     request_.given = &followed_;
-    const MinimumSeed* nearest = nearestProposed();
+    const MinimumCandidate* nearest = nearestProposed();
     nearest_.reset();
     if (nearest != nullptr) nearest_ = TrianglePair{nearest->a, nearest->b};
   }
@@ -112,7 +112,7 @@ void ExactNiches::admit(PairGeometry& geometry, const TrackerParameters& paramet
   current_ = found_.finished;
   solution.cost.evaluations += found_.cost.feature_pairs + found_.cost.candidates + found_.cost.flooded_pairs;
 
-  findHeirs(archive, geometry, cycle.last_a_from_b);
+  matchPrevious(archive, geometry, cycle.last_a_from_b);
   attributeOffered(geometry);
   endOthers(archive, solution.events);
   next_.clear();
@@ -182,8 +182,8 @@ void ExactNiches::attributeByPlace(const WitnessPair& minimum, std::size_t propo
 // A known niche goes on as the one whose region it is in now, the oldest of them first. Before, no point pair
 // of the region was nearer than the niche: the minimum cannot be nearer by more than its point of B has moved
 // since, or it has come from elsewhere.
-void ExactNiches::findHeirs(const NicheArchive& archive, const PairGeometry& geometry,
-                            const Eigen::Isometry3d& last_a_from_b) {
+void ExactNiches::matchPrevious(const NicheArchive& archive, const PairGeometry& geometry,
+                                const Eigen::Isometry3d& last_a_from_b) {
   const std::vector<NicheRecord>& records = archive.records();
   const double rounding = kPlateauTolerance * geometry.scale();
   refill(heirs_, found_.niches.size(), kNone);
@@ -238,10 +238,10 @@ void ExactNiches::carryOthers(const std::vector<NicheRecord>& known, PairGeometr
   }
 }
 
-const MinimumSeed* ExactNiches::nearestProposed() const {
-  const auto nearest =
-      std::min_element(followed_.begin(), followed_.end(),
-                       [](const MinimumSeed& l, const MinimumSeed& r) { return l.distance < r.distance; });
+const MinimumCandidate* ExactNiches::nearestProposed() const {
+  const auto nearest = std::min_element(
+      followed_.begin(), followed_.end(),
+      [](const MinimumCandidate& l, const MinimumCandidate& r) { return l.distance < r.distance; });
   return nearest == followed_.end() ? nullptr : &*nearest;
 }
 
@@ -266,7 +266,7 @@ void ExactNiches::clear() {
 
 std::size_t ExactNiches::memoryBytes() const {
   return memory_.memoryBytes() + found_.niches.capacity() * sizeof(LocalMinimum) +
-         (followed_.capacity() + request_.proposals.capacity()) * sizeof(MinimumSeed) +
+         (followed_.capacity() + request_.proposals.capacity()) * sizeof(MinimumCandidate) +
          next_.capacity() * sizeof(NicheRecord) + heirs_.capacity() * sizeof(std::size_t);
 }
 

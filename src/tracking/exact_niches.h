@@ -53,7 +53,7 @@ class ExactNiches {
 
   bool isFinished() const { return found_.finished; }
   /// Level `refined`: of all that was followed and proposed, niche or not; nullptr: nothing was.
-  const MinimumSeed* nearestProposed() const;
+  const MinimumCandidate* nearestProposed() const;
   /// New niches of the last admit() that the search has proposed.
   std::size_t evolved() const { return evolved_; }
   /// Of the last admit(), in evaluations of the search.
@@ -65,8 +65,8 @@ class ExactNiches {
   std::size_t memoryBytes() const;
 
  private:
-  void findHeirs(const NicheArchive& archive, const PairGeometry& geometry,
-                 const Eigen::Isometry3d& last_a_from_b);
+  void matchPrevious(const NicheArchive& archive, const PairGeometry& geometry,
+                     const Eigen::Isometry3d& last_a_from_b);
   void attributeOffered(PairGeometry& geometry);
   void attributeByPlace(const WitnessPair& minimum, std::size_t proposal, double tolerance);
   bool isSearched(const LocalMinimum& minimum) const {
@@ -79,7 +79,7 @@ class ExactNiches {
   LocalMinimaMemory memory_;
   LocalMinimaRequest request_;
   LocalMinima found_;
-  std::vector<MinimumSeed> followed_;
+  std::vector<MinimumCandidate> followed_;
   std::optional<TrianglePair> nearest_;  ///< of what was followed and proposed last
   std::size_t searched_ = 0;             ///< of the proposals: those of the search
   const std::vector<TrialPoint>* offered_ = nullptr;

@@ -256,7 +256,7 @@ void PairCycle::reportNearest(PairSolution& solution) {
   const bool overlap =
       isRound() ? isRoundContained(*geometry_.a, *geometry_.b, geometry_.a_from_b)
                 : isContained(*geometry_.a, *geometry_.b, geometry_.a_from_b, limit_).value_or(false);
-  const MinimumSeed* known = niches_.nearestProposed();
+  const MinimumCandidate* known = niches_.nearestProposed();
   const bool is_known_alone = records.empty() && limit_.hasRefused();
   if (isExact() && known != nullptr && (overlap || is_known_alone)) {
     // Not a niche, but still a bound of the distance: through material, or there was no time to find one.

@@ -93,7 +93,7 @@ void RegionForces::pushLumped(const RelativeTwist& b_in_a, ContactRegion& region
       wrenchAbout(region.normal_force * contact.normal_in_a, contact.point_in_a, Eigen::Vector3d::Zero());
 }
 
-void RegionForces::rub(const PatchMotion& motion, const std::vector<LooseBristles>& loose,
+void RegionForces::rub(const PatchMotion& motion, const std::vector<UnmatchedBristles>& loose,
                        std::vector<RegionMemory>& memory, PairContacts& contacts) {
   for (std::size_t r = 0; r < contacts.regions.size(); ++r) {
     ContactRegion& region = contacts.regions[r];

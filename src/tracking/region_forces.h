@@ -26,7 +26,7 @@ class RegionForces {
     return isPatch(region) ? &patches_[index].field() : nullptr;
   }
   /// Friction of what push() has set. @param loose bristles of regions that split or became one
-  void rub(const PatchMotion& motion, const std::vector<LooseBristles>& loose,
+  void rub(const PatchMotion& motion, const std::vector<UnmatchedBristles>& loose,
            std::vector<RegionMemory>& memory, PairContacts& contacts);
   /// Adds the lumped forces' share of the linearisation and finishes it.
   void linearise(const PatchMotion& motion, const std::vector<RegionMemory>& memory,

@@ -26,7 +26,7 @@ class RegionIdentity {
   /// Of the regions of the last update(), in their order.
   std::vector<RegionMemory>& memory() { return memory_; }
   /// Where in the last update() a region came, went, split or took another in: all bristles that there were.
-  const std::vector<LooseBristles>& loose() const { return loose_; }
+  const std::vector<UnmatchedBristles>& loose() const { return loose_; }
 
  private:
   struct Match {
@@ -43,7 +43,7 @@ class RegionIdentity {
 
   std::vector<RegionMemory> memory_;
   std::vector<RegionMemory> before_;
-  std::vector<LooseBristles> loose_;
+  std::vector<UnmatchedBristles> loose_;
   std::vector<Match> matches_;
   std::vector<Match> found_;  ///< regions and niches that touch
   std::vector<char> region_taken_;

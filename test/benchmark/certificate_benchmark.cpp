@@ -102,7 +102,7 @@ Series measure(const BenchmarkPair& pair, const std::vector<Eigen::Isometry3d>& 
                const Yardstick& yardstick, std::vector<TrianglePair>& closest) {
   Series series;
   CertificateWorkspace workspace;
-  ProofFront front;
+  BoundCache front;
   const double size = std::max(pair.a->diameter(), pair.b->diameter());
   closest.clear();
   for (std::size_t k = 0; k < poses.size(); ++k) {

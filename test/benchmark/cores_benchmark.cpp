@@ -31,12 +31,12 @@
 #include "benchmark/support/statistics.h"
 #include "benchmark/support/stopwatch.h"
 #include "distance/kernels/minima_scene.h"
-#include "distance/minima/cone_front.h"
+#include "distance/minima/minima_tracker.h"
 
 namespace concave_distance::benchmark {
 namespace {
 
-using detail::ConeFront;
+using detail::MinimaTracker;
 using Eigen::Vector3d;
 
 /// A sheet over the unit square: bumps of 5 cm, and 1 mm of noise.
@@ -86,11 +86,12 @@ struct Class {
 };
 using Classes = std::map<std::pair<bool, std::uint32_t>, Class>;  ///< warm or not, `below`
 
-bool isSame(const std::vector<MinimumSeed>& l, const std::vector<MinimumSeed>& r) {
-  return std::equal(l.begin(), l.end(), r.begin(), r.end(), [](const MinimumSeed& x, const MinimumSeed& y) {
-    return x.a == y.a && x.b == y.b && x.distance == y.distance && x.point_a == y.point_a &&
-           x.point_b == y.point_b;
-  });
+bool isSame(const std::vector<MinimumCandidate>& l, const std::vector<MinimumCandidate>& r) {
+  return std::equal(l.begin(), l.end(), r.begin(), r.end(),
+                    [](const MinimumCandidate& x, const MinimumCandidate& y) {
+                      return x.a == y.a && x.b == y.b && x.distance == y.distance && x.point_a == y.point_a &&
+                             x.point_b == y.point_b;
+                    });
 }
 
 /// Every thread of an arena on a core of its own: some schedulers put a thread that wakes up on the core of
@@ -129,7 +130,7 @@ class Comparison {
     if (many_first) many_us = collect(many_, scene, front_of_many_, of_many_);
     one_us = collect(one_, scene, front_of_one_, of_one_);
     if (!many_first) many_us = collect(many_, scene, front_of_many_, of_many_);
-    const ConeFront::Counts& counts = front_of_one_.counts();
+    const MinimaTracker::Counts& counts = front_of_one_.counts();
     std::uint32_t below = 128;
     while (below <= counts.groups) below *= 2;
     Class& of = classes[{!counts.began_anew, below}];
@@ -140,8 +141,8 @@ class Comparison {
   }
 
  private:
-  double collect(tbb::task_arena& arena, const detail::MinimaScene& scene, ConeFront& front,
-                 std::vector<MinimumSeed>& seeds) {
+  double collect(tbb::task_arena& arena, const detail::MinimaScene& scene, MinimaTracker& front,
+                 std::vector<MinimumCandidate>& seeds) {
     std::this_thread::sleep_for(std::chrono::milliseconds(pause_));
     double us = 0.0;
     HelpingThreads helpers;
@@ -162,10 +163,10 @@ class Comparison {
   tbb::task_arena many_;
   std::unique_ptr<OnOwnCores> on_own_cores_;
   int pause_;
-  ConeFront front_of_one_;
-  ConeFront front_of_many_;
-  std::vector<MinimumSeed> of_one_;
-  std::vector<MinimumSeed> of_many_;
+  MinimaTracker front_of_one_;
+  MinimaTracker front_of_many_;
+  std::vector<MinimumCandidate> of_one_;
+  std::vector<MinimumCandidate> of_many_;
 };
 
 void print(const std::string& name, int steps, const Classes& classes, std::ofstream& file) {

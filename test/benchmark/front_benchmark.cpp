@@ -32,24 +32,24 @@
 #include "benchmark/support/statistics.h"
 #include "benchmark/support/stopwatch.h"
 #include "distance/kernels/witness_refinement.h"
-#include "distance/minima/cone_front.h"
 #include "distance/minima/minima_candidates.h"
-#include "distance/niches/minima_verdicts.h"
+#include "distance/minima/minima_tracker.h"
+#include "distance/niches/niche_decider.h"
 #include "support/judged_niches.h"
 
 namespace concave_distance::benchmark {
 namespace {
 
-using detail::ConeFront;
-using detail::MinimaVerdicts;
+using detail::MinimaTracker;
+using detail::NicheDecider;
 using test::nichesOf;
 
 std::vector<WitnessPair> placesOf(const BenchmarkPair& pair, const Eigen::Isometry3d& pose,
-                                  const std::vector<MinimumSeed>& seeds) {
+                                  const std::vector<MinimumCandidate>& seeds) {
   RefinementWorkspace workspace;
   std::vector<WitnessPair> places;
   places.reserve(seeds.size());
-  for (const MinimumSeed& seed : seeds) {
+  for (const MinimumCandidate& seed : seeds) {
     places.push_back(refineWitness(*pair.a, *pair.b, pose, seed.a, seed.b, workspace).witness);
   }
   return places;
@@ -74,7 +74,7 @@ struct Sample {
   std::vector<double> fcl_us;
   std::vector<double> roots_us;
   std::vector<double> front_us;
-  ConeFront::Counts sum;
+  MinimaTracker::Counts sum;
   double kept = 0.0;
   double live = 0.0;
   double expired = 0.0;
@@ -101,9 +101,9 @@ struct Sample {
 };
 
 /// Features that begin or cease to hold a minimum: what no way to keep anything could spare.
-void countEvents(const std::vector<MinimumSeed>& seeds, bool first, Sample& sample) {
+void countEvents(const std::vector<MinimumCandidate>& seeds, bool first, Sample& sample) {
   std::vector<std::array<std::uint32_t, 4>> alive;
-  for (const MinimumSeed& seed : seeds) {
+  for (const MinimumCandidate& seed : seeds) {
     alive.push_back({seed.a.value, seed.b.value, static_cast<std::uint32_t>(seed.feature_a),
                      static_cast<std::uint32_t>(seed.feature_b)});
   }
@@ -122,15 +122,15 @@ bool isSame(const std::vector<double>& l, const std::vector<double>& r, double t
                     [&](double x, double y) { return std::abs(x - y) <= tolerance; });
 }
 
-void judge(const detail::MinimaScene& scene, std::vector<MinimumSeed> seeds, MinimaVerdicts& verdicts,
+void judge(const detail::MinimaScene& scene, std::vector<MinimumCandidate> seeds, NicheDecider& verdicts,
            bool first, Sample& sample) {
   WorkLimit none;
-  MinimaVerdicts::Request request;
+  NicheDecider::Request request;
   auto start = std::chrono::steady_clock::now();
   verdicts.judge(scene, seeds, request, none);
   const double judge_us = microsecondsSince(start);
   request.is_tracked = false;
-  MinimaVerdicts alone;
+  NicheDecider alone;
   start = std::chrono::steady_clock::now();
   alone.judge(scene, seeds, request, none);
   const double floods_us = microsecondsSince(start);
@@ -139,7 +139,7 @@ void judge(const detail::MinimaScene& scene, std::vector<MinimumSeed> seeds, Min
   if (first) return;
   sample.judge_us.push_back(judge_us);
   sample.floods_us.push_back(floods_us);
-  const MinimaVerdicts::Counts& counts = verdicts.counts();
+  const NicheDecider::Counts& counts = verdicts.counts();
   sample.niches += static_cast<double>(niches.size());
   sample.by_path += counts.by_path;
   sample.aimed += counts.aimed;
@@ -151,20 +151,20 @@ void judge(const detail::MinimaScene& scene, std::vector<MinimumSeed> seeds, Min
   sample.bytes = std::max(sample.bytes, verdicts.memoryBytes());
 }
 
-void observe(const BenchmarkPair& pair, const Eigen::Isometry3d& pose, ConeFront& front,
-             MinimaVerdicts& verdicts, bool first, Sample& sample) {
+void observe(const BenchmarkPair& pair, const Eigen::Isometry3d& pose, MinimaTracker& front,
+             NicheDecider& verdicts, bool first, Sample& sample) {
   const double cutoff = std::numeric_limits<double>::infinity();
   WorkLimit none;
   auto start = std::chrono::steady_clock::now();
   fclDistance(*pair.fcl_a, *pair.fcl_b, pose);
   const double fcl_us = microsecondsSince(start);
   const detail::MinimaScene scene(*pair.a, *pair.b, pose);
-  std::vector<MinimumSeed> from_roots;
+  std::vector<MinimumCandidate> from_roots;
   LocalMinimaCost cost;
   start = std::chrono::steady_clock::now();
-  detail::collectConeSeeds(scene, NormalSides::Outside, cutoff, from_roots, cost, none);
+  detail::collectConeCandidates(scene, NormalSides::Outside, cutoff, from_roots, cost, none);
   const double roots_us = microsecondsSince(start);
-  std::vector<MinimumSeed> from_front;
+  std::vector<MinimumCandidate> from_front;
   start = std::chrono::steady_clock::now();
   front.collect(scene, NormalSides::Outside, cutoff, from_front, none);
   const double front_us = microsecondsSince(start);
@@ -179,7 +179,7 @@ void observe(const BenchmarkPair& pair, const Eigen::Isometry3d& pose, ConeFront
   sample.roots_us.push_back(roots_us);
   sample.front_us.push_back(front_us);
   sample.seeds += of_roots.size();
-  const ConeFront::Counts& counts = front.counts();
+  const MinimaTracker::Counts& counts = front.counts();
   sample.kept += counts.kept;
   sample.live += counts.live;
   sample.expired += counts.expired;
@@ -231,8 +231,8 @@ int benchmarkMain(int argc, char** argv) {
     for (const int count : steps) {
       Sample sample;
       for (int window = 0; window < windows; ++window) {
-        ConeFront front;
-        MinimaVerdicts verdicts;
+        MinimaTracker front;
+        NicheDecider verdicts;
         const int begin = (count - instants) * (2 * window + 1) / (2 * windows);
         for (int i = 0; i < instants; ++i) {
           observe(pair, pair.motion(static_cast<double>(begin + i) / count), front, verdicts, i == 0, sample);

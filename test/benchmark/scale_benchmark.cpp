@@ -100,7 +100,7 @@ void run(std::size_t size, int steps, std::ofstream& csv) {
 
   CertificateWorkspace workspace;
   TrianglePair closest{};
-  const auto prove = [&](const Eigen::Isometry3d& pose, std::size_t seeds, ProofFront* front) {
+  const auto prove = [&](const Eigen::Isometry3d& pose, std::size_t seeds, BoundCache* front) {
     const DistanceCertificate found =
         certifyDistance(*a, *b, pose, &closest, seeds, CertificateRequest(), workspace, front);
     closest = {found.witness.triangle_a, found.witness.triangle_b};
@@ -108,7 +108,7 @@ void run(std::size_t size, int steps, std::ofstream& csv) {
   const double cold = medianMicroseconds(steps, [&](const auto& pose, int) { prove(pose, 0, nullptr); });
   const double seeded =
       medianMicroseconds(steps, [&](const auto& pose, int k) { prove(pose, k > 0 ? 1 : 0, nullptr); });
-  ProofFront front;
+  BoundCache front;
   const double kept =
       medianMicroseconds(steps, [&](const auto& pose, int k) { prove(pose, k > 0 ? 1 : 0, &front); });
   TrackerParameters parameters;

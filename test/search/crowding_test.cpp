@@ -31,7 +31,7 @@ class Crowding : public testing::Test {
 
   test::PairScene scene_ = test::facingCombs();
   PairMetric metric_;
-  PlaceTable places_;
+  TrialPointTable places_;
   std::vector<NodeIndex> path_;
 };
 

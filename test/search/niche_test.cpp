@@ -11,8 +11,8 @@
 #include "search/mating_restriction.h"
 #include "search/mutation.h"
 #include "search/niche_identification.h"
-#include "search/place_table.h"
 #include "search/search_scenes.h"
+#include "search/trial_point_table.h"
 
 namespace concave_distance::niche_test {
 namespace {
@@ -92,7 +92,7 @@ RC_GTEST_PROP(NicheIdentification, IsBestStripRepeat, ()) {
     RC_ASSERT(found[i].member_count == expected[i].member_count);
   }
 
-  PlaceTable places;
+  TrialPointTable places;
   places.reset(kInfinity);
   std::vector<std::uint32_t> where;
   for (const TrialPoint& point : population) {
@@ -111,11 +111,11 @@ RC_GTEST_PROP(NicheIdentification, IsBestStripRepeat, ()) {
   }
 }
 
-TEST(PlaceTable, NumbersDistinctTrialPointsAndMeasuresThemOnce) {
+TEST(TrialPointTable, NumbersDistinctTrialPointsAndMeasuresThemOnce) {
   Niches niches(test::facingCombs());
   RandomEngine engine(51);
   const auto population = niches.drawPopulation(200, engine);
-  PlaceTable places;
+  TrialPointTable places;
   for (int run = 0; run < 2; ++run) {  // again after a reset
     places.reset(0.8);
     std::vector<std::uint32_t> where;
@@ -133,9 +133,9 @@ TEST(PlaceTable, NumbersDistinctTrialPointsAndMeasuresThemOnce) {
   }
 }
 
-TEST(PlaceTable, MeasuresBeyondThePlacesItKeepsDistancesOf) {
+TEST(TrialPointTable, MeasuresBeyondThePlacesItKeepsDistancesOf) {
   Niches niches(test::facingCombs());
-  PlaceTable places;
+  TrialPointTable places;
   places.reset(kInfinity);
   const auto nodes = static_cast<std::uint32_t>(niches.scene.a->graph().nodeCount());
   for (std::uint32_t i = 0; i < 1500; ++i) {
@@ -197,7 +197,7 @@ class MatingRestriction : public testing::Test {
 
   static constexpr double kRadius = 0.5;
   Niches niches_;
-  PlaceTable places_;
+  TrialPointTable places_;
   std::vector<std::uint32_t> where_;
 };
 
@@ -277,7 +277,7 @@ TEST(Convergence, ComesAfterThatManyGenerationsWithoutANewBestOrNiche) {
   Niches niches(test::facingCombs());
   RandomEngine engine(64);
   const auto population = niches.drawPopulation(10, engine);
-  PlaceTable places;
+  TrialPointTable places;
   places.reset(kInfinity);
   std::vector<std::uint32_t> where;
   for (const TrialPoint& point : population) {

@@ -40,7 +40,7 @@ TEST(GenerationGap, SeatsAreDistinctAndEachAsLikely) {
 
 /// A population over places with the squared distances 0, 1, 2, ...
 struct Population {
-  PlaceTable places;
+  TrialPointTable places;
   std::vector<TrialPoint> points;
   std::vector<std::uint32_t> where;
   Census census;

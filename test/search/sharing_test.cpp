@@ -59,7 +59,7 @@ struct SharedPopulation {
   test::PairScene scene = test::shellsAndShells();
   PairObjective objective{*scene.a, *scene.b, scene.a_from_b};
   PairMetric metric{*scene.a, *scene.b};
-  PlaceTable places;
+  TrialPointTable places;
   std::vector<std::uint32_t> where;
   Census census;
 

@@ -28,7 +28,7 @@ struct MeshTopology;
 struct NodeGraph;
 struct NodeLevels;
 struct SearchNodes;
-struct ShellJoints;
+struct ShellContacts;
 template <typename Value>
 struct CompressedRows;
 
@@ -95,7 +95,7 @@ class BodyMesh {
   const TriangleTree& tree() const { return *tree_; }
   const BoundingVolumeHierarchy& hierarchy() const { return *hierarchy_; }
   /// Where shells meet and what lies inside others. Built at the first call, for all threads.
-  const ShellJoints& joints() const;
+  const ShellContacts& joints() const;
   /// Triangles and flat quadrangles. Built at the first call, for all threads; 24 bytes a triangle.
   const Facets& facets() const;
   /// Which facets hang together, over the joints too; hidden ones with none. Built at the first call, for

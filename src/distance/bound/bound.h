@@ -9,7 +9,7 @@
 //   certificate       the entry: prove(), with what it cost
 //   branch_and_bound  opens pairs of boxes until none can hold a nearer pair of triangles
 //   box_pair_bounds   how near two boxes may come: separating axes, with their error
-//   proof_front       the pairs of boxes where the last search ended; the next pose begins there
+//   bound_cache       the pairs of boxes where the last search ended; the next pose begins there
 //   leaf_pair         the last directions that parted two triangles, asked first
 //   round_certificate the same for an exact round solid and a mesh, or two round solids
 //   solid_overlap     has one closed body swallowed a part of the other?

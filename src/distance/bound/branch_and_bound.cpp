@@ -25,7 +25,7 @@ constexpr std::size_t kWorthTrying = 128;
 
 BranchAndBound::BranchAndBound(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
                                const CertificateRequest& request, CertificateWorkspace& workspace,
-                               ProofFront* front)
+                               BoundCache* front)
     : body_a_(a),
       body_b_(b),
       a_(a.hierarchy()),
@@ -187,7 +187,7 @@ bool BranchAndBound::partsAtRoots() {
 // Whether the boxes below the roots prove it, so that what a large front holds need not be asked.
 bool BranchAndBound::isProvenAtOnce() {
   if (front_->size() < kWorthTrying || front_->isAt(frames_.rotation, frames_.offset)) return false;
-  ProofFront* const front = std::exchange(front_, nullptr);
+  BoundCache* const front = std::exchange(front_, nullptr);
   beginAtRoots();
   expand(take());
   front_ = front;

@@ -1,12 +1,12 @@
 #pragma once
 
+#include "bound_cache.h"
 #include "box_pair_bounds.h"
 #include "certificate.h"
 #include "directional_support.h"
 #include "distance/kernels/local_frames.h"
 #include "hierarchy_access.h"
 #include "leaf_pair.h"
-#include "proof_front.h"
 
 namespace concave_distance::detail {
 
@@ -20,7 +20,7 @@ inline bool isFarther(const CertificateWorkspace::OpenPair& l, const Certificate
 class BranchAndBound {
  public:
   BranchAndBound(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
-                 const CertificateRequest& request, CertificateWorkspace& workspace, ProofFront* front);
+                 const CertificateRequest& request, CertificateWorkspace& workspace, BoundCache* front);
   DistanceCertificate run(const TrianglePair* seeds, std::size_t seed_count);
 
  private:
@@ -86,7 +86,7 @@ class BranchAndBound {
   std::uint32_t asked_again_ = 0;  ///< quads along what parted them last
   std::uint32_t leaves_asked_again_ = 0;
   RefinementWorkspace& refinement_;
-  ProofFront* front_;             ///< null: nothing is kept
+  BoundCache* front_;             ///< null: nothing is kept
   DirectionalSupport support_a_;  ///< along direction_
   DirectionalSupport support_b_;  ///< against it
   const BoundScale scale_;

@@ -29,7 +29,7 @@ double proofScale(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d&
 DistanceCertificate certifyDistance(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
                                     const TrianglePair* seeds, std::size_t seed_count,
                                     const CertificateRequest& request, CertificateWorkspace& workspace,
-                                    ProofFront* front) {
+                                    BoundCache* front) {
   // If products of coordinates would overflow, nothing is proven: bound 0, distance infinite.
   if (!a_from_b.matrix().allFinite() || a_from_b.translation().cwiseAbs().maxCoeff() > kLargestCoordinate) {
     return {};

@@ -6,11 +6,11 @@
 #include <string_view>
 #include <vector>
 
+#include "bound_cache.h"
 #include "concave_distance/base/work_limit.h"
 #include "concave_distance/distance/certificate_cost.h"
 #include "concave_distance/mesh/body_mesh.h"
 #include "distance/kernels/witness_refinement.h"
-#include "proof_front.h"
 
 namespace concave_distance {
 
@@ -83,6 +83,6 @@ struct CertificateWorkspace {
 DistanceCertificate certifyDistance(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
                                     const TrianglePair* seeds, std::size_t seed_count,
                                     const CertificateRequest& request, CertificateWorkspace& workspace,
-                                    ProofFront* front = nullptr);
+                                    BoundCache* front = nullptr);
 
 }  // namespace concave_distance

@@ -18,10 +18,10 @@ using Hierarchy = BoundingVolumeHierarchy;
 
 // What the last proof excluded is looked at again where its bound has run out.
 void BranchAndBound::reopenFront() {
-  ProofFront& front = *front_;
+  BoundCache& front = *front_;
   front.advance(b_, frames_.rotation, frames_.offset, 0.25 * scale_.slack);
   for (std::size_t i = 0; i < front.leaf_pairs_.size(); ++i) {
-    ProofFront::LeafPair& pair = front.leaf_pairs_[i];
+    BoundCache::LeafPair& pair = front.leaf_pairs_[i];
     const double gone = front.odometers_[pair.region];
     double bound = pair.bound - gone;
     cut_ = cut_ || limit_.isOverNow();
@@ -37,7 +37,7 @@ void BranchAndBound::reopenFront() {
   }
   const std::size_t count = front.quads_.size();
   for (std::size_t i = 0; i < count; ++i) {
-    ProofFront::Quad& quad = front.quads_[i];
+    BoundCache::Quad& quad = front.quads_[i];
     const double gone = front.odometers_[quad.region];
     const double least = Eigen::Map<const Lanes>(quad.bound).minCoeff() - gone;
     cut_ = cut_ || limit_.isOverNow();
@@ -68,8 +68,8 @@ void BranchAndBound::reopenFront() {
 
 // Whether an entry's children are still far enough along the directions that parted them last.
 bool BranchAndBound::stillParts(std::size_t i, double gone) {
-  ProofFront& front = *front_;
-  ProofFront::Quad& quad = front.quads_[i];
+  BoundCache& front = *front_;
+  BoundCache::Quad& quad = front.quads_[i];
   ++asked_again_;
   const LaneDirections& d = front.directions_[i];
   const std::uint32_t node = quad.kept / Hierarchy::kWidth;
@@ -124,7 +124,7 @@ void BranchAndBound::expand(const OpenPair& pair) {
     return;
   }
   bool by_boxes = true;
-  ProofFront::Quad* quad = nullptr;
+  BoundCache::Quad* quad = nullptr;
   std::uint32_t nearest = Hierarchy::kWidth;
   double nearest_bound = squared_enough_;
   for (std::uint32_t lane = 0; lane < Hierarchy::kWidth; ++lane) {

@@ -9,8 +9,8 @@
 #include "facet_points.h"
 #include "local_frames.h"
 #include "mesh/surface/facets.h"
-#include "mesh/trees/shell_joints.h"
-#include "minimum_seed.h"
+#include "mesh/trees/shell_contacts.h"
+#include "minimum_candidate.h"
 
 namespace concave_distance::detail {
 
@@ -39,7 +39,7 @@ struct MinimaScene {
     const std::size_t count = body.surface().vertexCount();
     if (node.value < count) return body.surface().vertex(node) - centre;
     const std::size_t end = node.value - count;
-    const ShellJoints::Joint& joint = body.joints().joints[end / 2];
+    const ShellContacts::Joint& joint = body.joints().joints[end / 2];
     return (end % 2 == 0 ? joint.from : joint.to) - centre;
   }
   /// False where one of them lies in the material of another shell of its body.
@@ -55,8 +55,8 @@ struct MinimaScene {
   Eigen::Vector3d vertexOfB(NodeIndex node) const {
     return frames.rotation * (b.surface().vertex(node) - frames.centre_b) + frames.offset;
   }
-  /// The cell of a triangle pair: the facets, each named by its first triangle.
-  TrianglePair cellOf(TriangleIndex of_a, TriangleIndex of_b) const {
+  /// The facet pair of a triangle pair: the facets, each named by its first triangle.
+  TrianglePair facetPairOf(TriangleIndex of_a, TriangleIndex of_b) const {
     return {facets_a.facet_of_triangle[of_a.value], facets_b.facet_of_triangle[of_b.value]};
   }
   FacetPoints facetOfA(TriangleIndex facet) const {
@@ -71,17 +71,17 @@ struct MinimaScene {
     points.corners[3] = points.is_quad ? vertexOfB(nodes[3]) : points.corners[0];
     return points;
   }
-  /// Of a cell, its closest triangles with their distance.
-  std::pair<TrianglePair, TrianglePairDistance> closestIn(const TrianglePair& cell) const {
-    const FacetPairDistance found = facetDistance(facetOfA(cell.a), facetOfB(cell.b));
-    return {{found.is_in_second_of_a ? facets_a.second[cell.a.value] : cell.a,
-             found.is_in_second_of_b ? facets_b.second[cell.b.value] : cell.b},
+  /// Of a facet pair, its closest triangles with their distance.
+  std::pair<TrianglePair, TrianglePairDistance> closestIn(const TrianglePair& facet_pair) const {
+    const FacetPairDistance found = facetDistance(facetOfA(facet_pair.a), facetOfB(facet_pair.b));
+    return {{found.is_in_second_of_a ? facets_a.second[facet_pair.a.value] : facet_pair.a,
+             found.is_in_second_of_b ? facets_b.second[facet_pair.b.value] : facet_pair.b},
             found.closest};
   }
   TrianglePoints cornersOfA(TriangleIndex t) const { return frames.cornersOfA(a, t); }
   TrianglePoints cornersOfB(TriangleIndex t) const { return frames.cornersOfB(b, t); }
 
-  WitnessPair witnessOf(const MinimumSeed& seed) const {
+  WitnessPair witnessOf(const MinimumCandidate& seed) const {
     return {(seed.point_b - seed.point_a).squaredNorm(),
             seed.point_a + frames.centre_a,
             seed.point_b + frames.centre_a,
@@ -90,7 +90,7 @@ struct MinimaScene {
             seed.feature_a,
             seed.feature_b};
   }
-  MinimumSeed seedOf(const WitnessPair& witness) const {
+  MinimumCandidate seedOf(const WitnessPair& witness) const {
     return {witness.triangle_a,
             witness.triangle_b,
             std::sqrt(witness.squared_distance),

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "adjacent_triangles.h"
 #include "local_frames.h"
-#include "surface_ring.h"
 
 namespace concave_distance {
 namespace {
@@ -43,9 +43,9 @@ WitnessRefinement refineWitness(const BodyMesh& a, const BodyMesh& b, const Eige
                                             kTriangleDistanceError * largest * distance};
     const Vector3d direction = closest.point_b - closest.point_a;
     const detail::RingLook look_a =
-        detail::lookAround({a.surface(), a.topology(), frames.centre_a, triangle_a},
-                           {closest.point_a, closest.feature_a, direction}, tolerances, workspace);
-    const detail::RingLook look_b = detail::lookAround(
+        detail::findCloserNeighbour({a.surface(), a.topology(), frames.centre_a, triangle_a},
+                                    {closest.point_a, closest.feature_a, direction}, tolerances, workspace);
+    const detail::RingLook look_b = detail::findCloserNeighbour(
         {b.surface(), b.topology(), frames.centre_b, triangle_b},
         {frames.pointInB(closest.point_b), closest.feature_b, -(frames.rotation.transpose() * direction)},
         tolerances, workspace);

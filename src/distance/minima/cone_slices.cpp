@@ -13,7 +13,7 @@ constexpr std::size_t kOpen = 512;
 constexpr std::size_t kMinima = 64;
 constexpr std::size_t kBytes = ConeSlices::kMostKept * sizeof(KeptPair) +
                                (kOpen + kMinima) * sizeof(SlotPair) +
-                               kMinima * (sizeof(LiveMinimum) + sizeof(MinimumSeed));
+                               kMinima * (sizeof(LiveMinimum) + sizeof(MinimumCandidate));
 
 void clear(SweepLists& lists) {
   lists.open.clear();

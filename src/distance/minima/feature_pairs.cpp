@@ -100,7 +100,7 @@ FeaturePairs::Between FeaturePairs::betweenSegments(const Vector3d& a0, const Ve
   return between(on_a.point, on_b.point, on_a.is_beyond || on_b.is_beyond);
 }
 
-std::optional<MinimumSeed> FeaturePairs::findMinimum(const Item& a, const Item& b) const {
+std::optional<MinimumCandidate> FeaturePairs::findMinimum(const Item& a, const Item& b) const {
   const FacingCap cap_a{a.cap.axis, a.cap.cosine, a.cap.sine};
   const FacingCap cap_b{-(scene_.frames.rotation * b.cap.axis), b.cap.cosine, b.cap.sine};
   if (a.kind == Kind::Edge && b.kind == Kind::Edge && !edgesMayFace(a, b, cap_a, cap_b)) return std::nullopt;
@@ -129,13 +129,13 @@ std::optional<MinimumSeed> FeaturePairs::findMinimum(const Item& a, const Item& 
   };
   const bool is_point = peak_a.level_dimensions == 0 || peak_b.level_dimensions == 0 ||
                         (peak_a.level_dimensions == 1 && peak_b.level_dimensions == 1 && edges_cross());
-  return MinimumSeed{a.triangle,     b.triangle,     distance,   true,    is_point,
-                     peak_a.feature, peak_b.feature, found.from, found.to};
+  return MinimumCandidate{a.triangle,     b.triangle,     distance,   true,    is_point,
+                          peak_a.feature, peak_b.feature, found.from, found.to};
 }
 
-MinimumSeed FeaturePairs::moved(const Item& a, const Item& b, const MinimumSeed& minimum) const {
+MinimumCandidate FeaturePairs::moved(const Item& a, const Item& b, const MinimumCandidate& minimum) const {
   const Between found = closest(a, b);
-  MinimumSeed seed = minimum;
+  MinimumCandidate seed = minimum;
   seed.distance = std::sqrt(found.squared_distance);
   seed.point_a = found.from;
   seed.point_b = found.to;

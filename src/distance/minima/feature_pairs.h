@@ -5,7 +5,7 @@
 
 #include "cone_motion.h"
 #include "distance/kernels/minima_scene.h"
-#include "distance/kernels/minimum_seed.h"
+#include "distance/kernels/minimum_candidate.h"
 #include "mesh/trees/normal_cone_tree.h"
 
 namespace concave_distance::detail {
@@ -34,14 +34,14 @@ class FeaturePairs {
   }
 
   /// The closest points, if they may be a local minimum up to the cutoff. Pairs that meet are none.
-  std::optional<MinimumSeed> findMinimum(const Item& a, const Item& b) const;
+  std::optional<MinimumCandidate> findMinimum(const Item& a, const Item& b) const;
 
   /// The same minimum at a pose for which offerStay() holds.
-  MinimumSeed moved(const Item& a, const Item& b, const MinimumSeed& minimum) const;
+  MinimumCandidate moved(const Item& a, const Item& b, const MinimumCandidate& minimum) const;
 
   /// For a pair that holds a minimum: offers a slack for which it stays one, on the same features. False
   /// where there is none.
-  bool offerStay(const Item& a, const Item& b, const MinimumSeed& minimum, SlackOffers& offers) const;
+  bool offerStay(const Item& a, const Item& b, const MinimumCandidate& minimum, SlackOffers& offers) const;
 
   /// For a pair that holds none: offers slacks, each of which keeps it so until it is used up. None is
   /// offered where the answer may change at once.

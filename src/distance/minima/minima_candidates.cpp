@@ -4,8 +4,8 @@
 
 namespace concave_distance::detail {
 
-void collectConeSeeds(const MinimaScene& scene, NormalSides sides, double cutoff,
-                      std::vector<MinimumSeed>& seeds, LocalMinimaCost& cost, WorkLimit& limit) {
+void collectConeCandidates(const MinimaScene& scene, NormalSides sides, double cutoff,
+                           std::vector<MinimumCandidate>& seeds, LocalMinimaCost& cost, WorkLimit& limit) {
   constexpr std::uint32_t kWidth = ConeComparison::kWidth;
   const FeaturePairs features(scene, cutoff);
   ConeComparison cones(scene, features, sides);

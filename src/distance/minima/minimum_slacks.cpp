@@ -18,7 +18,7 @@ constexpr double kCrossed = 4e-3;
 
 }  // namespace
 
-bool FeaturePairs::offerStay(const Item& a, const Item& b, const MinimumSeed& minimum,
+bool FeaturePairs::offerStay(const Item& a, const Item& b, const MinimumCandidate& minimum,
                              SlackOffers& offers) const {
   const Body body_a(scene_, Side::A);
   const Body body_b(scene_, Side::B);

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "distance/kernels/minimum_seed.h"
+#include "distance/kernels/minimum_candidate.h"
 #include "mesh/trees/normal_cone_tree.h"
 
 namespace concave_distance::detail {
@@ -17,7 +17,7 @@ struct LiveMinimum {
   SlotPair pair;
   std::uint32_t clock;
   std::uint64_t expiry;
-  MinimumSeed seed;
+  MinimumCandidate seed;
 };
 
 /// A pair that holds no minimum until its clock reaches its expiry.
@@ -32,7 +32,7 @@ struct SweepLists {
   std::vector<SlotPair> open;  ///< to be opened
   std::vector<LiveMinimum> minima;
   std::vector<SlotPair> undecided;  ///< pairs of features that hold no minimum, without slack
-  std::vector<MinimumSeed> seeds;
+  std::vector<MinimumCandidate> seeds;
   std::vector<KeptPair> kept;  ///< of a sweep without queues
   std::uint32_t groups = 0;    ///< comparisons of a group with four others
   std::uint32_t features = 0;  ///< pairs of features that were asked whether they hold a minimum
@@ -40,7 +40,7 @@ struct SweepLists {
 
   std::size_t memoryBytes() const {
     return (open.capacity() + undecided.capacity()) * sizeof(SlotPair) +
-           minima.capacity() * sizeof(LiveMinimum) + seeds.capacity() * sizeof(MinimumSeed) +
+           minima.capacity() * sizeof(LiveMinimum) + seeds.capacity() * sizeof(MinimumCandidate) +
            kept.capacity() * sizeof(KeptPair);
   }
 };

@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "base/refill.h"
+#include "candidate_collector.h"
 #include "distance/kernels/minima_scene.h"
 #include "minima_flood.h"
-#include "minima_verdicts.h"
+#include "niche_decider.h"
 #include "niche_describer.h"
-#include "seed_collector.h"
 
 namespace concave_distance {
 namespace detail {
@@ -39,17 +39,17 @@ struct LocalMinimaParts {
 
   std::size_t memoryBytes() const {
     return sizeof(LocalMinimaParts) + collector.memoryBytes() + verdicts.memoryBytes() +
-           seeds.capacity() * sizeof(MinimumSeed) + minima.capacity() * sizeof(FloodedMinimum) +
+           seeds.capacity() * sizeof(MinimumCandidate) + minima.capacity() * sizeof(FloodedMinimum) +
            described.capacity() * sizeof(Described) +
            (described_as.capacity() + places.capacity() + owners.capacity() + proposed.capacity()) *
                sizeof(std::size_t);
   }
 
-  SeedCollector collector;
-  MinimaVerdicts verdicts;
+  CandidateCollector collector;
+  NicheDecider verdicts;
   NicheDescriber describer;
   RefinementWorkspace refinement;
-  std::vector<MinimumSeed> seeds;
+  std::vector<MinimumCandidate> seeds;
   std::vector<FloodedMinimum> minima;
   std::vector<Described> described;
   std::vector<std::size_t> described_as;  ///< of the judged, in `minima`
@@ -58,8 +58,8 @@ struct LocalMinimaParts {
   std::vector<std::size_t> proposed;      ///< of each proposal, in `minima`
 };
 
-MinimaVerdicts::Request verdictsFor(const MinimaScene& scene, const LocalMinimaRequest& request) {
-  MinimaVerdicts::Request wanted;
+NicheDecider::Request verdictsFor(const MinimaScene& scene, const LocalMinimaRequest& request) {
+  NicheDecider::Request wanted;
   wanted.cutoff = request.cutoff + scene.rounding;
   wanted.least_prominence = request.least_prominence;
   wanted.through_material = request.through_material;
@@ -68,7 +68,7 @@ MinimaVerdicts::Request verdictsFor(const MinimaScene& scene, const LocalMinimaR
   wanted.most_niches = std::max(request.largest_count, request.largest_count + 1);
   if (!request.hidden) {
     // A set of minima is seen where its middle is.
-    wanted.is_wanted = [&scene](const MinimumSeed& seed, Occluder& occluder) {
+    wanted.is_wanted = [&scene](const MinimumCandidate& seed, Occluder& occluder) {
       return !seed.is_point || seed.distance == 0.0 ||
              isVisible(scene.a, scene.b, scene.a_from_b, scene.witnessOf(seed), occluder);
     };
@@ -78,7 +78,7 @@ MinimaVerdicts::Request verdictsFor(const MinimaScene& scene, const LocalMinimaR
 
 bool LocalMinimaParts::decide(const MinimaScene& scene, const LocalMinimaRequest& request,
                               LocalMinimaCost& cost, WorkLimit& limit) {
-  const MinimaVerdicts::Request wanted = verdictsFor(scene, request);
+  const NicheDecider::Request wanted = verdictsFor(scene, request);
   described_as.clear();
   verdicts.begin(scene, seeds, wanted, limit);
   do {
@@ -90,17 +90,17 @@ bool LocalMinimaParts::decide(const MinimaScene& scene, const LocalMinimaRequest
     describeNiches(scene, request, limit);
   } while (!verdicts.hasJudgedAll() && described.size() <= request.largest_count && !limit.isOver());
   const auto place = [](std::uint32_t judged) {
-    if (judged == MinimaVerdicts::kUndecided) return kUndecided;
-    return judged == MinimaVerdicts::kNone ? kNoOwner : std::size_t{judged};
+    if (judged == NicheDecider::kUndecided) return kUndecided;
+    return judged == NicheDecider::kNone ? kNoOwner : std::size_t{judged};
   };
   for (std::size_t i = 0; i < request.asked_pairs.size(); ++i) {
     const auto& [a, b] = request.asked_pairs[i];
-    std::uint32_t owner = MinimaVerdicts::kNone;
+    std::uint32_t owner = NicheDecider::kNone;
     if (i < request.asked_regions.size()) owner = verdicts.nicheWith(request.asked_regions[i]);
-    if (owner == MinimaVerdicts::kNone) owner = verdicts.locate(scene, {a, b}, wanted, limit);
+    if (owner == NicheDecider::kNone) owner = verdicts.locate(scene, {a, b}, wanted, limit);
     owners.push_back(place(owner));
   }
-  for (const MinimumSeed& proposal : request.proposals) {
+  for (const MinimumCandidate& proposal : request.proposals) {
     const bool is_candidate = isCandidate(scene, request, proposal);
     proposed.push_back(is_candidate ? place(verdicts.locate(scene, {proposal.a, proposal.b}, wanted, limit))
                                     : kNoOwner);
@@ -114,19 +114,18 @@ bool LocalMinimaParts::decide(const MinimaScene& scene, const LocalMinimaRequest
                                               : kUndecided;  // there was no time to describe it
     }
   }
-  return std::none_of(verdicts.judged().begin(), verdicts.judged().end(), [](const auto& judged) {
-    return judged.verdict == MinimaVerdicts::Verdict::Undecided;
-  });
+  return std::none_of(verdicts.judged().begin(), verdicts.judged().end(),
+                      [](const auto& judged) { return judged.verdict == NicheDecider::Verdict::Undecided; });
 }
 
 void LocalMinimaParts::describeNiches(const MinimaScene& scene, const LocalMinimaRequest& request,
                                       WorkLimit& limit) {
-  const std::vector<MinimaVerdicts::Judged>& judged = verdicts.judged();
+  const std::vector<NicheDecider::Judged>& judged = verdicts.judged();
   described_as.resize(judged.size(), kNoOwner);
   for (std::size_t i = 0; i < judged.size(); ++i) {
-    if (judged[i].verdict != MinimaVerdicts::Verdict::Niche || described_as[i] != kNoOwner) continue;
+    if (judged[i].verdict != NicheDecider::Verdict::Niche || described_as[i] != kNoOwner) continue;
     if (limit.isOver()) return;
-    const MinimumSeed& seed = judged[i].seed;
+    const MinimumCandidate& seed = judged[i].seed;
     described_as[i] = minima.size();
     minima.push_back({seed, std::numeric_limits<double>::infinity(),
                       (1.0 + request.least_prominence) * seed.distance, judged[i].was_found,
@@ -140,7 +139,7 @@ bool LocalMinimaParts::measure(const MinimaScene& scene, const LocalMinimaReques
   const std::size_t owned = seeds.size();
   // Of each that is asked for and proposed its place among the seeds.
   places.clear();
-  const auto start_at = [&](const MinimumSeed& seed) {
+  const auto start_at = [&](const MinimumCandidate& seed) {
     const bool is_candidate = isCandidate(scene, request, seed);
     places.push_back(is_candidate ? seeds.size() - owned : kNoOwner);
     if (is_candidate) seeds.push_back(seed);
@@ -148,7 +147,7 @@ bool LocalMinimaParts::measure(const MinimaScene& scene, const LocalMinimaReques
   for (const auto& [a, b] : request.asked_pairs) {
     start_at(scene.seedOf(refineWitness(scene.a, scene.b, scene.a_from_b, a, b, refinement).witness));
   }
-  for (const MinimumSeed& proposal : request.proposals) start_at(proposal);
+  for (const MinimumCandidate& proposal : request.proposals) start_at(proposal);
   FloodResult flood = floodMinima(scene, request, seeds, owned, cost, limit);
   for (const FloodedMinimum& minimum : flood.minima) {
     if (limit.isOver()) break;
@@ -183,8 +182,8 @@ void LocalMinimaParts::describe(const MinimaScene& scene, const LocalMinimaReque
 void LocalMinimaParts::list(const LocalMinimaRequest& request, LocalMinima& result) {
   std::sort(described.begin(), described.end(), [&](const Described& l, const Described& r) {
     if (l.niche.distance != r.niche.distance) return l.niche.distance < r.niche.distance;
-    const MinimumSeed& of_l = minima[l.minimum].seed;
-    const MinimumSeed& of_r = minima[r.minimum].seed;
+    const MinimumCandidate& of_l = minima[l.minimum].seed;
+    const MinimumCandidate& of_r = minima[r.minimum].seed;
     return of_l.a != of_r.a ? of_l.a < of_r.a : of_l.b < of_r.b;
   });
   result.cut = described.size() > request.largest_count;
@@ -262,11 +261,11 @@ void attributeProposals(const BodyMesh& a, const BodyMesh& b, const Eigen::Isome
                         const LocalMinimaRequest& request, LocalMinimaMemory& memory, LocalMinima& result) {
   detail::LocalMinimaParts& parts = memory.parts();
   const detail::MinimaScene scene(a, b, a_from_b);
-  const detail::MinimaVerdicts::Request wanted = detail::verdictsFor(scene, request);
+  const detail::NicheDecider::Request wanted = detail::verdictsFor(scene, request);
   WorkLimit none;
   WorkLimit& limit = request.limit != nullptr ? *request.limit : none;
   for (std::size_t i = request.proposals.size(); i-- > 0;) {
-    const MinimumSeed& proposal = request.proposals[i];
+    const MinimumCandidate& proposal = request.proposals[i];
     if (!detail::isCandidate(scene, request, proposal)) continue;
     const std::uint32_t judged = parts.verdicts.locate(scene, {proposal.a, proposal.b}, wanted, limit);
     // A place that locate() was the first to meet is not in the list.

@@ -9,7 +9,7 @@
 
 #include "concave_distance/base/work_limit.h"
 #include "concave_distance/mesh/body_mesh.h"
-#include "distance/kernels/minimum_seed.h"
+#include "distance/kernels/minimum_candidate.h"
 #include "distance/minima/local_minima_cost.h"
 #include "niche_properties.h"
 
@@ -32,14 +32,14 @@ struct LocalMinimaRequest {
   /// Niches whose segment meets a triangle are listed, too, flagged. Others cost nothing but the look.
   bool hidden = true;
   /// Local minima that are known, instead of all there are; nullptr: all are looked for.
-  const std::vector<MinimumSeed>* given = nullptr;
+  const std::vector<MinimumCandidate>* given = nullptr;
   /// Triangle pairs whose niches are asked for (LocalMinima::owners), e.g. those that a search has found:
   /// descended to the local minimum around them.
   std::vector<std::pair<TriangleIndex, TriangleIndex>> asked_pairs;
   std::vector<std::uint64_t> asked_regions;  ///< LocalMinimum::region of each, or empty
   /// Minima that a search has found. Niches that come from them say so (LocalMinimum::proposal). Where the
   /// limit ends the search for all minima, they are judged with what was found.
-  std::vector<MinimumSeed> proposals;
+  std::vector<MinimumCandidate> proposals;
   /// What proves the answer is kept for the next pose.
   bool is_tracked = false;
   /// Metres; no two points are closer than this. Above 0, bodies that meet are not looked for.

@@ -17,7 +17,7 @@ Eigen::AlignedBox3d movedBox(const Eigen::AlignedBox3d& box, const Eigen::Isomet
 }  // namespace
 
 void collectMeetingPairs(const MinimaScene& scene, std::vector<TreeNodePair>& open,
-                         std::vector<MinimumSeed>& seeds, LocalMinimaCost& cost, WorkLimit& limit) {
+                         std::vector<MinimumCandidate>& seeds, LocalMinimaCost& cost, WorkLimit& limit) {
   const TriangleTree& tree_a = scene.a.tree();
   const TriangleTree& tree_b = scene.b.tree();
   const double slack = 4.0 * scene.rounding;

@@ -4,14 +4,14 @@
 #include <cmath>
 
 #include "base/infinity.h"
-#include "cell_neighbours.h"
 #include "distance/kernels/pair_table.h"
+#include "facet_pair_neighbours.h"
 
 namespace concave_distance::detail {
 namespace {
 
 /// A pair of facets that the flood has reached.
-struct Cell {
+struct FacetPair {
   TriangleIndex a;
   TriangleIndex b;
   double distance;       ///< the least over the pair
@@ -23,14 +23,14 @@ struct Cell {
 constexpr std::uint32_t kNone = 0xffffffffU;
 
 struct Basin {
-  std::uint32_t cell;
+  std::uint32_t facet_pair;
   double limit;
   bool met_by_flood;
   double pass = kInfinity;
   std::uint32_t into = kNone;  ///< the deeper basin beyond the pass
 };
 
-/// The way from a cell to a neighbour that may not be reached yet.
+/// The way from a facet pair to a neighbour that may not be reached yet.
 struct Step {
   double level;
   std::uint32_t from;
@@ -48,17 +48,17 @@ class Flood {
   Flood(const MinimaScene& scene, const LocalMinimaRequest& request, WorkLimit& limit)
       : scene_(scene), request_(request), tolerance_(8.0 * scene.rounding), limit_(limit) {}
 
-  /// The cell of a local minimum, as a basin of its own if it is new.
+  /// The facet pair of a local minimum, as a basin of its own if it is new.
   std::uint32_t startAt(TriangleIndex of_a, TriangleIndex of_b, bool met_by_flood) {
     cut_ = cut_ || limit_.isOverNow();
-    const auto [a, b] = scene_.cellOf(of_a, of_b);
+    const auto [a, b] = scene_.facetPairOf(of_a, of_b);
     if (const std::uint32_t known = table_.find(a, b); known != PairTable::kAbsent) return known;
-    const std::uint32_t cell = addCell(a, b);
-    cells_[cell].parent = cell;
-    cells_[cell].basin = static_cast<std::uint32_t>(basins_.size());
-    basins_.push_back({cell, limitOf(cells_[cell].distance), met_by_flood});
-    expand(cell);
-    return cell;
+    const std::uint32_t facet_pair = addFacetPair(a, b);
+    facet_pairs_[facet_pair].parent = facet_pair;
+    facet_pairs_[facet_pair].basin = static_cast<std::uint32_t>(basins_.size());
+    basins_.push_back({facet_pair, limitOf(facet_pairs_[facet_pair].distance), met_by_flood});
+    expand(facet_pair);
+    return facet_pair;
   }
 
   void run() {
@@ -79,17 +79,17 @@ class Flood {
   /// Whether everything that could end a basin has been checked.
   bool isDecided(const Basin& basin) const { return !cut_ || basin.limit < reached_; }
 
-  std::uint32_t rootOf(std::uint32_t cell) {
-    while (cells_[cell].parent != cell) {
-      cells_[cell].parent = cells_[cells_[cell].parent].parent;
-      cell = cells_[cell].parent;
+  std::uint32_t rootOf(std::uint32_t facet_pair) {
+    while (facet_pairs_[facet_pair].parent != facet_pair) {
+      facet_pairs_[facet_pair].parent = facet_pairs_[facet_pairs_[facet_pair].parent].parent;
+      facet_pair = facet_pairs_[facet_pair].parent;
     }
-    return cell;
+    return facet_pair;
   }
 
   const std::vector<Basin>& basins() const { return basins_; }
-  const Cell& cell(std::uint32_t i) const { return cells_[i]; }
-  std::size_t cellCount() const { return cells_.size(); }
+  const FacetPair& facet_pair(std::uint32_t i) const { return facet_pairs_[i]; }
+  std::size_t cellCount() const { return facet_pairs_.size(); }
 
   /// Up to here a basin that starts at `distance` has to be flooded to know all that is asked for.
   double limitOf(double distance) const {
@@ -100,22 +100,22 @@ class Flood {
 
   /// The basin that a start belongs to: its own or the next deeper one that is prominent.
   std::uint32_t ownerOf(std::uint32_t start) const {
-    std::uint32_t basin = cells_[start].basin;
+    std::uint32_t basin = facet_pairs_[start].basin;
     while (!isProminent(basins_[basin])) basin = basins_[basin].into;
     return basin;
   }
 
   bool isProminent(const Basin& basin) const {
-    const double distance = cells_[basin.cell].distance;
+    const double distance = facet_pairs_[basin.facet_pair].distance;
     return basin.pass > distance + tolerance_ && basin.pass >= (1.0 + request_.least_prominence) * distance;
   }
 
  private:
-  std::uint32_t addCell(TriangleIndex a, TriangleIndex b) {
+  std::uint32_t addFacetPair(TriangleIndex a, TriangleIndex b) {
     measure(a, b);
-    const auto index = static_cast<std::uint32_t>(cells_.size());
+    const auto index = static_cast<std::uint32_t>(facet_pairs_.size());
     const double distance = std::sqrt(levels_.least());
-    cells_.push_back({a, b, distance, distance, index, 0});
+    facet_pairs_.push_back({a, b, distance, distance, index, 0});
     table_.insert(a, b, index);
     return index;
   }
@@ -123,23 +123,23 @@ class Flood {
   void measure(TriangleIndex a, TriangleIndex b) {
     points_a_ = scene_.facetOfA(a);
     points_b_ = scene_.facetOfB(b);
-    levels_ = cellLevels(points_a_, points_b_);
+    levels_ = facetPairLevels(points_a_, points_b_);
   }
 
-  /// Of the cell that was measured last.
+  /// Of the facet pair that was measured last.
   void expand(std::uint32_t index) {
-    const double limit = basins_[cells_[rootOf(index)].basin].limit;
+    const double limit = basins_[facet_pairs_[rootOf(index)].basin].limit;
     forEachNeighbour(
-        scene_, cells_[index].a, cells_[index].b, points_a_, points_b_, levels_,
+        scene_, facet_pairs_[index].a, facet_pairs_[index].b, points_a_, points_b_, levels_,
         [&](TriangleIndex to_a, TriangleIndex to_b, double squared_level, const SharedElement& /*element*/) {
           consider(index, to_a, to_b, limit, std::sqrt(squared_level));
         });
   }
 
   void consider(std::uint32_t from, TriangleIndex to_a, TriangleIndex to_b, double limit, double level) {
-    const double above = std::max(level, cells_[from].reached);
+    const double above = std::max(level, facet_pairs_[from].reached);
     if (above > limit || cut_) return;
-    if (!limit_.makeRoom(steps_) || !limit_.makeRoom(cells_, 2) || !table_.makeRoom(limit_)) {
+    if (!limit_.makeRoom(steps_) || !limit_.makeRoom(facet_pairs_, 2) || !table_.makeRoom(limit_)) {
       cut_ = true;
       return;
     }
@@ -149,51 +149,52 @@ class Flood {
 
   void take(const Step& step) {
     const std::uint32_t here = rootOf(step.from);
-    if (step.level > basins_[cells_[here].basin].limit) return;
+    if (step.level > basins_[facet_pairs_[here].basin].limit) return;
     std::uint32_t there = table_.find(step.to_a, step.to_b);
     if (there == PairTable::kAbsent) {
-      there = addCell(step.to_a, step.to_b);
-      if (cells_[there].distance >= cells_[here].distance - tolerance_) {
-        cells_[there].parent = here;
-        cells_[there].reached = step.level;
+      there = addFacetPair(step.to_a, step.to_b);
+      if (facet_pairs_[there].distance >= facet_pairs_[here].distance - tolerance_) {
+        facet_pairs_[there].parent = here;
+        facet_pairs_[there].reached = step.level;
         expand(there);
         return;
       }
       goDown(there);
     }
-    unite(here, rootOf(there), std::max(step.level, cells_[there].reached));
+    unite(here, rootOf(there), std::max(step.level, facet_pairs_[there].reached));
   }
 
-  /// From a cell deeper than the flood's start to the minimum under it.
+  /// From a facet pair deeper than the flood's start to the minimum under it.
   void goDown(std::uint32_t index) {
-    const TrianglePair from = scene_.closestIn({cells_[index].a, cells_[index].b}).first;
+    const TrianglePair from = scene_.closestIn({facet_pairs_[index].a, facet_pairs_[index].b}).first;
     const WitnessPair witness =
         refineWitness(scene_.a, scene_.b, scene_.a_from_b, from.a, from.b, refinement_).witness;
-    const TrianglePair cell = scene_.cellOf(witness.triangle_a, witness.triangle_b);
-    if (cell.a == cells_[index].a && cell.b == cells_[index].b) {
-      cells_[index].basin = static_cast<std::uint32_t>(basins_.size());
-      basins_.push_back({index, limitOf(cells_[index].distance), true});
+    const TrianglePair facet_pair = scene_.facetPairOf(witness.triangle_a, witness.triangle_b);
+    if (facet_pair.a == facet_pairs_[index].a && facet_pair.b == facet_pairs_[index].b) {
+      facet_pairs_[index].basin = static_cast<std::uint32_t>(basins_.size());
+      basins_.push_back({index, limitOf(facet_pairs_[index].distance), true});
     } else {
-      const std::uint32_t bottom = startAt(cell.a, cell.b, true);
-      cells_[index].parent = rootOf(bottom);
-      measure(cells_[index].a, cells_[index].b);
+      const std::uint32_t bottom = startAt(facet_pair.a, facet_pair.b, true);
+      facet_pairs_[index].parent = rootOf(bottom);
+      measure(facet_pairs_[index].a, facet_pairs_[index].b);
     }
     expand(index);
   }
 
   void unite(std::uint32_t l, std::uint32_t r, double level) {
     if (l == r) return;
-    const bool l_deeper = cells_[l].distance < cells_[r].distance ||
-                          (cells_[l].distance == cells_[r].distance && cells_[l].basin < cells_[r].basin);
+    const bool l_deeper = facet_pairs_[l].distance < facet_pairs_[r].distance ||
+                          (facet_pairs_[l].distance == facet_pairs_[r].distance &&
+                           facet_pairs_[l].basin < facet_pairs_[r].basin);
     const std::uint32_t deep = l_deeper ? l : r;
     const std::uint32_t shallow = l_deeper ? r : l;
-    cells_[shallow].parent = deep;
-    Basin& ended = basins_[cells_[shallow].basin];
-    Basin& goes_on = basins_[cells_[deep].basin];
-    ended.pass = std::max(level, cells_[shallow].distance);
-    ended.into = cells_[deep].basin;
+    facet_pairs_[shallow].parent = deep;
+    Basin& ended = basins_[facet_pairs_[shallow].basin];
+    Basin& goes_on = basins_[facet_pairs_[deep].basin];
+    ended.pass = std::max(level, facet_pairs_[shallow].distance);
+    ended.into = facet_pairs_[deep].basin;
     // One place that both were led to, apart by rounding alone.
-    if (ended.pass <= cells_[deep].distance + tolerance_) {
+    if (ended.pass <= facet_pairs_[deep].distance + tolerance_) {
       goes_on.met_by_flood = goes_on.met_by_flood && ended.met_by_flood;
     }
   }
@@ -205,20 +206,20 @@ class Flood {
   bool cut_ = false;
   double reached_ = 0.0;  ///< metres, the level of the last step
   PairTable table_;
-  std::vector<Cell> cells_;
+  std::vector<FacetPair> facet_pairs_;
   std::vector<Basin> basins_;
   std::vector<Step> steps_;
   RefinementWorkspace refinement_;
-  // Of the cell measured last.
+  // Of the facet pair measured last.
   FacetPoints points_a_;
   FacetPoints points_b_;
-  CellLevels levels_{};
+  FacetPairLevels levels_{};
 };
 
 }  // namespace
 
 FloodResult floodMinima(const MinimaScene& scene, const LocalMinimaRequest& request,
-                        const std::vector<MinimumSeed>& seeds, std::size_t owned, LocalMinimaCost& cost,
+                        const std::vector<MinimumCandidate>& seeds, std::size_t owned, LocalMinimaCost& cost,
                         WorkLimit& limit) {
   const MemoryScope memory(limit);
   Flood flood(scene, request, limit);
@@ -232,11 +233,11 @@ FloodResult floodMinima(const MinimaScene& scene, const LocalMinimaRequest& requ
   for (std::size_t i = 0; i < flood.basins().size(); ++i) {
     const Basin& basin = flood.basins()[i];
     if (!flood.isProminent(basin) || !flood.isDecided(basin)) continue;
-    const Cell& cell = flood.cell(basin.cell);
+    const FacetPair& facet_pair = flood.facet_pair(basin.facet_pair);
     minimum_of_basin[i] = result.minima.size();
-    const TrianglePair closest = scene.closestIn({cell.a, cell.b}).first;
+    const TrianglePair closest = scene.closestIn({facet_pair.a, facet_pair.b}).first;
     result.minima.push_back(
-        {seedOn(closest.a, closest.b, cell.distance), basin.pass, basin.limit, basin.met_by_flood});
+        {seedOn(closest.a, closest.b, facet_pair.distance), basin.pass, basin.limit, basin.met_by_flood});
   }
   // A start belongs to the deepest basin that it is joined to by passes of less than the least prominence.
   for (std::size_t i = owned; i < starts.size(); ++i) {

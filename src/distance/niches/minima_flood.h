@@ -9,11 +9,11 @@ namespace concave_distance::detail {
 
 /// A basin that no deeper one was found to join below its pass.
 struct FloodedMinimum {
-  MinimumSeed seed;
+  MinimumCandidate seed;
   double pass;     ///< metres; infinite when none was reached
   double flooded;  ///< up to here passes were looked for
   bool met_by_flood;
-  std::uint64_t region = 0;  ///< MinimaVerdicts::Judged::region
+  std::uint64_t region = 0;  ///< NicheDecider::Judged::region
 };
 
 struct FloodResult {
@@ -29,7 +29,7 @@ struct FloodResult {
 /// triangle pair deeper than its own start goes down from there and joins what it finds.
 /// @param owned first seed of those whose owner is asked for; they are the last of the list
 FloodResult floodMinima(const MinimaScene& scene, const LocalMinimaRequest& request,
-                        const std::vector<MinimumSeed>& seeds, std::size_t owned, LocalMinimaCost& cost,
+                        const std::vector<MinimumCandidate>& seeds, std::size_t owned, LocalMinimaCost& cost,
                         WorkLimit& limit);
 
 }  // namespace concave_distance::detail

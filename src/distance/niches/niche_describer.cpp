@@ -21,7 +21,7 @@ void NicheDescriber::begin(const MinimaScene& scene, const LocalMinimaRequest& r
 }
 
 bool NicheDescriber::describe(const MinimaScene& scene, const LocalMinimaRequest& request,
-                              const MinimumSeed& minimum, bool met_by_flood, bool is_seen,
+                              const MinimumCandidate& minimum, bool met_by_flood, bool is_seen,
                               LocalMinimum& niche, WorkLimit& limit) {
   const BodyMesh& a = scene.a;
   const BodyMesh& b = scene.b;

@@ -14,7 +14,7 @@ class NicheDescriber {
   /// @param met_by_flood no cone has led to it: it may be a minimum through material
   /// @param is_seen the segment between its points is known to meet neither body
   /// @return false for what is not wanted
-  bool describe(const MinimaScene& scene, const LocalMinimaRequest& request, const MinimumSeed& minimum,
+  bool describe(const MinimaScene& scene, const LocalMinimaRequest& request, const MinimumCandidate& minimum,
                 bool met_by_flood, bool is_seen, LocalMinimum& niche, WorkLimit& limit);
 
  private:

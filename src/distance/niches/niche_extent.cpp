@@ -3,8 +3,8 @@
 #include <limits>
 #include <tuple>
 
+#include "distance/kernels/adjacent_triangles.h"
 #include "distance/kernels/local_frames.h"
-#include "distance/kernels/surface_ring.h"
 #include "niche_properties.h"
 #include "planar_set.h"
 

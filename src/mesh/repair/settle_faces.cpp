@@ -18,7 +18,7 @@ struct Needed {
   std::uint32_t against = 0;
 };
 
-Needed neededOf(const Face& face, const FaceVerdict& verdict, bool is_cavity, bool first_runs_along) {
+Needed neededOf(const Face& face, const FaceDecision& verdict, bool is_cavity, bool first_runs_along) {
   Needed needed;
   if (verdict.role == FaceRole::Skin) {
     const auto count = static_cast<std::uint32_t>(std::abs(verdict.coefficient));
@@ -45,7 +45,7 @@ class Settler {
         stays_(triangles.size(), true),
         is_sheet_(triangles.size()) {}
 
-  void settle(const FaceTable& table, const Face& face, const FaceVerdict& verdict, bool is_cavity) {
+  void settle(const FaceTable& table, const Face& face, const FaceDecision& verdict, bool is_cavity) {
     const std::uint32_t* const first = &table.triangles[face.first];
     Needed needed = neededOf(face, verdict, is_cavity, runsAlong(triangles_[*first]));
     const std::uint32_t count = needed.along + needed.against;

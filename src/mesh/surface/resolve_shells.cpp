@@ -16,7 +16,7 @@ ResolvedShells resolveShells(const std::vector<Eigen::Vector3d>& vertices,
     const std::uint32_t unit = resolved.units.unit_of_face[face];
     if (unit != kSheet) faces_of_unit[unit].push_back(face);
   }
-  UnitSolver solver(vertices, resolved.table, edges, resolved.units, cells);
+  EnclosureSolver solver(vertices, resolved.table, edges, resolved.units, cells);
   for (const std::vector<std::uint32_t>& unit : faces_of_unit) {
     resolved.unit_is_inward.push_back(solver.solve(unit, resolved.verdicts));
   }

@@ -23,11 +23,11 @@ constexpr double kLevel = 0x1.0p-49;
 class Collector {
  public:
   Collector(const SurfaceMesh& mesh, const MeshTopology& topology, NormalSides sides,
-            const ShellJoints& joints)
+            const ShellContacts& joints)
       : mesh_(mesh), topology_(topology), sides_(sides), hidden_(joints.hidden) {
     if (joints.joints.empty()) return;
     is_joined_.assign(mesh.triangleCount(), false);
-    for (const ShellJoints::Joint& joint : joints.joints) {
+    for (const ShellContacts::Joint& joint : joints.joints) {
       is_joined_[joint.first.value] = is_joined_[joint.second.value] = true;
     }
   }
@@ -211,7 +211,7 @@ class Collector {
 }  // namespace
 
 std::vector<Item> collectConeItems(const SurfaceMesh& mesh, const MeshTopology& topology, NormalSides sides,
-                                   const ShellJoints& joints) {
+                                   const ShellContacts& joints) {
   return Collector(mesh, topology, sides, joints).collect();
 }
 

@@ -10,6 +10,6 @@ namespace concave_distance::detail {
 /// triangles count as if they were not there; those that another shell meets have both sides: minima in its
 /// material, through their own, are deeper places that others may belong to.
 std::vector<NormalConeTree::Item> collectConeItems(const SurfaceMesh& mesh, const MeshTopology& topology,
-                                                   NormalSides sides, const ShellJoints& joints);
+                                                   NormalSides sides, const ShellContacts& joints);
 
 }  // namespace concave_distance::detail

@@ -180,7 +180,7 @@ class ConeTreeBuilder {
 }  // namespace
 
 NormalConeTree::NormalConeTree(const SurfaceMesh& mesh, const MeshTopology& topology, NormalSides sides,
-                               const ShellJoints& joints)
+                               const ShellContacts& joints)
     : items_(detail::collectConeItems(mesh, topology, sides, joints)) {
   items_.shrink_to_fit();
   if (items_.empty()) return;

@@ -6,7 +6,7 @@
 
 #include "concave_distance/mesh/surface/surface_mesh.h"
 #include "mesh/surface/mesh_topology.h"
-#include "shell_joints.h"
+#include "shell_contacts.h"
 
 namespace concave_distance {
 
@@ -73,7 +73,7 @@ class NormalConeTree {
   NormalConeTree() = default;
   /// @param joints of its shells
   NormalConeTree(const SurfaceMesh& mesh, const MeshTopology& topology, NormalSides sides,
-                 const ShellJoints& joints = {});
+                 const ShellContacts& joints = {});
   bool empty() const { return items_.empty(); }
   const std::vector<Group>& groups() const { return groups_; }
   const std::vector<Item>& items() const { return items_; }

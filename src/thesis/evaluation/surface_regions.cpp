@@ -3,7 +3,7 @@
 #include <unordered_set>
 
 #include "base/pair_key.h"
-#include "distance/niches/cell_neighbours.h"
+#include "distance/niches/facet_pair_neighbours.h"
 
 namespace concave_distance::evaluation {
 
@@ -38,7 +38,7 @@ std::size_t SurfaceRegions::ownerOf(const FoundPlace& place) const {
     const detail::FacetPoints points_a = scene_.facetOfA(cell.a);
     const detail::FacetPoints points_b = scene_.facetOfB(cell.b);
     detail::forEachNeighbour(scene_, cell.a, cell.b, points_a, points_b,
-                             detail::cellLevels(points_a, points_b),
+                             detail::facetPairLevels(points_a, points_b),
                              [&](TriangleIndex a, TriangleIndex b, double squared, const auto&) {
                                if (squared <= squared_level) reach(a, b);
                              });

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "benchmark/support/grid_flood.h"
-#include "distance/niches/minima_verdicts.h"
+#include "distance/niches/niche_decider.h"
 #include "search/local_descent.h"
 #include "thesis/evaluation/enumeration.h"
 #include "tracking/pair_geometry.h"
@@ -75,9 +75,9 @@ bool isSameNiche(const BenchmarkPair& pair, const Eigen::Isometry3d& pose, const
     return true;
   }
   const detail::MinimaScene scene(*pair.a, *pair.b, pose);
-  std::vector<MinimumSeed> seeds{scene.seedOf(found), scene.seedOf(reference)};
-  detail::MinimaVerdicts verdicts;
-  detail::MinimaVerdicts::Request request;
+  std::vector<MinimumCandidate> seeds{scene.seedOf(found), scene.seedOf(reference)};
+  detail::NicheDecider verdicts;
+  detail::NicheDecider::Request request;
   request.least_prominence = least_prominence;
   WorkLimit none;
   verdicts.judge(scene, seeds, request, none);

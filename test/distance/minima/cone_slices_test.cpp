@@ -9,8 +9,8 @@
 
 #include "base/helping_threads.h"
 #include "base/infinity.h"
-#include "distance/minima/cone_front.h"
 #include "distance/minima/front_checks.h"
+#include "distance/minima/minima_tracker.h"
 #include "support/body_motions.h"
 #include "support/body_pairs.h"
 #include "support/bumpy_ball.h"
@@ -39,13 +39,13 @@ void executeWith(int threads, const Work& work) {
 }
 
 /// Everything that a call leaves.
-void append(const ConeFront& front, const std::vector<MinimumSeed>& seeds, Bytes& bytes) {
+void append(const MinimaTracker& front, const std::vector<MinimumCandidate>& seeds, Bytes& bytes) {
   const auto add = [&](double x) {
     std::uint64_t bits = 0;
     std::memcpy(&bits, &x, sizeof bits);
     bytes.push_back(bits);
   };
-  for (const MinimumSeed& seed : seeds) {
+  for (const MinimumCandidate& seed : seeds) {
     bytes.insert(bytes.end(), {seed.a.value, seed.b.value});
     add(seed.distance);
     for (int k = 0; k < 3; ++k) {
@@ -56,7 +56,7 @@ void append(const ConeFront& front, const std::vector<MinimumSeed>& seeds, Bytes
   front.forEachPair([&](NormalConeTree::Slot a, NormalConeTree::Slot b) {
     bytes.insert(bytes.end(), {a, b});
   });
-  const ConeFront::Counts& counts = front.counts();
+  const MinimaTracker::Counts& counts = front.counts();
   bytes.insert(bytes.end(), {counts.expired, counts.groups, counts.features, counts.measured, counts.slices});
 }
 
@@ -70,14 +70,14 @@ struct Tracked {
 Tracked track(const Body& a, const Body& b, const test::Motion& motion, std::size_t memory, int threads) {
   Tracked tracked;
   executeWith(threads, [&] {
-    ConeFront front(kSlicedFrom);
+    MinimaTracker front(kSlicedFrom);
     double t = 0.0;
     for (int k = 0; k < 12; ++k) {
       if (k == 9) front.clear();
       t += k == 5 ? 0.0 : 1e-3 * std::pow(2.0, k);
       WorkLimit limit(WorkLimit::Clock::now(), kInfinity, memory, nullptr);
       limit.setTaken(front.memoryBytes());
-      std::vector<MinimumSeed> seeds;
+      std::vector<MinimumCandidate> seeds;
       front.collect(MinimaScene(*a, *b, motion.at(t)), NormalSides::Outside, kInfinity, seeds, limit);
       append(front, seeds, tracked.bytes);
       (front.counts().began_anew ? tracked.cold_slices : tracked.warm_slices) += front.counts().slices;
@@ -116,14 +116,14 @@ TEST(ConeSlices, LoseNoPairWhereALimitEndsThem) {
     int cut = 0;
     for (std::uint32_t run = 0; run < 5; ++run) {
       const test::Motion motion = test::randomMotion(engine);
-      ConeFront front(kSlicedFrom);
+      MinimaTracker front(kSlicedFrom);
       for (int k = 0; k < 12; ++k) {
         SCOPED_TRACE("run " + std::to_string(run) + ", cycle " + std::to_string(k));
         const Eigen::Isometry3d pose = motion.at(0.03 * k);
         const double seconds = k % 3 == 1 ? kInfinity : std::pow(10.0, -4.5 + 2.0 * uniformUnit(engine));
         const std::size_t memory = k % 3 == 0 ? kAllMemory : std::size_t{1} << (14U + run % 7U);
         WorkLimit limit(WorkLimit::Clock::now(), seconds, memory, nullptr);
-        std::vector<MinimumSeed> seeds;
+        std::vector<MinimumCandidate> seeds;
         front.collect(MinimaScene(*a, *b, pose), NormalSides::Outside, kInfinity, seeds, limit);
         slices += front.counts().slices;
         cut += limit.hasRefused() ? 1 : 0;
@@ -142,8 +142,8 @@ TEST(ConeSlices, AllocateNothingInAWarmCycle) {
   const Body a = test::makeBody(makeBumpyBall(0.5, 4e-4, 9.0));
   const Body b = test::makeBody(makeBumpyBall(0.3, 4e-4, 6.0));
   executeWith(2, [&] {
-    ConeFront front(kSlicedFrom);
-    std::vector<MinimumSeed> seeds;
+    MinimaTracker front(kSlicedFrom);
+    std::vector<MinimumCandidate> seeds;
     std::uint32_t slices = 0;
     // To and fro: after the first rounds all buffers are as large as they become.
     for (int k = 0; k < 40; ++k) {

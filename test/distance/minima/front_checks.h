@@ -9,18 +9,18 @@
 
 #include "distance/kernels/witness_refinement.h"
 #include "distance/minima/cone_comparison.h"
-#include "distance/minima/cone_front.h"
 #include "distance/minima/minima_candidates.h"
+#include "distance/minima/minima_tracker.h"
 
 namespace concave_distance::test {
 
 inline std::vector<WitnessPair> placesOf(const std::shared_ptr<const BodyMesh>& a,
                                          const std::shared_ptr<const BodyMesh>& b,
                                          const Eigen::Isometry3d& pose,
-                                         const std::vector<MinimumSeed>& seeds) {
+                                         const std::vector<MinimumCandidate>& seeds) {
   RefinementWorkspace workspace;
   std::vector<WitnessPair> places;
-  for (const MinimumSeed& seed : seeds) {
+  for (const MinimumCandidate& seed : seeds) {
     places.push_back(refineWitness(*a, *b, pose, seed.a, seed.b, workspace).witness);
   }
   return places;
@@ -40,13 +40,13 @@ inline bool isKnown(const WitnessPair& place, const std::vector<WitnessPair>& ot
 /// The front at a pose against all cones from the roots.
 inline void expectWhatTheRootsFind(const std::shared_ptr<const BodyMesh>& a,
                                    const std::shared_ptr<const BodyMesh>& b, const Eigen::Isometry3d& pose,
-                                   NormalSides sides, double cutoff, detail::ConeFront& front) {
+                                   NormalSides sides, double cutoff, detail::MinimaTracker& front) {
   WorkLimit none;
   const detail::MinimaScene scene(*a, *b, pose);
-  std::vector<MinimumSeed> from_roots;
+  std::vector<MinimumCandidate> from_roots;
   LocalMinimaCost cost;
-  detail::collectConeSeeds(scene, sides, cutoff, from_roots, cost, none);
-  std::vector<MinimumSeed> from_front;
+  detail::collectConeCandidates(scene, sides, cutoff, from_roots, cost, none);
+  std::vector<MinimumCandidate> from_front;
   ASSERT_TRUE(front.collect(scene, sides, cutoff, from_front, none));
   const auto of_front = placesOf(a, b, pose, from_front);
   for (const WitnessPair& place : placesOf(a, b, pose, from_roots)) {
@@ -54,8 +54,8 @@ inline void expectWhatTheRootsFind(const std::shared_ptr<const BodyMesh>& a,
   }
   // What was a minimum at an earlier pose and is only measured at this one.
   std::vector<WitnessPair> seeds;
-  for (const MinimumSeed& seed : from_roots) seeds.push_back(scene.witnessOf(seed));
-  for (const MinimumSeed& seed : from_front) {
+  for (const MinimumCandidate& seed : from_roots) seeds.push_back(scene.witnessOf(seed));
+  for (const MinimumCandidate& seed : from_front) {
     EXPECT_TRUE(isKnown(scene.witnessOf(seed), seeds)) << "distance " << seed.distance;
   }
 }
@@ -79,7 +79,7 @@ inline std::vector<std::vector<std::uint32_t>> itemsBelow(const NormalConeTree& 
 }
 
 /// Every pair of features that can hold a minimum has exactly one ancestor that is kept, or is live.
-inline void expectOneAncestor(const BodyMesh& a, const BodyMesh& b, const detail::ConeFront& front) {
+inline void expectOneAncestor(const BodyMesh& a, const BodyMesh& b, const detail::MinimaTracker& front) {
   const NormalConeTree& cones_a = a.normalCones(NormalSides::Outside);
   const NormalConeTree& cones_b = b.normalCones(NormalSides::Outside);
   const auto below_a = itemsBelow(cones_a);

@@ -7,7 +7,7 @@
 #include <cstdlib>
 
 #include "distance/niches/local_minima.h"
-#include "mesh/trees/shell_joints.h"
+#include "mesh/trees/shell_contacts.h"
 #include "support/body_pairs.h"
 #include "support/cgal_overlap.h"
 

@@ -1,0 +1,60 @@
+#include "bound_cache.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace concave_distance {
+namespace {
+
+// A front that has grown by this factor since it was begun is begun anew: it looks at needlessly small boxes.
+constexpr double kLargestGrowth = 2.0;
+constexpr double kSmallGrowth = 8.0;  // of the smallest, entries
+// When this share of what a fresh proof opens is opened again, the front was not worth keeping.
+constexpr double kWorthless = 0.6;
+constexpr std::uint32_t kLongestWait = 32;
+
+}  // namespace
+
+void BoundCache::advance(const BoundingVolumeHierarchy& b, const Eigen::Matrix3d& rotation,
+                         const Eigen::Vector3d& offset, double rounding) {
+  const Eigen::Matrix3d turn = rotation - rotation_;
+  const Eigen::Vector3d shift = offset - offset_;
+  rotation_ = rotation;
+  offset_ = offset;
+  if (turn.isZero(0.0) && shift.isZero(0.0)) return;
+  // The largest stretch of a difference of two rotations is its Frobenius norm over the square root of 2.
+  const double stretch = turn.norm() * 0.70710678118654757;
+  for (std::size_t region = 0; region < odometers_.size(); ++region) {
+    const OrientedBox box = b.box(b.regions()[region]);
+    odometers_[region] += (turn * box.centre + shift).norm() + stretch * box.half.norm() + rounding;
+  }
+}
+
+void BoundCache::begin(const BoundingVolumeHierarchy& b, const Eigen::Matrix3d& rotation,
+                       const Eigen::Vector3d& offset) {
+  quads_.clear();
+  directions_.clear();
+  leaf_pairs_.clear();
+  odometers_.assign(b.regions().size(), 0.0);
+  rotation_ = rotation;
+  offset_ = offset;
+}
+
+void BoundCache::decide(bool began_anew, std::uint32_t opened) {
+  if (began_anew) {
+    opened_at_begin_ = std::max(opened, 1U);
+    size_at_begin_ = size();
+    valid_ = true;
+    return;
+  }
+  if (opened > kWorthless * opened_at_begin_) {
+    valid_ = false;
+    wait_ = next_wait_;
+    next_wait_ = std::min(2 * next_wait_, kLongestWait);
+    return;
+  }
+  next_wait_ = 1;
+  valid_ = static_cast<double>(size()) <= kLargestGrowth * static_cast<double>(size_at_begin_) + kSmallGrowth;
+}
+
+}  // namespace concave_distance

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <vector>
+
+#include "box_pair_bounds.h"
+#include "mesh/trees/bounding_volume_hierarchy.h"
+
+namespace concave_distance {
+
+namespace detail {
+class BranchAndBound;
+}
+
+/// Where the last proof of one pair's distance ended: every pair of boxes, or of leaves, that was shown to be
+/// far enough apart, with its bound. Moving by x brings no pair closer by more than x, so that a bound is
+/// good until the bodies have come as far: kept as the bound plus how far the region of B has gone altogether
+/// (its odometer), it is compared with where the odometer stands now. What has run out is opened again.
+/// Belongs to one pair of bodies; the caller clears it when the bodies change.
+class BoundCache {
+ public:
+  /// The children of one box, all compared with one other box.
+  struct Quad {
+    double
+        bound[BoundingVolumeHierarchy::kWidth];  ///< metres plus odometer; infinite: opened further, or none
+    BoundingVolumeHierarchy::Slot kept;
+    std::uint32_t opened;  ///< node of the other body
+    std::uint8_t region;   ///< of B
+    bool opens_b;
+    bool by_boxes;  ///< all were parted by their boxes, along directions of their own
+  };
+  struct LeafPair {
+    double bound;
+    BoundingVolumeHierarchy::Slot a;
+    BoundingVolumeHierarchy::Slot b;
+    std::uint8_t region;
+    Eigen::Vector3d direction;  ///< from A to B, A's axes
+  };
+
+  void clear() { valid_ = false; }
+  /// False when the next proof must begin at the roots.
+  bool valid() const { return valid_; }
+  std::size_t size() const { return quads_.size() + leaf_pairs_.size(); }
+  std::size_t memoryBytes() const {
+    return quads_.capacity() * sizeof(Quad) + directions_.capacity() * sizeof(detail::LaneDirections) +
+           leaf_pairs_.capacity() * sizeof(LeafPair);
+  }
+
+ private:
+  friend class detail::BranchAndBound;
+
+  bool isAt(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& offset) const {
+    return rotation == rotation_ && offset == offset_;
+  }
+  /// Brings the odometers to a pose; rotation and offset as in the proof's local frames. `rounding` (metres)
+  /// is what the displacement itself may be off.
+  void advance(const BoundingVolumeHierarchy& b, const Eigen::Matrix3d& rotation,
+               const Eigen::Vector3d& offset, double rounding);
+  void begin(const BoundingVolumeHierarchy& b, const Eigen::Matrix3d& rotation,
+             const Eigen::Vector3d& offset);
+  /// After a proof: whether the next one is to use the front, begin it anew or do without for a while.
+  void decide(bool began_anew, std::uint32_t opened);
+
+  std::vector<Quad> quads_;
+  std::vector<detail::LaneDirections> directions_;  ///< along which each quad was parted
+  std::vector<LeafPair> leaf_pairs_;
+  std::vector<double> odometers_;  ///< metres, of each region of B
+  Eigen::Matrix3d rotation_ = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d offset_ = Eigen::Vector3d::Zero();
+  bool valid_ = false;
+  std::uint32_t opened_at_begin_ = 0;
+  std::size_t size_at_begin_ = 0;
+  std::uint32_t wait_ = 0;  ///< proofs to do without
+  std::uint32_t next_wait_ = 1;
+};
+
+}  // namespace concave_distance

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "concave_distance/base/indices.h"
+#include "concave_distance/distance/witness.h"
+
+namespace concave_distance {
+
+/// A triangle pair whose closest points are a local minimum of the distance over both surfaces.
+struct MinimumCandidate {
+  TriangleIndex a;
+  TriangleIndex b;
+  double distance = 0.0;     ///< metres
+  bool is_measured = false;  ///< the rest is known
+  /// No other pair of points near is as close; false where that is not seen at once.
+  bool is_point = false;
+  Feature feature_a = Feature::Face;
+  Feature feature_b = Feature::Face;
+  Eigen::Vector3d point_a = Eigen::Vector3d::Zero();  ///< in the scene's frame (LocalFrames)
+  Eigen::Vector3d point_b = Eigen::Vector3d::Zero();
+};
+
+/// With its points not known.
+inline MinimumCandidate seedOn(TriangleIndex a, TriangleIndex b, double distance) {
+  MinimumCandidate seed;
+  seed.a = a;
+  seed.b = b;
+  seed.distance = distance;
+  return seed;
+}
+
+}  // namespace concave_distance

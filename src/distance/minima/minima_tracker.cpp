@@ -1,0 +1,211 @@
+#include "minima_tracker.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "base/run_in_order.h"
+#include "cone_sweep.h"
+
+namespace concave_distance::detail {
+namespace {
+
+/// A front that has grown by this factor since it was begun is begun anew: it looks at needlessly small
+/// groups.
+constexpr std::size_t kLargestGrowth = 3;
+constexpr std::size_t kUsualMinima = 64;
+constexpr std::size_t kUsualExpired = 1024;
+constexpr std::size_t kSmallGrowth = 256;  // of the smallest, pairs
+/// Steps of the one sweep after which few open pairs are known to hold much.
+constexpr std::size_t kManySteps = 2048;
+
+/// Behind what is there. What the limit refuses is added, too: no pair may be lost, and slices are small.
+template <typename T>
+void append(std::vector<T>& to, const std::vector<T>& from, WorkLimit& limit) {
+  limit.makeRoom(to, from.size());
+  to.insert(to.end(), from.begin(), from.end());
+}
+
+}  // namespace
+
+/// One call of collect().
+class MinimaTracker::Stage {
+ public:
+  Stage(MinimaTracker& front, const MinimaScene& scene, NormalSides sides, double cutoff, WorkLimit& limit)
+      : front_(front),
+        scene_(scene),
+        sides_(sides),
+        cutoff_(cutoff),
+        limit_(limit),
+        sweep_(scene, sides, cutoff, front.motion_, front.lists_, limit) {
+    sweep_.keepIn(front.queues_, limit);
+  }
+
+  bool isEmpty() const { return sweep_.conesOfA().empty() || sweep_.conesOfB().empty(); }
+
+  void begin() {
+    SweepLists& lists = front_.lists_;
+    front_.counts_.began_anew = true;
+    front_.motion_.begin(sweep_.conesOfA(), sweep_.conesOfB(), scene_.frames, scene_.size);
+    front_.queues_.begin(front_.motion_.clockCount());
+    lists.minima.clear();
+    lists.undecided.clear();
+    // What most pairs never outgrow.
+    lists.minima.reserve(kUsualMinima);
+    lists.undecided.reserve(kUsualMinima);
+    lists.open.reserve(kUsualMinima);
+    front_.expired_.reserve(kUsualExpired);
+    front_.expired_.clear();
+    front_.next_expired_ = 0;
+    lists.open.assign(1, {NormalConeTree::kRoot, NormalConeTree::kRoot});
+    front_.valid_ = true;
+  }
+
+  /// Appends what has expired to what earlier cycles have left.
+  void expire() {
+    std::vector<SlotPair>& expired = front_.expired_;
+    expired.erase(expired.begin(), expired.begin() + static_cast<std::ptrdiff_t>(front_.next_expired_));
+    front_.next_expired_ = 0;
+    const std::size_t before = front_.queues_.size();
+    const auto take = [&](const SlotPair& pair) { expired.push_back(pair); };
+    for (std::uint32_t clock = 0; clock < front_.motion_.clockCount(); ++clock) {
+      front_.queues_.advance(clock, front_.motion_.now(clock), take, limit_);
+    }
+    front_.counts_.expired = static_cast<std::uint32_t>(before - front_.queues_.size());
+  }
+
+  bool askLive() { return sweep_.askLive(); }
+
+  /// Compares what has expired and opens what is excluded no more. False when the limit was reached.
+  bool run() {
+    const std::vector<SlotPair>& open = front_.lists_.open;
+    while (!open.empty() || expiredCount() > 0) {
+      const bool much_expired = expiredCount() >= front_.sliced_from_;
+      if ((much_expired || open.size() >= ConeSlices::kManyOpen) && canSlice()) {
+        if (limit_.isOver()) return false;
+        much_expired ? runExpiredSlices() : runOpenSlices();
+      } else if (!runAlone()) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+ private:
+  std::size_t expiredCount() const { return front_.expired_.size() - front_.next_expired_; }
+
+  /// Where memory was refused, the one sweep goes on without more.
+  bool canSlice() { return !limit_.hasRefusedMemory() && front_.slices_.prepare(limit_); }
+
+  /// The one sweep; few open pairs that hold much are opened until there are enough for slices.
+  bool runAlone() {
+    const SlotPair* const pairs = front_.expired_.data();
+    ExpiredPairs expired{pairs + front_.next_expired_, pairs + front_.expired_.size()};
+    std::size_t steps = kManySteps;
+    const bool done = sweep_.run(expired, steps);
+    front_.next_expired_ = static_cast<std::size_t>(expired.next - pairs);
+    return done || (steps == 0 && sweep_.widen(ConeSlices::kManyOpen));
+  }
+
+  void runExpiredSlices() {
+    ConeSlices& slices = front_.slices_;
+    const std::size_t taken =
+        slices.takeExpired(front_.expired_.data() + front_.next_expired_, expiredCount());
+    runSlices();
+    // What a full slice has left comes before what none has taken.
+    SlotPair* left = front_.expired_.data() + front_.next_expired_ + taken;
+    for (std::size_t i = slices.used(); i-- > 0;) {
+      left = std::move_backward(slices[i].expired.next, slices[i].expired.end, left);
+    }
+    front_.next_expired_ = static_cast<std::size_t>(left - front_.expired_.data());
+  }
+
+  void runOpenSlices() {
+    front_.slices_.takeOpen(front_.lists_.open);
+    runSlices();
+  }
+
+  void runSlices() {
+    ConeSlices& slices = front_.slices_;
+    front_.counts_.slices += static_cast<std::uint32_t>(slices.used());
+    const std::size_t threads = HelpingThreads::countHere();
+    const WorkLimit time = limit_.withoutMemory();
+    const auto look = [&](std::size_t i) {
+      WorkLimit own = time;
+      ConeSweep sweep(scene_, sides_, cutoff_, front_.motion_, slices[i].lists, own, ConeSlices::kMostKept);
+      // One thread inserts in the same order without a buffer.
+      if (threads == 1) sweep.keepIn(front_.queues_, limit_);
+      std::size_t steps = std::numeric_limits<std::size_t>::max();
+      sweep.run(slices[i].expired, steps);
+    };
+    runInOrder<ConeSlices::kCount>(slices.used(), threads, look,
+                                   [&](std::size_t i) { add(slices[i].lists); });
+  }
+
+  void add(const SweepLists& found) {
+    SweepLists& lists = front_.lists_;
+    for (const KeptPair& kept : found.kept) {
+      if (!front_.queues_.insert(kept.clock, kept.expiry, kept.pair, limit_)) lists.open.push_back(kept.pair);
+    }
+    append(lists.open, found.open, limit_);
+    append(lists.minima, found.minima, limit_);
+    append(lists.undecided, found.undecided, limit_);
+    append(lists.seeds, found.seeds, limit_);
+    lists.groups += found.groups;
+    lists.features += found.features;
+    lists.measured += found.measured;
+  }
+
+  MinimaTracker& front_;
+  const MinimaScene& scene_;
+  NormalSides sides_;
+  double cutoff_;
+  WorkLimit& limit_;
+  ConeSweep sweep_;
+};
+
+bool MinimaTracker::collect(const MinimaScene& scene, NormalSides sides, double cutoff,
+                            std::vector<MinimumCandidate>& seeds, WorkLimit& limit) {
+  counts_ = {};
+  Stage stage(*this, scene, sides, cutoff, limit);
+  if (stage.isEmpty()) return true;
+  lists_.groups = lists_.features = lists_.measured = 0;
+  lists_.seeds.swap(seeds);
+  valid_ = valid_ && cutoff == cutoff_ && sides == sides_ && motion_.advance(scene.frames);
+  cutoff_ = cutoff;
+  sides_ = sides;
+  bool done = true;
+  if (!valid_) {
+    stage.begin();
+    done = stage.run();
+    kept_at_begin_ = 0;
+  } else {
+    done = stage.askLive();
+    stage.expire();
+    done = stage.run() && done;
+  }
+  lists_.seeds.swap(seeds);
+  // What a limit has ended grows until it is whole.
+  if (kept_at_begin_ == 0) {
+    kept_at_begin_ = done ? queues_.size() : 0;
+  } else if (queues_.size() > kLargestGrowth * kept_at_begin_ + kSmallGrowth) {
+    valid_ = false;
+  }
+  count();
+  return done;
+}
+
+void MinimaTracker::count() {
+  counts_.groups = lists_.groups;
+  counts_.features = lists_.features;
+  counts_.measured = lists_.measured;
+  counts_.kept = static_cast<std::uint32_t>(queues_.size());
+  counts_.live = static_cast<std::uint32_t>(lists_.minima.size() + lists_.undecided.size());
+  counts_.undecided = static_cast<std::uint32_t>(lists_.undecided.size());
+}
+
+std::size_t MinimaTracker::memoryBytes() const {
+  return queues_.memoryBytes() + lists_.memoryBytes() + slices_.memoryBytes() +
+         expired_.capacity() * sizeof(SlotPair);
+}
+
+}  // namespace concave_distance::detail

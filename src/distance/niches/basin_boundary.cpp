@@ -1,0 +1,323 @@
+#include "basin_boundary.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace concave_distance::detail {
+namespace {
+
+using Eigen::Vector3d;
+using Row = Eigen::Array<float, BorderPool::kWidth, 1>;
+
+/// What single precision may make of a bound, relative to the numbers in it (2^-24 for each of 16 roundings,
+/// and as much to spare).
+constexpr double kSingleError = 0x1.0p-18;
+
+/// The corners of an element's part on one body, in the body's own axes and the scene's centre.
+struct Part {
+  std::array<Vector3d, 4> corners;
+  std::size_t count;
+
+  double leastAlong(const Vector3d& direction) const {
+    double least = direction.dot(corners[0]);
+    for (std::size_t k = 1; k < count; ++k) least = std::min(least, direction.dot(corners[k]));
+    return least;
+  }
+  double leverOf(const Vector3d& centre) const {
+    double most = 0.0;
+    for (std::size_t k = 0; k < count; ++k) most = std::max(most, (corners[k] - centre).squaredNorm());
+    return std::sqrt(most);
+  }
+};
+
+Part partOf(const MinimaScene& scene, Side side, const SharedElement& element) {
+  if (element.side == side) {
+    return {{scene.ownVertex(side, element.from), scene.ownVertex(side, element.to)}, 2};
+  }
+  const SurfaceMesh& mesh = (side == Side::A ? scene.a : scene.b).surface();
+  const Facets& facets = side == Side::A ? scene.facets_a : scene.facets_b;
+  const Vector3d& centre = side == Side::A ? scene.frames.centre_a : scene.frames.centre_b;
+  Part part{{}, facets.isQuad(element.other) ? std::size_t{4} : std::size_t{3}};
+  for (std::size_t k = 0; k < part.count; ++k) {
+    part.corners[k] = mesh.vertex(facets.nodes[element.other.value][k]) - centre;
+  }
+  return part;
+}
+
+/// A point of the body that moves, as the other sees it.
+Vector3d seen(Side fixed_in, const Eigen::Matrix3d& rotation, const Vector3d& offset, const Vector3d& point) {
+  return fixed_in == Side::A ? Vector3d(rotation * point + offset)
+                             : Vector3d(rotation.transpose() * (point - offset));
+}
+
+/// The gap between an element's parts along a direction from A to B.
+double gapAlong(const MinimaScene& scene, const SharedElement& shared, const Vector3d& direction) {
+  return partOf(scene, Side::B, shared).leastAlong(scene.frames.rotation.transpose() * direction) +
+         direction.dot(scene.frames.offset) + partOf(scene, Side::A, shared).leastAlong(-direction) -
+         2.0 * scene.rounding;
+}
+
+Row rowOf(const std::array<float, BorderPool::kWidth>& row) {
+  return Eigen::Map<const Row>(row.data());
+}
+
+}  // namespace
+
+/// How far an element's parts reach; the body with the shorter lever counts as the one that moves.
+struct BasinBoundary::Levers {
+  Levers(const Part& a, const Part& b, const std::array<Vector3d, 2>& centres) {
+    const double lever_a = a.leverOf(centres[0]);
+    const double lever_b = b.leverOf(centres[1]);
+    fixed_in = lever_b <= lever_a ? Side::A : Side::B;
+    shorter = static_cast<float>(std::min(lever_a, lever_b));
+  }
+  Side fixed_in;
+  float shorter;
+};
+
+std::uint32_t BorderPool::take(std::uint32_t next, WorkLimit& limit) {
+  std::uint32_t chunk = free_;
+  if (chunk != kNone) {
+    free_ = (*this)[chunk].next;
+  } else {
+    if (chunk_count_ == blocks_.size() * kBlockSize) {
+      if (!limit.makeRoom(blocks_) || !limit.takeMemory(sizeof(Block))) return kNone;
+      blocks_.push_back(std::make_unique<Block>());
+    }
+    chunk = chunk_count_++;
+  }
+  (*this)[chunk].count = 0;
+  (*this)[chunk].next = next;
+  return chunk;
+}
+
+void BorderPool::release(std::uint32_t first) {
+  while (first != kNone) {
+    const std::uint32_t next = (*this)[first].next;
+    (*this)[first].next = free_;
+    free_ = first;
+    first = next;
+  }
+}
+
+void BorderPool::clear() {
+  chunk_count_ = 0;
+  free_ = kNone;
+}
+
+std::size_t BorderPool::memoryBytes() const {
+  return blocks_.size() * sizeof(Block) + blocks_.capacity() * sizeof(blocks_[0]) +
+         anew.capacity() * sizeof(Directed) + crossed.capacity() * sizeof(BorderElement);
+}
+
+/// Of the gaps of a batch at another pose.
+class BasinBoundary::Bound {
+ public:
+  Bound(const MinimaScene& scene, const Batch& batch, const Vector3d& moving_centre) {
+    const Vector3d motion = seen(batch.fixed_in, scene.frames.rotation, scene.frames.offset, moving_centre) -
+                            seen(batch.fixed_in, batch.rotation, batch.offset, moving_centre);
+    const double turn = (scene.frames.rotation - batch.rotation).norm() * std::sqrt(0.5);
+    const double reach = motion.norm();
+    const double rounding = kSingleError * (reach + turn * static_cast<double>(batch.longest));
+    less_ = 4.0 * scene.rounding + rounding + (batch.directed ? 0.0 : reach);
+    turn_ = static_cast<float>(turn);
+    along_ = batch.directed ? Eigen::Vector3f(motion.cast<float>()) : Eigen::Vector3f::Zero();
+  }
+
+  /// What of() must be above for a level (metres) to be certain.
+  float needed(double level) const { return static_cast<float>((level + less_) * (1.0 + kSingleError)); }
+
+  Row of(const BorderPool::Chunk& chunk) const {
+    return rowOf(chunk.gap) - turn_ * rowOf(chunk.lever) + along_[0] * rowOf(chunk.direction[0]) +
+           along_[1] * rowOf(chunk.direction[1]) + along_[2] * rowOf(chunk.direction[2]);
+  }
+
+  /// Certain gaps at the pose.
+  Row gapsOf(const BorderPool::Chunk& chunk) const {
+    const auto error = static_cast<float>(2.0 * kSingleError);
+    return (of(chunk) - static_cast<float>(less_)) - error * rowOf(chunk.gap).abs();
+  }
+
+ private:
+  double less_;  ///< metres
+  float turn_;
+  Eigen::Vector3f along_;
+};
+
+void BasinBoundary::begin(BorderPool& pool, const Vector3d& centre_a, const Vector3d& centre_b) {
+  clear(pool);
+  centres_ = {centre_a, centre_b};
+}
+
+void BasinBoundary::clear(BorderPool& pool) {
+  for (std::uint32_t i = 0; i < used_; ++i) pool.release(batches_[i].first);
+  used_ = 0;
+}
+
+std::size_t BasinBoundary::size(const BorderPool& pool) const {
+  std::size_t count = 0;
+  for (std::uint32_t i = 0; i < used_; ++i) {
+    for (std::uint32_t c = batches_[i].first; c != BorderPool::kNone; c = pool[c].next)
+      count += pool[c].count;
+  }
+  return count;
+}
+
+BasinBoundary::Batch& BasinBoundary::batchAt(const MinimaScene& scene, Side fixed_in, bool directed) {
+  for (std::uint32_t i = used_; i-- > 0;) {
+    Batch& batch = batches_[i];
+    if (batch.fixed_in == fixed_in && batch.directed == directed && batch.rotation == scene.frames.rotation &&
+        batch.offset == scene.frames.offset) {
+      return batch;
+    }
+  }
+  Batch& batch = batches_[used_++];
+  batch = {fixed_in, directed, scene.frames.rotation, scene.frames.offset, 0.0F, BorderPool::kNone};
+  return batch;
+}
+
+std::uint32_t BasinBoundary::placeIn(BorderPool& pool, Batch& batch, WorkLimit& limit) {
+  if (batch.first == BorderPool::kNone || pool[batch.first].count == BorderPool::kWidth) {
+    const std::uint32_t chunk = pool.take(batch.first, limit);
+    if (chunk == BorderPool::kNone) return chunk;
+    batch.first = chunk;
+  }
+  return pool[batch.first].count++;
+}
+
+BorderPool::Entry BasinBoundary::takeFrom(BorderPool::Chunk& chunk, std::uint32_t k) {
+  const BorderPool::Entry entry{chunk.gap[k],
+                                chunk.lever[k],
+                                {chunk.direction[0][k], chunk.direction[1][k], chunk.direction[2][k]},
+                                chunk.elements[k]};
+  const std::uint32_t last = --chunk.count;
+  chunk.gap[k] = chunk.gap[last];
+  chunk.lever[k] = chunk.lever[last];
+  for (std::array<float, BorderPool::kWidth>& component : chunk.direction) component[k] = component[last];
+  chunk.elements[k] = chunk.elements[last];
+  return entry;
+}
+
+bool BasinBoundary::put(BorderPool& pool, Batch& batch, const BorderPool::Entry& entry, WorkLimit& limit) {
+  const std::uint32_t k = placeIn(pool, batch, limit);
+  if (k == BorderPool::kNone) return false;
+  BorderPool::Chunk& chunk = pool[batch.first];
+  chunk.gap[k] = entry.gap;
+  chunk.lever[k] = entry.lever;
+  for (std::size_t d = 0; d < 3; ++d) chunk.direction[d][k] = entry.direction[static_cast<Eigen::Index>(d)];
+  chunk.elements[k] = entry.element;
+  batch.longest = std::max(batch.longest, entry.lever);
+  return true;
+}
+
+bool BasinBoundary::add(BorderPool& pool, const MinimaScene& scene, const BorderElement& element,
+                        double level, WorkLimit& limit) {
+  const Levers levers(partOf(scene, Side::A, element.shared), partOf(scene, Side::B, element.shared),
+                      centres_);
+  if (used_ == kMostBatches) rebase(pool, scene);
+  // Twice for the level, and as much for quadrangles that are not quite flat.
+  const auto gap = static_cast<float>(level - 4.0 * scene.rounding);
+  return put(pool, batchAt(scene, levers.fixed_in, false),
+             {gap, levers.shorter, Eigen::Vector3f::Zero(), element}, limit);
+}
+
+/// What may be nearer than the level leaves the batch: it is looked at along its direction, and measured
+/// where that does not do.
+std::uint32_t BasinBoundary::look(BorderPool& pool, const MinimaScene& scene, Batch& batch,
+                                  double level) const {
+  const Bound bound(scene, batch, centres_[batch.fixed_in == Side::A ? 1 : 0]);
+  const float needed = bound.needed(level);
+  std::uint32_t measured = 0;
+  std::uint32_t* at = &batch.first;
+  while (*at != BorderPool::kNone) {
+    BorderPool::Chunk& chunk = pool[*at];
+    const Row bounds = bound.of(chunk);
+    for (std::uint32_t k = chunk.count; k-- > 0;) {
+      if (bounds[k] > needed) continue;
+      BorderPool::Entry entry = takeFrom(chunk, k);
+      const auto enter = [&](const Vector3d& direction, double gap) {
+        const Vector3d along =
+            batch.fixed_in == Side::A ? direction : Vector3d(scene.frames.rotation.transpose() * -direction);
+        entry.direction = along.cast<float>();
+        entry.gap = static_cast<float>(gap);
+        pool.anew.push_back({batch.fixed_in, entry});
+      };
+      if (batch.directed) {
+        const Vector3d along = entry.direction.cast<double>().normalized();
+        const Vector3d direction =
+            batch.fixed_in == Side::A ? along : Vector3d(scene.frames.rotation * -along);
+        const double gap = gapAlong(scene, entry.element.shared, direction);
+        if (gap > level) {
+          enter(direction, gap);
+          continue;
+        }
+      }
+      ++measured;
+      const TrianglePairDistance closest = closestOver(scene, entry.element.shared);
+      if (closest.squared_distance < level * level) {
+        pool.crossed.push_back(entry.element);
+      } else {
+        const Vector3d direction = (closest.point_b - closest.point_a).normalized();
+        enter(direction, gapAlong(scene, entry.element.shared, direction));
+      }
+    }
+    if (chunk.count > 0) {
+      at = &chunk.next;
+      continue;
+    }
+    const std::uint32_t empty = *at;
+    *at = chunk.next;
+    pool[empty].next = BorderPool::kNone;
+    pool.release(empty);
+  }
+  return measured;
+}
+
+/// All elements to this pose: their bounds at it are gaps.
+void BasinBoundary::rebase(BorderPool& pool, const MinimaScene& scene) {
+  const std::array<Batch, kMostBatches> before = batches_;
+  const std::uint32_t count = used_;
+  used_ = 0;
+  WorkLimit none;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const Batch& batch = before[i];
+    if (batch.first == BorderPool::kNone) continue;
+    const Bound bound(scene, batch, centres_[batch.fixed_in == Side::A ? 1 : 0]);
+    Batch& at_this_pose = batchAt(scene, batch.fixed_in, batch.directed);
+    for (std::uint32_t c = batch.first; c != BorderPool::kNone;) {
+      BorderPool::Chunk chunk = pool[c];
+      const Row gaps = bound.gapsOf(chunk);
+      pool[c].next = BorderPool::kNone;
+      pool.release(c);
+      c = chunk.next;
+      for (std::uint32_t k = chunk.count; k-- > 0;) {
+        BorderPool::Entry entry = takeFrom(chunk, k);
+        entry.gap = gaps[k];
+        put(pool, at_this_pose, entry, none);
+      }
+    }
+  }
+}
+
+std::uint32_t BasinBoundary::takeCrossed(BorderPool& pool, const MinimaScene& scene, double level) {
+  pool.anew.clear();
+  pool.crossed.clear();
+  std::uint32_t measured = 0;
+  for (std::uint32_t i = 0; i < used_; ++i) measured += look(pool, scene, batches_[i], level);
+  if (pool.anew.empty()) return measured;
+  std::uint32_t rest = 0;
+  for (std::uint32_t i = 0; i < used_; ++i) {
+    if (batches_[i].first == BorderPool::kNone) continue;
+    if (i != rest) std::swap(batches_[i], batches_[rest]);
+    ++rest;
+  }
+  used_ = rest;
+  if (used_ + 2 > kMostBatches) rebase(pool, scene);
+  WorkLimit none;
+  for (const BorderPool::Directed& directed : pool.anew) {
+    put(pool, batchAt(scene, directed.fixed_in, true), directed.entry, none);
+  }
+  return measured;
+}
+
+}  // namespace concave_distance::detail

@@ -1,0 +1,172 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "concave_distance/base/work_limit.h"
+#include "distance/kernels/pair_table.h"
+#include "facet_pair_neighbours.h"
+
+namespace concave_distance::detail {
+
+/// Visits pairs of facets ("facet pairs") from the one that holds a local minimum, lowest levels first. The
+/// distance is convex on a facet pair, and facet pairs meet at the least distance over what they share: a
+/// graph with the very basins and passes of the surfaces. Buffers of one thread, kept from flood to flood.
+class BasinSearch {
+ public:
+  /// Metres.
+  struct Levels {
+    double below;    ///< ends at a facet pair with less
+    double equal;    ///< facet pairs with at most this may be those of another minimum
+    double highest;  ///< goes no higher
+  };
+  enum class End : std::uint8_t {
+    Enclosed,  ///< all that is connected below the level has been visited
+    Below,     ///< last() comes closer than `below`
+    Met,       ///< last() is the facet pair of another minimum
+    Long,      ///< as many facet pairs as asked for were visited; proceed() goes on
+    Cut        ///< the limit was reached
+  };
+  static constexpr std::uint32_t kNone = 0xffffffffU;
+  struct FacetPair {
+    TriangleIndex a;  ///< facets, as all below
+    TriangleIndex b;
+    std::uint32_t parent;  ///< where it was reached from; kNone for the first
+    SharedElement via;     ///< what it has in common with its parent
+  };
+  /// What parts the facet pairs visited from one beyond the level.
+  struct BorderStep {
+    TriangleIndex beyond_a;
+    TriangleIndex beyond_b;
+    double squared_level;  ///< m^2, over the element
+    SharedElement element;
+  };
+
+  /// From the facet pair of a minimum.
+  void begin(TriangleIndex a, TriangleIndex b, const Levels& levels) {
+    beginBeyond(levels);
+    enter(a, b, 0.0, kNone, {});
+    has_own_start_ = true;
+  }
+  /// From facet pairs beyond a border, given by enterBeyond().
+  void beginBeyond(const Levels& levels) {
+    levels_ = levels;
+    table_.clear();
+    facet_pairs_.clear();
+    reached_.clear();
+    border_.clear();
+    looked_at_ = 0;
+    has_own_start_ = false;
+  }
+  /// False without memory.
+  bool enterBeyond(TriangleIndex a, TriangleIndex b, double squared_level, WorkLimit& limit) {
+    if (table_.find(a, b) != PairTable::kAbsent) return true;
+    if (!makeRoom(limit)) return false;
+    enter(a, b, squared_level, kNone, {});
+    return true;
+  }
+
+  /// @param meets (facet of A, facet of B) whether a facet pair as deep as the start is another minimum's
+  /// @param is_inside (the same) whether a facet pair needs no visit
+  template <typename Meets, typename IsInside>
+  End proceed(const MinimaScene& scene, std::size_t most_facet_pairs, const Meets& meets,
+              const IsInside& is_inside, WorkLimit& limit) {
+    while (!reached_.empty()) {
+      if (limit.isOverNow()) return End::Cut;
+      if (looked_at_ == most_facet_pairs) return End::Long;
+      std::pop_heap(reached_.begin(), reached_.end(), isHigher);
+      last_ = reached_.back().facet_pair;
+      reached_.pop_back();
+      ++looked_at_;
+      const TriangleIndex a = facet_pairs_[last_].a;
+      const TriangleIndex b = facet_pairs_[last_].b;
+      const FacetPoints points_a = scene.facetOfA(a);
+      const FacetPoints points_b = scene.facetOfB(b);
+      const FacetPairLevels levels = facetPairLevels(points_a, points_b);
+      const double least = levels.least();
+      if (levels_.below > 0.0 && least < levels_.below * levels_.below) return End::Below;
+      const bool is_own = has_own_start_ && last_ == 0;
+      if (!is_own && least <= levels_.equal * levels_.equal && meets(a, b)) return End::Met;
+      if (!expand(scene, a, b, points_a, points_b, levels, is_inside, limit)) return End::Cut;
+    }
+    return End::Enclosed;
+  }
+
+  const std::vector<FacetPair>& facet_pairs() const { return facet_pairs_; }
+  std::uint32_t last() const { return last_; }
+  std::size_t lookedAt() const { return looked_at_; }
+
+  /// Calls visit(border step) for what encloses the facet pairs visited and those inside.
+  template <typename IsInside, typename Visit>
+  void forEachBorderStep(const IsInside& is_inside, const Visit& visit) const {
+    for (const BorderStep& step : border_) {
+      if (table_.find(step.beyond_a, step.beyond_b) == PairTable::kAbsent &&
+          !is_inside(step.beyond_a, step.beyond_b)) {
+        visit(step);
+      }
+    }
+  }
+
+  std::size_t memoryBytes() const {
+    return table_.memoryBytes() + facet_pairs_.capacity() * sizeof(FacetPair) +
+           reached_.capacity() * sizeof(Reached) + border_.capacity() * sizeof(BorderStep);
+  }
+
+ private:
+  struct Reached {
+    double squared_level;
+    std::uint32_t facet_pair;
+  };
+  static bool isHigher(const Reached& l, const Reached& r) {
+    if (l.squared_level != r.squared_level) return l.squared_level > r.squared_level;
+    return l.facet_pair > r.facet_pair;  // any order will do, as long as it is always the same
+  }
+
+  bool makeRoom(WorkLimit& limit) {
+    return table_.makeRoom(limit) && limit.makeRoom(facet_pairs_) && limit.makeRoom(reached_);
+  }
+
+  void enter(TriangleIndex a, TriangleIndex b, double squared_level, std::uint32_t parent,
+             const SharedElement& via) {
+    const auto facet_pair = static_cast<std::uint32_t>(facet_pairs_.size());
+    table_.insert(a, b, facet_pair);
+    facet_pairs_.push_back({a, b, parent, via});
+    reached_.push_back({squared_level, facet_pair});
+    std::push_heap(reached_.begin(), reached_.end(), isHigher);
+  }
+
+  /// False without memory.
+  template <typename IsInside>
+  bool expand(const MinimaScene& scene, TriangleIndex a, TriangleIndex b, const FacetPoints& points_a,
+              const FacetPoints& points_b, const FacetPairLevels& levels, const IsInside& is_inside,
+              WorkLimit& limit) {
+    const double highest = levels_.highest * levels_.highest;
+    bool has_room = true;
+    forEachNeighbour(
+        scene, a, b, points_a, points_b, levels,
+        [&](TriangleIndex to_a, TriangleIndex to_b, double squared_level, const SharedElement& element) {
+          if (!has_room) return;
+          if (squared_level > highest) {
+            has_room = limit.makeRoom(border_);
+            if (has_room) border_.push_back({to_a, to_b, squared_level, element});
+            return;
+          }
+          if (table_.find(to_a, to_b) != PairTable::kAbsent || is_inside(to_a, to_b)) return;
+          has_room = makeRoom(limit);
+          if (has_room) enter(to_a, to_b, squared_level, last_, element);
+        });
+    return has_room;
+  }
+
+  Levels levels_{};
+  PairTable table_{8};
+  std::vector<FacetPair> facet_pairs_;
+  std::vector<Reached> reached_;
+  std::vector<BorderStep> border_;
+  std::uint32_t last_ = 0;
+  std::size_t looked_at_ = 0;
+  bool has_own_start_ = true;
+};
+
+}  // namespace concave_distance::detail

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <vector>
+
+#include "distance/kernels/minima_scene.h"
+#include "distance/minima/minima_tracker.h"
+#include "distant_components.h"
+#include "local_minima.h"
+#include "meeting_pairs.h"
+
+namespace concave_distance::detail {
+
+/// Whether a minimum that was found elsewhere, by a search or at an earlier pose, can be a niche.
+bool isCandidate(const MinimaScene& scene, const LocalMinimaRequest& request, const MinimumCandidate& seed);
+/// Appends those of `from` that can be niches.
+void appendCandidates(const MinimaScene& scene, const LocalMinimaRequest& request,
+                      const std::vector<MinimumCandidate>& from, std::vector<MinimumCandidate>& seeds);
+
+/// Collects the triangle pairs in which local minima of the distance may lie. Belongs to one pair of bodies:
+/// it keeps its buffers and, of a tracked pair, what the next pose can use.
+class CandidateCollector {
+ public:
+  /// @param seeds replaced, in no order, some more than once. @return false when the limit was reached
+  bool collect(const MinimaScene& scene, const LocalMinimaRequest& request,
+               std::vector<MinimumCandidate>& seeds, LocalMinimaCost& cost, WorkLimit& limit);
+  void clear() { front_.clear(); }
+  std::size_t memoryBytes() const {
+    return front_.memoryBytes() + distant_components_.memoryBytes() + open_.capacity() * sizeof(TreeNodePair);
+  }
+
+ private:
+  MinimaTracker front_;
+  DistantComponentBuffers distant_components_;
+  std::vector<TreeNodePair> open_;
+};
+
+}  // namespace concave_distance::detail

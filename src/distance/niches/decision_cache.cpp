@@ -1,0 +1,205 @@
+#include "decision_cache.h"
+
+#include "base/refill.h"
+
+namespace concave_distance::detail {
+namespace {
+
+/// Cycles that a path is kept without being used.
+constexpr std::uint64_t kKeptCycles = 64;
+/// Facet pairs that are kept without being looked through.
+constexpr std::size_t kSmallTable = 256;
+
+}  // namespace
+
+void DecisionCache::clear() {
+  table_.clear();
+  facet_pairs_.clear();
+  links_.clear();
+  memberships_.clear();
+  free_membership_ = kNone;
+  regions_.clear();
+  free_regions_.clear();
+  borders_.clear();
+  live_facet_pairs_ = 0;
+}
+
+void DecisionCache::beginCycle(bool is_tracked) {
+  for (std::uint32_t i = 0; i < regions_.size(); ++i) {
+    if (regions_[i].id != 0 && !regions_[i].confirmed) drop(i);
+  }
+  compact();
+  if (is_tracked) {
+    facet_pairs_.reserve(kSmallTable);
+    links_.reserve(kSmallTable);
+  }
+  ++cycle_;
+  for (Region& region : regions_) {
+    region.first = kNone;
+    region.confirmed = false;
+  }
+}
+
+std::uint32_t DecisionCache::facetPairOf(TriangleIndex a, TriangleIndex b, WorkLimit& limit) {
+  const std::uint32_t known = table_.find(a, b);
+  if (known != PairTable::kAbsent) return known;
+  if (!table_.makeRoom(limit) || !limit.makeRoom(facet_pairs_)) return kNone;
+  const auto number = static_cast<std::uint32_t>(facet_pairs_.size());
+  FacetPair facet_pair;
+  facet_pair.a = a;
+  facet_pair.b = b;
+  facet_pairs_.push_back(facet_pair);
+  table_.insert(a, b, number);
+  return number;
+}
+
+void DecisionCache::enterSeed(std::uint32_t number, std::uint32_t seed) {
+  FacetPair& facet_pair = facet_pairs_[number];
+  if (facet_pair.cycle == cycle_) return;
+  facet_pair.cycle = cycle_;
+  facet_pair.seed = seed;
+  for (std::uint32_t m = facet_pair.regions; m != kNone; m = memberships_[m].next) {
+    Region& region = regions_[memberships_[m].region];
+    if (region.first == kNone) region.first = seed;
+  }
+}
+
+bool DecisionCache::keepLink(std::uint32_t& number, const Link& link, WorkLimit& limit) {
+  if (number == kNone) {
+    if (!limit.makeRoom(links_)) return false;
+    number = static_cast<std::uint32_t>(links_.size());
+    links_.emplace_back();
+  }
+  links_[number] = link;
+  use(number);
+  return true;
+}
+
+std::uint32_t DecisionCache::regionOf(std::uint32_t number, std::uint32_t first) const {
+  for (std::uint32_t m = facet_pairs_[number].regions; m != kNone; m = memberships_[m].next) {
+    if (regions_[memberships_[m].region].first == first) return memberships_[m].region;
+  }
+  return kNone;
+}
+
+std::uint32_t DecisionCache::regionWith(std::uint64_t id) const {
+  const auto index = static_cast<std::uint32_t>(id & 0xffffffffU);
+  return id != 0 && index < regions_.size() && regions_[index].id == id ? index : kNone;
+}
+
+bool DecisionCache::isIn(TriangleIndex a, TriangleIndex b, std::uint32_t region) const {
+  const std::uint32_t number = table_.find(a, b);
+  if (number == PairTable::kAbsent) return false;
+  for (std::uint32_t m = facet_pairs_[number].regions; m != kNone; m = memberships_[m].next) {
+    if (memberships_[m].region == region) return true;
+  }
+  return false;
+}
+
+std::uint32_t DecisionCache::takeRegion(std::uint64_t id, WorkLimit& limit) {
+  if (free_regions_.empty()) {
+    if (!limit.makeRoom(regions_) || !limit.makeRoom(free_regions_)) return kNone;
+    free_regions_.push_back(static_cast<std::uint32_t>(regions_.size()));
+    regions_.emplace_back();
+  }
+  // The one that was dropped last comes first: an id keeps its place.
+  const std::uint32_t index = free_regions_.back();
+  free_regions_.pop_back();
+  regions_[index].id = id != 0 ? id : (++regions_made_ << 32U) | index;
+  return index;
+}
+
+bool DecisionCache::join(std::uint32_t number, std::uint32_t region, WorkLimit& limit) {
+  std::uint32_t m = free_membership_;
+  if (m != kNone) {
+    free_membership_ = memberships_[m].next;
+  } else {
+    if (!limit.makeRoom(memberships_)) return false;
+    m = static_cast<std::uint32_t>(memberships_.size());
+    memberships_.emplace_back();
+  }
+  Region& owner = regions_[region];
+  memberships_[m] = {region, number, facet_pairs_[number].regions, owner.members};
+  facet_pairs_[number].regions = owner.members = m;
+  ++owner.facet_pairs;
+  return true;
+}
+
+void DecisionCache::drop(std::uint32_t index) {
+  Region& region = regions_[index];
+  for (std::uint32_t m = region.members; m != kNone;) {
+    Membership& membership = memberships_[m];
+    std::uint32_t* at = &facet_pairs_[membership.facet_pair].regions;
+    while (*at != m) at = &memberships_[*at].next;
+    *at = membership.next;
+    const std::uint32_t next = membership.next_of_region;
+    membership.next = free_membership_;
+    free_membership_ = m;
+    m = next;
+  }
+  region.members = kNone;
+  region.facet_pairs = 0;
+  region.border.clear(borders_);
+  region.id = 0;
+  free_regions_.push_back(index);
+}
+
+bool DecisionCache::isUsed(std::uint32_t link) const {
+  return link != kNone && links_[link].used + kKeptCycles > cycle_;
+}
+
+/// Facet pairs of which nothing is known any more go.
+void DecisionCache::compact() {
+  if (facet_pairs_.size() <= 2 * live_facet_pairs_ + kSmallTable) return;
+  std::vector<char>& live = live_;
+  refill(live, facet_pairs_.size(), char{0});
+  for (std::size_t i = 0; i < facet_pairs_.size(); ++i) {
+    const FacetPair& facet_pair = facet_pairs_[i];
+    const bool is_hidden = facet_pair.cycle == cycle_ && facet_pair.occluder.triangle != kNoTriangle;
+    if (is_hidden || facet_pair.regions != kNone || isUsed(facet_pair.low)) live[i] = 1;
+    if (isUsed(facet_pair.link)) live[i] = live[links_[facet_pair.link].next] = 1;
+  }
+  std::vector<std::uint32_t>& places = places_;
+  refill(places, facet_pairs_.size(), kNone);
+  table_.clear();
+  std::uint32_t count = 0;
+  for (std::size_t i = 0; i < facet_pairs_.size(); ++i) {
+    if (live[i] == 0) continue;
+    places[i] = count;
+    facet_pairs_[count] = facet_pairs_[i];
+    table_.insert(facet_pairs_[count].a, facet_pairs_[count].b, count);
+    ++count;
+  }
+  facet_pairs_.resize(count);
+  live_facet_pairs_ = count;
+  std::vector<Link>& links = spare_links_;
+  links.clear();
+  const auto keep = [&](std::uint32_t& link) {
+    if (!isUsed(link)) {
+      link = kNone;
+      return;
+    }
+    links.push_back(links_[link]);
+    links.back().next = places[links.back().next];
+    link = static_cast<std::uint32_t>(links.size() - 1);
+  };
+  for (FacetPair& facet_pair : facet_pairs_) {
+    keep(facet_pair.link);
+    keep(facet_pair.low);
+  }
+  links_.swap(links);
+  for (const Region& region : regions_) {
+    for (std::uint32_t m = region.members; m != kNone; m = memberships_[m].next_of_region) {
+      memberships_[m].facet_pair = places[memberships_[m].facet_pair];
+    }
+  }
+}
+
+std::size_t DecisionCache::memoryBytes() const {
+  return borders_.memoryBytes() + table_.memoryBytes() + facet_pairs_.capacity() * sizeof(FacetPair) +
+         (links_.capacity() + spare_links_.capacity()) * sizeof(Link) +
+         memberships_.capacity() * sizeof(Membership) + regions_.capacity() * sizeof(Region) +
+         live_.capacity() + places_.capacity() * sizeof(std::uint32_t);
+}
+
+}  // namespace concave_distance::detail

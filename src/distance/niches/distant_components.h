@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "concave_distance/base/work_limit.h"
+#include "distance/kernels/minima_scene.h"
+#include "distance/kernels/witness_refinement.h"
+
+namespace concave_distance::detail {
+
+/// An upper bound of the distance of any two points, metres.
+double largestDistance(const MinimaScene& scene);
+
+/// Whether no minimum can be prominent beside the nearest points: no two points are (1 + least prominence)
+/// times as far apart as two others. Then each pair of pieces has one niche, its nearest points. True from a
+/// distance of about 2 / (least prominence) times the bodies' size.
+bool isFar(const MinimaScene& scene, double least_prominence);
+
+/// Triangles of a body by piece. Buffers of one thread.
+struct TrianglesOfPieces {
+  std::vector<std::uint32_t> first;  ///< of every piece, and the end
+  std::vector<TriangleIndex> triangles;
+};
+
+/// Whether a local minimum is proven to be the nearest place of its two pieces: the direction between its
+/// points separates them by its distance. O(triangles).
+bool isNearestOfItsPieces(const MinimaScene& scene, const WitnessPair& minimum);
+
+struct DistantComponentBuffers {
+  TrianglesOfPieces a;
+  TrianglesOfPieces b;
+  RefinementWorkspace refinement;
+
+  std::size_t memoryBytes() const {
+    return (a.first.capacity() + b.first.capacity()) * sizeof(std::uint32_t) +
+           (a.triangles.capacity() + b.triangles.capacity()) * sizeof(TriangleIndex);
+  }
+};
+
+/// Finds for every pair of pieces the triangles with its nearest points, up to `cutoff`: supporting triangles
+/// along the direction between the best points so far, repeated until that direction separates the pieces by
+/// the distance itself. O(triangles) for each pair of pieces and step; a few steps if isFar() holds.
+/// @return false when a pair of pieces does not converge or the limit is reached; `seeds` are then unchanged
+bool collectFarSeeds(const MinimaScene& scene, double cutoff, DistantComponentBuffers& buffers,
+                     std::vector<MinimumCandidate>& seeds, WorkLimit& limit);
+
+}  // namespace concave_distance::detail

@@ -1,0 +1,390 @@
+#include "distance/niches/niche_decider.h"
+
+#include <gtest/gtest.h>
+#include <pthread.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "base/infinity.h"
+#include "concave_distance/loading/load_body_mesh.h"
+#include "distance/minima/minima_tracker.h"
+#include "distance/niches/meeting_pairs.h"
+#include "support/body_motions.h"
+#include "support/body_pairs.h"
+#include "support/judged_niches.h"
+
+// Verdicts by what is kept from pose to pose against floods at every pose.
+
+namespace concave_distance::detail::niche_decider_test {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+using test::makeBody;
+using test::nichesOf;
+using Body = std::shared_ptr<const BodyMesh>;
+using Verdict = NicheDecider::Verdict;
+
+std::vector<MinimumCandidate> seedsAt(const MinimaScene& scene) {
+  MinimaTracker front;
+  WorkLimit none;
+  std::vector<MinimumCandidate> seeds;
+  LocalMinimaCost cost;
+  std::vector<TreeNodePair> open;
+  collectMeetingPairs(scene, open, seeds, cost, none);
+  front.collect(scene, NormalSides::Outside, kInfinity, seeds, none);
+  return seeds;
+}
+
+std::vector<double> nichesByFloods(const MinimaScene& scene, std::vector<MinimumCandidate> seeds,
+                                   double least_prominence) {
+  NicheDecider once;
+  WorkLimit none;
+  NicheDecider::Request request;
+  request.least_prominence = least_prominence;
+  request.is_tracked = false;
+  once.judge(scene, seeds, request, none);
+  return nichesOf(once);
+}
+
+void expectSame(const std::vector<double>& found, const std::vector<double>& truth) {
+  ASSERT_EQ(found.size(), truth.size());
+  for (std::size_t i = 0; i < truth.size(); ++i) EXPECT_NEAR(found[i], truth[i], 1e-11);
+}
+
+TEST(NicheDecider, AreThoseOfFloodsAtEveryPoseOfAnyMotion) {
+  RandomEngine engine(21);
+  NicheDecider::Counts sum;
+  for (std::uint32_t run = 0; run < 200; ++run) {
+    const Body a = makeBody(test::concaveShape(run));
+    const Body b = makeBody(test::concaveShape(run / 6));
+    const test::Motion motion = test::randomMotion(engine);
+    const double step = std::pow(10.0, -5.0 + 4.0 * uniformUnit(engine));
+    const double least_prominence = run % 2 == 0 ? 1e-2 : 0.3;
+    SCOPED_TRACE("run " + std::to_string(run) + ", step " + std::to_string(step));
+    NicheDecider verdicts;
+    NicheDecider::Request request;
+    request.least_prominence = least_prominence;
+    for (int k = 0; k < 40; ++k) {
+      const MinimaScene scene(*a, *b, motion.at(step * k));
+      std::vector<MinimumCandidate> seeds = seedsAt(scene);
+      WorkLimit none;
+      verdicts.judge(scene, seeds, request, none);
+      expectSame(nichesOf(verdicts), nichesByFloods(scene, seeds, least_prominence));
+      if (HasFailure()) return;
+      sum.by_path += verdicts.counts().by_path;
+      sum.by_border += verdicts.counts().by_border;
+      sum.mended += verdicts.counts().mended;
+      sum.floods += verdicts.counts().floods;
+    }
+  }
+  // All ways to a verdict were taken.
+  EXPECT_GT(sum.by_path, 1000U);
+  EXPECT_GT(sum.by_border, 1000U);
+  EXPECT_GT(sum.mended, 100U);
+  EXPECT_GT(sum.floods, 100U);
+}
+
+// Links of many shells: surfaces in the material of others hold deeper places, in sight of nobody.
+TEST(NicheDecider, AreThoseOfFloodsForLinksOfManyShells) {
+  const std::string folder = CONCAVE_DISTANCE_SOURCE_DIR "/meshes/wam/";
+  const Body a = loadBodyMesh(folder + "wam_base.stl").mesh;
+  const Body b = loadBodyMesh(folder + "wam4.stl").mesh;
+  ASSERT_FALSE(a->joints().joints.empty() && b->joints().joints.empty());
+  RandomEngine engine(22);
+  std::uint32_t by_border = 0;
+  for (int run = 0; run < 6; ++run) {
+    test::Motion motion = test::randomMotion(engine);
+    motion.centre = 0.6 * a->diameter() * motion.centre.normalized();
+    motion.reach *= 0.3 * a->diameter();
+    SCOPED_TRACE("run " + std::to_string(run));
+    NicheDecider verdicts;
+    const NicheDecider::Request request;
+    for (int k = 0; k < 50; ++k) {
+      Isometry3d pose = motion.at(0.005 * k);
+      pose.translation() -= pose.linear() * b->surface().boundingBox().center();
+      pose.pretranslate(a->surface().boundingBox().center());
+      const MinimaScene scene(*a, *b, pose);
+      std::vector<MinimumCandidate> seeds = seedsAt(scene);
+      WorkLimit none;
+      verdicts.judge(scene, seeds, request, none);
+      expectSame(nichesOf(verdicts), nichesByFloods(scene, seeds, request.least_prominence));
+      if (HasFailure()) return;
+      by_border += verdicts.counts().by_border;
+    }
+  }
+  EXPECT_GT(by_border, 200U);
+}
+
+TEST(NicheDecider, NeedNoFloodWhereNothingHasMoved) {
+  const Body a = makeBody(test::concaveShape(5));
+  const Body b = makeBody(test::concaveShape(1));
+  const MinimaScene scene(*a, *b, test::translation(Vector3d(0.3, 0.2, 2.0)));
+  std::vector<MinimumCandidate> seeds = seedsAt(scene);
+  NicheDecider verdicts;
+  WorkLimit none;
+  verdicts.judge(scene, seeds, {}, none);
+  const std::vector<double> first = nichesOf(verdicts);
+  EXPECT_GT(verdicts.counts().floods, 0U);
+  verdicts.judge(scene, seeds, {}, none);
+  EXPECT_EQ(verdicts.counts().floods, 0U);
+  EXPECT_EQ(verdicts.counts().flooded_cells, 0U);
+  EXPECT_EQ(verdicts.counts().measured, 0U);
+  EXPECT_EQ(verdicts.counts().by_border, first.size());
+  EXPECT_EQ(nichesOf(verdicts), first);
+}
+
+TEST(NicheDecider, GiveANicheTheSameRegionWhileItStands) {
+  const Body a = makeBody(test::makeComb(4));
+  const Body b = makeBody(test::makeComb(3));
+  NicheDecider verdicts;
+  std::set<std::uint64_t> first;
+  for (int k = 0; k < 20; ++k) {
+    const MinimaScene scene(*a, *b, test::translation(Vector3d(0.2 + 1e-4 * k, 0.1, 3.0 + 1e-4 * k)));
+    std::vector<MinimumCandidate> seeds = seedsAt(scene);
+    WorkLimit none;
+    verdicts.judge(scene, seeds, {}, none);
+    std::set<std::uint64_t> regions;
+    for (const NicheDecider::Judged& judged : verdicts.judged()) {
+      if (judged.verdict != Verdict::Niche) continue;
+      EXPECT_TRUE(regions.insert(judged.region).second);
+    }
+    if (k == 0) first = regions;
+    EXPECT_EQ(regions, first);
+  }
+  EXPECT_FALSE(first.empty());
+}
+
+TEST(NicheDecider, FloodNothingThatIsNotWanted) {
+  const Body a = makeBody(test::concaveShape(0));
+  const Body b = makeBody(test::concaveShape(3));
+  const MinimaScene scene(*a, *b, test::translation(Vector3d(0.3, 0.2, 2.0)));
+  std::vector<MinimumCandidate> seeds = seedsAt(scene);
+  NicheDecider verdicts;
+  NicheDecider::Request request;
+  request.is_wanted = [](const MinimumCandidate&, Occluder&) { return false; };
+  WorkLimit none;
+  verdicts.judge(scene, seeds, request, none);
+  EXPECT_EQ(verdicts.counts().floods, 0U);
+  EXPECT_TRUE(nichesOf(verdicts).empty());
+  EXPECT_EQ(verdicts.judged().front().verdict, Verdict::Unwanted);
+}
+
+TEST(NicheDecider, AreRightAgainAfterALimitHasEndedThem) {
+  RandomEngine engine(22);
+  const std::atomic<bool> stop{true};
+  bool was_undecided = false;
+  for (std::uint32_t run = 0; run < 30; ++run) {
+    const Body a = makeBody(test::concaveShape(run));
+    const Body b = makeBody(test::concaveShape(run / 6));
+    const test::Motion motion = test::randomMotion(engine);
+    NicheDecider verdicts;
+    for (int k = 0; k < 24; ++k) {
+      const MinimaScene scene(*a, *b, motion.at(0.003 * k));
+      std::vector<MinimumCandidate> seeds = seedsAt(scene);
+      if (k % 3 == 1) {
+        WorkLimit stopped(std::chrono::steady_clock::now(), kInfinity,
+                          k % 2 == 0 ? std::size_t{2000} : std::numeric_limits<std::size_t>::max(), &stop);
+        verdicts.judge(scene, seeds, {}, stopped);
+        const std::vector<double> truth = nichesByFloods(scene, seeds, 1e-2);
+        for (const double distance : nichesOf(verdicts)) {
+          EXPECT_TRUE(std::any_of(truth.begin(), truth.end(),
+                                  [&](double d) { return std::abs(d - distance) < 1e-11; }));
+        }
+        for (const NicheDecider::Judged& judged : verdicts.judged()) {
+          was_undecided = was_undecided || judged.verdict == Verdict::Undecided;
+        }
+        continue;
+      }
+      WorkLimit none;
+      verdicts.judge(scene, seeds, {}, none);
+      expectSame(nichesOf(verdicts), nichesByFloods(scene, seeds, 1e-2));
+      if (HasFailure()) return;
+    }
+  }
+  EXPECT_TRUE(was_undecided);
+}
+
+// Niches that a short list leaves open are asked for one by one: what is found wrong on the way stays wrong.
+TEST(NicheDecider, AreRightAfterAListThatWasCut) {
+  RandomEngine engine(24);
+  std::size_t asked_for = 0;
+  for (std::uint32_t run = 0; run < 60; ++run) {
+    SCOPED_TRACE("run " + std::to_string(run));
+    const Body a = makeBody(test::concaveShape(run));
+    const Body b = makeBody(test::concaveShape(run / 6));
+    const test::Motion motion = test::randomMotion(engine);
+    NicheDecider verdicts;
+    std::vector<TrianglePair> known;
+    for (int k = 0; k < 24; ++k) {
+      const MinimaScene scene(*a, *b, motion.at(0.01 * (k - k % 2)));
+      std::vector<MinimumCandidate> seeds = seedsAt(scene);
+      const std::vector<double> truth = nichesByFloods(scene, seeds, 1e-2);
+      NicheDecider::Request request;
+      if (k % 2 == 0) request.most_niches = 1;
+      WorkLimit none;
+      verdicts.judge(scene, seeds, request, none);
+      for (const TrianglePair& pair : known) verdicts.locate(scene, pair, request, none);
+      for (const double distance : nichesOf(verdicts)) {
+        EXPECT_TRUE(std::any_of(truth.begin(), truth.end(),
+                                [&](double d) { return std::abs(d - distance) < 1e-11; }));
+      }
+      asked_for += known.size();
+      if (k % 2 == 0) continue;
+      expectSame(nichesOf(verdicts), truth);
+      if (HasFailure()) return;
+      known.clear();
+      for (const NicheDecider::Judged& judged : verdicts.judged()) {
+        if (judged.verdict == Verdict::Niche) known.push_back({judged.seed.a, judged.seed.b});
+      }
+    }
+  }
+  EXPECT_GT(asked_for, 1000U);
+}
+
+struct Scene {
+  Body a;
+  Body b;
+  Isometry3d pose;
+};
+
+/// A strip of teeth, each a little higher than the one before, and a bar along all of their tips.
+Scene washboard(std::size_t teeth) {
+  std::vector<Eigen::Vector3d> vertices;
+  std::vector<TriangleNodes> triangles;
+  for (std::size_t i = 0; i <= 2 * teeth; ++i) {
+    const double height = i % 2 == 0 ? 0.0 : 0.5 + 1e-6 * static_cast<double>(i);
+    for (const double y : {-1.0, 1.0}) vertices.emplace_back(0.1 * static_cast<double>(i), y, height);
+    if (i == 0) continue;
+    const NodeIndex a{2 * i - 2};
+    const NodeIndex b{2 * i - 1};
+    triangles.push_back({a, NodeIndex{2 * i}, b});
+    triangles.push_back({b, NodeIndex{2 * i}, NodeIndex{2 * i + 1}});
+  }
+  const double length = 0.2 * static_cast<double>(teeth);
+  const auto bar = test::makeCuboid({-1.0, -0.5, 0.0}, {length + 1.0, 0.5, 0.1});
+  return {makeBody(SurfaceMesh(vertices, triangles, "washboard")), makeBody(bar),
+          test::translation({0, 0, 1.5})};
+}
+
+// As deep a chain of minima as there are teeth, on a stack that a recursion would run out of.
+TEST(NicheDecider, NeedNoStackForALongWayDown) {
+  struct Run {
+    Scene scene = washboard(400);
+    std::size_t judged = 0;
+    std::uint32_t niche = 0;
+    bool is_last = false;
+  } run;
+  const auto judge = [](void* argument) -> void* {
+    Run& own = *static_cast<Run*>(argument);
+    const MinimaScene scene(*own.scene.a, *own.scene.b, own.scene.pose);
+    RefinementWorkspace workspace;
+    WitnessPair first;
+    first.squared_distance = kInfinity;
+    for (std::uint32_t t = 0; t < own.scene.b->surface().triangleCount(); ++t) {
+      const WitnessPair found =
+          refineWitness(scene.a, scene.b, scene.a_from_b, TriangleIndex{0}, TriangleIndex{t}, workspace)
+              .witness;
+      if (found.squared_distance < first.squared_distance) first = found;
+    }
+    std::vector<MinimumCandidate> seeds{scene.seedOf(first)};
+    NicheDecider verdicts;
+    NicheDecider::Request request;
+    request.least_prominence = 1.0;
+    WorkLimit none;
+    verdicts.judge(scene, seeds, request, none);
+    own.niche = verdicts.locate(scene, {first.triangle_a, first.triangle_b}, request, none);
+    own.judged = verdicts.judged().size();
+    own.is_last = verdicts.judged()[own.niche].verdict == Verdict::Niche;
+    return nullptr;
+  };
+  pthread_attr_t attributes;
+  pthread_attr_init(&attributes);
+  pthread_attr_setstacksize(&attributes, std::size_t{64} << 10U);
+  pthread_t thread{};
+  ASSERT_EQ(pthread_create(&thread, &attributes, judge, &run), 0);
+  pthread_join(thread, nullptr);
+  pthread_attr_destroy(&attributes);
+  EXPECT_GT(run.judged, 200U);
+  EXPECT_EQ(run.niche, run.judged - 1);
+  EXPECT_TRUE(run.is_last);
+}
+
+// What is decided with and without passes is decided by two different floods.
+TEST(NicheDecider, AreThoseOfMeasuredPassesWhateverTheOrderOfTheSeeds) {
+  RandomEngine engine(31);
+  std::size_t united = 0;
+  for (int run = 0; run < 40; ++run) {
+    const Scene drawn{makeBody(test::concaveShape(uniformIndex(engine, 6))),
+                      makeBody(test::concaveShape(uniformIndex(engine, 6))), test::randomPose(engine, 1.2)};
+    LocalMinimaRequest measured;
+    measured.least_prominence = 0.1;
+    measured.prominence_limit = 0.2;
+    const LocalMinima truth = findLocalMinima(*drawn.a, *drawn.b, drawn.pose, measured);
+    const MinimaScene scene(*drawn.a, *drawn.b, drawn.pose);
+    std::vector<MinimumCandidate> seeds = seedsAt(scene);
+    if (!seeds.empty() && truth.niches.front().distance == 0.0) continue;  // many seeds, one niche
+    std::reverse(seeds.begin() + static_cast<std::ptrdiff_t>(seeds.size() / 3), seeds.end());
+    const std::vector<double> niches = nichesByFloods(scene, seeds, 0.1);
+    ASSERT_EQ(niches.size(), truth.niches.size()) << run;
+    for (std::size_t i = 0; i < niches.size(); ++i) EXPECT_NEAR(niches[i], truth.niches[i].distance, 1e-12);
+    united += seeds.size() - niches.size();
+  }
+  EXPECT_GT(united, 20U);
+}
+
+// What is left of a border has its distance, and what leaves it has not, after any motion.
+TEST(BasinBoundary, LosesExactlyWhatComesNearerThanTheLevel) {
+  RandomEngine engine(23);
+  std::size_t lost = 0;
+  std::size_t kept = 0;
+  for (std::uint32_t run = 0; run < 200; ++run) {
+    const Body a = makeBody(test::concaveShape(run));
+    const Body b = makeBody(test::concaveShape(run / 6));
+    const test::Motion motion = test::randomMotion(engine);
+    const double step = std::pow(10.0, -4.0 + 3.0 * uniformUnit(engine));
+    const MinimaScene first(*a, *b, motion.at(0.0));
+    WorkLimit none;
+    BasinBoundary border;
+    BorderPool pool;
+    border.begin(pool, Vector3d::Zero(), Vector3d::Zero());
+    std::vector<SharedElement> left;
+    const double level = 0.3 + uniformUnit(engine);
+    for (std::uint32_t k = 0; k < 200; ++k) {
+      const Side side = uniformIndex(engine, 2) == 0 ? Side::A : Side::B;
+      const SurfaceMesh& own = (side == Side::A ? a : b)->surface();
+      const SurfaceMesh& other = (side == Side::A ? b : a)->surface();
+      const TriangleIndex t{uniformIndex(engine, static_cast<std::uint32_t>(own.triangleCount()))};
+      const SharedElement element{
+          side, own.triangle(t)[0], own.triangle(t)[k % 3],
+          TriangleIndex{uniformIndex(engine, static_cast<std::uint32_t>(other.triangleCount()))}};
+      const double distance = std::sqrt(closestOver(first, element).squared_distance);
+      if (distance < level) continue;
+      ASSERT_TRUE(border.add(pool, first, {element, t}, distance, none));
+      left.push_back(element);
+    }
+    for (int k = 1; k < 30; ++k) {
+      const MinimaScene scene(*a, *b, motion.at(step * k));
+      border.takeCrossed(pool, scene, level);
+      const std::size_t crossed = pool.crossed.size();
+      const auto nearer = [&](const SharedElement& element) {
+        return std::sqrt(closestOver(scene, element).squared_distance) < level;
+      };
+      const auto gone = std::remove_if(left.begin(), left.end(), nearer);
+      ASSERT_EQ(static_cast<std::size_t>(left.end() - gone), crossed) << "run " << run << ", instant " << k;
+      left.erase(gone, left.end());
+      ASSERT_EQ(border.size(pool), left.size());
+      lost += crossed;
+    }
+    kept += left.size();
+  }
+  EXPECT_GT(lost, 1000U);
+  EXPECT_GT(kept, 1000U);
+}
+
+}  // namespace
+}  // namespace concave_distance::detail::niche_decider_test
