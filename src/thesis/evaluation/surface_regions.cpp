@@ -11,7 +11,7 @@ SurfaceRegions::SurfaceRegions(const BodyMesh& a, const BodyMesh& b, const Eigen
                                const std::vector<LocalMinimum>& minima)
     : scene_(a, b, a_from_b) {
   for (std::size_t i = 0; i < minima.size(); ++i) {
-    const auto cell = scene_.cellOf(minima[i].witness.triangle_a, minima[i].witness.triangle_b);
+    const auto cell = scene_.facetPairOf(minima[i].witness.triangle_a, minima[i].witness.triangle_b);
     minima_of_cell_.emplace(pairKey(cell.a, cell.b), i);
   }
 }
@@ -25,7 +25,7 @@ std::size_t SurfaceRegions::ownerOf(const FoundPlace& place) const {
   const auto reach = [&](TriangleIndex a, TriangleIndex b) {
     if (reached.insert(pairKey(a, b)).second) open.push_back({a, b});
   };
-  const TrianglePair start = scene_.cellOf(place.triangle_a, place.triangle_b);
+  const TrianglePair start = scene_.facetPairOf(place.triangle_a, place.triangle_b);
   reach(start.a, start.b);
   while (!open.empty()) {
     const TrianglePair cell = open.back();
