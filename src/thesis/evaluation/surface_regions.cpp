@@ -11,8 +11,8 @@ SurfaceRegions::SurfaceRegions(const BodyMesh& a, const BodyMesh& b, const Eigen
                                const std::vector<LocalMinimum>& minima)
     : scene_(a, b, a_from_b) {
   for (std::size_t i = 0; i < minima.size(); ++i) {
-    const auto cell = scene_.facetPairOf(minima[i].witness.triangle_a, minima[i].witness.triangle_b);
-    minima_of_cell_.emplace(pairKey(cell.a, cell.b), i);
+    const auto facet_pair = scene_.facetPairOf(minima[i].witness.triangle_a, minima[i].witness.triangle_b);
+    minima_of_facet_pair_.emplace(pairKey(facet_pair.a, facet_pair.b), i);
   }
 }
 
@@ -28,16 +28,16 @@ std::size_t SurfaceRegions::ownerOf(const FoundPlace& place) const {
   const TrianglePair start = scene_.facetPairOf(place.triangle_a, place.triangle_b);
   reach(start.a, start.b);
   while (!open.empty()) {
-    const TrianglePair cell = open.back();
+    const TrianglePair facet_pair = open.back();
     open.pop_back();
-    const auto [first, last] = minima_of_cell_.equal_range(pairKey(cell.a, cell.b));
+    const auto [first, last] = minima_of_facet_pair_.equal_range(pairKey(facet_pair.a, facet_pair.b));
     for (auto found = first; found != last; ++found) {
       if (owner != kNoOwner && owner != found->second) return kNoOwner;
       owner = found->second;
     }
-    const detail::FacetPoints points_a = scene_.facetOfA(cell.a);
-    const detail::FacetPoints points_b = scene_.facetOfB(cell.b);
-    detail::forEachNeighbour(scene_, cell.a, cell.b, points_a, points_b,
+    const detail::FacetPoints points_a = scene_.facetOfA(facet_pair.a);
+    const detail::FacetPoints points_b = scene_.facetOfB(facet_pair.b);
+    detail::forEachNeighbour(scene_, facet_pair.a, facet_pair.b, points_a, points_b,
                              detail::facetPairLevels(points_a, points_b),
                              [&](TriangleIndex a, TriangleIndex b, double squared, const auto&) {
                                if (squared <= squared_level) reach(a, b);

@@ -36,7 +36,7 @@ class SurfaceRegions {
 
  private:
   detail::MinimaScene scene_;
-  std::unordered_multimap<std::uint64_t, std::size_t> minima_of_cell_;
+  std::unordered_multimap<std::uint64_t, std::size_t> minima_of_facet_pair_;
 };
 
 }  // namespace concave_distance::evaluation
