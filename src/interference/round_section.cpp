@@ -34,6 +34,21 @@ constexpr double kBendsLittle = 0.4;
 // three points, and no wider than this angle.
 constexpr double kBeyondChord = 0.05;
 constexpr double kWidestChord = 0.95 * kPi;
+// Three points on an arc of a circle up to this many radians, and five up to kWidestArc, leave 1e-10.
+constexpr double kShortTurn = 0.3;
+
+/// Radians by which an arc turns about the middle of its circle. By rounding alone it may come out below 0;
+/// an arc of more than a half has its middle for the centre of the section, or as good as that.
+double turnAbout(const Vector3d& middle, const RoundOutline::Arc& arc, const Vector3d& normal,
+                 const Vector3d& centre) {
+  const Vector3d from = arc.start - middle;
+  const Vector3d to = arc.end - middle;
+  const double turn = std::atan2(from.cross(to).dot(normal), from.dot(to));
+  if (turn > 0.0) return turn;
+  const bool beyond_half =
+      arc.to - arc.from > 0.5 * kPi && (centre - middle).squaredNorm() < 0.25 * from.squaredNorm();
+  return beyond_half ? turn + 2.0 * kPi : 0.0;
+}
 
 }  // namespace
 
@@ -142,8 +157,37 @@ bool RoundSection::bendsLittle(const Vector3d& from, const Vector3d& to) const {
   return across <= kBendsLittle * core_;
 }
 
+/// Of a ball: by the angle about the circle's middle, of which the integrals are trigonometric polynomials.
+/// So they are the same however edges cut the circle.
+void RoundSection::addCircleArc(const RoundOutline::Arc& arc) {
+  const Vector3d middle = normal_.dot(centre_) * normal_;
+  const double turn = turnAbout(middle, arc, normal_, centre_);
+  const auto parts = std::max(1, static_cast<int>(std::ceil(turn / kWidestArc - 1e-9)));
+  const GaussRule rule = turn <= kShortTurn ? GaussRule(kGaussThree) : GaussRule(kGaussFive);
+  const Vector3d out = arc.start - middle;
+  const Vector3d side = normal_.cross(out);
+  const auto at = [&](double angle) {
+    return Vector3d(middle + std::cos(angle) * out + std::sin(angle) * side);
+  };
+  const double width = turn / parts;
+  Vector3d start = arc.start;
+  for (int part = 0; part < parts; ++part) {
+    std::size_t count = 0;
+    for (const GaussPoint& gauss : rule) {
+      const Vector3d point = at((part + gauss.at) * width);
+      const Vector3d tangent = normal_.cross(point - middle);
+      arc_points_[count++] = point;
+      addRay(point, gauss.weight * width * (point - centre_).cross(tangent).dot(normal_));
+    }
+    const Vector3d end = part + 1 == parts ? arc.end : at((part + 1) * width);
+    addToFan(start, count, end);
+    start = end;
+  }
+}
+
 /// In parts along their chords: exact where the border is straight, as that of a cylinder on its side.
 void RoundSection::addArc(const RoundOutline::Arc& arc) {
+  if (shape_->kind == RoundKind::Sphere) return addCircleArc(arc);
   const double width = arc.to - arc.from;
   if (width < kWidestChord && isNearlyStraight(arc.start, arc.end))
     return addArcPart(GaussRule(kGaussThree), arc.start, arc.end);

@@ -42,6 +42,7 @@ class RoundSection {
   void addStraight(const RoundOutline::Straight& piece);
   bool bendsLittle(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const;
   void addArc(const RoundOutline::Arc& arc);
+  void addCircleArc(const RoundOutline::Arc& arc);
   void addArcPart(const GaussRule& rule, const Eigen::Vector3d& start, const Eigen::Vector3d& end);
   bool isNearlyStraight(const Eigen::Vector3d& start, const Eigen::Vector3d& end) const;
   void addToFan(const Eigen::Vector3d& start, std::size_t count, const Eigen::Vector3d& end);

@@ -7,7 +7,6 @@
 #include "concave_distance/contact/wrench.h"
 #include "concave_distance/scene/simulation_settings.h"
 #include "pose_path.h"
-#include "step_weights.h"
 
 namespace concave_distance::detail {
 
@@ -54,11 +53,13 @@ struct Coupling {
   Vector6d change = Vector6d::Zero();      ///< solution: of the relative twist
 
   // Of the step that is tried.
-  StepWeights weights;                       ///< of the end of the step
+  Vector6d impulse = Vector6d::Zero();       ///< N s: of the equations solved last
+  Vector6d undamped = Vector6d::Zero();      ///< mean wrench by the trapezoidal rule
   Vector6d used = Vector6d::Zero();          ///< mean wrench of the linear model
+  Vector6d first = Vector6d::Zero();         ///< N s: what comes at the begin where not half of `used`
   Vector6d displacement = Vector6d::Zero();  ///< of B against A
   Vector6d full_change = Vector6d::Zero();   ///< of the relative twist over all of the step, as predicted
-  double loss = 0.0;                         ///< J, >= 0: what weights above 1/2 take of its bodies' energy
+  double loss = 0.0;                         ///< J, >= 0: what the damping takes of the bodies' energy
   Vector6d residual = Vector6d::Zero();      ///< what the linear model has missed of the wrench at the end
 };
 

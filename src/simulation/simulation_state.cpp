@@ -100,9 +100,6 @@ void Simulation::State::addBodies(const Scene& scene) {
   external.resize(bodies.size());
   motions.resize(bodies.size());
   inertias.resize(bodies.size());
-  masses.resize(bodies.size());
-  weights.resize(bodies.size());
-  losses.resize(bodies.size());
   left_of_begin.resize(bodies.size());
   impulses.resize(bodies.size());
   changes.resize(bodies.size());

@@ -73,16 +73,22 @@ struct Simulation::State {
   void setJacobians();
   void setMotions(double inside);
   void findLoads();
-  void chooseWeights(double step);
-  void weigh(detail::Coupling& coupling, const Matrix6d& resistance) const;
-  void findChange(detail::Coupling& coupling) const;
   Vector6d wrenchOn(std::size_t body) const;
-  void predict(double step);
   void drift(double step);
+  void findChange(detail::Coupling& coupling, double step) const;
   void evaluateEnd(double step, double inside);
-  void correct(double step);
   void restore(double inside);
-  Wrench sumOn(std::size_t body, const Vector6d detail::Coupling::*wrench) const;
+  Vector6d sumOn(std::size_t body, const Vector6d detail::Coupling::*wrench) const;
+
+  // step_rule.cpp: the impulses of a step, by the couplings' linear models.
+  bool leavesUnresolved(double step, const detail::CouplingForce detail::Coupling::*when) const;
+  void setSteady(double seconds);
+  void findChanges(double step, const detail::CouplingForce detail::Coupling::*when);
+  void keepUnresolved(double step, const detail::CouplingForce detail::Coupling::*when);
+  void respond(double step, double end_weight);
+  void predict(double step);
+  void respondToMissed(double step, double end_weight);
+  void correct(double step);
 
   // step_acceptance.cpp: how good the step was.
   /// How many times the tolerance the step's error is.
@@ -116,15 +122,13 @@ struct Simulation::State {
   std::vector<Drift> drifts;
   std::vector<detail::FrameMotion> motions;
   std::vector<detail::StepEquations::Inertia> inertias;
-  std::vector<Matrix6d> masses;              ///< that a kick meets in the equations
-  std::vector<detail::StepWeights> weights;  ///< of the end of the step, by body
-  std::vector<Vector6d> left_of_begin;       ///< wrench at the begin that the end still owes, by body
-  std::vector<double> losses;                ///< J, by body: what the weights take in the kicks
+  std::vector<Vector6d> left_of_begin;  ///< impulse at the begin that the end still owes, by body
   std::vector<Vector6d> impulses;
   std::vector<Vector6d> changes;
   std::vector<detail::PairBegin> pair_begins;
   std::vector<detail::Coupling> couplings;
   detail::StepEquations equations;
+  bool unresolved = false;  ///< the step is longer than a time scale
   double time_at_begin = 0.0;
   double proposed_step = std::numeric_limits<double>::infinity();  ///< by the error of the last one
   std::size_t least_accurate = 0;  ///< coupling with the largest share of its error in the last attempt

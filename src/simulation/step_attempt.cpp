@@ -11,22 +11,6 @@ using detail::Coupling;
 using detail::CouplingForce;
 using detail::FrameMotion;
 using detail::MovingBody;
-using detail::StepEquations;
-
-// A bound on the eigenvalues of M^-1 J^T K J: its trace.
-double rateOf(const Matrix6d& matrix, const Coupling& coupling,
-              const std::vector<StepEquations::Inertia>& inertias) {
-  double rate = 0.0;
-  const auto add = [&](std::size_t body, const Matrix6d& jacobian) {
-    if (body == detail::kNoBody || !(inertias[body].mass > 0.0)) return;
-    const Matrix6d on_body = jacobian.transpose() * matrix * jacobian;
-    rate += on_body.diagonal().head<3>().sum() / inertias[body].mass +
-            (inertias[body].inertia.inverse() * on_body.bottomRightCorner<3, 3>()).trace();
-  };
-  add(coupling.body_a, coupling.jacobian_a);
-  add(coupling.body_b, coupling.jacobian_b);
-  return rate;
-}
 
 }  // namespace
 
@@ -73,8 +57,8 @@ void Simulation::State::beginStep(double inside) {
     coupling.begin.twist = coupling.twist;
     coupling.stiffness_rate = coupling.damping_rate = 0.0;
     if (!coupling.begin.acts) continue;
-    coupling.stiffness_rate = rateOf(coupling.begin.linearisation.stiffness, coupling, inertias);
-    coupling.damping_rate = rateOf(coupling.begin.linearisation.damping, coupling, inertias);
+    coupling.stiffness_rate = detail::sumOfScales(coupling.begin.linearisation.stiffness, coupling, inertias);
+    coupling.damping_rate = detail::sumOfScales(coupling.begin.linearisation.damping, coupling, inertias);
   }
   equations.findIslands(inertias, couplings);
   findLoads();
@@ -110,41 +94,18 @@ void Simulation::State::findLoads() {
   }
 }
 
-Wrench Simulation::State::sumOn(std::size_t body, const Vector6d Coupling::*wrench) const {
+Vector6d Simulation::State::sumOn(std::size_t body, const Vector6d Coupling::*wrench) const {
   Vector6d sum = Vector6d::Zero();
   for (const Coupling& coupling : couplings) {
     if (coupling.body_b == body) sum.noalias() += coupling.jacobian_b.transpose() * (coupling.*wrench);
     if (coupling.body_a == body) sum.noalias() += coupling.jacobian_a.transpose() * (coupling.*wrench);
   }
-  return detail::toWrench(sum);
-}
-
-// The twists V of the drift: M (V - V0) = p h (w - p K h V - D (V - V0)), p the weight of the step's end. The
-// couplings' mean wrenches follow from them. All of it over 2 p, which leaves it symmetric.
-void Simulation::State::predict(double step) {
-  chooseWeights(step);
-  for (Coupling& coupling : couplings) {
-    coupling.used.setZero();
-    coupling.resistance.setZero();
-    if (!coupling.begin.acts) continue;
-    const ContactLinearisation& now = coupling.begin.linearisation;
-    const Matrix6d stiffness = coupling.weights.ofResistance(now.stiffness, 1.0);
-    coupling.resistance = 0.5 * step * (step * stiffness + now.damping);
-    coupling.used = coupling.begin.wrench - step * (stiffness * coupling.twist);
-  }
-  for (std::size_t i = 0; i < moving.size(); ++i) {
-    if (moving[i].isFree()) impulses[i] = 0.5 * step * wrenchOn(i);
-  }
-  equations.solve(inertias, masses, impulses, couplings, changes);
-  for (Coupling& coupling : couplings) {
-    coupling.used -= coupling.resistance * coupling.change / (0.5 * step);
-    coupling.displacement = step * (coupling.twist + coupling.change);
-  }
+  return sum;
 }
 
 Vector6d Simulation::State::wrenchOn(std::size_t body) const {
   Wrench wrench = moving[body].steadyWrench(settings.gravity);
-  wrench += sumOn(body, &Coupling::used);
+  wrench += detail::toWrench(sumOn(body, &Coupling::used));
   Vector6d vector;
   vector << wrench.force, wrench.torque;
   return vector;
@@ -156,42 +117,46 @@ void Simulation::State::drift(double step) {
     MovingBody& body = moving[i];
     if (body.isFree()) {
       const Vector6d wrench = wrenchOn(i);
-      const Vector6d first = weights[i].ofWrench(wrench);
-      body.kick(detail::toWrench(first), step);
-      left_of_begin[i] = 0.5 * wrench - first;
-      changes[i] *= 2.0;
-      if (!weights[i].even()) changes[i].noalias() = inertias[i].inverse() * (step * wrench);
-      losses[i] = -step * changes[i].dot(left_of_begin[i]);
+      if (unresolved) {
+        const Wrench steady = body.steadyWrench(settings.gravity);
+        impulses[i] << 0.5 * step * steady.force, 0.5 * step * steady.torque;
+        impulses[i] += sumOn(i, &Coupling::first);
+        left_of_begin[i] = 0.5 * step * wrench - impulses[i];
+        changes[i] = inertias[i].changeBy(step * wrench);
+        body.kick(detail::toWrench(impulses[i]), 1.0);
+      } else {
+        changes[i] *= 2.0;
+        body.kick(detail::toWrench(0.5 * wrench), step);
+      }
     }
     drifts[i] = body.drift(time_at_begin, step);
   }
-  for (Coupling& coupling : couplings) findChange(coupling);
+  for (Coupling& coupling : couplings) findChange(coupling, step);
 }
 
-// With its loss: the mean wrench is that of the trapezoidal rule but for what acts against the displacement.
-void Simulation::State::findChange(Coupling& coupling) const {
+// The loss is exact for the linear model: by how much the bodies gain less by the wrenches as they are used
+// than by the mean of those at begin and end over the displacement.
+void Simulation::State::findChange(Coupling& coupling, double step) const {
   coupling.full_change.setZero();
-  coupling.loss = 0.0;
-  bool even = coupling.weights.even();
+  Vector6d early = Vector6d::Zero();
   const auto add = [&](std::size_t body, const Matrix6d& jacobian) {
     if (body == detail::kNoBody || !moving[body].isFree()) return;
     coupling.full_change.noalias() += jacobian * changes[body];
-    coupling.loss += losses[body];
-    even = even && weights[body].even();
+    if (unresolved) early.noalias() += jacobian * inertias[body].changeBy(impulses[body]);
   };
   add(coupling.body_b, coupling.jacobian_b);
   add(coupling.body_a, coupling.jacobian_a);
-  if (even || !coupling.begin.acts) {
-    coupling.loss = 0.0;
-    return;
-  }
+  coupling.displacement = step * (coupling.twist + (unresolved ? early : coupling.change));
+  coupling.loss = 0.0;
+  if (!unresolved || !coupling.begin.acts) return;
   const ContactLinearisation& now = coupling.begin.linearisation;
   const Vector6d missed = 0.5 * (now.stiffness * coupling.displacement + now.damping * coupling.full_change);
-  coupling.loss += std::abs(coupling.displacement.dot(coupling.begin.wrench - missed - coupling.used));
+  coupling.loss = std::abs(coupling.displacement.dot(coupling.begin.wrench - missed - coupling.used) +
+                           coupling.full_change.dot(coupling.first - 0.5 * step * coupling.used));
 }
 
 // Half of the wrenches act where the bodies were at the begin, half where they are: so each coupling's stay
-// equal and opposite, however the weights of its bodies differ.
+// equal and opposite, however much of them came at the begin.
 void Simulation::State::evaluateEnd(double step, double inside) {
   for (std::size_t i = 0; i < moving.size(); ++i) moving[i].report(time, inside, bodies[i]);
   setMotions(inside);
@@ -200,9 +165,8 @@ void Simulation::State::evaluateEnd(double step, double inside) {
     MovingBody& body = moving[i];
     if (!body.isFree()) continue;
     body.evaluateLoad(inside, body.state(), external[i]);
-    Wrench wrench = detail::toWrench(0.5 * wrenchOn(i));
-    if (!weights[i].even()) wrench += movedTo(drifts[i].shift, detail::toWrench(left_of_begin[i]));
-    body.kick(wrench, step);
+    body.kick(detail::toWrench(0.5 * wrenchOn(i)), step);
+    if (unresolved) body.kick(movedTo(drifts[i].shift, detail::toWrench(left_of_begin[i])), 1.0);
     body.report(time, inside, bodies[i]);
   }
   setMotions(inside);
@@ -214,34 +178,6 @@ void Simulation::State::evaluateEnd(double step, double inside) {
     if (!begin.acts) continue;
     coupling.residual += begin.linearisation.stiffness * coupling.displacement +
                          begin.linearisation.damping * coupling.full_change;
-  }
-}
-
-// What the linear model has missed of the wrench at the end, against the stiffness and damping there.
-void Simulation::State::correct(double step) {
-  for (std::size_t i = 0; i < moving.size(); ++i) {
-    inertias[i] = moving[i].inertia();
-    if (moving[i].isFree()) masses[i] = inertias[i].matrix();
-  }
-  for (Coupling& coupling : couplings) {
-    const ContactLinearisation& end = coupling.force.linearisation;
-    if (coupling.force.acts && !coupling.begin.acts) {
-      coupling.begin.acts = true;
-      weigh(coupling, step * (step * end.stiffness + end.damping));
-    }
-    coupling.resistance = step * (step * coupling.weights.ofResistance(end.stiffness, 2.0) +
-                                  coupling.weights.ofResistance(end.damping, 1.0));
-    coupling.used = step * coupling.weights.ofWrench(coupling.residual);
-  }
-  for (std::size_t i = 0; i < moving.size(); ++i) {
-    const Wrench impulse = sumOn(i, &Coupling::used);
-    impulses[i] << impulse.force, impulse.torque;
-  }
-  equations.findIslands(inertias, couplings);
-  equations.solve(inertias, masses, impulses, couplings, changes);
-  for (Coupling& coupling : couplings) coupling.used -= coupling.resistance * coupling.change;
-  for (std::size_t i = 0; i < moving.size(); ++i) {
-    if (moving[i].isFree()) moving[i].kick(sumOn(i, &Coupling::used), 1.0);
   }
 }
 

@@ -18,11 +18,10 @@ Matrix6d StepEquations::Inertia::matrix() const {
   return matrix;
 }
 
-Matrix6d StepEquations::Inertia::inverse() const {
-  Matrix6d matrix = Matrix6d::Zero();
-  matrix.diagonal().head<3>().setConstant(1.0 / mass);
-  matrix.bottomRightCorner<3, 3>() = inertia.inverse();
-  return matrix;
+Vector6d StepEquations::Inertia::changeBy(const Vector6d& impulse) const {
+  Vector6d change;
+  change << impulse.head<3>() / mass, inertia.inverse() * impulse.tail<3>();
+  return change;
 }
 
 std::size_t StepEquations::rootOf(std::size_t body) {
@@ -51,15 +50,15 @@ void StepEquations::findIslands(const std::vector<Inertia>& bodies, const std::v
   }
 }
 
-void StepEquations::assemble(const std::vector<Inertia>& bodies, const std::vector<Matrix6d>& masses,
-                             const std::vector<Coupling>& couplings, std::size_t root, Eigen::Index size) {
+void StepEquations::assemble(const std::vector<Inertia>& bodies, const std::vector<Coupling>& couplings,
+                             std::size_t root, Eigen::Index size) {
   if (matrix_.rows() < size) {
     matrix_.resize(size, size);
     vector_.resize(size);
   }
   matrix_.topLeftCorner(size, size).setZero();
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    if (row_[i] >= 0 && rootOf(i) == root) matrix_.block<6, 6>(row_[i], row_[i]) = masses[i];
+    if (row_[i] >= 0 && rootOf(i) == root) matrix_.block<6, 6>(row_[i], row_[i]) = bodies[i].matrix();
   }
   for (const Coupling& coupling : couplings) {
     if (!coupling.begin.acts) continue;
@@ -83,19 +82,16 @@ void StepEquations::assemble(const std::vector<Inertia>& bodies, const std::vect
   }
 }
 
-void StepEquations::solve(const std::vector<Inertia>& bodies, const std::vector<Matrix6d>& masses,
-                          const std::vector<Vector6d>& impulses, std::vector<Coupling>& couplings,
-                          std::vector<Vector6d>& changes) {
+void StepEquations::solve(const std::vector<Inertia>& bodies, const std::vector<Vector6d>& impulses,
+                          std::vector<Coupling>& couplings, std::vector<Vector6d>& changes) {
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     changes[i].setZero();
-    if (!isFree(bodies, i) || row_[i] >= 0) continue;
-    changes[i].head<3>() = impulses[i].head<3>() / bodies[i].mass;
-    changes[i].tail<3>() = bodies[i].inertia.inverse() * impulses[i].tail<3>();
+    if (isFree(bodies, i) && row_[i] < 0) changes[i] = bodies[i].changeBy(impulses[i]);
   }
   for (std::size_t root = 0; root < bodies.size(); ++root) {
     const Eigen::Index size = size_[root];
     if (size == 0) continue;
-    assemble(bodies, masses, couplings, root, size);
+    assemble(bodies, couplings, root, size);
     for (std::size_t i = 0; i < bodies.size(); ++i) {
       if (row_[i] >= 0 && rootOf(i) == root) vector_.segment<6>(row_[i]) = impulses[i];
     }
@@ -111,6 +107,20 @@ void StepEquations::solve(const std::vector<Inertia>& bodies, const std::vector<
     if (isFree(bodies, coupling.body_b)) coupling.change += coupling.jacobian_b * changes[coupling.body_b];
     if (isFree(bodies, coupling.body_a)) coupling.change += coupling.jacobian_a * changes[coupling.body_a];
   }
+}
+
+double sumOfScales(const Matrix6d& resistance, const Coupling& coupling,
+                   const std::vector<StepEquations::Inertia>& bodies) {
+  double sum = 0.0;
+  const auto add = [&](std::size_t body, const Matrix6d& jacobian) {
+    if (!isFree(bodies, body)) return;
+    const Matrix6d on_body = jacobian.transpose() * resistance * jacobian;
+    sum += on_body.diagonal().head<3>().sum() / bodies[body].mass +
+           (bodies[body].inertia.inverse() * on_body.bottomRightCorner<3, 3>()).trace();
+  };
+  add(coupling.body_a, coupling.jacobian_a);
+  add(coupling.body_b, coupling.jacobian_b);
+  return sum;
 }
 
 }  // namespace concave_distance::detail

@@ -20,26 +20,22 @@ class StepEquations {
     Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
 
     Matrix6d matrix() const;
-    Matrix6d inverse() const;
+    Vector6d changeBy(const Vector6d& impulse) const;  ///< of the twist
   };
 
   /// Finds what hangs together by couplings that act.
   void findIslands(const std::vector<Inertia>& bodies, const std::vector<Coupling>& couplings);
-  /// One body of the island that a free body belongs to, the same for all of them.
-  std::size_t islandOf(std::size_t body) { return rootOf(body); }
 
   /// Of the islands found last.
-  /// @param masses of each free body: its matrix(), or what its kick meets instead of it where couplings act
   /// @param impulses of each body about its centre of mass, world axes; of others than free bodies ignored
   /// @param changes of the bodies' twists; and of the couplings' (Coupling::change)
-  void solve(const std::vector<Inertia>& bodies, const std::vector<Matrix6d>& masses,
-             const std::vector<Vector6d>& impulses, std::vector<Coupling>& couplings,
-             std::vector<Vector6d>& changes);
+  void solve(const std::vector<Inertia>& bodies, const std::vector<Vector6d>& impulses,
+             std::vector<Coupling>& couplings, std::vector<Vector6d>& changes);
 
  private:
   std::size_t rootOf(std::size_t body);
-  void assemble(const std::vector<Inertia>& bodies, const std::vector<Matrix6d>& masses,
-                const std::vector<Coupling>& couplings, std::size_t root, Eigen::Index size);
+  void assemble(const std::vector<Inertia>& bodies, const std::vector<Coupling>& couplings, std::size_t root,
+                Eigen::Index size);
 
   std::vector<std::size_t> parent_;
   std::vector<Eigen::Index> row_;   ///< of each body in its island's matrix
@@ -47,5 +43,9 @@ class StepEquations {
   Eigen::MatrixXd matrix_;
   Eigen::VectorXd vector_;
 };
+
+/// A bound on the eigenvalues of M^-1 J^T R J, their sum. @param resistance R, as of the coupling's twist
+double sumOfScales(const Matrix6d& resistance, const Coupling& coupling,
+                   const std::vector<StepEquations::Inertia>& bodies);
 
 }  // namespace concave_distance::detail

@@ -71,6 +71,49 @@ void rollsInBowl(SceneReport& report, const ElasticBall& ball) {
                 0.01, "1 %", run.figures());
 }
 
+/// Of the energy before: what is left after two free balls met off their centres by this share of their
+/// diameter, turning like gears.
+double keptInCollision(SceneReport& report, const ElasticBall& ball, double share, bool fine,
+                       RunFigures& figures) {
+  const double speed = 0.1 * std::sqrt(6.0 * kGravity * ball.radius);
+  test::SceneBuilder builder = ball.meeting(3.0 * ball.radius, 2.0 * share * ball.radius, speed);
+  if (fine) {
+    builder.settings.step_fraction = 0.02;
+    builder.settings.work_tolerance = 1e-5;
+    builder.settings.largest_step = 1e-3 * ball.radius / speed;
+  }
+  const double duration = 4.0 * ball.radius / speed;
+  SceneRun run(builder.simulation(), duration, report);
+  const double energy = run.simulation().energy().kinetic;
+  run.advanceTo(duration);
+  if (!fine) figures = run.figures();
+  return run.simulation().energy().kinetic / energy;
+}
+
+/// The contact sinks in, so that something slides: friction's own loss is that of short steps.
+void collidesOffCentre(SceneReport& report, const ElasticBall& ball) {
+  double largest = 0.0;
+  RunFigures figures;
+  for (const double share : {0.1, 0.3, 0.5, 0.7, 0.9}) {
+    const double kept = keptInCollision(report, ball, share, false, figures);
+    const double expected = keptInCollision(report, ball, share, true, figures);
+    largest = std::max(largest, std::abs(kept - expected));
+  }
+  report.atMost({"largest difference of five collisions from short steps over the energy", "1", largest},
+                1e-3, "1 % in ten", figures);
+}
+
+void rollsOnFree(SceneReport& report, const ElasticBall& ball) {
+  const double speed = 0.5 * std::sqrt(ball.radius);
+  const double duration = 10.0;
+  SceneRun run(ball.rollingOnFreePlate(speed, duration).simulation(), duration, report);
+  run.advanceTo(duration);
+  const bool complete = !run.step();
+  report.equals(
+      {"speed after 10 s over the first", "1", complete ? run.body(2).velocity.x() / speed : kNotComputed},
+      1.0, 0.01, "no loss", run.figures());
+}
+
 }  // namespace
 
 ContactScenes elasticScenes() {
@@ -83,6 +126,11 @@ ContactScenes elasticScenes() {
                         [ball](SceneReport& report) { bounces(report, ball); }});
       scenes.push_back({nameOf("elastic_rolling", ball), "an exact ball on a plane",
                         [ball](SceneReport& report) { rolls(report, ball); }});
+      scenes.push_back({nameOf("elastic_free_collisions", ball),
+                        "two free exact balls that meet off their centres",
+                        [ball](SceneReport& report) { collidesOffCentre(report, ball); }});
+      scenes.push_back({nameOf("elastic_free_rolling", ball), "an exact ball on a free plate on a floor",
+                        [ball](SceneReport& report) { rollsOnFree(report, ball); }});
       if (friction == FrictionModel::RegularisedCoulomb) continue;  // it creeps where it is held back
       const ElasticBall scaled{radius, friction, 0.1 / radius};
       scenes.push_back({nameOf("elastic_bowl", scaled),

@@ -14,7 +14,7 @@ constexpr double kLastShare = 0.01;  // of the spin at the start: then a body co
 
 struct Stop {
   double halfway = kNotComputed;  ///< share of the spin that is left at a given time
-  double time = kNotComputed;     ///< when the spin has fallen to its last share; NaN if it does not
+  double time = kNotComputed;     ///< when the spin falls to its last share; NaN if it does not
   RunFigures figures;
 };
 
@@ -25,10 +25,18 @@ Stop stopOf(const ContactStage& stage, std::size_t body, double halfway, const S
   Stop stop;
   run.advanceTo(halfway);
   stop.halfway = run.body(body).angular_velocity.z() / spin;
+  double time_before = run.time();
+  double before = run.body(body).angular_velocity.z();
   while (run.step()) {
-    if (run.body(body).angular_velocity.z() > kLastShare * spin) continue;
-    stop.time = run.time();
-    run.stop("it has stopped");
+    const double now = run.body(body).angular_velocity.z();
+    if (now <= kLastShare * spin) {
+      // It falls linearly within the step.
+      const double share = before > now ? (before - kLastShare * spin) / (before - now) : 1.0;
+      stop.time = time_before + share * (run.time() - time_before);
+      run.stop("it has stopped");
+    }
+    time_before = run.time();
+    before = now;
   }
   stop.figures = run.figures();
   return stop;

@@ -72,6 +72,30 @@ TEST(RoundOverlap, ABallInAPlaneIsACap) {
   }
 }
 
+// The face is two triangles: where their common edge cuts the patch changes nothing, so a ball on it is not
+// turned. On a ray the depth is quadratic but for a share of (rim/h)^2, which three points integrate up to
+// the fifth power of the way: they leave 1/2800 of the sixth.
+TEST(RoundOverlap, APatchIsTheSameWhereverAnEdgeCutsIt) {
+  const double r = 0.1;
+  for (const double depth : {1e-6, 1e-5, 1e-4}) {
+    const double h = r - depth;
+    const double rim = std::sqrt(depth * (r + h));
+    const double sum = kPi * depth * depth * (r - 2.0 / 3.0 * depth);
+    const double bound = 4e-4 * rim * rim / (h * h);
+    for (const double shift : {0.0, 1e-12, 1e-8, 1e-5, 0.01, 0.1, 0.5, 0.9, 1.2, 1.4, 2.0}) {
+      const Vector3d foot(-0.3 + shift * rim, -0.1, 0.0);  // beside the middle of the face
+      const Body ball = makeRoundBody(test::sphereOf(r));
+      const Interference found = overlapOf(block(), ball, turned(0.7, {1, 2, 3}, foot + Vector3d(0, 0, h)));
+      ASSERT_EQ(found.regions.size(), 1U) << shift;
+      Vector3d moment = Vector3d::Zero();
+      for (const OverlapSample& sample : found.samples)
+        moment += sample.area * sample.depth * (sample.point_in_a - foot);
+      EXPECT_NEAR(sumOf(found, found.regions[0], 1), sum, bound * sum) << depth << " " << shift;
+      EXPECT_LE(moment.head<2>().norm(), bound * sum * rim) << depth << " " << shift;
+    }
+  }
+}
+
 TEST(RoundOverlap, CylindersAndCapsulesOnAPlaneHaveClosedForms) {
   const double r = 0.3;
   const double h = 0.5;

@@ -33,21 +33,33 @@ struct ElasticBall {
     return std::pow(0.75 * load / (modulus() * std::sqrt(relative_radius)), 2.0 / 3.0);
   }
 
-  /// On the body "ground"; the ball is body 1.
-  SceneBuilder on(SurfaceMesh ground, const Eigen::Vector3d& centre) const {
-    SceneBuilder builder;
-    builder.addBody("ground", std::move(ground)).material = material();
-    RoundShape shape;
-    shape.radius = radius;
-    shape.chord_error = 0.01 * radius;
-    builder.addRoundBody("ball", shape).material = material();
-    EffectSettings& effects = builder.addPair().effects;
+  EffectSettings effects() const {
+    EffectSettings effects;
     effects.normal_force.emplace();
     effects.normal_force->model = NormalForceModel::Hertz;
     effects.friction.model = friction;
     effects.friction.bristle_stiffness *= bristles;
     effects.friction.bristle_damping *= std::sqrt(bristles);
-    builder.setFree("ball", mass()).pose = at(centre.x(), centre.y(), centre.z());
+    return effects;
+  }
+  /// Returns its settings, which are valid until the next body is added.
+  SimulatedBodySettings& addTo(SceneBuilder& builder, const std::string& name,
+                               const Eigen::Vector3d& centre) const {
+    RoundShape shape;
+    shape.radius = radius;
+    shape.chord_error = 0.01 * radius;
+    builder.addRoundBody(name, shape).material = material();
+    SimulatedBodySettings& ball = builder.setFree(name, mass());
+    ball.pose = at(centre.x(), centre.y(), centre.z());
+    return ball;
+  }
+
+  /// On the body "ground"; the ball is body 1.
+  SceneBuilder on(SurfaceMesh ground, const Eigen::Vector3d& centre) const {
+    SceneBuilder builder;
+    builder.addBody("ground", std::move(ground)).material = material();
+    addTo(builder, "ball", centre);
+    builder.addPair().effects = effects();
     builder.settings.tracking = SimulationTracking::SingleMinimum;
     return builder;
   }
@@ -73,6 +85,52 @@ struct ElasticBall {
 
   /// At rest in a bowl of five times its radius, `angle` from the bowl's lowest point.
   SceneBuilder inBowl(double angle) const;
+
+  /// Two free balls without gravity. Their centres are `apart` along z and `beside` each other along x; each
+  /// moves towards the other with `speed`, and they turn so that where they touch nothing slides.
+  SceneBuilder meeting(double apart, double beside, double speed) const {
+    SceneBuilder builder;
+    builder.settings.gravity.setZero();
+    builder.settings.tracking = SimulationTracking::SingleMinimum;
+    const double across = beside / (2.0 * radius);  // sine of the angle between normal and path
+    for (const double side : {-1.0, 1.0}) {
+      SimulatedBodySettings& ball =
+          addTo(builder, side < 0.0 ? "first" : "second", {0.5 * side * beside, 0.0, 0.5 * side * apart});
+      ball.velocity = {0.0, 0.0, -side * speed};
+      ball.angular_velocity = {0.0, speed * across / radius, 0.0};
+    }
+    builder.addPair().effects = effects();
+    return builder;
+  }
+
+  /// Rolls along x, as in rollingOnPlane(), on a plate as heavy as it is large, which lies on a floor and is
+  /// body 1; the ball is body 2.
+  SceneBuilder rollingOnFreePlate(double speed, double duration) const {
+    const double length = 2.0 * (speed * duration + 4.0 * radius);
+    const Eigen::Vector3d size(length, 8.0 * radius, 4.0 * radius);
+    const double sunk = 1e-4 * radius;
+    SceneBuilder builder;
+    builder.settings.tracking = SimulationTracking::SingleMinimum;
+    builder.addBody("ground", makeBox({1.1 * size.x(), 1.1 * size.y(), size.z()})).material = material();
+    builder.addBody("plate", makeBox(size)).material = material();
+    addGround(builder, at(0.0, 0.0, -6.0 * radius + sunk));
+    builder.setFree("plate", 1000.0 * size.prod()).pose = at(0.0, 0.0, -2.0 * radius);
+    SimulatedBodySettings& ball =
+        addTo(builder, "ball", {0.0, 0.0, radius - depthUnder(9.81 * mass(), radius)});
+    ball.velocity = {speed, 0.0, 0.0};
+    ball.angular_velocity = {0.0, speed / radius, 0.0};
+    EffectSettings& bed = builder.addPair().effects;
+    bed = effects();
+    bed.normal_force->model = NormalForceModel::ElasticFoundation;
+    bed.normal_force->foundation_stiffness = 1000.0 * 9.81 * size.z() / sunk;
+    ScenePair pair;
+    pair.name = "plate/ball";
+    pair.body_a = 1;
+    pair.body_b = 2;
+    pair.settings.effects = effects();
+    builder.scene.pairs.push_back(pair);
+    return builder;
+  }
 
   static void addGround(SceneBuilder& builder, const Eigen::Isometry3d& pose) {
     SimulatedBodySettings ground;

@@ -12,6 +12,7 @@ namespace concave_distance::friction_energy_test {
 namespace {
 
 using test::ElasticBall;
+using test::SceneBuilder;
 
 constexpr double kScales[] = {1e-3, 1.0, 100.0};  // metres
 constexpr FrictionModel kModels[] = {FrictionModel::None, FrictionModel::Bristle,
@@ -51,6 +52,46 @@ TEST(FrictionEnergy, ABallRollsOnWithFrictionOn) {
       EXPECT_NEAR(simulation.bodies()[1].velocity.x(), speed, 0.01 * speed);
       EXPECT_NEAR(simulation.energy().kinetic, energy, 0.01 * energy);
     }
+  }
+}
+
+// Friction takes what slides, and the integration nothing: the oracle is a hundredth of the step.
+TEST(FrictionEnergy, FreeBallsThatMeetOffTheirCentresLoseWhatShortStepsLose) {
+  for (const double radius : {1e-3, 1.0}) {
+    for (const FrictionModel friction : {FrictionModel::Bristle, FrictionModel::RegularisedCoulomb}) {
+      for (const double share : {0.2, 0.8}) {
+        SCOPED_TRACE(std::to_string(radius) + " " + std::string(toString(friction)) + " " +
+                     std::to_string(share));
+        const double speed = 0.1 * std::sqrt(6.0 * 9.81 * radius);
+        SceneBuilder builder =
+            ElasticBall{radius, friction}.meeting(3.0 * radius, 2.0 * share * radius, speed);
+        const auto kept = [&] {
+          Simulation simulation = builder.simulation();
+          const double energy = simulation.energy().kinetic;
+          simulation.advanceTo(4.0 * radius / speed);
+          EXPECT_GT(simulation.pairs()[0].lower_bound, 0.0);
+          EXPECT_LT(std::abs(simulation.energy().balanceError()), 1e-3 * energy);
+          return simulation.energy().kinetic / energy;
+        };
+        const double with_defaults = kept();
+        builder.settings.step_fraction = 0.02;
+        builder.settings.work_tolerance = 1e-5;
+        builder.settings.largest_step = 1e-3 * radius / speed;
+        EXPECT_NEAR(with_defaults, kept(), 1e-3);
+      }
+    }
+  }
+}
+
+TEST(FrictionEnergy, ABallRollsOnOnAFreePlate) {
+  for (const double radius : kScales) {
+    SCOPED_TRACE(radius);
+    const double speed = 0.5 * std::sqrt(radius);
+    const double duration = std::min(10.0, 10.0 * std::sqrt(10.0 * radius));
+    Simulation simulation =
+        ElasticBall{radius, FrictionModel::Bristle}.rollingOnFreePlate(speed, duration).simulation();
+    simulation.advanceTo(duration);
+    EXPECT_NEAR(simulation.bodies()[2].velocity.x(), speed, 0.01 * speed);
   }
 }
 
