@@ -9,7 +9,7 @@ from geometry import poses
 
 MESHES = pathlib.Path(__file__).resolve().parent.parent.parent / "meshes" / "thesis"
 COLOURS = ("tab:blue", "tab:orange")
-# Of each scene its bodies, and elevation and azimuth of the view in degrees.
+# The bodies of each scene, and elevation and azimuth of the view in degrees.
 SCENES = {
     "boxes_position_1": ("box", "notched_box", 35, -70), "boxes_position_2": ("box", "notched_box", 35, -70),
     "cylinder_position_1": ("semi_extruded", "grooved_cylinder", 25, -60),

@@ -12,7 +12,7 @@ import matplotlib.pyplot as plt  # noqa: E402  (the backend comes first)
 
 RUNS = {"comb-GA-nl": 200, "comb-GA-wl": 500}  # the thesis's, of figure 5.6
 SAME = 1e-9  # metres
-# Of each picture its name, the thesis's figures that it stands for, and the experiments whose rows it shows.
+# Each picture has a name, the figures of the thesis that it stands for, and the experiments whose rows it shows.
 PICTURES = [
     ("figure_2_19", "Figures 2.19 and 2.21: answers of cont-GA", ["table_2_3"]),
     ("figure_2_23", "Figures 2.23 and 2.25: answers of cont-SA", ["table_2_5"]),

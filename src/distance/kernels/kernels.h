@@ -1,18 +1,18 @@
 #pragma once
 
-// distance/kernels: what is computed of two triangles, two points or two round solids.
+// distance/kernels computes with two triangles, two points or two round solids.
 //
-// What goes in: corners of triangles in one frame (LocalFrames: both bodies relative to a point between them,
-// so that rounding is relative to the geometry at hand), or a body and a pose.
-// What comes out: distances with the points that they are taken between, each with a stated error bound
-// (doc/numerics.md), and decisions without error where two triangles meet.
+// It takes corners of triangles in one frame (LocalFrames: both bodies relative to a point between them, so
+// that rounding is relative to the geometry at hand), or a body and a pose. It gives distances with the
+// points that they are measured between, each with a stated error bound (doc/numerics.md), and decides
+// without error whether two triangles meet.
 //
-//   triangle_distance   two triangles: least distance and witness points; triangle_crossing: do they meet,
-//   exactly surface_walk        the nearest point of a surface to a point, by walking from triangle to
-//   triangle witness_refinement  from a pair of triangles down to the nearest pair around it
-//   minimum_candidate a pair of triangles that may hold a local minimum, and on which of its features
-//   minima_scene        both bodies at one pose in one frame, with the rounding that distances in it carry
-//   pair_table          a hash table of pairs of triangles round_*             spheres, capsules and
-//   cylinders against each other: closed forms, else a search
+// - triangle_distance measures two triangles; triangle_crossing decides whether they meet.
+// - surface_walk finds the nearest point of a surface by walking from triangle to triangle.
+// - witness_refinement goes from a pair of triangles down to the nearest pair around it (adjacent_triangles).
+// - minimum_candidate is a pair of triangles that may hold a local minimum, and on which of its features.
+// - minima_scene holds both bodies at one pose in one frame, with the rounding that distances in it carry.
+// - pair_table is a hash table of pairs of triangles.
+// - round_kernels, round_pair_distance and cylinder_pair_search measure spheres, capsules and cylinders.
 //
-// Nothing here keeps anything from pose to pose, and nothing knows what a niche is.
+// It keeps nothing from pose to pose and does not know what a niche is.

@@ -10,8 +10,8 @@
 
 namespace concave_distance::detail {
 
-/// Visits pairs of facets ("facet pairs") from the one that holds a local minimum, lowest levels first. The
-/// distance is convex on a facet pair, and facet pairs meet at the least distance over what they share: a
+/// Visits facet pairs (a facet of each body) from the one that holds a local minimum, lowest levels first.
+/// The distance is convex on a facet pair, and facet pairs meet at the least distance over what they share: a
 /// graph with the very basins and passes of the surfaces. Buffers of one thread, kept from flood to flood.
 class BasinSearch {
  public:

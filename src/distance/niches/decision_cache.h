@@ -10,7 +10,7 @@
 
 namespace concave_distance::detail {
 
-/// What proves verdicts, kept from pose to pose: pairs of facets ("facet pairs"), links of the paths that
+/// What proves verdicts, kept from pose to pose: facet pairs (a facet of each body), links of the paths that
 /// lead on from them, and regions, sets of facet pairs with a border around each. Belongs to one pair of
 /// bodies.
 class DecisionCache {

@@ -1,23 +1,20 @@
 #pragma once
 
-// distance/niches: which local minima are niches, and what is said of each.
+// distance/niches decides which local minima are niches and describes each.
 //
 // A minimum is a niche when every way from it to a nearer place climbs higher than the least prominence times
-// its distance. A facet pair is a pair of facets, one of each body; ways go from facet pair to neighbouring
-// facet pair.
+// its distance. Ways go from one pair of facets, one facet of each body, to a neighbouring pair of facets.
 //
-// What goes in: the candidates of distance/minima, a request (cutoff, least prominence, count, what is
-// listed). What comes out: LocalMinima, the list with distance, prominence, kind, extent and visibility of
-// each niche.
+// It takes the candidates of distance/minima and a request (cutoff, least prominence, count, hidden or not).
+// It gives LocalMinima: the niches with distance, prominence, kind, extent and visibility.
 //
-//   local_minima     the entry: findLocalMinima()
-//   niche_decider  decides each candidate; the cheapest proof first: a path down that stays low
-//   (bounded_path),
-//                    two whole pieces that are far apart (distant_components), the border of a region that is
-//                    still high enough (basin_boundary), else a flood from the candidate (basin_search)
-//   decision_cache   what proved a decision, looked at again in the next pose
-//   minima_flood     prominences as figures, where they are asked for
-//   niche_describer  kind, extent, outward or through material, hidden or visible
-//   meeting_pairs    where the surfaces meet: niches of distance 0
+// - local_minima has the entry, findLocalMinima().
+// - niche_decider decides each candidate by the cheapest proof that holds: a path down that stays low
+//   (bounded_path), two whole components that are far apart (distant_components), the boundary of a basin
+//   that is still high enough (basin_boundary), else a search of the basin (basin_search).
+// - decision_cache keeps what proved a decision for the next pose.
+// - minima_flood measures prominences where they are asked for.
+// - niche_describer tells kind, extent, outward or through material, hidden or visible.
+// - meeting_pairs finds the niches of distance 0, where the surfaces meet.
 //
-// What is kept is evidence and never a result: what no longer proves its decision is decided anew.
+// It keeps evidence and never a result: where the evidence no longer proves a decision, it decides anew.
