@@ -10,7 +10,7 @@
 namespace concave_distance::test {
 
 inline std::unique_ptr<BodyMesh> makeSearchBody(const SurfaceMesh& surface, double max_edge_length,
-                                          std::size_t matrix_node_limit = 65535) {
+                                                std::size_t matrix_node_limit = 65535) {
   BodyMeshOptions options;
   options.max_edge_length = max_edge_length;
   options.matrix_node_limit = matrix_node_limit;

@@ -288,7 +288,7 @@ inline std::vector<BruteForceMinimum> bruteForceMinima(const BodyMesh& a, const 
     for (std::size_t i = 0; i < on_plateau.size(); ++i) {
       if (!on_plateau[i]) continue;
       parts::appendMinimisers(corners_a[i / count_b], corners_b[i % count_b], minimum.distance, plateau,
-                               points);
+                              points);
     }
     parts::measure(points, minimum.length, minimum.width);
   }

@@ -135,9 +135,9 @@ inline Wide exactSurfaceDistance(const SurfaceMesh& a, const SurfaceMesh& b, con
   Wide squared = std::numeric_limits<double>::infinity();
   for (const Contender& contender : contenders) {
     if (contender.distance > least + margin || squared == 0) break;
-    squared = std::min(squared,
-                       exactSquaredDistance(parts::cornersOf<Wide>(points_a, a.triangles()[contender.a]),
-                                            parts::cornersOf<Wide>(points_b, b.triangles()[contender.b])));
+    squared =
+        std::min(squared, exactSquaredDistance(parts::cornersOf<Wide>(points_a, a.triangles()[contender.a]),
+                                               parts::cornersOf<Wide>(points_b, b.triangles()[contender.b])));
   }
   return boost::multiprecision::sqrt(squared);
 }
