@@ -64,7 +64,7 @@ void rollsInBowl(SceneReport& report, const ElasticBall& ball) {
     if (run.time() < 0.25 * duration) first = std::max(first, kinetic);
     if (run.time() > 0.75 * duration) last = std::max(last, kinetic);
   }
-  report.equals({"largest kinetic energy in a bowl, last quarter over the first", "1", last / first}, 1.0,
+  report.equals({"largest kinetic energy in a bowl; last quarter over the first", "1", last / first}, 1.0,
                 0.01, "no loss", run.figures());
   report.atMost({"energy balance over the largest kinetic energy", "1",
                  run.simulation().energy().balanceError() / run.simulation().energy().largest_kinetic},
