@@ -15,7 +15,7 @@ _MUTATION = """\
   {mean('comb-GA-nl; N_pop 80', 'region', table='table_5_3', scene='boxes_position_1'):.0%} here,
   {mean('comb-GA-nl; N_pop 80; G_max 100; random moves', 'region', table='losses_no_descent', scene='boxes_position_1'):.0%} with random moves,
   {mean('comb-GA-nl; N_pop 80; G_max 100; one new pair a generation', 'region', table='losses_no_descent', scene='boxes_position_1'):.0%} with a random pair.
-  Not run again since, and with random moves still: Tables 3.5 and D.1, figures 5.6 and 5.7, random points, the thesis's row of the ablation.
+  Not run again since, and with random moves still: the thesis's row of the ablation.
 """
 
 # Sec. 4.6.3 leaves open what happens to a parent without a partner; where their rows are there, the figures decide.
