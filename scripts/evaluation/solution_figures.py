@@ -29,7 +29,7 @@ def read_points(folders, experiment):
     """{(row, scene): lines} of an experiment's points; of a run that was done again its last ones."""
     found = collections.defaultdict(dict)
     for line in read_rows(folders, experiment + "_points.csv"):
-        found[line["row"], line["scene"]][int(line["run"]), int(line.get("individual", 0))] = line
+        found[line["row"], line["scene"]][int(line["run"]), int(line["individual"])] = line
     return {key: [line for _, line in sorted(lines.items())] for key, lines in found.items()}
 
 
