@@ -17,7 +17,7 @@ std::string written(double value, std::chars_format format, int precision) {
   return text;
 }
 
-/// Whether a decimal number beyond the range of a double is below 1: too small, not too large.
+/// Tells a decimal number that is too small for a double, below 1, from one that is too large.
 bool isBelowOne(std::string_view text) {
   const std::size_t end = std::min(text.find_first_of("eE"), text.size());
   const std::string_view digits = text.substr(0, end);

@@ -32,7 +32,7 @@ enum class LocalOptimization : std::uint8_t {
   Baldwinian   ///< it stays where it is and counts as fit as that local minimum
 };
 
-/// What a mutation does (Carretero, sec. 3.3.2.c).
+/// How a mutation moves an individual (Carretero, sec. 3.3.2.c).
 enum class MutationMethod : std::uint8_t {
   /// An individual is moved with probability p_m: one gene or both go a part of the way to a random node.
   RandomMove,

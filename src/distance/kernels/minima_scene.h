@@ -71,7 +71,7 @@ struct MinimaScene {
     points.corners[3] = points.is_quad ? vertexOfB(nodes[3]) : points.corners[0];
     return points;
   }
-  /// Of a facet pair, its closest triangles with their distance.
+  /// Finds the closest triangles of a facet pair and their distance.
   std::pair<TrianglePair, TrianglePairDistance> closestIn(const TrianglePair& facet_pair) const {
     const FacetPairDistance found = facetDistance(facetOfA(facet_pair.a), facetOfB(facet_pair.b));
     return {{found.is_in_second_of_a ? facets_a.second[facet_pair.a.value] : facet_pair.a,

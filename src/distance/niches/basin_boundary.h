@@ -11,7 +11,7 @@
 
 namespace concave_distance::detail {
 
-/// What parts a set of facet pairs from one beyond it.
+/// An element that parts a set of facet pairs from one beyond it.
 struct BorderElement {
   SharedElement shared;
   TriangleIndex beyond;  ///< facet of the body that has the edge; with `shared.other` the facet pair beyond
@@ -73,7 +73,7 @@ class BorderPool {
   std::uint32_t free_ = kNone;
 };
 
-/// What encloses a set of facet pairs: elements over which the distance is at least a level. At another
+/// Encloses a set of facet pairs by elements over which the distance is at least a level. At another
 /// pose the distance over an element has changed by no more than one point has moved and the turn times a
 /// lever; where that is not enough it is measured anew, and from then on the gap along the direction of the
 /// closest points is what counts, which the motion across it leaves as it is. No history: what holds is seen

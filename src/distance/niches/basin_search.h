@@ -35,7 +35,7 @@ class BasinSearch {
     std::uint32_t parent;  ///< where it was reached from; kNone for the first
     SharedElement via;     ///< what it has in common with its parent
   };
-  /// What parts the facet pairs visited from one beyond the level.
+  /// An element that parts the facet pairs visited from one beyond the level.
   struct BorderStep {
     TriangleIndex beyond_a;
     TriangleIndex beyond_b;

@@ -10,7 +10,7 @@
 
 namespace concave_distance::detail {
 
-/// Whether a minimum that was found elsewhere, by a search or at an earlier pose, can be a niche.
+/// Tells whether a minimum that was found elsewhere, by a search or at an earlier pose, can be a niche.
 bool isCandidate(const MinimaScene& scene, const LocalMinimaRequest& request, const MinimumCandidate& seed);
 /// Appends those of `from` that can be niches.
 void appendCandidates(const MinimaScene& scene, const LocalMinimaRequest& request,

@@ -10,14 +10,14 @@
 
 namespace concave_distance::detail {
 
-/// What proves verdicts, kept from pose to pose: facet pairs (a facet of each body), links of the paths that
+/// Keeps from pose to pose what proves verdicts: facet pairs (a facet of each body), links of the paths that
 /// lead on from them, and regions, sets of facet pairs with a border around each. Belongs to one pair of
 /// bodies.
 class DecisionCache {
  public:
   static constexpr std::uint32_t kNone = 0xffffffffU;
 
-  /// What is known of a facet pair.
+  /// A facet pair and what is known of it.
   struct FacetPair {
     TriangleIndex a;
     TriangleIndex b;

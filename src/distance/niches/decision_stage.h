@@ -57,7 +57,7 @@ class NicheDecider::Stage {
     return classifyOutwardness(scene_.a, scene_.b, scene_.a_from_b, minimum) == Outwardness::ThroughMaterial;
   }
 
-  /// Of the seed's facet pair; kNone without memory.
+  /// The index of the seed's facet pair; kNone without memory.
   std::uint32_t numberOf(const MinimumCandidate& seed) {
     const TrianglePair facet_pair = scene_.facetPairOf(seed.a, seed.b);
     return memory_.facetPairOf(facet_pair.a, facet_pair.b, limit_);
