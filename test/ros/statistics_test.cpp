@@ -40,8 +40,8 @@ TEST(CycleStatistics, CoverTheTimeSinceTheLastLook) {
   const CycleWindow window = statistics.take(11.0);
   EXPECT_EQ(window.cycles, 50U);
   EXPECT_EQ(window.late, 1U);
-  EXPECT_EQ(window.solved, 100U);
-  EXPECT_EQ(window.generations, 100U);
+  EXPECT_EQ(window.total.solved, 100U);
+  EXPECT_EQ(window.total.generations, 100U);
   diagnostic_updater::DiagnosticStatusWrapper status;
   describePairs(window, status);
   EXPECT_EQ(valueOf(status, "search generations"), "100");

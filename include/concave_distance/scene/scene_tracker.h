@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <array>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
@@ -10,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "concave_distance/scene/cycle_counts.h"
 #include "concave_distance/scene/scene.h"
 #include "concave_distance/scene/tracked_pair.h"
 
@@ -18,23 +18,6 @@ namespace concave_distance {
 struct SceneTrackerOptions {
   std::uint32_t threads = 0;                ///< that solve pairs; 0: one per core, 1: only the caller's
   const std::atomic<bool>* stop = nullptr;  ///< set: a cycle ends without solving the pairs that are left
-};
-
-/// What one cycle did.
-struct CycleCounts {
-  std::uint32_t watched = 0;
-  std::uint32_t solved = 0;
-  std::uint32_t cold = 0;      ///< of the solved, those from nothing
-  std::uint32_t repeated = 0;  ///< with the input of the cycle before
-  std::uint32_t beyond_cutoff = 0;
-  std::uint32_t not_located = 0;
-  std::uint32_t search_misses = 0;
-  std::uint32_t generations = 0;  ///< of the genetic search, of all pairs
-  /// Niches listed, by NicheOrigin.
-  std::array<std::uint64_t, kNicheOriginCount> niches{};
-  std::uint32_t unproven = 0;       ///< solves at `certified` that the time budget ended before the proof
-  EffectCounts effects;             ///< of all pairs
-  double helper_cpu_seconds = 0.0;  ///< processor time of the threads that helped the caller's
 };
 
 /// Tracks every pair of a scene: leaves out what is beyond its cutoff, solves the rest in parallel and
