@@ -95,7 +95,7 @@ void RoundOverlap::setVolume(double volume, const Vector3d& moment, double area,
 
 /// Of a cylinder the end that all samples are well on the way to, 1 or -1; else 0.
 int RoundOverlap::sideOf() const {
-  if (pair_->shape.kind != RoundKind::Cylinder) return 0;
+  if (!hasFlatEnds(pair_->shape)) return 0;
   double least = std::numeric_limits<double>::infinity();
   double most = -least;
   for (const RoundSample& sample : samples_) {
@@ -110,7 +110,7 @@ int RoundOverlap::sideOf() const {
 double RoundOverlap::leastFromCore(int side) const {
   double least = std::numeric_limits<double>::infinity();
   if (side != 0) return least;
-  const bool is_cylinder = pair_->shape.kind == RoundKind::Cylinder;
+  const bool is_cylinder = hasFlatEnds(pair_->shape);
   for (const RoundSample& sample : samples_) {
     const Vector3d out = sample.point - corePoint(pair_->shape, sample.point);
     least = std::min(least, is_cylinder ? sample.point.head<2>().norm() : out.norm());

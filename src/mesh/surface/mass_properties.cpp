@@ -6,6 +6,7 @@
 
 #include "base/parameter_checks.h"
 #include "concave_distance/base/error.h"
+#include "round_traits.h"
 
 namespace concave_distance {
 namespace {
@@ -99,7 +100,7 @@ MassProperties massPropertiesOfMass(const RoundShape& shape, double mass, const 
   detail::requirePositive(where, "mass", mass, "kg");
   const double r = shape.radius;
   const double h = shape.half_length;
-  const bool has_ends = shape.kind != RoundKind::Cylinder;
+  const bool has_ends = !detail::hasFlatEnds(shape);
   // Both ends together are a ball, 4/3 r of the disc's area; the middle is 2 h of it.
   const double ends = has_ends ? mass * (4.0 / 3.0 * r) / (4.0 / 3.0 * r + 2.0 * h) : 0.0;
   const double middle = mass - ends;

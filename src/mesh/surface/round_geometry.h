@@ -6,27 +6,22 @@
 
 #include "base/pi.h"
 #include "concave_distance/mesh/surface/round_shape.h"
+#include "round_traits.h"
 
 namespace concave_distance::detail {
 
 /// Signed distance of a point (shape frame) to the surface, negative inside: a convex function with slope 1.
 /// Error: a few machine epsilons of the point's distance from the centre and of the shape's size.
 inline double signedDistance(const RoundShape& shape, const Eigen::Vector3d& p) {
+  if (!hasSide(shape)) return p.norm() - shape.radius;
   const double beyond = std::abs(p.z()) - shape.half_length;
-  switch (shape.kind) {
-    case RoundKind::Sphere:
-      return p.norm() - shape.radius;
-    case RoundKind::Capsule: {
-      const double end = std::max(0.0, beyond);
-      return std::sqrt(p.x() * p.x() + p.y() * p.y() + end * end) - shape.radius;
-    }
-    case RoundKind::Cylinder: {
-      const double across = std::sqrt(p.x() * p.x() + p.y() * p.y()) - shape.radius;
-      return across > 0.0 && beyond > 0.0 ? std::sqrt(across * across + beyond * beyond)
-                                          : std::max(across, beyond);
-    }
+  if (!hasFlatEnds(shape)) {
+    const double end = std::max(0.0, beyond);
+    return std::sqrt(p.x() * p.x() + p.y() * p.y() + end * end) - shape.radius;
   }
-  return 0.0;
+  const double across = std::sqrt(p.x() * p.x() + p.y() * p.y()) - shape.radius;
+  return across > 0.0 && beyond > 0.0 ? std::sqrt(across * across + beyond * beyond)
+                                      : std::max(across, beyond);
 }
 
 /// The point of the core (centre, or segment of the axis) nearest to `p`.
@@ -36,7 +31,7 @@ inline Eigen::Vector3d corePoint(const RoundShape& shape, const Eigen::Vector3d&
 
 /// A subgradient of signedDistance(), of length 1: where several are, one of them.
 inline Eigen::Vector3d outwardDirection(const RoundShape& shape, const Eigen::Vector3d& p) {
-  if (shape.kind != RoundKind::Cylinder) {
+  if (!hasFlatEnds(shape)) {
     const Eigen::Vector3d out = p - corePoint(shape, p);
     const double length = out.norm();
     return length > 0.0 ? Eigen::Vector3d(out / length) : Eigen::Vector3d(Eigen::Vector3d::UnitX());
@@ -64,7 +59,7 @@ inline Eigen::Vector3d surfacePoint(const RoundShape& shape, const Eigen::Vector
 /// The solid's point that is farthest along a direction.
 inline Eigen::Vector3d supportPoint(const RoundShape& shape, const Eigen::Vector3d& direction) {
   const Eigen::Vector3d end(0.0, 0.0, std::copysign(shape.half_length, direction.z()));
-  if (shape.kind == RoundKind::Cylinder) {
+  if (hasFlatEnds(shape)) {
     const double across = std::sqrt(direction.x() * direction.x() + direction.y() * direction.y());
     if (!(across > 0.0)) return end;
     return end +
@@ -76,13 +71,12 @@ inline Eigen::Vector3d supportPoint(const RoundShape& shape, const Eigen::Vector
 
 /// Of the solid's points from its centre, metres.
 inline double reachOf(const RoundShape& shape) {
-  return shape.kind == RoundKind::Cylinder ? std::hypot(shape.radius, shape.half_length)
-                                           : shape.radius + shape.half_length;
+  return hasFlatEnds(shape) ? std::hypot(shape.radius, shape.half_length) : shape.radius + shape.half_length;
 }
 
 /// Of the solid's surface, m^2.
 inline double surfaceAreaOf(const RoundShape& shape) {
-  const double ends = shape.kind == RoundKind::Cylinder ? shape.radius : 2.0 * shape.radius;
+  const double ends = hasFlatEnds(shape) ? shape.radius : 2.0 * shape.radius;
   return 2.0 * kPi * shape.radius * (ends + 2.0 * shape.half_length);
 }
 
@@ -90,8 +84,7 @@ inline double surfaceAreaOf(const RoundShape& shape) {
 inline double farthestDistance(const RoundShape& shape, const Eigen::Vector3d& p) {
   const double rho = std::hypot(p.x(), p.y());
   const double far = std::abs(p.z()) + shape.half_length;
-  return shape.kind == RoundKind::Cylinder ? std::hypot(rho + shape.radius, far)
-                                           : std::hypot(rho, far) + shape.radius;
+  return hasFlatEnds(shape) ? std::hypot(rho + shape.radius, far) : std::hypot(rho, far) + shape.radius;
 }
 
 }  // namespace concave_distance::detail
