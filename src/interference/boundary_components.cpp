@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/triangle_area.h"
 #include "mesh/surface/mesh_topology.h"
 
 namespace concave_distance::detail {
@@ -142,7 +143,7 @@ void BoundaryComponents::measureSurface(WorkingFrame& frame, const SurfacePieces
   for (BoundaryComponent& component : components_) {
     forEachWholeTriangle(pieces, component, side, [&](TriangleIndex triangle) {
       const Corners c = frame.corners(side, triangle);
-      const double area = 0.5 * (*c[1] - *c[0]).cross(*c[2] - *c[0]).norm();
+      const double area = triangleArea(*c[0], *c[1], *c[2]);
       const Eigen::Vector3d normal = frame.normal(side, triangle);
       addArea(component, side, area, (*c[0] + *c[1] + *c[2]) / 3.0);
       component.facing += area * normal * normal.transpose();

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <tuple>
 
-#include "union_find.h"
+#include "base/union_find.h"
 
 namespace concave_distance::detail {
 namespace {

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/union_find.h"
 #include "resolve_shells.h"
-#include "union_find.h"
 
 namespace concave_distance::detail {
 namespace {

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "mesh/surface/union_find.h"
+#include "base/union_find.h"
 
 namespace concave_distance {
 namespace {
@@ -255,7 +255,7 @@ class Joiner {
 
   /// Triangles of a shell that no other one meets hang together in parts, each wholly inside or outside.
   void hide() {
-    detail::UnionFind parts(mesh_.triangleCount());
+    UnionFind parts(mesh_.triangleCount());
     for (std::uint32_t t = 0; t < mesh_.triangleCount(); ++t) {
       if (is_near_[t]) continue;
       for (const TriangleIndex next : topology_.triangle_across_edge[t]) {
@@ -339,7 +339,7 @@ CompressedRows<AdjacentTriangle> joinedAdjacency(const SurfaceMesh& mesh, const 
 
 void joinPieces(const ShellContacts& joints, ConnectedPieces& pieces) {
   if (joints.joints.empty()) return;
-  detail::UnionFind united(pieces.count);
+  UnionFind united(pieces.count);
   for (const ShellContacts::Joint& joint : joints.joints) {
     united.unite(pieces.piece_of_triangle[joint.first.value], pieces.piece_of_triangle[joint.second.value]);
   }
