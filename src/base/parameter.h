@@ -30,8 +30,8 @@ struct ParameterInfo {
   bool above_lowest = false;   ///< the lowest number itself is not allowed
   bool below_highest = false;  ///< nor is the highest
   bool is_even = false;        ///< of counts
-  /// What stands for "no number": "none" (no limit) or "auto" (chosen by the program); empty: there is none.
-  /// Of a text or list: what it has to be.
+  /// This word stands for "no number": "none" (no limit) or "auto" (chosen by the program); empty: there is
+  /// none. A text or list says here what it has to be.
   std::string word;
   std::vector<std::string> choices;
   /// Words of the parameter `model` of the same table to which it belongs; empty: to every one.
@@ -48,18 +48,18 @@ struct ParameterInfo {
 std::string allowedValues(const ParameterInfo& info);
 /// The value as it would be written in a file.
 std::string toText(const ParameterValue& value);
-/// The value that a text means for this parameter; any other text is returned as it is and refused by
-/// requireAllowed().
+/// The value that a text means for this parameter; any other text is returned as it is and
+/// refused by requireAllowed().
 ParameterValue parseParameter(const ParameterInfo& info, const std::string& text);
 bool isAllowed(const ParameterInfo& info, const ParameterValue& value);
-/// Whether the value is a choice of experiments, which this declaration does not allow.
+/// Returns whether the value is a choice of experiments, which this declaration does not allow.
 bool isExperimentChoice(const ParameterInfo& info, const ParameterValue& value);
 ParameterInfo withoutExperimentChoices(ParameterInfo info);
-/// What is wrong with a parameter, or a choice of one, that experiments alone read; and what to do.
+/// Returns what is wrong with a parameter, or a choice of one, that experiments alone read; and what to do.
 std::string saysOfExperiments(const std::string& name);
 inline constexpr const char* kLeaveToExperiments =
     "leave it out: only the program evaluate reads it (doc/experiments.md)";
-/// Whether a parameter means something to a model.
+/// Returns whether a parameter means something to a model.
 bool belongsTo(const ParameterInfo& info, const std::string& model);
 /// The models that it belongs to: "a", "a and b", "a, b and c". @param last between the last two, "and"
 /// @param quote around each

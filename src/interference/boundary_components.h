@@ -21,10 +21,10 @@ struct BoundaryComponent {
   /// The squares of the normals, summed up by area: which way the pieces face, whatever cancels.
   Eigen::Matrix3d facing = Eigen::Matrix3d::Zero();
   Eigen::Vector3d vector_area = Eigen::Vector3d::Zero();  ///< of A's part, from the loops
-  /// Of flaps (CommonFace). Each is in both areas.
+  /// Flaps (CommonFace) have this area, which is in both bodies' areas.
   double flap_area = 0.0;
   Eigen::Vector3d flap_vector_area = Eigen::Vector3d::Zero();
-  /// What half of the common faces that face the same way adds to A's part and takes from B's.
+  /// Half of the common faces that face the same way adds this to A's part and takes it from B's.
   double shared_area = 0.0;
   Eigen::Vector3d shared_vector_area = Eigen::Vector3d::Zero();
   double loop_area = 0.0;  ///< the lengths of each loop's vector area, added up
@@ -50,7 +50,7 @@ class BoundaryComponents {
              WorkLimit& limit);
   const std::vector<BoundaryComponent>& all() const { return components_; }
   std::vector<BoundaryComponent>& all() { return components_; }
-  /// Of each of the curves' common faces, the component that it belongs to; kNone where it belongs to none.
+  /// Returns for each of the curves' common faces the component that it belongs to; kNone: none.
   const std::vector<std::uint32_t>& componentOfCommonFace() const { return component_of_common_face_; }
   /// The loop of each node, named by one of its nodes.
   std::uint32_t loopOf(std::uint32_t node) { return loops_.find(node); }

@@ -16,8 +16,8 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-// A core may lie along the other surface: the patch's middle is that of what is within this share of the
-// depth.
+// A core may lie along the other surface: the patch's middle is that of what is within this share
+// of the depth.
 constexpr double kPlateau = 0.1;
 constexpr int kMostSteps = 60;
 constexpr int kRimPoints = 16;

@@ -83,9 +83,9 @@ void RoundSection::integrate(const RoundShape& shape, const TrianglePoints& tria
   }
 }
 
-/// Where the depth hardly changes its deepest point may be at the border: to the middle of the plane's
-/// section, which is symmetrical about the axis as seen on the plane, or as far towards it as the triangle
-/// goes.
+/// Where the depth hardly changes its deepest point may be at the border: to the middle of the
+/// plane's section, which is symmetrical about the axis as seen on the plane, or as far towards it as
+/// the triangle goes.
 void RoundSection::moveCentre() {
   const Vector3d foot = normal_.dot(centre_) * normal_;
   const Vector3d axis = Vector3d::UnitZ() - normal_.z() * normal_;

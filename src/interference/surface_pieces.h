@@ -23,8 +23,8 @@ struct WholeTriangle {
   std::uint32_t element;
 };
 
-/// What the crossing curves cut out of one body's surface: the part inside the other body, as boundary edges
-/// in crossed triangles and as whole ones. Knows closed shells crossed by closed shells only.
+/// Holds what the crossing curves cut out of one body's surface: the part inside the other body, as boundary
+/// edges in crossed triangles and as whole ones. It knows closed shells crossed by closed shells only.
 class SurfacePieces {
  public:
   /// Adds the inside vertices to `sets`, which hold the nodes, and unites what hangs together.
@@ -63,7 +63,7 @@ class SurfacePieces {
   void seedFromEdges(const CrossingCurves& curves, ElementSets& sets);
   void seedFromLoops(WorkingFrame& frame, PerturbedPredicates& predicates, Containment& containment,
                      const CrossingCurves& curves, ElementSets& sets);
-  /// Over closed shells, or over one open shell.
+  /// Spreads over closed shells, or over one open shell.
   void flood(const WorkingFrame& frame, ElementSets& sets, std::uint32_t open_shell = kNone);
   void emitTriangle(WorkingFrame& frame, const CrossingCurves& curves, std::size_t first, std::size_t last,
                     ElementSets& sets);

@@ -184,8 +184,8 @@ NodeIndex BodyMesh::graphNode(NodeIndex surface_vertex) const {
 
 BodyMesh::~BodyMesh() = default;
 
-// While a thread waits for its parallel parts it must not start another task, which might wait for the same
-// body.
+// While a thread waits for its parallel parts it must not start another task, which might wait for
+// the same body.
 const SearchNodes& BodyMesh::makeNodes() const {
   std::call_once(state_->nodes_once, [&] {
     tbb::this_task_arena::isolate([&] { state_->nodes = makeCheckedNodes(state_->parts, state_->options); });

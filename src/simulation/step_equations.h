@@ -27,7 +27,7 @@ class StepEquations {
   /// Finds what hangs together by couplings that act.
   void findIslands(const std::vector<Inertia>& bodies, const std::vector<Coupling>& couplings);
 
-  /// Of the islands found last.
+  /// Solves the islands found last.
   /// @param impulses of each body about its centre of mass, world axes; of others than free bodies ignored
   /// @param changes of the bodies' twists; and of the couplings' (Coupling::change)
   void solve(const std::vector<Inertia>& bodies, const std::vector<Vector6d>& impulses,

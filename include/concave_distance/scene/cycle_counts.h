@@ -9,7 +9,7 @@
 
 namespace concave_distance {
 
-/// What one cycle did; with add(), what several did.
+/// Counts what one cycle did; with add(), what several did.
 struct CycleCounts {
   std::uint32_t watched = 0;        ///< pairs
   std::uint32_t beyond_cutoff = 0;  ///< pairs
@@ -30,12 +30,12 @@ struct CycleCounts {
   void add(const CycleCounts& cycle);
 };
 
-/// A row of what is counted. A new counter is a field of CycleCounts and a row here: sums and diagnostics
-/// follow.
+/// A row of what is counted. A new counter is a field of CycleCounts and a row here: sums
+/// and diagnostics follow.
 struct CycleCounter {
   const char* key;  ///< in the diagnostics
   std::uint64_t CycleCounts::*count;
-  /// What a solved pair adds; nullptr where the tracker itself counts.
+  /// Returns what a solved pair adds; nullptr where the tracker itself counts.
   std::uint64_t (*of)(const PairSolution&);
 };
 

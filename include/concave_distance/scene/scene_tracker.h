@@ -25,7 +25,7 @@ struct SceneTrackerOptions {
 class SceneTracker {
  public:
   using Pairs = std::vector<std::shared_ptr<TrackedPair>>;
-  /// Where the pair at this place in scene.pairs is. Called in the order of the pairs, by one thread.
+  /// Returns where the pair at this place in scene.pairs is. Called in the order of the pairs, by one thread.
   using Locate = std::function<PairInput(std::size_t)>;
 
   explicit SceneTracker(SceneTrackerOptions options = {});
@@ -38,8 +38,8 @@ class SceneTracker {
   /// @param settings_changed false: no pair of both scenes has other settings, and none is solved anew
   /// @throws Error for a pair whose bodies are not two bodies with meshes of the scene
   void setScene(const Scene& scene, bool settings_changed = true);
-  /// Returns for each pair of a scene its place in pairs() if setScene() would let it go on. @throws Error as
-  /// setScene()
+  /// Returns for each pair of a scene its place in pairs() if setScene() would let it go on. @throws
+  /// Error as setScene()
   std::vector<std::optional<std::size_t>> placesNow(const Scene& scene) const;
 
   /// One cycle over all enabled pairs. @param world_from_body one pose for each of scene.bodies, each rigid
@@ -62,7 +62,7 @@ class SceneTracker {
   void restart();
   void restart(std::size_t pair);
 
-  /// In the order of scene.pairs.
+  /// Returns the pairs in the order of scene.pairs.
   const Pairs& pairs() const { return pairs_; }
   /// Pairs that left the scene with an alert raised, which setScene took back; reported once.
   Pairs takeRetired();

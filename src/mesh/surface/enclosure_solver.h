@@ -48,14 +48,14 @@ class EnclosureSolver {
     int jump;
   };
 
-  /// What lies between two cells.
+  /// Says what lies between two cells.
   struct Boundary {
     std::uint32_t low;
     std::uint32_t high;
     int jump;                 ///< from `low` to `high`
     std::ptrdiff_t agreeing;  ///< faces
   };
-  /// From each cell, the cells beyond its faces with the change of the winding number.
+  /// Each cell lists the cells beyond its faces, with the change of the winding number.
   using CellSteps = std::vector<std::vector<std::pair<std::uint32_t, int>>>;
 
   void numberCells(const std::vector<std::uint32_t>& faces);

@@ -69,18 +69,18 @@ inline Eigen::Vector3d supportPoint(const RoundShape& shape, const Eigen::Vector
   return length > 0.0 ? Eigen::Vector3d(end + shape.radius / length * direction) : end;
 }
 
-/// Of the solid's points from its centre, metres.
+/// Returns the greatest distance of the solid's points from its centre, metres.
 inline double reachOf(const RoundShape& shape) {
   return hasFlatEnds(shape) ? std::hypot(shape.radius, shape.half_length) : shape.radius + shape.half_length;
 }
 
-/// Of the solid's surface, m^2.
+/// Returns the area of the solid's surface, m^2.
 inline double surfaceAreaOf(const RoundShape& shape) {
   const double ends = hasFlatEnds(shape) ? shape.radius : 2.0 * shape.radius;
   return 2.0 * kPi * shape.radius * (ends + 2.0 * shape.half_length);
 }
 
-/// Of the solid's points from `p` (shape frame), metres.
+/// Returns the greatest distance of the solid's points from `p` (shape frame), metres.
 inline double farthestDistance(const RoundShape& shape, const Eigen::Vector3d& p) {
   const double rho = std::hypot(p.x(), p.y());
   const double far = std::abs(p.z()) + shape.half_length;

@@ -4,7 +4,7 @@
 
 namespace concave_distance::detail {
 
-/// What the rules ask about a kind of round solid: all of them are a cylindrical part between two ends.
+/// Holds what the rules ask about a kind of round solid: all of them are a cylindrical part between two ends.
 struct RoundTraits {
   bool has_side;       ///< the cylindrical part has a length; false: only the ends are left
   bool has_flat_ends;  ///< the ends are discs with rims; false: they are half balls

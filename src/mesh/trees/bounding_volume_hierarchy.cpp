@@ -76,8 +76,8 @@ class HierarchyBuilder {
     return size;
   }
 
-  /// Builds what is below a subtree's box, depth first from `next` on; returns what the box's child is
-  /// called.
+  /// Builds what is below a subtree's box, depth first from `next` on; returns what the box's
+  /// child is called.
   std::uint32_t place(const Subtree& subtree, Place& next) {
     if (subtree.count <= Hierarchy::kWidth) {
       leaves_[next.leaves] = leafOf(subtree);

@@ -46,20 +46,20 @@ class BoundingVolumeHierarchy {
     std::uint32_t child[kWidth];
   };
 
-  /// Up to four triangles; unused lanes repeat the last one.
+  /// Holds up to four triangles; unused lanes repeat the last one.
   struct alignas(32) Leaf {
     double corner[3][3][kWidth];  ///< [corner][coordinate]
     TriangleIndex triangle[kWidth];
     std::uint32_t count;
   };
 
-  /// Where a box stands: node * kWidth + lane.
+  /// A slot says where a box stands: node * kWidth + lane.
   using Slot = std::uint32_t;
   static constexpr Slot kRoot = 0;  ///< the box of the whole surface
 
   BoundingVolumeHierarchy() = default;
   BoundingVolumeHierarchy(const SurfaceMesh& mesh, const TriangleTree& tree);
-  /// From another hierarchy's parts, which are taken as they are. O(nodes).
+  /// Takes another hierarchy's parts as they are. O(nodes).
   BoundingVolumeHierarchy(const Eigen::Vector3d& origin, double reach, std::vector<Node> nodes,
                           std::vector<Leaf> leaves);
 

@@ -44,7 +44,7 @@ class NormalConeTree {
   static constexpr std::size_t kWidth = 4;
   static constexpr std::uint32_t kNoChild = 0xffffffffU;
   static constexpr std::uint32_t kItemFlag = 0x80000000U;
-  /// Where a group stands.
+  /// A slot says where a group stands.
   using Slot = std::uint32_t;
   /// The sphere and the cap around some items, or one, in single precision: widened by its rounding, lengths
   /// in units of unit() from origin().
@@ -61,9 +61,9 @@ class NormalConeTree {
     std::uint32_t region;  ///< of regions()
   };
   static constexpr Slot kRoot = 0;  ///< all items
-  /// A part of the tree. The centres of all its groups, and the points of items without a radius, lie
-  /// within `arm` of `centre`, so that no centre moves farther than `centre` plus the turn (radians) times
-  /// `arm`.
+  /// A part of the tree. The centres of all its groups, and the points of items without a radius,
+  /// lie within `arm` of `centre`, so that no centre moves farther than `centre` plus the turn
+  /// (radians) times `arm`.
   struct Region {
     Eigen::Vector3d centre;  ///< metres from origin()
     double arm;              ///< metres

@@ -26,8 +26,8 @@ class Meeting {
 
   const std::vector<Vector3d>& points() const { return points_; }
 
-  /// Calls visit(from, to) for what bounds the points in common: one point, one segment, or the sides of an
-  /// area.
+  /// Calls visit(from, to) for what bounds the points in common: one point, one segment, or the sides
+  /// of an area.
   template <typename Visit>
   void forEachSide(const Vector3d& normal, const Visit& visit) {
     const std::size_t count = points_.size();

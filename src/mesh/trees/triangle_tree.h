@@ -20,7 +20,7 @@ class TriangleTree {
   };
   TriangleTree() = default;
   explicit TriangleTree(const SurfaceMesh& mesh);
-  /// From another tree's nodes() and order(), which are taken as they are.
+  /// Takes another tree's nodes() and order() as they are.
   TriangleTree(std::vector<Node> nodes, std::vector<TriangleIndex> order)
       : nodes_(std::move(nodes)), order_(std::move(order)) {}
   const std::vector<Node>& nodes() const { return nodes_; }
