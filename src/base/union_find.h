@@ -19,6 +19,13 @@ class UnionFind {
     std::iota(parent_.begin(), parent_.end(), 0U);
   }
 
+  /// Makes a set of one more number and returns it.
+  std::uint32_t add() {
+    parent_.push_back(static_cast<std::uint32_t>(parent_.size()));
+    return parent_.back();
+  }
+  std::size_t size() const { return parent_.size(); }
+
   /// Returns the representative of the set that holds `i`.
   std::uint32_t find(std::uint32_t i) {
     while (parent_[i] != i) {

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/union_find.h"
 #include "crossings.h"
-#include "element_sets.h"
 #include "surface_pieces.h"
 
 namespace concave_distance::detail {
@@ -46,7 +46,7 @@ struct BoundaryComponent {
 /// joins cavities to what is around them. Incomplete once the limit is reached.
 class BoundaryComponents {
  public:
-  void build(WorkingFrame& frame, const CrossingCurves& curves, SurfacePieces (&pieces)[2], ElementSets& sets,
+  void build(WorkingFrame& frame, const CrossingCurves& curves, SurfacePieces (&pieces)[2], UnionFind& sets,
              WorkLimit& limit);
   const std::vector<BoundaryComponent>& all() const { return components_; }
   std::vector<BoundaryComponent>& all() { return components_; }
@@ -56,14 +56,14 @@ class BoundaryComponents {
   std::uint32_t loopOf(std::uint32_t node) { return loops_.find(node); }
   /// Vector area of A's side of a loop named so.
   const Eigen::Vector3d& vectorAreaOfLoop(std::uint32_t loop) const { return loop_vector_areas_[loop]; }
-  std::uint32_t componentOfNode(std::uint32_t node, ElementSets& sets) const {
+  std::uint32_t componentOfNode(std::uint32_t node, UnionFind& sets) const {
     return component_of_element_[sets.find(node)];
   }
 
  private:
-  std::uint32_t componentOf(std::uint32_t element, ElementSets& sets);
-  void sortPieces(SurfacePieces& pieces, Side side, ElementSets& sets);
-  void measureLoops(const CrossingCurves& curves, ElementSets& sets);
+  std::uint32_t componentOf(std::uint32_t element, UnionFind& sets);
+  void sortPieces(SurfacePieces& pieces, Side side, UnionFind& sets);
+  void measureLoops(const CrossingCurves& curves, UnionFind& sets);
   void measureSurface(WorkingFrame& frame, const SurfacePieces& pieces, Side side);
   void measureCommonFaces(const WorkingFrame& frame, const CrossingCurves& curves,
                           const SurfacePieces (&pieces)[2], WorkLimit& limit);
@@ -74,7 +74,7 @@ class BoundaryComponents {
   std::vector<BoundaryComponent> components_;
   std::vector<std::uint32_t> component_of_element_;
   std::vector<std::uint32_t> component_of_common_face_;
-  ElementSets loops_;
+  UnionFind loops_;
   std::vector<Eigen::Vector3d> loop_vector_areas_;
   std::vector<std::uint8_t> loop_seen_;
 };

@@ -63,7 +63,7 @@ class RegionBuilder {
   std::vector<CandidatePair> candidates_;
   CrossingCurves curves_;
   Containment containment_;
-  ElementSets sets_;
+  UnionFind sets_;
   SurfacePieces pieces_[2];
   BoundaryComponents components_;
   OverlayDepth overlay_;

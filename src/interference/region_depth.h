@@ -23,7 +23,7 @@ OverlayDepth::Result depthAlong(const Eigen::Vector3d& normal, WorkingFrame& fra
 /// two opposite ways that are as long rounding would choose.
 /// @param known unit, or zero: none
 DepthAlong leastDepth(WorkingFrame& frame, const CrossingCurves& curves, const SurfacePieces (&pieces)[2],
-                      BoundaryComponents& components, const BoundaryComponent& region, ElementSets& sets,
+                      BoundaryComponents& components, const BoundaryComponent& region, UnionFind& sets,
                       const Eigen::Vector3d& known, OverlayDepth& overlay);
 
 /// Finds, for a shell of the body `side` that nothing crosses, the least way until its extent and the other
