@@ -95,7 +95,7 @@ bool RoundOverlap::collect(WorkLimit& limit) {
         return signedDistance(shape, corner) > 0.0;
       });
       entries_.push_back({triangle, 0, 0, lowest, corners, pair_->shape_from_mesh * normal, leaves,
-                          mesh.joints().isHidden(triangle)});
+                          mesh.shellContacts().isHidden(triangle)});
     }
   }
   return true;

@@ -30,7 +30,7 @@ double restOf(const RoundVolume& volume) {
 /// Shells that meet others may overlap them, so that all together may hold more than the solid: each has a
 /// volume of its own.
 RoundVolume& RoundOverlap::volumeOfShell(TriangleIndex triangle) {
-  const bool meet = !pair_->mesh.joints().isEmpty();
+  const bool meet = !pair_->mesh.shellContacts().isEmpty();
   const std::uint32_t shell = meet ? pair_->mesh.topology().shell_of_triangle[triangle.value] : 0;
   std::size_t i = 0;
   while (i < volume_count_ && volumes_[i].shell != shell) ++i;

@@ -95,7 +95,7 @@ class BodyMesh {
   const TriangleTree& tree() const { return *tree_; }
   const BoundingVolumeHierarchy& hierarchy() const { return *hierarchy_; }
   /// Returns where shells meet and what lies inside others. Built at the first call, for all threads.
-  const ShellContacts& joints() const;
+  const ShellContacts& shellContacts() const;
   /// Triangles and flat quadrangles. Built at the first call, for all threads; 24 bytes a triangle.
   const Facets& facets() const;
   /// Which facets hang together, over the joints too; hidden ones with none. Built at the first call, for

@@ -190,7 +190,8 @@ class Joiner {
 
 }  // namespace
 
-ShellContacts joinShells(const SurfaceMesh& mesh, const MeshTopology& topology, const TriangleTree& tree) {
+ShellContacts findShellContacts(const SurfaceMesh& mesh, const MeshTopology& topology,
+                                const TriangleTree& tree) {
   return Joiner(mesh, topology, tree).join();
 }
 
