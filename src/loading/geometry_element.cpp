@@ -11,7 +11,7 @@
 #include "mesh/import/mesh_file.h"
 #include "mesh/repaired_mesh_cache.h"
 #include "mesh/surface/primitive_table.h"
-#include "mesh/surface/round_traits.h"
+#include "mesh/surface/round_geometry.h"
 
 namespace concave_distance::detail {
 namespace {

@@ -93,8 +93,8 @@ struct BodyDescription {
   std::string frame;
   std::string mesh_resource;  ///< either this ...
   Eigen::Vector3d scale = Eigen::Vector3d::Ones();
-  std::string primitive;           ///< ... or box, sphere, cylinder, capsule with `dimensions`
-  std::vector<double> dimensions;  ///< box x y z; sphere radius; cylinder and capsule radius, length; metres
+  std::string primitive;           ///< ... or a primitive's name with its `dimensions`
+  std::vector<double> dimensions;  ///< metres, in the order of srv/AddBody.srv
   Eigen::Isometry3d frame_from_geometry = Eigen::Isometry3d::Identity();
   std::optional<double> max_edge_length;
   std::optional<double> chord_error;  ///< metres; empty: 1 % of the radius

@@ -6,8 +6,9 @@
 #include "base/coordinate_limit.h"
 #include "base/parameter_checks.h"
 #include "base/pi.h"
+#include "concave_distance/mesh/surface/mass_properties.h"
 #include "primitive_table.h"
-#include "round_traits.h"
+#include "round_geometry.h"
 
 namespace concave_distance {
 namespace {
@@ -65,6 +66,31 @@ double volumeOf(const RoundShape& shape) {
   const double disc = kPi * shape.radius * shape.radius;
   const double ends = detail::hasFlatEnds(shape) ? 0.0 : 4.0 / 3.0 * disc * shape.radius;
   return ends + 2.0 * shape.half_length * disc;
+}
+
+MassProperties massPropertiesOf(const RoundShape& shape, double density, const std::string& where) {
+  detail::requirePositive(where, "density", density, "kg/m^3");
+  return massPropertiesOfMass(shape, density * volumeOf(shape), where);
+}
+
+MassProperties massPropertiesOfMass(const RoundShape& shape, double mass, const std::string& where) {
+  detail::requirePositive(where, "mass", mass, "kg");
+  const double r = shape.radius;
+  const double h = shape.half_length;
+  const bool has_ends = !detail::hasFlatEnds(shape);
+  // Both ends together are a ball, 4/3 r of the disc's area; the middle is 2 h of it.
+  const double ends = has_ends ? mass * (4.0 / 3.0 * r) / (4.0 / 3.0 * r + 2.0 * h) : 0.0;
+  const double middle = mass - ends;
+  const double along = 0.5 * middle * r * r + 0.4 * ends * r * r;
+  // A half ball's centre is 3/8 r from its face: its moments by the parallel axes.
+  const double across = middle * (0.25 * r * r + h * h / 3.0) + ends * (0.4 * r * r + h * h + 0.75 * r * h);
+  const Eigen::Matrix3d turn = shape.body_from_shape.linear();
+  MassProperties properties;
+  properties.mass = mass;
+  properties.centre_in_body = shape.body_from_shape.translation();
+  properties.inertia = turn * Eigen::Vector3d(across, across, along).asDiagonal() * turn.transpose();
+  properties.inertia = (0.5 * (properties.inertia + properties.inertia.transpose())).eval();
+  return properties;
 }
 
 }  // namespace concave_distance
