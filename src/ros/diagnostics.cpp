@@ -67,6 +67,9 @@ void describePairs(const CycleWindow& window, diagnostic_updater::DiagnosticStat
   status.add("pairs beyond the cutoff", window.last.beyond_cutoff);
   status.add("pairs without transforms", window.failing.size());
   for (const CycleCounter& counter : cycleCounters()) status.add(counter.key, window.total.*counter.count);
+  for (const auto& counter : SearchCost::counters()) status.add(counter.key, counter.of(window.total.cost));
+  for (const auto& counter : CertificateCost::counters())
+    status.add(counter.key, counter.of(window.total.proof_cost));
   for (std::size_t i = 0; i < kNicheOriginCount; ++i) {
     status.add("niches " + std::string(toString(static_cast<NicheOrigin>(i))), window.total.niches[i]);
   }
