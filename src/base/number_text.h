@@ -4,6 +4,7 @@
 #include <sstream>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace concave_distance {
 
@@ -24,5 +25,8 @@ std::string fixedText(double value, int decimals);
 /// small for a double is 0. Nothing for any other text, also for a number too large for a double or a
 /// hexadecimal one.
 std::optional<double> parseNumber(std::string_view text);
+
+/// Returns the texts with the separator between each two.
+std::string joinedText(const std::vector<std::string>& texts, std::string_view separator);
 
 }  // namespace concave_distance

@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 // Of a region that is a smaller share of the solid, or leaves a smaller share of it, roundings of the solid's
 // volume are worth more than the errors of ShallowRoundVolume, which needs a surface this share of the radius
 // from the core.
-constexpr double kSmallShare = 1e-8;
+constexpr double kNegligibleShare = 1e-8;
 constexpr double kFarFromCore = 0.5;
 // A share this small may be rounded below 0, and then seems to be all of the solid.
 constexpr double kRoundedAway = 1e-12;
@@ -49,7 +49,7 @@ void RoundOverlap::measureVolume(const Group& group, bool is_only, InterferenceR
     rest = std::max(rest, restOf(volumes_[i].volume));
   }
   const int side = sideOf();
-  if (rest < kSmallShare && leastFromCore(side) > kFarFromCore * pair_->shape.radius)
+  if (rest < kNegligibleShare && leastFromCore(side) > kFarFromCore * pair_->shape.radius)
     return measureShallowVolume(group, is_only, side, region);
   if (volume_count_ > 1) return addShells(region);
   const RoundVolume& volume = volumes_.front().volume;

@@ -29,9 +29,6 @@ struct Place {
   std::uint32_t leaves = 0;
 };
 
-/// Children of larger subtrees are built as tasks of their own.
-constexpr std::uint32_t kTaskSize = 32768;
-
 class HierarchyBuilder {
  public:
   HierarchyBuilder(const SurfaceMesh& mesh, const TriangleTree& tree, const Vector3d& origin, double margin,
@@ -88,7 +85,7 @@ class HierarchyBuilder {
     node = emptyNode();
     std::array<Subtree, Hierarchy::kWidth> children;
     const std::size_t count = collapse(subtree, children);
-    if (subtree.count <= kTaskSize) {
+    if (subtree.count <= kParallelSubtree) {
       for (std::size_t i = 0; i < count; ++i) {
         storeBox(children[i], node, i);
         node.child[i] = place(children[i], next);

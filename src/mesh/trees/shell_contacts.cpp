@@ -16,12 +16,12 @@ using Corners = detail::TriangleCorners;
 
 constexpr double kTouch = 1e-9;  // of the diameter
 
-class Joiner {
+class ContactFinder {
  public:
-  Joiner(const SurfaceMesh& mesh, const MeshTopology& topology, const TriangleTree& tree)
+  ContactFinder(const SurfaceMesh& mesh, const MeshTopology& topology, const TriangleTree& tree)
       : mesh_(mesh), topology_(topology), tree_(tree), tolerance_(kTouch * mesh.diameter()) {}
 
-  ShellContacts join() {
+  ShellContacts find() {
     is_near_.assign(mesh_.triangleCount(), false);
     compare();
     hide();
@@ -192,7 +192,7 @@ class Joiner {
 
 ShellContacts findShellContacts(const SurfaceMesh& mesh, const MeshTopology& topology,
                                 const TriangleTree& tree) {
-  return Joiner(mesh, topology, tree).join();
+  return ContactFinder(mesh, topology, tree).find();
 }
 
 bool isInsideOtherShell(const SurfaceMesh& mesh, const MeshTopology& topology, const TriangleTree& tree,

@@ -8,6 +8,9 @@
 
 namespace concave_distance {
 
+/// Subtrees of more triangles are built as tasks of their own; smaller ones would copy more than they gain.
+inline constexpr std::uint32_t kParallelSubtree = 32768;
+
 /// Axis-aligned box hierarchy over a surface's triangles, in the body frame; boxes are rounded outwards.
 /// Built once in O(n log n) (surface area heuristic), 2 n nodes at most.
 class TriangleTree {
