@@ -12,7 +12,7 @@ endfunction()
 add_custom_target(concave_distance_programs DEPENDS
   concave_distance_core concave_distance_loading concave_distance_internal)
 concave_distance_targets_below(src/tools programs)
-concave_distance_targets_below(src/thesis thesis_programs)
+concave_distance_targets_below(thesis/src thesis_programs)
 list(APPEND programs ${thesis_programs})
 if(CONCAVE_DISTANCE_WITH_ROS)
   concave_distance_targets_below(src/ros node_programs)
