@@ -145,9 +145,8 @@ struct KnownNormal {
 /// triangles, the surface inside the other body and the logarithm of the rest. Never throws but for lack of
 /// memory; allocates nothing once workspace and result have grown.
 /// @param limit checked for every pair of boxes and of triangles, and between passes; nullptr: none
-/// @param known a moment ago: of these a fallback normal (normal_is_fallback) keeps the nearest
-/// while its depth
-///        is within 1 % of the least
+/// @param known a moment ago: of these a fallback normal (normal_is_fallback) keeps the nearest while its
+///        depth is within 1 % of the least
 void findInterference(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
                       InterferenceWorkspace& workspace, Interference& result, WorkLimit* limit = nullptr,
                       const std::vector<KnownNormal>& known = {});
