@@ -85,10 +85,10 @@ class YamlMap {
   YamlMap(const YamlValue& value, const std::string& expected);
   const YamlValue& value() const { return value_; }
 
-  /// Nothing when the key is missing.
+  /// Returns the value of a key; nothing when it is missing.
   std::optional<YamlValue> take(const std::string& key);
   YamlValue require(const std::string& key, const std::string& remedy);
-  /// What stands in the map, in its order; for maps whose keys are names.
+  /// Returns what stands in the map, in its order; for maps whose keys are names.
   const std::vector<std::pair<std::string, YamlValue>>& entries() const { return entries_; }
   /// @throws Error naming the first key that nobody took, and all that somebody asked for
   void finish() const;

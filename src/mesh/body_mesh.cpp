@@ -48,7 +48,7 @@ struct BodyMesh::State {
   Eigen::AlignedBox3d bounds;
   // Made on demand:
   Part<RecentredBody> recentred;
-  Part<ShellContacts> joints;
+  Part<ShellContacts> shell_contacts;
   Part<Facets> facets;
   Part<CompressedRows<AdjacentTriangle>> adjacency;
   Part<ConnectedPieces> pieces;
@@ -184,8 +184,8 @@ NodeIndex BodyMesh::graphNode(NodeIndex surface_vertex) const {
 
 BodyMesh::~BodyMesh() = default;
 
-// While a thread waits for its parallel parts it must not start another task, which might wait for the same
-// body.
+// While a thread waits for its parallel parts it must not start another task, which might wait for
+// the same body.
 const SearchNodes& BodyMesh::makeNodes() const {
   std::call_once(state_->nodes_once, [&] {
     tbb::this_task_arena::isolate([&] { state_->nodes = makeCheckedNodes(state_->parts, state_->options); });
@@ -293,10 +293,10 @@ const RecentredBody& BodyMesh::recentred() const {
   return part.value;
 }
 
-const ShellContacts& BodyMesh::joints() const {
-  auto& part = state_->joints;
+const ShellContacts& BodyMesh::shellContacts() const {
+  auto& part = state_->shell_contacts;
   std::call_once(part.once, [&] {
-    part.value = joinShells(surface(), topology(), tree());
+    part.value = findShellContacts(surface(), topology(), tree());
     part.bytes = part.value.memoryBytes();
   });
   return part.value;
@@ -305,7 +305,7 @@ const ShellContacts& BodyMesh::joints() const {
 const Facets& BodyMesh::facets() const {
   auto& part = state_->facets;
   std::call_once(part.once, [&] {
-    part.value = joinFlatTriangles(surface(), topology(), joints().hidden);
+    part.value = joinFlatTriangles(surface(), topology(), shellContacts().hidden);
     part.bytes = part.value.memoryBytes();
   });
   return part.value;
@@ -315,7 +315,7 @@ const CompressedRows<AdjacentTriangle>& BodyMesh::adjacency() const {
   auto& part = state_->adjacency;
   std::call_once(part.once, [&] {
     part.value = triangleAdjacency(surface(), topology());
-    if (!joints().isEmpty()) part.value = joinedAdjacency(surface(), joints(), part.value);
+    if (!shellContacts().isEmpty()) part.value = joinedAdjacency(surface(), shellContacts(), part.value);
     part.value = facetAdjacency(facets(), part.value);
     part.bytes = part.value.offsets.capacity() * sizeof(std::uint32_t) +
                  part.value.values.capacity() * sizeof(AdjacentTriangle);
@@ -327,7 +327,7 @@ const ConnectedPieces& BodyMesh::pieces() const {
   auto& part = state_->pieces;
   std::call_once(part.once, [&] {
     part.value = connectedPieces(surface());
-    joinPieces(joints(), part.value);
+    joinPieces(shellContacts(), part.value);
     part.bytes = part.value.memoryBytes();
   });
   return part.value;
@@ -336,7 +336,7 @@ const ConnectedPieces& BodyMesh::pieces() const {
 const NormalConeTree& BodyMesh::normalCones(NormalSides sides) const {
   auto& part = state_->cones.at(static_cast<std::size_t>(sides));
   std::call_once(part.once, [&] {
-    part.value = NormalConeTree(surface(), topology(), sides, joints());
+    part.value = NormalConeTree(surface(), topology(), sides, shellContacts());
     part.bytes = part.value.memoryBytes();
   });
   return part.value;
@@ -365,7 +365,7 @@ std::size_t BodyMesh::memoryBytes() const {
   if (state_->recentred.bytes > 0) search_bytes += recentred().mesh->memoryBytes();
   return sizeof(BodyMesh) + sizeof(State) + mesh_bytes(surface()) + topology_bytes + search_bytes +
          state_->parts.tree.memoryBytes() + state_->parts.hierarchy.memoryBytes() + state_->adjacency.bytes +
-         state_->joints.bytes + state_->facets.bytes + state_->pieces.bytes + state_->cones[0].bytes +
+         state_->shell_contacts.bytes + state_->facets.bytes + state_->pieces.bytes + state_->cones[0].bytes +
          state_->cones[1].bytes;
 }
 

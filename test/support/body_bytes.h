@@ -54,9 +54,9 @@ inline Bytes bytesOf(const BoundingVolumeHierarchy& hierarchy) {
   }
   appendBytes(hierarchy.origin(), bytes);
   appendBytes(hierarchy.reach(), bytes);
-  for (const auto slot : hierarchy.regions()) appendBytes(slot, bytes);
+  for (const auto slot : hierarchy.subtrees()) appendBytes(slot, bytes);
   for (std::uint32_t node = 0; node < hierarchy.nodes().size(); ++node) {
-    appendBytes(hierarchy.regionOfNode(node), bytes);
+    appendBytes(hierarchy.subtreeOfNode(node), bytes);
   }
   return bytes;
 }

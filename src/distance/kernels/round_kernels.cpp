@@ -79,7 +79,7 @@ class SlopeSearch {
 /// Over the plane, in the plane of symmetry: along the axis as seen on it.
 LowestPoint lowestOnPlane(const RoundShape& shape, const Vector3d& normal, double offset) {
   const Vector3d foot = offset * normal;
-  if (shape.kind == RoundKind::Sphere) return at(shape, foot);
+  if (!detail::hasSide(shape)) return at(shape, foot);
   Vector3d along = Vector3d::UnitZ() - normal.z() * normal;
   const double length = along.norm();
   if (!(length > 16.0 * kEpsilon)) return at(shape, foot);
@@ -106,7 +106,7 @@ bool isInside(const TrianglePoints& triangle, const Vector3d& normal, const Vect
 
 LowestPoint lowestOnSegment(const RoundShape& shape, const Vector3d& p, const Vector3d& q) {
   const Vector3d d = q - p;
-  if (shape.kind != RoundKind::Sphere) return SlopeSearch(shape, p, d).find();
+  if (detail::hasSide(shape)) return SlopeSearch(shape, p, d).find();
   const double squared_length = d.squaredNorm();
   const double t = squared_length > 0.0 ? std::clamp(-p.dot(d) / squared_length, 0.0, 1.0) : 0.0;
   return at(shape, t == 1.0 ? q : Vector3d(p + t * d));

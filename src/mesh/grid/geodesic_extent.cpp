@@ -7,7 +7,7 @@
 #include <queue>
 #include <utility>
 
-#include "mesh/surface/union_find.h"
+#include "base/union_find.h"
 
 namespace concave_distance {
 
@@ -100,7 +100,7 @@ std::vector<Protrusion> findProtrusions(const NodeGraph& graph, double least_pro
       found.push_back({NodeIndex{from_top[top]}, height[from_top[top]], prominence});
     }
   };
-  detail::UnionFind islands(nodes);
+  UnionFind islands(nodes);
   for (std::uint32_t i = 0; i < nodes; ++i) {
     for (const NodeGraph::Edge& edge : graph.edges.row(from_top[i])) {
       if (rank[edge.to.value] > i) {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/number_text.h"
+#include "base/triangle_area.h"
 #include "concave_distance/base/error.h"
 #include "thin_graph.h"
 
@@ -23,9 +24,7 @@ constexpr double kNodesPerSquaredEdge = 1.5;
 double areaOf(const SurfaceMesh& surface) {
   double area = 0.0;
   for (const TriangleNodes& t : surface.triangles()) {
-    area += 0.5 * (surface.vertex(t[1]) - surface.vertex(t[0]))
-                      .cross(surface.vertex(t[2]) - surface.vertex(t[0]))
-                      .norm();
+    area += triangleArea(surface.vertex(t[0]), surface.vertex(t[1]), surface.vertex(t[2]));
   }
   return area;
 }

@@ -25,7 +25,7 @@ struct FaceTable {
   std::vector<std::uint32_t> triangles;  ///< grouped by face, ascending within a group
 };
 
-/// Whether the corners are an even permutation of their ascending order. No corner may come twice.
+/// Returns whether the corners are an even permutation of their ascending order. No corner may come twice.
 bool runsAlong(const TriangleNodes& nodes);
 
 /// Triangles that name a vertex twice belong to no face. O(n log n).

@@ -10,14 +10,14 @@ namespace {
 using Eigen::Vector3d;
 
 /// Of the diameter: what a corner may be off the other triangle's plane.
-constexpr double kFlat = 0x1.0p-49;
+constexpr double kLevelHeight = 0x1.0p-49;
 /// Longest edge squared over the height on it, in diameters: the plane of a longer needle is not known well
 /// enough (rounding makes 2^-48 of the diameter of it).
 constexpr double kLongestNeedle = 8.0;
 
-class Joiner {
+class FacetJoiner {
  public:
-  Joiner(const SurfaceMesh& mesh, const MeshTopology& topology, const std::vector<bool>& hidden)
+  FacetJoiner(const SurfaceMesh& mesh, const MeshTopology& topology, const std::vector<bool>& hidden)
       : mesh_(mesh), topology_(topology), hidden_(hidden) {}
 
   Facets join() {
@@ -101,7 +101,7 @@ class Joiner {
         std::sqrt(std::max({edges[0].squaredNorm(), edges[1].squaredNorm(), edges[2].squaredNorm(),
                             edges[3].squaredNorm(), diagonal.squaredNorm()}));
     if (!(longest * longest * longest <= kLongestNeedle * mesh_.diameter() * area)) return false;
-    if (std::abs(normal.dot(edges[3])) > kFlat * mesh_.diameter() * area) return false;
+    if (std::abs(normal.dot(edges[3])) > kLevelHeight * mesh_.diameter() * area) return false;
     const auto turns = [&](std::size_t k) { return edges[k].cross(edges[(k + 1) % 4]).dot(normal) > 0.0; };
     return turns(1) && turns(2) && turns(3);
   }
@@ -117,7 +117,7 @@ class Joiner {
 
 Facets joinFlatTriangles(const SurfaceMesh& mesh, const MeshTopology& topology,
                          const std::vector<bool>& hidden) {
-  return Joiner(mesh, topology, hidden).join();
+  return FacetJoiner(mesh, topology, hidden).join();
 }
 
 CompressedRows<AdjacentTriangle> facetAdjacency(const Facets& facets,

@@ -4,6 +4,7 @@
 #include <numeric>
 #include <string>
 
+#include "base/union_find.h"
 #include "concave_distance/base/error.h"
 #include "enumeration.h"
 #include "mesh/grid/node_graph.h"
@@ -61,24 +62,6 @@ CellTable cellsBelow(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry
   return table;
 }
 
-class Flood {
- public:
-  explicit Flood(std::size_t count) : parent_(count, kNotFlooded) {}
-  bool reached(std::uint32_t cell) const { return parent_[cell] != kNotFlooded; }
-  void start(std::uint32_t cell) { parent_[cell] = cell; }
-  void join(std::uint32_t cell, std::uint32_t basin) { parent_[cell] = basin; }
-  std::uint32_t basin(std::uint32_t cell) {
-    while (parent_[cell] != cell) {
-      parent_[cell] = parent_[parent_[cell]];
-      cell = parent_[cell];
-    }
-    return cell;
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;  // the root of a basin is its deepest cell
-};
-
 }  // namespace
 
 std::vector<NodeNiche> enumerateNodeNiches(const BodyMesh& a, const BodyMesh& b,
@@ -95,7 +78,8 @@ std::vector<NodeNiche> enumerateNodeNiches(const BodyMesh& a, const BodyMesh& b,
   };
   std::sort(order.begin(), order.end(), deeper);
 
-  Flood flood(table.cells.size());
+  UnionFind basins(table.cells.size());  // the representative of a basin is its deepest cell
+  std::vector<char> is_flooded(table.cells.size(), 0);
   std::vector<NodeNiche> niches;
   const auto report = [&](std::uint32_t cell, double pass) {
     const double distance = std::sqrt(table.cells[cell].squared_distance);
@@ -110,19 +94,19 @@ std::vector<NodeNiche> enumerateNodeNiches(const BodyMesh& a, const BodyMesh& b,
     const Cell& here = table.cells[cell];
     std::uint32_t basin = kNotFlooded;
     const auto meet = [&](std::uint32_t neighbour) {
-      if (neighbour == kNotFlooded || !flood.reached(neighbour)) {
+      if (neighbour == kNotFlooded || is_flooded[neighbour] == 0) {
         return;
       }
-      const std::uint32_t other = flood.basin(neighbour);
+      const std::uint32_t other = basins.find(neighbour);
       if (basin == kNotFlooded) {
         basin = other;
-        flood.join(cell, other);
+        basins.attach(cell, other);
       } else if (other != basin) {
         // Two basins meet here: the shallower one ends, this is its pass.
         const std::uint32_t shallow = deeper(basin, other) ? other : basin;
         const std::uint32_t deep = shallow == other ? basin : other;
         report(shallow, std::sqrt(here.squared_distance));
-        flood.join(shallow, deep);
+        basins.attach(shallow, deep);
         basin = deep;
       }
     };
@@ -132,12 +116,10 @@ std::vector<NodeNiche> enumerateNodeNiches(const BodyMesh& a, const BodyMesh& b,
     for (const NodeGraph::Edge& edge : b.graph().edges.row(here.node_b)) {
       meet(table.find(here.node_a, edge.to.value));
     }
-    if (basin == kNotFlooded) {
-      flood.start(cell);
-    }
+    is_flooded[cell] = 1;
   }
   for (std::uint32_t cell = 0; cell < table.cells.size(); ++cell) {
-    if (flood.reached(cell) && flood.basin(cell) == cell) {
+    if (basins.find(cell) == cell) {
       report(cell, std::numeric_limits<double>::infinity());
     }
   }

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/triangle_area.h"
 #include "concave_distance/base/error.h"
 #include "mesh/grid/graph_regions.h"
 #include "mesh/surface/mesh_topology.h"
@@ -25,9 +26,7 @@ struct SurfaceNode {
 };
 
 double areaOf(const SurfaceMesh& surface, TriangleIndex t) {
-  return 0.5 * (surface.corner(t, 1) - surface.corner(t, 0))
-                   .cross(surface.corner(t, 2) - surface.corner(t, 0))
-                   .norm();
+  return triangleArea(surface.corner(t, 0), surface.corner(t, 1), surface.corner(t, 2));
 }
 
 SurfaceNode anywhereOn(const SurfaceMesh& surface, TriangleIndex t, RandomEngine& engine) {

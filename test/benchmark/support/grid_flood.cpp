@@ -31,7 +31,7 @@ std::optional<TrialPoint> floodForDeeper(const PairObjective& objective, const T
     }
     ++states;
     const auto visit = [&](NodeIndex node_a, NodeIndex node_b) {
-      if (workspace.seen.find(node_a, node_b) != NodePairMap::kAbsent) {
+      if (workspace.seen.find(node_a, node_b) != PairTable::kAbsent) {
         return;
       }
       workspace.seen.insert(node_a, node_b, 0);

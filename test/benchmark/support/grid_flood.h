@@ -4,14 +4,14 @@
 #include <optional>
 #include <vector>
 
-#include "search/node_pair_map.h"
+#include "base/pair_table.h"
 #include "search/pair_objective.h"
 
 namespace concave_distance::benchmark {
 
 /// Buffers of floodForDeeper; cleared, never freed.
 struct FloodWorkspace {
-  NodePairMap seen{12};
+  PairTable seen{12};
   std::vector<TrialPoint> heap;
 };
 

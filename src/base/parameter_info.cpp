@@ -1,4 +1,4 @@
-#include "parameter.h"
+#include "parameter_info.h"
 
 #include <algorithm>
 #include <charconv>
