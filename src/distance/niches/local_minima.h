@@ -10,6 +10,7 @@
 #include "concave_distance/base/work_limit.h"
 #include "concave_distance/mesh/body_mesh.h"
 #include "distance/kernels/minimum_candidate.h"
+#include "distance/kernels/pair_frame.h"
 #include "distance/minima/local_minima_cost.h"
 #include "niche_properties.h"
 
@@ -112,13 +113,13 @@ LocalMinima findLocalMinima(const BodyMesh& a, const BodyMesh& b, const Eigen::I
                             const LocalMinimaRequest& request);
 
 /// The same from pose to pose, with the buffers and, if the request says so, the knowledge of the last call.
-void findLocalMinima(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
-                     const LocalMinimaRequest& request, LocalMinimaMemory& memory, LocalMinima& result);
+void findLocalMinima(const detail::PairFrame& frame, const LocalMinimaRequest& request,
+                     LocalMinimaMemory& memory, LocalMinima& result);
 
 /// Says of the niches of a result which of request.proposals lead to them, for proposals that came after the
 /// list: where everything was looked at they change nothing else. At the pose of the last findLocalMinima()
 /// with this memory, which measured no prominence.
-void attributeProposals(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
-                        const LocalMinimaRequest& request, LocalMinimaMemory& memory, LocalMinima& result);
+void attributeProposals(const detail::PairFrame& frame, const LocalMinimaRequest& request,
+                        LocalMinimaMemory& memory, LocalMinima& result);
 
 }  // namespace concave_distance
