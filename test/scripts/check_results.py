@@ -42,7 +42,8 @@ PLAIN_NUMBER = r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?"  # of a CSV file, in which comma
 
 
 def pages(root):
-    return [root / "README.md", root / "CONTRIBUTING.md", *sorted((root / "doc").rglob("*.md"))]
+    return [root / "README.md", root / "CONTRIBUTING.md", *sorted((root / "doc").rglob("*.md")),
+            *sorted((root / "thesis" / "doc").rglob("*.md"))]
 
 
 def check_files(root, rows):

@@ -24,20 +24,20 @@ class Documents(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.root = pathlib.Path(folder.name)
-        for name in ("doc/results", "experiments"):
+        for name in ("doc/results", "thesis/experiments"):
             (self.root / name).mkdir(parents=True)
         for name in {path for paths in provenance.GROUPS.values() for path in paths}:
             (self.root / name).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(provenance.ROOT / name, self.root / name)
         self.write("README.md", "")
         self.write("CONTRIBUTING.md", "")
-        self.write("experiments/table.yaml", "rows: [{name: a}]\n")
+        self.write("thesis/experiments/table.yaml", "rows: [{name: a}]\n")
         self.write(RESULT, "pair,us,level\npeg,31.4,nodes\nhooks,52.6,nodes\nhooks,7,refined\n")
         self.write("doc/results/log.txt", "worst case: 1,234 us\n")
         rows = {}
         for name in (RESULT, "doc/results/log.txt"):
             row = dict.fromkeys(provenance.COLUMNS, "")
-            row.update(file=name, commit="0123abc", defaults="tracker,contact", inputs="experiments/*.yaml", command="run")
+            row.update(file=name, commit="0123abc", defaults="tracker,contact", inputs="thesis/experiments/*.yaml", command="run")
             rows[name] = provenance.entry(provenance.Tree(self.root), row)
         provenance.write_manifest(rows, self.root)
         self.quote('The peg takes 31 us, 30 in the middle.', 'tracking.csv: 31 = value("us", pair="peg"); 30 = mean("us"); '
@@ -117,16 +117,16 @@ class CheckResults(Documents):
         self.assertEqual(self.faults(), "")
 
     def test_inputs_that_changed(self):
-        self.write("experiments/table.yaml", "rows: [{name: b}]\n")
-        self.expect("experiments/*.yaml has changed")
+        self.write("thesis/experiments/table.yaml", "rows: [{name: b}]\n")
+        self.expect("thesis/experiments/*.yaml has changed")
 
     def test_words_of_an_experiment_are_no_inputs(self):
-        self.write("experiments/table.yaml", 'remark: "why"\nrows: [{name: a, thesis: {scene: {exact: 1/2}}}]\n')
+        self.write("thesis/experiments/table.yaml", 'remark: "why"\nrows: [{name: a, thesis: {scene: {exact: 1/2}}}]\n')
         self.assertEqual(self.faults(), "")
 
     def test_a_parameter_of_an_experiment_is_an_input(self):
-        self.write("experiments/table.yaml", "rows: [{name: a, parameters: {population_size: 20}}]\n")
-        self.expect("experiments/*.yaml has changed")
+        self.write("thesis/experiments/table.yaml", "rows: [{name: a, parameters: {population_size: 20}}]\n")
+        self.expect("thesis/experiments/*.yaml has changed")
 
     def test_a_line_of_several_files(self):
         rows = provenance.read_manifest(self.root)
@@ -139,7 +139,7 @@ class CheckResults(Documents):
         self.expect("not the file that run wrote")
 
     def test_older_files_are_warned_of_up_to_their_number(self):
-        self.write("experiments/table.yaml", "rows: [{name: b}]\n")
+        self.write("thesis/experiments/table.yaml", "rows: [{name: b}]\n")
         self.mark(RESULT, state="older")
         self.mark("doc/results/log.txt", state="older")
         self.assertEqual(self.faults(most_older=2), "")
