@@ -4,7 +4,7 @@
 #include "feature_body.h"
 #include "mesh/trees/normal_cone.h"
 
-// How far bodies may move until a pair of features can hold a local minimum (doc/algorithm.md, section 7).
+// How far bodies may move until a pair of features can hold a local minimum (doc/proofs.md).
 
 namespace concave_distance::detail {
 namespace {

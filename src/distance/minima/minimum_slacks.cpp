@@ -4,7 +4,7 @@
 
 #include "feature_body.h"
 
-// How far bodies may move while a pair of features stays a local minimum (doc/algorithm.md, section 7).
+// How far bodies may move while a pair of features stays a local minimum (doc/proofs.md).
 
 namespace concave_distance::detail {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-// Niches: floods, and regions with a border that stand for them (doc/algorithm.md, section 7).
+// Niches: floods, and regions with a border that stand for them (doc/proofs.md).
 
 namespace concave_distance::detail {
 namespace {

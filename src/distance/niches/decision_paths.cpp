@@ -5,7 +5,7 @@
 
 #include "distant_components.h"
 
-// Ripples: ways from facet pair to facet pair down to deeper places (doc/algorithm.md, section 7).
+// Ripples: ways from facet pair to facet pair down to deeper places (doc/proofs.md).
 
 namespace concave_distance::detail {
 namespace {
