@@ -20,7 +20,7 @@ else
 fi
 
 check_format() {
-  find include src test -name '*.h' -print0 -o -name '*.cpp' -print0 | xargs -0 clang-format --dry-run --Werror
+  find include src test thesis -name '*.h' -print0 -o -name '*.cpp' -print0 | xargs -0 clang-format --dry-run --Werror
 }
 check_comments() {
   ! grep -rnE '^ *//[/!]? (Of|What) ' include src --include='*.h'
@@ -31,7 +31,7 @@ check_tidy() {
     grep -q '^CONCAVE_DISTANCE_FAST_BUILD:BOOL=ON' "$build_dir/CMakeCache.txt"; then
     scripts/build.sh all -DCONCAVE_DISTANCE_FAST_BUILD=OFF
   fi
-  find src test \( -path test/consumer -o -path test/benchmark/engines \) -prune -o -name '*.cpp' -print0 |
+  find src test thesis \( -path test/consumer -o -path test/benchmark/engines \) -prune -o -name '*.cpp' -print0 |
     xargs -0 -n 1 -P "$(job_count)" clang-tidy --quiet -p "$build_dir" --extra-arg=-std=c++17 \
       2> >(grep -v 'warnings generated' >&2)
 }

@@ -8,7 +8,7 @@
 
 #include "base/content_hash.h"
 #include "concave_distance/mesh/body_mesh.h"
-#include "mesh/grid/metric_memory.h"
+#include "search/grid/metric_memory.h"
 
 namespace concave_distance {
 

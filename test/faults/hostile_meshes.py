@@ -37,6 +37,18 @@ def _mesh(file_name: str, expectation: str = REFUSED):
     return register
 
 
+def _refused(file_name: str, write: Callable):
+    _WRITERS.append((file_name, REFUSED, write))
+
+
+def _served(file_name: str, write: Callable):
+    _WRITERS.append((file_name, SERVED, write))
+
+
+def _either(file_name: str, write: Callable):
+    _WRITERS.append((file_name, EITHER, write))
+
+
 # ---------------------------------------------------------------------------------------------- COLLADA
 
 _TRIANGLE_SOURCE = """<source id="p"><float_array id="a" count="9">0 0 0 1 0 0 0 1 0</float_array>
@@ -58,45 +70,24 @@ def _dae(source: str = _TRIANGLE_SOURCE, faces: str = _TRIANGLE_FACES, nodes: st
             '<scene><instance_visual_scene url="#s"/></scene></COLLADA>')
 
 
-@_mesh("node_instances_itself.dae")
-def _():
-    return _dae(nodes='<node id="n"><instance_geometry url="#g"/><instance_node url="#n"/></node>')
-
-
-@_mesh("two_nodes_instance_each_other.dae")
-def _():
-    return _dae(nodes='<node id="a"><instance_node url="#b"/></node><node id="b"><instance_node url="#a"/>'
-                      '<instance_geometry url="#g"/></node>')
-
-
-@_mesh("library_node_instances_itself.dae")
-def _():
-    return _dae(library='<library_nodes><node id="l"><instance_node url="#l"/><instance_geometry url="#g"/></node>'
-                        '</library_nodes>', nodes='<node id="n"><instance_node url="#l"/></node>')
+_refused("node_instances_itself.dae", lambda:
+         _dae(nodes='<node id="n"><instance_geometry url="#g"/><instance_node url="#n"/></node>'))
+_refused("two_nodes_instance_each_other.dae", lambda:
+         _dae(nodes='<node id="a"><instance_node url="#b"/></node><node id="b"><instance_node url="#a"/>'
+                    '<instance_geometry url="#g"/></node>'))
+_refused("library_node_instances_itself.dae", lambda:
+         _dae(library='<library_nodes><node id="l"><instance_node url="#l"/><instance_geometry url="#g"/></node>'
+                      '</library_nodes>', nodes='<node id="n"><instance_node url="#l"/></node>'))
 
 
 def _nested_nodes(depth: int) -> str:
     return "<node>" * depth + '<instance_geometry url="#g"/>' + "</node>" * depth
 
 
-@_mesh("nodes_20000_deep.dae")
-def _():
-    return _dae(nodes=_nested_nodes(20_000))
-
-
-@_mesh("nodes_1000000_deep.dae")
-def _():
-    return _dae(nodes=_nested_nodes(1_000_000))
-
-
-@_mesh("nodes_50_deep.dae", SERVED)
-def _():
-    return _dae(nodes=_nested_nodes(50))
-
-
-@_mesh("unknown_elements_500000_deep.dae", EITHER)
-def _():
-    return _dae(library="<x>" * 500_000 + "</x>" * 500_000)
+_refused("nodes_20000_deep.dae", lambda: _dae(nodes=_nested_nodes(20_000)))
+_refused("nodes_1000000_deep.dae", lambda: _dae(nodes=_nested_nodes(1_000_000)))
+_served("nodes_50_deep.dae", lambda: _dae(nodes=_nested_nodes(50)))
+_either("unknown_elements_500000_deep.dae", lambda: _dae(library="<x>" * 500_000 + "</x>" * 500_000))
 
 
 def _doubling_nodes(levels: int) -> str:
@@ -107,19 +98,12 @@ def _doubling_nodes(levels: int) -> str:
     return f"<library_nodes>{library}</library_nodes>"
 
 
-@_mesh("unfolds_to_a_billion_nodes.dae")
-def _():
-    return _dae(library=_doubling_nodes(30), nodes='<node id="n"><instance_node url="#d30"/></node>')
-
-
-@_mesh("unfolds_to_30_million_nodes.dae")
-def _():
-    return _dae(library=_doubling_nodes(25), nodes='<node id="n"><instance_node url="#d25"/></node>')
-
-
-@_mesh("unfolds_to_1024_triangles.dae", SERVED)
-def _():
-    return _dae(library=_doubling_nodes(10), nodes='<node id="n"><instance_node url="#d10"/></node>')
+_refused("unfolds_to_a_billion_nodes.dae", lambda:
+         _dae(library=_doubling_nodes(30), nodes='<node id="n"><instance_node url="#d30"/></node>'))
+_refused("unfolds_to_30_million_nodes.dae", lambda:
+         _dae(library=_doubling_nodes(25), nodes='<node id="n"><instance_node url="#d25"/></node>'))
+_served("unfolds_to_1024_triangles.dae", lambda:
+        _dae(library=_doubling_nodes(10), nodes='<node id="n"><instance_node url="#d10"/></node>'))
 
 
 @_mesh("few_nodes_many_triangles.dae")
@@ -130,91 +114,35 @@ def _():
     return _dae(faces=faces, library=_doubling_nodes(12), nodes='<node id="n"><instance_node url="#d12"/></node>')
 
 
-@_mesh("accessor_of_4e9.dae")
-def _():
-    return _dae(source=_TRIANGLE_SOURCE.replace('accessor source="#a" count="3"', 'accessor source="#a" count="4000000000"'))
-
-
-@_mesh("accessor_with_huge_stride.dae")
-def _():
-    return _dae(source=_TRIANGLE_SOURCE.replace('stride="3"', 'stride="4294967295"'))
-
-
-@_mesh("accessor_with_huge_offset.dae")
-def _():
-    return _dae(source=_TRIANGLE_SOURCE.replace('stride="3"', 'stride="3" offset="4294967290"'))
-
-
-@_mesh("float_array_of_4e9.dae")
-def _():
-    return _dae(source=_TRIANGLE_SOURCE.replace('id="a" count="9"', 'id="a" count="4000000000"'))
-
-
-@_mesh("float_array_count_negative.dae")
-def _():
-    return _dae(source=_TRIANGLE_SOURCE.replace('id="a" count="9"', 'id="a" count="-1"'))
-
-
-@_mesh("triangles_of_4e9.dae", EITHER)
-def _():
-    return _dae(faces=_TRIANGLE_FACES.replace('triangles count="1"', 'triangles count="4000000000"'))
-
-
-@_mesh("index_list_without_numbers.dae")
-def _():
-    return _dae(faces=_TRIANGLE_FACES.replace("<p>0 1 2</p>", "<p>0 1 two</p>"))
-
-
-@_mesh("index_out_of_range.dae")
-def _():
-    return _dae(faces=_TRIANGLE_FACES.replace("<p>0 1 2</p>", "<p>0 1 4294967295</p>"))
-
-
-@_mesh("input_offset_of_4e9.dae")
-def _():
-    return _dae(faces=_TRIANGLE_FACES.replace('offset="0"', 'offset="4294967295"'))
-
-
-@_mesh("index_that_overflows.dae")
-def _():
-    return _dae(faces=_TRIANGLE_FACES.replace("<p>0 1 2</p>", "<p>0 1 99999999999999999999999</p>"))
-
-
-@_mesh("polylist_with_a_count_of_4e9.dae")
-def _():
-    return _dae(faces='<vertices id="v"><input semantic="POSITION" source="#p"/></vertices><polylist count="1">'
-                      '<input semantic="VERTEX" source="#v" offset="0"/><vcount>4000000000</vcount><p>0 1 2</p></polylist>')
-
-
-@_mesh("source_refers_to_itself.dae")
-def _():
-    return _dae(faces='<vertices id="v"><input semantic="POSITION" source="#v"/></vertices><triangles count="1">'
-                      '<input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p></triangles>')
-
-
-@_mesh("three_million_open_brackets.dae")
-def _():
-    return "<" * 3_000_000
-
-
-@_mesh("three_million_open_brackets_and_one_closed.dae")
-def _():
-    return "<" * 3_000_000 + ">"
-
-
-@_mesh("three_million_tags.dae")
-def _():
-    return "<p>" * 1_000_000 + ">" * 1_000_000
-
-
-@_mesh("half_a_million_open_tags.dae")
-def _():
-    return "<p>" * 500_000
-
-
-@_mesh("comments_never_closed.dae")
-def _():
-    return "<!--" * 750_000
+_refused("accessor_of_4e9.dae", lambda:
+         _dae(source=_TRIANGLE_SOURCE.replace('source="#a" count="3"', 'source="#a" count="4000000000"')))
+_refused("accessor_with_huge_stride.dae", lambda:
+         _dae(source=_TRIANGLE_SOURCE.replace('stride="3"', 'stride="4294967295"')))
+_refused("accessor_with_huge_offset.dae", lambda:
+         _dae(source=_TRIANGLE_SOURCE.replace('stride="3"', 'stride="3" offset="4294967290"')))
+_refused("float_array_of_4e9.dae", lambda:
+         _dae(source=_TRIANGLE_SOURCE.replace('id="a" count="9"', 'id="a" count="4000000000"')))
+_refused("float_array_count_negative.dae", lambda:
+         _dae(source=_TRIANGLE_SOURCE.replace('id="a" count="9"', 'id="a" count="-1"')))
+_either("triangles_of_4e9.dae", lambda:
+        _dae(faces=_TRIANGLE_FACES.replace('triangles count="1"', 'triangles count="4000000000"')))
+_refused("index_list_without_numbers.dae", lambda:
+         _dae(faces=_TRIANGLE_FACES.replace("<p>0 1 2</p>", "<p>0 1 two</p>")))
+_refused("index_out_of_range.dae", lambda: _dae(faces=_TRIANGLE_FACES.replace("<p>0 1 2</p>", "<p>0 1 4294967295</p>")))
+_refused("input_offset_of_4e9.dae", lambda: _dae(faces=_TRIANGLE_FACES.replace('offset="0"', 'offset="4294967295"')))
+_refused("index_that_overflows.dae", lambda:
+         _dae(faces=_TRIANGLE_FACES.replace("<p>0 1 2</p>", "<p>0 1 99999999999999999999999</p>")))
+_refused("polylist_with_a_count_of_4e9.dae", lambda:
+         _dae(faces='<vertices id="v"><input semantic="POSITION" source="#p"/></vertices><polylist count="1">'
+                    '<input semantic="VERTEX" source="#v" offset="0"/><vcount>4000000000</vcount><p>0 1 2</p></polylist>'))
+_refused("source_refers_to_itself.dae", lambda:
+         _dae(faces='<vertices id="v"><input semantic="POSITION" source="#v"/></vertices><triangles count="1">'
+                    '<input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p></triangles>'))
+_refused("three_million_open_brackets.dae", lambda: "<" * 3_000_000)
+_refused("three_million_open_brackets_and_one_closed.dae", lambda: "<" * 3_000_000 + ">")
+_refused("three_million_tags.dae", lambda: "<p>" * 1_000_000 + ">" * 1_000_000)
+_refused("half_a_million_open_tags.dae", lambda: "<p>" * 500_000)
+_refused("comments_never_closed.dae", lambda: "<!--" * 750_000)
 
 
 @_mesh("entity_bomb.dae", EITHER)
@@ -225,32 +153,18 @@ def _():
                 faces=_TRIANGLE_FACES.replace("0 1 2", "0 1 2 &e11;"))
 
 
-@_mesh("external_entity.dae", EITHER)
-def _():
-    return _dae(prologue='<?xml version="1.0"?>\n<!DOCTYPE COLLADA [<!ENTITY x SYSTEM "file:///etc/passwd">]>\n',
-                nodes='<node id="n" name="&x;"><instance_geometry url="#g"/></node>')
-
-
-@_mesh("controller_refers_to_itself.dae")
-def _():
-    return _dae(library='<library_controllers><controller id="c"><skin source="#c"><joints/><vertex_weights count="1">'
-                        '<vcount>1</vcount><v>0 0</v></vertex_weights></skin></controller></library_controllers>',
-                nodes='<node id="n"><instance_controller url="#c"/></node>')
-
-
-@_mesh("an_attribute_of_10_mb.dae", EITHER)
-def _():
-    return _dae(nodes='<node id="n" name="' + "x" * 10_000_000 + '"><instance_geometry url="#g"/></node>')
-
-
-@_mesh("matrix_of_nan.dae")
-def _():
-    return _dae(nodes='<node id="n"><matrix>' + "nan " * 16 + '</matrix><instance_geometry url="#g"/></node>')
-
-
-@_mesh("a_zip_archive.dae")
-def _():
-    return b"PK\x03\x04" + bytes(2000)
+_either("external_entity.dae", lambda:
+        _dae(prologue='<?xml version="1.0"?>\n<!DOCTYPE COLLADA [<!ENTITY x SYSTEM "file:///etc/passwd">]>\n',
+             nodes='<node id="n" name="&x;"><instance_geometry url="#g"/></node>'))
+_refused("controller_refers_to_itself.dae", lambda:
+         _dae(library='<library_controllers><controller id="c"><skin source="#c"><joints/><vertex_weights count="1">'
+                      '<vcount>1</vcount><v>0 0</v></vertex_weights></skin></controller></library_controllers>',
+              nodes='<node id="n"><instance_controller url="#c"/></node>'))
+_either("an_attribute_of_10_mb.dae", lambda:
+        _dae(nodes='<node id="n" name="' + "x" * 10_000_000 + '"><instance_geometry url="#g"/></node>'))
+_refused("matrix_of_nan.dae", lambda:
+         _dae(nodes='<node id="n"><matrix>' + "nan " * 16 + '</matrix><instance_geometry url="#g"/></node>'))
+_refused("a_zip_archive.dae", lambda: b"PK\x03\x04" + bytes(2000))
 
 
 # -------------------------------------------------------------------------------------------------- PLY
@@ -263,80 +177,26 @@ def _ply(vertices: str = "3", faces: str = "1", vertex_type: str = "float", list
             f"property list {list_types} vertex_indices\nend_header\n{body}")
 
 
-@_mesh("unknown_property_type_and_endless_vertices.ply")
-def _():
-    return _ply(vertices="18446744073709551615", vertex_type="tensor", form="binary_little_endian")
-
-
-@_mesh("endless_vertices_without_properties.ply")
-def _():
-    return "ply\nformat binary_little_endian 1.0\nelement vertex 18446744073709551615\nend_header\n"
-
-
-@_mesh("endless_vertices.ply")
-def _():
-    return _ply(vertices="18446744073709551615")
-
-
-@_mesh("four_billion_binary_vertices.ply")
-def _():
-    return _ply(vertices="4294967295", form="binary_little_endian")
-
-
-@_mesh("product_that_wraps_round.ply")
-def _():
-    # 12 bytes times 2^62 is 0 in 64 bits.
-    return _ply(vertices="4611686018427387904", form="binary_little_endian", body="")
-
-
-@_mesh("a_list_of_4e9.ply")
-def _():
-    return _ply(list_types="uint int", body="0 0 0\n1 0 0\n0 1 0\n4000000000 0 1 2\n")
-
-
-@_mesh("a_list_with_a_negative_count.ply")
-def _():
-    return _ply(list_types="int int", body="0 0 0\n1 0 0\n0 1 0\n-1 0 1 2\n")
-
-
-@_mesh("a_list_counted_in_floats.ply", EITHER)
-def _():
-    return _ply(list_types="float int", body="0 0 0\n1 0 0\n0 1 0\n3e9 0 1 2\n")
-
-
-@_mesh("index_out_of_range.ply")
-def _():
-    return _ply(body="0 0 0\n1 0 0\n0 1 0\n3 0 1 2147483647\n")
-
-
-@_mesh("negative_index.ply")
-def _():
-    return _ply(body="0 0 0\n1 0 0\n0 1 0\n3 0 1 -5\n")
-
-
-@_mesh("header_without_end.ply")
-def _():
-    return "ply\nformat ascii 1.0\n" + "comment for ever\n" * 300_000
-
-
-@_mesh("a_header_line_of_20_mb.ply")
-def _():
-    return "ply\nformat ascii 1.0\ncomment " + "x" * 20_000_000
-
-
-@_mesh("a_million_properties.ply")
-def _():
-    return _ply(vertices="1000000", more="property float q\n" * 100_000)
-
-
-@_mesh("a_million_elements.ply")
-def _():
-    return "ply\nformat ascii 1.0\n" + "element vertex 1\n" * 300_000 + "end_header\n"
-
-
-@_mesh("coordinates_not_finite.ply")
-def _():
-    return _ply(body="0 0 0\n1e999 0 0\n0 nan 0\n3 0 1 2\n")
+_refused("unknown_property_type_and_endless_vertices.ply", lambda:
+         _ply(vertices="18446744073709551615", vertex_type="tensor", form="binary_little_endian"))
+_refused("endless_vertices_without_properties.ply", lambda:
+         "ply\nformat binary_little_endian 1.0\nelement vertex 18446744073709551615\nend_header\n")
+_refused("endless_vertices.ply", lambda: _ply(vertices="18446744073709551615"))
+_refused("four_billion_binary_vertices.ply", lambda: _ply(vertices="4294967295", form="binary_little_endian"))
+# 12 bytes times 2^62 is 0 in 64 bits.
+_refused("product_that_wraps_round.ply", lambda:
+         _ply(vertices="4611686018427387904", form="binary_little_endian", body=""))
+_refused("a_list_of_4e9.ply", lambda: _ply(list_types="uint int", body="0 0 0\n1 0 0\n0 1 0\n4000000000 0 1 2\n"))
+_refused("a_list_with_a_negative_count.ply", lambda: _ply(list_types="int int", body="0 0 0\n1 0 0\n0 1 0\n-1 0 1 2\n"))
+_either("a_list_counted_in_floats.ply", lambda:
+        _ply(list_types="float int", body="0 0 0\n1 0 0\n0 1 0\n3e9 0 1 2\n"))
+_refused("index_out_of_range.ply", lambda: _ply(body="0 0 0\n1 0 0\n0 1 0\n3 0 1 2147483647\n"))
+_refused("negative_index.ply", lambda: _ply(body="0 0 0\n1 0 0\n0 1 0\n3 0 1 -5\n"))
+_refused("header_without_end.ply", lambda: "ply\nformat ascii 1.0\n" + "comment for ever\n" * 300_000)
+_refused("a_header_line_of_20_mb.ply", lambda: "ply\nformat ascii 1.0\ncomment " + "x" * 20_000_000)
+_refused("a_million_properties.ply", lambda: _ply(vertices="1000000", more="property float q\n" * 100_000))
+_refused("a_million_elements.ply", lambda: "ply\nformat ascii 1.0\n" + "element vertex 1\n" * 300_000 + "end_header\n")
+_refused("coordinates_not_finite.ply", lambda: _ply(body="0 0 0\n1e999 0 0\n0 nan 0\n3 0 1 2\n"))
 
 
 # -------------------------------------------------------------------------------------------------- OBJ
@@ -352,69 +212,21 @@ def _(path):
     _write(path, "mtllib fifo.mtl\n" + _OBJ_TRIANGLE)
 
 
-@_mesh("material_library_is_endless.obj", SERVED)
-def _():
-    return "mtllib /dev/zero\n" + _OBJ_TRIANGLE
-
-
-@_mesh("material_library_is_itself.obj", SERVED)
-def _():
-    return "mtllib material_library_is_itself.obj\n" + _OBJ_TRIANGLE
-
-
-@_mesh("a_thousand_material_libraries.obj", SERVED)
-def _():
-    return "".join(f"mtllib /proc/{i}/environ\n" for i in range(1000)) + _OBJ_TRIANGLE
-
-
-@_mesh("index_out_of_range.obj")
-def _():
-    return _OBJ_TRIANGLE + "f 1 2 4000000000\n"
-
-
-@_mesh("index_that_overflows.obj")
-def _():
-    return _OBJ_TRIANGLE + "f 1 2 99999999999999999999999\n"
-
-
-@_mesh("negative_index.obj")
-def _():
-    return _OBJ_TRIANGLE + "f -1 -2 -2000000000\n"
-
-
-@_mesh("a_face_of_a_million_corners.obj", EITHER)
-def _():
-    return _OBJ_TRIANGLE + "f" + " 1 2 3" * 333_333 + "\n"
-
-
-@_mesh("a_line_of_30_mb.obj")
-def _():
-    return "v " + "1" * 30_000_000
-
-
-@_mesh("line_that_always_goes_on.obj")
-def _():
-    return _OBJ_TRIANGLE + "f 1 2 \\\n" * 1_000_000
-
-
-@_mesh("a_million_objects.obj", EITHER)
-def _():
-    return "v 0 0 0\nv 1 0 0\nv 0 1 0\n" + "".join(f"o x{i}\nf 1 2 3\n" for i in range(300_000))
-
-
-@_mesh("slashes_alone.obj")
-def _():
-    return "v 0 0 0\nv 1 0 0\nv 0 1 0\nf // // //\nf / / /\n"
-
-
-@_mesh("binary_zeros.obj")
-def _():
-    return bytes(1_000_000)
-
-
-@_mesh("coordinates_not_finite.obj")
-def _():
-    return "v 0 0 0\nv 1e999 0 0\nv 0 -1e999 0\nf 1 2 3\n"
+_served("material_library_is_endless.obj", lambda: "mtllib /dev/zero\n" + _OBJ_TRIANGLE)
+_served("material_library_is_itself.obj", lambda: "mtllib material_library_is_itself.obj\n" + _OBJ_TRIANGLE)
+_served("a_thousand_material_libraries.obj", lambda:
+        "".join(f"mtllib /proc/{i}/environ\n" for i in range(1000)) + _OBJ_TRIANGLE)
+_refused("index_out_of_range.obj", lambda: _OBJ_TRIANGLE + "f 1 2 4000000000\n")
+_refused("index_that_overflows.obj", lambda: _OBJ_TRIANGLE + "f 1 2 99999999999999999999999\n")
+_refused("negative_index.obj", lambda: _OBJ_TRIANGLE + "f -1 -2 -2000000000\n")
+_either("a_face_of_a_million_corners.obj", lambda: _OBJ_TRIANGLE + "f" + " 1 2 3" * 333_333 + "\n")
+_refused("a_line_of_30_mb.obj", lambda: "v " + "1" * 30_000_000)
+_refused("line_that_always_goes_on.obj", lambda: _OBJ_TRIANGLE + "f 1 2 \\\n" * 1_000_000)
+_either("a_million_objects.obj", lambda:
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\n" + "".join(f"o x{i}\nf 1 2 3\n" for i in range(300_000)))
+_refused("slashes_alone.obj", lambda: "v 0 0 0\nv 1 0 0\nv 0 1 0\nf // // //\nf / / /\n")
+_refused("binary_zeros.obj", lambda: bytes(1_000_000))
+_refused("coordinates_not_finite.obj", lambda: "v 0 0 0\nv 1e999 0 0\nv 0 -1e999 0\nf 1 2 3\n")
 
 
 # -------------------------------------------------------------------------------------------------- STL
@@ -425,14 +237,8 @@ def _binary_stl(announced: int, facets: int, header: bytes = b"") -> bytes:
     return header.ljust(80, b" ") + struct.pack("<I", announced) + facet * facets
 
 
-@_mesh("announces_4e9_facets.stl")
-def _():
-    return _binary_stl(0xFFFFFFFF, 3)
-
-
-@_mesh("announces_fewer_facets.stl")
-def _():
-    return _binary_stl(1, 3)
+_refused("announces_4e9_facets.stl", lambda: _binary_stl(0xFFFFFFFF, 3))
+_refused("announces_fewer_facets.stl", lambda: _binary_stl(1, 3))
 
 
 @_mesh("facets_in_a_sparse_file.stl")
@@ -449,25 +255,12 @@ def _(path):
     os.truncate(path, 64_000_000_000)
 
 
-@_mesh("a_solid_without_end.stl")
-def _():
-    return "solid x\n" + "facet normal 0 0 1\nouter loop\n" * 300_000
-
-
-@_mesh("three_million_solids.stl")
-def _():
-    return "solid x\n" * 1_000_000
-
-
-@_mesh("facets_outside_of_loops.stl", EITHER)
-def _():
-    return "solid x\n" + "vertex 0 0 0\n" * 300_000 + "endsolid x\n"
-
-
-@_mesh("words_for_numbers.stl", EITHER)
-def _():
-    return ("solid x\nfacet normal 0 0 1\nouter loop\nvertex a b c\nvertex d e f\nvertex g h i\nendloop\nendfacet\n"
-            "endsolid x\n")
+_refused("a_solid_without_end.stl", lambda: "solid x\n" + "facet normal 0 0 1\nouter loop\n" * 300_000)
+_refused("three_million_solids.stl", lambda: "solid x\n" * 1_000_000)
+_either("facets_outside_of_loops.stl", lambda: "solid x\n" + "vertex 0 0 0\n" * 300_000 + "endsolid x\n")
+_either("words_for_numbers.stl", lambda:
+        "solid x\nfacet normal 0 0 1\nouter loop\nvertex a b c\nvertex d e f\nvertex g h i\nendloop\nendfacet\n"
+        "endsolid x\n")
 
 
 @_mesh("numbers_of_a_million_digits.stl", EITHER)
@@ -486,40 +279,15 @@ def _():
 # -------------------------------------------------------------------- other formats under a mesh's name
 
 
-@_mesh("gltf_with_a_buffer_elsewhere.obj")
-def _():
-    return ('{"asset":{"version":"2.0"},"buffers":[{"byteLength":4000000000,"uri":"/dev/zero"}],'
-            '"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}]}')
-
-
-@_mesh("blender_file.stl")
-def _():
-    return b"BLENDER-v248" + bytes(range(256)) * 40
-
-
-@_mesh("quake_model.ply")
-def _():
-    return b"IDP2" + struct.pack("<16i", *[0x7FFFFFFF] * 16)
-
-
-@_mesh("a_scene.fbx")
-def _():
-    return b"Kaydara FBX Binary  \x00\x1a\x00" + bytes(200)
-
-
-@_mesh("a_scene.gltf")
-def _():
-    return '{"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":[{"children":[0]}]}'
-
-
-@_mesh("an_archive.zae")
-def _():
-    return b"PK\x05\x06" + bytes(18)
-
-
-@_mesh("no_ending_at_all")
-def _():
-    return _OBJ_TRIANGLE
+_refused("gltf_with_a_buffer_elsewhere.obj", lambda:
+         '{"asset":{"version":"2.0"},"buffers":[{"byteLength":4000000000,"uri":"/dev/zero"}],'
+         '"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}]}')
+_refused("blender_file.stl", lambda: b"BLENDER-v248" + bytes(range(256)) * 40)
+_refused("quake_model.ply", lambda: b"IDP2" + struct.pack("<16i", *[0x7FFFFFFF] * 16))
+_refused("a_scene.fbx", lambda: b"Kaydara FBX Binary  \x00\x1a\x00" + bytes(200))
+_refused("a_scene.gltf", lambda: '{"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":[{"children":[0]}]}')
+_refused("an_archive.zae", lambda: b"PK\x05\x06" + bytes(18))
+_refused("no_ending_at_all", lambda: _OBJ_TRIANGLE)
 
 
 # -------------------------------------------------------------------------------- files that are not regular
@@ -558,18 +326,14 @@ def _link(target: str):
     return write
 
 
-_mesh("link_to_zeros.stl")(_link("/dev/zero"))
-_mesh("link_to_random.ply")(_link("/dev/urandom"))
-_mesh("link_to_the_terminal.obj")(_link("/dev/tty"))
-_mesh("link_to_memory.stl")(_link("/proc/self/mem"))
-_mesh("link_to_a_password_file.obj")(_link("/etc/passwd"))
-_mesh("link_to_nothing.dae")(_link("no_such_file.dae"))
-_mesh("link_to_itself.ply")(_link("link_to_itself.ply"))
-
-
-@_mesh("empty.dae")
-def _():
-    return b""
+_refused("link_to_zeros.stl", _link("/dev/zero"))
+_refused("link_to_random.ply", _link("/dev/urandom"))
+_refused("link_to_the_terminal.obj", _link("/dev/tty"))
+_refused("link_to_memory.stl", _link("/proc/self/mem"))
+_refused("link_to_a_password_file.obj", _link("/etc/passwd"))
+_refused("link_to_nothing.dae", _link("no_such_file.dae"))
+_refused("link_to_itself.ply", _link("link_to_itself.ply"))
+_refused("empty.dae", lambda: b"")
 
 
 @_mesh("unreadable.stl", EITHER)

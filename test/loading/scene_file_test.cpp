@@ -5,9 +5,9 @@
 #include <regex>
 #include <set>
 
-#include "mesh/grid/node_graph.h"
 #include "scene/pair_parameters.h"
 #include "search/genetic_parameter_table.h"
+#include "search/grid/node_graph.h"
 #include "support/scene_fixture.h"
 
 namespace concave_distance::scene_file_test {
@@ -341,7 +341,7 @@ TEST_F(SceneFile, OptionsOfExperimentsAreRefusedAsSuch) {
     for (const std::string map : {"cold", "warm"}) {
       const std::string said = refusal("defaults: {expert: {" + map + ": {" + name + ": " + value + "}}}\n");
       EXPECT_TRUE(mentions(said, "'" + name + "' is an option of experiments")) << said;
-      EXPECT_TRUE(mentions(said, "doc/experiments.md")) << said;
+      EXPECT_TRUE(mentions(said, "thesis/doc/experiments.md")) << said;
     }
   }
   const std::string said = refusal("defaults: {expert: {warm: {niching: dynamic_sharing}}}\n");
