@@ -89,7 +89,7 @@ class Cutter {
     return depth * surface_.field.perDepth(surface_.field.approachRate(point, push, exit));
   }
 
-  /// To the other body's surface, its frame.
+  /// Returns the way to the other body's surface, its frame.
   Eigen::Vector3d wayOut(const Eigen::Vector3d& target) {
     if (const RoundShape* shape = surface_.other.shape()) {
       const Eigen::Vector3d in_shape = shape->body_from_shape.inverse(Eigen::Isometry) * target;

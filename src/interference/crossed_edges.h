@@ -7,8 +7,8 @@
 
 namespace concave_distance::detail {
 
-/// Holds the edges of one body that the crossing curves cross, with the nodes on each in order. Keeps
-/// buffers.
+/// Holds the edges of one body that the crossing curves cross, with the nodes on each in
+/// order. Keeps buffers.
 class CrossedEdges {
  public:
   /// The nodes of an edge are node(first) to node(last - 1), in order from its lower end.

@@ -50,7 +50,7 @@ std::array<Eigen::Vector3d, 3> cornersOf(const Part& part) {
   return {part.corners[0].point, part.corners[1].point, part.corners[2].point};
 }
 
-/// By how much the depth in the middle of an edge differs from the mean of its ends.
+/// Returns by how much the depth in the middle of an edge differs from the mean of its ends.
 template <typename Part>
 double bendOf(const Part& part) {
   double bend = 0.0;
@@ -149,7 +149,7 @@ void OverlapSampler::findPlanes(const OverlapFacet& facet, const Part& part) {
   }
 }
 
-// By how much the planes are wrong, at the points that are known and at the centre.
+// Returns by how much the planes are wrong, at the points that are known and at the centre.
 double OverlapSampler::worstHeight(const OverlapFacet& facet, const Part& part) {
   double worst = 0.0;
   const auto compare = [&](const ProbedPoint& at) {

@@ -101,7 +101,7 @@ bool RoundOverlap::collect(WorkLimit& limit) {
   return true;
 }
 
-/// Over edges that enter the solid.
+/// Joins entries over edges that enter the solid.
 void RoundOverlap::joinEntries() {
   const MeshTopology& topology = pair_->mesh.topology();
   const std::size_t triangles = pair_->mesh.surface().triangleCount();
@@ -188,7 +188,7 @@ void RoundOverlap::joinAlong(const Entry& from, const Entry& to) {
   }
 }
 
-/// Of the mesh with a segment inside the solid, but at its ends; ascending.
+/// Finds where the mesh crosses a segment inside the solid, but at its ends; ascending.
 void RoundOverlap::findCrossings(const Vector3d& from, const Vector3d& to) {
   constexpr double kEnd = 1e-9;
   crossings_.clear();

@@ -83,7 +83,7 @@ double PairOverlap::plateauEnd(double from, double to, double level) const {
   return from;
 }
 
-/// By the solid's points that are farthest out: its ends, of a cylinder points all around them.
+/// Looks at the solid's points that are farthest out: its ends, of a cylinder points all around them.
 bool PairOverlap::holdsSolid() const {
   const bool is_round = !hasFlatEnds(solid_);
   for (const double end : {-solid_.half_length, solid_.half_length}) {

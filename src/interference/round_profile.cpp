@@ -26,7 +26,7 @@ RoundProfile::RoundProfile(const RoundShape& shape) : shape_(shape) {
   whole_ = {2.0 * half.volume, 0.0, 2.0 * half.cubed, 2.0 * half.area};
 }
 
-/// Of a half ball on the end of the side.
+/// Returns the integrals of a half ball on the end of the side.
 ProfileTail RoundProfile::ofEnd(double height, double rho) const {
   const double r = shape_.radius;
   const double y = std::clamp(height - shape_.half_length, 0.0, r);
@@ -38,7 +38,7 @@ ProfileTail RoundProfile::ofEnd(double height, double rho) const {
           r / (r + y)};
 }
 
-/// Of what is above a height of the side.
+/// Returns the integrals of what is above a height of the side.
 ProfileTail RoundProfile::ofSide(double height) const {
   const double r = shape_.radius;
   const double h = shape_.half_length;

@@ -93,7 +93,7 @@ void RoundOverlap::setVolume(double volume, const Vector3d& moment, double area,
   (shape_is_a_ ? region.surface_area_a : region.surface_area_b) = area;
 }
 
-/// Of a cylinder the end that all samples are well on the way to, 1 or -1; else 0.
+/// Returns the end of a cylinder that all samples are well on the way to, 1 or -1; else 0.
 int RoundOverlap::sideOf() const {
   if (!hasFlatEnds(pair_->shape)) return 0;
   double least = std::numeric_limits<double>::infinity();

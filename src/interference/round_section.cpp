@@ -16,7 +16,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Of the distance from the core: triangles up to these sizes take 3 and 6 points.
+// Triangles up to these shares of the distance from the core take 3 and 6 points.
 constexpr double kSmall = 0.05;
 constexpr double kMedium = 0.3;
 // Parts of a section are cut about the core where that is nearer than this share of their length.
@@ -158,8 +158,8 @@ bool RoundSection::bendsLittle(const Vector3d& from, const Vector3d& to) const {
   return across <= kBendsLittle * core_;
 }
 
-/// Of a ball: by the angle about the circle's middle, of which the integrals are trigonometric polynomials.
-/// So they are the same however edges cut the circle.
+/// Integrates an arc of a ball by the angle about the circle's middle, of which the integrals are
+/// trigonometric polynomials. So they are the same however edges cut the circle.
 void RoundSection::addCircleArc(const RoundOutline::Arc& arc) {
   const Vector3d middle = normal_.dot(centre_) * normal_;
   const double turn = turnAbout(middle, arc, normal_, centre_);
@@ -186,7 +186,8 @@ void RoundSection::addCircleArc(const RoundOutline::Arc& arc) {
   }
 }
 
-/// In parts along their chords: exact where the border is straight, as that of a cylinder on its side.
+/// Integrates an arc in parts along their chords: exact where the border is straight, as that of a cylinder
+/// on its side.
 void RoundSection::addArc(const RoundOutline::Arc& arc) {
   if (!hasSide(*shape_)) return addCircleArc(arc);
   const double width = arc.to - arc.from;
@@ -237,7 +238,8 @@ void RoundSection::addToFan(const Vector3d& start, std::size_t count, const Vect
   fan_->push_back({centre_, before, end});
 }
 
-/// In rings around the core where that is near, for the fields of RoundVolume, and cut at the kinks.
+/// Integrates in rings around the core where that is near, for the fields of RoundVolume, and cut
+/// at the kinks.
 /// @param weight of the whole ray: twice the area that it stands for
 void RoundSection::addRay(const Vector3d& end, double weight) {
   LineCuts kinks = kinksOf(*shape_, centre_, end);

@@ -186,7 +186,7 @@ void SurfacePieces::emitEdge(WorkingFrame& frame, const CrossingCurves& curves, 
   if (inside) emit(start_element, start, frame.point(side_, high));
 }
 
-// Of a piece with holes the outline and the holes' loops are no neighbours: each loop within the triangle
+// The outline and the holes of a piece are no neighbours: each loop within the triangle
 // looks from its outermost corner for what it lies in.
 void SurfacePieces::uniteHoles(WorkingFrame& frame, const CrossingCurves& curves, std::size_t first,
                                std::size_t last, std::size_t first_edge, UnionFind& sets) {

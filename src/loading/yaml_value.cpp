@@ -16,7 +16,7 @@ namespace concave_distance::detail {
 namespace {
 
 constexpr std::size_t kLongestSeen = 60;
-// Of a document; 20,000 boxes and 50,000 pairs take 650,000.
+// A document may have this many values; 20,000 boxes and 50,000 pairs take 650,000.
 constexpr std::size_t kMostValues = 1'000'000;
 
 // yaml-cpp gives an empty value the place of what follows; the key's own line serves better.

@@ -29,7 +29,6 @@ class YamlValue {
   /// @throws Error("... is <seen>", "allowed: <allowed>"), always
   [[noreturn]] void refuse(const std::string& allowed) const;
 
-  bool isNull() const { return node_.IsNull(); }
   bool isScalar() const { return node_.IsScalar(); }
   bool isList() const { return node_.IsSequence(); }
   bool isMap() const { return node_.IsMap(); }

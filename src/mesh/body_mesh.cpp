@@ -37,6 +37,16 @@ struct BodyMesh::State {
     std::once_flag once;
     T value;
     std::atomic<std::size_t> bytes{0};
+
+    /// Returns the part; the first call makes it, for all threads.
+    template <typename Make>
+    const T& get(const Make& make) {
+      std::call_once(once, [&] {
+        value = make();
+        bytes = value.memoryBytes();
+      });
+      return value;
+    }
   };
   State(BodyMeshParts made, const BodyMeshOptions& given)
       : parts(std::move(made)), options(given), bounds(parts.surface.boundingBox()) {
@@ -294,52 +304,33 @@ const RecentredBody& BodyMesh::recentred() const {
 }
 
 const ShellContacts& BodyMesh::shellContacts() const {
-  auto& part = state_->shell_contacts;
-  std::call_once(part.once, [&] {
-    part.value = findShellContacts(surface(), topology(), tree());
-    part.bytes = part.value.memoryBytes();
-  });
-  return part.value;
+  return state_->shell_contacts.get([&] { return findShellContacts(surface(), topology(), tree()); });
 }
 
 const Facets& BodyMesh::facets() const {
-  auto& part = state_->facets;
-  std::call_once(part.once, [&] {
-    part.value = joinFlatTriangles(surface(), topology(), shellContacts().hidden);
-    part.bytes = part.value.memoryBytes();
-  });
-  return part.value;
+  return state_->facets.get([&] { return joinFlatTriangles(surface(), topology(), shellContacts().hidden); });
 }
 
 const CompressedRows<AdjacentTriangle>& BodyMesh::adjacency() const {
-  auto& part = state_->adjacency;
-  std::call_once(part.once, [&] {
-    part.value = triangleAdjacency(surface(), topology());
-    if (!shellContacts().isEmpty()) part.value = joinedAdjacency(surface(), shellContacts(), part.value);
-    part.value = facetAdjacency(facets(), part.value);
-    part.bytes = part.value.offsets.capacity() * sizeof(std::uint32_t) +
-                 part.value.values.capacity() * sizeof(AdjacentTriangle);
+  return state_->adjacency.get([&] {
+    CompressedRows<AdjacentTriangle> of_triangles = triangleAdjacency(surface(), topology());
+    if (!shellContacts().isEmpty()) of_triangles = joinedAdjacency(surface(), shellContacts(), of_triangles);
+    return facetAdjacency(facets(), of_triangles);
   });
-  return part.value;
 }
 
 const ConnectedPieces& BodyMesh::pieces() const {
-  auto& part = state_->pieces;
-  std::call_once(part.once, [&] {
-    part.value = connectedPieces(surface());
-    joinPieces(shellContacts(), part.value);
-    part.bytes = part.value.memoryBytes();
+  return state_->pieces.get([&] {
+    ConnectedPieces pieces = connectedPieces(surface());
+    joinPieces(shellContacts(), pieces);
+    return pieces;
   });
-  return part.value;
 }
 
 const NormalConeTree& BodyMesh::normalCones(NormalSides sides) const {
-  auto& part = state_->cones.at(static_cast<std::size_t>(sides));
-  std::call_once(part.once, [&] {
-    part.value = NormalConeTree(surface(), topology(), sides, shellContacts());
-    part.bytes = part.value.memoryBytes();
+  return state_->cones.at(static_cast<std::size_t>(sides)).get([&] {
+    return NormalConeTree(surface(), topology(), sides, shellContacts());
   });
-  return part.value;
 }
 
 std::size_t BodyMesh::memoryBytes() const {

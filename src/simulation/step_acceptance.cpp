@@ -42,7 +42,7 @@ double frictionWork(const std::vector<ContactRegion>& regions, const Vector6d& d
 
 }  // namespace
 
-// Of the lighter body against the other.
+// Returns the energy with which the lighter body moves against the other.
 double Simulation::State::energyOfMotion(const Coupling& coupling) const {
   const bool b_is_lighter = freeMassOf(moving, coupling.body_b) <= freeMassOf(moving, coupling.body_a);
   const std::size_t lighter = b_is_lighter ? coupling.body_b : coupling.body_a;

@@ -16,7 +16,7 @@ constexpr double kShareInContact = 1.0;
 constexpr double kShareAtBegin = 0.02;
 // Places are rounded: this far, relative to the body's size, it may always move.
 constexpr double kRoundedPlace = 1e-9;
-// Of the way allowed at the present speed, which changes a little within the step.
+// A step takes this share of the way allowed at the present speed, which changes a little within the step.
 constexpr double kShareOfAllowed = 0.99;
 
 double reducedMass(const MovingBody& a, const MovingBody& b) {

@@ -55,7 +55,7 @@ struct InterferenceRegion {
   Eigen::Vector3d along_normal_a_in_a = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
   Eigen::Vector3d along_normal_b_in_a = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
   /// Length of the vector area of A's surface inside B, m^2: what the loops enclose, seen along the normal.
-  /// Of a sphere of radius R pressed into a plane by delta pi 2 R delta at first order, as Carretero's a =
+  /// For a sphere of radius R pressed into a plane by delta pi 2 R delta at first order, as Carretero's a =
   /// sqrt(A / pi) of equation expects.
   double contact_area = std::numeric_limits<double>::quiet_NaN();
   double surface_area_a = std::numeric_limits<double>::quiet_NaN();  ///< of A's surface inside B, m^2
@@ -145,9 +145,8 @@ struct KnownNormal {
 /// triangles, the surface inside the other body and the logarithm of the rest. Never throws but for lack of
 /// memory; allocates nothing once workspace and result have grown.
 /// @param limit checked for every pair of boxes and of triangles, and between passes; nullptr: none
-/// @param known a moment ago: of these a fallback normal (normal_is_fallback) keeps the nearest
-/// while its depth
-///        is within 1 % of the least
+/// @param known a moment ago: of these a fallback normal (normal_is_fallback) keeps the nearest while its
+///        depth is within 1 % of the least
 void findInterference(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
                       InterferenceWorkspace& workspace, Interference& result, WorkLimit* limit = nullptr,
                       const std::vector<KnownNormal>& known = {});

@@ -7,7 +7,6 @@
 
 namespace concave_distance::detail {
 
-inline constexpr std::uint32_t kNoFace = 0xffffffffU;
 
 /// All triangles with the same three corners, in either winding.
 struct Face {

@@ -9,7 +9,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Of the diameter: what a corner may be off the other triangle's plane.
+/// A corner may be off the other triangle's plane by this share of the diameter.
 constexpr double kLevelHeight = 0x1.0p-49;
 /// Longest edge squared over the height on it, in diameters: the plane of a longer needle is not known well
 /// enough (rounding makes 2^-48 of the diameter of it).
@@ -44,7 +44,7 @@ class FacetJoiner {
     return (mesh_.corner(t, 1) - mesh_.corner(t, 0)).cross(mesh_.corner(t, 2) - mesh_.corner(t, 0)).norm();
   }
 
-  /// Over the longest edge that will do: most often the diagonal of a rectangle.
+  /// Joins a triangle over the longest edge that will do: most often the diagonal of a rectangle.
   void joinLongest(TriangleIndex t) {
     if (!isFree(t)) return;
     std::array<std::size_t, 3> edges{0, 1, 2};
@@ -78,7 +78,7 @@ class FacetJoiner {
     }));
   }
 
-  /// Over the edges of both that they have in common.
+  /// Checks the edges that both have in common.
   bool join(TriangleIndex first, std::size_t edge, TriangleIndex second, std::size_t edge_of_second) {
     const std::array<NodeIndex, 4> nodes{node(first, edge + 1), node(first, edge + 2), node(first, edge),
                                          node(second, edge_of_second + 2)};

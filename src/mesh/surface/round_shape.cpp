@@ -13,7 +13,7 @@
 namespace concave_distance {
 namespace {
 
-// Of the rotation's columns against orthonormal ones.
+// The rotation's columns may be this far from orthonormal ones.
 constexpr double kRigid = 1e-12;
 
 void requireShort(const std::string& where, const char* name, double length) {

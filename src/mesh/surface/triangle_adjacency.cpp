@@ -22,7 +22,7 @@ struct Join {
 
 void joinAcrossEdges(const SurfaceMesh& mesh, const EdgeTable& edges, std::vector<Join>& joins) {
   const std::vector<TriangleNodes>& triangles = mesh.triangles();
-  // Of each half-edge its place in the group of its edge.
+  // Each half-edge has here its place in the group of its edge.
   std::vector<std::uint32_t> places(edges.half_edges.size());
   for (std::uint32_t i = 0; i < places.size(); ++i) places[edges.half_edges[i]] = i;
   for (HalfEdge h = 0; h < places.size(); ++h) {

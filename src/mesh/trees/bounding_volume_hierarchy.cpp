@@ -59,7 +59,7 @@ class HierarchyBuilder {
   }
 
  private:
-  /// Of what is below the subtree's box.
+  /// Counts what is below the subtree's box.
   Place sizeOf(const Subtree& subtree) const {
     if (subtree.count <= Hierarchy::kWidth) return {0, 1};
     std::array<Subtree, Hierarchy::kWidth> children;

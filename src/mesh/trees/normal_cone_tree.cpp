@@ -27,7 +27,7 @@ constexpr std::size_t kLeastItemsOfSubtree = 16;
 /// Smaller bodies are compared in this unit: its reciprocal must not overflow.
 constexpr int kLeastExponent = -1000;
 
-/// What lies around some items, in double precision.
+/// Bounds some items, in double precision.
 struct Bound {
   Vector3d centre;
   double radius;
@@ -62,7 +62,7 @@ class ConeTreeBuilder {
     std::uint32_t count() const { return last - first; }
   };
 
-  /// Of two items or more; returns the first one's slot.
+  /// Builds the groups of two items or more; returns the first one's slot.
   std::uint32_t buildParts(Range range) {
     const auto first = static_cast<std::uint32_t>(groups_.size());
     groups_.resize(groups_.size() + NormalConeTree::kWidth);

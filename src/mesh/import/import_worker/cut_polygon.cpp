@@ -227,7 +227,7 @@ bool PolygonCutter::isSkewQuad() const {
   return std::abs(volume) > thin_ * largest_face;
 }
 
-/// By the diagonal whose worse triangle is the better one.
+/// Cuts along the diagonal whose worse triangle is the better one.
 void PolygonCutter::cutSkewQuad(std::vector<Triangle>& triangles) {
   link();
   const bool from_first = std::min(shapeOf(1), shapeOf(3)) >= std::min(shapeOf(0), shapeOf(2));

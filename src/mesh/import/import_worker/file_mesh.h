@@ -30,9 +30,8 @@ class FileMesh {
   void addFace(const std::vector<std::int64_t>& corners, std::uint64_t number);
 
   /// All triangles, those of polygons last.
-  /// @throws Error naming the file and the face, for a corner that is no vertex, a vertex that is
-  /// not finite or
-  ///         beyond 1e60, a polygon that crosses itself, or more than `most_triangles`
+  /// @throws Error naming the file and the face, for a corner that is no vertex, a vertex that is not finite
+  ///         or beyond 1e60, a polygon that crosses itself, or more than `most_triangles`
   TriangleSoup takeTriangles(const std::string& path, std::uint64_t most_triangles);
 
  private:
