@@ -1,13 +1,13 @@
-#include "thesis/benchmark/support/reference_niches.h"
+#include "benchmark/support/reference_niches.h"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
+#include "benchmark/support/grid_flood.h"
 #include "distance/niches/niche_decider.h"
 #include "search/local_descent.h"
-#include "thesis/benchmark/support/grid_flood.h"
-#include "thesis/src/evaluation/enumeration.h"
+#include "support/enumeration.h"
 #include "tracking/niche_placement.h"
 
 namespace concave_distance::benchmark {
@@ -18,7 +18,8 @@ std::vector<ReferenceNiche> referenceNiches(const BenchmarkPair& pair, const Eig
   std::vector<ReferenceNiche> references;
   // What lies below the cutoff and leads on at less than the least prominence does so below this.
   const double flood_level = (1.0 + least_prominence) * cutoff;
-  for (const NodeNiche& niche : enumerateNodeNiches(*pair.a, *pair.b, pose, flood_level, least_prominence)) {
+  for (const test::NodeNiche& niche :
+       test::enumerateNodeNiches(*pair.a, *pair.b, pose, flood_level, least_prominence)) {
     if (niche.distance > cutoff) {
       break;  // ascending
     }
