@@ -124,7 +124,7 @@ void ExactNiches::admit(const PairFrame& frame, const TrackerParameters& paramet
       ++evolved_;
     } else {
       const bool is_proven_alone = !found_.finished && minimum.proposal != LocalMinimum::kNoProposal;
-      niche.origin = is_proven_alone ? NicheOrigin::Proven : NicheOrigin::Swept;
+      niche.origin = is_proven_alone ? NicheOrigin::Proven : NicheOrigin::FromCones;
     }
     if (!known) {
       niche.id = archive.takeId();

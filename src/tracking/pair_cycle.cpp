@@ -279,7 +279,7 @@ void PairCycle::reportMiss(double displacement, PairSolution& solution) const {
   if (proves()) {
     solution.search_miss =
         std::any_of(solution.niches.begin(), solution.niches.end(), [](const TrackedNiche& niche) {
-          return niche.origin == NicheOrigin::Swept || niche.origin == NicheOrigin::Proven;
+          return niche.origin == NicheOrigin::FromCones || niche.origin == NicheOrigin::Proven;
         });
     return;
   }

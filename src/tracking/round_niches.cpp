@@ -126,7 +126,7 @@ void RoundNiches::identify(const Cycle& cycle) {
     record.niche.id = archive_.takeId();
     record.niche.birth_cycle = cycle.number;
     record.niche.closing_speed = kNotComputed;
-    if (record.niche.origin == NicheOrigin::Inherited) record.niche.origin = NicheOrigin::Swept;
+    if (record.niche.origin == NicheOrigin::Inherited) record.niche.origin = NicheOrigin::FromCones;
   }
 }
 

@@ -40,7 +40,7 @@ std::string_view toString(SolveStatus status);
 enum class NicheOrigin : std::uint8_t {
   Inherited,  ///< known from the last cycle
   Evolved,    ///< new, and proposed by the genetic search
-  Swept,      ///< new, found among the normal cones
+  FromCones,  ///< new, found among the normal cones
   Proven      ///< new, found by the proof of the distance alone
 };
 inline constexpr std::size_t kNicheOriginCount = 4;
@@ -104,8 +104,8 @@ struct PairSolution {
   std::uint64_t cycle = 0;
   bool warm = false;
   /// The genetic search has missed a niche, seen in this warm cycle. At `certified`: a niche listed is new
-  /// and the search has not proposed it (NicheOrigin::Swept or Proven). At `nodes` and `refined`, where only
-  /// later cycles show it: the distance is less than the last cycle's nearest niche can have come to.
+  /// and the search has not proposed it (NicheOrigin::FromCones or Proven). At `nodes` and `refined`, where
+  /// only later cycles show it: the distance is less than the last cycle's nearest niche can have come to.
   bool search_miss = false;
   std::uint64_t seed = 0;
   SearchCost cost;             ///< of the genetic search, and how much of it ran
