@@ -43,13 +43,6 @@ void placeMinimum(NicheRecord& record, const PairFrame& frame, const LocalMinimu
 
 }  // namespace
 
-void ExactNiches::stand(double elapsed, NicheArchive& archive) const {
-  for (NicheRecord& record : archive.records()) {
-    record.niche.closing_speed = elapsed > 0.0 ? 0.0 : kNotComputed;
-    record.niche.origin = NicheOrigin::Inherited;
-  }
-}
-
 void ExactNiches::follow(const PairFrame& frame, const NicheArchive& archive, WorkLimit& limit) {
   followed_.clear();
   if (archive.records().empty() && nearest_) {

@@ -28,9 +28,7 @@ class ExactNiches {
   };
 
   /// Whether nothing can have changed since the last admit().
-  bool stands(double displacement) const { return current_ && displacement == 0.0; }
-  /// The speeds of niches that stand still.
-  void stand(double elapsed, NicheArchive& archive) const;
+  bool isUnchanged(double displacement) const { return current_ && displacement == 0.0; }
 
   /// Level `refined`: every known niche is a minimum to be admitted again; where none is known, as in a
   /// body that has swallowed the other, the nearest of all minima is followed.

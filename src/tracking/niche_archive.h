@@ -41,6 +41,10 @@ class NicheArchive {
   NicheRecord* findSamePlace(const Eigen::Vector3d& point_a_in_a, const Eigen::Vector3d& point_b_in_b,
                              double tolerance);
 
+  /// Keeps the niches at a pose that has not changed: all are inherited and rest.
+  /// @param elapsed seconds since the last cycle; 0 when not known, then the speeds are not either
+  void keepUnchanged(double elapsed);
+
   /// Sorts by distance, then by id.
   void settle();
 

@@ -125,7 +125,7 @@ void PairCycle::solveNodes(const Passed& passed, PairSolution& solution) {
 }
 
 void PairCycle::solveExact(const Passed& passed, PairSolution& solution) {
-  if (niches_.stands(passed.displacement)) return niches_.stand(passed.elapsed, archive_);
+  if (niches_.isUnchanged(passed.displacement)) return archive_.keepUnchanged(passed.elapsed);
   if (!isWarm() && is_tracked_ && parameters_.search_share > 0.0) prepare();
   frame_->openFacets();
   limit_.allowShare(kShareOfSearch);
@@ -147,10 +147,10 @@ void PairCycle::solveExact(const Passed& passed, PairSolution& solution) {
 
 // Two round solids are convex: their one niche needs no search.
 void PairCycle::solveRound(const Passed& passed, PairSolution& solution) {
-  const bool stands = passed.displacement == 0.0 && !round_.records().empty();
+  const bool is_unchanged = passed.displacement == 0.0 && !round_.records().empty();
   if (!isPairOfShapes()) solveExact(passed, solution);
-  if (stands && (isPairOfShapes() || niches_.stands(passed.displacement)))
-    return round_.stand(passed.elapsed);
+  if (is_unchanged && (isPairOfShapes() || niches_.isUnchanged(passed.displacement)))
+    return round_.keepUnchanged(passed.elapsed);
   round_.update(*frame_, archive_, {cycle_, isWarm() ? passed.displacement : 0.0, passed.elapsed},
                 solution.events);
 }

@@ -173,13 +173,6 @@ void RoundNiches::endOthers(std::vector<NicheEvent>& events) const {
   }
 }
 
-void RoundNiches::stand(double elapsed) {
-  for (NicheRecord& record : archive_.records()) {
-    record.niche.closing_speed = elapsed > 0.0 ? 0.0 : kNotComputed;
-    record.niche.origin = NicheOrigin::Inherited;
-  }
-}
-
 void RoundNiches::clear() {
   archive_.clear();
   members_.clear();
