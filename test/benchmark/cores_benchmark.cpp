@@ -142,17 +142,17 @@ class Comparison {
 
  private:
   double collect(tbb::task_arena& arena, const detail::PairFrame& scene, MinimaTracker& front,
-                 std::vector<MinimumCandidate>& seeds) {
+                 std::vector<MinimumCandidate>& candidates) {
     std::this_thread::sleep_for(std::chrono::milliseconds(pause_));
     double us = 0.0;
     HelpingThreads helpers;
     helpers.begin();
     arena.execute([&] {
       WorkLimit none;
-      seeds.clear();
+      candidates.clear();
       const auto start = std::chrono::steady_clock::now();
       helpers.share([&] {
-        front.collect(scene, NormalSides::Outside, std::numeric_limits<double>::infinity(), seeds, none);
+        front.collect(scene, NormalSides::Outside, std::numeric_limits<double>::infinity(), candidates, none);
       });
       us = microsecondsSince(start);
     });

@@ -23,7 +23,7 @@ struct Part {
     for (std::size_t k = 1; k < count; ++k) least = std::min(least, direction.dot(corners[k]));
     return least;
   }
-  double leverOf(const Vector3d& centre) const {
+  double radiusOf(const Vector3d& centre) const {
     double most = 0.0;
     for (std::size_t k = 0; k < count; ++k) most = std::max(most, (corners[k] - centre).squaredNorm());
     return std::sqrt(most);
@@ -63,16 +63,16 @@ Row rowOf(const std::array<float, BorderPool::kWidth>& row) {
 
 }  // namespace
 
-/// How far an element's parts reach; the body with the shorter lever counts as the one that moves.
-struct BasinBoundary::Levers {
-  Levers(const Part& a, const Part& b, const std::array<Vector3d, 2>& centres) {
-    const double lever_a = a.leverOf(centres[0]);
-    const double lever_b = b.leverOf(centres[1]);
-    fixed_in = lever_b <= lever_a ? Side::A : Side::B;
-    shorter = static_cast<float>(std::min(lever_a, lever_b));
+/// How far an element's parts reach; the body with the smaller radius counts as the one that moves.
+struct BasinBoundary::Radii {
+  Radii(const Part& a, const Part& b, const std::array<Vector3d, 2>& centres) {
+    const double radius_a = a.radiusOf(centres[0]);
+    const double radius_b = b.radiusOf(centres[1]);
+    fixed_in = radius_b <= radius_a ? Side::A : Side::B;
+    smaller = static_cast<float>(std::min(radius_a, radius_b));
   }
   Side fixed_in;
-  float shorter;
+  float smaller;
 };
 
 std::uint32_t BorderPool::take(std::uint32_t next, WorkLimit& limit) {
@@ -118,7 +118,7 @@ class BasinBoundary::Bound {
                             seen(batch.fixed_in, batch.rotation, batch.offset, moving_centre);
     const double turn = (frame.rotation - batch.rotation).norm() * std::sqrt(0.5);
     const double reach = motion.norm();
-    const double rounding = kSingleError * (reach + turn * static_cast<double>(batch.longest));
+    const double rounding = kSingleError * (reach + turn * static_cast<double>(batch.largest));
     less_ = 4.0 * frame.rounding + rounding + (batch.directed ? 0.0 : reach);
     turn_ = static_cast<float>(turn);
     along_ = batch.directed ? Eigen::Vector3f(motion.cast<float>()) : Eigen::Vector3f::Zero();
@@ -128,7 +128,7 @@ class BasinBoundary::Bound {
   float needed(double level) const { return static_cast<float>((level + less_) * (1.0 + kSingleError)); }
 
   Row of(const BorderPool::Chunk& chunk) const {
-    return rowOf(chunk.gap) - turn_ * rowOf(chunk.lever) + along_[0] * rowOf(chunk.direction[0]) +
+    return rowOf(chunk.gap) - turn_ * rowOf(chunk.radius) + along_[0] * rowOf(chunk.direction[0]) +
            along_[1] * rowOf(chunk.direction[1]) + along_[2] * rowOf(chunk.direction[2]);
   }
 
@@ -187,12 +187,12 @@ std::uint32_t BasinBoundary::placeIn(BorderPool& pool, Batch& batch, WorkLimit& 
 
 BorderPool::Entry BasinBoundary::takeFrom(BorderPool::Chunk& chunk, std::uint32_t k) {
   const BorderPool::Entry entry{chunk.gap[k],
-                                chunk.lever[k],
+                                chunk.radius[k],
                                 {chunk.direction[0][k], chunk.direction[1][k], chunk.direction[2][k]},
                                 chunk.elements[k]};
   const std::uint32_t last = --chunk.count;
   chunk.gap[k] = chunk.gap[last];
-  chunk.lever[k] = chunk.lever[last];
+  chunk.radius[k] = chunk.radius[last];
   for (std::array<float, BorderPool::kWidth>& component : chunk.direction) component[k] = component[last];
   chunk.elements[k] = chunk.elements[last];
   return entry;
@@ -203,22 +203,21 @@ bool BasinBoundary::put(BorderPool& pool, Batch& batch, const BorderPool::Entry&
   if (k == BorderPool::kNone) return false;
   BorderPool::Chunk& chunk = pool[batch.first];
   chunk.gap[k] = entry.gap;
-  chunk.lever[k] = entry.lever;
+  chunk.radius[k] = entry.radius;
   for (std::size_t d = 0; d < 3; ++d) chunk.direction[d][k] = entry.direction[static_cast<Eigen::Index>(d)];
   chunk.elements[k] = entry.element;
-  batch.longest = std::max(batch.longest, entry.lever);
+  batch.largest = std::max(batch.largest, entry.radius);
   return true;
 }
 
 bool BasinBoundary::add(BorderPool& pool, const PairFrame& frame, const BorderElement& element, double level,
                         WorkLimit& limit) {
-  const Levers levers(partOf(frame, Side::A, element.shared), partOf(frame, Side::B, element.shared),
-                      centres_);
+  const Radii radii(partOf(frame, Side::A, element.shared), partOf(frame, Side::B, element.shared), centres_);
   if (used_ == kMostBatches) rebase(pool, frame);
   // Twice for the level, and as much for quadrangles that are not quite flat.
   const auto gap = static_cast<float>(level - 4.0 * frame.rounding);
-  return put(pool, batchAt(frame, levers.fixed_in, false),
-             {gap, levers.shorter, Eigen::Vector3f::Zero(), element}, limit);
+  return put(pool, batchAt(frame, radii.fixed_in, false),
+             {gap, radii.smaller, Eigen::Vector3f::Zero(), element}, limit);
 }
 
 /// What may be nearer than the level leaves the batch: it is looked at along its direction, and measured

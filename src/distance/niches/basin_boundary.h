@@ -31,7 +31,7 @@ class BorderPool {
   /// In single precision.
   struct Chunk {
     std::array<float, kWidth> gap;
-    std::array<float, kWidth> lever;
+    std::array<float, kWidth> radius;
     std::array<std::array<float, kWidth>, 3> direction;  ///< fixed body's axes; of directed ones
     std::array<BorderElement, kWidth> elements;
     std::uint32_t count = 0;
@@ -39,7 +39,7 @@ class BorderPool {
   };
   struct Entry {
     float gap;
-    float lever;
+    float radius;
     Eigen::Vector3f direction;
     BorderElement element;
   };
@@ -75,7 +75,7 @@ class BorderPool {
 
 /// Encloses a set of facet pairs by elements over which the distance is at least a level. At another
 /// pose the distance over an element has changed by no more than one point has moved and the turn times a
-/// lever; where that is not enough it is measured anew, and from then on the gap along the direction of the
+/// radius; where that is not enough it is measured anew, and from then on the gap along the direction of the
 /// closest points is what counts, which the motion across it leaves as it is. No history: what holds is seen
 /// at the pose itself.
 class BasinBoundary {
@@ -97,18 +97,18 @@ class BasinBoundary {
 
  private:
   /// Elements measured at one pose, seen from the axes of one body while the other one moves, whose part of
-  /// each lies within the lever of its centre.
+  /// each lies within the radius of its centre.
   struct Batch {
     Side fixed_in = Side::A;
     bool directed = false;
     Eigen::Matrix3d rotation;  ///< of the frame's frame, at the pose
     Eigen::Vector3d offset;
-    float longest = 0.0F;  ///< lever
+    float largest = 0.0F;  ///< radius
     std::uint32_t first = BorderPool::kNone;
   };
   static constexpr std::uint32_t kMostBatches = 8;
   class Bound;
-  struct Levers;
+  struct Radii;
 
   /// There must be room for one more.
   Batch& batchAt(const PairFrame& frame, Side fixed_in, bool directed);

@@ -77,7 +77,7 @@ class PiecePair {
         const double distance = std::sqrt(found.squared_distance);
         if (!(distance < least)) continue;
         least = distance;
-        seed = seedOn(found.triangle_a, found.triangle_b, distance);
+        seed = candidateOn(found.triangle_a, found.triangle_b, distance);
         direction = (found.point_b_in_a - found.point_a_in_a).normalized();
       }
       if (!(least < before)) return false;

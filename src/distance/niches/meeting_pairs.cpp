@@ -48,7 +48,7 @@ void collectMeetingPairs(const PairFrame& frame, std::vector<TreeNodePair>& open
           const Eigen::Vector3d point = closest.point_a + frame.centre_a;
           if (isInsideMaterial(frame, {0.0, point, point, ta, tb})) continue;
           if (!limit.makeRoom(seeds)) return;
-          seeds.push_back(seedOn(ta, tb, 0.0));
+          seeds.push_back(candidateOn(ta, tb, 0.0));
         }
       }
     } else if (b.count > 0 || (a.count == 0 && a.box.sizes().sum() >= b.box.sizes().sum())) {

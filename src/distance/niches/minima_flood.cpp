@@ -236,8 +236,8 @@ FloodResult floodMinima(const PairFrame& frame, const LocalMinimaRequest& reques
     const FacetPair& facet_pair = flood.facet_pair(basin.facet_pair);
     minimum_of_basin[i] = result.minima.size();
     const TrianglePair closest = frame.closestIn({facet_pair.a, facet_pair.b}).first;
-    result.minima.push_back(
-        {seedOn(closest.a, closest.b, facet_pair.distance), basin.pass, basin.limit, basin.met_by_flood});
+    result.minima.push_back({candidateOn(closest.a, closest.b, facet_pair.distance), basin.pass, basin.limit,
+                             basin.met_by_flood});
   }
   // A start belongs to the deepest basin that it is joined to by passes of less than the least prominence.
   for (std::size_t i = owned; i < starts.size(); ++i) {
