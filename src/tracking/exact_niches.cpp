@@ -80,8 +80,7 @@ void ExactNiches::admit(const PairFrame& frame, const TrackerParameters& paramet
   if (cycle.is_tracked) request_.proposals.reserve(kUsualProposals);
   request_.is_tracked = cycle.is_tracked;
   request_.cutoff = cycle.cutoff;
-  request_.least_prominence = parameters.least_prominence;
-  request_.prominence_limit = parameters.prominence_limit;
+  request_.rule = {parameters.least_prominence, parameters.prominence_limit};
   request_.largest_count = archiveCapacity(parameters.largest_niche_count);
   request_.through_material = parameters.keep_through_material;
   request_.hidden = parameters.hidden;
@@ -144,34 +143,17 @@ void ExactNiches::admit(const PairFrame& frame, const TrackerParameters& paramet
   offered_ = nullptr;
 }
 
-// Where prominences were measured, no verdict says to which niche a minimum belongs.
 void ExactNiches::attributeOffered(const PairFrame& frame) {
   if (offered_ == nullptr || !found_.finished) return;
   if (std::find(heirs_.begin(), heirs_.end(), kNone) == heirs_.end()) return;
-  const bool measured = request_.prominence_limit > request_.least_prominence;
   request_.proposals.clear();
   for (LocalMinimum& niche : found_.niches) niche.proposal = LocalMinimum::kNoProposal;
   for (std::size_t i = 0; i < offered_->size(); ++i) {
     const WitnessPair nodes = nodeWitness(frame, (*offered_)[i]);
     const WitnessPair minimum = refine(frame, nodes);
     propose(frame, minimum);
-    if (measured) attributeByPlace(minimum, i, frame.samePlaceTolerance());
   }
-  if (!measured) {
-    attributeProposals(frame, request_, memory_, found_);
-  }
-}
-
-void ExactNiches::attributeByPlace(const WitnessPair& minimum, std::size_t proposal, double tolerance) {
-  const double distance = std::sqrt(minimum.squared_distance);
-  for (LocalMinimum& niche : found_.niches) {
-    const double reach = niche.extent + tolerance;
-    if (std::abs(niche.distance - distance) <= tolerance &&
-        (niche.witness.point_a_in_a - minimum.point_a_in_a).norm() <= reach &&
-        (niche.witness.point_b_in_a - minimum.point_b_in_a).norm() <= reach) {
-      niche.proposal = proposal;
-    }
-  }
+  attributeProposals(frame, request_, memory_, found_);
 }
 
 // A known niche goes on as the one whose region it is in now, the oldest of them first. Before, no point pair

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -57,6 +58,7 @@ class BasinSearch {
     reached_.clear();
     border_.clear();
     looked_at_ = 0;
+    highest_ = 0.0;
     has_own_start_ = false;
   }
   /// False without memory.
@@ -77,6 +79,7 @@ class BasinSearch {
       if (looked_at_ == most_facet_pairs) return End::Long;
       std::pop_heap(reached_.begin(), reached_.end(), isHigher);
       last_ = reached_.back().facet_pair;
+      highest_ = std::max(highest_, reached_.back().squared_level);
       reached_.pop_back();
       ++looked_at_;
       const TriangleIndex a = facet_pairs_[last_].a;
@@ -96,6 +99,8 @@ class BasinSearch {
   const std::vector<FacetPair>& facet_pairs() const { return facet_pairs_; }
   std::uint32_t last() const { return last_; }
   std::size_t lookedAt() const { return looked_at_; }
+  /// The level (metres) to which the search has risen.
+  double highestLevel() const { return std::sqrt(highest_); }
 
   /// Calls visit(border step) for what encloses the facet pairs visited and those inside.
   template <typename IsInside, typename Visit>
@@ -166,6 +171,7 @@ class BasinSearch {
   std::vector<BorderStep> border_;
   std::uint32_t last_ = 0;
   std::size_t looked_at_ = 0;
+  double highest_ = 0.0;  ///< m^2
   bool has_own_start_ = true;
 };
 

@@ -26,7 +26,7 @@ bool CandidateCollector::collect(const PairFrame& frame, const LocalMinimaReques
     appendCandidates(frame, request, *request.given, seeds);
     return true;
   }
-  if (isFar(frame, request.least_prominence) &&
+  if (isFar(frame, request.rule) &&
       collectFarSeeds(frame, request.cutoff, distant_components_, seeds, limit)) {
     return true;
   }

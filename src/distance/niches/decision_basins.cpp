@@ -79,7 +79,7 @@ void NicheDecider::Stage::restoreBorder(std::uint32_t index) {
 
 void NicheDecider::Stage::flood(std::uint32_t i) {
   const MinimumCandidate seed = verdicts_.judged_[i].seed;
-  const std::uint32_t number = numberOf(seed);
+  const std::uint32_t number = indexOf(seed);
   std::uint64_t id = 0;
   if (const std::uint32_t broken = memory_.regionOf(number, i); broken != kNone) {
     // Kept for the next pose when there is no time for a flood.
@@ -128,6 +128,23 @@ void NicheDecider::Stage::flood(std::uint32_t i) {
       set(i, Verdict::Undecided);
       break;
   }
+}
+
+double NicheDecider::Stage::passOf(std::uint32_t i, double highest) const {
+  const MemoryScope memory(limit_);
+  const MinimumCandidate& seed = verdicts_.judged_[i].seed;
+  const TrianglePair start = frame_.facetPairOf(seed.a, seed.b);
+  BasinSearch search;  // it may grow large: its memory is not kept
+  search.begin(start.a, start.b,
+               {seed.distance - tolerance_, seed.distance + tolerance_, highest + tolerance_});
+  const auto meets = [&](TriangleIndex a, TriangleIndex b) { return isOfEarlier(a, b, i); };
+  const auto is_inside = [](TriangleIndex, TriangleIndex) { return false; };
+  const BasinSearch::End end =
+      search.proceed(frame_, std::numeric_limits<std::size_t>::max(), meets, is_inside, limit_);
+  verdicts_.counts_.flooded_cells += static_cast<std::uint32_t>(search.lookedAt());
+  if (end == BasinSearch::End::Cut) return std::numeric_limits<double>::quiet_NaN();
+  if (end == BasinSearch::End::Enclosed) return std::numeric_limits<double>::infinity();
+  return std::max(search.highestLevel(), seed.distance);
 }
 
 void NicheDecider::Stage::keepRegion(std::uint32_t i, std::uint64_t id) {

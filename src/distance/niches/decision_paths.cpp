@@ -26,7 +26,7 @@ void NicheDecider::Stage::resolve(std::uint32_t i) {
 
 bool NicheDecider::Stage::followsDown(std::uint32_t i, std::uint32_t number) {
   const double distance = verdicts_.judged_[i].seed.distance;
-  const double level = levelOf(distance);
+  const double level = request_.rule.levelOf(distance);
   const double below = distance - tolerance_;
   const auto settle = [&](std::uint32_t into, std::uint32_t facet_pair) {
     set(i, Verdict::Ripple, into);
@@ -106,8 +106,8 @@ bool NicheDecider::Stage::hasPathDown(std::uint32_t i) {
   const MinimumCandidate& to = verdicts_.judged_[deepest_].seed;
   for (const int first_moves : {0, 1}) {
     if (BoundedPath(frame_, verdicts_.path_, limit_)
-            .find(frame_.facetPairOf(from.a, from.b), frame_.facetPairOf(to.a, to.b), levelOf(from.distance),
-                  first_moves, has_arrived)) {
+            .find(frame_.facetPairOf(from.a, from.b), frame_.facetPairOf(to.a, to.b),
+                  request_.rule.levelOf(from.distance), first_moves, has_arrived)) {
       set(i, Verdict::Ripple, into != kNone && into != i ? into : deepest_);
       return true;
     }

@@ -14,7 +14,7 @@ void NicheDecider::Stage::enter(const std::vector<MinimumCandidate>& seeds) {
     const auto index = static_cast<std::uint32_t>(verdicts_.judged_.size());
     verdicts_.judged_.emplace_back();
     verdicts_.judged_.back().seed = seed;
-    const std::uint32_t number = numberOf(seed);
+    const std::uint32_t number = indexOf(seed);
     if (number == kNone) continue;
     memory_.enterSeed(number, index);
   }
@@ -84,7 +84,7 @@ void NicheDecider::Stage::decideByFloods() {
 void NicheDecider::Stage::decideByMemory(std::uint32_t i) {
   const MinimumCandidate seed = verdicts_.judged_[i].seed;
   deepest_ = deepestLike(i);
-  const std::uint32_t number = numberOf(seed);
+  const std::uint32_t number = indexOf(seed);
   if (number == kNone) return set(i, Verdict::Undecided);
   if (const std::uint32_t other = memory_.candidateOf(number);
       other != kNone && other != i && isEarlier(other, i)) {

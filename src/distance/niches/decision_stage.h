@@ -49,6 +49,10 @@ class NicheDecider::Stage {
   /// The next deeper minimum of a ripple of which only a deeper place is known.
   void resolve(std::uint32_t i);
 
+  /// The lowest level (metres) from which a path leads from a niche to a place as near; infinite when that is
+  /// above `highest`, NaN when the limit was reached.
+  double passOf(std::uint32_t i, double highest) const;
+
  private:
   /// Leaves open what is not known.
   void decideByMemory(std::uint32_t i);
@@ -58,7 +62,7 @@ class NicheDecider::Stage {
   }
 
   /// The index of the seed's facet pair; kNone without memory.
-  std::uint32_t numberOf(const MinimumCandidate& seed) {
+  std::uint32_t indexOf(const MinimumCandidate& seed) {
     const TrianglePair facet_pair = frame_.facetPairOf(seed.a, seed.b);
     return memory_.facetPairOf(facet_pair.a, facet_pair.b, limit_);
   }
@@ -68,9 +72,6 @@ class NicheDecider::Stage {
     const TrianglePair facet_pair = frame_.facetPairOf(a, b);
     return memory_.seedIn(facet_pair.a, facet_pair.b);
   }
-
-  /// Up to here nothing deeper may be reached.
-  double levelOf(double distance) const { return (1.0 + request_.least_prominence) * distance; }
 
   void set(std::uint32_t i, Verdict verdict, std::uint32_t into = kNone) {
     verdicts_.judged_[i].verdict = verdict;
@@ -108,7 +109,7 @@ class NicheDecider::Stage {
   double aim(std::uint32_t link, const TrianglePairDistance& closest);
 
   BasinSearch::Levels levelsOf(double distance) const {
-    return {distance - tolerance_, distance + tolerance_, levelOf(distance) + tolerance_};
+    return {distance - tolerance_, distance + tolerance_, request_.rule.levelOf(distance) + tolerance_};
   }
 
   /// Whether the border around a region holds, or does so again with the facet pairs beyond where it does

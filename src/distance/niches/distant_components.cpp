@@ -120,9 +120,9 @@ double largestDistance(const PairFrame& frame) {
   return frame.offset.norm() + reachOf(frame.a) + reachOf(frame.b);
 }
 
-bool isFar(const PairFrame& frame, double least_prominence) {
+bool isFar(const PairFrame& frame, const NicheRule& rule) {
   const double least = frame.offset.norm() - reachOf(frame.a) - reachOf(frame.b);
-  return least > 0.0 && largestDistance(frame) + 8.0 * frame.rounding < (1.0 + least_prominence) * least;
+  return rule.allowsOneNicheOnly(least, largestDistance(frame) + 8.0 * frame.rounding);
 }
 
 bool collectFarSeeds(const PairFrame& frame, double cutoff, DistantComponentBuffers& buffers,

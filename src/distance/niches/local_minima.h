@@ -13,6 +13,7 @@
 #include "distance/kernels/pair_frame.h"
 #include "distance/minima/local_minima_cost.h"
 #include "niche_properties.h"
+#include "niche_rule.h"
 
 namespace concave_distance {
 
@@ -22,11 +23,9 @@ struct LocalMinimaParts;
 
 struct LocalMinimaRequest {
   double cutoff = std::numeric_limits<double>::infinity();  ///< metres; niches up to this are wanted
-  /// Niches with less are part of the deeper niche that they lead to.
-  double least_prominence = 1e-2;
-  /// Prominences are measured up to this and below the cutoff; what is higher is given as infinite. Its
-  /// price: the flood around a niche goes on until it reaches a deeper one or (1 + this) times its distance.
-  double prominence_limit = 1e-2;
+  /// Where it measures prominences, the search around each niche goes on until it reaches a nearer place, the
+  /// rule's limit or the cutoff.
+  NicheRule rule;
   std::size_t largest_count = std::numeric_limits<std::size_t>::max();  ///< the nearest are kept
   /// Niches through the material of closed shells are listed, too, flagged.
   bool through_material = false;
@@ -118,7 +117,7 @@ void findLocalMinima(const detail::PairFrame& frame, const LocalMinimaRequest& r
 
 /// Says of the niches of a result which of request.proposals lead to them, for proposals that came after the
 /// list: where everything was looked at they change nothing else. At the pose of the last findLocalMinima()
-/// with this memory, which measured no prominence.
+/// with this memory.
 void attributeProposals(const detail::PairFrame& frame, const LocalMinimaRequest& request,
                         LocalMinimaMemory& memory, LocalMinima& result);
 

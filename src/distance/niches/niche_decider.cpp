@@ -25,7 +25,7 @@ void NicheDecider::begin(const PairFrame& frame, std::vector<MinimumCandidate>& 
   });
   Stage stage(*this, frame, request, limit);
   stage.enter(seeds);
-  is_far_ = isFar(frame, request.least_prominence);
+  is_far_ = isFar(frame, request.rule);
   next_ = end_ = 0;
   if (!is_far_) return;
   stage.decideFar();
@@ -68,6 +68,13 @@ std::uint32_t NicheDecider::locate(const PairFrame& frame, const TrianglePair& a
   const std::uint32_t end = endOf(place);
   if (end != kNone && judged_[end].verdict == Verdict::Undecided) return kUndecided;
   return nicheOf(end);
+}
+
+double NicheDecider::passOf(const PairFrame& frame, std::uint32_t niche, double highest,
+                            const Request& request, WorkLimit& limit) {
+  Stage stage(*this, frame, request, limit);
+  stage.resume();
+  return stage.passOf(niche, highest);
 }
 
 std::uint32_t NicheDecider::nicheWith(std::uint64_t region) const {

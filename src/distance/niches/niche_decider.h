@@ -9,6 +9,7 @@
 #include "bounded_path.h"
 #include "decision_cache.h"
 #include "niche_properties.h"
+#include "niche_rule.h"
 
 namespace concave_distance::detail {
 
@@ -45,7 +46,7 @@ class NicheDecider {
   };
   struct Request {
     double cutoff = std::numeric_limits<double>::infinity();  ///< metres; no place beyond it is judged
-    double least_prominence = 1e-2;
+    NicheRule rule;
     std::size_t most_niches = std::numeric_limits<std::size_t>::max();
     /// Niches through material are wanted; else nothing is judged that begins there.
     bool through_material = false;
@@ -77,6 +78,11 @@ class NicheDecider {
                        WorkLimit& limit);
   /// The niche with this region; kNone when there is none any more.
   std::uint32_t nicheWith(std::uint64_t region) const;
+
+  /// At the pose of the last begin(): the lowest level (metres) from which a path leads from a niche to a
+  /// place as near; infinite when that is above `highest`, NaN when the limit was reached.
+  double passOf(const PairFrame& frame, std::uint32_t niche, double highest, const Request& request,
+                WorkLimit& limit);
 
   const std::vector<Judged>& judged() const { return judged_; }
   const Counts& counts() const { return counts_; }

@@ -77,7 +77,7 @@ bool isSameNiche(const BenchmarkPair& pair, const Eigen::Isometry3d& pose, const
   std::vector<MinimumCandidate> seeds{frame.candidateOf(found), frame.candidateOf(reference)};
   detail::NicheDecider verdicts;
   detail::NicheDecider::Request request;
-  request.least_prominence = least_prominence;
+  request.rule.least_prominence = least_prominence;
   WorkLimit none;
   verdicts.judge(frame, seeds, request, none);
   const auto niche_of = [&](const WitnessPair& witness) {

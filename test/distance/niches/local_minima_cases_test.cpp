@@ -28,7 +28,7 @@ constexpr double kError = 1e-12;
 
 LocalMinimaRequest everyRipple() {
   LocalMinimaRequest request;
-  request.least_prominence = 0.0;
+  request.rule.least_prominence = 0.0;
   return request;
 }
 
@@ -70,7 +70,7 @@ TEST(LocalMinimaOf, CubesThatShareAnEdgeHaveOneNicheSeenFromFarAway) {
   for (const double distance : {40.0, 300.0, 420.0, 1000.0, 1e6}) {
     for (const double least_prominence : {0.01, 0.5}) {
       LocalMinimaRequest request;
-      request.least_prominence = least_prominence;
+      request.rule.least_prominence = least_prominence;
       request.cutoff = std::numeric_limits<double>::infinity();
       const LocalMinima found = minimaOf(a, b, test::translation({distance, 0.3, 0.2}), request);
       EXPECT_EQ(found.niches.size(), 1U) << distance << " m, " << least_prominence;
@@ -154,7 +154,7 @@ TEST(LocalMinimaOf, OutsideAreThoseOfBothSidesThatLeaveOutwards) {
     const Isometry3d pose = test::randomPose(engine, 1.2);
     LocalMinimaRequest request;
     request.cutoff = 0.6;
-    request.least_prominence = run % 2 == 0 ? 0.0 : 1e-2;
+    request.rule.least_prominence = run % 2 == 0 ? 0.0 : 1e-2;
     const LocalMinima outside = minimaOf(a, b, pose, request);
     request.through_material = true;
     std::vector<double> expected;
@@ -197,7 +197,7 @@ TEST(LocalMinimaOf, TrianglePairsBelongToTheNicheTheyDescendTo) {
     const Body b = makeBody(test::concaveShape(uniformIndex(engine, 6)));
     const Isometry3d pose = test::randomPose(engine, 1.2);
     LocalMinimaRequest request;
-    request.least_prominence = 0.1;
+    request.rule.least_prominence = 0.1;
     request.through_material = true;
     for (int k = 0; k < 50; ++k) {
       request.asked_pairs.emplace_back(
@@ -224,7 +224,7 @@ TEST(LocalMinimaOf, NothingIsFloodedBeyondTheCutoff) {
   const Isometry3d pose = test::translation(Vector3d(0.1, 0.2, 3.0));
   LocalMinimaRequest request;
   for (const double prominence_limit : {0.0, 1.0}) {
-    request.prominence_limit = prominence_limit;
+    request.rule.prominence_limit = prominence_limit;
     request.cutoff = std::numeric_limits<double>::infinity();
     request.asked_pairs.clear();
     request.proposals.clear();
@@ -262,7 +262,7 @@ Draw drawn() {
 LocalMinimaRequest someRipples(double scale = 1.0) {
   LocalMinimaRequest request;
   request.cutoff = 0.613 * scale;
-  request.prominence_limit = 1.0;
+  request.rule.prominence_limit = 1.0;
   return request;
 }
 

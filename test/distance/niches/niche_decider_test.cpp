@@ -45,7 +45,7 @@ std::vector<double> nichesByFloods(const PairFrame& scene, std::vector<MinimumCa
   NicheDecider once;
   WorkLimit none;
   NicheDecider::Request request;
-  request.least_prominence = least_prominence;
+  request.rule.least_prominence = least_prominence;
   request.is_tracked = false;
   once.judge(scene, seeds, request, none);
   return nichesOf(once);
@@ -68,7 +68,7 @@ TEST(NicheDecider, AreThoseOfFloodsAtEveryPoseOfAnyMotion) {
     SCOPED_TRACE("run " + std::to_string(run) + ", step " + std::to_string(step));
     NicheDecider verdicts;
     NicheDecider::Request request;
-    request.least_prominence = least_prominence;
+    request.rule.least_prominence = least_prominence;
     for (int k = 0; k < 40; ++k) {
       const PairFrame scene = PairFrame::withFacets(*a, *b, motion.at(step * k));
       std::vector<MinimumCandidate> seeds = seedsAt(scene);
@@ -112,7 +112,7 @@ TEST(NicheDecider, AreThoseOfFloodsForLinksOfManyShells) {
       std::vector<MinimumCandidate> seeds = seedsAt(scene);
       WorkLimit none;
       verdicts.judge(scene, seeds, request, none);
-      expectSame(nichesOf(verdicts), nichesByFloods(scene, seeds, request.least_prominence));
+      expectSame(nichesOf(verdicts), nichesByFloods(scene, seeds, request.rule.least_prominence));
       if (HasFailure()) return;
       by_border += verdicts.counts().by_border;
     }
@@ -295,7 +295,7 @@ TEST(NicheDecider, NeedNoStackForALongWayDown) {
     std::vector<MinimumCandidate> seeds{scene.candidateOf(first)};
     NicheDecider verdicts;
     NicheDecider::Request request;
-    request.least_prominence = 1.0;
+    request.rule.least_prominence = 1.0;
     WorkLimit none;
     verdicts.judge(scene, seeds, request, none);
     own.niche = verdicts.locate(scene, {first.triangle_a, first.triangle_b}, request, none);
@@ -315,7 +315,7 @@ TEST(NicheDecider, NeedNoStackForALongWayDown) {
   EXPECT_TRUE(run.is_last);
 }
 
-// What is decided with and without passes is decided by two different floods.
+// Neither the order of the candidates nor the measurement of passes changes what is a niche.
 TEST(NicheDecider, AreThoseOfMeasuredPassesWhateverTheOrderOfTheSeeds) {
   RandomEngine engine(31);
   std::size_t united = 0;
@@ -323,8 +323,8 @@ TEST(NicheDecider, AreThoseOfMeasuredPassesWhateverTheOrderOfTheSeeds) {
     const Scene drawn{makeBody(test::concaveShape(uniformIndex(engine, 6))),
                       makeBody(test::concaveShape(uniformIndex(engine, 6))), test::randomPose(engine, 1.2)};
     LocalMinimaRequest measured;
-    measured.least_prominence = 0.1;
-    measured.prominence_limit = 0.2;
+    measured.rule.least_prominence = 0.1;
+    measured.rule.prominence_limit = 0.2;
     const LocalMinima truth = findLocalMinima(*drawn.a, *drawn.b, drawn.pose, measured);
     const PairFrame scene = PairFrame::withFacets(*drawn.a, *drawn.b, drawn.pose);
     std::vector<MinimumCandidate> seeds = seedsAt(scene);
