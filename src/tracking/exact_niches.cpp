@@ -37,7 +37,7 @@ void placeMinimum(NicheRecord& record, const PairFrame& frame, const LocalMinimu
   niche.visible = minimum.visible;
   niche.prominence = std::isfinite(minimum.prominence) ? minimum.prominence : kNotComputed;
   niche.proven_local_minimum = true;
-  record.region = minimum.region;
+  record.basin = minimum.basin;
   record.carried = false;
 }
 
@@ -97,14 +97,15 @@ void ExactNiches::admit(const PairFrame& frame, const TrackerParameters& paramet
     if (nearest != nullptr) nearest_ = TrianglePair{nearest->a, nearest->b};
   }
   request_.asked_pairs.clear();
-  request_.asked_regions.clear();
+  request_.asked_basins.clear();
   for (const NicheRecord& record : records) {
     request_.asked_pairs.emplace_back(record.niche.witness.triangle_a, record.niche.witness.triangle_b);
-    request_.asked_regions.push_back(record.region);
+    request_.asked_basins.push_back(record.basin);
   }
   findLocalMinima(frame, request_, memory_, found_);
   current_ = found_.finished;
-  solution.cost.evaluations += found_.cost.feature_pairs + found_.cost.candidates + found_.cost.flooded_pairs;
+  solution.cost.evaluations +=
+      found_.cost.feature_pairs + found_.cost.candidates + found_.cost.searched_pairs;
 
   matchPrevious(archive, frame, cycle.last_a_from_b);
   attributeOffered(frame);
@@ -156,8 +157,8 @@ void ExactNiches::attributeOffered(const PairFrame& frame) {
   attributeProposals(frame, request_, memory_, found_);
 }
 
-// A known niche goes on as the one whose region it is in now, the oldest of them first. Before, no point pair
-// of the region was nearer than the niche: the minimum cannot be nearer by more than its point of B has moved
+// A known niche goes on as the one whose basin it is in now, the oldest of them first. Before, no point pair
+// of the basin was nearer than the niche: the minimum cannot be nearer by more than its point of B has moved
 // since, or it has come from elsewhere.
 void ExactNiches::matchPrevious(const NicheArchive& archive, const PairFrame& frame,
                                 const Eigen::Isometry3d& last_a_from_b) {
@@ -229,7 +230,7 @@ double ExactNiches::work() const {
   constexpr double kCells = 12.0;
   return kGroups * static_cast<double>(found_.cost.node_pairs) +
          kFeatures * static_cast<double>(found_.cost.feature_pairs) +
-         kCells * static_cast<double>(found_.cost.flooded_pairs);
+         kCells * static_cast<double>(found_.cost.searched_pairs);
 }
 
 void ExactNiches::clear() {

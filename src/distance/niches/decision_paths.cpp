@@ -5,7 +5,7 @@
 
 #include "distant_components.h"
 
-// Ripples: ways from facet pair to facet pair down to deeper places (doc/proofs.md).
+// These members prove ripples: by paths from facet pair to facet pair to deeper places (doc/proofs.md).
 
 namespace concave_distance::detail {
 namespace {
@@ -16,22 +16,22 @@ constexpr int kLongestPath = 256;
 }  // namespace
 
 void NicheDecider::Stage::resolve(std::uint32_t i) {
-  while (i != kNone && verdicts_.judged_[i].verdict == Verdict::Ripple) {
-    if (verdicts_.judged_[i].into == kNone) descend(i);
-    const std::uint32_t into = verdicts_.judged_[i].into;
-    if (into != kNone && verdicts_.judged_[into].verdict == Verdict::Open) decide(into);
+  while (i != kNone && decider_.judged_[i].decision == Decision::Ripple) {
+    if (decider_.judged_[i].into == kNone) descend(i);
+    const std::uint32_t into = decider_.judged_[i].into;
+    if (into != kNone && decider_.judged_[into].decision == Decision::Open) decide(into);
     i = into;
   }
 }
 
 bool NicheDecider::Stage::followsDown(std::uint32_t i, std::uint32_t number) {
-  const double distance = verdicts_.judged_[i].seed.distance;
+  const double distance = decider_.judged_[i].candidate.distance;
   const double level = request_.rule.levelOf(distance);
   const double below = distance - tolerance_;
   const auto settle = [&](std::uint32_t into, std::uint32_t facet_pair) {
-    set(i, Verdict::Ripple, into);
-    verdicts_.judged_[i].below = {memory_.facet_pair(facet_pair).a, memory_.facet_pair(facet_pair).b};
-    ++verdicts_.counts_.by_path;
+    set(i, Decision::Ripple, into);
+    decider_.judged_[i].below = {memory_.facet_pair(facet_pair).a, memory_.facet_pair(facet_pair).b};
+    ++decider_.counts_.by_path;
     return true;
   };
   for (int step = 0; step < kLongestPath; ++step) {
@@ -56,59 +56,61 @@ bool NicheDecider::Stage::followsDown(std::uint32_t i, std::uint32_t number) {
 }
 
 double NicheDecider::Stage::aim(std::uint32_t link, const TrianglePairDistance& closest) {
-  ++verdicts_.counts_.aimed;
+  ++decider_.counts_.aimed;
   memory_.aim(link, closest.point_a, frame_.pointInB(closest.point_b));
   return closest.squared_distance;
 }
 
 void NicheDecider::Stage::descend(std::uint32_t i) {
-  const TrianglePair from = frame_.closestIn(verdicts_.judged_[i].below).first;
+  const TrianglePair from = frame_.closestIn(decider_.judged_[i].below).first;
   const WitnessPair bottom =
-      refineWitness(frame_.a, frame_.b, frame_.a_from_b, from.a, from.b, verdicts_.refinement_).witness;
+      refineWitness(frame_.a, frame_.b, frame_.a_from_b, from.a, from.b, decider_.refinement_).witness;
   const std::uint32_t place = enterPlace(bottom);
   // Strictly down: no way leads in a circle.
-  if (place == kNone || verdicts_.judged_[place].seed.distance >= verdicts_.judged_[i].seed.distance) return;
-  verdicts_.judged_[i].into = place;
+  if (place == kNone || decider_.judged_[place].candidate.distance >= decider_.judged_[i].candidate.distance)
+    return;
+  decider_.judged_[i].into = place;
 }
 
 bool NicheDecider::Stage::settlesLong(std::uint32_t i) {
-  // Where not all seeds are known, what was found may be deeper than all of them.
+  // Where not all candidates are known, what was found may be deeper than all of them.
   const bool is_deepest = i == deepest_ || !isEarlier(deepest_, i);
   const bool settled = is_deepest ? isNearest(i) : hasPathDown(i);
-  verdicts_.floods_are_long_ = verdicts_.floods_are_long_ || settled;
+  decider_.searches_are_long_ = decider_.searches_are_long_ || settled;
   return settled;
 }
 
 bool NicheDecider::Stage::isNearest(std::uint32_t i) {
-  const MinimumCandidate seed = verdicts_.judged_[i].seed;
+  const MinimumCandidate candidate = decider_.judged_[i].candidate;
   const WitnessPair minimum =
-      refineWitness(frame_.a, frame_.b, frame_.a_from_b, seed.a, seed.b, verdicts_.refinement_).witness;
+      refineWitness(frame_.a, frame_.b, frame_.a_from_b, candidate.a, candidate.b, decider_.refinement_)
+          .witness;
   if (!isNearestOfItsPieces(frame_, minimum)) {
-    const TrianglePair pair{seed.a, seed.b};
+    const TrianglePair pair{candidate.a, candidate.b};
     CertificateRequest certificate;
     certificate.limit = &limit_;
     if (certifyDistance(frame_.a, frame_.b, frame_.a_from_b, &pair, 1, certificate, proof_).lower_bound <
-        seed.distance - tolerance_) {
+        candidate.distance - tolerance_) {
       return false;
     }
   }
-  set(i, Verdict::Niche);
+  set(i, Decision::Niche);
   return true;
 }
 
 bool NicheDecider::Stage::hasPathDown(std::uint32_t i) {
   std::uint32_t into = kNone;
   const auto has_arrived = [&](TriangleIndex a, TriangleIndex b) {
-    into = memory_.seedIn(a, b);
+    into = memory_.candidateIn(a, b);
     return into != kNone && into != i && isEarlier(into, i);
   };
-  const MinimumCandidate& from = verdicts_.judged_[i].seed;
-  const MinimumCandidate& to = verdicts_.judged_[deepest_].seed;
+  const MinimumCandidate& from = decider_.judged_[i].candidate;
+  const MinimumCandidate& to = decider_.judged_[deepest_].candidate;
   for (const int first_moves : {0, 1}) {
-    if (BoundedPath(frame_, verdicts_.path_, limit_)
+    if (BoundedPath(frame_, decider_.path_, limit_)
             .find(frame_.facetPairOf(from.a, from.b), frame_.facetPairOf(to.a, to.b),
                   request_.rule.levelOf(from.distance), first_moves, has_arrived)) {
-      set(i, Verdict::Ripple, into != kNone && into != i ? into : deepest_);
+      set(i, Decision::Ripple, into != kNone && into != i ? into : deepest_);
       return true;
     }
   }
@@ -116,8 +118,8 @@ bool NicheDecider::Stage::hasPathDown(std::uint32_t i) {
 }
 
 void NicheDecider::Stage::keepPath(std::uint32_t start) {
-  const std::vector<BasinSearch::FacetPair>& visited = verdicts_.flood_.facet_pairs();
-  std::uint32_t at = verdicts_.flood_.last();
+  const std::vector<BasinSearch::FacetPair>& visited = decider_.search_.facet_pairs();
+  std::uint32_t at = decider_.search_.last();
   std::uint32_t next = memory_.facetPairOf(visited[at].a, visited[at].b, limit_);
   while (next != kNone && visited[at].parent != BasinSearch::kNone) {
     const BasinSearch::FacetPair& here = visited[at];

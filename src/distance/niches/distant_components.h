@@ -42,8 +42,9 @@ struct DistantComponentBuffers {
 /// Finds for every pair of pieces the triangles with its nearest points, up to `cutoff`: supporting triangles
 /// along the direction between the best points so far, repeated until that direction separates the pieces by
 /// the distance itself. O(triangles) for each pair of pieces and step; a few steps if isFar() holds.
-/// @return false when a pair of pieces does not converge or the limit is reached; `seeds` are then unchanged
-bool collectFarSeeds(const PairFrame& frame, double cutoff, DistantComponentBuffers& buffers,
-                     std::vector<MinimumCandidate>& seeds, WorkLimit& limit);
+/// @return false when a pair of pieces does not converge or the limit is reached; `candidates` are then
+/// unchanged
+bool collectFarCandidates(const PairFrame& frame, double cutoff, DistantComponentBuffers& buffers,
+                          std::vector<MinimumCandidate>& candidates, WorkLimit& limit);
 
 }  // namespace concave_distance::detail

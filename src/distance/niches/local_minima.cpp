@@ -22,7 +22,7 @@ constexpr std::size_t kUndecided = LocalMinima::kUndecided;
 struct LocalMinimaParts {
   struct Described {
     LocalMinimum niche;
-    std::size_t judged;  ///< index in verdicts.judged()
+    std::size_t judged;  ///< index in decider.judged()
   };
 
   /// Decides which candidates are niches and describes these.
@@ -36,25 +36,25 @@ struct LocalMinimaParts {
                WorkLimit& limit);
 
   std::size_t memoryBytes() const {
-    return sizeof(LocalMinimaParts) + collector.memoryBytes() + verdicts.memoryBytes() +
-           seeds.capacity() * sizeof(MinimumCandidate) + described.capacity() * sizeof(Described) +
+    return sizeof(LocalMinimaParts) + collector.memoryBytes() + decider.memoryBytes() +
+           candidates.capacity() * sizeof(MinimumCandidate) + described.capacity() * sizeof(Described) +
            is_looked_at.capacity() +
            (places.capacity() + owners.capacity() + proposed.capacity()) * sizeof(std::size_t);
   }
 
   CandidateCollector collector;
-  NicheDecider verdicts;
+  NicheDecider decider;
   NicheDescriber describer;
-  std::vector<MinimumCandidate> seeds;
+  std::vector<MinimumCandidate> candidates;
   std::vector<Described> described;
   std::vector<char>
       is_looked_at;  ///< for each judged: 1 when it is a niche and there was time to describe it
   std::vector<std::size_t> places;    ///< for each judged: its place in the list, or kNoOwner
-  std::vector<std::size_t> owners;    ///< for each asked pair: index in verdicts.judged(), or no owner
+  std::vector<std::size_t> owners;    ///< for each asked pair: index in decider.judged(), or no owner
   std::vector<std::size_t> proposed;  ///< for each proposal: the same
 };
 
-NicheDecider::Request verdictsFor(const PairFrame& frame, const LocalMinimaRequest& request) {
+NicheDecider::Request deciderRequest(const PairFrame& frame, const LocalMinimaRequest& request) {
   NicheDecider::Request wanted;
   wanted.cutoff = request.cutoff + frame.rounding;
   wanted.rule = request.rule;
@@ -64,26 +64,26 @@ NicheDecider::Request verdictsFor(const PairFrame& frame, const LocalMinimaReque
   wanted.most_niches = std::max(request.largest_count, request.largest_count + 1);
   if (!request.hidden) {
     // A set of minima is seen where its middle is.
-    wanted.is_wanted = [&frame](const MinimumCandidate& seed, Occluder& occluder) {
-      return !seed.is_point || seed.distance == 0.0 ||
-             isVisible(frame.a, frame.b, frame.a_from_b, frame.witnessOf(seed), occluder);
+    wanted.is_wanted = [&frame](const MinimumCandidate& candidate, Occluder& occluder) {
+      return !candidate.is_point || candidate.distance == 0.0 ||
+             isVisible(frame.a, frame.b, frame.a_from_b, frame.witnessOf(candidate), occluder);
     };
   }
   return wanted;
 }
 
 bool LocalMinimaParts::decide(const PairFrame& frame, const LocalMinimaRequest& request, WorkLimit& limit) {
-  const NicheDecider::Request wanted = verdictsFor(frame, request);
+  const NicheDecider::Request wanted = deciderRequest(frame, request);
   is_looked_at.clear();
-  verdicts.begin(frame, seeds, wanted, limit);
+  decider.begin(frame, candidates, wanted, limit);
   do {
-    verdicts.judgeByMemory(frame, wanted, limit);
+    decider.judgeByMemory(frame, wanted, limit);
     describeNiches(frame, request, limit);
-    limit.allowShare(request.time_shares.floods);
-    verdicts.judgeByFloods(frame, wanted, limit);
+    limit.allowShare(request.time_shares.searches);
+    decider.judgeBySearches(frame, wanted, limit);
     limit.allowShare(request.time_shares.all);
     describeNiches(frame, request, limit);
-  } while (!verdicts.hasJudgedAll() && described.size() <= request.largest_count && !limit.isOver());
+  } while (!decider.hasJudgedAll() && described.size() <= request.largest_count && !limit.isOver());
   const auto place = [](std::uint32_t judged) {
     if (judged == NicheDecider::kUndecided) return kUndecided;
     return judged == NicheDecider::kNone ? kNoOwner : std::size_t{judged};
@@ -91,13 +91,13 @@ bool LocalMinimaParts::decide(const PairFrame& frame, const LocalMinimaRequest& 
   for (std::size_t i = 0; i < request.asked_pairs.size(); ++i) {
     const auto& [a, b] = request.asked_pairs[i];
     std::uint32_t owner = NicheDecider::kNone;
-    if (i < request.asked_regions.size()) owner = verdicts.nicheWith(request.asked_regions[i]);
-    if (owner == NicheDecider::kNone) owner = verdicts.locate(frame, {a, b}, wanted, limit);
+    if (i < request.asked_basins.size()) owner = decider.nicheWith(request.asked_basins[i]);
+    if (owner == NicheDecider::kNone) owner = decider.locate(frame, {a, b}, wanted, limit);
     owners.push_back(place(owner));
   }
   for (const MinimumCandidate& proposal : request.proposals) {
     const bool is_candidate = isCandidate(frame, request, proposal);
-    proposed.push_back(is_candidate ? place(verdicts.locate(frame, {proposal.a, proposal.b}, wanted, limit))
+    proposed.push_back(is_candidate ? place(decider.locate(frame, {proposal.a, proposal.b}, wanted, limit))
                                     : kNoOwner);
   }
   describeNiches(frame, request, limit);
@@ -107,24 +107,25 @@ bool LocalMinimaParts::decide(const PairFrame& frame, const LocalMinimaRequest& 
       if (is_looked_at[owner] == 0) owner = kUndecided;
     }
   }
-  return std::none_of(verdicts.judged().begin(), verdicts.judged().end(),
-                      [](const auto& judged) { return judged.verdict == NicheDecider::Verdict::Undecided; });
+  return std::none_of(decider.judged().begin(), decider.judged().end(), [](const auto& judged) {
+    return judged.decision == NicheDecider::Decision::Undecided;
+  });
 }
 
 void LocalMinimaParts::describeNiches(const PairFrame& frame, const LocalMinimaRequest& request,
                                       WorkLimit& limit) {
-  const std::vector<NicheDecider::Judged>& judged = verdicts.judged();
+  const std::vector<NicheDecider::Judged>& judged = decider.judged();
   is_looked_at.resize(judged.size(), 0);
   for (std::size_t i = 0; i < judged.size(); ++i) {
-    if (judged[i].verdict != NicheDecider::Verdict::Niche || is_looked_at[i] != 0) continue;
+    if (judged[i].decision != NicheDecider::Decision::Niche || is_looked_at[i] != 0) continue;
     if (limit.isOver()) return;
     is_looked_at[i] = 1;
-    const MinimumCandidate& seed = judged[i].seed;
+    const MinimumCandidate& candidate = judged[i].candidate;
     LocalMinimum niche;
-    niche.flooded = request.rule.levelOf(seed.distance);
-    niche.region = judged[i].region;
-    const bool is_seen = !request.hidden && seed.is_point;
-    if (describer.describe(frame, request, seed, judged[i].was_found, is_seen, niche, limit)) {
+    niche.searched = request.rule.levelOf(candidate.distance);
+    niche.basin = judged[i].basin;
+    const bool is_seen = !request.hidden && candidate.is_point;
+    if (describer.describe(frame, request, candidate, judged[i].was_found, is_seen, niche, limit)) {
       described.push_back({niche, i});
     }
   }
@@ -132,33 +133,33 @@ void LocalMinimaParts::describeNiches(const PairFrame& frame, const LocalMinimaR
 
 void LocalMinimaParts::measure(const PairFrame& frame, const LocalMinimaRequest& request, LocalMinima& result,
                                WorkLimit& limit) {
-  const NicheDecider::Request wanted = verdictsFor(frame, request);
+  const NicheDecider::Request wanted = deciderRequest(frame, request);
   for (std::size_t k = 0; k < result.niches.size(); ++k) {
     const auto niche = static_cast<std::uint32_t>(described[k].judged);
-    const double distance = verdicts.judged()[niche].seed.distance;
+    const double distance = decider.judged()[niche].candidate.distance;
     if (distance == 0.0) continue;
     const double highest = request.rule.measuredLevelOf(distance, request.cutoff);
-    const double pass = verdicts.passOf(frame, niche, highest, wanted, limit);
+    const double pass = decider.passOf(frame, niche, highest, wanted, limit);
     if (std::isnan(pass)) return;
     result.niches[k].prominence = NicheRule::prominenceOf(distance, pass);
-    result.niches[k].flooded = highest;
+    result.niches[k].searched = highest;
   }
 }
 
 void LocalMinimaParts::list(const LocalMinimaRequest& request, LocalMinima& result) {
   std::sort(described.begin(), described.end(), [&](const Described& l, const Described& r) {
     if (l.niche.distance != r.niche.distance) return l.niche.distance < r.niche.distance;
-    const MinimumCandidate& of_l = verdicts.judged()[l.judged].seed;
-    const MinimumCandidate& of_r = verdicts.judged()[r.judged].seed;
+    const MinimumCandidate& of_l = decider.judged()[l.judged].candidate;
+    const MinimumCandidate& of_r = decider.judged()[r.judged].candidate;
     return of_l.a != of_r.a ? of_l.a < of_r.a : of_l.b < of_r.b;
   });
   result.cut = described.size() > request.largest_count;
   if (result.cut) described.resize(request.largest_count);
-  refill(places, verdicts.judged().size(), kNoOwner);
+  refill(places, decider.judged().size(), kNoOwner);
   for (const Described& entry : described) {
     places[entry.judged] = result.niches.size();
     result.niches.push_back(entry.niche);
-    result.cost.met_by_flood += verdicts.judged()[entry.judged].was_found ? 1 : 0;
+    result.cost.met_by_search += decider.judged()[entry.judged].was_found ? 1 : 0;
   }
   for (const std::size_t owner : owners) {
     result.owners.push_back(owner == kNoOwner || owner == kUndecided ? owner : places[owner]);
@@ -185,7 +186,7 @@ detail::LocalMinimaParts& LocalMinimaMemory::parts() {
 void LocalMinimaMemory::clear() {
   if (parts_ == nullptr) return;
   parts_->collector.clear();
-  parts_->verdicts.clear();
+  parts_->decider.clear();
 }
 
 std::size_t LocalMinimaMemory::memoryBytes() const {
@@ -207,31 +208,31 @@ void findLocalMinima(const detail::PairFrame& frame, const LocalMinimaRequest& r
   parts.proposed.clear();
   const auto start = WorkLimit::Clock::now();
   limit.allowShare(request.time_shares.search);
-  const bool all = parts.collector.collect(frame, request, parts.seeds, result.cost, limit);
+  const bool all = parts.collector.collect(frame, request, parts.candidates, result.cost, limit);
   result.cost.sweep_seconds = std::chrono::duration<double>(WorkLimit::Clock::now() - start).count();
-  result.cost.minima = parts.seeds.size();
+  result.cost.minima = parts.candidates.size();
   limit.allowShare(request.time_shares.all);
   // What is proposed counts while not everything has been looked at.
-  if (!all) detail::appendCandidates(frame, request, request.proposals, parts.seeds);
+  if (!all) detail::appendCandidates(frame, request, request.proposals, parts.candidates);
   const bool decided = parts.decide(frame, request, limit);
   parts.list(request, result);
   if (request.rule.measuresProminences() && !detail::isFar(frame, request.rule)) {
     parts.measure(frame, request, result, limit);
   }
-  result.cost.flooded_pairs = parts.verdicts.counts().flooded_cells;
+  result.cost.searched_pairs = parts.decider.counts().visited_pairs;
   result.finished = all && decided && !limit.isOver() && limit.hasRefusedMemory() == refused_before;
 }
 
 void attributeProposals(const detail::PairFrame& frame, const LocalMinimaRequest& request,
                         LocalMinimaMemory& memory, LocalMinima& result) {
   detail::LocalMinimaParts& parts = memory.parts();
-  const detail::NicheDecider::Request wanted = detail::verdictsFor(frame, request);
+  const detail::NicheDecider::Request wanted = detail::deciderRequest(frame, request);
   WorkLimit none;
   WorkLimit& limit = request.limit != nullptr ? *request.limit : none;
   for (std::size_t i = request.proposals.size(); i-- > 0;) {
     const MinimumCandidate& proposal = request.proposals[i];
     if (!detail::isCandidate(frame, request, proposal)) continue;
-    const std::uint32_t judged = parts.verdicts.locate(frame, {proposal.a, proposal.b}, wanted, limit);
+    const std::uint32_t judged = parts.decider.locate(frame, {proposal.a, proposal.b}, wanted, limit);
     // A place that locate() was the first to meet is not in the list.
     if (judged >= parts.places.size()) continue;
     const std::size_t place = parts.places[judged];

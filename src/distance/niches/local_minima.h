@@ -36,7 +36,7 @@ struct LocalMinimaRequest {
   /// Triangle pairs whose niches are asked for (LocalMinima::owners), e.g. those that a search has found:
   /// descended to the local minimum around them.
   std::vector<std::pair<TriangleIndex, TriangleIndex>> asked_pairs;
-  std::vector<std::uint64_t> asked_regions;  ///< LocalMinimum::region of each, or empty
+  std::vector<std::uint64_t> asked_basins;  ///< LocalMinimum::basin of each, or empty
   /// Minima that a search has found. Niches that come from them say so (LocalMinimum::proposal). Where the
   /// limit ends the search for all minima, they are judged with what was found.
   std::vector<MinimumCandidate> proposals;
@@ -46,8 +46,8 @@ struct LocalMinimaRequest {
   double certain_distance = 0.0;
   /// Shares of the limit's time (WorkLimit::allowShare) after which a step ends.
   struct TimeShares {
-    double search = 1.0;  ///< for all minima
-    double floods = 1.0;  ///< to see which are niches
+    double search = 1.0;    ///< for all minima
+    double searches = 1.0;  ///< for the decision which of them are niches
     double all = 1.0;
   };
   TimeShares time_shares;
@@ -80,10 +80,10 @@ struct LocalMinimum {
   Outwardness outward = Outwardness::Outward;
   bool visible = true;
   /// Distance at the lowest pass to a deeper niche, divided by the own distance, minus 1. Infinite when no
-  /// deeper niche is reached below `flooded`; where the distance is 0.
+  /// deeper niche is reached below `searched`; where the distance is 0.
   double prominence = std::numeric_limits<double>::infinity();
-  double flooded = 0.0;      ///< metres: passes up to this were looked for
-  std::uint64_t region = 0;  ///< if tracked: the same from pose to pose while the niche stands; 0: none
+  double searched = 0.0;    ///< metres: passes up to this were looked for
+  std::uint64_t basin = 0;  ///< if tracked: the same from pose to pose while the niche stands; 0: none
   static constexpr std::size_t kNoProposal = std::numeric_limits<std::size_t>::max();
   std::size_t proposal = kNoProposal;  ///< the first of LocalMinimaRequest::proposals that leads to it
 };

@@ -165,7 +165,7 @@ TEST(LocalMinimaOf, OutsideAreThoseOfBothSidesThatLeaveOutwards) {
     for (std::size_t i = 0; i < expected.size(); ++i) {
       EXPECT_NEAR(outside.niches[i].distance, expected[i], kError);
     }
-    EXPECT_EQ(outside.cost.met_by_flood, 0U);
+    EXPECT_EQ(outside.cost.met_by_search, 0U);
   }
 }
 
@@ -205,7 +205,7 @@ TEST(LocalMinimaOf, TrianglePairsBelongToTheNicheTheyDescendTo) {
           TriangleIndex{uniformIndex(engine, static_cast<std::uint32_t>(b->surface().triangleCount()))});
     }
     const LocalMinima found = minimaOf(a, b, pose, request);
-    EXPECT_EQ(found.cost.met_by_flood, 0U);
+    EXPECT_EQ(found.cost.met_by_search, 0U);
     ASSERT_EQ(found.owners.size(), request.asked_pairs.size());
     RefinementWorkspace workspace;
     for (std::size_t k = 0; k < found.owners.size(); ++k) {
@@ -236,12 +236,12 @@ TEST(LocalMinimaOf, NothingIsFloodedBeyondTheCutoff) {
     request.proposals.push_back(detail::PairFrame(*comb, *comb, pose).candidateOf(nearest.witness));
     LocalMinima near = minimaOf(comb, comb, pose, request);
     EXPECT_TRUE(near.niches.empty());
-    EXPECT_EQ(near.cost.flooded_pairs, 0U);
+    EXPECT_EQ(near.cost.searched_pairs, 0U);
     EXPECT_EQ(near.owners, std::vector<std::size_t>{LocalMinima::kNoOwner});
     // The same for minima that are given.
     request.given = &request.proposals;
     near = minimaOf(comb, comb, pose, request);
-    EXPECT_EQ(near.cost.flooded_pairs, 0U);
+    EXPECT_EQ(near.cost.searched_pairs, 0U);
     request.given = nullptr;
   }
 }
@@ -270,7 +270,7 @@ void expectSame(const LocalMinima& l, const LocalMinima& r, double scale) {
   RC_ASSERT(l.niches.size() == r.niches.size());
   for (std::size_t i = 0; i < l.niches.size(); ++i) {
     RC_ASSERT(std::abs(l.niches[i].distance - r.niches[i].distance / scale) <= kError);
-    RC_ASSERT(l.cost.met_by_flood + r.cost.met_by_flood == 0U);
+    RC_ASSERT(l.cost.met_by_search + r.cost.met_by_search == 0U);
   }
 }
 
