@@ -3,9 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "distant_components.h"
 #include "mesh/surface/connected_pieces.h"
 
 namespace concave_distance::detail {
+namespace {
+
+/// A search that has visited this many facet pairs may be replaced by cheaper tests.
+constexpr std::size_t kLongSearch = 512;
+
+}  // namespace
 
 void NicheDecider::Stage::enter(const std::vector<MinimumCandidate>& candidates) {
   were_long_ = decider_.searches_are_long_;
@@ -103,7 +110,8 @@ void NicheDecider::Stage::decideByMemory(std::uint32_t i) {
   const std::uint32_t known = memory_.basinOf(number, i);
   if (known == kNone) return;
   DecisionCache::KeptBasin& basin = memory_.basin(known);
-  basin.confirmed = isEnclosed(i, known);
+  const auto meets = [&](TriangleIndex a, TriangleIndex b) { return isOfEarlier(a, b, i); };
+  basin.confirmed = basins_.isEnclosed(known, levelsOf(candidate.distance), meets);
   if (basin.confirmed) {
     decider_.judged_[i].basin = basin.id;
     return set(i, Decision::Niche);
@@ -124,6 +132,167 @@ std::uint32_t NicheDecider::Stage::deepestLike(std::uint32_t i) {
   if (known != PairTable::kAbsent) return known;
   decider_.deepest_.insert(piece_a, piece_b, i);
   return i;
+}
+
+void NicheDecider::Stage::searchInTurn() {
+  const std::uint32_t count = decider_.end_ - decider_.next_;
+  if (count == 0) return;
+  std::uint32_t done = 0;
+  for (; done < count && !limit_.isOver(); ++done) {
+    const std::uint32_t i = decider_.next_ + (decider_.turn_ + done) % count;
+    if (decider_.judged_[i].decision == Decision::Open) search(i);
+  }
+  decider_.turn_ = (decider_.turn_ + done) % count;
+}
+
+void NicheDecider::Stage::search(std::uint32_t i) {
+  const MinimumCandidate candidate = decider_.judged_[i].candidate;
+  const std::uint32_t number = indexOf(candidate);
+  std::uint64_t id = 0;
+  if (const std::uint32_t broken = memory_.basinOf(number, i); broken != kNone) {
+    // Kept for the next pose when there is no time for a search.
+    memory_.basin(broken).confirmed = limit_.isOver();
+    if (limit_.isOver()) return set(i, Decision::Undecided);
+    id = memory_.basin(broken).id;
+    memory_.drop(broken);
+  }
+  deepest_ = deepestLike(i);
+  // Searches of this pose may have left a path.
+  if (followsDown(i, number) || (were_long_ && settlesLong(i))) return;
+  ++decider_.counts_.searches;
+  BasinSearch& search = decider_.search_;
+  const TrianglePair start = frame_.facetPairOf(candidate.a, candidate.b);
+  search.begin(start.a, start.b, levelsOf(candidate.distance));
+  const auto meets = [&](TriangleIndex a, TriangleIndex b) { return isOfEarlier(a, b, i); };
+  const auto is_inside = [](TriangleIndex, TriangleIndex) { return false; };
+  BasinSearch::End end = search.proceed(frame_, kLongSearch, meets, is_inside, limit_);
+  if (end == BasinSearch::End::Long) {
+    if (settlesLong(i)) return;
+    end = search.proceed(frame_, std::numeric_limits<std::size_t>::max(), meets, is_inside, limit_);
+  }
+  decider_.counts_.visited_pairs += static_cast<std::uint32_t>(search.lookedAt());
+  switch (end) {
+    case BasinSearch::End::Enclosed:
+      set(i, Decision::Niche);
+      if (request_.is_tracked && candidate.distance > tolerance_) {
+        decider_.judged_[i].basin = basins_.keep(id, i, {candidate.a, candidate.b});
+      }
+      break;
+    case BasinSearch::End::Below: {
+      set(i, Decision::Ripple);
+      const BasinSearch::FacetPair& last = search.facet_pairs()[search.last()];
+      decider_.judged_[i].below = {last.a, last.b};
+      if (request_.is_tracked) {
+        paths_.keepPath(search, number);
+        paths_.keepLow({last.a, last.b});
+      }
+      descend(i);
+      break;
+    }
+    case BasinSearch::End::Met:
+      set(i, Decision::Ripple,
+          memory_.candidateIn(search.facet_pairs()[search.last()].a, search.facet_pairs()[search.last()].b));
+      if (request_.is_tracked) paths_.keepPath(search, number);
+      break;
+    default:
+      set(i, Decision::Undecided);
+      break;
+  }
+}
+
+double NicheDecider::Stage::passOf(std::uint32_t i, double highest) const {
+  const MemoryScope memory(limit_);
+  const MinimumCandidate& candidate = decider_.judged_[i].candidate;
+  const TrianglePair start = frame_.facetPairOf(candidate.a, candidate.b);
+  BasinSearch search;  // it may grow large: its memory is not kept
+  search.begin(start.a, start.b,
+               {candidate.distance - tolerance_, candidate.distance + tolerance_, highest + tolerance_});
+  const auto meets = [&](TriangleIndex a, TriangleIndex b) { return isOfEarlier(a, b, i); };
+  const auto is_inside = [](TriangleIndex, TriangleIndex) { return false; };
+  const BasinSearch::End end =
+      search.proceed(frame_, std::numeric_limits<std::size_t>::max(), meets, is_inside, limit_);
+  decider_.counts_.visited_pairs += static_cast<std::uint32_t>(search.lookedAt());
+  if (end == BasinSearch::End::Cut) return std::numeric_limits<double>::quiet_NaN();
+  if (end == BasinSearch::End::Enclosed) return std::numeric_limits<double>::infinity();
+  return std::max(search.highestLevel(), candidate.distance);
+}
+
+bool NicheDecider::Stage::followsDown(std::uint32_t i, std::uint32_t number) {
+  const double distance = decider_.judged_[i].candidate.distance;
+  const auto is_earlier = [&](std::uint32_t other) { return other != i && isEarlier(other, i); };
+  DecisionPaths::End end;
+  if (!paths_.followDown(number, request_.rule.levelOf(distance), distance - tolerance_, is_earlier, end)) {
+    return false;
+  }
+  set(i, Decision::Ripple, end.into);
+  decider_.judged_[i].below = end.facet_pair;
+  ++decider_.counts_.by_path;
+  return true;
+}
+
+void NicheDecider::Stage::resolve(std::uint32_t i) {
+  while (i != kNone && decider_.judged_[i].decision == Decision::Ripple) {
+    if (decider_.judged_[i].into == kNone) descend(i);
+    const std::uint32_t into = decider_.judged_[i].into;
+    if (into != kNone && decider_.judged_[into].decision == Decision::Open) decide(into);
+    i = into;
+  }
+}
+
+void NicheDecider::Stage::descend(std::uint32_t i) {
+  const TrianglePair from = frame_.closestIn(decider_.judged_[i].below).first;
+  const WitnessPair bottom =
+      refineWitness(frame_.a, frame_.b, frame_.a_from_b, from.a, from.b, decider_.refinement_).witness;
+  const std::uint32_t place = enterPlace(bottom);
+  // Strictly down: no way leads in a circle.
+  if (place == kNone || decider_.judged_[place].candidate.distance >= decider_.judged_[i].candidate.distance)
+    return;
+  decider_.judged_[i].into = place;
+}
+
+bool NicheDecider::Stage::settlesLong(std::uint32_t i) {
+  // Where not all candidates are known, what was found may be deeper than all of them.
+  const bool is_deepest = i == deepest_ || !isEarlier(deepest_, i);
+  const bool settled = is_deepest ? isNearest(i) : hasPathDown(i);
+  decider_.searches_are_long_ = decider_.searches_are_long_ || settled;
+  return settled;
+}
+
+bool NicheDecider::Stage::isNearest(std::uint32_t i) {
+  const MinimumCandidate candidate = decider_.judged_[i].candidate;
+  const WitnessPair minimum =
+      refineWitness(frame_.a, frame_.b, frame_.a_from_b, candidate.a, candidate.b, decider_.refinement_)
+          .witness;
+  if (!isNearestOfItsPieces(frame_, minimum)) {
+    const TrianglePair pair{candidate.a, candidate.b};
+    CertificateRequest certificate;
+    certificate.limit = &limit_;
+    if (certifyDistance(frame_.a, frame_.b, frame_.a_from_b, &pair, 1, certificate, proof_).lower_bound <
+        candidate.distance - tolerance_) {
+      return false;
+    }
+  }
+  set(i, Decision::Niche);
+  return true;
+}
+
+bool NicheDecider::Stage::hasPathDown(std::uint32_t i) {
+  std::uint32_t into = kNone;
+  const auto has_arrived = [&](TriangleIndex a, TriangleIndex b) {
+    into = memory_.candidateIn(a, b);
+    return into != kNone && into != i && isEarlier(into, i);
+  };
+  const MinimumCandidate& from = decider_.judged_[i].candidate;
+  const MinimumCandidate& to = decider_.judged_[deepest_].candidate;
+  for (const int first_moves : {0, 1}) {
+    if (BoundedPath(frame_, decider_.path_, limit_)
+            .find(frame_.facetPairOf(from.a, from.b), frame_.facetPairOf(to.a, to.b),
+                  request_.rule.levelOf(from.distance), first_moves, has_arrived)) {
+      set(i, Decision::Ripple, into != kNone && into != i ? into : deepest_);
+      return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace concave_distance::detail

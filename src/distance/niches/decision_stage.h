@@ -1,6 +1,7 @@
 #pragma once
 
-#include "niche_decider.h"
+#include "decision_basins.h"
+#include "decision_paths.h"
 
 namespace concave_distance::detail {
 
@@ -13,6 +14,8 @@ class NicheDecider::Stage {
         frame_(frame),
         request_(request),
         limit_(limit),
+        paths_(memory_, frame, decider.counts_, limit),
+        basins_(memory_, decider.search_, frame, decider.counts_, limit),
         tolerance_(8.0 * frame.rounding) {}
 
   /// Enters the candidates into their facet pairs and the deepest of each kept basin into the basin.
@@ -91,37 +94,12 @@ class NicheDecider::Stage {
   /// Returns the deepest candidate of the components that i lies on.
   std::uint32_t deepestLike(std::uint32_t i);
 
-  double squaredLevelOf(const DecisionCache::Link& link) const {
-    return (frame_.rotation * link.point_b + frame_.offset - link.point_a).squaredNorm();
-  }
-
   /// Follows kept links; true when they lead below i or to an earlier candidate and stay below i's level.
   bool followsDown(std::uint32_t i, std::uint32_t number);
-
-  /// Moves a link to the closest points over what its facet pairs share. Returns their squared distance
-  /// (m^2).
-  double aim(std::uint32_t link) { return aim(link, closestOver(frame_, memory_.link(link).via)); }
-
-  /// Moves the low link of a facet pair to the closest points in it.
-  double aimLow(std::uint32_t number) {
-    const DecisionCache::FacetPair& facet_pair = memory_.facet_pair(number);
-    return aim(facet_pair.low, frame_.closestIn({facet_pair.a, facet_pair.b}).second);
-  }
-
-  double aim(std::uint32_t link, const TrianglePairDistance& closest);
 
   BasinSearch::Levels levelsOf(double distance) const {
     return {distance - tolerance_, distance + tolerance_, request_.rule.levelOf(distance) + tolerance_};
   }
-
-  /// True when the boundary of a kept basin holds, if need be with facet pairs beyond it added. The boundary
-  /// is whole afterwards, because the basin may be asked for again; without memory for that the basin is
-  /// dropped.
-  bool isEnclosed(std::uint32_t i, std::uint32_t index);
-  /// Searches the facet pairs beyond the elements that have left the basin's boundary.
-  BasinSearch::End searchBeyond(std::uint32_t i, std::uint32_t index, const BasinSearch::Levels& levels);
-  /// Puts the elements that have left the boundary back into it.
-  void restoreBoundary(std::uint32_t index);
 
   /// True when a facet pair holds a minimum that i would belong to.
   bool isOfEarlier(TriangleIndex a, TriangleIndex b, std::uint32_t i) const {
@@ -144,25 +122,13 @@ class NicheDecider::Stage {
 
   bool hasPathDown(std::uint32_t i);
 
-  /// Keeps the path from the start of the last search to its end.
-  void keepPath(std::uint32_t start);
-
-  void keepLow(TriangleIndex a, TriangleIndex b);
-
-  bool keepLink(std::uint32_t& link, const TrianglePairDistance& closest, std::uint32_t next,
-                const SharedElement& via);
-
-  /// Keeps the basin that the last search has visited.
-  void keepBasin(std::uint32_t i, std::uint64_t id);
-
-  /// Extends a kept basin by what the last search has visited. Returns false without memory.
-  bool extend(std::uint32_t index);
-
   NicheDecider& decider_;
   DecisionCache& memory_;
   const PairFrame& frame_;
   const Request& request_;
   WorkLimit& limit_;
+  DecisionPaths paths_;
+  DecisionBasins basins_;
   CertificateWorkspace proof_;
   double tolerance_;
   bool were_long_ = false;  ///< searches, the last time
