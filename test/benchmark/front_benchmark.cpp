@@ -1,5 +1,5 @@
 // What is kept from pose to pose saves over a motion, beside FCL's one distance, in one run and one thread:
-// of the front of normal cones and of the decisions which minima are niches.
+// of the front of normal cones and of the decider which minima are niches.
 //
 //   front_benchmark [--pairs name,name,...] [--steps 500,5000] [--instants 100] [--windows 4] [--output FILE]
 //                   [--files a.stl:b.stl,...]
@@ -12,7 +12,7 @@
 // of the front (and its 99th percentile); pairs that the front keeps, that have expired, groups compared,
 // features looked at, live pairs of features, minima and pairs of features that begin or cease to hold one
 // (`events`; means); windows' instants at which the front was begun anew; local minima that only the cones
-// from the roots (`missed`) or only the front (`more`) led to. Then the decisions: microseconds (medians) of
+// from the roots (`missed`) or only the front (`more`) led to. Then the decider: microseconds (medians) of
 // floods alone and of what is kept (and its 99th percentile); means of niches, of ripples settled by a known
 // path, links of paths that were given other points, niches by a known border and by one that was mended,
 // floods, cells flooded and border elements measured; instants at which the niches were others than those of
@@ -143,10 +143,10 @@ void judge(const detail::PairFrame& frame, std::vector<MinimumCandidate> candida
   sample.niches += static_cast<double>(niches.size());
   sample.by_path += counts.by_path;
   sample.aimed += counts.aimed;
-  sample.by_border += counts.by_border;
+  sample.by_border += counts.by_boundary;
   sample.mended += counts.mended;
-  sample.floods += counts.floods;
-  sample.cells += counts.flooded_cells;
+  sample.floods += counts.searches;
+  sample.cells += counts.visited_pairs;
   sample.measured += counts.measured;
   sample.bytes = std::max(sample.bytes, decider.memoryBytes());
 }
