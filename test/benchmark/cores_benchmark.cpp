@@ -30,7 +30,7 @@
 #include "benchmark/support/shapes.h"
 #include "benchmark/support/statistics.h"
 #include "benchmark/support/stopwatch.h"
-#include "distance/kernels/minima_scene.h"
+#include "distance/kernels/pair_frame.h"
 #include "distance/minima/minima_tracker.h"
 
 namespace concave_distance::benchmark {
@@ -124,7 +124,7 @@ class Comparison {
   }
 
   void observe(const BenchmarkPair& pair, double t, bool many_first, Classes& classes) {
-    const detail::MinimaScene scene(*pair.a, *pair.b, pair.motion(t));
+    const detail::PairFrame scene = detail::PairFrame::withFacets(*pair.a, *pair.b, pair.motion(t));
     double one_us = 0.0;
     double many_us = 0.0;
     if (many_first) many_us = collect(many_, scene, front_of_many_, of_many_);
@@ -141,7 +141,7 @@ class Comparison {
   }
 
  private:
-  double collect(tbb::task_arena& arena, const detail::MinimaScene& scene, MinimaTracker& front,
+  double collect(tbb::task_arena& arena, const detail::PairFrame& scene, MinimaTracker& front,
                  std::vector<MinimumCandidate>& seeds) {
     std::this_thread::sleep_for(std::chrono::milliseconds(pause_));
     double us = 0.0;
