@@ -13,7 +13,7 @@ case $size in
   *) echo "usage: scripts/benchmark.sh [quick|full]" >&2; exit 2 ;;
 esac
 program() { find "$root/build" -type f -perm -u+x -name "$1" | head -n 1; }
-for name in tracking battery budget cores front generation proposal recall radii descent islands certificate hierarchy scale exactness complete accuracy; do
+for name in tracking battery budget cores front generation recall radii descent islands certificate scale exactness complete accuracy; do
   [ -n "$(program "${name}_benchmark")" ] || { echo "${name}_benchmark is not built: run scripts/build.sh" >&2; exit 1; }
 done
 results=$root/build/results_quick
@@ -34,7 +34,6 @@ mkdir -p "$results"
   tee "$results/descents.txt"
 "$(program islands_benchmark)" --runs "$island_runs" --output "$results/islands.csv"
 "$(program certificate_benchmark)" --output "$results/certificate.csv" | tee "$results/certificate.txt"
-"$(program hierarchy_benchmark)" --output "$results/hierarchy.csv" | tee "$results/hierarchy.txt"
 "$(program contact_scenes)" --wall "$wall" --output "$results/contact_scenes.csv" | tee "$results/contact_scenes.txt"
 "$(program effects_benchmark)" --output "$results/effects.csv" | tee "$results/effects.txt"
 rm -f "$results/tuning.csv"  # rows are added
@@ -67,7 +66,6 @@ moving=battery_insertion,kr5_bicep_palm,kr5_base_forearm,kr5_shoulder_elbow,wam3
 moving=$moving,peg_in_hole,linked_hooks,comb_in_comb,stairs_leg,obstacle_field
 "$(program front_benchmark)" --steps 500,5000 --instants "$steps" --windows 1 --output "$results/front.csv"
 "$(program generation_benchmark)" --steps 500 --robot "$root" --output "$results/generations.csv"
-"$(program proposal_benchmark)" --pairs "$moving" --output "$results/proposals.csv"
 "$(program cores_benchmark)" --sliced-from 1024 --steps 500,2000 --windows 4 --instants 40 --output "$results/cores.csv"
 "$(program budget_benchmark)" --pairs "$moving" --steps "$steps" --output "$results/budget.csv"
 "$(program budget_benchmark)" --cold --pairs "$moving" --budgets 500,1000,2000,5000,10000,20000 --shares 0,0.05 \
