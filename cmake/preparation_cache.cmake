@@ -4,7 +4,7 @@ get_target_property(loading_sources concave_distance_loading_objects SOURCES)
 list(APPEND sources ${loading_sources})
 set(fingerprinted)
 foreach(source IN LISTS sources)
-  if(source MATCHES "/src/(base|mesh)/")
+  if(source MATCHES "/src/(base|mesh|search/grid)/")
     list(APPEND fingerprinted ${source})
   endif()
 endforeach()
@@ -14,7 +14,8 @@ file(GLOB_RECURSE headers CONFIGURE_DEPENDS
   ${PROJECT_SOURCE_DIR}/include/concave_distance/base/*.h
   ${PROJECT_SOURCE_DIR}/include/concave_distance/mesh/*.h
   ${PROJECT_SOURCE_DIR}/src/base/*.h
-  ${PROJECT_SOURCE_DIR}/src/mesh/*.h)
+  ${PROJECT_SOURCE_DIR}/src/mesh/*.h
+  ${PROJECT_SOURCE_DIR}/src/search/grid/*.h)
 list(APPEND fingerprinted ${headers})
 list(SORT fingerprinted)
 string(REPLACE ";" "|" files "${fingerprinted}")

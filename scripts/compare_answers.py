@@ -99,7 +99,9 @@ def simulations(folder, build):
 
 
 def evaluations(folder, build):
-    experiments = os.path.join(package_of(build), "experiments")
+    experiments = os.path.join(package_of(build), "thesis", "experiments")
+    if not os.path.isdir(experiments):
+        experiments = os.path.join(package_of(build), "experiments")  # where they were up to version 0.1
     yield [program(build, "evaluate")] + sorted(os.path.join(experiments, name) for name in os.listdir(experiments)) \
         + ["--size", "quick", "--output", os.path.join(folder, "evaluate")]
 

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Counts every floating-point operation of runs of the experiments, for the report: a line a row and scene.
 
-    scripts/count_run_flops.py [experiments/table_3_4.yaml ...] [--program build/devel/lib/concave_distance/run_flops]
+    scripts/count_run_flops.py [thesis/experiments/table_3_4.yaml ...] [--program build/devel/lib/concave_distance/run_flops]
                                [--runs 3] [--output build/evaluation_full/run_flops.csv]
 
 Without files: the experiments that show the thesis's flops. What the output already has is not counted again.
@@ -131,7 +131,7 @@ def main():
     parser.add_argument("--runs", type=int, default=3)
     parser.add_argument("--output", default=str(ROOT / "build/evaluation_full/run_flops.csv"))
     options = parser.parse_args()
-    files = options.experiments or [str(path) for path in sorted((ROOT / "experiments").glob("*.yaml")) if shows_flops(path)]
+    files = options.experiments or [str(path) for path in sorted((ROOT / "thesis" / "experiments").glob("*.yaml")) if shows_flops(path)]
 
     output = pathlib.Path(options.output)
     output.parent.mkdir(parents=True, exist_ok=True)

@@ -24,7 +24,7 @@ def main():
     parser.add_argument("results", nargs="+", type=pathlib.Path)
     parser.add_argument("--output", default="doc/results/evaluation", type=pathlib.Path)
     options = parser.parse_args()
-    experiments = [path.stem for path in sorted(pathlib.Path("experiments").glob("*.yaml"))]
+    experiments = [path.stem for path in sorted(pathlib.Path("thesis/experiments").glob("*.yaml"))]
     options.output.mkdir(parents=True, exist_ok=True)
     for path in options.output.glob("*.csv.xz"):
         path.unlink()

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Draws the constraint trees of the cylinder, the battery and the fixture, level by level: doc/images/constraint_trees.png.
+"""Draws the constraint trees of the cylinder, the battery and the fixture, level by level: thesis/doc/images/constraint_trees.png.
 
     scripts/plot_constraint_trees.py     (needs a finished build for mesh_tool, and python3-matplotlib)
 """
@@ -82,7 +82,7 @@ def main():
                 if column == 0:
                     axes.text2D(0.0, 0.05, body.replace("_", " "), transform=axes.transAxes, fontsize=10)
     figure.subplots_adjust(left=0.0, right=1.0, bottom=0.0, top=0.95, wspace=0.0, hspace=0.0)
-    path = ROOT / "doc" / "images" / "constraint_trees.png"
+    path = ROOT / "thesis" / "doc" / "images" / "constraint_trees.png"
     figure.savefig(path, dpi=90)
     print(path)
 

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Draws the convex pieces of the battery and the fixture, by hand and automatic: doc/images/partition.png; and the
-cost of a step over the number of sub-pairs from doc/results/partition.csv: doc/images/partition_crossing.png.
+"""Draws the convex pieces of the battery and the fixture, by hand and automatic: thesis/doc/images/partition.png; and the
+cost of a step over the number of sub-pairs from doc/results/partition.csv: thesis/doc/images/partition_crossing.png.
 
     scripts/plot_partition.py            (needs a finished build for mesh_tool, and
     python3-matplotlib: scripts/install_dependencies.sh plot)
@@ -22,7 +22,7 @@ from mpl_toolkits.mplot3d.art3d import Poly3DCollection  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 MESHES = ROOT / "meshes" / "thesis"
-IMAGES = ROOT / "doc" / "images"
+IMAGES = ROOT / "thesis" / "doc" / "images"
 LIGHT = np.array([-0.45, -0.65, 0.6]) / np.linalg.norm([-0.45, -0.65, 0.6])
 
 
@@ -106,7 +106,7 @@ def plot_pieces():
     figure.subplots_adjust(left=0.0, right=1.0, bottom=0.0, top=0.95, wspace=0.0, hspace=0.05)
     figure.savefig(IMAGES / "partition.png", dpi=90)
     plt.close(figure)
-    print("doc/images/partition.png")
+    print("thesis/doc/images/partition.png")
 
 
 def plot_crossing():
@@ -136,7 +136,7 @@ def plot_crossing():
     axes.set_title("Battery into fixture: partition against search")
     figure.savefig(IMAGES / "partition_crossing.png", dpi=100)
     plt.close(figure)
-    print("doc/images/partition_crossing.png")
+    print("thesis/doc/images/partition_crossing.png")
     provenance.record([IMAGES / "partition_crossing.png"])
 
 

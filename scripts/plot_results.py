@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """Draws the figures of doc/results from its CSV files: doc/images/proof_*.png, niche_*.png,
-accuracy_*.png, stages.png, manoeuvre.png.
+accuracy_*.png, stages.png; thesis/doc/images/manoeuvre.png.
 
     scripts/plot_results.py            (needs python3-matplotlib: scripts/install_dependencies.sh plot)
 """
@@ -20,6 +20,7 @@ import matplotlib.pyplot as plt  # noqa: E402  (the backend comes first)
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 RESULTS = ROOT / "doc" / "results"
 IMAGES = ROOT / "doc" / "images"
+MANOEUVRE = ROOT / "thesis" / "doc" / "images" / "manoeuvre.png"
 RATES = {49: "10 Hz", 499: "100 Hz", 4999: "1000 Hz"}
 
 
@@ -197,10 +198,10 @@ def main():
     plot_stages(rows_of("stages.csv"), rows_of("messages.csv"))
     curves = read_curves(RESULTS / "manoeuvre.csv")
     if curves:  # of a build with CGAL
-        draw_manoeuvre(curves, plt, IMAGES / "manoeuvre.png")
-        print("doc/images/manoeuvre.png")
+        draw_manoeuvre(curves, plt, MANOEUVRE)
+        print(MANOEUVRE)
     provenance.record([IMAGES / name for name in ("proof_*.png", "niche_cycles.png", "niche_recall.png", "accuracy_*.png",
-                                                  "stages.png", "manoeuvre.png")])
+                                                  "stages.png")] + [MANOEUVRE])
 
 
 if __name__ == "__main__":

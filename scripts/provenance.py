@@ -29,14 +29,14 @@ INCLUDE = "include/concave_distance/"
 GROUPS = {
     "tracker": [INCLUDE + "search/genetic_parameters.h", INCLUDE + "tracking/tracker_parameters.h",
                 "src/tracking/tracker_parameters.cpp"],
-    "thesis": [INCLUDE + "search/genetic_parameters.h", "src/thesis/annealing/annealing_parameters.h",
-               "src/thesis/continuous/continuous_parameters.h"],
+    "thesis": [INCLUDE + "search/genetic_parameters.h", "thesis/src/annealing/annealing_parameters.h",
+               "thesis/src/continuous/continuous_parameters.h"],
     "contact": [INCLUDE + "contact/material.h", INCLUDE + "contact/normal_force.h", INCLUDE + "contact/friction.h",
                 INCLUDE + "contact/effect_settings.h"],
     "simulation": [INCLUDE + "scene/simulation_settings.h"],
 }
 # What programs are made of: a change that is not committed makes the commit say less than it seems to.
-SOURCES = ["include", "src", "test/benchmark", "experiments", "config", "meshes"]
+SOURCES = ["include", "src", "test/benchmark", "thesis", "config", "meshes"]
 
 # Keys of an experiment and of its rows that only the report reads.
 WORDS = {"title", "table", "figure", "columns", "layout", "remark", "note", "thesis", "variant_of", "reasons", "better"}
@@ -80,7 +80,7 @@ def digest(tree, patterns):
     hashed = hashlib.sha256()
     for name in names:
         content = tree.read(name)
-        if fnmatch.fnmatch(name, "experiments/*.yaml"):
+        if fnmatch.fnmatch(name, "thesis/experiments/*.yaml"):
             content = what_runs(content)
         hashed.update((name if len(names) > 1 else "").encode() + content)
     return hashed.hexdigest()[:16] if names else ""

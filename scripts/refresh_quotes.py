@@ -4,7 +4,7 @@
     scripts/refresh_quotes.py [--list] [page ...]      all pages by default; --list changes nothing
 
 A quoted figure (test/scripts/check_results.py) is evaluated; where it is no longer the rounded value, it is replaced in
-its text and in its comment by the value to as many significant digits as stood there. Every change is printed: read its
+its text and in the file of figures beside the page by the value to as many significant digits as stood there. Every change is printed: read its
 sentence again, because `slower` may have become `faster`. Left to a reader, and the exit status is 1: a number that
 stands in its text more often than it is quoted; equal numbers that differ now, unless the comment clearly has the order
 of its text; tables compared with a text file as a whole; expressions that match nothing any more.
@@ -29,7 +29,7 @@ COMMENTS = re.compile(r"<!--(?:(?!-->).)*-->(?:\s*<!--(?:(?!-->).)*-->)*", re.DO
 
 @dataclasses.dataclass
 class Figure:
-    begin: int  # of the number in the page, in its comment
+    begin: int  # of the number in the file of figures
     token: str
     expression: str
     value: float
@@ -77,33 +77,31 @@ def rewritten(value, token):
     return sign + (f"{int(whole):,}" if separated else whole) + point + decimals
 
 
-def figures_of(page, text, block, recorded):
-    """The figures of the comments in a block, and what cannot be refreshed."""
+def figures_of(page, text, marks, sections, recorded):
+    """The figures of marks that follow one another, and what cannot be refreshed."""
     figures, by_hand = [], []
-    for match in check_results.QUOTE.finditer(text, block.start(), block.end()):
-        path = (page.parent / match[1]).resolve()
-        if not path.exists() or path not in recorded:
-            by_hand.append((match.start(), f"{match[1]} is no recorded result"))
-            continue
-        quoted = check_results.Quoted(check_results.read_result(path), ".csv" in path.suffixes)
-        begin = match.start(2)
-        for part in re.split(f"({check_results.FIGURE_END})", match[2]):
-            token, _, expression = (piece.strip() for piece in part.partition("="))
-            if part.strip() == "table":
+    for match in marks:
+        for source, figure, begin in sections.get(match[1], []):
+            path = (page.parent / source).resolve()
+            if not path.exists() or path not in recorded:
+                by_hand.append((match.start(), f"{source} is no recorded result"))
+                continue
+            quoted = check_results.Quoted(check_results.read_result(path), ".csv" in path.suffixes)
+            token, _, expression = (piece.strip() for piece in figure.partition("="))
+            if figure == "table":
                 table = check_results.paragraph_before(text, match.start())
-                by_hand += [(match.start(), f"{match[1]}: {fault}") for fault in check_results.check_table(table, quoted)]
+                by_hand += [(match.start(), f"{source}: {fault}") for fault in check_results.check_table(table, quoted)]
             elif expression:
                 try:
                     value = float(eval(expression, {"__builtins__": {}}, quoted.names()))
-                    figures.append(Figure(begin + part.index(token), token, expression, value))
+                    figures.append(Figure(begin, token, expression, value))
                 except Exception as error:  # any fault of an expression is for a reader
                     by_hand.append((match.start(), f"{token} = {expression}: {type(error).__name__}: {error}"))
-            begin += len(part)
     return figures, by_hand
 
 
 def have_same_order(same, places, figures, numbers):
-    """Whether equal figures stand in text and comments in the same order, to judge by the numbers that stand there once:
+    """Whether equal figures stand in the text and beside it in the same order, to judge by the numbers that stand there once:
     all of these do, or one is between each two of the equal ones in both."""
     quoted = collections.Counter(figure.token.lstrip("-") for figure in figures)
     written = collections.Counter(number for _, number in numbers)
@@ -113,14 +111,14 @@ def have_same_order(same, places, figures, numbers):
 
     def between(begin, end, placed):
         return {number for place, number in placed if begin < place < end and number in single}
-    in_comments = [(figure.begin, figure.token.lstrip("-")) for figure in figures]
-    return all(between(first.begin, second.begin, in_comments) & between(place, next_place, numbers)
+    beside = [(figure.begin, figure.token.lstrip("-")) for figure in figures]
+    return all(between(first.begin, second.begin, beside) & between(place, next_place, numbers)
                for first, second, place, next_place in zip(same, same[1:], places, places[1:]))
 
 
 def edits_of(figures, numbers):
-    """(place, old, new) of each number to be replaced, and what is left to a reader."""
-    edits, by_hand = [], []
+    """(place, old, new) of each number to be replaced in the page and beside it, and what is left to a reader."""
+    in_page, beside, by_hand = [], [], []
     for token in dict.fromkeys(figure.token for figure in figures):
         same = [figure for figure in figures if figure.token == token]
         if all(check_results.is_rounded(figure.value, token) for figure in same):
@@ -132,35 +130,42 @@ def edits_of(figures, numbers):
         turned = any(new.startswith("-") != token.startswith("-") for new in news)
         if turned or not places or len(places) > len(same):
             why = "has another sign now" if turned else f"stands {len(places)} times in the text and is quoted {len(same)} times"
-            by_hand.append((same[0].begin, f"{token} {why}: {wanted}"))
-        elif len(set(news)) == 1:
-            edits += [(place, bare, news[0].lstrip("-")) for place in places]
-            edits += [(figure.begin, token, new) for figure, new in zip(same, news)]
-        elif len(places) == len(same) and have_same_order(same, places, figures, numbers):
-            edits += [(place, bare, new.lstrip("-")) for place, new in zip(places, news)]
-            edits += [(figure.begin, token, new) for figure, new in zip(same, news)]
+            by_hand.append(f"{token} {why}: {wanted}")
+        elif len(set(news)) == 1 or len(places) == len(same) and have_same_order(same, places, figures, numbers):
+            in_page += [(place, bare, new.lstrip("-")) for place, new in zip(places, news)]
+            beside += [(figure.begin, token, new) for figure, new in zip(same, news)]
         else:
-            by_hand.append((same[0].begin, f"{token} stands for several figures: {wanted}"))
-    return edits, by_hand
+            by_hand.append(f"{token} stands for several figures: {wanted}")
+    return in_page, beside, by_hand
+
+
+def with_edits(text, edits):
+    for place, old, new in sorted(edits, reverse=True):
+        text = text[:place] + new + text[place + len(old):]
+    return text
 
 
 def refreshed(page, text, recorded):
-    """The page's new text, and two lists of (place in the old text, what was changed or is left to a reader)."""
-    edits, by_hand, changed = [], [], []
+    """The new texts of the page and of its file of figures, and two lists of (place in the page's old text, what was
+    changed or is left to a reader)."""
+    sections, faults = check_results.read_figures(page)
+    in_page, beside, by_hand, changed = [], [], [(0, fault) for fault in faults], []
     previous_end = 0
     for block in COMMENTS.finditer(text):
         paragraph = max(text.rfind("\n\n", 0, block.start()) + 1, previous_end)
         numbers = [(paragraph + match.start(), match[0])
                    for match in TEXT_NUMBER.finditer(text[paragraph:block.start()])]
-        figures, broken = figures_of(page, text, block, recorded)
-        block_edits, left = edits_of(figures, numbers)
-        edits += block_edits
-        by_hand += broken + left
-        changed += [(place, f"{old} -> {new}") for place, old, new in block_edits if place < block.start() and old != new]
+        marks = check_results.MARK.finditer(text, block.start(), block.end())
+        figures, broken = figures_of(page, text, marks, sections, recorded)
+        page_edits, edits, left = edits_of(figures, numbers)
+        in_page += page_edits
+        beside += edits
+        by_hand += broken + [(block.start(), what) for what in left]
+        changed += [(place, f"{old} -> {new}") for place, old, new in page_edits if old != new]
         previous_end = block.end()
-    for place, old, new in sorted(edits, reverse=True):
-        text = text[:place] + new + text[place + len(old):]
-    return text, changed, by_hand
+    file = check_results.figures_file(page)
+    figures_text = file.read_text(encoding="utf-8") if file.exists() else ""
+    return with_edits(text, in_page), with_edits(figures_text, beside), changed, by_hand
 
 
 def refresh(root, pages, list_only=False):
@@ -172,9 +177,10 @@ def refresh(root, pages, list_only=False):
         if page.resolve() in recorded:  # written by a program
             continue
         text = page.read_text(encoding="utf-8")
-        new_text, changed, by_hand = refreshed(page, text, recorded)
-        if new_text != text and not list_only:
+        new_text, new_figures, changed, by_hand = refreshed(page, text, recorded)
+        if changed and not list_only:
             page.write_text(new_text, encoding="utf-8")
+            check_results.figures_file(page).write_text(new_figures, encoding="utf-8")
         for found, lines in ((changed, changes), (by_hand, left)):
             name = page.resolve().relative_to(root.resolve()).as_posix()
             lines += [f"{name}:{text.count(chr(10), 0, place) + 1}: {what}" for place, what in found]

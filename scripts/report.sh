@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Runs the experiments (experiments/*.yaml) and writes evaluation.md with its plots.
+# Runs the experiments (thesis/experiments/*.yaml) and writes evaluation.md with its plots.
 #
 #   scripts/report.sh [quick|full] [folder of the rows]    quick: two to three minutes, the page beside its rows in
 #       build/evaluation_quick (default); full: a quarter of an hour on two cores, the counts of runs of the thesis, the
@@ -7,9 +7,9 @@
 #
 # It installs and builds what is missing, and goes on where an interrupted run has ended. On several machines, each shard
 # into a folder of its own; here eight with GNU parallel over two hosts, then the join:
-#   parallel -S host1,host2 'cd concave_distance && build/devel/lib/concave_distance/evaluate experiments/*.yaml --size full --shard {}/8 --output shard_{}' ::: {0..7}
+#   parallel -S host1,host2 'cd concave_distance && build/devel/lib/concave_distance/evaluate thesis/experiments/*.yaml --size full --shard {}/8 --output shard_{}' ::: {0..7}
 #   scripts/keep_rows.py shard_* --output doc/results/evaluation && scripts/write_evaluation.py doc/results/evaluation
-# As a Slurm array: sbatch --array=0-7 --wrap 'build/devel/lib/concave_distance/evaluate experiments/*.yaml --size full
+# As a Slurm array: sbatch --array=0-7 --wrap 'build/devel/lib/concave_distance/evaluate thesis/experiments/*.yaml --size full
 # --shard $SLURM_ARRAY_TASK_ID/8 --output shard_$SLURM_ARRAY_TASK_ID'.
 set -euo pipefail
 # shellcheck source=scripts/common.sh
@@ -27,7 +27,7 @@ scripts/install_dependencies.sh build plot
 if [ -d build ]; then cmake --build build --target evaluate mesh_tool; else scripts/build.sh; fi
 # Rows that are there are not run again: they have to be what this program makes of these experiments.
 scripts/report_rows.py prepare "$results" --program "$(program evaluate)"
-"$(program evaluate)" experiments/*.yaml --size "$size" --output "$results"
+"$(program evaluate)" thesis/experiments/*.yaml --size "$size" --output "$results"
 if [ -n "$(program partition_benchmark)" ]; then  # built with CGAL only
   "$(program partition_benchmark)" --curves-output "$results/manoeuvre.csv"
 fi
@@ -48,10 +48,10 @@ fi
 scripts/keep_rows.py "$results" --output "$kept"
 scripts/report_rows.py record "$results" "$kept"
 if [ -f "$kept/run_flops.csv.xz" ]; then
-  scripts/provenance.py record "$kept/run_flops.csv.xz" --defaults tracker,thesis --inputs 'experiments/table_*.yaml' \
+  scripts/provenance.py record "$kept/run_flops.csv.xz" --defaults tracker,thesis --inputs 'thesis/experiments/table_*.yaml' \
     --command 'scripts/report.sh full'
 fi
 scripts/plot_thesis_figures.py "$kept" --output doc/results/images
 /usr/bin/python3 scripts/write_evaluation.py "$kept"
 scripts/provenance.py record doc/results/evaluation.md 'doc/results/images/evaluation_*.png' --defaults tracker,thesis \
-  --inputs "experiments/*.yaml,$kept/*.csv.xz,doc/results/manoeuvre.csv" --command 'scripts/report.sh full'
+  --inputs "thesis/experiments/*.yaml,$kept/*.csv.xz,doc/results/manoeuvre.csv" --command 'scripts/report.sh full'

@@ -22,7 +22,7 @@ TIMES = {"microseconds"}  # the columns that no second run repeats
 
 
 def experiments():
-    return sorted((provenance.ROOT / "experiments").glob("*.yaml"))
+    return sorted((provenance.ROOT / "thesis" / "experiments").glob("*.yaml"))
 
 
 def first_runs(path):
@@ -74,7 +74,7 @@ def record(results, kept):
         files = [kept / f"{file.stem}{end}.csv.xz" for end in ("", "_scenes", "_curves", "_points", "_rows")]
         names = ",".join(str(path) for path in files if path.exists())
         provenance.record([names], (results / f"{file.stem}.commit").read_text(encoding="utf-8").strip(),
-                          defaults="tracker,thesis", inputs=f"experiments/{file.name}", command="scripts/report.sh full")
+                          defaults="tracker,thesis", inputs=f"thesis/experiments/{file.name}", command="scripts/report.sh full")
 
 
 def main():

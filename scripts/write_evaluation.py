@@ -5,7 +5,7 @@
 
 RESULTS are folders that `evaluate --output` or `keep_rows.py` has filled; the files of several, one for each shard, are
 joined.
-Every experiment of experiments/*.yaml that has results is written, with the thesis's figures beside ours, before them every
+Every experiment of thesis/experiments/*.yaml that has results is written, with the thesis's figures beside ours, before them every
 figure in which ours is worse or better. How a remark quotes a figure: scripts/evaluation/texts.py.
 """
 import argparse

@@ -32,7 +32,7 @@ _TEXT = """\
 # The thesis's algorithms, evaluated
 
 Every table of the thesis (Carretero) that its algorithms fill, with its figures beside ours. Written by
-`scripts/report.sh` (`quick`, or `full` for the counts of runs kept here); the experiments are `experiments/*.yaml`.
+`scripts/report.sh` (`quick`, or `full` for the counts of runs kept here); the experiments are `thesis/experiments/*.yaml`.
 Below each table stands what every row has run.
 
 - **Rows of the thesis** come first and have nothing of ours: no elite, both children near the fitter parent (sec. 3.3.2.b),
@@ -54,7 +54,7 @@ Below each table stands what every row has run.
   median of a few runs). An evaluation in a descent takes fewer than 26, as the moving body is not transformed for each neighbour.
   Times are of one core of a shared machine.
 - recall, precision: of the outward niches of prominence 1e-2 that are proven to be all, in the final population (of a
-  tracker: those it lists), by regions of the surfaces ([experiments](../experiments.md)). Nearest niche met: runs that have met it at all.
+  tracker: those it lists), by regions of the surfaces ([experiments](../../thesis/doc/experiments.md)). Nearest niche met: runs that have met it at all.
 - Along a motion (`instants`) every figure is a mean over them.
 
 ![Figure 5.2: the sharing function](images/evaluation_sharing.png)

@@ -110,7 +110,7 @@ def manoeuvre_section(folders, images):
     return ["", "## Figures 6.6, 6.7: The manoeuvre into the fixture", "",
             f"{len(curves['nodes'])} steps at 10 Hz, the partition by hand (126 sub-pairs), grid 0.05 m; by "
             "`partition_benchmark --curves-output`. Metres, microseconds of processor time; flops by the thesis's rules "
-            "([partition](../partition.md#along-the-manoeuvre)).", "",
+            "([partition](../../thesis/doc/partition.md#along-the-manoeuvre)).", "",
             *manoeuvre_table(curves), "", f"![distance, error and time of every step](images/{file_name})"]
 
 
@@ -123,7 +123,7 @@ def drawn_section(images):
     if not drawn:
         return []
     lines = ["", "## Figures 6.1 to 6.3, 6.5: Partitions, and the manoeuvre's poses", "",
-             "The bodies that the thesis partitioned are lost: these are ours, cut by this package ([partition](../partition.md)); the pieces are moved apart."]
+             "The bodies that the thesis partitioned are lost: these are ours, cut by this package ([partition](../../thesis/doc/partition.md)); the pieces are moved apart."]
     for file_name, label in drawn:
         lines += ["", f"![{label}](images/{file_name})"]
     return lines

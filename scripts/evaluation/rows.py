@@ -28,7 +28,7 @@ def order_of(experiment):
     return [50] * number.startswith("D") + [int(part) for part in re.findall(r"\d+", number)[:2]]
 
 
-def read_experiments(folder=ROOT / "experiments"):
+def read_experiments(folder=ROOT / "thesis" / "experiments"):
     experiments = []
     for path in sorted(folder.glob("*.yaml")):
         with open(path, encoding="utf-8") as file:

@@ -92,7 +92,7 @@ class Quoter:
             try:
                 return format(eval(match[1], names), match[2] or "")  # noqa: S307 (the expressions are our own)
             except Exception as error:
-                raise SystemExit(f"experiments/{experiment}.yaml: {match[0]} has no value: {error!r}") from error
+                raise SystemExit(f"thesis/experiments/{experiment}.yaml: {match[0]} has no value: {error!r}") from error
 
         return PLACEHOLDER.sub(figure, text)
 
@@ -100,7 +100,7 @@ class Quoter:
 def main(paths):
     root = pathlib.Path(__file__).resolve().parent.parent.parent
     faults = []
-    for path in map(pathlib.Path, paths or sorted((root / "experiments").glob("*.yaml"))):
+    for path in map(pathlib.Path, paths or sorted((root / "thesis" / "experiments").glob("*.yaml"))):
         for where, text in texts_of(yaml.safe_load(path.read_text(encoding="utf-8"))).items():
             if fault_of(text):
                 faults.append(f"{path.name}: {where}: a figure typed by hand: '{fault_of(text)}'; write {{mean(...)}} instead")

@@ -12,8 +12,8 @@
 
 namespace concave_distance {
 
-/// What may be stored as its bytes. Specialised for types that are plain data though their copying is not
-/// trivial in the language's sense.
+/// Says which types may be stored as their bytes. It is specialised for types that are plain data though
+/// their copying is not trivial in the language's sense.
 template <typename T>
 struct IsPlainData : std::is_trivially_copyable<T> {};
 template <typename Scalar, int kRows, int kColumns>
@@ -49,7 +49,7 @@ class ArrayFileWriter {
   }
   /// True when the file is in its place.
   bool finish();
-  /// What went wrong; empty while nothing has.
+  /// Returns what went wrong; empty while nothing has.
   const std::string& problem() const { return problem_; }
 
  private:

@@ -12,9 +12,6 @@ constexpr bool isLetter(char c) {
 constexpr bool isLetterOrDigit(char c) {
   return isLetter(c) || isDigit(c);
 }
-constexpr bool isBlank(char c) {
-  return c == ' ' || (c >= '\t' && c <= '\r');
-}
 constexpr bool isControl(char c) {
   return static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
 }

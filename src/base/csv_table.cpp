@@ -38,17 +38,11 @@ double readNumber(std::string_view cell, const std::string& column, const std::s
   return *value;
 }
 
-std::string joined(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ",") + name;
-  return text;
-}
-
 void readHeader(std::string_view line, const std::string& header, const std::string& where, CsvTable& table) {
   std::vector<std::string_view> names;
   splitLine(line, names);
   table.columns.assign(names.begin(), names.end());
-  if (!header.empty() && joined(table.columns) != header) {
+  if (!header.empty() && joinedText(table.columns, ",") != header) {
     throw Error(where, "the header is '" + std::string(trimmed(line)) + "'",
                 "the first line has to be " + header);
   }
@@ -93,7 +87,7 @@ CsvTable readCsv(const std::string& path, const std::string& header) {
     splitLine(text, cells);
     if (cells.size() != table.columns.size()) {
       throw Error(where, "it has " + std::to_string(cells.size()) + " cells",
-                  "write " + std::to_string(table.columns.size()) + ": " + joined(table.columns));
+                  "write " + std::to_string(table.columns.size()) + ": " + joinedText(table.columns, ","));
     }
     for (std::size_t i = 0; i < cells.size(); ++i) {
       table.values.push_back(readNumber(cells[i], table.columns[i], where));

@@ -19,8 +19,7 @@ struct CsvTable {
 /// Empty lines are passed over, spaces around a cell and a byte order mark too. Numbers need not be finite.
 /// @param header what the first line has to be, e.g. "t,x,y,z"; empty: any names
 /// @throws Error naming file and line: not a readable file, another header, a cell that is no number, a row
-/// of
-///         another length
+///         of another length
 CsvTable readCsv(const std::string& path, const std::string& header = "");
 
 }  // namespace concave_distance

@@ -10,9 +10,9 @@
 
 namespace concave_distance {
 
-/// Writes the cells of a table of numbers, line by line. Numbers have 17 digits and read back as the same
-/// double; NaN is an empty cell: not computed. Texts are written as they are, so they must not contain
-/// commas.
+/// Writes the cells of a table of numbers, line by line. Numbers have 17 digits and read back as
+/// the same double; NaN is an empty cell: not computed. Texts are written as they are, so they must
+/// not contain commas.
 class CsvWriter {
  public:
   explicit CsvWriter(std::ostream& stream) : stream_(&stream) {}

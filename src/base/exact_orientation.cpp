@@ -5,9 +5,9 @@
 namespace concave_distance::detail {
 namespace {
 
-constexpr double kEpsilon = 0x1.0p-53;
-constexpr double kFilter = (7.0 + 56.0 * kEpsilon) * kEpsilon;  ///< Shewchuk's o3derrboundA
-constexpr double kCrossFilter = (3.0 + 16.0 * kEpsilon) * kEpsilon;
+constexpr double kHalfUlp = 0x1.0p-53;
+constexpr double kFilter = (7.0 + 56.0 * kHalfUlp) * kHalfUlp;  ///< Shewchuk's o3derrboundA
+constexpr double kCrossFilter = (3.0 + 16.0 * kHalfUlp) * kHalfUlp;
 constexpr double kWideFilter = 0x1.0p-96;  ///< generous: some twenty operations of error 2^-104
 /// Above this share of the permanent a sum of two doubles has all 53 bits of the determinant.
 constexpr double kWideAccurate = 0x1.0p-40;

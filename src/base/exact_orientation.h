@@ -25,7 +25,7 @@ inline Motion reversed(const Motion& motion) {
 int signAlong(const Motion& motion, const Eigen::Vector3d& p, const Eigen::Vector3d& q,
               const Eigen::Vector3d& r, const Eigen::Vector3d& s);
 
-/// What is compared of two planes that a segment (p, q) runs through.
+/// Holds what is compared of two planes that a segment (p, q) runs through.
 struct PlaneOnSegment {
   const Eigen::Vector3d* corner[3];
   int side_of_p;  ///< 1 or -1; q is on the other side

@@ -77,7 +77,7 @@ class ExpiryQueues {
     std::uint64_t expiry;
     Key key;
   };
-  /// Of two cache lines, with keys of 8 bytes.
+  /// A chunk fills two cache lines when keys have 8 bytes.
   struct Chunk {
     std::uint32_t next;
     std::uint32_t count;

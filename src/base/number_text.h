@@ -4,6 +4,7 @@
 #include <sstream>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace concave_distance {
 
@@ -16,13 +17,16 @@ class TextStream : public std::ostringstream {
   TextStream();
 };
 
-/// With at most this many significant digits, as %g writes them: 1.5, 1e-07, inf, nan.
+/// Writes at most this many significant digits, as %g does: 1.5, 1e-07, inf, nan.
 std::string numberText(double value, int digits = 6);
-/// With this many digits after the point, as %f writes them.
+/// Writes this many digits after the point, as %f does.
 std::string fixedText(double value, int decimals);
 /// The number that all of a text stands for: digits with a point, an exponent, inf or nan. One that is too
 /// small for a double is 0. Nothing for any other text, also for a number too large for a double or a
 /// hexadecimal one.
 std::optional<double> parseNumber(std::string_view text);
+
+/// Returns the texts with the separator between each two.
+std::string joinedText(const std::vector<std::string>& texts, std::string_view separator);
 
 }  // namespace concave_distance

@@ -41,7 +41,7 @@ struct NamedPath {
 /// @throws Error when an output is an input or another output, also through a link. Devices and pipes may be.
 void requireDistinctFiles(const std::vector<NamedPath>& inputs, const std::vector<NamedPath>& outputs);
 
-/// For command-line tools: when a reader goes away, a write fails instead of ending the program.
+/// Lets a write fail when its reader goes away, instead of ending the program; for command-line tools.
 void ignoreClosedPipes();
 
 /// Writes buffered data of standard output. @throws Error when something could not be written

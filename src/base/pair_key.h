@@ -13,7 +13,7 @@ constexpr std::uint64_t pairKey(Index<Tag> a, Index<Tag> b) {
   return (std::uint64_t{a.value} << 32U) | b.value;
 }
 
-/// Where a table of 2^(64 - shift) slots, `shift` in [1, 63], has its place for a key. Fibonacci hashing
+/// Returns the slot of a key in a table of 2^(64 - shift) slots, `shift` in [1, 63], by Fibonacci hashing
 /// (Knuth, The Art of Computer Programming 3, section 6.4): the product's upper bits depend on every bit of
 /// the key.
 constexpr std::size_t slotOfKey(std::uint64_t key, std::uint32_t shift) {

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-// What parameters are held to; each throws Error naming the parameter and what is allowed.
+// Each of these checks holds a parameter to a rule and throws Error naming the parameter and what is allowed.
 
 namespace concave_distance::detail {
 

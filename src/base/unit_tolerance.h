@@ -2,8 +2,8 @@
 
 namespace concave_distance {
 
-/// How far the norm of a quaternion, or a rotation matrix from an orthonormal one, may be off in input; a
-/// smaller difference is normalised away.
+/// The norm of a quaternion, and a rotation matrix, may be off by this much in input; a smaller difference is
+/// normalised away.
 inline constexpr double kUnitTolerance = 1e-3;
 
 }  // namespace concave_distance

@@ -63,7 +63,7 @@ const SiteBristles* findNearest(const PatchMemory& memory, double last_cell_size
   return nearest.found();
 }
 
-/// Of the same cell, or the nearest: the surfaces are cut into other samples where a region splits.
+/// Looks for the same cell, or the nearest: the surfaces are cut into other samples where a region splits.
 const SiteBristles* findLoose(const std::vector<UnmatchedBristles>& loose, double cell_size,
                               const FrictionSite& site) {
   NearestBristles nearest(site, cell_size);

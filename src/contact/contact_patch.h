@@ -33,7 +33,7 @@ struct PatchSurfaces {
   Eigen::Vector3d exit_in_a;
 };
 
-/// What is kept of a patch from cycle to cycle.
+/// Holds what is kept of a patch from cycle to cycle.
 struct PatchMemory {
   double cell_size = 0.0;              ///< of the sites, metres; 0: none yet
   std::vector<SiteBristles> bristles;  ///< by cell, ascending
@@ -81,7 +81,7 @@ class ContactPatch {
   Wrench rub(const FrictionSettings& settings, const ContactMaterial& material, const PatchMotion& motion,
              const std::vector<UnmatchedBristles>& loose, PatchMemory& memory,
              ContactLinearisation& linearisation);
-  /// Of the last press().
+  /// Returns the field of the last press().
   const PressureField& field() const { return field_; }
 
  private:

@@ -7,7 +7,7 @@
 
 namespace concave_distance {
 
-/// Of a contact, where a force acts and how the bodies move there.
+/// Says where a force of a contact acts and how the bodies move there.
 struct ContactPoint {
   Eigen::Vector3d point_in_a;   ///< where the force acts
   Eigen::Vector3d normal_in_a;  ///< unit, from A to B

@@ -59,7 +59,7 @@ Eigen::Vector3d turnedInto(const Eigen::Vector3d& normal, const Eigen::Vector3d&
 
 namespace {
 
-/// Of bristles that lie in the plane.
+/// Returns the force of bristles that lie in the plane.
 Eigen::Vector3d bentBristleForce(const FrictionSettings& settings, const ContactMaterial& material,
                                  double normal_force, const Eigen::Vector3d& sliding,
                                  const Eigen::Vector3d& displacement, BristleState& state) {

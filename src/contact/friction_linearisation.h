@@ -5,7 +5,7 @@
 
 namespace concave_distance {
 
-/// Of friction at `point`. As with addDirection() the upper triangles alone.
+/// Adds friction at `point`; as addDirection(), to the upper triangles alone.
 inline void addFriction(const FrictionTangent& tangent, const Eigen::Vector3d& point,
                         ContactLinearisation& linearisation) {
   addDirection(tangent.stiffness_along, tangent.along, point, linearisation.stiffness);
@@ -14,7 +14,7 @@ inline void addFriction(const FrictionTangent& tangent, const Eigen::Vector3d& p
   addDirection(tangent.damping_across, tangent.across, point, linearisation.damping);
 }
 
-/// Of friction that acts as torques about the two directions, on an arm whose square is given.
+/// Adds friction that acts as torques about the two directions, on an arm whose square is given.
 inline void addTorsionalFriction(const FrictionTangent& tangent, double squared_arm,
                                  ContactLinearisation& linearisation) {
   addAxis(squared_arm * tangent.stiffness_along, tangent.along, linearisation.stiffness);

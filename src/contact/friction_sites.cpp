@@ -11,8 +11,8 @@ namespace {
 
 // The longest edge, in cells, of a part whose pressure is added to one cell.
 constexpr double kLongestEdge = 1.5;
-// No triangle is cut finer than this share of its longest edge: a line of contact has cells as wide as
-// itself.
+// No triangle is cut finer than this share of its longest edge: a line of contact has cells as
+// wide as itself.
 constexpr double kShortestShare = 0.25;
 
 }  // namespace
@@ -44,8 +44,8 @@ void FrictionSites::gather(const OverlapSample* first_sample, const OverlapSampl
   shares_.forEach([this](const Share& sum) { addSite(sum); });
 }
 
-// A whole triangle is sampled at the middles of its edges; the triangle between these has a quarter of its
-// area.
+// A whole triangle is sampled at the middles of its edges; the triangle between these has a quarter
+// of its area.
 bool FrictionSites::isTriangle(const OverlapSample* sample) {
   for (int k = 1; k < 3; ++k) {
     if (sample[k].area != sample->area || sample[k].push_in_a != sample->push_in_a) return false;
@@ -101,8 +101,8 @@ void FrictionSites::spread(const Triangle& triangle, const Eigen::Vector3d& push
   }
 }
 
-// With a linear pressure the corner k counts (sum + force k) / (4 sum); its own width as under a constant
-// one.
+// With a linear pressure the corner k counts (sum + force k) / (4 sum); its own width as under
+// a constant one.
 void FrictionSites::addPart(const Triangle& part, const Eigen::Vector3d& push) {
   const double sum = part.forces[0] + part.forces[1] + part.forces[2];
   if (sum == 0.0) return;

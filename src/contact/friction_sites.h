@@ -44,7 +44,7 @@ class FrictionSites {
       squares += other.squares;
     }
   };
-  /// On which the pressure is linear.
+  /// The pressure is linear on such a triangle.
   struct Triangle {
     std::array<Eigen::Vector3d, 3> corners;
     std::array<double, 3> forces;  ///< all of it, if the pressure were that of the corner

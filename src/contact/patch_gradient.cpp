@@ -5,7 +5,7 @@
 namespace concave_distance {
 namespace {
 
-// Of the largest decrease that leaves the stiffness positive.
+// The decrease is at most this share of the largest that leaves the stiffness positive.
 constexpr double kLargestDecrease = 0.9;
 
 }  // namespace

@@ -6,7 +6,8 @@
 
 namespace concave_distance {
 
-/// How the measures of a patch change with a small motion of B: minus their derivatives, about A's origin.
+/// Says how the measures of a patch change with a small motion of B: minus their derivatives,
+/// about A's origin.
 struct PatchGradient {
   Vector6d push = Vector6d::Zero();  ///< integral of the depth along the push: the wrench over the stiffness
   Vector6d volume = Vector6d::Zero();  ///< m^2, m^3

@@ -6,7 +6,7 @@
 
 namespace concave_distance {
 
-/// What a normal force depends on of the surfaces of one overlap.
+/// Holds what a normal force depends on of the surfaces of one overlap.
 struct PatchMeasure {
   double depth = 0.0;   ///< the greatest, metres
   double area = 0.0;    ///< m^2, mean of both surfaces
@@ -28,11 +28,12 @@ struct PressureLaw {
   bool dependsOnPatch() const { return by_volume != 0.0 || by_moment != 0.0 || by_depth != 0.0; }
 };
 
-/// Of a model on a patch: shared out in proportion to the depth so that a round contact has the model's
-/// force. An elastic foundation has its own stiffness everywhere, which makes its force the gradient of a
-/// potential, half of the integral of the depth over the overlap for either surface; of an exact round body
-/// all of that below its surface. Hertz takes radius and depth of the paraboloid with the same volume and
-/// moment; its force 1.30 E* sqrt(moment) is that of a flat punch (Johnson 1985, eq. (3.36)) but for 18 %.
+/// Returns the pressure of a model on a patch, shared out in proportion to the depth so that a round contact
+/// has the model's force. An elastic foundation has its own stiffness everywhere, which makes its force the
+/// gradient of a potential, half of the integral of the depth over the overlap for either surface; of an
+/// exact round body all of that below its surface. Hertz takes radius and depth of the paraboloid with the
+/// same volume and moment; its force 1.30 E* sqrt(moment) is that of a flat punch (Johnson 1985, eq. (3.36))
+/// but for 18 %.
 PressureLaw pressureLaw(const NormalForceSettings& settings, const ContactMaterial& material,
                         const PatchMeasure& patch);
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/longest_edge.h"
+#include "base/triangle_area.h"
 #include "distance/kernels/closest_point.h"
 #include "mesh/surface/mesh_topology.h"
 #include "mesh/surface/round_geometry.h"
@@ -22,10 +23,6 @@ constexpr double kAreaOverEdge = 0.25;
 constexpr double kInwards = 0.1;
 
 using Corners = std::array<Eigen::Vector3d, 3>;
-
-double areaOf(const Corners& corners) {
-  return 0.5 * (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm();
-}
 
 /// Halves a triangle across its longest edge until that is at most `edge` long.
 template <typename Leaf>
@@ -92,7 +89,7 @@ class Cutter {
     return depth * surface_.field.perDepth(surface_.field.approachRate(point, push, exit));
   }
 
-  /// To the other body's surface, its frame.
+  /// Returns the way to the other body's surface, its frame.
   Eigen::Vector3d wayOut(const Eigen::Vector3d& target) {
     if (const RoundShape* shape = surface_.other.shape()) {
       const Eigen::Vector3d in_shape = shape->body_from_shape.inverse(Eigen::Isometry) * target;
@@ -120,7 +117,7 @@ std::vector<PressureTriangle> pressureTriangles(const PressedSurface& surface, d
   for (const OverlapFacet* facet = surface.first; facet != surface.last; ++facet) {
     if (!cutter.isDrawn(*facet)) continue;
     ++facets;
-    area += areaOf(facet->corners_in_a);
+    area += triangleArea(facet->corners_in_a);
     longest =
         std::max(longest, std::sqrt(squaredEdge(facet->corners_in_a, longestEdge(facet->corners_in_a))));
   }

@@ -10,7 +10,7 @@
 
 namespace concave_distance {
 
-/// Of B against A, about A's origin.
+/// Holds the motion of B against A, about A's origin.
 struct PatchMotion {
   const RelativeTwist& b_in_a;
   const RelativeTwist& displacement;  ///< since the last call, metres and radians

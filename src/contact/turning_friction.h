@@ -8,21 +8,21 @@
 
 namespace concave_distance {
 
-/// Where bodies roll and spin on each other.
+/// Says where bodies roll and spin on each other.
 struct TurningContact {
   Eigen::Vector3d normal_in_a;  ///< unit
   double force;                 ///< N, along the normal, > 0
   double arm;                   ///< metres: turning by an angle counts as sliding by this times the angle
 };
 
-/// How B turns against A, A's frame.
+/// Says how B turns against A, A's frame.
 struct TurningMotion {
   Eigen::Vector3d rate;   ///< rad/s
   Eigen::Vector3d angle;  ///< radians, since the last call
   double step;            ///< seconds since then
 };
 
-/// How far bristles are bent by turning, metres at the arm.
+/// Holds how far turning has bent the bristles, metres at the arm.
 struct TurningBristles {
   BristleState rolling;
   BristleState spinning;

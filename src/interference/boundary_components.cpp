@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/triangle_area.h"
 #include "mesh/surface/mesh_topology.h"
 
 namespace concave_distance::detail {
@@ -56,7 +57,7 @@ void addArea(BoundaryComponent& component, Side side, double area, const Eigen::
 }  // namespace
 
 void BoundaryComponents::build(WorkingFrame& frame, const CrossingCurves& curves, SurfacePieces (&pieces)[2],
-                               ElementSets& sets, WorkLimit& limit) {
+                               UnionFind& sets, WorkLimit& limit) {
   components_.clear();
   component_of_element_.assign(sets.size(), kNone);
   for (const CrossingSegment& segment : curves.segments()) {
@@ -85,7 +86,7 @@ void BoundaryComponents::build(WorkingFrame& frame, const CrossingCurves& curves
   joinCavities(frame, pieces, limit);
 }
 
-std::uint32_t BoundaryComponents::componentOf(std::uint32_t element, ElementSets& sets) {
+std::uint32_t BoundaryComponents::componentOf(std::uint32_t element, UnionFind& sets) {
   std::uint32_t& component = component_of_element_[sets.find(element)];
   if (component == kNone) {
     component = static_cast<std::uint32_t>(components_.size());
@@ -94,7 +95,7 @@ std::uint32_t BoundaryComponents::componentOf(std::uint32_t element, ElementSets
   return component;
 }
 
-void BoundaryComponents::sortPieces(SurfacePieces& pieces, Side side, ElementSets& sets) {
+void BoundaryComponents::sortPieces(SurfacePieces& pieces, Side side, UnionFind& sets) {
   // From here on `element` is the component.
   for (PieceEdge& edge : pieces.edges()) edge.element = componentOf(edge.element, sets);
   for (WholeTriangle& whole : pieces.wholes()) whole.element = componentOf(whole.element, sets);
@@ -114,7 +115,7 @@ void BoundaryComponents::sortPieces(SurfacePieces& pieces, Side side, ElementSet
   note(pieces.wholes(), &BoundaryComponent::first_whole, &BoundaryComponent::last_whole);
 }
 
-void BoundaryComponents::measureLoops(const CrossingCurves& curves, ElementSets& sets) {
+void BoundaryComponents::measureLoops(const CrossingCurves& curves, UnionFind& sets) {
   const std::size_t count = curves.nodes().size();
   loops_.reset(count);
   loop_vector_areas_.assign(count, Eigen::Vector3d::Zero());
@@ -142,7 +143,7 @@ void BoundaryComponents::measureSurface(WorkingFrame& frame, const SurfacePieces
   for (BoundaryComponent& component : components_) {
     forEachWholeTriangle(pieces, component, side, [&](TriangleIndex triangle) {
       const Corners c = frame.corners(side, triangle);
-      const double area = 0.5 * (*c[1] - *c[0]).cross(*c[2] - *c[0]).norm();
+      const double area = triangleArea(*c[0], *c[1], *c[2]);
       const Eigen::Vector3d normal = frame.normal(side, triangle);
       addArea(component, side, area, (*c[0] + *c[1] + *c[2]) / 3.0);
       component.facing += area * normal * normal.transpose();

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/union_find.h"
 #include "crossings.h"
-#include "element_sets.h"
 #include "surface_pieces.h"
 
 namespace concave_distance::detail {
@@ -21,10 +21,10 @@ struct BoundaryComponent {
   /// The squares of the normals, summed up by area: which way the pieces face, whatever cancels.
   Eigen::Matrix3d facing = Eigen::Matrix3d::Zero();
   Eigen::Vector3d vector_area = Eigen::Vector3d::Zero();  ///< of A's part, from the loops
-  /// Of flaps (CommonFace). Each is in both areas.
+  /// Flaps (CommonFace) have this area, which is in both bodies' areas.
   double flap_area = 0.0;
   Eigen::Vector3d flap_vector_area = Eigen::Vector3d::Zero();
-  /// What half of the common faces that face the same way adds to A's part and takes from B's.
+  /// Half of the common faces that face the same way adds this to A's part and takes it from B's.
   double shared_area = 0.0;
   Eigen::Vector3d shared_vector_area = Eigen::Vector3d::Zero();
   double loop_area = 0.0;  ///< the lengths of each loop's vector area, added up
@@ -46,24 +46,24 @@ struct BoundaryComponent {
 /// joins cavities to what is around them. Incomplete once the limit is reached.
 class BoundaryComponents {
  public:
-  void build(WorkingFrame& frame, const CrossingCurves& curves, SurfacePieces (&pieces)[2], ElementSets& sets,
+  void build(WorkingFrame& frame, const CrossingCurves& curves, SurfacePieces (&pieces)[2], UnionFind& sets,
              WorkLimit& limit);
   const std::vector<BoundaryComponent>& all() const { return components_; }
   std::vector<BoundaryComponent>& all() { return components_; }
-  /// Of each of the curves' common faces, the component that it belongs to; kNone where it belongs to none.
+  /// Returns for each of the curves' common faces the component that it belongs to; kNone: none.
   const std::vector<std::uint32_t>& componentOfCommonFace() const { return component_of_common_face_; }
   /// The loop of each node, named by one of its nodes.
   std::uint32_t loopOf(std::uint32_t node) { return loops_.find(node); }
   /// Vector area of A's side of a loop named so.
   const Eigen::Vector3d& vectorAreaOfLoop(std::uint32_t loop) const { return loop_vector_areas_[loop]; }
-  std::uint32_t componentOfNode(std::uint32_t node, ElementSets& sets) const {
+  std::uint32_t componentOfNode(std::uint32_t node, UnionFind& sets) const {
     return component_of_element_[sets.find(node)];
   }
 
  private:
-  std::uint32_t componentOf(std::uint32_t element, ElementSets& sets);
-  void sortPieces(SurfacePieces& pieces, Side side, ElementSets& sets);
-  void measureLoops(const CrossingCurves& curves, ElementSets& sets);
+  std::uint32_t componentOf(std::uint32_t element, UnionFind& sets);
+  void sortPieces(SurfacePieces& pieces, Side side, UnionFind& sets);
+  void measureLoops(const CrossingCurves& curves, UnionFind& sets);
   void measureSurface(WorkingFrame& frame, const SurfacePieces& pieces, Side side);
   void measureCommonFaces(const WorkingFrame& frame, const CrossingCurves& curves,
                           const SurfacePieces (&pieces)[2], WorkLimit& limit);
@@ -74,7 +74,7 @@ class BoundaryComponents {
   std::vector<BoundaryComponent> components_;
   std::vector<std::uint32_t> component_of_element_;
   std::vector<std::uint32_t> component_of_common_face_;
-  ElementSets loops_;
+  UnionFind loops_;
   std::vector<Eigen::Vector3d> loop_vector_areas_;
   std::vector<std::uint8_t> loop_seen_;
 };

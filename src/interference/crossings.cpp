@@ -5,6 +5,7 @@
 #include <array>
 
 #include "base/pair_key.h"
+#include "base/triangle_area.h"
 #include "mesh/surface/mesh_topology.h"
 
 namespace concave_distance::detail {
@@ -148,7 +149,7 @@ void CrossingCurves::addCommonFace(const CandidatePair& pair, const Corners& a, 
   face.corners = polygon;
   face.corner_count = count;
   for (std::size_t i = 2; i < count; ++i) {
-    const double area = 0.5 * (polygon[i - 1] - polygon[0]).cross(polygon[i] - polygon[0]).norm();
+    const double area = triangleArea(polygon[0], polygon[i - 1], polygon[i]);
     face.area += area;
     face.centroid += area / 3.0 * (polygon[0] + polygon[i - 1] + polygon[i]);
   }

@@ -12,8 +12,8 @@ namespace concave_distance::detail {
 
 inline constexpr std::uint32_t kNone = 0xffffffffU;
 
-/// Where an edge of one body crosses a triangle of the other. If a sheet is attached to an edge of a closed
-/// shell there are two: one on the curves of closed shells, one on the sheet's.
+/// A node is a place where an edge of one body crosses a triangle of the other. If a sheet is attached to an
+/// edge of a closed shell there are two: one on the curves of closed shells, one on the sheet's.
 struct CrossingNode {
   Side edge_side;  ///< whose edge
   NodeIndex low;   ///< the edge's ends, low < high
@@ -33,8 +33,8 @@ struct CrossingSegment {
   bool closed;  ///< both triangles' shells are
 };
 
-/// What two triangles in one plane have in common. Facing the same way they bound the overlap together, and
-/// the motion decides whose part counts as inside. Facing each other, and pushed into each other by the
+/// Holds what two triangles in one plane have in common. Facing the same way they bound the overlap together,
+/// and the motion decides whose part counts as inside. Facing each other, and pushed into each other by the
 /// motion, both count: a flap that encloses nothing.
 struct CommonFace {
   TriangleIndex triangle[2];

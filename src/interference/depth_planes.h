@@ -22,7 +22,7 @@ struct DepthPlane {
 /// is the least one.
 class DepthPlanes {
  public:
-  /// For facets of B the other body is A, and the reverse.
+  /// Begins with another body: for facets of B that is A, and the reverse.
   void begin(const BodyMesh& other, const Eigen::Isometry3d& a_from_other, bool facet_is_of_b);
   void clear() { planes_.clear(); }
   void add(TriangleIndex triangle);

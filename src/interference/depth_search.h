@@ -23,8 +23,8 @@ class DepthSearch {
   /// One that has been looked at in its corners.
   void add(const OverlapFacet* first, std::uint32_t facet, const std::array<ProbedPoint, 3>& corners,
            const DepthProbe& probe);
-  /// Until no part can hold a depth greater by more than `share` than the deepest one that is known, or after
-  /// `largest_count` parts. @param first facet of the region
+  /// Goes on until no part can hold a depth greater by more than `share` than the deepest one that is known,
+  /// or until there were `largest_count` parts. @param first facet of the region
   void run(const OverlapFacet* first, double share, std::size_t largest_count, DepthProbe& probe);
 
  private:

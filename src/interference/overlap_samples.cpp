@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/longest_edge.h"
+#include "base/triangle_area.h"
 #include "distance/kernels/closest_point.h"
 #include "mesh/surface/mesh_topology.h"
 #include "mesh/trees/triangle_tree.h"
@@ -29,10 +30,6 @@ Eigen::Vector3d middleOf(const Eigen::Vector3d& l, const Eigen::Vector3d& r) {
   return 0.5 * (l + r);
 }
 
-double areaOf(const std::array<Eigen::Vector3d, 3>& corners) {
-  return 0.5 * (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm();
-}
-
 Eigen::Vector3d centreOf(const std::array<Eigen::Vector3d, 3>& corners) {
   return (corners[0] + corners[1] + corners[2]) / 3.0;
 }
@@ -53,7 +50,7 @@ std::array<Eigen::Vector3d, 3> cornersOf(const Part& part) {
   return {part.corners[0].point, part.corners[1].point, part.corners[2].point};
 }
 
-/// By how much the depth in the middle of an edge differs from the mean of its ends.
+/// Returns by how much the depth in the middle of an edge differs from the mean of its ends.
 template <typename Part>
 double bendOf(const Part& part) {
   double bend = 0.0;
@@ -88,14 +85,15 @@ DeepestPoint OverlapSampler::sample(const OverlapFacet* first, const OverlapFace
                                     std::vector<OverlapSample>& samples) {
   probe_.beginRegion();
   double surface = 0.0;
-  for (const OverlapFacet* facet = first; facet != last; ++facet) surface += areaOf(facet->corners_in_a);
+  for (const OverlapFacet* facet = first; facet != last; ++facet)
+    surface += triangleArea(facet->corners_in_a);
   candidates_.clear();
   large_.clear();
   wholes_.clear();
   double integral = 0.0;
   const OverlapFacet* last_whole = nullptr;
   for (const OverlapFacet* facet = first; facet != last; ++facet) {
-    const double area = areaOf(facet->corners_in_a);
+    const double area = triangleArea(facet->corners_in_a);
     const auto index = static_cast<std::uint32_t>(facet - first);
     if (area >= kSmallShare * surface) {
       large_.push_back(index);
@@ -121,7 +119,7 @@ DeepestPoint OverlapSampler::sample(const OverlapFacet* first, const OverlapFace
 
 void OverlapSampler::integrate(const OverlapFacet& facet, const Part& whole, double allowed,
                                std::vector<OverlapSample>& samples) {
-  const double area = areaOf(facet.corners_in_a);
+  const double area = triangleArea(facet.corners_in_a);
   planes_.begin(probe_.other(facet), probe_.aFromOther(facet), facet.of_b);
   parts_.assign(1, whole);
   while (!parts_.empty()) {
@@ -151,7 +149,7 @@ void OverlapSampler::findPlanes(const OverlapFacet& facet, const Part& part) {
   }
 }
 
-// By how much the planes are wrong, at the points that are known and at the centre.
+// Returns by how much the planes are wrong, at the points that are known and at the centre.
 double OverlapSampler::worstHeight(const OverlapFacet& facet, const Part& part) {
   double worst = 0.0;
   const auto compare = [&](const ProbedPoint& at) {
@@ -174,7 +172,7 @@ void OverlapSampler::addBelowPlanes(const OverlapFacet& facet, const Part& part,
         }
         for (std::size_t k = 2; k < polygon.size(); ++k) {
           const std::array<Eigen::Vector3d, 3> corners = {polygon[0], polygon[k - 1], polygon[k]};
-          const double area = areaOf(corners);
+          const double area = triangleArea(corners);
           if (!(area > 0.0)) continue;
           for (std::size_t edge = 0; edge < 3; ++edge) {
             const Eigen::Vector3d middle = middleOf(corners[edge], corners[(edge + 1) % 3]);
@@ -187,7 +185,7 @@ void OverlapSampler::addBelowPlanes(const OverlapFacet& facet, const Part& part,
 
 void OverlapSampler::addQuadratic(const OverlapFacet& facet, const Part& part,
                                   std::vector<OverlapSample>& samples) const {
-  const double area = areaOf(cornersOf(part));
+  const double area = triangleArea(cornersOf(part));
   for (const ProbedPoint& middle : part.middles) {
     samples.push_back({middle.point, pushOf(facet), middle.exit, weightOf(facet) * area / 3.0, middle.depth});
   }

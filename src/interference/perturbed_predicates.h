@@ -24,7 +24,7 @@ class PerturbedPredicates {
  public:
   explicit PerturbedPredicates(const Motion& motion_of_b)
       : of_b_(motion_of_b), of_a_(reversed(motion_of_b)) {}
-  /// Whether an exact coincidence was met, so that the motion may have mattered.
+  /// Returns whether an exact coincidence was met, so that the motion may have mattered.
   bool tied() const { return tied_; }
 
   /// 1 where `point`, of the body `body`, lies above the other body's triangle, else -1; 0 for a triangle
@@ -42,9 +42,9 @@ class PerturbedPredicates {
     return side(triangle, body, point, on_plane);
   }
 
-  /// How the edge (p, q) of A and the edge (r, s) of B pass each other: the sign of the determinant of the
-  /// four. Neither may run parallel to a plane through the other, which is asked about only where one crosses
-  /// the plane of a triangle with the other.
+  /// Returns how the edge (p, q) of A and the edge (r, s) of B pass each other: the sign of the determinant
+  /// of the four. Neither may run parallel to a plane through the other, which is asked about only where one
+  /// crosses the plane of a triangle with the other.
   int passing(const Eigen::Vector3d& p, const Eigen::Vector3d& q, const Eigen::Vector3d& r,
               const Eigen::Vector3d& s) {
     const int sign = orientationSign(p, q, r, s);
@@ -54,8 +54,8 @@ class PerturbedPredicates {
     return signAlong(of_b_, r, s, p, q);
   }
 
-  /// Which of two planes of the other body the segment (p, q) of the body `body` meets first; see
-  /// planeOrder.
+  /// Which of two planes of the other body the segment (p, q) of the body `body` meets
+  /// first; see planeOrder.
   int order(const Eigen::Vector3d& p, const Eigen::Vector3d& q, const PlaneOnSegment& first,
             const PlaneOnSegment& second, Side body) {
     return planeOrder(p, q, first, second, motionOf(body));

@@ -22,19 +22,20 @@ class RegionBuilder {
   /// Once the limit is reached, passes find nothing. @param known for the passes, too
   void findCandidates(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
                       const std::vector<KnownNormal>& known, WorkLimit& limit);
-  /// Whether anything coincided exactly, so that another motion may give another answer.
+  /// Finds the regions for one motion. Returns whether anything coincided exactly, so that another motion may
+  /// give another answer.
   bool pass(const Motion& motion_of_b, std::vector<FoundRegion>& found, WorkLimit& limit);
   bool wasCut() const { return cut_; }
 
   const WorkingFrame& frame() const { return frame_; }
-  /// Of the last pass, to which its regions' first_facet and first_loop refer.
+  /// These belong to the last pass, whose regions' first_facet and first_loop refer to them.
   const std::vector<OverlapFacet>& facets() const { return facets_; }
   const std::vector<Eigen::Vector3d>& loopAreas() const { return loop_areas_; }
 
  private:
   void addSwallowedShells(PerturbedPredicates& predicates, Side side);
   void buildRegion(const BoundaryComponent& component, FoundRegion& found);
-  /// Of the known normals the nearest; zero: none.
+  /// Returns the nearest of the known normals; zero: none.
   Eigen::Vector3d knownNormal(const Eigen::Vector3d& centroid_in_a) const;
   void measureReach(std::vector<FoundRegion>& found);
   void listSurfaces(std::vector<FoundRegion>& found);
@@ -62,7 +63,7 @@ class RegionBuilder {
   std::vector<CandidatePair> candidates_;
   CrossingCurves curves_;
   Containment containment_;
-  ElementSets sets_;
+  UnionFind sets_;
   SurfacePieces pieces_[2];
   BoundaryComponents components_;
   OverlayDepth overlay_;

@@ -115,7 +115,7 @@ OverlayDepth::Result depthAlong(const Eigen::Vector3d& normal, WorkingFrame& fra
 }
 
 DepthAlong leastDepth(WorkingFrame& frame, const CrossingCurves& curves, const SurfacePieces (&pieces)[2],
-                      BoundaryComponents& components, const BoundaryComponent& region, ElementSets& sets,
+                      BoundaryComponents& components, const BoundaryComponent& region, UnionFind& sets,
                       const Eigen::Vector3d& known, OverlayDepth& overlay) {
   std::array<Eigen::Vector3d, kLoopDirections + 3> directions;
   std::size_t count = 0;

@@ -17,17 +17,17 @@ OverlayDepth::Result depthAlong(const Eigen::Vector3d& normal, WorkingFrame& fra
                                 const BoundaryComponents& components, const BoundaryComponent& region,
                                 OverlayDepth& overlay);
 
-/// Where the vector areas cancel: the least depth along the known normal, the vector areas of the (four
+/// Finds the least depth where the vector areas cancel: along the known normal, the vector areas of the (four
 /// largest) loops and the principal axes of how the pieces face, but for the first each both ways. Among what
 /// is the least to 1 % the direction most along the known normal counts, without one a fixed direction: of
 /// two opposite ways that are as long rounding would choose.
 /// @param known unit, or zero: none
 DepthAlong leastDepth(WorkingFrame& frame, const CrossingCurves& curves, const SurfacePieces (&pieces)[2],
-                      BoundaryComponents& components, const BoundaryComponent& region, ElementSets& sets,
+                      BoundaryComponents& components, const BoundaryComponent& region, UnionFind& sets,
                       const Eigen::Vector3d& known, OverlayDepth& overlay);
 
-/// Of a shell of the body `side` that nothing crosses: the least way until its extent and the other body's
-/// part, along the axes of both bodies' boxes, each both ways; to 1 %, as leastDepth().
+/// Finds, for a shell of the body `side` that nothing crosses, the least way until its extent and the other
+/// body's part, along the axes of both bodies' boxes, each both ways; to 1 %, as leastDepth().
 DepthAlong leastExit(WorkingFrame& frame, Side side, const SurfacePieces& pieces,
                      const BoundaryComponent& region, const Eigen::Vector3d& known);
 

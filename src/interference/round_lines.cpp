@@ -32,9 +32,9 @@ double wayOutOfSide(const RoundShape& shape, const Vector3d& from, const Vector3
 }
 
 double wayOutOfSolid(const RoundShape& shape, const Vector3d& from, const Vector3d& direction) {
-  if (shape.kind == RoundKind::Sphere) return wayOutOfBall(from, direction, shape.radius);
+  if (!hasSide(shape)) return wayOutOfBall(from, direction, shape.radius);
   const double side = wayOutOfSide(shape, from, direction);
-  if (shape.kind == RoundKind::Cylinder) {
+  if (hasFlatEnds(shape)) {
     if (direction.z() == 0.0) return side;
     const double cap = std::copysign(shape.half_length, direction.z());
     return std::min(side, (cap - from.z()) / direction.z());
@@ -54,10 +54,10 @@ double wayOut(const RoundShape& shape, const Vector3d& from, const Vector3d& dir
 
 LineCuts kinksOf(const RoundShape& shape, const Vector3d& from, const Vector3d& to) {
   LineCuts kinks;
-  if (shape.kind == RoundKind::Sphere) return kinks;
+  if (!hasSide(shape)) return kinks;
   const Vector3d d = to - from;
   const double h = shape.half_length;
-  if (shape.kind == RoundKind::Capsule) {
+  if (!hasFlatEnds(shape)) {
     for (const double end : {-h, h}) kinks.add((end - from.z()) / d.z());
   } else {
     // As far below the cap as below the side: rho = r - h + |z|.

@@ -10,7 +10,7 @@
 
 namespace concave_distance::detail {
 
-/// How far from `from`, inside the solid, along a unit direction the solid ends, metres; no farther than
+/// Returns how far from `from`, inside the solid, the solid ends along a unit direction, metres; at most
 /// `farthest`. The point there is a few machine epsilons of the solid's size from its surface.
 double wayOut(const RoundShape& shape, const Eigen::Vector3d& from, const Eigen::Vector3d& direction,
               double farthest);
@@ -29,7 +29,7 @@ struct LineCuts {
     std::sort(shares.begin(), shares.begin() + static_cast<std::ptrdiff_t>(count));
     return shares;
   }
-  /// Of a x^2 + b x + c.
+  /// Adds the roots of a x^2 + b x + c.
   void addRoots(double a, double b, double c) {
     const double root = b * b - 4.0 * a * c;
     if (root < 0.0) return;
@@ -39,7 +39,7 @@ struct LineCuts {
   }
 };
 
-/// Where a line changes from one piece of the depth below a solid's surface to another.
+/// Returns where a line changes from one piece of the depth below a solid's surface to another.
 LineCuts kinksOf(const RoundShape& shape, const Eigen::Vector3d& from, const Eigen::Vector3d& to);
 
 }  // namespace concave_distance::detail

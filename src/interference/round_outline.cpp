@@ -98,7 +98,7 @@ void RoundOutline::addArc(double from, double width, const Vector3d& start, cons
 void RoundOutline::findBends(double from, double width) {
   bend_count_ = 0;
   const double across = std::hypot(normal_.x(), normal_.y());
-  if (shape_->kind == RoundKind::Sphere || !(across > 0.0)) return;
+  if (!hasSide(*shape_) || !(across > 0.0)) return;
   for (const double end : {-shape_->half_length, shape_->half_length}) {
     const double level = (normal_.dot(centre_) - normal_.z() * end) / across;
     const double half_squared = shape_->radius * shape_->radius - level * level;

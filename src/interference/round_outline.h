@@ -8,8 +8,8 @@
 
 namespace concave_distance::detail {
 
-/// Of an edge of a triangle: the same point whichever way the edge runs, so that the triangles on both of its
-/// sides agree on where it enters a solid.
+/// Returns the lowest point of a triangle's edge: the same whichever way the edge runs, so that the triangles
+/// on both of its sides agree on where it enters a solid.
 LowestPoint lowestOnEdge(const RoundShape& shape, const Eigen::Vector3d& from, const Eigen::Vector3d& to);
 
 /// The border of the part of a triangle inside a round solid, which is convex: straight pieces of the
@@ -20,7 +20,7 @@ class RoundOutline {
     Eigen::Vector3d from;
     Eigen::Vector3d to;
   };
-  /// On one smooth piece of the solid's surface.
+  /// An arc lies on one smooth piece of the solid's surface.
   struct Arc {
     double from;  ///< angle as seen from the centre, radians
     double to;    ///< at most 2 pi more
@@ -58,7 +58,7 @@ class RoundOutline {
   const Eigen::Vector3d& normal() const { return normal_; }
   const RoundShape& shape() const { return *shape_; }
 
-  /// Where the solid ends, or the triangle, in a direction from the centre.
+  /// Returns where the solid ends, or the triangle, in a direction from the centre.
   Eigen::Vector3d towards(const Eigen::Vector3d& direction) const;
   Eigen::Vector3d border(double angle) const;
 

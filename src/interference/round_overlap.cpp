@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <tuple>
 
 #include "mesh/surface/mesh_topology.h"
@@ -96,24 +95,13 @@ bool RoundOverlap::collect(WorkLimit& limit) {
         return signedDistance(shape, corner) > 0.0;
       });
       entries_.push_back({triangle, 0, 0, lowest, corners, pair_->shape_from_mesh * normal, leaves,
-                          mesh.joints().isHidden(triangle)});
+                          mesh.shellContacts().isHidden(triangle)});
     }
   }
   return true;
 }
 
-std::uint32_t RoundOverlap::root(std::uint32_t entry) {
-  while (parents_[entry] != entry) entry = parents_[entry] = parents_[parents_[entry]];
-  return entry;
-}
-
-void RoundOverlap::unite(std::uint32_t l, std::uint32_t r) {
-  l = root(l);
-  r = root(r);
-  parents_[std::max(l, r)] = std::min(l, r);
-}
-
-/// Over edges that enter the solid.
+/// Joins entries over edges that enter the solid.
 void RoundOverlap::joinEntries() {
   const MeshTopology& topology = pair_->mesh.topology();
   const std::size_t triangles = pair_->mesh.surface().triangleCount();
@@ -129,20 +117,20 @@ void RoundOverlap::joinEntries() {
     stamps_[entries_[i].triangle.value] = stamp_;
     place_of_triangle_[entries_[i].triangle.value] = static_cast<std::uint32_t>(i);
   }
-  parents_.resize(entries_.size());
-  std::iota(parents_.begin(), parents_.end(), 0U);
+  patches_.reset(entries_.size());
   for (std::size_t i = 0; i < entries_.size(); ++i) {
     for (std::size_t k = 0; k < 3; ++k) {
       const TriangleIndex across = topology.triangle_across_edge[entries_[i].triangle.value][k];
       if (across == kNoTriangle || stamps_[across.value] != stamp_) continue;
       const std::uint32_t other = place_of_triangle_[across.value];
-      if (root(other) == root(static_cast<std::uint32_t>(i))) continue;
+      if (patches_.areJoined(other, static_cast<std::uint32_t>(i))) continue;
       const TrianglePoints& corners = entries_[i].corners;
       if (lowestOnEdge(pair_->shape, corners[k], corners[(k + 1) % 3]).value < 0.0)
-        unite(static_cast<std::uint32_t>(i), other);
+        patches_.unite(static_cast<std::uint32_t>(i), other);
     }
   }
-  for (std::size_t i = 0; i < entries_.size(); ++i) entries_[i].patch = root(static_cast<std::uint32_t>(i));
+  for (std::size_t i = 0; i < entries_.size(); ++i)
+    entries_[i].patch = patches_.find(static_cast<std::uint32_t>(i));
 }
 
 /// Patches bound one region where material of the mesh joins them. It is looked for on the lines between
@@ -165,11 +153,11 @@ void RoundOverlap::joinPatches() {
     for (std::size_t j = i + 1; j < count; ++j) {
       const Entry& from = entries_[deepest_[i]];
       const Entry& to = entries_[deepest_[j]];
-      if (root(from.patch) != root(to.patch)) joinAlong(from, to);
+      if (!patches_.areJoined(from.patch, to.patch)) joinAlong(from, to);
     }
   }
   joinHidden();
-  for (Entry& entry : entries_) entry.region = root(entry.patch);
+  for (Entry& entry : entries_) entry.region = patches_.find(entry.patch);
 }
 
 /// A patch that is hidden all over bounds what another patch of its shell does.
@@ -178,14 +166,14 @@ void RoundOverlap::joinHidden() {
   for (const Entry& entry : entries_) {
     if (!entry.hidden) continue;
     const auto is_seen = [&](std::uint32_t other) {
-      return root(entries_[other].patch) == root(entry.patch);
+      return patches_.areJoined(entries_[other].patch, entry.patch);
     };
     if (std::any_of(deepest_.begin(), deepest_.end(), is_seen)) continue;
     const std::uint32_t shell = shells[entry.triangle.value];
     const auto same = std::find_if(deepest_.begin(), deepest_.end(), [&](std::uint32_t other) {
       return shells[entries_[other].triangle.value] == shell;
     });
-    if (same != deepest_.end()) unite(entries_[*same].patch, entry.patch);
+    if (same != deepest_.end()) patches_.unite(entries_[*same].patch, entry.patch);
   }
 }
 
@@ -195,12 +183,12 @@ void RoundOverlap::joinAlong(const Entry& from, const Entry& to) {
   Crossing before{0.0, from.normal.dot(way), from.patch};
   crossings_.push_back({1.0, to.normal.dot(way), to.patch});
   for (const Crossing& crossing : crossings_) {
-    if (before.outward < 0.0 && crossing.outward > 0.0) unite(before.patch, crossing.patch);
+    if (before.outward < 0.0 && crossing.outward > 0.0) patches_.unite(before.patch, crossing.patch);
     before = crossing;
   }
 }
 
-/// Of the mesh with a segment inside the solid, but at its ends; ascending.
+/// Finds where the mesh crosses a segment inside the solid, but at its ends; ascending.
 void RoundOverlap::findCrossings(const Vector3d& from, const Vector3d& to) {
   constexpr double kEnd = 1e-9;
   crossings_.clear();

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/union_find.h"
 #include "concave_distance/interference/interference.h"
 #include "distance/bound/round_certificate.h"
 #include "round_section.h"
@@ -56,8 +57,6 @@ class RoundOverlap {
   void joinPatches();
   void joinHidden();
   void joinAlong(const Entry& from, const Entry& to);
-  std::uint32_t root(std::uint32_t entry);
-  void unite(std::uint32_t l, std::uint32_t r);
   void findCrossings(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
   bool meshHolds(const Eigen::Vector3d& point) const;
 
@@ -95,7 +94,7 @@ class RoundOverlap {
   double rounding_ = 0.0;
   std::vector<std::uint32_t> stack_;
   std::vector<Entry> entries_;
-  std::vector<std::uint32_t> parents_;
+  UnionFind patches_;                             ///< of entries
   std::vector<std::uint32_t> place_of_triangle_;  ///< in entries_, where the stamp is the present one
   std::vector<std::uint32_t> stamps_;
   std::uint32_t stamp_ = 0;

@@ -16,8 +16,8 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-// A core may lie along the other surface: the patch's middle is that of what is within this share of the
-// depth.
+// A core may lie along the other surface: the patch's middle is that of what is within this share
+// of the depth.
 constexpr double kPlateau = 0.1;
 constexpr int kMostSteps = 60;
 constexpr int kRimPoints = 16;
@@ -83,9 +83,9 @@ double PairOverlap::plateauEnd(double from, double to, double level) const {
   return from;
 }
 
-/// By the solid's points that are farthest out: its ends, of a cylinder points all around them.
+/// Looks at the solid's points that are farthest out: its ends, of a cylinder points all around them.
 bool PairOverlap::holdsSolid() const {
-  const bool is_round = solid_.kind != RoundKind::Cylinder;
+  const bool is_round = !hasFlatEnds(solid_);
   for (const double end : {-solid_.half_length, solid_.half_length}) {
     for (int i = 0; i < (is_round ? 1 : kRimPoints); ++i) {
       const double angle = 2.0 * kPi * i / kRimPoints;
@@ -160,7 +160,7 @@ std::optional<double> PairOverlap::border(const Vector3d& direction) const {
 
 bool PairOverlap::integrate(std::vector<OverlapSample>& samples, bool solid_is_a,
                             const Isometry3d& a_from_solid) {
-  const int parts = own_.kind == RoundKind::Sphere && solid_.kind == RoundKind::Sphere ? 6 : 16;
+  const int parts = !hasSide(own_) && !hasSide(solid_) ? 6 : 16;
   const auto direction_at = [&](double angle) {
     return Vector3d(std::cos(angle) * axis_u_ + std::sin(angle) * axis_v_);
   };
@@ -233,15 +233,20 @@ void PairOverlap::report(bool solid_is_a, const Isometry3d& a_from_solid, Interf
   region.along_normal_b_in_a = a_from_solid * (solid_is_a ? lowest_ : below);
 }
 
+/// Orders the solids by whose surface is integrated: a sphere's where there is one, else a capsule's; of two
+/// of a kind that of the smaller.
+std::tuple<bool, bool, double> rankOf(const RoundShape& shape) {
+  return {hasFlatEnds(shape), hasSide(shape), shape.radius};
+}
+
 }  // namespace
 
 bool findRoundPairOverlap(const BodyMesh& a, const BodyMesh& b, const Isometry3d& a_from_b,
                           Interference& result) {
   const RoundShape& shape_a = *a.shape();
   const RoundShape& shape_b = *b.shape();
-  if (shape_a.kind == RoundKind::Cylinder && shape_b.kind == RoundKind::Cylinder) return false;
-  // A sphere's surface where there is one, else a capsule's; of two that of the smaller.
-  const bool solid_is_a = std::tie(shape_b.kind, shape_b.radius) < std::tie(shape_a.kind, shape_a.radius);
+  if (hasFlatEnds(shape_a) && hasFlatEnds(shape_b)) return false;
+  const bool solid_is_a = rankOf(shape_b) < rankOf(shape_a);
   const Isometry3d a_from_solid = solid_is_a ? shape_a.body_from_shape : a_from_b * shape_b.body_from_shape;
   const Isometry3d a_from_own = solid_is_a ? a_from_b * shape_b.body_from_shape : shape_a.body_from_shape;
   PairOverlap overlap(solid_is_a ? shape_b : shape_a, solid_is_a ? shape_a : shape_b,

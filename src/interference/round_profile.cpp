@@ -20,13 +20,13 @@ ProfileTail times(double factor, const ProfileTail& tail) {
 
 RoundProfile::RoundProfile(const RoundShape& shape) : shape_(shape) {
   const double h = shape.half_length;
-  const bool is_round = shape.kind != RoundKind::Cylinder;
+  const bool is_round = !hasFlatEnds(shape);
   wide_height_ = is_round ? h + 0.3 * shape.radius : h;
   const ProfileTail half = times(shape.radius * shape.radius, ofSide(0.0));
   whole_ = {2.0 * half.volume, 0.0, 2.0 * half.cubed, 2.0 * half.area};
 }
 
-/// Of a half ball on the end of the side.
+/// Returns the integrals of a half ball on the end of the side.
 ProfileTail RoundProfile::ofEnd(double height, double rho) const {
   const double r = shape_.radius;
   const double y = std::clamp(height - shape_.half_length, 0.0, r);
@@ -38,21 +38,21 @@ ProfileTail RoundProfile::ofEnd(double height, double rho) const {
           r / (r + y)};
 }
 
-/// Of what is above a height of the side.
+/// Returns the integrals of what is above a height of the side.
 ProfileTail RoundProfile::ofSide(double height) const {
   const double r = shape_.radius;
   const double h = shape_.half_length;
   const double length = h - height;
   const ProfileTail side{length, 0.5 * length * (h + height), r * length, length / r};
-  return shape_.kind == RoundKind::Cylinder ? side : plus(side, ofEnd(h, r));
+  return hasFlatEnds(shape_) ? side : plus(side, ofEnd(h, r));
 }
 
 ProfileTail RoundProfile::above(double height, double rho) const {
   const double h = shape_.half_length;
-  if (height >= h) return shape_.kind == RoundKind::Cylinder ? ProfileTail{} : ofEnd(height, rho);
+  if (height >= h) return hasFlatEnds(shape_) ? ProfileTail{} : ofEnd(height, rho);
   if (height > -h) return ofSide(height);
   const ProfileTail all = times(1.0 / (rho * rho), whole_);
-  if (shape_.kind == RoundKind::Cylinder) return all;
+  if (hasFlatEnds(shape_)) return all;
   const ProfileTail end = ofEnd(-height, rho);
   return plus(all, {-end.volume, end.raised, -end.cubed, -end.area});
 }

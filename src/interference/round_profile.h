@@ -22,9 +22,9 @@ class RoundProfile {
   /// @param height of a point of the surface, @param rho its distance from the axis
   ProfileTail above(double height, double rho) const;
   ProfileTail below(double height, double rho) const;
-  /// Over all of the solid, divided by nothing.
+  /// Returns the integrals over all of the solid, divided by nothing.
   const ProfileTail& whole() const { return whole_; }
-  /// Between this height and minus it the surface is at least 0.95 radii from the axis.
+  /// Returns a height such that between it and minus it the surface is at least 0.95 radii from the axis.
   double wideHeight() const { return wide_height_; }
   const RoundShape& shape() const { return shape_; }
 

@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 // Of a region that is a smaller share of the solid, or leaves a smaller share of it, roundings of the solid's
 // volume are worth more than the errors of ShallowRoundVolume, which needs a surface this share of the radius
 // from the core.
-constexpr double kSmallShare = 1e-8;
+constexpr double kNegligibleShare = 1e-8;
 constexpr double kFarFromCore = 0.5;
 // A share this small may be rounded below 0, and then seems to be all of the solid.
 constexpr double kRoundedAway = 1e-12;
@@ -30,7 +30,7 @@ double restOf(const RoundVolume& volume) {
 /// Shells that meet others may overlap them, so that all together may hold more than the solid: each has a
 /// volume of its own.
 RoundVolume& RoundOverlap::volumeOfShell(TriangleIndex triangle) {
-  const bool meet = !pair_->mesh.joints().isEmpty();
+  const bool meet = !pair_->mesh.shellContacts().isEmpty();
   const std::uint32_t shell = meet ? pair_->mesh.topology().shell_of_triangle[triangle.value] : 0;
   std::size_t i = 0;
   while (i < volume_count_ && volumes_[i].shell != shell) ++i;
@@ -49,7 +49,7 @@ void RoundOverlap::measureVolume(const Group& group, bool is_only, InterferenceR
     rest = std::max(rest, restOf(volumes_[i].volume));
   }
   const int side = sideOf();
-  if (rest < kSmallShare && leastFromCore(side) > kFarFromCore * pair_->shape.radius)
+  if (rest < kNegligibleShare && leastFromCore(side) > kFarFromCore * pair_->shape.radius)
     return measureShallowVolume(group, is_only, side, region);
   if (volume_count_ > 1) return addShells(region);
   const RoundVolume& volume = volumes_.front().volume;
@@ -93,9 +93,9 @@ void RoundOverlap::setVolume(double volume, const Vector3d& moment, double area,
   (shape_is_a_ ? region.surface_area_a : region.surface_area_b) = area;
 }
 
-/// Of a cylinder the end that all samples are well on the way to, 1 or -1; else 0.
+/// Returns the end of a cylinder that all samples are well on the way to, 1 or -1; else 0.
 int RoundOverlap::sideOf() const {
-  if (pair_->shape.kind != RoundKind::Cylinder) return 0;
+  if (!hasFlatEnds(pair_->shape)) return 0;
   double least = std::numeric_limits<double>::infinity();
   double most = -least;
   for (const RoundSample& sample : samples_) {
@@ -110,7 +110,7 @@ int RoundOverlap::sideOf() const {
 double RoundOverlap::leastFromCore(int side) const {
   double least = std::numeric_limits<double>::infinity();
   if (side != 0) return least;
-  const bool is_cylinder = pair_->shape.kind == RoundKind::Cylinder;
+  const bool is_cylinder = hasFlatEnds(pair_->shape);
   for (const RoundSample& sample : samples_) {
     const Vector3d out = sample.point - corePoint(pair_->shape, sample.point);
     least = std::min(least, is_cylinder ? sample.point.head<2>().norm() : out.norm());

@@ -1,4 +1,4 @@
-// What a region of overlap of a round solid and a mesh measures.
+// Measures a region of overlap of a round solid and a mesh.
 #include <algorithm>
 #include <cmath>
 #include <limits>

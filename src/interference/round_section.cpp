@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/pi.h"
+#include "base/triangle_area.h"
 #include "gauss_points.h"
 #include "mesh/surface/round_geometry.h"
 #include "round_lines.h"
@@ -15,7 +16,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Of the distance from the core: triangles up to these sizes take 3 and 6 points.
+// Triangles up to these shares of the distance from the core take 3 and 6 points.
 constexpr double kSmall = 0.05;
 constexpr double kMedium = 0.3;
 // Parts of a section are cut about the core where that is nearer than this share of their length.
@@ -70,7 +71,7 @@ void RoundSection::integrate(const RoundShape& shape, const TrianglePoints& tria
     return signedDistance(shape, corner) <= 0.0;
   });
   if (inside) return addInside(sparse);
-  if (shape.kind != RoundKind::Sphere && core_ > kFarCore * shape.radius) moveCentre();
+  if (hasSide(shape) && core_ > kFarCore * shape.radius) moveCentre();
   outline_.find(shape, triangle, normal_, centre_);
   for (const RoundOutline::Straight& straight : outline_.straights()) {
     volume.addTriangle({centre_, straight.from, straight.to});
@@ -82,9 +83,9 @@ void RoundSection::integrate(const RoundShape& shape, const TrianglePoints& tria
   }
 }
 
-/// Where the depth hardly changes its deepest point may be at the border: to the middle of the plane's
-/// section, which is symmetrical about the axis as seen on the plane, or as far towards it as the triangle
-/// goes.
+/// Where the depth hardly changes its deepest point may be at the border: to the middle of the
+/// plane's section, which is symmetrical about the axis as seen on the plane, or as far towards it as
+/// the triangle goes.
 void RoundSection::moveCentre() {
   const Vector3d foot = normal_.dot(centre_) * normal_;
   const Vector3d axis = Vector3d::UnitZ() - normal_.z() * normal_;
@@ -103,17 +104,17 @@ void RoundSection::addInside(bool sparse) {
   const Vector3d& a = triangle_[0];
   const Vector3d& b = triangle_[1];
   const Vector3d& c = triangle_[2];
-  const double area = 0.5 * (b - a).cross(c - a).norm();
+  const double area = triangleArea(a, b, c);
   fan_->push_back(triangle_);
   volume_->addTriangle(triangle_);
   if (sparse) return add((a + b + c) / 3.0, area);
   const double size =
       std::sqrt(std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()}));
   const double room = shape_->radius + signedDistance(*shape_, centre_);
-  const bool bends = shape_->kind == RoundKind::Cylinder &&
-                     std::any_of(triangle_.begin(), triangle_.end(), [&](const Vector3d& corner) {
-                       return outwardDirection(*shape_, corner).dot(outwardDirection(*shape_, centre_)) < 0.5;
-                     });
+  const bool bends =
+      hasFlatEnds(*shape_) && std::any_of(triangle_.begin(), triangle_.end(), [&](const Vector3d& corner) {
+        return outwardDirection(*shape_, corner).dot(outwardDirection(*shape_, centre_)) < 0.5;
+      });
   if (size > kMedium * room || bends) {
     fan_->pop_back();
     for (std::size_t k = 0; k < 3; ++k) addStraight({triangle_[k], triangle_[(k + 1) % 3]});
@@ -153,12 +154,12 @@ void RoundSection::addStraight(const RoundOutline::Straight& piece) {
 /// Whether the depth is as good as quadratic between two points.
 bool RoundSection::bendsLittle(const Vector3d& from, const Vector3d& to) const {
   const Vector3d way = to - from;
-  const double across = shape_->kind == RoundKind::Cylinder ? way.head<2>().norm() : way.norm();
+  const double across = hasFlatEnds(*shape_) ? way.head<2>().norm() : way.norm();
   return across <= kBendsLittle * core_;
 }
 
-/// Of a ball: by the angle about the circle's middle, of which the integrals are trigonometric polynomials.
-/// So they are the same however edges cut the circle.
+/// Integrates an arc of a ball by the angle about the circle's middle, of which the integrals are
+/// trigonometric polynomials. So they are the same however edges cut the circle.
 void RoundSection::addCircleArc(const RoundOutline::Arc& arc) {
   const Vector3d middle = normal_.dot(centre_) * normal_;
   const double turn = turnAbout(middle, arc, normal_, centre_);
@@ -185,9 +186,10 @@ void RoundSection::addCircleArc(const RoundOutline::Arc& arc) {
   }
 }
 
-/// In parts along their chords: exact where the border is straight, as that of a cylinder on its side.
+/// Integrates an arc in parts along their chords: exact where the border is straight, as that of a cylinder
+/// on its side.
 void RoundSection::addArc(const RoundOutline::Arc& arc) {
-  if (shape_->kind == RoundKind::Sphere) return addCircleArc(arc);
+  if (!hasSide(*shape_)) return addCircleArc(arc);
   const double width = arc.to - arc.from;
   if (width < kWidestChord && isNearlyStraight(arc.start, arc.end))
     return addArcPart(GaussRule(kGaussThree), arc.start, arc.end);
@@ -236,7 +238,8 @@ void RoundSection::addToFan(const Vector3d& start, std::size_t count, const Vect
   fan_->push_back({centre_, before, end});
 }
 
-/// In rings around the core where that is near, for the fields of RoundVolume, and cut at the kinks.
+/// Integrates in rings around the core where that is near, for the fields of RoundVolume, and cut
+/// at the kinks.
 /// @param weight of the whole ray: twice the area that it stands for
 void RoundSection::addRay(const Vector3d& end, double weight) {
   LineCuts kinks = kinksOf(*shape_, centre_, end);

@@ -165,8 +165,7 @@ void RoundVolume::chooseWhole() {
   const double times = std::floor(volume_ / whole_volume_);
   volume_ -= times * whole_volume_;
   area_ -= times * 2.0 * kPi * profile_.whole().area;
-  if (profile_.shape().kind == RoundKind::Cylinder)
-    area_ += (volume_ - flux_along_) / profile_.shape().half_length;
+  if (hasFlatEnds(profile_.shape())) area_ += (volume_ - flux_along_) / profile_.shape().half_length;
   area_ = std::max(0.0, area_);
 }
 

@@ -24,7 +24,7 @@ double ratio(double radius, double distance, int power) {
 
 void ShallowRoundVolume::add(const RoundSample& sample) {
   const Vector3d& p = sample.point;
-  if (shape_.kind == RoundKind::Cylinder) {
+  if (hasFlatEnds(shape_)) {
     flux_outward_ += sample.area * p.head<2>().dot(sample.normal.head<2>()) / shape_.radius;
     flux_along_ += sample.area * p.z() * sample.normal.z() / shape_.half_length;
     if (side_ != 0) {
@@ -75,14 +75,14 @@ void ShallowRoundVolume::addCore(double from, double to) {
   const double r = shape_.radius;
   const double h = shape_.half_length;
   const double disc = kPi * r * r;
-  if (shape_.kind == RoundKind::Sphere) {
+  if (!hasSide(shape_)) {
     ends_ += 4.0 / 3.0 * disc * r;
   } else if (side_ != 0) {
     if (from < 0.0 && to > 0.0) middle_ += 2.0 * h * disc;
   } else {
     middle_ += disc * (to - from);
     moment_.z() += 0.5 * disc * (to * to - from * from);
-    if (shape_.kind != RoundKind::Capsule) return;
+    if (hasFlatEnds(shape_)) return;
     for (const double end : {-1.0, 1.0}) {
       if (end < 0.0 ? from > -h : to < h) continue;
       ends_ += 2.0 / 3.0 * disc * r;
@@ -94,7 +94,7 @@ void ShallowRoundVolume::addCore(double from, double to) {
 // By the flux of fields that leave the solid straight: what does not leave through the mesh does so there.
 double ShallowRoundVolume::area() const {
   const double around = (3.0 * ends_ + 2.0 * middle_) / shape_.radius - flux_outward_;
-  const double caps = shape_.kind == RoundKind::Cylinder ? middle_ / shape_.half_length - flux_along_ : 0.0;
+  const double caps = hasFlatEnds(shape_) ? middle_ / shape_.half_length - flux_along_ : 0.0;
   return std::max(0.0, around + caps);
 }
 

@@ -1,28 +1,11 @@
 #include "surface_pieces.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
-#include "base/pair_key.h"
 #include "mesh/surface/mesh_topology.h"
 
 namespace concave_distance::detail {
-namespace {
-
-/// Parameters farther apart than this are in their order in spite of rounding.
-constexpr double kSureOrder = 0x1.0p-46;
-
-std::uint64_t edgeKey(NodeIndex p, NodeIndex q) {
-  return pairKey(std::min(p, q), std::max(p, q));
-}
-
-std::uint64_t edgeKey(const CrossingNode& node) {
-  return edgeKey(node.low, node.high);
-}
-
-}  // namespace
-
 void SurfacePieces::startStamp(const WorkingFrame& frame) {
   const SurfaceMesh& surface = frame.surface(side_);
   if (vertex_marks_.size() < surface.vertexCount()) vertex_marks_.resize(surface.vertexCount());
@@ -34,9 +17,8 @@ void SurfacePieces::startStamp(const WorkingFrame& frame) {
 }
 
 void SurfacePieces::collect(WorkingFrame& frame, PerturbedPredicates& predicates, Containment& containment,
-                            const CrossingCurves& curves, Side side, ElementSets& sets) {
+                            const CrossingCurves& curves, Side side, UnionFind& sets) {
   side_ = side;
-  contradiction_ = kNone;
   edges_.clear();
   wholes_.clear();
   waiting_.clear();
@@ -58,7 +40,7 @@ void SurfacePieces::collect(WorkingFrame& frame, PerturbedPredicates& predicates
     const CrossingSegment& segment = curves.segments()[s];
     segment_after_node_[side == Side::A ? segment.start : segment.end] = s;
   }
-  sortEdgeNodes(frame, predicates, curves);
+  crossed_edges_.collect(frame, predicates, curves, side, segments_);
   seedFromEdges(curves, sets);
   flood(frame, sets);
   seedFromLoops(frame, predicates, containment, curves, sets);
@@ -71,64 +53,7 @@ void SurfacePieces::collect(WorkingFrame& frame, PerturbedPredicates& predicates
   }
 }
 
-void SurfacePieces::sortEdgeNodes(WorkingFrame& frame, PerturbedPredicates& predicates,
-                                  const CrossingCurves& curves) {
-  const std::vector<CrossingNode>& nodes = curves.nodes();
-  edge_nodes_.clear();
-  for (const std::uint32_t s : segments_) {
-    const CrossingSegment& segment = curves.segments()[s];
-    for (const std::uint32_t n : {segment.start, segment.end}) {
-      if (nodes[n].edge_side == side_) edge_nodes_.push_back(n);
-    }
-  }
-  std::sort(edge_nodes_.begin(), edge_nodes_.end(), [&](std::uint32_t l, std::uint32_t r) {
-    const std::uint64_t key_l = edgeKey(nodes[l]);
-    const std::uint64_t key_r = edgeKey(nodes[r]);
-    if (key_l != key_r) return key_l < key_r;
-    if (nodes[l].parameter != nodes[r].parameter) return nodes[l].parameter < nodes[r].parameter;
-    return l < r;
-  });
-  edge_nodes_.erase(std::unique(edge_nodes_.begin(), edge_nodes_.end()), edge_nodes_.end());
-  crossed_edges_.clear();
-  for (std::uint32_t i = 0; i < edge_nodes_.size(); ++i) {
-    const std::uint64_t key = edgeKey(nodes[edge_nodes_[i]]);
-    if (crossed_edges_.empty() || crossed_edges_.back().key != key) crossed_edges_.push_back({key, i, i});
-    // What rounding may have swapped is put right exactly.
-    std::uint32_t j = i;
-    while (j > crossed_edges_.back().first &&
-           before(frame, predicates, nodes[edge_nodes_[j]], nodes[edge_nodes_[j - 1]])) {
-      std::swap(edge_nodes_[j], edge_nodes_[j - 1]);
-      --j;
-    }
-    crossed_edges_.back().last = i + 1;
-  }
-  for (const CrossedEdge& edge : crossed_edges_) {
-    for (std::uint32_t i = edge.first + 1; i < edge.last; ++i) {
-      if (nodes[edge_nodes_[i]].enters == nodes[edge_nodes_[i - 1]].enters) contradiction_ = edge_nodes_[i];
-    }
-  }
-}
-
-bool SurfacePieces::before(WorkingFrame& frame, PerturbedPredicates& predicates, const CrossingNode& l,
-                           const CrossingNode& r) const {
-  if (std::abs(l.parameter - r.parameter) > kSureOrder) return l.parameter < r.parameter;
-  const auto plane = [&](const CrossingNode& node) {
-    const Corners corners = frame.corners(other(side_), node.triangle);
-    return PlaneOnSegment{{corners[0], corners[1], corners[2]}, node.enters ? 1 : -1};
-  };
-  return predicates.order(frame.point(side_, l.low), frame.point(side_, l.high), plane(l), plane(r), side_) <
-         0;
-}
-
-const SurfacePieces::CrossedEdge* SurfacePieces::crossedEdge(NodeIndex p, NodeIndex q) const {
-  const std::uint64_t key = edgeKey(p, q);
-  const auto found =
-      std::lower_bound(crossed_edges_.begin(), crossed_edges_.end(), key,
-                       [](const CrossedEdge& edge, std::uint64_t sought) { return edge.key < sought; });
-  return found != crossed_edges_.end() && found->key == key ? &*found : nullptr;
-}
-
-std::uint32_t SurfacePieces::markInside(NodeIndex vertex, ElementSets& sets) {
+std::uint32_t SurfacePieces::markInside(NodeIndex vertex, UnionFind& sets) {
   Mark& mark = vertex_marks_[vertex.value];
   if (mark.stamp != stamp_) {
     mark = {stamp_, sets.add()};
@@ -137,10 +62,10 @@ std::uint32_t SurfacePieces::markInside(NodeIndex vertex, ElementSets& sets) {
   return mark.value;
 }
 
-void SurfacePieces::seedFromEdges(const CrossingCurves& curves, ElementSets& sets) {
-  for (const CrossedEdge& edge : crossed_edges_) {
-    const std::uint32_t first = edge_nodes_[edge.first];
-    const std::uint32_t last = edge_nodes_[edge.last - 1];
+void SurfacePieces::seedFromEdges(const CrossingCurves& curves, UnionFind& sets) {
+  for (const CrossedEdges::Edge& edge : crossed_edges_.edges()) {
+    const std::uint32_t first = crossed_edges_.node(edge.first);
+    const std::uint32_t last = crossed_edges_.node(edge.last - 1);
     const CrossingNode& node = curves.nodes()[first];
     if (!node.enters) sets.unite(markInside(node.low, sets), first);
     if (curves.nodes()[last].enters) sets.unite(markInside(node.high, sets), last);
@@ -150,15 +75,16 @@ void SurfacePieces::seedFromEdges(const CrossingCurves& curves, ElementSets& set
 // Where only the other body's edges run through a triangle, its corners may lie inside all the same: a pit in
 // the other body's surface meets it.
 void SurfacePieces::seedFromLoops(WorkingFrame& frame, PerturbedPredicates& predicates,
-                                  Containment& containment, const CrossingCurves& curves, ElementSets& sets) {
+                                  Containment& containment, const CrossingCurves& curves, UnionFind& sets) {
   TriangleIndex previous = kNoTriangle;
   for (const std::uint32_t s : segments_) {
     const TriangleIndex triangle = curves.segments()[s].triangle[at(side_)];
     if (triangle == previous) continue;
     previous = triangle;
     const TriangleNodes& nodes = frame.surface(side_).triangle(triangle);
-    if (isInside(nodes[0]) || crossedEdge(nodes[0], nodes[1]) != nullptr ||
-        crossedEdge(nodes[1], nodes[2]) != nullptr || crossedEdge(nodes[2], nodes[0]) != nullptr)
+    if (isInside(nodes[0]) || crossed_edges_.find(nodes[0], nodes[1]) != nullptr ||
+        crossed_edges_.find(nodes[1], nodes[2]) != nullptr ||
+        crossed_edges_.find(nodes[2], nodes[0]) != nullptr)
       continue;
     if (containment.winding(frame, predicates, side_, frame.point(side_, nodes[0])) > 0) {
       const std::uint32_t element = markInside(nodes[0], sets);
@@ -169,7 +95,7 @@ void SurfacePieces::seedFromLoops(WorkingFrame& frame, PerturbedPredicates& pred
   }
 }
 
-void SurfacePieces::flood(const WorkingFrame& frame, ElementSets& sets, std::uint32_t open_shell) {
+void SurfacePieces::flood(const WorkingFrame& frame, UnionFind& sets, std::uint32_t open_shell) {
   const SurfaceMesh& surface = frame.surface(side_);
   const MeshTopology& topology = frame.body(side_).topology();
   while (!waiting_.empty()) {
@@ -187,14 +113,14 @@ void SurfacePieces::flood(const WorkingFrame& frame, ElementSets& sets, std::uin
         wholes_.push_back({triangle, element});
       }
       for (const NodeIndex neighbour : nodes) {
-        if (neighbour == vertex || (crossed && crossedEdge(vertex, neighbour) != nullptr)) continue;
+        if (neighbour == vertex || (crossed && crossed_edges_.find(vertex, neighbour) != nullptr)) continue;
         sets.unite(element, markInside(neighbour, sets));
       }
     }
   }
 }
 
-void SurfacePieces::addShell(WorkingFrame& frame, TriangleIndex triangle, ElementSets& sets) {
+void SurfacePieces::addShell(WorkingFrame& frame, TriangleIndex triangle, UnionFind& sets) {
   const MeshTopology& topology = frame.body(side_).topology();
   const std::uint32_t shell = topology.shell_of_triangle[triangle.value];
   const bool open = !topology.shell_is_closed[shell];
@@ -204,7 +130,7 @@ void SurfacePieces::addShell(WorkingFrame& frame, TriangleIndex triangle, Elemen
 }
 
 void SurfacePieces::emitTriangle(WorkingFrame& frame, const CrossingCurves& curves, std::size_t first,
-                                 std::size_t last, ElementSets& sets) {
+                                 std::size_t last, UnionFind& sets) {
   const std::size_t first_edge = edges_.size();
   const TriangleIndex triangle = curves.segments()[segments_[first]].triangle[at(side_)];
   for (std::size_t i = first; i < last; ++i) {
@@ -223,8 +149,8 @@ void SurfacePieces::emitTriangle(WorkingFrame& frame, const CrossingCurves& curv
 }
 
 void SurfacePieces::emitEdge(WorkingFrame& frame, const CrossingCurves& curves, TriangleIndex triangle,
-                             NodeIndex from, NodeIndex to, ElementSets& sets) {
-  const CrossedEdge* crossed = crossedEdge(from, to);
+                             NodeIndex from, NodeIndex to, UnionFind& sets) {
+  const CrossedEdges::Edge* crossed = crossed_edges_.find(from, to);
   if (crossed == nullptr) {
     if (isInside(from)) {
       edges_.push_back(
@@ -241,11 +167,11 @@ void SurfacePieces::emitEdge(WorkingFrame& frame, const CrossingCurves& curves, 
       edges_.push_back({triangle, element, q, p});
     }
   };
-  bool inside = !curves.nodes()[edge_nodes_[crossed->first]].enters;
+  bool inside = !curves.nodes()[crossed_edges_.node(crossed->first)].enters;
   Eigen::Vector3d start = frame.point(side_, low);
   std::uint32_t start_element = kNone;
   for (std::uint32_t i = crossed->first; i < crossed->last; ++i) {
-    const std::uint32_t n = edge_nodes_[i];
+    const std::uint32_t n = crossed_edges_.node(i);
     const CrossingNode& node = curves.nodes()[n];
     if (inside && !node.enters) {
       if (start_element != kNone) sets.unite(start_element, n);
@@ -260,10 +186,10 @@ void SurfacePieces::emitEdge(WorkingFrame& frame, const CrossingCurves& curves, 
   if (inside) emit(start_element, start, frame.point(side_, high));
 }
 
-// Of a piece with holes the outline and the holes' loops are no neighbours: each loop within the triangle
+// The outline and the holes of a piece are no neighbours: each loop within the triangle
 // looks from its outermost corner for what it lies in.
 void SurfacePieces::uniteHoles(WorkingFrame& frame, const CrossingCurves& curves, std::size_t first,
-                               std::size_t last, std::size_t first_edge, ElementSets& sets) {
+                               std::size_t last, std::size_t first_edge, UnionFind& sets) {
   const std::vector<CrossingSegment>& segments = curves.segments();
   const TriangleIndex triangle = segments[segments_[first]].triangle[at(side_)];
   const Corners corners = frame.corners(side_, triangle);

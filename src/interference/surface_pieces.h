@@ -4,9 +4,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/union_find.h"
 #include "containment.h"
+#include "crossed_edges.h"
 #include "crossings.h"
-#include "element_sets.h"
 
 namespace concave_distance::detail {
 
@@ -23,68 +24,56 @@ struct WholeTriangle {
   std::uint32_t element;
 };
 
-/// What the crossing curves cut out of one body's surface: the part inside the other body, as boundary edges
-/// in crossed triangles and as whole ones. Knows closed shells crossed by closed shells only.
+/// Holds what the crossing curves cut out of one body's surface: the part inside the other body, as boundary
+/// edges in crossed triangles and as whole ones. It knows closed shells crossed by closed shells only.
 class SurfacePieces {
  public:
   /// Adds the inside vertices to `sets`, which hold the nodes, and unites what hangs together.
   void collect(WorkingFrame& frame, PerturbedPredicates& predicates, Containment& containment,
-               const CrossingCurves& curves, Side side, ElementSets& sets);
+               const CrossingCurves& curves, Side side, UnionFind& sets);
   /// Counts a whole shell without crossings as inside; closed ones before open ones.
-  void addShell(WorkingFrame& frame, TriangleIndex triangle, ElementSets& sets);
+  void addShell(WorkingFrame& frame, TriangleIndex triangle, UnionFind& sets);
 
   const std::vector<PieceEdge>& edges() const { return edges_; }
   const std::vector<WholeTriangle>& wholes() const { return wholes_; }
   std::vector<PieceEdge>& edges() { return edges_; }
   std::vector<WholeTriangle>& wholes() { return wholes_; }
   /// A node of an edge along which the surface enters twice in turn; kNone: none.
-  std::uint32_t contradiction() const { return contradiction_; }
+  std::uint32_t contradiction() const { return crossed_edges_.contradiction(); }
 
  private:
   struct Mark {
     std::uint32_t stamp = 0;
     std::uint32_t value = 0;
   };
-  /// The nodes of one edge, in order from its lower end.
-  struct CrossedEdge {
-    std::uint64_t key;
-    std::uint32_t first;
-    std::uint32_t last;
-  };
   enum TriangleState : std::uint32_t { kCrossed, kWhole };
 
   void startStamp(const WorkingFrame& frame);
-  void sortEdgeNodes(WorkingFrame& frame, PerturbedPredicates& predicates, const CrossingCurves& curves);
-  bool before(WorkingFrame& frame, PerturbedPredicates& predicates, const CrossingNode& l,
-              const CrossingNode& r) const;
-  const CrossedEdge* crossedEdge(NodeIndex p, NodeIndex q) const;
-  std::uint32_t markInside(NodeIndex vertex, ElementSets& sets);
+  std::uint32_t markInside(NodeIndex vertex, UnionFind& sets);
   bool isInside(NodeIndex vertex) const { return vertex_marks_[vertex.value].stamp == stamp_; }
-  void seedFromEdges(const CrossingCurves& curves, ElementSets& sets);
+  void seedFromEdges(const CrossingCurves& curves, UnionFind& sets);
   void seedFromLoops(WorkingFrame& frame, PerturbedPredicates& predicates, Containment& containment,
-                     const CrossingCurves& curves, ElementSets& sets);
-  /// Over closed shells, or over one open shell.
-  void flood(const WorkingFrame& frame, ElementSets& sets, std::uint32_t open_shell = kNone);
+                     const CrossingCurves& curves, UnionFind& sets);
+  /// Spreads over closed shells, or over one open shell.
+  void flood(const WorkingFrame& frame, UnionFind& sets, std::uint32_t open_shell = kNone);
   void emitTriangle(WorkingFrame& frame, const CrossingCurves& curves, std::size_t first, std::size_t last,
-                    ElementSets& sets);
+                    UnionFind& sets);
   void emitEdge(WorkingFrame& frame, const CrossingCurves& curves, TriangleIndex triangle, NodeIndex from,
-                NodeIndex to, ElementSets& sets);
+                NodeIndex to, UnionFind& sets);
   void uniteHoles(WorkingFrame& frame, const CrossingCurves& curves, std::size_t first, std::size_t last,
-                  std::size_t first_edge, ElementSets& sets);
+                  std::size_t first_edge, UnionFind& sets);
 
   Side side_ = Side::A;
   std::uint32_t stamp_ = 0;
   std::vector<Mark> vertex_marks_;    ///< value: element
   std::vector<Mark> triangle_marks_;  ///< value: TriangleState
-  std::vector<std::uint32_t> edge_nodes_;
-  std::vector<CrossedEdge> crossed_edges_;
+  CrossedEdges crossed_edges_;
   std::vector<std::uint32_t> segments_;  ///< by triangle
   std::vector<std::uint32_t> segment_after_node_;
   std::vector<std::uint8_t> seen_;
   std::vector<NodeIndex> waiting_;
   std::vector<PieceEdge> edges_;
   std::vector<WholeTriangle> wholes_;
-  std::uint32_t contradiction_ = kNone;
 };
 
 }  // namespace concave_distance::detail

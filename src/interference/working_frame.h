@@ -33,12 +33,12 @@ class WorkingFrame {
     const Eigen::Vector3d& n = body(side).topology().triangle_normals[triangle.value];
     return side == Side::A ? n : Eigen::Vector3d(rotation_ * n);
   }
-  /// Into the frame of a body (metres) from the working frame, for descending its tree.
+  /// Returns a point of the working frame in the frame of a body (metres), for descending its tree.
   Eigen::Vector3d pointInBody(Side side, const Eigen::Vector3d& point) const;
   Eigen::Vector3d pointInA(const Eigen::Vector3d& point) const { return point / scale_ + centre_[0]; }
 
   double scale() const { return scale_; }  ///< working lengths a metre
-  /// How far roundings may move a vertex of B, and a bound on what depths are sure to; metres.
+  /// Returns how far roundings may move a vertex of B, which depths are sure to; metres.
   double roundingBound() const { return rounding_bound_; }
   const Eigen::Isometry3d& aFromB() const { return a_from_b_; }
 

@@ -7,6 +7,7 @@
 #include "base/number_text.h"
 #include "base/unit_tolerance.h"
 #include "frame_name.h"
+#include "mesh/surface/primitive_table.h"
 #include "scene/name_pattern.h"
 #include "settings_reader.h"
 
@@ -59,39 +60,37 @@ Eigen::Vector4d readColour(const YamlValue& value) {
   return colour;
 }
 
-// box: {size: [x, y, z]}, sphere: {radius: r}, cylinder and capsule: {radius: r, length: l}.
-void readPrimitive(const std::string& name, const YamlValue& value, BodyDescription& body) {
+void readPrimitive(const Primitive& primitive, const YamlValue& value, BodyDescription& body) {
   YamlMap map(value, "a map of dimensions");
-  body.primitive = name;
-  if (name == "box") {
-    const YamlValue size = map.require("size", "give `size: [x, y, z]`, metres");
-    const char* allowed = "three lengths greater than 0, metres";
-    body.dimensions = size.numbers(3, allowed);
-    for (const double length : body.dimensions) {
-      if (!(length > 0.0)) size.refuse(allowed);
+  body.primitive = primitive.name;
+  for (const auto& [key, count] : primitive.sizes) {
+    const std::string quoted = std::string("give `") + key;
+    if (count == 1) {
+      body.dimensions.push_back(readLength(map.require(key, quoted + "`, metres")));
+      continue;
     }
-  } else {
-    body.dimensions.push_back(readLength(map.require("radius", "give `radius`, metres")));
-    if (name != "sphere")
-      body.dimensions.push_back(readLength(map.require("length", "give `length`, metres")));
+    const YamlValue size = map.require(key, quoted + ": [x, y, z]`, metres");
+    const char* allowed = "three lengths greater than 0, metres";
+    for (const double length : size.numbers(count, allowed)) {
+      if (!(length > 0.0)) size.refuse(allowed);
+      body.dimensions.push_back(length);
+    }
   }
   map.finish();
 }
 
 void readGeometry(YamlMap& map, BodyDescription& body) {
-  std::optional<YamlValue> given;
-  for (const char* key : {"mesh", "box", "sphere", "cylinder", "capsule"}) {
-    const std::optional<YamlValue> value = map.take(key);
+  std::optional<YamlValue> given = map.take("mesh");
+  if (given) body.mesh_resource = given->text();
+  const std::string remedy = "give one of mesh, " + primitiveNames();
+  for (const Primitive& primitive : primitives()) {
+    const std::optional<YamlValue> value = map.take(primitive.name);
     if (!value) continue;
-    if (given) value->fail("a second geometry", "give one of mesh, box, sphere, cylinder, capsule");
+    if (given) value->fail("a second geometry", remedy);
     given = value;
-    if (std::string(key) == "mesh") {
-      body.mesh_resource = value->text();
-    } else {
-      readPrimitive(key, *value, body);
-    }
+    readPrimitive(primitive, *value, body);
   }
-  if (!given) map.value().fail("no geometry", "give one of mesh, box, sphere, cylinder, capsule");
+  if (!given) map.value().fail("no geometry", remedy);
 }
 
 }  // namespace

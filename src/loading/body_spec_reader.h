@@ -8,7 +8,7 @@
 
 namespace concave_distance::detail {
 
-/// What a scene file's `defaults` say about bodies and robots.
+/// Holds what a scene file's `defaults` say about bodies and robots.
 struct BodyDefaults {
   GeometrySource geometry = GeometrySource::Collision;
   std::optional<double> max_edge_length;

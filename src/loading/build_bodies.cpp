@@ -106,16 +106,8 @@ SceneBody build(const BodySource& source, const std::shared_ptr<BodyPool>& pool,
   RepairedMesh repaired = loadGeometry(source.geometry, source.source, cache.get());
   checkTriangleCount(repaired.mesh, source, limits);
   checkExtent(repaired.mesh, source);
-  SceneBody body;
-  body.name = source.name;
-  body.frame = source.frame;
-  body.source = source.source;
-  body.colour = source.colour;
-  body.material = source.material;
-  body.in_robot_model = source.in_robot_model;
-  body.is_robot_link = source.is_robot_link;
+  SceneBody body = source;
   body.repair = repaired.report;
-  body.inertia = source.inertia;
   body.mesh = sharedMesh(source, std::move(repaired.mesh), pool, cache, limits);
   body.bounds = boundsOf(*body.mesh);
   return body;

@@ -14,19 +14,11 @@
 
 namespace concave_distance::detail {
 
-/// A body still to be loaded.
-struct BodySource {
-  std::string name;
-  std::string frame;
-  std::string source;  ///< file or URDF element, for messages
+/// A body still to be loaded: what is known of it before its mesh, and where that comes from.
+struct BodySource : SceneBody {
   std::vector<GeometryElement> geometry;
   std::string base_folder;  ///< where relative paths start; empty: none are allowed
   std::optional<double> max_edge_length;
-  Eigen::Vector4d colour = SceneBody().colour;
-  Material material;
-  bool in_robot_model = false;
-  bool is_robot_link = false;
-  std::optional<MassProperties> inertia;
   std::string problem;  ///< known already: the body is not tried
 };
 

@@ -1,6 +1,5 @@
 #include "geometry_element.h"
 
-#include <array>
 #include <cstddef>
 #include <optional>
 #include <utility>
@@ -9,51 +8,34 @@
 #include "base/number_text.h"
 #include "concave_distance/base/error.h"
 #include "concave_distance/mesh/import/import_mesh.h"
-#include "concave_distance/mesh/surface/primitives.h"
 #include "mesh/import/mesh_file.h"
 #include "mesh/repaired_mesh_cache.h"
+#include "mesh/surface/primitive_table.h"
+#include "mesh/surface/round_geometry.h"
 
 namespace concave_distance::detail {
 namespace {
 
 constexpr double kDefaultChordErrorOfRadius = 0.01;
 
-struct PrimitiveKind {
-  const char* name;
-  std::size_t dimension_count;
-  bool round;
-};
-
-constexpr std::array<PrimitiveKind, 4> kPrimitives{
-    {{"box", 3, false}, {"sphere", 1, true}, {"cylinder", 2, true}, {"capsule", 2, true}}};
-
-const PrimitiveKind* findPrimitive(const std::string& name) {
-  for (const PrimitiveKind& kind : kPrimitives) {
-    if (name == kind.name) return &kind;
-  }
-  return nullptr;
-}
-
 double chordErrorOf(const GeometryElement& element) {
   return element.chord_error.value_or(kDefaultChordErrorOfRadius * element.dimensions.front());
 }
 
 SurfaceMesh makePrimitive(const GeometryElement& element) {
-  const PrimitiveKind* kind = findPrimitive(element.primitive);
-  if (kind == nullptr) {
+  const Primitive* primitive = findPrimitive(element.primitive);
+  if (primitive == nullptr) {
     throw Error(element.where, "primitive '" + element.primitive + "' is not known",
-                "use box, sphere, cylinder or capsule");
+                "use " + primitiveNames(" or "));
   }
-  const std::vector<double>& d = element.dimensions;
-  if (d.size() != kind->dimension_count) {
-    throw Error(element.where, "a " + element.primitive + " with " + std::to_string(d.size()) + " dimensions",
-                std::to_string(kind->dimension_count) + " are expected");
+  const std::size_t count = primitive->dimensionCount();
+  if (element.dimensions.size() != count) {
+    throw Error(
+        element.where,
+        "a " + element.primitive + " with " + std::to_string(element.dimensions.size()) + " dimensions",
+        std::to_string(count) + " are expected");
   }
-  if (element.primitive == "box") return makeBox({d[0], d[1], d[2]}, element.where);
-  const double chord_error = chordErrorOf(element);
-  if (element.primitive == "sphere") return makeSphere(d[0], chord_error, element.where);
-  if (element.primitive == "cylinder") return makeCylinder(d[0], d[1], chord_error, element.where);
-  return makeCapsule(d[0], d[1], chord_error, element.where);
+  return primitive->make(element.dimensions, chordErrorOf(element), element.where);
 }
 
 TriangleSoup soupOf(const SurfaceMesh& mesh) {
@@ -156,15 +138,14 @@ RepairedMesh loadGeometry(const std::vector<GeometryElement>& elements, const st
 std::optional<RoundShape> roundShapeOf(const std::vector<GeometryElement>& elements) {
   if (elements.size() != 1) return std::nullopt;
   const GeometryElement& element = elements.front();
-  const PrimitiveKind* kind = findPrimitive(element.primitive);
-  if (kind == nullptr || !kind->round || element.dimensions.size() != kind->dimension_count)
+  const Primitive* primitive = findPrimitive(element.primitive);
+  if (primitive == nullptr || !primitive->round_kind ||
+      element.dimensions.size() != primitive->dimensionCount())
     return std::nullopt;
   RoundShape shape;
-  shape.kind = element.primitive == "sphere"     ? RoundKind::Sphere
-               : element.primitive == "cylinder" ? RoundKind::Cylinder
-                                                 : RoundKind::Capsule;
+  shape.kind = *primitive->round_kind;
   shape.radius = element.dimensions[0];
-  if (shape.kind != RoundKind::Sphere) shape.half_length = 0.5 * element.dimensions[1];
+  if (hasSide(shape)) shape.half_length = 0.5 * element.dimensions[1];
   shape.body_from_shape.linear() =
       Eigen::Quaterniond(element.frame_from_geometry.linear()).normalized().toRotationMatrix();
   shape.body_from_shape.translation() = element.frame_from_geometry.translation();
@@ -176,8 +157,8 @@ std::string describeApproximations(const std::vector<GeometryElement>& elements)
   TextStream text;
   const bool exact = roundShapeOf(elements).has_value();
   for (const GeometryElement& element : elements) {
-    const PrimitiveKind* kind = findPrimitive(element.primitive);
-    if (kind == nullptr || !kind->round || element.dimensions.empty()) continue;
+    const Primitive* primitive = findPrimitive(element.primitive);
+    if (primitive == nullptr || !primitive->is_curved || element.dimensions.empty()) continue;
     text << (text.tellp() > 0 ? "; " : "") << element.primitive;
     if (exact) {
       text << " taken exactly; searched and drawn as a mesh, ";

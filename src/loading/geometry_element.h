@@ -19,7 +19,7 @@ struct GeometryElement {
   std::string where;                                ///< what messages call it
   std::string mesh_resource;                        ///< either this ...
   Eigen::Vector3d scale = Eigen::Vector3d::Ones();  ///< of the mesh
-  std::string primitive;                            ///< ... or box, sphere, cylinder, capsule
+  std::string primitive;                            ///< ... or the name of one of primitives()
   std::vector<double> dimensions;                   ///< as BodyDescription::dimensions, metres
   std::optional<double> chord_error;                ///< metres; empty: 1 % of the radius
   Eigen::Isometry3d frame_from_geometry = Eigen::Isometry3d::Identity();

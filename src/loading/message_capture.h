@@ -19,7 +19,7 @@ class MessageCapture : private console_bridge::OutputHandler {
   MessageCapture(const MessageCapture&) = delete;
   MessageCapture& operator=(const MessageCapture&) = delete;
 
-  /// In the order they came.
+  /// Returns the messages in the order they came.
   const std::vector<std::string>& messages() const { return messages_; }
 
  private:

@@ -28,12 +28,6 @@ const char* elementName(GeometrySource geometry) {
   return geometry == GeometrySource::Collision ? "collision" : "visual";
 }
 
-std::string joined(const std::vector<std::string>& messages) {
-  std::string text;
-  for (const std::string& message : messages) text += (text.empty() ? "" : "; ") + message;
-  return text;
-}
-
 // The same parse with what urdfdom said meanwhile.
 struct ParsedModel {
   urdf::ModelInterfaceSharedPtr model;
@@ -64,7 +58,7 @@ std::map<std::string, std::string> messagesByLink(const std::vector<std::string>
     const std::size_t begin = message.rfind(mark);
     const std::size_t end = message.rfind(']');
     if (begin == std::string::npos || end == std::string::npos || end < begin + mark.size()) continue;
-    by_link[message.substr(begin + mark.size(), end - begin - mark.size())] = joined(pending);
+    by_link[message.substr(begin + mark.size(), end - begin - mark.size())] = joinedText(pending, "; ");
     pending.clear();
   }
   return by_link;
@@ -237,7 +231,8 @@ RobotDescription readRobotDescription(const std::string& urdf, const std::string
   parseXml(document, urdf, where);
   const ParsedModel full = parseModel(printed(document));
   if (!full.model) {
-    throw Error(where, "the URDF cannot be read; urdfdom says: " + joined(full.messages), kCheckUrdf);
+    throw Error(where, "the URDF cannot be read; urdfdom says: " + joinedText(full.messages, "; "),
+                kCheckUrdf);
   }
   tinyxml2::XMLElement* root = document.FirstChildElement("robot");
   const RobotText text = scan(*root, wanted);

@@ -21,7 +21,7 @@ struct RobotLink {
   bool hasGeometry() const { return !geometry.empty() || !problem.empty(); }
 };
 
-/// Of joints with one degree of freedom; the others stand still here.
+/// Names how joints with one degree of freedom move; the others stand still here.
 enum class JointMotion : std::uint8_t { None, Turns, Slides };
 
 struct RobotJoint {
@@ -41,8 +41,9 @@ struct RobotJoint {
   double mimic_offset = 0.0;
 };
 
-/// What a URDF says that matters here; links and joints in the order of the text. Link names have no leading
-/// slash: they come from the days of tf, robot_state_publisher drops it from the frames, and tf2 refuses it.
+/// Holds what a URDF says that matters here; links and joints in the order of the text. Link names have no
+/// leading slash: they come from the days of tf, robot_state_publisher drops it from the frames, and tf2
+/// refuses it.
 struct RobotDescription {
   std::string name;
   std::vector<RobotLink> links;

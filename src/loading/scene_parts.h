@@ -54,7 +54,7 @@ void addBody(const BodySpec& spec, const std::string& base_folder, SceneParts& p
 /// The source of a single body.
 BodySource sourceOf(const BodyDescription& description, const std::string& base_folder);
 
-/// For every mesh file of every body.
+/// Sets the limits for every mesh file of every body.
 void limitImports(SceneParts& parts, const MeshImportLimits& limits);
 
 }  // namespace concave_distance::detail

@@ -12,8 +12,8 @@
 
 namespace concave_distance::detail {
 
-/// What a scene file says, checked as far as that goes without loading anything. `where` is the place in the
-/// file.
+/// These structs hold what a scene file says, checked as far as that goes without loading anything. `where`
+/// is the place in the file.
 
 /// A body's name, a group's name or a pattern, as the file has it.
 struct Selector {
@@ -72,8 +72,8 @@ struct SceneSpec {
 SceneSpec readSceneSpec(const std::string& yaml, const std::string& file, const std::string& base_folder,
                         const SceneLoadOptions& options);
 
-/// Lays the settings of a pair's entry over `settings`, and says whether the pair is enabled when the entry
-/// does.
+/// Lays the settings of a pair's entry over `settings`, and says whether the pair is enabled when
+/// the entry does.
 void readPairEntry(const YamlValue& entry, PairSettings& settings, std::optional<bool>& enabled);
 
 }  // namespace concave_distance::detail

@@ -104,8 +104,8 @@ class Selection {
     candidateOf(source_a, source_b).own.push_back(&entry);
   }
 
-  // Every pair of the two sides that no filter holds back. Returns how many the sides have before the
-  // filters.
+  // Every pair of the two sides that no filter holds back. Returns how many the sides have
+  // before the filters.
   std::size_t addPairs(const std::vector<std::size_t>& side_a, const std::vector<std::size_t>& side_b,
                        const PairSpec* entry) {
     std::set<SourcePair> seen;

@@ -10,7 +10,7 @@
 
 namespace concave_distance::detail {
 
-/// What of an SRDF matters here. Links are named as in the URDF.
+/// Holds what of an SRDF matters here. Links are named as in the URDF.
 struct SemanticDescription {
   std::set<LinkPair> disabled;
   /// Groups with the links they hold, in the order of the text.

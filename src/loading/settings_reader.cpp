@@ -10,41 +10,12 @@
 namespace concave_distance::detail {
 namespace {
 
-/// Settings that had another name or place, and what to write instead.
-constexpr std::pair<const char*, const char*> kRenamed[] = {
-    {"immigrants", "expert: {random_starts: ...}"},
-    {"memory_limit", "expert: {memory_limit: ...}"},
-    {"keep_through_material", "expert: {keep_through_material: ...}"},
-    {"prominence_limit", "expert: {prominence_limit: ...}"},
-    {"inherited_per_niche", "expert: {inherited_per_niche: ...}"},
-    {"inherited_limit", "expert: {inherited_limit: ...}"},
-    {"search_share", "expert: {search_share: ...}"},
-    {"sharing_radius", "expert: {sharing_radius: ...}"},
-    {"mating_radius", "expert: {mating_radius: ...}"},
-    {"niche_radius", "expert: {niche_radius: ...}"},
-    {"cold", "expert: {cold: {...}}"},
-    {"warm", "expert: {warm: {...}}"}};
-
-/// Settings of what the proof of all niches has replaced.
-constexpr const char* kGone[] = {"projected_immigrants", "projected_nodes", "projected_niches",
-                                 "search_motion",        "search_interval", "swept_cones",
-                                 "reviewed_niches",      "extrapolate"};
-
-void refuseGone(YamlMap& map) {
-  for (const char* name : kGone) {
-    if (const auto value = map.take(name)) {
-      value->fail(std::string("'") + name + "' is no setting any more",
-                  "leave it out: level `certified` finds every niche in every cycle");
-    }
-  }
-}
-
-void refuseRenamed(YamlMap& map) {
-  refuseGone(map);
-  for (const auto& [name, instead] : kRenamed) {
-    if (const auto value = map.take(name)) {
-      value->fail(std::string("'") + name + "' is a setting for experts", std::string("write ") + instead);
-    }
+/// An expert's setting that stands among the others would only be called unknown.
+void refuseExpertSettings(const YamlMap& map) {
+  for (const auto& [key, value] : map.entries()) {
+    const Parameter<PairSettings>* parameter = findParameter(pairParameters(), key);
+    if (parameter == nullptr || !parameter->info.is_expert) continue;
+    value.fail("'" + key + "' is a setting for experts", "write expert: {" + key + ": ...}");
   }
 }
 
@@ -62,7 +33,6 @@ void readCommonRadii(YamlMap& map, TrackerParameters& tracker) {
 
 void readExpertSettings(const YamlValue& value, PairSettings& settings, SettingsReader reader) {
   YamlMap map(value, "a map of settings for experts");
-  refuseGone(map);
   readParameters(map, pairParameters(), true, settings);
   // Before cold and warm, whose own radii apply.
   readCommonRadii(map, settings.tracker);
@@ -74,7 +44,7 @@ void readExpertSettings(const YamlValue& value, PairSettings& settings, Settings
 }  // namespace
 
 void readPairSettings(YamlMap& map, PairSettings& settings, SettingsReader reader) {
-  refuseRenamed(map);
+  refuseExpertSettings(map);
   readParameters(map, pairParameters(), false, settings);
   if (auto v = map.take("effects")) readEffects(*v, settings.effects);
   if (auto v = map.take("expert")) readExpertSettings(*v, settings, reader);
@@ -82,9 +52,6 @@ void readPairSettings(YamlMap& map, PairSettings& settings, SettingsReader reade
 
 void readGeneticParameters(const YamlValue& value, GeneticParameters& parameters, SettingsReader reader) {
   YamlMap map(value, "a map of parameters of the genetic algorithm");
-  if (const auto old = map.take("immigrants")) {
-    old->fail("'immigrants' has another name", "write random_immigrants");
-  }
   const bool is_experiment = reader == SettingsReader::Experiment;
   if (!is_experiment) refuseExperiments(map, allGeneticParameters());
   readParameters(map, is_experiment ? allGeneticParameters() : geneticParameters(), false, parameters);

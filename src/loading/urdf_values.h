@@ -15,7 +15,7 @@ namespace concave_distance::detail {
 Eigen::Isometry3d toIsometry(const urdf::Pose& pose);
 RobotJoint toJoint(const urdf::Joint& joint);
 
-/// About the centre of mass, in the link's axes: in the URDF the tensor has its own axes.
+/// Returns the inertia about the centre of mass, in the link's axes: in the URDF the tensor has its own axes.
 std::optional<MassProperties> inertiaOf(const urdf::Link& link);
 
 }  // namespace concave_distance::detail

@@ -16,14 +16,8 @@ namespace concave_distance::detail {
 namespace {
 
 constexpr std::size_t kLongestSeen = 60;
-// Of a document; 20,000 boxes and 50,000 pairs take 650,000.
+// A document may have this many values; 20,000 boxes and 50,000 pairs take 650,000.
 constexpr std::size_t kMostValues = 1'000'000;
-
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
-}
 
 // yaml-cpp gives an empty value the place of what follows; the key's own line serves better.
 int lineOf(const YAML::Node& node, int line_of_key) {
@@ -236,7 +230,7 @@ YamlValue YamlMap::require(const std::string& key, const std::string& remedy) {
 void YamlMap::finish() const {
   for (const auto& [name, value] : entries_) {
     if (std::find(asked_.begin(), asked_.end(), name) == asked_.end()) {
-      value.fail("key '" + name + "' is not known", "allowed: " + joined(asked_));
+      value.fail("key '" + name + "' is not known", "allowed: " + joinedText(asked_, ", "));
     }
   }
 }

@@ -29,7 +29,6 @@ class YamlValue {
   /// @throws Error("... is <seen>", "allowed: <allowed>"), always
   [[noreturn]] void refuse(const std::string& allowed) const;
 
-  bool isNull() const { return node_.IsNull(); }
   bool isScalar() const { return node_.IsScalar(); }
   bool isList() const { return node_.IsSequence(); }
   bool isMap() const { return node_.IsMap(); }
@@ -85,10 +84,10 @@ class YamlMap {
   YamlMap(const YamlValue& value, const std::string& expected);
   const YamlValue& value() const { return value_; }
 
-  /// Nothing when the key is missing.
+  /// Returns the value of a key; nothing when it is missing.
   std::optional<YamlValue> take(const std::string& key);
   YamlValue require(const std::string& key, const std::string& remedy);
-  /// What stands in the map, in its order; for maps whose keys are names.
+  /// Returns what stands in the map, in its order; for maps whose keys are names.
   const std::vector<std::pair<std::string, YamlValue>>& entries() const { return entries_; }
   /// @throws Error naming the first key that nobody took, and all that somebody asked for
   void finish() const;

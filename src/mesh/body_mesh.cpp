@@ -37,6 +37,16 @@ struct BodyMesh::State {
     std::once_flag once;
     T value;
     std::atomic<std::size_t> bytes{0};
+
+    /// Returns the part; the first call makes it, for all threads.
+    template <typename Make>
+    const T& get(const Make& make) {
+      std::call_once(once, [&] {
+        value = make();
+        bytes = value.memoryBytes();
+      });
+      return value;
+    }
   };
   State(BodyMeshParts made, const BodyMeshOptions& given)
       : parts(std::move(made)), options(given), bounds(parts.surface.boundingBox()) {
@@ -48,7 +58,7 @@ struct BodyMesh::State {
   Eigen::AlignedBox3d bounds;
   // Made on demand:
   Part<RecentredBody> recentred;
-  Part<ShellContacts> joints;
+  Part<ShellContacts> shell_contacts;
   Part<Facets> facets;
   Part<CompressedRows<AdjacentTriangle>> adjacency;
   Part<ConnectedPieces> pieces;
@@ -184,8 +194,8 @@ NodeIndex BodyMesh::graphNode(NodeIndex surface_vertex) const {
 
 BodyMesh::~BodyMesh() = default;
 
-// While a thread waits for its parallel parts it must not start another task, which might wait for the same
-// body.
+// While a thread waits for its parallel parts it must not start another task, which might wait for
+// the same body.
 const SearchNodes& BodyMesh::makeNodes() const {
   std::call_once(state_->nodes_once, [&] {
     tbb::this_task_arena::isolate([&] { state_->nodes = makeCheckedNodes(state_->parts, state_->options); });
@@ -293,53 +303,34 @@ const RecentredBody& BodyMesh::recentred() const {
   return part.value;
 }
 
-const ShellContacts& BodyMesh::joints() const {
-  auto& part = state_->joints;
-  std::call_once(part.once, [&] {
-    part.value = joinShells(surface(), topology(), tree());
-    part.bytes = part.value.memoryBytes();
-  });
-  return part.value;
+const ShellContacts& BodyMesh::shellContacts() const {
+  return state_->shell_contacts.get([&] { return findShellContacts(surface(), topology(), tree()); });
 }
 
 const Facets& BodyMesh::facets() const {
-  auto& part = state_->facets;
-  std::call_once(part.once, [&] {
-    part.value = joinFlatTriangles(surface(), topology(), joints().hidden);
-    part.bytes = part.value.memoryBytes();
-  });
-  return part.value;
+  return state_->facets.get([&] { return joinFlatTriangles(surface(), topology(), shellContacts().hidden); });
 }
 
 const CompressedRows<AdjacentTriangle>& BodyMesh::adjacency() const {
-  auto& part = state_->adjacency;
-  std::call_once(part.once, [&] {
-    part.value = triangleAdjacency(surface(), topology());
-    if (!joints().isEmpty()) part.value = joinedAdjacency(surface(), joints(), part.value);
-    part.value = facetAdjacency(facets(), part.value);
-    part.bytes = part.value.offsets.capacity() * sizeof(std::uint32_t) +
-                 part.value.values.capacity() * sizeof(AdjacentTriangle);
+  return state_->adjacency.get([&] {
+    CompressedRows<AdjacentTriangle> of_triangles = triangleAdjacency(surface(), topology());
+    if (!shellContacts().isEmpty()) of_triangles = joinedAdjacency(surface(), shellContacts(), of_triangles);
+    return facetAdjacency(facets(), of_triangles);
   });
-  return part.value;
 }
 
 const ConnectedPieces& BodyMesh::pieces() const {
-  auto& part = state_->pieces;
-  std::call_once(part.once, [&] {
-    part.value = connectedPieces(surface());
-    joinPieces(joints(), part.value);
-    part.bytes = part.value.memoryBytes();
+  return state_->pieces.get([&] {
+    ConnectedPieces pieces = connectedPieces(surface());
+    joinPieces(shellContacts(), pieces);
+    return pieces;
   });
-  return part.value;
 }
 
 const NormalConeTree& BodyMesh::normalCones(NormalSides sides) const {
-  auto& part = state_->cones.at(static_cast<std::size_t>(sides));
-  std::call_once(part.once, [&] {
-    part.value = NormalConeTree(surface(), topology(), sides, joints());
-    part.bytes = part.value.memoryBytes();
+  return state_->cones.at(static_cast<std::size_t>(sides)).get([&] {
+    return NormalConeTree(surface(), topology(), sides, shellContacts());
   });
-  return part.value;
 }
 
 std::size_t BodyMesh::memoryBytes() const {
@@ -365,7 +356,7 @@ std::size_t BodyMesh::memoryBytes() const {
   if (state_->recentred.bytes > 0) search_bytes += recentred().mesh->memoryBytes();
   return sizeof(BodyMesh) + sizeof(State) + mesh_bytes(surface()) + topology_bytes + search_bytes +
          state_->parts.tree.memoryBytes() + state_->parts.hierarchy.memoryBytes() + state_->adjacency.bytes +
-         state_->joints.bytes + state_->facets.bytes + state_->pieces.bytes + state_->cones[0].bytes +
+         state_->shell_contacts.bytes + state_->facets.bytes + state_->pieces.bytes + state_->cones[0].bytes +
          state_->cones[1].bytes;
 }
 

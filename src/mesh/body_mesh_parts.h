@@ -4,16 +4,16 @@
 
 #include "base/content_hash.h"
 #include "concave_distance/mesh/body_mesh.h"
-#include "mesh/grid/mesh_metric.h"
-#include "mesh/grid/metric_memory.h"
-#include "mesh/grid/node_graph.h"
-#include "mesh/grid/search_nodes.h"
 #include "mesh/surface/connected_pieces.h"
 #include "mesh/surface/mesh_topology.h"
 #include "mesh/surface/triangle_adjacency.h"
 #include "mesh/trees/bounding_volume_hierarchy.h"
 #include "mesh/trees/normal_cone_tree.h"
 #include "mesh/trees/triangle_tree.h"
+#include "search/grid/mesh_metric.h"
+#include "search/grid/metric_memory.h"
+#include "search/grid/node_graph.h"
+#include "search/grid/search_nodes.h"
 
 namespace concave_distance {
 

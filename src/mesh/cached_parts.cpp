@@ -6,9 +6,9 @@
 
 #include "base/array_file.h"
 #include "base/content_hash.h"
-#include "mesh/grid/geodesic_extent.h"
 #include "mesh/surface/mesh_topology.h"
 #include "repaired_mesh_cache.h"
+#include "search/grid/geodesic_extent.h"
 
 namespace concave_distance {
 

@@ -4,11 +4,11 @@
 #include <string>
 
 #include "concave_distance/mesh/preparation_cache.h"
-#include "mesh/grid/mesh_metric.h"
-#include "mesh/grid/search_nodes.h"
 #include "mesh/surface/mesh_topology.h"
 #include "mesh/trees/bounding_volume_hierarchy.h"
 #include "mesh/trees/triangle_tree.h"
+#include "search/grid/mesh_metric.h"
+#include "search/grid/search_nodes.h"
 
 /// The parts of a body, from the cache where it has them, else made and stored. Keys hold all that a part is
 /// made from. Without a cache (nullptr) keys are not read.

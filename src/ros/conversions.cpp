@@ -11,8 +11,8 @@
 #include "base/unit_tolerance.h"
 #include "concave_distance/base/error.h"
 #include "loading/frame_name.h"
-#include "mesh/grid/search_nodes.h"
 #include "mesh/surface/mesh_topology.h"
+#include "search/grid/search_nodes.h"
 
 namespace concave_distance {
 namespace {

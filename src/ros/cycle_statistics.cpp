@@ -39,14 +39,7 @@ void CycleStatistics::add(CycleRecord record) {
   window_.duration.add(record.duration);
   window_.cpu.add(record.cpu);
   merge(record.latency, window_.latency);
-  window_.solved += record.report.solved;
-  window_.cold += record.report.cold;
-  window_.repeated += record.report.repeated;
-  window_.search_misses += record.report.search_misses;
-  window_.generations += record.report.generations;
-  for (std::size_t i = 0; i < kNicheOriginCount; ++i) window_.niches[i] += record.report.niches[i];
-  window_.unproven += record.report.unproven;
-  window_.effects += record.report.effects;
+  window_.total.add(record.report);
   window_.messages += record.messages;
   window_.markers += record.markers;
   window_.last = record.report;

@@ -41,14 +41,7 @@ struct CycleWindow {
   Series duration;
   Series cpu;
   Series latency;
-  std::uint64_t solved = 0;
-  std::uint64_t cold = 0;
-  std::uint64_t repeated = 0;
-  std::uint64_t search_misses = 0;
-  std::uint64_t generations = 0;                          ///< of the genetic search
-  std::array<std::uint64_t, kNicheOriginCount> niches{};  ///< by NicheOrigin
-  std::uint64_t unproven = 0;
-  EffectCounts effects;
+  CycleCounts total;  ///< of these cycles
   std::uint64_t messages = 0;
   std::uint64_t markers = 0;
   CycleCounts last;                  ///< of the last cycle

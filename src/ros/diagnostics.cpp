@@ -66,15 +66,13 @@ void describePairs(const CycleWindow& window, diagnostic_updater::DiagnosticStat
   status.add("pairs watched", window.last.watched);
   status.add("pairs beyond the cutoff", window.last.beyond_cutoff);
   status.add("pairs without transforms", window.failing.size());
-  status.add("solves", window.solved);
-  status.add("cold solves", window.cold);
-  status.add("answers repeated without new transforms", window.repeated);
+  for (const CycleCounter& counter : cycleCounters()) status.add(counter.key, window.total.*counter.count);
+  for (const auto& counter : SearchCost::counters()) status.add(counter.key, counter.of(window.total.cost));
+  for (const auto& counter : CertificateCost::counters())
+    status.add(counter.key, counter.of(window.total.proof_cost));
   for (std::size_t i = 0; i < kNicheOriginCount; ++i) {
-    status.add("niches " + std::string(toString(static_cast<NicheOrigin>(i))), window.niches[i]);
+    status.add("niches " + std::string(toString(static_cast<NicheOrigin>(i))), window.total.niches[i]);
   }
-  status.add("search misses", window.search_misses);
-  status.add("search generations", window.generations);
-  status.add("solves that ended unproven", window.unproven);
   status.add("pairs turned into messages", window.messages);
   status.add("markers built", window.markers);
   for (std::size_t index = 0; index < std::min(window.failing.size(), kListed); ++index) {
@@ -97,7 +95,7 @@ void describeTransforms(const TransformReport& report, diagnostic_updater::Diagn
 }
 
 void describeEffects(const CycleWindow& window, diagnostic_updater::DiagnosticStatusWrapper& status) {
-  const auto& runs = window.effects.runs;
+  const auto& runs = window.total.effects.runs;
   const bool ran = std::any_of(runs.begin(), runs.end(), [](std::uint64_t count) { return count > 0; });
   status.summary(DiagnosticStatus::OK,
                  ran ? "effects ran" : "no effect ran: none asked for, nobody subscribes, or no contact");
@@ -106,7 +104,7 @@ void describeEffects(const CycleWindow& window, diagnostic_updater::DiagnosticSt
     status.add(name + " runs", runs[stage]);
     if (runs[stage] > 0 && window.cpu.sum > 0.0) {
       status.addf(name + " share of the processor time (%)", "%.1f",
-                  100.0 * window.effects.seconds[stage] / window.cpu.sum);
+                  100.0 * window.total.effects.seconds[stage] / window.cpu.sum);
     }
   }
 }

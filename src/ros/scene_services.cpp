@@ -12,10 +12,10 @@
 #include "concave_distance/loading/load_scene.h"
 #include "conversions.h"
 #include "loading/set_effects.h"
-#include "mesh/grid/mesh_metric.h"
 #include "request_conversions.h"
 #include "scene/set_warning_distance.h"
 #include "scene_edits.h"
+#include "search/grid/mesh_metric.h"
 #include "short_text.h"
 #include "tf_poses.h"
 

@@ -8,7 +8,7 @@
 
 #include "base/content_hash.h"
 #include "concave_distance/mesh/body_mesh.h"
-#include "mesh/grid/metric_memory.h"
+#include "search/grid/metric_memory.h"
 
 namespace concave_distance {
 
@@ -22,8 +22,8 @@ class BodyPool {
 
   const std::shared_ptr<MetricMemory>& metricMemory() const { return metric_memory_; }
 
-  /// The mesh with this key if a body still has it, else the result of `make`, which is called without a
-  /// lock.
+  /// The mesh with this key if a body still has it, else the result of `make`, which is called
+  /// without a lock.
   template <typename Make>
   std::shared_ptr<const BodyMesh> share(const ContentKey& key, const Make& make) {
     if (std::shared_ptr<const BodyMesh> known = find(key)) return known;

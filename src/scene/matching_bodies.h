@@ -8,8 +8,8 @@
 
 namespace concave_distance::detail {
 
-/// The bodies of a scene that a text calls: one by its name, those of a group, or those that a pattern
-/// matches.
+/// The bodies of a scene that a text calls: one by its name, those of a group, or those that
+/// a pattern matches.
 struct MatchingBodies {
   std::vector<std::size_t> bodies;  ///< each once
   bool is_one_by_name = false;

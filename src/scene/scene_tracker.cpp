@@ -195,16 +195,8 @@ void SceneTracker::count(CycleCounts& counts) const {
   }
   for (TrackedPair* pair : to_solve_) {
     if (!pair->solved()) continue;  // stopped before its turn
-    ++counts.solved;
     counts.effects += pair->effects.takeCounts();
-    counts.cold += pair->solution.warm ? 0 : 1;
-    counts.search_misses += pair->solution.search_miss ? 1 : 0;
-    counts.generations += pair->solution.cost.generations;
-    for (const TrackedNiche& niche : pair->solution.niches)
-      ++counts.niches[static_cast<std::size_t>(niche.origin)];
-    const SolveStatus status = pair->solution.status;
-    counts.unproven +=
-        status == SolveStatus::BudgetExhausted || status == SolveStatus::MemoryExhausted ? 1 : 0;
+    counts.addSolve(pair->solution);
   }
   counts.helper_cpu_seconds = arena_->helpers.seconds();
 }

@@ -5,8 +5,8 @@
 
 namespace concave_distance {
 
-/// The numbers and choices of a simulation: files, command lines, messages and documents are made from this
-/// table.
+/// The numbers and choices of a simulation: files, command lines, messages and documents are made
+/// from this table.
 const ParameterTable<SimulationSettings>& simulationParameters();
 
 }  // namespace concave_distance

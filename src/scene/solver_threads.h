@@ -8,7 +8,7 @@
 
 namespace concave_distance {
 
-/// How many threads solve pairs: 0 is one per core, and TBB gives no more than that.
+/// Returns how many threads solve pairs: 0 is one per core, and TBB gives no more than that.
 inline int solverThreads(std::uint32_t threads) {
   const std::uint32_t cores = std::max(1U, std::thread::hardware_concurrency());
   return static_cast<int>(threads == 0 ? cores : std::min(threads, cores));

@@ -9,7 +9,7 @@ void BasinMemory::clear() {
 
 std::int64_t BasinMemory::find(NodeIndex node_a, NodeIndex node_b) const {
   const std::uint32_t found = minimum_of_pair_.find(node_a, node_b);
-  return found == NodePairMap::kAbsent ? -1 : std::int64_t{found};
+  return found == PairTable::kAbsent ? -1 : std::int64_t{found};
 }
 
 void BasinMemory::insert(NodeIndex node_a, NodeIndex node_b, std::uint32_t minimum) {

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/pair_table.h"
 #include "concave_distance/search/trial_point.h"
-#include "node_pair_map.h"
 
 namespace concave_distance {
 
@@ -13,7 +13,7 @@ namespace concave_distance {
 /// clear() is O(1), a warm cycle allocates nothing.
 class BasinMemory {
  public:
-  /// @param capacity_log2 of the pairs' table, see NodePairMap
+  /// @param capacity_log2 of the pairs' table, see PairTable
   explicit BasinMemory(std::uint32_t capacity_log2 = 12) : minimum_of_pair_(capacity_log2) {}
   void reserve(std::size_t minima) {
     minima_.reserve(minima);
@@ -32,7 +32,7 @@ class BasinMemory {
 
  private:
   static constexpr std::uint32_t kUsualPairsLog2 = 12;
-  NodePairMap minimum_of_pair_;
+  PairTable minimum_of_pair_;
   std::vector<TrialPoint> minima_;
 };
 

@@ -5,9 +5,9 @@
 #include <limits>
 
 #include "generation.h"
-#include "mesh/grid/mesh_metric.h"
 #include "mutation.h"
 #include "replacement.h"
+#include "search/grid/mesh_metric.h"
 #include "sharing.h"
 
 namespace concave_distance {

@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "concave_distance/base/not_computed.h"
-#include "mesh/grid/mesh_metric.h"
-#include "mesh/grid/node_graph.h"
+#include "search/grid/mesh_metric.h"
+#include "search/grid/node_graph.h"
 
 namespace concave_distance {
 namespace {

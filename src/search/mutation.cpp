@@ -6,8 +6,8 @@
 #include "base/infinity.h"
 #include "base/random_engine.h"
 #include "concave_distance/base/not_computed.h"
-#include "mesh/grid/mesh_metric.h"
-#include "mesh/grid/node_graph.h"
+#include "search/grid/mesh_metric.h"
+#include "search/grid/node_graph.h"
 
 namespace concave_distance {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "mesh/grid/mesh_metric.h"
+#include "search/grid/mesh_metric.h"
 
 namespace concave_distance {
 namespace {

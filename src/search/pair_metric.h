@@ -4,7 +4,7 @@
 
 #include "concave_distance/mesh/body_mesh.h"
 #include "concave_distance/search/trial_point.h"
-#include "mesh/grid/mesh_metric.h"
+#include "search/grid/mesh_metric.h"
 
 namespace concave_distance {
 

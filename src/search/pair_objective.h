@@ -4,7 +4,7 @@
 
 #include "concave_distance/mesh/body_mesh.h"
 #include "concave_distance/search/trial_point.h"
-#include "mesh/grid/search_nodes.h"
+#include "search/grid/search_nodes.h"
 
 namespace concave_distance {
 

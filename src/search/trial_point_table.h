@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/pair_table.h"
 #include "concave_distance/search/trial_point.h"
-#include "node_pair_map.h"
 #include "pair_metric.h"
 
 namespace concave_distance {
@@ -54,7 +54,7 @@ class TrialPointTable {
   static constexpr std::uint32_t kUsualPlacesLog2 = 10;
   double measure(std::uint32_t i, std::uint32_t j, PairMetric& metric);
 
-  NodePairMap place_of_pair_{6};
+  PairTable place_of_pair_{6};
   std::vector<TrialPoint> points_;
   std::vector<float> delta_;  ///< lower triangle, row by row; negative: not computed yet
   double bound_ = 0.0;

@@ -1,16 +1,8 @@
 #include "coupling.h"
 
+#include "base/cross_matrix.h"
+
 namespace concave_distance::detail {
-namespace {
-
-Eigen::Matrix3d crossMatrix(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d matrix;
-  matrix << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
-  return matrix;
-}
-
-}  // namespace
-
 Matrix6d jacobianAt(const Eigen::Isometry3d& world_from_frame, const Eigen::Vector3d& centre) {
   const Eigen::Matrix3d axes = world_from_frame.linear().transpose();
   Matrix6d jacobian = Matrix6d::Zero();

@@ -12,7 +12,7 @@ namespace concave_distance::detail {
 
 inline constexpr std::size_t kNoBody = static_cast<std::size_t>(-1);
 
-/// Where a frame is that moves, and how: velocity of `centre`, angular velocity; world axes.
+/// Says where a frame is that moves, and how: velocity of `centre`, angular velocity; world axes.
 struct FrameMotion {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   Vector6d twist = Vector6d::Zero();
@@ -22,7 +22,7 @@ struct FrameMotion {
   }
 };
 
-/// How a wrench of a coupling changes, at one time; about A's origin, A's axes, on B.
+/// Says how a wrench of a coupling changes, at one time; about A's origin, A's axes, on B.
 struct CouplingForce {
   Vector6d wrench = Vector6d::Zero();  ///< N, N m, at `twist`
   Vector6d twist = Vector6d::Zero();   ///< of B against A for which the wrench was evaluated
@@ -33,26 +33,26 @@ struct CouplingForce {
   Vector6d wrenchAt(const Vector6d& other) const { return wrench - linearisation.damping * (other - twist); }
 };
 
-/// What couples two bodies A and B, or a drive's target (A) and its body (B), in the equations of a step.
+/// Couples two bodies A and B, or a drive's target (A) and its body (B), in the equations of a step.
 struct Coupling {
   std::size_t body_a = kNoBody;  ///< kNoBody: the target of B's drive
   std::size_t body_b = kNoBody;
   CouplingForce force;  ///< now
 
-  // At the begin of the step.
+  // The force acts so at the begin of the step.
   CouplingForce begin;
   Vector6d twist = Vector6d::Zero();  ///< of B against A
   double stiffness_rate = 0.0;        ///< bound on the square of the angular frequencies, 1/s^2
   double damping_rate = 0.0;          ///< bound on the rates of decay, 1/s
   double load = 0.0;                  ///< what else presses on the bodies, N
 
-  // Of the equations: see StepEquations.
+  // The equations (StepEquations) take these.
   Matrix6d jacobian_a = Matrix6d::Zero();  ///< from A's twist to the relative one
   Matrix6d jacobian_b = Matrix6d::Zero();
   Matrix6d resistance = Matrix6d::Zero();  ///< kg, kg m, kg m^2
   Vector6d change = Vector6d::Zero();      ///< solution: of the relative twist
 
-  // Of the step that is tried.
+  // The step that is tried sets these.
   Vector6d impulse = Vector6d::Zero();       ///< N s: of the equations solved last
   Vector6d undamped = Vector6d::Zero();      ///< mean wrench by the trapezoidal rule
   Vector6d used = Vector6d::Zero();          ///< mean wrench of the linear model
@@ -63,8 +63,8 @@ struct Coupling {
   Vector6d residual = Vector6d::Zero();      ///< what the linear model has missed of the wrench at the end
 };
 
-/// From the twist of a body about its centre, world axes, to that of its point at the frame's origin, the
-/// frame's axes.
+/// Returns the map from the twist of a body about its centre, world axes, to that of its point at the frame's
+/// origin, the frame's axes.
 Matrix6d jacobianAt(const Eigen::Isometry3d& world_from_frame, const Eigen::Vector3d& centre);
 /// The twist of B against A at the origin of A's frame, its axes.
 Vector6d twistBetween(const Eigen::Isometry3d& world_from_a, const FrameMotion& a, const FrameMotion& b);
@@ -72,7 +72,7 @@ inline Wrench toWrench(const Vector6d& wrench) {
   return {wrench.head<3>(), wrench.tail<3>()};
 }
 
-/// Of a drive's spring and damper. @param point of the drive's frame, in the target's frame
+/// Returns that of a drive's spring and damper. @param point of the drive's frame, in the target's frame
 ContactLinearisation linearisationOf(const CompliantDrive& drive, const Eigen::Vector3d& point_in_target);
 
 }  // namespace concave_distance::detail

@@ -2,14 +2,10 @@
 
 #include <cmath>
 
+#include "base/cross_matrix.h"
+
 namespace concave_distance {
 namespace {
-
-Eigen::Matrix3d crossMatrix(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d matrix;
-  matrix << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
-  return matrix;
-}
 
 Eigen::Vector3d rotationVector(const Eigen::Matrix3d& rotation) {
   Eigen::Quaterniond quaternion(rotation);

@@ -7,7 +7,7 @@
 
 namespace concave_distance {
 
-/// What a compliant drive does to its body at one time.
+/// Says what a compliant drive does to its body at one time.
 struct DriveForce {
   Wrench on_body;              ///< spring and damper, about the body's centre of mass, world axes
   double spring_energy = 0.0;  ///< J

@@ -35,8 +35,8 @@ class MovingBody {
 
   /// The first time after `time` at which something about the body's loads or paths changes.
   double nextEvent(double time) const;
-  /// Of the centre of mass, or the frame's origin of a body that is not free. @param inside a time within
-  /// the step
+  /// Returns the motion of the centre of mass, or of the frame's origin of a body that is not free. @param
+  /// inside a time within the step
   FrameMotion motionAt(double time, double inside) const { return motionOf(state_, time, inside); }
   FrameMotion motionOf(const RigidBodyState& state, double time, double inside) const;
   StepEquations::Inertia inertia() const;
@@ -49,13 +49,13 @@ class MovingBody {
 
   bool hasDrive() const { return drive_.has_value(); }
   void setDriveTarget(const Eigen::Isometry3d& pose);
-  /// Of the drive's target.
+  /// Returns the pose of the drive's target.
   Eigen::Isometry3d targetPose(double time) const { return target_->poseAt(time); }
   FrameMotion targetMotion(double time, double inside) const;
   void evaluateDrive(double time, double inside, const RigidBodyState& state);
   const DriveForce& drive() const { return drive_now_; }
   ContactLinearisation driveLinearisation(double time) const;
-  /// How far its force stretches the stiffest of its springs, metres.
+  /// Returns how far its force stretches the stiffest of its springs, metres.
   double driveStretch() const;
 
   /// The parts of a step: begin, kick, drift, kick; restore() returns to the begin.

@@ -25,7 +25,7 @@ class PairRunner {
   /// @param index of the pair in the scene
   PairRunner(const Scene& scene, std::size_t index, const SimulationSettings& settings);
 
-  /// Whether the next update() lists the niches, in a simulation that follows them.
+  /// Sets whether the next update() lists the niches, in a simulation that follows them.
   void wantNiches(bool wanted) { tracked_.demand.niches = follows_niches_ && wanted; }
 
   /// Solves at the bodies' poses. @param step seconds since the last call
@@ -33,10 +33,10 @@ class PairRunner {
               SimulationCounters& counters);
   static ContactWrenches wrenchesOnB(const SimulatedPair& pair, const Eigen::Isometry3d& world_from_a);
 
-  /// What the forces of the pair's contacts come to, about A's origin, A's axes, on B.
+  /// Returns what the forces of the pair's contacts come to, about A's origin, A's axes, on B.
   static CouplingForce forceOnB(const SimulatedPair& pair, const SimulatedBody& a, const SimulatedBody& b);
 
-  /// Whether its effects bring forces: without, it holds no step back.
+  /// Returns whether its effects bring forces; a pair without forces holds no step back.
   bool hasForces() const { return tracked_.settings.effects.normal_force.has_value(); }
   /// A lower estimate of the depth that the pair's next contact reaches, metres; 0 without forces.
   double expectedDepth(const ContactLoad& load, double size) const;

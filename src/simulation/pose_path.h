@@ -12,7 +12,7 @@ struct FrameTwist {
   Eigen::Vector3d linear = Eigen::Vector3d::Zero();   ///< m/s
   Eigen::Vector3d angular = Eigen::Vector3d::Zero();  ///< rad/s
 
-  /// Of the point of that frame that is `offset` from its origin, world axes.
+  /// Returns the velocity of the point of that frame that is `offset` from its origin, world axes.
   Eigen::Vector3d at(const Eigen::Vector3d& offset) const { return linear + angular.cross(offset); }
 };
 

@@ -7,8 +7,8 @@
 
 namespace concave_distance {
 
-/// Where a free body is and how it moves. The angular momentum, and not the angular velocity, is the state:
-/// without torques it is constant, whatever the body does.
+/// Says where a free body is and how it moves. The angular momentum, and not the angular velocity, is the
+/// state: without torques it is constant, whatever the body does.
 struct RigidBodyState {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< of mass, world, metres
   Eigen::Quaterniond world_from_principal = Eigen::Quaterniond::Identity();
@@ -16,8 +16,9 @@ struct RigidBodyState {
   Eigen::Vector3d angular_momentum = Eigen::Vector3d::Zero();  ///< about the centre, world axes, kg m^2/s
 };
 
-/// What a drift did: how far the centre went, and how far the body turned in sum of all partial turns. No
-/// point at radius r from the centre has left its place by more than |shift| + r turn at any time in between.
+/// Says what a drift did: how far the centre went, and how far the body turned in sum of all partial
+/// turns. No point at radius r from the centre has left its place by more than |shift| + r turn at any
+/// time in between.
 struct Drift {
   Eigen::Vector3d shift = Eigen::Vector3d::Zero();  ///< metres
   double turn = 0.0;                                ///< rad, >= 0

@@ -25,7 +25,7 @@ struct BodyContacts {
   }
 };
 
-// What the works of a step need from its begin.
+// Holds what the works of a step need from its begin.
 struct StepBegin {
   BodyContacts contacts;
   Wrench load;
@@ -33,13 +33,14 @@ struct StepBegin {
   double drive_loss = 0.0;
 };
 
-// What holds a pair's steps back, from the begin of the step.
+// Holds what limits a pair's steps, from the begin of the step.
 struct PairBegin {
   double lower_bound = 0.0;  ///< metres
   double allowance = 0.0;    ///< beyond it, metres
   double depth = 0.0;        ///< of the deepest region, metres
 
-  /// How far any point may move against the other body. What is apart comes near first, and touches then.
+  /// Returns how far any point may move against the other body. What is apart comes near first,
+  /// and touches then.
   double allowed() const { return lower_bound > allowance ? lower_bound : lower_bound + allowance; }
 };
 
@@ -91,7 +92,7 @@ struct Simulation::State {
   void correct(double step);
 
   // step_acceptance.cpp: how good the step was.
-  /// How many times the tolerance the step's error is.
+  /// Returns how many times the tolerance the step's error is.
   double shareOfError(double step);
   detail::StepTolerance toleranceOf(std::size_t coupling) const;
   double energyOfMotion(const detail::Coupling& coupling) const;
@@ -117,7 +118,8 @@ struct Simulation::State {
   SimulationCounters counters;
   std::vector<std::string> warnings;
 
-  // Of the step; by body, by pair, by coupling: first those of the pairs, in their order, then the drives.
+  // These belong to the step, by body, by pair and by coupling: first those of the pairs, in their order,
+  // then the drives.
   std::vector<detail::StepBegin> begins;
   std::vector<Drift> drifts;
   std::vector<detail::FrameMotion> motions;

@@ -22,8 +22,8 @@ constexpr double kOrder = 3.0;
 constexpr double kLargestGrowth = 2.0;
 constexpr double kSmallestShare = 0.1;
 constexpr double kLargestShare = 0.7;
-// A force that jumps looks the same in steps of any size: this share of the steps that a swing takes is the
-// smallest.
+// A force that jumps looks the same in steps of any size: this share of the steps that a swing takes
+// is the smallest.
 constexpr double kSmallestPart = 0.02;
 
 bool isSameTime(double time, double event) {

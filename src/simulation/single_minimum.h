@@ -9,9 +9,9 @@
 
 namespace concave_distance {
 
-/// What tracking a single solution does (Carretero, sec. 4.1): the last cycle's closest pair is the only
-/// guess, moved downhill to the local minimum that it leads to, which is the next cycle's guess. It does not
-/// learn of other minima. Kept to show where it goes wrong, beside niche tracking.
+/// Tracks a single solution (Carretero, sec. 4.1): the last cycle's closest pair is the only guess, moved
+/// downhill to the local minimum that it leads to, which is the next cycle's guess. It does not learn of
+/// other minima. Kept to show where it goes wrong, beside niche tracking.
 class SingleMinimum {
  public:
   SingleMinimum(std::shared_ptr<const BodyMesh> a, std::shared_ptr<const BodyMesh> b);
@@ -23,7 +23,7 @@ class SingleMinimum {
   const WitnessPair& update(const Eigen::Isometry3d& a_from_b);
   const WitnessPair& witness() const { return witness_; }
   double distance() const;  ///< of it, metres; NaN before the first update
-  /// Whether the minimum followed is farther than the proven distance: the guess was wrong.
+  /// Returns whether the minimum followed is farther than the proven distance, so that the guess was wrong.
   bool wrong(const PairSolution& proven) const;
 
  private:

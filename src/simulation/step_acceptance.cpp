@@ -14,7 +14,7 @@ using detail::MovingBody;
 // Of the energy of sliding, in the tolerance for what a contact does along its normal.
 constexpr double kShareOfSliding = 0.02;
 
-double massOf(const std::vector<MovingBody>& bodies, std::size_t body) {
+double freeMassOf(const std::vector<MovingBody>& bodies, std::size_t body) {
   return body != detail::kNoBody && bodies[body].isFree() ? bodies[body].rigid().mass()
                                                           : std::numeric_limits<double>::infinity();
 }
@@ -42,12 +42,12 @@ double frictionWork(const std::vector<ContactRegion>& regions, const Vector6d& d
 
 }  // namespace
 
-// Of the lighter body against the other.
+// Returns the energy with which the lighter body moves against the other.
 double Simulation::State::energyOfMotion(const Coupling& coupling) const {
-  const bool b_is_lighter = massOf(moving, coupling.body_b) <= massOf(moving, coupling.body_a);
+  const bool b_is_lighter = freeMassOf(moving, coupling.body_b) <= freeMassOf(moving, coupling.body_a);
   const std::size_t lighter = b_is_lighter ? coupling.body_b : coupling.body_a;
   const std::size_t other = b_is_lighter ? coupling.body_a : coupling.body_b;
-  if (std::isinf(massOf(moving, lighter))) return 0.0;
+  if (std::isinf(freeMassOf(moving, lighter))) return 0.0;
   FrameMotion against;
   if (other != detail::kNoBody) {
     against = motions[other];
@@ -84,7 +84,7 @@ detail::StepTolerance Simulation::State::toleranceOf(std::size_t index) const {
   tolerance.sliding =
       detail::shareAcross(coupling.displacement, deepest.point_in_a, deepest.overlap.normal_in_a);
   const double speed = speedAlongNormal(coupling, deepest);
-  const double mass = std::min(massOf(moving, coupling.body_a), massOf(moving, coupling.body_b));
+  const double mass = std::min(freeMassOf(moving, coupling.body_a), freeMassOf(moving, coupling.body_b));
   const double all = tolerance.energy_of_motion;
   const double along = std::min(all, 0.5 * mass * speed * speed);
   tolerance.energy_of_motion = along + kShareOfSliding * (all - along);

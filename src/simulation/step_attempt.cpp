@@ -66,7 +66,7 @@ void Simulation::State::beginStep(double inside) {
   allowDisplacements();
 }
 
-// What presses on a pair from outside is what acts on the body less its own force: of two the smaller.
+// A pair is pressed from outside by what acts on the body less its own force: of two bodies the smaller.
 void Simulation::State::findLoads() {
   for (std::size_t i = 0; i < moving.size(); ++i) {
     if (!moving[i].isFree()) continue;

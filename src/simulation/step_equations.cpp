@@ -24,20 +24,14 @@ Vector6d StepEquations::Inertia::changeBy(const Vector6d& impulse) const {
   return change;
 }
 
-std::size_t StepEquations::rootOf(std::size_t body) {
-  while (parent_[body] != body) body = parent_[body] = parent_[parent_[body]];
-  return body;
-}
-
 void StepEquations::findIslands(const std::vector<Inertia>& bodies, const std::vector<Coupling>& couplings) {
-  parent_.resize(bodies.size());
-  for (std::size_t i = 0; i < bodies.size(); ++i) parent_[i] = i;
+  islands_.reset(bodies.size());
   row_.assign(bodies.size(), -1);
   size_.assign(bodies.size(), 0);
   for (const Coupling& coupling : couplings) {
     if (!coupling.begin.acts) continue;
     if (!isFree(bodies, coupling.body_a) || !isFree(bodies, coupling.body_b)) continue;
-    parent_[rootOf(coupling.body_a)] = rootOf(coupling.body_b);
+    islands_.unite(static_cast<std::uint32_t>(coupling.body_a), static_cast<std::uint32_t>(coupling.body_b));
   }
   for (const Coupling& coupling : couplings) {
     if (!coupling.begin.acts) continue;

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "base/union_find.h"
 #include "coupling.h"
 
 namespace concave_distance::detail {
@@ -26,18 +27,19 @@ class StepEquations {
   /// Finds what hangs together by couplings that act.
   void findIslands(const std::vector<Inertia>& bodies, const std::vector<Coupling>& couplings);
 
-  /// Of the islands found last.
+  /// Solves the islands found last.
   /// @param impulses of each body about its centre of mass, world axes; of others than free bodies ignored
   /// @param changes of the bodies' twists; and of the couplings' (Coupling::change)
   void solve(const std::vector<Inertia>& bodies, const std::vector<Vector6d>& impulses,
              std::vector<Coupling>& couplings, std::vector<Vector6d>& changes);
 
  private:
-  std::size_t rootOf(std::size_t body);
+  /// Returns the representative of the island that holds a body.
+  std::size_t rootOf(std::size_t body) { return islands_.find(static_cast<std::uint32_t>(body)); }
   void assemble(const std::vector<Inertia>& bodies, const std::vector<Coupling>& couplings, std::size_t root,
                 Eigen::Index size);
 
-  std::vector<std::size_t> parent_;
+  UnionFind islands_;
   std::vector<Eigen::Index> row_;   ///< of each body in its island's matrix
   std::vector<Eigen::Index> size_;  ///< of each root's island
   Eigen::MatrixXd matrix_;

@@ -4,10 +4,10 @@
 
 namespace concave_distance::detail {
 
-/// Across `normal`, of the displacement of a point, as a share of all of it; 0 without any.
+/// Returns the part of a point's displacement across `normal`, as a share of all of it; 0 without any.
 double shareAcross(const Vector6d& displacement, const Eigen::Vector3d& point, const Eigen::Vector3d& normal);
 
-/// How large a coupling's part in the error of the energy may be in one step, joules.
+/// Says how large a coupling's part in the error of the energy may be in one step, joules.
 struct StepTolerance {
   double energy_of_motion = 0.0;  ///< of B against A, J
   double load = 0.0;              ///< that presses them together, N

@@ -16,8 +16,8 @@ constexpr double kShareInContact = 1.0;
 constexpr double kShareAtBegin = 0.02;
 // Places are rounded: this far, relative to the body's size, it may always move.
 constexpr double kRoundedPlace = 1e-9;
-// Of the way allowed at the present speed, which changes a little within the step.
-constexpr double kAim = 0.99;
+// A step takes this share of the way allowed at the present speed, which changes a little within the step.
+constexpr double kShareOfAllowed = 0.99;
 
 double reducedMass(const MovingBody& a, const MovingBody& b) {
   if (!a.isFree()) return b.rigid().mass();
@@ -79,7 +79,7 @@ double Simulation::State::limitStep(double event, StepLimit& limit) {
   }
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const double before = step;
-    hold(kAim * pair_begins[i].allowed() / speedBetween(pairs[i]), StepLimit::Distance);
+    hold(kShareOfAllowed * pair_begins[i].allowed() / speedBetween(pairs[i]), StepLimit::Distance);
     if (step < before) holds_distance = i;
   }
   return step;

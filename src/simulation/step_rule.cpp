@@ -1,8 +1,8 @@
-// What the couplings do in a step, by their linear models. The trapezoidal rule keeps the energy of what the
-// step resolves; a rule that counts the end of the step by more than a half damps. What the step does not
-// resolve, and that alone, goes by the second one: of the difference between the two rules the equations let
-// through, in each direction in which the bodies can move together, the share (x / (1 + x))^2 of a direction
-// of which the step is x = h^2 k / m + h d / m time scales long.
+// Computes what the couplings do in a step, by their linear models. The trapezoidal rule keeps the energy of
+// what the step resolves; a rule that counts the end of the step by more than a half damps. What the step
+// does not resolve, and that alone, goes by the second one: of the difference between the two rules the
+// equations let through, in each direction in which the bodies can move together, the share (x / (1 + x))^2
+// of a direction of which the step is x = h^2 k / m + h d / m time scales long.
 #include "simulation_state.h"
 
 namespace concave_distance {

@@ -24,7 +24,7 @@ std::string nameOf(const SimulationSettings& settings, const std::string& body) 
   return "body '" + body + "'";
 }
 
-/// Of a point to a box, 0 inside.
+/// Returns the distance of a point to a box, 0 inside.
 double distanceTo(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& point) {
   return std::sqrt(box.squaredExteriorDistance(point));
 }

@@ -11,7 +11,7 @@ bool isHeld(const SimulatedBodySettings& settings) {
   return settings.motion != BodyMotion::Free || settings.drive.has_value() || !settings.loads.empty();
 }
 
-/// Of open surfaces alone there is no depth, and no force.
+/// Open surfaces alone have no depth, and no force.
 bool hasClosedShell(const SceneBody& body) {
   const std::vector<bool>& closed = body.mesh->topology().shell_is_closed;
   return std::find(closed.begin(), closed.end(), true) != closed.end();

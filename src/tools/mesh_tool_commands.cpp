@@ -6,6 +6,7 @@
 #include <limits>
 #include <ostream>
 
+#include "base/triangle_area.h"
 #include "concave_distance/mesh/import/export_mesh.h"
 #include "concave_distance/mesh/import/import_mesh.h"
 #include "concave_distance/mesh/repair/repair_mesh.h"
@@ -29,7 +30,7 @@ Measures measure(const SurfaceMesh& mesh) {
     const Eigen::Vector3d a = mesh.corner(triangle, 0) - origin;
     const Eigen::Vector3d b = mesh.corner(triangle, 1) - origin;
     const Eigen::Vector3d c = mesh.corner(triangle, 2) - origin;
-    measures.area += 0.5 * (b - a).cross(c - a).norm();
+    measures.area += triangleArea(a, b, c);
     measures.volume += a.dot(b.cross(c)) / 6.0;
     for (const double length : {(b - a).norm(), (c - b).norm(), (a - c).norm()}) {
       measures.shortest_edge = std::min(measures.shortest_edge, length);

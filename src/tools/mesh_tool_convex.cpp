@@ -4,9 +4,9 @@
 #include <ostream>
 
 #include "concave_distance/mesh/import/export_mesh.h"
-#include "thesis/partition/convex_hull.h"
-#include "thesis/partition/convex_partition.h"
-#include "thesis/partition/piece_file.h"
+#include "thesis/src/partition/convex_hull.h"
+#include "thesis/src/partition/convex_partition.h"
+#include "thesis/src/partition/piece_file.h"
 
 namespace concave_distance::tools {
 namespace {

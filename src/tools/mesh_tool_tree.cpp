@@ -6,9 +6,9 @@
 
 #include "base/output_file.h"
 #include "mesh_tool_convex.h"
-#include "thesis/continuous/build_constraint_tree.h"
-#include "thesis/continuous/constraint_tree_file.h"
-#include "thesis/continuous/piece_mesh.h"
+#include "thesis/src/continuous/build_constraint_tree.h"
+#include "thesis/src/continuous/constraint_tree_file.h"
+#include "thesis/src/continuous/piece_mesh.h"
 
 namespace concave_distance::tools {
 namespace {

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <limits>
 
-#include "mesh/grid/node_graph.h"
 #include "mesh/surface/mesh_topology.h"
 #include "niche_archive.h"
+#include "search/grid/node_graph.h"
 
 namespace concave_distance {
 

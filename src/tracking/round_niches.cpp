@@ -21,10 +21,10 @@ void limitKind(const PairGeometry& geometry, TrackedNiche& niche) {
   for (const BodyMesh* body : {geometry.a.get(), geometry.b.get()}) {
     const RoundShape* shape = body->shape();
     if (shape == nullptr) continue;
-    if (shape->kind == RoundKind::Sphere) {
+    if (!detail::hasSide(*shape)) {
       niche.kind = NicheKind::Point;
       niche.extent = 0.0;
-    } else if (shape->kind == RoundKind::Capsule && niche.kind == NicheKind::Patch) {
+    } else if (!detail::hasFlatEnds(*shape) && niche.kind == NicheKind::Patch) {
       niche.kind = NicheKind::Segment;
     }
   }

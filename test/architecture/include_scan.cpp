@@ -11,7 +11,7 @@ namespace concave_distance {
 namespace {
 
 const std::string kTopFolder = "ros";
-const std::string kThesis = "thesis";
+const std::string kThesis = "thesis/src";
 const std::string kPackage = "concave_distance";
 
 std::vector<std::string> includesOf(const std::string& text) {
@@ -90,7 +90,7 @@ const std::vector<std::string>& foldersFromTheGround() {
                                                    "mesh/surface",
                                                    "mesh/trees",
                                                    "mesh/repair",
-                                                   "mesh/grid",
+                                                   "search/grid",
                                                    "mesh",
                                                    "mesh/import",
                                                    "distance",
@@ -105,9 +105,9 @@ const std::vector<std::string>& foldersFromTheGround() {
                                                    "scene",
                                                    "simulation",
                                                    "loading",
-                                                   "thesis/partition",
-                                                   "thesis/continuous",
-                                                   "thesis/annealing",
+                                                   "thesis/src/partition",
+                                                   "thesis/src/continuous",
+                                                   "thesis/src/annealing",
                                                    kThesis,
                                                    "tools",
                                                    kTopFolder};
@@ -145,8 +145,9 @@ std::vector<std::string> faultsOfFolders(const std::filesystem::path& package, s
   const fs::path headers = package / "include" / kPackage;
   const fs::path sources = package / "src";
   std::vector<std::string> faults;
-  for (const fs::path& root : {headers, sources}) {
-    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root)) {
+  for (const fs::path& folder : {headers, sources, package / kThesis}) {
+    const fs::path root = folder == package / kThesis ? package : folder;
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
       const fs::path& file = entry.path();
       if (file.extension() != ".h" && file.extension() != ".cpp") continue;
       ++files_seen;

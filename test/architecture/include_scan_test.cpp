@@ -59,14 +59,15 @@ TEST(IncludeScan, ReportsRosHeadersBelowTheTopFolderOnly) {
 }
 
 TEST(IncludeScan, ReportsWhatReachesTheThesis) {
-  const std::string text = "#include \"concave_distance/thesis/annealing/a.h\"\n";
+  const std::string text = "#include \"thesis/src/annealing/a.h\"\n";
   for (const char* file : {"search/x.cpp", "tools/distance_query.cpp", "ros/x.cpp"}) {
     EXPECT_FALSE(faultsOfIncludes(text, file, "").empty()) << file;
   }
-  for (const char* file : {"thesis/evaluation/x.cpp", "thesis/annealing/x.h", "tools/mesh_tool_tree.cpp"}) {
+  for (const char* file :
+       {"thesis/src/evaluation/x.cpp", "thesis/src/annealing/x.h", "tools/mesh_tool_tree.cpp"}) {
     EXPECT_TRUE(faultsOfIncludes(text, file, "").empty()) << file;
   }
-  EXPECT_FALSE(faultsOfIncludes(text, "thesis/continuous/x.cpp", "").empty()) << "an arrow upwards";
+  EXPECT_FALSE(faultsOfIncludes(text, "thesis/src/continuous/x.cpp", "").empty()) << "an arrow upwards";
 }
 
 TEST(IncludeScan, ReportsASourceFileWhoseOwnHeaderIsNotFirst) {

@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <set>
 #include <vector>
+
+#include "base/pair_table.h"
 
 namespace concave_distance::pair_key_test {
 namespace {
@@ -32,6 +35,30 @@ TEST(PairKey, NeighbouringPairsSpreadOverTheTable) {
   }
   // Random places would have 1024 balls in 4096 urns: more than 5 in one happens once in about 1000 tables.
   EXPECT_LE(*std::max_element(in_slot.begin(), in_slot.end()), 5);
+}
+
+TEST(PairTable, KeepsTheFirstNumberOfEachPairUntilItIsCleared) {
+  PairTable table(1);
+  for (std::uint32_t round = 0; round < 3; ++round) {
+    for (std::uint32_t i = 0; i < 100; ++i) {
+      EXPECT_EQ(table.insert(NodeIndex{i}, NodeIndex{i + 1}, i + round), i + round);
+      EXPECT_EQ(table.insert(NodeIndex{i}, NodeIndex{i + 1}, 1000), i + round);
+    }
+    EXPECT_EQ(table.size(), 100U);
+    EXPECT_EQ(table.find(NodeIndex{8}, NodeIndex{7}), PairTable::kAbsent);
+    table.clear();
+    EXPECT_EQ(table.find(NodeIndex{7}, NodeIndex{8}), PairTable::kAbsent);
+  }
+}
+
+TEST(PairTable, GrowsOnlyAsFarAsTheMemoryLimitAllows) {
+  WorkLimit limit(WorkLimit::Clock::now(), std::numeric_limits<double>::infinity(), 1024, nullptr);
+  PairTable table(4);
+  std::uint32_t count = 0;
+  for (; count < 1000 && table.makeRoom(limit); ++count) table.insert(NodeIndex{count}, NodeIndex{0}, count);
+  EXPECT_EQ(count, 16U);
+  EXPECT_TRUE(limit.hasRefusedMemory());
+  EXPECT_EQ(table.find(NodeIndex{15}, NodeIndex{0}), 15U);
 }
 
 }  // namespace

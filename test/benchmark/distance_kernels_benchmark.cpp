@@ -16,7 +16,7 @@
 #include "distance/niches/niche_properties.h"
 #include "support/body_pairs.h"
 #include "support/triangle_pairs.h"
-#include "thesis/evaluation/enumeration.h"
+#include "thesis/src/evaluation/enumeration.h"
 
 namespace concave_distance::benchmark {
 namespace {

@@ -1,4 +1,4 @@
-// Writes pairs of the benchmarks as files that experiments/*.yaml can name: meshes/evaluation.
+// Writes pairs of the benchmarks as files that thesis/experiments/*.yaml can name: meshes/evaluation.
 //
 //   write_benchmark_scenes [--pairs obstacle_field,comb_in_comb,peg_in_hole,kr5_bicep_palm] [--steps 200]
 //                          [--output meshes/evaluation] [--all-meshes]

@@ -19,7 +19,7 @@
 #include "fuzz/reproducer.h"
 #include "support/body_pairs.h"
 #include "support/query_bound.h"
-#include "thesis/evaluation/enumeration.h"
+#include "thesis/src/evaluation/enumeration.h"
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include "concave_distance/mesh/repair/repair_mesh.h"
 #include "concave_distance/mesh/surface/primitives.h"
 #include "support/body_pairs.h"
-#include "thesis/evaluation/enumeration.h"
+#include "thesis/src/evaluation/enumeration.h"
 
 namespace concave_distance::test {
 namespace {

@@ -64,12 +64,12 @@ void NicheEnumeration::measurePasses() {
     for (const WideTriangle& part : shared) level = std::min(level, distanceOfTriangles(part, other));
     passes_.push_back({std::max({level, distance_[l], distance_[r]}), l, r});
   };
-  for (const WideBody::Joint& joint : a_.joints()) {
+  for (const WideBody::Joint& joint : a_.shellContacts()) {
     for (std::size_t j = 0; j < count_b_; ++j) {
       join(cellOf(joint.l, j), cellOf(joint.r, j), joint.shared, triangles_b_[j]);
     }
   }
-  for (const WideBody::Joint& joint : b_.joints()) {
+  for (const WideBody::Joint& joint : b_.shellContacts()) {
     std::vector<WideTriangle> shared;
     for (const WideTriangle& part : joint.shared) shared.push_back(movedTriangle(pose_, part));
     for (std::size_t i = 0; i < triangles_a_.size(); ++i) {

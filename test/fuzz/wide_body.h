@@ -31,7 +31,7 @@ class WideBody {
   explicit WideBody(const SurfaceMesh& mesh);
 
   const std::vector<WideTriangle>& triangles() const { return triangles_; }
-  const std::vector<Joint>& joints() const { return joints_; }
+  const std::vector<Joint>& shellContacts() const { return joints_; }
   /// False for a triangle with material of other shells on both sides.
   bool isSurface(std::size_t triangle) const { return is_surface_[triangle]; }
   /// Sum of the winding numbers of all closed shells around a point: material where it is above 0.

@@ -3,9 +3,9 @@
 
 #include <limits>
 
-#include "mesh/grid/mesh_metric.h"
-#include "mesh/grid/node_graph.h"
 #include "scene/body_pool.h"
+#include "search/grid/mesh_metric.h"
+#include "search/grid/node_graph.h"
 #include "support/scene_fixture.h"
 
 namespace concave_distance::scene_loading_test {

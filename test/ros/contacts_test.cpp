@@ -205,8 +205,8 @@ TEST(DescribeEffects, TellsRunsAndShares) {
   diagnostic_updater::DiagnosticStatusWrapper status;
   describeEffects(window, status);
   EXPECT_EQ(status.values.size(), kEffectStages) << "runs, all of them 0";
-  window.effects.runs[0] = 5;
-  window.effects.seconds[0] = 0.01;
+  window.total.effects.runs[0] = 5;
+  window.total.effects.seconds[0] = 0.01;
   window.cpu.add(0.04);
   diagnostic_updater::DiagnosticStatusWrapper busy;
   describeEffects(window, busy);

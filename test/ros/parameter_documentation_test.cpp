@@ -74,7 +74,7 @@ TEST(ParameterDocumentation, HasTheOptionsOfExperiments) {
     const bool has_choices = !parameter.info.experiment_choices.empty();
     if (parameter.info.is_of_experiments || has_choices) options.push_back(parameter);
   }
-  expectTable("doc/experiments.md", "genetic", tableRows(options, false));
+  expectTable("thesis/doc/experiments.md", "genetic", tableRows(options, false));
 }
 
 TEST(ParameterDocumentation, HasWhatASceneFileSaysOfContactAndSimulation) {

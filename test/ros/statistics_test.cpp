@@ -18,7 +18,7 @@ CycleRecord record(double duration, bool late) {
   result.late = late;
   result.report.watched = 2;
   result.report.solved = 2;
-  result.report.generations = 2;
+  result.report.cost.generations = 2;
   return result;
 }
 
@@ -40,8 +40,8 @@ TEST(CycleStatistics, CoverTheTimeSinceTheLastLook) {
   const CycleWindow window = statistics.take(11.0);
   EXPECT_EQ(window.cycles, 50U);
   EXPECT_EQ(window.late, 1U);
-  EXPECT_EQ(window.solved, 100U);
-  EXPECT_EQ(window.generations, 100U);
+  EXPECT_EQ(window.total.solved, 100U);
+  EXPECT_EQ(window.total.cost.generations, 100U);
   diagnostic_updater::DiagnosticStatusWrapper status;
   describePairs(window, status);
   EXPECT_EQ(valueOf(status, "search generations"), "100");

@@ -12,10 +12,15 @@ PACKAGE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file
 LINK = re.compile(r"(!?)\[[^\]]*\]\(([^)\s]+)\)")
 
 
+def documents():
+    for top in ("doc", os.path.join("thesis", "doc")):
+        for folder, _, names in os.walk(os.path.join(PACKAGE, top)):
+            yield from (os.path.relpath(os.path.join(folder, name), PACKAGE) for name in names)
+
+
 def pages():
     found = ["README.md", "CONTRIBUTING.md"]
-    for folder, _, names in os.walk(os.path.join(PACKAGE, "doc")):
-        found += [os.path.relpath(os.path.join(folder, name), PACKAGE) for name in names if name.endswith(".md")]
+    found += [place for place in documents() if place.endswith(".md")]
     return sorted(found)
 
 
@@ -53,15 +58,13 @@ def main():
             if page == "doc/README.md":
                 index[place] = index.get(place, 0) + 1
     for page in pages():
-        if page in ("README.md", "doc/README.md", "doc/results/faults.md", "doc/results/robots.md"):
-            continue  # the start, the index, and results that results/README.md lists
+        if page in ("README.md", "doc/README.md"):
+            continue  # the start and the index
         if index.get(page, 0) != 1:
             faults.append("doc/README.md lists %s %d times" % (page, index.get(page, 0)))
-    for folder, _, names in os.walk(os.path.join(PACKAGE, "doc")):
-        for name in names:
-            place = os.path.relpath(os.path.join(folder, name), PACKAGE)
-            if name.endswith(".png") and place not in pictures:
-                faults.append("%s is shown nowhere" % place)
+    for place in documents():
+        if place.endswith(".png") and place not in pictures:
+            faults.append("%s is shown nowhere" % place)
     for picture, places in pictures.items():
         if len(places) > 1:
             faults.append("%s is shown %d times: %s" % (picture, len(places), ", ".join(places)))

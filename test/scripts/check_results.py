@@ -7,16 +7,20 @@
   recorded one (edited by hand), or one made by a program that was not committed;
 - a file made with other parameter defaults, or from other files, than those of now, unless its state is `older`; more
   of those than MOST_OLDER, or one that is not older;
-- a figure of a document that is not what its file says:
+- a figure of a document that is not what its file says. A mark behind a paragraph or table of PAGE.md names a section
+  of PAGE.figures, which lies beside it:
 
-    The middle of 15 pairs is 49, the worst 217.
-    <!-- results/tracking.csv: 49 = median("fcl_over_alone"); 217 = max("fcl_over_alone"); 15 = count("1") -->
+    The middle of 15 pairs is 49, the worst 217.        [speed]
+    <!-- figures: speed -->                             results/tracking.csv:
+                                                          49 = median("fcl_over_alone")
+                                                          217 = max("fcl_over_alone")
+                                                          15 = count("1")
 
-The comment names the file, compressed (.csv.xz) or not, from its page. Every number on the left stands in the paragraph
-or table before the comment and is the rounded value of the Python expression on the right: value, min, max, median, mean, total and count of an
-expression of columns, over the rows with the given cells (`pair="peg_in_hole"`, or a list of them); found("regex") is
-the number that matches the group in a text file. `<!-- results/tuning.txt: table -->`: the numbers of each row of the
-table before it stand, rounded, in one line of the file.
+A section names its results, compressed (.csv.xz) or not, from the page's folder. Every number on the left stands in the
+paragraph or table before the mark and is the rounded value of the Python expression on the right: value, min, max,
+median, mean, total and count of an expression of columns, over the rows with the given cells (`pair="peg_in_hole"`, or a
+list of them); found("regex") is the number that matches the group in a text file. `table` instead of a figure: the
+numbers of each row of the table before the mark stand, rounded, in one line of the file.
 """
 import csv
 import io
@@ -30,14 +34,16 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent.parent / "
 import provenance  # noqa: E402  (the path comes first)
 
 MOST_OLDER = 0  # results made with other defaults than those of now: lower it as they are made again, never raise it
-QUOTE = re.compile(r"(?<!`)<!-- (\S+\.(?:csv|csv\.xz|txt)): (.*?) -->", re.DOTALL)  # one in backticks is an example
+MARK = re.compile(r"(?<!`)<!-- figures: (\S+) -->")  # one in backticks is an example
+RESULT_IN_PAGE = re.compile(r"(?<!`)<!-- \S+\.(?:csv|csv\.xz|txt): ")
+FIGURES_LINE = re.compile(r"\[(?P<section>[^\]\s]+)\]|(?P<source>\S+\.(?:csv|csv\.xz|txt)):|\s+(?P<figure>\S.*)")
 NUMBER = r"(?:\d{1,3}(?:,\d{3})+|\d+)(?:\.\d+)?(?:e[-+]?\d+)?"
-FIGURE_END = r";\s*(?=-?" + NUMBER + r"\s*=)"
 PLAIN_NUMBER = r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?"  # of a CSV file, in which commas part cells
 
 
 def pages(root):
-    return [root / "README.md", root / "CONTRIBUTING.md", *sorted((root / "doc").rglob("*.md"))]
+    return [root / "README.md", root / "CONTRIBUTING.md", *sorted((root / "doc").rglob("*.md")),
+            *sorted((root / "thesis" / "doc").rglob("*.md"))]
 
 
 def check_files(root, rows):
@@ -45,7 +51,7 @@ def check_files(root, rows):
     faults = []
     recorded = {name for pattern in rows for name in tree.matching(pattern)}
     for name in tree.matching("doc/results/**/*"):
-        if name not in recorded and not name.endswith(".md") and name != provenance.MANIFEST:
+        if name not in recorded and not name.endswith((".md", ".figures")) and name != provenance.MANIFEST:
             faults.append(f"{name}: no line in {provenance.MANIFEST} says what it was made with (scripts/provenance.py record)")
     for name, row in rows.items():
         if not tree.matching(name):
@@ -178,26 +184,73 @@ def read_result(path):
     return (lzma.decompress(path.read_bytes()) if path.suffix == ".xz" else path.read_bytes()).decode()
 
 
+def figures_file(page):
+    return page.with_suffix(".figures")
+
+
+def read_figures(page):
+    """The sections of the file beside a page: {name: [(result's name, figure, its place in the file)]}, and the faults."""
+    sections, faults = {}, []
+    section = source = None
+    begin = 0
+    for line in figures_file(page).read_text(encoding="utf-8").splitlines(True) if figures_file(page).exists() else []:
+        match = FIGURES_LINE.fullmatch(line.rstrip())
+        if match and match["section"]:
+            section, source = match["section"], None
+            if section in sections:
+                faults.append(f"two sections [{section}]")
+            sections[section] = []
+        elif match and match["source"] and section:
+            source = match["source"]
+        elif match and match["figure"] and source:
+            sections[section].append((source, match["figure"], begin + match.start("figure")))
+        elif line.strip():
+            faults.append(f"'{line.strip()}' is no [section], no RESULT: and no figure of a result")
+        begin += len(line)
+    return sections, faults
+
+
+def check_marks(text, sections):
+    marks = [match[1] for match in MARK.finditer(text)]
+    faults = [f"mark {name} stands {marks.count(name)} times" for name in set(marks) if marks.count(name) > 1]
+    faults += [f"mark {name} has no section" for name in marks if name not in sections]
+    faults += [f"no mark names section [{name}]" for name in sections if name not in marks]
+    faults += [f"section [{name}] is empty" for name, figures in sections.items() if not figures]
+    if RESULT_IN_PAGE.search(text):
+        faults.append("a comment names a result: its figures belong into the file beside the page")
+    return faults
+
+
+def check_page(root, page, recorded):
+    text = page.read_text(encoding="utf-8")
+    sections, faults = read_figures(page)
+    faults += check_marks(text, sections)
+    count = 0
+    for mark in MARK.finditer(text):
+        paragraph = paragraph_before(text, mark.start())
+        for source, figure, _ in sections.get(mark[1], []):
+            count += 1
+            path = (page.parent / source).resolve()
+            if path.relative_to(root.resolve()).as_posix() not in recorded:
+                faults.append(f"{source} is no recorded result")
+                continue
+            quoted = Quoted(read_result(path), ".csv" in path.suffixes)
+            found = check_table(paragraph, quoted) if figure == "table" else check_figure(figure, paragraph, quoted)
+            faults += [f"{source}: {fault}" for fault in found]
+    return faults, count
+
+
 def check_quotes(root, rows):
     faults, count = [], 0
     tree = provenance.Tree(root)
     recorded = {name for patterns in rows for pattern in patterns.split(",") for name in tree.matching(pattern)}
     for page in pages(root):
-        text = page.read_text(encoding="utf-8")
-        name = page.relative_to(root).as_posix()
-        for match in QUOTE.finditer(text):
-            path = (page.parent / match[1]).resolve()
-            source = path.relative_to(root.resolve()).as_posix()
-            if source not in recorded:
-                faults.append(f"{name}: {match[1]} is no recorded result")
-                continue
-            quoted = Quoted(read_result(path), ".csv" in path.suffixes)
-            paragraph = paragraph_before(text, match.start())
-            found = []
-            for figure in re.split(FIGURE_END, match[2]):
-                count += 1
-                found += check_table(paragraph, quoted) if figure.strip() == "table" else check_figure(figure, paragraph, quoted)
-            faults += [f"{name}: {match[1]}: {fault}" for fault in found]
+        found, compared = check_page(root, page, recorded)
+        faults += [f"{page.relative_to(root).as_posix()}: {fault}" for fault in found]
+        count += compared
+    for path in [*root.glob("*.figures"), *(root / "doc").rglob("*.figures")]:
+        if not path.with_suffix(".md").exists():
+            faults.append(f"{path.relative_to(root).as_posix()}: there is no such page")
     return faults, count
 
 

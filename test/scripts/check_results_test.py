@@ -16,6 +16,7 @@ from check_results import provenance  # noqa: E402
 
 RESULT = "doc/results/tracking.csv"
 PAGE = "doc/results/page.md"
+FIGURES = "doc/results/page.figures"
 
 
 class Documents(unittest.TestCase):
@@ -23,30 +24,41 @@ class Documents(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.root = pathlib.Path(folder.name)
-        for name in ("doc/results", "experiments"):
+        for name in ("doc/results", "thesis/experiments"):
             (self.root / name).mkdir(parents=True)
         for name in {path for paths in provenance.GROUPS.values() for path in paths}:
             (self.root / name).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(provenance.ROOT / name, self.root / name)
         self.write("README.md", "")
         self.write("CONTRIBUTING.md", "")
-        self.write("experiments/table.yaml", "rows: [{name: a}]\n")
+        self.write("thesis/experiments/table.yaml", "rows: [{name: a}]\n")
         self.write(RESULT, "pair,us,level\npeg,31.4,nodes\nhooks,52.6,nodes\nhooks,7,refined\n")
         self.write("doc/results/log.txt", "worst case: 1,234 us\n")
         rows = {}
         for name in (RESULT, "doc/results/log.txt"):
             row = dict.fromkeys(provenance.COLUMNS, "")
-            row.update(file=name, commit="0123abc", defaults="tracker,contact", inputs="experiments/*.yaml", command="run")
+            row.update(file=name, commit="0123abc", defaults="tracker,contact", inputs="thesis/experiments/*.yaml", command="run")
             rows[name] = provenance.entry(provenance.Tree(self.root), row)
         provenance.write_manifest(rows, self.root)
-        self.quote('The peg takes 31 us, 30 in the middle.\n<!-- tracking.csv: 31 = value("us", pair="peg"); 30 = '
-                   'mean("us"); 31 = median("us") -->')
+        self.quote('The peg takes 31 us, 30 in the middle.', 'tracking.csv: 31 = value("us", pair="peg"); 30 = mean("us"); '
+                   '31 = median("us")')
 
     def write(self, name, text):
         (self.root / name).write_text(text, encoding="utf-8")
 
-    def quote(self, text):
-        self.write(PAGE, "# Page\n\n" + text + "\n\nMore 31.\n")
+    def quote(self, text, *sections):
+        """A page with a mark of each section: `RESULT: FIGURE; FIGURE`; one mark is put behind the text."""
+        marks = "" if "<!--" in text else "".join(f"\n<!-- figures: s{index} -->" for index in range(len(sections)))
+        self.write(PAGE, "# Page\n\n" + text + marks + "\n\nMore 31.\n")
+        self.write(FIGURES, self.figures_text(sections))
+
+    @staticmethod
+    def figures_text(sections):
+        text = ""
+        for index, section in enumerate(sections):
+            source, _, figures = section.partition(": ")
+            text += f"[s{index}]\n{source}:\n" + "".join(f"  {figure}\n" for figure in figures.split("; "))
+        return text
 
     def change(self, name, before, after):
         text = (self.root / name).read_text(encoding="utf-8")
@@ -105,16 +117,16 @@ class CheckResults(Documents):
         self.assertEqual(self.faults(), "")
 
     def test_inputs_that_changed(self):
-        self.write("experiments/table.yaml", "rows: [{name: b}]\n")
-        self.expect("experiments/*.yaml has changed")
+        self.write("thesis/experiments/table.yaml", "rows: [{name: b}]\n")
+        self.expect("thesis/experiments/*.yaml has changed")
 
     def test_words_of_an_experiment_are_no_inputs(self):
-        self.write("experiments/table.yaml", 'remark: "why"\nrows: [{name: a, thesis: {scene: {exact: 1/2}}}]\n')
+        self.write("thesis/experiments/table.yaml", 'remark: "why"\nrows: [{name: a, thesis: {scene: {exact: 1/2}}}]\n')
         self.assertEqual(self.faults(), "")
 
     def test_a_parameter_of_an_experiment_is_an_input(self):
-        self.write("experiments/table.yaml", "rows: [{name: a, parameters: {population_size: 20}}]\n")
-        self.expect("experiments/*.yaml has changed")
+        self.write("thesis/experiments/table.yaml", "rows: [{name: a, parameters: {population_size: 20}}]\n")
+        self.expect("thesis/experiments/*.yaml has changed")
 
     def test_a_line_of_several_files(self):
         rows = provenance.read_manifest(self.root)
@@ -127,7 +139,7 @@ class CheckResults(Documents):
         self.expect("not the file that run wrote")
 
     def test_older_files_are_warned_of_up_to_their_number(self):
-        self.write("experiments/table.yaml", "rows: [{name: b}]\n")
+        self.write("thesis/experiments/table.yaml", "rows: [{name: b}]\n")
         self.mark(RESULT, state="older")
         self.mark("doc/results/log.txt", state="older")
         self.assertEqual(self.faults(most_older=2), "")
@@ -139,56 +151,76 @@ class CheckResults(Documents):
         self.expect("is not older", most_older=9)
 
     def test_a_figure_that_differs(self):
-        self.quote('The peg takes 32 us.\n<!-- tracking.csv: 32 = value("us", pair="peg") -->')
+        self.quote('The peg takes 32 us.', 'tracking.csv: 32 = value("us", pair="peg")')
         self.expect("32 is 31.4 there")
 
     def test_a_figure_that_is_not_in_the_text(self):
-        self.quote('The peg takes 3.1 us.\n<!-- tracking.csv: 31 = value("us", pair="peg") -->')
+        self.quote('The peg takes 3.1 us.', 'tracking.csv: 31 = value("us", pair="peg")')
         self.expect("31 is not in the paragraph")
 
     def test_a_figure_of_another_paragraph_does_not_count(self):
-        self.quote('At 31 us.\n\nThe peg.\n<!-- tracking.csv: 31 = value("us", pair="peg") -->')
+        self.quote('At 31 us.\n\nThe peg.', 'tracking.csv: 31 = value("us", pair="peg")')
         self.expect("31 is not in the paragraph")
 
     def test_an_expression_that_matches_several_rows(self):
-        self.quote('Hooks take 53 us.\n<!-- tracking.csv: 53 = value("us", pair="hooks") -->')
+        self.quote('Hooks take 53 us.', 'tracking.csv: 53 = value("us", pair="hooks")')
         self.expect("2 rows match")
 
     def test_an_expression_that_names_no_column(self):
-        self.quote('Hooks take 53 us.\n<!-- tracking.csv: 53 = max("ms") -->')
+        self.quote('Hooks take 53 us.', 'tracking.csv: 53 = max("ms")')
         self.expect("NameError")
 
     def test_a_number_from_a_text_file(self):
-        self.quote('At most 1.23 ms.\n<!-- log.txt: 1.23 = found(r"worst case: ([\\d,]+)") / 1000 -->')
+        self.quote('At most 1.23 ms.', 'log.txt: 1.23 = found(r"worst case: ([\\d,]+)") / 1000')
         self.assertEqual(self.faults(), "")
-        self.quote('At most 1.24 ms.\n<!-- log.txt: 1.24 = found(r"worst case: ([\\d,]+)") / 1000 -->')
+        self.quote('At most 1.24 ms.', 'log.txt: 1.24 = found(r"worst case: ([\\d,]+)") / 1000')
         self.expect("1.24 is 1.234 there")
 
     def test_a_figure_of_compressed_rows(self):
         folder = self.root / "doc/results/evaluation"
         folder.mkdir()
         (folder / "table.csv.xz").write_bytes(lzma.compress(b"row,us\npeg,31.4\nhooks,52.6\n"))
-        text = '%s us.\n<!-- evaluation/table.csv.xz: %s = value("us", row="peg") -->'
-        self.quote(text % (31, 31))
+        figure = 'evaluation/table.csv.xz: %s = value("us", row="peg")'
+        self.quote("31 us", figure % 31)
         self.expect("evaluation/table.csv.xz is no recorded result")
         rows = provenance.read_manifest(self.root)
         row = dict(rows["doc/results/log.txt"], file="doc/results/evaluation/*.csv.xz")
         rows[row["file"]] = provenance.entry(provenance.Tree(self.root), row)
         provenance.write_manifest(rows, self.root)
         self.assertEqual(self.faults(), "")
-        self.quote(text % (32, 32))
+        self.quote("32 us", figure % 32)
         self.expect("32 is 31.4 there")
 
     def test_a_table(self):
-        self.quote("| pair | us |\n|---|---|\n| `peg` | 31.4 |\n| hooks | 53 |\n<!-- tracking.csv: table -->")
+        self.quote("| pair | us |\n|---|---|\n| `peg` | 31.4 |\n| hooks | 53 |", "tracking.csv: table")
         self.assertEqual(self.faults(), "")
         for row in ("| `peg` | 31.5 |", "| `peg` | 52.6 |", "| pegs | 31.4 |"):
-            self.quote(f"| pair | us |\n|---|---|\n{row}\n<!-- tracking.csv: table -->")
+            self.quote(f"| pair | us |\n|---|---|\n{row}", "tracking.csv: table")
             self.expect("no line has the figures of " + row)
 
     def test_a_quoted_file_that_is_not_there_or_not_recorded(self):
-        self.quote("31 us\n<!-- trucking.csv: 31 = max(\"us\") -->")
+        self.quote("31 us", 'trucking.csv: 31 = max("us")')
         self.expect("trucking.csv is no recorded result")
+
+    def test_marks_and_sections_that_do_not_fit(self):
+        figure = 'tracking.csv: 31 = value("us", pair="peg")'
+        self.quote("31 us\n<!-- figures: s1 -->", figure)
+        self.expect("mark s1 has no section", "no mark names section [s0]")
+        self.quote("31 us\n<!-- figures: s0 -->\n\n31 us\n<!-- figures: s0 -->", figure)
+        self.expect("mark s0 stands 2 times")
+        self.quote("31 us", figure)
+        self.write(FIGURES, self.figures_text([figure]) * 2)
+        self.expect("two sections [s0]")
+        self.write(FIGURES, "[s0]\ntracking.csv:\n")
+        self.expect("section [s0] is empty")
+        self.write(FIGURES, "[s0]\n  31 = value(1)\n")
+        self.expect("'31 = value(1)' is no [section]")
+        (self.root / FIGURES).rename(self.root / "doc/results/pages.figures")
+        self.expect("mark s0 has no section", "doc/results/pages.figures: there is no such page")
+
+    def test_figures_within_a_page(self):
+        self.quote('31 us\n<!-- tracking.csv: 31 = value("us", pair="peg") -->')
+        self.expect("belong into the file beside the page")
 
     def test_how_exactly_a_number_is_meant(self):
         for token, expected in (("49", 0.5), ("2,120", 5), ("1000", 5), ("100", 0.5), ("0.58", 0.005), ("2.1e-14", 5e-16)):
@@ -200,54 +232,57 @@ class RefreshQuotes(Documents):
         _, left = refresh_quotes.refresh(self.root, [self.root / PAGE], list_only)
         return "\n".join(left)
 
-    def expect_page(self, text, left=""):
-        self.assertEqual(self.refresh(), left)
-        self.assertEqual((self.root / PAGE).read_text(encoding="utf-8"), "# Page\n\n" + text + "\n\nMore 31.\n")
+    def expect_page(self, text, *sections):
+        self.assertEqual(self.refresh(), "")
+        page, figures = [(self.root / name).read_text(encoding="utf-8") for name in (PAGE, FIGURES)]
+        self.quote(text, *sections)
+        self.assertEqual(page, (self.root / PAGE).read_text(encoding="utf-8"))
+        self.assertEqual(figures, self.figures_text(sections))
         self.assertEqual(check_results.check_quotes(self.root, provenance.read_manifest(self.root))[0], [])
 
     def test_figures_that_hold_stay(self):
-        self.expect_page('The peg takes 31 us, 30 in the middle.\n<!-- tracking.csv: 31 = value("us", pair="peg"); 30 = '
-                         'mean("us"); 31 = median("us") -->')
+        self.expect_page('The peg takes 31 us, 30 in the middle.', 'tracking.csv: 31 = value("us", pair="peg"); 30 = '
+                         'mean("us"); 31 = median("us")')
 
-    def test_a_figure_is_replaced_in_text_and_comment(self):
-        self.quote('The peg (31.4 mm) takes 32 us.\n<!-- tracking.csv: 32 = value("us", pair="peg") -->')
-        self.expect_page('The peg (31.4 mm) takes 31 us.\n<!-- tracking.csv: 31 = value("us", pair="peg") -->')
+    def test_a_figure_is_replaced_in_text_and_beside_it(self):
+        self.quote('The peg (31.4 mm) takes 32 us.', 'tracking.csv: 32 = value("us", pair="peg")')
+        self.expect_page('The peg (31.4 mm) takes 31 us.', 'tracking.csv: 31 = value("us", pair="peg")')
 
     def test_nothing_is_written_where_a_list_is_asked_for(self):
-        self.quote('The peg takes 32 us.\n<!-- tracking.csv: 32 = value("us", pair="peg") -->')
+        self.quote('The peg takes 32 us.', 'tracking.csv: 32 = value("us", pair="peg")')
         self.assertEqual(self.refresh(list_only=True), "")
         self.expect("32 is 31.4 there")
 
     def test_a_number_quoted_once_and_written_twice_is_left(self):
-        self.quote('In 32 runs the peg takes 32 us.\n<!-- tracking.csv: 32 = value("us", pair="peg") -->')
+        self.quote('In 32 runs the peg takes 32 us.', 'tracking.csv: 32 = value("us", pair="peg")')
         self.assertIn("page.md:4: 32 stands 2 times in the text and is quoted 1 times: 31 =", self.refresh())
         self.expect("32 is 31.4 there")
 
     def test_equal_numbers_that_become_different_are_left(self):
-        self.quote('From 32 to 32 us.\n<!-- tracking.csv: 32 = value("us", pair="peg"); 32 = max("us") -->')
+        self.quote('From 32 to 32 us.', 'tracking.csv: 32 = value("us", pair="peg"); 32 = max("us")')
         self.assertIn("32 stands for several figures: 31 = value", self.refresh())
 
-    def test_equal_numbers_in_the_order_of_the_comment(self):
-        self.quote('| 8 | 32 | 31 | 32 |\n<!-- tracking.csv: 8 = min("us"); 32 = value("us", pair="peg"); '
-                   '31 = median("us"); 32 = max("us") -->')
-        self.expect_page('| 7 | 31 | 31 | 53 |\n<!-- tracking.csv: 7 = min("us"); 31 = value("us", pair="peg"); '
-                         '31 = median("us"); 53 = max("us") -->')
+    def test_equal_numbers_in_the_order_of_their_section(self):
+        self.quote('| 8 | 32 | 31 | 32 |', 'tracking.csv: 8 = min("us"); 32 = value("us", pair="peg"); '
+                   '31 = median("us"); 32 = max("us")')
+        self.expect_page('| 7 | 31 | 31 | 53 |', 'tracking.csv: 7 = min("us"); 31 = value("us", pair="peg"); '
+                         '31 = median("us"); 53 = max("us")')
 
     def test_equal_numbers_in_another_order_are_left(self):
-        self.quote('| 8 | 32 | 32 | 30 |\n<!-- tracking.csv: 30 = mean("us"); 32 = value("us", pair="peg"); '
-                   '32 = max("us"); 8 = min("us") -->')
+        self.quote('| 8 | 32 | 32 | 30 |', 'tracking.csv: 30 = mean("us"); 32 = value("us", pair="peg"); '
+                   '32 = max("us"); 8 = min("us")')
         self.assertIn("32 stands for several figures", self.refresh())
 
-    def test_each_comment_has_the_text_after_the_one_before(self):
-        self.quote('- 32 us\n  <!-- tracking.csv: 32 = value("us", pair="peg") -->\n'
-                   '- 32 us\n  <!-- tracking.csv: 32 = max("us") -->')
-        self.expect_page('- 31 us\n  <!-- tracking.csv: 31 = value("us", pair="peg") -->\n'
-                         '- 53 us\n  <!-- tracking.csv: 53 = max("us") -->')
+    def test_each_mark_has_the_text_after_the_one_before(self):
+        text = "- %s us\n  <!-- figures: s0 -->\n- %s us\n  <!-- figures: s1 -->"
+        figures = ['tracking.csv: %s = value("us", pair="peg")', 'tracking.csv: %s = max("us")']
+        self.quote(text % (32, 32), figures[0] % 32, figures[1] % 32)
+        self.expect_page(text % (31, 53), figures[0] % 31, figures[1] % 53)
 
     def test_expressions_and_tables_that_fail_are_left(self):
-        self.quote('9 us\n<!-- tracking.csv: 9 = value("us", pair="pegs") -->')
+        self.quote('9 us', 'tracking.csv: 9 = value("us", pair="pegs")')
         self.assertIn("0 rows match", self.refresh())
-        self.quote("| pair | us |\n|---|---|\n| peg | 32 |\n<!-- tracking.csv: table -->")
+        self.quote("| pair | us |\n|---|---|\n| peg | 32 |", "tracking.csv: table")
         self.assertIn("no line has the figures of | peg | 32 |", self.refresh())
 
     def test_numbers_keep_their_form_and_mean_what_the_check_reads(self):

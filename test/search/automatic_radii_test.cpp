@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "concave_distance/mesh/surface/primitives.h"
-#include "mesh/grid/geodesic_extent.h"
+#include "search/grid/geodesic_extent.h"
 #include "search/search_scenes.h"
 
 namespace concave_distance::automatic_radii_test {

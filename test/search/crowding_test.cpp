@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "mesh/grid/geodesic_extent.h"
+#include "search/grid/geodesic_extent.h"
 #include "search/search_scenes.h"
 #include "support/shortest_path.h"
 

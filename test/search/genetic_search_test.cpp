@@ -10,8 +10,8 @@
 #include "search/automatic_radii.h"
 #include "search/local_descent.h"
 #include "search/search_scenes.h"
-#include "thesis/evaluation/enumeration.h"
-#include "thesis/evaluation/multi_start_descent.h"
+#include "thesis/src/evaluation/enumeration.h"
+#include "thesis/src/evaluation/multi_start_descent.h"
 
 namespace concave_distance::genetic_search_test {
 namespace {

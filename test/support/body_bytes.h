@@ -6,12 +6,12 @@
 #include <vector>
 
 #include "concave_distance/mesh/body_mesh.h"
-#include "mesh/grid/mesh_metric.h"
-#include "mesh/grid/node_graph.h"
-#include "mesh/grid/node_levels.h"
 #include "mesh/surface/mesh_topology.h"
 #include "mesh/trees/bounding_volume_hierarchy.h"
 #include "mesh/trees/triangle_tree.h"
+#include "search/grid/mesh_metric.h"
+#include "search/grid/node_graph.h"
+#include "search/grid/node_levels.h"
 
 /// Every number that a body holds, so that two bodies can be compared bit for bit.
 namespace concave_distance::test {
@@ -54,9 +54,9 @@ inline Bytes bytesOf(const BoundingVolumeHierarchy& hierarchy) {
   }
   appendBytes(hierarchy.origin(), bytes);
   appendBytes(hierarchy.reach(), bytes);
-  for (const auto slot : hierarchy.regions()) appendBytes(slot, bytes);
+  for (const auto slot : hierarchy.subtrees()) appendBytes(slot, bytes);
   for (std::uint32_t node = 0; node < hierarchy.nodes().size(); ++node) {
-    appendBytes(hierarchy.regionOfNode(node), bytes);
+    appendBytes(hierarchy.subtreeOfNode(node), bytes);
   }
   return bytes;
 }

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "mesh/grid/mesh_metric.h"
+#include "search/grid/mesh_metric.h"
 
 namespace concave_distance::test {
 

@@ -9,7 +9,7 @@
 #include "distance/bound/certificate.h"
 #include "distance/kernels/surface_walk.h"
 #include "support/body_pairs.h"
-#include "thesis/evaluation/enumeration.h"
+#include "thesis/src/evaluation/enumeration.h"
 
 namespace concave_distance::certified_test {
 namespace {

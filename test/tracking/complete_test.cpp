@@ -9,7 +9,7 @@
 #include "distance/niches/local_minima.h"
 #include "support/body_pairs.h"
 #include "support/thesis_scenes.h"
-#include "thesis/evaluation/enumeration.h"
+#include "thesis/src/evaluation/enumeration.h"
 
 namespace concave_distance::complete_test {
 namespace {

@@ -8,7 +8,7 @@
 #include "support/body_pairs.h"
 #include "support/count_allocations.h"
 #include "support/mesh_variants.h"
-#include "thesis/evaluation/enumeration.h"
+#include "thesis/src/evaluation/enumeration.h"
 
 namespace concave_distance::memory_limit_test {
 namespace {

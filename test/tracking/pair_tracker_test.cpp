@@ -9,7 +9,7 @@
 
 #include "concave_distance/mesh/surface/primitives.h"
 #include "support/concave_shapes.h"
-#include "thesis/evaluation/enumeration.h"
+#include "thesis/src/evaluation/enumeration.h"
 #include "tracking/relative_motion.h"
 
 namespace concave_distance::pair_tracker_test {

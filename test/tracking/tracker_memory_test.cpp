@@ -8,9 +8,9 @@
 
 #include "concave_distance/mesh/surface/primitives.h"
 #include "concave_distance/tracking/pair_tracker.h"
-#include "mesh/grid/mesh_metric.h"
-#include "mesh/grid/metric_memory.h"
-#include "mesh/grid/node_graph.h"
+#include "search/grid/mesh_metric.h"
+#include "search/grid/metric_memory.h"
+#include "search/grid/node_graph.h"
 #include "support/concave_shapes.h"
 
 namespace concave_distance::tracker_memory_test {

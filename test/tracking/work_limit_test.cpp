@@ -11,7 +11,7 @@
 #include "distance/niches/local_minima.h"
 #include "support/body_pairs.h"
 #include "support/mesh_variants.h"
-#include "thesis/evaluation/enumeration.h"
+#include "thesis/src/evaluation/enumeration.h"
 
 namespace concave_distance::work_limit_test {
 namespace {

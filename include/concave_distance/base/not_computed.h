@@ -4,7 +4,7 @@
 
 namespace concave_distance {
 
-/// Of every number that was not computed: NaN, never 0.
+/// Every number that was not computed is this NaN, never 0.
 inline constexpr double kNotComputed = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace concave_distance

@@ -4,7 +4,7 @@
 
 namespace concave_distance {
 
-/// How parents are drawn (Carretero, sec. 2.3.2.a).
+/// Names the ways to draw parents (Carretero, sec. 2.3.2.a).
 enum class SelectionMethod : std::uint8_t { StochasticUniversalSampling, Roulette };
 
 }  // namespace concave_distance

@@ -92,7 +92,7 @@ class WorkLimit {
   }
 
   bool isTimed() const { return is_timed_; }
-  /// Of the whole time; 0 without a deadline.
+  /// Returns `seconds` as a share of the whole time; 0 without a deadline.
   double shareOf(double seconds) const { return seconds_ < kLongest ? seconds / seconds_ : 0.0; }
   /// Whether anything was refused, so that the results are incomplete.
   bool hasRefusedTime() const { return time_refused_; }

@@ -9,8 +9,9 @@ namespace concave_distance {
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
-/// How the wrench of a pair's contacts on B changes with a small motion of B against A, all about A's origin
-/// in A's axes. Symmetric and positive semidefinite: what has no such part is left out. Zero without contact.
+/// Says how the wrench of a pair's contacts on B changes with a small motion of B against A, all about A's
+/// origin in A's axes. Both matrices are symmetric and positive semidefinite: what has no such part is left
+/// out. Zero without contact.
 struct ContactLinearisation {
   /// Minus the derivative by the displacement (metres, radians): N/m, N, N m/rad.
   Matrix6d stiffness = Matrix6d::Zero();

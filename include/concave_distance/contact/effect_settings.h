@@ -11,7 +11,7 @@
 
 namespace concave_distance {
 
-/// What a pair asks for beyond distance and niches (doc/effects.md). Nothing by default.
+/// Says what a pair asks for beyond distance and niches (doc/effects.md): nothing by default.
 struct EffectSettings {
   bool interference = false;                        ///< the regions where the bodies overlap
   std::optional<NormalForceSettings> normal_force;  ///< a force at each region; brings interference with it
@@ -29,7 +29,7 @@ inline bool operator!=(const EffectSettings& l, const EffectSettings& r) {
   return !(l == r);
 }
 
-/// What is done about a pair's contacts, in the order in which it is done.
+/// Names what is done about a pair's contacts, in the order in which it is done.
 enum class EffectStage : std::uint8_t {
   Interference,  ///< once the certificate allows contact
   Identity,      ///< regions to niches and to the last cycle's regions; where there are regions
@@ -53,7 +53,7 @@ class EffectPlan {
   std::size_t count_ = 0;
 };
 
-/// How often each stage ran and what it took, by EffectStage.
+/// Counts how often each stage ran and adds up what it took, by EffectStage.
 struct EffectCounts {
   std::array<std::uint64_t, kEffectStages> runs{};
   std::array<double, kEffectStages> seconds{};

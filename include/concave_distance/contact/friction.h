@@ -70,14 +70,14 @@ Eigen::Vector3d frictionForce(const FrictionSettings& settings, const ContactMat
                               const Eigen::Vector3d& sliding, const Eigen::Vector3d& displacement,
                               BristleState& state);
 
-/// How the surfaces slid in the last step.
+/// Says how the surfaces slid in the last step.
 struct RecentSliding {
   Eigen::Vector3d displacement = Eigen::Vector3d::Zero();  ///< in the tangent plane, A's frame, metres
   double step = 0.0;                                       ///< seconds
   BristleState bristles;                                   ///< at its end
 };
 
-/// How friction changes with a small motion, in two directions of the tangent plane.
+/// Says how friction changes with a small motion, in two directions of the tangent plane.
 struct FrictionTangent {
   Eigen::Vector3d along = Eigen::Vector3d::Zero();  ///< unit, where they slide, or any direction of the plane
   Eigen::Vector3d across = Eigen::Vector3d::Zero();  ///< unit, perpendicular to it

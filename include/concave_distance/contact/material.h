@@ -4,7 +4,7 @@
 
 namespace concave_distance {
 
-/// What a body is made of, as far as contact forces need it. The defaults are a hard plastic.
+/// Says what a body is made of, as far as contact forces need it. The defaults are a hard plastic.
 struct Material {
   double youngs_modulus = 2.5e9;  ///< E, pascal, > 0
   double poissons_ratio = 0.35;   ///< nu, from 0 to below 0.5

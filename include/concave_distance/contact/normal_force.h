@@ -9,9 +9,9 @@
 
 namespace concave_distance {
 
-/// How the force along the normal follows from an interference region. All are in newtons, push only (a
-/// force that would pull is 0: bodies in contact do not stick to each other), and are right for any depth >=
-/// 0.
+/// Names the laws by which the force along the normal follows from an interference region. All are in
+/// newtons, push only (a force that would pull is 0: bodies in contact do not stick to each other), and are
+/// right for any depth >= 0.
 enum class NormalForceModel : std::uint8_t {
   QuasiStatic,       ///< Carretero, eq. (A-1) and (A-2)
   SpringDashpot,     ///< constant stiffness and damping
@@ -21,14 +21,14 @@ enum class NormalForceModel : std::uint8_t {
 };
 std::string_view toString(NormalForceModel model);
 
-/// Where the force of a region acts.
+/// Says where the force of a region acts.
 enum class ForceDistribution : std::uint8_t {
   Pressure,  ///< all over the surfaces of the overlap, in proportion to how deep they lie
   Lumped     ///< at the centroid, along one normal: for one convex place
 };
 std::string_view toString(ForceDistribution distribution);
 
-/// What a force depends on of one interference region.
+/// Holds what a force depends on of one interference region.
 struct ContactGeometry {
   double depth = 0.0;         ///< d, metres, >= 0
   double depth_rate = 0.0;    ///< metres a second, positive while the bodies go deeper
@@ -101,7 +101,7 @@ struct NormalForce {
 NormalForce normalForce(const NormalForceSettings& settings, const ContactMaterial& material,
                         const ContactGeometry& contact);
 
-/// What hits or presses on a contact.
+/// Says what hits or presses on a contact.
 struct ContactLoad {
   double mass = 0.0;   ///< reduced, of both bodies, kg
   double speed = 0.0;  ///< of the bodies against each other, m/s

@@ -7,8 +7,8 @@
 
 namespace concave_distance {
 
-/// How the pressure on the surfaces of one region of overlap follows from the place, at one time. All in A's
-/// frame.
+/// Gives the pressure on the surfaces of one region of overlap at any place, at one time. All members are in
+/// A's frame.
 struct PressureField {
   double stiffness = 0.0;  ///< Pa/m
   double damping = 0.0;    ///< Pa s/m^2

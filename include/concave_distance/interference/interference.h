@@ -43,30 +43,32 @@ struct OverlapSample {
 /// solids, cavities counted to the region around them. What is not defined is NaN. All in A's frame.
 /// The definitions with their reasons and bounds: doc/interference.md.
 struct InterferenceRegion {
-  /// How deep the surfaces lie in each other, metres: the greatest distance of a point of either surface in
-  /// the region to the other body's surface. Changes by no more than the points move.
+  /// Says how deep the surfaces lie in each other, metres: it is the greatest distance of a point of either
+  /// surface in the region to the other body's surface. It changes by no more than the points move.
   double depth = std::numeric_limits<double>::quiet_NaN();
-  /// How far B must be moved along the normal to take this region apart, metres: over all lines along the
-  /// normal, the greatest way from the region's part of B's surface up to its part of A's. Of a swallowed
-  /// shell, which has no part of the other surface: how far until the bodies' extents along the normal part.
+  /// Says how far B must be moved along the normal to take this region apart, metres: it is, over all lines
+  /// along the normal, the greatest way from the region's part of B's surface up to its part of A's. Of a
+  /// swallowed shell, which has no part of the other surface: how far until the bodies' extents along the
+  /// normal part.
   double depth_along_normal = std::numeric_limits<double>::quiet_NaN();
   /// The ends of that line, on A's surface and `depth_along_normal` below it on B's.
   Eigen::Vector3d along_normal_a_in_a = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
   Eigen::Vector3d along_normal_b_in_a = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
   /// Length of the vector area of A's surface inside B, m^2: what the loops enclose, seen along the normal.
-  /// Of a sphere of radius R pressed into a plane by delta pi 2 R delta at first order, as Carretero's a =
+  /// For a sphere of radius R pressed into a plane by delta pi 2 R delta at first order, as Carretero's a =
   /// sqrt(A / pi) of equation expects.
   double contact_area = std::numeric_limits<double>::quiet_NaN();
   double surface_area_a = std::numeric_limits<double>::quiet_NaN();  ///< of A's surface inside B, m^2
   double surface_area_b = std::numeric_limits<double>::quiet_NaN();  ///< of B's surface inside A, m^2
   double volume = std::numeric_limits<double>::quiet_NaN();          ///< m^3
-  /// Of the volume; where that vanishes of the surfaces inside, where these are not defined of the curves.
+  /// The centroid is that of the volume; where that vanishes, of the surfaces inside; where these are not
+  /// defined, of the curves.
   Eigen::Vector3d centroid_in_a = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
   /// Unit, from A to B: the direction of the vector area of A's surface inside B, which is minus that of B's
   /// inside A, since both have the same loops.
   Eigen::Vector3d normal_in_a = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
-  /// Where the depth is attained: on A's surface and on B's, one of them inside the other body and the other
-  /// the closest point of that body's surface.
+  /// The depth is attained between these points, on A's surface and on B's: one lies inside the other body,
+  /// the other is the closest point of that body's surface.
   Eigen::Vector3d point_a_in_a = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
   Eigen::Vector3d point_b_in_a = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
   double reach = 0.0;              ///< of its curves from the centroid, metres; 0 for a swallowed shell
@@ -80,9 +82,9 @@ struct InterferenceRegion {
   /// swallowed open shell): areas, volume and depth are NaN, the normal is the curve's vector area or, where
   /// it is straight or undecided, any direction across it.
   bool closed = true;
-  /// Thinner than roundings: the volume is at most twice Interference::rounding_bound times the surface. The
-  /// surfaces touch; the depth is 0 but for roundings, the contact area that of the common part of flush
-  /// faces.
+  /// Thinner than roundings: the volume is at most twice Interference::rounding_bound times the
+  /// surface. The surfaces touch; the depth is 0 but for roundings, the contact area that of the common
+  /// part of flush faces.
   bool touching = false;
   /// The vector areas of the loops cancel (a peg through a plate) or there is none (a swallowed shell): the
   /// normal is then one of a few candidates whose depth is the least to 1 %: of those the one most along the
@@ -106,11 +108,11 @@ struct Interference {
   std::vector<InterferenceRegion> regions;  ///< deepest first; those without a depth last
   std::vector<OverlapFacet> facets;         ///< of all regions: each surface inside the other body
   std::vector<OverlapSample> samples;       ///< of all regions
-  /// Of the regions with facets: vector areas of A's side of their loops, m^2.
+  /// Regions with facets list here the vector areas of A's side of their loops, m^2.
   std::vector<Eigen::Vector3d> loop_areas_in_a;
   bool a_inside_b = false;  ///< A lies in B's material, the surfaces do not meet
   bool b_inside_a = false;
-  /// How far rounding of B's vertices into A's frame may move them, and what depths are sure to, metres.
+  /// Rounding moves B's vertices in A's frame by at most this, and depths are sure to it, metres.
   double rounding_bound = 0.0;
 };
 
@@ -144,8 +146,7 @@ struct KnownNormal {
 /// memory; allocates nothing once workspace and result have grown.
 /// @param limit checked for every pair of boxes and of triangles, and between passes; nullptr: none
 /// @param known a moment ago: of these a fallback normal (normal_is_fallback) keeps the nearest while its
-/// depth
-///        is within 1 % of the least
+///        depth is within 1 % of the least
 void findInterference(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
                       InterferenceWorkspace& workspace, Interference& result, WorkLimit* limit = nullptr,
                       const std::vector<KnownNormal>& known = {});

@@ -39,17 +39,18 @@ class LoadProgress {
 
 struct SceneLoadOptions {
   PackageLocator package_locator = packagePathFromEnvironment;
-  /// What cannot be loaded is an error, and not a problem of the scene whose rest is served.
+  /// If true, what cannot be loaded is an error; else it is a problem of the scene, whose rest is served.
   bool strict = false;
   /// Folders to search for meshes that are not found at their package:// or relative path; a file, such as
   /// the URDF, means its folder and the three above that.
   std::vector<std::string> mesh_search_path;
   LoadProgress* progress = nullptr;  ///< nullptr: none
-  /// For loadRobotScene: a cutoff scaled to the robot instead of that in `default_settings`.
+  /// If true, loadRobotScene scales the cutoff to the robot and ignores that in `default_settings`.
   bool automatic_cutoff = false;
-  /// For loadRobotScene: leave out pairs whose bodies overlap in every pose tried.
+  /// If true, loadRobotScene leaves out pairs whose bodies overlap in every pose tried.
   bool skip_overlapping_pairs = false;
-  /// For loadRobotScene: of the meshes of round primitives, metres; empty: 1 % of the radius.
+  /// loadRobotScene takes this chord error for the meshes of round primitives, metres; empty: 1 %
+  /// of the radius.
   std::optional<double> chord_error;
   GeometrySource geometry = GeometrySource::Collision;  ///< default; a scene file's robot may override
   /// URDF texts by parameter name, e.g. {"robot_description", ...}; a scene file refers to them by name.
@@ -59,7 +60,7 @@ struct SceneLoadOptions {
   /// body gets its matrices at its first search if the rest of the limit holds them; the others compute
   /// distances on their mesh on demand.
   std::size_t metric_memory_limit = kDefaultMetricMemoryLimit;
-  /// Where prepared bodies are kept between runs, unless the scene file says otherwise; nullptr: nowhere.
+  /// Prepared bodies are kept here between runs, unless the scene file says otherwise; nullptr: nowhere.
   PreparationCachePointer cache;
   SceneLimits limits;
   MeshImportLimits mesh_import;  ///< of each mesh file
@@ -92,8 +93,8 @@ struct BodyDescription {
   std::string frame;
   std::string mesh_resource;  ///< either this ...
   Eigen::Vector3d scale = Eigen::Vector3d::Ones();
-  std::string primitive;           ///< ... or box, sphere, cylinder, capsule with `dimensions`
-  std::vector<double> dimensions;  ///< box x y z; sphere radius; cylinder and capsule radius, length; metres
+  std::string primitive;           ///< ... or a primitive's name with its `dimensions`
+  std::vector<double> dimensions;  ///< metres, in the order of srv/AddBody.srv
   Eigen::Isometry3d frame_from_geometry = Eigen::Isometry3d::Identity();
   std::optional<double> max_edge_length;
   std::optional<double> chord_error;  ///< metres; empty: 1 % of the radius

@@ -9,7 +9,7 @@
 
 namespace concave_distance {
 
-/// Where a request may read mesh files: named as `package://<package>`/..., or below a folder.
+/// Says where a request may read mesh files: named as `package://<package>`/..., or below a folder.
 struct MeshRoots {
   bool every_package = false;
   std::vector<std::string> packages;

@@ -17,9 +17,9 @@ std::string packagePathFromEnvironment(const std::string& package);
 /// Looks for packages below these folders, as for those of ROS_PACKAGE_PATH, then as above.
 PackageLocator packagesBelow(std::vector<std::string> folders);
 
-/// Turns package://, file:// and paths relative to `base_folder` into a path of this machine. Percent codes
-/// are decoded, and taken literally where only that names a file. An empty `base_folder` has no relative
-/// paths.
+/// Turns package://, file:// and paths relative to `base_folder` into a path of this machine.
+/// Percent codes are decoded, and taken literally where only that names a file. An empty
+/// `base_folder` has no relative paths.
 /// @throws Error naming the resource: unknown package or scheme, empty, missing file
 std::string locateResource(const std::string& resource, const std::string& base_folder,
                            const PackageLocator& package_locator);

@@ -11,7 +11,7 @@
 
 namespace concave_distance {
 
-/// Where the links of a robot are for given joint positions, without tf.
+/// Computes where the links of a robot are for given joint positions, without tf.
 class RobotPoses {
  public:
   /// @param urdf its text @param where names it in errors

@@ -35,17 +35,17 @@ struct CompressedRows;
 struct BodyMeshOptions {
   /// Grid size of the search, metres: the longest edge between nodes. Empty: a fraction of the diameter.
   std::optional<double> max_edge_length;
-  /// With an automatic grid, nodes of the search graph at most: a finer mesh is thinned to evenly spread
-  /// nodes. An explicit grid size is taken as it is.
+  /// An automatic grid has at most this many nodes in the search graph: a finer mesh is thinned to evenly
+  /// spread nodes. An explicit grid size is taken as it is.
   std::size_t search_node_limit = 800;
   /// Largest number of nodes of the grid, compared with an estimate before it is made.
   std::size_t largest_node_count = 20'000'000;
-  /// Up to this many nodes (at most 65535) the matrices of the mesh metric are kept, 6 bytes an entry;
+  /// The matrices of the mesh metric are kept up to this many nodes (at most 65535), 6 bytes an entry;
   /// beyond, distances along the mesh are searched on demand.
   std::size_t matrix_node_limit = 4096;
   /// Limit for these matrices, shared by several bodies; without room in it none are made. nullptr: no limit.
   std::shared_ptr<MetricMemory> metric_memory;
-  /// Where prepared parts are looked for and stored; nullptr: nowhere.
+  /// Prepared parts are looked for and stored here; nullptr: nowhere.
   PreparationCachePointer cache;
   /// The solid that the surface is the inscribed mesh of: answers are for that solid. Empty: the surface is
   /// what it is.
@@ -94,20 +94,21 @@ class BodyMesh {
   const MeshTopology& topology() const { return *topology_; }
   const TriangleTree& tree() const { return *tree_; }
   const BoundingVolumeHierarchy& hierarchy() const { return *hierarchy_; }
-  /// Where shells meet and what lies inside others. Built at the first call, for all threads.
-  const ShellContacts& joints() const;
+  /// Returns where shells meet and what lies inside others. Built at the first call, for all threads.
+  const ShellContacts& shellContacts() const;
   /// Triangles and flat quadrangles. Built at the first call, for all threads; 24 bytes a triangle.
   const Facets& facets() const;
   /// Which facets hang together, over the joints too; hidden ones with none. Built at the first call, for
   /// all threads; 40 bytes a triangle.
   const CompressedRows<AdjacentTriangle>& adjacency() const;
-  /// What hangs together as a whole. Built at the first call, for all threads; 4 bytes a triangle.
+  /// Returns what hangs together as a whole. Built at the first call, for all threads; 4 bytes a triangle.
   const ConnectedPieces& pieces() const;
-  /// Of level `certified` with niches. Built at the first call for each of the two, for all threads; about
-  /// 450 bytes a triangle.
+  /// Returns the cones that level `certified` finds niches by. They are built at the first call for each of
+  /// the two, for all threads; about 450 bytes a triangle.
   const NormalConeTree& normalCones(NormalSides sides) const;
 
-  /// What the search moves on: the nodes of the grid or, where thinned() says so, an even choice of them.
+  /// Returns what the search moves on: the nodes of the grid or, where thinned() says so, an even
+  /// choice of them.
   const SearchNodes& searchNodes() const {
     const SearchNodes* made = nodesIfMade();
     return made != nullptr ? *made : makeNodes();
@@ -126,8 +127,8 @@ class BodyMesh {
   NodeIndex graphNode(NodeIndex surface_vertex) const;
   const MeshMetric& metric() const;
   const MeshMetric* metricIfMade() const;
-  /// How long the paths on the body are, and how near its protrusions come to each other along the mesh (at
-  /// most half as far), metres: what the radii of niching are chosen from.
+  /// Returns how long the paths on the body are, and how near its protrusions come to each other along the
+  /// mesh (at most half as far), metres: what the radii of niching are chosen from.
   double geodesicExtent() const;
   double protrusionSpacing() const;
 
@@ -140,7 +141,7 @@ class BodyMesh {
   friend void prepareSearch(const std::vector<const BodyMesh*>& bodies);
 
   std::unique_ptr<State> state_;
-  // In state_:
+  // These point into state_.
   const SurfaceMesh* surface_;
   const MeshTopology* topology_;
   const TriangleTree* tree_;

@@ -17,8 +17,8 @@ class PreparationCache {
   /// @param folder made when something is stored
   explicit PreparationCache(std::string folder);
 
-  /// $XDG_CACHE_HOME/concave_distance, else ~/.cache/concave_distance; empty when the environment has
-  /// neither.
+  /// $XDG_CACHE_HOME/concave_distance, else ~/.cache/concave_distance; empty when the
+  /// environment has neither.
   static std::string defaultFolder();
 
   const std::string& folder() const { return folder_; }
@@ -40,7 +40,7 @@ class PreparationCache {
 
 using PreparationCachePointer = std::shared_ptr<PreparationCache>;
 
-/// From what a user says: "off" (no cache: nullptr), a folder, or "" (defaultFolder()).
+/// Opens the cache that a user names: "off" (none: nullptr), a folder, or "" (defaultFolder()).
 PreparationCachePointer openPreparationCache(const std::string& folder_or_off);
 
 }  // namespace concave_distance

@@ -16,7 +16,7 @@ struct BodyBounds {
 
 /// O(vertices).
 BodyBounds boundsOf(const SurfaceMesh& surface);
-/// Of the body's shape, where it has one.
+/// Bounds the body's shape where it has one, else its mesh.
 BodyBounds boundsOf(const BodyMesh& body);
 
 /// A distance that two bodies are never nearer than, metres: a pair whose bound exceeds its cutoff need not

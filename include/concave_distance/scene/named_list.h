@@ -127,7 +127,7 @@ class NamedList {
   }
   /// Appends value i of another list, shared with it.
   void appendShared(const NamedList& other, std::size_t i) { append(other.values_[i]); }
-  /// For changing anything but the name: copies the value if other lists or users share it.
+  /// Lends an element for changing anything but its name: copies the value if other lists or users share it.
   T& edit(std::size_t i) {
     Pointer& value = values_.at(i);
     if (value.use_count() > 1) value = std::make_shared<T>(*value);

@@ -41,7 +41,7 @@ struct SceneBody {
   Material material;                                              ///< for contact forces
 };
 
-/// Per pair, from the scene file: defaults, then the groups in order, then the pair's own entry.
+/// Holds a pair's settings: the scene file's defaults, then the groups in order, then the pair's own entry.
 struct PairSettings {
   TrackerParameters tracker;
   EffectSettings effects;

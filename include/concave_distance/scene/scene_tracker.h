@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <array>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
@@ -10,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "concave_distance/scene/cycle_counts.h"
 #include "concave_distance/scene/scene.h"
 #include "concave_distance/scene/tracked_pair.h"
 
@@ -20,29 +20,12 @@ struct SceneTrackerOptions {
   const std::atomic<bool>* stop = nullptr;  ///< set: a cycle ends without solving the pairs that are left
 };
 
-/// What one cycle did.
-struct CycleCounts {
-  std::uint32_t watched = 0;
-  std::uint32_t solved = 0;
-  std::uint32_t cold = 0;      ///< of the solved, those from nothing
-  std::uint32_t repeated = 0;  ///< with the input of the cycle before
-  std::uint32_t beyond_cutoff = 0;
-  std::uint32_t not_located = 0;
-  std::uint32_t search_misses = 0;
-  std::uint32_t generations = 0;  ///< of the genetic search, of all pairs
-  /// Niches listed, by NicheOrigin.
-  std::array<std::uint64_t, kNicheOriginCount> niches{};
-  std::uint32_t unproven = 0;       ///< solves at `certified` that the time budget ended before the proof
-  EffectCounts effects;             ///< of all pairs
-  double helper_cpu_seconds = 0.0;  ///< processor time of the threads that helped the caller's
-};
-
 /// Tracks every pair of a scene: leaves out what is beyond its cutoff, solves the rest in parallel and
 /// compares the distances with the warning distances. One thread at a time.
 class SceneTracker {
  public:
   using Pairs = std::vector<std::shared_ptr<TrackedPair>>;
-  /// Where the pair at this place in scene.pairs is. Called in the order of the pairs, by one thread.
+  /// Returns where the pair at this place in scene.pairs is. Called in the order of the pairs, by one thread.
   using Locate = std::function<PairInput(std::size_t)>;
 
   explicit SceneTracker(SceneTrackerOptions options = {});
@@ -55,8 +38,8 @@ class SceneTracker {
   /// @param settings_changed false: no pair of both scenes has other settings, and none is solved anew
   /// @throws Error for a pair whose bodies are not two bodies with meshes of the scene
   void setScene(const Scene& scene, bool settings_changed = true);
-  /// Returns for each pair of a scene its place in pairs() if setScene() would let it go on. @throws Error as
-  /// setScene()
+  /// Returns for each pair of a scene its place in pairs() if setScene() would let it go on. @throws
+  /// Error as setScene()
   std::vector<std::optional<std::size_t>> placesNow(const Scene& scene) const;
 
   /// One cycle over all enabled pairs. @param world_from_body one pose for each of scene.bodies, each rigid
@@ -79,7 +62,7 @@ class SceneTracker {
   void restart();
   void restart(std::size_t pair);
 
-  /// In the order of scene.pairs.
+  /// Returns the pairs in the order of scene.pairs.
   const Pairs& pairs() const { return pairs_; }
   /// Pairs that left the scene with an alert raised, which setScene took back; reported once.
   Pairs takeRetired();

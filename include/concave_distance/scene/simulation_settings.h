@@ -54,7 +54,7 @@ struct SimulatedBodySettings {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();      ///< of the body's frame, world, at time 0
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();          ///< of the centre of mass, world, m/s
   Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();  ///< world axes, rad/s
-  /// Of a free body one of these; none: what the URDF says of its link.
+  /// A free body may give one of these; without any, it has what the URDF says of its link.
   std::optional<MassProperties> inertia;
   std::optional<double> density;  ///< kg/m^3, closed meshes only
   std::optional<double> mass;     ///< kg, spread evenly, closed meshes only
@@ -63,7 +63,7 @@ struct SimulatedBodySettings {
   std::vector<AppliedLoad> loads;
 };
 
-/// What a simulation follows of a pair besides the proven distance.
+/// Says what a simulation follows of a pair besides the proven distance.
 enum class SimulationTracking : std::uint8_t {
   Niches,         ///< every local minimum
   SingleMinimum,  ///< the last cycle's closest pair alone, moved downhill
@@ -77,11 +77,11 @@ struct SimulationSettings {
   Eigen::Vector3d gravity = Eigen::Vector3d(0.0, 0.0, -9.81);  ///< m/s^2
   double duration = 1.0;                                       ///< seconds
   double largest_step = 1e-2;                                  ///< seconds
-  /// Of sqrt(m / k) of contacts and drives that swing, and of a radian, that a step takes at most. What is at
-  /// rest in them holds no step back.
+  /// A step takes at most this share of sqrt(m / k) of contacts and drives that swing, and of a radian. What
+  /// is at rest in them holds no step back.
   double step_fraction = 0.1;
-  /// How far beyond the proven distance any point may move against the other body in one step, metres, at
-  /// most: nothing thicker is passed through unseen; 0, and while the bodies are apart where it is less: a
+  /// Any point may move at most this far beyond the proven distance against the other body in one step,
+  /// metres: nothing thicker is passed through unseen; 0, and while the bodies are apart where it is less: a
   /// share of the depth that the next contact reaches by its stiffness, mass and speed.
   double allowed_penetration = 0.0;
   /// Error that one step may make, as a share of the work that the contact or drive does in it; five times as
@@ -93,7 +93,8 @@ struct SimulationSettings {
   SimulationTracking tracking = SimulationTracking::Niches;
   std::vector<SimulatedBodySettings> bodies;
 
-  /// What shows in the numbers alone. @throws Error naming the parameter, the value seen and what is allowed
+  /// Checks what shows in the numbers alone. @throws Error naming the parameter, the value seen and
+  /// what is allowed
   void validate(const std::string& where) const;
 };
 

@@ -28,15 +28,15 @@ class TrackedEffects {
   /// Forgets regions, bristles and the last pose.
   void reset();
 
-  /// As PairEffects::keep() and goBack(); nothing while no effects are wanted.
+  /// These call PairEffects::keep() and goBack(), and do nothing while no effects are wanted.
   void keep();
   void goBack();
 
   /// Returns the contacts of the last update(), unless forgotten; nullptr while no effects are wanted.
   const PairContacts* contacts() const { return effects_ ? &contacts_ : nullptr; }
-  /// With the surfaces and pressures of contacts(); nullptr while no effects are wanted.
+  /// Returns the effects with the surfaces and pressures of contacts(); nullptr while none are wanted.
   const PairEffects* effects() const { return effects_.get(); }
-  /// What the stages did since the last call.
+  /// Returns what the stages did since the last call.
   EffectCounts takeCounts();
 
  private:

@@ -13,7 +13,7 @@
 
 namespace concave_distance {
 
-/// What is wanted of a pair in one cycle.
+/// Says what is wanted of a pair in one cycle.
 struct PairDemand {
   bool watched = false;  ///< somebody follows the pair; otherwise it costs nothing and starts cold later
   bool due = false;      ///< an answer is wanted in this cycle
@@ -21,7 +21,7 @@ struct PairDemand {
   bool effects = false;  ///< with the effects that its settings ask for
 };
 
-/// Where B is, seen from A.
+/// Says where B is, seen from A.
 struct PairInput {
   bool located = true;  ///< false: the poses are not known, and the pair has no answer
   Eigen::Isometry3d a_from_b = Eigen::Isometry3d::Identity();
@@ -33,7 +33,7 @@ struct PairInput {
   std::optional<RelativeTwist> b_in_a;
 };
 
-/// What a cycle found out about a pair.
+/// Says what a cycle found out about a pair.
 enum class PairState : std::uint8_t {
   NotWatched,    ///< nothing was computed
   NotLocated,    ///< its poses are not known
@@ -85,8 +85,8 @@ struct TrackedPair {
   void restart();
   /// The same when it is no longer watched; an alert that is raised is taken back.
   void stopWatching();
-  /// The same after an exception: tracker and effects may be half changed and are made anew. Allocates
-  /// nothing.
+  /// The same after an exception: tracker and effects may be half changed and are made
+  /// anew. Allocates nothing.
   void discard();
   /// Other settings from the next cycle on.
   /// @param settings_changed false: they are known to be the same

@@ -16,7 +16,7 @@ class WarningMonitor {
   /// @return true when the state changed
   bool update(std::optional<double> distance, double warning_distance, double hysteresis);
   WarningState state() const { return state_; }
-  /// For pairs nobody watches any more: Clear, as at the start.
+  /// Sets a pair that nobody watches any more to Clear, as at the start.
   void reset();
 
  private:

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 
+#include "concave_distance/base/cost_counter.h"
 #include "concave_distance/base/indices.h"
 
 namespace concave_distance {
@@ -23,7 +25,8 @@ struct TrialPoint {
   }
 };
 
-/// What a search has cost so far, and what ran.
+/// Counts what a search has cost so far, and what ran. A new counter is a field, a line in the sum and, for
+/// the diagnostics, a row of counters().
 struct SearchCost {
   std::uint64_t evaluations = 0;      ///< node pair distances computed
   std::uint64_t descents = 0;         ///< local descents started
@@ -42,6 +45,14 @@ struct SearchCost {
     inherited += more.inherited;
     children += more.children;
     return *this;
+  }
+
+  /// Lists what the diagnostics report of a sum, by key.
+  static const auto& counters() {
+    static constexpr std::array<CostCounter<SearchCost>, 1> kCounters{{
+        {"search generations", [](const SearchCost& cost) -> std::uint64_t { return cost.generations; }},
+    }};
+    return kCounters;
   }
 };
 

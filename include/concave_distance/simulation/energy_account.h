@@ -4,8 +4,8 @@
 
 namespace concave_distance {
 
-/// Where the energy of the free bodies is, where it came from and where it went, joules. Works are integrals
-/// over the path (trapezoidal rule), apart from the impulses that move the bodies: what they leave
+/// Says where the energy of the free bodies is, where it came from and where it went, joules. Works are
+/// integrals over the path (trapezoidal rule), apart from the impulses that move the bodies: what they leave
 /// unexplained is the integration error.
 struct EnergyAccount {
   double kinetic = 0.0;
@@ -13,7 +13,7 @@ struct EnergyAccount {
   double drive_potential = 0.0;    ///< in the springs of the drives
   double initial = 0.0;            ///< mechanical() at the start
 
-  // Since the start, done on the free bodies.
+  // These works were done on the free bodies since the start.
   double normal_work = 0.0;    ///< of contact forces along the normal; < 0: lost, or still in a contact
   double friction_work = 0.0;  ///< of friction, against rolling and spinning too
   double load_work = 0.0;      ///< of applied loads
@@ -25,9 +25,9 @@ struct EnergyAccount {
 
   double mechanical() const { return kinetic + gravity_potential + drive_potential; }
   double work() const { return normal_work + friction_work + load_work + drive_work - drive_loss; }
-  /// What is there and nothing put in: the error of the integration, of either sign.
+  /// Returns the energy that is there though nothing put it in: the error of the integration, of either sign.
   double balanceError() const { return mechanical() - initial - work(); }
-  /// What went through the system: the most that moved at once, and all works.
+  /// Returns what went through the system: the most that moved at once, and all works.
   double throughput() const {
     return largest_kinetic + std::abs(normal_work) + std::abs(friction_work) + std::abs(load_work) +
            std::abs(drive_work) + drive_loss;

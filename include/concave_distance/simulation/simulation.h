@@ -27,7 +27,8 @@ struct SimulatedBody {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();    ///< of mass (free), world; else the frame's origin
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< of that point, world, m/s
   Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();  ///< world axes, rad/s
-  /// Of all contacts, drives and loads, about `centre`, world axes; of fixed and driven bodies the contacts.
+  /// The wrench is that of all contacts, drives and loads, about `centre`, world axes; on fixed and driven
+  /// bodies that of the contacts.
   Wrench contact_wrench;
   Wrench drive_wrench;
   Wrench load_wrench;
@@ -44,8 +45,8 @@ struct SimulatedPair {
   bool solved = false;       ///< else beyond its cutoff: `solution` is of an earlier time
   PairSolution solution;
   PairContacts contacts;
-  /// Of SimulationTracking::SingleMinimum and Both: the one minimum that is followed, and whether it is not
-  /// the closest; NaN and false else.
+  /// With SimulationTracking::SingleMinimum and Both these tell the one minimum that is followed, and whether
+  /// it is not the closest; else they are NaN and false.
   double single_distance = kNotComputed;
   Eigen::Vector3d single_point_a_in_a = Eigen::Vector3d::Constant(kNotComputed);
   Eigen::Vector3d single_point_b_in_a = Eigen::Vector3d::Constant(kNotComputed);
@@ -56,7 +57,7 @@ struct SimulatedPair {
   double seconds = 0.0;  ///< so far, of wall clock, for its distance and its effects
 };
 
-/// What held a step back.
+/// Says what held a step back.
 enum class StepLimit : std::uint8_t {
   Largest,   ///< largest_step
   Event,     ///< the time asked for, a load's begin or end, a pose of a path
@@ -67,7 +68,7 @@ enum class StepLimit : std::uint8_t {
 inline constexpr std::size_t kStepLimits = 5;
 std::string_view toString(StepLimit limit);
 
-/// What a simulation's time goes into.
+/// Names what a simulation's time goes into.
 enum class SimulationStage : std::uint8_t {
   Solve,       ///< PairTracker: distance, proof, niches
   Effects,     ///< PairEffects: regions and forces
@@ -112,9 +113,9 @@ class Simulation {
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;
 
-  /// One step, never beyond `until`. Niches are listed at `until` alone (of an infinite one after every
-  /// step); in between only what the step needs is solved. @return its size in seconds; 0 at `until` or when
-  /// diverged
+  /// One step, never beyond `until`. Niches are listed at `until` alone (of an infinite one after
+  /// every step); in between only what the step needs is solved. @return its size in seconds; 0 at
+  /// `until` or when diverged
   double step(double until = std::numeric_limits<double>::infinity());
   /// Steps until `time` is reached exactly; the niches are those of that time.
   SimulationStatus advanceTo(double time);
@@ -126,10 +127,10 @@ class Simulation {
   const std::vector<SimulatedPair>& pairs() const;   ///< enabled ones with a body that moves
   const EnergyAccount& energy() const;
   const SimulationCounters& counters() const;
-  /// What is probably a mistake in the scene, each with a remedy: free bodies that nothing can hold, that
-  /// have no pair, whose mass cannot lie within them, or that begin deep in another.
+  /// Returns what is probably a mistake in the scene, each with a remedy: free bodies that nothing can hold,
+  /// that have no pair, whose mass cannot lie within them, or that begin deep in another.
   const std::vector<std::string>& warnings() const;
-  /// Whether the error of the energy balance is within SimulationSettings::energy_tolerance.
+  /// Returns whether the error of the energy balance is within SimulationSettings::energy_tolerance.
   bool energyIsBalanced() const;
   /// Total linear and angular (about the world's origin) momentum of the free bodies, kg m/s and kg m^2/s.
   Eigen::Vector3d momentum() const;

@@ -25,7 +25,7 @@ void BoundCache::advance(const BoundingVolumeHierarchy& b, const Eigen::Matrix3d
   // The largest stretch of a difference of two rotations is its Frobenius norm over the square root of 2.
   const double stretch = turn.norm() * 0.70710678118654757;
   for (std::size_t region = 0; region < odometers_.size(); ++region) {
-    const OrientedBox box = b.box(b.regions()[region]);
+    const OrientedBox box = b.box(b.subtrees()[region]);
     odometers_[region] += (turn * box.centre + shift).norm() + stretch * box.half.norm() + rounding;
   }
 }
@@ -35,7 +35,7 @@ void BoundCache::begin(const BoundingVolumeHierarchy& b, const Eigen::Matrix3d& 
   quads_.clear();
   directions_.clear();
   leaf_pairs_.clear();
-  odometers_.assign(b.regions().size(), 0.0);
+  odometers_.assign(b.subtrees().size(), 0.0);
   rotation_ = rotation;
   offset_ = offset;
 }

@@ -66,7 +66,7 @@ class BranchAndBound {
   void dropFront();
   DistanceCertificate conclude();
 
-  std::uint8_t regionOf(Slot slot_of_b) const { return b_.regionOfNode(slot_of_b / Hierarchy::kWidth); }
+  std::uint8_t regionOf(Slot slot_of_b) const { return b_.subtreeOfNode(slot_of_b / Hierarchy::kWidth); }
   std::ptrdiff_t openCount() const { return static_cast<std::ptrdiff_t>(open_count_); }
 
   const BodyMesh& body_a_;

@@ -139,7 +139,7 @@ void BranchAndBound::expand(const OpenPair& pair) {
           dropFront();
           continue;
         }
-        const std::uint8_t region = opens_b ? b_.regionOfNode(opened) : regionOf(kept);
+        const std::uint8_t region = opens_b ? b_.subtreeOfNode(opened) : regionOf(kept);
         front_->quads_.push_back(
             {{kInfinity, kInfinity, kInfinity, kInfinity}, kept, opened, region, opens_b, true});
         quad = &front_->quads_.back();

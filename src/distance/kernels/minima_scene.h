@@ -39,15 +39,15 @@ struct MinimaScene {
     const std::size_t count = body.surface().vertexCount();
     if (node.value < count) return body.surface().vertex(node) - centre;
     const std::size_t end = node.value - count;
-    const ShellContacts::Joint& joint = body.joints().joints[end / 2];
+    const ShellContacts::Joint& joint = body.shellContacts().joints[end / 2];
     return (end % 2 == 0 ? joint.from : joint.to) - centre;
   }
   /// False where one of them lies in the material of another shell of its body.
   bool areOnSurface(TriangleIndex of_a, TriangleIndex of_b) const {
-    return !a.joints().isHidden(of_a) && !b.joints().isHidden(of_b);
+    return !a.shellContacts().isHidden(of_a) && !b.shellContacts().isHidden(of_b);
   }
   /// Whether shells of either body meet.
-  bool hasJoints() const { return !a.joints().joints.empty() || !b.joints().joints.empty(); }
+  bool hasJoints() const { return !a.shellContacts().joints.empty() || !b.shellContacts().joints.empty(); }
   static bool isJoint(const BodyMesh& body, const AdjacentTriangle& next) {
     return next.from.value >= body.surface().vertexCount();
   }

@@ -13,7 +13,7 @@ using detail::outwardDirection;
 using detail::signedDistance;
 using Eigen::Vector3d;
 
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+constexpr double kMachineEpsilon = std::numeric_limits<double>::epsilon();
 // Every third step halves the bracket, so that it always ends.
 constexpr int kMostSlopes = 180;
 // So that not only the value is right to rounding but its place to a ten-billionth of the shape.
@@ -40,8 +40,8 @@ class SlopeSearch {
     if (low_slope_ >= 0.0) return at(shape_, p_);
     if (high_slope_ <= 0.0) return at(shape_, p_ + d_);
     // By how much the least value may be below those at the ends.
-    const double enough = kNoGain * kEpsilon * (shape_.radius + shape_.half_length);
-    for (int i = 0; i < kMostSlopes && high_ - low_ > 2.0 * kEpsilon * high_; ++i) {
+    const double enough = kNoGain * kMachineEpsilon * (shape_.radius + shape_.half_length);
+    for (int i = 0; i < kMostSlopes && high_ - low_ > 2.0 * kMachineEpsilon * high_; ++i) {
       if (std::min(-low_slope_, high_slope_) * (high_ - low_) <= enough) break;
       double t = i % 3 == 0 ? secant() : i % 3 == 1 ? tangents() : 0.5 * (low_ + high_);
       if (!(t > low_ && t < high_)) t = 0.5 * (low_ + high_);
@@ -62,7 +62,7 @@ class SlopeSearch {
   double tangents() const {
     const double rise = signedDistance(shape_, p_ + high_ * d_) - signedDistance(shape_, p_ + low_ * d_);
     const double t = low_ + (rise - high_slope_ * (high_ - low_)) / (low_slope_ - high_slope_);
-    const double inside = 8.0 * kEpsilon;
+    const double inside = 8.0 * kMachineEpsilon;
     return std::clamp(t, low_ + inside, std::max(low_ + inside, high_ - inside));
   }
 
@@ -79,10 +79,10 @@ class SlopeSearch {
 /// Over the plane, in the plane of symmetry: along the axis as seen on it.
 LowestPoint lowestOnPlane(const RoundShape& shape, const Vector3d& normal, double offset) {
   const Vector3d foot = offset * normal;
-  if (shape.kind == RoundKind::Sphere) return at(shape, foot);
+  if (!detail::hasSide(shape)) return at(shape, foot);
   Vector3d along = Vector3d::UnitZ() - normal.z() * normal;
   const double length = along.norm();
-  if (!(length > 16.0 * kEpsilon)) return at(shape, foot);
+  if (!(length > 16.0 * kMachineEpsilon)) return at(shape, foot);
   along *= detail::reachOf(shape) / length;
   return lowestOnSegment(shape, foot - along, foot + along);
 }
@@ -106,7 +106,7 @@ bool isInside(const TrianglePoints& triangle, const Vector3d& normal, const Vect
 
 LowestPoint lowestOnSegment(const RoundShape& shape, const Vector3d& p, const Vector3d& q) {
   const Vector3d d = q - p;
-  if (shape.kind != RoundKind::Sphere) return SlopeSearch(shape, p, d).find();
+  if (detail::hasSide(shape)) return SlopeSearch(shape, p, d).find();
   const double squared_length = d.squaredNorm();
   const double t = squared_length > 0.0 ? std::clamp(-p.dot(d) / squared_length, 0.0, 1.0) : 0.0;
   return at(shape, t == 1.0 ? q : Vector3d(p + t * d));

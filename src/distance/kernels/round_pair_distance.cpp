@@ -195,8 +195,8 @@ RoundPairDistance ofCylinders(const RoundShape& a, const RoundShape& b, const Ei
 
 RoundPairDistance roundPairDistance(const RoundShape& a, const RoundShape& b,
                                     const Eigen::Isometry3d& a_from_b) {
-  if (b.kind != RoundKind::Cylinder) return fromCore(a, b, a_from_b);
-  if (a.kind == RoundKind::Cylinder) return ofCylinders(a, b, a_from_b);
+  if (!detail::hasFlatEnds(b)) return fromCore(a, b, a_from_b);
+  if (detail::hasFlatEnds(a)) return ofCylinders(a, b, a_from_b);
   const RoundPairDistance mirrored = fromCore(b, a, a_from_b.inverse(Eigen::Isometry));
   RoundPairDistance result = mirrored;
   result.point_a = a_from_b * mirrored.point_b;

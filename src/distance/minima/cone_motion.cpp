@@ -36,8 +36,8 @@ void ConeMotion::begin(const NormalConeTree& a, const NormalConeTree& b, const L
   levers_[0] = 0.0;
   for (std::size_t k = 1; k < kLeverCount; ++k)
     levers_[k] = kShortestLever * size * std::ldexp(1.0, 2 * (static_cast<int>(k) - 1));
-  first_of_b_ = 1 + static_cast<std::uint32_t>(a.regions().size() * kLeverCount);
-  const std::size_t count = first_of_b_ + b.regions().size() * kLeverCount;
+  first_of_b_ = 1 + static_cast<std::uint32_t>(a.subtrees().size() * kLeverCount);
+  const std::size_t count = first_of_b_ + b.subtrees().size() * kLeverCount;
   quanta_.assign(count, 0);
   if (rates_.size() != count) {
     rates_.assign(count, kSizesPerRadian * size);
@@ -87,8 +87,8 @@ bool ConeMotion::advance(const LocalFrames& frames) {
   const Vector3d shift_in_b = rotation_.transpose() * offset_ - frames.rotation.transpose() * frames.offset;
   const auto run_regions = [&](const NormalConeTree& tree, std::uint32_t first, const Matrix3d& difference,
                                const Vector3d& by) {
-    for (std::size_t region = 0; region < tree.regions().size(); ++region) {
-      const NormalConeTree::Region& of = tree.regions()[region];
+    for (std::size_t region = 0; region < tree.subtrees().size(); ++region) {
+      const NormalConeTree::Subtree& of = tree.subtrees()[region];
       const double metres = (difference * of.centre + by).norm() + stretch * of.arm + rounding_;
       for (std::size_t k = 0; k < kLeverCount; ++k) {
         const auto clock = first + static_cast<std::uint32_t>(region * kLeverCount + k);

@@ -244,7 +244,7 @@ class ConeSweep {
   }
 
   void resetOffers(const SlotPair& pair) {
-    offers_.reset(cones_.a.regionOf(pair.first), cones_.b.regionOf(pair.second));
+    offers_.reset(cones_.a.subtreeOf(pair.first), cones_.b.subtreeOf(pair.second));
   }
 
   const ConeMotion& motion_;

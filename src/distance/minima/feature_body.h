@@ -34,14 +34,15 @@ struct FeaturePairs::Body {
 
   template <typename Visit>
   void forEachNeighbour(NodeIndex node, const Visit& visit) const {
-    concave_distance::forEachNeighbour(mesh.surface(), mesh.topology(), mesh.joints().hidden, node, visit);
+    concave_distance::forEachNeighbour(mesh.surface(), mesh.topology(), mesh.shellContacts().hidden, node,
+                                       visit);
   }
 
   /// The corners away from an edge of the triangles in sight that have it.
   template <typename Visit>
   void forEachApex(NodeIndex from, NodeIndex to, const Visit& visit) const {
     for (const TriangleIndex triangle : mesh.topology().triangles_of_vertex.row(from.value)) {
-      if (mesh.joints().isHidden(triangle)) continue;
+      if (mesh.shellContacts().isHidden(triangle)) continue;
       const TriangleNodes& nodes = mesh.surface().triangle(triangle);
       if (std::find(nodes.begin(), nodes.end(), to) == nodes.end()) continue;
       for (const NodeIndex node : nodes) {

@@ -116,7 +116,7 @@ void FeaturePairs::offerBesideEdge(const Body& of_edge, const Item& edge, const 
   offer_face(edge.triangle);
   const TriangleIndex across =
       of_edge.mesh.topology().triangle_across_edge[edge.triangle.value][edge.element];
-  if (across != kNoTriangle && !of_edge.mesh.joints().isHidden(across)) offer_face(across);
+  if (across != kNoTriangle && !of_edge.mesh.shellContacts().isHidden(across)) offer_face(across);
 }
 
 void FeaturePairs::offerVertexToEdge(const Body& of_vertex, const Item& vertex, const Body& of_edge,
@@ -183,7 +183,7 @@ void FeaturePairs::offerEdgeToEdge(const Item& a, const Item& b, SlackOffers& of
   const auto arc_of = [](const Body& body, const Item& item, Arc& arc) {
     const MeshTopology& topology = body.mesh.topology();
     const TriangleIndex beyond_edge = topology.triangle_across_edge[item.triangle.value][item.element];
-    if (beyond_edge == kNoTriangle || body.mesh.joints().isHidden(beyond_edge)) return false;
+    if (beyond_edge == kNoTriangle || body.mesh.shellContacts().isHidden(beyond_edge)) return false;
     const double error =
         normalError(body.mesh.surface(), item.triangle) + normalError(body.mesh.surface(), beyond_edge);
     if (!(2.0 * error < kNormalSlack)) return false;

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/pair_table.h"
 #include "concave_distance/base/work_limit.h"
-#include "distance/kernels/pair_table.h"
 #include "facet_pair_neighbours.h"
 
 namespace concave_distance::detail {

@@ -6,10 +6,10 @@
 #include <optional>
 #include <vector>
 
+#include "base/pair_table.h"
 #include "concave_distance/base/work_limit.h"
 #include "distance/bound/certificate.h"
 #include "distance/kernels/minima_scene.h"
-#include "distance/kernels/pair_table.h"
 #include "facet_pair_levels.h"
 #include "facet_pair_neighbours.h"
 #include "mesh/surface/triangle_adjacency.h"

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/pair_table.h"
 #include "basin_boundary.h"
-#include "distance/kernels/pair_table.h"
 #include "niche_properties.h"
 
 namespace concave_distance::detail {

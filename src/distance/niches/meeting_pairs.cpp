@@ -41,7 +41,7 @@ void collectMeetingPairs(const MinimaScene& scene, std::vector<TreeNodePair>& op
         for (std::uint32_t l = b.first; l < b.first + b.count; ++l) {
           const TriangleIndex ta = tree_a.order()[k];
           const TriangleIndex tb = tree_b.order()[l];
-          if (scene.a.joints().isHidden(ta) || scene.b.joints().isHidden(tb)) continue;
+          if (scene.a.shellContacts().isHidden(ta) || scene.b.shellContacts().isHidden(tb)) continue;
           ++cost.candidates;
           const TrianglePairDistance closest = triangleDistance(scene.cornersOfA(ta), scene.cornersOfB(tb));
           if (closest.squared_distance > slack * slack) continue;

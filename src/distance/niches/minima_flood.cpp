@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/infinity.h"
-#include "distance/kernels/pair_table.h"
+#include "base/pair_table.h"
 #include "facet_pair_neighbours.h"
 
 namespace concave_distance::detail {

@@ -11,7 +11,7 @@ constexpr double kStepOff = 1e-7;
 /// @param towards unit vector; zero: along the triangle's normal
 bool isInside(const BodyMesh& body, TriangleIndex triangle, const Eigen::Vector3d& point,
               const Eigen::Vector3d& towards) {
-  if (body.joints().joints.empty()) return false;
+  if (body.shellContacts().joints.empty()) return false;
   const Eigen::Vector3d& direction =
       towards.isZero(0.0) ? body.topology().triangle_normals[triangle.value] : towards;
   return isInsideOtherShell(body.surface(), body.topology(), body.tree(), triangle,

@@ -9,7 +9,7 @@
 
 namespace concave_distance::detail {
 
-/// How a child process ended.
+/// Says how a child process ended.
 struct ChildEnd {
   bool was_late = false;     ///< ended by this program at its deadline
   bool was_stopped = false;  ///< ended by this program because of the stop flag

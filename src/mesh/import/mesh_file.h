@@ -42,7 +42,7 @@ class MeshFile {
 /// exceeds `limits`: then it is not cached. Uses constant memory.
 bool addMeshFile(ContentHasher& hasher, const MeshFile& file, const MeshImportLimits& limits);
 
-/// As importMesh() of a path.
+/// Imports an opened file as importMesh() does a path.
 TriangleSoup importMesh(const MeshFile& file, const Eigen::Vector3d& scale = Eigen::Vector3d::Ones(),
                         const MeshImportLimits& limits = {});
 

@@ -100,7 +100,7 @@ class NestedSkins {
         skins_(resolved.units.count),
         outer_skins_(resolved.units.count) {
     for (std::uint32_t face = 0; face < resolved.table.faces.size(); ++face) {
-      if (resolved.verdicts[face].coefficient == 0) continue;
+      if (resolved.decisions[face].coefficient == 0) continue;
       Skin& skin = skins_[resolved.units.unit_of_face[face]];
       skin.faces.push_back(face);
       for (const NodeIndex node : resolved.table.faces[face].nodes) skin.box.extend(vertices[node.value]);
@@ -142,7 +142,7 @@ class NestedSkins {
     double sum = 0.0;
     for (const std::uint32_t face : skin.faces) {
       const Eigen::Vector3d b = corner(face, 1) - origin;
-      sum += resolved_.verdicts[face].coefficient *
+      sum += resolved_.decisions[face].coefficient *
              (corner(face, 0) - origin).dot(b.cross(corner(face, 2) - origin));
     }
     return sum;
@@ -178,7 +178,7 @@ class NestedSkins {
       const NodeIndex first{corners.size()};
       triangles.push_back({first, NodeIndex{first.value + 1}, NodeIndex{first.value + 2}});
       for (std::size_t k = 0; k < 3; ++k) corners.push_back(corner(face, k));
-      coefficients.push_back(resolved_.verdicts[face].coefficient);
+      coefficients.push_back(resolved_.decisions[face].coefficient);
     }
     outer_skins_[unit] = std::make_unique<OuterSkin>(
         SurfaceMesh(std::move(corners), std::move(triangles), "skin"), std::move(coefficients));

@@ -53,7 +53,7 @@ class FlatMerger {
   using Entry = std::pair<std::size_t, std::uint32_t>;
   using Edge = std::pair<NodeIndex, NodeIndex>;
 
-  /// What takes the place of the triangles around a node.
+  /// Holds what takes the place of the triangles around a node.
   struct Replacement {
     std::vector<std::pair<TriangleNodes, std::uint32_t>> triangles;  ///< with their patches
     std::set<Edge> edges;

@@ -9,9 +9,9 @@
 namespace concave_distance::detail {
 namespace {
 
-/// The triangles across a triangle's edges and whether they run the same way along them, in the order of the
-/// triangles, which turning does not change. So a sheet that cannot be oriented stays the same in a second
-/// run.
+/// The triangles across a triangle's edges and whether they run the same way along them, in the order
+/// of the triangles, which turning does not change. So a sheet that cannot be oriented stays the same
+/// in a second run.
 std::array<std::pair<std::uint32_t, bool>, 3> neighboursOf(std::uint32_t triangle, const EdgeTable& edges,
                                                            const std::vector<TriangleNodes>& triangles) {
   std::array<std::pair<std::uint32_t, bool>, 3> neighbours;

@@ -4,12 +4,12 @@
 
 #include "base/coordinate_limit.h"
 #include "base/number_text.h"
+#include "base/union_find.h"
 #include "concave_distance/base/error.h"
 #include "dissolve_flat_triangles.h"
 #include "drop_unused.h"
 #include "mesh/surface/edge_table.h"
 #include "mesh/surface/resolve_shells.h"
-#include "mesh/surface/union_find.h"
 #include "settle_faces.h"
 #include "weld_vertices.h"
 
@@ -79,7 +79,7 @@ void countEdges(const std::vector<TriangleNodes>& triangles, RepairReport& repor
   const detail::EdgeTable edges = detail::buildEdgeTable(triangles);
   // A hole is a chain of border edges that follow one another around the same fans of triangles. Corners are
   // half-edge starts; the corners of one vertex that are joined by edges are one fan.
-  detail::UnionFind fans(3 * triangles.size());
+  UnionFind fans(3 * triangles.size());
   std::vector<detail::HalfEdge> border;
   const auto corner_at = [&](detail::HalfEdge h, NodeIndex node) {
     return detail::startOf(triangles, h) == node ? h : h - h % 3 + (h % 3 + 1) % 3;

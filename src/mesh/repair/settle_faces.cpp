@@ -18,13 +18,13 @@ struct Needed {
   std::uint32_t against = 0;
 };
 
-Needed neededOf(const Face& face, const FaceDecision& verdict, bool is_cavity, bool first_runs_along) {
+Needed neededOf(const Face& face, const FaceDecision& decision, bool is_cavity, bool first_runs_along) {
   Needed needed;
-  if (verdict.role == FaceRole::Skin) {
-    const auto count = static_cast<std::uint32_t>(std::abs(verdict.coefficient));
-    ((verdict.coefficient > 0) != is_cavity ? needed.along : needed.against) = count;
-  } else if (verdict.role == FaceRole::Sheet) {
-    if (verdict.both_windings) {
+  if (decision.role == FaceRole::Skin) {
+    const auto count = static_cast<std::uint32_t>(std::abs(decision.coefficient));
+    ((decision.coefficient > 0) != is_cavity ? needed.along : needed.against) = count;
+  } else if (decision.role == FaceRole::Sheet) {
+    if (decision.both_windings) {
       needed = {1, 1};
     } else {
       (first_runs_along ? needed.along : needed.against) = 1;
@@ -45,14 +45,14 @@ class Settler {
         stays_(triangles.size(), true),
         is_sheet_(triangles.size()) {}
 
-  void settle(const FaceTable& table, const Face& face, const FaceDecision& verdict, bool is_cavity) {
+  void settle(const FaceTable& table, const Face& face, const FaceDecision& decision, bool is_cavity) {
     const std::uint32_t* const first = &table.triangles[face.first];
-    Needed needed = neededOf(face, verdict, is_cavity, runsAlong(triangles_[*first]));
+    Needed needed = neededOf(face, decision, is_cavity, runsAlong(triangles_[*first]));
     const std::uint32_t count = needed.along + needed.against;
-    (verdict.role == FaceRole::Wall ? result.inner_walls : result.duplicates) += face.copies() - count;
+    (decision.role == FaceRole::Wall ? result.inner_walls : result.duplicates) += face.copies() - count;
     std::uint32_t missing = count;
     for (const std::uint32_t* t = first; t != first + face.copies(); ++t) {
-      is_sheet_[*t] = verdict.role == FaceRole::Sheet;
+      is_sheet_[*t] = decision.role == FaceRole::Sheet;
       std::uint32_t& wanted = runsAlong(triangles_[*t]) ? needed.along : needed.against;
       stays_[*t] = missing > 0 && (!orient_ || wanted > 0);
       if (!stays_[*t]) continue;
@@ -100,7 +100,7 @@ SettledFaces settleOnce(const std::vector<Eigen::Vector3d>& vertices, std::vecto
   Settler settler(triangles, origins, orient);
   for (std::size_t f = 0; f < resolved.table.faces.size(); ++f) {
     const std::uint32_t unit = resolved.units.unit_of_face[f];
-    settler.settle(resolved.table, resolved.table.faces[f], resolved.verdicts[f],
+    settler.settle(resolved.table, resolved.table.faces[f], resolved.decisions[f],
                    unit != kSheet && is_cavity[unit]);
   }
   settler.finish();

@@ -69,8 +69,8 @@ class ChainReducer {
   std::vector<bool>& is_straight_;
 };
 
-/// From a node away from `previous`, as long as borders go through; ends at a node where they do not, or at
-/// `start`.
+/// Walks from a node away from `previous`, as long as borders go through; ends at a node where they do not,
+/// or at `start`.
 std::vector<NodeIndex> follow(NodeIndex start, NodeIndex next, const std::vector<Ends>& ends,
                               const std::vector<bool>& goes_through) {
   std::vector<NodeIndex> chain{start};

@@ -11,9 +11,9 @@ namespace concave_distance::detail {
 /// the other. Both are the node itself where they do not.
 std::array<NodeIndex, 2> commonEnds(NodeIndex node, const std::vector<VertexFan>& fans);
 
-/// By node: whether the borders of its patches go straight through it. All such nodes may go together: the
-/// border between two that stay is a segment, and those on it lie within `tolerance` metres of it (Douglas
-/// and Peucker 1973).
+/// Returns by node whether the borders of its patches go straight through it. All such nodes may go together:
+/// the border between two that stay is a segment, and those on it lie within `tolerance` metres of it
+/// (Douglas and Peucker 1973).
 std::vector<bool> findStraightNodes(const SurfaceMesh& mesh, const PatchedMesh& patched, double tolerance);
 
 }  // namespace concave_distance::detail

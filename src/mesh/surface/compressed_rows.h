@@ -22,6 +22,9 @@ struct CompressedRows {
     const T& operator[](std::size_t i) const { return first[i]; }
   };
   Row row(std::size_t i) const { return {values.data() + offsets[i], values.data() + offsets[i + 1]}; }
+  std::size_t memoryBytes() const {
+    return offsets.capacity() * sizeof(std::uint32_t) + values.capacity() * sizeof(T);
+  }
 };
 
 }  // namespace concave_distance

@@ -1,11 +1,11 @@
 #include "connected_pieces.h"
 
-#include "union_find.h"
+#include "base/union_find.h"
 
 namespace concave_distance {
 
 ConnectedPieces connectedPieces(const SurfaceMesh& mesh) {
-  detail::UnionFind vertices(mesh.vertexCount());
+  UnionFind vertices(mesh.vertexCount());
   for (const TriangleNodes& t : mesh.triangles()) {
     vertices.unite(t[0].value, t[1].value);
     vertices.unite(t[0].value, t[2].value);

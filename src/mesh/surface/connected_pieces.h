@@ -7,8 +7,8 @@
 
 namespace concave_distance {
 
-/// What a path along the surface can reach: triangles that hang together by edges or corners. Solids that
-/// share an edge are shells of their own (MeshTopology) but one piece.
+/// Holds what a path along the surface can reach: triangles that hang together by edges or corners. Solids
+/// that share an edge are shells of their own (MeshTopology) but one piece.
 struct ConnectedPieces {
   std::vector<std::uint32_t> piece_of_triangle;
   std::uint32_t count = 0;

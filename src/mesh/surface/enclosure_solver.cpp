@@ -7,7 +7,7 @@
 #include <numeric>
 #include <tuple>
 
-#include "union_find.h"
+#include "base/union_find.h"
 
 namespace concave_distance::detail {
 namespace {
@@ -25,7 +25,7 @@ EnclosureSolver::EnclosureSolver(const std::vector<Eigen::Vector3d>& vertices, c
                                  const std::vector<FaceSide>& cells)
     : vertices_(vertices), table_(table), edges_(edges), units_(units), cells_(cells) {}
 
-bool EnclosureSolver::solve(const std::vector<std::uint32_t>& faces, std::vector<FaceDecision>& verdicts) {
+bool EnclosureSolver::solve(const std::vector<std::uint32_t>& faces, std::vector<FaceDecision>& decisions) {
   numberCells(faces);
   measureCells(faces);
   std::vector<int> net(faces.size());
@@ -37,24 +37,24 @@ bool EnclosureSolver::solve(const std::vector<std::uint32_t>& faces, std::vector
     return once;
   };
   if (cellsAgree()) {  // NOLINT(bugprone-branch-clone): the order of the questions counts
-    takeCells(faces, verdicts);
+    takeCells(faces, decisions);
   } else if (edgesBalance(faces, net)) {
-    takeWindings(faces, net, verdicts);
+    takeWindings(faces, net, decisions);
   } else if (cellsVote()) {
-    takeCells(faces, verdicts);
+    takeCells(faces, decisions);
   } else if (edgesBalance(faces, each_once())) {
-    takeWindings(faces, each_once(), verdicts);
+    takeWindings(faces, each_once(), decisions);
   } else {
     windings_.assign(cell_count_, 1);
     windings_[outer_] = 0;
-    takeCells(faces, verdicts);
+    takeCells(faces, decisions);
   }
   int common = 0;
-  for (const std::uint32_t face : faces) common = std::gcd(common, verdicts[face].coefficient);
+  for (const std::uint32_t face : faces) common = std::gcd(common, decisions[face].coefficient);
   long votes = 0;
   for (const std::uint32_t face : faces) {
-    if (common > 1) verdicts[face].coefficient /= common;
-    votes += static_cast<long>(signOf(verdicts[face].coefficient)) * table_.faces[face].net();
+    if (common > 1) decisions[face].coefficient /= common;
+    votes += static_cast<long>(signOf(decisions[face].coefficient)) * table_.faces[face].net();
   }
   return votes < 0;
 }
@@ -237,35 +237,35 @@ bool EnclosureSolver::edgesBalance(const std::vector<std::uint32_t>& faces,
 }
 
 void EnclosureSolver::takeCells(const std::vector<std::uint32_t>& faces,
-                                std::vector<FaceDecision>& verdicts) const {
+                                std::vector<FaceDecision>& decisions) const {
   for (std::size_t i = 0; i < faces.size(); ++i) {
     const Face& face = table_.faces[faces[i]];
     const Crossing& crossing = crossings_[i];
-    FaceDecision& verdict = verdicts[faces[i]];
+    FaceDecision& decision = decisions[faces[i]];
     const int front = std::abs(windings_[crossing.front]);
     const int back = std::abs(windings_[crossing.back]);
-    verdict = {FaceRole::Sheet, back - front, false};
-    if (verdict.coefficient != 0) {
-      verdict.role = FaceRole::Skin;
+    decision = {FaceRole::Sheet, back - front, false};
+    if (decision.coefficient != 0) {
+      decision.role = FaceRole::Skin;
     } else if (crossing.front != crossing.back && front != 0 && face.copies() > 1) {
-      verdict.role = FaceRole::Wall;
+      decision.role = FaceRole::Wall;
     } else {
-      verdict.both_windings = crossing.front != crossing.back && face.along > 0 && face.against > 0;
+      decision.both_windings = crossing.front != crossing.back && face.along > 0 && face.against > 0;
     }
   }
 }
 
 void EnclosureSolver::takeWindings(const std::vector<std::uint32_t>& faces,
                                    const std::vector<int>& coefficients,
-                                   std::vector<FaceDecision>& verdicts) const {
+                                   std::vector<FaceDecision>& decisions) const {
   double volume = 0.0;
   for (std::size_t i = 0; i < faces.size(); ++i) volume += coefficients[i] * volumeUnder(faces[i]);
   const int outward = volume < 0.0 ? -1 : 1;
   for (std::size_t i = 0; i < faces.size(); ++i) {
     const Face& face = table_.faces[faces[i]];
     const bool is_skin = coefficients[i] != 0;
-    verdicts[faces[i]] = {is_skin ? FaceRole::Skin : FaceRole::Sheet, outward * coefficients[i],
-                          !is_skin && face.along > 0 && face.against > 0};
+    decisions[faces[i]] = {is_skin ? FaceRole::Skin : FaceRole::Sheet, outward * coefficients[i],
+                           !is_skin && face.along > 0 && face.against > 0};
   }
 }
 

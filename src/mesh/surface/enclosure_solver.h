@@ -32,14 +32,14 @@ struct FaceDecision {
 ///    agree.
 /// 4. As 2, with each face counted once.
 /// 5. Every cell except the outer one is material.
-/// Returns the verdict of each face, and whether most of the boundary was wound inside out.
+/// Returns the decision of each face, and whether most of the boundary was wound inside out.
 class EnclosureSolver {
  public:
   EnclosureSolver(const std::vector<Eigen::Vector3d>& vertices, const FaceTable& table,
                   const EdgeTable& edges, const SurfaceUnits& units, const std::vector<FaceSide>& cells);
 
   /// `faces` of one unit, in ascending order. O(n log n).
-  bool solve(const std::vector<std::uint32_t>& faces, std::vector<FaceDecision>& verdicts);
+  bool solve(const std::vector<std::uint32_t>& faces, std::vector<FaceDecision>& decisions);
 
  private:
   struct Crossing {
@@ -48,14 +48,14 @@ class EnclosureSolver {
     int jump;
   };
 
-  /// What lies between two cells.
+  /// Says what lies between two cells.
   struct Boundary {
     std::uint32_t low;
     std::uint32_t high;
     int jump;                 ///< from `low` to `high`
     std::ptrdiff_t agreeing;  ///< faces
   };
-  /// From each cell, the cells beyond its faces with the change of the winding number.
+  /// Each cell lists the cells beyond its faces, with the change of the winding number.
   using CellSteps = std::vector<std::vector<std::pair<std::uint32_t, int>>>;
 
   void numberCells(const std::vector<std::uint32_t>& faces);
@@ -65,9 +65,9 @@ class EnclosureSolver {
   std::vector<Boundary> boundariesOfCells() const;
   bool numberFromOuter(const CellSteps& next);
   bool edgesBalance(const std::vector<std::uint32_t>& faces, const std::vector<int>& coefficients) const;
-  void takeCells(const std::vector<std::uint32_t>& faces, std::vector<FaceDecision>& verdicts) const;
+  void takeCells(const std::vector<std::uint32_t>& faces, std::vector<FaceDecision>& decisions) const;
   void takeWindings(const std::vector<std::uint32_t>& faces, const std::vector<int>& coefficients,
-                    std::vector<FaceDecision>& verdicts) const;
+                    std::vector<FaceDecision>& decisions) const;
   double volumeUnder(std::uint32_t face) const;
 
   const std::vector<Eigen::Vector3d>& vertices_;

@@ -7,7 +7,6 @@
 
 namespace concave_distance::detail {
 
-inline constexpr std::uint32_t kNoFace = 0xffffffffU;
 
 /// All triangles with the same three corners, in either winding.
 struct Face {
@@ -25,7 +24,7 @@ struct FaceTable {
   std::vector<std::uint32_t> triangles;  ///< grouped by face, ascending within a group
 };
 
-/// Whether the corners are an even permutation of their ascending order. No corner may come twice.
+/// Returns whether the corners are an even permutation of their ascending order. No corner may come twice.
 bool runsAlong(const TriangleNodes& nodes);
 
 /// Triangles that name a vertex twice belong to no face. O(n log n).

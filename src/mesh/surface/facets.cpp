@@ -9,15 +9,15 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Of the diameter: what a corner may be off the other triangle's plane.
-constexpr double kFlat = 0x1.0p-49;
+/// A corner may be off the other triangle's plane by this share of the diameter.
+constexpr double kLevelHeight = 0x1.0p-49;
 /// Longest edge squared over the height on it, in diameters: the plane of a longer needle is not known well
 /// enough (rounding makes 2^-48 of the diameter of it).
 constexpr double kLongestNeedle = 8.0;
 
-class Joiner {
+class FacetJoiner {
  public:
-  Joiner(const SurfaceMesh& mesh, const MeshTopology& topology, const std::vector<bool>& hidden)
+  FacetJoiner(const SurfaceMesh& mesh, const MeshTopology& topology, const std::vector<bool>& hidden)
       : mesh_(mesh), topology_(topology), hidden_(hidden) {}
 
   Facets join() {
@@ -44,7 +44,7 @@ class Joiner {
     return (mesh_.corner(t, 1) - mesh_.corner(t, 0)).cross(mesh_.corner(t, 2) - mesh_.corner(t, 0)).norm();
   }
 
-  /// Over the longest edge that will do: most often the diagonal of a rectangle.
+  /// Joins a triangle over the longest edge that will do: most often the diagonal of a rectangle.
   void joinLongest(TriangleIndex t) {
     if (!isFree(t)) return;
     std::array<std::size_t, 3> edges{0, 1, 2};
@@ -78,7 +78,7 @@ class Joiner {
     }));
   }
 
-  /// Over the edges of both that they have in common.
+  /// Checks the edges that both have in common.
   bool join(TriangleIndex first, std::size_t edge, TriangleIndex second, std::size_t edge_of_second) {
     const std::array<NodeIndex, 4> nodes{node(first, edge + 1), node(first, edge + 2), node(first, edge),
                                          node(second, edge_of_second + 2)};
@@ -101,7 +101,7 @@ class Joiner {
         std::sqrt(std::max({edges[0].squaredNorm(), edges[1].squaredNorm(), edges[2].squaredNorm(),
                             edges[3].squaredNorm(), diagonal.squaredNorm()}));
     if (!(longest * longest * longest <= kLongestNeedle * mesh_.diameter() * area)) return false;
-    if (std::abs(normal.dot(edges[3])) > kFlat * mesh_.diameter() * area) return false;
+    if (std::abs(normal.dot(edges[3])) > kLevelHeight * mesh_.diameter() * area) return false;
     const auto turns = [&](std::size_t k) { return edges[k].cross(edges[(k + 1) % 4]).dot(normal) > 0.0; };
     return turns(1) && turns(2) && turns(3);
   }
@@ -117,7 +117,7 @@ class Joiner {
 
 Facets joinFlatTriangles(const SurfaceMesh& mesh, const MeshTopology& topology,
                          const std::vector<bool>& hidden) {
-  return Joiner(mesh, topology, hidden).join();
+  return FacetJoiner(mesh, topology, hidden).join();
 }
 
 CompressedRows<AdjacentTriangle> facetAdjacency(const Facets& facets,

@@ -13,8 +13,8 @@ namespace concave_distance {
 struct Facets {
   std::vector<TriangleIndex> facet_of_triangle;
   std::vector<TriangleIndex> second;  ///< by facet; kNoTriangle: there is none
-  /// By facet, the way the triangle runs: the first three are the first triangle's, and the edge between both
-  /// joins the first and the third. A triangle's fourth is its first again.
+  /// Each facet's nodes run the way its triangle does: the first three are the first triangle's, and the edge
+  /// between both joins the first and the third. A triangle's fourth is its first again.
   std::vector<std::array<NodeIndex, 4>> nodes;
 
   bool isQuad(TriangleIndex facet) const { return second[facet.value] != kNoTriangle; }
@@ -30,7 +30,7 @@ struct Facets {
 Facets joinFlatTriangles(const SurfaceMesh& mesh, const MeshTopology& topology,
                          const std::vector<bool>& hidden);
 
-/// From rows by triangle to rows by facet; other rows are empty.
+/// Turns rows by triangle into rows by facet; other rows are empty.
 CompressedRows<AdjacentTriangle> facetAdjacency(const Facets& facets,
                                                 const CompressedRows<AdjacentTriangle>& adjacency);
 

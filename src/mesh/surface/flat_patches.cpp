@@ -32,7 +32,7 @@ std::uint32_t acrossEdge(const SurfaceMesh& surface, const EdgeTable& edges, Hal
   return startOf(surface.triangles(), h) == startOf(surface.triangles(), other) ? h / 3 : other / 3;
 }
 
-/// What lies close to a plane and faces its way.
+/// Decides what lies close to a plane and faces its way.
 struct Slab {
   Eigen::Vector3d normal;
   Eigen::Vector3d on_plane;

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/union_find.h"
 #include "resolve_shells.h"
-#include "union_find.h"
 
 namespace concave_distance::detail {
 namespace {
@@ -27,7 +27,7 @@ std::vector<std::uint32_t> classesOf(const std::vector<Eigen::Vector3d>& vertice
   std::vector<std::uint32_t> classes(triangles.size(), kOpenClass);
   const ResolvedShells resolved = resolveShells(vertices, triangles);
   for (std::uint32_t f = 0; f < resolved.table.faces.size(); ++f) {
-    if (resolved.verdicts[f].role != FaceRole::Skin) continue;
+    if (resolved.decisions[f].role != FaceRole::Skin) continue;
     const Face& face = resolved.table.faces[f];
     for (std::uint32_t i = face.first; i < face.first + face.copies(); ++i) {
       classes[resolved.table.triangles[i]] = kOpenClass + 1 + resolved.units.unit_of_face[f];

@@ -90,29 +90,4 @@ MassProperties massPropertiesOfMass(const SurfaceMesh& closed, double mass, cons
   return evenlyFilled(moments, mass / moments.volume);
 }
 
-MassProperties massPropertiesOf(const RoundShape& shape, double density, const std::string& where) {
-  detail::requirePositive(where, "density", density, "kg/m^3");
-  return massPropertiesOfMass(shape, density * volumeOf(shape), where);
-}
-
-MassProperties massPropertiesOfMass(const RoundShape& shape, double mass, const std::string& where) {
-  detail::requirePositive(where, "mass", mass, "kg");
-  const double r = shape.radius;
-  const double h = shape.half_length;
-  const bool has_ends = shape.kind != RoundKind::Cylinder;
-  // Both ends together are a ball, 4/3 r of the disc's area; the middle is 2 h of it.
-  const double ends = has_ends ? mass * (4.0 / 3.0 * r) / (4.0 / 3.0 * r + 2.0 * h) : 0.0;
-  const double middle = mass - ends;
-  const double along = 0.5 * middle * r * r + 0.4 * ends * r * r;
-  // A half ball's centre is 3/8 r from its face: its moments by the parallel axes.
-  const double across = middle * (0.25 * r * r + h * h / 3.0) + ends * (0.4 * r * r + h * h + 0.75 * r * h);
-  const Eigen::Matrix3d turn = shape.body_from_shape.linear();
-  MassProperties properties;
-  properties.mass = mass;
-  properties.centre_in_body = shape.body_from_shape.translation();
-  properties.inertia = turn * Eigen::Vector3d(across, across, along).asDiagonal() * turn.transpose();
-  properties.inertia = (0.5 * (properties.inertia + properties.inertia.transpose())).eval();
-  return properties;
-}
-
 }  // namespace concave_distance

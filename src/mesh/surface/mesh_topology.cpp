@@ -95,7 +95,7 @@ void collectNeighbours(const std::vector<EdgeUse>& edges, std::size_t vertex_cou
   }
 }
 
-/// From the two shorter edges, whose cross product cancels least.
+/// Takes the two shorter edges, whose cross product cancels least.
 Eigen::Vector3d unitNormal(const SurfaceMesh& mesh, TriangleIndex t) {
   const Eigen::Vector3d e0 = mesh.corner(t, 1) - mesh.corner(t, 0);
   const Eigen::Vector3d e1 = mesh.corner(t, 2) - mesh.corner(t, 1);

@@ -12,12 +12,13 @@ namespace concave_distance {
 /// No triangle on the other side of an edge.
 inline constexpr TriangleIndex kNoTriangle{0xffffffffU};
 
-/// What touches what on a welded surface; O(triangles) to build and to store.
-/// Edge k of a triangle runs from corner k to corner (k + 1) % 3.
+/// Says what touches what on a welded surface; O(triangles) to build and to store. Edge k of a triangle runs
+/// from corner k to corner (k + 1) % 3.
 struct MeshTopology {
   CompressedRows<TriangleIndex> triangles_of_vertex;
   CompressedRows<NodeIndex> neighbours_of_vertex;
-  /// Across each edge; kNoTriangle at a border, the first other triangle at a non-manifold edge.
+  /// Each edge has here the triangle across it; kNoTriangle at a border, the first other one at a
+  /// non-manifold edge.
   std::vector<std::array<TriangleIndex, 3>> triangle_across_edge;
   /// Triangles that bound one solid and are connected by edges, or sheets connected by edges or corners. A
   /// sheet attached to a solid, and solids that share an edge, are separate shells.
@@ -32,7 +33,7 @@ struct MeshTopology {
   std::vector<Eigen::Vector3d> vertex_normals;
 
   std::size_t shellCount() const { return shell_is_closed.size(); }
-  /// Whether the triangle's shell is closed.
+  /// Returns whether the triangle's shell is closed.
   bool isOnClosedShell(TriangleIndex triangle) const {
     return shell_is_closed[shell_of_triangle[triangle.value]];
   }

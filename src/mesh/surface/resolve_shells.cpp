@@ -10,7 +10,7 @@ ResolvedShells resolveShells(const std::vector<Eigen::Vector3d>& vertices,
   const EdgeTable edges = buildEdgeTable(faces);
   resolved.units = splitIntoUnits(faces, edges);
   const std::vector<FaceSide> cells = findCells(vertices, resolved.table, edges, resolved.units);
-  resolved.verdicts.resize(faces.size());
+  resolved.decisions.resize(faces.size());
   std::vector<std::vector<std::uint32_t>> faces_of_unit(resolved.units.count);
   for (std::uint32_t face = 0; face < faces.size(); ++face) {
     const std::uint32_t unit = resolved.units.unit_of_face[face];
@@ -18,7 +18,7 @@ ResolvedShells resolveShells(const std::vector<Eigen::Vector3d>& vertices,
   }
   EnclosureSolver solver(vertices, resolved.table, edges, resolved.units, cells);
   for (const std::vector<std::uint32_t>& unit : faces_of_unit) {
-    resolved.unit_is_inward.push_back(solver.solve(unit, resolved.verdicts));
+    resolved.unit_is_inward.push_back(solver.solve(unit, resolved.decisions));
   }
   return resolved;
 }

@@ -10,8 +10,8 @@ namespace concave_distance::detail {
 struct ResolvedShells {
   FaceTable table;
   SurfaceUnits units;
-  std::vector<FaceDecision> verdicts;  ///< one per face
-  std::vector<bool> unit_is_inward;    ///< mostly wound inside out in the file
+  std::vector<FaceDecision> decisions;  ///< one per face
+  std::vector<bool> unit_is_inward;     ///< mostly wound inside out in the file
 };
 
 /// Uses only windings and edges, and exact predicates where more than two faces meet at an edge

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "union_find.h"
+#include "base/union_find.h"
 
 namespace concave_distance::detail {
 namespace {

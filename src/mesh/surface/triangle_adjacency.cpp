@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "base/union_find.h"
 #include "edge_table.h"
-#include "union_find.h"
 
 namespace concave_distance {
 namespace {
@@ -22,7 +22,7 @@ struct Join {
 
 void joinAcrossEdges(const SurfaceMesh& mesh, const EdgeTable& edges, std::vector<Join>& joins) {
   const std::vector<TriangleNodes>& triangles = mesh.triangles();
-  // Of each half-edge its place in the group of its edge.
+  // Each half-edge has here its place in the group of its edge.
   std::vector<std::uint32_t> places(edges.half_edges.size());
   for (std::uint32_t i = 0; i < places.size(); ++i) places[edges.half_edges[i]] = i;
   for (HalfEdge h = 0; h < places.size(); ++h) {
@@ -45,8 +45,8 @@ void joinAcrossEdges(const SurfaceMesh& mesh, const EdgeTable& edges, std::vecto
 }
 
 /// Corner k of triangle t, numbered 3 t + k, in sets that edges at their vertex connect.
-detail::UnionFind cornerGroups(const std::vector<TriangleNodes>& triangles, const EdgeTable& edges) {
-  detail::UnionFind groups(edges.half_edges.size());
+UnionFind cornerGroups(const std::vector<TriangleNodes>& triangles, const EdgeTable& edges) {
+  UnionFind groups(edges.half_edges.size());
   const auto end_corner = [](HalfEdge h) { return h % 3 == 2 ? h - 2 : h + 1; };
   for (std::size_t i = 1; i < edges.half_edges.size(); ++i) {
     const HalfEdge l = edges.half_edges[i - 1];
@@ -62,7 +62,7 @@ detail::UnionFind cornerGroups(const std::vector<TriangleNodes>& triangles, cons
 /// A chain over the first triangles of the groups that are connected by edges at the vertex.
 void joinOverVertices(const SurfaceMesh& mesh, const MeshTopology& topology, const EdgeTable& edges,
                       std::vector<Join>& joins) {
-  detail::UnionFind groups = cornerGroups(mesh.triangles(), edges);
+  UnionFind groups = cornerGroups(mesh.triangles(), edges);
   for (std::uint32_t v = 0; v < mesh.vertexCount(); ++v) {
     const NodeIndex vertex{v};
     const auto fan = topology.triangles_of_vertex.row(v);

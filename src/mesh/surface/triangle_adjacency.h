@@ -31,10 +31,10 @@ CompressedRows<AdjacentTriangle> adjacencyRows(std::size_t count, const ForEach&
   return rows;
 }
 
-/// For every triangle those across its edges, or the next one in a ring where more than 8 meet at an edge;
-/// and where triangles hang together at a vertex alone, a chain over that vertex. Triangles that touch are
-/// connected by such steps, all of which contain the point where they touch. O(n log n) time, O(n)
-/// memory.
+/// Returns for every triangle those across its edges, or the next one in a ring where more than 8 meet
+/// at an edge; and where triangles hang together at a vertex alone, a chain over that vertex. Triangles
+/// that touch are connected by such steps, all of which contain the point where they touch. O(n log n)
+/// time, O(n) memory.
 CompressedRows<AdjacentTriangle> triangleAdjacency(const SurfaceMesh& mesh, const MeshTopology& topology);
 
 }  // namespace concave_distance

@@ -29,9 +29,6 @@ struct Place {
   std::uint32_t leaves = 0;
 };
 
-/// Children of larger subtrees are built as tasks of their own.
-constexpr std::uint32_t kTaskSize = 32768;
-
 class HierarchyBuilder {
  public:
   HierarchyBuilder(const SurfaceMesh& mesh, const TriangleTree& tree, const Vector3d& origin, double margin,
@@ -62,7 +59,7 @@ class HierarchyBuilder {
   }
 
  private:
-  /// Of what is below the subtree's box.
+  /// Counts what is below the subtree's box.
   Place sizeOf(const Subtree& subtree) const {
     if (subtree.count <= Hierarchy::kWidth) return {0, 1};
     std::array<Subtree, Hierarchy::kWidth> children;
@@ -76,8 +73,8 @@ class HierarchyBuilder {
     return size;
   }
 
-  /// Builds what is below a subtree's box, depth first from `next` on; returns what the box's child is
-  /// called.
+  /// Builds what is below a subtree's box, depth first from `next` on; returns what the box's
+  /// child is called.
   std::uint32_t place(const Subtree& subtree, Place& next) {
     if (subtree.count <= Hierarchy::kWidth) {
       leaves_[next.leaves] = leafOf(subtree);
@@ -88,7 +85,7 @@ class HierarchyBuilder {
     node = emptyNode();
     std::array<Subtree, Hierarchy::kWidth> children;
     const std::size_t count = collapse(subtree, children);
-    if (subtree.count <= kTaskSize) {
+    if (subtree.count <= kParallelSubtree) {
       for (std::size_t i = 0; i < count; ++i) {
         storeBox(children[i], node, i);
         node.child[i] = place(children[i], next);
@@ -198,14 +195,14 @@ BoundingVolumeHierarchy::BoundingVolumeHierarchy(const SurfaceMesh& mesh, const 
   reach_ *= 1.0 + kBoxMargin;
   HierarchyBuilder(mesh, tree, origin_, kBoxMargin * reach_, nodes_, leaves_).build();
   roundNodes();
-  chooseRegions();
+  chooseSubtrees();
 }
 
 BoundingVolumeHierarchy::BoundingVolumeHierarchy(const Eigen::Vector3d& origin, double reach,
                                                  std::vector<Node> nodes, std::vector<Leaf> leaves)
     : origin_(origin), reach_(reach), nodes_(std::move(nodes)), leaves_(std::move(leaves)) {
   roundNodes();
-  chooseRegions();
+  chooseSubtrees();
 }
 
 void BoundingVolumeHierarchy::roundNodes() {
@@ -227,11 +224,11 @@ void BoundingVolumeHierarchy::roundNodes() {
   }
 }
 
-void BoundingVolumeHierarchy::chooseRegions() {
-  regions_ = {kRoot};
-  region_of_node_.assign(nodes_.size(), 0);
+void BoundingVolumeHierarchy::chooseSubtrees() {
+  subtrees_ = {kRoot};
+  subtree_of_node_.assign(nodes_.size(), 0);
   // Parents come before their children. The node below the root belongs to the whole surface; the boxes of it
-  // and of its children are regions; what is deeper is of its parent's.
+  // and of its children are subtrees; what is deeper is of its parent's.
   std::vector<std::uint8_t> depth(nodes_.size(), 0);
   for (std::uint32_t node = 0; node < nodes_.size(); ++node) {
     for (std::uint32_t lane = 0; lane < kWidth; ++lane) {
@@ -239,10 +236,10 @@ void BoundingVolumeHierarchy::chooseRegions() {
       if ((child & kLeafFlag) != 0) continue;
       depth[child] = static_cast<std::uint8_t>(std::min(depth[node] + 1, 4));
       if (depth[child] == 2 || depth[child] == 3) {
-        region_of_node_[child] = static_cast<std::uint8_t>(regions_.size());
-        regions_.push_back(node * static_cast<Slot>(kWidth) + lane);
+        subtree_of_node_[child] = static_cast<std::uint8_t>(subtrees_.size());
+        subtrees_.push_back(node * static_cast<Slot>(kWidth) + lane);
       } else {
-        region_of_node_[child] = region_of_node_[node];
+        subtree_of_node_[child] = subtree_of_node_[node];
       }
     }
   }
@@ -262,7 +259,7 @@ OrientedBox BoundingVolumeHierarchy::box(Slot slot) const {
 
 std::size_t BoundingVolumeHierarchy::memoryBytes() const {
   return nodes_.capacity() * sizeof(Node) + single_nodes_.capacity() * sizeof(SingleNode) +
-         leaves_.capacity() * sizeof(Leaf) + region_of_node_.capacity();
+         leaves_.capacity() * sizeof(Leaf) + subtree_of_node_.capacity();
 }
 
 }  // namespace concave_distance

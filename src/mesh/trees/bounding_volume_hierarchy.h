@@ -46,20 +46,20 @@ class BoundingVolumeHierarchy {
     std::uint32_t child[kWidth];
   };
 
-  /// Up to four triangles; unused lanes repeat the last one.
+  /// Holds up to four triangles; unused lanes repeat the last one.
   struct alignas(32) Leaf {
     double corner[3][3][kWidth];  ///< [corner][coordinate]
     TriangleIndex triangle[kWidth];
     std::uint32_t count;
   };
 
-  /// Where a box stands: node * kWidth + lane.
+  /// A slot says where a box stands: node * kWidth + lane.
   using Slot = std::uint32_t;
   static constexpr Slot kRoot = 0;  ///< the box of the whole surface
 
   BoundingVolumeHierarchy() = default;
   BoundingVolumeHierarchy(const SurfaceMesh& mesh, const TriangleTree& tree);
-  /// From another hierarchy's parts, which are taken as they are. O(nodes).
+  /// Takes another hierarchy's parts as they are. O(nodes).
   BoundingVolumeHierarchy(const Eigen::Vector3d& origin, double reach, std::vector<Node> nodes,
                           std::vector<Leaf> leaves);
 
@@ -72,22 +72,22 @@ class BoundingVolumeHierarchy {
   std::uint32_t child(Slot slot) const { return single_nodes_[slot / kWidth].child[slot % kWidth]; }
   OrientedBox box(Slot slot) const;
   /// Boxes of the first two levels, at most 21, the whole surface first: each holds what lies below the nodes
-  /// of its region. How far any point of a node has moved is bounded by its region.
-  const std::vector<Slot>& regions() const { return regions_; }
-  std::uint8_t regionOfNode(std::uint32_t node) const { return region_of_node_[node]; }
+  /// of its subtree. How far any point of a node has moved is bounded by its subtree.
+  const std::vector<Slot>& subtrees() const { return subtrees_; }
+  std::uint8_t subtreeOfNode(std::uint32_t node) const { return subtree_of_node_[node]; }
   std::size_t memoryBytes() const;
 
  private:
   void roundNodes();
-  void chooseRegions();
+  void chooseSubtrees();
 
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
   double reach_ = 0.0;
   std::vector<Node> nodes_;
   std::vector<SingleNode> single_nodes_;
   std::vector<Leaf> leaves_;
-  std::vector<Slot> regions_;
-  std::vector<std::uint8_t> region_of_node_;
+  std::vector<Slot> subtrees_;
+  std::vector<std::uint8_t> subtree_of_node_;
 };
 
 }  // namespace concave_distance

@@ -71,7 +71,7 @@ class Collector {
     items_.push_back({centre, radius * (1.0 + 1e-12), cap, t, kind, element});
   }
 
-  /// What the clipper holds, on the sides wanted.
+  /// Adds what the clipper holds, on the sides wanted.
   void addClipped(const Vector3d& centre, double radius, const Vector3d& normal, bool both_sides,
                   TriangleIndex t, Kind kind, std::uint8_t element) {
     if (const auto cap = clipper_.capOnSide(normal)) add(centre, radius, *cap, t, kind, element);

@@ -21,13 +21,13 @@ constexpr std::uint32_t kMostUneven = 16;
 /// a point as far away change by over that length.
 constexpr double kDiametersPerRadian = 0.15;
 
-/// Bodies with few items have few regions.
-constexpr std::size_t kLeastItemsOfRegion = 16;
+/// Bodies with few items have few subtrees.
+constexpr std::size_t kLeastItemsOfSubtree = 16;
 
 /// Smaller bodies are compared in this unit: its reciprocal must not overflow.
 constexpr int kLeastExponent = -1000;
 
-/// What lies around some items, in double precision.
+/// Bounds some items, in double precision.
 struct Bound {
   Vector3d centre;
   double radius;
@@ -62,7 +62,7 @@ class ConeTreeBuilder {
     std::uint32_t count() const { return last - first; }
   };
 
-  /// Of two items or more; returns the first one's slot.
+  /// Builds the groups of two items or more; returns the first one's slot.
   std::uint32_t buildParts(Range range) {
     const auto first = static_cast<std::uint32_t>(groups_.size());
     groups_.resize(groups_.size() + NormalConeTree::kWidth);
@@ -190,7 +190,7 @@ NormalConeTree::NormalConeTree(const SurfaceMesh& mesh, const MeshTopology& topo
   groups_.reserve(2 * items_.size());
   ConeTreeBuilder(items_, groups_, origin_, unit_, mesh.diameter()).build();
   groups_.shrink_to_fit();
-  chooseRegions();
+  chooseSubtrees();
 }
 
 Eigen::Vector3d NormalConeTree::centreOf(Slot slot) const {
@@ -198,10 +198,10 @@ Eigen::Vector3d NormalConeTree::centreOf(Slot slot) const {
   return unit_ * Vector3d(group.centre[0], group.centre[1], group.centre[2]);
 }
 
-void NormalConeTree::chooseRegions() {
+void NormalConeTree::chooseSubtrees() {
   // The largest spheres are opened until there are enough.
   const auto radius = [this](Slot slot) { return groups_[slot].radius; };
-  const std::size_t most = std::min(kMostRegions, 1 + items_.size() / kLeastItemsOfRegion);
+  const std::size_t most = std::min(kMostSubtrees, 1 + items_.size() / kLeastItemsOfSubtree);
   const auto is_item = [this](Slot slot) { return (child(slot) & kItemFlag) != 0; };
   std::vector<Slot> tops{kRoot};
   std::vector<Slot> opened;
@@ -218,20 +218,20 @@ void NormalConeTree::chooseRegions() {
     }
   }
   const double rounding = kFloatMargin * unit_;
-  const auto put = [&](Slot slot, std::size_t region) {
-    groups_[slot].region = static_cast<std::uint32_t>(region);
-    regions_[region].arm =
-        std::max(regions_[region].arm, (centreOf(slot) - regions_[region].centre).norm() + 4.0 * rounding);
+  const auto put = [&](Slot slot, std::size_t subtree) {
+    groups_[slot].subtree = static_cast<std::uint32_t>(subtree);
+    subtrees_[subtree].arm = std::max(subtrees_[subtree].arm,
+                                      (centreOf(slot) - subtrees_[subtree].centre).norm() + 4.0 * rounding);
   };
-  regions_.reserve(tops.size());
-  for (const Slot top : tops) regions_.push_back({centreOf(top), 0.0});
+  subtrees_.reserve(tops.size());
+  for (const Slot top : tops) subtrees_.push_back({centreOf(top), 0.0});
   std::vector<Slot> open;
-  for (std::size_t region = 0; region < tops.size(); ++region) {
-    open.assign(1, tops[region]);
+  for (std::size_t subtree = 0; subtree < tops.size(); ++subtree) {
+    open.assign(1, tops[subtree]);
     while (!open.empty()) {
       const Slot slot = open.back();
       open.pop_back();
-      put(slot, region);
+      put(slot, subtree);
       if (is_item(slot)) continue;
       for (Slot below = child(slot); below < child(slot) + kWidth; ++below) {
         if (child(below) != kNoChild) open.push_back(below);
@@ -240,10 +240,10 @@ void NormalConeTree::chooseRegions() {
   }
   for (const Slot slot : opened) {
     const auto nearest =
-        std::min_element(regions_.begin(), regions_.end(), [&](const Region& l, const Region& r) {
+        std::min_element(subtrees_.begin(), subtrees_.end(), [&](const Subtree& l, const Subtree& r) {
           return (l.centre - centreOf(slot)).squaredNorm() < (r.centre - centreOf(slot)).squaredNorm();
         });
-    put(slot, static_cast<std::size_t>(nearest - regions_.begin()));
+    put(slot, static_cast<std::size_t>(nearest - subtrees_.begin()));
   }
 }
 

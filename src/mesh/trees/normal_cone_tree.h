@@ -44,7 +44,7 @@ class NormalConeTree {
   static constexpr std::size_t kWidth = 4;
   static constexpr std::uint32_t kNoChild = 0xffffffffU;
   static constexpr std::uint32_t kItemFlag = 0x80000000U;
-  /// Where a group stands.
+  /// A slot says where a group stands.
   using Slot = std::uint32_t;
   /// The sphere and the cap around some items, or one, in single precision: widened by its rounding, lengths
   /// in units of unit() from origin().
@@ -58,17 +58,17 @@ class NormalConeTree {
     /// The slot of the first of its kWidth parts, or an item with kItemFlag. Parts that are left over repeat
     /// the one before and have kNoChild.
     std::uint32_t child;
-    std::uint32_t region;  ///< of regions()
+    std::uint32_t subtree;  ///< of subtrees()
   };
   static constexpr Slot kRoot = 0;  ///< all items
-  /// A part of the tree. The centres of all its groups, and the points of items without a radius, lie
-  /// within `arm` of `centre`, so that no centre moves farther than `centre` plus the turn (radians) times
-  /// `arm`.
-  struct Region {
+  /// A part of the tree. The centres of all its groups, and the points of items without a radius,
+  /// lie within `arm` of `centre`, so that no centre moves farther than `centre` plus the turn
+  /// (radians) times `arm`.
+  struct Subtree {
     Eigen::Vector3d centre;  ///< metres from origin()
     double arm;              ///< metres
   };
-  static constexpr std::size_t kMostRegions = 16;
+  static constexpr std::size_t kMostSubtrees = 16;
 
   NormalConeTree() = default;
   /// @param joints of its shells
@@ -80,21 +80,21 @@ class NormalConeTree {
   const Eigen::Vector3d& origin() const { return origin_; }  ///< centre of the surface's bounding box
   double unit() const { return unit_; }                      ///< metres, a power of two near the diameter
   std::uint32_t child(Slot slot) const { return groups_[slot].child; }
-  const std::vector<Region>& regions() const { return regions_; }
-  std::uint32_t regionOf(Slot slot) const { return groups_[slot].region; }
+  const std::vector<Subtree>& subtrees() const { return subtrees_; }
+  std::uint32_t subtreeOf(Slot slot) const { return groups_[slot].subtree; }
   std::size_t memoryBytes() const {
     return groups_.capacity() * sizeof(Group) + items_.capacity() * sizeof(Item);
   }
 
  private:
-  void chooseRegions();
+  void chooseSubtrees();
   Eigen::Vector3d centreOf(Slot slot) const;
 
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
   double unit_ = 1.0;
   std::vector<Group> groups_;
   std::vector<Item> items_;
-  std::vector<Region> regions_;
+  std::vector<Subtree> subtrees_;
 };
 
 }  // namespace concave_distance

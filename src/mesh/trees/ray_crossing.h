@@ -97,7 +97,7 @@ class ShearedRay {
     forward_ = direction[z_] > 0.0 ? 1.0 : -1.0;
   }
 
-  /// Where the ray's line meets a triangle, before or behind the origin.
+  /// Says where the ray's line meets a triangle, before or behind the origin.
   struct Meeting {
     int side = 0;         ///< 1: the line leaves through the front, -1: it enters, 0: it misses
     double height = 0.0;  ///< times `weight`: metres along the ray's longest axis; negative behind the origin

@@ -5,140 +5,23 @@
 #include <array>
 #include <cmath>
 
-#include "mesh/surface/union_find.h"
+#include "base/union_find.h"
+#include "triangle_meeting.h"
 
 namespace concave_distance {
 namespace {
 
 using Eigen::Vector3d;
-using Corners = std::array<Vector3d, 3>;
+using Corners = detail::TriangleCorners;
 
 constexpr double kTouch = 1e-9;  // of the diameter
 
-/// What two triangles have in common, as points.
-class Meeting {
+class ContactFinder {
  public:
-  Meeting(const Corners& a, const Corners& b, double tolerance) : tolerance_(tolerance) {
-    const bool a_is_level = addEdges(a, b);
-    const bool b_is_level = addEdges(b, a);
-    if (a_is_level && b_is_level) addCrossings(a, b);
-  }
-
-  const std::vector<Vector3d>& points() const { return points_; }
-
-  /// Calls visit(from, to) for what bounds the points in common: one point, one segment, or the sides of an
-  /// area.
-  template <typename Visit>
-  void forEachSide(const Vector3d& normal, const Visit& visit) {
-    const std::size_t count = points_.size();
-    if (count <= 2) return visit(points_.front(), points_.back());
-    Vector3d middle = Vector3d::Zero();
-    for (const Vector3d& point : points_) middle += point / static_cast<double>(count);
-    const Vector3d x = (points_.front() - middle).stableNormalized();
-    const Vector3d y = normal.cross(x);
-    const auto angle_of = [&](const Vector3d& point) {
-      return std::atan2(y.dot(point - middle), x.dot(point - middle));
-    };
-    std::sort(points_.begin(), points_.end(),
-              [&](const Vector3d& l, const Vector3d& r) { return angle_of(l) < angle_of(r); });
-    for (std::size_t k = 0; k < count; ++k) visit(points_[k], points_[k + 1 == count ? 0 : k + 1]);
-  }
-
- private:
-  /// Where edges of one triangle meet the other. True when all of it lies in the other's plane.
-  bool addEdges(const Corners& edges, const Corners& face) {
-    const Vector3d normal = (face[1] - face[0]).cross(face[2] - face[0]).stableNormalized();
-    if (normal.isZero(0.0)) {
-      for (const Vector3d& corner : edges) addIfOnBorder(corner, face);
-      return false;
-    }
-    std::array<double, 3> heights{};
-    bool flat = true;
-    for (std::size_t k = 0; k < 3; ++k) {
-      heights[k] = normal.dot(edges[k] - face[0]);
-      flat = flat && std::abs(heights[k]) <= tolerance_;
-      if (std::abs(heights[k]) <= tolerance_) addIfInside(edges[k], face, normal);
-    }
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::size_t next = k == 2 ? 0 : k + 1;
-      if (std::abs(heights[k]) <= tolerance_ || std::abs(heights[next]) <= tolerance_) continue;
-      if ((heights[k] > 0.0) == (heights[next] > 0.0)) continue;
-      const double share = heights[k] / (heights[k] - heights[next]);
-      addIfInside(edges[k] + share * (edges[next] - edges[k]), face, normal);
-    }
-    return flat;
-  }
-
-  void addIfOnBorder(const Vector3d& point, const Corners& face) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vector3d edge = face[k == 2 ? 0 : k + 1] - face[k];
-      const double squared_length = edge.squaredNorm();
-      const double share =
-          squared_length > 0.0 ? std::clamp(edge.dot(point - face[k]) / squared_length, 0.0, 1.0) : 0.0;
-      if ((face[k] + share * edge - point).norm() <= tolerance_) return add(point);
-    }
-  }
-
-  void addIfInside(const Vector3d& point, const Corners& face, const Vector3d& normal) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vector3d edge = face[k == 2 ? 0 : k + 1] - face[k];
-      const double length = edge.norm();
-      if (length > 0.0 && normal.dot(edge.cross(point - face[k])) < -tolerance_ * length) return;
-    }
-    add(point);
-  }
-
-  /// Edges of triangles in one plane.
-  void addCrossings(const Corners& a, const Corners& b) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Vector3d u = a[i == 2 ? 0 : i + 1] - a[i];
-      for (std::size_t k = 0; k < 3; ++k) {
-        const Vector3d v = b[k == 2 ? 0 : k + 1] - b[k];
-        const Vector3d n = u.cross(v);
-        const double nn = n.squaredNorm();
-        if (!(nn > 1e-20 * u.squaredNorm() * v.squaredNorm())) continue;
-        const double s = (b[k] - a[i]).cross(v).dot(n) / nn;
-        const double t = (b[k] - a[i]).cross(u).dot(n) / nn;
-        if (s >= 0.0 && s <= 1.0 && t >= 0.0 && t <= 1.0) add(a[i] + s * u);
-      }
-    }
-  }
-
-  void add(const Vector3d& point) {
-    const bool known = std::any_of(points_.begin(), points_.end(), [&](const Vector3d& other) {
-      return (other - point).squaredNorm() <= tolerance_ * tolerance_;
-    });
-    if (!known) points_.push_back(point);
-  }
-
-  double tolerance_;
-  std::vector<Vector3d> points_;
-};
-
-/// Whether two triangles with the corner `v` in common may have more in common: false only where a plane
-/// through v parts the rest of them.
-bool mayMeetBeside(const Vector3d& v, const std::array<Vector3d, 2>& a, const std::array<Vector3d, 2>& b,
-                   double tolerance) {
-  const auto are_beyond = [&](const std::array<Vector3d, 2>& points, const Vector3d& normal) {
-    const double least = tolerance * normal.norm();
-    return normal.dot(points[0] - v) > least && normal.dot(points[1] - v) > least;
-  };
-  const auto parts = [&](const std::array<Vector3d, 2>& of, const std::array<Vector3d, 2>& other) {
-    const Vector3d first = of[0] - v;
-    const Vector3d last = of[1] - v;
-    const Vector3d normal = first.cross(last);
-    return are_beyond(other, normal) || are_beyond(other, -normal) ||
-           are_beyond(other, first.cross(normal)) || are_beyond(other, normal.cross(last));
-  };
-  return !parts(a, b) && !parts(b, a);
-}
-
-class Joiner {
- public:
-  Joiner(const SurfaceMesh& mesh, const MeshTopology& topology, const TriangleTree& tree)
+  ContactFinder(const SurfaceMesh& mesh, const MeshTopology& topology, const TriangleTree& tree)
       : mesh_(mesh), topology_(topology), tree_(tree), tolerance_(kTouch * mesh.diameter()) {}
 
-  ShellContacts join() {
+  ShellContacts find() {
     is_near_.assign(mesh_.triangleCount(), false);
     compare();
     hide();
@@ -201,11 +84,11 @@ class Joiner {
     };
     if (!overlap(box_of(corners_a), box_of(corners_b))) return;
     const Shared shared = sharedBy(a, b);
-    if (shared.count == 3 ||
-        (shared.count == 1 && !mayMeetBeside(shared.corner, shared.rest_a, shared.rest_b, tolerance_))) {
+    if (shared.count == 3 || (shared.count == 1 && !detail::mayMeetBeside(shared.corner, shared.rest_a,
+                                                                          shared.rest_b, tolerance_))) {
       return;
     }
-    Meeting meeting(corners_a, corners_b, tolerance_);
+    detail::TriangleMeeting meeting(corners_a, corners_b, tolerance_);
     if (!reachesBeyond(shared, meeting.points())) return;
     if (shellOf(a) != shellOf(b)) is_near_[a.value] = is_near_[b.value] = true;
     const Vector3d normal =
@@ -255,7 +138,7 @@ class Joiner {
 
   /// Triangles of a shell that no other one meets hang together in parts, each wholly inside or outside.
   void hide() {
-    detail::UnionFind parts(mesh_.triangleCount());
+    UnionFind parts(mesh_.triangleCount());
     for (std::uint32_t t = 0; t < mesh_.triangleCount(); ++t) {
       if (is_near_[t]) continue;
       for (const TriangleIndex next : topology_.triangle_across_edge[t]) {
@@ -307,8 +190,9 @@ class Joiner {
 
 }  // namespace
 
-ShellContacts joinShells(const SurfaceMesh& mesh, const MeshTopology& topology, const TriangleTree& tree) {
-  return Joiner(mesh, topology, tree).join();
+ShellContacts findShellContacts(const SurfaceMesh& mesh, const MeshTopology& topology,
+                                const TriangleTree& tree) {
+  return ContactFinder(mesh, topology, tree).find();
 }
 
 bool isInsideOtherShell(const SurfaceMesh& mesh, const MeshTopology& topology, const TriangleTree& tree,
@@ -339,7 +223,7 @@ CompressedRows<AdjacentTriangle> joinedAdjacency(const SurfaceMesh& mesh, const 
 
 void joinPieces(const ShellContacts& joints, ConnectedPieces& pieces) {
   if (joints.joints.empty()) return;
-  detail::UnionFind united(pieces.count);
+  UnionFind united(pieces.count);
   for (const ShellContacts::Joint& joint : joints.joints) {
     united.unite(pieces.piece_of_triangle[joint.first.value], pieces.piece_of_triangle[joint.second.value]);
   }

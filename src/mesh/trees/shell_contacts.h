@@ -46,11 +46,13 @@ void forEachNeighbour(const SurfaceMesh& mesh, const MeshTopology& topology, con
   }
 }
 
-/// What is nearer than 1e-9 of the diameter touches. Hidden are triangles that meet no other shell and lie in
-/// one's material; those that another shell crosses count whole. O(n log n) and the pairs that meet.
-ShellContacts joinShells(const SurfaceMesh& mesh, const MeshTopology& topology, const TriangleTree& tree);
+/// Joins shells: what is nearer than 1e-9 of the diameter touches. Hidden are triangles that meet no other
+/// shell and lie in one's material; those that another shell crosses count whole. O(n log n) and the pairs
+/// that meet.
+ShellContacts findShellContacts(const SurfaceMesh& mesh, const MeshTopology& topology,
+                                const TriangleTree& tree);
 
-/// Whether a point of a triangle's shell lies in the material of another shell.
+/// Returns whether a point of a triangle's shell lies in the material of another shell.
 bool isInsideOtherShell(const SurfaceMesh& mesh, const MeshTopology& topology, const TriangleTree& tree,
                         TriangleIndex triangle, const Eigen::Vector3d& point);
 

@@ -14,8 +14,6 @@ constexpr std::size_t kBinCount = 16;
 constexpr std::uint32_t kLargestLeaf = 4;
 /// Below this depth nodes are halved by count, so that the depth stays under kSurfaceAreaDepth + 32.
 constexpr std::uint32_t kSurfaceAreaDepth = 48;
-/// Subtrees of more triangles are built as tasks of their own; smaller ones would copy more than they gain.
-constexpr std::uint32_t kTaskSize = 32768;
 
 double halfArea(const Eigen::AlignedBox3d& box) {
   if (box.isEmpty()) return 0.0;
@@ -65,7 +63,7 @@ class TriangleTreeBuilder {
       nodes[self].count = count;
       return;
     }
-    if (count < kTaskSize) {
+    if (count < kParallelSubtree) {
       build(first, middle, depth + 1, nodes);
       nodes[self].first = static_cast<std::uint32_t>(nodes.size());
       build(middle, last, depth + 1, nodes);

@@ -8,6 +8,9 @@
 
 namespace concave_distance {
 
+/// Subtrees of more triangles are built as tasks of their own; smaller ones would copy more than they gain.
+inline constexpr std::uint32_t kParallelSubtree = 32768;
+
 /// Axis-aligned box hierarchy over a surface's triangles, in the body frame; boxes are rounded outwards.
 /// Built once in O(n log n) (surface area heuristic), 2 n nodes at most.
 class TriangleTree {
@@ -20,7 +23,7 @@ class TriangleTree {
   };
   TriangleTree() = default;
   explicit TriangleTree(const SurfaceMesh& mesh);
-  /// From another tree's nodes() and order(), which are taken as they are.
+  /// Takes another tree's nodes() and order() as they are.
   TriangleTree(std::vector<Node> nodes, std::vector<TriangleIndex> order)
       : nodes_(std::move(nodes)), order_(std::move(order)) {}
   const std::vector<Node>& nodes() const { return nodes_; }

@@ -4,7 +4,7 @@
 
 #include "distance/bound/certificate.h"
 #include "support/body_pairs.h"
-#include "thesis/evaluation/enumeration.h"
+#include "thesis/src/evaluation/enumeration.h"
 
 namespace concave_distance::bound_cache_test {
 namespace {

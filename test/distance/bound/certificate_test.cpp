@@ -4,7 +4,7 @@
 
 #include "distance/kernels/surface_walk.h"
 #include "support/body_pairs.h"
-#include "thesis/evaluation/enumeration.h"
+#include "thesis/src/evaluation/enumeration.h"
 
 namespace concave_distance::certificate_test {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "concave_distance/tracking/pair_tracker.h"
 #include "support/body_pairs.h"
-#include "thesis/evaluation/enumeration.h"
+#include "thesis/src/evaluation/enumeration.h"
 
 namespace concave_distance::fcl_comparison_test {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "support/body_pairs.h"
-#include "thesis/evaluation/enumeration.h"
+#include "thesis/src/evaluation/enumeration.h"
 
 namespace concave_distance::witness_refinement_test {
 namespace {

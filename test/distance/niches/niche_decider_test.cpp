@@ -94,7 +94,7 @@ TEST(NicheDecider, AreThoseOfFloodsForLinksOfManyShells) {
   const std::string folder = CONCAVE_DISTANCE_SOURCE_DIR "/meshes/wam/";
   const Body a = loadBodyMesh(folder + "wam_base.stl").mesh;
   const Body b = loadBodyMesh(folder + "wam4.stl").mesh;
-  ASSERT_FALSE(a->joints().joints.empty() && b->joints().joints.empty());
+  ASSERT_FALSE(a->shellContacts().joints.empty() && b->shellContacts().joints.empty());
   RandomEngine engine(22);
   std::uint32_t by_border = 0;
   for (int run = 0; run < 6; ++run) {

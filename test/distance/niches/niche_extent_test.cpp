@@ -8,7 +8,7 @@
 #include "mesh/surface/refine_mesh.h"
 #include "support/body_pairs.h"
 #include "support/mesh_variants.h"
-#include "thesis/evaluation/enumeration.h"
+#include "thesis/src/evaluation/enumeration.h"
 
 namespace concave_distance::niche_extent_test {
 namespace {

@@ -9,7 +9,7 @@
 #include <map>
 
 #include "support/body_pairs.h"
-#include "thesis/evaluation/enumeration.h"
+#include "thesis/src/evaluation/enumeration.h"
 
 namespace concave_distance::niche_properties_test {
 namespace {

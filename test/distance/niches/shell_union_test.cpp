@@ -166,9 +166,10 @@ TEST(UnionOfShells, OfAnOpenSheetThroughABox) {
 // What lies in others costs nothing.
 TEST(UnionOfShells, HasNoConesForWhatIsHidden) {
   const Body nested = makeBody(together({box({0, 0, 0}, {1, 1, 1}), box({0.2, 0.2, 0.2}, {0.8, 0.8, 0.8})}));
-  EXPECT_EQ(std::count(nested->joints().hidden.begin(), nested->joints().hidden.end(), true), 12);
-  EXPECT_TRUE(nested->joints().joints.empty());
-  EXPECT_TRUE(makeBody(box({0, 0, 0}, {1, 1, 1}))->joints().isEmpty());
+  EXPECT_EQ(std::count(nested->shellContacts().hidden.begin(), nested->shellContacts().hidden.end(), true),
+            12);
+  EXPECT_TRUE(nested->shellContacts().joints.empty());
+  EXPECT_TRUE(makeBody(box({0, 0, 0}, {1, 1, 1}))->shellContacts().isEmpty());
 }
 
 }  // namespace

@@ -13,14 +13,14 @@ namespace concave_distance {
 inline constexpr double kSinglePrecisionWeld = 2e-7;
 
 struct RepairOptions {
-  /// Equal vertices always become one. Beyond that, vertices of border edges (used by one triangle only)
-  /// within this fraction of the bounding box's diagonal become one, and none moves farther. 0 moves no
-  /// vertex.
+  /// Equal vertices always become one. Beyond that, vertices of border edges (used by one triangle
+  /// only) within this fraction of the bounding box's diagonal become one, and none moves farther. 0
+  /// moves no vertex.
   double weld_tolerance = kSinglePrecisionWeld;
   bool orient = true;  ///< turn triangles so that neighbours agree, and closed shells outwards
 };
 
-/// What repairMesh found and changed; counts refer to the input unless they say otherwise.
+/// Says what repairMesh found and changed; counts refer to the input unless they say otherwise.
 struct RepairReport {
   std::size_t vertices_in = 0;
   std::size_t triangles_in = 0;

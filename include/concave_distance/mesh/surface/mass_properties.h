@@ -8,7 +8,7 @@
 
 namespace concave_distance {
 
-/// What a rigid body weighs and how it resists turning.
+/// Says what a rigid body weighs and how it resists turning.
 struct MassProperties {
   double mass = 1.0;                                            ///< kg
   Eigen::Vector3d centre_in_body = Eigen::Vector3d::Zero();     ///< of mass, body frame, metres
@@ -19,9 +19,9 @@ struct MassProperties {
   void validate(const std::string& where) const;
 };
 
-/// Of the solid that a closed, outward surface encloses, filled evenly: exact integrals of the polynomials
-/// over the tetrahedra that the triangles make with the middle of the bounding box (Mirtich 1996, by another
-/// way of summing), with their signs, so that cavities count as holes. O(triangles).
+/// Computes those of the solid that a closed, outward surface encloses, filled evenly: exact integrals of the
+/// polynomials over the tetrahedra that the triangles make with the middle of the bounding box (Mirtich 1996,
+/// by another way of summing), with their signs, so that cavities count as holes. O(triangles).
 /// @param density kg/m^3 @param where named in the error
 /// @throws Error when the density or the volume is not positive
 MassProperties massPropertiesOf(const SurfaceMesh& closed, double density, const std::string& where);
@@ -29,7 +29,7 @@ MassProperties massPropertiesOf(const SurfaceMesh& closed, double density, const
 /// The same for a given mass, kg.
 MassProperties massPropertiesOfMass(const SurfaceMesh& closed, double mass, const std::string& where);
 
-/// Of a round solid, by closed forms. @throws Error when the density or mass is not positive
+/// Computes those of a round solid by closed forms. @throws Error when the density or mass is not positive
 MassProperties massPropertiesOf(const RoundShape& shape, double density, const std::string& where);
 MassProperties massPropertiesOfMass(const RoundShape& shape, double mass, const std::string& where);
 

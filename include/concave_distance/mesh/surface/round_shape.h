@@ -28,7 +28,7 @@ struct RoundShape {
 /// The inscribed mesh, body frame, within `chord_error`. @throws Error as validate() and makeSphere()
 SurfaceMesh inscribedMesh(const RoundShape& shape, const std::string& where);
 
-/// In the body frame.
+/// Returns the box in the body frame.
 Eigen::AlignedBox3d boundingBox(const RoundShape& shape);
 
 double volumeOf(const RoundShape& shape);  ///< m^3

@@ -95,8 +95,8 @@ bool PolygonCutter::isThin(std::uint32_t corner) const {
   return doubleArea(a, b, c) <= thin_ * longestEdge(a, b, c);
 }
 
-/// Whether an edge of `other`, which is at the place of `at`, runs into the triangle of `at` and its
-/// neighbours.
+/// Whether an edge of `other`, which is at the place of `at`, runs into the triangle of `at`
+/// and its neighbours.
 bool PolygonCutter::entersAt(const Corner& other, const Corner& before, const Corner& at,
                              const Corner& after) const {
   for (const std::uint32_t end : {other.previous, other.next}) {
@@ -227,7 +227,7 @@ bool PolygonCutter::isSkewQuad() const {
   return std::abs(volume) > thin_ * largest_face;
 }
 
-/// By the diagonal whose worse triangle is the better one.
+/// Cuts along the diagonal whose worse triangle is the better one.
 void PolygonCutter::cutSkewQuad(std::vector<Triangle>& triangles) {
   link();
   const bool from_first = std::min(shapeOf(1), shapeOf(3)) >= std::min(shapeOf(0), shapeOf(2));

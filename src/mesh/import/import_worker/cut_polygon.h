@@ -25,11 +25,11 @@ class PolygonCutter {
   /// @param thin m
   explicit PolygonCutter(double thin) : thin_(thin) {}
 
-  /// Appends at most `count` - 2 triangles with the polygon's winding. A hole may be joined to the border by
-  /// an edge that is passed in both directions. Corners need not be in a plane: any cut of a warped polygon
-  /// whose triangles face Newell's normal is as good as another, and any of four corners so warped that none
-  /// has such. O(n log n + n r) for n corners, r of them reflex; several times that for polygons that touch
-  /// themselves.
+  /// Appends at most `count` - 2 triangles with the polygon's winding. A hole may be joined to the border
+  /// by an edge that is passed in both directions. Corners need not be in a plane: any cut of a warped
+  /// polygon whose triangles face Newell's normal is as good as another, and any of four corners so warped
+  /// that none has such. O(n log n + n r) for n corners, r of them reflex; several times that for polygons
+  /// that touch themselves.
   /// @param corners `count` indices into `vertices`, at least 3
   /// @return false, with `triangles` as before, when the polygon crosses itself, seen along its normal
   bool cut(const std::vector<Eigen::Vector3d>& vertices, const std::uint32_t* corners, std::size_t count,

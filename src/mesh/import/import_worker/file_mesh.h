@@ -10,7 +10,7 @@
 
 namespace concave_distance::detail {
 
-/// How errors name the faces of a file.
+/// Says how errors name the faces of a file.
 struct FaceNames {
   std::string kind;               ///< "line" or "face", before its number
   std::string of = {};            ///< after it, as " of mesh 'door'"
@@ -31,8 +31,7 @@ class FileMesh {
 
   /// All triangles, those of polygons last.
   /// @throws Error naming the file and the face, for a corner that is no vertex, a vertex that is not finite
-  /// or
-  ///         beyond 1e60, a polygon that crosses itself, or more than `most_triangles`
+  ///         or beyond 1e60, a polygon that crosses itself, or more than `most_triangles`
   TriangleSoup takeTriangles(const std::string& path, std::uint64_t most_triangles);
 
  private:

@@ -1,5 +1,5 @@
-// Reads one mesh file for importMesh() in a separate process, so that a hostile file crashes only this
-// process.
+// Reads one mesh file for importMesh() in a separate process, so that a hostile file crashes
+// only this process.
 //   mesh_import_worker <memory, bytes> <seconds> <largest triangle count> <extension> <scale x> <y> <z>
 // The file is open as descriptor 3, the answer goes to descriptor 4 (import_stream.h).
 #include <sys/mman.h>

@@ -15,7 +15,7 @@ struct PlyType {
   bool is_signed = false;
 };
 
-/// What a property says about the surface.
+/// Names what a property says about the surface.
 enum class PlyRole { None, X, Y, Z, Corners, Strip };
 
 struct PlyProperty {

@@ -53,7 +53,7 @@ std::vector<TriangleSoup> toSoups(const aiScene& scene, const std::string& path,
   return soups;
 }
 
-/// What a file unfolds to, every instance of a mesh counted.
+/// Counts what a file unfolds to, with every instance of a mesh.
 struct SoupSize {
   std::uint64_t vertices = 0;
   std::uint64_t triangles = 0;

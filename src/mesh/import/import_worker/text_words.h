@@ -20,7 +20,7 @@ class TextWords {
   std::string_view word();
   /// The next word of this line. Empty at its end.
   std::string_view wordInLine();
-  /// What is left of this line; afterwards the next line begins.
+  /// Returns what is left of this line; afterwards the next line begins.
   std::string_view line();
 
   /// Number of the line that the next character is in, from 1.
@@ -38,7 +38,7 @@ class TextWords {
 /// Reads a word that is a whole number, in the same way in every locale. False when it is none or too large.
 bool parseWhole(std::string_view word, std::int64_t& value);
 
-/// For ASCII letters; `lower` is in lower case.
+/// Compares ASCII letters in any case; `lower` is in lower case.
 bool equalsInAnyCase(std::string_view text, std::string_view lower);
 /// The text in quotes for an error: at most 40 characters, none of them invisible.
 std::string inQuotes(std::string_view text);

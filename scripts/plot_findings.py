@@ -1,0 +1,98 @@
+#!/usr/bin/python3
+"""Draws the pictures of findings from their results: doc/images/numerics.png, contact_scenes.png, faults.png.
+
+    scripts/plot_findings.py           (needs python3-matplotlib: scripts/install_dependencies.sh plot)
+"""
+import csv
+import math
+import pathlib
+import re
+
+import matplotlib
+
+import provenance
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402  (the backend comes first)
+
+RESULTS = provenance.ROOT / "doc" / "results"
+IMAGES = provenance.ROOT / "doc" / "images"
+BEFORE, NOW = "#D55E00", "#0072B2"  # Okabe and Ito's vermilion and blue
+KERNEL_BOUND, WITNESS_BOUND, QUERY_BOUND = 32, 4, 64  # of doc/numerics.md, in the units of numerics.txt
+
+
+def rows_of(name):
+    with open(RESULTS / name, newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+def save(figure, name, inputs):
+    figure.tight_layout()
+    figure.savefig(IMAGES / name, dpi=90)
+    plt.close(figure)
+    provenance.record([IMAGES / name], inputs=",".join(f"doc/results/{each}" for each in inputs),
+                      command="scripts/plot_findings.py")
+
+
+def plot_numerics():
+    """The worst error of each family of hard cases as a share of its bound."""
+    shares = []
+    for line in (RESULTS / "numerics.txt").read_text(encoding="utf-8").splitlines():
+        kernel = re.fullmatch(r"worst: (.+) distance ([\d.]+) witness ([\d.]+)", line)
+        query = re.fullmatch(r"worst: (\w+)/HardCase/(\w+) ([\d.]+) .*", line)
+        if kernel:
+            share = max(float(kernel[2]) / KERNEL_BOUND, float(kernel[3]) / WITNESS_BOUND)
+            shares.append((f"triangles: {kernel[1]}", share, NOW))
+        elif query:
+            name = re.sub(r"(?<=[a-z])(?=[A-Z])", " ", query[1]).lower()
+            shares.append((f"queries, {query[2]}: {name}", float(query[3]) / QUERY_BOUND, "#009E73"))
+    shares.reverse()
+    figure, axes = plt.subplots(figsize=(8, 4.2))
+    axes.barh(range(len(shares)), [share for _, share, _ in shares], color=[colour for *_, colour in shares])
+    axes.set_yticks(range(len(shares)), [name for name, *_ in shares], fontsize=8)
+    axes.axvline(1, color="black", linewidth=1.5)
+    axes.set_xlim(0, 1.05)
+    axes.set_xlabel("worst error seen / bound that is promised (line: the bound)")
+    axes.grid(axis="x", alpha=0.3)
+    save(figure, "numerics.png", ["numerics.txt"])
+
+
+def plot_contact():
+    """How the errors of all figures of contact stand to their bounds."""
+    figure, axes = plt.subplots(figsize=(8, 3.2))
+    decades = list(range(-10, 7))
+    for name, colour, label, shift in (("contact_scenes_before.csv", BEFORE, "before", -0.2), ("contact_scenes.csv", NOW, "now", 0.2)):
+        shares = [abs(float(row["error"])) / float(row["bound"]) for row in rows_of(name)
+                  if row["within"] and row["bound"] and float(row["bound"]) > 0 and row["error"] not in ("", "nan")]
+        places = [min(max(math.floor(math.log10(share)) if share > 0 else decades[0], decades[0]), decades[-1]) for share in shares]
+        axes.bar([decade + 0.5 + shift for decade in decades], [places.count(decade) for decade in decades], 0.38, color=colour, label=label)
+    axes.axvline(0, color="black", linewidth=1.5)
+    axes.set_xticks(range(-10, 8, 2), [f"1e{power}" for power in range(-10, 8, 2)])
+    axes.set_xlabel("error / bound (right of the line: outside)")
+    axes.set_ylabel("figures")
+    axes.legend()
+    save(figure, "contact_scenes.png", ["contact_scenes.csv", "contact_scenes_before.csv"])
+
+
+def plot_faults():
+    """Attacks that fail, by group, before the work on robustness and now."""
+    figure, axes = plt.subplots(figsize=(8, 3.2))
+    runs = [(rows_of("faults_before.csv"), BEFORE, "before"), (rows_of("faults.csv"), NOW, "now")]
+    groups = list(dict.fromkeys(row["attack"].split("/")[0] for row in runs[1][0]))
+    for place, (rows, colour, label) in enumerate(runs):
+        failed = [sum(row["attack"].split("/")[0] == group and row["passed"] == "0" for row in rows) for group in groups]
+        axes.bar([i + 0.4 * place - 0.2 for i in range(len(groups))], failed, 0.38, color=colour, label=f"{label}: {sum(failed)} of {len(rows)}")
+    axes.set_xticks(range(len(groups)), groups, rotation=40, ha="right", fontsize=8)
+    axes.set_ylabel("attacks that fail")
+    axes.legend()
+    save(figure, "faults.png", ["faults.csv", "faults_before.csv"])
+
+
+def main():
+    plot_numerics()
+    plot_contact()
+    plot_faults()
+
+
+if __name__ == "__main__":
+    main()

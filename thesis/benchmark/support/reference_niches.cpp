@@ -1,0 +1,196 @@
+#include "thesis/benchmark/support/reference_niches.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "distance/niches/niche_decider.h"
+#include "search/local_descent.h"
+#include "thesis/benchmark/support/grid_flood.h"
+#include "thesis/src/evaluation/enumeration.h"
+#include "tracking/pair_geometry.h"
+
+namespace concave_distance::benchmark {
+
+std::vector<ReferenceNiche> referenceNiches(const BenchmarkPair& pair, const Eigen::Isometry3d& pose,
+                                            double cutoff, double least_prominence) {
+  RefinementWorkspace workspace;
+  std::vector<ReferenceNiche> references;
+  // What lies below the cutoff and leads on at less than the least prominence does so below this.
+  const double flood_level = (1.0 + least_prominence) * cutoff;
+  for (const NodeNiche& niche : enumerateNodeNiches(*pair.a, *pair.b, pose, flood_level, least_prominence)) {
+    if (niche.distance > cutoff) {
+      break;  // ascending
+    }
+    const WitnessRefinement refined =
+        refineWitness(*pair.a, *pair.b, pose, pair.a->originalTriangle(niche.node_a),
+                      pair.b->originalTriangle(niche.node_b), workspace);
+    if (classifyOutwardness(*pair.a, *pair.b, pose, refined.witness) == Outwardness::ThroughMaterial) {
+      continue;
+    }
+    bool known = false;
+    for (const ReferenceNiche& other : references) {
+      known = known || isSameNiche(pair, pose, refined.witness, other.witness, least_prominence);
+    }
+    if (!known) {
+      references.push_back({refined.witness,
+                            {niche.node_a, niche.node_b, niche.distance * niche.distance},
+                            niche.distance,
+                            niche.prominence});
+    }
+  }
+  return references;
+}
+
+namespace {
+
+// On one plateau: at one distance, and one on the set around the other.
+bool isOnePlateau(const BenchmarkPair& pair, const Eigen::Isometry3d& pose, const WitnessPair& l,
+                  const WitnessPair& r, double size) {
+  constexpr double kTolerance = 1e-9;
+  if (std::abs(std::sqrt(l.squared_distance) - std::sqrt(r.squared_distance)) > 2.0 * kTolerance * size) {
+    return false;
+  }
+  ExtentWorkspace workspace;
+  const auto holds = [&](const WitnessPair& around, const WitnessPair& witness) {
+    const NicheExtent extent =
+        measureExtent(*pair.a, *pair.b, pose, around, kTolerance * size, 1024, workspace);
+    return extent.kind != NicheKind::Point && isOnMeasuredSet(workspace, witness);
+  };
+  return holds(l, r) || holds(r, l);
+}
+
+}  // namespace
+
+bool isSameNiche(const BenchmarkPair& pair, const Eigen::Isometry3d& pose, const WitnessPair& found,
+                 const WitnessPair& reference, double least_prominence) {
+  PairGeometry geometry(pair.a, pair.b);
+  geometry.setPose(pose);
+  const double tolerance = geometry.samePlaceTolerance();
+  if ((found.point_a_in_a - reference.point_a_in_a).norm() <= tolerance &&
+      (found.point_b_in_a - reference.point_b_in_a).norm() <= tolerance) {
+    return true;
+  }
+  if (isOnePlateau(pair, pose, found, reference, geometry.scale())) {
+    return true;
+  }
+  const detail::MinimaScene scene(*pair.a, *pair.b, pose);
+  std::vector<MinimumCandidate> seeds{scene.seedOf(found), scene.seedOf(reference)};
+  detail::NicheDecider verdicts;
+  detail::NicheDecider::Request request;
+  request.least_prominence = least_prominence;
+  WorkLimit none;
+  verdicts.judge(scene, seeds, request, none);
+  const auto niche_of = [&](const WitnessPair& witness) {
+    return verdicts.locate(scene, {witness.triangle_a, witness.triangle_b}, request, none);
+  };
+  return niche_of(found) == niche_of(reference);
+}
+
+namespace {
+
+// The grid minimum that a place leads to over passes of less than `least_prominence`.
+TrialPoint bottomOfBasin(PairGeometry& geometry, const PairObjective& objective, const WitnessPair& place,
+                         double least_prominence, FloodWorkspace& flood) {
+  constexpr std::uint32_t kStates = 20000;
+  SearchCost cost;
+  std::vector<std::uint64_t> trail;
+  TrialPoint bottom = descend(objective, geometry.nodePairNear(place), nullptr, trail, cost);
+  while (true) {
+    const double level = (1.0 + least_prominence) * std::sqrt(bottom.squared_distance);
+    // The flood compares with the square of a root: without some noise its start may look deeper than itself.
+    const double noise = 1e-12 * level;
+    const std::optional<TrialPoint> deeper =
+        floodForDeeper(objective, bottom, level, noise, kStates, flood, cost);
+    if (!deeper) {
+      return bottom;
+    }
+    bottom = descend(objective, *deeper, nullptr, trail, cost);
+  }
+}
+
+}  // namespace
+
+std::vector<std::size_t> matchReferences(const BenchmarkPair& pair, const Eigen::Isometry3d& pose,
+                                         const std::vector<WitnessPair>& found,
+                                         const std::vector<ReferenceNiche>& references,
+                                         double least_prominence) {
+  constexpr std::size_t kNearest = 4;
+  std::vector<std::size_t> matches(references.size(), kNoMatch);
+  std::vector<std::pair<double, std::size_t>> by_gap;
+  for (std::size_t r = 0; r < references.size(); ++r) {
+    const WitnessPair& reference = references[r].witness;
+    by_gap.clear();
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      by_gap.emplace_back((found[i].point_a_in_a - reference.point_a_in_a).squaredNorm() +
+                              (found[i].point_b_in_a - reference.point_b_in_a).squaredNorm(),
+                          i);
+    }
+    const std::size_t looked_at = std::min(kNearest, by_gap.size());
+    std::partial_sort(by_gap.begin(), by_gap.begin() + static_cast<std::ptrdiff_t>(looked_at), by_gap.end());
+    for (std::size_t k = 0; k < looked_at && matches[r] == kNoMatch; ++k) {
+      if (isSameNiche(pair, pose, found[by_gap[k].second], reference, least_prominence)) {
+        matches[r] = by_gap[k].second;
+      }
+    }
+  }
+  return matches;
+}
+
+std::vector<std::size_t> matchOverBentPasses(const BenchmarkPair& pair, const Eigen::Isometry3d& pose,
+                                             const std::vector<WitnessPair>& found,
+                                             const std::vector<ReferenceNiche>& references,
+                                             double least_prominence) {
+  std::vector<std::size_t> matches = matchReferences(pair, pose, found, references, least_prominence);
+  if (std::find(matches.begin(), matches.end(), kNoMatch) == matches.end()) {
+    return matches;
+  }
+  PairGeometry geometry(pair.a, pair.b);
+  geometry.setPose(pose);
+  const PairObjective objective(*pair.a, *pair.b, pose);
+  FloodWorkspace flood;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (std::find(matches.begin(), matches.end(), i) != matches.end()) {
+      continue;
+    }
+    const TrialPoint bottom = bottomOfBasin(geometry, objective, found[i], least_prominence, flood);
+    for (std::size_t r = 0; r < references.size(); ++r) {
+      if (matches[r] == kNoMatch && samePlace(bottom, references[r].nodes)) {
+        matches[r] = i;
+      }
+    }
+  }
+  return matches;
+}
+
+std::size_t countRecalled(const BenchmarkPair& pair, const Eigen::Isometry3d& pose,
+                          const std::vector<WitnessPair>& found,
+                          const std::vector<ReferenceNiche>& references, double least_prominence) {
+  const std::vector<std::size_t> matches = matchReferences(pair, pose, found, references, least_prominence);
+  return static_cast<std::size_t>(
+      std::count_if(matches.begin(), matches.end(), [](std::size_t match) { return match != kNoMatch; }));
+}
+
+RecallCount countRecall(const BenchmarkPair& pair, const Eigen::Isometry3d& pose,
+                        const std::vector<WitnessPair>& found, const std::vector<ReferenceNiche>& references,
+                        double cutoff, double least_prominence) {
+  std::vector<int> hits(references.size(), 0);
+  RecallCount count;
+  for (const WitnessPair& niche : found) {
+    bool met = false;
+    for (std::size_t i = 0; i < references.size() && !met; ++i) {
+      if (isSameNiche(pair, pose, niche, references[i].witness, least_prominence)) {
+        ++hits[i];
+        met = true;
+      }
+    }
+    count.others += !met && niche.squared_distance <= cutoff * cutoff ? 1 : 0;
+  }
+  for (const int hit : hits) {
+    count.recalled += hit > 0 ? 1 : 0;
+    count.duplicates += hit > 1 ? static_cast<std::size_t>(hit - 1) : 0;
+  }
+  return count;
+}
+
+}  // namespace concave_distance::benchmark
