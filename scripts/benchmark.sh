@@ -13,7 +13,7 @@ case $size in
   *) echo "usage: scripts/benchmark.sh [quick|full]" >&2; exit 2 ;;
 esac
 program() { find "$root/build" -type f -perm -u+x -name "$1" | head -n 1; }
-for name in tracking battery budget cores front generation recall radii descent islands certificate scale exactness complete accuracy; do
+for name in tracking battery budget front generation recall radii descent islands certificate scale exactness complete accuracy; do
   [ -n "$(program "${name}_benchmark")" ] || { echo "${name}_benchmark is not built: run scripts/build.sh" >&2; exit 1; }
 done
 results=$root/build/results_quick
@@ -66,7 +66,6 @@ moving=battery_insertion,kr5_bicep_palm,kr5_base_forearm,kr5_shoulder_elbow,wam3
 moving=$moving,peg_in_hole,linked_hooks,comb_in_comb,stairs_leg,obstacle_field
 "$(program front_benchmark)" --steps 500,5000 --instants "$steps" --windows 1 --output "$results/front.csv"
 "$(program generation_benchmark)" --steps 500 --robot "$root" --output "$results/generations.csv"
-"$(program cores_benchmark)" --sliced-from 1024 --steps 500,2000 --windows 4 --instants 40 --output "$results/cores.csv"
 "$(program budget_benchmark)" --pairs "$moving" --steps "$steps" --output "$results/budget.csv"
 "$(program budget_benchmark)" --cold --pairs "$moving" --budgets 500,1000,2000,5000,10000,20000 --shares 0,0.05 \
   --proposers evolution,random --steps 60 --output "$results/budget_cold.csv"
@@ -74,9 +73,8 @@ moving=$moving,peg_in_hole,linked_hooks,comb_in_comb,stairs_leg,obstacle_field
 if [ -n "$(program message_benchmark)" ]; then  # built with ROS only
   "$(program message_benchmark)" --output "$results/messages.csv" | tee "$results/messages.txt"
 fi
-if [ -n "$(program engine_differences)" ]; then  # built with Simbody and ODE only
-  "$(program engine_differences)" --output "$results/engine_differences.csv" | tee "$results/engine_differences.txt"
-  "$(program engine_differences)" --table "$results/engine_table.csv"
+if [ -n "$(program engine_table)" ]; then  # built with Simbody and ODE only
+  "$(program engine_table)" --output "$results/engine_table.csv"
   "$root/scripts/write_engine_table.py"
 fi
 if [ "$size" = full ]; then
