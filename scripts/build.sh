@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Builds the package into build/ without a workspace; programs end in build/devel/lib/concave_distance.
 #   scripts/build.sh [demo|programs|all] [cmake options ...]
-# demo: the node, the messages and the demos' programs; programs (default): the tools too; all: tests and benchmarks
-# too.
+# demo: the node, the messages and the demos' programs; programs (default): the tools too; all: tests, benchmarks and
+# the thesis (CONCAVE_DISTANCE_WITH_THESIS) too.
 set -euo pipefail
 # shellcheck source=scripts/common.sh
 . "$(dirname "${BASH_SOURCE[0]}")/common.sh"
@@ -19,6 +19,7 @@ if [ ! -f "$build_dir/CMakeCache.txt" ]; then
   # Makes the first build for the demos faster.
   if [ "$what" = demo ]; then first_options+=(-DCONCAVE_DISTANCE_FAST_BUILD=ON); fi
 fi
+if [ "$what" = all ]; then first_options+=(-DCONCAVE_DISTANCE_WITH_THESIS=ON); fi
 cmake -S "$package_dir" -B "$build_dir" "${first_options[@]}" "$@"
 
 target=()

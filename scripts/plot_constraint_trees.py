@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Draws the constraint trees of the cylinder, the battery and the fixture, level by level: thesis/doc/images/constraint_trees.png.
 
-    scripts/plot_constraint_trees.py     (needs a finished build for mesh_tool, and python3-matplotlib)
+    scripts/plot_constraint_trees.py     (needs a finished build for thesis_tool, and python3-matplotlib)
 """
 import pathlib
 import subprocess
@@ -23,7 +23,7 @@ LIGHT = np.array([-0.45, -0.65, 0.6]) / np.linalg.norm([-0.45, -0.65, 0.6])
 
 
 def read_pieces(path):
-    """{level: [triangles as arrays of three points]} of what `mesh_tool tree --pieces` writes."""
+    """{level: [triangles as arrays of three points]} of what `thesis_tool tree --pieces` writes."""
     points, levels, level = [], {}, None
     with open(path, encoding="utf-8") as file:
         for line in file:
@@ -38,9 +38,9 @@ def read_pieces(path):
 
 
 def pieces_of(body, folder):
-    tools = [tool for tool in sorted((ROOT / "build").rglob("mesh_tool")) if tool.is_file()]
+    tools = [tool for tool in sorted((ROOT / "build").rglob("thesis_tool")) if tool.is_file()]
     if not tools:
-        sys.exit("mesh_tool is not built: run scripts/build.sh")
+        sys.exit("thesis_tool is not built: run scripts/build.sh -DCONCAVE_DISTANCE_WITH_THESIS=ON")
     path = pathlib.Path(folder) / f"{body}.obj"
     subprocess.run([str(tools[0]), "tree", str(ROOT / "meshes" / "thesis" / f"{body}.stl"),
                     str(path.with_suffix(".yaml")), "--pieces", str(path)], check=True, stdout=subprocess.DEVNULL)

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Draws the pictures of findings from their results: doc/images/numerics.png, contact_scenes.png, faults.png.
+"""Draws the pictures of findings from their results: doc/images/level_costs.png, numerics.png,
+contact_scenes.png, faults.png.
 
     scripts/plot_findings.py           (needs python3-matplotlib: scripts/install_dependencies.sh plot)
 """
@@ -7,6 +8,7 @@ import csv
 import math
 import pathlib
 import re
+import statistics
 
 import matplotlib
 
@@ -32,6 +34,25 @@ def save(figure, name, inputs):
     plt.close(figure)
     provenance.record([IMAGES / name], inputs=",".join(f"doc/results/{each}" for each in inputs),
                       command="scripts/plot_findings.py")
+
+
+def plot_levels():
+    """What a cycle takes at each level, in the middle of the pairs: exact answers beside approximate ones."""
+    kinds = [("FCL's distance", "FCL", "plain", "exact", "0.35"), ("the distance, proven", "certified", "tolerance 0", "exact", NOW),
+             ("the distance within 10 %", "certified", "tolerance 0.1", "", BEFORE), ("search on grid nodes", "nodes", "shipped", "", BEFORE),
+             ("niches, perhaps not all", "refined", "all niches", "", BEFORE), ("every niche, proven", "certified", "all niches", "exact, complete", NOW)]
+    figure, axes = plt.subplots(figsize=(8, 3.2))
+    for place, (label, method, setting, promise, colour) in enumerate(reversed(kinds)):
+        rows = [row for row in rows_of("accuracy.csv") if (row["method"], row["setting"], row["mode"]) == (method, setting, "tracked")]
+        time = statistics.median(float(row["median_us"]) for row in rows)
+        error = max(float(row["largest_error"]) for row in rows)
+        axes.barh(place, time, color=colour)
+        axes.text(1.08 * time, place, f"{time:.3g} us, " + (promise or f"error up to {error:.2g} of the diameter"), va="center", fontsize=8)
+    axes.set_yticks(range(len(kinds)), [kind[0] for kind in reversed(kinds)], fontsize=9)
+    axes.set_xscale("log")
+    axes.set_xlim(1, 2e4)
+    axes.set_xlabel("microseconds a cycle, tracked at 40 Hz, median of the pairs")
+    save(figure, "level_costs.png", ["accuracy.csv"])
 
 
 def plot_numerics():
@@ -89,6 +110,7 @@ def plot_faults():
 
 
 def main():
+    plot_levels()
     plot_numerics()
     plot_contact()
     plot_faults()

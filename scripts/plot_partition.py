@@ -2,7 +2,7 @@
 """Draws the convex pieces of the battery and the fixture, by hand and automatic: thesis/doc/images/partition.png; and the
 cost of a step over the number of sub-pairs from doc/results/partition.csv: thesis/doc/images/partition_crossing.png.
 
-    scripts/plot_partition.py            (needs a finished build for mesh_tool, and
+    scripts/plot_partition.py            (needs a finished build for thesis_tool, and
     python3-matplotlib: scripts/install_dependencies.sh plot)
 """
 import csv
@@ -45,10 +45,10 @@ def read_pieces(path):
 
 
 def automatic_pieces(body, folder):
-    tools = sorted((ROOT / "build").rglob("mesh_tool"))
+    tools = sorted((ROOT / "build").rglob("thesis_tool"))
     tools = [tool for tool in tools if tool.is_file()]
     if not tools:
-        sys.exit("mesh_tool is not built: run scripts/build.sh")
+        sys.exit("thesis_tool is not built: run scripts/build.sh -DCONCAVE_DISTANCE_WITH_THESIS=ON")
     path = pathlib.Path(folder) / f"{body}.obj"
     subprocess.run([str(tools[0]), "partition", str(MESHES / f"{body}.stl"), str(path)], check=True,
                    stdout=subprocess.DEVNULL)

@@ -5,7 +5,7 @@
     scripts/plot_thesis_figures.py RESULTS [MORE_RESULTS ...] [--output doc/results/images]
 
 RESULTS are folders that `evaluate --output` or `keep_rows.py` has filled: pictures up to 5.6 are drawn from *_points.csv,
-and left out where it is missing. Figures 6.1 to 6.3 need a finished build for mesh_tool with CGAL.
+and left out where it is missing. Figures 6.1 to 6.3 need a finished build for thesis_tool with CGAL.
 Needs python3-matplotlib: scripts/install_dependencies.sh plot.
 """
 import argparse
@@ -61,9 +61,9 @@ def deepest_dent(pieces):
 
 
 def plot_partitions(images):
-    tool = next((path for path in sorted((ROOT / "build").rglob("mesh_tool")) if path.is_file()), None)
+    tool = next((path for path in sorted((ROOT / "build").rglob("thesis_tool")) if path.is_file()), None)
     if tool is None:
-        print("mesh_tool is not built: figures 6.1 to 6.3 are left out")
+        print("thesis_tool is not built: figures 6.1 to 6.3 are left out")
         return
     solids = [("6_1", holed_block(22), (0.5, 0.5, 0.5), 42, -60), ("6_2", slotted_block(), (0.35, 0.35, 0.35), 38, -62),
               ("6_3", thesis_solids.semi_extruded(), (0.4, 0.4, 0.4), 22, -58)]

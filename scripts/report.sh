@@ -24,7 +24,7 @@ results=${2:-build/evaluation_$size}
 # Tests install copies of their own below build/test.
 program() { find build -path build/test -prune -o -type f -perm -u+x -name "$1" -print | head -n 1; }
 scripts/install_dependencies.sh build plot
-if [ -d build ]; then cmake --build build --target evaluate mesh_tool; else scripts/build.sh; fi
+scripts/build.sh programs -DCONCAVE_DISTANCE_WITH_THESIS=ON
 # Rows that are there are not run again: they have to be what this program makes of these experiments.
 scripts/report_rows.py prepare "$results" --program "$(program evaluate)"
 "$(program evaluate)" thesis/experiments/*.yaml --size "$size" --output "$results"

@@ -9,7 +9,7 @@ set -euo pipefail
 exec </dev/null
 
 format=
-build_options=(-DCONCAVE_DISTANCE_WITH_ROS=ON -DCONCAVE_DISTANCE_BUILD_TESTS=ON)
+build_options=(-DCONCAVE_DISTANCE_WITH_ROS=ON -DCONCAVE_DISTANCE_BUILD_TESTS=ON -DCONCAVE_DISTANCE_WITH_THESIS=ON)
 for argument in "$@"; do
   case "$argument" in
     --format)

@@ -79,6 +79,17 @@ void readPrimitive(const Primitive& primitive, const YamlValue& value, BodyDescr
   map.finish();
 }
 
+/// Reads what robots and bodies may say each for itself, else `defaults` say.
+void readOverDefaults(YamlMap& map, const BodyDefaults& defaults, std::optional<double>& max_edge_length,
+                      std::optional<double>& chord_error, Material& material) {
+  max_edge_length = defaults.max_edge_length;
+  if (auto v = map.take("max_edge_length")) max_edge_length = readEdgeLength(*v);
+  chord_error = defaults.chord_error;
+  if (auto v = map.take("chord_error")) chord_error = readLength(*v);
+  material = defaults.material;
+  if (auto v = map.take("material")) material = readMaterial(*v, defaults.materials);
+}
+
 void readGeometry(YamlMap& map, BodyDescription& body) {
   std::optional<YamlValue> given = map.take("mesh");
   if (given) body.mesh_resource = given->text();
@@ -147,12 +158,7 @@ RobotSpec readRobotSpec(const YamlValue& value, const BodyDefaults& defaults) {
       robot.skipped_links.push_back({link.where(), link.text()});
     }
   }
-  robot.max_edge_length = defaults.max_edge_length;
-  if (auto v = map.take("max_edge_length")) robot.max_edge_length = readEdgeLength(*v);
-  robot.chord_error = defaults.chord_error;
-  if (auto v = map.take("chord_error")) robot.chord_error = readLength(*v);
-  robot.material = defaults.material;
-  if (auto v = map.take("material")) robot.material = readMaterial(*v, defaults.materials);
+  readOverDefaults(map, defaults, robot.max_edge_length, robot.chord_error, robot.material);
   map.finish();
   return robot;
 }
@@ -178,12 +184,7 @@ BodySpec readBodySpec(const YamlValue& value, const BodyDefaults& defaults) {
   }
   if (auto v = map.take("pose")) description.frame_from_geometry = readPose(*v);
   if (auto v = map.take("colour")) body.colour = readColour(*v);
-  description.max_edge_length = defaults.max_edge_length;
-  if (auto v = map.take("max_edge_length")) description.max_edge_length = readEdgeLength(*v);
-  description.chord_error = defaults.chord_error;
-  if (auto v = map.take("chord_error")) description.chord_error = readLength(*v);
-  body.material = defaults.material;
-  if (auto v = map.take("material")) body.material = readMaterial(*v, defaults.materials);
+  readOverDefaults(map, defaults, description.max_edge_length, description.chord_error, body.material);
   map.finish();
   return body;
 }

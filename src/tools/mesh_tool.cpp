@@ -9,7 +9,6 @@
 #include "base/run_tool.h"
 #include "concave_distance/base/error.h"
 #include "mesh_tool_commands.h"
-#include "mesh_tool_convex.h"
 
 namespace {
 
@@ -61,23 +60,11 @@ void addRepair(CLI::App& command, CommandLine& line) {
 
 using Command = std::pair<CLI::App*, void (*)(const MeshToolOptions&, std::ostream&)>;
 
-void addOptionsOfCommands(CLI::App& refine, CLI::App& simplify, CLI::App& partition, CLI::App& tree,
-                          CommandLine& line) {
+void addOptionsOfCommands(CLI::App& refine, CLI::App& simplify, CommandLine& line) {
   simplify
       .add_option("--tolerance", line.options.merge_tolerance,
                   "no point of the surface moves farther than this fraction of the body's size")
       ->check(CLI::Range(0.0, 1.0))
-      ->capture_default_str();
-  partition.add_option("output", line.options.output, "pieces to write (.obj, one object a piece)")
-      ->required();
-  tree.add_option("output", line.options.output, "tree to write (.yaml)")->required();
-  tree.add_option("--pieces", line.options.pieces, "write the convex pieces, too (.obj, one object a piece)");
-  tree.add_option("--flatness", line.options.flatness,
-                  "leave out pieces thinner than this fraction of the body's size")
-      ->capture_default_str();
-  partition
-      .add_option("--reflex-edge-limit", line.options.reflex_edge_limit,
-                  "refuse meshes with more edges that have more than half a turn of material around them")
       ->capture_default_str();
   refine.add_option("--max-edge", line.options.max_edge_length, "longest edge to leave, metres")->required();
 }
@@ -92,21 +79,15 @@ std::vector<Command> addCommands(CLI::App& app, CommandLine& line) {
       "simplify", "Repair, then merge the triangles of each plane into as few as possible");
   CLI::App* convert =
       app.add_subcommand("convert", "Write in another format or scale; equal vertices are welded, no more");
-  CLI::App* hull = app.add_subcommand("hull", "Repair, then write the convex hull");
-  CLI::App* partition =
-      app.add_subcommand("partition", "Repair, then cut a closed mesh into convex pieces, exactly");
-  CLI::App* tree = app.add_subcommand(
-      "tree", "Repair, then write the constraint tree: hull, concavities, what stands in them, and so on");
-  for (CLI::App* command : {inspect, repair, refine, simplify, convert, hull, partition, tree}) {
-    addInput(*command, line);
-  }
-  for (CLI::App* command : {repair, refine, simplify, convert, hull}) addOutput(*command, line);
-  for (CLI::App* command : {inspect, repair, refine, simplify, hull, partition, tree})
-    addRepair(*command, line);
-  addOptionsOfCommands(*refine, *simplify, *partition, *tree, line);
-  return {{inspect, inspectMeshFile},   {repair, repairMeshFile},  {refine, refineMeshFile},
-          {simplify, simplifyMeshFile}, {hull, hullOfMeshFile},    {partition, partitionMeshFile},
-          {tree, treeOfMeshFile},       {convert, convertMeshFile}};
+  for (CLI::App* command : {inspect, repair, refine, simplify, convert}) addInput(*command, line);
+  for (CLI::App* command : {repair, refine, simplify, convert}) addOutput(*command, line);
+  for (CLI::App* command : {inspect, repair, refine, simplify}) addRepair(*command, line);
+  addOptionsOfCommands(*refine, *simplify, line);
+  return {{inspect, inspectMeshFile},
+          {repair, repairMeshFile},
+          {refine, refineMeshFile},
+          {simplify, simplifyMeshFile},
+          {convert, convertMeshFile}};
 }
 
 int run(int argc, char** argv) {
@@ -121,9 +102,8 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : concave_distance::kWrongCommandLine;
   }
-  concave_distance::requireDistinctFiles(
-      {{"the input", line.options.input}},
-      {{"the output", line.options.output}, {"--pieces", line.options.pieces}});
+  concave_distance::requireDistinctFiles({{"the input", line.options.input}},
+                                         {{"the output", line.options.output}});
   for (const auto& [command, act] : commands) {
     if (command->parsed()) act(line.options, std::cout);
   }

@@ -49,14 +49,15 @@ void printRepairs(const RepairReport& report, std::ostream& out) {
   out << "found: " << (summary.empty() ? "nothing to repair" : summary) << '\n';
 }
 
-}  // namespace
-
+/// The input, repaired as the options say. @throws Error naming the file
 RepairedMesh readRepaired(const MeshToolOptions& options) {
   RepairOptions repair;
   repair.weld_tolerance = options.weld_tolerance;
   repair.orient = options.orient;
   return repairMesh(importMesh(options.input, options.scale), repair, options.input);
 }
+
+}  // namespace
 
 void inspectMeshFile(const MeshToolOptions& options, std::ostream& out) {
   const RepairedMesh repaired = readRepaired(options);

@@ -18,13 +18,7 @@ struct MeshToolOptions {
   bool orient = true;                            ///< turn triangles that disagree
   double max_edge_length = 0.0;                  ///< metres
   double merge_tolerance = kMergeTolerance;      ///< relative to the bounding box's diagonal
-  std::size_t reflex_edge_limit = 1500;
-  double flatness = 1e-6;  ///< of a tree, relative to the bounding box's diagonal
-  std::string pieces;      ///< a tree's convex pieces as .obj; empty: not written
 };
-
-/// The input, repaired as the options say. @throws Error naming the file
-RepairedMesh readRepaired(const MeshToolOptions& options);
 
 /// Each reads `input`, writes `output` (but for inspect) and prints what it found to `out`.
 /// @throws Error naming the file

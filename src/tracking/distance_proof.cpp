@@ -23,7 +23,7 @@ DistanceProof::DistanceProof() {
   workspace_.open.reserve(kUsualOpenPairs);
 }
 
-void DistanceProof::prove(PairGeometry& geometry, const TrackerParameters& parameters,
+void DistanceProof::prove(const PairFrame& frame, const TrackerParameters& parameters,
                           const std::optional<TrianglePair>& nearest, double displacement, WorkLimit& limit) {
   if (displacement == 0.0 && current_ && certificate_.status != CertificateStatus::Budget) {
     certificate_.cost = {};
@@ -39,30 +39,29 @@ void DistanceProof::prove(PairGeometry& geometry, const TrackerParameters& param
   request.absolute_tolerance = parameters.absolute_tolerance;
   request.relative_tolerance = parameters.relative_tolerance;
   request.limit = &limit;
-  const bool is_round = hasRound(*geometry.a, *geometry.b);
-  certificate_ = is_round ? certifyRoundDistance(*geometry.a, *geometry.b, geometry.a_from_b, seeds.data(),
-                                                 count, request)
-                          : certifyDistance(*geometry.a, *geometry.b, geometry.a_from_b, seeds.data(), count,
-                                            request, workspace_, &front_);
+  const bool is_round = hasRound(frame.a, frame.b);
+  certificate_ = is_round
+                     ? certifyRoundDistance(frame.a, frame.b, frame.a_from_b, seeds.data(), count, request)
+                     : certifyDistance(frame.a, frame.b, frame.a_from_b, seeds.data(), count, request,
+                                       workspace_, &front_);
   if (is_round) {
     // Its closest points are a local minimum already.
   } else if (certificate_.status == CertificateStatus::Budget ||
              certificate_.status == CertificateStatus::Tolerance) {
     // Stopped on the way down.
     const WitnessRefinement refined =
-        geometry.refine(certificate_.witness.triangle_a, certificate_.witness.triangle_b);
+        frame.refine(certificate_.witness.triangle_a, certificate_.witness.triangle_b, refinement_);
     if (refined.witness.squared_distance < certificate_.witness.squared_distance) {
       certificate_.witness = refined.witness;
       certificate_.distance = std::sqrt(refined.witness.squared_distance);
     }
   }
-  error_ = kProofError * proofScale(*geometry.a, *geometry.b, geometry.a_from_b);
+  error_ = kProofError * proofScale(frame.a, frame.b, frame.a_from_b);
   seeded_ = current_ = true;
   // Who holds whom cannot change while no point comes as far as the other surface.
   if (!(displacement + error_ < last_bound)) {
-    const std::optional<bool> holds = is_round
-                                          ? isRoundContained(*geometry.a, *geometry.b, geometry.a_from_b)
-                                          : isContained(*geometry.a, *geometry.b, geometry.a_from_b, limit);
+    const std::optional<bool> holds = is_round ? isRoundContained(frame.a, frame.b, frame.a_from_b)
+                                               : isContained(frame.a, frame.b, frame.a_from_b, limit);
     swallowed_ = holds.value_or(false);
     // Until it is known whether one body is inside the other, nothing is certain.
     if (!holds) {

@@ -7,7 +7,7 @@
 #include "concave_distance/tracking/pair_solution.h"
 #include "concave_distance/tracking/tracker_parameters.h"
 #include "distance/bound/certificate.h"
-#include "pair_geometry.h"
+#include "niche_placement.h"
 
 namespace concave_distance {
 
@@ -16,11 +16,11 @@ class DistanceProof {
  public:
   DistanceProof();
 
-  /// At the geometry's pose.
+  /// At the frame's pose.
   /// @param nearest triangles near the closest points as far as known, besides those of the last proof
   /// @param displacement metres that any point of B has moved since the last proof, at most; infinite:
   /// unknown
-  void prove(PairGeometry& geometry, const TrackerParameters& parameters,
+  void prove(const PairFrame& frame, const TrackerParameters& parameters,
              const std::optional<TrianglePair>& nearest, double displacement, WorkLimit& limit);
 
   const DistanceCertificate& certificate() const { return certificate_; }
@@ -39,6 +39,7 @@ class DistanceProof {
  private:
   CertificateWorkspace workspace_;
   BoundCache front_;
+  RefinementWorkspace refinement_;
   DistanceCertificate certificate_;  ///< of the last cycle
   double error_ = 0.0;
   bool seeded_ = false;   ///< there is a last certificate

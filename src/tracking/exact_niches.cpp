@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "base/refill.h"
-#include "distance/kernels/minima_scene.h"
 #include "distance/niches/plateau_tolerance.h"
 
 namespace concave_distance {
@@ -27,13 +26,9 @@ constexpr std::size_t archiveCapacity(std::size_t reported) {
   return reported + (reported + 1) / 2;
 }
 
-MinimumCandidate seedAt(const PairGeometry& geometry, const WitnessPair& witness) {
-  return detail::MinimaScene(*geometry.a, *geometry.b, geometry.a_from_b).seedOf(witness);
-}
-
 /// The niche of a local minimum; identity, birth and speed are the caller's.
-void placeMinimum(NicheRecord& record, const PairGeometry& geometry, const LocalMinimum& minimum) {
-  placeRecord(record, geometry, minimum.witness);
+void placeMinimum(NicheRecord& record, const PairFrame& frame, const LocalMinimum& minimum) {
+  placeRecord(record, frame, minimum.witness);
   TrackedNiche& niche = record.niche;
   niche.distance = minimum.distance;
   niche.kind = minimum.kind;
@@ -55,28 +50,28 @@ void ExactNiches::stand(double elapsed, NicheArchive& archive) const {
   }
 }
 
-void ExactNiches::follow(PairGeometry& geometry, const NicheArchive& archive, WorkLimit& limit) {
+void ExactNiches::follow(const PairFrame& frame, const NicheArchive& archive, WorkLimit& limit) {
   followed_.clear();
   if (archive.records().empty() && nearest_) {
-    followed_.push_back(seedAt(geometry, geometry.refine(nearest_->a, nearest_->b).witness));
+    followed_.push_back(frame.candidateOf(frame.refine(nearest_->a, nearest_->b, refinement_).witness));
   }
   for (const NicheRecord& record : archive.records()) {
     if (limit.isOver()) return;
     const WitnessPair& witness = record.niche.witness;
-    followed_.push_back(seedAt(geometry, geometry.refine(witness.triangle_a, witness.triangle_b).witness));
+    followed_.push_back(frame.candidateOf(refine(frame, witness)));
   }
 }
 
-void ExactNiches::propose(const PairGeometry& geometry, const WitnessPair& minimum) {
-  request_.proposals.push_back(seedAt(geometry, minimum));
+void ExactNiches::propose(const PairFrame& frame, const WitnessPair& minimum) {
+  request_.proposals.push_back(frame.candidateOf(minimum));
   searched_ = request_.proposals.size();
 }
 
-void ExactNiches::proposeProven(const PairGeometry& geometry, const WitnessPair& closest) {
-  request_.proposals.push_back(seedAt(geometry, closest));
+void ExactNiches::proposeProven(const PairFrame& frame, const WitnessPair& closest) {
+  request_.proposals.push_back(frame.candidateOf(closest));
 }
 
-void ExactNiches::admit(PairGeometry& geometry, const TrackerParameters& parameters, const Cycle& cycle,
+void ExactNiches::admit(const PairFrame& frame, const TrackerParameters& parameters, const Cycle& cycle,
                         double certain_distance, double time_share, NicheArchive& archive,
                         PairSolution& solution, WorkLimit& limit) {
   const bool looks_for_all = provesDistance(parameters.accuracy);
@@ -108,12 +103,12 @@ void ExactNiches::admit(PairGeometry& geometry, const TrackerParameters& paramet
     request_.asked_pairs.emplace_back(record.niche.witness.triangle_a, record.niche.witness.triangle_b);
     request_.asked_regions.push_back(record.region);
   }
-  findLocalMinima(*geometry.a, *geometry.b, geometry.a_from_b, request_, memory_, found_);
+  findLocalMinima(frame, request_, memory_, found_);
   current_ = found_.finished;
   solution.cost.evaluations += found_.cost.feature_pairs + found_.cost.candidates + found_.cost.flooded_pairs;
 
-  matchPrevious(archive, geometry, cycle.last_a_from_b);
-  attributeOffered(geometry);
+  matchPrevious(archive, frame, cycle.last_a_from_b);
+  attributeOffered(frame);
   endOthers(archive, solution.events);
   next_.clear();
   evolved_ = 0;
@@ -136,13 +131,13 @@ void ExactNiches::admit(PairGeometry& geometry, const TrackerParameters& paramet
       niche.birth_cycle = cycle.number;
     }
     const double before = niche.distance;
-    placeMinimum(record, geometry, minimum);
+    placeMinimum(record, frame, minimum);
     niche.closing_speed =
         known && cycle.elapsed > 0.0 ? (before - niche.distance) / cycle.elapsed : kNotComputed;
   }
   records.swap(next_);
   limit.allowShare(time_share);
-  if (!found_.finished) carryOthers(next_, geometry, archive, limit, solution.events);
+  if (!found_.finished) carryOthers(next_, frame, archive, limit, solution.events);
   archive.settle();
   request_.proposals.clear();
   searched_ = 0;
@@ -150,20 +145,20 @@ void ExactNiches::admit(PairGeometry& geometry, const TrackerParameters& paramet
 }
 
 // Where prominences were measured, no verdict says to which niche a minimum belongs.
-void ExactNiches::attributeOffered(PairGeometry& geometry) {
+void ExactNiches::attributeOffered(const PairFrame& frame) {
   if (offered_ == nullptr || !found_.finished) return;
   if (std::find(heirs_.begin(), heirs_.end(), kNone) == heirs_.end()) return;
   const bool measured = request_.prominence_limit > request_.least_prominence;
   request_.proposals.clear();
   for (LocalMinimum& niche : found_.niches) niche.proposal = LocalMinimum::kNoProposal;
   for (std::size_t i = 0; i < offered_->size(); ++i) {
-    const WitnessPair nodes = geometry.nodeWitness((*offered_)[i]);
-    const WitnessPair minimum = geometry.refine(nodes.triangle_a, nodes.triangle_b).witness;
-    propose(geometry, minimum);
-    if (measured) attributeByPlace(minimum, i, geometry.samePlaceTolerance());
+    const WitnessPair nodes = nodeWitness(frame, (*offered_)[i]);
+    const WitnessPair minimum = refine(frame, nodes);
+    propose(frame, minimum);
+    if (measured) attributeByPlace(minimum, i, frame.samePlaceTolerance());
   }
   if (!measured) {
-    attributeProposals(*geometry.a, *geometry.b, geometry.a_from_b, request_, memory_, found_);
+    attributeProposals(frame, request_, memory_, found_);
   }
 }
 
@@ -182,10 +177,10 @@ void ExactNiches::attributeByPlace(const WitnessPair& minimum, std::size_t propo
 // A known niche goes on as the one whose region it is in now, the oldest of them first. Before, no point pair
 // of the region was nearer than the niche: the minimum cannot be nearer by more than its point of B has moved
 // since, or it has come from elsewhere.
-void ExactNiches::matchPrevious(const NicheArchive& archive, const PairGeometry& geometry,
+void ExactNiches::matchPrevious(const NicheArchive& archive, const PairFrame& frame,
                                 const Eigen::Isometry3d& last_a_from_b) {
   const std::vector<NicheRecord>& records = archive.records();
-  const double rounding = kPlateauTolerance * geometry.scale();
+  const double rounding = kPlateauTolerance * frame.diameters();
   refill(heirs_, found_.niches.size(), kNone);
   for (std::size_t i = 0; i < records.size(); ++i) {
     const std::size_t owner = found_.owners[i];
@@ -193,7 +188,7 @@ void ExactNiches::matchPrevious(const NicheArchive& archive, const PairGeometry&
     const LocalMinimum& minimum = found_.niches[owner];
     const TrackedNiche& known = records[i].niche;
     const Eigen::Vector3d& point = minimum.witness.point_b_in_a;
-    const double moved = (last_a_from_b * (geometry.b_from_a * point) - point).norm();
+    const double moved = (last_a_from_b * (frame.bFromA() * point) - point).norm();
     if (!records[i].carried && minimum.distance < known.distance - moved - rounding) continue;
     if (heirs_[owner] == kNone || known.id < records[heirs_[owner]].niche.id) heirs_[owner] = i;
   }
@@ -216,17 +211,17 @@ void ExactNiches::endOthers(const NicheArchive& archive, std::vector<NicheEvent>
 
 // Known niches of which time or memory did not suffice to see what has become stay, each at the minimum
 // around its triangles.
-void ExactNiches::carryOthers(const std::vector<NicheRecord>& known, PairGeometry& geometry,
+void ExactNiches::carryOthers(const std::vector<NicheRecord>& known, const PairFrame& frame,
                               NicheArchive& archive, WorkLimit& limit, std::vector<NicheEvent>& events) {
-  const double tolerance = geometry.samePlaceTolerance();
+  const double tolerance = frame.samePlaceTolerance();
   for (std::size_t i = 0; i < known.size(); ++i) {
     if (found_.owners[i] != LocalMinima::kUndecided) continue;
     NicheRecord record = known[i];
     if (!limit.isOver()) {
       const WitnessPair& witness = record.niche.witness;
-      placeRecord(record, geometry, geometry.refine(witness.triangle_a, witness.triangle_b).witness);
+      placeRecord(record, frame, refine(frame, witness));
     }
-    carryRecord(record, geometry);
+    carryRecord(record, frame);
     record.niche.origin = NicheOrigin::Inherited;
     const NicheRecord* same =
         archive.findSamePlace(record.niche.point_a_in_a, record.point_b_in_b, tolerance);

@@ -10,7 +10,7 @@
 #include "concave_distance/tracking/tracker_parameters.h"
 #include "distance/niches/local_minima.h"
 #include "niche_archive.h"
-#include "pair_geometry.h"
+#include "niche_placement.h"
 
 namespace concave_distance {
 
@@ -34,23 +34,27 @@ class ExactNiches {
 
   /// Level `refined`: every known niche is a minimum to be admitted again; where none is known, as in a
   /// body that has swallowed the other, the nearest of all minima is followed.
-  void follow(PairGeometry& geometry, const NicheArchive& archive, WorkLimit& limit);
+  void follow(const PairFrame& frame, const NicheArchive& archive, WorkLimit& limit);
   /// A local minimum that was proposed, to be admitted with all others.
-  void propose(const PairGeometry& geometry, const WitnessPair& minimum);
+  void propose(const PairFrame& frame, const WitnessPair& minimum);
   /// Level `certified`: what the search has found, looked at only where a niche is new, to say whether the
   /// search has proposed it: the list is proven without. To stay as it is until the next admit().
   void offer(const std::vector<TrialPoint>& found) { offered_ = &found; }
   /// The closest points by a proof: where niches are missing, one of them.
-  void proposeProven(const PairGeometry& geometry, const WitnessPair& closest);
+  void proposeProven(const PairFrame& frame, const WitnessPair& closest);
 
   /// Admits what was followed and proposed since the last call: the archive's records are the niches
   /// afterwards, with ids that go on and events for those that end.
   /// @param certain_distance metres; no two points are closer
   /// @param time_share of the limit's time, after which it ends
-  void admit(PairGeometry& geometry, const TrackerParameters& parameters, const Cycle& cycle,
+  void admit(const PairFrame& frame, const TrackerParameters& parameters, const Cycle& cycle,
              double certain_distance, double time_share, NicheArchive& archive, PairSolution& solution,
              WorkLimit& limit);
 
+  /// Descends to the local minimum around a pair of triangles.
+  WitnessPair refine(const PairFrame& frame, const WitnessPair& near) {
+    return frame.refine(near.triangle_a, near.triangle_b, refinement_).witness;
+  }
   bool isFinished() const { return found_.finished; }
   /// Level `refined`: of all that was followed and proposed, niche or not; nullptr: nothing was.
   const MinimumCandidate* nearestProposed() const;
@@ -65,18 +69,19 @@ class ExactNiches {
   std::size_t memoryBytes() const;
 
  private:
-  void matchPrevious(const NicheArchive& archive, const PairGeometry& geometry,
+  void matchPrevious(const NicheArchive& archive, const PairFrame& frame,
                      const Eigen::Isometry3d& last_a_from_b);
-  void attributeOffered(PairGeometry& geometry);
+  void attributeOffered(const PairFrame& frame);
   void attributeByPlace(const WitnessPair& minimum, std::size_t proposal, double tolerance);
   bool isSearched(const LocalMinimum& minimum) const {
     return minimum.proposal != LocalMinimum::kNoProposal && minimum.proposal < searched_;
   }
   void endOthers(const NicheArchive& archive, std::vector<NicheEvent>& events) const;
-  void carryOthers(const std::vector<NicheRecord>& known, PairGeometry& geometry, NicheArchive& archive,
+  void carryOthers(const std::vector<NicheRecord>& known, const PairFrame& frame, NicheArchive& archive,
                    WorkLimit& limit, std::vector<NicheEvent>& events);
 
   LocalMinimaMemory memory_;
+  RefinementWorkspace refinement_;
   LocalMinimaRequest request_;
   LocalMinima found_;
   std::vector<MinimumCandidate> followed_;

@@ -30,7 +30,7 @@ std::uint32_t wholePopulation(std::size_t inherited, const TrackerParameters& pa
 
 }  // namespace
 
-void NicheSearch::prepare(const PairGeometry& geometry, const TrackerParameters& parameters) {
+void NicheSearch::prepare(const BodyMesh& a, const BodyMesh& b, const TrackerParameters& parameters) {
   if (prepared_) return;
   prepared_ = true;
   // So large that a warm cycle does not have to grow them; a cold one may.
@@ -38,26 +38,26 @@ void NicheSearch::prepare(const PairGeometry& geometry, const TrackerParameters&
   found_.reserve(kUsualMinima);
   inherited_.reserve(kUsualMinima);
   scratch_.reserve(kUsualMinima);
-  cold_radii_ = automaticRadii(*geometry.a, *geometry.b, parameters.cold);
-  warm_radii_ = automaticRadii(*geometry.a, *geometry.b, parameters.warm);
+  cold_radii_ = automaticRadii(a, b, parameters.cold);
+  warm_radii_ = automaticRadii(a, b, parameters.warm);
 }
 
-void NicheSearch::begin(const PairGeometry& geometry, const TrackerParameters& parameters) {
-  prepare(geometry, parameters);
+void NicheSearch::begin(const BodyMesh& a, const BodyMesh& b, const TrackerParameters& parameters) {
+  prepare(a, b, parameters);
   workspace_.basins.clear();
 }
 
-TrialPoint NicheSearch::descendKnown(const PairGeometry& geometry, const TrialPoint& pair, SearchCost& cost) {
-  const PairObjective objective(*geometry.a, *geometry.b, geometry.a_from_b);
+TrialPoint NicheSearch::descendKnown(const PairFrame& frame, const TrialPoint& pair, SearchCost& cost) {
+  const PairObjective objective(frame.a, frame.b, frame.a_from_b);
   return descend(objective, objective.evaluate(pair.node_a, pair.node_b, cost), &workspace_.basins,
                  workspace_.trail, cost);
 }
 
-const std::vector<TrialPoint>& NicheSearch::propose(const PairGeometry& geometry,
+const std::vector<TrialPoint>& NicheSearch::propose(const PairFrame& frame,
                                                     const TrackerParameters& parameters,
                                                     const std::vector<TrialPoint>& known, const Run& run,
                                                     SearchCost& cost, WorkLimit& limit) {
-  const PairObjective objective(*geometry.a, *geometry.b, geometry.a_from_b);
+  const PairObjective objective(frame.a, frame.b, frame.a_from_b);
   const std::size_t known_minima = workspace_.basins.minima().size();
   RandomEngine engine(streamSeed(parameters.seed, run.pair, run.cycle));
   inherited_.clear();
@@ -67,7 +67,7 @@ const std::vector<TrialPoint>& NicheSearch::propose(const PairGeometry& geometry
     const std::uint32_t limit_of_inherited =
         run.population > 0 ? inheritedOf(run.population, parameters) : parameters.inherited_limit;
     inherit(known, {parameters.inherited_per_niche, limit_of_inherited},
-            fitnessEpsilon(genetic, *geometry.a, *geometry.b), inherited_, scratch_);
+            fitnessEpsilon(genetic, frame.a, frame.b), inherited_, scratch_);
     genetic.population_size =
         run.population > 0 ? run.population : wholePopulation(inherited_.size(), parameters);
   }

@@ -8,11 +8,17 @@
 #include "concave_distance/base/work_limit.h"
 #include "concave_distance/tracking/pair_solution.h"
 #include "concave_distance/tracking/tracker_parameters.h"
-#include "pair_geometry.h"
+#include "niche_placement.h"
 #include "search/automatic_radii.h"
 #include "search/search_workspace.h"
 
 namespace concave_distance {
+
+/// Buffers for the nodes around a pair's genes.
+struct NodeRings {
+  std::vector<NodeIndex> a;
+  std::vector<NodeIndex> b;
+};
 
 /// Stage `propose`: the niched genetic algorithm, warm-started from the niches that are known.
 class NicheSearch {
@@ -20,7 +26,7 @@ class NicheSearch {
   NicheSearch(const BodyMesh& a, const BodyMesh& b) : workspace_(a, b) {}
 
   /// Makes what the first run needs for these parameters, the grids of the bodies among it.
-  void prepare(const PairGeometry& geometry, const TrackerParameters& parameters);
+  void prepare(const BodyMesh& a, const BodyMesh& b, const TrackerParameters& parameters);
   void forgetParameters() { prepared_ = false; }
 
   /// What one run is for.
@@ -34,13 +40,13 @@ class NicheSearch {
   };
 
   /// Begins the search of a cycle: forgets the basins of the last one.
-  void begin(const PairGeometry& geometry, const TrackerParameters& parameters);
+  void begin(const BodyMesh& a, const BodyMesh& b, const TrackerParameters& parameters);
   /// Moves a node pair to the minimum below it, which propose() then does not return.
-  TrialPoint descendKnown(const PairGeometry& geometry, const TrialPoint& pair, SearchCost& cost);
+  TrialPoint descendKnown(const PairFrame& frame, const TrialPoint& pair, SearchCost& cost);
 
   /// Runs with the niches known, given as node pairs.
   /// @return local minima on the node graphs that the run has met beside those, the nearest first
-  const std::vector<TrialPoint>& propose(const PairGeometry& geometry, const TrackerParameters& parameters,
+  const std::vector<TrialPoint>& propose(const PairFrame& frame, const TrackerParameters& parameters,
                                          const std::vector<TrialPoint>& known, const Run& run,
                                          SearchCost& cost, WorkLimit& limit);
 
@@ -57,6 +63,7 @@ class NicheSearch {
   void earn(std::size_t found, double work, double share);
 
   SearchWorkspace& workspace() { return workspace_; }
+  NodeRings& rings() { return rings_; }
   const NicheRadii& radii(bool warm) const { return warm ? warm_radii_ : cold_radii_; }
   void restart() { couples_ = 1; }
   std::size_t memoryBytes() const;
@@ -66,6 +73,7 @@ class NicheSearch {
   NicheRadii cold_radii_{};
   NicheRadii warm_radii_{};
   SearchWorkspace workspace_;
+  NodeRings rings_;
   std::vector<TrialPoint> inherited_;
   std::vector<TrialPoint> found_;
   std::vector<double> scratch_;

@@ -28,14 +28,14 @@ void collectRings(const NodeGraph& graph, NodeIndex centre, std::vector<NodeInde
 
 }  // namespace
 
-void followNodePairs(PairGeometry& geometry, NicheSearch& search, double displacement, double elapsed,
+void followNodePairs(const PairFrame& frame, NicheSearch& search, double displacement, double elapsed,
                      NicheArchive& archive, SearchCost& cost, WorkLimit& limit) {
-  const double rounding = kPlateauTolerance * geometry.scale();
+  const double rounding = kPlateauTolerance * frame.diameters();
   for (NicheRecord& record : archive.records()) {
     if (limit.isOver()) {
-      carryRecord(record, geometry);
+      carryRecord(record, frame);
       TrialPoint& pair = record.niche.node_pair;
-      pair.squared_distance = geometry.nodeWitness(pair).squared_distance;
+      pair.squared_distance = nodeWitness(frame, pair).squared_distance;
       continue;
     }
     const double before = record.niche.distance;
@@ -43,23 +43,23 @@ void followNodePairs(PairGeometry& geometry, NicheSearch& search, double displac
     record.least_distance =
         record.carried ? -std::numeric_limits<double>::infinity() : before - displacement - rounding;
     record.carried = false;
-    record.niche.node_pair = search.descendKnown(geometry, record.niche.node_pair, cost);
+    record.niche.node_pair = search.descendKnown(frame, record.niche.node_pair, cost);
     record.niche.origin = NicheOrigin::Inherited;
-    placeRecord(record, geometry, geometry.nodeWitness(record.niche.node_pair));
+    placeRecord(record, frame, nodeWitness(frame, record.niche.node_pair));
     record.niche.closing_speed = elapsed > 0.0 ? (before - record.niche.distance) / elapsed : kNotComputed;
   }
 }
 
 namespace {
 
-void admitNodePair(const TrialPoint& pair, const PairGeometry& geometry, double niche_radius,
-                   std::uint64_t cycle, PairMetric& metric, NicheArchive& archive) {
-  const WitnessPair witness = geometry.nodeWitness(pair);
+void admitNodePair(const TrialPoint& pair, const PairFrame& frame, double niche_radius, std::uint64_t cycle,
+                   PairMetric& metric, NicheArchive& archive) {
+  const WitnessPair witness = nodeWitness(frame, pair);
   for (NicheRecord& record : archive.records()) {
     if (metric.distanceWithin(record.niche.node_pair, pair, niche_radius) > niche_radius) continue;
     if (witness.squared_distance < record.niche.witness.squared_distance) {
       record.niche.node_pair = pair;
-      placeRecord(record, geometry, witness);
+      placeRecord(record, frame, witness);
     }
     return;
   }
@@ -69,13 +69,13 @@ void admitNodePair(const TrialPoint& pair, const PairGeometry& geometry, double 
   newborn.niche.node_pair = pair;
   newborn.niche.origin = NicheOrigin::Evolved;
   newborn.niche.outward = Outwardness::Unknown;  // this level does not look at faces
-  placeRecord(newborn, geometry, witness);
+  placeRecord(newborn, frame, witness);
   archive.records().push_back(newborn);
 }
 
 }  // namespace
 
-void admitNodePairs(PairGeometry& geometry, const TrackerParameters& parameters, NicheSearch& search,
+void admitNodePairs(const PairFrame& frame, const TrackerParameters& parameters, NicheSearch& search,
                     const std::vector<TrialPoint>& found, bool warm, std::uint64_t cycle,
                     NicheArchive& archive, PairSolution& solution) {
   const double niche_radius = search.radii(warm).niche;
@@ -86,19 +86,19 @@ void admitNodePairs(PairGeometry& geometry, const TrackerParameters& parameters,
     if (records[i].niche.distance >= records[i].least_distance) continue;
     const TrialPoint pair = records[i].niche.node_pair;
     archive.remove(i, solution.events);
-    admitNodePair(pair, geometry, niche_radius, cycle, metric, archive);
+    admitNodePair(pair, frame, niche_radius, cycle, metric, archive);
   }
   for (const TrialPoint& pair : found) {
-    admitNodePair(pair, geometry, niche_radius, cycle, metric, archive);
+    admitNodePair(pair, frame, niche_radius, cycle, metric, archive);
   }
   archive.settle();
   uniteWithinRadius(niche_radius, metric, archive, solution.events);
-  improveNodePairs(PairObjective(*geometry.a, *geometry.b, geometry.a_from_b), parameters.largest_niche_count,
-                   archive, geometry, solution.cost);
+  improveNodePairs(PairObjective(frame.a, frame.b, frame.a_from_b), parameters.largest_niche_count, archive,
+                   frame, search.rings(), solution.cost);
 }
 
 void improveNodePairs(const PairObjective& objective, std::size_t count, NicheArchive& archive,
-                      PairGeometry& geometry, SearchCost& cost) {
+                      const PairFrame& frame, NodeRings& rings, SearchCost& cost) {
   const NodeGraph& graph_a = objective.bodyA().graph();
   const NodeGraph& graph_b = objective.bodyB().graph();
   for (std::size_t i = 0; i < std::min(count, archive.records().size()); ++i) {
@@ -108,10 +108,10 @@ void improveNodePairs(const PairObjective& objective, std::size_t count, NicheAr
     bool moved = true;
     while (moved) {
       moved = false;
-      collectRings(graph_a, best.node_a, geometry.ring_a);
-      collectRings(graph_b, best.node_b, geometry.ring_b);
-      for (const NodeIndex node_a : geometry.ring_a) {
-        for (const NodeIndex node_b : geometry.ring_b) {
+      collectRings(graph_a, best.node_a, rings.a);
+      collectRings(graph_b, best.node_b, rings.b);
+      for (const NodeIndex node_a : rings.a) {
+        for (const NodeIndex node_b : rings.b) {
           const TrialPoint candidate = objective.evaluate(node_a, node_b, cost);
           if (candidate.squared_distance < best.squared_distance) {
             best = candidate;
@@ -121,7 +121,7 @@ void improveNodePairs(const PairObjective& objective, std::size_t count, NicheAr
       }
     }
     record.niche.node_pair = best;
-    placeRecord(record, geometry, geometry.nodeWitness(best));
+    placeRecord(record, frame, nodeWitness(frame, best));
   }
   archive.settle();
 }

@@ -7,8 +7,8 @@
 #include "concave_distance/tracking/pair_solution.h"
 #include "concave_distance/tracking/tracker_parameters.h"
 #include "niche_archive.h"
+#include "niche_placement.h"
 #include "niche_search.h"
-#include "pair_geometry.h"
 #include "search/pair_metric.h"
 #include "search/pair_objective.h"
 
@@ -17,13 +17,13 @@ namespace concave_distance {
 // Level `nodes`: the thesis's niches on the node graphs.
 
 /// Moves every known niche to the minimum below its node pair.
-void followNodePairs(PairGeometry& geometry, NicheSearch& search, double displacement, double elapsed,
+void followNodePairs(const PairFrame& frame, NicheSearch& search, double displacement, double elapsed,
                      NicheArchive& archive, SearchCost& cost, WorkLimit& limit);
 
 /// What was found becomes a niche or belongs to one within the niche radius (greedy identification,
 /// Carretero sec. 4.6.4, over time); then records are united and the nearest improved.
 /// @param found node pairs, the nearest first
-void admitNodePairs(PairGeometry& geometry, const TrackerParameters& parameters, NicheSearch& search,
+void admitNodePairs(const PairFrame& frame, const TrackerParameters& parameters, NicheSearch& search,
                     const std::vector<TrialPoint>& found, bool warm, std::uint64_t cycle,
                     NicheArchive& archive, PairSolution& solution);
 
@@ -32,7 +32,7 @@ void admitNodePairs(PairGeometry& geometry, const TrackerParameters& parameters,
 /// a time ends on a staircase of shallow minima. For the nearest `count` records; the archive is settled
 /// afterwards.
 void improveNodePairs(const PairObjective& objective, std::size_t count, NicheArchive& archive,
-                      PairGeometry& geometry, SearchCost& cost);
+                      const PairFrame& frame, NodeRings& rings, SearchCost& cost);
 
 /// Strips records within the niche radius of a closer one, as greedy identification does; the older id lives
 /// on. The archive must be settled; it is again afterwards.

@@ -8,7 +8,6 @@
 
 #include "distance/bound/round_certificate.h"
 #include "distance/bound/solid_overlap.h"
-#include "distance/kernels/minima_scene.h"
 #include "distance/niches/plateau_tolerance.h"
 #include "mesh/trees/normal_cone_tree.h"
 #include "node_niches.h"
@@ -34,10 +33,11 @@ double seconds(std::chrono::steady_clock::duration duration) {
 PairCycle::PairCycle(std::string name, std::shared_ptr<const BodyMesh> a, std::shared_ptr<const BodyMesh> b,
                      const TrackerParameters& parameters, std::uint64_t largest_used_id)
     : name_(std::move(name)),
-      geometry_(std::move(a), std::move(b)),
+      a_(std::move(a)),
+      b_(std::move(b)),
       parameters_(parameters),
       largest_used_id_(largest_used_id),
-      search_(*geometry_.a, *geometry_.b) {
+      search_(*a_, *b_) {
   parameters_.validate(name_);
   archive_.beginIdsAfter(largest_used_id);
   round_.beginIdsAfter(largest_used_id);
@@ -57,7 +57,7 @@ void PairCycle::update(const Eigen::Isometry3d& pose, double time, PairSolution&
     solution.solve_seconds = since_start();
     return;
   }
-  geometry_.setPose(*rigid);
+  frame_.emplace(*a_, *b_, *rigid);
   stage_clock_.start();
   const Moment now{*rigid, time, true};
   const Passed since_cycle = passed(last_cycle_, now);
@@ -74,8 +74,7 @@ void PairCycle::update(const Eigen::Isometry3d& pose, double time, PairSolution&
 
 PairCycle::Passed PairCycle::passed(const Moment& before, const Moment& now) const {
   if (!before.known) return {std::numeric_limits<double>::infinity(), 0.0};
-  return {largestDisplacement(geometry_.b->bounds(), before.pose, now.pose),
-          std::max(0.0, now.time - before.time)};
+  return {largestDisplacement(b_->bounds(), before.pose, now.pose), std::max(0.0, now.time - before.time)};
 }
 
 void PairCycle::solve(const Eigen::Isometry3d& pose, PairSolution& solution) {
@@ -108,35 +107,36 @@ void PairCycle::prove(double displacement) {
     nearest = TrianglePair{witness.triangle_a, witness.triangle_b};
   }
   distance_before_ = isWarm() ? proof_.certificate().distance : kNotComputed;
-  proof_.prove(geometry_, parameters_, nearest, displacement, limit_);
+  proof_.prove(*frame_, parameters_, nearest, displacement, limit_);
 }
 
 void PairCycle::solveNodes(const Passed& passed, PairSolution& solution) {
   limit_.allowShare(kShareOfNiches);
-  search_.begin(geometry_, parameters_);
-  followNodePairs(geometry_, search_, passed.displacement, passed.elapsed, archive_, solution.cost, limit_);
+  search_.begin(*a_, *b_, parameters_);
+  followNodePairs(*frame_, search_, passed.displacement, passed.elapsed, archive_, solution.cost, limit_);
   stage_clock_.lap(SolveStage::Follow, solution.stages);
   known_.clear();
   for (const NicheRecord& record : archive_.records()) known_.push_back(record.niche.node_pair);
   const std::vector<TrialPoint>& found = search_.propose(
-      geometry_, parameters_, known_, {name_, cycle_, isWarm(), false, isWarm()}, solution.cost, limit_);
+      *frame_, parameters_, known_, {name_, cycle_, isWarm(), false, isWarm()}, solution.cost, limit_);
   stage_clock_.lap(SolveStage::Propose, solution.stages);
-  admitNodePairs(geometry_, parameters_, search_, found, isWarm(), cycle_, archive_, solution);
+  admitNodePairs(*frame_, parameters_, search_, found, isWarm(), cycle_, archive_, solution);
   stage_clock_.lap(SolveStage::Admit, solution.stages);
 }
 
 void PairCycle::solveExact(const Passed& passed, PairSolution& solution) {
   if (niches_.stands(passed.displacement)) return niches_.stand(passed.elapsed, archive_);
   if (!isWarm() && is_tracked_ && parameters_.search_share > 0.0) prepare();
+  frame_->openFacets();
   limit_.allowShare(kShareOfSearch);
-  if (!proves()) niches_.follow(geometry_, archive_, limit_);
+  if (!proves()) niches_.follow(*frame_, archive_, limit_);
   stage_clock_.lap(SolveStage::Follow, solution.stages);
   if (searchIsDue()) propose(solution.cost);
   if (proves() && !proof_.isPenetrating()) {
-    niches_.proposeProven(geometry_, provenOnMeshes());
+    niches_.proposeProven(*frame_, provenOnMeshes());
   }
   stage_clock_.lap(SolveStage::Propose, solution.stages);
-  niches_.admit(geometry_, parameters_,
+  niches_.admit(*frame_, parameters_,
                 {cycle_, last_niches_.pose, passed.elapsed, is_tracked_, cutoffOfMeshes()}, certainDistance(),
                 kShareOfNiches, archive_, solution, limit_);
   search_.earn(niches_.evolved(), niches_.work(), parameters_.search_share);
@@ -151,18 +151,18 @@ void PairCycle::solveRound(const Passed& passed, PairSolution& solution) {
   if (!isPairOfShapes()) solveExact(passed, solution);
   if (stands && (isPairOfShapes() || niches_.stands(passed.displacement)))
     return round_.stand(passed.elapsed);
-  round_.update(geometry_, archive_, {cycle_, isWarm() ? passed.displacement : 0.0, passed.elapsed},
+  round_.update(*frame_, archive_, {cycle_, isWarm() ? passed.displacement : 0.0, passed.elapsed},
                 solution.events);
 }
 
 // The certificate's is between the exact surfaces.
 WitnessPair PairCycle::provenOnMeshes() {
   const WitnessPair& witness = proof_.certificate().witness;
-  return isRound() ? geometry_.refine(witness.triangle_a, witness.triangle_b).witness : witness;
+  return isRound() ? niches_.refine(*frame_, witness) : witness;
 }
 
 double PairCycle::cutoffOfMeshes() const {
-  return parameters_.cutoff + (isRound() ? RoundNiches::meshExcess(geometry_) : 0.0);
+  return parameters_.cutoff + (isRound() ? RoundNiches::meshExcess(*frame_) : 0.0);
 }
 
 // Whenever a tracked pair has moved. A pose alone has nothing to inherit: there the search is for those that
@@ -174,7 +174,7 @@ bool PairCycle::searchIsDue() const {
 }
 
 void PairCycle::propose(SearchCost& cost) {
-  const SearchStage stage{geometry_, parameters_, archive_, search_, niches_, known_};
+  const SearchStage stage{*frame_, parameters_, archive_, search_, niches_, known_};
   if (proves()) {
     proposeAsHelper(stage, {name_, cycle_, isWarm(), true, is_tracked_}, cost, limit_);
   } else {
@@ -208,7 +208,7 @@ void PairCycle::reportAlone(double elapsed, PairSolution& solution) {
   proof_.report(solution);
   if (!proof_.isSwallowed() || parameters_.keep_through_material) {
     NicheRecord nearest;
-    placeRecord(nearest, geometry_, proof_.certificate().witness);
+    placeRecord(nearest, *frame_, proof_.certificate().witness);
     solution.normal_in_a = nearest.niche.normal_in_a;
     if (elapsed > 0.0) solution.closing_speed = (distance_before_ - proof_.certificate().distance) / elapsed;
   }
@@ -253,16 +253,15 @@ void PairCycle::reportNearest(PairSolution& solution) {
       return;
     }
   }
-  const bool overlap =
-      isRound() ? isRoundContained(*geometry_.a, *geometry_.b, geometry_.a_from_b)
-                : isContained(*geometry_.a, *geometry_.b, geometry_.a_from_b, limit_).value_or(false);
+  const bool overlap = isRound() ? isRoundContained(*a_, *b_, frame_->a_from_b)
+                                 : isContained(*a_, *b_, frame_->a_from_b, limit_).value_or(false);
   const MinimumCandidate* known = niches_.nearestProposed();
   const bool is_known_alone = records.empty() && limit_.hasRefused();
   if (isExact() && known != nullptr && (overlap || is_known_alone)) {
     // Not a niche, but still a bound of the distance: through material, or there was no time to find one.
-    const WitnessPair witness =
-        isRound() ? refineRoundWitness(*geometry_.a, *geometry_.b, geometry_.a_from_b, {known->a, known->b})
-                  : detail::MinimaScene(*geometry_.a, *geometry_.b, geometry_.a_from_b).witnessOf(*known);
+    const WitnessPair witness = isRound()
+                                    ? refineRoundWitness(*a_, *b_, frame_->a_from_b, {known->a, known->b})
+                                    : frame_->witnessOf(*known);
     solution.distance = isRound() ? std::sqrt(witness.squared_distance) : known->distance;
     solution.point_a_in_a = witness.point_a_in_a;
     solution.point_b_in_a = witness.point_b_in_a;
@@ -284,7 +283,7 @@ void PairCycle::reportMiss(double displacement, PairSolution& solution) const {
         });
     return;
   }
-  const double rounding = kPlateauTolerance * geometry_.scale();
+  const double rounding = kPlateauTolerance * frame_->diameters();
   solution.search_miss = solution.distance < last_distance_ - displacement - rounding;
 }
 
@@ -319,11 +318,11 @@ void PairCycle::clear(PairSolution& solution) const {
 
 void PairCycle::prepare() {
   if (!wantsNiches()) return;
-  search_.prepare(geometry_, parameters_);
+  search_.prepare(*a_, *b_, parameters_);
   archive_.reserve(kUsualNiches);
   known_.reserve(kUsualNiches);
   const NormalSides sides = parameters_.keep_through_material ? NormalSides::Both : NormalSides::Outside;
-  for (const BodyMesh* body : {geometry_.a.get(), geometry_.b.get()}) {
+  for (const BodyMesh* body : {a_.get(), b_.get()}) {
     body->adjacency();
     body->pieces();
     if (isExact()) body->normalCones(sides);

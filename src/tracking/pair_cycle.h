@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,8 +11,8 @@
 #include "distance_proof.h"
 #include "exact_niches.h"
 #include "niche_archive.h"
+#include "niche_placement.h"
 #include "niche_search.h"
-#include "pair_geometry.h"
 #include "round_niches.h"
 
 namespace concave_distance {
@@ -72,17 +73,15 @@ class PairCycle {
   bool isWarm() const { return last_cycle_.known; }
   bool wantsNiches() const { return !proves() || parameters_.niches_wanted; }
   /// At the exact levels the solids count, at `nodes` their meshes.
-  bool isRound() const {
-    return isExact() && (geometry_.a->shape() != nullptr || geometry_.b->shape() != nullptr);
-  }
-  bool isPairOfShapes() const {
-    return isExact() && geometry_.a->shape() != nullptr && geometry_.b->shape() != nullptr;
-  }
+  bool isRound() const { return isExact() && (a_->shape() != nullptr || b_->shape() != nullptr); }
+  bool isPairOfShapes() const { return isExact() && a_->shape() != nullptr && b_->shape() != nullptr; }
   /// That are reported.
   std::vector<NicheRecord>& niches() { return isRound() ? round_.records() : archive_.records(); }
 
   std::string name_;
-  PairGeometry geometry_;
+  std::shared_ptr<const BodyMesh> a_;
+  std::shared_ptr<const BodyMesh> b_;
+  std::optional<PairFrame> frame_;  ///< of the present cycle
   TrackerParameters parameters_;
   std::uint64_t largest_used_id_;
   DistanceProof proof_;

@@ -12,13 +12,13 @@
 namespace concave_distance {
 namespace {
 
-bool areShapes(const PairGeometry& geometry) {
-  return geometry.a->shape() != nullptr && geometry.b->shape() != nullptr;
+bool areShapes(const PairFrame& frame) {
+  return frame.a.shape() != nullptr && frame.b.shape() != nullptr;
 }
 
 /// The meshes' facets may be parallel where the solid touches in a point or along a line.
-void limitKind(const PairGeometry& geometry, TrackedNiche& niche) {
-  for (const BodyMesh* body : {geometry.a.get(), geometry.b.get()}) {
+void limitKind(const PairFrame& frame, TrackedNiche& niche) {
+  for (const BodyMesh* body : {&frame.a, &frame.b}) {
     const RoundShape* shape = body->shape();
     if (shape == nullptr) continue;
     if (!detail::hasSide(*shape)) {
@@ -32,23 +32,23 @@ void limitKind(const PairGeometry& geometry, TrackedNiche& niche) {
 
 }  // namespace
 
-double RoundNiches::meshExcess(const PairGeometry& geometry) {
+double RoundNiches::meshExcess(const PairFrame& frame) {
   double excess = 0.0;
-  for (const BodyMesh* body : {geometry.a.get(), geometry.b.get()}) {
+  for (const BodyMesh* body : {&frame.a, &frame.b}) {
     if (body->shape() != nullptr) excess += body->shape()->chord_error;
   }
   return excess;
 }
 
-void RoundNiches::update(const PairGeometry& geometry, const NicheArchive& of_meshes, const Cycle& cycle,
+void RoundNiches::update(const PairFrame& frame, const NicheArchive& of_meshes, const Cycle& cycle,
                          std::vector<NicheEvent>& events) {
   next_.clear();
   next_index_.clear();
   mesh_ids_.clear();
-  if (areShapes(geometry)) {
-    placeShapes(geometry);
+  if (areShapes(frame)) {
+    placeShapes(frame);
   } else {
-    place(geometry, of_meshes);
+    place(frame, of_meshes);
   }
   identify(cycle);
   endOthers(events);
@@ -59,26 +59,25 @@ void RoundNiches::update(const PairGeometry& geometry, const NicheArchive& of_me
   archive_.settle();
 }
 
-void RoundNiches::place(const PairGeometry& geometry, const NicheArchive& of_meshes) {
+void RoundNiches::place(const PairFrame& frame, const NicheArchive& of_meshes) {
   for (const NicheRecord& known : of_meshes.records()) {
     NicheRecord record = known;
     const WitnessPair& start = known.niche.witness;
-    placeRecord(record, geometry,
-                refineRoundWitness(*geometry.a, *geometry.b, geometry.a_from_b,
-                                   {start.triangle_a, start.triangle_b}));
+    placeRecord(record, frame,
+                refineRoundWitness(frame.a, frame.b, frame.a_from_b, {start.triangle_a, start.triangle_b}));
     record.reported = false;
-    limitKind(geometry, record.niche);
+    limitKind(frame, record.niche);
     const auto same = std::find_if(next_.begin(), next_.end(),
-                                   [&](const NicheRecord& other) { return areOne(geometry, other, record); });
+                                   [&](const NicheRecord& other) { return areOne(frame, other, record); });
     mesh_ids_.push_back(known.niche.id);
     next_index_.push_back(static_cast<std::size_t>(same - next_.begin()));
     if (same == next_.end()) next_.push_back(record);
   }
 }
 
-void RoundNiches::placeShapes(const PairGeometry& geometry) {
+void RoundNiches::placeShapes(const PairFrame& frame) {
   NicheRecord& record = next_.emplace_back();
-  placeRecord(record, geometry, refineRoundWitness(*geometry.a, *geometry.b, geometry.a_from_b, {}));
+  placeRecord(record, frame, refineRoundWitness(frame.a, frame.b, frame.a_from_b, {}));
   record.niche.origin = NicheOrigin::Proven;
   record.niche.proven_local_minimum = true;
   mesh_ids_.push_back(0);
@@ -86,17 +85,17 @@ void RoundNiches::placeShapes(const PairGeometry& geometry) {
 }
 
 // At one place, or at equal distances with the same distance, and the mesh, all between them.
-bool RoundNiches::areOne(const PairGeometry& geometry, const NicheRecord& l, const NicheRecord& r) const {
-  const bool a_is_shape = geometry.a->shape() != nullptr;
-  const double tolerance = geometry.samePlaceTolerance();
+bool RoundNiches::areOne(const PairFrame& frame, const NicheRecord& l, const NicheRecord& r) const {
+  const bool a_is_shape = frame.a.shape() != nullptr;
+  const double tolerance = frame.samePlaceTolerance();
   const Eigen::Vector3d& on_l = a_is_shape ? l.point_b_in_b : l.niche.point_a_in_a;
   const Eigen::Vector3d& on_r = a_is_shape ? r.point_b_in_b : r.niche.point_a_in_a;
   if ((on_l - on_r).squaredNorm() <= tolerance * tolerance) return true;
-  const double level = kPlateauTolerance * geometry.scale();
+  const double level = kPlateauTolerance * frame.diameters();
   if (std::abs(l.niche.distance - r.niche.distance) > level) return false;
-  const BodyMesh& mesh = a_is_shape ? *geometry.b : *geometry.a;
-  const RoundAndMesh pair = a_is_shape ? RoundAndMesh(*geometry.a->shape(), mesh, geometry.b_from_a)
-                                       : RoundAndMesh(*geometry.b->shape(), mesh, geometry.a_from_b);
+  const BodyMesh& mesh = a_is_shape ? frame.b : frame.a;
+  const RoundAndMesh pair = a_is_shape ? RoundAndMesh(*frame.a.shape(), mesh, frame.bFromA())
+                                       : RoundAndMesh(*frame.b.shape(), mesh, frame.a_from_b);
   const Eigen::Vector3d middle = 0.5 * (on_l + on_r);
   const TriangleIndex hint = a_is_shape ? l.niche.witness.triangle_b : l.niche.witness.triangle_a;
   return detail::signedDistance(pair.shape, pair.inShape(middle)) >= l.niche.distance - level &&

@@ -6,7 +6,7 @@
 
 #include "concave_distance/tracking/pair_solution.h"
 #include "niche_archive.h"
-#include "pair_geometry.h"
+#include "niche_placement.h"
 
 namespace concave_distance {
 
@@ -23,11 +23,11 @@ class RoundNiches {
 
   void beginIdsAfter(std::uint64_t id) { archive_.beginIdsAfter(id); }
   /// How much farther than the solids their meshes may be, metres.
-  static double meshExcess(const PairGeometry& geometry);
+  static double meshExcess(const PairFrame& frame);
 
-  /// From the niches of the meshes at the geometry's pose. Two solids have one niche and need no others.
+  /// From the niches of the meshes at the frame's pose. Two solids have one niche and need no others.
   /// @param events receives those of the exact niches
-  void update(const PairGeometry& geometry, const NicheArchive& of_meshes, const Cycle& cycle,
+  void update(const PairFrame& frame, const NicheArchive& of_meshes, const Cycle& cycle,
               std::vector<NicheEvent>& events);
   /// Nothing has moved.
   void stand(double elapsed);
@@ -44,9 +44,9 @@ class RoundNiches {
     std::uint64_t id;
   };
 
-  void place(const PairGeometry& geometry, const NicheArchive& of_meshes);
-  void placeShapes(const PairGeometry& geometry);
-  bool areOne(const PairGeometry& geometry, const NicheRecord& l, const NicheRecord& r) const;
+  void place(const PairFrame& frame, const NicheArchive& of_meshes);
+  void placeShapes(const PairFrame& frame);
+  bool areOne(const PairFrame& frame, const NicheRecord& l, const NicheRecord& r) const;
   void identify(const Cycle& cycle);
   const NicheRecord* heritageOf(std::size_t next) const;
   bool isTaken(std::uint64_t id) const;

@@ -12,15 +12,15 @@ void inheritNodePairs(const SearchStage& stage, std::size_t first, std::size_t c
   stage.known.clear();
   for (std::size_t i = 0; i < count; ++i) {
     const WitnessPair& witness = records[(first + i) % records.size()].niche.witness;
-    const TrialPoint near = stage.geometry.nodePairNear(witness);
-    stage.known.push_back(stage.search.descendKnown(stage.geometry, near, cost));
+    const TrialPoint near = nodePairNear(stage.frame, witness);
+    stage.known.push_back(stage.search.descendKnown(stage.frame, near, cost));
   }
 }
 
 void proposeAll(const SearchStage& stage, const std::vector<TrialPoint>& found, WorkLimit& limit) {
   for (std::size_t i = 0; i < found.size() && (i == 0 || !limit.isOver()); ++i) {
-    const WitnessPair nodes = stage.geometry.nodeWitness(found[i]);
-    stage.niches.propose(stage.geometry, stage.geometry.refine(nodes.triangle_a, nodes.triangle_b).witness);
+    const WitnessPair nodes = nodeWitness(stage.frame, found[i]);
+    stage.niches.propose(stage.frame, stage.niches.refine(stage.frame, nodes));
   }
 }
 
@@ -28,16 +28,16 @@ void proposeAll(const SearchStage& stage, const std::vector<TrialPoint>& found, 
 
 void proposeMinima(const SearchStage& stage, const NicheSearch::Run& run, SearchCost& cost,
                    WorkLimit& limit) {
-  stage.search.begin(stage.geometry, stage.parameters);
+  stage.search.begin(stage.frame.a, stage.frame.b, stage.parameters);
   const std::size_t known = stage.archive.records().size();
   inheritNodePairs(stage, 0, std::min<std::size_t>(known, stage.parameters.inherited_limit), cost);
-  proposeAll(stage, stage.search.propose(stage.geometry, stage.parameters, stage.known, run, cost, limit),
+  proposeAll(stage, stage.search.propose(stage.frame, stage.parameters, stage.known, run, cost, limit),
              limit);
 }
 
 void proposeAsHelper(const SearchStage& stage, NicheSearch::Run run, SearchCost& cost,
                      const WorkLimit& limit) {
-  stage.search.begin(stage.geometry, stage.parameters);
+  stage.search.begin(stage.frame.a, stage.frame.b, stage.parameters);
   stage.known.clear();
   if (run.warm) {
     const std::size_t known = stage.archive.records().size();
@@ -48,7 +48,7 @@ void proposeAsHelper(const SearchStage& stage, NicheSearch::Run run, SearchCost&
   }
   WorkLimit own_limit = limit;
   const std::vector<TrialPoint>& found =
-      stage.search.propose(stage.geometry, stage.parameters, stage.known, run, cost, own_limit);
+      stage.search.propose(stage.frame, stage.parameters, stage.known, run, cost, own_limit);
   // Where the look for all minima may end early, what the search has found is looked at with them.
   if (limit.isTimed()) {
     proposeAll(stage, found, own_limit);

@@ -7,15 +7,15 @@
 #include "concave_distance/tracking/tracker_parameters.h"
 #include "exact_niches.h"
 #include "niche_archive.h"
+#include "niche_placement.h"
 #include "niche_search.h"
-#include "pair_geometry.h"
 
 namespace concave_distance {
 
 /// Stage `propose` of the exact levels: the niches known go into the search, what it finds goes to those that
 /// are to be admitted.
 struct SearchStage {
-  PairGeometry& geometry;
+  const PairFrame& frame;
   const TrackerParameters& parameters;
   const NicheArchive& archive;
   NicheSearch& search;

@@ -5,7 +5,6 @@
 #include <iterator>
 #include <regex>
 #include <sstream>
-#include <string_view>
 
 namespace concave_distance {
 namespace {
@@ -60,12 +59,6 @@ bool belongsToRos(const std::string& included) {
 
 bool isBelow(const std::string& folder, const std::string& other) {
   return folder == other || folder.compare(0, other.size() + 1, other + "/") == 0;
-}
-
-/// The thesis's methods are for its experiments and for mesh_tool.
-bool mayUseTheThesis(const std::filesystem::path& file) {
-  return isBelow(folderOf(file), kThesis) ||
-         file.string().compare(0, std::string_view("tools/mesh_tool").size(), "tools/mesh_tool") == 0;
 }
 
 std::string contentOf(const std::filesystem::path& file) {
@@ -131,8 +124,8 @@ std::vector<std::string> faultsOfIncludes(const std::string& text, const std::fi
       faults.push_back("includes " + header + ", which is in no listed folder");
     else if (there > here)
       faults.push_back("includes " + header + ", an arrow upwards");
-    if (isBelow(target, kThesis) && !mayUseTheThesis(file)) {
-      faults.push_back("includes " + header + ", which only experiments may use");
+    if (isBelow(target, kThesis) && !isBelow(folder, kThesis)) {
+      faults.push_back("includes " + header + ", which only the thesis's programs may use");
     }
   }
   if (!own_header.empty() && (included.empty() || included.front() != own_header))

@@ -86,8 +86,8 @@ TEST(Architecture, NoMessageIsWrittenByAStreamOfTheGlobalLocale) {
   namespace fs = std::filesystem;
   const fs::path source = fs::path(CONCAVE_DISTANCE_SOURCE_DIR) / "src";
   const std::regex stream(R"(std::(o?stringstream|regex|put_time|get_time)\b)");
-  // Experiments and the program that reads mesh files set no locale.
-  const std::vector<std::string> programs{"thesis", "tools", "import_worker"};
+  // Tools and the program that reads mesh files set no locale.
+  const std::vector<std::string> programs{"tools", "import_worker"};
   std::size_t files = 0;
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(source)) {
     const std::string path = entry.path().lexically_relative(source).string();

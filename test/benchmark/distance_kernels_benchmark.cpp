@@ -15,8 +15,8 @@
 #include "benchmark/support/benchmark_main.h"
 #include "distance/niches/niche_properties.h"
 #include "support/body_pairs.h"
+#include "support/enumeration.h"
 #include "support/triangle_pairs.h"
-#include "thesis/src/evaluation/enumeration.h"
 
 namespace concave_distance::benchmark {
 namespace {
@@ -60,7 +60,7 @@ void timeTriangles(const char* kind, int repeats,
 
 void timeNiche(const char* kind, int repeats, const std::shared_ptr<const BodyMesh>& a,
                const std::shared_ptr<const BodyMesh>& b, const Eigen::Isometry3d& pose) {
-  const WitnessPair witness = enumerateTrianglePairs(*a, *b, pose);
+  const WitnessPair witness = test::enumerateTrianglePairs(*a, *b, pose);
   RefinementWorkspace refinement;
   ExtentWorkspace workspace;
   constexpr int kCalls = 2000;

@@ -121,20 +121,20 @@ bool isSame(const std::vector<double>& l, const std::vector<double>& r, double t
                     [&](double x, double y) { return std::abs(x - y) <= tolerance; });
 }
 
-void judge(const detail::MinimaScene& scene, std::vector<MinimumCandidate> seeds, NicheDecider& verdicts,
+void judge(const detail::PairFrame& frame, std::vector<MinimumCandidate> seeds, NicheDecider& verdicts,
            bool first, Sample& sample) {
   WorkLimit none;
   NicheDecider::Request request;
   auto start = std::chrono::steady_clock::now();
-  verdicts.judge(scene, seeds, request, none);
+  verdicts.judge(frame, seeds, request, none);
   const double judge_us = microsecondsSince(start);
   request.is_tracked = false;
   NicheDecider alone;
   start = std::chrono::steady_clock::now();
-  alone.judge(scene, seeds, request, none);
+  alone.judge(frame, seeds, request, none);
   const double floods_us = microsecondsSince(start);
   const std::vector<double> niches = nichesOf(verdicts);
-  sample.other += isSame(niches, nichesOf(alone), 1e-9 * scene.size) ? 0 : 1;
+  sample.other += isSame(niches, nichesOf(alone), 1e-9 * frame.size) ? 0 : 1;
   if (first) return;
   sample.judge_us.push_back(judge_us);
   sample.floods_us.push_back(floods_us);
@@ -157,21 +157,21 @@ void observe(const BenchmarkPair& pair, const Eigen::Isometry3d& pose, MinimaTra
   auto start = std::chrono::steady_clock::now();
   fclDistance(*pair.fcl_a, *pair.fcl_b, pose);
   const double fcl_us = microsecondsSince(start);
-  const detail::MinimaScene scene(*pair.a, *pair.b, pose);
+  const detail::PairFrame frame = detail::PairFrame::withFacets(*pair.a, *pair.b, pose);
   std::vector<MinimumCandidate> from_roots;
   LocalMinimaCost cost;
   start = std::chrono::steady_clock::now();
-  detail::collectConeCandidates(scene, NormalSides::Outside, cutoff, from_roots, cost, none);
+  detail::collectConeCandidates(frame, NormalSides::Outside, cutoff, from_roots, cost, none);
   const double roots_us = microsecondsSince(start);
   std::vector<MinimumCandidate> from_front;
   start = std::chrono::steady_clock::now();
-  front.collect(scene, NormalSides::Outside, cutoff, from_front, none);
+  front.collect(frame, NormalSides::Outside, cutoff, from_front, none);
   const double front_us = microsecondsSince(start);
   const auto of_roots = placesOf(pair, pose, from_roots);
   const auto of_front = placesOf(pair, pose, from_front);
-  sample.missed += countOnly(of_roots, of_front, 1e-9 * scene.size);
-  sample.more += countOnly(of_front, of_roots, 1e-9 * scene.size);
-  judge(scene, from_front, verdicts, first, sample);
+  sample.missed += countOnly(of_roots, of_front, 1e-9 * frame.size);
+  sample.more += countOnly(of_front, of_roots, 1e-9 * frame.size);
+  judge(frame, from_front, verdicts, first, sample);
   countEvents(from_front, first, sample);
   if (first) return;
   sample.fcl_us.push_back(fcl_us);

@@ -192,18 +192,14 @@ WRITERS = {
     "mesh_tool_repair": lambda path: ("mesh_tool", "repair", "cube.obj", path),
     "mesh_tool_refine": lambda path: ("mesh_tool", "refine", "cube.obj", path, "--max-edge", "0.05"),
     "mesh_tool_convert": lambda path: ("mesh_tool", "convert", "cube.obj", path),
-    "mesh_tool_hull": lambda path: ("mesh_tool", "hull", "cube.obj", path),
-    "mesh_tool_partition": lambda path: ("mesh_tool", "partition", "cube.obj", path),
-    "mesh_tool_tree": lambda path: ("mesh_tool", "tree", "cube.obj", path),
     "simulate": lambda path: ("simulate", SIMULATED, "--duration", "0.5", "--output", path),
     "simulate_contacts": lambda path: ("simulate", SIMULATED, "--duration", "2", "--output", "main.csv", "--contacts", path),
     "simulate_niches": lambda path: ("simulate", SIMULATED, "--duration", "0.5", "--output", "main.csv", "--niches", path),
 }
-ENDING = {"mesh_tool_tree": "yaml"}
 
 
 def output_name(writer):
-    return "result." + (ENDING.get(writer) or ("obj" if writer.startswith("mesh_tool") else "csv"))
+    return "result." + ("obj" if writer.startswith("mesh_tool") else "csv")
 
 
 def full_device(arena, writer):

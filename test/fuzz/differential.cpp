@@ -18,8 +18,8 @@
 #include "distance/bound/certificate.h"
 #include "fuzz/reproducer.h"
 #include "support/body_pairs.h"
+#include "support/enumeration.h"
 #include "support/query_bound.h"
-#include "thesis/src/evaluation/enumeration.h"
 
 namespace {
 
@@ -62,7 +62,7 @@ std::string complaint(const test::DifferentialScene& scene, const test::Wide& tr
   counts.worst = std::max(counts.worst, errorOf(proof.distance, truth) / bound);
   if (!(errorOf(proof.distance, truth) <= bound)) wrong << "certified: " << proof.distance << '\n';
   if (!(test::Wide(proof.lower_bound) <= truth)) wrong << "lower bound: " << proof.lower_bound << '\n';
-  const double brute = std::sqrt(enumerateTrianglePairs(*a, *b, pose).squared_distance);
+  const double brute = std::sqrt(test::enumerateTrianglePairs(*a, *b, pose).squared_distance);
   if (!(errorOf(brute, truth) <= bound)) wrong << "brute force: " << brute << '\n';
   TrackerParameters parameters;
   parameters.seed = seed;

@@ -5,7 +5,7 @@
 #include "concave_distance/mesh/repair/repair_mesh.h"
 #include "concave_distance/mesh/surface/primitives.h"
 #include "support/body_pairs.h"
-#include "thesis/src/evaluation/enumeration.h"
+#include "support/enumeration.h"
 
 namespace concave_distance::test {
 namespace {
@@ -91,7 +91,7 @@ void leadToGap(DifferentialScene& scene, double gap) {
   const auto a = makeBody(scene.a);
   const auto b = makeBody(scene.b);
   for (int step = 0; step < 3; ++step) {
-    const WitnessPair closest = enumerateTrianglePairs(*a, *b, scene.b_in_a.isometry());
+    const WitnessPair closest = test::enumerateTrianglePairs(*a, *b, scene.b_in_a.isometry());
     const double distance = std::sqrt(closest.squared_distance);
     if (distance == 0.0) return;
     scene.b_in_a.translation -= (1.0 - gap / distance) * (closest.point_b_in_a - closest.point_a_in_a);

@@ -64,8 +64,11 @@ TEST(ParameterDocumentation, HasTheSettingsForExperts) {
   const TrackerParameters defaults;
   expectTable("doc/expert_settings.md", "cold",
               tableRows(geneticParameters(), false, "cold.", defaults.cold));
-  expectTable("doc/expert_settings.md", "warm",
-              tableRows(geneticParameters(), false, "warm.", defaults.warm));
+  ParameterTable<GeneticParameters> others;
+  for (const Parameter<GeneticParameters>& parameter : geneticParameters()) {
+    if (parameter.get(defaults.warm) != parameter.get(defaults.cold)) others.push_back(parameter);
+  }
+  expectTable("doc/expert_settings.md", "warm", tableRows(others, false, "warm.", defaults.warm));
 }
 
 TEST(ParameterDocumentation, HasTheOptionsOfExperiments) {

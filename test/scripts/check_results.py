@@ -41,9 +41,14 @@ NUMBER = r"(?:\d{1,3}(?:,\d{3})+|\d+)(?:\.\d+)?(?:e[-+]?\d+)?"
 PLAIN_NUMBER = r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?"  # of a CSV file, in which commas part cells
 
 
+def documents(root, ending):
+    """The files with an ending in the package's folder and below its folders of documents."""
+    return [*sorted(root.glob("*" + ending)), *sorted((root / "doc").rglob("*" + ending)),
+            *sorted((root / "thesis" / "doc").rglob("*" + ending))]
+
+
 def pages(root):
-    return [root / "README.md", root / "CONTRIBUTING.md", *sorted((root / "doc").rglob("*.md")),
-            *sorted((root / "thesis" / "doc").rglob("*.md"))]
+    return documents(root, ".md")
 
 
 def check_files(root, rows):
@@ -248,7 +253,7 @@ def check_quotes(root, rows):
         found, compared = check_page(root, page, recorded)
         faults += [f"{page.relative_to(root).as_posix()}: {fault}" for fault in found]
         count += compared
-    for path in [*root.glob("*.figures"), *(root / "doc").rglob("*.figures")]:
+    for path in documents(root, ".figures"):
         if not path.with_suffix(".md").exists():
             faults.append(f"{path.relative_to(root).as_posix()}: there is no such page")
     return faults, count

@@ -10,8 +10,7 @@
 #include "search/automatic_radii.h"
 #include "search/local_descent.h"
 #include "search/search_scenes.h"
-#include "thesis/src/evaluation/enumeration.h"
-#include "thesis/src/evaluation/multi_start_descent.h"
+#include "support/enumeration.h"
 
 namespace concave_distance::genetic_search_test {
 namespace {
@@ -161,7 +160,8 @@ TEST(GeneticSearch, BaldwinianIndividualsStayAndCountAsFitAsTheMinimumBelowThem)
 
 TEST(GeneticSearch, InheritedPointsAreDescendedAnew) {
   Search search(test::facingCombs());
-  const NodePairMinimum optimum = enumerateNodePairs(*search.scene.a, *search.scene.b, search.scene.a_from_b);
+  const TrialPoint optimum =
+      test::enumerateNodePairs(*search.scene.a, *search.scene.b, search.scene.a_from_b);
   // From a neighbour of the optimum, with a distance that belongs to another pose.
   const NodeIndex beside = search.scene.a->graph().edges.row(optimum.node_a.value)[0].to;
   GeneticParameters parameters = smallRun(NichingMethod::Sharing);
@@ -237,8 +237,8 @@ TEST(GeneticSearch, ConservedNichesAreNeverLost) {
 TEST(GeneticSearch, FindsTheEnumeratedOptimum) {
   for (const bool on_demand : {false, true}) {
     Search search(test::facingCombs(0.1, on_demand ? 0 : 65535));
-    const NodePairMinimum optimum =
-        enumerateNodePairs(*search.scene.a, *search.scene.b, search.scene.a_from_b);
+    const TrialPoint optimum =
+        test::enumerateNodePairs(*search.scene.a, *search.scene.b, search.scene.a_from_b);
     for (const NichingMethod niching : kAllNichings) {
       GeneticParameters parameters = smallRun(niching);
       parameters.population_size = 80;
@@ -257,15 +257,16 @@ TEST(GeneticSearch, SharingKeepsNichesThatPlainEvolutionLoses) {
   Search search(test::facingCombs());
   const double cutoff =
       2.0 *
-      std::sqrt(enumerateNodePairs(*search.scene.a, *search.scene.b, search.scene.a_from_b).squared_distance);
-  const std::vector<NodeNiche> niches =
-      enumerateNodeNiches(*search.scene.a, *search.scene.b, search.scene.a_from_b, cutoff, 0.1);
+      std::sqrt(
+          test::enumerateNodePairs(*search.scene.a, *search.scene.b, search.scene.a_from_b).squared_distance);
+  const std::vector<test::NodeNiche> niches =
+      test::enumerateNodeNiches(*search.scene.a, *search.scene.b, search.scene.a_from_b, cutoff, 0.1);
   ASSERT_GE(niches.size(), 4U);
   const auto recall = [&](const GeneticParameters& parameters) {
     double sum = 0.0;
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
       search.run(parameters, seed);
-      const auto is_kept = [&](const NodeNiche& niche) {
+      const auto is_kept = [&](const test::NodeNiche& niche) {
         return std::any_of(search.workspace.population.begin(), search.workspace.population.end(),
                            [&](const TrialPoint& point) {
                              return point.node_a == niche.node_a && point.node_b == niche.node_b;
@@ -419,18 +420,6 @@ TEST(GeneticSearch, ChildrenOfTheThesisCompeteBeforeTheyDescend) {
   EXPECT_GT(replaced, 20U);
   EXPECT_LT(newcomers(NichingMethod::DeterministicCrowdingWithSelection), replaced / 4)
       << "children that have not been descended lose to parents that have";
-}
-
-TEST(MultiStartDescent, MeetsMoreMinimaWithMoreStarts) {
-  Search search(test::facingCombs());
-  RandomEngine engine(12);
-  const GeneticResult few = multiStartDescent(search.objective, 20, engine, search.workspace);
-  const std::size_t met_by_few = search.workspace.basins.minima().size();
-  const GeneticResult more = multiStartDescent(search.objective, 500, engine, search.workspace);
-  EXPECT_EQ(few.cost.descents, 20U);
-  EXPECT_EQ(more.cost.descents, 500U);
-  EXPECT_GT(search.workspace.basins.minima().size(), met_by_few);
-  EXPECT_LE(more.best.squared_distance, few.best.squared_distance);
 }
 
 /// Two individuals who neither descend nor mutate, and no draw that lets them mate.

@@ -9,7 +9,7 @@
 #include "distance/bound/certificate.h"
 #include "distance/kernels/surface_walk.h"
 #include "support/body_pairs.h"
-#include "thesis/src/evaluation/enumeration.h"
+#include "support/enumeration.h"
 
 namespace concave_distance::certified_test {
 namespace {
@@ -54,7 +54,7 @@ Isometry3d swaying(double t) {
 }
 
 double exactDistance(const Body& a, const Body& b, const Isometry3d& pose) {
-  return std::sqrt(enumerateTrianglePairs(*a, *b, pose).squared_distance);
+  return std::sqrt(test::enumerateTrianglePairs(*a, *b, pose).squared_distance);
 }
 
 void expectProven(const PairSolution& solution, double exact, double error) {

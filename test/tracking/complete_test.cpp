@@ -8,8 +8,8 @@
 #include "concave_distance/tracking/pair_tracker.h"
 #include "distance/niches/local_minima.h"
 #include "support/body_pairs.h"
+#include "support/enumeration.h"
 #include "support/thesis_scenes.h"
-#include "thesis/src/evaluation/enumeration.h"
 
 namespace concave_distance::complete_test {
 namespace {
@@ -99,7 +99,7 @@ TEST_P(CompleteList, HasEveryNicheAlongAMotionAndKeepsTheBooksOfTheirIds) {
     std::set<std::uint64_t> listed;
     for (const TrackedNiche& niche : solution.niches) listed.insert(niche.id);
     EXPECT_EQ(listed, alive);
-    const double exact = std::sqrt(enumerateTrianglePairs(*comb(), *comb(), pose).squared_distance);
+    const double exact = std::sqrt(test::enumerateTrianglePairs(*comb(), *comb(), pose).squared_distance);
     EXPECT_NEAR(solution.distance, exact, 1e-13);
     EXPECT_LE(solution.lower_bound, exact);
     EXPECT_GE(solution.lower_bound, exact - 1e-12);

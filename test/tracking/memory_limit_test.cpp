@@ -7,8 +7,8 @@
 #include "mesh/trees/normal_cone_tree.h"
 #include "support/body_pairs.h"
 #include "support/count_allocations.h"
+#include "support/enumeration.h"
 #include "support/mesh_variants.h"
-#include "thesis/src/evaluation/enumeration.h"
 
 namespace concave_distance::memory_limit_test {
 namespace {
@@ -17,7 +17,7 @@ TEST(MemoryLimit, HoldsForFloodsOfALargeProminenceAndTheBracketHoldsToo) {
   const auto comb = test::makeBody(test::halvedEdges(test::makeComb(5)), 0.1);
   Eigen::Isometry3d pose(Eigen::AngleAxisd(3.14159265358979323846, Eigen::Vector3d::UnitZ()));
   pose.translation() = Eigen::Vector3d(1.23, 0.65, 0.02);
-  const double exact = std::sqrt(enumerateTrianglePairs(*comb, *comb, pose).squared_distance);
+  const double exact = std::sqrt(test::enumerateTrianglePairs(*comb, *comb, pose).squared_distance);
   TrackerParameters parameters;
   parameters.accuracy = AccuracyLevel::Certified;
   parameters.prominence_limit = 50.0;
@@ -38,7 +38,7 @@ TEST(MemoryLimit, HoldsForFloodsOfALargeProminenceAndTheBracketHoldsToo) {
       tracker.update(pose, 0.01 * k, solution);
       EXPECT_EQ(solution.status, SolveStatus::MemoryExhausted) << toString(solution.status);
       EXPECT_FALSE(solution.niches_complete);
-      const double truth = std::sqrt(enumerateTrianglePairs(*comb, *comb, pose).squared_distance);
+      const double truth = std::sqrt(test::enumerateTrianglePairs(*comb, *comb, pose).squared_distance);
       EXPECT_LE(solution.lower_bound, truth);
       EXPECT_NEAR(solution.distance, truth, 1e-12) << "the proof needs little memory";
     }

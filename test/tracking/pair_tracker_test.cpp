@@ -9,7 +9,7 @@
 
 #include "concave_distance/mesh/surface/primitives.h"
 #include "support/concave_shapes.h"
-#include "thesis/src/evaluation/enumeration.h"
+#include "support/enumeration.h"
 #include "tracking/relative_motion.h"
 
 namespace concave_distance::pair_tracker_test {
@@ -78,7 +78,7 @@ TEST(PairTracker, TheDistanceIsTheBruteForceDistanceAlongAMotion) {
   for (int k = 0; k < 60; ++k) {
     const Eigen::Isometry3d pose = CombScene::pose(0.02 * k);
     tracker.update(pose, 0.02 * k, solution);
-    const double exact = std::sqrt(enumerateTrianglePairs(*scene.a, *scene.b, pose).squared_distance);
+    const double exact = std::sqrt(test::enumerateTrianglePairs(*scene.a, *scene.b, pose).squared_distance);
     EXPECT_NEAR(solution.distance, exact, 1e-12) << "cycle " << k;
   }
 }
@@ -248,7 +248,7 @@ TEST(PairTracker, LevelNodesGivesTheEnumeratedOptimum) {
     // Askew and apart: between parallel walls the nodes' distances make a staircase of shallow minima.
     Eigen::Isometry3d pose = at(1.4, 0.9 + 0.01 * k, 0.1, 0.5 + 0.05 * k, {1.0, 2.0, 3.0});
     tracker.update(pose, 0.05 * k, solution);
-    const double exact = std::sqrt(enumerateNodePairs(*scene.a, *scene.b, pose).squared_distance);
+    const double exact = std::sqrt(test::enumerateNodePairs(*scene.a, *scene.b, pose).squared_distance);
     EXPECT_NEAR(solution.distance, exact, 1e-12) << "cycle " << k;
   }
 }

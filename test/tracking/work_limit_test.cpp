@@ -10,8 +10,8 @@
 #include "concave_distance/tracking/pair_tracker.h"
 #include "distance/niches/local_minima.h"
 #include "support/body_pairs.h"
+#include "support/enumeration.h"
 #include "support/mesh_variants.h"
-#include "thesis/src/evaluation/enumeration.h"
 
 namespace concave_distance::work_limit_test {
 namespace {
@@ -31,7 +31,7 @@ TrackerParameters parametersOf(AccuracyLevel level, double budget) {
 }
 
 double exactDistance(const Body& a, const Body& b, const Isometry3d& pose) {
-  return std::sqrt(enumerateTrianglePairs(*a, *b, pose).squared_distance);
+  return std::sqrt(test::enumerateTrianglePairs(*a, *b, pose).squared_distance);
 }
 
 // Of poses apart, where the distance of the surfaces is the truth.

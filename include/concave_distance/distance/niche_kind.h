@@ -4,7 +4,7 @@
 
 namespace concave_distance {
 
-/// Whether a local minimum is one pair of points or a set of them (doc/algorithm.md, section 4).
+/// Whether a local minimum is one pair of points or a set of them (doc/algorithm.md, section 3).
 enum class NicheKind : std::uint8_t { Point, Segment, Patch };
 
 /// Where the segment between the witness points runs.

@@ -26,13 +26,10 @@ constexpr std::size_t kWorthTrying = 128;
 BranchAndBound::BranchAndBound(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
                                const CertificateRequest& request, CertificateWorkspace& workspace,
                                BoundCache* front)
-    : body_a_(a),
-      body_b_(b),
-      a_(a.hierarchy()),
+    : a_(a.hierarchy()),
       b_(b.hierarchy()),
-      a_from_b_(a_from_b),
-      frames_(a.hierarchy().origin(), b.hierarchy().origin(), a_from_b),
-      turned_(frames_.rotation.transpose()),
+      frame_(a, b, a_from_b, a.hierarchy().origin(), b.hierarchy().origin()),
+      turned_(frame_.rotation.transpose()),
       request_(request),
       limit_(request.limit != nullptr ? *request.limit : unlimited_),
       timed_(limit_.isTimed()),
@@ -41,11 +38,11 @@ BranchAndBound::BranchAndBound(const BodyMesh& a, const BodyMesh& b, const Eigen
       front_(front),
       support_a_(a.hierarchy(), workspace.support_a),
       support_b_(b.hierarchy(), workspace.support_b),
-      scale_(a.hierarchy().reach() + b.hierarchy().reach() + frames_.offset.norm(), kBoundError),
+      scale_(a.hierarchy().reach() + b.hierarchy().reach() + frame_.offset.norm(), kBoundError),
       unit_a_(static_cast<float>(a.hierarchy().reach() * scale_.inverse_scale)),
       unit_b_(static_cast<float>(b.hierarchy().reach() * scale_.inverse_scale)),
-      single_a_from_b_(frames_.rotation, frames_.offset * scale_.inverse_scale),
-      single_b_from_a_(turned_, turned_ * frames_.offset * -scale_.inverse_scale),
+      single_a_from_b_(frame_.rotation, frame_.offset * scale_.inverse_scale),
+      single_b_from_a_(turned_, turned_ * frame_.offset * -scale_.inverse_scale),
       error_(kProofError * proofScale(a, b, a_from_b)) {}
 
 DistanceCertificate BranchAndBound::run(const TrianglePair* seeds, std::size_t seed_count) {
@@ -86,12 +83,12 @@ void BranchAndBound::seed(const TrianglePair* seeds, std::size_t seed_count) {
 }
 
 void BranchAndBound::descend(const TrianglePair& seed) {
-  const WitnessRefinement refined = refineWitness(body_a_, body_b_, a_from_b_, seed.a, seed.b, refinement_);
+  const WitnessRefinement refined = frame_.refine(seed.a, seed.b, refinement_);
   result_.cost.triangle_pairs += refined.iterations;
   // Once more in the frame that everything else here is measured in.
   const TriangleIndex a = refined.witness.triangle_a;
   const TriangleIndex b = refined.witness.triangle_b;
-  measure(frames_.cornersOfA(body_a_, a), frames_.cornersOfB(body_b_, b), a, b);
+  measure(frame_.cornersOfA(a), frame_.cornersOfB(b), a, b);
 }
 
 // One way down to a pair of leaves, always to the nearer box, to have something to compare with. Where boxes
@@ -120,7 +117,7 @@ void BranchAndBound::dive() {
 // The pair whose centres are nearest to each other.
 TrianglePair BranchAndBound::nearestTriangles(const Hierarchy::Leaf& leaf_a,
                                               const Hierarchy::Leaf& leaf_b) const {
-  const LeafLanes b(leaf_b, frames_.rotation, frames_.offset);
+  const LeafLanes b(leaf_b, frame_.rotation, frame_.offset);
   TrianglePair nearest{};
   double least = std::numeric_limits<double>::infinity();
   for (std::uint32_t i = 0; i < leaf_a.count; ++i) {
@@ -167,7 +164,7 @@ TrianglePairDistance BranchAndBound::measure(const TrianglePoints& a, const Tria
 }
 
 void BranchAndBound::beginAtRoots() {
-  if (front_ != nullptr) front_->begin(b_, frames_.rotation, frames_.offset);
+  if (front_ != nullptr) front_->begin(b_, frame_.rotation, frame_.offset);
   if (open_.empty()) open_.resize(Hierarchy::kWidth);
   // If the proof may be cut short, this bound is certain at once.
   const double certain = timed_ ? std::max(0.0, root_separation_) : 0.0;
@@ -186,7 +183,7 @@ bool BranchAndBound::partsAtRoots() {
 
 // Whether the boxes below the roots prove it, so that what a large front holds need not be asked.
 bool BranchAndBound::isProvenAtOnce() {
-  if (front_->size() < kWorthTrying || front_->isAt(frames_.rotation, frames_.offset)) return false;
+  if (front_->size() < kWorthTrying || front_->isAt(frame_.rotation, frame_.offset)) return false;
   BoundCache* const front = std::exchange(front_, nullptr);
   beginAtRoots();
   expand(take());
@@ -218,7 +215,7 @@ BranchAndBound::OpenPair BranchAndBound::take() {
 }
 
 DistanceCertificate BranchAndBound::conclude() {
-  result_.witness = frames_.toWitness(closest_, triangle_a_, triangle_b_);
+  result_.witness = frame_.toWitness(closest_, triangle_a_, triangle_b_);
   result_.distance = distance_;
   double bound = std::min({distance_ - error_, excluded_, std::sqrt(squared_excluded_)});
   for (std::size_t i = 0; i < open_count_; ++i) bound = std::min(bound, std::sqrt(open_[i].squared_bound));

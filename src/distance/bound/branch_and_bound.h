@@ -4,7 +4,7 @@
 #include "box_pair_bounds.h"
 #include "certificate.h"
 #include "directional_support.h"
-#include "distance/kernels/local_frames.h"
+#include "distance/kernels/pair_frame.h"
 #include "hierarchy_access.h"
 #include "leaf_pair.h"
 
@@ -69,12 +69,9 @@ class BranchAndBound {
   std::uint8_t regionOf(Slot slot_of_b) const { return b_.subtreeOfNode(slot_of_b / Hierarchy::kWidth); }
   std::ptrdiff_t openCount() const { return static_cast<std::ptrdiff_t>(open_count_); }
 
-  const BodyMesh& body_a_;
-  const BodyMesh& body_b_;
   const Hierarchy& a_;
   const Hierarchy& b_;
-  const Eigen::Isometry3d& a_from_b_;
-  const LocalFrames frames_;
+  const PairFrame frame_;
   const Eigen::Matrix3d turned_;  ///< from A's axes to B's
   const CertificateRequest& request_;
   WorkLimit unlimited_;

@@ -19,7 +19,7 @@ using Hierarchy = BoundingVolumeHierarchy;
 // What the last proof excluded is looked at again where its bound has run out.
 void BranchAndBound::reopenFront() {
   BoundCache& front = *front_;
-  front.advance(b_, frames_.rotation, frames_.offset, 0.25 * scale_.slack);
+  front.advance(b_, frame_.rotation, frame_.offset, 0.25 * scale_.slack);
   for (std::size_t i = 0; i < front.leaf_pairs_.size(); ++i) {
     BoundCache::LeafPair& pair = front.leaf_pairs_[i];
     const double gone = front.odometers_[pair.region];
@@ -177,7 +177,7 @@ void BranchAndBound::openLeaves(const OpenPair& pair) {
 double BranchAndBound::separationAlongWitnesses(Slot a, Slot b) {
   if (supports_are_new_) {
     supports_are_new_ = false;
-    offset_along_ = direction_.dot(frames_.offset);
+    offset_along_ = direction_.dot(frame_.offset);
     // Boxes of flat pieces may reach this far beyond their plane.
     const double tie = 0.375 * error_;
     support_a_.setDirection(direction_, direction_.dot(closest_.point_a) + tie);
@@ -218,7 +218,7 @@ Lanes BranchAndBound::childBounds(Slot kept, std::uint32_t opened, bool opens_b,
 
 double BranchAndBound::leafSeparation(const Hierarchy::Leaf& leaf_a, const Hierarchy::Leaf& leaf_b,
                                       const Vector3d& direction) const {
-  return direction.dot(frames_.offset) - mostAlong(leaf_a, direction).maxCoeff() -
+  return direction.dot(frame_.offset) - mostAlong(leaf_a, direction).maxCoeff() -
          mostAlong(leaf_b, -(turned_ * direction)).maxCoeff() - scale_.slack;
 }
 
@@ -243,7 +243,7 @@ double BranchAndBound::separationAlongNormals(const Hierarchy::Leaf& leaf_a, con
 double BranchAndBound::measureLeaves(const Hierarchy::Leaf& leaf_a, const Hierarchy::Leaf& leaf_b,
                                      Vector3d& parting) {
   ++result_.cost.leaf_pairs;
-  LeafLanes b(leaf_b, frames_.rotation, frames_.offset);
+  LeafLanes b(leaf_b, frame_.rotation, frame_.offset);
   const Lanes least = leastAlong(b, direction_);
   const Lanes most = mostAlong(leaf_a, direction_) + scale_.slack;
   const double together = least.minCoeff() - most.maxCoeff();

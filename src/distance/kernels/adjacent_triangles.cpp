@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
-#include "local_frames.h"
+#include "pair_frame.h"
 
 namespace concave_distance::detail {
 namespace {

@@ -17,7 +17,7 @@ struct MinimumCandidate {
   bool is_point = false;
   Feature feature_a = Feature::Face;
   Feature feature_b = Feature::Face;
-  Eigen::Vector3d point_a = Eigen::Vector3d::Zero();  ///< in the scene's frame (LocalFrames)
+  Eigen::Vector3d point_a = Eigen::Vector3d::Zero();  ///< in the pair's frame (PairFrame)
   Eigen::Vector3d point_b = Eigen::Vector3d::Zero();
 };
 

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "adjacent_triangles.h"
-#include "local_frames.h"
+#include "pair_frame.h"
 
 namespace concave_distance {
 namespace {
@@ -22,12 +22,12 @@ constexpr double kThinnest = 16.0;
 WitnessRefinement refineWitness(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
                                 TriangleIndex start_a, TriangleIndex start_b,
                                 RefinementWorkspace& workspace) {
-  const detail::LocalFrames frames(a, b, a_from_b, start_a, start_b);
+  const detail::PairFrame frame(a, b, a_from_b, start_a, start_b);
   WitnessRefinement refinement;
   TriangleIndex triangle_a = start_a;
   TriangleIndex triangle_b = start_b;
-  TrianglePoints corners_a = frames.cornersOfA(a, triangle_a);
-  TrianglePoints corners_b = frames.cornersOfB(b, triangle_b);
+  TrianglePoints corners_a = frame.cornersOfA(triangle_a);
+  TrianglePoints corners_b = frame.cornersOfB(triangle_b);
   TrianglePairDistance closest = triangleDistance(corners_a, corners_b);
   refinement.iterations = 1;
   while (true) {
@@ -43,11 +43,11 @@ WitnessRefinement refineWitness(const BodyMesh& a, const BodyMesh& b, const Eige
                                             kTriangleDistanceError * largest * distance};
     const Vector3d direction = closest.point_b - closest.point_a;
     const detail::RingLook look_a =
-        detail::findCloserNeighbour({a.surface(), a.topology(), frames.centre_a, triangle_a},
+        detail::findCloserNeighbour({a.surface(), a.topology(), frame.centre_a, triangle_a},
                                     {closest.point_a, closest.feature_a, direction}, tolerances, workspace);
     const detail::RingLook look_b = detail::findCloserNeighbour(
-        {b.surface(), b.topology(), frames.centre_b, triangle_b},
-        {frames.pointInB(closest.point_b), closest.feature_b, -(frames.rotation.transpose() * direction)},
+        {b.surface(), b.topology(), frame.centre_b, triangle_b},
+        {frame.pointInB(closest.point_b), closest.feature_b, -(frame.rotation.transpose() * direction)},
         tolerances, workspace);
     refinement.triangles_opened += look_a.opened + look_b.opened;
     if (look_a.triangle == triangle_a && look_b.triangle == triangle_b) {
@@ -57,8 +57,8 @@ WitnessRefinement refineWitness(const BodyMesh& a, const BodyMesh& b, const Eige
     if (refinement.iterations == kIterationLimit) break;
     // Both new triangles hold their old witness as well, so that the new pair is at least as close as the
     // better of the two one-sided finds.
-    const TrianglePoints next_a = frames.cornersOfA(a, look_a.triangle);
-    const TrianglePoints next_b = frames.cornersOfB(b, look_b.triangle);
+    const TrianglePoints next_a = frame.cornersOfA(look_a.triangle);
+    const TrianglePoints next_b = frame.cornersOfB(look_b.triangle);
     const TrianglePairDistance next = triangleDistance(next_a, next_b);
     ++refinement.iterations;
     if (!(next.squared_distance < closest.squared_distance)) {  // the find was a rounding
@@ -71,7 +71,7 @@ WitnessRefinement refineWitness(const BodyMesh& a, const BodyMesh& b, const Eige
     corners_a = next_a;
     corners_b = next_b;
   }
-  refinement.witness = frames.toWitness(closest, triangle_a, triangle_b);
+  refinement.witness = frame.toWitness(closest, triangle_a, triangle_b);
   return refinement;
 }
 

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "cone_pair_bounds.h"
-#include "distance/kernels/minima_scene.h"
+#include "distance/kernels/pair_frame.h"
 #include "feature_pairs.h"
 
 namespace concave_distance::detail {
@@ -16,15 +16,15 @@ class ConeComparison {
   using Slot = Tree::Slot;
   static constexpr auto kWidth = static_cast<std::uint32_t>(Tree::kWidth);
 
-  ConeComparison(const MinimaScene& scene, const FeaturePairs& features, NormalSides sides)
-      : scene_(scene),
-        a(scene.a.normalCones(sides)),
-        b(scene.b.normalCones(sides)),
-        limits_a_(features.slack(), scene.size, features.cutoff(), a.unit()),
-        limits_b_(features.slack(), scene.size, features.cutoff(), b.unit()),
-        turned_(scene.frames.rotation.transpose()),
+  ConeComparison(const PairFrame& frame, const FeaturePairs& features, NormalSides sides)
+      : frame_(frame),
+        a(frame.a.normalCones(sides)),
+        b(frame.b.normalCones(sides)),
+        limits_a_(features.slack(), frame.size, features.cutoff(), a.unit()),
+        limits_b_(features.slack(), frame.size, features.cutoff(), b.unit()),
+        turned_(frame.rotation.transpose()),
         scale_(static_cast<float>(a.unit() / b.unit())) {
-    const Eigen::Vector3d offset = -(turned_ * scene.frames.offset) / b.unit();
+    const Eigen::Vector3d offset = -(turned_ * frame.offset) / b.unit();
     for (int row = 0; row < 3; ++row) {
       offset_of_a_[row] = static_cast<float>(offset[row]);
       for (int column = 0; column < 3; ++column) {
@@ -99,8 +99,7 @@ class ConeComparison {
     if (slot != compared_slot_a_) {
       const Tree::Group& group = a.groups()[slot];
       const Eigen::Vector3d centre = a.unit() * vectorOf(group.centre);
-      compared_a_ =
-          compared(group, a, b, turned_ * (centre - scene_.frames.offset), turned_ * vectorOf(group.axis));
+      compared_a_ = compared(group, a, b, turned_ * (centre - frame_.offset), turned_ * vectorOf(group.axis));
       compared_slot_a_ = slot;
     }
     return compared_a_;
@@ -109,8 +108,8 @@ class ConeComparison {
     if (slot != compared_slot_b_) {
       const Tree::Group& group = b.groups()[slot];
       const Eigen::Vector3d centre = b.unit() * vectorOf(group.centre);
-      compared_b_ = compared(group, b, a, scene_.frames.rotation * centre + scene_.frames.offset,
-                             scene_.frames.rotation * vectorOf(group.axis));
+      compared_b_ = compared(group, b, a, frame_.rotation * centre + frame_.offset,
+                             frame_.rotation * vectorOf(group.axis));
       compared_slot_b_ = slot;
     }
     return compared_b_;
@@ -131,7 +130,7 @@ class ConeComparison {
             cone.sine};
   }
 
-  const MinimaScene& scene_;
+  const PairFrame& frame_;
 
  public:
   const Tree& a;

@@ -14,7 +14,7 @@ constexpr double kQuantaPerUnit = 0x1.0p44;
 constexpr std::uint64_t kFull = std::uint64_t{1} << 62U;
 /// Of the sizes and displacements that a clock adds: a few roundings.
 constexpr double kRounding = 0x1.0p-48;
-/// The shortest lever over the scene's size.
+/// The shortest lever over the frame's size.
 constexpr double kShortestLever = 1.0 / 64.0;
 /// Share of the last cycle in the rates.
 constexpr double kRateShare = 0.3;
@@ -25,12 +25,12 @@ constexpr double kLeastRate = 1e-3;
 
 }  // namespace
 
-void ConeMotion::begin(const NormalConeTree& a, const NormalConeTree& b, const LocalFrames& frames,
+void ConeMotion::begin(const NormalConeTree& a, const NormalConeTree& b, const PairFrame& frame,
                        double size) {
   a_ = &a;
   b_ = &b;
-  rotation_ = frames.rotation;
-  offset_ = frames.offset;
+  rotation_ = frame.rotation;
+  offset_ = frame.offset;
   quanta_per_metre_ = kQuantaPerUnit / size;
   rounding_ = kRounding * size;
   levers_[0] = 0.0;
@@ -74,17 +74,17 @@ bool ConeMotion::run(std::uint32_t clock, double by) {
   return true;
 }
 
-bool ConeMotion::advance(const LocalFrames& frames) {
-  const Matrix3d turn = frames.rotation - rotation_;
-  const Vector3d shift = frames.offset - offset_;
+bool ConeMotion::advance(const PairFrame& frame) {
+  const Matrix3d turn = frame.rotation - rotation_;
+  const Vector3d shift = frame.offset - offset_;
   if (turn.isZero(0.0) && shift.isZero(0.0)) return true;
   // The largest stretch of a difference of two rotations by an angle t is 2 sin(t / 2): its Frobenius norm
   // over sqrt(2).
   const double stretch = turn.norm() * 0.70710678118654757;
   const double radians = 2.0 * std::asin(std::min(1.0, 0.5 * stretch)) + kRounding;
   bool has_room = run(kTurnClock, radians);
-  const Matrix3d turn_in_b = frames.rotation.transpose() - rotation_.transpose();
-  const Vector3d shift_in_b = rotation_.transpose() * offset_ - frames.rotation.transpose() * frames.offset;
+  const Matrix3d turn_in_b = frame.rotation.transpose() - rotation_.transpose();
+  const Vector3d shift_in_b = rotation_.transpose() * offset_ - frame.rotation.transpose() * frame.offset;
   const auto run_regions = [&](const NormalConeTree& tree, std::uint32_t first, const Matrix3d& difference,
                                const Vector3d& by) {
     for (std::size_t region = 0; region < tree.subtrees().size(); ++region) {
@@ -99,8 +99,8 @@ bool ConeMotion::advance(const LocalFrames& frames) {
   run_regions(*a_, 1, turn_in_b, shift_in_b);
   run_regions(*b_, first_of_b_, turn, shift);
   updateRates();
-  rotation_ = frames.rotation;
-  offset_ = frames.offset;
+  rotation_ = frame.rotation;
+  offset_ = frame.offset;
   return has_room;
 }
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/side.h"
-#include "distance/kernels/local_frames.h"
+#include "distance/kernels/pair_frame.h"
 #include "mesh/trees/normal_cone_tree.h"
 
 namespace concave_distance::detail {
@@ -17,16 +17,16 @@ namespace concave_distance::detail {
 /// clocks count quanta.
 class ConeMotion {
  public:
-  /// Levers of the combined clocks: 0, then powers of four times the scene's size.
+  /// Levers of the combined clocks: 0, then powers of four times the frame's size.
   static constexpr std::size_t kLeverCount = 8;
   static constexpr std::uint32_t kNoClock = 0xffffffffU;
   static constexpr std::uint32_t kTurnClock = 0;
 
   /// @param size metres, of both bodies and the gap between them
-  void begin(const NormalConeTree& a, const NormalConeTree& b, const LocalFrames& frames, double size);
+  void begin(const NormalConeTree& a, const NormalConeTree& b, const PairFrame& frame, double size);
 
   /// Lets the clocks run to a new pose. False when they have run too far: begin anew.
-  bool advance(const LocalFrames& frames);
+  bool advance(const PairFrame& frame);
 
   void forgetRates() { rates_.clear(); }
 

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <limits>
 
-#include "distance/kernels/local_frames.h"
+#include "distance/kernels/pair_frame.h"
 #include "mesh/trees/normal_cone_tree.h"
 
 namespace concave_distance::detail {

@@ -16,11 +16,11 @@ namespace concave_distance::detail {
 class ConeSweep {
  public:
   /// @param slice_room pairs, after which it ends: for a slice, whose lists have all the room they get
-  ConeSweep(const MinimaScene& scene, NormalSides sides, double cutoff, const ConeMotion& motion,
+  ConeSweep(const PairFrame& frame, NormalSides sides, double cutoff, const ConeMotion& motion,
             SweepLists& lists, WorkLimit& limit, std::size_t slice_room = 0)
       : motion_(motion),
-        features_(scene, cutoff),
-        cones_(scene, features_, sides),
+        features_(frame, cutoff),
+        cones_(frame, features_, sides),
         offers_(motion),
         lists_(lists),
         limit_(limit),

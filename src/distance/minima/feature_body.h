@@ -6,13 +6,13 @@
 
 namespace concave_distance::detail {
 
-/// One body in its own axes, relative to its centre in the scene.
+/// One body in its own axes, relative to its centre in the frame.
 struct FeaturePairs::Body {
-  Body(const MinimaScene& scene, Side of)
+  Body(const PairFrame& frame, Side of)
       : side(of),
-        mesh(of == Side::A ? scene.a : scene.b),
-        centre(of == Side::A ? scene.frames.centre_a : scene.frames.centre_b),
-        frames(scene.frames) {}
+        mesh(of == Side::A ? frame.a : frame.b),
+        centre(of == Side::A ? frame.centre_a : frame.centre_b),
+        frame(frame) {}
 
   Eigen::Vector3d vertex(NodeIndex node) const { return mesh.surface().vertex(node) - centre; }
   Eigen::Vector3d corner(const Item& item, std::size_t k) const {
@@ -24,12 +24,11 @@ struct FeaturePairs::Body {
 
   /// A point of this body in the other's axes, and a direction of the other body in this one's.
   Eigen::Vector3d inOther(const Eigen::Vector3d& point) const {
-    return side == Side::A ? frames.pointInB(point)
-                           : Eigen::Vector3d(frames.rotation * point + frames.offset);
+    return side == Side::A ? frame.pointInB(point) : Eigen::Vector3d(frame.rotation * point + frame.offset);
   }
   Eigen::Vector3d directionFromOther(const Eigen::Vector3d& direction) const {
-    return side == Side::A ? Eigen::Vector3d(frames.rotation * direction)
-                           : Eigen::Vector3d(frames.rotation.transpose() * direction);
+    return side == Side::A ? Eigen::Vector3d(frame.rotation * direction)
+                           : Eigen::Vector3d(frame.rotation.transpose() * direction);
   }
 
   template <typename Visit>
@@ -68,7 +67,7 @@ struct FeaturePairs::Body {
   Side side;
   const BodyMesh& mesh;
   const Eigen::Vector3d& centre;
-  const LocalFrames& frames;
+  const PairFrame& frame;
 };
 
 }  // namespace concave_distance::detail

@@ -60,7 +60,7 @@ NodeIndex nodeOf(const BodyMesh& body, const Item& item, std::size_t k) {
 
 }  // namespace
 
-/// A cap's axis in the scene's frame.
+/// A cap's axis in the frame's frame.
 struct FeaturePairs::FacingCap {
   Vector3d axis;
   double cosine;
@@ -74,11 +74,11 @@ struct FeaturePairs::FacingCap {
   }
 };
 
-FeaturePairs::FeaturePairs(const MinimaScene& scene, double cutoff)
-    : scene_(scene),
-      // Spheres and distances carry the rounding of the scene.
-      slack_(4.0 * scene.rounding),
-      level_(kLevelTolerance * (scene.a.diameter() + scene.b.diameter()) + 2.0 * slack_),
+FeaturePairs::FeaturePairs(const PairFrame& frame, double cutoff)
+    : frame_(frame),
+      // Spheres and distances carry the rounding of the frame.
+      slack_(4.0 * frame.rounding),
+      level_(kLevelTolerance * (frame.a.diameter() + frame.b.diameter()) + 2.0 * slack_),
       cutoff_(cutoff + slack_) {}
 
 FeaturePairs::Between FeaturePairs::between(const Vector3d& from, const Vector3d& to, bool is_beyond,
@@ -102,7 +102,7 @@ FeaturePairs::Between FeaturePairs::betweenSegments(const Vector3d& a0, const Ve
 
 std::optional<MinimumCandidate> FeaturePairs::findMinimum(const Item& a, const Item& b) const {
   const FacingCap cap_a{a.cap.axis, a.cap.cosine, a.cap.sine};
-  const FacingCap cap_b{-(scene_.frames.rotation * b.cap.axis), b.cap.cosine, b.cap.sine};
+  const FacingCap cap_b{-(frame_.rotation * b.cap.axis), b.cap.cosine, b.cap.sine};
   if (a.kind == Kind::Edge && b.kind == Kind::Edge && !edgesMayFace(a, b, cap_a, cap_b)) return std::nullopt;
   const Between found = closest(a, b);
   if (found.is_beyond || found.squared_distance > cutoff_ * cutoff_) return std::nullopt;
@@ -118,8 +118,8 @@ std::optional<MinimumCandidate> FeaturePairs::findMinimum(const Item& a, const I
   const Vector3d direction = found.displacement / distance;
   const Peak peak_a = peakAt(Side::A, a, found.from, direction, turn);
   if (!peak_a.is_peak) return std::nullopt;
-  const Peak peak_b = peakAt(Side::B, b, scene_.frames.pointInB(found.to),
-                             scene_.frames.rotation.transpose() * -direction, turn);
+  const Peak peak_b =
+      peakAt(Side::B, b, frame_.pointInB(found.to), frame_.rotation.transpose() * -direction, turn);
   if (!peak_b.is_peak) return std::nullopt;
   const auto edges_cross = [&] {
     const Vector3d along_a = edgeOfA(a);
@@ -164,7 +164,7 @@ bool FeaturePairs::edgesMayFace(const Item& a, const Item& b, const FacingCap& c
 /// cone itself, which the cap is around. Points are off by less than the slack.
 FeaturePairs::Peak FeaturePairs::peakAt(Side side, const Item& item, const Vector3d& point,
                                         const Vector3d& direction, double turn) const {
-  const Body body(scene_, side);
+  const Body body(frame_, side);
   bool any_level = false;
   const auto rises = [&](NodeIndex node) {
     const Vector3d displacement = body.vertex(node) - point;
@@ -201,16 +201,16 @@ Vector3d edgeOf(const SurfaceMesh& mesh, const Item& item) {
 }  // namespace
 
 Vector3d FeaturePairs::edgeOfA(const Item& item) const {
-  return edgeOf(scene_.a.surface(), item);
+  return edgeOf(frame_.a.surface(), item);
 }
 
 Vector3d FeaturePairs::edgeOfB(const Item& item) const {
-  return scene_.frames.rotation * edgeOf(scene_.b.surface(), item);
+  return frame_.rotation * edgeOf(frame_.b.surface(), item);
 }
 
 FeaturePairs::Between FeaturePairs::closest(const Item& a, const Item& b) const {
-  const auto corner_a = [&](std::size_t k) { return scene_.vertexOfA(nodeOf(scene_.a, a, k)); };
-  const auto corner_b = [&](std::size_t k) { return scene_.vertexOfB(nodeOf(scene_.b, b, k)); };
+  const auto corner_a = [&](std::size_t k) { return frame_.vertexOfA(nodeOf(frame_.a, a, k)); };
+  const auto corner_b = [&](std::size_t k) { return frame_.vertexOfB(nodeOf(frame_.b, b, k)); };
   // A foot beside the face by its error tilts the displacement by as much again.
   const auto foot_on_face = [&](const Vector3d& point, const Item& face, const auto& corner) {
     return footOnFace(point, {corner(0), corner(1), corner(2)}, slack_, normalErrorOf(face));

@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "cone_motion.h"
-#include "distance/kernels/minima_scene.h"
 #include "distance/kernels/minimum_candidate.h"
+#include "distance/kernels/pair_frame.h"
 #include "mesh/trees/normal_cone_tree.h"
 
 namespace concave_distance::detail {
@@ -20,7 +20,7 @@ class FeaturePairs {
   using Item = NormalConeTree::Item;
 
   /// @param cutoff metres; minima up to this are wanted
-  FeaturePairs(const MinimaScene& scene, double cutoff);
+  FeaturePairs(const PairFrame& frame, double cutoff);
 
   /// Metres, of points and distances: what rounding may make of them.
   double slack() const { return slack_; }
@@ -73,7 +73,7 @@ class FeaturePairs {
     int level_dimensions;  ///< of what is as far forward: 0: the point alone, 1: an edge, 2: perhaps more
     Feature feature;
   };
-  /// @param point, direction in the body's axes, relative to its centre in the scene
+  /// @param point, direction in the body's axes, relative to its centre in the frame
   /// @param turn radians that the direction may be off by
   Peak peakAt(Side side, const Item& item, const Eigen::Vector3d& point, const Eigen::Vector3d& direction,
               double turn) const;
@@ -95,7 +95,7 @@ class FeaturePairs {
                         const Eigen::Vector3d& displacement, SlackOffers& offers) const;
   void offerEdgeToEdge(const Item& a, const Item& b, SlackOffers& offers) const;
 
-  const MinimaScene& scene_;
+  const PairFrame& frame_;
   double slack_;
   double level_;  ///< metres; heights within this may be equal
   double cutoff_;

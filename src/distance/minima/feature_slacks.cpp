@@ -4,7 +4,7 @@
 #include "feature_body.h"
 #include "mesh/trees/normal_cone.h"
 
-// How far bodies may move until a pair of features can hold a local minimum (doc/algorithm.md, section 7).
+// How far bodies may move until a pair of features can hold a local minimum (doc/proofs.md).
 
 namespace concave_distance::detail {
 namespace {
@@ -60,8 +60,8 @@ double gapBetween(const Arc& l, const Arc& r) {
 }  // namespace
 
 void FeaturePairs::offerSlacks(const Item& a, const Item& b, SlackOffers& offers) const {
-  const Body body_a(scene_, Side::A);
-  const Body body_b(scene_, Side::B);
+  const Body body_a(frame_, Side::A);
+  const Body body_b(frame_, Side::B);
   if (a.kind == Kind::Vertex) {
     if (b.kind == Kind::Vertex) return offerVertexToVertex(a, b, offers);
     if (b.kind == Kind::Edge) return offerVertexToEdge(body_a, a, body_b, b, offers);
@@ -76,8 +76,8 @@ void FeaturePairs::offerSlacks(const Item& a, const Item& b, SlackOffers& offers
 
 // The displacement changes by no more than the other vertex moves; a neighbour that rises along it is closer.
 void FeaturePairs::offerVertexToVertex(const Item& a, const Item& b, SlackOffers& offers) const {
-  const Body body_a(scene_, Side::A);
-  const Body body_b(scene_, Side::B);
+  const Body body_a(frame_, Side::A);
+  const Body body_b(frame_, Side::B);
   const Vector3d displacement = body_b.inOther(body_b.corner(b, b.element)) - body_a.corner(a, a.element);
   offers.offerMotion(Side::B, body_a.rise(body_a.node(a, a.element), displacement, slack_));
   offers.offerMotion(
@@ -166,8 +166,8 @@ void FeaturePairs::offerVertexToFace(const Body& of_vertex, const Item& vertex, 
 // A minimum inside both edges lies along the direction across them, which must be in the arc of normals of
 // each.
 void FeaturePairs::offerEdgeToEdge(const Item& a, const Item& b, SlackOffers& offers) const {
-  const Body body_a(scene_, Side::A);
-  const Body body_b(scene_, Side::B);
+  const Body body_a(frame_, Side::A);
+  const Body body_b(frame_, Side::B);
   const Vector3d from_a = body_a.corner(a, a.element);
   const Vector3d from_b = body_b.inOther(body_b.corner(b, b.element));
   const Vector3d span_a = edgeOfA(a);
@@ -206,8 +206,8 @@ void FeaturePairs::offerEdgeToEdge(const Item& a, const Item& b, SlackOffers& of
   Arc arc_a;
   Arc arc_b;
   if (!arc_of(body_a, a, arc_a) || !arc_of(body_b, b, arc_b)) return;
-  for (Vector3d* normal : {&arc_b.first, &arc_b.last}) *normal = -(scene_.frames.rotation * *normal);
-  arc_b.across = scene_.frames.rotation * arc_b.across;
+  for (Vector3d* normal : {&arc_b.first, &arc_b.last}) *normal = -(frame_.rotation * *normal);
+  arc_b.across = frame_.rotation * arc_b.across;
   offers.offerTurn(gapBetween(arc_a, arc_b) - kNormalSlack);
 
   const double length_a = span_a.norm();

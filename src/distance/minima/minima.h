@@ -7,7 +7,7 @@
 // which pairs of features can do so; those are computed, all others are excluded with a bound that allows for
 // the error of every input (doc/numerics.md, "Cone tests").
 //
-// It takes a MinimaScene and a cutoff, and gives each MinimumCandidate: a pair of triangles and of features
+// It takes a PairFrame and a cutoff, and gives each MinimumCandidate: a pair of triangles and of features
 // that holds a local minimum. Several may stand for one minimum; distance/niches decides which are niches.
 //
 // - minima_candidates looks from the roots of both trees, for a single pose.

@@ -4,11 +4,11 @@
 
 namespace concave_distance::detail {
 
-void collectConeCandidates(const MinimaScene& scene, NormalSides sides, double cutoff,
+void collectConeCandidates(const PairFrame& frame, NormalSides sides, double cutoff,
                            std::vector<MinimumCandidate>& seeds, LocalMinimaCost& cost, WorkLimit& limit) {
   constexpr std::uint32_t kWidth = ConeComparison::kWidth;
-  const FeaturePairs features(scene, cutoff);
-  ConeComparison cones(scene, features, sides);
+  const FeaturePairs features(frame, cutoff);
+  ConeComparison cones(frame, features, sides);
   if (cones.a.empty() || cones.b.empty()) return;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> open{{NormalConeTree::kRoot, NormalConeTree::kRoot}};
   while (!open.empty()) {

@@ -3,14 +3,14 @@
 #include <vector>
 
 #include "concave_distance/base/work_limit.h"
-#include "distance/kernels/minima_scene.h"
+#include "distance/kernels/pair_frame.h"
 #include "local_minima_cost.h"
 
 namespace concave_distance::detail {
 
-/// Looks through all normal cones (doc/algorithm.md, section 7) and appends triangle pairs that hold local
+/// Looks through all normal cones (doc/proofs.md) and appends triangle pairs that hold local
 /// minima between 0 and `cutoff`, metres, some more than once, until the limit is reached.
-void collectConeCandidates(const MinimaScene& scene, NormalSides sides, double cutoff,
+void collectConeCandidates(const PairFrame& frame, NormalSides sides, double cutoff,
                            std::vector<MinimumCandidate>& seeds, LocalMinimaCost& cost, WorkLimit& limit);
 
 }  // namespace concave_distance::detail

@@ -30,13 +30,13 @@ void append(std::vector<T>& to, const std::vector<T>& from, WorkLimit& limit) {
 /// One call of collect().
 class MinimaTracker::Stage {
  public:
-  Stage(MinimaTracker& front, const MinimaScene& scene, NormalSides sides, double cutoff, WorkLimit& limit)
+  Stage(MinimaTracker& front, const PairFrame& frame, NormalSides sides, double cutoff, WorkLimit& limit)
       : front_(front),
-        scene_(scene),
+        frame_(frame),
         sides_(sides),
         cutoff_(cutoff),
         limit_(limit),
-        sweep_(scene, sides, cutoff, front.motion_, front.lists_, limit) {
+        sweep_(frame, sides, cutoff, front.motion_, front.lists_, limit) {
     sweep_.keepIn(front.queues_, limit);
   }
 
@@ -45,7 +45,7 @@ class MinimaTracker::Stage {
   void begin() {
     SweepLists& lists = front_.lists_;
     front_.counts_.began_anew = true;
-    front_.motion_.begin(sweep_.conesOfA(), sweep_.conesOfB(), scene_.frames, scene_.size);
+    front_.motion_.begin(sweep_.conesOfA(), sweep_.conesOfB(), frame_, frame_.size);
     front_.queues_.begin(front_.motion_.clockCount());
     lists.minima.clear();
     lists.undecided.clear();
@@ -131,7 +131,7 @@ class MinimaTracker::Stage {
     const WorkLimit time = limit_.withoutMemory();
     const auto look = [&](std::size_t i) {
       WorkLimit own = time;
-      ConeSweep sweep(scene_, sides_, cutoff_, front_.motion_, slices[i].lists, own, ConeSlices::kMostKept);
+      ConeSweep sweep(frame_, sides_, cutoff_, front_.motion_, slices[i].lists, own, ConeSlices::kMostKept);
       // One thread inserts in the same order without a buffer.
       if (threads == 1) sweep.keepIn(front_.queues_, limit_);
       std::size_t steps = std::numeric_limits<std::size_t>::max();
@@ -156,21 +156,21 @@ class MinimaTracker::Stage {
   }
 
   MinimaTracker& front_;
-  const MinimaScene& scene_;
+  const PairFrame& frame_;
   NormalSides sides_;
   double cutoff_;
   WorkLimit& limit_;
   ConeSweep sweep_;
 };
 
-bool MinimaTracker::collect(const MinimaScene& scene, NormalSides sides, double cutoff,
+bool MinimaTracker::collect(const PairFrame& frame, NormalSides sides, double cutoff,
                             std::vector<MinimumCandidate>& seeds, WorkLimit& limit) {
   counts_ = {};
-  Stage stage(*this, scene, sides, cutoff, limit);
+  Stage stage(*this, frame, sides, cutoff, limit);
   if (stage.isEmpty()) return true;
   lists_.groups = lists_.features = lists_.measured = 0;
   lists_.seeds.swap(seeds);
-  valid_ = valid_ && cutoff == cutoff_ && sides == sides_ && motion_.advance(scene.frames);
+  valid_ = valid_ && cutoff == cutoff_ && sides == sides_ && motion_.advance(frame);
   cutoff_ = cutoff;
   sides_ = sides;
   bool done = true;

@@ -6,7 +6,7 @@
 #include "base/expiry_queue.h"
 #include "cone_motion.h"
 #include "cone_slices.h"
-#include "distance/kernels/minima_scene.h"
+#include "distance/kernels/pair_frame.h"
 #include "sweep_lists.h"
 
 namespace concave_distance::detail {
@@ -41,8 +41,8 @@ class MinimaTracker {
 
   /// Appends at least one triangle pair of every local minimum between 0 and `cutoff` (metres).
   /// @return false when the limit was reached: minima may be missing, and the next call goes on
-  bool collect(const MinimaScene& scene, NormalSides sides, double cutoff,
-               std::vector<MinimumCandidate>& seeds, WorkLimit& limit);
+  bool collect(const PairFrame& frame, NormalSides sides, double cutoff, std::vector<MinimumCandidate>& seeds,
+               WorkLimit& limit);
 
   const Counts& counts() const { return counts_; }
   std::size_t memoryBytes() const;

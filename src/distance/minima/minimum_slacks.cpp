@@ -4,7 +4,7 @@
 
 #include "feature_body.h"
 
-// How far bodies may move while a pair of features stays a local minimum (doc/algorithm.md, section 7).
+// How far bodies may move while a pair of features stays a local minimum (doc/proofs.md).
 
 namespace concave_distance::detail {
 namespace {
@@ -20,8 +20,8 @@ constexpr double kCrossed = 4e-3;
 
 bool FeaturePairs::offerStay(const Item& a, const Item& b, const MinimumCandidate& minimum,
                              SlackOffers& offers) const {
-  const Body body_a(scene_, Side::A);
-  const Body body_b(scene_, Side::B);
+  const Body body_a(frame_, Side::A);
+  const Body body_b(frame_, Side::B);
   const Vector3d displacement = minimum.point_b - minimum.point_a;
   if (a.kind == Kind::Edge && b.kind == Kind::Edge) {
     offerStayOfEdges(body_a, a, body_b, b, displacement, offers);

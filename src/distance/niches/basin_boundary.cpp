@@ -13,7 +13,7 @@ using Row = Eigen::Array<float, BorderPool::kWidth, 1>;
 /// and as much to spare).
 constexpr double kSingleError = 0x1.0p-18;
 
-/// The corners of an element's part on one body, in the body's own axes and the scene's centre.
+/// The corners of an element's part on one body, in the body's own axes and the frame's centre.
 struct Part {
   std::array<Vector3d, 4> corners;
   std::size_t count;
@@ -30,13 +30,13 @@ struct Part {
   }
 };
 
-Part partOf(const MinimaScene& scene, Side side, const SharedElement& element) {
+Part partOf(const PairFrame& frame, Side side, const SharedElement& element) {
   if (element.side == side) {
-    return {{scene.ownVertex(side, element.from), scene.ownVertex(side, element.to)}, 2};
+    return {{frame.ownVertex(side, element.from), frame.ownVertex(side, element.to)}, 2};
   }
-  const SurfaceMesh& mesh = (side == Side::A ? scene.a : scene.b).surface();
-  const Facets& facets = side == Side::A ? scene.facets_a : scene.facets_b;
-  const Vector3d& centre = side == Side::A ? scene.frames.centre_a : scene.frames.centre_b;
+  const SurfaceMesh& mesh = (side == Side::A ? frame.a : frame.b).surface();
+  const Facets& facets = side == Side::A ? *frame.facets_a : *frame.facets_b;
+  const Vector3d& centre = side == Side::A ? frame.centre_a : frame.centre_b;
   Part part{{}, facets.isQuad(element.other) ? std::size_t{4} : std::size_t{3}};
   for (std::size_t k = 0; k < part.count; ++k) {
     part.corners[k] = mesh.vertex(facets.nodes[element.other.value][k]) - centre;
@@ -51,10 +51,10 @@ Vector3d seen(Side fixed_in, const Eigen::Matrix3d& rotation, const Vector3d& of
 }
 
 /// The gap between an element's parts along a direction from A to B.
-double gapAlong(const MinimaScene& scene, const SharedElement& shared, const Vector3d& direction) {
-  return partOf(scene, Side::B, shared).leastAlong(scene.frames.rotation.transpose() * direction) +
-         direction.dot(scene.frames.offset) + partOf(scene, Side::A, shared).leastAlong(-direction) -
-         2.0 * scene.rounding;
+double gapAlong(const PairFrame& frame, const SharedElement& shared, const Vector3d& direction) {
+  return partOf(frame, Side::B, shared).leastAlong(frame.rotation.transpose() * direction) +
+         direction.dot(frame.offset) + partOf(frame, Side::A, shared).leastAlong(-direction) -
+         2.0 * frame.rounding;
 }
 
 Row rowOf(const std::array<float, BorderPool::kWidth>& row) {
@@ -113,13 +113,13 @@ std::size_t BorderPool::memoryBytes() const {
 /// Of the gaps of a batch at another pose.
 class BasinBoundary::Bound {
  public:
-  Bound(const MinimaScene& scene, const Batch& batch, const Vector3d& moving_centre) {
-    const Vector3d motion = seen(batch.fixed_in, scene.frames.rotation, scene.frames.offset, moving_centre) -
+  Bound(const PairFrame& frame, const Batch& batch, const Vector3d& moving_centre) {
+    const Vector3d motion = seen(batch.fixed_in, frame.rotation, frame.offset, moving_centre) -
                             seen(batch.fixed_in, batch.rotation, batch.offset, moving_centre);
-    const double turn = (scene.frames.rotation - batch.rotation).norm() * std::sqrt(0.5);
+    const double turn = (frame.rotation - batch.rotation).norm() * std::sqrt(0.5);
     const double reach = motion.norm();
     const double rounding = kSingleError * (reach + turn * static_cast<double>(batch.longest));
-    less_ = 4.0 * scene.rounding + rounding + (batch.directed ? 0.0 : reach);
+    less_ = 4.0 * frame.rounding + rounding + (batch.directed ? 0.0 : reach);
     turn_ = static_cast<float>(turn);
     along_ = batch.directed ? Eigen::Vector3f(motion.cast<float>()) : Eigen::Vector3f::Zero();
   }
@@ -163,16 +163,16 @@ std::size_t BasinBoundary::size(const BorderPool& pool) const {
   return count;
 }
 
-BasinBoundary::Batch& BasinBoundary::batchAt(const MinimaScene& scene, Side fixed_in, bool directed) {
+BasinBoundary::Batch& BasinBoundary::batchAt(const PairFrame& frame, Side fixed_in, bool directed) {
   for (std::uint32_t i = used_; i-- > 0;) {
     Batch& batch = batches_[i];
-    if (batch.fixed_in == fixed_in && batch.directed == directed && batch.rotation == scene.frames.rotation &&
-        batch.offset == scene.frames.offset) {
+    if (batch.fixed_in == fixed_in && batch.directed == directed && batch.rotation == frame.rotation &&
+        batch.offset == frame.offset) {
       return batch;
     }
   }
   Batch& batch = batches_[used_++];
-  batch = {fixed_in, directed, scene.frames.rotation, scene.frames.offset, 0.0F, BorderPool::kNone};
+  batch = {fixed_in, directed, frame.rotation, frame.offset, 0.0F, BorderPool::kNone};
   return batch;
 }
 
@@ -210,22 +210,22 @@ bool BasinBoundary::put(BorderPool& pool, Batch& batch, const BorderPool::Entry&
   return true;
 }
 
-bool BasinBoundary::add(BorderPool& pool, const MinimaScene& scene, const BorderElement& element,
-                        double level, WorkLimit& limit) {
-  const Levers levers(partOf(scene, Side::A, element.shared), partOf(scene, Side::B, element.shared),
+bool BasinBoundary::add(BorderPool& pool, const PairFrame& frame, const BorderElement& element, double level,
+                        WorkLimit& limit) {
+  const Levers levers(partOf(frame, Side::A, element.shared), partOf(frame, Side::B, element.shared),
                       centres_);
-  if (used_ == kMostBatches) rebase(pool, scene);
+  if (used_ == kMostBatches) rebase(pool, frame);
   // Twice for the level, and as much for quadrangles that are not quite flat.
-  const auto gap = static_cast<float>(level - 4.0 * scene.rounding);
-  return put(pool, batchAt(scene, levers.fixed_in, false),
+  const auto gap = static_cast<float>(level - 4.0 * frame.rounding);
+  return put(pool, batchAt(frame, levers.fixed_in, false),
              {gap, levers.shorter, Eigen::Vector3f::Zero(), element}, limit);
 }
 
 /// What may be nearer than the level leaves the batch: it is looked at along its direction, and measured
 /// where that does not do.
-std::uint32_t BasinBoundary::look(BorderPool& pool, const MinimaScene& scene, Batch& batch,
+std::uint32_t BasinBoundary::look(BorderPool& pool, const PairFrame& frame, Batch& batch,
                                   double level) const {
-  const Bound bound(scene, batch, centres_[batch.fixed_in == Side::A ? 1 : 0]);
+  const Bound bound(frame, batch, centres_[batch.fixed_in == Side::A ? 1 : 0]);
   const float needed = bound.needed(level);
   std::uint32_t measured = 0;
   std::uint32_t* at = &batch.first;
@@ -237,28 +237,27 @@ std::uint32_t BasinBoundary::look(BorderPool& pool, const MinimaScene& scene, Ba
       BorderPool::Entry entry = takeFrom(chunk, k);
       const auto enter = [&](const Vector3d& direction, double gap) {
         const Vector3d along =
-            batch.fixed_in == Side::A ? direction : Vector3d(scene.frames.rotation.transpose() * -direction);
+            batch.fixed_in == Side::A ? direction : Vector3d(frame.rotation.transpose() * -direction);
         entry.direction = along.cast<float>();
         entry.gap = static_cast<float>(gap);
         pool.anew.push_back({batch.fixed_in, entry});
       };
       if (batch.directed) {
         const Vector3d along = entry.direction.cast<double>().normalized();
-        const Vector3d direction =
-            batch.fixed_in == Side::A ? along : Vector3d(scene.frames.rotation * -along);
-        const double gap = gapAlong(scene, entry.element.shared, direction);
+        const Vector3d direction = batch.fixed_in == Side::A ? along : Vector3d(frame.rotation * -along);
+        const double gap = gapAlong(frame, entry.element.shared, direction);
         if (gap > level) {
           enter(direction, gap);
           continue;
         }
       }
       ++measured;
-      const TrianglePairDistance closest = closestOver(scene, entry.element.shared);
+      const TrianglePairDistance closest = closestOver(frame, entry.element.shared);
       if (closest.squared_distance < level * level) {
         pool.crossed.push_back(entry.element);
       } else {
         const Vector3d direction = (closest.point_b - closest.point_a).normalized();
-        enter(direction, gapAlong(scene, entry.element.shared, direction));
+        enter(direction, gapAlong(frame, entry.element.shared, direction));
       }
     }
     if (chunk.count > 0) {
@@ -274,7 +273,7 @@ std::uint32_t BasinBoundary::look(BorderPool& pool, const MinimaScene& scene, Ba
 }
 
 /// All elements to this pose: their bounds at it are gaps.
-void BasinBoundary::rebase(BorderPool& pool, const MinimaScene& scene) {
+void BasinBoundary::rebase(BorderPool& pool, const PairFrame& frame) {
   const std::array<Batch, kMostBatches> before = batches_;
   const std::uint32_t count = used_;
   used_ = 0;
@@ -282,8 +281,8 @@ void BasinBoundary::rebase(BorderPool& pool, const MinimaScene& scene) {
   for (std::uint32_t i = 0; i < count; ++i) {
     const Batch& batch = before[i];
     if (batch.first == BorderPool::kNone) continue;
-    const Bound bound(scene, batch, centres_[batch.fixed_in == Side::A ? 1 : 0]);
-    Batch& at_this_pose = batchAt(scene, batch.fixed_in, batch.directed);
+    const Bound bound(frame, batch, centres_[batch.fixed_in == Side::A ? 1 : 0]);
+    Batch& at_this_pose = batchAt(frame, batch.fixed_in, batch.directed);
     for (std::uint32_t c = batch.first; c != BorderPool::kNone;) {
       BorderPool::Chunk chunk = pool[c];
       const Row gaps = bound.gapsOf(chunk);
@@ -299,11 +298,11 @@ void BasinBoundary::rebase(BorderPool& pool, const MinimaScene& scene) {
   }
 }
 
-std::uint32_t BasinBoundary::takeCrossed(BorderPool& pool, const MinimaScene& scene, double level) {
+std::uint32_t BasinBoundary::takeCrossed(BorderPool& pool, const PairFrame& frame, double level) {
   pool.anew.clear();
   pool.crossed.clear();
   std::uint32_t measured = 0;
-  for (std::uint32_t i = 0; i < used_; ++i) measured += look(pool, scene, batches_[i], level);
+  for (std::uint32_t i = 0; i < used_; ++i) measured += look(pool, frame, batches_[i], level);
   if (pool.anew.empty()) return measured;
   std::uint32_t rest = 0;
   for (std::uint32_t i = 0; i < used_; ++i) {
@@ -312,10 +311,10 @@ std::uint32_t BasinBoundary::takeCrossed(BorderPool& pool, const MinimaScene& sc
     ++rest;
   }
   used_ = rest;
-  if (used_ + 2 > kMostBatches) rebase(pool, scene);
+  if (used_ + 2 > kMostBatches) rebase(pool, frame);
   WorkLimit none;
   for (const BorderPool::Directed& directed : pool.anew) {
-    put(pool, batchAt(scene, directed.fixed_in, true), directed.entry, none);
+    put(pool, batchAt(frame, directed.fixed_in, true), directed.entry, none);
   }
   return measured;
 }

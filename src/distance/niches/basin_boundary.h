@@ -80,18 +80,18 @@ class BorderPool {
 /// at the pose itself.
 class BasinBoundary {
  public:
-  /// An empty one around a point of each body, own axes in the scene's centre.
+  /// An empty one around a point of each body, own axes in the frame's centre.
   void begin(BorderPool& pool, const Eigen::Vector3d& centre_a, const Eigen::Vector3d& centre_b);
   void clear(BorderPool& pool);
 
   /// @param level metres, of the distance over the element at this pose. False without memory.
-  bool add(BorderPool& pool, const MinimaScene& scene, const BorderElement& element, double level,
+  bool add(BorderPool& pool, const PairFrame& frame, const BorderElement& element, double level,
            WorkLimit& limit);
 
   /// Looks for elements over which the distance is below `level` (metres): they leave the border and are
   /// `pool.crossed`.
   /// @return elements measured
-  std::uint32_t takeCrossed(BorderPool& pool, const MinimaScene& scene, double level);
+  std::uint32_t takeCrossed(BorderPool& pool, const PairFrame& frame, double level);
 
   std::size_t size(const BorderPool& pool) const;
 
@@ -101,7 +101,7 @@ class BasinBoundary {
   struct Batch {
     Side fixed_in = Side::A;
     bool directed = false;
-    Eigen::Matrix3d rotation;  ///< of the scene's frames, at the pose
+    Eigen::Matrix3d rotation;  ///< of the frame's frame, at the pose
     Eigen::Vector3d offset;
     float longest = 0.0F;  ///< lever
     std::uint32_t first = BorderPool::kNone;
@@ -111,14 +111,14 @@ class BasinBoundary {
   struct Levers;
 
   /// There must be room for one more.
-  Batch& batchAt(const MinimaScene& scene, Side fixed_in, bool directed);
+  Batch& batchAt(const PairFrame& frame, Side fixed_in, bool directed);
   /// The place for another element; kNone without memory.
   static std::uint32_t placeIn(BorderPool& pool, Batch& batch, WorkLimit& limit);
   static BorderPool::Entry takeFrom(BorderPool::Chunk& chunk, std::uint32_t k);
   /// False without memory.
   static bool put(BorderPool& pool, Batch& batch, const BorderPool::Entry& entry, WorkLimit& limit);
-  std::uint32_t look(BorderPool& pool, const MinimaScene& scene, Batch& batch, double level) const;
-  void rebase(BorderPool& pool, const MinimaScene& scene);
+  std::uint32_t look(BorderPool& pool, const PairFrame& frame, Batch& batch, double level) const;
+  void rebase(BorderPool& pool, const PairFrame& frame);
 
   std::array<Eigen::Vector3d, 2> centres_;
   std::array<Batch, kMostBatches> batches_;

@@ -70,7 +70,7 @@ class BasinSearch {
   /// @param meets (facet of A, facet of B) whether a facet pair as deep as the start is another minimum's
   /// @param is_inside (the same) whether a facet pair needs no visit
   template <typename Meets, typename IsInside>
-  End proceed(const MinimaScene& scene, std::size_t most_facet_pairs, const Meets& meets,
+  End proceed(const PairFrame& frame, std::size_t most_facet_pairs, const Meets& meets,
               const IsInside& is_inside, WorkLimit& limit) {
     while (!reached_.empty()) {
       if (limit.isOverNow()) return End::Cut;
@@ -81,14 +81,14 @@ class BasinSearch {
       ++looked_at_;
       const TriangleIndex a = facet_pairs_[last_].a;
       const TriangleIndex b = facet_pairs_[last_].b;
-      const FacetPoints points_a = scene.facetOfA(a);
-      const FacetPoints points_b = scene.facetOfB(b);
+      const FacetPoints points_a = frame.facetOfA(a);
+      const FacetPoints points_b = frame.facetOfB(b);
       const FacetPairLevels levels = facetPairLevels(points_a, points_b);
       const double least = levels.least();
       if (levels_.below > 0.0 && least < levels_.below * levels_.below) return End::Below;
       const bool is_own = has_own_start_ && last_ == 0;
       if (!is_own && least <= levels_.equal * levels_.equal && meets(a, b)) return End::Met;
-      if (!expand(scene, a, b, points_a, points_b, levels, is_inside, limit)) return End::Cut;
+      if (!expand(frame, a, b, points_a, points_b, levels, is_inside, limit)) return End::Cut;
     }
     return End::Enclosed;
   }
@@ -138,13 +138,13 @@ class BasinSearch {
 
   /// False without memory.
   template <typename IsInside>
-  bool expand(const MinimaScene& scene, TriangleIndex a, TriangleIndex b, const FacetPoints& points_a,
+  bool expand(const PairFrame& frame, TriangleIndex a, TriangleIndex b, const FacetPoints& points_a,
               const FacetPoints& points_b, const FacetPairLevels& levels, const IsInside& is_inside,
               WorkLimit& limit) {
     const double highest = levels_.highest * levels_.highest;
     bool has_room = true;
     forEachNeighbour(
-        scene, a, b, points_a, points_b, levels,
+        frame, a, b, points_a, points_b, levels,
         [&](TriangleIndex to_a, TriangleIndex to_b, double squared_level, const SharedElement& element) {
           if (!has_room) return;
           if (squared_level > highest) {

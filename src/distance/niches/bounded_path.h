@@ -9,7 +9,7 @@
 #include "base/pair_table.h"
 #include "concave_distance/base/work_limit.h"
 #include "distance/bound/certificate.h"
-#include "distance/kernels/minima_scene.h"
+#include "distance/kernels/pair_frame.h"
 #include "facet_pair_levels.h"
 #include "facet_pair_neighbours.h"
 #include "mesh/surface/triangle_adjacency.h"
@@ -43,8 +43,8 @@ struct BoundedPathBuffers {
 /// the facets of one body, those towards the target first.
 class BoundedPath {
  public:
-  BoundedPath(const MinimaScene& scene, BoundedPathBuffers& buffers, WorkLimit& work)
-      : scene_(scene), buffers_(buffers), work_(work) {}
+  BoundedPath(const PairFrame& frame, BoundedPathBuffers& buffers, WorkLimit& work)
+      : frame_(frame), buffers_(buffers), work_(work) {}
 
   /// @param from, to facet pairs
   /// @param has_arrived (facet of A, facet of B) whether the path may end here
@@ -66,7 +66,7 @@ class BoundedPath {
 
  private:
   FacetPoints pointsOf(int side, TriangleIndex facet) const {
-    return side == 0 ? scene_.facetOfA(facet) : scene_.facetOfB(facet);
+    return side == 0 ? frame_.facetOfA(facet) : frame_.facetOfB(facet);
   }
   static Eigen::Vector3d middleOf(const FacetPoints& points) {
     return (points.corners[0] + points.corners[1] + points.corners[2]) / 3.0;
@@ -80,8 +80,8 @@ class BoundedPath {
   template <typename Arrived>
   std::optional<double> move(int side, TrianglePair& here, TrianglePair to, double limit,
                              const Arrived& has_arrived) {
-    const BodyMesh& body = side == 0 ? scene_.a : scene_.b;
-    const auto& adjacency = side == 0 ? scene_.adjacency_a : scene_.adjacency_b;
+    const BodyMesh& body = side == 0 ? frame_.a : frame_.b;
+    const auto& adjacency = side == 0 ? *frame_.adjacency_a : *frame_.adjacency_b;
     const FacetPoints still = pointsOf(1 - side, side == 0 ? here.b : here.a);
     const TriangleIndex target = side == 0 ? to.a : to.b;
     const Eigen::Vector3d middle = middleOf(pointsOf(side, target));
@@ -111,11 +111,11 @@ class BoundedPath {
       const FacetPairLevels levels =
           side == 0 ? facetPairLevels(points, still) : facetPairLevels(still, points);
       const std::array<NodeIndex, 4>& nodes =
-          (side == 0 ? scene_.facets_a : scene_.facets_b).nodes[next.facet.value];
+          (side == 0 ? frame_.facets_a : frame_.facets_b)->nodes[next.facet.value];
       for (const AdjacentTriangle& beyond : adjacency.row(next.facet.value)) {
         if (known[beyond.triangle.value]) continue;
         const Side of = side == 0 ? Side::A : Side::B;
-        const double squared = squaredLevelOver(scene_, of, nodes, points, beyond,
+        const double squared = squaredLevelOver(frame_, of, nodes, points, beyond,
                                                 side == 0 ? levels.edges_of_a : levels.edges_of_b,
                                                 side == 0 ? here.b : here.a, still);
         if (squared > limit * limit) continue;
@@ -127,7 +127,7 @@ class BoundedPath {
     return result;
   }
 
-  const MinimaScene& scene_;
+  const PairFrame& frame_;
   BoundedPathBuffers& buffers_;
   WorkLimit& work_;
 };

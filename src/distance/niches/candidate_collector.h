@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "distance/kernels/minima_scene.h"
+#include "distance/kernels/pair_frame.h"
 #include "distance/minima/minima_tracker.h"
 #include "distant_components.h"
 #include "local_minima.h"
@@ -11,9 +11,9 @@
 namespace concave_distance::detail {
 
 /// Tells whether a minimum that was found elsewhere, by a search or at an earlier pose, can be a niche.
-bool isCandidate(const MinimaScene& scene, const LocalMinimaRequest& request, const MinimumCandidate& seed);
+bool isCandidate(const PairFrame& frame, const LocalMinimaRequest& request, const MinimumCandidate& seed);
 /// Appends those of `from` that can be niches.
-void appendCandidates(const MinimaScene& scene, const LocalMinimaRequest& request,
+void appendCandidates(const PairFrame& frame, const LocalMinimaRequest& request,
                       const std::vector<MinimumCandidate>& from, std::vector<MinimumCandidate>& seeds);
 
 /// Collects the triangle pairs in which local minima of the distance may lie. Belongs to one pair of bodies:
@@ -21,7 +21,7 @@ void appendCandidates(const MinimaScene& scene, const LocalMinimaRequest& reques
 class CandidateCollector {
  public:
   /// @param seeds replaced, in no order, some more than once. @return false when the limit was reached
-  bool collect(const MinimaScene& scene, const LocalMinimaRequest& request,
+  bool collect(const PairFrame& frame, const LocalMinimaRequest& request,
                std::vector<MinimumCandidate>& seeds, LocalMinimaCost& cost, WorkLimit& limit);
   void clear() { front_.clear(); }
   std::size_t memoryBytes() const {

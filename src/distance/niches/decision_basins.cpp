@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-// Niches: floods, and regions with a border that stand for them (doc/algorithm.md, section 7).
+// Niches: floods, and regions with a border that stand for them (doc/proofs.md).
 
 namespace concave_distance::detail {
 namespace {
@@ -31,7 +31,7 @@ void NicheDecider::Stage::floodInTurn() {
 bool NicheDecider::Stage::isEnclosed(std::uint32_t i, std::uint32_t index) {
   DecisionCache::Region& region = memory_.region(index);
   const BasinSearch::Levels levels = levelsOf(verdicts_.judged_[i].seed.distance);
-  verdicts_.counts_.measured += region.border.takeCrossed(memory_.borders(), scene_, levels.highest);
+  verdicts_.counts_.measured += region.border.takeCrossed(memory_.borders(), frame_, levels.highest);
   if (memory_.borders().crossed.empty()) {
     ++verdicts_.counts_.by_border;
     return true;
@@ -64,14 +64,14 @@ BasinSearch::End NicheDecider::Stage::floodBeyond(std::uint32_t i, std::uint32_t
   const auto meets = [&](TriangleIndex a, TriangleIndex b) { return isOfEarlier(a, b, i); };
   const std::size_t largest = 2 * region.facet_pairs_at_begin + kSmallRegion;
   const std::size_t most = largest - std::min(region.facet_pairs, largest);
-  const BasinSearch::End end = flood.proceed(scene_, most, meets, is_inside, limit_);
+  const BasinSearch::End end = flood.proceed(frame_, most, meets, is_inside, limit_);
   verdicts_.counts_.flooded_cells += static_cast<std::uint32_t>(flood.lookedAt());
   return end;
 }
 
 void NicheDecider::Stage::restoreBorder(std::uint32_t index) {
   for (const BorderElement& element : memory_.borders().crossed) {
-    if (!memory_.region(index).border.add(memory_.borders(), scene_, element, 0.0, limit_)) {
+    if (!memory_.region(index).border.add(memory_.borders(), frame_, element, 0.0, limit_)) {
       return memory_.drop(index);
     }
   }
@@ -93,14 +93,14 @@ void NicheDecider::Stage::flood(std::uint32_t i) {
   if (followsDown(i, number) || (were_long_ && settlesLong(i))) return;
   ++verdicts_.counts_.floods;
   BasinSearch& flood = verdicts_.flood_;
-  const TrianglePair start = scene_.facetPairOf(seed.a, seed.b);
+  const TrianglePair start = frame_.facetPairOf(seed.a, seed.b);
   flood.begin(start.a, start.b, levelsOf(seed.distance));
   const auto meets = [&](TriangleIndex a, TriangleIndex b) { return isOfEarlier(a, b, i); };
   const auto is_inside = [](TriangleIndex, TriangleIndex) { return false; };
-  BasinSearch::End end = flood.proceed(scene_, kLongFlood, meets, is_inside, limit_);
+  BasinSearch::End end = flood.proceed(frame_, kLongFlood, meets, is_inside, limit_);
   if (end == BasinSearch::End::Long) {
     if (settlesLong(i)) return;
-    end = flood.proceed(scene_, std::numeric_limits<std::size_t>::max(), meets, is_inside, limit_);
+    end = flood.proceed(frame_, std::numeric_limits<std::size_t>::max(), meets, is_inside, limit_);
   }
   verdicts_.counts_.flooded_cells += static_cast<std::uint32_t>(flood.lookedAt());
   switch (end) {
@@ -140,8 +140,8 @@ void NicheDecider::Stage::keepRegion(std::uint32_t i, std::uint64_t id) {
   region.first = i;
   region.facet_pairs_at_begin = visited.size();
   const MinimumCandidate& seed = verdicts_.judged_[i].seed;
-  const TrianglePairDistance closest = triangleDistance(scene_.cornersOfA(seed.a), scene_.cornersOfB(seed.b));
-  region.border.begin(memory_.borders(), closest.point_a, scene_.frames.pointInB(closest.point_b));
+  const TrianglePairDistance closest = triangleDistance(frame_.cornersOfA(seed.a), frame_.cornersOfB(seed.b));
+  region.border.begin(memory_.borders(), closest.point_a, frame_.pointInB(closest.point_b));
   verdicts_.judged_[i].region = region.id;
   if (!extend(index)) memory_.drop(index);
 }
@@ -157,7 +157,7 @@ bool NicheDecider::Stage::extend(std::uint32_t index) {
       [&](TriangleIndex a, TriangleIndex b) { return memory_.isIn(a, b, index); },
       [&](const BasinSearch::BorderStep& step) {
         const TriangleIndex beyond = step.element.side == Side::A ? step.beyond_a : step.beyond_b;
-        has_room = has_room && region.border.add(memory_.borders(), scene_, {step.element, beyond},
+        has_room = has_room && region.border.add(memory_.borders(), frame_, {step.element, beyond},
                                                  std::sqrt(step.squared_level), limit_);
       });
   return has_room;

@@ -28,7 +28,7 @@ class DecisionCache {
     Occluder occluder;
     std::uint64_t cycle = 0;
   };
-  /// A point of each body, own axes in the scene's centre, in a facet pair and in the next one.
+  /// A point of each body, own axes in the frame's centre, in a facet pair and in the next one.
   struct Link {
     Eigen::Vector3d point_a;
     Eigen::Vector3d point_b;
@@ -60,12 +60,12 @@ class DecisionCache {
   /// Puts a seed into a facet pair and its regions, unless an earlier one is there.
   void enterSeed(std::uint32_t number, std::uint32_t seed);
   /// kNone where there is none.
-  std::uint32_t seedOf(std::uint32_t number) const {
+  std::uint32_t candidateOf(std::uint32_t number) const {
     return facet_pairs_[number].cycle == cycle_ ? facet_pairs_[number].seed : kNone;
   }
   std::uint32_t seedIn(TriangleIndex a, TriangleIndex b) const {
     const std::uint32_t number = table_.find(a, b);
-    return number != PairTable::kAbsent ? seedOf(number) : kNone;
+    return number != PairTable::kAbsent ? candidateOf(number) : kNone;
   }
 
   const Link& link(std::uint32_t number) const { return links_[number]; }

@@ -5,7 +5,7 @@
 
 #include "distant_components.h"
 
-// Ripples: ways from facet pair to facet pair down to deeper places (doc/algorithm.md, section 7).
+// Ripples: ways from facet pair to facet pair down to deeper places (doc/proofs.md).
 
 namespace concave_distance::detail {
 namespace {
@@ -36,7 +36,7 @@ bool NicheDecider::Stage::followsDown(std::uint32_t i, std::uint32_t number) {
   };
   for (int step = 0; step < kLongestPath; ++step) {
     const DecisionCache::FacetPair& facet_pair = memory_.facet_pair(number);
-    const std::uint32_t other = step > 0 ? memory_.seedOf(number) : kNone;
+    const std::uint32_t other = step > 0 ? memory_.candidateOf(number) : kNone;
     if (other != kNone && other != i && isEarlier(other, i)) return settle(other, number);
     if (below > 0.0 && facet_pair.low != kNone &&
         (squaredLevelOf(memory_.link(facet_pair.low)) < below * below ||
@@ -57,14 +57,14 @@ bool NicheDecider::Stage::followsDown(std::uint32_t i, std::uint32_t number) {
 
 double NicheDecider::Stage::aim(std::uint32_t link, const TrianglePairDistance& closest) {
   ++verdicts_.counts_.aimed;
-  memory_.aim(link, closest.point_a, scene_.frames.pointInB(closest.point_b));
+  memory_.aim(link, closest.point_a, frame_.pointInB(closest.point_b));
   return closest.squared_distance;
 }
 
 void NicheDecider::Stage::descend(std::uint32_t i) {
-  const TrianglePair from = scene_.closestIn(verdicts_.judged_[i].below).first;
+  const TrianglePair from = frame_.closestIn(verdicts_.judged_[i].below).first;
   const WitnessPair bottom =
-      refineWitness(scene_.a, scene_.b, scene_.a_from_b, from.a, from.b, verdicts_.refinement_).witness;
+      refineWitness(frame_.a, frame_.b, frame_.a_from_b, from.a, from.b, verdicts_.refinement_).witness;
   const std::uint32_t place = enterPlace(bottom);
   // Strictly down: no way leads in a circle.
   if (place == kNone || verdicts_.judged_[place].seed.distance >= verdicts_.judged_[i].seed.distance) return;
@@ -82,12 +82,12 @@ bool NicheDecider::Stage::settlesLong(std::uint32_t i) {
 bool NicheDecider::Stage::isNearest(std::uint32_t i) {
   const MinimumCandidate seed = verdicts_.judged_[i].seed;
   const WitnessPair minimum =
-      refineWitness(scene_.a, scene_.b, scene_.a_from_b, seed.a, seed.b, verdicts_.refinement_).witness;
-  if (!isNearestOfItsPieces(scene_, minimum)) {
+      refineWitness(frame_.a, frame_.b, frame_.a_from_b, seed.a, seed.b, verdicts_.refinement_).witness;
+  if (!isNearestOfItsPieces(frame_, minimum)) {
     const TrianglePair pair{seed.a, seed.b};
     CertificateRequest certificate;
     certificate.limit = &limit_;
-    if (certifyDistance(scene_.a, scene_.b, scene_.a_from_b, &pair, 1, certificate, proof_).lower_bound <
+    if (certifyDistance(frame_.a, frame_.b, frame_.a_from_b, &pair, 1, certificate, proof_).lower_bound <
         seed.distance - tolerance_) {
       return false;
     }
@@ -105,8 +105,8 @@ bool NicheDecider::Stage::hasPathDown(std::uint32_t i) {
   const MinimumCandidate& from = verdicts_.judged_[i].seed;
   const MinimumCandidate& to = verdicts_.judged_[deepest_].seed;
   for (const int first_moves : {0, 1}) {
-    if (BoundedPath(scene_, verdicts_.path_, limit_)
-            .find(scene_.facetPairOf(from.a, from.b), scene_.facetPairOf(to.a, to.b), levelOf(from.distance),
+    if (BoundedPath(frame_, verdicts_.path_, limit_)
+            .find(frame_.facetPairOf(from.a, from.b), frame_.facetPairOf(to.a, to.b), levelOf(from.distance),
                   first_moves, has_arrived)) {
       set(i, Verdict::Ripple, into != kNone && into != i ? into : deepest_);
       return true;
@@ -125,7 +125,7 @@ void NicheDecider::Stage::keepPath(std::uint32_t start) {
         here.parent == 0 ? start
                          : memory_.facetPairOf(visited[here.parent].a, visited[here.parent].b, limit_);
     if (before == kNone ||
-        !keepLink(memory_.facet_pair(before).link, closestOver(scene_, here.via), next, here.via))
+        !keepLink(memory_.facet_pair(before).link, closestOver(frame_, here.via), next, here.via))
       return;
     next = before;
     at = here.parent;
@@ -135,13 +135,12 @@ void NicheDecider::Stage::keepPath(std::uint32_t start) {
 void NicheDecider::Stage::keepLow(TriangleIndex a, TriangleIndex b) {
   const std::uint32_t number = memory_.facetPairOf(a, b, limit_);
   if (number == kNone) return;
-  keepLink(memory_.facet_pair(number).low, scene_.closestIn({a, b}).second, number, {});
+  keepLink(memory_.facet_pair(number).low, frame_.closestIn({a, b}).second, number, {});
 }
 
 bool NicheDecider::Stage::keepLink(std::uint32_t& link, const TrianglePairDistance& closest,
                                    std::uint32_t next, const SharedElement& via) {
-  return memory_.keepLink(link, {closest.point_a, scene_.frames.pointInB(closest.point_b), next, via},
-                          limit_);
+  return memory_.keepLink(link, {closest.point_a, frame_.pointInB(closest.point_b), next, via}, limit_);
 }
 
 }  // namespace concave_distance::detail

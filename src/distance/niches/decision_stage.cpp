@@ -25,12 +25,12 @@ std::uint32_t NicheDecider::Stage::placeAround(const TrianglePair& pair) {
   const std::uint32_t in_facet_pair = seedAround(pair.a, pair.b);
   if (in_facet_pair != kNone) return in_facet_pair;
   return enterPlace(
-      refineWitness(scene_.a, scene_.b, scene_.a_from_b, pair.a, pair.b, verdicts_.refinement_).witness);
+      refineWitness(frame_.a, frame_.b, frame_.a_from_b, pair.a, pair.b, verdicts_.refinement_).witness);
 }
 
 std::uint32_t NicheDecider::Stage::enterPlace(const WitnessPair& minimum) {
-  if (!scene_.areOnSurface(minimum.triangle_a, minimum.triangle_b)) return kNone;
-  const MinimumCandidate seed = scene_.seedOf(minimum);
+  if (!frame_.areOnSurface(minimum.triangle_a, minimum.triangle_b)) return kNone;
+  const MinimumCandidate seed = frame_.candidateOf(minimum);
   const std::uint32_t in_facet_pair = seedAround(minimum.triangle_a, minimum.triangle_b);
   // Given seeds may lie a little above the minimum of their facet pair.
   if (in_facet_pair != kNone &&
@@ -86,7 +86,7 @@ void NicheDecider::Stage::decideByMemory(std::uint32_t i) {
   deepest_ = deepestLike(i);
   const std::uint32_t number = numberOf(seed);
   if (number == kNone) return set(i, Verdict::Undecided);
-  if (const std::uint32_t other = memory_.seedOf(number);
+  if (const std::uint32_t other = memory_.candidateOf(number);
       other != kNone && other != i && isEarlier(other, i)) {
     return set(i, Verdict::Ripple, other);
   }
@@ -97,7 +97,7 @@ void NicheDecider::Stage::decideByMemory(std::uint32_t i) {
     return set(i, Verdict::Unwanted);
   }
   // Only then do seeds lie on both sides of a closed shell (collectConeItems()).
-  if (!request_.through_material && scene_.hasJoints() && isThroughMaterial(scene_.witnessOf(seed))) {
+  if (!request_.through_material && frame_.hasJoints() && isThroughMaterial(frame_.witnessOf(seed))) {
     return set(i, Verdict::Unwanted);
   }
   const std::uint32_t known = memory_.regionOf(number, i);
@@ -118,8 +118,8 @@ bool NicheDecider::Stage::isSamePlace(const MinimumCandidate& l, const MinimumCa
 
 std::uint32_t NicheDecider::Stage::deepestLike(std::uint32_t i) {
   const MinimumCandidate& seed = verdicts_.judged_[i].seed;
-  const TriangleIndex piece_a{scene_.pieces_a.piece_of_triangle[seed.a.value]};
-  const TriangleIndex piece_b{scene_.pieces_b.piece_of_triangle[seed.b.value]};
+  const TriangleIndex piece_a{frame_.pieces_a->piece_of_triangle[seed.a.value]};
+  const TriangleIndex piece_b{frame_.pieces_b->piece_of_triangle[seed.b.value]};
   const std::uint32_t known = verdicts_.deepest_.find(piece_a, piece_b);
   if (known != PairTable::kAbsent) return known;
   verdicts_.deepest_.insert(piece_a, piece_b, i);

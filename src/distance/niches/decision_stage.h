@@ -7,13 +7,13 @@ namespace concave_distance::detail {
 /// One call of judge().
 class NicheDecider::Stage {
  public:
-  Stage(NicheDecider& verdicts, const MinimaScene& scene, const Request& request, WorkLimit& limit)
+  Stage(NicheDecider& verdicts, const PairFrame& frame, const Request& request, WorkLimit& limit)
       : verdicts_(verdicts),
         memory_(verdicts.memory_),
-        scene_(scene),
+        frame_(frame),
         request_(request),
         limit_(limit),
-        tolerance_(8.0 * scene.rounding) {}
+        tolerance_(8.0 * frame.rounding) {}
 
   /// Every seed with its facet pair, and every region with the deepest seed in it.
   void enter(const std::vector<MinimumCandidate>& seeds);
@@ -54,18 +54,18 @@ class NicheDecider::Stage {
   void decideByMemory(std::uint32_t i);
 
   bool isThroughMaterial(const WitnessPair& minimum) const {
-    return classifyOutwardness(scene_.a, scene_.b, scene_.a_from_b, minimum) == Outwardness::ThroughMaterial;
+    return classifyOutwardness(frame_.a, frame_.b, frame_.a_from_b, minimum) == Outwardness::ThroughMaterial;
   }
 
   /// The index of the seed's facet pair; kNone without memory.
   std::uint32_t numberOf(const MinimumCandidate& seed) {
-    const TrianglePair facet_pair = scene_.facetPairOf(seed.a, seed.b);
+    const TrianglePair facet_pair = frame_.facetPairOf(seed.a, seed.b);
     return memory_.facetPairOf(facet_pair.a, facet_pair.b, limit_);
   }
 
   /// The seed in the facet pair of a triangle pair.
   std::uint32_t seedAround(TriangleIndex a, TriangleIndex b) const {
-    const TrianglePair facet_pair = scene_.facetPairOf(a, b);
+    const TrianglePair facet_pair = frame_.facetPairOf(a, b);
     return memory_.seedIn(facet_pair.a, facet_pair.b);
   }
 
@@ -89,7 +89,7 @@ class NicheDecider::Stage {
   std::uint32_t deepestLike(std::uint32_t i);
 
   double squaredLevelOf(const DecisionCache::Link& link) const {
-    return (scene_.frames.rotation * link.point_b + scene_.frames.offset - link.point_a).squaredNorm();
+    return (frame_.rotation * link.point_b + frame_.offset - link.point_a).squaredNorm();
   }
 
   /// Whether known links lead below the start or to an earlier seed without rising to its level.
@@ -97,12 +97,12 @@ class NicheDecider::Stage {
 
   /// Gives a link the points at which the facet pairs are closest over what they have in common, and their
   /// squared distance.
-  double aim(std::uint32_t link) { return aim(link, closestOver(scene_, memory_.link(link).via)); }
+  double aim(std::uint32_t link) { return aim(link, closestOver(frame_, memory_.link(link).via)); }
 
   /// The same for the points in a facet pair.
   double aimLow(std::uint32_t number) {
     const DecisionCache::FacetPair& facet_pair = memory_.facet_pair(number);
-    return aim(facet_pair.low, scene_.closestIn({facet_pair.a, facet_pair.b}).second);
+    return aim(facet_pair.low, frame_.closestIn({facet_pair.a, facet_pair.b}).second);
   }
 
   double aim(std::uint32_t link, const TrianglePairDistance& closest);
@@ -156,7 +156,7 @@ class NicheDecider::Stage {
 
   NicheDecider& verdicts_;
   DecisionCache& memory_;
-  const MinimaScene& scene_;
+  const PairFrame& frame_;
   const Request& request_;
   WorkLimit& limit_;
   CertificateWorkspace proof_;

@@ -55,25 +55,25 @@ Support supportOf(const BodyMesh& body, const Vector3d& centre, const TrianglesO
 /// Nearest points of two pieces, or false.
 class PiecePair {
  public:
-  PiecePair(const MinimaScene& scene, DistantComponentBuffers& buffers, std::size_t piece_a,
+  PiecePair(const PairFrame& frame, DistantComponentBuffers& buffers, std::size_t piece_a,
             std::size_t piece_b)
-      : scene_(scene), buffers_(buffers), piece_a_(piece_a), piece_b_(piece_b) {}
+      : frame_(frame), buffers_(buffers), piece_a_(piece_a), piece_b_(piece_b) {}
 
   bool findNearest(MinimumCandidate& seed) {
-    Vector3d direction = scene_.frames.offset.normalized();
+    Vector3d direction = frame_.offset.normalized();
     double least = std::numeric_limits<double>::infinity();
     for (int step = 0; step < kMostSteps; ++step) {
-      const Support a = supportOf(scene_.a, scene_.frames.centre_a, buffers_.a, piece_a_, direction);
-      const Support b = supportOf(scene_.b, scene_.frames.centre_b, buffers_.b, piece_b_,
-                                  scene_.frames.rotation.transpose() * -direction);
-      const double separation = direction.dot(scene_.frames.offset) - a.along - b.along;
-      if (separation >= least - 8.0 * scene_.rounding) return true;
+      const Support a = supportOf(frame_.a, frame_.centre_a, buffers_.a, piece_a_, direction);
+      const Support b = supportOf(frame_.b, frame_.centre_b, buffers_.b, piece_b_,
+                                  frame_.rotation.transpose() * -direction);
+      const double separation = direction.dot(frame_.offset) - a.along - b.along;
+      if (separation >= least - 8.0 * frame_.rounding) return true;
       const double before = least;
       for (const auto& [ta, tb] : {std::pair{a.triangle, b.triangle}, std::pair{seed.a, b.triangle},
                                    std::pair{a.triangle, seed.b}}) {
         if (step == 0 && (ta != a.triangle || tb != b.triangle)) continue;  // no seed yet
         const WitnessPair found =
-            refineWitness(scene_.a, scene_.b, scene_.a_from_b, ta, tb, buffers_.refinement).witness;
+            refineWitness(frame_.a, frame_.b, frame_.a_from_b, ta, tb, buffers_.refinement).witness;
         const double distance = std::sqrt(found.squared_distance);
         if (!(distance < least)) continue;
         least = distance;
@@ -86,7 +86,7 @@ class PiecePair {
   }
 
  private:
-  const MinimaScene& scene_;
+  const PairFrame& frame_;
   DistantComponentBuffers& buffers_;
   std::size_t piece_a_;
   std::size_t piece_b_;
@@ -94,7 +94,7 @@ class PiecePair {
 
 }  // namespace
 
-bool isNearestOfItsPieces(const MinimaScene& scene, const WitnessPair& minimum) {
+bool isNearestOfItsPieces(const PairFrame& frame, const WitnessPair& minimum) {
   const double distance = std::sqrt(minimum.squared_distance);
   const Vector3d direction = (minimum.point_b_in_a - minimum.point_a_in_a).normalized();
   const auto reach = [](const BodyMesh& body, const std::vector<std::uint32_t>& piece_of,
@@ -109,33 +109,33 @@ bool isNearestOfItsPieces(const MinimaScene& scene, const WitnessPair& minimum) 
     return most;
   };
   const double separation =
-      direction.dot(scene.frames.offset) -
-      reach(scene.a, scene.pieces_a.piece_of_triangle, scene.frames.centre_a, minimum.triangle_a, direction) -
-      reach(scene.b, scene.pieces_b.piece_of_triangle, scene.frames.centre_b, minimum.triangle_b,
-            scene.frames.rotation.transpose() * -direction);
-  return separation >= distance - 8.0 * scene.rounding;
+      direction.dot(frame.offset) -
+      reach(frame.a, frame.pieces_a->piece_of_triangle, frame.centre_a, minimum.triangle_a, direction) -
+      reach(frame.b, frame.pieces_b->piece_of_triangle, frame.centre_b, minimum.triangle_b,
+            frame.rotation.transpose() * -direction);
+  return separation >= distance - 8.0 * frame.rounding;
 }
 
-double largestDistance(const MinimaScene& scene) {
-  return scene.frames.offset.norm() + reachOf(scene.a) + reachOf(scene.b);
+double largestDistance(const PairFrame& frame) {
+  return frame.offset.norm() + reachOf(frame.a) + reachOf(frame.b);
 }
 
-bool isFar(const MinimaScene& scene, double least_prominence) {
-  const double least = scene.frames.offset.norm() - reachOf(scene.a) - reachOf(scene.b);
-  return least > 0.0 && largestDistance(scene) + 8.0 * scene.rounding < (1.0 + least_prominence) * least;
+bool isFar(const PairFrame& frame, double least_prominence) {
+  const double least = frame.offset.norm() - reachOf(frame.a) - reachOf(frame.b);
+  return least > 0.0 && largestDistance(frame) + 8.0 * frame.rounding < (1.0 + least_prominence) * least;
 }
 
-bool collectFarSeeds(const MinimaScene& scene, double cutoff, DistantComponentBuffers& buffers,
+bool collectFarSeeds(const PairFrame& frame, double cutoff, DistantComponentBuffers& buffers,
                      std::vector<MinimumCandidate>& seeds, WorkLimit& limit) {
   const std::size_t before = seeds.size();
-  if (scene.frames.offset.norm() - reachOf(scene.a) - reachOf(scene.b) > cutoff) return true;
-  groupByPiece(scene.pieces_a, buffers.a);
-  groupByPiece(scene.pieces_b, buffers.b);
-  for (std::size_t i = 0; i < scene.pieces_a.count; ++i) {
-    for (std::size_t k = 0; k < scene.pieces_b.count; ++k) {
+  if (frame.offset.norm() - reachOf(frame.a) - reachOf(frame.b) > cutoff) return true;
+  groupByPiece(*frame.pieces_a, buffers.a);
+  groupByPiece(*frame.pieces_b, buffers.b);
+  for (std::size_t i = 0; i < frame.pieces_a->count; ++i) {
+    for (std::size_t k = 0; k < frame.pieces_b->count; ++k) {
       MinimumCandidate seed{};
       const bool may_go_on = !limit.isOver() && limit.makeRoom(seeds);
-      if (!may_go_on || !PiecePair(scene, buffers, i, k).findNearest(seed)) {
+      if (!may_go_on || !PiecePair(frame, buffers, i, k).findNearest(seed)) {
         seeds.resize(before);
         return false;
       }

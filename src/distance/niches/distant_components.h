@@ -4,18 +4,18 @@
 #include <vector>
 
 #include "concave_distance/base/work_limit.h"
-#include "distance/kernels/minima_scene.h"
+#include "distance/kernels/pair_frame.h"
 #include "distance/kernels/witness_refinement.h"
 
 namespace concave_distance::detail {
 
 /// An upper bound of the distance of any two points, metres.
-double largestDistance(const MinimaScene& scene);
+double largestDistance(const PairFrame& frame);
 
 /// Whether no minimum can be prominent beside the nearest points: no two points are (1 + least prominence)
 /// times as far apart as two others. Then each pair of pieces has one niche, its nearest points. True from a
 /// distance of about 2 / (least prominence) times the bodies' size.
-bool isFar(const MinimaScene& scene, double least_prominence);
+bool isFar(const PairFrame& frame, double least_prominence);
 
 /// Triangles of a body by piece. Buffers of one thread.
 struct TrianglesOfPieces {
@@ -25,7 +25,7 @@ struct TrianglesOfPieces {
 
 /// Whether a local minimum is proven to be the nearest place of its two pieces: the direction between its
 /// points separates them by its distance. O(triangles).
-bool isNearestOfItsPieces(const MinimaScene& scene, const WitnessPair& minimum);
+bool isNearestOfItsPieces(const PairFrame& frame, const WitnessPair& minimum);
 
 struct DistantComponentBuffers {
   TrianglesOfPieces a;
@@ -42,7 +42,7 @@ struct DistantComponentBuffers {
 /// along the direction between the best points so far, repeated until that direction separates the pieces by
 /// the distance itself. O(triangles) for each pair of pieces and step; a few steps if isFar() holds.
 /// @return false when a pair of pieces does not converge or the limit is reached; `seeds` are then unchanged
-bool collectFarSeeds(const MinimaScene& scene, double cutoff, DistantComponentBuffers& buffers,
+bool collectFarSeeds(const PairFrame& frame, double cutoff, DistantComponentBuffers& buffers,
                      std::vector<MinimumCandidate>& seeds, WorkLimit& limit);
 
 }  // namespace concave_distance::detail

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "base/side.h"
-#include "distance/kernels/minima_scene.h"
+#include "distance/kernels/pair_frame.h"
 #include "facet_pair_levels.h"
 #include "mesh/surface/triangle_adjacency.h"
 
@@ -18,27 +18,27 @@ struct SharedElement {
   TriangleIndex other;
 };
 
-/// The closest points over a shared element, in the scene's frame.
-inline TrianglePairDistance closestOver(const MinimaScene& scene, const SharedElement& element) {
-  const Eigen::Vector3d from = scene.ownVertex(element.side, element.from);
-  const Eigen::Vector3d to = scene.ownVertex(element.side, element.to);
+/// The closest points over a shared element, in the frame's frame.
+inline TrianglePairDistance closestOver(const PairFrame& frame, const SharedElement& element) {
+  const Eigen::Vector3d from = frame.ownVertex(element.side, element.from);
+  const Eigen::Vector3d to = frame.ownVertex(element.side, element.to);
   if (element.side == Side::A) {
-    return facetDistance({{from, to, to, from}}, scene.facetOfB(element.other)).closest;
+    return facetDistance({{from, to, to, from}}, frame.facetOfB(element.other)).closest;
   }
-  const Eigen::Vector3d from_in_a = scene.frames.rotation * from + scene.frames.offset;
-  const Eigen::Vector3d to_in_a = scene.frames.rotation * to + scene.frames.offset;
-  return facetDistance(scene.facetOfA(element.other), {{from_in_a, to_in_a, to_in_a, from_in_a}}).closest;
+  const Eigen::Vector3d from_in_a = frame.rotation * from + frame.offset;
+  const Eigen::Vector3d to_in_a = frame.rotation * to + frame.offset;
+  return facetDistance(frame.facetOfA(element.other), {{from_in_a, to_in_a, to_in_a, from_in_a}}).closest;
 }
 
 /// The squared level over what a facet of body `side` and the next one have in common, with `other` on the
 /// other body.
 /// @param edges squared levels of the facet's edges
-inline double squaredLevelOver(const MinimaScene& scene, Side side, const std::array<NodeIndex, 4>& nodes,
+inline double squaredLevelOver(const PairFrame& frame, Side side, const std::array<NodeIndex, 4>& nodes,
                                const FacetPoints& points, const AdjacentTriangle& next,
                                const std::array<double, 4>& edges, TriangleIndex other,
                                const FacetPoints& other_points) {
-  if (MinimaScene::isJoint(side == Side::A ? scene.a : scene.b, next)) {
-    return closestOver(scene, {side, next.from, next.to, other}).squared_distance;
+  if (PairFrame::isJoint(side == Side::A ? frame.a : frame.b, next)) {
+    return closestOver(frame, {side, next.from, next.to, other}).squared_distance;
   }
   std::size_t k = 0;
   while (k < 3 && nodes[k] != next.from) ++k;
@@ -51,18 +51,18 @@ inline double squaredLevelOver(const MinimaScene& scene, Side side, const std::a
 /// @param step (facet of A, facet of B, squared level, shared element): the level is the least distance over
 /// what both facet pairs share
 template <typename Step>
-void forEachNeighbour(const MinimaScene& scene, TriangleIndex a, TriangleIndex b, const FacetPoints& points_a,
+void forEachNeighbour(const PairFrame& frame, TriangleIndex a, TriangleIndex b, const FacetPoints& points_a,
                       const FacetPoints& points_b, const FacetPairLevels& levels, const Step& step) {
-  const std::array<NodeIndex, 4>& nodes_a = scene.facets_a.nodes[a.value];
-  const std::array<NodeIndex, 4>& nodes_b = scene.facets_b.nodes[b.value];
-  for (const AdjacentTriangle& next : scene.adjacency_a.row(a.value)) {
+  const std::array<NodeIndex, 4>& nodes_a = frame.facets_a->nodes[a.value];
+  const std::array<NodeIndex, 4>& nodes_b = frame.facets_b->nodes[b.value];
+  for (const AdjacentTriangle& next : frame.adjacency_a->row(a.value)) {
     step(next.triangle, b,
-         squaredLevelOver(scene, Side::A, nodes_a, points_a, next, levels.edges_of_a, b, points_b),
+         squaredLevelOver(frame, Side::A, nodes_a, points_a, next, levels.edges_of_a, b, points_b),
          SharedElement{Side::A, next.from, next.to, b});
   }
-  for (const AdjacentTriangle& next : scene.adjacency_b.row(b.value)) {
+  for (const AdjacentTriangle& next : frame.adjacency_b->row(b.value)) {
     step(a, next.triangle,
-         squaredLevelOver(scene, Side::B, nodes_b, points_b, next, levels.edges_of_b, a, points_a),
+         squaredLevelOver(frame, Side::B, nodes_b, points_b, next, levels.edges_of_b, a, points_a),
          SharedElement{Side::B, next.from, next.to, a});
   }
 }

@@ -5,7 +5,7 @@
 
 #include "base/refill.h"
 #include "candidate_collector.h"
-#include "distance/kernels/minima_scene.h"
+#include "distance/kernels/pair_frame.h"
 #include "minima_flood.h"
 #include "niche_decider.h"
 #include "niche_describer.h"
@@ -27,14 +27,14 @@ struct LocalMinimaParts {
   };
 
   /// Verdicts alone; no pass is measured.
-  bool decide(const MinimaScene& scene, const LocalMinimaRequest& request, LocalMinimaCost& cost,
+  bool decide(const PairFrame& frame, const LocalMinimaRequest& request, LocalMinimaCost& cost,
               WorkLimit& limit);
-  bool measure(const MinimaScene& scene, const LocalMinimaRequest& request, LocalMinimaCost& cost,
+  bool measure(const PairFrame& frame, const LocalMinimaRequest& request, LocalMinimaCost& cost,
                WorkLimit& limit);
   /// What has been judged a niche and is not described yet.
-  void describeNiches(const MinimaScene& scene, const LocalMinimaRequest& request, WorkLimit& limit);
+  void describeNiches(const PairFrame& frame, const LocalMinimaRequest& request, WorkLimit& limit);
   /// The last of `minima`.
-  void describe(const MinimaScene& scene, const LocalMinimaRequest& request, bool is_seen, WorkLimit& limit);
+  void describe(const PairFrame& frame, const LocalMinimaRequest& request, bool is_seen, WorkLimit& limit);
   void list(const LocalMinimaRequest& request, LocalMinima& result);
 
   std::size_t memoryBytes() const {
@@ -58,9 +58,9 @@ struct LocalMinimaParts {
   std::vector<std::size_t> proposed;      ///< of each proposal, in `minima`
 };
 
-NicheDecider::Request verdictsFor(const MinimaScene& scene, const LocalMinimaRequest& request) {
+NicheDecider::Request verdictsFor(const PairFrame& frame, const LocalMinimaRequest& request) {
   NicheDecider::Request wanted;
-  wanted.cutoff = request.cutoff + scene.rounding;
+  wanted.cutoff = request.cutoff + frame.rounding;
   wanted.least_prominence = request.least_prominence;
   wanted.through_material = request.through_material;
   wanted.is_tracked = request.is_tracked;
@@ -68,26 +68,26 @@ NicheDecider::Request verdictsFor(const MinimaScene& scene, const LocalMinimaReq
   wanted.most_niches = std::max(request.largest_count, request.largest_count + 1);
   if (!request.hidden) {
     // A set of minima is seen where its middle is.
-    wanted.is_wanted = [&scene](const MinimumCandidate& seed, Occluder& occluder) {
+    wanted.is_wanted = [&frame](const MinimumCandidate& seed, Occluder& occluder) {
       return !seed.is_point || seed.distance == 0.0 ||
-             isVisible(scene.a, scene.b, scene.a_from_b, scene.witnessOf(seed), occluder);
+             isVisible(frame.a, frame.b, frame.a_from_b, frame.witnessOf(seed), occluder);
     };
   }
   return wanted;
 }
 
-bool LocalMinimaParts::decide(const MinimaScene& scene, const LocalMinimaRequest& request,
+bool LocalMinimaParts::decide(const PairFrame& frame, const LocalMinimaRequest& request,
                               LocalMinimaCost& cost, WorkLimit& limit) {
-  const NicheDecider::Request wanted = verdictsFor(scene, request);
+  const NicheDecider::Request wanted = verdictsFor(frame, request);
   described_as.clear();
-  verdicts.begin(scene, seeds, wanted, limit);
+  verdicts.begin(frame, seeds, wanted, limit);
   do {
-    verdicts.judgeByMemory(scene, wanted, limit);
-    describeNiches(scene, request, limit);
+    verdicts.judgeByMemory(frame, wanted, limit);
+    describeNiches(frame, request, limit);
     limit.allowShare(request.time_shares.floods);
-    verdicts.judgeByFloods(scene, wanted, limit);
+    verdicts.judgeByFloods(frame, wanted, limit);
     limit.allowShare(request.time_shares.all);
-    describeNiches(scene, request, limit);
+    describeNiches(frame, request, limit);
   } while (!verdicts.hasJudgedAll() && described.size() <= request.largest_count && !limit.isOver());
   const auto place = [](std::uint32_t judged) {
     if (judged == NicheDecider::kUndecided) return kUndecided;
@@ -97,15 +97,15 @@ bool LocalMinimaParts::decide(const MinimaScene& scene, const LocalMinimaRequest
     const auto& [a, b] = request.asked_pairs[i];
     std::uint32_t owner = NicheDecider::kNone;
     if (i < request.asked_regions.size()) owner = verdicts.nicheWith(request.asked_regions[i]);
-    if (owner == NicheDecider::kNone) owner = verdicts.locate(scene, {a, b}, wanted, limit);
+    if (owner == NicheDecider::kNone) owner = verdicts.locate(frame, {a, b}, wanted, limit);
     owners.push_back(place(owner));
   }
   for (const MinimumCandidate& proposal : request.proposals) {
-    const bool is_candidate = isCandidate(scene, request, proposal);
-    proposed.push_back(is_candidate ? place(verdicts.locate(scene, {proposal.a, proposal.b}, wanted, limit))
+    const bool is_candidate = isCandidate(frame, request, proposal);
+    proposed.push_back(is_candidate ? place(verdicts.locate(frame, {proposal.a, proposal.b}, wanted, limit))
                                     : kNoOwner);
   }
-  describeNiches(scene, request, limit);
+  describeNiches(frame, request, limit);
   cost.flooded_pairs += verdicts.counts().flooded_cells;
   for (std::vector<std::size_t>* of : {&owners, &proposed}) {
     for (std::size_t& owner : *of) {
@@ -118,7 +118,7 @@ bool LocalMinimaParts::decide(const MinimaScene& scene, const LocalMinimaRequest
                       [](const auto& judged) { return judged.verdict == NicheDecider::Verdict::Undecided; });
 }
 
-void LocalMinimaParts::describeNiches(const MinimaScene& scene, const LocalMinimaRequest& request,
+void LocalMinimaParts::describeNiches(const PairFrame& frame, const LocalMinimaRequest& request,
                                       WorkLimit& limit) {
   const std::vector<NicheDecider::Judged>& judged = verdicts.judged();
   described_as.resize(judged.size(), kNoOwner);
@@ -130,29 +130,29 @@ void LocalMinimaParts::describeNiches(const MinimaScene& scene, const LocalMinim
     minima.push_back({seed, std::numeric_limits<double>::infinity(),
                       (1.0 + request.least_prominence) * seed.distance, judged[i].was_found,
                       judged[i].region});
-    describe(scene, request, !request.hidden && seed.is_point, limit);
+    describe(frame, request, !request.hidden && seed.is_point, limit);
   }
 }
 
-bool LocalMinimaParts::measure(const MinimaScene& scene, const LocalMinimaRequest& request,
+bool LocalMinimaParts::measure(const PairFrame& frame, const LocalMinimaRequest& request,
                                LocalMinimaCost& cost, WorkLimit& limit) {
   const std::size_t owned = seeds.size();
   // Of each that is asked for and proposed its place among the seeds.
   places.clear();
   const auto start_at = [&](const MinimumCandidate& seed) {
-    const bool is_candidate = isCandidate(scene, request, seed);
+    const bool is_candidate = isCandidate(frame, request, seed);
     places.push_back(is_candidate ? seeds.size() - owned : kNoOwner);
     if (is_candidate) seeds.push_back(seed);
   };
   for (const auto& [a, b] : request.asked_pairs) {
-    start_at(scene.seedOf(refineWitness(scene.a, scene.b, scene.a_from_b, a, b, refinement).witness));
+    start_at(frame.candidateOf(refineWitness(frame.a, frame.b, frame.a_from_b, a, b, refinement).witness));
   }
   for (const MinimumCandidate& proposal : request.proposals) start_at(proposal);
-  FloodResult flood = floodMinima(scene, request, seeds, owned, cost, limit);
+  FloodResult flood = floodMinima(frame, request, seeds, owned, cost, limit);
   for (const FloodedMinimum& minimum : flood.minima) {
     if (limit.isOver()) break;
     minima.push_back(minimum);
-    describe(scene, request, false, limit);
+    describe(frame, request, false, limit);
   }
   for (std::size_t i = 0; i < places.size(); ++i) {
     std::vector<std::size_t>& of = i < request.asked_pairs.size() ? owners : proposed;
@@ -166,7 +166,7 @@ bool LocalMinimaParts::measure(const MinimaScene& scene, const LocalMinimaReques
   return !flood.cut;
 }
 
-void LocalMinimaParts::describe(const MinimaScene& scene, const LocalMinimaRequest& request, bool is_seen,
+void LocalMinimaParts::describe(const PairFrame& frame, const LocalMinimaRequest& request, bool is_seen,
                                 WorkLimit& limit) {
   const FloodedMinimum& minimum = minima.back();
   LocalMinimum niche;
@@ -174,7 +174,7 @@ void LocalMinimaParts::describe(const MinimaScene& scene, const LocalMinimaReque
                                                  : std::numeric_limits<double>::infinity();
   niche.flooded = minimum.flooded;
   niche.region = minimum.region;
-  if (describer.describe(scene, request, minimum.seed, minimum.met_by_flood, is_seen, niche, limit)) {
+  if (describer.describe(frame, request, minimum.seed, minimum.met_by_flood, is_seen, niche, limit)) {
     described.push_back({niche, minima.size() - 1});
   }
 }
@@ -226,48 +226,46 @@ std::size_t LocalMinimaMemory::memoryBytes() const {
   return parts_ != nullptr ? parts_->memoryBytes() : 0;
 }
 
-void findLocalMinima(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
-                     const LocalMinimaRequest& request, LocalMinimaMemory& memory, LocalMinima& result) {
+void findLocalMinima(const detail::PairFrame& frame, const LocalMinimaRequest& request,
+                     LocalMinimaMemory& memory, LocalMinima& result) {
   detail::LocalMinimaParts& parts = memory.parts();
-  const detail::MinimaScene scene(a, b, a_from_b);
   WorkLimit none;
   WorkLimit& limit = request.limit != nullptr ? *request.limit : none;
   const bool refused_before = limit.hasRefusedMemory();
   result.niches.clear();
   result.owners.clear();
   result.cost = {};
-  parts.describer.begin(scene, request);
+  parts.describer.begin(frame, request);
   parts.minima.clear();
   parts.described.clear();
   parts.owners.clear();
   parts.proposed.clear();
   const auto start = WorkLimit::Clock::now();
   limit.allowShare(request.time_shares.search);
-  const bool all = parts.collector.collect(scene, request, parts.seeds, result.cost, limit);
+  const bool all = parts.collector.collect(frame, request, parts.seeds, result.cost, limit);
   result.cost.sweep_seconds = std::chrono::duration<double>(WorkLimit::Clock::now() - start).count();
   result.cost.minima = parts.seeds.size();
   limit.allowShare(request.time_shares.all);
   // What is proposed counts while not everything has been looked at.
-  if (!all) detail::appendCandidates(scene, request, request.proposals, parts.seeds);
+  if (!all) detail::appendCandidates(frame, request, request.proposals, parts.seeds);
   const bool measures =
-      request.prominence_limit > request.least_prominence && !detail::isFar(scene, request.least_prominence);
-  const bool decided = measures ? parts.measure(scene, request, result.cost, limit)
-                                : parts.decide(scene, request, result.cost, limit);
+      request.prominence_limit > request.least_prominence && !detail::isFar(frame, request.least_prominence);
+  const bool decided = measures ? parts.measure(frame, request, result.cost, limit)
+                                : parts.decide(frame, request, result.cost, limit);
   result.finished = all && decided && !limit.isOver() && limit.hasRefusedMemory() == refused_before;
   parts.list(request, result);
 }
 
-void attributeProposals(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
-                        const LocalMinimaRequest& request, LocalMinimaMemory& memory, LocalMinima& result) {
+void attributeProposals(const detail::PairFrame& frame, const LocalMinimaRequest& request,
+                        LocalMinimaMemory& memory, LocalMinima& result) {
   detail::LocalMinimaParts& parts = memory.parts();
-  const detail::MinimaScene scene(a, b, a_from_b);
-  const detail::NicheDecider::Request wanted = detail::verdictsFor(scene, request);
+  const detail::NicheDecider::Request wanted = detail::verdictsFor(frame, request);
   WorkLimit none;
   WorkLimit& limit = request.limit != nullptr ? *request.limit : none;
   for (std::size_t i = request.proposals.size(); i-- > 0;) {
     const MinimumCandidate& proposal = request.proposals[i];
-    if (!detail::isCandidate(scene, request, proposal)) continue;
-    const std::uint32_t judged = parts.verdicts.locate(scene, {proposal.a, proposal.b}, wanted, limit);
+    if (!detail::isCandidate(frame, request, proposal)) continue;
+    const std::uint32_t judged = parts.verdicts.locate(frame, {proposal.a, proposal.b}, wanted, limit);
     // A place that locate() was the first to meet is not in the list.
     if (judged >= parts.described_as.size() || parts.described_as[judged] >= parts.places.size()) continue;
     const std::size_t place = parts.places[parts.described_as[judged]];
@@ -281,7 +279,7 @@ LocalMinima findLocalMinima(const BodyMesh& a, const BodyMesh& b, const Eigen::I
   LocalMinima result;
   WorkLimit none;
   const MemoryScope memory(request.limit != nullptr ? *request.limit : none);
-  findLocalMinima(a, b, a_from_b, request, once, result);
+  findLocalMinima(detail::PairFrame::withFacets(a, b, a_from_b), request, once, result);
   return result;
 }
 

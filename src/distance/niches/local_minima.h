@@ -10,6 +10,7 @@
 #include "concave_distance/base/work_limit.h"
 #include "concave_distance/mesh/body_mesh.h"
 #include "distance/kernels/minimum_candidate.h"
+#include "distance/kernels/pair_frame.h"
 #include "distance/minima/local_minima_cost.h"
 #include "niche_properties.h"
 
@@ -103,8 +104,8 @@ struct LocalMinima {
 
 /// Every local minimum of |p - q| over both original surfaces with a distance of at most the cutoff and the
 /// least prominence: none is missed, none invented, up to the error of the triangle kernel in coordinates of
-/// the bodies' size (minima whose pass is higher by less than that are one). How and why: doc/algorithm.md,
-/// section 7. Bodies about 2 / (least prominence) times their size apart have one niche for each pair of
+/// the bodies' size (minima whose pass is higher by less than that are one). How and why: doc/proofs.md.
+/// Bodies about 2 / (least prominence) times their size apart have one niche for each pair of
 /// shells, found without looking through their features. Where the bodies meet, every connected set of
 /// meeting points is one niche of distance 0. Outward niches of open shells include those marked Unknown.
 /// Uses the bodies' normalCones(). Never throws.
@@ -112,13 +113,13 @@ LocalMinima findLocalMinima(const BodyMesh& a, const BodyMesh& b, const Eigen::I
                             const LocalMinimaRequest& request);
 
 /// The same from pose to pose, with the buffers and, if the request says so, the knowledge of the last call.
-void findLocalMinima(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
-                     const LocalMinimaRequest& request, LocalMinimaMemory& memory, LocalMinima& result);
+void findLocalMinima(const detail::PairFrame& frame, const LocalMinimaRequest& request,
+                     LocalMinimaMemory& memory, LocalMinima& result);
 
 /// Says of the niches of a result which of request.proposals lead to them, for proposals that came after the
 /// list: where everything was looked at they change nothing else. At the pose of the last findLocalMinima()
 /// with this memory, which measured no prominence.
-void attributeProposals(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
-                        const LocalMinimaRequest& request, LocalMinimaMemory& memory, LocalMinima& result);
+void attributeProposals(const detail::PairFrame& frame, const LocalMinimaRequest& request,
+                        LocalMinimaMemory& memory, LocalMinima& result);
 
 }  // namespace concave_distance

@@ -16,15 +16,15 @@ Eigen::AlignedBox3d movedBox(const Eigen::AlignedBox3d& box, const Eigen::Isomet
 
 }  // namespace
 
-void collectMeetingPairs(const MinimaScene& scene, std::vector<TreeNodePair>& open,
+void collectMeetingPairs(const PairFrame& frame, std::vector<TreeNodePair>& open,
                          std::vector<MinimumCandidate>& seeds, LocalMinimaCost& cost, WorkLimit& limit) {
-  const TriangleTree& tree_a = scene.a.tree();
-  const TriangleTree& tree_b = scene.b.tree();
-  const double slack = 4.0 * scene.rounding;
+  const TriangleTree& tree_a = frame.a.tree();
+  const TriangleTree& tree_b = frame.b.tree();
+  const double slack = 4.0 * frame.rounding;
   // Boxes are compared in A's own frame, far from whose origin coordinates round coarser.
-  const double origin = scene.a.surface().boundingBox().center().cwiseAbs().maxCoeff() +
-                        scene.b.surface().boundingBox().center().cwiseAbs().maxCoeff();
-  const double margin = slack + 1e-14 * (origin + scene.size);
+  const double origin = frame.a.surface().boundingBox().center().cwiseAbs().maxCoeff() +
+                        frame.b.surface().boundingBox().center().cwiseAbs().maxCoeff();
+  const double margin = slack + 1e-14 * (origin + frame.size);
   open.clear();
   if (!limit.makeRoom(open)) return;
   open.emplace_back(0U, 0U);
@@ -35,18 +35,18 @@ void collectMeetingPairs(const MinimaScene& scene, std::vector<TreeNodePair>& op
     const TriangleTree::Node& a = tree_a.nodes()[i];
     const TriangleTree::Node& b = tree_b.nodes()[j];
     ++cost.node_pairs;
-    if (a.box.squaredExteriorDistance(movedBox(b.box, scene.a_from_b)) > margin * margin) continue;
+    if (a.box.squaredExteriorDistance(movedBox(b.box, frame.a_from_b)) > margin * margin) continue;
     if (a.count > 0 && b.count > 0) {
       for (std::uint32_t k = a.first; k < a.first + a.count; ++k) {
         for (std::uint32_t l = b.first; l < b.first + b.count; ++l) {
           const TriangleIndex ta = tree_a.order()[k];
           const TriangleIndex tb = tree_b.order()[l];
-          if (scene.a.shellContacts().isHidden(ta) || scene.b.shellContacts().isHidden(tb)) continue;
+          if (frame.a.shellContacts().isHidden(ta) || frame.b.shellContacts().isHidden(tb)) continue;
           ++cost.candidates;
-          const TrianglePairDistance closest = triangleDistance(scene.cornersOfA(ta), scene.cornersOfB(tb));
+          const TrianglePairDistance closest = triangleDistance(frame.cornersOfA(ta), frame.cornersOfB(tb));
           if (closest.squared_distance > slack * slack) continue;
-          const Eigen::Vector3d point = closest.point_a + scene.frames.centre_a;
-          if (isInsideMaterial(scene, {0.0, point, point, ta, tb})) continue;
+          const Eigen::Vector3d point = closest.point_a + frame.centre_a;
+          if (isInsideMaterial(frame, {0.0, point, point, ta, tb})) continue;
           if (!limit.makeRoom(seeds)) return;
           seeds.push_back(seedOn(ta, tb, 0.0));
         }

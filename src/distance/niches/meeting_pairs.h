@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "distance/kernels/minima_scene.h"
+#include "distance/kernels/pair_frame.h"
 #include "local_minima.h"
 
 namespace concave_distance::detail {
@@ -13,7 +13,7 @@ namespace concave_distance::detail {
 using TreeNodePair = std::pair<std::uint32_t, std::uint32_t>;
 
 /// Every triangle pair that meets, up to rounding, until the limit is reached. @param open a buffer
-void collectMeetingPairs(const MinimaScene& scene, std::vector<TreeNodePair>& open,
+void collectMeetingPairs(const PairFrame& frame, std::vector<TreeNodePair>& open,
                          std::vector<MinimumCandidate>& seeds, LocalMinimaCost& cost, WorkLimit& limit);
 
 }  // namespace concave_distance::detail

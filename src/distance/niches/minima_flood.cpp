@@ -45,13 +45,13 @@ bool laterStep(const Step& l, const Step& r) {
 
 class Flood {
  public:
-  Flood(const MinimaScene& scene, const LocalMinimaRequest& request, WorkLimit& limit)
-      : scene_(scene), request_(request), tolerance_(8.0 * scene.rounding), limit_(limit) {}
+  Flood(const PairFrame& frame, const LocalMinimaRequest& request, WorkLimit& limit)
+      : frame_(frame), request_(request), tolerance_(8.0 * frame.rounding), limit_(limit) {}
 
   /// The facet pair of a local minimum, as a basin of its own if it is new.
   std::uint32_t startAt(TriangleIndex of_a, TriangleIndex of_b, bool met_by_flood) {
     cut_ = cut_ || limit_.isOverNow();
-    const auto [a, b] = scene_.facetPairOf(of_a, of_b);
+    const auto [a, b] = frame_.facetPairOf(of_a, of_b);
     if (const std::uint32_t known = table_.find(a, b); known != PairTable::kAbsent) return known;
     const std::uint32_t facet_pair = addFacetPair(a, b);
     facet_pairs_[facet_pair].parent = facet_pair;
@@ -121,8 +121,8 @@ class Flood {
   }
 
   void measure(TriangleIndex a, TriangleIndex b) {
-    points_a_ = scene_.facetOfA(a);
-    points_b_ = scene_.facetOfB(b);
+    points_a_ = frame_.facetOfA(a);
+    points_b_ = frame_.facetOfB(b);
     levels_ = facetPairLevels(points_a_, points_b_);
   }
 
@@ -130,7 +130,7 @@ class Flood {
   void expand(std::uint32_t index) {
     const double limit = basins_[facet_pairs_[rootOf(index)].basin].limit;
     forEachNeighbour(
-        scene_, facet_pairs_[index].a, facet_pairs_[index].b, points_a_, points_b_, levels_,
+        frame_, facet_pairs_[index].a, facet_pairs_[index].b, points_a_, points_b_, levels_,
         [&](TriangleIndex to_a, TriangleIndex to_b, double squared_level, const SharedElement& /*element*/) {
           consider(index, to_a, to_b, limit, std::sqrt(squared_level));
         });
@@ -166,10 +166,10 @@ class Flood {
 
   /// From a facet pair deeper than the flood's start to the minimum under it.
   void goDown(std::uint32_t index) {
-    const TrianglePair from = scene_.closestIn({facet_pairs_[index].a, facet_pairs_[index].b}).first;
+    const TrianglePair from = frame_.closestIn({facet_pairs_[index].a, facet_pairs_[index].b}).first;
     const WitnessPair witness =
-        refineWitness(scene_.a, scene_.b, scene_.a_from_b, from.a, from.b, refinement_).witness;
-    const TrianglePair facet_pair = scene_.facetPairOf(witness.triangle_a, witness.triangle_b);
+        refineWitness(frame_.a, frame_.b, frame_.a_from_b, from.a, from.b, refinement_).witness;
+    const TrianglePair facet_pair = frame_.facetPairOf(witness.triangle_a, witness.triangle_b);
     if (facet_pair.a == facet_pairs_[index].a && facet_pair.b == facet_pairs_[index].b) {
       facet_pairs_[index].basin = static_cast<std::uint32_t>(basins_.size());
       basins_.push_back({index, limitOf(facet_pairs_[index].distance), true});
@@ -199,7 +199,7 @@ class Flood {
     }
   }
 
-  const MinimaScene& scene_;
+  const PairFrame& frame_;
   const LocalMinimaRequest& request_;
   double tolerance_;
   WorkLimit& limit_;
@@ -218,11 +218,11 @@ class Flood {
 
 }  // namespace
 
-FloodResult floodMinima(const MinimaScene& scene, const LocalMinimaRequest& request,
+FloodResult floodMinima(const PairFrame& frame, const LocalMinimaRequest& request,
                         const std::vector<MinimumCandidate>& seeds, std::size_t owned, LocalMinimaCost& cost,
                         WorkLimit& limit) {
   const MemoryScope memory(limit);
-  Flood flood(scene, request, limit);
+  Flood flood(frame, request, limit);
   std::vector<std::uint32_t> starts;
   for (std::size_t i = 0; i < seeds.size(); ++i) {
     starts.push_back(flood.startAt(seeds[i].a, seeds[i].b, i >= owned));
@@ -235,7 +235,7 @@ FloodResult floodMinima(const MinimaScene& scene, const LocalMinimaRequest& requ
     if (!flood.isProminent(basin) || !flood.isDecided(basin)) continue;
     const FacetPair& facet_pair = flood.facet_pair(basin.facet_pair);
     minimum_of_basin[i] = result.minima.size();
-    const TrianglePair closest = scene.closestIn({facet_pair.a, facet_pair.b}).first;
+    const TrianglePair closest = frame.closestIn({facet_pair.a, facet_pair.b}).first;
     result.minima.push_back(
         {seedOn(closest.a, closest.b, facet_pair.distance), basin.pass, basin.limit, basin.met_by_flood});
   }

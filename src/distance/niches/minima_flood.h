@@ -28,7 +28,7 @@ struct FloodResult {
 /// seeds are flooded at once, in order of distance, each as far as request says; a flood that comes upon a
 /// triangle pair deeper than its own start goes down from there and joins what it finds.
 /// @param owned first seed of those whose owner is asked for; they are the last of the list
-FloodResult floodMinima(const MinimaScene& scene, const LocalMinimaRequest& request,
+FloodResult floodMinima(const PairFrame& frame, const LocalMinimaRequest& request,
                         const std::vector<MinimumCandidate>& seeds, std::size_t owned, LocalMinimaCost& cost,
                         WorkLimit& limit);
 

@@ -13,8 +13,8 @@ void NicheDecider::clear() {
   floods_are_long_ = false;
 }
 
-void NicheDecider::begin(const MinimaScene& scene, std::vector<MinimumCandidate>& seeds,
-                         const Request& request, WorkLimit& limit) {
+void NicheDecider::begin(const PairFrame& frame, std::vector<MinimumCandidate>& seeds, const Request& request,
+                         WorkLimit& limit) {
   memory_.beginCycle(request.is_tracked);
   counts_ = {};
   judged_.clear();
@@ -23,37 +23,37 @@ void NicheDecider::begin(const MinimaScene& scene, std::vector<MinimumCandidate>
     if (l.distance != r.distance) return l.distance < r.distance;
     return l.a != r.a ? l.a < r.a : l.b < r.b;
   });
-  Stage stage(*this, scene, request, limit);
+  Stage stage(*this, frame, request, limit);
   stage.enter(seeds);
-  is_far_ = isFar(scene, request.least_prominence);
+  is_far_ = isFar(frame, request.least_prominence);
   next_ = end_ = 0;
   if (!is_far_) return;
   stage.decideFar();
   next_ = end_ = seed_count_;
 }
 
-void NicheDecider::judgeByMemory(const MinimaScene& scene, const Request& request, WorkLimit& limit) {
-  Stage stage(*this, scene, request, limit);
+void NicheDecider::judgeByMemory(const PairFrame& frame, const Request& request, WorkLimit& limit) {
+  Stage stage(*this, frame, request, limit);
   stage.resume();
   stage.decideByMemory();
 }
 
-void NicheDecider::judgeByFloods(const MinimaScene& scene, const Request& request, WorkLimit& limit) {
-  Stage stage(*this, scene, request, limit);
+void NicheDecider::judgeByFloods(const PairFrame& frame, const Request& request, WorkLimit& limit) {
+  Stage stage(*this, frame, request, limit);
   stage.resume();
   stage.decideByFloods();
 }
 
-void NicheDecider::judge(const MinimaScene& scene, std::vector<MinimumCandidate>& seeds,
-                         const Request& request, WorkLimit& limit) {
-  begin(scene, seeds, request, limit);
-  judgeByMemory(scene, request, limit);
-  judgeByFloods(scene, request, limit);
+void NicheDecider::judge(const PairFrame& frame, std::vector<MinimumCandidate>& seeds, const Request& request,
+                         WorkLimit& limit) {
+  begin(frame, seeds, request, limit);
+  judgeByMemory(frame, request, limit);
+  judgeByFloods(frame, request, limit);
 }
 
-std::uint32_t NicheDecider::locate(const MinimaScene& scene, const TrianglePair& around,
-                                   const Request& request, WorkLimit& limit) {
-  Stage stage(*this, scene, request, limit);
+std::uint32_t NicheDecider::locate(const PairFrame& frame, const TrianglePair& around, const Request& request,
+                                   WorkLimit& limit) {
+  Stage stage(*this, frame, request, limit);
   stage.resume();
   const std::uint32_t place = stage.placeAround(around);
   if (place == kNone || judged_[place].seed.distance > request.cutoff) return kNone;

@@ -59,21 +59,21 @@ class NicheDecider {
 
   /// At a new pose: puts the seeds in ascending order; results stand in the same order, and after them places
   /// that only floods have found.
-  void begin(const MinimaScene& scene, std::vector<MinimumCandidate>& seeds, const Request& request,
+  void begin(const PairFrame& frame, std::vector<MinimumCandidate>& seeds, const Request& request,
              WorkLimit& limit);
   /// Judges seeds whose verdict needs no flood, until there are Request::most_niches more.
-  void judgeByMemory(const MinimaScene& scene, const Request& request, WorkLimit& limit);
+  void judgeByMemory(const PairFrame& frame, const Request& request, WorkLimit& limit);
   /// Judges those that the last call has left open.
-  void judgeByFloods(const MinimaScene& scene, const Request& request, WorkLimit& limit);
+  void judgeByFloods(const PairFrame& frame, const Request& request, WorkLimit& limit);
   bool hasJudgedAll() const { return next_ >= seed_count_; }
   /// All of it, until there are Request::most_niches.
-  void judge(const MinimaScene& scene, std::vector<MinimumCandidate>& seeds, const Request& request,
+  void judge(const PairFrame& frame, std::vector<MinimumCandidate>& seeds, const Request& request,
              WorkLimit& limit);
 
   /// At the pose of the last begin(): the niche of the local minimum around a triangle pair, as an index of
   /// judged(); kNone when that is none of them or beyond the cutoff, kUndecided when the limit was reached. A
   /// place that is a niche of its own is judged and added.
-  std::uint32_t locate(const MinimaScene& scene, const TrianglePair& around, const Request& request,
+  std::uint32_t locate(const PairFrame& frame, const TrianglePair& around, const Request& request,
                        WorkLimit& limit);
   /// The niche with this region; kNone when there is none any more.
   std::uint32_t nicheWith(std::uint64_t region) const;

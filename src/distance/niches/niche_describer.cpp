@@ -14,44 +14,44 @@ constexpr std::size_t kExtentPairLimit = 100'000;
 
 }  // namespace
 
-void NicheDescriber::begin(const MinimaScene& scene, const LocalMinimaRequest& request) {
+void NicheDescriber::begin(const PairFrame& frame, const LocalMinimaRequest& request) {
   all_outward_ = !request.through_material && request.given == nullptr &&
-                 scene.a.topology().allShellsClosed() && scene.b.topology().allShellsClosed() &&
-                 !scene.hasJoints();
+                 frame.a.topology().allShellsClosed() && frame.b.topology().allShellsClosed() &&
+                 !frame.hasJoints();
 }
 
-bool NicheDescriber::describe(const MinimaScene& scene, const LocalMinimaRequest& request,
+bool NicheDescriber::describe(const PairFrame& frame, const LocalMinimaRequest& request,
                               const MinimumCandidate& minimum, bool met_by_flood, bool is_seen,
                               LocalMinimum& niche, WorkLimit& limit) {
-  const BodyMesh& a = scene.a;
-  const BodyMesh& b = scene.b;
+  const BodyMesh& a = frame.a;
+  const BodyMesh& b = frame.b;
   niche.witness = minimum.is_measured
-                      ? scene.witnessOf(minimum)
-                      : refineWitness(a, b, scene.a_from_b, minimum.a, minimum.b, refinement_).witness;
+                      ? frame.witnessOf(minimum)
+                      : refineWitness(a, b, frame.a_from_b, minimum.a, minimum.b, refinement_).witness;
   niche.distance = std::sqrt(niche.witness.squared_distance);
-  if (minimum.distance <= 4.0 * scene.rounding) {
+  if (minimum.distance <= 4.0 * frame.rounding) {
     niche.distance = 0.0;
     return true;
   }
   if (niche.distance > request.cutoff) return false;
   if (!all_outward_ || met_by_flood) {
-    niche.outward = classifyOutwardness(a, b, scene.a_from_b, niche.witness);
+    niche.outward = classifyOutwardness(a, b, frame.a_from_b, niche.witness);
     if (niche.outward == Outwardness::ThroughMaterial && !request.through_material) return false;
   }
-  if (!minimum.is_point) measure(scene, niche, limit);
+  if (!minimum.is_point) measure(frame, niche, limit);
   // Bodies that overlap can be opposite to each other inside another shell of one of them.
-  const bool may_overlap = !(request.certain_distance > 16.0 * scene.rounding);
-  niche.visible = (is_seen || isVisible(a, b, scene.a_from_b, niche.witness)) &&
-                  !(may_overlap && isInsideMaterial(scene, niche.witness));
+  const bool may_overlap = !(request.certain_distance > 16.0 * frame.rounding);
+  niche.visible = (is_seen || isVisible(a, b, frame.a_from_b, niche.witness)) &&
+                  !(may_overlap && isInsideMaterial(frame, niche.witness));
   return niche.visible || request.hidden;
 }
 
-void NicheDescriber::measure(const MinimaScene& scene, LocalMinimum& niche, WorkLimit& limit) {
-  const BodyMesh& a = scene.a;
-  const BodyMesh& b = scene.b;
+void NicheDescriber::measure(const PairFrame& frame, LocalMinimum& niche, WorkLimit& limit) {
+  const BodyMesh& a = frame.a;
+  const BodyMesh& b = frame.b;
   const double tolerance = kPlateauTolerance * (a.diameter() + b.diameter());
   const NicheExtent extent =
-      measureExtent(a, b, scene.a_from_b, niche.witness, tolerance, kExtentPairLimit, extent_, &limit);
+      measureExtent(a, b, frame.a_from_b, niche.witness, tolerance, kExtentPairLimit, extent_, &limit);
   niche.kind = extent.kind;
   niche.extent = extent.length;
   if (extent.kind != NicheKind::Point) niche.witness = extent.representative;

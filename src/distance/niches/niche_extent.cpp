@@ -4,7 +4,7 @@
 #include <tuple>
 
 #include "distance/kernels/adjacent_triangles.h"
-#include "distance/kernels/local_frames.h"
+#include "distance/kernels/pair_frame.h"
 #include "niche_properties.h"
 #include "planar_set.h"
 
@@ -197,17 +197,17 @@ constexpr double kSameDistance = 4.0;
 
 /// The closest pair of points at `middle` on the piece's two triangles: sideways the set is only as exact as
 /// the tolerance, so that each point is led to the one closest to the other.
-TrianglePairDistance pairAt(const detail::LocalFrames& frames, const LevelSide& a, const BodyMesh& b,
-                            const Vector2d& middle, TriangleIndex triangle_a, TriangleIndex triangle_b) {
-  const TrianglePoints corners_a = frames.cornersOfA(a.body, triangle_a);
+TrianglePairDistance pairAt(const detail::PairFrame& frame, const LevelSide& a, const Vector2d& middle,
+                            TriangleIndex triangle_a, TriangleIndex triangle_b) {
+  const TrianglePoints corners_a = frame.cornersOfA(triangle_a);
   const PointTriangleDistance start = pointTriangleDistance(a.raised(middle), corners_a);
-  const PointTriangleDistance on_b = pointTriangleDistance(start.point, frames.cornersOfB(b, triangle_b));
+  const PointTriangleDistance on_b = pointTriangleDistance(start.point, frame.cornersOfB(triangle_b));
   const PointTriangleDistance on_a = pointTriangleDistance(on_b.point, corners_a);
   return {(on_b.point - on_a.point).squaredNorm(), on_a.point, on_b.point, on_a.feature, on_b.feature};
 }
 
-void placeRepresentative(const detail::LocalFrames& frames, const LevelSide& a, const BodyMesh& b,
-                         double rounding, ExtentWorkspace& workspace, NicheExtent& extent) {
+void placeRepresentative(const detail::PairFrame& frame, const LevelSide& a, double rounding,
+                         ExtentWorkspace& workspace, NicheExtent& extent) {
   const Vector2d centre = detail::centreOfEnclosingCircle(workspace.hull);
   double least = std::numeric_limits<double>::infinity();
   Vector2d middle = Vector2d::Zero();
@@ -222,10 +222,10 @@ void placeRepresentative(const detail::LocalFrames& frames, const LevelSide& a, 
       carrier = pair;
     }
   }
-  const TrianglePairDistance found = pairAt(frames, a, b, middle, carrier.first, carrier.second);
+  const TrianglePairDistance found = pairAt(frame, a, middle, carrier.first, carrier.second);
   const double distance = std::sqrt(extent.representative.squared_distance);
   if (std::abs(std::sqrt(found.squared_distance) - distance) > kSameDistance * rounding) return;
-  extent.representative = frames.toWitness(found, carrier.first, carrier.second);
+  extent.representative = frame.toWitness(found, carrier.first, carrier.second);
 }
 
 }  // namespace
@@ -235,12 +235,12 @@ NicheExtent measureExtent(const BodyMesh& a, const BodyMesh& b, const Eigen::Iso
                           ExtentWorkspace& workspace, WorkLimit* limit) {
   NicheExtent extent;
   extent.representative = witness;
-  const detail::LocalFrames frames(a, b, a_from_b, witness.triangle_a, witness.triangle_b);
+  const detail::PairFrame frame(a, b, a_from_b, witness.triangle_a, witness.triangle_b);
   const double rounding =
-      kTriangleDistanceError * detail::largestMagnitude(frames.cornersOfA(a, witness.triangle_a),
-                                                        frames.cornersOfB(b, witness.triangle_b));
-  const Vector3d point_a = witness.point_a_in_a - frames.centre_a;
-  const Vector3d point_b = witness.point_b_in_a - frames.centre_a;
+      kTriangleDistanceError *
+      detail::largestMagnitude(frame.cornersOfA(witness.triangle_a), frame.cornersOfB(witness.triangle_b));
+  const Vector3d point_a = witness.point_a_in_a - frame.centre_a;
+  const Vector3d point_b = witness.point_b_in_a - frame.centre_a;
   const double distance = (point_b - point_a).norm();
   workspace.pieces.clear();
   if (distance <= rounding) return extent;
@@ -248,10 +248,10 @@ NicheExtent measureExtent(const BodyMesh& a, const BodyMesh& b, const Eigen::Iso
   const Vector3d normal = (point_b - point_a) / distance;
   const Vector3d axis_x = normal.unitOrthogonal();
   const Vector3d axis_y = normal.cross(axis_x);
-  const Eigen::Matrix3d b_from_a = frames.rotation.transpose();
-  const LevelSide side_a{a, frames.centre_a, point_a, normal, axis_x, axis_y};
+  const Eigen::Matrix3d b_from_a = frame.rotation.transpose();
+  const LevelSide side_a{a, frame.centre_a, point_a, normal, axis_x, axis_y};
   const LevelSide side_b{
-      b, frames.centre_b, frames.pointInB(point_b), b_from_a * -normal, b_from_a * axis_x, b_from_a * axis_y};
+      b, frame.centre_b, frame.pointInB(point_b), b_from_a * -normal, b_from_a * axis_x, b_from_a * axis_y};
   const double height_tolerance = tolerance + 2.0 * rounding;
   const Levels levels{height_tolerance, std::sqrt(height_tolerance * (2.0 * distance + height_tolerance)),
                       2.0 * rounding};
@@ -276,7 +276,7 @@ NicheExtent measureExtent(const BodyMesh& a, const BodyMesh& b, const Eigen::Iso
   if (length <= 2.0 * levels.reach) return extent;
   extent.length = length;
   extent.kind = detail::widthOf(workspace.hull) <= 2.0 * levels.reach ? NicheKind::Segment : NicheKind::Patch;
-  placeRepresentative(frames, side_a, b, rounding, workspace, extent);
+  placeRepresentative(frame, side_a, rounding, workspace, extent);
   return extent;
 }
 

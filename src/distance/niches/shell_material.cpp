@@ -20,12 +20,12 @@ bool isInside(const BodyMesh& body, TriangleIndex triangle, const Eigen::Vector3
 
 }  // namespace
 
-bool isInsideMaterial(const MinimaScene& scene, const WitnessPair& witness) {
-  if (!scene.hasJoints()) return false;
+bool isInsideMaterial(const PairFrame& frame, const WitnessPair& witness) {
+  if (!frame.hasJoints()) return false;
   const Eigen::Vector3d towards_b = (witness.point_b_in_a - witness.point_a_in_a).stableNormalized();
-  const Eigen::Isometry3d b_from_a = scene.a_from_b.inverse(Eigen::Isometry);
-  return isInside(scene.a, witness.triangle_a, witness.point_a_in_a, towards_b) ||
-         isInside(scene.b, witness.triangle_b, b_from_a * witness.point_b_in_a,
+  const Eigen::Isometry3d b_from_a = frame.a_from_b.inverse(Eigen::Isometry);
+  return isInside(frame.a, witness.triangle_a, witness.point_a_in_a, towards_b) ||
+         isInside(frame.b, witness.triangle_b, b_from_a * witness.point_b_in_a,
                   -(b_from_a.linear() * towards_b));
 }
 

@@ -4,7 +4,7 @@
 
 #include "distance/bound/certificate.h"
 #include "support/body_pairs.h"
-#include "thesis/src/evaluation/enumeration.h"
+#include "support/enumeration.h"
 
 namespace concave_distance::bound_cache_test {
 namespace {
@@ -71,7 +71,7 @@ TEST(BoundCache, IsNotFooledByStaleSeedsLeapsAndTolerances) {
       const bool was_valid = front.valid();
       const DistanceCertificate found = certifyDistance(*a, *b, pose, &seed, 1, request, workspace, &front);
       reopened += was_valid ? 1 : 0;
-      const double exact = std::sqrt(enumerateTrianglePairs(*a, *b, pose).squared_distance);
+      const double exact = std::sqrt(test::enumerateTrianglePairs(*a, *b, pose).squared_distance);
       const double error = kProofError * proofScale(*a, *b, pose);
       ASSERT_LE(found.lower_bound, exact);
       ASSERT_GE(found.distance, exact - error);
@@ -126,7 +126,7 @@ TEST(BoundCache, BeginsAnewOnceCleared) {
   const Isometry3d pose = onLoop(0.2, 1.2);
   const DistanceCertificate other =
       certifyDistance(*a, *b, pose, &seed, 1, CertificateRequest(), workspace, &front);
-  EXPECT_NEAR(other.distance, std::sqrt(enumerateTrianglePairs(*a, *b, pose).squared_distance), 1e-13);
+  EXPECT_NEAR(other.distance, std::sqrt(test::enumerateTrianglePairs(*a, *b, pose).squared_distance), 1e-13);
 }
 
 }  // namespace

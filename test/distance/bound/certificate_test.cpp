@@ -4,7 +4,7 @@
 
 #include "distance/kernels/surface_walk.h"
 #include "support/body_pairs.h"
-#include "thesis/src/evaluation/enumeration.h"
+#include "support/enumeration.h"
 
 namespace concave_distance::certificate_test {
 namespace {
@@ -22,7 +22,7 @@ DistanceCertificate certify(const Body& a, const Body& b, const Isometry3d& pose
 }
 
 double truth(const Body& a, const Body& b, const Isometry3d& pose) {
-  return std::sqrt(enumerateTrianglePairs(*a, *b, pose).squared_distance);
+  return std::sqrt(test::enumerateTrianglePairs(*a, *b, pose).squared_distance);
 }
 
 TEST(Certificate, IsTheDistanceOfBruteForceWithItsProof) {

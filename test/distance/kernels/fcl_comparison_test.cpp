@@ -7,7 +7,7 @@
 
 #include "concave_distance/tracking/pair_tracker.h"
 #include "support/body_pairs.h"
-#include "thesis/src/evaluation/enumeration.h"
+#include "support/enumeration.h"
 
 namespace concave_distance::fcl_comparison_test {
 namespace {
@@ -50,7 +50,7 @@ using Body = std::shared_ptr<const BodyMesh>;
 TEST(ExactDistance, AgreesWithFclOnConcavePairs) {
   int apart = 0;
   forEachRound(1, [&](const Body& a, const Body& b, const Eigen::Isometry3d& pose, double reported) {
-    const double found = std::sqrt(enumerateTrianglePairs(*a, *b, pose).squared_distance);
+    const double found = std::sqrt(test::enumerateTrianglePairs(*a, *b, pose).squared_distance);
     EXPECT_NEAR(found, reported, 1e-7 * (1.0 + reported));
     EXPECT_LE(found, reported + 1e-12);  // FCL's is that of some pair of triangles
     apart += found > 0.0 ? 1 : 0;

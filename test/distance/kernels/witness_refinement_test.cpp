@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "support/body_pairs.h"
-#include "thesis/src/evaluation/enumeration.h"
+#include "support/enumeration.h"
 
 namespace concave_distance::witness_refinement_test {
 namespace {
@@ -87,7 +87,7 @@ TEST(RefineWitness, FindsTheDistanceOfConvexBodiesFromAnyFacingStart) {
   for (int i = 0; i < 40; ++i) {
     Isometry3d pose = test::randomPose(engine, 0.2);
     pose.translation() += 1.5 * test::randomRotation(engine).col(0);
-    const WitnessPair exact = enumerateTrianglePairs(*a, *b, pose);
+    const WitnessPair exact = test::enumerateTrianglePairs(*a, *b, pose);
     int starts = 0;
     for (std::uint32_t k = 0; k < 200 && starts < 20; ++k) {
       const TriangleIndex start_a{
@@ -117,7 +117,7 @@ TEST(RefineWitness, TheClosestPairIsItsOwnRefinement) {
     const auto a = makeBody(test::concaveShape(round));
     const auto b = makeBody(test::concaveShape(round / 6));
     const Isometry3d pose = test::randomPose(engine, 2.0);
-    const WitnessPair exact = enumerateTrianglePairs(*a, *b, pose);
+    const WitnessPair exact = test::enumerateTrianglePairs(*a, *b, pose);
     const WitnessRefinement refined =
         refineWitness(*a, *b, pose, exact.triangle_a, exact.triangle_b, workspace);
     EXPECT_TRUE(refined.proven);
@@ -225,7 +225,7 @@ TEST(RefineWitness, ReturnsAtOnceWhereTrianglesMeet) {
   const auto a = makeBody(test::makeCuboid(Vector3d::Zero(), Vector3d::Ones()));
   const auto b = makeBody(test::makeCuboid(Vector3d::Constant(-0.25), Vector3d::Constant(0.25)));
   RefinementWorkspace workspace;
-  const WitnessPair meeting = enumerateTrianglePairs(*a, *b, Isometry3d::Identity());
+  const WitnessPair meeting = test::enumerateTrianglePairs(*a, *b, Isometry3d::Identity());
   EXPECT_EQ(meeting.squared_distance, 0.0);
   const WitnessRefinement refined =
       refineWitness(*a, *b, Isometry3d::Identity(), meeting.triangle_a, meeting.triangle_b, workspace);
@@ -244,7 +244,7 @@ TEST(RefineWitness, TouchingUpToRoundingIsTouching) {
     const Isometry3d world_from_a = test::randomPose(engine, 1.0);
     const Isometry3d pose =
         world_from_a.inverse(Eigen::Isometry) * (world_from_a * test::translation(Vector3d(0.3, 0.2, 1.0)));
-    const WitnessPair closest = enumerateTrianglePairs(*a, *a, pose);
+    const WitnessPair closest = test::enumerateTrianglePairs(*a, *a, pose);
     const WitnessPair refined =
         refineWitness(*a, *a, pose, closest.triangle_a, closest.triangle_b, workspace).witness;
     EXPECT_EQ(refined.squared_distance, 0.0);

@@ -78,7 +78,8 @@ Tracked track(const Body& a, const Body& b, const test::Motion& motion, std::siz
       WorkLimit limit(WorkLimit::Clock::now(), kInfinity, memory, nullptr);
       limit.setTaken(front.memoryBytes());
       std::vector<MinimumCandidate> seeds;
-      front.collect(MinimaScene(*a, *b, motion.at(t)), NormalSides::Outside, kInfinity, seeds, limit);
+      front.collect(PairFrame::withFacets(*a, *b, motion.at(t)), NormalSides::Outside, kInfinity, seeds,
+                    limit);
       append(front, seeds, tracked.bytes);
       (front.counts().began_anew ? tracked.cold_slices : tracked.warm_slices) += front.counts().slices;
     }
@@ -124,7 +125,7 @@ TEST(ConeSlices, LoseNoPairWhereALimitEndsThem) {
         const std::size_t memory = k % 3 == 0 ? kAllMemory : std::size_t{1} << (14U + run % 7U);
         WorkLimit limit(WorkLimit::Clock::now(), seconds, memory, nullptr);
         std::vector<MinimumCandidate> seeds;
-        front.collect(MinimaScene(*a, *b, pose), NormalSides::Outside, kInfinity, seeds, limit);
+        front.collect(PairFrame::withFacets(*a, *b, pose), NormalSides::Outside, kInfinity, seeds, limit);
         slices += front.counts().slices;
         if (!limit.hasRefused()) continue;
         ++cut;
@@ -151,11 +152,11 @@ TEST(ConeSlices, AllocateNothingInAWarmCycle) {
       const double t = 0.02 * (k % 4 < 2 ? k % 4 : 4 - k % 4);
       Eigen::Isometry3d pose(Eigen::AngleAxisd(t, Eigen::Vector3d(0.3, 0.8, 0.5).normalized()));
       pose.translation() = Eigen::Vector3d(0.9, 0.1 + t, 0.2);
-      const MinimaScene scene(*a, *b, pose);
+      const PairFrame frame = PairFrame::withFacets(*a, *b, pose);
       WorkLimit none;
       seeds.clear();
       const std::size_t before = allocations;
-      front.collect(scene, NormalSides::Outside, kInfinity, seeds, none);
+      front.collect(frame, NormalSides::Outside, kInfinity, seeds, none);
       if (k < 24) continue;
       EXPECT_FALSE(front.counts().began_anew);
       EXPECT_EQ(allocations, before) << "cycle " << k;

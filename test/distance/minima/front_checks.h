@@ -42,21 +42,21 @@ inline void expectWhatTheRootsFind(const std::shared_ptr<const BodyMesh>& a,
                                    const std::shared_ptr<const BodyMesh>& b, const Eigen::Isometry3d& pose,
                                    NormalSides sides, double cutoff, detail::MinimaTracker& front) {
   WorkLimit none;
-  const detail::MinimaScene scene(*a, *b, pose);
+  const detail::PairFrame frame = detail::PairFrame::withFacets(*a, *b, pose);
   std::vector<MinimumCandidate> from_roots;
   LocalMinimaCost cost;
-  detail::collectConeCandidates(scene, sides, cutoff, from_roots, cost, none);
+  detail::collectConeCandidates(frame, sides, cutoff, from_roots, cost, none);
   std::vector<MinimumCandidate> from_front;
-  ASSERT_TRUE(front.collect(scene, sides, cutoff, from_front, none));
+  ASSERT_TRUE(front.collect(frame, sides, cutoff, from_front, none));
   const auto of_front = placesOf(a, b, pose, from_front);
   for (const WitnessPair& place : placesOf(a, b, pose, from_roots)) {
     EXPECT_TRUE(isKnown(place, of_front)) << "distance " << std::sqrt(place.squared_distance);
   }
   // What was a minimum at an earlier pose and is only measured at this one.
   std::vector<WitnessPair> seeds;
-  for (const MinimumCandidate& seed : from_roots) seeds.push_back(scene.witnessOf(seed));
+  for (const MinimumCandidate& seed : from_roots) seeds.push_back(frame.witnessOf(seed));
   for (const MinimumCandidate& seed : from_front) {
-    EXPECT_TRUE(isKnown(scene.witnessOf(seed), seeds)) << "distance " << seed.distance;
+    EXPECT_TRUE(isKnown(frame.witnessOf(seed), seeds)) << "distance " << seed.distance;
   }
 }
 

@@ -77,8 +77,8 @@ TEST(MinimaTracker, HasOneAncestorForEveryPairOfFeaturesAtEveryInstant) {
     for (int k = 0; k < 8; ++k) {
       std::vector<MinimumCandidate> seeds;
       WorkLimit none;
-      const MinimaScene scene(*a, *b, motion.at(0.02 * k));
-      front.collect(scene, NormalSides::Outside, kInfinity, seeds, none);
+      const PairFrame frame = PairFrame::withFacets(*a, *b, motion.at(0.02 * k));
+      front.collect(frame, NormalSides::Outside, kInfinity, seeds, none);
       expectOneAncestor(*a, *b, front);
       if (HasFailure()) return;
     }
@@ -88,20 +88,20 @@ TEST(MinimaTracker, HasOneAncestorForEveryPairOfFeaturesAtEveryInstant) {
 TEST(MinimaTracker, AsksNothingButLivePairsWhileTheBodiesStandStill) {
   const Body a = makeBody(test::concaveShape(0));
   const Body b = makeBody(test::concaveShape(3));
-  const MinimaScene scene(*a, *b, test::translation(Vector3d(0.3, 0.2, 2.0)));
+  const PairFrame frame = PairFrame::withFacets(*a, *b, test::translation(Vector3d(0.3, 0.2, 2.0)));
   MinimaTracker front;
   WorkLimit none;
   std::vector<MinimumCandidate> first;
   std::vector<MinimumCandidate> second;
-  front.collect(scene, NormalSides::Outside, kInfinity, first, none);
+  front.collect(frame, NormalSides::Outside, kInfinity, first, none);
   EXPECT_TRUE(front.counts().began_anew);
   EXPECT_GT(front.counts().kept, 0U);
-  front.collect(scene, NormalSides::Outside, kInfinity, second, none);
+  front.collect(frame, NormalSides::Outside, kInfinity, second, none);
   EXPECT_FALSE(front.counts().began_anew);
   EXPECT_EQ(front.counts().expired, 0U);
   EXPECT_EQ(front.counts().groups, 0U);
   EXPECT_EQ(front.counts().features, front.counts().live);
-  EXPECT_EQ(placesOf(a, b, scene.a_from_b, first).size(), placesOf(a, b, scene.a_from_b, second).size());
+  EXPECT_EQ(placesOf(a, b, frame.a_from_b, first).size(), placesOf(a, b, frame.a_from_b, second).size());
 }
 
 TEST(MinimaTracker, GoesOnWhereALimitHasEndedIt) {
@@ -118,7 +118,7 @@ TEST(MinimaTracker, GoesOnWhereALimitHasEndedIt) {
                         &stop);
       std::vector<MinimumCandidate> seeds;
       const bool done =
-          front.collect(MinimaScene(*a, *b, pose), NormalSides::Outside, kInfinity, seeds, stopped);
+          front.collect(PairFrame::withFacets(*a, *b, pose), NormalSides::Outside, kInfinity, seeds, stopped);
       EXPECT_FALSE(done && front.counts().expired > 0);
     } else {
       expectWhatTheRootsFind(a, b, pose, NormalSides::Outside, kInfinity, front);

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "concave_distance/mesh/repair/repair_mesh.h"
-#include "distance/kernels/minima_scene.h"
+#include "distance/kernels/pair_frame.h"
 #include "distance/niches/minima_checks.h"
 #include "mesh/surface/mesh_topology.h"
 #include "mesh/surface/refine_mesh.h"
@@ -233,7 +233,7 @@ TEST(LocalMinimaOf, NothingIsFloodedBeyondTheCutoff) {
     const LocalMinimum& nearest = all.niches.front();
     request.cutoff = 0.99 * nearest.distance;
     request.asked_pairs.emplace_back(nearest.witness.triangle_a, nearest.witness.triangle_b);
-    request.proposals.push_back(detail::MinimaScene(*comb, *comb, pose).seedOf(nearest.witness));
+    request.proposals.push_back(detail::PairFrame(*comb, *comb, pose).candidateOf(nearest.witness));
     LocalMinima near = minimaOf(comb, comb, pose, request);
     EXPECT_TRUE(near.niches.empty());
     EXPECT_EQ(near.cost.flooded_pairs, 0U);

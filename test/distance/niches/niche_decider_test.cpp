@@ -29,7 +29,7 @@ using test::nichesOf;
 using Body = std::shared_ptr<const BodyMesh>;
 using Verdict = NicheDecider::Verdict;
 
-std::vector<MinimumCandidate> seedsAt(const MinimaScene& scene) {
+std::vector<MinimumCandidate> seedsAt(const PairFrame& scene) {
   MinimaTracker front;
   WorkLimit none;
   std::vector<MinimumCandidate> seeds;
@@ -40,7 +40,7 @@ std::vector<MinimumCandidate> seedsAt(const MinimaScene& scene) {
   return seeds;
 }
 
-std::vector<double> nichesByFloods(const MinimaScene& scene, std::vector<MinimumCandidate> seeds,
+std::vector<double> nichesByFloods(const PairFrame& scene, std::vector<MinimumCandidate> seeds,
                                    double least_prominence) {
   NicheDecider once;
   WorkLimit none;
@@ -70,7 +70,7 @@ TEST(NicheDecider, AreThoseOfFloodsAtEveryPoseOfAnyMotion) {
     NicheDecider::Request request;
     request.least_prominence = least_prominence;
     for (int k = 0; k < 40; ++k) {
-      const MinimaScene scene(*a, *b, motion.at(step * k));
+      const PairFrame scene = PairFrame::withFacets(*a, *b, motion.at(step * k));
       std::vector<MinimumCandidate> seeds = seedsAt(scene);
       WorkLimit none;
       verdicts.judge(scene, seeds, request, none);
@@ -108,7 +108,7 @@ TEST(NicheDecider, AreThoseOfFloodsForLinksOfManyShells) {
       Isometry3d pose = motion.at(0.005 * k);
       pose.translation() -= pose.linear() * b->surface().boundingBox().center();
       pose.pretranslate(a->surface().boundingBox().center());
-      const MinimaScene scene(*a, *b, pose);
+      const PairFrame scene = PairFrame::withFacets(*a, *b, pose);
       std::vector<MinimumCandidate> seeds = seedsAt(scene);
       WorkLimit none;
       verdicts.judge(scene, seeds, request, none);
@@ -123,7 +123,7 @@ TEST(NicheDecider, AreThoseOfFloodsForLinksOfManyShells) {
 TEST(NicheDecider, NeedNoFloodWhereNothingHasMoved) {
   const Body a = makeBody(test::concaveShape(5));
   const Body b = makeBody(test::concaveShape(1));
-  const MinimaScene scene(*a, *b, test::translation(Vector3d(0.3, 0.2, 2.0)));
+  const PairFrame scene = PairFrame::withFacets(*a, *b, test::translation(Vector3d(0.3, 0.2, 2.0)));
   std::vector<MinimumCandidate> seeds = seedsAt(scene);
   NicheDecider verdicts;
   WorkLimit none;
@@ -144,7 +144,8 @@ TEST(NicheDecider, GiveANicheTheSameRegionWhileItStands) {
   NicheDecider verdicts;
   std::set<std::uint64_t> first;
   for (int k = 0; k < 20; ++k) {
-    const MinimaScene scene(*a, *b, test::translation(Vector3d(0.2 + 1e-4 * k, 0.1, 3.0 + 1e-4 * k)));
+    const PairFrame scene =
+        PairFrame::withFacets(*a, *b, test::translation(Vector3d(0.2 + 1e-4 * k, 0.1, 3.0 + 1e-4 * k)));
     std::vector<MinimumCandidate> seeds = seedsAt(scene);
     WorkLimit none;
     verdicts.judge(scene, seeds, {}, none);
@@ -162,7 +163,7 @@ TEST(NicheDecider, GiveANicheTheSameRegionWhileItStands) {
 TEST(NicheDecider, FloodNothingThatIsNotWanted) {
   const Body a = makeBody(test::concaveShape(0));
   const Body b = makeBody(test::concaveShape(3));
-  const MinimaScene scene(*a, *b, test::translation(Vector3d(0.3, 0.2, 2.0)));
+  const PairFrame scene = PairFrame::withFacets(*a, *b, test::translation(Vector3d(0.3, 0.2, 2.0)));
   std::vector<MinimumCandidate> seeds = seedsAt(scene);
   NicheDecider verdicts;
   NicheDecider::Request request;
@@ -184,7 +185,7 @@ TEST(NicheDecider, AreRightAgainAfterALimitHasEndedThem) {
     const test::Motion motion = test::randomMotion(engine);
     NicheDecider verdicts;
     for (int k = 0; k < 24; ++k) {
-      const MinimaScene scene(*a, *b, motion.at(0.003 * k));
+      const PairFrame scene = PairFrame::withFacets(*a, *b, motion.at(0.003 * k));
       std::vector<MinimumCandidate> seeds = seedsAt(scene);
       if (k % 3 == 1) {
         WorkLimit stopped(std::chrono::steady_clock::now(), kInfinity,
@@ -221,7 +222,7 @@ TEST(NicheDecider, AreRightAfterAListThatWasCut) {
     NicheDecider verdicts;
     std::vector<TrianglePair> known;
     for (int k = 0; k < 24; ++k) {
-      const MinimaScene scene(*a, *b, motion.at(0.01 * (k - k % 2)));
+      const PairFrame scene = PairFrame::withFacets(*a, *b, motion.at(0.01 * (k - k % 2)));
       std::vector<MinimumCandidate> seeds = seedsAt(scene);
       const std::vector<double> truth = nichesByFloods(scene, seeds, 1e-2);
       NicheDecider::Request request;
@@ -281,7 +282,7 @@ TEST(NicheDecider, NeedNoStackForALongWayDown) {
   } run;
   const auto judge = [](void* argument) -> void* {
     Run& own = *static_cast<Run*>(argument);
-    const MinimaScene scene(*own.scene.a, *own.scene.b, own.scene.pose);
+    const PairFrame scene = PairFrame::withFacets(*own.scene.a, *own.scene.b, own.scene.pose);
     RefinementWorkspace workspace;
     WitnessPair first;
     first.squared_distance = kInfinity;
@@ -291,7 +292,7 @@ TEST(NicheDecider, NeedNoStackForALongWayDown) {
               .witness;
       if (found.squared_distance < first.squared_distance) first = found;
     }
-    std::vector<MinimumCandidate> seeds{scene.seedOf(first)};
+    std::vector<MinimumCandidate> seeds{scene.candidateOf(first)};
     NicheDecider verdicts;
     NicheDecider::Request request;
     request.least_prominence = 1.0;
@@ -325,7 +326,7 @@ TEST(NicheDecider, AreThoseOfMeasuredPassesWhateverTheOrderOfTheSeeds) {
     measured.least_prominence = 0.1;
     measured.prominence_limit = 0.2;
     const LocalMinima truth = findLocalMinima(*drawn.a, *drawn.b, drawn.pose, measured);
-    const MinimaScene scene(*drawn.a, *drawn.b, drawn.pose);
+    const PairFrame scene = PairFrame::withFacets(*drawn.a, *drawn.b, drawn.pose);
     std::vector<MinimumCandidate> seeds = seedsAt(scene);
     if (!seeds.empty() && truth.niches.front().distance == 0.0) continue;  // many seeds, one niche
     std::reverse(seeds.begin() + static_cast<std::ptrdiff_t>(seeds.size() / 3), seeds.end());
@@ -347,7 +348,7 @@ TEST(BasinBoundary, LosesExactlyWhatComesNearerThanTheLevel) {
     const Body b = makeBody(test::concaveShape(run / 6));
     const test::Motion motion = test::randomMotion(engine);
     const double step = std::pow(10.0, -4.0 + 3.0 * uniformUnit(engine));
-    const MinimaScene first(*a, *b, motion.at(0.0));
+    const PairFrame first = PairFrame::withFacets(*a, *b, motion.at(0.0));
     WorkLimit none;
     BasinBoundary border;
     BorderPool pool;
@@ -368,7 +369,7 @@ TEST(BasinBoundary, LosesExactlyWhatComesNearerThanTheLevel) {
       left.push_back(element);
     }
     for (int k = 1; k < 30; ++k) {
-      const MinimaScene scene(*a, *b, motion.at(step * k));
+      const PairFrame scene = PairFrame::withFacets(*a, *b, motion.at(step * k));
       border.takeCrossed(pool, scene, level);
       const std::size_t crossed = pool.crossed.size();
       const auto nearer = [&](const SharedElement& element) {

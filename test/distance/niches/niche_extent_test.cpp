@@ -7,8 +7,8 @@
 #include "mesh/surface/mesh_topology.h"
 #include "mesh/surface/refine_mesh.h"
 #include "support/body_pairs.h"
+#include "support/enumeration.h"
 #include "support/mesh_variants.h"
-#include "thesis/src/evaluation/enumeration.h"
 
 namespace concave_distance::niche_extent_test {
 namespace {
@@ -47,7 +47,7 @@ WitnessPair certifiedWitness(const Body& a, const Body& b, const Isometry3d& pos
 }
 
 NicheExtent extentOfClosest(const Body& a, const Body& b, const Isometry3d& pose) {
-  return extentOf(a, b, pose, enumerateTrianglePairs(*a, *b, pose));
+  return extentOf(a, b, pose, test::enumerateTrianglePairs(*a, *b, pose));
 }
 
 /// From each triangle pair whose refinement ends at the least distance, and with the bodies exchanged: always
@@ -55,7 +55,7 @@ NicheExtent extentOfClosest(const Body& a, const Body& b, const Isometry3d& pose
 void expectSameFromEveryStart(const Body& a, const Body& b, const Isometry3d& pose, NicheKind kind,
                               double length, const Vector3d& middle_on_a, const Vector3d& middle_on_b,
                               double error) {
-  const double least = std::sqrt(enumerateTrianglePairs(*a, *b, pose).squared_distance);
+  const double least = std::sqrt(test::enumerateTrianglePairs(*a, *b, pose).squared_distance);
   int starts = 0;
   for (std::uint32_t i = 0; i < a->surface().triangleCount(); ++i) {
     for (std::uint32_t j = 0; j < b->surface().triangleCount(); ++j) {
@@ -231,7 +231,7 @@ TEST(MeasureExtent, CornersAndCrossedEdgesArePoints) {
   for (int i = 0; i < 100; ++i) {
     Isometry3d pose = test::randomPose(engine, 0.1);
     pose.translation() += 3.5 * test::randomRotation(engine).col(0);
-    const WitnessPair witness = enumerateTrianglePairs(*a, *b, pose);
+    const WitnessPair witness = test::enumerateTrianglePairs(*a, *b, pose);
     const NicheExtent extent = extentOf(a, b, pose, witness);
     EXPECT_EQ(extent.kind, NicheKind::Point);
     EXPECT_EQ(extent.length, 0.0);
@@ -274,7 +274,7 @@ TEST(MeasureExtent, SaysWhenItCut) {
   const Body a = makeBody(test::makeSheet(10, 10));
   const Body b = makeBody(test::makeSheet(10, 10));
   const Isometry3d pose = test::translation(Vector3d(0, 0, 0.2));
-  const WitnessPair witness = enumerateTrianglePairs(*a, *b, pose);
+  const WitnessPair witness = test::enumerateTrianglePairs(*a, *b, pose);
   ExtentWorkspace workspace;
   EXPECT_TRUE(measureExtent(*a, *b, pose, witness, kTolerance, 20, workspace).cut);
   const NicheExtent whole = measureExtent(*a, *b, pose, witness, kTolerance, kPairLimit, workspace);
@@ -291,7 +291,7 @@ TEST(MeasureExtent, TerraceThatLeadsDownIsNoMinimum) {
   const Body b = makeBody(makeCuboid(Vector3d(-1, -1, 1), Vector3d(3, 2, 2)));
   const Isometry3d pose = Isometry3d::Identity();
   RefinementWorkspace workspace;
-  const TriangleIndex under_b = enumerateTrianglePairs(*a, *b, pose).triangle_b;
+  const TriangleIndex under_b = test::enumerateTrianglePairs(*a, *b, pose).triangle_b;
   // The far corner of the terrace: its own surroundings are level.
   const Vector3d above(0, 0.5, 1);
   WitnessPair witness;

@@ -9,7 +9,7 @@
 #include <map>
 
 #include "support/body_pairs.h"
-#include "thesis/src/evaluation/enumeration.h"
+#include "support/enumeration.h"
 
 namespace concave_distance::niche_properties_test {
 namespace {
@@ -83,15 +83,15 @@ TEST(ClassifyOutwardness, FlagsTheBackOfAnOpenSheetOnly) {
     const Body turned = makeBody(test::makeTurned(sheet));
     const Outwardness front = Outwardness::Outward;
     const Outwardness back = Outwardness::Unknown;
-    const WitnessPair witness = enumerateTrianglePairs(*a, *ball, pose);
+    const WitnessPair witness = test::enumerateTrianglePairs(*a, *ball, pose);
     EXPECT_EQ(classifyOutwardness(*a, *ball, pose, witness), height > 0.0 ? front : back);
-    const WitnessPair other = enumerateTrianglePairs(*turned, *ball, pose);
+    const WitnessPair other = test::enumerateTrianglePairs(*turned, *ball, pose);
     EXPECT_EQ(classifyOutwardness(*turned, *ball, pose, other), height > 0.0 ? back : front);
   }
   // Beside the sheet, in its plane, neither side is the back.
   const Body a = makeBody(sheet);
   const Isometry3d beside = test::translation(Vector3d(1.5, 0.4, 0.0));
-  EXPECT_EQ(classifyOutwardness(*a, *ball, beside, enumerateTrianglePairs(*a, *ball, beside)),
+  EXPECT_EQ(classifyOutwardness(*a, *ball, beside, test::enumerateTrianglePairs(*a, *ball, beside)),
             Outwardness::Outward);
 }
 
@@ -132,7 +132,7 @@ TEST(ClassifyOutwardness, SeesEdgesWhereManyTrianglesMeet) {
   for (int i = 0; i < 200; ++i) {
     Isometry3d pose = test::randomPose(engine, 1.5);
     pose.translation() += Vector3d(1, 1, 0.5);
-    const WitnessPair witness = enumerateTrianglePairs(*a, *ball, pose);
+    const WitnessPair witness = test::enumerateTrianglePairs(*a, *ball, pose);
     if (witness.squared_distance == 0.0 || isInside(a, pose.translation())) continue;
     EXPECT_EQ(classifyOutwardness(*a, *ball, pose, witness), Outwardness::Outward);
   }
@@ -141,7 +141,8 @@ TEST(ClassifyOutwardness, SeesEdgesWhereManyTrianglesMeet) {
 TEST(ClassifyOutwardness, TouchingWitnessesAreOutward) {
   const Body a = makeBody(makeCuboid(Vector3d::Zero(), Vector3d::Ones()));
   const Isometry3d pose = test::translation(Vector3d(0.5, 0.5, 0.5));
-  EXPECT_EQ(classifyOutwardness(*a, *a, pose, enumerateTrianglePairs(*a, *a, pose)), Outwardness::Outward);
+  EXPECT_EQ(classifyOutwardness(*a, *a, pose, test::enumerateTrianglePairs(*a, *a, pose)),
+            Outwardness::Outward);
 }
 
 /// Every triangle of either body against the segment, ends cut off, through the distance kernel.
@@ -189,7 +190,7 @@ TEST(IsVisible, TheClosestPairAlwaysIs) {
     const Body a = makeBody(test::concaveShape(round));
     const Body b = makeBody(test::concaveShape(round / 6));
     const Isometry3d pose = test::randomPose(engine, 2.0);
-    EXPECT_TRUE(isVisible(*a, *b, pose, enumerateTrianglePairs(*a, *b, pose)));
+    EXPECT_TRUE(isVisible(*a, *b, pose, test::enumerateTrianglePairs(*a, *b, pose)));
   }
 }
 

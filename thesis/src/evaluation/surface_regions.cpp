@@ -9,7 +9,7 @@ namespace concave_distance::evaluation {
 
 SurfaceRegions::SurfaceRegions(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
                                const std::vector<LocalMinimum>& minima)
-    : scene_(a, b, a_from_b) {
+    : scene_(detail::PairFrame::withFacets(a, b, a_from_b)) {
   for (std::size_t i = 0; i < minima.size(); ++i) {
     const auto facet_pair = scene_.facetPairOf(minima[i].witness.triangle_a, minima[i].witness.triangle_b);
     minima_of_facet_pair_.emplace(pairKey(facet_pair.a, facet_pair.b), i);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "concave_distance/mesh/body_mesh.h"
-#include "distance/kernels/minima_scene.h"
+#include "distance/kernels/pair_frame.h"
 #include "distance/niches/local_minima.h"
 
 namespace concave_distance::evaluation {
@@ -35,7 +35,7 @@ class SurfaceRegions {
   std::size_t ownerOf(const FoundPlace& place) const;
 
  private:
-  detail::MinimaScene scene_;
+  detail::PairFrame scene_;
   std::unordered_multimap<std::uint64_t, std::size_t> minima_of_facet_pair_;
 };
 

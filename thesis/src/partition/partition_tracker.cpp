@@ -23,7 +23,8 @@ std::vector<GjkShape> shapesOf(const ConvexPartition& partition) {
 
 void checkPieces(const ConvexPartition& partition) {
   if (partition.pieces.empty()) {
-    throw Error(partition.name, "the partition has no piece", "partition the body, see mesh_tool partition");
+    throw Error(partition.name, "the partition has no piece",
+                "partition the body, see thesis_tool partition");
   }
 }
 

@@ -65,7 +65,7 @@ TEST(SimulatedAnnealing, AcceptsByBoltzmannsFactor) {
 
 TEST(SimulatedAnnealing, FindsTheEnumeratedOptimumWithLocalOptimization) {
   Annealing annealing(test::facingCombs());
-  const NodePairMinimum optimum =
+  const TrialPoint optimum =
       enumerateNodePairs(*annealing.scene.a, *annealing.scene.b, annealing.scene.a_from_b);
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     AnnealingParameters parameters = shortRun(true);

@@ -9,11 +9,11 @@
 #include "mesh/surface/mesh_topology.h"
 #include "mesh/trees/triangle_tree.h"
 #include "support/concave_shapes.h"
+#include "support/enumeration.h"
 #include "support/plain_shapes.h"
 #include "support/thesis_scenes.h"
 #include "thesis/src/continuous/constraint_tree_file.h"
 #include "thesis/src/continuous/continuous_genetic_search.h"
-#include "thesis/src/evaluation/enumeration.h"
 #include "thesis/test/continuous/tree_checks.h"
 
 namespace concave_distance::build_constraint_tree_test {
@@ -189,7 +189,7 @@ TEST(BuildConstraintTree, RefusesSurfacesWithoutAnInside) {
 
 TEST(ContinuousGeneticSearch, SolvesTheBatteryAndFixtureInMoreThanHalfOfTheRuns) {
   const test::ThesisScene s = test::loadThesisScene("battery_static", 10.0);
-  const double minimum = std::sqrt(enumerateTrianglePairs(*s.a, *s.b, s.a_from_b).squared_distance);
+  const double minimum = std::sqrt(test::enumerateTrianglePairs(*s.a, *s.b, s.a_from_b).squared_distance);
   const ConstraintTree a = buildConstraintTree(s.a->surface(), {}, "fixture").tree;
   const ConstraintTree b = buildConstraintTree(s.b->surface(), {}, "battery").tree;
   constexpr int kRuns = 20;

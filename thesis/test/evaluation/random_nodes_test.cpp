@@ -10,6 +10,7 @@
 #include "concave_distance/mesh/body_mesh.h"
 #include "concave_distance/mesh/surface/primitives.h"
 #include "support/concave_shapes.h"
+#include "support/enumeration.h"
 #include "thesis/src/evaluation/enumeration.h"
 
 namespace concave_distance::random_nodes_test {
@@ -132,7 +133,7 @@ TEST(RandomNodes, AnswerNoLessThanTheSurfaces) {
   const BodyMesh b = body_of(2);
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.translation() = Eigen::Vector3d(0.3, 0.2, 1.7);
-  const double exact = std::sqrt(enumerateTrianglePairs(a, b, pose).squared_distance);
+  const double exact = std::sqrt(test::enumerateTrianglePairs(a, b, pose).squared_distance);
   const double nodes = std::sqrt(enumerateNodePairs(a, b, pose).squared_distance);
   EXPECT_GE(nodes, exact);
   EXPECT_LE(nodes, exact + a.maxEdgeLength() + b.maxEdgeLength());

@@ -6,8 +6,8 @@
 #include "concave_distance/mesh/repair/repair_mesh.h"
 #include "concave_distance/tracking/pair_tracker.h"
 #include "search/grid/mesh_metric.h"
+#include "support/enumeration.h"
 #include "support/thesis_scenes.h"
-#include "thesis/src/evaluation/enumeration.h"
 
 namespace concave_distance::thesis_scenes_test {
 namespace {
@@ -17,7 +17,7 @@ constexpr double kFileAccuracy = 1e-6;
 
 double exactDistance(const std::string& scene) {
   const test::ThesisScene s = test::loadThesisScene(scene, 10.0);
-  return std::sqrt(enumerateTrianglePairs(*s.a, *s.b, s.a_from_b).squared_distance);
+  return std::sqrt(test::enumerateTrianglePairs(*s.a, *s.b, s.a_from_b).squared_distance);
 }
 
 TEST(ThesisGeometry, IsClosedOutwardAndWelded) {
@@ -42,9 +42,9 @@ TEST(ThesisGeometry, HasTheExactDistancesOfTables23And26) {
 TEST(ThesisBoxes, HaveTheThreeRegionsOfTable42AtGridOneTenth) {
   const test::ThesisScene s = test::loadThesisScene("boxes_position_1", 0.1);
   // The minima are whole edges, so that one region may make a row of node niches.
-  const auto niches = enumerateNodeNiches(*s.a, *s.b, s.a_from_b, 0.65, 0.005);
+  const auto niches = test::enumerateNodeNiches(*s.a, *s.b, s.a_from_b, 0.65, 0.005);
   for (const double region : {0.2984, 0.5245, 0.6096}) {
-    const bool found = std::any_of(niches.begin(), niches.end(), [&](const NodeNiche& niche) {
+    const bool found = std::any_of(niches.begin(), niches.end(), [&](const test::NodeNiche& niche) {
       return niche.distance >= region - kFileAccuracy && niche.distance < 1.01 * region;
     });
     EXPECT_TRUE(found) << region;
@@ -59,7 +59,7 @@ class BatteryAndFixture : public ::testing::TestWithParam<GridAndCutoff> {};
 
 TEST_P(BatteryAndFixture, HaveExactlyNineNichesWithinTwoPerCentOfTable46) {
   const test::ThesisScene s = test::loadThesisScene("battery_static", GetParam().max_edge_length);
-  const auto niches = enumerateNodeNiches(*s.a, *s.b, s.a_from_b, GetParam().cutoff, 1e-2);
+  const auto niches = test::enumerateNodeNiches(*s.a, *s.b, s.a_from_b, GetParam().cutoff, 1e-2);
   const double table[] = {0.0757, 0.1336, 0.1499, 0.2039, 0.2953, 0.2971, 0.3731, 0.3938, 0.4026};
   ASSERT_EQ(niches.size(), std::size(table));
   for (std::size_t i = 0; i < niches.size(); ++i) {
@@ -73,7 +73,7 @@ INSTANTIATE_TEST_SUITE_P(AtGrids, BatteryAndFixture,
 
 TEST(BatteryAndFixtureNiches, LieFartherApartOnTheMeshesThanTheSharingRadius) {
   const test::ThesisScene s = test::loadThesisScene("battery_static", 0.1);
-  const auto niches = enumerateNodeNiches(*s.a, *s.b, s.a_from_b, 3.0, 1e-2);
+  const auto niches = test::enumerateNodeNiches(*s.a, *s.b, s.a_from_b, 3.0, 1e-2);
   // Carretero, table 6.1: sigma_s = sigma_n = 0.6, on the sum of both mesh distances (4.5).
   ASSERT_TRUE(s.a->metric().hasMatrices() && s.b->metric().hasMatrices());
   for (std::size_t i = 0; i < niches.size(); ++i) {

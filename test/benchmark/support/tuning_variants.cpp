@@ -1,4 +1,4 @@
-#include "thesis/benchmark/support/tuning_variants.h"
+#include "benchmark/support/tuning_variants.h"
 
 #include <sstream>
 

@@ -12,8 +12,8 @@
 #include <fstream>
 
 #include "benchmark/support/benchmark_main.h"
+#include "benchmark/support/search_trial.h"
 #include "search/automatic_radii.h"
-#include "thesis/benchmark/support/search_trial.h"
 
 namespace concave_distance::benchmark {
 namespace {

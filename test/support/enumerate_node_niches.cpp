@@ -6,10 +6,10 @@
 
 #include "base/union_find.h"
 #include "concave_distance/base/error.h"
-#include "enumeration.h"
 #include "search/grid/node_graph.h"
+#include "support/enumeration.h"
 
-namespace concave_distance {
+namespace concave_distance::test {
 namespace {
 
 constexpr std::uint32_t kNotFlooded = 0xffffffffU;
@@ -131,4 +131,4 @@ std::vector<NodeNiche> enumerateNodeNiches(const BodyMesh& a, const BodyMesh& b,
   return niches;
 }
 
-}  // namespace concave_distance
+}  // namespace concave_distance::test

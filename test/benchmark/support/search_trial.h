@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "benchmark/support/reference_niches.h"
 #include "concave_distance/search/genetic_parameters.h"
-#include "thesis/benchmark/support/reference_niches.h"
 
 namespace concave_distance::benchmark {
 

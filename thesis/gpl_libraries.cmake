@@ -1,6 +1,6 @@
 # What the convex partition and the building of constraint trees (thesis/src) need. Their exact constructions are CGAL's
 # (GPL-3), their quadratic programs ALGLIB's (GPL-2 or later), their GJK is FCL's (BSD): programs that link them,
-# mesh_tool, tests and benchmarks, are under the GPL as a whole. The core and the node stay BSD-3-Clause.
+# evaluate, thesis_tool, tests and benchmarks, are under the GPL as a whole. The core and the node stay BSD-3-Clause.
 find_package(CGAL QUIET)
 find_package(fcl QUIET)
 find_path(CONCAVE_DISTANCE_ALGLIB_HEADERS optimization.h PATH_SUFFIXES libalglib)

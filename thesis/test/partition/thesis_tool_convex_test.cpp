@@ -10,14 +10,14 @@
 #include "thesis/test/support/partition_checks.h"
 #include "thesis/test/support/read_pieces.h"
 
-namespace concave_distance::mesh_tool_convex_test {
+namespace concave_distance::thesis_tool_convex_test {
 namespace {
 
 /// The program as a user runs it.
-class MeshToolConvex : public testing::Test {
+class ThesisToolConvex : public testing::Test {
  protected:
   int run(const std::string& arguments) const {
-    const std::string command = std::string(CONCAVE_DISTANCE_MESH_TOOL) + " " + arguments + " > " +
+    const std::string command = std::string(CONCAVE_DISTANCE_THESIS_TOOL) + " " + arguments + " > " +
                                 folder.path("out") + " 2> " + folder.path("errors");
     return WEXITSTATUS(std::system(command.c_str()));
   }
@@ -25,7 +25,7 @@ class MeshToolConvex : public testing::Test {
   test::TemporaryFolder folder;
 };
 
-TEST_F(MeshToolConvex, PartitionWritesPiecesThatAreTheBody) {
+TEST_F(ThesisToolConvex, PartitionWritesPiecesThatAreTheBody) {
   const SurfaceMesh comb = test::makeComb(4);
   exportMesh(comb, folder.path("comb.obj"));
   EXPECT_EQ(run("partition " + folder.path("comb.obj") + " " + folder.path("pieces.obj")), 0);
@@ -36,7 +36,7 @@ TEST_F(MeshToolConvex, PartitionWritesPiecesThatAreTheBody) {
                         repairMesh(importMesh(path), {}, path).mesh, 1000);
 }
 
-TEST_F(MeshToolConvex, HullWritesAClosedMeshAroundTheBody) {
+TEST_F(ThesisToolConvex, HullWritesAClosedMeshAroundTheBody) {
   const SurfaceMesh comb = test::makeComb(4);
   exportMesh(comb, folder.path("comb.obj"));
   EXPECT_EQ(run("hull " + folder.path("comb.obj") + " " + folder.path("hull.ply")), 0);
@@ -47,7 +47,7 @@ TEST_F(MeshToolConvex, HullWritesAClosedMeshAroundTheBody) {
   EXPECT_GT(test::volumeOf(hull), test::volumeOf(comb));
 }
 
-TEST_F(MeshToolConvex, AnOpenMeshIsRefusedByName) {
+TEST_F(ThesisToolConvex, AnOpenMeshIsRefusedByName) {
   folder.write("open.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\n");
   EXPECT_EQ(run("partition " + folder.path("open.obj") + " " + folder.path("pieces.obj")), 1);
   const std::string errors = test::contentOf(folder.path("errors"));
@@ -55,7 +55,7 @@ TEST_F(MeshToolConvex, AnOpenMeshIsRefusedByName) {
   EXPECT_NE(errors.find("border"), std::string::npos) << errors;
 }
 
-TEST_F(MeshToolConvex, MoreReflexEdgesThanAllowedAreRefused) {
+TEST_F(ThesisToolConvex, MoreReflexEdgesThanAllowedAreRefused) {
   exportMesh(test::makeComb(4), folder.path("comb.obj"));
   EXPECT_EQ(
       run("partition --reflex-edge-limit 5 " + folder.path("comb.obj") + " " + folder.path("pieces.obj")), 1);
@@ -63,4 +63,4 @@ TEST_F(MeshToolConvex, MoreReflexEdgesThanAllowedAreRefused) {
 }
 
 }  // namespace
-}  // namespace concave_distance::mesh_tool_convex_test
+}  // namespace concave_distance::thesis_tool_convex_test

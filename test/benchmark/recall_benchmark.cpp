@@ -20,12 +20,12 @@
 #include <fstream>
 
 #include "benchmark/support/benchmark_main.h"
+#include "benchmark/support/reference_niches.h"
+#include "benchmark/support/search_trial.h"
 #include "benchmark/support/statistics.h"
 #include "concave_distance/tracking/pair_tracker.h"
 #include "distance/kernels/witness_refinement.h"
 #include "distance/niches/niche_properties.h"
-#include "thesis/benchmark/support/reference_niches.h"
-#include "thesis/benchmark/support/search_trial.h"
 
 namespace concave_distance::benchmark {
 namespace {

@@ -1,4 +1,4 @@
-#include "thesis/benchmark/support/grid_flood.h"
+#include "benchmark/support/grid_flood.h"
 
 #include <algorithm>
 #include <cmath>

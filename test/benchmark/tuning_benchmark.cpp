@@ -25,10 +25,10 @@
 #include <regex>
 
 #include "benchmark/support/benchmark_main.h"
+#include "benchmark/support/flood_recall.h"
+#include "benchmark/support/search_trial.h"
+#include "benchmark/support/tuning_variants.h"
 #include "concave_distance/tracking/pair_tracker.h"
-#include "thesis/benchmark/support/flood_recall.h"
-#include "thesis/benchmark/support/search_trial.h"
-#include "thesis/benchmark/support/tuning_variants.h"
 
 namespace concave_distance::benchmark {
 namespace {

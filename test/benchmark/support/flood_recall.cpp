@@ -1,4 +1,4 @@
-#include "thesis/benchmark/support/flood_recall.h"
+#include "benchmark/support/flood_recall.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "pair_geometry.h"
+#include "niche_placement.h"
 
 #include <cmath>
 #include <limits>
@@ -9,17 +9,17 @@
 
 namespace concave_distance {
 
-WitnessPair PairGeometry::nodeWitness(const TrialPoint& pair) const {
+WitnessPair nodeWitness(const PairFrame& frame, const TrialPoint& pair) {
   WitnessPair witness;
-  witness.point_a_in_a = a->graph().positions[pair.node_a.value];
-  witness.point_b_in_a = a_from_b * b->graph().positions[pair.node_b.value];
+  witness.point_a_in_a = frame.a.graph().positions[pair.node_a.value];
+  witness.point_b_in_a = frame.a_from_b * frame.b.graph().positions[pair.node_b.value];
   witness.squared_distance = (witness.point_b_in_a - witness.point_a_in_a).squaredNorm();
-  witness.triangle_a = a->originalTriangle(pair.node_a);
-  witness.triangle_b = b->originalTriangle(pair.node_b);
+  witness.triangle_a = frame.a.originalTriangle(pair.node_a);
+  witness.triangle_b = frame.b.originalTriangle(pair.node_b);
   return witness;
 }
 
-TrialPoint PairGeometry::nodePairNear(const WitnessPair& witness) const {
+TrialPoint nodePairNear(const PairFrame& frame, const WitnessPair& witness) {
   const auto nearest = [](const BodyMesh& body, TriangleIndex triangle, const Eigen::Vector3d& point) {
     NodeIndex best;
     double least = std::numeric_limits<double>::infinity();
@@ -33,29 +33,30 @@ TrialPoint PairGeometry::nodePairNear(const WitnessPair& witness) const {
     }
     return best;
   };
-  const NodeIndex node_a = nearest(*a, witness.triangle_a, witness.point_a_in_a);
-  const NodeIndex node_b = nearest(*b, witness.triangle_b, b_from_a * witness.point_b_in_a);
+  const NodeIndex node_a = nearest(frame.a, witness.triangle_a, witness.point_a_in_a);
+  const NodeIndex node_b = nearest(frame.b, witness.triangle_b, frame.bFromA() * witness.point_b_in_a);
   return {node_a, node_b,
-          (a->graph().positions[node_a.value] - a_from_b * b->graph().positions[node_b.value]).squaredNorm()};
+          (frame.a.graph().positions[node_a.value] - frame.a_from_b * frame.b.graph().positions[node_b.value])
+              .squaredNorm()};
 }
 
-void placeRecord(NicheRecord& record, const PairGeometry& geometry, const WitnessPair& witness) {
+void placeRecord(NicheRecord& record, const PairFrame& frame, const WitnessPair& witness) {
   TrackedNiche& niche = record.niche;
   niche.witness = witness;
   niche.distance = std::sqrt(witness.squared_distance);
   niche.point_a_in_a = witness.point_a_in_a;
   niche.point_b_in_a = witness.point_b_in_a;
-  record.point_b_in_b = geometry.b_from_a * witness.point_b_in_a;
+  record.point_b_in_b = frame.bFromA() * witness.point_b_in_a;
   niche.normal_in_a = niche.distance > 0.0
                           ? Eigen::Vector3d((witness.point_b_in_a - witness.point_a_in_a) / niche.distance)
-                          : geometry.a->topology().triangle_normals[witness.triangle_a.value];
+                          : frame.a.topology().triangle_normals[witness.triangle_a.value];
 }
 
-void carryRecord(NicheRecord& record, const PairGeometry& geometry) {
+void carryRecord(NicheRecord& record, const PairFrame& frame) {
   WitnessPair witness = record.niche.witness;
-  witness.point_b_in_a = geometry.a_from_b * record.point_b_in_b;
+  witness.point_b_in_a = frame.a_from_b * record.point_b_in_b;
   witness.squared_distance = (witness.point_b_in_a - witness.point_a_in_a).squaredNorm();
-  placeRecord(record, geometry, witness);
+  placeRecord(record, frame, witness);
   record.niche.closing_speed = kNotComputed;
   record.niche.proven_local_minimum = false;
   record.least_distance = -std::numeric_limits<double>::infinity();

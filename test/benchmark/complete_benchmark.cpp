@@ -26,13 +26,13 @@
 #include <set>
 
 #include "benchmark/support/benchmark_main.h"
+#include "benchmark/support/flood_recall.h"
 #include "benchmark/support/statistics.h"
 #include "concave_distance/tracking/pair_tracker.h"
 #include "distance/niches/local_minima.h"
 #include "mesh/trees/normal_cone_tree.h"
 #include "search/local_descent.h"
-#include "thesis/benchmark/support/flood_recall.h"
-#include "thesis/src/evaluation/enumeration.h"
+#include "support/enumeration.h"
 
 namespace concave_distance::benchmark {
 namespace {
@@ -169,7 +169,8 @@ class Comparison {
   std::set<std::size_t> gridLeadsTo(const Eigen::Isometry3d& pose, double cutoff) {
     FloodStarts starts;
     const double slack = pair_.a->maxEdgeLength() + pair_.b->maxEdgeLength();
-    for (const NodeNiche& niche : enumerateNodeNiches(*pair_.a, *pair_.b, pose, cutoff + slack, 0.0)) {
+    for (const test::NodeNiche& niche :
+         test::enumerateNodeNiches(*pair_.a, *pair_.b, pose, cutoff + slack, 0.0)) {
       starts.emplace_back(pair_.a->originalTriangle(niche.node_a), pair_.b->originalTriangle(niche.node_b));
     }
     const LocalMinima truth = trueNiches(pair_, pose, cutoff, starts);

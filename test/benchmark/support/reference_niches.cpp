@@ -1,14 +1,14 @@
-#include "thesis/benchmark/support/reference_niches.h"
+#include "benchmark/support/reference_niches.h"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
+#include "benchmark/support/grid_flood.h"
 #include "distance/niches/niche_decider.h"
 #include "search/local_descent.h"
-#include "thesis/benchmark/support/grid_flood.h"
-#include "thesis/src/evaluation/enumeration.h"
-#include "tracking/pair_geometry.h"
+#include "support/enumeration.h"
+#include "tracking/niche_placement.h"
 
 namespace concave_distance::benchmark {
 
@@ -18,7 +18,8 @@ std::vector<ReferenceNiche> referenceNiches(const BenchmarkPair& pair, const Eig
   std::vector<ReferenceNiche> references;
   // What lies below the cutoff and leads on at less than the least prominence does so below this.
   const double flood_level = (1.0 + least_prominence) * cutoff;
-  for (const NodeNiche& niche : enumerateNodeNiches(*pair.a, *pair.b, pose, flood_level, least_prominence)) {
+  for (const test::NodeNiche& niche :
+       test::enumerateNodeNiches(*pair.a, *pair.b, pose, flood_level, least_prominence)) {
     if (niche.distance > cutoff) {
       break;  // ascending
     }
@@ -64,25 +65,23 @@ bool isOnePlateau(const BenchmarkPair& pair, const Eigen::Isometry3d& pose, cons
 
 bool isSameNiche(const BenchmarkPair& pair, const Eigen::Isometry3d& pose, const WitnessPair& found,
                  const WitnessPair& reference, double least_prominence) {
-  PairGeometry geometry(pair.a, pair.b);
-  geometry.setPose(pose);
-  const double tolerance = geometry.samePlaceTolerance();
+  const detail::PairFrame frame = detail::PairFrame::withFacets(*pair.a, *pair.b, pose);
+  const double tolerance = frame.samePlaceTolerance();
   if ((found.point_a_in_a - reference.point_a_in_a).norm() <= tolerance &&
       (found.point_b_in_a - reference.point_b_in_a).norm() <= tolerance) {
     return true;
   }
-  if (isOnePlateau(pair, pose, found, reference, geometry.scale())) {
+  if (isOnePlateau(pair, pose, found, reference, frame.diameters())) {
     return true;
   }
-  const detail::MinimaScene scene(*pair.a, *pair.b, pose);
-  std::vector<MinimumCandidate> seeds{scene.seedOf(found), scene.seedOf(reference)};
+  std::vector<MinimumCandidate> seeds{frame.candidateOf(found), frame.candidateOf(reference)};
   detail::NicheDecider verdicts;
   detail::NicheDecider::Request request;
   request.least_prominence = least_prominence;
   WorkLimit none;
-  verdicts.judge(scene, seeds, request, none);
+  verdicts.judge(frame, seeds, request, none);
   const auto niche_of = [&](const WitnessPair& witness) {
-    return verdicts.locate(scene, {witness.triangle_a, witness.triangle_b}, request, none);
+    return verdicts.locate(frame, {witness.triangle_a, witness.triangle_b}, request, none);
   };
   return niche_of(found) == niche_of(reference);
 }
@@ -90,12 +89,12 @@ bool isSameNiche(const BenchmarkPair& pair, const Eigen::Isometry3d& pose, const
 namespace {
 
 // The grid minimum that a place leads to over passes of less than `least_prominence`.
-TrialPoint bottomOfBasin(PairGeometry& geometry, const PairObjective& objective, const WitnessPair& place,
+TrialPoint bottomOfBasin(const PairFrame& frame, const PairObjective& objective, const WitnessPair& place,
                          double least_prominence, FloodWorkspace& flood) {
   constexpr std::uint32_t kStates = 20000;
   SearchCost cost;
   std::vector<std::uint64_t> trail;
-  TrialPoint bottom = descend(objective, geometry.nodePairNear(place), nullptr, trail, cost);
+  TrialPoint bottom = descend(objective, nodePairNear(frame, place), nullptr, trail, cost);
   while (true) {
     const double level = (1.0 + least_prominence) * std::sqrt(bottom.squared_distance);
     // The flood compares with the square of a root: without some noise its start may look deeper than itself.
@@ -145,15 +144,14 @@ std::vector<std::size_t> matchOverBentPasses(const BenchmarkPair& pair, const Ei
   if (std::find(matches.begin(), matches.end(), kNoMatch) == matches.end()) {
     return matches;
   }
-  PairGeometry geometry(pair.a, pair.b);
-  geometry.setPose(pose);
+  const detail::PairFrame frame = detail::PairFrame::withFacets(*pair.a, *pair.b, pose);
   const PairObjective objective(*pair.a, *pair.b, pose);
   FloodWorkspace flood;
   for (std::size_t i = 0; i < found.size(); ++i) {
     if (std::find(matches.begin(), matches.end(), i) != matches.end()) {
       continue;
     }
-    const TrialPoint bottom = bottomOfBasin(geometry, objective, found[i], least_prominence, flood);
+    const TrialPoint bottom = bottomOfBasin(frame, objective, found[i], least_prominence, flood);
     for (std::size_t r = 0; r < references.size(); ++r) {
       if (matches[r] == kNoMatch && samePlace(bottom, references[r].nodes)) {
         matches[r] = i;

@@ -18,14 +18,14 @@
 #include <fstream>
 
 #include "benchmark/support/benchmark_main.h"
+#include "benchmark/support/reference_niches.h"
 #include "benchmark/support/statistics.h"
 #include "concave_distance/tracking/pair_tracker.h"
 #include "distance/niches/niche_properties.h"
 #include "search/automatic_radii.h"
 #include "search/genetic_search.h"
 #include "search/local_descent.h"
-#include "thesis/benchmark/support/reference_niches.h"
-#include "thesis/src/evaluation/enumeration.h"
+#include "support/enumeration.h"
 
 namespace concave_distance::benchmark {
 namespace {
@@ -149,7 +149,8 @@ Manoeuvre runManoeuvre() {
   for (const TimedPose& instant :
        loadPoses(std::string(CONCAVE_DISTANCE_SOURCE_DIR) + "/meshes/thesis/manoeuvre_200.csv")) {
     tracker.update(instant.pose, instant.time, solution);
-    const double optimum = std::sqrt(enumerateNodePairs(*pair.a, *pair.b, instant.pose).squared_distance);
+    const double optimum =
+        std::sqrt(test::enumerateNodePairs(*pair.a, *pair.b, instant.pose).squared_distance);
     const double excess = solution.distance - optimum;
     ++manoeuvre.instants;
     manoeuvre.optimal += excess <= 1e-12 ? 1 : 0;
@@ -160,7 +161,7 @@ Manoeuvre runManoeuvre() {
 
 // Where the identified niches of the final populations beyond the references stand, and how prominent they
 // are on the grid.
-void reportExtras(const std::vector<NicheRun>& runs, const std::vector<NodeNiche>& grid_minima) {
+void reportExtras(const std::vector<NicheRun>& runs, const std::vector<test::NodeNiche>& grid_minima) {
   struct Place {
     ExtraNiche niche;
     std::size_t runs;
@@ -181,7 +182,7 @@ void reportExtras(const std::vector<NicheRun>& runs, const std::vector<NodeNiche
   std::sort(places.begin(), places.end(), [](const Place& l, const Place& r) { return l.runs > r.runs; });
   for (const Place& place : places) {
     constexpr const char* kNames[] = {"a reference's basin again", "through material", "no reference"};
-    const auto minimum = std::find_if(grid_minima.begin(), grid_minima.end(), [&](const NodeNiche& m) {
+    const auto minimum = std::find_if(grid_minima.begin(), grid_minima.end(), [&](const test::NodeNiche& m) {
       return m.node_a == place.niche.best.node_a && m.node_b == place.niche.best.node_b;
     });
     std::printf("    extra in %zu runs: nodes %.4f, exact %.4f, %s, prominence on the grid %s\n", place.runs,
@@ -192,7 +193,7 @@ void reportExtras(const std::vector<NicheRun>& runs, const std::vector<NodeNiche
 }
 
 void reportNicheRuns(const std::vector<NicheRun>& niche_runs, std::size_t references, const char* variant,
-                     const std::vector<NodeNiche>& grid_minima, std::ofstream& csv) {
+                     const std::vector<test::NodeNiche>& grid_minima, std::ofstream& csv) {
   std::uint32_t population_all = 0;
   std::uint32_t archive_all = 0;
   std::uint32_t with_duplicates = 0;
@@ -243,7 +244,7 @@ int benchmarkMain(int argc, char** argv) {
   const BenchmarkPair pair = loadBenchmarkPair("battery_fixture", kThesisGrid);
   const Eigen::Isometry3d pose = pair.motion(0.0);
   const double cutoff = pair.b->diameter();
-  const NodePairMinimum optimum = enumerateNodePairs(*pair.a, *pair.b, pose);
+  const TrialPoint optimum = test::enumerateNodePairs(*pair.a, *pair.b, pose);
   std::printf("fixture %zu nodes, battery %zu nodes, enumeration %.6f\n", pair.a->graph().nodeCount(),
               pair.b->graph().nodeCount(), std::sqrt(optimum.squared_distance));
 
@@ -280,7 +281,8 @@ int benchmarkMain(int argc, char** argv) {
     csv << "quantity,value,of\ncomb_ga_wl_optimum," << successes << ',' << runs << "\nreferences,"
         << references.size() << ",\n";
   }
-  const std::vector<NodeNiche> grid_minima = enumerateNodeNiches(*pair.a, *pair.b, pose, 1.2 * cutoff, 0.0);
+  const std::vector<test::NodeNiche> grid_minima =
+      test::enumerateNodeNiches(*pair.a, *pair.b, pose, 1.2 * cutoff, 0.0);
   for (const bool conserve : {false, true}) {
     std::vector<NicheRun> niche(niche_runs);
     tbb::parallel_for(std::uint32_t{0}, niche_runs, [&](std::uint32_t run) {

@@ -1,4 +1,4 @@
-#include "thesis/benchmark/support/search_trial.h"
+#include "benchmark/support/search_trial.h"
 
 #include <tbb/parallel_for.h>
 
@@ -8,7 +8,7 @@
 
 #include "search/automatic_radii.h"
 #include "search/genetic_search.h"
-#include "thesis/src/evaluation/enumeration.h"
+#include "support/enumeration.h"
 
 namespace concave_distance::benchmark {
 namespace {
@@ -32,7 +32,7 @@ std::vector<WitnessPair> refineAll(const BenchmarkPair& pair, const Eigen::Isome
 }  // namespace
 
 double truthCutoff(const BenchmarkPair& pair, const Eigen::Isometry3d& pose) {
-  const double nearest = std::sqrt(enumerateNodePairs(*pair.a, *pair.b, pose).squared_distance);
+  const double nearest = std::sqrt(test::enumerateNodePairs(*pair.a, *pair.b, pose).squared_distance);
   return std::max(5.0 * nearest, 0.25 * std::min(pair.a->diameter(), pair.b->diameter()));
 }
 

@@ -1,9 +1,10 @@
-#include "mesh_tool_convex.h"
+#include "thesis_tool_commands.h"
 
 #include <algorithm>
 #include <ostream>
 
 #include "concave_distance/mesh/import/export_mesh.h"
+#include "concave_distance/mesh/import/import_mesh.h"
 #include "thesis/src/partition/convex_hull.h"
 #include "thesis/src/partition/convex_partition.h"
 #include "thesis/src/partition/piece_file.h"
@@ -23,19 +24,21 @@ SurfaceMesh surfaceOf(const ConvexPiece& piece, const std::string& where) {
 
 }  // namespace
 
-void hullOfMeshFile(const MeshToolOptions& options, std::ostream& out) {
-  const RepairedMesh repaired = readRepaired(options);
-  const ConvexPiece hull = convexHull(repaired.mesh.vertices(), options.input);
+SurfaceMesh readRepaired(const ThesisToolOptions& options) {
+  return repairMesh(importMesh(options.input), options.repair, options.input).mesh;
+}
+
+void writeHull(const ThesisToolOptions& options, std::ostream& out) {
+  const ConvexPiece hull = convexHull(readRepaired(options).vertices(), options.input);
   exportMesh(surfaceOf(hull, options.input), options.output);
   out << "hull: " << hull.vertices.size() << " corners, " << hull.facets.size() << " facets, volume "
       << volume(hull) << " m^3\n";
 }
 
-void partitionMeshFile(const MeshToolOptions& options, std::ostream& out) {
-  const RepairedMesh repaired = readRepaired(options);
+void writePartition(const ThesisToolOptions& options, std::ostream& out) {
   PartitionOptions limits;
   limits.reflex_edge_limit = options.reflex_edge_limit;
-  const PartitionedBody body = partitionMesh(repaired.mesh, options.input, limits);
+  const PartitionedBody body = partitionMesh(readRepaired(options), options.input, limits);
   writePieces(body.partition, options.output);
   double sum = 0.0;
   std::size_t most_facets = 0;

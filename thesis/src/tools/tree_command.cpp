@@ -1,3 +1,5 @@
+#include "thesis_tool_commands.h"
+
 #include <cstdlib>
 #include <map>
 #include <optional>
@@ -5,7 +7,6 @@
 #include <utility>
 
 #include "base/output_file.h"
-#include "mesh_tool_convex.h"
 #include "thesis/src/continuous/build_constraint_tree.h"
 #include "thesis/src/continuous/constraint_tree_file.h"
 #include "thesis/src/continuous/piece_mesh.h"
@@ -35,10 +36,10 @@ void writePieceMeshes(const ConstraintTree& tree, std::ostream& stream) {
 
 }  // namespace
 
-void treeOfMeshFile(const MeshToolOptions& options, std::ostream& out) {
+void writeTree(const ThesisToolOptions& options, std::ostream& out) {
   TreeBuildOptions build_options;
   build_options.flatness_tolerance = options.flatness;
-  const BuiltTree built = buildConstraintTree(readRepaired(options).mesh, build_options, options.input);
+  const BuiltTree built = buildConstraintTree(readRepaired(options), build_options, options.input);
   std::optional<OutputFile> pieces;
   if (!options.pieces.empty()) {
     pieces.emplace(options.pieces);
