@@ -21,14 +21,13 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 
 #include "benchmark/support/benchmark_main.h"
 #include "benchmark/support/benchmark_pairs.h"
 #include "benchmark/support/circling_pair.h"
+#include "benchmark/support/result_table.h"
 #include "benchmark/support/statistics.h"
 #include "benchmark/support/stopwatch.h"
 #include "distance/kernels/witness_refinement.h"
@@ -214,17 +213,11 @@ int benchmarkMain(int argc, char** argv) {
   app.add_option("--files", files, "pairs of mesh files, a colon between two")->delimiter(',');
   app.add_option("--output", output, "CSV file");
   CLI11_PARSE(app, argc, argv);
-  std::ofstream file;
-  if (!output.empty()) file.open(output);
-  const char* header =
-      "pair,steps,fcl_us,roots_us,front_us,front_99_us,front_over_fcl,kept,expired,groups,features,live,"
-      "seeds,events,anew,missed,more,floods_us,judge_us,judge_99_us,niches,by_path,aimed,by_border,mended,"
-      "floods,"
-      "cells,"
-      "measured,"
-      "other,kilobytes";
-  std::printf("%s\n", header);
-  if (file) file << header << '\n';
+  ResultTable table(
+      output,
+      "pair,steps,fcl_us,roots_us,front_us,front_99_us,front_over_fcl,kept,expired,groups,features,"
+      "live,seeds,events,anew,missed,more,floods_us,judge_us,judge_99_us,niches,by_path,aimed,"
+      "by_border,mended,floods,cells,measured,other,kilobytes");
   if (!files.empty()) names = files;
   for (const std::string& name : names) {
     const BenchmarkPair pair = files.empty() ? loadBenchmarkPair(name) : loadFiles(name);
@@ -239,22 +232,14 @@ int benchmarkMain(int argc, char** argv) {
         }
       }
       const double n = static_cast<double>(sample.front_us.size());
-      char line[1024];
-      std::snprintf(
-          line, sizeof line,
-          "%s,%d,%.1f,%.1f,%.1f,%.1f,%.3f,%.0f,%.0f,%.0f,%.0f,%.0f,%.1f,%.1f,%d,%zu,%zu,%.1f,%.1f,"
-          "%.1f,%.1f,%.1f,%.1f,%.1f,%.1f,%.1f,%.0f,%.0f,%d,%.0f",
-          pair.name.c_str(), count, median(sample.fcl_us), median(sample.roots_us), median(sample.front_us),
-          percentile(sample.front_us, 0.99), median(sample.front_us) / median(sample.fcl_us), sample.kept / n,
-          sample.expired / n, sample.groups / n, sample.features / n, sample.live / n,
-          static_cast<double>(sample.candidates) / n, static_cast<double>(sample.events) / n, sample.anew,
-          sample.missed, sample.more, median(sample.floods_us), median(sample.judge_us),
-          percentile(sample.judge_us, 0.99), sample.niches / n, sample.by_path / n, sample.aimed / n,
-          sample.by_border / n, sample.mended / n, sample.floods / n, sample.cells / n, sample.measured / n,
-          sample.other, static_cast<double>(sample.bytes) / 1024.0);
-      std::printf("%s\n", line);
-      std::fflush(stdout);
-      if (file) file << line << '\n';
+      table.add(pair.name, count, median(sample.fcl_us), median(sample.roots_us), median(sample.front_us),
+                percentile(sample.front_us, 0.99), median(sample.front_us) / median(sample.fcl_us),
+                sample.kept / n, sample.expired / n, sample.groups / n, sample.features / n, sample.live / n,
+                static_cast<double>(sample.candidates) / n, static_cast<double>(sample.events) / n, sample.anew,
+                sample.missed, sample.more, median(sample.floods_us), median(sample.judge_us),
+                percentile(sample.judge_us, 0.99), sample.niches / n, sample.by_path / n, sample.aimed / n,
+                sample.by_border / n, sample.mended / n, sample.floods / n, sample.cells / n,
+                sample.measured / n, sample.other, sample.bytes / 1024);
     }
   }
   return 0;

@@ -128,7 +128,8 @@ TEST(ConeSlices, LoseNoPairWhereALimitEndsThem) {
         front.collect(PairFrame::withFacets(*a, *b, pose), NormalSides::Outside, kInfinity, candidates,
                       limit);
         slices += front.counts().slices;
-        cut += limit.hasRefused() ? 1 : 0;
+        if (!limit.hasRefused()) continue;
+        ++cut;
         test::expectOneAncestor(*a, *b, front);
         if (testing::Test::HasFailure()) return;
       }

@@ -1,13 +1,13 @@
-#include "benchmark/support/reference_niches.h"
+#include "thesis/benchmark/support/reference_niches.h"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
-#include "benchmark/support/grid_flood.h"
 #include "distance/niches/niche_decider.h"
 #include "search/local_descent.h"
 #include "support/enumeration.h"
+#include "thesis/benchmark/support/grid_flood.h"
 #include "tracking/niche_placement.h"
 
 namespace concave_distance::benchmark {
