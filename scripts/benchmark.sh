@@ -7,13 +7,13 @@ set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 size=${1:-quick}
 case $size in
-  quick) overlaps=500 lattices=300 hole_facets=6,20 protrusions=8,16 tree_seeds=10 runs=200 niche_runs=60 steps=200 window=4 seeds=2 proof_poses=200 sizes=1000,10000,100000 spacings=0,0.02 rings=100000 wall=2 island_runs=2 ;;
-  full) overlaps=10000 lattices=2000 hole_facets=6,12,20,40 protrusions=1,4,8,16,32 tree_seeds=50 runs=1000 niche_runs=500 steps=500 window=10 seeds=8 proof_poses=7000 sizes=1000,10000,100000,1000000
+  quick) overlaps=500 lattices=300 hole_facets=6,20 protrusions=8,16 tree_seeds=10 runs=200 niche_runs=60 steps=200 window=4 proof_poses=200 sizes=1000,10000,100000 spacings=0,0.02 rings=100000 wall=2 island_runs=2 ;;
+  full) overlaps=10000 lattices=2000 hole_facets=6,12,20,40 protrusions=1,4,8,16,32 tree_seeds=50 runs=1000 niche_runs=500 steps=500 window=10 proof_poses=7000 sizes=1000,10000,100000,1000000
     spacings=0,0.01 rings=1000000 wall=6 island_runs=20 ;;
   *) echo "usage: scripts/benchmark.sh [quick|full]" >&2; exit 2 ;;
 esac
 program() { find "$root/build" -type f -perm -u+x -name "$1" | head -n 1; }
-for name in tracking battery budget cores front generation proposal recall radii descent islands certificate hierarchy scale exactness complete accuracy; do
+for name in tracking battery budget front generation descent islands certificate scale exactness complete accuracy; do
   [ -n "$(program "${name}_benchmark")" ] || { echo "${name}_benchmark is not built: run scripts/build.sh" >&2; exit 1; }
 done
 results=$root/build/results_quick
@@ -27,18 +27,12 @@ mkdir -p "$results"
 "$(program tracking_benchmark)" --steps "$steps" --output "$results/tracking.csv" | tee "$results/tracking.txt"
 "$(program battery_benchmark)" --runs "$runs" --niche-runs "$niche_runs" --output "$results/battery.csv" |
   tee "$results/battery.txt"
-"$(program recall_benchmark)" --steps 200 --window "$window" --output "$results/recall.csv" |
-  tee "$results/recall.txt"
-"$(program radii_benchmark)" --seeds "$seeds" --output "$results/radii.csv" | tee "$results/radii.txt"
 "$(program descent_benchmark)" --spacings "$spacings" --rings "$rings" --output "$results/descents.csv" |
   tee "$results/descents.txt"
 "$(program islands_benchmark)" --runs "$island_runs" --output "$results/islands.csv"
 "$(program certificate_benchmark)" --output "$results/certificate.csv" | tee "$results/certificate.txt"
-"$(program hierarchy_benchmark)" --output "$results/hierarchy.csv" | tee "$results/hierarchy.txt"
 "$(program contact_scenes)" --wall "$wall" --output "$results/contact_scenes.csv" | tee "$results/contact_scenes.txt"
 "$(program effects_benchmark)" --output "$results/effects.csv" | tee "$results/effects.txt"
-rm -f "$results/tuning.csv"  # rows are added
-"$(program tuning_benchmark)" --steps 120 --observed 8 --output "$results/tuning.csv" | tee "$results/tuning.txt"
 "$(program scale_benchmark)" --sizes "$sizes" --output "$results/scale.csv" | tee "$results/scale.txt"
 "$(program complete_benchmark)" --steps "$steps" --window "$window" 8 --cold-runs 12 \
   --output "$results/complete.csv" | tee "$results/complete.txt"
@@ -67,8 +61,6 @@ moving=battery_insertion,kr5_bicep_palm,kr5_base_forearm,kr5_shoulder_elbow,wam3
 moving=$moving,peg_in_hole,linked_hooks,comb_in_comb,stairs_leg,obstacle_field
 "$(program front_benchmark)" --steps 500,5000 --instants "$steps" --windows 1 --output "$results/front.csv"
 "$(program generation_benchmark)" --steps 500 --robot "$root" --output "$results/generations.csv"
-"$(program proposal_benchmark)" --pairs "$moving" --output "$results/proposals.csv"
-"$(program cores_benchmark)" --sliced-from 1024 --steps 500,2000 --windows 4 --instants 40 --output "$results/cores.csv"
 "$(program budget_benchmark)" --pairs "$moving" --steps "$steps" --output "$results/budget.csv"
 "$(program budget_benchmark)" --cold --pairs "$moving" --budgets 500,1000,2000,5000,10000,20000 --shares 0,0.05 \
   --proposers evolution,random --steps 60 --output "$results/budget_cold.csv"
@@ -76,9 +68,8 @@ moving=$moving,peg_in_hole,linked_hooks,comb_in_comb,stairs_leg,obstacle_field
 if [ -n "$(program message_benchmark)" ]; then  # built with ROS only
   "$(program message_benchmark)" --output "$results/messages.csv" | tee "$results/messages.txt"
 fi
-if [ -n "$(program engine_differences)" ]; then  # built with Simbody and ODE only
-  "$(program engine_differences)" --output "$results/engine_differences.csv" | tee "$results/engine_differences.txt"
-  "$(program engine_differences)" --table "$results/engine_table.csv"
+if [ -n "$(program engine_table)" ]; then  # built with Simbody and ODE only
+  "$(program engine_table)" --output "$results/engine_table.csv"
   "$root/scripts/write_engine_table.py"
 fi
 if [ "$size" = full ]; then

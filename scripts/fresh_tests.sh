@@ -27,7 +27,7 @@ done
 test_dir="$package_dir/test"
 # Properties that draw with the package's own engine (test/support/case_seed.h).
 declare -A own=(
-  [distance_tests]='EveryFamily*:ExactTriangleDistance.*'
+  [distance_tests]='EveryFamily*:ExactTriangleDistance.*:FacetPairLevels.OfQuadrangles*'
   [mesh_tests]='*ContainsExactlyTheMaterial*:*ARepairedUnionStays*'
   [tracking_tests]='QueriesOfUnions.*'
   [cgal_tests]='UnionAgainstCgal.*'

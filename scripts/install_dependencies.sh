@@ -41,7 +41,7 @@ set -euo pipefail
   debian_doxygen=(doxygen)
   debian_fuzz=(clang libclang-rt-14-dev)  # libFuzzer is in the second
   debian_sanitize=(dpkg-dev)  # unpacks the source package of TBB
-  debian_engines=(libsimbody-dev libode-dev libbullet-dev)  # engine_differences, examples/arm_and_shelf
+  debian_engines=(libsimbody-dev libode-dev libbullet-dev)  # engine_table, examples/arm_and_shelf
 
   noetic_node=(
     g++ cmake make ninja-build

@@ -69,6 +69,7 @@ run_tests() {
   say "$name tests are through after $((SECONDS - started)) s"
 }
 run_tests unit --exclude-regex _rostest_ --parallel "$(job_count)"
-run_tests node --tests-regex _rostest_ --parallel "$(job_count)"
+# They wait more than they work.
+run_tests node --tests-regex _rostest_ --parallel "$(($(job_count) + 1))"
 
 /usr/bin/python3 "$package_dir/scripts/count_test_results.py" "$build_dir" "${count_arguments[@]}"

@@ -72,7 +72,6 @@ class ExactNiches {
   void matchPrevious(const NicheArchive& archive, const PairFrame& frame,
                      const Eigen::Isometry3d& last_a_from_b);
   void attributeOffered(const PairFrame& frame);
-  void attributeByPlace(const WitnessPair& minimum, std::size_t proposal, double tolerance);
   bool isSearched(const LocalMinimum& minimum) const {
     return minimum.proposal != LocalMinimum::kNoProposal && minimum.proposal < searched_;
   }

@@ -4,7 +4,7 @@
 
 namespace concave_distance {
 
-// Chosen by tuning_benchmark on every second of its pairs and checked on the others (doc/results/tuning.md).
+// Chosen on every second of the benchmark pairs and checked on the others (doc/results/tuning.md).
 TrackerParameters::TrackerParameters() {
   cold.niching = NichingMethod::DeterministicCrowding;
   cold.mating_restriction = false;

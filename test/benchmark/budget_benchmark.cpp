@@ -16,11 +16,10 @@
 //
 // With --cold, every instant is the first cycle of a tracker.
 #include <CLI/CLI.hpp>
-#include <cstdio>
-#include <fstream>
 
 #include "benchmark/support/benchmark_main.h"
 #include "benchmark/support/benchmark_pairs.h"
+#include "benchmark/support/result_table.h"
 #include "benchmark/support/statistics.h"
 #include "benchmark/support/stopwatch.h"
 #include "concave_distance/tracking/pair_tracker.h"
@@ -145,11 +144,7 @@ int benchmarkMain(int argc, char** argv) {
   app.add_flag("--cold", is_cold, "every instant is a first cycle");
   app.add_option("--output", output, "CSV file");
   CLI11_PARSE(app, argc, argv);
-  std::ofstream file;
-  if (!output.empty()) file.open(output);
-  const char* header = "pair,half,budget_us,proposer,share,recall,precision,complete,cycle_us,evolved";
-  std::printf("%s\n", header);
-  if (file) file << header << '\n';
+  ResultTable table(output, "pair,half,budget_us,proposer,share,recall,precision,complete,cycle_us,evolved");
   for (std::size_t i = 0; i < names.size(); ++i) {
     const BenchmarkPair pair = loadBenchmarkPair(names[i]);
     const Motion motion = follow(pair, steps);
@@ -162,14 +157,9 @@ int benchmarkMain(int argc, char** argv) {
           parameters.search_share = share;
           parameters.time_budget = budget * 1e-6;
           const Result result = observe(pair, motion, parameters, is_cold);
-          char line[256];
-          std::snprintf(line, sizeof line, "%s,%c,%.0f,%s,%.2f,%.4f,%.4f,%.3f,%.1f,%.3f", names[i].c_str(),
-                        i % 2 == 0 ? 'a' : 'b', budget, share == 0.0 ? "none" : proposer.c_str(), share,
-                        mean(result.recall), mean(result.precision), mean(result.complete),
-                        mean(result.cycle_us), mean(result.evolved));
-          std::printf("%s\n", line);
-          std::fflush(stdout);
-          if (file) file << line << '\n';
+          table.add(names[i], i % 2 == 0 ? "a" : "b", budget, share == 0.0 ? "none" : proposer, share,
+                    mean(result.recall), mean(result.precision), mean(result.complete), mean(result.cycle_us),
+                    mean(result.evolved));
         }
       }
     }

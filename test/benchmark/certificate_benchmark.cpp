@@ -16,11 +16,10 @@
 // by more than 1e-9 of the bodies' size; answers without a full proof.
 #include <CLI/CLI.hpp>
 #include <chrono>
-#include <cstdio>
-#include <fstream>
 
 #include "benchmark/support/benchmark_main.h"
 #include "benchmark/support/benchmark_pairs.h"
+#include "benchmark/support/result_table.h"
 #include "benchmark/support/statistics.h"
 #include "benchmark/support/stopwatch.h"
 #include "benchmark/support/tied_pairs.h"
@@ -143,25 +142,15 @@ Yardstick measureFcl(const BenchmarkPair& pair, const std::vector<Eigen::Isometr
   return yardstick;
 }
 
-void print(const std::string& name, Kind kind, const Yardstick& fcl, const Limit& limit, const Series& s,
-           std::ofstream& csv) {
+void add(const std::string& name, Kind kind, const Yardstick& fcl, const Limit& limit, const Series& s,
+         ResultTable& table) {
   const double plain = median(fcl.plain_us);
-  const double seeded = fcl.seeded_us.empty() || !isSeeded(kind) ? std::nan("") : median(fcl.seeded_us);
+  const double seeded = isSeeded(kind) ? median(fcl.seeded_us) : std::nan("");
   const double ours = median(s.us);
   const double slow = percentile(s.us, 0.99);
-  const double slow_ratio = percentile(fcl.plain_us, 0.99) / slow;
-  std::printf(
-      "%-18s %-6s %5zu %8.1f %8.1f %8.2f %8.2f %7.1f %7.1f %7.1f %7.0f %6.0f %5.0f %5.0f %7.2f %4d %4d\n",
-      name.c_str(), nameOf(kind), s.us.size(), plain, seeded, ours, slow, plain / ours, seeded / ours,
-      slow_ratio, median(s.bounds), median(s.leaves), median(s.triangles), median(limit.ties),
-      median(limit.us), s.different, s.not_proven);
-  std::fflush(stdout);
-  if (csv) {
-    csv << name << ',' << nameOf(kind) << ',' << s.us.size() << ',' << plain << ',' << seeded << ',' << ours
-        << ',' << slow << ',' << plain / ours << ',' << seeded / ours << ',' << slow_ratio << ','
-        << median(s.bounds) << ',' << median(s.leaves) << ',' << median(s.triangles) << ','
-        << median(limit.ties) << ',' << median(limit.us) << ',' << s.different << ',' << s.not_proven << '\n';
-  }
+  table.add(name, nameOf(kind), s.us.size(), plain, seeded, ours, slow, plain / ours, seeded / ours,
+            percentile(fcl.plain_us, 0.99) / slow, median(s.bounds), median(s.leaves), median(s.triangles),
+            median(limit.ties), median(limit.us), s.different, s.not_proven);
 }
 
 }  // namespace
@@ -180,37 +169,30 @@ int benchmarkMain(int argc, char** argv) {
   app.add_option("--output", output, "CSV file to write");
   CLI11_PARSE(app, argc, argv);
 
-  std::ofstream csv;
-  if (!output.empty()) {
-    csv.open(output);
-    csv << "pair,kind,queries,fcl_us,fcl_seeded_us,certified_us,certified_p99_us,fcl_over_certified,"
-           "fcl_seeded_over_certified,p99_over_p99,box_bounds,leaf_pairs,triangle_pairs,tied_pairs,limit_us,"
-           "different,not_"
-           "proven\n";
-  }
-  std::printf("%-18s %-6s %5s %8s %8s %8s %8s %7s %7s %7s %7s %6s %5s %5s %7s %4s %4s\n", "pair", "kind",
-              "runs", "FCL us", "seeded", "ours us", "p99 us", "FCL/", "seeded/", "p99/", "boxes", "leaves",
-              "tri", "ties", "limit", "diff", "unpr");
+  ResultTable table(output,
+                    "pair,kind,queries,fcl_us,fcl_seeded_us,certified_us,certified_p99_us,fcl_over_certified,"
+                    "fcl_seeded_over_certified,p99_over_p99,box_bounds,leaf_pairs,triangle_pairs,tied_pairs,"
+                    "limit_us,different,not_proven");
   std::vector<TrianglePair> closest;
   for (const std::string& name : names) {
     const BenchmarkPair pair = loadBenchmarkPair(name);
     if (poses > 0) {
       const std::vector<Eigen::Isometry3d> random = randomPoses(pair, poses, 1);
       const Yardstick fcl = measureFcl(pair, random, {});
-      print(name, Kind::Cold, fcl, measureLimit(pair, random, fcl),
-            measure(pair, random, Kind::Cold, fcl, closest), csv);
+      add(name, Kind::Cold, fcl, measureLimit(pair, random, fcl),
+          measure(pair, random, Kind::Cold, fcl, closest), table);
     }
     const std::vector<Eigen::Isometry3d> near = posesAlong(pair, kNearPoses);
     const Yardstick fcl_near = measureFcl(pair, near, {});
-    print(name, Kind::Near, fcl_near, measureLimit(pair, near, fcl_near),
-          measure(pair, near, Kind::Near, fcl_near, closest), csv);
+    add(name, Kind::Near, fcl_near, measureLimit(pair, near, fcl_near),
+        measure(pair, near, Kind::Near, fcl_near, closest), table);
     for (const int count : steps) {
       const std::vector<Eigen::Isometry3d> motion = posesAlong(pair, count);
       measure(pair, motion, Kind::Seeded, {}, closest);  // for FCL's seeds
       const Yardstick fcl = measureFcl(pair, motion, closest);
       const Limit limit = measureLimit(pair, motion, fcl);
       for (const Kind kind : {Kind::Seeded, Kind::Front}) {
-        print(name, kind, fcl, limit, measure(pair, motion, kind, fcl, closest), csv);
+        add(name, kind, fcl, limit, measure(pair, motion, kind, fcl, closest), table);
       }
     }
   }

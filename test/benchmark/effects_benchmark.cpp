@@ -11,13 +11,11 @@
 // regions were looked for; `regions`, their mean number there.
 #include <CLI/CLI.hpp>
 
-#include <cstdio>
-#include <fstream>
-
 #include "benchmark/support/benchmark_main.h"
 #include "benchmark/support/benchmark_pairs.h"
 #include "benchmark/support/processor_time.h"
 #include "benchmark/support/pushed_in.h"
+#include "benchmark/support/result_table.h"
 #include "concave_distance/tracking/pair_effects.h"
 #include "concave_distance/tracking/pair_tracker.h"
 
@@ -109,40 +107,16 @@ class Run {
   double regions_ = 0.0;
 };
 
-constexpr EffectStage kStages[] = {EffectStage::Interference, EffectStage::Identity, EffectStage::NormalForce,
-                                   EffectStage::Friction};
-
-class Report {
- public:
-  explicit Report(const std::string& file) {
-    if (!file.empty()) {
-      csv_.open(file);
-      csv_ << "pair,state,effects,cycle_us,effects_us";
-      for (const EffectStage stage : kStages) csv_ << ',' << toString(stage) << "_us";
-      csv_ << ",runs,regions,cycle_over_none\n";
-    }
-    std::printf("%-19s %-8s %-36s %9s %9s %9s %9s %9s %9s %6s %8s %8s\n", "pair", "state", "effects", "cycle",
-                "effects", "interf.", "identity", "normal", "friction", "runs", "regions", "x none");
-  }
-  void row(const std::string& pair, const char* state, const std::string& effects, const Run& run,
-           const Run& none) {
-    const double ratio = run.cycle() / none.cycle();
-    std::printf("%-19s %-8s %-36s %9.2f %9.2f", pair.c_str(), state, effects.c_str(), run.cycle(),
-                run.effects());
-    for (const EffectStage stage : kStages) std::printf(" %9.3f", run.stage(stage));
-    std::printf(" %6.2f %8.2f %8.2f\n", run.runs(EffectStage::Interference), run.regions(), ratio);
-    if (!csv_) return;
-    csv_ << pair << ',' << state << ',' << effects << ',' << run.cycle() << ',' << run.effects();
-    for (const EffectStage stage : kStages) csv_ << ',' << run.stage(stage);
-    csv_ << ',' << run.runs(EffectStage::Interference) << ',' << run.regions() << ',' << ratio << '\n';
-  }
-
- private:
-  std::ofstream csv_;
-};
+void add(const std::string& pair, const char* state, const std::string& effects, const Run& run,
+         const Run& none, ResultTable& table) {
+  table.add(pair, state, effects, run.cycle(), run.effects(), run.stage(EffectStage::Interference),
+            run.stage(EffectStage::Identity), run.stage(EffectStage::NormalForce),
+            run.stage(EffectStage::Friction), run.runs(EffectStage::Interference), run.regions(),
+            run.cycle() / none.cycle());
+}
 
 void runState(const BenchmarkPair& pair, const char* state, const std::vector<Eigen::Isometry3d>& poses,
-              Report& report) {
+              ResultTable& table) {
   const std::vector<Combination> all = combinations();
   std::vector<Run> runs;
   runs.reserve(all.size());
@@ -153,7 +127,7 @@ void runState(const BenchmarkPair& pair, const char* state, const std::vector<Ei
       runs[(i + k) % runs.size()].step(poses[k], step * static_cast<double>(k), k == 0 ? 0.0 : step);
     }
   }
-  for (std::size_t i = 0; i < runs.size(); ++i) report.row(pair.name, state, all[i].name, runs[i], runs[0]);
+  for (std::size_t i = 0; i < runs.size(); ++i) add(pair.name, state, all[i].name, runs[i], runs[0], table);
 }
 
 }  // namespace
@@ -171,11 +145,14 @@ int benchmarkMain(int argc, char** argv) {
   app.add_option("--output", output, "CSV file to write");
   CLI11_PARSE(app, argc, argv);
 
-  Report report(output);
+  ResultTable table(
+      output,
+      "pair,state,effects,cycle_us,effects_us,interference_us,identity_us,normal_force_us,friction_us,runs,"
+      "regions,cycle_over_none");
   for (const std::string& name : names) {
     const BenchmarkPair pair = loadBenchmarkPair(name);
-    runState(pair, "apart", posesApart(pair, steps), report);
-    runState(pair, "contact", posesInContact(pair, steps, depth), report);
+    runState(pair, "apart", posesApart(pair, steps), table);
+    runState(pair, "contact", posesInContact(pair, steps, depth), table);
   }
   return 0;
 }

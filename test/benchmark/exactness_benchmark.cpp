@@ -13,12 +13,12 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <fstream>
 #include <mutex>
 
 #include "base/random_engine.h"
 #include "benchmark/support/benchmark_main.h"
 #include "benchmark/support/benchmark_pairs.h"
+#include "benchmark/support/result_table.h"
 #include "benchmark/support/sphere_tree.h"
 #include "distance/bound/certificate.h"
 #include "support/exact_query.h"
@@ -168,25 +168,13 @@ int benchmarkMain(int argc, char** argv) {
   app.add_option("--output", output, "CSV file to write");
   CLI11_PARSE(app, argc, argv);
 
-  std::ofstream csv;
-  if (!output.empty()) {
-    csv.open(output);
-    csv << "pair,poses,penetrating,worst_error,least_margin,widest_gap,wrong,bounds_above,disagreements\n";
-  }
-  std::printf("%-20s %6s %6s %10s %10s %10s %5s %5s %8s\n", "pair", "poses", "penetr", "error", "margin",
-              "gap", "wrong", "above", "disagree");
+  ResultTable table(
+      output, "pair,poses,penetrating,worst_error,least_margin,widest_gap,wrong,bounds_above,disagreements");
   Row sum;
   for (const std::string& name : names) {
     const Row row = run(loadBenchmarkPair(name), poses);
-    std::printf("%-20s %6zu %6d %10.2e %10.2e %10.2e %5d %5d %8d\n", name.c_str(), poses, row.penetrating,
-                row.worst_error, row.least_margin, row.widest_gap, row.wrong, row.bounds_above,
-                row.disagreements);
-    std::fflush(stdout);
-    if (csv) {
-      csv << name << ',' << poses << ',' << row.penetrating << ',' << row.worst_error << ','
-          << row.least_margin << ',' << row.widest_gap << ',' << row.wrong << ',' << row.bounds_above << ','
-          << row.disagreements << '\n';
-    }
+    table.add(name, poses, row.penetrating, row.worst_error, row.least_margin, row.widest_gap, row.wrong,
+              row.bounds_above, row.disagreements);
     sum.worst_error = std::max(sum.worst_error, row.worst_error);
     sum.least_margin = std::min(sum.least_margin, row.least_margin);
     sum.wrong += row.wrong;

@@ -1,5 +1,5 @@
 // What is kept from pose to pose saves over a motion, beside FCL's one distance, in one run and one thread:
-// of the front of normal cones and of the verdicts which minima are niches.
+// of the front of normal cones and of the decider which minima are niches.
 //
 //   front_benchmark [--pairs name,name,...] [--steps 500,5000] [--instants 100] [--windows 4] [--output FILE]
 //                   [--files a.stl:b.stl,...]
@@ -12,7 +12,7 @@
 // of the front (and its 99th percentile); pairs that the front keeps, that have expired, groups compared,
 // features looked at, live pairs of features, minima and pairs of features that begin or cease to hold one
 // (`events`; means); windows' instants at which the front was begun anew; local minima that only the cones
-// from the roots (`missed`) or only the front (`more`) led to. Then the verdicts: microseconds (medians) of
+// from the roots (`missed`) or only the front (`more`) led to. Then the decider: microseconds (medians) of
 // floods alone and of what is kept (and its 99th percentile); means of niches, of ripples settled by a known
 // path, links of paths that were given other points, niches by a known border and by one that was mended,
 // floods, cells flooded and border elements measured; instants at which the niches were others than those of
@@ -21,14 +21,13 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 
 #include "benchmark/support/benchmark_main.h"
 #include "benchmark/support/benchmark_pairs.h"
 #include "benchmark/support/circling_pair.h"
+#include "benchmark/support/result_table.h"
 #include "benchmark/support/statistics.h"
 #include "benchmark/support/stopwatch.h"
 #include "distance/kernels/witness_refinement.h"
@@ -122,37 +121,37 @@ bool isSame(const std::vector<double>& l, const std::vector<double>& r, double t
                     [&](double x, double y) { return std::abs(x - y) <= tolerance; });
 }
 
-void judge(const detail::PairFrame& frame, std::vector<MinimumCandidate> seeds, NicheDecider& verdicts,
+void judge(const detail::PairFrame& frame, std::vector<MinimumCandidate> seeds, NicheDecider& decider,
            bool first, Sample& sample) {
   WorkLimit none;
   NicheDecider::Request request;
   auto start = std::chrono::steady_clock::now();
-  verdicts.judge(frame, seeds, request, none);
+  decider.judge(frame, seeds, request, none);
   const double judge_us = microsecondsSince(start);
   request.is_tracked = false;
   NicheDecider alone;
   start = std::chrono::steady_clock::now();
   alone.judge(frame, seeds, request, none);
   const double floods_us = microsecondsSince(start);
-  const std::vector<double> niches = nichesOf(verdicts);
+  const std::vector<double> niches = nichesOf(decider);
   sample.other += isSame(niches, nichesOf(alone), 1e-9 * frame.size) ? 0 : 1;
   if (first) return;
   sample.judge_us.push_back(judge_us);
   sample.floods_us.push_back(floods_us);
-  const NicheDecider::Counts& counts = verdicts.counts();
+  const NicheDecider::Counts& counts = decider.counts();
   sample.niches += static_cast<double>(niches.size());
   sample.by_path += counts.by_path;
   sample.aimed += counts.aimed;
-  sample.by_border += counts.by_border;
+  sample.by_border += counts.by_boundary;
   sample.mended += counts.mended;
-  sample.floods += counts.floods;
-  sample.cells += counts.flooded_cells;
+  sample.floods += counts.searches;
+  sample.cells += counts.visited_pairs;
   sample.measured += counts.measured;
-  sample.bytes = std::max(sample.bytes, verdicts.memoryBytes());
+  sample.bytes = std::max(sample.bytes, decider.memoryBytes());
 }
 
 void observe(const BenchmarkPair& pair, const Eigen::Isometry3d& pose, MinimaTracker& front,
-             NicheDecider& verdicts, bool first, Sample& sample) {
+             NicheDecider& decider, bool first, Sample& sample) {
   const double cutoff = std::numeric_limits<double>::infinity();
   WorkLimit none;
   auto start = std::chrono::steady_clock::now();
@@ -172,7 +171,7 @@ void observe(const BenchmarkPair& pair, const Eigen::Isometry3d& pose, MinimaTra
   const auto of_front = placesOf(pair, pose, from_front);
   sample.missed += countOnly(of_roots, of_front, 1e-9 * frame.size);
   sample.more += countOnly(of_front, of_roots, 1e-9 * frame.size);
-  judge(frame, from_front, verdicts, first, sample);
+  judge(frame, from_front, decider, first, sample);
   countEvents(from_front, first, sample);
   if (first) return;
   sample.fcl_us.push_back(fcl_us);
@@ -214,17 +213,11 @@ int benchmarkMain(int argc, char** argv) {
   app.add_option("--files", files, "pairs of mesh files, a colon between two")->delimiter(',');
   app.add_option("--output", output, "CSV file");
   CLI11_PARSE(app, argc, argv);
-  std::ofstream file;
-  if (!output.empty()) file.open(output);
-  const char* header =
-      "pair,steps,fcl_us,roots_us,front_us,front_99_us,front_over_fcl,kept,expired,groups,features,live,"
-      "seeds,events,anew,missed,more,floods_us,judge_us,judge_99_us,niches,by_path,aimed,by_border,mended,"
-      "floods,"
-      "cells,"
-      "measured,"
-      "other,kilobytes";
-  std::printf("%s\n", header);
-  if (file) file << header << '\n';
+  ResultTable table(
+      output,
+      "pair,steps,fcl_us,roots_us,front_us,front_99_us,front_over_fcl,kept,expired,groups,features,"
+      "live,seeds,events,anew,missed,more,floods_us,judge_us,judge_99_us,niches,by_path,aimed,"
+      "by_border,mended,floods,cells,measured,other,kilobytes");
   if (!files.empty()) names = files;
   for (const std::string& name : names) {
     const BenchmarkPair pair = files.empty() ? loadBenchmarkPair(name) : loadFiles(name);
@@ -232,29 +225,21 @@ int benchmarkMain(int argc, char** argv) {
       Sample sample;
       for (int window = 0; window < windows; ++window) {
         MinimaTracker front;
-        NicheDecider verdicts;
+        NicheDecider decider;
         const int begin = (count - instants) * (2 * window + 1) / (2 * windows);
         for (int i = 0; i < instants; ++i) {
-          observe(pair, pair.motion(static_cast<double>(begin + i) / count), front, verdicts, i == 0, sample);
+          observe(pair, pair.motion(static_cast<double>(begin + i) / count), front, decider, i == 0, sample);
         }
       }
       const double n = static_cast<double>(sample.front_us.size());
-      char line[1024];
-      std::snprintf(
-          line, sizeof line,
-          "%s,%d,%.1f,%.1f,%.1f,%.1f,%.3f,%.0f,%.0f,%.0f,%.0f,%.0f,%.1f,%.1f,%d,%zu,%zu,%.1f,%.1f,"
-          "%.1f,%.1f,%.1f,%.1f,%.1f,%.1f,%.1f,%.0f,%.0f,%d,%.0f",
-          pair.name.c_str(), count, median(sample.fcl_us), median(sample.roots_us), median(sample.front_us),
-          percentile(sample.front_us, 0.99), median(sample.front_us) / median(sample.fcl_us), sample.kept / n,
-          sample.expired / n, sample.groups / n, sample.features / n, sample.live / n,
-          static_cast<double>(sample.seeds) / n, static_cast<double>(sample.events) / n, sample.anew,
-          sample.missed, sample.more, median(sample.floods_us), median(sample.judge_us),
-          percentile(sample.judge_us, 0.99), sample.niches / n, sample.by_path / n, sample.aimed / n,
-          sample.by_border / n, sample.mended / n, sample.floods / n, sample.cells / n, sample.measured / n,
-          sample.other, static_cast<double>(sample.bytes) / 1024.0);
-      std::printf("%s\n", line);
-      std::fflush(stdout);
-      if (file) file << line << '\n';
+      table.add(pair.name, count, median(sample.fcl_us), median(sample.roots_us), median(sample.front_us),
+                percentile(sample.front_us, 0.99), median(sample.front_us) / median(sample.fcl_us),
+                sample.kept / n, sample.expired / n, sample.groups / n, sample.features / n, sample.live / n,
+                static_cast<double>(sample.seeds) / n, static_cast<double>(sample.events) / n, sample.anew,
+                sample.missed, sample.more, median(sample.floods_us), median(sample.judge_us),
+                percentile(sample.judge_us, 0.99), sample.niches / n, sample.by_path / n, sample.aimed / n,
+                sample.by_border / n, sample.mended / n, sample.floods / n, sample.cells / n,
+                sample.measured / n, sample.other, sample.bytes / 1024);
     }
   }
   return 0;

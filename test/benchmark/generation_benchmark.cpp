@@ -22,7 +22,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <limits>
@@ -32,6 +31,7 @@
 
 #include "benchmark/support/benchmark_main.h"
 #include "benchmark/support/benchmark_pairs.h"
+#include "benchmark/support/result_table.h"
 #include "benchmark/support/statistics.h"
 #include "concave_distance/loading/load_scene.h"
 #include "concave_distance/loading/robot_poses.h"
@@ -102,42 +102,22 @@ class Row {
     children_ += with.cost.children;
   }
 
-  static constexpr const char* kHeader =
+  static constexpr const char* kColumns =
       "pair,cycles,moved,beyond,per_cycle,bred,inherited,heirs,children,node_pair_ns,evolved,missed,without_"
       "us,"
       "with_us,propose_us,propose_p99_us,share,above,first_share,other,incomplete";
 
   /// Cells without a value are empty: those of a pair that never moves.
-  void write(const std::string& name, std::FILE* file, std::ofstream& csv) const {
+  void addTo(ResultTable& table, const std::string& name) const {
     const double due = moved_ - beyond_;
-    std::string cells = name;
-    const auto add = [&](int digits, double value) {
-      cells += std::isfinite(value) ? format(",%.*f", digits, value) : std::string(",");
-    };
-    for (const double count : {cycles_, moved_, beyond_}) add(0, count);
-    for (const double share : {generations_ / due, bred_ / due, inherited_ / knew_}) add(4, share);
-    for (const double mean : {heirs_ / due, children_ / due}) add(2, mean);
-    add(1, kNanoseconds * propose_seconds_ / evaluations_);
-    for (const double count : {evolved_, missed_}) add(0, count);
-    for (const double middle : {median(without_us_), median(with_us_)}) add(1, middle);
-    for (const double propose : {median(propose_us_), percentile(propose_us_, 0.99)}) add(2, propose);
-    add(4, propose_seconds_ / seconds_);
-    add(0, above_);
-    add(4, first_propose_ / first_seconds_);
-    for (const double count : {other_, incomplete_}) add(0, count);
-    std::fprintf(file, "%s\n", cells.c_str());
-    std::fflush(file);
-    if (csv) csv << cells << '\n';
+    table.add(name, cycles_, moved_, beyond_, generations_ / due, bred_ / due, inherited_ / knew_,
+              heirs_ / due, children_ / due, kNanoseconds * propose_seconds_ / evaluations_, evolved_,
+              missed_, median(without_us_), median(with_us_), median(propose_us_),
+              percentile(propose_us_, 0.99), propose_seconds_ / seconds_, above_,
+              first_propose_ / first_seconds_, other_, incomplete_);
   }
 
  private:
-  template <typename... Values>
-  static std::string format(const char* pattern, const Values&... values) {
-    char text[512];
-    std::snprintf(text, sizeof(text), pattern, values...);
-    return text;
-  }
-
   double cycles_ = 0.0, moved_ = 0.0, beyond_ = 0.0, generations_ = 0.0, bred_ = 0.0, knew_ = 0.0;
   double inherited_ = 0.0, heirs_ = 0.0, children_ = 0.0, evolved_ = 0.0, missed_ = 0.0, above_ = 0.0;
   double seconds_ = 0.0, propose_seconds_ = 0.0, first_seconds_ = 0.0, first_propose_ = 0.0;
@@ -261,14 +241,9 @@ int benchmarkMain(int argc, char** argv) {
   app.add_option("--output", output, "CSV file to write");
   CLI11_PARSE(app, argc, argv);
 
-  std::ofstream csv;
-  if (!output.empty()) {
-    csv.open(output);
-    csv << Row::kHeader << '\n';
-  }
-  std::printf("%s\n", Row::kHeader);
-  for (const std::string& name : names) runPair(loadBenchmarkPair(name), steps).write(name, stdout, csv);
-  if (!robot.empty()) runRobot(robot).write("robot", stdout, csv);
+  ResultTable table(output, Row::kColumns);
+  for (const std::string& name : names) runPair(loadBenchmarkPair(name), steps).addTo(table, name);
+  if (!robot.empty()) runRobot(robot).addTo(table, "robot");
   return 0;
 }
 

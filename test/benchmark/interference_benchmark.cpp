@@ -19,10 +19,10 @@
 #include <fstream>
 
 #include "benchmark/support/benchmark_main.h"
+#include "benchmark/support/cgal_times.h"
 #include "benchmark/support/interference_scenes.h"
 #include "benchmark/support/interference_trials.h"
 #include "support/body_pairs.h"
-#include "support/cgal_overlap.h"
 #include "support/mesh_variants.h"
 
 namespace concave_distance::benchmark {
@@ -122,8 +122,8 @@ void timeScene(const InterferenceScene& scene, std::ofstream& csv) {
   Interference result;
   const double ours = fastest([&] { findInterference(*a, *b, scene.pair.a_from_b, workspace, result); });
   const SurfaceMesh b_in_a = test::movedSurface(scene.pair.b, scene.pair.a_from_b);
-  const double fast = test::cgalFastOverlapTime(scene.pair.a, b_in_a);
-  const double exact = test::cgalExactOverlapTime(scene.pair.a, b_in_a);
+  const double fast = cgalFastOverlapTime(scene.pair.a, b_in_a);
+  const double exact = cgalExactOverlapTime(scene.pair.a, b_in_a);
   const FclContacts fcl = fclContacts(scene.pair);
   std::printf("%-18s %9zu %8zu %9.1f %11.1f %8.0f %11.1f %8.0f %9.1f %7.2f %8zu\n", scene.name.c_str(),
               scene.pair.a.triangleCount() + scene.pair.b.triangleCount(), result.regions.size(), 1e6 * ours,

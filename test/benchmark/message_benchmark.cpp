@@ -10,13 +10,12 @@
 // processes get. The node sends messages in every cycle and markers at `marker_rate`, and nothing to nobody.
 #include <ros/serialization.h>
 #include <CLI/CLI.hpp>
-#include <cstdio>
-#include <fstream>
 #include <vector>
 
 #include "benchmark/support/accuracy_pairs.h"
 #include "benchmark/support/benchmark_main.h"
 #include "benchmark/support/processor_time.h"
+#include "benchmark/support/result_table.h"
 #include "concave_distance/tracking/pair_tracker.h"
 #include "ros/conversions.h"
 #include "ros/niche_markers.h"
@@ -144,13 +143,7 @@ int benchmarkMain(int argc, char** argv) {
   app.add_option("--output", output, "CSV file to write");
   CLI11_PARSE(app, argc, argv);
 
-  std::ofstream csv;
-  if (!output.empty()) {
-    csv.open(output);
-    csv << "pair,level,solve,message,markers,wire,niches,bytes\n";
-  }
-  std::printf("%-18s %-26s %9s %9s %9s %9s %7s %9s\n", "pair", "level", "solve us", "message", "markers",
-              "wire", "niches", "bytes");
+  ResultTable table(output, "pair,level,solve,message,markers,wire,niches,bytes");
   for (const std::string& name : names) {
     const BenchmarkPair pair = loadAccuracyPair(name);
     for (const Level& level :
@@ -159,14 +152,8 @@ int benchmarkMain(int argc, char** argv) {
           Level{"certified, distance alone", AccuracyLevel::Certified, false}}) {
       const Sums sums = follow(pair, level, steps);
       const double count = steps - 1;
-      std::printf("%-18s %-26s %9.2f %9.3f %9.3f %9.3f %7.1f %9.0f\n", name.c_str(), level.name,
-                  sums.solve / count, sums.message / count, sums.markers / count, sums.wire / count,
-                  sums.niches / count, sums.bytes / count);
-      std::fflush(stdout);
-      if (!csv.is_open()) continue;
-      csv << name << ",\"" << level.name << "\"," << sums.solve / count << ',' << sums.message / count << ','
-          << sums.markers / count << ',' << sums.wire / count << ',' << sums.niches / count << ','
-          << sums.bytes / count << '\n';
+      table.add(name, level.name, sums.solve / count, sums.message / count, sums.markers / count,
+                sums.wire / count, sums.niches / count, sums.bytes / count);
     }
   }
   return 0;

@@ -16,13 +16,12 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
-#include <fstream>
 
 #include "base/run_together.h"
 #include "benchmark/support/benchmark_main.h"
 #include "benchmark/support/fcl_distance.h"
+#include "benchmark/support/result_table.h"
 #include "benchmark/support/shapes.h"
 #include "benchmark/support/statistics.h"
 #include "benchmark/support/stopwatch.h"
@@ -90,7 +89,7 @@ BuildTimes timeBuilds(const SurfaceMesh& surface) {
   return times;
 }
 
-void run(std::size_t size, int steps, std::ofstream& csv) {
+void run(std::size_t size, int steps, ResultTable& table) {
   const SurfaceMesh surface = makeBumpyRing(size);
   const BuildTimes build = timeBuilds(surface);
   Body a;
@@ -125,15 +124,8 @@ void run(std::size_t size, int steps, std::ofstream& csv) {
   const double hierarchy = static_cast<double>(a->hierarchy().memoryBytes()) / triangles;
   const double tree = static_cast<double>(a->tree().memoryBytes()) / triangles;
   const double body = static_cast<double>(a->memoryBytes()) / triangles;
-  std::printf("%9zu %8.3f %8.3f %8.3f %9.0f %6.0f %8.0f %9.1f %9.1f %9.1f %9.1f %9.1f %8.0f\n",
-              surface.triangleCount(), build.parallel, build.serial, build.cached, hierarchy, tree, body, fcl,
-              cold, seeded, kept, tracked, peak);
-  std::fflush(stdout);
-  if (csv) {
-    csv << surface.triangleCount() << ',' << build.parallel << ',' << hierarchy << ',' << tree << ',' << body
-        << ',' << fcl << ',' << cold << ',' << seeded << ',' << kept << ',' << tracked << ',' << peak << ','
-        << build.serial << ',' << build.cached << '\n';
-  }
+  table.add(surface.triangleCount(), build.parallel, hierarchy, tree, body, fcl, cold, seeded, kept, tracked,
+            peak, build.serial, build.cached);
 }
 
 }  // namespace
@@ -149,17 +141,11 @@ int benchmarkMain(int argc, char** argv) {
   app.add_option("--steps", steps, "Instants along the motion")->check(CLI::PositiveNumber);
   app.add_option("--output", output, "CSV file to write");
   CLI11_PARSE(app, argc, argv);
-  std::ofstream csv;
-  if (!output.empty()) {
-    csv.open(output);
-    csv << "triangles,build_s,hierarchy_bytes,tree_bytes,body_bytes,fcl_us,cold_us,seeded_us,front_us,"
-           "tracked_us,"
-           "peak_mb,build_serial_s,build_cached_s\n";
-  }
-  std::printf("%9s %8s %8s %8s %9s %6s %8s %9s %9s %9s %9s %9s %8s\n", "triangles", "build s", "1 thread",
-              "cached", "hierarchy", "tree", "B/tri", "FCL us", "cold us", "seeded us", "front us", "all us",
-              "peak MB");
-  for (const std::size_t size : sizes) run(size, steps, csv);
+  ResultTable table(
+      output,
+      "triangles,build_s,hierarchy_bytes,tree_bytes,body_bytes,fcl_us,cold_us,seeded_us,front_us,"
+      "tracked_us,peak_mb,build_serial_s,build_cached_s");
+  for (const std::size_t size : sizes) run(size, steps, table);
   return 0;
 }
 

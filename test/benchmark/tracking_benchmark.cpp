@@ -11,11 +11,10 @@
 // memory of both bodies and of the tracker, kilobytes.
 #include <CLI/CLI.hpp>
 #include <chrono>
-#include <cstdio>
-#include <fstream>
 
 #include "benchmark/support/benchmark_main.h"
 #include "benchmark/support/benchmark_pairs.h"
+#include "benchmark/support/result_table.h"
 #include "benchmark/support/statistics.h"
 #include "benchmark/support/stopwatch.h"
 #include "concave_distance/tracking/pair_tracker.h"
@@ -101,37 +100,21 @@ int benchmarkMain(int argc, char** argv) {
   app.add_option("--output", output, "CSV file to write");
   CLI11_PARSE(app, argc, argv);
 
-  std::ofstream csv;
-  if (!output.empty()) {
-    csv.open(output);
-    csv << "pair,triangles_a,triangles_b,fcl_us,cold_us,first_us,warm_us,warm_p99_us,warm_over_fcl,alone_us,"
-           "alone_p99_us,fcl_over_alone,niches,instants,wrong,incomplete,bodies_kb,tracker_kb\n";
-  }
-  std::printf("%-20s %6s %6s %8s %9s %9s %8s %9s %6s %8s %8s %6s %6s %5s %10s %8s\n", "pair", "tri A",
-              "tri B", "FCL us", "cold us", "first us", "warm us", "p99 us", "w/FCL", "alone us", "p99 us",
-              "FCL/a", "niches", "wrong", "incomplete", "kB");
+  ResultTable table(
+      output,
+      "pair,triangles_a,triangles_b,fcl_us,cold_us,first_us,warm_us,warm_p99_us,warm_over_fcl,"
+      "alone_us,alone_p99_us,fcl_over_alone,niches,instants,wrong,incomplete,bodies_kb,tracker_kb");
   for (const std::string& name : names) {
     const BenchmarkPair pair = loadBenchmarkPair(name);
     const Row row = run(pair, steps);
     const double fcl = median(row.fcl_us);
     const double warm = median(row.warm_us);
     const double alone = median(row.alone_us);
-    const std::size_t body_kb = (pair.a->memoryBytes() + pair.b->memoryBytes()) / 1024;
-    std::printf(
-        "%-20s %6zu %6zu %8.1f %9.1f %9.1f %8.1f %9.1f %6.3f %8.2f %8.2f %6.1f %6.1f %5d %5d/%4d %8zu\n",
-        name.c_str(), pair.a->surface().triangleCount(), pair.b->surface().triangleCount(), fcl,
-        median(row.cold_us), median(row.first_us), warm, percentile(row.warm_us, 0.99), warm / fcl, alone,
-        percentile(row.alone_us, 0.99), fcl / alone, mean(row.niches), row.wrong, row.incomplete, steps,
-        body_kb);
-    std::fflush(stdout);
-    if (csv) {
-      csv << name << ',' << pair.a->surface().triangleCount() << ',' << pair.b->surface().triangleCount()
-          << ',' << fcl << ',' << median(row.cold_us) << ',' << median(row.first_us) << ',' << warm << ','
-          << percentile(row.warm_us, 0.99) << ',' << warm / fcl << ',' << alone << ','
-          << percentile(row.alone_us, 0.99) << ',' << fcl / alone << ',' << mean(row.niches) << ',' << steps
-          << ',' << row.wrong << ',' << row.incomplete << ',' << body_kb << ',' << row.tracker_bytes / 1024
-          << '\n';
-    }
+    table.add(name, pair.a->surface().triangleCount(), pair.b->surface().triangleCount(), fcl,
+              median(row.cold_us), median(row.first_us), warm, percentile(row.warm_us, 0.99), warm / fcl,
+              alone, percentile(row.alone_us, 0.99), fcl / alone, mean(row.niches), steps, row.wrong,
+              row.incomplete, (pair.a->memoryBytes() + pair.b->memoryBytes()) / 1024,
+              row.tracker_bytes / 1024);
   }
   return 0;
 }

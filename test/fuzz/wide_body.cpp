@@ -87,24 +87,6 @@ std::vector<std::size_t> commonNodes(const TriangleNodes& l, const TriangleNodes
 
 }  // namespace
 
-WidePoint closestOnTriangle(const WidePoint& p, const WideTriangle& t) {
-  const WidePoint normal = (t[1] - t[0]).cross(t[2] - t[0]);
-  const long double area = normal.squaredNorm();
-  if (area > 0.0L) {
-    const WidePoint foot = p - normal * (normal.dot(p - t[0]) / area);
-    if (exactlyInside(foot, t, normal)) return foot;
-  }
-  WidePoint best = t[0];
-  for (std::size_t k = 0; k < 3; ++k) {
-    const WidePoint edge = t[(k + 1) % 3] - t[k];
-    const long double squared = edge.squaredNorm();
-    const long double along = squared > 0.0L ? std::clamp(edge.dot(p - t[k]) / squared, 0.0L, 1.0L) : 0.0L;
-    const WidePoint on = t[k] + edge * along;
-    if ((on - p).squaredNorm() < (best - p).squaredNorm()) best = on;
-  }
-  return best;
-}
-
 WideBody::WideBody(const SurfaceMesh& mesh) : diameter_(mesh.diameter()) {
   for (std::size_t t = 0; t < mesh.triangleCount(); ++t) {
     const TriangleIndex index{t};

@@ -55,11 +55,8 @@ class WideBody {
   long double reach_ = 0.0L;
 };
 
-/// The point of a triangle, a segment or a point (repeated corners) that is nearest to p.
 inline long double length(const WidePoint& v) {
   return std::sqrt(v.squaredNorm());
 }
-
-WidePoint closestOnTriangle(const WidePoint& p, const WideTriangle& triangle);
 
 }  // namespace concave_distance::test

@@ -147,7 +147,7 @@ TEST(OverlapSamples, PushWithoutGivingEnergyOnAClosedWay) {
 /// The deepest of a grid of points on all facets of a region.
 double deepestOfGrid(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
                      const Interference& found, const InterferenceRegion& region) {
-  constexpr int kSteps = 24;
+  constexpr int kSteps = 12;
   double deepest = 0.0;
   for (std::uint32_t f = 0; f < region.facet_count; ++f) {
     const OverlapFacet& facet = found.facets[region.first_facet + f];

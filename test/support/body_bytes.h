@@ -26,6 +26,11 @@ void appendBytes(const T& value, Bytes& bytes) {
   std::memcpy(bytes.data() + first, &value, sizeof(T));
 }
 
+template <typename... Values>
+void appendAll(Bytes& bytes, const Values&... values) {
+  (appendBytes(values, bytes), ...);
+}
+
 template <typename T>
 Bytes bytesOf(const std::vector<T>& values) {
   Bytes bytes;
@@ -42,18 +47,12 @@ inline Bytes bytesOf(const std::vector<bool>& values) {
 inline Bytes bytesOf(const BoundingVolumeHierarchy& hierarchy) {
   Bytes bytes;
   for (const BoundingVolumeHierarchy::Node& node : hierarchy.nodes()) {
-    appendBytes(node.centre, bytes);
-    appendBytes(node.axes, bytes);
-    appendBytes(node.half, bytes);
-    appendBytes(node.child, bytes);
+    appendAll(bytes, node.centre, node.axes, node.half, node.child);
   }
   for (const BoundingVolumeHierarchy::Leaf& leaf : hierarchy.leaves()) {
-    appendBytes(leaf.corner, bytes);
-    appendBytes(leaf.triangle, bytes);
-    appendBytes(leaf.count, bytes);
+    appendAll(bytes, leaf.corner, leaf.triangle, leaf.count);
   }
-  appendBytes(hierarchy.origin(), bytes);
-  appendBytes(hierarchy.reach(), bytes);
+  appendAll(bytes, hierarchy.origin(), hierarchy.reach());
   for (const auto slot : hierarchy.subtrees()) appendBytes(slot, bytes);
   for (std::uint32_t node = 0; node < hierarchy.nodes().size(); ++node) {
     appendBytes(hierarchy.subtreeOfNode(node), bytes);
@@ -65,21 +64,13 @@ inline Bytes bytesOf(const NodeGraph& graph) {
   Bytes bytes = bytesOf(graph.positions);
   for (const std::uint32_t offset : graph.edges.offsets) appendBytes(offset, bytes);
   for (const NodeGraph::Edge& edge : graph.edges.values) {
-    appendBytes(edge.to, bytes);
-    appendBytes(edge.length, bytes);
+    appendAll(bytes, edge.to, edge.length);
   }
   for (const NodeGraph::Neighbourhood& part : graph.neighbourhoods) {
-    appendBytes(part.x, bytes);
-    appendBytes(part.y, bytes);
-    appendBytes(part.z, bytes);
-    appendBytes(part.to, bytes);
-    appendBytes(part.count, bytes);
-    appendBytes(part.more, bytes);
+    appendAll(bytes, part.x, part.y, part.z, part.to, part.count, part.more);
   }
   for (const std::uint32_t shell : graph.shell) appendBytes(shell, bytes);
-  appendBytes(graph.neighbourhood_origin, bytes);
-  appendBytes(graph.shell_count, bytes);
-  appendBytes(graph.length_quantum, bytes);
+  appendAll(bytes, graph.neighbourhood_origin, graph.shell_count, graph.length_quantum);
   return bytes;
 }
 
@@ -115,10 +106,7 @@ inline std::map<std::string, Bytes> bytesOf(const BodyMesh& body) {
   parts["vertex normals"] = bytesOf(topology.vertex_normals);
   Bytes& tree = parts["tree"];
   for (const TriangleTree::Node& node : body.tree().nodes()) {
-    appendBytes(node.box.min(), tree);
-    appendBytes(node.box.max(), tree);
-    appendBytes(node.first, tree);
-    appendBytes(node.count, tree);
+    appendAll(tree, node.box.min(), node.box.max(), node.first, node.count);
   }
   parts["tree's order"] = bytesOf(body.tree().order());
   parts["hierarchy"] = bytesOf(body.hierarchy());
@@ -140,9 +128,7 @@ inline std::map<std::string, Bytes> bytesOf(const BodyMesh& body) {
   for (std::size_t vertex = 0; vertex < body.surface().vertexCount(); ++vertex) {
     appendBytes(body.graphNode(NodeIndex{vertex}), nodes);
   }
-  appendBytes(body.maxEdgeLength(), nodes);
-  appendBytes(body.geodesicExtent(), nodes);
-  appendBytes(body.protrusionSpacing(), nodes);
+  appendAll(nodes, body.maxEdgeLength(), body.geodesicExtent(), body.protrusionSpacing());
   return parts;
 }
 

@@ -39,24 +39,6 @@ inline double longDoubleDistance(const TrianglePoints& a, const TrianglePoints& 
 
 using WidePoint = ExactVector<long double>;
 
-inline WidePoint closestOnTriangle(const WidePoint& p, const ExactTriangle<long double>& t) {
-  const WidePoint normal = (t[1] - t[0]).cross(t[2] - t[0]);
-  const long double area = normal.squaredNorm();
-  if (area > 0.0L) {
-    const WidePoint foot = p - normal * (normal.dot(p - t[0]) / area);
-    if (exactlyInside(foot, t, normal)) return foot;
-  }
-  WidePoint best = t[0];
-  for (std::size_t k = 0; k < 3; ++k) {
-    const WidePoint edge = t[(k + 1) % 3] - t[k];
-    const long double length = edge.squaredNorm();
-    const long double along = length > 0.0L ? std::clamp(edge.dot(p - t[k]) / length, 0.0L, 1.0L) : 0.0L;
-    const WidePoint on = t[k] + edge * along;
-    if ((on - p).squaredNorm() < (best - p).squaredNorm()) best = on;
-  }
-  return best;
-}
-
 /// The corners of the set of closest points of two triangles, on a, up to `tolerance` of the distance.
 inline void appendMinimisers(const TrianglePoints& points_a, const TrianglePoints& points_b, double distance,
                              double tolerance, std::vector<Eigen::Vector3d>& minimisers) {

@@ -1,7 +1,6 @@
 #include "support/cgal_overlap.h"
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/connected_components.h>
 #include <CGAL/Polygon_mesh_processing/corefinement.h>
 #include <CGAL/Polygon_mesh_processing/measure.h>
@@ -9,8 +8,6 @@
 #include <CGAL/Surface_mesh.h>
 
 #include <algorithm>
-#include <chrono>
-#include <limits>
 #include <unordered_map>
 
 namespace concave_distance::test {
@@ -18,21 +15,28 @@ namespace {
 
 namespace pmp = CGAL::Polygon_mesh_processing;
 using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
-using Fast = CGAL::Exact_predicates_inexact_constructions_kernel;
 using ExactMesh = CGAL::Surface_mesh<Exact::Point_3>;
-using FastMesh = CGAL::Surface_mesh<Fast::Point_3>;
 using Face = ExactMesh::Face_index;
+using Vertex = ExactMesh::Vertex_index;
+using CurveMap = ExactMesh::Property_map<ExactMesh::Edge_index, bool>;
 
-template <typename Mesh>
-Mesh meshOf(const SurfaceMesh& surface) {
-  Mesh mesh;
-  for (const Eigen::Vector3d& v : surface.vertices())
-    mesh.add_vertex(typename Mesh::Point(v.x(), v.y(), v.z()));
+ExactMesh meshOf(const SurfaceMesh& surface) {
+  ExactMesh mesh;
+  for (const Eigen::Vector3d& v : surface.vertices()) mesh.add_vertex(Exact::Point_3(v.x(), v.y(), v.z()));
   for (const TriangleNodes& t : surface.triangles()) {
-    mesh.add_face(typename Mesh::Vertex_index(t[0].value), typename Mesh::Vertex_index(t[1].value),
-                  typename Mesh::Vertex_index(t[2].value));
+    mesh.add_face(Vertex(t[0].value), Vertex(t[1].value), Vertex(t[2].value));
   }
   return mesh;
+}
+
+/// A mark for the edges of a mesh that lie on another's surface.
+CurveMap curveMapOf(ExactMesh& mesh) {
+  return mesh.add_property_map<ExactMesh::Edge_index, bool>("e:curve", false).first;
+}
+
+/// Parameters of one type for every Boolean, so that CGAL's templates are compiled once.
+auto markingCurves(const CurveMap& curves) {
+  return CGAL::parameters::edge_is_constrained_map(curves);
 }
 
 std::array<Exact::Point_3, 3> cornersOf(const ExactMesh& mesh, Face face) {
@@ -42,11 +46,9 @@ std::array<Exact::Point_3, 3> cornersOf(const ExactMesh& mesh, Face face) {
   return corners;
 }
 
-double areaInside(ExactMesh& mesh, const ExactMesh& around,
-                  const ExactMesh::Property_map<ExactMesh::Edge_index, bool>& on_curve) {
+double areaInside(ExactMesh& mesh, const ExactMesh& around, const CurveMap& on_curve) {
   auto component = mesh.add_property_map<Face, std::size_t>("f:part", 0).first;
-  const std::size_t count =
-      pmp::connected_components(mesh, component, CGAL::parameters::edge_is_constrained_map(on_curve));
+  const std::size_t count = pmp::connected_components(mesh, component, markingCurves(on_curve));
   const CGAL::Side_of_triangle_mesh<ExactMesh, Exact> side(around);
   std::vector<int> inside(count, -1);
   double area = 0.0;
@@ -120,37 +122,17 @@ std::vector<OverlapPart> partsOf(ExactMesh& overlap) {
   return rounded;
 }
 
-double secondsSince(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-/// The fastest of as many runs as fit in about a third of a second, three at least.
-template <typename Mesh>
-double fastestCorefinement(const SurfaceMesh& a, const SurfaceMesh& b_in_a) {
-  const Mesh mesh_a = meshOf<Mesh>(a);
-  const Mesh mesh_b = meshOf<Mesh>(b_in_a);
-  double fastest = std::numeric_limits<double>::infinity();
-  double total = 0.0;
-  for (int repeat = 0; repeat < 3 || total < 0.3; ++repeat) {
-    Mesh copy_a = mesh_a;
-    Mesh copy_b = mesh_b;
-    Mesh overlap;
-    const auto start = std::chrono::steady_clock::now();
-    if (!pmp::corefine_and_compute_intersection(copy_a, copy_b, overlap)) return -1.0;
-    fastest = std::min(fastest, secondsSince(start));
-    total += secondsSince(start);
-  }
-  return fastest;
-}
-
 }  // namespace
 
 std::optional<SurfaceMesh> cgalUnion(const std::vector<SurfaceMesh>& solids) {
-  ExactMesh united = meshOf<ExactMesh>(solids.front());
+  ExactMesh united = meshOf(solids.front());
   for (std::size_t i = 1; i < solids.size(); ++i) {
-    ExactMesh other = meshOf<ExactMesh>(solids[i]);
+    ExactMesh other = meshOf(solids[i]);
     ExactMesh result;
-    if (!pmp::corefine_and_compute_union(united, other, result)) return std::nullopt;
+    if (!pmp::corefine_and_compute_union(united, other, result, markingCurves(curveMapOf(united)),
+                                         markingCurves(curveMapOf(other)))) {
+      return std::nullopt;
+    }
     united = std::move(result);
   }
   united.collect_garbage();
@@ -173,16 +155,15 @@ std::optional<SurfaceMesh> cgalUnion(const std::vector<SurfaceMesh>& solids) {
 
 OverlapTruth cgalOverlap(const SurfaceMesh& a, const SurfaceMesh& b_in_a) {
   OverlapTruth truth;
-  ExactMesh mesh_a = meshOf<ExactMesh>(a);
-  ExactMesh mesh_b = meshOf<ExactMesh>(b_in_a);
+  ExactMesh mesh_a = meshOf(a);
+  ExactMesh mesh_b = meshOf(b_in_a);
   const ExactMesh whole_a = mesh_a;
   const ExactMesh whole_b = mesh_b;
+  const CurveMap curve_a = curveMapOf(mesh_a);
+  const CurveMap curve_b = curveMapOf(mesh_b);
   ExactMesh overlap;
-  {
-    ExactMesh copy_a = mesh_a;
-    ExactMesh copy_b = mesh_b;
-    truth.known = pmp::corefine_and_compute_intersection(copy_a, copy_b, overlap);
-  }
+  truth.known = pmp::corefine_and_compute_intersection(mesh_a, mesh_b, overlap, markingCurves(curve_a),
+                                                       markingCurves(curve_b));
   if (!truth.known) return truth;
   truth.parts = partsOf(overlap);
   for (const OverlapPart& part : truth.parts) truth.volume += part.volume;
@@ -190,17 +171,13 @@ OverlapTruth cgalOverlap(const SurfaceMesh& a, const SurfaceMesh& b_in_a) {
     const auto c = cornersOf(overlap, face);
     truth.surface += std::sqrt(CGAL::to_double(CGAL::squared_area(c[0], c[1], c[2])));
   }
-  auto curve_a = mesh_a.add_property_map<ExactMesh::Edge_index, bool>("e:curve", false).first;
-  auto curve_b = mesh_b.add_property_map<ExactMesh::Edge_index, bool>("e:curve", false).first;
-  pmp::corefine(mesh_a, mesh_b, CGAL::parameters::edge_is_constrained_map(curve_a),
-                CGAL::parameters::edge_is_constrained_map(curve_b));
   truth.area_a = areaInside(mesh_a, whole_b, curve_a);
   truth.area_b = areaInside(mesh_b, whole_a, curve_b);
   return truth;
 }
 
 struct CgalSolids::Solid {
-  explicit Solid(const SurfaceMesh& surface) : mesh(meshOf<ExactMesh>(surface)), side(mesh) {}
+  explicit Solid(const SurfaceMesh& surface) : mesh(meshOf(surface)), side(mesh) {}
   ExactMesh mesh;
   CGAL::Side_of_triangle_mesh<ExactMesh, Exact> side;
 };
@@ -215,14 +192,6 @@ bool CgalSolids::hold(const Eigen::Vector3d& point) const {
   const Exact::Point_3 at(point.x(), point.y(), point.z());
   return std::any_of(solids_.begin(), solids_.end(),
                      [&](const auto& solid) { return solid->side(at) == CGAL::ON_BOUNDED_SIDE; });
-}
-
-double cgalFastOverlapTime(const SurfaceMesh& a, const SurfaceMesh& b_in_a) {
-  return fastestCorefinement<FastMesh>(a, b_in_a);
-}
-
-double cgalExactOverlapTime(const SurfaceMesh& a, const SurfaceMesh& b_in_a) {
-  return fastestCorefinement<ExactMesh>(a, b_in_a);
 }
 
 }  // namespace concave_distance::test

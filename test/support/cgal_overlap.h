@@ -45,9 +45,4 @@ class CgalSolids {
   std::vector<std::unique_ptr<Solid>> solids_;
 };
 
-/// Seconds of CGAL's corefinement, the fastest of a few runs: with inexact constructions (doubles and exact
-/// predicates), and exact. -1 where it gives up.
-double cgalFastOverlapTime(const SurfaceMesh& a, const SurfaceMesh& b_in_a);
-double cgalExactOverlapTime(const SurfaceMesh& a, const SurfaceMesh& b_in_a);
-
 }  // namespace concave_distance::test

@@ -52,6 +52,27 @@ bool exactlyInside(const ExactVector<Real>& p, const ExactTriangle<Real>& t,
   return true;
 }
 
+/// The point of a triangle, a segment or a point (repeated corners) that is nearest to p.
+template <typename Real>
+ExactVector<Real> closestOnTriangle(const ExactVector<Real>& p, const ExactTriangle<Real>& t) {
+  const ExactVector<Real> normal = (t[1] - t[0]).cross(t[2] - t[0]);
+  const Real squared_area = normal.squaredNorm();
+  if (squared_area > 0) {
+    const ExactVector<Real> foot = p - normal * Real(normal.dot(p - t[0]) / squared_area);
+    if (exactlyInside(foot, t, normal)) return foot;
+  }
+  ExactVector<Real> best = t[0];
+  for (std::size_t k = 0; k < 3; ++k) {
+    const ExactVector<Real> edge = t[(k + 1) % 3] - t[k];
+    const Real squared = edge.squaredNorm();
+    const Real along =
+        squared > 0 ? std::clamp(Real(edge.dot(p - t[k]) / squared), Real(0), Real(1)) : Real(0);
+    const ExactVector<Real> on = t[k] + edge * along;
+    if ((on - p).squaredNorm() < (best - p).squaredNorm()) best = on;
+  }
+  return best;
+}
+
 /// Vertices of a against everything of b, and edges of a through the face of b.
 template <typename Real>
 void considerOneSide(const ExactTriangle<Real>& a, const ExactTriangle<Real>& b, Real& least) {

@@ -11,7 +11,8 @@ using test::at;
 using test::body;
 using test::EffectScene;
 
-constexpr int kPoses = 1000;  // a milliradian apart
+constexpr int kPoses = 200;
+constexpr double kTurn = 5e-3;  // from pose to pose, radians
 
 using Body = std::shared_ptr<const BodyMesh>;
 
@@ -32,7 +33,7 @@ int flips(const Eigen::Vector3d& axis, const NormalAt& normal_at) {
   int count = 0;
   Eigen::Vector3d before = Eigen::Vector3d::Zero();
   for (int i = 0; i < kPoses; ++i) {
-    const Eigen::Vector3d normal = normal_at(Eigen::Isometry3d(Eigen::AngleAxisd(1e-3 * i, axis)));
+    const Eigen::Vector3d normal = normal_at(Eigen::Isometry3d(Eigen::AngleAxisd(kTurn * i, axis)));
     if (normal.dot(before) < 0.0) ++count;
     before = normal;
   }

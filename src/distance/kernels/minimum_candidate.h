@@ -22,12 +22,12 @@ struct MinimumCandidate {
 };
 
 /// With its points not known.
-inline MinimumCandidate seedOn(TriangleIndex a, TriangleIndex b, double distance) {
-  MinimumCandidate seed;
-  seed.a = a;
-  seed.b = b;
-  seed.distance = distance;
-  return seed;
+inline MinimumCandidate candidateOn(TriangleIndex a, TriangleIndex b, double distance) {
+  MinimumCandidate candidate;
+  candidate.a = a;
+  candidate.b = b;
+  candidate.distance = distance;
+  return candidate;
 }
 
 }  // namespace concave_distance

@@ -1,10 +1,15 @@
+// Contact scenes with a closed form, in our simulation and in independent engines: error and time.
+//
+//   engine_table [--scenes name,name,...] [--output doc/results/engine_table.csv]
 #include "benchmark/engines/engine_table.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
 
+#include "benchmark/support/benchmark_main.h"
 #include "concave_distance/base/error.h"
 
 namespace concave_distance::benchmark {
@@ -32,11 +37,17 @@ void writeLine(std::ofstream& csv, const TableScene& scene, const std::string& e
 
 }  // namespace
 
-void compareInTable(const std::vector<std::string>& names, const std::string& file) {
+int benchmarkMain(int argc, char** argv) {
+  CLI::App app("Our simulation beside independent engines on the same scenes");
+  std::vector<std::string> names;
+  std::string output;
+  app.add_option("--scenes", names, "Some of the scenes; default: all")->delimiter(',');
+  app.add_option("--output", output, "CSV file to write");
+  CLI11_PARSE(app, argc, argv);
   std::ofstream csv;
-  if (!file.empty()) {
-    csv.open(file);
-    if (!csv) throw Error(file, "cannot be written", "name a file in a folder that is there");
+  if (!output.empty()) {
+    csv.open(output);
+    if (!csv) throw Error(output, "cannot be written", "name a file in a folder that is there");
     csv << "scene,what,unit,formula,engine,expected,found,error,seconds_per_second,complete\n";
   }
   std::printf("%-16s %-46s %-6s %-22s %12s %12s %12s %18s\n", "scene", "what", "unit", "engine", "expected",
@@ -55,6 +66,7 @@ void compareInTable(const std::vector<std::string>& names, const std::string& fi
       if (csv.is_open()) writeLine(csv, scene, engine.name, run, found);
     }
   }
+  return 0;
 }
 
 }  // namespace concave_distance::benchmark

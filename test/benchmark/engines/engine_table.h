@@ -1,13 +1,14 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
 
-#include "benchmark/engines/engine_differences.h"
 #include "benchmark/support/contact_stage.h"
 #include "benchmark/support/stopwatch.h"
 
@@ -15,6 +16,16 @@ namespace concave_distance::benchmark {
 
 /// What an engine with shapes of its own takes a body for.
 enum class TableShape : std::uint8_t { HalfSpace, Box, Sphere, Cylinder, Mesh };
+
+/// A body at one time; world frame.
+struct EngineSample {
+  double time = 0.0;
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();    ///< of mass
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< of the centre
+  Eigen::Matrix3d world_from_body = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();  ///< world axes, rad/s
+};
+using Trajectory = std::vector<EngineSample>;
 
 /// How an engine went through a scene.
 struct TableRun {
@@ -79,8 +90,5 @@ TableRun runInSteps(const TableScene& scene, World& world, double step) {
   }
   return run;
 }
-
-/// Every scene in every engine, printed, and written where a file is named.
-void compareInTable(const std::vector<std::string>& names, const std::string& file);
 
 }  // namespace concave_distance::benchmark

@@ -127,7 +127,8 @@ TEST(ConeSlices, LoseNoPairWhereALimitEndsThem) {
         std::vector<MinimumCandidate> seeds;
         front.collect(PairFrame::withFacets(*a, *b, pose), NormalSides::Outside, kInfinity, seeds, limit);
         slices += front.counts().slices;
-        cut += limit.hasRefused() ? 1 : 0;
+        if (!limit.hasRefused()) continue;
+        ++cut;
         test::expectOneAncestor(*a, *b, front);
         if (testing::Test::HasFailure()) return;
       }

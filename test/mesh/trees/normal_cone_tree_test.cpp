@@ -97,9 +97,9 @@ TEST(NormalConeTree, LeadsToATipOfManyTriangles) {
 }
 
 TEST(NormalConeTree, OfAFanOfManyTrianglesIsMadeInLinearTime) {
-  const SurfaceMesh mesh = test::makeFan(400'000);
+  const SurfaceMesh mesh = test::makeFan(100'000);
   const NormalConeTree tree(mesh, buildMeshTopology(mesh), NormalSides::Both);
-  EXPECT_GT(tree.items().size(), 1'000'000U);
+  EXPECT_GT(tree.items().size(), 250'000U);
 }
 
 TEST(NormalConeTree, OfABoxHasNoReflexFeatureOutsideAndNoConvexOneInside) {

@@ -18,7 +18,6 @@
 #include <fstream>
 
 #include "benchmark/support/benchmark_main.h"
-#include "benchmark/support/reference_niches.h"
 #include "benchmark/support/statistics.h"
 #include "concave_distance/tracking/pair_tracker.h"
 #include "distance/niches/niche_properties.h"
@@ -26,6 +25,7 @@
 #include "search/genetic_search.h"
 #include "search/local_descent.h"
 #include "support/enumeration.h"
+#include "thesis/benchmark/support/reference_niches.h"
 
 namespace concave_distance::benchmark {
 namespace {

@@ -1,13 +1,13 @@
-#include "benchmark/support/reference_niches.h"
+#include "thesis/benchmark/support/reference_niches.h"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
-#include "benchmark/support/grid_flood.h"
 #include "distance/niches/niche_decider.h"
 #include "search/local_descent.h"
 #include "support/enumeration.h"
+#include "thesis/benchmark/support/grid_flood.h"
 #include "tracking/niche_placement.h"
 
 namespace concave_distance::benchmark {
@@ -75,13 +75,13 @@ bool isSameNiche(const BenchmarkPair& pair, const Eigen::Isometry3d& pose, const
     return true;
   }
   std::vector<MinimumCandidate> seeds{frame.candidateOf(found), frame.candidateOf(reference)};
-  detail::NicheDecider verdicts;
+  detail::NicheDecider decider;
   detail::NicheDecider::Request request;
-  request.least_prominence = least_prominence;
+  request.rule.least_prominence = least_prominence;
   WorkLimit none;
-  verdicts.judge(frame, seeds, request, none);
+  decider.judge(frame, seeds, request, none);
   const auto niche_of = [&](const WitnessPair& witness) {
-    return verdicts.locate(frame, {witness.triangle_a, witness.triangle_b}, request, none);
+    return decider.locate(frame, {witness.triangle_a, witness.triangle_b}, request, none);
   };
   return niche_of(found) == niche_of(reference);
 }

@@ -1,4 +1,4 @@
-#include "benchmark/support/grid_flood.h"
+#include "thesis/benchmark/support/grid_flood.h"
 
 #include <algorithm>
 #include <cmath>
