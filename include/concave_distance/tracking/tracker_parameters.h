@@ -40,7 +40,7 @@ struct TrackerParameters {
   /// the other stages' work while it finds new niches. At least two individuals breed in every
   /// cycle that moves; 0: no search.
   double search_share = 0.05;
-  double least_prominence = 1e-2;  ///< niches with less are merged into their deeper neighbour
+  double least_prominence = 1e-2;  ///< a ratio (doc/algorithm.md); niches with less join a deeper one
   /// Prominences are measured up to this, at a price that grows with it; up to
   /// `least_prominence` none is: it is only decided who has the least.
   double prominence_limit = 0.0;
