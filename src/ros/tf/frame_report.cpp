@@ -10,7 +10,7 @@ namespace concave_distance {
 namespace {
 
 // Longest chain of frames; a longer one is a loop.
-constexpr int kLongestChain = 1000;
+constexpr int kLongestPath = 1000;
 
 std::string listed(const std::set<std::string>& names) {
   TextStream list;
@@ -22,7 +22,7 @@ std::string listed(const std::set<std::string>& names) {
 
 std::string rootOf(const tf2::BufferCore& buffer, std::string frame) {
   std::string parent;
-  for (int step = 0; step < kLongestChain && buffer._getParent(frame, ros::Time(0), parent); ++step) {
+  for (int step = 0; step < kLongestPath && buffer._getParent(frame, ros::Time(0), parent); ++step) {
     frame = parent;
   }
   return frame;
