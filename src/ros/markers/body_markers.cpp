@@ -12,6 +12,7 @@ namespace {
 
 constexpr float kBoxOpacity = 0.3F;
 constexpr double kSeenThroughOpacity = 0.5;
+const Eigen::Vector4d kCollisionColour(0.1, 0.4, 0.9, 0.35);
 
 std_msgs::ColorRGBA toColor(const Eigen::Vector4d& color) {
   std_msgs::ColorRGBA message;
@@ -82,7 +83,7 @@ void drawSurface(const SurfaceMesh& surface, double offset, visualization_msgs::
   }
 }
 
-visualization_msgs::MarkerArray bodyMarkers(const Scene& scene) {
+visualization_msgs::MarkerArray bodyMarkers(const Scene& scene, bool with_collision) {
   visualization_msgs::MarkerArray message;
   visualization_msgs::Marker clear;
   clear.action = visualization_msgs::Marker::DELETEALL;
@@ -91,18 +92,16 @@ visualization_msgs::MarkerArray bodyMarkers(const Scene& scene) {
   const std::vector<double> opacity = opacities(scene);
   for (std::size_t index = 0; index < scene.bodies.size(); ++index) {
     const SceneBody& body = scene.bodies[index];
-    if (body.in_robot_model) {
-      continue;
-    }
+    if (body.in_robot_model && !with_collision) continue;
     visualization_msgs::Marker marker;
     marker.header.frame_id = body.frame;
     marker.frame_locked = 1;
-    marker.ns = "bodies";
+    marker.ns = body.in_robot_model ? "collision" : "bodies";
     marker.id = static_cast<std::int32_t>(index);
     marker.action = visualization_msgs::Marker::ADD;
     marker.pose.orientation.w = 1.0;
-    marker.color = toColor(body.colour);
-    marker.color.a = static_cast<float>(opacity[index]);
+    marker.color = toColor(body.in_robot_model ? kCollisionColour : body.colour);
+    if (!body.in_robot_model) marker.color.a = static_cast<float>(opacity[index]);
     drawSurface(body.mesh->surface(), 0.0, marker);
     message.markers.push_back(std::move(marker));
   }

@@ -23,6 +23,9 @@ std::size_t seenThrough(const Scene& scene, const ScenePair& pair);
 /// The bodies that rviz cannot draw from a robot model, as triangle lists fixed to their tf frames. Begins
 /// with a DELETEALL, so that one latched message always says everything. A body that is looked through, where
 /// two press on each other, is at most half opaque.
-visualization_msgs::MarkerArray bodyMarkers(const Scene& scene);
+/// @param with_collision adds the geometry that is computed with of the links that rviz does draw:
+/// translucent
+///        blue, namespace `collision`
+visualization_msgs::MarkerArray bodyMarkers(const Scene& scene, bool with_collision = false);
 
 }  // namespace concave_distance

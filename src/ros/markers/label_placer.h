@@ -20,12 +20,12 @@ struct LabelSurroundings {
   const std::vector<LocatedBody>& bodies;
 };
 
-/// Places each label beside its line where most of usualViews() see it: not behind a body, a line or another
-/// label. A label keeps its place for a while; a better one is looked for once a second.
+/// Places each label above its line, as low as none of usualViews() shows it on another label and half of
+/// them show it in front of all bodies. A thin line joins a label that stands high to its line. A label keeps
+/// its height while that is free, and a lower one is looked for once a second.
 class LabelPlacer {
  public:
-  /// @param labels the most important first: a later one that would cover an earlier one is left out, and so
-  ///        are those beyond the first 50
+  /// @param labels the most important first; those beyond the first 50 are left out
   /// @param taken spaces that no label may cover
   /// @param now s
   std::vector<visualization_msgs::Marker> place(std::vector<Label> labels,
@@ -34,10 +34,10 @@ class LabelPlacer {
 
  private:
   struct Choice {
-    std::size_t place = 0;  ///< see places() in the source
-    double time = 0.0;      ///< s, when it was chosen
+    int step = 0;       ///< the height, in steps above the line
+    double time = 0.0;  ///< s, when it was chosen
   };
-  std::map<std::pair<std::string, std::int32_t>, Choice> choices_;
+  std::map<std::pair<std::string, std::int32_t>, Choice> choices_;  ///< by namespace and id
 };
 
 }  // namespace concave_distance

@@ -56,8 +56,8 @@ void MarkerDemand::take(const PublishedPairs& pairs) {
   }
 }
 
-void MarkerDemand::select(const std::vector<const PairNiches*>& wanted, ros::Time now) {
-  for (const PairNiches* pair : wanted) entries_[pair->nearest.pair].selected = now;
+void MarkerDemand::select(const std::vector<DrawnPair>& drawn, ros::Time now) {
+  for (const DrawnPair& pair : drawn) entries_[pair.pair->nearest.pair].selected = now;
   for (auto entry = entries_.begin(); entry != entries_.end();) {
     // Also after the clock has jumped back.
     const bool ends = std::abs(secondsBetween(entry->second.selected, now)) > kHeldSeconds;
@@ -67,9 +67,13 @@ void MarkerDemand::select(const std::vector<const PairNiches*>& wanted, ros::Tim
 
 const PairNiches* MarkerDemand::withNiches(const PairNiches& message) {
   const auto found = entries_.find(message.nearest.pair);
-  if (found == entries_.end() || !found->second.known) return nullptr;
+  if (found == entries_.end() || !found->second.known) return &message;
   PairNiches& kept = found->second.niches;
   kept.header = message.header;
+  if (message.nearest.status.code == PairStatus::STALE_TRANSFORM) {
+    kept.nearest.status = message.nearest.status;
+    return &kept;
+  }
   kept.nearest = message.nearest;
   // The shortest distance is always that of the present cycle.
   if (!kept.niches.empty() && message.nearest.has_points != 0) {

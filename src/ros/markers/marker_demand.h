@@ -8,6 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "marker_selection.h"
 #include "ros/messages/published_pair.h"
 
 namespace concave_distance {
@@ -24,9 +25,10 @@ class MarkerDemand {
   /// After the cycle: keeps the niches of the pairs asked.
   void take(const PublishedPairs& pairs);
 
-  /// @param wanted pairs selected at the time `now`
-  void select(const std::vector<const PairNiches*>& wanted, ros::Time now);
-  /// The message with the pair's kept niches, valid until take(); nullptr: none are kept.
+  /// @param drawn pairs selected at the time `now`
+  void select(const std::vector<DrawnPair>& drawn, ros::Time now);
+  /// The message with the pair's kept niches, or as it was before its transforms became stale; valid until
+  /// take(). Without any that are kept, the message itself.
   const PairNiches* withNiches(const PairNiches& message);
 
   void forget();

@@ -1,8 +1,6 @@
 #include "marker_labels.h"
 
-#include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "base/number_text.h"
 
@@ -66,29 +64,6 @@ bool overlap(const LabelSpace& a, const LabelSpace& b, const View& view) {
   const Eigen::Vector3d between = a.centre - b.centre;
   return std::abs(between.dot(view.up)) < 0.5 * (a.height + b.height) &&
          std::abs(between.dot(view.right)) < 0.5 * (a.width + b.width);
-}
-
-bool covers(const LabelSpace& text, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
-            const View& view) {
-  // The part of the line that lies in the text's box on the screen: Liang and Barsky's clipping.
-  const Eigen::Vector3d start = from - text.centre;
-  const Eigen::Vector3d along = to - from;
-  double first = 0.0;
-  double last = 1.0;
-  for (const auto& [axis, half] :
-       {std::pair(view.right, 0.5 * text.width), std::pair(view.up, 0.5 * text.height)}) {
-    const double begin = start.dot(axis);
-    const double step = along.dot(axis);
-    if (step == 0.0) {
-      if (std::abs(begin) > half) return false;
-      continue;
-    }
-    const double enter = (-half - begin) / step;
-    const double leave = (half - begin) / step;
-    first = std::max(first, std::min(enter, leave));
-    last = std::min(last, std::max(enter, leave));
-  }
-  return first <= last;
 }
 
 }  // namespace concave_distance

@@ -42,7 +42,4 @@ struct LabelSpace {
 };
 /// Whether two texts cover each other on the screen.
 bool overlap(const LabelSpace& a, const LabelSpace& b, const View& view);
-/// Whether a text covers a part of the line on the screen.
-bool covers(const LabelSpace& text, const Eigen::Vector3d& from, const Eigen::Vector3d& to, const View& view);
-
 }  // namespace concave_distance

@@ -24,13 +24,6 @@ struct Row {
   std::size_t row = 0;
 };
 
-std_msgs::ColorRGBA grey() {
-  std_msgs::ColorRGBA color;
-  color.r = color.g = color.b = 0.45F;
-  color.a = 1.0F;
-  return color;
-}
-
 void addContactRows(const LegendContents& contents, const MarkerStyle& style, std::vector<Row>& rows) {
   std::size_t row = rows.back().row;
   const std::string space(kColumn, ' ');
@@ -56,9 +49,11 @@ std::vector<Row> rowsOf(const LegendContents& contents, const MarkerStyle& style
           ? "the " + std::to_string(contents.drawn_pairs) + " nearest of " + std::to_string(contents.pairs) +
                 " pairs are shown"
           : std::to_string(contents.pairs) + (contents.pairs == 1 ? " pair" : " pairs");
-  rows.push_back({"thick line: shortest distance of a pair (" + of_pairs + ")", grey(), row});
-  if (contents.others) rows.push_back({"thin line: another place where the pair could touch", grey(), ++row});
-  if (contents.extents) rows.push_back({"circle: faces or edges run parallel this far", grey(), ++row});
+  rows.push_back({"thick line: shortest distance of a pair (" + of_pairs + ")", greyColor(), row});
+  if (contents.dashes) rows.push_back({"dashed: not certain; grey: stale transforms", greyColor(), ++row});
+  if (contents.others)
+    rows.push_back({"thin line: another place where the pair could touch", greyColor(), ++row});
+  if (contents.extents) rows.push_back({"circle: faces or edges run parallel this far", greyColor(), ++row});
   const std::string space(kColumn, ' ');
   ++row;
   rows.push_back({lengthText(style.near) + space, distanceColor(style.near, style), row});

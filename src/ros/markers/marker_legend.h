@@ -16,6 +16,7 @@ struct LegendContents {
   std::size_t drawn_pairs = 0;
   std::size_t pairs = 0;      ///< with a distance
   bool others = false;        ///< thin lines are drawn
+  bool dashes = false;        ///< some line is dashed
   bool warnings = false;      ///< some pair has a warning distance
   bool extents = false;       ///< circles are drawn
   bool contacts = false;      ///< some pair has effects

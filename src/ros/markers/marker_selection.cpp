@@ -28,28 +28,23 @@ void addFartherNiches(std::vector<DrawnPair>& drawn, std::size_t count) {
 }  // namespace
 
 bool hasMarkers(const PairNiches& pair) {
-  const bool swallowed = pair.nearest.status.code == PairStatus::PENETRATING && pair.nearest.has_points != 0;
-  return pair.nearest.has_distance != 0 && (!pair.niches.empty() || swallowed);
+  return pair.nearest.has_distance != 0 && (pair.nearest.has_points != 0 || !pair.niches.empty());
 }
 
-MarkerSelection selectPairs(const std::vector<MarkedPair>& pairs, const MarkerStyle& style) {
-  std::vector<MarkedPair> by_distance;
+MarkerSelection selectPairs(const std::vector<const PairNiches*>& pairs, const MarkerStyle& style) {
+  std::vector<const PairNiches*> by_distance;
   std::copy_if(pairs.begin(), pairs.end(), std::back_inserter(by_distance),
-               [](const MarkedPair& marked) { return marked.pair->nearest.has_distance != 0; });
+               [](const PairNiches* pair) { return hasMarkers(*pair); });
   std::stable_sort(by_distance.begin(), by_distance.end(),
-                   [](const MarkedPair& left, const MarkedPair& right) {
-                     return left.pair->nearest.distance < right.pair->nearest.distance;
+                   [](const PairNiches* left, const PairNiches* right) {
+                     return left->nearest.distance < right->nearest.distance;
                    });
   MarkerSelection selection;
-  for (const MarkedPair& marked : by_distance) {
-    const PairNiches& pair = *marked.pair;
-    const bool has_place = style.pair_count == 0 || selection.candidates < style.pair_count;
-    const bool selected = has_place || pair.nearest.warning != 0;
-    if (selected) selection.wanted.push_back(&pair);
-    if (marked.knows_niches && !hasMarkers(pair)) continue;
-    ++selection.candidates;
-    if (selected && marked.knows_niches) {
-      selection.drawn.push_back({&pair, std::min<std::size_t>(1, pair.niches.size())});
+  selection.candidates = by_distance.size();
+  for (const PairNiches* pair : by_distance) {
+    const bool is_near = style.pair_count == 0 || selection.drawn.size() < style.pair_count;
+    if (is_near || pair->nearest.warning != 0) {
+      selection.drawn.push_back({pair, std::min<std::size_t>(1, pair->niches.size())});
     }
   }
   addFartherNiches(selection.drawn, style.niche_count);

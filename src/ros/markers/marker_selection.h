@@ -12,28 +12,21 @@ namespace concave_distance {
 /// A pair that is drawn.
 struct DrawnPair {
   const PairNiches* pair = nullptr;
-  std::size_t niche_count = 0;  ///< number of its nearest niches
+  std::size_t niche_count = 0;  ///< number of its nearest niches; 0: they are not known
 };
 
-/// Whether there is something to draw: a niche, or the closest points of a body inside another.
+/// Whether the message has a distance with its points, so that there is a line to draw.
 bool hasMarkers(const PairNiches& pair);
 
-/// A pair that could be drawn.
-struct MarkedPair {
-  const PairNiches* pair = nullptr;
-  bool knows_niches = false;  ///< false: its niches were not asked for
-};
-
-/// The pairs that the markers show, and those whose niches they need for it.
+/// The pairs that the markers show.
 struct MarkerSelection {
-  std::vector<DrawnPair> drawn;           ///< ascending by distance
-  std::vector<const PairNiches*> wanted;  ///< pairs whose niches are needed, also of those drawn
-  std::size_t candidates = 0;             ///< pairs that are drawn, or would be if there were fewer
+  std::vector<DrawnPair> drawn;  ///< ascending by distance
+  std::size_t candidates = 0;    ///< number of pairs that could be drawn
 };
 
-/// Selects the style.pair_count nearest pairs and every pair in warning. Of each, the nearest niche is drawn;
-/// other niches of these pairs follow, nearest first, up to style.niche_count in all. A pair whose niches are
-/// not known is wanted, and drawn when they are.
-MarkerSelection selectPairs(const std::vector<MarkedPair>& pairs, const MarkerStyle& style);
+/// Selects the style.pair_count nearest pairs and every pair in warning. Of each, the nearest niche is drawn
+/// or, while its niches are not known, its shortest distance; other niches of these pairs follow, nearest
+/// first, up to style.niche_count in all.
+MarkerSelection selectPairs(const std::vector<const PairNiches*>& pairs, const MarkerStyle& style);
 
 }  // namespace concave_distance

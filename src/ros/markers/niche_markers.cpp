@@ -16,6 +16,7 @@ constexpr double kLongShare = 0.5;   // points take up at most this share of a l
 constexpr double kLeastShare = 0.4;  // ... but are not smaller than this share of their size
 constexpr double kRimShare = 0.15;   // line width of the circles around a segment or patch
 constexpr int kRimCorners = 24;
+constexpr int kDashes = 5;
 
 struct DrawnNiche {
   std::int32_t id;
@@ -29,6 +30,27 @@ struct DrawnNiche {
 
 std::int32_t markerId(std::uint64_t niche_id) {
   return static_cast<std::int32_t>(niche_id & 0x7fffffffU);
+}
+
+bool isStale(const PairNiches& pair) {
+  return pair.nearest.status.code == PairStatus::STALE_TRANSFORM;
+}
+
+// Whether the true distance may be smaller than the one reported.
+bool isUncertain(const PairNiches& pair) {
+  const auto code = pair.nearest.status.code;
+  return code == PairStatus::BUDGET_EXHAUSTED || code == PairStatus::MEMORY_EXHAUSTED ||
+         code == PairStatus::WITHIN_TOLERANCE;
+}
+
+// Replaces a line by the dashes of it.
+void dash(std::vector<geometry_msgs::Point>& line) {
+  const Eigen::Vector3d from(line[0].x, line[0].y, line[0].z);
+  const Eigen::Vector3d along = Eigen::Vector3d(line[1].x, line[1].y, line[1].z) - from;
+  line.clear();
+  for (int end = 0; end < 2 * kDashes; ++end) {  // a dash, a gap of the same length, and so on
+    line.push_back(toPoint(from + end / (2.0 * kDashes - 1.0) * along));
+  }
 }
 
 std::vector<DrawnNiche> drawnNiches(const PairNiches& pair, std::size_t count) {
@@ -77,6 +99,10 @@ visualization_msgs::Marker emptyMarker(const PairNiches& pair, const char* kind,
 
 }  // namespace
 
+bool isDashed(const PairNiches& pair) {
+  return isStale(pair) || isUncertain(pair);
+}
+
 std_msgs::ColorRGBA distanceColor(double distance, const MarkerStyle& style) {
   const double share = std::clamp((distance - style.near) / (style.far - style.near), 0.0, 1.0);
   std_msgs::ColorRGBA color;
@@ -103,7 +129,15 @@ std_msgs::ColorRGBA warningColor() {
   return color;
 }
 
+std_msgs::ColorRGBA greyColor() {
+  std_msgs::ColorRGBA color;
+  color.r = color.g = color.b = 0.45F;
+  color.a = 1.0F;
+  return color;
+}
+
 std_msgs::ColorRGBA pairColor(const PairNiches& pair, const MarkerStyle& style) {
+  if (isStale(pair)) return greyColor();
   return pair.nearest.warning != 0 ? warningColor() : distanceColor(pair.nearest.distance, style);
 }
 
@@ -128,6 +162,7 @@ std::vector<visualization_msgs::Marker> nicheMarkers(const DrawnPair& drawn, con
     line.scale.x = kLineShare * size;
     line.color = color;
     line.points = points.points;
+    if (niche.nearest && isDashed(pair)) dash(line.points);
     markers.push_back(std::move(points));
     markers.push_back(std::move(line));
     if (niche.extent > 0.0 && niche.normal.squaredNorm() > 0.0) {
@@ -143,7 +178,7 @@ std::vector<visualization_msgs::Marker> nicheMarkers(const DrawnPair& drawn, con
   return markers;
 }
 
-Label nicheLabel(const PairNiches& pair, bool with_names, const MarkerStyle& style, double lifetime) {
+Label nicheLabel(const PairNiches& pair, const MarkerStyle& style, double lifetime) {
   const bool known = !pair.niches.empty();
   const std::int32_t id = known ? markerId(pair.niches.front().id) : 0;
   const geometry_msgs::Point& a = known ? pair.niches.front().point_a : pair.nearest.point_a;
@@ -155,8 +190,12 @@ Label nicheLabel(const PairNiches& pair, bool with_names, const MarkerStyle& sty
   label.marker.type = visualization_msgs::Marker::TEXT_VIEW_FACING;
   label.marker.color = pairColor(pair, style);
   const bool overlapping = pair.nearest.status.code == PairStatus::PENETRATING;
-  label.marker.text = (with_names ? pair.nearest.body_a + " - " + pair.nearest.body_b + ": " : "") +
+  label.marker.text = pair.nearest.body_a + " - " + pair.nearest.body_b + ": " +
                       (overlapping ? "overlap" : lengthText(pair.nearest.distance));
+  if (isStale(pair)) label.marker.text += ", stale";
+  if (isUncertain(pair) && pair.nearest.has_lower_bound != 0) {
+    label.marker.text += ", at least " + lengthText(pair.nearest.lower_bound);
+  }
   return label;
 }
 

@@ -20,21 +20,26 @@ namespace concave_distance {
 std_msgs::ColorRGBA distanceColor(double distance, const MarkerStyle& style);
 /// Red; colours of distances are never red.
 std_msgs::ColorRGBA warningColor();
+/// Whether the line of the shortest distance is dashed: it is not certain, or its transforms are stale.
+bool isDashed(const PairNiches& pair);
+/// Grey, of a distance whose transforms are stale and of the legend's text.
+std_msgs::ColorRGBA greyColor();
 
 /// The markers for one pair: for each niche its witness points and the line between them, thick and opaque
 /// for the nearest (red when the pair is in warning), thin and faint for the others; around a segment or
 /// patch, circles as wide as it is. Namespaces `<pair>/points`, `<pair>/line`, `<pair>/extent`; the marker id
-/// is the niche's (its low 31 bits). For a pair with a distance but no niche (one body inside the other) its
-/// closest points are drawn under id 0.
+/// is the niche's (its low 31 bits). For a pair whose niches are not known its closest points are
+/// drawn under id 0. The line of the nearest is dashed when the distance is not certain (its proof ended at
+/// the budget, the memory limit or a tolerance) or the pair's transforms are stale; then it is grey.
 /// @param style with scale > 0 and far > near
 /// @param lifetime seconds after which rviz drops a marker that is not renewed
 std::vector<visualization_msgs::Marker> nicheMarkers(const DrawnPair& drawn, const MarkerStyle& style,
                                                      double lifetime);
 
-/// The label with the distance of the pair's nearest niche and, if wanted, the bodies' names: namespace
-/// `<pair>/text`.
+/// The label with the bodies' names and their distance: namespace `<pair>/text`. Where the distance is not
+/// certain it adds the proven bound, where the transforms are stale it says so.
 /// @param pair with hasMarkers()
-Label nicheLabel(const PairNiches& pair, bool with_names, const MarkerStyle& style, double lifetime);
+Label nicheLabel(const PairNiches& pair, const MarkerStyle& style, double lifetime);
 
 /// Namespaces and ids that rviz shows at present.
 using ShownMarkers = std::set<std::pair<std::string, std::int32_t>>;

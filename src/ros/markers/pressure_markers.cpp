@@ -15,8 +15,8 @@ namespace {
 
 using visualization_msgs::Marker;
 
-constexpr double kLift = 0.03;       // over the scale of the markers
-constexpr double kKeptShare = 0.25;  // of its end: a scale is kept while the largest pressure is above
+constexpr double kSurfaceLift = 0.03;  // over the scale of the markers
+constexpr double kKeptShare = 0.25;    // of its end: a scale is kept while the largest pressure is above
 constexpr double kRoundSteps[] = {1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0};
 
 double roundedUp(double value) {
@@ -104,7 +104,7 @@ DrawnPressures pressureMarkers(const Scene& scene, const ScenePair& scene_pair, 
     const PressureField* field = effects->pressure(k);
     if (field == nullptr || !(regions[k].largest_pressure > 0.0)) continue;
     const std::vector<PressureTriangle> triangles =
-        trianglesOf(tracked, regions[k], *field, of_b, kLift * style.scale, triangles_left);
+        trianglesOf(tracked, regions[k], *field, of_b, kSurfaceLift * style.scale, triangles_left);
     if (triangles.empty()) continue;
     triangles_left -= triangles.size();
     drawn.has_marker[k] = true;

@@ -23,15 +23,24 @@ void append(std::vector<Marker> from, std::vector<Marker>& to) {
   std::move(from.begin(), from.end(), std::back_inserter(to));
 }
 
-// Only bodies of pairs in warning, not of all that overlap: in many robots some links always do.
-std::set<std::size_t> bodiesToTint(const Scene& scene, const PublishedPairs& pairs, double largest) {
+// Of a warning, what is warned of and the nearest link of the robot; of two links or two obstacles, both.
+std::set<std::size_t> bodiesToTint(const Scene& scene, const PublishedPairs& pairs,
+                                   const std::vector<DrawnPair>& drawn, double largest) {
   std::set<std::size_t> bodies;
-  for (std::size_t k = 0; k < pairs.size(); ++k) {
-    const PublishedPair& pair = *pairs[k];
-    if (!pair.demand().due || !pair.heading.warning) continue;
-    for (const std::size_t body : {scene.pairs[k].body_a, scene.pairs[k].body_b}) {
-      if (scene.bodies[body].mesh->diameter() <= largest) bodies.insert(body);
-    }
+  for (const DrawnPair& pair : drawn) {  // ascending by distance
+    if (pair.pair->nearest.warning == 0) continue;
+    const auto found = std::find_if(pairs.begin(), pairs.end(), [&](const auto& published) {
+      return published->heading.pair == pair.pair->nearest.pair;
+    });
+    const ScenePair& ends = scene.pairs[static_cast<std::size_t>(found - pairs.begin())];
+    const bool a_is_link = scene.bodies[ends.body_a].is_robot_link;
+    const bool b_is_link = scene.bodies[ends.body_b].is_robot_link;
+    const std::size_t obstacle = a_is_link ? ends.body_b : ends.body_a;
+    if (a_is_link != b_is_link && bodies.count(obstacle) != 0) continue;  // by a nearer link
+    bodies.insert({ends.body_a, ends.body_b});
+  }
+  for (auto body = bodies.begin(); body != bodies.end();) {
+    body = scene.bodies[*body].mesh->diameter() > largest ? bodies.erase(body) : std::next(body);
   }
   return bodies;
 }
@@ -58,6 +67,8 @@ LegendContents contentsOf(const Scene& scene, const MarkerSelection& selection) 
   LegendContents contents;
   contents.drawn_pairs = selection.drawn.size();
   contents.pairs = selection.candidates;
+  contents.dashes = std::any_of(selection.drawn.begin(), selection.drawn.end(),
+                                [](const DrawnPair& pair) { return isDashed(*pair.pair); });
   contents.others = std::any_of(selection.drawn.begin(), selection.drawn.end(),
                                 [](const DrawnPair& pair) { return pair.niche_count > 1; });
   for (const ScenePair& pair : scene.pairs) {
@@ -67,18 +78,14 @@ LegendContents contentsOf(const Scene& scene, const MarkerSelection& selection) 
   return contents;
 }
 
-// Both are in the order of the scene's pairs.
-std::vector<MarkedPair> markedPairs(const std::vector<PairNiches>& niches, const PublishedPairs& pairs,
-                                    MarkerDemand& demand) {
-  std::vector<MarkedPair> marked;
-  marked.reserve(niches.size());
-  std::size_t k = 0;
+// Every message, with the niches that were kept where it has none.
+std::vector<const PairNiches*> withKeptNiches(const std::vector<PairNiches>& niches, MarkerDemand& demand) {
+  std::vector<const PairNiches*> pairs;
+  pairs.reserve(niches.size());
   for (const PairNiches& message : niches) {
-    while (k + 1 < pairs.size() && pairs[k]->heading.pair != message.nearest.pair) ++k;
-    const PairNiches* kept = pairs[k]->heading.with_niches ? &message : demand.withNiches(message);
-    marked.push_back({kept != nullptr ? kept : &message, kept != nullptr});
+    pairs.push_back(message.niches.empty() ? demand.withNiches(message) : &message);
   }
-  return marked;
+  return pairs;
 }
 
 }  // namespace
@@ -93,9 +100,9 @@ visualization_msgs::MarkerArray SceneMarkers::draw(const Scene& scene, const Mar
   if (!niches.empty()) {
     const std::vector<LocatedBody> bodies = locateBodies(scene, pairs);
     layout_.update(bodies, style);
-    const MarkerSelection selection = selectPairs(markedPairs(niches, pairs, demand_), layout_.style());
+    const MarkerSelection selection = selectPairs(withKeptNiches(niches, demand_), layout_.style());
     const std::vector<DrawnPair>& drawn = selection.drawn;
-    demand_.select(selection.wanted, header.stamp);
+    demand_.select(drawn, header.stamp);
     std::vector<ContactLabel> contact_labels;
     std::set<std::string> with_contacts;
     append(drawContacts(scene, pairs, contacts, lifetime), markers);
@@ -107,9 +114,8 @@ visualization_msgs::MarkerArray SceneMarkers::draw(const Scene& scene, const Mar
     std::vector<Label> labels = deepestLabels(std::move(contact_labels), style.niche_count);
     for (const DrawnPair& pair : drawn) {
       append(nicheMarkers(pair, layout_.style(), lifetime), markers);
-      const bool with_names = &pair == &drawn.front() || pair.pair->nearest.warning != 0;
       if (with_contacts.count(pair.pair->nearest.pair) == 0) {
-        labels.push_back(nicheLabel(*pair.pair, with_names, layout_.style(), lifetime));
+        labels.push_back(nicheLabel(*pair.pair, layout_.style(), lifetime));
       }
     }
     extents_seen_ = extents_seen_ || hasExtent(markers);
@@ -125,7 +131,7 @@ visualization_msgs::MarkerArray SceneMarkers::draw(const Scene& scene, const Mar
     const double now = header.stamp.toSec();
     append(placer_.place(std::move(labels), {scene, bodies}, layout_.letterHeight(), std::move(taken), now),
            markers);
-    tinted = bodiesToTint(scene, pairs, kLargestTint * layout_.region().diagonal().norm());
+    tinted = bodiesToTint(scene, pairs, drawn, kLargestTint * layout_.region().diagonal().norm());
   }
   visualization_msgs::MarkerArray message = withDeletions(std::move(markers), header, shown_);
   append(tints_.update(scene, tinted, kTintOffset * layout_.style().scale, lifetime, header.stamp),

@@ -250,7 +250,7 @@ void DistanceServer::reportLateness() {
 void DistanceServer::publishBodies() {
   const std::shared_ptr<const ServedScene> served = keeper_.served();
   if (parameters_.show_bodies && served->scene != shown_scene_ && body_markers_.getNumSubscribers() > 0) {
-    body_markers_.publish(bodyMarkers(*served->scene));
+    body_markers_.publish(bodyMarkers(*served->scene, parameters_.show_collision));
     shown_scene_ = served->scene;
   }
 }

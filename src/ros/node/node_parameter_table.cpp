@@ -170,6 +170,9 @@ ParameterTable<N> ofTheDrawing() {
           .to(1e15),
       flag<N>(
           "show_bodies", [](auto& n) -> auto& { return n.show_bodies; }, "publish `body_markers`"),
+      flag<N>(
+          "show_collision", [](auto& n) -> auto& { return n.show_collision; },
+          "add the collision geometry of robot links to `body_markers`, namespace `collision`"),
   };
 }
 

@@ -40,6 +40,7 @@ struct NodeParameters {
   bool publish_markers = true;
   bool publish_contact_markers = true;
   bool show_bodies = true;
+  bool show_collision = false;
   /// Patterns of the pairs with their own topics; nothing: every pair of a small scene.
   std::optional<std::vector<std::string>> pair_topics;
   MarkerStyle marker;

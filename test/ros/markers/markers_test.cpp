@@ -78,18 +78,40 @@ TEST(NicheMarkers, CarryTheNichesIdsAndEmphasiseTheNearest) {
   EXPECT_EQ(nicheMarkers({&pair, 1}, nicheStyle(), 0.5).size(), 2U) << "no more niches than asked for";
 }
 
-TEST(NicheLabel, CarriesTheDistanceOfTheNearestNicheAndTheNamesOnRequest) {
+TEST(NicheLabel, CarriesTheNamesAndTheDistanceOfTheNearestNiche) {
   PairNiches pair = pairWithNiches({41, 7});
   pair.nearest.body_a = "arm";
   pair.nearest.body_b = "shelf";
-  const Label label = nicheLabel(pair, false, nicheStyle(), 0.5);
+  const Label label = nicheLabel(pair, nicheStyle(), 0.5);
   EXPECT_EQ(label.marker.ns, "a/b/text");
   EXPECT_EQ(label.marker.id, 41);
-  EXPECT_EQ(label.marker.text, "100 mm");
+  EXPECT_EQ(label.marker.text, "arm - shelf: 100 mm");
   EXPECT_EQ(label.to, Eigen::Vector3d(0.1, 0.0, 0.0));
-  EXPECT_EQ(nicheLabel(pair, true, nicheStyle(), 0.5).marker.text, "arm - shelf: 100 mm");
   pair.nearest.status.code = PairStatus::PENETRATING;
-  EXPECT_EQ(nicheLabel(pair, false, nicheStyle(), 0.5).marker.text, "overlap");
+  EXPECT_EQ(nicheLabel(pair, nicheStyle(), 0.5).marker.text, "arm - shelf: overlap");
+}
+
+TEST(NicheMarkers, DashTheLineOfADistanceThatIsNotCertainOrStale) {
+  PairNiches pair = pairWithNiches({1, 2});
+  EXPECT_EQ(find(draw(pair), "a/b/line", 1)->points.size(), 2U);
+  pair.nearest.has_lower_bound = 1;
+  pair.nearest.lower_bound = 0.08;
+  for (const auto code :
+       {PairStatus::BUDGET_EXHAUSTED, PairStatus::MEMORY_EXHAUSTED, PairStatus::WITHIN_TOLERANCE}) {
+    pair.nearest.status.code = code;
+    const std::vector<Marker> markers = draw(pair);
+    const Marker& line = *find(markers, "a/b/line", 1);
+    EXPECT_EQ(line.points.size(), 10U);
+    EXPECT_NEAR(line.points.back().x, 0.1, 1e-12);
+    EXPECT_EQ(find(markers, "a/b/line", 2)->points.size(), 2U);
+    const std::string text = nicheLabel(pair, nicheStyle(), 0.5).marker.text;
+    EXPECT_NE(text.find("100 mm, at least 80.0 mm"), std::string::npos) << text;
+  }
+  pair.nearest.status.code = PairStatus::STALE_TRANSFORM;
+  const std::vector<Marker> markers = draw(pair);
+  EXPECT_EQ(find(markers, "a/b/line", 1)->points.size(), 10U);
+  EXPECT_EQ(find(markers, "a/b/line", 1)->color, greyColor());
+  EXPECT_NE(nicheLabel(pair, nicheStyle(), 0.5).marker.text.find(", stale"), std::string::npos);
 }
 
 TEST(NicheMarkers, DrawCirclesOfTheExtentAroundSegmentsAndPatchesAlone) {
@@ -124,11 +146,9 @@ TEST(NicheMarkers, DrawAWarningRedAndAPairWithoutADistanceNotAtAll) {
   EXPECT_FALSE(hasMarkers(emptyNiches(PairHeading(), stale)));
 }
 
-TEST(NicheMarkers, DrawTheClosestPointsOfABodyInsideAnotherAndNoneBeyondTheCutoff) {
-  PairNiches pair = pairWithNiches({});
-  EXPECT_TRUE(draw(pair).empty()) << "every niche is beyond the cutoff";
-  pair.nearest.status.code = PairStatus::PENETRATING;
-  EXPECT_NE(find(draw(pair), "a/b/line", 0), nullptr);
+TEST(NicheMarkers, DrawTheClosestPointsOfAPairWithoutNiches) {
+  const std::vector<Marker> markers = draw(pairWithNiches({}));
+  EXPECT_NE(find(markers, "a/b/line", 0), nullptr);
 }
 
 TEST(NicheMarkers, AreDeletedOnceWhenTheirNicheDies) {
@@ -175,6 +195,11 @@ TEST(BodyMarkers, ShowWhatTheRobotModelDoesNot) {
   EXPECT_EQ(message.markers[1].header.frame_id, "shelf_frame");
   EXPECT_TRUE(message.markers[1].frame_locked);
   EXPECT_EQ(message.markers[1].points.size(), 36U) << "12 triangles";
+  const auto with_collision = bodyMarkers(scene, true);
+  ASSERT_EQ(with_collision.markers.size(), 3U);
+  EXPECT_EQ(with_collision.markers[2].ns, "collision");
+  EXPECT_EQ(with_collision.markers[2].header.frame_id, "link_frame");
+  EXPECT_LT(with_collision.markers[2].color.a, 0.5F);
 }
 
 }  // namespace

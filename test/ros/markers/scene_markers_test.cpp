@@ -56,7 +56,11 @@ class Picture {
 
   MarkerArray draw() {
     std::vector<PairNiches> messages;
-    for (const auto& pair : pairs_) messages.push_back(toNiches(pair->heading, pair->tracked->solution));
+    for (const auto& pair : pairs_) {
+      messages.push_back(pair->status.code == PairStatus::OK
+                             ? toNiches(pair->heading, pair->tracked->solution)
+                             : emptyNiches(pair->heading, pair->status));
+    }
     return drawing_.draw(scene_, style, pairs_, messages, contacts, header_, kLifetime);
   }
   MarkerArray clear() { return drawing_.draw(scene_, style, pairs_, {}, {}, header_, kLifetime); }
@@ -79,6 +83,8 @@ class Picture {
     solution.distance = distance;
     solution.point_b_in_a = solution.point_a_in_a + distance * away;
   }
+  void makeStale(std::size_t pair) { pairs_[pair]->status.code = PairStatus::STALE_TRANSFORM; }
+  void makeLink(std::size_t body) { scene_.bodies.edit(body).is_robot_link = true; }
   void warn(std::size_t pair, bool raised) { pairs_[pair]->heading.warning = raised; }
   void wait(double seconds) { header_.stamp += ros::Duration(seconds); }
   SceneMarkers& drawing() { return drawing_; }
@@ -172,12 +178,12 @@ TEST(SelectPairs, TakesTheNearestAndThoseInWarning) {
     }
   }
   pairs[0].nearest.warning = 1;  // the farthest of all
-  pairs[5].niches.clear();       // all of them beyond the cutoff
+  pairs[5].niches.clear();       // it has a distance without points
   MarkerStyle style;
   style.pair_count = 3;
   style.niche_count = 6;
-  std::vector<MarkedPair> marked;
-  for (const PairNiches& pair : pairs) marked.push_back({&pair, true});
+  std::vector<const PairNiches*> marked;
+  for (const PairNiches& pair : pairs) marked.push_back(&pair);
   const std::vector<DrawnPair> drawn = selectPairs(marked, style).drawn;
   ASSERT_EQ(drawn.size(), 4U);
   EXPECT_EQ(drawn[0].pair, &pairs[7]);
@@ -190,27 +196,6 @@ TEST(SelectPairs, TakesTheNearestAndThoseInWarning) {
   const std::vector<DrawnPair> all = selectPairs(marked, style).drawn;
   ASSERT_EQ(all.size(), 7U);
   for (const DrawnPair& pair : all) EXPECT_EQ(pair.niche_count, 3U);
-}
-
-TEST(SelectPairs, WantsTheNichesOfWhatItWouldDraw) {
-  std::vector<PairNiches> pairs(6);  // ascending by distance
-  for (std::size_t k = 0; k < pairs.size(); ++k) {
-    pairs[k].nearest.has_distance = k != 1;  // without transforms
-    pairs[k].nearest.distance = 0.1 * static_cast<double>(k);
-  }
-  std::vector<MarkedPair> marked;
-  for (const PairNiches& pair : pairs) marked.push_back({&pair, false});
-  marked[0].knows_niches = true;  // they are all beyond the cutoff: it takes no place
-  marked[2].knows_niches = true;
-  pairs[2].niches.resize(1);
-  pairs[5].nearest.warning = 1;
-  MarkerStyle style;
-  style.pair_count = 2;
-  const MarkerSelection selection = selectPairs(marked, style);
-  ASSERT_EQ(selection.drawn.size(), 1U);
-  EXPECT_EQ(selection.drawn[0].pair, &pairs[2]);
-  EXPECT_EQ(selection.wanted, (std::vector<const PairNiches*>{&pairs[0], &pairs[2], &pairs[3], &pairs[5]}));
-  EXPECT_EQ(selection.candidates, 4U);
 }
 
 // Cycles until each selected pair was asked; how often each was.
@@ -227,7 +212,7 @@ TEST(SceneMarkers, AskForTheNichesOfTheNearestPairsAndDrawThemWhenTheyCome) {
   Picture picture(12);
   picture.style.pair_count = 5;
   picture.runCycle(1.0);
-  EXPECT_TRUE(withKind(picture.draw(), "/line").empty());
+  EXPECT_EQ(withKind(picture.draw(), "/line").size(), 5U) << "the shortest distances need no niches";
   EXPECT_EQ(askedIn(picture, 6, 1.0).size(), 5U);
   const MarkerArray message = picture.draw();
   EXPECT_EQ(withKind(message, "middle/box_5/line").size(), 2U);
@@ -291,43 +276,39 @@ TEST(SceneMarkers, ShowTheNearestPairsAndSayHowManyThereAre) {
   EXPECT_NE(withKind(message, "legend").front().text.find("5 nearest of 12"), std::string::npos);
 }
 
-TEST(SceneMarkers, LabelsStandBesideTheirLinesAndNotOnEachOther) {
+TEST(SceneMarkers, EveryDrawnPairIsNamedAndNoLabelHidesAnotherOrLiesInABody) {
   Picture picture(12);
+  picture.style.pair_count = 0;
   const MarkerArray message = picture.draw();
   const std::vector<Marker> labels = withKind(message, "/text");
-  const std::vector<Marker> legend = withKind(message, "legend");
-  ASSERT_GE(labels.size(), 3U);
-  ASSERT_FALSE(legend.empty());
-  EXPECT_EQ(labels.front().text, "middle - box_1: 100 mm") << "names at the nearest";
-  EXPECT_EQ(labels[1].text, "150 mm") << "and at no other";
+  ASSERT_EQ(labels.size(), 12U);
+  EXPECT_EQ(labels[0].text, "middle - box_1: 100 mm");
+  EXPECT_EQ(labels[1].text, "middle - box_2: 150 mm");
+  std::vector<Marker> others = labels;
   for (const Marker& label : labels) {
-    for (const Marker& line : withKind(message, "/line")) {
-      if (line.ns.substr(0, line.ns.size() - 5) != label.ns.substr(0, label.ns.size() - 5)) continue;
-      const Eigen::Vector3d from(line.points[0].x, line.points[0].y, line.points[0].z);
-      const Eigen::Vector3d to(line.points[1].x, line.points[1].y, line.points[1].z);
-      const Eigen::Vector3d centre = spaceOf(label).centre;
-      const double share = std::clamp((centre - from).dot(to - from) / (to - from).squaredNorm(), 0.0, 1.0);
-      EXPECT_GE((centre - from - share * (to - from)).norm(), label.scale.z) << label.ns;
+    const LabelSpace space = spaceOf(label);
+    for (const LocatedBody& body : picture.bodies()) {
+      EXPECT_GT(body.box.squaredExteriorDistance(space.centre), 0.0) << label.ns << " in " << body.index;
     }
-    for (const Marker& other : labels) {
-      if (&other == &label) continue;
-      const auto overlapping = std::count_if(usualViews().begin(), usualViews().end(), [&](const View& view) {
-        return overlap(spaceOf(label), spaceOf(other), view);
-      });
-      EXPECT_LE(overlapping, 2) << label.ns << " and " << other.ns << ", of eight views";
+    others.erase(others.begin());
+    for (const Marker& other : others) {
+      for (const View& view : usualViews()) {
+        EXPECT_FALSE(overlap(space, spaceOf(other), view)) << label.ns << " and " << other.ns;
+      }
     }
   }
 }
 
-TEST(SceneMarkers, LabelsAreNotHiddenBehindBodies) {
-  Picture picture(3);
+TEST(SceneMarkers, APairWhoseTransformsBecomeStaleStaysAsItWas) {
+  Picture picture(2);
+  picture.runCycle(1.0);
+  picture.draw();
+  askedIn(picture, 4, 1.0);
+  picture.makeStale(0);
   const MarkerArray message = picture.draw();
-  for (const Marker& label : withKind(message, "/text")) {
-    const Eigen::Vector3d centre = spaceOf(label).centre;
-    for (const LocatedBody& body : picture.bodies()) {
-      EXPECT_GT(body.box.squaredExteriorDistance(centre), 0.0) << label.ns << " in body " << body.index;
-    }
-  }
+  EXPECT_EQ(withKind(message, "box_1/line").front().points.size(), 10U) << "dashed";
+  EXPECT_EQ(withKind(message, "box_1/text").front().text, "middle - box_1: 100 mm, stale");
+  EXPECT_NE(withKind(message, "legend")[1].text.find("dashed"), std::string::npos);
 }
 
 TEST(SceneMarkers, LabelsStayWhereTheyAreWhileNothingMoves) {
@@ -428,6 +409,16 @@ TEST(SceneMarkers, TintTheBodiesOfAPairInWarningAndNoOther) {
   picture.warn(1, false);
   EXPECT_EQ(withKind(picture.draw(), "warning", Marker::DELETE).size(), 2U);
   EXPECT_TRUE(withKind(picture.draw(), "warning", Marker::DELETE).empty());
+}
+
+TEST(SceneMarkers, TintWhatIsWarnedOfAndTheNearestLinkOfARobot) {
+  Picture picture(3);
+  for (const std::size_t link : {1U, 2U, 3U}) picture.makeLink(link);
+  for (const std::size_t pair : {1U, 2U}) picture.warn(pair, true);
+  const std::vector<Marker> tints = withKind(picture.draw(), "warning");
+  ASSERT_EQ(tints.size(), 2U);
+  EXPECT_EQ(tints[0].header.frame_id, "middle");
+  EXPECT_EQ(tints[1].header.frame_id, "box_2");
 }
 
 TEST(SceneMarkers, HaveOneLegendThatCanBeSwitchedOff) {
