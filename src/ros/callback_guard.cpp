@@ -4,7 +4,7 @@
 
 #include <mutex>
 
-#include "log_throttle.h"
+#include "base/log_throttle.h"
 
 namespace concave_distance {
 

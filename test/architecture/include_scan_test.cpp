@@ -74,6 +74,12 @@ TEST(IncludeScan, ReportsRosHeadersBelowTheTopFolderOnly) {
   EXPECT_TRUE(faultsOfIncludes("#include <urdf_parser/urdf_parser.h>\n", "scene/x.cpp", "").empty());
 }
 
+TEST(IncludeScan, ReportsAnArrowUpwardsBetweenFoldersOfTheNode) {
+  const std::string text = "#include \"ros/markers/a.h\"\n#include \"ros/time_difference.h\"\n";
+  EXPECT_TRUE(faultsOfIncludes(text, "ros/node/x.cpp", "").empty());
+  EXPECT_EQ(faultsOfIncludes(text, "ros/tf/x.cpp", "").size(), 1u);
+}
+
 TEST(IncludeScan, ReportsWhatReachesTheThesis) {
   const std::string text = "#include \"thesis/src/annealing/a.h\"\n";
   for (const char* file : {"search/x.cpp", "tools/mesh_tool.cpp", "ros/x.cpp"}) {

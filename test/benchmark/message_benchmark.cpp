@@ -17,8 +17,8 @@
 #include "benchmark/support/processor_time.h"
 #include "benchmark/support/result_table.h"
 #include "concave_distance/tracking/pair_tracker.h"
-#include "ros/conversions.h"
-#include "ros/niche_markers.h"
+#include "ros/markers/niche_markers.h"
+#include "ros/messages/conversions.h"
 
 namespace concave_distance::benchmark {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "ros/transform_buffer.h"
+#include "ros/tf/transform_buffer.h"
 #include "support/box_scene.h"
 
 namespace concave_distance {

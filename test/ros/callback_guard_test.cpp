@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-#include "ros/log_throttle.h"
+#include "base/log_throttle.h"
 
 namespace concave_distance::callback_guard_test {
 namespace {

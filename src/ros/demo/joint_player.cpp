@@ -6,9 +6,9 @@
 #include <ros/ros.h>
 #include <sensor_msgs/JointState.h>
 
-#include "../time_difference.h"
 #include "demo_parameters.h"
 #include "joint_path.h"
+#include "ros/time_difference.h"
 #include "run_node.h"
 
 namespace {

@@ -14,8 +14,8 @@
 #include <cmath>
 #include <optional>
 
-#include "../time_difference.h"
 #include "demo_parameters.h"
+#include "ros/time_difference.h"
 #include "run_node.h"
 
 namespace {

@@ -6,10 +6,10 @@
 #include <ros/ros.h>
 #include <tf2_ros/transform_broadcaster.h>
 
-#include "../time_difference.h"
 #include "demo_parameters.h"
 #include "loading/query_poses.h"
 #include "ping_pong.h"
+#include "ros/time_difference.h"
 #include "run_node.h"
 #include "simulation/pose_path.h"
 

@@ -15,9 +15,9 @@
 #include <cmath>
 #include <vector>
 
-#include "../description_search.h"
 #include "concave_distance/base/error.h"
 #include "demo_parameters.h"
+#include "loading/description_search.h"
 #include "loading/frame_name.h"
 #include "loading/urdf_values.h"
 #include "run_node.h"

@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "ros/watched_topic.h"
+#include "ros/topics/watched_topic.h"
 #include "rostest_support.h"
 #include "started_node.h"
 #include "support/count_allocations.h"

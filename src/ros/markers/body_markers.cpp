@@ -1,0 +1,111 @@
+#include "body_markers.h"
+
+#include <algorithm>
+#include <optional>
+#include <tuple>
+#include <vector>
+
+#include "ros/messages/conversions.h"
+
+namespace concave_distance {
+namespace {
+
+constexpr float kBoxOpacity = 0.3F;
+constexpr double kSeenThroughOpacity = 0.5;
+const Eigen::Vector4d kCollisionColour(0.1, 0.4, 0.9, 0.35);
+
+std_msgs::ColorRGBA toColor(const Eigen::Vector4d& color) {
+  std_msgs::ColorRGBA message;
+  message.r = static_cast<float>(color[0]);
+  message.g = static_cast<float>(color[1]);
+  message.b = static_cast<float>(color[2]);
+  message.a = static_cast<float>(color[3]);
+  return message;
+}
+
+// Outward unit vectors at the vertices; 0 where the normals of the faces around cancel out.
+std::vector<Eigen::Vector3d> vertexNormals(const SurfaceMesh& surface) {
+  std::vector<Eigen::Vector3d> normals(surface.vertexCount(), Eigen::Vector3d::Zero());
+  for (const TriangleNodes& triangle : surface.triangles()) {
+    const Eigen::Vector3d& a = surface.vertex(triangle[0]);
+    const Eigen::Vector3d area = (surface.vertex(triangle[1]) - a).cross(surface.vertex(triangle[2]) - a);
+    for (const NodeIndex node : triangle) normals[node.value] += area;
+  }
+  for (Eigen::Vector3d& normal : normals) normal.normalize();
+  return normals;
+}
+
+bool pressesOnEachOther(const ScenePair& pair) {
+  const std::optional<NormalForceSettings>& force = pair.settings.effects.normal_force;
+  return force && force->distribution == ForceDistribution::Pressure;
+}
+
+std::vector<double> opacities(const Scene& scene) {
+  std::vector<double> result;
+  result.reserve(scene.bodies.size());
+  for (const SceneBody& body : scene.bodies) result.push_back(body.colour[3]);
+  for (const ScenePair& pair : scene.pairs) {
+    if (!pressesOnEachOther(pair)) continue;
+    double& opacity = result[seenThrough(scene, pair)];
+    opacity = std::min(opacity, kSeenThroughOpacity);
+  }
+  return result;
+}
+
+}  // namespace
+
+std::size_t seenThrough(const Scene& scene, const ScenePair& pair) {
+  const auto rank = [&](std::size_t index) {
+    const SceneBody& body = scene.bodies[index];
+    return std::tuple(body.in_robot_model, body.colour[3], body.mesh->diameter());
+  };
+  return rank(pair.body_a) < rank(pair.body_b) ? pair.body_a : pair.body_b;
+}
+
+void drawSurface(const SurfaceMesh& surface, double offset, visualization_msgs::Marker& marker) {
+  if (surface.triangleCount() > kLargestShownBody) {
+    marker.type = visualization_msgs::Marker::CUBE;
+    marker.pose.position = toPoint(surface.boundingBox().center());
+    marker.scale = toVector(surface.boundingBox().sizes() + Eigen::Vector3d::Constant(2.0 * offset));
+    marker.color.a = kBoxOpacity;
+    return;
+  }
+  marker.type = visualization_msgs::Marker::TRIANGLE_LIST;
+  marker.scale.x = marker.scale.y = marker.scale.z = 1.0;
+  marker.points.reserve(3 * surface.triangleCount());
+  std::vector<Eigen::Vector3d> vertices = surface.vertices();
+  if (offset != 0.0) {
+    const std::vector<Eigen::Vector3d> normals = vertexNormals(surface);
+    for (std::size_t k = 0; k < vertices.size(); ++k) vertices[k] += offset * normals[k];
+  }
+  for (const TriangleNodes& triangle : surface.triangles()) {
+    for (const NodeIndex node : triangle) marker.points.push_back(toPoint(vertices[node.value]));
+  }
+}
+
+visualization_msgs::MarkerArray bodyMarkers(const Scene& scene, bool with_collision) {
+  visualization_msgs::MarkerArray message;
+  visualization_msgs::Marker clear;
+  clear.action = visualization_msgs::Marker::DELETEALL;
+  clear.pose.orientation.w = 1.0;
+  message.markers.push_back(clear);
+  const std::vector<double> opacity = opacities(scene);
+  for (std::size_t index = 0; index < scene.bodies.size(); ++index) {
+    const SceneBody& body = scene.bodies[index];
+    if (body.in_robot_model && !with_collision) continue;
+    visualization_msgs::Marker marker;
+    marker.header.frame_id = body.frame;
+    marker.frame_locked = 1;
+    marker.ns = body.in_robot_model ? "collision" : "bodies";
+    marker.id = static_cast<std::int32_t>(index);
+    marker.action = visualization_msgs::Marker::ADD;
+    marker.pose.orientation.w = 1.0;
+    marker.color = toColor(body.in_robot_model ? kCollisionColour : body.colour);
+    if (!body.in_robot_model) marker.color.a = static_cast<float>(opacity[index]);
+    drawSurface(body.mesh->surface(), 0.0, marker);
+    message.markers.push_back(std::move(marker));
+  }
+  return message;
+}
+
+}  // namespace concave_distance

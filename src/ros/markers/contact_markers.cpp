@@ -1,0 +1,153 @@
+#include "contact_markers.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "ros/messages/conversions.h"
+
+namespace concave_distance {
+namespace {
+
+using visualization_msgs::Marker;
+
+constexpr double kDiscHeight = 0.06;  // over the scale of the markers
+constexpr double kLineWidth = 0.12;
+constexpr double kShaftWidth = 0.22;
+constexpr double kHeadWidth = 0.55;
+constexpr double kHeadLength = 0.6;
+constexpr double kHeadShare = 0.4;  // of a short arrow's length
+
+std_msgs::ColorRGBA color(float r, float g, float b, float a) {
+  std_msgs::ColorRGBA result;
+  result.r = r;
+  result.g = g;
+  result.b = b;
+  result.a = a;
+  return result;
+}
+
+Eigen::Vector3d toEigen(const geometry_msgs::Point& point) {
+  return {point.x, point.y, point.z};
+}
+Eigen::Vector3d toEigen(const geometry_msgs::Vector3& vector) {
+  return {vector.x, vector.y, vector.z};
+}
+
+// For text and disc: visible on light and dark backgrounds.
+std_msgs::ColorRGBA contactColor() {
+  return color(0.90F, 0.20F, 0.75F, 1.0F);
+}
+
+// A disc as large as the contact's area, across the normal.
+void drawArea(const Contact& contact, double scale, Marker& marker) {
+  marker.type = Marker::CYLINDER;
+  marker.pose.position = contact.centroid;
+  marker.pose.orientation =
+      toQuaternion(Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), toEigen(contact.normal)));
+  marker.scale.x = marker.scale.y = 2.0 * std::sqrt(contact.contact_area / M_PI);
+  marker.scale.z = kDiscHeight * scale;
+  marker.color = contactColor();
+  marker.color.a = 0.5F;
+}
+
+// An arrow from the point where the force acts; a short one keeps its shape.
+void drawForce(const geometry_msgs::Point& from, const Eigen::Vector3d& arrow, double scale, Marker& marker) {
+  marker.type = Marker::ARROW;
+  marker.points = {from, toPoint(toEigen(from) + arrow)};
+  const double head = std::min(kHeadLength * scale, kHeadShare * arrow.norm());
+  const double thinness = head / (kHeadLength * scale);
+  marker.scale.x = kShaftWidth * scale * thinness;
+  marker.scale.y = kHeadWidth * scale * thinness;
+  marker.scale.z = head;
+}
+
+std::string contactText(const Contact& contact) {
+  std::string text;
+  if (contact.has_depth != 0) text = lengthText(contact.depth) + " deep";
+  if (contact.has_force != 0) {
+    const double newtons = toEigen(contact.wrench.force).norm();
+    text += (text.empty() ? "" : "  ") + forceText(newtons);
+  }
+  if (contact.largest_pressure > 0.0) text += "  up to " + pressureText(contact.largest_pressure);
+  return text.empty() ? "contact" : text;
+}
+
+}  // namespace
+
+std_msgs::ColorRGBA normalForceColor() {
+  return color(0.85F, 0.05F, 0.10F, 1.0F);
+}
+std_msgs::ColorRGBA frictionColor() {
+  return color(0.10F, 0.40F, 0.95F, 1.0F);
+}
+std_msgs::ColorRGBA contactTextColor() {
+  return contactColor();
+}
+
+Marker emptyContactMarker(const PairContactState& pair, const char* kind, std::size_t index,
+                          double lifetime) {
+  const std::uint64_t id = pair.contacts[index].id;
+  Marker marker;
+  marker.header = pair.header;
+  marker.ns = pair.pair + "/" + kind;
+  marker.id = id == 0 ? -1 - static_cast<std::int32_t>(index) : static_cast<std::int32_t>(id & 0x7fffffffU);
+  marker.action = Marker::ADD;
+  marker.pose.orientation.w = 1.0;
+  marker.lifetime = ros::Duration(lifetime);
+  return marker;
+}
+
+std::vector<Marker> contactMarkers(const PairContactState& pair, const std::vector<bool>& without_disc,
+                                   const MarkerStyle& style, double lifetime) {
+  std::vector<Marker> markers;
+  for (std::size_t k = 0; k < pair.contacts.size(); ++k) {
+    const Contact& contact = pair.contacts[k];
+    const auto add = [&](const char* kind) -> Marker& {
+      return markers.emplace_back(emptyContactMarker(pair, kind, k, lifetime));
+    };
+    const bool has_disc = !without_disc[k] && toEigen(contact.normal).allFinite();
+    if (contact.contact_area > 0.0 && has_disc) drawArea(contact, style.scale, add("contact_area"));
+    if (contact.depth > 0.0) {
+      Marker& line = add("contact_depth");
+      line.type = Marker::LINE_LIST;
+      line.scale.x = kLineWidth * style.scale;
+      line.color = color(0.35F, 0.0F, 0.35F, 1.0F);
+      line.points = {contact.point_a, contact.point_b};
+    }
+    if (contact.has_force != 0 && contact.normal_force > 0.0) {
+      Marker& arrow = add("normal_force");
+      arrow.color = normalForceColor();
+      drawForce(contact.force_point, contact.normal_force / style.force_scale * toEigen(contact.normal),
+                style.scale, arrow);
+    }
+    if (contact.has_friction != 0 && toEigen(contact.friction).norm() > 0.0) {
+      Marker& arrow = add("friction");
+      arrow.color = frictionColor();
+      drawForce(contact.force_point, toEigen(contact.friction) / style.force_scale, style.scale, arrow);
+    }
+  }
+  return markers;
+}
+
+std::vector<ContactLabel> contactLabels(const PairContactState& pair, double lifetime) {
+  std::vector<ContactLabel> labels;
+  for (std::size_t k = 0; k < pair.contacts.size(); ++k) {
+    const Contact& contact = pair.contacts[k];
+    if (!toEigen(contact.centroid).allFinite()) continue;
+    ContactLabel label;
+    label.depth = contact.has_depth != 0 ? contact.depth : 0.0;
+    label.label.from = label.label.to = toEigen(contact.centroid);
+    Marker& text = label.label.marker;
+    text = emptyContactMarker(pair, "contact_text", k, lifetime);
+    text.type = Marker::TEXT_VIEW_FACING;
+    text.color = contactTextColor();
+    text.text = contactText(contact);
+    labels.push_back(std::move(label));
+  }
+  return labels;
+}
+
+}  // namespace concave_distance

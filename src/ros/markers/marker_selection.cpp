@@ -1,0 +1,54 @@
+#include "marker_selection.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+namespace concave_distance {
+namespace {
+
+// Assigns the rest of the count to further niches of the pairs, nearest first.
+void addFartherNiches(std::vector<DrawnPair>& drawn, std::size_t count) {
+  std::vector<std::pair<double, DrawnPair*>> others;
+  std::size_t used = 0;
+  for (DrawnPair& pair : drawn) {
+    used += pair.niche_count;
+    for (std::size_t k = 1; k < pair.pair->niches.size(); ++k) {
+      others.emplace_back(pair.pair->niches[k].distance, &pair);
+    }
+  }
+  std::stable_sort(others.begin(), others.end(),
+                   [](const auto& left, const auto& right) { return left.first < right.first; });
+  const std::size_t left = count == 0 ? others.size() : count - std::min(count, used);
+  for (std::size_t k = 0; k < std::min(left, others.size()); ++k) {
+    ++others[k].second->niche_count;
+  }
+}
+
+}  // namespace
+
+bool hasMarkers(const PairNiches& pair) {
+  return pair.nearest.has_distance != 0 && (pair.nearest.has_points != 0 || !pair.niches.empty());
+}
+
+MarkerSelection selectPairs(const std::vector<const PairNiches*>& pairs, const MarkerStyle& style) {
+  std::vector<const PairNiches*> by_distance;
+  std::copy_if(pairs.begin(), pairs.end(), std::back_inserter(by_distance),
+               [](const PairNiches* pair) { return hasMarkers(*pair); });
+  std::stable_sort(by_distance.begin(), by_distance.end(),
+                   [](const PairNiches* left, const PairNiches* right) {
+                     return left->nearest.distance < right->nearest.distance;
+                   });
+  MarkerSelection selection;
+  selection.candidates = by_distance.size();
+  for (const PairNiches* pair : by_distance) {
+    const bool is_near = style.pair_count == 0 || selection.drawn.size() < style.pair_count;
+    if (is_near || pair->nearest.warning != 0) {
+      selection.drawn.push_back({pair, std::min<std::size_t>(1, pair->niches.size())});
+    }
+  }
+  addFartherNiches(selection.drawn, style.niche_count);
+  return selection;
+}
+
+}  // namespace concave_distance

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <concave_distance/PairNiches.h>
+
+#include <cstddef>
+#include <vector>
+
+#include "marker_style.h"
+
+namespace concave_distance {
+
+/// A pair that is drawn.
+struct DrawnPair {
+  const PairNiches* pair = nullptr;
+  std::size_t niche_count = 0;  ///< number of its nearest niches; 0: they are not known
+};
+
+/// Whether the message has a distance with its points, so that there is a line to draw.
+bool hasMarkers(const PairNiches& pair);
+
+/// The pairs that the markers show.
+struct MarkerSelection {
+  std::vector<DrawnPair> drawn;  ///< ascending by distance
+  std::size_t candidates = 0;    ///< number of pairs that could be drawn
+};
+
+/// Selects the style.pair_count nearest pairs and every pair in warning. Of each, the nearest niche is drawn
+/// or, while its niches are not known, its shortest distance; other niches of these pairs follow, nearest
+/// first, up to style.niche_count in all.
+MarkerSelection selectPairs(const std::vector<const PairNiches*>& pairs, const MarkerStyle& style);
+
+}  // namespace concave_distance

@@ -1,0 +1,12 @@
+#pragma once
+
+// The picture that rviz shows of a scene.
+//
+// What goes in: the messages of a cycle (PairNiches, PairContactState), the scene, and where its bodies are.
+// What comes out: one MarkerArray for `markers` and one, latched, for `body_markers` (doc/markers.md).
+// What is kept from picture to picture: which markers rviz shows, so that others can be deleted; the size of
+// the scene, so that letters do not pulsate; the niches of the drawn pairs, which are asked for in turns,
+// because opening rviz must not slow the cycle; where each label stands, so that it does not jump. The order
+// of a picture, each a header: marker_demand.h (whose niches are known), marker_selection.h (which pairs are
+// drawn), niche_markers.h and contact_markers.h (lines, points, forces), labels and legend, red bodies.
+// scene_markers.h puts them together; marker_style.h holds what a user can set.

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <concave_distance/PairContactState.h>
+#include <concave_distance/PairNiches.h>
+#include <visualization_msgs/MarkerArray.h>
+
+#include <memory>
+#include <vector>
+
+#include "concave_distance/scene/scene.h"
+#include "label_placer.h"
+#include "marker_demand.h"
+#include "marker_layout.h"
+#include "niche_markers.h"
+#include "pressure_markers.h"
+#include "ros/messages/published_pair.h"
+#include "warning_tints.h"
+
+namespace concave_distance {
+
+/// The markers of a scene: nearest pairs, contacts, labels that do not overlap, red bodies, the legend, and
+/// deletions of earlier markers. One object per topic.
+class SceneMarkers {
+ public:
+  /// @param style as configured; 0 means automatic
+  /// @param pairs in the order of scene.pairs
+  /// @param niches of the pairs that are due; none: everything is deleted
+  /// @param header in the reference frame, stamped now
+  /// @param lifetime seconds after which rviz drops a marker that is not renewed
+  visualization_msgs::MarkerArray draw(const Scene& scene, const MarkerStyle& style,
+                                       const PublishedPairs& pairs, const std::vector<PairNiches>& niches,
+                                       const std::vector<PairContactState>& contacts,
+                                       const std_msgs::Header& header, double lifetime);
+  /// Which niches are needed for it, in which cycle.
+  MarkerDemand& demand() { return demand_; }
+  /// For when there is no subscriber any more: nothing has to be deleted.
+  void forget();
+  bool empty() const { return shown_.empty() && tints_.empty(); }
+
+ private:
+  std::vector<visualization_msgs::Marker> drawContacts(const Scene& scene, const PublishedPairs& pairs,
+                                                       const std::vector<PairContactState>& contacts,
+                                                       double lifetime);
+
+  MarkerDemand demand_;
+  MarkerLayout layout_;
+  LabelPlacer placer_;
+  WarningTints tints_;
+  ShownMarkers shown_;
+  PressureScale pressures_;
+  bool extents_seen_ = false;  ///< keeps that row, so that the legend does not move
+};
+
+}  // namespace concave_distance

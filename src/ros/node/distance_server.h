@@ -1,0 +1,102 @@
+#pragma once
+
+#include <concave_distance/ConcaveDistanceConfig.h>
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <dynamic_reconfigure/server.h>
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
+#include <ros/wall_timer.h>
+
+#include <atomic>
+#include <boost/thread/recursive_mutex.hpp>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "concave_distance/base/error.h"
+#include "cycle_runner.h"
+#include "node_parameters.h"
+#include "ros/services/distance_queries.h"
+#include "ros/services/scene_services.h"
+#include "ros/tf/transform_buffer.h"
+#include "ros/tf/transform_receiver.h"
+#include "ros/topics/scene_store.h"
+#include "ros/topics/topic_publishers.h"
+#include "scene/lateness_monitor.h"
+#include "scene/restart_requests.h"
+#include "scene_loader.h"
+
+namespace concave_distance {
+
+/// All of the node, shared by the program and the nodelet: reads parameters, loads the scene as soon as it
+/// can be, and wires cycle, services, diagnostics and reconfiguration. Nothing in it waits.
+class DistanceServer {
+ public:
+  using FatalCallback = std::function<void(const Error&)>;
+
+  /// @param node for /tf and /diagnostics; its queue serves timers and subscribers, not the services
+  /// @param private_node for parameters, topics and services
+  /// @param name of the node or nodelet, for the diagnostics
+  /// @param on_fatal called from a callback of `private_node` when the scene file is wrong, so that nothing
+  ///        can be served
+  /// @throws Error for a wrong parameter
+  DistanceServer(const ros::NodeHandle& node, const ros::NodeHandle& private_node, std::string name,
+                 FatalCallback on_fatal);
+  /// Ends the running requests of services.
+  ~DistanceServer();
+  DistanceServer(const DistanceServer&) = delete;
+  DistanceServer& operator=(const DistanceServer&) = delete;
+
+ private:
+  void tryToLoad();
+  void followLoading();
+  void giveUpLoading(const Error& problem);
+  /// The cutoff scaled to a robot, for pairs added later and for reconfiguration.
+  void adoptCutoff(double cutoff);
+  void forgetAutomaticCutoff();
+  void reportLateness();
+  void doHousekeeping();
+  void publishDiagnostics();
+  void onReconfigure(ConcaveDistanceConfig& config, std::uint32_t level);
+  void reportMissingFrames();
+  void reportMissingClock();
+  void publishBodies();
+  void setUpDiagnostics();
+  /// A wall timer; exceptions in its callback are logged and end there.
+  ros::WallTimer startTimer(double period, const char* name, void (DistanceServer::*act)());
+
+  ros::NodeHandle private_node_;
+  NodeParameters parameters_;
+  bool cutoff_is_automatic_;  ///< nobody has set one
+  FatalCallback on_fatal_;
+  TransformBuffer transforms_;
+  TransformReceiver receiver_;
+  TopicPublishers publishers_;
+  SceneStore keeper_;
+  RestartRequests restarts_;
+  ServiceQueues service_queues_;
+  DistanceQueries queries_;
+  SceneServices scene_services_;
+  CycleRunner runner_;
+  diagnostic_updater::Updater updater_;
+  CycleWindow window_;  ///< of the diagnostics being published
+
+  boost::recursive_mutex reconfigure_mutex_;
+  ConcaveDistanceConfig config_;
+  std::atomic<bool> settings_were_written_{false};  ///< by the reconfigure server
+  ConcaveDistanceConfig config_of_loading_;         ///< what the scene that is loading was given
+  std::unique_ptr<dynamic_reconfigure::Server<ConcaveDistanceConfig>> reconfigure_;
+
+  ros::Publisher body_markers_;
+  std::shared_ptr<const Scene> shown_scene_;  ///< by body_markers_
+  SceneLoader loader_;                        ///< used by load_timer_ alone
+  ros::WallTimer load_timer_;
+  ros::WallTimer housekeeping_timer_;
+  ros::WallTimer diagnostics_timer_;
+  ros::WallTime last_load_message_;
+  ros::WallTime last_frame_message_;
+  ros::WallTime last_clock_message_ = ros::WallTime::now();
+  LatenessMonitor lateness_;
+};
+
+}  // namespace concave_distance

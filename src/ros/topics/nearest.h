@@ -1,0 +1,20 @@
+#pragma once
+
+#include <concave_distance/Nearest.h>
+#include <ros/time.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "ros/messages/published_pair.h"
+
+namespace concave_distance {
+
+/// The nearest pair of a cycle, from its located and solved pairs. O(pairs).
+/// `number` is the smallest of: the distance of a pair that is exact or proves nothing; the lower bound of a
+/// pair whose proof was ended early; the bound of a pair beyond its cutoff. It is set when every pair has one
+/// of these, and it is 0 whenever bodies penetrate.
+Nearest nearestOf(const PublishedPairs& pairs, const std::string& reference_frame, ros::Time now);
+
+}  // namespace concave_distance

@@ -1,0 +1,279 @@
+#include "topic_publishers.h"
+
+#include <concave_distance/Alert.h>
+#include <concave_distance/Contacts.h>
+#include <concave_distance/Distances.h>
+#include <concave_distance/Nearest.h>
+#include <concave_distance/Niches.h>
+#include <std_msgs/Float64.h>
+#include <visualization_msgs/MarkerArray.h>
+
+#include <algorithm>
+#include <boost/make_shared.hpp>
+#include <utility>
+
+#include "nearest.h"
+#include "ros/markers/scene_markers.h"
+#include "ros/messages/contact_conversions.h"
+#include "ros/time_difference.h"
+
+namespace concave_distance {
+namespace {
+
+constexpr std::uint32_t kAlertQueueLength = 100;  // none of them is to be lost
+
+static_assert(Alert::CLEAR == static_cast<int>(WarningState::Clear));
+static_assert(Alert::WARNING == static_cast<int>(WarningState::Warning));
+static_assert(Alert::UNKNOWN == static_cast<int>(WarningState::Unknown));
+
+PairNiches toMessage(const PublishedPair& pair) {
+  if (pair.tracked->solved()) {
+    return toNiches(pair.heading, pair.tracked->solution);
+  }
+  PairNiches message = emptyNiches(pair.heading, pair.status);
+  if (pair.tracked->box_bound) {
+    message.nearest.has_lower_bound = 1;
+    message.nearest.lower_bound = *pair.tracked->box_bound;
+  }
+  return message;
+}
+
+PairContactState toContactMessage(const PublishedPair& pair) {
+  if (pair.tracked->solved() && pair.tracked->effects.contacts() != nullptr) {
+    return toContacts(pair.heading, toDistance(pair.heading, pair.tracked->solution).status,
+                      *pair.tracked->effects.contacts(), pair.tracked->input.a_from_b);
+  }
+  if (pair.tracked->box_bound) {  // proven apart, although not solved
+    PairContacts apart;
+    if (pair.tracked->settings.effects.normal_force) {
+      apart.on_b_in_a = Wrench{};
+    }
+    return toContacts(pair.heading, pair.status, apart, pair.tracked->input.a_from_b);
+  }
+  return emptyContacts(pair.heading, pair.status);
+}
+
+Alert toAlert(const PublishedPair& pair, const PairDistance& nearest) {
+  Alert alert;
+  alert.header = nearest.header;
+  alert.state = static_cast<std::uint8_t>(pair.tracked->warning.state());
+  alert.warning_distance = pair.tracked->settings.warning_distance.value_or(kNotComputed);
+  alert.hysteresis = pair.tracked->settings.warning_hysteresis;
+  alert.nearest = nearest;
+  return alert;
+}
+
+bool isSolved(const PairNiches& message) {
+  return message.nearest.has_distance != 0;
+}
+bool isSolved(const PairContactState& message) {
+  return hasDistance(message.status);
+}
+
+// The oldest time of the pairs that carry a distance; `now` when none does.
+template <typename Message>
+std_msgs::Header commonHeader(const std::vector<Message>& messages, ros::Time now, const std::string& frame) {
+  std_msgs::Header header;
+  header.frame_id = frame;
+  header.stamp = now;
+  for (const Message& message : messages) {
+    if (isSolved(message) && message.header.stamp < header.stamp) {
+      header.stamp = message.header.stamp;
+    }
+  }
+  return header;
+}
+
+}  // namespace
+
+TopicPublishers::TopicPublishers(const ros::NodeHandle& node, std::string reference_frame,
+                                 std::optional<std::vector<std::string>> pair_topics)
+    : node_(node),
+      reference_frame_(std::move(reference_frame)),
+      pair_topics_(node_, std::move(pair_topics)),
+      nearest_(WatchedTopic::advertise<Nearest>(node_, "nearest", kQueueLength)),
+      nearest_distance_(WatchedTopic::advertise<std_msgs::Float64>(node_, "nearest_distance", kQueueLength)),
+      distances_(WatchedTopic::advertise<Distances>(node_, "distances", kQueueLength)),
+      niches_(WatchedTopic::advertise<Niches>(node_, "niches", kQueueLength)),
+      contacts_(WatchedTopic::advertise<Contacts>(node_, "contacts", kQueueLength)),
+      markers_(WatchedTopic::advertise<visualization_msgs::MarkerArray>(node_, "markers", kQueueLength)),
+      alerts_(WatchedTopic::advertise<Alert>(node_, "alerts", kAlertQueueLength,
+                                             [this] { repeat_alerts_ = true; })),
+      drawing_(std::make_unique<SceneMarkers>()) {}
+
+TopicPublishers::~TopicPublishers() = default;
+
+std::shared_ptr<const ServedScene> TopicPublishers::serve(const std::shared_ptr<const Scene>& scene,
+                                                          const ServedScene* before, const MarkerStyle& style,
+                                                          std::uint64_t settings_revision) {
+  auto served = std::make_shared<ServedScene>();
+  served->settings_revision = settings_revision;
+  served->scene = scene;
+  served->marker_style = style;
+  static const PairTopicList kNoTopics;
+  served->topics = pair_topics_.topicsOf(*scene, before == nullptr ? nullptr : before->scene.get(),
+                                         before == nullptr ? kNoTopics : before->topics);
+  return served;
+}
+
+void TopicPublishers::readDemand(const ServedScene& served, const MarkerOptions& markers,
+                                 std::vector<PairDemand>& demand) {
+  nearest_wanted_ = nearest_.isWatched() || nearest_distance_.isWatched();
+  distances_wanted_ = distances_.isWatched();
+  niches_wanted_ = niches_.isWatched();
+  contacts_wanted_ = contacts_.isWatched();
+  const bool alerts_wanted = alerts_.isWatched();
+  const bool markers_watched = markers_.isWatched();
+  if (!markers_watched) {
+    drawing_->forget();
+  }
+  markers_wanted_ = markers.publish && markers_watched;
+  contact_markers_wanted_ = markers_wanted_ && markers.contacts;
+  // When markers are switched off, what is shown has to be deleted once more.
+  markers_due_ = markers.due && (markers_wanted_ || !drawing_->empty());
+  demand.assign(served.topics.size(), PairDemand());
+  static const PairTopics kNoTopics;
+  drawing_->demand().begin(markers.niche_seconds);
+  for (std::size_t index = 0; index < demand.size(); ++index) {
+    const PairTopics& own = served.topics[index] ? *served.topics[index] : kNoTopics;
+    const bool own_niches = own.niches.isWatched();
+    const bool alert = alerts_wanted && served.scene->pairs[index].settings.warning_distance;
+    const bool contacts =
+        (contacts_wanted_ || own.contacts.isWatched()) && served.scene->pairs[index].settings.effects.any();
+    PairDemand& pair = demand[index];
+    pair.due = nearest_wanted_ || distances_wanted_ || niches_wanted_ || alert || own_niches || contacts ||
+               own.distance.isWatched() || (markers_wanted_ && markers.due);
+    pair.watched = pair.due || markers_wanted_;
+    pair.effects = contacts || (contact_markers_wanted_ && served.scene->pairs[index].settings.effects.any());
+    // A contact's id is its niche's.
+    pair.niches = niches_wanted_ || own_niches || pair.effects ||
+                  (markers_wanted_ && drawing_->demand().wantsNiches(served.scene->pairs[index].name));
+  }
+}
+
+bool TopicPublishers::isIdle(const std::vector<PairDemand>& demand) const {
+  return !nearest_wanted_ && !distances_wanted_ && !niches_wanted_ && !contacts_wanted_ && !markers_due_ &&
+         std::none_of(demand.begin(), demand.end(), [](const PairDemand& pair) { return pair.watched; });
+}
+
+PublishReport TopicPublishers::publish(const ServedScene& served, const PublishedPairs& pairs,
+                                       double marker_lifetime, ros::Time now) {
+  messages_.clear();
+  drawing_->demand().take(pairs);
+  const bool in_lists = distances_wanted_ || niches_wanted_ || markers_due_;
+  for (std::size_t index = 0; index < pairs.size(); ++index) {
+    const PublishedPair& pair = *pairs[index];
+    const PairTopics* own = served.topics[index].get();
+    const bool own_distance = own != nullptr && own->distance.isWatched();
+    const bool own_niches = own != nullptr && own->niches.isWatched();
+    if (!pair.demand().due || !(in_lists || own_distance || own_niches)) {
+      continue;
+    }
+    messages_.push_back(toMessage(pair));
+    if (own_distance) {
+      own->distance.publish(boost::make_shared<PairDistance>(messages_.back().nearest));
+    }
+    if (own_niches) {
+      own->niches.publish(boost::make_shared<PairNiches>(messages_.back()));
+    }
+  }
+  PublishReport report;
+  report.messages = static_cast<std::uint32_t>(messages_.size());
+  publishNearest(pairs, now);
+  publishAlerts(pairs);
+  publishContacts(served, pairs, now);
+  if (markers_due_) {
+    report.markers = static_cast<std::uint32_t>(publishMarkers(served, pairs, marker_lifetime, now));
+  }
+  publishLists(now);
+  const ros::Time end = ros::Time::now();
+  for (const auto& pair : pairs) {
+    if (pair->demand().due && pair->tracked->solved() && !pair->tracked->repeated &&
+        !pair->tracked->input.fixed) {
+      report.latency.add(secondsBetween(pair->heading.stamp, end));
+    }
+  }
+  return report;
+}
+
+void TopicPublishers::publishAlerts(const PublishedPairs& pairs) {
+  const bool repeat = repeat_alerts_.exchange(false);
+  for (const auto& pair : pairs) {
+    if (pair->tracked->warning_changed || (repeat && pair->tracked->warning.state() != WarningState::Clear)) {
+      alerts_.publish(boost::make_shared<Alert>(toAlert(*pair, toMessage(*pair).nearest)));
+    }
+  }
+}
+
+void TopicPublishers::publishRetired(const PublishedPairs& pairs) {
+  for (const auto& pair : pairs) {
+    alerts_.publish(boost::make_shared<Alert>(toAlert(*pair, toMessage(*pair).nearest)));
+  }
+}
+
+std::size_t TopicPublishers::publishMarkers(const ServedScene& served, const PublishedPairs& pairs,
+                                            double lifetime, ros::Time now) {
+  std_msgs::Header header;
+  header.frame_id = reference_frame_;
+  header.stamp = now;
+  static const std::vector<PairNiches> kNoNiches;
+  static const std::vector<PairContactState> kNoContacts;
+  const auto message = boost::make_shared<visualization_msgs::MarkerArray>(
+      drawing_->draw(*served.scene, served.marker_style, pairs, markers_wanted_ ? messages_ : kNoNiches,
+                     contact_markers_wanted_ ? contact_messages_ : kNoContacts, header, lifetime));
+  markers_.publish(message);
+  return message->markers.size();
+}
+
+void TopicPublishers::publishContacts(const ServedScene& served, const PublishedPairs& pairs, ros::Time now) {
+  contact_messages_.clear();
+  for (std::size_t index = 0; index < pairs.size(); ++index) {
+    if (!pairs[index]->demand().due || !pairs[index]->demand().effects) {
+      continue;
+    }
+    contact_messages_.push_back(toContactMessage(*pairs[index]));
+    const PairTopics* own = served.topics[index].get();
+    if (own != nullptr && own->contacts.isWatched()) {
+      own->contacts.publish(boost::make_shared<PairContactState>(contact_messages_.back()));
+    }
+  }
+  if (contacts_wanted_) {
+    auto message = boost::make_shared<Contacts>();
+    message->header = commonHeader(contact_messages_, now, reference_frame_);
+    message->pairs = contact_messages_;
+    contacts_.publish(message);
+  }
+}
+
+void TopicPublishers::publishNearest(const PublishedPairs& pairs, ros::Time now) {
+  if (!nearest_wanted_) {
+    return;
+  }
+  const auto message = boost::make_shared<Nearest>(nearestOf(pairs, reference_frame_, now));
+  if (message->has_number != 0) {
+    const auto number = boost::make_shared<std_msgs::Float64>();
+    number->data = message->number;
+    nearest_distance_.publish(number);
+  }
+  nearest_.publish(message);
+}
+
+void TopicPublishers::publishLists(ros::Time now) {
+  if (distances_wanted_) {
+    auto message = boost::make_shared<Distances>();
+    message->header = commonHeader(messages_, now, reference_frame_);
+    message->pairs.reserve(messages_.size());
+    for (const PairNiches& pair : messages_) {
+      message->pairs.push_back(pair.nearest);
+    }
+    distances_.publish(message);
+  }
+  if (niches_wanted_) {
+    auto message = boost::make_shared<Niches>();
+    message->header = commonHeader(messages_, now, reference_frame_);
+    message->pairs = std::move(messages_);
+    niches_.publish(message);
+  }
+}
+
+}  // namespace concave_distance

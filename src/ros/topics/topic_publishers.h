@@ -1,0 +1,108 @@
+#pragma once
+
+#include <concave_distance/PairContactState.h>
+#include <concave_distance/PairNiches.h>
+#include <ros/node_handle.h>
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "concave_distance/scene/scene.h"
+#include "pair_topics.h"
+#include "ros/markers/marker_style.h"
+#include "ros/messages/published_pair.h"
+#include "scene/cycle_statistics.h"
+#include "watched_topic.h"
+
+namespace concave_distance {
+
+class SceneMarkers;
+
+/// A scene together with the topics of its pairs: what one cycle works on.
+struct ServedScene {
+  std::shared_ptr<const Scene> scene;
+  PairTopicList topics;                 ///< one per scene->pairs
+  MarkerStyle marker_style;             ///< as configured
+  std::uint64_t settings_revision = 0;  ///< another one: the settings of pairs that were there have changed
+};
+
+/// What was built and sent in one cycle.
+struct PublishReport {
+  Series latency;  ///< s, from the transforms' time to the end of publishing, of each pair newly solved
+  std::uint32_t messages = 0;  ///< pairs turned into messages
+  std::uint32_t markers = 0;   ///< drawn or deleted
+};
+
+/// What the parameters say of the markers, and the cycle.
+struct MarkerOptions {
+  bool publish = true;
+  bool contacts = true;        ///< beside the niches
+  bool due = true;             ///< they are sent in this cycle when somebody listens
+  double niche_seconds = 0.0;  ///< in a cycle, on average, for the niches that they alone need
+};
+
+/// Every topic of the cycle: who listens to what, and one cycle's messages.
+class TopicPublishers {
+ public:
+  /// @param pair_topics patterns of the pairs with their own topics, see PairTopicKeeper
+  TopicPublishers(const ros::NodeHandle& node, std::string reference_frame,
+                  std::optional<std::vector<std::string>> pair_topics);
+  ~TopicPublishers();
+
+  /// Advertises the topics of pairs that have none yet; those of pairs that are gone end with the last
+  /// ServedScene that names them. Not from the cycle's thread: it talks to the master.
+  std::shared_ptr<const ServedScene> serve(const std::shared_ptr<const Scene>& scene,
+                                           const ServedScene* before, const MarkerStyle& style,
+                                           std::uint64_t settings_revision);
+
+  void readDemand(const ServedScene& served, const MarkerOptions& markers, std::vector<PairDemand>& demand);
+
+  /// Whether no topic has a subscriber that needs anything computed or published.
+  bool isIdle(const std::vector<PairDemand>& demand) const;
+
+  /// Publishes the pairs that are due. A message is built once and not touched after it was published.
+  /// @param marker_lifetime seconds
+  PublishReport publish(const ServedScene& served, const PublishedPairs& pairs, double marker_lifetime,
+                        ros::Time now);
+
+  /// The alerts of pairs that left the scene (DistanceCycle::takeRetired).
+  void publishRetired(const PublishedPairs& pairs);
+
+ private:
+  void publishAlerts(const PublishedPairs& pairs);
+  /// @return how many markers
+  std::size_t publishMarkers(const ServedScene& served, const PublishedPairs& pairs, double lifetime,
+                             ros::Time now);
+  void publishLists(ros::Time now);
+  void publishNearest(const PublishedPairs& pairs, ros::Time now);
+  void publishContacts(const ServedScene& served, const PublishedPairs& pairs, ros::Time now);
+
+  ros::NodeHandle node_;
+  std::string reference_frame_;
+  PairTopicKeeper pair_topics_;
+  WatchedTopic nearest_;
+  WatchedTopic nearest_distance_;
+  WatchedTopic distances_;
+  WatchedTopic niches_;
+  WatchedTopic contacts_;
+  WatchedTopic markers_;
+  WatchedTopic alerts_;
+  std::atomic<bool> repeat_alerts_{false};  ///< somebody has subscribed to the alerts
+  // What readDemand found for this cycle.
+  bool nearest_wanted_ = false;
+  bool distances_wanted_ = false;
+  bool niches_wanted_ = false;
+  bool contacts_wanted_ = false;
+  bool markers_wanted_ = false;
+  bool contact_markers_wanted_ = false;
+  bool markers_due_ = false;
+  std::unique_ptr<SceneMarkers> drawing_;
+  std::vector<PairNiches> messages_;                ///< of the pairs that are due
+  std::vector<PairContactState> contact_messages_;  ///< of those whose effects are wanted
+};
+
+}  // namespace concave_distance

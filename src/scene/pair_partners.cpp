@@ -1,0 +1,112 @@
+#include "pair_partners.h"
+
+#include <unordered_map>
+#include <unordered_set>
+
+#include "concave_distance/base/error.h"
+#include "matching_bodies.h"
+
+namespace concave_distance {
+namespace {
+
+// Leaves out bodies that do not move relative to a new one's frame, and reports those of other frames.
+class MovingBodies {
+ public:
+  MovingBodies(const Scene& scene, const std::string& frame, const PairPartners& partners, AddedPairs& added)
+      : scene_(scene), frame_(frame), partners_(partners), added_(added) {}
+
+  bool holds(std::size_t index) {
+    const SceneBody& other = scene_.bodies[index];
+    if (other.frame == frame_) {
+      return false;
+    }
+    if (isRigid(other.frame)) {
+      added_.rigid_neighbours.push_back(other.name);
+      return false;
+    }
+    return true;
+  }
+
+ private:
+  // tf is asked once for each frame, because many bodies share few frames.
+  bool isRigid(const std::string& frame) {
+    const auto [place, is_new] = rigid_.emplace(frame, false);
+    if (is_new) {
+      place->second =
+          scene_.rigid.areJoined(frame, frame_) || (partners_.is_rigid && partners_.is_rigid(frame, frame_));
+    }
+    return place->second;
+  }
+
+  const Scene& scene_;
+  const std::string& frame_;
+  const PairPartners& partners_;
+  AddedPairs& added_;
+  std::unordered_map<std::string, bool> rigid_;
+};
+
+// Each body once, in the order of the request.
+std::vector<std::size_t> partnersNamed(const Scene& scene, const SceneBody& body,
+                                       const PairPartners& partners, AddedPairs& added) {
+  MovingBodies moving(scene, body.frame, partners, added);
+  std::vector<std::size_t> indices;
+  std::unordered_set<std::size_t> seen;
+  // First those named by themselves, which no filter leaves out.
+  for (const std::string& name : partners.names) {
+    if (name == body.name) {
+      throw Error("pair_with", "it names the new body '" + name + "' itself", "name other bodies");
+    }
+    if (const auto index = scene.findBody(name); index && seen.insert(*index).second) {
+      indices.push_back(*index);
+    }
+  }
+  for (const std::string& name : partners.names) {
+    for (const std::size_t index : detail::matchingBodies(scene, name, "pair_with").bodies) {
+      if (seen.insert(index).second && moving.holds(index)) {
+        indices.push_back(index);
+      }
+    }
+  }
+  return indices;
+}
+
+// In the order of the scene.
+std::vector<std::size_t> partnersThatMove(const Scene& scene, const SceneBody& body,
+                                          const PairPartners& partners, AddedPairs& added) {
+  std::unordered_set<std::size_t> touched;
+  for (const std::string& name : partners.may_touch) {
+    const std::vector<std::size_t> bodies = detail::findMatchingBodies(scene, name).bodies;
+    touched.insert(bodies.begin(), bodies.end());
+    if (bodies.empty()) {
+      added.unknown.push_back(name);
+    }
+  }
+  MovingBodies moving(scene, body.frame, partners, added);
+  std::vector<std::size_t> indices;
+  for (std::size_t index = 0; index < scene.bodies.size(); ++index) {
+    if (touched.count(index) == 0 && moving.holds(index)) {
+      indices.push_back(index);
+    }
+  }
+  return indices;
+}
+
+}  // namespace
+
+std::vector<std::size_t> partnersOf(const Scene& scene, const SceneBody& body, const PairPartners& partners,
+                                    AddedPairs& added) {
+  if (partners.none && !partners.names.empty()) {
+    throw Error("pair_with", "it names '" + partners.names.front() + "', and without_pairs is set",
+                "give one of the two");
+  }
+  if (!partners.names.empty() && !partners.may_touch.empty()) {
+    throw Error("touch_links", "pair_with names the bodies to watch already", "leave one of the two empty");
+  }
+  if (partners.none) {
+    return {};
+  }
+  return partners.names.empty() ? partnersThatMove(scene, body, partners, added)
+                                : partnersNamed(scene, body, partners, added);
+}
+
+}  // namespace concave_distance

@@ -1,0 +1,53 @@
+#include "base/helper_threads.h"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <cstdlib>
+#include <fstream>
+#include <thread>
+
+namespace concave_distance::helper_threads_test {
+namespace {
+
+std::size_t runs(std::size_t helpers) {
+  std::atomic<std::size_t> count{0};
+  runWithHelpers(helpers, [&] { ++count; });
+  return count;
+}
+
+TEST(RunWithHelpers, RunsTheWorkOnEveryThreadAndWaitsForAll) {
+  EXPECT_EQ(runs(0), 1U);
+  EXPECT_EQ(runs(3), 4U);
+}
+
+// Leaves address space for a few stacks of threads.
+void limitAddressSpace() {
+  std::size_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  const rlim_t bytes = pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE)) + (rlim_t{20} << 20U);
+  const rlimit limit{bytes, bytes};
+  if (setrlimit(RLIMIT_AS, &limit) != 0) std::_Exit(2);
+}
+
+TEST(RunWithHelpersDeathTest, GoesOnWithTheThreadsThatThereAre) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "sanitizers need the address space";
+#endif
+  const auto with_few_threads = [] {
+    limitAddressSpace();
+    std::atomic<std::size_t> count{0};
+    runWithHelpers(1000, [&] {
+      ++count;
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));  // its stack stays taken
+    });
+    std::_Exit(count > 1 && count < 1000 ? 0 : 3);
+  };
+  EXPECT_EXIT(with_few_threads(), ::testing::ExitedWithCode(0), "");
+}
+
+}  // namespace
+}  // namespace concave_distance::helper_threads_test
