@@ -9,7 +9,7 @@
 
 namespace concave_distance {
 
-/// Tells which of the last cycle's regions each region is, and which niche it has come from.
+/// Finds which of the last cycle's regions each region is, and which niche it has come from.
 class RegionIdentity {
  public:
   /// Sets the ids of `regions` and the order of memory() to theirs. A region is the last cycle's nearest one
@@ -20,10 +20,10 @@ class RegionIdentity {
   void update(const std::vector<TrackedNiche>& niches, double displacement,
               std::vector<ContactRegion>& regions);
   void clear() { memory_.clear(); }
-  /// For the next cycle; once the regions' forces are known.
+  /// Keeps the regions for the next cycle, once their forces are known.
   void keepNormals(const std::vector<ContactRegion>& regions);
 
-  /// Of the regions of the last update(), in their order.
+  /// Returns the memory of the regions of the last update(), in their order.
   std::vector<RegionMemory>& memory() { return memory_; }
   /// Where in the last update() a region came, went, split or took another in: all bristles that there were.
   const std::vector<UnmatchedBristles>& loose() const { return loose_; }
