@@ -58,7 +58,7 @@ class ExactNiches {
   const MinimumCandidate* nearestProposed() const;
   /// New niches of the last admit() that the search has proposed.
   std::size_t evolved() const { return evolved_; }
-  /// Of the last admit(), in evaluations of the search.
+  /// Returns what the last admit() took, in evaluations of the search.
   double work() const;
   const LocalMinimaCost& cost() const { return found_.cost; }
 

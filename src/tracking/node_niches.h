@@ -20,8 +20,8 @@ namespace concave_distance {
 void followNodePairs(const PairFrame& frame, NicheSearch& search, double displacement, double elapsed,
                      NicheArchive& archive, SearchCost& cost, WorkLimit& limit);
 
-/// Admits what was found: it becomes a niche or belongs to one within the niche radius (greedy
-/// identification, Carretero sec. 4.6.4, over time); then records are united and the nearest improved.
+/// Makes what was found a niche or counts it to one within the niche radius (greedy identification,
+/// Carretero sec. 4.6.4, over time); then records are united and the nearest improved.
 /// @param found node pairs, the nearest first
 void admitNodePairs(const PairFrame& frame, const TrackerParameters& parameters, NicheSearch& search,
                     const std::vector<TrialPoint>& found, bool warm, std::uint64_t cycle,

@@ -201,7 +201,7 @@ void PairCycle::report(const Passed& passed, PairSolution& solution) {
     solution.normal_in_a = solution.niches.front().normal_in_a;
     solution.closing_speed = solution.niches.front().closing_speed;
   }
-  reportLimit(solution);
+  reportCompleteness(solution);
 }
 
 void PairCycle::reportAlone(double elapsed, PairSolution& solution) {
@@ -212,7 +212,7 @@ void PairCycle::reportAlone(double elapsed, PairSolution& solution) {
     solution.normal_in_a = nearest.niche.normal_in_a;
     if (elapsed > 0.0) solution.closing_speed = (distance_before_ - proof_.certificate().distance) / elapsed;
   }
-  reportLimit(solution);
+  reportCompleteness(solution);
 }
 
 void PairCycle::listNiches(PairSolution& solution) {
@@ -288,7 +288,7 @@ void PairCycle::reportMiss(double displacement, PairSolution& solution) const {
 }
 
 // After the limit the answer is incomplete, even with a finished proof.
-void PairCycle::reportLimit(PairSolution& solution) const {
+void PairCycle::reportCompleteness(PairSolution& solution) const {
   const bool all = (niches_.isFinished() || isPairOfShapes()) && !limit_.hasRefused();
   solution.niches_complete = proves() && parameters_.niches_wanted && all && !solution.niches_cut;
   if (!limit_.hasRefused() || solution.status == SolveStatus::Penetrating) return;

@@ -23,7 +23,7 @@ class RegionIdentity {
   /// Keeps the regions for the next cycle, once their forces are known.
   void keepNormals(const std::vector<ContactRegion>& regions);
 
-  /// Returns the memory of the regions of the last update(), in their order.
+  /// Returns those of the regions of the last update(), in their order.
   std::vector<RegionMemory>& memory() { return memory_; }
   /// Where in the last update() a region came, went, split or took another in: all bristles that there were.
   const std::vector<UnmatchedBristles>& loose() const { return loose_; }

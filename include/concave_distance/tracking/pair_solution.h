@@ -17,7 +17,7 @@
 
 namespace concave_distance {
 
-/// How exact an answer is (README.md, "Accuracy").
+/// How exact an answer is (README.md, "What you get").
 enum class AccuracyLevel : std::uint8_t { Nodes, Refined, Certified };
 /// Whether the level proves the distance, and the list of niches, in every cycle.
 constexpr bool provesDistance(AccuracyLevel level) {
@@ -25,7 +25,7 @@ constexpr bool provesDistance(AccuracyLevel level) {
 }
 std::string_view toString(AccuracyLevel level);
 
-/// What became of a solve; a solve never throws.
+/// Says what became of a solve; a solve never throws.
 enum class SolveStatus : std::uint8_t {
   Ok,               ///< at level `certified`: proven
   Penetrating,      ///< the surfaces meet, or one body has swallowed a part of the other
@@ -36,7 +36,7 @@ enum class SolveStatus : std::uint8_t {
 };
 std::string_view toString(SolveStatus status);
 
-/// What has found a niche in a cycle.
+/// Says what has found a niche in a cycle.
 enum class NicheOrigin : std::uint8_t {
   Inherited,  ///< known from the last cycle
   Evolved,    ///< new, and proposed by the genetic search
@@ -87,7 +87,7 @@ struct PairSolution {
   double lower_bound = kNotComputed;
   Eigen::Vector3d point_a_in_a = Eigen::Vector3d::Constant(kNotComputed);
   Eigen::Vector3d point_b_in_a = Eigen::Vector3d::Constant(kNotComputed);
-  /// Of the nearest place, as of a niche; NaN where no niche is the nearest.
+  /// The normal is that of the nearest place, as of a niche; NaN where no niche is the nearest.
   Eigen::Vector3d normal_in_a = Eigen::Vector3d::Constant(kNotComputed);
   double closing_speed = kNotComputed;  ///< m/s
   /// Distance of the surfaces where a closed body has swallowed the other (status penetrating).

@@ -71,7 +71,8 @@ class LocalMinimaMemory {
   std::unique_ptr<detail::LocalMinimaParts> parts_;  ///< made when first needed
 };
 
-/// A niche as DESIGN calls it: a connected set of point pairs at one distance, none near it closer.
+/// A niche (doc/algorithm.md, section 1): a connected set of point pairs at one distance, none near it
+/// closer.
 struct LocalMinimum {
   double distance = 0.0;  ///< metres
   WitnessPair witness;    ///< for segments and patches the middle of the set (NicheExtent::representative)
@@ -80,7 +81,7 @@ struct LocalMinimum {
   Outwardness outward = Outwardness::Outward;
   bool visible = true;
   /// Distance at the lowest pass to a deeper niche, divided by the own distance, minus 1. Infinite when no
-  /// deeper niche is reached below `searched`; where the distance is 0.
+  /// deeper niche is reached below `searched`, and where the distance is 0.
   double prominence = std::numeric_limits<double>::infinity();
   double searched = 0.0;    ///< metres: passes up to this were looked for
   std::uint64_t basin = 0;  ///< if tracked: the same from pose to pose while the niche stands; 0: none

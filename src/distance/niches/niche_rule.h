@@ -6,7 +6,9 @@
 namespace concave_distance {
 
 /// The rule that says which local minima are niches: every path from a niche to a place at least as near
-/// rises to the niche's distance times (1 + least prominence). All of distance/niches asks it here.
+/// rises to the niche's distance times (1 + least prominence). All of distance/niches asks it here. Another
+/// rule has to answer distance 0, where places that touch stay apart, and far bodies
+/// (allowsOneNicheOnly()), by which the cost does not grow with the distance.
 struct NicheRule {
   double least_prominence = 1e-2;  ///< minima with less are part of the nearer niche that they lead to
   /// Prominences are measured up to this; up to `least_prominence` none is.
@@ -22,12 +24,14 @@ struct NicheRule {
     return std::max(levelOf(distance), std::min((1.0 + prominence_limit) * distance, cutoff));
   }
 
-  /// The prominence of a minimum (metres) whose lowest path to a place as near rises to `pass` (metres).
+  /// Returns the prominence, a ratio, of a minimum at `distance` (metres) whose lowest path to a place as
+  /// near rises to `pass` (metres).
   static double prominenceOf(double distance, double pass) {
     return distance > 0.0 ? pass / distance - 1.0 : std::numeric_limits<double>::infinity();
   }
 
-  /// True when distances between `nearest` and `farthest` (metres) leave no room for two niches of one basin.
+  /// True when distances between `nearest` and `farthest` (metres) leave no room for a pass as high as a
+  /// niche needs.
   bool allowsOneNicheOnly(double nearest, double farthest) const {
     return nearest > 0.0 && farthest < levelOf(nearest);
   }

@@ -218,8 +218,8 @@ TEST(LocalMinimaOf, TrianglePairsBelongToTheNicheTheyDescendTo) {
   }
 }
 
-// What is asked for or proposed beyond the cutoff can be no niche of the list: nothing is flooded for it.
-TEST(LocalMinimaOf, NothingIsFloodedBeyondTheCutoff) {
+// What is asked for or proposed beyond the cutoff can be no niche of the list: nothing is searched for it.
+TEST(LocalMinimaOf, NothingIsSearchedBeyondTheCutoff) {
   const Body comb = makeBody(test::makeComb(5));
   const Isometry3d pose = test::translation(Vector3d(0.1, 0.2, 3.0));
   LocalMinimaRequest request;

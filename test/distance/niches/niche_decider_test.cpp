@@ -17,7 +17,7 @@
 #include "support/body_pairs.h"
 #include "support/judged_niches.h"
 
-// Verdicts by what is kept from pose to pose against floods at every pose.
+// Decisions by what is kept from pose to pose against searches at every pose.
 
 namespace concave_distance::detail::niche_decider_test {
 namespace {
@@ -29,25 +29,25 @@ using test::nichesOf;
 using Body = std::shared_ptr<const BodyMesh>;
 using Decision = NicheDecider::Decision;
 
-std::vector<MinimumCandidate> seedsAt(const PairFrame& scene) {
+std::vector<MinimumCandidate> candidatesAt(const PairFrame& scene) {
   MinimaTracker front;
   WorkLimit none;
-  std::vector<MinimumCandidate> seeds;
+  std::vector<MinimumCandidate> candidates;
   LocalMinimaCost cost;
   std::vector<TreeNodePair> open;
-  collectMeetingPairs(scene, open, seeds, cost, none);
-  front.collect(scene, NormalSides::Outside, kInfinity, seeds, none);
-  return seeds;
+  collectMeetingPairs(scene, open, candidates, cost, none);
+  front.collect(scene, NormalSides::Outside, kInfinity, candidates, none);
+  return candidates;
 }
 
-std::vector<double> nichesByFloods(const PairFrame& scene, std::vector<MinimumCandidate> seeds,
-                                   double least_prominence) {
+std::vector<double> nichesBySearches(const PairFrame& scene, std::vector<MinimumCandidate> candidates,
+                                     double least_prominence) {
   NicheDecider once;
   WorkLimit none;
   NicheDecider::Request request;
   request.rule.least_prominence = least_prominence;
   request.is_tracked = false;
-  once.judge(scene, seeds, request, none);
+  once.judge(scene, candidates, request, none);
   return nichesOf(once);
 }
 
@@ -56,7 +56,7 @@ void expectSame(const std::vector<double>& found, const std::vector<double>& tru
   for (std::size_t i = 0; i < truth.size(); ++i) EXPECT_NEAR(found[i], truth[i], 1e-11);
 }
 
-TEST(NicheDecider, AreThoseOfFloodsAtEveryPoseOfAnyMotion) {
+TEST(NicheDecider, AreThoseOfSearchesAtEveryPoseOfAnyMotion) {
   RandomEngine engine(21);
   NicheDecider::Counts sum;
   for (std::uint32_t run = 0; run < 200; ++run) {
@@ -71,26 +71,26 @@ TEST(NicheDecider, AreThoseOfFloodsAtEveryPoseOfAnyMotion) {
     request.rule.least_prominence = least_prominence;
     for (int k = 0; k < 40; ++k) {
       const PairFrame scene = PairFrame::withFacets(*a, *b, motion.at(step * k));
-      std::vector<MinimumCandidate> seeds = seedsAt(scene);
+      std::vector<MinimumCandidate> candidates = candidatesAt(scene);
       WorkLimit none;
-      decider.judge(scene, seeds, request, none);
-      expectSame(nichesOf(decider), nichesByFloods(scene, seeds, least_prominence));
+      decider.judge(scene, candidates, request, none);
+      expectSame(nichesOf(decider), nichesBySearches(scene, candidates, least_prominence));
       if (HasFailure()) return;
       sum.by_path += decider.counts().by_path;
       sum.by_boundary += decider.counts().by_boundary;
       sum.mended += decider.counts().mended;
-      sum.floods += decider.counts().searches;
+      sum.searches += decider.counts().searches;
     }
   }
   // All ways to a decision were taken.
   EXPECT_GT(sum.by_path, 1000U);
   EXPECT_GT(sum.by_boundary, 1000U);
   EXPECT_GT(sum.mended, 100U);
-  EXPECT_GT(sum.floods, 100U);
+  EXPECT_GT(sum.searches, 100U);
 }
 
 // Links of many shells: surfaces in the material of others hold deeper places, in sight of nobody.
-TEST(NicheDecider, AreThoseOfFloodsForLinksOfManyShells) {
+TEST(NicheDecider, AreThoseOfSearchesForLinksOfManyShells) {
   const std::string folder = CONCAVE_DISTANCE_SOURCE_DIR "/meshes/wam/";
   const Body a = loadBodyMesh(folder + "wam_base.stl").mesh;
   const Body b = loadBodyMesh(folder + "wam4.stl").mesh;
@@ -109,10 +109,10 @@ TEST(NicheDecider, AreThoseOfFloodsForLinksOfManyShells) {
       pose.translation() -= pose.linear() * b->surface().boundingBox().center();
       pose.pretranslate(a->surface().boundingBox().center());
       const PairFrame scene = PairFrame::withFacets(*a, *b, pose);
-      std::vector<MinimumCandidate> seeds = seedsAt(scene);
+      std::vector<MinimumCandidate> candidates = candidatesAt(scene);
       WorkLimit none;
-      decider.judge(scene, seeds, request, none);
-      expectSame(nichesOf(decider), nichesByFloods(scene, seeds, request.rule.least_prominence));
+      decider.judge(scene, candidates, request, none);
+      expectSame(nichesOf(decider), nichesBySearches(scene, candidates, request.rule.least_prominence));
       if (HasFailure()) return;
       by_boundary += decider.counts().by_boundary;
     }
@@ -120,17 +120,17 @@ TEST(NicheDecider, AreThoseOfFloodsForLinksOfManyShells) {
   EXPECT_GT(by_boundary, 200U);
 }
 
-TEST(NicheDecider, NeedNoFloodWhereNothingHasMoved) {
+TEST(NicheDecider, NeedNoSearchWhereNothingHasMoved) {
   const Body a = makeBody(test::concaveShape(5));
   const Body b = makeBody(test::concaveShape(1));
   const PairFrame scene = PairFrame::withFacets(*a, *b, test::translation(Vector3d(0.3, 0.2, 2.0)));
-  std::vector<MinimumCandidate> seeds = seedsAt(scene);
+  std::vector<MinimumCandidate> candidates = candidatesAt(scene);
   NicheDecider decider;
   WorkLimit none;
-  decider.judge(scene, seeds, {}, none);
+  decider.judge(scene, candidates, {}, none);
   const std::vector<double> first = nichesOf(decider);
   EXPECT_GT(decider.counts().searches, 0U);
-  decider.judge(scene, seeds, {}, none);
+  decider.judge(scene, candidates, {}, none);
   EXPECT_EQ(decider.counts().searches, 0U);
   EXPECT_EQ(decider.counts().visited_pairs, 0U);
   EXPECT_EQ(decider.counts().measured, 0U);
@@ -146,9 +146,9 @@ TEST(NicheDecider, GiveANicheTheSameBasinWhileItStands) {
   for (int k = 0; k < 20; ++k) {
     const PairFrame scene =
         PairFrame::withFacets(*a, *b, test::translation(Vector3d(0.2 + 1e-4 * k, 0.1, 3.0 + 1e-4 * k)));
-    std::vector<MinimumCandidate> seeds = seedsAt(scene);
+    std::vector<MinimumCandidate> candidates = candidatesAt(scene);
     WorkLimit none;
-    decider.judge(scene, seeds, {}, none);
+    decider.judge(scene, candidates, {}, none);
     std::set<std::uint64_t> basins;
     for (const NicheDecider::Judged& judged : decider.judged()) {
       if (judged.decision != Decision::Niche) continue;
@@ -160,16 +160,16 @@ TEST(NicheDecider, GiveANicheTheSameBasinWhileItStands) {
   EXPECT_FALSE(first.empty());
 }
 
-TEST(NicheDecider, FloodNothingThatIsNotWanted) {
+TEST(NicheDecider, SearchNothingThatIsNotWanted) {
   const Body a = makeBody(test::concaveShape(0));
   const Body b = makeBody(test::concaveShape(3));
   const PairFrame scene = PairFrame::withFacets(*a, *b, test::translation(Vector3d(0.3, 0.2, 2.0)));
-  std::vector<MinimumCandidate> seeds = seedsAt(scene);
+  std::vector<MinimumCandidate> candidates = candidatesAt(scene);
   NicheDecider decider;
   NicheDecider::Request request;
   request.is_wanted = [](const MinimumCandidate&, Occluder&) { return false; };
   WorkLimit none;
-  decider.judge(scene, seeds, request, none);
+  decider.judge(scene, candidates, request, none);
   EXPECT_EQ(decider.counts().searches, 0U);
   EXPECT_TRUE(nichesOf(decider).empty());
   EXPECT_EQ(decider.judged().front().decision, Decision::Unwanted);
@@ -186,12 +186,12 @@ TEST(NicheDecider, AreRightAgainAfterALimitHasEndedThem) {
     NicheDecider decider;
     for (int k = 0; k < 24; ++k) {
       const PairFrame scene = PairFrame::withFacets(*a, *b, motion.at(0.003 * k));
-      std::vector<MinimumCandidate> seeds = seedsAt(scene);
+      std::vector<MinimumCandidate> candidates = candidatesAt(scene);
       if (k % 3 == 1) {
         WorkLimit stopped(std::chrono::steady_clock::now(), kInfinity,
                           k % 2 == 0 ? std::size_t{2000} : std::numeric_limits<std::size_t>::max(), &stop);
-        decider.judge(scene, seeds, {}, stopped);
-        const std::vector<double> truth = nichesByFloods(scene, seeds, 1e-2);
+        decider.judge(scene, candidates, {}, stopped);
+        const std::vector<double> truth = nichesBySearches(scene, candidates, 1e-2);
         for (const double distance : nichesOf(decider)) {
           EXPECT_TRUE(std::any_of(truth.begin(), truth.end(),
                                   [&](double d) { return std::abs(d - distance) < 1e-11; }));
@@ -202,8 +202,8 @@ TEST(NicheDecider, AreRightAgainAfterALimitHasEndedThem) {
         continue;
       }
       WorkLimit none;
-      decider.judge(scene, seeds, {}, none);
-      expectSame(nichesOf(decider), nichesByFloods(scene, seeds, 1e-2));
+      decider.judge(scene, candidates, {}, none);
+      expectSame(nichesOf(decider), nichesBySearches(scene, candidates, 1e-2));
       if (HasFailure()) return;
     }
   }
@@ -223,12 +223,12 @@ TEST(NicheDecider, AreRightAfterAListThatWasCut) {
     std::vector<TrianglePair> known;
     for (int k = 0; k < 24; ++k) {
       const PairFrame scene = PairFrame::withFacets(*a, *b, motion.at(0.01 * (k - k % 2)));
-      std::vector<MinimumCandidate> seeds = seedsAt(scene);
-      const std::vector<double> truth = nichesByFloods(scene, seeds, 1e-2);
+      std::vector<MinimumCandidate> candidates = candidatesAt(scene);
+      const std::vector<double> truth = nichesBySearches(scene, candidates, 1e-2);
       NicheDecider::Request request;
       if (k % 2 == 0) request.most_niches = 1;
       WorkLimit none;
-      decider.judge(scene, seeds, request, none);
+      decider.judge(scene, candidates, request, none);
       for (const TrianglePair& pair : known) decider.locate(scene, pair, request, none);
       for (const double distance : nichesOf(decider)) {
         EXPECT_TRUE(std::any_of(truth.begin(), truth.end(),
@@ -292,12 +292,12 @@ TEST(NicheDecider, NeedNoStackForALongWayDown) {
               .witness;
       if (found.squared_distance < first.squared_distance) first = found;
     }
-    std::vector<MinimumCandidate> seeds{scene.candidateOf(first)};
+    std::vector<MinimumCandidate> candidates{scene.candidateOf(first)};
     NicheDecider decider;
     NicheDecider::Request request;
     request.rule.least_prominence = 1.0;
     WorkLimit none;
-    decider.judge(scene, seeds, request, none);
+    decider.judge(scene, candidates, request, none);
     own.niche = decider.locate(scene, {first.triangle_a, first.triangle_b}, request, none);
     own.judged = decider.judged().size();
     own.is_last = decider.judged()[own.niche].decision == Decision::Niche;
@@ -316,7 +316,7 @@ TEST(NicheDecider, NeedNoStackForALongWayDown) {
 }
 
 // Neither the order of the candidates nor the measurement of passes changes what is a niche.
-TEST(NicheDecider, AreThoseOfMeasuredPassesWhateverTheOrderOfTheSeeds) {
+TEST(NicheDecider, AreThoseOfMeasuredPassesWhateverTheOrderOfTheCandidates) {
   RandomEngine engine(31);
   std::size_t united = 0;
   for (int run = 0; run < 40; ++run) {
@@ -327,13 +327,13 @@ TEST(NicheDecider, AreThoseOfMeasuredPassesWhateverTheOrderOfTheSeeds) {
     measured.rule.prominence_limit = 0.2;
     const LocalMinima truth = findLocalMinima(*drawn.a, *drawn.b, drawn.pose, measured);
     const PairFrame scene = PairFrame::withFacets(*drawn.a, *drawn.b, drawn.pose);
-    std::vector<MinimumCandidate> seeds = seedsAt(scene);
-    if (!seeds.empty() && truth.niches.front().distance == 0.0) continue;  // many seeds, one niche
-    std::reverse(seeds.begin() + static_cast<std::ptrdiff_t>(seeds.size() / 3), seeds.end());
-    const std::vector<double> niches = nichesByFloods(scene, seeds, 0.1);
+    std::vector<MinimumCandidate> candidates = candidatesAt(scene);
+    if (!candidates.empty() && truth.niches.front().distance == 0.0) continue;  // many candidates, one niche
+    std::reverse(candidates.begin() + static_cast<std::ptrdiff_t>(candidates.size() / 3), candidates.end());
+    const std::vector<double> niches = nichesBySearches(scene, candidates, 0.1);
     ASSERT_EQ(niches.size(), truth.niches.size()) << run;
     for (std::size_t i = 0; i < niches.size(); ++i) EXPECT_NEAR(niches[i], truth.niches[i].distance, 1e-12);
-    united += seeds.size() - niches.size();
+    united += candidates.size() - niches.size();
   }
   EXPECT_GT(united, 20U);
 }
