@@ -11,12 +11,12 @@
 
 namespace concave_distance {
 
-/// Stage `prove`: the distance, with a bound that holds. Keeps what the next proof begins with.
+/// Runs stage `prove`: the distance, with a bound that holds. It keeps what the next proof begins with.
 class DistanceProof {
  public:
   DistanceProof();
 
-  /// At the frame's pose.
+  /// Proves the distance at the frame's pose.
   /// @param nearest triangles near the closest points as far as known, besides those of the last proof
   /// @param displacement metres that any point of B has moved since the last proof, at most; infinite:
   /// unknown
@@ -28,11 +28,11 @@ class DistanceProof {
   bool isSwallowed() const { return swallowed_; }  ///< one body holds a part of the other
   bool isPenetrating() const { return swallowed_ || certificate_.status == CertificateStatus::Penetrating; }
 
-  /// Distance, bound, points and status.
+  /// Fills in distance, bound, points and status.
   void report(PairSolution& solution) const;
 
   void clear();
-  /// The next proof is made even where nothing has moved.
+  /// Has the next proof made even where nothing has moved.
   void renew() { current_ = false; }
   std::size_t memoryBytes() const;
 

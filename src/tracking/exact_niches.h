@@ -14,9 +14,9 @@
 
 namespace concave_distance {
 
-/// Stages `follow` and `admit` of the exact levels: known niches to where their minima have moved, and which
-/// of all minima are niches. At `refined` the minima are those that are known and proposed; at `certified`
-/// all there are.
+/// Runs stages `follow` and `admit` of the exact levels: takes known niches to where their minima have moved,
+/// and decides which of all minima are niches. At `refined` the minima are those that are known and proposed;
+/// at `certified` all there are.
 class ExactNiches {
  public:
   struct Cycle {
@@ -27,13 +27,13 @@ class ExactNiches {
     double cutoff;                    ///< metres, of the niches of the meshes
   };
 
-  /// Whether nothing can have changed since the last admit().
+  /// Returns whether nothing can have changed since the last admit().
   bool isUnchanged(double displacement) const { return current_ && displacement == 0.0; }
 
   /// Level `refined`: every known niche is a minimum to be admitted again; where none is known, as in a
   /// body that has swallowed the other, the nearest of all minima is followed.
   void follow(const PairFrame& frame, const NicheArchive& archive, WorkLimit& limit);
-  /// A local minimum that was proposed, to be admitted with all others.
+  /// Adds a local minimum that was proposed, to be admitted with all others.
   void propose(const PairFrame& frame, const WitnessPair& minimum);
   /// Level `certified`: what the search has found, looked at only where a niche is new, to say whether the
   /// search has proposed it: the list is proven without. To stay as it is until the next admit().

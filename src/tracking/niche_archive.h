@@ -8,7 +8,7 @@
 
 namespace concave_distance {
 
-/// A niche with what the next cycle needs of it.
+/// Holds a niche with what the next cycle needs of it.
 struct NicheRecord {
   TrackedNiche niche;
   Eigen::Vector3d point_b_in_b = Eigen::Vector3d::Zero();
@@ -19,14 +19,14 @@ struct NicheRecord {
   double least_distance = 0.0;
 };
 
-/// The niches of one pair, apart from the population: the population is not the memory. Ascending
-/// by distance after settle(). Ids are never used twice.
+/// Keeps the niches of one pair, apart from the population: the population is not the memory. They ascend by
+/// distance after settle(). Ids are never used twice.
 class NicheArchive {
  public:
   std::vector<NicheRecord>& records() { return records_; }
   const std::vector<NicheRecord>& records() const { return records_; }
   std::uint64_t takeId() { return next_id_++; }
-  /// Ids that come are greater than this.
+  /// Makes later ids greater than this.
   void beginIdsAfter(std::uint64_t id) { next_id_ = id + 1; }
 
   void reserve(std::size_t count) {
@@ -34,10 +34,10 @@ class NicheArchive {
     order_.reserve(count);
   }
 
-  /// Forgets the niches, not the count of ids.
+  /// Forgets the niches but not the count of ids.
   void clear() { records_.clear(); }
 
-  /// The record at the same place (both points within `tolerance`, metres), or null.
+  /// Returns the record at the same place (both points within `tolerance`, metres), or null.
   NicheRecord* findSamePlace(const Eigen::Vector3d& point_a_in_a, const Eigen::Vector3d& point_b_in_b,
                              double tolerance);
 

@@ -14,13 +14,13 @@
 
 namespace concave_distance {
 
-/// Buffers for the nodes around a pair's genes.
+/// Holds buffers for the nodes around a pair's genes.
 struct NodeRings {
   std::vector<NodeIndex> a;
   std::vector<NodeIndex> b;
 };
 
-/// Stage `propose`: the niched genetic algorithm, warm-started from the niches that are known.
+/// Runs stage `propose`: the niched genetic algorithm, warm-started from the niches that are known.
 class NicheSearch {
  public:
   NicheSearch(const BodyMesh& a, const BodyMesh& b) : workspace_(a, b) {}
@@ -44,13 +44,13 @@ class NicheSearch {
   /// Moves a node pair to the minimum below it, which propose() then does not return.
   TrialPoint descendKnown(const PairFrame& frame, const TrialPoint& pair, SearchCost& cost);
 
-  /// Runs with the niches known, given as node pairs.
+  /// Runs once with the niches known, given as node pairs.
   /// @return local minima on the node graphs that the run has met beside those, the nearest first
   const std::vector<TrialPoint>& propose(const PairFrame& frame, const TrackerParameters& parameters,
                                          const std::vector<TrialPoint>& known, const Run& run,
                                          SearchCost& cost, WorkLimit& limit);
 
-  /// The population of a helper's next warm run, where so many niches are known.
+  /// Returns the population of a helper's next warm run, where so many niches are known.
   std::uint32_t helpersPopulation(std::size_t niche_count, const TrackerParameters& parameters) const;
   /// Returns how many of these inherit: not more than a quarter are random.
   static std::uint32_t inheritedOf(std::uint32_t population, const TrackerParameters& parameters);

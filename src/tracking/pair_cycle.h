@@ -17,8 +17,8 @@
 
 namespace concave_distance {
 
-/// The cycle of one pair: its stages, in their order, and what goes from one to the next. Each stage keeps
-/// what it needs of the last cycle itself.
+/// Runs the cycle of one pair: its stages, in their order, and what goes from one to the next. Each stage
+/// keeps what it needs of the last cycle itself.
 class PairCycle {
  public:
   PairCycle(std::string name, std::shared_ptr<const BodyMesh> a, std::shared_ptr<const BodyMesh> b,
@@ -26,7 +26,7 @@ class PairCycle {
 
   /// @param is_tracked a next cycle uses what this one finds
   void update(const Eigen::Isometry3d& pose, double time, PairSolution& solution, bool is_tracked = true);
-  /// At one pose alone.
+  /// Solves at one pose alone.
   void solve(const Eigen::Isometry3d& pose, PairSolution& solution);
   /// Makes what the first cycle would make otherwise.
   void prepare();
@@ -44,7 +44,7 @@ class PairCycle {
     double time = 0.0;
     bool known = false;
   };
-  /// Since another cycle.
+  /// Says what has passed since another cycle.
   struct Passed {
     double displacement;  ///< no point of B has moved farther, metres; infinite without a cycle before
     double elapsed;       ///< seconds; 0 where not known

@@ -9,18 +9,18 @@
 
 namespace concave_distance {
 
-/// Two bodies as they are solved: each near the origin of its own frame (BodyMesh::recentred()), so that all
-/// tolerances are relative to the bodies and the gap, wherever the bodies were modelled.
+/// Holds two bodies as they are solved: each near the origin of its own frame (BodyMesh::recentred()), so
+/// that all tolerances are relative to the bodies and the gap, wherever the bodies were modelled.
 class RecentredPair {
  public:
   RecentredPair(const std::shared_ptr<const BodyMesh>& a, const std::shared_ptr<const BodyMesh>& b);
 
   const std::shared_ptr<const BodyMesh>& a() const { return a_; }
   const std::shared_ptr<const BodyMesh>& b() const { return b_; }
-  /// Whether a body is not where it was modelled.
+  /// Returns whether a body is not where it was modelled.
   bool isMoved() const { return is_moved_; }
 
-  /// The pose of the bodies as they are solved; empty for one that is not rigid.
+  /// Returns the pose of the bodies as they are solved; nothing for one that is not rigid.
   std::optional<Eigen::Isometry3d> poseOf(const Eigen::Isometry3d& a_from_b) const;
 
   /// Brings a solution for poseOf(a_from_b) into the frame that A was modelled in. The lower bound loses what

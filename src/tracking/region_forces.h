@@ -10,22 +10,22 @@
 
 namespace concave_distance {
 
-/// The forces at a pair's regions, and how they change with its motion. Keeps buffers only; what lasts is in
-/// RegionMemory, by region.
+/// Computes the forces at a pair's regions, and how they change with its motion. Keeps buffers only; what
+/// lasts is in RegionMemory, by region.
 class RegionForces {
  public:
   /// @param turning_arm see TurningContact
   explicit RegionForces(double turning_arm) : turning_arm_(turning_arm) {}
   void setSettings(const EffectSettings& settings, const ContactMaterial& material);
 
-  /// Pressures, or lumped forces.
+  /// Sets pressures or lumped forces.
   void push(const Interference& interference, const RelativeTwist& b_in_a, std::vector<RegionMemory>& memory,
             PairContacts& contacts);
   /// Returns those of the last push() at the region of this index; nullptr for a lumped force.
   const PressureField* pressure(const InterferenceRegion& region, std::size_t index) const {
     return isPatch(region) ? &patches_[index].field() : nullptr;
   }
-  /// Friction of what push() has set. @param loose bristles of regions that split or became one
+  /// Adds the friction of what push() has set. @param loose bristles of regions that split or became one
   void rub(const PatchMotion& motion, const std::vector<UnmatchedBristles>& loose,
            std::vector<RegionMemory>& memory, PairContacts& contacts);
   /// Adds the lumped forces' share of the linearisation and finishes it.

@@ -9,7 +9,7 @@
 
 namespace concave_distance {
 
-/// Tells which of the last cycle's regions each region is, and which niche it has come from.
+/// Finds which of the last cycle's regions each region is, and which niche it has come from.
 class RegionIdentity {
  public:
   /// Sets the ids of `regions` and the order of memory() to theirs. A region is the last cycle's nearest one
@@ -20,7 +20,7 @@ class RegionIdentity {
   void update(const std::vector<TrackedNiche>& niches, double displacement,
               std::vector<ContactRegion>& regions);
   void clear() { memory_.clear(); }
-  /// For the next cycle; once the regions' forces are known.
+  /// Keeps the regions for the next cycle, once their forces are known.
   void keepNormals(const std::vector<ContactRegion>& regions);
 
   /// Returns those of the regions of the last update(), in their order.

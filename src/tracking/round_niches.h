@@ -10,9 +10,9 @@
 
 namespace concave_distance {
 
-/// The niches of a pair with a round solid: those of the meshes, each moved to the local minimum between the
-/// exact surfaces. What comes to the same place is one niche. Ids belong to the exact niches and go on with
-/// the niches of the meshes that they come from, or with the place.
+/// Keeps the niches of a pair with a round solid: those of the meshes, each moved to the local minimum
+/// between the exact surfaces. What comes to the same place is one niche. Ids belong to the exact niches and
+/// go on with the niches of the meshes that they come from, or with the place.
 class RoundNiches {
  public:
   struct Cycle {
@@ -22,10 +22,11 @@ class RoundNiches {
   };
 
   void beginIdsAfter(std::uint64_t id) { archive_.beginIdsAfter(id); }
-  /// How much farther than the solids their meshes may be, metres.
+  /// Returns how much farther than the solids their meshes may be, metres.
   static double meshExcess(const PairFrame& frame);
 
-  /// From the niches of the meshes at the frame's pose. Two solids have one niche and need no others.
+  /// Moves the niches of the meshes to the exact surfaces at the frame's pose. Two solids have one niche and
+  /// need no others.
   /// @param events receives those of the exact niches
   void update(const PairFrame& frame, const NicheArchive& of_meshes, const Cycle& cycle,
               std::vector<NicheEvent>& events);

@@ -12,8 +12,8 @@
 
 namespace concave_distance {
 
-/// Stage `propose` of the exact levels: the niches known go into the search, what it finds goes to those that
-/// are to be admitted.
+/// Runs stage `propose` of the exact levels: the niches known go into the search, what it finds goes to those
+/// that are to be admitted.
 struct SearchStage {
   const PairFrame& frame;
   const TrackerParameters& parameters;
@@ -23,7 +23,7 @@ struct SearchStage {
   std::vector<TrialPoint>& known;  ///< buffer
 };
 
-/// Level `refined`, where nothing else finds new niches: a whole population.
+/// Runs a whole population, for level `refined`, where nothing else finds new niches.
 void proposeMinima(const SearchStage& stage, const NicheSearch::Run& run, SearchCost& cost, WorkLimit& limit);
 
 /// Level `certified`, where the list is proven without: the population that the search has earned. Known

@@ -9,7 +9,7 @@
 namespace concave_distance::expiry_queue_test {
 namespace {
 
-TEST(ExpiryQueues, TakeOutWhatTheirClockHasReachedAndNothingElse) {
+TEST(ExpiryQueues, TakeOutWhatTheirCounterHasReachedAndNothingElse) {
   constexpr std::uint32_t kCounters = 3;
   struct Inserted {
     std::uint32_t counter;

@@ -13,14 +13,14 @@ namespace detail {
 class BranchAndBound;
 }
 
-/// Where the last proof of one pair's distance ended: every pair of boxes, or of leaves, that was shown to be
-/// far enough apart, with its bound. Moving by x brings no pair closer by more than x, so that a bound is
-/// good until the bodies have come as far: kept as the bound plus how far the subtree of B has moved
+/// Keeps where the last proof of one pair's distance ended: every pair of boxes, or of leaves, that was shown
+/// to be far enough apart, with its bound. Moving by x brings no pair closer by more than x, so that a bound
+/// is good until the bodies have come as far: kept as the bound plus how far the subtree of B has moved
 /// altogether (its moved distance), it is compared with that moved distance now. What has run out is opened
 /// again. Belongs to one pair of bodies; the caller clears it when the bodies change.
 class BoundCache {
  public:
-  /// The children of one box, all compared with one other box.
+  /// Holds the bounds of the children of one box against one other box.
   struct Quad {
     double bound[BoundingVolumeHierarchy::kWidth];  ///< metres plus moved distance; infinite: opened further,
                                                     ///< or none
@@ -39,7 +39,7 @@ class BoundCache {
   };
 
   void clear() { valid_ = false; }
-  /// False when the next proof must begin at the roots.
+  /// Returns false when the next proof must begin at the roots.
   bool valid() const { return valid_; }
   std::size_t size() const { return quads_.size() + leaf_pairs_.size(); }
   std::size_t memoryBytes() const {
@@ -59,7 +59,7 @@ class BoundCache {
                const Eigen::Vector3d& offset, double rounding);
   void begin(const BoundingVolumeHierarchy& b, const Eigen::Matrix3d& rotation,
              const Eigen::Vector3d& offset);
-  /// After a proof: whether the next one is to use the cache, begin it anew or do without for a while.
+  /// Decides after a proof whether the next one uses the cache, begins it anew or does without for a while.
   void decide(bool began_anew, std::uint32_t opened);
 
   std::vector<Quad> quads_;

@@ -20,7 +20,7 @@ inline Lanes along(const Eigen::Vector3d& direction,
   return direction.x() * lanes(point[0]) + direction.y() * lanes(point[1]) + direction.z() * lanes(point[2]);
 }
 
-/// How far each of the node's boxes reaches from its centre along a unit vector.
+/// Returns how far each of the node's boxes reaches from its centre along a unit vector.
 inline Lanes reachAlong(const Eigen::Vector3d& direction, const BoundingVolumeHierarchy::Node& node) {
   return lanes(node.half[0]) * along(direction, node.axes[0]).abs() +
          lanes(node.half[1]) * along(direction, node.axes[1]).abs() +
@@ -60,7 +60,7 @@ struct ComparedBox {
   Eigen::Vector3f half;
 };
 
-/// What every bound of one query shares.
+/// Holds what every bound of one query shares.
 struct BoundScale {
   BoundScale(double metres, double relative_slack)
       : scale(metres),
@@ -83,7 +83,8 @@ inline FloatLanes lanes(const float* values) {
   return Eigen::Map<const FloatLanes, Eigen::Aligned16>(values);
 }
 
-/// Squared distances from the box's centre to those of the node's boxes, relative to the squared scale.
+/// Returns the squared distances from the box's centre to those of the node's boxes, relative to the squared
+/// scale.
 inline FloatLanes squaredGaps(const BoundingVolumeHierarchy::SingleNode& node, const ComparedBox& box,
                               float unit) {
   return (lanes(node.centre[0]) * unit - box.centre.x()).square() +
@@ -180,8 +181,8 @@ inline FloatLanes squaredBounds(const BoundingVolumeHierarchy::SingleNode& node,
   return best * (1.0F - 0x1.0p-20F);
 }
 
-/// How far each lane is from the box `other` in `lane` along the lane's direction, relative to the scale; may
-/// be negative. `node_from_box` takes the box's points to the node's frame.
+/// Returns how far each lane is from the box `other` in `lane` along the lane's direction, relative to the
+/// scale; may be negative. `node_from_box` takes the box's points to the node's frame.
 inline FloatLanes separations(const LaneDirections& of_node, float unit,
                               const BoundingVolumeHierarchy::SingleNode& other, std::uint32_t lane,
                               float other_unit, const SinglePose& node_from_box) {

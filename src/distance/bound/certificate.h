@@ -14,11 +14,11 @@
 
 namespace concave_distance {
 
-/// How far a proof of the distance is to go. Everything at its default: to the end.
+/// Says how far a proof of the distance is to go; the default is to the end.
 struct CertificateRequest {
   double absolute_tolerance = 0.0;  ///< metres: the bound may stay this far below the distance
   double relative_tolerance = 0.0;  ///< of the distance; the larger of the two counts
-  /// When it is reached, the proof stops with the bound it has; nullptr: none.
+  /// The proof stops with the bound that it has when this is reached; nullptr is no limit.
   WorkLimit* limit = nullptr;
 };
 
@@ -30,13 +30,13 @@ enum class CertificateStatus : std::uint8_t {
 };
 std::string_view toString(CertificateStatus status);
 
-/// lower_bound <= distance of the surfaces <= distance, for the pose as given.
+/// Says that lower_bound <= distance of the surfaces <= distance, for the pose as given.
 struct DistanceCertificate {
   WitnessPair witness;
   double distance = std::numeric_limits<double>::infinity();
   double lower_bound = 0.0;
   CertificateStatus status = CertificateStatus::Budget;
-  /// A pair closer than every start by more than the error was found.
+  /// True when a pair closer than every start by more than the error was found.
   bool improved = false;
   CertificateCost cost;
 };
@@ -48,21 +48,22 @@ inline constexpr double kProofError = 0x1.0p-45;  // 128 machine epsilons
 /// share of kProofError.
 inline constexpr double kPoseShare = 0.125;
 
-/// The scene's scale that errors are relative to: how far the bodies' surfaces reach from their centres, how
-/// far these are apart, and for the rounding of the pose an eighth of how far they and B's frame are from the
-/// origins of their frames. Metres.
+/// Returns the scene's scale that errors are relative to: how far the bodies' surfaces reach from their
+/// centres, how far these are apart, and for the rounding of the pose an eighth of how far they and B's frame
+/// are from the origins of their frames. Metres.
 double proofScale(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b);
 
-/// What one tree's boxes hold along one direction; valid where the stamp is the current one.
+/// Keeps how far one tree's boxes reach along one direction; valid where the stamp is the current one.
 struct SupportCache {
   std::vector<double> values;
   std::vector<std::uint32_t> stamps;
   std::uint32_t stamp = 0;
 };
 
-/// Buffers of one thread; cleared, never freed. 48 bytes for each node of both hierarchies.
+/// Holds the buffers of one thread, which are cleared and never freed: 48 bytes for each node of both
+/// hierarchies.
 struct CertificateWorkspace {
-  /// A pair of boxes that nothing closer has been excluded from.
+  /// A pair of boxes that may hide a closer pair of triangles.
   struct OpenPair {
     BoundingVolumeHierarchy::Slot a;
     BoundingVolumeHierarchy::Slot b;
@@ -74,9 +75,9 @@ struct CertificateWorkspace {
   RefinementWorkspace refinement;
 };
 
-/// The distance of the two surfaces with a proof, by branch and bound over both bodies' hierarchies (Larsen
-/// et al. 1999, with the direction between the best witnesses as a further separating axis). `starts` are
-/// pairs of triangles to begin with, the likeliest first; each is refined to its local minimum. Without
+/// Returns the distance of the two surfaces with a proof, by branch and bound over both bodies' hierarchies
+/// (Larsen et al. 1999, with the direction between the best witnesses as a further separating axis). `starts`
+/// are pairs of triangles to begin with, the likeliest first; each is refined to its local minimum. Without
 /// starts the search dives for one. Anytime: see CertificateRequest; the bound only rises and the distance
 /// only falls. Solids that hold one another are not looked for: this is the distance of the surfaces.
 /// a_from_b must be rigid to rounding. Allocates nothing once the workspace has grown.

@@ -5,7 +5,7 @@
 
 namespace concave_distance::detail {
 
-/// How far the triangles below each box reach along one direction, by descending one tree alone. A box
+/// Bounds how far the triangles below each box reach along one direction, by descending one tree alone. A box
 /// reaches beyond the surface it holds; near a witness point, where all of a convex neighbourhood lies behind
 /// the witness's plane, that little is what keeps boxes of both bodies from being parted along the witness
 /// direction. A few boxes of one tree do for all pairs they are in.
@@ -17,7 +17,7 @@ class DirectionalSupport {
   /// reaches no farther need not be known more closely, and what certainly reaches farther neither.
   void setDirection(const Eigen::Vector3d& direction, double limit);
 
-  /// No smaller than the reach of any triangle below the slot, but for rounding; metres.
+  /// Returns no less than the reach of any triangle below the slot, but for rounding; metres.
   double of(BoundingVolumeHierarchy::Slot slot);
 
  private:

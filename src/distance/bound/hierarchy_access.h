@@ -13,7 +13,7 @@ inline const BoundingVolumeHierarchy::Leaf& leafOf(const BoundingVolumeHierarchy
   return hierarchy.leaves()[child & ~BoundingVolumeHierarchy::kLeafFlag];
 }
 
-/// Squared half diagonal of a slot's box, relative to the squared reach.
+/// Returns the squared half diagonal of a slot's box, relative to the squared reach.
 inline float squaredSize(const BoundingVolumeHierarchy& hierarchy, BoundingVolumeHierarchy::Slot slot) {
   return hierarchy.singleNodes()[slot / BoundingVolumeHierarchy::kWidth]
       .squared_size[slot % BoundingVolumeHierarchy::kWidth];

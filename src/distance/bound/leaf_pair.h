@@ -5,7 +5,7 @@
 
 namespace concave_distance::detail {
 
-/// The triangles of one of B's leaves in the local frame of A, lane by lane.
+/// Holds the triangles of one of B's leaves in the local frame of A, lane by lane.
 struct LeafLanes {
   LeafLanes(const BoundingVolumeHierarchy::Leaf& leaf, const Eigen::Matrix3d& rotation,
             const Eigen::Vector3d& offset);
@@ -26,19 +26,19 @@ inline TrianglePoints triangleOf(const BoundingVolumeHierarchy::Leaf& leaf, std:
   return points;
 }
 
-/// The sum of the lanes' normals, not normalised, frame of the leaf.
+/// Returns the sum of the lanes' normals, not normalised, frame of the leaf.
 Eigen::Vector3d sumOfNormals(const BoundingVolumeHierarchy::Leaf& leaf);
-/// The same; needs the leaf's normals.
+/// Returns the same of a leaf whose normals are computed.
 Eigen::Vector3d sumOfNormals(const LeafLanes& leaf);
 
-/// Least value of `direction` over the corners of each lane.
+/// Returns the least value of `direction` over the corners of each lane.
 Lanes leastAlong(const LeafLanes& leaf, const Eigen::Vector3d& direction);
 
-/// Greatest value of `direction` over the corners of each lane, frame of the leaf.
+/// Returns the greatest value of `direction` over the corners of each lane, frame of the leaf.
 Lanes mostAlong(const BoundingVolumeHierarchy::Leaf& leaf, const Eigen::Vector3d& direction);
 
-/// How far a's plane or the lane's own plane parts triangle `a` from each lane; metres, 0 where neither does.
-/// Needs the leaf's normals.
+/// Returns how far a's plane or the lane's own plane parts triangle `a` from each lane; metres, 0 where
+/// neither does. Needs the leaf's normals.
 Lanes planeSeparation(const TrianglePoints& a, const LeafLanes& b);
 
 }  // namespace concave_distance::detail

@@ -9,7 +9,7 @@
 
 namespace concave_distance {
 
-/// A round solid and the mesh of another body at one pose.
+/// Holds a round solid and the mesh of another body at one pose.
 struct RoundAndMesh {
   /// @param mesh_from_body of the body that the shape belongs to
   RoundAndMesh(const RoundShape& round, const BodyMesh& other, const Eigen::Isometry3d& mesh_from_body);
@@ -25,7 +25,7 @@ struct RoundAndMesh {
   Eigen::Vector3d centre_in_mesh;
 };
 
-/// A lowest point of the mesh and the triangle that it is on.
+/// Holds a lowest point of the mesh and the triangle that it is on.
 struct RoundMinimum {
   LowestPoint lowest;  ///< shape's frame
   TriangleIndex triangle;
@@ -35,7 +35,7 @@ struct RoundMinimum {
 /// no triangle at the point found is lower.
 RoundMinimum descendOnMesh(const RoundAndMesh& pair, TriangleIndex start);
 
-/// What findLowest() found.
+/// Holds what findLowest() found.
 struct LowestFound {
   RoundMinimum best;
   double lower_bound;  ///< of the signed distance over the whole mesh, but for roundings

@@ -37,16 +37,16 @@ struct PairFrame {
     size = 0.5 * (a.diameter() + b.diameter()) + offset.norm();
     rounding = kTriangleDistanceError * size;
   }
-  /// Centred at the middles of the bodies' boxes, for what looks at whole surfaces.
+  /// Is centred at the middles of the bodies' boxes, for what looks at whole surfaces.
   PairFrame(const BodyMesh& body_a, const BodyMesh& body_b, const Eigen::Isometry3d& pose)
       : PairFrame(body_a, body_b, pose, body_a.surface().boundingBox().center(),
                   body_b.surface().boundingBox().center()) {}
-  /// Centred at the first corners of two triangles, for what looks at the surfaces around them.
+  /// Is centred at the first corners of two triangles, for what looks at the surfaces around them.
   PairFrame(const BodyMesh& body_a, const BodyMesh& body_b, const Eigen::Isometry3d& pose,
             TriangleIndex triangle_a, TriangleIndex triangle_b)
       : PairFrame(body_a, body_b, pose, body_a.surface().corner(triangle_a, 0),
                   body_b.surface().corner(triangle_b, 0)) {}
-  /// With the surfaces' facets open.
+  /// Returns a frame with the surfaces' facets open.
   static PairFrame withFacets(const BodyMesh& body_a, const BodyMesh& body_b, const Eigen::Isometry3d& pose) {
     PairFrame frame(body_a, body_b, pose);
     frame.openFacets();
@@ -66,8 +66,8 @@ struct PairFrame {
 
   Eigen::Isometry3d bFromA() const { return a_from_b.inverse(Eigen::Isometry); }
   double diameters() const { return a.diameter() + b.diameter(); }
-  /// Metres: two refined witnesses nearer than this on both bodies are one. Far above the rounding of the
-  /// kernels, far below any feature.
+  /// Two refined witnesses nearer than this (m) on both bodies are one. It is far above the rounding of the
+  /// kernels and far below any feature.
   double samePlaceTolerance() const { return 1e-7 * diameters(); }
 
   TrianglePoints cornersOfA(TriangleIndex t) const { return localCorners(a.surface(), t, centre_a); }
@@ -79,12 +79,12 @@ struct PairFrame {
   Eigen::Vector3d vertexOfB(NodeIndex node) const {
     return rotation * (b.surface().vertex(node) - centre_b) + offset;
   }
-  /// From this frame to B's axes, relative to centre_b.
+  /// Returns a point of this frame in B's axes, relative to centre_b.
   Eigen::Vector3d pointInB(const Eigen::Vector3d& point) const {
     return rotation.transpose() * (point - offset);
   }
-  /// A vertex, or an end of a joint of shells (joinedAdjacency()), in the body's axes, relative to its
-  /// centre.
+  /// Returns a vertex, or an end of a joint of shells (joinedAdjacency()), in the body's axes, relative to
+  /// its centre.
   Eigen::Vector3d ownVertex(Side side, NodeIndex node) const {
     const BodyMesh& body = side == Side::A ? a : b;
     const Eigen::Vector3d& centre = side == Side::A ? centre_a : centre_b;
@@ -95,17 +95,17 @@ struct PairFrame {
     return (end % 2 == 0 ? joint.from : joint.to) - centre;
   }
 
-  /// False where one of them lies in the material of another shell of its body.
+  /// Returns false where one of them lies in the material of another shell of its body.
   bool areOnSurface(TriangleIndex of_a, TriangleIndex of_b) const {
     return !a.shellContacts().isHidden(of_a) && !b.shellContacts().isHidden(of_b);
   }
-  /// Whether shells of either body meet.
+  /// Returns whether shells of either body meet.
   bool hasJoints() const { return !a.shellContacts().joints.empty() || !b.shellContacts().joints.empty(); }
   static bool isJoint(const BodyMesh& body, const AdjacentTriangle& next) {
     return next.from.value >= body.surface().vertexCount();
   }
 
-  /// The facet pair of a triangle pair: the facets, each named by its first triangle.
+  /// Returns the facet pair of a triangle pair: its facets, each named by its first triangle.
   TrianglePair facetPairOf(TriangleIndex of_a, TriangleIndex of_b) const {
     return {facets_a->facet_of_triangle[of_a.value], facets_b->facet_of_triangle[of_b.value]};
   }
@@ -174,7 +174,7 @@ struct PairFrame {
   const ConnectedPieces* pieces_b = nullptr;
 };
 
-/// Largest magnitude of a coordinate: what the kernel's error bounds are relative to.
+/// Returns the largest magnitude of a coordinate: what the kernel's error bounds are relative to.
 inline double largestMagnitude(const TrianglePoints& a, const TrianglePoints& b) {
   double largest = 0.0;
   for (std::size_t k = 0; k < 3; ++k) {

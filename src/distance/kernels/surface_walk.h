@@ -17,7 +17,7 @@ struct SurfacePoint {
 /// triangle to touching triangle, strictly closer each step. Stays on the shell it starts on. O(steps).
 SurfacePoint walkTowards(const BodyMesh& body, TriangleIndex start, const Eigen::Vector3d& target);
 
-/// The three corners of an original triangle, body frame.
+/// Returns the three corners of an original triangle, body frame.
 inline TrianglePoints trianglePoints(const SurfaceMesh& surface, TriangleIndex triangle) {
   return {surface.corner(triangle, 0), surface.corner(triangle, 1), surface.corner(triangle, 2)};
 }

@@ -38,12 +38,12 @@ class ConeComparison {
     return tree.items()[child & ~Tree::kItemFlag];
   }
 
-  /// Which of two children is opened next; one of them is a node.
+  /// Returns whether B's group is opened next; one of the two is a node.
   bool opensB(Slot slot_a, Slot slot_b) const {
     return isItem(a.child(slot_a)) || (!isItem(b.child(slot_b)) && breadth(b, slot_b) >= breadth(a, slot_a));
   }
 
-  /// A group of A with four parts of one of B, and the other way round.
+  /// Compares a group of A with four parts of one of B, and the other way round.
   ConeReasons withPartsOfB(Slot kept, Slot first) {
     return coneReasons(partsOf(b, first), comparedA(kept), limits_b_);
   }
@@ -51,7 +51,7 @@ class ConeComparison {
     return coneReasons(partsOf(a, first), comparedB(kept), limits_a_);
   }
 
-  /// Four pairs (slot of A, slot of B); A's are the kept ones.
+  /// Compares four pairs (slot of A, slot of B), of which A's are the kept groups.
   ConeReasons ofPairs(const std::pair<Slot, Slot>* pairs) const {
     const auto& of_a = a.groups();
     const auto& of_b = b.groups();
@@ -69,7 +69,8 @@ class ConeComparison {
   }
 
  private:
-  /// How much a child leaves open, in metres: the turn of its normals counts like the turn of directions.
+  /// Returns how much a child leaves open, in metres: the turn of its normals counts like the turn of
+  /// directions.
   static double breadth(const Tree& tree, Slot slot) {
     const Tree::Group& group = tree.groups()[slot];
     return tree.unit() * group.radius * (1.5 - group.cosine);
@@ -94,7 +95,7 @@ class ConeComparison {
             group.sine};
   }
 
-  /// A group of A in B's frame; the last one is kept.
+  /// Returns a group of A in B's frame, and keeps the last one.
   const ComparedCone<float>& comparedA(Slot slot) {
     if (slot != compared_slot_a_) {
       const Tree::Group& group = a.groups()[slot];
@@ -115,7 +116,7 @@ class ConeComparison {
     return compared_b_;
   }
 
-  /// Groups of A in B's frame and unit, in single precision.
+  /// Returns groups of A in B's frame and unit, in single precision.
   ComparedCone<ConeLanes> movedToB(const ComparedCone<ConeLanes>& cone) const {
     const auto turned = [this](const ConeLanes(&of)[3], int row) {
       return ConeLanes(axes_of_a_[row][0] * of[0] + axes_of_a_[row][1] * of[1] + axes_of_a_[row][2] * of[2]);

@@ -41,7 +41,7 @@ inline ComparedCone<ConeLanes> coneLanes(const NormalConeTree::Group& first,
           lanes(&Group::sine)};
 }
 
-/// What all comparisons in one tree's frame share, in its unit.
+/// Holds what all comparisons in one tree's frame share, in its unit.
 struct ConeLimits {
   ConeLimits(double metres_of_slack, double metres_of_size, double metres_of_cutoff, double unit) {
     const double size = metres_of_size / unit;
@@ -62,9 +62,9 @@ struct ConeLimits {
   float cutoff;
 };
 
-/// Why no local minimum with a distance of at most the cutoff can have one end in one group and the other in
-/// the other: each is above 0 where it is a reason, and not where a number is not one. Lengths in the unit of
-/// the tree in whose frame they are.
+/// Says why no local minimum with a distance of at most the cutoff can have one end in one group and the
+/// other in the other: each is above 0 where it is a reason, and not where a number is not one. Lengths in
+/// the unit of the tree in whose frame they are.
 struct ConeReasons {
   ConeLanes turned_away;  ///< their caps do not face each other: radians that the bodies may turn, at least
   ConeLanes too_far;      ///< beyond the cutoff by so much

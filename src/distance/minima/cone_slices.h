@@ -8,8 +8,8 @@
 
 namespace concave_distance::detail {
 
-/// A long list of pairs is looked at in slices, by idle threads as well. What a slice leaves depends on its
-/// pairs alone, and the slices are put together in their order: the answer is the same for any number of
+/// Cuts a long list of pairs into slices that idle threads work on as well. What a slice leaves depends on
+/// its pairs alone, and the slices are put together in their order: the answer is the same for any number of
 /// threads.
 class ConeSlices {
  public:
@@ -19,13 +19,13 @@ class ConeSlices {
   static constexpr std::size_t kManyOpen = 128;
   static constexpr std::size_t kMostKept = 1024;  ///< by a slice
 
-  /// Slices of a fixed size: a sweep ends when its lists are full.
+  /// A slice has a fixed size: its sweep ends when its lists are full.
   struct Slice {
     SweepLists lists;
     ExpiredPairs expired{};
   };
 
-  /// Allocates the slices when they are first needed. False without memory.
+  /// Allocates the slices when they are first needed. Returns false without memory.
   bool prepare(WorkLimit& limit);
 
   /// Fills slices with the first pairs of a list. @return how many pairs

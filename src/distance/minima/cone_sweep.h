@@ -30,7 +30,7 @@ class ConeSweep {
         is_slice_(slice_room > 0),
         room_to_keep_(slice_room) {}
 
-  /// What is kept goes there at once instead of to SweepLists::kept.
+  /// Sends what is kept to queues at once instead of to SweepLists::kept.
   void keepIn(ExpiryQueues<SlotPair>& queues, WorkLimit& limit) {
     queues_ = &queues;
     queue_limit_ = &limit;
@@ -39,8 +39,8 @@ class ConeSweep {
   const NormalConeTree& conesOfA() const { return cones_.a; }
   const NormalConeTree& conesOfB() const { return cones_.b; }
 
-  /// Goes through the open pairs and `expired`. False when the limit was reached or no steps are left: the
-  /// rest stays in both.
+  /// Goes through the open pairs and `expired`. Returns false when the limit was reached or no steps are
+  /// left: the rest stays in both.
   bool run(ExpiredPairs& expired, std::size_t& steps) {
     std::vector<SlotPair>& open_pairs = lists_.open;
     for (; !open_pairs.empty() || !expired.empty(); --steps) {
@@ -56,7 +56,8 @@ class ConeSweep {
     return true;
   }
 
-  /// Opens in the order of the list until so many pairs are open, or none. False when the limit was reached.
+  /// Opens in the order of the list until so many pairs are open, or none. Returns false when the limit was
+  /// reached.
   bool widen(std::size_t count) {
     std::vector<SlotPair>& open_pairs = lists_.open;
     std::size_t opened = 0;
@@ -71,8 +72,8 @@ class ConeSweep {
     return has_room;
   }
 
-  /// Asks the live pairs of earlier poses: minima that stay are only measured. False when the limit was
-  /// reached.
+  /// Asks the live pairs of earlier poses: minima that stay are only measured. Returns false when the limit
+  /// was reached.
   bool askLive() {
     if (!askUndecided()) return false;
     std::vector<LiveMinimum>& minima = lists_.minima;
@@ -109,7 +110,7 @@ class ConeSweep {
   const Item& itemOfA(Slot slot) const { return ConeComparison::itemOf(cones_.a, cones_.a.child(slot)); }
   const Item& itemOfB(Slot slot) const { return ConeComparison::itemOf(cones_.b, cones_.b.child(slot)); }
 
-  /// For one step.
+  /// Returns whether the lists have room for one step.
   bool hasRoom() {
     if (!limit_.makeRoom(lists_.open, ConeComparison::kWidth) || !limit_.makeRoom(lists_.candidates))
       return false;
@@ -117,7 +118,7 @@ class ConeSweep {
                           limit_.makeRoom(lists_.undecided));
   }
 
-  /// The next pairs that have expired, as they are.
+  /// Compares the next pairs that have expired, without opening them.
   void compare(ExpiredPairs& expired) {
     constexpr std::size_t kAhead = 12;
     const auto left = static_cast<std::size_t>(expired.end - expired.next);
@@ -179,8 +180,8 @@ class ConeSweep {
     }
   }
 
-  /// Those that are undecided again come behind the ones that were not asked. False when the limit was
-  /// reached.
+  /// Asks the undecided pairs once more; those that stay so go to the end of the list. Returns false when the
+  /// limit was reached.
   bool askUndecided() {
     std::vector<SlotPair>& undecided = lists_.undecided;
     const std::size_t count = undecided.size();
@@ -213,19 +214,19 @@ class ConeSweep {
     return true;
   }
 
-  /// A pair of features that holds no minimum.
+  /// Keeps a pair of features that holds no minimum.
   void settle(const SlotPair& pair) {
     if (!keepFeatures(pair)) lists_.undecided.push_back(pair);
   }
 
-  /// False for what has no slack, and without memory.
+  /// Returns false for what has no slack, and without memory.
   bool keepFeatures(const SlotPair& pair) {
     resetOffers(pair);
     feature_slacks_.offer(itemOfA(pair.first), itemOfB(pair.second), offers_);
     return !offers_.empty() && keep(pair);
   }
 
-  /// False for what has no slack, and without memory. An offer that is hardly above 0 may be none.
+  /// Returns false for what has no slack, and without memory. An offer that is hardly above 0 may be none.
   bool keepGroups(const SlotPair& pair, const ConeReasons& reasons, std::uint32_t lane, bool kept_is_a) {
     resetOffers(pair);
     const double unit = (kept_is_a ? cones_.b : cones_.a).unit();
@@ -238,7 +239,7 @@ class ConeSweep {
     return !offers_.empty() && keep(pair);
   }
 
-  /// False without memory.
+  /// Returns false without memory.
   bool keep(const SlotPair& pair) {
     const std::uint32_t moved_distance = offers_.movedDistance();
     const std::uint64_t expiry = std::max(offers_.expiry(), motion_.now(moved_distance) + 1);

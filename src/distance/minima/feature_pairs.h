@@ -49,10 +49,10 @@ class FeaturePairs {
     Eigen::Vector3d to;    ///< B's
     Eigen::Vector3d displacement;
     double squared_distance;
-    /// The foot lies beyond the end of an edge or the border of a face by more than its error: what is there
-    /// has the minimum, if there is one.
+    /// True when the foot lies beyond the end of an edge or the border of a face by more than its error: what
+    /// is there has the minimum, if there is one.
     bool is_beyond;
-    /// Radians that the displacement may be off by, besides the error of its ends over the distance.
+    /// The displacement may be off by so many radians, besides the error of its ends over the distance.
     double direction_error = 0.0;
   };
   struct FacingCap;

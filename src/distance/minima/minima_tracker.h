@@ -11,13 +11,13 @@
 
 namespace concave_distance::detail {
 
-/// What the last pose of a pair leaves to be looked at in the next one: every pair of cone groups, or of
-/// features, that holds no local minimum is kept with the motion that it stays so for. At every instant each
-/// pair of features has exactly one ancestor that is kept, or is live. Belongs to one pair of bodies, one
-/// cutoff and one choice of sides.
+/// Keeps what the last pose of a pair leaves to be looked at in the next one: every pair of cone groups, or
+/// of features, that holds no local minimum is kept with the motion that it stays so for. At every instant
+/// each pair of features has exactly one ancestor that is kept, or is live. Belongs to one pair of bodies,
+/// one cutoff and one choice of sides.
 class MinimaTracker {
  public:
-  /// Of one call.
+  /// Counts what one call did.
   struct Counts {
     std::uint32_t expired = 0;    ///< kept pairs whose slack was used up
     std::uint32_t groups = 0;     ///< comparisons of a group with four others
@@ -33,7 +33,7 @@ class MinimaTracker {
   /// @param sliced_from expired pairs from which on they are looked at in slices
   explicit MinimaTracker(std::size_t sliced_from = ConeSlices::kManyExpired) : sliced_from_(sliced_from) {}
 
-  /// The next call begins at the roots and knows nothing of the motion.
+  /// Lets the next call begin at the roots; it knows nothing of the motion.
   void clear() {
     valid_ = false;
     motion_.forgetRates();

@@ -27,7 +27,7 @@ struct KeptPair {
   std::uint64_t expiry;
 };
 
-/// What sweeps work off and what they leave.
+/// Holds the pairs that sweeps work off and those that they leave.
 struct SweepLists {
   std::vector<SlotPair> open;  ///< to be opened
   std::vector<LiveMinimum> minima;
@@ -45,7 +45,7 @@ struct SweepLists {
   }
 };
 
-/// Pairs that are to be compared as they are.
+/// Holds expired pairs that are compared before any of them is opened.
 struct ExpiredPairs {
   const SlotPair* next;
   const SlotPair* end;

@@ -64,15 +64,15 @@ class BoundingVolumeHierarchy {
                           std::vector<Leaf> leaves);
 
   const Eigen::Vector3d& origin() const { return origin_; }
-  /// Largest distance of a vertex from `origin`, rounded up; metres.
+  /// Returns the largest distance of a vertex from `origin`, rounded up; metres.
   double reach() const { return reach_; }
   const std::vector<Node>& nodes() const { return nodes_; }
   const std::vector<SingleNode>& singleNodes() const { return single_nodes_; }
   const std::vector<Leaf>& leaves() const { return leaves_; }
   std::uint32_t child(Slot slot) const { return single_nodes_[slot / kWidth].child[slot % kWidth]; }
   OrientedBox box(Slot slot) const;
-  /// Boxes of the first two levels, at most 21, the whole surface first: each holds what lies below the nodes
-  /// of its subtree. How far any point of a node has moved is bounded by its subtree.
+  /// Returns the boxes of the first two levels, at most 21, the whole surface first: each holds what lies
+  /// below the nodes of its subtree. How far any point of a node has moved is bounded by its subtree.
   const std::vector<Slot>& subtrees() const { return subtrees_; }
   std::uint8_t subtreeOfNode(std::uint32_t node) const { return subtree_of_node_[node]; }
   std::size_t memoryBytes() const;

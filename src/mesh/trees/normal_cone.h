@@ -11,26 +11,26 @@ namespace concave_distance::detail {
 
 inline constexpr double kConeSlack = 1e-9;  ///< radians that every cone of a feature is widened by
 
-/// Radians by which rounding may have turned a triangle's normal: 1e-14 times its longest edge over the
-/// height on it. Infinite without an area.
+/// Returns the radians by which rounding may have turned a triangle's normal: 1e-14 times its longest edge
+/// over the height on it. Infinite without an area.
 double normalError(const SurfaceMesh& mesh, TriangleIndex triangle);
 
-/// The cap around `axis` (unit) with an angle, radians, widened by the slack.
+/// Returns the cap around `axis` (unit) with an angle, radians, widened by the slack.
 DirectionCap capOfAngle(const Eigen::Vector3d& axis, double angle);
 
-/// A cap that holds both.
+/// Returns a cap that holds both.
 DirectionCap capAround(const DirectionCap& l, const DirectionCap& r);
 
-/// The directions u with w . u <= slack for a list of vectors w: a convex cone, kept as what is left of the
-/// six faces of a cube around the origin, each clipped as a polygon.
+/// Holds the directions u with w . u <= slack for a list of vectors w: a convex cone, kept as what is left of
+/// the six faces of a cube around the origin, each clipped as a polygon.
 class ConeClipper {
  public:
   void reset();  ///< every direction
   /// Keeps the directions with w . u <= slack; |w| = 1. A face of more than 256 corners stays as it is: what
   /// is left holds the cone all the same.
   void clip(const Eigen::Vector3d& w, double slack);
-  /// The cap around what is left on the side with normal . u >= -kConeSlack; empty when nothing is. A zero
-  /// normal leaves nothing out.
+  /// Returns the cap around what is left on the side with normal . u >= -kConeSlack; empty when nothing is. A
+  /// zero normal leaves nothing out.
   std::optional<DirectionCap> capOnSide(const Eigen::Vector3d& normal);
 
  private:

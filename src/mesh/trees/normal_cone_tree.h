@@ -19,8 +19,8 @@ struct DirectionCap {
   bool isFull() const { return cosine <= -1.0; }
 };
 
-/// Which part of a surface's local normal cones: where they leave the body, or all of them. On shells that
-/// are open both sides count as outside.
+/// Says which part of a surface's local normal cones counts: where they leave the body, or all of them. On
+/// shells that are open both sides count as outside.
 enum class NormalSides : std::uint8_t { Outside, Both };
 
 /// A hierarchy over a surface's vertices, edges and faces with a bounding sphere and the local normal cones

@@ -19,8 +19,8 @@ enum class BoxAxes : std::uint8_t {
               ///< least surface area
 };
 
-/// An oriented box around the corners. Halves are not widened. What the hierarchy has are the fitted ones;
-/// the others are what they are compared with (doc/hierarchy.md).
+/// Returns an oriented box around the corners. Halves are not widened. What the hierarchy has are the fitted
+/// ones; the others are what they are compared with (doc/hierarchy.md).
 OrientedBox fitOrientedBox(const CornerRange& corners, BoxAxes axes = BoxAxes::Fitted);
 
 }  // namespace concave_distance::detail

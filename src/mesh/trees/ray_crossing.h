@@ -39,9 +39,9 @@ bool visitLeaves(const TriangleTree& tree, Passes passes, Visit visit) {
   }
 }
 
-/// Orientation of the plane triangle (origin, a, b): 1, -1 or 0. The ends are ordered first, so that a
-/// triangle that runs along an edge the other way gets exactly the opposite sign, also where the compiler
-/// fuses a multiplication with a subtraction.
+/// Returns the orientation of the plane triangle (origin, a, b): 1, -1 or 0. The ends are ordered first, so
+/// that a triangle that runs along an edge the other way gets exactly the opposite sign, also where the
+/// compiler fuses a multiplication with a subtraction.
 inline int orientation(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   const bool turned = b.x() < a.x() || (b.x() == a.x() && b.y() < a.y());
   const Eigen::Vector2d& l = turned ? b : a;
@@ -51,8 +51,8 @@ inline int orientation(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return turned ? -sign : sign;
 }
 
-/// Slabs of the box against origin + s * direction, 0 <= s <= longest; the far end is widened by the rounding
-/// of three operations (Ize 2013), so that no box is missed.
+/// Tests the slabs of the box against origin + s * direction, 0 <= s <= longest; the far end is widened by
+/// the rounding of three operations (Ize 2013), so that no box is missed.
 class SlabTest {
  public:
   SlabTest(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double longest)
@@ -121,7 +121,7 @@ class ShearedRay {
     return {forward_ > 0.0 ? side : -side, w0 * height[0] + w1 * height[1] + w2 * height[2], w0 + w1 + w2};
   }
 
-  /// 1 where the ray leaves through the triangle's front, -1 where it enters, 0 where it misses.
+  /// Returns 1 where the ray leaves through the triangle's front, -1 where it enters, 0 where it misses.
   int crossing(const std::array<Eigen::Vector3d, 3>& t) const {
     const Meeting met = meeting(t);
     return met.height > 0.0 ? met.side : 0;

@@ -27,7 +27,7 @@ class TriangleTree {
   TriangleTree(std::vector<Node> nodes, std::vector<TriangleIndex> order)
       : nodes_(std::move(nodes)), order_(std::move(order)) {}
   const std::vector<Node>& nodes() const { return nodes_; }
-  /// Triangles in leaf order: a leaf holds order()[first .. first + count).
+  /// Returns the triangles in leaf order: a leaf holds order()[first .. first + count).
   const std::vector<TriangleIndex>& order() const { return order_; }
   std::size_t memoryBytes() const;
 
@@ -36,18 +36,18 @@ class TriangleTree {
   std::vector<TriangleIndex> order_;
 };
 
-/// True when some triangle meets the open segment (a, b), body frame, shortened at both ends by `margin`
-/// metres so that the surface an end lies on does not count.
+/// Returns true when some triangle meets the open segment (a, b), body frame, shortened at both ends by
+/// `margin` metres so that the surface an end lies on does not count.
 bool segmentHits(const TriangleTree& tree, const SurfaceMesh& mesh, const Eigen::Vector3d& a,
                  const Eigen::Vector3d& b, double margin);
 
-/// A triangle that does, or kNoTriangle.
+/// Returns a triangle that does, or kNoTriangle.
 /// @param first tried before the others, unless it is kNoTriangle
 TriangleIndex findHit(const TriangleTree& tree, const SurfaceMesh& mesh, const Eigen::Vector3d& a,
                       const Eigen::Vector3d& b, double margin, TriangleIndex first);
 
-/// True when the point lies inside the closed shells of an outward-oriented mesh: signed crossings of three
-/// slanted rays, majority. Shells that are open count as nothing.
+/// Returns true when the point lies inside the closed shells of an outward-oriented mesh: signed crossings of
+/// three slanted rays, majority. Shells that are open count as nothing.
 bool containsPoint(const TriangleTree& tree, const SurfaceMesh& mesh,
                    const std::vector<bool>& shell_is_closed,
                    const std::vector<std::uint32_t>& shell_of_triangle, const Eigen::Vector3d& point);
