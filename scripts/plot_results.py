@@ -134,7 +134,7 @@ def plot_cycles(rows):
         of_rate = {row["pair"]: row for row in rows if row["steps"] == steps}
         places = [i + (k - 0.5) * 0.35 for i in range(len(pairs))]
         bottom = [0.0] * len(pairs)
-        for column, label, shade in (("front_us", "normal cones", 0), ("judge_us", "verdicts", 1)):
+        for column, label, shade in (("front_us", "normal cones", 0), ("judge_us", "decisions", 1)):
             heights = [float(of_rate[pair][column]) / float(of_rate[pair]["fcl_us"]) for pair in pairs]
             axes.bar(places, heights, 0.32, bottom=bottom, color=plt.get_cmap("tab20")(2 * k + shade),
                      label=f"{rate}, {label}")

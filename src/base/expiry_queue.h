@@ -9,15 +9,16 @@
 
 namespace concave_distance {
 
-/// Finds which of many entries have expired on clocks that never run back, without looking at the others: a
-/// radix heap for each clock (Ahuja, Mehlhorn, Orlin and Tarjan 1990). An entry is moved at most once for
-/// each bit by which its expiry differs from the clock. All queues share one pool of chunks.
+/// Finds which of many entries have expired, each when a counter that never falls has reached its expiry,
+/// without looking at the others: a radix heap for each counter (Ahuja, Mehlhorn, Orlin and Tarjan 1990). An
+/// entry is moved at most once for each bit by which its expiry differs from its counter. All queues share
+/// one pool of chunks.
 template <typename Key>
 class ExpiryQueues {
  public:
-  /// Forgets all entries; every clock begins at 0.
-  void begin(std::size_t clock_count) {
-    queues_.assign(clock_count, {});
+  /// Forgets all entries; every counter begins at 0.
+  void begin(std::size_t counter_count) {
+    queues_.assign(counter_count, {});
     chunks_.clear();
     free_ = kEnd;
     size_ = 0;
@@ -25,19 +26,19 @@ class ExpiryQueues {
 
   std::size_t size() const { return size_; }
 
-  /// @param expiry above the clock
+  /// @param expiry above the counter
   /// @return false without memory
-  bool insert(std::uint32_t clock, std::uint64_t expiry, const Key& key, WorkLimit& limit) {
-    if (!put(queues_[clock], {expiry, key}, limit)) return false;
+  bool insert(std::uint32_t counter, std::uint64_t expiry, const Key& key, WorkLimit& limit) {
+    if (!put(queues_[counter], {expiry, key}, limit)) return false;
     ++size_;
     return true;
   }
 
-  /// Moves a clock on and takes out every entry whose expiry it has reached; without memory others, too.
-  /// @param expired (key) may not insert for this clock
+  /// Raises a counter and takes out every entry whose expiry it has reached; without memory others, too.
+  /// @param expired (key) may not insert for this counter
   template <typename Expired>
-  void advance(std::uint32_t clock, std::uint64_t to, const Expired& expired, WorkLimit& limit) {
-    Queue& queue = queues_[clock];
+  void advance(std::uint32_t counter, std::uint64_t to, const Expired& expired, WorkLimit& limit) {
+    Queue& queue = queues_[counter];
     if (to <= queue.now) return;
     const std::uint64_t highest = highestBit(to ^ queue.now);
     queue.now = to;
@@ -83,7 +84,7 @@ class ExpiryQueues {
     std::uint32_t count;
     std::array<Entry, 7> entries;
   };
-  /// A bucket holds what differs from the clock in one bit and below it.
+  /// A bucket holds what differs from the counter in one bit and below it.
   struct Queue {
     std::uint64_t now = 0;
     std::uint64_t occupied = 0;  ///< bits of the buckets that hold something

@@ -4,7 +4,6 @@
 
 namespace concave_distance {
 
-/// Names one of the two bodies of a pair.
 enum class Side : std::uint8_t { A = 0, B = 1 };
 
 }  // namespace concave_distance

@@ -76,7 +76,8 @@ class ContactPatch {
   PatchPressure press(const PatchSurfaces& surfaces, const NormalForceSettings& settings,
                       const ContactMaterial& material, const RelativeTwist& b_in_a, PatchMemory& memory,
                       ContactLinearisation& linearisation);
-  /// Friction of what press() has set, on B, about A's origin. The surfaces of then must still be there.
+  /// Friction of what press() has set, on B, about A's origin. The surfaces given to press() must still
+  /// exist.
   /// @param loose where the patch's own memory has no bristles of a cell, these may
   Wrench rub(const FrictionSettings& settings, const ContactMaterial& material, const PatchMotion& motion,
              const std::vector<UnmatchedBristles>& loose, PatchMemory& memory,

@@ -12,7 +12,7 @@ struct PatchGradient {
   Vector6d push = Vector6d::Zero();  ///< integral of the depth along the push: the wrench over the stiffness
   Vector6d volume = Vector6d::Zero();  ///< m^2, m^3
   Vector6d moment = Vector6d::Zero();  ///< m^3, m^4
-  Vector6d depth = Vector6d::Zero();   ///< 1, m: of the greatest one
+  Vector6d depth = Vector6d::Zero();   ///< of the greatest depth: 1 (shift), m (turn)
 
   void add(const OverlapSample& sample);
 };

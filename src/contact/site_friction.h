@@ -17,7 +17,6 @@ struct PatchMotion {
   double step;                        ///< seconds since then
 };
 
-/// Bristles of one site.
 struct SiteBristles {
   std::uint64_t cell;
   Eigen::Vector3d point_in_a;

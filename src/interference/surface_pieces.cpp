@@ -42,7 +42,7 @@ void SurfacePieces::collect(WorkingFrame& frame, PerturbedPredicates& predicates
   }
   crossed_edges_.collect(frame, predicates, curves, side, segments_);
   seedFromEdges(curves, sets);
-  flood(frame, sets);
+  spread(frame, sets);
   seedFromLoops(frame, predicates, containment, curves, sets);
   seen_.assign(curves.segments().size(), 0);
   for (std::size_t first = 0; first < segments_.size();) {
@@ -90,12 +90,12 @@ void SurfacePieces::seedFromLoops(WorkingFrame& frame, PerturbedPredicates& pred
       const std::uint32_t element = markInside(nodes[0], sets);
       sets.unite(element, markInside(nodes[1], sets));
       sets.unite(element, markInside(nodes[2], sets));
-      flood(frame, sets);
+      spread(frame, sets);
     }
   }
 }
 
-void SurfacePieces::flood(const WorkingFrame& frame, UnionFind& sets, std::uint32_t open_shell) {
+void SurfacePieces::spread(const WorkingFrame& frame, UnionFind& sets, std::uint32_t open_shell) {
   const SurfaceMesh& surface = frame.surface(side_);
   const MeshTopology& topology = frame.body(side_).topology();
   while (!waiting_.empty()) {
@@ -126,7 +126,7 @@ void SurfacePieces::addShell(WorkingFrame& frame, TriangleIndex triangle, UnionF
   const bool open = !topology.shell_is_closed[shell];
   if (open) startStamp(frame);  // a sheet attached to a solid shares vertices with it
   markInside(frame.surface(side_).triangle(triangle)[0], sets);
-  flood(frame, sets, open ? shell : kNone);
+  spread(frame, sets, open ? shell : kNone);
 }
 
 void SurfacePieces::emitTriangle(WorkingFrame& frame, const CrossingCurves& curves, std::size_t first,

@@ -55,7 +55,7 @@ class SurfacePieces {
   void seedFromLoops(WorkingFrame& frame, PerturbedPredicates& predicates, Containment& containment,
                      const CrossingCurves& curves, UnionFind& sets);
   /// Spreads over closed shells, or over one open shell.
-  void flood(const WorkingFrame& frame, UnionFind& sets, std::uint32_t open_shell = kNone);
+  void spread(const WorkingFrame& frame, UnionFind& sets, std::uint32_t open_shell = kNone);
   void emitTriangle(WorkingFrame& frame, const CrossingCurves& curves, std::size_t first, std::size_t last,
                     UnionFind& sets);
   void emitEdge(WorkingFrame& frame, const CrossingCurves& curves, TriangleIndex triangle, NodeIndex from,

@@ -28,7 +28,6 @@ struct BuiltBody {
   std::vector<std::string> notes;
 };
 
-/// Options for building bodies.
 struct BuildOptions {
   PackageLocator package_locator;
   std::vector<std::string> mesh_search_path;

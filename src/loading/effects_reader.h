@@ -14,7 +14,6 @@ namespace concave_distance::detail {
 /// @throws Error naming key, value seen and what is allowed
 void readEffects(const YamlValue& value, EffectSettings& effects);
 
-/// Materials by name.
 using Materials = std::map<std::string, Material>;
 
 /// `materials` of a scene file: a map from a name to a material's values.

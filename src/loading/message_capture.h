@@ -19,7 +19,6 @@ class MessageCapture : private console_bridge::OutputHandler {
   MessageCapture(const MessageCapture&) = delete;
   MessageCapture& operator=(const MessageCapture&) = delete;
 
-  /// Returns the messages in the order they came.
   const std::vector<std::string>& messages() const { return messages_; }
 
  private:

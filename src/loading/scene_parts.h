@@ -51,7 +51,6 @@ void addSemantics(const RobotSpec& spec, const SemanticDescription& semantics, S
 /// Adds a body of the scene file. @throws Error for a name that is taken
 void addBody(const BodySpec& spec, const std::string& base_folder, SceneParts& parts);
 
-/// The source of a single body.
 BodySource sourceOf(const BodyDescription& description, const std::string& base_folder);
 
 /// Sets the limits for every mesh file of every body.

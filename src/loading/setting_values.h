@@ -1,8 +1,6 @@
 #pragma once
 
 #include <cmath>
-#include <cstdint>
-#include <limits>
 #include <optional>
 #include <string>
 
@@ -12,25 +10,14 @@
 
 namespace concave_distance::detail {
 
-inline constexpr std::uint64_t kMost32 = std::numeric_limits<std::uint32_t>::max();
-
 inline bool positiveFinite(double v) {
   return v > 0.0 && std::isfinite(v);
 }
 inline bool notNegativeFinite(double v) {
   return v >= 0.0 && std::isfinite(v);
 }
-inline bool share(double v) {
-  return v >= 0.0 && v <= 1.0;
-}
 
 inline constexpr const char* kLength = "greater than 0, metres";
-inline constexpr const char* kShare = "from 0 to 1";
-
-inline std::uint32_t count32(const YamlValue& value, std::uint64_t least, std::uint64_t most = kMost32,
-                             const std::string& remark = "") {
-  return static_cast<std::uint32_t>(value.count(least, most, remark));
-}
 
 // A number of the predicate's kind, or the word that stands for "empty".
 template <typename Predicate>

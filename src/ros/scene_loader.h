@@ -32,10 +32,10 @@ class SceneLoader {
 
   bool isRunning() const { return thread_.joinable(); }
   void start(const NodeParameters& parameters, SceneRequest request);
-  /// "prepared 12 of 54 bodies, 3.1 s"
+  /// Returns how far it is, such as "prepared 12 of 54 bodies, 3.1 s".
   std::string progress() const;
   double seconds() const;
-  /// The result; nothing while it runs.
+  /// Returns the result and forgets it; nothing while it runs.
   std::optional<Outcome> take();
 
  private:

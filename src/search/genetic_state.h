@@ -17,7 +17,7 @@ enum class Couples : std::uint8_t {
   AtLeastOne,  ///< the same; where that leaves no child of two parents, the first couple all the same
 };
 
-/// What all operators of one run of the genetic algorithm work on.
+/// Holds what all operators of one run of the genetic algorithm work on.
 struct GeneticState {
   const PairObjective& objective;
   const GeneticParameters& parameters;
@@ -31,7 +31,8 @@ struct GeneticState {
   double mutation_probability = 0.0;
   double mutation_radius = 0.0;
   bool is_descended = true;  ///< the population, where individuals are descended at all
-  /// Of all local minima met, where individuals do not stand on them: Baldwinian only, else infinitely far.
+  /// This is the best of all local minima met, where individuals do not stand on them: Baldwinian only, else
+  /// infinitely far.
   TrialPoint best_below{NodeIndex{}, NodeIndex{}, std::numeric_limits<double>::infinity()};
   SearchCost cost{};
 

@@ -9,7 +9,7 @@
 
 namespace concave_distance {
 
-/// What two parents pass on: node pairs, their distances not yet computed.
+/// Holds what two parents pass on: node pairs, their distances not yet computed.
 using Children = std::pair<TrialPoint, TrialPoint>;
 
 /// Share of the way from the fitter parent to the other that its weight leaves to the first child: f1 / (f1 +

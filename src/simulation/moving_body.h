@@ -49,7 +49,6 @@ class MovingBody {
 
   bool hasDrive() const { return drive_.has_value(); }
   void setDriveTarget(const Eigen::Isometry3d& pose);
-  /// Returns the pose of the drive's target.
   Eigen::Isometry3d targetPose(double time) const { return target_->poseAt(time); }
   FrameMotion targetMotion(double time, double inside) const;
   void evaluateDrive(double time, double inside, const RigidBodyState& state);

@@ -34,7 +34,6 @@ class StepEquations {
              std::vector<Coupling>& couplings, std::vector<Vector6d>& changes);
 
  private:
-  /// Returns the representative of the island that holds a body.
   std::size_t rootOf(std::size_t body) { return islands_.find(static_cast<std::uint32_t>(body)); }
   void assemble(const std::vector<Inertia>& bodies, const std::vector<Coupling>& couplings, std::size_t root,
                 Eigen::Index size);

@@ -26,29 +26,19 @@ struct QueryAnswer {
 };
 
 /// Writes out.csv, 17 digits, a line per query.
-class AnswerWriter {
+class AnswerWriter : public CsvFile {
  public:
   explicit AnswerWriter(const std::string& path);  ///< @throws Error when the file cannot be written
   void write(std::size_t index, const QueryAnswer& answer);
-  void complete() { file_.complete(); }
-  void finish() { file_.finish(); }  ///< @throws Error when not everything could be written
-
- private:
-  CsvFile file_;
 };
 
 /// Writes niches.csv, 17 digits, a line per niche.
-class NicheWriter {
+class NicheWriter : public CsvFile {
  public:
   explicit NicheWriter(const std::string& path);  ///< @throws Error when the file cannot be written
   /// @param number the niche's persistent id or its rank
   /// @param described kind, extent, sides and prominence were computed: else their cells stay empty
   void write(std::size_t index, std::uint64_t number, const TrackedNiche& niche, bool described);
-  void complete() { file_.complete(); }
-  void finish() { file_.finish(); }  ///< @throws Error when not everything could be written
-
- private:
-  CsvFile file_;
 };
 
 }  // namespace concave_distance::tools

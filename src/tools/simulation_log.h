@@ -8,39 +8,24 @@
 namespace concave_distance::tools {
 
 /// One line a time: energies, bodies that move (pose of the frame, velocity of the centre of mass), pairs.
-class TrajectoryLog {
+class TrajectoryLog : public CsvFile {
  public:
   TrajectoryLog(const std::string& path, const Simulation& simulation);
   void write(const Simulation& simulation);
-  void complete() { file_.complete(); }
-  void finish() { file_.finish(); }
-
- private:
-  CsvFile file_;
 };
 
 /// One line a region of overlap; world frame.
-class ContactLog {
+class ContactLog : public CsvFile {
  public:
   explicit ContactLog(const std::string& path);
   void write(const Simulation& simulation);
-  void complete() { file_.complete(); }
-  void finish() { file_.finish(); }
-
- private:
-  CsvFile file_;
 };
 
 /// One line a niche; world frame.
-class NicheLog {
+class NicheLog : public CsvFile {
  public:
   explicit NicheLog(const std::string& path);
   void write(const Simulation& simulation);
-  void complete() { file_.complete(); }
-  void finish() { file_.finish(); }
-
- private:
-  CsvFile file_;
 };
 
 }  // namespace concave_distance::tools

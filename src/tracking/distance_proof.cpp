@@ -29,20 +29,20 @@ void DistanceProof::prove(const PairFrame& frame, const TrackerParameters& param
     certificate_.cost = {};
     return;
   }
-  std::array<TrianglePair, 2> seeds{};
+  std::array<TrianglePair, 2> starts{};
   std::size_t count = 0;
-  if (nearest) seeds[count++] = *nearest;
+  if (nearest) starts[count++] = *nearest;
   const TrianglePair last = trianglesOf(certificate_.witness);
-  if (seeded_ && !(nearest && nearest->a == last.a && nearest->b == last.b)) seeds[count++] = last;
-  const double last_bound = seeded_ ? certificate_.lower_bound : 0.0;
+  if (has_last_ && !(nearest && nearest->a == last.a && nearest->b == last.b)) starts[count++] = last;
+  const double last_bound = has_last_ ? certificate_.lower_bound : 0.0;
   CertificateRequest request;
   request.absolute_tolerance = parameters.absolute_tolerance;
   request.relative_tolerance = parameters.relative_tolerance;
   request.limit = &limit;
   const bool is_round = hasRound(frame.a, frame.b);
   certificate_ = is_round
-                     ? certifyRoundDistance(frame.a, frame.b, frame.a_from_b, seeds.data(), count, request)
-                     : certifyDistance(frame.a, frame.b, frame.a_from_b, seeds.data(), count, request,
+                     ? certifyRoundDistance(frame.a, frame.b, frame.a_from_b, starts.data(), count, request)
+                     : certifyDistance(frame.a, frame.b, frame.a_from_b, starts.data(), count, request,
                                        workspace_, &front_);
   if (is_round) {
     // Its closest points are a local minimum already.
@@ -57,7 +57,7 @@ void DistanceProof::prove(const PairFrame& frame, const TrackerParameters& param
     }
   }
   error_ = kProofError * proofScale(frame.a, frame.b, frame.a_from_b);
-  seeded_ = current_ = true;
+  has_last_ = current_ = true;
   // Who holds whom cannot change while no point comes as far as the other surface.
   if (!(displacement + error_ < last_bound)) {
     const std::optional<bool> holds = is_round ? isRoundContained(frame.a, frame.b, frame.a_from_b)
@@ -110,7 +110,7 @@ void DistanceProof::report(PairSolution& solution) const {
 
 void DistanceProof::clear() {
   front_.clear();
-  seeded_ = current_ = swallowed_ = false;
+  has_last_ = current_ = swallowed_ = false;
 }
 
 std::size_t DistanceProof::memoryBytes() const {

@@ -42,8 +42,8 @@ class DistanceProof {
   RefinementWorkspace refinement_;
   DistanceCertificate certificate_;  ///< of the last cycle
   double error_ = 0.0;
-  bool seeded_ = false;   ///< there is a last certificate
-  bool current_ = false;  ///< made with the parameters as they are
+  bool has_last_ = false;  ///< there is a last certificate
+  bool current_ = false;   ///< made with the parameters as they are
   bool swallowed_ = false;
 };
 

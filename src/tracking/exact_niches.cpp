@@ -37,18 +37,11 @@ void placeMinimum(NicheRecord& record, const PairFrame& frame, const LocalMinimu
   niche.visible = minimum.visible;
   niche.prominence = std::isfinite(minimum.prominence) ? minimum.prominence : kNotComputed;
   niche.proven_local_minimum = true;
-  record.region = minimum.region;
+  record.basin = minimum.basin;
   record.carried = false;
 }
 
 }  // namespace
-
-void ExactNiches::stand(double elapsed, NicheArchive& archive) const {
-  for (NicheRecord& record : archive.records()) {
-    record.niche.closing_speed = elapsed > 0.0 ? 0.0 : kNotComputed;
-    record.niche.origin = NicheOrigin::Inherited;
-  }
-}
 
 void ExactNiches::follow(const PairFrame& frame, const NicheArchive& archive, WorkLimit& limit) {
   followed_.clear();
@@ -80,8 +73,7 @@ void ExactNiches::admit(const PairFrame& frame, const TrackerParameters& paramet
   if (cycle.is_tracked) request_.proposals.reserve(kUsualProposals);
   request_.is_tracked = cycle.is_tracked;
   request_.cutoff = cycle.cutoff;
-  request_.least_prominence = parameters.least_prominence;
-  request_.prominence_limit = parameters.prominence_limit;
+  request_.rule = {parameters.least_prominence, parameters.prominence_limit};
   request_.largest_count = archiveCapacity(parameters.largest_niche_count);
   request_.through_material = parameters.keep_through_material;
   request_.hidden = parameters.hidden;
@@ -98,14 +90,15 @@ void ExactNiches::admit(const PairFrame& frame, const TrackerParameters& paramet
     if (nearest != nullptr) nearest_ = TrianglePair{nearest->a, nearest->b};
   }
   request_.asked_pairs.clear();
-  request_.asked_regions.clear();
+  request_.asked_basins.clear();
   for (const NicheRecord& record : records) {
     request_.asked_pairs.emplace_back(record.niche.witness.triangle_a, record.niche.witness.triangle_b);
-    request_.asked_regions.push_back(record.region);
+    request_.asked_basins.push_back(record.basin);
   }
   findLocalMinima(frame, request_, memory_, found_);
   current_ = found_.finished;
-  solution.cost.evaluations += found_.cost.feature_pairs + found_.cost.candidates + found_.cost.flooded_pairs;
+  solution.cost.evaluations +=
+      found_.cost.feature_pairs + found_.cost.candidates + found_.cost.searched_pairs;
 
   matchPrevious(archive, frame, cycle.last_a_from_b);
   attributeOffered(frame);
@@ -124,7 +117,7 @@ void ExactNiches::admit(const PairFrame& frame, const TrackerParameters& paramet
       ++evolved_;
     } else {
       const bool is_proven_alone = !found_.finished && minimum.proposal != LocalMinimum::kNoProposal;
-      niche.origin = is_proven_alone ? NicheOrigin::Proven : NicheOrigin::Swept;
+      niche.origin = is_proven_alone ? NicheOrigin::Proven : NicheOrigin::FromCones;
     }
     if (!known) {
       niche.id = archive.takeId();
@@ -144,38 +137,21 @@ void ExactNiches::admit(const PairFrame& frame, const TrackerParameters& paramet
   offered_ = nullptr;
 }
 
-// Where prominences were measured, no verdict says to which niche a minimum belongs.
 void ExactNiches::attributeOffered(const PairFrame& frame) {
   if (offered_ == nullptr || !found_.finished) return;
   if (std::find(heirs_.begin(), heirs_.end(), kNone) == heirs_.end()) return;
-  const bool measured = request_.prominence_limit > request_.least_prominence;
   request_.proposals.clear();
   for (LocalMinimum& niche : found_.niches) niche.proposal = LocalMinimum::kNoProposal;
   for (std::size_t i = 0; i < offered_->size(); ++i) {
     const WitnessPair nodes = nodeWitness(frame, (*offered_)[i]);
     const WitnessPair minimum = refine(frame, nodes);
     propose(frame, minimum);
-    if (measured) attributeByPlace(minimum, i, frame.samePlaceTolerance());
   }
-  if (!measured) {
-    attributeProposals(frame, request_, memory_, found_);
-  }
+  attributeProposals(frame, request_, memory_, found_);
 }
 
-void ExactNiches::attributeByPlace(const WitnessPair& minimum, std::size_t proposal, double tolerance) {
-  const double distance = std::sqrt(minimum.squared_distance);
-  for (LocalMinimum& niche : found_.niches) {
-    const double reach = niche.extent + tolerance;
-    if (std::abs(niche.distance - distance) <= tolerance &&
-        (niche.witness.point_a_in_a - minimum.point_a_in_a).norm() <= reach &&
-        (niche.witness.point_b_in_a - minimum.point_b_in_a).norm() <= reach) {
-      niche.proposal = proposal;
-    }
-  }
-}
-
-// A known niche goes on as the one whose region it is in now, the oldest of them first. Before, no point pair
-// of the region was nearer than the niche: the minimum cannot be nearer by more than its point of B has moved
+// A known niche goes on as the one whose basin it is in now, the oldest of them first. Before, no point pair
+// of the basin was nearer than the niche: the minimum cannot be nearer by more than its point of B has moved
 // since, or it has come from elsewhere.
 void ExactNiches::matchPrevious(const NicheArchive& archive, const PairFrame& frame,
                                 const Eigen::Isometry3d& last_a_from_b) {
@@ -247,7 +223,7 @@ double ExactNiches::work() const {
   constexpr double kCells = 12.0;
   return kGroups * static_cast<double>(found_.cost.node_pairs) +
          kFeatures * static_cast<double>(found_.cost.feature_pairs) +
-         kCells * static_cast<double>(found_.cost.flooded_pairs);
+         kCells * static_cast<double>(found_.cost.searched_pairs);
 }
 
 void ExactNiches::clear() {

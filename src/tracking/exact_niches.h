@@ -28,9 +28,7 @@ class ExactNiches {
   };
 
   /// Whether nothing can have changed since the last admit().
-  bool stands(double displacement) const { return current_ && displacement == 0.0; }
-  /// The speeds of niches that stand still.
-  void stand(double elapsed, NicheArchive& archive) const;
+  bool isUnchanged(double displacement) const { return current_ && displacement == 0.0; }
 
   /// Level `refined`: every known niche is a minimum to be admitted again; where none is known, as in a
   /// body that has swallowed the other, the nearest of all minima is followed.
@@ -60,7 +58,7 @@ class ExactNiches {
   const MinimumCandidate* nearestProposed() const;
   /// New niches of the last admit() that the search has proposed.
   std::size_t evolved() const { return evolved_; }
-  /// Of the last admit(), in evaluations of the search.
+  /// Returns what the last admit() took, in evaluations of the search.
   double work() const;
   const LocalMinimaCost& cost() const { return found_.cost; }
 
@@ -72,7 +70,6 @@ class ExactNiches {
   void matchPrevious(const NicheArchive& archive, const PairFrame& frame,
                      const Eigen::Isometry3d& last_a_from_b);
   void attributeOffered(const PairFrame& frame);
-  void attributeByPlace(const WitnessPair& minimum, std::size_t proposal, double tolerance);
   bool isSearched(const LocalMinimum& minimum) const {
     return minimum.proposal != LocalMinimum::kNoProposal && minimum.proposal < searched_;
   }

@@ -24,6 +24,13 @@ NicheRecord* NicheArchive::findSamePlace(const Eigen::Vector3d& point_a_in_a,
   return nullptr;
 }
 
+void NicheArchive::keepUnchanged(double elapsed) {
+  for (NicheRecord& record : records_) {
+    record.niche.closing_speed = elapsed > 0.0 ? 0.0 : kNotComputed;
+    record.niche.origin = NicheOrigin::Inherited;
+  }
+}
+
 void NicheArchive::settle() {
   // Records are large and mostly in order already: the order is found on small keys, and each record that is
   // out of place moves once.

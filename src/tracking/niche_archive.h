@@ -12,9 +12,9 @@ namespace concave_distance {
 struct NicheRecord {
   TrackedNiche niche;
   Eigen::Vector3d point_b_in_b = Eigen::Vector3d::Zero();
-  std::uint64_t region = 0;  ///< LocalMinimum::region
-  bool carried = false;      ///< not descended since the bodies moved: the time ran out
-  bool reported = false;     ///< users have seen its id: its end is an event
+  std::uint64_t basin = 0;  ///< LocalMinimum::basin
+  bool carried = false;     ///< not descended since the bodies moved: the time ran out
+  bool reported = false;    ///< users have seen its id: its end is an event
   /// Nearer than this, metres, its id cannot have come since the last cycle: a deeper place is another niche.
   double least_distance = 0.0;
 };
@@ -40,6 +40,10 @@ class NicheArchive {
   /// The record at the same place (both points within `tolerance`, metres), or null.
   NicheRecord* findSamePlace(const Eigen::Vector3d& point_a_in_a, const Eigen::Vector3d& point_b_in_b,
                              double tolerance);
+
+  /// Keeps the niches at a pose that has not changed: all are inherited and rest.
+  /// @param elapsed seconds since the last cycle; 0 when not known, then the speeds are not either
+  void keepUnchanged(double elapsed);
 
   /// Sorts by distance, then by id.
   void settle();

@@ -29,7 +29,7 @@ class NicheSearch {
   void prepare(const BodyMesh& a, const BodyMesh& b, const TrackerParameters& parameters);
   void forgetParameters() { prepared_ = false; }
 
-  /// What one run is for.
+  /// Says what one run is for.
   struct Run {
     const std::string& pair;  ///< names the random stream, with the seed and the cycle
     std::uint64_t cycle;
@@ -52,7 +52,7 @@ class NicheSearch {
 
   /// The population of a helper's next warm run, where so many niches are known.
   std::uint32_t helpersPopulation(std::size_t niche_count, const TrackerParameters& parameters) const;
-  /// Of these, how many inherit: not more than a quarter are random.
+  /// Returns how many of these inherit: not more than a quarter are random.
   static std::uint32_t inheritedOf(std::uint32_t population, const TrackerParameters& parameters);
   /// Sets the population of a helper's next run: twice as many couples where the last one has found a new
   /// niche, one less where it has not, between an eighth of what its share (TrackerParameters::search_share)

@@ -20,7 +20,7 @@ namespace concave_distance {
 void followNodePairs(const PairFrame& frame, NicheSearch& search, double displacement, double elapsed,
                      NicheArchive& archive, SearchCost& cost, WorkLimit& limit);
 
-/// What was found becomes a niche or belongs to one within the niche radius (greedy identification,
+/// Makes what was found a niche or counts it to one within the niche radius (greedy identification,
 /// Carretero sec. 4.6.4, over time); then records are united and the nearest improved.
 /// @param found node pairs, the nearest first
 void admitNodePairs(const PairFrame& frame, const TrackerParameters& parameters, NicheSearch& search,

@@ -125,7 +125,7 @@ void PairCycle::solveNodes(const Passed& passed, PairSolution& solution) {
 }
 
 void PairCycle::solveExact(const Passed& passed, PairSolution& solution) {
-  if (niches_.stands(passed.displacement)) return niches_.stand(passed.elapsed, archive_);
+  if (niches_.isUnchanged(passed.displacement)) return archive_.keepUnchanged(passed.elapsed);
   if (!isWarm() && is_tracked_ && parameters_.search_share > 0.0) prepare();
   frame_->openFacets();
   limit_.allowShare(kShareOfSearch);
@@ -147,10 +147,10 @@ void PairCycle::solveExact(const Passed& passed, PairSolution& solution) {
 
 // Two round solids are convex: their one niche needs no search.
 void PairCycle::solveRound(const Passed& passed, PairSolution& solution) {
-  const bool stands = passed.displacement == 0.0 && !round_.records().empty();
+  const bool is_unchanged = passed.displacement == 0.0 && !round_.records().empty();
   if (!isPairOfShapes()) solveExact(passed, solution);
-  if (stands && (isPairOfShapes() || niches_.stands(passed.displacement)))
-    return round_.stand(passed.elapsed);
+  if (is_unchanged && (isPairOfShapes() || niches_.isUnchanged(passed.displacement)))
+    return round_.keepUnchanged(passed.elapsed);
   round_.update(*frame_, archive_, {cycle_, isWarm() ? passed.displacement : 0.0, passed.elapsed},
                 solution.events);
 }
@@ -201,7 +201,7 @@ void PairCycle::report(const Passed& passed, PairSolution& solution) {
     solution.normal_in_a = solution.niches.front().normal_in_a;
     solution.closing_speed = solution.niches.front().closing_speed;
   }
-  reportLimit(solution);
+  reportCompleteness(solution);
 }
 
 void PairCycle::reportAlone(double elapsed, PairSolution& solution) {
@@ -212,7 +212,7 @@ void PairCycle::reportAlone(double elapsed, PairSolution& solution) {
     solution.normal_in_a = nearest.niche.normal_in_a;
     if (elapsed > 0.0) solution.closing_speed = (distance_before_ - proof_.certificate().distance) / elapsed;
   }
-  reportLimit(solution);
+  reportCompleteness(solution);
 }
 
 void PairCycle::listNiches(PairSolution& solution) {
@@ -279,7 +279,7 @@ void PairCycle::reportMiss(double displacement, PairSolution& solution) const {
   if (proves()) {
     solution.search_miss =
         std::any_of(solution.niches.begin(), solution.niches.end(), [](const TrackedNiche& niche) {
-          return niche.origin == NicheOrigin::Swept || niche.origin == NicheOrigin::Proven;
+          return niche.origin == NicheOrigin::FromCones || niche.origin == NicheOrigin::Proven;
         });
     return;
   }
@@ -288,7 +288,7 @@ void PairCycle::reportMiss(double displacement, PairSolution& solution) const {
 }
 
 // After the limit the answer is incomplete, even with a finished proof.
-void PairCycle::reportLimit(PairSolution& solution) const {
+void PairCycle::reportCompleteness(PairSolution& solution) const {
   const bool all = (niches_.isFinished() || isPairOfShapes()) && !limit_.hasRefused();
   solution.niches_complete = proves() && parameters_.niches_wanted && all && !solution.niches_cut;
   if (!limit_.hasRefused() || solution.status == SolveStatus::Penetrating) return;

@@ -65,7 +65,7 @@ class PairCycle {
   void reportAlone(double elapsed, PairSolution& solution);
   void reportNearest(PairSolution& solution);
   void reportMiss(double displacement, PairSolution& solution) const;
-  void reportLimit(PairSolution& solution) const;
+  void reportCompleteness(PairSolution& solution) const;
   void listNiches(PairSolution& solution);
   void clear(PairSolution& solution) const;
   bool proves() const { return provesDistance(parameters_.accuracy); }

@@ -20,8 +20,8 @@ std::string_view toString(NicheOrigin origin) {
       return "inherited";
     case NicheOrigin::Evolved:
       return "evolved";
-    case NicheOrigin::Swept:
-      return "swept";
+    case NicheOrigin::FromCones:
+      return "from_cones";
     case NicheOrigin::Proven:
       return "proven";
   }

@@ -21,7 +21,7 @@ class RegionForces {
   /// Pressures, or lumped forces.
   void push(const Interference& interference, const RelativeTwist& b_in_a, std::vector<RegionMemory>& memory,
             PairContacts& contacts);
-  /// Of the last push(), at the region of this index; nullptr for a lumped force.
+  /// Returns those of the last push() at the region of this index; nullptr for a lumped force.
   const PressureField* pressure(const InterferenceRegion& region, std::size_t index) const {
     return isPatch(region) ? &patches_[index].field() : nullptr;
   }

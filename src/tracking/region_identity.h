@@ -23,7 +23,7 @@ class RegionIdentity {
   /// For the next cycle; once the regions' forces are known.
   void keepNormals(const std::vector<ContactRegion>& regions);
 
-  /// Of the regions of the last update(), in their order.
+  /// Returns those of the regions of the last update(), in their order.
   std::vector<RegionMemory>& memory() { return memory_; }
   /// Where in the last update() a region came, went, split or took another in: all bristles that there were.
   const std::vector<UnmatchedBristles>& loose() const { return loose_; }

@@ -9,7 +9,7 @@
 
 namespace concave_distance {
 
-/// What is kept of a region from cycle to cycle.
+/// Holds what is kept of a region from cycle to cycle.
 struct RegionMemory {
   std::uint64_t id = 0;
   Eigen::Vector3d point_in_a = Eigen::Vector3d::Zero();

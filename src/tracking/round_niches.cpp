@@ -126,7 +126,7 @@ void RoundNiches::identify(const Cycle& cycle) {
     record.niche.id = archive_.takeId();
     record.niche.birth_cycle = cycle.number;
     record.niche.closing_speed = kNotComputed;
-    if (record.niche.origin == NicheOrigin::Inherited) record.niche.origin = NicheOrigin::Swept;
+    if (record.niche.origin == NicheOrigin::Inherited) record.niche.origin = NicheOrigin::FromCones;
   }
 }
 
@@ -170,13 +170,6 @@ void RoundNiches::endOthers(std::vector<NicheEvent>& events) const {
       if (was_member) into = next_[next_index_[i]].niche.id;
     }
     events.push_back({into != 0 ? NicheEvent::Kind::Merge : NicheEvent::Kind::Death, known.niche.id, into});
-  }
-}
-
-void RoundNiches::stand(double elapsed) {
-  for (NicheRecord& record : archive_.records()) {
-    record.niche.closing_speed = elapsed > 0.0 ? 0.0 : kNotComputed;
-    record.niche.origin = NicheOrigin::Inherited;
   }
 }
 

@@ -29,8 +29,7 @@ class RoundNiches {
   /// @param events receives those of the exact niches
   void update(const PairFrame& frame, const NicheArchive& of_meshes, const Cycle& cycle,
               std::vector<NicheEvent>& events);
-  /// Nothing has moved.
-  void stand(double elapsed);
+  void keepUnchanged(double elapsed) { archive_.keepUnchanged(elapsed); }
 
   std::vector<NicheRecord>& records() { return archive_.records(); }
   const std::vector<NicheRecord>& records() const { return archive_.records(); }

@@ -7,7 +7,7 @@
 
 namespace concave_distance {
 
-/// What the next population inherits from the niches of the last cycle.
+/// Collects what the next population inherits from the niches of the last cycle.
 struct Inheritance {
   double per_niche = 3.0;    ///< alpha_Gamma
   std::uint32_t limit = 30;  ///< N_popGamma_max

@@ -10,38 +10,38 @@ namespace concave_distance::expiry_queue_test {
 namespace {
 
 TEST(ExpiryQueues, TakeOutWhatTheirClockHasReachedAndNothingElse) {
-  constexpr std::uint32_t kClocks = 3;
+  constexpr std::uint32_t kCounters = 3;
   struct Inserted {
-    std::uint32_t clock;
+    std::uint32_t counter;
     std::uint64_t expiry;
     bool is_in;
   };
   RandomEngine engine(5);
   WorkLimit none;
   ExpiryQueues<std::uint64_t> queues;
-  queues.begin(kClocks);
+  queues.begin(kCounters);
   std::vector<Inserted> all;
-  std::uint64_t now[kClocks] = {};
+  std::uint64_t now[kCounters] = {};
   for (int round = 0; round < 3000; ++round) {
-    const std::uint32_t clock = uniformIndex(engine, kClocks);
+    const std::uint32_t counter = uniformIndex(engine, kCounters);
     for (int k = 0; k < 5; ++k) {
       const std::uint64_t ahead = std::uint64_t{1} << uniformIndex(engine, 32);
-      const std::uint64_t expiry = now[clock] + 1 + uniformIndex(engine, static_cast<std::uint32_t>(ahead));
-      ASSERT_TRUE(queues.insert(clock, expiry, all.size(), none));
-      all.push_back({clock, expiry, true});
+      const std::uint64_t expiry = now[counter] + 1 + uniformIndex(engine, static_cast<std::uint32_t>(ahead));
+      ASSERT_TRUE(queues.insert(counter, expiry, all.size(), none));
+      all.push_back({counter, expiry, true});
     }
-    now[clock] += uniformIndex(engine, std::uint32_t{1} << uniformIndex(engine, 24));
+    now[counter] += uniformIndex(engine, std::uint32_t{1} << uniformIndex(engine, 24));
     queues.advance(
-        clock, now[clock],
+        counter, now[counter],
         [&](std::uint64_t key) {
           EXPECT_TRUE(all[key].is_in);
-          EXPECT_EQ(all[key].clock, clock);
+          EXPECT_EQ(all[key].counter, counter);
           all[key].is_in = false;
         },
         none);
     std::size_t count = 0;
     for (std::size_t i = 0; i < all.size(); ++i) {
-      ASSERT_EQ(all[i].is_in, all[i].expiry > now[all[i].clock]) << i;
+      ASSERT_EQ(all[i].is_in, all[i].expiry > now[all[i].counter]) << i;
       count += all[i].is_in ? 1 : 0;
     }
     ASSERT_EQ(queues.size(), count);

@@ -126,7 +126,7 @@ class Comparison {
     const auto start = std::chrono::steady_clock::now();
     LocalMinimaRequest request;
     request.cutoff = cutoff;
-    tally_.met_by_flood += findLocalMinima(*pair_.a, *pair_.b, pose, request).cost.met_by_flood;
+    tally_.met_by_flood += findLocalMinima(*pair_.a, *pair_.b, pose, request).cost.met_by_search;
     tally_.complete_ms.push_back(millisecondsSince(start));
   }
 

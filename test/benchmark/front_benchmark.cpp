@@ -1,5 +1,5 @@
 // What is kept from pose to pose saves over a motion, beside FCL's one distance, in one run and one thread:
-// of the front of normal cones and of the verdicts which minima are niches.
+// of the front of normal cones and of the decider which minima are niches.
 //
 //   front_benchmark [--pairs name,name,...] [--steps 500,5000] [--instants 100] [--windows 4] [--output FILE]
 //                   [--files a.stl:b.stl,...]
@@ -12,7 +12,7 @@
 // of the front (and its 99th percentile); pairs that the front keeps, that have expired, groups compared,
 // features looked at, live pairs of features, minima and pairs of features that begin or cease to hold one
 // (`events`; means); windows' instants at which the front was begun anew; local minima that only the cones
-// from the roots (`missed`) or only the front (`more`) led to. Then the verdicts: microseconds (medians) of
+// from the roots (`missed`) or only the front (`more`) led to. Then the decider: microseconds (medians) of
 // floods alone and of what is kept (and its 99th percentile); means of niches, of ripples settled by a known
 // path, links of paths that were given other points, niches by a known border and by one that was mended,
 // floods, cells flooded and border elements measured; instants at which the niches were others than those of
@@ -44,12 +44,12 @@ using detail::NicheDecider;
 using test::nichesOf;
 
 std::vector<WitnessPair> placesOf(const BenchmarkPair& pair, const Eigen::Isometry3d& pose,
-                                  const std::vector<MinimumCandidate>& seeds) {
+                                  const std::vector<MinimumCandidate>& candidates) {
   RefinementWorkspace workspace;
   std::vector<WitnessPair> places;
-  places.reserve(seeds.size());
-  for (const MinimumCandidate& seed : seeds) {
-    places.push_back(refineWitness(*pair.a, *pair.b, pose, seed.a, seed.b, workspace).witness);
+  places.reserve(candidates.size());
+  for (const MinimumCandidate& candidate : candidates) {
+    places.push_back(refineWitness(*pair.a, *pair.b, pose, candidate.a, candidate.b, workspace).witness);
   }
   return places;
 }
@@ -82,7 +82,7 @@ struct Sample {
   int anew = 0;
   std::size_t missed = 0;
   std::size_t more = 0;
-  std::size_t seeds = 0;
+  std::size_t candidates = 0;
   std::vector<std::array<std::uint32_t, 4>> alive;  ///< features that hold minima at the last instant
   std::size_t events = 0;
   std::vector<double> floods_us;
@@ -100,11 +100,11 @@ struct Sample {
 };
 
 /// Features that begin or cease to hold a minimum: what no way to keep anything could spare.
-void countEvents(const std::vector<MinimumCandidate>& seeds, bool first, Sample& sample) {
+void countEvents(const std::vector<MinimumCandidate>& candidates, bool first, Sample& sample) {
   std::vector<std::array<std::uint32_t, 4>> alive;
-  for (const MinimumCandidate& seed : seeds) {
-    alive.push_back({seed.a.value, seed.b.value, static_cast<std::uint32_t>(seed.feature_a),
-                     static_cast<std::uint32_t>(seed.feature_b)});
+  for (const MinimumCandidate& candidate : candidates) {
+    alive.push_back({candidate.a.value, candidate.b.value, static_cast<std::uint32_t>(candidate.feature_a),
+                     static_cast<std::uint32_t>(candidate.feature_b)});
   }
   std::sort(alive.begin(), alive.end());
   if (!first) {
@@ -121,37 +121,37 @@ bool isSame(const std::vector<double>& l, const std::vector<double>& r, double t
                     [&](double x, double y) { return std::abs(x - y) <= tolerance; });
 }
 
-void judge(const detail::PairFrame& frame, std::vector<MinimumCandidate> seeds, NicheDecider& verdicts,
+void judge(const detail::PairFrame& frame, std::vector<MinimumCandidate> candidates, NicheDecider& decider,
            bool first, Sample& sample) {
   WorkLimit none;
   NicheDecider::Request request;
   auto start = std::chrono::steady_clock::now();
-  verdicts.judge(frame, seeds, request, none);
+  decider.judge(frame, candidates, request, none);
   const double judge_us = microsecondsSince(start);
   request.is_tracked = false;
   NicheDecider alone;
   start = std::chrono::steady_clock::now();
-  alone.judge(frame, seeds, request, none);
+  alone.judge(frame, candidates, request, none);
   const double floods_us = microsecondsSince(start);
-  const std::vector<double> niches = nichesOf(verdicts);
+  const std::vector<double> niches = nichesOf(decider);
   sample.other += isSame(niches, nichesOf(alone), 1e-9 * frame.size) ? 0 : 1;
   if (first) return;
   sample.judge_us.push_back(judge_us);
   sample.floods_us.push_back(floods_us);
-  const NicheDecider::Counts& counts = verdicts.counts();
+  const NicheDecider::Counts& counts = decider.counts();
   sample.niches += static_cast<double>(niches.size());
   sample.by_path += counts.by_path;
   sample.aimed += counts.aimed;
-  sample.by_border += counts.by_border;
+  sample.by_border += counts.by_boundary;
   sample.mended += counts.mended;
-  sample.floods += counts.floods;
-  sample.cells += counts.flooded_cells;
+  sample.floods += counts.searches;
+  sample.cells += counts.visited_pairs;
   sample.measured += counts.measured;
-  sample.bytes = std::max(sample.bytes, verdicts.memoryBytes());
+  sample.bytes = std::max(sample.bytes, decider.memoryBytes());
 }
 
 void observe(const BenchmarkPair& pair, const Eigen::Isometry3d& pose, MinimaTracker& front,
-             NicheDecider& verdicts, bool first, Sample& sample) {
+             NicheDecider& decider, bool first, Sample& sample) {
   const double cutoff = std::numeric_limits<double>::infinity();
   WorkLimit none;
   auto start = std::chrono::steady_clock::now();
@@ -171,13 +171,13 @@ void observe(const BenchmarkPair& pair, const Eigen::Isometry3d& pose, MinimaTra
   const auto of_front = placesOf(pair, pose, from_front);
   sample.missed += countOnly(of_roots, of_front, 1e-9 * frame.size);
   sample.more += countOnly(of_front, of_roots, 1e-9 * frame.size);
-  judge(frame, from_front, verdicts, first, sample);
+  judge(frame, from_front, decider, first, sample);
   countEvents(from_front, first, sample);
   if (first) return;
   sample.fcl_us.push_back(fcl_us);
   sample.roots_us.push_back(roots_us);
   sample.front_us.push_back(front_us);
-  sample.seeds += of_roots.size();
+  sample.candidates += of_roots.size();
   const MinimaTracker::Counts& counts = front.counts();
   sample.kept += counts.kept;
   sample.live += counts.live;
@@ -225,17 +225,17 @@ int benchmarkMain(int argc, char** argv) {
       Sample sample;
       for (int window = 0; window < windows; ++window) {
         MinimaTracker front;
-        NicheDecider verdicts;
+        NicheDecider decider;
         const int begin = (count - instants) * (2 * window + 1) / (2 * windows);
         for (int i = 0; i < instants; ++i) {
-          observe(pair, pair.motion(static_cast<double>(begin + i) / count), front, verdicts, i == 0, sample);
+          observe(pair, pair.motion(static_cast<double>(begin + i) / count), front, decider, i == 0, sample);
         }
       }
       const double n = static_cast<double>(sample.front_us.size());
       table.add(pair.name, count, median(sample.fcl_us), median(sample.roots_us), median(sample.front_us),
                 percentile(sample.front_us, 0.99), median(sample.front_us) / median(sample.fcl_us),
                 sample.kept / n, sample.expired / n, sample.groups / n, sample.features / n, sample.live / n,
-                static_cast<double>(sample.seeds) / n, static_cast<double>(sample.events) / n, sample.anew,
+                static_cast<double>(sample.candidates) / n, static_cast<double>(sample.events) / n, sample.anew,
                 sample.missed, sample.more, median(sample.floods_us), median(sample.judge_us),
                 percentile(sample.judge_us, 0.99), sample.niches / n, sample.by_path / n, sample.aimed / n,
                 sample.by_border / n, sample.mended / n, sample.floods / n, sample.cells / n,

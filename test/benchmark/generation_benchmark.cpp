@@ -79,7 +79,7 @@ class Row {
     ++cycles_;
     for (const TrackedNiche& niche : with.niches) {
       evolved_ += niche.origin == NicheOrigin::Evolved ? 1 : 0;
-      missed_ += niche.origin == NicheOrigin::Swept || niche.origin == NicheOrigin::Proven ? 1 : 0;
+      missed_ += niche.origin == NicheOrigin::FromCones || niche.origin == NicheOrigin::Proven ? 1 : 0;
     }
     if (!moved) return;
     ++moved_;

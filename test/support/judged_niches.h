@@ -8,11 +8,11 @@
 namespace concave_distance::test {
 
 /// Distances of what was judged a niche, ascending, metres.
-inline std::vector<double> nichesOf(const concave_distance::detail::NicheDecider& verdicts) {
+inline std::vector<double> nichesOf(const concave_distance::detail::NicheDecider& decider) {
   using concave_distance::detail::NicheDecider;
   std::vector<double> distances;
-  for (const NicheDecider::Judged& judged : verdicts.judged()) {
-    if (judged.verdict == NicheDecider::Verdict::Niche) distances.push_back(judged.seed.distance);
+  for (const NicheDecider::Judged& judged : decider.judged()) {
+    if (judged.decision == NicheDecider::Decision::Niche) distances.push_back(judged.candidate.distance);
   }
   std::sort(distances.begin(), distances.end());
   return distances;

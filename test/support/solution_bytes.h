@@ -13,7 +13,7 @@ inline void appendWitness(const WitnessPair& witness, Bytes& bytes) {
 inline void appendNiche(const TrackedNiche& niche, Bytes& bytes) {
   appendAll(bytes, niche.id, niche.distance, niche.point_a_in_a, niche.point_b_in_a, niche.normal_in_a,
             niche.closing_speed, niche.kind, niche.extent, niche.outward, niche.visible, niche.prominence,
-            niche.proven_local_minimum, niche.birth_cycle);
+            niche.proven_local_minimum, niche.birth_cycle, niche.origin);
   appendWitness(niche.witness, bytes);
   appendAll(bytes, niche.node_pair.node_a, niche.node_pair.node_b, niche.node_pair.squared_distance);
 }
@@ -31,9 +31,11 @@ inline void appendSolution(const PairSolution& solution, Bytes& bytes) {
     appendAll(bytes, event.kind, event.id, event.into_id);
   }
   appendAll(bytes, solution.niches_cut, solution.niches_beyond_cutoff, solution.cycle, solution.warm,
-            solution.search_miss, solution.seed, solution.cost.evaluations, solution.cost.descents,
-            solution.cost.descents_joined, solution.cost.descent_steps, solution.proof_cost.box_bounds,
-            solution.proof_cost.leaf_pairs, solution.proof_cost.triangle_pairs);
+            solution.niches_complete, solution.a_from_b.matrix(), solution.cost.generations,
+            solution.cost.inherited, solution.cost.children, solution.search_miss, solution.seed,
+            solution.cost.evaluations, solution.cost.descents, solution.cost.descents_joined,
+            solution.cost.descent_steps, solution.proof_cost.box_bounds, solution.proof_cost.leaf_pairs,
+            solution.proof_cost.triangle_pairs);
 }
 
 }  // namespace concave_distance::test

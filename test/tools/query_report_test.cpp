@@ -50,7 +50,7 @@ TEST(NicheWriter, WritesNumbersThatReadBackAsTheSameDouble) {
   niche.extent = 0.75;
   niche.outward = Outwardness::Unknown;
   niche.visible = false;
-  niche.origin = NicheOrigin::Swept;
+  niche.origin = NicheOrigin::FromCones;
   NicheWriter writer(folder.path("niches.csv"));
   writer.write(3, 12345678901234567890ULL, niche, true);
   niche.prominence = 0.5;
@@ -58,14 +58,15 @@ TEST(NicheWriter, WritesNumbersThatReadBackAsTheSameDouble) {
   writer.write(5, 2, niche, false);
   writer.finish();
   const std::string text = contentOf(folder.path("niches.csv"));
-  EXPECT_EQ(text,
-            "index,niche,distance,ax,ay,az,bx,by,bz,kind,extent,outward,visible,prominence,origin\n"
-            "3,12345678901234567890,0.30000000000000004,0.33333333333333331,1e-300,"
-            "-1e+22,-0,4.9406564584124654e-324,1.7976931348623157e+308,segment,0.75,unknown,0,,swept\n"
-            "4,1,0.30000000000000004,0.33333333333333331,1e-300,"
-            "-1e+22,-0,4.9406564584124654e-324,1.7976931348623157e+308,segment,0.75,unknown,0,0.5,swept\n"
-            "5,2,0.30000000000000004,0.33333333333333331,1e-300,"
-            "-1e+22,-0,4.9406564584124654e-324,1.7976931348623157e+308,,,,,,\n");
+  EXPECT_EQ(
+      text,
+      "index,niche,distance,ax,ay,az,bx,by,bz,kind,extent,outward,visible,prominence,origin\n"
+      "3,12345678901234567890,0.30000000000000004,0.33333333333333331,1e-300,"
+      "-1e+22,-0,4.9406564584124654e-324,1.7976931348623157e+308,segment,0.75,unknown,0,,from_cones\n"
+      "4,1,0.30000000000000004,0.33333333333333331,1e-300,"
+      "-1e+22,-0,4.9406564584124654e-324,1.7976931348623157e+308,segment,0.75,unknown,0,0.5,from_cones\n"
+      "5,2,0.30000000000000004,0.33333333333333331,1e-300,"
+      "-1e+22,-0,4.9406564584124654e-324,1.7976931348623157e+308,,,,,,\n");
 }
 
 TEST(AnswerWriter, SaysWhereItCannotWrite) {

@@ -163,7 +163,7 @@ int missedBy(const TrackerParameters& parameters) {
     tracker.update(swaying(0.3 * k), 0.02 * k, solution);
     int now = 0;
     for (const TrackedNiche& niche : solution.niches) {
-      now += niche.origin == NicheOrigin::Swept || niche.origin == NicheOrigin::Proven ? 1 : 0;
+      now += niche.origin == NicheOrigin::FromCones || niche.origin == NicheOrigin::Proven ? 1 : 0;
     }
     EXPECT_EQ(solution.search_miss, k > 0 && now > 0);
     missed += k > 0 ? now : 0;

@@ -70,7 +70,6 @@ Eigen::Vector3d frictionForce(const FrictionSettings& settings, const ContactMat
                               const Eigen::Vector3d& sliding, const Eigen::Vector3d& displacement,
                               BristleState& state);
 
-/// Says how the surfaces slid in the last step.
 struct RecentSliding {
   Eigen::Vector3d displacement = Eigen::Vector3d::Zero();  ///< in the tangent plane, A's frame, metres
   double step = 0.0;                                       ///< seconds

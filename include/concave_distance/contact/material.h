@@ -21,7 +21,6 @@ struct Material {
   void validate(const std::string& where) const;
 };
 
-/// Two materials in contact.
 struct ContactMaterial {
   /// E* = 1 / ((1 - nu1^2) / E1 + (1 - nu2^2) / E2), pascal: the fraction of, written
   /// E1 E2 / (E1 (1 - nu2^2) + E2 (1 - nu1^2)) there.

@@ -18,8 +18,8 @@ struct TrianglePair {
 
 /// A pair of witness points on the original surfaces. Both points in body A's frame.
 struct WitnessPair {
-  /// Of the two points before they were moved from local coordinates to A's origin: what the points
-  /// themselves give, but for the rounding of their coordinates.
+  /// The distance is that of the two points before they were moved from local coordinates to A's origin: what
+  /// the points themselves give, but for the rounding of their coordinates.
   double squared_distance = 0.0;
   Eigen::Vector3d point_a_in_a = Eigen::Vector3d::Zero();
   Eigen::Vector3d point_b_in_a = Eigen::Vector3d::Zero();

@@ -132,7 +132,6 @@ class InterferenceWorkspace {
   std::unique_ptr<Implementation> implementation_;
 };
 
-/// The normal that a region has had.
 struct KnownNormal {
   Eigen::Vector3d centroid_in_a;
   double reach;  ///< metres: regions farther from it are others

@@ -25,7 +25,6 @@ struct CycleCounts {
   EffectCounts effects;
   double helper_cpu_seconds = 0.0;  ///< processor time of the threads that helped the caller's
 
-  /// Counts a pair that was solved.
   void addSolve(const PairSolution& solution);
   /// Adds another cycle's counts, but for those of pairs as they stand.
   void add(const CycleCounts& cycle);

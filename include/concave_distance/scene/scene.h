@@ -116,7 +116,6 @@ struct Scene {
   std::shared_ptr<BodyPool> pool;                ///< the same
   SceneLimits limits;                            ///< for edits, too
 
-  /// Index of the body with this name.
   std::optional<std::size_t> findBody(const std::string& name) const;
   /// Index of the pair of these bodies, in either order.
   std::optional<std::size_t> findPair(const std::string& name_a, const std::string& name_b) const;

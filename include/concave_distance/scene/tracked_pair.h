@@ -33,7 +33,6 @@ struct PairInput {
   std::optional<RelativeTwist> b_in_a;
 };
 
-/// Says what a cycle found out about a pair.
 enum class PairState : std::uint8_t {
   NotWatched,    ///< nothing was computed
   NotLocated,    ///< its poses are not known

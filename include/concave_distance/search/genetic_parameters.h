@@ -25,7 +25,7 @@ enum class NichingMethod : std::uint8_t {
   DeterministicCrowdingWithSelection,
   SimpleCrowding
 };
-/// What becomes of a new individual (Carretero, sec. 3.1.5, 5.2.1.a).
+/// Says what becomes of a new individual (Carretero, sec. 3.1.5, 5.2.1.a).
 enum class LocalOptimization : std::uint8_t {
   None,        ///< -nl: it stays where it is
   Lamarckian,  ///< -wl: it moves to the local minimum that it descends to

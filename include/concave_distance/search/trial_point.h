@@ -28,7 +28,8 @@ struct TrialPoint {
 /// Counts what a search has cost so far, and what ran. A new counter is a field, a line in the sum and, for
 /// the diagnostics, a row of counters().
 struct SearchCost {
-  std::uint64_t evaluations = 0;      ///< node pair distances computed
+  std::uint64_t evaluations =
+      0;  ///< distances computed: node pairs and, from level `refined` on, pairs of features and facets
   std::uint64_t descents = 0;         ///< local descents started
   std::uint64_t descents_joined = 0;  ///< of these, ended early in a basin already descended this cycle
   std::uint64_t descent_steps = 0;

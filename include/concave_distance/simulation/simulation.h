@@ -19,7 +19,6 @@
 
 namespace concave_distance {
 
-/// A body as it is now.
 struct SimulatedBody {
   std::string name;
   BodyMotion motion = BodyMotion::Fixed;
@@ -35,7 +34,6 @@ struct SimulatedBody {
   std::uint64_t held_back_by_drive = 0;  ///< steps so far that the drive's accuracy has made shorter
 };
 
-/// A pair as it is now.
 struct SimulatedPair {
   std::string name;
   std::size_t body_a = 0;  ///< index into Simulation::bodies

@@ -18,8 +18,8 @@ namespace concave_distance {
 
 /// A region of overlap over time, with the force that acts there. What was not asked for is NaN.
 struct ContactRegion {
-  /// Of the niche that became it, and of the niche that it becomes again when the bodies part; 0 where the
-  /// pair follows no niches.
+  /// The id is that of the niche that became it, and of the niche that it becomes again when the bodies part;
+  /// 0 where the pair follows no niches.
   std::uint64_t id = 0;
   InterferenceRegion overlap;
   Eigen::Vector3d point_in_a = Eigen::Vector3d::Constant(kNotComputed);    ///< where the force acts
@@ -36,14 +36,15 @@ struct ContactRegion {
   Wrench on_b_in_a{Eigen::Vector3d::Constant(kNotComputed), Eigen::Vector3d::Constant(kNotComputed)};
 };
 
-/// What the effects of a pair come to at one time.
+/// Holds what the effects of a pair come to at one time.
 struct PairContacts {
   bool possible = false;               ///< the certificate allows contact: the regions were looked for
   bool cut = false;                    ///< not found within the time and memory allowed
   std::vector<ContactRegion> regions;  ///< deepest first; capacity is kept
   bool a_inside_b = false;             ///< swallowed without a crossing of the surfaces
   bool b_inside_a = false;
-  /// Of all regions, about A's origin, on B; A gets the opposite. NaN where no force was asked for.
+  /// The wrench is that of all regions, about A's origin, on B; A gets the opposite. NaN where no force was
+  /// asked for.
   Wrench on_b_in_a{Eigen::Vector3d::Constant(kNotComputed), Eigen::Vector3d::Constant(kNotComputed)};
   ContactLinearisation linearisation;  ///< of on_b_in_a
 };

@@ -17,7 +17,7 @@
 
 namespace concave_distance {
 
-/// How exact an answer is (README.md, "Accuracy").
+/// How exact an answer is (README.md, "What you get").
 enum class AccuracyLevel : std::uint8_t { Nodes, Refined, Certified };
 /// Whether the level proves the distance, and the list of niches, in every cycle.
 constexpr bool provesDistance(AccuracyLevel level) {
@@ -25,7 +25,7 @@ constexpr bool provesDistance(AccuracyLevel level) {
 }
 std::string_view toString(AccuracyLevel level);
 
-/// What became of a solve; a solve never throws.
+/// Says what became of a solve; a solve never throws.
 enum class SolveStatus : std::uint8_t {
   Ok,               ///< at level `certified`: proven
   Penetrating,      ///< the surfaces meet, or one body has swallowed a part of the other
@@ -36,11 +36,11 @@ enum class SolveStatus : std::uint8_t {
 };
 std::string_view toString(SolveStatus status);
 
-/// What has found a niche in a cycle.
+/// Says what has found a niche in a cycle.
 enum class NicheOrigin : std::uint8_t {
   Inherited,  ///< known from the last cycle
   Evolved,    ///< new, and proposed by the genetic search
-  Swept,      ///< new, found among the normal cones
+  FromCones,  ///< new, found among the normal cones
   Proven      ///< new, found by the proof of the distance alone
 };
 inline constexpr std::size_t kNicheOriginCount = 4;
@@ -87,7 +87,7 @@ struct PairSolution {
   double lower_bound = kNotComputed;
   Eigen::Vector3d point_a_in_a = Eigen::Vector3d::Constant(kNotComputed);
   Eigen::Vector3d point_b_in_a = Eigen::Vector3d::Constant(kNotComputed);
-  /// Of the nearest place, as of a niche; NaN where no niche is the nearest.
+  /// The normal is that of the nearest place, as of a niche; NaN where no niche is the nearest.
   Eigen::Vector3d normal_in_a = Eigen::Vector3d::Constant(kNotComputed);
   double closing_speed = kNotComputed;  ///< m/s
   /// Distance of the surfaces where a closed body has swallowed the other (status penetrating).
@@ -104,8 +104,8 @@ struct PairSolution {
   std::uint64_t cycle = 0;
   bool warm = false;
   /// The genetic search has missed a niche, seen in this warm cycle. At `certified`: a niche listed is new
-  /// and the search has not proposed it (NicheOrigin::Swept or Proven). At `nodes` and `refined`, where only
-  /// later cycles show it: the distance is less than the last cycle's nearest niche can have come to.
+  /// and the search has not proposed it (NicheOrigin::FromCones or Proven). At `nodes` and `refined`, where
+  /// only later cycles show it: the distance is less than the last cycle's nearest niche can have come to.
   bool search_miss = false;
   std::uint64_t seed = 0;
   SearchCost cost;             ///< of the genetic search, and how much of it ran

@@ -15,8 +15,8 @@ namespace concave_distance {
 /// How one pair is solved and followed. Lengths in metres.
 struct TrackerParameters {
   AccuracyLevel accuracy = AccuracyLevel::Certified;
-  /// Of level `certified`: how far below the distance the proven bound may stay; the larger of the two
-  /// counts.
+  /// At level `certified` the proven bound may stay this far below the distance; the larger of the two
+  /// tolerances counts.
   double absolute_tolerance = 0.0;
   double relative_tolerance = 0.0;  ///< of the distance
   /// Seconds from the start of a cycle after which it ends with its results so far. Two fifths are for the
@@ -28,19 +28,19 @@ struct TrackerParameters {
   std::size_t memory_limit = std::size_t{512} << 20U;
   /// When set, a solve ends as if its time had run out; nullptr: none.
   const std::atomic<bool>* stop = nullptr;
-  /// Of a first cycle, a service call, after a reset. Level `certified`, which finds every niche by other
-  /// means, takes the warm ones then, too; at a pose alone (PairTracker::solve(), solveOnce()) it searches
-  /// only where it has a time budget.
+  /// These are for a first cycle, a service call and after a reset. Level `certified`, which finds every
+  /// niche by other means, takes the warm ones then, too; at a pose alone (PairTracker::solve(), solveOnce())
+  /// it searches only where it has a time budget.
   GeneticParameters cold;
   GeneticParameters warm;            ///< every further cycle; usually a small population and few generations
   double inherited_per_niche = 3.0;  ///< alpha_Gamma (Carretero, eq. (6.8))
   std::uint32_t inherited_limit = 30;  ///< N_popGamma_max (6.8)
   std::uint32_t random_starts = 8;     ///< random individuals a warm cycle descends besides
-  /// Of level `certified`, where the search is not the only one to find niches: the share of the other
-  /// stages' work that it may grow to while it finds new niches. At least two individuals breed in every
+  /// At level `certified`, where the search is not the only one to find niches, it may grow to this share of
+  /// the other stages' work while it finds new niches. At least two individuals breed in every
   /// cycle that moves; 0: no search.
   double search_share = 0.05;
-  double least_prominence = 1e-2;  ///< niches with less are merged into their deeper neighbour
+  double least_prominence = 1e-2;  ///< a ratio (doc/algorithm.md); niches with less join a deeper one
   /// Prominences are measured up to this, at a price that grows with it; up to
   /// `least_prominence` none is: it is only decided who has the least.
   double prominence_limit = 0.0;

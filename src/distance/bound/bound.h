@@ -7,11 +7,12 @@
 // that reach it. Without a limit of time or a tolerance both ends agree up to rounding.
 //
 // - certificate has the entry, certifyDistance(), and counts what it cost.
-// - branch_and_bound opens pairs of boxes until none can hold a nearer pair of triangles.
+// - branch_and_bound opens pairs of boxes until none can hold a nearer pair of triangles (open_pairs).
 // - box_pair_bounds bounds how near two boxes may come, by separating axes, with their error.
 // - bound_cache keeps the pairs of boxes where the last search ended.
 // - leaf_pair asks the last directions that parted two triangles first.
 // - round_certificate does the same for an exact round solid and a mesh, or two round solids.
 // - solid_overlap tells whether one closed body has swallowed a part of the other.
 //
-// It keeps only where to begin: every pose is proven anew.
+// It keeps excluded pairs of boxes with bounds that hold until the bodies have come nearer by them; what has
+// run out is proven anew.

@@ -6,10 +6,10 @@
 namespace concave_distance {
 namespace {
 
-// A front that has grown by this factor since it was begun is begun anew: it looks at needlessly small boxes.
+// A cache that has grown by this factor since it was begun is begun anew: it looks at needlessly small boxes.
 constexpr double kLargestGrowth = 2.0;
 constexpr double kSmallGrowth = 8.0;  // of the smallest, entries
-// When this share of what a fresh proof opens is opened again, the front was not worth keeping.
+// When this share of what a fresh proof opens is opened again, the cache was not worth keeping.
 constexpr double kWorthless = 0.6;
 constexpr std::uint32_t kLongestWait = 32;
 
@@ -24,9 +24,9 @@ void BoundCache::advance(const BoundingVolumeHierarchy& b, const Eigen::Matrix3d
   if (turn.isZero(0.0) && shift.isZero(0.0)) return;
   // The largest stretch of a difference of two rotations is its Frobenius norm over the square root of 2.
   const double stretch = turn.norm() * 0.70710678118654757;
-  for (std::size_t region = 0; region < odometers_.size(); ++region) {
-    const OrientedBox box = b.box(b.subtrees()[region]);
-    odometers_[region] += (turn * box.centre + shift).norm() + stretch * box.half.norm() + rounding;
+  for (std::size_t subtree = 0; subtree < moved_distances_.size(); ++subtree) {
+    const OrientedBox box = b.box(b.subtrees()[subtree]);
+    moved_distances_[subtree] += (turn * box.centre + shift).norm() + stretch * box.half.norm() + rounding;
   }
 }
 
@@ -35,7 +35,7 @@ void BoundCache::begin(const BoundingVolumeHierarchy& b, const Eigen::Matrix3d& 
   quads_.clear();
   directions_.clear();
   leaf_pairs_.clear();
-  odometers_.assign(b.subtrees().size(), 0.0);
+  moved_distances_.assign(b.subtrees().size(), 0.0);
   rotation_ = rotation;
   offset_ = offset;
 }

@@ -15,18 +15,18 @@ class BranchAndBound;
 
 /// Where the last proof of one pair's distance ended: every pair of boxes, or of leaves, that was shown to be
 /// far enough apart, with its bound. Moving by x brings no pair closer by more than x, so that a bound is
-/// good until the bodies have come as far: kept as the bound plus how far the region of B has gone altogether
-/// (its odometer), it is compared with where the odometer stands now. What has run out is opened again.
-/// Belongs to one pair of bodies; the caller clears it when the bodies change.
+/// good until the bodies have come as far: kept as the bound plus how far the subtree of B has moved
+/// altogether (its moved distance), it is compared with that moved distance now. What has run out is opened
+/// again. Belongs to one pair of bodies; the caller clears it when the bodies change.
 class BoundCache {
  public:
   /// The children of one box, all compared with one other box.
   struct Quad {
-    double
-        bound[BoundingVolumeHierarchy::kWidth];  ///< metres plus odometer; infinite: opened further, or none
+    double bound[BoundingVolumeHierarchy::kWidth];  ///< metres plus moved distance; infinite: opened further,
+                                                    ///< or none
     BoundingVolumeHierarchy::Slot kept;
     std::uint32_t opened;  ///< node of the other body
-    std::uint8_t region;   ///< of B
+    std::uint8_t subtree;  ///< of B
     bool opens_b;
     bool by_boxes;  ///< all were parted by their boxes, along directions of their own
   };
@@ -34,7 +34,7 @@ class BoundCache {
     double bound;
     BoundingVolumeHierarchy::Slot a;
     BoundingVolumeHierarchy::Slot b;
-    std::uint8_t region;
+    std::uint8_t subtree;
     Eigen::Vector3d direction;  ///< from A to B, A's axes
   };
 
@@ -53,19 +53,19 @@ class BoundCache {
   bool isAt(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& offset) const {
     return rotation == rotation_ && offset == offset_;
   }
-  /// Brings the odometers to a pose; rotation and offset as in the proof's local frames. `rounding` (metres)
-  /// is what the displacement itself may be off.
+  /// Adds the motion to a pose to the moved distances; rotation and offset as in the proof's local frames.
+  /// `rounding` (metres) is what the displacement itself may be off.
   void advance(const BoundingVolumeHierarchy& b, const Eigen::Matrix3d& rotation,
                const Eigen::Vector3d& offset, double rounding);
   void begin(const BoundingVolumeHierarchy& b, const Eigen::Matrix3d& rotation,
              const Eigen::Vector3d& offset);
-  /// After a proof: whether the next one is to use the front, begin it anew or do without for a while.
+  /// After a proof: whether the next one is to use the cache, begin it anew or do without for a while.
   void decide(bool began_anew, std::uint32_t opened);
 
   std::vector<Quad> quads_;
   std::vector<detail::LaneDirections> directions_;  ///< along which each quad was parted
   std::vector<LeafPair> leaf_pairs_;
-  std::vector<double> odometers_;  ///< metres, of each region of B
+  std::vector<double> moved_distances_;  ///< metres, of each subtree of B
   Eigen::Matrix3d rotation_ = Eigen::Matrix3d::Identity();
   Eigen::Vector3d offset_ = Eigen::Vector3d::Zero();
   bool valid_ = false;

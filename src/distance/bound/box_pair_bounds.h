@@ -14,7 +14,7 @@ inline Lanes lanes(const double* values) {
   return Eigen::Map<const Lanes, Eigen::Aligned16>(values);
 }
 
-/// Of each lane's point, [coordinate][lane].
+/// Projects each lane's point, [coordinate][lane], on a direction.
 inline Lanes along(const Eigen::Vector3d& direction,
                    const double (&point)[3][BoundingVolumeHierarchy::kWidth]) {
   return direction.x() * lanes(point[0]) + direction.y() * lanes(point[1]) + direction.z() * lanes(point[2]);
@@ -69,7 +69,7 @@ struct BoundScale {
         slack(relative_slack * metres) {}
 
   double scale;          ///< metres, no smaller than any distance between points of the two bodies
-  double inverse_scale;  ///< of it
+  double inverse_scale;  ///< 1 / scale
   double squared_scale;
   double slack;  ///< metres: rounding of a bound in double precision
   /// The same in single precision, relative to `scale`: 64 of its machine epsilons. A box brought to the

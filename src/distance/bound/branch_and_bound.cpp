@@ -18,14 +18,14 @@ constexpr double kBoundError = 0x1.0p-48;  // 16 machine epsilons
 /// In a dive, of the squared distance of two boxes' centres beside their squared bound.
 constexpr double kWeightOfCentres = 0.1;
 
-/// Before a front of so many entries is reopened at another pose, it is tried without.
+/// Before a cache of so many entries is reopened at another pose, it is tried without.
 constexpr std::size_t kWorthTrying = 128;
 
 }  // namespace
 
 BranchAndBound::BranchAndBound(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
                                const CertificateRequest& request, CertificateWorkspace& workspace,
-                               BoundCache* front)
+                               BoundCache* cache)
     : a_(a.hierarchy()),
       b_(b.hierarchy()),
       frame_(a, b, a_from_b, a.hierarchy().origin(), b.hierarchy().origin()),
@@ -35,7 +35,7 @@ BranchAndBound::BranchAndBound(const BodyMesh& a, const BodyMesh& b, const Eigen
       timed_(limit_.isTimed()),
       open_(workspace.open),
       refinement_(workspace.refinement),
-      front_(front),
+      cache_(cache),
       support_a_(a.hierarchy(), workspace.support_a),
       support_b_(b.hierarchy(), workspace.support_b),
       scale_(a.hierarchy().reach() + b.hierarchy().reach() + frame_.offset.norm(), kBoundError),
@@ -45,45 +45,41 @@ BranchAndBound::BranchAndBound(const BodyMesh& a, const BodyMesh& b, const Eigen
       single_b_from_a_(turned_, turned_ * frame_.offset * -scale_.inverse_scale),
       error_(kProofError * proofScale(a, b, a_from_b)) {}
 
-DistanceCertificate BranchAndBound::run(const TrianglePair* seeds, std::size_t seed_count) {
-  seed(seeds, seed_count);
-  const double seeded = distance_;
-  if (partsAtRoots()) return conclude();  // a front can wait
-  if (front_ != nullptr && !front_->valid() && front_->wait_ > 0) {
-    --front_->wait_;
-    front_ = nullptr;
+DistanceCertificate BranchAndBound::run(const TrianglePair* starts, std::size_t start_count) {
+  for (std::size_t i = 0; i < start_count; ++i) descend(starts[i]);
+  if (start_count == 0) dive();
+  const double start_distance = distance_;
+  if (partsAtRoots()) return conclude();  // a cache can wait
+  if (cache_ != nullptr && !cache_->valid() && cache_->wait_ > 0) {
+    --cache_->wait_;
+    cache_ = nullptr;
   }
-  if (front_ != nullptr && front_->valid() && isProvenAtOnce()) {
-    result_.improved = distance_ < seeded - error_;
+  if (cache_ != nullptr && cache_->valid() && isProvenAtOnce()) {
+    result_.improved = distance_ < start_distance - error_;
     return conclude();
   }
-  const bool anew = front_ == nullptr || !front_->valid();
+  const bool anew = cache_ == nullptr || !cache_->valid();
   if (anew) {
     beginAtRoots();
   } else {
-    front_->clear();  // until decide(): an exception must not leave it half opened
-    reopenFront();
+    cache_->clear();  // until decide(): an exception must not leave it half opened
+    reopenCache();
   }
   search();
-  if (front_ != nullptr) {
+  if (cache_ != nullptr) {
     if (cut_ || squared_distance_ == 0.0) {
-      front_->clear();  // not everything is in it
+      cache_->clear();  // not everything is in it
     } else {
-      front_->decide(anew, result_.cost.box_bounds / static_cast<std::uint32_t>(Hierarchy::kWidth) +
+      cache_->decide(anew, result_.cost.box_bounds / static_cast<std::uint32_t>(Hierarchy::kWidth) +
                                result_.cost.leaf_pairs + (asked_again_ + 2 * leaves_asked_again_) / 3);
     }
   }
-  result_.improved = distance_ < seeded - error_;
+  result_.improved = distance_ < start_distance - error_;
   return conclude();
 }
 
-void BranchAndBound::seed(const TrianglePair* seeds, std::size_t seed_count) {
-  for (std::size_t i = 0; i < seed_count; ++i) descend(seeds[i]);
-  if (seed_count == 0) dive();
-}
-
-void BranchAndBound::descend(const TrianglePair& seed) {
-  const WitnessRefinement refined = frame_.refine(seed.a, seed.b, refinement_);
+void BranchAndBound::descend(const TrianglePair& start) {
+  const WitnessRefinement refined = frame_.refine(start.a, start.b, refinement_);
   result_.cost.triangle_pairs += refined.iterations;
   // Once more in the frame that everything else here is measured in.
   const TriangleIndex a = refined.witness.triangle_a;
@@ -164,7 +160,7 @@ TrianglePairDistance BranchAndBound::measure(const TrianglePoints& a, const Tria
 }
 
 void BranchAndBound::beginAtRoots() {
-  if (front_ != nullptr) front_->begin(b_, frame_.rotation, frame_.offset);
+  if (cache_ != nullptr) cache_->begin(b_, frame_.rotation, frame_.offset);
   if (open_.empty()) open_.resize(Hierarchy::kWidth);
   // If the proof may be cut short, this bound is certain at once.
   const double certain = timed_ ? std::max(0.0, root_separation_) : 0.0;
@@ -181,13 +177,13 @@ bool BranchAndBound::partsAtRoots() {
   return true;
 }
 
-// Whether the boxes below the roots prove it, so that what a large front holds need not be asked.
+// Whether the boxes below the roots prove it, so that what a large cache holds need not be asked.
 bool BranchAndBound::isProvenAtOnce() {
-  if (front_->size() < kWorthTrying || front_->isAt(frame_.rotation, frame_.offset)) return false;
-  BoundCache* const front = std::exchange(front_, nullptr);
+  if (cache_->size() < kWorthTrying || cache_->isAt(frame_.rotation, frame_.offset)) return false;
+  BoundCache* const cache = std::exchange(cache_, nullptr);
   beginAtRoots();
   expand(take());
-  front_ = front;
+  cache_ = cache;
   return std::exchange(open_count_, 0) == 0;
 }
 
@@ -202,9 +198,9 @@ void BranchAndBound::search() {
 }
 
 // Without room, it is not kept for the next proof.
-void BranchAndBound::dropFront() {
-  front_->clear();
-  front_ = nullptr;
+void BranchAndBound::dropCache() {
+  cache_->clear();
+  cache_ = nullptr;
 }
 
 // With a budget the least bound comes first, so that the proven bound rises as fast as it can; without one a

@@ -16,20 +16,19 @@ inline bool isFarther(const CertificateWorkspace::OpenPair& l, const Certificate
 }
 
 /// One proof: descends into every pair of boxes that could hide a pair of points closer than the best one
-/// known, and keeps, where a front is given, what it has excluded with its bound.
+/// known, and keeps, where a cache is given, what it has excluded with its bound.
 class BranchAndBound {
  public:
   BranchAndBound(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
-                 const CertificateRequest& request, CertificateWorkspace& workspace, BoundCache* front);
-  DistanceCertificate run(const TrianglePair* seeds, std::size_t seed_count);
+                 const CertificateRequest& request, CertificateWorkspace& workspace, BoundCache* cache);
+  DistanceCertificate run(const TrianglePair* starts, std::size_t start_count);
 
  private:
   using Hierarchy = BoundingVolumeHierarchy;
   using Slot = Hierarchy::Slot;
   using OpenPair = CertificateWorkspace::OpenPair;
 
-  void seed(const TrianglePair* seeds, std::size_t seed_count);
-  void descend(const TrianglePair& seed);
+  void descend(const TrianglePair& start);
   void dive();
   TrianglePair nearestTriangles(const Hierarchy::Leaf& leaf_a, const Hierarchy::Leaf& leaf_b) const;
   TrianglePairDistance measure(const TrianglePoints& a, const TrianglePoints& b, TriangleIndex triangle_a,
@@ -38,7 +37,7 @@ class BranchAndBound {
   void beginAtRoots();
   bool partsAtRoots();
   bool isProvenAtOnce();
-  void reopenFront();
+  void reopenCache();
   void search();
   OpenPair take();
   void add(Slot kept, std::uint32_t opened, std::uint32_t lane, bool opens_b, double squared_bound);
@@ -51,7 +50,7 @@ class BranchAndBound {
   double separationAlongNormals(const Hierarchy::Leaf& leaf_a, const LeafLanes& b,
                                 Eigen::Vector3d& parting) const;
   bool raiseAlongWitnesses(Slot kept, Slot child, bool opens_b, double& squared_bound);
-  bool stillParts(std::size_t i, double gone);
+  bool stillParts(std::size_t i, double moved);
   bool opensB(Slot a, Slot b) const {
     if (isLeaf(a_.child(a))) return true;
     return !isLeaf(b_.child(b)) &&
@@ -63,10 +62,10 @@ class BranchAndBound {
   void excludeSquared(double squared_bound) {
     squared_excluded_ = std::min(squared_excluded_, squared_bound);
   }
-  void dropFront();
+  void dropCache();
   DistanceCertificate conclude();
 
-  std::uint8_t regionOf(Slot slot_of_b) const { return b_.subtreeOfNode(slot_of_b / Hierarchy::kWidth); }
+  std::uint8_t subtreeOf(Slot slot_of_b) const { return b_.subtreeOfNode(slot_of_b / Hierarchy::kWidth); }
   std::ptrdiff_t openCount() const { return static_cast<std::ptrdiff_t>(open_count_); }
 
   const Hierarchy& a_;
@@ -83,7 +82,7 @@ class BranchAndBound {
   std::uint32_t asked_again_ = 0;  ///< quads along what parted them last
   std::uint32_t leaves_asked_again_ = 0;
   RefinementWorkspace& refinement_;
-  BoundCache* front_;             ///< null: nothing is kept
+  BoundCache* cache_;             ///< null: nothing is kept
   DirectionalSupport support_a_;  ///< along direction_
   DirectionalSupport support_b_;  ///< against it
   const BoundScale scale_;
@@ -107,7 +106,6 @@ class BranchAndBound {
   double enough_ = std::numeric_limits<double>::infinity();  ///< farther than this need not be opened
   double squared_enough_ = std::numeric_limits<double>::infinity();
   double excluded_ = std::numeric_limits<double>::infinity();  ///< least bound of what was not opened
-
   double squared_excluded_ = std::numeric_limits<double>::infinity();
 
   // Boxes are compared several times in a row.

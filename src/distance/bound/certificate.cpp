@@ -27,14 +27,14 @@ double proofScale(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d&
 }
 
 DistanceCertificate certifyDistance(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
-                                    const TrianglePair* seeds, std::size_t seed_count,
+                                    const TrianglePair* starts, std::size_t start_count,
                                     const CertificateRequest& request, CertificateWorkspace& workspace,
-                                    BoundCache* front) {
+                                    BoundCache* cache) {
   // If products of coordinates would overflow, nothing is proven: bound 0, distance infinite.
   if (!a_from_b.matrix().allFinite() || a_from_b.translation().cwiseAbs().maxCoeff() > kLargestCoordinate) {
     return {};
   }
-  return detail::BranchAndBound(a, b, a_from_b, request, workspace, front).run(seeds, seed_count);
+  return detail::BranchAndBound(a, b, a_from_b, request, workspace, cache).run(starts, start_count);
 }
 
 }  // namespace concave_distance

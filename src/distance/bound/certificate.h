@@ -36,7 +36,7 @@ struct DistanceCertificate {
   double distance = std::numeric_limits<double>::infinity();
   double lower_bound = 0.0;
   CertificateStatus status = CertificateStatus::Budget;
-  /// A pair closer than every seed by more than the error was found.
+  /// A pair closer than every start by more than the error was found.
   bool improved = false;
   CertificateCost cost;
 };
@@ -75,14 +75,14 @@ struct CertificateWorkspace {
 };
 
 /// The distance of the two surfaces with a proof, by branch and bound over both bodies' hierarchies (Larsen
-/// et al. 1999, with the direction between the best witnesses as a further separating axis). `seeds` are
-/// pairs of triangles to begin with, the likeliest first; each is refined to its local minimum. Without seeds
-/// the search dives for one. Anytime: see CertificateRequest; the bound only rises and the distance only
-/// falls. Solids that hold one another are not looked for: this is the distance of the surfaces. a_from_b
-/// must be rigid to rounding. Allocates nothing once the workspace has grown.
+/// et al. 1999, with the direction between the best witnesses as a further separating axis). `starts` are
+/// pairs of triangles to begin with, the likeliest first; each is refined to its local minimum. Without
+/// starts the search dives for one. Anytime: see CertificateRequest; the bound only rises and the distance
+/// only falls. Solids that hold one another are not looked for: this is the distance of the surfaces.
+/// a_from_b must be rigid to rounding. Allocates nothing once the workspace has grown.
 DistanceCertificate certifyDistance(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
-                                    const TrianglePair* seeds, std::size_t seed_count,
+                                    const TrianglePair* starts, std::size_t start_count,
                                     const CertificateRequest& request, CertificateWorkspace& workspace,
-                                    BoundCache* front = nullptr);
+                                    BoundCache* cache = nullptr);
 
 }  // namespace concave_distance

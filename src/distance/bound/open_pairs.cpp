@@ -17,13 +17,13 @@ using Hierarchy = BoundingVolumeHierarchy;
 }  // namespace
 
 // What the last proof excluded is looked at again where its bound has run out.
-void BranchAndBound::reopenFront() {
-  BoundCache& front = *front_;
-  front.advance(b_, frame_.rotation, frame_.offset, 0.25 * scale_.slack);
-  for (std::size_t i = 0; i < front.leaf_pairs_.size(); ++i) {
-    BoundCache::LeafPair& pair = front.leaf_pairs_[i];
-    const double gone = front.odometers_[pair.region];
-    double bound = pair.bound - gone;
+void BranchAndBound::reopenCache() {
+  BoundCache& cache = *cache_;
+  cache.advance(b_, frame_.rotation, frame_.offset, 0.25 * scale_.slack);
+  for (std::size_t i = 0; i < cache.leaf_pairs_.size(); ++i) {
+    BoundCache::LeafPair& pair = cache.leaf_pairs_[i];
+    const double moved = cache.moved_distances_[pair.subtree];
+    double bound = pair.bound - moved;
     cut_ = cut_ || limit_.isOverNow();
     if (bound < enough_ && !cut_) {
       const Hierarchy::Leaf& leaf_a = leafOf(a_, a_.child(pair.a));
@@ -31,23 +31,23 @@ void BranchAndBound::reopenFront() {
       bound = leafSeparation(leaf_a, leaf_b, pair.direction);
       ++leaves_asked_again_;
       if (bound < enough_) bound = measureLeaves(leaf_a, leaf_b, pair.direction);
-      pair.bound = bound + gone;
+      pair.bound = bound + moved;
     }
     exclude(bound);
   }
-  const std::size_t count = front.quads_.size();
+  const std::size_t count = cache.quads_.size();
   for (std::size_t i = 0; i < count; ++i) {
-    BoundCache::Quad& quad = front.quads_[i];
-    const double gone = front.odometers_[quad.region];
-    const double least = Eigen::Map<const Lanes>(quad.bound).minCoeff() - gone;
+    BoundCache::Quad& quad = cache.quads_[i];
+    const double moved = cache.moved_distances_[quad.subtree];
+    const double least = Eigen::Map<const Lanes>(quad.bound).minCoeff() - moved;
     cut_ = cut_ || limit_.isOverNow();
     if (least >= enough_ || cut_) {
       exclude(least);
       continue;
     }
-    if (quad.by_boxes && stillParts(i, gone)) continue;
+    if (quad.by_boxes && stillParts(i, moved)) continue;
     quad.by_boxes = true;
-    const Lanes bounds = childBounds(quad.kept, quad.opened, quad.opens_b, &front.directions_[i]);
+    const Lanes bounds = childBounds(quad.kept, quad.opened, quad.opens_b, &cache.directions_[i]);
     for (std::uint32_t lane = 0; lane < Hierarchy::kWidth; ++lane) {
       if (quad.bound[lane] == kInfinity) continue;
       double squared_bound = bounds[lane];
@@ -56,7 +56,7 @@ void BranchAndBound::reopenFront() {
       }
       if (squared_bound >= squared_enough_) {
         const double bound = std::sqrt(squared_bound);
-        quad.bound[lane] = bound + gone;
+        quad.bound[lane] = bound + moved;
         exclude(bound);
       } else {
         quad.bound[lane] = kInfinity;
@@ -67,20 +67,20 @@ void BranchAndBound::reopenFront() {
 }
 
 // Whether an entry's children are still far enough along the directions that parted them last.
-bool BranchAndBound::stillParts(std::size_t i, double gone) {
-  BoundCache& front = *front_;
-  BoundCache::Quad& quad = front.quads_[i];
+bool BranchAndBound::stillParts(std::size_t i, double moved) {
+  BoundCache& cache = *cache_;
+  BoundCache::Quad& quad = cache.quads_[i];
   ++asked_again_;
-  const LaneDirections& d = front.directions_[i];
+  const LaneDirections& d = cache.directions_[i];
   const std::uint32_t node = quad.kept / Hierarchy::kWidth;
   const std::uint32_t lane = quad.kept % Hierarchy::kWidth;
   const FloatLanes now =
       quad.opens_b ? separations(d, unit_b_, a_.singleNodes()[node], lane, unit_a_, single_b_from_a_)
                    : separations(d, unit_a_, b_.singleNodes()[node], lane, unit_b_, single_a_from_b_);
-  const Lanes found = (now.cast<double>() * scale_.scale).max(lanes(quad.bound) - gone);
+  const Lanes found = (now.cast<double>() * scale_.scale).max(lanes(quad.bound) - moved);
   const double least = found.minCoeff();
   if (!(least >= enough_)) return false;
-  Eigen::Map<Lanes>(quad.bound) = found + gone;
+  Eigen::Map<Lanes>(quad.bound) = found + moved;
   exclude(least);
   return true;
 }
@@ -118,8 +118,8 @@ void BranchAndBound::expand(const OpenPair& pair) {
   const Hierarchy::SingleNode& node = (opens_b ? b_ : a_).singleNodes()[opened];
   LaneDirections directions;
   const Lanes bounds =
-      childBounds(kept, opened, opens_b, front_ == nullptr ? nullptr : &directions).max(pair.squared_bound);
-  if (front_ == nullptr && bounds.minCoeff() >= squared_enough_) {
+      childBounds(kept, opened, opens_b, cache_ == nullptr ? nullptr : &directions).max(pair.squared_bound);
+  if (cache_ == nullptr && bounds.minCoeff() >= squared_enough_) {
     excludeSquared(bounds.minCoeff());
     return;
   }
@@ -133,19 +133,19 @@ void BranchAndBound::expand(const OpenPair& pair) {
     if (raiseAlongWitnesses(kept, slotOf(opened, lane), opens_b, squared_bound)) by_boxes = false;
     if (squared_bound >= squared_enough_) {
       excludeSquared(squared_bound);
-      if (front_ == nullptr) continue;
+      if (cache_ == nullptr) continue;
       if (quad == nullptr) {
-        if (!limit_.makeRoom(front_->quads_) || !limit_.makeRoom(front_->directions_)) {
-          dropFront();
+        if (!limit_.makeRoom(cache_->quads_) || !limit_.makeRoom(cache_->directions_)) {
+          dropCache();
           continue;
         }
-        const std::uint8_t region = opens_b ? b_.subtreeOfNode(opened) : regionOf(kept);
-        front_->quads_.push_back(
-            {{kInfinity, kInfinity, kInfinity, kInfinity}, kept, opened, region, opens_b, true});
-        quad = &front_->quads_.back();
-        front_->directions_.push_back(directions);
+        const std::uint8_t subtree = opens_b ? b_.subtreeOfNode(opened) : subtreeOf(kept);
+        cache_->quads_.push_back(
+            {{kInfinity, kInfinity, kInfinity, kInfinity}, kept, opened, subtree, opens_b, true});
+        quad = &cache_->quads_.back();
+        cache_->directions_.push_back(directions);
       }
-      quad->bound[lane] = std::sqrt(squared_bound) + front_->odometers_[quad->region];
+      quad->bound[lane] = std::sqrt(squared_bound) + cache_->moved_distances_[quad->subtree];
     } else if (squared_bound < nearest_bound) {
       if (nearest != Hierarchy::kWidth) add(kept, opened, nearest, opens_b, nearest_bound);
       nearest = lane;
@@ -164,13 +164,14 @@ void BranchAndBound::openLeaves(const OpenPair& pair) {
       std::max(std::sqrt(pair.squared_bound),
                measureLeaves(leafOf(a_, a_.child(pair.a)), leafOf(b_, b_.child(pair.b)), direction));
   exclude(bound);
-  if (front_ == nullptr) return;
-  if (!limit_.makeRoom(front_->leaf_pairs_)) {
-    dropFront();
+  if (cache_ == nullptr) return;
+  if (!limit_.makeRoom(cache_->leaf_pairs_)) {
+    dropCache();
     return;
   }
-  const std::uint8_t region = regionOf(pair.b);
-  front_->leaf_pairs_.push_back({bound + front_->odometers_[region], pair.a, pair.b, region, direction});
+  const std::uint8_t subtree = subtreeOf(pair.b);
+  cache_->leaf_pairs_.push_back(
+      {bound + cache_->moved_distances_[subtree], pair.a, pair.b, subtree, direction});
 }
 
 // Along the direction between the witnesses, with what the boxes hold and not what they could hold.
@@ -251,7 +252,7 @@ double BranchAndBound::measureLeaves(const Hierarchy::Leaf& leaf_a, const Hierar
   double parting_distance = kInfinity;
   if (together >= enough_) return together;
   b.computeNormals();
-  if (front_ != nullptr) {  // a fresh proof gains nothing from it
+  if (cache_ != nullptr) {  // a fresh proof gains nothing from it
     const double along_normals = separationAlongNormals(leaf_a, b, parting);
     if (along_normals >= enough_) return along_normals;
   }

@@ -99,14 +99,14 @@ DistanceCertificate certifyShapes(const BodyMesh& a, const BodyMesh& b, const Ei
 }
 
 DistanceCertificate certifyWithMesh(const RoundRoles& roles, const BodyMesh& a, const BodyMesh& b,
-                                    const Eigen::Isometry3d& a_from_b, const TrianglePair* seeds,
-                                    std::size_t seed_count, const CertificateRequest& request) {
+                                    const Eigen::Isometry3d& a_from_b, const TrianglePair* starts,
+                                    std::size_t start_count, const CertificateRequest& request) {
   const RoundAndMesh pair = roles.pair(a, b, a_from_b);
-  const auto seed = [&](std::size_t i) { return roles.a_is_shape ? seeds[i].b : seeds[i].a; };
+  const auto start = [&](std::size_t i) { return roles.a_is_shape ? starts[i].b : starts[i].a; };
   RoundMinimum best =
-      descendOnMesh(pair, seed_count > 0 ? seed(0) : nearestTriangle(pair.mesh, pair.centre_in_mesh));
-  for (std::size_t i = 1; i < seed_count; ++i) {
-    const RoundMinimum other = descendOnMesh(pair, seed(i));
+      descendOnMesh(pair, start_count > 0 ? start(0) : nearestTriangle(pair.mesh, pair.centre_in_mesh));
+  for (std::size_t i = 1; i < start_count; ++i) {
+    const RoundMinimum other = descendOnMesh(pair, start(i));
     if (other.lowest.value < best.lowest.value) best = other;
   }
   DistanceCertificate certificate;
@@ -133,12 +133,12 @@ DistanceCertificate certifyWithMesh(const RoundRoles& roles, const BodyMesh& a, 
 }  // namespace
 
 DistanceCertificate certifyRoundDistance(const BodyMesh& a, const BodyMesh& b,
-                                         const Eigen::Isometry3d& a_from_b, const TrianglePair* seeds,
-                                         std::size_t seed_count, const CertificateRequest& request) {
+                                         const Eigen::Isometry3d& a_from_b, const TrianglePair* starts,
+                                         std::size_t start_count, const CertificateRequest& request) {
   if (!a_from_b.matrix().allFinite() || a_from_b.translation().cwiseAbs().maxCoeff() > kLargestCoordinate)
     return {};
   if (a.shape() != nullptr && b.shape() != nullptr) return certifyShapes(a, b, a_from_b);
-  return certifyWithMesh(RoundRoles(a, b, a_from_b), a, b, a_from_b, seeds, seed_count, request);
+  return certifyWithMesh(RoundRoles(a, b, a_from_b), a, b, a_from_b, starts, start_count, request);
 }
 
 WitnessPair refineRoundWitness(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,

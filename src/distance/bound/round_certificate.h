@@ -13,8 +13,8 @@ namespace concave_distance {
 /// (isRoundContained() says so). Same error. The witness names triangles of the shape's mesh that are
 /// nearest to its point. Allocates nothing.
 DistanceCertificate certifyRoundDistance(const BodyMesh& a, const BodyMesh& b,
-                                         const Eigen::Isometry3d& a_from_b, const TrianglePair* seeds,
-                                         std::size_t seed_count, const CertificateRequest& request);
+                                         const Eigen::Isometry3d& a_from_b, const TrianglePair* starts,
+                                         std::size_t start_count, const CertificateRequest& request);
 
 /// The closest points near a pair of triangles; two shapes have only one such pair of points.
 WitnessPair refineRoundWitness(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,

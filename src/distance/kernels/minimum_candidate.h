@@ -12,8 +12,8 @@ struct MinimumCandidate {
   TriangleIndex a;
   TriangleIndex b;
   double distance = 0.0;     ///< metres
-  bool is_measured = false;  ///< the rest is known
-  /// No other pair of points near is as close; false where that is not seen at once.
+  bool is_measured = false;  ///< true when the following members are known
+  /// True when no other pair of points near is as close; false where that is not seen at once.
   bool is_point = false;
   Feature feature_a = Feature::Face;
   Feature feature_b = Feature::Face;
@@ -21,13 +21,13 @@ struct MinimumCandidate {
   Eigen::Vector3d point_b = Eigen::Vector3d::Zero();
 };
 
-/// With its points not known.
-inline MinimumCandidate seedOn(TriangleIndex a, TriangleIndex b, double distance) {
-  MinimumCandidate seed;
-  seed.a = a;
-  seed.b = b;
-  seed.distance = distance;
-  return seed;
+/// Returns a candidate on two triangles whose points are not known.
+inline MinimumCandidate candidateOn(TriangleIndex a, TriangleIndex b, double distance) {
+  MinimumCandidate candidate;
+  candidate.a = a;
+  candidate.b = b;
+  candidate.distance = distance;
+  return candidate;
 }
 
 }  // namespace concave_distance

@@ -19,7 +19,7 @@ void clear(SweepLists& lists) {
   lists.open.clear();
   lists.minima.clear();
   lists.undecided.clear();
-  lists.seeds.clear();
+  lists.candidates.clear();
   lists.kept.clear();
   lists.groups = lists.features = lists.measured = 0;
 }
@@ -35,7 +35,7 @@ bool ConeSlices::prepare(WorkLimit& limit) {
     slice.lists.open.reserve(kOpen);
     slice.lists.minima.reserve(kMinima);
     slice.lists.undecided.reserve(kMinima);
-    slice.lists.seeds.reserve(kMinima);
+    slice.lists.candidates.reserve(kMinima);
     slice.lists.kept.reserve(kMostKept);
   }
   return true;

@@ -6,7 +6,8 @@
 
 #include "base/expiry_queue.h"
 #include "cone_comparison.h"
-#include "cone_motion.h"
+#include "feature_slacks.h"
+#include "minimum_slacks.h"
 #include "sweep_lists.h"
 
 namespace concave_distance::detail {
@@ -16,10 +17,12 @@ namespace concave_distance::detail {
 class ConeSweep {
  public:
   /// @param slice_room pairs, after which it ends: for a slice, whose lists have all the room they get
-  ConeSweep(const PairFrame& frame, NormalSides sides, double cutoff, const ConeMotion& motion,
+  ConeSweep(const PairFrame& frame, NormalSides sides, double cutoff, const MovedDistances& motion,
             SweepLists& lists, WorkLimit& limit, std::size_t slice_room = 0)
       : motion_(motion),
         features_(frame, cutoff),
+        feature_slacks_(features_),
+        minimum_slacks_(features_),
         cones_(frame, features_, sides),
         offers_(motion),
         lists_(lists),
@@ -75,13 +78,14 @@ class ConeSweep {
     std::vector<LiveMinimum>& minima = lists_.minima;
     std::size_t rest = 0;
     for (std::size_t i = 0; i < minima.size(); ++i) {
-      if (limit_.isOverNow() || !limit_.makeRoom(lists_.seeds)) {
+      if (limit_.isOverNow() || !limit_.makeRoom(lists_.candidates)) {
         minima.erase(minima.begin() + static_cast<std::ptrdiff_t>(rest),
                      minima.begin() + static_cast<std::ptrdiff_t>(i));
         return false;
       }
       LiveMinimum& minimum = minima[i];
-      const bool stays = minimum.clock != ConeMotion::kNoClock && motion_.now(minimum.clock) < minimum.expiry;
+      const bool stays = minimum.moved_distance != MovedDistances::kNone &&
+                         motion_.now(minimum.moved_distance) < minimum.expiry;
       if (stays) {
         measure(minimum);
       } else if (!isMinimum(minimum.pair, minimum)) {
@@ -107,7 +111,8 @@ class ConeSweep {
 
   /// For one step.
   bool hasRoom() {
-    if (!limit_.makeRoom(lists_.open, ConeComparison::kWidth) || !limit_.makeRoom(lists_.seeds)) return false;
+    if (!limit_.makeRoom(lists_.open, ConeComparison::kWidth) || !limit_.makeRoom(lists_.candidates))
+      return false;
     return !is_slice_ || (room_to_keep_ >= ConeComparison::kWidth && limit_.makeRoom(lists_.minima) &&
                           limit_.makeRoom(lists_.undecided));
   }
@@ -180,7 +185,7 @@ class ConeSweep {
     std::vector<SlotPair>& undecided = lists_.undecided;
     const std::size_t count = undecided.size();
     std::size_t asked = 0;
-    while (asked < count && !limit_.isOverNow() && limit_.makeRoom(lists_.seeds)) {
+    while (asked < count && !limit_.isOverNow() && limit_.makeRoom(lists_.candidates)) {
       const SlotPair pair = undecided[asked++];
       look(pair);
     }
@@ -190,8 +195,9 @@ class ConeSweep {
 
   void measure(LiveMinimum& minimum) {
     ++lists_.measured;
-    minimum.seed = features_.moved(itemOfA(minimum.pair.first), itemOfB(minimum.pair.second), minimum.seed);
-    lists_.seeds.push_back(minimum.seed);
+    minimum.candidate =
+        features_.moved(itemOfA(minimum.pair.first), itemOfB(minimum.pair.second), minimum.candidate);
+    lists_.candidates.push_back(minimum.candidate);
   }
 
   bool isMinimum(const SlotPair& pair, LiveMinimum& minimum) {
@@ -200,10 +206,10 @@ class ConeSweep {
     const Item& b = itemOfB(pair.second);
     const auto found = features_.findMinimum(a, b);
     if (!found) return false;
-    lists_.seeds.push_back(*found);
+    lists_.candidates.push_back(*found);
     resetOffers(pair);
-    const bool stays = features_.offerStay(a, b, *found, offers_);
-    minimum = {pair, offers_.clock(), stays ? offers_.expiry() : 0, *found};
+    const bool stays = minimum_slacks_.offer(a, b, *found, offers_);
+    minimum = {pair, offers_.movedDistance(), stays ? offers_.expiry() : 0, *found};
     return true;
   }
 
@@ -215,7 +221,7 @@ class ConeSweep {
   /// False for what has no slack, and without memory.
   bool keepFeatures(const SlotPair& pair) {
     resetOffers(pair);
-    features_.offerSlacks(itemOfA(pair.first), itemOfB(pair.second), offers_);
+    feature_slacks_.offer(itemOfA(pair.first), itemOfB(pair.second), offers_);
     return !offers_.empty() && keep(pair);
   }
 
@@ -234,12 +240,12 @@ class ConeSweep {
 
   /// False without memory.
   bool keep(const SlotPair& pair) {
-    const std::uint32_t clock = offers_.clock();
-    const std::uint64_t expiry = std::max(offers_.expiry(), motion_.now(clock) + 1);
+    const std::uint32_t moved_distance = offers_.movedDistance();
+    const std::uint64_t expiry = std::max(offers_.expiry(), motion_.now(moved_distance) + 1);
     --room_to_keep_;
-    if (queues_ != nullptr && queues_->insert(clock, expiry, pair, *queue_limit_)) return true;
+    if (queues_ != nullptr && queues_->insert(moved_distance, expiry, pair, *queue_limit_)) return true;
     if (lists_.kept.size() == lists_.kept.capacity()) return false;
-    lists_.kept.push_back({pair, clock, expiry});
+    lists_.kept.push_back({pair, moved_distance, expiry});
     return true;
   }
 
@@ -247,8 +253,10 @@ class ConeSweep {
     offers_.reset(cones_.a.subtreeOf(pair.first), cones_.b.subtreeOf(pair.second));
   }
 
-  const ConeMotion& motion_;
+  const MovedDistances& motion_;
   FeaturePairs features_;
+  FeatureSlacks feature_slacks_;
+  MinimumSlacks minimum_slacks_;
   ConeComparison cones_;
   SlackOffers offers_;
   SweepLists& lists_;

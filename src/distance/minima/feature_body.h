@@ -2,13 +2,19 @@
 
 #include <algorithm>
 
-#include "feature_pairs.h"
+#include "distance/kernels/pair_frame.h"
+#include "mesh/trees/normal_cone_tree.h"
 
 namespace concave_distance::detail {
 
-/// One body in its own axes, relative to its centre in the frame.
-struct FeaturePairs::Body {
-  Body(const PairFrame& frame, Side of)
+/// Sine of the angle between edges below which the direction across them is not believed.
+inline constexpr double kNearlyParallel = 1e-6;
+
+/// Gives the vertices and edges of one body in its own axes, relative to its centre in the frame.
+struct FeatureBody {
+  using Item = NormalConeTree::Item;
+
+  FeatureBody(const PairFrame& frame, Side of)
       : side(of),
         mesh(of == Side::A ? frame.a : frame.b),
         centre(of == Side::A ? frame.centre_a : frame.centre_b),
@@ -22,10 +28,18 @@ struct FeaturePairs::Body {
     return mesh.surface().triangle(item.triangle)[k % 3];
   }
 
-  /// A point of this body in the other's axes, and a direction of the other body in this one's.
+  /// Returns an edge from its first to its second end, in the frame.
+  Eigen::Vector3d edgeInFrame(const Item& item) const {
+    const Eigen::Vector3d edge = mesh.surface().corner(item.triangle, (item.element + 1) % 3) -
+                                 mesh.surface().corner(item.triangle, item.element);
+    return side == Side::A ? edge : Eigen::Vector3d(frame.rotation * edge);
+  }
+
+  /// Returns a point of this body in the other's axes.
   Eigen::Vector3d inOther(const Eigen::Vector3d& point) const {
     return side == Side::A ? frame.pointInB(point) : Eigen::Vector3d(frame.rotation * point + frame.offset);
   }
+  /// Returns a direction of the other body in this one's axes.
   Eigen::Vector3d directionFromOther(const Eigen::Vector3d& direction) const {
     return side == Side::A ? Eigen::Vector3d(frame.rotation * direction)
                            : Eigen::Vector3d(frame.rotation.transpose() * direction);
@@ -37,7 +51,7 @@ struct FeaturePairs::Body {
                                        visit);
   }
 
-  /// The corners away from an edge of the triangles in sight that have it.
+  /// Visits the third corner of each visible triangle at an edge.
   template <typename Visit>
   void forEachApex(NodeIndex from, NodeIndex to, const Visit& visit) const {
     for (const TriangleIndex triangle : mesh.topology().triangles_of_vertex.row(from.value)) {
@@ -50,8 +64,8 @@ struct FeaturePairs::Body {
     }
   }
 
-  /// How far, at most, a neighbour of the vertex rises along `displacement`, per length of its edge; what is
-  /// within rounding does not count.
+  /// Returns how far, at most, a neighbour of the vertex rises along `displacement`, per length of its edge.
+  /// What is within rounding does not count.
   double rise(NodeIndex node, const Eigen::Vector3d& displacement, double slack) const {
     const Eigen::Vector3d here = vertex(node);
     const double reach = displacement.norm();

@@ -122,8 +122,8 @@ std::optional<MinimumCandidate> FeaturePairs::findMinimum(const Item& a, const I
       peakAt(Side::B, b, frame_.pointInB(found.to), frame_.rotation.transpose() * -direction, turn);
   if (!peak_b.is_peak) return std::nullopt;
   const auto edges_cross = [&] {
-    const Vector3d along_a = edgeOfA(a);
-    const Vector3d along_b = edgeOfB(b);
+    const Vector3d along_a = FeatureBody(frame_, Side::A).edgeInFrame(a);
+    const Vector3d along_b = FeatureBody(frame_, Side::B).edgeInFrame(b);
     return along_a.cross(along_b).squaredNorm() >
            kMayBeParallel * kMayBeParallel * along_a.squaredNorm() * along_b.squaredNorm();
   };
@@ -135,19 +135,19 @@ std::optional<MinimumCandidate> FeaturePairs::findMinimum(const Item& a, const I
 
 MinimumCandidate FeaturePairs::moved(const Item& a, const Item& b, const MinimumCandidate& minimum) const {
   const Between found = closest(a, b);
-  MinimumCandidate seed = minimum;
-  seed.distance = std::sqrt(found.squared_distance);
-  seed.point_a = found.from;
-  seed.point_b = found.to;
-  return seed;
+  MinimumCandidate candidate = minimum;
+  candidate.distance = std::sqrt(found.squared_distance);
+  candidate.point_a = found.from;
+  candidate.point_b = found.to;
+  return candidate;
 }
 
 /// Two edges at an angle are closest along the direction across both: whether that lies in the caps of
 /// both needs no closest points.
 bool FeaturePairs::edgesMayFace(const Item& a, const Item& b, const FacingCap& cap_a,
                                 const FacingCap& cap_b) const {
-  const Vector3d along_a = edgeOfA(a);
-  const Vector3d along_b = edgeOfB(b);
+  const Vector3d along_a = FeatureBody(frame_, Side::A).edgeInFrame(a);
+  const Vector3d along_b = FeatureBody(frame_, Side::B).edgeInFrame(b);
   const Vector3d across = along_a.cross(along_b);
   const double length = across.norm();
   const double lengths = std::sqrt(along_a.squaredNorm() * along_b.squaredNorm());
@@ -164,7 +164,7 @@ bool FeaturePairs::edgesMayFace(const Item& a, const Item& b, const FacingCap& c
 /// cone itself, which the cap is around. Points are off by less than the slack.
 FeaturePairs::Peak FeaturePairs::peakAt(Side side, const Item& item, const Vector3d& point,
                                         const Vector3d& direction, double turn) const {
-  const Body body(frame_, side);
+  const FeatureBody body(frame_, side);
   bool any_level = false;
   const auto rises = [&](NodeIndex node) {
     const Vector3d displacement = body.vertex(node) - point;
@@ -190,22 +190,6 @@ FeaturePairs::Peak FeaturePairs::peakAt(Side side, const Item& item, const Vecto
   bool is_peak = true;
   body.forEachApex(from, to, [&](NodeIndex apex) { is_peak = is_peak && !rises(apex); });
   return {is_peak, !is_peak || any_level ? 2 : 1, feature};
-}
-
-namespace {
-
-Vector3d edgeOf(const SurfaceMesh& mesh, const Item& item) {
-  return mesh.corner(item.triangle, (item.element + 1) % 3) - mesh.corner(item.triangle, item.element);
-}
-
-}  // namespace
-
-Vector3d FeaturePairs::edgeOfA(const Item& item) const {
-  return edgeOf(frame_.a.surface(), item);
-}
-
-Vector3d FeaturePairs::edgeOfB(const Item& item) const {
-  return frame_.rotation * edgeOf(frame_.b.surface(), item);
 }
 
 FeaturePairs::Between FeaturePairs::closest(const Item& a, const Item& b) const {

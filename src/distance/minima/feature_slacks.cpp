@@ -1,10 +1,10 @@
+#include "feature_slacks.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include "feature_body.h"
 #include "mesh/trees/normal_cone.h"
-
-// How far bodies may move until a pair of features can hold a local minimum (doc/proofs.md).
 
 namespace concave_distance::detail {
 namespace {
@@ -59,9 +59,9 @@ double gapBetween(const Arc& l, const Arc& r) {
 
 }  // namespace
 
-void FeaturePairs::offerSlacks(const Item& a, const Item& b, SlackOffers& offers) const {
-  const Body body_a(frame_, Side::A);
-  const Body body_b(frame_, Side::B);
+void FeatureSlacks::offer(const Item& a, const Item& b, SlackOffers& offers) const {
+  const FeatureBody body_a(pairs_.frame(), Side::A);
+  const FeatureBody body_b(pairs_.frame(), Side::B);
   if (a.kind == Kind::Vertex) {
     if (b.kind == Kind::Vertex) return offerVertexToVertex(a, b, offers);
     if (b.kind == Kind::Edge) return offerVertexToEdge(body_a, a, body_b, b, offers);
@@ -75,21 +75,21 @@ void FeaturePairs::offerSlacks(const Item& a, const Item& b, SlackOffers& offers
 }
 
 // The displacement changes by no more than the other vertex moves; a neighbour that rises along it is closer.
-void FeaturePairs::offerVertexToVertex(const Item& a, const Item& b, SlackOffers& offers) const {
-  const Body body_a(frame_, Side::A);
-  const Body body_b(frame_, Side::B);
+void FeatureSlacks::offerVertexToVertex(const Item& a, const Item& b, SlackOffers& offers) const {
+  const FeatureBody body_a(pairs_.frame(), Side::A);
+  const FeatureBody body_b(pairs_.frame(), Side::B);
   const Vector3d displacement = body_b.inOther(body_b.corner(b, b.element)) - body_a.corner(a, a.element);
-  offers.offerMotion(Side::B, body_a.rise(body_a.node(a, a.element), displacement, slack_));
-  offers.offerMotion(
-      Side::A, body_b.rise(body_b.node(b, b.element), body_b.directionFromOther(-displacement), slack_));
-  const double beyond = displacement.norm() - cutoff_;
+  offers.offerMotion(Side::B, body_a.rise(body_a.node(a, a.element), displacement, pairs_.slack()));
+  offers.offerMotion(Side::A, body_b.rise(body_b.node(b, b.element), body_b.directionFromOther(-displacement),
+                                          pairs_.slack()));
+  const double beyond = displacement.norm() - pairs_.cutoff();
   offers.offerMotion(Side::A, beyond);
   offers.offerMotion(Side::B, beyond);
 }
 
 // Beyond an end of an edge, that vertex is closer; in front of a face of the edge, the face is.
-void FeaturePairs::offerBesideEdge(const Body& of_edge, const Item& edge, const Vector3d& first,
-                                   const Vector3d& last, double radius, SlackOffers& offers) const {
+void FeatureSlacks::offerBesideEdge(const FeatureBody& of_edge, const Item& edge, const Vector3d& first,
+                                    const Vector3d& last, double radius, SlackOffers& offers) const {
   const Side side = of_edge.side == Side::A ? Side::B : Side::A;
   const Vector3d from = of_edge.corner(edge, edge.element);
   const Vector3d span = of_edge.corner(edge, edge.element + 1U) - from;
@@ -99,7 +99,7 @@ void FeaturePairs::offerBesideEdge(const Body& of_edge, const Item& edge, const 
   const Vector3d to_last = last - from;
   const double low = std::min(along.dot(to_first), along.dot(to_last));
   const double high = std::max(along.dot(to_first), along.dot(to_last));
-  offers.offerMotion(side, std::max(-high, low - length) - slack_, radius);
+  offers.offerMotion(side, std::max(-high, low - length) - pairs_.slack(), radius);
   const double reach = std::max(to_first.norm(), to_last.norm());
   const NodeIndex begin = of_edge.node(edge, edge.element);
   const NodeIndex end = of_edge.node(edge, edge.element + 1U);
@@ -110,7 +110,7 @@ void FeaturePairs::offerBesideEdge(const Body& of_edge, const Item& edge, const 
       inward -= along.dot(inward) * along;
       const double height = inward.norm();
       const double in_front = std::min(to_first.dot(inward), to_last.dot(inward));
-      offers.offerMotion(side, (in_front - 2.0 * slack_ * std::max(height, reach)) / height, radius);
+      offers.offerMotion(side, (in_front - 2.0 * pairs_.slack() * std::max(height, reach)) / height, radius);
     }
   };
   offer_face(edge.triangle);
@@ -119,8 +119,9 @@ void FeaturePairs::offerBesideEdge(const Body& of_edge, const Item& edge, const 
   if (across != kNoTriangle && !of_edge.mesh.shellContacts().isHidden(across)) offer_face(across);
 }
 
-void FeaturePairs::offerVertexToEdge(const Body& of_vertex, const Item& vertex, const Body& of_edge,
-                                     const Item& edge, SlackOffers& offers) const {
+void FeatureSlacks::offerVertexToEdge(const FeatureBody& of_vertex, const Item& vertex,
+                                      const FeatureBody& of_edge, const Item& edge,
+                                      SlackOffers& offers) const {
   const Side side = of_vertex.side;
   const Vector3d point = of_vertex.inOther(of_vertex.corner(vertex, vertex.element));
   offerBesideEdge(of_edge, edge, point, point, 0.0, offers);
@@ -129,15 +130,16 @@ void FeaturePairs::offerVertexToEdge(const Body& of_vertex, const Item& vertex, 
   const Vector3d displacement = point - from;
   // The way to the foot turns with the bodies and moves with the foot.
   const Vector3d to_foot = along.dot(displacement) * along - displacement;
-  const double rise =
-      of_vertex.rise(of_vertex.node(vertex, vertex.element), of_vertex.directionFromOther(to_foot), slack_);
+  const double rise = of_vertex.rise(of_vertex.node(vertex, vertex.element),
+                                     of_vertex.directionFromOther(to_foot), pairs_.slack());
   const double distance = to_foot.norm();
   offers.offerMotion(side, rise, distance);
-  offers.offerMotion(side, distance - cutoff_);
+  offers.offerMotion(side, distance - pairs_.cutoff());
 }
 
-void FeaturePairs::offerVertexToFace(const Body& of_vertex, const Item& vertex, const Body& of_face,
-                                     const Item& face, SlackOffers& offers) const {
+void FeatureSlacks::offerVertexToFace(const FeatureBody& of_vertex, const Item& vertex,
+                                      const FeatureBody& of_face, const Item& face,
+                                      SlackOffers& offers) const {
   if (face.cap.isFull()) return;
   const Side side = of_vertex.side;
   const Vector3d point = of_vertex.inOther(of_vertex.corner(vertex, vertex.element));
@@ -155,32 +157,32 @@ void FeaturePairs::offerVertexToFace(const Body& of_vertex, const Item& vertex, 
     outside = std::max(outside, outward.normalized().dot(point - from));
   }
   // Directions across and along the face of a thin triangle are as uncertain as its normal.
-  const double error = 2.0 * slack_ + face.cap.sine * reach;
+  const double error = 2.0 * pairs_.slack() + face.cap.sine * reach;
   offers.offerMotion(side, outside - error);
-  offers.offerMotion(side, height - error - cutoff_);
-  const double rise =
-      of_vertex.rise(of_vertex.node(vertex, vertex.element), of_vertex.directionFromOther(-normal), slack_);
+  offers.offerMotion(side, height - error - pairs_.cutoff());
+  const double rise = of_vertex.rise(of_vertex.node(vertex, vertex.element),
+                                     of_vertex.directionFromOther(-normal), pairs_.slack());
   offers.offerTurn(rise - face.cap.sine);
 }
 
 // A minimum inside both edges lies along the direction across them, which must be in the arc of normals of
 // each.
-void FeaturePairs::offerEdgeToEdge(const Item& a, const Item& b, SlackOffers& offers) const {
-  const Body body_a(frame_, Side::A);
-  const Body body_b(frame_, Side::B);
+void FeatureSlacks::offerEdgeToEdge(const Item& a, const Item& b, SlackOffers& offers) const {
+  const FeatureBody body_a(pairs_.frame(), Side::A);
+  const FeatureBody body_b(pairs_.frame(), Side::B);
   const Vector3d from_a = body_a.corner(a, a.element);
   const Vector3d from_b = body_b.inOther(body_b.corner(b, b.element));
-  const Vector3d span_a = edgeOfA(a);
-  const Vector3d span_b = edgeOfB(b);
+  const Vector3d span_a = body_a.edgeInFrame(a);
+  const Vector3d span_b = body_b.edgeInFrame(b);
   const double beyond =
-      std::sqrt(betweenSegments(from_a, from_a + span_a, from_b, from_b + span_b).squared_distance) - cutoff_;
+      std::sqrt(pairs_.squaredDistance(from_a, from_a + span_a, from_b, from_b + span_b)) - pairs_.cutoff();
   offers.offerMotion(Side::B, beyond, b.radius);
   offerBesideEdge(body_a, a, from_b, from_b + span_b, b.radius, offers);
   const Vector3d first_of_a = body_a.inOther(from_a);
   const Vector3d last_of_a = body_a.inOther(Vector3d(from_a + span_a));
   offerBesideEdge(body_b, b, first_of_a, last_of_a, a.radius, offers);
 
-  const auto arc_of = [](const Body& body, const Item& item, Arc& arc) {
+  const auto arc_of = [](const FeatureBody& body, const Item& item, Arc& arc) {
     const MeshTopology& topology = body.mesh.topology();
     const TriangleIndex beyond_edge = topology.triangle_across_edge[item.triangle.value][item.element];
     if (beyond_edge == kNoTriangle || body.mesh.shellContacts().isHidden(beyond_edge)) return false;
@@ -206,8 +208,8 @@ void FeaturePairs::offerEdgeToEdge(const Item& a, const Item& b, SlackOffers& of
   Arc arc_a;
   Arc arc_b;
   if (!arc_of(body_a, a, arc_a) || !arc_of(body_b, b, arc_b)) return;
-  for (Vector3d* normal : {&arc_b.first, &arc_b.last}) *normal = -(frame_.rotation * *normal);
-  arc_b.across = frame_.rotation * arc_b.across;
+  for (Vector3d* normal : {&arc_b.first, &arc_b.last}) *normal = -(pairs_.frame().rotation * *normal);
+  arc_b.across = pairs_.frame().rotation * arc_b.across;
   offers.offerTurn(gapBetween(arc_a, arc_b) - kNormalSlack);
 
   const double length_a = span_a.norm();
@@ -218,7 +220,7 @@ void FeaturePairs::offerEdgeToEdge(const Item& a, const Item& b, SlackOffers& of
   across.normalize();
   const Vector3d middle = (arc_a.first + arc_a.last).normalized();
   if (across.dot(middle) < 0.0) across = -across;
-  const double rounding = 4.0 * slack_ / sine;
+  const double rounding = 4.0 * pairs_.slack() / sine;
   // The direction across turns by no more than 2 / sine times the bodies' turn while that is below sine / 2.
   const auto offer = [&](Side side, double radius, double metres, double reach) {
     offers.offerMotion(side, metres - rounding, radius + 2.0 * (reach + metres) / sine);

@@ -5,14 +5,15 @@
 namespace concave_distance::detail {
 
 void collectConeCandidates(const PairFrame& frame, NormalSides sides, double cutoff,
-                           std::vector<MinimumCandidate>& seeds, LocalMinimaCost& cost, WorkLimit& limit) {
+                           std::vector<MinimumCandidate>& candidates, LocalMinimaCost& cost,
+                           WorkLimit& limit) {
   constexpr std::uint32_t kWidth = ConeComparison::kWidth;
   const FeaturePairs features(frame, cutoff);
   ConeComparison cones(frame, features, sides);
   if (cones.a.empty() || cones.b.empty()) return;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> open{{NormalConeTree::kRoot, NormalConeTree::kRoot}};
   while (!open.empty()) {
-    if (limit.isOverNow() || !limit.makeRoom(open, kWidth) || !limit.makeRoom(seeds)) return;
+    if (limit.isOverNow() || !limit.makeRoom(open, kWidth) || !limit.makeRoom(candidates)) return;
     const auto [a, b] = open.back();
     open.pop_back();
     const std::uint32_t child_a = cones.a.child(a);
@@ -25,7 +26,7 @@ void collectConeCandidates(const PairFrame& frame, NormalSides sides, double cut
       const auto found = features.findMinimum(item_a, item_b);
       if (!found) continue;
       ++cost.candidates;
-      seeds.push_back(*found);
+      candidates.push_back(*found);
       continue;
     }
     ++cost.node_pairs;

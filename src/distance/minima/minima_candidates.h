@@ -11,6 +11,7 @@ namespace concave_distance::detail {
 /// Looks through all normal cones (doc/proofs.md) and appends triangle pairs that hold local
 /// minima between 0 and `cutoff`, metres, some more than once, until the limit is reached.
 void collectConeCandidates(const PairFrame& frame, NormalSides sides, double cutoff,
-                           std::vector<MinimumCandidate>& seeds, LocalMinimaCost& cost, WorkLimit& limit);
+                           std::vector<MinimumCandidate>& candidates, LocalMinimaCost& cost,
+                           WorkLimit& limit);
 
 }  // namespace concave_distance::detail

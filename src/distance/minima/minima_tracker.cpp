@@ -46,7 +46,7 @@ class MinimaTracker::Stage {
     SweepLists& lists = front_.lists_;
     front_.counts_.began_anew = true;
     front_.motion_.begin(sweep_.conesOfA(), sweep_.conesOfB(), frame_, frame_.size);
-    front_.queues_.begin(front_.motion_.clockCount());
+    front_.queues_.begin(front_.motion_.size());
     lists.minima.clear();
     lists.undecided.clear();
     // What most pairs never outgrow.
@@ -67,8 +67,8 @@ class MinimaTracker::Stage {
     front_.next_expired_ = 0;
     const std::size_t before = front_.queues_.size();
     const auto take = [&](const SlotPair& pair) { expired.push_back(pair); };
-    for (std::uint32_t clock = 0; clock < front_.motion_.clockCount(); ++clock) {
-      front_.queues_.advance(clock, front_.motion_.now(clock), take, limit_);
+    for (std::uint32_t moved_distance = 0; moved_distance < front_.motion_.size(); ++moved_distance) {
+      front_.queues_.advance(moved_distance, front_.motion_.now(moved_distance), take, limit_);
     }
     front_.counts_.expired = static_cast<std::uint32_t>(before - front_.queues_.size());
   }
@@ -144,12 +144,13 @@ class MinimaTracker::Stage {
   void add(const SweepLists& found) {
     SweepLists& lists = front_.lists_;
     for (const KeptPair& kept : found.kept) {
-      if (!front_.queues_.insert(kept.clock, kept.expiry, kept.pair, limit_)) lists.open.push_back(kept.pair);
+      if (!front_.queues_.insert(kept.moved_distance, kept.expiry, kept.pair, limit_))
+        lists.open.push_back(kept.pair);
     }
     append(lists.open, found.open, limit_);
     append(lists.minima, found.minima, limit_);
     append(lists.undecided, found.undecided, limit_);
-    append(lists.seeds, found.seeds, limit_);
+    append(lists.candidates, found.candidates, limit_);
     lists.groups += found.groups;
     lists.features += found.features;
     lists.measured += found.measured;
@@ -164,12 +165,12 @@ class MinimaTracker::Stage {
 };
 
 bool MinimaTracker::collect(const PairFrame& frame, NormalSides sides, double cutoff,
-                            std::vector<MinimumCandidate>& seeds, WorkLimit& limit) {
+                            std::vector<MinimumCandidate>& candidates, WorkLimit& limit) {
   counts_ = {};
   Stage stage(*this, frame, sides, cutoff, limit);
   if (stage.isEmpty()) return true;
   lists_.groups = lists_.features = lists_.measured = 0;
-  lists_.seeds.swap(seeds);
+  lists_.candidates.swap(candidates);
   valid_ = valid_ && cutoff == cutoff_ && sides == sides_ && motion_.advance(frame);
   cutoff_ = cutoff;
   sides_ = sides;
@@ -183,7 +184,7 @@ bool MinimaTracker::collect(const PairFrame& frame, NormalSides sides, double cu
     stage.expire();
     done = stage.run() && done;
   }
-  lists_.seeds.swap(seeds);
+  lists_.candidates.swap(candidates);
   // What a limit has ended grows until it is whole.
   if (kept_at_begin_ == 0) {
     kept_at_begin_ = done ? queues_.size() : 0;

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "base/expiry_queue.h"
-#include "cone_motion.h"
 #include "cone_slices.h"
 #include "distance/kernels/pair_frame.h"
+#include "moved_distances.h"
 #include "sweep_lists.h"
 
 namespace concave_distance::detail {
@@ -41,8 +41,8 @@ class MinimaTracker {
 
   /// Appends at least one triangle pair of every local minimum between 0 and `cutoff` (metres).
   /// @return false when the limit was reached: minima may be missing, and the next call goes on
-  bool collect(const PairFrame& frame, NormalSides sides, double cutoff, std::vector<MinimumCandidate>& seeds,
-               WorkLimit& limit);
+  bool collect(const PairFrame& frame, NormalSides sides, double cutoff,
+               std::vector<MinimumCandidate>& candidates, WorkLimit& limit);
 
   const Counts& counts() const { return counts_; }
   std::size_t memoryBytes() const;
@@ -64,8 +64,8 @@ class MinimaTracker {
   void count();
 
   std::size_t sliced_from_;
-  ConeMotion motion_;
-  ExpiryQueues<SlotPair> queues_;  ///< of the motion's clocks
+  MovedDistances motion_;
+  ExpiryQueues<SlotPair> queues_;  ///< one for each moved distance
   SweepLists lists_;
   ConeSlices slices_;
   std::vector<SlotPair> expired_;  ///< to be compared, from next_expired_ on

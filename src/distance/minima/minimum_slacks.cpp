@@ -1,10 +1,10 @@
+#include "minimum_slacks.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "feature_body.h"
-
-// How far bodies may move while a pair of features stays a local minimum (doc/proofs.md).
 
 namespace concave_distance::detail {
 namespace {
@@ -18,27 +18,28 @@ constexpr double kCrossed = 4e-3;
 
 }  // namespace
 
-bool FeaturePairs::offerStay(const Item& a, const Item& b, const MinimumCandidate& minimum,
-                             SlackOffers& offers) const {
-  const Body body_a(frame_, Side::A);
-  const Body body_b(frame_, Side::B);
+bool MinimumSlacks::offer(const Item& a, const Item& b, const MinimumCandidate& minimum,
+                          SlackOffers& offers) const {
+  const FeatureBody body_a(pairs_.frame(), Side::A);
+  const FeatureBody body_b(pairs_.frame(), Side::B);
   const Vector3d displacement = minimum.point_b - minimum.point_a;
   if (a.kind == Kind::Edge && b.kind == Kind::Edge) {
-    offerStayOfEdges(body_a, a, body_b, b, displacement, offers);
+    offerOfEdges(body_a, a, body_b, b, displacement, offers);
   } else if (b.kind == Kind::Vertex) {
-    offerStayOfVertex(body_b, b, body_a, a, -displacement, offers);
+    offerOfVertex(body_b, b, body_a, a, -displacement, offers);
   } else {
-    offerStayOfVertex(body_a, a, body_b, b, body_b.directionFromOther(displacement), offers);
+    offerOfVertex(body_a, a, body_b, b, body_b.directionFromOther(displacement), offers);
   }
   return !offers.empty();
 }
 
 // While nothing around an end of the displacement falls by less than this along it, per length, that end
 // stays a peak. What is as high as the end may rise at once.
-double FeaturePairs::fallAround(const Body& body, const Item& item, const Vector3d& displacement) const {
+double MinimumSlacks::fallAround(const FeatureBody& body, const Item& item,
+                                 const Vector3d& displacement) const {
   if (item.kind == Kind::Face) return std::numeric_limits<double>::infinity();
   const Vector3d from = body.corner(item, item.element);
-  const double level = 2.0 * level_;
+  const double level = 2.0 * pairs_.level();
   const double slack = level * displacement.norm();
   double least = std::numeric_limits<double>::infinity();
   const auto look = [&](NodeIndex node) {
@@ -57,10 +58,11 @@ double FeaturePairs::fallAround(const Body& body, const Item& item, const Vector
 
 // From the vertex to the other body's closest point, in that body's axes, the displacement changes by no more
 // than the vertex moves; in the vertex's own axes it turns besides. It may double.
-void FeaturePairs::offerStayOfVertex(const Body& of_vertex, const Item& vertex, const Body& of_other,
-                                     const Item& other, const Vector3d& to_other, SlackOffers& offers) const {
+void MinimumSlacks::offerOfVertex(const FeatureBody& of_vertex, const Item& vertex,
+                                  const FeatureBody& of_other, const Item& other, const Vector3d& to_other,
+                                  SlackOffers& offers) const {
   const double distance = to_other.norm();
-  double metres = std::min(distance - slack_, cutoff_ - distance - 2.0 * slack_);
+  double metres = std::min(distance - pairs_.slack(), pairs_.cutoff() - distance - 2.0 * pairs_.slack());
   metres = std::min(metres, fallAround(of_vertex, vertex, of_vertex.directionFromOther(to_other)));
   metres = std::min(metres, fallAround(of_other, other, -to_other));
   const Vector3d point = of_vertex.inOther(of_vertex.corner(vertex, vertex.element));
@@ -69,7 +71,7 @@ void FeaturePairs::offerStayOfVertex(const Body& of_vertex, const Item& vertex, 
     const Vector3d span = of_other.corner(other, other.element + 1U) - from;
     const double length = span.norm();
     const double position = span.dot(point - from) / length;
-    metres = std::min({metres, position - 2.0 * slack_, length - position - 2.0 * slack_});
+    metres = std::min({metres, position - 2.0 * pairs_.slack(), length - position - 2.0 * pairs_.slack()});
   } else if (other.kind == Kind::Face) {
     if (other.cap.isFull()) return;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -77,7 +79,7 @@ void FeaturePairs::offerStayOfVertex(const Body& of_vertex, const Item& vertex, 
       const Vector3d along = (of_other.corner(other, k + 1) - from).normalized();
       Vector3d inward = of_other.corner(other, k + 2) - from;
       inward -= along.dot(inward) * along;
-      metres = std::min(metres, inward.normalized().dot(point - from) - 2.0 * slack_);
+      metres = std::min(metres, inward.normalized().dot(point - from) - 2.0 * pairs_.slack());
     }
   }
   offers.offerMotion(of_vertex.side, metres, 2.0 * distance);
@@ -85,12 +87,12 @@ void FeaturePairs::offerStayOfVertex(const Body& of_vertex, const Item& vertex, 
 
 // The direction across both edges turns by no more than 2 / sine times the bodies' turn, as seen from A, and
 // by that turn more as seen from B, while the turn is below sine / 2.
-void FeaturePairs::offerStayOfEdges(const Body& body_a, const Item& a, const Body& body_b, const Item& b,
-                                    const Vector3d& displacement, SlackOffers& offers) const {
+void MinimumSlacks::offerOfEdges(const FeatureBody& body_a, const Item& a, const FeatureBody& body_b,
+                                 const Item& b, const Vector3d& displacement, SlackOffers& offers) const {
   const Vector3d from_a = body_a.corner(a, a.element);
   const Vector3d from_b = body_b.inOther(body_b.corner(b, b.element));
-  const Vector3d span_a = edgeOfA(a);
-  const Vector3d span_b = edgeOfB(b);
+  const Vector3d span_a = body_a.edgeInFrame(a);
+  const Vector3d span_b = body_b.edgeInFrame(b);
   const double lengths = span_a.norm() * span_b.norm();
   Vector3d across = span_a.cross(span_b);
   const double sine = across.norm() / lengths;
@@ -99,7 +101,8 @@ void FeaturePairs::offerStayOfEdges(const Body& body_a, const Item& a, const Bod
   const Vector3d between = from_b - from_a;
   const double distance = displacement.norm();
   const double reach = std::max({between.norm(), (between + span_b).norm(), (span_a - between).norm()});
-  double metres = std::min({distance - slack_, cutoff_ - distance - 2.0 * slack_, reach});
+  double metres =
+      std::min({distance - pairs_.slack(), pairs_.cutoff() - distance - 2.0 * pairs_.slack(), reach});
   // Each edge's ends are on both sides of the other, seen along the direction across.
   const auto part = [&](const Vector3d& from, const Vector3d& to, const Vector3d& normal) {
     const double first = normal.dot(from);
@@ -108,7 +111,7 @@ void FeaturePairs::offerStayOfEdges(const Body& body_a, const Item& a, const Bod
   };
   part(between, between + span_b, span_a.normalized().cross(across));
   part(-between, span_a - between, span_b.normalized().cross(across));
-  metres -= 4.0 * slack_ / sine;
+  metres -= 4.0 * pairs_.slack() / sine;
   // Per unit of the displacement, falls are radians that it may turn by.
   const double fall = std::min(fallAround(body_a, a, displacement),
                                fallAround(body_b, b, body_b.directionFromOther(-displacement)));

@@ -15,15 +15,15 @@ using SlotPair = std::pair<NormalConeTree::Slot, NormalConeTree::Slot>;  ///< of
 /// A pair of features that holds a minimum, and stays one until its expiry.
 struct LiveMinimum {
   SlotPair pair;
-  std::uint32_t clock;
+  std::uint32_t moved_distance;  ///< index in MovedDistances
   std::uint64_t expiry;
-  MinimumCandidate seed;
+  MinimumCandidate candidate;
 };
 
-/// A pair that holds no minimum until its clock reaches its expiry.
+/// A pair that holds no minimum until its moved distance reaches its expiry.
 struct KeptPair {
   SlotPair pair;
-  std::uint32_t clock;
+  std::uint32_t moved_distance;  ///< index in MovedDistances
   std::uint64_t expiry;
 };
 
@@ -32,7 +32,7 @@ struct SweepLists {
   std::vector<SlotPair> open;  ///< to be opened
   std::vector<LiveMinimum> minima;
   std::vector<SlotPair> undecided;  ///< pairs of features that hold no minimum, without slack
-  std::vector<MinimumCandidate> seeds;
+  std::vector<MinimumCandidate> candidates;
   std::vector<KeptPair> kept;  ///< of a sweep without queues
   std::uint32_t groups = 0;    ///< comparisons of a group with four others
   std::uint32_t features = 0;  ///< pairs of features that were asked whether they hold a minimum
@@ -40,7 +40,7 @@ struct SweepLists {
 
   std::size_t memoryBytes() const {
     return (open.capacity() + undecided.capacity()) * sizeof(SlotPair) +
-           minima.capacity() * sizeof(LiveMinimum) + seeds.capacity() * sizeof(MinimumCandidate) +
+           minima.capacity() * sizeof(LiveMinimum) + candidates.capacity() * sizeof(MinimumCandidate) +
            kept.capacity() * sizeof(KeptPair);
   }
 };

@@ -7,7 +7,7 @@ namespace concave_distance::detail {
 namespace {
 
 using Eigen::Vector3d;
-using Row = Eigen::Array<float, BorderPool::kWidth, 1>;
+using Row = Eigen::Array<float, BoundaryPool::kWidth, 1>;
 
 /// What single precision may make of a bound, relative to the numbers in it (2^-24 for each of 16 roundings,
 /// and as much to spare).
@@ -23,7 +23,7 @@ struct Part {
     for (std::size_t k = 1; k < count; ++k) least = std::min(least, direction.dot(corners[k]));
     return least;
   }
-  double leverOf(const Vector3d& centre) const {
+  double radiusOf(const Vector3d& centre) const {
     double most = 0.0;
     for (std::size_t k = 0; k < count; ++k) most = std::max(most, (corners[k] - centre).squaredNorm());
     return std::sqrt(most);
@@ -57,25 +57,25 @@ double gapAlong(const PairFrame& frame, const SharedElement& shared, const Vecto
          2.0 * frame.rounding;
 }
 
-Row rowOf(const std::array<float, BorderPool::kWidth>& row) {
+Row rowOf(const std::array<float, BoundaryPool::kWidth>& row) {
   return Eigen::Map<const Row>(row.data());
 }
 
 }  // namespace
 
-/// How far an element's parts reach; the body with the shorter lever counts as the one that moves.
-struct BasinBoundary::Levers {
-  Levers(const Part& a, const Part& b, const std::array<Vector3d, 2>& centres) {
-    const double lever_a = a.leverOf(centres[0]);
-    const double lever_b = b.leverOf(centres[1]);
-    fixed_in = lever_b <= lever_a ? Side::A : Side::B;
-    shorter = static_cast<float>(std::min(lever_a, lever_b));
+/// How far an element's parts reach; the body with the smaller radius counts as the one that moves.
+struct BasinBoundary::Radii {
+  Radii(const Part& a, const Part& b, const std::array<Vector3d, 2>& centres) {
+    const double radius_a = a.radiusOf(centres[0]);
+    const double radius_b = b.radiusOf(centres[1]);
+    fixed_in = radius_b <= radius_a ? Side::A : Side::B;
+    smaller = static_cast<float>(std::min(radius_a, radius_b));
   }
   Side fixed_in;
-  float shorter;
+  float smaller;
 };
 
-std::uint32_t BorderPool::take(std::uint32_t next, WorkLimit& limit) {
+std::uint32_t BoundaryPool::take(std::uint32_t next, WorkLimit& limit) {
   std::uint32_t chunk = free_;
   if (chunk != kNone) {
     free_ = (*this)[chunk].next;
@@ -91,7 +91,7 @@ std::uint32_t BorderPool::take(std::uint32_t next, WorkLimit& limit) {
   return chunk;
 }
 
-void BorderPool::release(std::uint32_t first) {
+void BoundaryPool::release(std::uint32_t first) {
   while (first != kNone) {
     const std::uint32_t next = (*this)[first].next;
     (*this)[first].next = free_;
@@ -100,14 +100,14 @@ void BorderPool::release(std::uint32_t first) {
   }
 }
 
-void BorderPool::clear() {
+void BoundaryPool::clear() {
   chunk_count_ = 0;
   free_ = kNone;
 }
 
-std::size_t BorderPool::memoryBytes() const {
+std::size_t BoundaryPool::memoryBytes() const {
   return blocks_.size() * sizeof(Block) + blocks_.capacity() * sizeof(blocks_[0]) +
-         anew.capacity() * sizeof(Directed) + crossed.capacity() * sizeof(BorderElement);
+         anew.capacity() * sizeof(Directed) + crossed.capacity() * sizeof(BoundaryElement);
 }
 
 /// Of the gaps of a batch at another pose.
@@ -118,7 +118,7 @@ class BasinBoundary::Bound {
                             seen(batch.fixed_in, batch.rotation, batch.offset, moving_centre);
     const double turn = (frame.rotation - batch.rotation).norm() * std::sqrt(0.5);
     const double reach = motion.norm();
-    const double rounding = kSingleError * (reach + turn * static_cast<double>(batch.longest));
+    const double rounding = kSingleError * (reach + turn * static_cast<double>(batch.largest));
     less_ = 4.0 * frame.rounding + rounding + (batch.directed ? 0.0 : reach);
     turn_ = static_cast<float>(turn);
     along_ = batch.directed ? Eigen::Vector3f(motion.cast<float>()) : Eigen::Vector3f::Zero();
@@ -127,13 +127,13 @@ class BasinBoundary::Bound {
   /// What of() must be above for a level (metres) to be certain.
   float needed(double level) const { return static_cast<float>((level + less_) * (1.0 + kSingleError)); }
 
-  Row of(const BorderPool::Chunk& chunk) const {
-    return rowOf(chunk.gap) - turn_ * rowOf(chunk.lever) + along_[0] * rowOf(chunk.direction[0]) +
+  Row of(const BoundaryPool::Chunk& chunk) const {
+    return rowOf(chunk.gap) - turn_ * rowOf(chunk.radius) + along_[0] * rowOf(chunk.direction[0]) +
            along_[1] * rowOf(chunk.direction[1]) + along_[2] * rowOf(chunk.direction[2]);
   }
 
   /// Certain gaps at the pose.
-  Row gapsOf(const BorderPool::Chunk& chunk) const {
+  Row gapsOf(const BoundaryPool::Chunk& chunk) const {
     const auto error = static_cast<float>(2.0 * kSingleError);
     return (of(chunk) - static_cast<float>(less_)) - error * rowOf(chunk.gap).abs();
   }
@@ -144,20 +144,20 @@ class BasinBoundary::Bound {
   Eigen::Vector3f along_;
 };
 
-void BasinBoundary::begin(BorderPool& pool, const Vector3d& centre_a, const Vector3d& centre_b) {
+void BasinBoundary::begin(BoundaryPool& pool, const Vector3d& centre_a, const Vector3d& centre_b) {
   clear(pool);
   centres_ = {centre_a, centre_b};
 }
 
-void BasinBoundary::clear(BorderPool& pool) {
+void BasinBoundary::clear(BoundaryPool& pool) {
   for (std::uint32_t i = 0; i < used_; ++i) pool.release(batches_[i].first);
   used_ = 0;
 }
 
-std::size_t BasinBoundary::size(const BorderPool& pool) const {
+std::size_t BasinBoundary::size(const BoundaryPool& pool) const {
   std::size_t count = 0;
   for (std::uint32_t i = 0; i < used_; ++i) {
-    for (std::uint32_t c = batches_[i].first; c != BorderPool::kNone; c = pool[c].next)
+    for (std::uint32_t c = batches_[i].first; c != BoundaryPool::kNone; c = pool[c].next)
       count += pool[c].count;
   }
   return count;
@@ -172,69 +172,69 @@ BasinBoundary::Batch& BasinBoundary::batchAt(const PairFrame& frame, Side fixed_
     }
   }
   Batch& batch = batches_[used_++];
-  batch = {fixed_in, directed, frame.rotation, frame.offset, 0.0F, BorderPool::kNone};
+  batch = {fixed_in, directed, frame.rotation, frame.offset, 0.0F, BoundaryPool::kNone};
   return batch;
 }
 
-std::uint32_t BasinBoundary::placeIn(BorderPool& pool, Batch& batch, WorkLimit& limit) {
-  if (batch.first == BorderPool::kNone || pool[batch.first].count == BorderPool::kWidth) {
+std::uint32_t BasinBoundary::placeIn(BoundaryPool& pool, Batch& batch, WorkLimit& limit) {
+  if (batch.first == BoundaryPool::kNone || pool[batch.first].count == BoundaryPool::kWidth) {
     const std::uint32_t chunk = pool.take(batch.first, limit);
-    if (chunk == BorderPool::kNone) return chunk;
+    if (chunk == BoundaryPool::kNone) return chunk;
     batch.first = chunk;
   }
   return pool[batch.first].count++;
 }
 
-BorderPool::Entry BasinBoundary::takeFrom(BorderPool::Chunk& chunk, std::uint32_t k) {
-  const BorderPool::Entry entry{chunk.gap[k],
-                                chunk.lever[k],
-                                {chunk.direction[0][k], chunk.direction[1][k], chunk.direction[2][k]},
-                                chunk.elements[k]};
+BoundaryPool::Entry BasinBoundary::takeFrom(BoundaryPool::Chunk& chunk, std::uint32_t k) {
+  const BoundaryPool::Entry entry{chunk.gap[k],
+                                  chunk.radius[k],
+                                  {chunk.direction[0][k], chunk.direction[1][k], chunk.direction[2][k]},
+                                  chunk.elements[k]};
   const std::uint32_t last = --chunk.count;
   chunk.gap[k] = chunk.gap[last];
-  chunk.lever[k] = chunk.lever[last];
-  for (std::array<float, BorderPool::kWidth>& component : chunk.direction) component[k] = component[last];
+  chunk.radius[k] = chunk.radius[last];
+  for (std::array<float, BoundaryPool::kWidth>& component : chunk.direction) component[k] = component[last];
   chunk.elements[k] = chunk.elements[last];
   return entry;
 }
 
-bool BasinBoundary::put(BorderPool& pool, Batch& batch, const BorderPool::Entry& entry, WorkLimit& limit) {
+bool BasinBoundary::put(BoundaryPool& pool, Batch& batch, const BoundaryPool::Entry& entry,
+                        WorkLimit& limit) {
   const std::uint32_t k = placeIn(pool, batch, limit);
-  if (k == BorderPool::kNone) return false;
-  BorderPool::Chunk& chunk = pool[batch.first];
+  if (k == BoundaryPool::kNone) return false;
+  BoundaryPool::Chunk& chunk = pool[batch.first];
   chunk.gap[k] = entry.gap;
-  chunk.lever[k] = entry.lever;
+  chunk.radius[k] = entry.radius;
   for (std::size_t d = 0; d < 3; ++d) chunk.direction[d][k] = entry.direction[static_cast<Eigen::Index>(d)];
   chunk.elements[k] = entry.element;
-  batch.longest = std::max(batch.longest, entry.lever);
+  batch.largest = std::max(batch.largest, entry.radius);
   return true;
 }
 
-bool BasinBoundary::add(BorderPool& pool, const PairFrame& frame, const BorderElement& element, double level,
-                        WorkLimit& limit) {
-  const Levers levers(partOf(frame, Side::A, element.shared), partOf(frame, Side::B, element.shared),
-                      centres_);
+bool BasinBoundary::add(BoundaryPool& pool, const PairFrame& frame, const BoundaryElement& element,
+                        double level, WorkLimit& limit) {
+  const Radii radii(partOf(frame, Side::A, element.shared), partOf(frame, Side::B, element.shared), centres_);
   if (used_ == kMostBatches) rebase(pool, frame);
   // Twice for the level, and as much for quadrangles that are not quite flat.
   const auto gap = static_cast<float>(level - 4.0 * frame.rounding);
-  return put(pool, batchAt(frame, levers.fixed_in, false),
-             {gap, levers.shorter, Eigen::Vector3f::Zero(), element}, limit);
+  return put(pool, batchAt(frame, radii.fixed_in, false),
+             {gap, radii.smaller, Eigen::Vector3f::Zero(), element}, limit);
 }
 
 /// What may be nearer than the level leaves the batch: it is looked at along its direction, and measured
 /// where that does not do.
-std::uint32_t BasinBoundary::look(BorderPool& pool, const PairFrame& frame, Batch& batch,
+std::uint32_t BasinBoundary::look(BoundaryPool& pool, const PairFrame& frame, Batch& batch,
                                   double level) const {
   const Bound bound(frame, batch, centres_[batch.fixed_in == Side::A ? 1 : 0]);
   const float needed = bound.needed(level);
   std::uint32_t measured = 0;
   std::uint32_t* at = &batch.first;
-  while (*at != BorderPool::kNone) {
-    BorderPool::Chunk& chunk = pool[*at];
+  while (*at != BoundaryPool::kNone) {
+    BoundaryPool::Chunk& chunk = pool[*at];
     const Row bounds = bound.of(chunk);
     for (std::uint32_t k = chunk.count; k-- > 0;) {
       if (bounds[k] > needed) continue;
-      BorderPool::Entry entry = takeFrom(chunk, k);
+      BoundaryPool::Entry entry = takeFrom(chunk, k);
       const auto enter = [&](const Vector3d& direction, double gap) {
         const Vector3d along =
             batch.fixed_in == Side::A ? direction : Vector3d(frame.rotation.transpose() * -direction);
@@ -266,31 +266,31 @@ std::uint32_t BasinBoundary::look(BorderPool& pool, const PairFrame& frame, Batc
     }
     const std::uint32_t empty = *at;
     *at = chunk.next;
-    pool[empty].next = BorderPool::kNone;
+    pool[empty].next = BoundaryPool::kNone;
     pool.release(empty);
   }
   return measured;
 }
 
 /// All elements to this pose: their bounds at it are gaps.
-void BasinBoundary::rebase(BorderPool& pool, const PairFrame& frame) {
+void BasinBoundary::rebase(BoundaryPool& pool, const PairFrame& frame) {
   const std::array<Batch, kMostBatches> before = batches_;
   const std::uint32_t count = used_;
   used_ = 0;
   WorkLimit none;
   for (std::uint32_t i = 0; i < count; ++i) {
     const Batch& batch = before[i];
-    if (batch.first == BorderPool::kNone) continue;
+    if (batch.first == BoundaryPool::kNone) continue;
     const Bound bound(frame, batch, centres_[batch.fixed_in == Side::A ? 1 : 0]);
     Batch& at_this_pose = batchAt(frame, batch.fixed_in, batch.directed);
-    for (std::uint32_t c = batch.first; c != BorderPool::kNone;) {
-      BorderPool::Chunk chunk = pool[c];
+    for (std::uint32_t c = batch.first; c != BoundaryPool::kNone;) {
+      BoundaryPool::Chunk chunk = pool[c];
       const Row gaps = bound.gapsOf(chunk);
-      pool[c].next = BorderPool::kNone;
+      pool[c].next = BoundaryPool::kNone;
       pool.release(c);
       c = chunk.next;
       for (std::uint32_t k = chunk.count; k-- > 0;) {
-        BorderPool::Entry entry = takeFrom(chunk, k);
+        BoundaryPool::Entry entry = takeFrom(chunk, k);
         entry.gap = gaps[k];
         put(pool, at_this_pose, entry, none);
       }
@@ -298,7 +298,7 @@ void BasinBoundary::rebase(BorderPool& pool, const PairFrame& frame) {
   }
 }
 
-std::uint32_t BasinBoundary::takeCrossed(BorderPool& pool, const PairFrame& frame, double level) {
+std::uint32_t BasinBoundary::takeCrossed(BoundaryPool& pool, const PairFrame& frame, double level) {
   pool.anew.clear();
   pool.crossed.clear();
   std::uint32_t measured = 0;
@@ -306,14 +306,14 @@ std::uint32_t BasinBoundary::takeCrossed(BorderPool& pool, const PairFrame& fram
   if (pool.anew.empty()) return measured;
   std::uint32_t rest = 0;
   for (std::uint32_t i = 0; i < used_; ++i) {
-    if (batches_[i].first == BorderPool::kNone) continue;
+    if (batches_[i].first == BoundaryPool::kNone) continue;
     if (i != rest) std::swap(batches_[i], batches_[rest]);
     ++rest;
   }
   used_ = rest;
   if (used_ + 2 > kMostBatches) rebase(pool, frame);
   WorkLimit none;
-  for (const BorderPool::Directed& directed : pool.anew) {
+  for (const BoundaryPool::Directed& directed : pool.anew) {
     put(pool, batchAt(frame, directed.fixed_in, true), directed.entry, none);
   }
   return measured;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -12,7 +13,7 @@ namespace concave_distance::detail {
 
 /// Visits facet pairs (a facet of each body) from the one that holds a local minimum, lowest levels first.
 /// The distance is convex on a facet pair, and facet pairs meet at the least distance over what they share: a
-/// graph with the very basins and passes of the surfaces. Buffers of one thread, kept from flood to flood.
+/// graph with the very basins and passes of the surfaces. Buffers of one thread, kept from search to search.
 class BasinSearch {
  public:
   /// Metres.
@@ -36,7 +37,7 @@ class BasinSearch {
     SharedElement via;     ///< what it has in common with its parent
   };
   /// An element that parts the facet pairs visited from one beyond the level.
-  struct BorderStep {
+  struct BoundaryStep {
     TriangleIndex beyond_a;
     TriangleIndex beyond_b;
     double squared_level;  ///< m^2, over the element
@@ -49,14 +50,15 @@ class BasinSearch {
     enter(a, b, 0.0, kNone, {});
     has_own_start_ = true;
   }
-  /// From facet pairs beyond a border, given by enterBeyond().
+  /// From facet pairs beyond a boundary, given by enterBeyond().
   void beginBeyond(const Levels& levels) {
     levels_ = levels;
     table_.clear();
     facet_pairs_.clear();
     reached_.clear();
-    border_.clear();
+    boundary_.clear();
     looked_at_ = 0;
+    highest_ = 0.0;
     has_own_start_ = false;
   }
   /// False without memory.
@@ -77,6 +79,7 @@ class BasinSearch {
       if (looked_at_ == most_facet_pairs) return End::Long;
       std::pop_heap(reached_.begin(), reached_.end(), isHigher);
       last_ = reached_.back().facet_pair;
+      highest_ = std::max(highest_, reached_.back().squared_level);
       reached_.pop_back();
       ++looked_at_;
       const TriangleIndex a = facet_pairs_[last_].a;
@@ -96,11 +99,13 @@ class BasinSearch {
   const std::vector<FacetPair>& facet_pairs() const { return facet_pairs_; }
   std::uint32_t last() const { return last_; }
   std::size_t lookedAt() const { return looked_at_; }
+  /// The level (metres) to which the search has risen.
+  double highestLevel() const { return std::sqrt(highest_); }
 
-  /// Calls visit(border step) for what encloses the facet pairs visited and those inside.
+  /// Calls visit(boundary step) for what encloses the facet pairs visited and those inside.
   template <typename IsInside, typename Visit>
-  void forEachBorderStep(const IsInside& is_inside, const Visit& visit) const {
-    for (const BorderStep& step : border_) {
+  void forEachBoundaryStep(const IsInside& is_inside, const Visit& visit) const {
+    for (const BoundaryStep& step : boundary_) {
       if (table_.find(step.beyond_a, step.beyond_b) == PairTable::kAbsent &&
           !is_inside(step.beyond_a, step.beyond_b)) {
         visit(step);
@@ -110,7 +115,7 @@ class BasinSearch {
 
   std::size_t memoryBytes() const {
     return table_.memoryBytes() + facet_pairs_.capacity() * sizeof(FacetPair) +
-           reached_.capacity() * sizeof(Reached) + border_.capacity() * sizeof(BorderStep);
+           reached_.capacity() * sizeof(Reached) + boundary_.capacity() * sizeof(BoundaryStep);
   }
 
  private:
@@ -148,8 +153,8 @@ class BasinSearch {
         [&](TriangleIndex to_a, TriangleIndex to_b, double squared_level, const SharedElement& element) {
           if (!has_room) return;
           if (squared_level > highest) {
-            has_room = limit.makeRoom(border_);
-            if (has_room) border_.push_back({to_a, to_b, squared_level, element});
+            has_room = limit.makeRoom(boundary_);
+            if (has_room) boundary_.push_back({to_a, to_b, squared_level, element});
             return;
           }
           if (table_.find(to_a, to_b) != PairTable::kAbsent || is_inside(to_a, to_b)) return;
@@ -163,9 +168,10 @@ class BasinSearch {
   PairTable table_{8};
   std::vector<FacetPair> facet_pairs_;
   std::vector<Reached> reached_;
-  std::vector<BorderStep> border_;
+  std::vector<BoundaryStep> boundary_;
   std::uint32_t last_ = 0;
   std::size_t looked_at_ = 0;
+  double highest_ = 0.0;  ///< m^2
   bool has_own_start_ = true;
 };
 

@@ -39,7 +39,7 @@ struct BoundedPathBuffers {
 
 /// Looks for a path over facet pairs with the distance below a limit, moving one body at a time. The
 /// highest distance on it, metres, bounds the pass between its ends.
-/// Unlike a flood in order of distance, which covers the whole basin of both bodies first, it visits at most
+/// Unlike a search in order of distance, which covers the whole basin of both bodies first, it visits at most
 /// the facets of one body, those towards the target first.
 class BoundedPath {
  public:

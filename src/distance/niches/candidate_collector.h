@@ -11,18 +11,19 @@
 namespace concave_distance::detail {
 
 /// Tells whether a minimum that was found elsewhere, by a search or at an earlier pose, can be a niche.
-bool isCandidate(const PairFrame& frame, const LocalMinimaRequest& request, const MinimumCandidate& seed);
+bool isCandidate(const PairFrame& frame, const LocalMinimaRequest& request,
+                 const MinimumCandidate& candidate);
 /// Appends those of `from` that can be niches.
 void appendCandidates(const PairFrame& frame, const LocalMinimaRequest& request,
-                      const std::vector<MinimumCandidate>& from, std::vector<MinimumCandidate>& seeds);
+                      const std::vector<MinimumCandidate>& from, std::vector<MinimumCandidate>& candidates);
 
 /// Collects the triangle pairs in which local minima of the distance may lie. Belongs to one pair of bodies:
 /// it keeps its buffers and, of a tracked pair, what the next pose can use.
 class CandidateCollector {
  public:
-  /// @param seeds replaced, in no order, some more than once. @return false when the limit was reached
+  /// @param candidates replaced, in no order, some more than once. @return false when the limit was reached
   bool collect(const PairFrame& frame, const LocalMinimaRequest& request,
-               std::vector<MinimumCandidate>& seeds, LocalMinimaCost& cost, WorkLimit& limit);
+               std::vector<MinimumCandidate>& candidates, LocalMinimaCost& cost, WorkLimit& limit);
   void clear() { front_.clear(); }
   std::size_t memoryBytes() const {
     return front_.memoryBytes() + distant_components_.memoryBytes() + open_.capacity() * sizeof(TreeNodePair);

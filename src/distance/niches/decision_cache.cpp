@@ -18,15 +18,15 @@ void DecisionCache::clear() {
   links_.clear();
   memberships_.clear();
   free_membership_ = kNone;
-  regions_.clear();
-  free_regions_.clear();
-  borders_.clear();
+  basins_.clear();
+  free_basins_.clear();
+  boundaries_.clear();
   live_facet_pairs_ = 0;
 }
 
 void DecisionCache::beginCycle(bool is_tracked) {
-  for (std::uint32_t i = 0; i < regions_.size(); ++i) {
-    if (regions_[i].id != 0 && !regions_[i].confirmed) drop(i);
+  for (std::uint32_t i = 0; i < basins_.size(); ++i) {
+    if (basins_[i].id != 0 && !basins_[i].confirmed) drop(i);
   }
   compact();
   if (is_tracked) {
@@ -34,9 +34,9 @@ void DecisionCache::beginCycle(bool is_tracked) {
     links_.reserve(kSmallTable);
   }
   ++cycle_;
-  for (Region& region : regions_) {
-    region.first = kNone;
-    region.confirmed = false;
+  for (KeptBasin& basin : basins_) {
+    basin.first = kNone;
+    basin.confirmed = false;
   }
 }
 
@@ -53,14 +53,14 @@ std::uint32_t DecisionCache::facetPairOf(TriangleIndex a, TriangleIndex b, WorkL
   return number;
 }
 
-void DecisionCache::enterSeed(std::uint32_t number, std::uint32_t seed) {
+void DecisionCache::enterCandidate(std::uint32_t number, std::uint32_t candidate) {
   FacetPair& facet_pair = facet_pairs_[number];
   if (facet_pair.cycle == cycle_) return;
   facet_pair.cycle = cycle_;
-  facet_pair.seed = seed;
-  for (std::uint32_t m = facet_pair.regions; m != kNone; m = memberships_[m].next) {
-    Region& region = regions_[memberships_[m].region];
-    if (region.first == kNone) region.first = seed;
+  facet_pair.candidate = candidate;
+  for (std::uint32_t m = facet_pair.basins; m != kNone; m = memberships_[m].next) {
+    KeptBasin& basin = basins_[memberships_[m].basin];
+    if (basin.first == kNone) basin.first = candidate;
   }
 }
 
@@ -75,41 +75,41 @@ bool DecisionCache::keepLink(std::uint32_t& number, const Link& link, WorkLimit&
   return true;
 }
 
-std::uint32_t DecisionCache::regionOf(std::uint32_t number, std::uint32_t first) const {
-  for (std::uint32_t m = facet_pairs_[number].regions; m != kNone; m = memberships_[m].next) {
-    if (regions_[memberships_[m].region].first == first) return memberships_[m].region;
+std::uint32_t DecisionCache::basinOf(std::uint32_t number, std::uint32_t first) const {
+  for (std::uint32_t m = facet_pairs_[number].basins; m != kNone; m = memberships_[m].next) {
+    if (basins_[memberships_[m].basin].first == first) return memberships_[m].basin;
   }
   return kNone;
 }
 
-std::uint32_t DecisionCache::regionWith(std::uint64_t id) const {
+std::uint32_t DecisionCache::basinWith(std::uint64_t id) const {
   const auto index = static_cast<std::uint32_t>(id & 0xffffffffU);
-  return id != 0 && index < regions_.size() && regions_[index].id == id ? index : kNone;
+  return id != 0 && index < basins_.size() && basins_[index].id == id ? index : kNone;
 }
 
-bool DecisionCache::isIn(TriangleIndex a, TriangleIndex b, std::uint32_t region) const {
+bool DecisionCache::isIn(TriangleIndex a, TriangleIndex b, std::uint32_t basin) const {
   const std::uint32_t number = table_.find(a, b);
   if (number == PairTable::kAbsent) return false;
-  for (std::uint32_t m = facet_pairs_[number].regions; m != kNone; m = memberships_[m].next) {
-    if (memberships_[m].region == region) return true;
+  for (std::uint32_t m = facet_pairs_[number].basins; m != kNone; m = memberships_[m].next) {
+    if (memberships_[m].basin == basin) return true;
   }
   return false;
 }
 
-std::uint32_t DecisionCache::takeRegion(std::uint64_t id, WorkLimit& limit) {
-  if (free_regions_.empty()) {
-    if (!limit.makeRoom(regions_) || !limit.makeRoom(free_regions_)) return kNone;
-    free_regions_.push_back(static_cast<std::uint32_t>(regions_.size()));
-    regions_.emplace_back();
+std::uint32_t DecisionCache::takeBasin(std::uint64_t id, WorkLimit& limit) {
+  if (free_basins_.empty()) {
+    if (!limit.makeRoom(basins_) || !limit.makeRoom(free_basins_)) return kNone;
+    free_basins_.push_back(static_cast<std::uint32_t>(basins_.size()));
+    basins_.emplace_back();
   }
   // The one that was dropped last comes first: an id keeps its place.
-  const std::uint32_t index = free_regions_.back();
-  free_regions_.pop_back();
-  regions_[index].id = id != 0 ? id : (++regions_made_ << 32U) | index;
+  const std::uint32_t index = free_basins_.back();
+  free_basins_.pop_back();
+  basins_[index].id = id != 0 ? id : (++basins_made_ << 32U) | index;
   return index;
 }
 
-bool DecisionCache::join(std::uint32_t number, std::uint32_t region, WorkLimit& limit) {
+bool DecisionCache::join(std::uint32_t number, std::uint32_t basin, WorkLimit& limit) {
   std::uint32_t m = free_membership_;
   if (m != kNone) {
     free_membership_ = memberships_[m].next;
@@ -118,30 +118,30 @@ bool DecisionCache::join(std::uint32_t number, std::uint32_t region, WorkLimit& 
     m = static_cast<std::uint32_t>(memberships_.size());
     memberships_.emplace_back();
   }
-  Region& owner = regions_[region];
-  memberships_[m] = {region, number, facet_pairs_[number].regions, owner.members};
-  facet_pairs_[number].regions = owner.members = m;
+  KeptBasin& owner = basins_[basin];
+  memberships_[m] = {basin, number, facet_pairs_[number].basins, owner.members};
+  facet_pairs_[number].basins = owner.members = m;
   ++owner.facet_pairs;
   return true;
 }
 
 void DecisionCache::drop(std::uint32_t index) {
-  Region& region = regions_[index];
-  for (std::uint32_t m = region.members; m != kNone;) {
+  KeptBasin& basin = basins_[index];
+  for (std::uint32_t m = basin.members; m != kNone;) {
     Membership& membership = memberships_[m];
-    std::uint32_t* at = &facet_pairs_[membership.facet_pair].regions;
+    std::uint32_t* at = &facet_pairs_[membership.facet_pair].basins;
     while (*at != m) at = &memberships_[*at].next;
     *at = membership.next;
-    const std::uint32_t next = membership.next_of_region;
+    const std::uint32_t next = membership.next_of_basin;
     membership.next = free_membership_;
     free_membership_ = m;
     m = next;
   }
-  region.members = kNone;
-  region.facet_pairs = 0;
-  region.border.clear(borders_);
-  region.id = 0;
-  free_regions_.push_back(index);
+  basin.members = kNone;
+  basin.facet_pairs = 0;
+  basin.boundary.clear(boundaries_);
+  basin.id = 0;
+  free_basins_.push_back(index);
 }
 
 bool DecisionCache::isUsed(std::uint32_t link) const {
@@ -156,7 +156,7 @@ void DecisionCache::compact() {
   for (std::size_t i = 0; i < facet_pairs_.size(); ++i) {
     const FacetPair& facet_pair = facet_pairs_[i];
     const bool is_hidden = facet_pair.cycle == cycle_ && facet_pair.occluder.triangle != kNoTriangle;
-    if (is_hidden || facet_pair.regions != kNone || isUsed(facet_pair.low)) live[i] = 1;
+    if (is_hidden || facet_pair.basins != kNone || isUsed(facet_pair.low)) live[i] = 1;
     if (isUsed(facet_pair.link)) live[i] = live[links_[facet_pair.link].next] = 1;
   }
   std::vector<std::uint32_t>& places = places_;
@@ -188,17 +188,17 @@ void DecisionCache::compact() {
     keep(facet_pair.low);
   }
   links_.swap(links);
-  for (const Region& region : regions_) {
-    for (std::uint32_t m = region.members; m != kNone; m = memberships_[m].next_of_region) {
+  for (const KeptBasin& basin : basins_) {
+    for (std::uint32_t m = basin.members; m != kNone; m = memberships_[m].next_of_basin) {
       memberships_[m].facet_pair = places[memberships_[m].facet_pair];
     }
   }
 }
 
 std::size_t DecisionCache::memoryBytes() const {
-  return borders_.memoryBytes() + table_.memoryBytes() + facet_pairs_.capacity() * sizeof(FacetPair) +
+  return boundaries_.memoryBytes() + table_.memoryBytes() + facet_pairs_.capacity() * sizeof(FacetPair) +
          (links_.capacity() + spare_links_.capacity()) * sizeof(Link) +
-         memberships_.capacity() * sizeof(Membership) + regions_.capacity() * sizeof(Region) +
+         memberships_.capacity() * sizeof(Membership) + basins_.capacity() * sizeof(KeptBasin) +
          live_.capacity() + places_.capacity() * sizeof(std::uint32_t);
 }
 

@@ -3,110 +3,118 @@
 #include <algorithm>
 #include <cmath>
 
+#include "distant_components.h"
 #include "mesh/surface/connected_pieces.h"
 
 namespace concave_distance::detail {
+namespace {
 
-void NicheDecider::Stage::enter(const std::vector<MinimumCandidate>& seeds) {
-  were_long_ = verdicts_.floods_are_long_;
-  verdicts_.floods_are_long_ = false;
-  for (const MinimumCandidate& seed : seeds) {
-    const auto index = static_cast<std::uint32_t>(verdicts_.judged_.size());
-    verdicts_.judged_.emplace_back();
-    verdicts_.judged_.back().seed = seed;
-    const std::uint32_t number = numberOf(seed);
+/// A search that has visited this many facet pairs may be replaced by cheaper tests.
+constexpr std::size_t kLongSearch = 512;
+
+}  // namespace
+
+void NicheDecider::Stage::enter(const std::vector<MinimumCandidate>& candidates) {
+  were_long_ = decider_.searches_are_long_;
+  decider_.searches_are_long_ = false;
+  for (const MinimumCandidate& candidate : candidates) {
+    const auto index = static_cast<std::uint32_t>(decider_.judged_.size());
+    decider_.judged_.emplace_back();
+    decider_.judged_.back().candidate = candidate;
+    const std::uint32_t number = indexOf(candidate);
     if (number == kNone) continue;
-    memory_.enterSeed(number, index);
+    memory_.enterCandidate(number, index);
   }
-  seed_count_ = verdicts_.seed_count_ = static_cast<std::uint32_t>(verdicts_.judged_.size());
+  candidate_count_ = decider_.candidate_count_ = static_cast<std::uint32_t>(decider_.judged_.size());
 }
 
 std::uint32_t NicheDecider::Stage::placeAround(const TrianglePair& pair) {
-  const std::uint32_t in_facet_pair = seedAround(pair.a, pair.b);
+  const std::uint32_t in_facet_pair = candidateAround(pair.a, pair.b);
   if (in_facet_pair != kNone) return in_facet_pair;
   return enterPlace(
-      refineWitness(frame_.a, frame_.b, frame_.a_from_b, pair.a, pair.b, verdicts_.refinement_).witness);
+      refineWitness(frame_.a, frame_.b, frame_.a_from_b, pair.a, pair.b, decider_.refinement_).witness);
 }
 
 std::uint32_t NicheDecider::Stage::enterPlace(const WitnessPair& minimum) {
   if (!frame_.areOnSurface(minimum.triangle_a, minimum.triangle_b)) return kNone;
-  const MinimumCandidate seed = frame_.candidateOf(minimum);
-  const std::uint32_t in_facet_pair = seedAround(minimum.triangle_a, minimum.triangle_b);
-  // Given seeds may lie a little above the minimum of their facet pair.
+  const MinimumCandidate candidate = frame_.candidateOf(minimum);
+  const std::uint32_t in_facet_pair = candidateAround(minimum.triangle_a, minimum.triangle_b);
+  // Given candidates may lie a little above the minimum of their facet pair.
   if (in_facet_pair != kNone &&
-      verdicts_.judged_[in_facet_pair].seed.distance <= seed.distance + tolerance_) {
+      decider_.judged_[in_facet_pair].candidate.distance <= candidate.distance + tolerance_) {
     return in_facet_pair;
   }
-  const auto begin = verdicts_.judged_.begin();
-  const auto found = begin + seed_count_;
-  const auto is_there = [&](const Judged& other) { return isSamePlace(other.seed, seed); };
+  const auto begin = decider_.judged_.begin();
+  const auto found = begin + candidate_count_;
+  const auto is_there = [&](const Judged& other) { return isSamePlace(other.candidate, candidate); };
   const auto is_nearer = [](const Judged& judged, double distance) {
-    return judged.seed.distance < distance;
+    return judged.candidate.distance < distance;
   };
-  const auto nearest = std::lower_bound(begin, found, seed.distance - tolerance_, is_nearer);
-  const auto farthest = std::lower_bound(nearest, found, seed.distance + 2.0 * tolerance_, is_nearer);
+  const auto nearest = std::lower_bound(begin, found, candidate.distance - tolerance_, is_nearer);
+  const auto farthest = std::lower_bound(nearest, found, candidate.distance + 2.0 * tolerance_, is_nearer);
   auto known = std::find_if(nearest, farthest, is_there);
-  if (known == farthest) known = std::find_if(found, verdicts_.judged_.end(), is_there);
-  if (known != verdicts_.judged_.end()) return static_cast<std::uint32_t>(known - begin);
+  if (known == farthest) known = std::find_if(found, decider_.judged_.end(), is_there);
+  if (known != decider_.judged_.end()) return static_cast<std::uint32_t>(known - begin);
   if (!request_.through_material && isThroughMaterial(minimum)) return kNone;
-  verdicts_.judged_.emplace_back();
-  verdicts_.judged_.back().seed = seed;
-  verdicts_.judged_.back().was_found = true;
-  return static_cast<std::uint32_t>(verdicts_.judged_.size() - 1);
+  decider_.judged_.emplace_back();
+  decider_.judged_.back().candidate = candidate;
+  decider_.judged_.back().was_found = true;
+  return static_cast<std::uint32_t>(decider_.judged_.size() - 1);
 }
 
 void NicheDecider::Stage::decideFar() {
-  for (std::uint32_t i = 0; i < verdicts_.judged_.size(); ++i) {
-    if (verdicts_.judged_[i].verdict != Verdict::Open) continue;
+  for (std::uint32_t i = 0; i < decider_.judged_.size(); ++i) {
+    if (decider_.judged_[i].decision != Decision::Open) continue;
     const std::uint32_t deepest = deepestLike(i);
-    set(i, deepest == i ? Verdict::Niche : Verdict::Ripple, deepest == i ? kNone : deepest);
+    set(i, deepest == i ? Decision::Niche : Decision::Ripple, deepest == i ? kNone : deepest);
   }
 }
 
 void NicheDecider::Stage::decideByMemory() {
   std::size_t niches = 0;
-  for (std::uint32_t& end = verdicts_.end_; end < seed_count_ && niches < request_.most_niches; ++end) {
-    if (verdicts_.judged_[end].verdict == Verdict::Open) decideByMemory(end);
-    niches += verdicts_.judged_[end].verdict == Verdict::Niche ? 1 : 0;
+  for (std::uint32_t& end = decider_.end_; end < candidate_count_ && niches < request_.most_niches; ++end) {
+    if (decider_.judged_[end].decision == Decision::Open) decideByMemory(end);
+    niches += decider_.judged_[end].decision == Decision::Niche ? 1 : 0;
   }
 }
 
-void NicheDecider::Stage::decideByFloods() {
-  if (limit_.isTimed()) floodInTurn();
+void NicheDecider::Stage::decideBySearches() {
+  if (limit_.isTimed()) searchInTurn();
   std::size_t niches = 0;
-  for (std::uint32_t& i = verdicts_.next_; i < verdicts_.end_ && niches < request_.most_niches; ++i) {
-    if (verdicts_.judged_[i].verdict == Verdict::Open) flood(i);
-    niches += verdicts_.judged_[i].verdict == Verdict::Niche ? 1 : 0;
+  for (std::uint32_t& i = decider_.next_; i < decider_.end_ && niches < request_.most_niches; ++i) {
+    if (decider_.judged_[i].decision == Decision::Open) search(i);
+    niches += decider_.judged_[i].decision == Decision::Niche ? 1 : 0;
   }
-  verdicts_.end_ = verdicts_.next_;
+  decider_.end_ = decider_.next_;
 }
 
 void NicheDecider::Stage::decideByMemory(std::uint32_t i) {
-  const MinimumCandidate seed = verdicts_.judged_[i].seed;
+  const MinimumCandidate candidate = decider_.judged_[i].candidate;
   deepest_ = deepestLike(i);
-  const std::uint32_t number = numberOf(seed);
-  if (number == kNone) return set(i, Verdict::Undecided);
+  const std::uint32_t number = indexOf(candidate);
+  if (number == kNone) return set(i, Decision::Undecided);
   if (const std::uint32_t other = memory_.candidateOf(number);
       other != kNone && other != i && isEarlier(other, i)) {
-    return set(i, Verdict::Ripple, other);
+    return set(i, Decision::Ripple, other);
   }
-  if (i > 0 && i < seed_count_ && isSamePlace(verdicts_.judged_[i - 1].seed, seed))
-    return set(i, Verdict::Ripple, i - 1);
+  if (i > 0 && i < candidate_count_ && isSamePlace(decider_.judged_[i - 1].candidate, candidate))
+    return set(i, Decision::Ripple, i - 1);
   if (followsDown(i, number)) return;
-  if (request_.is_wanted && !request_.is_wanted(seed, memory_.facet_pair(number).occluder)) {
-    return set(i, Verdict::Unwanted);
+  if (request_.is_wanted && !request_.is_wanted(candidate, memory_.facet_pair(number).occluder)) {
+    return set(i, Decision::Unwanted);
   }
-  // Only then do seeds lie on both sides of a closed shell (collectConeItems()).
-  if (!request_.through_material && frame_.hasJoints() && isThroughMaterial(frame_.witnessOf(seed))) {
-    return set(i, Verdict::Unwanted);
+  // Only then do candidates lie on both sides of a closed shell (collectConeItems()).
+  if (!request_.through_material && frame_.hasJoints() && isThroughMaterial(frame_.witnessOf(candidate))) {
+    return set(i, Decision::Unwanted);
   }
-  const std::uint32_t known = memory_.regionOf(number, i);
+  const std::uint32_t known = memory_.basinOf(number, i);
   if (known == kNone) return;
-  DecisionCache::Region& region = memory_.region(known);
-  region.confirmed = isEnclosed(i, known);
-  if (region.confirmed) {
-    verdicts_.judged_[i].region = region.id;
-    return set(i, Verdict::Niche);
+  DecisionCache::KeptBasin& basin = memory_.basin(known);
+  const auto meets = [&](TriangleIndex a, TriangleIndex b) { return isOfEarlier(a, b, i); };
+  basin.confirmed = basins_.isEnclosed(known, levelsOf(candidate.distance), meets);
+  if (basin.confirmed) {
+    decider_.judged_[i].basin = basin.id;
+    return set(i, Decision::Niche);
   }
 }
 
@@ -117,13 +125,174 @@ bool NicheDecider::Stage::isSamePlace(const MinimumCandidate& l, const MinimumCa
 }
 
 std::uint32_t NicheDecider::Stage::deepestLike(std::uint32_t i) {
-  const MinimumCandidate& seed = verdicts_.judged_[i].seed;
-  const TriangleIndex piece_a{frame_.pieces_a->piece_of_triangle[seed.a.value]};
-  const TriangleIndex piece_b{frame_.pieces_b->piece_of_triangle[seed.b.value]};
-  const std::uint32_t known = verdicts_.deepest_.find(piece_a, piece_b);
+  const MinimumCandidate& candidate = decider_.judged_[i].candidate;
+  const TriangleIndex piece_a{frame_.pieces_a->piece_of_triangle[candidate.a.value]};
+  const TriangleIndex piece_b{frame_.pieces_b->piece_of_triangle[candidate.b.value]};
+  const std::uint32_t known = decider_.deepest_.find(piece_a, piece_b);
   if (known != PairTable::kAbsent) return known;
-  verdicts_.deepest_.insert(piece_a, piece_b, i);
+  decider_.deepest_.insert(piece_a, piece_b, i);
   return i;
+}
+
+void NicheDecider::Stage::searchInTurn() {
+  const std::uint32_t count = decider_.end_ - decider_.next_;
+  if (count == 0) return;
+  std::uint32_t done = 0;
+  for (; done < count && !limit_.isOver(); ++done) {
+    const std::uint32_t i = decider_.next_ + (decider_.turn_ + done) % count;
+    if (decider_.judged_[i].decision == Decision::Open) search(i);
+  }
+  decider_.turn_ = (decider_.turn_ + done) % count;
+}
+
+void NicheDecider::Stage::search(std::uint32_t i) {
+  const MinimumCandidate candidate = decider_.judged_[i].candidate;
+  const std::uint32_t number = indexOf(candidate);
+  std::uint64_t id = 0;
+  if (const std::uint32_t broken = memory_.basinOf(number, i); broken != kNone) {
+    // Kept for the next pose when there is no time for a search.
+    memory_.basin(broken).confirmed = limit_.isOver();
+    if (limit_.isOver()) return set(i, Decision::Undecided);
+    id = memory_.basin(broken).id;
+    memory_.drop(broken);
+  }
+  deepest_ = deepestLike(i);
+  // Searches of this pose may have left a path.
+  if (followsDown(i, number) || (were_long_ && settlesLong(i))) return;
+  ++decider_.counts_.searches;
+  BasinSearch& search = decider_.search_;
+  const TrianglePair start = frame_.facetPairOf(candidate.a, candidate.b);
+  search.begin(start.a, start.b, levelsOf(candidate.distance));
+  const auto meets = [&](TriangleIndex a, TriangleIndex b) { return isOfEarlier(a, b, i); };
+  const auto is_inside = [](TriangleIndex, TriangleIndex) { return false; };
+  BasinSearch::End end = search.proceed(frame_, kLongSearch, meets, is_inside, limit_);
+  if (end == BasinSearch::End::Long) {
+    if (settlesLong(i)) return;
+    end = search.proceed(frame_, std::numeric_limits<std::size_t>::max(), meets, is_inside, limit_);
+  }
+  decider_.counts_.visited_pairs += static_cast<std::uint32_t>(search.lookedAt());
+  switch (end) {
+    case BasinSearch::End::Enclosed:
+      set(i, Decision::Niche);
+      if (request_.is_tracked && candidate.distance > tolerance_) {
+        decider_.judged_[i].basin = basins_.keep(id, i, {candidate.a, candidate.b});
+      }
+      break;
+    case BasinSearch::End::Below: {
+      set(i, Decision::Ripple);
+      const BasinSearch::FacetPair& last = search.facet_pairs()[search.last()];
+      decider_.judged_[i].below = {last.a, last.b};
+      if (request_.is_tracked) {
+        paths_.keepPath(search, number);
+        paths_.keepLow({last.a, last.b});
+      }
+      descend(i);
+      break;
+    }
+    case BasinSearch::End::Met:
+      set(i, Decision::Ripple,
+          memory_.candidateIn(search.facet_pairs()[search.last()].a, search.facet_pairs()[search.last()].b));
+      if (request_.is_tracked) paths_.keepPath(search, number);
+      break;
+    default:
+      set(i, Decision::Undecided);
+      break;
+  }
+}
+
+double NicheDecider::Stage::passOf(std::uint32_t i, double highest) const {
+  const MemoryScope memory(limit_);
+  const MinimumCandidate& candidate = decider_.judged_[i].candidate;
+  const TrianglePair start = frame_.facetPairOf(candidate.a, candidate.b);
+  BasinSearch search;  // it may grow large: its memory is not kept
+  search.begin(start.a, start.b,
+               {candidate.distance - tolerance_, candidate.distance + tolerance_, highest + tolerance_});
+  const auto meets = [&](TriangleIndex a, TriangleIndex b) { return isOfEarlier(a, b, i); };
+  const auto is_inside = [](TriangleIndex, TriangleIndex) { return false; };
+  const BasinSearch::End end =
+      search.proceed(frame_, std::numeric_limits<std::size_t>::max(), meets, is_inside, limit_);
+  decider_.counts_.visited_pairs += static_cast<std::uint32_t>(search.lookedAt());
+  if (end == BasinSearch::End::Cut) return std::numeric_limits<double>::quiet_NaN();
+  if (end == BasinSearch::End::Enclosed) return std::numeric_limits<double>::infinity();
+  return std::max(search.highestLevel(), candidate.distance);
+}
+
+bool NicheDecider::Stage::followsDown(std::uint32_t i, std::uint32_t number) {
+  const double distance = decider_.judged_[i].candidate.distance;
+  const auto is_earlier = [&](std::uint32_t other) { return other != i && isEarlier(other, i); };
+  DecisionPaths::End end;
+  if (!paths_.followDown(number, request_.rule.levelOf(distance), distance - tolerance_, is_earlier, end)) {
+    return false;
+  }
+  set(i, Decision::Ripple, end.into);
+  decider_.judged_[i].below = end.facet_pair;
+  ++decider_.counts_.by_path;
+  return true;
+}
+
+void NicheDecider::Stage::resolve(std::uint32_t i) {
+  while (i != kNone && decider_.judged_[i].decision == Decision::Ripple) {
+    if (decider_.judged_[i].into == kNone) descend(i);
+    const std::uint32_t into = decider_.judged_[i].into;
+    if (into != kNone && decider_.judged_[into].decision == Decision::Open) decide(into);
+    i = into;
+  }
+}
+
+void NicheDecider::Stage::descend(std::uint32_t i) {
+  const TrianglePair from = frame_.closestIn(decider_.judged_[i].below).first;
+  const WitnessPair bottom =
+      refineWitness(frame_.a, frame_.b, frame_.a_from_b, from.a, from.b, decider_.refinement_).witness;
+  const std::uint32_t place = enterPlace(bottom);
+  // Strictly down: no way leads in a circle.
+  if (place == kNone || decider_.judged_[place].candidate.distance >= decider_.judged_[i].candidate.distance)
+    return;
+  decider_.judged_[i].into = place;
+}
+
+bool NicheDecider::Stage::settlesLong(std::uint32_t i) {
+  // Where not all candidates are known, what was found may be deeper than all of them.
+  const bool is_deepest = i == deepest_ || !isEarlier(deepest_, i);
+  const bool settled = is_deepest ? isNearest(i) : hasPathDown(i);
+  decider_.searches_are_long_ = decider_.searches_are_long_ || settled;
+  return settled;
+}
+
+bool NicheDecider::Stage::isNearest(std::uint32_t i) {
+  const MinimumCandidate candidate = decider_.judged_[i].candidate;
+  const WitnessPair minimum =
+      refineWitness(frame_.a, frame_.b, frame_.a_from_b, candidate.a, candidate.b, decider_.refinement_)
+          .witness;
+  if (!isNearestOfItsPieces(frame_, minimum)) {
+    const TrianglePair pair{candidate.a, candidate.b};
+    CertificateRequest certificate;
+    certificate.limit = &limit_;
+    if (certifyDistance(frame_.a, frame_.b, frame_.a_from_b, &pair, 1, certificate, proof_).lower_bound <
+        candidate.distance - tolerance_) {
+      return false;
+    }
+  }
+  set(i, Decision::Niche);
+  return true;
+}
+
+bool NicheDecider::Stage::hasPathDown(std::uint32_t i) {
+  std::uint32_t into = kNone;
+  const auto has_arrived = [&](TriangleIndex a, TriangleIndex b) {
+    into = memory_.candidateIn(a, b);
+    return into != kNone && into != i && isEarlier(into, i);
+  };
+  const MinimumCandidate& from = decider_.judged_[i].candidate;
+  const MinimumCandidate& to = decider_.judged_[deepest_].candidate;
+  for (const int first_moves : {0, 1}) {
+    if (BoundedPath(frame_, decider_.path_, limit_)
+            .find(frame_.facetPairOf(from.a, from.b), frame_.facetPairOf(to.a, to.b),
+                  request_.rule.levelOf(from.distance), first_moves, has_arrived)) {
+      set(i, Decision::Ripple, into != kNone && into != i ? into : deepest_);
+      return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace concave_distance::detail

@@ -59,7 +59,7 @@ class PiecePair {
             std::size_t piece_b)
       : frame_(frame), buffers_(buffers), piece_a_(piece_a), piece_b_(piece_b) {}
 
-  bool findNearest(MinimumCandidate& seed) {
+  bool findNearest(MinimumCandidate& candidate) {
     Vector3d direction = frame_.offset.normalized();
     double least = std::numeric_limits<double>::infinity();
     for (int step = 0; step < kMostSteps; ++step) {
@@ -69,15 +69,15 @@ class PiecePair {
       const double separation = direction.dot(frame_.offset) - a.along - b.along;
       if (separation >= least - 8.0 * frame_.rounding) return true;
       const double before = least;
-      for (const auto& [ta, tb] : {std::pair{a.triangle, b.triangle}, std::pair{seed.a, b.triangle},
-                                   std::pair{a.triangle, seed.b}}) {
-        if (step == 0 && (ta != a.triangle || tb != b.triangle)) continue;  // no seed yet
+      for (const auto& [ta, tb] : {std::pair{a.triangle, b.triangle}, std::pair{candidate.a, b.triangle},
+                                   std::pair{a.triangle, candidate.b}}) {
+        if (step == 0 && (ta != a.triangle || tb != b.triangle)) continue;  // no candidate yet
         const WitnessPair found =
             refineWitness(frame_.a, frame_.b, frame_.a_from_b, ta, tb, buffers_.refinement).witness;
         const double distance = std::sqrt(found.squared_distance);
         if (!(distance < least)) continue;
         least = distance;
-        seed = seedOn(found.triangle_a, found.triangle_b, distance);
+        candidate = candidateOn(found.triangle_a, found.triangle_b, distance);
         direction = (found.point_b_in_a - found.point_a_in_a).normalized();
       }
       if (!(least < before)) return false;
@@ -120,26 +120,26 @@ double largestDistance(const PairFrame& frame) {
   return frame.offset.norm() + reachOf(frame.a) + reachOf(frame.b);
 }
 
-bool isFar(const PairFrame& frame, double least_prominence) {
+bool isFar(const PairFrame& frame, const NicheRule& rule) {
   const double least = frame.offset.norm() - reachOf(frame.a) - reachOf(frame.b);
-  return least > 0.0 && largestDistance(frame) + 8.0 * frame.rounding < (1.0 + least_prominence) * least;
+  return rule.allowsOneNicheOnly(least, largestDistance(frame) + 8.0 * frame.rounding);
 }
 
-bool collectFarSeeds(const PairFrame& frame, double cutoff, DistantComponentBuffers& buffers,
-                     std::vector<MinimumCandidate>& seeds, WorkLimit& limit) {
-  const std::size_t before = seeds.size();
+bool collectFarCandidates(const PairFrame& frame, double cutoff, DistantComponentBuffers& buffers,
+                          std::vector<MinimumCandidate>& candidates, WorkLimit& limit) {
+  const std::size_t before = candidates.size();
   if (frame.offset.norm() - reachOf(frame.a) - reachOf(frame.b) > cutoff) return true;
   groupByPiece(*frame.pieces_a, buffers.a);
   groupByPiece(*frame.pieces_b, buffers.b);
   for (std::size_t i = 0; i < frame.pieces_a->count; ++i) {
     for (std::size_t k = 0; k < frame.pieces_b->count; ++k) {
-      MinimumCandidate seed{};
-      const bool may_go_on = !limit.isOver() && limit.makeRoom(seeds);
-      if (!may_go_on || !PiecePair(frame, buffers, i, k).findNearest(seed)) {
-        seeds.resize(before);
+      MinimumCandidate candidate{};
+      const bool may_go_on = !limit.isOver() && limit.makeRoom(candidates);
+      if (!may_go_on || !PiecePair(frame, buffers, i, k).findNearest(candidate)) {
+        candidates.resize(before);
         return false;
       }
-      if (seed.distance <= cutoff) seeds.push_back(seed);
+      if (candidate.distance <= cutoff) candidates.push_back(candidate);
     }
   }
   return true;

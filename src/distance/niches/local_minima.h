@@ -13,6 +13,7 @@
 #include "distance/kernels/pair_frame.h"
 #include "distance/minima/local_minima_cost.h"
 #include "niche_properties.h"
+#include "niche_rule.h"
 
 namespace concave_distance {
 
@@ -22,11 +23,9 @@ struct LocalMinimaParts;
 
 struct LocalMinimaRequest {
   double cutoff = std::numeric_limits<double>::infinity();  ///< metres; niches up to this are wanted
-  /// Niches with less are part of the deeper niche that they lead to.
-  double least_prominence = 1e-2;
-  /// Prominences are measured up to this and below the cutoff; what is higher is given as infinite. Its
-  /// price: the flood around a niche goes on until it reaches a deeper one or (1 + this) times its distance.
-  double prominence_limit = 1e-2;
+  /// Where it measures prominences, the search around each niche goes on until it reaches a nearer place, the
+  /// rule's limit or the cutoff.
+  NicheRule rule;
   std::size_t largest_count = std::numeric_limits<std::size_t>::max();  ///< the nearest are kept
   /// Niches through the material of closed shells are listed, too, flagged.
   bool through_material = false;
@@ -37,7 +36,7 @@ struct LocalMinimaRequest {
   /// Triangle pairs whose niches are asked for (LocalMinima::owners), e.g. those that a search has found:
   /// descended to the local minimum around them.
   std::vector<std::pair<TriangleIndex, TriangleIndex>> asked_pairs;
-  std::vector<std::uint64_t> asked_regions;  ///< LocalMinimum::region of each, or empty
+  std::vector<std::uint64_t> asked_basins;  ///< LocalMinimum::basin of each, or empty
   /// Minima that a search has found. Niches that come from them say so (LocalMinimum::proposal). Where the
   /// limit ends the search for all minima, they are judged with what was found.
   std::vector<MinimumCandidate> proposals;
@@ -47,8 +46,8 @@ struct LocalMinimaRequest {
   double certain_distance = 0.0;
   /// Shares of the limit's time (WorkLimit::allowShare) after which a step ends.
   struct TimeShares {
-    double search = 1.0;  ///< for all minima
-    double floods = 1.0;  ///< to see which are niches
+    double search = 1.0;    ///< for all minima
+    double searches = 1.0;  ///< for the decision which of them are niches
     double all = 1.0;
   };
   TimeShares time_shares;
@@ -72,7 +71,8 @@ class LocalMinimaMemory {
   std::unique_ptr<detail::LocalMinimaParts> parts_;  ///< made when first needed
 };
 
-/// A niche as DESIGN calls it: a connected set of point pairs at one distance, none near it closer.
+/// A niche (doc/algorithm.md, section 1): a connected set of point pairs at one distance, none near it
+/// closer.
 struct LocalMinimum {
   double distance = 0.0;  ///< metres
   WitnessPair witness;    ///< for segments and patches the middle of the set (NicheExtent::representative)
@@ -81,10 +81,10 @@ struct LocalMinimum {
   Outwardness outward = Outwardness::Outward;
   bool visible = true;
   /// Distance at the lowest pass to a deeper niche, divided by the own distance, minus 1. Infinite when no
-  /// deeper niche is reached below `flooded`; where the distance is 0.
+  /// deeper niche is reached below `searched`, and where the distance is 0.
   double prominence = std::numeric_limits<double>::infinity();
-  double flooded = 0.0;      ///< metres: passes up to this were looked for
-  std::uint64_t region = 0;  ///< if tracked: the same from pose to pose while the niche stands; 0: none
+  double searched = 0.0;    ///< metres: passes up to this were looked for
+  std::uint64_t basin = 0;  ///< if tracked: the same from pose to pose while the niche stands; 0: none
   static constexpr std::size_t kNoProposal = std::numeric_limits<std::size_t>::max();
   std::size_t proposal = kNoProposal;  ///< the first of LocalMinimaRequest::proposals that leads to it
 };
@@ -118,7 +118,7 @@ void findLocalMinima(const detail::PairFrame& frame, const LocalMinimaRequest& r
 
 /// Says of the niches of a result which of request.proposals lead to them, for proposals that came after the
 /// list: where everything was looked at they change nothing else. At the pose of the last findLocalMinima()
-/// with this memory, which measured no prominence.
+/// with this memory.
 void attributeProposals(const detail::PairFrame& frame, const LocalMinimaRequest& request,
                         LocalMinimaMemory& memory, LocalMinima& result);
 

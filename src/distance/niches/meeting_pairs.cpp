@@ -17,7 +17,7 @@ Eigen::AlignedBox3d movedBox(const Eigen::AlignedBox3d& box, const Eigen::Isomet
 }  // namespace
 
 void collectMeetingPairs(const PairFrame& frame, std::vector<TreeNodePair>& open,
-                         std::vector<MinimumCandidate>& seeds, LocalMinimaCost& cost, WorkLimit& limit) {
+                         std::vector<MinimumCandidate>& candidates, LocalMinimaCost& cost, WorkLimit& limit) {
   const TriangleTree& tree_a = frame.a.tree();
   const TriangleTree& tree_b = frame.b.tree();
   const double slack = 4.0 * frame.rounding;
@@ -47,8 +47,8 @@ void collectMeetingPairs(const PairFrame& frame, std::vector<TreeNodePair>& open
           if (closest.squared_distance > slack * slack) continue;
           const Eigen::Vector3d point = closest.point_a + frame.centre_a;
           if (isInsideMaterial(frame, {0.0, point, point, ta, tb})) continue;
-          if (!limit.makeRoom(seeds)) return;
-          seeds.push_back(seedOn(ta, tb, 0.0));
+          if (!limit.makeRoom(candidates)) return;
+          candidates.push_back(candidateOn(ta, tb, 0.0));
         }
       }
     } else if (b.count > 0 || (a.count == 0 && a.box.sizes().sum() >= b.box.sizes().sum())) {

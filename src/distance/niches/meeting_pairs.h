@@ -14,6 +14,6 @@ using TreeNodePair = std::pair<std::uint32_t, std::uint32_t>;
 
 /// Every triangle pair that meets, up to rounding, until the limit is reached. @param open a buffer
 void collectMeetingPairs(const PairFrame& frame, std::vector<TreeNodePair>& open,
-                         std::vector<MinimumCandidate>& seeds, LocalMinimaCost& cost, WorkLimit& limit);
+                         std::vector<MinimumCandidate>& candidates, LocalMinimaCost& cost, WorkLimit& limit);
 
 }  // namespace concave_distance::detail

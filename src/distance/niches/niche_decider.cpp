@@ -10,26 +10,26 @@ namespace concave_distance::detail {
 void NicheDecider::clear() {
   memory_.clear();
   turn_ = 0;
-  floods_are_long_ = false;
+  searches_are_long_ = false;
 }
 
-void NicheDecider::begin(const PairFrame& frame, std::vector<MinimumCandidate>& seeds, const Request& request,
-                         WorkLimit& limit) {
+void NicheDecider::begin(const PairFrame& frame, std::vector<MinimumCandidate>& candidates,
+                         const Request& request, WorkLimit& limit) {
   memory_.beginCycle(request.is_tracked);
   counts_ = {};
   judged_.clear();
   deepest_.clear();
-  std::sort(seeds.begin(), seeds.end(), [](const MinimumCandidate& l, const MinimumCandidate& r) {
+  std::sort(candidates.begin(), candidates.end(), [](const MinimumCandidate& l, const MinimumCandidate& r) {
     if (l.distance != r.distance) return l.distance < r.distance;
     return l.a != r.a ? l.a < r.a : l.b < r.b;
   });
   Stage stage(*this, frame, request, limit);
-  stage.enter(seeds);
-  is_far_ = isFar(frame, request.least_prominence);
+  stage.enter(candidates);
+  is_far_ = isFar(frame, request.rule);
   next_ = end_ = 0;
   if (!is_far_) return;
   stage.decideFar();
-  next_ = end_ = seed_count_;
+  next_ = end_ = candidate_count_;
 }
 
 void NicheDecider::judgeByMemory(const PairFrame& frame, const Request& request, WorkLimit& limit) {
@@ -38,17 +38,17 @@ void NicheDecider::judgeByMemory(const PairFrame& frame, const Request& request,
   stage.decideByMemory();
 }
 
-void NicheDecider::judgeByFloods(const PairFrame& frame, const Request& request, WorkLimit& limit) {
+void NicheDecider::judgeBySearches(const PairFrame& frame, const Request& request, WorkLimit& limit) {
   Stage stage(*this, frame, request, limit);
   stage.resume();
-  stage.decideByFloods();
+  stage.decideBySearches();
 }
 
-void NicheDecider::judge(const PairFrame& frame, std::vector<MinimumCandidate>& seeds, const Request& request,
-                         WorkLimit& limit) {
-  begin(frame, seeds, request, limit);
+void NicheDecider::judge(const PairFrame& frame, std::vector<MinimumCandidate>& candidates,
+                         const Request& request, WorkLimit& limit) {
+  begin(frame, candidates, request, limit);
   judgeByMemory(frame, request, limit);
-  judgeByFloods(frame, request, limit);
+  judgeBySearches(frame, request, limit);
 }
 
 std::uint32_t NicheDecider::locate(const PairFrame& frame, const TrianglePair& around, const Request& request,
@@ -56,8 +56,8 @@ std::uint32_t NicheDecider::locate(const PairFrame& frame, const TrianglePair& a
   Stage stage(*this, frame, request, limit);
   stage.resume();
   const std::uint32_t place = stage.placeAround(around);
-  if (place == kNone || judged_[place].seed.distance > request.cutoff) return kNone;
-  if (judged_[place].verdict == Verdict::Open) {
+  if (place == kNone || judged_[place].candidate.distance > request.cutoff) return kNone;
+  if (judged_[place].decision == Decision::Open) {
     if (is_far_) {
       stage.decideFar();
     } else {
@@ -66,27 +66,34 @@ std::uint32_t NicheDecider::locate(const PairFrame& frame, const TrianglePair& a
   }
   stage.resolve(place);
   const std::uint32_t end = endOf(place);
-  if (end != kNone && judged_[end].verdict == Verdict::Undecided) return kUndecided;
+  if (end != kNone && judged_[end].decision == Decision::Undecided) return kUndecided;
   return nicheOf(end);
 }
 
-std::uint32_t NicheDecider::nicheWith(std::uint64_t region) const {
-  const std::uint32_t index = memory_.regionWith(region);
-  return index != kNone && memory_.region(index).confirmed ? nicheOf(memory_.region(index).first) : kNone;
+double NicheDecider::passOf(const PairFrame& frame, std::uint32_t niche, double highest,
+                            const Request& request, WorkLimit& limit) {
+  Stage stage(*this, frame, request, limit);
+  stage.resume();
+  return stage.passOf(niche, highest);
+}
+
+std::uint32_t NicheDecider::nicheWith(std::uint64_t basin) const {
+  const std::uint32_t index = memory_.basinWith(basin);
+  return index != kNone && memory_.basin(index).confirmed ? nicheOf(memory_.basin(index).first) : kNone;
 }
 
 std::uint32_t NicheDecider::endOf(std::uint32_t index) const {
-  while (index != kNone && judged_[index].verdict == Verdict::Ripple) index = judged_[index].into;
+  while (index != kNone && judged_[index].decision == Decision::Ripple) index = judged_[index].into;
   return index;
 }
 
 std::uint32_t NicheDecider::nicheOf(std::uint32_t of) const {
   const std::uint32_t index = endOf(of);
-  return index != kNone && judged_[index].verdict == Verdict::Niche ? index : kNone;
+  return index != kNone && judged_[index].decision == Decision::Niche ? index : kNone;
 }
 
 std::size_t NicheDecider::memoryBytes() const {
-  return memory_.memoryBytes() + judged_.capacity() * sizeof(Judged) + flood_.memoryBytes() +
+  return memory_.memoryBytes() + judged_.capacity() * sizeof(Judged) + search_.memoryBytes() +
          path_.memoryBytes();
 }
 

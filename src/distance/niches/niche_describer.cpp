@@ -9,7 +9,7 @@
 namespace concave_distance::detail {
 namespace {
 
-/// No plateau seen comes near it; the flood has united the whole set before.
+/// No plateau seen comes near it; the search has united the whole set before.
 constexpr std::size_t kExtentPairLimit = 100'000;
 
 }  // namespace
@@ -21,7 +21,7 @@ void NicheDescriber::begin(const PairFrame& frame, const LocalMinimaRequest& req
 }
 
 bool NicheDescriber::describe(const PairFrame& frame, const LocalMinimaRequest& request,
-                              const MinimumCandidate& minimum, bool met_by_flood, bool is_seen,
+                              const MinimumCandidate& minimum, bool met_by_search, bool is_seen,
                               LocalMinimum& niche, WorkLimit& limit) {
   const BodyMesh& a = frame.a;
   const BodyMesh& b = frame.b;
@@ -34,7 +34,7 @@ bool NicheDescriber::describe(const PairFrame& frame, const LocalMinimaRequest& 
     return true;
   }
   if (niche.distance > request.cutoff) return false;
-  if (!all_outward_ || met_by_flood) {
+  if (!all_outward_ || met_by_search) {
     niche.outward = classifyOutwardness(a, b, frame.a_from_b, niche.witness);
     if (niche.outward == Outwardness::ThroughMaterial && !request.through_material) return false;
   }

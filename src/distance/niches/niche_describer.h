@@ -11,11 +11,11 @@ class NicheDescriber {
   void begin(const PairFrame& frame, const LocalMinimaRequest& request);
 
   /// @param minimum with its pass and level in `niche` already
-  /// @param met_by_flood no cone has led to it: it may be a minimum through material
+  /// @param met_by_search no cone has led to it: it may be a minimum through material
   /// @param is_seen the segment between its points is known to meet neither body
   /// @return false for what is not wanted
   bool describe(const PairFrame& frame, const LocalMinimaRequest& request, const MinimumCandidate& minimum,
-                bool met_by_flood, bool is_seen, LocalMinimum& niche, WorkLimit& limit);
+                bool met_by_search, bool is_seen, LocalMinimum& niche, WorkLimit& limit);
 
  private:
   /// Kind and extent; the place of a set is its middle.

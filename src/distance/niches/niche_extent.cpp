@@ -15,7 +15,7 @@ using detail::PlanarFeature;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// One body as the flood sees it: in coordinates relative to `centre`, turned into A's axes only through
+/// One body as the search sees it: in coordinates relative to `centre`, turned into A's axes only through
 /// `normal` and the plane's two axes, which are given in the body's own.
 struct LevelSide {
   const BodyMesh& body;
@@ -57,10 +57,10 @@ bool isCornerOf(const TriangleNodes& nodes, NodeIndex node) {
   return std::find(nodes.begin(), nodes.end(), node) != nodes.end();
 }
 
-class Flood {
+class LevelSetSearch {
  public:
-  Flood(const LevelSide& a, const LevelSide& b, const Levels& levels, std::size_t pair_limit,
-        WorkLimit& limit, ExtentWorkspace& workspace, NicheExtent& extent)
+  LevelSetSearch(const LevelSide& a, const LevelSide& b, const Levels& levels, std::size_t pair_limit,
+                 WorkLimit& limit, ExtentWorkspace& workspace, NicheExtent& extent)
       : a_(a),
         b_(b),
         levels_(levels),
@@ -268,7 +268,7 @@ NicheExtent measureExtent(const BodyMesh& a, const BodyMesh& b, const Eigen::Iso
     return extent;
   }
   WorkLimit none;
-  Flood(side_a, side_b, levels, pair_limit, limit != nullptr ? *limit : none, workspace, extent)
+  LevelSetSearch(side_a, side_b, levels, pair_limit, limit != nullptr ? *limit : none, workspace, extent)
       .run(witness.triangle_a, witness.triangle_b);
   workspace.corners = workspace.points;  // the hull sorts its input
   detail::convexHull(workspace.corners, workspace.hull);

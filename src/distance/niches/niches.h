@@ -2,19 +2,24 @@
 
 // distance/niches decides which local minima are niches and describes each.
 //
-// A minimum is a niche when every way from it to a nearer place climbs higher than the least prominence times
-// its distance. Ways go from one pair of facets, one facet of each body, to a neighbouring pair of facets.
+// A minimum is a niche when every path from it to a place at least as near rises to the level that
+// niche_rule.h gives; no other file knows this level. Paths go from one pair of facets, one of each body, to
+// a neighbouring pair.
 //
 // It takes the candidates of distance/minima and a request (cutoff, least prominence, count, hidden or not).
 // It gives LocalMinima: the niches with distance, prominence, kind, extent and visibility.
 //
-// - local_minima has the entry, findLocalMinima().
+// - local_minima has the entry, findLocalMinima(); candidate_collector brings the candidates together.
 // - niche_decider decides each candidate by the cheapest proof that holds: a path down that stays low
 //   (bounded_path), two whole components that are far apart (distant_components), the boundary of a basin
-//   that is still high enough (basin_boundary), else a search of the basin (basin_search).
+//   that is still high enough (basin_boundary), else a search of the basin (basin_search). Its stages are
+//   decision_stage, decision_paths and decision_basins; facet_pair_levels and facet_pair_neighbours give the
+//   graph that they go through.
 // - decision_cache keeps what proved a decision for the next pose.
-// - minima_flood measures prominences where they are asked for.
-// - niche_describer tells kind, extent, outward or through material, hidden or visible.
+// - The same search of the basin, up to a higher level, measures the prominences of the listed niches where a
+//   request asks for them.
+// - niche_describer tells kind, extent (niche_extent, planar_set), outward or through material
+//   (shell_material), hidden or visible (niche_properties).
 // - meeting_pairs finds the niches of distance 0, where the surfaces meet.
 //
 // It keeps evidence and never a result: where the evidence no longer proves a decision, it decides anew.

@@ -9,7 +9,6 @@
 
 namespace concave_distance::detail {
 
-/// Says how a child process ended.
 struct ChildEnd {
   bool was_late = false;     ///< ended by this program at its deadline
   bool was_stopped = false;  ///< ended by this program because of the stop flag

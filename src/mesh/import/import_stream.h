@@ -27,7 +27,6 @@ struct ImportHeader {
 };
 static_assert(sizeof(ImportHeader) == 32);
 
-/// Longest text of a refusal.
 inline constexpr std::uint64_t kLongestImportText = 4096;
 
 }  // namespace concave_distance::detail

@@ -33,7 +33,6 @@ struct MeshTopology {
   std::vector<Eigen::Vector3d> vertex_normals;
 
   std::size_t shellCount() const { return shell_is_closed.size(); }
-  /// Returns whether the triangle's shell is closed.
   bool isOnClosedShell(TriangleIndex triangle) const {
     return shell_is_closed[shell_of_triangle[triangle.value]];
   }

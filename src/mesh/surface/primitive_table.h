@@ -10,8 +10,9 @@
 
 namespace concave_distance::detail {
 
-/// A primitive as scene files, URDFs and messages give it. All that they need to know of one is its row in
-/// primitives(): a new primitive is a function in primitives.h and a row.
+/// A primitive as scene files and messages give it. All that they need to know of one is its row in
+/// primitives(): a new primitive is a function in primitives.h and a row. A URDF has only those that urdfdom
+/// reads (toElement() in loading/robot_description.cpp).
 struct Primitive {
   /// A key below the primitive's in a scene file.
   struct Size {

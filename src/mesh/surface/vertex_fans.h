@@ -27,7 +27,6 @@ class PatchedMesh {
   /// Every triangle at the node is in one of the fans.
   std::vector<VertexFan> fansOf(NodeIndex node) const;
 
-  /// Returns how many triangles have both nodes.
   std::size_t trianglesAt(NodeIndex a, NodeIndex b) const;
   bool hasTriangle(const TriangleNodes& nodes) const;
 

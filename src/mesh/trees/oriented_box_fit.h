@@ -12,7 +12,6 @@ struct CornerRange {
   const Eigen::Vector3d* end;
 };
 
-/// Says where a box's axes come from.
 enum class BoxAxes : std::uint8_t {
   Frame,      ///< those of the body frame
   Principal,  ///< the principal axes of the triangles' area

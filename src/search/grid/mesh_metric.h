@@ -86,7 +86,7 @@ class MeshMetricQuery {
     float distance;
     std::uint32_t predecessor;  ///< next node on the way to the ball's source
   };
-  /// What one bounded search settled: the hash table ball_entries_[first, first + seats).
+  /// Says what one bounded search settled: the hash table ball_entries_[first, first + seats).
   struct Ball {
     NodeIndex source;
     double radius;

@@ -20,8 +20,8 @@ struct SearchNodesOptions {
   std::size_t node_limit = 800;
 };
 
-/// What the search moves on: the even grid over a surface and its graph, thinned where the mesh itself is
-/// finer than the search wants.
+/// Holds what the search moves on: the even grid over a surface and its graph, thinned where the mesh itself
+/// is finer than the search wants.
 struct SearchNodes {
   SurfaceMesh grid;
   NodeGraph graph;

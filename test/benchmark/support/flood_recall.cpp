@@ -12,8 +12,8 @@ LocalMinima trueNiches(const BenchmarkPair& pair, const Eigen::Isometry3d& pose,
                        FloodStarts starts, double least_prominence) {
   LocalMinimaRequest request;
   request.cutoff = cutoff;
-  request.least_prominence = least_prominence;
-  request.prominence_limit = kProminentNiche;
+  request.rule.least_prominence = least_prominence;
+  request.rule.prominence_limit = kProminentNiche;
   request.hidden = false;
   request.asked_pairs = std::move(starts);
   return findLocalMinima(*pair.a, *pair.b, pose, request);

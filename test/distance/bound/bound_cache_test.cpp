@@ -29,24 +29,24 @@ TEST(BoundCache, ProvesWhatAFreshProofProves) {
     for (const int steps : {12, 100, 600}) {
       CertificateWorkspace workspace;
       BoundCache front;
-      TrianglePair seed{};
+      TrianglePair start{};
       for (int k = 0; k < steps; ++k) {
         const Isometry3d pose = onLoop(static_cast<double>(k) / steps, 0.9);
         const DistanceCertificate kept =
-            certifyDistance(*a, *b, pose, &seed, 1, CertificateRequest(), workspace, &front);
+            certifyDistance(*a, *b, pose, &start, 1, CertificateRequest(), workspace, &front);
         const DistanceCertificate fresh =
-            certifyDistance(*a, *b, pose, &seed, 1, CertificateRequest(), workspace);
+            certifyDistance(*a, *b, pose, &start, 1, CertificateRequest(), workspace);
         const double error = kProofError * proofScale(*a, *b, pose);
         ASSERT_NEAR(kept.distance, fresh.distance, error) << shape << ' ' << steps << ' ' << k;
         ASSERT_EQ(kept.status, fresh.status);
         ASSERT_NEAR(kept.lower_bound, fresh.lower_bound, error);
-        seed = {kept.witness.triangle_a, kept.witness.triangle_b};
+        start = {kept.witness.triangle_a, kept.witness.triangle_b};
       }
     }
   }
 }
 
-TEST(BoundCache, IsNotFooledByStaleSeedsLeapsAndTolerances) {
+TEST(BoundCache, IsNotFooledByStaleStartsLeapsAndTolerances) {
   RandomEngine engine(5);
   int reopened = 0;
   for (int round = 0; round < 30; ++round) {
@@ -66,10 +66,10 @@ TEST(BoundCache, IsNotFooledByStaleSeedsLeapsAndTolerances) {
       if (k % 3 == 0) request.relative_tolerance = 0.3 * uniformUnit(engine);
       WorkLimit limit(WorkLimit::Clock::now(), 1e-5, std::numeric_limits<std::size_t>::max(), nullptr);
       if (k % 7 == 0) request.limit = &limit;
-      // Any seed: triangle 0 is as good as none.
-      const TrianglePair seed{};
+      // Any start: triangle 0 is as good as none.
+      const TrianglePair start{};
       const bool was_valid = front.valid();
-      const DistanceCertificate found = certifyDistance(*a, *b, pose, &seed, 1, request, workspace, &front);
+      const DistanceCertificate found = certifyDistance(*a, *b, pose, &start, 1, request, workspace, &front);
       reopened += was_valid ? 1 : 0;
       const double exact = std::sqrt(test::enumerateTrianglePairs(*a, *b, pose).squared_distance);
       const double error = kProofError * proofScale(*a, *b, pose);
@@ -93,11 +93,11 @@ TEST(BoundCache, ProvesForNothingAtRestAndForLittleInSmallSteps) {
   const Body a = makeBody(test::makeBumpy(makeSphere(0.5, 1e-4)));
   CertificateWorkspace workspace;
   BoundCache front;
-  TrianglePair seed{};
+  TrianglePair start{};
   const auto prove = [&](double t) {
     const DistanceCertificate found =
-        certifyDistance(*a, *a, onLoop(t, 1.15), &seed, 1, CertificateRequest(), workspace, &front);
-    seed = {found.witness.triangle_a, found.witness.triangle_b};
+        certifyDistance(*a, *a, onLoop(t, 1.15), &start, 1, CertificateRequest(), workspace, &front);
+    start = {found.witness.triangle_a, found.witness.triangle_b};
     return found.cost.box_bounds;
   };
   const std::uint32_t fresh = prove(0.5);
@@ -113,19 +113,19 @@ TEST(BoundCache, BeginsAnewOnceCleared) {
   const Body b = makeBody(test::makeHook());
   CertificateWorkspace workspace;
   BoundCache front;
-  const TrianglePair seed{};
+  const TrianglePair start{};
   // Linked, so that no plane parts them: what one plane parts needs no front.
   const Body ring = makeBody(test::makeRing(0.5, 0.1, 14, 6));
   Isometry3d linked = Isometry3d::Identity();
   linked.linear() = Eigen::AngleAxisd(0.5 * M_PI, Eigen::Vector3d::UnitX()).toRotationMatrix();
   linked.translation().x() = 0.5;
-  certifyDistance(*ring, *ring, linked, &seed, 1, CertificateRequest(), workspace, &front);
+  certifyDistance(*ring, *ring, linked, &start, 1, CertificateRequest(), workspace, &front);
   EXPECT_TRUE(front.valid());
   front.clear();
   EXPECT_FALSE(front.valid());
   const Isometry3d pose = onLoop(0.2, 1.2);
   const DistanceCertificate other =
-      certifyDistance(*a, *b, pose, &seed, 1, CertificateRequest(), workspace, &front);
+      certifyDistance(*a, *b, pose, &start, 1, CertificateRequest(), workspace, &front);
   EXPECT_NEAR(other.distance, std::sqrt(test::enumerateTrianglePairs(*a, *b, pose).squared_distance), 1e-13);
 }
 

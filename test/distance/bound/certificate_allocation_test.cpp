@@ -11,10 +11,10 @@ TEST(Certificate, AllocatesNothingOnceItsWorkspaceHasGrown) {
   const auto a = test::makeBody(makeSphere(0.5, 1e-3));
   CertificateWorkspace workspace;
   const Eigen::Isometry3d pose = test::translation(Eigen::Vector3d(1.3, 0.2, 0.1));
-  const TrianglePair seed{};
-  certifyDistance(*a, *a, pose, &seed, 1, CertificateRequest(), workspace);
+  const TrianglePair start{};
+  certifyDistance(*a, *a, pose, &start, 1, CertificateRequest(), workspace);
   const std::size_t before = allocations;
-  certifyDistance(*a, *a, pose, &seed, 1, CertificateRequest(), workspace);
+  certifyDistance(*a, *a, pose, &start, 1, CertificateRequest(), workspace);
   EXPECT_EQ(allocations, before);
 }
 

@@ -47,7 +47,7 @@ TEST(Certificate, IsTheDistanceOfBruteForceWithItsProof) {
   }
 }
 
-TEST(Certificate, DoesNotDependOnTheSeeds) {
+TEST(Certificate, DoesNotDependOnTheStarts) {
   RandomEngine engine(2);
   for (std::uint32_t round = 0; round < 60; ++round) {
     const Body a = makeBody(test::concaveShape(round));
@@ -55,20 +55,21 @@ TEST(Certificate, DoesNotDependOnTheSeeds) {
     const Isometry3d pose = test::randomPose(engine, 1.5);
     const DistanceCertificate cold = certify(a, b, pose);
     CertificateWorkspace workspace;
-    const TrianglePair seeds[2] = {
+    const TrianglePair starts[2] = {
         {TriangleIndex{uniformIndex(engine, static_cast<std::uint32_t>(a->surface().triangleCount()))},
          TriangleIndex{uniformIndex(engine, static_cast<std::uint32_t>(b->surface().triangleCount()))}},
         {cold.witness.triangle_a, cold.witness.triangle_b}};
     const double error = kProofError * proofScale(*a, *b, pose);
-    const DistanceCertificate bad = certifyDistance(*a, *b, pose, seeds, 1, CertificateRequest(), workspace);
+    const DistanceCertificate bad = certifyDistance(*a, *b, pose, starts, 1, CertificateRequest(), workspace);
     EXPECT_NEAR(bad.distance, cold.distance, error);
-    const DistanceCertificate good = certifyDistance(*a, *b, pose, seeds, 2, CertificateRequest(), workspace);
+    const DistanceCertificate good =
+        certifyDistance(*a, *b, pose, starts, 2, CertificateRequest(), workspace);
     EXPECT_NEAR(good.distance, cold.distance, error);
     EXPECT_FALSE(good.improved);
   }
 }
 
-TEST(Certificate, SaysWhenASeedWasNotTheClosest) {
+TEST(Certificate, SaysWhenAStartWasNotTheClosest) {
   const Body comb = makeBody(test::makeComb(5));
   Isometry3d pose = test::translation(Vector3d(1.225, 0.7, 0.02));  // the teeth of one between the other's
   pose.linear() = Eigen::AngleAxisd(3.14, Vector3d::UnitZ()).toRotationMatrix();
@@ -78,12 +79,12 @@ TEST(Certificate, SaysWhenASeedWasNotTheClosest) {
   int as_close = 0;
   const std::size_t count = comb->surface().triangleCount();
   for (std::size_t i = 0; i < count * count; i += 7) {
-    const TrianglePair seed{TriangleIndex{i / count}, TriangleIndex{i % count}};
+    const TrianglePair start{TriangleIndex{i / count}, TriangleIndex{i % count}};
     RefinementWorkspace refinement;
     const double start =
-        std::sqrt(refineWitness(*comb, *comb, pose, seed.a, seed.b, refinement).witness.squared_distance);
+        std::sqrt(refineWitness(*comb, *comb, pose, start.a, start.b, refinement).witness.squared_distance);
     const DistanceCertificate found =
-        certifyDistance(*comb, *comb, pose, &seed, 1, CertificateRequest(), workspace);
+        certifyDistance(*comb, *comb, pose, &start, 1, CertificateRequest(), workspace);
     const bool farther = start > best.distance + 1e-9;
     EXPECT_EQ(found.improved, farther);
     improved += farther ? 1 : 0;
@@ -152,8 +153,8 @@ TEST(Certificate, OfConvexBodiesLooksAtNextToNothing) {
     pose.translation().x() += 1.3;
     const DistanceCertificate found = certify(a, a, pose);
     CertificateWorkspace workspace;
-    const TrianglePair seed{found.witness.triangle_a, found.witness.triangle_b};
-    EXPECT_EQ(certifyDistance(*a, *a, pose, &seed, 1, CertificateRequest(), workspace).cost.box_bounds, 0U);
+    const TrianglePair start{found.witness.triangle_a, found.witness.triangle_b};
+    EXPECT_EQ(certifyDistance(*a, *a, pose, &start, 1, CertificateRequest(), workspace).cost.box_bounds, 0U);
   }
 }
 

@@ -39,18 +39,18 @@ void executeWith(int threads, const Work& work) {
 }
 
 /// Everything that a call leaves.
-void append(const MinimaTracker& front, const std::vector<MinimumCandidate>& seeds, Bytes& bytes) {
+void append(const MinimaTracker& front, const std::vector<MinimumCandidate>& candidates, Bytes& bytes) {
   const auto add = [&](double x) {
     std::uint64_t bits = 0;
     std::memcpy(&bits, &x, sizeof bits);
     bytes.push_back(bits);
   };
-  for (const MinimumCandidate& seed : seeds) {
-    bytes.insert(bytes.end(), {seed.a.value, seed.b.value});
-    add(seed.distance);
+  for (const MinimumCandidate& candidate : candidates) {
+    bytes.insert(bytes.end(), {candidate.a.value, candidate.b.value});
+    add(candidate.distance);
     for (int k = 0; k < 3; ++k) {
-      add(seed.point_a[k]);
-      add(seed.point_b[k]);
+      add(candidate.point_a[k]);
+      add(candidate.point_b[k]);
     }
   }
   front.forEachPair([&](NormalConeTree::Slot a, NormalConeTree::Slot b) {
@@ -77,10 +77,10 @@ Tracked track(const Body& a, const Body& b, const test::Motion& motion, std::siz
       t += k == 5 ? 0.0 : 1e-3 * std::pow(2.0, k);
       WorkLimit limit(WorkLimit::Clock::now(), kInfinity, memory, nullptr);
       limit.setTaken(front.memoryBytes());
-      std::vector<MinimumCandidate> seeds;
-      front.collect(PairFrame::withFacets(*a, *b, motion.at(t)), NormalSides::Outside, kInfinity, seeds,
+      std::vector<MinimumCandidate> candidates;
+      front.collect(PairFrame::withFacets(*a, *b, motion.at(t)), NormalSides::Outside, kInfinity, candidates,
                     limit);
-      append(front, seeds, tracked.bytes);
+      append(front, candidates, tracked.bytes);
       (front.counts().began_anew ? tracked.cold_slices : tracked.warm_slices) += front.counts().slices;
     }
   });
@@ -124,8 +124,9 @@ TEST(ConeSlices, LoseNoPairWhereALimitEndsThem) {
         const double seconds = k % 3 == 1 ? kInfinity : std::pow(10.0, -4.5 + 2.0 * uniformUnit(engine));
         const std::size_t memory = k % 3 == 0 ? kAllMemory : std::size_t{1} << (14U + run % 7U);
         WorkLimit limit(WorkLimit::Clock::now(), seconds, memory, nullptr);
-        std::vector<MinimumCandidate> seeds;
-        front.collect(PairFrame::withFacets(*a, *b, pose), NormalSides::Outside, kInfinity, seeds, limit);
+        std::vector<MinimumCandidate> candidates;
+        front.collect(PairFrame::withFacets(*a, *b, pose), NormalSides::Outside, kInfinity, candidates,
+                      limit);
         slices += front.counts().slices;
         if (!limit.hasRefused()) continue;
         ++cut;
@@ -145,7 +146,7 @@ TEST(ConeSlices, AllocateNothingInAWarmCycle) {
   const Body b = test::makeBody(makeBumpyBall(0.3, 4e-4, 6.0));
   executeWith(2, [&] {
     MinimaTracker front(kSlicedFrom);
-    std::vector<MinimumCandidate> seeds;
+    std::vector<MinimumCandidate> candidates;
     std::uint32_t slices = 0;
     // To and fro: after the first rounds all buffers are as large as they become.
     for (int k = 0; k < 40; ++k) {
@@ -154,9 +155,9 @@ TEST(ConeSlices, AllocateNothingInAWarmCycle) {
       pose.translation() = Eigen::Vector3d(0.9, 0.1 + t, 0.2);
       const PairFrame frame = PairFrame::withFacets(*a, *b, pose);
       WorkLimit none;
-      seeds.clear();
+      candidates.clear();
       const std::size_t before = allocations;
-      front.collect(frame, NormalSides::Outside, kInfinity, seeds, none);
+      front.collect(frame, NormalSides::Outside, kInfinity, candidates, none);
       if (k < 24) continue;
       EXPECT_FALSE(front.counts().began_anew);
       EXPECT_EQ(allocations, before) << "cycle " << k;

@@ -17,11 +17,11 @@ namespace concave_distance::test {
 inline std::vector<WitnessPair> placesOf(const std::shared_ptr<const BodyMesh>& a,
                                          const std::shared_ptr<const BodyMesh>& b,
                                          const Eigen::Isometry3d& pose,
-                                         const std::vector<MinimumCandidate>& seeds) {
+                                         const std::vector<MinimumCandidate>& candidates) {
   RefinementWorkspace workspace;
   std::vector<WitnessPair> places;
-  for (const MinimumCandidate& seed : seeds) {
-    places.push_back(refineWitness(*a, *b, pose, seed.a, seed.b, workspace).witness);
+  for (const MinimumCandidate& candidate : candidates) {
+    places.push_back(refineWitness(*a, *b, pose, candidate.a, candidate.b, workspace).witness);
   }
   return places;
 }
@@ -53,10 +53,10 @@ inline void expectWhatTheRootsFind(const std::shared_ptr<const BodyMesh>& a,
     EXPECT_TRUE(isKnown(place, of_front)) << "distance " << std::sqrt(place.squared_distance);
   }
   // What was a minimum at an earlier pose and is only measured at this one.
-  std::vector<WitnessPair> seeds;
-  for (const MinimumCandidate& seed : from_roots) seeds.push_back(frame.witnessOf(seed));
-  for (const MinimumCandidate& seed : from_front) {
-    EXPECT_TRUE(isKnown(frame.witnessOf(seed), seeds)) << "distance " << seed.distance;
+  std::vector<WitnessPair> candidates;
+  for (const MinimumCandidate& candidate : from_roots) candidates.push_back(frame.witnessOf(candidate));
+  for (const MinimumCandidate& candidate : from_front) {
+    EXPECT_TRUE(isKnown(frame.witnessOf(candidate), candidates)) << "distance " << candidate.distance;
   }
 }
 

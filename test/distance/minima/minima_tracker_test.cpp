@@ -75,10 +75,10 @@ TEST(MinimaTracker, HasOneAncestorForEveryPairOfFeaturesAtEveryInstant) {
     const Motion motion = randomMotion(engine);
     MinimaTracker front;
     for (int k = 0; k < 8; ++k) {
-      std::vector<MinimumCandidate> seeds;
+      std::vector<MinimumCandidate> candidates;
       WorkLimit none;
       const PairFrame frame = PairFrame::withFacets(*a, *b, motion.at(0.02 * k));
-      front.collect(frame, NormalSides::Outside, kInfinity, seeds, none);
+      front.collect(frame, NormalSides::Outside, kInfinity, candidates, none);
       expectOneAncestor(*a, *b, front);
       if (HasFailure()) return;
     }
@@ -116,9 +116,9 @@ TEST(MinimaTracker, GoesOnWhereALimitHasEndedIt) {
     if (k % 4 == 1) {
       WorkLimit stopped(std::chrono::steady_clock::now(), kInfinity, std::numeric_limits<std::size_t>::max(),
                         &stop);
-      std::vector<MinimumCandidate> seeds;
-      const bool done =
-          front.collect(PairFrame::withFacets(*a, *b, pose), NormalSides::Outside, kInfinity, seeds, stopped);
+      std::vector<MinimumCandidate> candidates;
+      const bool done = front.collect(PairFrame::withFacets(*a, *b, pose), NormalSides::Outside, kInfinity,
+                                      candidates, stopped);
       EXPECT_FALSE(done && front.counts().expired > 0);
     } else {
       expectWhatTheRootsFind(a, b, pose, NormalSides::Outside, kInfinity, front);

@@ -28,7 +28,7 @@ constexpr double kError = 1e-12;
 
 LocalMinimaRequest everyRipple() {
   LocalMinimaRequest request;
-  request.least_prominence = 0.0;
+  request.rule.least_prominence = 0.0;
   return request;
 }
 
@@ -70,7 +70,7 @@ TEST(LocalMinimaOf, CubesThatShareAnEdgeHaveOneNicheSeenFromFarAway) {
   for (const double distance : {40.0, 300.0, 420.0, 1000.0, 1e6}) {
     for (const double least_prominence : {0.01, 0.5}) {
       LocalMinimaRequest request;
-      request.least_prominence = least_prominence;
+      request.rule.least_prominence = least_prominence;
       request.cutoff = std::numeric_limits<double>::infinity();
       const LocalMinima found = minimaOf(a, b, test::translation({distance, 0.3, 0.2}), request);
       EXPECT_EQ(found.niches.size(), 1U) << distance << " m, " << least_prominence;
@@ -154,7 +154,7 @@ TEST(LocalMinimaOf, OutsideAreThoseOfBothSidesThatLeaveOutwards) {
     const Isometry3d pose = test::randomPose(engine, 1.2);
     LocalMinimaRequest request;
     request.cutoff = 0.6;
-    request.least_prominence = run % 2 == 0 ? 0.0 : 1e-2;
+    request.rule.least_prominence = run % 2 == 0 ? 0.0 : 1e-2;
     const LocalMinima outside = minimaOf(a, b, pose, request);
     request.through_material = true;
     std::vector<double> expected;
@@ -165,7 +165,7 @@ TEST(LocalMinimaOf, OutsideAreThoseOfBothSidesThatLeaveOutwards) {
     for (std::size_t i = 0; i < expected.size(); ++i) {
       EXPECT_NEAR(outside.niches[i].distance, expected[i], kError);
     }
-    EXPECT_EQ(outside.cost.met_by_flood, 0U);
+    EXPECT_EQ(outside.cost.met_by_search, 0U);
   }
 }
 
@@ -197,7 +197,7 @@ TEST(LocalMinimaOf, TrianglePairsBelongToTheNicheTheyDescendTo) {
     const Body b = makeBody(test::concaveShape(uniformIndex(engine, 6)));
     const Isometry3d pose = test::randomPose(engine, 1.2);
     LocalMinimaRequest request;
-    request.least_prominence = 0.1;
+    request.rule.least_prominence = 0.1;
     request.through_material = true;
     for (int k = 0; k < 50; ++k) {
       request.asked_pairs.emplace_back(
@@ -205,7 +205,7 @@ TEST(LocalMinimaOf, TrianglePairsBelongToTheNicheTheyDescendTo) {
           TriangleIndex{uniformIndex(engine, static_cast<std::uint32_t>(b->surface().triangleCount()))});
     }
     const LocalMinima found = minimaOf(a, b, pose, request);
-    EXPECT_EQ(found.cost.met_by_flood, 0U);
+    EXPECT_EQ(found.cost.met_by_search, 0U);
     ASSERT_EQ(found.owners.size(), request.asked_pairs.size());
     RefinementWorkspace workspace;
     for (std::size_t k = 0; k < found.owners.size(); ++k) {
@@ -218,13 +218,13 @@ TEST(LocalMinimaOf, TrianglePairsBelongToTheNicheTheyDescendTo) {
   }
 }
 
-// What is asked for or proposed beyond the cutoff can be no niche of the list: nothing is flooded for it.
-TEST(LocalMinimaOf, NothingIsFloodedBeyondTheCutoff) {
+// What is asked for or proposed beyond the cutoff can be no niche of the list: nothing is searched for it.
+TEST(LocalMinimaOf, NothingIsSearchedBeyondTheCutoff) {
   const Body comb = makeBody(test::makeComb(5));
   const Isometry3d pose = test::translation(Vector3d(0.1, 0.2, 3.0));
   LocalMinimaRequest request;
   for (const double prominence_limit : {0.0, 1.0}) {
-    request.prominence_limit = prominence_limit;
+    request.rule.prominence_limit = prominence_limit;
     request.cutoff = std::numeric_limits<double>::infinity();
     request.asked_pairs.clear();
     request.proposals.clear();
@@ -236,12 +236,12 @@ TEST(LocalMinimaOf, NothingIsFloodedBeyondTheCutoff) {
     request.proposals.push_back(detail::PairFrame(*comb, *comb, pose).candidateOf(nearest.witness));
     LocalMinima near = minimaOf(comb, comb, pose, request);
     EXPECT_TRUE(near.niches.empty());
-    EXPECT_EQ(near.cost.flooded_pairs, 0U);
+    EXPECT_EQ(near.cost.searched_pairs, 0U);
     EXPECT_EQ(near.owners, std::vector<std::size_t>{LocalMinima::kNoOwner});
     // The same for minima that are given.
     request.given = &request.proposals;
     near = minimaOf(comb, comb, pose, request);
-    EXPECT_EQ(near.cost.flooded_pairs, 0U);
+    EXPECT_EQ(near.cost.searched_pairs, 0U);
     request.given = nullptr;
   }
 }
@@ -262,7 +262,7 @@ Draw drawn() {
 LocalMinimaRequest someRipples(double scale = 1.0) {
   LocalMinimaRequest request;
   request.cutoff = 0.613 * scale;
-  request.prominence_limit = 1.0;
+  request.rule.prominence_limit = 1.0;
   return request;
 }
 
@@ -270,7 +270,7 @@ void expectSame(const LocalMinima& l, const LocalMinima& r, double scale) {
   RC_ASSERT(l.niches.size() == r.niches.size());
   for (std::size_t i = 0; i < l.niches.size(); ++i) {
     RC_ASSERT(std::abs(l.niches[i].distance - r.niches[i].distance / scale) <= kError);
-    RC_ASSERT(l.cost.met_by_flood + r.cost.met_by_flood == 0U);
+    RC_ASSERT(l.cost.met_by_search + r.cost.met_by_search == 0U);
   }
 }
 

@@ -135,7 +135,7 @@ TEST(LocalMinima, OfTheBatteryInItsFixtureAreNineOutwards) {
     EXPECT_EQ(found.niches[i].outward, Outwardness::Outward);
     EXPECT_GE(found.niches[i].prominence, 1e-2);
   }
-  EXPECT_EQ(found.cost.met_by_flood, 0U);
+  EXPECT_EQ(found.cost.met_by_search, 0U);
   expectSameAsBruteForce(s.a, s.b, s.a_from_b, 0.45, 1e-2);
 }
 

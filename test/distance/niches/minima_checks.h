@@ -39,19 +39,19 @@ inline void expectSameAsBruteForce(const Body& a, const Body& b, const Eigen::Is
                                    double least_prominence) {
   LocalMinimaRequest request;
   request.cutoff = cutoff;
-  request.least_prominence = least_prominence;
-  request.prominence_limit = std::numeric_limits<double>::infinity();
+  request.rule.least_prominence = least_prominence;
+  request.rule.prominence_limit = std::numeric_limits<double>::infinity();
   request.through_material = true;
   const LocalMinima found = minimaOf(a, b, pose, request);
   const double plateau = 1e-9 * (a->diameter() + b->diameter());
   const auto truth =
       bruteForceMinima(*a, *b, pose, cutoff, least_prominence, 10.0 * kMinimaRounding, plateau);
-  EXPECT_EQ(found.cost.met_by_flood, 0U);
+  EXPECT_EQ(found.cost.met_by_search, 0U);
   ASSERT_EQ(found.niches.size(), truth.size());
-  // The verdict alone, without passes, is another flood.
-  request.prominence_limit = 0.0;
+  // Whether passes are measured changes no decision.
+  request.rule.prominence_limit = 0.0;
   const LocalMinima decided = minimaOf(a, b, pose, request);
-  EXPECT_EQ(decided.cost.met_by_flood, 0U);
+  EXPECT_EQ(decided.cost.met_by_search, 0U);
   ASSERT_EQ(decided.niches.size(), truth.size());
   for (std::size_t i = 0; i < truth.size(); ++i) {
     EXPECT_NEAR(decided.niches[i].distance, truth[i].distance, 10.0 * kMinimaRounding);

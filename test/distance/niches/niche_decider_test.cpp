@@ -17,7 +17,7 @@
 #include "support/body_pairs.h"
 #include "support/judged_niches.h"
 
-// Verdicts by what is kept from pose to pose against floods at every pose.
+// Decisions by what is kept from pose to pose against searches at every pose.
 
 namespace concave_distance::detail::niche_decider_test {
 namespace {
@@ -27,27 +27,27 @@ using Eigen::Vector3d;
 using test::makeBody;
 using test::nichesOf;
 using Body = std::shared_ptr<const BodyMesh>;
-using Verdict = NicheDecider::Verdict;
+using Decision = NicheDecider::Decision;
 
-std::vector<MinimumCandidate> seedsAt(const PairFrame& scene) {
+std::vector<MinimumCandidate> candidatesAt(const PairFrame& scene) {
   MinimaTracker front;
   WorkLimit none;
-  std::vector<MinimumCandidate> seeds;
+  std::vector<MinimumCandidate> candidates;
   LocalMinimaCost cost;
   std::vector<TreeNodePair> open;
-  collectMeetingPairs(scene, open, seeds, cost, none);
-  front.collect(scene, NormalSides::Outside, kInfinity, seeds, none);
-  return seeds;
+  collectMeetingPairs(scene, open, candidates, cost, none);
+  front.collect(scene, NormalSides::Outside, kInfinity, candidates, none);
+  return candidates;
 }
 
-std::vector<double> nichesByFloods(const PairFrame& scene, std::vector<MinimumCandidate> seeds,
-                                   double least_prominence) {
+std::vector<double> nichesBySearches(const PairFrame& scene, std::vector<MinimumCandidate> candidates,
+                                     double least_prominence) {
   NicheDecider once;
   WorkLimit none;
   NicheDecider::Request request;
-  request.least_prominence = least_prominence;
+  request.rule.least_prominence = least_prominence;
   request.is_tracked = false;
-  once.judge(scene, seeds, request, none);
+  once.judge(scene, candidates, request, none);
   return nichesOf(once);
 }
 
@@ -56,7 +56,7 @@ void expectSame(const std::vector<double>& found, const std::vector<double>& tru
   for (std::size_t i = 0; i < truth.size(); ++i) EXPECT_NEAR(found[i], truth[i], 1e-11);
 }
 
-TEST(NicheDecider, AreThoseOfFloodsAtEveryPoseOfAnyMotion) {
+TEST(NicheDecider, AreThoseOfSearchesAtEveryPoseOfAnyMotion) {
   RandomEngine engine(21);
   NicheDecider::Counts sum;
   for (std::uint32_t run = 0; run < 200; ++run) {
@@ -66,113 +66,113 @@ TEST(NicheDecider, AreThoseOfFloodsAtEveryPoseOfAnyMotion) {
     const double step = std::pow(10.0, -5.0 + 4.0 * uniformUnit(engine));
     const double least_prominence = run % 2 == 0 ? 1e-2 : 0.3;
     SCOPED_TRACE("run " + std::to_string(run) + ", step " + std::to_string(step));
-    NicheDecider verdicts;
+    NicheDecider decider;
     NicheDecider::Request request;
-    request.least_prominence = least_prominence;
+    request.rule.least_prominence = least_prominence;
     for (int k = 0; k < 40; ++k) {
       const PairFrame scene = PairFrame::withFacets(*a, *b, motion.at(step * k));
-      std::vector<MinimumCandidate> seeds = seedsAt(scene);
+      std::vector<MinimumCandidate> candidates = candidatesAt(scene);
       WorkLimit none;
-      verdicts.judge(scene, seeds, request, none);
-      expectSame(nichesOf(verdicts), nichesByFloods(scene, seeds, least_prominence));
+      decider.judge(scene, candidates, request, none);
+      expectSame(nichesOf(decider), nichesBySearches(scene, candidates, least_prominence));
       if (HasFailure()) return;
-      sum.by_path += verdicts.counts().by_path;
-      sum.by_border += verdicts.counts().by_border;
-      sum.mended += verdicts.counts().mended;
-      sum.floods += verdicts.counts().floods;
+      sum.by_path += decider.counts().by_path;
+      sum.by_boundary += decider.counts().by_boundary;
+      sum.mended += decider.counts().mended;
+      sum.searches += decider.counts().searches;
     }
   }
-  // All ways to a verdict were taken.
+  // All ways to a decision were taken.
   EXPECT_GT(sum.by_path, 1000U);
-  EXPECT_GT(sum.by_border, 1000U);
+  EXPECT_GT(sum.by_boundary, 1000U);
   EXPECT_GT(sum.mended, 100U);
-  EXPECT_GT(sum.floods, 100U);
+  EXPECT_GT(sum.searches, 100U);
 }
 
 // Links of many shells: surfaces in the material of others hold deeper places, in sight of nobody.
-TEST(NicheDecider, AreThoseOfFloodsForLinksOfManyShells) {
+TEST(NicheDecider, AreThoseOfSearchesForLinksOfManyShells) {
   const std::string folder = CONCAVE_DISTANCE_SOURCE_DIR "/meshes/wam/";
   const Body a = loadBodyMesh(folder + "wam_base.stl").mesh;
   const Body b = loadBodyMesh(folder + "wam4.stl").mesh;
   ASSERT_FALSE(a->shellContacts().joints.empty() && b->shellContacts().joints.empty());
   RandomEngine engine(22);
-  std::uint32_t by_border = 0;
+  std::uint32_t by_boundary = 0;
   for (int run = 0; run < 6; ++run) {
     test::Motion motion = test::randomMotion(engine);
     motion.centre = 0.6 * a->diameter() * motion.centre.normalized();
     motion.reach *= 0.3 * a->diameter();
     SCOPED_TRACE("run " + std::to_string(run));
-    NicheDecider verdicts;
+    NicheDecider decider;
     const NicheDecider::Request request;
     for (int k = 0; k < 50; ++k) {
       Isometry3d pose = motion.at(0.005 * k);
       pose.translation() -= pose.linear() * b->surface().boundingBox().center();
       pose.pretranslate(a->surface().boundingBox().center());
       const PairFrame scene = PairFrame::withFacets(*a, *b, pose);
-      std::vector<MinimumCandidate> seeds = seedsAt(scene);
+      std::vector<MinimumCandidate> candidates = candidatesAt(scene);
       WorkLimit none;
-      verdicts.judge(scene, seeds, request, none);
-      expectSame(nichesOf(verdicts), nichesByFloods(scene, seeds, request.least_prominence));
+      decider.judge(scene, candidates, request, none);
+      expectSame(nichesOf(decider), nichesBySearches(scene, candidates, request.rule.least_prominence));
       if (HasFailure()) return;
-      by_border += verdicts.counts().by_border;
+      by_boundary += decider.counts().by_boundary;
     }
   }
-  EXPECT_GT(by_border, 200U);
+  EXPECT_GT(by_boundary, 200U);
 }
 
-TEST(NicheDecider, NeedNoFloodWhereNothingHasMoved) {
+TEST(NicheDecider, NeedNoSearchWhereNothingHasMoved) {
   const Body a = makeBody(test::concaveShape(5));
   const Body b = makeBody(test::concaveShape(1));
   const PairFrame scene = PairFrame::withFacets(*a, *b, test::translation(Vector3d(0.3, 0.2, 2.0)));
-  std::vector<MinimumCandidate> seeds = seedsAt(scene);
-  NicheDecider verdicts;
+  std::vector<MinimumCandidate> candidates = candidatesAt(scene);
+  NicheDecider decider;
   WorkLimit none;
-  verdicts.judge(scene, seeds, {}, none);
-  const std::vector<double> first = nichesOf(verdicts);
-  EXPECT_GT(verdicts.counts().floods, 0U);
-  verdicts.judge(scene, seeds, {}, none);
-  EXPECT_EQ(verdicts.counts().floods, 0U);
-  EXPECT_EQ(verdicts.counts().flooded_cells, 0U);
-  EXPECT_EQ(verdicts.counts().measured, 0U);
-  EXPECT_EQ(verdicts.counts().by_border, first.size());
-  EXPECT_EQ(nichesOf(verdicts), first);
+  decider.judge(scene, candidates, {}, none);
+  const std::vector<double> first = nichesOf(decider);
+  EXPECT_GT(decider.counts().searches, 0U);
+  decider.judge(scene, candidates, {}, none);
+  EXPECT_EQ(decider.counts().searches, 0U);
+  EXPECT_EQ(decider.counts().visited_pairs, 0U);
+  EXPECT_EQ(decider.counts().measured, 0U);
+  EXPECT_EQ(decider.counts().by_boundary, first.size());
+  EXPECT_EQ(nichesOf(decider), first);
 }
 
-TEST(NicheDecider, GiveANicheTheSameRegionWhileItStands) {
+TEST(NicheDecider, GiveANicheTheSameBasinWhileItStands) {
   const Body a = makeBody(test::makeComb(4));
   const Body b = makeBody(test::makeComb(3));
-  NicheDecider verdicts;
+  NicheDecider decider;
   std::set<std::uint64_t> first;
   for (int k = 0; k < 20; ++k) {
     const PairFrame scene =
         PairFrame::withFacets(*a, *b, test::translation(Vector3d(0.2 + 1e-4 * k, 0.1, 3.0 + 1e-4 * k)));
-    std::vector<MinimumCandidate> seeds = seedsAt(scene);
+    std::vector<MinimumCandidate> candidates = candidatesAt(scene);
     WorkLimit none;
-    verdicts.judge(scene, seeds, {}, none);
-    std::set<std::uint64_t> regions;
-    for (const NicheDecider::Judged& judged : verdicts.judged()) {
-      if (judged.verdict != Verdict::Niche) continue;
-      EXPECT_TRUE(regions.insert(judged.region).second);
+    decider.judge(scene, candidates, {}, none);
+    std::set<std::uint64_t> basins;
+    for (const NicheDecider::Judged& judged : decider.judged()) {
+      if (judged.decision != Decision::Niche) continue;
+      EXPECT_TRUE(basins.insert(judged.basin).second);
     }
-    if (k == 0) first = regions;
-    EXPECT_EQ(regions, first);
+    if (k == 0) first = basins;
+    EXPECT_EQ(basins, first);
   }
   EXPECT_FALSE(first.empty());
 }
 
-TEST(NicheDecider, FloodNothingThatIsNotWanted) {
+TEST(NicheDecider, SearchNothingThatIsNotWanted) {
   const Body a = makeBody(test::concaveShape(0));
   const Body b = makeBody(test::concaveShape(3));
   const PairFrame scene = PairFrame::withFacets(*a, *b, test::translation(Vector3d(0.3, 0.2, 2.0)));
-  std::vector<MinimumCandidate> seeds = seedsAt(scene);
-  NicheDecider verdicts;
+  std::vector<MinimumCandidate> candidates = candidatesAt(scene);
+  NicheDecider decider;
   NicheDecider::Request request;
   request.is_wanted = [](const MinimumCandidate&, Occluder&) { return false; };
   WorkLimit none;
-  verdicts.judge(scene, seeds, request, none);
-  EXPECT_EQ(verdicts.counts().floods, 0U);
-  EXPECT_TRUE(nichesOf(verdicts).empty());
-  EXPECT_EQ(verdicts.judged().front().verdict, Verdict::Unwanted);
+  decider.judge(scene, candidates, request, none);
+  EXPECT_EQ(decider.counts().searches, 0U);
+  EXPECT_TRUE(nichesOf(decider).empty());
+  EXPECT_EQ(decider.judged().front().decision, Decision::Unwanted);
 }
 
 TEST(NicheDecider, AreRightAgainAfterALimitHasEndedThem) {
@@ -183,27 +183,27 @@ TEST(NicheDecider, AreRightAgainAfterALimitHasEndedThem) {
     const Body a = makeBody(test::concaveShape(run));
     const Body b = makeBody(test::concaveShape(run / 6));
     const test::Motion motion = test::randomMotion(engine);
-    NicheDecider verdicts;
+    NicheDecider decider;
     for (int k = 0; k < 24; ++k) {
       const PairFrame scene = PairFrame::withFacets(*a, *b, motion.at(0.003 * k));
-      std::vector<MinimumCandidate> seeds = seedsAt(scene);
+      std::vector<MinimumCandidate> candidates = candidatesAt(scene);
       if (k % 3 == 1) {
         WorkLimit stopped(std::chrono::steady_clock::now(), kInfinity,
                           k % 2 == 0 ? std::size_t{2000} : std::numeric_limits<std::size_t>::max(), &stop);
-        verdicts.judge(scene, seeds, {}, stopped);
-        const std::vector<double> truth = nichesByFloods(scene, seeds, 1e-2);
-        for (const double distance : nichesOf(verdicts)) {
+        decider.judge(scene, candidates, {}, stopped);
+        const std::vector<double> truth = nichesBySearches(scene, candidates, 1e-2);
+        for (const double distance : nichesOf(decider)) {
           EXPECT_TRUE(std::any_of(truth.begin(), truth.end(),
                                   [&](double d) { return std::abs(d - distance) < 1e-11; }));
         }
-        for (const NicheDecider::Judged& judged : verdicts.judged()) {
-          was_undecided = was_undecided || judged.verdict == Verdict::Undecided;
+        for (const NicheDecider::Judged& judged : decider.judged()) {
+          was_undecided = was_undecided || judged.decision == Decision::Undecided;
         }
         continue;
       }
       WorkLimit none;
-      verdicts.judge(scene, seeds, {}, none);
-      expectSame(nichesOf(verdicts), nichesByFloods(scene, seeds, 1e-2));
+      decider.judge(scene, candidates, {}, none);
+      expectSame(nichesOf(decider), nichesBySearches(scene, candidates, 1e-2));
       if (HasFailure()) return;
     }
   }
@@ -219,28 +219,28 @@ TEST(NicheDecider, AreRightAfterAListThatWasCut) {
     const Body a = makeBody(test::concaveShape(run));
     const Body b = makeBody(test::concaveShape(run / 6));
     const test::Motion motion = test::randomMotion(engine);
-    NicheDecider verdicts;
+    NicheDecider decider;
     std::vector<TrianglePair> known;
     for (int k = 0; k < 24; ++k) {
       const PairFrame scene = PairFrame::withFacets(*a, *b, motion.at(0.01 * (k - k % 2)));
-      std::vector<MinimumCandidate> seeds = seedsAt(scene);
-      const std::vector<double> truth = nichesByFloods(scene, seeds, 1e-2);
+      std::vector<MinimumCandidate> candidates = candidatesAt(scene);
+      const std::vector<double> truth = nichesBySearches(scene, candidates, 1e-2);
       NicheDecider::Request request;
       if (k % 2 == 0) request.most_niches = 1;
       WorkLimit none;
-      verdicts.judge(scene, seeds, request, none);
-      for (const TrianglePair& pair : known) verdicts.locate(scene, pair, request, none);
-      for (const double distance : nichesOf(verdicts)) {
+      decider.judge(scene, candidates, request, none);
+      for (const TrianglePair& pair : known) decider.locate(scene, pair, request, none);
+      for (const double distance : nichesOf(decider)) {
         EXPECT_TRUE(std::any_of(truth.begin(), truth.end(),
                                 [&](double d) { return std::abs(d - distance) < 1e-11; }));
       }
       asked_for += known.size();
       if (k % 2 == 0) continue;
-      expectSame(nichesOf(verdicts), truth);
+      expectSame(nichesOf(decider), truth);
       if (HasFailure()) return;
       known.clear();
-      for (const NicheDecider::Judged& judged : verdicts.judged()) {
-        if (judged.verdict == Verdict::Niche) known.push_back({judged.seed.a, judged.seed.b});
+      for (const NicheDecider::Judged& judged : decider.judged()) {
+        if (judged.decision == Decision::Niche) known.push_back({judged.candidate.a, judged.candidate.b});
       }
     }
   }
@@ -292,15 +292,15 @@ TEST(NicheDecider, NeedNoStackForALongWayDown) {
               .witness;
       if (found.squared_distance < first.squared_distance) first = found;
     }
-    std::vector<MinimumCandidate> seeds{scene.candidateOf(first)};
-    NicheDecider verdicts;
+    std::vector<MinimumCandidate> candidates{scene.candidateOf(first)};
+    NicheDecider decider;
     NicheDecider::Request request;
-    request.least_prominence = 1.0;
+    request.rule.least_prominence = 1.0;
     WorkLimit none;
-    verdicts.judge(scene, seeds, request, none);
-    own.niche = verdicts.locate(scene, {first.triangle_a, first.triangle_b}, request, none);
-    own.judged = verdicts.judged().size();
-    own.is_last = verdicts.judged()[own.niche].verdict == Verdict::Niche;
+    decider.judge(scene, candidates, request, none);
+    own.niche = decider.locate(scene, {first.triangle_a, first.triangle_b}, request, none);
+    own.judged = decider.judged().size();
+    own.is_last = decider.judged()[own.niche].decision == Decision::Niche;
     return nullptr;
   };
   pthread_attr_t attributes;
@@ -315,30 +315,30 @@ TEST(NicheDecider, NeedNoStackForALongWayDown) {
   EXPECT_TRUE(run.is_last);
 }
 
-// What is decided with and without passes is decided by two different floods.
-TEST(NicheDecider, AreThoseOfMeasuredPassesWhateverTheOrderOfTheSeeds) {
+// Neither the order of the candidates nor the measurement of passes changes what is a niche.
+TEST(NicheDecider, AreThoseOfMeasuredPassesWhateverTheOrderOfTheCandidates) {
   RandomEngine engine(31);
   std::size_t united = 0;
   for (int run = 0; run < 40; ++run) {
     const Scene drawn{makeBody(test::concaveShape(uniformIndex(engine, 6))),
                       makeBody(test::concaveShape(uniformIndex(engine, 6))), test::randomPose(engine, 1.2)};
     LocalMinimaRequest measured;
-    measured.least_prominence = 0.1;
-    measured.prominence_limit = 0.2;
+    measured.rule.least_prominence = 0.1;
+    measured.rule.prominence_limit = 0.2;
     const LocalMinima truth = findLocalMinima(*drawn.a, *drawn.b, drawn.pose, measured);
     const PairFrame scene = PairFrame::withFacets(*drawn.a, *drawn.b, drawn.pose);
-    std::vector<MinimumCandidate> seeds = seedsAt(scene);
-    if (!seeds.empty() && truth.niches.front().distance == 0.0) continue;  // many seeds, one niche
-    std::reverse(seeds.begin() + static_cast<std::ptrdiff_t>(seeds.size() / 3), seeds.end());
-    const std::vector<double> niches = nichesByFloods(scene, seeds, 0.1);
+    std::vector<MinimumCandidate> candidates = candidatesAt(scene);
+    if (!candidates.empty() && truth.niches.front().distance == 0.0) continue;  // many candidates, one niche
+    std::reverse(candidates.begin() + static_cast<std::ptrdiff_t>(candidates.size() / 3), candidates.end());
+    const std::vector<double> niches = nichesBySearches(scene, candidates, 0.1);
     ASSERT_EQ(niches.size(), truth.niches.size()) << run;
     for (std::size_t i = 0; i < niches.size(); ++i) EXPECT_NEAR(niches[i], truth.niches[i].distance, 1e-12);
-    united += seeds.size() - niches.size();
+    united += candidates.size() - niches.size();
   }
   EXPECT_GT(united, 20U);
 }
 
-// What is left of a border has its distance, and what leaves it has not, after any motion.
+// What is left of a boundary has its distance, and what leaves it has not, after any motion.
 TEST(BasinBoundary, LosesExactlyWhatComesNearerThanTheLevel) {
   RandomEngine engine(23);
   std::size_t lost = 0;
@@ -350,9 +350,9 @@ TEST(BasinBoundary, LosesExactlyWhatComesNearerThanTheLevel) {
     const double step = std::pow(10.0, -4.0 + 3.0 * uniformUnit(engine));
     const PairFrame first = PairFrame::withFacets(*a, *b, motion.at(0.0));
     WorkLimit none;
-    BasinBoundary border;
-    BorderPool pool;
-    border.begin(pool, Vector3d::Zero(), Vector3d::Zero());
+    BasinBoundary boundary;
+    BoundaryPool pool;
+    boundary.begin(pool, Vector3d::Zero(), Vector3d::Zero());
     std::vector<SharedElement> left;
     const double level = 0.3 + uniformUnit(engine);
     for (std::uint32_t k = 0; k < 200; ++k) {
@@ -365,12 +365,12 @@ TEST(BasinBoundary, LosesExactlyWhatComesNearerThanTheLevel) {
           TriangleIndex{uniformIndex(engine, static_cast<std::uint32_t>(other.triangleCount()))}};
       const double distance = std::sqrt(closestOver(first, element).squared_distance);
       if (distance < level) continue;
-      ASSERT_TRUE(border.add(pool, first, {element, t}, distance, none));
+      ASSERT_TRUE(boundary.add(pool, first, {element, t}, distance, none));
       left.push_back(element);
     }
     for (int k = 1; k < 30; ++k) {
       const PairFrame scene = PairFrame::withFacets(*a, *b, motion.at(step * k));
-      border.takeCrossed(pool, scene, level);
+      boundary.takeCrossed(pool, scene, level);
       const std::size_t crossed = pool.crossed.size();
       const auto nearer = [&](const SharedElement& element) {
         return std::sqrt(closestOver(scene, element).squared_distance) < level;
@@ -378,7 +378,7 @@ TEST(BasinBoundary, LosesExactlyWhatComesNearerThanTheLevel) {
       const auto gone = std::remove_if(left.begin(), left.end(), nearer);
       ASSERT_EQ(static_cast<std::size_t>(left.end() - gone), crossed) << "run " << run << ", instant " << k;
       left.erase(gone, left.end());
-      ASSERT_EQ(border.size(pool), left.size());
+      ASSERT_EQ(boundary.size(pool), left.size());
       lost += crossed;
     }
     kept += left.size();

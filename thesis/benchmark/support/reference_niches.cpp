@@ -75,13 +75,13 @@ bool isSameNiche(const BenchmarkPair& pair, const Eigen::Isometry3d& pose, const
     return true;
   }
   std::vector<MinimumCandidate> seeds{frame.candidateOf(found), frame.candidateOf(reference)};
-  detail::NicheDecider verdicts;
+  detail::NicheDecider decider;
   detail::NicheDecider::Request request;
-  request.least_prominence = least_prominence;
+  request.rule.least_prominence = least_prominence;
   WorkLimit none;
-  verdicts.judge(frame, seeds, request, none);
+  decider.judge(frame, seeds, request, none);
   const auto niche_of = [&](const WitnessPair& witness) {
-    return verdicts.locate(frame, {witness.triangle_a, witness.triangle_b}, request, none);
+    return decider.locate(frame, {witness.triangle_a, witness.triangle_b}, request, none);
   };
   return niche_of(found) == niche_of(reference);
 }

@@ -1,8 +1,7 @@
 #include "annealing_reader.h"
+#include "experiment_values.h"
 
 #include <limits>
-
-#include "loading/setting_values.h"
 
 namespace concave_distance::detail {
 namespace {

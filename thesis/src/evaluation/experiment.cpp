@@ -11,7 +11,7 @@
 
 #include "annealing_reader.h"
 #include "concave_distance/base/error.h"
-#include "loading/setting_values.h"
+#include "experiment_values.h"
 #include "loading/settings_reader.h"
 #include "search_readers.h"
 

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <limits>
 
-#include "loading/setting_values.h"
+#include "experiment_values.h"
 #include "loading/yaml_value.h"
 
 namespace concave_distance::evaluation {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "loading/setting_values.h"
+#include "experiment_values.h"
 #include "loading/settings_reader.h"
 
 namespace concave_distance::evaluation {

@@ -23,7 +23,7 @@ struct FoundPlace {
 /// connected part of {d <= d(x)} around x holds m alone. A pair that reaches several lies above the pass
 /// between them and belongs to none; neither the size of the triangles nor a way of descending decides.
 /// How: on a product of two triangles the distance is convex, so the connected parts of {d <= d(x)} are
-/// those of the graph of triangle pairs (distance/minima_flood.h), whichever triangles of x are named.
+/// those of the graph of triangle pairs (distance/niches/basin_search.h), whichever triangles of x are named.
 class SurfaceRegions {
  public:
   static constexpr std::size_t kNoOwner = std::numeric_limits<std::size_t>::max();

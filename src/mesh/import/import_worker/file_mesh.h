@@ -10,7 +10,6 @@
 
 namespace concave_distance::detail {
 
-/// Says how errors name the faces of a file.
 struct FaceNames {
   std::string kind;               ///< "line" or "face", before its number
   std::string of = {};            ///< after it, as " of mesh 'door'"

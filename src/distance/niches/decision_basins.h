@@ -1,0 +1,80 @@
+#pragma once
+
+#include <algorithm>
+
+#include "niche_decider.h"
+
+namespace concave_distance::detail {
+
+/// Proves niches at one pose: keeps the basin that a search has found enclosed, with its boundary, and tells
+/// at later poses whether it still is (doc/proofs.md).
+class DecisionBasins {
+ public:
+  /// @param search holds the last search; a broken boundary is searched with it
+  DecisionBasins(DecisionCache& memory, BasinSearch& search, const PairFrame& frame,
+                 NicheDecider::Counts& counts, WorkLimit& limit)
+      : memory_(memory), search_(search), frame_(frame), counts_(counts), limit_(limit) {}
+
+  /// True when the boundary of a kept basin holds, if need be with facet pairs beyond it added. The boundary
+  /// is whole afterwards, because the basin may be asked for again; without memory for that the basin is
+  /// dropped.
+  /// @param meets as in BasinSearch::proceed()
+  template <typename Meets>
+  bool isEnclosed(std::uint32_t index, const BasinSearch::Levels& levels, const Meets& meets) {
+    if (!takeCrossed(index, levels.highest)) return true;
+    if (searchBeyond(index, levels, meets) != BasinSearch::End::Enclosed) {
+      restoreBoundary(index);
+      return false;
+    }
+    if (!extend(index)) return false;
+    ++counts_.mended;
+    return true;
+  }
+
+  /// Keeps the basin that the last search has visited.
+  /// @param id of the basin; 0: a new one
+  /// @param first the deepest candidate in it, whose triangle pair is `around`
+  /// @return its id, or 0 when it is not kept
+  std::uint64_t keep(std::uint64_t id, std::uint32_t first, const TrianglePair& around);
+
+ private:
+  /// A basin that has grown to more than twice its size and this many facet pairs is searched anew.
+  static constexpr std::size_t kSmallBasin = 64;
+
+  /// Takes what is nearer than `level` (m) out of the boundary. Returns false when nothing is.
+  bool takeCrossed(std::uint32_t index, double level);
+
+  /// Searches the facet pairs beyond the elements that have left the basin's boundary.
+  template <typename Meets>
+  BasinSearch::End searchBeyond(std::uint32_t index, const BasinSearch::Levels& levels, const Meets& meets) {
+    const DecisionCache::KeptBasin& basin = memory_.basin(index);
+    const auto is_inside = [&](TriangleIndex a, TriangleIndex b) { return memory_.isIn(a, b, index); };
+    search_.beginBeyond(levels);
+    for (const BoundaryElement& element : memory_.boundaries().crossed) {
+      const TrianglePair pair = element.pairBeyond();
+      if (!is_inside(pair.a, pair.b) && !search_.enterBeyond(pair.a, pair.b, 0.0, limit_)) {
+        return BasinSearch::End::Cut;
+      }
+    }
+    const std::size_t largest = 2 * basin.facet_pairs_at_begin + kSmallBasin;
+    const std::size_t most = largest - std::min(basin.facet_pairs, largest);
+    const BasinSearch::End end = search_.proceed(frame_, most, meets, is_inside, limit_);
+    counts_.visited_pairs += static_cast<std::uint32_t>(search_.lookedAt());
+    return end;
+  }
+
+  /// Puts the elements that have left the boundary back into it.
+  void restoreBoundary(std::uint32_t index);
+
+  /// Extends a kept basin by what the last search has visited; without memory it drops it and returns false.
+  bool extend(std::uint32_t index);
+  bool add(std::uint32_t index);
+
+  DecisionCache& memory_;
+  BasinSearch& search_;
+  const PairFrame& frame_;
+  NicheDecider::Counts& counts_;
+  WorkLimit& limit_;
+};
+
+}  // namespace concave_distance::detail
