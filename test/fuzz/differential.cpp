@@ -19,6 +19,7 @@
 #include "fuzz/reproducer.h"
 #include "support/body_pairs.h"
 #include "support/enumeration.h"
+#include "support/exact_query.h"
 #include "support/query_bound.h"
 
 namespace {

@@ -4,7 +4,7 @@
 
 #include "base/random_engine.h"
 #include "concave_distance/mesh/surface/surface_mesh.h"
-#include "support/exact_query.h"
+#include "support/given_pose.h"
 
 namespace concave_distance::test {
 

@@ -9,6 +9,7 @@
 #include <cstdlib>
 
 #include "support/csv_table.h"
+#include "support/exact_query.h"
 #include "support/query_bound.h"
 
 namespace concave_distance::test::reproducer_test {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "concave_distance/mesh/surface/surface_mesh.h"
-#include "support/exact_query.h"
+#include "support/given_pose.h"
 
 namespace concave_distance::test {
 

@@ -13,6 +13,7 @@
 #include "distance/bound/certificate.h"
 #include "numerics/numeric_cases.h"
 #include "support/body_pairs.h"
+#include "support/exact_query.h"
 #include "support/query_bound.h"
 
 namespace concave_distance::query_accuracy_test {

@@ -19,11 +19,7 @@ inline SceneBuilder stackOf(const std::vector<double>& masses) {
   Material material;
   material.dissipation = 20.0;
   builder.addBody("floor", makeBox({2.0, 2.0, 0.1})).material = material;
-  SimulatedBodySettings floor;
-  floor.body = "floor";
-  floor.motion = BodyMotion::Fixed;
-  floor.pose = at(0.0, 0.0, -0.05);
-  builder.settings.bodies.push_back(floor);
+  builder.setFixed("floor", at(0.0, 0.0, -0.05));
   for (std::size_t i = 0; i < masses.size(); ++i) {
     const std::string name = "box" + std::to_string(i);
     builder.addBody(name, makeBox({0.2, 0.2, kStackHeight})).material = material;

@@ -67,7 +67,7 @@ struct ElasticBall {
   /// Over a plane at z = 0, `height` below its lowest point.
   SceneBuilder overPlane(double height) const {
     SceneBuilder builder = on(makeBox({20.0 * radius, 20.0 * radius, 4.0 * radius}), {0, 0, radius + height});
-    addGround(builder, at(0.0, 0.0, -2.0 * radius));
+    builder.setFixed("ground", at(0.0, 0.0, -2.0 * radius));
     return builder;
   }
 
@@ -79,7 +79,7 @@ struct ElasticBall {
     SimulatedBodySettings& ball = builder.settings.bodies.back();
     ball.velocity = {speed, 0.0, 0.0};
     ball.angular_velocity = {0.0, speed / radius, 0.0};
-    addGround(builder, at(0.0, 0.0, -2.0 * radius));
+    builder.setFixed("ground", at(0.0, 0.0, -2.0 * radius));
     return builder;
   }
 
@@ -113,7 +113,7 @@ struct ElasticBall {
     builder.settings.tracking = SimulationTracking::SingleMinimum;
     builder.addBody("ground", makeBox({1.1 * size.x(), 1.1 * size.y(), size.z()})).material = material();
     builder.addBody("plate", makeBox(size)).material = material();
-    addGround(builder, at(0.0, 0.0, -6.0 * radius + sunk));
+    builder.setFixed("ground", at(0.0, 0.0, -6.0 * radius + sunk));
     builder.setFree("plate", 1000.0 * size.prod()).pose = at(0.0, 0.0, -2.0 * radius);
     SimulatedBodySettings& ball =
         addTo(builder, "ball", {0.0, 0.0, radius - depthUnder(9.81 * mass(), radius)});
@@ -130,14 +130,6 @@ struct ElasticBall {
     pair.settings.effects = effects();
     builder.scene.pairs.push_back(pair);
     return builder;
-  }
-
-  static void addGround(SceneBuilder& builder, const Eigen::Isometry3d& pose) {
-    SimulatedBodySettings ground;
-    ground.body = "ground";
-    ground.motion = BodyMotion::Fixed;
-    ground.pose = pose;
-    builder.settings.bodies.push_back(ground);
   }
 };
 
@@ -187,7 +179,7 @@ inline SceneBuilder ElasticBall::inBowl(double angle) const {
   const double arm = bowl - radius + depthUnder(9.81 * mass() * std::cos(angle), relative_radius);
   SceneBuilder builder =
       on(makeBowl(bowl, 6.0 * radius), {arm * std::sin(angle), 0.0, -arm * std::cos(angle)});
-  addGround(builder, at(0.0, 0.0, 0.0));
+  builder.setFixed("ground", at(0.0, 0.0, 0.0));
   return builder;
 }
 

@@ -50,11 +50,7 @@ SceneBuilder ballOnPlane(const Ball& ball) {
   effects.normal_force->distribution = ball.distribution;
   effects.normal_force->foundation_stiffness = kFoundation;
   effects.friction.model = ball.friction;
-  SimulatedBodySettings plane;
-  plane.body = "plane";
-  plane.motion = BodyMotion::Fixed;
-  plane.pose = at(0.0, 0.0, -0.1);
-  builder.settings.bodies.push_back(plane);
+  builder.setFixed("plane", at(0.0, 0.0, -0.1));
   SimulatedBodySettings& settings = builder.setFree("ball", kMass);
   settings.pose = at(0.0, 0.0, kRadius - depthAtRest());
   settings.mass.reset();

@@ -27,11 +27,7 @@ SceneBuilder onGround(const RoundShape& shape, NormalForceModel model, const Mat
   PairSettings& pair = builder.addPair();
   pair.effects.normal_force = force;
   pair.effects.interference = true;
-  SimulatedBodySettings ground;
-  ground.body = "ground";
-  ground.motion = BodyMotion::Fixed;
-  ground.pose = at(0.0, 0.0, -1.0);
-  builder.settings.bodies.push_back(ground);
+  builder.setFixed("ground", at(0.0, 0.0, -1.0));
   builder.settings.tracking = SimulationTracking::SingleMinimum;
   return builder;
 }

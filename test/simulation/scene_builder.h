@@ -48,6 +48,14 @@ struct SceneBuilder {
     return settings.bodies.back();
   }
 
+  void setFixed(const std::string& name, const Eigen::Isometry3d& pose) {
+    SimulatedBodySettings body;
+    body.body = name;
+    body.motion = BodyMotion::Fixed;
+    body.pose = pose;
+    settings.bodies.push_back(body);
+  }
+
   /// Between the first two bodies.
   PairSettings& addPair() {
     ScenePair pair;
@@ -56,6 +64,14 @@ struct SceneBuilder {
     pair.body_b = 1;
     scene.pairs.push_back(pair);
     return scene.pairs.edit(scene.pairs.size() - 1).settings;
+  }
+
+  /// The same, with one force for a whole region; valid until the next call.
+  NormalForceSettings& addLumpedPair(NormalForceModel model) {
+    NormalForceSettings& normal = addPair().effects.normal_force.emplace();
+    normal.model = model;
+    normal.distribution = ForceDistribution::Lumped;
+    return normal;
   }
 
   Simulation simulation() const { return Simulation(scene, settings); }

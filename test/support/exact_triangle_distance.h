@@ -132,20 +132,15 @@ Real exactSquaredDistance(const TrianglePoints& a, const TrianglePoints& b) {
 }
 
 /// Rounded to nearest.
-inline double exactDistance(const TrianglePoints& a, const TrianglePoints& b) {
-  return static_cast<double>(boost::multiprecision::sqrt(exactSquaredDistance<Wide>(a, b)));
-}
+double exactDistance(const TrianglePoints& a, const TrianglePoints& b);
 
 /// Distance of a point from a triangle; segments and points are triangles whose corners repeat.
-inline double exactDistance(const Eigen::Vector3d& point, const TrianglePoints& t) {
-  return exactDistance(TrianglePoints{point, point, point}, t);
-}
+double exactDistance(const Eigen::Vector3d& point, const TrianglePoints& t);
 
 /// |computed - exact| with the subtraction done in the wide type.
-inline double exactDistanceError(double computed, const TrianglePoints& a, const TrianglePoints& b) {
-  const Wide exact = boost::multiprecision::sqrt(exactSquaredDistance<Wide>(a, b));
-  return static_cast<double>(boost::multiprecision::abs(exact - Wide(computed)));
-}
+double exactDistanceError(double computed, const TrianglePoints& a, const TrianglePoints& b);
+
+extern template Wide exactSquaredDistance(const ExactTriangle<Wide>& a, const ExactTriangle<Wide>& b);
 
 inline double largestCoordinate(const TrianglePoints& a, const TrianglePoints& b) {
   double largest = 0.0;
