@@ -22,6 +22,9 @@ class BasinSearch {
     double equal;    ///< facet pairs with at most this may be those of another minimum
     double highest;  ///< goes no higher
   };
+  /// What the search is for: to decide, it takes any path below the highest level; to measure a pass, the
+  /// lowest path to each facet pair, which costs more.
+  enum class Purpose : std::uint8_t { Decide, MeasurePass };
   enum class End : std::uint8_t {
     Enclosed,  ///< all that is connected below the level has been visited
     Below,     ///< last() comes closer than `below`
@@ -45,8 +48,9 @@ class BasinSearch {
   };
 
   /// From the facet pair of a minimum.
-  void begin(TriangleIndex a, TriangleIndex b, const Levels& levels) {
+  void begin(TriangleIndex a, TriangleIndex b, const Levels& levels, Purpose purpose = Purpose::Decide) {
     beginBeyond(levels);
+    measures_pass_ = purpose == Purpose::MeasurePass;
     enter(a, b, 0.0, kNone, {});
     has_own_start_ = true;
   }
@@ -60,6 +64,8 @@ class BasinSearch {
     looked_at_ = 0;
     highest_ = 0.0;
     has_own_start_ = false;
+    measures_pass_ = false;
+    is_visited_.clear();
   }
   /// False without memory.
   bool enterBeyond(TriangleIndex a, TriangleIndex b, double squared_level, WorkLimit& limit) {
@@ -78,9 +84,14 @@ class BasinSearch {
       if (limit.isOverNow()) return End::Cut;
       if (looked_at_ == most_facet_pairs) return End::Long;
       std::pop_heap(reached_.begin(), reached_.end(), isHigher);
-      last_ = reached_.back().facet_pair;
-      highest_ = std::max(highest_, reached_.back().squared_level);
+      const Reached next = reached_.back();
       reached_.pop_back();
+      if (measures_pass_) {
+        if (is_visited_[next.facet_pair] != 0) continue;
+        is_visited_[next.facet_pair] = 1;
+        highest_ = std::max(highest_, next.squared_level);
+      }
+      last_ = next.facet_pair;
       ++looked_at_;
       const TriangleIndex a = facet_pairs_[last_].a;
       const TriangleIndex b = facet_pairs_[last_].b;
@@ -99,7 +110,7 @@ class BasinSearch {
   const std::vector<FacetPair>& facet_pairs() const { return facet_pairs_; }
   std::uint32_t last() const { return last_; }
   std::size_t lookedAt() const { return looked_at_; }
-  /// The level (metres) to which the search has risen.
+  /// The level (metres) to which a search for a pass has risen.
   double highestLevel() const { return std::sqrt(highest_); }
 
   /// Calls visit(boundary step) for what encloses the facet pairs visited and those inside.
@@ -115,7 +126,8 @@ class BasinSearch {
 
   std::size_t memoryBytes() const {
     return table_.memoryBytes() + facet_pairs_.capacity() * sizeof(FacetPair) +
-           reached_.capacity() * sizeof(Reached) + boundary_.capacity() * sizeof(BoundaryStep);
+           reached_.capacity() * sizeof(Reached) + is_visited_.capacity() +
+           boundary_.capacity() * sizeof(BoundaryStep);
   }
 
  private:
@@ -129,7 +141,8 @@ class BasinSearch {
   }
 
   bool makeRoom(WorkLimit& limit) {
-    return table_.makeRoom(limit) && limit.makeRoom(facet_pairs_) && limit.makeRoom(reached_);
+    return table_.makeRoom(limit) && limit.makeRoom(facet_pairs_) && limit.makeRoom(reached_) &&
+           (!measures_pass_ || limit.makeRoom(is_visited_));
   }
 
   void enter(TriangleIndex a, TriangleIndex b, double squared_level, std::uint32_t parent,
@@ -137,6 +150,11 @@ class BasinSearch {
     const auto facet_pair = static_cast<std::uint32_t>(facet_pairs_.size());
     table_.insert(a, b, facet_pair);
     facet_pairs_.push_back({a, b, parent, via});
+    if (measures_pass_) is_visited_.push_back(0);
+    reach(facet_pair, squared_level);
+  }
+
+  void reach(std::uint32_t facet_pair, double squared_level) {
     reached_.push_back({squared_level, facet_pair});
     std::push_heap(reached_.begin(), reached_.end(), isHigher);
   }
@@ -157,7 +175,15 @@ class BasinSearch {
             if (has_room) boundary_.push_back({to_a, to_b, squared_level, element});
             return;
           }
-          if (table_.find(to_a, to_b) != PairTable::kAbsent || is_inside(to_a, to_b)) return;
+          const std::uint32_t known = table_.find(to_a, to_b);
+          if (known != PairTable::kAbsent) {
+            // This way may be lower than the one by which it was reached before.
+            if (!measures_pass_ || is_visited_[known] != 0) return;
+            has_room = limit.makeRoom(reached_);
+            if (has_room) reach(known, squared_level);
+            return;
+          }
+          if (is_inside(to_a, to_b)) return;
           has_room = makeRoom(limit);
           if (has_room) enter(to_a, to_b, squared_level, last_, element);
         });
@@ -173,6 +199,8 @@ class BasinSearch {
   std::size_t looked_at_ = 0;
   double highest_ = 0.0;  ///< m^2
   bool has_own_start_ = true;
+  bool measures_pass_ = false;
+  std::vector<char> is_visited_;  ///< for each of facet_pairs(), only where a pass is measured
 };
 
 }  // namespace concave_distance::detail

@@ -206,7 +206,8 @@ double NicheDecider::Stage::passOf(std::uint32_t i, double highest) const {
   const TrianglePair start = frame_.facetPairOf(candidate.a, candidate.b);
   BasinSearch search;  // it may grow large: its memory is not kept
   search.begin(start.a, start.b,
-               {candidate.distance - tolerance_, candidate.distance + tolerance_, highest + tolerance_});
+               {candidate.distance - tolerance_, candidate.distance + tolerance_, highest + tolerance_},
+               BasinSearch::Purpose::MeasurePass);
   const auto meets = [&](TriangleIndex a, TriangleIndex b) { return isOfEarlier(a, b, i); };
   const auto is_inside = [](TriangleIndex, TriangleIndex) { return false; };
   const BasinSearch::End end =
