@@ -81,11 +81,11 @@ TEST(Certificate, SaysWhenAStartWasNotTheClosest) {
   for (std::size_t i = 0; i < count * count; i += 7) {
     const TrianglePair start{TriangleIndex{i / count}, TriangleIndex{i % count}};
     RefinementWorkspace refinement;
-    const double start =
+    const double distance_there =
         std::sqrt(refineWitness(*comb, *comb, pose, start.a, start.b, refinement).witness.squared_distance);
     const DistanceCertificate found =
         certifyDistance(*comb, *comb, pose, &start, 1, CertificateRequest(), workspace);
-    const bool farther = start > best.distance + 1e-9;
+    const bool farther = distance_there > best.distance + 1e-9;
     EXPECT_EQ(found.improved, farther);
     improved += farther ? 1 : 0;
     as_close += farther ? 0 : 1;
