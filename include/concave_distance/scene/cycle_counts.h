@@ -30,13 +30,16 @@ struct CycleCounts {
   void add(const CycleCounts& cycle);
 };
 
+/// Says how much a solve adds to a counter.
+using CountOfSolve = std::uint64_t (*)(const PairSolution&);
+
 /// A counter of solves, as the diagnostics report it; costs have rows of their own (SearchCost::counters()).
 /// A new one is a field of CycleCounts and a row here: sums and diagnostics follow.
 struct CycleCounter {
   const char* key;  ///< in the diagnostics
   std::uint64_t CycleCounts::*count;
   /// Returns what a solved pair adds; nullptr where the tracker itself counts.
-  std::uint64_t (*of)(const PairSolution&);
+  CountOfSolve of;
 };
 
 inline const auto& cycleCounters() {
