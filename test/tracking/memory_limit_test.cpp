@@ -27,7 +27,7 @@ TEST(MemoryLimit, HoldsForFloodsOfALargeProminenceAndTheBracketHoldsToo) {
   prepareSearch({comb.get()});
   comb->geodesicExtent();
   comb->normalCones(NormalSides::Outside);
-  for (const std::size_t limit : {std::size_t{2} << 20U, std::size_t{4} << 20U}) {
+  for (const std::size_t limit : {std::size_t{2} << 20U, std::size_t{3} << 20U}) {
     parameters.memory_limit = limit;
     PairTracker tracker("pair", comb, comb, parameters);
     PairSolution solution;

@@ -22,6 +22,8 @@ test::Bytes bytesOf(const PairSolution& solution) {
 /// Without the work: a first cycle of a tracker also keeps what the next one needs.
 test::Bytes answerOf(PairSolution solution) {
   solution.cost = {};
+  // A pose alone is not searched: its niches come from the cones.
+  for (TrackedNiche& niche : solution.niches) niche.origin = NicheOrigin::Inherited;
   return bytesOf(solution);
 }
 

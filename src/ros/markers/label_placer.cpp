@@ -14,7 +14,8 @@ constexpr double kPeriod = 1.0;          // s between two searches for a lower p
 // Heights of a label above the upper end of its line, in heights of its letters.
 constexpr double kLowest = 1.2;
 constexpr double kStep = 0.7;
-constexpr int kSteps = 60;
+constexpr int kSteps = 60;       // up to here a place is looked for at which bodies do not hide the label
+constexpr int kMostSteps = 600;  // more than labels can take
 constexpr double kLeader = 2.5;  // the height beyond which a thin line joins label and line
 
 // Whether a body hides the point from a camera far off in this direction.
@@ -101,10 +102,19 @@ std::vector<visualization_msgs::Marker> LabelPlacer::place(std::vector<Label> la
     const bool is_kept =
         before != choices_.end() && now >= before->second.time && now - before->second.time < kPeriod;
     Choice choice = is_kept ? before->second : Choice{0, now};
-    space.centre = placeOf(label, choice.step, letter_height);
-    // Another label may have come to where this one stood; the last step is as high as any label.
-    while (choice.step < kSteps && !(isFree(space, taken) && (is_kept || isSeen(space, surroundings)))) {
-      space.centre = placeOf(label, ++choice.step, letter_height);
+    // Another label may have come to where this one stood. Where bodies hide every place, the lowest that is
+    // free is taken.
+    int lowest_free = kMostSteps;
+    for (;; ++choice.step) {
+      space.centre = placeOf(label, choice.step, letter_height);
+      const bool is_free = isFree(space, taken);
+      if (is_free && (is_kept || isSeen(space, surroundings))) break;
+      if (is_free) lowest_free = std::min(lowest_free, choice.step);
+      if (choice.step >= kSteps && (lowest_free < kMostSteps || choice.step >= kMostSteps)) {
+        choice.step = lowest_free;
+        space.centre = placeOf(label, choice.step, letter_height);
+        break;
+      }
     }
     choices[key] = choice;
     taken.push_back(space);
