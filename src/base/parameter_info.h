@@ -33,7 +33,8 @@ struct ParameterInfo {
   std::string sentence;      ///< what it does; Markdown
   bool at_run_time = false;  ///< may change while the node runs
   bool is_expert = false;    ///< below `expert`
-  /// Read by the program `evaluate` alone (thesis/doc/experiments.md), the whole parameter or some choices of it.
+  /// Read by the program `evaluate` alone (thesis/doc/experiments.md), the whole parameter or some choices of
+  /// it.
   bool is_of_experiments = false;
   std::vector<std::string> experiment_choices;
 };

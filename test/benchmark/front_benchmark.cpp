@@ -235,8 +235,8 @@ int benchmarkMain(int argc, char** argv) {
       table.add(pair.name, count, median(sample.fcl_us), median(sample.roots_us), median(sample.front_us),
                 percentile(sample.front_us, 0.99), median(sample.front_us) / median(sample.fcl_us),
                 sample.kept / n, sample.expired / n, sample.groups / n, sample.features / n, sample.live / n,
-                static_cast<double>(sample.candidates) / n, static_cast<double>(sample.events) / n, sample.anew,
-                sample.missed, sample.more, median(sample.floods_us), median(sample.judge_us),
+                static_cast<double>(sample.candidates) / n, static_cast<double>(sample.events) / n,
+                sample.anew, sample.missed, sample.more, median(sample.floods_us), median(sample.judge_us),
                 percentile(sample.judge_us, 0.99), sample.niches / n, sample.by_path / n, sample.aimed / n,
                 sample.by_border / n, sample.mended / n, sample.floods / n, sample.cells / n,
                 sample.measured / n, sample.other, sample.bytes / 1024);

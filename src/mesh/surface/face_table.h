@@ -7,7 +7,6 @@
 
 namespace concave_distance::detail {
 
-
 /// All triangles with the same three corners, in either winding.
 struct Face {
   TriangleNodes nodes;        ///< ascending; the face's front is where they run counter-clockwise
