@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/pi.h"
+#include "mesh/surface/round_geometry.h"
 
 namespace concave_distance::detail {
 namespace {
