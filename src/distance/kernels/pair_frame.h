@@ -33,10 +33,7 @@ struct PairFrame {
         centre_a(centre_in_a),
         centre_b(centre_in_b),
         rotation(pose.linear()),
-        offset(pose * centre_in_b - centre_in_a) {
-    size = 0.5 * (a.diameter() + b.diameter()) + offset.norm();
-    rounding = kTriangleDistanceError * size;
-  }
+        offset(pose * centre_in_b - centre_in_a) {}
   /// Is centred at the middles of the bodies' boxes, for what looks at whole surfaces.
   PairFrame(const BodyMesh& body_a, const BodyMesh& body_b, const Eigen::Isometry3d& pose)
       : PairFrame(body_a, body_b, pose, body_a.surface().boundingBox().center(),
@@ -62,6 +59,8 @@ struct PairFrame {
     adjacency_b = &b.adjacency();
     pieces_a = &a.pieces();
     pieces_b = &b.pieces();
+    size = 0.5 * (a.diameter() + b.diameter()) + offset.norm();
+    rounding = kTriangleDistanceError * size;
   }
 
   Eigen::Isometry3d bFromA() const { return a_from_b.inverse(Eigen::Isometry); }
@@ -162,11 +161,13 @@ struct PairFrame {
   Eigen::Isometry3d a_from_b;
   Eigen::Vector3d centre_a;
   Eigen::Vector3d centre_b;
-  Eigen::Matrix3d rotation;          ///< of a_from_b
-  Eigen::Vector3d offset;            ///< of centre_b, in this frame
-  double size;                       ///< metres; no coordinate is larger where the centres are the boxes'
-  double rounding;                   ///< metres, of a distance between triangles
-  const Facets* facets_a = nullptr;  ///< of openFacets(), as the following
+  Eigen::Matrix3d rotation;  ///< of a_from_b
+  Eigen::Vector3d offset;    ///< of centre_b, in this frame
+  /// Known after openFacets(), as the following; metres. No coordinate is larger where the centres are the
+  /// boxes'.
+  double size = 0.0;
+  double rounding = 0.0;  ///< metres, of a distance between triangles
+  const Facets* facets_a = nullptr;
   const Facets* facets_b = nullptr;
   const CompressedRows<AdjacentTriangle>* adjacency_a = nullptr;
   const CompressedRows<AdjacentTriangle>* adjacency_b = nullptr;
