@@ -1,10 +1,10 @@
 #pragma once
 
-// The picture that rviz shows of a scene.
+// This folder draws the picture that rviz shows of a scene.
 //
-// What goes in: the messages of a cycle (PairNiches, PairContactState), the scene, and where its bodies are.
-// What comes out: one MarkerArray for `markers` and one, latched, for `body_markers` (doc/markers.md).
-// What is kept from picture to picture: which markers rviz shows, so that others can be deleted; the size of
+// It takes the messages of a cycle (PairNiches, PairContactState), the scene, and where its bodies are.
+// It gives one MarkerArray for `markers` and one, latched, for `body_markers` (doc/markers.md).
+// It keeps from picture to picture which markers rviz shows, so that others can be deleted; the size of
 // the scene, so that letters do not pulsate; the niches of the drawn pairs, which are asked for in turns,
 // because opening rviz must not slow the cycle; where each label stands, so that it does not jump. The order
 // of a picture, each a header: marker_demand.h (whose niches are known), marker_selection.h (which pairs are

@@ -1,11 +1,11 @@
 #pragma once
 
-// Poses of bodies, from what tf publishes.
+// This folder finds the poses of bodies from what tf publishes.
 //
-// What goes in: messages on /tf and /tf_static, checked as they come (a transform that is no rigid motion,
+// It takes messages on /tf and /tf_static, checked as they come (a transform that is no rigid motion,
 // is stamped in the future or has an empty frame is refused and reported), and the frames of a scene's
-// bodies. What comes out: for a pair of bodies their relative pose at the newest time that both have, its
-// stamp, and the status that says why there is none (missing, stale, not finite). What is kept: ten seconds
+// bodies. It gives for a pair of bodies their relative pose at the newest time that both have, its
+// stamp, and the status that says why there is none (missing, stale, not finite). It keeps ten seconds
 // of transforms, each with its clock, in TransformBuffer; a clock that jumps back empties it. Begin with
 // transform_receiver.h (what is accepted), then transform_buffer.h (what is kept), then tf_poses.h (what is
 // asked of it). frame_report.h and clock_check.h say what a user has to mend. Nothing here knows a distance.
