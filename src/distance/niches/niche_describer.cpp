@@ -20,6 +20,20 @@ void NicheDescriber::begin(const PairFrame& frame, const LocalMinimaRequest& req
                  !frame.hasJoints();
 }
 
+/// Where the middle of a set is hidden, the first of its corners that is not stands for it.
+template <typename IsClear>
+void NicheDescriber::showCorner(const PairFrame& frame, LocalMinimum& niche, const IsClear& is_clear) {
+  for (std::size_t k = 0; k < cornerCount(extent_); ++k) {
+    const std::optional<WitnessPair> corner = cornerOf(frame.a, frame.b, frame.a_from_b, extent_, k);
+    if (!corner) continue;
+    const double difference = std::sqrt(corner->squared_distance) - niche.distance;
+    if (std::abs(difference) > 4.0 * frame.rounding || !is_clear(*corner)) continue;
+    niche.witness = *corner;
+    niche.visible = true;
+    return;
+  }
+}
+
 bool NicheDescriber::describe(const PairFrame& frame, const LocalMinimaRequest& request,
                               const MinimumCandidate& minimum, bool met_by_search, bool is_seen,
                               LocalMinimum& niche, WorkLimit& limit) {
@@ -41,8 +55,12 @@ bool NicheDescriber::describe(const PairFrame& frame, const LocalMinimaRequest& 
   if (!minimum.is_point) measure(frame, niche, limit);
   // Bodies that overlap can be opposite to each other inside another shell of one of them.
   const bool may_overlap = !(request.certain_distance > 16.0 * frame.rounding);
-  niche.visible = (is_seen || isVisible(a, b, frame.a_from_b, niche.witness)) &&
-                  !(may_overlap && isInsideMaterial(frame, niche.witness));
+  const auto is_clear = [&](const WitnessPair& witness) {
+    return isVisible(a, b, frame.a_from_b, witness) && !(may_overlap && isInsideMaterial(frame, witness));
+  };
+  niche.visible =
+      is_seen ? !(may_overlap && isInsideMaterial(frame, niche.witness)) : is_clear(niche.witness);
+  if (!niche.visible && niche.kind != NicheKind::Point) showCorner(frame, niche, is_clear);
   return niche.visible || request.hidden;
 }
 

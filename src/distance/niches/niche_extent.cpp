@@ -194,13 +194,16 @@ bool isPeak(const LevelSide& side, TriangleIndex triangle, Feature feature, cons
 /// How far the representative's distance may be from the witness's, in errors of the kernel: where it is
 /// farther, the set is level within the tolerance only, and the witness stands for it.
 constexpr double kSameDistance = 4.0;
+/// A set ends where a body does, and segments that graze its last face are not hidden by it: a corner is
+/// taken so far inside, as a share of the part's size.
+constexpr double kInwards = 1e-3;
 
-/// The closest pair of points at `middle` on the piece's two triangles: sideways the set is only as exact as
-/// the tolerance, so that each point is led to the one closest to the other.
-TrianglePairDistance pairAt(const detail::PairFrame& frame, const LevelSide& a, const Vector2d& middle,
-                            TriangleIndex triangle_a, TriangleIndex triangle_b) {
+/// The closest pair of points at a point of the plane on the piece's two triangles: sideways the set is only
+/// as exact as the tolerance, so that each point is led to the one closest to the other.
+TrianglePairDistance pairAt(const detail::PairFrame& frame, const Vector3d& point, TriangleIndex triangle_a,
+                            TriangleIndex triangle_b) {
   const TrianglePoints corners_a = frame.cornersOfA(triangle_a);
-  const PointTriangleDistance start = pointTriangleDistance(a.raised(middle), corners_a);
+  const PointTriangleDistance start = pointTriangleDistance(point, corners_a);
   const PointTriangleDistance on_b = pointTriangleDistance(start.point, frame.cornersOfB(triangle_b));
   const PointTriangleDistance on_a = pointTriangleDistance(on_b.point, corners_a);
   return {(on_b.point - on_a.point).squaredNorm(), on_a.point, on_b.point, on_a.feature, on_b.feature};
@@ -222,7 +225,7 @@ void placeRepresentative(const detail::PairFrame& frame, const LevelSide& a, dou
       carrier = pair;
     }
   }
-  const TrianglePairDistance found = pairAt(frame, a, middle, carrier.first, carrier.second);
+  const TrianglePairDistance found = pairAt(frame, a.raised(middle), carrier.first, carrier.second);
   const double distance = std::sqrt(extent.representative.squared_distance);
   if (std::abs(std::sqrt(found.squared_distance) - distance) > kSameDistance * rounding) return;
   extent.representative = frame.toWitness(found, carrier.first, carrier.second);
@@ -278,6 +281,23 @@ NicheExtent measureExtent(const BodyMesh& a, const BodyMesh& b, const Eigen::Iso
   extent.kind = detail::widthOf(workspace.hull) <= 2.0 * levels.reach ? NicheKind::Segment : NicheKind::Patch;
   placeRepresentative(frame, side_a, rounding, workspace, extent);
   return extent;
+}
+
+std::optional<WitnessPair> cornerOf(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
+                                    const ExtentWorkspace& measured, std::size_t corner) {
+  const auto piece = std::find_if(
+      measured.pieces.begin(), measured.pieces.end(),
+      [corner](const ExtentWorkspace::Piece& p) { return corner < std::size_t{p.first} + p.count; });
+  Vector2d middle = Vector2d::Zero();
+  for (std::uint32_t k = 0; k < piece->count; ++k) middle += measured.points[piece->first + k] / piece->count;
+  const Vector2d to_middle = middle - measured.points[corner];
+  if (to_middle.norm() <= 2.0 * measured.reach) return std::nullopt;
+  const Vector2d at = measured.points[corner] + kInwards * to_middle;
+  const auto& [triangle_a, triangle_b] = measured.open[piece->pair];
+  const detail::PairFrame frame(a, b, a_from_b, triangle_a, triangle_b);
+  const Vector3d point = measured.origin + at.x() * measured.axis_x + at.y() * measured.axis_y;
+  return frame.toWitness(pairAt(frame, point - frame.centre_a, triangle_a, triangle_b), triangle_a,
+                         triangle_b);
 }
 
 bool isOnMeasuredSet(const ExtentWorkspace& workspace, const WitnessPair& witness) {
