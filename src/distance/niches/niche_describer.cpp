@@ -22,15 +22,19 @@ void NicheDescriber::begin(const PairFrame& frame, const LocalMinimaRequest& req
 
 /// Where the middle of a set is hidden, the first of its corners that is not stands for it.
 template <typename IsClear>
-void NicheDescriber::showCorner(const PairFrame& frame, LocalMinimum& niche, const IsClear& is_clear) {
-  for (std::size_t k = 0; k < cornerCount(extent_); ++k) {
-    const std::optional<WitnessPair> corner = cornerOf(frame.a, frame.b, frame.a_from_b, extent_, k);
-    if (!corner) continue;
-    const double difference = std::sqrt(corner->squared_distance) - niche.distance;
-    if (std::abs(difference) > 4.0 * frame.rounding || !is_clear(*corner)) continue;
-    niche.witness = *corner;
-    niche.visible = true;
-    return;
+void NicheDescriber::showCorner(const PairFrame& frame, LocalMinimum& niche, const IsClear& is_clear,
+                                WorkLimit& limit) {
+  for (const ExtentWorkspace::Piece& piece : extent_.pieces) {
+    for (std::uint32_t k = 0; k < piece.count; ++k) {
+      if (limit.isOver()) return;
+      const std::optional<WitnessPair> corner = cornerOf(frame.a, frame.b, frame.a_from_b, extent_, piece, k);
+      if (!corner) continue;
+      const double difference = std::sqrt(corner->squared_distance) - niche.distance;
+      if (std::abs(difference) > 4.0 * frame.rounding || !is_clear(*corner)) continue;
+      niche.witness = *corner;
+      niche.visible = true;
+      return;
+    }
   }
 }
 
@@ -60,7 +64,7 @@ bool NicheDescriber::describe(const PairFrame& frame, const LocalMinimaRequest& 
   };
   niche.visible =
       is_seen ? !(may_overlap && isInsideMaterial(frame, niche.witness)) : is_clear(niche.witness);
-  if (!niche.visible && niche.kind != NicheKind::Point) showCorner(frame, niche, is_clear);
+  if (!niche.visible && niche.kind != NicheKind::Point) showCorner(frame, niche, is_clear, limit);
   return niche.visible || request.hidden;
 }
 

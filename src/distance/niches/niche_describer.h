@@ -20,7 +20,7 @@ class NicheDescriber {
  private:
   /// Kind and extent; the place of a set is its middle.
   template <typename IsClear>
-  void showCorner(const PairFrame& frame, LocalMinimum& niche, const IsClear& is_clear);
+  void showCorner(const PairFrame& frame, LocalMinimum& niche, const IsClear& is_clear, WorkLimit& limit);
   void measure(const PairFrame& frame, LocalMinimum& niche, WorkLimit& limit);
 
   bool all_outward_ = false;  ///< every minimum that the cones lead to leaves both bodies outwards

@@ -284,16 +284,14 @@ NicheExtent measureExtent(const BodyMesh& a, const BodyMesh& b, const Eigen::Iso
 }
 
 std::optional<WitnessPair> cornerOf(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
-                                    const ExtentWorkspace& measured, std::size_t corner) {
-  const auto piece = std::find_if(
-      measured.pieces.begin(), measured.pieces.end(),
-      [corner](const ExtentWorkspace::Piece& p) { return corner < std::size_t{p.first} + p.count; });
+                                    const ExtentWorkspace& measured, const ExtentWorkspace::Piece& piece,
+                                    std::uint32_t corner) {
   Vector2d middle = Vector2d::Zero();
-  for (std::uint32_t k = 0; k < piece->count; ++k) middle += measured.points[piece->first + k] / piece->count;
-  const Vector2d to_middle = middle - measured.points[corner];
+  for (std::uint32_t k = 0; k < piece.count; ++k) middle += measured.points[piece.first + k] / piece.count;
+  const Vector2d to_middle = middle - measured.points[piece.first + corner];
   if (to_middle.norm() <= 2.0 * measured.reach) return std::nullopt;
-  const Vector2d at = measured.points[corner] + kInwards * to_middle;
-  const auto& [triangle_a, triangle_b] = measured.open[piece->pair];
+  const Vector2d at = measured.points[piece.first + corner] + kInwards * to_middle;
+  const auto& [triangle_a, triangle_b] = measured.open[piece.pair];
   const detail::PairFrame frame(a, b, a_from_b, triangle_a, triangle_b);
   const Vector3d point = measured.origin + at.x() * measured.axis_x + at.y() * measured.axis_y;
   return frame.toWitness(pairAt(frame, point - frame.centre_a, triangle_a, triangle_b), triangle_a,

@@ -72,14 +72,11 @@ NicheExtent measureExtent(const BodyMesh& a, const BodyMesh& b, const Eigen::Iso
 /// was measured last. A set that is a point holds nothing else.
 bool isOnMeasuredSet(const ExtentWorkspace& workspace, const WitnessPair& witness);
 
-/// Counts the corners of the parts, one of each triangle pair, that the set measured last is made of.
-inline std::size_t cornerCount(const ExtentWorkspace& measured) {
-  return measured.points.size();
-}
-/// Gives the point pair of the set just inside a corner: each point the closest to the other on its triangle;
-/// nothing for a part that is a point.
+/// Gives the point pair just inside a corner of a piece of the set measured last: each point the closest to
+/// the other on its triangle; nothing for a piece that is a point.
 std::optional<WitnessPair> cornerOf(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
-                                    const ExtentWorkspace& measured, std::size_t corner);
+                                    const ExtentWorkspace& measured, const ExtentWorkspace::Piece& piece,
+                                    std::uint32_t corner);
 
 /// Sign of the witness direction against the pseudonormals at both witnesses (Baerentzen and Aanaes 2005),
 /// which separates outside from inside where the witness is a local minimum. For touching witnesses (distance
