@@ -31,12 +31,13 @@ double seconds(std::chrono::steady_clock::duration duration) {
 }  // namespace
 
 PairCycle::PairCycle(std::string name, std::shared_ptr<const BodyMesh> a, std::shared_ptr<const BodyMesh> b,
-                     const TrackerParameters& parameters, std::uint64_t largest_used_id)
+                     const TrackerParameters& parameters, std::uint64_t largest_used_id, double pose_error)
     : name_(std::move(name)),
       a_(std::move(a)),
       b_(std::move(b)),
       parameters_(parameters),
       largest_used_id_(largest_used_id),
+      pose_error_(pose_error),
       search_(*a_, *b_) {
   parameters_.validate(name_);
   archive_.beginIdsAfter(largest_used_id);
@@ -128,6 +129,7 @@ void PairCycle::solveExact(const Passed& passed, PairSolution& solution) {
   if (niches_.isUnchanged(passed.displacement)) return archive_.keepUnchanged(passed.elapsed);
   if (!isWarm() && is_tracked_ && parameters_.search_share > 0.0) prepare();
   frame_->openFacets();
+  frame_->pose_error = pose_error_;
   limit_.allowShare(kShareOfSearch);
   if (!proves()) niches_.follow(*frame_, archive_, limit_);
   stage_clock_.lap(SolveStage::Follow, solution.stages);

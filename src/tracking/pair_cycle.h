@@ -21,8 +21,9 @@ namespace concave_distance {
 /// keeps what it needs of the last cycle itself.
 class PairCycle {
  public:
+  /// @param pose_error metres, how far the poses may be off (RecentredPair::poseError())
   PairCycle(std::string name, std::shared_ptr<const BodyMesh> a, std::shared_ptr<const BodyMesh> b,
-            const TrackerParameters& parameters, std::uint64_t largest_used_id);
+            const TrackerParameters& parameters, std::uint64_t largest_used_id, double pose_error);
 
   /// @param is_tracked a next cycle uses what this one finds
   void update(const Eigen::Isometry3d& pose, double time, PairSolution& solution, bool is_tracked = true);
@@ -84,6 +85,7 @@ class PairCycle {
   std::optional<PairFrame> frame_;  ///< of the present cycle
   TrackerParameters parameters_;
   std::uint64_t largest_used_id_;
+  double pose_error_;
   DistanceProof proof_;
   NicheSearch search_;
   ExactNiches niches_;

@@ -23,7 +23,8 @@ constexpr std::size_t kPosesOfOneTracker = 16;
 struct PairTracker::State {
   State(std::string name, const std::shared_ptr<const BodyMesh>& a, const std::shared_ptr<const BodyMesh>& b,
         const TrackerParameters& parameters, std::uint64_t largest_used_id)
-      : bodies(a, b), cycle(std::move(name), bodies.a(), bodies.b(), parameters, largest_used_id) {}
+      : bodies(a, b),
+        cycle(std::move(name), bodies.a(), bodies.b(), parameters, largest_used_id, bodies.poseError()) {}
 
   /// Calls solve(pose) with the pose of the bodies as they are solved.
   template <typename Solve>

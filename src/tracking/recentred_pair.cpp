@@ -29,6 +29,11 @@ std::optional<Eigen::Isometry3d> RecentredPair::poseOf(const Eigen::Isometry3d& 
   return pose;
 }
 
+double RecentredPair::poseError() const {
+  // The translation of bodies that are near each other is no longer than both origins.
+  return is_moved_ ? kProofError * kPoseShare * 2.0 * (origin_a_.norm() + origin_b_.norm()) : 0.0;
+}
+
 void RecentredPair::moveBack(const Eigen::Isometry3d& a_from_b, PairSolution& solution) const {
   solution.a_from_b = a_from_b;
   solution.point_a_in_a += origin_a_;

@@ -23,6 +23,10 @@ class RecentredPair {
   /// Returns the pose of the bodies as they are solved; nothing for one that is not rigid.
   std::optional<Eigen::Isometry3d> poseOf(const Eigen::Isometry3d& a_from_b) const;
 
+  /// Returns how far B as it is solved may be off, for bodies that are near each other; metres. What is
+  /// farther apart loses no more than the rounding of its distance besides.
+  double poseError() const;
+
   /// Brings a solution for poseOf(a_from_b) into the frame that A was modelled in. The lower bound loses what
   /// the pose does: the rounding of its product with the origin of B.
   void moveBack(const Eigen::Isometry3d& a_from_b, PairSolution& solution) const;

@@ -51,6 +51,16 @@ TEST(NicheHuntOnce, ASetWhoseMiddleIsHiddenIsListedWhereACornerIsSeen) {
   }
 }
 
+// So it found that what a pose loses at 5e5 m parted places on one face that touches another.
+TEST(NicheHuntOnce, FacesThatTouchFarFromTheOriginAreOneNiche) {
+  const NicheScene scene = drawNicheScene(nicheFamily("far"), 505, 54);
+  const NicheHuntResult result = huntScene(scene, streamSeed(505, "far", 54));
+  EXPECT_GT(result.niches, 0U);
+  for (const NicheFailure& failure : result.failures) {
+    ADD_FAILURE() << "cycle " << failure.cycle << ", " << failure.parameters << ": " << failure.complaint;
+  }
+}
+
 class TrackedRings : public testing::Test {
  protected:
   std::string complaintAt(const Eigen::Isometry3d& pose) {

@@ -166,7 +166,8 @@ struct PairFrame {
   /// Known after openFacets(), as the following; metres. No coordinate is larger where the centres are the
   /// boxes'.
   double size = 0.0;
-  double rounding = 0.0;  ///< metres, of a distance between triangles
+  double rounding = 0.0;    ///< metres, of a distance between triangles
+  double pose_error = 0.0;  ///< metres, how far B as a whole may be off
   const Facets* facets_a = nullptr;
   const Facets* facets_b = nullptr;
   const CompressedRows<AdjacentTriangle>* adjacency_a = nullptr;
