@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "marker_labels.h"
+#include "marker_parts.h"
 #include "marker_style.h"
 
 namespace concave_distance {
@@ -36,7 +36,8 @@ struct ContactLabel {
   Label label;
 };
 
-/// Depth, force and largest pressure of each contact, at its centroid: namespace `<pair>/contact_text`.
+/// Names the bodies, the depth, the force and the largest pressure of each contact: namespace
+/// `<pair>/contact_text`. The place of each is its centroid.
 std::vector<ContactLabel> contactLabels(const PairContactState& pair, double lifetime);
 
 }  // namespace concave_distance
