@@ -87,7 +87,7 @@ wait_for() {  # seconds, what, command...
 # The peg's load sets in some time after the start.
 markers_came() {
   local text=' mm'
-  [ "$scene" != press_fit ] || text='deep .* kN'
+  [ "$scene" != press_fit ] || text='deep.* kN'
   grep -q "$text" "$work/markers.txt"
 }
 

@@ -21,10 +21,11 @@ from concave_distance.srv import ListBodies
 LOADING_SECONDS = 60.0  # at most, until the bodies are loaded
 FRAMES_SECONDS = 5.0  # at most, until their frames are known
 LIST = 0.4  # height of the markers' legend and list above the robot, over the robot's size
-MUCH_LARGER = 8.0  # than the median body: a floor, a hall, which need not be in view
+MUCH_LARGER = 6.0  # than the median body: a floor, a hall, which need not be in view
 LIST_WIDTH = 0.7  # likewise
 ASPECT = 1.3  # width of the picture over its height, at least
-MARGIN = 1.05  # of the distance from which all stands in the picture
+MARGIN = 1.12  # of the distance from which all stands in the picture
+HALF = 0.4  # of the cube that stands for a body, over the body's diameter
 GRID_CELLS = 8.0  # along the robot's size
 
 
@@ -32,12 +33,12 @@ def fitted_view(bodies, yaw, pitch, field_of_view):
     """Focal point, camera distance and size of a robot.
 
     bodies: (position of its frame, diameter) of each, metres, in the fixed frame. Where a body lies about its frame is not
-    known, so it counts as a cube of its diameter's half to each side.
+    known, so it counts as a cube around it.
     """
     median = sorted(diameter for _, diameter in bodies)[len(bodies) // 2]
     bodies = [body for body in bodies if body[1] <= MUCH_LARGER * median]
-    low = [min(position[axis] - 0.5 * diameter for position, diameter in bodies) for axis in range(3)]
-    high = [max(position[axis] + 0.5 * diameter for position, diameter in bodies) for axis in range(3)]
+    low = [min(position[axis] - HALF * diameter for position, diameter in bodies) for axis in range(3)]
+    high = [max(position[axis] + HALF * diameter for position, diameter in bodies) for axis in range(3)]
     size = math.dist(low, high)
     focus = [0.5 * (a + b) for a, b in zip(low, high)]
     focus[2] += 0.5 * LIST * size

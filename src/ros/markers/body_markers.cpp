@@ -13,6 +13,8 @@ namespace {
 
 constexpr float kBoxOpacity = 0.3F;
 constexpr double kSeenThroughOpacity = 0.5;
+// Distance of collision geometry from the surface over its diameter: rviz may draw the same one.
+constexpr double kCollisionOffset = 0.002;
 const Eigen::Vector4d kCollisionColour(0.1, 0.4, 0.9, 0.35);
 
 // Outward unit vectors at the vertices; 0 where the normals of the faces around cancel out.
@@ -90,7 +92,8 @@ visualization_msgs::MarkerArray bodyMarkers(const Scene& scene, bool with_collis
     marker.frame_locked = 1;
     const Eigen::Vector4d& colour = body.in_robot_model ? kCollisionColour : body.colour;
     marker.color = makeColor(colour.head<3>(), body.in_robot_model ? colour[3] : opacity[index]);
-    drawSurface(body.mesh->surface(), 0.0, marker);
+    drawSurface(body.mesh->surface(), body.in_robot_model ? kCollisionOffset * body.mesh->diameter() : 0.0,
+                marker);
   }
   return message;
 }

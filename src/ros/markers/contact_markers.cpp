@@ -55,9 +55,9 @@ std::string contactText(const Contact& contact) {
   if (contact.has_depth != 0) text = lengthText(contact.depth) + " deep";
   if (contact.has_force != 0) {
     const double newtons = toEigen(contact.wrench.force).norm();
-    text += (text.empty() ? "" : "  ") + forceText(newtons);
+    text += (text.empty() ? "" : ", ") + forceText(newtons);
   }
-  if (contact.largest_pressure > 0.0) text += "  up to " + pressureText(contact.largest_pressure);
+  if (contact.largest_pressure > 0.0) text += ", up to " + pressureText(contact.largest_pressure);
   return text.empty() ? "contact" : text;
 }
 
@@ -114,20 +114,16 @@ std::vector<Marker> contactMarkers(const PairContactState& pair, const std::vect
   return markers;
 }
 
-std::vector<ContactLabel> contactLabels(const PairContactState& pair, double lifetime) {
-  std::vector<ContactLabel> labels;
+std::vector<Label> contactLabels(const PairContactState& pair, double lifetime) {
+  std::vector<Label> labels;
   for (std::size_t k = 0; k < pair.contacts.size(); ++k) {
     const Contact& contact = pair.contacts[k];
     if (!toEigen(contact.centroid).allFinite()) continue;
-    ContactLabel label;
-    label.depth = contact.has_depth != 0 ? contact.depth : 0.0;
-    label.label.place = toEigen(contact.centroid);
-    Marker& text = label.label.text;
-    text = emptyContactMarker(pair, "contact_text", k, lifetime);
+    Marker text = emptyContactMarker(pair, "contact_text", k, lifetime);
     text.type = Marker::TEXT_VIEW_FACING;
     text.color = contactTextColor();
     text.text = pair.body_a + " - " + pair.body_b + ": " + contactText(contact);
-    labels.push_back(std::move(label));
+    labels.push_back({text, toEigen(contact.centroid), contact.has_depth != 0 ? contact.depth : 0.0});
   }
   return labels;
 }

@@ -31,13 +31,8 @@ std::vector<visualization_msgs::Marker> contactMarkers(const PairContactState& p
                                                        const std::vector<bool>& without_disc,
                                                        const MarkerStyle& style, double lifetime);
 
-struct ContactLabel {
-  double depth = 0.0;  ///< m; 0 where it is not known
-  Label label;
-};
-
 /// Names the bodies, the depth, the force and the largest pressure of each contact: namespace
 /// `<pair>/contact_text`. The place of each is its centroid.
-std::vector<ContactLabel> contactLabels(const PairContactState& pair, double lifetime);
+std::vector<Label> contactLabels(const PairContactState& pair, double lifetime);
 
 }  // namespace concave_distance

@@ -13,15 +13,14 @@ namespace {
 
 using visualization_msgs::Marker;
 
-constexpr double kNumberShare = 1.5;  // height of a number over that of the letters above the scene
-// In heights of a number.
-constexpr double kNearest = 1.1;  // distance of a number from its place
-constexpr double kStep = 0.7;
-constexpr double kRadius = 0.7;  // of the ball around a number that touches no body
-constexpr double kLeader = 2.5;  // the distance beyond which a thin line joins number and place
-constexpr double kCloseNumbers =
-    4.0;  // numbers less than this apart, seen from above, stand one above another
+constexpr double kNumberShare = 1.2;  // height of a number over that of the letters above the scene
+// In heights of a number:
+constexpr double kNearest = 1.1;  // its distance from its place
+constexpr double kStep = 0.7;     // by which that grows
+constexpr double kRadius = 0.6;   // of the ball around it that touches no body
+constexpr double kLeader = 2.5;   // the distance beyond which a thin line joins it to its place
 constexpr double kLeaderWidth = 0.06;
+constexpr double kClose = 4.0;  // horizontal distance below which numbers stand one above another
 
 constexpr double kSteepest = 0.6;     // pitch of the camera (rad) up to which these do not cover each other
 constexpr double kWorthMoving = 1.3;  // how much more room a nearer place has to have than the present one
@@ -58,10 +57,10 @@ bool touches(const SceneBody& body, const LocatedBody& located, const Eigen::Vec
                        mesh.topology().shell_of_triangle, centre);
 }
 
-// Whether cameras all around and up to kSteepest above or below see two close numbers apart.
+// Whether some camera around, up to kSteepest above or below, sees one of two close numbers on the other.
 bool covers(const Eigen::Vector3d& number, const Eigen::Vector3d& other, double height) {
   const double beside = (number - other).head<2>().norm();
-  return beside < kCloseNumbers * height &&
+  return beside < kClose * height &&
          std::abs(number.z() - other.z()) < height / std::cos(kSteepest) + beside * std::tan(kSteepest);
 }
 

@@ -6,7 +6,7 @@
 namespace concave_distance {
 namespace {
 
-constexpr double kMuchLarger = 8.0;        // than the median body: a floor, a hall
+constexpr double kMuchLarger = 6.0;        // than the median body: a floor, a hall
 constexpr double kFarOff = 8.0;            // median distances from the median centre
 constexpr double kScaleShare = 0.009;      // diameter of the nearest points over the scene's size
 constexpr double kLabelLetterShare = 2.5;  // height of the letters over that diameter

@@ -12,11 +12,12 @@ namespace {
 
 const std::string kColumn(26, ' ');  // between two columns of a row
 
-std::string countText(const MarkerSelection& selection) {
+std::string countText(const MarkerSelection& selection, std::size_t pair_count) {
   const std::string all =
       std::to_string(selection.candidates) + (selection.candidates == 1 ? " pair" : " pairs");
   return selection.drawn.size() < selection.candidates
-             ? std::to_string(selection.drawn.size()) + " nearest of " + all
+             ? std::to_string(selection.drawn.size()) +
+                   (selection.drawn.size() == pair_count ? " nearest of " : " of ") + all
              : all;
 }
 
@@ -36,7 +37,8 @@ std::vector<TextRow> legendRows(const Scene& scene, const MarkerSelection& selec
   if (isAny(selection.drawn, [](const DrawnPair& pair) { return isDashed(*pair.pair); })) {
     rows.push_back({text("dashed: not certain; grey: stale transforms", greyColor())});
   }
-  rows.push_back({text("thick line: shortest distance (" + countText(selection) + ")", greyColor())});
+  rows.push_back(
+      {text("thick line: shortest distance (" + countText(selection, style.pair_count) + ")", greyColor())});
   rows.push_back({text("thin line: another place where the pair could touch", greyColor())});
   rows.push_back({text("circle: faces or edges run parallel this far", greyColor())});
   const auto distance = [&](const std::string& before, double metres, const std::string& after) {

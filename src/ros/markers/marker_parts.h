@@ -23,6 +23,7 @@ visualization_msgs::Marker textMarker(const std_msgs::Header& header, const std:
 struct Label {
   visualization_msgs::Marker text;
   Eigen::Vector3d place = Eigen::Vector3d::Zero();  ///< reference frame, m
+  double depth = 0.0;                               ///< of a contact, where it is known, m
 };
 
 /// A length with three digits and its unit: "0.42 mm", "12.3 mm", "456 mm", "1.24 m"; below 10 um "<0.01 mm".

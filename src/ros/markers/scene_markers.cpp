@@ -39,21 +39,16 @@ std::vector<const PairNiches*> withKeptNiches(const std::vector<PairNiches>& nic
 std::vector<Label> labelsOf(const std::vector<DrawnPair>& drawn,
                             const std::vector<PairContactState>& contacts, const MarkerStyle& style,
                             double lifetime) {
-  std::vector<ContactLabel> of_contacts;
+  std::vector<Label> labels;
   std::set<std::string> with_contacts;
   for (const PairContactState& pair : contacts) {
-    std::vector<ContactLabel> of_pair = contactLabels(pair, lifetime);
+    std::vector<Label> of_pair = contactLabels(pair, lifetime);
     if (!of_pair.empty()) with_contacts.insert(pair.pair);
-    std::move(of_pair.begin(), of_pair.end(), std::back_inserter(of_contacts));
+    std::move(of_pair.begin(), of_pair.end(), std::back_inserter(labels));
   }
-  std::stable_sort(
-      of_contacts.begin(), of_contacts.end(),
-      [](const ContactLabel& left, const ContactLabel& right) { return left.depth > right.depth; });
-  if (style.niche_count != 0) {
-    of_contacts.resize(std::min<std::size_t>(of_contacts.size(), style.niche_count));
-  }
-  std::vector<Label> labels;
-  for (ContactLabel& contact : of_contacts) labels.push_back(std::move(contact.label));
+  std::stable_sort(labels.begin(), labels.end(),
+                   [](const Label& left, const Label& right) { return left.depth > right.depth; });
+  if (style.niche_count != 0) labels.resize(std::min<std::size_t>(labels.size(), style.niche_count));
   for (const DrawnPair& pair : drawn) {
     if (with_contacts.count(pair.pair->nearest.pair) != 0) continue;
     labels.push_back(nicheLabel(*pair.pair, style, lifetime));
