@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "distance/kernels/closest_point.h"
+#include "distance/bound/closest_point.h"
 #include "mesh/surface/mesh_topology.h"
 #include "mesh/surface/round_geometry.h"
 #include "round_lines.h"

@@ -12,6 +12,7 @@
 // - bound_cache keeps the pairs of boxes where the last search ended.
 // - leaf_pair asks the last directions that parted two triangles first.
 // - round_certificate does the same for an exact round solid and a mesh, or two round solids.
+// - closest_point finds the point of a whole surface that is nearest to a given point.
 // - solid_overlap decides whether one closed body has swallowed a part of the other.
 //
 // It keeps excluded pairs of boxes with bounds that hold until the bodies have come nearer by them; what has

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "base/coordinate_limit.h"
-#include "distance/kernels/closest_point.h"
+#include "closest_point.h"
 #include "distance/kernels/round_pair_distance.h"
 #include "mesh/surface/mesh_topology.h"
 #include "mesh/surface/round_geometry.h"
