@@ -16,7 +16,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Which body is the solid, and where it is.
+/// Says which body is the solid, and where it is.
 struct RoundRoles {
   RoundRoles(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b)
       : a_is_shape(a.shape() != nullptr),
