@@ -7,8 +7,11 @@
 // that reach it. Without a limit of time or a tolerance both ends agree up to rounding.
 //
 // - certificate has the entry, certifyDistance(), and counts what it cost.
-// - branch_and_bound opens pairs of boxes until none can hold a nearer pair of triangles (open_pairs).
+// - branch_and_bound opens pairs of boxes until none can hold a nearer pair of triangles.
+// - open_pairs holds the pairs of boxes that are still to be opened.
+// - tree_pair_bounds bounds how near what boxes of both trees hold may come at one pose (proof_frame).
 // - box_pair_bounds bounds how near two boxes may come, by separating axes, with their error.
+// - nearest_triangles keeps the nearest pair of triangles measured so far.
 // - bound_cache keeps the pairs of boxes where the last search ended.
 // - leaf_pair asks the last directions that parted two triangles first.
 // - round_certificate does the same for an exact round solid and a mesh, or two round solids.
