@@ -47,7 +47,8 @@ def fitted_view(bodies, yaw, pitch, field_of_view):
     right = (-math.sin(yaw), math.cos(yaw), 0.0)
     points = [[a - b for a, b in zip(corner, focus)] for corner in itertools.product(*zip(low, high))]
     top = high[2] + LIST * size - focus[2]
-    points += [[side * 0.5 * LIST_WIDTH * size * right[0], side * 0.5 * LIST_WIDTH * size * right[1], top] for side in (-1, 1)]
+    half = 0.5 * LIST_WIDTH * size
+    points += [[side * right[0], side * right[1], top] for side in (-half, half)]
     tangent = math.tan(0.5 * field_of_view)
 
     def distance(point):
