@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <set>
 #include <utility>
@@ -334,46 +333,6 @@ TEST(CombGa, ChildrenOfTheThesisCompeteBeforeTheyDescend) {
   EXPECT_GT(replaced, 20U);
   EXPECT_LT(newcomers(NichingScheme::DeterministicCrowdingWithSelection), replaced / 4)
       << "children that have not been descended lose to parents that have";
-}
-
-/// Two individuals who do not mutate, and no draw that lets them mate.
-CombGaParameters abstinentCouple() {
-  CombGaParameters parameters;
-  parameters.population_size = 2;
-  parameters.max_generations = 1;
-  parameters.crossover_probability = 0.0;
-  parameters.mutation_probability = 0.0;
-  parameters.exchange_probability = 1.0;
-  parameters.random_immigrants = 0;
-  parameters.elite_count = 0;
-  parameters.conserve_niches = false;
-  return parameters;
-}
-
-TEST(CombGa, ACertainCoupleBreedsOnOnePlaceAndAfterTheTime) {
-  Search search(test::facingCombs());
-  const std::atomic<bool> stop{true};
-  for (const NichingScheme scheme : kSchemes) {
-    CombGaParameters parameters = abstinentCouple();
-    parameters.scheme = scheme;
-    // One niche, twice: the other parent is a newcomer.
-    const TrialPoint niche = test::descendAnew(search.objective, {NodeIndex{3U}, NodeIndex{40U}, 0.0});
-    for (const bool is_over : {false, true}) {
-      WorkLimit limit(WorkLimit::Clock::now(), std::numeric_limits<double>::infinity(), 1U << 30U,
-                      is_over ? &stop : nullptr);
-      RandomEngine engine(5);
-      search.workspace.basins.clear();
-      const SearchCost cost = combGa(search.objective, parameters, search.radii, {niche, niche}, engine,
-                                     search.workspace, {}, &limit, Couples::AtLeastOne)
-                                  .cost;
-      EXPECT_EQ(cost.generations, 1U);
-      EXPECT_EQ(cost.children, 2U);
-      // The thesis's crowding lets children compete before they descend.
-      if (scheme != NichingScheme::DeterministicCrowdingWithSelection) {
-        EXPECT_GT(cost.descents, is_over ? 1U : 2U) << "the parents, and a child at least";
-      }
-    }
-  }
 }
 
 }  // namespace
