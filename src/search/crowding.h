@@ -21,7 +21,7 @@ void compete(Contestant& seat, const Contestant& child);
 void competePaired(Contestant& parent_1, Contestant& parent_2, const Contestant& child_1,
                    const Contestant& child_2, TrialPointTable& places, PairMetric& metric);
 
-/// A contest of both parents with both children; who wins takes the parent's place.
+/// Lets both children compete with both parents; who wins takes the parent's place.
 using Contest = void (*)(Contestant& parent_1, Contestant& parent_2, const Contestant& child_1,
                          const Contestant& child_2, TrialPointTable& places, PairMetric& metric);
 

@@ -41,7 +41,7 @@ struct GeneticState {
 
   /// Moves a new individual to the local minimum below it, and finds its place.
   virtual void settle(TrialPoint& point, std::uint32_t& place);
-  /// Whether the couple of work.offspring i and i + 1 may have children.
+  /// Returns whether the couple of work.offspring i and i + 1 may have children.
   virtual bool mayMate(std::size_t /*i*/) { return true; }
   /// Returns the children that stand between these parents.
   virtual Children mate(const TrialPoint& parent_1, const TrialPoint& parent_2);

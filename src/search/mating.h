@@ -11,13 +11,13 @@ namespace concave_distance {
 /// Holds what two parents pass on: node pairs, their distances not yet computed.
 using Children = std::pair<TrialPoint, TrialPoint>;
 
-/// The nodes of both children on one body.
+/// Holds the nodes of both children on one body.
 struct Genes {
   NodeIndex first;
   NodeIndex second;
 };
 
-/// Where both children stand between the fitter parent and the other, in [0, 1].
+/// Says where both children stand between the fitter parent and the other, in [0, 1].
 struct Shares {
   double first;
   double second;
@@ -27,7 +27,7 @@ struct Shares {
 /// + f2) of Carretero, eq. (2.15), with the fitter parent's f as f1, so in [0, 1/2]; 1/2 when both are 0.
 double fitterShare(double fitter_squared_distance, double other_squared_distance);
 
-/// Two parents, the fitter one first; of equals the first one.
+/// Holds two parents: the fitter one, of equals the first, and the other.
 struct Couple {
   Couple(const TrialPoint& parent_1, const TrialPoint& parent_2);
   /// Draws a first share in [0, share] and a second one in [share, 1].

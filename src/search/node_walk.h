@@ -7,7 +7,7 @@
 
 namespace concave_distance {
 
-/// Where a walk over a body's nodes has ended.
+/// Says where a walk over a body's nodes has ended.
 struct Approach {
   NodeIndex node;
   bool proven;  ///< none of its neighbours is closer, whatever the rounding

@@ -65,7 +65,7 @@ class NicheSearch {
   /// @param work of the other stages, in evaluations of the search
   void earn(std::size_t found, double work, double share);
 
-  /// Stands for geneticSearch() in experiments; also told whether the warm parameters apply.
+  /// Stands for geneticSearch() in experiments; it is told whether the warm parameters apply.
   using Search = std::function<SearchCost(GeneticState&, const std::vector<TrialPoint>&, bool as_warm)>;
   void replaceSearch(Search search) { search_ = std::move(search); }
 

@@ -7,7 +7,7 @@ namespace {
 
 using G = CombGaParameters;
 
-/// The core's parameters of comb-GA.
+/// Gives the core's part of the parameters.
 struct PartOfCore {
   GeneticParameters& operator()(G& g) const { return g; }
   const GeneticParameters& operator()(const G& g) const { return g; }

@@ -59,7 +59,7 @@ enum class Cooling : std::uint8_t {
 /// and what is compared with it. Lengths in metres.
 struct CombGaParameters : GeneticParameters {
   CombGaParameters() = default;
-  /// The core's search.
+  /// Makes the parameters of the core's search.
   explicit CombGaParameters(const GeneticParameters& core);
 
   MutationMethod mutation = MutationMethod::RandomMove;
@@ -91,8 +91,8 @@ struct CombGaParameters : GeneticParameters {
   void validate(const std::string& where) const;
 };
 
-/// What the core's steps read of these parameters. Of its schemes the core's crowding stands for every one
-/// that crowds, its sharing for the others.
+/// Returns what the core's steps read of these parameters. Of its schemes the core's crowding stands for
+/// every one that crowds, its sharing for the others.
 GeneticParameters partOfCore(const CombGaParameters& parameters);
 
 }  // namespace concave_distance

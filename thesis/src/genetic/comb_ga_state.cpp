@@ -61,7 +61,8 @@ void CombGaState::countNiches() {
   }
 }
 
-/// Of a generation gap's share everybody mates at most once with Mahfoud's crowding, else by fitness.
+/// With Mahfoud's crowding everybody mates at most once, as far as the generation gap goes; else fitness
+/// selects.
 void CombGaState::selectByScheme() {
   if (all_.scheme == NichingScheme::DeterministicCrowding) {
     drawSeats(all_.population_size, offspring_count_, engine, work.selected);
@@ -81,7 +82,8 @@ void CombGaState::restrictByScheme() {
   }
 }
 
-/// The contest of the thesis's crowding; the offspring are those who won, new where a child has.
+/// Runs the contest of the thesis's crowding. Afterwards the offspring are those who won, new where a child
+/// has.
 void CombGaState::competeBeforeDescent(bool parents_are_new) {
   for (std::size_t i = 0; i < work.offspring.size(); ++i) {
     if (work.offspring_is_new[i]) evaluate(work.offspring[i], work.offspring_places[i]);

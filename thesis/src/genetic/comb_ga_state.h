@@ -22,7 +22,7 @@ struct CombGaState : GeneticState {
   /// Block order of Carretero, fig. 4.3, 4.4.
   void breed() override;
 
-  /// The best of all local minima met, where individuals do not stand on them: Baldwinian only, else
+  /// This is the best of all local minima met, where individuals do not stand on them: Baldwinian only, else
   /// infinitely far.
   TrialPoint best_below{NodeIndex{}, NodeIndex{}, std::numeric_limits<double>::infinity()};
 
