@@ -35,6 +35,7 @@ class PairCycle {
   void restart();
   void setParameters(const TrackerParameters& parameters);
 
+  NicheSearch& search() { return search_; }
   const std::string& name() const { return name_; }
   const TrackerParameters& parameters() const { return parameters_; }
   std::size_t memoryBytes() const;

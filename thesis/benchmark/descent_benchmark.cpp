@@ -21,7 +21,6 @@
 #include "benchmark/support/shapes.h"
 #include "benchmark/support/stopwatch.h"
 #include "mesh/body_mesh_parts.h"
-#include "search/genetic_search.h"
 #include "thesis/benchmark/support/proven_niches.h"
 #include "thesis/src/evaluation/multi_start_descent.h"
 
