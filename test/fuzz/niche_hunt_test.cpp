@@ -67,6 +67,10 @@ TEST_F(NicheHuntOnce, APassIsTheLowestOfThePathsThatReachAFacetPair) {
   expectRightLists("soup", 11, 10);
 }
 
+TEST_F(NicheHuntOnce, AFlapHasNoHiddenNicheInTheMaterialThatItReachesInto) {
+  expectRightLists("self_touching", 707, 87);
+}
+
 class TrackedRings : public testing::Test {
  protected:
   std::string complaintAt(const Eigen::Isometry3d& pose) {

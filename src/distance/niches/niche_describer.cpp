@@ -56,6 +56,8 @@ bool NicheDescriber::describe(const PairFrame& frame, const LocalMinimaRequest& 
     niche.outward = classifyOutwardness(a, b, frame.a_from_b, niche.witness);
     if (niche.outward == Outwardness::ThroughMaterial && !request.through_material) return false;
   }
+  // What begins in the material of another shell is no place of the surface; only hidden niches do.
+  if (request.hidden && !request.through_material && isInsideMaterial(frame, niche.witness)) return false;
   if (!minimum.is_point) measure(frame, niche, limit);
   // Bodies that overlap can be opposite to each other inside another shell of one of them.
   const bool may_overlap = !(request.certain_distance > 16.0 * frame.rounding);
