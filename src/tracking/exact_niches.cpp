@@ -10,14 +10,14 @@
 namespace concave_distance {
 namespace {
 
-// Of a warm cycle; buffers grow beyond it.
+// A warm cycle rarely has more; buffers grow beyond it.
 constexpr std::size_t kUsualProposals = 256;
 constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
 // Time is reserved for a descent to each known niche, up to this share of all time.
 constexpr double kSecondsOfKnown = 3e-6;
 constexpr double kMostForKnown = 0.3;
-// Of the rest: when the search for all minima ends, and when the floods end.
+// The search for all minima ends after this share of the rest, the searches of basins after that one.
 constexpr double kShareOfMinima = 0.6;
 constexpr double kShareOfFloods = 0.9;
 
@@ -221,7 +221,7 @@ const MinimumCandidate* ExactNiches::nearestProposed() const {
 }
 
 double ExactNiches::work() const {
-  // What each kind of step takes beside an evaluation of the search, roughly.
+  // These are the costs of each kind of step, in evaluations of the search, roughly.
   constexpr double kGroups = 4.0;
   constexpr double kFeatures = 10.0;
   constexpr double kCells = 12.0;

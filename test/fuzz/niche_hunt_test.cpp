@@ -58,8 +58,9 @@ TEST_F(NicheHuntOnce, ASetWhoseMiddleAnotherShellHidesIsListedWhereACornerIsSeen
   expectRightLists("coplanar", 303, 62);
 }
 
-TEST_F(NicheHuntOnce, FacesThatTouchAreOneNicheWhereThePoseLosesMoreThanTheirGap) {
+TEST_F(NicheHuntOnce, FacesThatTouchAreNichesWhereThePoseLosesMoreThanTheirGap) {
   expectRightLists("far", 505, 54);
+  expectRightLists("far", 909, 87);
 }
 
 TEST_F(NicheHuntOnce, APassIsTheLowestOfThePathsThatReachAFacetPair) {

@@ -233,7 +233,7 @@ void findLocalMinima(const detail::PairFrame& frame, const LocalMinimaRequest& r
   result.cost.sweep_seconds = std::chrono::duration<double>(WorkLimit::Clock::now() - start).count();
   result.cost.minima = parts.candidates.size();
   limit.allowShare(request.time_shares.all);
-  // What is proposed counts while not everything has been looked at.
+  // Proposals count while not everything has been looked at.
   if (!all) detail::appendCandidates(frame, request, request.proposals, parts.candidates);
   const bool decided = parts.decide(frame, request, limit);
   parts.list(request, result);
