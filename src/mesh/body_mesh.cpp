@@ -16,6 +16,7 @@
 #include "cached_parts.h"
 #include "concave_distance/base/error.h"
 #include "mesh/surface/facets.h"
+#include "mesh/trees/hull_gap.h"
 #include "mesh/trees/shell_contacts.h"
 
 namespace concave_distance {
@@ -60,6 +61,7 @@ struct BodyMesh::State {
   Part<RecentredBody> recentred;
   Part<ShellContacts> shell_contacts;
   Part<Facets> facets;
+  Part<HullGap> hull_gap;
   Part<CompressedRows<AdjacentTriangle>> adjacency;
   Part<ConnectedPieces> pieces;
   std::array<Part<NormalConeTree>, 2> cones;  ///< by NormalSides
@@ -325,6 +327,10 @@ const ConnectedPieces& BodyMesh::pieces() const {
     joinPieces(shellContacts(), pieces);
     return pieces;
   });
+}
+
+const HullGap& BodyMesh::hullGap() const {
+  return state_->hull_gap.get([&] { return measureHullGap(surface(), topology(), tree()); });
 }
 
 const NormalConeTree& BodyMesh::normalCones(NormalSides sides) const {

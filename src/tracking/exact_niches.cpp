@@ -60,8 +60,9 @@ void ExactNiches::propose(const PairFrame& frame, const WitnessPair& minimum) {
   searched_ = request_.proposals.size();
 }
 
-void ExactNiches::proposeProven(const PairFrame& frame, const WitnessPair& closest) {
+void ExactNiches::proposeProven(const PairFrame& frame, const WitnessPair& closest, bool is_meeting) {
   request_.proposals.push_back(frame.candidateOf(closest));
+  if (is_meeting) request_.proposals.back().distance = 0.0;
 }
 
 void ExactNiches::admit(const PairFrame& frame, const TrackerParameters& parameters, const Cycle& cycle,
@@ -95,6 +96,9 @@ void ExactNiches::admit(const PairFrame& frame, const TrackerParameters& paramet
     request_.asked_pairs.emplace_back(record.niche.witness.triangle_a, record.niche.witness.triangle_b);
     request_.asked_basins.push_back(record.basin);
   }
+  request_.known.reset();
+  if (cycle.convex == detail::ConvexNiches::OnlyTheNearest) request_.known = {&request_.proposals.back()};
+  if (cycle.convex == detail::ConvexNiches::None) request_.known = {nullptr};
   findLocalMinima(frame, request_, memory_, found_);
   current_ = found_.finished;
   solution.cost.evaluations +=

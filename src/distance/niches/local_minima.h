@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -33,6 +34,11 @@ struct LocalMinimaRequest {
   bool hidden = true;
   /// Local minima that are known, instead of all there are; nullptr: all are looked for.
   const std::vector<MinimumCandidate>* given = nullptr;
+  /// The list is known to hold one niche, this one, or none where this is nullptr: nothing is looked for.
+  struct Known {
+    const MinimumCandidate* niche;
+  };
+  std::optional<Known> known;
   /// Triangle pairs whose niches are asked for (LocalMinima::owners), e.g. those that a search has found:
   /// descended to the local minimum around them.
   std::vector<std::pair<TriangleIndex, TriangleIndex>> asked_pairs;
