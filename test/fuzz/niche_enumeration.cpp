@@ -175,6 +175,10 @@ void NicheEnumeration::appendPlateau(std::size_t cell, long double level,
   }
 }
 
+long double NicheEnumeration::distanceWithinMaterial(std::size_t cell) const {
+  return distanceOfTriangles(triangles_a_[cell / count_b_], triangles_b_[cell % count_b_]);
+}
+
 long double NicheEnumeration::offTriangles(std::size_t cell, const WitnessPoints& points) const {
   const WideTriangle& a = triangles_a_[cell / count_b_];
   const WideTriangle& b = triangles_b_[cell % count_b_];

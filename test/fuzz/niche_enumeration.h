@@ -43,6 +43,8 @@ class NicheEnumeration {
     return triangle_a * count_b_ + triangle_b;
   }
   long double distanceOf(std::size_t cell) const { return distance_[cell]; }
+  /// Between the two triangles of a cell that is no surface.
+  long double distanceWithinMaterial(std::size_t cell) const;
   /// How far a point is from the cell's triangle of A or B.
   long double offTriangles(std::size_t cell, const WitnessPoints& points) const;
 
