@@ -14,6 +14,7 @@
 #include "base/number_text.h"
 #include "concave_distance/base/error.h"
 #include "mesh/body_mesh_parts.h"
+#include "mesh/surface/grid_size.h"
 #include "scene/body_pool.h"
 
 namespace concave_distance::detail {

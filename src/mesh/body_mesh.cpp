@@ -16,6 +16,7 @@
 #include "cached_parts.h"
 #include "concave_distance/base/error.h"
 #include "mesh/surface/facets.h"
+#include "mesh/surface/grid_size.h"
 #include "mesh/trees/shell_contacts.h"
 
 namespace concave_distance {

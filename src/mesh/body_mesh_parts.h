@@ -11,7 +11,7 @@
 #include "mesh/trees/normal_cone_tree.h"
 #include "mesh/trees/triangle_tree.h"
 #include "search/grid/mesh_metric.h"
-#include "search/grid/metric_memory.h"
+#include "mesh/metric_memory.h"
 #include "search/grid/node_graph.h"
 #include "search/grid/search_nodes.h"
 

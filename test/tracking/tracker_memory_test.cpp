@@ -9,7 +9,7 @@
 #include "concave_distance/mesh/surface/primitives.h"
 #include "concave_distance/tracking/pair_tracker.h"
 #include "search/grid/mesh_metric.h"
-#include "search/grid/metric_memory.h"
+#include "mesh/metric_memory.h"
 #include "search/grid/node_graph.h"
 #include "support/concave_shapes.h"
 
