@@ -18,7 +18,7 @@ namespace {
 double distanceBound(const PairObjective& objective, const GeneticParameters& parameters,
                      const NicheRadii& radii) {
   const bool has_matrices =
-      objective.bodyA().metric().hasMatrices() && objective.bodyB().metric().hasMatrices();
+      objective.gridA().metric().hasMatrices() && objective.gridB().metric().hasMatrices();
   const bool within_radii = parameters.niching == NichingMethod::None ||
                             parameters.niching == NichingMethod::Sharing ||
                             parameters.niching == NichingMethod::DynamicSharing;

@@ -152,14 +152,15 @@ struct Approach {
 };
 
 /// Walks in float to where no neighbour looks closer to `target` (in the graph's frame).
-Approach approach(const BodyMesh& body, NodeIndex node, const Eigen::Vector3d& target, DescentMoves moves,
+Approach approach(const BodyGrid& grid, NodeIndex node, const Eigen::Vector3d& target, DescentMoves moves,
                   SearchCost& cost) {
-  const NodeGraph& graph = body.graph();
+  const NodeGraph& graph = grid.graph();
+  const std::vector<NodeLevel>& levels = grid.nodes().levels.levels;
   const Eigen::Vector3f local = localTarget(graph, target);
-  const bool has_levels = moves != DescentMoves::OneNodeAlongEdges && !body.levels().levels.empty();
+  const bool has_levels = moves != DescentMoves::OneNodeAlongEdges && !levels.empty();
   Place place = walk(graph, node, local, has_levels ? kStepsOnALevel : kNoLimit, cost);
   if (!place.is_minimum) {
-    const NodeIndex far = walkInLongSteps(body.levels().levels, NodeIndex{place.node}, target, cost);
+    const NodeIndex far = walkInLongSteps(levels, NodeIndex{place.node}, target, cost);
     const Place arrived = walk(graph, far, local, kNoLimit, cost);
     // Coarse steps may lead to a worse valley; then on from where the fine ones stopped.
     place = arrived.value < place.value ? arrived : walk(graph, NodeIndex{place.node}, local, kNoLimit, cost);
@@ -175,8 +176,8 @@ class Descent {
   Descent(const PairObjective& objective, const TrialPoint& start, DescentMoves moves, BasinMemory* memory,
           std::vector<std::uint64_t>& trail, SearchCost& cost)
       : objective_(objective),
-        graph_a_(objective.bodyA().graph()),
-        graph_b_(objective.bodyB().graph()),
+        graph_a_(objective.gridA().graph()),
+        graph_b_(objective.gridB().graph()),
         point_(start),
         moves_(moves),
         memory_(memory),
@@ -230,7 +231,7 @@ class Descent {
   /// True when A's node has moved; then none of its neighbours is closer.
   bool moveA() {
     const NodeIndex start = point_.node_a;
-    const auto [reached, proven] = approach(objective_.bodyA(), start, b_in_a_, moves_, cost_);
+    const auto [reached, proven] = approach(objective_.gridA(), start, b_in_a_, moves_, cost_);
     if (reached != start) {
       const double reached_distance = squaredDistanceBetween(graph_a_.positions[reached.value], b_in_a_);
       if (reached_distance < point_.squared_distance) {
@@ -264,7 +265,7 @@ class Descent {
     const Eigen::Vector3d& a = graph_a_.positions[point_.node_a.value];
     const NodeIndex start = point_.node_b;
     const auto [reached, proven] =
-        approach(objective_.bodyB(), start, objective_.bFromA() * a, moves_, cost_);
+        approach(objective_.gridB(), start, objective_.bFromA() * a, moves_, cost_);
     if (reached != start) {
       const Eigen::Vector3d reached_in_a = objective_.aFromB() * graph_b_.positions[reached.value];
       const double reached_distance = squaredDistanceBetween(a, reached_in_a);

@@ -13,7 +13,7 @@ namespace concave_distance {
 /// neither moves; of equally good neighbours the one of smallest index. `start.squared_distance` is not read.
 /// Returns a discrete local minimum: no neighbour of either node, nor with BothNodes of both, is closer by
 /// PairObjective::squaredDistance, whose value it carries.
-/// On graphs with levels (BodyMesh::levels()), but with OneNodeAlongEdges, a move takes longer steps the
+/// On graphs with levels (SearchNodes::levels), but with OneNodeAlongEdges, a move takes longer steps the
 /// longer it is, and ends where no neighbour on the graph itself is closer all the same: of several such
 /// nodes not always the one that steps along edges lead to. With `memory`, a descent that meets a node pair
 /// already descended takes over its minimum, and a finished one is remembered. The pairs of the first half

@@ -127,9 +127,9 @@ Children mate(MatingMethod method, const PairObjective& objective, const TrialPo
     const double first = share * uniformUnit(engine);
     return Shares{first, share + (1.0 - share) * uniformUnit(engine)};
   };
-  const Genes a = mateGene(method, fitter.node_a, other.node_a, draw(), objective.bodyA().graph(),
+  const Genes a = mateGene(method, fitter.node_a, other.node_a, draw(), objective.gridA().graph(),
                            metric.onA(), path_bound);
-  const Genes b = mateGene(method, fitter.node_b, other.node_b, draw(), objective.bodyB().graph(),
+  const Genes b = mateGene(method, fitter.node_b, other.node_b, draw(), objective.gridB().graph(),
                            metric.onB(), path_bound);
   return {{a.first, b.first, kNotComputed}, {a.second, b.second, kNotComputed}};
 }

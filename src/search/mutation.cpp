@@ -73,8 +73,8 @@ TrialPoint moveBoth(const TrialPoint& point, double radius, PairMetric& metric, 
 }
 
 TrialPoint randomTrialPoint(const PairObjective& objective, RandomEngine& engine) {
-  const NodeIndex node_a = randomNode(objective.bodyA().graph(), engine);
-  return {node_a, randomNode(objective.bodyB().graph(), engine), kNotComputed};
+  const NodeIndex node_a = randomNode(objective.gridA().graph(), engine);
+  return {node_a, randomNode(objective.gridB().graph(), engine), kNotComputed};
 }
 
 double coolingFactor(Cooling cooling, std::uint32_t generation, std::uint32_t max_generations) {
@@ -99,8 +99,8 @@ double mutationRadius(const GeneticParameters& parameters, const PairObjective& 
     return parameters.mutation_radius.value_or(kInfinity);
   }
   const double radius = parameters.mutation_radius ? *parameters.mutation_radius
-                                                   : std::max(objective.bodyA().geodesicExtent(),
-                                                              objective.bodyB().geodesicExtent());
+                                                   : std::max(objective.gridA().geodesicExtent(),
+                                                              objective.gridB().geodesicExtent());
   return radius * coolingFactor(parameters.mutation_radius_cooling, generation, parameters.max_generations);
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "search/grid/body_grid.h"
 #include "search/grid/geodesic_extent.h"
 #include "search/search_scenes.h"
 #include "support/shortest_path.h"
@@ -18,9 +19,9 @@ class Crowding : public testing::Test {
  protected:
   Crowding() : metric_(*scene_.a, *scene_.b) {
     places_.reset(std::numeric_limits<double>::infinity());
-    const std::vector<double> length = pathLengthsFrom(scene_.a->graph(), {NodeIndex{0}});
+    const std::vector<double> length = pathLengthsFrom(gridOf(*scene_.a).graph(), {NodeIndex{0}});
     const auto farthest = std::max_element(length.begin(), length.end());
-    path_ = test::shortestPath(scene_.a->graph(), NodeIndex{0},
+    path_ = test::shortestPath(gridOf(*scene_.a).graph(), NodeIndex{0},
                                NodeIndex{static_cast<std::size_t>(farthest - length.begin())});
   }
 

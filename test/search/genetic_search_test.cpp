@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "search/automatic_radii.h"
+#include "search/grid/body_grid.h"
 #include "search/local_descent.h"
 #include "search/search_scenes.h"
 #include "support/enumeration.h"
@@ -163,7 +164,7 @@ TEST(GeneticSearch, InheritedPointsAreDescendedAnew) {
   const TrialPoint optimum =
       test::enumerateNodePairs(*search.scene.a, *search.scene.b, search.scene.a_from_b);
   // From a neighbour of the optimum, with a distance that belongs to another pose.
-  const NodeIndex beside = search.scene.a->graph().edges.row(optimum.node_a.value)[0].to;
+  const NodeIndex beside = gridOf(*search.scene.a).graph().edges.row(optimum.node_a.value)[0].to;
   GeneticParameters parameters = smallRun(NichingMethod::Sharing);
   parameters.max_generations = 0;
   const GeneticResult result = search.run(parameters, 8, {{beside, optimum.node_b, 1e-30}});

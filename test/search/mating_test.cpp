@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/infinity.h"
+#include "search/grid/body_grid.h"
 #include "search/mutation.h"
 #include "search/search_scenes.h"
 #include "support/shortest_path.h"
@@ -110,8 +111,8 @@ TEST(MeshMating, NearTheFitterParentTheLastNodeWithinTheRadiusIsDrawnToo) {
     const TrialPoint x = drawPoint(c.objective, engine);
     TrialPoint y = x;
     // Parents of equal fitness two edges apart: the radius is one edge.
-    const auto edges = c.scene.a->graph().edges.row(x.node_a.value);
-    y.node_a = c.scene.a->graph().edges.row(edges[0].to.value)[0].to;
+    const auto edges = gridOf(*c.scene.a).graph().edges.row(x.node_a.value);
+    y.node_a = gridOf(*c.scene.a).graph().edges.row(edges[0].to.value)[0].to;
     if (y.node_a == x.node_a) continue;
     const double length = c.metric.onA().distanceWithin(x.node_a, y.node_a, kInfinity);
     if (length < 1.9 * static_cast<double>(edges[0].length)) continue;
@@ -140,10 +141,11 @@ TEST(MeshMating, TheTwoChildrenTogetherReachTheWholePath) {
     return far;
   };
   const TrialPoint x = c.objective.evaluate(NodeIndex{0}, NodeIndex{0}, cost);
-  const TrialPoint y = c.objective.evaluate(farthest(c.metric.onA(), c.scene.a->graph().nodeCount()),
-                                            farthest(c.metric.onB(), c.scene.b->graph().nodeCount()), cost);
+  const TrialPoint y =
+      c.objective.evaluate(farthest(c.metric.onA(), gridOf(*c.scene.a).graph().nodeCount()),
+                           farthest(c.metric.onB(), gridOf(*c.scene.b).graph().nodeCount()), cost);
   const std::vector<NodeIndex> path =
-      test::shortestPath(c.scene.a->graph(), std::min(x, y).node_a, std::max(x, y).node_a);
+      test::shortestPath(gridOf(*c.scene.a).graph(), std::min(x, y).node_a, std::max(x, y).node_a);
   ASSERT_GE(path.size(), 5U);
   std::vector<bool> reached(path.size(), false);
   for (int i = 0; i < 5000; ++i) {
@@ -162,8 +164,8 @@ TEST(MeshMating, TheTwoChildrenTogetherReachTheWholePath) {
 
 TEST(MeshMating, ParentsOnDifferentShellsMateByCopying) {
   MatingCase c(test::shellsAndShells());
-  const NodeGraph& graph_a = c.scene.a->graph();
-  const NodeGraph& graph_b = c.scene.b->graph();
+  const NodeGraph& graph_a = gridOf(*c.scene.a).graph();
+  const NodeGraph& graph_b = gridOf(*c.scene.b).graph();
   ASSERT_GT(graph_a.shell_count, 1U);
   SearchCost cost;
   const TrialPoint x = c.objective.evaluate(NodeIndex{0}, NodeIndex{0}, cost);
@@ -206,7 +208,7 @@ RC_GTEST_PROP(PhenotypicMating, ChildrenAreTheNodesNearestToTheLineBetweenThePar
   const TrialPoint x = drawPoint(c.objective, engine);
   const TrialPoint y = drawPoint(c.objective, engine);
   const auto [first, second] = mate(MatingMethod::Phenotypic, c.objective, x, y, c.metric, kInfinity, engine);
-  const NodeGraph& graph = c.scene.a->graph();
+  const NodeGraph& graph = gridOf(*c.scene.a).graph();
   const Eigen::Vector3d from = graph.positions[std::min(x, y).node_a.value];
   const Eigen::Vector3d displacement = graph.positions[std::max(x, y).node_a.value] - from;
   for (const NodeIndex child : {first.node_a, second.node_a}) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/infinity.h"
+#include "search/grid/body_grid.h"
 #include "search/search_scenes.h"
 
 namespace concave_distance::mutation_test {
@@ -62,7 +63,7 @@ TEST(Mutation, MakesEachGeneARandomNodeWithItsProbability) {
   constexpr int kIndividuals = 20000;
   const TrialPoint start{NodeIndex{0}, NodeIndex{0}, 1.0};
   int changed[4] = {0, 0, 0, 0};  // neither, A alone, B alone, both
-  std::vector<int> reached(scene.b->graph().nodeCount(), 0);
+  std::vector<int> reached(gridOf(*scene.b).graph().nodeCount(), 0);
   for (int i = 0; i < kIndividuals; ++i) {
     TrialPoint point = start;
     const bool mutated =
@@ -73,7 +74,7 @@ TEST(Mutation, MakesEachGeneARandomNodeWithItsProbability) {
   }
   // A gene is changed with p_m, but for the draws of the node that it was.
   const auto share = [](const std::unique_ptr<BodyMesh>& body) {
-    return kProbability * (1.0 - 1.0 / static_cast<double>(body->graph().nodeCount()));
+    return kProbability * (1.0 - 1.0 / static_cast<double>(gridOf(*body).graph().nodeCount()));
   };
   const double a = share(scene.a);
   const double b = share(scene.b);
@@ -109,7 +110,7 @@ TEST(Mutation, JumpsToOtherShellsWhateverTheRadius) {
   const test::PairScene scene = test::shellsAndShells();
   const PairObjective objective(*scene.a, *scene.b, scene.a_from_b);
   PairMetric metric(*scene.a, *scene.b);
-  const std::vector<std::uint32_t>& shell = scene.a->graph().shell;
+  const std::vector<std::uint32_t>& shell = gridOf(*scene.a).graph().shell;
   RandomEngine engine(22);
   int jumps = 0;
   for (int i = 0; i < 500; ++i) {
@@ -125,7 +126,7 @@ TEST(Mutation, ReachesTheWholeBodyWithoutARadius) {
   const PairObjective objective(*scene.a, *scene.b, scene.a_from_b);
   PairMetric metric(*scene.a, *scene.b);
   RandomEngine engine(23);
-  std::vector<bool> reached(scene.b->graph().nodeCount(), false);
+  std::vector<bool> reached(gridOf(*scene.b).graph().nodeCount(), false);
   for (int i = 0; i < 20000; ++i) {
     reached[mutate({NodeIndex{0}, NodeIndex{0}, 0.0}, kInfinity, metric, engine).node_b.value] = true;
   }
@@ -151,7 +152,7 @@ TEST(Mutation, RadiusFallsFromItsFirstValueAsTheCoolingSays) {
   parameters.mutation_radius.reset();
   parameters.mutation_radius_cooling = Cooling::Linear;
   EXPECT_DOUBLE_EQ(mutationRadius(parameters, objective, 1),
-                   std::max(scene.a->geodesicExtent(), scene.b->geodesicExtent()));
+                   std::max(gridOf(*scene.a).geodesicExtent(), gridOf(*scene.b).geodesicExtent()));
 }
 
 // (2.6) with the same loss at every temperature, over its value in the first generation.

@@ -7,7 +7,13 @@
 
 namespace concave_distance {
 
-SearchNodes makeSearchNodes(const SurfaceMesh& surface, const SearchNodesOptions& options,
+std::size_t SearchNodes::memoryBytes() const {
+  return grid.memoryBytes() + graph.memoryBytes() + levels.memoryBytes() +
+         original_triangle_of_node.size() * sizeof(TriangleIndex) +
+         graph_node_of_vertex.size() * sizeof(NodeIndex);
+}
+
+SearchNodes makeSearchNodes(const SurfaceMesh& surface, const BodyMeshOptions& options,
                             const std::string& where) {
   SearchNodes nodes;
   checkEdgeLength(surface, options.max_edge_length, where);
@@ -16,11 +22,11 @@ SearchNodes makeSearchNodes(const SurfaceMesh& surface, const SearchNodesOptions
   nodes.grid = std::move(grid.mesh);
   nodes.graph = buildNodeGraph(nodes.grid);
   nodes.original_triangle_of_node = std::move(grid.original_triangle_of_node);
-  if (options.max_edge_length || nodes.graph.nodeCount() <= options.node_limit) {
+  if (options.max_edge_length || nodes.graph.nodeCount() <= options.search_node_limit) {
     nodes.levels = buildNodeLevels(nodes.graph);
     return nodes;
   }
-  ThinnedGraph thinned = thinGraph(nodes.graph, options.node_limit);
+  ThinnedGraph thinned = thinGraph(nodes.graph, options.search_node_limit);
   std::vector<TriangleIndex> original_triangles;
   original_triangles.reserve(thinned.original_node.size());
   for (const NodeIndex node : thinned.original_node) {
