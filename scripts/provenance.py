@@ -30,7 +30,7 @@ GROUPS = {
     "tracker": [INCLUDE + "search/genetic_parameters.h", INCLUDE + "tracking/tracker_parameters.h",
                 "src/tracking/tracker_parameters.cpp"],
     "thesis": [INCLUDE + "search/genetic_parameters.h", "thesis/src/annealing/annealing_parameters.h",
-               "thesis/src/continuous/continuous_parameters.h"],
+               "thesis/src/continuous/continuous_parameters.h", "thesis/src/genetic/comb_ga_parameters.h"],
     "contact": [INCLUDE + "contact/material.h", INCLUDE + "contact/normal_force.h", INCLUDE + "contact/friction.h",
                 INCLUDE + "contact/effect_settings.h"],
     "simulation": [INCLUDE + "scene/simulation_settings.h"],
@@ -95,7 +95,7 @@ def defaults_of(tree, groups):
         text = re.sub(r"//[^\n]*", "", tree.read(path).decode())
         for name, value in re.findall(r"\b((?:cold|warm)\.\w+) = ([^;]+);", text) if path.endswith(".cpp") else []:
             found["TrackerParameters." + name] = value
-        for struct, body in re.findall(r"\nstruct (\w*(?:Parameters|Settings|Material)) \{(.*?)\n\};", text, re.DOTALL):
+        for struct, body in re.findall(r"\nstruct (\w*(?:Parameters|Settings|Material))(?: : \w+)? \{(.*?)\n\};", text, re.DOTALL):
             for name, value in re.findall(r"[\w>*&]\s+(\w+)\s*=\s*([^;]+);", body):
                 found[f"{struct}.{name}"] = " ".join(value.split())
     return found

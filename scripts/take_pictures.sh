@@ -87,11 +87,10 @@ wait_for() {  # seconds, what, command...
 # The peg's load sets in some time after the start.
 markers_came() {
   local text=' mm'
-  [ "$scene" != press_fit ] || text='deep .* kN'
+  [ "$scene" != press_fit ] || text='deep.* kN'
   grep -q "$text" "$work/markers.txt"
 }
 
-# Labels look for a better place once a second: two pictures farther apart than that have to be the same.
 picture_settled() {
   mv -f "$work/now.png" "$work/before.png" 2>/dev/null || true
   sleep 1.5
@@ -114,7 +113,9 @@ for scene in "${scenes[@]}"; do
   PYTHONUNBUFFERED=1 rostopic echo /concave_distance/markers >"$work/markers.txt" 2>/dev/null </dev/null &
   processes+=($!)
   wait_for 60 "the markers of $scene" markers_came
-  rviz --fullscreen -s "" -d "$package_dir/config/$scene.rviz" >"$work/$scene.rviz.log" 2>&1 </dev/null &
+  viewer=(rviz -d "$package_dir/config/$scene.rviz")
+  [ "$scene" != own_robot ] || viewer=(rosrun concave_distance view_robot.py "$package_dir/config/own_robot.rviz" world)
+  "${viewer[@]}" --fullscreen -s "" >"$work/$scene.rviz.log" 2>&1 </dev/null &
   processes+=($!)
   wait_for 90 "a picture of $scene" picture_settled
   convert "$work/now.png" -crop 1200x820+40+40 +repage -strip -colors 255 "PNG8:$output/$scene.png"

@@ -6,6 +6,7 @@ CONFIG: rviz's configuration, whose camera and grid are fitted; FRAME: its fixed
 `concave_distance`, in this namespace, and for their frames; when they do not come, rviz opens with the view of CONFIG.
 """
 
+import itertools
 import math
 import os
 import sys
@@ -19,23 +20,42 @@ from concave_distance.srv import ListBodies
 
 LOADING_SECONDS = 60.0  # at most, until the bodies are loaded
 FRAMES_SECONDS = 5.0  # at most, until their frames are known
-LEGEND = 0.3  # height of the markers' legend above the robot, over the robot's size
-NEARER = 0.9  # than the distance from which a ball around the robot fits: robots are no balls
+LIST = 0.4  # height of the markers' legend and list above the robot, over the robot's size
+MUCH_LARGER = 6.0  # than the median body: a floor, a hall, which need not be in view
+LIST_WIDTH = 0.7  # likewise
+ASPECT = 1.3  # width of the picture over its height, at least
+MARGIN = 1.12  # of the distance from which all stands in the picture
+HALF = 0.4  # of the cube that stands for a body, over the body's diameter
 GRID_CELLS = 8.0  # along the robot's size
 
 
-def fitted_view(bodies, field_of_view):
+def fitted_view(bodies, yaw, pitch, field_of_view):
     """Focal point, camera distance and size of a robot.
 
     bodies: (position of its frame, diameter) of each, metres, in the fixed frame. Where a body lies about its frame is not
-    known, so it counts as a cube of its diameter's half to each side.
+    known, so it counts as a cube around it.
     """
-    low = [min(position[axis] - 0.5 * diameter for position, diameter in bodies) for axis in range(3)]
-    high = [max(position[axis] + 0.5 * diameter for position, diameter in bodies) for axis in range(3)]
+    median = sorted(diameter for _, diameter in bodies)[len(bodies) // 2]
+    bodies = [body for body in bodies if body[1] <= MUCH_LARGER * median]
+    low = [min(position[axis] - HALF * diameter for position, diameter in bodies) for axis in range(3)]
+    high = [max(position[axis] + HALF * diameter for position, diameter in bodies) for axis in range(3)]
     size = math.dist(low, high)
-    high[2] += LEGEND * size
     focus = [0.5 * (a + b) for a, b in zip(low, high)]
-    return focus, NEARER * 0.5 * math.dist(low, high) / math.sin(0.5 * field_of_view), size
+    focus[2] += 0.5 * LIST * size
+    back = (math.cos(yaw) * math.cos(pitch), math.sin(yaw) * math.cos(pitch), math.sin(pitch))
+    up = (-math.cos(yaw) * math.sin(pitch), -math.sin(yaw) * math.sin(pitch), math.cos(pitch))
+    right = (-math.sin(yaw), math.cos(yaw), 0.0)
+    points = [[a - b for a, b in zip(corner, focus)] for corner in itertools.product(*zip(low, high))]
+    top = high[2] + LIST * size - focus[2]
+    half = 0.5 * LIST_WIDTH * size
+    points += [[side * right[0], side * right[1], top] for side in (-half, half)]
+    tangent = math.tan(0.5 * field_of_view)
+
+    def distance(point):
+        along, above, beside = (sum(a * b for a, b in zip(axis, point)) for axis in (back, up, right))
+        return along + max(abs(above), abs(beside) / ASPECT) / tangent
+
+    return focus, MARGIN * max(map(distance, points)), size
 
 
 def round_length(length):
@@ -47,7 +67,7 @@ def round_length(length):
 def fit(config, bodies):
     """Fits camera and grid of rviz's configuration to the bodies."""
     view = config["Visualization Manager"]["Views"]["Current"]
-    focus, distance, size = fitted_view(bodies, view["Field of View"])
+    focus, distance, size = fitted_view(bodies, view["Yaw"], view["Pitch"], view["Field of View"])
     view["Focal Point"] = dict(zip("XYZ", focus))
     view["Near Clip Distance"] = 0.003 * distance
     view["Distance"] = distance

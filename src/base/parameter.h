@@ -64,14 +64,6 @@ struct Parameter {
     info.is_expert = true;
     return *this;
   }
-  Parameter& forExperiments() {
-    info.is_of_experiments = true;
-    return *this;
-  }
-  Parameter& withExperimentChoices(std::vector<std::string> choices) {
-    info.experiment_choices = std::move(choices);
-    return *this;
-  }
 };
 
 template <typename Settings>
@@ -257,18 +249,6 @@ ParameterTable<Settings> joined(const std::vector<ParameterTable<Settings>>& tab
   ParameterTable<Settings> all;
   for (const ParameterTable<Settings>& table : tables) all.insert(all.end(), table.begin(), table.end());
   return all;
-}
-
-/// Without the parameters and choices of experiments.
-template <typename Settings>
-ParameterTable<Settings> withoutExperiments(const ParameterTable<Settings>& table) {
-  ParameterTable<Settings> kept;
-  for (const Parameter<Settings>& parameter : table) {
-    if (parameter.info.is_of_experiments) continue;
-    kept.push_back(parameter);
-    kept.back().info = withoutExperimentChoices(parameter.info);
-  }
-  return kept;
 }
 
 /// The parameter of this name, or null.

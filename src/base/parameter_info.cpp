@@ -81,27 +81,6 @@ std::string allowedValues(const ParameterInfo& info) {
   return text;
 }
 
-bool isExperimentChoice(const ParameterInfo& info, const ParameterValue& value) {
-  const auto* text = std::get_if<std::string>(&value);
-  if (text == nullptr || isAllowed(info, value)) return false;
-  const std::vector<std::string>& choices = info.experiment_choices;
-  return std::find(choices.begin(), choices.end(), *text) != choices.end();
-}
-
-ParameterInfo withoutExperimentChoices(ParameterInfo info) {
-  const std::vector<std::string>& gone = info.experiment_choices;
-  info.choices.erase(std::remove_if(info.choices.begin(), info.choices.end(),
-                                    [&gone](const std::string& choice) {
-                                      return std::find(gone.begin(), gone.end(), choice) != gone.end();
-                                    }),
-                     info.choices.end());
-  return info;
-}
-
-std::string saysOfExperiments(const std::string& name) {
-  return quoted(name) + " is an option of experiments";
-}
-
 bool belongsTo(const ParameterInfo& info, const std::string& model) {
   return info.models.empty() || std::find(info.models.begin(), info.models.end(), model) != info.models.end();
 }
@@ -179,9 +158,6 @@ ParameterValue parseParameter(const ParameterInfo& info, const std::string& text
 
 void requireAllowed(const ParameterInfo& info, const ParameterValue& value, const std::string& where) {
   if (isAllowed(info, value)) return;
-  if (isExperimentChoice(info, value)) {
-    throw Error(where + info.name, saysOfExperiments(toText(value)), "allowed here: " + allowedValues(info));
-  }
   const bool is_text = std::holds_alternative<std::string>(value);
   throw Error(where + info.name, "the value is " + (is_text ? quoted(toText(value)) : toText(value)),
               "allowed: " + allowedValues(info));

@@ -33,10 +33,6 @@ struct ParameterInfo {
   std::string sentence;      ///< what it does; Markdown
   bool at_run_time = false;  ///< may change while the node runs
   bool is_expert = false;    ///< below `expert`
-  /// Read by the program `evaluate` alone (thesis/doc/experiments.md), the whole parameter or some choices of
-  /// it.
-  bool is_of_experiments = false;
-  std::vector<std::string> experiment_choices;
 };
 
 /// "greater than 0, m, or none": what a value may be, for messages and documents.
@@ -47,13 +43,6 @@ std::string toText(const ParameterValue& value);
 /// refused by requireAllowed().
 ParameterValue parseParameter(const ParameterInfo& info, const std::string& text);
 bool isAllowed(const ParameterInfo& info, const ParameterValue& value);
-/// Returns whether the value is a choice of experiments, which this declaration does not allow.
-bool isExperimentChoice(const ParameterInfo& info, const ParameterValue& value);
-ParameterInfo withoutExperimentChoices(ParameterInfo info);
-/// Returns what is wrong with a parameter, or a choice of one, that experiments alone read; and what to do.
-std::string saysOfExperiments(const std::string& name);
-inline constexpr const char* kLeaveToExperiments =
-    "leave it out: only the program evaluate reads it (thesis/doc/experiments.md)";
 /// Returns whether a parameter means something to a model.
 bool belongsTo(const ParameterInfo& info, const std::string& model);
 /// The models that it belongs to: "a", "a and b", "a, b and c". @param last between the last two, "and"

@@ -67,7 +67,7 @@ FrictionSites::Triangle FrictionSites::triangleOf(const OverlapSample* sample, c
     triangle.forces[k] = 3.0 * (forces[k] + forces[before] - forces[opposite]);
     sum += forces[k];
   }
-  // Where the pressure is not quite linear no corner pulls.
+  // No corner pulls where the pressure is not quite linear.
   double kept = 0.0;
   for (double& force : triangle.forces) {
     if (force * sum < 0.0) force = 0.0;

@@ -6,7 +6,7 @@
 
 #include "base/longest_edge.h"
 #include "base/triangle_area.h"
-#include "distance/kernels/closest_point.h"
+#include "distance/bound/closest_point.h"
 #include "mesh/surface/mesh_topology.h"
 #include "mesh/surface/round_geometry.h"
 #include "mesh/trees/triangle_tree.h"

@@ -29,7 +29,7 @@ void addCone(BoundaryComponent& component, const Eigen::Vector3d& p, const Eigen
   component.moment += volume * 0.25 * (u + v + w);
 }
 
-/// Whether a component's part of a triangle holds a point of it.
+/// Returns whether a component's part of a triangle holds a point of it.
 bool holdsPoint(const SurfacePieces& pieces, const BoundaryComponent& component, Side side,
                 TriangleIndex triangle, const Eigen::Vector3d& normal, const Eigen::Vector3d& point) {
   const auto before = [](const auto& item, TriangleIndex sought) { return item.triangle < sought; };

@@ -12,7 +12,7 @@ namespace {
 /// leads out.
 const Eigen::Vector3d kExit = 16.0 * Eigen::Vector3d(0.8431, 0.2749, 0.4620);
 
-/// Whether a segment may meet a box, by separating axes with a margin.
+/// Decides whether a segment may meet a box, by separating axes with a margin.
 class SegmentMeetsBox {
  public:
   SegmentMeetsBox(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double margin)

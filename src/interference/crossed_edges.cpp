@@ -45,7 +45,7 @@ void CrossedEdges::collect(WorkingFrame& frame, PerturbedPredicates& predicates,
   for (std::uint32_t i = 0; i < nodes_.size(); ++i) {
     const std::uint64_t key = edgeKey(nodes[nodes_[i]]);
     if (edges_.empty() || edges_.back().key != key) edges_.push_back({key, i, i});
-    // What rounding may have swapped is put right exactly.
+    // Exact comparisons put right what rounding may have swapped.
     std::uint32_t j = i;
     while (j > edges_.back().first && before(frame, predicates, nodes[nodes_[j]], nodes[nodes_[j - 1]])) {
       std::swap(nodes_[j], nodes_[j - 1]);

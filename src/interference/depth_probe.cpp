@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "distance/kernels/closest_point.h"
+#include "distance/bound/closest_point.h"
 #include "mesh/surface/mesh_topology.h"
 #include "mesh/trees/triangle_tree.h"
 

@@ -81,7 +81,7 @@ void DepthSearch::split(const OverlapFacet& facet, Part part, double share, Dept
     halve(facet, part, share, probe);
 }
 
-// Whether the corners and the middle are as deep as below the planes.
+// Returns whether the corners and the middle are as deep as below the planes.
 bool DepthSearch::areExplained(const Part& part, const ProbedPoint& middle, double deepest) const {
   const auto is_explained = [&](const Eigen::Vector3d& point, double depth) {
     return std::abs(planes_.leastDepth(point) - depth) <= kSameDepth * deepest;
@@ -91,7 +91,7 @@ bool DepthSearch::areExplained(const Part& part, const ProbedPoint& middle, doub
                      [&](const Corner& corner) { return is_explained(corner.point, corner.depth); });
 }
 
-// Where the planes meet. Each piece is bounded by the triangle of the plane that is the lowest there.
+// Finds where the planes meet. Each piece is bounded by the triangle of the plane that is the lowest there.
 bool DepthSearch::cut(const OverlapFacet& facet, const Part& part, double enough, const DepthProbe& probe) {
   int count = 0;
   planes_.forEachPart(pointsOf(part.corners),

@@ -44,9 +44,9 @@ bool isSolid(const FoundRegion& found) {
   return found.region.closed && !found.region.touching;
 }
 
-/// How well a motion shows the solids of the overlap where things are flush: the more parts, the fewer of
-/// them hang together by walls that only touch; the fewer flaps the better; and a body that is swallowed but
-/// for a flush face has a loop.
+/// Says how well a motion shows the solids of the overlap where things are flush: the more parts, the fewer
+/// of them hang together by walls that only touch; the fewer flaps the better; and a body that is swallowed
+/// but for a flush face has a loop.
 struct Clarity {
   std::size_t parts = 0;
   double flap_area = 0.0;

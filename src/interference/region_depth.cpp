@@ -12,7 +12,7 @@ namespace concave_distance::detail {
 namespace {
 
 constexpr std::size_t kLoopDirections = 4;
-// What is the least depth to this share may be preferred.
+// A depth within this share of the least one may be preferred.
 constexpr double kPreferred = 0.01;
 
 /// Ways out of a region, of which the least one counts, or one nearly as short that is preferred.

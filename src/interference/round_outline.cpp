@@ -127,7 +127,7 @@ double RoundOutline::angleBetween(const Vector3d& from, const Vector3d& to) cons
   return std::atan2(l.cross(r).dot(normal_), l.dot(r));
 }
 
-/// How far the triangle goes from the centre.
+/// Returns how far the triangle goes from the centre.
 double RoundOutline::edgeWay(const Vector3d& direction) const {
   double way = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < 3; ++k) {

@@ -134,7 +134,7 @@ PairOverlap::Front PairOverlap::frontAt(const Vector3d& in_plane) const {
   return front;
 }
 
-/// How far the patch goes along the tangent plane; nothing where it reaches round `own`.
+/// Returns how far the patch goes along the tangent plane; nothing where it reaches round `own`.
 std::optional<double> PairOverlap::border(const Vector3d& direction) const {
   double inside = 0.0;
   double step = 0.5 * std::sqrt(2.0 * own_.radius * std::min(depth_, own_.radius));

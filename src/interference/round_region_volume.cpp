@@ -13,9 +13,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Of a region that is a smaller share of the solid, or leaves a smaller share of it, roundings of the solid's
-// volume are worth more than the errors of ShallowRoundVolume, which needs a surface this share of the radius
-// from the core.
+// Where a region is a smaller share of the solid, or leaves a smaller one, roundings of the solid's volume
+// exceed the errors of ShallowRoundVolume, which needs a surface this share of the radius from the core.
 constexpr double kNegligibleShare = 1e-8;
 constexpr double kFarFromCore = 0.5;
 // A share this small may be rounded below 0, and then seems to be all of the solid.
@@ -57,7 +56,7 @@ void RoundOverlap::measureVolume(const Group& group, bool is_only, InterferenceR
   setVolume(is_rounded_away ? 0.0 : volume.volume(), volume.moment(), volume.area(), region);
 }
 
-/// What two shells have in common counts twice, up to all of the solid.
+/// Adds the shells: what two of them have in common counts twice, up to all of the solid.
 void RoundOverlap::addShells(InterferenceRegion& region) const {
   double sum = 0.0;
   double area = 0.0;
@@ -73,7 +72,7 @@ void RoundOverlap::addShells(InterferenceRegion& region) const {
   setVolume(sum, moment, std::clamp(area, 0.0, surfaceAreaOf(pair_->shape)), region);
 }
 
-/// Whether a closed shell is turned inwards. O(triangles of the mesh).
+/// Returns whether a closed shell is turned inwards. O(triangles of the mesh).
 bool RoundOverlap::isCavity(std::uint32_t shell) const {
   const SurfaceMesh& surface = pair_->mesh.surface();
   const Vector3d middle = surface.boundingBox().center();
@@ -106,7 +105,7 @@ int RoundOverlap::sideOf() const {
   return least > margin ? 1 : most < -margin ? -1 : 0;
 }
 
-/// How far the samples stay from where the fields of ShallowRoundVolume are singular, metres.
+/// Returns how far the samples stay from where the fields of ShallowRoundVolume are singular, metres.
 double RoundOverlap::leastFromCore(int side) const {
   double least = std::numeric_limits<double>::infinity();
   if (side != 0) return least;

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "distance/kernels/closest_point.h"
+#include "distance/bound/closest_point.h"
 #include "mesh/surface/mesh_topology.h"
 #include "mesh/surface/round_geometry.h"
 #include "round_lines.h"
@@ -158,8 +158,8 @@ void RoundOverlap::chooseNormal(const Group& group, double surface, const Vector
   region.normal_in_a = a_from_shape_.linear() * (shape_is_a_ ? Vector3d(-out) : out);
 }
 
-/// How far the solid must go along a direction out of the mesh until it is above all of the patch that faces
-/// that way, as far as the samples show it.
+/// Returns how far the solid must go along a direction out of the mesh until it is above all of the patch
+/// that faces that way, as far as the samples show it.
 double RoundOverlap::depthAlong(const Group& group, const Vector3d& out_of_mesh, Vector3d* at) const {
   double depth = 0.0;
   const double reach = 2.0 * reachOf(pair_->shape);

@@ -151,7 +151,7 @@ void RoundSection::addStraight(const RoundOutline::Straight& piece) {
   }
 }
 
-/// Whether the depth is as good as quadratic between two points.
+/// Returns whether the depth is as good as quadratic between two points.
 bool RoundSection::bendsLittle(const Vector3d& from, const Vector3d& to) const {
   const Vector3d way = to - from;
   const double across = hasFlatEnds(*shape_) ? way.head<2>().norm() : way.norm();

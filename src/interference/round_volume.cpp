@@ -47,7 +47,7 @@ void RoundVolume::begin(const RoundShape& shape) {
   moment_.setZero();
 }
 
-/// Of rho^2 / 2 dtheta dz, the same times z, and rho^3 / 3 dtheta dz times cosine and sine.
+/// Adds the flux of rho^2 / 2 dtheta dz, the same times z, and rho^3 / 3 dtheta dz times cosine and sine.
 void RoundVolume::addFlux(const Vector3d& point, const Vector3d& area) {
   const double across = point.head<2>().dot(area.head<2>());
   volume_ += 0.5 * across;
@@ -88,7 +88,7 @@ void RoundVolume::addChord(const RoundOutline& outline, const Vector3d& start, c
   addPart(outline.shape(), start, along, across);
 }
 
-/// What lies between an arc and its chord, and the integrals along the arc, a height over the chord.
+/// Adds what lies between an arc and its chord, and the integrals along the arc, a height over the chord.
 void RoundVolume::addPart(const RoundShape& shape, const Vector3d& start, const Vector3d& along,
                           const Vector3d& across) {
   CurvePart part{start.z(), start + along, {}, {}};

@@ -11,7 +11,7 @@ class BoxesMeet {
  public:
   BoxesMeet(const Eigen::Isometry3d& a_from_b, double margin)
       : rotation_(a_from_b.linear()), translation_(a_from_b.translation()), margin_(margin) {
-    // Of nearly parallel axes the cross product says nothing: such a test must not part anything.
+    // The cross product of nearly parallel axes says nothing: such a test must not part anything.
     magnitude_ = rotation_.cwiseAbs().array() + 1e-12;
   }
 

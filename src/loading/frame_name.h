@@ -5,8 +5,8 @@
 
 namespace concave_distance {
 
-/// Why a text cannot be the id of a tf frame (without a leading slash): it is empty, longer than 255 bytes,
-/// begins with a slash or contains a control character. Empty: it can.
+/// Returns why a text cannot be the id of a tf frame (without a leading slash): it is empty, longer than 255
+/// bytes, begins with a slash or contains a control character. Returns an empty text when it can.
 std::string tfFrameProblem(std::string_view frame);
 
 /// `/base` in tf is `base` in tf2.

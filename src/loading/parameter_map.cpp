@@ -26,9 +26,6 @@ ParameterValue readParameter(const YamlValue& value, const ParameterInfo& info) 
       read = value.plainText();
       break;
   }
-  if (isExperimentChoice(info, read)) {
-    value.fail(saysOfExperiments(toText(read)), "allowed here: " + allowed);
-  }
   if (!isAllowed(info, read)) value.refuse(allowed);
   return read;
 }

@@ -20,15 +20,4 @@ void readParameters(YamlMap& map, const ParameterTable<Settings>& table, bool is
   }
 }
 
-/// @throws Error for a parameter of the table that experiments alone read
-template <typename Settings>
-void refuseExperiments(YamlMap& map, const ParameterTable<Settings>& table) {
-  for (const Parameter<Settings>& parameter : table) {
-    if (!parameter.info.is_of_experiments) continue;
-    if (const auto value = map.take(parameter.info.name)) {
-      value->fail(saysOfExperiments(parameter.info.name), kLeaveToExperiments);
-    }
-  }
-}
-
 }  // namespace concave_distance::detail

@@ -169,7 +169,7 @@ std::string findPackage(const std::string& package, const std::vector<std::strin
   if (package.empty() || package.find('/') != std::string::npos || package.front() == '.') return {};
   std::vector<std::string> shares = workspaces;
   for (const std::string& prefix : pathsIn("CMAKE_PREFIX_PATH")) shares.push_back(prefix + "/share");
-  // Where Debian's own ROS packages are; they come without a setup file that would say so.
+  // Debian's own ROS packages are here; they come without a setup file that would say so.
   shares.emplace_back("/usr/share");
   for (const std::string& share : shares) {
     const fs::path folder = fs::path(share) / package;

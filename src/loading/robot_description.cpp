@@ -64,8 +64,8 @@ std::map<std::string, std::string> messagesByLink(const std::vector<std::string>
   return by_link;
 }
 
-// What the text holds of the wanted kind, counted apart from urdfdom: it drops the rest of a link at the
-// first fault (of an inertial or visual element too) and all but the first shape of a geometry.
+// Counts what the text holds of the wanted kind, because urdfdom drops the rest of a link at the first fault
+// (of an inertial or visual element too) and all but the first shape of a geometry.
 struct LinkText {
   std::string name;
   std::size_t elements = 0;

@@ -36,7 +36,7 @@ struct SceneParts {
   std::vector<SceneProblem> problems;  ///< URDFs and SRDFs that cannot be read
   bool robot_failed = false;           ///< a name that nobody knows may be one of its links
 
-  /// Why a pair is not watched unless the scene file names both bodies; nullptr when it is.
+  /// Returns why a pair is not watched unless the scene file names both bodies; nullptr when it is.
   const char* filterReason(std::size_t source_a, std::size_t source_b) const;
 };
 

@@ -31,30 +31,28 @@ void readCommonRadii(YamlMap& map, TrackerParameters& tracker) {
   }
 }
 
-void readExpertSettings(const YamlValue& value, PairSettings& settings, SettingsReader reader) {
+void readExpertSettings(const YamlValue& value, PairSettings& settings, const GeneticReader& read_genetic) {
   YamlMap map(value, "a map of settings for experts");
   readParameters(map, pairParameters(), true, settings);
   // Before cold and warm, whose own radii apply.
   readCommonRadii(map, settings.tracker);
-  if (auto v = map.take("cold")) readGeneticParameters(*v, settings.tracker.cold, reader);
-  if (auto v = map.take("warm")) readGeneticParameters(*v, settings.tracker.warm, reader);
+  if (auto v = map.take("cold")) read_genetic(*v, settings.tracker.cold);
+  if (auto v = map.take("warm")) read_genetic(*v, settings.tracker.warm);
   map.finish();
 }
 
 }  // namespace
 
-void readPairSettings(YamlMap& map, PairSettings& settings, SettingsReader reader) {
+void readPairSettings(YamlMap& map, PairSettings& settings, const GeneticReader& read_genetic) {
   refuseExpertSettings(map);
   readParameters(map, pairParameters(), false, settings);
   if (auto v = map.take("effects")) readEffects(*v, settings.effects);
-  if (auto v = map.take("expert")) readExpertSettings(*v, settings, reader);
+  if (auto v = map.take("expert")) readExpertSettings(*v, settings, read_genetic);
 }
 
-void readGeneticParameters(const YamlValue& value, GeneticParameters& parameters, SettingsReader reader) {
+void readGeneticParameters(const YamlValue& value, GeneticParameters& parameters) {
   YamlMap map(value, "a map of parameters of the genetic algorithm");
-  const bool is_experiment = reader == SettingsReader::Experiment;
-  if (!is_experiment) refuseExperiments(map, allGeneticParameters());
-  readParameters(map, is_experiment ? allGeneticParameters() : geneticParameters(), false, parameters);
+  readParameters(map, geneticParameters(), false, parameters);
   map.finish();
 }
 

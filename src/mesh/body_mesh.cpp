@@ -14,6 +14,7 @@
 #include "mesh/surface/facets.h"
 #include "mesh/surface/grid_size.h"
 #include "mesh/surface/triangle_adjacency.h"
+#include "mesh/trees/hull_gap.h"
 #include "mesh/trees/normal_cone_tree.h"
 #include "mesh/trees/shell_contacts.h"
 
@@ -27,6 +28,7 @@ struct BodyMesh::State {
   MadeOnce<RecentredBody> recentred;
   MadeOnce<ShellContacts> shell_contacts;
   MadeOnce<Facets> facets;
+  MadeOnce<HullGap> hull_gap;
   MadeOnce<CompressedRows<AdjacentTriangle>> adjacency;
   MadeOnce<ConnectedPieces> pieces;
   std::array<MadeOnce<NormalConeTree>, 2> cones;  ///< by NormalSides
@@ -144,6 +146,10 @@ const ConnectedPieces& BodyMesh::pieces() const {
     joinPieces(shellContacts(), pieces);
     return pieces;
   });
+}
+
+const HullGap& BodyMesh::hullGap() const {
+  return state_->hull_gap.get([&] { return measureHullGap(surface(), topology(), tree()); });
 }
 
 const NormalConeTree& BodyMesh::normalCones(NormalSides sides) const {

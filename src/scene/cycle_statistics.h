@@ -31,7 +31,7 @@ struct CycleRecord {
   std::vector<std::string> failing;  ///< pairs without transforms, each with the reason
 };
 
-/// What the diagnostics report of the cycles since they were last published.
+/// Holds what the diagnostics report of the cycles since they were last published.
 struct CycleWindow {
   double seconds = 0.0;  ///< wall time covered
   double running = 0.0;  ///< s for which a cycle had run that had not ended by then; 0: none

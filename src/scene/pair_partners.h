@@ -9,13 +9,13 @@
 
 namespace concave_distance {
 
-/// Which bodies a new one is paired with. A name may be that of a group, or a pattern: of these, bodies that
-/// do not move relative to the new one's frame are left out.
+/// Says which bodies a new one is paired with. A name may be that of a group, or a pattern: of these, bodies
+/// that do not move relative to the new one's frame are left out.
 struct PairPartners {
   std::vector<std::string> names;        ///< empty: every body that can move relative to its frame
   bool none = false;                     ///< no body at all
   std::vector<std::string> may_touch{};  ///< bodies left out; not together with `names`
-  /// Whether two frames do not move relative to each other, besides those that Scene::rigid joins.
+  /// Returns whether two frames do not move relative to each other, besides those that Scene::rigid joins.
   std::function<bool(const std::string& frame_a, const std::string& frame_b)> is_rigid{};
 };
 

@@ -14,9 +14,9 @@ class RestartRequests {
     std::set<std::string> pairs;
   };
   void requestAll();
-  /// Of more than 10,000 pairs at once all are restarted.
+  /// Asks for the restart of a pair. When more than 10,000 are asked for at once, all are restarted.
   void request(const std::string& pair);
-  /// What has come in since the last call.
+  /// Returns what has come in since the last call.
   Pending take();
 
  private:

@@ -41,7 +41,7 @@ void requireRoomForPairs(const Scene& scene, std::size_t more) {
   }
 }
 
-// Whether a filter can have left out the pair of two bodies that a scene has not.
+// Returns whether a filter can have left out the pair of two bodies that a scene has not.
 bool mayBeFiltered(const Scene& scene, std::size_t body_a, std::size_t body_b) {
   const SceneBody& a = scene.bodies[body_a];
   const SceneBody& b = scene.bodies[body_b];

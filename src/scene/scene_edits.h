@@ -24,8 +24,8 @@ AddedPairs addBody(Scene& scene, SceneBody body, const PairPartners& partners, c
 /// @return names of the pairs removed with it. @throws Error when there is no such body
 std::vector<std::string> removeBody(Scene& scene, const std::string& name, bool allow_robot_link = false);
 
-/// How a request names pairs: by a name or a pattern or, when that is empty, by the bodies of both sides in
-/// either order, each a body, a group or a pattern.
+/// Names the pairs of a request: by a name or a pattern or, when that is empty, by the bodies of both sides
+/// in either order, each a body, a group or a pattern.
 struct PairReference {
   std::string pair;
   std::string body_a;

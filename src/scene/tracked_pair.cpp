@@ -73,7 +73,7 @@ void TrackedPair::stop() {
   endWithoutAnswer(PairState::Stopped);
 }
 
-// What is old is not left where a caller would read it as the answer; buffers are kept.
+// Clears the old answer, so that no caller reads it as the new one; buffers are kept.
 void TrackedPair::endWithoutAnswer(PairState now) {
   if (solved()) {
     std::vector<TrackedNiche> niches = std::move(solution.niches);

@@ -1,128 +1,40 @@
 #include "generation.h"
 
 #include <algorithm>
+#include <limits>
 
-#include "crowding.h"
 #include "mutation.h"
 #include "replacement.h"
-#include "reproduction.h"
+#include "search/grid/mesh_metric.h"
 
 namespace concave_distance {
 namespace {
 
-/// The contest of deterministic crowding; afterwards the offspring are those who won, new where a child
-/// has.
-void compete(GeneticState& state) {
-  SearchWorkspace& work = state.work;
-  const auto rules = state.parameters.niching == NichingMethod::DeterministicCrowding
-                         ? &competePaired
-                         : &competeWithCloserParent;
-  for (std::size_t i = 0; i + 1 < work.offspring.size(); i += 2) {
-    const auto parent = [&](std::size_t k) {
-      return Contestant{work.population[work.selected[k]], work.population_places[work.selected[k]]};
-    };
-    const auto child = [&](std::size_t k) { return Contestant{work.offspring[k], work.offspring_places[k]}; };
-    Contestant first = parent(i);
-    Contestant second = parent(i + 1);
-    rules(first, second, child(i), child(i + 1), work.places, work.metric);
-    work.offspring[i] = first.point;
-    work.offspring_places[i] = first.place;
-    work.offspring[i + 1] = second.point;
-    work.offspring_places[i + 1] = second.place;
-    for (const std::size_t k : {i, i + 1}) {
-      const bool is_child = work.offspring_places[k] != work.population_places[work.selected[k]];
-      work.offspring_is_new[k] = is_child || !state.is_descended;
-    }
-  }
+/// Mesh distances that the operators need: within the largest radius. Crowding compares distances of any
+/// length; it gets all of them where looking one up costs nothing.
+double distanceBound(const GeneticState& state) {
+  const bool has_matrices =
+      state.objective.gridA().metric().hasMatrices() && state.objective.gridB().metric().hasMatrices();
+  const NicheRadii& radii = state.radii;
+  return has_matrices && state.parameters.niching == NichingMethod::DeterministicCrowding
+             ? std::numeric_limits<double>::infinity()
+             : std::max({radii.sharing, radii.mating, radii.niche});
 }
 
-void takeSeats(GeneticState& state) {
-  SearchWorkspace& work = state.work;
-  for (std::size_t i = 0; i < work.offspring.size(); ++i) {
-    work.population[work.seats[i]] = work.offspring[i];
-    work.population_places[work.seats[i]] = work.offspring_places[i];
-  }
-}
-
-void seatOffspring(GeneticState& state) {
-  drawSeats(state.parameters.population_size, state.offspring_count, state.engine, state.work.seats);
-  takeSeats(state);
-}
-
-void crowdIn(GeneticState& state) {
-  SearchWorkspace& work = state.work;
-  for (std::size_t i = 0; i < work.offspring.size(); ++i) {
-    const std::uint32_t seat =
-        crowdedOut(work.population_places, work.offspring_places[i], state.parameters.crowding_factor,
-                   work.places, work.metric, state.engine);
-    work.population[seat] = work.offspring[i];
-    work.population_places[seat] = work.offspring_places[i];
-  }
-}
-
-void stepAsNiching(GeneticState& state) {
-  SearchWorkspace& work = state.work;
-  switch (state.parameters.niching) {
-    case NichingMethod::None:
-    case NichingMethod::Sharing:
-    case NichingMethod::DynamicSharing:
-      selectParents(state);
-      mateCouples(state);
-      mutateOffspring(state);
-      settleOffspring(state);
-      seatOffspring(state);
-      return;
-    case NichingMethod::SimpleCrowding:
-      selectParents(state);
-      mateCouples(state);
-      mutateOffspring(state);
-      settleOffspring(state);
-      crowdIn(state);
-      return;
-    case NichingMethod::DeterministicCrowding:
-      drawParents(state);
-      mateCouples(state);
-      mutateOffspring(state);
-      settleOffspring(state);
-      compete(state);
-      std::copy(work.selected.begin(), work.selected.end(), work.seats.begin());
-      takeSeats(state);
-      return;
-    case NichingMethod::DeterministicCrowdingWithSelection:
-      selectParents(state);
-      mateCouples(state);
-      evaluateOffspring(state);
-      compete(state);
-      mutateOffspring(state);
-      settleOffspring(state);
-      seatOffspring(state);
-      return;
-  }
-}
-
-}  // namespace
-
+/// The places that survive the next generation, into work.elites.
 void chooseElites(GeneticState& state) {
   SearchWorkspace& work = state.work;
   findElites(work.census, work.places, state.parameters.elite_count, work.elites);
-  const bool shares = state.parameters.niching == NichingMethod::Sharing ||
-                      state.parameters.niching == NichingMethod::DynamicSharing;
-  if (!shares || !state.parameters.conserve_niches) {
+  if (state.parameters.niching != NichingMethod::Sharing || !state.parameters.conserve_niches) {
     return;
   }
-  std::vector<std::uint32_t>& peaks = work.dynamic_niches.peaks;
-  nichePeaks(work.census, state.radii.niche, work.places, work.metric, work.order, peaks);
-  for (const std::uint32_t peak : peaks) {
+  nichePeaks(work.census, state.radii.niche, work.places, work.metric, work.order, work.peaks);
+  for (const std::uint32_t peak : work.peaks) {
     if (2 * work.elites.size() < state.parameters.population_size &&
         std::find(work.elites.begin(), work.elites.end(), peak) == work.elites.end()) {
       work.elites.push_back(peak);
     }
   }
-}
-
-void breed(GeneticState& state) {
-  stepAsNiching(state);
-  state.is_descended = true;
 }
 
 void admitImmigrants(GeneticState& state) {
@@ -133,6 +45,43 @@ void admitImmigrants(GeneticState& state) {
     state.settle(point, place);
     seatNewcomer(place, work.elites, work.places, work.census, work.population, work.population_places);
   }
+}
+
+}  // namespace
+
+void startPopulation(GeneticState& state, const std::vector<TrialPoint>& inherited) {
+  SearchWorkspace& work = state.work;
+  const std::size_t size = state.parameters.population_size;
+  const std::size_t kept = std::min(inherited.size(), size);
+  work.places.reset(distanceBound(state));
+  work.population.assign(inherited.begin(), inherited.begin() + static_cast<std::ptrdiff_t>(kept));
+  while (work.population.size() < size) {
+    work.population.push_back(randomTrialPoint(state.objective, state.engine));
+  }
+  work.population_places.resize(size);
+  std::size_t settled = 0;
+  for (std::size_t i = 0; i < size; ++i) {
+    if (i > 0 && state.outOfBudget()) {
+      // Seats that nothing is left for go to those settled already, in turn.
+      work.population[i] = work.population[i - settled];
+      work.population_places[i] = work.population_places[i - settled];
+      continue;
+    }
+    state.settle(work.population[i], work.population_places[i]);
+    ++settled;
+  }
+  state.cost.inherited += static_cast<std::uint32_t>(std::min(kept, settled));
+  work.census.take(work.population_places, work.places.size());
+}
+
+void runGeneration(GeneticState& state) {
+  SearchWorkspace& work = state.work;
+  ++state.cost.generations;
+  chooseElites(state);
+  state.breed();
+  work.census.take(work.population_places, work.places.size());
+  restoreElites(work.elites, work.places, work.census, work.population, work.population_places);
+  admitImmigrants(state);
 }
 
 }  // namespace concave_distance

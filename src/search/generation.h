@@ -1,15 +1,15 @@
 #pragma once
 
+#include <vector>
+
 #include "genetic_state.h"
 
 namespace concave_distance {
 
-/// The places that survive the next generation, into work.elites.
-void chooseElites(GeneticState& state);
-/// Parents, children and who of them takes which seat, in the block order of the method of niching
-/// (Carretero, fig. 4.3, 4.4).
-void breed(GeneticState& state);
-/// Random individuals take seats where nobody stands yet.
-void admitImmigrants(GeneticState& state);
+/// Fills the population: those inherited, then random individuals, all settled as far as the budget goes.
+void startPopulation(GeneticState& state, const std::vector<TrialPoint>& inherited);
+/// Runs one generation. The elites of the last one and its niches, where they are conserved, survive; random
+/// immigrants take seats where nobody stands yet.
+void runGeneration(GeneticState& state);
 
 }  // namespace concave_distance

@@ -5,11 +5,7 @@
 
 namespace concave_distance {
 
-/// The parameters of the genetic algorithm that a scene file and the node have: files, messages and documents
-/// are made from it.
+/// The parameters of the genetic algorithm: files, messages and documents are made from it.
 const ParameterTable<GeneticParameters>& geneticParameters();
-
-/// Those of experiments too.
-const ParameterTable<GeneticParameters>& allGeneticParameters();
 
 }  // namespace concave_distance

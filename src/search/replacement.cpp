@@ -1,9 +1,6 @@
 #include "replacement.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numeric>
-#include <utility>
 
 namespace concave_distance {
 namespace {
@@ -33,24 +30,6 @@ std::size_t seatToGive(const std::vector<std::uint32_t>& elites, const Census& c
 }
 
 }  // namespace
-
-std::uint32_t offspringCount(std::uint32_t population_size, double generation_gap) {
-  const auto couples = static_cast<std::uint32_t>(std::lround(0.5 * generation_gap * population_size));
-  return std::clamp(2 * couples, 2U, population_size);
-}
-
-void drawSeats(std::uint32_t population_size, std::uint32_t count, RandomEngine& engine,
-               std::vector<std::uint32_t>& seats) {
-  seats.resize(population_size);
-  std::iota(seats.begin(), seats.end(), 0U);
-  if (count == population_size) {
-    return;
-  }
-  for (std::uint32_t i = 0; i < count; ++i) {
-    std::swap(seats[i], seats[i + uniformIndex(engine, population_size - i)]);
-  }
-  seats.resize(count);
-}
 
 void findElites(const Census& census, const TrialPointTable& places, std::uint32_t elite_count,
                 std::vector<std::uint32_t>& elites) {

@@ -1,47 +1,14 @@
 #include "reproduction.h"
 
+#include <numeric>
+
 #include "base/selection.h"
-#include "mating.h"
 #include "mating_restriction.h"
 #include "mutation.h"
-#include "replacement.h"
 #include "sharing.h"
 
 namespace concave_distance {
 namespace {
-
-/// Fitness of every individual, shared among its niche where the method says so.
-void weigh(GeneticState& state) {
-  SearchWorkspace& work = state.work;
-  const Census& census = work.census;
-  std::vector<double>& counts = work.niche_counts;
-  if (state.parameters.niching == NichingMethod::Sharing) {
-    nicheCounts(census, work.places, work.metric, state.radii.sharing, state.parameters.sharing_exponent,
-                counts);
-  } else if (state.parameters.niching == NichingMethod::DynamicSharing) {
-    dynamicNicheCounts(census, work.places, work.metric, state.radii.sharing,
-                       state.parameters.sharing_exponent, state.parameters.dynamic_niche_limit,
-                       work.dynamic_niches, counts);
-  } else {
-    counts.assign(census.places.size(), 1.0);
-  }
-  for (std::size_t i = 0; i < counts.size(); ++i) {
-    const double squared_distance = work.places.point(census.places[i]).squared_distance;
-    counts[i] = potentialFitness(squared_distance, state.epsilon) / counts[i];
-  }
-  work.weights.clear();
-  for (const std::uint32_t place : work.population_places) {
-    work.weights.push_back(counts[census.entry_of_place[place]]);
-  }
-}
-
-/// Whether the couple of offspring i and i + 1 is near enough.
-bool mayMate(GeneticState& state, std::size_t i) {
-  SearchWorkspace& work = state.work;
-  return !(state.parameters.mating_restriction && state.parameters.strict_mating_restriction) ||
-         work.places.delta(work.offspring_places[i], work.offspring_places[i + 1], work.metric) <=
-             state.radii.mating;
-}
 
 const TrialPoint& anyMinimumMet(GeneticState& state) {
   const std::vector<TrialPoint>& minima = state.work.basins.minima();
@@ -61,8 +28,7 @@ Children mateCouple(GeneticState& state, const TrialPoint& parent_1, const Trial
     return exchangeGenes(parent_1, donor_1, parent_2, donor_2);
   }
   state.cost.children += 2;
-  return mate(state.parameters.mating, state.objective, parent_1, parent_2, work.metric, state.radii.mating,
-              state.engine);
+  return state.mate(parent_1, parent_2);
 }
 
 /// The partner of the first parent: its mate if that stands on another place, else one of the population
@@ -84,9 +50,8 @@ void mateFirstCouple(GeneticState& state) {
   const TrialPoint first = work.population[work.selected[0]];
   const TrialPoint second = partnerElsewhere(state);
   const bool exchanges = uniformUnit(state.engine) < state.parameters.exchange_probability;
-  const Children children = exchanges ? exchangeGenes(first, second, first, second)
-                                      : mate(state.parameters.mating, state.objective, first, second,
-                                             work.metric, state.radii.mating, state.engine);
+  const Children children =
+      exchanges ? exchangeGenes(first, second, first, second) : state.mate(first, second);
   work.offspring[0] = children.first;
   work.offspring[1] = children.second;
   work.offspring_is_new[0] = work.offspring_is_new[1] = true;
@@ -95,32 +60,45 @@ void mateFirstCouple(GeneticState& state) {
 
 }  // namespace
 
+void weigh(GeneticState& state) {
+  SearchWorkspace& work = state.work;
+  const Census& census = work.census;
+  std::vector<double>& counts = work.niche_counts;
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    const double squared_distance = work.places.point(census.places[i]).squared_distance;
+    counts[i] = potentialFitness(squared_distance, state.epsilon) / counts[i];
+  }
+  work.weights.clear();
+  for (const std::uint32_t place : work.population_places) {
+    work.weights.push_back(counts[census.entry_of_place[place]]);
+  }
+}
+
 void selectParents(GeneticState& state) {
   SearchWorkspace& work = state.work;
+  nicheCounts(work.census, work.places, work.metric, state.radii.sharing, state.parameters.sharing_exponent,
+              work.niche_counts);
   weigh(state);
-  select(state.parameters.selection, work.weights, state.offspring_count, state.engine, work.wheel,
-         work.selected);
+  stochasticUniversalSampling(work.weights, state.parameters.population_size, state.engine, work.selected);
   shuffle(work.selected, state.engine);
 }
 
 void drawParents(GeneticState& state) {
+  std::vector<std::uint32_t>& selected = state.work.selected;
+  selected.resize(state.parameters.population_size);
+  std::iota(selected.begin(), selected.end(), 0U);
+  shuffle(selected, state.engine);
+}
+
+void pairUp(GeneticState& state) {
   SearchWorkspace& work = state.work;
-  drawSeats(state.parameters.population_size, state.offspring_count, state.engine, work.selected);
-  shuffle(work.selected, state.engine);
-  work.seats.resize(work.selected.size());
+  if (!state.parameters.mating_restriction) return;
+  restrictMating(work.selected, work.population_places, state.radii.mating, work.places, work.metric,
+                 state.engine);
 }
 
 void mateCouples(GeneticState& state) {
   SearchWorkspace& work = state.work;
-  if (state.parameters.mating_restriction) {
-    if (state.parameters.strict_mating_restriction) {
-      restrictMatingStrictly(work.selected, work.population_places, state.radii.mating, work.places,
-                             work.metric);
-    } else {
-      restrictMating(work.selected, work.population_places, state.radii.mating, work.places, work.metric,
-                     state.engine);
-    }
-  }
   work.offspring.clear();
   work.offspring_places.clear();
   const std::uint32_t children_before = state.cost.children;
@@ -128,11 +106,11 @@ void mateCouples(GeneticState& state) {
     work.offspring.push_back(work.population[parent]);
     work.offspring_places.push_back(work.population_places[parent]);
   }
-  work.offspring_is_new.assign(work.offspring.size(), !state.is_descended);
+  work.offspring_is_new.assign(work.offspring.size(), false);
   for (std::size_t i = 0; i + 1 < work.offspring.size(); i += 2) {
     // Parents on one place have children on it: nothing to mate.
     if (uniformUnit(state.engine) < state.parameters.crossover_probability &&
-        work.offspring_places[i] != work.offspring_places[i + 1] && mayMate(state, i) &&
+        work.offspring_places[i] != work.offspring_places[i + 1] && state.mayMate(i) &&
         !state.outOfBudget()) {
       const Children children = mateCouple(state, work.offspring[i], work.offspring[i + 1]);
       work.offspring[i] = children.first;
@@ -146,18 +124,13 @@ void mateCouples(GeneticState& state) {
 
 void mutateOffspring(GeneticState& state) {
   SearchWorkspace& work = state.work;
+  const double probability =
+      state.parameters.mutation_probability.value_or(1.0 / state.parameters.population_size);
   for (std::size_t i = 0; i < work.offspring.size(); ++i) {
-    if (mutateByChance(work.offspring[i], state.parameters.mutation, state.mutation_probability,
-                       state.mutation_radius, work.metric, state.engine)) {
+    if (uniformUnit(state.engine) < probability) {
+      work.offspring[i] = mutate(work.offspring[i], work.metric, state.engine);
       work.offspring_is_new[i] = true;
     }
-  }
-}
-
-void evaluateOffspring(GeneticState& state) {
-  SearchWorkspace& work = state.work;
-  for (std::size_t i = 0; i < work.offspring.size(); ++i) {
-    if (work.offspring_is_new[i]) state.evaluate(work.offspring[i], work.offspring_places[i]);
   }
 }
 
@@ -177,6 +150,31 @@ void settleOffspring(GeneticState& state) {
     }
     work.offspring_is_new[i] = false;
     may_stop = true;
+  }
+}
+
+void compete(GeneticState& state, Contest contest) {
+  SearchWorkspace& work = state.work;
+  for (std::size_t i = 0; i + 1 < work.offspring.size(); i += 2) {
+    const auto parent = [&](std::size_t k) {
+      return Contestant{work.population[work.selected[k]], work.population_places[work.selected[k]]};
+    };
+    const auto child = [&](std::size_t k) { return Contestant{work.offspring[k], work.offspring_places[k]}; };
+    Contestant first = parent(i);
+    Contestant second = parent(i + 1);
+    contest(first, second, child(i), child(i + 1), work.places, work.metric);
+    work.offspring[i] = first.point;
+    work.offspring_places[i] = first.place;
+    work.offspring[i + 1] = second.point;
+    work.offspring_places[i + 1] = second.place;
+  }
+}
+
+void takeSeats(GeneticState& state, const std::vector<std::uint32_t>& seats) {
+  SearchWorkspace& work = state.work;
+  for (std::size_t i = 0; i < work.offspring.size(); ++i) {
+    work.population[seats[i]] = work.offspring[i];
+    work.population_places[seats[i]] = work.offspring_places[i];
   }
 }
 

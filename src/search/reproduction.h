@@ -1,19 +1,29 @@
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
+#include "crowding.h"
 #include "genetic_state.h"
 
 namespace concave_distance {
 
-/// By fitness, shared among niches where the method says so, into work.selected.
+/// Fills work.weights: every individual's potential fitness, divided by work.niche_counts of its place.
+void weigh(GeneticState& state);
+/// Selects by fitness, shared among niches, into work.selected.
 void selectParents(GeneticState& state);
-/// Mahfoud: everybody mates, or of a generation gap's share each at most once. Into work.selected.
+/// Lets everybody mate once (Mahfoud), in random order. Into work.selected.
 void drawParents(GeneticState& state);
-/// Couples of those selected become work.offspring; who does not mate is its parent's copy.
+/// Rearranges work.selected so that couples are within the mating radius, where mating is restricted.
+void pairUp(GeneticState& state);
+/// Makes work.offspring of the couples of those selected; who does not mate is its parent's copy.
 void mateCouples(GeneticState& state);
 void mutateOffspring(GeneticState& state);
-/// New individuals stay where they are, to be descended later.
-void evaluateOffspring(GeneticState& state);
-/// New individuals are settled; when the budget is spent, they are their parents' copies again.
+/// Settles new individuals; when the budget is spent, they are their parents' copies again.
 void settleOffspring(GeneticState& state);
+/// Lets the children of each couple compete with their parents; afterwards the offspring are those who won.
+void compete(GeneticState& state, Contest contest);
+/// Gives each of the offspring its seat in the population. @param seats indices of individuals
+void takeSeats(GeneticState& state, const std::vector<std::uint32_t>& seats);
 
 }  // namespace concave_distance

@@ -14,9 +14,7 @@ std::size_t SearchWorkspace::memoryBytes() const {
   return metric.memoryBytes() + basins.memoryBytes() + bytesOf(population) + bytesOf(trail) + bytesOf(order) +
          bytesOf(niches) + places.memoryBytes() + bytesOf(population_places) + census.memoryBytes() +
          bytesOf(offspring) + bytesOf(offspring_places) + offspring_is_new.capacity() / 8 +
-         bytesOf(niche_counts) + bytesOf(weights) + bytesOf(wheel) + bytesOf(selected) + bytesOf(seats) +
-         bytesOf(elites) + bytesOf(dynamic_niches.order) + bytesOf(dynamic_niches.peaks) +
-         bytesOf(dynamic_niches.peak_of_entry) + convergence.memoryBytes();
+         bytesOf(niche_counts) + bytesOf(weights) + bytesOf(selected) + bytesOf(elites) + bytesOf(peaks);
 }
 
 }  // namespace concave_distance

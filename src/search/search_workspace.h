@@ -4,10 +4,8 @@
 #include <vector>
 
 #include "basin_memory.h"
-#include "convergence.h"
 #include "niche_identification.h"
 #include "pair_metric.h"
-#include "sharing.h"
 #include "trial_point_table.h"
 
 namespace concave_distance {
@@ -26,11 +24,10 @@ struct SearchWorkspace {
     basins.reserve(places);
     this->places.reserve(places, kUsualPopulation);
     for (std::vector<std::uint32_t>* individuals :
-         {&order, &population_places, &offspring_places, &selected, &seats, &elites, &dynamic_niches.order,
-          &dynamic_niches.peaks}) {
+         {&order, &population_places, &offspring_places, &selected, &elites, &peaks}) {
       individuals->reserve(kUsualPopulation);
     }
-    for (std::vector<double>* values : {&niche_counts, &weights, &wheel}) values->reserve(kUsualPopulation);
+    for (std::vector<double>* values : {&niche_counts, &weights}) values->reserve(kUsualPopulation);
     population.reserve(kUsualPopulation);
     offspring.reserve(kUsualPopulation);
     offspring_is_new.reserve(kUsualPopulation);
@@ -52,12 +49,9 @@ struct SearchWorkspace {
   std::vector<bool> offspring_is_new;
   std::vector<double> niche_counts;
   std::vector<double> weights;
-  std::vector<double> wheel;
   std::vector<std::uint32_t> selected;
-  std::vector<std::uint32_t> seats;
   std::vector<std::uint32_t> elites;
-  DynamicNicheBuffers dynamic_niches;
-  ConvergenceCheck convergence;
+  std::vector<std::uint32_t> peaks;  ///< places of the niches that are conserved
 
   std::size_t memoryBytes() const;  ///< of all buffers, the metric's cache included
 };

@@ -17,7 +17,7 @@ const SimulationSettings& requireSection(const Scene& scene) {
   return *scene.simulation;
 }
 
-/// What is lost holds nothing: the rest would move as in another scene.
+/// Refuses a scene with problems: what is left out holds nothing, so that the rest would move wrongly.
 const Scene& requireWhole(const Scene& scene) {
   if (!scene.problems.empty()) {
     throw Error(scene.problems.front().where, scene.problems.front().message,

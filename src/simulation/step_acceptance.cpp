@@ -11,7 +11,7 @@ using detail::Coupling;
 using detail::FrameMotion;
 using detail::MovingBody;
 
-// Of the energy of sliding, in the tolerance for what a contact does along its normal.
+// The tolerance for what a contact does along its normal has this share of the energy of sliding.
 constexpr double kShareOfSliding = 0.02;
 
 double freeMassOf(const std::vector<MovingBody>& bodies, std::size_t body) {
@@ -60,7 +60,7 @@ double Simulation::State::energyOfMotion(const Coupling& coupling) const {
   return 0.5 * (inertias[lighter].mass * velocity.squaredNorm() + spin.dot(inertias[lighter].inertia * spin));
 }
 
-// What a contact swings with is the motion along its normal, however fast the bodies slide.
+// A contact swings with the motion along its normal, however fast the bodies slide.
 detail::StepTolerance Simulation::State::toleranceOf(std::size_t index) const {
   const Coupling& coupling = couplings[index];
   detail::StepTolerance tolerance;

@@ -13,7 +13,7 @@ namespace {
 constexpr double kShareOfDepth = 1e-4;
 constexpr double kShareOfSize = 1e-6;
 constexpr double kShareOfSizeAcross = 1e-8;
-// Of friction, whose sites come and go, that much more of its work may be in error.
+// Friction may be in error by that much more of its work, because its sites come and go.
 constexpr double kFrictionsShare = 5.0;
 
 }  // namespace
@@ -28,7 +28,7 @@ double shareAcross(const Vector6d& displacement, const Eigen::Vector3d& point,
 double allowedError(const StepTolerance& tolerance) {
   const double fraction = tolerance.step_fraction;
   const double share_of_size = kShareOfSize + tolerance.sliding * (kShareOfSizeAcross - kShareOfSize);
-  // Of a swing of energy E the trapezoidal rule misses E (w h)^3 / 6 in a step.
+  // The trapezoidal rule misses E (w h)^3 / 6 of a swing of energy E in a step.
   return fraction * fraction * fraction / 6.0 * tolerance.energy_of_motion +
          tolerance.share_of_work *
              (std::abs(tolerance.work) + kFrictionsShare * std::abs(tolerance.friction_work)) +

@@ -55,7 +55,7 @@ void Simulation::State::findChanges(double step, const CouplingForce Coupling::*
   for (Vector6d& impulse : impulses) impulse.setZero();
 }
 
-// Of the couplings' and the bodies' impulses what the step does not resolve, as impulses of the couplings.
+// Keeps the impulses of couplings and bodies that the step does not resolve, as impulses of the couplings.
 void Simulation::State::keepUnresolved(double step, const CouplingForce Coupling::*when) {
   for (int pass = 0; pass < 2; ++pass) {
     findChanges(step, when);

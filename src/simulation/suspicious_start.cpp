@@ -10,9 +10,10 @@ namespace {
 
 // Geometry may leave parts out that have mass.
 constexpr double kMostMoment = 2.0;
-// Of the mass times the square of half the body's width: all of it within a hundredth of that.
+// The least moment of inertia relative to the mass times the square of half the body's width: all of the mass
+// would lie within a hundredth of that.
 constexpr double kLeastMoment = 1e-4;
-// Of force times depth: what a force that grows with the power 1.5 of the depth stores.
+// A force that grows with the power 1.5 of the depth stores this share of force times depth.
 constexpr double kStored = 0.4;
 constexpr double kGravityOnEarth = 9.81;  // m/s^2
 constexpr std::size_t kNamedPairs = 3;

@@ -10,14 +10,14 @@
 namespace concave_distance {
 namespace {
 
-// Of a warm cycle; buffers grow beyond it.
+// A warm cycle rarely has more; buffers grow beyond it.
 constexpr std::size_t kUsualProposals = 256;
 constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
 // Time is reserved for a descent to each known niche, up to this share of all time.
 constexpr double kSecondsOfKnown = 3e-6;
 constexpr double kMostForKnown = 0.3;
-// Of the rest: when the search for all minima ends, and when the floods end.
+// The search for all minima ends after this share of the rest, the searches of basins after that one.
 constexpr double kShareOfMinima = 0.6;
 constexpr double kShareOfFloods = 0.9;
 
@@ -60,8 +60,9 @@ void ExactNiches::propose(const PairFrame& frame, const WitnessPair& minimum) {
   searched_ = request_.proposals.size();
 }
 
-void ExactNiches::proposeProven(const PairFrame& frame, const WitnessPair& closest) {
+void ExactNiches::proposeProven(const PairFrame& frame, const WitnessPair& closest, bool is_meeting) {
   request_.proposals.push_back(frame.candidateOf(closest));
+  if (is_meeting) request_.proposals.back().distance = 0.0;
 }
 
 void ExactNiches::admit(const PairFrame& frame, const TrackerParameters& parameters, const Cycle& cycle,
@@ -95,6 +96,9 @@ void ExactNiches::admit(const PairFrame& frame, const TrackerParameters& paramet
     request_.asked_pairs.emplace_back(record.niche.witness.triangle_a, record.niche.witness.triangle_b);
     request_.asked_basins.push_back(record.basin);
   }
+  request_.known.reset();
+  if (cycle.convex == detail::ConvexNiches::OnlyTheNearest) request_.known = {&request_.proposals.back()};
+  if (cycle.convex == detail::ConvexNiches::None) request_.known = {nullptr};
   findLocalMinima(frame, request_, memory_, found_);
   current_ = found_.finished;
   solution.cost.evaluations +=
@@ -217,7 +221,7 @@ const MinimumCandidate* ExactNiches::nearestProposed() const {
 }
 
 double ExactNiches::work() const {
-  // What each kind of step takes beside an evaluation of the search, roughly.
+  // These are the costs of each kind of step, in evaluations of the search, roughly.
   constexpr double kGroups = 4.0;
   constexpr double kFeatures = 10.0;
   constexpr double kCells = 12.0;

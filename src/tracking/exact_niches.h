@@ -8,6 +8,7 @@
 #include "concave_distance/base/work_limit.h"
 #include "concave_distance/tracking/pair_solution.h"
 #include "concave_distance/tracking/tracker_parameters.h"
+#include "distance/niches/convex_pair.h"
 #include "distance/niches/local_minima.h"
 #include "niche_archive.h"
 #include "niche_placement.h"
@@ -25,6 +26,7 @@ class ExactNiches {
     double elapsed;                   ///< seconds; 0: unknown
     bool is_tracked;                  ///< a next cycle uses what this one finds
     double cutoff;                    ///< metres, of the niches of the meshes
+    detail::ConvexNiches convex;      ///< OnlyTheNearest: the last of proposeProven()
   };
 
   /// Returns whether nothing can have changed since the last admit().
@@ -39,7 +41,8 @@ class ExactNiches {
   /// search has proposed it: the list is proven without. To stay as it is until the next admit().
   void offer(const std::vector<TrialPoint>& found) { offered_ = &found; }
   /// The closest points by a proof: where niches are missing, one of them.
-  void proposeProven(const PairFrame& frame, const WitnessPair& closest);
+  /// @param is_meeting the points are where the surfaces meet
+  void proposeProven(const PairFrame& frame, const WitnessPair& closest, bool is_meeting);
 
   /// Admits what was followed and proposed since the last call: the archive's records are the niches
   /// afterwards, with ids that go on and events for those that end.

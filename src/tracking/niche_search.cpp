@@ -71,18 +71,17 @@ const std::vector<TrialPoint>& NicheSearch::propose(const PairFrame& frame,
     genetic.population_size =
         run.population > 0 ? run.population : wholePopulation(inherited_.size(), parameters);
   }
-  const Couples couples = run.breeds ? Couples::AtLeastOne : Couples::AsDrawn;
-  const GeneticResult result =
-      geneticSearch(objective, genetic, radii(as_warm), inherited_, engine, workspace_, {}, &limit, couples);
-  cost += result.cost;
-  if (genetic.local_optimization == LocalOptimization::None) workspace_.basins.addMinimum(result.best);
+  GeneticState state(objective, genetic, radii(as_warm), engine, workspace_, &limit,
+                     run.breeds ? Couples::AtLeastOne : Couples::AsDrawn);
+  const SearchCost spent = search_ ? search_(state, inherited_, as_warm) : geneticSearch(state, inherited_);
+  cost += spent;
   const std::vector<TrialPoint>& minima = workspace_.basins.minima();
   found_.assign(minima.begin() + static_cast<std::ptrdiff_t>(known_minima), minima.end());
   std::sort(found_.begin(), found_.end());
   if (run.warm && found_.size() > kWarmProposals) found_.resize(kWarmProposals);
   if (!run.warm) workspace_.shrink();
   last_population_ = genetic.population_size;
-  last_cost_ = static_cast<double>(result.cost.evaluations) + kBookkeeping * last_population_;
+  last_cost_ = static_cast<double>(spent.evaluations) + kBookkeeping * last_population_;
   return found_;
 }
 

@@ -2,7 +2,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "concave_distance/base/work_limit.h"
@@ -10,6 +12,7 @@
 #include "concave_distance/tracking/tracker_parameters.h"
 #include "niche_placement.h"
 #include "search/automatic_radii.h"
+#include "search/genetic_state.h"
 #include "search/search_workspace.h"
 
 namespace concave_distance {
@@ -62,6 +65,10 @@ class NicheSearch {
   /// @param work of the other stages, in evaluations of the search
   void earn(std::size_t found, double work, double share);
 
+  /// Stands for geneticSearch() in experiments; it is told whether the warm parameters apply.
+  using Search = std::function<SearchCost(GeneticState&, const std::vector<TrialPoint>&, bool as_warm)>;
+  void replaceSearch(Search search) { search_ = std::move(search); }
+
   SearchWorkspace& workspace() { return workspace_; }
   NodeRings& rings() { return rings_; }
   const NicheRadii& radii(bool warm) const { return warm ? warm_radii_ : cold_radii_; }
@@ -69,6 +76,7 @@ class NicheSearch {
   std::size_t memoryBytes() const;
 
  private:
+  Search search_;  ///< empty: geneticSearch()
   bool prepared_ = false;
   NicheRadii cold_radii_{};
   NicheRadii warm_radii_{};

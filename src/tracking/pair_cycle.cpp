@@ -17,6 +17,8 @@
 namespace concave_distance {
 namespace {
 
+using detail::ConvexNiches;
+
 constexpr std::size_t kUsualNiches = 256;
 
 // Shares of a time budget, each of the whole time and with the stages before it.
@@ -127,20 +129,22 @@ void PairCycle::solveNodes(const Passed& passed, PairSolution& solution) {
 
 void PairCycle::solveExact(const Passed& passed, PairSolution& solution) {
   if (niches_.isUnchanged(passed.displacement)) return archive_.keepUnchanged(passed.elapsed);
-  if (!isWarm() && is_tracked_ && parameters_.search_share > 0.0) prepare();
   frame_->openFacets();
   frame_->pose_error = pose_error_;
+  const ConvexNiches convex = countConvexNiches();
+  const bool are_counted = convex != ConvexNiches::Unknown;
+  if (!is_search_prepared_ && !are_counted && is_tracked_ && parameters_.search_share > 0.0) prepare();
   limit_.allowShare(kShareOfSearch);
   if (!proves()) niches_.follow(*frame_, archive_, limit_);
   stage_clock_.lap(SolveStage::Follow, solution.stages);
-  if (searchIsDue()) propose(solution.cost);
-  if (proves() && !proof_.isPenetrating()) {
-    niches_.proposeProven(*frame_, provenOnMeshes());
+  if (!are_counted && searchIsDue()) propose(solution.cost);
+  if (proves() && (!proof_.isPenetrating() || convex == ConvexNiches::OnlyTheNearest)) {
+    niches_.proposeProven(*frame_, provenOnMeshes(), proof_.isPenetrating());
   }
   stage_clock_.lap(SolveStage::Propose, solution.stages);
   niches_.admit(*frame_, parameters_,
-                {cycle_, last_niches_.pose, passed.elapsed, is_tracked_, cutoffOfMeshes()}, certainDistance(),
-                kShareOfNiches, archive_, solution, limit_);
+                {cycle_, last_niches_.pose, passed.elapsed, is_tracked_, cutoffOfMeshes(), convex},
+                certainDistance(), kShareOfNiches, archive_, solution, limit_);
   search_.earn(niches_.evolved(), niches_.work(), parameters_.search_share);
   stage_clock_.lap(SolveStage::Admit, solution.stages);
   solution.stages[SolveStage::Sweep] = niches_.cost().sweep_seconds;
@@ -165,6 +169,17 @@ WitnessPair PairCycle::provenOnMeshes() {
 
 double PairCycle::cutoffOfMeshes() const {
   return parameters_.cutoff + (isRound() ? RoundNiches::meshExcess(*frame_) : 0.0);
+}
+
+// Niches that none can see, and those of far sides, are not counted; nor what a proof has not reached.
+detail::ConvexNiches PairCycle::countConvexNiches() const {
+  const bool is_proven = proves() && (proof_.certificate().status == CertificateStatus::Proven ||
+                                      (proof_.isPenetrating() && !isRound()));
+  if (!is_proven || parameters_.hidden || parameters_.keep_through_material) return ConvexNiches::Unknown;
+  const NicheRule rule{parameters_.least_prominence, parameters_.prominence_limit};
+  return detail::countConvexNiches(
+      *frame_, rule, certainDistance(),
+      proof_.certificate().status != CertificateStatus::Penetrating && proof_.isSwallowed());
 }
 
 // Whenever a tracked pair has moved. A pose alone has nothing to inherit: there the search is for those that
@@ -321,6 +336,7 @@ void PairCycle::clear(PairSolution& solution) const {
 void PairCycle::prepare() {
   if (!wantsNiches()) return;
   search_.prepare(*a_, *b_, parameters_);
+  is_search_prepared_ = true;
   archive_.reserve(kUsualNiches);
   known_.reserve(kUsualNiches);
   const NormalSides sides = parameters_.keep_through_material ? NormalSides::Both : NormalSides::Outside;

@@ -35,6 +35,7 @@ class PairCycle {
   void restart();
   void setParameters(const TrackerParameters& parameters);
 
+  NicheSearch& search() { return search_; }
   const std::string& name() const { return name_; }
   const TrackerParameters& parameters() const { return parameters_; }
   std::size_t memoryBytes() const;
@@ -60,6 +61,7 @@ class PairCycle {
   double cutoffOfMeshes() const;
   void prove(double displacement);
   void propose(SearchCost& cost);
+  detail::ConvexNiches countConvexNiches() const;
   bool searchIsDue() const;
   double certainDistance() const;
   void report(const Passed& passed, PairSolution& solution);
@@ -94,6 +96,7 @@ class PairCycle {
   std::vector<TrialPoint> known_;  ///< node pairs, of the cycle
   std::uint64_t cycle_ = 0;
   bool is_tracked_ = true;  ///< of the present cycle
+  bool is_search_prepared_ = false;
   Moment last_cycle_;
   Moment last_niches_;  ///< the last cycle that wanted niches
   double last_distance_ = kNotComputed;

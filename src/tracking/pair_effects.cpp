@@ -81,7 +81,7 @@ struct PairEffects::State {
     identity.update(solution.niches, displacement, contacts.regions);
   }
 
-  /// Of B against A since the last cycle; `b_in_a` where it is not known.
+  /// Returns the displacement of B against A since the last cycle; `b_in_a` where it is not known.
   RelativeTwist displacement(const Eigen::Isometry3d& a_from_b, const RelativeTwist& b_in_a,
                              double step) const {
     const RelativeTwist twist = in_contact && step > 0.0 ? motionBetween(last_pose, a_from_b, step) : b_in_a;

@@ -107,7 +107,7 @@ std::vector<PairSolution> solveEach(const std::string& name, const std::shared_p
                                     const TrackerParameters& parameters,
                                     const std::vector<Eigen::Isometry3d>& a_from_b, std::uint32_t threads) {
   std::vector<PairSolution> solutions(a_from_b.size());
-  // What the bodies make on demand is made before threads would wait for it.
+  // The bodies make their parts on demand: first here, because threads would wait for them.
   PairTracker(name, a, b, parameters).prepare();
   tbb::task_arena arena(threads == 0 ? tbb::task_arena::automatic : static_cast<int>(threads));
   arena.execute([&] {

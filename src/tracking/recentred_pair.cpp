@@ -30,8 +30,10 @@ std::optional<Eigen::Isometry3d> RecentredPair::poseOf(const Eigen::Isometry3d& 
 }
 
 double RecentredPair::poseError() const {
-  // The translation of bodies that are near each other is no longer than both origins.
-  return is_moved_ ? kProofError * kPoseShare * 2.0 * (origin_a_.norm() + origin_b_.norm()) : 0.0;
+  // The translation of bodies that are near each other is no longer than both origins: each coordinate loses
+  // at most 6 units of rounding of them, and as much again where the pose is made rigid.
+  constexpr double kRounding = 0x1.0p-49;
+  return is_moved_ ? kRounding * (origin_a_.norm() + origin_b_.norm()) : 0.0;
 }
 
 void RecentredPair::moveBack(const Eigen::Isometry3d& a_from_b, PairSolution& solution) const {

@@ -7,7 +7,7 @@
 namespace concave_distance {
 namespace {
 
-/// How far from its middle a region's niche can lie: on its curves, but for rounding.
+/// Returns how far from its middle a region's niche can lie: on its curves, but for rounding.
 double reachOf(const InterferenceRegion& overlap) {
   return 1.001 * overlap.reach + (overlap.depth > 0.0 ? overlap.depth : 0.0);
 }
@@ -87,8 +87,8 @@ void RegionIdentity::keepNormals(const std::vector<ContactRegion>& regions) {
   for (std::size_t r = 0; r < regions.size(); ++r) memory_[r].normal_in_a = regions[r].overlap.normal_in_a;
 }
 
-// Of the niches, each for one region. A known id stays where its niche still is, then niches that touch give
-// theirs to the regions they lie on, and where none does a region keeps the id of a niche that has gone on.
+// Takes each niche's id for one region: first known ids stay where their niches still are, then niches that
+// touch give theirs to the regions they lie on, at last a region keeps the id of a niche that has gone on.
 void RegionIdentity::takeIds(const std::vector<TrackedNiche>& niches, double displacement) {
   region_taken_.assign(memory_.size(), 0);
   other_taken_.assign(niches.size(), 0);

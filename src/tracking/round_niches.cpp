@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "distance/bound/closest_point.h"
 #include "distance/bound/round_certificate.h"
-#include "distance/kernels/closest_point.h"
 #include "distance/niches/plateau_tolerance.h"
 #include "mesh/surface/round_geometry.h"
 

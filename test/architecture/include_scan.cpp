@@ -114,6 +114,7 @@ const std::vector<std::string>& foldersFromTheGround() {
                                                    "scene",
                                                    "simulation",
                                                    "loading",
+                                                   "thesis/src/genetic",
                                                    "thesis/src/partition",
                                                    "thesis/src/continuous",
                                                    "thesis/src/annealing",

@@ -10,14 +10,13 @@
 // everything beyond the cutoff, the one exception here; generations for each other cycle that moved
 // (`per_cycle`, 1 expected); of these cycles the shares with a child of two parents (`bred`) and, where a
 // niche was known, with an individual that inherited (`inherited`, both 1 expected); mean individuals
-// inherited and children (`heirs`, `children`); nanoseconds of the stage for each distance of two nodes that
-// it computes (`node_pair_ns`); new niches that the search has proposed and missed (`evolved`, `missed`);
-// microseconds (medians) of a cycle that moved, without and with the search (`without_us`, `with_us`), and of
-// its stage `propose` (`propose_us`, its 99th percentile `propose_p99_us`); time of the stage as a share of
-// all time (`share`); cycles in which it took more than 30 % and more than 5 us (`above`); the same share of
-// the first cycle (`first_share`); cycles whose answer is another one without the search (`other`, 0
-// expected; ids, origins and cost do not count) and whose list is not proven complete though nothing cut it
-// (`incomplete`, 0 expected).
+// inherited and children (`heirs`, `children`); new niches that the search has proposed and missed
+// (`evolved`, `missed`); microseconds (medians) of a cycle that moved, without and with the search
+// (`without_us`, `with_us`), and of its stage `propose` (`propose_us`, its 99th percentile `propose_p99_us`);
+// time of the stage as a share of all time (`share`); cycles in which it took more than 30 % and more than 5
+// us (`above`); the same share of the first cycle (`first_share`); cycles whose answer is another one without
+// the search (`other`, 0 expected; ids, origins and cost do not count) and whose list is not proven complete
+// though nothing cut it (`incomplete`, 0 expected).
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
@@ -42,7 +41,6 @@ namespace concave_distance::benchmark {
 namespace {
 
 constexpr double kMicroseconds = 1e6;
-constexpr double kNanoseconds = 1e9;
 constexpr double kLargestShare = 0.3;
 constexpr double kLeastOfLimit = 5.0;  // microseconds
 constexpr double kRobotRate = 50.0;
@@ -85,7 +83,6 @@ class Row {
     ++moved_;
     seconds_ += with.solve_seconds;
     propose_seconds_ += propose;
-    evaluations_ += static_cast<double>(with.cost.evaluations);
     with_us_.push_back(kMicroseconds * with.solve_seconds);
     without_us_.push_back(kMicroseconds * without.solve_seconds);
     propose_us_.push_back(kMicroseconds * propose);
@@ -103,17 +100,15 @@ class Row {
   }
 
   static constexpr const char* kColumns =
-      "pair,cycles,moved,beyond,per_cycle,bred,inherited,heirs,children,node_pair_ns,evolved,missed,without_"
-      "us,"
+      "pair,cycles,moved,beyond,per_cycle,bred,inherited,heirs,children,evolved,missed,without_us,"
       "with_us,propose_us,propose_p99_us,share,above,first_share,other,incomplete";
 
   /// Cells without a value are empty: those of a pair that never moves.
   void addTo(ResultTable& table, const std::string& name) const {
     const double due = moved_ - beyond_;
     table.add(name, cycles_, moved_, beyond_, generations_ / due, bred_ / due, inherited_ / knew_,
-              heirs_ / due, children_ / due, kNanoseconds * propose_seconds_ / evaluations_, evolved_,
-              missed_, median(without_us_), median(with_us_), median(propose_us_),
-              percentile(propose_us_, 0.99), propose_seconds_ / seconds_, above_,
+              heirs_ / due, children_ / due, evolved_, missed_, median(without_us_), median(with_us_),
+              median(propose_us_), percentile(propose_us_, 0.99), propose_seconds_ / seconds_, above_,
               first_propose_ / first_seconds_, other_, incomplete_);
   }
 
@@ -121,7 +116,7 @@ class Row {
   double cycles_ = 0.0, moved_ = 0.0, beyond_ = 0.0, generations_ = 0.0, bred_ = 0.0, knew_ = 0.0;
   double inherited_ = 0.0, heirs_ = 0.0, children_ = 0.0, evolved_ = 0.0, missed_ = 0.0, above_ = 0.0;
   double seconds_ = 0.0, propose_seconds_ = 0.0, first_seconds_ = 0.0, first_propose_ = 0.0;
-  double evaluations_ = 0.0, other_ = 0.0, incomplete_ = 0.0;
+  double other_ = 0.0, incomplete_ = 0.0;
   std::vector<double> with_us_, without_us_, propose_us_;
 };
 

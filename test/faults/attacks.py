@@ -4,7 +4,7 @@ import collections
 import re
 
 Attack = collections.namedtuple(
-    "Attack", "name group act deadline growth_mb silence dies storms fast")
+    "Attack", "name group act deadline growth_mb silence dies storms fast program")
 groups = collections.OrderedDict()  # name -> Group
 
 
@@ -23,13 +23,16 @@ class Group:
         self.attacks = []
         groups[name] = self
 
-    def add(self, name, act, deadline=30.0, growth_mb=200.0, silence=10.0, dies=False, storms=True, fast=False):
+    def add(self, name, act, deadline=30.0, growth_mb=200.0, silence=10.0, dies=False, storms=True, fast=False,
+            program=None):
         """`act(arena)` attacks and raises Failed. deadline: longest duration, s; growth_mb: largest growth of
         the node; silence: longest time without an answer to list_bodies, s; dies: the attack itself ends the
-        node; storms: takes part in storms; fast: belongs to the subset of every test run."""
+        node; storms: takes part in storms; fast: belongs to the subset of every test run; program: an optional
+        program, without which the attack is left out."""
         if any(attack.name == name for attack in self.attacks):
             raise ValueError("two attacks of group '%s' are called '%s'" % (self.name, name))
-        self.attacks.append(Attack(name, self.name, act, deadline, growth_mb, silence, dies, storms, fast))
+        self.attacks.append(Attack(name, self.name, act, deadline, growth_mb, silence, dies, storms, fast,
+                                   program))
 
     def attack(self, **options):
         """The same as a decorator: the attack has the function's name."""

@@ -176,9 +176,10 @@ class Runner:
         return 1 if failed else 0
 
 
-def chosen_of(group, patterns, fast):
+def chosen_of(group, patterns, fast, arena):
     return [attack for attack in group.attacks
             if (attack.fast or not fast)
+            and (attack.program is None or os.path.exists(arena.program(attack.program)))
             and (not patterns or any(fnmatch.fnmatch("%s/%s" % (group.name, attack.name), pattern)
                                      for pattern in patterns))]
 
@@ -223,7 +224,7 @@ def main(arguments):
     try:
         arena.join_ros()
         load_attacks()
-        chosen = [(group, chosen_of(group, options.patterns, options.fast)) for group in groups.values()]
+        chosen = [(group, chosen_of(group, options.patterns, options.fast, arena)) for group in groups.values()]
         expect(any(attacks for _, attacks in chosen), "no attack has such a name (--list prints all names)")
         if options.storm is None:
             runner.run_all(chosen)

@@ -192,6 +192,9 @@ WRITERS = {
     "mesh_tool_repair": lambda path: ("mesh_tool", "repair", "cube.obj", path),
     "mesh_tool_refine": lambda path: ("mesh_tool", "refine", "cube.obj", path, "--max-edge", "0.05"),
     "mesh_tool_convert": lambda path: ("mesh_tool", "convert", "cube.obj", path),
+    "thesis_tool_hull": lambda path: ("thesis_tool", "hull", "cube.obj", path),
+    "thesis_tool_partition": lambda path: ("thesis_tool", "partition", "cube.obj", path),
+    "thesis_tool_tree": lambda path: ("thesis_tool", "tree", "cube.obj", path),
     "simulate": lambda path: ("simulate", SIMULATED, "--duration", "0.5", "--output", path),
     "simulate_contacts": lambda path: ("simulate", SIMULATED, "--duration", "2", "--output", "main.csv", "--contacts", path),
     "simulate_niches": lambda path: ("simulate", SIMULATED, "--duration", "0.5", "--output", "main.csv", "--niches", path),
@@ -199,7 +202,9 @@ WRITERS = {
 
 
 def output_name(writer):
-    return "result." + ("obj" if writer.startswith("mesh_tool") else "csv")
+    if writer == "thesis_tool_tree":
+        return "result.yaml"
+    return "result." + ("obj" if writer.startswith(("mesh_tool", "thesis_tool")) else "csv")
 
 
 def full_device(arena, writer):
@@ -224,12 +229,13 @@ def folder_that_is_missing(arena, writer):
 
 
 for writing in WRITERS:
+    program = "thesis_tool" if writing.startswith("thesis_tool") else None
     group.add(writing + "_to_a_full_device", lambda arena, writing=writing: full_device(arena, writing), deadline=90.0,
-              fast=writing == "mesh_tool_repair")
+              fast=writing == "mesh_tool_repair", program=program)
     group.add(writing + "_to_a_disk_that_fills_up", lambda arena, writing=writing: disk_full_midway(arena, writing),
-              deadline=90.0)
+              deadline=90.0, program=program)
     group.add(writing + "_to_a_folder_that_is_missing", lambda arena, writing=writing: folder_that_is_missing(
-        arena, writing), deadline=90.0)
+        arena, writing), deadline=90.0, program=program)
 
 
 def untouched(arena, name, command):

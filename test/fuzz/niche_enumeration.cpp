@@ -12,6 +12,9 @@ constexpr long double kInfinity = std::numeric_limits<long double>::infinity();
 /// Of the segment's ends, as a fraction of the size of the bodies: a triangle this near to an end does not
 /// decide whether the segment is free.
 constexpr long double kEnd = 8e-12L;
+/// Up to the first, relative to its diameter, a solid counts as convex, beyond the second as concave.
+constexpr long double kConvex = 1e-13L;
+constexpr long double kBarelyConcave = 1e-10L;
 
 WidePoint movedPoint(const Eigen::Isometry3d& pose, const WidePoint& p) {
   const auto row = [&](int i) {
@@ -76,11 +79,26 @@ void NicheEnumeration::measurePasses() {
       join(cellOf(i, joint.l), cellOf(i, joint.r), shared, triangles_a_[i]);
     }
   }
+  joinOverlap();
   std::sort(passes_.begin(), passes_.end(), [](const Pass& l, const Pass& r) { return l.level < r.level; });
   passes_of_.resize(distance_.size());
   for (std::size_t i = 0; i < passes_.size(); ++i) {
     passes_of_[passes_[i].l].push_back(i);
     passes_of_[passes_[i].r].push_back(i);
+  }
+}
+
+/// The overlap of convex solids is connected: their surfaces meet in one niche.
+void NicheEnumeration::joinOverlap() {
+  const long double highest =
+      std::max(a_.highestOverPlane() / a_.diameter(), b_.highestOverPlane() / b_.diameter());
+  if (!(highest <= kBarelyConcave)) return;
+  is_overlap_clear_ = highest <= kConvex;
+  std::size_t first = distance_.size();
+  for (std::size_t i = 0; i < distance_.size(); ++i) {
+    if (distance_[i] > tolerance_) continue;
+    if (first == distance_.size()) first = i;
+    if (is_overlap_clear_) passes_.push_back({std::max(distance_[first], distance_[i]), first, i});
   }
 }
 
@@ -110,7 +128,7 @@ std::vector<EnumeratedNiche> NicheEnumeration::niches(double least_prominence) c
     const long double wanted =
         own > tolerance_ ? std::max(own + tolerance_, (1.0L + least_prominence) * own) : own + tolerance_;
     const bool may_be_listed = pass.level > wanted - rounding && pass.level > own + 0.25L * tolerance_;
-    const bool is_certain = pass.level > wanted + rounding;
+    const bool is_certain = pass.level > wanted + rounding && (is_overlap_clear_ || own > tolerance_);
     if (may_be_listed) report(shallow, pass.level, is_certain, is_tied);
     if (!is_certain && is_tied) {
       equals[deep].push_back(shallow);

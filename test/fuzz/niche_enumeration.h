@@ -63,6 +63,7 @@ class NicheEnumeration {
     std::size_t r;
   };
   void measurePasses();
+  void joinOverlap();
   void spread(EnumeratedNiche& niche) const;
   /// Cells that are connected with one below a level.
   void appendPlateau(std::size_t cell, long double level, std::vector<std::size_t>& cells) const;
@@ -77,6 +78,7 @@ class NicheEnumeration {
   std::vector<long double> distance_;      ///< of cells; infinite for what is no surface
   std::vector<Pass> passes_;               ///< ascending
   std::vector<std::vector<std::size_t>> passes_of_;
+  bool is_overlap_clear_ = true;  ///< false: whether the overlap is that of convex solids is for rounding
   long double tolerance_ = 0.0L;
   long double size_ = 0.0L;
   long double least_ = 0.0L;

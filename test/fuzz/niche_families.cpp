@@ -227,6 +227,39 @@ NicheScene drawShells(RandomEngine& engine) {
   return scene;
 }
 
+/// A block with two bumps below a plate: two niches where the bumps are higher than a hundredth of the gap,
+/// from which their heights differ by 1e-6 to 0.5 of it.
+NicheScene drawBumps(RandomEngine& engine) {
+  const double gap = powerOfTen(engine, -3.0, 0.3);
+  const auto height = [&] {
+    const double beyond = powerOfTen(engine, -6.0, -0.3);
+    return 1e-2 * gap * (uniformIndex(engine, 2) == 0 ? 1.0 + beyond : 1.0 - beyond);
+  };
+  const double heights[] = {height(), height()};
+  const SurfaceMesh block = halvedEdges(halvedEdges(makeCuboid({-0.5, -0.5, -1.0}, {0.5, 0.5, 0.0})));
+  const SurfaceMesh a = withVertices(block, "bumps", [&](const Vector3d& v) {
+    const bool is_bump = v.z() == 0.0 && v.x() == v.y() && std::abs(v.x()) == 0.25;
+    return is_bump ? Vector3d(v + heights[v.x() < 0.0 ? 0 : 1] * Vector3d::UnitZ()) : v;
+  });
+  NicheScene scene{a, makeCuboid({-0.6, -0.6, 0.0}, {0.6, 0.6, 0.2}), {Isometry3d::Identity()}};
+  scene.poses.front().translation().z() = gap;
+  walk(engine, 1e-2 * gap, false, scene);
+  return scene;
+}
+
+/// At distances at which the surfaces' gaps to their hulls decide whether there is a second niche.
+NicheScene drawNearlyConvex(RandomEngine& engine) {
+  if (uniformIndex(engine, 2) == 0) return drawBumps(engine);
+  const SurfaceMesh a = nearlyConvexShape(engine);
+  const SurfaceMesh b = nearlyConvexShape(engine);
+  NicheScene scene = besideEachOther(engine, a, b);
+  if (uniformIndex(engine, 2) == 0) {
+    scene.poses.front().translation() *= 1.0 + powerOfTen(engine, -3.0, 1.0);
+  }
+  walk(engine, 0.5, true, scene);
+  return scene;
+}
+
 /// Draws until the enumeration can afford it and repair leaves something; the surfaces are as from a file.
 template <NicheScene (*draw)(RandomEngine&)>
 NicheScene affordable(RandomEngine& engine) {
@@ -258,6 +291,7 @@ const std::vector<NicheFamily>& nicheFamilies() {
       {"self_touching", "shells that touch themselves or each other, flaps", affordable<drawSelfTouching>},
       {"shells", "several shells, apart, nested, hollow", affordable<drawShells>},
       {"concave", "random concave solids", affordable<drawConcave>},
+      {"nearly_convex", "solids with dents and bumps of 1e-15 to 0.3", affordable<drawNearlyConvex>},
       {"rings", "rings with lobes: many niches", affordable<drawRings>}};
   return families;
 }

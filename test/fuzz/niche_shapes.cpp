@@ -249,6 +249,27 @@ SurfaceMesh selfTouchingShape(RandomEngine& engine) {
   }
 }
 
+SurfaceMesh nearlyConvexShape(RandomEngine& engine) {
+  const Vector3d sizes(uniformIn(engine, 0.1, 0.5), uniformIn(engine, 0.1, 0.5), uniformIn(engine, 0.1, 0.5));
+  SurfaceMesh mesh = makeCuboid(-sizes, sizes);
+  if (uniformIndex(engine, 2) == 0) {
+    const SurfaceMesh octahedron =
+        makeSurface({Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitZ(), -Vector3d::UnitX(),
+                     -Vector3d::UnitY(), -Vector3d::UnitZ()},
+                    {{0, 1, 2}, {1, 3, 2}, {3, 4, 2}, {4, 0, 2}, {1, 0, 5}, {3, 1, 5}, {4, 3, 5}, {0, 4, 5}});
+    mesh = withVertices(halvedEdges(octahedron), "ball",
+                        [&](const Vector3d& v) { return Vector3d(v.normalized().cwiseProduct(sizes)); });
+  } else if (uniformIndex(engine, 2) == 0) {
+    mesh = halvedEdges(mesh);
+  }
+  const std::uint32_t moved_share = uniformIndex(engine, 3);
+  const double depth = powerOfTen(engine, -15.0, -0.5);
+  return withVertices(mesh, "nearly convex", [&](const Vector3d& v) {
+    if (uniformIndex(engine, 4) >= moved_share) return v;
+    return Vector3d(v * (1.0 + (uniformIndex(engine, 3) == 0 ? depth : -depth)));
+  });
+}
+
 SurfaceMesh severalShells(RandomEngine& engine) {
   const std::uint32_t kind = uniformIndex(engine, 4);
   if (kind == 0) return randomHollowBox(engine);

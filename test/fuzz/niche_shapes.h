@@ -27,6 +27,9 @@ SurfaceMesh needleSoup(RandomEngine& engine);
 SurfaceMesh spikyPrism(RandomEngine& engine);
 /// A box with a corner of one triangle on an edge of another, with a flap, or with a second box against it.
 SurfaceMesh selfTouchingShape(RandomEngine& engine);
+/// A box, or a polyhedron with corners on an ellipsoid. Some of its corners are moved out or in by 1e-15 to
+/// 0.3 of its size, or none.
+SurfaceMesh nearlyConvexShape(RandomEngine& engine);
 /// Two to four solids apart from each other, a solid in a hollow, or a solid within a solid.
 SurfaceMesh severalShells(RandomEngine& engine);
 

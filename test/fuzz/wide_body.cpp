@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
 
@@ -208,6 +209,20 @@ long double WideBody::winding(const WidePoint& point) const {
     if (shell_of_[shell] == shell && is_closed_[shell]) sum += windingOf(shell, point);
   }
   return sum;
+}
+
+long double WideBody::highestOverPlane() const {
+  if (is_closed_.size() != 1 || !is_closed_.front()) return std::numeric_limits<long double>::infinity();
+  long double highest = -std::numeric_limits<long double>::infinity();
+  for (const WideTriangle& plane : triangles_) {
+    const WidePoint normal = (plane[1] - plane[0]).cross(plane[2] - plane[0]);
+    for (const WideTriangle& t : triangles_) {
+      for (const WidePoint& corner : t) {
+        highest = std::max(highest, normal.dot(corner - plane[0]) / length(normal));
+      }
+    }
+  }
+  return highest;
 }
 
 }  // namespace concave_distance::test

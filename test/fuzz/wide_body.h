@@ -36,6 +36,9 @@ class WideBody {
   bool isSurface(std::size_t triangle) const { return is_surface_[triangle]; }
   /// Sum of the winding numbers of all closed shells around a point: material where it is above 0.
   long double winding(const WidePoint& point) const;
+  /// How far a vertex lies above the plane of a triangle at most, metres: at most 0 for a convex solid.
+  /// Infinite where a shell is open or there are several.
+  long double highestOverPlane() const;
   long double diameter() const { return diameter_; }
   /// The largest magnitude of a coordinate.
   long double reach() const { return reach_; }

@@ -7,7 +7,7 @@
 
 #include "base/pi.h"
 #include "base/random_engine.h"
-#include "distance/kernels/closest_point.h"
+#include "distance/bound/closest_point.h"
 #include "interference/interference_checks.h"
 #include "mesh/surface/mesh_topology.h"
 #include "mesh/trees/triangle_tree.h"

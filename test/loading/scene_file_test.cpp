@@ -87,8 +87,8 @@ TEST_F(SceneFile, MoreThanAMillionValuesAreRefused) {
 TEST_F(SceneFile, UnknownKeysAreRefusedEverywhere) {
   expectRefused("bodys: []\n", "scene.yaml:1, bodys", "key 'bodys' is not known", "robots, bodies, groups");
   expectRefused("defaults:\n  cutof: 1\n", "scene.yaml:2, defaults.cutof", "not known", "cutoff");
-  expectRefused("defaults:\n  expert:\n    cold:\n      size: 1\n", "scene.yaml:4, defaults.expert.cold.size",
-                "not known", "population_size");
+  expectRefused("defaults:\n  expert:\n    cold:\n      generation_gap: 1\n",
+                "scene.yaml:4, defaults.expert.cold.generation_gap", "not known", "population_size");
   expectRefused("bodies:\n  - name: a\n    box: {size: [1, 1, 1]}\n    color: [1, 1, 1]\n",
                 "scene.yaml:4, bodies[0].color", "not known", "colour");
   expectRefused("bodies:\n  - name: a\n    box: {size: [1, 1, 1], radius: 1}\n",
@@ -321,7 +321,7 @@ TEST_F(SceneFile, GeneticParametersOutOfRangeAreRefused) {
   expectGeneticRefused("crossover_probability", "1.1", "from 0 to 1");
   expectGeneticRefused("exchange_probability", "-1", "from 0 to 1");
   expectGeneticRefused("mutation_probability", "-0.1", "from 0 to 1, or auto");
-  expectGeneticRefused("niching", "clearing", "none, sharing, deterministic_crowding");
+  expectGeneticRefused("niching", "clearing", "sharing, deterministic_crowding");
   expectGeneticRefused("sharing_radius", "0", "greater than 0 (m), or auto");
   expectGeneticRefused("sharing_exponent", "0", "greater than 0");
   expectGeneticRefused("mating_radius", "0", "greater than 0 (m), or auto");
@@ -332,22 +332,6 @@ TEST_F(SceneFile, GeneticParametersOutOfRangeAreRefused) {
   expectGeneticRefused("random_immigrants", "-1", "a whole number 0 or more");
   expectGeneticRefused("conserve_niches", "2", "true or false");
   expectGeneticRefused("evaluation_limit", "-1", "a whole number 0 or more");
-}
-
-TEST_F(SceneFile, OptionsOfExperimentsAreRefusedAsSuch) {
-  for (const Parameter<GeneticParameters>& parameter : allGeneticParameters()) {
-    if (!parameter.info.is_of_experiments) continue;
-    const std::string& name = parameter.info.name;
-    const std::string value = toText(parameter.get(GeneticParameters()));
-    for (const std::string map : {"cold", "warm"}) {
-      const std::string said = refusal("defaults: {expert: {" + map + ": {" + name + ": " + value + "}}}\n");
-      EXPECT_TRUE(mentions(said, "'" + name + "' is an option of experiments")) << said;
-      EXPECT_TRUE(mentions(said, "thesis/doc/experiments.md")) << said;
-    }
-  }
-  const std::string said = refusal("defaults: {expert: {warm: {niching: dynamic_sharing}}}\n");
-  EXPECT_TRUE(mentions(said, "'dynamic_sharing' is an option of experiments")) << said;
-  EXPECT_TRUE(mentions(said, "none, sharing, deterministic_crowding")) << said;
 }
 
 TEST_F(SceneFile, SettingsThatDoNotGoTogetherAreRefused) {
@@ -378,7 +362,7 @@ TEST_F(SceneFile, EverySettingReachesItsParameter) {
       "      cold:\n        population_size: 80\n        max_generations: 9\n"
       "        crossover_probability: 0.75\n        mutation_probability: 0.0625\n"
       "        exchange_probability: 0.25\n"
-      "        niching: none\n        sharing_exponent: 10\n        mating_restriction: true\n"
+      "        niching: sharing\n        sharing_exponent: 10\n        mating_restriction: true\n"
       "        elite_count: 2\n        sharing_radius: auto\n        fitness_epsilon: 0\n"
       "        random_immigrants: 4\n        conserve_niches: false\n        evaluation_limit: 5000000000\n"
       "      warm: {population_size: 10, niching: deterministic_crowding}\n");
@@ -404,7 +388,7 @@ TEST_F(SceneFile, EverySettingReachesItsParameter) {
   EXPECT_EQ(cold.crossover_probability, 0.75);
   EXPECT_EQ(cold.exchange_probability, 0.25);
   EXPECT_EQ(cold.mutation_probability, 0.0625);
-  EXPECT_EQ(cold.niching, NichingMethod::None);
+  EXPECT_EQ(cold.niching, NichingMethod::Sharing);
   EXPECT_EQ(cold.sharing_exponent, 10.0);
   EXPECT_TRUE(cold.mating_restriction);
   EXPECT_EQ(cold.elite_count, 2U);
@@ -443,7 +427,7 @@ std::set<std::string> namesOf(const ParameterTable<Settings>& table) {
 }
 
 TEST(PairParameters, DeclareEveryMemberAndGiveItsDefault) {
-  EXPECT_EQ(namesOf(allGeneticParameters()), membersOf("search/genetic_parameters.h", "GeneticParameters"));
+  EXPECT_EQ(namesOf(geneticParameters()), membersOf("search/genetic_parameters.h", "GeneticParameters"));
   std::set<std::string> tracker = membersOf("tracking/tracker_parameters.h", "TrackerParameters");
   // What is asked for follows from who listens; cold and warm have a table of their own.
   for (const char* name : {"niches_wanted", "cold", "warm"}) tracker.erase(name);

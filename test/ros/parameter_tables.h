@@ -1,5 +1,10 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
 #include <string>
 
 #include "base/parameter.h"
@@ -40,6 +45,35 @@ std::string tableRows(const ParameterTable<Settings>& table, bool is_expert, con
 
 inline std::string tableHead() {
   return "| parameter | default | values | meaning |\n|---|---|---|---|\n";
+}
+
+inline std::string pathOf(const std::string& name) {
+  return std::string(CONCAVE_DISTANCE_SOURCE_DIR) + "/" + name;
+}
+
+inline std::string readText(const std::string& name) {
+  std::ifstream stream(pathOf(name));
+  EXPECT_TRUE(stream.is_open()) << name;
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+inline void expectText(const std::string& name, const std::string& before, const std::string& made) {
+  if (std::getenv("CONCAVE_DISTANCE_WRITE_TABLES") != nullptr) {
+    std::ofstream(pathOf(name)) << made;
+  } else {
+    EXPECT_EQ(before, made) << name << ": run scripts/write_parameter_tables.sh";
+  }
+}
+
+/// What stands between `<!-- table: <name> -->` and `<!-- end -->`.
+inline void expectTable(const std::string& file, const std::string& name, const std::string& rows) {
+  const std::string text = readText(file);
+  const std::string begin = "<!-- table: " + name + " -->\n";
+  const std::size_t from = text.find(begin);
+  ASSERT_NE(from, std::string::npos) << file << " has no " << begin;
+  const std::size_t to = text.find("<!-- end -->", from);
+  ASSERT_NE(to, std::string::npos) << file << ": no end of " << begin;
+  expectText(file, text, text.substr(0, from) + begin + tableHead() + rows + text.substr(to));
 }
 
 }  // namespace concave_distance::test

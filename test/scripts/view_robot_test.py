@@ -67,7 +67,7 @@ class ViewRobot(unittest.TestCase):
             displays = self.fitted(bodies)["Displays"]
             cell = next(display for display in displays if display["Class"] == "rviz/Grid")["Cell Size"]
             self.assertIn(round(cell / 10.0 ** math.floor(math.log10(cell)), 6), (1.0, 2.5, 5.0), name)
-            size = view_robot.fitted_view(bodies, 0.785)[2]
+            size = view_robot.fitted_view(bodies, 0.9, 0.35, 0.785)[2]
             self.assertLess(cell, size / 7.9, name)
             self.assertGreater(cell, size / 21.0, name)
 

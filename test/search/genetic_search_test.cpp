@@ -4,41 +4,55 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <set>
 #include <utility>
 
-#include "search/automatic_radii.h"
+#include "search/generation.h"
 #include "search/grid/body_grid.h"
-#include "search/local_descent.h"
-#include "search/search_scenes.h"
+#include "search/niche_identification.h"
+#include "search/searched_pair.h"
 #include "support/enumeration.h"
 
 namespace concave_distance::genetic_search_test {
 namespace {
 
-constexpr NichingMethod kAllNichings[] = {NichingMethod::None,
-                                          NichingMethod::Sharing,
-                                          NichingMethod::DynamicSharing,
-                                          NichingMethod::DeterministicCrowding,
-                                          NichingMethod::DeterministicCrowdingWithSelection,
-                                          NichingMethod::SimpleCrowding};
+constexpr NichingMethod kNichings[] = {NichingMethod::Sharing, NichingMethod::DeterministicCrowding};
 
-struct Search {
-  test::PairScene scene;
-  PairObjective objective;
-  SearchWorkspace workspace;
-  NicheRadii radii;
-  explicit Search(test::PairScene made)
-      : scene(std::move(made)),
-        objective(*scene.a, *scene.b, scene.a_from_b),
-        workspace(*scene.a, *scene.b),
-        radii(automaticRadii(*scene.a, *scene.b, {})) {}
+struct Search : test::SearchedPair {
+  using SearchedPair::SearchedPair;
 
-  GeneticResult run(const GeneticParameters& parameters, std::uint64_t seed,
-                    const std::vector<TrialPoint>& inherited = {}, const GenerationObserver& observer = {}) {
+  SearchCost run(const GeneticParameters& parameters, std::uint64_t seed,
+                 const std::vector<TrialPoint>& inherited = {}) {
     workspace.basins.clear();
     RandomEngine engine(seed);
-    return geneticSearch(objective, parameters, radii, inherited, engine, workspace, observer);
+    GeneticState state(objective, parameters, radii, engine, workspace);
+    return geneticSearch(state, inherited);
+  }
+  /// Calls look() after every generation, the first population included.
+  template <typename Look>
+  void runLooking(const GeneticParameters& parameters, std::uint64_t seed, const Look& look) {
+    workspace.basins.clear();
+    RandomEngine engine(seed);
+    GeneticState state(objective, parameters, radii, engine, workspace);
+    startPopulation(state, {});
+    look();
+    while (state.cost.generations < parameters.max_generations) {
+      runGeneration(state);
+      look();
+    }
+  }
+  TrialPoint best() const {
+    return *std::min_element(workspace.population.begin(), workspace.population.end());
+  }
+};
+
+/// Individuals stay where they are.
+struct StayingState : GeneticState {
+  using GeneticState::GeneticState;
+  void settle(TrialPoint& point, std::uint32_t& place) override {
+    point = objective.evaluate(point.node_a, point.node_b, cost);
+    place = work.places.placeOf(point);
   }
 };
 
@@ -51,50 +65,28 @@ GeneticParameters smallRun(NichingMethod niching) {
   return parameters;
 }
 
-/// Where a descent without any memory ends.
-TrialPoint descendAnew(const PairObjective& objective, const TrialPoint& point) {
-  std::vector<std::uint64_t> trail;
-  SearchCost cost;
-  return descend(objective, point, nullptr, trail, cost);
-}
-
-bool samePopulation(const std::vector<TrialPoint>& l, const std::vector<TrialPoint>& r) {
-  return std::equal(l.begin(), l.end(), r.begin(), r.end(), [](const TrialPoint& x, const TrialPoint& y) {
-    return samePlace(x, y) && x.squared_distance == y.squared_distance;
-  });
-}
-
 TEST(GeneticSearch, OneSeedGivesOneAnswerWhateverRanBefore) {
   Search fresh(test::facingCombs());
   Search used(test::facingCombs());
-  for (const NichingMethod niching : kAllNichings) {
-    for (const MatingMethod mating :
-         {MatingMethod::Mesh, MatingMethod::Phenotypic, MatingMethod::Genotypic}) {
-      GeneticParameters parameters = smallRun(niching);
-      parameters.mating = mating;
-      used.run(parameters, 1234);  // leaves a warm workspace behind
-      const GeneticResult first = used.run(parameters, 7);
-      const std::vector<TrialPoint> population = used.workspace.population;
-      const GeneticResult second = fresh.run(parameters, 7);
-      EXPECT_TRUE(samePopulation(population, fresh.workspace.population));
-      EXPECT_TRUE(samePlace(first.best, second.best));
-      EXPECT_EQ(first.best_generation, second.best_generation);
-      EXPECT_EQ(first.cost.evaluations, second.cost.evaluations);
-    }
+  for (const NichingMethod niching : kNichings) {
+    const GeneticParameters parameters = smallRun(niching);
+    used.run(parameters, 1234);  // leaves a warm workspace behind
+    const SearchCost first = used.run(parameters, 7);
+    const SearchCost second = fresh.run(parameters, 7);
+    EXPECT_TRUE(test::samePopulation(used.workspace.population, fresh.workspace.population));
+    EXPECT_EQ(first.evaluations, second.evaluations);
   }
 }
 
-TEST(GeneticSearch, WorksOnUnconnectedShellsWithEveryMethod) {
-  Search search(test::shellsAndShells());
-  for (const NichingMethod niching : kAllNichings) {
-    for (const bool local : {true, false}) {
-      GeneticParameters parameters = smallRun(niching);
-      parameters.local_optimization = local ? LocalOptimization::Lamarckian : LocalOptimization::None;
-      const GeneticResult result = search.run(parameters, 3);
+TEST(GeneticSearch, PopulationIsMadeOfTheMinimaMetOnUnconnectedShellsToo) {
+  for (const bool is_connected : {true, false}) {
+    Search search(is_connected ? test::facingCombs() : test::shellsAndShells());
+    for (const NichingMethod niching : kNichings) {
+      EXPECT_EQ(search.run(smallRun(niching), 3).generations, 12U);
       EXPECT_EQ(search.workspace.population.size(), 40U);
-      EXPECT_EQ(result.generations, 12U);
       for (const TrialPoint& point : search.workspace.population) {
         EXPECT_EQ(point.squared_distance, search.objective.squaredDistance(point.node_a, point.node_b));
+        EXPECT_GE(search.workspace.basins.find(point.node_a, point.node_b), 0);
       }
     }
   }
@@ -102,61 +94,13 @@ TEST(GeneticSearch, WorksOnUnconnectedShellsWithEveryMethod) {
 
 TEST(GeneticSearch, BestNeverGetsWorseBecauseTheEliteStays) {
   Search search(test::hookAndStairs());
-  for (const NichingMethod niching : kAllNichings) {
-    for (const bool local : {true, false}) {
-      GeneticParameters parameters = smallRun(niching);
-      parameters.local_optimization = local ? LocalOptimization::Lamarckian : LocalOptimization::None;
-      double last = std::numeric_limits<double>::infinity();
-      search.run(parameters, 4, {}, [&](const GenerationRecord& record) {
-        const TrialPoint& best = *std::min_element(record.population->begin(), record.population->end());
-        EXPECT_LE(best.squared_distance, last);
-        EXPECT_TRUE(samePlace(best, *record.best_so_far));
-        last = best.squared_distance;
-      });
-    }
+  for (const NichingMethod niching : kNichings) {
+    double last = std::numeric_limits<double>::infinity();
+    search.runLooking(smallRun(niching), 4, [&] {
+      EXPECT_LE(search.best().squared_distance, last);
+      last = search.best().squared_distance;
+    });
   }
-}
-
-TEST(GeneticSearch, ObserverSeesEveryGenerationAndTheResultNamesTheOneOfTheBest) {
-  Search search(test::facingCombs());
-  std::vector<double> best;
-  const GeneticResult result =
-      search.run(smallRun(NichingMethod::Sharing), 5, {}, [&](const GenerationRecord& record) {
-        EXPECT_EQ(record.generation, best.size());
-        best.push_back(record.best_so_far->squared_distance);
-      });
-  ASSERT_EQ(best.size(), 13U);
-  const auto first = std::find(best.begin(), best.end(), result.best.squared_distance);
-  EXPECT_EQ(result.best_generation, static_cast<std::uint32_t>(first - best.begin()));
-}
-
-TEST(GeneticSearch, LamarckianPopulationIsMadeOfTheMinimaMet) {
-  Search search(test::facingCombs());
-  for (const NichingMethod niching : kAllNichings) {
-    search.run(smallRun(niching), 6);
-    for (const TrialPoint& point : search.workspace.population) {
-      EXPECT_GE(search.workspace.basins.find(point.node_a, point.node_b), 0);
-    }
-  }
-}
-
-TEST(GeneticSearch, BaldwinianIndividualsStayAndCountAsFitAsTheMinimumBelowThem) {
-  Search search(test::facingCombs());
-  GeneticParameters parameters = smallRun(NichingMethod::None);
-  parameters.local_optimization = LocalOptimization::Baldwinian;
-  const GeneticResult result = search.run(parameters, 6);
-  EXPECT_EQ(result.best.squared_distance,
-            search.objective.squaredDistance(result.best.node_a, result.best.node_b));
-  std::vector<std::uint64_t> trail;
-  std::size_t above = 0;
-  for (const TrialPoint& point : search.workspace.population) {
-    SearchCost cost;
-    const TrialPoint minimum = descend(search.objective, point, nullptr, trail, cost);
-    EXPECT_EQ(point.squared_distance, minimum.squared_distance);
-    EXPECT_LE(result.best.squared_distance, point.squared_distance);
-    above += samePlace(point, minimum) ? 0 : 1;
-  }
-  EXPECT_GT(above, search.workspace.population.size() / 2);
 }
 
 TEST(GeneticSearch, InheritedPointsAreDescendedAnew) {
@@ -167,53 +111,13 @@ TEST(GeneticSearch, InheritedPointsAreDescendedAnew) {
   const NodeIndex beside = gridOf(*search.scene.a).graph().edges.row(optimum.node_a.value)[0].to;
   GeneticParameters parameters = smallRun(NichingMethod::Sharing);
   parameters.max_generations = 0;
-  const GeneticResult result = search.run(parameters, 8, {{beside, optimum.node_b, 1e-30}});
-  EXPECT_EQ(result.best.squared_distance, optimum.squared_distance);
-  EXPECT_EQ(result.generations, 0U);
+  const SearchCost cost = search.run(parameters, 8, {{beside, optimum.node_b, 1e-30}});
+  EXPECT_EQ(search.best().squared_distance, optimum.squared_distance);
+  EXPECT_EQ(cost.generations, 0U);
   EXPECT_EQ(search.workspace.population.size(), 40U);
-  const std::vector<TrialPoint> too_many(100, result.best);
+  const std::vector<TrialPoint> too_many(100, search.best());
   search.run(parameters, 8, too_many);
   EXPECT_EQ(search.workspace.population.size(), 40U);
-}
-
-TEST(GeneticSearch, GenerationGapReplacesThatManyAtMost) {
-  Search search(test::hookAndStairs());
-  GeneticParameters parameters = smallRun(NichingMethod::Sharing);
-  parameters.local_optimization = LocalOptimization::None;  // individuals stay apart
-  parameters.random_immigrants = 0;
-  parameters.elite_count = 0;  // elites, immigrants and conserved niches take further seats
-  parameters.conserve_niches = false;
-  parameters.generation_gap = 0.25;
-  for (const NichingMethod niching :
-       {NichingMethod::None, NichingMethod::Sharing, NichingMethod::DeterministicCrowding}) {
-    parameters.niching = niching;
-    std::vector<TrialPoint> before;
-    std::size_t most_changed = 0;
-    search.run(parameters, 9, {}, [&](const GenerationRecord& record) {
-      std::size_t changed = 0;
-      for (std::size_t i = 0; i < before.size(); ++i) {
-        changed += samePlace(before[i], (*record.population)[i]) ? 0 : 1;
-      }
-      EXPECT_LE(changed, 10U);
-      most_changed = std::max(most_changed, changed);
-      before = *record.population;
-    });
-    EXPECT_GT(most_changed, 0U);
-  }
-}
-
-TEST(GeneticSearch, StopsWhenNothingChangesAnyMore) {
-  Search search(test::hookAndStairs());
-  GeneticParameters parameters = smallRun(NichingMethod::None);
-  parameters.max_generations = 500;
-  parameters.mutation_probability = 0.0;
-  parameters.random_immigrants = 0;
-  parameters.convergence_generations = 5;
-  const GeneticResult result = search.run(parameters, 10);
-  EXPECT_TRUE(result.converged);
-  EXPECT_LT(result.generations, 100U);
-  parameters.convergence_generations = 0;
-  EXPECT_EQ(search.run(parameters, 10).generations, 500U);
 }
 
 TEST(GeneticSearch, ConservedNichesAreNeverLost) {
@@ -222,8 +126,8 @@ TEST(GeneticSearch, ConservedNichesAreNeverLost) {
   parameters.conserve_niches = true;
   std::vector<IdentifiedNiche> before;
   std::vector<std::uint32_t> order;
-  search.run(parameters, 11, {}, [&](const GenerationRecord& record) {
-    const std::vector<TrialPoint>& population = *record.population;
+  search.runLooking(parameters, 11, [&] {
+    const std::vector<TrialPoint>& population = search.workspace.population;
     for (std::size_t i = 0; i < std::min<std::size_t>(before.size(), population.size() / 2); ++i) {
       EXPECT_TRUE(std::any_of(population.begin(), population.end(),
                               [&](const TrialPoint& point) { return samePlace(point, before[i].best); }))
@@ -240,57 +144,18 @@ TEST(GeneticSearch, FindsTheEnumeratedOptimum) {
     Search search(test::facingCombs(0.1, on_demand ? 0 : 65535));
     const TrialPoint optimum =
         test::enumerateNodePairs(*search.scene.a, *search.scene.b, search.scene.a_from_b);
-    for (const NichingMethod niching : kAllNichings) {
+    for (const NichingMethod niching : kNichings) {
       GeneticParameters parameters = smallRun(niching);
       parameters.population_size = 80;
       int found = 0;
       constexpr int kRuns = 50;
       for (std::uint64_t seed = 0; seed < kRuns; ++seed) {
-        found += search.run(parameters, seed).best.squared_distance == optimum.squared_distance ? 1 : 0;
+        search.run(parameters, seed);
+        found += search.best().squared_distance == optimum.squared_distance ? 1 : 0;
       }
       EXPECT_GE(found, kRuns * 9 / 10) << "niching " << static_cast<int>(niching);
     }
   }
-}
-
-// What niching is for: the final population still stands in the niches that the run has met.
-TEST(GeneticSearch, SharingKeepsNichesThatPlainEvolutionLoses) {
-  Search search(test::facingCombs());
-  const double cutoff =
-      2.0 *
-      std::sqrt(
-          test::enumerateNodePairs(*search.scene.a, *search.scene.b, search.scene.a_from_b).squared_distance);
-  const std::vector<test::NodeNiche> niches =
-      test::enumerateNodeNiches(*search.scene.a, *search.scene.b, search.scene.a_from_b, cutoff, 0.1);
-  ASSERT_GE(niches.size(), 4U);
-  const auto recall = [&](const GeneticParameters& parameters) {
-    double sum = 0.0;
-    for (std::uint64_t seed = 0; seed < 20; ++seed) {
-      search.run(parameters, seed);
-      const auto is_kept = [&](const test::NodeNiche& niche) {
-        return std::any_of(search.workspace.population.begin(), search.workspace.population.end(),
-                           [&](const TrialPoint& point) {
-                             return point.node_a == niche.node_a && point.node_b == niche.node_b;
-                           });
-      };
-      sum += static_cast<double>(std::count_if(niches.begin(), niches.end(), is_kept));
-    }
-    return sum / (20.0 * static_cast<double>(niches.size()));
-  };
-  GeneticParameters parameters = smallRun(NichingMethod::None);
-  parameters.population_size = 100;
-  parameters.random_immigrants = 0;
-  parameters.exchange_probability = 0.0;  // which brings back what has been lost
-  const double plain = recall(parameters);
-  parameters.niching = NichingMethod::Sharing;
-  parameters.conserve_niches = false;
-  const double shared = recall(parameters);
-  parameters.conserve_niches = true;
-  const double conserved = recall(parameters);
-  EXPECT_LT(plain, 0.6);
-  EXPECT_GT(shared, 1.3 * plain);
-  EXPECT_GE(conserved, shared);
-  EXPECT_GT(conserved, 0.95);
 }
 
 // A place that neither mating nor mutation reaches from a population gone to one niche.
@@ -300,7 +165,8 @@ TEST(GeneticSearch, ImmigrantsFindWhatNoParentsLeadTo) {
   parameters.mutation_probability = 0.0;
   parameters.random_immigrants = 0;
   parameters.max_generations = 0;
-  const TrialPoint somewhere = search.run(parameters, 13).best;
+  search.run(parameters, 13);
+  const TrialPoint somewhere = search.best();
   const std::vector<TrialPoint> inherited(parameters.population_size, somewhere);
   parameters.max_generations = 30;
   search.run(parameters, 13, inherited);
@@ -337,93 +203,22 @@ TEST(GeneticSearch, ExchangeOfGenesMeetsMoreMinimaAtEqualEvaluations) {
 // ends the same run after the same descent.
 TEST(GeneticSearch, DescendsNoMoreOnceTheEvaluationsAreSpent) {
   Search search(test::hookAndStairs());
-  for (const NichingMethod niching : kAllNichings) {
+  for (const NichingMethod niching : kNichings) {
     GeneticParameters parameters = smallRun(niching);
     parameters.max_generations = 1000;
     for (const std::uint64_t limit : {300U, 3000U, 20000U}) {  // the first within the initial population
       parameters.evaluation_limit = limit;
-      const SearchCost cost = search.run(parameters, 14).cost;
+      const SearchCost cost = search.run(parameters, 14);
       EXPECT_GE(cost.evaluations, limit);
       parameters.evaluation_limit = cost.evaluations;
-      const SearchCost again = search.run(parameters, 14).cost;
+      const SearchCost again = search.run(parameters, 14);
       EXPECT_EQ(again.evaluations, cost.evaluations) << "niching " << static_cast<int>(niching);
       EXPECT_EQ(again.descents, cost.descents);
     }
   }
 }
 
-// Carretero, fig. 2.13: individuals are descended after mutation, so the first parents are random points.
-TEST(GeneticSearch, TheFirstPopulationMayStayWhereItIs) {
-  Search search(test::hookAndStairs());
-  GeneticParameters parameters = smallRun(NichingMethod::None);
-  parameters.descend_first_population = false;
-  parameters.random_immigrants = 0;
-  parameters.elite_count = 0;
-  std::size_t minima_at_first = 0;
-  std::size_t minima_later = 0;
-  search.run(parameters, 15, {}, [&](const GenerationRecord& record) {
-    for (const TrialPoint& point : *record.population) {
-      const TrialPoint bottom = descendAnew(search.objective, point);
-      const bool is_minimum = samePlace(bottom, point);
-      if (record.generation == 0) minima_at_first += is_minimum ? 1 : 0;
-      if (record.generation == 1) minima_later += is_minimum ? 1 : 0;
-    }
-  });
-  EXPECT_LT(minima_at_first, 10U);
-  EXPECT_EQ(minima_later, parameters.population_size) << "mated, mutated or neither: all are descended";
-}
-
-// Carretero, sec. 4.6.3: parents have to lie within the mating radius to be allowed to mate.
-TEST(GeneticSearch, StrictlyRestrictedStrangersDoNotMate) {
-  Search search(test::facingCombs());
-  search.radii.mating = 0.0;  // nobody is near but who stands on the same place, and has nothing to mate
-  GeneticParameters parameters = smallRun(NichingMethod::Sharing);
-  parameters.mutation_probability = 0.0;
-  parameters.exchange_probability = 0.0;
-  parameters.random_immigrants = 0;
-  parameters.max_generations = 5;
-  const auto descents = [&](bool strict) {
-    parameters.strict_mating_restriction = strict;
-    return search.run(parameters, 17).cost.descents;
-  };
-  EXPECT_EQ(descents(true), parameters.population_size) << "those of the first population";
-  EXPECT_GT(descents(false), parameters.population_size);
-}
-
-// Carretero, fig. 4.4: the contest of crowding stands between mating and mutation, before the descent.
-TEST(GeneticSearch, ChildrenOfTheThesisCompeteBeforeTheyDescend) {
-  Search search(test::facingCombs());
-  GeneticParameters parameters = smallRun(NichingMethod::DeterministicCrowdingWithSelection);
-  parameters.population_size = 10;
-  parameters.max_generations = 1;
-  parameters.mutation_probability = 0.0;
-  parameters.exchange_probability = 0.0;
-  parameters.random_immigrants = 0;
-  parameters.crossover_probability = 1.0;
-  parameters.mating_restriction = false;
-  const auto newcomers = [&](NichingMethod niching) {
-    parameters.niching = niching;
-    std::size_t count = 0;
-    for (std::uint64_t seed = 0; seed < 20; ++seed) {
-      std::set<std::pair<std::uint32_t, std::uint32_t>> parents;
-      search.run(parameters, seed, {}, [&](const GenerationRecord& record) {
-        for (const TrialPoint& point : *record.population) {
-          EXPECT_TRUE(samePlace(descendAnew(search.objective, point), point)) << "descended in the end";
-          const std::pair<std::uint32_t, std::uint32_t> place(point.node_a.value, point.node_b.value);
-          if (record.generation == 0) parents.insert(place);
-          if (record.generation == 1) count += parents.count(place) == 0 ? 1 : 0;
-        }
-      });
-    }
-    return count;
-  };
-  const std::size_t replaced = newcomers(NichingMethod::None);  // every child stays
-  EXPECT_GT(replaced, 20U);
-  EXPECT_LT(newcomers(NichingMethod::DeterministicCrowdingWithSelection), replaced / 4)
-      << "children that have not been descended lose to parents that have";
-}
-
-/// Two individuals who neither descend nor mutate, and no draw that lets them mate.
+/// Two individuals who do not mutate, and no draw that lets them mate.
 GeneticParameters abstinentCouple() {
   GeneticParameters parameters;
   parameters.population_size = 2;
@@ -434,7 +229,6 @@ GeneticParameters abstinentCouple() {
   parameters.random_immigrants = 0;
   parameters.elite_count = 0;
   parameters.conserve_niches = false;
-  parameters.local_optimization = LocalOptimization::None;
   return parameters;
 }
 
@@ -443,25 +237,22 @@ TEST(GeneticSearch, ACertainCoupleHasChildrenWithANodeOfEitherParent) {
   const std::vector<TrialPoint> parents = {{NodeIndex{3U}, NodeIndex{40U}, 0.0},
                                            {NodeIndex{70U}, NodeIndex{11U}, 0.0}};
   const std::set<std::pair<std::uint32_t, std::uint32_t>> children = {{3, 11}, {70, 40}};
-  for (const NichingMethod niching : {NichingMethod::None, NichingMethod::Sharing}) {
-    GeneticParameters parameters = abstinentCouple();
-    parameters.niching = niching;
-    for (std::uint64_t seed = 0; seed < 20; ++seed) {
-      for (const Couples couples : {Couples::AsDrawn, Couples::AtLeastOne}) {
-        RandomEngine engine(seed);
-        search.workspace.basins.clear();
-        const SearchCost cost = geneticSearch(search.objective, parameters, search.radii, parents, engine,
-                                              search.workspace, {}, nullptr, couples)
-                                    .cost;
-        EXPECT_EQ(cost.generations, 1U);
-        EXPECT_EQ(cost.inherited, 2U);
-        EXPECT_EQ(cost.children, couples == Couples::AtLeastOne ? 2U : 0U);
-        std::set<std::pair<std::uint32_t, std::uint32_t>> population;
-        for (const TrialPoint& point : search.workspace.population) {
-          population.insert({point.node_a.value, point.node_b.value});
-        }
-        EXPECT_EQ(population == children, couples == Couples::AtLeastOne) << "seed " << seed;
+  const GeneticParameters parameters = abstinentCouple();
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    for (const Couples couples : {Couples::AsDrawn, Couples::AtLeastOne}) {
+      RandomEngine engine(seed);
+      search.workspace.basins.clear();
+      StayingState state(search.objective, parameters, search.radii, engine, search.workspace, nullptr,
+                         couples);
+      const SearchCost cost = geneticSearch(state, parents);
+      EXPECT_EQ(cost.generations, 1U);
+      EXPECT_EQ(cost.inherited, 2U);
+      EXPECT_EQ(cost.children, couples == Couples::AtLeastOne ? 2U : 0U);
+      std::set<std::pair<std::uint32_t, std::uint32_t>> population;
+      for (const TrialPoint& point : search.workspace.population) {
+        population.insert({point.node_a.value, point.node_b.value});
       }
+      EXPECT_EQ(population == children, couples == Couples::AtLeastOne) << "seed " << seed;
     }
   }
 }
@@ -469,26 +260,22 @@ TEST(GeneticSearch, ACertainCoupleHasChildrenWithANodeOfEitherParent) {
 TEST(GeneticSearch, ACertainCoupleBreedsOnOnePlaceAndAfterTheTime) {
   Search search(test::facingCombs());
   const std::atomic<bool> stop{true};
-  for (const NichingMethod niching : kAllNichings) {
+  for (const NichingMethod niching : kNichings) {
     GeneticParameters parameters = abstinentCouple();
     parameters.niching = niching;
-    parameters.local_optimization = LocalOptimization::Lamarckian;
     // One niche, twice: the other parent is a newcomer.
-    const TrialPoint niche = descendAnew(search.objective, {NodeIndex{3U}, NodeIndex{40U}, 0.0});
+    const TrialPoint niche = test::descendAnew(search.objective, {NodeIndex{3U}, NodeIndex{40U}, 0.0});
     for (const bool is_over : {false, true}) {
       WorkLimit limit(WorkLimit::Clock::now(), std::numeric_limits<double>::infinity(), 1U << 30U,
                       is_over ? &stop : nullptr);
       RandomEngine engine(5);
       search.workspace.basins.clear();
-      const SearchCost cost = geneticSearch(search.objective, parameters, search.radii, {niche, niche},
-                                            engine, search.workspace, {}, &limit, Couples::AtLeastOne)
-                                  .cost;
+      GeneticState state(search.objective, parameters, search.radii, engine, search.workspace, &limit,
+                         Couples::AtLeastOne);
+      const SearchCost cost = geneticSearch(state, {niche, niche});
       EXPECT_EQ(cost.generations, 1U);
       EXPECT_EQ(cost.children, 2U);
-      // The thesis's crowding lets children compete before they descend.
-      if (niching != NichingMethod::DeterministicCrowdingWithSelection) {
-        EXPECT_GT(cost.descents, is_over ? 1U : 2U) << "the parents, and a child at least";
-      }
+      EXPECT_GT(cost.descents, is_over ? 1U : 2U) << "the parents, and a child at least";
     }
   }
 }

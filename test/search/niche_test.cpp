@@ -6,7 +6,6 @@
 
 #include "base/infinity.h"
 #include "base/selection.h"
-#include "search/convergence.h"
 #include "search/grid/body_grid.h"
 #include "search/local_descent.h"
 #include "search/mating_restriction.h"
@@ -223,30 +222,6 @@ TEST_F(MatingRestriction, OnlyRearrangesThePoolAndKeepsFirstParentsTheirSeats) {
   }
 }
 
-TEST_F(MatingRestriction, StrictItLeavesStrangersOnlyWhereNobodyBehindIsNear) {
-  RandomEngine engine(64);
-  for (int run = 0; run < 100; ++run) {
-    std::vector<std::uint32_t> pool(40);
-    for (std::uint32_t i = 0; i < 40; ++i) {
-      pool[i] = i;
-    }
-    shuffle(pool, engine);
-    const std::uint32_t first_parent = pool[0];
-    restrictMatingStrictly(pool, where_, kRadius, places_, niches_.metric);
-    EXPECT_EQ(pool[0], first_parent);
-    for (std::size_t first = 0; first < pool.size(); first += 2) {
-      if (near(pool[first], pool[first + 1])) continue;
-      for (std::size_t behind = first + 1; behind < pool.size(); ++behind) {
-        EXPECT_FALSE(near(pool[first], pool[behind]));
-      }
-    }
-    std::sort(pool.begin(), pool.end());
-    for (std::uint32_t i = 0; i < 40; ++i) {
-      ASSERT_EQ(pool[i], i);
-    }
-  }
-}
-
 TEST_F(MatingRestriction, MatesMoreNeighboursThanChanceAndStillSomeStrangers) {
   RandomEngine engine(63);
   int near_by_chance = 0;
@@ -272,33 +247,6 @@ TEST_F(MatingRestriction, MatesMoreNeighboursThanChanceAndStillSomeStrangers) {
   }
   EXPECT_GT(near_restricted, near_by_chance * 3 / 2);
   EXPECT_LT(near_restricted, couples) << "two tries, then any";
-}
-
-TEST(Convergence, ComesAfterThatManyGenerationsWithoutANewBestOrNiche) {
-  Niches niches(test::facingCombs());
-  RandomEngine engine(64);
-  const auto population = niches.drawPopulation(10, engine);
-  TrialPointTable places;
-  places.reset(kInfinity);
-  std::vector<std::uint32_t> where;
-  for (const TrialPoint& point : population) {
-    where.push_back(places.placeOf(point));
-  }
-  Census census;
-  census.take(where, places.size());
-  ConvergenceCheck check;
-  check.reset(3);
-  EXPECT_FALSE(check.update(census, 0.3, places, niches.metric));
-  EXPECT_FALSE(check.update(census, 0.3, places, niches.metric));
-  EXPECT_FALSE(check.update(census, 0.3, places, niches.metric));
-  EXPECT_TRUE(check.update(census, 0.3, places, niches.metric)) << "the third that is like the one before";
-  Census fewer;
-  fewer.take({where[0]}, places.size());
-  EXPECT_FALSE(check.update(fewer, 0.3, places, niches.metric)) << "niches have gone: it counts anew";
-  check.reset(0);
-  for (int i = 0; i < 10; ++i) {
-    EXPECT_FALSE(check.update(census, 0.3, places, niches.metric)) << "0: never";
-  }
 }
 
 }  // namespace

@@ -20,31 +20,23 @@ TEST(SearchAllocation, AWarmRunAllocatesNothing) {
     SearchWorkspace workspace(*scene.a, *scene.b);
     const NicheRadii radii = automaticRadii(*scene.a, *scene.b, {});
     const std::vector<TrialPoint> inherited(10);
-    for (const NichingMethod niching :
-         {NichingMethod::None, NichingMethod::Sharing, NichingMethod::DynamicSharing,
-          NichingMethod::DeterministicCrowding, NichingMethod::DeterministicCrowdingWithSelection,
-          NichingMethod::SimpleCrowding}) {
-      for (const SelectionMethod selection :
-           {SelectionMethod::StochasticUniversalSampling, SelectionMethod::Roulette}) {
-        GeneticParameters parameters;
-        parameters.population_size = 60;
-        parameters.max_generations = 10;
-        parameters.niching = niching;
-        parameters.selection = selection;
-        parameters.convergence_generations = 50;
-        const auto solve = [&] {
-          workspace.basins.clear();
-          RandomEngine engine(99);
-          geneticSearch(objective, parameters, radii, inherited, engine, workspace);
-          identifyNiches(workspace.population, radii.niche, workspace.metric, workspace.niches,
-                         workspace.order);
-        };
-        solve();
-        const std::size_t before = allocations.load();
-        solve();
-        EXPECT_EQ(allocations.load() - before, 0U)
-            << "niching " << static_cast<int>(niching) << ", selection " << static_cast<int>(selection);
-      }
+    for (const NichingMethod niching : {NichingMethod::Sharing, NichingMethod::DeterministicCrowding}) {
+      GeneticParameters parameters;
+      parameters.population_size = 60;
+      parameters.max_generations = 10;
+      parameters.niching = niching;
+      const auto solve = [&] {
+        workspace.basins.clear();
+        RandomEngine engine(99);
+        GeneticState state(objective, parameters, radii, engine, workspace);
+        geneticSearch(state, inherited);
+        identifyNiches(workspace.population, radii.niche, workspace.metric, workspace.niches,
+                       workspace.order);
+      };
+      solve();
+      const std::size_t before = allocations.load();
+      solve();
+      EXPECT_EQ(allocations.load() - before, 0U) << "niching " << static_cast<int>(niching);
     }
   }
 }
@@ -55,7 +47,10 @@ TEST(SearchAllocation, WorkspaceTellsItsMemory) {
   SearchWorkspace workspace(*scene.a, *scene.b);
   const std::size_t empty = workspace.memoryBytes();
   RandomEngine engine(1);
-  geneticSearch(objective, {}, {0.4, 0.5, 0.4}, {}, engine, workspace);
+  const GeneticParameters parameters;
+  const NicheRadii radii{0.4, 0.5, 0.4};
+  GeneticState state(objective, parameters, radii, engine, workspace);
+  geneticSearch(state, {});
   EXPECT_GT(workspace.memoryBytes(), empty + 100 * sizeof(TrialPoint));
   EXPECT_LT(workspace.memoryBytes(), 1'000'000U);
 }

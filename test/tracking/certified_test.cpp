@@ -187,9 +187,9 @@ void expectGeneration(const SearchCost& cost, bool runs, std::size_t known) {
 }
 
 TEST(Certified, EveryCycleThatMovesBreedsFromTheLastNiches) {
-  const Body box = makeBody(makeBox({1.0, 1.0, 1.0}), 0.3);
-  for (const auto& [a, b] : {std::pair{comb(), comb()}, std::pair{box, box}}) {
-    const Isometry3d offset = a == box ? translation({1.5, 0.1, 0.2}) : Isometry3d::Identity();
+  const Body hook = makeBody(test::makeLShape(), 0.3);
+  for (const auto& [a, b] : {std::pair{comb(), comb()}, std::pair{hook, hook}}) {
+    const Isometry3d offset = a == hook ? translation({1.5, 0.1, 0.2}) : Isometry3d::Identity();
     PairTracker tracker("pair", a, b, certified());
     PairSolution solution;
     for (int k = 0; k < 60; ++k) {
@@ -218,6 +218,10 @@ TEST(Certified, NoGenerationRunsWhereNoneIsDue) {
       expectGeneration(solution.cost, false, 0);
     }
   }
+  const Body box = makeBody(makeBox({1.0, 1.0, 1.0}), 0.3);
+  PairTracker convex("boxes", box, box, certified());
+  convex.update(translation({1.5, 0.1, 0.2}), 0.0, solution);
+  expectGeneration(solution.cost, false, 0);
   PairTracker tracker("combs", comb(), comb(), certified());
   tracker.solve(swaying(0.0), solution);
   expectGeneration(solution.cost, false, 0);

@@ -27,6 +27,7 @@
 #include "search/local_descent.h"
 #include "support/enumeration.h"
 #include "thesis/benchmark/support/reference_niches.h"
+#include "thesis/src/genetic/comb_ga.h"
 
 namespace concave_distance::benchmark {
 namespace {
@@ -49,14 +50,14 @@ struct NicheRun {
   RecallCount archive;
 };
 
-GeneticParameters combGaWl() {
-  GeneticParameters parameters;  // Table 5.2
+CombGaParameters combGaWl() {
+  CombGaParameters parameters;  // Table 5.2
   parameters.exchange_probability = 0.0;
   parameters.random_immigrants = 0;
   parameters.population_size = 80;
   parameters.mutation_probability = 1.0 / 80.0;
   parameters.max_generations = 100;
-  parameters.niching = NichingMethod::None;
+  parameters.scheme = NichingScheme::None;
   parameters.mating_restriction = false;
   return parameters;
 }
@@ -112,7 +113,9 @@ NicheRun nicheRun(const BenchmarkPair& pair, const Eigen::Isometry3d& pose,
   const PairObjective objective(*pair.a, *pair.b, pose);
   SearchWorkspace workspace(*pair.a, *pair.b);
   RandomEngine engine(streamSeed(seed, "battery_benchmark", 0));
-  geneticSearch(objective, parameters, automaticRadii(*pair.a, *pair.b, parameters), {}, engine, workspace);
+  const NicheRadii radii = automaticRadii(*pair.a, *pair.b, parameters);
+  GeneticState state(objective, parameters, radii, engine, workspace);
+  geneticSearch(state, {});
   std::vector<IdentifiedNiche> niches;
   std::vector<std::uint32_t> order;
   identifyNiches(workspace.population, kThesisNicheRadius, workspace.metric, niches, order);
@@ -255,9 +258,9 @@ int benchmarkMain(int argc, char** argv) {
     const PairObjective objective(*pair.a, *pair.b, pose);
     SearchWorkspace workspace(*pair.a, *pair.b);
     RandomEngine engine(streamSeed(run, "battery_benchmark", 1));
-    const GeneticParameters parameters = combGaWl();
-    const GeneticResult result = geneticSearch(
-        objective, parameters, automaticRadii(*pair.a, *pair.b, parameters), {}, engine, workspace);
+    const CombGaParameters parameters = combGaWl();
+    const GeneticResult result =
+        combGa(objective, parameters, automaticRadii(*pair.a, *pair.b, parameters), {}, engine, workspace);
     optimal[run] = result.best.squared_distance <= optimum.squared_distance * (1.0 + 1e-12) ? 1 : 0;
     generations[run] = result.best_generation;
   });

@@ -20,7 +20,6 @@
 #include "benchmark/support/benchmark_pairs.h"
 #include "benchmark/support/shapes.h"
 #include "benchmark/support/stopwatch.h"
-#include "search/genetic_search.h"
 #include "search/grid/body_grid.h"
 #include "thesis/benchmark/support/proven_niches.h"
 #include "thesis/src/evaluation/multi_start_descent.h"

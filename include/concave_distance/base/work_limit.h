@@ -38,7 +38,7 @@ class WorkLimit {
     until_look_ = 0;
   }
 
-  /// Whether the work has to end: the deadline has passed or the stop flag is set.
+  /// Returns whether the work has to end: the deadline has passed or the stop flag is set.
   bool isOver() {
     if (is_over_ || (!is_timed_ && stop_ == nullptr)) return is_over_;
     const bool is_stopped = stop_ != nullptr && stop_->load(std::memory_order_relaxed);
@@ -55,7 +55,7 @@ class WorkLimit {
     return isOver();
   }
 
-  /// Whether `more` elements may be added. Counts what the vector's growth takes and lets it grow at once.
+  /// Returns whether `more` elements may be added. Counts what the growth takes and grows at once.
   template <typename T>
   bool makeRoom(std::vector<T>& buffer, std::size_t more = 1) {
     const std::size_t needed = buffer.size() + more;
@@ -81,7 +81,7 @@ class WorkLimit {
   /// Counts the memory of buffers from earlier solves.
   void setTaken(std::size_t bytes) { taken_ = bytes; }
   std::size_t taken() const { return taken_; }
-  /// Whether takeMemory() would succeed; nothing is remembered.
+  /// Returns whether takeMemory() would succeed; counts nothing.
   bool hasMemory(std::size_t bytes) const { return bytes <= memory_ && taken_ <= memory_ - bytes; }
 
   /// The same time for a part that another thread may do, in buffers that have all the memory they get.
@@ -94,7 +94,7 @@ class WorkLimit {
   bool isTimed() const { return is_timed_; }
   /// Returns `seconds` as a share of the whole time; 0 without a deadline.
   double shareOf(double seconds) const { return seconds_ < kLongest ? seconds / seconds_ : 0.0; }
-  /// Whether anything was refused, so that the results are incomplete.
+  /// Returns whether anything was refused, so that the results are incomplete.
   bool hasRefusedTime() const { return time_refused_; }
   bool hasRefusedMemory() const { return memory_refused_; }
   bool hasRefused() const { return time_refused_ || memory_refused_; }

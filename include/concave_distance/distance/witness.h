@@ -7,7 +7,7 @@
 
 namespace concave_distance {
 
-/// Where on a triangle a witness lies.
+/// Says where on a triangle a witness lies.
 enum class Feature : std::uint8_t { Vertex0, Vertex1, Vertex2, Edge0, Edge1, Edge2, Face };
 
 /// Original triangles of the two bodies.

@@ -21,7 +21,7 @@ struct MeshRoots {
 /// @throws Error for any other entry
 MeshRoots parseMeshRoots(const std::vector<std::string>& entries, const std::string& where);
 
-/// Which mesh files may be read, and the limits for it.
+/// Says which mesh files may be read, and the limits for it.
 struct MeshAccess {
   MeshImportLimits limits;
   std::optional<MeshRoots> roots;  ///< nothing: any file

@@ -22,6 +22,7 @@ struct AdjacentTriangle;
 struct ConnectedPieces;
 struct ContentKey;
 struct Facets;
+struct HullGap;
 struct MeshTopology;
 struct ShellContacts;
 template <typename Value>
@@ -106,6 +107,8 @@ class BodyMesh {
   const CompressedRows<AdjacentTriangle>& adjacency() const;
   /// Returns what hangs together as a whole. Built at the first call, for all threads; 4 bytes a triangle.
   const ConnectedPieces& pieces() const;
+  /// Returns how far the surface lies below its convex hull. Measured at the first call, for all threads.
+  const HullGap& hullGap() const;
   /// Returns the cones that level `certified` finds niches by. They are built at the first call for each of
   /// the two, for all threads; about 450 bytes a triangle.
   const NormalConeTree& normalCones(NormalSides sides) const;

@@ -76,8 +76,8 @@ class PairEffects {
   /// The surfaces that the regions of the last update() are made of: what `overlap.first_facet` and
   /// `overlap.first_sample` of its regions count in. Good until the next update().
   const Interference& surfaces() const;
-  /// How the pressure of the last update()'s region `index` follows from the place, good until the next one;
-  /// nullptr where it has none: a lumped force, surfaces that touch or are open, no force asked for.
+  /// Returns how the pressure of the last update()'s region `index` follows from the place, good until the
+  /// next one; nullptr where it has none: a lumped force, surfaces that touch or are open, no force.
   const PressureField* pressure(std::size_t index) const;
 
   /// Forgets regions and bristles.

@@ -17,9 +17,9 @@
 
 namespace concave_distance {
 
-/// How exact an answer is (README.md, "What you get").
+/// Says how exact an answer is (README.md, "What you get").
 enum class AccuracyLevel : std::uint8_t { Nodes, Refined, Certified };
-/// Whether the level proves the distance, and the list of niches, in every cycle.
+/// Returns whether the level proves the distance, and the list of niches, in every cycle.
 constexpr bool provesDistance(AccuracyLevel level) {
   return level == AccuracyLevel::Certified;
 }

@@ -4,21 +4,12 @@
 #include <cmath>
 #include <utility>
 
-#include "hierarchy_access.h"
+#include "base/infinity.h"
 
 namespace concave_distance::detail {
 namespace {
 
-using Eigen::Vector3d;
-using Hierarchy = BoundingVolumeHierarchy;
-
-/// Of the rounding of one bound: see kProofError.
-constexpr double kBoundError = 0x1.0p-48;  // 16 machine epsilons
-
-/// In a dive, of the squared distance of two boxes' centres beside their squared bound.
-constexpr double kWeightOfCentres = 0.1;
-
-/// Before a cache of so many entries is reopened at another pose, it is tried without.
+/// Before a cache of so many entries is reopened at another pose, the proof is tried without it.
 constexpr std::size_t kWorthTrying = 128;
 
 }  // namespace
@@ -28,34 +19,24 @@ BranchAndBound::BranchAndBound(const BodyMesh& a, const BodyMesh& b, const Eigen
                                BoundCache* cache)
     : a_(a.hierarchy()),
       b_(b.hierarchy()),
-      frame_(a, b, a_from_b, a.hierarchy().origin(), b.hierarchy().origin()),
-      turned_(frame_.rotation.transpose()),
-      request_(request),
+      frame_(a, b, a_from_b),
       limit_(request.limit != nullptr ? *request.limit : unlimited_),
-      timed_(limit_.isTimed()),
-      open_(workspace.open),
-      refinement_(workspace.refinement),
       cache_(cache),
-      support_a_(a.hierarchy(), workspace.support_a),
-      support_b_(b.hierarchy(), workspace.support_b),
-      scale_(a.hierarchy().reach() + b.hierarchy().reach() + frame_.offset.norm(), kBoundError),
-      unit_a_(static_cast<float>(a.hierarchy().reach() * scale_.inverse_scale)),
-      unit_b_(static_cast<float>(b.hierarchy().reach() * scale_.inverse_scale)),
-      single_a_from_b_(frame_.rotation, frame_.offset * scale_.inverse_scale),
-      single_b_from_a_(turned_, turned_ * frame_.offset * -scale_.inverse_scale),
-      error_(kProofError * proofScale(a, b, a_from_b)) {}
+      open_(workspace.open, limit_),
+      nearest_(frame_, request, workspace.refinement, result_.cost),
+      bounds_(frame_, nearest_, workspace, result_.cost) {}
 
 DistanceCertificate BranchAndBound::run(const TrianglePair* starts, std::size_t start_count) {
-  for (std::size_t i = 0; i < start_count; ++i) descend(starts[i]);
+  for (std::size_t i = 0; i < start_count; ++i) nearest_.refine(starts[i]);
   if (start_count == 0) dive();
-  const double start_distance = distance_;
+  const double start_distance = nearest_.distance();
   if (partsAtRoots()) return conclude();  // a cache can wait
   if (cache_ != nullptr && !cache_->valid() && cache_->wait_ > 0) {
     --cache_->wait_;
     cache_ = nullptr;
   }
   if (cache_ != nullptr && cache_->valid() && isProvenAtOnce()) {
-    result_.improved = distance_ < start_distance - error_;
+    result_.improved = nearest_.distance() < start_distance - frame_.error;
     return conclude();
   }
   const bool anew = cache_ == nullptr || !cache_->valid();
@@ -67,161 +48,245 @@ DistanceCertificate BranchAndBound::run(const TrianglePair* starts, std::size_t 
   }
   search();
   if (cache_ != nullptr) {
-    if (cut_ || squared_distance_ == 0.0) {
+    if (cut_ || nearest_.squaredDistance() == 0.0) {
       cache_->clear();  // not everything is in it
     } else {
       cache_->decide(anew, result_.cost.box_bounds / static_cast<std::uint32_t>(Hierarchy::kWidth) +
                                result_.cost.leaf_pairs + (asked_again_ + 2 * leaves_asked_again_) / 3);
     }
   }
-  result_.improved = distance_ < start_distance - error_;
+  result_.improved = nearest_.distance() < start_distance - frame_.error;
   return conclude();
 }
 
-void BranchAndBound::descend(const TrianglePair& start) {
-  const WitnessRefinement refined = frame_.refine(start.a, start.b, refinement_);
-  result_.cost.triangle_pairs += refined.iterations;
-  // Once more in the frame that everything else here is measured in.
-  const TriangleIndex a = refined.witness.triangle_a;
-  const TriangleIndex b = refined.witness.triangle_b;
-  measure(frame_.cornersOfA(a), frame_.cornersOfB(b), a, b);
-}
-
-// One way down to a pair of leaves, always to the nearer box, to have something to compare with. Where boxes
-// overlap or tie, the nearer centre decides.
+// One way down to a pair of leaves, always to the nearer box, gives a distance to compare with.
 void BranchAndBound::dive() {
   Slot a = Hierarchy::kRoot;
   Slot b = Hierarchy::kRoot;
   while (!isLeaf(a_.child(a)) || !isLeaf(b_.child(b))) {
-    const bool opens_b = opensB(a, b);
-    Slot& slot = opens_b ? b : a;
+    const bool opens_b = bounds_.opensB(a, b);
     const std::uint32_t opened = opens_b ? b_.child(b) : a_.child(a);
-    const Lanes bounds = childBounds(opens_b ? a : b, opened, opens_b, nullptr);
-    const Hierarchy::SingleNode& node = (opens_b ? b_ : a_).singleNodes()[opened];
-    const FloatLanes gaps =
-        squaredGaps(node, opens_b ? compared_a_ : compared_b_, opens_b ? unit_b_ : unit_a_);
-    const Lanes keys = bounds + kWeightOfCentres * scale_.squared_scale * gaps.cast<double>();
-    std::uint32_t nearest = 0;
-    for (std::uint32_t lane = 1; lane < Hierarchy::kWidth; ++lane) {
-      if (node.child[lane] != Hierarchy::kNoChild && keys[lane] < keys[nearest]) nearest = lane;
-    }
-    slot = slotOf(opened, nearest);
+    (opens_b ? b : a) = slotOf(opened, bounds_.nearestChild(opens_b ? a : b, opened, opens_b));
   }
-  descend(nearestTriangles(leafOf(a_, a_.child(a)), leafOf(b_, b_.child(b))));
-}
-
-// The pair whose centres are nearest to each other.
-TrianglePair BranchAndBound::nearestTriangles(const Hierarchy::Leaf& leaf_a,
-                                              const Hierarchy::Leaf& leaf_b) const {
-  const LeafLanes b(leaf_b, frame_.rotation, frame_.offset);
-  TrianglePair nearest{};
-  double least = std::numeric_limits<double>::infinity();
-  for (std::uint32_t i = 0; i < leaf_a.count; ++i) {
-    const TrianglePoints a = triangleOf(leaf_a, i);
-    const Vector3d sum = a[0] + a[1] + a[2];
-    Lanes squared = Lanes::Zero();
-    for (int c = 0; c < 3; ++c) {
-      squared += (b.corner[0][c] + b.corner[1][c] + b.corner[2][c] - sum[c]).square();
-    }
-    for (std::uint32_t lane = 0; lane < leaf_b.count; ++lane) {
-      if (squared[lane] < least) {
-        least = squared[lane];
-        nearest = {leaf_a.triangle[i], leaf_b.triangle[lane]};
-      }
-    }
-  }
-  return nearest;
-}
-
-TrianglePairDistance BranchAndBound::measure(const TrianglePoints& a, const TrianglePoints& b,
-                                             TriangleIndex triangle_a, TriangleIndex triangle_b) {
-  TrianglePairDistance found = triangleDistance(a, b);
-  ++result_.cost.triangle_pairs;
-  if (!(found.squared_distance < squared_distance_)) return found;
-  closest_ = found;
-  triangle_a_ = triangle_a;
-  triangle_b_ = triangle_b;
-  distance_ = std::sqrt(found.squared_distance);
-  if (distance_ <=
-      kTriangleDistanceError * scale_.scale) {  // nearer than the kernel can separate from touching
-    closest_.point_b = closest_.point_a;
-    closest_.squared_distance = distance_ = 0.0;
-  }
-  squared_distance_ = closest_.squared_distance;
-  if (distance_ > 0.0) {
-    direction_ = (found.point_b - found.point_a) / distance_;
-    direction_in_b_ = turned_ * direction_;
-    supports_are_new_ = true;
-  }
-  const double tolerance = std::max(request_.absolute_tolerance, request_.relative_tolerance * distance_);
-  enough_ = std::max(0.0, distance_ - std::max(tolerance, error_));
-  squared_enough_ = enough_ * enough_;
-  return found;
+  nearest_.refine(nearestByCentres(leafOfA(a), leafOfB(b), frame_));
 }
 
 void BranchAndBound::beginAtRoots() {
   if (cache_ != nullptr) cache_->begin(b_, frame_.rotation, frame_.offset);
-  if (open_.empty()) open_.resize(Hierarchy::kWidth);
-  // If the proof may be cut short, this bound is certain at once.
-  const double certain = timed_ ? std::max(0.0, root_separation_) : 0.0;
-  open_[0] = {Hierarchy::kRoot, Hierarchy::kRoot, certain * certain};
-  open_count_ = 1;
+  open_.begin(root_separation_);
 }
 
-// Whether the direction between the closest points parts the bodies as wholes.
+// Returns whether the direction between the closest points parts the bodies as wholes.
 bool BranchAndBound::partsAtRoots() {
-  if (squared_distance_ == 0.0) return false;
-  root_separation_ = separationAlongWitnesses(Hierarchy::kRoot, Hierarchy::kRoot);
-  if (root_separation_ < enough_) return false;
+  if (nearest_.squaredDistance() == 0.0) return false;
+  root_separation_ = bounds_.separationAlongWitnesses(Hierarchy::kRoot, Hierarchy::kRoot);
+  if (root_separation_ < nearest_.enough()) return false;
   exclude(root_separation_);
   return true;
 }
 
-// Whether the boxes below the roots prove it, so that what a large cache holds need not be asked.
+// Returns whether the boxes below the roots prove it, so that a large cache need not be reopened.
 bool BranchAndBound::isProvenAtOnce() {
   if (cache_->size() < kWorthTrying || cache_->isAt(frame_.rotation, frame_.offset)) return false;
   BoundCache* const cache = std::exchange(cache_, nullptr);
   beginAtRoots();
-  expand(take());
+  expand(open_.take());
   cache_ = cache;
-  return std::exchange(open_count_, 0) == 0;
+  const bool is_proven = open_.isEmpty();
+  open_.clear();
+  return is_proven;
+}
+
+// Looks again at what the last proof excluded, where its bound has run out.
+void BranchAndBound::reopenCache() {
+  BoundCache& cache = *cache_;
+  cache.advance(b_, frame_.rotation, frame_.offset, 0.25 * frame_.scale.slack);
+  for (BoundCache::LeafPair& pair : cache.leaf_pairs_) {
+    const double moved = cache.moved_distances_[pair.subtree];
+    double bound = pair.bound - moved;
+    cut_ = cut_ || limit_.isOverNow();
+    if (bound < nearest_.enough() && !cut_) {
+      bound = reopenLeaves(pair);
+      pair.bound = bound + moved;
+    }
+    exclude(bound);
+  }
+  for (std::size_t i = 0; i < cache.quads_.size(); ++i) {
+    const BoundCache::Quad& quad = cache.quads_[i];
+    const double moved = cache.moved_distances_[quad.subtree];
+    const double least = Eigen::Map<const Lanes>(quad.bound).minCoeff() - moved;
+    cut_ = cut_ || limit_.isOverNow();
+    if (least >= nearest_.enough() || cut_) {
+      exclude(least);
+    } else {
+      reopenQuad(i, moved);
+    }
+  }
+}
+
+double BranchAndBound::reopenLeaves(BoundCache::LeafPair& pair) {
+  const Hierarchy::Leaf& leaf_a = leafOfA(pair.a);
+  const Hierarchy::Leaf& leaf_b = leafOfB(pair.b);
+  ++leaves_asked_again_;
+  const double bound = separationAlong(leaf_a, leaf_b, pair.direction, frame_);
+  return bound < nearest_.enough() ? nearest_.measureLeaves(leaf_a, leaf_b, true, pair.direction) : bound;
+}
+
+void BranchAndBound::reopenQuad(std::size_t i, double moved) {
+  BoundCache::Quad& quad = cache_->quads_[i];
+  if (quad.by_boxes && stillParts(i, moved)) return;
+  quad.by_boxes = true;
+  const Lanes bounds = bounds_.squaredBounds(quad.kept, quad.opened, quad.opens_b, &cache_->directions_[i]);
+  for (std::uint32_t lane = 0; lane < Hierarchy::kWidth; ++lane) {
+    if (quad.bound[lane] == kInfinity) continue;
+    const Slot child = slotOf(quad.opened, lane);
+    double squared_bound = bounds[lane];
+    if (raiseAlongWitnesses(quad.kept, child, quad.opens_b, squared_bound)) quad.by_boxes = false;
+    if (squared_bound >= nearest_.squaredEnough()) {
+      const double bound = std::sqrt(squared_bound);
+      quad.bound[lane] = bound + moved;
+      exclude(bound);
+    } else {
+      quad.bound[lane] = kInfinity;
+      add(quad.kept, child, quad.opens_b, squared_bound);
+    }
+  }
+}
+
+// Returns whether an entry's children are still far enough along the directions that parted them last.
+bool BranchAndBound::stillParts(std::size_t i, double moved) {
+  BoundCache::Quad& quad = cache_->quads_[i];
+  ++asked_again_;
+  const Lanes found = bounds_.separationsAlong(cache_->directions_[i], quad.kept, quad.opens_b)
+                          .max(lanes(quad.bound) - moved);
+  const double least = found.minCoeff();
+  if (!(least >= nearest_.enough())) return false;
+  Eigen::Map<Lanes>(quad.bound) = found + moved;
+  exclude(least);
+  return true;
 }
 
 void BranchAndBound::search() {
-  while (open_count_ > 0 && squared_distance_ > 0.0) {
+  while (!open_.isEmpty() && nearest_.squaredDistance() > 0.0) {
     if (limit_.isOverNow()) {
       cut_ = true;
       return;
     }
-    expand(take());
+    expand(open_.take());
   }
 }
 
-// Without room, it is not kept for the next proof.
+void BranchAndBound::add(Slot kept, Slot child, bool opens_b, double squared_bound) {
+  if (open_.add(opens_b ? kept : child, opens_b ? child : kept, squared_bound)) return;
+  exclude(std::sqrt(squared_bound));
+  cut_ = true;
+}
+
+void BranchAndBound::expand(const OpenPairs::OpenPair& pair) {
+  const std::uint32_t child_a = a_.child(pair.a);
+  const std::uint32_t child_b = b_.child(pair.b);
+  if (isLeaf(child_a) && isLeaf(child_b)) {
+    openLeaves(pair);
+    return;
+  }
+  const bool opens_b = bounds_.opensB(pair.a, pair.b);
+  const std::uint32_t opened = opens_b ? child_b : child_a;
+  const Slot kept = opens_b ? pair.a : pair.b;
+  const Hierarchy::SingleNode& node = (opens_b ? b_ : a_).singleNodes()[opened];
+  LaneDirections directions;
+  const Lanes bounds = bounds_.squaredBounds(kept, opened, opens_b, cache_ == nullptr ? nullptr : &directions)
+                           .max(pair.squared_bound);
+  if (cache_ == nullptr && bounds.minCoeff() >= nearest_.squaredEnough()) {
+    excludeSquared(bounds.minCoeff());
+    return;
+  }
+  bool by_boxes = true;
+  BoundCache::Quad* quad = nullptr;
+  std::uint32_t nearest = Hierarchy::kWidth;
+  double nearest_bound = nearest_.squaredEnough();
+  for (std::uint32_t lane = 0; lane < Hierarchy::kWidth; ++lane) {
+    if (node.child[lane] == Hierarchy::kNoChild) break;
+    const Slot child = slotOf(opened, lane);
+    double squared_bound = bounds[lane];
+    if (raiseAlongWitnesses(kept, child, opens_b, squared_bound)) by_boxes = false;
+    if (squared_bound >= nearest_.squaredEnough()) {
+      excludeSquared(squared_bound);
+      if (cache_ == nullptr) continue;
+      if (quad == nullptr) quad = keepQuad(kept, opened, opens_b, directions);
+      if (quad == nullptr) continue;
+      quad->bound[lane] = std::sqrt(squared_bound) + cache_->moved_distances_[quad->subtree];
+    } else if (squared_bound < nearest_bound) {
+      if (nearest != Hierarchy::kWidth) add(kept, slotOf(opened, nearest), opens_b, nearest_bound);
+      nearest = lane;
+      nearest_bound = squared_bound;
+    } else {
+      add(kept, child, opens_b, squared_bound);
+    }
+  }
+  if (quad != nullptr) quad->by_boxes = by_boxes;
+  if (nearest != Hierarchy::kWidth) {
+    add(kept, slotOf(opened, nearest), opens_b, nearest_bound);  // is taken next
+  }
+}
+
+// Adds an entry to the cache, none of its children excluded; returns nullptr when there is no room.
+BoundCache::Quad* BranchAndBound::keepQuad(Slot kept, std::uint32_t opened, bool opens_b,
+                                           const LaneDirections& directions) {
+  if (!limit_.makeRoom(cache_->quads_) || !limit_.makeRoom(cache_->directions_)) {
+    dropCache();
+    return nullptr;
+  }
+  const std::uint8_t subtree = opens_b ? b_.subtreeOfNode(opened) : subtreeOf(kept);
+  cache_->directions_.push_back(directions);
+  cache_->quads_.push_back(
+      {{kInfinity, kInfinity, kInfinity, kInfinity}, kept, opened, subtree, opens_b, true});
+  return &cache_->quads_.back();
+}
+
+// Raises the bound of a child that its box does not exclude, where the direction between the witnesses does.
+bool BranchAndBound::raiseAlongWitnesses(Slot kept, Slot child, bool opens_b, double& squared_bound) {
+  if (squared_bound >= nearest_.squaredEnough()) return false;
+  const double separation = bounds_.separationAlongWitnesses(opens_b ? kept : child, opens_b ? child : kept);
+  if (separation < nearest_.enough()) return false;
+  squared_bound = separation * separation;
+  return true;
+}
+
+void BranchAndBound::openLeaves(const OpenPairs::OpenPair& pair) {
+  Eigen::Vector3d direction = nearest_.direction();
+  const double bound =
+      std::max(std::sqrt(pair.squared_bound),
+               nearest_.measureLeaves(leafOfA(pair.a), leafOfB(pair.b), cache_ != nullptr, direction));
+  exclude(bound);
+  if (cache_ == nullptr) return;
+  if (!limit_.makeRoom(cache_->leaf_pairs_)) {
+    dropCache();
+    return;
+  }
+  const std::uint8_t subtree = subtreeOf(pair.b);
+  cache_->leaf_pairs_.push_back(
+      {bound + cache_->moved_distances_[subtree], pair.a, pair.b, subtree, direction});
+}
+
+// Does without the cache when there is no room for it.
 void BranchAndBound::dropCache() {
   cache_->clear();
   cache_ = nullptr;
 }
 
-// With a budget the least bound comes first, so that the proven bound rises as fast as it can; without one a
-// stack does, which costs less.
-BranchAndBound::OpenPair BranchAndBound::take() {
-  if (timed_) std::pop_heap(open_.begin(), open_.begin() + openCount(), isFarther);
-  return open_[--open_count_];
-}
-
 DistanceCertificate BranchAndBound::conclude() {
-  result_.witness = frame_.toWitness(closest_, triangle_a_, triangle_b_);
-  result_.distance = distance_;
-  double bound = std::min({distance_ - error_, excluded_, std::sqrt(squared_excluded_)});
-  for (std::size_t i = 0; i < open_count_; ++i) bound = std::min(bound, std::sqrt(open_[i].squared_bound));
+  const double distance = nearest_.distance();
+  result_.witness = nearest_.witness();
+  result_.distance = distance;
+  const double bound = std::min({distance - frame_.error, excluded_, std::sqrt(squared_excluded_),
+                                 std::sqrt(open_.leastSquaredBound())});
   result_.lower_bound = bound > 0.0 ? std::nextafter(bound, 0.0) : 0.0;
-  if (squared_distance_ == 0.0) {
+  if (nearest_.squaredDistance() == 0.0) {
     result_.status = CertificateStatus::Penetrating;
     result_.lower_bound = 0.0;
   } else if (cut_) {
     result_.status = CertificateStatus::Budget;
-  } else if (bound < distance_ - error_) {
+  } else if (bound < distance - frame_.error) {
     result_.status = CertificateStatus::Tolerance;
   } else {
     result_.status = CertificateStatus::Proven;

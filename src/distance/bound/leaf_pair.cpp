@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "distance/kernels/prepared_triangle.h"
+
 namespace concave_distance::detail {
 namespace {
 
@@ -113,6 +115,49 @@ Lanes planeSeparation(const TrianglePoints& a, const LeafLanes& b) {
   const Lanes by_a = above.max(below).max(0.0) / std::sqrt(std::max(normal.squaredNorm(), kLeast));
   const Lanes by_b = over.max(under).max(0.0) / b.squared_normal.max(kLeast).sqrt();
   return by_a.max(by_b);
+}
+
+double separationAlong(const BoundingVolumeHierarchy::Leaf& leaf_a,
+                       const BoundingVolumeHierarchy::Leaf& leaf_b, const Vector3d& direction,
+                       const ProofFrame& frame) {
+  return direction.dot(frame.offset) - mostAlong(leaf_a, direction).maxCoeff() -
+         mostAlong(leaf_b, -(frame.turned * direction)).maxCoeff() - frame.scale.slack;
+}
+
+double separationAlongNormals(const BoundingVolumeHierarchy::Leaf& leaf_a, const LeafLanes& b, double slack,
+                              double enough, Vector3d& parting) {
+  const Vector3d apart = b.triangle(0)[0] - triangleOf(leaf_a, 0)[0];
+  for (const Vector3d& sum : {sumOfNormals(leaf_a), sumOfNormals(b)}) {
+    if (!(sum.squaredNorm() > kLeastSquare)) continue;
+    const Vector3d normal = sum / (sum.dot(apart) < 0.0 ? -sum.norm() : sum.norm());
+    const double separation = leastAlong(b, normal).minCoeff() - mostAlong(leaf_a, normal).maxCoeff() - slack;
+    if (separation < enough) continue;
+    parting = normal;
+    return separation;
+  }
+  return 0.0;
+}
+
+TrianglePair nearestByCentres(const BoundingVolumeHierarchy::Leaf& leaf_a,
+                              const BoundingVolumeHierarchy::Leaf& leaf_b, const ProofFrame& frame) {
+  const LeafLanes b(leaf_b, frame.rotation, frame.offset);
+  TrianglePair nearest{};
+  double least = std::numeric_limits<double>::infinity();
+  for (std::uint32_t i = 0; i < leaf_a.count; ++i) {
+    const TrianglePoints a = triangleOf(leaf_a, i);
+    const Vector3d sum = a[0] + a[1] + a[2];
+    Lanes squared = Lanes::Zero();
+    for (int c = 0; c < 3; ++c) {
+      squared += (b.corner[0][c] + b.corner[1][c] + b.corner[2][c] - sum[c]).square();
+    }
+    for (std::uint32_t lane = 0; lane < leaf_b.count; ++lane) {
+      if (squared[lane] < least) {
+        least = squared[lane];
+        nearest = {leaf_a.triangle[i], leaf_b.triangle[lane]};
+      }
+    }
+  }
+  return nearest;
 }
 
 }  // namespace concave_distance::detail

@@ -2,6 +2,7 @@
 
 #include "box_pair_bounds.h"
 #include "distance/kernels/triangle_distance.h"
+#include "proof_frame.h"
 
 namespace concave_distance::detail {
 
@@ -40,5 +41,20 @@ Lanes mostAlong(const BoundingVolumeHierarchy::Leaf& leaf, const Eigen::Vector3d
 /// Returns how far a's plane or the lane's own plane parts triangle `a` from each lane; metres, 0 where
 /// neither does. Needs the leaf's normals.
 Lanes planeSeparation(const TrianglePoints& a, const LeafLanes& b);
+
+/// Returns how far two leaves are apart along a unit direction from A to B, metres; negative where they
+/// overlap along it.
+double separationAlong(const BoundingVolumeHierarchy::Leaf& leaf_a,
+                       const BoundingVolumeHierarchy::Leaf& leaf_b, const Eigen::Vector3d& direction,
+                       const ProofFrame& frame);
+
+/// Returns how far leaves are apart along the mean of either leaf's normals, which parts leaves that bend
+/// little, and that normal; metres, 0 where neither reaches `enough`. Needs the normals of `b`.
+double separationAlongNormals(const BoundingVolumeHierarchy::Leaf& leaf_a, const LeafLanes& b, double slack,
+                              double enough, Eigen::Vector3d& parting);
+
+/// Returns the pair of triangles whose centres are nearest to each other.
+TrianglePair nearestByCentres(const BoundingVolumeHierarchy::Leaf& leaf_a,
+                              const BoundingVolumeHierarchy::Leaf& leaf_b, const ProofFrame& frame);
 
 }  // namespace concave_distance::detail

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "base/coordinate_limit.h"
-#include "distance/kernels/closest_point.h"
+#include "closest_point.h"
 #include "distance/kernels/round_pair_distance.h"
 #include "mesh/surface/mesh_topology.h"
 #include "mesh/surface/round_geometry.h"
@@ -16,7 +16,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Which body is the solid, and where it is.
+/// Says which body is the solid, and where it is.
 struct RoundRoles {
   RoundRoles(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b)
       : a_is_shape(a.shape() != nullptr),

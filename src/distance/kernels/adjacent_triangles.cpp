@@ -71,7 +71,7 @@ void addAcross(const SurfaceMesh& mesh, const MeshTopology& topology, NodeIndex 
   }
 }
 
-/// Whether a point lies on the line through two corners, given relative to it, within the tolerance.
+/// Returns whether a point lies on the line through two corners, given relative to it, within the tolerance.
 bool isOnLine(const Vector3d& from, const Vector3d& to, double squared_tolerance) {
   const Vector3d edge = to - from;
   return from.cross(edge).squaredNorm() <= squared_tolerance * edge.squaredNorm();

@@ -121,7 +121,7 @@ class CylinderSearch {
     on_b_ = value_ > 0.0 ? Vector3d(a_from_b_ * surfacePoint(b_, lowest.point)) : on_a_;
   }
 
-  /// Where the axes are closest, if that is within both.
+  /// Tries where the axes are closest, if that is within both.
   void lookBetweenSides() {
     const Vector3d cross(-axis_.y(), axis_.x(), 0.0);
     const double squared = cross.squaredNorm();
@@ -136,7 +136,7 @@ class CylinderSearch {
     takePointOfB({apart > 0.0 ? signedDistance(a_, point) : apart, point});
   }
 
-  /// How far a plane across a unit direction, from A to B, keeps the solids apart.
+  /// Returns how far a plane across a unit direction, from A to B, keeps the solids apart.
   double separation(const Vector3d& direction) const {
     const double along_b = std::abs(direction.dot(axis_));
     const double across_b = direction.cross(axis_).norm();

@@ -65,6 +65,8 @@ struct PairFrame {
 
   Eigen::Isometry3d bFromA() const { return a_from_b.inverse(Eigen::Isometry); }
   double diameters() const { return a.diameter() + b.diameter(); }
+  /// Surfaces nearer than this (m) touch, for all that the kernels and the pose tell.
+  double touchingDistance() const { return 4.0 * rounding + 2.0 * pose_error; }
   /// Two refined witnesses nearer than this (m) on both bodies are one. It is far above the rounding of the
   /// kernels and far below any feature.
   double samePlaceTolerance() const { return 1e-7 * diameters(); }

@@ -68,7 +68,7 @@ struct FaceFrame {
 
   bool flat() const { return inverse_hh == 0.0; }
 
-  /// Whether `point` projects inside, and where; the foot lies on the triangle whatever the rounding.
+  /// Returns whether `point` projects inside, and where; the foot lies on the triangle whatever the rounding.
   bool isOver(const Eigen::Vector3d& point, Eigen::Vector3d& foot) const {
     const Eigen::Vector3d w = point - corner;
     const double along = w.dot(edge) * inverse_ee;

@@ -27,7 +27,7 @@ LowestPoint at(const RoundShape& shape, const Vector3d& point) {
   return {signedDistance(shape, point), point};
 }
 
-/// Where on p + t d, t in [0, 1], the slope of the signed distance changes its sign.
+/// Finds the t in [0, 1] at which the slope of the signed distance along p + t d changes its sign.
 class SlopeSearch {
  public:
   SlopeSearch(const RoundShape& shape, const Vector3d& p, const Vector3d& d)
@@ -57,8 +57,8 @@ class SlopeSearch {
   double slope(double t) const { return outwardDirection(shape_, p_ + t * d_).dot(d_); }
   double secant() const { return low_ + (high_ - low_) * low_slope_ / (low_slope_ - high_slope_); }
 
-  /// Where the tangents at both ends cross: at a kink at once. A little inside, so that its other side is
-  /// seen next.
+  /// Returns where the tangents at both ends cross: at a kink at once. A little inside, so that its other
+  /// side is seen next.
   double tangents() const {
     const double rise = signedDistance(shape_, p_ + high_ * d_) - signedDistance(shape_, p_ + low_ * d_);
     const double t = low_ + (rise - high_slope_ * (high_ - low_)) / (low_slope_ - high_slope_);

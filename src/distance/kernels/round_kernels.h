@@ -7,7 +7,7 @@
 
 namespace concave_distance {
 
-/// Where the signed distance to a round solid is least, in the shape's frame.
+/// Says where the signed distance to a round solid is least, in the shape's frame.
 struct LowestPoint {
   double value;  ///< metres, negative inside
   Eigen::Vector3d point;

@@ -55,7 +55,8 @@ struct ConeLimits {
   /// three factors, each rounded, and err by less than 32; a centre and an axis that are moved in single
   /// precision by less than 8 each, which enters twice.
   static constexpr double kFloatSlack = 0x1.0p-17;
-  /// Of cosines and angles: 32 units; a moved axis errs by less than 8, a sum of 5 products by less than 8.
+  /// Bounds the error of cosines and angles, 32 units: a moved axis errs by less than 8, a sum of 5 products
+  /// by less than 8.
   static constexpr float kAngleSlack = 0x1.0p-19F;
 
   float slack;

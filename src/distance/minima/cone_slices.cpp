@@ -5,7 +5,7 @@
 namespace concave_distance::detail {
 namespace {
 
-// Of a slice. Few sweeps are full before they are done.
+// These are sizes of a slice. Few sweeps fill theirs before they are done.
 constexpr std::size_t kLeastExpired = 64;
 constexpr std::size_t kMostExpired = 512;
 constexpr std::size_t kMostOpened = 64;

@@ -65,7 +65,7 @@ struct FeatureBody {
   }
 
   /// Returns how far, at most, a neighbour of the vertex rises along `displacement`, per length of its edge.
-  /// What is within rounding does not count.
+  /// Rises within rounding do not count.
   double rise(NodeIndex node, const Eigen::Vector3d& displacement, double slack) const {
     const Eigen::Vector3d here = vertex(node);
     const double reach = displacement.norm();

@@ -66,7 +66,7 @@ struct FeaturePairs::FacingCap {
   double cosine;
   double sine;
 
-  /// Whether `direction` (of length `length`) lies in it, or may within a turn.
+  /// Returns whether `direction` (of length `length`) lies in it, or may within a turn.
   bool holds(const Vector3d& direction, double length, double turn_cosine, double turn_sine) const {
     const double sine_of_sum = turn_sine * cosine + turn_cosine * sine;
     return sine_of_sum <= 0.0 ||

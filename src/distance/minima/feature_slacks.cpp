@@ -40,7 +40,7 @@ struct Arc {
   }
 };
 
-/// Whether the arcs of two circles, neither of them short, have a point in common.
+/// Returns whether the arcs of two circles, neither of them short, have a point in common.
 bool doCross(const Arc& l, const Arc& r) {
   const double first = l.across.dot(r.first);
   const double last = l.across.dot(r.last);

@@ -49,7 +49,7 @@ class MinimaTracker::Stage {
     front_.queues_.begin(front_.motion_.size());
     lists.minima.clear();
     lists.undecided.clear();
-    // What most pairs never outgrow.
+    // Most pairs never outgrow these sizes.
     lists.minima.reserve(kUsualMinima);
     lists.undecided.reserve(kUsualMinima);
     lists.open.reserve(kUsualMinima);
@@ -93,7 +93,7 @@ class MinimaTracker::Stage {
  private:
   std::size_t expiredCount() const { return front_.expired_.size() - front_.next_expired_; }
 
-  /// Where memory was refused, the one sweep goes on without more.
+  /// When memory is refused, the one sweep goes on without more.
   bool canSlice() { return !limit_.hasRefusedMemory() && front_.slices_.prepare(limit_); }
 
   /// The one sweep; few open pairs that hold much are opened until there are enough for slices.
@@ -111,7 +111,7 @@ class MinimaTracker::Stage {
     const std::size_t taken =
         slices.takeExpired(front_.expired_.data() + front_.next_expired_, expiredCount());
     runSlices();
-    // What a full slice has left comes before what none has taken.
+    // The pairs that a full slice has left come before those that none has taken.
     SlotPair* left = front_.expired_.data() + front_.next_expired_ + taken;
     for (std::size_t i = slices.used(); i-- > 0;) {
       left = std::move_backward(slices[i].expired.next, slices[i].expired.end, left);
@@ -185,7 +185,7 @@ bool MinimaTracker::collect(const PairFrame& frame, NormalSides sides, double cu
     done = stage.run() && done;
   }
   lists_.candidates.swap(candidates);
-  // What a limit has ended grows until it is whole.
+  // A sweep that a limit has ended grows until it is whole.
   if (kept_at_begin_ == 0) {
     kept_at_begin_ = done ? queues_.size() : 0;
   } else if (queues_.size() > kLargestGrowth * kept_at_begin_ + kSmallGrowth) {

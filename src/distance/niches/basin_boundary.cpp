@@ -9,8 +9,8 @@ namespace {
 using Eigen::Vector3d;
 using Row = Eigen::Array<float, BoundaryPool::kWidth, 1>;
 
-/// What single precision may make of a bound, relative to the numbers in it (2^-24 for each of 16 roundings,
-/// and as much to spare).
+/// Bounds the error of a bound in single precision, relative to the numbers in it (2^-24 for each of 16
+/// roundings, and as much to spare).
 constexpr double kSingleError = 0x1.0p-18;
 
 /// The corners of an element's part on one body, in the body's own axes and the frame's centre.
@@ -63,7 +63,7 @@ Row rowOf(const std::array<float, BoundaryPool::kWidth>& row) {
 
 }  // namespace
 
-/// How far an element's parts reach; the body with the smaller radius counts as the one that moves.
+/// Says how far an element's parts reach; the body with the smaller radius counts as the one that moves.
 struct BasinBoundary::Radii {
   Radii(const Part& a, const Part& b, const std::array<Vector3d, 2>& centres) {
     const double radius_a = a.radiusOf(centres[0]);
@@ -110,7 +110,7 @@ std::size_t BoundaryPool::memoryBytes() const {
          anew.capacity() * sizeof(Directed) + crossed.capacity() * sizeof(BoundaryElement);
 }
 
-/// Of the gaps of a batch at another pose.
+/// Bounds the gaps of a batch at another pose.
 class BasinBoundary::Bound {
  public:
   Bound(const PairFrame& frame, const Batch& batch, const Vector3d& moving_centre) {
@@ -124,7 +124,7 @@ class BasinBoundary::Bound {
     along_ = batch.directed ? Eigen::Vector3f(motion.cast<float>()) : Eigen::Vector3f::Zero();
   }
 
-  /// What of() must be above for a level (metres) to be certain.
+  /// Returns what of() must be above for a level (metres) to be certain.
   float needed(double level) const { return static_cast<float>((level + less_) * (1.0 + kSingleError)); }
 
   Row of(const BoundaryPool::Chunk& chunk) const {
@@ -221,8 +221,8 @@ bool BasinBoundary::add(BoundaryPool& pool, const PairFrame& frame, const Bounda
              {gap, radii.smaller, Eigen::Vector3f::Zero(), element}, limit);
 }
 
-/// What may be nearer than the level leaves the batch: it is looked at along its direction, and measured
-/// where that does not do.
+/// Takes out of the batch what may be nearer than the level: it is looked at along its direction, and
+/// measured where that does not suffice.
 std::uint32_t BasinBoundary::look(BoundaryPool& pool, const PairFrame& frame, Batch& batch,
                                   double level) const {
   const Bound bound(frame, batch, centres_[batch.fixed_in == Side::A ? 1 : 0]);

@@ -21,7 +21,7 @@ struct BoundaryElement {
   }
 };
 
-/// Where the boundaries of a pair keep their elements, in groups of one measurement. Freed groups are used
+/// Keeps the elements of a pair's boundaries, in groups of one measurement. Freed groups are used
 /// again, so that nothing is allocated once as many as ever are there.
 class BoundaryPool {
  public:

@@ -22,8 +22,8 @@ class BasinSearch {
     double equal;    ///< facet pairs with at most this may be those of another minimum
     double highest;  ///< goes no higher
   };
-  /// What the search is for: to decide, it takes any path below the highest level; to measure a pass, the
-  /// lowest path to each facet pair, which costs more.
+  /// Says what the search is for: to decide, it takes any path below the highest level; to measure a pass,
+  /// the lowest path to each facet pair, which costs more.
   enum class Purpose : std::uint8_t { Decide, MeasurePass };
   enum class End : std::uint8_t {
     Enclosed,  ///< all that is connected below the level has been visited

@@ -32,7 +32,7 @@ bool CandidateCollector::collect(const PairFrame& frame, const LocalMinimaReques
       collectFarCandidates(frame, request.cutoff, distant_components_, candidates, limit)) {
     return true;
   }
-  if (!(request.certain_distance > 16.0 * frame.rounding)) {
+  if (!(request.certain_distance > 4.0 * frame.touchingDistance())) {
     collectMeetingPairs(frame, open_, candidates, cost, limit);
   }
   const NormalSides sides = request.through_material ? NormalSides::Both : NormalSides::Outside;

@@ -16,7 +16,7 @@ class NicheDecider::Stage {
         limit_(limit),
         paths_(memory_, frame, decider.counts_, limit),
         basins_(memory_, decider.search_, frame, decider.counts_, limit),
-        tolerance_(8.0 * frame.rounding + 2.0 * frame.pose_error) {}
+        tolerance_(2.0 * frame.touchingDistance()) {}
 
   /// Enters the candidates into their facet pairs and the deepest of each kept basin into the basin.
   void enter(const std::vector<MinimumCandidate>& candidates);

@@ -24,8 +24,8 @@ struct TrianglesOfPieces {
   std::vector<TriangleIndex> triangles;
 };
 
-/// Whether a local minimum is proven to be the nearest place of its two pieces: the direction between its
-/// points separates them by its distance. O(triangles).
+/// Returns whether a local minimum is proven to be the nearest place of its two pieces: the direction between
+/// its points separates them by its distance. O(triangles).
 bool isNearestOfItsPieces(const PairFrame& frame, const WitnessPair& minimum);
 
 struct DistantComponentBuffers {

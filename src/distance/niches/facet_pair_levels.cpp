@@ -146,8 +146,8 @@ FacetPairLevels oneByOne(const FacetPoints& a, const FacetPoints& b) {
   return levels;
 }
 
-/// Whether a's plane or b's, or a plane across the line between their middles, parts them by more than
-/// rounding.
+/// Returns whether a's plane, b's or one across the line between their middles parts them by more than the
+/// rounding of their distances.
 bool certainlyApart(const PreparedFacet& a, const PreparedFacet& b) {
   const auto parts = [&](const Vector3d& d) {
     const auto along = [&](const FacetPoints& points) {
@@ -192,7 +192,7 @@ FacetPairLevels facetPairLevels(const FacetPoints& a, const FacetPoints& b) {
   for (std::size_t k = 0; k < 4; ++k) levels.edges_of_b[k] = least_b[static_cast<Eigen::Index>(k)];
   lower(levels.edges_of_a, pointsToInside(lanesOf(a.corners), side_b));
   lower(levels.edges_of_b, pointsToInside(corners_b, side_a));
-  // What a corner of b has over a's inside is no edge of a's, but the edges of a are no closer than the pair.
+  // A corner of b over a's inside has no edge of a's, but the edges of a are no closer than the pair.
   return levels;
 }
 

@@ -9,8 +9,8 @@
 
 namespace concave_distance::detail {
 
-/// What two neighbouring facet pairs have in common: an edge of one body's facet, or a vertex of it (from ==
-/// to), with a facet of the other body.
+/// Names what two neighbouring facet pairs have in common: an edge of one body's facet, or a vertex of it
+/// (from == to), with a facet of the other body.
 struct SharedElement {
   Side side;  ///< of the edge
   NodeIndex from;

@@ -31,6 +31,9 @@ struct LocalMinimaParts {
   /// Describes what has been judged a niche and is not described yet.
   void describeNiches(const PairFrame& frame, const LocalMinimaRequest& request, WorkLimit& limit);
   void list(const LocalMinimaRequest& request, LocalMinima& result);
+  /// Describes the niche that is known to be the only one and gives it all that is asked for.
+  void listKnown(const PairFrame& frame, const LocalMinimaRequest& request, LocalMinima& result,
+                 WorkLimit& limit);
   /// Measures the prominences of the listed niches.
   void measure(const PairFrame& frame, const LocalMinimaRequest& request, LocalMinima& result,
                WorkLimit& limit);
@@ -171,6 +174,18 @@ void LocalMinimaParts::list(const LocalMinimaRequest& request, LocalMinima& resu
   }
 }
 
+void LocalMinimaParts::listKnown(const PairFrame& frame, const LocalMinimaRequest& request,
+                                 LocalMinima& result, WorkLimit& limit) {
+  LocalMinimum niche;
+  const MinimumCandidate* known = request.known->niche;
+  if (known != nullptr && describer.describe(frame, request, *known, false, true, niche, limit)) {
+    niche.searched = request.rule.levelOf(niche.distance);
+    if (!request.proposals.empty()) niche.proposal = 0;
+    result.niches.push_back(niche);
+  }
+  result.owners.assign(request.asked_pairs.size(), result.niches.empty() ? kNoOwner : 0);
+}
+
 }  // namespace detail
 
 LocalMinimaMemory::LocalMinimaMemory() = default;
@@ -203,6 +218,12 @@ void findLocalMinima(const detail::PairFrame& frame, const LocalMinimaRequest& r
   result.owners.clear();
   result.cost = {};
   parts.describer.begin(frame, request);
+  if (request.known) {
+    parts.listKnown(frame, request, result, limit);
+    result.cut = false;
+    result.finished = !limit.isOver();
+    return;
+  }
   parts.described.clear();
   parts.owners.clear();
   parts.proposed.clear();
@@ -212,7 +233,7 @@ void findLocalMinima(const detail::PairFrame& frame, const LocalMinimaRequest& r
   result.cost.sweep_seconds = std::chrono::duration<double>(WorkLimit::Clock::now() - start).count();
   result.cost.minima = parts.candidates.size();
   limit.allowShare(request.time_shares.all);
-  // What is proposed counts while not everything has been looked at.
+  // Proposals count while not everything has been looked at.
   if (!all) detail::appendCandidates(frame, request, request.proposals, parts.candidates);
   const bool decided = parts.decide(frame, request, limit);
   parts.list(request, result);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -33,6 +34,11 @@ struct LocalMinimaRequest {
   bool hidden = true;
   /// Local minima that are known, instead of all there are; nullptr: all are looked for.
   const std::vector<MinimumCandidate>* given = nullptr;
+  /// The list is known to hold one niche, this one, or none where this is nullptr: nothing is looked for.
+  struct Known {
+    const MinimumCandidate* niche;
+  };
+  std::optional<Known> known;
   /// Triangle pairs whose niches are asked for (LocalMinima::owners), e.g. those that a search has found:
   /// descended to the local minimum around them.
   std::vector<std::pair<TriangleIndex, TriangleIndex>> asked_pairs;
@@ -40,7 +46,7 @@ struct LocalMinimaRequest {
   /// Minima that a search has found. Niches that come from them say so (LocalMinimum::proposal). Where the
   /// limit ends the search for all minima, they are judged with what was found.
   std::vector<MinimumCandidate> proposals;
-  /// What proves the answer is kept for the next pose.
+  /// True when what proves the answer is to be kept for the next pose.
   bool is_tracked = false;
   /// Metres; no two points are closer than this. Above 0, bodies that meet are not looked for.
   double certain_distance = 0.0;
@@ -55,7 +61,7 @@ struct LocalMinimaRequest {
   WorkLimit* limit = nullptr;
 };
 
-/// What one call of findLocalMinima() leaves to the next one for the same bodies at a pose nearby.
+/// Keeps what one call of findLocalMinima() leaves to the next one for the same bodies at a pose nearby.
 class LocalMinimaMemory {
  public:
   LocalMinimaMemory();

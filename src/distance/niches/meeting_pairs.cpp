@@ -1,5 +1,7 @@
 #include "meeting_pairs.h"
 
+#include <cmath>
+
 #include "mesh/trees/triangle_tree.h"
 #include "shell_material.h"
 
@@ -20,7 +22,7 @@ void collectMeetingPairs(const PairFrame& frame, std::vector<TreeNodePair>& open
                          std::vector<MinimumCandidate>& candidates, LocalMinimaCost& cost, WorkLimit& limit) {
   const TriangleTree& tree_a = frame.a.tree();
   const TriangleTree& tree_b = frame.b.tree();
-  const double slack = 4.0 * frame.rounding;
+  const double slack = frame.touchingDistance();
   // Boxes are compared in A's own frame, far from whose origin coordinates round coarser.
   const double origin = frame.a.surface().boundingBox().center().cwiseAbs().maxCoeff() +
                         frame.b.surface().boundingBox().center().cwiseAbs().maxCoeff();
@@ -48,7 +50,8 @@ void collectMeetingPairs(const PairFrame& frame, std::vector<TreeNodePair>& open
           const Eigen::Vector3d point = closest.point_a + frame.centre_a;
           if (isInsideMaterial(frame, {0.0, point, point, ta, tb})) continue;
           if (!limit.makeRoom(candidates)) return;
-          candidates.push_back(candidateOn(ta, tb, 0.0));
+          const double distance = std::sqrt(closest.squared_distance);
+          candidates.push_back(candidateOn(ta, tb, distance > 4.0 * frame.rounding ? distance : 0.0));
         }
       }
     } else if (b.count > 0 || (a.count == 0 && a.box.sizes().sum() >= b.box.sizes().sum())) {

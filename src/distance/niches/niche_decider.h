@@ -51,8 +51,8 @@ class NicheDecider {
     /// Niches through material are wanted; else nothing is judged that begins there.
     bool through_material = false;
     bool is_tracked = true;  ///< what proves a decision is kept for the next pose
-    /// Whether a candidate that is no known ripple is wanted; empty: all are. The occluder is kept with the
-    /// candidate's triangle pair.
+    /// Returns whether a candidate that is no known ripple is wanted; empty: all are. The occluder is kept
+    /// with the candidate's triangle pair.
     std::function<bool(const MinimumCandidate&, Occluder&)> is_wanted;
   };
 

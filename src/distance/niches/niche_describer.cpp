@@ -52,13 +52,16 @@ bool NicheDescriber::describe(const PairFrame& frame, const LocalMinimaRequest& 
     return true;
   }
   if (niche.distance > request.cutoff) return false;
+  if (minimum.distance <= frame.touchingDistance()) return true;
   if (!all_outward_ || met_by_search) {
     niche.outward = classifyOutwardness(a, b, frame.a_from_b, niche.witness);
     if (niche.outward == Outwardness::ThroughMaterial && !request.through_material) return false;
   }
+  // What begins in the material of another shell is no place of the surface; only hidden niches do.
+  if (request.hidden && !request.through_material && isInsideMaterial(frame, niche.witness)) return false;
   if (!minimum.is_point) measure(frame, niche, limit);
   // Bodies that overlap can be opposite to each other inside another shell of one of them.
-  const bool may_overlap = !(request.certain_distance > 16.0 * frame.rounding);
+  const bool may_overlap = !(request.certain_distance > 4.0 * frame.touchingDistance());
   const auto is_clear = [&](const WitnessPair& witness) {
     return isVisible(a, b, frame.a_from_b, witness) && !(may_overlap && isInsideMaterial(frame, witness));
   };

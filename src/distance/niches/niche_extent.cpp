@@ -39,7 +39,7 @@ struct Levels {
   double slack;      ///< rounding
 };
 
-/// What of a triangle is level with the witness: all of it, an edge, a corner or nothing.
+/// Returns what of a triangle is level with the witness: all of it, an edge, a corner or nothing.
 PlanarFeature levelPart(const LevelSide& side, TriangleIndex t, double tolerance) {
   PlanarFeature part;
   for (const Vector3d& corner : side.corners(t)) {
@@ -175,7 +175,7 @@ class LevelSetSearch {
   NicheExtent& extent_;
 };
 
-/// Whether every corner around the witness, but for one that the witness is on, lies clearly behind it.
+/// Returns whether every corner around the witness, but for one that it is on, lies clearly behind it.
 bool isPeak(const LevelSide& side, TriangleIndex triangle, Feature feature, const Levels& levels,
             RefinementWorkspace& ring) {
   const detail::LocalTriangle own{side.body.surface(), side.body.topology(), side.centre, triangle};
@@ -191,8 +191,8 @@ bool isPeak(const LevelSide& side, TriangleIndex triangle, Feature feature, cons
   return true;
 }
 
-/// How far the representative's distance may be from the witness's, in errors of the kernel: where it is
-/// farther, the set is level within the tolerance only, and the witness stands for it.
+/// Limits how far the representative's distance may be from the witness's, in errors of the kernel: where it
+/// is farther, the set is level within the tolerance only, and the witness stands for it.
 constexpr double kSameDistance = 4.0;
 /// A set ends where a body does, and segments that graze its last face are not hidden by it: a corner is
 /// taken so far inside, as a share of the part's size.

@@ -13,8 +13,8 @@
 
 namespace concave_distance {
 
-/// The set of all minimisers connected with a witness pair. The vector from A's point to B's is the same for
-/// all of them, so that the set is the overlap, seen along it, of what both bodies have level there.
+/// Describes the set of all minimisers connected with a witness pair. The vector from A's point to B's is the
+/// same for all of them, so that the set is the overlap, seen along it, of what both bodies have level there.
 struct NicheExtent {
   NicheKind kind = NicheKind::Point;  ///< Segment: extended in one direction, Patch: in two
   double length = 0.0;  ///< metres, largest distance between two points of the set on A; 0 for a point
@@ -45,8 +45,8 @@ struct ExtentWorkspace {
   std::vector<Eigen::Vector2d> corners;
   std::vector<Eigen::Vector2d> polygon;
   std::vector<Eigen::Vector2d> hull;
-  /// Of the set measured last, A's frame: a point of its plane on A, the unit vector towards B, the axes of
-  /// the two-dimensional coordinates; how far heights and points may be off, metres.
+  /// These describe the set measured last, A's frame: a point of its plane on A, the unit vector towards B,
+  /// the axes of the two-dimensional coordinates; how far heights and points may be off, metres.
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   Eigen::Vector3d axis_x = Eigen::Vector3d::Zero();
@@ -68,8 +68,8 @@ NicheExtent measureExtent(const BodyMesh& a, const BodyMesh& b, const Eigen::Iso
                           const WitnessPair& witness, double tolerance, std::size_t pair_limit,
                           ExtentWorkspace& workspace, WorkLimit* limit = nullptr);
 
-/// Whether a witness pair at the same distance (up to the tolerance of the measurement) lies on the set that
-/// was measured last. A set that is a point holds nothing else.
+/// Returns whether a witness pair at the same distance (up to the tolerance of the measurement) lies on the
+/// set that was measured last. A set that is a point holds nothing else.
 bool isOnMeasuredSet(const ExtentWorkspace& workspace, const WitnessPair& witness);
 
 /// Gives the point pair just inside a corner of a piece of the set measured last: each point the closest to

@@ -14,9 +14,9 @@ struct PlanarFeature {
   std::size_t count = 0;
 };
 
-/// What two features have in common, as corners (unordered, some twice): corners of either within `reach` of
-/// the other, and crossings of their edges. Borders that run side by side within `reach` are thus common as
-/// far as they do, while a crossing stays a point however far the reach.
+/// Appends what two features have in common, as corners (unordered, some twice): corners of either within
+/// `reach` of the other, and crossings of their edges. Borders that run side by side within `reach` are thus
+/// common as far as they do, while a crossing stays a point however far the reach.
 void appendOverlap(const PlanarFeature& a, const PlanarFeature& b, double reach, PlanarPoints& points);
 
 /// Convex hull, counter-clockwise, without repeated or collinear corners; sorts `points`.

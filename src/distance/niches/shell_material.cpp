@@ -5,7 +5,7 @@
 namespace concave_distance::detail {
 namespace {
 
-/// How far before a surface it is asked what is there, relative to the body.
+/// Says how far before a surface it is asked what is there, relative to the body.
 constexpr double kStepOff = 1e-7;
 
 /// @param towards unit vector; zero: along the triangle's normal

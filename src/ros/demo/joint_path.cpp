@@ -11,7 +11,7 @@
 namespace concave_distance::demo {
 namespace {
 
-// How far the last row may be from the first one: both are written with 9 digits or more.
+// The last row may be this far from the first one: both are written with 9 digits or more.
 constexpr double kClosingTolerance = 1e-9;
 
 }  // namespace

@@ -6,7 +6,7 @@
 
 namespace concave_distance::demo {
 
-/// What `main` of a demo node does: an Error ends it with a message.
+/// Runs `main` of a demo node: an Error ends it with a message.
 inline int runNode(int argc, char** argv, const char* name, void (*run)()) {
   ros::init(argc, argv, name);
   try {

@@ -5,6 +5,7 @@
 #include <tuple>
 #include <vector>
 
+#include "marker_parts.h"
 #include "ros/messages/conversions.h"
 
 namespace concave_distance {
@@ -12,16 +13,9 @@ namespace {
 
 constexpr float kBoxOpacity = 0.3F;
 constexpr double kSeenThroughOpacity = 0.5;
+// Distance of collision geometry from the surface over its diameter: rviz may draw the same one.
+constexpr double kCollisionOffset = 0.002;
 const Eigen::Vector4d kCollisionColour(0.1, 0.4, 0.9, 0.35);
-
-std_msgs::ColorRGBA toColor(const Eigen::Vector4d& color) {
-  std_msgs::ColorRGBA message;
-  message.r = static_cast<float>(color[0]);
-  message.g = static_cast<float>(color[1]);
-  message.b = static_cast<float>(color[2]);
-  message.a = static_cast<float>(color[3]);
-  return message;
-}
 
 // Outward unit vectors at the vertices; 0 where the normals of the faces around cancel out.
 std::vector<Eigen::Vector3d> vertexNormals(const SurfaceMesh& surface) {
@@ -85,25 +79,21 @@ void drawSurface(const SurfaceMesh& surface, double offset, visualization_msgs::
 
 visualization_msgs::MarkerArray bodyMarkers(const Scene& scene, bool with_collision) {
   visualization_msgs::MarkerArray message;
-  visualization_msgs::Marker clear;
-  clear.action = visualization_msgs::Marker::DELETEALL;
-  clear.pose.orientation.w = 1.0;
-  message.markers.push_back(clear);
+  message.markers.push_back(emptyMarker(std_msgs::Header(), "", 0, 0.0));
+  message.markers.back().action = visualization_msgs::Marker::DELETEALL;
   const std::vector<double> opacity = opacities(scene);
   for (std::size_t index = 0; index < scene.bodies.size(); ++index) {
     const SceneBody& body = scene.bodies[index];
     if (body.in_robot_model && !with_collision) continue;
-    visualization_msgs::Marker marker;
-    marker.header.frame_id = body.frame;
+    std_msgs::Header header;
+    header.frame_id = body.frame;
+    visualization_msgs::Marker& marker = message.markers.emplace_back(emptyMarker(
+        header, body.in_robot_model ? "collision" : "bodies", static_cast<std::int32_t>(index), 0.0));
     marker.frame_locked = 1;
-    marker.ns = body.in_robot_model ? "collision" : "bodies";
-    marker.id = static_cast<std::int32_t>(index);
-    marker.action = visualization_msgs::Marker::ADD;
-    marker.pose.orientation.w = 1.0;
-    marker.color = toColor(body.in_robot_model ? kCollisionColour : body.colour);
-    if (!body.in_robot_model) marker.color.a = static_cast<float>(opacity[index]);
-    drawSurface(body.mesh->surface(), 0.0, marker);
-    message.markers.push_back(std::move(marker));
+    const Eigen::Vector4d& colour = body.in_robot_model ? kCollisionColour : body.colour;
+    marker.color = makeColor(colour.head<3>(), body.in_robot_model ? colour[3] : opacity[index]);
+    drawSurface(body.mesh->surface(), body.in_robot_model ? kCollisionOffset * body.mesh->diameter() : 0.0,
+                marker);
   }
   return message;
 }

@@ -20,25 +20,11 @@ constexpr double kHeadWidth = 0.55;
 constexpr double kHeadLength = 0.6;
 constexpr double kHeadShare = 0.4;  // of a short arrow's length
 
-std_msgs::ColorRGBA color(float r, float g, float b, float a) {
-  std_msgs::ColorRGBA result;
-  result.r = r;
-  result.g = g;
-  result.b = b;
-  result.a = a;
-  return result;
-}
-
 Eigen::Vector3d toEigen(const geometry_msgs::Point& point) {
   return {point.x, point.y, point.z};
 }
 Eigen::Vector3d toEigen(const geometry_msgs::Vector3& vector) {
   return {vector.x, vector.y, vector.z};
-}
-
-// For text and disc: visible on light and dark backgrounds.
-std_msgs::ColorRGBA contactColor() {
-  return color(0.90F, 0.20F, 0.75F, 1.0F);
 }
 
 // A disc as large as the contact's area, across the normal.
@@ -49,7 +35,7 @@ void drawArea(const Contact& contact, double scale, Marker& marker) {
       toQuaternion(Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), toEigen(contact.normal)));
   marker.scale.x = marker.scale.y = 2.0 * std::sqrt(contact.contact_area / M_PI);
   marker.scale.z = kDiscHeight * scale;
-  marker.color = contactColor();
+  marker.color = contactTextColor();
   marker.color.a = 0.5F;
 }
 
@@ -69,35 +55,31 @@ std::string contactText(const Contact& contact) {
   if (contact.has_depth != 0) text = lengthText(contact.depth) + " deep";
   if (contact.has_force != 0) {
     const double newtons = toEigen(contact.wrench.force).norm();
-    text += (text.empty() ? "" : "  ") + forceText(newtons);
+    text += (text.empty() ? "" : ", ") + forceText(newtons);
   }
-  if (contact.largest_pressure > 0.0) text += "  up to " + pressureText(contact.largest_pressure);
+  if (contact.largest_pressure > 0.0) text += ", up to " + pressureText(contact.largest_pressure);
   return text.empty() ? "contact" : text;
 }
 
 }  // namespace
 
 std_msgs::ColorRGBA normalForceColor() {
-  return color(0.85F, 0.05F, 0.10F, 1.0F);
+  return makeColor({0.85, 0.05, 0.10});
 }
 std_msgs::ColorRGBA frictionColor() {
-  return color(0.10F, 0.40F, 0.95F, 1.0F);
+  return makeColor({0.10, 0.40, 0.95});
 }
 std_msgs::ColorRGBA contactTextColor() {
-  return contactColor();
+  return makeColor({0.90, 0.20, 0.75});
 }
 
 Marker emptyContactMarker(const PairContactState& pair, const char* kind, std::size_t index,
                           double lifetime) {
   const std::uint64_t id = pair.contacts[index].id;
-  Marker marker;
-  marker.header = pair.header;
-  marker.ns = pair.pair + "/" + kind;
-  marker.id = id == 0 ? -1 - static_cast<std::int32_t>(index) : static_cast<std::int32_t>(id & 0x7fffffffU);
-  marker.action = Marker::ADD;
-  marker.pose.orientation.w = 1.0;
-  marker.lifetime = ros::Duration(lifetime);
-  return marker;
+  return emptyMarker(
+      pair.header, pair.pair + "/" + kind,
+      id == 0 ? -1 - static_cast<std::int32_t>(index) : static_cast<std::int32_t>(id & 0x7fffffffU),
+      lifetime);
 }
 
 std::vector<Marker> contactMarkers(const PairContactState& pair, const std::vector<bool>& without_disc,
@@ -114,7 +96,7 @@ std::vector<Marker> contactMarkers(const PairContactState& pair, const std::vect
       Marker& line = add("contact_depth");
       line.type = Marker::LINE_LIST;
       line.scale.x = kLineWidth * style.scale;
-      line.color = color(0.35F, 0.0F, 0.35F, 1.0F);
+      line.color = makeColor({0.35, 0.0, 0.35});
       line.points = {contact.point_a, contact.point_b};
     }
     if (contact.has_force != 0 && contact.normal_force > 0.0) {
@@ -132,20 +114,16 @@ std::vector<Marker> contactMarkers(const PairContactState& pair, const std::vect
   return markers;
 }
 
-std::vector<ContactLabel> contactLabels(const PairContactState& pair, double lifetime) {
-  std::vector<ContactLabel> labels;
+std::vector<Label> contactLabels(const PairContactState& pair, double lifetime) {
+  std::vector<Label> labels;
   for (std::size_t k = 0; k < pair.contacts.size(); ++k) {
     const Contact& contact = pair.contacts[k];
     if (!toEigen(contact.centroid).allFinite()) continue;
-    ContactLabel label;
-    label.depth = contact.has_depth != 0 ? contact.depth : 0.0;
-    label.label.from = label.label.to = toEigen(contact.centroid);
-    Marker& text = label.label.marker;
-    text = emptyContactMarker(pair, "contact_text", k, lifetime);
+    Marker text = emptyContactMarker(pair, "contact_text", k, lifetime);
     text.type = Marker::TEXT_VIEW_FACING;
     text.color = contactTextColor();
-    text.text = contactText(contact);
-    labels.push_back(std::move(label));
+    text.text = pair.body_a + " - " + pair.body_b + ": " + contactText(contact);
+    labels.push_back({text, toEigen(contact.centroid), contact.has_depth != 0 ? contact.depth : 0.0});
   }
   return labels;
 }

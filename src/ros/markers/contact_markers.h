@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "marker_labels.h"
+#include "marker_parts.h"
 #include "marker_style.h"
 
 namespace concave_distance {
@@ -31,12 +31,8 @@ std::vector<visualization_msgs::Marker> contactMarkers(const PairContactState& p
                                                        const std::vector<bool>& without_disc,
                                                        const MarkerStyle& style, double lifetime);
 
-struct ContactLabel {
-  double depth = 0.0;  ///< m; 0 where it is not known
-  Label label;
-};
-
-/// Depth, force and largest pressure of each contact, at its centroid: namespace `<pair>/contact_text`.
-std::vector<ContactLabel> contactLabels(const PairContactState& pair, double lifetime);
+/// Names the bodies, the depth, the force and the largest pressure of each contact: namespace
+/// `<pair>/contact_text`. The place of each is its centroid.
+std::vector<Label> contactLabels(const PairContactState& pair, double lifetime);
 
 }  // namespace concave_distance

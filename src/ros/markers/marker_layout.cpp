@@ -6,10 +6,10 @@
 namespace concave_distance {
 namespace {
 
-constexpr double kMuchLarger = 8.0;        // than the median body: a floor, a hall
+constexpr double kMuchLarger = 6.0;        // than the median body: a floor, a hall
 constexpr double kFarOff = 8.0;            // median distances from the median centre
 constexpr double kScaleShare = 0.009;      // diameter of the nearest points over the scene's size
-constexpr double kLabelLetterShare = 2.2;  // height of the letters over that diameter
+constexpr double kLabelLetterShare = 2.5;  // height of the letters over that diameter
 constexpr double kFarShare = 0.25;         // end of the colour gradient over the scene's size
 constexpr double kResizeStep = 1.3;        // the size is updated when it has changed by this factor
 constexpr double kMoveStep = 0.1;          // the place is updated when it has moved by this share of the size

@@ -1,35 +1,16 @@
 #pragma once
 
-#include <visualization_msgs/Marker.h>
-
-#include <cstddef>
-#include <string>
-#include <vector>
-
-#include "marker_labels.h"
-#include "marker_layout.h"
+#include "concave_distance/scene/scene.h"
+#include "marker_selection.h"
+#include "text_list.h"
 
 namespace concave_distance {
 
-/// What the legend explains.
-struct LegendContents {
-  std::size_t drawn_pairs = 0;
-  std::size_t pairs = 0;      ///< with a distance
-  bool others = false;        ///< thin lines are drawn
-  bool dashes = false;        ///< some line is dashed
-  bool warnings = false;      ///< some pair has a warning distance
-  bool extents = false;       ///< circles are drawn
-  bool contacts = false;      ///< some pair has effects
-  double pressure_end = 0.0;  ///< Pa, in the last colour; 0: no pressure is drawn
-};
-
-/// The legend above the scene: namespace `legend`, one text per row, in the colour that it explains.
-/// @param header in the reference frame
-std::vector<visualization_msgs::Marker> legendMarkers(const LegendContents& contents,
-                                                      const MarkerLayout& layout,
-                                                      const std_msgs::Header& header, double lifetime);
-
-/// The space that the legend covers.
-LabelSpace spaceOfLegend(const std::vector<visualization_msgs::Marker>& legend);
+/// The rows that explain what is drawn, each text in the colour that it explains: namespace `legend`.
+/// @param style with a resolved scale
+/// @param pressure_end Pa, in the last colour; 0: no pressure was drawn
+std::vector<TextRow> legendRows(const Scene& scene, const MarkerSelection& selection,
+                                const MarkerStyle& style, double pressure_end, const std_msgs::Header& header,
+                                double lifetime);
 
 }  // namespace concave_distance

@@ -6,7 +6,8 @@
 // It gives one MarkerArray for `markers` and one, latched, for `body_markers` (doc/markers.md).
 // It keeps from picture to picture which markers rviz shows, so that others can be deleted; the size of
 // the scene, so that letters do not pulsate; the niches of the drawn pairs, which are asked for in turns,
-// because opening rviz must not slow the cycle; where each label stands, so that it does not jump. The order
-// of a picture, each a header: marker_demand.h (whose niches are known), marker_selection.h (which pairs are
-// drawn), niche_markers.h and contact_markers.h (lines, points, forces), labels and legend, red bodies.
+// because opening rviz must not slow the cycle; the number of each row and where it stands in the scene, so
+// that it does not jump. The order of a picture, each a header: marker_demand.h (whose niches are known),
+// marker_selection.h (which pairs are drawn), niche_markers.h and contact_markers.h (lines, points, forces),
+// label_numbers.h (numbers beside them), text_list.h (legend and rows above the scene), warning_tints.h.
 // scene_markers.h puts them together; marker_style.h holds what a user can set.

@@ -18,16 +18,6 @@ constexpr double kRimShare = 0.15;   // line width of the circles around a segme
 constexpr int kRimCorners = 24;
 constexpr int kDashes = 5;
 
-struct DrawnNiche {
-  std::int32_t id;
-  double distance;
-  geometry_msgs::Point point_a;
-  geometry_msgs::Point point_b;
-  bool nearest;
-  double extent;  // metres, 0 for a point
-  Eigen::Vector3d normal;
-};
-
 std::int32_t markerId(std::uint64_t niche_id) {
   return static_cast<std::int32_t>(niche_id & 0x7fffffffU);
 }
@@ -53,22 +43,16 @@ void dash(std::vector<geometry_msgs::Point>& line) {
   }
 }
 
-std::vector<DrawnNiche> drawnNiches(const PairNiches& pair, std::size_t count) {
-  std::vector<DrawnNiche> drawn;
-  if (!hasMarkers(pair)) {
-    return drawn;
-  }
-  for (std::size_t k = 0; k < std::min(count, pair.niches.size()); ++k) {
-    const Niche& niche = pair.niches[k];
-    drawn.push_back({markerId(niche.id), niche.distance, niche.point_a, niche.point_b, drawn.empty(),
-                     niche.kind == Niche::KIND_POINT ? 0.0 : niche.extent,
-                     Eigen::Vector3d(niche.normal.x, niche.normal.y, niche.normal.z)});
-  }
-  if (pair.niches.empty()) {
-    drawn.push_back({0, pair.nearest.distance, pair.nearest.point_a, pair.nearest.point_b, true, 0.0,
-                     Eigen::Vector3d::Zero()});
-  }
-  return drawn;
+// The nearest niches; of a pair whose niches are not known, its closest points under id 0.
+std::vector<Niche> drawnNiches(const PairNiches& pair, std::size_t count) {
+  if (!hasMarkers(pair)) return {};
+  if (!pair.niches.empty())
+    return {pair.niches.begin(), pair.niches.begin() + std::min(count, pair.niches.size())};
+  Niche closest;
+  closest.distance = pair.nearest.distance;
+  closest.point_a = pair.nearest.point_a;
+  closest.point_b = pair.nearest.point_b;
+  return {closest};
 }
 
 // Appends a circle around the normal as single lines.
@@ -85,18 +69,6 @@ void appendCircle(const geometry_msgs::Point& centre, const Eigen::Vector3d& nor
   }
 }
 
-visualization_msgs::Marker emptyMarker(const PairNiches& pair, const char* kind, std::int32_t id,
-                                       double lifetime) {
-  visualization_msgs::Marker marker;
-  marker.header = pair.header;
-  marker.ns = pair.nearest.pair + "/" + kind;
-  marker.id = id;
-  marker.action = visualization_msgs::Marker::ADD;
-  marker.pose.orientation.w = 1.0;
-  marker.lifetime = ros::Duration(lifetime);
-  return marker;
-}
-
 }  // namespace
 
 bool isDashed(const PairNiches& pair) {
@@ -105,35 +77,20 @@ bool isDashed(const PairNiches& pair) {
 
 std_msgs::ColorRGBA distanceColor(double distance, const MarkerStyle& style) {
   const double share = std::clamp((distance - style.near) / (style.far - style.near), 0.0, 1.0);
-  std_msgs::ColorRGBA color;
   // Visible on light and dark backgrounds.
-  const Eigen::Vector3d kNear(0.95, 0.42, 0.0);
-  const Eigen::Vector3d kMiddle(0.72, 0.60, 0.0);
-  const Eigen::Vector3d kFar(0.0, 0.55, 0.10);
-  const Eigen::Vector3d mixed = share < 0.5
-                                    ? Eigen::Vector3d(kNear + 2.0 * share * (kMiddle - kNear))
-                                    : Eigen::Vector3d(kMiddle + (2.0 * share - 1.0) * (kFar - kMiddle));
-  color.r = static_cast<float>(mixed.x());
-  color.g = static_cast<float>(mixed.y());
-  color.b = static_cast<float>(mixed.z());
-  color.a = 1.0F;
-  return color;
+  const Eigen::Vector3d near(0.95, 0.42, 0.0);
+  const Eigen::Vector3d middle(0.72, 0.60, 0.0);
+  const Eigen::Vector3d far(0.0, 0.55, 0.10);
+  return makeColor(share < 0.5 ? near + 2.0 * share * (middle - near)
+                               : middle + (2.0 * share - 1.0) * (far - middle));
 }
 
 std_msgs::ColorRGBA warningColor() {
-  std_msgs::ColorRGBA color;
-  color.r = 0.90F;
-  color.g = 0.0F;
-  color.b = 0.05F;
-  color.a = 1.0F;
-  return color;
+  return makeColor({0.90, 0.0, 0.05});
 }
 
 std_msgs::ColorRGBA greyColor() {
-  std_msgs::ColorRGBA color;
-  color.r = color.g = color.b = 0.45F;
-  color.a = 1.0F;
-  return color;
+  return makeColor({0.45, 0.45, 0.45});
 }
 
 std_msgs::ColorRGBA pairColor(const PairNiches& pair, const MarkerStyle& style) {
@@ -145,57 +102,53 @@ std::vector<visualization_msgs::Marker> nicheMarkers(const DrawnPair& drawn, con
                                                      double lifetime) {
   const PairNiches& pair = *drawn.pair;
   std::vector<visualization_msgs::Marker> markers;
-  for (const DrawnNiche& niche : drawnNiches(pair, drawn.niche_count)) {
-    const double full = niche.nearest ? style.scale : kOtherShare * style.scale;
+  bool is_nearest = true;
+  for (const Niche& niche : drawnNiches(pair, drawn.niche_count)) {
+    const double full = is_nearest ? style.scale : kOtherShare * style.scale;
     const double size = std::clamp(kLongShare * niche.distance, kLeastShare * full, full);
-    std_msgs::ColorRGBA color = niche.nearest ? pairColor(pair, style) : distanceColor(niche.distance, style);
-    color.a = niche.nearest ? 1.0F : kOtherOpacity;
-
-    visualization_msgs::Marker points = emptyMarker(pair, "points", niche.id, lifetime);
-    points.type = visualization_msgs::Marker::SPHERE_LIST;
-    points.scale.x = points.scale.y = points.scale.z = size;
-    points.color = color;
+    std_msgs::ColorRGBA color = is_nearest ? pairColor(pair, style) : distanceColor(niche.distance, style);
+    color.a = is_nearest ? 1.0F : kOtherOpacity;
+    const auto add = [&](const char* kind, std::int32_t type, double width) -> visualization_msgs::Marker& {
+      visualization_msgs::Marker& marker = markers.emplace_back(
+          emptyMarker(pair.header, pair.nearest.pair + "/" + kind, markerId(niche.id), lifetime));
+      marker.type = type;
+      marker.scale.x = width;
+      marker.color = color;
+      return marker;
+    };
+    visualization_msgs::Marker& points = add("points", visualization_msgs::Marker::SPHERE_LIST, size);
+    points.scale.y = points.scale.z = size;
     points.points = {niche.point_a, niche.point_b};
-
-    visualization_msgs::Marker line = emptyMarker(pair, "line", niche.id, lifetime);
-    line.type = visualization_msgs::Marker::LINE_LIST;
-    line.scale.x = kLineShare * size;
-    line.color = color;
-    line.points = points.points;
-    if (niche.nearest && isDashed(pair)) dash(line.points);
-    markers.push_back(std::move(points));
-    markers.push_back(std::move(line));
-    if (niche.extent > 0.0 && niche.normal.squaredNorm() > 0.0) {
-      visualization_msgs::Marker rim = emptyMarker(pair, "extent", niche.id, lifetime);
-      rim.type = visualization_msgs::Marker::LINE_LIST;
-      rim.scale.x = kRimShare * full;
-      rim.color = color;
-      appendCircle(niche.point_a, niche.normal, 0.5 * niche.extent, rim.points);
-      appendCircle(niche.point_b, niche.normal, 0.5 * niche.extent, rim.points);
-      markers.push_back(std::move(rim));
+    visualization_msgs::Marker& line = add("line", visualization_msgs::Marker::LINE_LIST, kLineShare * size);
+    line.points = {niche.point_a, niche.point_b};
+    if (is_nearest && isDashed(pair)) dash(line.points);
+    const Eigen::Vector3d normal(niche.normal.x, niche.normal.y, niche.normal.z);
+    if (niche.kind != Niche::KIND_POINT && niche.extent > 0.0 && normal.squaredNorm() > 0.0) {
+      visualization_msgs::Marker& rim =
+          add("extent", visualization_msgs::Marker::LINE_LIST, kRimShare * full);
+      appendCircle(niche.point_a, normal, 0.5 * niche.extent, rim.points);
+      appendCircle(niche.point_b, normal, 0.5 * niche.extent, rim.points);
     }
+    is_nearest = false;
   }
   return markers;
 }
 
 Label nicheLabel(const PairNiches& pair, const MarkerStyle& style, double lifetime) {
-  const bool known = !pair.niches.empty();
-  const std::int32_t id = known ? markerId(pair.niches.front().id) : 0;
-  const geometry_msgs::Point& a = known ? pair.niches.front().point_a : pair.nearest.point_a;
-  const geometry_msgs::Point& b = known ? pair.niches.front().point_b : pair.nearest.point_b;
-  Label label;
-  label.from = {a.x, a.y, a.z};
-  label.to = {b.x, b.y, b.z};
-  label.marker = emptyMarker(pair, "text", id, lifetime);
-  label.marker.type = visualization_msgs::Marker::TEXT_VIEW_FACING;
-  label.marker.color = pairColor(pair, style);
+  const Niche nearest = drawnNiches(pair, 1).front();
   const bool overlapping = pair.nearest.status.code == PairStatus::PENETRATING;
-  label.marker.text = pair.nearest.body_a + " - " + pair.nearest.body_b + ": " +
-                      (overlapping ? "overlap" : lengthText(pair.nearest.distance));
-  if (isStale(pair)) label.marker.text += ", stale";
+  std::string text = pair.nearest.body_a + " - " + pair.nearest.body_b + ": " +
+                     (overlapping ? "overlap" : lengthText(pair.nearest.distance));
+  if (isStale(pair)) text += ", stale";
   if (isUncertain(pair) && pair.nearest.has_lower_bound != 0) {
-    label.marker.text += ", at least " + lengthText(pair.nearest.lower_bound);
+    text += ", at least " + lengthText(pair.nearest.lower_bound);
   }
+  Label label;
+  label.text =
+      textMarker(pair.header, pair.nearest.pair + "/text", 0, lifetime, text, pairColor(pair, style));
+  label.place =
+      0.5 * Eigen::Vector3d(nearest.point_a.x + nearest.point_b.x, nearest.point_a.y + nearest.point_b.y,
+                            nearest.point_a.z + nearest.point_b.z);
   return label;
 }
 
@@ -208,16 +161,9 @@ visualization_msgs::MarkerArray withDeletions(std::vector<visualization_msgs::Ma
     now.emplace(marker.ns, marker.id);
   }
   for (const auto& [ns, id] : shown) {
-    if (now.count({ns, id}) != 0) {
-      continue;
-    }
-    visualization_msgs::Marker gone;
-    gone.header = header;
-    gone.ns = ns;
-    gone.id = id;
-    gone.action = visualization_msgs::Marker::DELETE;
-    gone.pose.orientation.w = 1.0;
-    message.markers.push_back(std::move(gone));
+    if (now.count({ns, id}) != 0) continue;
+    message.markers.push_back(emptyMarker(header, ns, id, 0.0));
+    message.markers.back().action = visualization_msgs::Marker::DELETE;
   }
   shown = std::move(now);
   return message;

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "marker_labels.h"
+#include "marker_parts.h"
 #include "marker_selection.h"
 #include "marker_style.h"
 
@@ -36,8 +36,9 @@ std_msgs::ColorRGBA greyColor();
 std::vector<visualization_msgs::Marker> nicheMarkers(const DrawnPair& drawn, const MarkerStyle& style,
                                                      double lifetime);
 
-/// The label with the bodies' names and their distance: namespace `<pair>/text`. Where the distance is not
-/// certain it adds the proven bound, where the transforms are stale it says so.
+/// The label with the bodies' names and their distance: namespace `<pair>/text`, id 0. Where the distance is
+/// not certain it adds the proven bound, where the transforms are stale it says so. Its place is the middle
+/// of the nearest line.
 /// @param pair with hasMarkers()
 Label nicheLabel(const PairNiches& pair, const MarkerStyle& style, double lifetime);
 

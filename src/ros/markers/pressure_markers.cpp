@@ -72,13 +72,7 @@ std_msgs::ColorRGBA pressureColor(double pressure, double end) {
   const double place = 3.0 * std::clamp(pressure / end, 0.0, 1.0);
   const auto first = static_cast<std::size_t>(std::min(2.0, std::floor(place)));
   const double share = place - static_cast<double>(first);
-  const Eigen::Vector3d mixed = (1.0 - share) * kColors[first] + share * kColors[first + 1];
-  std_msgs::ColorRGBA color;
-  color.r = static_cast<float>(mixed.x());
-  color.g = static_cast<float>(mixed.y());
-  color.b = static_cast<float>(mixed.z());
-  color.a = 1.0F;
-  return color;
+  return makeColor((1.0 - share) * kColors[first] + share * kColors[first + 1]);
 }
 
 void PressureScale::update(double largest, double fixed) {

@@ -1,6 +1,7 @@
 #include "scene_markers.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <iterator>
 #include <set>
 #include <string>
@@ -15,67 +16,13 @@ namespace {
 
 using visualization_msgs::Marker;
 
+constexpr std::size_t kMostLabels = 50;
 constexpr double kTintOffset = 0.1;  // distance of a red copy from the surface, over the scale
 // Diameter of the largest red body over that of the region: a red floor would hide the rest.
 constexpr double kLargestTint = 1.0;
 
 void append(std::vector<Marker> from, std::vector<Marker>& to) {
   std::move(from.begin(), from.end(), std::back_inserter(to));
-}
-
-// Of a warning, what is warned of and the nearest link of the robot; of two links or two obstacles, both.
-std::set<std::size_t> bodiesToTint(const Scene& scene, const PublishedPairs& pairs,
-                                   const std::vector<DrawnPair>& drawn, double largest) {
-  std::set<std::size_t> bodies;
-  for (const DrawnPair& pair : drawn) {  // ascending by distance
-    if (pair.pair->nearest.warning == 0) continue;
-    const auto found = std::find_if(pairs.begin(), pairs.end(), [&](const auto& published) {
-      return published->heading.pair == pair.pair->nearest.pair;
-    });
-    const ScenePair& ends = scene.pairs[static_cast<std::size_t>(found - pairs.begin())];
-    const bool a_is_link = scene.bodies[ends.body_a].is_robot_link;
-    const bool b_is_link = scene.bodies[ends.body_b].is_robot_link;
-    const std::size_t obstacle = a_is_link ? ends.body_b : ends.body_a;
-    if (a_is_link != b_is_link && bodies.count(obstacle) != 0) continue;  // by a nearer link
-    bodies.insert({ends.body_a, ends.body_b});
-  }
-  for (auto body = bodies.begin(); body != bodies.end();) {
-    body = scene.bodies[*body].mesh->diameter() > largest ? bodies.erase(body) : std::next(body);
-  }
-  return bodies;
-}
-
-// As many as niches are drawn: to place a label takes long.
-std::vector<Label> deepestLabels(std::vector<ContactLabel> contacts, std::uint32_t niche_count) {
-  std::stable_sort(contacts.begin(), contacts.end(), [](const ContactLabel& left, const ContactLabel& right) {
-    return left.depth > right.depth;
-  });
-  if (niche_count != 0) contacts.resize(std::min<std::size_t>(contacts.size(), niche_count));
-  std::vector<Label> labels;
-  labels.reserve(contacts.size());
-  for (ContactLabel& contact : contacts) labels.push_back(std::move(contact.label));
-  return labels;
-}
-
-bool hasExtent(const std::vector<Marker>& markers) {
-  return std::any_of(markers.begin(), markers.end(), [](const Marker& marker) {
-    return marker.ns.size() > 7 && marker.ns.compare(marker.ns.size() - 7, 7, "/extent") == 0;
-  });
-}
-
-LegendContents contentsOf(const Scene& scene, const MarkerSelection& selection) {
-  LegendContents contents;
-  contents.drawn_pairs = selection.drawn.size();
-  contents.pairs = selection.candidates;
-  contents.dashes = std::any_of(selection.drawn.begin(), selection.drawn.end(),
-                                [](const DrawnPair& pair) { return isDashed(*pair.pair); });
-  contents.others = std::any_of(selection.drawn.begin(), selection.drawn.end(),
-                                [](const DrawnPair& pair) { return pair.niche_count > 1; });
-  for (const ScenePair& pair : scene.pairs) {
-    contents.warnings = contents.warnings || pair.settings.warning_distance.has_value();
-    contents.contacts = contents.contacts || pair.settings.effects.any();
-  }
-  return contents;
 }
 
 // Every message, with the niches that were kept where it has none.
@@ -88,53 +35,56 @@ std::vector<const PairNiches*> withKeptNiches(const std::vector<PairNiches>& nic
   return pairs;
 }
 
+// Those of the deepest contacts, as many as niches are drawn; then those of the pairs without contacts.
+std::vector<Label> labelsOf(const std::vector<DrawnPair>& drawn,
+                            const std::vector<PairContactState>& contacts, const MarkerStyle& style,
+                            double lifetime) {
+  std::vector<Label> labels;
+  std::set<std::string> with_contacts;
+  for (const PairContactState& pair : contacts) {
+    std::vector<Label> of_pair = contactLabels(pair, lifetime);
+    if (!of_pair.empty()) with_contacts.insert(pair.pair);
+    std::move(of_pair.begin(), of_pair.end(), std::back_inserter(labels));
+  }
+  std::stable_sort(labels.begin(), labels.end(),
+                   [](const Label& left, const Label& right) { return left.depth > right.depth; });
+  if (style.niche_count != 0) labels.resize(std::min<std::size_t>(labels.size(), style.niche_count));
+  for (const DrawnPair& pair : drawn) {
+    if (with_contacts.count(pair.pair->nearest.pair) != 0) continue;
+    labels.push_back(nicheLabel(*pair.pair, style, lifetime));
+  }
+  labels.resize(std::min(labels.size(), kMostLabels));
+  return labels;
+}
+
 }  // namespace
 
-visualization_msgs::MarkerArray SceneMarkers::draw(const Scene& scene, const MarkerStyle& style,
+visualization_msgs::MarkerArray SceneMarkers::draw(const Scene& scene, const MarkerStyle& configured,
                                                    const PublishedPairs& pairs,
                                                    const std::vector<PairNiches>& niches,
                                                    const std::vector<PairContactState>& contacts,
                                                    const std_msgs::Header& header, double lifetime) {
   std::vector<Marker> markers;
-  std::set<std::size_t> tinted;
+  std::set<std::size_t> warned;
   if (!niches.empty()) {
     const std::vector<LocatedBody> bodies = locateBodies(scene, pairs);
-    layout_.update(bodies, style);
-    const MarkerSelection selection = selectPairs(withKeptNiches(niches, demand_), layout_.style());
-    const std::vector<DrawnPair>& drawn = selection.drawn;
-    demand_.select(drawn, header.stamp);
-    std::vector<ContactLabel> contact_labels;
-    std::set<std::string> with_contacts;
+    layout_.update(bodies, configured);
+    const MarkerStyle& style = layout_.style();
+    const MarkerSelection selection = selectPairs(withKeptNiches(niches, demand_), style);
+    demand_.select(selection.drawn, header.stamp);
     append(drawContacts(scene, pairs, contacts, lifetime), markers);
-    for (const PairContactState& contact : contacts) {
-      std::vector<ContactLabel> texts = contactLabels(contact, lifetime);
-      if (!texts.empty()) with_contacts.insert(contact.pair);
-      std::move(texts.begin(), texts.end(), std::back_inserter(contact_labels));
-    }
-    std::vector<Label> labels = deepestLabels(std::move(contact_labels), style.niche_count);
-    for (const DrawnPair& pair : drawn) {
-      append(nicheMarkers(pair, layout_.style(), lifetime), markers);
-      if (with_contacts.count(pair.pair->nearest.pair) == 0) {
-        labels.push_back(nicheLabel(*pair.pair, layout_.style(), lifetime));
-      }
-    }
-    extents_seen_ = extents_seen_ || hasExtent(markers);
-    std::vector<LabelSpace> taken;
-    if (style.legend) {
-      LegendContents contents = contentsOf(scene, selection);
-      contents.extents = extents_seen_;
-      contents.pressure_end = pressures_.end();
-      std::vector<Marker> legend = legendMarkers(contents, layout_, header, lifetime);
-      if (!legend.empty()) taken.push_back(spaceOfLegend(legend));
-      append(std::move(legend), markers);
-    }
-    const double now = header.stamp.toSec();
-    append(placer_.place(std::move(labels), {scene, bodies}, layout_.letterHeight(), std::move(taken), now),
-           markers);
-    tinted = bodiesToTint(scene, pairs, drawn, kLargestTint * layout_.region().diagonal().norm());
+    for (const DrawnPair& pair : selection.drawn) append(nicheMarkers(pair, style, lifetime), markers);
+    std::vector<Label> labels = labelsOf(selection.drawn, contacts, style, lifetime);
+    append(numbers_.number(labels, scene, bodies, layout_), markers);
+    std::vector<TextRow> rows;
+    if (style.legend) rows = legendRows(scene, selection, style, pressures_.end(), header, lifetime);
+    rows.emplace_back();  // an empty one
+    for (Label& label : labels) rows.push_back({std::move(label.text)});
+    append(placeRows(rows, layout_), markers);
+    warned = warnedBodies(scene, selection.drawn, kLargestTint * layout_.region().diagonal().norm());
   }
   visualization_msgs::MarkerArray message = withDeletions(std::move(markers), header, shown_);
-  append(tints_.update(scene, tinted, kTintOffset * layout_.style().scale, lifetime, header.stamp),
+  append(tints_.update(scene, warned, kTintOffset * layout_.style().scale, lifetime, header),
          message.markers);
   return message;
 }

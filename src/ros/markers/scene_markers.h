@@ -4,11 +4,10 @@
 #include <concave_distance/PairNiches.h>
 #include <visualization_msgs/MarkerArray.h>
 
-#include <memory>
 #include <vector>
 
 #include "concave_distance/scene/scene.h"
-#include "label_placer.h"
+#include "label_numbers.h"
 #include "marker_demand.h"
 #include "marker_layout.h"
 #include "niche_markers.h"
@@ -18,8 +17,8 @@
 
 namespace concave_distance {
 
-/// The markers of a scene: nearest pairs, contacts, labels that do not overlap, red bodies, the legend, and
-/// deletions of earlier markers. One object per topic.
+/// Draws a scene: nearest pairs, contacts, their numbers, above the scene the legend and a row for each of
+/// them, red bodies, and deletions of earlier markers. One object per topic.
 class SceneMarkers {
  public:
   /// @param style as configured; 0 means automatic
@@ -44,11 +43,10 @@ class SceneMarkers {
 
   MarkerDemand demand_;
   MarkerLayout layout_;
-  LabelPlacer placer_;
+  LabelNumbers numbers_;
   WarningTints tints_;
   ShownMarkers shown_;
   PressureScale pressures_;
-  bool extents_seen_ = false;  ///< keeps that row, so that the legend does not move
 };
 
 }  // namespace concave_distance

@@ -52,7 +52,7 @@ class CycleRunner {
   std::atomic<bool> publish_markers_{true};
   std::atomic<bool> contact_markers_{true};
 
-  // Of the cycle's thread alone.
+  // The cycle's thread alone uses these.
   DistanceCycle cycle_;
   std::shared_ptr<const ServedScene> served_;
   std::vector<PairDemand> demand_;

@@ -154,7 +154,7 @@ void DistanceServer::followLoading() {
   }
   load_timer_.stop();
   logScene(*outcome->scene, loader_.seconds());
-  // What is set from now on changes the new scene's pairs.
+  // Parameters that are set from now on change the new scene's pairs.
   const boost::recursive_mutex::scoped_lock lock(reconfigure_mutex_);
   if (outcome->scene->automatic_cutoff && config_.cutoff == config_of_loading_.cutoff) {
     adoptCutoff(*outcome->scene->automatic_cutoff);

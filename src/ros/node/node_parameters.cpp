@@ -50,7 +50,6 @@ void readExperts(ParameterReader& reader, PairSettings& pair) {
     const std::string name = cold ? "cold" : "warm";
     ParameterReader genetic = experts.group(name);
     GeneticParameters& parameters = cold ? pair.tracker.cold : pair.tracker.warm;
-    genetic.refuseExperiments(allGeneticParameters());
     genetic.read(geneticParameters(), false, parameters);
     parameters.validate("~expert/" + name);
     experts.adoptUnread(genetic, name + "/");

@@ -76,10 +76,6 @@ std::optional<ParameterValue> ParameterReader::take(const ParameterInfo& info) {
     return std::nullopt;
   }
   const std::optional<ParameterValue> value = valueOf(values_[info.name], info);
-  if (value && isExperimentChoice(info, *value)) {
-    throw Error(prefix_ + info.name, saysOfExperiments(toText(*value)),
-                "allowed here: " + allowedValues(info));
-  }
   if (!value || !isAllowed(info, *value)) {
     throw Error(prefix_ + info.name, "the value is " + shown(values_[info.name]),
                 "allowed: " + allowedValues(info));

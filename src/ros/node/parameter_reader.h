@@ -29,16 +29,6 @@ class ParameterReader {
       if (const auto value = take(parameter.info)) parameter.set(settings, *value);
     }
   }
-  /// @throws Error for a parameter of the table that experiments alone read
-  template <typename Settings>
-  void refuseExperiments(const ParameterTable<Settings>& table) {
-    for (const Parameter<Settings>& parameter : table) {
-      const std::string& name = parameter.info.name;
-      if (parameter.info.is_of_experiments && has(name)) {
-        throw Error(prefix_ + name, saysOfExperiments(name), kLeaveToExperiments);
-      }
-    }
-  }
   bool has(const std::string& name);
 
   /// The parameters of a namespace within this one; an empty reader when it is not set.

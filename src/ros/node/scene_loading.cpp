@@ -14,7 +14,7 @@
 namespace concave_distance {
 namespace {
 
-// Where loadRobotScene looks for the SRDF; a robot may have none.
+// loadRobotScene looks for the SRDF here; a robot may have none.
 constexpr const char* kSemanticDescription = "robot_description_semantic";
 constexpr const char* kSemanticSuffix = "_semantic";  // of the parameter's name, as in MoveIt
 

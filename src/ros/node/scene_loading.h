@@ -16,7 +16,7 @@ namespace concave_distance {
 /// Folder of a ROS package by rospack; empty when it is not known.
 std::string rosPackagePath(const std::string& package);
 
-/// What the parameter server has for a scene.
+/// Holds what the parameter server has for a scene.
 struct SceneRequest {
   std::map<std::string, std::string> descriptions;  ///< texts by parameter name
   std::string waiting_for;                          ///< what is not there yet; empty: the scene can be loaded

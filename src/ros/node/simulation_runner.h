@@ -19,7 +19,7 @@
 
 namespace concave_distance {
 
-/// What the simulation does when its duration is over.
+/// Says what the simulation does when its duration is over.
 enum class SimulationEnd : std::uint8_t { Hold, Loop, Exit };
 
 /// Every private parameter of the simulation node, validated (doc/simulation_node.md). SI units.

@@ -26,7 +26,7 @@ namespace {
 constexpr std::size_t kNicheBytes = 2 * (sizeof(Niche) + sizeof(NicheChange));
 constexpr std::size_t kContactBytes = 2 * sizeof(Contact);
 
-/// Where a body is: rigidly at `frame_from_body` in a tf frame.
+/// Says where a body is: rigidly at `frame_from_body` in a tf frame.
 struct BodyPlace {
   std::string frame;
   Eigen::Isometry3d frame_from_body = Eigen::Isometry3d::Identity();

@@ -20,13 +20,13 @@
 
 namespace concave_distance {
 
-/// What a query is answered with besides the scene.
+/// Holds what a query is answered with besides the scene.
 struct QueryContext {
   const TransformBuffer* transforms = nullptr;
   std::string reference_frame;
   double transform_timeout = 0.2;  ///< s
   double stale_after = 1.0;        ///< s
-  /// When all queries of a call end: running ones stop with the bound they have.
+  /// All queries of a call end at this time: running ones stop with the bound they have.
   std::chrono::steady_clock::time_point deadline = std::chrono::steady_clock::time_point::max();
   const std::atomic<bool>* stop = nullptr;                      ///< set: running queries end, no other begins
   std::size_t memory_limit = TrackerParameters().memory_limit;  ///< bytes, of one query's solve

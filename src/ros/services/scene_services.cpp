@@ -64,7 +64,7 @@ std::string listed(const std::vector<std::string>& names) {
                                    : text;
 }
 
-// Whether only static transforms connect the two frames.
+// Returns whether only static transforms connect the two frames.
 bool areFixed(const tf2::BufferCore& buffer, const std::string& frame_a, const std::string& frame_b) {
   const FrameTransform transform = lookUpFrame(buffer, frame_a, frame_b, ros::Time(0));
   return transform.status == TransformStatus::Ok && transform.stamp.isZero();

@@ -4,7 +4,7 @@
 
 namespace concave_distance {
 
-/// Why ROS time is zero, with the remedy; empty when it is not.
+/// Returns why ROS time is zero, with the remedy; empty when it is not.
 std::string missingClock();
 
 }  // namespace concave_distance

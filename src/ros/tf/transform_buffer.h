@@ -48,7 +48,7 @@ class TransformBuffer {
     std::string sender;
     bool fixed = false;
     ros::Time taken;  ///< when `latest` came
-    /// Of the moving transforms taken, ascending, as far back as tf2 keeps them.
+    /// Lists the times of the moving transforms taken, ascending, as far back as tf2 keeps them.
     std::deque<ros::Time> stamps;
   };
 

@@ -16,7 +16,7 @@
 
 namespace concave_distance {
 
-/// What arrived since the last call of take().
+/// Counts what arrived since the last call of take().
 struct TransformReport {
   std::size_t frames = 0;  ///< known at present
   std::uint64_t taken = 0;

@@ -18,7 +18,7 @@ void describeCycle(const CycleWindow& window, double wanted_rate,
 void describePairs(const CycleWindow& window, diagnostic_updater::DiagnosticStatusWrapper& status);
 /// Frames known and transforms refused (WARN, with the last one's sender and reason).
 void describeTransforms(const TransformReport& report, diagnostic_updater::DiagnosticStatusWrapper& status);
-/// How often each stage of the pairs' effects ran and its share of the cycles' processor time.
+/// Reports how often each stage of the pairs' effects ran and its share of the cycles' processor time.
 void describeEffects(const CycleWindow& window, diagnostic_updater::DiagnosticStatusWrapper& status);
 /// Bodies, pairs and what could not be loaded (WARN), or what is waited for (WARN).
 void describeScene(const Scene& scene, const std::string& waiting_for,

@@ -29,7 +29,7 @@ class SceneStore {
   /// Applies `change` to every pair and to the scene's defaults.
   void changeSettings(const std::function<void(PairSettings&)>& change);
 
-  /// What the scene still waits for; empty once it is loaded.
+  /// Returns what the scene still waits for; empty once it is loaded.
   std::string waitingFor();
   void setWaitingFor(const std::string& what);
 

@@ -30,14 +30,14 @@ struct ServedScene {
   std::uint64_t settings_revision = 0;  ///< another one: the settings of pairs that were there have changed
 };
 
-/// What was built and sent in one cycle.
+/// Counts what was built and sent in one cycle.
 struct PublishReport {
   Series latency;  ///< s, from the transforms' time to the end of publishing, of each pair newly solved
   std::uint32_t messages = 0;  ///< pairs turned into messages
   std::uint32_t markers = 0;   ///< drawn or deleted
 };
 
-/// What the parameters say of the markers, and the cycle.
+/// Holds what the parameters say of the markers, and the cycle.
 struct MarkerOptions {
   bool publish = true;
   bool contacts = true;        ///< beside the niches
@@ -61,7 +61,7 @@ class TopicPublishers {
 
   void readDemand(const ServedScene& served, const MarkerOptions& markers, std::vector<PairDemand>& demand);
 
-  /// Whether no topic has a subscriber that needs anything computed or published.
+  /// Returns whether no topic has a subscriber that needs anything computed or published.
   bool isIdle(const std::vector<PairDemand>& demand) const;
 
   /// Publishes the pairs that are due. A message is built once and not touched after it was published.
@@ -92,7 +92,7 @@ class TopicPublishers {
   WatchedTopic markers_;
   WatchedTopic alerts_;
   std::atomic<bool> repeat_alerts_{false};  ///< somebody has subscribed to the alerts
-  // What readDemand found for this cycle.
+  // readDemand found these for this cycle.
   bool nearest_wanted_ = false;
   bool distances_wanted_ = false;
   bool niches_wanted_ = false;

@@ -9,7 +9,7 @@
 #include "benchmark/support/fcl_distance.h"
 #include "benchmark/support/shapes.h"
 #include "concave_distance/mesh/surface/primitives.h"
-#include "distance/kernels/closest_point.h"
+#include "distance/bound/closest_point.h"
 #include "mesh/surface/mesh_topology.h"
 #include "mesh/trees/triangle_tree.h"
 #include "support/body_pairs.h"

@@ -83,12 +83,11 @@ TEST(NicheLabel, CarriesTheNamesAndTheDistanceOfTheNearestNiche) {
   pair.nearest.body_a = "arm";
   pair.nearest.body_b = "shelf";
   const Label label = nicheLabel(pair, nicheStyle(), 0.5);
-  EXPECT_EQ(label.marker.ns, "a/b/text");
-  EXPECT_EQ(label.marker.id, 41);
-  EXPECT_EQ(label.marker.text, "arm - shelf: 100 mm");
-  EXPECT_EQ(label.to, Eigen::Vector3d(0.1, 0.0, 0.0));
+  EXPECT_EQ(label.text.ns, "a/b/text");
+  EXPECT_EQ(label.text.text, "arm - shelf: 100 mm");
+  EXPECT_EQ(label.place, Eigen::Vector3d(0.05, 0.0, 0.0));
   pair.nearest.status.code = PairStatus::PENETRATING;
-  EXPECT_EQ(nicheLabel(pair, nicheStyle(), 0.5).marker.text, "arm - shelf: overlap");
+  EXPECT_EQ(nicheLabel(pair, nicheStyle(), 0.5).text.text, "arm - shelf: overlap");
 }
 
 TEST(NicheMarkers, DashTheLineOfADistanceThatIsNotCertainOrStale) {
@@ -104,14 +103,14 @@ TEST(NicheMarkers, DashTheLineOfADistanceThatIsNotCertainOrStale) {
     EXPECT_EQ(line.points.size(), 10U);
     EXPECT_NEAR(line.points.back().x, 0.1, 1e-12);
     EXPECT_EQ(find(markers, "a/b/line", 2)->points.size(), 2U);
-    const std::string text = nicheLabel(pair, nicheStyle(), 0.5).marker.text;
+    const std::string text = nicheLabel(pair, nicheStyle(), 0.5).text.text;
     EXPECT_NE(text.find("100 mm, at least 80.0 mm"), std::string::npos) << text;
   }
   pair.nearest.status.code = PairStatus::STALE_TRANSFORM;
   const std::vector<Marker> markers = draw(pair);
   EXPECT_EQ(find(markers, "a/b/line", 1)->points.size(), 10U);
   EXPECT_EQ(find(markers, "a/b/line", 1)->color, greyColor());
-  EXPECT_NE(nicheLabel(pair, nicheStyle(), 0.5).marker.text.find(", stale"), std::string::npos);
+  EXPECT_NE(nicheLabel(pair, nicheStyle(), 0.5).text.text.find(", stale"), std::string::npos);
 }
 
 TEST(NicheMarkers, DrawCirclesOfTheExtentAroundSegmentsAndPatchesAlone) {

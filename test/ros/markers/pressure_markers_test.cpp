@@ -9,7 +9,7 @@
 #include "ros/box_scene.h"
 #include "ros/markers/body_markers.h"
 #include "ros/markers/contact_markers.h"
-#include "ros/markers/marker_labels.h"
+#include "ros/markers/marker_parts.h"
 #include "ros/markers/scene_markers.h"
 #include "ros/messages/contact_conversions.h"
 #include "ros/node/distance_cycle.h"
@@ -145,12 +145,12 @@ TEST_F(LumpedMarkers, HaveNoPressure) {
   std::size_t left = kMostPressureTriangles;
   EXPECT_TRUE(draw(left).markers.empty());
   EXPECT_EQ(largestPressure({contacts}), 0.0);
-  EXPECT_EQ(contactLabels(contacts, 1.0).at(0).label.marker.text.find("up to"), std::string::npos);
+  EXPECT_EQ(contactLabels(contacts, 1.0).at(0).text.text.find("up to"), std::string::npos);
 }
 
 TEST_F(PressureMarkers, LabelsSayTheLargestPressure) {
   EXPECT_NEAR(largestPressure({contacts}), kFoundation * kDepth, 1.0);
-  const std::string text = contactLabels(contacts, 1.0).at(0).label.marker.text;
+  const std::string text = contactLabels(contacts, 1.0).at(0).text.text;
   EXPECT_NE(text.find("up to 10.0 MPa"), std::string::npos) << text;
 }
 

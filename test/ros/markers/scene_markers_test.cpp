@@ -8,8 +8,8 @@
 #include <set>
 
 #include "ros/box_scene.h"
-#include "ros/markers/marker_labels.h"
 #include "ros/markers/marker_layout.h"
+#include "ros/markers/marker_parts.h"
 #include "ros/markers/marker_selection.h"
 #include "ros/markers/scene_markers.h"
 #include "ros/messages/conversions.h"
@@ -143,14 +143,6 @@ std::vector<Marker> withKind(const MarkerArray& message, const std::string& kind
   return found;
 }
 
-LabelSpace spaceOf(const Marker& label) {
-  LabelSpace space;
-  space.centre = {label.pose.position.x, label.pose.position.y, label.pose.position.z};
-  space.width = widthOf(label);
-  space.height = label.scale.z;
-  return space;
-}
-
 TEST(LengthText, HasThreeDigitsInMillimetresOrMetres) {
   EXPECT_EQ(lengthText(0.0), "0 mm");
   EXPECT_EQ(lengthText(3e-6), "<0.01 mm");
@@ -276,27 +268,78 @@ TEST(SceneMarkers, ShowTheNearestPairsAndSayHowManyThereAre) {
   EXPECT_NE(withKind(message, "legend").front().text.find("5 nearest of 12"), std::string::npos);
 }
 
-TEST(SceneMarkers, EveryDrawnPairIsNamedAndNoLabelHidesAnotherOrLiesInABody) {
+// The text without the empty rows above and below it.
+std::string wordsOf(const Marker& text) {
+  const std::size_t first = text.text.find_first_not_of('\n');
+  return text.text.substr(first, text.text.find_last_not_of('\n') + 1 - first);
+}
+Eigen::Vector3d placeOf(const Marker& marker) {
+  return {marker.pose.position.x, marker.pose.position.y, marker.pose.position.z};
+}
+
+TEST(SceneMarkers, EveryDrawnPairIsNamedAboveTheSceneInARowThatHidesNoOther) {
   Picture picture(12);
   picture.style.pair_count = 0;
   const MarkerArray message = picture.draw();
-  const std::vector<Marker> labels = withKind(message, "/text");
-  ASSERT_EQ(labels.size(), 12U);
-  EXPECT_EQ(labels[0].text, "middle - box_1: 100 mm");
-  EXPECT_EQ(labels[1].text, "middle - box_2: 150 mm");
-  std::vector<Marker> others = labels;
-  for (const Marker& label : labels) {
-    const LabelSpace space = spaceOf(label);
+  const std::vector<Marker> texts = withKind(message, "/text");
+  ASSERT_EQ(texts.size(), 12U);
+  EXPECT_EQ(wordsOf(texts[0]), "1   middle - box_1: 100 mm");
+  EXPECT_EQ(wordsOf(texts[1]), "2   middle - box_2: 150 mm");
+  double top = 0.0;
+  for (const LocatedBody& body : picture.bodies()) top = std::max(top, body.box.max().z());
+  std::set<std::size_t> rows;
+  for (const Marker& text : texts) {
+    EXPECT_EQ(text.pose, texts[0].pose);
+    EXPECT_EQ(std::count(text.text.begin(), text.text.end(), '\n'), 12 - 1 + 5) << "and the legend's rows";
+    rows.insert(text.text.find_first_not_of('\n'));
+    EXPECT_GT(placeOf(text).z() - 0.5 * 17.0 * (text.scale.z + 0.01), top);
+  }
+  EXPECT_EQ(rows.size(), texts.size());
+}
+
+TEST(SceneMarkers, NumbersLieInNoBodyAndCamerasAllAroundSeeCloseOnesApart) {
+  Picture picture(16);
+  picture.style.pair_count = 0;
+  const MarkerArray message = picture.draw();
+  const std::vector<Marker> numbers = withKind(message, "/number");
+  ASSERT_EQ(numbers.size(), 16U);
+  for (const Marker& number : numbers) {
+    EXPECT_EQ(number.text, number.ns.substr(11, number.ns.find("/number") - 11))
+        << "of the pair middle/box_k";
     for (const LocatedBody& body : picture.bodies()) {
-      EXPECT_GT(body.box.squaredExteriorDistance(space.centre), 0.0) << label.ns << " in " << body.index;
+      EXPECT_GT(std::sqrt(body.box.squaredExteriorDistance(placeOf(number))), 0.3 * number.scale.z);
     }
-    others.erase(others.begin());
-    for (const Marker& other : others) {
-      for (const View& view : usualViews()) {
-        EXPECT_FALSE(overlap(space, spaceOf(other), view)) << label.ns << " and " << other.ns;
+    for (const Marker& other : numbers) {
+      if (other.ns == number.ns) continue;
+      for (const double pitch : {0.0, 0.3, 0.59}) {
+        for (double yaw = 0.0; yaw < 2.0 * M_PI; yaw += 0.1) {
+          const Eigen::Vector3d right(-std::sin(yaw), std::cos(yaw), 0.0);
+          const Eigen::Vector3d up(-std::sin(pitch) * std::cos(yaw), -std::sin(pitch) * std::sin(yaw),
+                                   std::cos(pitch));
+          const Eigen::Vector3d between = placeOf(number) - placeOf(other);
+          const double height = number.scale.z;
+          if (between.head<2>().norm() > 4.0 * height) continue;
+          EXPECT_GT(std::max(std::abs(between.dot(right)), std::abs(between.dot(up))), height);
+        }
       }
     }
   }
+}
+
+TEST(SceneMarkers, ANumberStaysWithItsPairAndAFreeOneIsTaken) {
+  Picture picture(4);
+  picture.style.pair_count = 2;
+  picture.draw();
+  picture.moveNearest(2, 0.05);  // before the other two
+  const MarkerArray message = picture.draw();
+  const std::vector<Marker> texts = withKind(message, "/text");
+  ASSERT_EQ(texts.size(), 2U);
+  EXPECT_EQ(wordsOf(texts[0]), "1   middle - box_1: 100 mm");
+  EXPECT_EQ(wordsOf(texts[1]), "2   middle - box_3: 50.0 mm");
+  picture.style.pair_count = 1;
+  const MarkerArray single = picture.draw();
+  EXPECT_EQ(wordsOf(withKind(single, "/text").front()), "middle - box_3: 50.0 mm");
+  EXPECT_TRUE(withKind(single, "/number").empty()) << "one needs no number";
 }
 
 TEST(SceneMarkers, APairWhoseTransformsBecomeStaleStaysAsItWas) {
@@ -307,16 +350,16 @@ TEST(SceneMarkers, APairWhoseTransformsBecomeStaleStaysAsItWas) {
   picture.makeStale(0);
   const MarkerArray message = picture.draw();
   EXPECT_EQ(withKind(message, "box_1/line").front().points.size(), 10U) << "dashed";
-  EXPECT_EQ(withKind(message, "box_1/text").front().text, "middle - box_1: 100 mm, stale");
-  EXPECT_NE(withKind(message, "legend")[1].text.find("dashed"), std::string::npos);
+  EXPECT_EQ(wordsOf(withKind(message, "box_1/text").front()), "1   middle - box_1: 100 mm, stale");
+  EXPECT_NE(withKind(message, "legend").front().text.find("dashed"), std::string::npos);
 }
 
-TEST(SceneMarkers, LabelsStayWhereTheyAreWhileNothingMoves) {
+TEST(SceneMarkers, NumbersStayWhereTheyAreWhileNothingMoves) {
   Picture picture(5);
-  const std::vector<Marker> before = withKind(picture.draw(), "/text");
+  const std::vector<Marker> before = withKind(picture.draw(), "/number");
   for (int k = 0; k < 5; ++k) {
     picture.wait(0.7);
-    const std::vector<Marker> after = withKind(picture.draw(), "/text");
+    const std::vector<Marker> after = withKind(picture.draw(), "/number");
     ASSERT_EQ(after.size(), before.size());
     for (std::size_t n = 0; n < after.size(); ++n) EXPECT_EQ(after[n].pose, before[n].pose);
   }
@@ -365,7 +408,7 @@ TEST(SceneMarkers, LabelTheDeepestContactsAsManyAsNiches) {
   EXPECT_FALSE(withKind(message, "box_2/text").empty()) << "the niches keep their labels";
 }
 
-TEST(SceneMarkers, PlaceAtMostFiftyLabels) {
+TEST(SceneMarkers, DrawAtMostFiftyLabels) {
   Picture picture(2);
   picture.style.niche_count = 0;
   picture.contacts = {manyContacts(1000)};
@@ -428,9 +471,6 @@ TEST(SceneMarkers, HaveOneLegendThatCanBeSwitchedOff) {
   std::set<int> ids;
   for (const Marker& marker : legend) ids.insert(marker.id);
   EXPECT_EQ(ids.size(), legend.size());
-  double top = 0.0;
-  for (const LocatedBody& body : picture.bodies()) top = std::max(top, body.box.max().z());
-  EXPECT_GT(legend.front().pose.position.z, top);
   picture.style.legend = false;
   const MarkerArray without = picture.draw();
   EXPECT_TRUE(withKind(without, "legend").empty());
@@ -471,14 +511,17 @@ TEST(WarningTints, ABodyThatTakesAnothersNumberTakesItsTintOver) {
   Scene other;
   other.bodies.push_back(box("second", 1.0));
   WarningTints tints;
-  EXPECT_EQ(tints.update(scene, {0}, 0.0, 1.0, ros::Time(100.0)).size(), 1U);
-  const std::vector<Marker> markers = tints.update(other, {0}, 0.0, 1.0, ros::Time(100.1));
-  ASSERT_EQ(markers.size(), 2U);
-  EXPECT_EQ(markers[0].action, Marker::DELETE);
-  EXPECT_EQ(markers[0].header.frame_id, "first");
-  EXPECT_EQ(markers[1].action, Marker::ADD);
-  EXPECT_EQ(markers[1].header.frame_id, "second");
-  EXPECT_EQ(tints.update(Scene(), {}, 0.0, 1.0, ros::Time(100.2)).size(), 1U) << "deleted";
+  std_msgs::Header header;
+  header.frame_id = "world";
+  header.stamp = ros::Time(100.0);
+  EXPECT_EQ(tints.update(scene, {0}, 0.0, 1.0, header).size(), 1U);
+  header.stamp = ros::Time(100.1);
+  EXPECT_TRUE(tints.update(scene, {0}, 0.0, 1.0, header).empty());
+  const std::vector<Marker> markers = tints.update(other, {0}, 0.0, 1.0, header);
+  ASSERT_EQ(markers.size(), 1U) << "which replaces the other";
+  EXPECT_EQ(markers[0].action, Marker::ADD);
+  EXPECT_EQ(markers[0].header.frame_id, "second");
+  EXPECT_EQ(tints.update(Scene(), {}, 0.0, 1.0, header).front().action, Marker::DELETE);
   EXPECT_TRUE(tints.empty());
 }
 

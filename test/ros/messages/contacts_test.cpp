@@ -124,15 +124,17 @@ TEST(ContactMarkers, DrawAreaDepthAndForces) {
 
 TEST(ContactMarkers, DrawNothingThatWasNotComputedAndTellContactsWithoutIdsApart) {
   PairContactState state = message();
-  EXPECT_EQ(contactLabels(state, 1.0).front().label.marker.text, "2.00 mm deep  10.4 N");
+  state.body_a = "arm";
+  state.body_b = "shelf";
+  EXPECT_EQ(contactLabels(state, 1.0).front().text.text, "arm - shelf: 2.00 mm deep, 10.4 N");
   state.contacts[0].id = 0;
   state.contacts[0].has_force = state.contacts[0].has_friction = state.contacts[0].has_depth = 0;
   state.contacts[0].depth = state.contacts[0].contact_area = kNotComputed;
   state.contacts.push_back(state.contacts[0]);
   EXPECT_TRUE(contactMarkers(state, {false, false}, contactStyle(), 1.0).empty());
-  const std::vector<ContactLabel> labels = contactLabels(state, 1.0);
+  const std::vector<Label> labels = contactLabels(state, 1.0);
   ASSERT_EQ(labels.size(), 2U);
-  EXPECT_NE(labels[0].label.marker.id, labels[1].label.marker.id);
+  EXPECT_NE(labels[0].text.id, labels[1].text.id);
   EXPECT_EQ(labels[0].depth, 0.0);
   state.contacts[0].centroid.x = kNotComputed;
   EXPECT_EQ(contactLabels(state, 1.0).size(), 1U);

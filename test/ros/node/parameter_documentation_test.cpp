@@ -2,10 +2,7 @@
 // parameters. With CONCAVE_DISTANCE_WRITE_TABLES in the environment they are written, else compared.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <regex>
 #include <set>
 #include <string>
@@ -21,37 +18,10 @@
 namespace concave_distance::parameter_documentation_test {
 namespace {
 
-using test::tableHead;
+using test::expectTable;
+using test::expectText;
+using test::readText;
 using test::tableRows;
-
-std::string pathOf(const std::string& name) {
-  return std::string(CONCAVE_DISTANCE_SOURCE_DIR) + "/" + name;
-}
-
-std::string readText(const std::string& name) {
-  std::ifstream stream(pathOf(name));
-  EXPECT_TRUE(stream.is_open()) << name;
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
-
-void expectText(const std::string& name, const std::string& before, const std::string& made) {
-  if (std::getenv("CONCAVE_DISTANCE_WRITE_TABLES") != nullptr) {
-    std::ofstream(pathOf(name)) << made;
-  } else {
-    EXPECT_EQ(before, made) << name << ": run scripts/write_parameter_tables.sh";
-  }
-}
-
-/// What stands between `<!-- table: <name> -->` and `<!-- end -->`.
-void expectTable(const std::string& file, const std::string& name, const std::string& rows) {
-  const std::string text = readText(file);
-  const std::string begin = "<!-- table: " + name + " -->\n";
-  const std::size_t from = text.find(begin);
-  ASSERT_NE(from, std::string::npos) << file << " has no " << begin;
-  const std::size_t to = text.find("<!-- end -->", from);
-  ASSERT_NE(to, std::string::npos) << file << ": no end of " << begin;
-  expectText(file, text, text.substr(0, from) + begin + tableHead() + rows + text.substr(to));
-}
 
 TEST(ParameterDocumentation, HasTheNodesParameters) {
   expectTable("doc/parameters.md", "node", tableRows(nodeParameterTable(), false));
@@ -69,15 +39,6 @@ TEST(ParameterDocumentation, HasTheSettingsForExperts) {
     if (parameter.get(defaults.warm) != parameter.get(defaults.cold)) others.push_back(parameter);
   }
   expectTable("doc/expert_settings.md", "warm", tableRows(others, false, "warm.", defaults.warm));
-}
-
-TEST(ParameterDocumentation, HasTheOptionsOfExperiments) {
-  ParameterTable<GeneticParameters> options;
-  for (const Parameter<GeneticParameters>& parameter : allGeneticParameters()) {
-    const bool has_choices = !parameter.info.experiment_choices.empty();
-    if (parameter.info.is_of_experiments || has_choices) options.push_back(parameter);
-  }
-  expectTable("thesis/doc/experiments.md", "genetic", tableRows(options, false));
 }
 
 TEST(ParameterDocumentation, HasWhatASceneFileSaysOfContactAndSimulation) {

@@ -9,6 +9,7 @@
 #include "concave_distance/tracking/pair_tracker.h"
 #include "search/grid/body_grid.h"
 #include "search/grid/node_graph.h"
+#include "thesis/src/evaluation/comb_ga_tracker.h"
 #include "thesis/src/evaluation/inheriting_search.h"
 #include "thesis/src/evaluation/row_bases.h"
 #include "thesis/src/partition/hybrid_distance.h"
@@ -52,8 +53,8 @@ TrackerParameters parametersOf(AccuracyLevel level, bool niches_wanted) {
 }
 
 /// Carretero, Table 6.1: the same search in every step.
-GeneticParameters tableParameters() {
-  GeneticParameters search = evaluation::thesisGeneticParameters(NichingMethod::Sharing);
+CombGaParameters tableParameters() {
+  CombGaParameters search = evaluation::thesisGeneticParameters(NichingScheme::Sharing);
   search.population_size = 100;
   search.max_generations = 20;
   search.mutation_probability = 0.01;
@@ -62,14 +63,6 @@ GeneticParameters tableParameters() {
   search.sharing_exponent = 1.0;
   search.descend_first_population = true;  // sec. 6.2.2
   return search;
-}
-
-/// This package's tracker with the search of Table 6.1: it follows every niche and keeps an archive besides.
-TrackerParameters trackerWithTableParameters() {
-  TrackerParameters parameters = parametersOf(AccuracyLevel::Nodes, true);
-  parameters.cold = parameters.warm = tableParameters();
-  parameters.random_starts = 0;
-  return parameters;
 }
 
 /// comb-GA-wl-sh of the thesis with the parameters of Table 6.1 and nothing else.
@@ -89,9 +82,9 @@ Method searchMethod(const std::string& name, const PartitionedPair& pair) {
           }};
 }
 
-Method trackerMethod(const std::string& name, const PartitionedPair& pair,
-                     const TrackerParameters& parameters) {
-  auto tracker = std::make_shared<PairTracker>(pair.name, pair.a, pair.b, parameters);
+/// @param Tracker PairTracker or CombGaTracker
+template <typename Tracker>
+Method methodOf(const std::string& name, const std::shared_ptr<Tracker>& tracker) {
   auto solution = std::make_shared<PairSolution>();
   return {name, "none", [tracker, solution](const Eigen::Isometry3d& pose, double time) {
             const double start = processorMicroseconds();
@@ -103,6 +96,20 @@ Method trackerMethod(const std::string& name, const PartitionedPair& pair,
             step.flops = kFlopsPerNodePair * static_cast<double>(solution->cost.evaluations);
             return step;
           }};
+}
+
+Method trackerMethod(const std::string& name, const PartitionedPair& pair,
+                     const TrackerParameters& parameters) {
+  return methodOf(name, std::make_shared<PairTracker>(pair.name, pair.a, pair.b, parameters));
+}
+
+/// This package's tracker with the search of Table 6.1: it follows every niche and keeps an archive besides.
+Method trackerWithTableSearch(const std::string& name, const PartitionedPair& pair) {
+  TrackerParameters parameters = parametersOf(AccuracyLevel::Nodes, true);
+  parameters.cold = parameters.warm = partOfCore(tableParameters());
+  parameters.random_starts = 0;
+  return methodOf(name, std::make_shared<evaluation::CombGaTracker>(pair.name, pair.a, pair.b, parameters,
+                                                                    tableParameters(), tableParameters()));
 }
 
 /// The search at `nodes` selects the sub-pairs, the quadratic program finishes them.
@@ -171,7 +178,7 @@ std::vector<Method> manoeuvreMethods(const PartitionedPair& pair, bool cold) {
   }
   methods.push_back(trackerMethod("nodes", pair, parametersOf(AccuracyLevel::Nodes, true)));
   methods.push_back(searchMethod("comb-GA-wl-sh, Table 6.1", pair));
-  methods.push_back(trackerMethod("nodes, search of Table 6.1", pair, trackerWithTableParameters()));
+  methods.push_back(trackerWithTableSearch("nodes, search of Table 6.1", pair));
   methods.push_back(trackerMethod("refined", pair, parametersOf(AccuracyLevel::Refined, true)));
   methods.push_back(trackerMethod("certified", pair, parametersOf(AccuracyLevel::Certified, true)));
   methods.push_back(

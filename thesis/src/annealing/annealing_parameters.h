@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "concave_distance/search/descent_moves.h"
+#include "thesis/src/genetic/descent_moves.h"
 
 namespace concave_distance {
 

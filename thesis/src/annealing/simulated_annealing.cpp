@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "base/parameter_checks.h"
-#include "search/local_descent.h"
 #include "search/mutation.h"
+#include "thesis/src/genetic/mutation_methods.h"
 
 namespace concave_distance {
 
@@ -27,8 +27,8 @@ AnnealingResult simulatedAnnealing(const PairObjective& objective, const Anneali
                                    const AnnealingObserver& observer) {
   AnnealingResult result;
   const auto settle = [&](const TrialPoint& point) {
-    return parameters.local_optimization ? descend(objective, point, &workspace.basins, workspace.trail,
-                                                   result.cost, parameters.descent_moves)
+    return parameters.local_optimization ? descendBy(parameters.descent_moves, objective, point,
+                                                     &workspace.basins, workspace.trail, result.cost)
                                          : objective.evaluate(point.node_a, point.node_b, result.cost);
   };
   const double radius = parameters.move_radius.value_or(

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "base/selection.h"
+#include "thesis/src/genetic/parent_selection.h"
 
 namespace concave_distance {
 

@@ -34,17 +34,17 @@ std::string readText(const std::string& file) {
   return text.str();
 }
 
-GeneticParameters geneticBase(RowBase base, NichingMethod niching) {
-  if (base == RowBase::Thesis) return thesisGeneticParameters(niching);
-  GeneticParameters genetic = base == RowBase::Shipped ? TrackerParameters().cold : GeneticParameters();
-  genetic.niching = niching;
+CombGaParameters geneticBase(RowBase base, NichingScheme scheme) {
+  if (base == RowBase::Thesis) return thesisGeneticParameters(scheme);
+  CombGaParameters genetic(base == RowBase::Shipped ? TrackerParameters().cold : GeneticParameters());
+  genetic.scheme = scheme;
   return genetic;
 }
 
 /// Every method of a family whose name it is tried by.
 std::optional<SearchMethod> combinatorialNamed(const std::string& name, RowBase base) {
   if (name == "multi-start") return MultiStartParameters{};
-  if (name == "islands") return IslandParameters{2, 5, 10, geneticBase(base, NichingMethod::Sharing)};
+  if (name == "islands") return IslandParameters{2, 5, 10, geneticBase(base, NichingScheme::Sharing)};
   for (const bool local : {true, false}) {
     AnnealingParameters annealing =
         base == RowBase::Thesis ? thesisAnnealingParameters() : AnnealingParameters();
@@ -53,11 +53,11 @@ std::optional<SearchMethod> combinatorialNamed(const std::string& name, RowBase 
   }
   for (const auto local :
        {LocalOptimization::None, LocalOptimization::Lamarckian, LocalOptimization::Baldwinian}) {
-    for (const auto niching :
-         {NichingMethod::None, NichingMethod::Sharing, NichingMethod::DynamicSharing,
-          NichingMethod::DeterministicCrowding, NichingMethod::DeterministicCrowdingWithSelection,
-          NichingMethod::SimpleCrowding}) {
-      GeneticParameters genetic = geneticBase(base, niching);
+    for (const auto scheme :
+         {NichingScheme::None, NichingScheme::Sharing, NichingScheme::DynamicSharing,
+          NichingScheme::DeterministicCrowding, NichingScheme::DeterministicCrowdingWithSelection,
+          NichingScheme::SimpleCrowding}) {
+      CombGaParameters genetic = geneticBase(base, scheme);
       genetic.local_optimization = local;
       if (concave_distance::nameOf(SearchMethod(genetic)) == name) return genetic;
     }
@@ -68,19 +68,19 @@ std::optional<SearchMethod> combinatorialNamed(const std::string& name, RowBase 
 Method methodNamed(const YamlValue& value, RowBase base) {
   const std::string name = value.text();
   if (base == RowBase::Shipped) {
-    const SearchMethod shipped = TrackerParameters().cold;
+    const SearchMethod shipped = CombGaParameters(TrackerParameters().cold);
     if (name != concave_distance::nameOf(shipped)) {
       value.refuse(concave_distance::nameOf(shipped) + ", what is shipped; `base: ours` for another");
     }
     return shipped;
   }
   if (base == RowBase::ShippedCycles) {
-    const TrackerParameters shipped;
-    if (name == "islands") return SearchMethod(IslandParameters{2, 5, 10, shipped.cold});
-    if (name != concave_distance::nameOf(SearchMethod(shipped.cold))) {
-      value.refuse(concave_distance::nameOf(SearchMethod(shipped.cold)) + ", the shipped search; islands");
+    const CombGaParameters shipped(TrackerParameters().cold);
+    if (name == "islands") return SearchMethod(IslandParameters{2, 5, 10, shipped});
+    if (name != concave_distance::nameOf(SearchMethod(shipped))) {
+      value.refuse(concave_distance::nameOf(SearchMethod(shipped)) + ", the shipped search; islands");
     }
-    return SearchMethod(shipped.cold);
+    return SearchMethod(shipped);
   }
   const bool from_thesis = base == RowBase::Thesis;
   if (name == nameOf(Method(TrackerMethod()))) return TrackerMethod();
@@ -141,17 +141,21 @@ void readTracker(const YamlValue& value, TrackerMethod& method) {
   if (auto v = map.take("forgets")) method.forgets = v->boolean();
   PairSettings settings;
   settings.tracker = method.parameters;
-  detail::readPairSettings(map, settings, detail::SettingsReader::Experiment);
-  method.parameters = settings.tracker;
+  const auto read_search = [&](const YamlValue& search, GeneticParameters& genetic) {
+    CombGaParameters read(genetic);
+    readCombGa(search, read);
+    (&genetic == &settings.tracker.cold ? method.cold : method.warm) = read;
+    genetic = partOfCore(read);
+  };
+  detail::readPairSettings(map, settings, read_search);
   map.finish();
+  method.parameters = settings.tracker;
 }
 
 /// Reads the parameters of whatever method it is.
 struct ParameterReader {
   const YamlValue& value;
-  void operator()(GeneticParameters& p) const {
-    detail::readGeneticParameters(value, p, detail::SettingsReader::Experiment);
-  }
+  void operator()(CombGaParameters& p) const { readCombGa(value, p); }
   void operator()(AnnealingParameters& p) const { detail::readAnnealingParameters(value, p); }
   void operator()(MultiStartParameters& p) const { readMultiStart(value, p); }
   void operator()(IslandParameters& p) const { readIslands(value, p); }
@@ -166,7 +170,11 @@ struct Validator {
   const std::string where;
   void operator()(const MultiStartParameters&) const {}
   void operator()(const EnumerationMethod&) const {}
-  void operator()(const TrackerMethod& method) const { method.parameters.validate(where); }
+  void operator()(const TrackerMethod& method) const {
+    method.parameters.validate(where);
+    method.coldSearch().validate(where + ".cold");
+    method.warmSearch().validate(where + ".warm");
+  }
   void operator()(const SearchMethod& method) const { std::visit(*this, method); }
   template <typename Parameters>
   void operator()(const Parameters& parameters) const {
@@ -190,9 +198,9 @@ MotionOptions shippedMotion(const ExperimentRow& row, const YamlValue& value,
   Method warm = row.method;
   auto& search = std::get<SearchMethod>(warm);
   if (auto* islands = std::get_if<IslandParameters>(&search)) {
-    islands->genetic = TrackerParameters().warm;
+    islands->genetic = CombGaParameters(TrackerParameters().warm);
   } else {
-    search = TrackerParameters().warm;
+    search = CombGaParameters(TrackerParameters().warm);
   }
   if (parameters) std::visit(ParameterReader{*parameters}, warm);
   std::visit(Validator{value.where()}, warm);
@@ -210,7 +218,7 @@ ExperimentRow readRow(const YamlValue& value, const std::optional<YamlValue>& co
   const auto* combinatorial = std::get_if<SearchMethod>(&row.method);
   const bool is_genetic =
       std::holds_alternative<ContinuousGeneticParameters>(row.method) ||
-      (combinatorial != nullptr && std::holds_alternative<GeneticParameters>(*combinatorial));
+      (combinatorial != nullptr && std::holds_alternative<CombGaParameters>(*combinatorial));
   const bool is_shipped = row.base == RowBase::Shipped || row.base == RowBase::ShippedCycles;
   // What is shipped is not what an experiment has in common.
   if (common && is_genetic && !is_shipped) std::visit(ParameterReader{*common}, row.method);

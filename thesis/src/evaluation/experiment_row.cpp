@@ -9,7 +9,7 @@ struct SceneSettings {
   bool has_own_limit;
   bool has_own_population;
 
-  void operator()(GeneticParameters& p) const {
+  void operator()(CombGaParameters& p) const {
     if (scene.population_size && !has_own_population) p.population_size = *scene.population_size;
     limit(p.evaluation_limit);
   }

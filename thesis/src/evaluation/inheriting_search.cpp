@@ -14,19 +14,19 @@ std::uint32_t islandCount(const SearchMethod& method) {
   return islands != nullptr ? islands->islands : 1;
 }
 
-GeneticParameters& geneticIn(SearchMethod& method) {
+CombGaParameters& geneticIn(SearchMethod& method) {
   auto* islands = std::get_if<IslandParameters>(&method);
-  return islands != nullptr ? islands->genetic : std::get<GeneticParameters>(method);
+  return islands != nullptr ? islands->genetic : std::get<CombGaParameters>(method);
 }
 
 }  // namespace
 
-const GeneticParameters* geneticOf(const SearchMethod& method) {
+const CombGaParameters* geneticOf(const SearchMethod& method) {
   if (const auto* islands = std::get_if<IslandParameters>(&method)) return &islands->genetic;
-  return std::get_if<GeneticParameters>(&method);
+  return std::get_if<CombGaParameters>(&method);
 }
 
-const GeneticParameters& InheritingSearch::Step::genetic() const {
+const CombGaParameters& InheritingSearch::Step::genetic() const {
   return *geneticOf(method);
 }
 
@@ -45,7 +45,7 @@ InheritingSearch::InheritingSearch(const SearchMethod& first, const SearchMethod
 
 GeneticResult InheritingSearch::run(const PairObjective& objective, Step& step) {
   if (guess_.random_starts && !is_first_) {
-    GeneticParameters& genetic = geneticIn(step.method);
+    CombGaParameters& genetic = geneticIn(step.method);
     const auto wanted = static_cast<std::uint32_t>(inherited_.size()) + *guess_.random_starts;
     const std::uint32_t usual = further_.genetic().population_size;
     genetic.population_size = std::max(usual, wanted + wanted % 2);
@@ -53,7 +53,7 @@ GeneticResult InheritingSearch::run(const PairObjective& objective, Step& step) 
   if (const auto* islands = std::get_if<IslandParameters>(&step.method)) {
     return islandSearch(objective, *islands, step.radii, inherited_, engine_, islands_.all()).genetic;
   }
-  return geneticSearch(objective, step.genetic(), step.radii, inherited_, engine_, *workspace_);
+  return combGa(objective, step.genetic(), step.radii, inherited_, engine_, *workspace_);
 }
 
 GeneticResult InheritingSearch::search(const Eigen::Isometry3d& a_from_b) {

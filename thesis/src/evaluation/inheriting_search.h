@@ -8,9 +8,9 @@
 #include "first_guess.h"
 #include "island_workspaces.h"
 #include "niche_motion.h"
-#include "search/genetic_search.h"
 #include "search/niche_identification.h"
 #include "search_method.h"
+#include "thesis/src/genetic/comb_ga.h"
 
 namespace concave_distance::evaluation {
 
@@ -34,7 +34,7 @@ class InheritingSearch {
     SearchMethod method;
     NicheRadii radii;
 
-    const GeneticParameters& genetic() const;
+    const CombGaParameters& genetic() const;
   };
   GeneticResult run(const PairObjective& objective, Step& step);
   void handOn(const Step& next);
@@ -55,6 +55,6 @@ class InheritingSearch {
 };
 
 /// The parameters of a GA, alone or on islands; null for any other method.
-const GeneticParameters* geneticOf(const SearchMethod& method);
+const CombGaParameters* geneticOf(const SearchMethod& method);
 
 }  // namespace concave_distance::evaluation

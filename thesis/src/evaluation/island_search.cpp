@@ -5,7 +5,7 @@
 
 #include "base/parameter_checks.h"
 #include "base/thread_cpu.h"
-#include "search/replacement.h"
+#include "thesis/src/genetic/generation_gap.h"
 
 namespace concave_distance {
 namespace {
@@ -24,8 +24,8 @@ std::uint32_t epochsOf(const IslandParameters& parameters) {
 }
 
 /// What one island does in one epoch.
-GeneticParameters shareOf(const IslandParameters& parameters) {
-  GeneticParameters share = parameters.genetic;
+CombGaParameters shareOf(const IslandParameters& parameters) {
+  CombGaParameters share = parameters.genetic;
   const std::uint32_t islands = parameters.islands;
   share.population_size = std::max(2U, share.population_size / islands / 2 * 2);
   share.random_immigrants = (share.random_immigrants + islands - 1) / islands;
@@ -37,11 +37,10 @@ GeneticParameters shareOf(const IslandParameters& parameters) {
   return share;
 }
 
-void runEpoch(const PairObjective& objective, const GeneticParameters& parameters, const NicheRadii& radii,
+void runEpoch(const PairObjective& objective, const CombGaParameters& parameters, const NicheRadii& radii,
               Island& island) {
   const std::int64_t start = threadCpuNanoseconds();
-  island.result =
-      geneticSearch(objective, parameters, radii, island.population, island.engine, *island.workspace);
+  island.result = combGa(objective, parameters, radii, island.population, island.engine, *island.workspace);
   island.population = island.workspace->population;
   island.seconds = 1e-9 * static_cast<double>(threadCpuNanoseconds() - start);
 }
@@ -109,7 +108,7 @@ void IslandParameters::validate(const std::string& where) const {
 IslandResult islandSearch(const PairObjective& objective, const IslandParameters& parameters,
                           const NicheRadii& radii, const std::vector<TrialPoint>& inherited,
                           RandomEngine& engine, const std::vector<SearchWorkspace*>& workspaces) {
-  const GeneticParameters share = shareOf(parameters);
+  const CombGaParameters share = shareOf(parameters);
   std::vector<Island> islands = settle(parameters, inherited, engine, workspaces);
   IslandResult result;
   for (std::uint32_t epoch = 0; epoch < epochsOf(parameters); ++epoch) {

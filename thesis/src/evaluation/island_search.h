@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "search/genetic_search.h"
+#include "thesis/src/genetic/comb_ga.h"
 
 namespace concave_distance {
 
@@ -15,7 +15,7 @@ struct IslandParameters {
   std::uint32_t epochs = 5;     ///< of equal numbers of generations (one at least) and evaluations
   std::uint32_t migrants = 10;  ///< that each island sends to the next one between two epochs
   /// Of all islands together: population, immigrants and evaluations are divided among them.
-  GeneticParameters genetic;
+  CombGaParameters genetic;
 
   /// @throws Error naming the parameter, the value seen and the allowed range
   void validate(const std::string& where) const;

@@ -6,7 +6,9 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <utility>
 
+#include "comb_ga_tracker.h"
 #include "concave_distance/tracking/pair_tracker.h"
 #include "enumeration.h"
 #include "inheriting_search.h"
@@ -85,19 +87,21 @@ class SearchFollower {
   std::optional<InheritingSearch> genetic_;
 };
 
+/// @param Tracker PairTracker or CombGaTracker
+template <typename Tracker>
 class TrackerFollower {
  public:
-  TrackerFollower(const TrackerMethod& method, const SceneTruth& scene, std::uint64_t seed)
-      : forgets_(method.forgets), tracker_("evaluate", scene.a, scene.b, seeded(method.parameters, seed)) {}
+  TrackerFollower(bool forgets, std::unique_ptr<Tracker> tracker)
+      : forgets_(forgets), tracker_(std::move(tracker)) {}
 
   void operator()(const InstantTruth& instant, Answer& answer) {
-    if (forgets_) tracker_.reset();
-    tracker_.update(instant.a_from_b, instant.time, solution_);
+    if (forgets_) tracker_->reset();
+    tracker_->update(instant.a_from_b, instant.time, solution_);
     answer.distance = solution_.distance;
-    answer.of_nodes = tracker_.parameters().accuracy == AccuracyLevel::Nodes;
+    answer.of_nodes = tracker_->parameters().accuracy == AccuracyLevel::Nodes;
     answer.niches = solution_.niches.size();
     take(solution_.cost, answer);
-    answer.found_by_proof = provesDistance(tracker_.parameters().accuracy) && solution_.search_miss;
+    answer.found_by_proof = provesDistance(tracker_->parameters().accuracy) && solution_.search_miss;
     for (const TrackedNiche& niche : solution_.niches) {
       if (niche.distance > instant.niche_cutoff) break;  // ascending; beyond, no truth is known
       answer.places.reported.push_back({niche.witness.triangle_a, niche.witness.triangle_b, niche.distance});
@@ -106,12 +110,8 @@ class TrackerFollower {
   }
 
  private:
-  static TrackerParameters seeded(TrackerParameters parameters, std::uint64_t seed) {
-    parameters.seed = seed;
-    return parameters;
-  }
   bool forgets_;
-  PairTracker tracker_;
+  std::unique_ptr<Tracker> tracker_;
   PairSolution solution_;
 };
 
@@ -120,12 +120,27 @@ void enumerate(const SceneTruth& scene, const InstantTruth& instant, Answer& ans
   answer.evaluations = gridOf(*scene.a).graph().nodeCount() * gridOf(*scene.b).graph().nodeCount();
 }
 
+template <typename Tracker>
+Follower followerWith(bool forgets, std::unique_ptr<Tracker> tracker) {
+  return [follower = std::make_shared<TrackerFollower<Tracker>>(forgets, std::move(tracker))](
+             const InstantTruth& instant, Answer& answer) { (*follower)(instant, answer); };
+}
+
+Follower trackerOf(const TrackerMethod& method, const SceneTruth& scene, std::uint64_t seed) {
+  TrackerParameters parameters = method.parameters;
+  parameters.seed = seed;
+  if (method.cold || method.warm) {
+    return followerWith(method.forgets,
+                        std::make_unique<CombGaTracker>("evaluate", scene.a, scene.b, parameters,
+                                                        method.coldSearch(), method.warmSearch()));
+  }
+  return followerWith(method.forgets,
+                      std::make_unique<PairTracker>("evaluate", scene.a, scene.b, parameters));
+}
+
 Follower followerOf(const Method& method, const MotionOptions& motion, const SceneTruth& scene,
                     std::uint64_t seed, SearchWorkspace& workspace) {
-  if (const auto* tracker = std::get_if<TrackerMethod>(&method)) {
-    return [follower = std::make_shared<TrackerFollower>(*tracker, scene, seed)](
-               const InstantTruth& instant, Answer& answer) { (*follower)(instant, answer); };
-  }
+  if (const auto* tracker = std::get_if<TrackerMethod>(&method)) return trackerOf(*tracker, scene, seed);
   if (const auto* search = std::get_if<SearchMethod>(&method)) {
     return SearchFollower(*search, motion, scene, seed, workspace);
   }
@@ -140,8 +155,8 @@ std::uint64_t meanOf(std::uint64_t sum, std::size_t count) {
 }  // namespace
 
 NicheRadii radiiOf(const SceneTruth& scene, const SearchMethod& method) {
-  const GeneticParameters* genetic = geneticOf(method);
-  return automaticRadii(*scene.a, *scene.b, genetic != nullptr ? *genetic : GeneticParameters());
+  const CombGaParameters* genetic = geneticOf(method);
+  return automaticRadii(*scene.a, *scene.b, genetic != nullptr ? *genetic : CombGaParameters());
 }
 
 FoundPlaces placesOf(const SceneTruth& scene, const std::vector<IdentifiedNiche>& reported,

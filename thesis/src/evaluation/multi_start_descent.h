@@ -3,9 +3,9 @@
 #include <cstdint>
 
 #include "base/random_engine.h"
-#include "search/genetic_search.h"
 #include "search/pair_objective.h"
 #include "search/search_workspace.h"
+#include "thesis/src/genetic/comb_ga.h"
 
 namespace concave_distance {
 

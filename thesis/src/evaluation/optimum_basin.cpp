@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "search/grid/body_grid.h"
-#include "search/local_descent.h"
 #include "surface_regions.h"
+#include "thesis/src/genetic/descent_moves.h"
 
 namespace concave_distance::evaluation {
 namespace {
@@ -26,7 +26,7 @@ bool leadsToOptimum(const SceneTruth& scene, const TrialPoint& answer) {
   const PairObjective objective(*scene.a, *scene.b, truth.a_from_b);
   std::vector<std::uint64_t> trail;
   SearchCost cost;
-  const TrialPoint end = descend(objective, answer, nullptr, trail, cost, DescentMoves::BothNodes);
+  const TrialPoint end = descendBy(DescentMoves::BothNodes, objective, answer, nullptr, trail, cost);
   const double distance = std::sqrt(end.squared_distance);
   if (distance < truth.region_limit) return true;
   const SurfaceRegions regions(*scene.a, *scene.b, truth.a_from_b, truth.minima);

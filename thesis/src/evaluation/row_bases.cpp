@@ -4,12 +4,12 @@
 
 namespace concave_distance::evaluation {
 
-GeneticParameters thesisGeneticParameters(NichingMethod niching) {
-  GeneticParameters parameters;
-  parameters.niching = niching;
+CombGaParameters thesisGeneticParameters(NichingScheme scheme) {
+  CombGaParameters parameters;
+  parameters.scheme = scheme;
   parameters.mutation = MutationMethod::RandomNodes;
   parameters.mating = MatingMethod::MeshNearFitter;
-  parameters.mating_restriction = niching == NichingMethod::Sharing;
+  parameters.mating_restriction = scheme == NichingScheme::Sharing;
   parameters.strict_mating_restriction = true;
   parameters.descent_moves = DescentMoves::OneNodeAlongEdges;
   parameters.descend_first_population = false;

@@ -2,9 +2,9 @@
 
 #include <cstdint>
 
-#include "concave_distance/search/genetic_parameters.h"
 #include "first_guess.h"
 #include "thesis/src/annealing/annealing_parameters.h"
+#include "thesis/src/genetic/comb_ga_parameters.h"
 
 namespace concave_distance::evaluation {
 
@@ -22,7 +22,7 @@ enum class RowBase : std::uint8_t {
 /// children near the fitter parent (sec. 3.3.2.b); descents along
 /// edges (3.1.5), after mutation and not before the first selection (fig. 2.13); mating restriction with
 /// sharing only (4.7), and strict (4.6.3).
-GeneticParameters thesisGeneticParameters(NichingMethod niching);
+CombGaParameters thesisGeneticParameters(NichingScheme scheme);
 
 /// comb-SA as the thesis has it: random moves with variable displacement (sec. 5.3.1.b), no new points
 /// between them, descents along edges.

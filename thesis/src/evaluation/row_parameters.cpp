@@ -5,7 +5,7 @@
 #include "base/csv_writer.h"
 #include "base/parameter.h"
 #include "inheriting_search.h"
-#include "search/genetic_parameter_table.h"
+#include "thesis/src/genetic/comb_ga_parameter_table.h"
 #include "tracking/tracker_parameter_table.h"
 
 namespace concave_distance::evaluation {
@@ -81,7 +81,7 @@ void addLocalStep(const LocalStepParameters& p, RowParameters& all) {
 
 /// Every parameter of a method of any kind.
 struct Describer {
-  RowParameters operator()(const GeneticParameters& p) const { return allOf(allGeneticParameters(), p); }
+  RowParameters operator()(const CombGaParameters& p) const { return allOf(combGaParameters(), p); }
 
   RowParameters operator()(const AnnealingParameters& p) const {
     return {{"initial_temperature", text(p.initial_temperature)},
@@ -102,8 +102,7 @@ struct Describer {
   RowParameters operator()(const IslandParameters& p) const {
     RowParameters all = {
         {"islands", text(p.islands)}, {"epochs", text(p.epochs)}, {"migrants", text(p.migrants)}};
-    for (RowParameter& parameter : allOf(allGeneticParameters(), p.genetic))
-      all.push_back(std::move(parameter));
+    for (RowParameter& parameter : allOf(combGaParameters(), p.genetic)) all.push_back(std::move(parameter));
     return all;
   }
 
@@ -150,8 +149,8 @@ struct Describer {
     RowParameters changes;
     if (method.forgets) changes.emplace_back("forgets", "true");
     addChanges(trackerParameters(), method.parameters, shipped, "", changes);
-    addChanges(allGeneticParameters(), method.parameters.cold, shipped.cold, "cold.", changes);
-    addChanges(allGeneticParameters(), method.parameters.warm, shipped.warm, "warm.", changes);
+    addChanges(combGaParameters(), method.coldSearch(), CombGaParameters(shipped.cold), "cold.", changes);
+    addChanges(combGaParameters(), method.warmSearch(), CombGaParameters(shipped.warm), "warm.", changes);
     return changes;
   }
 

@@ -18,19 +18,19 @@ const char* nameOf(LocalOptimization local) {
   return "";
 }
 
-const char* nameOf(NichingMethod niching) {
-  switch (niching) {
-    case NichingMethod::None:
+const char* nameOf(NichingScheme scheme) {
+  switch (scheme) {
+    case NichingScheme::None:
       return "";
-    case NichingMethod::Sharing:
+    case NichingScheme::Sharing:
       return "-sh";
-    case NichingMethod::DynamicSharing:
+    case NichingScheme::DynamicSharing:
       return "-ds";
-    case NichingMethod::DeterministicCrowding:
+    case NichingScheme::DeterministicCrowding:
       return "-dc";
-    case NichingMethod::DeterministicCrowdingWithSelection:
+    case NichingScheme::DeterministicCrowdingWithSelection:
       return "-dcs";
-    case NichingMethod::SimpleCrowding:
+    case NichingScheme::SimpleCrowding:
       return "-sc";
   }
   return "";
@@ -44,7 +44,7 @@ struct Runner {
   SearchWorkspace& workspace;
   const SearchObserver& observer;
 
-  SearchOutcome operator()(const GeneticParameters& parameters) const {
+  SearchOutcome operator()(const CombGaParameters& parameters) const {
     GenerationObserver generations;
     if (observer) {
       generations = [this](const GenerationRecord& record) {
@@ -52,8 +52,7 @@ struct Runner {
                   1.0});
       };
     }
-    const GeneticResult result =
-        geneticSearch(objective, parameters, radii, {}, engine, workspace, generations);
+    const GeneticResult result = combGa(objective, parameters, radii, {}, engine, workspace, generations);
     return {result.best, result.best_generation, result.generations, result.cost};
   }
 
@@ -87,8 +86,8 @@ struct Runner {
 }  // namespace
 
 std::string nameOf(const SearchMethod& method) {
-  if (const auto* genetic = std::get_if<GeneticParameters>(&method)) {
-    return std::string("comb-GA") + nameOf(genetic->local_optimization) + nameOf(genetic->niching);
+  if (const auto* genetic = std::get_if<CombGaParameters>(&method)) {
+    return std::string("comb-GA") + nameOf(genetic->local_optimization) + nameOf(genetic->scheme);
   }
   if (const auto* annealing = std::get_if<AnnealingParameters>(&method)) {
     return annealing->local_optimization ? "comb-SA-wl" : "comb-SA-nl";

@@ -7,8 +7,8 @@
 #include <variant>
 
 #include "island_search.h"
-#include "search/genetic_search.h"
 #include "thesis/src/annealing/simulated_annealing.h"
+#include "thesis/src/genetic/comb_ga.h"
 
 namespace concave_distance {
 
@@ -20,7 +20,7 @@ struct MultiStartParameters {
 
 /// Any search over node pairs, so that each can be compared with the others.
 using SearchMethod =
-    std::variant<GeneticParameters, AnnealingParameters, MultiStartParameters, IslandParameters>;
+    std::variant<CombGaParameters, AnnealingParameters, MultiStartParameters, IslandParameters>;
 
 /// The thesis's name of a method (Carretero, sec. 2.4): comb-{GA|SA}-{wl|nl}[-sh|-dc], with -bw for the
 /// Baldwin variant, -ds for dynamic sharing, -sc for simple crowding; -dc is Mahfoud's deterministic crowding

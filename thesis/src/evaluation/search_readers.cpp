@@ -4,7 +4,8 @@
 #include <limits>
 
 #include "experiment_values.h"
-#include "loading/settings_reader.h"
+#include "loading/parameter_map.h"
+#include "thesis/src/genetic/comb_ga_parameter_table.h"
 
 namespace concave_distance::evaluation {
 
@@ -35,14 +36,18 @@ FirstGuess readFirstGuess(const YamlValue& value, FirstGuess guess) {
   return guess;
 }
 
+void readCombGa(const YamlValue& value, CombGaParameters& p) {
+  YamlMap map(value, "a map of parameters of the genetic algorithm");
+  detail::readParameters(map, combGaParameters(), false, p);
+  map.finish();
+}
+
 void readIslands(const YamlValue& value, IslandParameters& p) {
   YamlMap map(value, "a map of parameters of islands");
   if (auto v = map.take("islands")) p.islands = count32(*v, 1);
   if (auto v = map.take("epochs")) p.epochs = count32(*v, 1);
   if (auto v = map.take("migrants")) p.migrants = count32(*v, 0);
-  if (auto v = map.take("genetic")) {
-    detail::readGeneticParameters(*v, p.genetic, detail::SettingsReader::Experiment);
-  }
+  if (auto v = map.take("genetic")) readCombGa(*v, p.genetic);
   map.finish();
 }
 

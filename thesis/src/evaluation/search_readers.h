@@ -10,6 +10,9 @@ namespace concave_distance::evaluation {
 /// @throws Error for an unknown key, a wrong type or a value out of range
 FirstGuess readFirstGuess(const detail::YamlValue& value, FirstGuess guess);
 
+/// @throws Error for an unknown key, a wrong type or a value out of range
+void readCombGa(const detail::YamlValue& value, CombGaParameters& parameters);
+
 /// The islands' own parameters and, in `genetic`, those of the algorithm that runs on them.
 /// @throws Error for an unknown key, a wrong type or a value out of range
 void readIslands(const detail::YamlValue& value, IslandParameters& parameters);

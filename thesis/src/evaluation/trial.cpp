@@ -32,7 +32,7 @@ struct Moment {
 class StandingWatch {
  public:
   StandingWatch(const SearchMethod& method, const PairObjective& objective) : objective_(objective) {
-    const auto* genetic = std::get_if<GeneticParameters>(&method);
+    const auto* genetic = std::get_if<CombGaParameters>(&method);
     is_needed_ = genetic != nullptr && genetic->local_optimization == LocalOptimization::Baldwinian;
   }
 

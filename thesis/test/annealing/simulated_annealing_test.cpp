@@ -206,7 +206,7 @@ TEST(AnnealingParameters, AreRefusedByName) {
 TEST(SearchMethod, RunsEachMethodAsItsOwnFunctionDoes) {
   Annealing a(test::facingCombs());
   const NicheRadii radii{0.3, 0.4, 0.3};
-  GeneticParameters genetic;
+  CombGaParameters genetic;
   genetic.population_size = 20;
   genetic.max_generations = 5;
   const auto outcome = [&](const SearchMethod& method) {
@@ -225,7 +225,7 @@ TEST(SearchMethod, RunsEachMethodAsItsOwnFunctionDoes) {
   const SearchOutcome by_genetic = outcome(genetic);
   a.workspace.basins.clear();
   RandomEngine engine(5);
-  const GeneticResult expected = geneticSearch(a.objective, genetic, radii, {}, engine, a.workspace);
+  const GeneticResult expected = combGa(a.objective, genetic, radii, {}, engine, a.workspace);
   EXPECT_TRUE(samePlace(by_genetic.best, expected.best));
   EXPECT_EQ(by_genetic.cost.evaluations, expected.cost.evaluations);
   EXPECT_EQ(by_genetic.best_iteration, expected.best_generation);
@@ -236,12 +236,12 @@ TEST(SearchMethod, RunsEachMethodAsItsOwnFunctionDoes) {
 }
 
 TEST(SearchMethod, NamesThemAsTheThesisDoes) {
-  GeneticParameters genetic;
+  CombGaParameters genetic;
   EXPECT_EQ(nameOf(SearchMethod(genetic)), "comb-GA-wl-sh");
-  genetic.niching = NichingMethod::None;
+  genetic.scheme = NichingScheme::None;
   genetic.local_optimization = LocalOptimization::None;
   EXPECT_EQ(nameOf(SearchMethod(genetic)), "comb-GA-nl");
-  genetic.niching = NichingMethod::DeterministicCrowdingWithSelection;
+  genetic.scheme = NichingScheme::DeterministicCrowdingWithSelection;
   genetic.local_optimization = LocalOptimization::Baldwinian;
   EXPECT_EQ(nameOf(SearchMethod(genetic)), "comb-GA-bw-dcs");
   EXPECT_EQ(nameOf(SearchMethod(shortRun(true))), "comb-SA-wl");

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "concave_distance/base/error.h"
-#include "search/genetic_search.h"
 #include "search/grid/body_grid.h"
 #include "support/temporary_folder.h"
 #include "thesis/src/evaluation/experiment.h"
@@ -239,19 +238,19 @@ rows:
   }
   const std::vector<TrialRecord> runs = runTrials(experiment, 1, 0, scene, 0, kRuns, workspace, nullptr);
   const PairObjective objective(*scene.a, *scene.b, scene.first().a_from_b);
-  const auto& parameters = std::get<GeneticParameters>(std::get<SearchMethod>(experiment.rows[1].method));
+  const auto& parameters = std::get<CombGaParameters>(std::get<SearchMethod>(experiment.rows[1].method));
   std::uint32_t descended = 0;
   std::uint32_t stood = 0;
   for (std::uint32_t i = 0; i < kRuns; ++i) {
     bool stands = false;
     RandomEngine engine(streamSeed(experiment.seed, "evaluate", i));
     workspace.basins.clear();
-    geneticSearch(objective, parameters, {1.0, 1.0, 1.0}, {}, engine, workspace,
-                  [&](const GenerationRecord& record) {
-                    for (const TrialPoint& point : *record.population) {
-                      stands = stands || objective.squaredDistance(point.node_a, point.node_b) <= best;
-                    }
-                  });
+    combGa(objective, parameters, {1.0, 1.0, 1.0}, {}, engine, workspace,
+           [&](const GenerationRecord& record) {
+             for (const TrialPoint& point : *record.population) {
+               stands = stands || objective.squaredDistance(point.node_a, point.node_b) <= best;
+             }
+           });
     EXPECT_EQ(runs[i].standing, stands) << "run " << i;
     EXPECT_LE(runs[i].standing, runs[i].exact);
     descended += runs[i].exact ? 1 : 0;

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "concave_distance/base/error.h"
-#include "search/genetic_parameter_table.h"
 #include "support/temporary_folder.h"
 #include "thesis/src/evaluation/experiment.h"
+#include "thesis/src/genetic/comb_ga_parameter_table.h"
 
 namespace concave_distance::evaluation::row_parameters_test {
 namespace {
@@ -118,10 +118,10 @@ TEST_F(Rows, OfShippedCyclesAreTheTrackersColdAndWarmSearch) {
   ASSERT_NE(motion, nullptr);
   const Values values = valuesOf(row, *motion);
   const TrackerParameters shipped;
-  for (const Parameter<GeneticParameters>& parameter : allGeneticParameters()) {
+  for (const Parameter<CombGaParameters>& parameter : combGaParameters()) {
     const std::string& name = parameter.info.name;
-    EXPECT_EQ(values.at(name), toText(parameter.get(shipped.cold))) << name;
-    EXPECT_EQ(values.at("further." + name), toText(parameter.get(shipped.warm))) << name;
+    EXPECT_EQ(values.at(name), toText(parameter.get(CombGaParameters(shipped.cold)))) << name;
+    EXPECT_EQ(values.at("further." + name), toText(parameter.get(CombGaParameters(shipped.warm)))) << name;
   }
   EXPECT_EQ(values.at("inheritance.per_niche"), toText(shipped.inherited_per_niche));
   EXPECT_EQ(values.at("inheritance.limit"), std::to_string(shipped.inherited_limit));
@@ -167,7 +167,7 @@ TEST(ExperimentRows, ThatSayShippedAreShipped) {
                                            ? "refined"
                                            : "certified"));
       } else {
-        shipped.method = SearchMethod(TrackerParameters().cold);
+        shipped.method = SearchMethod(CombGaParameters(TrackerParameters().cold));
         EXPECT_EQ(valuesOf(row, scene), valuesOf(shipped, scene)) << experiment.name << ": " << row.name;
       }
     }
@@ -181,7 +181,7 @@ TEST(ExperimentRows, OfTheThesisComeFirstAndArePure) {
   for (const Experiment& experiment : allExperiments()) {
     if (experiment.name.rfind("table_", 0) != 0) continue;
     const auto* search = std::get_if<SearchMethod>(&experiment.rows[0].method);
-    if (search == nullptr || !std::holds_alternative<GeneticParameters>(*search)) continue;
+    if (search == nullptr || !std::holds_alternative<CombGaParameters>(*search)) continue;
     ++count;
     const ExperimentRow& row = experiment.rows[0];
     const Values values = valuesOf(row, experiment.scenes[0]);

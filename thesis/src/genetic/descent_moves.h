@@ -1,6 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
+
+#include "search/basin_memory.h"
+#include "search/pair_objective.h"
 
 namespace concave_distance {
 
@@ -14,5 +18,10 @@ enum class DescentMoves : std::uint8_t {
   /// As OneNode, and on fine grids, too, from neighbour to neighbour: no longer steps (the thesis's).
   OneNodeAlongEdges
 };
+
+/// Descends as descend() does, with these moves. With BothNodes no neighbour of both nodes at once is closer
+/// than the result either. @param memory of descents with the same moves
+TrialPoint descendBy(DescentMoves moves, const PairObjective& objective, const TrialPoint& start,
+                     BasinMemory* memory, std::vector<std::uint64_t>& trail, SearchCost& cost);
 
 }  // namespace concave_distance

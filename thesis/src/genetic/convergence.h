@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "trial_point_table.h"
+#include "search/trial_point_table.h"
 
 namespace concave_distance {
 

@@ -14,7 +14,7 @@ struct Waiting {
   double squared_distance;
 };
 
-// Of e1 x e2, its product with r, and their squares together, over |e1| |e2| |r|.
+/// Bounds the rounding of (e1 x e2) . r and of their squares, relative to |e1| |e2| |r|.
 constexpr double kPlaneRounding = 16.0 * std::numeric_limits<double>::epsilon();
 
 /// Proves that no point of the triangle's plane is nearer: the product of the rounded cross product with a

@@ -1,0 +1,177 @@
+#include "hull_gap.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "base/exact_orientation.h"
+#include "base/pi.h"
+
+namespace concave_distance {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+/// Of the height of a point over a plane through the centre, relative to the body's reach.
+constexpr double kRounding = 0x1.0p-51;
+
+std::array<Vector3d, 3> cornersOf(const SurfaceMesh& mesh, std::size_t triangle) {
+  const TriangleIndex t{triangle};
+  return {mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)};
+}
+
+/// The centre of mass of the solid, or the middle of the box where rounding decides.
+Vector3d centreOf(const SurfaceMesh& mesh) {
+  const Vector3d middle = mesh.boundingBox().center();
+  Vector3d moment = Vector3d::Zero();
+  double volume = 0.0;
+  for (std::size_t t = 0; t < mesh.triangleCount(); ++t) {
+    const std::array<Vector3d, 3> corners = cornersOf(mesh, t);
+    const Vector3d p = corners[0] - middle;
+    const Vector3d q = corners[1] - middle;
+    const Vector3d r = corners[2] - middle;
+    const double part = p.dot(q.cross(r));
+    volume += part;
+    moment += part * (p + q + r);
+  }
+  const Vector3d centre = middle + moment / (4.0 * volume);
+  return mesh.boundingBox().contains(centre) ? centre : middle;
+}
+
+/// The solid angle that a triangle covers seen from the origin (van Oosterom and Strackee 1983).
+double solidAngle(const Vector3d& p, const Vector3d& q, const Vector3d& r) {
+  const double lp = p.norm();
+  const double lq = q.norm();
+  const double lr = r.norm();
+  return 2.0 * std::atan2(p.dot(q.cross(r)), lp * lq * lr + p.dot(q) * lr + p.dot(r) * lq + q.dot(r) * lp);
+}
+
+/// True when every ray from the centre crosses the closed surface once: no triangle is seen from behind, and
+/// together they cover the sphere once.
+bool isStarShaped(const SurfaceMesh& mesh, const Vector3d& centre) {
+  double covered = 0.0;
+  for (std::size_t t = 0; t < mesh.triangleCount(); ++t) {
+    const auto [p, q, r] = cornersOf(mesh, t);
+    if (detail::orientationSign(p, q, r, centre) >= 0) return false;
+    covered += solidAngle(p - centre, q - centre, r - centre);
+  }
+  return covered < 6.0 * kPi;
+}
+
+/// A half-space that holds the whole surface: dot(normal, x - centre) <= most.
+struct HalfSpace {
+  Vector3d normal;
+  double most;
+};
+
+class GapMeasure {
+ public:
+  GapMeasure(const SurfaceMesh& mesh, const MeshTopology& topology, const TriangleTree& tree,
+             const Vector3d& centre)
+      : mesh_(mesh),
+        topology_(topology),
+        tree_(tree),
+        centre_(centre),
+        widest_(kWidestHullGap * mesh.diameter()) {
+    rounding_ = kRounding * (mesh.diameter() + centre.cwiseAbs().maxCoeff());
+  }
+
+  double measure() {
+    half_spaces_.resize(mesh_.triangleCount());
+    double gap = 0.0;
+    for (std::size_t t = 0; t < mesh_.triangleCount(); ++t) {
+      gap = std::max(gap, gapOver(t));
+      if (!(gap <= widest_)) return kInfinite;
+    }
+    return gap;
+  }
+
+ private:
+  /// Bounds the gap over a triangle. A needle's own plane may be far off: its neighbours' bound the hull,
+  /// too.
+  double gapOver(std::size_t t) {
+    double gap = gapBelow(halfSpace(t), t);
+    for (const TriangleIndex next : topology_.triangle_across_edge[t]) {
+      if (gap <= 64.0 * rounding_ || next == kNoTriangle) continue;
+      gap = std::min(gap, gapBelow(halfSpace(next.value), t));
+    }
+    return gap;
+  }
+
+  /// Bounds the way from the triangle's points out of a half-space along the rays through them. It is convex
+  /// over the triangle: the corners have the most.
+  double gapBelow(const HalfSpace& half_space, std::size_t t) const {
+    double longest = 0.0;
+    double farthest = 0.0;
+    for (const Vector3d& corner : cornersOf(mesh_, t)) {
+      const Vector3d ray = corner - centre_;
+      const double along = half_space.normal.dot(ray) - rounding_;
+      if (!(along > 0.0)) return kInfinite;
+      longest = std::max(longest, (half_space.most - along) / along);
+      farthest = std::max(farthest, ray.norm());
+    }
+    return longest * farthest;
+  }
+
+  const HalfSpace& halfSpace(std::size_t t) {
+    std::optional<HalfSpace>& known = half_spaces_[t];
+    if (!known) {
+      const auto [p, q, r] = cornersOf(mesh_, t);
+      const Vector3d normal = (q - p).cross(r - p).normalized();
+      const double own =
+          std::max({normal.dot(p - centre_), normal.dot(q - centre_), normal.dot(r - centre_)});
+      known = HalfSpace{normal, farthestAlong(normal, own) + rounding_};
+    }
+    return *known;
+  }
+
+  /// How far the surface reaches along a direction, metres from the centre; `least` is reached.
+  double farthestAlong(const Vector3d& direction, double least) {
+    open_.assign(1, 0);
+    double most = least;
+    while (!open_.empty()) {
+      const std::uint32_t index = open_.back();
+      open_.pop_back();
+      const TriangleTree::Node& node = tree_.nodes()[index];
+      const double reach =
+          direction.dot(node.box.center() - centre_) + 0.5 * direction.cwiseAbs().dot(node.box.sizes());
+      // What reaches no farther than rounding does not count.
+      if (!(reach > most + rounding_)) continue;
+      if (node.count == 0) {
+        open_.push_back(index + 1);
+        open_.push_back(node.first);
+        continue;
+      }
+      for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+        for (const Vector3d& corner : cornersOf(mesh_, tree_.order()[i].value)) {
+          most = std::max(most, direction.dot(corner - centre_));
+        }
+      }
+    }
+    return most + rounding_;
+  }
+
+  const SurfaceMesh& mesh_;
+  const MeshTopology& topology_;
+  const TriangleTree& tree_;
+  Vector3d centre_;
+  double widest_;
+  double rounding_;                                    ///< metres, of a height over a plane
+  std::vector<std::optional<HalfSpace>> half_spaces_;  ///< by triangle, where asked for
+  std::vector<std::uint32_t> open_;
+};
+
+}  // namespace
+
+HullGap measureHullGap(const SurfaceMesh& mesh, const MeshTopology& topology, const TriangleTree& tree) {
+  if (!topology.allShellsClosed()) return {kInfinite};
+  const Vector3d centre = centreOf(mesh);
+  if (!isStarShaped(mesh, centre)) return {kInfinite};
+  return {GapMeasure(mesh, topology, tree, centre).measure()};
+}
+
+}  // namespace concave_distance

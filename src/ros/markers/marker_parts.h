@@ -1,0 +1,36 @@
+#pragma once
+
+#include <visualization_msgs/Marker.h>
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <string>
+
+namespace concave_distance {
+
+std_msgs::ColorRGBA makeColor(const Eigen::Vector3d& red_green_blue, double opacity = 1.0);
+
+/// A marker without a type, at the origin of the header's frame.
+/// @param lifetime seconds after which rviz drops a marker that is not renewed
+visualization_msgs::Marker emptyMarker(const std_msgs::Header& header, const std::string& ns, std::int32_t id,
+                                       double lifetime);
+/// A text that faces the camera, without a place and a height.
+visualization_msgs::Marker textMarker(const std_msgs::Header& header, const std::string& ns, std::int32_t id,
+                                      double lifetime, const std::string& text,
+                                      const std_msgs::ColorRGBA& color);
+
+/// A row of the list above the scene, and the place in the scene that it is about.
+struct Label {
+  visualization_msgs::Marker text;
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();  ///< reference frame, m
+  double depth = 0.0;                               ///< of a contact, where it is known, m
+};
+
+/// A length with three digits and its unit: "0.42 mm", "12.3 mm", "456 mm", "1.24 m"; below 10 um "<0.01 mm".
+std::string lengthText(double metres);
+/// A force in the same way: "312 N", "3.58 kN".
+std::string forceText(double newtons);
+/// A pressure in the same way: "0 Pa", "312 Pa", "12.3 kPa", "3.58 MPa", "1.20 GPa".
+std::string pressureText(double pascals);
+
+}  // namespace concave_distance
