@@ -13,14 +13,13 @@
 #include "base/content_hash.h"
 #include "base/number_text.h"
 #include "concave_distance/base/error.h"
-#include "mesh/body_mesh_parts.h"
+#include "concave_distance/search/prepare_search.h"
+#include "mesh/body_key.h"
 #include "scene/body_pool.h"
 
 namespace concave_distance::detail {
 namespace {
 
-// A larger grid takes so long that it is made while loading, not at the first search.
-constexpr double kLargeGrid = 5000.0;
 constexpr double kFarthestCoordinate = 1e9;  // metres
 
 // Runs `step` for every body without a problem; what it throws becomes that body's problem.
@@ -92,11 +91,10 @@ std::shared_ptr<const BodyMesh> sharedMesh(const BodySource& source, SurfaceMesh
   options.metric_memory = pool->metricMemory();
   options.cache = cache;
   options.shape = roundShapeOf(source.geometry);
-  const ContentKey key = bodyKey(surface, options);
+  const ContentKey key = bodyKey(surfaceKey(surface), options);
   return pool->share(key, [&] {
     auto mesh = std::make_shared<const BodyMesh>(source.name, std::move(surface), options);
-    const double edge = source.max_edge_length.value_or(automaticEdgeLength(mesh->surface()));
-    if (estimatedNodeCount(mesh->surface(), edge) > kLargeGrid) mesh->graph();
+    prepareLargeGrid(*mesh);
     return mesh;
   });
 }

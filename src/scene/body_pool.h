@@ -8,7 +8,7 @@
 
 #include "base/content_hash.h"
 #include "concave_distance/mesh/body_mesh.h"
-#include "search/grid/metric_memory.h"
+#include "mesh/metric_memory.h"
 
 namespace concave_distance {
 

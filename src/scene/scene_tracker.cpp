@@ -9,6 +9,7 @@
 
 #include "base/helping_threads.h"
 #include "concave_distance/base/error.h"
+#include "concave_distance/search/prepare_search.h"
 #include "solver_threads.h"
 
 namespace concave_distance {
@@ -208,7 +209,7 @@ void SceneTracker::prepareSearches() {
   for (const TrackedPair* pair : to_solve_) {
     if (!pair->needsSearch()) continue;
     for (const BodyMesh* body : {pair->body_a->mesh.get(), pair->body_b->mesh.get()}) {
-      if (body->asSolved().metricIfMade() == nullptr) to_prepare_.push_back(&body->asSolved());
+      if (!searchPreparationOf(body->asSolved()).is_complete) to_prepare_.push_back(&body->asSolved());
     }
   }
   if (!to_prepare_.empty()) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "search/grid/body_grid.h"
+
 namespace concave_distance {
 namespace {
 
@@ -18,17 +20,18 @@ constexpr double kLeastEdges = 2.0;
 // Table 5.22: sigma_s <= sigma_m <= 1.5 sigma_s, sigma_n = sigma_s.
 constexpr double kMatingFactor = 1.25;
 
-double sharingRadius(const BodyMesh& a, const BodyMesh& b) {
+double sharingRadius(const BodyGrid& a, const BodyGrid& b) {
   const double share = kShareOfExtents * (a.geodesicExtent() + b.geodesicExtent());
   const double radius = std::min({share, a.protrusionSpacing(), b.protrusionSpacing()});
-  return std::max(radius, kLeastEdges * std::max(a.maxEdgeLength(), b.maxEdgeLength()));
+  return std::max(radius, kLeastEdges * std::max(a.nodes().max_edge_length, b.nodes().max_edge_length));
 }
 
 }  // namespace
 
 NicheRadii automaticRadii(const BodyMesh& a, const BodyMesh& b, const GeneticParameters& parameters) {
   NicheRadii radii{};
-  radii.sharing = parameters.sharing_radius ? *parameters.sharing_radius : sharingRadius(a, b);
+  radii.sharing =
+      parameters.sharing_radius ? *parameters.sharing_radius : sharingRadius(gridOf(a), gridOf(b));
   radii.mating = parameters.mating_radius.value_or(kMatingFactor * radii.sharing);
   radii.niche = parameters.niche_radius.value_or(radii.sharing);
   return radii;

@@ -14,7 +14,7 @@ namespace {
 /// length; it gets all of them where looking one up costs nothing.
 double distanceBound(const GeneticState& state) {
   const bool has_matrices =
-      state.objective.bodyA().metric().hasMatrices() && state.objective.bodyB().metric().hasMatrices();
+      state.objective.gridA().metric().hasMatrices() && state.objective.gridB().metric().hasMatrices();
   const NicheRadii& radii = state.radii;
   return has_matrices && state.parameters.niching == NichingMethod::DeterministicCrowding
              ? std::numeric_limits<double>::infinity()

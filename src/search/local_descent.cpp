@@ -8,8 +8,8 @@ namespace concave_distance {
 Descent::Descent(const PairObjective& objective, BasinMemory* memory, std::vector<std::uint64_t>& trail,
                  SearchCost& cost, bool takes_long_steps)
     : objective_(objective),
-      graph_a_(objective.bodyA().graph()),
-      graph_b_(objective.bodyB().graph()),
+      graph_a_(objective.gridA().graph()),
+      graph_b_(objective.gridB().graph()),
       cost_(cost),
       takes_long_steps_(takes_long_steps),
       memory_(memory),
@@ -78,7 +78,7 @@ bool Descent::joinsKnownBasin() {
 /// Returns true when A's node has moved; then none of its neighbours is closer.
 bool Descent::moveA() {
   const NodeIndex start = point_.node_a;
-  const auto [reached, proven] = approach(objective_.bodyA(), start, b_in_a_, takes_long_steps_, cost_);
+  const auto [reached, proven] = approach(objective_.gridA(), start, b_in_a_, takes_long_steps_, cost_);
   if (reached != start) {
     const double reached_distance = squaredDistanceBetween(graph_a_.positions[reached.value], b_in_a_);
     if (reached_distance < point_.squared_distance) {
@@ -112,7 +112,7 @@ bool Descent::moveB() {
   const Eigen::Vector3d& a = graph_a_.positions[point_.node_a.value];
   const NodeIndex start = point_.node_b;
   const auto [reached, proven] =
-      approach(objective_.bodyB(), start, objective_.bFromA() * a, takes_long_steps_, cost_);
+      approach(objective_.gridB(), start, objective_.bFromA() * a, takes_long_steps_, cost_);
   if (reached != start) {
     const Eigen::Vector3d reached_in_a = objective_.aFromB() * graph_b_.positions[reached.value];
     const double reached_distance = squaredDistanceBetween(a, reached_in_a);

@@ -14,7 +14,7 @@ namespace concave_distance {
 /// closer, then node B, in turn until neither moves; of equally good neighbours the one of smallest index.
 /// The stored squared distance, in double and in A's frame, only ever falls; whatever was found in float or
 /// in B's frame is accepted only when it does. Node pairs being finitely many, it ends. On graphs with levels
-/// (BodyMesh::levels()) a move takes longer steps the longer it is, and ends where no neighbour on the graph
+/// (SearchNodes::levels) a move takes longer steps the longer it is, and ends where no neighbour on the graph
 /// itself is closer all the same: of several such nodes not always the one that steps along edges lead to.
 class Descent {
  public:

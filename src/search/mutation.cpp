@@ -45,8 +45,8 @@ TrialPoint mutate(const TrialPoint& point, PairMetric& metric, RandomEngine& eng
 }
 
 TrialPoint randomTrialPoint(const PairObjective& objective, RandomEngine& engine) {
-  const NodeIndex node_a = randomNode(objective.bodyA().graph(), engine);
-  return {node_a, randomNode(objective.bodyB().graph(), engine), kNotComputed};
+  const NodeIndex node_a = randomNode(objective.gridA().graph(), engine);
+  return {node_a, randomNode(objective.gridB().graph(), engine), kNotComputed};
 }
 
 }  // namespace concave_distance

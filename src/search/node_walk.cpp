@@ -150,14 +150,15 @@ NodeIndex walkInLongSteps(const std::vector<NodeLevel>& levels, NodeIndex node, 
 
 }  // namespace
 
-Approach approach(const BodyMesh& body, NodeIndex node, const Eigen::Vector3d& target, bool in_long_steps,
+Approach approach(const BodyGrid& grid, NodeIndex node, const Eigen::Vector3d& target, bool in_long_steps,
                   SearchCost& cost) {
-  const NodeGraph& graph = body.graph();
+  const NodeGraph& graph = grid.graph();
+  const std::vector<NodeLevel>& levels = grid.nodes().levels.levels;
   const Eigen::Vector3f local = localTarget(graph, target);
-  const bool has_levels = in_long_steps && !body.levels().levels.empty();
+  const bool has_levels = in_long_steps && !levels.empty();
   Place place = walk(graph, node, local, has_levels ? kStepsOnALevel : kNoLimit, cost);
   if (!place.is_minimum) {
-    const NodeIndex far = walkInLongSteps(body.levels().levels, NodeIndex{place.node}, target, cost);
+    const NodeIndex far = walkInLongSteps(levels, NodeIndex{place.node}, target, cost);
     const Place arrived = walk(graph, far, local, kNoLimit, cost);
     // Coarse steps may lead to a worse valley; then on from where the fine ones stopped.
     place = arrived.value < place.value ? arrived : walk(graph, NodeIndex{place.node}, local, kNoLimit, cost);

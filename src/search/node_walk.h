@@ -2,8 +2,8 @@
 
 #include <Eigen/Core>
 
-#include "concave_distance/mesh/body_mesh.h"
 #include "concave_distance/search/trial_point.h"
+#include "search/grid/body_grid.h"
 
 namespace concave_distance {
 
@@ -14,9 +14,8 @@ struct Approach {
 };
 
 /// Walks in float to where no neighbour looks closer to `target` (metres, in the graph's frame).
-/// @param in_long_steps on graphs with levels (BodyMesh::levels()) steps are the longer the longer the walk
-/// is
-Approach approach(const BodyMesh& body, NodeIndex node, const Eigen::Vector3d& target, bool in_long_steps,
+/// @param in_long_steps on graphs with levels (SearchNodes::levels) steps grow with the length of the walk
+Approach approach(const BodyGrid& grid, NodeIndex node, const Eigen::Vector3d& target, bool in_long_steps,
                   SearchCost& cost);
 
 }  // namespace concave_distance

@@ -4,6 +4,7 @@
 
 #include "concave_distance/mesh/body_mesh.h"
 #include "concave_distance/search/trial_point.h"
+#include "search/grid/body_grid.h"
 #include "search/grid/mesh_metric.h"
 
 namespace concave_distance {
@@ -25,7 +26,7 @@ class PairMetric {
     std::optional<MeshMetricQuery> made;
 
     MeshMetricQuery& query() {
-      if (!made) made.emplace(body->metric());
+      if (!made) made.emplace(gridOf(*body).metric());
       return *made;
     }
     std::size_t memoryBytes() const { return made ? made->memoryBytes() : 0; }

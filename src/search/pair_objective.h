@@ -4,7 +4,7 @@
 
 #include "concave_distance/mesh/body_mesh.h"
 #include "concave_distance/search/trial_point.h"
-#include "search/grid/search_nodes.h"
+#include "search/grid/body_grid.h"
 
 namespace concave_distance {
 
@@ -22,17 +22,19 @@ inline double squaredDistanceBetween(const Eigen::Vector3d& p, const Eigen::Vect
 class PairObjective {
  public:
   PairObjective(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b)
-      : a_(&a), b_(&b), a_from_b_(a_from_b), b_from_a_(a_from_b.inverse(Eigen::Isometry)) {}
+      : a_(&gridOf(a)), b_(&gridOf(b)), a_from_b_(a_from_b), b_from_a_(a_from_b.inverse(Eigen::Isometry)) {}
 
-  const BodyMesh& bodyA() const { return *a_; }
-  const BodyMesh& bodyB() const { return *b_; }
+  const BodyMesh& bodyA() const { return a_->body(); }
+  const BodyMesh& bodyB() const { return b_->body(); }
+  const BodyGrid& gridA() const { return *a_; }
+  const BodyGrid& gridB() const { return *b_; }
   const Eigen::Isometry3d& aFromB() const { return a_from_b_; }
   const Eigen::Isometry3d& bFromA() const { return b_from_a_; }
 
   /// Carretero, eq. (3.2); square metres.
   double squaredDistance(NodeIndex node_a, NodeIndex node_b) const {
-    return squaredDistanceBetween(a_->searchNodes().graph.positions[node_a.value],
-                                  a_from_b_ * b_->searchNodes().graph.positions[node_b.value]);
+    return squaredDistanceBetween(a_->graph().positions[node_a.value],
+                                  a_from_b_ * b_->graph().positions[node_b.value]);
   }
   TrialPoint evaluate(NodeIndex node_a, NodeIndex node_b, SearchCost& cost) const {
     ++cost.evaluations;
@@ -40,8 +42,8 @@ class PairObjective {
   }
 
  private:
-  const BodyMesh* a_;
-  const BodyMesh* b_;
+  const BodyGrid* a_;
+  const BodyGrid* b_;
   Eigen::Isometry3d a_from_b_;
   Eigen::Isometry3d b_from_a_;
 };

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "search/grid/body_grid.h"
+
 namespace concave_distance {
 namespace {
 
@@ -17,7 +19,8 @@ double potentialFitness(double squared_distance, double epsilon) {
 }
 
 double fitnessEpsilon(const GeneticParameters& parameters, const BodyMesh& a, const BodyMesh& b) {
-  return parameters.fitness_epsilon * std::max(a.maxEdgeLength(), b.maxEdgeLength());
+  return parameters.fitness_epsilon *
+         std::max(gridOf(a).nodes().max_edge_length, gridOf(b).nodes().max_edge_length);
 }
 
 double sharingValue(double delta, double radius, double exponent) {

@@ -5,27 +5,30 @@
 
 #include "mesh/surface/mesh_topology.h"
 #include "niche_archive.h"
-#include "search/grid/node_graph.h"
+#include "search/grid/body_grid.h"
 
 namespace concave_distance {
 
 WitnessPair nodeWitness(const PairFrame& frame, const TrialPoint& pair) {
   WitnessPair witness;
-  witness.point_a_in_a = frame.a.graph().positions[pair.node_a.value];
-  witness.point_b_in_a = frame.a_from_b * frame.b.graph().positions[pair.node_b.value];
+  const SearchNodes& a = gridOf(frame.a).nodes();
+  const SearchNodes& b = gridOf(frame.b).nodes();
+  witness.point_a_in_a = a.graph.positions[pair.node_a.value];
+  witness.point_b_in_a = frame.a_from_b * b.graph.positions[pair.node_b.value];
   witness.squared_distance = (witness.point_b_in_a - witness.point_a_in_a).squaredNorm();
-  witness.triangle_a = frame.a.originalTriangle(pair.node_a);
-  witness.triangle_b = frame.b.originalTriangle(pair.node_b);
+  witness.triangle_a = a.originalTriangle(pair.node_a);
+  witness.triangle_b = b.originalTriangle(pair.node_b);
   return witness;
 }
 
 TrialPoint nodePairNear(const PairFrame& frame, const WitnessPair& witness) {
   const auto nearest = [](const BodyMesh& body, TriangleIndex triangle, const Eigen::Vector3d& point) {
+    const SearchNodes& nodes = gridOf(body).nodes();
     NodeIndex best;
     double least = std::numeric_limits<double>::infinity();
     for (const NodeIndex corner : body.surface().triangle(triangle)) {
-      const NodeIndex node = body.graphNode(corner);
-      const double squared = (body.graph().positions[node.value] - point).squaredNorm();
+      const NodeIndex node = nodes.graphNode(corner);
+      const double squared = (nodes.graph.positions[node.value] - point).squaredNorm();
       if (squared < least) {
         least = squared;
         best = node;
@@ -35,9 +38,9 @@ TrialPoint nodePairNear(const PairFrame& frame, const WitnessPair& witness) {
   };
   const NodeIndex node_a = nearest(frame.a, witness.triangle_a, witness.point_a_in_a);
   const NodeIndex node_b = nearest(frame.b, witness.triangle_b, frame.bFromA() * witness.point_b_in_a);
-  return {node_a, node_b,
-          (frame.a.graph().positions[node_a.value] - frame.a_from_b * frame.b.graph().positions[node_b.value])
-              .squaredNorm()};
+  const Eigen::Vector3d& point_a = gridOf(frame.a).graph().positions[node_a.value];
+  const Eigen::Vector3d& point_b = gridOf(frame.b).graph().positions[node_b.value];
+  return {node_a, node_b, (point_a - frame.a_from_b * point_b).squaredNorm()};
 }
 
 void placeRecord(NicheRecord& record, const PairFrame& frame, const WitnessPair& witness) {

@@ -99,8 +99,8 @@ void admitNodePairs(const PairFrame& frame, const TrackerParameters& parameters,
 
 void improveNodePairs(const PairObjective& objective, std::size_t count, NicheArchive& archive,
                       const PairFrame& frame, NodeRings& rings, SearchCost& cost) {
-  const NodeGraph& graph_a = objective.bodyA().graph();
-  const NodeGraph& graph_b = objective.bodyB().graph();
+  const NodeGraph& graph_a = objective.gridA().graph();
+  const NodeGraph& graph_b = objective.gridB().graph();
   for (std::size_t i = 0; i < std::min(count, archive.records().size()); ++i) {
     NicheRecord& record = archive.records()[i];
     TrialPoint best = record.niche.node_pair;

@@ -61,6 +61,22 @@ bool isBelow(const std::string& folder, const std::string& other) {
   return folder == other || folder.compare(0, other.size() + 1, other + "/") == 0;
 }
 
+/// What only some of the higher folders may include.
+struct Reserved {
+  std::string folder;
+  std::vector<std::string> users;
+};
+const std::vector<Reserved> kReserved = {{kThesis, {kThesis}},
+                                         {"search/grid", {"search", "tracking", kThesis}}};
+
+bool mayInclude(const std::string& folder, const std::string& target) {
+  return std::all_of(kReserved.begin(), kReserved.end(), [&](const Reserved& reserved) {
+    return !isBelow(target, reserved.folder) ||
+           std::any_of(reserved.users.begin(), reserved.users.end(),
+                       [&](const std::string& user) { return isBelow(folder, user); });
+  });
+}
+
 std::string contentOf(const std::filesystem::path& file) {
   std::ifstream stream(file);
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
@@ -83,7 +99,6 @@ const std::vector<std::string>& foldersFromTheGround() {
                                                    "mesh/surface",
                                                    "mesh/trees",
                                                    "mesh/repair",
-                                                   "search/grid",
                                                    "mesh",
                                                    "mesh/import",
                                                    "distance",
@@ -91,6 +106,7 @@ const std::vector<std::string>& foldersFromTheGround() {
                                                    "distance/bound",
                                                    "distance/minima",
                                                    "distance/niches",
+                                                   "search/grid",
                                                    "search",
                                                    "interference",
                                                    "contact",
@@ -132,9 +148,8 @@ std::vector<std::string> faultsOfIncludes(const std::string& text, const std::fi
       faults.push_back("includes " + header + ", which is in no listed folder");
     else if (there > here)
       faults.push_back("includes " + header + ", an arrow upwards");
-    if (isBelow(target, kThesis) && !isBelow(folder, kThesis)) {
-      faults.push_back("includes " + header + ", which only the thesis's programs may use");
-    }
+    if (!mayInclude(folder, target))
+      faults.push_back("includes " + header + ", which is not for folder '" + folder + "'");
   }
   if (!own_header.empty() && (included.empty() || included.front() != own_header))
     faults.push_back("does not include its own header " + own_header + " first");

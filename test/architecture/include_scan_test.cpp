@@ -91,6 +91,17 @@ TEST(IncludeScan, ReportsWhatReachesTheThesis) {
   EXPECT_FALSE(faultsOfIncludes(text, "thesis/src/continuous/x.cpp", "").empty()) << "an arrow upwards";
 }
 
+TEST(IncludeScan, ReportsWhatReachesTheSearchGrid) {
+  const std::string text = "#include \"search/grid/a.h\"\n";
+  for (const char* file : {"mesh/x.cpp", "distance/niches/x.h", "loading/x.cpp", "scene/x.cpp", "tools/x.cpp",
+                           "ros/messages/x.cpp"}) {
+    EXPECT_FALSE(faultsOfIncludes(text, file, "").empty()) << file;
+  }
+  for (const char* file : {"search/grid/x.cpp", "search/x.h", "tracking/x.cpp", "thesis/src/annealing/x.h"}) {
+    EXPECT_TRUE(faultsOfIncludes(text, file, "").empty()) << file;
+  }
+}
+
 TEST(IncludeScan, ReportsASourceFileWhoseOwnHeaderIsNotFirst) {
   const std::string text = "#include <vector>\n#include \"concave_distance/mesh/a.h\"\n";
   EXPECT_EQ(faultsOfIncludes(text, "mesh/x.cpp", "concave_distance/mesh/a.h").size(), 1u);

@@ -31,6 +31,7 @@
 #include "concave_distance/tracking/pair_tracker.h"
 #include "distance/niches/local_minima.h"
 #include "mesh/trees/normal_cone_tree.h"
+#include "search/grid/body_grid.h"
 #include "search/local_descent.h"
 #include "support/enumeration.h"
 
@@ -168,10 +169,11 @@ class Comparison {
   /// The true niches that refinements of the grids' own local minima end in.
   std::set<std::size_t> gridLeadsTo(const Eigen::Isometry3d& pose, double cutoff) {
     FloodStarts starts;
-    const double slack = pair_.a->maxEdgeLength() + pair_.b->maxEdgeLength();
+    const double slack = gridOf(*pair_.a).nodes().max_edge_length + gridOf(*pair_.b).nodes().max_edge_length;
     for (const test::NodeNiche& niche :
          test::enumerateNodeNiches(*pair_.a, *pair_.b, pose, cutoff + slack, 0.0)) {
-      starts.emplace_back(pair_.a->originalTriangle(niche.node_a), pair_.b->originalTriangle(niche.node_b));
+      starts.emplace_back(gridOf(*pair_.a).nodes().originalTriangle(niche.node_a),
+                          gridOf(*pair_.b).nodes().originalTriangle(niche.node_b));
     }
     const LocalMinima truth = trueNiches(pair_, pose, cutoff, starts);
     std::set<std::size_t> owners(truth.owners.begin(), truth.owners.end());

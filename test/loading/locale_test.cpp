@@ -29,6 +29,7 @@
 #include "scene/name_pattern.h"
 #include "scene/pair_parameters.h"
 #include "scene/set_warning_distance.h"
+#include "search/grid/body_grid.h"
 #include "support/scene_fixture.h"
 
 namespace concave_distance::locale_test {
@@ -170,7 +171,7 @@ class LocaleTest : public test::SceneTest {
     fine.body.max_edge_length = 1.5e-5;
     addRefusal([&] { (void)loadBodyMesh(path, 1.5, fine); });
     fine.body.max_edge_length = -1234.5;
-    addRefusal([&] { (void)loadBodyMesh(path, 1.5, fine).mesh->grid(); });
+    addRefusal([&] { (void)gridOf(*loadBodyMesh(path, 1.5, fine).mesh).nodes().grid; });
     MeshImportLimits tight;
     tight.memory = 1'500'000;
     addRefusal([&] { (void)importMesh(path, Eigen::Vector3d::Ones(), tight); });

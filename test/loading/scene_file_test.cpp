@@ -7,6 +7,7 @@
 
 #include "scene/pair_parameters.h"
 #include "search/genetic_parameter_table.h"
+#include "search/grid/body_grid.h"
 #include "search/grid/node_graph.h"
 #include "support/scene_fixture.h"
 
@@ -213,7 +214,7 @@ TEST_F(SceneFile, PoseScaleAndDimensionsAreApplied) {
   EXPECT_EQ(scene.bodies[1].frame, "u");
   EXPECT_EQ(scene.bodies[1].colour, Eigen::Vector4d(0.1, 0.2, 0.3, 0.4));
   EXPECT_EQ(scene.bodies[2].colour, Eigen::Vector4d(1, 0, 0, 1));
-  EXPECT_EQ(scene.bodies[0].mesh->maxEdgeLength(), 100.0);
+  EXPECT_EQ(gridOf(*scene.bodies[0].mesh).nodes().max_edge_length, 100.0);
 }
 
 TEST_F(SceneFile, EdgeLengthOfABodyGoesBeforeTheDefaultAndAutoTakesTheDefaultBack) {
@@ -223,11 +224,11 @@ TEST_F(SceneFile, EdgeLengthOfABodyGoesBeforeTheDefaultAndAutoTakesTheDefaultBac
       "  - {name: b, box: {size: [1, 1, 1]}, max_edge_length: 0.7}\n"
       "  - {name: c, box: {size: [1, 1, 1]}, max_edge_length: auto}\n"
       "defaults: {max_edge_length: 0.9}\n");
-  EXPECT_EQ(scene.bodies[0].mesh->maxEdgeLength(), 0.9);
-  EXPECT_EQ(scene.bodies[1].mesh->maxEdgeLength(), 0.7);
+  EXPECT_EQ(gridOf(*scene.bodies[0].mesh).nodes().max_edge_length, 0.9);
+  EXPECT_EQ(gridOf(*scene.bodies[1].mesh).nodes().max_edge_length, 0.7);
   const BodyMesh automatic("c", scene.bodies[2].mesh->surface(), BodyMeshOptions{});
-  EXPECT_EQ(scene.bodies[2].mesh->maxEdgeLength(), automatic.maxEdgeLength());
-  EXPECT_EQ(scene.bodies[2].mesh->graph().nodeCount(), automatic.graph().nodeCount());
+  EXPECT_EQ(gridOf(*scene.bodies[2].mesh).nodes().max_edge_length, gridOf(automatic).nodes().max_edge_length);
+  EXPECT_EQ(gridOf(*scene.bodies[2].mesh).graph().nodeCount(), gridOf(automatic).graph().nodeCount());
 }
 
 TEST_F(SceneFile, RobotNeedsOneDescription) {

@@ -3,7 +3,9 @@
 
 #include <limits>
 
+#include "concave_distance/search/prepare_search.h"
 #include "scene/body_pool.h"
+#include "search/grid/body_grid.h"
 #include "search/grid/mesh_metric.h"
 #include "search/grid/node_graph.h"
 #include "support/scene_fixture.h"
@@ -40,13 +42,13 @@ class SceneLoading : public test::SceneTest {
 std::string fingerprint(const Scene& scene) {
   std::string text;
   for (const SceneBody& body : scene.bodies) {
-    text += body.name + " " + body.source + " " + std::to_string(body.mesh->graph().nodeCount()) + " " +
-            (body.mesh->metric().hasMatrices() ? "matrices" : "on demand") + " " + body.repair.summary() +
-            "\n";
-    for (const Eigen::Vector3d& p : body.mesh->grid().vertices()) {
+    text += body.name + " " + body.source + " " + std::to_string(gridOf(*body.mesh).graph().nodeCount()) +
+            " " + (gridOf(*body.mesh).metric().hasMatrices() ? "matrices" : "on demand") + " " +
+            body.repair.summary() + "\n";
+    for (const Eigen::Vector3d& p : gridOf(*body.mesh).nodes().grid.vertices()) {
       text.append(reinterpret_cast<const char*>(p.data()), 3 * sizeof(double));
     }
-    for (const TriangleNodes& t : body.mesh->grid().triangles()) {
+    for (const TriangleNodes& t : gridOf(*body.mesh).nodes().grid.triangles()) {
       text.append(reinterpret_cast<const char*>(t.data()), sizeof(TriangleNodes));
     }
   }
@@ -93,7 +95,7 @@ void prepareAll(const Scene& scene) {
 
 TEST_F(SceneLoading, MatricesGoToBodiesInOrderWhileTheLimitLasts) {
   // Grids of boxes as good as equal, so that the limit can be set to hold exactly two.
-  const std::size_t nodes = loadBody(box("x"), "", nullptr).mesh->graph().nodeCount();
+  const std::size_t nodes = gridOf(*loadBody(box("x"), "", nullptr).mesh).graph().nodeCount();
   options.metric_memory_limit = 2 * nodes * nodes * 6;
   std::string yaml = "bodies:\n";
   for (const std::string name : {"a", "b", "c"}) {
@@ -105,7 +107,7 @@ TEST_F(SceneLoading, MatricesGoToBodiesInOrderWhileTheLimitLasts) {
     const Scene scene = load(yaml);
     EXPECT_EQ(scene.bodies.size(), 4U);
     prepareAll(scene);
-    return scene.bodies[body].mesh->metric().hasMatrices();
+    return gridOf(*scene.bodies[body].mesh).metric().hasMatrices();
   };
   EXPECT_TRUE(has_matrices(0));
   EXPECT_TRUE(has_matrices(1));
@@ -119,19 +121,19 @@ TEST_F(SceneLoading, MatricesGoToBodiesInOrderWhileTheLimitLasts) {
 }
 
 TEST_F(SceneLoading, BodiesAddedLaterShareTheLimitOfMatrices) {
-  const std::size_t nodes = loadBody(box("x"), "", nullptr).mesh->graph().nodeCount();
+  const std::size_t nodes = gridOf(*loadBody(box("x"), "", nullptr).mesh).graph().nodeCount();
   options.metric_memory_limit = nodes * nodes * 6;
   const Scene scene = load("bodies: [{name: a, box: {size: [1, 2, 2.999999]}, max_edge_length: 0.5}]\n");
-  EXPECT_TRUE(scene.bodies[0].mesh->metric().hasMatrices());
+  EXPECT_TRUE(gridOf(*scene.bodies[0].mesh).metric().hasMatrices());
   const SceneBody added = loadBody(box("b"), "", nullptr, scene.pool);
-  EXPECT_FALSE(added.mesh->metric().hasMatrices());
+  EXPECT_FALSE(gridOf(*added.mesh).metric().hasMatrices());
   EXPECT_EQ(scene.pool->metricMemory()->used(), options.metric_memory_limit);
 }
 
 TEST_F(SceneLoading, MatricesOfABodyThatIsGoneMakeRoomForOthers) {
   const auto pool = std::make_shared<BodyPool>(1'000'000'000);
   SceneBody body = loadBody(box("a"), "", nullptr, pool);
-  body.mesh->metric();
+  gridOf(*body.mesh).metric();
   EXPECT_GT(pool->metricMemory()->used(), 0U);
   body = SceneBody();
   EXPECT_EQ(pool->metricMemory()->used(), 0U);
@@ -153,10 +155,10 @@ TEST_F(SceneLoading, NothingOfTheSearchIsMadeBeforeItIsNeeded) {
   BodyDescription plain = box("crate");
   plain.max_edge_length.reset();
   const SceneBody body = loadBody(plain, "", nullptr);
-  EXPECT_EQ(body.mesh->nodesIfMade(), nullptr);
+  EXPECT_EQ(gridOf(*body.mesh).nodesIfMade(), nullptr);
   EXPECT_LT(body.mesh->memoryBytes(), 20'000U);
-  body.mesh->metric();
-  EXPECT_NE(body.mesh->nodesIfMade(), nullptr);
+  gridOf(*body.mesh).metric();
+  EXPECT_NE(gridOf(*body.mesh).nodesIfMade(), nullptr);
   EXPECT_GT(body.mesh->memoryBytes(), 1'000'000U) << "what is made is counted";
 }
 
@@ -197,20 +199,20 @@ TEST_F(SceneLoading, AnAutomaticGridIsThinnedAsBodyMeshDoesAndCountedSo) {
   ball.max_edge_length.reset();
   const std::size_t kLimit = BodyMeshOptions().search_node_limit;
   const SceneBody thinned = loadBody(ball, "", nullptr, std::make_shared<BodyPool>(kLimit * kLimit * 6));
-  EXPECT_GT(thinned.mesh->grid().vertexCount(), kLimit);
-  EXPECT_EQ(thinned.mesh->graph().nodeCount(), kLimit);
-  EXPECT_TRUE(thinned.mesh->metric().hasMatrices());
+  EXPECT_GT(gridOf(*thinned.mesh).nodes().grid.vertexCount(), kLimit);
+  EXPECT_EQ(gridOf(*thinned.mesh).graph().nodeCount(), kLimit);
+  EXPECT_TRUE(gridOf(*thinned.mesh).metric().hasMatrices());
   const auto too_small = std::make_shared<BodyPool>(kLimit * kLimit * 6 - 1);
-  EXPECT_FALSE(loadBody(ball, "", nullptr, too_small).mesh->metric().hasMatrices());
+  EXPECT_FALSE(gridOf(*loadBody(ball, "", nullptr, too_small).mesh).metric().hasMatrices());
 }
 
 TEST_F(SceneLoading, LimitOfTheFileGoesBeforeTheCallers) {
   const std::string bodies = "bodies: [{name: a, box: {size: [1, 1, 1]}, max_edge_length: 0.5}]\n";
-  EXPECT_TRUE(load(bodies).bodies[0].mesh->metric().hasMatrices());
-  EXPECT_FALSE(load("metric_memory_limit_mb: 0\n" + bodies).bodies[0].mesh->metric().hasMatrices());
+  EXPECT_TRUE(gridOf(*load(bodies).bodies[0].mesh).metric().hasMatrices());
+  EXPECT_FALSE(gridOf(*load("metric_memory_limit_mb: 0\n" + bodies).bodies[0].mesh).metric().hasMatrices());
   options.metric_memory_limit = 0;
-  EXPECT_FALSE(load(bodies).bodies[0].mesh->metric().hasMatrices());
-  EXPECT_TRUE(load("metric_memory_limit_mb: 1\n" + bodies).bodies[0].mesh->metric().hasMatrices());
+  EXPECT_FALSE(gridOf(*load(bodies).bodies[0].mesh).metric().hasMatrices());
+  EXPECT_TRUE(gridOf(*load("metric_memory_limit_mb: 1\n" + bodies).bodies[0].mesh).metric().hasMatrices());
 }
 
 TEST_F(SceneLoading, BrokenFilesAreProblemsAndTheRestIsServed) {
@@ -281,10 +283,11 @@ TEST_F(SceneLoading, SingleBodyIsLoadedAsASceneDoes) {
   EXPECT_EQ(body.frame, "world");
   EXPECT_EQ(body.mesh->name(), "crate");
   EXPECT_NEAR(test::signedVolume(body.mesh->surface()), 6.0, 1e-12);
-  EXPECT_TRUE(body.mesh->metric().hasMatrices());
+  EXPECT_TRUE(gridOf(*body.mesh).metric().hasMatrices());
   EXPECT_FALSE(body.in_robot_model);
-  EXPECT_FALSE(
-      loadBody(box("crate"), "", nullptr, std::make_shared<BodyPool>(100)).mesh->metric().hasMatrices());
+  EXPECT_FALSE(gridOf(*loadBody(box("crate"), "", nullptr, std::make_shared<BodyPool>(100)).mesh)
+                   .metric()
+                   .hasMatrices());
 }
 
 TEST_F(SceneLoading, SingleBodyWithAMeshIsPlacedInItsFrame) {

@@ -9,6 +9,7 @@
 
 #include "concave_distance/mesh/import/export_mesh.h"
 #include "concave_distance/tracking/pair_tracker.h"
+#include "search/grid/body_grid.h"
 #include "support/body_bytes.h"
 #include "support/body_pairs.h"
 #include "support/scene_fixture.h"
@@ -60,8 +61,8 @@ class PreparationCacheTest : public test::SceneTest {
 TEST_F(PreparationCacheTest, AHitIsAMissBitForBit) {
   options.cache = nullptr;
   const Scene scene = loadBoth();
-  EXPECT_FALSE(scene.bodies[0].mesh->levels().levels.empty());
-  EXPECT_TRUE(scene.bodies[1].mesh->thinned());
+  EXPECT_FALSE(gridOf(*scene.bodies[0].mesh).nodes().levels.levels.empty());
+  EXPECT_TRUE(gridOf(*scene.bodies[1].mesh).nodes().thinned());
   const auto without = bytesOf(scene);
   EXPECT_TRUE(filesIn(cache_folder()).empty());
   options.cache = std::make_shared<PreparationCache>(cache_folder());

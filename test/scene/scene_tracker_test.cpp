@@ -107,7 +107,7 @@ TEST_F(SceneTrackerTest, SolvesNothingBeyondTheCutoffAndStartsColdWithin) {
 TEST_F(SceneTrackerTest, ComputesNoNichesThatNobodyWants) {
   tracker.update(posesAt(0.0), 0.0, {true, true, false, false});
   EXPECT_NEAR(pair(0).solution.distance, 1.0, kRounding);
-  EXPECT_EQ(scene.bodies[0].mesh->nodesIfMade(), nullptr) << "a proof needs no search grid";
+  EXPECT_EQ(scene.bodies[0].mesh->attachment(), nullptr) << "a proof needs no search grid";
 }
 
 TEST_F(SceneTrackerTest, UsesNoIdAgainWhenAPairComesBack) {

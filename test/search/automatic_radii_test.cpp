@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "concave_distance/mesh/surface/primitives.h"
+#include "search/grid/body_grid.h"
 #include "search/grid/geodesic_extent.h"
 #include "search/search_scenes.h"
 
@@ -12,7 +13,7 @@ namespace {
 TEST(GeodesicExtent, OfABoxIsTheWayBetweenOppositeCorners) {
   const auto body = test::makeSearchBody(makeBox({1.0, 1.0, 1.0}), 0.2);
   // On the surface it is sqrt(5); along the grid's edges more, at most the three edges of the box.
-  const double extent = geodesicExtent(body->graph());
+  const double extent = geodesicExtent(gridOf(*body).graph());
   EXPECT_GE(extent, std::sqrt(5.0));
   EXPECT_LE(extent, 3.0);
 }
@@ -28,20 +29,20 @@ TEST(GeodesicExtent, IsAveragedOverShellsByTheirNodes) {
 
 TEST(Protrusions, OfABoxAreItsCorners) {
   const auto body = test::makeSearchBody(makeBox({1.0, 0.8, 0.6}), 0.1);
-  const auto protrusions = findProtrusions(body->graph(), 0.02);
+  const auto protrusions = findProtrusions(gridOf(*body).graph(), 0.02);
   ASSERT_EQ(protrusions.size(), 8U);
   for (const Protrusion& corner : protrusions) {
-    EXPECT_NEAR(body->graph().positions[corner.node.value].cwiseAbs().sum(), 0.5 + 0.4 + 0.3, 1e-12);
+    EXPECT_NEAR(gridOf(*body).graph().positions[corner.node.value].cwiseAbs().sum(), 0.5 + 0.4 + 0.3, 1e-12);
   }
 }
 
 TEST(Protrusions, OfACombAreItsTeeth) {
   const auto body = test::makeSearchBody(test::makeComb(6), 0.1);
-  const auto protrusions = findProtrusions(body->graph(), 0.05);
+  const auto protrusions = findProtrusions(gridOf(*body).graph(), 0.05);
   // The two outermost ends of the bar belong to the outer teeth's sides; every inner tooth has one tip.
   std::vector<int> of_tooth(6, 0);
   for (const Protrusion& tip : protrusions) {
-    const Eigen::Vector3d& p = body->graph().positions[tip.node.value];
+    const Eigen::Vector3d& p = gridOf(*body).graph().positions[tip.node.value];
     if (p.y() > 0.35) {
       ++of_tooth[static_cast<std::size_t>(p.x() / 0.25 + 1e-9)];
     }
@@ -66,13 +67,13 @@ TEST(AutomaticRadii, StayBelowTheSpacingOfTeeth) {
   // along the edges of a triangular lattice up to 2 / sqrt(3) times that, while a tenth of the way across
   // both is more than 0.4.
   const auto rake = test::makeSearchBody(test::makeComb(20, 0.05, 0.05, 0.1, 0.3), 0.08, 0);
-  EXPECT_GT(0.2 * geodesicExtent(rake->graph()), 0.4);
+  EXPECT_GT(0.2 * geodesicExtent(gridOf(*rake).graph()), 0.4);
   EXPECT_LE(automaticRadii(*rake, *rake, {}).sharing, 2.0 / std::sqrt(3.0) * 0.3);
 }
 
 TEST(AutomaticRadii, SpanSomeEdgesOfACoarseGrid) {
   const auto coarse = test::makeSearchBody(makeBox({1.0, 1.0, 0.02}), 1.0);
-  EXPECT_GE(automaticRadii(*coarse, *coarse, {}).sharing, 2.0 * coarse->maxEdgeLength());
+  EXPECT_GE(automaticRadii(*coarse, *coarse, {}).sharing, 2.0 * gridOf(*coarse).nodes().max_edge_length);
 }
 
 TEST(AutomaticRadii, ExplicitValuesWin) {

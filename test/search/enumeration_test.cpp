@@ -9,6 +9,7 @@
 #include <set>
 
 #include "concave_distance/base/error.h"
+#include "search/grid/body_grid.h"
 #include "search/grid/node_graph.h"
 #include "support/body_pairs.h"
 
@@ -24,7 +25,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 double squaredNodeDistance(const Body& a, const Body& b, const Isometry3d& pose, std::size_t i,
                            std::size_t j) {
-  return (a->graph().positions[i] - pose * b->graph().positions[j]).squaredNorm();
+  return (gridOf(*a).graph().positions[i] - pose * gridOf(*b).graph().positions[j]).squaredNorm();
 }
 
 TEST(EnumerateTrianglePairs, IsTheLeastOfAllPairs) {
@@ -160,10 +161,10 @@ double passFrom(const Body& a, const Body& b, const Isometry3d& pose, double cut
     if (cell < start) return std::sqrt(pass);
     const auto [squared_distance, i, j] = cell;
     pass = std::max(pass, squared_distance);
-    for (const NodeGraph::Edge& edge : a->graph().edges.row(i)) {
+    for (const NodeGraph::Edge& edge : gridOf(*a).graph().edges.row(i)) {
       visit(edge.to.value, j);
     }
-    for (const NodeGraph::Edge& edge : b->graph().edges.row(j)) {
+    for (const NodeGraph::Edge& edge : gridOf(*b).graph().edges.row(j)) {
       visit(i, edge.to.value);
     }
   }
@@ -180,15 +181,15 @@ TEST(EnumerateNodeNiches, AgreesWithOneFloodPerLocalMinimum) {
     const auto niches = test::enumerateNodeNiches(*a, *b, pose, cutoff, 0.0);
     ASSERT_FALSE(niches.empty());
     std::size_t strict_minima = 0;
-    for (std::uint32_t i = 0; i < a->graph().nodeCount(); ++i) {
-      for (std::uint32_t j = 0; j < b->graph().nodeCount(); ++j) {
+    for (std::uint32_t i = 0; i < gridOf(*a).graph().nodeCount(); ++i) {
+      for (std::uint32_t j = 0; j < gridOf(*b).graph().nodeCount(); ++j) {
         const double here = squaredNodeDistance(a, b, pose, i, j);
         if (here > cutoff * cutoff) continue;
         bool strict = true;
-        for (const NodeGraph::Edge& edge : a->graph().edges.row(i)) {
+        for (const NodeGraph::Edge& edge : gridOf(*a).graph().edges.row(i)) {
           strict = strict && squaredNodeDistance(a, b, pose, edge.to.value, j) > here;
         }
-        for (const NodeGraph::Edge& edge : b->graph().edges.row(j)) {
+        for (const NodeGraph::Edge& edge : gridOf(*b).graph().edges.row(j)) {
           strict = strict && squaredNodeDistance(a, b, pose, i, edge.to.value) > here;
         }
         strict_minima += strict ? 1 : 0;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "search/generation.h"
+#include "search/grid/body_grid.h"
 #include "search/niche_identification.h"
 #include "search/searched_pair.h"
 #include "support/enumeration.h"
@@ -107,7 +108,7 @@ TEST(GeneticSearch, InheritedPointsAreDescendedAnew) {
   const TrialPoint optimum =
       test::enumerateNodePairs(*search.scene.a, *search.scene.b, search.scene.a_from_b);
   // From a neighbour of the optimum, with a distance that belongs to another pose.
-  const NodeIndex beside = search.scene.a->graph().edges.row(optimum.node_a.value)[0].to;
+  const NodeIndex beside = gridOf(*search.scene.a).graph().edges.row(optimum.node_a.value)[0].to;
   GeneticParameters parameters = smallRun(NichingMethod::Sharing);
   parameters.max_generations = 0;
   const SearchCost cost = search.run(parameters, 8, {{beside, optimum.node_b, 1e-30}});

@@ -4,6 +4,7 @@
 
 #include <rapidcheck/gtest.h>
 
+#include "search/grid/body_grid.h"
 #include "search/mutation.h"
 #include "search/search_scenes.h"
 
@@ -12,12 +13,12 @@ namespace {
 
 bool isLocalMinimum(const PairObjective& objective, const TrialPoint& point) {
   const double reached = objective.squaredDistance(point.node_a, point.node_b);
-  for (const NodeGraph::Edge& edge : objective.bodyA().graph().edges.row(point.node_a.value)) {
+  for (const NodeGraph::Edge& edge : objective.gridA().graph().edges.row(point.node_a.value)) {
     if (objective.squaredDistance(edge.to, point.node_b) < reached) {
       return false;
     }
   }
-  for (const NodeGraph::Edge& edge : objective.bodyB().graph().edges.row(point.node_b.value)) {
+  for (const NodeGraph::Edge& edge : objective.gridB().graph().edges.row(point.node_b.value)) {
     if (objective.squaredDistance(point.node_a, edge.to) < reached) {
       return false;
     }
@@ -45,10 +46,10 @@ TrialPoint descendPlainly(const PairObjective& objective, TrialPoint point) {
   bool moved = true;
   while (moved) {
     moved = false;
-    while (step(objective.bodyA().graph(), point.node_a)) {
+    while (step(objective.gridA().graph(), point.node_a)) {
       moved = true;
     }
-    while (step(objective.bodyB().graph(), point.node_b)) {
+    while (step(objective.gridB().graph(), point.node_b)) {
       moved = true;
     }
   }
@@ -77,8 +78,8 @@ double plainSteps(const PairObjective& objective, TrialPoint point) {
       ++steps;
     }
   };
-  while (static_cast<int>(walk(objective.bodyA().graph(), point.node_a)) +
-             static_cast<int>(walk(objective.bodyB().graph(), point.node_b)) >
+  while (static_cast<int>(walk(objective.gridA().graph(), point.node_a)) +
+             static_cast<int>(walk(objective.gridB().graph(), point.node_b)) >
          0) {
   }
   return steps;
@@ -177,7 +178,7 @@ TEST(LocalDescent, IsAFunctionOfItsStart) {
 // Grids fine enough for levels: steps as long as the way.
 TEST(LocalDescent, LongStepsEndAtALocalMinimumOfTheFineGridForFewerEvaluations) {
   const test::PairScene scene = test::facingCombs(0.015, 0);
-  ASSERT_FALSE(scene.a->levels().levels.empty());
+  ASSERT_FALSE(gridOf(*scene.a).nodes().levels.levels.empty());
   for (const double away : {0.0, 1.0, 1e5}) {
     Eigen::Isometry3d a_from_b = scene.a_from_b;
     a_from_b.translation().y() += away;
@@ -207,7 +208,7 @@ TEST(LocalDescent, LongStepsDoNotStepOverTheValleyTheyStartIn) {
   RandomEngine engine(12);
   std::vector<std::uint64_t> trail;
   SearchCost cost;
-  const NodeGraph& graph = scene.a->graph();
+  const NodeGraph& graph = gridOf(*scene.a).graph();
   for (int i = 0; i < 200; ++i) {
     const TrialPoint end = descend(objective, randomTrialPoint(objective, engine), nullptr, trail, cost);
     TrialPoint beside = end;  // three edges up the slope on A, and back again

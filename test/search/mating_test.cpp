@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/infinity.h"
+#include "search/grid/body_grid.h"
 #include "search/mutation.h"
 #include "search/search_scenes.h"
 #include "support/shortest_path.h"
@@ -90,10 +91,11 @@ TEST(MeshMating, TheTwoChildrenTogetherReachTheWholePath) {
     return far;
   };
   const TrialPoint x = c.objective.evaluate(NodeIndex{0}, NodeIndex{0}, cost);
-  const TrialPoint y = c.objective.evaluate(farthest(c.metric.onA(), c.scene.a->graph().nodeCount()),
-                                            farthest(c.metric.onB(), c.scene.b->graph().nodeCount()), cost);
+  const TrialPoint y =
+      c.objective.evaluate(farthest(c.metric.onA(), gridOf(*c.scene.a).graph().nodeCount()),
+                           farthest(c.metric.onB(), gridOf(*c.scene.b).graph().nodeCount()), cost);
   const std::vector<NodeIndex> path =
-      test::shortestPath(c.scene.a->graph(), std::min(x, y).node_a, std::max(x, y).node_a);
+      test::shortestPath(gridOf(*c.scene.a).graph(), std::min(x, y).node_a, std::max(x, y).node_a);
   ASSERT_GE(path.size(), 5U);
   std::vector<bool> reached(path.size(), false);
   for (int i = 0; i < 5000; ++i) {
@@ -112,8 +114,8 @@ TEST(MeshMating, TheTwoChildrenTogetherReachTheWholePath) {
 
 TEST(MeshMating, ParentsOnDifferentShellsMateByCopying) {
   MatingCase c(test::shellsAndShells());
-  const NodeGraph& graph_a = c.scene.a->graph();
-  const NodeGraph& graph_b = c.scene.b->graph();
+  const NodeGraph& graph_a = gridOf(*c.scene.a).graph();
+  const NodeGraph& graph_b = gridOf(*c.scene.b).graph();
   ASSERT_GT(graph_a.shell_count, 1U);
   SearchCost cost;
   const TrialPoint x = c.objective.evaluate(NodeIndex{0}, NodeIndex{0}, cost);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/infinity.h"
+#include "search/grid/body_grid.h"
 #include "search/search_scenes.h"
 
 namespace concave_distance::mutation_test {
@@ -57,7 +58,7 @@ TEST(Mutation, JumpsToOtherShellsWhateverTheRadius) {
   const test::PairScene scene = test::shellsAndShells();
   const PairObjective objective(*scene.a, *scene.b, scene.a_from_b);
   PairMetric metric(*scene.a, *scene.b);
-  const std::vector<std::uint32_t>& shell = scene.a->graph().shell;
+  const std::vector<std::uint32_t>& shell = gridOf(*scene.a).graph().shell;
   RandomEngine engine(22);
   int jumps = 0;
   for (int i = 0; i < 500; ++i) {
@@ -73,7 +74,7 @@ TEST(Mutation, ReachesTheWholeBodyWithoutARadius) {
   const PairObjective objective(*scene.a, *scene.b, scene.a_from_b);
   PairMetric metric(*scene.a, *scene.b);
   RandomEngine engine(23);
-  std::vector<bool> reached(scene.b->graph().nodeCount(), false);
+  std::vector<bool> reached(gridOf(*scene.b).graph().nodeCount(), false);
   for (int i = 0; i < 20000; ++i) {
     reached[mutate({NodeIndex{0}, NodeIndex{0}, 0.0}, metric, engine).node_b.value] = true;
   }

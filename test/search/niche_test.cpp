@@ -6,6 +6,7 @@
 
 #include "base/infinity.h"
 #include "base/selection.h"
+#include "search/grid/body_grid.h"
 #include "search/local_descent.h"
 #include "search/mating_restriction.h"
 #include "search/mutation.h"
@@ -136,7 +137,7 @@ TEST(TrialPointTable, MeasuresBeyondThePlacesItKeepsDistancesOf) {
   Niches niches(test::facingCombs());
   TrialPointTable places;
   places.reset(kInfinity);
-  const auto nodes = static_cast<std::uint32_t>(niches.scene.a->graph().nodeCount());
+  const auto nodes = static_cast<std::uint32_t>(gridOf(*niches.scene.a).graph().nodeCount());
   for (std::uint32_t i = 0; i < 1500; ++i) {
     places.placeOf({NodeIndex{i % nodes}, NodeIndex{i / nodes}, 0.0});
   }

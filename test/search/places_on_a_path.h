@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "search/crowding.h"
+#include "search/grid/body_grid.h"
 #include "search/grid/geodesic_extent.h"
 #include "search/search_scenes.h"
 #include "support/shortest_path.h"
@@ -18,9 +19,9 @@ class PlacesOnAPath : public ::testing::Test {
  protected:
   PlacesOnAPath() : metric_(*scene_.a, *scene_.b) {
     places_.reset(std::numeric_limits<double>::infinity());
-    const std::vector<double> length = pathLengthsFrom(scene_.a->graph(), {NodeIndex{0}});
+    const std::vector<double> length = pathLengthsFrom(gridOf(*scene_.a).graph(), {NodeIndex{0}});
     const auto farthest = std::max_element(length.begin(), length.end());
-    path_ = shortestPath(scene_.a->graph(), NodeIndex{0},
+    path_ = shortestPath(gridOf(*scene_.a).graph(), NodeIndex{0},
                          NodeIndex{static_cast<std::size_t>(farthest - length.begin())});
   }
 

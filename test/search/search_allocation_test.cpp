@@ -2,6 +2,7 @@
 
 #include "search/automatic_radii.h"
 #include "search/genetic_search.h"
+#include "search/grid/body_grid.h"
 #include "search/niche_identification.h"
 #include "search/search_scenes.h"
 #include "support/count_allocations.h"
@@ -14,7 +15,7 @@ TEST(SearchAllocation, AWarmRunAllocatesNothing) {
   for (const std::size_t matrix_node_limit : {std::size_t{65535}, std::size_t{0}}) {
     // Without matrices on a grid that has levels, too.
     const test::PairScene scene = test::facingCombs(matrix_node_limit == 0 ? 0.03 : 0.1, matrix_node_limit);
-    EXPECT_EQ(scene.a->levels().levels.empty(), matrix_node_limit != 0);
+    EXPECT_EQ(gridOf(*scene.a).nodes().levels.levels.empty(), matrix_node_limit != 0);
     const PairObjective objective(*scene.a, *scene.b, scene.a_from_b);
     SearchWorkspace workspace(*scene.a, *scene.b);
     const NicheRadii radii = automaticRadii(*scene.a, *scene.b, {});

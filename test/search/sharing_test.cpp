@@ -5,6 +5,7 @@
 #include <rapidcheck/gtest.h>
 #include <cmath>
 
+#include "search/grid/body_grid.h"
 #include "search/shared_population.h"
 
 namespace concave_distance::sharing_test {
@@ -30,11 +31,11 @@ TEST(Sharing, FitnessGrowsAsTheDistanceFalls) {
 TEST(Sharing, EpsilonIsAShareOfTheLongestEdgeOfBothGrids) {
   const auto fine = test::makeSearchBody(test::makeLShape(), 0.1);
   const auto coarse = test::makeSearchBody(test::makeLShape(), 0.3);
-  ASSERT_LT(fine->maxEdgeLength(), coarse->maxEdgeLength());
+  ASSERT_LT(gridOf(*fine).nodes().max_edge_length, gridOf(*coarse).nodes().max_edge_length);
   GeneticParameters parameters;
   parameters.fitness_epsilon = 0.5;
-  EXPECT_DOUBLE_EQ(fitnessEpsilon(parameters, *fine, *coarse), 0.5 * coarse->maxEdgeLength());
-  EXPECT_DOUBLE_EQ(fitnessEpsilon(parameters, *coarse, *fine), 0.5 * coarse->maxEdgeLength());
+  EXPECT_DOUBLE_EQ(fitnessEpsilon(parameters, *fine, *coarse), 0.5 * gridOf(*coarse).nodes().max_edge_length);
+  EXPECT_DOUBLE_EQ(fitnessEpsilon(parameters, *coarse, *fine), 0.5 * gridOf(*coarse).nodes().max_edge_length);
   parameters.fitness_epsilon = 0.0;
   EXPECT_EQ(fitnessEpsilon(parameters, *fine, *coarse), 0.0);
 }

@@ -9,6 +9,7 @@
 #include "mesh/surface/mesh_topology.h"
 #include "mesh/trees/bounding_volume_hierarchy.h"
 #include "mesh/trees/triangle_tree.h"
+#include "search/grid/body_grid.h"
 #include "search/grid/mesh_metric.h"
 #include "search/grid/node_graph.h"
 #include "search/grid/node_levels.h"
@@ -110,25 +111,26 @@ inline std::map<std::string, Bytes> bytesOf(const BodyMesh& body) {
   }
   parts["tree's order"] = bytesOf(body.tree().order());
   parts["hierarchy"] = bytesOf(body.hierarchy());
-  parts["grid vertices"] = bytesOf(body.grid().vertices());
-  parts["grid triangles"] = bytesOf(body.grid().triangles());
-  parts["graph"] = bytesOf(body.graph());
+  const BodyGrid& grid = gridOf(body);
+  parts["grid vertices"] = bytesOf(grid.nodes().grid.vertices());
+  parts["grid triangles"] = bytesOf(grid.nodes().grid.triangles());
+  parts["graph"] = bytesOf(grid.graph());
   Bytes& levels = parts["levels"];
-  for (const NodeLevel& level : body.levels().levels) {
+  for (const NodeLevel& level : grid.nodes().levels.levels) {
     const Bytes graph = bytesOf(level.graph);
     levels.insert(levels.end(), graph.begin(), graph.end());
     for (const NodeIndex node : level.finer_node) appendBytes(node, levels);
     for (const NodeIndex node : level.node_of_finer) appendBytes(node, levels);
   }
-  parts["metric"] = bytesOf(body.metric());
+  parts["metric"] = bytesOf(grid.metric());
   Bytes& nodes = parts["nodes"];
-  for (std::size_t node = 0; node < body.graph().nodeCount(); ++node) {
-    appendBytes(body.originalTriangle(NodeIndex{node}), nodes);
+  for (std::size_t node = 0; node < grid.graph().nodeCount(); ++node) {
+    appendBytes(grid.nodes().originalTriangle(NodeIndex{node}), nodes);
   }
   for (std::size_t vertex = 0; vertex < body.surface().vertexCount(); ++vertex) {
-    appendBytes(body.graphNode(NodeIndex{vertex}), nodes);
+    appendBytes(grid.nodes().graphNode(NodeIndex{vertex}), nodes);
   }
-  appendAll(nodes, body.maxEdgeLength(), body.geodesicExtent(), body.protrusionSpacing());
+  appendAll(nodes, grid.nodes().max_edge_length, grid.geodesicExtent(), grid.protrusionSpacing());
   return parts;
 }
 

@@ -6,6 +6,7 @@
 
 #include "base/union_find.h"
 #include "concave_distance/base/error.h"
+#include "search/grid/body_grid.h"
 #include "search/grid/node_graph.h"
 #include "support/enumeration.h"
 
@@ -39,15 +40,16 @@ struct CellTable {
 CellTable cellsBelow(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b, double cutoff,
                      std::size_t pair_limit) {
   CellTable table;
-  std::vector<Eigen::Vector3d> nodes_b = b.graph().positions;
+  const std::vector<Eigen::Vector3d>& nodes_a = gridOf(a).graph().positions;
+  std::vector<Eigen::Vector3d> nodes_b = gridOf(b).graph().positions;
   for (Eigen::Vector3d& node : nodes_b) {
     node = a_from_b * node;
   }
   const double squared_cutoff = cutoff * cutoff;
   table.row_of_a.push_back(0);
-  for (std::uint32_t i = 0; i < a.graph().nodeCount(); ++i) {
+  for (std::uint32_t i = 0; i < nodes_a.size(); ++i) {
     for (std::uint32_t j = 0; j < nodes_b.size(); ++j) {
-      const double squared_distance = (a.graph().positions[i] - nodes_b[j]).squaredNorm();
+      const double squared_distance = (nodes_a[i] - nodes_b[j]).squaredNorm();
       if (squared_distance <= squared_cutoff) {
         table.cells.push_back({squared_distance, i, j});
       }
@@ -90,6 +92,8 @@ std::vector<NodeNiche> enumerateNodeNiches(const BodyMesh& a, const BodyMesh& b,
           {distance, NodeIndex{table.cells[cell].node_a}, NodeIndex{table.cells[cell].node_b}, prominence});
     }
   };
+  const CompressedRows<NodeGraph::Edge>& edges_a = gridOf(a).graph().edges;
+  const CompressedRows<NodeGraph::Edge>& edges_b = gridOf(b).graph().edges;
   for (const std::uint32_t cell : order) {
     const Cell& here = table.cells[cell];
     std::uint32_t basin = kNotFlooded;
@@ -110,10 +114,10 @@ std::vector<NodeNiche> enumerateNodeNiches(const BodyMesh& a, const BodyMesh& b,
         basin = deep;
       }
     };
-    for (const NodeGraph::Edge& edge : a.graph().edges.row(here.node_a)) {
+    for (const NodeGraph::Edge& edge : edges_a.row(here.node_a)) {
       meet(table.find(edge.to.value, here.node_b));
     }
-    for (const NodeGraph::Edge& edge : b.graph().edges.row(here.node_b)) {
+    for (const NodeGraph::Edge& edge : edges_b.row(here.node_b)) {
       meet(table.find(here.node_a, edge.to.value));
     }
     is_flooded[cell] = 1;

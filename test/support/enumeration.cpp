@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "distance/kernels/surface_walk.h"
+#include "search/grid/body_grid.h"
 #include "search/grid/node_graph.h"
 
 namespace concave_distance::test {
@@ -50,8 +51,8 @@ WitnessPair enumerateTrianglePairs(const BodyMesh& a, const BodyMesh& b, const E
 }
 
 TrialPoint enumerateNodePairs(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b) {
-  const std::vector<Eigen::Vector3d>& nodes_a = a.graph().positions;
-  const std::vector<Eigen::Vector3d> nodes_b = inFrameOfA(b.graph().positions, a_from_b);
+  const std::vector<Eigen::Vector3d>& nodes_a = gridOf(a).graph().positions;
+  const std::vector<Eigen::Vector3d> nodes_b = inFrameOfA(gridOf(b).graph().positions, a_from_b);
   TrialPoint best{NodeIndex{0}, NodeIndex{0}, std::numeric_limits<double>::infinity()};
   for (std::size_t i = 0; i < nodes_a.size(); ++i) {
     for (std::size_t j = 0; j < nodes_b.size(); ++j) {

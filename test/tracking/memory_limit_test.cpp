@@ -3,8 +3,10 @@
 
 #include <cmath>
 
+#include "concave_distance/search/prepare_search.h"
 #include "concave_distance/tracking/pair_tracker.h"
 #include "mesh/trees/normal_cone_tree.h"
+#include "search/grid/body_grid.h"
 #include "support/body_pairs.h"
 #include "support/count_allocations.h"
 #include "support/enumeration.h"
@@ -25,7 +27,7 @@ TEST(MemoryLimit, HoldsForFloodsOfALargeProminenceAndTheBracketHoldsToo) {
   comb->adjacency();
   comb->pieces();
   prepareSearch({comb.get()});
-  comb->geodesicExtent();
+  gridOf(*comb).geodesicExtent();
   comb->normalCones(NormalSides::Outside);
   for (const std::size_t limit : {std::size_t{2} << 20U, std::size_t{3} << 20U}) {
     parameters.memory_limit = limit;

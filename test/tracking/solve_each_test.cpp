@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "concave_distance/base/error.h"
+#include "concave_distance/search/prepare_search.h"
 #include "concave_distance/tracking/pair_effects.h"
 #include "concave_distance/tracking/pair_tracker.h"
 #include "support/body_pairs.h"
@@ -110,10 +111,10 @@ INSTANTIATE_TEST_SUITE_P(EveryLevel, SolveEach,
 TEST(PairTrackerUse, PreparingMakesWhatASearchNeeds) {
   const auto comb = std::make_shared<BodyMesh>("comb", test::makeComb(4));
   PairTracker tracker("pair", comb, comb, TrackerParameters());
-  EXPECT_EQ(comb->nodesIfMade(), nullptr);
+  EXPECT_EQ(searchPreparationOf(*comb).grid_nodes, 0U);
   tracker.prepare();
-  EXPECT_NE(comb->nodesIfMade(), nullptr);
-  EXPECT_NE(comb->metricIfMade(), nullptr);
+  EXPECT_GT(searchPreparationOf(*comb).grid_nodes, 0U);
+  EXPECT_TRUE(searchPreparationOf(*comb).is_complete);
 }
 
 TEST(PairTrackerUse, BodiesThatAreMissingAreRefusedByName) {

@@ -7,9 +7,11 @@
 #include <vector>
 
 #include "concave_distance/mesh/surface/primitives.h"
+#include "concave_distance/search/prepare_search.h"
 #include "concave_distance/tracking/pair_tracker.h"
+#include "mesh/metric_memory.h"
+#include "search/grid/body_grid.h"
 #include "search/grid/mesh_metric.h"
-#include "search/grid/metric_memory.h"
 #include "search/grid/node_graph.h"
 #include "support/concave_shapes.h"
 
@@ -44,9 +46,8 @@ TEST(TrackerMemory, AProofAloneMakesNothingOfTheSearch) {
   TrackerParameters parameters;
   parameters.niches_wanted = false;
   EXPECT_LT(trackedBytes(a, b, parameters), 80'000U);
-  EXPECT_EQ(a->nodesIfMade(), nullptr);
-  EXPECT_EQ(b->nodesIfMade(), nullptr);
-  EXPECT_EQ(a->metricIfMade(), nullptr);
+  EXPECT_EQ(a->attachment(), nullptr);
+  EXPECT_EQ(b->attachment(), nullptr);
   EXPECT_LT(a->memoryBytes(), 20'000U);
 }
 
@@ -57,20 +58,20 @@ TEST(TrackerMemory, APairWithNichesTakesAFewHundredKilobytes) {
   TrackerParameters nodes;
   nodes.accuracy = AccuracyLevel::Nodes;  // a cold run of 300 individuals meets more than a thousand places
   EXPECT_LT(trackedBytes(a, b, nodes), 900'000U);
-  EXPECT_NE(b->metricIfMade(), nullptr);
+  EXPECT_NE(gridOf(*b).metricIfMade(), nullptr);
 }
 
 TEST(BodyMesh, ManyThreadsThatNeedItsSearchAtOnceGetTheSame) {
   const auto body = bodyOf(test::makeComb(4));
   std::vector<const MeshMetric*> seen(64);
   // Each task waits for the body inside a parallel loop, as pairs do that share it.
-  tbb::parallel_for(std::size_t{0}, seen.size(), [&](std::size_t i) { seen[i] = &body->metric(); });
+  tbb::parallel_for(std::size_t{0}, seen.size(), [&](std::size_t i) { seen[i] = &gridOf(*body).metric(); });
   for (const MeshMetric* metric : seen) EXPECT_EQ(metric, seen.front());
 }
 
 TEST(BodyMesh, PreparingBodiesGivesMatricesInTheirOrder) {
   BodyMeshOptions options;
-  const std::size_t nodes = bodyOf(makeBox(Eigen::Vector3d(1.0, 1.0, 1.0)))->graph().nodeCount();
+  const std::size_t nodes = gridOf(*bodyOf(makeBox(Eigen::Vector3d(1.0, 1.0, 1.0)))).graph().nodeCount();
   options.metric_memory = std::make_shared<MetricMemory>(2 * MeshMetric::matrixBytes(nodes));
   std::vector<std::shared_ptr<const BodyMesh>> bodies;
   std::vector<const BodyMesh*> order;
@@ -80,7 +81,7 @@ TEST(BodyMesh, PreparingBodiesGivesMatricesInTheirOrder) {
   }
   prepareSearch(order);
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    EXPECT_EQ(bodies[i]->metric().hasMatrices(), i < 2) << i;
+    EXPECT_EQ(gridOf(*bodies[i]).metric().hasMatrices(), i < 2) << i;
   }
   prepareSearch(order);  // nothing left to do
   order.clear();

@@ -27,6 +27,7 @@
 #include "concave_distance/tracking/pair_tracker.h"
 #include "distance/bound/certificate.h"
 #include "search/automatic_radii.h"
+#include "search/grid/body_grid.h"
 #include "thesis/benchmark/support/accuracy_partition.h"
 #include "thesis/benchmark/support/accuracy_rows.h"
 #include "thesis/src/continuous/constraint_tree_file.h"
@@ -64,7 +65,8 @@ void addNodes(Rows& rows, const std::string& name, const BenchmarkPair& pair) {
   TrackerParameters parameters;
   parameters.accuracy = AccuracyLevel::Nodes;
   addTracker(rows, pair, "nodes", "shipped", parameters);
-  const double edge = std::max(pair.a->maxEdgeLength(), pair.b->maxEdgeLength());
+  const double edge =
+      std::max(gridOf(*pair.a).nodes().max_edge_length, gridOf(*pair.b).nodes().max_edge_length);
   if (name != "rings_100k") {
     // The meshes that are held out are fine already: still shorter edges take minutes.
     const double shortest = isHeldOut(name) ? 0.5 : 0.125;

@@ -23,6 +23,7 @@
 #include "distance/niches/niche_properties.h"
 #include "search/automatic_radii.h"
 #include "search/genetic_search.h"
+#include "search/grid/body_grid.h"
 #include "search/local_descent.h"
 #include "support/enumeration.h"
 #include "thesis/benchmark/support/reference_niches.h"
@@ -79,8 +80,8 @@ std::vector<WitnessPair> refinePopulation(const BenchmarkPair& pair, const Eigen
   std::vector<bool> met(references.size(), false);
   for (const IdentifiedNiche& niche : niches) {
     const WitnessPair witness =
-        refineWitness(*pair.a, *pair.b, pose, pair.a->originalTriangle(niche.best.node_a),
-                      pair.b->originalTriangle(niche.best.node_b), workspace)
+        refineWitness(*pair.a, *pair.b, pose, gridOf(*pair.a).nodes().originalTriangle(niche.best.node_a),
+                      gridOf(*pair.b).nodes().originalTriangle(niche.best.node_b), workspace)
             .witness;
     const double distance = std::sqrt(witness.squared_distance);
     if (classifyOutwardness(*pair.a, *pair.b, pose, witness) == Outwardness::ThroughMaterial) {
@@ -248,8 +249,8 @@ int benchmarkMain(int argc, char** argv) {
   const Eigen::Isometry3d pose = pair.motion(0.0);
   const double cutoff = pair.b->diameter();
   const TrialPoint optimum = test::enumerateNodePairs(*pair.a, *pair.b, pose);
-  std::printf("fixture %zu nodes, battery %zu nodes, enumeration %.6f\n", pair.a->graph().nodeCount(),
-              pair.b->graph().nodeCount(), std::sqrt(optimum.squared_distance));
+  std::printf("fixture %zu nodes, battery %zu nodes, enumeration %.6f\n", gridOf(*pair.a).graph().nodeCount(),
+              gridOf(*pair.b).graph().nodeCount(), std::sqrt(optimum.squared_distance));
 
   std::vector<char> optimal(runs, 0);
   std::vector<double> generations(runs, 0.0);

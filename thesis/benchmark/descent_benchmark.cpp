@@ -20,7 +20,7 @@
 #include "benchmark/support/benchmark_pairs.h"
 #include "benchmark/support/shapes.h"
 #include "benchmark/support/stopwatch.h"
-#include "mesh/body_mesh_parts.h"
+#include "search/grid/body_grid.h"
 #include "thesis/benchmark/support/proven_niches.h"
 #include "thesis/src/evaluation/multi_start_descent.h"
 
@@ -52,8 +52,8 @@ void run(const Scene& scene, std::uint32_t descents, std::ofstream& csv) {
     evaluations[k] = static_cast<double>(result.cost.evaluations) / descents;
     recall[k] = shareMet(*scene.a[0], *scene.b[0], scene.pose, scene.truth, workspace.basins.minima());
   }
-  const std::size_t nodes_a = scene.a[0]->graph().nodeCount();
-  const std::size_t nodes_b = scene.b[0]->graph().nodeCount();
+  const std::size_t nodes_a = gridOf(*scene.a[0]).graph().nodeCount();
+  const std::size_t nodes_b = gridOf(*scene.b[0]).graph().nodeCount();
   std::printf("%-16s %7g %8zu %8zu %7u %8.2f %8.2f %7.0f %7.0f %5zu %6.3f %6.3f\n", scene.name.c_str(),
               scene.spacing, nodes_a, nodes_b, descents, microseconds[0], microseconds[1], evaluations[0],
               evaluations[1], scene.truth.size(), recall[0], recall[1]);
@@ -67,9 +67,11 @@ void run(const Scene& scene, std::uint32_t descents, std::ofstream& csv) {
 
 std::shared_ptr<const BodyMesh> makeBody(const std::string& name, const SurfaceMesh& surface,
                                          const BodyMeshOptions& options, bool with_levels) {
-  BodyMeshParts parts = makeBodyMeshParts(name, surface, options);
-  if (!with_levels) parts.nodes.levels = {};
-  return std::make_shared<const BodyMesh>(std::move(parts), options);
+  const auto body = std::make_shared<const BodyMesh>(name, surface, options);
+  SearchNodes nodes = makeSearchNodes(surface, options, name);
+  if (!with_levels) nodes.levels = {};
+  body->attach(std::make_unique<BodyGrid>(*body, std::move(nodes)));
+  return body;
 }
 
 Scene makeScene(const std::string& name, const SurfaceMesh& a, const SurfaceMesh& b,

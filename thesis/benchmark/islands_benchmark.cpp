@@ -21,6 +21,7 @@
 #include "benchmark/support/benchmark_pairs.h"
 #include "benchmark/support/stopwatch.h"
 #include "search/automatic_radii.h"
+#include "search/grid/body_grid.h"
 #include "thesis/benchmark/support/proven_niches.h"
 #include "thesis/src/evaluation/island_search.h"
 #include "thesis/src/evaluation/island_workspaces.h"
@@ -62,7 +63,8 @@ Scene makeScene(const std::string& name, double spacing, double instant) {
   if (spacing > 0.0) {
     pair = loadBenchmarkPair(name, spacing * std::min(pair.a->diameter(), pair.b->diameter()));
   }
-  for (const BodyMesh* body : {pair.a.get(), pair.b.get()}) body->metric();  // made once, in no run's time
+  for (const BodyMesh* body : {pair.a.get(), pair.b.get()})
+    gridOf(*body).metric();  // made once, in no run's time
   const Eigen::Isometry3d pose = pair.motion(instant);
   std::vector<TrackedNiche> niches = provenNiches(name, pair.a, pair.b, pose);
   return {std::move(pair), spacing, pose, std::move(niches)};
@@ -106,8 +108,8 @@ void report(const Scene& scene, std::uint64_t runs, std::ofstream& csv) {
     const auto n = static_cast<double>(runs);
     char line[256];
     std::snprintf(line, sizeof line, "%s,%g,%zu,%zu,%zu,%s,%u,%u,%.0f,%.3f,%.2f,%.2f",
-                  scene.pair.name.c_str(), scene.spacing, scene.pair.a->graph().nodeCount(),
-                  scene.pair.b->graph().nodeCount(), scene.niches.size(), method.name, method.islands,
+                  scene.pair.name.c_str(), scene.spacing, gridOf(*scene.pair.a).graph().nodeCount(),
+                  gridOf(*scene.pair.b).graph().nodeCount(), scene.niches.size(), method.name, method.islands,
                   method.population, sum.evaluations / n, sum.recall / n, sum.milliseconds / n,
                   sum.wall_milliseconds / n);
     std::printf("%s\n", line);

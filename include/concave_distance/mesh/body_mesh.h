@@ -6,7 +6,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "concave_distance/mesh/preparation_cache.h"
 #include "concave_distance/mesh/surface/round_shape.h"
@@ -15,20 +14,16 @@
 namespace concave_distance {
 
 class BoundingVolumeHierarchy;
-class MeshMetric;
 class MetricMemory;
 class NormalConeTree;
 class TriangleTree;
 enum class NormalSides : std::uint8_t;
 struct AdjacentTriangle;
-struct BodyMeshParts;
 struct ConnectedPieces;
+struct ContentKey;
 struct Facets;
 struct HullGap;
 struct MeshTopology;
-struct NodeGraph;
-struct NodeLevels;
-struct SearchNodes;
 struct ShellContacts;
 template <typename Value>
 struct CompressedRows;
@@ -61,35 +56,43 @@ struct RecentredBody {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< of the frame of `mesh`, body frame, metres
 };
 
-/// One body, ready for queries: the original surface with its topology and trees for the exact levels, an
-/// even grid with its graph and metric for the search. Immutable to its users; shared between pairs and
-/// threads. What only a search needs is made at its first use, once for all threads; a body that is never
-/// searched has none of it. What is declared here only is defined in headers that are not installed.
+/// What the search keeps with a body: it is made at its first use and freed with the body.
+class BodyAttachment {
+ public:
+  virtual ~BodyAttachment() = default;
+  virtual std::size_t memoryBytes() const = 0;
+};
+
+/// One body, ready for queries: the original surface with its topology and trees, and a place where the
+/// search keeps its grid. Immutable to its users; shared between pairs and threads. What is declared here
+/// only is defined in headers that are not installed.
 class BodyMesh {
  public:
   /// @param surface repaired, original triangles, body frame, metres
   /// @throws Error (naming the body) for a surface without triangles, options out of range (a shape among
   ///         them), or a grid of more nodes than they allow
   BodyMesh(std::string name, SurfaceMesh surface, const BodyMeshOptions& options = {});
-  BodyMesh(BodyMeshParts parts, const BodyMeshOptions& options);
   ~BodyMesh();
   BodyMesh(const BodyMesh&) = delete;
   BodyMesh& operator=(const BodyMesh&) = delete;
 
   /// Name of the body that it was made for; others of the same content may share it.
-  const std::string& name() const;
-  const SurfaceMesh& surface() const { return *surface_; }
-  double diameter() const { return surface_->diameter(); }
+  const std::string& name() const { return name_; }
+  const SurfaceMesh& surface() const { return surface_; }
+  double diameter() const { return surface_.diameter(); }
+  const BodyMeshOptions& options() const { return options_; }
+  /// Stands for surface and options in the cache (bodyKey()); unset without a cache.
+  const ContentKey& key() const;
   /// The solid that the surface is the inscribed mesh of; nullptr: none.
-  const RoundShape* shape() const;
+  const RoundShape* shape() const { return options_.shape ? &*options_.shape : nullptr; }
   /// Holds the surface and the shape, body frame.
-  const Eigen::AlignedBox3d& bounds() const;
+  const Eigen::AlignedBox3d& bounds() const { return bounds_; }
   /// The body with the origin of its frame moved to its centre along every axis on which that is more than 16
   /// diameters away; each vertex is subtracted without rounding. Built at the first call, for all threads.
   const RecentredBody& recentred() const;
   /// The mesh of recentred(), or this one.
   const BodyMesh& asSolved() const { return recentred().mesh ? *recentred().mesh : *this; }
-  /// Memory of the parts made so far.
+  /// Memory of the parts made so far, the search's grid among them.
   std::size_t memoryBytes() const;
 
   const MeshTopology& topology() const { return *topology_; }
@@ -110,50 +113,24 @@ class BodyMesh {
   /// the two, for all threads; about 450 bytes a triangle.
   const NormalConeTree& normalCones(NormalSides sides) const;
 
-  /// Returns what the search moves on: the nodes of the grid or, where thinned() says so, an even
-  /// choice of them.
-  const SearchNodes& searchNodes() const {
-    const SearchNodes* made = nodesIfMade();
-    return made != nullptr ? *made : makeNodes();
-  }
-  /// nullptr until a search needs them.
-  const SearchNodes* nodesIfMade() const { return nodes_.load(std::memory_order_acquire); }
-  const SurfaceMesh& grid() const;
-  const NodeGraph& graph() const;
-  /// Coarser and coarser graphs over graph().
-  const NodeLevels& levels() const;
-  bool thinned() const;
-  double maxEdgeLength() const;
-  /// An original triangle that the graph's node lies on.
-  TriangleIndex originalTriangle(NodeIndex graph_node) const;
-  /// The graph's node that a vertex of the original surface is, or belongs to where the graph is thinned.
-  NodeIndex graphNode(NodeIndex surface_vertex) const;
-  const MeshMetric& metric() const;
-  const MeshMetric* metricIfMade() const;
-  /// Returns how long the paths on the body are, and how near its protrusions come to each other along the
-  /// mesh (at most half as far), metres: what the radii of niching are chosen from.
-  double geodesicExtent() const;
-  double protrusionSpacing() const;
+  /// The grid of the search (BodyGrid); nullptr before its first use.
+  const BodyAttachment* attachment() const { return attachment_.load(std::memory_order_acquire); }
+  /// Keeps `made` unless another thread was faster; returns what is kept.
+  const BodyAttachment& attach(std::unique_ptr<const BodyAttachment> made) const;
 
  private:
   struct State;
-  struct Measured;
-  const SearchNodes& makeNodes() const;
-  const Measured& measured() const;
-  void reserveMetric() const;
-  friend void prepareSearch(const std::vector<const BodyMesh*>& bodies);
 
+  std::string name_;
+  SurfaceMesh surface_;
+  BodyMeshOptions options_;
+  Eigen::AlignedBox3d bounds_;
   std::unique_ptr<State> state_;
   // These point into state_.
-  const SurfaceMesh* surface_;
   const MeshTopology* topology_;
   const TriangleTree* tree_;
   const BoundingVolumeHierarchy* hierarchy_;
-  mutable std::atomic<const SearchNodes*> nodes_{nullptr};  ///< set once
+  mutable std::atomic<const BodyAttachment*> attachment_{nullptr};  ///< owned, set once
 };
-
-/// Makes the missing parts that a search of these bodies needs, in parallel. Room for matrices is given in
-/// this order, so that it does not depend on the threads.
-void prepareSearch(const std::vector<const BodyMesh*>& bodies);
 
 }  // namespace concave_distance

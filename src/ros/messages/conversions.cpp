@@ -10,9 +10,9 @@
 #include "base/coordinate_limit.h"
 #include "base/unit_tolerance.h"
 #include "concave_distance/base/error.h"
+#include "concave_distance/search/prepare_search.h"
 #include "loading/frame_name.h"
 #include "mesh/surface/mesh_topology.h"
-#include "search/grid/search_nodes.h"
 
 namespace concave_distance {
 namespace {
@@ -248,10 +248,9 @@ BodyInfo toBodyInfo(const SceneBody& body) {
   message.source = body.source;
   message.vertices = static_cast<std::uint32_t>(body.mesh->surface().vertexCount());
   message.triangles = static_cast<std::uint32_t>(body.mesh->surface().triangleCount());
-  if (const SearchNodes* nodes = body.mesh->asSolved().nodesIfMade()) {
-    message.grid_nodes = static_cast<std::uint32_t>(nodes->grid.vertexCount());
-    message.max_edge_length = nodes->max_edge_length;
-  }
+  const SearchPreparation prepared = searchPreparationOf(body.mesh->asSolved());
+  message.grid_nodes = static_cast<std::uint32_t>(prepared.grid_nodes);
+  message.max_edge_length = prepared.max_edge_length;
   message.diameter = body.mesh->diameter();
   message.memory = body.mesh->memoryBytes();
   message.closed = static_cast<std::uint8_t>(body.mesh->topology().allShellsClosed());

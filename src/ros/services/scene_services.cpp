@@ -10,6 +10,7 @@
 #include "base/short_text.h"
 #include "concave_distance/base/error.h"
 #include "concave_distance/loading/load_scene.h"
+#include "concave_distance/search/prepare_search.h"
 #include "loading/set_effects.h"
 #include "request_conversions.h"
 #include "ros/messages/conversions.h"
@@ -17,7 +18,6 @@
 #include "ros/tf/tf_poses.h"
 #include "scene/scene_edits.h"
 #include "scene/set_warning_distance.h"
-#include "search/grid/mesh_metric.h"
 
 namespace concave_distance {
 namespace {
@@ -150,8 +150,8 @@ bool SceneServices::listBodies(ListBodies::Request& /*request*/, ListBodies::Res
   response.notes = scene->warnings;
   response.notes.insert(response.notes.end(), scene->notes.begin(), scene->notes.end());
   for (const SceneBody& body : scene->bodies) {
-    const MeshMetric* metric = body.mesh->asSolved().metricIfMade();
-    if (metric != nullptr && !metric->hasMatrices()) {
+    const SearchPreparation prepared = searchPreparationOf(body.mesh->asSolved());
+    if (prepared.is_complete && !prepared.has_matrices) {
       response.notes.push_back(body.name +
                                ": mesh distances are computed on demand, because its matrices exceed "
                                "metric_memory_limit_mb or 4096 nodes");

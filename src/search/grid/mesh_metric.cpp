@@ -62,8 +62,10 @@ void fillRow(const NodeGraph& graph, std::uint32_t source, RowBuffers& buffers, 
 
 }  // namespace
 
-MeshMetric::MeshMetric(const NodeGraph& graph, const MeshMetricOptions& options)
-    : graph_(&graph), node_count_(graph.nodeCount()), has_matrices_(wantsMatrices(node_count_, options)) {
+MeshMetric::MeshMetric(const NodeGraph& graph, std::size_t matrix_node_limit)
+    : graph_(&graph),
+      node_count_(graph.nodeCount()),
+      has_matrices_(wantsMatrices(node_count_, matrix_node_limit)) {
   if (!has_matrices_) {
     return;
   }
@@ -87,8 +89,8 @@ MeshMetric::MeshMetric(const NodeGraph& graph, std::vector<float> distances,
       distance_(std::move(distances)),
       predecessor_(std::move(predecessors)) {}
 
-bool MeshMetric::wantsMatrices(std::size_t node_count, const MeshMetricOptions& options) {
-  return node_count <= std::min(options.matrix_node_limit, kLargestPredecessor);
+bool MeshMetric::wantsMatrices(std::size_t node_count, std::size_t matrix_node_limit) {
+  return node_count <= std::min(matrix_node_limit, kLargestPredecessor);
 }
 
 std::size_t MeshMetric::memoryBytes() const {

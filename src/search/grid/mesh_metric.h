@@ -9,12 +9,6 @@
 
 namespace concave_distance {
 
-struct MeshMetricOptions {
-  /// Up to this many nodes (at most 65535, the range of a predecessor) the distance and predecessor matrices
-  /// are kept, 4 + 2 bytes an entry; beyond, bounded searches on demand with a cache, memory linear in nodes.
-  std::size_t matrix_node_limit = 4096;
-};
-
 /// The mesh distance delta and its shortest paths (Carretero, sec. 3.1.2; Dijkstra 1959). Immutable, shared
 /// between threads; queries go through a MeshMetricQuery, one per thread.
 /// Path lengths are summed exactly (NodeGraph::Edge), so a distance is the exact minimum rounded once to
@@ -22,13 +16,16 @@ struct MeshMetricOptions {
 /// than 2^-24 relative, and d(a,c) <= (d(a,b) + d(b,c)) (1 + 2^-22).
 class MeshMetric {
  public:
-  /// Builds the matrices in parallel, O(n^2 log n), when the graph is small enough.
+  /// Builds the distance and predecessor matrices in parallel, O(n^2 log n), when the graph is small enough.
   /// @param graph must outlive the metric
-  MeshMetric(const NodeGraph& graph, const MeshMetricOptions& options);
+  /// @param matrix_node_limit up to this many nodes (at most 65535, the range of a predecessor) matrices are
+  ///        kept, 4 + 2 bytes an entry; beyond it, distances are searched on demand within a bound and
+  ///        cached, memory linear in nodes
+  MeshMetric(const NodeGraph& graph, std::size_t matrix_node_limit);
   /// From the matrices of another metric of the same graph, which are taken as they are.
   MeshMetric(const NodeGraph& graph, std::vector<float> distances, std::vector<std::uint16_t> predecessors);
   /// Whether a graph of so many nodes gets matrices.
-  static bool wantsMatrices(std::size_t node_count, const MeshMetricOptions& options);
+  static bool wantsMatrices(std::size_t node_count, std::size_t matrix_node_limit);
   /// Bytes that the matrices of this many nodes take.
   static std::size_t matrixBytes(std::size_t node_count) {
     return node_count * node_count * (sizeof(float) + sizeof(std::uint16_t));

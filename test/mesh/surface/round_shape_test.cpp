@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "concave_distance/base/error.h"
-#include "mesh/body_mesh_parts.h"
+#include "mesh/body_key.h"
 #include "mesh/surface/round_geometry.h"
 #include "support/round_bodies.h"
 
@@ -72,9 +72,10 @@ TEST(RoundShape, ASolidAndItsMeshAreTwoBodies) {
   BodyMeshOptions larger = solid;
   larger.shape->radius = 1.001;
   const SurfaceMesh surface = inscribedMesh(*solid.shape, "mesh");
-  EXPECT_NE(bodyKey(surface, mesh), bodyKey(surface, solid));
-  EXPECT_NE(bodyKey(surface, solid), bodyKey(surface, larger));
-  EXPECT_EQ(bodyKey(surface, solid), bodyKey(surface, solid));
+  const ContentKey key = surfaceKey(surface);
+  EXPECT_NE(bodyKey(key, mesh), bodyKey(key, solid));
+  EXPECT_NE(bodyKey(key, solid), bodyKey(key, larger));
+  EXPECT_EQ(bodyKey(key, solid), bodyKey(key, solid));
   EXPECT_EQ(BodyMesh("mesh", surface, mesh).shape(), nullptr);
   EXPECT_NE(BodyMesh("solid", surface, solid).shape(), nullptr);
 }

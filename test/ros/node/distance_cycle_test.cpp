@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cmath>
 
+#include "concave_distance/search/prepare_search.h"
 #include "ros/box_scene.h"
 #include "scene/scene_edits.h"
 
@@ -63,7 +64,8 @@ TEST_F(DistanceCycleTest, SolvesNothingMoreWhenTheNodeShutsDown) {
   stopped.run({kNiches, kNiches}, at(0));
   EXPECT_FALSE(stopped.pairs()[0]->tracked->solved());
   EXPECT_EQ(stopped.pairs()[0]->status.code, PairStatus::DISABLED) << "not OK without an answer";
-  EXPECT_EQ(stopped.pairs()[0]->tracked->body_a->mesh->metricIfMade(), nullptr) << "nor is anything prepared";
+  EXPECT_FALSE(searchPreparationOf(*stopped.pairs()[0]->tracked->body_a->mesh).is_complete)
+      << "nor is anything prepared";
 }
 
 TEST_F(DistanceCycleTest, RepeatsAnAnswerUntilNewTransformsCome) {

@@ -15,7 +15,8 @@ namespace concave_distance::mesh_metric_test {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-const MeshMetricOptions kOnDemand{0};
+constexpr std::size_t kWithMatrices = 4096;
+constexpr std::size_t kOnDemand = 0;
 
 SurfaceMesh wavySheet() {
   return test::makeSheet(11, 9, 0.1, 0.2);
@@ -65,7 +66,7 @@ NodeIndex drawNode(const NodeGraph& graph) {
 TEST(MeshMetric, MatricesEqualTheExactPathLengthsRoundedOnce) {
   for (const SurfaceMesh& mesh : {wavySheet(), twoShells(), test::makeComb(4)}) {
     const NodeGraph graph = buildNodeGraph(mesh);
-    const MeshMetric metric(graph, {});
+    const MeshMetric metric(graph, kWithMatrices);
     const auto expected = allPathLengths(graph);
     for (std::uint32_t i = 0; i < graph.nodeCount(); ++i) {
       for (std::uint32_t j = 0; j < graph.nodeCount(); ++j) {
@@ -81,7 +82,7 @@ TEST(MeshMetric, OnAFlatSheetItIsTheStaircaseDistance) {
   const double cell = 0.125;  // a float, as are its multiples: only the diagonal is rounded
   const std::uint32_t n = 8;
   const NodeGraph graph = buildNodeGraph(test::makeSheet(n, n, cell));
-  const MeshMetric metric(graph, {});
+  const MeshMetric metric(graph, kWithMatrices);
   for (std::uint32_t j = 0; j <= n; ++j) {
     for (std::uint32_t i = 0; i <= n; ++i) {
       const double expected = cell * (std::min(i, j) * std::sqrt(2.0) + (std::max(i, j) - std::min(i, j)));
@@ -93,21 +94,21 @@ TEST(MeshMetric, OnAFlatSheetItIsTheStaircaseDistance) {
 
 TEST(MeshMetric, KeepsMatricesUpToTheLimitAndNotBeyond) {
   const NodeGraph graph = buildNodeGraph(test::makeSheet(9, 9));
-  EXPECT_TRUE(MeshMetric(graph, {100}).hasMatrices());
-  EXPECT_EQ(MeshMetric(graph, {100}).memoryBytes(), 100U * 100U * 6U);
-  EXPECT_FALSE(MeshMetric(graph, {99}).hasMatrices());
-  EXPECT_EQ(MeshMetric(graph, {99}).memoryBytes(), 0U);
+  EXPECT_TRUE(MeshMetric(graph, 100).hasMatrices());
+  EXPECT_EQ(MeshMetric(graph, 100).memoryBytes(), 100U * 100U * 6U);
+  EXPECT_FALSE(MeshMetric(graph, 99).hasMatrices());
+  EXPECT_EQ(MeshMetric(graph, 99).memoryBytes(), 0U);
 }
 
 TEST(MeshMetric, NeverKeepsMatricesThatPredecessorsOf16BitsCannotIndex) {
   const NodeGraph graph = buildNodeGraph(test::makeSheet(255, 255));
   ASSERT_EQ(graph.nodeCount(), 65536U);
-  EXPECT_FALSE(MeshMetric(graph, {1'000'000}).hasMatrices());
+  EXPECT_FALSE(MeshMetric(graph, 1'000'000).hasMatrices());
 }
 
 RC_GTEST_PROP(MeshMetric, ObeysTheTriangleInequalityWithinTheStatedBound, ()) {
   static const NodeGraph kGraph = buildNodeGraph(wavySheet());
-  static const MeshMetric kMetric(kGraph, {});
+  static const MeshMetric kMetric(kGraph, kWithMatrices);
   const NodeIndex a = drawNode(kGraph);
   const NodeIndex b = drawNode(kGraph);
   const NodeIndex c = drawNode(kGraph);
@@ -121,7 +122,7 @@ RC_GTEST_PROP(MeshMetric, ObeysTheTriangleInequalityWithinTheStatedBound, ()) {
 
 RC_GTEST_PROP(MeshMetric, OnDemandQueriesEqualTheMatrices, ()) {
   static const NodeGraph kGraph = buildNodeGraph(twoShells());
-  static const MeshMetric kMatrices(kGraph, {});
+  static const MeshMetric kMatrices(kGraph, kWithMatrices);
   static const MeshMetric kBounded(kGraph, kOnDemand);
   static MeshMetricQuery query(kBounded);  // one cache over all cases: balls are reused and overwritten
   const NodeIndex from = drawNode(kGraph);
@@ -136,7 +137,7 @@ RC_GTEST_PROP(MeshMetric, OnDemandQueriesEqualTheMatrices, ()) {
 
 RC_GTEST_PROP(MeshMetric, PathsRunAlongEdgesAndAreAsLongAsTheDistance, ()) {
   static const NodeGraph kGraph = buildNodeGraph(twoShells());
-  static const MeshMetric kMatrices(kGraph, {});
+  static const MeshMetric kMatrices(kGraph, kWithMatrices);
   const NodeIndex from = drawNode(kGraph);
   const NodeIndex to = drawNode(kGraph);
   const float distance = kMatrices.matrixDistance(from, to);
@@ -154,15 +155,15 @@ TEST(MeshMetric, IsInfiniteBetweenShells) {
   const NodeGraph graph = buildNodeGraph(twoShells());
   const NodeIndex first{0};
   const NodeIndex last{graph.nodeCount() - 1};
-  for (const MeshMetricOptions& options : {MeshMetricOptions{}, kOnDemand}) {
-    const MeshMetric metric(graph, options);
+  for (const std::size_t matrix_node_limit : {kWithMatrices, kOnDemand}) {
+    const MeshMetric metric(graph, matrix_node_limit);
     EXPECT_EQ(MeshMetricQuery(metric).distanceWithin(first, last, kInfinity), kInfinity);
   }
 }
 
 TEST(MeshMetric, TheCacheSurvivesBeingOverwrittenManyTimes) {
   const NodeGraph graph = buildNodeGraph(test::makeSheet(30, 30, 0.1, 0.1));
-  const MeshMetric matrices(graph, {});
+  const MeshMetric matrices(graph, kWithMatrices);
   const MeshMetric bounded(graph, kOnDemand);
   MeshMetricQuery query(bounded);
   RandomEngine engine(20);
@@ -189,7 +190,7 @@ TEST(MeshMetric, MemoryOfQueriesBeyondTheMatricesIsLinearInNodes) {
 
 TEST(MeshMetric, NodeTowardsIsTheLastNodeWithinTheDistanceOnAShortestPath) {
   const NodeGraph graph = buildNodeGraph(wavySheet());
-  const MeshMetric matrices(graph, {});
+  const MeshMetric matrices(graph, kWithMatrices);
   const MeshMetric bounded(graph, kOnDemand);
   MeshMetricQuery with_matrices(matrices);
   MeshMetricQuery on_demand(bounded);
@@ -217,7 +218,7 @@ TEST(MeshMetric, NodeTowardsIsTheLastNodeWithinTheDistanceOnAShortestPath) {
 
 TEST(MeshMetric, NodeInBallStaysWithinTheRadiusAndReachesEveryNodeOfIt) {
   const NodeGraph graph = buildNodeGraph(twoShells());
-  const MeshMetric matrices(graph, {});
+  const MeshMetric matrices(graph, kWithMatrices);
   const MeshMetric bounded(graph, kOnDemand);
   MeshMetricQuery query(bounded);
   const NodeIndex centre{12};

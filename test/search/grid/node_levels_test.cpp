@@ -7,6 +7,7 @@
 
 #include "concave_distance/mesh/body_mesh.h"
 #include "concave_distance/mesh/surface/primitives.h"
+#include "search/grid/body_grid.h"
 #include "search/grid/search_grid.h"
 #include "support/concave_shapes.h"
 
@@ -55,7 +56,8 @@ TEST(NodeLevels, ShellsStayApartAndAlive) {
 
 TEST(NodeLevels, SmallGraphsHaveNone) {
   EXPECT_TRUE(buildNodeLevels(graphOf(makeBox({1, 1, 1}), 0.1)).levels.empty());
-  EXPECT_TRUE(BodyMesh("ball", makeSphere(1.0, 1e-4), BodyMeshOptions()).levels().levels.empty());
+  EXPECT_TRUE(
+      gridOf(BodyMesh("ball", makeSphere(1.0, 1e-4), BodyMeshOptions())).nodes().levels.levels.empty());
 }
 
 // Four times the nodes, four times the memory: of the levels, the body and a search's metric.
@@ -64,12 +66,12 @@ TEST(NodeLevels, MemoryIsLinearInTheNodes) {
     BodyMeshOptions options;
     options.max_edge_length = edge;
     const BodyMesh body("comb", test::makeComb(5), options);
-    MeshMetricQuery query(body.metric());
+    MeshMetricQuery query(gridOf(body).metric());
     (void)query.distanceWithin(NodeIndex{0}, NodeIndex{1}, 1.0);  // allocates
-    levels_share =
-        static_cast<double>(body.levels().memoryBytes()) / static_cast<double>(body.graph().memoryBytes());
+    levels_share = static_cast<double>(gridOf(body).nodes().levels.memoryBytes()) /
+                   static_cast<double>(gridOf(body).graph().memoryBytes());
     return static_cast<double>(body.memoryBytes() + query.memoryBytes()) /
-           static_cast<double>(body.graph().nodeCount());
+           static_cast<double>(gridOf(body).graph().nodeCount());
   };
   double share = 0.0;
   const double coarse = bytes_per_node(0.02, share);

@@ -8,8 +8,8 @@ namespace concave_distance::benchmark {
 std::optional<TrialPoint> floodForDeeper(const PairObjective& objective, const TrialPoint& start,
                                          double level, double noise, std::uint32_t state_limit,
                                          FloodWorkspace& workspace, SearchCost& cost) {
-  const NodeGraph& graph_a = objective.bodyA().graph();
-  const NodeGraph& graph_b = objective.bodyB().graph();
+  const NodeGraph& graph_a = objective.gridA().graph();
+  const NodeGraph& graph_b = objective.gridB().graph();
   std::vector<TrialPoint>& heap = workspace.heap;
   const auto deeper_last = [](const TrialPoint& l, const TrialPoint& r) { return r < l; };
   const double from = std::sqrt(start.squared_distance);

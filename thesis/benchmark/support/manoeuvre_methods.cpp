@@ -7,6 +7,7 @@
 #include "concave_distance/mesh/import/import_mesh.h"
 #include "concave_distance/mesh/repair/repair_mesh.h"
 #include "concave_distance/tracking/pair_tracker.h"
+#include "search/grid/body_grid.h"
 #include "search/grid/node_graph.h"
 #include "thesis/src/evaluation/comb_ga_tracker.h"
 #include "thesis/src/evaluation/inheriting_search.h"
@@ -127,8 +128,8 @@ Method hybridMethod(const std::string& name, const std::string& partition, const
             search->update(pose, time, *solution);
             places->clear();
             for (const TrackedNiche& niche : solution->niches) {
-              places->push_back({bodies.first->graph().positions[niche.node_pair.node_a.value],
-                                 bodies.second->graph().positions[niche.node_pair.node_b.value]});
+              places->push_back({gridOf(*bodies.first).graph().positions[niche.node_pair.node_a.value],
+                                 gridOf(*bodies.second).graph().positions[niche.node_pair.node_b.value]});
             }
             const PartitionSolution finished = hybrid->update(pose, *places);
             MethodStep step = stepOf(finished, processorMicroseconds() - start);

@@ -5,6 +5,7 @@
 
 #include "concave_distance/tracking/pair_tracker.h"
 #include "distance/kernels/witness_refinement.h"
+#include "search/grid/body_grid.h"
 
 namespace concave_distance::benchmark {
 
@@ -35,8 +36,8 @@ double shareMet(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& p
   RefinementWorkspace workspace;
   std::vector<bool> met(niches.size());
   for (const TrialPoint& minimum : minima) {
-    const WitnessPair found = refineWitness(a, b, pose, a.originalTriangle(minimum.node_a),
-                                            b.originalTriangle(minimum.node_b), workspace)
+    const WitnessPair found = refineWitness(a, b, pose, gridOf(a).nodes().originalTriangle(minimum.node_a),
+                                            gridOf(b).nodes().originalTriangle(minimum.node_b), workspace)
                                   .witness;
     for (std::size_t i = 0; i < met.size(); ++i) {
       const TrackedNiche& niche = niches[i];

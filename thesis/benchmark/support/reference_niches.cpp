@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "distance/niches/niche_decider.h"
+#include "search/grid/body_grid.h"
 #include "search/local_descent.h"
 #include "support/enumeration.h"
 #include "thesis/benchmark/support/grid_flood.h"
@@ -24,8 +25,8 @@ std::vector<ReferenceNiche> referenceNiches(const BenchmarkPair& pair, const Eig
       break;  // ascending
     }
     const WitnessRefinement refined =
-        refineWitness(*pair.a, *pair.b, pose, pair.a->originalTriangle(niche.node_a),
-                      pair.b->originalTriangle(niche.node_b), workspace);
+        refineWitness(*pair.a, *pair.b, pose, gridOf(*pair.a).nodes().originalTriangle(niche.node_a),
+                      gridOf(*pair.b).nodes().originalTriangle(niche.node_b), workspace);
     if (classifyOutwardness(*pair.a, *pair.b, pose, refined.witness) == Outwardness::ThroughMaterial) {
       continue;
     }

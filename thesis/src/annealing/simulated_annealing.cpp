@@ -32,7 +32,7 @@ AnnealingResult simulatedAnnealing(const PairObjective& objective, const Anneali
                                          : objective.evaluate(point.node_a, point.node_b, result.cost);
   };
   const double radius = parameters.move_radius.value_or(
-      std::max(objective.bodyA().geodesicExtent(), objective.bodyB().geodesicExtent()));
+      std::max(objective.gridA().geodesicExtent(), objective.gridB().geodesicExtent()));
   TrialPoint current = settle(randomTrialPoint(objective, engine));
   result.best = current;
   double probability = 1.0;

@@ -7,13 +7,14 @@
 #include <vector>
 
 #include "base/infinity.h"
+#include "search/grid/body_grid.h"
 #include "search/grid/node_graph.h"
 
 namespace concave_distance {
 
 TrialPoint enumerateNodePairs(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b) {
-  const std::vector<Eigen::Vector3d>& nodes_a = a.graph().positions;
-  std::vector<Eigen::Vector3d> nodes_b = b.graph().positions;
+  const std::vector<Eigen::Vector3d>& nodes_a = gridOf(a).graph().positions;
+  std::vector<Eigen::Vector3d> nodes_b = gridOf(b).graph().positions;
   for (Eigen::Vector3d& node : nodes_b) node = a_from_b * node;
   const TrialPoint worst{NodeIndex{0}, NodeIndex{0}, kInfinity};
   // Ties go to the smaller indices, so that the answer does not depend on how the range was split.

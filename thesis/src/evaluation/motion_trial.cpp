@@ -13,6 +13,7 @@
 #include "enumeration.h"
 #include "inheriting_search.h"
 #include "search/automatic_radii.h"
+#include "search/grid/body_grid.h"
 #include "search/niche_identification.h"
 
 namespace concave_distance::evaluation {
@@ -116,7 +117,7 @@ class TrackerFollower {
 
 void enumerate(const SceneTruth& scene, const InstantTruth& instant, Answer& answer) {
   answer.distance = std::sqrt(enumerateNodePairs(*scene.a, *scene.b, instant.a_from_b).squared_distance);
-  answer.evaluations = scene.a->graph().nodeCount() * scene.b->graph().nodeCount();
+  answer.evaluations = gridOf(*scene.a).graph().nodeCount() * gridOf(*scene.b).graph().nodeCount();
 }
 
 template <typename Tracker>
@@ -161,7 +162,8 @@ NicheRadii radiiOf(const SceneTruth& scene, const SearchMethod& method) {
 FoundPlaces placesOf(const SceneTruth& scene, const std::vector<IdentifiedNiche>& reported,
                      const std::vector<TrialPoint>& met) {
   const auto place_of = [&](const TrialPoint& point) {
-    return FoundPlace{scene.a->originalTriangle(point.node_a), scene.b->originalTriangle(point.node_b),
+    return FoundPlace{gridOf(*scene.a).nodes().originalTriangle(point.node_a),
+                      gridOf(*scene.b).nodes().originalTriangle(point.node_b),
                       std::sqrt(point.squared_distance)};
   };
   FoundPlaces places;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "search/grid/body_grid.h"
 #include "search/grid/node_graph.h"
 
 namespace concave_distance::evaluation {
@@ -66,12 +67,12 @@ void NicheMotion::extrapolate(double radius, PairMetric& metric, std::vector<Tri
     next_.push_back(path);
     const std::size_t count = std::min(path.count, most);
     const auto& [last, before, first] = path.places;
-    niche.node_a =
-        nodeTowardsPoint(a_->graph(), last.node_a,
-                         expectedPoint(a_->graph(), {last.node_a, before.node_a, first.node_a}, count));
-    niche.node_b =
-        nodeTowardsPoint(b_->graph(), last.node_b,
-                         expectedPoint(b_->graph(), {last.node_b, before.node_b, first.node_b}, count));
+    niche.node_a = nodeTowardsPoint(
+        gridOf(*a_).graph(), last.node_a,
+        expectedPoint(gridOf(*a_).graph(), {last.node_a, before.node_a, first.node_a}, count));
+    niche.node_b = nodeTowardsPoint(
+        gridOf(*b_).graph(), last.node_b,
+        expectedPoint(gridOf(*b_).graph(), {last.node_b, before.node_b, first.node_b}, count));
   }
   paths_.swap(next_);
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <vector>
 
+#include "search/grid/body_grid.h"
 #include "surface_regions.h"
 #include "thesis/src/genetic/descent_moves.h"
 
@@ -10,7 +11,7 @@ namespace concave_distance::evaluation {
 namespace {
 
 NodeIndex nearestNode(const BodyMesh& body, const Eigen::Vector3d& point) {
-  const std::vector<Eigen::Vector3d>& nodes = body.searchNodes().graph.positions;
+  const std::vector<Eigen::Vector3d>& nodes = gridOf(body).nodes().graph.positions;
   std::size_t nearest = 0;
   for (std::size_t i = 1; i < nodes.size(); ++i) {
     if ((nodes[i] - point).squaredNorm() < (nodes[nearest] - point).squaredNorm()) nearest = i;
@@ -29,8 +30,9 @@ bool leadsToOptimum(const SceneTruth& scene, const TrialPoint& answer) {
   const double distance = std::sqrt(end.squared_distance);
   if (distance < truth.region_limit) return true;
   const SurfaceRegions regions(*scene.a, *scene.b, truth.a_from_b, truth.minima);
-  const std::size_t owner = regions.ownerOf(
-      {scene.a->originalTriangle(end.node_a), scene.b->originalTriangle(end.node_b), distance});
+  const std::size_t owner =
+      regions.ownerOf({gridOf(*scene.a).nodes().originalTriangle(end.node_a),
+                       gridOf(*scene.b).nodes().originalTriangle(end.node_b), distance});
   return owner != SurfaceRegions::kNoOwner && isNiche(truth, truth.minima[owner]) &&
          isNearest(truth, truth.minima[owner].distance);
 }

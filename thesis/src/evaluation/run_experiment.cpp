@@ -8,6 +8,7 @@
 
 #include "base/csv_writer.h"
 #include "row_parameters.h"
+#include "search/grid/body_grid.h"
 #include "trial_files.h"
 
 namespace concave_distance::evaluation {
@@ -29,9 +30,12 @@ void writeScenes(const Experiment& experiment, const std::vector<SceneTruth>& sc
     for (const InstantTruth& instant : scene.instants) {
       niches += static_cast<double>(nicheCount(instant)) / static_cast<double>(scene.instants.size());
     }
-    file.cells() << experiment.scenes[i].name << std::max(scene.a->maxEdgeLength(), scene.b->maxEdgeLength())
-                 << scene.a->graph().nodeCount() << scene.b->graph().nodeCount() << truth.exact_distance
-                 << truth.node_distance << truth.second_distance << niches << scene.instants.size();
+    file.cells() << experiment.scenes[i].name
+                 << std::max(gridOf(*scene.a).nodes().max_edge_length,
+                             gridOf(*scene.b).nodes().max_edge_length)
+                 << gridOf(*scene.a).graph().nodeCount() << gridOf(*scene.b).graph().nodeCount()
+                 << truth.exact_distance << truth.node_distance << truth.second_distance << niches
+                 << scene.instants.size();
     file.cells().endLine();
   }
   file.finish();

@@ -13,8 +13,8 @@
 #include "distance/bound/certificate.h"
 #include "enumeration.h"
 #include "loading/query_poses.h"
-#include "mesh/body_mesh_parts.h"
 #include "random_nodes.h"
+#include "search/grid/body_grid.h"
 #include "thesis/src/continuous/constraint_tree_file.h"
 #include "volume_nodes.h"
 
@@ -46,18 +46,20 @@ std::shared_ptr<const BodyMesh> loadBody(const std::string& path, const Experime
   BodyMeshOptions options;
   options.max_edge_length = scene.max_edge_length;
   const std::string name = std::filesystem::path(path).stem().string();
-  BodyMeshParts parts = makeBodyMeshParts(name, repairMesh(importMesh(path), repair, path).mesh, options);
+  const auto body =
+      std::make_shared<const BodyMesh>(name, repairMesh(importMesh(path), repair, path).mesh, options);
+  SearchNodes nodes = makeSearchNodes(body->surface(), options, name);
   if (scene.nodes == NodeSource::Volume) {
-    parts.nodes = makeVolumeNodes(parts.surface, parts.topology, parts.tree, std::move(parts.nodes),
-                                  scene.lattice_edge.value_or(*scene.max_edge_length));
+    nodes = makeVolumeNodes(*body, std::move(nodes), scene.lattice_edge.value_or(*scene.max_edge_length));
   } else if (scene.nodes != NodeSource::Mesh) {
     RandomNodesOptions random;
-    random.count = parts.nodes.graph.nodeCount();
+    random.count = nodes.graph.nodeCount();
     random.vertices_and_edges = scene.nodes == NodeSource::RandomPoints;
     RandomEngine engine(streamSeed(scene.node_seed, "random points", stream));
-    parts.nodes = makeRandomNodes(parts.surface, parts.topology, random, engine, path);
+    nodes = makeRandomNodes(body->surface(), body->topology(), random, engine, path);
   }
-  return std::make_shared<const BodyMesh>(std::move(parts), options);
+  body->attach(std::make_unique<BodyGrid>(*body, std::move(nodes)));
+  return body;
 }
 
 std::vector<QueryPose> posesOf(const ExperimentScene& scene, const std::string& path) {

@@ -8,6 +8,7 @@
 #include "motion_trial.h"
 #include "niche_questions.h"
 #include "optimum_basin.h"
+#include "search/grid/body_grid.h"
 #include "search/niche_identification.h"
 #include "thesis/src/continuous/continuous_annealing.h"
 #include "thesis/src/continuous/continuous_genetic_search.h"
@@ -143,8 +144,8 @@ TrialRecord runCombinatorial(const SearchMethod& method, const SceneTruth& scene
     record.niche_distances[i] = std::sqrt(niches[i].best.squared_distance);
   }
   const auto best = std::min_element(workspace.population.begin(), workspace.population.end());
-  record.point_a = scene.a->graph().positions[best->node_a.value];
-  record.point_b = scene.b->graph().positions[best->node_b.value];
+  record.point_a = gridOf(*scene.a).graph().positions[best->node_a.value];
+  record.point_b = gridOf(*scene.b).graph().positions[best->node_b.value];
   if (places != nullptr) *places = placesOf(scene, niches, workspace.basins.minima());
   return record;
 }
@@ -213,8 +214,8 @@ TrialRecord runOnce(const Method& method, const SceneTruth& scene, RandomEngine&
 std::vector<IndividualPoints> populationPoints(const SceneTruth& scene, const SearchWorkspace& workspace) {
   std::vector<IndividualPoints> points;
   for (const TrialPoint& individual : workspace.population) {
-    const Eigen::Vector3d& a = scene.a->graph().positions[individual.node_a.value];
-    const Eigen::Vector3d& b = scene.b->graph().positions[individual.node_b.value];
+    const Eigen::Vector3d& a = gridOf(*scene.a).graph().positions[individual.node_a.value];
+    const Eigen::Vector3d& b = gridOf(*scene.b).graph().positions[individual.node_b.value];
     points.push_back({(scene.first().a_from_b * b - a).norm(), a, b});
   }
   return points;

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "concave_distance/base/error.h"
+#include "mesh/surface/mesh_topology.h"
+#include "mesh/trees/triangle_tree.h"
 #include "point_bins.h"
 
 namespace concave_distance {
@@ -115,8 +117,7 @@ Reached reachFromSurface(std::size_t surface_count, std::size_t all, const Neigh
 
 }  // namespace
 
-SearchNodes makeVolumeNodes(const SurfaceMesh& surface, const MeshTopology& topology,
-                            const TriangleTree& tree, SearchNodes surface_nodes, double edge) {
+SearchNodes makeVolumeNodes(const BodyMesh& body, SearchNodes surface_nodes, double edge) {
   SearchNodes made = std::move(surface_nodes);
   if (made.thinned()) {
     throw Error("volume nodes", "the surface's nodes are thinned", "give max_edge_length");
@@ -129,7 +130,7 @@ SearchNodes makeVolumeNodes(const SurfaceMesh& surface, const MeshTopology& topo
   const std::vector<Eigen::Vector3d> on_surface = made.graph.positions;
   const auto surface_count = static_cast<std::uint32_t>(on_surface.size());
   const detail::PointBins bins(on_surface, reach);
-  const Lattice lattice = latticeInside(surface, topology, tree, bins, edge);
+  const Lattice lattice = latticeInside(body.surface(), body.topology(), body.tree(), bins, edge);
 
   Neighbours neighbours;
   for (std::uint32_t node = 0; node < surface_count; ++node) {
@@ -138,7 +139,7 @@ SearchNodes makeVolumeNodes(const SurfaceMesh& surface, const MeshTopology& topo
     }
   }
   const auto sees = [&](const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
-    return !segmentHits(tree, surface, from, to, margin);
+    return !segmentHits(body.tree(), body.surface(), from, to, margin);
   };
   for (std::uint32_t node = 0; node < lattice.positions.size(); ++node) {
     const Eigen::Vector3d& position = lattice.positions[node];

@@ -1,7 +1,6 @@
 #pragma once
 
-#include "mesh/surface/mesh_topology.h"
-#include "mesh/trees/triangle_tree.h"
+#include "concave_distance/mesh/body_mesh.h"
 #include "search/grid/search_nodes.h"
 
 namespace concave_distance {
@@ -14,7 +13,6 @@ namespace concave_distance {
 /// @param surface_nodes of makeSearchNodes() with an explicit edge length
 /// @param lattice_edge edge of the lattice's cubes, metres
 /// @throws Error when the surface nodes are thinned or the edge is not positive and finite
-SearchNodes makeVolumeNodes(const SurfaceMesh& surface, const MeshTopology& topology,
-                            const TriangleTree& tree, SearchNodes surface_nodes, double lattice_edge);
+SearchNodes makeVolumeNodes(const BodyMesh& body, SearchNodes surface_nodes, double lattice_edge);
 
 }  // namespace concave_distance

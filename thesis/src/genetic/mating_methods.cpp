@@ -81,8 +81,8 @@ Children mateBy(MatingMethod method, const PairObjective& objective, const Trial
     return method == MatingMethod::Phenotypic ? mateOnLine(from, to, shares, graph)
                                               : mateIndices(from, to, shares);
   };
-  const Genes a = gene(fitter.node_a, other.node_a, objective.bodyA().graph());
-  const Genes b = gene(fitter.node_b, other.node_b, objective.bodyB().graph());
+  const Genes a = gene(fitter.node_a, other.node_a, objective.gridA().graph());
+  const Genes b = gene(fitter.node_b, other.node_b, objective.gridB().graph());
   return childrenOf(a, b);
 }
 

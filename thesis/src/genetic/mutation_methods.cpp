@@ -57,8 +57,8 @@ double mutationRadius(const CombGaParameters& parameters, const PairObjective& o
     return parameters.mutation_radius.value_or(kInfinity);
   }
   const double radius = parameters.mutation_radius ? *parameters.mutation_radius
-                                                   : std::max(objective.bodyA().geodesicExtent(),
-                                                              objective.bodyB().geodesicExtent());
+                                                   : std::max(objective.gridA().geodesicExtent(),
+                                                              objective.gridB().geodesicExtent());
   return radius * coolingFactor(parameters.mutation_radius_cooling, generation, parameters.max_generations);
 }
 

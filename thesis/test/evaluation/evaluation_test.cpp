@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "concave_distance/base/error.h"
+#include "search/grid/body_grid.h"
 #include "support/temporary_folder.h"
 #include "thesis/src/evaluation/experiment.h"
 #include "thesis/src/evaluation/run_experiment.h"
@@ -297,7 +298,8 @@ rows:
   EXPECT_TRUE(records[2].exact);
   EXPECT_EQ(records[2].recall, records[2].archive_recall);
   EXPECT_TRUE(records[4].exact);
-  EXPECT_EQ(records[4].cost.evaluations, scene.a->graph().nodeCount() * scene.b->graph().nodeCount());
+  EXPECT_EQ(records[4].cost.evaluations,
+            gridOf(*scene.a).graph().nodeCount() * gridOf(*scene.b).graph().nodeCount());
   EXPECT_EQ(records[4].flops, 26 * records[4].cost.evaluations);
 }
 
@@ -319,10 +321,10 @@ rows:
     EXPECT_GE(scenes.back().first().node_distance, scenes.back().first().exact_distance);
     EXPECT_LT(runOne(experiment, 0, scenes.back(), nullptr).distance, 0.3);
   }
-  EXPECT_EQ(scenes[1].a->graph().nodeCount(), scenes[0].a->graph().nodeCount());
+  EXPECT_EQ(gridOf(*scenes[1].a).graph().nodeCount(), gridOf(*scenes[0].a).graph().nodeCount());
   EXPECT_NE(scenes[1].first().node_distance, scenes[2].first().node_distance);
   EXPECT_EQ(scenes[3].first().node_distance, scenes[0].first().node_distance);
-  EXPECT_GT(scenes[3].b->graph().nodeCount(), scenes[0].b->graph().nodeCount());
+  EXPECT_GT(gridOf(*scenes[3].b).graph().nodeCount(), gridOf(*scenes[0].b).graph().nodeCount());
 }
 
 TEST_F(Evaluation, ReadsEveryExperimentOfThePackage) {

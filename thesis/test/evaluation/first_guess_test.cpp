@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "concave_distance/mesh/surface/primitives.h"
+#include "search/grid/body_grid.h"
 #include "search/grid/node_graph.h"
 #include "search/search_scenes.h"
 #include "thesis/src/evaluation/niche_motion.h"
@@ -38,7 +39,7 @@ class MovingNiche : public ::testing::Test {
   double expectedX(Extrapolation extrapolation, const std::vector<double>& places) {
     NicheMotion motion(*bar_, *bar_, extrapolation);
     PairMetric metric(*bar_, *bar_);
-    const NodeGraph& graph = bar_->graph();
+    const NodeGraph& graph = gridOf(*bar_).graph();
     const NodeIndex still = nearestNode(graph, {0.0, 0.0, -0.5});
     std::vector<TrialPoint> niches;
     for (const double x : places) {
@@ -50,7 +51,7 @@ class MovingNiche : public ::testing::Test {
   }
 
   const std::unique_ptr<BodyMesh> bar_ = test::makeSearchBody(makeBox({8.0, 1.0, 1.0}), 0.1);
-  const double edge_ = bar_->maxEdgeLength();
+  const double edge_ = gridOf(*bar_).nodes().max_edge_length;
 };
 
 TEST_F(MovingNiche, IsLookedForWhereItsMotionLeads) {
@@ -66,7 +67,7 @@ TEST_F(MovingNiche, IsLookedForWhereItsMotionLeads) {
 TEST_F(MovingNiche, FarFromAllOfTheLastInstantIsANewOne) {
   NicheMotion motion(*bar_, *bar_, Extrapolation::Velocity);
   PairMetric metric(*bar_, *bar_);
-  const NodeGraph& graph = bar_->graph();
+  const NodeGraph& graph = gridOf(*bar_).graph();
   const NodeIndex first = nearestNode(graph, {-3.0, 0.0, 0.5});
   const NodeIndex second = nearestNode(graph, {3.0, 0.0, 0.5});
   std::vector<TrialPoint> niches = {{first, first, 1.0}};

@@ -1,5 +1,4 @@
 #include "thesis/src/evaluation/random_nodes.h"
-#include "mesh/body_mesh_parts.h"
 
 #include <gtest/gtest.h>
 
@@ -9,6 +8,7 @@
 #include "concave_distance/base/error.h"
 #include "concave_distance/mesh/body_mesh.h"
 #include "concave_distance/mesh/surface/primitives.h"
+#include "search/grid/body_grid.h"
 #include "support/concave_shapes.h"
 #include "support/enumeration.h"
 #include "thesis/src/evaluation/enumeration.h"
@@ -125,18 +125,20 @@ TEST(RandomNodes, OneSeedGivesOneSet) {
 
 TEST(RandomNodes, AnswerNoLessThanTheSurfaces) {
   const auto body_of = [](std::uint64_t seed) {
-    BodyMeshParts parts = makeBodyMeshParts("comb", test::makeComb(3), {});
-    parts.nodes = nodesOf(parts.surface, 500, true, seed);
-    return BodyMesh(std::move(parts), {});
+    const auto body = std::make_shared<const BodyMesh>("comb", test::makeComb(3));
+    body->attach(std::make_unique<BodyGrid>(*body, nodesOf(body->surface(), 500, true, seed)));
+    return body;
   };
-  const BodyMesh a = body_of(1);
-  const BodyMesh b = body_of(2);
+  const auto body_a = body_of(1);
+  const auto body_b = body_of(2);
+  const BodyMesh& a = *body_a;
+  const BodyMesh& b = *body_b;
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.translation() = Eigen::Vector3d(0.3, 0.2, 1.7);
   const double exact = std::sqrt(test::enumerateTrianglePairs(a, b, pose).squared_distance);
   const double nodes = std::sqrt(enumerateNodePairs(a, b, pose).squared_distance);
   EXPECT_GE(nodes, exact);
-  EXPECT_LE(nodes, exact + a.maxEdgeLength() + b.maxEdgeLength());
+  EXPECT_LE(nodes, exact + gridOf(a).nodes().max_edge_length + gridOf(b).nodes().max_edge_length);
 }
 
 TEST(RandomNodes, NoneAtAllAreRefused) {

@@ -1,5 +1,4 @@
 #include "thesis/src/evaluation/volume_nodes.h"
-#include "mesh/body_mesh_parts.h"
 
 #include <gtest/gtest.h>
 
@@ -8,28 +7,35 @@
 #include "concave_distance/base/error.h"
 #include "concave_distance/mesh/body_mesh.h"
 #include "concave_distance/mesh/surface/primitives.h"
+#include "mesh/trees/triangle_tree.h"
+#include "search/grid/body_grid.h"
 #include "support/concave_shapes.h"
 #include "thesis/src/evaluation/enumeration.h"
 
 namespace concave_distance::volume_nodes_test {
 namespace {
 
-BodyMeshParts partsOf(SurfaceMesh surface, double edge) {
+std::shared_ptr<const BodyMesh> bodyOf(SurfaceMesh surface, double edge) {
   BodyMeshOptions options;
   options.max_edge_length = edge;
-  return makeBodyMeshParts("body", std::move(surface), options);
+  return std::make_shared<const BodyMesh>("body", std::move(surface), options);
 }
 
-SearchNodes volumeOf(const BodyMeshParts& parts, double lattice_edge) {
-  return makeVolumeNodes(parts.surface, parts.topology, parts.tree, parts.nodes, lattice_edge);
+SearchNodes surfaceNodes(const BodyMesh& body) {
+  return makeSearchNodes(body.surface(), body.options(), "body");
+}
+
+SearchNodes volumeOf(const BodyMesh& body, double lattice_edge) {
+  return makeVolumeNodes(body, surfaceNodes(body), lattice_edge);
 }
 
 TEST(VolumeNodes, OfAUnitCubeAreItsSurfacesAndTheLatticeWithin) {
-  const BodyMeshParts parts = partsOf(makeBox(Eigen::Vector3d::Ones()), 0.25);
-  const SearchNodes volume = volumeOf(parts, 0.25);
-  const std::size_t on_surface = parts.nodes.graph.nodeCount();
+  const auto body = bodyOf(makeBox(Eigen::Vector3d::Ones()), 0.25);
+  const NodeGraph surface = surfaceNodes(*body).graph;
+  const SearchNodes volume = volumeOf(*body, 0.25);
+  const std::size_t on_surface = surface.nodeCount();
   for (std::size_t i = 0; i < on_surface; ++i) {
-    EXPECT_EQ(volume.graph.positions[i], parts.nodes.graph.positions[i]);
+    EXPECT_EQ(volume.graph.positions[i], surface.positions[i]);
   }
   // Corners of cubes within: 3^3, a quarter and more below the surface; centres: 4^3, of which the outer ones
   // are as far below it as lattice nodes keep off its nodes, and may stand below one.
@@ -42,46 +48,43 @@ TEST(VolumeNodes, OfAUnitCubeAreItsSurfacesAndTheLatticeWithin) {
 }
 
 TEST(VolumeNodes, AreNeighboursThroughTheBodyOnly) {
-  const BodyMeshParts parts = partsOf(test::makeComb(4), 0.1);
-  const SearchNodes volume = volumeOf(parts, 0.06);
-  ASSERT_GT(volume.graph.nodeCount(), parts.nodes.graph.nodeCount());
+  const auto body = bodyOf(test::makeComb(4), 0.1);
+  const std::size_t on_surface = surfaceNodes(*body).graph.nodeCount();
+  const SearchNodes volume = volumeOf(*body, 0.06);
+  ASSERT_GT(volume.graph.nodeCount(), on_surface);
   EXPECT_EQ(volume.graph.shell_count, 1U);
   for (std::uint32_t i = 0; i < volume.graph.nodeCount(); ++i) {
     for (const NodeGraph::Edge& edge : volume.graph.edges.row(i)) {
-      if (i < parts.nodes.graph.nodeCount() && edge.to.value < parts.nodes.graph.nodeCount()) continue;
-      EXPECT_FALSE(segmentHits(parts.tree, parts.surface, volume.graph.positions[i],
+      if (i < on_surface && edge.to.value < on_surface) continue;
+      EXPECT_FALSE(segmentHits(body->tree(), body->surface(), volume.graph.positions[i],
                                volume.graph.positions[edge.to.value], 1e-3));
     }
   }
 }
 
 TEST(VolumeNodes, ChangeNothingAboutTheNearestPair) {
-  const auto body_of = [](bool with_volume) {
-    BodyMeshParts parts = partsOf(test::makeComb(3), 0.15);
-    if (with_volume) parts.nodes = volumeOf(parts, 0.08);
-    return BodyMesh(std::move(parts), {});
-  };
-  const BodyMesh surface = body_of(false);
-  const BodyMesh volume = body_of(true);
-  ASSERT_GT(volume.graph().nodeCount(), surface.graph().nodeCount());
+  const auto surface = bodyOf(test::makeComb(3), 0.15);
+  const auto volume = bodyOf(test::makeComb(3), 0.15);
+  volume->attach(std::make_unique<BodyGrid>(*volume, volumeOf(*volume, 0.08)));
+  ASSERT_GT(gridOf(*volume).graph().nodeCount(), gridOf(*surface).graph().nodeCount());
   Eigen::Isometry3d pose(Eigen::AngleAxisd(0.4, Eigen::Vector3d(1.0, 2.0, 0.5).normalized()));
   pose.translation() = Eigen::Vector3d(0.3, 0.2, 1.7);
-  EXPECT_EQ(enumerateNodePairs(volume, volume, pose).squared_distance,
-            enumerateNodePairs(surface, surface, pose).squared_distance);
+  EXPECT_EQ(enumerateNodePairs(*volume, *volume, pose).squared_distance,
+            enumerateNodePairs(*surface, *surface, pose).squared_distance);
 }
 
 TEST(VolumeNodes, AnOpenSurfaceHasNone) {
   const SurfaceMesh box = makeBox(Eigen::Vector3d::Ones());
   std::vector<TriangleNodes> triangles = box.triangles();
   triangles.pop_back();
-  const BodyMeshParts parts = partsOf({box.vertices(), triangles, "open box"}, 0.25);
-  EXPECT_EQ(volumeOf(parts, 0.25).graph.nodeCount(), parts.nodes.graph.nodeCount());
+  const auto body = bodyOf({box.vertices(), triangles, "open box"}, 0.25);
+  EXPECT_EQ(volumeOf(*body, 0.25).graph.nodeCount(), surfaceNodes(*body).graph.nodeCount());
 }
 
 TEST(VolumeNodes, RefuseALatticeWithoutASize) {
-  const BodyMeshParts parts = partsOf(makeBox(Eigen::Vector3d::Ones()), 0.5);
-  EXPECT_THROW(volumeOf(parts, 0.0), Error);
-  EXPECT_THROW(volumeOf(parts, std::nan("")), Error);
+  const auto body = bodyOf(makeBox(Eigen::Vector3d::Ones()), 0.5);
+  EXPECT_THROW(volumeOf(*body, 0.0), Error);
+  EXPECT_THROW(volumeOf(*body, std::nan("")), Error);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "search/grid/body_grid.h"
 #include "search/local_descent.h"
 #include "search/mutation.h"
 #include "search/search_scenes.h"
@@ -13,7 +14,7 @@ namespace {
 TEST(DescentMoves, AlongEdgesItMovesFromNeighbourToNeighbour) {
   const auto a = test::makeSearchBody(test::makeStairs(4), 0.04, 0);
   const auto b = test::makeSearchBody(test::makeLShape(), 0.04, 0);
-  ASSERT_FALSE(a->levels().levels.empty());
+  ASSERT_FALSE(gridOf(*a).nodes().levels.levels.empty());
   const PairObjective objective(*a, *b, test::makePose(0.4, {0.2, 1.0, 0.4}, {0.3, 1.4, 0.2}));
   const auto walk = [](const NodeGraph& graph, NodeIndex node, const auto& value) {
     for (bool moves = true; moves;) {
@@ -36,8 +37,10 @@ TEST(DescentMoves, AlongEdgesItMovesFromNeighbourToNeighbour) {
     for (bool moves = true; moves;) {
       const NodeIndex before_a = node_a;
       const NodeIndex before_b = node_b;
-      node_a = walk(a->graph(), node_a, [&](NodeIndex n) { return objective.squaredDistance(n, node_b); });
-      node_b = walk(b->graph(), node_b, [&](NodeIndex n) { return objective.squaredDistance(node_a, n); });
+      node_a =
+          walk(gridOf(*a).graph(), node_a, [&](NodeIndex n) { return objective.squaredDistance(n, node_b); });
+      node_b =
+          walk(gridOf(*b).graph(), node_b, [&](NodeIndex n) { return objective.squaredDistance(node_a, n); });
       moves = !(node_a == before_a && node_b == before_b);
     }
     const TrialPoint edges =
@@ -67,8 +70,8 @@ TEST(DescentMoves, MovesBothNodesWhereOneAloneIsStuck) {
     EXPECT_TRUE(samePlace(descend(objective, both, nullptr, trail, cost), both));
     EXPECT_EQ(both.squared_distance, objective.squaredDistance(both.node_a, both.node_b));
     EXPECT_LE(both.squared_distance, one.squared_distance);
-    for (const NodeGraph::Edge& edge_a : a->graph().edges.row(both.node_a.value)) {
-      for (const NodeGraph::Edge& edge_b : b->graph().edges.row(both.node_b.value)) {
+    for (const NodeGraph::Edge& edge_a : gridOf(*a).graph().edges.row(both.node_a.value)) {
+      for (const NodeGraph::Edge& edge_b : gridOf(*b).graph().edges.row(both.node_b.value)) {
         EXPECT_GE(objective.squaredDistance(edge_a.to, edge_b.to), both.squared_distance);
       }
     }

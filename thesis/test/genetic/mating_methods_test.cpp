@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/infinity.h"
+#include "search/grid/body_grid.h"
 #include "search/mutation.h"
 #include "search/search_scenes.h"
 
@@ -66,8 +67,8 @@ TEST(MeshMating, NearTheFitterParentTheLastNodeWithinTheRadiusIsDrawnToo) {
     const TrialPoint x = drawPoint(c.objective, engine);
     TrialPoint y = x;
     // Parents of equal fitness two edges apart: the radius is one edge.
-    const auto edges = c.scene.a->graph().edges.row(x.node_a.value);
-    y.node_a = c.scene.a->graph().edges.row(edges[0].to.value)[0].to;
+    const auto edges = gridOf(*c.scene.a).graph().edges.row(x.node_a.value);
+    y.node_a = gridOf(*c.scene.a).graph().edges.row(edges[0].to.value)[0].to;
     if (y.node_a == x.node_a) continue;
     const double length = c.metric.onA().distanceWithin(x.node_a, y.node_a, kInfinity);
     if (length < 1.9 * static_cast<double>(edges[0].length)) continue;
@@ -88,7 +89,7 @@ RC_GTEST_PROP(PhenotypicMating, ChildrenAreTheNodesNearestToTheLineBetweenThePar
   const TrialPoint y = drawPoint(c.objective, engine);
   const auto [first, second] =
       mateBy(MatingMethod::Phenotypic, c.objective, x, y, c.metric, kInfinity, engine);
-  const NodeGraph& graph = c.scene.a->graph();
+  const NodeGraph& graph = gridOf(*c.scene.a).graph();
   const Eigen::Vector3d from = graph.positions[std::min(x, y).node_a.value];
   const Eigen::Vector3d displacement = graph.positions[std::max(x, y).node_a.value] - from;
   for (const NodeIndex child : {first.node_a, second.node_a}) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/infinity.h"
+#include "search/grid/body_grid.h"
 #include "search/search_scenes.h"
 
 namespace concave_distance::mutation_methods_test {
@@ -20,7 +21,7 @@ TEST(Mutation, MakesEachGeneARandomNodeWithItsProbability) {
   constexpr int kIndividuals = 20000;
   const TrialPoint start{NodeIndex{0}, NodeIndex{0}, 1.0};
   int changed[4] = {0, 0, 0, 0};  // neither, A alone, B alone, both
-  std::vector<int> reached(scene.b->graph().nodeCount(), 0);
+  std::vector<int> reached(gridOf(*scene.b).graph().nodeCount(), 0);
   for (int i = 0; i < kIndividuals; ++i) {
     TrialPoint point = start;
     const bool mutated =
@@ -31,7 +32,7 @@ TEST(Mutation, MakesEachGeneARandomNodeWithItsProbability) {
   }
   // A gene is changed with p_m, but for the draws of the node that it was.
   const auto share = [](const std::unique_ptr<BodyMesh>& body) {
-    return kProbability * (1.0 - 1.0 / static_cast<double>(body->graph().nodeCount()));
+    return kProbability * (1.0 - 1.0 / static_cast<double>(gridOf(*body).graph().nodeCount()));
   };
   const double a = share(scene.a);
   const double b = share(scene.b);
@@ -82,7 +83,7 @@ TEST(Mutation, RadiusFallsFromItsFirstValueAsTheCoolingSays) {
   parameters.mutation_radius.reset();
   parameters.mutation_radius_cooling = Cooling::Linear;
   EXPECT_DOUBLE_EQ(mutationRadius(parameters, objective, 1),
-                   std::max(scene.a->geodesicExtent(), scene.b->geodesicExtent()));
+                   std::max(gridOf(*scene.a).geodesicExtent(), gridOf(*scene.b).geodesicExtent()));
 }
 
 // (2.6) with the same loss at every temperature, over its value in the first generation.

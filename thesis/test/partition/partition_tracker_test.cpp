@@ -6,6 +6,7 @@
 #include "concave_distance/base/error.h"
 #include "concave_distance/tracking/pair_tracker.h"
 #include "distance/bound/certificate.h"
+#include "search/grid/body_grid.h"
 #include "support/body_pairs.h"
 #include "support/thesis_scenes.h"
 #include "thesis/src/partition/convex_partition.h"
@@ -158,8 +159,8 @@ TEST(HybridDistance, PlacesAloneEqualTheFullSearchWhereverTheNichesHoldTheRightO
     search.update(pose, 0.1 * static_cast<double>(k), niches);
     places.clear();
     for (const TrackedNiche& niche : niches.niches) {
-      places.push_back({m.fixture->graph().positions[niche.node_pair.node_a.value],
-                        m.battery->graph().positions[niche.node_pair.node_b.value]});
+      places.push_back({gridOf(*m.fixture).graph().positions[niche.node_pair.node_a.value],
+                        gridOf(*m.battery).graph().positions[niche.node_pair.node_b.value]});
     }
     const PartitionSolution found = hybrid.update(pose, places);
     const double exact = full.update(pose).distance;

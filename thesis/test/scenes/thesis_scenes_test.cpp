@@ -5,6 +5,7 @@
 
 #include "concave_distance/mesh/repair/repair_mesh.h"
 #include "concave_distance/tracking/pair_tracker.h"
+#include "search/grid/body_grid.h"
 #include "search/grid/mesh_metric.h"
 #include "support/enumeration.h"
 #include "support/thesis_scenes.h"
@@ -75,12 +76,12 @@ TEST(BatteryAndFixtureNiches, LieFartherApartOnTheMeshesThanTheSharingRadius) {
   const test::ThesisScene s = test::loadThesisScene("battery_static", 0.1);
   const auto niches = test::enumerateNodeNiches(*s.a, *s.b, s.a_from_b, 3.0, 1e-2);
   // Carretero, table 6.1: sigma_s = sigma_n = 0.6, on the sum of both mesh distances (4.5).
-  ASSERT_TRUE(s.a->metric().hasMatrices() && s.b->metric().hasMatrices());
+  ASSERT_TRUE(gridOf(*s.a).metric().hasMatrices() && gridOf(*s.b).metric().hasMatrices());
   for (std::size_t i = 0; i < niches.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       const double apart =
-          static_cast<double>(s.a->metric().matrixDistance(niches[i].node_a, niches[j].node_a)) +
-          static_cast<double>(s.b->metric().matrixDistance(niches[i].node_b, niches[j].node_b));
+          static_cast<double>(gridOf(*s.a).metric().matrixDistance(niches[i].node_a, niches[j].node_a)) +
+          static_cast<double>(gridOf(*s.b).metric().matrixDistance(niches[i].node_b, niches[j].node_b));
       EXPECT_GT(apart, 0.6) << niches[i].distance << " and " << niches[j].distance;
     }
   }
