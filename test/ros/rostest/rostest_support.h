@@ -88,13 +88,14 @@ class Collector {
   ros::Subscriber subscriber_;
 };
 
-/// Calls a service that must exist and must answer, be it with a refusal.
+/// Calls a service that must exist and must answer, be it with a refusal. Under load roscpp loses one call in
+/// some thousands (doc/services.md): such a call is repeated once.
 template <typename Service>
 typename Service::Response call(const std::string& name, const typename Service::Request& request) {
   Service service;
   service.request = request;
   EXPECT_TRUE(ros::service::waitForService(name, ros::Duration(kDeadline))) << name;
-  EXPECT_TRUE(ros::service::call(name, service)) << name;
+  EXPECT_TRUE(ros::service::call(name, service) || ros::service::call(name, service)) << name;
   return service.response;
 }
 
