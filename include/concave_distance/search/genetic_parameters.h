@@ -6,7 +6,7 @@
 
 namespace concave_distance {
 
-/// What keeps several niches in a population.
+/// Keeps several niches in a population.
 enum class NichingMethod : std::uint8_t {
   Sharing,
   DeterministicCrowding  ///< Mahfoud's: no selection but the contest with the parents

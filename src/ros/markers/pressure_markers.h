@@ -32,7 +32,7 @@ class PressureScale {
   double end_ = 0.0;
 };
 
-/// What of a pair's contacts has been drawn.
+/// Remembers what of a pair's contacts has been drawn.
 struct DrawnPressures {
   std::vector<visualization_msgs::Marker> markers;
   std::vector<bool> has_marker;  ///< by contact

@@ -19,8 +19,8 @@ struct GraphMetric {
   std::size_t memoryBytes() const { return metric->memoryBytes(); }
 };
 
-/// What the search needs of one body: the nodes it moves on and the mesh metric. Kept with the body, so that
-/// its pairs share it. Each part is made at its first use, once for all threads.
+/// Holds what the search needs of one body: the nodes it moves on and the mesh metric. Kept with the body, so
+/// that its pairs share it. Each part is made at its first use, once for all threads.
 class BodyGrid final : public BodyAttachment {
  public:
   explicit BodyGrid(const BodyMesh& body) : body_(body), cache_(body.options().cache.get()) {}
