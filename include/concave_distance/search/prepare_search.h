@@ -14,7 +14,7 @@ void prepareSearch(const std::vector<const BodyMesh*>& bodies);
 /// Makes a body's grid when that takes so long that the first search should not wait for it.
 void prepareLargeGrid(const BodyMesh& body);
 
-/// What has been made for the searches of a body.
+/// Says what has been made for the searches of a body.
 struct SearchPreparation {
   std::size_t grid_nodes = 0;    ///< 0: no grid yet
   double max_edge_length = 0.0;  ///< of the grid, metres
