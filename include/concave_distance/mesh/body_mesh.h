@@ -56,7 +56,7 @@ struct RecentredBody {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< of the frame of `mesh`, body frame, metres
 };
 
-/// What the search keeps with a body: it is made at its first use and freed with the body.
+/// Holds what the search keeps with a body. It is made at its first use and freed with the body.
 class BodyAttachment {
  public:
   virtual ~BodyAttachment() = default;
