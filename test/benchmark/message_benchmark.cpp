@@ -78,7 +78,7 @@ PairHeading headingOf(const BenchmarkPair& pair, const Level& level) {
 // Of a pair alone in its scene: all that is drawn for it but the label.
 std::vector<visualization_msgs::Marker> drawnMarkers(const PairNiches& message, const MarkerStyle& style) {
   std::vector<visualization_msgs::Marker> markers;
-  for (const DrawnPair& drawn : selectPairs({{&message, true}}, style).drawn) {
+  for (const DrawnPair& drawn : selectPairs({&message}, style).drawn) {
     const std::vector<visualization_msgs::Marker> of_pair = nicheMarkers(drawn, style, 0.5);
     markers.insert(markers.end(), of_pair.begin(), of_pair.end());
   }
