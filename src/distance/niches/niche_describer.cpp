@@ -57,7 +57,7 @@ bool NicheDescriber::describe(const PairFrame& frame, const LocalMinimaRequest& 
     niche.outward = classifyOutwardness(a, b, frame.a_from_b, niche.witness);
     if (niche.outward == Outwardness::ThroughMaterial && !request.through_material) return false;
   }
-  // What begins in the material of another shell is no place of the surface; only hidden niches do.
+  // A hidden niche may begin in the material of another shell, where there is no surface.
   if (request.hidden && !request.through_material && isInsideMaterial(frame, niche.witness)) return false;
   if (!minimum.is_point) measure(frame, niche, limit);
   // Bodies that overlap can be opposite to each other inside another shell of one of them.

@@ -16,7 +16,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-/// Of the height of a point over a plane through the centre, relative to the body's reach.
+/// The rounding of a point's height over a plane through the centre, relative to the body's reach.
 constexpr double kRounding = 0x1.0p-51;
 
 std::array<Vector3d, 3> cornersOf(const SurfaceMesh& mesh, std::size_t triangle) {
@@ -139,7 +139,7 @@ class GapMeasure {
       const TriangleTree::Node& node = tree_.nodes()[index];
       const double reach =
           direction.dot(node.box.center() - centre_) + 0.5 * direction.cwiseAbs().dot(node.box.sizes());
-      // What reaches no farther than rounding does not count.
+      // A reach within rounding of the farthest does not count.
       if (!(reach > most + rounding_)) continue;
       if (node.count == 0) {
         open_.push_back(index + 1);
