@@ -4,19 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/solid_angle.h"
 #include "base/triangle_area.h"
 #include "mesh/surface/mesh_topology.h"
 
 namespace concave_distance::detail {
 namespace {
-
-/// Solid angle of a triangle seen from the origin, signed (van Oosterom and Strackee 1983).
-double solidAngle(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
-  const double l = a.norm();
-  const double m = b.norm();
-  const double n = c.norm();
-  return 2.0 * std::atan2(a.dot(b.cross(c)), l * m * n + a.dot(b) * n + b.dot(c) * l + c.dot(a) * m);
-}
 
 /// A triangle's share of the volume with its moment, both from `reference`.
 void addCone(BoundaryComponent& component, const Eigen::Vector3d& p, const Eigen::Vector3d& q,

@@ -9,6 +9,7 @@
 
 #include "base/exact_orientation.h"
 #include "base/pi.h"
+#include "base/solid_angle.h"
 
 namespace concave_distance {
 namespace {
@@ -40,14 +41,6 @@ Vector3d centreOf(const SurfaceMesh& mesh) {
   }
   const Vector3d centre = middle + moment / (4.0 * volume);
   return mesh.boundingBox().contains(centre) ? centre : middle;
-}
-
-/// The solid angle that a triangle covers seen from the origin (van Oosterom and Strackee 1983).
-double solidAngle(const Vector3d& p, const Vector3d& q, const Vector3d& r) {
-  const double lp = p.norm();
-  const double lq = q.norm();
-  const double lr = r.norm();
-  return 2.0 * std::atan2(p.dot(q.cross(r)), lp * lq * lr + p.dot(q) * lr + p.dot(r) * lq + q.dot(r) * lp);
 }
 
 /// True when every ray from the centre crosses the closed surface once: no triangle is seen from behind, and
