@@ -1,5 +1,7 @@
 #include "concave_distance/mesh/body_mesh.h"
 
+#include <tbb/task_arena.h>
+
 #include <array>
 #include <string>
 #include <utility>
@@ -10,6 +12,7 @@
 #include "body_key.h"
 #include "cached_parts.h"
 #include "concave_distance/base/error.h"
+#include "convex_shells.h"
 #include "mesh/surface/connected_pieces.h"
 #include "mesh/surface/facets.h"
 #include "mesh/surface/grid_size.h"
@@ -30,6 +33,7 @@ struct BodyMesh::State {
   MadeOnce<ShellContacts> shell_contacts;
   MadeOnce<Facets> facets;
   MadeOnce<HullGap> hull_gap;
+  MadeOnce<ConvexShells> convex_shells;
   MadeOnce<CompressedRows<AdjacentTriangle>> adjacency;
   MadeOnce<ConnectedPieces> pieces;
   std::array<MadeOnce<NormalConeTree>, 2> cones;  ///< by NormalSides
@@ -151,6 +155,12 @@ const HullGap& BodyMesh::hullGap() const {
   return state_->hull_gap.get([&] { return measureHullGap(surface(), topology(), tree()); });
 }
 
+// A shell is a body, whose parts are made in parallel: a thread that waits may not take up other work.
+const ConvexShells& BodyMesh::convexShells() const {
+  return state_->convex_shells.get(
+      [&] { return tbb::this_task_arena::isolate([&] { return findConvexShells(*this); }); });
+}
+
 const NormalConeTree& BodyMesh::normalCones(NormalSides sides) const {
   return state_->cones.at(static_cast<std::size_t>(sides)).get([&] {
     return detail::normalConesOf(surface(), topology(), sides, shellContacts(), state_->cache);
@@ -164,6 +174,7 @@ void BodyMesh::prepareNiches(NormalSides sides) const {
                  adjacency();
                  pieces();
                  hullGap();
+                 convexShells();
                }});
 }
 
@@ -182,8 +193,8 @@ std::size_t BodyMesh::memoryBytes() const {
   const std::size_t moved_bytes = moved != nullptr && moved->mesh ? moved->mesh->memoryBytes() : 0;
   return sizeof(BodyMesh) + sizeof(State) + surface().memoryBytes() + topology_bytes + attached_bytes +
          moved_bytes + tree().memoryBytes() + hierarchy().memoryBytes() + state.adjacency.memoryBytes() +
-         state.shell_contacts.memoryBytes() + state.facets.memoryBytes() + state.pieces.memoryBytes() +
-         state.cones[0].memoryBytes() + state.cones[1].memoryBytes();
+         state.shell_contacts.memoryBytes() + state.facets.memoryBytes() + state.convex_shells.memoryBytes() +
+         state.pieces.memoryBytes() + state.cones[0].memoryBytes() + state.cones[1].memoryBytes();
 }
 
 }  // namespace concave_distance

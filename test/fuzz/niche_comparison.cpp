@@ -21,8 +21,8 @@ std::string at(const WitnessPoints& points) {
 class Comparison {
  public:
   Comparison(const PairSolution& solution, const TrackerParameters& parameters,
-             const NicheEnumeration& enumeration)
-      : solution_(solution), parameters_(parameters), truth_(enumeration) {
+             const NicheEnumeration& enumeration, bool shells_cross)
+      : solution_(solution), parameters_(parameters), truth_(enumeration), shells_cross_(shells_cross) {
     text_.precision(10);
   }
 
@@ -141,6 +141,7 @@ class Comparison {
     std::size_t left_out = 0;
     for (std::size_t i = 0; i < niches_.size(); ++i) {
       if (std::find(listed_.begin(), listed_.end(), i) != listed_.end() || !isWanted(niches_[i])) continue;
+      if (shells_cross_ && !(niches_[i].distance > truth_.tolerance())) continue;
       ++left_out;
       if (is_full && niches_[i].distance > last - truth_.tolerance()) continue;
       const std::vector<WitnessPoints> corners = truth_.minimisers(niches_[i].cells.front());
@@ -158,6 +159,7 @@ class Comparison {
   const PairSolution& solution_;
   const TrackerParameters& parameters_;
   const NicheEnumeration& truth_;
+  bool shells_cross_;
   std::vector<EnumeratedNiche> niches_;
   std::vector<std::size_t> listed_;
   std::ostringstream text_;
@@ -166,8 +168,8 @@ class Comparison {
 }  // namespace
 
 std::string complaintAbout(const PairSolution& solution, const TrackerParameters& parameters,
-                           const NicheEnumeration& enumeration) {
-  return Comparison(solution, parameters, enumeration).complaint();
+                           const NicheEnumeration& enumeration, bool shells_cross) {
+  return Comparison(solution, parameters, enumeration, shells_cross).complaint();
 }
 
 }  // namespace concave_distance::test

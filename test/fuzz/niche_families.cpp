@@ -227,6 +227,20 @@ NicheScene drawShells(RandomEngine& engine) {
   return scene;
 }
 
+NicheScene drawUnions(RandomEngine& engine) {
+  const SurfaceMesh a = unionOfConvexSolids(engine);
+  const SurfaceMesh b = uniformIndex(engine, 2) == 0 ? plainShape(engine) : unionOfConvexSolids(engine);
+  NicheScene scene;
+  if (uniformIndex(engine, 2) == 0) {
+    scene = onALattice(engine, a, b, 0.125, 16, 1e-6);
+  } else {
+    scene = besideEachOther(engine, a, b);
+    walk(engine, 0.3, true, scene);
+  }
+  scene.shells_cross = true;
+  return scene;
+}
+
 /// A block with two bumps below a plate: two niches where the bumps are higher than a hundredth of the gap,
 /// from which their heights differ by 1e-6 to 0.5 of it.
 NicheScene drawBumps(RandomEngine& engine) {
@@ -290,6 +304,7 @@ const std::vector<NicheFamily>& nicheFamilies() {
       {"soup", "loose triangles", affordable<drawSoup>},
       {"self_touching", "shells that touch themselves or each other, flaps", affordable<drawSelfTouching>},
       {"shells", "several shells, apart, nested, hollow", affordable<drawShells>},
+      {"unions", "unions of convex solids that cross each other", affordable<drawUnions>},
       {"concave", "random concave solids", affordable<drawConcave>},
       {"nearly_convex", "solids with dents and bumps of 1e-15 to 0.3", affordable<drawNearlyConvex>},
       {"rings", "rings with lobes: many niches", affordable<drawRings>}};

@@ -14,6 +14,9 @@ struct NicheScene {
   SurfaceMesh a;
   SurfaceMesh b;
   std::vector<Eigen::Isometry3d> poses;
+  /// Shells of one body cross. Of triangles that cross, the enumeration knows what lies inside, too: what is
+  /// hidden is not compared.
+  bool shells_cross = false;
 };
 
 struct NicheFamily {

@@ -92,10 +92,11 @@ NicheHuntResult huntScene(const NicheScene& scene, std::uint64_t seed) {
     const NicheEnumeration enumeration(wide_a, wide_b, pose);
     ++result.poses;
     toggle(engine, 0.5 * (a->diameter() + b->diameter()), parameters);
+    parameters.hidden = parameters.hidden && !scene.shells_cross;
     const PairSolution cold = solveOnce(kPairName, a, b, parameters, pose);
     result.niches += cold.niches.size();
     const auto check = [&](const PairSolution& solution, bool is_tracked) {
-      const std::string complaint = complaintAbout(solution, parameters, enumeration);
+      const std::string complaint = complaintAbout(solution, parameters, enumeration, scene.shells_cross);
       if (complaint.empty()) return true;
       if (isBorderline(wide_a, wide_b, solution, parameters, seed)) {
         ++result.borderline;

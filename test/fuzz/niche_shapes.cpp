@@ -236,6 +236,23 @@ SurfaceMesh twoBoxes(RandomEngine& engine) {
   return makeUnion(first, latticeBox(engine), offset);
 }
 
+/// A box, or a polyhedron with corners on an ellipsoid.
+SurfaceMesh convexSolid(RandomEngine& engine) {
+  const Vector3d sizes(uniformIn(engine, 0.1, 0.5), uniformIn(engine, 0.1, 0.5), uniformIn(engine, 0.1, 0.5));
+  SurfaceMesh mesh = makeCuboid(-sizes, sizes);
+  if (uniformIndex(engine, 2) == 0) {
+    const SurfaceMesh octahedron =
+        makeSurface({Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitZ(), -Vector3d::UnitX(),
+                     -Vector3d::UnitY(), -Vector3d::UnitZ()},
+                    {{0, 1, 2}, {1, 3, 2}, {3, 4, 2}, {4, 0, 2}, {1, 0, 5}, {3, 1, 5}, {4, 3, 5}, {0, 4, 5}});
+    mesh = withVertices(halvedEdges(octahedron), "ball",
+                        [&](const Vector3d& v) { return Vector3d(v.normalized().cwiseProduct(sizes)); });
+  } else if (uniformIndex(engine, 2) == 0) {
+    mesh = halvedEdges(mesh);
+  }
+  return mesh;
+}
+
 }  // namespace
 
 SurfaceMesh selfTouchingShape(RandomEngine& engine) {
@@ -250,18 +267,7 @@ SurfaceMesh selfTouchingShape(RandomEngine& engine) {
 }
 
 SurfaceMesh nearlyConvexShape(RandomEngine& engine) {
-  const Vector3d sizes(uniformIn(engine, 0.1, 0.5), uniformIn(engine, 0.1, 0.5), uniformIn(engine, 0.1, 0.5));
-  SurfaceMesh mesh = makeCuboid(-sizes, sizes);
-  if (uniformIndex(engine, 2) == 0) {
-    const SurfaceMesh octahedron =
-        makeSurface({Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitZ(), -Vector3d::UnitX(),
-                     -Vector3d::UnitY(), -Vector3d::UnitZ()},
-                    {{0, 1, 2}, {1, 3, 2}, {3, 4, 2}, {4, 0, 2}, {1, 0, 5}, {3, 1, 5}, {4, 3, 5}, {0, 4, 5}});
-    mesh = withVertices(halvedEdges(octahedron), "ball",
-                        [&](const Vector3d& v) { return Vector3d(v.normalized().cwiseProduct(sizes)); });
-  } else if (uniformIndex(engine, 2) == 0) {
-    mesh = halvedEdges(mesh);
-  }
+  const SurfaceMesh mesh = convexSolid(engine);
   const std::uint32_t moved_share = uniformIndex(engine, 3);
   const double depth = powerOfTen(engine, -15.0, -0.5);
   return withVertices(mesh, "nearly convex", [&](const Vector3d& v) {
@@ -287,6 +293,28 @@ SurfaceMesh severalShells(RandomEngine& engine) {
     const std::uint32_t axis = uniformIndex(engine, 3);
     offset[axis] = all.boundingBox().max()[axis] - next.boundingBox().min()[axis] + eighths(engine, 1, 3);
     all = makeUnion(all, next, offset);
+  }
+  return all;
+}
+
+SurfaceMesh unionOfConvexSolids(RandomEngine& engine) {
+  const std::uint32_t kind = uniformIndex(engine, 3);
+  const auto solid = [&]() -> SurfaceMesh {
+    if (kind == 0) return latticeBox(engine);
+    const SurfaceMesh next = convexSolid(engine);
+    if (kind == 1) return quarterTurned(engine, next);
+    const Eigen::Matrix3d turn = randomRotation(engine);
+    return withVertices(next, "turned", [&](const Vector3d& v) { return Vector3d(turn * v); });
+  };
+  SurfaceMesh all = solid();
+  const std::uint32_t more = 1 + uniformIndex(engine, 3);
+  for (std::uint32_t i = 0; i < more; ++i) {
+    const Eigen::AlignedBox3d& box = all.boundingBox();
+    Vector3d offset =
+        kind == 0 ? latticePoint(engine, 0, 8)
+                  : Vector3d(box.center() + 0.5 * uniformInCube(engine, 1.0).cwiseProduct(box.sizes()));
+    if (uniformIndex(engine, 3) == 0) offset += uniformInCube(engine, powerOfTen(engine, -14.0, -6.0));
+    all = makeUnion(all, solid(), offset);
   }
   return all;
 }

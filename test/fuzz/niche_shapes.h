@@ -32,5 +32,7 @@ SurfaceMesh selfTouchingShape(RandomEngine& engine);
 SurfaceMesh nearlyConvexShape(RandomEngine& engine);
 /// Two to four solids apart from each other, a solid in a hollow, or a solid within a solid.
 SurfaceMesh severalShells(RandomEngine& engine);
+/// Two to four boxes or convex polyhedra that cross each other: on a lattice, a little beside it, or anyhow.
+SurfaceMesh unionOfConvexSolids(RandomEngine& engine);
 
 }  // namespace concave_distance::test

@@ -21,6 +21,7 @@ enum class NormalSides : std::uint8_t;
 struct AdjacentTriangle;
 struct ConnectedPieces;
 struct ContentKey;
+struct ConvexShells;
 struct Facets;
 struct HullGap;
 struct MeshTopology;
@@ -109,6 +110,9 @@ class BodyMesh {
   const ConnectedPieces& pieces() const;
   /// Returns how far the surface lies below its convex hull. Measured at the first call, for all threads.
   const HullGap& hullGap() const;
+  /// Returns the convex solids that the body is the union of, if it is. Made at the first call, for all
+  /// threads.
+  const ConvexShells& convexShells() const;
   /// Returns the cones that level `certified` finds niches by. They are built at the first call for each of
   /// the two, for all threads; about 450 bytes a triangle.
   const NormalConeTree& normalCones(NormalSides sides) const;

@@ -35,6 +35,14 @@ bool CandidateCollector::collect(const PairFrame& frame, const LocalMinimaReques
   if (!(request.certain_distance > 4.0 * frame.touchingDistance())) {
     collectMeetingPairs(frame, open_, candidates, cost, limit);
   }
+  switch (shell_pairs_.collect(frame, request, candidates, limit)) {
+    case ConvexShellPairs::Outcome::Complete:
+      return true;
+    case ConvexShellPairs::Outcome::LimitReached:
+      return false;
+    case ConvexShellPairs::Outcome::Unknown:
+      break;
+  }
   const NormalSides sides = request.through_material ? NormalSides::Both : NormalSides::Outside;
   if (request.is_tracked) {
     const bool done = front_.collect(frame, sides, request.cutoff, candidates, limit);

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "convex_shell_pairs.h"
 #include "distance/kernels/pair_frame.h"
 #include "distance/minima/minima_tracker.h"
 #include "distant_components.h"
@@ -24,13 +25,18 @@ class CandidateCollector {
   /// @param candidates replaced, in no order, some more than once. @return false when the limit was reached
   bool collect(const PairFrame& frame, const LocalMinimaRequest& request,
                std::vector<MinimumCandidate>& candidates, LocalMinimaCost& cost, WorkLimit& limit);
-  void clear() { front_.clear(); }
+  void clear() {
+    front_.clear();
+    shell_pairs_.clear();
+  }
   std::size_t memoryBytes() const {
-    return front_.memoryBytes() + distant_components_.memoryBytes() + open_.capacity() * sizeof(TreeNodePair);
+    return front_.memoryBytes() + shell_pairs_.memoryBytes() + distant_components_.memoryBytes() +
+           open_.capacity() * sizeof(TreeNodePair);
   }
 
  private:
   MinimaTracker front_;
+  ConvexShellPairs shell_pairs_;
   DistantComponentBuffers distant_components_;
   std::vector<TreeNodePair> open_;
 };

@@ -158,6 +158,50 @@ Eigen::Isometry3d combPose(double t) {
                 rotation);
 }
 
+/// A sphere's mesh stretched to half axes: convex.
+SurfaceMesh makeEllipsoid(const Eigen::Vector3d& half_axes, double sag) {
+  const SurfaceMesh ball = makeSphere(1.0, sag);
+  std::vector<Eigen::Vector3d> vertices;
+  for (const Eigen::Vector3d& vertex : ball.vertices()) vertices.push_back(half_axes.cwiseProduct(vertex));
+  return SurfaceMesh(std::move(vertices), ball.triangles(), "ellipsoid");
+}
+
+SurfaceMesh put(const SurfaceMesh& surface, double x, double y, double z) {
+  return moved(surface, poseOf({x, y, z}, Eigen::Quaterniond::Identity()));
+}
+
+/// Shells that cross each other, as links modelled of primitives: a cylinder and two spheres.
+SurfaceMesh makePill() {
+  const Eigen::Vector3d none = Eigen::Vector3d::Zero();
+  const SurfaceMesh ball = makeSphere(0.09, 5e-4);
+  return test::makeUnion(test::makeUnion(makeCylinder(0.09, 0.14, 1e-4), put(ball, 0.0, 0.0, 0.07), none),
+                         put(ball, 0.0, 0.0, -0.07), none);
+}
+
+/// A hand of two fingers, a palm and a wrist: eight shells.
+SurfaceMesh makeHandOfPrimitives() {
+  const Eigen::Vector3d none = Eigen::Vector3d::Zero();
+  SurfaceMesh hand = put(makeCylinder(0.04, 0.1, 1e-4), 0.0, 0.0, 0.04);
+  const auto add = [&](const SurfaceMesh& part) { hand = test::makeUnion(hand, part, none); };
+  for (const double end : {0.09, -0.01}) add(put(makeSphere(0.04, 3e-4), 0.0, 0.0, end));
+  add(put(makeBox({0.04, 0.2, 0.08}), 0.0, 0.0, 0.02));
+  for (const double side : {0.07, -0.07}) {
+    add(put(makeCylinder(0.02, 0.06, 1e-4), 0.0, side, 0.09));
+    add(put(makeSphere(0.02, 2e-4), 0.0, side, 0.12));
+  }
+  return hand;
+}
+
+/// B swings before A at about this distance of their centres, metres, and turns.
+std::function<Motion(const BenchmarkPair&)> swinging(double reach, double width) {
+  return always([=](double t) {
+    const double s = 4.0 * t;
+    const Eigen::Vector3d axis(1.0, 0.4 * std::sin(s), 0.3);
+    return poseOf({reach + width * std::sin(1.1 * s), 1.5 * width * std::sin(0.7 * s), width * std::cos(s)},
+                  Eigen::Quaterniond(Eigen::AngleAxisd(0.5 * s, axis.normalized())));
+  });
+}
+
 const std::vector<Recipe>& recipes() {
   static const std::vector<Recipe> kRecipes = {
       {"notched_boxes", files("meshes/thesis/box.stl", "meshes/thesis/notched_box.stl"),
@@ -207,6 +251,36 @@ const std::vector<Recipe>& recipes() {
                                        Eigen::AngleAxisd(0.5 + t, Eigen::Vector3d::UnitZ()));
          return poseOf({0.4 * std::cos(4.0 * t), 0.3 * std::sin(3.0 * t), 0.95}, tilt * over);
        })},
+      {"hulls_1k",
+       [] {
+         return Surfaces{makeEllipsoid({0.2, 0.15, 0.3}, 6e-3), makeEllipsoid({0.25, 0.2, 0.1}, 6e-3)};
+       },
+       swinging(0.6, 0.1)},
+      {"hulls_6k",
+       [] {
+         return Surfaces{makeEllipsoid({0.2, 0.15, 0.3}, 1e-3), makeEllipsoid({0.25, 0.2, 0.1}, 1e-3)};
+       },
+       swinging(0.6, 0.1)},
+      {"boxes_overlap",
+       [] {
+         return Surfaces{makeBox({0.2, 0.3, 0.4}), makeBox({0.4, 0.2, 0.2})};
+       },
+       swinging(0.2, 0.05)},
+      {"spheres_overlap",
+       [] {
+         return Surfaces{makeSphere(0.2, 1e-3), makeSphere(0.15, 1e-3)};
+       },
+       swinging(0.25, 0.03)},
+      {"primitives_apart",
+       [] {
+         return Surfaces{makePill(), makeHandOfPrimitives()};
+       },
+       swinging(0.35, 0.1)},
+      {"primitives_overlap",
+       [] {
+         return Surfaces{makePill(), makeHandOfPrimitives()};
+       },
+       swinging(0.16, 0.03)},
   };
   return kRecipes;
 }
@@ -226,10 +300,14 @@ std::vector<std::string> interlockingPairs() {
 std::vector<std::string> manyNichePairs() {
   return {"stairs_leg", "obstacle_field"};
 }
+std::vector<std::string> simplePairs() {
+  return {"hulls_1k",        "hulls_6k",         "boxes_overlap",
+          "spheres_overlap", "primitives_apart", "primitives_overlap"};
+}
 std::vector<std::string> allPairs() {
   std::vector<std::string> names;
-  for (const Recipe& recipe : recipes()) {
-    names.emplace_back(recipe.name);
+  for (const auto& some : {thesisPairs(), robotPairs(), interlockingPairs(), manyNichePairs()}) {
+    names.insert(names.end(), some.begin(), some.end());
   }
   return names;
 }

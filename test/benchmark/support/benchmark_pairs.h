@@ -12,7 +12,8 @@
 
 namespace concave_distance::benchmark {
 
-/// Two bodies and a motion of B in A's frame, collision free at every instant by FCL.
+/// Two bodies and a motion of B in A's frame, collision free at every instant by FCL but for those that are
+/// called overlapping.
 struct BenchmarkPair {
   std::string name;
   std::shared_ptr<const BodyMesh> a;
@@ -30,7 +31,10 @@ std::vector<std::string> thesisPairs();
 std::vector<std::string> robotPairs();
 std::vector<std::string> interlockingPairs();
 std::vector<std::string> manyNichePairs();
+/// All of these.
 std::vector<std::string> allPairs();
+/// Pairs whose geometry calls for little: convex ones, apart and overlapping, and unions of primitives.
+std::vector<std::string> simplePairs();
 
 /// @param max_edge_length of both grids, metres; empty: automatic
 /// @throws Error for an unknown name or a file that is missing
