@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "distance/bound/closest_point.h"
 #include "mesh/surface/mesh_topology.h"
 #include "mesh/trees/triangle_tree.h"
 #include "ros/messages/conversions.h"
@@ -29,15 +28,21 @@ constexpr double kWorthMoving = 1.3;  // how much more room a nearer place has t
 // Straight up and aslant, where most cameras are.
 const Eigen::Vector3d kDirections[] = {
     {0, 0, 1}, {0.7, 0, 0.7}, {0, 0.7, 0.7}, {-0.7, 0, 0.7}, {0, -0.7, 0.7}};
+const Eigen::Vector3d kDiameters[] = {{1, 0, 0},  {0, 1, 0},  {0, 0, 1}, {1, 1, 1},
+                                      {1, 1, -1}, {1, -1, 1}, {-1, 1, 1}};
 constexpr int kDirectionCount = 5;
 constexpr int kPlaces = 60 * kDirectionCount;
 
+// Whether the body's surface meets one of seven diameters of the ball, or the body holds its centre.
 bool touches(const SceneBody& body, const LocatedBody& located, const Eigen::Vector3d& point, double radius) {
   if (located.box.squaredExteriorDistance(point) > radius * radius) return false;
   const BodyMesh& mesh = *body.mesh;
   const Eigen::Vector3d centre = located.reference_from_body.inverse() * point;
-  return closestPoint(mesh, centre, TriangleIndex{0}).squared_distance < radius * radius ||
-         containsPoint(mesh.tree(), mesh.surface(), mesh.topology().shell_is_closed,
+  for (const Eigen::Vector3d& along : kDiameters) {
+    const Eigen::Vector3d half = radius * along.normalized();
+    if (segmentHits(mesh.tree(), mesh.surface(), centre - half, centre + half, 0.0)) return true;
+  }
+  return containsPoint(mesh.tree(), mesh.surface(), mesh.topology().shell_is_closed,
                        mesh.topology().shell_of_triangle, centre);
 }
 
