@@ -20,7 +20,7 @@ from concave_distance.srv import ListBodies
 
 LOADING_SECONDS = 60.0  # at most, until the bodies are loaded
 FRAMES_SECONDS = 5.0  # at most, until their frames are known
-LIST = 0.4  # height of the markers' legend and list above the robot, over the robot's size
+LIST = 0.5  # height of the markers' legend and list above the robot, over the robot's size
 MUCH_LARGER = 6.0  # than the median body: a floor, a hall, which need not be in view
 LIST_WIDTH = 0.7  # likewise
 ASPECT = 1.3  # width of the picture over its height, at least
@@ -30,7 +30,7 @@ GRID_CELLS = 8.0  # along the robot's size
 
 
 def fitted_view(bodies, yaw, pitch, field_of_view):
-    """Focal point, camera distance and size of a robot.
+    """Focal point, camera distance, size and lowest height of a robot.
 
     bodies: (position of its frame, diameter) of each, metres, in the fixed frame. Where a body lies about its frame is not
     known, so it counts as a cube around it.
@@ -55,7 +55,7 @@ def fitted_view(bodies, yaw, pitch, field_of_view):
         along, above, beside = (sum(a * b for a, b in zip(axis, point)) for axis in (back, up, right))
         return along + max(abs(above), abs(beside) / ASPECT) / tangent
 
-    return focus, MARGIN * max(map(distance, points)), size
+    return focus, MARGIN * max(map(distance, points)), size, low[2]
 
 
 def round_length(length):
@@ -67,13 +67,14 @@ def round_length(length):
 def fit(config, bodies):
     """Fits camera and grid of rviz's configuration to the bodies."""
     view = config["Visualization Manager"]["Views"]["Current"]
-    focus, distance, size = fitted_view(bodies, view["Yaw"], view["Pitch"], view["Field of View"])
+    focus, distance, size, low = fitted_view(bodies, view["Yaw"], view["Pitch"], view["Field of View"])
     view["Focal Point"] = dict(zip("XYZ", focus))
     view["Near Clip Distance"] = 0.003 * distance
     view["Distance"] = distance
     for display in config["Visualization Manager"]["Displays"]:
         if display["Class"] == "rviz/Grid":
             display["Cell Size"] = round_length(size / GRID_CELLS)
+            display["Offset"]["Z"] = low
 
 
 def loaded_bodies(deadline):

@@ -79,7 +79,7 @@ PairHeading headingOf(const BenchmarkPair& pair, const Level& level) {
 std::vector<visualization_msgs::Marker> drawnMarkers(const PairNiches& message, const MarkerStyle& style) {
   std::vector<visualization_msgs::Marker> markers;
   for (const DrawnPair& drawn : selectPairs({&message}, style).drawn) {
-    const std::vector<visualization_msgs::Marker> of_pair = nicheMarkers(drawn, style, 0.5);
+    const std::vector<visualization_msgs::Marker> of_pair = nicheMarkers(drawn, style);
     markers.insert(markers.end(), of_pair.begin(), of_pair.end());
   }
   return markers;

@@ -62,10 +62,12 @@ class ViewRobot(unittest.TestCase):
             view = yaml.safe_load(stream)["Visualization Manager"]["Views"]["Current"]
         self.assertGreater(farthest_angle(view, ROBOTS["crane"]), 0.5 * view["Field of View"])
 
-    def test_the_grid_has_round_cells_of_the_robots_size(self):
+    def test_the_grid_lies_under_the_robot_and_has_round_cells_of_its_size(self):
         for name, bodies in ROBOTS.items():
             displays = self.fitted(bodies)["Displays"]
-            cell = next(display for display in displays if display["Class"] == "rviz/Grid")["Cell Size"]
+            grid = next(display for display in displays if display["Class"] == "rviz/Grid")
+            self.assertLess(grid["Offset"]["Z"], min(position[2] for position, _ in bodies), name)
+            cell = grid["Cell Size"]
             self.assertIn(round(cell / 10.0 ** math.floor(math.log10(cell)), 6), (1.0, 2.5, 5.0), name)
             size = view_robot.fitted_view(bodies, 0.9, 0.35, 0.785)[2]
             self.assertLess(cell, size / 7.9, name)

@@ -6,12 +6,14 @@
 #include <vector>
 
 #include "marker_parts.h"
+#include "niche_markers.h"
 #include "ros/messages/conversions.h"
 
 namespace concave_distance {
 namespace {
 
 constexpr float kBoxOpacity = 0.3F;
+constexpr float kWarningOpacity = 0.4F;
 constexpr double kSeenThroughOpacity = 0.5;
 // Distance of collision geometry from the surface over its diameter: rviz may draw the same one.
 constexpr double kCollisionOffset = 0.002;
@@ -46,16 +48,8 @@ std::vector<double> opacities(const Scene& scene) {
   return result;
 }
 
-}  // namespace
-
-std::size_t seenThrough(const Scene& scene, const ScenePair& pair) {
-  const auto rank = [&](std::size_t index) {
-    const SceneBody& body = scene.bodies[index];
-    return std::tuple(body.in_robot_model, body.colour[3], body.mesh->diameter());
-  };
-  return rank(pair.body_a) < rank(pair.body_b) ? pair.body_a : pair.body_b;
-}
-
+// The surface's triangles, moved outwards by `offset` metres; its bounding box, translucent, when there are
+// too many of them.
 void drawSurface(const SurfaceMesh& surface, double offset, visualization_msgs::Marker& marker) {
   if (surface.triangleCount() > kLargestShownBody) {
     marker.type = visualization_msgs::Marker::CUBE;
@@ -77,25 +71,50 @@ void drawSurface(const SurfaceMesh& surface, double offset, visualization_msgs::
   }
 }
 
+visualization_msgs::Marker bodyMarker(const Scene& scene, std::size_t index, const char* ns,
+                                      const std_msgs::ColorRGBA& color, double offset) {
+  const SceneBody& body = scene.bodies[index];
+  std_msgs::Header header;
+  header.frame_id = body.frame;
+  visualization_msgs::Marker marker = emptyMarker(header, ns, static_cast<std::int32_t>(index));
+  marker.frame_locked = 1;
+  marker.color = color;
+  drawSurface(body.mesh->surface(), offset, marker);
+  return marker;
+}
+
+}  // namespace
+
+std::size_t seenThrough(const Scene& scene, const ScenePair& pair) {
+  const auto rank = [&](std::size_t index) {
+    const SceneBody& body = scene.bodies[index];
+    return std::tuple(body.in_robot_model, body.colour[3], body.mesh->diameter());
+  };
+  return rank(pair.body_a) < rank(pair.body_b) ? pair.body_a : pair.body_b;
+}
+
 visualization_msgs::MarkerArray bodyMarkers(const Scene& scene, bool with_collision) {
   visualization_msgs::MarkerArray message;
-  message.markers.push_back(emptyMarker(std_msgs::Header(), "", 0, 0.0));
+  message.markers.push_back(emptyMarker(std_msgs::Header(), "", 0));
   message.markers.back().action = visualization_msgs::Marker::DELETEALL;
   const std::vector<double> opacity = opacities(scene);
   for (std::size_t index = 0; index < scene.bodies.size(); ++index) {
     const SceneBody& body = scene.bodies[index];
     if (body.in_robot_model && !with_collision) continue;
-    std_msgs::Header header;
-    header.frame_id = body.frame;
-    visualization_msgs::Marker& marker = message.markers.emplace_back(emptyMarker(
-        header, body.in_robot_model ? "collision" : "bodies", static_cast<std::int32_t>(index), 0.0));
-    marker.frame_locked = 1;
-    const Eigen::Vector4d& colour = body.in_robot_model ? kCollisionColour : body.colour;
-    marker.color = makeColor(colour.head<3>(), body.in_robot_model ? colour[3] : opacity[index]);
-    drawSurface(body.mesh->surface(), body.in_robot_model ? kCollisionOffset * body.mesh->diameter() : 0.0,
-                marker);
+    message.markers.push_back(
+        body.in_robot_model
+            ? bodyMarker(scene, index, "collision",
+                         makeColor(kCollisionColour.head<3>(), kCollisionColour[3]),
+                         kCollisionOffset * body.mesh->diameter())
+            : bodyMarker(scene, index, "bodies", makeColor(body.colour.head<3>(), opacity[index]), 0.0));
   }
   return message;
+}
+
+visualization_msgs::Marker warningMarker(const Scene& scene, std::size_t body, double offset) {
+  std_msgs::ColorRGBA color = warningColor();
+  color.a = kWarningOpacity;
+  return bodyMarker(scene, body, "warning", color, offset);
 }
 
 }  // namespace concave_distance

@@ -73,22 +73,20 @@ std_msgs::ColorRGBA contactTextColor() {
   return makeColor({0.90, 0.20, 0.75});
 }
 
-Marker emptyContactMarker(const PairContactState& pair, const char* kind, std::size_t index,
-                          double lifetime) {
+Marker emptyContactMarker(const PairContactState& pair, const char* kind, std::size_t index) {
   const std::uint64_t id = pair.contacts[index].id;
   return emptyMarker(
       pair.header, pair.pair + "/" + kind,
-      id == 0 ? -1 - static_cast<std::int32_t>(index) : static_cast<std::int32_t>(id & 0x7fffffffU),
-      lifetime);
+      id == 0 ? -1 - static_cast<std::int32_t>(index) : static_cast<std::int32_t>(id & 0x7fffffffU));
 }
 
 std::vector<Marker> contactMarkers(const PairContactState& pair, const std::vector<bool>& without_disc,
-                                   const MarkerStyle& style, double lifetime) {
+                                   const MarkerStyle& style) {
   std::vector<Marker> markers;
   for (std::size_t k = 0; k < pair.contacts.size(); ++k) {
     const Contact& contact = pair.contacts[k];
     const auto add = [&](const char* kind) -> Marker& {
-      return markers.emplace_back(emptyContactMarker(pair, kind, k, lifetime));
+      return markers.emplace_back(emptyContactMarker(pair, kind, k));
     };
     const bool has_disc = !without_disc[k] && toEigen(contact.normal).allFinite();
     if (contact.contact_area > 0.0 && has_disc) drawArea(contact, style.scale, add("contact_area"));
@@ -114,12 +112,12 @@ std::vector<Marker> contactMarkers(const PairContactState& pair, const std::vect
   return markers;
 }
 
-std::vector<Label> contactLabels(const PairContactState& pair, double lifetime) {
+std::vector<Label> contactLabels(const PairContactState& pair) {
   std::vector<Label> labels;
   for (std::size_t k = 0; k < pair.contacts.size(); ++k) {
     const Contact& contact = pair.contacts[k];
     if (!toEigen(contact.centroid).allFinite()) continue;
-    Marker text = emptyContactMarker(pair, "contact_text", k, lifetime);
+    Marker text = emptyContactMarker(pair, "contact_text", k);
     text.type = Marker::TEXT_VIEW_FACING;
     text.color = contactTextColor();
     text.text = pair.body_a + " - " + pair.body_b + ": " + contactText(contact);

@@ -17,9 +17,8 @@ std_msgs::ColorRGBA contactTextColor();
 
 /// A marker of the pair's contact `index`, without a type: namespace `<pair>/<kind>`; its id is the contact's
 /// (its low 31 bits), that of a contact without one -1 minus its place.
-/// @param lifetime seconds after which rviz drops a marker that is not renewed
 visualization_msgs::Marker emptyContactMarker(const PairContactState& pair, const char* kind,
-                                              std::size_t index, double lifetime);
+                                              std::size_t index);
 
 /// The markers for the contacts of one pair. Namespaces `<pair>/contact_area`: a translucent disc of the
 /// contact's area at its centroid, across the normal; `<pair>/contact_depth`: the line along which the depth
@@ -29,10 +28,10 @@ visualization_msgs::Marker emptyContactMarker(const PairContactState& pair, cons
 /// @param style with a resolved scale (> 0)
 std::vector<visualization_msgs::Marker> contactMarkers(const PairContactState& pair,
                                                        const std::vector<bool>& without_disc,
-                                                       const MarkerStyle& style, double lifetime);
+                                                       const MarkerStyle& style);
 
 /// Names the bodies, the depth, the force and the largest pressure of each contact: namespace
 /// `<pair>/contact_text`. The place of each is its centroid.
-std::vector<Label> contactLabels(const PairContactState& pair, double lifetime);
+std::vector<Label> contactLabels(const PairContactState& pair);
 
 }  // namespace concave_distance

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <utility>
 
 #include "mesh/surface/mesh_topology.h"
 #include "mesh/trees/triangle_tree.h"
@@ -24,32 +24,21 @@ constexpr double kClose = 4.0;  // horizontal distance below which numbers stand
 
 constexpr double kSteepest = 0.6;     // pitch of the camera (rad) up to which these do not cover each other
 constexpr double kWorthMoving = 1.3;  // how much more room a nearer place has to have than the present one
-constexpr int kDirections = 5;
-constexpr int kPlaces = 60 * kDirections;
 
-// Upwards and away from the middle of the scene, where most cameras are; farther and farther.
-Eigen::Vector3d placeOf(const Label& label, int k, const MarkerLayout& layout) {
-  Eigen::Vector3d outwards = label.place - layout.region().center();
-  outwards.z() = 0.0;
-  if (!(outwards.norm() > layout.letterHeight())) outwards = Eigen::Vector3d::UnitX();
-  outwards.normalize();
-  const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
-  const Eigen::Vector3d directions[kDirections] = {up, outwards + up, outwards, outwards.cross(up) + up,
-                                                   up.cross(outwards) + up};
-  const double distance = (kNearest + kStep * (k / kDirections)) * kNumberShare * layout.letterHeight();
-  return label.place + distance * directions[k % kDirections].normalized();
-}
+// Straight up and aslant, where most cameras are.
+const Eigen::Vector3d kDirections[] = {
+    {0, 0, 1}, {0.7, 0, 0.7}, {0, 0.7, 0.7}, {-0.7, 0, 0.7}, {0, -0.7, 0.7}};
+const Eigen::Vector3d kDiameters[] = {{1, 0, 0},  {0, 1, 0},  {0, 0, 1}, {1, 1, 1},
+                                      {1, 1, -1}, {1, -1, 1}, {-1, 1, 1}};
+constexpr int kDirectionCount = 5;
+constexpr int kPlaces = 60 * kDirectionCount;
 
-// Whether a body comes near the point: its surface meets one of seven diameters of the ball, or it holds the
-// point.
+// Whether the body's surface meets one of seven diameters of the ball, or the body holds its centre.
 bool touches(const SceneBody& body, const LocatedBody& located, const Eigen::Vector3d& point, double radius) {
   if (located.box.squaredExteriorDistance(point) > radius * radius) return false;
   const BodyMesh& mesh = *body.mesh;
   const Eigen::Vector3d centre = located.reference_from_body.inverse() * point;
-  for (const Eigen::Vector3d& along :
-       {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 1, 0), Eigen::Vector3d(0, 0, 1),
-        Eigen::Vector3d(1, 1, 1), Eigen::Vector3d(1, 1, -1), Eigen::Vector3d(1, -1, 1),
-        Eigen::Vector3d(-1, 1, 1)}) {
+  for (const Eigen::Vector3d& along : kDiameters) {
     const Eigen::Vector3d half = radius * along.normalized();
     if (segmentHits(mesh.tree(), mesh.surface(), centre - half, centre + half, 0.0)) return true;
   }
@@ -88,33 +77,33 @@ Marker leaderMarker(const Marker& number, const Label& label, const Eigen::Vecto
 
 }  // namespace
 
+// A label that was drawn before keeps its number; the others get the smallest free ones.
 void LabelNumbers::assign(std::vector<Label>& labels) {
   const auto keyOf = [](const Label& label) { return std::make_pair(label.text.ns, label.text.id); };
   decltype(choices_) kept;
-  std::set<int> used;
-  for (const Label& label : labels) {
-    const auto before = choices_.find(keyOf(label));
-    if (before != choices_.end()) used.insert(kept.insert(*before).first->second.number);
-  }
-  int next = 1;
-  for (const Label& label : labels) {
-    Choice& choice = kept[keyOf(label)];
-    if (choice.number != 0) continue;
-    while (used.count(next) != 0) ++next;
-    choice.number = next++;
-  }
+  for (const Label& label : labels) kept.insert(choices_.extract(keyOf(label)));
   choices_ = std::move(kept);
+  const auto isTaken = [&](int number) {
+    return std::any_of(choices_.begin(), choices_.end(),
+                       [&](const auto& choice) { return choice.second.number == number; });
+  };
+  for (const Label& label : labels) {
+    int number = choices_[keyOf(label)].number;
+    if (number != 0) continue;
+    while (isTaken(++number)) continue;
+    choices_[keyOf(label)].number = number;
+  }
   std::sort(labels.begin(), labels.end(), [&](const Label& left, const Label& right) {
     return choices_[keyOf(left)].number < choices_[keyOf(right)].number;
   });
 }
 
 std::vector<Marker> LabelNumbers::number(std::vector<Label>& labels, const Scene& scene,
-                                         const std::vector<LocatedBody>& bodies, const MarkerLayout& layout) {
+                                         const std::vector<LocatedBody>& bodies, double letter_height) {
   assign(labels);
   std::vector<Marker> markers;
   if (labels.size() < 2) return markers;
-  const double height = kNumberShare * layout.letterHeight();
+  const double height = kNumberShare * letter_height;
   std::vector<Eigen::Vector3d> taken;
   const auto isFree = [&](const Eigen::Vector3d& place, double room) {
     return std::none_of(taken.begin(), taken.end(),
@@ -125,10 +114,14 @@ std::vector<Marker> LabelNumbers::number(std::vector<Label>& labels, const Scene
   };
   for (Label& label : labels) {
     Choice& choice = choices_[{label.text.ns, label.text.id}];
+    const auto placeOf = [&](int k) -> Eigen::Vector3d {
+      const double distance = (kNearest + kStep * (k / kDirectionCount)) * height;
+      return label.place + distance * kDirections[k % kDirectionCount];
+    };
     int k = 0;
-    while (k < kPlaces && !isFree(placeOf(label, k, layout), k < choice.place ? kWorthMoving : 1.0)) ++k;
+    while (k < kPlaces && !isFree(placeOf(k), k < choice.place ? kWorthMoving : 1.0)) ++k;
     choice.place = k;
-    const Eigen::Vector3d place = placeOf(label, k, layout);
+    const Eigen::Vector3d place = placeOf(k);
     taken.push_back(place);
     markers.push_back(numberMarker(label, choice.number, place, height));
     if ((place - label.place).norm() > kLeader * height) {

@@ -19,11 +19,11 @@ namespace concave_distance {
 class LabelNumbers {
  public:
   /// Adds the numbers to the texts and sorts the labels by them.
-  /// @return the numbers in the scene, each as near its place as no body and no number is in its way; a thin
-  ///         line joins one that stands apart to its place
+  /// @return the numbers in the scene, each straight or aslant above its place and as near to it as no body
+  ///         and no other number is in its way; a thin line joins one that stands apart to its place
   std::vector<visualization_msgs::Marker> number(std::vector<Label>& labels, const Scene& scene,
                                                  const std::vector<LocatedBody>& bodies,
-                                                 const MarkerLayout& layout);
+                                                 double letter_height);
 
  private:
   struct Choice {

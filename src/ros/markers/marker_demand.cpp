@@ -65,7 +65,16 @@ void MarkerDemand::select(const std::vector<DrawnPair>& drawn, ros::Time now) {
   }
 }
 
-const PairNiches* MarkerDemand::withNiches(const PairNiches& message) {
+std::vector<const PairNiches*> MarkerDemand::withKeptNiches(const std::vector<PairNiches>& messages) {
+  std::vector<const PairNiches*> pairs;
+  pairs.reserve(messages.size());
+  for (const PairNiches& message : messages) {
+    pairs.push_back(message.niches.empty() ? withKeptNiches(message) : &message);
+  }
+  return pairs;
+}
+
+const PairNiches* MarkerDemand::withKeptNiches(const PairNiches& message) {
   const auto found = entries_.find(message.nearest.pair);
   if (found == entries_.end() || !found->second.known) return &message;
   PairNiches& kept = found->second.niches;

@@ -27,13 +27,14 @@ class MarkerDemand {
 
   /// @param drawn pairs selected at the time `now`
   void select(const std::vector<DrawnPair>& drawn, ros::Time now);
-  /// The message with the pair's kept niches, or as it was before its transforms became stale; valid until
-  /// take(). Without any that are kept, the message itself.
-  const PairNiches* withNiches(const PairNiches& message);
+  /// Each message without niches with those kept of its pair, or as it was before its transforms became
+  /// stale; where none are kept, the message itself. Valid until take().
+  std::vector<const PairNiches*> withKeptNiches(const std::vector<PairNiches>& messages);
 
   void forget();
 
  private:
+  const PairNiches* withKeptNiches(const PairNiches& message);
   struct Entry {
     ros::Time selected;       ///< the last time
     std::uint64_t asked = 0;  ///< number of the last question

@@ -3,30 +3,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "marker_parts.h"
+
 namespace concave_distance {
 namespace {
 
-constexpr double kMuchLarger = 6.0;        // than the median body: a floor, a hall
-constexpr double kFarOff = 8.0;            // median distances from the median centre
-constexpr double kScaleShare = 0.009;      // diameter of the nearest points over the scene's size
-constexpr double kLabelLetterShare = 2.5;  // height of the letters over that diameter
-constexpr double kFarShare = 0.25;         // end of the colour gradient over the scene's size
-constexpr double kResizeStep = 1.3;        // the size is updated when it has changed by this factor
-constexpr double kMoveStep = 0.1;          // the place is updated when it has moved by this share of the size
-constexpr double kSizeOfNothing = 1.0;     // m
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-// 1, 2 or 5 times a power of ten, not above the value.
-double roundedDown(double value) {
-  const double power = std::pow(10.0, std::floor(std::log10(value)));
-  const double digit = value / power;
-  return power * (digit >= 5.0 ? 5.0 : digit >= 2.0 ? 2.0 : 1.0);
-}
+constexpr double kMuchFarther = 6.0;    // than the median body reaches from the middle
+constexpr double kScaleShare = 0.009;   // diameter of the nearest points over the scene's size
+constexpr double kLetterShare = 2.5;    // height of the letters over that diameter
+constexpr double kFarShare = 0.2;       // end of the colour gradient over the scene's size
+constexpr double kNoticeable = 0.1;     // change of the region over its size
+constexpr double kSizeOfNothing = 1.0;  // m
+constexpr double kSlope = 0.35;         // tangent of the camera's pitch up to which the list hides nothing
+constexpr double kLift = 1.5;           // height of the list above the scene, in letters
 
 Eigen::AlignedBox3d boxInReference(const BodyBounds& bounds, const Eigen::Isometry3d& reference_from_body) {
   const Eigen::Vector3d centre = reference_from_body * bounds.centre;
@@ -41,68 +30,69 @@ bool hasPoses(const PublishedPair& pair) {
          pair.heading.reference_from_a.matrix().allFinite();
 }
 
+bool isNoticed(const Eigen::AlignedBox3d& region, const Eigen::AlignedBox3d& before) {
+  const double change = std::max((region.min() - before.min()).norm(), (region.max() - before.max()).norm());
+  return before.isEmpty() || change > kNoticeable * before.diagonal().norm();
+}
+
 }  // namespace
 
 std::vector<LocatedBody> locateBodies(const Scene& scene, const PublishedPairs& pairs) {
   std::vector<LocatedBody> located;
   std::vector<bool> known(scene.bodies.size(), false);
   const auto add = [&](std::size_t index, const Eigen::Isometry3d& reference_from_body) {
-    if (!known[index]) {
-      known[index] = true;
-      located.push_back(
-          {index, boxInReference(scene.bodies[index].bounds, reference_from_body), reference_from_body});
-    }
+    if (known[index]) return;
+    known[index] = true;
+    located.push_back(
+        {index, boxInReference(scene.bodies[index].bounds, reference_from_body), reference_from_body});
   };
   for (std::size_t k = 0; k < pairs.size(); ++k) {
-    if (hasPoses(*pairs[k])) {
-      add(scene.pairs[k].body_a, pairs[k]->heading.reference_from_a);
-      add(scene.pairs[k].body_b, pairs[k]->heading.reference_from_a * pairs[k]->tracked->input.a_from_b);
-    }
+    if (!hasPoses(*pairs[k])) continue;
+    add(scene.pairs[k].body_a, pairs[k]->heading.reference_from_a);
+    add(scene.pairs[k].body_b, pairs[k]->heading.reference_from_a * pairs[k]->tracked->input.a_from_b);
   }
   return located;
 }
 
 Eigen::AlignedBox3d usualRegion(const std::vector<LocatedBody>& bodies) {
   Eigen::AlignedBox3d region;
-  if (bodies.empty()) {
-    return region;
+  if (bodies.empty()) return region;
+  std::vector<double> values(bodies.size());
+  const auto medianOf = [&](const auto& value) {
+    std::transform(bodies.begin(), bodies.end(), values.begin(), value);
+    const auto median = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), median, values.end());
+    return *median;
+  };
+  Eigen::Vector3d middle;
+  for (int axis = 0; axis < 3; ++axis) {
+    middle[axis] = medianOf([&](const LocatedBody& body) { return body.box.center()[axis]; });
   }
-  std::vector<double> sizes;
-  std::vector<double> coordinates[3];
+  const auto reach = [&](const LocatedBody& body) {
+    return (body.box.center() - middle).norm() + 0.5 * body.box.diagonal().norm();
+  };
+  const double farthest = kMuchFarther * medianOf(reach);
   for (const LocatedBody& body : bodies) {
-    sizes.push_back(body.box.diagonal().norm());
-    for (int axis = 0; axis < 3; ++axis) coordinates[axis].push_back(body.box.center()[axis]);
-  }
-  const double size = median(sizes);
-  const Eigen::Vector3d middle(median(coordinates[0]), median(coordinates[1]), median(coordinates[2]));
-  std::vector<double> distances;
-  distances.reserve(bodies.size());
-  for (const LocatedBody& body : bodies) distances.push_back((body.box.center() - middle).norm());
-  const double far = kFarOff * (median(distances) + size);
-  for (std::size_t k = 0; k < bodies.size(); ++k) {
-    if (sizes[k] <= kMuchLarger * size && distances[k] <= far) region.extend(bodies[k].box);
+    if (reach(body) <= farthest) region.extend(body.box);
   }
   return region;
 }
 
-void MarkerLayout::update(const std::vector<LocatedBody>& bodies, const MarkerStyle& style) {
-  const Eigen::AlignedBox3d region = usualRegion(bodies);
-  if (!region.isEmpty()) {
-    const double size = region.diagonal().norm();
-    const bool resized = size_ == 0.0 || size > kResizeStep * size_ || size_ > kResizeStep * size;
-    const bool moved = region_.isEmpty() || (region.center() - region_.center()).norm() > kMoveStep * size_ ||
-                       std::abs(region.max().z() - region_.max().z()) > kMoveStep * size_;
-    if (resized) size_ = size;
-    if (resized || moved) region_ = region;
-  }
-  const double size = size_ > 0.0 ? size_ : kSizeOfNothing;
-  style_ = style;
-  if (style.scale == 0.0) style_.scale = kScaleShare * size;
-  if (style.far == 0.0) style_.far = style.near + roundedDown(kFarShare * size);
-}
-
-double MarkerLayout::letterHeight() const {
-  return kLabelLetterShare * style_.scale;
+MarkerLayout layOut(const std::vector<LocatedBody>& bodies, const MarkerStyle& style,
+                    const Eigen::AlignedBox3d& before) {
+  MarkerLayout layout{style, usualRegion(bodies)};
+  Eigen::AlignedBox3d& region = layout.region;
+  if (region.isEmpty() || !isNoticed(region, before)) region = before;
+  const double size = region.isEmpty() ? kSizeOfNothing : region.diagonal().norm();
+  if (style.scale == 0.0) layout.style.scale = kScaleShare * size;
+  if (style.far == 0.0) layout.style.far = style.near + roundedUp(kFarShare * size);
+  layout.letter_height = kLetterShare * layout.style.scale;
+  if (region.isEmpty()) return layout;
+  // From above, the far edges of the scene appear higher than the near ones.
+  const double rear = kSlope * 0.5 * region.diagonal().head<2>().norm();
+  layout.list_bottom = region.center();
+  layout.list_bottom.z() = region.max().z() + rear + kLift * layout.letter_height;
+  return layout;
 }
 
 }  // namespace concave_distance

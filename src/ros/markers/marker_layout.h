@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <cstddef>
-#include <memory>
 #include <vector>
 
 #include "concave_distance/scene/scene.h"
@@ -22,27 +21,22 @@ struct LocatedBody {
 /// @param pairs in the order of scene.pairs
 std::vector<LocatedBody> locateBodies(const Scene& scene, const PublishedPairs& pairs);
 
-/// The box around the bodies, metres, without those much larger than the median one (a floor) and those far
-/// from all others. Empty without bodies.
+/// The box around the bodies, metres, without those that reach much farther from the middle than the median
+/// one: a floor, a hall, a body that got lost. Empty without bodies.
 Eigen::AlignedBox3d usualRegion(const std::vector<LocatedBody>& bodies);
 
-/// Where and how large markers are drawn. Follows the scene's size in steps, so that sizes stay constant
-/// while bodies move.
-class MarkerLayout {
- public:
-  /// @param style as configured; 0 means automatic
-  void update(const std::vector<LocatedBody>& bodies, const MarkerStyle& style);
-
-  /// The style with automatic values replaced (scale > 0, far > near).
-  const MarkerStyle& style() const { return style_; }
-  double letterHeight() const;  ///< m
-  /// Box beside which the legend is placed, metres; empty before the first body was located.
-  const Eigen::AlignedBox3d& region() const { return region_; }
-
- private:
-  MarkerStyle style_;
-  Eigen::AlignedBox3d region_;
-  double size_ = 0.0;  ///< m, diagonal of the region at its last update
+/// How large markers are and where the list stands, metres in the reference frame.
+struct MarkerLayout {
+  MarkerStyle style;           ///< as configured, automatic values replaced: scale > 0, far > near
+  Eigen::AlignedBox3d region;  ///< around the scene; empty before the first body was located
+  double letter_height = 0.0;
+  Eigen::Vector3d list_bottom = Eigen::Vector3d::Zero();  ///< middle of the lower edge of the list
 };
+
+/// @param style as configured; 0 means automatic
+/// @param before region of the last picture, which stays until the scene's has changed noticeably: so letters
+///        do not pulsate while bodies move
+MarkerLayout layOut(const std::vector<LocatedBody>& bodies, const MarkerStyle& style,
+                    const Eigen::AlignedBox3d& before);
 
 }  // namespace concave_distance

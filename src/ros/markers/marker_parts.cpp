@@ -1,14 +1,28 @@
 #include "marker_parts.h"
 
+#include <cmath>
+#include <initializer_list>
+
 #include "base/number_text.h"
 
 namespace concave_distance {
 namespace {
 
-// The digits are those of the rounded value: 9.999 is 10.0, not 10.00.
-std::string threeDigits(double value, const char* unit) {
-  const int decimals = value < 9.995 ? 2 : value < 99.95 ? 1 : 0;
-  return fixedText(value, decimals) + " " + unit;
+constexpr double kRoundSteps[] = {1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0};
+
+struct Unit {
+  double size;  // SI
+  const char* name;
+};
+
+// Three digits in the largest unit that leaves at least one before the point, or in the smallest one. The
+// digits are those of the rounded value: 9.999 is 10.0, not 10.00.
+std::string threeDigits(double value, std::initializer_list<Unit> ascending) {
+  const Unit* unit = ascending.begin();
+  while (unit + 1 != ascending.end() && value >= 0.9995 * unit[1].size) ++unit;
+  const double number = value / unit->size;
+  const int decimals = number < 9.995 ? 2 : number < 99.95 ? 1 : 0;
+  return fixedText(number, decimals) + " " + unit->name;
 }
 
 }  // namespace
@@ -22,22 +36,20 @@ std_msgs::ColorRGBA makeColor(const Eigen::Vector3d& red_green_blue, double opac
   return color;
 }
 
-visualization_msgs::Marker emptyMarker(const std_msgs::Header& header, const std::string& ns, std::int32_t id,
-                                       double lifetime) {
+visualization_msgs::Marker emptyMarker(const std_msgs::Header& header, const std::string& ns,
+                                       std::int32_t id) {
   visualization_msgs::Marker marker;
   marker.header = header;
   marker.ns = ns;
   marker.id = id;
   marker.action = visualization_msgs::Marker::ADD;
   marker.pose.orientation.w = 1.0;
-  marker.lifetime = ros::Duration(lifetime);
   return marker;
 }
 
 visualization_msgs::Marker textMarker(const std_msgs::Header& header, const std::string& ns, std::int32_t id,
-                                      double lifetime, const std::string& text,
-                                      const std_msgs::ColorRGBA& color) {
-  visualization_msgs::Marker marker = emptyMarker(header, ns, id, lifetime);
+                                      const std::string& text, const std_msgs::ColorRGBA& color) {
+  visualization_msgs::Marker marker = emptyMarker(header, ns, id);
   marker.type = visualization_msgs::Marker::TEXT_VIEW_FACING;
   marker.text = text;
   marker.color = color;
@@ -45,21 +57,25 @@ visualization_msgs::Marker textMarker(const std_msgs::Header& header, const std:
 }
 
 std::string lengthText(double metres) {
-  const double millimetres = 1000.0 * metres;
-  if (millimetres == 0.0) return "0 mm";
-  if (millimetres < 0.01) return "<0.01 mm";
-  return millimetres < 999.5 ? threeDigits(millimetres, "mm") : threeDigits(metres, "m");
+  if (metres == 0.0) return "0 mm";
+  return metres < 1e-5 ? "<0.01 mm" : threeDigits(metres, {{1e-3, "mm"}, {1.0, "m"}});
 }
 
 std::string forceText(double newtons) {
-  return newtons < 999.5 ? threeDigits(newtons, "N") : threeDigits(1e-3 * newtons, "kN");
+  return threeDigits(newtons, {{1.0, "N"}, {1e3, "kN"}});
 }
 
 std::string pressureText(double pascals) {
   if (pascals == 0.0) return "0 Pa";
-  if (pascals < 999.5) return threeDigits(pascals, "Pa");
-  if (pascals < 999.5e3) return threeDigits(1e-3 * pascals, "kPa");
-  return pascals < 999.5e6 ? threeDigits(1e-6 * pascals, "MPa") : threeDigits(1e-9 * pascals, "GPa");
+  return threeDigits(pascals, {{1.0, "Pa"}, {1e3, "kPa"}, {1e6, "MPa"}, {1e9, "GPa"}});
+}
+
+double roundedUp(double value) {
+  const double power = std::pow(10.0, std::floor(std::log10(value)));
+  for (const double step : kRoundSteps) {
+    if (value <= step * power) return step * power;
+  }
+  return 10.0 * power;
 }
 
 }  // namespace concave_distance

@@ -10,14 +10,12 @@ namespace concave_distance {
 
 std_msgs::ColorRGBA makeColor(const Eigen::Vector3d& red_green_blue, double opacity = 1.0);
 
-/// A marker without a type, at the origin of the header's frame.
-/// @param lifetime seconds after which rviz drops a marker that is not renewed
-visualization_msgs::Marker emptyMarker(const std_msgs::Header& header, const std::string& ns, std::int32_t id,
-                                       double lifetime);
+/// A marker without a type, at the origin of the header's frame, which rviz shows until it is deleted.
+visualization_msgs::Marker emptyMarker(const std_msgs::Header& header, const std::string& ns,
+                                       std::int32_t id);
 /// A text that faces the camera, without a place and a height.
 visualization_msgs::Marker textMarker(const std_msgs::Header& header, const std::string& ns, std::int32_t id,
-                                      double lifetime, const std::string& text,
-                                      const std_msgs::ColorRGBA& color);
+                                      const std::string& text, const std_msgs::ColorRGBA& color);
 
 /// A row of the list above the scene, and the place in the scene that it is about.
 struct Label {
@@ -32,5 +30,8 @@ std::string lengthText(double metres);
 std::string forceText(double newtons);
 /// A pressure in the same way: "0 Pa", "312 Pa", "12.3 kPa", "3.58 MPa", "1.20 GPa".
 std::string pressureText(double pascals);
+
+/// The end of a colour scale: 1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6 or 8 times a power of ten, not below the value.
+double roundedUp(double value);
 
 }  // namespace concave_distance

@@ -51,4 +51,22 @@ MarkerSelection selectPairs(const std::vector<const PairNiches*>& pairs, const M
   return selection;
 }
 
+std::set<std::size_t> warnedBodies(const Scene& scene, const std::vector<DrawnPair>& drawn, double largest) {
+  std::set<std::size_t> bodies;
+  for (const DrawnPair& pair : drawn) {
+    const std::optional<std::size_t> found = scene.pairs.find(pair.pair->nearest.pair);
+    if (pair.pair->nearest.warning == 0 || !found) continue;
+    const ScenePair& ends = scene.pairs[*found];
+    const bool a_is_link = scene.bodies[ends.body_a].is_robot_link;
+    const bool b_is_link = scene.bodies[ends.body_b].is_robot_link;
+    const std::size_t obstacle = a_is_link ? ends.body_b : ends.body_a;
+    if (a_is_link != b_is_link && bodies.count(obstacle) != 0) continue;  // by a nearer link
+    bodies.insert({ends.body_a, ends.body_b});
+  }
+  for (auto body = bodies.begin(); body != bodies.end();) {
+    body = scene.bodies[*body].mesh->diameter() > largest ? bodies.erase(body) : std::next(body);
+  }
+  return bodies;
+}
+
 }  // namespace concave_distance

@@ -3,8 +3,10 @@
 #include <concave_distance/PairNiches.h>
 
 #include <cstddef>
+#include <set>
 #include <vector>
 
+#include "concave_distance/scene/scene.h"
 #include "marker_style.h"
 
 namespace concave_distance {
@@ -28,5 +30,11 @@ struct MarkerSelection {
 /// or, while its niches are not known, its shortest distance; other niches of these pairs follow, nearest
 /// first, up to style.niche_count in all.
 MarkerSelection selectPairs(const std::vector<const PairNiches*>& pairs, const MarkerStyle& style);
+
+/// The bodies to tint, as indices into scene.bodies: of a warning, what is warned of and the nearest link of
+/// the robot; of two links or two obstacles, both.
+/// @param drawn ascending by distance
+/// @param largest diameter of a body (m): a red floor would hide the rest
+std::set<std::size_t> warnedBodies(const Scene& scene, const std::vector<DrawnPair>& drawn, double largest);
 
 }  // namespace concave_distance

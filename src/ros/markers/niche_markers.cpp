@@ -98,8 +98,7 @@ std_msgs::ColorRGBA pairColor(const PairNiches& pair, const MarkerStyle& style) 
   return pair.nearest.warning != 0 ? warningColor() : distanceColor(pair.nearest.distance, style);
 }
 
-std::vector<visualization_msgs::Marker> nicheMarkers(const DrawnPair& drawn, const MarkerStyle& style,
-                                                     double lifetime) {
+std::vector<visualization_msgs::Marker> nicheMarkers(const DrawnPair& drawn, const MarkerStyle& style) {
   const PairNiches& pair = *drawn.pair;
   std::vector<visualization_msgs::Marker> markers;
   bool is_nearest = true;
@@ -109,8 +108,8 @@ std::vector<visualization_msgs::Marker> nicheMarkers(const DrawnPair& drawn, con
     std_msgs::ColorRGBA color = is_nearest ? pairColor(pair, style) : distanceColor(niche.distance, style);
     color.a = is_nearest ? 1.0F : kOtherOpacity;
     const auto add = [&](const char* kind, std::int32_t type, double width) -> visualization_msgs::Marker& {
-      visualization_msgs::Marker& marker = markers.emplace_back(
-          emptyMarker(pair.header, pair.nearest.pair + "/" + kind, markerId(niche.id), lifetime));
+      visualization_msgs::Marker& marker =
+          markers.emplace_back(emptyMarker(pair.header, pair.nearest.pair + "/" + kind, markerId(niche.id)));
       marker.type = type;
       marker.scale.x = width;
       marker.color = color;
@@ -134,7 +133,7 @@ std::vector<visualization_msgs::Marker> nicheMarkers(const DrawnPair& drawn, con
   return markers;
 }
 
-Label nicheLabel(const PairNiches& pair, const MarkerStyle& style, double lifetime) {
+Label nicheLabel(const PairNiches& pair, const MarkerStyle& style) {
   const Niche nearest = drawnNiches(pair, 1).front();
   const bool overlapping = pair.nearest.status.code == PairStatus::PENETRATING;
   std::string text = pair.nearest.body_a + " - " + pair.nearest.body_b + ": " +
@@ -144,8 +143,7 @@ Label nicheLabel(const PairNiches& pair, const MarkerStyle& style, double lifeti
     text += ", at least " + lengthText(pair.nearest.lower_bound);
   }
   Label label;
-  label.text =
-      textMarker(pair.header, pair.nearest.pair + "/text", 0, lifetime, text, pairColor(pair, style));
+  label.text = textMarker(pair.header, pair.nearest.pair + "/text", 0, text, pairColor(pair, style));
   label.place =
       0.5 * Eigen::Vector3d(nearest.point_a.x + nearest.point_b.x, nearest.point_a.y + nearest.point_b.y,
                             nearest.point_a.z + nearest.point_b.z);
@@ -153,16 +151,17 @@ Label nicheLabel(const PairNiches& pair, const MarkerStyle& style, double lifeti
 }
 
 visualization_msgs::MarkerArray withDeletions(std::vector<visualization_msgs::Marker> markers,
-                                              const std_msgs::Header& header, ShownMarkers& shown) {
+                                              const std_msgs::Header& header, ShownMarkers& shown,
+                                              ShownMarkers kept) {
   visualization_msgs::MarkerArray message;
   message.markers = std::move(markers);
-  ShownMarkers now;
+  ShownMarkers now = std::move(kept);
   for (const visualization_msgs::Marker& marker : message.markers) {
     now.emplace(marker.ns, marker.id);
   }
   for (const auto& [ns, id] : shown) {
     if (now.count({ns, id}) != 0) continue;
-    message.markers.push_back(emptyMarker(header, ns, id, 0.0));
+    message.markers.push_back(emptyMarker(header, ns, id));
     message.markers.back().action = visualization_msgs::Marker::DELETE;
   }
   shown = std::move(now);

@@ -32,22 +32,21 @@ std_msgs::ColorRGBA greyColor();
 /// drawn under id 0. The line of the nearest is dashed when the distance is not certain (its proof ended at
 /// the budget, the memory limit or a tolerance) or the pair's transforms are stale; then it is grey.
 /// @param style with scale > 0 and far > near
-/// @param lifetime seconds after which rviz drops a marker that is not renewed
-std::vector<visualization_msgs::Marker> nicheMarkers(const DrawnPair& drawn, const MarkerStyle& style,
-                                                     double lifetime);
+std::vector<visualization_msgs::Marker> nicheMarkers(const DrawnPair& drawn, const MarkerStyle& style);
 
 /// The label with the bodies' names and their distance: namespace `<pair>/text`, id 0. Where the distance is
 /// not certain it adds the proven bound, where the transforms are stale it says so. Its place is the middle
 /// of the nearest line.
 /// @param pair with hasMarkers()
-Label nicheLabel(const PairNiches& pair, const MarkerStyle& style, double lifetime);
+Label nicheLabel(const PairNiches& pair, const MarkerStyle& style);
 
 /// Namespaces and ids that rviz shows at present.
 using ShownMarkers = std::set<std::pair<std::string, std::int32_t>>;
 
-/// Completes a message to be sent: a DELETE for all that was shown and is not in `markers` any more.
-/// `shown` becomes what the message leaves on the screen.
+/// Completes a message to be sent: a DELETE for all that was shown and is neither in `markers` nor in `kept`
+/// any more. `shown` becomes what the message leaves on the screen.
 visualization_msgs::MarkerArray withDeletions(std::vector<visualization_msgs::Marker> markers,
-                                              const std_msgs::Header& header, ShownMarkers& shown);
+                                              const std_msgs::Header& header, ShownMarkers& shown,
+                                              ShownMarkers kept = {});
 
 }  // namespace concave_distance

@@ -8,6 +8,7 @@
 #include "body_markers.h"
 #include "contact/pressure_triangles.h"
 #include "contact_markers.h"
+#include "marker_parts.h"
 #include "ros/messages/conversions.h"
 
 namespace concave_distance {
@@ -17,15 +18,6 @@ using visualization_msgs::Marker;
 
 constexpr double kSurfaceLift = 0.03;  // over the scale of the markers
 constexpr double kKeptShare = 0.25;    // of its end: a scale is kept while the largest pressure is above
-constexpr double kRoundSteps[] = {1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0};
-
-double roundedUp(double value) {
-  const double power = std::pow(10.0, std::floor(std::log10(value)));
-  for (const double step : kRoundSteps) {
-    if (value <= step * power) return step * power;
-  }
-  return 10.0 * power;
-}
 
 void drawTriangles(const std::vector<PressureTriangle>& triangles, double scale, Marker& marker) {
   marker.type = Marker::TRIANGLE_LIST;
@@ -86,7 +78,7 @@ void PressureScale::update(double largest, double fixed) {
 
 DrawnPressures pressureMarkers(const Scene& scene, const ScenePair& scene_pair, const PublishedPair& pair,
                                const PairContactState& contacts, const MarkerStyle& style, double scale,
-                               double lifetime, std::size_t& triangles_left) {
+                               std::size_t& triangles_left) {
   DrawnPressures drawn;
   drawn.has_marker.assign(contacts.contacts.size(), false);
   const TrackedPair& tracked = *pair.tracked;
@@ -102,7 +94,7 @@ DrawnPressures pressureMarkers(const Scene& scene, const ScenePair& scene_pair, 
     if (triangles.empty()) continue;
     triangles_left -= triangles.size();
     drawn.has_marker[k] = true;
-    Marker& marker = drawn.markers.emplace_back(emptyContactMarker(contacts, "pressure", k, lifetime));
+    Marker& marker = drawn.markers.emplace_back(emptyContactMarker(contacts, "pressure", k));
     marker.pose.position = toPoint(pair.heading.reference_from_a.translation());
     marker.pose.orientation = toQuaternion(Eigen::Quaterniond(pair.heading.reference_from_a.linear()));
     drawTriangles(triangles, scale, marker);

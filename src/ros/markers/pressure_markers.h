@@ -47,7 +47,7 @@ struct DrawnPressures {
 /// @param triangles_left that may be drawn; reduced by those that are
 DrawnPressures pressureMarkers(const Scene& scene, const ScenePair& scene_pair, const PublishedPair& pair,
                                const PairContactState& contacts, const MarkerStyle& style, double scale,
-                               double lifetime, std::size_t& triangles_left);
+                               std::size_t& triangles_left);
 
 /// The largest of all pressures in the contacts, Pa; 0 without any.
 double largestPressure(const std::vector<PairContactState>& contacts);

@@ -4,6 +4,9 @@
 #include <concave_distance/PairNiches.h>
 #include <visualization_msgs/MarkerArray.h>
 
+#include <cstdint>
+#include <map>
+#include <string>
 #include <vector>
 
 #include "concave_distance/scene/scene.h"
@@ -13,7 +16,6 @@
 #include "niche_markers.h"
 #include "pressure_markers.h"
 #include "ros/messages/published_pair.h"
-#include "warning_tints.h"
 
 namespace concave_distance {
 
@@ -34,19 +36,23 @@ class SceneMarkers {
   MarkerDemand& demand() { return demand_; }
   /// For when there is no subscriber any more: nothing has to be deleted.
   void forget();
-  bool empty() const { return shown_.empty() && tints_.empty(); }
+  bool empty() const { return shown_.empty(); }
 
  private:
-  std::vector<visualization_msgs::Marker> drawContacts(const Scene& scene, const PublishedPairs& pairs,
-                                                       const std::vector<PairContactState>& contacts,
-                                                       double lifetime);
+  using Markers = std::vector<visualization_msgs::Marker>;
+  void drawContacts(const Scene& scene, const PublishedPairs& pairs,
+                    const std::vector<PairContactState>& contacts, Markers& markers);
+  /// Adds red copies that appear or are due for renewal: they are large. Returns those that stay.
+  ShownMarkers drawWarnings(const Scene& scene, const std::vector<DrawnPair>& drawn, ros::Time now,
+                            double lifetime, Markers& markers);
 
   MarkerDemand demand_;
   MarkerLayout layout_;
   LabelNumbers numbers_;
-  WarningTints tints_;
-  ShownMarkers shown_;
   PressureScale pressures_;
+  ShownMarkers shown_;
+  std::map<std::int32_t, std::string> tinted_;  ///< names of the red bodies by marker id
+  ros::Time tints_sent_;
 };
 
 }  // namespace concave_distance

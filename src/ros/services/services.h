@@ -7,5 +7,5 @@
 // request is refused. Nothing that a request holds ends the node, and none delays the cycle: those that take
 // long run on threads of their own (ServiceQueues) behind a gate that refuses what is too much (NodeLimits).
 // It keeps nothing of a query; what changes the scene changes the SceneStore, whose next cycle serves
-// it. Begin with scene_services.h (bodies, pairs, settings), then distance_queries.h (distances at given
-// poses).
+// it. Begin with scene_services.h (bodies, pairs, settings), then answer_query.h (the distance at given
+// poses) and distance_queries.h (calls with one query or many).

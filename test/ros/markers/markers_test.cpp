@@ -52,7 +52,7 @@ MarkerStyle nicheStyle() {
 }
 
 std::vector<Marker> draw(const PairNiches& pair) {
-  return nicheMarkers({&pair, pair.niches.size()}, nicheStyle(), 0.5);
+  return nicheMarkers({&pair, pair.niches.size()}, nicheStyle());
 }
 
 const Marker* find(const std::vector<Marker>& markers, const std::string& ns, int id) {
@@ -73,21 +73,20 @@ TEST(NicheMarkers, CarryTheNichesIdsAndEmphasiseTheNearest) {
   EXPECT_GT(nearest->scale.x, other->scale.x);
   EXPECT_GT(nearest->color.a, other->color.a);
   EXPECT_EQ(nearest->points.size(), 2U);
-  EXPECT_EQ(nearest->lifetime, ros::Duration(0.5));
   EXPECT_EQ(find(markers, "a/b/points", 41)->type, Marker::SPHERE_LIST);
-  EXPECT_EQ(nicheMarkers({&pair, 1}, nicheStyle(), 0.5).size(), 2U) << "no more niches than asked for";
+  EXPECT_EQ(nicheMarkers({&pair, 1}, nicheStyle()).size(), 2U) << "no more niches than asked for";
 }
 
 TEST(NicheLabel, CarriesTheNamesAndTheDistanceOfTheNearestNiche) {
   PairNiches pair = pairWithNiches({41, 7});
   pair.nearest.body_a = "arm";
   pair.nearest.body_b = "shelf";
-  const Label label = nicheLabel(pair, nicheStyle(), 0.5);
+  const Label label = nicheLabel(pair, nicheStyle());
   EXPECT_EQ(label.text.ns, "a/b/text");
   EXPECT_EQ(label.text.text, "arm - shelf: 100 mm");
   EXPECT_EQ(label.place, Eigen::Vector3d(0.05, 0.0, 0.0));
   pair.nearest.status.code = PairStatus::PENETRATING;
-  EXPECT_EQ(nicheLabel(pair, nicheStyle(), 0.5).text.text, "arm - shelf: overlap");
+  EXPECT_EQ(nicheLabel(pair, nicheStyle()).text.text, "arm - shelf: overlap");
 }
 
 TEST(NicheMarkers, DashTheLineOfADistanceThatIsNotCertainOrStale) {
@@ -103,14 +102,14 @@ TEST(NicheMarkers, DashTheLineOfADistanceThatIsNotCertainOrStale) {
     EXPECT_EQ(line.points.size(), 10U);
     EXPECT_NEAR(line.points.back().x, 0.1, 1e-12);
     EXPECT_EQ(find(markers, "a/b/line", 2)->points.size(), 2U);
-    const std::string text = nicheLabel(pair, nicheStyle(), 0.5).text.text;
+    const std::string text = nicheLabel(pair, nicheStyle()).text.text;
     EXPECT_NE(text.find("100 mm, at least 80.0 mm"), std::string::npos) << text;
   }
   pair.nearest.status.code = PairStatus::STALE_TRANSFORM;
   const std::vector<Marker> markers = draw(pair);
   EXPECT_EQ(find(markers, "a/b/line", 1)->points.size(), 10U);
   EXPECT_EQ(find(markers, "a/b/line", 1)->color, greyColor());
-  EXPECT_NE(nicheLabel(pair, nicheStyle(), 0.5).text.text.find(", stale"), std::string::npos);
+  EXPECT_NE(nicheLabel(pair, nicheStyle()).text.text.find(", stale"), std::string::npos);
 }
 
 TEST(NicheMarkers, DrawCirclesOfTheExtentAroundSegmentsAndPatchesAlone) {

@@ -47,7 +47,7 @@ class PressureMarkers : public ::testing::Test {
                           pair.tracked->input.a_from_b);
   }
   DrawnPressures draw(std::size_t& left) const {
-    return pressureMarkers(scene, scene.pairs[0], *cycle.pairs()[0], contacts, style, kEnd, 1.0, left);
+    return pressureMarkers(scene, scene.pairs[0], *cycle.pairs()[0], contacts, style, kEnd, left);
   }
 
   TransformBuffer buffer = timelessBuffer();
@@ -63,7 +63,7 @@ TEST_F(PressureMarkers, ColourEachCornerByItsPressure) {
   ASSERT_EQ(drawn.markers.size(), 1U);
   const Marker& marker = drawn.markers[0];
   EXPECT_EQ(marker.ns, "a/b/pressure");
-  EXPECT_EQ(marker.id, emptyContactMarker(contacts, "", 0, 1.0).id);
+  EXPECT_EQ(marker.id, emptyContactMarker(contacts, "", 0).id);
   EXPECT_EQ(marker.type, Marker::TRIANGLE_LIST);
   EXPECT_EQ(marker.header.frame_id, "world");
   EXPECT_EQ(marker.pose.position.x, 5.0) << "points in a's frame";
@@ -89,7 +89,7 @@ TEST_F(PressureMarkers, ColourEachCornerByItsPressure) {
 TEST_F(PressureMarkers, ReplaceTheDiscWhereTheyFit) {
   std::size_t left = kMostPressureTriangles;
   const auto has_disc = [&](const DrawnPressures& drawn) {
-    const std::vector<Marker> markers = contactMarkers(contacts, drawn.has_marker, style, 1.0);
+    const std::vector<Marker> markers = contactMarkers(contacts, drawn.has_marker, style);
     return std::any_of(markers.begin(), markers.end(),
                        [](const Marker& marker) { return marker.ns == "a/b/contact_area"; });
   };
@@ -145,12 +145,12 @@ TEST_F(LumpedMarkers, HaveNoPressure) {
   std::size_t left = kMostPressureTriangles;
   EXPECT_TRUE(draw(left).markers.empty());
   EXPECT_EQ(largestPressure({contacts}), 0.0);
-  EXPECT_EQ(contactLabels(contacts, 1.0).at(0).text.text.find("up to"), std::string::npos);
+  EXPECT_EQ(contactLabels(contacts).at(0).text.text.find("up to"), std::string::npos);
 }
 
 TEST_F(PressureMarkers, LabelsSayTheLargestPressure) {
   EXPECT_NEAR(largestPressure({contacts}), kFoundation * kDepth, 1.0);
-  const std::string text = contactLabels(contacts, 1.0).at(0).text.text;
+  const std::string text = contactLabels(contacts).at(0).text.text;
   EXPECT_NE(text.find("up to 10.0 MPa"), std::string::npos) << text;
 }
 

@@ -85,6 +85,17 @@ class Picture {
   }
   void makeStale(std::size_t pair) { pairs_[pair]->status.code = PairStatus::STALE_TRANSFORM; }
   void makeLink(std::size_t body) { scene_.bodies.edit(body).is_robot_link = true; }
+  void replaceBody(std::size_t body, const std::string& name) {
+    NamedList<SceneBody> bodies;
+    for (std::size_t k = 0; k < scene_.bodies.size(); ++k) {
+      if (k == body) {
+        bodies.push_back(box(name, unit_));
+      } else {
+        bodies.appendShared(scene_.bodies, k);
+      }
+    }
+    scene_.bodies = bodies;
+  }
   void warn(std::size_t pair, bool raised) { pairs_[pair]->heading.warning = raised; }
   void wait(double seconds) { header_.stamp += ros::Duration(seconds); }
   SceneMarkers& drawing() { return drawing_; }
@@ -256,18 +267,6 @@ TEST(SceneMarkers, DrawTheNearestPointsOfThePresentCycleBetweenTwoQuestions) {
   EXPECT_NEAR(std::hypot(to.x - lines[0].points[0].x, to.y - lines[0].points[0].y), 0.07, 1e-12);
 }
 
-TEST(SceneMarkers, ShowTheNearestPairsAndSayHowManyThereAre) {
-  Picture picture(12);
-  picture.style.pair_count = 5;
-  const MarkerArray message = picture.draw();
-  std::set<std::string> lines;
-  for (const Marker& marker : withKind(message, "/line")) lines.insert(marker.ns);
-  EXPECT_EQ(lines, (std::set<std::string>{"middle/box_1/line", "middle/box_2/line", "middle/box_3/line",
-                                          "middle/box_4/line", "middle/box_5/line"}));
-  ASSERT_FALSE(withKind(message, "legend").empty());
-  EXPECT_NE(withKind(message, "legend").front().text.find("5 nearest of 12"), std::string::npos);
-}
-
 // The text without the empty rows above and below it.
 std::string wordsOf(const Marker& text) {
   const std::size_t first = text.text.find_first_not_of('\n');
@@ -396,7 +395,7 @@ PairContactState manyContacts(std::size_t count) {
   return state;
 }
 
-TEST(SceneMarkers, LabelTheDeepestContactsAsManyAsNiches) {
+TEST(SceneMarkers, ListTheDeepestContactsAsManyAsNichesAndAtMostFiftyRows) {
   Picture picture(2);
   picture.style.niche_count = 12;
   picture.contacts = {manyContacts(40)};
@@ -405,14 +404,25 @@ TEST(SceneMarkers, LabelTheDeepestContactsAsManyAsNiches) {
   ASSERT_EQ(labels.size(), 12U);
   for (const Marker& label : labels) EXPECT_GT(label.id, 40 - 12);
   EXPECT_EQ(withKind(message, "/contact_depth").size(), 40U);
-  EXPECT_FALSE(withKind(message, "box_2/text").empty()) << "the niches keep their labels";
-}
-
-TEST(SceneMarkers, DrawAtMostFiftyLabels) {
-  Picture picture(2);
+  EXPECT_EQ(withKind(message, "box_2/text").size(), 1U) << "a pair without contacts keeps its row";
+  EXPECT_EQ(wordsOf(withKind(message, "more").front()), "and 28 more");
   picture.style.niche_count = 0;
   picture.contacts = {manyContacts(1000)};
   EXPECT_EQ(withKind(picture.draw(), "/contact_text").size(), 50U);
+}
+
+TEST(SceneMarkers, CountThePairsInWarningThatTheListHasNoRoomFor) {
+  Picture picture(12);
+  for (std::size_t pair = 0; pair < 12; ++pair) picture.warn(pair, true);
+  MarkerArray message = picture.draw();
+  EXPECT_EQ(withKind(message, "/line").size(), 12U);
+  EXPECT_EQ(withKind(message, "/number").size(), 8U);
+  EXPECT_EQ(withKind(message, "/text").size(), 8U);
+  EXPECT_EQ(wordsOf(withKind(message, "more").front()), "and 4 more");
+  picture.style.pair_count = 11;
+  message = picture.draw();
+  EXPECT_EQ(withKind(message, "/text").size(), 11U) << "as many as are asked for";
+  EXPECT_EQ(wordsOf(withKind(message, "more").front()), "and 1 more");
 }
 
 TEST(UsualRegion, LeavesOutAFloorAndWhatLiesFarOff) {
@@ -443,6 +453,8 @@ TEST(SceneMarkers, TintTheBodiesOfAPairInWarningAndNoOther) {
   EXPECT_EQ(tints[1].points.size(), 36U);
   EXPECT_TRUE(tints[1].frame_locked);
   EXPECT_LT(tints[1].color.a, 0.7F);
+  EXPECT_EQ(tints[1].lifetime, ros::Duration(3.0 * kLifetime));
+  EXPECT_EQ(withKind(raised, "/line").front().lifetime, ros::Duration(kLifetime));
   EXPECT_NE(withKind(raised, "box_2/text").front().text.find("middle - box_2"), std::string::npos)
       << "names where it is too close";
   picture.wait(0.1);
@@ -452,6 +464,17 @@ TEST(SceneMarkers, TintTheBodiesOfAPairInWarningAndNoOther) {
   picture.warn(1, false);
   EXPECT_EQ(withKind(picture.draw(), "warning", Marker::DELETE).size(), 2U);
   EXPECT_TRUE(withKind(picture.draw(), "warning", Marker::DELETE).empty());
+}
+
+TEST(SceneMarkers, TintABodyAnewThatTakesAnothersNumber) {
+  Picture picture(1);
+  picture.warn(0, true);
+  EXPECT_EQ(withKind(picture.draw(), "warning").size(), 2U);
+  picture.replaceBody(1, "other");
+  picture.wait(0.1);
+  const std::vector<Marker> tints = withKind(picture.draw(), "warning");
+  ASSERT_EQ(tints.size(), 1U);
+  EXPECT_EQ(tints[0].header.frame_id, "other");
 }
 
 TEST(SceneMarkers, TintWhatIsWarnedOfAndTheNearestLinkOfARobot) {
@@ -503,26 +526,6 @@ TEST(SceneMarkers, AreAllDeletedWhenNothingIsToBeDrawn) {
   }
   EXPECT_TRUE(shown.empty());
   EXPECT_TRUE(picture.drawing().empty());
-}
-
-TEST(WarningTints, ABodyThatTakesAnothersNumberTakesItsTintOver) {
-  Scene scene;
-  scene.bodies.push_back(box("first", 1.0));
-  Scene other;
-  other.bodies.push_back(box("second", 1.0));
-  WarningTints tints;
-  std_msgs::Header header;
-  header.frame_id = "world";
-  header.stamp = ros::Time(100.0);
-  EXPECT_EQ(tints.update(scene, {0}, 0.0, 1.0, header).size(), 1U);
-  header.stamp = ros::Time(100.1);
-  EXPECT_TRUE(tints.update(scene, {0}, 0.0, 1.0, header).empty());
-  const std::vector<Marker> markers = tints.update(other, {0}, 0.0, 1.0, header);
-  ASSERT_EQ(markers.size(), 1U) << "which replaces the other";
-  EXPECT_EQ(markers[0].action, Marker::ADD);
-  EXPECT_EQ(markers[0].header.frame_id, "second");
-  EXPECT_EQ(tints.update(Scene(), {}, 0.0, 1.0, header).front().action, Marker::DELETE);
-  EXPECT_TRUE(tints.empty());
 }
 
 }  // namespace

@@ -103,7 +103,7 @@ MarkerStyle contactStyle() {
 }
 
 TEST(ContactMarkers, DrawAreaDepthAndForces) {
-  const std::vector<Marker> markers = contactMarkers(message(), {false}, contactStyle(), 1.0);
+  const std::vector<Marker> markers = contactMarkers(message(), {false}, contactStyle());
   std::set<std::string> kinds;
   for (const Marker& marker : markers) {
     kinds.insert(marker.ns);
@@ -126,18 +126,18 @@ TEST(ContactMarkers, DrawNothingThatWasNotComputedAndTellContactsWithoutIdsApart
   PairContactState state = message();
   state.body_a = "arm";
   state.body_b = "shelf";
-  EXPECT_EQ(contactLabels(state, 1.0).front().text.text, "arm - shelf: 2.00 mm deep, 10.4 N");
+  EXPECT_EQ(contactLabels(state).front().text.text, "arm - shelf: 2.00 mm deep, 10.4 N");
   state.contacts[0].id = 0;
   state.contacts[0].has_force = state.contacts[0].has_friction = state.contacts[0].has_depth = 0;
   state.contacts[0].depth = state.contacts[0].contact_area = kNotComputed;
   state.contacts.push_back(state.contacts[0]);
-  EXPECT_TRUE(contactMarkers(state, {false, false}, contactStyle(), 1.0).empty());
-  const std::vector<Label> labels = contactLabels(state, 1.0);
+  EXPECT_TRUE(contactMarkers(state, {false, false}, contactStyle()).empty());
+  const std::vector<Label> labels = contactLabels(state);
   ASSERT_EQ(labels.size(), 2U);
   EXPECT_NE(labels[0].text.id, labels[1].text.id);
   EXPECT_EQ(labels[0].depth, 0.0);
   state.contacts[0].centroid.x = kNotComputed;
-  EXPECT_EQ(contactLabels(state, 1.0).size(), 1U);
+  EXPECT_EQ(contactLabels(state).size(), 1U);
 }
 
 class EffectsInTheCycle : public ::testing::Test {

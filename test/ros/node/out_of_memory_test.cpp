@@ -11,7 +11,7 @@
 #include "ros/box_scene.h"
 #include "ros/node/distance_cycle.h"
 #include "ros/pair_demands.h"
-#include "ros/services/distance_queries.h"
+#include "ros/services/answer_query.h"
 #include "support/fail_allocations.h"
 
 namespace concave_distance::out_of_memory_test {

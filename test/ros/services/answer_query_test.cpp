@@ -1,5 +1,4 @@
-#include "ros/services/distance_queries.h"
-#include "ros/pair_demands.h"
+#include "ros/services/answer_query.h"
 
 #include <gtest/gtest.h>
 
@@ -7,16 +6,17 @@
 #include <limits>
 
 #include "ros/box_scene.h"
+#include "ros/pair_demands.h"
 #include "support/plain_shapes.h"
 
-namespace concave_distance::distance_queries_test {
+namespace concave_distance::answer_query_test {
 namespace {
 
 using test::kRounding;
 
-class DistanceQueriesTest : public ::testing::Test {
+class AnswerQuery : public ::testing::Test {
  protected:
-  DistanceQueriesTest() {
+  AnswerQuery() {
     place(buffer, "a", 0.0, now);
     place(buffer, "b", 2.0, now);
     place(buffer, "c", -3.0, now);
@@ -40,7 +40,7 @@ class DistanceQueriesTest : public ::testing::Test {
   DistanceQuery query;
 };
 
-TEST_F(DistanceQueriesTest, AnswerFromTransformsInTheReferenceFrame) {
+TEST_F(AnswerQuery, AnswerFromTransformsInTheReferenceFrame) {
   const PairNiches result = answer();
   ASSERT_TRUE(isAnswered(result)) << result.nearest.status.message;
   EXPECT_NEAR(result.nearest.distance, 1.0, kRounding);
@@ -51,14 +51,14 @@ TEST_F(DistanceQueriesTest, AnswerFromTransformsInTheReferenceFrame) {
   EXPECT_TRUE(result.niches.empty()) << "nobody asked for them";
 }
 
-TEST_F(DistanceQueriesTest, AnswerWithTheBodiesInTheOrderAskedFor) {
+TEST_F(AnswerQuery, AnswerWithTheBodiesInTheOrderAskedFor) {
   std::swap(query.body_a, query.body_b);
   const PairNiches result = answer();
   EXPECT_NEAR(result.nearest.point_a.x, 1.5, kRounding);
   EXPECT_EQ(result.nearest.body_a, "b");
 }
 
-TEST_F(DistanceQueriesTest, TakePosesGivenInsteadOfTransforms) {
+TEST_F(AnswerQuery, TakePosesGivenInsteadOfTransforms) {
   query.use_pose_b = 1;
   query.pose_b.pose.position.x = 5.0;
   EXPECT_NEAR(answer().nearest.distance, 4.0, kRounding) << "in the reference frame";
@@ -72,7 +72,7 @@ TEST_F(DistanceQueriesTest, TakePosesGivenInsteadOfTransforms) {
   EXPECT_NEAR(both.nearest.point_a.x, -0.5, kRounding);
 }
 
-TEST_F(DistanceQueriesTest, NeedNoTransformWhenBothPosesAreGiven) {
+TEST_F(AnswerQuery, NeedNoTransformWhenBothPosesAreGiven) {
   const TransformBuffer empty = timelessBuffer();
   query.use_pose_a = query.use_pose_b = 1;
   query.pose_b.pose.position.x = 3.0;
@@ -81,7 +81,7 @@ TEST_F(DistanceQueriesTest, NeedNoTransformWhenBothPosesAreGiven) {
   EXPECT_NEAR(result.nearest.distance, 2.0, kRounding);
 }
 
-TEST_F(DistanceQueriesTest, TellNichesOnRequestWithoutIds) {
+TEST_F(AnswerQuery, TellNichesOnRequestWithoutIds) {
   query.with_niches = 1;
   const PairNiches result = answer();
   ASSERT_FALSE(result.niches.empty());
@@ -92,12 +92,12 @@ TEST_F(DistanceQueriesTest, TellNichesOnRequestWithoutIds) {
   EXPECT_TRUE(result.changes.empty());
 }
 
-TEST_F(DistanceQueriesTest, AnswerForBodiesThatAreNoPair) {
+TEST_F(AnswerQuery, AnswerForBodiesThatAreNoPair) {
   query.body_a = "c";
   EXPECT_NEAR(answer().nearest.distance, 4.0, kRounding);
 }
 
-TEST_F(DistanceQueriesTest, RefuseWhatCannotBeAnsweredAndSayWhy) {
+TEST_F(AnswerQuery, RefuseWhatCannotBeAnsweredAndSayWhy) {
   query.body_b = "nobody";
   expectRefusal("nobody");
   query.body_b = "a";
@@ -120,7 +120,7 @@ TEST_F(DistanceQueriesTest, RefuseWhatCannotBeAnsweredAndSayWhy) {
   expectRefusal("time_budget");
 }
 
-TEST_F(DistanceQueriesTest, ProveTheDistanceWhenAsked) {
+TEST_F(AnswerQuery, ProveTheDistanceWhenAsked) {
   const std::vector<std::uint8_t> levels = {DistanceQuery::ACCURACY_CERTIFIED,
                                             DistanceQuery::ACCURACY_COMPLETE};
   for (std::size_t choice = 0; choice < 4; ++choice) {
@@ -136,7 +136,7 @@ TEST_F(DistanceQueriesTest, ProveTheDistanceWhenAsked) {
   }
 }
 
-TEST_F(DistanceQueriesTest, SayWhichFrameIsMissing) {
+TEST_F(AnswerQuery, SayWhichFrameIsMissing) {
   query.use_pose_b = 1;
   query.pose_b.header.frame_id = "atlantis";
   const PairNiches result = answer();
@@ -145,7 +145,7 @@ TEST_F(DistanceQueriesTest, SayWhichFrameIsMissing) {
   EXPECT_FALSE(isAnswered(result));
 }
 
-TEST_F(DistanceQueriesTest, AnswerAtTheStampGiven) {
+TEST_F(AnswerQuery, AnswerAtTheStampGiven) {
   place(buffer, "b", 4.0, now + ros::Duration(1.0));
   place(buffer, "a", 0.0, now + ros::Duration(1.0));
   query.stamp = now + ros::Duration(0.5);
@@ -154,7 +154,7 @@ TEST_F(DistanceQueriesTest, AnswerAtTheStampGiven) {
   EXPECT_EQ(answer().nearest.status.code, PairStatus::MISSING_TRANSFORM);
 }
 
-TEST_F(DistanceQueriesTest, ReportOverlapAsPenetratingAtDistanceZero) {
+TEST_F(AnswerQuery, ReportOverlapAsPenetratingAtDistanceZero) {
   query.use_pose_b = 1;
   query.pose_b.pose.position.x = 0.5;
   query.pose_b.pose.position.y = 0.3;
@@ -180,7 +180,7 @@ SceneBody twoPosts(double half_distance) {
   return body;
 }
 
-TEST_F(DistanceQueriesTest, CutTheNichesToTheMemoryOfTheAnswer) {
+TEST_F(AnswerQuery, CutTheNichesToTheMemoryOfTheAnswer) {
   scene.bodies.edit(1) = twoPosts(2.0);
   query.with_niches = query.use_pose_b = 1;
   query.largest_niche_count = std::numeric_limits<std::uint32_t>::max();
@@ -195,7 +195,7 @@ TEST_F(DistanceQueriesTest, CutTheNichesToTheMemoryOfTheAnswer) {
   EXPECT_NEAR(cut.nearest.distance, 1.0, kRounding);
 }
 
-TEST_F(DistanceQueriesTest, RefuseContactsBeyondTheMemoryOfTheAnswer) {
+TEST_F(AnswerQuery, RefuseContactsBeyondTheMemoryOfTheAnswer) {
   scene.bodies.edit(1) = twoPosts(0.6);
   query.with_contacts = query.use_pose_b = 1;
   query.pose_b.pose.position.y = 0.25;
@@ -210,4 +210,4 @@ TEST_F(DistanceQueriesTest, RefuseContactsBeyondTheMemoryOfTheAnswer) {
 }
 
 }  // namespace
-}  // namespace concave_distance::distance_queries_test
+}  // namespace concave_distance::answer_query_test

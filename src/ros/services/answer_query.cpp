@@ -1,0 +1,230 @@
+#include "answer_query.h"
+
+#include <algorithm>
+#include <exception>
+#include <limits>
+#include <new>
+
+#include "base/short_text.h"
+#include "concave_distance/base/error.h"
+#include "concave_distance/tracking/pair_effects.h"
+#include "concave_distance/tracking/pair_tracker.h"
+#include "loading/frame_name.h"
+#include "request_conversions.h"
+#include "ros/messages/contact_conversions.h"
+#include "ros/messages/conversions.h"
+#include "ros/tf/tf_poses.h"
+#include "scene/scene_edits.h"
+
+namespace concave_distance {
+namespace {
+
+// Bytes: once in the answer and about as much again where it is serialised.
+constexpr std::size_t kNicheBytes = 2 * (sizeof(Niche) + sizeof(NicheChange));
+constexpr std::size_t kContactBytes = 2 * sizeof(Contact);
+
+/// Says where a body is: rigidly at `frame_from_body` in a tf frame.
+struct BodyPlace {
+  std::string frame;
+  Eigen::Isometry3d frame_from_body = Eigen::Isometry3d::Identity();
+};
+
+BodyPlace placeOf(const SceneBody& body, bool use_pose, const geometry_msgs::PoseStamped& pose,
+                  const std::string& reference_frame, const std::string& where) {
+  if (!use_pose) {
+    return {body.frame, Eigen::Isometry3d::Identity()};
+  }
+  const std::string& frame = pose.header.frame_id;
+  return {frame.empty() ? reference_frame : requireFrameName(frame, where + ".header.frame_id"),
+          poseFromMessage(pose.pose, where)};
+}
+
+double secondsLeft(const QueryContext& context) {
+  const auto left = context.deadline - std::chrono::steady_clock::now();
+  return std::chrono::duration<double>(left).count();
+}
+
+double waitingTime(const QueryContext& context) {
+  return std::clamp(secondsLeft(context), 0.0, context.transform_timeout);
+}
+
+void requireRunning(const QueryContext& context) {
+  if (context.stop != nullptr && *context.stop) {
+    throw Error("service", "the node is shutting down", "ask again when it is back");
+  }
+}
+
+PairTransforms locate(const BodyPlace& a, const BodyPlace& b, const QueryContext& context, ros::Time stamp,
+                      ros::Time now) {
+  const PairFrames frames{context.reference_frame, a.frame, b.frame};
+  waitForFrames(*context.transforms, frames.frame_a, frames.frame_b, stamp, waitingTime(context));
+  waitForFrames(*context.transforms, frames.reference, frames.frame_a, stamp, waitingTime(context));
+  const std::shared_ptr<const tf2::BufferCore> buffer = context.transforms->current();
+  PairAncestors ancestors;
+  PairTransforms transforms = stamp.isZero()
+                                  ? lookUpPair(*buffer, frames, now, context.stale_after, ancestors)
+                                  : lookUpPairAt(*buffer, frames, stamp);
+  transforms.a_from_b = a.frame_from_body.inverse() * transforms.a_from_b * b.frame_from_body;
+  transforms.reference_from_a = transforms.reference_from_a * a.frame_from_body;
+  return transforms;
+}
+
+// The answer to a query for which the call had no time left.
+QueryAnswer outOfTime(const DistanceQuery& query, const PairHeading& heading) {
+  PairStatus status;
+  status.code = PairStatus::BUDGET_EXHAUSTED;
+  status.message =
+      "the call's time ran out before this query began (send fewer queries in one call, or raise "
+      "~limits/query_seconds)";
+  QueryAnswer answer;
+  answer.result = emptyNiches(heading, status);
+  if (query.with_contacts != 0) {
+    answer.contacts = emptyContacts(heading, status);
+  }
+  return answer;
+}
+
+// Ids belong to what is tracked; an answer has none.
+void forgetIds(PairNiches& answer) {
+  answer.nearest.nearest_niche_id = 0;
+  answer.changes.clear();
+  for (Niche& niche : answer.niches) {
+    niche.id = 0;
+  }
+}
+
+std::uint32_t nichesWithin(const QueryContext& context) {
+  return static_cast<std::uint32_t>(std::clamp<std::size_t>(context.answer_limit / kNicheBytes, 1,
+                                                            std::numeric_limits<std::uint32_t>::max()));
+}
+
+PairContactState tooManyContacts(std::size_t count, const PairHeading& heading) {
+  PairStatus status;
+  status.code = PairStatus::MEMORY_EXHAUSTED;
+  status.message = std::to_string(count) +
+                   " regions of contact need more memory than this answer may take (send fewer queries in "
+                   "one call, or raise ~limits/query_memory_mb)";
+  return emptyContacts(heading, status);
+}
+
+// The regions of overlap at one pose, from nothing; no forces. At most `bytes` of them.
+PairContactState findContacts(const SceneBody& body_a, const SceneBody& body_b, const PairSolution& solution,
+                              const PairHeading& heading, WorkLimit limit, std::size_t bytes) {
+  EffectSettings regions;
+  regions.interference = true;
+  PairEffects effects(body_a.mesh, body_b.mesh, regions, inContact(body_a.material, body_b.material));
+  PairContacts contacts;
+  effects.update(solution, RelativeTwist(), 0.0, contacts, &limit);
+  if (contacts.regions.size() > bytes / kContactBytes) {
+    return tooManyContacts(contacts.regions.size(), heading);
+  }
+  for (ContactRegion& region : contacts.regions) {
+    region.id = 0;
+  }
+  return toContacts(heading, toDistance(heading, solution).status, contacts, solution.a_from_b);
+}
+
+QueryAnswer answer(const DistanceQuery& query, const Scene& scene, const QueryContext& context, ros::Time now,
+                   PairHeading& heading) {
+  const SceneBody& body_a = scene.bodies[requireBody(scene, query.body_a)];
+  const SceneBody& body_b = scene.bodies[requireBody(scene, query.body_b)];
+  if (&body_a == &body_b) {
+    throw Error("body_b", "both bodies are '" + query.body_a + "'", "name two different bodies");
+  }
+  const auto found = scene.findPair(query.body_a, query.body_b);
+  const PairSettings& settings = found ? scene.pairs[*found].settings : scene.defaults.pairs;
+  heading.pair = found ? scene.pairs[*found].name : query.body_a + "/" + query.body_b;
+  TrackerParameters parameters = queryParameters(query, settings.tracker);
+  if (query.with_contacts != 0 && !provesDistance(parameters.accuracy)) {
+    throw Error("with_contacts",
+                "it is true, but the accuracy is " + std::string(toString(parameters.accuracy)),
+                "ask for ACCURACY_CERTIFIED: its proof shows whether bodies touch");
+  }
+  heading.accuracy = parameters.accuracy;
+  heading.with_niches = parameters.niches_wanted;
+
+  const BodyPlace place_a =
+      placeOf(body_a, query.use_pose_a != 0, query.pose_a, context.reference_frame, "pose_a");
+  const BodyPlace place_b =
+      placeOf(body_b, query.use_pose_b != 0, query.pose_b, context.reference_frame, "pose_b");
+  const PairTransforms transforms = locate(place_a, place_b, context, query.stamp, now);
+  heading.stamp = transforms.status == TransformStatus::Missing ? now : transforms.stamp;
+  heading.reference_from_a = transforms.reference_from_a;
+  QueryAnswer answer;
+  if (transforms.status != TransformStatus::Ok) {
+    const PairStatus status = toStatus(transforms.status, transforms.message);
+    answer.result = emptyNiches(heading, status);
+    if (query.with_contacts != 0) {
+      answer.contacts = emptyContacts(heading, status);
+    }
+    return answer;
+  }
+  requireRunning(context);
+  const double left = secondsLeft(context);
+  if (left <= 0.0) {
+    return outOfTime(query, heading);
+  }
+  parameters.time_budget = std::min(parameters.time_budget, left);
+  parameters.memory_limit = context.memory_limit;
+  parameters.largest_niche_count = std::min(parameters.largest_niche_count, nichesWithin(context));
+  parameters.stop = context.stop;
+  const PairSolution solution =
+      solveOnce(heading.pair, body_a.mesh, body_b.mesh, parameters, transforms.a_from_b);
+  if (settings.warning_distance && solution.distance < *settings.warning_distance) {
+    heading.warning = true;
+  }
+  answer.result = toNiches(heading, solution);
+  if (query.with_contacts != 0) {
+    const std::size_t taken = answer.result.niches.size() * kNicheBytes;
+    answer.contacts =
+        findContacts(body_a, body_b, solution, heading, remainingWork(parameters, solution.solve_seconds),
+                     context.answer_limit - std::min(taken, context.answer_limit));
+  }
+  return answer;
+}
+
+// Needs memory for what it says of a failure too.
+QueryAnswer answerOrExplain(const DistanceQuery& query, const Scene& scene, const QueryContext& context,
+                            ros::Time now) {
+  PairHeading heading;
+  heading.body_a = query.body_a;
+  heading.body_b = query.body_b;
+  heading.reference_frame = context.reference_frame;
+  heading.stamp = now;
+  PairStatus status;
+  status.code = PairStatus::INVALID_REQUEST;
+  try {
+    requireRunning(context);
+    QueryAnswer answered = answer(query, scene, context, now, heading);
+    forgetIds(answered.result);
+    return answered;
+  } catch (const Error& problem) {
+    status.message = shortText(problem.what());
+  } catch (const std::bad_alloc&) {
+    status.message = "there is not enough memory for this query (request less in one call)";
+  } catch (const std::exception& problem) {
+    status.message = shortText(problem.what());
+  }
+  return {emptyNiches(heading, status), PairContactState()};
+}
+
+}  // namespace
+
+bool isAnswered(const PairNiches& answer) {
+  return answer.nearest.has_distance != 0;
+}
+
+QueryAnswer answerQuery(const DistanceQuery& query, const Scene& scene, const QueryContext& context,
+                        ros::Time now) noexcept {
+  try {
+    return answerOrExplain(query, scene, context, now);
+  } catch (...) {
+    // The texts are short enough to need no memory.
+    PairStatus status;
+    status.code = PairStatus::INVALID_REQUEST;
+    status.message = "out of memory";
+    return {emptyNiches(PairHeading(), status), PairContactState()};
+  }
+}
+
+}  // namespace concave_distance
