@@ -22,7 +22,7 @@ struct ConvexShells {
 };
 
 /// More shells than this are not looked at one by one.
-inline constexpr std::size_t kMostConvexShells = 24;
+inline constexpr std::size_t kMostConvexShells = 128;
 
 ConvexShells findConvexShells(const BodyMesh& body);
 

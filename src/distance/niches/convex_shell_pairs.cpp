@@ -9,6 +9,8 @@ namespace {
 
 /// Facet pairs after which a set of closest points is not measured on.
 constexpr std::size_t kMostExtentPairs = 4096;
+/// More pairs of shells take longer than all normal cones.
+constexpr std::size_t kMostPairs = 512;
 
 using Shell = ConvexShells::Shell;
 
@@ -30,7 +32,9 @@ bool isOutward(const Shell& a, const Shell& b, const Eigen::Isometry3d& a_from_b
 void ConvexShellPairs::begin(const PairFrame& frame) {
   const auto count_a = static_cast<std::uint32_t>(shellsOf(frame.a).size());
   const auto count_b = static_cast<std::uint32_t>(shellsOf(frame.b).size());
-  pairs_.resize(std::size_t{count_a} * count_b);
+  const std::size_t count = std::size_t{count_a} * count_b;
+  if (count > kMostPairs) return;
+  pairs_.resize(count);
   for (std::uint32_t i = 0; i < pairs_.size(); ++i) {
     pairs_[i].a = i / count_b;
     pairs_[i].b = i % count_b;

@@ -11,6 +11,7 @@
 //
 // - local_minima has the entry, findLocalMinima(); candidate_collector brings the candidates together.
 // - convex_pair tells where nearly convex bodies have one niche, so that nothing is looked for.
+// - convex_shell_pairs brings the candidates of unions of convex solids, from the closest points of each two.
 // - niche_decider decides each candidate by the cheapest proof that holds: a path down that stays low
 //   (bounded_path), two whole components that are far apart (distant_components), the boundary of a basin
 //   that is still high enough (basin_boundary), else a search of the basin (basin_search). Its stages are
