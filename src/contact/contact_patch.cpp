@@ -1,7 +1,6 @@
 #include "contact_patch.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "patch_cells.h"

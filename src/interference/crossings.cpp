@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 
 #include "base/pair_key.h"
 #include "base/triangle_area.h"

@@ -3,7 +3,6 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 
 #include "mesh/trees/bounding_volume_hierarchy.h"

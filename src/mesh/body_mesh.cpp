@@ -1,7 +1,6 @@
 #include "concave_distance/mesh/body_mesh.h"
 
 #include <array>
-#include <string>
 #include <utility>
 
 #include "base/made_once.h"

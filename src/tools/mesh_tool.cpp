@@ -7,7 +7,6 @@
 
 #include "base/output_file.h"
 #include "base/run_tool.h"
-#include "concave_distance/base/error.h"
 #include "mesh_tool_commands.h"
 
 namespace {

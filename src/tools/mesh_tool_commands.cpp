@@ -2,14 +2,12 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <ostream>
 
 #include "base/triangle_area.h"
 #include "concave_distance/mesh/import/export_mesh.h"
 #include "concave_distance/mesh/import/import_mesh.h"
-#include "concave_distance/mesh/repair/repair_mesh.h"
 #include "mesh/surface/refine_mesh.h"
 
 namespace concave_distance::tools {

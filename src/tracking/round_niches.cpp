@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "distance/bound/closest_point.h"
 #include "distance/bound/round_certificate.h"

@@ -20,12 +20,10 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <limits>
 #include <map>
-#include <optional>
 #include <sstream>
 
 #include "benchmark/support/benchmark_main.h"

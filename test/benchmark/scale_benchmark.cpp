@@ -15,7 +15,6 @@
 
 #include <CLI/CLI.hpp>
 #include <chrono>
-#include <cmath>
 #include <filesystem>
 
 #include "base/run_together.h"

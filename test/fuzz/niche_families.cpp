@@ -1,6 +1,5 @@
 #include "fuzz/niche_families.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "concave_distance/base/error.h"

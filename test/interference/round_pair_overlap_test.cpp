@@ -1,7 +1,6 @@
 // Regions of overlap of two exact round solids, and of a pair taken either way round.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <vector>
 
 #include "support/concave_shapes.h"

@@ -12,7 +12,6 @@
 #include <locale>
 #include <sstream>
 #include <string>
-#include <vector>
 
 #include "base/csv_writer.h"
 #include "concave_distance/base/error.h"

@@ -1,8 +1,6 @@
 // Meshes at the ends of what there is: a million triangles, files in other units, bodies without extent.
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "concave_distance/base/error.h"
 #include "concave_distance/mesh/import/export_mesh.h"
 #include "concave_distance/mesh/import/import_mesh.h"

@@ -1,6 +1,4 @@
-#include <cmath>
 
-#include "base/random_engine.h"
 #include "concave_distance/mesh/repair/repair_mesh.h"
 #include "numerics/numeric_cases.h"
 #include "support/concave_shapes.h"

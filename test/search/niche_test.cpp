@@ -2,7 +2,6 @@
 
 #include <rapidcheck/gtest.h>
 #include <algorithm>
-#include <limits>
 
 #include "base/infinity.h"
 #include "base/selection.h"

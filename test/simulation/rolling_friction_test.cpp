@@ -1,7 +1,6 @@
 // Balls that are held back by rolling and spinning friction, against closed forms.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "base/pi.h"

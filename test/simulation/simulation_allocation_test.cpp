@@ -1,7 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <vector>
-
 #include "simulation/box_stack.h"
 #include "support/count_allocations.h"
 

@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <memory>
-#include <string>
 
 #include "concave_distance/mesh/body_mesh.h"
 

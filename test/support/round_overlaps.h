@@ -4,7 +4,6 @@
 #include <memory>
 #include <vector>
 
-#include "base/pi.h"
 #include "concave_distance/interference/interference.h"
 #include "support/body_pairs.h"
 

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <set>
 
 #include "concave_distance/tracking/pair_tracker.h"
 #include "distance/bound/round_certificate.h"

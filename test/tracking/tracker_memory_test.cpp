@@ -3,7 +3,6 @@
 #include <tbb/parallel_for.h>
 
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "concave_distance/mesh/surface/primitives.h"

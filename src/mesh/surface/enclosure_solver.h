@@ -5,8 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include "surface_cells.h"
-
 namespace concave_distance::detail {
 
 /// The role of a unit's faces in the solid it bounds.

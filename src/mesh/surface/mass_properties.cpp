@@ -1,8 +1,6 @@
 #include "concave_distance/mesh/surface/mass_properties.h"
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/LU>
-#include <cmath>
 
 #include "base/parameter_checks.h"
 #include "concave_distance/base/error.h"

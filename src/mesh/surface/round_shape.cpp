@@ -1,6 +1,5 @@
 #include "concave_distance/mesh/surface/round_shape.h"
 
-#include <cmath>
 #include <utility>
 
 #include "base/coordinate_limit.h"

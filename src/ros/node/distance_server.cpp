@@ -2,7 +2,6 @@
 
 #include <ros/console.h>
 
-#include <cmath>
 #include <optional>
 #include <thread>
 #include <utility>

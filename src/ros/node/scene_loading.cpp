@@ -3,11 +3,9 @@
 #include <ros/console.h>
 #include <ros/package.h>
 
-#include <utility>
 #include <vector>
 
 #include "concave_distance/base/error.h"
-#include "concave_distance/loading/load_scene.h"
 #include "loading/description_search.h"
 #include "scene/body_pool.h"
 

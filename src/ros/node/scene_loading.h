@@ -3,7 +3,6 @@
 #include <ros/node_handle.h>
 
 #include <map>
-#include <optional>
 #include <string>
 
 #include "concave_distance/loading/load_scene.h"

@@ -6,7 +6,6 @@
 #include <exception>
 
 #include "base/memory_arenas.h"
-#include "concave_distance/base/error.h"
 #include "scene_loading.h"
 #include "simulation_runner.h"
 

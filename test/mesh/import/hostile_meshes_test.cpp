@@ -1,8 +1,6 @@
 // Every file of test/faults/hostile_meshes.py: served or refused, as the file says, and this program goes on.
 #include <gtest/gtest.h>
 
-#include <cstdio>
-#include <sstream>
 #include <string>
 #include <vector>
 

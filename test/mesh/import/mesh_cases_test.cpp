@@ -5,7 +5,6 @@
 #include <cstring>
 #include <locale>
 #include <string>
-#include <vector>
 
 #include "concave_distance/base/error.h"
 #include "concave_distance/mesh/import/import_mesh.h"

@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numeric>
 
 #include "concave_distance/mesh/repair/repair_mesh.h"
 #include "mesh/surface/mesh_topology.h"

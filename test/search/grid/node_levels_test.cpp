@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <numeric>
-
 #include "concave_distance/mesh/body_mesh.h"
 #include "concave_distance/mesh/surface/primitives.h"
 #include "search/grid/body_grid.h"

@@ -1,6 +1,5 @@
 #include "file_mesh.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <locale>
 #include <sstream>

@@ -7,7 +7,6 @@
 #include "read_obj.h"
 #include "read_ply.h"
 #include "read_stl.h"
-#include "text_words.h"
 
 namespace concave_distance::detail {
 namespace {
