@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "base/pair_key.h"
-#include "base/triangle_area.h"
+#include "base/triangle_measures.h"
 #include "mesh/surface/mesh_topology.h"
 
 namespace concave_distance::detail {

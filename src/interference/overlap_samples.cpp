@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/longest_edge.h"
-#include "base/triangle_area.h"
+#include "base/triangle_measures.h"
 
 namespace concave_distance {
 namespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/pi.h"
-#include "base/triangle_area.h"
+#include "base/constants.h"
+#include "base/triangle_measures.h"
 #include "mesh/surface/round_geometry.h"
 #include "round_lines.h"
 #include "round_volume.h"

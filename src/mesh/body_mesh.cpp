@@ -3,9 +3,9 @@
 #include <array>
 #include <utility>
 
+#include "base/helper_threads.h"
 #include "base/made_once.h"
 #include "base/number_text.h"
-#include "base/run_together.h"
 #include "body_key.h"
 #include "cached_parts.h"
 #include "concave_distance/base/error.h"
@@ -78,7 +78,7 @@ BodyMesh::BodyMesh(std::string name, SurfaceMesh surface, const BodyMeshOptions&
                [&] { state_->trees = detail::treesOf(surface_, cache, surface_key); }});
 }
 
-// What is attached may refer to the body.
+// Attachments may refer to the body.
 BodyMesh::~BodyMesh() {
   delete attachment();
 }

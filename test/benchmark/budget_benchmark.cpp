@@ -1,5 +1,5 @@
-// What a time budget leaves of the list of niches, and what the search is worth then: tracked cycles that end
-// early, beside a tracker that takes its time.
+// Measures what a time budget leaves of the list of niches, and what the search is worth then, by tracked
+// cycles that end early beside a tracker that takes its time.
 //
 //   budget_benchmark [--pairs name,name,...] [--budgets 50,100,200,500] [--shares 0,0.05,0.1,0.3] [--steps
 //   500]

@@ -21,12 +21,12 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <map>
 #include <set>
 
 #include "benchmark/support/benchmark_main.h"
 #include "benchmark/support/flood_recall.h"
+#include "benchmark/support/result_table.h"
 #include "benchmark/support/statistics.h"
 #include "concave_distance/tracking/pair_tracker.h"
 #include "distance/niches/local_minima.h"
@@ -223,51 +223,25 @@ int benchmarkMain(int argc, char** argv) {
   app.add_option("--output", output, "CSV file to write");
   CLI11_PARSE(app, argc, argv);
 
-  std::ofstream csv;
-  if (!output.empty()) {
-    csv.open(output);
-    csv << "pair,triangles_a,triangles_b,observed,niches_mean,tracked_recall,tracked_prominent_recall,"
-           "cold_recall,cold_prominent_recall,tracked_own,tracked_double,tracked_false,cold_"
-           "own,cold_double,"
-           "cold_false,missed_grid,missed_unmet,index_ms,complete_ms,complete_"
-           "max_ms,cold_ms,"
-           "cycle_ms,met_by_flood\n";
-  }
-  std::printf("%-19s %7s | %7s %7s %7s %7s | %6s %6s %6s | %5s %5s | %8s %8s %8s %8s %8s\n", "pair", "niches",
-              "tracked", ">=5e-2", "cold", ">=5e-2", "own", "double", "false", "grid", "unmet", "index",
-              "complete", "max", "cold", "cycle");
+  ResultTable table(
+      output,
+      "pair,triangles_a,triangles_b,observed,niches_mean,tracked_recall,tracked_prominent_recall,"
+      "cold_recall,cold_prominent_recall,tracked_own,tracked_double,tracked_false,cold_own,"
+      "cold_double,cold_false,missed_grid,missed_unmet,index_ms,complete_ms,complete_max_ms,cold_ms,"
+      "cycle_ms,met_by_flood");
   for (const std::string& name : names) {
     const BenchmarkPair pair = loadBenchmarkPair(name);
     Tally t = Comparison(pair, options).run();
-    const double values[] = {t.niches / t.observed,
-                             t.tracked.recall(),
-                             t.tracked.prominentRecall(),
-                             t.cold.recall(),
-                             t.cold.prominentRecall(),
-                             RecallShares::share(t.tracked.own, t.tracked.reported),
-                             RecallShares::share(t.tracked.doubled, t.tracked.reported),
-                             RecallShares::share(t.tracked.none, t.tracked.reported),
-                             RecallShares::share(t.cold.own, t.cold.reported),
-                             RecallShares::share(t.cold.doubled, t.cold.reported),
-                             RecallShares::share(t.cold.none, t.cold.reported)};
-    const double longest = *std::max_element(t.complete_ms.begin(), t.complete_ms.end());
-    std::printf(
-        "%-19s %7.2f | %7.4f %7.4f %7.4f %7.4f | %6.3f %6.3f %6.3f | %5d %5d | %8.2f %8.2f %8.2f "
-        "%8.2f "
-        "%8.3f\n",
-        name.c_str(), values[0], values[1], values[2], values[3], values[4], values[5], values[6], values[7],
-        t.missed["grid"], t.missed["unmet"], t.index_ms, mean(t.complete_ms), longest, mean(t.cold_ms),
-        mean(t.cycle_ms));
+    const auto share_of_tracked = [&](double part) { return RecallShares::share(part, t.tracked.reported); };
+    const auto share_of_cold = [&](double part) { return RecallShares::share(part, t.cold.reported); };
+    table.add(name, pair.a->surface().triangleCount(), pair.b->surface().triangleCount(), t.observed,
+              t.niches / t.observed, t.tracked.recall(), t.tracked.prominentRecall(), t.cold.recall(),
+              t.cold.prominentRecall(), share_of_tracked(t.tracked.own), share_of_tracked(t.tracked.doubled),
+              share_of_tracked(t.tracked.none), share_of_cold(t.cold.own), share_of_cold(t.cold.doubled),
+              share_of_cold(t.cold.none), t.missed["grid"], t.missed["unmet"], t.index_ms,
+              mean(t.complete_ms), *std::max_element(t.complete_ms.begin(), t.complete_ms.end()),
+              mean(t.cold_ms), mean(t.cycle_ms), t.met_by_flood);
     list(t.misses, options.list_misses);
-    std::fflush(stdout);
-    if (csv) {
-      csv << name << ',' << pair.a->surface().triangleCount() << ',' << pair.b->surface().triangleCount()
-          << ',' << t.observed;
-      for (const double value : values) csv << ',' << value;
-      csv << ',' << t.missed["grid"] << ',' << t.missed["unmet"] << ',' << t.index_ms << ','
-          << mean(t.complete_ms) << ',' << longest << ',' << mean(t.cold_ms) << ',' << mean(t.cycle_ms) << ','
-          << t.met_by_flood << '\n';
-    }
   }
   return 0;
 }

@@ -1,5 +1,5 @@
-// What the genetic search does by default, at level `certified`: the same cycles with it and without it, in
-// turns, in one run and one thread.
+// Shows what the genetic search does by default, at level `certified`: the same cycles with it and without
+// it, in turns, in one run and one thread.
 //
 //   generation_benchmark [--pairs name,name,...] [--steps 500] [--robot FOLDER]
 //                        [--output doc/results/generations.csv]

@@ -5,7 +5,6 @@
 
 #include "support/concave_shapes.h"
 #include "support/round_bodies.h"
-#include "support/round_overlaps.h"
 
 namespace concave_distance::round_pair_overlap_test {
 namespace {

@@ -408,7 +408,7 @@ TEST_F(SceneFile, EverySettingReachesItsParameter) {
 // The members of a struct of plain parameters, read from its header.
 std::set<std::string> membersOf(const std::string& header, const std::string& name) {
   const std::string text =
-      test::contentOfFile(std::string(CONCAVE_DISTANCE_SOURCE_DIR "/include/concave_distance/") + header);
+      test::contentOf(std::string(CONCAVE_DISTANCE_SOURCE_DIR "/include/concave_distance/") + header);
   const std::size_t begin = text.find("struct " + name + " {");
   const std::string body = text.substr(begin, text.find("\n};", begin) - begin);
   const std::regex member(R"(\n  [A-Za-z_:<>0-9]+ ([a-z_]+)( =[^;]*)?;)");
@@ -443,7 +443,7 @@ TEST(PairParameters, DeclareEveryMemberAndGiveItsDefault) {
 
 // The YAML blocks of the documentation, each a file of its own.
 TEST_F(SceneFile, ExamplesOfTheDocumentationAreAccepted) {
-  const std::string documentation = test::contentOfFile(CONCAVE_DISTANCE_SOURCE_DIR "/doc/scene_file.md");
+  const std::string documentation = test::contentOf(CONCAVE_DISTANCE_SOURCE_DIR "/doc/scene_file.md");
   options.descriptions["robot_description"] = test::robot(
       test::boxLink("base_link") + test::boxLink("upper_arm") + test::boxLink("forearm") +
       test::boxLink("gripper") + test::boxLink("camera_mount") +

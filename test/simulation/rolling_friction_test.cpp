@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "base/pi.h"
+#include "base/constants.h"
 #include "concave_distance/mesh/surface/primitives.h"
 #include "simulation/scene_builder.h"
 

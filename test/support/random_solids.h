@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <cstdint>
+#include <utility>
+#include <vector>
 
 #include "base/random_engine.h"
 #include "concave_distance/mesh/surface/primitives.h"
@@ -12,6 +14,31 @@
 
 /// Random concave solids about a metre across: closed, outward oriented, not crossing themselves.
 namespace concave_distance::test {
+
+/// The triangles, each with corners of its own.
+inline SurfaceMesh surfaceOf(const std::vector<TrianglePoints>& triangles) {
+  std::vector<Eigen::Vector3d> vertices;
+  std::vector<TriangleNodes> nodes;
+  for (const TrianglePoints& t : triangles) {
+    for (const Eigen::Vector3d& corner : t) vertices.push_back(corner);
+    const auto first = static_cast<std::uint32_t>(vertices.size() - 3);
+    nodes.push_back({NodeIndex{first}, NodeIndex{first + 1}, NodeIndex{first + 2}});
+  }
+  return SurfaceMesh(std::move(vertices), std::move(nodes), "soup");
+}
+
+/// A prism over a star-shaped outline of random radii: concave, at times with very thin spikes.
+inline SurfaceMesh spikyPrism(RandomEngine& engine) {
+  const std::uint32_t corners = 3 + uniformIndex(engine, 9);
+  const double least = powerOfTen(engine, -3.0, 0.0);
+  Outline outline;
+  for (std::uint32_t i = 0; i < corners; ++i) {
+    const double angle = 2.0 * M_PI * (i + 0.8 * uniformUnit(engine)) / corners;
+    const double radius = uniformIn(engine, least, 1.0);
+    outline.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
+  }
+  return makeExtrusion(outline, powerOfTen(engine, -3.0, 0.5));
+}
 
 /// A prism over a star with points of random length.
 inline SurfaceMesh randomStar(RandomEngine& engine) {

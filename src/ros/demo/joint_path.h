@@ -15,7 +15,6 @@ class JointPath {
   JointPath(std::vector<double> times, Eigen::MatrixXd waypoints, double period);
 
   double period() const { return period_; }
-  Eigen::Index jointCount() const { return waypoints_.cols(); }
 
   /// Positions `time` seconds after the start; any finite time, the path repeats.
   Eigen::VectorXd at(double time) const;

@@ -3,8 +3,24 @@
 #include <ros/ros.h>
 
 #include "concave_distance/base/error.h"
+#include "demo_parameters.h"
+#include "ros/time_difference.h"
 
 namespace concave_distance::demo {
+
+/// Calls act(time, now) at the parameter `rate` until the program ends; `time` is seconds since the first
+/// call. A clock that jumps back begins anew.
+template <typename Act>
+void playAtRate(double rate, const Act& act) {
+  ros::NodeHandle public_node;
+  ros::Time first;
+  const ros::Timer timer = public_node.createTimer(ros::Duration(1.0 / rate), [&](const ros::TimerEvent&) {
+    const ros::Time now = ros::Time::now();
+    if (first.isZero() || now < first) first = now;
+    act(secondsBetween(first, now), now);
+  });
+  ros::spin();
+}
 
 /// Runs `main` of a demo node: an Error ends it with a message.
 inline int runNode(int argc, char** argv, const char* name, void (*run)()) {

@@ -12,7 +12,7 @@
 #include "ros/tf/clock_check.h"
 #include "ros/tf/frame_report.h"
 #include "ros/topics/diagnostics.h"
-#include "scene_loading.h"
+#include "scene_loader.h"
 
 namespace concave_distance {
 namespace {

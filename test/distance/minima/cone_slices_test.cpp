@@ -7,8 +7,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "base/constants.h"
 #include "base/helping_threads.h"
-#include "base/infinity.h"
 #include "distance/minima/front_checks.h"
 #include "distance/minima/minima_tracker.h"
 #include "support/body_motions.h"

@@ -5,13 +5,13 @@
 #include <atomic>
 #include <cmath>
 
-#include "base/infinity.h"
+#include "base/constants.h"
 #include "concave_distance/mesh/surface/primitives.h"
 #include "distance/minima/front_checks.h"
 #include "support/body_motions.h"
 #include "support/body_pairs.h"
 
-// What the front keeps over a motion against all cones from the roots at every pose.
+// Compares the front over a motion with all cones from the roots at every pose.
 
 namespace concave_distance::detail::minima_tracker_test {
 namespace {

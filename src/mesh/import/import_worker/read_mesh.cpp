@@ -3,10 +3,7 @@
 #include <utility>
 
 #include "concave_distance/base/error.h"
-#include "read_dae.h"
-#include "read_obj.h"
-#include "read_ply.h"
-#include "read_stl.h"
+#include "mesh_readers.h"
 
 namespace concave_distance::detail {
 namespace {

@@ -1,4 +1,4 @@
-#include "base/selection.h"
+#include "search/selection.h"
 
 #include <gtest/gtest.h>
 
@@ -7,16 +7,10 @@
 #include <cmath>
 #include <numeric>
 
+#include "search/search_fixtures.h"
+
 namespace concave_distance::selection_test {
 namespace {
-
-std::vector<std::uint32_t> countEach(const std::vector<std::uint32_t>& selected, std::size_t individuals) {
-  std::vector<std::uint32_t> counts(individuals, 0);
-  for (const std::uint32_t individual : selected) {
-    ++counts.at(individual);
-  }
-  return counts;
-}
 
 std::vector<double> drawWeights() {
   const auto raw = *rc::gen::nonEmpty(rc::gen::container<std::vector<int>>(rc::gen::inRange(0, 1000)));
@@ -32,7 +26,7 @@ RC_GTEST_PROP(StochasticUniversalSampling, GivesEachIndividualFloorOrCeilOfItsEx
   std::vector<std::uint32_t> selected;
   stochasticUniversalSampling(weights, count, engine, selected);
   RC_ASSERT(selected.size() == count);
-  const auto counts = countEach(selected, weights.size());
+  const auto counts = test::countEach(selected, weights.size());
   const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
   for (std::size_t i = 0; i < weights.size(); ++i) {
     const double expected = count * weights[i] / sum;
@@ -64,7 +58,7 @@ TEST(StochasticUniversalSampling, NeverTakesAnIndividualWithoutWeight) {
   std::vector<std::uint32_t> selected;
   for (int run = 0; run < 1000; ++run) {
     stochasticUniversalSampling({0.0, 2.0, 0.0, 1.0, 0.0}, 7, engine, selected);
-    const auto counts = countEach(selected, 5);
+    const auto counts = test::countEach(selected, 5);
     EXPECT_EQ(counts[0] + counts[2] + counts[4], 0U);
   }
 }

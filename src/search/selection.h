@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "random_engine.h"
+#include "base/random_engine.h"
 
 namespace concave_distance {
 
