@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "base/constants.h"
 #include "support/concave_shapes.h"
 #include "support/round_bodies.h"
 

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <vector>
 
+#include "concave_distance/distance/witness.h"
 #include "concave_distance/mesh/body_mesh.h"
 #include "concave_distance/search/trial_point.h"
 

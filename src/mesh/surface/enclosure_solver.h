@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "surface_cells.h"
+
 namespace concave_distance::detail {
 
 /// The role of a unit's faces in the solid it bounds.
