@@ -27,4 +27,10 @@ inline std::string xmlError(const tinyxml2::XMLDocument& document) {
   return "line " + std::to_string(document.ErrorLineNum()) + ": " + document.ErrorName();
 }
 
+/// Empty when the element has no such attribute.
+inline std::string attribute(const tinyxml2::XMLElement& element, const char* name) {
+  const char* value = element.Attribute(name);
+  return value != nullptr ? value : std::string();
+}
+
 }  // namespace concave_distance::detail

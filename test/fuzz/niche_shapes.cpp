@@ -210,7 +210,7 @@ SurfaceMesh twoBoxes(RandomEngine& engine) {
   Vector3d offset = latticePoint(engine, 0, 4);
   const std::uint32_t axes = 1 + uniformIndex(engine, 3);
   for (std::uint32_t i = 0; i < axes; ++i) offset[i] = size[i];
-  return makeUnion(first, latticeBox(engine), offset);
+  return makeJoined(first, latticeBox(engine), offset);
 }
 
 }  // namespace
@@ -252,7 +252,7 @@ SurfaceMesh severalShells(RandomEngine& engine) {
   if (kind == 0) return randomHollowBox(engine);
   if (kind == 1) {
     const SurfaceMesh outer = makeCuboid(Vector3d::Zero(), Vector3d(1, 1, 1));
-    return makeUnion(outer, makeCuboid(Vector3d::Zero(), Vector3d(0.25, 0.375, 0.25)),
+    return makeJoined(outer, makeCuboid(Vector3d::Zero(), Vector3d(0.25, 0.375, 0.25)),
                      latticePoint(engine, 1, 4));
   }
   SurfaceMesh all = plainShape(engine);
@@ -263,7 +263,7 @@ SurfaceMesh severalShells(RandomEngine& engine) {
     const SurfaceMesh next = plainShape(engine);
     const std::uint32_t axis = uniformIndex(engine, 3);
     offset[axis] = all.boundingBox().max()[axis] - next.boundingBox().min()[axis] + eighths(engine, 1, 3);
-    all = makeUnion(all, next, offset);
+    all = makeJoined(all, next, offset);
   }
   return all;
 }

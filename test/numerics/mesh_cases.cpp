@@ -120,7 +120,7 @@ std::vector<NumericCase> meshCases() {
   add("ThroughAHole", makeOpened(makeOpened(block, 3), 2),
       makeCuboid({-0.05, -0.05, -0.05}, {0.05, 0.05, 0.05}),
       at(0.02, 0.01, 0.1));  // inside, but the block is open: no solid to be swallowed by
-  add("SeveralShells", makeUnion(hook, block, {2.0, 0.3, 0.1}), makeUnion(comb, block, {-1.5, 0.2, 0.4}),
+  add("SeveralShells", makeJoined(hook, block, {2.0, 0.3, 0.1}), makeJoined(comb, block, {-1.5, 0.2, 0.4}),
       askew(0.6, 1.9, 0.3));
   add("OneTriangle", makeSurface({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}),
       makeSurface({{0, 0, 0}, {0, 1, 0}, {1, 0, 0.5}}, {{0, 1, 2}}), askew(0.3, 0.2, 0.7));

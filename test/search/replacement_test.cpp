@@ -5,7 +5,6 @@
 #include <limits>
 #include <set>
 
-#include "search/crowding.h"
 #include "search/search_fixtures.h"
 
 namespace concave_distance::replacement_test {

@@ -9,11 +9,11 @@
 
 #include "base/constants.h"
 #include "search/automatic_radii.h"
-#include "search/crowding.h"
 #include "search/grid/body_grid.h"
 #include "search/grid/geodesic_extent.h"
 #include "search/local_descent.h"
 #include "search/mutation.h"
+#include "search/replacement.h"
 #include "search/search_scenes.h"
 #include "search/search_workspace.h"
 #include "search/trial_point_table.h"

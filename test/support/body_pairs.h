@@ -52,7 +52,7 @@ inline SurfaceMesh concaveShape(std::uint32_t number) {
     case 4:
       return makeSheet(5, 4, 0.15, 0.1);
     default:
-      return makeUnion(makeHook(), makeLShape(), Eigen::Vector3d(0.7, 0.1, 0.3));
+      return makeJoined(makeHook(), makeLShape(), Eigen::Vector3d(0.7, 0.1, 0.3));
   }
 }
 

@@ -72,7 +72,7 @@ inline SurfaceMesh randomBumpySphere(RandomEngine& engine) {
 inline SurfaceMesh randomHollowBox(RandomEngine& engine) {
   const Eigen::Vector3d half = Eigen::Vector3d::Constant(0.25) + 0.5 * uniformInCube(engine, 0.2);
   const Eigen::Vector3d inner = half * uniformIn(engine, 0.2, 0.9);
-  return makeUnion(makeCuboid(-half, half), makeTurned(makeCuboid(-inner, inner)), Eigen::Vector3d::Zero());
+  return makeJoined(makeCuboid(-half, half), makeTurned(makeCuboid(-inner, inner)), Eigen::Vector3d::Zero());
 }
 
 inline SurfaceMesh randomSolid(RandomEngine& engine) {
@@ -94,7 +94,7 @@ inline SurfaceMesh randomSolid(RandomEngine& engine) {
     case 5:
       return randomHollowBox(engine);
     case 6:
-      return makeUnion(randomStar(engine), makeLShape(), Eigen::Vector3d(0.7, 0.7, 0.0));
+      return makeJoined(randomStar(engine), makeLShape(), Eigen::Vector3d(0.7, 0.7, 0.0));
     default:
       return randomStar(engine);
   }

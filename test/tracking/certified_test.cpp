@@ -270,10 +270,7 @@ TEST(Certified, BoundsHoldForEveryToleranceAndBudget) {
   int within = 0;
   int stopped = 0;
   // A ball in the middle of a hollow one: nearly everything is nearly as near as the nearest.
-  SurfaceMesh sphere = makeSphere(1.0, 3e-3);
-  std::vector<TriangleNodes> turned = sphere.triangles();
-  for (TriangleNodes& t : turned) std::swap(t[1], t[2]);
-  const Body hollow = makeBody(SurfaceMesh(sphere.vertices(), turned, "hollow"), 0.5);
+  const Body hollow = makeBody(test::makeTurned(makeSphere(1.0, 3e-3)), 0.5);
   const Body ball = makeBody(makeSphere(0.5, 3e-3), 0.25);
   for (std::uint32_t round = 0; round < 40; ++round) {
     const bool nested = round % 2 == 0;
@@ -348,7 +345,7 @@ TEST(Certified, TellsThatOneOfManyPiecesIsSwallowedThoughAnotherIsNearer) {
   // A holds B's first cube; the second one hovers outside, nearer to the surface than the first.
   const Body a = makeBody(makeBox({2.0, 2.0, 2.0}), 0.5);
   const Body b = makeBody(
-      test::makeUnion(makeBox({0.2, 0.2, 0.2}), makeBox({0.2, 0.2, 0.2}), Vector3d(1.15, 0, 0)), 0.1);
+      test::makeJoined(makeBox({0.2, 0.2, 0.2}), makeBox({0.2, 0.2, 0.2}), Vector3d(1.15, 0, 0)), 0.1);
   for (const bool with_niches : {true, false}) {
     const PairSolution solution = solveOnce("pieces", a, b, certified(with_niches), Isometry3d::Identity());
     EXPECT_EQ(solution.status, SolveStatus::Penetrating);

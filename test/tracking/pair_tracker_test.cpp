@@ -188,14 +188,8 @@ TEST(PairTracker, CrossingSurfacesPenetrate) {
 
 TEST(PairTracker, ABodyInTheHollowOfAnotherIsApart) {
   // The inner shell of a hollow box faces inwards of the hollow.
-  SurfaceMesh outer = makeBox({2.0, 2.0, 2.0});
-  SurfaceMesh inner = makeBox({1.0, 1.0, 1.0});
-  std::vector<TriangleNodes> turned = inner.triangles();
-  for (TriangleNodes& t : turned) {
-    std::swap(t[1], t[2]);
-  }
-  inner = SurfaceMesh(inner.vertices(), turned, "hollow");
-  const auto hollow = body("hollow box", test::makeUnion(outer, inner, Eigen::Vector3d::Zero()));
+  const SurfaceMesh inner = test::makeTurned(makeBox({1.0, 1.0, 1.0}));
+  const auto hollow = body("hollow box", test::makeJoined(makeBox({2.0, 2.0, 2.0}), inner));
   const auto ball = body("cube", makeBox({0.2, 0.2, 0.2}));
   const PairSolution solution = solveOnce("hollow", hollow, ball, TrackerParameters(), at(0.1, 0.0, 0.0));
   EXPECT_EQ(solution.status, SolveStatus::Ok);

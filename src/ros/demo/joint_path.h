@@ -35,4 +35,8 @@ struct NamedJointPath {
 /// @throws Error when it does not, for fewer than four rows, or times that do not rise from 0
 NamedJointPath readJointPath(const std::string& path);
 
+/// Forwards through [0, duration] and backwards again, without end: the time on the path after `elapsed`
+/// seconds, with a rest of `pause` seconds at either end.
+double pingPong(double elapsed, double duration, double pause);
+
 }  // namespace concave_distance::demo

@@ -8,7 +8,6 @@
 
 #include "demo_parameters.h"
 #include "joint_path.h"
-#include "run_node.h"
 
 namespace {
 

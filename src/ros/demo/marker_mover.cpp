@@ -15,7 +15,6 @@
 #include <optional>
 
 #include "demo_parameters.h"
-#include "run_node.h"
 
 namespace {
 

@@ -7,9 +7,8 @@
 #include <tf2_ros/transform_broadcaster.h>
 
 #include "demo_parameters.h"
+#include "joint_path.h"
 #include "loading/query_poses.h"
-#include "ping_pong.h"
-#include "run_node.h"
 #include "simulation/pose_path.h"
 
 namespace {

@@ -20,7 +20,6 @@
 #include "loading/description_search.h"
 #include "loading/frame_name.h"
 #include "loading/urdf_values.h"
-#include "run_node.h"
 
 namespace {
 

@@ -50,7 +50,7 @@ TEST(MinimaTracker, LeadsToTheMinimaThatTheRootsLeadToOverAnyMotion) {
 TEST(MinimaTracker, LeadsToTheMinimaOfShellsThatCross) {
   RandomEngine engine(12);
   const SurfaceMesh sphere = makeSphere(0.6, 0.06);
-  const Body spheres = makeBody(test::makeUnion(sphere, sphere, Vector3d(0.7, 0.3, 0.2)));
+  const Body spheres = makeBody(test::makeJoined(sphere, sphere, Vector3d(0.7, 0.3, 0.2)));
   ASSERT_FALSE(spheres->shellContacts().hidden.empty());
   for (std::uint32_t run = 0; run < 60; ++run) {
     const Body other = makeBody(test::concaveShape(run));

@@ -88,7 +88,7 @@ TEST(NodeGraph, LengthsKeepTheirQuantumOverElevenDecades) {
 }
 
 TEST(NodeGraph, ShellsAreNumberedByTheirFirstNode) {
-  const SurfaceMesh two = test::makeUnion(test::makeLShape(), test::makeHook(), {3.0, 0.0, 0.0});
+  const SurfaceMesh two = test::makeJoined(test::makeLShape(), test::makeHook(), {3.0, 0.0, 0.0});
   const NodeGraph graph = buildNodeGraph(two);
   EXPECT_EQ(graph.shell_count, 2U);
   EXPECT_EQ(graph.shell.front(), 0U);
@@ -140,7 +140,7 @@ TEST(ThinGraph, SpreadsEvenly) {
 
 TEST(ThinGraph, KeepsShellsApartAndEachAlive) {
   const SurfaceMesh two =
-      test::makeUnion(makeBox({1.0, 1.0, 1.0}), makeBox({0.1, 0.1, 0.1}), {3.0, 0.0, 0.0});
+      test::makeJoined(makeBox({1.0, 1.0, 1.0}), makeBox({0.1, 0.1, 0.1}), {3.0, 0.0, 0.0});
   const ThinnedGraph thinned = thinGraph(buildNodeGraph(refineToEdgeLength(two, 0.1).mesh), 50);
   EXPECT_EQ(thinned.graph.shell_count, 2U);
 }

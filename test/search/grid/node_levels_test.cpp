@@ -45,7 +45,7 @@ TEST(NodeLevels, EveryLevelIsAnEvenChoiceOfTheFinerOne) {
 
 TEST(NodeLevels, ShellsStayApartAndAlive) {
   const SurfaceMesh two =
-      test::makeUnion(test::makeComb(3), makeSphere(0.3, 1e-3), Eigen::Vector3d(0.0, 0.0, 4.0));
+      test::makeJoined(test::makeComb(3), makeSphere(0.3, 1e-3), Eigen::Vector3d(0.0, 0.0, 4.0));
   const NodeGraph graph = graphOf(two, 0.04);
   const NodeLevels all = buildNodeLevels(graph);
   ASSERT_FALSE(all.levels.empty());
