@@ -6,6 +6,7 @@
 
 #include "base/random_engine.h"
 #include "concave_distance/mesh/body_mesh.h"
+#include "concave_distance/mesh/surface/primitives.h"
 #include "support/concave_shapes.h"
 #include "support/plain_shapes.h"
 #include "support/triangle_pairs.h"

@@ -9,6 +9,7 @@
 
 #include "concave_distance/base/error.h"
 #include "concave_distance/loading/load_scene.h"
+#include "support/mesh_measures.h"
 #include "support/temporary_folder.h"
 
 namespace concave_distance::test {

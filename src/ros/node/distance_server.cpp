@@ -9,7 +9,6 @@
 #include "reconfiguration.h"
 #include "ros/callback_guard.h"
 #include "ros/markers/body_markers.h"
-#include "ros/tf/clock_check.h"
 #include "ros/tf/frame_report.h"
 #include "ros/topics/diagnostics.h"
 #include "scene_loader.h"

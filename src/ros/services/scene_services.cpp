@@ -15,7 +15,7 @@
 #include "loading/wording.h"
 #include "request_conversions.h"
 #include "ros/messages/conversions.h"
-#include "ros/tf/clock_check.h"
+#include "ros/tf/frame_report.h"
 #include "ros/tf/tf_poses.h"
 #include "scene/scene_edits.h"
 #include "scene/set_warning_distance.h"

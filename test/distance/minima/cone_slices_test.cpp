@@ -13,8 +13,8 @@
 #include "distance/minima/minima_tracker.h"
 #include "support/body_motions.h"
 #include "support/body_pairs.h"
-#include "support/bumpy_ball.h"
 #include "support/count_allocations.h"
+#include "support/random_solids.h"
 
 // A front that is looked at in slices, by one thread or by several.
 
