@@ -405,21 +405,16 @@ TEST(Certified, MayBeAskedForNichesAndNotInTurn) {
 
 TEST(Certified, RefusesTolerancesAndBudgetsThatMeanNothing) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  for (const double wrong : {-1e-9, nan, std::numeric_limits<double>::infinity()}) {
-    TrackerParameters parameters = certified();
-    parameters.absolute_tolerance = wrong;
-    EXPECT_THROW(parameters.validate("pair"), std::exception);
-  }
-  for (const double wrong : {-0.1, 1.1, nan}) {
-    TrackerParameters parameters = certified();
-    parameters.relative_tolerance = wrong;
-    EXPECT_THROW(parameters.validate("pair"), std::exception);
-  }
-  for (const double wrong : {-1.0, 0.0, nan}) {
-    TrackerParameters parameters = certified();
-    parameters.time_budget = wrong;
-    EXPECT_THROW(parameters.validate("pair"), std::exception);
-  }
+  const auto expect_refused = [](double TrackerParameters::*value, std::initializer_list<double> wrong) {
+    for (const double number : wrong) {
+      TrackerParameters parameters = certified();
+      parameters.*value = number;
+      EXPECT_THROW(parameters.validate("pair"), std::exception) << number;
+    }
+  };
+  expect_refused(&TrackerParameters::absolute_tolerance, {-1e-9, nan, kInfinity});
+  expect_refused(&TrackerParameters::relative_tolerance, {-0.1, 1.1, nan});
+  expect_refused(&TrackerParameters::time_budget, {-1.0, 0.0, nan});
 }
 
 }  // namespace
