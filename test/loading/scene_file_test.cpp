@@ -260,20 +260,25 @@ std::vector<std::string> wrongValues(const ParameterInfo& info) {
   return wrong;
 }
 
+/// What a refusal by the scene file says is allowed.
+std::string allowedBy(const ParameterInfo& info) {
+  return info.type == ParameterType::Flag ? "true or false" : allowedValues(info);
+}
+
 TEST_F(SceneFile, EverySettingOutOfRangeIsRefusedInDefaultsAndPairs) {
   for (const Parameter<PairSettings>& parameter : pairParameters()) {
     const ParameterInfo& info = parameter.info;
     for (const std::string& value : wrongValues(info)) {
       if (info.is_expert) {
-        expectExpertRefused(info.name, value, allowedValues(info));
+        expectExpertRefused(info.name, value, allowedBy(info));
       } else {
-        expectSettingRefused(info.name, value, allowedValues(info));
+        expectSettingRefused(info.name, value, allowedBy(info));
       }
     }
   }
   for (const Parameter<GeneticParameters>& parameter : geneticParameters()) {
     for (const std::string& value : wrongValues(parameter.info))
-      expectGeneticRefused(parameter.info.name, value, allowedValues(parameter.info));
+      expectGeneticRefused(parameter.info.name, value, allowedBy(parameter.info));
   }
 }
 

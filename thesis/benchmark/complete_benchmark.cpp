@@ -25,7 +25,6 @@
 #include <set>
 
 #include "benchmark/support/benchmark_main.h"
-#include "benchmark/support/flood_recall.h"
 #include "benchmark/support/result_table.h"
 #include "benchmark/support/statistics.h"
 #include "concave_distance/tracking/pair_tracker.h"
@@ -34,6 +33,7 @@
 #include "search/grid/body_grid.h"
 #include "search/local_descent.h"
 #include "support/enumeration.h"
+#include "thesis/benchmark/support/flood_recall.h"
 
 namespace concave_distance::benchmark {
 namespace {

@@ -1,4 +1,4 @@
-#include "benchmark/support/flood_recall.h"
+#include "thesis/benchmark/support/flood_recall.h"
 
 #include <algorithm>
 
