@@ -13,6 +13,8 @@
 
 namespace concave_distance {
 
+class PreparationTask;
+
 /// Says what is wanted of a pair in one cycle.
 struct PairDemand {
   bool watched = false;  ///< somebody follows the pair; otherwise it costs nothing and starts cold later
@@ -62,8 +64,9 @@ struct TrackedPair {
   PairSolution solution;            ///< with Solved; otherwise NaN and empty, as not computed
   TrackedEffects effects;
   WarningMonitor warning;
-  bool warning_changed = false;  ///< in this cycle
-  std::uint64_t largest_id = 0;  ///< of a niche reported so far
+  bool warning_changed = false;                  ///< in this cycle
+  std::uint64_t largest_id = 0;                  ///< of a niche reported so far
+  std::shared_ptr<PreparationTask> preparation;  ///< of its bodies in the background; nullptr: not begun
 
   bool solved() const { return state == PairState::Solved; }
 
