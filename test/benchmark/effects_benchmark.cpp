@@ -13,9 +13,9 @@
 
 #include "benchmark/support/benchmark_main.h"
 #include "benchmark/support/benchmark_pairs.h"
-#include "benchmark/support/stopwatch.h"
 #include "benchmark/support/pushed_in.h"
 #include "benchmark/support/result_table.h"
+#include "benchmark/support/stopwatch.h"
 #include "concave_distance/tracking/pair_effects.h"
 #include "concave_distance/tracking/pair_tracker.h"
 

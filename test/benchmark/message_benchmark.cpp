@@ -15,8 +15,8 @@
 
 #include "benchmark/support/accuracy_pairs.h"
 #include "benchmark/support/benchmark_main.h"
-#include "benchmark/support/stopwatch.h"
 #include "benchmark/support/result_table.h"
+#include "benchmark/support/stopwatch.h"
 #include "concave_distance/tracking/pair_tracker.h"
 #include "ros/markers/niche_markers.h"
 #include "ros/messages/conversions.h"

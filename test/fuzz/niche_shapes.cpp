@@ -253,7 +253,7 @@ SurfaceMesh severalShells(RandomEngine& engine) {
   if (kind == 1) {
     const SurfaceMesh outer = makeCuboid(Vector3d::Zero(), Vector3d(1, 1, 1));
     return makeJoined(outer, makeCuboid(Vector3d::Zero(), Vector3d(0.25, 0.375, 0.25)),
-                     latticePoint(engine, 1, 4));
+                      latticePoint(engine, 1, 4));
   }
   SurfaceMesh all = plainShape(engine);
   const std::uint32_t more = 1 + uniformIndex(engine, 3);
