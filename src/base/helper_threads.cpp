@@ -1,5 +1,6 @@
 #include "helper_threads.h"
 
+#include <tbb/parallel_for.h>
 #include <exception>
 #include <thread>
 #include <vector>
@@ -28,6 +29,20 @@ void runWithHelpers(std::size_t helpers, const std::function<void()>& work) {
     // No more threads, or no memory for them.
   }
   work();
+}
+
+void runTogether(std::initializer_list<std::function<void()>> stages) {
+  std::vector<std::exception_ptr> thrown(stages.size());
+  tbb::parallel_for(std::size_t{0}, stages.size(), [&](std::size_t i) {
+    try {
+      stages.begin()[i]();
+    } catch (...) {
+      thrown[i] = std::current_exception();
+    }
+  });
+  for (const std::exception_ptr& exception : thrown) {
+    if (exception) std::rethrow_exception(exception);
+  }
 }
 
 }  // namespace concave_distance

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <initializer_list>
 
 namespace concave_distance {
 
@@ -9,5 +10,10 @@ namespace concave_distance {
 /// Where the system gives fewer threads, those that there are run it.
 /// @param work takes its share of what there is to do; must not throw
 void runWithHelpers(std::size_t helpers, const std::function<void()>& work);
+
+/// Runs independent stages in parallel and comes back when all have ended. What a stage throws stops no other
+/// (TBB would cancel what they have nested, and leave half-built parts); of several exceptions the first
+/// stage's is thrown. For preparation, not for hot paths.
+void runTogether(std::initializer_list<std::function<void()>> stages);
 
 }  // namespace concave_distance

@@ -2,16 +2,16 @@
 
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
 #include <thread>
 #include <utility>
 
-#include "thread_cpu.h"
-
 namespace concave_distance {
+
+/// Processor time that the calling thread has used so far, nanoseconds (CLOCK_THREAD_CPUTIME_ID).
+std::int64_t threadCpuNanoseconds();
 
 /// Threads of an arena that may help the one which called begin(), and the processor time that they use. Work
 /// that nobody has invited helpers for stays on the caller's thread.

@@ -97,17 +97,27 @@ Parameter<Settings> numberOrWord(std::string name, const std::string& word, doub
   return parameter;
 }
 
+/// A parameter whose value is stored as it is. @param Value what files and services give
+template <typename Value, typename Settings, typename Member>
+Parameter<Settings> stored(std::string name, ParameterType type, Member member, std::string sentence) {
+  using Stored = std::decay_t<decltype(member(std::declval<Settings&>()))>;
+  auto parameter = declared<Settings>(std::move(name), type, std::move(sentence));
+  parameter.get = [member](const Settings& settings) {
+    return ParameterValue(static_cast<Value>(member(settings)));
+  };
+  parameter.set = [member](Settings& settings, const ParameterValue& value) {
+    member(settings) = static_cast<Stored>(std::get<Value>(value));
+  };
+  return parameter;
+}
+
 }  // namespace detail
 
 /// A number. @param member generic: gives a reference to it, of settings and of constant settings
 template <typename Settings, typename Member>
 Parameter<Settings> number(std::string name, Member member, std::string sentence) {
-  auto parameter = detail::declared<Settings>(std::move(name), ParameterType::Number, std::move(sentence));
-  parameter.get = [member](const Settings& settings) { return ParameterValue(double{member(settings)}); };
-  parameter.set = [member](Settings& settings, const ParameterValue& value) {
-    member(settings) = std::get<double>(value);
-  };
-  return parameter;
+  return detail::stored<double, Settings>(std::move(name), ParameterType::Number, member,
+                                          std::move(sentence));
 }
 
 /// A number, or "none" for an infinite one.
@@ -141,26 +151,16 @@ Parameter<Settings> optionalNumber(std::string name, std::string word, Member me
 template <typename Settings, typename Member>
 Parameter<Settings> count(std::string name, Member member, std::string sentence) {
   using Integer = std::decay_t<decltype(member(std::declval<Settings&>()))>;
-  auto parameter = detail::declared<Settings>(std::move(name), ParameterType::Count, std::move(sentence));
+  auto parameter = detail::stored<std::uint64_t, Settings>(std::move(name), ParameterType::Count, member,
+                                                           std::move(sentence));
   parameter.info.highest = static_cast<double>(std::numeric_limits<Integer>::max());
-  parameter.get = [member](const Settings& settings) {
-    return ParameterValue(static_cast<std::uint64_t>(member(settings)));
-  };
-  parameter.set = [member](Settings& settings, const ParameterValue& value) {
-    member(settings) = static_cast<Integer>(std::get<std::uint64_t>(value));
-  };
   return parameter;
 }
 
 /// true or false.
 template <typename Settings, typename Member>
 Parameter<Settings> flag(std::string name, Member member, std::string sentence) {
-  auto parameter = detail::declared<Settings>(std::move(name), ParameterType::Flag, std::move(sentence));
-  parameter.get = [member](const Settings& settings) { return ParameterValue(bool{member(settings)}); };
-  parameter.set = [member](Settings& settings, const ParameterValue& value) {
-    member(settings) = std::get<bool>(value);
-  };
-  return parameter;
+  return detail::stored<bool, Settings>(std::move(name), ParameterType::Flag, member, std::move(sentence));
 }
 
 /// One of several words. @param choices the word of each enumerator
@@ -195,14 +195,9 @@ Parameter<Settings> automatic(std::string name, Member member, std::string sente
 /// Any text. @param allowed said of it in messages and documents, e.g. "a path"
 template <typename Settings, typename Member>
 Parameter<Settings> text(std::string name, std::string allowed, Member member, std::string sentence) {
-  auto parameter = detail::declared<Settings>(std::move(name), ParameterType::Text, std::move(sentence));
+  auto parameter = detail::stored<std::string, Settings>(std::move(name), ParameterType::Text, member,
+                                                         std::move(sentence));
   parameter.info.word = std::move(allowed);
-  parameter.get = [member](const Settings& settings) -> ParameterValue {
-    return std::string(member(settings));
-  };
-  parameter.set = [member](Settings& settings, const ParameterValue& value) {
-    member(settings) = std::get<std::string>(value);
-  };
   return parameter;
 }
 

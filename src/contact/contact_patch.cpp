@@ -1,14 +1,52 @@
 #include "contact_patch.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
+#include "concave_distance/contact/contact_linearisation.h"
+#include "concave_distance/interference/interference.h"
 #include "patch_cells.h"
-#include "patch_gradient.h"
+#include "pressure_law.h"
 
 namespace concave_distance {
 namespace {
+
+// The decrease is at most this share of the largest that leaves the stiffness positive.
+constexpr double kLargestDecrease = 0.9;
+
+/// Says how the measures of a patch change with a small motion of B: minus their derivatives,
+/// about A's origin.
+struct PatchGradient {
+  Vector6d push = Vector6d::Zero();  ///< integral of the depth along the push: the wrench over the stiffness
+  Vector6d volume = Vector6d::Zero();  ///< m^2, m^3
+  Vector6d moment = Vector6d::Zero();  ///< m^3, m^4
+  Vector6d depth = Vector6d::Zero();   ///< of the greatest depth: 1 (shift), m (turn)
+
+  void add(const OverlapSample& sample);
+};
+
+void PatchGradient::add(const OverlapSample& sample) {
+  const Vector6d out = sample.area * wrenchRow(sample.exit_in_a, sample.point_in_a);
+  push += sample.area * sample.depth * wrenchRow(sample.push_in_a, sample.point_in_a);
+  volume += out;
+  moment += sample.depth * out;
+}
+
+/// Adds what the change of the law's own stiffness brings. It is taken along the patch's push, where round
+/// contact has all of it, and no more of a decrease than leaves the sum with the pressure's own stiffness
+/// positive: by Cauchy's inequality push push^T is at most twice the moment times the integral of e e^T, e
+/// the push at a place.
+void addChangeOfLaw(const PressureLaw& law, const PatchGradient& gradient, double moment,
+                    Matrix6d& stiffness) {
+  const double squared_push = gradient.push.head<3>().squaredNorm();
+  if (!(squared_push > 0.0 && moment > 0.0)) return;
+  const Vector6d change =
+      law.by_volume * gradient.volume + law.by_moment * gradient.moment + law.by_depth * gradient.depth;
+  const double along = std::max(change.head<3>().dot(gradient.push.head<3>()) / squared_push,
+                                -0.5 * kLargestDecrease / moment);
+  stiffness.triangularView<Eigen::Upper>() +=
+      law.stiffness * along * gradient.push * gradient.push.transpose();
+}
 
 // Cells of friction along a cell of the pressure's stiffness, whose width is lost in the latter.
 constexpr double kSpringsAcross = 2.0;

@@ -4,13 +4,13 @@
 #include <vector>
 
 #include "base/refill.h"
-#include "cell_sums.h"
 #include "concave_distance/contact/contact_linearisation.h"
 #include "concave_distance/contact/effect_settings.h"
 #include "concave_distance/contact/pressure_field.h"
 #include "concave_distance/contact/wrench.h"
 #include "concave_distance/interference/interference.h"
 #include "friction_sites.h"
+#include "patch_cells.h"
 #include "pressure_law.h"
 #include "site_friction.h"
 

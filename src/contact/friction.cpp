@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/pi.h"
+#include "base/constants.h"
 #include "contact_parameter_tables.h"
 #include "friction_laws.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/longest_edge.h"
+#include "base/triangle_measures.h"
 #include "patch_cells.h"
 
 namespace concave_distance {

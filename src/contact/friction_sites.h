@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "cell_sums.h"
 #include "concave_distance/interference/interference.h"
+#include "patch_cells.h"
 
 namespace concave_distance {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/pi.h"
+#include "base/constants.h"
 #include "contact_parameter_tables.h"
 
 namespace concave_distance {

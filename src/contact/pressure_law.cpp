@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "base/pi.h"
+#include "base/constants.h"
 
 namespace concave_distance {
 namespace {

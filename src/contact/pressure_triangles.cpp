@@ -4,8 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "base/longest_edge.h"
-#include "base/triangle_area.h"
+#include "base/triangle_measures.h"
 #include "distance/bound/closest_point.h"
 #include "mesh/surface/mesh_topology.h"
 #include "mesh/surface/round_geometry.h"

@@ -1,7 +1,7 @@
 #include "turning_friction.h"
 
 #include "base/across_normal.h"
-#include "friction_linearisation.h"
+#include "friction_laws.h"
 
 namespace concave_distance {
 namespace {

@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/solid_angle.h"
-#include "base/triangle_area.h"
+#include "base/triangle_measures.h"
 #include "mesh/surface/mesh_topology.h"
 
 namespace concave_distance::detail {

@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 namespace concave_distance::detail {

@@ -2,10 +2,9 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 
 #include "base/pair_key.h"
-#include "base/triangle_area.h"
+#include "base/triangle_measures.h"
 #include "mesh/surface/mesh_topology.h"
 
 namespace concave_distance::detail {

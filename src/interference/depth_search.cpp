@@ -4,7 +4,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "base/longest_edge.h"
+#include "base/triangle_measures.h"
 
 namespace concave_distance {
 namespace {

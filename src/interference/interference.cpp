@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/coordinate_limit.h"
+#include "base/constants.h"
 #include "base/refill.h"
 #include "overlap_samples.h"
 #include "region_builder.h"

@@ -2,13 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "base/longest_edge.h"
-#include "base/triangle_area.h"
-#include "distance/bound/closest_point.h"
-#include "mesh/surface/mesh_topology.h"
-#include "mesh/trees/triangle_tree.h"
+#include "base/triangle_measures.h"
 
 namespace concave_distance {
 namespace {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
 
 #include "base/exact_orientation.h"
 #include "base/side.h"

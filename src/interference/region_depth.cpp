@@ -3,7 +3,6 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 
 #include "mesh/trees/bounding_volume_hierarchy.h"
@@ -98,7 +97,7 @@ OverlayDepth::Result depthAlong(const Eigen::Vector3d& normal, WorkingFrame& fra
                              overlay.addEdge(side, on_side.edges()[i].from, on_side.edges()[i].to);
                          });
     }
-    // What both surfaces have in common counts for both.
+    // Facets that both surfaces have in common count for both.
     const auto own = static_cast<std::uint32_t>(part - components.all().data());
     for (std::size_t f = 0; f < curves.commonFaces().size(); ++f) {
       const CommonFace& face = curves.commonFaces()[f];

@@ -1,7 +1,5 @@
 #include "round_lines.h"
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "mesh/surface/round_geometry.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "base/pi.h"
+#include "base/constants.h"
 #include "mesh/surface/round_geometry.h"
 #include "round_lines.h"
 

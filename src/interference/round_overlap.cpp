@@ -1,7 +1,6 @@
 #include "round_overlap.h"
 
 #include <algorithm>
-#include <cmath>
 #include <tuple>
 
 #include "mesh/surface/mesh_topology.h"

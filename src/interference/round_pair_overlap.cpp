@@ -4,7 +4,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "base/pi.h"
+#include "base/constants.h"
 #include "distance/kernels/round_kernels.h"
 #include "gauss_points.h"
 #include "mesh/surface/round_geometry.h"

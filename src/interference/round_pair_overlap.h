@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <optional>
 
 #include "concave_distance/interference/interference.h"
 

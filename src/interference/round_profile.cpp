@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/pi.h"
 #include "mesh/surface/round_geometry.h"
 
 namespace concave_distance::detail {

@@ -1,6 +1,5 @@
 // The volume of a region of overlap of a round solid and a mesh.
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "mesh/surface/mesh_topology.h"

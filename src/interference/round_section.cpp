@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "base/pi.h"
-#include "base/triangle_area.h"
-#include "gauss_points.h"
+#include "base/constants.h"
+#include "base/triangle_measures.h"
 #include "mesh/surface/round_geometry.h"
 #include "round_lines.h"
 #include "round_volume.h"

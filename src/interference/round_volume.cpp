@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "base/pi.h"
+#include "base/constants.h"
 #include "gauss_points.h"
 #include "mesh/surface/round_geometry.h"
 #include "round_lines.h"

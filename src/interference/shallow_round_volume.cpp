@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/pi.h"
+#include "base/constants.h"
 #include "mesh/surface/round_geometry.h"
 
 namespace concave_distance::detail {

@@ -4,6 +4,7 @@
 
 #include "concave_distance/base/error.h"
 #include "scene/name_pattern.h"
+#include "wording.h"
 
 namespace concave_distance::detail {
 namespace {
@@ -12,14 +13,7 @@ namespace {
 constexpr std::size_t kMostNamesListed = 30;
 
 std::string listed(const std::vector<std::string>& names) {
-  std::string text;
-  for (std::size_t i = 0; i < std::min(names.size(), kMostNamesListed); ++i) {
-    text += (i == 0 ? "" : ", ") + names[i];
-  }
-  if (names.size() > kMostNamesListed) {
-    text += " and " + std::to_string(names.size() - kMostNamesListed) + " more";
-  }
-  return text.empty() ? "none" : text;
+  return names.empty() ? "none" : detail::listed(names, kMostNamesListed);
 }
 
 void addOnce(std::vector<std::size_t>& into, const std::vector<std::size_t>& sources) {

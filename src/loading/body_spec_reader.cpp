@@ -3,9 +3,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "base/coordinate_limit.h"
+#include "base/constants.h"
 #include "base/number_text.h"
-#include "base/unit_tolerance.h"
 #include "frame_name.h"
 #include "mesh/surface/primitive_table.h"
 #include "scene/name_pattern.h"

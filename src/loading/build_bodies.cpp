@@ -3,11 +3,8 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include <algorithm>
 #include <exception>
-#include <memory>
 #include <set>
-#include <string>
 #include <utility>
 
 #include "base/content_hash.h"

@@ -1,7 +1,6 @@
 #include "geometry_element.h"
 
 #include <cstddef>
-#include <optional>
 #include <utility>
 
 #include "base/content_hash.h"

@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <optional>
 #include <system_error>
-#include <vector>
 
 #include "concave_distance/base/error.h"
 

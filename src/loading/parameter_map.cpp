@@ -1,7 +1,5 @@
 #include "parameter_map.h"
 
-#include "concave_distance/base/error.h"
-
 namespace concave_distance::detail {
 
 ParameterValue readParameter(const YamlValue& value, const ParameterInfo& info) {

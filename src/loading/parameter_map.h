@@ -1,5 +1,9 @@
 #pragma once
 
+#include <cmath>
+#include <optional>
+#include <string>
+
 #include "base/parameter.h"
 #include "yaml_value.h"
 
@@ -18,6 +22,25 @@ void readParameters(YamlMap& map, const ParameterTable<Settings>& table, bool is
       parameter.set(settings, readParameter(*value, parameter.info));
     }
   }
+}
+
+// Kinds of values that settings have, with the words that messages name them by.
+
+inline bool positiveFinite(double v) {
+  return v > 0.0 && std::isfinite(v);
+}
+inline bool notNegativeFinite(double v) {
+  return v >= 0.0 && std::isfinite(v);
+}
+
+inline constexpr const char* kLength = "greater than 0, metres";
+
+// A number of the predicate's kind, or the word that stands for "empty".
+template <typename Predicate>
+std::optional<double> optionalNumber(const YamlValue& value, const char* word, const std::string& allowed,
+                                     const Predicate& accepts) {
+  if (value.isText(word)) return std::nullopt;
+  return value.number(allowed + ", or " + word, accepts);
 }
 
 }  // namespace concave_distance::detail

@@ -2,10 +2,9 @@
 
 #include <cmath>
 
-#include "base/coordinate_limit.h"
+#include "base/constants.h"
 #include "base/csv_table.h"
 #include "base/number_text.h"
-#include "base/unit_tolerance.h"
 #include "concave_distance/base/error.h"
 
 namespace concave_distance {

@@ -14,7 +14,6 @@
 #include "message_capture.h"
 #include "urdf_values.h"
 #include "wording.h"
-#include "xml_attribute.h"
 
 namespace concave_distance::detail {
 namespace {

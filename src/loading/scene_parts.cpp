@@ -1,7 +1,6 @@
 #include "scene_parts.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "concave_distance/base/error.h"
 #include "frame_name.h"

@@ -1,7 +1,6 @@
 #include "scene_spec.h"
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <map>
 

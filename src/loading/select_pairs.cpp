@@ -1,7 +1,6 @@
 #include "select_pairs.h"
 
 #include <algorithm>
-#include <map>
 #include <numeric>
 #include <set>
 #include <utility>

@@ -9,7 +9,6 @@
 #include "concave_distance/base/error.h"
 #include "frame_name.h"
 #include "wording.h"
-#include "xml_attribute.h"
 
 namespace concave_distance::detail {
 namespace {

@@ -5,7 +5,6 @@
 #include "parameter_map.h"
 #include "scene/pair_parameters.h"
 #include "search/genetic_parameter_table.h"
-#include "setting_values.h"
 
 namespace concave_distance::detail {
 namespace {

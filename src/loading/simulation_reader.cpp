@@ -12,7 +12,6 @@
 #include "parameter_map.h"
 #include "query_poses.h"
 #include "scene/simulation_parameters.h"
-#include "setting_values.h"
 
 namespace concave_distance::detail {
 namespace {

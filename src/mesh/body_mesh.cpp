@@ -3,12 +3,11 @@
 #include <tbb/task_arena.h>
 
 #include <array>
-#include <string>
 #include <utility>
 
+#include "base/helper_threads.h"
 #include "base/made_once.h"
 #include "base/number_text.h"
-#include "base/run_together.h"
 #include "body_key.h"
 #include "cached_parts.h"
 #include "concave_distance/base/error.h"
@@ -82,7 +81,7 @@ BodyMesh::BodyMesh(std::string name, SurfaceMesh surface, const BodyMeshOptions&
                [&] { state_->trees = detail::treesOf(surface_, state_->cache); }});
 }
 
-// What is attached may refer to the body.
+// Attachments may refer to the body.
 BodyMesh::~BodyMesh() {
   delete attachment();
 }

@@ -3,7 +3,6 @@
 #include <optional>
 #include <utility>
 
-#include "cached_part.h"
 #include "repaired_mesh_cache.h"
 
 namespace concave_distance {

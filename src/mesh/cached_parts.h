@@ -1,7 +1,15 @@
 #pragma once
 
+#include <exception>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "base/array_file.h"
 #include "base/content_hash.h"
 #include "concave_distance/mesh/preparation_cache.h"
+#include "concave_distance/mesh/surface/surface_mesh.h"
+#include "mesh/surface/compressed_rows.h"
 #include "mesh/surface/facets.h"
 #include "mesh/surface/mesh_topology.h"
 #include "mesh/surface/triangle_adjacency.h"
@@ -10,9 +18,69 @@
 #include "mesh/trees/shell_contacts.h"
 #include "mesh/trees/triangle_tree.h"
 
-/// The parts of a body, from the cache where it has them, else made and stored. Keys hold all that a part is
-/// made from. Without a cache (nullptr) keys are not read.
 namespace concave_distance::detail {
+
+// How a part of a body is read from the preparation cache and stored there. A `transfer` passes the fields
+// of a part to an ArrayFileReader, or those of a constant one to an ArrayFileWriter, in the same order.
+
+/// Reads a part; nothing when its file is not sound.
+template <typename Part, typename Transfer>
+std::optional<Part> findPart(const PreparationCache& cache, const ContentKey& key, const char* name,
+                             Transfer transfer) {
+  try {
+    ArrayFileReader reader(cache.fileOf(key, name), key);
+    Part found;
+    transfer(reader, found);
+    if (reader.finish()) return found;
+  } catch (const std::exception&) {
+    // A file that passes every check and yet does not fit is no reason to stop either.
+  }
+  return std::nullopt;
+}
+
+template <typename Part, typename Transfer>
+void storePart(PreparationCache& cache, const ContentKey& key, const char* name, const Part& part,
+               Transfer transfer) {
+  if (!cache.makeFolder()) return;
+  ArrayFileWriter writer(cache.fileOf(key, name), key);
+  transfer(writer, part);
+  if (!writer.finish()) cache.noteProblem(writer.problem());
+}
+
+/// Finds a part, or makes and stores it.
+template <typename Make, typename Transfer>
+auto fromCache(PreparationCache* cache, const ContentKey& key, const char* name, Make make, Transfer transfer)
+    -> decltype(make()) {
+  using Part = decltype(make());
+  if (cache == nullptr) return make();
+  if (std::optional<Part> found = findPart<Part>(*cache, key, name, transfer)) return std::move(*found);
+  Part made = make();
+  storePart(*cache, key, name, std::as_const(made), transfer);
+  return made;
+}
+
+template <typename File, typename Rows>
+void transferRows(File& file, Rows& rows) {
+  file.array(rows.offsets);
+  file.array(rows.values);
+}
+
+inline void transferSurface(ArrayFileReader& reader, SurfaceMesh& surface) {
+  std::vector<Eigen::Vector3d> vertices;
+  std::vector<TriangleNodes> triangles;
+  reader.array(vertices);
+  reader.array(triangles);
+  if (!reader.ok() || triangles.empty()) return;
+  surface = SurfaceMesh(std::move(vertices), std::move(triangles), "preparation cache");
+}
+
+inline void transferSurface(ArrayFileWriter& writer, const SurfaceMesh& surface) {
+  writer.array(surface.vertices());
+  writer.array(surface.triangles());
+}
+
+// The parts of a body, from the cache where it has them, else made and stored. Keys hold all that a part is
+// made from. Without a cache (nullptr) keys are not read.
 
 /// Where the parts of one surface are kept.
 struct PartCache {

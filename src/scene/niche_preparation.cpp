@@ -7,7 +7,7 @@
 #include <system_error>
 #include <utility>
 
-#include "base/run_together.h"
+#include "base/helper_threads.h"
 #include "concave_distance/search/prepare_search.h"
 #include "distance/niches/convex_pair.h"
 #include "mesh/trees/normal_cone_tree.h"

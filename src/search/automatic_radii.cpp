@@ -1,7 +1,6 @@
 #include "automatic_radii.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "search/grid/body_grid.h"
 

@@ -1,8 +1,88 @@
 #include "genetic_search.h"
 
-#include "generation.h"
+#include <algorithm>
+#include <limits>
+
+#include "mutation.h"
+#include "replacement.h"
+#include "search/grid/mesh_metric.h"
 
 namespace concave_distance {
+namespace {
+
+/// Mesh distances that the operators need: within the largest radius. Crowding compares distances of any
+/// length; it gets all of them where looking one up costs nothing.
+double distanceBound(const GeneticState& state) {
+  const bool has_matrices =
+      state.objective.gridA().metric().hasMatrices() && state.objective.gridB().metric().hasMatrices();
+  const NicheRadii& radii = state.radii;
+  return has_matrices && state.parameters.niching == NichingMethod::DeterministicCrowding
+             ? std::numeric_limits<double>::infinity()
+             : std::max({radii.sharing, radii.mating, radii.niche});
+}
+
+/// The places that survive the next generation, into work.elites.
+void chooseElites(GeneticState& state) {
+  SearchWorkspace& work = state.work;
+  findElites(work.census, work.places, state.parameters.elite_count, work.elites);
+  if (state.parameters.niching != NichingMethod::Sharing || !state.parameters.conserve_niches) {
+    return;
+  }
+  nichePeaks(work.census, state.radii.niche, work.places, work.metric, work.order, work.peaks);
+  for (const std::uint32_t peak : work.peaks) {
+    if (2 * work.elites.size() < state.parameters.population_size &&
+        std::find(work.elites.begin(), work.elites.end(), peak) == work.elites.end()) {
+      work.elites.push_back(peak);
+    }
+  }
+}
+
+void admitImmigrants(GeneticState& state) {
+  SearchWorkspace& work = state.work;
+  for (std::uint32_t i = 0; i < state.parameters.random_immigrants && !state.outOfBudget(); ++i) {
+    TrialPoint point = randomTrialPoint(state.objective, state.engine);
+    std::uint32_t place = 0;
+    state.settle(point, place);
+    seatNewcomer(place, work.elites, work.places, work.census, work.population, work.population_places);
+  }
+}
+
+}  // namespace
+
+void startPopulation(GeneticState& state, const std::vector<TrialPoint>& inherited) {
+  SearchWorkspace& work = state.work;
+  const std::size_t size = state.parameters.population_size;
+  const std::size_t kept = std::min(inherited.size(), size);
+  work.places.reset(distanceBound(state));
+  work.population.assign(inherited.begin(), inherited.begin() + static_cast<std::ptrdiff_t>(kept));
+  while (work.population.size() < size) {
+    work.population.push_back(randomTrialPoint(state.objective, state.engine));
+  }
+  work.population_places.resize(size);
+  std::size_t settled = 0;
+  for (std::size_t i = 0; i < size; ++i) {
+    if (i > 0 && state.outOfBudget()) {
+      // Seats that nothing is left for go to those settled already, in turn.
+      work.population[i] = work.population[i - settled];
+      work.population_places[i] = work.population_places[i - settled];
+      continue;
+    }
+    state.settle(work.population[i], work.population_places[i]);
+    ++settled;
+  }
+  state.cost.inherited += static_cast<std::uint32_t>(std::min(kept, settled));
+  work.census.take(work.population_places, work.places.size());
+}
+
+void runGeneration(GeneticState& state) {
+  SearchWorkspace& work = state.work;
+  ++state.cost.generations;
+  chooseElites(state);
+  state.breed();
+  work.census.take(work.population_places, work.places.size());
+  restoreElites(work.elites, work.places, work.census, work.population, work.population_places);
+  admitImmigrants(state);
+}
 
 SearchCost geneticSearch(GeneticState& state, const std::vector<TrialPoint>& inherited) {
   startPopulation(state, inherited);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "base/infinity.h"
+#include "base/constants.h"
 #include "base/random_engine.h"
 #include "concave_distance/search/trial_point.h"
 #include "pair_metric.h"

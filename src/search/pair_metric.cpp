@@ -2,8 +2,6 @@
 
 #include <limits>
 
-#include "search/grid/mesh_metric.h"
-
 namespace concave_distance {
 namespace {
 

@@ -2,9 +2,9 @@
 
 #include <numeric>
 
-#include "base/selection.h"
-#include "mating_restriction.h"
+#include "mating.h"
 #include "mutation.h"
+#include "search/selection.h"
 #include "sharing.h"
 
 namespace concave_distance {

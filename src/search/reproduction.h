@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "crowding.h"
 #include "genetic_state.h"
+#include "replacement.h"
 
 namespace concave_distance {
 

@@ -1,7 +1,5 @@
 #include "concave_distance/simulation/simulation.h"
 
-#include <cmath>
-
 #include "concave_distance/base/error.h"
 #include "simulation_state.h"
 

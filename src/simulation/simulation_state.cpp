@@ -5,7 +5,6 @@
 
 #include "concave_distance/base/error.h"
 #include "suspicious_start.h"
-#include "unheld_bodies.h"
 
 namespace concave_distance {
 namespace {

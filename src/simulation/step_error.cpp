@@ -8,8 +8,8 @@
 namespace concave_distance::detail {
 namespace {
 
-// What swings within the depth that its load presses it to is at rest but for this share of the energy there,
-// and for what lifts it by this share of its size; what sticks by friction for what moves it by this share.
+// A body that swings within the depth that its load presses it to is at rest up to this share of the energy
+// there and of a lift by its size; one that sticks by friction, up to a motion by this share.
 constexpr double kShareOfDepth = 1e-4;
 constexpr double kShareOfSize = 1e-6;
 constexpr double kShareOfSizeAcross = 1e-8;

@@ -29,4 +29,8 @@ std::vector<std::string> warnOfDeepStarts(const SimulationSettings& settings,
                                           const std::vector<SimulatedPair>& pairs,
                                           const std::vector<Eigen::Vector3d>& normal);
 
+/// A warning for each free body that falls for good: under gravity, without a drive or a load, and without
+/// pairs that lead by forces, over other free bodies or not, to a body that is held.
+std::vector<std::string> warnOfUnheldBodies(const Scene& scene, const SimulationSettings& settings);
+
 }  // namespace concave_distance::detail

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "base/refill.h"
-#include "distance/niches/plateau_tolerance.h"
+#include "distance/niches/niche_properties.h"
 
 namespace concave_distance {
 namespace {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/random_engine.h"
+#include "search/automatic_radii.h"
 #include "search/genetic_search.h"
 #include "search/local_descent.h"
 #include "search/pair_objective.h"
@@ -16,10 +17,10 @@ namespace {
 constexpr std::size_t kUsualMinima = 1024;
 // Node pairs that a warm run may propose, the best first; a cold one proposes them all.
 constexpr std::size_t kWarmProposals = 64;
-// Of its share, what a search takes that finds nothing.
+// A search that finds nothing takes this part of its share.
 constexpr double kLeastOfShare = 0.125;
 constexpr double kMostCouples = 1e6;
-// What an individual takes besides the evaluations of its descents, in evaluations.
+// An individual costs this many evaluations besides those of its descents.
 constexpr double kBookkeeping = 200.0;
 
 /// Of a warm run that need not keep to a share.

@@ -11,7 +11,6 @@
 #include "concave_distance/tracking/pair_solution.h"
 #include "concave_distance/tracking/tracker_parameters.h"
 #include "niche_placement.h"
-#include "search/automatic_radii.h"
 #include "search/genetic_state.h"
 #include "search/search_workspace.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "distance/niches/plateau_tolerance.h"
+#include "distance/niches/niche_properties.h"
 
 namespace concave_distance {
 namespace {
@@ -80,7 +80,7 @@ void admitNodePairs(const PairFrame& frame, const TrackerParameters& parameters,
                     NicheArchive& archive, PairSolution& solution) {
   const double niche_radius = search.radii(warm).niche;
   PairMetric& metric = search.workspace().metric;
-  // Those that have run on into another basin are known no more, and found anew.
+  // Niches that have run on into another basin are forgotten and found anew.
   std::vector<NicheRecord>& records = archive.records();
   for (std::size_t i = records.size(); i-- > 0;) {
     if (records[i].niche.distance >= records[i].least_distance) continue;

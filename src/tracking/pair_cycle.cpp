@@ -8,7 +8,7 @@
 
 #include "distance/bound/round_certificate.h"
 #include "distance/bound/solid_overlap.h"
-#include "distance/niches/plateau_tolerance.h"
+#include "distance/niches/niche_properties.h"
 #include "mesh/trees/normal_cone_tree.h"
 #include "node_niches.h"
 #include "relative_motion.h"

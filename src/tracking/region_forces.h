@@ -6,7 +6,7 @@
 #include "concave_distance/interference/interference.h"
 #include "concave_distance/tracking/pair_effects.h"
 #include "contact/contact_patch.h"
-#include "region_memory.h"
+#include "region_identity.h"
 
 namespace concave_distance {
 

@@ -1,7 +1,6 @@
 #include "region_identity.h"
 
 #include <algorithm>
-#include <cmath>
 #include <tuple>
 
 namespace concave_distance {

@@ -2,8 +2,7 @@
 
 #include <algorithm>
 
-#include "base/coordinate_limit.h"
-#include "base/unit_tolerance.h"
+#include "base/constants.h"
 
 namespace concave_distance {
 

@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "distance/bound/closest_point.h"
 #include "distance/bound/round_certificate.h"
-#include "distance/niches/plateau_tolerance.h"
+#include "distance/niches/niche_properties.h"
 #include "mesh/surface/round_geometry.h"
 
 namespace concave_distance {

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 #include "base/random_engine.h"
 
 namespace concave_distance::expiry_queue_test {

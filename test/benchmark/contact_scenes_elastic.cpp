@@ -41,15 +41,19 @@ void bounces(SceneReport& report, const ElasticBall& ball) {
       0.01, "no loss", run.figures());
 }
 
-void rolls(SceneReport& report, const ElasticBall& ball) {
+/// Reports what body `rolling`, given half the root of its radius as its speed, keeps of that for 10 s.
+template <typename Build>
+void keepsItsSpeed(SceneReport& report, const ElasticBall& ball, std::size_t rolling, const Build& build) {
   const double speed = 0.5 * std::sqrt(ball.radius);
   const double duration = 10.0;
-  SceneRun run(ball.rollingOnPlane(speed, duration).simulation(), duration, report);
+  SceneRun run(build(speed, duration).simulation(), duration, report);
   run.advanceTo(duration);
-  const bool complete = !run.step();
-  report.equals(
-      {"speed after 10 s over the first", "1", complete ? run.body(1).velocity.x() / speed : kNotComputed},
-      1.0, 0.01, "no loss", run.figures());
+  const double kept = run.step() ? kNotComputed : run.body(rolling).velocity.x() / speed;
+  report.equals({"speed after 10 s over the first", "1", kept}, 1.0, 0.01, "no loss", run.figures());
+}
+
+void rolls(SceneReport& report, const ElasticBall& ball) {
+  keepsItsSpeed(report, ball, 1, [&](double speed, double time) { return ball.rollingOnPlane(speed, time); });
 }
 
 /// Swings: the largest kinetic energy of the last quarter over that of the first. A swing in a bowl for a
@@ -104,14 +108,8 @@ void collidesOffCentre(SceneReport& report, const ElasticBall& ball) {
 }
 
 void rollsOnFree(SceneReport& report, const ElasticBall& ball) {
-  const double speed = 0.5 * std::sqrt(ball.radius);
-  const double duration = 10.0;
-  SceneRun run(ball.rollingOnFreePlate(speed, duration).simulation(), duration, report);
-  run.advanceTo(duration);
-  const bool complete = !run.step();
-  report.equals(
-      {"speed after 10 s over the first", "1", complete ? run.body(2).velocity.x() / speed : kNotComputed},
-      1.0, 0.01, "no loss", run.figures());
+  keepsItsSpeed(report, ball, 2,
+                [&](double speed, double time) { return ball.rollingOnFreePlate(speed, time); });
 }
 
 }  // namespace

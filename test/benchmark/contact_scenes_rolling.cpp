@@ -40,7 +40,7 @@ ContactStage rollingStage(const RoundBody& body, double rolling_friction = 0.0) 
   Eigen::Isometry3d pose = at(0, 0, depthOfLowestVertex(body.mesh, body.turn));
   pose.linear() = body.turn;
   SimulatedBodySettings& settings = stage.addFree(body.name, body.mesh, kMass, pose);
-  // Of the round body, not of its mesh.
+  // The mass properties are those of the round body, not of its mesh.
   MassProperties mass;
   mass.mass = kMass;
   const double across = body.name == "sphere" ? 0.4 : 0.25 + 0.1 * 0.1 / (12.0 * kRadius * kRadius);

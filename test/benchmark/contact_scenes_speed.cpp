@@ -25,21 +25,6 @@ void runConfig(SceneReport& report, const std::string& name, double wanted,
   report.realTimeFactor(run.figures(), wanted);
 }
 
-/// Microseconds of the fastest of as many runs as fit into a third of a second.
-template <typename Run>
-double fastest(const Run& run) {
-  double best = std::numeric_limits<double>::infinity();
-  double total = 0.0;
-  for (int i = 0; i < 1000 && (total < 3e5 || i < 3); ++i) {
-    const auto start = std::chrono::steady_clock::now();
-    run();
-    const double taken = microsecondsSince(start);
-    best = std::min(best, taken);
-    total += taken;
-  }
-  return best;
-}
-
 /// Bumpy rings that overlap, as in interference_benchmark.
 void regions(SceneReport& report) {
   for (const InterferenceScene& scene : interferenceScenes()) {

@@ -1,4 +1,4 @@
-// What each effect costs a pair's cycle, and when it runs.
+// Measures what each effect costs a pair's cycle, and when it runs.
 //
 //   effects_benchmark [--pairs ...] [--steps 200] [--depth 2e-3] [--output doc/results/effects.csv]
 //
@@ -13,9 +13,9 @@
 
 #include "benchmark/support/benchmark_main.h"
 #include "benchmark/support/benchmark_pairs.h"
-#include "benchmark/support/processor_time.h"
 #include "benchmark/support/pushed_in.h"
 #include "benchmark/support/result_table.h"
+#include "benchmark/support/stopwatch.h"
 #include "concave_distance/tracking/pair_effects.h"
 #include "concave_distance/tracking/pair_tracker.h"
 

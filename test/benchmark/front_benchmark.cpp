@@ -1,5 +1,5 @@
-// What is kept from pose to pose saves over a motion, beside FCL's one distance, in one run and one thread:
-// of the front of normal cones and of the decider which minima are niches.
+// Measures what is saved over a motion by what the front of normal cones and the decider of niches keep from
+// pose to pose, beside FCL's one distance, in one run and one thread.
 //
 //   front_benchmark [--pairs name,name,...] [--steps 500,5000] [--instants 100] [--windows 4] [--output FILE]
 //                   [--files a.stl:b.stl,...]

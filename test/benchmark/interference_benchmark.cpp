@@ -22,6 +22,7 @@
 #include "benchmark/support/cgal_times.h"
 #include "benchmark/support/interference_scenes.h"
 #include "benchmark/support/interference_trials.h"
+#include "benchmark/support/stopwatch.h"
 #include "support/body_pairs.h"
 #include "support/mesh_variants.h"
 
@@ -100,27 +101,13 @@ void compareLatticePairs(std::size_t pairs, std::uint64_t first, std::ofstream& 
   printErrors("lattice: swapped", swapped, csv);
 }
 
-/// Seconds of the fastest run, of as many as fit in about a third of a second.
-template <typename Run>
-double fastest(const Run& run) {
-  double best = std::numeric_limits<double>::infinity();
-  double total = 0.0;
-  for (int i = 0; i < 1000 && (total < 0.3 || i < 3); ++i) {
-    const auto start = std::chrono::steady_clock::now();
-    run();
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    best = std::min(best, seconds);
-    total += seconds;
-  }
-  return best;
-}
-
 void timeScene(const InterferenceScene& scene, std::ofstream& csv) {
   const auto a = test::makeBody(scene.pair.a);
   const auto b = test::makeBody(scene.pair.b);
   InterferenceWorkspace workspace;
   Interference result;
-  const double ours = fastest([&] { findInterference(*a, *b, scene.pair.a_from_b, workspace, result); });
+  const double ours =
+      1e-6 * fastest([&] { findInterference(*a, *b, scene.pair.a_from_b, workspace, result); });
   const SurfaceMesh b_in_a = test::movedSurface(scene.pair.b, scene.pair.a_from_b);
   const double fast = cgalFastOverlapTime(scene.pair.a, b_in_a);
   const double exact = cgalExactOverlapTime(scene.pair.a, b_in_a);

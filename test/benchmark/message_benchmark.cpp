@@ -1,5 +1,6 @@
-// What a pair's solution costs to tell: its conversion to messages and to markers, and their serialisation,
-// beside the solve itself. No master and no node: the functions that the node calls in every cycle.
+// Measures what it costs to publish a pair's solution: its conversion to messages and to markers, and their
+// serialisation, beside the solve itself. No master and no node: the functions that the node calls in every
+// cycle.
 //
 //   message_benchmark [--pairs name,name,...] [--steps 200] [--output doc/results/messages.csv]
 //
@@ -14,8 +15,8 @@
 
 #include "benchmark/support/accuracy_pairs.h"
 #include "benchmark/support/benchmark_main.h"
-#include "benchmark/support/processor_time.h"
 #include "benchmark/support/result_table.h"
+#include "benchmark/support/stopwatch.h"
 #include "concave_distance/tracking/pair_tracker.h"
 #include "ros/markers/niche_markers.h"
 #include "ros/messages/conversions.h"
@@ -75,7 +76,7 @@ PairHeading headingOf(const BenchmarkPair& pair, const Level& level) {
   return heading;
 }
 
-// Of a pair alone in its scene: all that is drawn for it but the label.
+// Returns all that is drawn for a pair alone in its scene but the label.
 std::vector<visualization_msgs::Marker> drawnMarkers(const PairNiches& message, const MarkerStyle& style) {
   std::vector<visualization_msgs::Marker> markers;
   for (const DrawnPair& drawn : selectPairs({&message}, style).drawn) {

@@ -15,10 +15,9 @@
 
 #include <CLI/CLI.hpp>
 #include <chrono>
-#include <cmath>
 #include <filesystem>
 
-#include "base/run_together.h"
+#include "base/helper_threads.h"
 #include "benchmark/support/benchmark_main.h"
 #include "benchmark/support/fcl_distance.h"
 #include "benchmark/support/result_table.h"

@@ -51,12 +51,12 @@ int benchmarkMain(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   if (all_meshes && app.count("--pairs") == 0) names = allPairs();
 
-  const std::vector<std::string> with_files = robotPairs();
   std::filesystem::create_directories(output);
   for (const std::string& name : names) {
     const BenchmarkPair pair = loadBenchmarkPair(name);
     const std::filesystem::path file = std::filesystem::path(output) / name;
-    if (all_meshes || std::find(with_files.begin(), with_files.end(), name) == with_files.end()) {
+    // Links of robots have mesh files already.
+    if (all_meshes || (name.rfind("kr5_", 0) != 0 && name.rfind("wam", 0) != 0)) {
       exportMesh(pair.a->surface(), file.string() + "_a.stl");
       exportMesh(pair.b->surface(), file.string() + "_b.stl");
     }

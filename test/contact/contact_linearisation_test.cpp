@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "concave_distance/contact/friction.h"
 #include "concave_distance/contact/normal_force.h"
 

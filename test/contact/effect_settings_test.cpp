@@ -33,7 +33,7 @@ TEST(EffectPlan, ANormalForceBringsWhatItNeeds) {
   EXPECT_EQ(stagesOf(settings).front(), EffectStage::Interference);
 }
 
-// What tells a follower of a pair that its settings have been edited.
+// A follower of a pair sees by this that its settings have been edited.
 TEST(EffectSettings, DifferWhicheverParameterDiffers) {
   EffectSettings settings;
   settings.normal_force.emplace();

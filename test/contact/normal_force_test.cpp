@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "base/pi.h"
+#include "base/constants.h"
 #include "concave_distance/base/error.h"
 #include "contact/contact_point.h"
 #include "support/hunt_crossley_rebound.h"

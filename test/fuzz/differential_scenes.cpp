@@ -6,39 +6,23 @@
 #include "concave_distance/mesh/surface/primitives.h"
 #include "support/body_pairs.h"
 #include "support/enumeration.h"
+#include "support/random_solids.h"
 
 namespace concave_distance::test {
 namespace {
 
 using Eigen::Vector3d;
 
-/// A star-shaped outline of random radii: concave, at times with very thin spikes.
-SurfaceMesh randomExtrusion(RandomEngine& engine) {
-  const std::uint32_t corners = 3 + uniformIndex(engine, 12);
-  const double least = powerOfTen(engine, -3.0, 0.0);
-  Outline outline;
-  for (std::uint32_t i = 0; i < corners; ++i) {
-    const double angle = 2.0 * M_PI * (i + 0.8 * uniformUnit(engine)) / corners;
-    const double radius = uniformIn(engine, least, 1.0);
-    outline.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
-  }
-  return makeExtrusion(outline, powerOfTen(engine, -3.0, 0.5));
-}
-
 SurfaceMesh looseTriangles(RandomEngine& engine) {
-  std::vector<Vector3d> vertices;
-  std::vector<TriangleNodes> triangles;
+  std::vector<TrianglePoints> triangles;
   const std::uint32_t count = 1 + uniformIndex(engine, 20);
   for (std::uint32_t t = 0; t < count; ++t) {
-    const TrianglePoints corners = uniformIndex(engine, 2) == 0
-                                       ? randomTriangle(engine)
-                                       : moved(flatTriangle(engine, powerOfTen(engine, -5.0, 0.0)),
-                                               randomRotation(engine), uniformInCube(engine, 1.0));
-    for (const Vector3d& corner : corners) vertices.push_back(corner);
-    const auto first = static_cast<std::uint32_t>(vertices.size() - 3);
-    triangles.push_back({NodeIndex{first}, NodeIndex{first + 1}, NodeIndex{first + 2}});
+    triangles.push_back(uniformIndex(engine, 2) == 0
+                            ? randomTriangle(engine)
+                            : moved(flatTriangle(engine, powerOfTen(engine, -5.0, 0.0)),
+                                    randomRotation(engine), uniformInCube(engine, 1.0)));
   }
-  return SurfaceMesh(std::move(vertices), std::move(triangles), "loose triangles");
+  return surfaceOf(triangles);
 }
 
 SurfaceMesh randomShape(RandomEngine& engine, std::string& description) {
@@ -48,7 +32,7 @@ SurfaceMesh randomShape(RandomEngine& engine, std::string& description) {
       return concaveShape(uniformIndex(engine, 6));
     case 1:
       description += "extrusion ";
-      return randomExtrusion(engine);
+      return spikyPrism(engine);
     case 2:
       description += "loose ";
       return looseTriangles(engine);

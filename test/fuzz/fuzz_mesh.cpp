@@ -2,7 +2,6 @@
 // repaired and queried. In this process, though importMesh() has one of its own for it. The first byte
 // chooses the format.
 #include <array>
-#include <cmath>
 
 #include "concave_distance/base/error.h"
 #include "concave_distance/interference/interference.h"

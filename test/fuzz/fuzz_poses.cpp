@@ -1,5 +1,4 @@
 // Any bytes as the poses of distance_query: poses, or an Error with file and line.
-#include <cmath>
 
 #include "concave_distance/base/error.h"
 #include "fuzz/fuzz_input.h"

@@ -7,7 +7,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace concave_distance;
   try {
     SceneLoadOptions options;
-    // What is looked for is in the text: bodies are made ready, which takes far longer, of few inputs only.
+    // The fuzzer looks for faults in the text, so bodies are made ready, which takes far longer, for few
+    // inputs.
     options.geometry = size % 8 == 0 ? GeometrySource::Collision : GeometrySource::Visual;
     options.metric_memory_limit = 0;
     const Scene scene = loadRobotScene(test::textOf(data, size), "fuzz", options);

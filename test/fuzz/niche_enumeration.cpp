@@ -109,7 +109,7 @@ std::vector<EnumeratedNiche> NicheEnumeration::niches(double least_prominence) c
     while (parent[i] != i) i = parent[i] = parent[parent[i]];
     return i;
   };
-  // Of a root, the deepest cell of its component: others of it that are ripples as deep up to rounding.
+  // For each root, the deepest cell of its component, this lists the others that are as deep up to rounding.
   std::vector<std::vector<std::size_t>> equals(distance_.size());
   std::vector<EnumeratedNiche> found;
   const auto report = [&](std::size_t cell, long double pass, bool is_certain, bool is_tied) {

@@ -1,6 +1,5 @@
 #include "fuzz/niche_families.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "concave_distance/base/error.h"
@@ -209,22 +208,23 @@ NicheScene drawSoup(RandomEngine& engine) {
   return scene;
 }
 
-NicheScene drawSelfTouching(RandomEngine& engine) {
-  const SurfaceMesh a = selfTouchingShape(engine);
-  const SurfaceMesh b = uniformIndex(engine, 2) == 0 ? plainShape(engine) : selfTouchingShape(engine);
-  if (uniformIndex(engine, 2) == 0) return onALattice(engine, a, b, 0.125, 14, 0.0);
+/// A shape beside another of its kind or a plain one, at random or on a lattice of `cells` eighths.
+template <typename Draw>
+NicheScene drawBesideAnother(RandomEngine& engine, std::uint32_t cells, const Draw& draw) {
+  const SurfaceMesh a = draw(engine);
+  const SurfaceMesh b = uniformIndex(engine, 2) == 0 ? plainShape(engine) : draw(engine);
+  if (uniformIndex(engine, 2) == 0) return onALattice(engine, a, b, 0.125, cells, 0.0);
   NicheScene scene = besideEachOther(engine, a, b);
   walk(engine, 0.3, true, scene);
   return scene;
 }
 
+NicheScene drawSelfTouching(RandomEngine& engine) {
+  return drawBesideAnother(engine, 14, selfTouchingShape);
+}
+
 NicheScene drawShells(RandomEngine& engine) {
-  const SurfaceMesh a = severalShells(engine);
-  const SurfaceMesh b = uniformIndex(engine, 2) == 0 ? plainShape(engine) : severalShells(engine);
-  if (uniformIndex(engine, 2) == 0) return onALattice(engine, a, b, 0.125, 16, 0.0);
-  NicheScene scene = besideEachOther(engine, a, b);
-  walk(engine, 0.3, true, scene);
-  return scene;
+  return drawBesideAnother(engine, 16, severalShells);
 }
 
 NicheScene drawUnions(RandomEngine& engine) {

@@ -24,17 +24,6 @@ Vector3d latticePoint(RandomEngine& engine, std::uint32_t least, std::uint32_t m
   return {x, y, eighths(engine, least, most)};
 }
 
-SurfaceMesh soupOf(const std::vector<TrianglePoints>& triangles) {
-  std::vector<Vector3d> vertices;
-  std::vector<TriangleNodes> nodes;
-  for (const TrianglePoints& t : triangles) {
-    for (const Vector3d& corner : t) vertices.push_back(corner);
-    const auto first = static_cast<std::uint32_t>(vertices.size() - 3);
-    nodes.push_back({NodeIndex{first}, NodeIndex{first + 1}, NodeIndex{first + 2}});
-  }
-  return SurfaceMesh(std::move(vertices), std::move(nodes), "soup");
-}
-
 SurfaceMesh latticeBox(RandomEngine& engine) {
   return makeCuboid(Vector3d::Zero(), latticePoint(engine, 1, 8));
 }
@@ -158,14 +147,14 @@ SurfaceMesh latticeSoup(RandomEngine& engine) {
     for (Vector3d& point : t) point = corner();
     if ((t[1] - t[0]).cross(t[2] - t[0]).norm() > 0.0) triangles.push_back(t);
   }
-  return soupOf(triangles);
+  return surfaceOf(triangles);
 }
 
 SurfaceMesh randomSoup(RandomEngine& engine) {
   std::vector<TrianglePoints> triangles;
   const std::uint32_t count = 1 + uniformIndex(engine, 12);
   while (triangles.size() < count) triangles.push_back(randomTriangle(engine));
-  return soupOf(triangles);
+  return surfaceOf(triangles);
 }
 
 SurfaceMesh needleSoup(RandomEngine& engine) {
@@ -175,19 +164,7 @@ SurfaceMesh needleSoup(RandomEngine& engine) {
     const TrianglePoints flat = flatTriangle(engine, powerOfTen(engine, -8.0, 0.0));
     triangles.push_back(moved(flat, randomRotation(engine), uniformInCube(engine, 1.0)));
   }
-  return soupOf(triangles);
-}
-
-SurfaceMesh spikyPrism(RandomEngine& engine) {
-  const std::uint32_t corners = 3 + uniformIndex(engine, 9);
-  const double least = powerOfTen(engine, -3.0, 0.0);
-  Outline outline;
-  for (std::uint32_t i = 0; i < corners; ++i) {
-    const double angle = 2.0 * M_PI * (i + 0.8 * uniformUnit(engine)) / corners;
-    const double radius = uniformIn(engine, least, 1.0);
-    outline.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
-  }
-  return makeExtrusion(outline, powerOfTen(engine, -3.0, 0.5));
+  return surfaceOf(triangles);
 }
 
 namespace {
@@ -233,7 +210,7 @@ SurfaceMesh twoBoxes(RandomEngine& engine) {
   Vector3d offset = latticePoint(engine, 0, 4);
   const std::uint32_t axes = 1 + uniformIndex(engine, 3);
   for (std::uint32_t i = 0; i < axes; ++i) offset[i] = size[i];
-  return makeUnion(first, latticeBox(engine), offset);
+  return makeJoined(first, latticeBox(engine), offset);
 }
 
 /// A box, or a polyhedron with corners on an ellipsoid.
@@ -281,8 +258,8 @@ SurfaceMesh severalShells(RandomEngine& engine) {
   if (kind == 0) return randomHollowBox(engine);
   if (kind == 1) {
     const SurfaceMesh outer = makeCuboid(Vector3d::Zero(), Vector3d(1, 1, 1));
-    return makeUnion(outer, makeCuboid(Vector3d::Zero(), Vector3d(0.25, 0.375, 0.25)),
-                     latticePoint(engine, 1, 4));
+    return makeJoined(outer, makeCuboid(Vector3d::Zero(), Vector3d(0.25, 0.375, 0.25)),
+                      latticePoint(engine, 1, 4));
   }
   SurfaceMesh all = plainShape(engine);
   const std::uint32_t more = 1 + uniformIndex(engine, 3);
@@ -292,7 +269,7 @@ SurfaceMesh severalShells(RandomEngine& engine) {
     const SurfaceMesh next = plainShape(engine);
     const std::uint32_t axis = uniformIndex(engine, 3);
     offset[axis] = all.boundingBox().max()[axis] - next.boundingBox().min()[axis] + eighths(engine, 1, 3);
-    all = makeUnion(all, next, offset);
+    all = makeJoined(all, next, offset);
   }
   return all;
 }

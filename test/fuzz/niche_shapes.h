@@ -24,7 +24,6 @@ SurfaceMesh latticeSoup(RandomEngine& engine);
 SurfaceMesh randomSoup(RandomEngine& engine);
 SurfaceMesh needleSoup(RandomEngine& engine);
 /// A prism over a star whose points may be very thin.
-SurfaceMesh spikyPrism(RandomEngine& engine);
 /// A box with a corner of one triangle on an edge of another, with a flap, or with a second box against it.
 SurfaceMesh selfTouchingShape(RandomEngine& engine);
 /// A box, or a polyhedron with corners on an ellipsoid. Some of its corners are moved out or in by 1e-15 to

@@ -1,7 +1,6 @@
 #include "fuzz/wide_body.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <map>
 #include <numeric>

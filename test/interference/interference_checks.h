@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <memory>
 
 #include "concave_distance/interference/interference.h"
 #include "concave_distance/mesh/body_mesh.h"

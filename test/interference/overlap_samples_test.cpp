@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "base/pi.h"
+#include "base/constants.h"
 #include "base/random_engine.h"
 #include "distance/bound/closest_point.h"
 #include "interference/interference_checks.h"

@@ -10,7 +10,6 @@
 #include "mesh/trees/triangle_tree.h"
 #include "support/count_allocations.h"
 #include "support/round_bodies.h"
-#include "support/round_overlaps.h"
 
 namespace concave_distance::round_overlap_test {
 namespace {
@@ -167,7 +166,7 @@ TEST(RoundOverlap, AnywhereItAgreesWithFineMeshes) {
     EXPECT_NEAR(volume, fine_volume, 0.01 * fine_volume + 1e-5) << i << " " << static_cast<int>(shape.kind);
     EXPECT_NEAR(area, fine_area, 0.03 * fine_area + 3e-4) << i << " " << static_cast<int>(shape.kind);
     if (found.regions.size() != 1 || fine.regions.size() != 1) continue;
-    // Of the solid's own surface one point is looked at.
+    // Only one point of the solid's own surface is looked at.
     EXPECT_LE(found.regions[0].depth, 1.02 * fine.regions[0].depth + 1e-3) << i;
     if (fine.regions[0].depth < 0.5 * shape.radius) {
       EXPECT_GE(found.regions[0].depth, 0.98 * fine.regions[0].depth - 1e-3) << i;
@@ -378,7 +377,7 @@ TEST(RoundOverlap, ACylinderThinnerThanAHairIsStillASolid) {
   const Body needle = makeRoundBody(roundShape(RoundKind::Cylinder, 1e-8, 0.5));
   const Interference found = overlapOf(block(), needle, turned(0.3, {0.0, 1.0, 0.0}, {0.0, 0.0, 0.2}));
   ASSERT_EQ(found.regions.size(), 1U);
-  // What is below the plane: the axis' part.
+  // Only the axis' part below the plane counts.
   const double length = 0.5 - 0.2 / std::cos(0.3);
   EXPECT_NEAR(found.regions[0].volume, kPi * 1e-16 * length, 1e-3 * kPi * 1e-16 * length);
 }

@@ -1,12 +1,11 @@
 // Regions of overlap of two exact round solids, and of a pair taken either way round.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <vector>
 
+#include "base/constants.h"
 #include "support/concave_shapes.h"
 #include "support/round_bodies.h"
-#include "support/round_overlaps.h"
 
 namespace concave_distance::round_pair_overlap_test {
 namespace {

@@ -10,7 +10,6 @@
 #include "mesh/surface/round_geometry.h"
 #include "support/round_bodies.h"
 #include "support/round_cuts.h"
-#include "support/round_overlaps.h"
 
 namespace concave_distance::round_volume_test {
 namespace {

@@ -12,7 +12,6 @@
 #include <locale>
 #include <sstream>
 #include <string>
-#include <vector>
 
 #include "base/csv_writer.h"
 #include "concave_distance/base/error.h"
@@ -75,7 +74,7 @@ class LocaleTest : public test::SceneTest {
     exportMesh(makeBox({1.5, 1.25, 0.75}), folder.path("part.ply"));
     exportMesh(makeBox({1.5, 1.25, 0.75}), folder.path("part.obj"));
     folder.write("ascii.stl", test::tetrahedronStl());
-    folder.write("unused.obj", test::contentOfFile(folder.path("part.obj")) + lines);
+    folder.write("unused.obj", test::contentOf(folder.path("part.obj")) + lines);
     folder.write("robot.urdf", kUrdf);
     folder.write("robot.srdf", "<robot name='arm'><disable_collisions link1='a' link2='b'/></robot>");
     folder.write("poses.csv", "t,x,y,z,qx,qy,qz,qw\n0.25,1.5,0.125,-2.5e-1,0,0,0,1\n");
@@ -162,7 +161,7 @@ class LocaleTest : public test::SceneTest {
     }
     for (const std::string file : {"out.obj", "out.ply"}) {
       exportMesh(makeSphere(1.5, 0.25), folder.path(file));
-      add(test::contentOfFile(folder.path(file)));
+      add(test::contentOf(folder.path(file)));
     }
     const std::string path = folder.path("part.stl");
     addRefusal([&] { (void)loadBodyMesh(path, 0.0); });
@@ -191,7 +190,7 @@ class LocaleTest : public test::SceneTest {
     file.cells() << 1234567.25 << 1234567;
     file.cells().endLine();
     file.finish();
-    add(test::contentOfFile(folder.path("out.csv")));
+    add(test::contentOf(folder.path("out.csv")));
     for (const std::string number : {"1.5", "-1.5e-3", "1,5", "1.234,5", "+0.5", "1e400", "0x10", "nan"}) {
       add(toText(parseParameter(findParameter(pairParameters(), "least_prominence")->info, number)));
     }
@@ -283,7 +282,7 @@ TEST_F(LocaleTest, OfCAndCppChangesNothing) {
                                       {"pt_PT.ISO-8859-1", "ISO-8859-1"}}) {
     const std::string made = makeLocale(name, charset);
     ASSERT_NE(std::setlocale(LC_ALL, name.c_str()), nullptr)
-        << made << ": " << test::contentOfFile(folder.path("localedef.log"));
+        << made << ": " << test::contentOf(folder.path("localedef.log"));
     std::locale::global(std::locale(name));
     ASSERT_EQ(writtenByC(1.5), "1,5") << "else the test shows nothing";
     ASSERT_EQ(writtenByStream(1.5), "1,5");

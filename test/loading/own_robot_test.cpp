@@ -1,4 +1,4 @@
-// What a robot without a scene file gets: meshes looked for beside its URDF, a cutoff of its size, a word
+// A robot without a scene file gets meshes that are looked for beside its URDF, a cutoff of its size, a note
 // about links that always overlap, and a preparation that can be watched and stopped.
 #include <gtest/gtest.h>
 
@@ -208,10 +208,9 @@ TEST_F(OwnRobot, LinksDisabledByDefaultInTheSrdfAreWatchedWhereItEnablesThem) {
 TEST_F(OwnRobot, AnSrdfOfMoveItLeavesThePairsThatItDoesNotDisable) {
   const std::string source = CONCAVE_DISTANCE_SOURCE_DIR;
   options.package_locator = [&](const std::string&) { return source; };
-  const std::string urdf = test::contentOfFile(source + "/urdf/kr5.urdf");
+  const std::string urdf = test::contentOf(source + "/urdf/kr5.urdf");
   EXPECT_EQ(loadAlone(urdf).pairs.size(), 15U) << "21 pairs of 7 links, 6 of them adjacent";
-  options.descriptions["robot_description_semantic"] =
-      test::contentOfFile(source + "/test/data/srdf/kr5.srdf");
+  options.descriptions["robot_description_semantic"] = test::contentOf(source + "/test/data/srdf/kr5.srdf");
   const Scene scene = loadAlone(urdf);
   EXPECT_EQ(scene.pairs.size(), 10U) << "5 that are not adjacent are disabled";
   EXPECT_FALSE(scene.findPair("forearm", "palm"));

@@ -401,7 +401,7 @@ std::string robotRefusal(const std::string& urdf) {
 
 TEST(BrokenUrdf, IsRefusedWithItsNameAndWhatTheParsersSay) {
   const std::string folder = CONCAVE_DISTANCE_TEST_DATA "/invalid";
-  EXPECT_TRUE(mentions(robotRefusal(test::contentOfFile(folder + "/invalid.urdf")),
+  EXPECT_TRUE(mentions(robotRefusal(test::contentOf(folder + "/invalid.urdf")),
                        "robot_description: the URDF cannot be read; line 1: XML_ERROR_PARSING_TEXT"));
   EXPECT_TRUE(mentions(robotRefusal(""), "XML_ERROR_EMPTY_DOCUMENT"));
   EXPECT_TRUE(mentions(robotRefusal("<robot name='r'>\n<link name='a'>\n</robot>"),
@@ -487,7 +487,7 @@ TEST(BrokenUrdf, InvalidMeshFileIsAProblemAndNoError) {
   const std::string file = CONCAVE_DISTANCE_TEST_DATA "/invalid/invalid_mesh.urdf";
   SceneLoadOptions options;
   options.geometry = GeometrySource::Visual;
-  const Scene scene = loadRobotScene(test::contentOfFile(file), file, options);
+  const Scene scene = loadRobotScene(test::contentOf(file), file, options);
   EXPECT_TRUE(scene.bodies.empty());
   ASSERT_EQ(scene.problems.size(), 1U);
   EXPECT_TRUE(mentions(scene.problems[0].message, "invalid_mesh.stl")) << scene.problems[0].message;

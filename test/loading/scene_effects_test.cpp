@@ -155,7 +155,7 @@ TEST_F(SceneEffects, EffectsNeedAProof) {
   EXPECT_TRUE(mentions(text, "set accuracy to certified")) << text;
 }
 
-// What anybody on the network may send to set_effects: an Error, soon, and no pair is changed.
+// Whatever is sent to set_effects soon ends in an Error, and no pair is changed.
 TEST_F(SceneEffects, NoTextFromOutsideDoesHarm) {
   const auto repeated = [](const std::string& text, std::size_t size) {
     std::string all;

@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <limits>
 #include <regex>
 #include <set>
@@ -249,40 +248,56 @@ TEST_F(SceneFile, RobotNeedsOneDescription) {
                 "without");
 }
 
-TEST_F(SceneFile, SettingsOutOfRangeAreRefusedInDefaultsAndPairs) {
-  expectSettingRefused("accuracy", "exact", "nodes, refined");
-  expectSettingRefused("accuracy", "[nodes]", "nodes, refined");
-  expectSettingRefused("cutoff", "0", "greater than 0 (m), or none");
-  expectSettingRefused("cutoff", ".inf", "greater than 0 (m), or none");
-  expectSettingRefused("cutoff", "-.inf", "greater than 0");
-  expectSettingRefused("cutoff", ".nan", "greater than 0");
-  expectSettingRefused("cutoff", "1 m", "greater than 0");
-  expectSettingRefused("least_prominence", "-0.1", "0 or more");
-  expectSettingRefused("least_prominence", ".inf", "0 or more");
-  expectSettingRefused("largest_niche_count", "0", "a whole number 1 or more");
-  expectSettingRefused("largest_niche_count", "2.5", "a whole number");
-  expectSettingRefused("largest_niche_count", "4294967296", "a whole number");
-  expectSettingRefused("hidden", "2", "true or false");
-  expectSettingRefused("seed", "-1", "a whole number 0 or more");
-  expectSettingRefused("seed", "18446744073709551616", "a whole number 0 or more");
-  expectSettingRefused("warning_distance", "-1", "0 or more (m), or none");
-  expectSettingRefused("warning_distance", "never", "0 or more (m), or none");
-  expectSettingRefused("warning_hysteresis", "-0.1", "0 or more (m)");
-  expectSettingRefused("warning_hysteresis", "1e999", "0 or more (m)");
+/// Values, as YAML writes them, that a parameter does not allow.
+std::vector<std::string> wrongValues(const ParameterInfo& info) {
+  std::vector<std::string> wrong{"''", "[1]", "many"};
+  if (info.type != ParameterType::Number && info.type != ParameterType::Count) return wrong;
+  wrong.insert(wrong.end(), {"-1", "-.inf", ".nan", "1e999"});
+  if (info.type == ParameterType::Count) wrong.insert(wrong.end(), {"2.5", "18446744073709551616"});
+  if (info.above_lowest || info.lowest > 0.0) wrong.emplace_back("0");
+  if (info.highest <= 1.0) wrong.emplace_back("1.5");
+  if (info.is_even) wrong.emplace_back("51");
+  return wrong;
 }
 
-TEST_F(SceneFile, SettingsForExpertsOutOfRangeAreRefused) {
+/// What a refusal by the scene file says is allowed.
+std::string allowedBy(const ParameterInfo& info) {
+  return info.type == ParameterType::Flag ? "true or false" : allowedValues(info);
+}
+
+TEST_F(SceneFile, EverySettingOutOfRangeIsRefusedInDefaultsAndPairs) {
+  for (const Parameter<PairSettings>& parameter : pairParameters()) {
+    const ParameterInfo& info = parameter.info;
+    for (const std::string& value : wrongValues(info)) {
+      if (info.is_expert) {
+        expectExpertRefused(info.name, value, allowedBy(info));
+      } else {
+        expectSettingRefused(info.name, value, allowedBy(info));
+      }
+    }
+  }
+  for (const Parameter<GeneticParameters>& parameter : geneticParameters()) {
+    for (const std::string& value : wrongValues(parameter.info))
+      expectGeneticRefused(parameter.info.name, value, allowedBy(parameter.info));
+  }
+}
+
+TEST_F(SceneFile, WhatIsAllowedIsSaidInWords) {
+  expectSettingRefused("accuracy", "exact", "nodes, refined");
+  expectSettingRefused("cutoff", "1 m", "greater than 0 (m), or none");
+  expectSettingRefused("largest_niche_count", "4294967296", "a whole number 1 or more");
+  expectSettingRefused("hidden", "2", "true or false");
+  expectSettingRefused("warning_distance", "never", "0 or more (m), or none");
   expectExpertRefused("memory_limit", "1000", "a whole number 1048576 or more (bytes)");
-  expectExpertRefused("inherited_per_niche", "0.5", "1 or more");
-  expectExpertRefused("inherited_limit", "-1", "a whole number 0 or more");
-  expectExpertRefused("random_starts", "many", "a whole number 0 or more");
   expectExpertRefused("search_share", "1.5", "from 0 to 1");
-  expectExpertRefused("keep_through_material", "2", "true or false");
   expectExpertRefused("sharing_radius", "0", "greater than 0 (m), or auto");
   expectExpertRefused("mating_radius", "-1", "greater than 0 (m), or auto");
   expectExpertRefused("niche_radius", "wide", "greater than 0 (m), or auto");
   expectExpertRefused("cold", "3", "a map of parameters");
   expectExpertRefused("warm", "[]", "a map of parameters");
+  expectGeneticRefused("population_size", "51", "an even number 2 or more");
+  expectGeneticRefused("mutation_probability", "-0.1", "from 0 to 1, or auto");
+  expectGeneticRefused("niching", "clearing", "sharing, deterministic_crowding");
 }
 
 TEST_F(SceneFile, SettingsForExpertsAreRefusedAmongTheOthers) {
@@ -312,26 +327,6 @@ TEST_F(SceneFile, DefaultsOfBodiesAreChecked) {
                 "greater than 0");
   expectRefused("defaults:\n  geometry: x\n", "scene.yaml:2, defaults.geometry", "'x'", "collision, visual");
   expectRefused("metric_memory_limit_mb: -1\n", "scene.yaml:1, metric_memory_limit_mb", "'-1'", "megabytes");
-}
-
-TEST_F(SceneFile, GeneticParametersOutOfRangeAreRefused) {
-  expectGeneticRefused("population_size", "51", "an even number 2 or more");
-  expectGeneticRefused("population_size", "0", "an even number 2 or more");
-  expectGeneticRefused("max_generations", "-1", "a whole number 0 or more");
-  expectGeneticRefused("crossover_probability", "1.1", "from 0 to 1");
-  expectGeneticRefused("exchange_probability", "-1", "from 0 to 1");
-  expectGeneticRefused("mutation_probability", "-0.1", "from 0 to 1, or auto");
-  expectGeneticRefused("niching", "clearing", "sharing, deterministic_crowding");
-  expectGeneticRefused("sharing_radius", "0", "greater than 0 (m), or auto");
-  expectGeneticRefused("sharing_exponent", "0", "greater than 0");
-  expectGeneticRefused("mating_radius", "0", "greater than 0 (m), or auto");
-  expectGeneticRefused("mating_restriction", "''", "true or false");
-  expectGeneticRefused("niche_radius", ".inf", "greater than 0 (m), or auto");
-  expectGeneticRefused("elite_count", "-1", "a whole number 0 or more");
-  expectGeneticRefused("fitness_epsilon", "-1", "0 or more");
-  expectGeneticRefused("random_immigrants", "-1", "a whole number 0 or more");
-  expectGeneticRefused("conserve_niches", "2", "true or false");
-  expectGeneticRefused("evaluation_limit", "-1", "a whole number 0 or more");
 }
 
 TEST_F(SceneFile, SettingsThatDoNotGoTogetherAreRefused) {
@@ -409,7 +404,7 @@ TEST_F(SceneFile, EverySettingReachesItsParameter) {
 // The members of a struct of plain parameters, read from its header.
 std::set<std::string> membersOf(const std::string& header, const std::string& name) {
   const std::string text =
-      test::contentOfFile(std::string(CONCAVE_DISTANCE_SOURCE_DIR "/include/concave_distance/") + header);
+      test::contentOf(std::string(CONCAVE_DISTANCE_SOURCE_DIR "/include/concave_distance/") + header);
   const std::size_t begin = text.find("struct " + name + " {");
   const std::string body = text.substr(begin, text.find("\n};", begin) - begin);
   const std::regex member(R"(\n  [A-Za-z_:<>0-9]+ ([a-z_]+)( =[^;]*)?;)");
@@ -444,7 +439,7 @@ TEST(PairParameters, DeclareEveryMemberAndGiveItsDefault) {
 
 // The YAML blocks of the documentation, each a file of its own.
 TEST_F(SceneFile, ExamplesOfTheDocumentationAreAccepted) {
-  const std::string documentation = test::contentOfFile(CONCAVE_DISTANCE_SOURCE_DIR "/doc/scene_file.md");
+  const std::string documentation = test::contentOf(CONCAVE_DISTANCE_SOURCE_DIR "/doc/scene_file.md");
   options.descriptions["robot_description"] = test::robot(
       test::boxLink("base_link") + test::boxLink("upper_arm") + test::boxLink("forearm") +
       test::boxLink("gripper") + test::boxLink("camera_mount") +

@@ -257,7 +257,7 @@ TEST(SceneOfThePackage, RobotsLoadWithoutProblemsAndWatchAllButNeighbours) {
   SceneLoadOptions options = packageOptions();
   for (const std::string robot : {"wam", "kr5"}) {
     const std::string file = CONCAVE_DISTANCE_SOURCE_DIR "/urdf/" + robot + ".urdf";
-    const Scene scene = loadRobotScene(test::contentOfFile(file), file, options);
+    const Scene scene = loadRobotScene(test::contentOf(file), file, options);
     EXPECT_TRUE(scene.problems.empty()) << scene.problems.front().message;
     // A row of n links has n (n - 1) / 2 pairs, n - 1 of them neighbours.
     const std::size_t n = robot == "wam" ? 8 : 7;
@@ -268,8 +268,7 @@ TEST(SceneOfThePackage, RobotsLoadWithoutProblemsAndWatchAllButNeighbours) {
 
 TEST(SceneOfThePackage, ConfiguredScenesLoadWithoutProblems) {
   SceneLoadOptions options = packageOptions();
-  options.descriptions["robot_description"] =
-      test::contentOfFile(CONCAVE_DISTANCE_SOURCE_DIR "/urdf/wam.urdf");
+  options.descriptions["robot_description"] = test::contentOf(CONCAVE_DISTANCE_SOURCE_DIR "/urdf/wam.urdf");
   for (const std::string name : {"contact", "insertion", "interactive", "robot"}) {
     const Scene scene = loadSceneFile(CONCAVE_DISTANCE_SOURCE_DIR "/config/" + name + ".yaml", options);
     EXPECT_TRUE(scene.problems.empty()) << scene.problems.front().message;

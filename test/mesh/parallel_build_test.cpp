@@ -4,30 +4,16 @@
 #include <cmath>
 
 #include "support/body_bytes.h"
+#include "support/concave_shapes.h"
 
 namespace concave_distance::parallel_build_test {
 namespace {
 
 /// A bumpy torus: enough triangles that its trees are built in several tasks on several levels.
 SurfaceMesh makeLargeTorus(std::uint32_t around, std::uint32_t across) {
-  std::vector<Eigen::Vector3d> vertices;
-  std::vector<TriangleNodes> triangles;
-  for (std::uint32_t i = 0; i < around; ++i) {
-    const double u = 2.0 * M_PI * i / around;
-    for (std::uint32_t j = 0; j < across; ++j) {
-      const double w = 2.0 * M_PI * j / across;
-      const double tube = 0.2 + 0.02 * std::sin(9.0 * u) * std::cos(5.0 * w);
-      const double radius = 0.5 + tube * std::cos(w);
-      vertices.emplace_back(radius * std::cos(u), radius * std::sin(u), tube * std::sin(w));
-      const NodeIndex a{i * across + j};
-      const NodeIndex b{(i + 1) % around * across + j};
-      const NodeIndex c{(i + 1) % around * across + (j + 1) % across};
-      const NodeIndex d{i * across + (j + 1) % across};
-      triangles.push_back({a, b, c});
-      triangles.push_back({a, c, d});
-    }
-  }
-  return {std::move(vertices), std::move(triangles), "torus"};
+  return test::makeRingOfTube(0.5, around, across, [](double along, double over) {
+    return 0.2 + 0.02 * std::sin(9.0 * along) * std::cos(5.0 * over);
+  });
 }
 
 std::map<std::string, test::Bytes> buildWithThreads(std::size_t threads, const SurfaceMesh& surface,

@@ -1,9 +1,8 @@
-#include <cmath>
 
-#include "base/random_engine.h"
 #include "concave_distance/mesh/repair/repair_mesh.h"
 #include "numerics/numeric_cases.h"
 #include "support/concave_shapes.h"
+#include "support/mesh_variants.h"
 #include "support/plain_shapes.h"
 
 namespace concave_distance::test {
@@ -14,15 +13,6 @@ using Eigen::Vector3d;
 
 GivenPose askew(double x, double y, double z) {
   return givenPose(Quaterniond(Eigen::AngleAxisd(1.3, Vector3d(0.2, 0.9, -0.5).normalized())), {x, y, z});
-}
-
-TriangleSoup soupOf(const SurfaceMesh& mesh) {
-  TriangleSoup soup;
-  soup.vertices = mesh.vertices();
-  for (const TriangleNodes& t : mesh.triangles()) {
-    soup.triangles.push_back({t[0].value, t[1].value, t[2].value});
-  }
-  return soup;
 }
 
 /// Every triangle with corners of its own, as an STL file has them.
@@ -107,7 +97,7 @@ std::vector<NumericCase> meshCases() {
   add("FanOfNeedles", makeNeedleFan(20, 1e-8), comb, askew(0.5, 1.6, 0.1));
   add("FanOverFan", makeNeedleFan(20, 1e-8), makeNeedleFan(20, 1e-8), at(1e-7, 1.0 + 1e-9, 1e-8));
 
-  // What files are full of, as it is and repaired.
+  // Files are full of these; each is taken as it is and repaired.
   for (const bool repair : {false, true}) {
     const std::string suffix = repair ? "Repaired" : "AsIs";
     const auto taken = [&](const SurfaceMesh& mesh) { return repair ? repaired(mesh) : mesh; };
@@ -130,7 +120,7 @@ std::vector<NumericCase> meshCases() {
   add("ThroughAHole", makeOpened(makeOpened(block, 3), 2),
       makeCuboid({-0.05, -0.05, -0.05}, {0.05, 0.05, 0.05}),
       at(0.02, 0.01, 0.1));  // inside, but the block is open: no solid to be swallowed by
-  add("SeveralShells", makeUnion(hook, block, {2.0, 0.3, 0.1}), makeUnion(comb, block, {-1.5, 0.2, 0.4}),
+  add("SeveralShells", makeJoined(hook, block, {2.0, 0.3, 0.1}), makeJoined(comb, block, {-1.5, 0.2, 0.4}),
       askew(0.6, 1.9, 0.3));
   add("OneTriangle", makeSurface({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}),
       makeSurface({{0, 0, 0}, {0, 1, 0}, {1, 0, 0.5}}, {{0, 1, 2}}), askew(0.3, 0.2, 0.7));

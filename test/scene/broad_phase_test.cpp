@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "base/pi.h"
+#include "base/constants.h"
 #include "base/random_engine.h"
 
 namespace concave_distance::broad_phase_test {
@@ -23,7 +23,7 @@ Eigen::Isometry3d pose(const Eigen::Vector3d& translation,
   return isometry;
 }
 
-// What the bound may fall short of the closed form by: twice the slack it subtracts, for lengths up to 10 m.
+// The bound may fall short of the closed form by twice the slack it subtracts, for lengths up to 10 m.
 constexpr double kSlack = 2.0 * 64.0 * 1.2e-16 * 100.0;
 
 TEST(BroadPhase, ParallelBoxesGiveTheExactDistanceOfFacesEdgesAndCorners) {

@@ -9,7 +9,7 @@
 #include "concave_distance/scene/scene_tracker.h"
 #include "mesh/trees/normal_cone_tree.h"
 #include "support/box_scene.h"
-#include "support/bumpy_ball.h"
+#include "support/random_solids.h"
 
 namespace concave_distance::niche_preparation_test {
 namespace {

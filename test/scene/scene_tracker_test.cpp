@@ -12,7 +12,7 @@
 #include "concave_distance/base/error.h"
 #include "concave_distance/loading/robot_poses.h"
 #include "support/box_scene.h"
-#include "support/bumpy_ball.h"
+#include "support/random_solids.h"
 #include "support/scene_fixture.h"
 #include "support/solution_bytes.h"
 

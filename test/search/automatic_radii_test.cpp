@@ -22,7 +22,7 @@ TEST(GeodesicExtent, IsAveragedOverShellsByTheirNodes) {
   const SurfaceMesh large = test::makeSheet(20, 20, 0.1);
   const SurfaceMesh small = test::makeSheet(1, 1, 0.1);
   const double alone = geodesicExtent(buildNodeGraph(large));
-  const double with_small = geodesicExtent(buildNodeGraph(test::makeUnion(large, small, {0, 0, 1})));
+  const double with_small = geodesicExtent(buildNodeGraph(test::makeJoined(large, small, {0, 0, 1})));
   const double of_small = geodesicExtent(buildNodeGraph(small));
   EXPECT_NEAR(with_small, (441.0 * alone + 4.0 * of_small) / 445.0, 1e-9);
 }

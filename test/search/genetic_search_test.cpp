@@ -4,14 +4,12 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <set>
 #include <utility>
 
-#include "search/generation.h"
 #include "search/grid/body_grid.h"
 #include "search/niche_identification.h"
-#include "search/searched_pair.h"
+#include "search/search_fixtures.h"
 #include "support/enumeration.h"
 
 namespace concave_distance::genetic_search_test {

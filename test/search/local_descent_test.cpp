@@ -201,7 +201,7 @@ TEST(LocalDescent, LongStepsEndAtALocalMinimumOfTheFineGridForFewerEvaluations) 
   }
 }
 
-// What makes a fine grid worth its nodes: valleys that a coarse one does not have are found all the same.
+// A fine grid is worth its nodes: valleys that a coarse one does not have are found all the same.
 TEST(LocalDescent, LongStepsDoNotStepOverTheValleyTheyStartIn) {
   const test::PairScene scene = test::facingCombs(0.015, 0);
   const PairObjective objective(*scene.a, *scene.b, scene.a_from_b);

@@ -6,10 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/infinity.h"
-#include "search/grid/body_grid.h"
-#include "search/mutation.h"
-#include "search/search_scenes.h"
+#include "search/search_fixtures.h"
 #include "support/shortest_path.h"
 
 namespace concave_distance::mating_test {
@@ -35,27 +32,13 @@ TEST(Mating, ExchangedChildrenHaveOneNodeOfTheirParentAndOneOfTheirDonor) {
   EXPECT_TRUE(std::isnan(first.squared_distance)) << "not evaluated yet";
 }
 
-struct MatingCase {
-  test::PairScene scene;
-  PairObjective objective;
-  PairMetric metric;
-  explicit MatingCase(test::PairScene made)
-      : scene(std::move(made)), objective(*scene.a, *scene.b, scene.a_from_b), metric(*scene.a, *scene.b) {}
-};
-
-TrialPoint drawPoint(const PairObjective& objective, RandomEngine& engine) {
-  SearchCost cost;
-  const TrialPoint point = randomTrialPoint(objective, engine);
-  return objective.evaluate(point.node_a, point.node_b, cost);
-}
-
 RC_GTEST_PROP(MeshMating, ChildrenLieOnShortestPathsWithinTheWeightedRadii, ()) {
-  static MatingCase with_matrices(test::facingCombs());
-  static MatingCase on_demand(test::facingCombs(0.1, 0));
-  MatingCase& c = **rc::gen::element(&with_matrices, &on_demand);
+  static test::MeasuredPair with_matrices(test::facingCombs());
+  static test::MeasuredPair on_demand(test::facingCombs(0.1, 0));
+  test::MeasuredPair& c = **rc::gen::element(&with_matrices, &on_demand);
   RandomEngine engine(*rc::gen::arbitrary<std::uint64_t>());
-  const TrialPoint x = drawPoint(c.objective, engine);
-  const TrialPoint y = drawPoint(c.objective, engine);
+  const TrialPoint x = c.drawPoint(engine);
+  const TrialPoint y = c.drawPoint(engine);
   const auto [first, second] = mate(x, y, c.metric, kInfinity, engine);
   const TrialPoint& fitter = x < y ? x : y;
   const TrialPoint& other = x < y ? y : x;
@@ -76,7 +59,7 @@ RC_GTEST_PROP(MeshMating, ChildrenLieOnShortestPathsWithinTheWeightedRadii, ()) 
 }
 
 TEST(MeshMating, TheTwoChildrenTogetherReachTheWholePath) {
-  MatingCase c(test::hookAndStairs());
+  test::MeasuredPair c(test::hookAndStairs());
   RandomEngine engine(11);
   SearchCost cost;
   // The nodes farthest from the first: paths of several edges.
@@ -113,7 +96,7 @@ TEST(MeshMating, TheTwoChildrenTogetherReachTheWholePath) {
 }
 
 TEST(MeshMating, ParentsOnDifferentShellsMateByCopying) {
-  MatingCase c(test::shellsAndShells());
+  test::MeasuredPair c(test::shellsAndShells());
   const NodeGraph& graph_a = gridOf(*c.scene.a).graph();
   const NodeGraph& graph_b = gridOf(*c.scene.b).graph();
   ASSERT_GT(graph_a.shell_count, 1U);
@@ -135,12 +118,12 @@ TEST(MeshMating, ParentsOnDifferentShellsMateByCopying) {
 }
 
 TEST(MeshMating, BeyondTheMatricesParentsFartherThanTheBoundMateByCopying) {
-  MatingCase c(test::facingCombs(0.1, 0));
+  test::MeasuredPair c(test::facingCombs(0.1, 0));
   RandomEngine engine(13);
   int copied = 0;
   for (int i = 0; i < 100; ++i) {
-    const TrialPoint x = drawPoint(c.objective, engine);
-    const TrialPoint y = drawPoint(c.objective, engine);
+    const TrialPoint x = c.drawPoint(engine);
+    const TrialPoint y = c.drawPoint(engine);
     const auto [first, second] = mate(x, y, c.metric, 0.2, engine);
     if (!std::isfinite(c.metric.onA().distanceWithin(x.node_a, y.node_a, 0.2))) {
       EXPECT_EQ(first.node_a, std::min(x, y).node_a);
@@ -152,9 +135,9 @@ TEST(MeshMating, BeyondTheMatricesParentsFartherThanTheBoundMateByCopying) {
 }
 
 TEST(Mating, ParentsOnOnePlaceHaveTheirChildrenThere) {
-  MatingCase c(test::facingCombs());
+  test::MeasuredPair c(test::facingCombs());
   RandomEngine engine(14);
-  const TrialPoint x = drawPoint(c.objective, engine);
+  const TrialPoint x = c.drawPoint(engine);
   const auto [first, second] = mate(x, x, c.metric, kInfinity, engine);
   EXPECT_TRUE(samePlace(first, x));
   EXPECT_TRUE(samePlace(second, x));

@@ -2,36 +2,26 @@
 
 #include <rapidcheck/gtest.h>
 #include <algorithm>
-#include <limits>
 
-#include "base/infinity.h"
-#include "base/selection.h"
-#include "search/grid/body_grid.h"
-#include "search/local_descent.h"
-#include "search/mating_restriction.h"
-#include "search/mutation.h"
+#include "search/mating.h"
 #include "search/niche_identification.h"
-#include "search/search_scenes.h"
-#include "search/trial_point_table.h"
+#include "search/search_fixtures.h"
+#include "search/selection.h"
 
 namespace concave_distance::niche_test {
 namespace {
 
-struct Niches {
-  test::PairScene scene;
-  PairObjective objective;
-  PairMetric metric;
-  explicit Niches(test::PairScene made)
-      : scene(std::move(made)), objective(*scene.a, *scene.b, scene.a_from_b), metric(*scene.a, *scene.b) {}
+struct Niches : test::MeasuredPair {
+  using MeasuredPair::MeasuredPair;
 
   std::vector<TrialPoint> drawPopulation(std::uint32_t size, RandomEngine& engine) {
     std::vector<TrialPoint> population;
     std::vector<std::uint64_t> trail;
     SearchCost cost;
     while (population.size() < size) {
-      const TrialPoint point = randomTrialPoint(objective, engine);
+      const TrialPoint point = drawPoint(engine);
       population.push_back(uniformUnit(engine) < 0.5 ? descend(objective, point, nullptr, trail, cost)
-                                                     : objective.evaluate(point.node_a, point.node_b, cost));
+                                                     : point);
     }
     return population;
   }

@@ -51,8 +51,8 @@ inline PairScene hookAndStairs(double max_edge_length = 0.1, std::size_t matrix_
 
 /// Two shells each, so that some nodes have no path between them.
 inline PairScene shellsAndShells(double max_edge_length = 0.15) {
-  return {makeSearchBody(makeUnion(makeLShape(), makeHook(), {1.2, 0.0, 0.0}), max_edge_length),
-          makeSearchBody(makeUnion(makeComb(3), makeLShape(), {0.0, 0.9, 0.3}), max_edge_length),
+  return {makeSearchBody(makeJoined(makeLShape(), makeHook(), {1.2, 0.0, 0.0}), max_edge_length),
+          makeSearchBody(makeJoined(makeComb(3), makeLShape(), {0.0, 0.9, 0.3}), max_edge_length),
           makePose(0.4, {0.2, 1.0, 0.4}, {0.2, 1.0, 0.6})};
 }
 

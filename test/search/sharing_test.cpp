@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "search/grid/body_grid.h"
-#include "search/shared_population.h"
+#include "search/search_fixtures.h"
 
 namespace concave_distance::sharing_test {
 namespace {

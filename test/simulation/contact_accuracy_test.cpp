@@ -5,6 +5,7 @@
 
 #include "concave_distance/mesh/surface/primitives.h"
 #include "simulation/scene_builder.h"
+#include "support/plain_shapes.h"
 
 namespace concave_distance::contact_accuracy_test {
 namespace {
@@ -97,17 +98,7 @@ TEST(ContactAccuracy, ASmoothContactIsOfSecondOrder) {
 
 /// A box with a box-shaped hole inside.
 SurfaceMesh makeHollowBox(double size, double hole) {
-  const SurfaceMesh outside = makeBox({size, size, size});
-  const SurfaceMesh inside = makeBox({hole, hole, hole});
-  std::vector<Eigen::Vector3d> vertices = outside.vertices();
-  vertices.insert(vertices.end(), inside.vertices().begin(), inside.vertices().end());
-  auto triangles = outside.triangles();
-  const std::size_t first = outside.vertices().size();
-  for (const auto& t : inside.triangles()) {
-    triangles.push_back(
-        {NodeIndex(first + t[1].value), NodeIndex(first + t[0].value), NodeIndex(first + t[2].value)});
-  }
-  return SurfaceMesh(vertices, triangles, "hollow box");
+  return test::makeJoined(makeBox({size, size, size}), test::makeTurned(makeBox({hole, hole, hole})));
 }
 
 TEST(ContactAccuracy, CollisionsKeepMomentumAndAngularMomentumOverManySteps) {

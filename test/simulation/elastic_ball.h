@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "base/pi.h"
+#include "base/constants.h"
 #include "concave_distance/mesh/surface/primitives.h"
 #include "simulation/scene_builder.h"
 
@@ -143,7 +143,7 @@ inline SurfaceMesh makeBowl(double inner_radius, double outer_radius) {
   const auto add = [&](std::size_t a, std::size_t b, std::size_t c, bool turned) {
     triangles.push_back({NodeIndex(a), NodeIndex(turned ? c : b), NodeIndex(turned ? b : c)});
   };
-  // Of the sheet that begins at `first` with its lowest point.
+  // Numbers the vertices of the sheet that begins at `first` with its lowest point.
   const auto index = [&](std::size_t first, std::size_t ring, std::size_t k) {
     return ring == 0 ? first : first + 1 + (ring - 1) * kAround + k % kAround;
   };

@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <vector>
 
 #include "simulation/box_stack.h"
+#include "support/count_allocations.h"
 
 namespace concave_distance::resting_contact_test {
 namespace {
@@ -59,6 +59,17 @@ TEST(RestingContact, AHundredKilogramsStandOnAHundredGrams) {
   simulation.advanceTo(5.0);
   expectAtRest(simulation, masses);
   EXPECT_LT(simulation.counters().steps, 1500U);
+}
+
+TEST(SimulationAllocation, ASteadyStepAllocatesNothing) {
+  test::SceneBuilder stack = test::stackOf({1.0, 1.0, 1.0});
+  Material& floor = stack.scene.bodies.edit(0).material;
+  floor.rolling_friction = floor.spinning_friction = 0.01;
+  Simulation simulation = stack.simulation();
+  simulation.advanceTo(10.0);  // buffers grow with the largest region so far
+  const std::size_t before = allocations;
+  for (int i = 0; i < 200; ++i) simulation.step();
+  EXPECT_EQ(allocations - before, 0U);
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "base/pi.h"
+#include "base/constants.h"
 #include "concave_distance/base/error.h"
 #include "concave_distance/mesh/surface/primitives.h"
 

@@ -1,10 +1,9 @@
 // Balls that are held back by rolling and spinning friction, against closed forms.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 
-#include "base/pi.h"
+#include "base/constants.h"
 #include "concave_distance/mesh/surface/primitives.h"
 #include "simulation/scene_builder.h"
 

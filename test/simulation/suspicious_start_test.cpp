@@ -1,10 +1,12 @@
-// What is probably a mistake in a scene is named before the run.
+// Probable mistakes in a scene are named before the run.
 #include <gtest/gtest.h>
 
 #include <string>
 
 #include "simulation/box_stack.h"
 #include "simulation/elastic_ball.h"
+#include "simulation/suspicious_start.h"
+#include "support/plain_shapes.h"
 
 namespace concave_distance::suspicious_start_test {
 namespace {
@@ -83,6 +85,68 @@ TEST(SuspiciousStart, FreeBodiesWithoutAPairAreNamedOnce) {
   builder.scene.pairs.push_back(meant);
   EXPECT_TRUE(warningsOf(builder).empty());
   expectOne(stackOf({1.0, 1.0, 1.0, 1.0, 1.0}), "'box0' and 'box4' and 3 more; add");
+}
+
+std::vector<std::string> unheldIn(const SceneBuilder& builder) {
+  return detail::warnOfUnheldBodies(builder.scene, builder.settings);
+}
+
+TEST(UnheldBodies, ASimulationSaysSo) {
+  SceneBuilder builder = stackOf({1.0});
+  builder.scene.pairs.edit(0).enabled = false;
+  EXPECT_EQ(builder.simulation().warnings(), unheldIn(builder));
+}
+
+TEST(UnheldBodies, AStackOnAFloorIsHeldOverAllItsBoxes) {
+  EXPECT_TRUE(unheldIn(stackOf({1.0, 1.0, 1.0})).empty());
+}
+
+TEST(UnheldBodies, WhatHangsOnNothingIsNamedWithARemedy) {
+  SceneBuilder builder = stackOf({1.0, 1.0, 1.0});
+  builder.scene.pairs.edit(1).settings.effects.normal_force.reset();  // box0/box1
+  builder.settings.bodies[2].where = "scene.yaml:7, simulation.bodies[2]";
+  const std::vector<std::string> warnings = unheldIn(builder);
+  ASSERT_EQ(warnings.size(), 2U);
+  EXPECT_EQ(
+      warnings[0],
+      "scene.yaml:7, simulation.bodies[2]: body 'box1' falls for good: no enabled pair with a normal_force "
+      "leads to a body that is held; give such a pair `effects: {normal_force: ...}`, give the body a "
+      "drive, or fix it");
+  EXPECT_EQ(warnings[1].substr(0, 28), "body 'box2' falls for good: ");
+}
+
+TEST(UnheldBodies, ADisabledPairHoldsNothing) {
+  SceneBuilder builder = stackOf({1.0});
+  builder.scene.pairs.edit(0).enabled = false;
+  EXPECT_EQ(unheldIn(builder).size(), 1U);
+}
+
+TEST(UnheldBodies, AnOpenSurfaceHoldsNothing) {
+  SceneBuilder builder;
+  builder.addBody("sheet", test::makeOpened(makeBox({1.0, 1.0, 0.1}), 0));
+  builder.addBody("box", makeBox({0.1, 0.1, 0.1}));
+  builder.addPair().effects.normal_force.emplace();
+  builder.setFree("box", 1.0).pose = test::at(0.0, 0.0, 1.0);
+  EXPECT_EQ(unheldIn(builder).size(), 1U);
+}
+
+TEST(UnheldBodies, ADriveOrALoadHoldsABodyAndWhatStandsOnIt) {
+  SceneBuilder builder = stackOf({1.0, 1.0});
+  builder.scene.pairs.edit(0).enabled = false;
+  EXPECT_EQ(unheldIn(builder).size(), 2U);
+  builder.settings.bodies[1].loads.emplace_back();
+  EXPECT_TRUE(unheldIn(builder).empty());
+  builder.settings.bodies[1].loads.clear();
+  builder.settings.bodies[1].drive.emplace();
+  builder.settings.bodies[1].drive->target = {{0.0, Eigen::Isometry3d::Identity()}};
+  EXPECT_TRUE(unheldIn(builder).empty());
+}
+
+TEST(UnheldBodies, WithoutGravityNothingFalls) {
+  SceneBuilder builder = stackOf({1.0});
+  builder.scene.pairs.edit(0).enabled = false;
+  builder.settings.gravity.setZero();
+  EXPECT_TRUE(unheldIn(builder).empty());
 }
 
 }  // namespace

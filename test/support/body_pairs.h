@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <memory>
-#include <string>
 #include <utility>
 
 #include "base/random_engine.h"
@@ -54,8 +53,23 @@ inline SurfaceMesh concaveShape(std::uint32_t number) {
     case 4:
       return makeSheet(5, 4, 0.15, 0.1);
     default:
-      return makeUnion(makeHook(), makeLShape(), Eigen::Vector3d(0.7, 0.1, 0.3));
+      return makeJoined(makeHook(), makeLShape(), Eigen::Vector3d(0.7, 0.1, 0.3));
   }
+}
+
+/// A comb of five teeth, with the automatic search grid.
+inline const std::shared_ptr<const BodyMesh>& fiveTeeth() {
+  static const auto kComb = std::make_shared<const BodyMesh>("comb", makeComb(5), BodyMeshOptions());
+  return kComb;
+}
+
+/// Where the teeth of one such comb sway in the other's gaps within the clearance, at time t.
+/// @param depth metres that they are apart along the teeth, on average
+inline Eigen::Isometry3d swayingComb(double t, double turn = 0.01, double depth = 0.6, double stroke = 0.1) {
+  Eigen::Isometry3d pose(Eigen::AngleAxisd(M_PI + turn * std::sin(4.0 * t), Eigen::Vector3d::UnitZ()));
+  pose.translation() << 1.225 + 0.008 * std::sin(6.0 * t), depth + stroke * std::sin(3.0 * t),
+      0.02 * std::sin(3.0 * t);
+  return pose;
 }
 
 }  // namespace concave_distance::test

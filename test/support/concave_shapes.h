@@ -5,10 +5,10 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include "concave_distance/mesh/surface/surface_mesh.h"
+#include "support/plain_shapes.h"
 
 /// Small concave bodies for tests: extruded outlines, closed, outward oriented, only the outline's own
 /// vertices. Metres.
@@ -210,21 +210,6 @@ inline SurfaceMesh makeBumpy(const SurfaceMesh& surface, double depth = 0.1) {
     v *= 1.0 + depth * std::sin(9.0 * d.x()) * std::cos(8.0 * d.y() + 1.0) * std::sin(7.0 * d.z() + 2.0);
   }
   return SurfaceMesh(std::move(vertices), surface.triangles(), "bumpy");
-}
-
-/// Both surfaces as shells of one mesh, the second moved by `offset`.
-inline SurfaceMesh makeUnion(const SurfaceMesh& a, const SurfaceMesh& b, const Eigen::Vector3d& offset) {
-  std::vector<Eigen::Vector3d> vertices = a.vertices();
-  std::vector<TriangleNodes> triangles = a.triangles();
-  const auto shift = static_cast<std::uint32_t>(vertices.size());
-  for (const Eigen::Vector3d& v : b.vertices()) {
-    vertices.push_back(v + offset);
-  }
-  for (const TriangleNodes& t : b.triangles()) {
-    triangles.push_back(
-        {NodeIndex{t[0].value + shift}, NodeIndex{t[1].value + shift}, NodeIndex{t[2].value + shift}});
-  }
-  return SurfaceMesh(std::move(vertices), std::move(triangles), "union");
 }
 
 }  // namespace concave_distance::test

@@ -3,9 +3,9 @@
 #include <Eigen/Geometry>
 #include <vector>
 
+#include "concave_distance/distance/witness.h"
 #include "concave_distance/mesh/body_mesh.h"
 #include "concave_distance/search/trial_point.h"
-#include "distance/kernels/witness_refinement.h"
 
 /// The oracles of the search and of the proof: every pair is looked at.
 namespace concave_distance::test {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/constants.h"
+
 namespace concave_distance::test {
 
 /// Speed, m/s, with which a body that meets Hunt and Crossley's spring at `speed` leaves it, without weight:
@@ -31,7 +33,6 @@ struct PressedBall {
 /// Force at a depth, N, and what it grows by with the rate, N: integrals over u = cos on the ball's cap, over
 /// the distance q to the ball's centre on the plane's disc.
 inline void pressOnPlane(const PressedBall& ball, double depth, double& elastic, double& damped) {
-  constexpr double kPi = 3.14159265358979323846;
   const double r = ball.radius;
   const double h = r - depth;
   const double c = h / r;

@@ -8,7 +8,6 @@
 #include <map>
 #include <set>
 #include <utility>
-#include <vector>
 
 #include "concave_distance/mesh/surface/surface_mesh.h"
 

@@ -13,6 +13,14 @@
 /// The same surface in other words: moved, scaled, with other numbers for its vertices and triangles.
 namespace concave_distance::test {
 
+inline TriangleSoup soupOf(const SurfaceMesh& mesh) {
+  TriangleSoup soup;
+  soup.vertices = mesh.vertices();
+  for (const TriangleNodes& t : mesh.triangles())
+    soup.triangles.push_back({t[0].value, t[1].value, t[2].value});
+  return soup;
+}
+
 template <typename Change>
 SurfaceMesh withVertices(const SurfaceMesh& mesh, const char* name, const Change& change) {
   std::vector<Eigen::Vector3d> vertices = mesh.vertices();

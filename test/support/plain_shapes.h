@@ -59,11 +59,12 @@ inline SurfaceMesh makeOpened(const SurfaceMesh& mesh, std::size_t dropped) {
 }
 
 /// Two surfaces as one mesh; vertices are not welded.
-inline SurfaceMesh makeJoined(const SurfaceMesh& a, const SurfaceMesh& b) {
+inline SurfaceMesh makeJoined(const SurfaceMesh& a, const SurfaceMesh& b,
+                              const Eigen::Vector3d& offset = Eigen::Vector3d::Zero()) {
   std::vector<Eigen::Vector3d> vertices = a.vertices();
   std::vector<TriangleNodes> triangles = a.triangles();
   const auto shift = static_cast<std::uint32_t>(vertices.size());
-  vertices.insert(vertices.end(), b.vertices().begin(), b.vertices().end());
+  for (const Eigen::Vector3d& v : b.vertices()) vertices.push_back(v + offset);
   for (const TriangleNodes& t : b.triangles()) {
     triangles.push_back(
         {NodeIndex{t[0].value + shift}, NodeIndex{t[1].value + shift}, NodeIndex{t[2].value + shift}});

@@ -1,8 +1,6 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <algorithm>
-#include <cmath>
 
 #include "concave_distance/mesh/surface/surface_mesh.h"
 

@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <cstdint>
+#include <utility>
+#include <vector>
 
 #include "base/random_engine.h"
 #include "concave_distance/mesh/surface/primitives.h"
@@ -10,8 +12,34 @@
 #include "support/plain_shapes.h"
 #include "support/triangle_pairs.h"
 
-/// Random concave solids about a metre across: closed, outward oriented, not crossing themselves.
 namespace concave_distance::test {
+
+// Random concave solids about a metre across: closed, outward oriented, not crossing themselves.
+
+/// The triangles, each with corners of its own.
+inline SurfaceMesh surfaceOf(const std::vector<TrianglePoints>& triangles) {
+  std::vector<Eigen::Vector3d> vertices;
+  std::vector<TriangleNodes> nodes;
+  for (const TrianglePoints& t : triangles) {
+    for (const Eigen::Vector3d& corner : t) vertices.push_back(corner);
+    const auto first = static_cast<std::uint32_t>(vertices.size() - 3);
+    nodes.push_back({NodeIndex{first}, NodeIndex{first + 1}, NodeIndex{first + 2}});
+  }
+  return SurfaceMesh(std::move(vertices), std::move(nodes), "soup");
+}
+
+/// A prism over a star-shaped outline of random radii: concave, at times with very thin spikes.
+inline SurfaceMesh spikyPrism(RandomEngine& engine) {
+  const std::uint32_t corners = 3 + uniformIndex(engine, 9);
+  const double least = powerOfTen(engine, -3.0, 0.0);
+  Outline outline;
+  for (std::uint32_t i = 0; i < corners; ++i) {
+    const double angle = 2.0 * M_PI * (i + 0.8 * uniformUnit(engine)) / corners;
+    const double radius = uniformIn(engine, least, 1.0);
+    outline.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
+  }
+  return makeExtrusion(outline, powerOfTen(engine, -3.0, 0.5));
+}
 
 /// A prism over a star with points of random length.
 inline SurfaceMesh randomStar(RandomEngine& engine) {
@@ -45,7 +73,7 @@ inline SurfaceMesh randomBumpySphere(RandomEngine& engine) {
 inline SurfaceMesh randomHollowBox(RandomEngine& engine) {
   const Eigen::Vector3d half = Eigen::Vector3d::Constant(0.25) + 0.5 * uniformInCube(engine, 0.2);
   const Eigen::Vector3d inner = half * uniformIn(engine, 0.2, 0.9);
-  return makeUnion(makeCuboid(-half, half), makeTurned(makeCuboid(-inner, inner)), Eigen::Vector3d::Zero());
+  return makeJoined(makeCuboid(-half, half), makeTurned(makeCuboid(-inner, inner)), Eigen::Vector3d::Zero());
 }
 
 inline SurfaceMesh randomSolid(RandomEngine& engine) {
@@ -67,7 +95,7 @@ inline SurfaceMesh randomSolid(RandomEngine& engine) {
     case 5:
       return randomHollowBox(engine);
     case 6:
-      return makeUnion(randomStar(engine), makeLShape(), Eigen::Vector3d(0.7, 0.7, 0.0));
+      return makeJoined(randomStar(engine), makeLShape(), Eigen::Vector3d(0.7, 0.7, 0.0));
     default:
       return randomStar(engine);
   }
@@ -82,6 +110,20 @@ inline Eigen::Isometry3d randomOverlappingPose(const SurfaceMesh& a, const Surfa
   pose.translation() =
       a.boundingBox().center() - pose.linear() * b.boundingBox().center() + uniformInCube(engine, reach);
   return pose;
+}
+
+/// A ball with bumps, around the origin: many pairs of places of two of them may face each other.
+/// @param sag metres, as for makeSphere()
+/// @param waves radians of the bumps over a radius
+inline SurfaceMesh makeBumpyBall(double radius, double sag, double waves) {
+  const SurfaceMesh ball = makeSphere(radius, sag);
+  std::vector<Eigen::Vector3d> vertices;
+  for (std::uint32_t k = 0; k < ball.vertexCount(); ++k) {
+    const Eigen::Vector3d& v = ball.vertex(NodeIndex{k});
+    const Eigen::Vector3d w = waves / radius * v;
+    vertices.emplace_back((1.0 + 0.12 * std::sin(w.x()) * std::cos(w.y()) * std::sin(w.z() + 1.0)) * v);
+  }
+  return SurfaceMesh(std::move(vertices), ball.triangles(), "bumpy ball");
 }
 
 }  // namespace concave_distance::test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "base/pi.h"
+#include "base/constants.h"
 #include "concave_distance/mesh/surface/round_shape.h"
 
 namespace concave_distance::test {

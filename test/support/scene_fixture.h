@@ -18,11 +18,6 @@ inline bool mentions(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-inline std::string contentOfFile(const std::string& path) {
-  std::ifstream stream(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
-
 /// The bounding box is [0, 1] x [0, 2] x [0, 3], the volume 1; no symmetry hides a mistaken axis.
 inline std::string tetrahedronStl() {
   return "solid t\n"

@@ -47,4 +47,11 @@ inline std::string contentOf(const std::string& path) {
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
+/// The text with the first `from` replaced, which has to be there.
+inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  if (at == std::string::npos) throw std::invalid_argument("the text has no '" + from + "'");
+  return text.replace(at, from.size(), to);
+}
+
 }  // namespace concave_distance::test

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "base/pi.h"
+#include "base/constants.h"
 #include "support/round_bodies.h"
 
 namespace concave_distance::test {

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-
 #include "concave_distance/base/error.h"
 #include "support/temporary_folder.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "base/pi.h"
+#include "base/constants.h"
 #include "concave_distance/tracking/pair_tracker.h"
 #include "distance/bound/certificate.h"
 #include "distance/kernels/surface_walk.h"
@@ -40,17 +40,10 @@ TrackerParameters blind(AccuracyLevel level) {
   return parameters;
 }
 
-const Body& comb() {
-  static const Body kComb = std::make_shared<BodyMesh>("comb", test::makeComb(5), BodyMeshOptions());
-  return kComb;
-}
+using test::fiveTeeth;
 
-// The teeth of one comb in the other's gaps, swaying within the clearance.
 Isometry3d swaying(double t) {
-  Isometry3d pose(Eigen::AngleAxisd(kPi + 0.01 * std::sin(4.0 * t), Vector3d::UnitZ()));
-  pose.translation() =
-      Vector3d(1.225 + 0.008 * std::sin(6.0 * t), 0.6 + 0.1 * std::sin(3.0 * t), 0.02 * std::sin(3.0 * t));
-  return pose;
+  return test::swayingComb(t);
 }
 
 double exactDistance(const Body& a, const Body& b, const Isometry3d& pose) {
@@ -68,13 +61,13 @@ void expectProven(const PairSolution& solution, double exact, double error) {
 
 TEST(Certified, ProvesTheBruteForceDistanceAlongAMotion) {
   for (const bool with_niches : {true, false}) {
-    PairTracker tracker("combs", comb(), comb(), certified(with_niches));
+    PairTracker tracker("combs", fiveTeeth(), fiveTeeth(), certified(with_niches));
     PairSolution solution;
     for (int k = 0; k < 60; ++k) {
       const Isometry3d pose = swaying(0.02 * k);
       tracker.update(pose, 0.02 * k, solution);
-      expectProven(solution, exactDistance(comb(), comb(), pose),
-                   kProofError * proofScale(*comb(), *comb(), pose));
+      expectProven(solution, exactDistance(fiveTeeth(), fiveTeeth(), pose),
+                   kProofError * proofScale(*fiveTeeth(), *fiveTeeth(), pose));
       ASSERT_EQ(solution.niches.empty(), !with_niches);
       if (with_niches) {
         EXPECT_EQ(solution.niches.front().distance, solution.distance);
@@ -122,8 +115,8 @@ TEST(Certified, ProvesTheBruteForceDistanceAtRandomPoses) {
 }
 
 TEST(Certified, IsRightWhereTheSearchIsBlindAndCountsItsMisses) {
-  PairTracker refined("combs", comb(), comb(), blind(AccuracyLevel::Refined));
-  PairTracker proven("combs", comb(), comb(), blind(AccuracyLevel::Certified));
+  PairTracker refined("combs", fiveTeeth(), fiveTeeth(), blind(AccuracyLevel::Refined));
+  PairTracker proven("combs", fiveTeeth(), fiveTeeth(), blind(AccuracyLevel::Certified));
   PairSolution by_search;
   PairSolution by_proof;
   int wrong = 0;
@@ -133,10 +126,10 @@ TEST(Certified, IsRightWhereTheSearchIsBlindAndCountsItsMisses) {
     const Isometry3d pose = swaying(0.05 * k);
     refined.update(pose, 0.05 * k, by_search);
     proven.update(pose, 0.05 * k, by_proof);
-    const double exact = exactDistance(comb(), comb(), pose);
+    const double exact = exactDistance(fiveTeeth(), fiveTeeth(), pose);
     wrong += by_search.distance > exact + 1e-9 ? 1 : 0;
     misses += by_proof.search_miss ? 1 : 0;
-    expectProven(by_proof, exact, kProofError * proofScale(*comb(), *comb(), pose));
+    expectProven(by_proof, exact, kProofError * proofScale(*fiveTeeth(), *fiveTeeth(), pose));
     ASSERT_FALSE(by_proof.niches.empty());
     EXPECT_NEAR(by_proof.niches.front().distance, exact, 1e-12);
     EXPECT_TRUE(by_proof.niches.front().proven_local_minimum);
@@ -156,7 +149,7 @@ TEST(Certified, IsRightWhereTheSearchIsBlindAndCountsItsMisses) {
 
 /// New niches that the search has not proposed, along a motion in leaps.
 int missedBy(const TrackerParameters& parameters) {
-  PairTracker tracker("combs", comb(), comb(), parameters);
+  PairTracker tracker("combs", fiveTeeth(), fiveTeeth(), parameters);
   PairSolution solution;
   int missed = 0;
   for (int k = 0; k < 200; ++k) {
@@ -188,7 +181,7 @@ void expectGeneration(const SearchCost& cost, bool runs, std::size_t known) {
 
 TEST(Certified, EveryCycleThatMovesBreedsFromTheLastNiches) {
   const Body hook = makeBody(test::makeLShape(), 0.3);
-  for (const auto& [a, b] : {std::pair{comb(), comb()}, std::pair{hook, hook}}) {
+  for (const auto& [a, b] : {std::pair{fiveTeeth(), fiveTeeth()}, std::pair{hook, hook}}) {
     const Isometry3d offset = a == hook ? translation({1.5, 0.1, 0.2}) : Isometry3d::Identity();
     PairTracker tracker("pair", a, b, certified());
     PairSolution solution;
@@ -212,7 +205,7 @@ TEST(Certified, NoGenerationRunsWhereNoneIsDue) {
   TrackerParameters idle = certified();
   idle.search_share = 0.0;
   for (const TrackerParameters& parameters : {near, idle, certified(false)}) {
-    PairTracker tracker("combs", comb(), comb(), parameters);
+    PairTracker tracker("combs", fiveTeeth(), fiveTeeth(), parameters);
     for (int k = 0; k < 3; ++k) {
       tracker.update(translation({0.01 * k, 0.0, 4.0}), 0.01 * k, solution);
       expectGeneration(solution.cost, false, 0);
@@ -222,16 +215,16 @@ TEST(Certified, NoGenerationRunsWhereNoneIsDue) {
   PairTracker convex("boxes", box, box, certified());
   convex.update(translation({1.5, 0.1, 0.2}), 0.0, solution);
   expectGeneration(solution.cost, false, 0);
-  PairTracker tracker("combs", comb(), comb(), certified());
+  PairTracker tracker("combs", fiveTeeth(), fiveTeeth(), certified());
   tracker.solve(swaying(0.0), solution);
   expectGeneration(solution.cost, false, 0);
-  expectGeneration(solveOnce("combs", comb(), comb(), certified(), swaying(0.0)).cost, false, 0);
+  expectGeneration(solveOnce("combs", fiveTeeth(), fiveTeeth(), certified(), swaying(0.0)).cost, false, 0);
 }
 
 TEST(Certified, ABudgetThatIsSpentEndsNoGeneration) {
   TrackerParameters hasty = certified();
   hasty.time_budget = 1e-9;
-  PairTracker tracker("combs", comb(), comb(), hasty);
+  PairTracker tracker("combs", fiveTeeth(), fiveTeeth(), hasty);
   PairSolution solution;
   for (int k = 0; k < 10; ++k) {
     tracker.update(swaying(0.02 * k), 0.02 * k, solution);
@@ -245,11 +238,11 @@ TEST(Certified, TheSearchChangesNoAnswer) {
   for (const double prominence_limit : {0.0, 0.3}) {
     TrackerParameters parameters = certified();
     parameters.prominence_limit = prominence_limit;
-    PairTracker with("combs", comb(), comb(), parameters);
+    PairTracker with("combs", fiveTeeth(), fiveTeeth(), parameters);
     parameters.search_share = 1.0;
-    PairTracker with_more("combs", comb(), comb(), parameters);
+    PairTracker with_more("combs", fiveTeeth(), fiveTeeth(), parameters);
     parameters.search_share = 0.0;
-    PairTracker without("combs", comb(), comb(), parameters);
+    PairTracker without("combs", fiveTeeth(), fiveTeeth(), parameters);
     PairSolution expected;
     PairSolution solution;
     int evolved = 0;
@@ -277,10 +270,7 @@ TEST(Certified, BoundsHoldForEveryToleranceAndBudget) {
   int within = 0;
   int stopped = 0;
   // A ball in the middle of a hollow one: nearly everything is nearly as near as the nearest.
-  SurfaceMesh sphere = makeSphere(1.0, 3e-3);
-  std::vector<TriangleNodes> turned = sphere.triangles();
-  for (TriangleNodes& t : turned) std::swap(t[1], t[2]);
-  const Body hollow = makeBody(SurfaceMesh(sphere.vertices(), turned, "hollow"), 0.5);
+  const Body hollow = makeBody(test::makeTurned(makeSphere(1.0, 3e-3)), 0.5);
   const Body ball = makeBody(makeSphere(0.5, 3e-3), 0.25);
   for (std::uint32_t round = 0; round < 40; ++round) {
     const bool nested = round % 2 == 0;
@@ -355,7 +345,7 @@ TEST(Certified, TellsThatOneOfManyPiecesIsSwallowedThoughAnotherIsNearer) {
   // A holds B's first cube; the second one hovers outside, nearer to the surface than the first.
   const Body a = makeBody(makeBox({2.0, 2.0, 2.0}), 0.5);
   const Body b = makeBody(
-      test::makeUnion(makeBox({0.2, 0.2, 0.2}), makeBox({0.2, 0.2, 0.2}), Vector3d(1.15, 0, 0)), 0.1);
+      test::makeJoined(makeBox({0.2, 0.2, 0.2}), makeBox({0.2, 0.2, 0.2}), Vector3d(1.15, 0, 0)), 0.1);
   for (const bool with_niches : {true, false}) {
     const PairSolution solution = solveOnce("pieces", a, b, certified(with_niches), Isometry3d::Identity());
     EXPECT_EQ(solution.status, SolveStatus::Penetrating);
@@ -387,7 +377,7 @@ TEST(Certified, AnOpenShellHoldsNothingButCanBeSwallowed) {
 }
 
 TEST(Certified, MayBeAskedForNichesAndNotInTurn) {
-  PairTracker tracker("combs", comb(), comb(), certified());
+  PairTracker tracker("combs", fiveTeeth(), fiveTeeth(), certified());
   PairSolution solution;
   std::uint64_t largest = 0;
   for (int k = 0; k < 40; ++k) {
@@ -395,8 +385,8 @@ TEST(Certified, MayBeAskedForNichesAndNotInTurn) {
     tracker.setParameters(certified(with_niches));
     const Isometry3d pose = swaying(0.02 * k);
     tracker.update(pose, 0.02 * k, solution);
-    expectProven(solution, exactDistance(comb(), comb(), pose),
-                 kProofError * proofScale(*comb(), *comb(), pose));
+    expectProven(solution, exactDistance(fiveTeeth(), fiveTeeth(), pose),
+                 kProofError * proofScale(*fiveTeeth(), *fiveTeeth(), pose));
     EXPECT_EQ(solution.niches.size() > 1, with_niches);
     EXPECT_EQ(solution.niches.empty(), !with_niches);
     const std::uint64_t before = largest;
@@ -415,21 +405,16 @@ TEST(Certified, MayBeAskedForNichesAndNotInTurn) {
 
 TEST(Certified, RefusesTolerancesAndBudgetsThatMeanNothing) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  for (const double wrong : {-1e-9, nan, std::numeric_limits<double>::infinity()}) {
-    TrackerParameters parameters = certified();
-    parameters.absolute_tolerance = wrong;
-    EXPECT_THROW(parameters.validate("pair"), std::exception);
-  }
-  for (const double wrong : {-0.1, 1.1, nan}) {
-    TrackerParameters parameters = certified();
-    parameters.relative_tolerance = wrong;
-    EXPECT_THROW(parameters.validate("pair"), std::exception);
-  }
-  for (const double wrong : {-1.0, 0.0, nan}) {
-    TrackerParameters parameters = certified();
-    parameters.time_budget = wrong;
-    EXPECT_THROW(parameters.validate("pair"), std::exception);
-  }
+  const auto expect_refused = [](double TrackerParameters::*value, std::initializer_list<double> wrong) {
+    for (const double number : wrong) {
+      TrackerParameters parameters = certified();
+      parameters.*value = number;
+      EXPECT_THROW(parameters.validate("pair"), std::exception) << number;
+    }
+  };
+  expect_refused(&TrackerParameters::absolute_tolerance, {-1e-9, nan, kInfinity});
+  expect_refused(&TrackerParameters::relative_tolerance, {-0.1, 1.1, nan});
+  expect_refused(&TrackerParameters::time_budget, {-1.0, 0.0, nan});
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <set>
 
 #include "concave_distance/tracking/pair_tracker.h"
@@ -25,17 +24,10 @@ TrackerParameters complete(bool hidden = true) {
   return parameters;
 }
 
-const Body& comb() {
-  static const Body kComb = std::make_shared<BodyMesh>("comb", test::makeComb(5), BodyMeshOptions());
-  return kComb;
-}
+using test::fiveTeeth;
 
-// The teeth of one comb in the other's gaps, swaying within the clearance.
 Isometry3d swaying(double t) {
-  Isometry3d pose(Eigen::AngleAxisd(M_PI + 0.004 * std::sin(4.0 * t), Vector3d::UnitZ()));
-  pose.translation() =
-      Vector3d(1.225 + 0.008 * std::sin(6.0 * t), 0.7 + 0.15 * std::sin(3.0 * t), 0.02 * std::sin(3.0 * t));
-  return pose;
+  return test::swayingComb(t, 0.004, 0.7, 0.15);
 }
 
 void expectEveryNiche(const Body& a, const Body& b, const Isometry3d& pose, const PairSolution& solution,
@@ -58,7 +50,7 @@ void expectEveryNiche(const Body& a, const Body& b, const Isometry3d& pose, cons
 TEST(Complete, NothingIsSearchedForBeyondTheCutoff) {
   TrackerParameters parameters = complete();
   parameters.cutoff = 0.001;
-  PairTracker tracker("combs", comb(), comb(), parameters);
+  PairTracker tracker("combs", fiveTeeth(), fiveTeeth(), parameters);
   PairSolution solution;
   std::uint64_t evaluations = 0;
   for (int i = 0; i < 300; ++i) {
@@ -75,7 +67,7 @@ class CompleteList : public testing::TestWithParam<bool> {};
 TEST_P(CompleteList, HasEveryNicheAlongAMotionAndKeepsTheBooksOfTheirIds) {
   TrackerParameters parameters = complete(GetParam());
   parameters.cutoff = 0.3;
-  PairTracker tracker("combs", comb(), comb(), parameters);
+  PairTracker tracker("combs", fiveTeeth(), fiveTeeth(), parameters);
   PairSolution solution;
   std::set<std::uint64_t> alive;
   std::set<std::uint64_t> dead;
@@ -86,7 +78,7 @@ TEST_P(CompleteList, HasEveryNicheAlongAMotionAndKeepsTheBooksOfTheirIds) {
     EXPECT_EQ(solution.status, SolveStatus::Ok);
     EXPECT_EQ(solution.accuracy, AccuracyLevel::Certified);
     EXPECT_TRUE(solution.niches_complete);
-    expectEveryNiche(comb(), comb(), pose, solution, parameters);
+    expectEveryNiche(fiveTeeth(), fiveTeeth(), pose, solution, parameters);
     for (const NicheEvent& event : solution.events) {
       if (event.kind == NicheEvent::Kind::Birth) {
         EXPECT_TRUE(alive.insert(event.id).second);
@@ -99,7 +91,8 @@ TEST_P(CompleteList, HasEveryNicheAlongAMotionAndKeepsTheBooksOfTheirIds) {
     std::set<std::uint64_t> listed;
     for (const TrackedNiche& niche : solution.niches) listed.insert(niche.id);
     EXPECT_EQ(listed, alive);
-    const double exact = std::sqrt(test::enumerateTrianglePairs(*comb(), *comb(), pose).squared_distance);
+    const double exact =
+        std::sqrt(test::enumerateTrianglePairs(*fiveTeeth(), *fiveTeeth(), pose).squared_distance);
     EXPECT_NEAR(solution.distance, exact, 1e-13);
     EXPECT_LE(solution.lower_bound, exact);
     EXPECT_GE(solution.lower_bound, exact - 1e-12);
@@ -157,7 +150,7 @@ TEST(CompleteListOf, SaysPenetratingWhereBodiesMeetOrSwallowEachOther) {
 TEST(CompleteListOf, ReportsACut) {
   TrackerParameters parameters = complete();
   parameters.largest_niche_count = 3;
-  PairTracker tracker("combs", comb(), comb(), parameters);
+  PairTracker tracker("combs", fiveTeeth(), fiveTeeth(), parameters);
   PairSolution solution;
   for (int k = 0; k < 3; ++k) {
     tracker.update(swaying(0.0), 0.1 * k, solution);
@@ -172,8 +165,8 @@ TEST(CompleteListOf, GoesOnWithItsIdsAfterCyclesThatDidNotWantIt) {
   wanted.cutoff = 0.3;
   TrackerParameters distance_alone = wanted;
   distance_alone.niches_wanted = false;
-  PairTracker tracker("combs", comb(), comb(), wanted);
-  PairTracker always("combs", comb(), comb(), wanted);
+  PairTracker tracker("combs", fiveTeeth(), fiveTeeth(), wanted);
+  PairTracker always("combs", fiveTeeth(), fiveTeeth(), wanted);
   PairSolution solution;
   PairSolution reference;
   std::set<std::uint64_t> at_first;
@@ -189,7 +182,7 @@ TEST(CompleteListOf, GoesOnWithItsIdsAfterCyclesThatDidNotWantIt) {
       EXPECT_TRUE(solution.niches.empty());
       continue;
     }
-    expectEveryNiche(comb(), comb(), swaying(0.002 * k), solution, wanted);
+    expectEveryNiche(fiveTeeth(), fiveTeeth(), swaying(0.002 * k), solution, wanted);
     if (k == 0) {
       for (const TrackedNiche& niche : solution.niches) at_first.insert(niche.id);
     }

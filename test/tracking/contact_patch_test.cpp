@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "base/pi.h"
+#include "base/constants.h"
 #include "effect_scene.h"
 #include "support/concave_shapes.h"
 

@@ -8,6 +8,8 @@
 #include "concave_distance/mesh/surface/primitives.h"
 #include "concave_distance/tracking/pair_effects.h"
 #include "concave_distance/tracking/pair_tracker.h"
+#include "support/mesh_variants.h"
+#include "support/plain_shapes.h"
 
 namespace concave_distance::test {
 
@@ -50,18 +52,8 @@ struct EffectScene {
 
 /// A table on two feet.
 inline SurfaceMesh twoFeet() {
-  SurfaceMesh left = makeBox({0.1, 0.1, 0.2});
-  std::vector<Eigen::Vector3d> vertices;
-  std::vector<TriangleNodes> triangles;
-  for (const double x : {-0.4, 0.4}) {
-    const auto first = static_cast<std::uint32_t>(vertices.size());
-    for (const Eigen::Vector3d& v : left.vertices()) vertices.push_back(v + Eigen::Vector3d(x, 0, 0));
-    for (const TriangleNodes& t : left.triangles()) {
-      triangles.push_back(
-          {NodeIndex{t[0].value + first}, NodeIndex{t[1].value + first}, NodeIndex{t[2].value + first}});
-    }
-  }
-  return SurfaceMesh(std::move(vertices), std::move(triangles), "two feet");
+  const SurfaceMesh foot = makeBox({0.1, 0.1, 0.2});
+  return makeJoined(movedSurface(foot, at(-0.4, 0.0, 0.0)), foot, {0.4, 0.0, 0.0});
 }
 
 }  // namespace concave_distance::test

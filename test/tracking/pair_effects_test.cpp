@@ -6,7 +6,7 @@
 #include <cmath>
 #include <set>
 
-#include "base/pi.h"
+#include "base/constants.h"
 #include "concave_distance/contact/normal_force.h"
 #include "concave_distance/mesh/surface/primitives.h"
 #include "support/concave_shapes.h"

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "concave_distance/mesh/surface/primitives.h"
+#include "support/body_pairs.h"
 #include "support/concave_shapes.h"
 #include "support/enumeration.h"
 #include "tracking/relative_motion.h"
@@ -26,18 +27,10 @@ Eigen::Isometry3d at(double x, double y, double z, double angle = 0.0,
   return pose;
 }
 
-// Two combs whose teeth reach into each other's gaps, swaying within the clearance.
 struct CombScene {
-  const std::shared_ptr<const BodyMesh>& a = comb();
-  const std::shared_ptr<const BodyMesh>& b = comb();
-  static const std::shared_ptr<const BodyMesh>& comb() {
-    static const std::shared_ptr<const BodyMesh> kComb = body("comb", test::makeComb(5));
-    return kComb;
-  }
-  static Eigen::Isometry3d pose(double t) {
-    return at(1.225 + 0.008 * std::sin(6.0 * t), 0.6 + 0.1 * std::sin(3.0 * t), 0.02 * std::sin(3.0 * t),
-              3.14159265358979323846 + 0.01 * std::sin(4.0 * t));
-  }
+  const std::shared_ptr<const BodyMesh>& a = test::fiveTeeth();
+  const std::shared_ptr<const BodyMesh>& b = test::fiveTeeth();
+  static Eigen::Isometry3d pose(double t) { return test::swayingComb(t); }
 };
 
 TEST(PairTracker, TwoBoxesFaceToFaceAreOnePatch) {
@@ -195,14 +188,8 @@ TEST(PairTracker, CrossingSurfacesPenetrate) {
 
 TEST(PairTracker, ABodyInTheHollowOfAnotherIsApart) {
   // The inner shell of a hollow box faces inwards of the hollow.
-  SurfaceMesh outer = makeBox({2.0, 2.0, 2.0});
-  SurfaceMesh inner = makeBox({1.0, 1.0, 1.0});
-  std::vector<TriangleNodes> turned = inner.triangles();
-  for (TriangleNodes& t : turned) {
-    std::swap(t[1], t[2]);
-  }
-  inner = SurfaceMesh(inner.vertices(), turned, "hollow");
-  const auto hollow = body("hollow box", test::makeUnion(outer, inner, Eigen::Vector3d::Zero()));
+  const SurfaceMesh inner = test::makeTurned(makeBox({1.0, 1.0, 1.0}));
+  const auto hollow = body("hollow box", test::makeJoined(makeBox({2.0, 2.0, 2.0}), inner));
   const auto ball = body("cube", makeBox({0.2, 0.2, 0.2}));
   const PairSolution solution = solveOnce("hollow", hollow, ball, TrackerParameters(), at(0.1, 0.0, 0.0));
   EXPECT_EQ(solution.status, SolveStatus::Ok);

@@ -168,7 +168,7 @@ TEST_F(PressureTriangles, AreNoneOfALumpedForceAndAfterParting) {
   EXPECT_EQ(scene_->effects.pressure(0), nullptr);
 }
 
-// Of a solid there is the other body's surface alone: it is lifted out of the solid, to be seen on it.
+// A round solid shows the other body's surface alone, lifted out of the solid so that it is seen.
 TEST_F(PressureTriangles, OfAnExactBallTheyLieOnItWithTheDepthsPressure) {
   const double radius = 0.1;
   const double depth = 1e-3;

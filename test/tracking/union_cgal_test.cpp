@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <array>
 #include <memory>
 
 #include "concave_distance/mesh/repair/repair_mesh.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "base/infinity.h"
+#include "base/constants.h"
 #include "concave_distance/tracking/pair_effects.h"
 #include "concave_distance/tracking/pair_tracker.h"
 #include "distance/niches/local_minima.h"
@@ -34,7 +34,7 @@ double exactDistance(const Body& a, const Body& b, const Isometry3d& pose) {
   return std::sqrt(test::enumerateTrianglePairs(*a, *b, pose).squared_distance);
 }
 
-// Of poses apart, where the distance of the surfaces is the truth.
+// The bodies are apart at these poses, where the distance of the surfaces is the truth.
 Isometry3d poseApart(RandomEngine& engine) {
   Isometry3d pose = Isometry3d::Identity();
   pose.linear() = test::randomRotation(engine);

@@ -23,7 +23,7 @@
 #include "benchmark/support/accuracy_pairs.h"
 #include "benchmark/support/benchmark_main.h"
 #include "benchmark/support/benchmark_pairs.h"
-#include "benchmark/support/query_clock.h"
+#include "benchmark/support/stopwatch.h"
 #include "concave_distance/tracking/pair_tracker.h"
 #include "distance/bound/certificate.h"
 #include "search/automatic_radii.h"

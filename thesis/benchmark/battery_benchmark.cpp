@@ -21,6 +21,7 @@
 #include "benchmark/support/statistics.h"
 #include "concave_distance/tracking/pair_tracker.h"
 #include "distance/niches/niche_properties.h"
+#include "loading/query_poses.h"
 #include "search/automatic_radii.h"
 #include "search/genetic_search.h"
 #include "search/grid/body_grid.h"
@@ -151,7 +152,7 @@ Manoeuvre runManoeuvre() {
   PairSolution solution;
   Manoeuvre manoeuvre;
   for (const TimedPose& instant :
-       loadPoses(std::string(CONCAVE_DISTANCE_SOURCE_DIR) + "/meshes/thesis/manoeuvre_200.csv")) {
+       readPosePath(std::string(CONCAVE_DISTANCE_SOURCE_DIR) + "/meshes/thesis/manoeuvre_200.csv")) {
     tracker.update(instant.pose, instant.time, solution);
     const double optimum =
         std::sqrt(test::enumerateNodePairs(*pair.a, *pair.b, instant.pose).squared_distance);

@@ -16,7 +16,7 @@
 #include <cstdio>
 #include <fstream>
 
-#include "base/thread_cpu.h"
+#include "base/helping_threads.h"
 #include "benchmark/support/benchmark_main.h"
 #include "benchmark/support/benchmark_pairs.h"
 #include "benchmark/support/stopwatch.h"

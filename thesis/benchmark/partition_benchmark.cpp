@@ -25,6 +25,7 @@
 #include "benchmark/support/statistics.h"
 #include "concave_distance/base/error.h"
 #include "distance/bound/certificate.h"
+#include "loading/query_poses.h"
 #include "thesis/benchmark/support/manoeuvre_curves.h"
 #include "thesis/benchmark/support/manoeuvre_methods.h"
 #include "thesis/src/partition/convex_partition.h"
@@ -192,7 +193,7 @@ void partitionAutomatically(PartitionedPair& pair) {
 PairTimes runPair(PartitionedPair& pair, int hole_facets, int protrusions, bool automatic, int repeats,
                   std::ofstream& csv, ManoeuvreCurves* curves) {
   const std::vector<TimedPose> poses =
-      loadPoses(std::string(CONCAVE_DISTANCE_SOURCE_DIR) + "/meshes/thesis/manoeuvre_200.csv");
+      readPosePath(std::string(CONCAVE_DISTANCE_SOURCE_DIR) + "/meshes/thesis/manoeuvre_200.csv");
   std::printf("%s: %d hole facets, %d protrusions; %zu x %zu pieces by hand\n", pair.name.c_str(),
               hole_facets, protrusions, pair.hand_b->pieces.size(), pair.hand_a->pieces.size());
   if (automatic) partitionAutomatically(pair);

@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <array>
-#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <memory>

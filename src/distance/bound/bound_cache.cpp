@@ -1,7 +1,6 @@
 #include "bound_cache.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace concave_distance {
 namespace {

@@ -4,7 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "base/infinity.h"
+#include "base/constants.h"
+#include "leaf_pair.h"
 
 namespace concave_distance::detail {
 namespace {

@@ -1,6 +1,6 @@
 #include "certificate.h"
 
-#include "base/coordinate_limit.h"
+#include "base/constants.h"
 #include "branch_and_bound.h"
 
 namespace concave_distance {

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/infinity.h"
+#include "base/constants.h"
+#include "leaf_pair.h"
 
 namespace concave_distance::detail {
 

@@ -2,7 +2,6 @@
 
 #include <limits>
 
-#include "leaf_pair.h"
 #include "proof_frame.h"
 
 namespace concave_distance::detail {

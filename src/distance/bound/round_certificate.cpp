@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "base/coordinate_limit.h"
+#include "base/constants.h"
 #include "closest_point.h"
 #include "distance/kernels/round_pair_distance.h"
 #include "mesh/surface/mesh_topology.h"

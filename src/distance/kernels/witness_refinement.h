@@ -6,7 +6,6 @@
 
 #include "concave_distance/distance/witness.h"
 #include "concave_distance/mesh/body_mesh.h"
-#include "triangle_distance.h"
 
 namespace concave_distance {
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "feature_body.h"
 #include "mesh/trees/normal_cone.h"
 
 namespace concave_distance::detail {

@@ -1,6 +1,5 @@
 #include "minima_tracker.h"
 
-#include <algorithm>
 #include <limits>
 
 #include "base/run_in_order.h"

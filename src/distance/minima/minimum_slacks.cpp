@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "feature_body.h"
-
 namespace concave_distance::detail {
 namespace {
 

@@ -1,7 +1,6 @@
 #include "decision_stage.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "distant_components.h"
 #include "mesh/surface/connected_pieces.h"

@@ -1,8 +1,6 @@
 #include "facet_pair_levels.h"
 
 #include <Eigen/Geometry>
-#include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "distance/kernels/prepared_triangle.h"

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cmath>
-
 #include "base/side.h"
 #include "distance/kernels/pair_frame.h"
 #include "facet_pair_levels.h"

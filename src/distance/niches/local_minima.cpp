@@ -5,7 +5,6 @@
 
 #include "base/refill.h"
 #include "candidate_collector.h"
-#include "distance/kernels/pair_frame.h"
 #include "niche_decider.h"
 #include "niche_describer.h"
 

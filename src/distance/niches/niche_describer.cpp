@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "mesh/surface/mesh_topology.h"
-#include "plateau_tolerance.h"
+#include "niche_properties.h"
 #include "shell_material.h"
 
 namespace concave_distance::detail {

@@ -262,7 +262,6 @@ NicheExtent measureExtent(const BodyMesh& a, const BodyMesh& b, const Eigen::Iso
   workspace.normal = normal;
   workspace.axis_x = axis_x;
   workspace.axis_y = axis_y;
-  workspace.height_tolerance = levels.tolerance;
   workspace.reach = levels.reach + levels.slack;
   // No set is longer than either body; one shorter than this cannot be distinguished from a point.
   if (std::min(a.diameter(), b.diameter()) <= 2.0 * levels.reach) return extent;
@@ -296,23 +295,6 @@ std::optional<WitnessPair> cornerOf(const BodyMesh& a, const BodyMesh& b, const 
   const Vector3d point = measured.origin + at.x() * measured.axis_x + at.y() * measured.axis_y;
   return frame.toWitness(pairAt(frame, point - frame.centre_a, triangle_a, triangle_b), triangle_a,
                          triangle_b);
-}
-
-bool isOnMeasuredSet(const ExtentWorkspace& workspace, const WitnessPair& witness) {
-  const Vector3d displacement = witness.point_a_in_a - workspace.origin;
-  if (std::abs(workspace.normal.dot(displacement)) > workspace.height_tolerance) return false;
-  // One point of A can be equally near to two places of B: the set leads to B along its normal.
-  const Vector3d between = witness.point_b_in_a - witness.point_a_in_a;
-  const Vector3d beside = between - workspace.normal.dot(between) * workspace.normal;
-  if (workspace.normal.dot(between) < 0.0 || beside.squaredNorm() > 4.0 * workspace.reach * workspace.reach) {
-    return false;
-  }
-  const Vector2d point(workspace.axis_x.dot(displacement), workspace.axis_y.dot(displacement));
-  return std::any_of(
-      workspace.pieces.begin(), workspace.pieces.end(), [&](const ExtentWorkspace::Piece& piece) {
-        const Vector2d nearest = detail::nearestIn(&workspace.points[piece.first], piece.count, point);
-        return (nearest - point).squaredNorm() <= 4.0 * workspace.reach * workspace.reach;
-      });
 }
 
 }  // namespace concave_distance

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mesh/surface/mesh_topology.h"
 #include "mesh/trees/triangle_tree.h"
 
 namespace concave_distance {

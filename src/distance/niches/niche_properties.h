@@ -13,6 +13,9 @@
 
 namespace concave_distance {
 
+/// Limits how much a plateau's distance may vary, relative to the bodies: far above the kernels' rounding.
+inline constexpr double kPlateauTolerance = 1e-9;
+
 /// Describes the set of all minimisers connected with a witness pair. The vector from A's point to B's is the
 /// same for all of them, so that the set is the overlap, seen along it, of what both bodies have level there.
 struct NicheExtent {
@@ -46,12 +49,11 @@ struct ExtentWorkspace {
   std::vector<Eigen::Vector2d> polygon;
   std::vector<Eigen::Vector2d> hull;
   /// These describe the set measured last, A's frame: a point of its plane on A, the unit vector towards B,
-  /// the axes of the two-dimensional coordinates; how far heights and points may be off, metres.
+  /// the axes of the two-dimensional coordinates; how far points may be off, metres.
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   Eigen::Vector3d axis_x = Eigen::Vector3d::Zero();
   Eigen::Vector3d axis_y = Eigen::Vector3d::Zero();
-  double height_tolerance = 0.0;
   double reach = 0.0;
 };
 
@@ -67,10 +69,6 @@ struct ExtentWorkspace {
 NicheExtent measureExtent(const BodyMesh& a, const BodyMesh& b, const Eigen::Isometry3d& a_from_b,
                           const WitnessPair& witness, double tolerance, std::size_t pair_limit,
                           ExtentWorkspace& workspace, WorkLimit* limit = nullptr);
-
-/// Returns whether a witness pair at the same distance (up to the tolerance of the measurement) lies on the
-/// set that was measured last. A set that is a point holds nothing else.
-bool isOnMeasuredSet(const ExtentWorkspace& workspace, const WitnessPair& witness);
 
 /// Gives the point pair just inside a corner of a piece of the set measured last: each point the closest to
 /// the other on its triangle; nothing for a piece that is a point.

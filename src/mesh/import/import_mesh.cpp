@@ -1,7 +1,5 @@
 #include "concave_distance/mesh/import/import_mesh.h"
 
-#include <Eigen/Geometry>
-
 #include "base/number_text.h"
 #include "concave_distance/base/error.h"
 #include "import_process.h"

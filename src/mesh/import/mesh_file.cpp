@@ -9,7 +9,6 @@
 #include <climits>
 #include <cstring>
 #include <utility>
-#include <vector>
 
 #include "file_extension.h"
 

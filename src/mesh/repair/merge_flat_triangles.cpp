@@ -147,7 +147,8 @@ class FlatMerger {
   PatchedMesh patched_;
   std::vector<bool> is_straight_;  ///< by node
   double least_height_;
-  // Those with few neighbours first: what they leave is quickly cut, and their neighbours have fewer then.
+  // Vertices with few neighbours go first: the hole they leave is cut quickly, and then their neighbours have
+  // fewer.
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
 };
 

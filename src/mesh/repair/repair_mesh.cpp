@@ -1,13 +1,13 @@
 #include "concave_distance/mesh/repair/repair_mesh.h"
 
 #include <algorithm>
+#include <vector>
 
-#include "base/coordinate_limit.h"
+#include "base/constants.h"
 #include "base/number_text.h"
 #include "base/union_find.h"
 #include "concave_distance/base/error.h"
 #include "dissolve_flat_triangles.h"
-#include "drop_unused.h"
 #include "mesh/surface/edge_table.h"
 #include "mesh/surface/resolve_shells.h"
 #include "settle_faces.h"
@@ -15,6 +15,32 @@
 
 namespace concave_distance {
 namespace {
+
+/// Keeps the vertices that a triangle uses, in their order; returns how many were dropped.
+std::size_t dropUnused(std::vector<Eigen::Vector3d>& vertices, std::vector<TriangleNodes>& triangles) {
+  std::vector<bool> used(vertices.size(), false);
+  for (const TriangleNodes& nodes : triangles) {
+    for (const NodeIndex node : nodes) {
+      used[node.value] = true;
+    }
+  }
+  std::vector<NodeIndex> renumbered(vertices.size());
+  std::size_t kept = 0;
+  for (std::size_t v = 0; v < vertices.size(); ++v) {
+    if (used[v]) {
+      renumbered[v] = NodeIndex{kept};
+      vertices[kept++] = vertices[v];
+    }
+  }
+  for (TriangleNodes& nodes : triangles) {
+    for (NodeIndex& node : nodes) {
+      node = renumbered[node.value];
+    }
+  }
+  const std::size_t dropped = vertices.size() - kept;
+  vertices.resize(kept);
+  return dropped;
+}
 
 void checkSoup(const TriangleSoup& soup, const RepairOptions& options, const std::string& where) {
   if (!(options.weld_tolerance >= 0.0) || !(options.weld_tolerance < 1.0)) {
@@ -166,7 +192,7 @@ RepairedMesh repairMesh(const TriangleSoup& soup, const RepairOptions& options, 
   report.inner_wall_triangles = settled.inner_walls;
   report.turned_triangles = settled.turned;
   report.welded_vertices = soup.vertices.size() - welded.vertices.size() + joined_vertices;
-  report.unused_vertices = detail::dropUnused(welded.vertices, triangles) - joined_vertices;
+  report.unused_vertices = dropUnused(welded.vertices, triangles) - joined_vertices;
   countShells(welded.vertices, triangles, report);
   countEdges(triangles, report);
   return {SurfaceMesh(std::move(welded.vertices), std::move(triangles), where), report};

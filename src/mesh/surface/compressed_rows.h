@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <vector>
 
 namespace concave_distance {
@@ -26,5 +27,19 @@ struct CompressedRows {
     return offsets.capacity() * sizeof(std::uint32_t) + values.capacity() * sizeof(T);
   }
 };
+
+/// Fills `count` rows, each in the order in which its values come.
+/// @param for_each (visit) calls visit(row, value) for each value, the same at both calls
+template <typename T, typename ForEach>
+CompressedRows<T> compressedRows(std::size_t count, const ForEach& for_each) {
+  CompressedRows<T> rows;
+  rows.offsets.assign(count + 1, 0);
+  for_each([&](std::uint32_t row, const T&) { ++rows.offsets[row + 1]; });
+  std::partial_sum(rows.offsets.begin(), rows.offsets.end(), rows.offsets.begin());
+  rows.values.resize(rows.offsets.back());
+  std::vector<std::uint32_t> place(rows.offsets.begin(), rows.offsets.end() - 1);
+  for_each([&](std::uint32_t row, const T& value) { rows.values[place[row]++] = value; });
+  return rows;
+}
 
 }  // namespace concave_distance

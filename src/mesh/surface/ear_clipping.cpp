@@ -1,7 +1,6 @@
 #include "ear_clipping.h"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <queue>
 #include <utility>

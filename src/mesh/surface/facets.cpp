@@ -123,7 +123,7 @@ Facets joinFlatTriangles(const SurfaceMesh& mesh, const MeshTopology& topology,
 CompressedRows<AdjacentTriangle> facetAdjacency(const Facets& facets,
                                                 const CompressedRows<AdjacentTriangle>& adjacency) {
   const std::size_t count = facets.facet_of_triangle.size();
-  return adjacencyRows(count, [&](const auto& visit) {
+  return compressedRows<AdjacentTriangle>(count, [&](const auto& visit) {
     for (std::uint32_t t = 0; t < count; ++t) {
       const TriangleIndex facet = facets.facet_of_triangle[t];
       for (AdjacentTriangle next : adjacency.row(t)) {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/number_text.h"
-#include "base/triangle_area.h"
+#include "base/triangle_measures.h"
 #include "concave_distance/base/error.h"
 
 namespace concave_distance {

@@ -1,45 +1,20 @@
 #include "concave_distance/mesh/surface/mass_properties.h"
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/LU>
-#include <cmath>
 
 #include "base/parameter_checks.h"
 #include "concave_distance/base/error.h"
+#include "surface_moments.h"
 
 namespace concave_distance {
 namespace {
 
+using detail::SurfaceMoments;
+
 // Tensors from files are rounded: this much asymmetry, or excess over the triangle inequality, is let pass.
 constexpr double kTensorTolerance = 1e-6;
 
-// About the middle of the bounding box: volume, its first moment and its second moments.
-struct Moments {
-  Eigen::Vector3d origin;
-  double volume = 0.0;
-  Eigen::Vector3d first = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
-};
-
-Moments momentsOf(const SurfaceMesh& mesh) {
-  Moments moments;
-  moments.origin = mesh.boundingBox().center();
-  for (const TriangleNodes& triangle : mesh.triangles()) {
-    const Eigen::Vector3d a = mesh.vertex(triangle[0]) - moments.origin;
-    const Eigen::Vector3d b = mesh.vertex(triangle[1]) - moments.origin;
-    const Eigen::Vector3d c = mesh.vertex(triangle[2]) - moments.origin;
-    const double volume = a.dot(b.cross(c)) / 6.0;
-    const Eigen::Vector3d sum = a + b + c;
-    moments.volume += volume;
-    moments.first += volume / 4.0 * sum;
-    // Of a tetrahedron with a corner at the origin: V / 20 (aa' + bb' + cc' + (a + b + c)(a + b + c)').
-    moments.second +=
-        volume / 20.0 * (a * a.transpose() + b * b.transpose() + c * c.transpose() + sum * sum.transpose());
-  }
-  return moments;
-}
-
-MassProperties evenlyFilled(const Moments& moments, double density) {
+MassProperties evenlyFilled(const SurfaceMoments& moments, double density) {
   MassProperties properties;
   properties.mass = density * moments.volume;
   const Eigen::Vector3d centre = moments.first / moments.volume;
@@ -50,8 +25,8 @@ MassProperties evenlyFilled(const Moments& moments, double density) {
   return properties;
 }
 
-Moments requireVolume(const SurfaceMesh& closed, const std::string& where) {
-  Moments moments = momentsOf(closed);
+SurfaceMoments requireVolume(const SurfaceMesh& closed, const std::string& where) {
+  const SurfaceMoments moments(closed);
   if (!(moments.volume > 0.0)) {
     throw Error(where, "the surface encloses a volume of " + detail::toText(moments.volume) + " m^3",
                 "a closed surface with its triangles outward is needed, or give the inertia");
@@ -86,7 +61,7 @@ MassProperties massPropertiesOf(const SurfaceMesh& closed, double density, const
 
 MassProperties massPropertiesOfMass(const SurfaceMesh& closed, double mass, const std::string& where) {
   detail::requirePositive(where, "mass", mass, "kg");
-  const Moments moments = requireVolume(closed, where);
+  const SurfaceMoments moments = requireVolume(closed, where);
   return evenlyFilled(moments, mass / moments.volume);
 }
 

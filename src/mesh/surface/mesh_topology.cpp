@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include "resolve_shells.h"
@@ -54,45 +53,32 @@ void forEachEdge(const std::vector<EdgeUse>& edges, Visit visit) {
   }
 }
 
-void collectTriangles(const SurfaceMesh& mesh, CompressedRows<TriangleIndex>& rows) {
-  rows.offsets.assign(mesh.vertexCount() + 1, 0);
+CompressedRows<TriangleIndex> trianglesOfVertices(const SurfaceMesh& mesh) {
   const auto names_before = [](const TriangleNodes& nodes, std::size_t k) {
     return (k > 0 && nodes[k] == nodes[0]) || (k > 1 && nodes[k] == nodes[1]);
   };
-  for (const TriangleNodes& nodes : mesh.triangles()) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (!names_before(nodes, k)) ++rows.offsets[nodes[k].value + 1];
+  return compressedRows<TriangleIndex>(mesh.vertexCount(), [&](const auto& visit) {
+    for (std::size_t t = 0; t < mesh.triangleCount(); ++t) {
+      const TriangleNodes& nodes = mesh.triangles()[t];
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (!names_before(nodes, k)) visit(nodes[k].value, TriangleIndex{t});
+      }
     }
-  }
-  std::partial_sum(rows.offsets.begin(), rows.offsets.end(), rows.offsets.begin());
-  rows.values.resize(rows.offsets.back());
-  std::vector<std::uint32_t> next(rows.offsets.begin(), rows.offsets.end() - 1);
-  for (std::size_t t = 0; t < mesh.triangleCount(); ++t) {
-    const TriangleNodes& nodes = mesh.triangles()[t];
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (!names_before(nodes, k)) rows.values[next[nodes[k].value]++] = TriangleIndex{t};
-    }
-  }
+  });
 }
 
-void collectNeighbours(const std::vector<EdgeUse>& edges, std::size_t vertex_count,
-                       CompressedRows<NodeIndex>& rows) {
-  rows.offsets.assign(vertex_count + 1, 0);
-  forEachEdge(edges, [&](std::size_t first, std::size_t) {
-    ++rows.offsets[edges[first].low + 1];
-    ++rows.offsets[edges[first].high + 1];
-  });
-  std::partial_sum(rows.offsets.begin(), rows.offsets.end(), rows.offsets.begin());
-  rows.values.resize(rows.offsets.back());
-  std::vector<std::uint32_t> next(rows.offsets.begin(), rows.offsets.end() - 1);
-  forEachEdge(edges, [&](std::size_t first, std::size_t) {
-    const EdgeUse& edge = edges[first];
-    rows.values[next[edge.low]++] = NodeIndex{edge.high};
-    rows.values[next[edge.high]++] = NodeIndex{edge.low};
+CompressedRows<NodeIndex> neighboursOfVertices(const std::vector<EdgeUse>& edges, std::size_t vertex_count) {
+  CompressedRows<NodeIndex> rows = compressedRows<NodeIndex>(vertex_count, [&](const auto& visit) {
+    forEachEdge(edges, [&](std::size_t first, std::size_t) {
+      const EdgeUse& edge = edges[first];
+      visit(edge.low, NodeIndex{edge.high});
+      visit(edge.high, NodeIndex{edge.low});
+    });
   });
   for (std::size_t v = 0; v < vertex_count; ++v) {
     std::sort(rows.values.begin() + rows.offsets[v], rows.values.begin() + rows.offsets[v + 1]);
   }
+  return rows;
 }
 
 /// Takes the two shorter edges, whose cross product cancels least.
@@ -143,8 +129,8 @@ bool MeshTopology::allShellsClosed() const {
 MeshTopology buildMeshTopology(const SurfaceMesh& mesh) {
   MeshTopology topology;
   const std::vector<EdgeUse> edges = collectEdges(mesh);
-  collectTriangles(mesh, topology.triangles_of_vertex);
-  collectNeighbours(edges, mesh.vertexCount(), topology.neighbours_of_vertex);
+  topology.triangles_of_vertex = trianglesOfVertices(mesh);
+  topology.neighbours_of_vertex = neighboursOfVertices(edges, mesh.vertexCount());
   topology.triangle_across_edge.assign(mesh.triangleCount(), {kNoTriangle, kNoTriangle, kNoTriangle});
   forEachEdge(edges, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {

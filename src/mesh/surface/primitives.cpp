@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/coordinate_limit.h"
+#include "base/constants.h"
 #include "base/number_text.h"
-#include "base/pi.h"
 #include "concave_distance/base/error.h"
 
 namespace concave_distance {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/pi.h"
+#include "base/constants.h"
 #include "concave_distance/mesh/surface/round_shape.h"
 
 namespace concave_distance::detail {

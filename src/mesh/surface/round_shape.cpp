@@ -1,11 +1,9 @@
 #include "concave_distance/mesh/surface/round_shape.h"
 
-#include <cmath>
 #include <utility>
 
-#include "base/coordinate_limit.h"
+#include "base/constants.h"
 #include "base/parameter_checks.h"
-#include "base/pi.h"
 #include "concave_distance/mesh/surface/mass_properties.h"
 #include "primitive_table.h"
 #include "round_geometry.h"

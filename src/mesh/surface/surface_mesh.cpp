@@ -1,6 +1,6 @@
 #include "concave_distance/mesh/surface/surface_mesh.h"
 
-#include "base/coordinate_limit.h"
+#include "base/constants.h"
 #include "concave_distance/base/error.h"
 
 namespace concave_distance {

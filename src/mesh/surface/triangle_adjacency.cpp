@@ -87,7 +87,7 @@ CompressedRows<AdjacentTriangle> triangleAdjacency(const SurfaceMesh& mesh, cons
   joins.reserve(3 * mesh.triangleCount());
   joinAcrossEdges(mesh, edges, joins);
   joinOverVertices(mesh, topology, edges, joins);
-  return adjacencyRows(mesh.triangleCount(), [&](const auto& visit) {
+  return compressedRows<AdjacentTriangle>(mesh.triangleCount(), [&](const auto& visit) {
     for (const Join& join : joins) visit(join.of, join.to);
   });
 }

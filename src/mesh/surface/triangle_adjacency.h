@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <numeric>
 #include <vector>
 
 #include "compressed_rows.h"
@@ -16,20 +15,6 @@ struct AdjacentTriangle {
   NodeIndex from;
   NodeIndex to;
 };
-
-/// Rows of neighbours.
-/// @param for_each (visit) calls visit(row, neighbour) for each of them, the same at both calls
-template <typename ForEach>
-CompressedRows<AdjacentTriangle> adjacencyRows(std::size_t count, const ForEach& for_each) {
-  CompressedRows<AdjacentTriangle> rows;
-  rows.offsets.assign(count + 1, 0);
-  for_each([&](std::uint32_t row, const AdjacentTriangle&) { ++rows.offsets[row + 1]; });
-  std::partial_sum(rows.offsets.begin(), rows.offsets.end(), rows.offsets.begin());
-  rows.values.resize(rows.offsets.back());
-  std::vector<std::uint32_t> place(rows.offsets.begin(), rows.offsets.end() - 1);
-  for_each([&](std::uint32_t row, const AdjacentTriangle& next) { rows.values[place[row]++] = next; });
-  return rows;
-}
 
 /// Returns for every triangle those across its edges, or the next one in a ring where more than 8 meet
 /// at an edge; and where triangles hang together at a vertex alone, a chain over that vertex. Triangles

@@ -2,14 +2,14 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 #include <optional>
 #include <vector>
 
+#include "base/constants.h"
 #include "base/exact_orientation.h"
-#include "base/pi.h"
-#include "base/solid_angle.h"
+#include "base/triangle_measures.h"
+#include "mesh/surface/surface_moments.h"
 
 namespace concave_distance {
 namespace {
@@ -27,20 +27,9 @@ std::array<Vector3d, 3> cornersOf(const SurfaceMesh& mesh, std::size_t triangle)
 
 /// The centre of mass of the solid, or the middle of the box where rounding decides.
 Vector3d centreOf(const SurfaceMesh& mesh) {
-  const Vector3d middle = mesh.boundingBox().center();
-  Vector3d moment = Vector3d::Zero();
-  double volume = 0.0;
-  for (std::size_t t = 0; t < mesh.triangleCount(); ++t) {
-    const std::array<Vector3d, 3> corners = cornersOf(mesh, t);
-    const Vector3d p = corners[0] - middle;
-    const Vector3d q = corners[1] - middle;
-    const Vector3d r = corners[2] - middle;
-    const double part = p.dot(q.cross(r));
-    volume += part;
-    moment += part * (p + q + r);
-  }
-  const Vector3d centre = middle + moment / (4.0 * volume);
-  return mesh.boundingBox().contains(centre) ? centre : middle;
+  const detail::SurfaceMoments moments(mesh);
+  const Vector3d centre = moments.centre();
+  return mesh.boundingBox().contains(centre) ? centre : moments.origin;
 }
 
 /// True when every ray from the centre crosses the closed surface once: no triangle is seen from behind, and

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "base/pi.h"
+#include "base/constants.h"
 
 namespace concave_distance::detail {
 namespace {

@@ -87,7 +87,7 @@ class NormalConeTree {
     return groups_.capacity() * sizeof(Group) + items_.capacity() * sizeof(Item);
   }
 
-  /// Passes all of it to a file that reads or writes (cached_part.h).
+  /// Passes all of it to a file that reads or writes (cached_parts.h).
   template <typename File>
   void transfer(File& file) {
     transferParts(file, *this);

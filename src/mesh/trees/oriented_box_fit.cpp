@@ -93,10 +93,8 @@ Matrix3d planeOfLargest(const CornerRange& corners) {
 
 }  // namespace
 
-OrientedBox fitOrientedBox(const CornerRange& corners, BoxAxes kind) {
-  if (kind == BoxAxes::Principal) return boxAlong(principalAxes(corners), corners);
+OrientedBox fitOrientedBox(const CornerRange& corners) {
   OrientedBox best = boxAlong(Matrix3d::Identity(), corners);
-  if (kind == BoxAxes::Frame) return best;
   for (const Matrix3d& axes : {principalAxes(corners), planeOfLargest(corners)}) {
     OrientedBox box = boxAlong(axes, corners);
     if (halfArea(box.half) < halfArea(best.half)) best = box;

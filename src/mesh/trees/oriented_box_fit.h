@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cstdint>
-
 #include "bounding_volume_hierarchy.h"
 
 namespace concave_distance::detail {
@@ -12,15 +10,9 @@ struct CornerRange {
   const Eigen::Vector3d* end;
 };
 
-enum class BoxAxes : std::uint8_t {
-  Frame,      ///< those of the body frame
-  Principal,  ///< the principal axes of the triangles' area
-  Fitted      ///< those of the two, and of the largest triangle's plane with its longest edge, that give the
-              ///< least surface area
-};
-
-/// Returns an oriented box around the corners. Halves are not widened. What the hierarchy has are the fitted
-/// ones; the others are what they are compared with (doc/hierarchy.md).
-OrientedBox fitOrientedBox(const CornerRange& corners, BoxAxes axes = BoxAxes::Fitted);
+/// Returns an oriented box around the corners, along the axes of the body frame, the principal axes of the
+/// triangles' area, or the largest triangle's plane with its longest edge: those that give the least surface
+/// area (doc/hierarchy.md compares them). Halves are not widened.
+OrientedBox fitOrientedBox(const CornerRange& corners);
 
 }  // namespace concave_distance::detail

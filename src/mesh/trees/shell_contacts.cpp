@@ -3,7 +3,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "base/union_find.h"
 #include "triangle_meeting.h"
@@ -204,7 +203,7 @@ bool isInsideOtherShell(const SurfaceMesh& mesh, const MeshTopology& topology, c
 
 CompressedRows<AdjacentTriangle> joinedAdjacency(const SurfaceMesh& mesh, const ShellContacts& joints,
                                                  const CompressedRows<AdjacentTriangle>& adjacency) {
-  return adjacencyRows(mesh.triangleCount(), [&](const auto& visit) {
+  return compressedRows<AdjacentTriangle>(mesh.triangleCount(), [&](const auto& visit) {
     for (std::uint32_t t = 0; t < mesh.triangleCount(); ++t) {
       if (joints.isHidden(TriangleIndex{t})) continue;
       for (const AdjacentTriangle& next : adjacency.row(t)) {

@@ -14,6 +14,26 @@ namespace {
 // The last row may be this far from the first one: both are written with 9 digits or more.
 constexpr double kClosingTolerance = 1e-9;
 
+/// The first column as seconds. @throws Error naming `path` unless they rise strictly and all is finite
+std::vector<double> readTimes(const CsvTable& table, const std::string& path) {
+  std::vector<double> times;
+  for (std::size_t row = 0; row < table.rowCount(); ++row) {
+    const std::string where = path + ":" + std::to_string(table.lines[row]);
+    for (std::size_t column = 0; column < table.columns.size(); ++column) {
+      if (!std::isfinite(table.at(row, column))) {
+        throw Error(where, "column " + table.columns[column] + " is not finite", "correct the cell");
+      }
+    }
+    const double time = table.at(row, 0);
+    if (!times.empty() && !(time > times.back())) {
+      throw Error(where, "time " + numberText(time) + " s does not follow " + numberText(times.back()) + " s",
+                  "sort the rows by time");
+    }
+    times.push_back(time);
+  }
+  return times;
+}
+
 }  // namespace
 
 JointPath::JointPath(std::vector<double> times, Eigen::MatrixXd waypoints, double period)
@@ -57,30 +77,6 @@ Eigen::VectorXd JointPath::at(double time) const {
       .transpose();
 }
 
-namespace {
-
-/// The first column as seconds. @throws Error naming `path` unless they rise strictly and all is finite
-std::vector<double> readTimes(const CsvTable& table, const std::string& path) {
-  std::vector<double> times;
-  for (std::size_t row = 0; row < table.rowCount(); ++row) {
-    const std::string where = path + ":" + std::to_string(table.lines[row]);
-    for (std::size_t column = 0; column < table.columns.size(); ++column) {
-      if (!std::isfinite(table.at(row, column))) {
-        throw Error(where, "column " + table.columns[column] + " is not finite", "correct the cell");
-      }
-    }
-    const double time = table.at(row, 0);
-    if (!times.empty() && !(time > times.back())) {
-      throw Error(where, "time " + numberText(time) + " s does not follow " + numberText(times.back()) + " s",
-                  "sort the rows by time");
-    }
-    times.push_back(time);
-  }
-  return times;
-}
-
-}  // namespace
-
 NamedJointPath readJointPath(const std::string& path) {
   const CsvTable table = readCsv(path);
   if (table.columns.size() < 2 || table.columns.front() != "t") {
@@ -108,6 +104,12 @@ NamedJointPath readJointPath(const std::string& path) {
   times.pop_back();
   const Eigen::MatrixXd open = waypoints.topRows(waypoints.rows() - 1);
   return {{table.columns.begin() + 1, table.columns.end()}, JointPath(std::move(times), open, period)};
+}
+
+double pingPong(double elapsed, double duration, double pause) {
+  const double leg = duration + pause;
+  const double phase = std::fmod(std::max(elapsed, 0.0), 2.0 * leg);
+  return phase < leg ? std::min(phase, duration) : std::max(duration - (phase - leg), 0.0);
 }
 
 }  // namespace concave_distance::demo

@@ -15,7 +15,6 @@ class JointPath {
   JointPath(std::vector<double> times, Eigen::MatrixXd waypoints, double period);
 
   double period() const { return period_; }
-  Eigen::Index jointCount() const { return waypoints_.cols(); }
 
   /// Positions `time` seconds after the start; any finite time, the path repeats.
   Eigen::VectorXd at(double time) const;
@@ -35,5 +34,9 @@ struct NamedJointPath {
 /// Reads `t,<joint>,<joint>,...`; the last row repeats the first one and gives the period.
 /// @throws Error when it does not, for fewer than four rows, or times that do not rise from 0
 NamedJointPath readJointPath(const std::string& path);
+
+/// Forwards through [0, duration] and backwards again, without end: the time on the path after `elapsed`
+/// seconds, with a rest of `pause` seconds at either end.
+double pingPong(double elapsed, double duration, double pause);
 
 }  // namespace concave_distance::demo

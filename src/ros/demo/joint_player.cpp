@@ -8,8 +8,6 @@
 
 #include "demo_parameters.h"
 #include "joint_path.h"
-#include "ros/time_difference.h"
-#include "run_node.h"
 
 namespace {
 
@@ -26,16 +24,12 @@ void run() {
   ros::Publisher publisher = public_node.advertise<sensor_msgs::JointState>("joint_states", 1);
   sensor_msgs::JointState message;
   message.name = joints.joints;
-  ros::Time first;
-  const ros::Timer timer = public_node.createTimer(ros::Duration(1.0 / rate), [&](const ros::TimerEvent&) {
-    const ros::Time now = ros::Time::now();
-    if (first.isZero() || now < first) first = now;
-    const Eigen::VectorXd positions = joints.path.at(start + speed * secondsBetween(first, now));
+  demo::playAtRate(rate, [&](double time, const ros::Time& now) {
+    const Eigen::VectorXd positions = joints.path.at(start + speed * time);
     message.header.stamp = now;
     message.position.assign(positions.data(), positions.data() + positions.size());
     publisher.publish(message);
   });
-  ros::spin();
 }
 
 }  // namespace

@@ -15,8 +15,6 @@
 #include <optional>
 
 #include "demo_parameters.h"
-#include "ros/time_difference.h"
-#include "run_node.h"
 
 namespace {
 
@@ -118,17 +116,13 @@ void run() {
 
   tf2_ros::TransformBroadcaster broadcaster;
   ros::NodeHandle public_node;
-  ros::Time first;
-  const ros::Timer timer = public_node.createTimer(ros::Duration(1.0 / rate), [&](const ros::TimerEvent&) {
-    const ros::Time now = ros::Time::now();
-    if (first.isZero() || now < first) first = now;
-    if (idle) pose = sway(start, secondsBetween(first, now));
-    broadcaster.sendTransform(demo::toTransform(pose, now, parent, child));
-  });
   // Less often than the poses, because rviz starts over when it loses one of the server's messages.
   const ros::Timer handle_timer = public_node.createTimer(ros::Duration(1.0 / std::min(rate, kHandleRate)),
                                                           [&](const ros::TimerEvent&) { show_handles(); });
-  ros::spin();
+  demo::playAtRate(rate, [&](double time, const ros::Time& now) {
+    if (idle) pose = sway(start, time);
+    broadcaster.sendTransform(demo::toTransform(pose, now, parent, child));
+  });
 }
 
 }  // namespace

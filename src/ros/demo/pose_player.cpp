@@ -7,10 +7,8 @@
 #include <tf2_ros/transform_broadcaster.h>
 
 #include "demo_parameters.h"
+#include "joint_path.h"
 #include "loading/query_poses.h"
-#include "ping_pong.h"
-#include "ros/time_difference.h"
-#include "run_node.h"
 #include "simulation/pose_path.h"
 
 namespace {
@@ -28,17 +26,11 @@ void run() {
   const double start = demo::numberParameter(node, "start", 0.0, 0.0, 3600.0);
 
   tf2_ros::TransformBroadcaster broadcaster;
-  ros::NodeHandle public_node;
-  ros::Time first;
-  const ros::Timer timer = public_node.createTimer(ros::Duration(1.0 / rate), [&](const ros::TimerEvent&) {
-    const ros::Time now = ros::Time::now();
-    // A clock that jumps back starts the path anew.
-    if (first.isZero() || now < first) first = now;
-    const double elapsed = start + speed * secondsBetween(first, now);
-    const double time = path.startTime() + demo::pingPong(elapsed, path.endTime() - path.startTime(), pause);
-    broadcaster.sendTransform(demo::toTransform(path.poseAt(time), now, parent, child));
+  demo::playAtRate(rate, [&](double time, const ros::Time& now) {
+    const double duration = path.endTime() - path.startTime();
+    const double on_path = path.startTime() + demo::pingPong(start + speed * time, duration, pause);
+    broadcaster.sendTransform(demo::toTransform(path.poseAt(on_path), now, parent, child));
   });
-  ros::spin();
 }
 
 }  // namespace

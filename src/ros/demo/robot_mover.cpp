@@ -20,7 +20,6 @@
 #include "loading/description_search.h"
 #include "loading/frame_name.h"
 #include "loading/urdf_values.h"
-#include "run_node.h"
 
 namespace {
 
@@ -119,11 +118,7 @@ void run() {
   message.position.resize(joints.size());
   ros::NodeHandle public_node;
   ros::Publisher publisher = public_node.advertise<sensor_msgs::JointState>("joint_states", 1);
-  ros::Time first;
-  const ros::Timer timer = public_node.createTimer(ros::Duration(1.0 / rate), [&](const ros::TimerEvent&) {
-    const ros::Time now = ros::Time::now();
-    if (first.isZero() || now < first) first = now;
-    const double time = (now - first).toSec();
+  demo::playAtRate(rate, [&](double time, const ros::Time& now) {
     for (std::size_t i = 0; i < joints.size(); ++i) {
       const double frequency = kSlowest + kFrequencyStep * static_cast<double>(i % kFrequencies);
       message.position[i] = joints[i].centre + joints[i].amplitude * std::sin(2.0 * M_PI * frequency * time);
@@ -131,7 +126,6 @@ void run() {
     message.header.stamp = now;
     publisher.publish(message);
   });
-  ros::spin();
 }
 
 }  // namespace

@@ -2,16 +2,9 @@
 
 #include <tf2_eigen/tf2_eigen.h>
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
-#include <sstream>
 
-#include "base/coordinate_limit.h"
-#include "base/unit_tolerance.h"
-#include "concave_distance/base/error.h"
 #include "concave_distance/search/prepare_search.h"
-#include "loading/frame_name.h"
 #include "mesh/surface/mesh_topology.h"
 
 namespace concave_distance {

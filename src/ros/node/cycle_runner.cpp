@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "base/thread_cpu.h"
+#include "base/helping_threads.h"
 #include "ros/callback_guard.h"
 #include "ros/time_difference.h"
 

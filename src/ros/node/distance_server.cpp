@@ -2,7 +2,6 @@
 
 #include <ros/console.h>
 
-#include <cmath>
 #include <optional>
 #include <thread>
 #include <utility>
@@ -10,10 +9,9 @@
 #include "reconfiguration.h"
 #include "ros/callback_guard.h"
 #include "ros/markers/body_markers.h"
-#include "ros/tf/clock_check.h"
 #include "ros/tf/frame_report.h"
 #include "ros/topics/diagnostics.h"
-#include "scene_loading.h"
+#include "scene_loader.h"
 
 namespace concave_distance {
 namespace {

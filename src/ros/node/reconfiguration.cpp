@@ -3,7 +3,6 @@
 #include <dynamic_reconfigure/Config.h>
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 
 #include "concave_distance/base/error.h"

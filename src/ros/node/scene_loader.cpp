@@ -1,11 +1,120 @@
 #include "scene_loader.h"
 
+#include <ros/console.h>
+#include <ros/package.h>
+
 #include <exception>
 #include <utility>
+#include <vector>
 
 #include "base/number_text.h"
+#include "loading/description_search.h"
+#include "scene/body_pool.h"
 
 namespace concave_distance {
+namespace {
+
+// loadRobotScene looks for the SRDF here; a robot may have none.
+constexpr const char* kSemanticDescription = "robot_description_semantic";
+constexpr const char* kSemanticSuffix = "_semantic";  // of the parameter's name, as in MoveIt
+
+std::optional<FoundDescription> findDescription(const ros::NodeHandle& node, const std::string& name) {
+  return searchDescription(node.getNamespace(), name, [&](const std::string& key) {
+    std::string text;
+    return node.getParam(key, text) ? std::optional<std::string>(text) : std::nullopt;
+  });
+}
+
+// Bodies can be added to this scene.
+Scene emptyScene(const SceneLoadOptions& options) {
+  Scene scene;
+  scene.cache = options.cache;
+  scene.pool = std::make_shared<BodyPool>(options.metric_memory_limit);
+  scene.limits = options.limits;
+  scene.defaults.pairs = options.default_settings;
+  return scene;
+}
+
+Scene loadRobot(const std::string& urdf, const std::string& name, const SceneLoadOptions& options) {
+  try {
+    return loadRobotScene(urdf, name, options);
+  } catch (const Error& problem) {
+    Scene scene = emptyScene(options);
+    scene.problems.push_back({problem.where(), problem.whatIsWrong() + " (" + problem.remedy() + ")"});
+    return scene;
+  }
+}
+
+}  // namespace
+
+void logScene(const Scene& scene, double seconds) {
+  for (const std::string& note : scene.notes) {
+    ROS_INFO_STREAM(note);
+  }
+  for (const std::string& warning : scene.warnings) {
+    ROS_WARN_STREAM(warning);
+  }
+  for (const SceneProblem& problem : scene.problems) {
+    ROS_ERROR_STREAM("Not loaded: " << problem.where << ": " << problem.message);
+  }
+  ROS_INFO("The scene has %zu bodies and %zu pairs; %zu parts could not be loaded. It took %.1f s.",
+           scene.bodies.size(), scene.pairs.size(), scene.problems.size(), seconds);
+}
+
+std::string rosPackagePath(const std::string& package) {
+  return ros::package::getPath(package);
+}
+
+SceneRequest requestScene(const NodeParameters& parameters, const ros::NodeHandle& node) {
+  SceneRequest request;
+  std::vector<std::string> names;
+  if (!parameters.scene_file.empty()) {
+    names = descriptionsOfSceneFile(parameters.scene_file);
+  } else if (!parameters.robot_description.empty()) {
+    names.push_back(parameters.robot_description);
+  }
+  for (const std::string& name : names) {
+    const std::optional<FoundDescription> found = findDescription(node, name);
+    if (!found) {
+      request.waiting_for = "there is no parameter '" + name + "' with the robot's description";
+      return request;
+    }
+    request.descriptions[name] = found->text;
+  }
+  if (parameters.scene_file.empty() && !parameters.robot_description.empty()) {
+    const auto srdf = findDescription(node, parameters.robot_description + kSemanticSuffix);
+    if (srdf && srdf->is_xml) {
+      request.descriptions[kSemanticDescription] = srdf->text;
+    }
+  }
+  return request;
+}
+
+Scene loadScene(const NodeParameters& parameters, const SceneRequest& request, LoadProgress& progress) {
+  SceneLoadOptions options;
+  options.package_locator = rosPackagePath;
+  options.mesh_search_path = parameters.mesh_search_folders;
+  options.geometry = parameters.geometry;
+  options.default_settings = parameters.pair;
+  options.cache = openPreparationCache(parameters.cache);
+  options.limits = {parameters.limits.largest_body_count, parameters.limits.largest_pair_count,
+                    parameters.limits.largest_triangle_count, parameters.limits.largest_node_count};
+  options.mesh_import = parameters.mesh_access.limits;
+  options.mesh_import.stop = &progress.stop;
+  options.descriptions = request.descriptions;
+  options.progress = &progress;
+  options.automatic_cutoff = parameters.automatic_cutoff;
+  options.skip_overlapping_pairs = parameters.skip_overlapping_pairs;
+  if (parameters.chord_error > 0.0) options.chord_error = parameters.chord_error;
+  if (!parameters.scene_file.empty()) {
+    return loadSceneFile(parameters.scene_file, options);
+  }
+  if (parameters.robot_description.empty()) {
+    return emptyScene(options);
+  }
+  return loadRobot(request.descriptions.at(parameters.robot_description), parameters.robot_description,
+                   options);
+}
 
 SceneLoader::~SceneLoader() {
   if (thread_.joinable()) {

@@ -6,8 +6,7 @@
 #include <exception>
 
 #include "base/memory_arenas.h"
-#include "concave_distance/base/error.h"
-#include "scene_loading.h"
+#include "scene_loader.h"
 #include "simulation_runner.h"
 
 namespace {

@@ -3,9 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include "base/coordinate_limit.h"
+#include "base/constants.h"
 #include "base/number_text.h"
-#include "base/unit_tolerance.h"
 #include "concave_distance/base/error.h"
 #include "loading/frame_name.h"
 

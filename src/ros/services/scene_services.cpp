@@ -12,9 +12,10 @@
 #include "concave_distance/loading/load_scene.h"
 #include "concave_distance/search/prepare_search.h"
 #include "loading/set_effects.h"
+#include "loading/wording.h"
 #include "request_conversions.h"
 #include "ros/messages/conversions.h"
-#include "ros/tf/clock_check.h"
+#include "ros/tf/frame_report.h"
 #include "ros/tf/tf_poses.h"
 #include "scene/scene_edits.h"
 #include "scene/set_warning_distance.h"
@@ -55,15 +56,6 @@ constexpr double kRemarkPeriod = 1.0;  // s between two remarks in the log; ever
 // Bodies named in a remark.
 constexpr std::size_t kMostNamed = 8;
 
-std::string listed(const std::vector<std::string>& names) {
-  std::string text;
-  for (std::size_t i = 0; i < std::min(names.size(), kMostNamed); ++i) {
-    text += (i == 0 ? "" : ", ") + names[i];
-  }
-  return names.size() > kMostNamed ? text + " and " + std::to_string(names.size() - kMostNamed) + " more"
-                                   : text;
-}
-
 // Returns whether only static transforms connect the two frames.
 bool areFixed(const tf2::BufferCore& buffer, const std::string& frame_a, const std::string& frame_b) {
   const FrameTransform transform = lookUpFrame(buffer, frame_a, frame_b, ros::Time(0));
@@ -83,11 +75,11 @@ std::string remarksOn(const AddedPairs& added, const std::string& frame, bool fr
         "' is not on tf: the body's pairs have no distance until something publishes it");
   }
   if (!added.unknown.empty()) {
-    add("touch_links names no body of the scene: " + listed(added.unknown));
+    add("touch_links names no body of the scene: " + detail::listed(added.unknown, kMostNamed));
   }
   if (!added.rigid_neighbours.empty()) {
-    add("not watched against bodies rigidly connected with '" + frame +
-        "': " + listed(added.rigid_neighbours) + " (name them in pair_with to watch them)");
+    add("not watched against bodies rigidly connected with '" + frame + "': " +
+        detail::listed(added.rigid_neighbours, kMostNamed) + " (name them in pair_with to watch them)");
   }
   return text;
 }

@@ -59,4 +59,13 @@ std::string describeMissingFrames(const tf2::BufferCore& buffer, const Scene& sc
   return text.str();
 }
 
+std::string missingClock() {
+  if (!ros::Time::isSimTime() || !ros::Time::now().isZero()) {
+    return "";
+  }
+  return "No cycle runs: /use_sim_time is true and nothing publishes /clock. Start the simulation, or play "
+         "the bag with --clock. If an earlier simulation left the parameter set, rosparam set "
+         "/use_sim_time false and start the node again.";
+}
+
 }  // namespace concave_distance

@@ -12,4 +12,7 @@ namespace concave_distance {
 std::string describeMissingFrames(const tf2::BufferCore& buffer, const Scene& scene,
                                   const std::string& reference_frame);
 
+/// Returns why ROS time is zero, with the remedy; empty when it is not.
+std::string missingClock();
+
 }  // namespace concave_distance

@@ -8,4 +8,4 @@
 // stamp, and the status that says why there is none (missing, stale, not finite). It keeps ten seconds
 // of transforms, each with its clock, in TransformBuffer; a clock that jumps back empties it. Begin with
 // transform_receiver.h (what is accepted), then transform_buffer.h (what is kept), then tf_poses.h (what is
-// asked of it). frame_report.h and clock_check.h say what a user has to mend. Nothing here knows a distance.
+// asked of it). frame_report.h says what a user has to mend. Nothing here knows a distance.

@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <string>
 
-#include "loading/frame_name.h"
 #include "transform_buffer.h"
 
 namespace concave_distance {

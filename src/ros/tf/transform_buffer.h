@@ -3,7 +3,6 @@
 #include <geometry_msgs/TransformStamped.h>
 #include <tf2/buffer_core.h>
 
-#include <cstdint>
 #include <deque>
 #include <functional>
 #include <memory>

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "base/coordinate_limit.h"
+#include "base/constants.h"
 #include "base/number_text.h"
 #include "loading/frame_name.h"
 #include "ros/time_difference.h"

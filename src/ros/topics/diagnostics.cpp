@@ -3,7 +3,6 @@
 #include <diagnostic_msgs/DiagnosticStatus.h>
 
 #include <algorithm>
-#include <string>
 
 namespace concave_distance {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/infinity.h"
+#include "base/constants.h"
 
 namespace concave_distance {
 namespace {

@@ -3,9 +3,7 @@
 #include <concave_distance/Nearest.h>
 #include <ros/time.h>
 
-#include <memory>
 #include <string>
-#include <vector>
 
 #include "ros/messages/published_pair.h"
 

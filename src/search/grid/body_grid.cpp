@@ -7,7 +7,7 @@
 
 #include "concave_distance/base/error.h"
 #include "geodesic_extent.h"
-#include "mesh/cached_part.h"
+#include "mesh/cached_parts.h"
 #include "mesh/metric_memory.h"
 #include "mesh/repaired_mesh_cache.h"
 

@@ -12,7 +12,6 @@ namespace concave_distance {
 namespace {
 
 constexpr double kUnreached = std::numeric_limits<double>::infinity();
-constexpr float kFarApart = std::numeric_limits<float>::infinity();
 constexpr std::size_t kLargestPredecessor = 65535;
 
 struct HeapEntry {

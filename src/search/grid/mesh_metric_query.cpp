@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "base/infinity.h"
+#include "base/constants.h"
 #include "mesh_metric.h"
 
 namespace concave_distance {

@@ -7,7 +7,7 @@
 namespace concave_distance {
 namespace {
 
-// Of the mean edge: how far apart the nodes of a coarser level are at least.
+// Nodes of a coarser level are at least this many mean edges apart.
 constexpr double kSpacing = 2.0;
 
 double meanEdge(const NodeGraph& graph) {

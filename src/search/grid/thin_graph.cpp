@@ -1,7 +1,6 @@
 #include "thin_graph.h"
 
 #include <algorithm>
-#include <vector>
 
 #include "graph_regions.h"
 

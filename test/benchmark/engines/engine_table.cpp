@@ -4,8 +4,6 @@
 #include "benchmark/engines/engine_table.h"
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <fstream>
 

@@ -91,4 +91,16 @@ TableRun runInSteps(const TableScene& scene, World& world, double step) {
   return run;
 }
 
+/// An engine of constant steps, made as World(scene), at both steps.
+template <typename World>
+std::vector<TableEngine> atBothSteps(const std::string& engine) {
+  const auto at = [&](const char* name, double step) -> TableEngine {
+    return {engine + name, [step](const TableScene& scene) {
+              World world(scene);
+              return runInSteps(scene, world, step);
+            }};
+  };
+  return {at(" 0.1 ms", 1e-4), at(" 1 ms", 1e-3)};
+}
+
 }  // namespace concave_distance::benchmark

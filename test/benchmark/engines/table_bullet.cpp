@@ -77,7 +77,7 @@ class BulletTable {
     body.setCenterOfMassTransform(pose);
     body.setLinearVelocity(vectorOf(settings.velocity));
     body.setAngularVelocity(vectorOf(settings.angular_velocity));
-    // Of two bodies the product counts.
+    // Bullet multiplies the values of both bodies.
     body.setFriction(std::sqrt(scene_.friction()));
     body.setRestitution(std::sqrt(scene_.restitution));
     body.setActivationState(DISABLE_DEACTIVATION);
@@ -128,16 +128,10 @@ class BulletTable {
   std::vector<std::unique_ptr<btRigidBody>> bodies_;
 };
 
-TableRun runBullet(const TableScene& scene, double step) {
-  BulletTable world(scene);
-  return runInSteps(scene, world, step);
-}
-
 }  // namespace
 
 std::vector<TableEngine> bulletEngines() {
-  return {{"bullet 0.1 ms", [](const TableScene& scene) { return runBullet(scene, 1e-4); }},
-          {"bullet 1 ms", [](const TableScene& scene) { return runBullet(scene, 1e-3); }}};
+  return atBothSteps<BulletTable>("bullet");
 }
 
 }  // namespace concave_distance::benchmark

@@ -156,16 +156,10 @@ class OdeTable {
   std::vector<std::unique_ptr<OdeMesh>> meshes_;
 };
 
-TableRun runOde(const TableScene& scene, double step) {
-  OdeTable world(scene);
-  return runInSteps(scene, world, step);
-}
-
 }  // namespace
 
 std::vector<TableEngine> odeEngines() {
-  return {{"ode 0.1 ms", [](const TableScene& scene) { return runOde(scene, 1e-4); }},
-          {"ode 1 ms", [](const TableScene& scene) { return runOde(scene, 1e-3); }}};
+  return atBothSteps<OdeTable>("ode");
 }
 
 }  // namespace concave_distance::benchmark

@@ -103,7 +103,7 @@ class SimbodyTable {
 
   void addShape(std::size_t i, const SimTK::Transform& in_body) {
     if (scene_.shapes[i] == TableShape::HalfSpace) {
-      // What lies in the direction of its x axis.
+      // A half-space holds what lies in the direction of its x axis.
       contacts_.addBody(set_, bodies_[i], SimTK::ContactGeometry::HalfSpace(),
                         SimTK::Transform(SimTK::Rotation(0.5 * SimTK::Pi, SimTK::YAxis)));
     } else if (scene_.shapes[i] == TableShape::Sphere) {

@@ -1,16 +1,16 @@
 #include "benchmark/support/benchmark_pairs.h"
 
+#include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <sstream>
 
-#include "base/pi.h"
+#include "base/constants.h"
 #include "base/random_engine.h"
 #include "benchmark/support/shapes.h"
 #include "concave_distance/base/error.h"
 #include "concave_distance/mesh/import/import_mesh.h"
 #include "concave_distance/mesh/repair/repair_mesh.h"
 #include "concave_distance/mesh/surface/primitives.h"
+#include "loading/query_poses.h"
 #include "support/concave_shapes.h"
 
 namespace concave_distance::benchmark {
@@ -119,7 +119,7 @@ std::function<Motion(const BenchmarkPair&)> always(Motion motion) {
 
 std::function<Motion(const BenchmarkPair&)> fromFile(const std::string& file) {
   return [file](const BenchmarkPair&) -> Motion {
-    const std::vector<TimedPose> poses = loadPoses(sourceFile(file));
+    const std::vector<TimedPose> poses = readPosePath(sourceFile(file));
     if (poses.size() == 1) {
       return [pose = poses.front().pose](double) { return pose; };
     }
@@ -287,27 +287,16 @@ const std::vector<Recipe>& recipes() {
 
 }  // namespace
 
-std::vector<std::string> thesisPairs() {
-  return {"notched_boxes", "grooved_cylinder", "battery_fixture", "battery_insertion"};
-}
-std::vector<std::string> robotPairs() {
-  return {"kr5_bicep_palm", "kr5_base_forearm", "kr5_shoulder_elbow",
-          "wam3_wam5",      "wam_base_wam4",    "wam1_wam6"};
-}
-std::vector<std::string> interlockingPairs() {
-  return {"peg_in_hole", "linked_hooks", "comb_in_comb"};
-}
-std::vector<std::string> manyNichePairs() {
-  return {"stairs_leg", "obstacle_field"};
-}
 std::vector<std::string> simplePairs() {
   return {"hulls_1k",        "hulls_6k",         "boxes_overlap",
           "spheres_overlap", "primitives_apart", "primitives_overlap"};
 }
+
 std::vector<std::string> allPairs() {
+  const std::vector<std::string> simple = simplePairs();
   std::vector<std::string> names;
-  for (const auto& some : {thesisPairs(), robotPairs(), interlockingPairs(), manyNichePairs()}) {
-    names.insert(names.end(), some.begin(), some.end());
+  for (const Recipe& recipe : recipes()) {
+    if (std::find(simple.begin(), simple.end(), recipe.name) == simple.end()) names.emplace_back(recipe.name);
   }
   return names;
 }
@@ -330,32 +319,6 @@ BenchmarkPair loadBenchmarkPair(const std::string& name, std::optional<double> m
     return pair;
   }
   throw Error(name, "no benchmark pair has this name", "see test/benchmark/support/benchmark_pairs.cpp");
-}
-
-std::vector<TimedPose> loadPoses(const std::string& path) {
-  std::ifstream file(path);
-  std::string line;
-  std::getline(file, line);
-  std::vector<TimedPose> poses;
-  while (std::getline(file, line)) {
-    std::istringstream fields(line);
-    double v[8];
-    char comma = ',';
-    for (int k = 0; k < 8; ++k) {
-      if (k > 0) {
-        fields >> comma;
-      }
-      fields >> v[k];
-    }
-    if (!fields) {
-      throw Error(path, "line '" + line + "' is not eight numbers", "write t,x,y,z,qx,qy,qz,qw");
-    }
-    poses.push_back({v[0], poseOf({v[1], v[2], v[3]}, Eigen::Quaterniond(v[7], v[4], v[5], v[6]))});
-  }
-  if (poses.empty()) {
-    throw Error(path, "there is no pose in the file", "give at least one line after the header");
-  }
-  return poses;
 }
 
 std::vector<Eigen::Isometry3d> randomPoses(const BenchmarkPair& pair, std::size_t count, std::uint64_t seed) {

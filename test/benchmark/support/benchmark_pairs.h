@@ -24,14 +24,7 @@ struct BenchmarkPair {
   std::function<Eigen::Isometry3d(double)> motion;
 };
 
-/// The names that loadBenchmarkPair knows: `thesisPairs` (three scenes; the battery with its manoeuvre),
-/// `robotPairs` (links of two real arms), `interlockingPairs` (peg in hole, hooks, comb in comb),
-/// `manyNichePairs` (stairs against a leg, a field of obstacles).
-std::vector<std::string> thesisPairs();
-std::vector<std::string> robotPairs();
-std::vector<std::string> interlockingPairs();
-std::vector<std::string> manyNichePairs();
-/// All of these.
+/// The names that loadBenchmarkPair knows, but for those of simplePairs().
 std::vector<std::string> allPairs();
 /// Pairs whose geometry calls for little: convex ones, apart and overlapping, and unions of primitives.
 std::vector<std::string> simplePairs();
@@ -40,13 +33,6 @@ std::vector<std::string> simplePairs();
 /// @throws Error for an unknown name or a file that is missing
 BenchmarkPair loadBenchmarkPair(const std::string& name,
                                 std::optional<double> max_edge_length = std::nullopt);
-
-/// Poses of a `t,x,y,z,qx,qy,qz,qw` file (doc/distance_query.md), seconds and B in A's frame.
-struct TimedPose {
-  double time;
-  Eigen::Isometry3d pose;
-};
-std::vector<TimedPose> loadPoses(const std::string& path);
 
 /// `count` poses of B around A with random directions and rotations, FCL distance in (0, 0.5 diameter of A].
 std::vector<Eigen::Isometry3d> randomPoses(const BenchmarkPair& pair, std::size_t count, std::uint64_t seed);

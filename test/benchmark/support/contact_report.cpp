@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <utility>
 
-#include "benchmark/support/processor_time.h"
 #include "benchmark/support/stopwatch.h"
 #include "concave_distance/base/error.h"
 

@@ -3,7 +3,7 @@
 #include <memory>
 #include <string>
 
-#include "base/pi.h"
+#include "base/constants.h"
 #include "concave_distance/tracking/pair_effects.h"
 #include "concave_distance/tracking/pair_tracker.h"
 #include "simulation/scene_builder.h"

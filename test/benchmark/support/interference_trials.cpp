@@ -1,6 +1,5 @@
 #include "benchmark/support/interference_trials.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 

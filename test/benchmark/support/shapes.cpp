@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "base/pi.h"
+#include "base/constants.h"
 #include "base/random_engine.h"
 #include "support/concave_shapes.h"
 

@@ -4,6 +4,7 @@
 
 #include "distance/kernels/surface_walk.h"
 #include "support/body_pairs.h"
+#include "support/count_allocations.h"
 #include "support/enumeration.h"
 
 namespace concave_distance::certificate_test {
@@ -169,6 +170,17 @@ TEST(Certificate, NamesTheTrianglesThatMeet) {
   const TrianglePoints tb = trianglePoints(b->surface(), found.witness.triangle_b);
   // Up to the kernel's error, in coordinates up to 3.
   EXPECT_LE(std::sqrt(triangleDistance(ta, tb).squared_distance), 3.0 * kTriangleDistanceError);
+}
+
+TEST(Certificate, AllocatesNothingOnceItsWorkspaceHasGrown) {
+  const auto a = test::makeBody(makeSphere(0.5, 1e-3));
+  CertificateWorkspace workspace;
+  const Eigen::Isometry3d pose = test::translation(Eigen::Vector3d(1.3, 0.2, 0.1));
+  const TrianglePair start{};
+  certifyDistance(*a, *a, pose, &start, 1, CertificateRequest(), workspace);
+  const std::size_t before = allocations;
+  certifyDistance(*a, *a, pose, &start, 1, CertificateRequest(), workspace);
+  EXPECT_EQ(allocations, before);
 }
 
 }  // namespace

@@ -7,14 +7,14 @@
 #include <cmath>
 #include <cstring>
 
+#include "base/constants.h"
 #include "base/helping_threads.h"
-#include "base/infinity.h"
 #include "distance/minima/front_checks.h"
 #include "distance/minima/minima_tracker.h"
 #include "support/body_motions.h"
 #include "support/body_pairs.h"
-#include "support/bumpy_ball.h"
 #include "support/count_allocations.h"
+#include "support/random_solids.h"
 
 // A front that is looked at in slices, by one thread or by several.
 

@@ -52,7 +52,7 @@ inline void expectWhatTheRootsFind(const std::shared_ptr<const BodyMesh>& a,
   for (const WitnessPair& place : placesOf(a, b, pose, from_roots)) {
     EXPECT_TRUE(isKnown(place, of_front)) << "distance " << std::sqrt(place.squared_distance);
   }
-  // What was a minimum at an earlier pose and is only measured at this one.
+  // It was a minimum at an earlier pose and is only measured at this one.
   std::vector<WitnessPair> candidates;
   for (const MinimumCandidate& candidate : from_roots) candidates.push_back(frame.witnessOf(candidate));
   for (const MinimumCandidate& candidate : from_front) {

@@ -5,13 +5,13 @@
 #include <atomic>
 #include <cmath>
 
-#include "base/infinity.h"
+#include "base/constants.h"
 #include "concave_distance/mesh/surface/primitives.h"
 #include "distance/minima/front_checks.h"
 #include "support/body_motions.h"
 #include "support/body_pairs.h"
 
-// What the front keeps over a motion against all cones from the roots at every pose.
+// Compares the front over a motion with all cones from the roots at every pose.
 
 namespace concave_distance::detail::minima_tracker_test {
 namespace {
@@ -50,7 +50,7 @@ TEST(MinimaTracker, LeadsToTheMinimaThatTheRootsLeadToOverAnyMotion) {
 TEST(MinimaTracker, LeadsToTheMinimaOfShellsThatCross) {
   RandomEngine engine(12);
   const SurfaceMesh sphere = makeSphere(0.6, 0.06);
-  const Body spheres = makeBody(test::makeUnion(sphere, sphere, Vector3d(0.7, 0.3, 0.2)));
+  const Body spheres = makeBody(test::makeJoined(sphere, sphere, Vector3d(0.7, 0.3, 0.2)));
   ASSERT_FALSE(spheres->shellContacts().hidden.empty());
   for (std::uint32_t run = 0; run < 60; ++run) {
     const Body other = makeBody(test::concaveShape(run));

@@ -48,7 +48,7 @@ inline void expectSameAsBruteForce(const Body& a, const Body& b, const Eigen::Is
       bruteForceMinima(*a, *b, pose, cutoff, least_prominence, 10.0 * kMinimaRounding, plateau);
   EXPECT_EQ(found.cost.met_by_search, 0U);
   ASSERT_EQ(found.niches.size(), truth.size());
-  // Whether passes are measured changes no decision.
+  // Measuring passes changes no decision.
   request.rule.prominence_limit = 0.0;
   const LocalMinima decided = minimaOf(a, b, pose, request);
   EXPECT_EQ(decided.cost.met_by_search, 0U);

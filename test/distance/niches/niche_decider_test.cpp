@@ -9,7 +9,7 @@
 #include <limits>
 #include <set>
 
-#include "base/infinity.h"
+#include "base/constants.h"
 #include "concave_distance/loading/load_body_mesh.h"
 #include "distance/minima/minima_tracker.h"
 #include "distance/niches/meeting_pairs.h"

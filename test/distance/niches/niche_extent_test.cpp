@@ -191,39 +191,6 @@ TEST(MeasureExtent, EdgesInOneLineShareTheirOverlapWhateverTheRoundingOfTheirCro
   EXPECT_NEAR(extent.length, 0.15, 1e-12);
 }
 
-TEST(IsOnMeasuredSet, AnEdgeHalfWayBetweenTwoWallsIsOnEitherSetOnItsOwn) {
-  // b: a groove along y with walls at 45 degrees; a's lower edge lies half-way between them, parallel.
-  const Body a = makeBody(makeCuboid(Vector3d(-0.1, -0.5, -0.1), Vector3d(0.1, 0.5, 0.1)));
-  const Body b =
-      makeBody(test::makeSurface({{0, -1, 0}, {0, 1, 0}, {1, 1, 1}, {1, -1, 1}, {-1, 1, 1}, {-1, -1, 1}},
-                                 {{0, 3, 2}, {0, 2, 1}, {0, 1, 4}, {0, 4, 5}}));
-  Isometry3d world_from_a = test::translation(Vector3d(0, 0, 0.5 + 0.1 * std::sqrt(2.0)));
-  world_from_a.linear() = AngleAxisd(0.25 * M_PI, Vector3d::UnitY()).toRotationMatrix();
-  const Isometry3d pose = world_from_a.inverse(Eigen::Isometry);
-  const double distance = 0.5 / std::sqrt(2.0);
-  std::vector<WitnessPair> witnesses;
-  for (std::uint32_t i = 0; i < a->surface().triangleCount(); ++i) {
-    for (std::uint32_t j = 0; j < b->surface().triangleCount(); ++j) {
-      const WitnessPair witness = refined(a, b, pose, TriangleIndex{i}, TriangleIndex{j});
-      if (std::sqrt(witness.squared_distance) < distance + kTolerance) witnesses.push_back(witness);
-    }
-  }
-  ExtentWorkspace workspace;
-  int same = 0;
-  int other = 0;
-  for (const WitnessPair& l : witnesses) {
-    const NicheExtent extent = measureExtent(*a, *b, pose, l, kTolerance, kPairLimit, workspace);
-    if (extent.kind == NicheKind::Point) continue;
-    for (const WitnessPair& r : witnesses) {
-      const bool one_wall = (world_from_a * l.point_b_in_a).x() * (world_from_a * r.point_b_in_a).x() > 0.0;
-      EXPECT_EQ(isOnMeasuredSet(workspace, r), one_wall);
-      ++(one_wall ? same : other);
-    }
-  }
-  EXPECT_GT(same, 0);
-  EXPECT_GT(other, 0);
-}
-
 TEST(MeasureExtent, CornersAndCrossedEdgesArePoints) {
   RandomEngine engine(2);
   const Body a = makeBody(makeCuboid(Vector3d(-1, -1, -1), Vector3d(1, 1, 1)));

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "base/infinity.h"
+#include "base/constants.h"
 
 namespace concave_distance::niche_rule_test {
 namespace {

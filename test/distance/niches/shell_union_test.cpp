@@ -31,7 +31,7 @@ SurfaceMesh moved(const SurfaceMesh& mesh, const Isometry3d& pose) {
 
 SurfaceMesh together(const std::vector<SurfaceMesh>& solids) {
   SurfaceMesh all = solids.front();
-  for (std::size_t i = 1; i < solids.size(); ++i) all = test::makeUnion(all, solids[i], Vector3d::Zero());
+  for (std::size_t i = 1; i < solids.size(); ++i) all = test::makeJoined(all, solids[i], Vector3d::Zero());
   return all;
 }
 

@@ -25,12 +25,6 @@ std::string fixture(const std::string& name) {
   return std::string(CONCAVE_DISTANCE_TEST_DATA "/mesh/") + name;
 }
 
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << "the fixture has no '" << from << "'";
-  return at == std::string::npos ? text : text.replace(at, from.size(), to);
-}
-
 /// What importMesh throws for `path`; fails the test when it throws nothing.
 std::string errorOf(const std::string& path, const Eigen::Vector3d& scale = Eigen::Vector3d::Ones()) {
   try {
@@ -108,7 +102,7 @@ TEST(ImportMesh, AppliesTheUnitOfADaeFile) {
   const std::string dae = contentOf(fixture("tetrahedron.dae"));
   const auto with_unit = [&](const std::string& unit) {
     return importMesh(
-        folder.write("unit.dae", replaced(dae, R"(<unit name="millimeter" meter="0.001"/>)", unit)));
+        folder.write("unit.dae", test::replaced(dae, R"(<unit name="millimeter" meter="0.001"/>)", unit)));
   };
   expectTetrahedron(with_unit(R"(<unit name="meter" meter="1"/>)"), Eigen::Vector3d::Constant(1e3));
   expectTetrahedron(with_unit(R"(<unit name="inch" meter="0.0254"/>)"), Eigen::Vector3d::Constant(25.4));
@@ -121,7 +115,7 @@ TEST(ImportMesh, KeepsTheAxesOfADaeFileWhateverItsUpAxis) {
   const std::string dae = contentOf(fixture("tetrahedron.dae"));
   for (const std::string up : {"<up_axis>X_UP</up_axis>", "<up_axis>Y_UP</up_axis>", ""}) {
     SCOPED_TRACE(up);
-    expectTetrahedron(importMesh(folder.write("up.dae", replaced(dae, "<up_axis>Z_UP</up_axis>", up))));
+    expectTetrahedron(importMesh(folder.write("up.dae", test::replaced(dae, "<up_axis>Z_UP</up_axis>", up))));
   }
 }
 
@@ -129,7 +123,7 @@ TEST(ImportMesh, TurnsTheWindingWhereANodeOfTheFileMirrors) {
   const TemporaryFolder folder;
   const std::string dae = contentOf(fixture("tetrahedron.dae"));
   const std::string path =
-      folder.write("mirror.dae", replaced(dae, "<scale>2 2 2</scale>", "<scale>2 2 -2</scale>"));
+      folder.write("mirror.dae", test::replaced(dae, "<scale>2 2 2</scale>", "<scale>2 2 -2</scale>"));
   expectTetrahedron(importMesh(path), {1, 1, -1});
   expectTetrahedron(importMesh(path, {1, 1, -1}));  // mirrored twice
 }
@@ -151,7 +145,7 @@ TEST(ImportMesh, MergesEveryMeshOfAFile) {
   const std::string other_node =
       R"(<node id="second" type="NODE"><translate>9000 0 0</translate>)" + instance + "</node>";
   const std::string path =
-      folder.write("two.dae", replaced(dae, "</visual_scene>", other_node + "</visual_scene>"));
+      folder.write("two.dae", test::replaced(dae, "</visual_scene>", other_node + "</visual_scene>"));
   const SurfaceMesh mesh = weldEqualVertices(importMesh(path), "two");
   EXPECT_EQ(mesh.vertexCount(), 8U);
   EXPECT_EQ(mesh.triangleCount(), 8U);
@@ -240,15 +234,15 @@ TEST(ImportMesh, RefusesCorruptFiles) {
     errorOf(folder.write(name, noise));
   }
   errorOf(folder.write("index.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n"));
-  errorOf(
-      folder.write("index.ply", replaced(contentOf(fixture("tetrahedron.ply")), "3 0 1 3", "3 0 1 353983")));
-  errorOf(
-      folder.write("polygon.ply", replaced(contentOf(fixture("tetrahedron.ply")), "3 0 1 3", "4 0 1 3 999")));
+  errorOf(folder.write("index.ply",
+                       test::replaced(contentOf(fixture("tetrahedron.ply")), "3 0 1 3", "3 0 1 353983")));
+  errorOf(folder.write("polygon.ply",
+                       test::replaced(contentOf(fixture("tetrahedron.ply")), "3 0 1 3", "4 0 1 3 999")));
   const std::string dae = contentOf(fixture("tetrahedron.dae"));
-  errorOf(folder.write("letter.dae", replaced(dae, "<p>0 2 1", "<p>0 2 x")));
-  errorOf(folder.write("index.dae", replaced(dae, "<p>0 2 1", "<p>0 2 1000")));
-  errorOf(folder.write("count.dae", replaced(dae, "count=\"12\"", "")));
-  errorOf(folder.write("number.dae", replaced(dae, "-250 0 0", "-250 0 $")));
+  errorOf(folder.write("letter.dae", test::replaced(dae, "<p>0 2 1", "<p>0 2 x")));
+  errorOf(folder.write("index.dae", test::replaced(dae, "<p>0 2 1", "<p>0 2 1000")));
+  errorOf(folder.write("count.dae", test::replaced(dae, "count=\"12\"", "")));
+  errorOf(folder.write("number.dae", test::replaced(dae, "-250 0 0", "-250 0 $")));
   errorOf(folder.write("nan.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n"));
   errorOf(folder.write("words.dae", "<?xml version=\"1.0\"?><COLLADA version=\"1.4.1\"><asset/></COLLADA>"));
 }
@@ -266,9 +260,10 @@ TEST(ImportMesh, RefusesABodyWhoseShapeSinglePrecisionLoses) {
   EXPECT_EQ(importMesh(box_at(1e4)).triangles.size(), 3U);
   EXPECT_NE(errorOf(box_at(1e6)).find("seven digits"), std::string::npos);
   EXPECT_NE(errorOf(box_at(1e15)).find("seven digits"), std::string::npos);
-  const std::string far_dae = folder.write(
-      "far.dae", replaced(contentOf(fixture("tetrahedron.dae")), "-250 0 0 -250 -500 0 750 0 0 -250 0 1500",
-                          "1e9 0 0 1e9 -500 0 1000001000 0 0 1e9 0 1500"));
+  const std::string far_dae =
+      folder.write("far.dae", test::replaced(contentOf(fixture("tetrahedron.dae")),
+                                             "-250 0 0 -250 -500 0 750 0 0 -250 0 1500",
+                                             "1e9 0 0 1e9 -500 0 1000001000 0 0 1e9 0 1500"));
   EXPECT_NE(errorOf(far_dae).find("seven digits"), std::string::npos);
 }
 
@@ -288,8 +283,8 @@ TEST(ImportMesh, RefusesFilesWithoutFaces) {
                        "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\n"
                        "property float z\nend_header\n0 0 0\n1 0 0\n"));
   errorOf(folder.write("none.stl", "solid nothing\nendsolid nothing\n"));
-  errorOf(folder.write("none.dae", replaced(contentOf(fixture("tetrahedron.dae")),
-                                            R"(<instance_geometry url="#mesh"/>)", "")));
+  errorOf(folder.write("none.dae", test::replaced(contentOf(fixture("tetrahedron.dae")),
+                                                  R"(<instance_geometry url="#mesh"/>)", "")));
 }
 
 TEST(ImportMesh, RefusesAScaleThatIsZeroOrNotFinite) {

@@ -1,9 +1,9 @@
 #include "mesh/import/import_process.h"
 
 #include <gtest/gtest.h>
+
 #include <sys/wait.h>
 #include <unistd.h>
-
 #include <array>
 #include <atomic>
 #include <csignal>
@@ -12,11 +12,14 @@
 #include <limits>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "concave_distance/base/error.h"
 #include "concave_distance/mesh/import/export_mesh.h"
+#include "concave_distance/mesh/import/import_mesh.h"
 #include "concave_distance/mesh/surface/primitives.h"
 #include "mesh/import/import_stream.h"
+#include "support/hostile_mesh_files.h"
 #include "support/temporary_folder.h"
 
 namespace concave_distance::import_process_test {
@@ -214,7 +217,7 @@ TEST_F(ImportProcess, HoldsTheLimits) {
                    "more than 1 MB"));
 }
 
-// What the program that embeds the core does with SIGCHLD is its own business.
+// The program that embeds the core may do with SIGCHLD what it likes.
 TEST_F(ImportProcess, WorksWhateverThisProgramDoesWithEndedChildren) {
   const auto restore = std::signal(SIGCHLD, SIG_IGN);
   EXPECT_EQ(import(detail::importWorkerPath()).triangles.size(), 4U);
@@ -249,6 +252,28 @@ TEST_F(ImportProcess, WorksWhenTheStandardStreamsAreClosed) {
   dup2(output, STDIN_FILENO);
   close(output);
   EXPECT_EQ(triangles, 4U);
+}
+
+// Every file of test/faults/hostile_meshes.py: served or refused, as the file says, and this program goes on.
+TEST(HostileMeshes, AreServedOrRefusedAndNothingElse) {
+  const test::TemporaryFolder folder;
+  const std::vector<test::HostileMesh> meshes = test::writeHostileMeshes(folder.path());
+  ASSERT_GE(meshes.size(), 80U);
+  for (const test::HostileMesh& mesh : meshes) {
+    MeshImportLimits limits;
+    limits.memory = 500'000'000;
+    // A file that may be refused is given little time.
+    if (mesh.expectation != "served") limits.seconds = 3.0;
+    try {
+      const TriangleSoup soup = importMesh(mesh.path, Eigen::Vector3d::Ones(), limits);
+      EXPECT_NE(mesh.expectation, "refused") << mesh.name << ": " << soup.triangles.size() << " triangles";
+    } catch (const Error& error) {
+      EXPECT_NE(mesh.expectation, "served") << error.what();
+      EXPECT_EQ(error.where(), mesh.path);
+      EXPECT_FALSE(error.remedy().empty()) << error.what();
+      EXPECT_LT(std::string(error.what()).size(), 1000U) << error.what();
+    }
+  }
 }
 
 }  // namespace

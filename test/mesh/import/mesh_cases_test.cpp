@@ -5,7 +5,6 @@
 #include <cstring>
 #include <locale>
 #include <string>
-#include <vector>
 
 #include "concave_distance/base/error.h"
 #include "concave_distance/mesh/import/import_mesh.h"
@@ -39,12 +38,6 @@ std::string refusalOf(const std::string& content, const std::string& extension) 
 
 bool says(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
-}
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << "the text has no '" << from << "'";
-  return at == std::string::npos ? text : text.replace(at, from.size(), to);
 }
 
 std::string withLineEnds(const std::string& text, const std::string& end) {
@@ -217,11 +210,11 @@ TEST(PlyFiles, FacesMayComeBeforeVertices) {
 }
 
 TEST(PlyFiles, StripsAlternateTheirWindingAndBeginAnewAfterMinusOne) {
-  const std::string strips = replaced(kFlatPly, "element face 1", "element tristrips 2");
+  const std::string strips = test::replaced(kFlatPly, "element face 1", "element tristrips 2");
   const auto area_of = [&](const std::string& body, const std::string& type) {
-    const std::string with_type = replaced(strips, "uchar int", "uchar " + type);
+    const std::string with_type = test::replaced(strips, "uchar int", "uchar " + type);
     const SurfaceMesh mesh =
-        weldEqualVertices(read(replaced(with_type, "3 0 1 2\n", body), ".ply"), "strips");
+        weldEqualVertices(read(test::replaced(with_type, "3 0 1 2\n", body), ".ply"), "strips");
     double area = 0.0;
     for (std::size_t t = 0; t < mesh.triangleCount(); ++t) area += test::areaVector(mesh, t).z();
     return area;
@@ -232,15 +225,17 @@ TEST(PlyFiles, StripsAlternateTheirWindingAndBeginAnewAfterMinusOne) {
   EXPECT_EQ(area_of("4 0 1 2 3\n4 2 3 4 5\n", "int"), 2.0);
   // Repeated corners lead on without a triangle.
   EXPECT_EQ(area_of("8 0 1 2 3 3 3 3 5\n0\n", "int"), 1.0);
-  EXPECT_TRUE(says(refusalOf(replaced(strips, "3 0 1 2\n", "3 0 1 9\n0\n"), ".ply"), "vertex 9 of 6"));
-  EXPECT_TRUE(says(refusalOf(replaced(strips, "3 0 1 2\n", "3 0 1 -2\n0\n"), ".ply"), "vertex -2 of 6"));
+  EXPECT_TRUE(says(refusalOf(test::replaced(strips, "3 0 1 2\n", "3 0 1 9\n0\n"), ".ply"), "vertex 9 of 6"));
+  EXPECT_TRUE(
+      says(refusalOf(test::replaced(strips, "3 0 1 2\n", "3 0 1 -2\n0\n"), ".ply"), "vertex -2 of 6"));
 }
 
 TEST(PlyFiles, AreRefusedWhereTheHeaderAndTheBodyDisagree) {
   EXPECT_TRUE(says(refusalOf(kFlatPly + "3 3 4 5\n", ".ply"), "more elements than its header"));
-  EXPECT_TRUE(says(refusalOf(replaced(kFlatPly, "face 1", "face 2"), ".ply"), "'face' 1 of 2"));
-  EXPECT_TRUE(says(refusalOf(replaced(kFlatPly, "1 2 0\n", "1 2 0 255\n"), ".ply"), "'255' in line 15"));
-  EXPECT_TRUE(says(refusalOf(replaced(kFlatPly, "1 2 0\n", "1 2,5 0\n"), ".ply"), "'2,5'"));
+  EXPECT_TRUE(says(refusalOf(test::replaced(kFlatPly, "face 1", "face 2"), ".ply"), "'face' 1 of 2"));
+  EXPECT_TRUE(
+      says(refusalOf(test::replaced(kFlatPly, "1 2 0\n", "1 2 0 255\n"), ".ply"), "'255' in line 15"));
+  EXPECT_TRUE(says(refusalOf(test::replaced(kFlatPly, "1 2 0\n", "1 2,5 0\n"), ".ply"), "'2,5'"));
   const std::string binary = plyTetrahedron("binary_little_endian", "float", "uint8", "int");
   EXPECT_TRUE(says(refusalOf(binary.substr(0, binary.size() - 1), ".ply"), "'face' 3 of 4"));
   EXPECT_TRUE(says(refusalOf(binary + binary.substr(binary.size() - 30), ".ply"), "30 bytes after"));
@@ -249,14 +244,15 @@ TEST(PlyFiles, AreRefusedWhereTheHeaderAndTheBodyDisagree) {
 
 TEST(PlyFiles, AreRefusedByNameWhereTheirFacesWouldBeLost) {
   const auto with_element = [](const std::string& element) {
-    return replaced(kFlatPly, "element face", "element " + element);
+    return test::replaced(kFlatPly, "element face", "element " + element);
   };
   EXPECT_TRUE(says(refusalOf(with_element("range_grid"), ".ply"), "'range_grid'"));
-  EXPECT_TRUE(says(refusalOf(replaced(kFlatPly, "vertex_indices", "corners"), ".ply"), "'vertex_indices'"));
-  EXPECT_TRUE(says(refusalOf(replaced(kFlatPly, "float z", "float depth"), ".ply"), "'z'"));
-  EXPECT_TRUE(says(refusalOf(replaced(kFlatPly, "float z", "half z"), ".ply"), "'half'"));
-  EXPECT_TRUE(says(refusalOf(replaced(kFlatPly, "uchar int", "float int"), ".ply"), "'float'"));
-  EXPECT_TRUE(says(refusalOf(replaced(kFlatPly, "ascii", "text"), ".ply"), "'text'"));
+  EXPECT_TRUE(
+      says(refusalOf(test::replaced(kFlatPly, "vertex_indices", "corners"), ".ply"), "'vertex_indices'"));
+  EXPECT_TRUE(says(refusalOf(test::replaced(kFlatPly, "float z", "float depth"), ".ply"), "'z'"));
+  EXPECT_TRUE(says(refusalOf(test::replaced(kFlatPly, "float z", "half z"), ".ply"), "'half'"));
+  EXPECT_TRUE(says(refusalOf(test::replaced(kFlatPly, "uchar int", "float int"), ".ply"), "'float'"));
+  EXPECT_TRUE(says(refusalOf(test::replaced(kFlatPly, "ascii", "text"), ".ply"), "'text'"));
 }
 
 // ------------------------------------------------------------------------------------------------- STL
@@ -283,9 +279,9 @@ TEST(StlFiles, AreReadInEveryWayTheyAreWritten) {
            "\n \t\n" + usual,
            usual + std::string(10'000, '\n') + std::string(10, '\0'),
            usual + "written by a program that signs its files\n",
-           replaced(usual, name, "solid"),
-           replaced(usual, name, "solid a facet of endsolid"),
-           replaced(usual, name, name + "\ncolor 0.5 0.5 0.5"),
+           test::replaced(usual, name, "solid"),
+           test::replaced(usual, name, "solid a facet of endsolid"),
+           test::replaced(usual, name, name + "\ncolor 0.5 0.5 0.5"),
        }) {
     SCOPED_TRACE(text.substr(0, 100));
     expectTetrahedron(read(text, ".stl"));
@@ -296,9 +292,9 @@ const std::string kFacet =
     "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n";
 
 TEST(StlFiles, TheirCornersDecideAndNotTheirNormals) {
-  const std::string text = replaced(kFacet, "normal 0 0 1", "normal nan inf -nan(ind)") + "endsolid";
+  const std::string text = test::replaced(kFacet, "normal 0 0 1", "normal nan inf -nan(ind)") + "endsolid";
   EXPECT_EQ(read(text, ".stl").triangles.size(), 1U);
-  EXPECT_EQ(read(replaced(kFacet, "0 1 0", "+0.0 1e+0 1e-999") + "endsolid", ".stl").vertices[2],
+  EXPECT_EQ(read(test::replaced(kFacet, "0 1 0", "+0.0 1e+0 1e-999") + "endsolid", ".stl").vertices[2],
             Eigen::Vector3d(0, 1, 0));
 }
 
@@ -307,12 +303,14 @@ TEST(StlFiles, AreRefusedWithTheLine) {
   const std::string& facet = kFacet;
   EXPECT_TRUE(says(refusalOf(facet, ".stl"), "breaks off in line 9"));
   EXPECT_TRUE(says(refusalOf(usual + facet.substr(6), ".stl"), "a facet after the end"));
+  EXPECT_TRUE(says(refusalOf(test::replaced(facet, "vertex 0 1 0\n", "") + "endsolid", ".stl"),
+                   "line 2 has 2 corners"));
   EXPECT_TRUE(
-      says(refusalOf(replaced(facet, "vertex 0 1 0\n", "") + "endsolid", ".stl"), "line 2 has 2 corners"));
-  EXPECT_TRUE(says(refusalOf(replaced(facet, "0 1 0", "0 1,5 0") + "endsolid", ".stl"), "line 6 has '1,5'"));
-  EXPECT_TRUE(says(refusalOf(replaced(facet, "0 1 0", "0 nan 0") + "endsolid", ".stl"), "not finite"));
-  EXPECT_TRUE(says(refusalOf(replaced(facet, "0 1 0", "0 1e999 0") + "endsolid", ".stl"), "line 6"));
-  EXPECT_TRUE(says(refusalOf(replaced(facet, "outer", "inner") + "endsolid", ".stl"), "line 3 has 'inner'"));
+      says(refusalOf(test::replaced(facet, "0 1 0", "0 1,5 0") + "endsolid", ".stl"), "line 6 has '1,5'"));
+  EXPECT_TRUE(says(refusalOf(test::replaced(facet, "0 1 0", "0 nan 0") + "endsolid", ".stl"), "not finite"));
+  EXPECT_TRUE(says(refusalOf(test::replaced(facet, "0 1 0", "0 1e999 0") + "endsolid", ".stl"), "line 6"));
+  EXPECT_TRUE(
+      says(refusalOf(test::replaced(facet, "outer", "inner") + "endsolid", ".stl"), "line 3 has 'inner'"));
 }
 
 TEST(StlFiles, BinaryOnesMayBeFollowedByLessThanAFacetOrPadding) {
@@ -375,10 +373,10 @@ TEST(DaeFiles, AreReadInEveryWayXmlAllows) {
   for (const char c : usual) blanks += c == '>' ? ">\n \t" : std::string(1, c);
   std::string comments = usual;
   for (const std::string tag : {"<p>", "<translate>", "<scale>"}) {
-    comments = replaced(comments, tag, tag + "<!-- numbers -->");
+    comments = test::replaced(comments, tag, tag + "<!-- numbers -->");
   }
-  comments = replaced(comments, "0 2 1", "0<!-- a face --> 2 1");
-  comments = replaced(comments, "-250 0 0", "-250 <!-- x of a vertex -->0 0");
+  comments = test::replaced(comments, "0 2 1", "0<!-- a face --> 2 1");
+  comments = test::replaced(comments, "-250 0 0", "-250 <!-- x of a vertex -->0 0");
   for (const std::string& text :
        {blanks, comments, withLineEnds(usual, "\r\n"), withLineEnds(usual, "\r"), "\xef\xbb\xbf" + usual,
         inUtf16(usual, true, true), inUtf16(usual, false, true), inUtf16(usual, true, false),
@@ -390,10 +388,13 @@ TEST(DaeFiles, AreReadInEveryWayXmlAllows) {
 
 TEST(DaeFiles, AreRefusedWhereAPartOfTheSurfaceWouldBeLost) {
   const std::string usual = test::contentOf(dataOf("tetrahedron.dae"));
-  EXPECT_TRUE(says(refusalOf(replaced(usual, "<p>", "<ph><p>0 1 2</p><h>0</h></ph><p>"), ".dae"), "<ph>"));
-  EXPECT_TRUE(says(refusalOf(replaced(usual, "</geometry>", "<brep/></geometry>"), ".dae"), "<brep>"));
+  EXPECT_TRUE(
+      says(refusalOf(test::replaced(usual, "<p>", "<ph><p>0 1 2</p><h>0</h></ph><p>"), ".dae"), "<ph>"));
+  EXPECT_TRUE(says(refusalOf(test::replaced(usual, "</geometry>", "<brep/></geometry>"), ".dae"), "<brep>"));
   const std::string input = "<input semantic=\"VERTEX\" source=\"#vertices\" offset=\"0\"/>";
-  const auto with = [&](const std::string& lists) { return replaced(usual, "</mesh>", lists + "</mesh>"); };
+  const auto with = [&](const std::string& lists) {
+    return test::replaced(usual, "</mesh>", lists + "</mesh>");
+  };
   EXPECT_TRUE(says(refusalOf(with("<triangles>" + input + "<p>0 1 2</p></triangles>"), ".dae"),
                    "<triangles> does not state its count"));
   EXPECT_TRUE(says(refusalOf(with("<triangles count=\"0\">" + input + "<p>0 1 2</p></triangles>"), ".dae"),
@@ -408,9 +409,9 @@ TEST(DaeFiles, AreRefusedWhereAPartOfTheSurfaceWouldBeLost) {
 TEST(DaeFiles, ReadNothingBeyondTheirArrays) {
   // Vertex 4 is none of the array's four, whatever the accessor says.
   const std::string usual = test::contentOf(dataOf("tetrahedron.dae"));
-  const std::string longer = replaced(usual, "count=\"4\" stride=\"3\"", "count=\"6\" stride=\"3\"");
+  const std::string longer = test::replaced(usual, "count=\"4\" stride=\"3\"", "count=\"6\" stride=\"3\"");
   expectTetrahedron(read(longer, ".dae"));
-  EXPECT_TRUE(says(refusalOf(replaced(longer, "<p>0 2 1", "<p>0 2 4"), ".dae"), "4"));
+  EXPECT_TRUE(says(refusalOf(test::replaced(longer, "<p>0 2 1", "<p>0 2 4"), ".dae"), "4"));
 }
 
 // ---------------------------------------------------------------------------------------------- Locales

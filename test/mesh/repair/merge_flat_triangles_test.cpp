@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "concave_distance/mesh/surface/primitives.h"
 #include "mesh/surface/refine_mesh.h"

@@ -1,11 +1,7 @@
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "concave_distance/mesh/repair/repair_mesh.h"
 #include "concave_distance/mesh/surface/primitives.h"
-#include "mesh/surface/mesh_topology.h"
-#include "mesh/trees/triangle_tree.h"
 #include "support/mesh_measures.h"
 #include "support/painted_boxes.h"
 

@@ -6,13 +6,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string>
 #include <vector>
 
 #include "concave_distance/base/error.h"
 #include "concave_distance/mesh/surface/primitives.h"
 #include "mesh/surface/mesh_topology.h"
 #include "support/mesh_measures.h"
+#include "support/mesh_variants.h"
 
 namespace concave_distance::repair_mesh_test {
 namespace {
@@ -35,12 +35,6 @@ void append(TriangleSoup& soup, const SurfaceMesh& mesh, const Eigen::Vector3d& 
     soup.triangles.push_back(
         {first + t[0].value, first + t[turned ? 2 : 1].value, first + t[turned ? 1 : 2].value});
   }
-}
-
-TriangleSoup soupOf(const SurfaceMesh& mesh) {
-  TriangleSoup soup;
-  append(soup, mesh, Eigen::Vector3d::Zero());
-  return soup;
 }
 
 RepairedMesh repair(const TriangleSoup& soup, double weld_tolerance = 0.0) {
@@ -102,7 +96,7 @@ TEST(RepairMesh, CollapsesNoDetailWithinASurfaceWhenWelding) {
   // A strip a nanometre wide along the edge of a cube: its ends are far closer than the tolerance, but no
   // border.
   const SurfaceMesh cube = makeBox({1.0, 1.0, 1.0});
-  TriangleSoup soup = soupOf(cube);
+  TriangleSoup soup = test::soupOf(cube);
   const auto added = static_cast<std::uint32_t>(soup.vertices.size());
   soup.vertices.push_back(soup.vertices[0] + Eigen::Vector3d(1e-9, 1e-9, 1e-9));
   const auto first = soup.triangles.front();  // split into three at a point near its first corner
@@ -115,7 +109,7 @@ TEST(RepairMesh, CollapsesNoDetailWithinASurfaceWhenWelding) {
 }
 
 TEST(RepairMesh, DropsDuplicatesOfEitherWinding) {
-  TriangleSoup soup = soupOf(unitCube());
+  TriangleSoup soup = test::soupOf(unitCube());
   soup.triangles.push_back(soup.triangles[3]);
   soup.triangles.push_back({soup.triangles[5][1], soup.triangles[5][0], soup.triangles[5][2]});
   const RepairedMesh repaired = repair(soup);
@@ -124,7 +118,7 @@ TEST(RepairMesh, DropsDuplicatesOfEitherWinding) {
 }
 
 TEST(RepairMesh, DropsTrianglesWithoutArea) {
-  TriangleSoup soup = soupOf(unitCube());
+  TriangleSoup soup = test::soupOf(unitCube());
   const auto extra = static_cast<std::uint32_t>(soup.vertices.size());
   soup.vertices.emplace_back(0.5, 0.5, 0.0);  // on the edge between vertices 3 and 7
   soup.triangles.push_back({0, 0, 0});        // a point
@@ -140,7 +134,7 @@ TEST(RepairMesh, DropsTrianglesWithoutArea) {
 // area close the gap between. `fan`: they have the edge's first corner in common, or follow each other
 // otherwise.
 TriangleSoup boxClosedByFlatTriangles(std::uint32_t count, bool fan, bool turned) {
-  TriangleSoup soup = soupOf(unitCube());
+  TriangleSoup soup = test::soupOf(unitCube());
   const auto first = static_cast<std::uint32_t>(soup.vertices.size());
   std::vector<std::uint32_t> chain;
   std::uint32_t ends[2] = {0, 0};
@@ -201,7 +195,7 @@ TEST(RepairMesh, WhatTrianglesWithoutAreaCloseStaysClosed) {
 
 TEST(RepairMesh, AnyNumberOfTrianglesWithoutAreaEndsSoon) {
   // All share one line of corners, in every order, so that each one split makes further ones.
-  TriangleSoup soup = soupOf(unitCube());
+  TriangleSoup soup = test::soupOf(unitCube());
   const auto first = static_cast<std::uint32_t>(soup.vertices.size());
   constexpr std::uint32_t kCorners = 300;
   for (std::uint32_t i = 0; i < kCorners; ++i) soup.vertices.emplace_back(i * 0.01, 5.0, 5.0);
@@ -230,7 +224,7 @@ TEST(RepairMesh, TurnsAnInsideOutShell) {
 }
 
 RC_GTEST_PROP(RepairMesh, MakesAnyMixtureOfWindingsOutward, ()) {
-  TriangleSoup soup = soupOf(unitCube());
+  TriangleSoup soup = test::soupOf(unitCube());
   std::size_t turned = 0;
   for (auto& t : soup.triangles) {
     if (*rc::gen::arbitrary<bool>()) {
@@ -257,7 +251,7 @@ RC_GTEST_PROP(RepairMesh, IsIdempotent, ()) {
   soup.vertices[1] = {1, 0, 0};
   soup.vertices[2] = {0, 1, 0};
   const RepairedMesh once = repair(soup);
-  const RepairedMesh twice = repair(soupOf(once.mesh));
+  const RepairedMesh twice = repair(test::soupOf(once.mesh));
   RC_ASSERT(twice.mesh.vertices() == once.mesh.vertices());
   RC_ASSERT(twice.mesh.triangles() == once.mesh.triangles());
   RC_ASSERT(twice.report.turned_triangles == 0U);
@@ -335,7 +329,7 @@ TEST(RepairMesh, LeavesTheWindingAloneWhenAskedTo) {
 }
 
 TEST(RepairMesh, CountsHolesAsLoops) {
-  TriangleSoup soup = soupOf(makeSphere(1.0, 0.01));
+  TriangleSoup soup = test::soupOf(makeSphere(1.0, 0.01));
   // The two ends of the list are at opposite poles: two far holes.
   soup.triangles.erase(soup.triangles.begin());
   soup.triangles.pop_back();
@@ -405,8 +399,8 @@ TEST(RepairMesh, ReportsWhatCannotBeOriented) {
 }
 
 TEST(RepairMesh, SummaryIsEmptyForASoundMeshAndNamesWhatItFound) {
-  EXPECT_EQ(repair(soupOf(unitCube())).report.summary(), "");
-  TriangleSoup soup = soupOf(unitCube());
+  EXPECT_EQ(repair(test::soupOf(unitCube())).report.summary(), "");
+  TriangleSoup soup = test::soupOf(unitCube());
   soup.triangles.pop_back();
   soup.triangles.push_back(soup.triangles[0]);
   EXPECT_EQ(repair(soup).report.summary(),
@@ -428,8 +422,8 @@ TEST(RepairMesh, RefusesNonFiniteCoordinatesAndIndicesOutOfRange) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(repair({{{0, 0, 0}, {1, 0, 0}, {0, nan, 0}}, {{0, 1, 2}}}), Error);
   EXPECT_THROW(repair({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 3}}}), Error);
-  EXPECT_THROW(repair(soupOf(unitCube()), -0.1), Error);
-  EXPECT_THROW(repair(soupOf(unitCube()), nan), Error);
+  EXPECT_THROW(repair(test::soupOf(unitCube()), -0.1), Error);
+  EXPECT_THROW(repair(test::soupOf(unitCube()), nan), Error);
 }
 
 }  // namespace

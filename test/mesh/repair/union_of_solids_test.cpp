@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numeric>
 
 #include "concave_distance/mesh/repair/repair_mesh.h"
 #include "mesh/surface/mesh_topology.h"
@@ -9,6 +8,7 @@
 #include "support/body_pairs.h"
 #include "support/case_seed.h"
 #include "support/mesh_measures.h"
+#include "support/mesh_variants.h"
 #include "support/painted_boxes.h"
 
 /// Repair makes of a file's triangles the surface of the union of its solids, and the topology says what is
@@ -37,14 +37,6 @@ class Inside {
   MeshTopology topology_;
   TriangleTree tree_;
 };
-
-TriangleSoup soupOf(const SurfaceMesh& mesh) {
-  TriangleSoup soup;
-  soup.vertices = mesh.vertices();
-  for (const TriangleNodes& t : mesh.triangles())
-    soup.triangles.push_back({t[0].value, t[1].value, t[2].value});
-  return soup;
-}
 
 std::size_t closedShells(const RepairedMesh& repaired) {
   return repaired.report.closed_shells;
@@ -95,7 +87,7 @@ TEST(UnionOfSolids, BoxesThatShareAnEdgeOrACornerAreShellsOfTheirOwn) {
 TEST(UnionOfSolids, APartOfAFaceThatIsSharedGoes) {
   TriangleSoup slab;  // three by three, one solid
   for (int i = 0; i < 9; ++i) test::addBox(slab, boxAt(i % 3, i / 3, 0), 0, false);
-  TriangleSoup soup = soupOf(repair(slab).mesh);
+  TriangleSoup soup = test::soupOf(repair(slab).mesh);
   ASSERT_EQ(soup.triangles.size(), 2U * (9 + 9 + 12));
   test::addBox(soup, boxAt(1, 1, 1), 0, false);
   const RepairedMesh repaired = repair(soup);
@@ -260,7 +252,7 @@ TEST(UnionOfSolids, ARepairedUnionStaysAsItIs) {
   for (std::uint64_t i = 0; i < cases; ++i) {
     RandomEngine engine(streamSeed(seed, "repaired union", i));
     const RepairedMesh once = repair(draw(engine).soup);
-    const RepairedMesh twice = repair(soupOf(once.mesh));
+    const RepairedMesh twice = repair(test::soupOf(once.mesh));
     ASSERT_EQ(twice.mesh.triangles(), once.mesh.triangles()) << "case " << i << " of seed " << seed;
     ASSERT_EQ(twice.report.turned_triangles, 0U) << "case " << i << " of seed " << seed;
     ASSERT_EQ(twice.report.shells, once.report.shells);

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "base/pi.h"
+#include "base/constants.h"
 #include "base/random_engine.h"
 #include "concave_distance/base/error.h"
 #include "support/mesh_measures.h"

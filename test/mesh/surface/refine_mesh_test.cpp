@@ -29,10 +29,10 @@ SurfaceMesh surfaceOf(std::vector<Eigen::Vector3d> vertices,
 
 using Vector3l = Eigen::Matrix<long double, 3, 1>;
 
-// Of test::distanceToTriangle in long double, of a point in the triangle's plane. With u the unit of rounding
-// and L the longest side, the normal n is off by at most 8 u L^2, and so is its direction by 8 u L^2 / |n|; a
-// point at most L away is measured wrong by L times that. Twice for the choice between face and sides, which
-// the same error decides, and twice for the rest.
+// Bounds the error of test::distanceToTriangle in long double for a point in the triangle's plane. With u the
+// unit of rounding and L the longest side, the normal n is off by at most 8 u L^2, and so is its direction by
+// 8 u L^2 / |n|; a point at most L away is measured wrong by L times that. Twice for the choice between face
+// and sides, which the same error decides, and twice for the rest.
 double errorOfDistanceToTriangle(const Vector3l& a, const Vector3l& b, const Vector3l& c) {
   constexpr long double kUnit = std::numeric_limits<long double>::epsilon() / 2;
   const long double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});

@@ -6,7 +6,6 @@
 #include "concave_distance/base/error.h"
 #include "loading/query_poses.h"
 #include "ros/demo/joint_path.h"
-#include "ros/demo/ping_pong.h"
 #include "simulation/pose_path.h"
 #include "support/temporary_folder.h"
 

@@ -10,12 +10,18 @@
 #include <string>
 #include <vector>
 
+#include "benchmark/support/fcl_distance.h"
 #include "concave_distance/loading/load_scene.h"
-#include "fcl_model.h"
+#include "concave_distance/mesh/import/import_mesh.h"
+#include "concave_distance/mesh/repair/repair_mesh.h"
+#include "loading/query_poses.h"
 #include "ros/demo/joint_path.h"
+#include "simulation/pose_path.h"
 
 namespace concave_distance::demo::robot_clearance_test {
 namespace {
+
+using benchmark::FclModel;
 
 const std::string kPackage = CONCAVE_DISTANCE_SOURCE_DIR;
 
@@ -122,15 +128,13 @@ class RobotDemo {
   std::vector<double> travel_;  ///< metres, bound, summed up to each step
 };
 
-std::shared_ptr<const FclModel> makeFclModel(const SurfaceMesh& surface) {
-  std::vector<fcl::Triangle> triangles;
-  for (const TriangleNodes& t : surface.triangles())
-    triangles.emplace_back(t[0].value, t[1].value, t[2].value);
-  auto model = std::make_shared<FclModel>();
-  model->beginModel();
-  model->addSubModel(surface.vertices(), triangles);
-  model->endModel();
-  return model;
+/// FCL's distance; 0 or below when the meshes touch or cross.
+double distanceOf(const FclModel& a, const FclModel& b, const Eigen::Isometry3d& a_from_b) {
+  return benchmark::fclDistance(a, b, a_from_b).distance;
+}
+
+std::shared_ptr<const FclModel> loadFclModel(const std::string& path) {
+  return benchmark::makeFclModel(repairMesh(importMesh(path), {}, path).mesh);
 }
 
 TEST(RobotDemo, HasThirtyFivePairsAndTwelveOfThemBetweenBodiesOfFiveThousandTriangles) {
@@ -152,7 +156,7 @@ TEST(RobotDemo, NeverComesNearerThanACentimetre) {
   const Scene& scene = robotScene();
   const RobotDemo demo;
   std::vector<std::shared_ptr<const FclModel>> models;
-  for (const SceneBody& body : scene.bodies) models.push_back(makeFclModel(body.mesh->surface()));
+  for (const SceneBody& body : scene.bodies) models.push_back(benchmark::makeFclModel(body.mesh->surface()));
   constexpr double kLeast = 0.01;  // metres
   for (const ScenePair& pair : scene.pairs) {
     if (!pair.enabled) continue;
@@ -160,12 +164,46 @@ TEST(RobotDemo, NeverComesNearerThanACentimetre) {
     const SceneBody& b = scene.bodies[pair.body_b];
     // From one time to the next at which the pair could have come within the limit.
     for (double time = 0.0; time < demo.period();) {
-      const double distance = fclDistance(*models[pair.body_a], demo.poseOf(a.frame, time),
-                                          *models[pair.body_b], demo.poseOf(b.frame, time));
+      const Eigen::Isometry3d a_from_b = demo.poseOf(a.frame, time).inverse() * demo.poseOf(b.frame, time);
+      const double distance = distanceOf(*models[pair.body_a], *models[pair.body_b], a_from_b);
       ASSERT_GT(distance, kLeast) << pair.name << " at " << time << " s";
       time = std::max(demo.earliestContact(time, distance - kLeast), time + RobotDemo::kStep);
     }
   }
+}
+
+const std::string kFolder = kPackage + "/meshes/thesis/";
+
+// Between hexagonal pins and holes, of circumradius 0.055 and 0.085, once the battery is aligned: the
+// apothems differ by 0.03 cos 30 deg. The meshes are in single precision.
+constexpr double kPinClearance = 0.0259807;
+
+TEST(InsertionManoeuvre, KeepsClearOfTheFixtureThroughoutAtAThousandHertz) {
+  const PosePath path(readPosePath(kFolder + "manoeuvre_200.csv"));
+  const auto fixture = loadFclModel(kFolder + "fixture.stl");
+  const auto battery = loadFclModel(kFolder + "battery.stl");
+  double least = 1e9;
+  double least_time = 0.0;
+  for (int step = 0; step <= 20'000; ++step) {
+    const double time = step * 1e-3;
+    const double distance = distanceOf(*fixture, *battery, path.poseAt(time));
+    if (distance < least) {
+      least = distance;
+      least_time = time;
+    }
+  }
+  EXPECT_NEAR(least, kPinClearance, 1e-6) << "at " << least_time << " s";
+}
+
+TEST(InsertionManoeuvre, HasTwoHundredStepsAtTenHertzThatEndInserted) {
+  const PosePath path(readPosePath(kFolder + "manoeuvre_200.csv"));
+  EXPECT_DOUBLE_EQ(path.startTime(), 0.1);
+  EXPECT_DOUBLE_EQ(path.endTime(), 20.0);
+  EXPECT_TRUE(path.poseAt(20.0).linear().isIdentity(1e-12));
+  // Approach with rotation, then a straight insertion.
+  EXPECT_GT(Eigen::AngleAxisd(path.poseAt(0.1).linear()).angle(), 1.0);
+  EXPECT_TRUE(path.poseAt(10.0).linear().isIdentity(1e-12));
+  EXPECT_LT(path.poseAt(20.0).translation().z(), 0.1);
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
-#include <cmath>
 
 #include "concave_distance/search/prepare_search.h"
 #include "ros/box_scene.h"

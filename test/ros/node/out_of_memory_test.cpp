@@ -1,4 +1,4 @@
-// What becomes of a cycle and of a query when memory runs out, at each allocation in turn.
+// Memory runs out at each allocation of a cycle and of a query in turn.
 #include <gtest/gtest.h>
 
 #include <algorithm>

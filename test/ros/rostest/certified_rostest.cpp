@@ -3,7 +3,6 @@
 #include <concave_distance/PairNiches.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <functional>
 

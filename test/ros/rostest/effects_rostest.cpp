@@ -24,7 +24,7 @@ namespace {
 constexpr double kPressed = 0.02;
 constexpr double kSide = 0.2;
 constexpr double kStiffness = 1000.0;
-// Of values of order 1 and below after exact predicates and some sums.
+// Bounds the rounding of values of order 1 and below after exact predicates and some sums.
 constexpr double kSums = 1e-9;
 
 class EffectsTest : public ::testing::Test {
@@ -101,7 +101,7 @@ TEST_F(EffectsTest, ContactsHaveTheValuesOfClosedForms) {
 TEST_F(EffectsTest, NothingIsComputedThatNobodySubscribesTo) {
   Collector<diagnostic_msgs::DiagnosticArray> diagnostics("/diagnostics");
   Collector<Distances> distances(kNode + "distances");
-  // Of a whole window, in which pairs were solved.
+  // The figures are those of a whole window in which pairs were solved.
   const auto runs = [&](const std::string& stage, bool some) {
     diagnostics.clear();
     return eventually([&] {

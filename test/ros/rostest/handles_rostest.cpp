@@ -14,7 +14,7 @@ namespace {
 
 using Feedback = visualization_msgs::InteractiveMarkerFeedback;
 
-// What an rviz that is started now would show.
+// Returns what an rviz that is started now would show.
 double handleX() {
   Collector<visualization_msgs::InteractiveMarkerInit> handles("/interactive_body/update_full");
   if (!eventually([&] { return handles.count() > 0 && !handles.last()->markers.empty(); })) return NAN;

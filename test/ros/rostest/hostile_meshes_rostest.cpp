@@ -4,14 +4,11 @@
 #include <concave_distance/GetDistance.h>
 #include <concave_distance/ListBodies.h>
 #include <concave_distance/RemoveBody.h>
-#include <concave_distance/SetEffects.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 
 #include "node_access.h"
 #include "support/hostile_mesh_files.h"
@@ -118,20 +115,6 @@ TEST_F(HostileMeshesTest, OutsideOfTheMeshRootsThereIsOneRefusal) {
     EXPECT_EQ(refusal(resource), expected) << resource;
   }
   EXPECT_TRUE(answersRight());
-}
-
-TEST_F(HostileMeshesTest, NorDoTextsForEffectsDoHarm) {
-  SetEffectsRequest request;
-  request.pair = "*";
-  for (const std::string& text :
-       {std::string(","), std::string(4096, '['), std::string(4096, '{'), std::string(50'000'000, '['),
-        std::string("&a [*a]"), std::string("&a {normal_force: *a}"), std::string(4096, '&')}) {
-    request.effects = text;
-    const auto response = call<SetEffects>(kNode + "set_effects", request);
-    EXPECT_FALSE(response.success) << text.substr(0, 20);
-    EXPECT_LT(response.message.size(), 1000U);
-    ASSERT_TRUE(answersRight()) << text.substr(0, 20);
-  }
 }
 
 }  // namespace

@@ -51,7 +51,7 @@ void removeRobot() {
   ros::param::del("/robot_description");
 }
 
-// What a simulation that has ended leaves on the parameter server.
+// A simulation that has ended leaves this on the parameter server.
 void leaveSimulatedTime() {
   ros::param::set("/use_sim_time", true);
 }

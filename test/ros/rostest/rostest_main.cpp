@@ -1,4 +1,4 @@
-// Of all rostests: a .test file chooses its own by --gtest_filter.
+// This program holds all rostests; a .test file chooses its own by --gtest_filter.
 #include <gtest/gtest.h>
 #include <ros/init.h>
 #include <ros/node_handle.h>

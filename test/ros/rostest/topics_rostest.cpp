@@ -44,7 +44,7 @@ const PairDistance* find(const Distances& distances, const std::string& pair) {
   return nullptr;
 }
 
-// Those that carry an answer: a machine that stalls makes all transforms old for a moment.
+// Leaves out messages without an answer: a machine that stalls makes all transforms old for a moment.
 std::vector<PairNiches> solved(const std::vector<PairNiches>& messages) {
   std::vector<PairNiches> answers;
   std::copy_if(messages.begin(), messages.end(), std::back_inserter(answers),
@@ -105,7 +105,7 @@ TEST_F(TopicsTest, NearestIsThePairAndTheNumberAndFallsSilentWithoutTransforms) 
   ASSERT_TRUE(nearest.waitFor([](const Nearest& later) { return later.pairs_missing == 2; }));
   EXPECT_FALSE(nearest.last()->has_number);
   EXPECT_NE(nearest.last()->message.find("2 of 3 pairs"), std::string::npos) << nearest.last()->message;
-  // What was on its way has come: ten more cycles bring no number.
+  // Messages that were on their way have come: ten more cycles bring no number.
   const std::size_t later = nearest.count() + 10;
   number.clear();
   ASSERT_TRUE(eventually([&] { return nearest.count() > later; }));

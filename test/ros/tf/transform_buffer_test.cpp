@@ -33,7 +33,7 @@ class TransformBufferTest : public ::testing::Test {
     last_problem = problem ? problem->what + " (" + problem->remedy + ")" : "";
     return !problem;
   }
-  // Of b seen from a, as a cycle sees it.
+  // Returns where a cycle sees b from a.
   PairTransforms look(const std::string& reference = "world") {
     PairAncestors ancestors;
     return lookUpPair(*buffer.current(), {reference, "a", "b"}, now, 1.0, ancestors);

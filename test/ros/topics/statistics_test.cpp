@@ -1,8 +1,6 @@
 #include <diagnostic_msgs/DiagnosticStatus.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "ros/topics/diagnostics.h"
 #include "scene/cycle_statistics.h"
 

@@ -22,7 +22,7 @@ SurfaceMesh wavySheet() {
   return test::makeSheet(11, 9, 0.1, 0.2);
 }
 SurfaceMesh twoShells() {
-  return test::makeUnion(test::makeSheet(4, 4, 0.1, 0.1), test::makeSheet(3, 2, 0.2, 0.3), {0.0, 0.0, 1.0});
+  return test::makeJoined(test::makeSheet(4, 4, 0.1, 0.1), test::makeSheet(3, 2, 0.2, 0.3), {0.0, 0.0, 1.0});
 }
 
 /// All shortest path lengths, exactly: Floyd and Warshall over the same edge lengths.

@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <numeric>
-
 #include "concave_distance/mesh/body_mesh.h"
 #include "concave_distance/mesh/surface/primitives.h"
 #include "search/grid/body_grid.h"
@@ -47,7 +45,7 @@ TEST(NodeLevels, EveryLevelIsAnEvenChoiceOfTheFinerOne) {
 
 TEST(NodeLevels, ShellsStayApartAndAlive) {
   const SurfaceMesh two =
-      test::makeUnion(test::makeComb(3), makeSphere(0.3, 1e-3), Eigen::Vector3d(0.0, 0.0, 4.0));
+      test::makeJoined(test::makeComb(3), makeSphere(0.3, 1e-3), Eigen::Vector3d(0.0, 0.0, 4.0));
   const NodeGraph graph = graphOf(two, 0.04);
   const NodeLevels all = buildNodeLevels(graph);
   ASSERT_FALSE(all.levels.empty());

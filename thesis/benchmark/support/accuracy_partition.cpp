@@ -2,7 +2,7 @@
 
 #include <cstdio>
 
-#include "benchmark/support/query_clock.h"
+#include "benchmark/support/stopwatch.h"
 #include "concave_distance/base/error.h"
 #include "thesis/src/partition/convex_partition.h"
 #include "thesis/src/partition/partition_tracker.h"

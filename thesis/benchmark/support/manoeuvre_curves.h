@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "benchmark/support/benchmark_pairs.h"
+#include "concave_distance/scene/simulation_settings.h"
 #include "thesis/benchmark/support/manoeuvre_methods.h"
 
 namespace concave_distance::benchmark {

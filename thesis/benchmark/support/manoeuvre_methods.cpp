@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "benchmark/support/fcl_distance.h"
-#include "benchmark/support/processor_time.h"
+#include "benchmark/support/stopwatch.h"
 #include "concave_distance/mesh/import/import_mesh.h"
 #include "concave_distance/mesh/repair/repair_mesh.h"
 #include "concave_distance/tracking/pair_tracker.h"

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "distance/niches/niche_decider.h"
+#include "distance/niches/planar_set.h"
 #include "search/grid/body_grid.h"
 #include "search/local_descent.h"
 #include "support/enumeration.h"
@@ -46,6 +47,24 @@ std::vector<ReferenceNiche> referenceNiches(const BenchmarkPair& pair, const Eig
 
 namespace {
 
+// True when a witness is on the plateau that was measured last, whose distance varies by up to `tolerance`.
+bool isOnMeasuredSet(const ExtentWorkspace& workspace, const WitnessPair& witness, double tolerance) {
+  const Eigen::Vector3d displacement = witness.point_a_in_a - workspace.origin;
+  if (std::abs(workspace.normal.dot(displacement)) > tolerance) return false;
+  // One point of A can be equally near to two places of B: the set leads to B along its normal.
+  const Eigen::Vector3d between = witness.point_b_in_a - witness.point_a_in_a;
+  const Eigen::Vector3d beside = between - workspace.normal.dot(between) * workspace.normal;
+  if (workspace.normal.dot(between) < 0.0 || beside.squaredNorm() > 4.0 * workspace.reach * workspace.reach) {
+    return false;
+  }
+  const Eigen::Vector2d point(workspace.axis_x.dot(displacement), workspace.axis_y.dot(displacement));
+  return std::any_of(
+      workspace.pieces.begin(), workspace.pieces.end(), [&](const ExtentWorkspace::Piece& piece) {
+        const Eigen::Vector2d nearest = detail::nearestIn(&workspace.points[piece.first], piece.count, point);
+        return (nearest - point).squaredNorm() <= 4.0 * workspace.reach * workspace.reach;
+      });
+}
+
 // On one plateau: at one distance, and one on the set around the other.
 bool isOnePlateau(const BenchmarkPair& pair, const Eigen::Isometry3d& pose, const WitnessPair& l,
                   const WitnessPair& r, double size) {
@@ -57,7 +76,7 @@ bool isOnePlateau(const BenchmarkPair& pair, const Eigen::Isometry3d& pose, cons
   const auto holds = [&](const WitnessPair& around, const WitnessPair& witness) {
     const NicheExtent extent =
         measureExtent(*pair.a, *pair.b, pose, around, kTolerance * size, 1024, workspace);
-    return extent.kind != NicheKind::Point && isOnMeasuredSet(workspace, witness);
+    return extent.kind != NicheKind::Point && isOnMeasuredSet(workspace, witness, 2.0 * kTolerance * size);
   };
   return holds(l, r) || holds(r, l);
 }

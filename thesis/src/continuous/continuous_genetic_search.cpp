@@ -5,10 +5,10 @@
 #include <numeric>
 #include <utility>
 
-#include "base/selection.h"
 #include "continuous_mating.h"
 #include "local_step.h"
 #include "random_moves.h"
+#include "search/selection.h"
 #include "search_steps.h"
 
 namespace concave_distance {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "base/infinity.h"
+#include "base/constants.h"
 #include "search/grid/body_grid.h"
 #include "search/grid/node_graph.h"
 

@@ -4,7 +4,7 @@
 #include <limits>
 #include <string>
 
-#include "loading/setting_values.h"
+#include "loading/parameter_map.h"
 
 // Kinds of values that experiments have beside those of settings.
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/triangle_area.h"
+#include "base/triangle_measures.h"
 #include "concave_distance/base/error.h"
 #include "mesh/surface/mesh_topology.h"
 #include "point_bins.h"

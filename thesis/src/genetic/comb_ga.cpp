@@ -5,7 +5,7 @@
 
 #include "comb_ga_state.h"
 #include "convergence.h"
-#include "search/generation.h"
+#include "search/genetic_search.h"
 
 namespace concave_distance {
 namespace {

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 
-#include "base/selection.h"
 #include "crowding_schemes.h"
 #include "generation_gap.h"
 #include "mating_methods.h"
 #include "mutation_methods.h"
 #include "search/reproduction.h"
+#include "search/selection.h"
 #include "search/sharing.h"
 #include "strict_mating.h"
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "base/random_engine.h"
-#include "search/crowding.h"
+#include "search/replacement.h"
 
 namespace concave_distance {
 

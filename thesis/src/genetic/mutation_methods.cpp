@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/infinity.h"
+#include "base/constants.h"
 #include "concave_distance/base/not_computed.h"
 #include "search/grid/mesh_metric.h"
 #include "search/mutation.h"

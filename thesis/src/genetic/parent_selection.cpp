@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "base/selection.h"
+#include "search/selection.h"
 
 namespace concave_distance {
 

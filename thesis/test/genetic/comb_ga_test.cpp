@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "search/genetic_search.h"
-#include "search/searched_pair.h"
+#include "search/search_fixtures.h"
 #include "support/enumeration.h"
 
 namespace concave_distance::comb_ga_test {

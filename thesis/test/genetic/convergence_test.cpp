@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "search/shared_population.h"
+#include "search/search_fixtures.h"
 
 namespace concave_distance::convergence_test {
 namespace {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "search/shared_population.h"
+#include "search/search_fixtures.h"
 #include "search/sharing.h"
 
 namespace concave_distance::dynamic_sharing_test {

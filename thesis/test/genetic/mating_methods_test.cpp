@@ -6,10 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/infinity.h"
-#include "search/grid/body_grid.h"
-#include "search/mutation.h"
-#include "search/search_scenes.h"
+#include "search/search_fixtures.h"
 
 namespace concave_distance::mating_methods_test {
 namespace {
@@ -17,26 +14,12 @@ namespace {
 // Delta of three nodes adds up along a shortest path but for the rounding of the matrices.
 constexpr double kRounding = 0x1.0p-21;
 
-struct MatingCase {
-  test::PairScene scene;
-  PairObjective objective;
-  PairMetric metric;
-  explicit MatingCase(test::PairScene made)
-      : scene(std::move(made)), objective(*scene.a, *scene.b, scene.a_from_b), metric(*scene.a, *scene.b) {}
-};
-
-TrialPoint drawPoint(const PairObjective& objective, RandomEngine& engine) {
-  SearchCost cost;
-  const TrialPoint point = randomTrialPoint(objective, engine);
-  return objective.evaluate(point.node_a, point.node_b, cost);
-}
-
 // Carretero, sec. 3.3.2.b: "this radius is centered around the parent with best fitness".
 RC_GTEST_PROP(MeshMating, NearTheFitterParentBothChildrenStayWithinItsRadius, ()) {
-  static MatingCase c(test::facingCombs());
+  static test::MeasuredPair c(test::facingCombs());
   RandomEngine engine(*rc::gen::arbitrary<std::uint64_t>());
-  const TrialPoint x = drawPoint(c.objective, engine);
-  const TrialPoint y = drawPoint(c.objective, engine);
+  const TrialPoint x = c.drawPoint(engine);
+  const TrialPoint y = c.drawPoint(engine);
   const auto [first, second] =
       mateBy(MatingMethod::MeshNearFitter, c.objective, x, y, c.metric, kInfinity, engine);
   const TrialPoint& fitter = x < y ? x : y;
@@ -59,12 +42,12 @@ RC_GTEST_PROP(MeshMating, NearTheFitterParentBothChildrenStayWithinItsRadius, ()
 
 // A radius of one edge holds the parent's node and, as likely, the one at the edge's end.
 TEST(MeshMating, NearTheFitterParentTheLastNodeWithinTheRadiusIsDrawnToo) {
-  MatingCase c(test::hookAndStairs());
+  test::MeasuredPair c(test::hookAndStairs());
   RandomEngine engine(15);
   int at_parent = 0;
   int beyond = 0;
   for (int i = 0; i < 2000; ++i) {
-    const TrialPoint x = drawPoint(c.objective, engine);
+    const TrialPoint x = c.drawPoint(engine);
     TrialPoint y = x;
     // Parents of equal fitness two edges apart: the radius is one edge.
     const auto edges = gridOf(*c.scene.a).graph().edges.row(x.node_a.value);
@@ -82,11 +65,11 @@ TEST(MeshMating, NearTheFitterParentTheLastNodeWithinTheRadiusIsDrawnToo) {
 }
 
 RC_GTEST_PROP(PhenotypicMating, ChildrenAreTheNodesNearestToTheLineBetweenTheParents, ()) {
-  static MatingCase c(test::facingCombs());
+  static test::MeasuredPair c(test::facingCombs());
   const std::uint64_t seed = *rc::gen::arbitrary<std::uint64_t>();
   RandomEngine engine(seed);
-  const TrialPoint x = drawPoint(c.objective, engine);
-  const TrialPoint y = drawPoint(c.objective, engine);
+  const TrialPoint x = c.drawPoint(engine);
+  const TrialPoint y = c.drawPoint(engine);
   const auto [first, second] =
       mateBy(MatingMethod::Phenotypic, c.objective, x, y, c.metric, kInfinity, engine);
   const NodeGraph& graph = gridOf(*c.scene.a).graph();
@@ -108,10 +91,10 @@ RC_GTEST_PROP(PhenotypicMating, ChildrenAreTheNodesNearestToTheLineBetweenThePar
 }
 
 RC_GTEST_PROP(GenotypicMating, ChildrenHaveIndicesBetweenTheParents, ()) {
-  static MatingCase c(test::facingCombs());
+  static test::MeasuredPair c(test::facingCombs());
   RandomEngine engine(*rc::gen::arbitrary<std::uint64_t>());
-  const TrialPoint x = drawPoint(c.objective, engine);
-  const TrialPoint y = drawPoint(c.objective, engine);
+  const TrialPoint x = c.drawPoint(engine);
+  const TrialPoint y = c.drawPoint(engine);
   const auto [first, second] =
       mateBy(MatingMethod::Genotypic, c.objective, x, y, c.metric, kInfinity, engine);
   for (const TrialPoint& child : {first, second}) {
@@ -123,9 +106,9 @@ RC_GTEST_PROP(GenotypicMating, ChildrenHaveIndicesBetweenTheParents, ()) {
 }
 
 TEST(Mating, ParentsOnOnePlaceHaveTheirChildrenThere) {
-  MatingCase c(test::facingCombs());
+  test::MeasuredPair c(test::facingCombs());
   RandomEngine engine(14);
-  const TrialPoint x = drawPoint(c.objective, engine);
+  const TrialPoint x = c.drawPoint(engine);
   for (const MatingMethod method :
        {MatingMethod::MeshNearFitter, MatingMethod::Phenotypic, MatingMethod::Genotypic}) {
     const auto [first, second] = mateBy(method, c.objective, x, x, c.metric, kInfinity, engine);

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/infinity.h"
+#include "base/constants.h"
 #include "search/grid/body_grid.h"
 #include "search/search_scenes.h"
 

@@ -6,16 +6,10 @@
 #include <cmath>
 #include <vector>
 
+#include "search/search_fixtures.h"
+
 namespace concave_distance::parent_selection_test {
 namespace {
-
-std::vector<std::uint32_t> countEach(const std::vector<std::uint32_t>& selected, std::size_t individuals) {
-  std::vector<std::uint32_t> counts(individuals, 0);
-  for (const std::uint32_t individual : selected) {
-    ++counts.at(individual);
-  }
-  return counts;
-}
 
 TEST(RouletteWheel, TakesIndividualsInProportionToTheirWeights) {
   const std::vector<double> weights{1.0, 0.0, 3.0, 6.0};
@@ -25,7 +19,7 @@ TEST(RouletteWheel, TakesIndividualsInProportionToTheirWeights) {
   constexpr std::uint32_t kSpins = 100000;
   rouletteWheel(weights, kSpins, engine, wheel, selected);
   ASSERT_EQ(selected.size(), kSpins);
-  const auto counts = countEach(selected, weights.size());
+  const auto counts = test::countEach(selected, weights.size());
   for (std::size_t i = 0; i < weights.size(); ++i) {
     const double share = weights[i] / 10.0;
     EXPECT_NEAR(counts[i] / double{kSpins}, share, 4.0 * std::sqrt(share * (1.0 - share) / kSpins));
@@ -41,7 +35,7 @@ TEST(RouletteWheel, SpreadsMoreThanUniversalSampling) {
     std::uint32_t largest = 0;
     for (int run = 0; run < 100; ++run) {
       select(method, weights, 10, engine, wheel, selected);
-      const auto counts = countEach(selected, 10);
+      const auto counts = test::countEach(selected, 10);
       largest = std::max(largest, *std::max_element(counts.begin(), counts.end()));
     }
     return largest;

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "base/selection.h"
-#include "search/shared_population.h"
+#include "search/search_fixtures.h"
+#include "search/selection.h"
 
 namespace concave_distance::strict_mating_test {
 namespace {

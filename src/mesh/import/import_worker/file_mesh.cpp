@@ -1,6 +1,5 @@
 #include "file_mesh.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <locale>
 #include <sstream>
@@ -100,7 +99,7 @@ TriangleSoup FileMesh::takeTriangles(const std::string& path, std::uint64_t most
 void FileMesh::cutPolygons(const std::string& path) {
   if (polygons_.empty()) return;
   soup_.triangles.reserve(soup_.triangles.size() + polygon_corners_.size() - 2 * polygons_.size());
-  // What is thinner than this rounding has no side; repair joins such corners.
+  // A corner thinner than this rounding has no side; repair joins such corners.
   PolygonCutter cutter(kSinglePrecisionWeld * boxOf(soup_.vertices).diagonal().norm());
   std::size_t first = 0;
   for (const Polygon& polygon : polygons_) {

@@ -1,22 +1,46 @@
-#include "read_dae.h"
-
-#include <assimp/config.h>
-#include <assimp/scene.h>
+#include "mesh_readers.h"
 
 #include <assimp/BaseImporter.h>
-#include <Eigen/Geometry>
+#include <assimp/MemoryIOWrapper.h>
+#include <assimp/config.h>
+#include <assimp/scene.h>
+#include <assimp/IOSystem.hpp>
 #include <assimp/Importer.hpp>
+
+#include <Eigen/Geometry>
+#include <cstdint>
 #include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "concave_distance/base/error.h"
 #include "dae_text.h"
 #include "file_mesh.h"
-#include "one_file_system.h"
 #include "text_words.h"
 
 namespace concave_distance::detail {
 namespace {
+
+/// The only file that assimp sees, from memory; no material libraries, textures or archives.
+class OneFileSystem : public Assimp::IOSystem {
+ public:
+  OneFileSystem(std::string name, std::string_view content) : name_(std::move(name)), content_(content) {}
+
+  bool Exists(const char* file) const override { return name_ == file; }
+  char getOsSeparator() const override { return '/'; }
+  Assimp::IOStream* Open(const char* file, const char* mode) override {
+    if (name_ != file || mode[0] != 'r') return nullptr;
+    return new Assimp::MemoryIOStream(reinterpret_cast<const std::uint8_t*>(content_.data()),
+                                      content_.size());
+  }
+  void Close(Assimp::IOStream* stream) override { delete stream; }
+
+ private:
+  std::string name_;
+  std::string_view content_;
+};
 
 Eigen::Affine3d toEigen(const aiMatrix4x4& m) {
   Eigen::Matrix4d matrix;

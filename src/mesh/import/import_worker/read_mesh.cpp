@@ -3,11 +3,7 @@
 #include <utility>
 
 #include "concave_distance/base/error.h"
-#include "read_dae.h"
-#include "read_obj.h"
-#include "read_ply.h"
-#include "read_stl.h"
-#include "text_words.h"
+#include "mesh_readers.h"
 
 namespace concave_distance::detail {
 namespace {

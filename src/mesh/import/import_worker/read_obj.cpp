@@ -1,4 +1,4 @@
-#include "read_obj.h"
+#include "mesh_readers.h"
 
 #include <Eigen/Core>
 #include <optional>

@@ -1,4 +1,4 @@
-#include "read_ply.h"
+#include "mesh_readers.h"
 
 #include <Eigen/Core>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "read_stl.h"
+#include "mesh_readers.h"
 
 #include <Eigen/Core>
 #include <optional>
