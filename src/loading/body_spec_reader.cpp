@@ -59,6 +59,11 @@ Eigen::Vector4d readColour(const YamlValue& value) {
   return colour;
 }
 
+double readMargin(const YamlValue& value) {
+  return value.number("a number from 0, metres",
+                      [](double margin) { return margin >= 0.0 && std::isfinite(margin); });
+}
+
 void readPrimitive(const Primitive& primitive, const YamlValue& value, BodyDescription& body) {
   YamlMap map(value, "a map of dimensions");
   body.primitive = primitive.name;
@@ -183,6 +188,7 @@ BodySpec readBodySpec(const YamlValue& value, const BodyDefaults& defaults) {
   }
   if (auto v = map.take("pose")) description.frame_from_geometry = readPose(*v);
   if (auto v = map.take("colour")) body.colour = readColour(*v);
+  if (auto v = map.take("margin")) body.margin = readMargin(*v);
   readOverDefaults(map, defaults, description.max_edge_length, description.chord_error, body.material);
   map.finish();
   return body;

@@ -105,6 +105,7 @@ SceneBody build(const BodySource& source, const std::shared_ptr<BodyPool>& pool,
   body.repair = repaired.report;
   body.mesh = sharedMesh(source, std::move(repaired.mesh), pool, cache, limits);
   body.bounds = boundsOf(*body.mesh);
+  requireMargin(source.source, body.margin, *body.mesh);
   return body;
 }
 

@@ -129,6 +129,7 @@ void addBody(const BodySpec& spec, const std::string& base_folder, SceneParts& p
   BodySource source = sourceOf(spec.description, base_folder);
   source.source = spec.where + ", " + source.source;
   source.colour = spec.colour;
+  source.margin = spec.margin;
   source.material = spec.material;
   addSource(std::move(source), spec.where, "give it another name", parts);
 }

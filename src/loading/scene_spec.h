@@ -40,6 +40,7 @@ struct BodySpec {
   std::string where;
   BodyDescription description;
   Eigen::Vector4d colour = SceneBody().colour;
+  double margin = 0.0;  ///< metres
   Material material;
 };
 

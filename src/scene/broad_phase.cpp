@@ -55,7 +55,8 @@ BodyBounds boundsOf(const BodyMesh& body) {
   return bounds;
 }
 
-double distanceLowerBound(const BodyBounds& a, const BodyBounds& b, const Eigen::Isometry3d& a_from_b) {
+double distanceLowerBound(const BodyBounds& a, const BodyBounds& b, const Eigen::Isometry3d& a_from_b,
+                          double margin) {
   const Eigen::Matrix3d m = a_from_b.linear();
   const Eigen::Matrix3d absolute_m = m.cwiseAbs();
   const Eigen::Vector3d t = a_from_b.translation();
@@ -90,6 +91,7 @@ double distanceLowerBound(const BodyBounds& a, const BodyBounds& b, const Eigen:
     }
   }
   bound *= 1.0 - 8.0 * kUnitRoundoff;
+  if (margin > 0.0) bound = std::nextafter(bound - margin, -std::numeric_limits<double>::infinity());
   // NaN compares false: a pose that is not finite proves nothing.
   return bound > 0.0 && std::isfinite(scale) ? bound : 0.0;
 }

@@ -1,6 +1,24 @@
 #include "concave_distance/scene/scene.h"
 
+#include "base/parameter_checks.h"
+#include "concave_distance/base/error.h"
+
 namespace concave_distance {
+
+void requireMargin(const std::string& where, double margin, const BodyMesh& body) {
+  detail::requireNotNegative(where, "margin", margin);
+  if (margin <= body.diameter()) return;
+  throw Error(where,
+              "margin " + detail::toText(margin) + " m is larger than the body, whose diagonal is " +
+                  detail::toText(body.diameter()) + " m",
+              "give it in metres; for a ball of this size use a sphere");
+}
+
+TrackerParameters withMargins(TrackerParameters settings, const SceneBody& a, const SceneBody& b) {
+  settings.margin_a = a.margin;
+  settings.margin_b = b.margin;
+  return settings;
+}
 
 std::optional<std::size_t> Scene::findBody(const std::string& name) const {
   return bodies.find(name);

@@ -12,9 +12,15 @@ TrackedPair::TrackedPair(const Scene& scene, std::size_t index, std::uint64_t fi
     : origin(scene.pairs.share(index)),
       body_a(scene.bodies.share(origin->body_a)),
       body_b(scene.bodies.share(origin->body_b)),
-      settings(origin->settings),
       effects(body_a->mesh, body_b->mesh, inContact(body_a->material, body_b->material)),
-      largest_id(first_id) {}
+      largest_id(first_id) {
+  takeSettings();
+}
+
+void TrackedPair::takeSettings() {
+  settings = origin->settings;
+  settings.tracker = withMargins(settings.tracker, *body_a, *body_b);
+}
 
 bool TrackedPair::locate(const PairInput& next, const std::atomic<bool>* stop) {
   const bool was_solved = solved();
@@ -26,7 +32,8 @@ bool TrackedPair::locate(const PairInput& next, const std::atomic<bool>* stop) {
     return false;
   }
   if (std::isfinite(settings.tracker.cutoff)) {
-    const double bound = distanceLowerBound(body_a->bounds, body_b->bounds, input.a_from_b);
+    const double bound =
+        distanceLowerBound(body_a->bounds, body_b->bounds, input.a_from_b, settings.tracker.margin());
     if (bound > settings.tracker.cutoff) {
       restart();
       box_bound = bound;
@@ -115,7 +122,7 @@ void TrackedPair::discard() {
 
 void TrackedPair::adopt(std::shared_ptr<const ScenePair> pair, bool settings_changed) {
   origin = std::move(pair);
-  settings = origin->settings;
+  takeSettings();
   stale_parameters_ = stale_parameters_ || settings_changed;
 }
 

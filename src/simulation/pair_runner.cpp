@@ -56,6 +56,8 @@ PairRunner::PairRunner(const Scene& scene, std::size_t index, const SimulationSe
       follows_niches_(settings.tracking != SimulationTracking::SingleMinimum),
       material_(inContact(tracked_.body_a->material, tracked_.body_b->material)) {
   requireProof(*tracked_.origin);
+  // Contact follows the bare bodies.
+  tracked_.settings.tracker.margin_a = tracked_.settings.tracker.margin_b = 0.0;
   const std::string where = "pair '" + tracked_.origin->name + "'";
   tracked_.settings.tracker.validate(where);
   tracked_.settings.effects.validate(where);

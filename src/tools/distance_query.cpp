@@ -19,6 +19,7 @@
 #include "parameter_options.h"
 #include "query_report.h"
 #include "scene/pair_parameters.h"
+#include "tracking/tracker_parameter_table.h"
 
 namespace concave_distance::tools {
 namespace {
@@ -70,6 +71,8 @@ LoadedBodies loadBodies(const DistanceQueryOptions& options, std::ostream& log) 
   runTogether({[&] { bodies.a = loadBody(options.mesh_a, options.scale_a, load_options, log); },
                [&] { bodies.b = loadBody(options.mesh_b, options.scale_b, load_options, log_b); }});
   log << log_b.str();
+  requireMargin("--margin-a", options.settings.tracker.margin_a, *bodies.a);
+  requireMargin("--margin-b", options.settings.tracker.margin_b, *bodies.b);
   if (load_options.body.cache) {
     if (const std::string problem = load_options.body.cache->takeProblem(); !problem.empty())
       log << problem << '\n';
@@ -180,6 +183,9 @@ void addOptions(CLI::App& app, DistanceQueryOptions& options) {
                  "factor on A's coordinates (0.001: the file is in millimetres)")
       ->capture_default_str();
   app.add_option("--scale-b", options.scale_b, "the same for B")->capture_default_str();
+  for (const char* margin : {"margin_a", "margin_b"}) {
+    addParameter(app, marginParameters(), margin, options.settings.tracker);
+  }
   const auto add = [&](const char* parameter, const char* name = "") {
     return addParameter(app, pairParameters(), parameter, options.settings, name);
   };

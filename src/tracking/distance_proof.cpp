@@ -38,6 +38,7 @@ void DistanceProof::prove(const PairFrame& frame, const TrackerParameters& param
   CertificateRequest request;
   request.absolute_tolerance = parameters.absolute_tolerance;
   request.relative_tolerance = parameters.relative_tolerance;
+  request.margin = parameters.margin();
   request.limit = &limit;
   const bool is_round = hasRound(frame.a, frame.b);
   certificate_ = is_round

@@ -74,7 +74,7 @@ void ExactNiches::admit(const PairFrame& frame, const TrackerParameters& paramet
   if (cycle.is_tracked) request_.proposals.reserve(kUsualProposals);
   request_.is_tracked = cycle.is_tracked;
   request_.cutoff = cycle.cutoff;
-  request_.rule = {parameters.least_prominence, parameters.prominence_limit};
+  request_.rule = {parameters.least_prominence, parameters.prominence_limit, parameters.margin()};
   request_.largest_count = archiveCapacity(parameters.largest_niche_count);
   request_.through_material = parameters.keep_through_material;
   request_.hidden = parameters.hidden;

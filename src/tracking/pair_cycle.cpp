@@ -11,6 +11,7 @@
 #include "distance/niches/niche_properties.h"
 #include "mesh/trees/normal_cone_tree.h"
 #include "node_niches.h"
+#include "padded_solution.h"
 #include "relative_motion.h"
 #include "search_stage.h"
 
@@ -71,6 +72,7 @@ void PairCycle::update(const Eigen::Isometry3d& pose, double time, PairSolution&
   last_cycle_ = now;
   if (wantsNiches()) last_niches_ = last_cycle_;
   last_distance_ = solution.distance;
+  padSolution(parameters_, solution);
   ++cycle_;
   solution.solve_seconds = since_start();
 }
@@ -168,7 +170,7 @@ WitnessPair PairCycle::provenOnMeshes() {
 }
 
 double PairCycle::cutoffOfMeshes() const {
-  return parameters_.cutoff + (isRound() ? RoundNiches::meshExcess(*frame_) : 0.0);
+  return parameters_.cutoff + parameters_.margin() + (isRound() ? RoundNiches::meshExcess(*frame_) : 0.0);
 }
 
 // Niches that none can see, and those of far sides, are not counted; nor what a proof has not reached.
@@ -176,7 +178,7 @@ detail::ConvexNiches PairCycle::countConvexNiches() const {
   const bool is_proven = proves() && (proof_.certificate().status == CertificateStatus::Proven ||
                                       (proof_.isPenetrating() && !isRound()));
   if (!is_proven || parameters_.hidden || parameters_.keep_through_material) return ConvexNiches::Unknown;
-  const NicheRule rule{parameters_.least_prominence, parameters_.prominence_limit};
+  const NicheRule rule{parameters_.least_prominence, parameters_.prominence_limit, parameters_.margin()};
   return detail::countConvexNiches(
       *frame_, rule, certainDistance(),
       proof_.certificate().status != CertificateStatus::Penetrating && proof_.isSwallowed());
@@ -238,7 +240,7 @@ void PairCycle::listNiches(PairSolution& solution) {
     records.front().niche.prominence = std::numeric_limits<double>::infinity();
   }
   for (NicheRecord& record : records) {
-    if (record.niche.distance > parameters_.cutoff) {
+    if (record.niche.distance > parameters_.cutoff + parameters_.margin()) {
       ++solution.niches_beyond_cutoff;
       continue;
     }
@@ -316,6 +318,7 @@ void PairCycle::clear(PairSolution& solution) const {
   solution.status = SolveStatus::Ok;
   solution.accuracy = parameters_.accuracy;
   solution.distance = solution.lower_bound = solution.surface_distance = kNotComputed;
+  solution.signed_distance = kNotComputed;
   solution.point_a_in_a.setConstant(kNotComputed);
   solution.point_b_in_a.setConstant(kNotComputed);
   solution.normal_in_a.setConstant(kNotComputed);

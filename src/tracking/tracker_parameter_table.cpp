@@ -110,4 +110,17 @@ const ParameterTable<TrackerParameters>& trackerParameters() {
   return table;
 }
 
+const ParameterTable<TrackerParameters>& marginParameters() {
+  static const ParameterTable<T> table = {
+      number<T>(
+          "margin_a", [](auto& t) -> auto& { return t.margin_a; },
+          "how far A's surface is moved out: a ball of this radius is swept along it")
+          .inUnit("m"),
+      number<T>(
+          "margin_b", [](auto& t) -> auto& { return t.margin_b; }, "the same for B")
+          .inUnit("m"),
+  };
+  return table;
+}
+
 }  // namespace concave_distance

@@ -19,6 +19,7 @@ void TrackerParameters::validate(const std::string& where) const {
   cold.validate(where + ".cold");
   warm.validate(where + ".warm");
   requireAllowed(trackerParameters(), *this, where);
+  requireAllowed(marginParameters(), *this, where);
 }
 
 WorkLimit remainingWork(const TrackerParameters& parameters, double seconds_spent) {

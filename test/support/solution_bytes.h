@@ -11,9 +11,9 @@ inline void appendWitness(const WitnessPair& witness, Bytes& bytes) {
 }
 
 inline void appendNiche(const TrackedNiche& niche, Bytes& bytes) {
-  appendAll(bytes, niche.id, niche.distance, niche.point_a_in_a, niche.point_b_in_a, niche.normal_in_a,
-            niche.closing_speed, niche.kind, niche.extent, niche.outward, niche.visible, niche.prominence,
-            niche.proven_local_minimum, niche.birth_cycle, niche.origin);
+  appendAll(bytes, niche.id, niche.distance, niche.signed_distance, niche.point_a_in_a, niche.point_b_in_a,
+            niche.normal_in_a, niche.closing_speed, niche.kind, niche.extent, niche.outward, niche.visible,
+            niche.prominence, niche.proven_local_minimum, niche.birth_cycle, niche.origin);
   appendWitness(niche.witness, bytes);
   appendAll(bytes, niche.node_pair.node_a, niche.node_pair.node_b, niche.node_pair.squared_distance);
 }
@@ -22,7 +22,7 @@ inline void appendNiche(const TrackedNiche& niche, Bytes& bytes) {
 inline void appendSolution(const PairSolution& solution, Bytes& bytes) {
   appendAll(bytes, solution.status, solution.accuracy, solution.distance, solution.lower_bound,
             solution.point_a_in_a, solution.point_b_in_a, solution.normal_in_a, solution.closing_speed,
-            solution.surface_distance);
+            solution.surface_distance, solution.signed_distance);
   if (solution.meeting_triangles) {
     appendAll(bytes, solution.meeting_triangles->a, solution.meeting_triangles->b);
   }

@@ -24,6 +24,8 @@ BodyBounds boundsOf(const BodyMesh& body);
 /// nine cross products of the axes (separating axes: Gottschalk, Lin and Manocha 1996). Rounded down:
 /// rounding errors are subtracted, and `a_from_b` is taken as it is given, orthonormal or nearly so. 0 when
 /// the bounds meet, and for a pose that is not finite. Some 0.2 us; allocates nothing.
-double distanceLowerBound(const BodyBounds& a, const BodyBounds& b, const Eigen::Isometry3d& a_from_b);
+/// @param margin metres that both bodies together are moved out by
+double distanceLowerBound(const BodyBounds& a, const BodyBounds& b, const Eigen::Isometry3d& a_from_b,
+                          double margin = 0.0);
 
 }  // namespace concave_distance

@@ -31,7 +31,9 @@ struct SceneBody {
   std::string name;   ///< unique in the scene; a robot's link is `<prefix><link>`
   std::string frame;  ///< tf frame the body is fixed to
   std::shared_ptr<const BodyMesh> mesh;
-  BodyBounds bounds;  ///< of the mesh's surface
+  BodyBounds bounds;  ///< of the mesh's surface, without the margin
+  /// Metres that its surface is moved out by for distances and niches, not for contacts (TrackerParameters).
+  double margin = 0.0;
   RepairReport repair;
   std::optional<MassProperties> inertia;  ///< of a link: what its URDF says
   std::string source;                     ///< file or URDF element it came from, for messages
@@ -40,6 +42,11 @@ struct SceneBody {
   Eigen::Vector4d colour = Eigen::Vector4d(0.6, 0.6, 0.65, 1.0);  ///< red, green, blue, opacity in [0, 1]
   Material material;                                              ///< for contact forces
 };
+
+/// Checks a margin that a person has given for a body.
+/// @throws Error naming `where` for one that is negative, not finite or larger than the body: probably not
+/// metres
+void requireMargin(const std::string& where, double margin, const BodyMesh& body);
 
 /// Holds a pair's settings: the scene file's defaults, then the groups in order, then the pair's own entry.
 struct PairSettings {
@@ -50,6 +57,9 @@ struct PairSettings {
   /// ... and taken back above warning_distance + hysteresis, metres.
   double warning_hysteresis = 0.01;
 };
+
+/// Returns the parameters of two bodies' pair: its settings, and the margins of the bodies.
+TrackerParameters withMargins(TrackerParameters settings, const SceneBody& a, const SceneBody& b);
 
 struct ScenePair {
   std::string name;        ///< `<body_a>/<body_b>` unless the scene file names it; letters, digits, _ and /

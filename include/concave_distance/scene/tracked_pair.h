@@ -54,7 +54,7 @@ struct TrackedPair {
   /// Bodies of the scene. One that is removed and added again is another, with settings of its own.
   std::shared_ptr<const SceneBody> body_a;
   std::shared_ptr<const SceneBody> body_b;
-  PairSettings settings;
+  PairSettings settings;  ///< with the margins of the bodies
   PairDemand demand;
 
   PairState state = PairState::NotWatched;
@@ -97,6 +97,7 @@ struct TrackedPair {
   const PairTracker* tracker() const { return tracker_.get(); }
 
  private:
+  void takeSettings();
   void prepare(const std::atomic<bool>* stop);
   void updateEffects();
   void endWithoutAnswer(PairState now);

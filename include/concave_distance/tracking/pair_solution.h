@@ -28,7 +28,7 @@ std::string_view toString(AccuracyLevel level);
 /// Says what became of a solve; a solve never throws.
 enum class SolveStatus : std::uint8_t {
   Ok,               ///< at level `certified`: proven
-  Penetrating,      ///< the surfaces meet, or one body has swallowed a part of the other
+  Penetrating,      ///< the padded surfaces meet, or one body has swallowed a part of the other
   InvalidPose,      ///< nothing was computed
   BudgetExhausted,  ///< the time ran out before all was done; lower_bound holds
   WithinTolerance,  ///< lower_bound is within the tolerance of the distance
@@ -48,8 +48,9 @@ std::string_view toString(NicheOrigin origin);
 
 /// A local minimum of a pair's distance, followed over time.
 struct TrackedNiche {
-  std::uint64_t id = 0;            ///< persistent while the niche lives, never used again afterwards
-  double distance = kNotComputed;  ///< metres
+  std::uint64_t id = 0;                   ///< persistent while the niche lives, never used again afterwards
+  double distance = kNotComputed;         ///< metres
+  double signed_distance = kNotComputed;  ///< metres, as PairSolution::signed_distance
   Eigen::Vector3d point_a_in_a = Eigen::Vector3d::Constant(kNotComputed);
   Eigen::Vector3d point_b_in_a = Eigen::Vector3d::Constant(kNotComputed);
   /// Unit vector in A's frame from A's witness to B's; where they touch, A's pseudonormal.
@@ -65,7 +66,7 @@ struct TrackedNiche {
   double prominence = kNotComputed;
   bool proven_local_minimum = false;
   std::uint64_t birth_cycle = 0;
-  WitnessPair witness;   ///< triangles and features, for warm starts
+  WitnessPair witness;   ///< on the bare surfaces: triangles and features, for warm starts
   TrialPoint node_pair;  ///< level `nodes` only
 };
 
@@ -85,6 +86,10 @@ struct PairSolution {
   double distance = kNotComputed;  ///< metres; 0 when penetrating
   /// Proven: the true distance is not smaller; 0 when penetrating. NaN at levels that prove none.
   double lower_bound = kNotComputed;
+  /// Distance of the bare surfaces less the margins, metres: `distance` where the padded bodies are apart, at
+  /// most 0 where only margins overlap (status penetrating); as exact as `accuracy` says. The points are then
+  /// those in the margins that are farthest in the other body. NaN where the bare bodies overlap.
+  double signed_distance = kNotComputed;
   Eigen::Vector3d point_a_in_a = Eigen::Vector3d::Constant(kNotComputed);
   Eigen::Vector3d point_b_in_a = Eigen::Vector3d::Constant(kNotComputed);
   /// The normal is that of the nearest place, as of a niche; NaN where no niche is the nearest.

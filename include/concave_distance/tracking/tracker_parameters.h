@@ -46,12 +46,18 @@ struct TrackerParameters {
   double prominence_limit = 0.0;
   double cutoff = std::numeric_limits<double>::infinity();  ///< niches farther than this are not reported
   std::uint32_t largest_niche_count = 64;                   ///< of the report; a cut is always reported
-  bool niches_wanted = true;                                ///< false: only the distance is asked for
+  /// Metres that each body's surface is moved out by, as if a ball of this radius were swept along it.
+  /// Distance, bound, cutoff, niches and prominences are those of the padded surfaces
+  /// (PairSolution::signed_distance).
+  double margin_a = 0.0;
+  double margin_b = 0.0;
+  bool niches_wanted = true;           ///< false: only the distance is asked for
   bool hidden = false;                 ///< report niches whose segment meets a triangle too, flagged
   bool keep_through_material = false;  ///< report niches through material, flagged, instead of dropping them
   std::uint64_t seed = 1;
 
   TrackerParameters();
+  double margin() const { return margin_a + margin_b; }
   /// @throws Error naming the parameter, the value seen and the allowed range
   void validate(const std::string& where) const;
 };

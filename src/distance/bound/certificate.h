@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <string_view>
@@ -17,9 +18,15 @@ namespace concave_distance {
 /// Says how far a proof of the distance is to go; the default is to the end.
 struct CertificateRequest {
   double absolute_tolerance = 0.0;  ///< metres: the bound may stay this far below the distance
-  double relative_tolerance = 0.0;  ///< of the distance; the larger of the two counts
+  double relative_tolerance = 0.0;  ///< of the distance less the margin; the larger of the two counts
+  double margin = 0.0;              ///< metres, of both bodies together
   /// The proof stops with the bound that it has when this is reached; nullptr is no limit.
   WorkLimit* limit = nullptr;
+
+  /// How far below a distance its bound may stay, metres.
+  double toleranceAt(double distance) const {
+    return std::max(absolute_tolerance, relative_tolerance * std::max(0.0, distance - margin));
+  }
 };
 
 enum class CertificateStatus : std::uint8_t {

@@ -39,7 +39,7 @@ TrianglePairDistance NearestTriangles::measure(const TrianglePoints& a, const Tr
     direction_ = (found.point_b - found.point_a) / distance_;
     ++direction_count_;
   }
-  const double tolerance = std::max(request_.absolute_tolerance, request_.relative_tolerance * distance_);
+  const double tolerance = request_.toleranceAt(distance_);
   enough_ = std::max(0.0, distance_ - std::max(tolerance, frame_.error));
   squared_enough_ = enough_ * enough_;
   return found;

@@ -63,7 +63,7 @@ class LowestSearch {
   void skip(double bound) { least_skipped_ = std::min(least_skipped_, bound); }
   bool isSkipped(double bound) {
     const double best = best_.lowest.value;
-    const double allowed = std::max(request_.absolute_tolerance, request_.relative_tolerance * best);
+    const double allowed = request_.toleranceAt(best);
     if (bound < best - allowed) return false;
     skip(bound);
     return true;

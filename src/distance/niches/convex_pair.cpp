@@ -15,7 +15,7 @@ ConvexNiches countConvexNiches(const PairFrame& frame, const NicheRule& rule, do
   const double gap = frame.a.hullGap().gap + frame.b.hullGap().gap;
   if (certain_distance > 0.0) {
     const double rise = gap + 16.0 * frame.rounding + 2.0 * frame.pose_error;
-    if (rise < rule.least_prominence * certain_distance) return ConvexNiches::OnlyTheNearest;
+    if (rise < rule.leastRiseFrom(certain_distance)) return ConvexNiches::OnlyTheNearest;
   }
   if (!(gap <= kConvexGap * frame.rounding)) return ConvexNiches::Unknown;
   return is_contained ? ConvexNiches::None : ConvexNiches::OnlyTheNearest;

@@ -75,7 +75,7 @@ ConvexShellPairs::Outcome ConvexShellPairs::look(const PairFrame& frame, const L
   if (nearest.status == CertificateStatus::Penetrating) return Outcome::Complete;
   if (nearest.lower_bound > request.cutoff + frame.rounding) return Outcome::Complete;
   const double rise = 64.0 * frame.rounding + 2.0 * frame.pose_error;
-  if (!(rise < request.rule.least_prominence * nearest.distance)) return Outcome::Unknown;
+  if (!(rise < request.rule.riseAt(nearest.distance))) return Outcome::Unknown;
   if (!isOutward(a, b, frame.a_from_b, witness)) return Outcome::Complete;
   const double tolerance = kPlateauTolerance * frame.diameters();
   const NicheExtent extent =

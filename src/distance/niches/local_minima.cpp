@@ -139,11 +139,11 @@ void LocalMinimaParts::measure(const PairFrame& frame, const LocalMinimaRequest&
   for (std::size_t k = 0; k < result.niches.size(); ++k) {
     const auto niche = static_cast<std::uint32_t>(described[k].judged);
     const double distance = decider.judged()[niche].candidate.distance;
-    if (distance == 0.0) continue;
+    if (request.rule.isAtZero(distance)) continue;
     const double highest = request.rule.measuredLevelOf(distance, request.cutoff);
     const double pass = decider.passOf(frame, niche, highest, wanted, limit);
     if (std::isnan(pass)) return;
-    result.niches[k].prominence = NicheRule::prominenceOf(distance, pass);
+    result.niches[k].prominence = request.rule.prominenceOf(distance, pass);
     result.niches[k].searched = highest;
   }
 }

@@ -38,6 +38,8 @@ Niche toNiche(const PairHeading& heading, const TrackedNiche& niche) {
   message.prominence = niche.prominence;
   message.proven_local_minimum = static_cast<std::uint8_t>(niche.proven_local_minimum);
   message.birth_cycle = niche.birth_cycle;
+  message.has_signed_distance = !std::isnan(niche.signed_distance);
+  message.signed_distance = niche.signed_distance;
   return message;
 }
 
@@ -143,6 +145,7 @@ PairDistance emptyDistance(const PairHeading& heading, const PairStatus& status)
   auto message = headedMessage<PairDistance>(heading, status);
   message.accuracy = toAccuracyCode(heading.accuracy);
   message.distance = message.lower_bound = message.surface_distance = message.closing_speed = kNotComputed;
+  message.signed_distance = kNotComputed;
   message.cost.solve_time = kNotComputed;
   message.point_a = message.point_b = toPoint(Eigen::Vector3d::Constant(kNotComputed));
   message.normal = toVector(Eigen::Vector3d::Constant(kNotComputed));
@@ -173,6 +176,8 @@ PairDistance toDistance(const PairHeading& heading, const PairSolution& solution
   message.lower_bound = solution.lower_bound;
   message.has_surface_distance = !std::isnan(solution.surface_distance);
   message.surface_distance = solution.surface_distance;
+  message.has_signed_distance = !std::isnan(solution.signed_distance);
+  message.signed_distance = solution.signed_distance;
   message.has_meeting_triangles = solution.meeting_triangles.has_value();
   if (solution.meeting_triangles) {
     message.triangle_a = solution.meeting_triangles->a.value;
@@ -249,6 +254,7 @@ BodyInfo toBodyInfo(const SceneBody& body) {
   message.closed = static_cast<std::uint8_t>(body.mesh->topology().allShellsClosed());
   message.in_robot_model = static_cast<std::uint8_t>(body.in_robot_model);
   message.repair = body.repair.summary();
+  message.margin = body.margin;
   return message;
 }
 

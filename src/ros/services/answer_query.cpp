@@ -134,7 +134,7 @@ QueryAnswer answer(const DistanceQuery& query, const Scene& scene, const QueryCo
   const auto found = scene.findPair(query.body_a, query.body_b);
   const PairSettings& settings = found ? scene.pairs[*found].settings : scene.defaults.pairs;
   heading.pair = found ? scene.pairs[*found].name : query.body_a + "/" + query.body_b;
-  TrackerParameters parameters = queryParameters(query, settings.tracker);
+  TrackerParameters parameters = withMargins(queryParameters(query, settings.tracker), body_a, body_b);
   if (query.with_contacts != 0 && !provesDistance(parameters.accuracy)) {
     throw Error("with_contacts",
                 "it is true, but the accuracy is " + std::string(toString(parameters.accuracy)),
