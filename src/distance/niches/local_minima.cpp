@@ -241,6 +241,7 @@ void findLocalMinima(const detail::PairFrame& frame, const LocalMinimaRequest& r
     parts.measure(frame, request, result, limit);
   }
   result.cost.searched_pairs = parts.decider.counts().visited_pairs;
+  if ((!all || !decided) && !limit.hasRefusedMemory()) parts.decider.endCut();
   result.finished = all && decided && !limit.isOver() && limit.hasRefusedMemory() == refused_before;
 }
 
