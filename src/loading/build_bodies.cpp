@@ -94,7 +94,7 @@ std::shared_ptr<const BodyMesh> sharedMesh(const BodySource& source, SurfaceMesh
   const ContentKey key = bodyKey(surfaceKey(surface), options);
   return pool->share(key, [&] {
     auto mesh = std::make_shared<const BodyMesh>(source.name, std::move(surface), options);
-    prepareLargeGrid(*mesh);
+    prepareLargeGrid(mesh->asSolved());
     return mesh;
   });
 }

@@ -22,6 +22,7 @@ namespace concave_distance {
 
 struct BodyMesh::State {
   ContentKey key;
+  detail::PartCache cache;
   MeshTopology topology;
   detail::Trees trees;
   // Made on demand:
@@ -69,14 +70,12 @@ BodyMesh::BodyMesh(std::string name, SurfaceMesh surface, const BodyMeshOptions&
       hierarchy_(&state_->trees.hierarchy) {
   checkBody(name_, surface_, options_);
   if (options_.shape) bounds_.extend(boundingBox(*options_.shape));
-  PreparationCache* cache = options_.cache.get();
-  ContentKey surface_key;
-  if (cache != nullptr) {
-    surface_key = surfaceKey(surface_);
-    state_->key = bodyKey(surface_key, options_);
+  if (options_.cache) {
+    state_->cache = {options_.cache.get(), surfaceKey(surface_)};
+    state_->key = bodyKey(state_->cache.surface_key, options_);
   }
-  runTogether({[&] { state_->topology = detail::topologyOf(surface_, cache, surface_key); },
-               [&] { state_->trees = detail::treesOf(surface_, cache, surface_key); }});
+  runTogether({[&] { state_->topology = detail::topologyOf(surface_, state_->cache); },
+               [&] { state_->trees = detail::treesOf(surface_, state_->cache); }});
 }
 
 // What is attached may refer to the body.
@@ -125,18 +124,18 @@ const RecentredBody& BodyMesh::recentred() const {
 }
 
 const ShellContacts& BodyMesh::shellContacts() const {
-  return state_->shell_contacts.get([&] { return findShellContacts(surface(), topology(), tree()); });
+  return state_->shell_contacts.get(
+      [&] { return detail::shellContactsOf(surface(), topology(), tree(), state_->cache); });
 }
 
 const Facets& BodyMesh::facets() const {
-  return state_->facets.get([&] { return joinFlatTriangles(surface(), topology(), shellContacts().hidden); });
+  return state_->facets.get(
+      [&] { return detail::facetsOf(surface(), topology(), shellContacts().hidden, state_->cache); });
 }
 
 const CompressedRows<AdjacentTriangle>& BodyMesh::adjacency() const {
   return state_->adjacency.get([&] {
-    CompressedRows<AdjacentTriangle> of_triangles = triangleAdjacency(surface(), topology());
-    if (!shellContacts().isEmpty()) of_triangles = joinedAdjacency(surface(), shellContacts(), of_triangles);
-    return facetAdjacency(facets(), of_triangles);
+    return detail::facetAdjacencyOf(surface(), topology(), shellContacts(), facets(), state_->cache);
   });
 }
 
@@ -154,8 +153,18 @@ const HullGap& BodyMesh::hullGap() const {
 
 const NormalConeTree& BodyMesh::normalCones(NormalSides sides) const {
   return state_->cones.at(static_cast<std::size_t>(sides)).get([&] {
-    return NormalConeTree(surface(), topology(), sides, shellContacts());
+    return detail::normalConesOf(surface(), topology(), sides, shellContacts(), state_->cache);
   });
+}
+
+void BodyMesh::prepareNiches(NormalSides sides) const {
+  shellContacts();
+  runTogether({[&] { normalCones(sides); },
+               [&] {
+                 adjacency();
+                 pieces();
+                 hullGap();
+               }});
 }
 
 std::size_t BodyMesh::memoryBytes() const {

@@ -12,6 +12,15 @@ namespace concave_distance {
 template <>
 struct IsPlainData<TriangleTree::Node> : std::true_type {};
 static_assert(sizeof(TriangleTree::Node) == 6 * sizeof(double) + 2 * sizeof(std::uint32_t));
+template <>
+struct IsPlainData<ShellContacts::Joint> : std::true_type {};
+static_assert(sizeof(ShellContacts::Joint) == 6 * sizeof(double) + 2 * sizeof(std::uint32_t));
+template <>
+struct IsPlainData<NormalConeTree::Item> : std::true_type {};
+static_assert(sizeof(NormalConeTree::Item) == 9 * sizeof(double) + 2 * sizeof(std::uint32_t));
+template <>
+struct IsPlainData<NormalConeTree::Subtree> : std::true_type {};
+static_assert(sizeof(NormalConeTree::Subtree) == 4 * sizeof(double));
 
 namespace detail {
 namespace {
@@ -59,9 +68,9 @@ void transferTrees(ArrayFileWriter& writer, const Trees& trees) {
 
 }  // namespace
 
-MeshTopology topologyOf(const SurfaceMesh& surface, PreparationCache* cache, const ContentKey& surface_key) {
+MeshTopology topologyOf(const SurfaceMesh& surface, const PartCache& cache) {
   return fromCache(
-      cache, surface_key, "topology", [&] { return buildMeshTopology(surface); },
+      cache.cache, cache.surface_key, "topology", [&] { return buildMeshTopology(surface); },
       [](auto& file, auto& topology) {
         transferRows(file, topology.triangles_of_vertex);
         transferRows(file, topology.neighbours_of_vertex);
@@ -74,15 +83,56 @@ MeshTopology topologyOf(const SurfaceMesh& surface, PreparationCache* cache, con
       });
 }
 
-Trees treesOf(const SurfaceMesh& surface, PreparationCache* cache, const ContentKey& surface_key) {
+Trees treesOf(const SurfaceMesh& surface, const PartCache& cache) {
   return fromCache(
-      cache, surface_key, "trees",
+      cache.cache, cache.surface_key, "trees",
       [&] {
         Trees trees{TriangleTree(surface), {}};
         trees.hierarchy = BoundingVolumeHierarchy(surface, trees.tree);
         return trees;
       },
       [](auto& file, auto& trees) { transferTrees(file, trees); });
+}
+
+ShellContacts shellContactsOf(const SurfaceMesh& surface, const MeshTopology& topology,
+                              const TriangleTree& tree, const PartCache& cache) {
+  return fromCache(
+      cache.cache, cache.surface_key, "contacts", [&] { return findShellContacts(surface, topology, tree); },
+      [](auto& file, auto& contacts) {
+        file.array(contacts.joints);
+        transferFlags(file, contacts.hidden);
+      });
+}
+
+Facets facetsOf(const SurfaceMesh& surface, const MeshTopology& topology, const std::vector<bool>& hidden,
+                const PartCache& cache) {
+  return fromCache(
+      cache.cache, cache.surface_key, "facets", [&] { return joinFlatTriangles(surface, topology, hidden); },
+      [](auto& file, auto& facets) {
+        file.array(facets.facet_of_triangle);
+        file.array(facets.second);
+        file.array(facets.nodes);
+      });
+}
+
+CompressedRows<AdjacentTriangle> facetAdjacencyOf(const SurfaceMesh& surface, const MeshTopology& topology,
+                                                  const ShellContacts& contacts, const Facets& facets,
+                                                  const PartCache& cache) {
+  const auto make = [&] {
+    CompressedRows<AdjacentTriangle> of_triangles = triangleAdjacency(surface, topology);
+    if (!contacts.isEmpty()) of_triangles = joinedAdjacency(surface, contacts, of_triangles);
+    return facetAdjacency(facets, of_triangles);
+  };
+  return fromCache(cache.cache, cache.surface_key, "adjacency", make,
+                   [](auto& file, auto& rows) { transferRows(file, rows); });
+}
+
+NormalConeTree normalConesOf(const SurfaceMesh& surface, const MeshTopology& topology, NormalSides sides,
+                             const ShellContacts& contacts, const PartCache& cache) {
+  return fromCache(
+      cache.cache, cache.surface_key, sides == NormalSides::Outside ? "cones" : "cones_of_both_sides",
+      [&] { return NormalConeTree(surface, topology, sides, contacts); },
+      [](auto& file, auto& cones) { cones.transfer(file); });
 }
 
 }  // namespace detail

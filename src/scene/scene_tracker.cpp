@@ -13,6 +13,7 @@
 #include "base/helping_threads.h"
 #include "concave_distance/base/error.h"
 #include "concave_distance/search/prepare_search.h"
+#include "niche_preparation.h"
 #include "solver_threads.h"
 #include "solving_order.h"
 
@@ -49,6 +50,9 @@ bool isOfTheSameBodies(const TrackedPair& tracked, const Scene& scene, const Sce
          tracked.body_b.get() == &scene.bodies[wanted.body_b];
 }
 
+/// Triangles of a scene up to which what niches need, some 500 bytes each, is made before anybody asks.
+constexpr std::size_t kMostTrianglesAhead = 1'000'000;
+
 }  // namespace
 
 struct SceneTracker::Arena {
@@ -67,7 +71,9 @@ struct SceneTracker::Turn {
 };
 
 SceneTracker::SceneTracker(SceneTrackerOptions options)
-    : options_(options), arena_(std::make_unique<Arena>(options_.threads)) {}
+    : options_(options), arena_(std::make_unique<Arena>(options_.threads)) {
+  if (options_.prepares_in_background) preparation_ = std::make_unique<NichePreparation>();
+}
 
 SceneTracker::~SceneTracker() = default;
 
@@ -128,6 +134,28 @@ void SceneTracker::setScene(const Scene& scene, bool settings_changed) {
   pairs_ = std::move(next);
   largest_retired_id_ = largest_retired_id;
   body_count_ = scene.bodies.size();
+  prepareAhead(scene);
+}
+
+// Many triangles take much memory: they wait until somebody wants their niches.
+void SceneTracker::prepareAhead(const Scene& scene) {
+  std::size_t triangles = 0;
+  for (const SceneBody& body : scene.bodies) triangles += body.mesh->surface().triangleCount();
+  if (!preparation_ || triangles > kMostTrianglesAhead) return;
+  for (const auto& pair : pairs_) {
+    if (pair->origin->enabled) isPrepared(*pair);
+  }
+}
+
+// Of what is not, the preparation begins. The other levels have no distance without their niches.
+bool SceneTracker::isPrepared(TrackedPair& pair) {
+  const TrackerParameters& parameters = pair.settings.tracker;
+  if (!preparation_ || !provesDistance(parameters.accuracy)) return true;
+  if (!pair.preparation || !pair.preparation->suffices(parameters)) {
+    pair.preparation = std::make_shared<PreparationTask>(pair.body_a->mesh, pair.body_b->mesh, parameters);
+    preparation_->add(pair.preparation);
+  }
+  return pair.preparation->isDone();
 }
 
 SceneTracker::Pairs SceneTracker::takeRetired() {
@@ -200,6 +228,10 @@ void SceneTracker::choosePairs(const std::vector<PairDemand>& demand, const Loca
       continue;
     }
     ++counts.watched;
+    if ((pair.demand.niches || pair.demand.effects) && !isPrepared(pair)) {
+      pair.demand.niches = pair.demand.effects = false;
+      ++counts.unprepared;
+    }
     if (pair.demand.due && pair.locate(locate(index), options_.stop)) to_solve_.push_back(&pair);
   }
 }

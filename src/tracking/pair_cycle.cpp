@@ -435,9 +435,7 @@ void PairCycle::prepare() {
   known_.reserve(kUsualNiches);
   const NormalSides sides = parameters_.keep_through_material ? NormalSides::Both : NormalSides::Outside;
   for (const BodyMesh* body : {a_.get(), b_.get()}) {
-    body->adjacency();
-    body->pieces();
-    if (isExact()) body->normalCones(sides);
+    if (isExact()) body->prepareNiches(sides);
   }
 }
 

@@ -1,9 +1,11 @@
 #include "concave_distance/mesh/preparation_cache.h"
 
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 
@@ -68,7 +70,8 @@ TEST_F(PreparationCacheTest, AHitIsAMissBitForBit) {
   options.cache = std::make_shared<PreparationCache>(cache_folder());
   expectSame(bytesOf(loadBoth()), without, "stored");
   const std::vector<std::string> files = filesIn(cache_folder());
-  EXPECT_EQ(files.size(), 10U);  // of two bodies: surface, topology, trees, nodes, metric
+  // Of two bodies: surface, topology, trees, nodes, metric, contacts, facets, adjacency, cones.
+  EXPECT_EQ(files.size(), 18U);
   expectSame(bytesOf(loadBoth()), without, "found");
   EXPECT_EQ(filesIn(cache_folder()), files);
 }
@@ -143,7 +146,7 @@ TEST_F(PreparationCacheTest, EveryInputThatChangesIsAnotherKey) {
   std::map<std::string, std::string> body_of_file;
   for (const std::string& body : bodies) {
     const std::vector<std::string> files = files_after(body);
-    EXPECT_EQ(files.size(), 5U) << body;
+    EXPECT_EQ(files.size(), 9U) << body;
     for (const std::string& file : files) {
       const std::string ending = std::filesystem::path(file).extension().string();
       if (ending != ".nodes" && ending != ".metric") continue;  // what any input changes
@@ -239,12 +242,30 @@ TEST_F(PreparationCacheTest, AFolderThatCannotBeWrittenIsToldOnceAndStopsNothing
   EXPECT_FALSE(test::hasNote(loadBoth(), "not stored"));
 }
 
+TEST_F(PreparationCacheTest, AFullDiskStopsNothing) {
+  const auto expected = bytesOf(loadBoth("cache: 'off'\n"));
+  // Files may not grow beyond a page, as if the disk had no more room.
+  const auto restore = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit before{};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+  const rlimit small{4096, before.rlim_max};
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
+  const Scene scene = loadBoth();
+  const auto found = bytesOf(scene);
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
+  std::signal(SIGXFSZ, restore);
+  expectSame(found, expected, "full");
+  EXPECT_TRUE(test::hasNote(scene, "not stored"));
+  for (const std::string& file : filesIn(cache_folder())) EXPECT_FALSE(mentions(file, ".tmp")) << file;
+  expectSame(bytesOf(loadBoth()), expected, "afterwards");
+}
+
 TEST_F(PreparationCacheTest, TheSceneFileGoesBeforeTheCaller) {
   bytesOf(loadBoth("cache: 'off'\n"));
   EXPECT_TRUE(filesIn(cache_folder()).empty());
   bytesOf(loadBoth("cache: kept/here\n"));  // from the scene file's folder on
   EXPECT_TRUE(filesIn(cache_folder()).empty());
-  EXPECT_EQ(filesIn(folder.path("kept/here")).size(), 10U);
+  EXPECT_EQ(filesIn(folder.path("kept/here")).size(), 18U);
   EXPECT_TRUE(mentions(refusal("cache: ''\n"), "cache"));
 }
 

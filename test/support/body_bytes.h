@@ -6,8 +6,12 @@
 #include <vector>
 
 #include "concave_distance/mesh/body_mesh.h"
+#include "mesh/surface/facets.h"
 #include "mesh/surface/mesh_topology.h"
+#include "mesh/surface/triangle_adjacency.h"
 #include "mesh/trees/bounding_volume_hierarchy.h"
+#include "mesh/trees/normal_cone_tree.h"
+#include "mesh/trees/shell_contacts.h"
 #include "mesh/trees/triangle_tree.h"
 #include "search/grid/body_grid.h"
 #include "search/grid/mesh_metric.h"
@@ -131,6 +135,28 @@ inline std::map<std::string, Bytes> bytesOf(const BodyMesh& body) {
     appendBytes(grid.nodes().graphNode(NodeIndex{vertex}), nodes);
   }
   appendAll(nodes, grid.nodes().max_edge_length, grid.geodesicExtent(), grid.protrusionSpacing());
+  parts["hidden"] = bytesOf(body.shellContacts().hidden);
+  Bytes& joints = parts["joints"];
+  for (const ShellContacts::Joint& joint : body.shellContacts().joints) {
+    appendAll(joints, joint.first, joint.second, joint.from, joint.to);
+  }
+  parts["facets"] = bytesOf(body.facets().nodes);
+  parts["facets of triangles"] = bytesOf(body.facets().facet_of_triangle);
+  parts["second triangles"] = bytesOf(body.facets().second);
+  parts["adjacent facets"] = bytesOf(body.adjacency().values);
+  parts["first adjacent facets"] = bytesOf(body.adjacency().offsets);
+  const NormalConeTree& cones = body.normalCones(NormalSides::Outside);
+  Bytes& items = parts["normal cones"];
+  for (const NormalConeTree::Item& item : cones.items()) {
+    appendAll(items, item.centre, item.radius, item.cap.axis, item.cap.cosine, item.cap.sine, item.triangle,
+              item.kind, item.element);
+  }
+  parts["groups of cones"] = bytesOf(cones.groups());
+  Bytes& subtrees = parts["subtrees of cones"];
+  for (const NormalConeTree::Subtree& subtree : cones.subtrees()) {
+    appendAll(subtrees, subtree.centre, subtree.arm);
+  }
+  appendAll(subtrees, cones.origin(), cones.unit());
   return parts;
 }
 

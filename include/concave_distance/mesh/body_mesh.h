@@ -112,6 +112,9 @@ class BodyMesh {
   /// Returns the cones that level `certified` finds niches by. They are built at the first call for each of
   /// the two, for all threads; about 450 bytes a triangle.
   const NormalConeTree& normalCones(NormalSides sides) const;
+  /// Makes what the niches of level `certified` need, in parallel: normalCones(sides), adjacency(), pieces()
+  /// and hullGap(). Afterwards none of them is waited for.
+  void prepareNiches(NormalSides sides) const;
 
   /// The grid of the search (BodyGrid); nullptr before its first use.
   const BodyAttachment* attachment() const { return attachment_.load(std::memory_order_acquire); }

@@ -14,6 +14,7 @@ struct CycleCounts {
   std::uint32_t watched = 0;        ///< pairs
   std::uint32_t beyond_cutoff = 0;  ///< pairs
   std::uint32_t not_located = 0;    ///< pairs
+  std::uint32_t unprepared = 0;     ///< pairs whose niches wait for what is made in the background
   std::uint64_t solved = 0;
   std::uint64_t cold = 0;      ///< solves from nothing
   std::uint64_t repeated = 0;  ///< pairs with the input of the cycle before

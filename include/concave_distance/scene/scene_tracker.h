@@ -16,9 +16,14 @@
 
 namespace concave_distance {
 
+class NichePreparation;
+
 struct SceneTrackerOptions {
   std::uint32_t threads = 0;                ///< that solve pairs; 0: one per core, 1: only the caller's
   const std::atomic<bool>* stop = nullptr;  ///< set: a cycle ends without solving the pairs that are left
+  /// What niches need of the bodies is made in the background, from setScene() on; until a pair has it, its
+  /// cycles at level `certified` give the distance alone. false: the first cycle with niches makes it.
+  bool prepares_in_background = false;
 };
 
 /// The end of a cycle without one.
@@ -81,6 +86,8 @@ class SceneTracker {
   struct Arena;
   void choosePairs(const std::vector<PairDemand>& demand, const Locate& locate, CycleCounts& counts);
   void prepareSearches();
+  bool isPrepared(TrackedPair& pair);
+  void prepareAhead(const Scene& scene);
   void solveAll();
   void solve(TrackedPair& pair);
   void solveUntil(WorkLimit::Clock::time_point end);
@@ -92,6 +99,7 @@ class SceneTracker {
 
   SceneTrackerOptions options_;
   std::unique_ptr<Arena> arena_;
+  std::unique_ptr<NichePreparation> preparation_;  ///< nullptr: cycles prepare
   Pairs pairs_;
   Pairs retired_;
   std::size_t body_count_ = 0;            ///< of the scene

@@ -14,6 +14,8 @@
 
 namespace concave_distance {
 
+class PreparationTask;
+
 /// Says what is wanted of a pair in one cycle.
 struct PairDemand {
   bool watched = false;  ///< somebody follows the pair; otherwise it costs nothing and starts cold later
@@ -68,6 +70,7 @@ struct TrackedPair {
   bool put_off = false;          ///< the end of the cycle has left niches or effects of the answer unfinished
   std::uint32_t cycles_put_off = 0;  ///< in a row, since the list was finished or had most of a cycle's time
   double seconds_to_finish = 0.0;    ///< what finish() took when it was last done to the end
+  std::shared_ptr<PreparationTask> preparation;  ///< of its bodies in the background; nullptr: not begun
 
   bool solved() const { return state == PairState::Solved; }
 

@@ -21,4 +21,9 @@ ConvexNiches countConvexNiches(const PairFrame& frame, const NicheRule& rule, do
   return is_contained ? ConvexNiches::None : ConvexNiches::OnlyTheNearest;
 }
 
+bool areConvex(const BodyMesh& a, const BodyMesh& b) {
+  const double least_size = 0.5 * (a.diameter() + b.diameter());
+  return a.hullGap().gap + b.hullGap().gap <= kConvexGap * kTriangleDistanceError * least_size;
+}
+
 }  // namespace concave_distance::detail

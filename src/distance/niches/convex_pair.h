@@ -18,4 +18,8 @@ enum class ConvexNiches : std::uint8_t { Unknown, None, OnlyTheNearest };
 ConvexNiches countConvexNiches(const PairFrame& frame, const NicheRule& rule, double certain_distance,
                                bool is_contained);
 
+/// Returns whether two bodies are so nearly convex that no proven pose leaves their niches Unknown, but for
+/// those that are hidden or through material.
+bool areConvex(const BodyMesh& a, const BodyMesh& b);
+
 }  // namespace concave_distance::detail

@@ -40,6 +40,7 @@ class NormalConeTree {
     TriangleIndex triangle;  ///< one that carries the feature
     Kind kind;
     std::uint8_t element;  ///< vertex: corner of the triangle; edge: from corner `element` to the next
+    std::uint16_t unused = 0;
   };
   static constexpr std::size_t kWidth = 4;
   static constexpr std::uint32_t kNoChild = 0xffffffffU;
@@ -86,7 +87,25 @@ class NormalConeTree {
     return groups_.capacity() * sizeof(Group) + items_.capacity() * sizeof(Item);
   }
 
+  /// Passes all of it to a file that reads or writes (cached_part.h).
+  template <typename File>
+  void transfer(File& file) {
+    transferParts(file, *this);
+  }
+  template <typename File>
+  void transfer(File& file) const {
+    transferParts(file, *this);
+  }
+
  private:
+  template <typename File, typename Tree>
+  static void transferParts(File& file, Tree& tree) {
+    file.value(tree.origin_);
+    file.value(tree.unit_);
+    file.array(tree.groups_);
+    file.array(tree.items_);
+    file.array(tree.subtrees_);
+  }
   void chooseSubtrees();
   Eigen::Vector3d centreOf(Slot slot) const;
 

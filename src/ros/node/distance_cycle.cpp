@@ -10,7 +10,9 @@
 namespace concave_distance {
 
 DistanceCycle::DistanceCycle(const TransformBuffer& transforms, CycleOptions options)
-    : transforms_(transforms), options_(std::move(options)), tracker_({options_.threads, options_.stop}) {}
+    : transforms_(transforms),
+      options_(std::move(options)),
+      tracker_({options_.threads, options_.stop, true}) {}
 
 void DistanceCycle::setScene(const Scene& scene, bool settings_changed) {
   const std::vector<std::optional<std::size_t>> places = tracker_.placesNow(scene);

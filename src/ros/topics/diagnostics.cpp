@@ -65,6 +65,7 @@ void describePairs(const CycleWindow& window, diagnostic_updater::DiagnosticStat
   }
   status.add("pairs watched", window.last.watched);
   status.add("pairs beyond the cutoff", window.last.beyond_cutoff);
+  status.add("pairs whose niches are being prepared", window.last.unprepared);
   status.add("pairs without transforms", window.failing.size());
   for (const CycleCounter& counter : cycleCounters()) status.add(counter.key, window.total.*counter.count);
   for (const auto& counter : SearchCost::counters()) status.add(counter.key, counter.of(window.total.cost));

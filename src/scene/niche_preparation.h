@@ -1,0 +1,61 @@
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "concave_distance/mesh/body_mesh.h"
+#include "concave_distance/tracking/tracker_parameters.h"
+
+namespace concave_distance {
+
+/// What the niches of one pair need of its bodies: facets, neighbours, normal cones and the grid of the
+/// search. Two convex bodies need less (areConvex()), two round solids nothing.
+class PreparationTask {
+ public:
+  PreparationTask(std::shared_ptr<const BodyMesh> a, std::shared_ptr<const BodyMesh> b,
+                  const TrackerParameters& parameters);
+  /// Returns whether it makes all that a pair needs with these parameters.
+  bool suffices(const TrackerParameters& parameters) const;
+  bool isDone() const { return is_done_.load(std::memory_order_acquire); }
+  /// What a part throws is left to the first cycle that needs the part.
+  void run();
+
+ private:
+  void makeParts() const;
+
+  std::shared_ptr<const BodyMesh> a_;
+  std::shared_ptr<const BodyMesh> b_;
+  bool keeps_through_material_;
+  bool lists_hidden_;
+  bool is_searched_;
+  std::atomic<bool> is_done_{false};
+};
+
+/// Runs such tasks on a thread of its own that gives way to others, so that no cycle waits for them.
+class NichePreparation {
+ public:
+  NichePreparation() = default;
+  /// Waits for the task that runs; the others are dropped.
+  ~NichePreparation();
+  NichePreparation(const NichePreparation&) = delete;
+  NichePreparation& operator=(const NichePreparation&) = delete;
+
+  /// Runs a task after those that came before; at once where no thread can be had.
+  void add(std::shared_ptr<PreparationTask> task);
+
+ private:
+  void work();
+
+  std::mutex mutex_;  ///< of the following
+  std::condition_variable added_;
+  std::vector<std::shared_ptr<PreparationTask>> tasks_;  ///< that nobody has begun
+  bool is_ending_ = false;
+  std::thread thread_;  ///< begins with the first task
+};
+
+}  // namespace concave_distance

@@ -1,0 +1,146 @@
+// What niches need of the bodies, made in the background of a scene's cycles.
+#include "scene/niche_preparation.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <thread>
+
+#include "concave_distance/scene/scene_tracker.h"
+#include "mesh/trees/normal_cone_tree.h"
+#include "support/box_scene.h"
+#include "support/bumpy_ball.h"
+
+namespace concave_distance::niche_preparation_test {
+namespace {
+
+using Poses = std::vector<std::optional<Eigen::Isometry3d>>;
+
+Eigen::Isometry3d at(double x) {
+  return Eigen::Isometry3d(Eigen::Translation3d(x, 0.0, 0.0));
+}
+
+SceneBody bumpyBody(const std::string& name, double sag) {
+  SceneBody body;
+  body.name = body.frame = name;
+  body.mesh = std::make_shared<const BodyMesh>(name, test::makeBumpyBall(1.0, sag, 5.0));
+  body.bounds = boundsOf(*body.mesh);
+  return body;
+}
+
+/// Two bodies that take tens of milliseconds to prepare.
+Scene twoBumpyBalls() {
+  Scene scene;
+  scene.bodies.push_back(bumpyBody("a", 1e-3));
+  scene.bodies.push_back(bumpyBody("b", 1.2e-3));
+  ScenePair pair;
+  pair.name = "a/b";
+  pair.body_a = 0;
+  pair.body_b = 1;
+  scene.pairs.push_back(pair);
+  return scene;
+}
+
+Poses posesAt(double time) {
+  return {at(0.0), at(2.5 - 0.1 * time)};
+}
+
+TEST(NichePreparation, UntilItIsDoneACycleGivesTheDistanceAlone) {
+  const Scene scene = twoBumpyBalls();
+  SceneTracker tracker({1, nullptr, true});
+  tracker.setScene(scene);
+  const TrackedPair& pair = *tracker.pairs()[0];
+  PairTracker alone("a/b", scene.bodies[0].mesh, scene.bodies[1].mesh, [] {
+    TrackerParameters parameters;
+    parameters.niches_wanted = false;
+    return parameters;
+  }());
+  PairSolution expected;
+  int waited = 0;
+  double time = 0.0;
+  while (tracker.update(posesAt(time), time).unprepared == 1) {
+    ++waited;
+    EXPECT_FALSE(pair.demand.niches);
+    EXPECT_FALSE(pair.solution.niches_complete);
+    EXPECT_TRUE(pair.solution.niches.empty());
+    EXPECT_EQ(pair.solution.status, SolveStatus::Ok);
+    alone.update(*posesAt(time)[1], time, expected);
+    EXPECT_EQ(pair.solution.distance, expected.distance);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    time += 1e-4;
+    ASSERT_LT(waited, 60'000);
+  }
+  EXPECT_GT(waited, 0);
+  EXPECT_TRUE(pair.solution.niches_complete);
+  const PairSolution once =
+      solveOnce("a/b", scene.bodies[0].mesh, scene.bodies[1].mesh, pair.settings.tracker, *posesAt(time)[1]);
+  ASSERT_EQ(pair.solution.niches.size(), once.niches.size());
+  for (std::size_t k = 0; k < once.niches.size(); ++k) {
+    EXPECT_EQ(pair.solution.niches[k].distance, once.niches[k].distance);
+  }
+}
+
+TEST(NichePreparation, ItBeginsWithTheSceneAndNotWithTheFirstDemand) {
+  const Scene scene = twoBumpyBalls();
+  SceneTracker tracker({1, nullptr, true});
+  tracker.setScene(scene);
+  const TrackedPair& pair = *tracker.pairs()[0];
+  ASSERT_TRUE(pair.preparation);
+  for (int k = 0; !pair.preparation->isDone() && k < 60'000; ++k)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  EXPECT_EQ(tracker.update(posesAt(0.0), 0.0).unprepared, 0U);
+  EXPECT_TRUE(pair.solution.niches_complete);
+}
+
+TEST(NichePreparation, WithoutItTheFirstCycleWaits) {
+  SceneTracker tracker({1, nullptr, false});
+  tracker.setScene(twoBumpyBalls());
+  EXPECT_EQ(tracker.update(posesAt(0.0), 0.0).unprepared, 0U);
+  EXPECT_TRUE(tracker.pairs()[0]->solution.niches_complete);
+}
+
+TEST(NichePreparation, ABodyMayGoWhileItIsPrepared) {
+  std::weak_ptr<const BodyMesh> gone;
+  {
+    SceneTracker tracker({1, nullptr, true});
+    {
+      const Scene scene = twoBumpyBalls();
+      gone = scene.bodies[0].mesh;
+      tracker.setScene(scene);
+      tracker.update(posesAt(0.0), 0.0);
+    }
+    tracker.setScene(Scene());
+    EXPECT_EQ(tracker.update(Poses(), 0.1).watched, 0U);
+    tracker.setScene(threeBoxes());
+    EXPECT_EQ(tracker.update({at(0.0), at(2.0), at(-3.0)}, 0.2).solved, 2U);
+  }
+  EXPECT_TRUE(gone.expired());
+}
+
+TEST(NichePreparation, OtherSettingsNeedMoreOnlyWhereTheySayMore) {
+  const Scene scene = threeBoxes();
+  TrackerParameters parameters;
+  const PreparationTask task(scene.bodies[0].mesh, scene.bodies[1].mesh, parameters);
+  parameters.cutoff = 1.0;
+  EXPECT_TRUE(task.suffices(parameters));
+  parameters.hidden = true;
+  EXPECT_FALSE(task.suffices(parameters));
+  parameters.hidden = false;
+  parameters.keep_through_material = true;
+  EXPECT_FALSE(task.suffices(parameters));
+}
+
+TEST(NichePreparation, ConvexBodiesNeedNoNormalCones) {
+  const Scene boxes = threeBoxes();
+  PreparationTask task(boxes.bodies[0].mesh, boxes.bodies[1].mesh, TrackerParameters());
+  const std::size_t before = boxes.bodies[0].mesh->memoryBytes();
+  task.run();
+  EXPECT_TRUE(task.isDone());
+  const std::size_t without = boxes.bodies[0].mesh->memoryBytes();
+  EXPECT_GT(without, before);
+  boxes.bodies[0].mesh->prepareNiches(NormalSides::Outside);
+  EXPECT_GT(boxes.bodies[0].mesh->memoryBytes(), without);
+}
+
+}  // namespace
+}  // namespace concave_distance::niche_preparation_test
