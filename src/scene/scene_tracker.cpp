@@ -53,6 +53,13 @@ bool isOfTheSameBodies(const TrackedPair& tracked, const Scene& scene, const Sce
 /// Triangles of a scene up to which what niches need, some 500 bytes each, is made before anybody asks.
 constexpr std::size_t kMostTrianglesAhead = 1'000'000;
 
+/// A list that stays unfinished has a cycle of its own in every so many: it leaves no time to those after it.
+constexpr std::uint32_t kCyclesToOwnOne = 4;
+
+bool ownsCycle(const TrackedPair& pair) {
+  return pair.cycles_unfinished % kCyclesToOwnOne == kCyclesToOwnOne - 1;
+}
+
 }  // namespace
 
 struct SceneTracker::Arena {
@@ -301,7 +308,8 @@ void SceneTracker::solveUntil(WorkLimit::Clock::time_point end) {
   turns_.clear();
   for (TrackedPair* pair : to_solve_) {
     const PairSolution& last = pair->solution;
-    turns_.push_back({pair, turns_.size(), {last.distance, last.closing_speed, pair->cycles_put_off}, 0.0});
+    const std::uint32_t waited = std::max(pair->cycles_put_off, ownsCycle(*pair) ? kLongestWait : 0);
+    turns_.push_back({pair, turns_.size(), {last.distance, last.closing_speed, waited}, 0.0});
   }
   sortByUrgency();
   forEachInOrder([&](Turn& turn) {
@@ -323,7 +331,8 @@ void SceneTracker::solveUntil(WorkLimit::Clock::time_point end) {
     TrackedPair& pair = *turn.pair;
     const Clock::time_point now = Clock::now();
     const double left = Seconds(end - now).count();
-    const double own = std::max(0.5 * left, left - turn.seconds_after / threads);
+    const double after = ownsCycle(pair) ? 0.0 : turn.seconds_after / threads;
+    const double own = std::max(0.5 * left, left - after);
     pair.finish(now + std::chrono::duration_cast<Clock::duration>(Seconds(own)));
     const bool had_its_turn = own > 0.0 && own >= 0.5 * all;
     pair.cycles_put_off = pair.put_off && !had_its_turn ? pair.cycles_put_off + 1 : 0;

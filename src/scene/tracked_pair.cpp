@@ -8,6 +8,11 @@
 #include "concave_distance/scene/broad_phase.h"
 
 namespace concave_distance {
+namespace {
+
+constexpr double kLeastExpected = 1e-4;  // s that a pair is expected to take after its first cycles
+
+}  // namespace
 
 TrackedPair::TrackedPair(const Scene& scene, std::size_t index, std::uint64_t first_id)
     : origin(scene.pairs.share(index)),
@@ -73,7 +78,11 @@ void TrackedPair::finish(WorkLimit::Clock::time_point end) {
     put_off = put_off || (left < own && effects.contacts()->cut);
   }
   endSolve();
-  if (!put_off) seconds_to_finish = std::chrono::duration<double>(Clock::now() - start).count();
+  cycles_unfinished = put_off ? cycles_unfinished + 1 : 0;
+  if (put_off) return;
+  // A long one is rarely followed by another.
+  const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  seconds_to_finish = std::min(seconds, std::max(kLeastExpected, 2.0 * seconds_to_finish));
 }
 
 void TrackedPair::endSolve() {
@@ -119,7 +128,7 @@ void TrackedPair::endWithoutAnswer(PairState now) {
   }
   state = now;
   put_off = false;
-  cycles_put_off = 0;
+  cycles_put_off = cycles_unfinished = 0;
 }
 
 bool TrackedPair::needsSearch() const {

@@ -232,9 +232,10 @@ void PairCycle::solveExact(const Passed& passed, PairSolution& solution) {
     niches_.proposeProven(*frame_, provenOnMeshes(), proof_.isPenetrating());
   }
   stage_clock_.lap(SolveStage::Propose, solution.stages);
-  niches_.admit(*frame_, parameters_,
-                {cycle_, last_niches_.pose, passed.elapsed, is_tracked_, cutoffOfMeshes(), convex},
-                certainDistance(), kShareOfNiches, archive_, solution, limit_);
+  niches_.admit(
+      *frame_, parameters_,
+      {cycle_, last_niches_.pose, passed.elapsed, is_tracked_, cutoffOfMeshes(), convex, cycle_ends_first_},
+      certainDistance(), kShareOfNiches, archive_, solution, limit_);
   search_.earn(niches_.evolved(), niches_.work(), parameters_.search_share);
   stage_clock_.lap(SolveStage::Admit, solution.stages);
   solution.stages[SolveStage::Sweep] = niches_.cost().sweep_seconds;

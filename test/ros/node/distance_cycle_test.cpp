@@ -86,7 +86,11 @@ TEST_F(DistanceCycleTest, RepeatsAnAnswerUntilNewTransformsCome) {
 
 TEST_F(DistanceCycleTest, PutsOffNichesAtItsEndAndFinishesThemLater) {
   moveAll(0);
-  EXPECT_EQ(cycle.run({kNiches, kDistance}, at(0), WorkLimit::Clock::time_point()).put_off, 1U);
+  CycleCounts first;
+  do {
+    first = cycle.run({kNiches, kDistance}, at(0), WorkLimit::Clock::now());
+  } while (first.unprepared > 0);
+  EXPECT_EQ(first.put_off, 1U);
   EXPECT_TRUE(tracked(0).put_off);
   EXPECT_FALSE(tracked(0).solution.niches_complete);
   EXPECT_TRUE(tracked(0).solution.niches.empty());
