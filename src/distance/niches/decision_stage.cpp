@@ -11,6 +11,9 @@ namespace {
 
 /// A search that has visited this many facet pairs may be replaced by cheaper tests.
 constexpr std::size_t kLongSearch = 512;
+/// To keep a basin of more facet pairs takes milliseconds that nothing can end. Where there is a deadline, it
+/// is done in the cycle after the search.
+constexpr std::size_t kLargeBasin = 8192;
 
 }  // namespace
 
@@ -175,6 +178,11 @@ void NicheDecider::Stage::search(std::uint32_t i) {
   switch (end) {
     case BasinSearch::End::Enclosed:
       set(i, Decision::Niche);
+      if (i < candidate_count_ && request_.is_tracked && !decider_.suspended_ && limit_.shareOf(1.0) > 0.0 &&
+          search.lookedAt() > kLargeBasin) {
+        suspend(start);
+        break;
+      }
       if (request_.is_tracked && candidate.distance > tolerance_) {
         decider_.judged_[i].basin = basins_.keep(id, i, {candidate.a, candidate.b});
       }
@@ -226,7 +234,9 @@ void NicheDecider::Stage::resumeSearch() {
   const BasinSearch::End end =
       search.proceed(earlier, std::numeric_limits<std::size_t>::max(), meets, is_inside, limit_);
   decider_.counts_.visited_pairs += static_cast<std::uint32_t>(search.lookedAt() - before);
-  if (end == BasinSearch::End::Cut) {
+  const bool is_kept_later = end == BasinSearch::End::Enclosed && limit_.shareOf(1.0) > 0.0 &&
+                             search.lookedAt() > std::max(before, kLargeBasin);
+  if (end == BasinSearch::End::Cut || is_kept_later) {
     set(i, Decision::Undecided);
     if (limit_.hasRefusedMemory()) decider_.suspended_.reset();
     return;
