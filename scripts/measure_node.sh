@@ -1,14 +1,15 @@
 #!/usr/bin/env bash
 # Measures the node on moving scenes and writes the figures to doc/results/node_timing.txt.
-#   scripts/measure_node.sh [--seconds N] [--output FILE] [--prefix COMMAND] [--wait-idle] [scenes]
+#   scripts/measure_node.sh [--seconds N] [--output FILE] [--prefix COMMAND] [--wait-idle] [--cycle-budget S] [scenes]
 # Scenes: pair: the battery in its fixture, one pair, poses and cycles at 500 Hz, its distance alone and with all niches;
 # oversampled: four cycles a pose, for the latency; robot: the arm in the shelf, 35 pairs, poses and cycles at 50 Hz;
-# robot_all: the same without the cutoff, so that all 35 pairs are solved in every cycle; pairs_168 and pairs_768: Atlas and
-# DRC-Hubo of Debian's dart-doc with that many pairs, every joint moving, first with a subscriber of distances alone, then
-# with one of markers beside it, as rviz is. All but the last two by default, 60 s each. --prefix "chrt -f 20" runs the node
+# robot_all: the same without the cutoff, so that all 35 pairs are solved in every cycle; cell: the arm among boxes, 50 Hz;
+# pairs_168 and pairs_768: Atlas and DRC-Hubo of Debian's dart-doc with that many pairs, every joint moving, first with a
+# subscriber of distances alone, then
+# with one of markers beside it, as rviz is. All but the last three by default, 60 s each. --prefix "chrt -f 20" runs the node
 # with real-time priority (needs the right to), which keeps other programs' load out of the figures. --wait-idle begins each
 # measurement when the machine has been idle for three seconds (how idle it was during one is printed). Needs a finished
-# build (scripts/build.sh all). How to read the figures: test/ros/timing/node_timing.cpp.
+# build (scripts/build.sh all). --cycle-budget is the node's ~cycle_budget. How to read the figures: test/ros/timing/node_timing.cpp.
 set -euo pipefail
 # shellcheck source=scripts/common.sh
 . "$(dirname "${BASH_SOURCE[0]}")/common.sh"
@@ -18,6 +19,7 @@ seconds=60
 output="$package_dir/doc/results/node_timing.txt"
 prefix=
 wait_idle=
+cycle_budget=auto
 scenes=()
 while [ $# -gt 0 ]; do
   case "$1" in
@@ -25,8 +27,9 @@ while [ $# -gt 0 ]; do
     --output) output="${2:?--output needs a file}" && shift ;;
     --prefix) prefix="${2:?--prefix needs a command}" && shift ;;
     --wait-idle) wait_idle=1 ;;
-    pair | oversampled | robot | robot_all | pairs_168 | pairs_768) scenes+=("$1") ;;
-    *) die "unknown argument '$1': expected pair, oversampled, robot, robot_all, pairs_168, pairs_768, --seconds N, --output FILE, --prefix COMMAND or --wait-idle" ;;
+    --cycle-budget) cycle_budget="${2:?--cycle-budget needs seconds, auto, or 0 for cycles without an end}" && shift ;;
+    pair | oversampled | robot | robot_all | cell | pairs_168 | pairs_768) scenes+=("$1") ;;
+    *) die "unknown argument '$1': expected pair, oversampled, robot, robot_all, cell, pairs_168, pairs_768, --seconds N, --output FILE, --prefix COMMAND, --wait-idle or --cycle-budget S" ;;
   esac
   shift
 done
@@ -96,7 +99,7 @@ measure_robot() { # <URDF> <pairs>
 }
 
 exec > >(tee "$output")
-echo "# scripts/measure_node.sh --seconds $seconds ${wait_idle:+--wait-idle }${prefix:+--prefix \"$prefix\" }${scenes[*]}"
+echo "# scripts/measure_node.sh --seconds $seconds --cycle-budget $cycle_budget ${wait_idle:+--wait-idle }${prefix:+--prefix \"$prefix\" }${scenes[*]}"
 echo "# $(nproc) cores of $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1), $(uname -s) $(uname -r), release build"
 echo
 for scene in "${scenes[@]}"; do
@@ -108,9 +111,10 @@ for scene in "${scenes[@]}"; do
     oversampled)
       measure "one pair, poses at 500 Hz, cycles at 2000 Hz" distances -1 insertion.launch rate:=2000 pose_rate:=500
       ;;
-    robot) measure "robot scene at 50 Hz" niches -1 robot.launch rate:=50 pose_rate:=50 ;;
+    robot) measure "robot scene at 50 Hz" niches -1 robot.launch rate:=50 pose_rate:=50 cycle_budget:="$cycle_budget" ;;
+    cell) measure "cell at 50 Hz" niches -1 cell.launch rate:=50 pose_rate:=50 cycle_budget:="$cycle_budget" ;;
     robot_all)
-      measure "robot scene at 50 Hz, no cutoff: all 35 pairs solved" niches 1000 robot.launch rate:=50 pose_rate:=50
+      measure "robot scene at 50 Hz, no cutoff: all 35 pairs solved" niches 1000 robot.launch rate:=50 pose_rate:=50 cycle_budget:="$cycle_budget"
       ;;
     pairs_168) measure_robot "$robots/sdf/atlas/atlas_v3_no_head.urdf" 168 ;;
     pairs_768) measure_robot "$robots/urdf/drchubo/drchubo.urdf" 768 ;;

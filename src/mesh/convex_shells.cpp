@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 /// A gap within this share of the diameter is rounding: that of a plane through three corners (64 units).
-constexpr double kRounding = 0x1.0p-46;
+constexpr double kConvexGapShare = 0x1.0p-46;
 
 /// Divides a surface into closed ones. Where two solids of one shell share an edge, those triangles go on
 /// into each other that bend least without a dent: a part with another one is found not to be convex.
@@ -144,7 +144,7 @@ ConvexShells findConvexShells(const BodyMesh& body) {
   for (std::uint32_t part = 0; part < count; ++part) {
     found.shells.push_back(shellOf(body, divided, part));
     const BodyMesh& mesh = *found.shells.back().mesh;
-    if (!(mesh.hullGap().gap <= kRounding * mesh.diameter())) return {};
+    if (!(mesh.hullGap().gap <= kConvexGapShare * mesh.diameter())) return {};
   }
   return found;
 }

@@ -1,12 +1,18 @@
 #include "concave_distance/scene/tracked_pair.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <utility>
 
 #include "concave_distance/scene/broad_phase.h"
 
 namespace concave_distance {
+namespace {
+
+constexpr double kLeastExpected = 1e-4;  // s that a pair is expected to take after its first cycles
+
+}  // namespace
 
 TrackedPair::TrackedPair(const Scene& scene, std::size_t index, std::uint64_t first_id)
     : origin(scene.pairs.share(index)),
@@ -50,15 +56,50 @@ bool TrackedPair::locate(const PairInput& next, const std::atomic<bool>* stop) {
 
 void TrackedPair::solve() {
   tracker_->update(input.a_from_b, input.time, solution);
-  if (effects.contacts() != nullptr) updateEffects();
+  put_off = false;
+  if (effects.contacts() != nullptr) updateEffects(remainingWork(settings.tracker, solution.solve_seconds));
+  endSolve();
+}
+
+void TrackedPair::prove(WorkLimit::Clock::time_point cycle_end) {
+  needs_niches_ = tracker_->prove(input.a_from_b, input.time, solution, cycle_end);
+  is_proof_cut_ = solution.status == SolveStatus::BudgetExhausted && !(WorkLimit::Clock::now() < cycle_end);
+}
+
+void TrackedPair::finish(WorkLimit::Clock::time_point end) {
+  using Clock = WorkLimit::Clock;
+  const Clock::time_point start = Clock::now();
+  put_off = is_proof_cut_;
+  if (needs_niches_ && start < end) {
+    put_off = !tracker_->addNiches(solution, end) || put_off;
+  } else if (needs_niches_) {
+    tracker_->putOffNiches(solution);
+    put_off = true;
+  }
+  if (effects.contacts() != nullptr) {
+    const double own = settings.tracker.time_budget - solution.solve_seconds;
+    const Clock::time_point now = Clock::now();
+    const double left = std::chrono::duration<double>(end - now).count();
+    updateEffects(left < own ? WorkLimit(now, left, settings.tracker.memory_limit, settings.tracker.stop)
+                             : remainingWork(settings.tracker, solution.solve_seconds));
+    put_off = put_off || (left < own && effects.contacts()->cut);
+  }
+  endSolve();
+  cycles_unfinished = put_off ? cycles_unfinished + 1 : 0;
+  if (put_off) return;
+  // A long one is rarely followed by another.
+  const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  seconds_to_finish = std::min(seconds, std::max(kLeastExpected, 2.0 * seconds_to_finish));
+}
+
+void TrackedPair::endSolve() {
   solved_input_ = input;
   state = PairState::Solved;
-  must_solve_ = false;
+  must_solve_ = put_off;
   for (const TrackedNiche& niche : solution.niches) largest_id = std::max(largest_id, niche.id);
 }
 
-void TrackedPair::updateEffects() {
-  WorkLimit limit = remainingWork(settings.tracker, solution.solve_seconds);
+void TrackedPair::updateEffects(WorkLimit limit) {
   const double step = input.step.value_or(input.time - solved_input_.time);
   effects.update(solution, step, input.b_in_a, limit);
 }
@@ -93,6 +134,8 @@ void TrackedPair::endWithoutAnswer(PairState now) {
     effects.forgetAnswer();
   }
   state = now;
+  put_off = false;
+  cycles_put_off = cycles_unfinished = 0;
 }
 
 bool TrackedPair::needsSearch() const {

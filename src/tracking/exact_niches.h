@@ -27,6 +27,7 @@ class ExactNiches {
     bool is_tracked;                  ///< a next cycle uses what this one finds
     double cutoff;                    ///< metres, of the niches of the meshes
     detail::ConvexNiches convex;      ///< OnlyTheNearest: the last of proposeProven()
+    bool catches_up;                  ///< a list that comes late is better than a part of it now
   };
 
   /// Returns whether nothing can have changed since the last admit().

@@ -27,8 +27,12 @@ constexpr double kShareOfProof = 0.4;
 constexpr double kShareOfSearch = 0.55;
 constexpr double kShareOfNiches = 0.95;
 
-double seconds(std::chrono::steady_clock::duration duration) {
+double seconds(WorkLimit::Clock::duration duration) {
   return std::chrono::duration<double>(duration).count();
+}
+
+double secondsSince(WorkLimit::Clock::time_point start) {
+  return seconds(WorkLimit::Clock::now() - start);
 }
 
 }  // namespace
@@ -48,33 +52,125 @@ PairCycle::PairCycle(std::string name, std::shared_ptr<const BodyMesh> a, std::s
 }
 
 void PairCycle::update(const Eigen::Isometry3d& pose, double time, PairSolution& solution, bool is_tracked) {
-  const auto start = std::chrono::steady_clock::now();
-  const auto since_start = [start] { return seconds(std::chrono::steady_clock::now() - start); };
+  const auto start = WorkLimit::Clock::now();
   limit_ = WorkLimit(start, parameters_.time_budget, parameters_.memory_limit, parameters_.stop);
+  cycle_ends_first_ = false;
+  if (begin(pose, time, solution, is_tracked)) {
+    if (proves()) {
+      limit_.allowShare(wantsNiches() ? kShareOfProof : 1.0);
+      prove(solution);
+    }
+    if (wantsNiches()) findNiches(solution);
+    report(solution);
+    end(solution);
+  }
+  solution.solve_seconds = secondsSince(start);
+}
+
+bool PairCycle::prove(const Eigen::Isometry3d& pose, double time, PairSolution& solution,
+                      WorkLimit::Clock::time_point cycle_end) {
+  const auto start = WorkLimit::Clock::now();
+  const double own = (wantsNiches() ? kShareOfProof : 1.0) * parameters_.time_budget;
+  const double left = seconds(cycle_end - start);
+  cycle_ends_first_ = left < own;
+  limit_ = WorkLimit(start, std::min(own, left), parameters_.memory_limit, parameters_.stop);
+  if (cycle_ends_first_ && !was_cut_) limit_.expectEnough();
+  bool is_to_go_on = begin(pose, time, solution, true);
+  if (is_to_go_on) {
+    if (proves()) prove(solution);
+    is_proof_cut_ = limit_.hasRefused();
+    is_to_go_on = wantsNiches();
+    if (proves()) reportAlone(solution);
+    if (!is_to_go_on) {
+      was_cut_ = is_proof_cut_;
+      reportCompleteness(solution);
+      end(solution);
+    }
+  }
+  solution.solve_seconds = secondsSince(start);
+  return is_to_go_on;
+}
+
+bool PairCycle::addNiches(PairSolution& solution, WorkLimit::Clock::time_point cycle_end) {
+  const auto start = WorkLimit::Clock::now();
+  const double own = parameters_.time_budget - solution.solve_seconds;
+  const double left = seconds(cycle_end - start);
+  cycle_ends_first_ = left < own;
+  limit_ = cycle_ends_first_ ? WorkLimit(start, left, parameters_.memory_limit, parameters_.stop)
+                             : remainingWork(parameters_, solution.solve_seconds);
+  if (cycle_ends_first_ && !was_cut_) limit_.expectEnough();
+  limit_.setTaken(memoryBytes());
+  beginSecondHalf(solution);
+  findNiches(solution);
+  report(solution);
+  end(solution);
+  solution.solve_seconds += secondsSince(start);
+  was_cut_ = cycle_ends_first_ && limit_.hasRefusedTime();
+  return !was_cut_;
+}
+
+void PairCycle::putOffNiches(PairSolution& solution) {
+  const auto start = WorkLimit::Clock::now();
+  if (!proves()) {
+    addNiches(solution, start);  // its distance is that of the niches
+    return;
+  }
+  beginSecondHalf(solution);
+  carried_.clear();
+  carried_.reserve(niches().capacity());
+  for (const NicheRecord& record : niches()) {
+    if (!record.reported) continue;
+    carried_.push_back(record);
+    carryRecord(carried_.back(), *frame_);
+    carried_.back().niche.origin = NicheOrigin::Inherited;
+  }
+  std::sort(carried_.begin(), carried_.end(), [](const NicheRecord& l, const NicheRecord& r) {
+    if (l.niche.distance != r.niche.distance) return l.niche.distance < r.niche.distance;
+    return l.niche.id < r.niche.id;
+  });
+  listNiches(carried_, solution);
+  reportAlone(solution);
+  const Moment last_niches = last_niches_;
+  end(solution);
+  last_niches_ = last_niches;
+  solution.solve_seconds += secondsSince(start);
+}
+
+// The answer of the first half is in the frame that A was modelled in, and is given again.
+void PairCycle::beginSecondHalf(PairSolution& solution) {
+  const StageTimes stages = solution.stages;
+  clear(solution);
+  solution.stages = stages;
+  stage_clock_.start();
+}
+
+// Takes what both halves of a cycle need. Returns false for a pose that is not rigid.
+bool PairCycle::begin(const Eigen::Isometry3d& pose, double time, PairSolution& solution, bool is_tracked) {
   limit_.setTaken(memoryBytes());
   is_tracked_ = is_tracked;
+  is_proof_cut_ = false;
   clear(solution);
   solution.a_from_b = pose;
   const std::optional<Eigen::Isometry3d> rigid = rigidPose(pose);
   if (!rigid) {
     solution.status = SolveStatus::InvalidPose;
-    solution.solve_seconds = since_start();
-    return;
+    return false;
   }
   frame_.emplace(*a_, *b_, *rigid);
   stage_clock_.start();
-  const Moment now{*rigid, time, true};
-  const Passed since_cycle = passed(last_cycle_, now);
-  const Passed since_niches = passed(last_niches_, now);
-  runStages(since_cycle, since_niches, solution);
-  report(wantsNiches() ? since_niches : since_cycle, solution);
+  now_ = {*rigid, time, true};
+  since_cycle_ = passed(last_cycle_, now_);
+  since_niches_ = passed(last_niches_, now_);
+  return true;
+}
+
+void PairCycle::end(PairSolution& solution) {
   stage_clock_.lap(SolveStage::Describe, solution.stages);
-  last_cycle_ = now;
+  last_cycle_ = now_;
   if (wantsNiches()) last_niches_ = last_cycle_;
   last_distance_ = solution.distance;
   padSolution(parameters_, solution);
   ++cycle_;
-  solution.solve_seconds = since_start();
 }
 
 PairCycle::Passed PairCycle::passed(const Moment& before, const Moment& now) const {
@@ -88,31 +184,25 @@ void PairCycle::solve(const Eigen::Isometry3d& pose, PairSolution& solution) {
   restart();
 }
 
-// Distance alone skips all but the proof.
-void PairCycle::runStages(const Passed& since_cycle, const Passed& since_niches, PairSolution& solution) {
-  if (proves()) {
-    limit_.allowShare(wantsNiches() ? kShareOfProof : 1.0);
-    prove(since_cycle.displacement);
-    stage_clock_.lap(SolveStage::Prove, solution.stages);
-  }
-  if (!wantsNiches()) return;
+void PairCycle::findNiches(PairSolution& solution) {
   if (isRound()) {
-    solveRound(since_niches, solution);
+    solveRound(since_niches_, solution);
   } else if (isExact()) {
-    solveExact(since_niches, solution);
+    solveExact(since_niches_, solution);
   } else {
-    solveNodes(since_niches, solution);
+    solveNodes(since_niches_, solution);
   }
 }
 
-void PairCycle::prove(double displacement) {
+void PairCycle::prove(PairSolution& solution) {
   std::optional<TrianglePair> nearest;
   if (wantsNiches() && !niches().empty()) {
     const WitnessPair& witness = niches().front().niche.witness;
     nearest = TrianglePair{witness.triangle_a, witness.triangle_b};
   }
-  distance_before_ = isWarm() ? proof_.certificate().distance : kNotComputed;
-  proof_.prove(*frame_, parameters_, nearest, displacement, limit_);
+  distance_before_ = last_cycle_.known ? proof_.certificate().distance : kNotComputed;
+  proof_.prove(*frame_, parameters_, nearest, since_cycle_.displacement, limit_);
+  stage_clock_.lap(SolveStage::Prove, solution.stages);
 }
 
 void PairCycle::solveNodes(const Passed& passed, PairSolution& solution) {
@@ -144,9 +234,10 @@ void PairCycle::solveExact(const Passed& passed, PairSolution& solution) {
     niches_.proposeProven(*frame_, provenOnMeshes(), proof_.isPenetrating());
   }
   stage_clock_.lap(SolveStage::Propose, solution.stages);
-  niches_.admit(*frame_, parameters_,
-                {cycle_, last_niches_.pose, passed.elapsed, is_tracked_, cutoffOfMeshes(), convex},
-                certainDistance(), kShareOfNiches, archive_, solution, limit_);
+  niches_.admit(
+      *frame_, parameters_,
+      {cycle_, last_niches_.pose, passed.elapsed, is_tracked_, cutoffOfMeshes(), convex, cycle_ends_first_},
+      certainDistance(), kShareOfNiches, archive_, solution, limit_);
   search_.earn(niches_.evolved(), niches_.work(), parameters_.search_share);
   stage_clock_.lap(SolveStage::Admit, solution.stages);
   solution.stages[SolveStage::Sweep] = niches_.cost().sweep_seconds;
@@ -206,16 +297,19 @@ double PairCycle::certainDistance() const {
   return proof_.certificate().lower_bound - proof_.error();
 }
 
-void PairCycle::report(const Passed& passed, PairSolution& solution) {
+void PairCycle::report(PairSolution& solution) {
   limit_.allowShare(1.0);
-  if (!wantsNiches()) return reportAlone(passed.elapsed, solution);
-  listNiches(solution);
+  if (!wantsNiches()) {
+    reportAlone(solution);
+    return reportCompleteness(solution);
+  }
+  listNiches(niches(), solution);
   if (proves()) {
     proof_.report(solution);
   } else {
     reportNearest(solution);
   }
-  reportMiss(passed.displacement, solution);
+  reportMiss(since_niches_.displacement, solution);
   if (!solution.niches.empty() && solution.niches.front().distance == solution.distance) {
     solution.normal_in_a = solution.niches.front().normal_in_a;
     solution.closing_speed = solution.niches.front().closing_speed;
@@ -223,19 +317,17 @@ void PairCycle::report(const Passed& passed, PairSolution& solution) {
   reportCompleteness(solution);
 }
 
-void PairCycle::reportAlone(double elapsed, PairSolution& solution) {
+void PairCycle::reportAlone(PairSolution& solution) {
   proof_.report(solution);
-  if (!proof_.isSwallowed() || parameters_.keep_through_material) {
-    NicheRecord nearest;
-    placeRecord(nearest, *frame_, proof_.certificate().witness);
-    solution.normal_in_a = nearest.niche.normal_in_a;
-    if (elapsed > 0.0) solution.closing_speed = (distance_before_ - proof_.certificate().distance) / elapsed;
-  }
-  reportCompleteness(solution);
+  if (proof_.isSwallowed() && !parameters_.keep_through_material) return;
+  NicheRecord nearest;
+  placeRecord(nearest, *frame_, proof_.certificate().witness);
+  solution.normal_in_a = nearest.niche.normal_in_a;
+  const double elapsed = since_cycle_.elapsed;
+  if (elapsed > 0.0) solution.closing_speed = (distance_before_ - proof_.certificate().distance) / elapsed;
 }
 
-void PairCycle::listNiches(PairSolution& solution) {
-  std::vector<NicheRecord>& records = niches();
+void PairCycle::listNiches(std::vector<NicheRecord>& records, PairSolution& solution) {
   if (!records.empty()) {
     records.front().niche.prominence = std::numeric_limits<double>::infinity();
   }
@@ -306,11 +398,14 @@ void PairCycle::reportMiss(double displacement, PairSolution& solution) const {
   solution.search_miss = solution.distance < last_distance_ - displacement - rounding;
 }
 
-// After the limit the answer is incomplete, even with a finished proof.
+// After the limit the answer is incomplete, even with a finished proof. Where the cycle ended before the
+// pair's own budget, a proof that is finished is an answer in time.
 void PairCycle::reportCompleteness(PairSolution& solution) const {
-  const bool all = (niches_.isFinished() || isPairOfShapes()) && !limit_.hasRefused();
+  const bool is_cut = is_proof_cut_ || limit_.hasRefused();
+  const bool all = (niches_.isFinished() || isPairOfShapes()) && !is_cut;
   solution.niches_complete = proves() && parameters_.niches_wanted && all && !solution.niches_cut;
   if (!limit_.hasRefused() || solution.status == SolveStatus::Penetrating) return;
+  if (cycle_ends_first_ && proves() && !limit_.hasRefusedMemory()) return;
   solution.status = limit_.hasRefusedTime() ? SolveStatus::BudgetExhausted : SolveStatus::MemoryExhausted;
 }
 
@@ -355,6 +450,7 @@ void PairCycle::reset() {
   niches_.clear();
   search_.restart();
   last_cycle_.known = last_niches_.known = false;
+  was_cut_ = true;
 }
 
 void PairCycle::restart() {
@@ -379,7 +475,7 @@ void PairCycle::setParameters(const TrackerParameters& parameters) {
 std::size_t PairCycle::memoryBytes() const {
   return sizeof(PairCycle) + archive_.records().capacity() * sizeof(NicheRecord) +
          known_.capacity() * sizeof(TrialPoint) + proof_.memoryBytes() + niches_.memoryBytes() +
-         search_.memoryBytes() + round_.memoryBytes();
+         search_.memoryBytes() + round_.memoryBytes() + carried_.capacity() * sizeof(NicheRecord);
 }
 
 }  // namespace concave_distance

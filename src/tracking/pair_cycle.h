@@ -27,6 +27,11 @@ class PairCycle {
 
   /// @param is_tracked a next cycle uses what this one finds
   void update(const Eigen::Isometry3d& pose, double time, PairSolution& solution, bool is_tracked = true);
+  /// Implement the functions of PairTracker with these names.
+  bool prove(const Eigen::Isometry3d& pose, double time, PairSolution& solution,
+             WorkLimit::Clock::time_point cycle_end);
+  bool addNiches(PairSolution& solution, WorkLimit::Clock::time_point cycle_end);
+  void putOffNiches(PairSolution& solution);
   /// Solves at one pose alone.
   void solve(const Eigen::Isometry3d& pose, PairSolution& solution);
   /// Makes what the first cycle would make otherwise.
@@ -53,27 +58,30 @@ class PairCycle {
   };
   Passed passed(const Moment& before, const Moment& now) const;
 
-  void runStages(const Passed& since_cycle, const Passed& since_niches, PairSolution& solution);
+  bool begin(const Eigen::Isometry3d& pose, double time, PairSolution& solution, bool is_tracked);
+  void beginSecondHalf(PairSolution& solution);
+  void end(PairSolution& solution);
+  void findNiches(PairSolution& solution);
   void solveNodes(const Passed& passed, PairSolution& solution);
   void solveExact(const Passed& passed, PairSolution& solution);
   void solveRound(const Passed& passed, PairSolution& solution);
   WitnessPair provenOnMeshes();
   double cutoffOfMeshes() const;
-  void prove(double displacement);
+  void prove(PairSolution& solution);
   void propose(SearchCost& cost);
   detail::ConvexNiches countConvexNiches() const;
   bool searchIsDue() const;
   double certainDistance() const;
-  void report(const Passed& passed, PairSolution& solution);
-  void reportAlone(double elapsed, PairSolution& solution);
+  void report(PairSolution& solution);
+  void reportAlone(PairSolution& solution);
   void reportNearest(PairSolution& solution);
   void reportMiss(double displacement, PairSolution& solution) const;
   void reportCompleteness(PairSolution& solution) const;
-  void listNiches(PairSolution& solution);
+  void listNiches(std::vector<NicheRecord>& records, PairSolution& solution);
   void clear(PairSolution& solution) const;
   bool proves() const { return provesDistance(parameters_.accuracy); }
   bool isExact() const { return parameters_.accuracy != AccuracyLevel::Nodes; }
-  bool isWarm() const { return last_cycle_.known; }
+  bool isWarm() const { return wantsNiches() ? last_niches_.known : last_cycle_.known; }
   bool wantsNiches() const { return !proves() || parameters_.niches_wanted; }
   /// At the exact levels the solids count, at `nodes` their meshes.
   bool isRound() const { return isExact() && (a_->shape() != nullptr || b_->shape() != nullptr); }
@@ -97,6 +105,13 @@ class PairCycle {
   std::uint64_t cycle_ = 0;
   bool is_tracked_ = true;  ///< of the present cycle
   bool is_search_prepared_ = false;
+  bool cycle_ends_first_ = false;     ///< before the pair's own time budget
+  bool is_proof_cut_ = false;         ///< in the first half of the present cycle
+  bool was_cut_ = true;               ///< by the end of a cycle, when it last had time; or it never had
+  std::vector<NicheRecord> carried_;  ///< of putOffNiches()
+  Moment now_;
+  Passed since_cycle_{};   ///< at now_
+  Passed since_niches_{};  ///< at now_
   Moment last_cycle_;
   Moment last_niches_;  ///< the last cycle that wanted niches
   double last_distance_ = kNotComputed;

@@ -34,6 +34,11 @@ struct PairTracker::State {
     if (pose) bodies.moveBack(a_from_b, solution);
   }
 
+  /// Moves a solution whose pose is known to be rigid.
+  void moveBack(PairSolution& solution) const {
+    if (bodies.isMoved()) bodies.moveBack(Eigen::Isometry3d(solution.a_from_b), solution);
+  }
+
   RecentredPair bodies;
   PairCycle cycle;
 };
@@ -57,6 +62,29 @@ void PairTracker::update(const Eigen::Isometry3d& a_from_b, double time, PairSol
   State& state = this->state();
   state.solveRecentred(a_from_b, solution,
                        [&](const Eigen::Isometry3d& pose) { state.cycle.update(pose, time, solution); });
+}
+
+bool PairTracker::prove(const Eigen::Isometry3d& a_from_b, double time, PairSolution& solution,
+                        WorkLimit::Clock::time_point cycle_end) {
+  State& state = this->state();
+  bool is_to_go_on = false;
+  state.solveRecentred(a_from_b, solution, [&](const Eigen::Isometry3d& pose) {
+    is_to_go_on = state.cycle.prove(pose, time, solution, cycle_end);
+  });
+  return is_to_go_on;
+}
+
+bool PairTracker::addNiches(PairSolution& solution, WorkLimit::Clock::time_point cycle_end) {
+  State& state = this->state();
+  const bool is_done = state.cycle.addNiches(solution, cycle_end);
+  state.moveBack(solution);
+  return is_done;
+}
+
+void PairTracker::putOffNiches(PairSolution& solution) {
+  State& state = this->state();
+  state.cycle.putOffNiches(solution);
+  state.moveBack(solution);
 }
 
 void PairTracker::solve(const Eigen::Isometry3d& a_from_b, PairSolution& solution) {

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <cmath>
 #include <optional>
 #include <vector>
@@ -127,14 +128,20 @@ TEST(SceneTrackerAllocation, AWarmCycleOfAllPairsAllocatesNothing) {
   tracker.setScene(scene);
   std::vector<std::optional<Eigen::Isometry3d>> poses(3, Eigen::Isometry3d::Identity());
   poses[2]->translation().x() = -3.0;
-  const auto move = [&](int cycle) {
-    poses[1]->translation() = Eigen::Vector3d(2.0, 0.3 * std::sin(0.05 * cycle), 0.0);
-    tracker.update(poses, 0.01 * cycle);
-  };
-  for (int cycle = 0; cycle < 1000; ++cycle) move(cycle);
-  const std::size_t before = allocations.load();
-  for (int cycle = 1000; cycle < 1100; ++cycle) move(cycle);
-  EXPECT_EQ(allocations.load() - before, 0U);
+  // Without an end, with one that is not reached, and with niches put off in every other cycle.
+  for (const int mode : {0, 1, 2}) {
+    const auto move = [&](int cycle) {
+      using Clock = WorkLimit::Clock;
+      poses[1]->translation() = Eigen::Vector3d(2.0, 0.3 * std::sin(0.05 * cycle), 0.0);
+      Clock::time_point end = mode == 0 ? kNoCycleEnd : Clock::now() + std::chrono::hours(1);
+      if (mode == 2 && cycle % 2 == 0) end = Clock::now();
+      tracker.update(poses, 0.01 * cycle, {true, true, true, false}, end);
+    };
+    for (int cycle = 0; cycle < 1000; ++cycle) move(cycle);
+    const std::size_t before = allocations.load();
+    for (int cycle = 1000; cycle < 1100; ++cycle) move(cycle);
+    EXPECT_EQ(allocations.load() - before, 0U) << "mode " << mode;
+  }
 }
 
 }  // namespace

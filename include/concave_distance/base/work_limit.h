@@ -91,7 +91,11 @@ class WorkLimit {
     return part;
   }
 
-  bool isTimed() const { return is_timed_; }
+  /// Says that the time is likely to suffice. The deadline holds, but isTimed() is false: stages take the
+  /// order that is fastest when nothing ends them.
+  void expectEnough() { expects_enough_ = true; }
+  /// Returns whether to be ready for an end at any moment.
+  bool isTimed() const { return is_timed_ && !expects_enough_; }
   /// Returns `seconds` as a share of the whole time; 0 without a deadline.
   double shareOf(double seconds) const { return seconds_ < kLongest ? seconds / seconds_ : 0.0; }
   /// Returns whether anything was refused, so that the results are incomplete.
@@ -112,6 +116,7 @@ class WorkLimit {
   std::size_t taken_ = 0;
   std::uint32_t until_look_ = 0;
   bool is_timed_ = false;
+  bool expects_enough_ = false;
   bool is_over_ = false;
   bool time_refused_ = false;
   bool memory_refused_ = false;

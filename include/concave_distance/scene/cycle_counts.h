@@ -19,6 +19,7 @@ struct CycleCounts {
   std::uint64_t cold = 0;      ///< solves from nothing
   std::uint64_t repeated = 0;  ///< pairs with the input of the cycle before
   std::uint64_t search_misses = 0;
+  std::uint64_t put_off = 0;   ///< lists or effects that the end of the cycle left unfinished
   std::uint64_t unproven = 0;  ///< solves at `certified` that a limit ended before the proof
   std::array<std::uint64_t, kNicheOriginCount> niches{};  ///< listed, by NicheOrigin
   SearchCost cost;                                        ///< of all solves
@@ -46,12 +47,13 @@ struct CycleCounter {
 inline const auto& cycleCounters() {
   using Solution = const PairSolution&;
   using Number = std::uint64_t;
-  static constexpr std::array<CycleCounter, 5> kCounters{{
+  static constexpr std::array<CycleCounter, 6> kCounters{{
       {"solves", &CycleCounts::solved, [](Solution) { return Number{1}; }},
       {"cold solves", &CycleCounts::cold, [](Solution pair) { return Number{pair.warm ? 0U : 1U}; }},
       {"answers repeated without new transforms", &CycleCounts::repeated, nullptr},
       {"search misses", &CycleCounts::search_misses,
        [](Solution pair) { return Number{pair.search_miss ? 1U : 0U}; }},
+      {"lists put off to the next cycle", &CycleCounts::put_off, nullptr},
       {"solves that ended unproven", &CycleCounts::unproven,
        [](Solution pair) {
          return Number{

@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "concave_distance/base/work_limit.h"
 #include "concave_distance/scene/cycle_counts.h"
 #include "concave_distance/scene/scene.h"
 #include "concave_distance/scene/tracked_pair.h"
@@ -24,6 +25,9 @@ struct SceneTrackerOptions {
   /// cycles at level `certified` give the distance alone. false: the first cycle with niches makes it.
   bool prepares_in_background = false;
 };
+
+/// The end of a cycle without one.
+inline constexpr WorkLimit::Clock::time_point kNoCycleEnd = WorkLimit::Clock::time_point::max();
 
 /// Tracks every pair of a scene: leaves out what is beyond its cutoff, solves the rest in parallel and
 /// compares the distances with the warning distances. One thread at a time.
@@ -53,14 +57,20 @@ class SceneTracker {
   /// @param demand of each pair
   /// @throws Error for another number of poses than the scene has bodies
   CycleCounts update(const std::vector<std::optional<Eigen::Isometry3d>>& world_from_body, double time,
-                     const PairDemand& demand = {true, true, true, false});
+                     const PairDemand& demand = {true, true, true, false},
+                     WorkLimit::Clock::time_point end = kNoCycleEnd);
 
   /// One cycle. @param demand one per pair, in their order. A pair that is not watched costs nothing and
   /// starts cold when it is watched again; one that is watched but not due keeps its state. What belongs to a
   /// disabled pair is ignored.
+  /// @param end of the cycle. First the distance of each pair is proven, then niches and effects are added,
+  /// in the order of doc/parameters.md ("A cycle has an end"). What there is no time for is put off
+  /// (TrackedPair::put_off): the distance is proven, its status says so, niches_complete is false, and later
+  /// cycles go on with the list. Answers then depend on the clock. Without an end, one seed gives one answer.
   /// @throws Error for another number of demands than pairs
   /// After a cycle that threw, all pairs start cold.
-  CycleCounts update(const std::vector<PairDemand>& demand, const Locate& locate);
+  CycleCounts update(const std::vector<PairDemand>& demand, const Locate& locate,
+                     WorkLimit::Clock::time_point end = kNoCycleEnd);
 
   /// Every pair, or the one at this place in scene.pairs, starts cold in its next cycle. @throws Error when
   /// there is no such place
@@ -80,6 +90,11 @@ class SceneTracker {
   void prepareAhead(const Scene& scene);
   void solveAll();
   void solve(TrackedPair& pair);
+  void solveUntil(WorkLimit::Clock::time_point end);
+  template <typename Act>
+  void forEachInOrder(const Act& act);
+  void sortByUrgency();
+  bool isStopped() const { return options_.stop != nullptr && *options_.stop; }
   void count(CycleCounts& counts) const;
 
   SceneTrackerOptions options_;
@@ -92,6 +107,8 @@ class SceneTracker {
   bool interrupted_ = false;              ///< the last cycle threw, or the running one has not ended
   std::vector<TrackedPair*> to_solve_;
   std::vector<const BodyMesh*> to_prepare_;
+  struct Turn;
+  std::vector<Turn> turns_;  ///< of the pairs to solve, in a cycle with an end
   std::vector<PairDemand> demand_;
 };
 

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 
+#include "concave_distance/base/work_limit.h"
 #include "concave_distance/scene/scene.h"
 #include "concave_distance/scene/tracked_effects.h"
 #include "concave_distance/scene/warning_monitor.h"
@@ -64,8 +65,12 @@ struct TrackedPair {
   PairSolution solution;            ///< with Solved; otherwise NaN and empty, as not computed
   TrackedEffects effects;
   WarningMonitor warning;
-  bool warning_changed = false;                  ///< in this cycle
-  std::uint64_t largest_id = 0;                  ///< of a niche reported so far
+  bool warning_changed = false;  ///< in this cycle
+  std::uint64_t largest_id = 0;  ///< of a niche reported so far
+  bool put_off = false;          ///< the end of the cycle has left niches or effects of the answer unfinished
+  std::uint32_t cycles_put_off = 0;  ///< in a row, since the list was finished or had most of a cycle's time
+  std::uint32_t cycles_unfinished = 0;  ///< in a row, since the list was finished
+  double seconds_to_finish = 0.0;  ///< that finish() is expected to take, by those that were done to the end
   std::shared_ptr<PreparationTask> preparation;  ///< of its bodies in the background; nullptr: not begun
 
   bool solved() const { return state == PairState::Solved; }
@@ -76,6 +81,11 @@ struct TrackedPair {
   bool locate(const PairInput& next, const std::atomic<bool>* stop);
   /// Distance, niches and effects at the input.
   void solve();
+  /// The halves of solve() in a cycle with an end: the proven distance, then, for every pair of which that is
+  /// done, the rest, with what there is time for.
+  void prove(WorkLimit::Clock::time_point cycle_end);
+  /// @param end when this pair has to be done; where that is past, niches are put off
+  void finish(WorkLimit::Clock::time_point end);
   /// Compares the answer with the warning distance.
   void watchWarning();
   /// A grid and metric will be needed that the bodies may not have yet.
@@ -99,13 +109,16 @@ struct TrackedPair {
  private:
   void takeSettings();
   void prepare(const std::atomic<bool>* stop);
-  void updateEffects();
+  void updateEffects(WorkLimit limit);
+  void endSolve();
   void endWithoutAnswer(PairState now);
 
   std::unique_ptr<PairTracker> tracker_;  ///< made when the pair is first watched
   bool stale_parameters_ = false;         ///< the tracker has to be given the settings again
   bool must_solve_ = true;                ///< even when the input is the last one
   PairInput solved_input_;
+  bool needs_niches_ = false;  ///< between prove() and finish(), as the next
+  bool is_proof_cut_ = false;  ///< by the end of the cycle
 };
 
 }  // namespace concave_distance

@@ -2,7 +2,6 @@
 
 #include "mesh/convex_shells.h"
 #include "niche_properties.h"
-#include "plateau_tolerance.h"
 
 namespace concave_distance::detail {
 namespace {

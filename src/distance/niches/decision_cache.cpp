@@ -5,7 +5,7 @@
 namespace concave_distance::detail {
 namespace {
 
-/// Cycles that a path is kept without being used.
+/// Cycles that a path, and while cycles are cut a basin, is kept without being used.
 constexpr std::uint64_t kKeptCycles = 64;
 /// Facet pairs that are kept without being looked through.
 constexpr std::size_t kSmallTable = 256;
@@ -22,12 +22,17 @@ void DecisionCache::clear() {
   free_basins_.clear();
   boundaries_.clear();
   live_facet_pairs_ = 0;
+  was_cut_ = false;
 }
 
 void DecisionCache::beginCycle(bool is_tracked) {
   for (std::uint32_t i = 0; i < basins_.size(); ++i) {
-    if (basins_[i].id != 0 && !basins_[i].confirmed) drop(i);
+    KeptBasin& basin = basins_[i];
+    if (basin.confirmed) basin.used = cycle_;
+    const bool is_kept = basin.confirmed || (was_cut_ && basin.used + kKeptCycles > cycle_);
+    if (basin.id != 0 && !is_kept) drop(i);
   }
+  was_cut_ = false;
   compact();
   if (is_tracked) {
     facet_pairs_.reserve(kSmallTable);

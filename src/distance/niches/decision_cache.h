@@ -42,6 +42,7 @@ class DecisionCache {
     std::uint64_t id = 0;         ///< 0: free; else its place in the list is the lower half
     std::uint32_t first = kNone;  ///< candidate of this cycle
     bool confirmed = false;       ///< in this cycle
+    std::uint64_t used = 0;       ///< the last cycle that confirmed it
     BasinBoundary boundary;
     std::uint32_t members = kNone;  ///< first of its memberships
     std::size_t facet_pairs = 0;
@@ -51,6 +52,9 @@ class DecisionCache {
   void clear();
   /// Drops what was of no use at the last pose and forgets its candidates.
   void beginCycle(bool is_tracked);
+  /// Says that the time of this cycle did not suffice to use all that is kept: the next one drops only basins
+  /// that many cycles have not used.
+  void endCut() { was_cut_ = true; }
 
   /// Returns the number of a facet pair, made where there is none; kNone without memory.
   std::uint32_t facetPairOf(TriangleIndex a, TriangleIndex b, WorkLimit& limit);
@@ -115,6 +119,7 @@ class DecisionCache {
   std::vector<std::uint32_t> free_basins_;
   std::uint64_t basins_made_ = 0;
   std::uint64_t cycle_ = 0;
+  bool was_cut_ = false;              ///< the last cycle
   std::size_t live_facet_pairs_ = 0;  ///< after the last compaction
   // Buffers of a compaction.
   std::vector<char> live_;

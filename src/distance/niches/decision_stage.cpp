@@ -10,6 +10,9 @@ namespace {
 
 /// A search that has visited this many facet pairs may be replaced by cheaper tests.
 constexpr std::size_t kLongSearch = 512;
+/// To keep a basin of more facet pairs takes milliseconds that nothing can end. Where there is a deadline, it
+/// is done in the cycle after the search.
+constexpr std::size_t kLargeBasin = 8192;
 
 }  // namespace
 
@@ -78,6 +81,7 @@ void NicheDecider::Stage::decideByMemory() {
 }
 
 void NicheDecider::Stage::decideBySearches() {
+  resumeSearch();
   if (limit_.isTimed()) searchInTurn();
   std::size_t niches = 0;
   for (std::uint32_t& i = decider_.next_; i < decider_.end_ && niches < request_.most_niches; ++i) {
@@ -173,6 +177,11 @@ void NicheDecider::Stage::search(std::uint32_t i) {
   switch (end) {
     case BasinSearch::End::Enclosed:
       set(i, Decision::Niche);
+      if (i < candidate_count_ && request_.is_tracked && !decider_.suspended_ && limit_.shareOf(1.0) > 0.0 &&
+          search.lookedAt() > kLargeBasin) {
+        suspend(start);
+        break;
+      }
       if (request_.is_tracked && candidate.distance > tolerance_) {
         decider_.judged_[i].basin = basins_.keep(id, i, {candidate.a, candidate.b});
       }
@@ -195,7 +204,66 @@ void NicheDecider::Stage::search(std::uint32_t i) {
       break;
     default:
       set(i, Decision::Undecided);
+      if (i < candidate_count_ && request_.is_tracked) suspend(start);
       break;
+  }
+}
+
+void NicheDecider::Stage::suspend(const TrianglePair& start) {
+  if (decider_.search_.lookedAt() < kLongSearch || limit_.hasRefusedMemory()) return;
+  std::swap(decider_.search_, decider_.suspended_search_);
+  decider_.suspended_.emplace(Suspended{start, frame_});
+}
+
+void NicheDecider::Stage::resumeSearch() {
+  if (!decider_.suspended_) return;
+  const TrianglePair start = decider_.suspended_->start;
+  const std::uint32_t i = memory_.candidateIn(start.a, start.b);
+  // It may come again where this pose's candidates are not all known.
+  if (i == kNone || i < decider_.next_ || i >= decider_.end_) return;
+  if (decider_.judged_[i].decision != Decision::Open) {
+    decider_.suspended_.reset();
+    return;
+  }
+  const PairFrame earlier = decider_.suspended_->frame;
+  BasinSearch& search = decider_.suspended_search_;
+  const std::size_t before = search.lookedAt();
+  const auto meets = [&](TriangleIndex a, TriangleIndex b) { return isOfEarlier(a, b, i); };
+  const auto is_inside = [](TriangleIndex, TriangleIndex) { return false; };
+  const BasinSearch::End end =
+      search.proceed(earlier, std::numeric_limits<std::size_t>::max(), meets, is_inside, limit_);
+  decider_.counts_.visited_pairs += static_cast<std::uint32_t>(search.lookedAt() - before);
+  const bool is_kept_later = end == BasinSearch::End::Enclosed && limit_.shareOf(1.0) > 0.0 &&
+                             search.lookedAt() > std::max(before, kLargeBasin);
+  if (end == BasinSearch::End::Cut || is_kept_later) {
+    set(i, Decision::Undecided);
+    if (limit_.hasRefusedMemory()) decider_.suspended_.reset();
+    return;
+  }
+  decider_.suspended_.reset();
+  std::swap(decider_.search_, search);
+  if (end == BasinSearch::End::Enclosed) {
+    keepBasinOf(earlier, i);
+  } else {
+    const BasinSearch::FacetPair& last = decider_.search_.facet_pairs()[decider_.search_.last()];
+    const std::uint32_t number = memory_.facetPairOf(start.a, start.b, limit_);
+    if (number == kNone) return;
+    paths_.keepPath(decider_.search_, number);
+    if (end == BasinSearch::End::Below) paths_.keepLow({last.a, last.b});
+  }
+  decideByMemory(i);
+}
+
+void NicheDecider::Stage::keepBasinOf(const PairFrame& earlier, std::uint32_t i) {
+  const MinimumCandidate& candidate = decider_.judged_[i].candidate;
+  DecisionBasins basins(memory_, decider_.search_, earlier, decider_.counts_, limit_);
+  if (!(candidate.distance > tolerance_)) return;
+  const std::uint32_t known = memory_.basinWith(basins.keep(0, i, {candidate.a, candidate.b}));
+  if (known == kNone) return;
+  // The search has met no earlier candidate where they were then; now one may be inside.
+  for (const BasinSearch::FacetPair& facet_pair : decider_.search_.facet_pairs()) {
+    memory_.basin(known).first =
+        std::min(memory_.basin(known).first, memory_.candidateIn(facet_pair.a, facet_pair.b));
   }
 }
 

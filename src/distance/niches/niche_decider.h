@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "basin_search.h"
@@ -66,6 +67,9 @@ class NicheDecider {
   void judgeByMemory(const PairFrame& frame, const Request& request, WorkLimit& limit);
   /// Judges those that judgeByMemory() has left open.
   void judgeBySearches(const PairFrame& frame, const Request& request, WorkLimit& limit);
+  /// Says that time has ended this pose's judging: what proves decisions is kept for the next one even where
+  /// it was not used. A long search goes on there by itself.
+  void endCut() { memory_.endCut(); }
   bool hasJudgedAll() const { return next_ >= candidate_count_; }
   /// Judges all of them, until there are Request::most_niches.
   void judge(const PairFrame& frame, std::vector<MinimumCandidate>& candidates, const Request& request,
@@ -90,12 +94,20 @@ class NicheDecider {
 
  private:
   class Stage;
+  /// A search that time has ended: it goes on at the pose where it began, and what it finds is looked at anew
+  /// at the present one.
+  struct Suspended {
+    TrianglePair start;  ///< facet pair
+    PairFrame frame;
+  };
   /// Follows the ripples downhill from `index` and returns the candidate at which the path ends.
   std::uint32_t endOf(std::uint32_t index) const;
   std::uint32_t nicheOf(std::uint32_t index) const;
 
   DecisionCache memory_;
   BasinSearch search_;
+  std::optional<Suspended> suspended_;
+  BasinSearch suspended_search_;
   BoundedPathBuffers path_;
   RefinementWorkspace refinement_;
   std::vector<Judged> judged_;

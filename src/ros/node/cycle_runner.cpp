@@ -3,16 +3,24 @@
 #include <ros/console.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <string>
 #include <utility>
 
 #include "base/helping_threads.h"
+#include "node_parameters.h"
 #include "ros/callback_guard.h"
 #include "ros/time_difference.h"
 
 namespace concave_distance {
 namespace {
+
+WorkLimit::Clock::time_point endOfCycle(WorkLimit::Clock::time_point start, double seconds) {
+  if (!std::isfinite(seconds)) return kNoCycleEnd;
+  return start +
+         std::chrono::duration_cast<WorkLimit::Clock::duration>(std::chrono::duration<double>(seconds));
+}
 
 // A marker lives for this many marker periods, but never shorter than the seconds below.
 constexpr double kMarkerPeriods = 5.0;
@@ -35,11 +43,13 @@ std::vector<std::string> failingPairs(const PublishedPairs& pairs) {
 }  // namespace
 
 CycleRunner::CycleRunner(TransformBuffer& transforms, SceneStore& keeper, TopicPublishers& publishers,
-                         RestartRequests& restarts, const CycleOptions& options)
+                         RestartRequests& restarts, const CycleOptions& options,
+                         const std::optional<double>& cycle_budget)
     : transforms_(transforms),
       keeper_(keeper),
       publishers_(publishers),
       restarts_(restarts),
+      cycle_budget_(cycle_budget),
       cycle_(transforms, options),
       timer_([this](std::int64_t due) {
         if (!guarded("A cycle", [&] { runTimedCycle(due); })) statistics_.addFailure();
@@ -64,11 +74,12 @@ void CycleRunner::setMarkers(bool publish, bool contacts) {
 
 void CycleRunner::runTimedCycle(std::int64_t due) {
   const std::int64_t cpu_start = threadCpuNanoseconds();
+  const WorkLimit::Clock::time_point cycle_start = WorkLimit::Clock::now();
   const ros::WallTime start = ros::WallTime::now();
   statistics_.begin(start.toSec());
   const ros::Time now = ros::Time::now();
   checkClock(now);
-  CycleRecord record = runCycle(now);
+  CycleRecord record = runCycle(now, cycle_start);
   record.duration = (ros::WallTime::now() - start).toSec();
   record.cpu =
       1e-9 * static_cast<double>(threadCpuNanoseconds() - cpu_start) + record.report.helper_cpu_seconds;
@@ -115,7 +126,7 @@ bool CycleRunner::adoptScene() {
   return scene_changed;
 }
 
-CycleRecord CycleRunner::runCycle(ros::Time now) {
+CycleRecord CycleRunner::runCycle(ros::Time now, WorkLimit::Clock::time_point start) {
   const bool scene_changed = adoptScene();
   const double marker_rate = std::min<double>(marker_rate_, rate_);
   const bool marker_cycle = cycles_until_markers_ == 0;
@@ -130,7 +141,7 @@ CycleRecord CycleRunner::runCycle(ros::Time now) {
   if (std::exchange(was_idle_, idle) && idle && !scene_changed) {
     return record;
   }
-  record.report = cycle_.run(demand_, now);
+  record.report = cycle_.run(demand_, now, endOfCycle(start, cycleBudget(cycle_budget_, rate_)));
   const PublishReport published = publishers_.publish(
       *served_, cycle_.pairs(), std::max(kMarkerPeriods / marker_rate, kShortestMarkerLife), now);
   record.latency = published.latency;

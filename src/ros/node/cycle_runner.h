@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "cycle_timer.h"
@@ -21,7 +22,8 @@ namespace concave_distance {
 class CycleRunner {
  public:
   CycleRunner(TransformBuffer& transforms, SceneStore& keeper, TopicPublishers& publishers,
-              RestartRequests& restarts, const CycleOptions& options);
+              RestartRequests& restarts, const CycleOptions& options,
+              const std::optional<double>& cycle_budget);
   CycleRunner(const CycleRunner&) = delete;
   CycleRunner& operator=(const CycleRunner&) = delete;
 
@@ -40,13 +42,15 @@ class CycleRunner {
   /// A clock that jumps back (a bag that starts over, a simulation that is reset) invalidates every transform
   /// and every warm state.
   void checkClock(ros::Time now);
-  CycleRecord runCycle(ros::Time now);
+  /// @param start of the cycle
+  CycleRecord runCycle(ros::Time now, WorkLimit::Clock::time_point start);
 
   TransformBuffer& transforms_;
   SceneStore& keeper_;
   TopicPublishers& publishers_;
   RestartRequests& restarts_;
   CycleStatistics statistics_;
+  std::optional<double> cycle_budget_;  ///< s, as NodeParameters::cycle_budget
   std::atomic<double> rate_{50.0};
   std::atomic<double> marker_rate_{20.0};
   std::atomic<bool> publish_markers_{true};

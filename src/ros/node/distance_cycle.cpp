@@ -46,12 +46,13 @@ PublishedPairs DistanceCycle::takeRetired() {
   return std::exchange(retired_, {});
 }
 
-CycleCounts DistanceCycle::run(const std::vector<PairDemand>& demand, ros::Time now) {
+CycleCounts DistanceCycle::run(const std::vector<PairDemand>& demand, ros::Time now,
+                               WorkLimit::Clock::time_point end) {
   was_watched_.clear();
   for (const auto& pair : pairs_) was_watched_.push_back(pair->demand().watched);
   const std::shared_ptr<const tf2::BufferCore> buffer = transforms_.current();
   const auto locate_pair = [&](std::size_t index) { return locate(*pairs_[index], *buffer, now); };
-  const CycleCounts counts = tracker_.update(demand, std::cref(locate_pair));
+  const CycleCounts counts = tracker_.update(demand, std::cref(locate_pair), end);
   for (std::size_t index = 0; index < pairs_.size(); ++index) describe(*pairs_[index], was_watched_[index]);
   return counts;
 }

@@ -30,7 +30,8 @@ class DistanceCycle {
   /// As SceneTracker::setScene.
   void setScene(const Scene& scene, bool settings_changed = true);
   /// As SceneTracker::update, at the newest transforms.
-  CycleCounts run(const std::vector<PairDemand>& demand, ros::Time now);
+  CycleCounts run(const std::vector<PairDemand>& demand, ros::Time now,
+                  WorkLimit::Clock::time_point end = kNoCycleEnd);
 
   /// Every pair, or the one at this place in scene.pairs, starts cold in its next cycle.
   void restart() { tracker_.restart(); }

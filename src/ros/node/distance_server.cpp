@@ -71,7 +71,8 @@ DistanceServer::DistanceServer(const ros::NodeHandle& node, const ros::NodeHandl
                       rosPackagePath, parameters_.mesh_access),
       runner_(transforms_, keeper_, publishers_, restarts_,
               {parameters_.reference_frame, parameters_.stale_after, parameters_.threads,
-               &service_queues_.gate().stopped(), true}),
+               &service_queues_.gate().stopped(), true},
+              parameters_.cycle_budget),
       // The updater would read ~diagnostic_period unchecked; in this namespace it finds none.
       updater_(node, ros::NodeHandle(private_node, "diagnostic_updater"), std::move(name)),
       body_markers_(private_node_.advertise<visualization_msgs::MarkerArray>("body_markers", 1, true)) {
@@ -274,6 +275,7 @@ void DistanceServer::onReconfigure(ConcaveDistanceConfig& config, std::uint32_t 
   settings_were_written_ = true;  // as soon as this returns
   try {
     checkConfig(config);
+    cycleBudget(parameters_.cycle_budget, config.rate);
     if (concernsPairs(before, config)) {
       keeper_.changeSettings([&](PairSettings& settings) { applyRequest(before, config, settings); });
     }

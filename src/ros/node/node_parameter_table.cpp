@@ -65,6 +65,15 @@ ParameterTable<N> ofTheCycle() {
           .from(0.1)
           .to(2000.0)
           .atRunTime(),
+      optionalNumber<N>(
+          "cycle_budget", "auto", [](auto& n) -> auto& { return n.cycle_budget; },
+          "time from the start of a cycle after which niches and effects that are not finished are put off "
+          "to "
+          "later ones ([a cycle has an end](#a-cycle-has-an-end)), at most the period; 0: no end; `auto`: "
+          "0.8 "
+          "of the period")
+          .inUnit("s")
+          .to(10.0),
       count<N>(
           "threads", [](auto& n) -> auto& { return n.threads; },
           "threads that solve pairs, and long pairs together, in one cycle; 0: one per core (also the "

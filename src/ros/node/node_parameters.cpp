@@ -1,6 +1,7 @@
 #include "node_parameters.h"
 
 #include <filesystem>
+#include <limits>
 #include <sstream>
 #include <utility>
 
@@ -57,6 +58,9 @@ void readExperts(ParameterReader& reader, PairSettings& pair) {
   reader.adoptUnread(experts, "expert/");
 }
 
+// Of the period, so that what follows the solves (messages, markers) ends before the next cycle is due.
+constexpr double kUsualBudget = 0.8;
+
 void checkMarkers(const MarkerStyle& style) {
   if (style.far != 0.0 && style.far <= style.near) {
     throw Error("~marker_far", "the value is " + toText(style.far),
@@ -85,6 +89,19 @@ MeshImportLimits importLimits(const NodeLimits& limits) {
 
 }  // namespace
 
+double cycleBudget(const std::optional<double>& budget, double rate) {
+  const double period = 1.0 / rate;
+  if (!budget) return kUsualBudget * period;
+  if (*budget == 0.0) return std::numeric_limits<double>::infinity();
+  if (*budget > period) {
+    throw Error("~cycle_budget",
+                "it is " + toText(*budget) + " s, longer than the period of " + toText(period) +
+                    " s (~rate " + toText(rate) + ")",
+                "set at most the period, auto (0.8 of it), 0 for cycles without an end, or a lower ~rate");
+  }
+  return *budget;
+}
+
 NodeParameters parseNodeParameters(XmlRpc::XmlRpcValue values, std::vector<std::string>& unknown) {
   ParameterReader reader(std::move(values), "~");
   refuseRenamed(reader);
@@ -100,6 +117,7 @@ NodeParameters parseNodeParameters(XmlRpc::XmlRpcValue values, std::vector<std::
   reader.read(pairParameters(), false, parameters.pair);
   readExperts(reader, parameters.pair);
   checkMarkers(parameters.marker);
+  cycleBudget(parameters.cycle_budget, parameters.rate);
   ParameterReader limits = reader.group("limits");
   limits.read(limitParameters(), false, parameters.limits);
   reader.adoptUnread(limits, "limits/");

@@ -28,8 +28,11 @@ struct NodeParameters {
   std::string cache;         ///< folder of prepared bodies; empty: the user's, "off": none
   /// Services may read mesh files below these; no value: every package and the scene file's folder.
   std::optional<std::vector<std::string>> mesh_roots;
-  MeshAccess mesh_access;            ///< of bodies that services add, from the former and the limits
-  double rate = 50.0;                ///< cycles per second
+  MeshAccess mesh_access;  ///< of bodies that services add, from the former and the limits
+  double rate = 50.0;      ///< cycles per second
+  /// Seconds from the start of a cycle after which niches are left for later ones; 0: no end, no value: the
+  /// usual share of the period.
+  std::optional<double> cycle_budget;
   double marker_rate = 20.0;         ///< marker messages per second, at most `rate`
   std::uint32_t threads = 0;         ///< that solve pairs in one cycle; 0: one per core
   double transform_timeout = 0.2;    ///< s that a service waits for a transform
@@ -47,6 +50,10 @@ struct NodeParameters {
   double diagnostic_period = 1.0;  ///< s
   NodeLimits limits;
 };
+
+/// Returns the seconds that a cycle at this rate (Hz) may take: infinite without an end.
+/// @throws Error for a budget longer than the period
+double cycleBudget(const std::optional<double>& budget, double rate);
 
 /// @param values the node's private namespace as a struct, as ros::NodeHandle::getParam("") gives it; an
 ///        invalid value (nothing set) counts as empty

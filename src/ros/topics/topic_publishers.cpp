@@ -185,7 +185,7 @@ PublishReport TopicPublishers::publish(const ServedScene& served, const Publishe
   if (markers_due_) {
     report.markers = static_cast<std::uint32_t>(publishMarkers(served, pairs, marker_lifetime, now));
   }
-  publishLists(now);
+  publishLists(pairs, now);
   const ros::Time end = ros::Time::now();
   for (const auto& pair : pairs) {
     if (pair->demand().due && pair->tracked->solved() && !pair->tracked->repeated &&
@@ -258,7 +258,7 @@ void TopicPublishers::publishNearest(const PublishedPairs& pairs, ros::Time now)
   nearest_.publish(message);
 }
 
-void TopicPublishers::publishLists(ros::Time now) {
+void TopicPublishers::publishLists(const PublishedPairs& pairs, ros::Time now) {
   if (distances_wanted_) {
     auto message = boost::make_shared<Distances>();
     message->header = commonHeader(messages_, now, reference_frame_);
@@ -272,6 +272,8 @@ void TopicPublishers::publishLists(ros::Time now) {
     auto message = boost::make_shared<Niches>();
     message->header = commonHeader(messages_, now, reference_frame_);
     message->pairs = std::move(messages_);
+    message->pairs_put_off = static_cast<std::uint32_t>(
+        std::count_if(pairs.begin(), pairs.end(), [](const auto& pair) { return pair->tracked->put_off; }));
     niches_.publish(message);
   }
 }

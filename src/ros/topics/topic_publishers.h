@@ -77,7 +77,7 @@ class TopicPublishers {
   /// @return how many markers
   std::size_t publishMarkers(const ServedScene& served, const PublishedPairs& pairs, double lifetime,
                              ros::Time now);
-  void publishLists(ros::Time now);
+  void publishLists(const PublishedPairs& pairs, ros::Time now);
   void publishNearest(const PublishedPairs& pairs, ros::Time now);
   void publishContacts(const ServedScene& served, const PublishedPairs& pairs, ros::Time now);
 

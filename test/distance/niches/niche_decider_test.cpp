@@ -210,6 +210,71 @@ TEST(NicheDecider, AreRightAgainAfterALimitHasEndedThem) {
   EXPECT_TRUE(was_undecided);
 }
 
+// An open sheet over a square of side 2 * half (m).
+template <typename HeightAt>
+SurfaceMesh makeSheet(std::uint32_t count, double half, bool faces_up, const HeightAt& height_at) {
+  std::vector<Vector3d> vertices;
+  std::vector<TriangleNodes> triangles;
+  const auto place = [&](std::uint32_t k) { return half * (2.0 * k / count - 1.0); };
+  const auto node = [&](std::uint32_t i, std::uint32_t j) { return NodeIndex{i * (count + 1) + j}; };
+  for (std::uint32_t i = 0; i <= count; ++i) {
+    for (std::uint32_t j = 0; j <= count; ++j) {
+      vertices.emplace_back(place(i), place(j), height_at(place(i), place(j)));
+      if (i == count || j == count) continue;
+      triangles.push_back({node(i, j), node(i + 1, j), node(i + 1, j + 1)});
+      triangles.push_back({node(i, j), node(i + 1, j + 1), node(i, j + 1)});
+    }
+  }
+  if (!faces_up) {
+    for (TriangleNodes& triangle : triangles) std::swap(triangle[1], triangle[2]);
+  }
+  return SurfaceMesh(std::move(vertices), std::move(triangles), "sheet");
+}
+
+// Two flat hills below a flat bowl: the basin of each has thousands of facet pairs, and no cycle has the time
+// for one of them.
+TEST(NicheDecider, FinishALongSearchInLaterCyclesThoughEachIsCut) {
+  const Body hills = makeBody(makeSheet(72, 0.5, true, [](double x, double y) {
+    return 0.05 * std::sin(9.42 * x) - 0.3 * y * y - (x < 0.0 ? 0.002 : 0.0);
+  }));
+  const Body bowl =
+      makeBody(makeSheet(72, 0.6, false, [](double x, double y) { return 0.1 * (x * x + y * y); }));
+  const auto pose_at = [](int cycle) {
+    Isometry3d pose(Eigen::AngleAxisd(0.01 + 1e-5 * cycle, Vector3d(1, 2, 2) / 3.0));
+    pose.pretranslate(Vector3d(0.01 + 1e-5 * cycle, 0.003, 1.05));
+    return pose;
+  };
+  WorkLimit none;
+  NicheDecider whole;
+  const PairFrame first = PairFrame::withFacets(*hills, *bowl, pose_at(0));
+  std::vector<MinimumCandidate> candidates = candidatesAt(first);
+  const auto start = WorkLimit::Clock::now();
+  whole.judge(first, candidates, {}, none);
+  const double seconds = std::chrono::duration<double>(WorkLimit::Clock::now() - start).count();
+  const std::uint32_t visited = whole.counts().visited_pairs;
+  ASSERT_GT(visited / whole.counts().searches, 5000U) << "a single search is long";
+
+  NicheDecider cut;
+  const double allowed = seconds / (8.0 * whole.counts().searches);
+  bool is_decided = false;
+  int cycle = 0;
+  for (; cycle < 2000 && !is_decided; ++cycle) {
+    const PairFrame frame = PairFrame::withFacets(*hills, *bowl, pose_at(cycle));
+    candidates = candidatesAt(frame);
+    cut.begin(frame, candidates, {}, none);
+    cut.judgeByMemory(frame, {}, none);
+    WorkLimit limit(WorkLimit::Clock::now(), allowed, std::numeric_limits<std::size_t>::max(), nullptr);
+    cut.judgeBySearches(frame, {}, limit);
+    is_decided = std::none_of(cut.judged().begin(), cut.judged().end(), [](const auto& judged) {
+      return judged.decision == Decision::Undecided || judged.decision == Decision::Open;
+    });
+    if (limit.hasRefusedTime()) cut.endCut();
+    if (is_decided) expectSame(nichesOf(cut), nichesBySearches(frame, candidates, 1e-2));
+  }
+  EXPECT_TRUE(is_decided);
+  EXPECT_GT(cycle, 4) << "the limit has to strike for this test to say anything";
+}
+
 // Niches that a short list leaves open are asked for one by one: what is found wrong on the way stays wrong.
 TEST(NicheDecider, AreRightAfterAListThatWasCut) {
   RandomEngine engine(24);

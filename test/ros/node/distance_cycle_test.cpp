@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 
 #include "concave_distance/search/prepare_search.h"
 #include "ros/box_scene.h"
@@ -80,6 +81,26 @@ TEST_F(DistanceCycleTest, RepeatsAnAnswerUntilNewTransformsCome) {
   EXPECT_EQ(pair(0).heading.stamp, at(1));
   EXPECT_NEAR(tracked(0).solution.distance, 0.999, kRounding);
   EXPECT_TRUE(tracked(0).solution.warm);
+}
+
+TEST_F(DistanceCycleTest, PutsOffNichesAtItsEndAndFinishesThemLater) {
+  moveAll(0);
+  CycleCounts first;
+  do {
+    first = cycle.run({kNiches, kDistance}, at(0), WorkLimit::Clock::now());
+  } while (first.unprepared > 0);
+  EXPECT_EQ(first.put_off, 1U);
+  EXPECT_TRUE(tracked(0).put_off);
+  EXPECT_FALSE(tracked(0).solution.niches_complete);
+  EXPECT_TRUE(tracked(0).solution.niches.empty());
+  EXPECT_FALSE(tracked(1).put_off) << "its distance is all that was asked for";
+  const auto later = WorkLimit::Clock::now() + std::chrono::hours(1);
+  const CycleCounts counts = cycle.run({kNiches, kDistance}, at(0), later);
+  EXPECT_EQ(counts.put_off, 0U);
+  EXPECT_EQ(counts.solved, 1U) << "without newer transforms, but not done";
+  EXPECT_EQ(tracked(0).solution.status, SolveStatus::Ok);
+  EXPECT_TRUE(tracked(0).solution.niches_complete);
+  EXPECT_EQ(cycle.run({kNiches, kDistance}, at(0), later).repeated, 2U);
 }
 
 TEST_F(DistanceCycleTest, SolvesStaticPairsOnce) {

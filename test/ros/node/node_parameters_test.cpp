@@ -106,6 +106,41 @@ TEST(NodeParameters, RefuseWithNameValueAndRange) {
   EXPECT_THROW(parse(crossed), Error) << "not above marker_near";
 }
 
+TEST(NodeParameters, TheBudgetOfACycleIsAShareOfThePeriodUnlessItIsSet) {
+  XmlRpc::XmlRpcValue values;
+  values["rate"] = 100.0;
+  const auto seconds = [&] {
+    const NodeParameters parameters = parse(values);
+    return cycleBudget(parameters.cycle_budget, parameters.rate);
+  };
+  EXPECT_DOUBLE_EQ(seconds(), 0.008);
+  values["cycle_budget"] = "auto";
+  EXPECT_DOUBLE_EQ(seconds(), 0.008);
+  values["cycle_budget"] = 0.01;
+  EXPECT_EQ(seconds(), 0.01) << "all of the period";
+  for (const XmlRpc::XmlRpcValue& none : {XmlRpc::XmlRpcValue(0), XmlRpc::XmlRpcValue(0.0)}) {
+    values["cycle_budget"] = none;
+    EXPECT_TRUE(std::isinf(seconds()));
+  }
+}
+
+TEST(NodeParameters, ABudgetThatNoCycleCanHaveIsRefusedWithARemedy) {
+  for (const double seconds : {std::nan(""), -0.001, -1e300, 11.0, 1e300, HUGE_VAL, -HUGE_VAL}) {
+    const std::string message = refusal("cycle_budget", seconds);
+    EXPECT_NE(message.find("~cycle_budget"), std::string::npos) << seconds << message;
+    EXPECT_NE(message.find("allowed: from 0 to 10 (s), or auto"), std::string::npos) << message;
+  }
+  for (const char* text : {"none", "0.8", "", "0,01"}) EXPECT_NE(refusal("cycle_budget", text), "") << text;
+  EXPECT_NE(refusal("cycle_budget", true), "");
+  const std::string message = refusal("cycle_budget", 0.021);
+  for (const char* part : {"~cycle_budget", "0.021 s, longer than the period of 0.02 s (~rate 50)", "auto",
+                           "0 for cycles without an end"}) {
+    EXPECT_NE(message.find(part), std::string::npos) << part << " in " << message;
+  }
+  EXPECT_THROW(cycleBudget(0.015, 100.0), Error) << "the rate was raised while the node runs";
+  EXPECT_EQ(cycleBudget(0.015, 50.0), 0.015);
+}
+
 TEST(NodeParameters, TellNamesNobodyKnows) {
   XmlRpc::XmlRpcValue values;
   values["ratte"] = 5.0;

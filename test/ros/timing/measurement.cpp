@@ -51,6 +51,7 @@ Measurement::Measurement(ros::NodeHandle& node, const std::string& measured, con
 void Measurement::restart() {
   figures_ = Figures();
   last_receipt_ = ros::Time();
+  waits_.clear();
 }
 
 void Measurement::onTransforms(const ros::MessageEvent<tf2_msgs::TFMessage const>& event) {
@@ -75,6 +76,11 @@ void Measurement::onNiches(const ros::MessageEvent<Niches const>& event) {
     if (pair.nearest.has_distance == 0) {
       continue;
     }
+    std::uint64_t& wait = waits_[pair.nearest.pair];
+    wait = pair.niches_complete != 0 ? 0 : wait + 1;
+    ++figures_.lists;
+    figures_.complete_lists += wait == 0 ? 1 : 0;
+    figures_.longest_wait = std::max(figures_.longest_wait, wait);
     if (pair.solve_time > figures_.longest.solve_time) {
       figures_.longest = pair;
     }
@@ -169,6 +175,11 @@ void print(const Figures& figures, double rate, double seconds, double process_s
   std::printf("  thread CPU     mean %.3f ms, %.1f %% of the period; largest %.2f ms\n", kMilliseconds * cpu,
               100.0 * cpu * rate, kMilliseconds * figures.cpu_largest);
   std::printf("  process CPU    %.1f %% of a core\n", 100.0 * process_seconds / seconds);
+  if (figures.lists > 0) {
+    std::printf("  lists          %.3f %% complete; a pair without one for at most %lu cycles\n",
+                100.0 * static_cast<double>(figures.complete_lists) / static_cast<double>(figures.lists),
+                static_cast<unsigned long>(figures.longest_wait));
+  }
   if (figures.unsolved > 0) {
     std::printf("  unsolved       %lu pairs in these messages; the last: %s\n",
                 static_cast<unsigned long>(figures.unsolved), figures.reason.c_str());

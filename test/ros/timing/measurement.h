@@ -37,7 +37,10 @@ struct Figures {
   std::string reason;          ///< of the last of them
   std::vector<double> warm_times;
   std::vector<double> cold_times;
-  PairNiches longest;  ///< the message of the longest solve
+  std::uint64_t lists = 0;           ///< of pairs with a distance, in newly solved messages
+  std::uint64_t complete_lists = 0;  ///< of these
+  std::uint64_t longest_wait = 0;    ///< messages in a row without a complete list of a pair
+  PairNiches longest;                ///< the message of the longest solve
   std::vector<double> from_stamp;
   std::vector<double> from_receipt;
 };
@@ -62,7 +65,8 @@ class Measurement {
 
   std::string name_;
   Figures figures_;
-  std::vector<const PairDistance*> nearest_;  ///< of the message at hand
+  std::vector<const PairDistance*> nearest_;    ///< of the message at hand
+  std::map<std::string, std::uint64_t> waits_;  ///< of each pair, messages since its last complete list
   bool seen_ = false;
   ros::Time last_receipt_;
   ros::Time last_stamp_;

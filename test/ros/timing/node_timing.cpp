@@ -14,6 +14,7 @@
 //                  cores' time: idle, and stolen by the machine below a virtual one
 //   thread CPU     of the cycle's thread and its helpers, a cycle, and as a share of the period
 //   process CPU    of the whole node (tf, sockets, services too), as a share of one core
+//   lists          of niches, of all pairs in all messages, and the longest wait of a pair for a complete one
 //   warm, cold solves   wall time of the solves of single pairs, and the longest of them
 //   from stamp     from the transforms' stamp until the message is here: the way through two sockets, the
 //   wait
