@@ -119,9 +119,11 @@ void runDistanceQuery(const DistanceQueryOptions& options, std::ostream& log) {
       {{"--output", options.output}, {"--niches-output", options.niches_output}});
   const std::vector<QueryPose> poses = readQueryPoses(options.poses);
   Solver solver(options, log);
-  AnswerWriter answers(options.output);
+  const bool with_margins = options.settings.tracker.margin() > 0.0;
+  AnswerWriter answers(options.output, with_margins);
   std::unique_ptr<NicheWriter> niches;
-  if (!options.niches_output.empty()) niches = std::make_unique<NicheWriter>(options.niches_output);
+  if (!options.niches_output.empty())
+    niches = std::make_unique<NicheWriter>(options.niches_output, with_margins);
   std::size_t cut_lists = 0;
   for (std::size_t index = 0; index < poses.size(); ++index) {
     QueryAnswer answer;
@@ -139,6 +141,7 @@ void runDistanceQuery(const DistanceQueryOptions& options, std::ostream& log) {
     answer.point_b_in_a = solution.point_b_in_a;
     answer.status = toString(solution.status);
     answer.meeting_triangles = solution.meeting_triangles;
+    answer.signed_distance = solution.signed_distance;
     if (niches && solution.status != SolveStatus::InvalidPose) {
       answer.niche_count = solution.niches.size();
       cut_lists += solution.niches_cut ? 1 : 0;
@@ -212,7 +215,8 @@ void addOptions(CLI::App& app, DistanceQueryOptions& options) {
                "lines are successive instants of one motion: warm starts, persistent niche numbers");
   app.add_option(
          "--output", options.output,
-         "index,distance,lower_bound,ax,ay,az,bx,by,bz,niche_count,status,time_us,triangle_a,triangle_b")
+         "index,distance,lower_bound,ax,ay,az,bx,by,bz,niche_count,status,time_us,triangle_a,triangle_b; "
+         "with margins and signed_distance")
       ->required()
       ->type_name("FILE");
   app.add_option(

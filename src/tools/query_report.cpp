@@ -27,12 +27,18 @@ const char* outwardName(Outwardness outward) {
   return "";
 }
 
+std::string columnsOfMargins(bool with_margins) {
+  return with_margins ? ",signed_distance" : "";
+}
+
 }  // namespace
 
-AnswerWriter::AnswerWriter(const std::string& path)
+AnswerWriter::AnswerWriter(const std::string& path, bool with_margins)
     : CsvFile(
           path,
-          "index,distance,lower_bound,ax,ay,az,bx,by,bz,niche_count,status,time_us,triangle_a,triangle_b") {}
+          "index,distance,lower_bound,ax,ay,az,bx,by,bz,niche_count,status,time_us,triangle_a,triangle_b" +
+              columnsOfMargins(with_margins)),
+      with_margins_(with_margins) {}
 
 void AnswerWriter::write(std::size_t index, const QueryAnswer& answer) {
   CsvWriter& line = cells();
@@ -48,11 +54,14 @@ void AnswerWriter::write(std::size_t index, const QueryAnswer& answer) {
   } else {
     line.skipCells(2);
   }
+  if (with_margins_) line << answer.signed_distance;
   line.endLine();
 }
 
-NicheWriter::NicheWriter(const std::string& path)
-    : CsvFile(path, "index,niche,distance,ax,ay,az,bx,by,bz,kind,extent,outward,visible,prominence,origin") {}
+NicheWriter::NicheWriter(const std::string& path, bool with_margins)
+    : CsvFile(path, "index,niche,distance,ax,ay,az,bx,by,bz,kind,extent,outward,visible,prominence,origin" +
+                        columnsOfMargins(with_margins)),
+      with_margins_(with_margins) {}
 
 void NicheWriter::write(std::size_t index, std::uint64_t number, const TrackedNiche& niche, bool described) {
   CsvWriter& line = cells();
@@ -63,6 +72,7 @@ void NicheWriter::write(std::size_t index, std::uint64_t number, const TrackedNi
   } else {
     line.skipCells(6);
   }
+  if (with_margins_) line << niche.signed_distance;
   line.endLine();
 }
 

@@ -22,23 +22,33 @@ struct QueryAnswer {
   std::optional<std::size_t> niche_count;
   std::string status;
   std::optional<TrianglePair> meeting_triangles;
-  double time_us = std::numeric_limits<double>::quiet_NaN();  ///< of the query alone
+  double time_us = std::numeric_limits<double>::quiet_NaN();          ///< of the query alone
+  double signed_distance = std::numeric_limits<double>::quiet_NaN();  ///< metres, less the margins
 };
 
 /// Writes out.csv, 17 digits, a line per query.
 class AnswerWriter : public CsvFile {
  public:
-  explicit AnswerWriter(const std::string& path);  ///< @throws Error when the file cannot be written
+  /// @param with_margins the lines end with the signed distance
+  /// @throws Error when the file cannot be written
+  explicit AnswerWriter(const std::string& path, bool with_margins = false);
   void write(std::size_t index, const QueryAnswer& answer);
+
+ private:
+  bool with_margins_;
 };
 
 /// Writes niches.csv, 17 digits, a line per niche.
 class NicheWriter : public CsvFile {
  public:
-  explicit NicheWriter(const std::string& path);  ///< @throws Error when the file cannot be written
+  /// The parameters are those of AnswerWriter.
+  explicit NicheWriter(const std::string& path, bool with_margins = false);
   /// @param number the niche's persistent id or its rank
   /// @param described kind, extent, sides and prominence were computed: else their cells stay empty
   void write(std::size_t index, std::uint64_t number, const TrackedNiche& niche, bool described);
+
+ private:
+  bool with_margins_;
 };
 
 }  // namespace concave_distance::tools

@@ -81,7 +81,9 @@ bool PairCycle::prove(const Eigen::Isometry3d& pose, double time, PairSolution& 
     is_proof_cut_ = limit_.hasRefused();
     is_to_go_on = wantsNiches();
     if (proves()) reportAlone(solution);
-    if (!is_to_go_on) {
+    if (is_to_go_on) {
+      padSolution(parameters_, solution);
+    } else {
       was_cut_ = is_proof_cut_;
       reportCompleteness(solution);
       end(solution);

@@ -18,6 +18,19 @@ std::string at(const WitnessPoints& points) {
   return text.str();
 }
 
+/// Moves a distance and its points back to the bare surfaces. Returns whether they are those of a padded
+/// place.
+template <typename Place>
+bool moveToBareSurfaces(const TrackerParameters& parameters, Place& place) {
+  if (std::isnan(place.signed_distance)) return place.distance == 0.0;
+  if (place.distance != std::max(0.0, place.signed_distance)) return false;
+  place.distance = place.signed_distance + parameters.margin();
+  const Eigen::Vector3d along = place.normal_in_a;
+  place.point_a_in_a -= parameters.margin_a * along;
+  place.point_b_in_a += parameters.margin_b * along;
+  return true;
+}
+
 class Comparison {
  public:
   Comparison(const PairSolution& solution, const TrackerParameters& parameters,
@@ -27,18 +40,42 @@ class Comparison {
   }
 
   std::string complaint() {
+    if (parameters_.margin() > 0.0) takeMarginsAway();
     checkDistance();
     if (!parameters_.niches_wanted) {
       if (!solution_.niches.empty()) text_ << "niches are listed that nobody wanted; ";
       return text_.str();
     }
-    niches_ = truth_.niches(parameters_.least_prominence);
+    niches_ = truth_.niches(parameters_.least_prominence, parameters_.margin());
     for (std::size_t i = 0; i < solution_.niches.size(); ++i) checkListed(i);
     checkMissing();
     return text_.str();
   }
 
  private:
+  /// What is left to compare is an answer for the bare surfaces, with the cutoff that belongs to it.
+  void takeMarginsAway() {
+    const bool overlaps_by_margins = solution_.signed_distance <= 0.0;
+    if (overlaps_by_margins &&
+        (solution_.status != SolveStatus::Penetrating || solution_.lower_bound != 0.0)) {
+      text_ << "margins overlap, status " << toString(solution_.status) << ", lower bound "
+            << solution_.lower_bound << "; ";
+    }
+    for (TrackedNiche& niche : solution_.niches) {
+      if (moveToBareSurfaces(parameters_, niche)) continue;
+      text_ << "listed " << niche.distance << ", signed " << niche.signed_distance << "; ";
+    }
+    if (!moveToBareSurfaces(parameters_, solution_)) {
+      text_ << "distance " << solution_.distance << ", signed " << solution_.signed_distance << "; ";
+    }
+    if (overlaps_by_margins) {
+      solution_.status = SolveStatus::Ok;
+    } else if (solution_.status != SolveStatus::Penetrating) {
+      solution_.lower_bound += parameters_.margin();
+    }
+    parameters_.cutoff += parameters_.margin();
+  }
+
   bool isEqual(long double l, long double r) const { return std::abs(l - r) <= truth_.tolerance(); }
 
   void checkDistance() {
@@ -96,10 +133,13 @@ class Comparison {
   void checkProminence(std::size_t index, const EnumeratedNiche& truth) {
     const TrackedNiche& niche = solution_.niches[index];
     if (index == 0 || truth.is_tied || !(parameters_.prominence_limit > parameters_.least_prominence)) return;
-    const long double slack = 8.0L * truth_.tolerance() / truth.distance + 1e-12L;
-    const long double own = truth.pass / truth.distance - 1.0L;
+    const long double margin = parameters_.margin();
+    const long double padded = truth.distance - margin;
+    if (padded <= truth_.tolerance()) return;
+    const long double slack = 8.0L * truth_.tolerance() / padded + 1e-12L;
+    const long double own = (truth.pass - margin) / padded - 1.0L;
     const long double most =
-        std::min<long double>(parameters_.prominence_limit, parameters_.cutoff / truth.distance - 1.0L);
+        std::min<long double>(parameters_.prominence_limit, (parameters_.cutoff - margin) / padded - 1.0L);
     const bool is_measured = std::isfinite(niche.prominence);
     if (is_measured ? std::abs(niche.prominence - own) > slack * (1.0L + own) : own < most - slack) {
       text_ << "listed " << niche.distance << ": prominence " << niche.prominence << ", true " << own << "; ";
@@ -156,8 +196,8 @@ class Comparison {
     }
   }
 
-  const PairSolution& solution_;
-  const TrackerParameters& parameters_;
+  PairSolution solution_;
+  TrackerParameters parameters_;
   const NicheEnumeration& truth_;
   bool shells_cross_;
   std::vector<EnumeratedNiche> niches_;

@@ -102,7 +102,7 @@ void NicheEnumeration::joinOverlap() {
   }
 }
 
-std::vector<EnumeratedNiche> NicheEnumeration::niches(double least_prominence) const {
+std::vector<EnumeratedNiche> NicheEnumeration::niches(double least_prominence, double margin) const {
   std::vector<std::size_t> parent(distance_.size());
   std::iota(parent.begin(), parent.end(), std::size_t{0});
   const auto root = [&](std::size_t i) {
@@ -125,8 +125,10 @@ std::vector<EnumeratedNiche> NicheEnumeration::niches(double least_prominence) c
     parent[shallow] = deep;
     const long double own = distance_[shallow];
     const bool is_tied = own <= distance_[deep] + rounding;
+    const long double prominent =
+        margin + (1.0L + least_prominence) * std::max<long double>(0.0L, own - margin);
     const long double wanted =
-        own > tolerance_ ? std::max(own + tolerance_, (1.0L + least_prominence) * own) : own + tolerance_;
+        own > tolerance_ || margin > 0.0 ? std::max(own + tolerance_, prominent) : own + tolerance_;
     const bool may_be_listed = pass.level > wanted - rounding && pass.level > own + 0.25L * tolerance_;
     const bool is_certain = pass.level > wanted + rounding && (is_overlap_clear_ || own > tolerance_);
     if (may_be_listed) report(shallow, pass.level, is_certain, is_tied);

@@ -49,7 +49,9 @@ class NicheEnumeration {
   long double offTriangles(std::size_t cell, const WitnessPoints& points) const;
 
   /// Ascending by distance.
-  std::vector<EnumeratedNiche> niches(double least_prominence) const;
+  /// @param margin metres, of both bodies together: the prominence is that of distances less this, and places
+  /// within it are one niche where they are connected
+  std::vector<EnumeratedNiche> niches(double least_prominence, double margin = 0.0) const;
 
   /// Closest points of the two triangles of a cell: the corners of that set, and their mean.
   std::vector<WitnessPoints> minimisers(std::size_t cell) const;

@@ -1,6 +1,7 @@
 // Random scenes whose niches are compared with an enumeration in long double: a program to look for inputs
 // that nobody thought of. A small part of it runs in every build (niche_hunt_test).
-//   niche_hunt [--seconds S] [--poses N] [--seed N] [--family NAME] [--scene N] [--folder findings]
+//   niche_hunt [--seconds S] [--poses N] [--seed N] [--family NAME] [--scene N] [--margins] [--folder
+//   findings]
 // Scenes are drawn from every family in turn (--help lists them), or from one; each has 8 poses, along which
 // the pair is solved cold and tracked. Every failure is one line: family, scene, cycle, parameters, what is
 // wrong, and the command that repeats it; the meshes and poses of the scene are written to the folder. The
@@ -25,6 +26,7 @@ struct Options {
   std::uint64_t seed = 1;
   std::string family;
   std::int64_t scene = -1;
+  bool margins = false;
   std::string folder = "findings";
 };
 
@@ -77,7 +79,8 @@ void report(const Options& options, const test::NicheFamily& family, std::uint64
     std::cout << "WRONG " << (failure.is_tracked ? "tracked" : "cold") << ", " << family.name << " scene "
               << number << ", cycle " << failure.cycle << ", " << failure.parameters << ": "
               << failure.complaint << "repeat: niche_hunt --seed " << options.seed << " --family "
-              << family.name << " --scene " << number << ", files: " << path << "_*" << std::endl;
+              << family.name << " --scene " << number << (options.margins ? " --margins" : "")
+              << ", files: " << path << "_*" << std::endl;
   }
 }
 
@@ -100,7 +103,7 @@ int run(const Options& options) {
       if (all.poses >= options.poses || isOver()) break;
       const test::NicheScene scene = test::drawNicheScene(*family, options.seed, number);
       const test::NicheHuntResult result =
-          test::huntScene(scene, streamSeed(options.seed, family->name, number));
+          test::huntScene(scene, streamSeed(options.seed, family->name, number), options.margins);
       report(options, *family, number, scene, result);
       totals[family->name].add(result);
       all.add(result);
@@ -134,6 +137,7 @@ int main(int argc, char** argv) {
     app.add_option("--seed", options.seed, "of all scenes")->capture_default_str();
     app.add_option("--family", options.family, "one family; default: all in turn");
     app.add_option("--scene", options.scene, "this scene alone");
+    app.add_flag("--margins", options.margins, "give the bodies margins");
     app.add_option("--folder", options.folder, "where scenes with failures are written")
         ->capture_default_str();
     CLI11_PARSE(app, argc, argv);

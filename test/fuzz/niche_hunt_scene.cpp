@@ -22,7 +22,8 @@ std::string described(const TrackerParameters& parameters) {
   text.precision(17);
   text << "cutoff " << parameters.cutoff << " largest_niche_count " << parameters.largest_niche_count
        << " hidden " << parameters.hidden << " prominence_limit " << parameters.prominence_limit
-       << " least_prominence " << parameters.least_prominence << " niches " << parameters.niches_wanted;
+       << " least_prominence " << parameters.least_prominence << " niches " << parameters.niches_wanted
+       << " margin_a " << parameters.margin_a << " margin_b " << parameters.margin_b;
   return text.str();
 }
 
@@ -41,6 +42,14 @@ void toggle(RandomEngine& engine, double size, TrackerParameters& parameters) {
   if (changes())
     parameters.least_prominence = uniformIndex(engine, 3) == 0 ? uniformIn(engine, 1e-3, 0.3) : 1e-2;
   if (changes()) parameters.niches_wanted = !parameters.niches_wanted;
+}
+
+/// Margins of none, one or both bodies, up to a third of their size or twice the gap.
+void drawMargins(RandomEngine& engine, double size, double gap, TrackerParameters& parameters) {
+  if (uniformIndex(engine, 3) == 0) return;
+  const double most = uniformIndex(engine, 2) == 0 ? 0.3 * size : 2.0 * gap;
+  parameters.margin_a = uniformIndex(engine, 3) == 0 ? 0.0 : uniformIn(engine, 0.0, 0.5 * most);
+  parameters.margin_b = uniformIndex(engine, 3) == 0 ? 0.0 : uniformIn(engine, 0.0, 0.5 * most);
 }
 
 /// Up to 4 ulp off in every number.
@@ -75,13 +84,15 @@ NicheScene drawNicheScene(const NicheFamily& family, std::uint64_t seed, std::ui
   return family.draw(engine);
 }
 
-NicheHuntResult huntScene(const NicheScene& scene, std::uint64_t seed) {
+NicheHuntResult huntScene(const NicheScene& scene, std::uint64_t seed, bool with_margins) {
   NicheHuntResult result;
   const auto a = makeBody(scene.a);
   const auto b = makeBody(scene.b);
   const WideBody wide_a(scene.a);
   const WideBody wide_b(scene.b);
   RandomEngine engine(streamSeed(seed, kPairName, 0));
+  RandomEngine margins(streamSeed(seed, "margins", 0));
+  const double size = 0.5 * (a->diameter() + b->diameter());
   TrackerParameters parameters;
   std::optional<PairTracker> tracker;
   tracker.emplace(kPairName, a, b, parameters);
@@ -90,7 +101,8 @@ NicheHuntResult huntScene(const NicheScene& scene, std::uint64_t seed) {
     const Eigen::Isometry3d& pose = scene.poses[cycle];
     const NicheEnumeration enumeration(wide_a, wide_b, pose);
     ++result.poses;
-    toggle(engine, 0.5 * (a->diameter() + b->diameter()), parameters);
+    toggle(engine, size, parameters);
+    if (with_margins) drawMargins(margins, size, static_cast<double>(enumeration.least()), parameters);
     parameters.hidden = parameters.hidden && !scene.shells_cross;
     const PairSolution cold = solveOnce(kPairName, a, b, parameters, pose);
     result.niches += cold.niches.size();

@@ -29,6 +29,7 @@ NicheScene drawNicheScene(const NicheFamily& family, std::uint64_t seed, std::ui
 
 /// Solves every pose cold and tracked, where count, cutoff, hidden, prominence and the wish for niches change
 /// from cycle to cycle, and compares both with the enumeration.
-NicheHuntResult huntScene(const NicheScene& scene, std::uint64_t seed);
+/// @param with_margins the bodies have margins, which change too
+NicheHuntResult huntScene(const NicheScene& scene, std::uint64_t seed, bool with_margins = false);
 
 }  // namespace concave_distance::test

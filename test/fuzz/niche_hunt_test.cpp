@@ -13,14 +13,17 @@ namespace {
 constexpr std::uint64_t kSeed = 20250101;
 constexpr std::uint64_t kScenes = 2;
 
-class NicheHunt : public testing::TestWithParam<const char*> {};
+class NicheHunt : public testing::TestWithParam<const char*> {
+ protected:
+  static void expectListsOfTheEnumeration(bool with_margins);
+};
 
-TEST_P(NicheHunt, ListsAreThoseOfTheEnumerationColdAndTracked) {
+void NicheHunt::expectListsOfTheEnumeration(bool with_margins) {
   const NicheFamily& family = nicheFamily(GetParam());
   std::size_t niches = 0;
   for (std::uint64_t number = 0; number < kScenes; ++number) {
     const NicheScene scene = drawNicheScene(family, kSeed, number);
-    const NicheHuntResult result = huntScene(scene, streamSeed(kSeed, family.name, number));
+    const NicheHuntResult result = huntScene(scene, streamSeed(kSeed, family.name, number), with_margins);
     for (const NicheFailure& failure : result.failures) {
       ADD_FAILURE() << "scene " << number << ", cycle " << failure.cycle
                     << (failure.is_tracked ? ", tracked, " : ", cold, ") << failure.parameters << ": "
@@ -30,6 +33,14 @@ TEST_P(NicheHunt, ListsAreThoseOfTheEnumerationColdAndTracked) {
     niches += result.niches;
   }
   EXPECT_GE(niches, kScenes);
+}
+
+TEST_P(NicheHunt, ListsAreThoseOfTheEnumerationColdAndTracked) {
+  expectListsOfTheEnumeration(false);
+}
+
+TEST_P(NicheHunt, ListsOfBodiesWithMarginsAreThoseOfTheEnumeration) {
+  expectListsOfTheEnumeration(true);
 }
 
 std::vector<const char*> familyNames() {

@@ -153,6 +153,9 @@ TEST_F(SceneFile, ValuesOfBodiesAreChecked) {
   expectBodyRefused("max_edge_length", "-1", "'-1'", "greater than 0");
   expectBodyRefused("max_edge_length", "'0.1'", "quoted, so a text", "greater than 0");
   expectBodyRefused("chord_error", ".nan", "'.nan'", "greater than 0");
+  for (const char* margin : {"-0.01", ".nan", ".inf", "-.inf", "thick"}) {
+    expectBodyRefused("margin", margin, "'" + std::string(margin) + "'", "a number from 0, metres");
+  }
   expectBodyRefused("frame", "", "empty", "a text");
   expectBodyRefused("frame", "[a]", "a list of 1", "a text");
   const auto in_body = [&](const std::string& line, const std::string& place, const std::string& seen,

@@ -151,8 +151,10 @@ std::vector<Neighbours> neighbourPairs(const SurfaceMesh& mesh, const Eigen::Iso
 
 std::vector<BruteForceMinimum> bruteForceMinima(const BodyMesh& a, const BodyMesh& b,
                                                 const Eigen::Isometry3d& a_from_b, double cutoff,
-                                                double least_prominence, double rounding, double plateau) {
-  const double top = (1.0 + least_prominence) * cutoff + std::max(rounding, plateau);
+                                                double least_prominence, double rounding, double plateau,
+                                                double margin) {
+  const double top =
+      margin + (1.0 + least_prominence) * std::max(0.0, cutoff - margin) + std::max(rounding, plateau);
   const Eigen::Isometry3d stay = Eigen::Isometry3d::Identity();
   const std::size_t count_b = b.surface().triangleCount();
   std::vector<TrianglePoints> corners_a;
@@ -209,9 +211,10 @@ std::vector<BruteForceMinimum> bruteForceMinima(const BodyMesh& a, const BodyMes
   };
   std::vector<BruteForceMinimum> minima;
   const auto report = [&](std::size_t i, double pass) {
-    if (distance[i] > cutoff || pass <= distance[i] + rounding) return;
+    if (distance[i] > cutoff || pass <= std::max(distance[i], margin) + rounding) return;
+    const double padded = distance[i] - margin;
     const double prominence =
-        distance[i] > rounding ? pass / distance[i] - 1.0 : std::numeric_limits<double>::infinity();
+        padded > rounding ? (pass - margin) / padded - 1.0 : std::numeric_limits<double>::infinity();
     if (prominence < least_prominence) return;
     minima.push_back({distance[i], prominence, static_cast<std::uint32_t>(i / count_b),
                       static_cast<std::uint32_t>(i % count_b), 0.0, 0.0});

@@ -24,9 +24,11 @@ struct BruteForceMinimum {
 /// Minima up to `cutoff` of at least that prominence, ascending by distance. Passes up to (1 +
 /// least_prominence) times the cutoff are known, higher ones are infinite. Minima whose pass is not higher
 /// than they are by `rounding`, metres, are one; `plateau`, metres, is what the sets of minimisers may rise.
-/// O(pairs) time and memory.
+/// Prominences are those of distances and passes less `margin`, metres: minima within it that a path within
+/// it joins are one, and those that stay have an infinite prominence. O(pairs) time and memory.
 std::vector<BruteForceMinimum> bruteForceMinima(const BodyMesh& a, const BodyMesh& b,
                                                 const Eigen::Isometry3d& a_from_b, double cutoff,
-                                                double least_prominence, double rounding, double plateau);
+                                                double least_prominence, double rounding, double plateau,
+                                                double margin = 0.0);
 
 }  // namespace concave_distance::test

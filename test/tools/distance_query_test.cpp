@@ -346,6 +346,33 @@ TEST_F(DistanceQuery, ListsEveryNicheAtLevelComplete) {
   }
 }
 
+TEST_F(DistanceQuery, TakesMarginsFromDistances) {
+  ASSERT_EQ(runBoxes("--niches-output niches.csv --margin-a 0.1 --margin-b 0.25"), 0) << log();
+  const std::vector<Row> rows = answers();
+  EXPECT_NEAR(number(rows[0], "distance"), 0.05, 1e-12);
+  EXPECT_NEAR(number(rows[0], "signed_distance"), 0.05, 1e-12);
+  EXPECT_NEAR(number(rows[0], "az"), 0.6, 1e-12);
+  EXPECT_NEAR(number(rows[0], "bz"), 0.65, 1e-12);
+  EXPECT_EQ(rows[2].at("status"), "invalid_pose");
+  EXPECT_EQ(rows[4].at("status"), "penetrating");
+  EXPECT_EQ(rows[6].at("signed_distance"), "");
+  EXPECT_EQ(number(niches()[0], "signed_distance"), number(rows[0], "signed_distance"));
+  ASSERT_EQ(runBoxes("--margin-a 0.15 --margin-b 0.3"), 0) << log();
+  EXPECT_EQ(number(answers()[0], "distance"), 0.0);
+  EXPECT_NEAR(number(answers()[0], "signed_distance"), -0.05, 1e-12);
+  EXPECT_EQ(answers()[0].at("status"), "penetrating");
+}
+
+TEST_F(DistanceQuery, RefusesMarginsThatCannotBeMeant) {
+  for (const std::string margin : {"-0.1", "nan", "inf", "thick"}) {
+    EXPECT_EQ(runBoxes("--margin-a " + margin), 2) << log();
+    EXPECT_NE(log().find("--margin-a"), std::string::npos) << log();
+  }
+  EXPECT_EQ(runBoxes("--margin-b 0.4"), 1);
+  EXPECT_NE(log().find("--margin-b: margin 0.4 m is larger than the body"), std::string::npos) << log();
+  EXPECT_NE(log().find("metres"), std::string::npos) << log();
+}
+
 TEST_F(DistanceQuery, RefusesWhatThisVersionCannotDo) {
   EXPECT_EQ(runBoxes("--accuracy exact"), 2);
   EXPECT_NE(log().find("'exact' (allowed: nodes, refined, certified, complete)"), std::string::npos) << log();

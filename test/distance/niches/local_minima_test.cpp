@@ -29,6 +29,19 @@ TEST(LocalMinima, AreThoseOfBruteForceForConcaveShapesAtRandomPoses) {
   }
 }
 
+TEST(LocalMinima, WithAMarginAreThoseOfBruteForceForPaddedShapes) {
+  RandomEngine engine(17);
+  for (std::uint32_t run = 0; run < 120; ++run) {
+    SCOPED_TRACE("run " + std::to_string(run));
+    const Body a = makeBody(test::concaveShape(uniformIndex(engine, 6)));
+    const Body b = makeBody(test::concaveShape(uniformIndex(engine, 6)));
+    const Isometry3d pose = test::randomPose(engine, 1.2);
+    const double margin = test::uniformIn(engine, 0.0, 0.4);
+    expectSameAsBruteForce(a, b, pose, 0.617, run % 2 == 0 ? 0.0 : 1e-2, margin);
+    if (HasFailure()) break;
+  }
+}
+
 TEST(LocalMinima, AreThoseOfBruteForceForShapesInLine) {
   // Quarter turns and lattice shifts: faces and edges in parallel, in one plane, in contact.
   RandomEngine engine(5);

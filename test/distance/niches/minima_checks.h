@@ -36,16 +36,17 @@ inline std::vector<std::pair<double, double>> sortedPasses(std::vector<std::pair
 /// All minima, dark side included, against brute force: one for one, with the same distance, pass, kind and
 /// extent.
 inline void expectSameAsBruteForce(const Body& a, const Body& b, const Eigen::Isometry3d& pose, double cutoff,
-                                   double least_prominence) {
+                                   double least_prominence, double margin = 0.0) {
   LocalMinimaRequest request;
   request.cutoff = cutoff;
   request.rule.least_prominence = least_prominence;
   request.rule.prominence_limit = std::numeric_limits<double>::infinity();
+  request.rule.margin = margin;
   request.through_material = true;
   const LocalMinima found = minimaOf(a, b, pose, request);
   const double plateau = 1e-9 * (a->diameter() + b->diameter());
   const auto truth =
-      bruteForceMinima(*a, *b, pose, cutoff, least_prominence, 10.0 * kMinimaRounding, plateau);
+      bruteForceMinima(*a, *b, pose, cutoff, least_prominence, 10.0 * kMinimaRounding, plateau, margin);
   EXPECT_EQ(found.cost.met_by_search, 0U);
   ASSERT_EQ(found.niches.size(), truth.size());
   // Measuring passes changes no decision.
@@ -62,7 +63,8 @@ inline void expectSameAsBruteForce(const Body& a, const Body& b, const Eigen::Is
   std::vector<std::pair<double, double>> true_extents;
   for (std::size_t i = 0; i < truth.size(); ++i) {
     const auto pass = [&](double distance, double prominence) {
-      const double level = distance > 0.0 ? distance * (1.0 + prominence) : cutoff;
+      const double padded = distance - margin;
+      const double level = padded > 0.0 ? margin + padded * (1.0 + prominence) : cutoff;
       return std::min(level, cutoff);  // beyond it either may say infinite
     };
     found_passes.emplace_back(found.niches[i].distance,
