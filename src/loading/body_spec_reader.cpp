@@ -162,6 +162,7 @@ RobotSpec readRobotSpec(const YamlValue& value, const BodyDefaults& defaults) {
       robot.skipped_links.push_back({link.where(), link.text()});
     }
   }
+  if (auto v = map.take("margin")) robot.margin = readMargin(*v);
   readOverDefaults(map, defaults, robot.max_edge_length, robot.chord_error, robot.material);
   map.finish();
   return robot;

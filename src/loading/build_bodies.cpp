@@ -105,7 +105,8 @@ SceneBody build(const BodySource& source, const std::shared_ptr<BodyPool>& pool,
   body.repair = repaired.report;
   body.mesh = sharedMesh(source, std::move(repaired.mesh), pool, cache, limits);
   body.bounds = boundsOf(*body.mesh);
-  requireMargin(source.source, body.margin, *body.mesh);
+  // A robot's margin is for all its links, also those that are smaller.
+  if (!source.is_robot_link) requireMargin(source.source, body.margin, *body.mesh);
   return body;
 }
 

@@ -53,6 +53,7 @@ BodySource linkSource(const RobotSpec& spec, const RobotLink& link, const Descri
   for (GeometryElement& element : source.geometry) element.chord_error = spec.chord_error;
   if (link.colour) source.colour = *link.colour;
   source.material = spec.material;
+  source.margin = spec.margin;
   source.in_robot_model = !spec.description.empty();
   source.is_robot_link = true;
   source.inertia = link.inertia;

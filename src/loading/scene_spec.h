@@ -31,6 +31,7 @@ struct RobotSpec {
   std::string prefix;                ///< put before link names, in bodies and frames
   GeometrySource geometry = GeometrySource::Collision;
   std::vector<Selector> skipped_links;
+  double margin = 0.0;  ///< metres, of each link
   std::optional<double> max_edge_length;
   std::optional<double> chord_error;
   Material material;

@@ -167,6 +167,8 @@ bool SceneServices::addBody(AddBody::Request& request, AddBody::Response& respon
                               request.primitive.empty() ? scene->cache : nullptr, scene->limits);
     body.colour = toColour(request.color, body.colour);
     body.material = scene->defaults.material;
+    body.margin = request.margin;
+    requireMargin("add_body", body.margin, *body.mesh);
     const std::shared_ptr<const tf2::BufferCore> buffer = transforms_.current();
     const PairPartners partners{request.pair_with, request.without_pairs != 0, request.touch_links,
                                 [&](const std::string& frame_a, const std::string& frame_b) {
