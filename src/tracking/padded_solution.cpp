@@ -20,6 +20,8 @@ void padPlace(const TrackerParameters& parameters, Place& place) {
   const Eigen::Vector3d along = (place.point_b_in_a - place.point_a_in_a).normalized();
   place.point_a_in_a += parameters.margin_a * along;
   place.point_b_in_a -= parameters.margin_b * along;
+  // Where margins overlap, the points no longer tell it.
+  if (!place.normal_in_a.allFinite()) place.normal_in_a = along;
 }
 
 }  // namespace

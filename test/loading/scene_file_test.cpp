@@ -219,6 +219,28 @@ TEST_F(SceneFile, PoseScaleAndDimensionsAreApplied) {
   EXPECT_EQ(gridOf(*scene.bodies[0].mesh).nodes().max_edge_length, 100.0);
 }
 
+TEST_F(SceneFile, BodiesAndRobotsHaveMargins) {
+  options.descriptions["d"] = test::robot(test::boxLink("hand"));
+  const Scene scene = load(
+      "defaults: {max_edge_length: 100}\n"
+      "robots: [{description: d, margin: 2.5}]\n"
+      "bodies:\n"
+      "  - {name: box, box: {size: [1, 1, 1]}, margin: 0.25}\n"
+      "  - {name: bare, box: {size: [1, 1, 1]}}\n"
+      "  - {name: thick, box: {size: [1, 1, 1]}, margin: 2.5}\n");
+  ASSERT_EQ(bodyNames(scene), (std::vector<std::string>{"hand", "box", "bare"}));
+  EXPECT_EQ(scene.bodies[0].margin, 2.5) << "a robot's is for all links, whatever their size";
+  EXPECT_EQ(scene.bodies[1].margin, 0.25);
+  EXPECT_EQ(scene.bodies[2].margin, 0.0);
+  ASSERT_EQ(scene.problems.size(), 1U);
+  const std::string& message = scene.problems.front().message;
+  EXPECT_TRUE(mentions(message, "thick")) << message;
+  EXPECT_TRUE(mentions(message, "margin 2.5 m is larger than the body, whose diagonal is 1.73")) << message;
+  EXPECT_TRUE(mentions(message, "metres")) << message;
+  expectRefused("robots: [{description: d, margin: -1}]\n", "robots[0].margin", "'-1'",
+                "a number from 0, metres");
+}
+
 TEST_F(SceneFile, EdgeLengthOfABodyGoesBeforeTheDefaultAndAutoTakesTheDefaultBack) {
   const Scene scene = load(
       "bodies:\n"

@@ -104,6 +104,31 @@ TEST_F(SceneTrackerTest, SolvesNothingBeyondTheCutoffAndStartsColdWithin) {
   EXPECT_TRUE(pair(0).warning_changed);
 }
 
+TEST_F(SceneTrackerTest, CutoffAndWarningCountForBodiesWithTheirMargins) {
+  Scene padded = scene;
+  padded.bodies.edit(0).margin = 0.25;
+  padded.bodies.edit(1).margin = 0.35;
+  padded.pairs.edit(0).settings.tracker.cutoff = 0.3;
+  padded.pairs.edit(0).settings.warning_distance = 0.15;
+  tracker.setScene(padded);
+  EXPECT_EQ(tracker.update(posesAt(0.0), 0.0).beyond_cutoff, 1U);
+  ASSERT_TRUE(pair(0).box_bound.has_value());
+  EXPECT_NEAR(*pair(0).box_bound, 0.4, kRounding);
+  EXPECT_LE(*pair(0).box_bound, 0.4);
+  EXPECT_NEAR(pair(1).solution.distance, 2.0 - 0.25, kRounding);
+  tracker.update(posesAt(0.3), 0.3);
+  EXPECT_NEAR(pair(0).solution.distance, 0.1, kRounding);
+  EXPECT_EQ(pair(0).warning.state(), WarningState::Warning);
+  tracker.update(posesAt(0.5), 0.5);
+  EXPECT_EQ(pair(0).solution.status, SolveStatus::Penetrating);
+  EXPECT_NEAR(pair(0).solution.signed_distance, -0.1, kRounding);
+  // Other settings of the pair leave the margins as they are.
+  padded.pairs.edit(0).settings.tracker.cutoff = 1.0;
+  tracker.setScene(padded);
+  tracker.update(posesAt(0.2), 0.6);
+  EXPECT_NEAR(pair(0).solution.distance, 0.2, kRounding);
+}
+
 TEST_F(SceneTrackerTest, ComputesNoNichesThatNobodyWants) {
   tracker.update(posesAt(0.0), 0.0, {true, true, false, false});
   EXPECT_NEAR(pair(0).solution.distance, 1.0, kRounding);

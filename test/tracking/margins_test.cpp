@@ -1,6 +1,7 @@
 // Bodies with margins: the answer is that of the surfaces moved out by a ball that is swept along them.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -168,8 +169,7 @@ TEST(Margins, PlacesWithinThemAreOneNicheWhereTheyAreConnected) {
   }
 }
 
-// Facets of a rod are ripples as long as it is far; padded, their gap is small and they are niches of their
-// own.
+// A ripple of the bare distance rises by more than the least prominence of a small padded one.
 TEST(Margins, MakeNichesOfRipplesWhereThePaddedGapIsSmall) {
   const Body a = makeBody(makeStairs(4));
   const Body b = makeBody(makeComb(3));
@@ -178,6 +178,7 @@ TEST(Margins, MakeNichesOfRipplesWhereThePaddedGapIsSmall) {
   for (int run = 0; run < 30; ++run) {
     const Isometry3d pose = randomPose(engine, 1.5);
     TrackerParameters parameters;
+    parameters.least_prominence = 0.2;
     const PairSolution bare = solveOnce("pair", a, b, parameters, pose);
     if (bare.status != SolveStatus::Ok) continue;
     parameters.margin_a = 0.99 * bare.distance;
@@ -233,11 +234,11 @@ TEST(Margins, AThinRodWithOneIsACapsule) {
 }
 
 TEST(Margins, ANicheKeepsItsIdWhileMarginsBeginToOverlap) {
-  PairTracker tracker("approach", cube(), cube(), withMargins(0.2, 0.1));
+  const Body small = makeBody(makeCuboid(Vector3d::Constant(-0.2), Vector3d::Constant(0.2)));
+  PairTracker tracker("approach", cube(), small, withMargins(0.2, 0.1));
   PairSolution solution;
   for (int k = 0; k < 60; ++k) {
-    const double gap = 0.595 - 0.01 * k;
-    tracker.update(turned(0.3, {0.1, 1.0, 0.2}, {1.3 + gap, 0.1, 0.0}), 0.01 * k, solution);
+    tracker.update(turned(0.3, {0.1, 1.0, 0.2}, {1.2 - 0.01 * k, 0.1, 0.0}), 0.01 * k, solution);
     ASSERT_EQ(solution.niches.size(), 1U) << "cycle " << k;
     EXPECT_EQ(solution.niches.front().id, 1U);
     EXPECT_EQ(solution.status, solution.distance > 0.0 ? SolveStatus::Ok : SolveStatus::Penetrating);
@@ -264,14 +265,16 @@ TEST(Margins, TheHalvesOfACycleGiveThePaddedAnswerToo) {
 }
 
 TEST(Margins, AWarmCycleWithThemAllocatesNothing) {
-  PairTracker tracker("combs", makeBody(makeComb(4)), makeBody(makeComb(4)), withMargins(0.01, 0.02));
+  const Body comb = makeBody(makeComb(5));
+  PairTracker tracker("combs", comb, comb, withMargins(0.01, 0.02));
   PairSolution solution;
+  double time = 0.0;
   const auto run = [&] {
-    for (int k = 0; k < 100; ++k) {
-      const double t = 2.0 * M_PI * k / 100.0;
-      tracker.update(
-          turned(M_PI + 0.01 * std::sin(t), Vector3d::UnitZ(), {1.0, 0.6 + 0.1 * std::sin(t), 0.0}), 0.01 * k,
-          solution);
+    for (int k = 0; k < 200; ++k) {
+      const double t = 2.0 * M_PI * k / 200.0;
+      tracker.update(turned(M_PI + 0.01 * std::sin(t), Vector3d::UnitZ(),
+                            {1.225 + 0.008 * std::sin(2.0 * t), 0.6 + 0.1 * std::sin(t), 0.02 * std::sin(t)}),
+                     time += 0.01, solution);
     }
   };
   for (int round = 0; round < 3; ++round) run();
@@ -282,9 +285,9 @@ TEST(Margins, AWarmCycleWithThemAllocatesNothing) {
 
 TEST(Margins, ForcesFollowTheBareBodies) {
   EffectSettings settings;
-  settings.interference = settings.normal_force = true;
+  settings.normal_force.emplace();
   const Body a = cube();
-  PairEffects effects(a, a, settings, inContact({}, {}));
+  PairEffects effects(a, a, settings, inContact(Material(), Material()));
   PairContacts contacts;
   for (const double gap : {0.1, -0.1}) {
     const PairSolution solution =
