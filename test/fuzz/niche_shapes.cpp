@@ -291,7 +291,7 @@ SurfaceMesh unionOfConvexSolids(RandomEngine& engine) {
         kind == 0 ? latticePoint(engine, 0, 8)
                   : Vector3d(box.center() + 0.5 * uniformInCube(engine, 1.0).cwiseProduct(box.sizes()));
     if (uniformIndex(engine, 3) == 0) offset += uniformInCube(engine, powerOfTen(engine, -14.0, -6.0));
-    all = makeUnion(all, solid(), offset);
+    all = makeJoined(all, solid(), offset);
   }
   return all;
 }

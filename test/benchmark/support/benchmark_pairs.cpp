@@ -174,15 +174,15 @@ SurfaceMesh put(const SurfaceMesh& surface, double x, double y, double z) {
 SurfaceMesh makePill() {
   const Eigen::Vector3d none = Eigen::Vector3d::Zero();
   const SurfaceMesh ball = makeSphere(0.09, 5e-4);
-  return test::makeUnion(test::makeUnion(makeCylinder(0.09, 0.14, 1e-4), put(ball, 0.0, 0.0, 0.07), none),
-                         put(ball, 0.0, 0.0, -0.07), none);
+  return test::makeJoined(test::makeJoined(makeCylinder(0.09, 0.14, 1e-4), put(ball, 0.0, 0.0, 0.07), none),
+                          put(ball, 0.0, 0.0, -0.07), none);
 }
 
 /// A hand of two fingers, a palm and a wrist: eight shells.
 SurfaceMesh makeHandOfPrimitives() {
   const Eigen::Vector3d none = Eigen::Vector3d::Zero();
   SurfaceMesh hand = put(makeCylinder(0.04, 0.1, 1e-4), 0.0, 0.0, 0.04);
-  const auto add = [&](const SurfaceMesh& part) { hand = test::makeUnion(hand, part, none); };
+  const auto add = [&](const SurfaceMesh& part) { hand = test::makeJoined(hand, part, none); };
   for (const double end : {0.09, -0.01}) add(put(makeSphere(0.04, 3e-4), 0.0, 0.0, end));
   add(put(makeBox({0.04, 0.2, 0.08}), 0.0, 0.0, 0.02));
   for (const double side : {0.07, -0.07}) {

@@ -22,11 +22,11 @@ std::shared_ptr<const BodyMesh> bodyOf(const SurfaceMesh& surface) {
 SurfaceMesh pill(double rod_radius) {
   const SurfaceMesh ball = makeSphere(0.5, 0.01);
   const SurfaceMesh rod = makeCylinder(rod_radius, 2.0, 0.01);
-  return test::makeUnion(test::makeUnion(rod, ball, {0.0, 0.0, 1.0}), ball, {0.0, 0.0, -1.0});
+  return test::makeJoined(test::makeJoined(rod, ball, {0.0, 0.0, 1.0}), ball, {0.0, 0.0, -1.0});
 }
 
 SurfaceMesh twoBoxes(const Eigen::Vector3d& offset) {
-  return test::makeUnion(makeBox({1.0, 1.0, 1.0}), makeBox({1.0, 1.0, 1.0}), offset);
+  return test::makeJoined(makeBox({1.0, 1.0, 1.0}), makeBox({1.0, 1.0, 1.0}), offset);
 }
 
 TEST(ConvexShells, OfPrimitivesThatCrossEachIsOne) {
@@ -57,7 +57,7 @@ TEST(ConvexShells, BoxesThatShareAnEdgeAreTwo) {
 
 TEST(ConvexShells, AreNoneWhereOneSolidIsNotConvexOrOpen) {
   EXPECT_TRUE(bodyOf(test::makeComb(3))->convexShells().shells.empty());
-  EXPECT_TRUE(bodyOf(test::makeUnion(makeBox({1.0, 1.0, 1.0}), test::makeLShape(), {0.3, 0.0, 0.0}))
+  EXPECT_TRUE(bodyOf(test::makeJoined(makeBox({1.0, 1.0, 1.0}), test::makeLShape(), {0.3, 0.0, 0.0}))
                   ->convexShells()
                   .shells.empty());
   EXPECT_TRUE(bodyOf(test::makeSheet(3, 3))->convexShells().shells.empty());
@@ -103,7 +103,7 @@ TEST_F(ConvexShellPairsTest, LeaveHiddenNichesAndOtherBodiesToTheCones) {
 // The lower box ends in the upper one's material; its closest edge to the plate goes on outside.
 TEST_F(ConvexShellPairsTest, ASetThatBeginsInAnotherShellIsLeftToTheConesOrShown) {
   const SurfaceMesh bar =
-      test::makeUnion(makeBox({2.0, 0.2, 0.2}), makeBox({0.4, 0.4, 0.4}), {1.0, 0.0, 0.0});
+      test::makeJoined(makeBox({2.0, 0.2, 0.2}), makeBox({0.4, 0.4, 0.4}), {1.0, 0.0, 0.0});
   const Eigen::Isometry3d pose(Eigen::Translation3d(0.0, 0.0, -0.5));
   TrackerParameters parameters;
   const PairSolution solution =
