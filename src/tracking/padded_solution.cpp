@@ -7,28 +7,30 @@
 namespace concave_distance {
 namespace {
 
-/// Pads what a solution and a niche have in common. Where the bare surfaces meet there is nothing to move
-/// along.
+/// Pads what a solution and a niche have in common.
+/// @param overlaps the bare bodies do: what is at 0 has no signed distance
 template <typename Place>
-void padPlace(const TrackerParameters& parameters, Place& place) {
+void padPlace(const TrackerParameters& parameters, bool overlaps, Place& place) {
   const double bare = place.distance;
-  place.signed_distance = kNotComputed;
-  if (!(bare > 0.0)) return;
-  place.signed_distance = bare - parameters.margin();
+  const bool is_known = overlaps ? bare > 0.0 : bare >= 0.0;
+  place.signed_distance = is_known ? bare - parameters.margin() : kNotComputed;
+  if (!is_known || !(parameters.margin() > 0.0)) return;
   place.distance = std::max(0.0, place.signed_distance);
-  if (!(parameters.margin() > 0.0)) return;
-  const Eigen::Vector3d along = (place.point_b_in_a - place.point_a_in_a).normalized();
+  // Where margins overlap, the points no longer tell the direction.
+  if (!place.normal_in_a.allFinite())
+    place.normal_in_a = (place.point_b_in_a - place.point_a_in_a).normalized();
+  // Where the bare surfaces nearly touch, rounding leaves the normal not quite of length 1.
+  const Eigen::Vector3d along = place.normal_in_a.normalized();
   place.point_a_in_a += parameters.margin_a * along;
   place.point_b_in_a -= parameters.margin_b * along;
-  // Where margins overlap, the points no longer tell it.
-  if (!place.normal_in_a.allFinite()) place.normal_in_a = along;
 }
 
 }  // namespace
 
 void padSolution(const TrackerParameters& parameters, PairSolution& solution) {
-  for (TrackedNiche& niche : solution.niches) padPlace(parameters, niche);
-  padPlace(parameters, solution);
+  const bool overlaps = solution.status == SolveStatus::Penetrating;
+  for (TrackedNiche& niche : solution.niches) padPlace(parameters, overlaps, niche);
+  padPlace(parameters, overlaps, solution);
   if (!(parameters.margin() > 0.0)) return;
   if (solution.lower_bound > 0.0) {
     const double lower =

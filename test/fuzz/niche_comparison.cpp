@@ -25,7 +25,7 @@ bool moveToBareSurfaces(const TrackerParameters& parameters, Place& place) {
   if (std::isnan(place.signed_distance)) return place.distance == 0.0;
   if (place.distance != std::max(0.0, place.signed_distance)) return false;
   place.distance = place.signed_distance + parameters.margin();
-  const Eigen::Vector3d along = place.normal_in_a;
+  const Eigen::Vector3d along = place.normal_in_a.normalized();
   place.point_a_in_a -= parameters.margin_a * along;
   place.point_b_in_a += parameters.margin_b * along;
   return true;

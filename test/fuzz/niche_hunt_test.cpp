@@ -55,9 +55,10 @@ INSTANTIATE_TEST_SUITE_P(Families, NicheHunt, testing::ValuesIn(familyNames()),
 /// A scene whose list has been wrong.
 class NicheHuntOnce : public testing::Test {
  protected:
-  static void expectRightLists(const char* family, std::uint64_t seed, std::uint64_t number) {
+  static void expectRightLists(const char* family, std::uint64_t seed, std::uint64_t number,
+                               bool with_margins = false) {
     const NicheScene scene = drawNicheScene(nicheFamily(family), seed, number);
-    const NicheHuntResult result = huntScene(scene, streamSeed(seed, family, number));
+    const NicheHuntResult result = huntScene(scene, streamSeed(seed, family, number), with_margins);
     EXPECT_GT(result.niches, 0U);
     for (const NicheFailure& failure : result.failures) {
       ADD_FAILURE() << "cycle " << failure.cycle << ", " << failure.parameters << ": " << failure.complaint;
@@ -81,6 +82,11 @@ TEST_F(NicheHuntOnce, APassIsTheLowestOfThePathsThatReachAFacetPair) {
 
 TEST_F(NicheHuntOnce, AFlapHasNoHiddenNicheInTheMaterialThatItReachesInto) {
   expectRightLists("self_touching", 707, 87);
+}
+
+TEST_F(NicheHuntOnce, BodiesThatNearlyTouchPenetrateByTheirMargins) {
+  expectRightLists("touching", 1, 4, true);
+  expectRightLists("touching", 1, 8, true);
 }
 
 class TrackedRings : public testing::Test {
