@@ -1,21 +1,13 @@
 #include "concave_distance/scene/scene_tracker.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
-#include <atomic>
-#include <chrono>
-#include <cmath>
 #include <string_view>
 #include <unordered_map>
 #include <utility>
 
-#include "base/helping_threads.h"
 #include "concave_distance/base/error.h"
-#include "concave_distance/search/prepare_search.h"
+#include "cycle_solver.h"
 #include "niche_preparation.h"
-#include "solver_threads.h"
-#include "solving_order.h"
 
 namespace concave_distance {
 namespace {
@@ -53,32 +45,10 @@ bool isOfTheSameBodies(const TrackedPair& tracked, const Scene& scene, const Sce
 /// Triangles of a scene up to which what niches need, some 500 bytes each, is made before anybody asks.
 constexpr std::size_t kMostTrianglesAhead = 1'000'000;
 
-/// A list that stays unfinished has a cycle of its own in every so many: it leaves no time to those after it.
-constexpr std::uint32_t kCyclesToOwnOne = 4;
-
-bool ownsCycle(const TrackedPair& pair) {
-  return pair.cycles_unfinished % kCyclesToOwnOne == kCyclesToOwnOne - 1;
-}
-
 }  // namespace
 
-struct SceneTracker::Arena {
-  explicit Arena(std::uint32_t count) : threads(makeSolverArena(count)) {}
-
-  tbb::task_arena threads;
-  HelpingThreads helpers;
-};
-
-/// A pair in the order of a cycle with an end.
-struct SceneTracker::Turn {
-  TrackedPair* pair;
-  std::size_t place;  ///< in the order of the scene
-  PairUrgency urgency;
-  double seconds_after;  ///< that the pairs after it are expected to need
-};
-
 SceneTracker::SceneTracker(SceneTrackerOptions options)
-    : options_(options), arena_(std::make_unique<Arena>(options_.threads)) {
+    : options_(options), solver_(std::make_unique<CycleSolver>(options_.threads, options_.stop)) {
   if (options_.prepares_in_background) preparation_ = std::make_unique<NichePreparation>();
 }
 
@@ -207,12 +177,11 @@ CycleCounts SceneTracker::update(const std::vector<PairDemand>& demand, const Lo
   }
   CycleCounts counts;
   choosePairs(demand, locate, counts);
-  arena_->helpers.begin();
-  prepareSearches();
+  solver_->begin(to_solve_);
   if (end == kNoCycleEnd) {
-    solveAll();
+    solver_->solveAll();
   } else {
-    solveUntil(end);
+    solver_->solveUntil(end);
   }
   for (auto& pair : pairs_) {
     if (pair->demand.due) pair->watchWarning();
@@ -256,109 +225,7 @@ void SceneTracker::count(CycleCounts& counts) const {
     counts.addSolve(pair->solution);
     counts.put_off += pair->put_off ? 1 : 0;
   }
-  counts.helper_cpu_seconds = arena_->helpers.seconds();
-}
-
-// Grids and metrics of bodies whose niches are searched for the first time are made together, in parallel.
-void SceneTracker::prepareSearches() {
-  if (isStopped()) return;
-  to_prepare_.clear();
-  for (const TrackedPair* pair : to_solve_) {
-    if (!pair->needsSearch()) continue;
-    for (const BodyMesh* body : {pair->body_a->mesh.get(), pair->body_b->mesh.get()}) {
-      if (!searchPreparationOf(body->asSolved()).is_complete) to_prepare_.push_back(&body->asSolved());
-    }
-  }
-  if (!to_prepare_.empty()) {
-    arena_->threads.execute([&] { prepareSearch(to_prepare_); });
-  }
-}
-
-void SceneTracker::solveAll() {
-  if (to_solve_.empty()) return;
-  const auto solve_at = [&](std::size_t index) { arena_->helpers.share([&] { solve(*to_solve_[index]); }); };
-  // One pair, too, is solved in the arena: long ones use its idle threads.
-  arena_->threads.execute([&] {
-    if (options_.threads == 1 || to_solve_.size() == 1) {
-      for (std::size_t index = 0; index < to_solve_.size(); ++index) solve_at(index);
-    } else {
-      tbb::parallel_for(std::size_t{0}, to_solve_.size(), solve_at, tbb::simple_partitioner());
-    }
-  });
-}
-
-void SceneTracker::solve(TrackedPair& pair) {
-  if (isStopped()) {
-    pair.stop();
-    return;
-  }
-  pair.solve();
-}
-
-// Two rounds in the order of urgency: the distances, so that each has its proof before any list takes its
-// time, then niches and effects. A pair leaves those after it what they needed last, but takes half of what
-// is left at least, so that a list which needs long does not wait for ever.
-void SceneTracker::solveUntil(WorkLimit::Clock::time_point end) {
-  using Clock = WorkLimit::Clock;
-  using Seconds = std::chrono::duration<double>;
-  if (isStopped()) {
-    for (TrackedPair* pair : to_solve_) pair->stop();
-    return;
-  }
-  turns_.clear();
-  for (TrackedPair* pair : to_solve_) {
-    const PairSolution& last = pair->solution;
-    const std::uint32_t waited = std::max(pair->cycles_put_off, ownsCycle(*pair) ? kLongestWait : 0);
-    turns_.push_back({pair, turns_.size(), {last.distance, last.closing_speed, waited}, 0.0});
-  }
-  sortByUrgency();
-  forEachInOrder([&](Turn& turn) {
-    turn.pair->prove(end);
-    const PairSolution& now = turn.pair->solution;
-    if (std::isnan(now.distance)) return;  // of a level that proves none
-    turn.urgency.distance = now.distance;
-    turn.urgency.closing_speed = now.closing_speed;
-  });
-  sortByUrgency();
-  double seconds_after = 0.0;
-  for (std::size_t i = turns_.size(); i-- > 0;) {
-    turns_[i].seconds_after = seconds_after;
-    seconds_after += turns_[i].pair->seconds_to_finish;
-  }
-  const auto threads = static_cast<double>(arena_->threads.max_concurrency());
-  const double all = Seconds(end - Clock::now()).count();
-  forEachInOrder([&](Turn& turn) {
-    TrackedPair& pair = *turn.pair;
-    const Clock::time_point now = Clock::now();
-    const double left = Seconds(end - now).count();
-    const double after = ownsCycle(pair) ? 0.0 : turn.seconds_after / threads;
-    const double own = std::max(0.5 * left, left - after);
-    pair.finish(now + std::chrono::duration_cast<Clock::duration>(Seconds(own)));
-    const bool had_its_turn = own > 0.0 && own >= 0.5 * all;
-    pair.cycles_put_off = pair.put_off && !had_its_turn ? pair.cycles_put_off + 1 : 0;
-  });
-}
-
-// Threads take turns in their order, each the next one.
-template <typename Act>
-void SceneTracker::forEachInOrder(const Act& act) {
-  std::atomic<std::size_t> next{0};
-  const auto take = [&](std::size_t) { arena_->helpers.share([&] { act(turns_[next++]); }); };
-  arena_->threads.execute([&] {
-    if (options_.threads == 1 || turns_.size() == 1) {
-      for (std::size_t i = 0; i < turns_.size(); ++i) take(i);
-    } else {
-      tbb::parallel_for(std::size_t{0}, turns_.size(), take, tbb::simple_partitioner());
-    }
-  });
-}
-
-// Equals stay in the order of the scene.
-void SceneTracker::sortByUrgency() {
-  std::sort(turns_.begin(), turns_.end(), [](const Turn& l, const Turn& r) {
-    if (isMoreUrgent(l.urgency, r.urgency)) return true;
-    return !isMoreUrgent(r.urgency, l.urgency) && l.place < r.place;
-  });
+  counts.helper_cpu_seconds = solver_->helperSeconds();
 }
 
 }  // namespace concave_distance

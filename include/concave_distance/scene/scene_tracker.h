@@ -16,6 +16,7 @@
 
 namespace concave_distance {
 
+class CycleSolver;
 class NichePreparation;
 
 struct SceneTrackerOptions {
@@ -83,22 +84,13 @@ class SceneTracker {
   Pairs takeRetired();
 
  private:
-  struct Arena;
   void choosePairs(const std::vector<PairDemand>& demand, const Locate& locate, CycleCounts& counts);
-  void prepareSearches();
   bool isPrepared(TrackedPair& pair);
   void prepareAhead(const Scene& scene);
-  void solveAll();
-  void solve(TrackedPair& pair);
-  void solveUntil(WorkLimit::Clock::time_point end);
-  template <typename Act>
-  void forEachInOrder(const Act& act);
-  void sortByUrgency();
-  bool isStopped() const { return options_.stop != nullptr && *options_.stop; }
   void count(CycleCounts& counts) const;
 
   SceneTrackerOptions options_;
-  std::unique_ptr<Arena> arena_;
+  std::unique_ptr<CycleSolver> solver_;
   std::unique_ptr<NichePreparation> preparation_;  ///< nullptr: cycles prepare
   Pairs pairs_;
   Pairs retired_;
@@ -106,9 +98,6 @@ class SceneTracker {
   std::uint64_t largest_retired_id_ = 0;  ///< of removed pairs
   bool interrupted_ = false;              ///< the last cycle threw, or the running one has not ended
   std::vector<TrackedPair*> to_solve_;
-  std::vector<const BodyMesh*> to_prepare_;
-  struct Turn;
-  std::vector<Turn> turns_;  ///< of the pairs to solve, in a cycle with an end
   std::vector<PairDemand> demand_;
 };
 

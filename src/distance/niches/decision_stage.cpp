@@ -110,6 +110,7 @@ void NicheDecider::Stage::decideByMemory(std::uint32_t i) {
   if (!request_.through_material && frame_.hasJoints() && isThroughMaterial(frame_.witnessOf(candidate))) {
     return set(i, Decision::Unwanted);
   }
+  if (i == 0 && isNearestOfAll(candidate.distance)) return set(i, Decision::Niche);
   const std::uint32_t known = memory_.basinOf(number, i);
   if (known == kNone) return;
   DecisionCache::KeptBasin& basin = memory_.basin(known);

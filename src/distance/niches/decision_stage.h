@@ -58,6 +58,12 @@ class NicheDecider::Stage {
   double passOf(std::uint32_t i, double highest) const;
 
  private:
+  /// Returns whether no path can lead to a nearer place: the distance is the proven one, but for errors.
+  bool isNearestOfAll(double distance) const {
+    return request_.certain_distance > 4.0 * tolerance_ &&
+           distance <= request_.certain_distance + 4.0 * tolerance_;
+  }
+
   /// Decides a candidate by kept evidence, or leaves it open.
   void decideByMemory(std::uint32_t i);
 

@@ -62,6 +62,7 @@ NicheDecider::Request deciderRequest(const PairFrame& frame, const LocalMinimaRe
   wanted.rule = request.rule;
   wanted.through_material = request.through_material;
   wanted.is_tracked = request.is_tracked;
+  wanted.certain_distance = request.certain_distance;
   // One more tells that the list is cut.
   wanted.most_niches = std::max(request.largest_count, request.largest_count + 1);
   if (!request.hidden) {

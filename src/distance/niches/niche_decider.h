@@ -51,7 +51,8 @@ class NicheDecider {
     std::size_t most_niches = std::numeric_limits<std::size_t>::max();
     /// Niches through material are wanted; else nothing is judged that begins there.
     bool through_material = false;
-    bool is_tracked = true;  ///< what proves a decision is kept for the next pose
+    bool is_tracked = true;         ///< what proves a decision is kept for the next pose
+    double certain_distance = 0.0;  ///< metres, as LocalMinimaRequest::certain_distance
     /// Returns whether a candidate that is no known ripple is wanted; empty: all are. The occluder is kept
     /// with the candidate's triangle pair.
     std::function<bool(const MinimumCandidate&, Occluder&)> is_wanted;

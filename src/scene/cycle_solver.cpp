@@ -1,0 +1,131 @@
+#include "cycle_solver.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "concave_distance/search/prepare_search.h"
+#include "solver_threads.h"
+
+namespace concave_distance {
+namespace {
+
+/// A list that stays unfinished has a cycle of its own in every so many: it leaves no time to those after it.
+constexpr std::uint32_t kCyclesToOwnOne = 4;
+
+bool ownsCycle(const TrackedPair& pair) {
+  return pair.cycles_unfinished % kCyclesToOwnOne == kCyclesToOwnOne - 1;
+}
+
+}  // namespace
+
+CycleSolver::CycleSolver(std::uint32_t threads, const std::atomic<bool>* stop)
+    : is_serial_(threads == 1), stop_(stop), arena_(makeSolverArena(threads)) {}
+
+// Grids and metrics of bodies whose niches are searched for the first time are made together, in parallel.
+void CycleSolver::begin(const std::vector<TrackedPair*>& pairs) {
+  helpers_.begin();
+  pairs_.assign(pairs.begin(), pairs.end());
+  if (isStopped()) return;
+  to_prepare_.clear();
+  for (const TrackedPair* pair : pairs_) {
+    if (!pair->needsSearch()) continue;
+    for (const BodyMesh* body : {pair->body_a->mesh.get(), pair->body_b->mesh.get()}) {
+      if (!searchPreparationOf(body->asSolved()).is_complete) to_prepare_.push_back(&body->asSolved());
+    }
+  }
+  if (!to_prepare_.empty()) {
+    arena_.execute([&] { prepareSearch(to_prepare_); });
+  }
+}
+
+void CycleSolver::solveAll() {
+  if (pairs_.empty()) return;
+  const auto solve_at = [&](std::size_t index) { helpers_.share([&] { solve(*pairs_[index]); }); };
+  // One pair, too, is solved in the arena: long ones use its idle threads.
+  arena_.execute([&] {
+    if (is_serial_ || pairs_.size() == 1) {
+      for (std::size_t index = 0; index < pairs_.size(); ++index) solve_at(index);
+    } else {
+      tbb::parallel_for(std::size_t{0}, pairs_.size(), solve_at, tbb::simple_partitioner());
+    }
+  });
+}
+
+void CycleSolver::solve(TrackedPair& pair) {
+  if (isStopped()) {
+    pair.stop();
+    return;
+  }
+  pair.solve();
+}
+
+// Two rounds in the order of urgency: the distances, so that each has its proof before any list takes its
+// time, then niches and effects. A pair leaves those after it what they needed last, but takes half of what
+// is left at least, so that a list which needs long does not wait for ever.
+void CycleSolver::solveUntil(WorkLimit::Clock::time_point end) {
+  using Clock = WorkLimit::Clock;
+  using Seconds = std::chrono::duration<double>;
+  if (isStopped()) {
+    for (TrackedPair* pair : pairs_) pair->stop();
+    return;
+  }
+  turns_.clear();
+  for (TrackedPair* pair : pairs_) {
+    const PairSolution& last = pair->solution;
+    const std::uint32_t waited = std::max(pair->cycles_put_off, ownsCycle(*pair) ? kLongestWait : 0);
+    turns_.push_back({pair, turns_.size(), {last.distance, last.closing_speed, waited}, 0.0});
+  }
+  sortByUrgency();
+  forEachInOrder([&](Turn& turn) {
+    turn.pair->prove(end);
+    const PairSolution& now = turn.pair->solution;
+    if (std::isnan(now.distance)) return;  // of a level that proves none
+    turn.urgency.distance = now.distance;
+    turn.urgency.closing_speed = now.closing_speed;
+  });
+  sortByUrgency();
+  double seconds_after = 0.0;
+  for (std::size_t i = turns_.size(); i-- > 0;) {
+    turns_[i].seconds_after = seconds_after;
+    seconds_after += turns_[i].pair->seconds_to_finish;
+  }
+  const auto threads = static_cast<double>(arena_.max_concurrency());
+  const double all = Seconds(end - Clock::now()).count();
+  forEachInOrder([&](Turn& turn) {
+    TrackedPair& pair = *turn.pair;
+    const Clock::time_point now = Clock::now();
+    const double left = Seconds(end - now).count();
+    const double after = ownsCycle(pair) ? 0.0 : turn.seconds_after / threads;
+    const double own = std::max(0.5 * left, left - after);
+    pair.finish(now + std::chrono::duration_cast<Clock::duration>(Seconds(own)));
+    const bool had_its_turn = own > 0.0 && own >= 0.5 * all;
+    pair.cycles_put_off = pair.put_off && !had_its_turn ? pair.cycles_put_off + 1 : 0;
+  });
+}
+
+// Threads take turns in their order, each the next one.
+template <typename Act>
+void CycleSolver::forEachInOrder(const Act& act) {
+  std::atomic<std::size_t> next{0};
+  const auto take = [&](std::size_t) { helpers_.share([&] { act(turns_[next++]); }); };
+  arena_.execute([&] {
+    if (is_serial_ || turns_.size() == 1) {
+      for (std::size_t i = 0; i < turns_.size(); ++i) take(i);
+    } else {
+      tbb::parallel_for(std::size_t{0}, turns_.size(), take, tbb::simple_partitioner());
+    }
+  });
+}
+
+// Equals stay in the order of the scene.
+void CycleSolver::sortByUrgency() {
+  std::sort(turns_.begin(), turns_.end(), [](const Turn& l, const Turn& r) {
+    if (isMoreUrgent(l.urgency, r.urgency)) return true;
+    return !isMoreUrgent(r.urgency, l.urgency) && l.place < r.place;
+  });
+}
+
+}  // namespace concave_distance
