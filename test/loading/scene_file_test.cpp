@@ -9,6 +9,7 @@
 #include "search/grid/body_grid.h"
 #include "search/grid/node_graph.h"
 #include "support/scene_fixture.h"
+#include "tracking/tracker_parameter_table.h"
 
 namespace concave_distance::scene_file_test {
 namespace {
@@ -237,7 +238,7 @@ TEST_F(SceneFile, BodiesAndRobotsHaveMargins) {
   EXPECT_TRUE(mentions(message, "thick")) << message;
   EXPECT_TRUE(mentions(message, "margin 2.5 m is larger than the body, whose diagonal is 1.73")) << message;
   EXPECT_TRUE(mentions(message, "metres")) << message;
-  expectRefused("robots: [{description: d, margin: -1}]\n", "robots[0].margin", "'-1'",
+  expectRefused("robots: [{description: d, margin: -1}]\n", "scene.yaml:1, robots[0].margin", "'-1'",
                 "a number from 0, metres");
 }
 
@@ -449,8 +450,9 @@ std::set<std::string> namesOf(const ParameterTable<Settings>& table) {
 TEST(PairParameters, DeclareEveryMemberAndGiveItsDefault) {
   EXPECT_EQ(namesOf(geneticParameters()), membersOf("search/genetic_parameters.h", "GeneticParameters"));
   std::set<std::string> tracker = membersOf("tracking/tracker_parameters.h", "TrackerParameters");
-  // What is asked for follows from who listens; cold and warm have a table of their own.
+  // What is asked for follows from who listens; cold, warm and margins have tables of their own.
   for (const char* name : {"niches_wanted", "cold", "warm"}) tracker.erase(name);
+  for (const std::string& name : namesOf(marginParameters())) EXPECT_EQ(tracker.erase(name), 1U) << name;
   tracker.insert({"warning_distance", "warning_hysteresis"});
   EXPECT_EQ(namesOf(pairParameters()), tracker);
   PairSettings settings;
