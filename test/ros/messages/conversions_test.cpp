@@ -201,6 +201,21 @@ TEST(ToDistance, TellsTheProofAndWhatMeets) {
   EXPECT_EQ(message.triangle_b, 5U);
 }
 
+TEST(ToNiches, CarriesTheSignedDistanceWhereOnlyMarginsOverlap) {
+  PairSolution solution = solutionWithOneNiche();
+  solution.status = SolveStatus::Penetrating;
+  solution.distance = solution.niches[0].distance = 0.0;
+  solution.signed_distance = solution.niches[0].signed_distance = -0.25;
+  PairNiches message = toNiches(quarterTurnHeading(), solution);
+  EXPECT_TRUE(message.nearest.has_signed_distance && message.niches[0].has_signed_distance);
+  EXPECT_EQ(message.nearest.signed_distance, -0.25);
+  EXPECT_EQ(message.niches[0].signed_distance, -0.25);
+  solution.signed_distance = solution.niches[0].signed_distance = kNotComputed;
+  message = toNiches(quarterTurnHeading(), solution);
+  EXPECT_FALSE(message.nearest.has_signed_distance || message.niches[0].has_signed_distance);
+  EXPECT_TRUE(std::isnan(message.nearest.signed_distance) && std::isnan(message.niches[0].signed_distance));
+}
+
 TEST(QueryParameters, TakeTheQuerysWishesAndRefuseWhatMeansNothing) {
   TrackerParameters configured;
   configured.largest_niche_count = 5;
