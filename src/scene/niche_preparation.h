@@ -13,7 +13,7 @@
 
 namespace concave_distance {
 
-/// What the niches of one pair need of its bodies: facets, neighbours, normal cones and the grid of the
+/// Makes what the niches of one pair need of its bodies: facets, neighbours, normal cones and the grid of the
 /// search. Two convex bodies need less (areConvex()), two round solids nothing.
 class PreparationTask {
  public:
@@ -22,7 +22,7 @@ class PreparationTask {
   /// Returns whether it makes all that a pair needs with these parameters.
   bool suffices(const TrackerParameters& parameters) const;
   bool isDone() const { return is_done_.load(std::memory_order_acquire); }
-  /// What a part throws is left to the first cycle that needs the part.
+  /// Makes the parts. An exception is left to the first cycle that needs the part.
   void run();
 
  private:

@@ -8,8 +8,8 @@
 
 #include "concave_distance/scene/scene_tracker.h"
 #include "support/box_scene.h"
-#include "support/random_solids.h"
 #include "support/enumeration.h"
+#include "support/random_solids.h"
 #include "support/solution_bytes.h"
 
 namespace concave_distance::cycle_end_test {

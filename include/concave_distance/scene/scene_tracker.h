@@ -22,7 +22,7 @@ class NichePreparation;
 struct SceneTrackerOptions {
   std::uint32_t threads = 0;                ///< that solve pairs; 0: one per core, 1: only the caller's
   const std::atomic<bool>* stop = nullptr;  ///< set: a cycle ends without solving the pairs that are left
-  /// What niches need of the bodies is made in the background, from setScene() on; until a pair has it, its
+  /// Makes what niches need of the bodies in the background, from setScene() on; until a pair has it, its
   /// cycles at level `certified` give the distance alone. false: the first cycle with niches makes it.
   bool prepares_in_background = false;
 };

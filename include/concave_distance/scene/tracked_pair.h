@@ -55,19 +55,18 @@ struct TrackedPair {
   /// Bodies of the scene. One that is removed and added again is another, with settings of its own.
   std::shared_ptr<const SceneBody> body_a;
   std::shared_ptr<const SceneBody> body_b;
-  PairSettings settings;  ///< with the margins of the bodies
-  PairDemand demand;
-
-  PairState state = PairState::NotWatched;
-  PairInput input;        ///< the last one
-  bool repeated = false;  ///< the input is that of the last answer, which stands: nothing was computed
+  PairSettings settings;            ///< with the margins of the bodies
+  PairInput input;                  ///< the last one
   std::optional<double> box_bound;  ///< metres, with BeyondCutoff
   PairSolution solution;            ///< with Solved; otherwise NaN and empty, as not computed
   TrackedEffects effects;
   WarningMonitor warning;
+  PairDemand demand;
+  PairState state = PairState::NotWatched;
+  bool repeated = false;         ///< the input is that of the last answer, which stands: nothing was computed
   bool warning_changed = false;  ///< in this cycle
-  std::uint64_t largest_id = 0;  ///< of a niche reported so far
   bool put_off = false;          ///< the end of the cycle has left niches or effects of the answer unfinished
+  std::uint64_t largest_id = 0;  ///< of a niche reported so far
   std::uint32_t cycles_put_off = 0;  ///< in a row, since the list was finished or had most of a cycle's time
   std::uint32_t cycles_unfinished = 0;  ///< in a row, since the list was finished
   double seconds_to_finish = 0.0;  ///< that finish() is expected to take, by those that were done to the end
@@ -114,11 +113,11 @@ struct TrackedPair {
   void endWithoutAnswer(PairState now);
 
   std::unique_ptr<PairTracker> tracker_;  ///< made when the pair is first watched
-  bool stale_parameters_ = false;         ///< the tracker has to be given the settings again
-  bool must_solve_ = true;                ///< even when the input is the last one
   PairInput solved_input_;
-  bool needs_niches_ = false;  ///< between prove() and finish(), as the next
-  bool is_proof_cut_ = false;  ///< by the end of the cycle
+  bool stale_parameters_ = false;  ///< the tracker has to be given the settings again
+  bool must_solve_ = true;         ///< even when the input is the last one
+  bool needs_niches_ = false;      ///< between prove() and finish(), as the next
+  bool is_proof_cut_ = false;      ///< by the end of the cycle
 };
 
 }  // namespace concave_distance

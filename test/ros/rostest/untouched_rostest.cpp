@@ -88,10 +88,26 @@ void ask(const std::string& node, int step) {
   }
 }
 
+// A node makes what niches need in the background: its bodies grow until that is done.
+bool isPrepared(const std::string& node) {
+  constexpr int kTimesTheSame = 20;
+  std::uint64_t last = 0;
+  int times = 0;
+  return eventually([&] {
+    std::uint64_t memory = 0;
+    for (const BodyInfo& body : call<ListBodies>(node + "/list_bodies", {}).bodies) memory += body.memory;
+    times = memory == last ? times + 1 : 0;
+    last = memory;
+    ros::WallDuration(0.02).sleep();
+    return times == kTimesTheSame;
+  });
+}
+
 TEST(Services, LeaveWhatIsTrackedUntouchedToTheLastBit) {
   for (const char* node : {"/asked", "/left_alone"}) {
     ASSERT_TRUE(
         eventually([&] { return call<ListBodies>(std::string(node) + "/list_bodies", {}).ready != 0; }));
+    ASSERT_TRUE(isPrepared(node));
   }
   Collector<PairNiches> asked("/asked/pairs/watched/niches");
   Collector<PairNiches> left_alone("/left_alone/pairs/watched/niches");
