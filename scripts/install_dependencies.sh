@@ -27,6 +27,7 @@ set -euo pipefail
     libgtest-dev librapidcheck-dev libfcl-dev libboost-dev libbenchmark-dev
     librostest-dev python3-rostest libnodeletlib-tools
     dart-doc  # robots that are broken on purpose
+    git locales  # the record of results; a locale with decimal commas
     python3-yaml  # digests of experiments in the test `results`
     python3-rosmaster python3-rospy python3-tf2-msgs python3-rosgraph-msgs python3-dynamic-reconfigure  # scripts/faults.sh
   )
@@ -53,7 +54,7 @@ set -euo pipefail
     ros-noetic-tf2-eigen ros-noetic-tf2-ros ros-noetic-visualization-msgs
   )
   noetic_build=("${noetic_node[@]}" libcgal-dev libalglib-dev libfcl-dev)
-  noetic_test=(python3-yaml libgtest-dev libfcl-dev libboost-dev libbenchmark-dev ros-noetic-rostest ros-noetic-rosmaster ros-noetic-rospy ros-noetic-tf2-msgs)
+  noetic_test=(git locales python3-yaml libgtest-dev libfcl-dev libboost-dev libbenchmark-dev ros-noetic-rostest ros-noetic-rosmaster ros-noetic-rospy ros-noetic-tf2-msgs)
   noetic_demo=(
     ros-noetic-roslaunch ros-noetic-rospy ros-noetic-rosservice ros-noetic-rostopic ros-noetic-rosbash ros-noetic-rviz
     ros-noetic-robot-state-publisher
