@@ -286,7 +286,7 @@ std::vector<std::string> wrongValues(const ParameterInfo& info) {
   return wrong;
 }
 
-/// What a refusal by the scene file says is allowed.
+/// Returns what a refusal by the scene file says is allowed.
 std::string allowedBy(const ParameterInfo& info) {
   return info.type == ParameterType::Flag ? "true or false" : allowedValues(info);
 }

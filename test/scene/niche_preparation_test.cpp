@@ -1,4 +1,4 @@
-// What niches need of the bodies, made in the background of a scene's cycles.
+// A scene prepares in the background what niches need of the bodies.
 #include "scene/niche_preparation.h"
 
 #include <gtest/gtest.h>
