@@ -35,9 +35,9 @@ inline double processorMicroseconds() {
   return 1e6 * static_cast<double>(now.tv_sec) + 1e-3 * static_cast<double>(now.tv_nsec);
 }
 
-/// Measures what a query takes on a core of its own, microseconds: the lesser of wall time and of the thread's
-/// processor time. On a machine that others use, too, long queries are interrupted, which the latter leaves
-/// out; of short ones it says too much, since to read it takes a third of a microsecond.
+/// Measures what a query takes on a core of its own, microseconds: the lesser of wall time and of the
+/// thread's processor time. On a machine that others use, too, long queries are interrupted, which the latter
+/// leaves out; of short ones it says too much, since to read it takes a third of a microsecond.
 class QueryClock {
  public:
   QueryClock() : processor_(processorMicroseconds()), wall_(std::chrono::steady_clock::now()) {}
