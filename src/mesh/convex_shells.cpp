@@ -141,6 +141,8 @@ ConvexShells findConvexShells(const BodyMesh& body) {
   Divider divided(body);
   const std::uint32_t count = divided.divide();
   if (count > kMostConvexShells) return found;
+  // Most bodies are one shell, and not convex: they need no copy to see it.
+  if (count == 1 && !(body.hullGap().gap <= kConvexGapShare * body.diameter())) return found;
   for (std::uint32_t part = 0; part < count; ++part) {
     found.shells.push_back(shellOf(body, divided, part));
     const BodyMesh& mesh = *found.shells.back().mesh;

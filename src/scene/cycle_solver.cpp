@@ -41,17 +41,22 @@ void CycleSolver::begin(const std::vector<TrackedPair*>& pairs) {
   }
 }
 
-void CycleSolver::solveAll() {
-  if (pairs_.empty()) return;
-  const auto solve_at = [&](std::size_t index) { helpers_.share([&] { solve(*pairs_[index]); }); };
-  // One pair, too, is solved in the arena: long ones use its idle threads.
+// One piece of work, too, is done in the arena: long ones use its idle threads.
+template <typename Act>
+void CycleSolver::forEach(std::size_t count, const Act& act) {
+  if (count == 0) return;
+  const auto shared = [&](std::size_t index) { helpers_.share([&] { act(index); }); };
   arena_.execute([&] {
-    if (is_serial_ || pairs_.size() == 1) {
-      for (std::size_t index = 0; index < pairs_.size(); ++index) solve_at(index);
+    if (is_serial_ || count == 1) {
+      for (std::size_t index = 0; index < count; ++index) shared(index);
     } else {
-      tbb::parallel_for(std::size_t{0}, pairs_.size(), solve_at, tbb::simple_partitioner());
+      tbb::parallel_for(std::size_t{0}, count, shared, tbb::simple_partitioner());
     }
   });
+}
+
+void CycleSolver::solveAll() {
+  forEach(pairs_.size(), [&](std::size_t index) { solve(*pairs_[index]); });
 }
 
 void CycleSolver::solve(TrackedPair& pair) {
@@ -110,14 +115,7 @@ void CycleSolver::solveUntil(WorkLimit::Clock::time_point end) {
 template <typename Act>
 void CycleSolver::forEachInOrder(const Act& act) {
   std::atomic<std::size_t> next{0};
-  const auto take = [&](std::size_t) { helpers_.share([&] { act(turns_[next++]); }); };
-  arena_.execute([&] {
-    if (is_serial_ || turns_.size() == 1) {
-      for (std::size_t i = 0; i < turns_.size(); ++i) take(i);
-    } else {
-      tbb::parallel_for(std::size_t{0}, turns_.size(), take, tbb::simple_partitioner());
-    }
-  });
+  forEach(turns_.size(), [&](std::size_t) { act(turns_[next++]); });
 }
 
 // Equals stay in the order of the scene.

@@ -41,6 +41,8 @@ class CycleSolver {
   bool isStopped() const { return stop_ != nullptr && *stop_; }
   void solve(TrackedPair& pair);
   template <typename Act>
+  void forEach(std::size_t count, const Act& act);
+  template <typename Act>
   void forEachInOrder(const Act& act);
   void sortByUrgency();
 

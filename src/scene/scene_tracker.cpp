@@ -1,6 +1,7 @@
 #include "concave_distance/scene/scene_tracker.h"
 
 #include <algorithm>
+#include <new>
 #include <string_view>
 #include <unordered_map>
 #include <utility>
@@ -114,23 +115,29 @@ void SceneTracker::setScene(const Scene& scene, bool settings_changed) {
   prepareAhead(scene);
 }
 
-// Many triangles take much memory: they wait until somebody wants their niches.
+// Many triangles take much memory: they wait until somebody wants their niches, as all do when none is left.
 void SceneTracker::prepareAhead(const Scene& scene) {
   std::size_t triangles = 0;
   for (const SceneBody& body : scene.bodies) triangles += body.mesh->surface().triangleCount();
   if (!preparation_ || triangles > kMostTrianglesAhead) return;
-  for (const auto& pair : pairs_) {
-    if (pair->origin->enabled) isPrepared(*pair);
+  try {
+    for (const auto& pair : pairs_) {
+      if (pair->origin->enabled) isPrepared(*pair);
+    }
+  } catch (const std::bad_alloc&) {
+    // The scene is tracked already; a cycle that wants the niches tries again.
   }
 }
 
-// Of what is not, the preparation begins. The other levels have no distance without their niches.
+// Begins the preparation where there is none yet. The other levels have no distance without their niches.
 bool SceneTracker::isPrepared(TrackedPair& pair) {
   const TrackerParameters& parameters = pair.settings.tracker;
   if (!preparation_ || !provesDistance(parameters.accuracy)) return true;
   if (!pair.preparation || !pair.preparation->suffices(parameters)) {
-    pair.preparation = std::make_shared<PreparationTask>(pair.body_a->mesh, pair.body_b->mesh, parameters);
-    preparation_->add(pair.preparation);
+    // The pair has it when it is sure to run.
+    auto task = std::make_shared<PreparationTask>(pair.body_a->mesh, pair.body_b->mesh, parameters);
+    preparation_->add(task);
+    pair.preparation = std::move(task);
   }
   return pair.preparation->isDone();
 }

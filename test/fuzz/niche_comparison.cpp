@@ -53,7 +53,7 @@ class Comparison {
   }
 
  private:
-  /// What is left to compare is an answer for the bare surfaces, with the cutoff that belongs to it.
+  /// Turns the answer and the cutoff into those of the bare surfaces, which the enumeration knows.
   void takeMarginsAway() {
     const bool overlaps_by_margins = solution_.signed_distance <= 0.0;
     if (overlaps_by_margins &&

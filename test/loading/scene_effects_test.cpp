@@ -155,7 +155,7 @@ TEST_F(SceneEffects, EffectsNeedAProof) {
   EXPECT_TRUE(mentions(text, "set accuracy to certified")) << text;
 }
 
-// Whatever is sent to set_effects soon ends in an Error, and no pair is changed.
+// Each of these texts to set_effects soon ends in an Error, and no pair is changed.
 TEST_F(SceneEffects, NoTextFromOutsideDoesHarm) {
   const auto repeated = [](const std::string& text, std::size_t size) {
     std::string all;

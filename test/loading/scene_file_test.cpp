@@ -230,7 +230,7 @@ TEST_F(SceneFile, BodiesAndRobotsHaveMargins) {
       "  - {name: bare, box: {size: [1, 1, 1]}}\n"
       "  - {name: thick, box: {size: [1, 1, 1]}, margin: 2.5}\n");
   ASSERT_EQ(bodyNames(scene), (std::vector<std::string>{"hand", "box", "bare"}));
-  EXPECT_EQ(scene.bodies[0].margin, 2.5) << "a robot's is for all links, whatever their size";
+  EXPECT_EQ(scene.bodies[0].margin, 2.5) << "all links of a robot have its margin, small ones too";
   EXPECT_EQ(scene.bodies[1].margin, 0.25);
   EXPECT_EQ(scene.bodies[2].margin, 0.0);
   ASSERT_EQ(scene.problems.size(), 1U);
@@ -450,7 +450,7 @@ std::set<std::string> namesOf(const ParameterTable<Settings>& table) {
 TEST(PairParameters, DeclareEveryMemberAndGiveItsDefault) {
   EXPECT_EQ(namesOf(geneticParameters()), membersOf("search/genetic_parameters.h", "GeneticParameters"));
   std::set<std::string> tracker = membersOf("tracking/tracker_parameters.h", "TrackerParameters");
-  // What is asked for follows from who listens; cold, warm and margins have tables of their own.
+  // Listeners decide what is wanted; cold, warm and margins have tables of their own.
   for (const char* name : {"niches_wanted", "cold", "warm"}) tracker.erase(name);
   for (const std::string& name : namesOf(marginParameters())) EXPECT_EQ(tracker.erase(name), 1U) << name;
   tracker.insert({"warning_distance", "warning_hysteresis"});

@@ -70,7 +70,7 @@ TEST_F(PreparationCacheTest, AHitIsAMissBitForBit) {
   options.cache = std::make_shared<PreparationCache>(cache_folder());
   expectSame(bytesOf(loadBoth()), without, "stored");
   const std::vector<std::string> files = filesIn(cache_folder());
-  // Of two bodies: surface, topology, trees, nodes, metric, contacts, facets, adjacency, cones.
+  // Each body has nine: surface, topology, trees, nodes, metric, contacts, facets, adjacency, cones.
   EXPECT_EQ(files.size(), 18U);
   expectSame(bytesOf(loadBoth()), without, "found");
   EXPECT_EQ(filesIn(cache_folder()), files);

@@ -19,7 +19,7 @@
 #include "search/trial_point_table.h"
 #include "support/shortest_path.h"
 
-/// What tests of the search share, here and in the thesis.
+/// These fixtures serve the tests of the search, here and in the thesis.
 namespace concave_distance::test {
 
 /// A pair of bodies with the distances of node pairs and between them.
@@ -81,7 +81,7 @@ class PlacesOnAPath : public ::testing::Test, protected MeasuredPair {
   std::vector<NodeIndex> path_;
 };
 
-/// What runs of the genetic search on a pair of bodies share.
+/// Holds the parts that runs of the genetic search on a pair of bodies share.
 struct SearchedPair {
   PairScene scene;
   PairObjective objective;

@@ -103,7 +103,7 @@ TEST(MemoryLimit, HoldsForFloodsOfALargeProminenceAndTheBracketHoldsToo) {
   TrackerParameters parameters;
   parameters.accuracy = AccuracyLevel::Certified;
   parameters.prominence_limit = 50.0;
-  // What belongs to the bodies is built before.
+  // The bodies build their own parts before.
   comb->adjacency();
   comb->pieces();
   prepareSearch({comb.get()});

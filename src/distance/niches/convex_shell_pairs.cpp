@@ -43,7 +43,7 @@ void ConvexShellPairs::begin(const PairFrame& frame) {
 ConvexShellPairs::Outcome ConvexShellPairs::collect(const PairFrame& frame, const LocalMinimaRequest& request,
                                                     std::vector<MinimumCandidate>& candidates,
                                                     WorkLimit& limit) {
-  // Who asks for minima behind other shells or through material wants more than closest points.
+  // Closest points are not enough where minima behind other shells or through material are asked for.
   if (request.hidden || request.through_material) return Outcome::Unknown;
   if (pairs_.empty()) begin(frame);
   if (pairs_.empty()) return Outcome::Unknown;

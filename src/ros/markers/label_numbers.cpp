@@ -33,7 +33,7 @@ const Eigen::Vector3d kDiameters[] = {{1, 0, 0},  {0, 1, 0},  {0, 0, 1}, {1, 1, 
 constexpr int kDirectionCount = 5;
 constexpr int kPlaces = 60 * kDirectionCount;
 
-// Whether the body's surface meets one of seven diameters of the ball, or the body holds its centre.
+// Returns whether the body's surface meets one of seven diameters of the ball, or the body holds its centre.
 bool touches(const SceneBody& body, const LocatedBody& located, const Eigen::Vector3d& point, double radius) {
   if (located.box.squaredExteriorDistance(point) > radius * radius) return false;
   const BodyMesh& mesh = *body.mesh;

@@ -18,7 +18,7 @@ namespace {
 using visualization_msgs::Marker;
 
 constexpr std::size_t kRows = 8;         // of pairs, unless more are asked for
-constexpr std::size_t kMostLabels = 50;  // whatever is asked for
+constexpr std::size_t kMostLabels = 50;  // a request for more gets no more
 constexpr double kTintOffset = 0.1;      // distance of a red copy from the surface, over the scale
 constexpr double kTintLives = 3.0;       // lifetime of a red copy, in renewals
 // Diameter of the largest red body over that of the region: a red floor would hide the rest.

@@ -58,7 +58,7 @@ void readExperts(ParameterReader& reader, PairSettings& pair) {
   reader.adoptUnread(experts, "expert/");
 }
 
-// Of the period, so that what follows the solves (messages, markers) ends before the next cycle is due.
+// This share of the period leaves time for messages and markers before the next cycle is due.
 constexpr double kUsualBudget = 0.8;
 
 void checkMarkers(const MarkerStyle& style) {
